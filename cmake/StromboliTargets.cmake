@@ -1,0 +1,41 @@
+# Settings every target of the project shares.
+add_library(stromboli_settings INTERFACE)
+target_compile_features(stromboli_settings INTERFACE cxx_std_20)
+target_include_directories(stromboli_settings INTERFACE ${PROJECT_SOURCE_DIR})
+# No contraction: a*b - c*d must stay two rounded products and a rounded difference, or the
+# error bounds and the edge functions' antisymmetry no longer hold (docs/numerics.md).
+target_compile_options(stromboli_settings INTERFACE -Wall -Wextra -Wshadow -Wconversion
+                       -Wno-sign-conversion -ffp-contract=off)
+# Vulkan's structures are filled by designated initialisers that leave the zero members out.
+target_compile_options(stromboli_settings INTERFACE -Wno-missing-field-initializers)
+if(STROMBOLI_WARNINGS_AS_ERRORS)
+    target_compile_options(stromboli_settings INTERFACE -Werror)
+endif()
+if(STROMBOLI_SANITIZE)
+    target_compile_options(stromboli_settings INTERFACE -fsanitize=${STROMBOLI_SANITIZE}
+                           -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    target_link_options(stromboli_settings INTERFACE -fsanitize=${STROMBOLI_SANITIZE})
+endif()
+
+# stromboli_library(NAME SOURCES a.cpp ... DEPENDS lib ...): one folder of the program.
+function(stromboli_library name)
+    cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+    add_library(${name} STATIC ${ARG_SOURCES})
+    target_link_libraries(${name} PUBLIC stromboli_settings ${ARG_DEPENDS})
+endfunction()
+
+# stromboli_test(NAME SOURCES a.cpp ... DEPENDS lib ... [LABELS l ...] [TIMEOUT seconds]):
+# one GoogleTest executable; each of its tests becomes a ctest entry.
+function(stromboli_test name)
+    cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;DEPENDS;LABELS" ${ARGN})
+    if(NOT ARG_TIMEOUT)
+        set(ARG_TIMEOUT 300)
+    endif()
+    add_executable(${name} ${ARG_SOURCES})
+    target_link_libraries(${name} PRIVATE stromboli_settings GTest::gtest_main GTest::gmock
+                          ${ARG_DEPENDS})
+    target_compile_definitions(${name} PRIVATE
+        STROMBOLI_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
+        PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}")
+endfunction()
