@@ -1,0 +1,52 @@
+#pragma once
+
+#include "scene/model/scene.hpp"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+
+namespace stromboli {
+
+/// Makes camera rays for one picture. The picture plane is at distance 1 (perspective) or 0
+/// (orthographic) in front of `position`. For picture coordinates s, t in [0, 1], from the left
+/// and from the top:
+///   offset = (2 s - 1) halfWidth right + (1 - 2 t) halfHeight up
+/// - perspective:  origin = position,          direction = normalize(offset - back)
+/// - orthographic: origin = position + offset, direction = -back
+struct Camera {
+    bool orthographic = false;
+    glm::dvec3 position{0.0};
+    glm::dvec3 right{1, 0, 0}, up{0, 1, 0}, back{0, 0, 1}; ///< orthonormal, right-handed
+    double halfWidth = 1; ///< perspective: tangent of half the field of view; orthographic: length
+    double halfHeight = 1;
+    /// Hits count from nearDistance to farDistance: measured along the view axis, or, if
+    /// clipAlongRay (the CS184 renderer), along the ray.
+    double nearDistance = 0, farDistance = 1e30;
+    bool clipAlongRay = false;
+};
+
+enum class CameraChoice {
+    Automatic, ///< the file's camera; a CGL-dialect file, or one without a camera, is framed
+    File,      ///< the file's camera
+    Frame,     ///< frame the scene as the CS184 renderer does
+};
+
+/// Size a picture gets when the user names none.
+struct PictureSize {
+    uint32_t width = 800, height = 600;
+};
+
+/// 800 pixels wide in the file camera's aspect ratio if it states one; 800 x 600 otherwise.
+PictureSize defaultPictureSize(const Scene& scene, CameraChoice choice, bool cs184);
+
+/// The camera for a picture of width x height pixels.
+/// File: the whole of the file's field of view is visible; where the picture's shape differs,
+/// it shows more on the longer side.
+/// Frame: docs/cs184.md; with `cs184` the picture is a crop of (or a margin around) the 800 x 600
+/// picture, as in that renderer, otherwise the same view scaled to the picture.
+/// Throws SceneError if `choice` is File and the file has no camera.
+Camera makeCamera(const Scene& scene, CameraChoice choice, uint32_t width, uint32_t height,
+                  bool cs184);
+
+} // namespace stromboli

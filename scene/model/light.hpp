@@ -1,0 +1,41 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <string>
+
+namespace stromboli {
+
+enum class LightKind : uint32_t {
+    Directional, ///< delta: irradiance `color` on a surface facing it
+    Point,       ///< delta: irradiance color / attenuation(d) on a surface facing it at distance d
+    Spot,        ///< delta: Point times a cone falloff
+    Ambient,     ///< constant radiance `color` from infinity; not seen by camera rays
+    Area,        ///< rectangle of radiance `color`, on the side its normal points to
+};
+
+/// A light that is not the emission of a material. All in world space.
+struct Light {
+    std::string name;
+    LightKind kind = LightKind::Point;
+    glm::vec3 color{1.0f};
+    glm::vec3 position{0.0f};      ///< Point, Spot; Area: centre of the rectangle
+    glm::vec3 direction{0, 0, -1}; ///< unit, the way the light travels: Directional, Spot; Area:
+                                   ///< the normal of the emitting side
+    /// Point, Spot: attenuation(d) = constant + linear d + quadratic d^2, d in world units.
+    float constantAttenuation = 1, linearAttenuation = 0, quadraticAttenuation = 0;
+    /// Spot: full opening angle of the cone, radians; inside, irradiance is multiplied by
+    /// cos(angle to the axis)^falloffExponent; outside it is 0.
+    float falloffAngle = 3.14159265f;
+    float falloffExponent = 0;
+    bool upperHemisphereOnly = false;   ///< Ambient: only from directions with world y > 0 (CGL)
+    glm::vec3 edgeX{0.0f}, edgeY{0.0f}; ///< Area: full edge vectors; area = |edgeX x edgeY|
+
+    bool isDelta() const {
+        return kind == LightKind::Directional || kind == LightKind::Point ||
+               kind == LightKind::Spot;
+    }
+};
+
+} // namespace stromboli

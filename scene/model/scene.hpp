@@ -1,0 +1,88 @@
+#pragma once
+
+#include "scene/model/light.hpp"
+#include "scene/model/material.hpp"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stromboli {
+
+/// Axis-aligned box; the default one is empty (contains nothing, extend() makes it valid).
+struct Bounds {
+    glm::vec3 lo{3.402823466e38f};
+    glm::vec3 hi{-3.402823466e38f};
+
+    bool empty() const { return lo.x > hi.x; }
+    void extend(const glm::vec3& p) { lo = glm::min(lo, p), hi = glm::max(hi, p); }
+    void extend(const Bounds& b) { lo = glm::min(lo, b.lo), hi = glm::max(hi, b.hi); }
+    glm::vec3 extent() const { return hi - lo; }
+    /// Half the surface area: what the SAH needs. 0 for an empty box.
+    float halfArea() const;
+};
+
+/// Marks a triangle without shading normals: it is shaded with its geometric normal.
+inline constexpr uint32_t kNoNormals = 0xFFFFFFFFu;
+
+/// Corners are indices into Scene::positions. Counter-clockwise seen from the side its geometric
+/// normal points to. Loaders orient triangles so that the geometric normal lies on the side of
+/// the shading normals.
+struct Triangle {
+    uint32_t corner[3] = {0, 0, 0};
+    uint32_t normals[3] = {kNoNormals, kNoNormals, kNoNormals}; ///< into Scene::normals, or all
+                                                                ///< kNoNormals
+    uint32_t material = 0;                                      ///< into Scene::materials
+    uint32_t instance = 0; ///< into Scene::instances: the placed mesh it came from
+};
+
+/// Analytic sphere, outward normal.
+struct Sphere {
+    glm::vec3 center{0.0f};
+    float radius = 1; ///< > 0
+    uint32_t material = 0;
+    uint32_t instance = 0;
+};
+
+/// The camera as a file states it; scene/camera turns it into rays for a picture.
+struct FileCamera {
+    std::string name;
+    bool orthographic = false;
+    /// Perspective: full fields of view in radians. Orthographic: half the picture's size in
+    /// world units (COLLADA xmag, ymag).
+    std::optional<double> x, y;
+    std::optional<double> aspectRatio; ///< width / height
+    double nearDistance = 0;           ///< world units along the view axis
+    double farDistance = 1e30;
+    glm::dmat4 toWorld{1.0}; ///< camera looks along its -z axis, +y up
+};
+
+/// What a loader skipped or dropped, for the user: each line says what, how often and why.
+struct LoadReport {
+    std::vector<std::string> ignored;  ///< elements of the file without effect on the picture
+    std::vector<std::string> warnings; ///< things that change the picture: dropped triangles, ...
+};
+
+/// All there is to render, flattened to world space. y is up; lengths are metres (COLLADA unit).
+/// Positions are rounded to float once, so that every backend sees the same geometry.
+struct Scene {
+    std::string file;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals; ///< unit length
+    std::vector<Triangle> triangles;
+    std::vector<Sphere> spheres;
+    std::vector<Material> materials;
+    std::vector<Light> lights;
+    std::vector<FileCamera> cameras;    ///< in document order
+    std::vector<std::string> instances; ///< names of the placed meshes and spheres
+    bool cglDialect = false; ///< the file has elements of the CS184 dialect (profile CGL, CMU462)
+    LoadReport report;
+
+    Bounds bounds() const; ///< of triangles and spheres; lights excluded
+    glm::vec3 geometricNormal(const Triangle& t) const; ///< unit
+};
+
+} // namespace stromboli
