@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+
+namespace stromboli {
+
+enum class Integrator {
+    Path,    ///< path tracing
+    Normals, ///< 0.5 n + 0.5 of the interpolated shading normal at the first hit
+};
+
+/// How the light that reaches a surface straight from a lamp is estimated (docs/estimator.md).
+enum class DirectLight {
+    Lights,     ///< sample each light
+    Hemisphere, ///< sample uniform directions; delta lights as in Lights
+    Bsdf,       ///< let the bounce find the lamps; delta lights as in Lights
+};
+
+struct Roulette {
+    enum class Mode {
+        None,
+        Throughput, ///< after bounce kThroughputStart continue with probability
+                    ///< min(kMaxContinue, largest component of the throughput)
+        Fixed,      ///< terminate with terminationProbability at every hit, before direct light
+    };
+    /// Paths are at least this many bounces long under Throughput.
+    static constexpr uint32_t kThroughputStart = 3;
+    static constexpr double kMaxContinue = 0.95;
+
+    Mode mode = Mode::Throughput;
+    double terminationProbability = 0; ///< Fixed: in [0, 1)
+};
+
+struct Adaptive {
+    bool enabled = false;
+    uint32_t batch = 32;     ///< samples between two tests of a pixel
+    double tolerance = 0.05; ///< 1.96 sqrt(variance / n) <= tolerance * mean
+};
+
+/// The part of the picture to render, in pixels from the top left corner of the whole.
+struct Crop {
+    uint32_t x = 0, y = 0, width = 0, height = 0;
+};
+
+/// What a picture is, apart from the scene. The same settings, scene and device give the same
+/// bytes.
+struct RenderSettings {
+    uint32_t width = 800, height = 600; ///< of the whole picture, before the crop
+    Crop crop;                          ///< width 0: the whole picture
+    uint32_t samplesPerPixel = 64;      ///< the most a pixel gets when adaptive
+    uint32_t lightSamples = 1;          ///< per shading point and area light
+    uint32_t maxBounces = 8;            ///< number of scatterings; 0: emission only
+    uint32_t minBounce = 0;             ///< light scattered fewer times is left out
+    Integrator integrator = Integrator::Path;
+    DirectLight directLight = DirectLight::Lights;
+    Roulette roulette;
+    Adaptive adaptive;
+    uint32_t seed = 0;
+    bool cs184 = false; ///< shade by the CS184 renderer's conventions (docs/cs184.md)
+};
+
+} // namespace stromboli
