@@ -1,0 +1,25 @@
+// Statistics of one pixel's samples.
+
+/// Largest radiance a sample may have: 2^48. Its square, summed 2^31 times, is still finite.
+const float LARGEST_RADIANCE = 281474976710656.0;
+
+/// Adds one sample: exact compensated sums, Welford's update for the squares. A sample that is
+/// not finite, negative or absurdly large is counted and left out, so that it cannot spoil its
+/// pixel; ordered comparisons are false for NaN whatever the driver makes of isnan.
+void addSample(inout PixelState state, vec3 radiance) {
+    const bool valid = radiance.x >= 0.0 && radiance.y >= 0.0 && radiance.z >= 0.0 &&
+                       radiance.x <= LARGEST_RADIANCE && radiance.y <= LARGEST_RADIANCE &&
+                       radiance.z <= LARGEST_RADIANCE;
+    if (!valid) {
+        if (state.rejected == 0u) state.firstRejected = state.count;
+        ++state.rejected;
+        return;
+    }
+    const float before = float(max(state.count, 1u));
+    const float after = float(state.count + 1u);
+    const vec3 meanBefore = state.count == 0u ? radiance : (state.sum + state.sumError) / before;
+    addCompensated(state.sum, state.sumError, radiance);
+    ++state.count;
+    const vec3 meanAfter = (state.sum + state.sumError) / after;
+    addCompensated(state.m2, state.m2Error, (radiance - meanBefore) * (radiance - meanAfter));
+}

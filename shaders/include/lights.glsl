@@ -1,0 +1,152 @@
+// Sampling of lamps: docs/estimator.md has the table of densities.
+
+/// A sampled segment from a shading point to a light.
+struct LightSample {
+    vec3 target;     ///< finite lights: point just before the lamp; else: unit direction
+    bool infinite;   ///< target is a direction
+    vec3 direction;  ///< unit, to the light
+    vec3 radiance;   ///< times the inverse of the density (solid angle); 0: nothing arrives
+};
+
+/// Ends the segment from s just before the lamp's surface, whatever the rounding of the point on
+/// it (pError, per component) and of the segment itself. n: unit normal of the lamp there.
+vec3 stopBefore(vec3 p, vec3 pError, vec3 n, vec3 from) {
+    const vec3 error = pError + (4.0 * UNIT_ROUNDOFF) * (abs(p - from) + abs(from));
+    return offsetOrigin(p, error, n, from - p);
+}
+
+/// Completes a sample taken uniformly on an area: radiance * area * cos / distance^2.
+LightSample areaSample(SurfacePoint s, vec3 p, vec3 pError, vec3 n, float area, Light light) {
+    LightSample r;
+    const vec3 d = p - s.position;
+    const float distance2 = dot(d, d);
+    r.direction = d * inversesqrt(distance2);
+    r.infinite = false;
+    r.target = stopBefore(p, pError, n, s.position);
+    const float cosine = -dot(r.direction, n);
+    // The CS184 renderer's density lacks one factor 1 / distance, and its lights have one side.
+    const float falloff = CS184 ? inversesqrt(distance2) : 1.0 / distance2;
+    const bool emits = CS184 || light.bothSides == 0u ? cosine > 0.0 : cosine != 0.0;
+    r.radiance = emits && distance2 > 0.0 ? light.color * (area * abs(cosine) * falloff)
+                                          : vec3(0.0);
+    return r;
+}
+
+LightSample sampleQuad(SurfacePoint s, Light light, vec2 u) {
+    const vec3 p = light.position + u.x * light.edgeA + u.y * light.edgeB;
+    const vec3 error = (6.0 * UNIT_ROUNDOFF) *
+                       (abs(light.position) + abs(u.x * light.edgeA) + abs(u.y * light.edgeB));
+    return areaSample(s, p, error, normalize(cross(light.edgeA, light.edgeB)), light.area, light);
+}
+
+/// Uniform on a triangle: barycentric weights of v1 and v2 (Turk 1990).
+vec2 sampleTriangle(vec2 u) {
+    const float r = sqrt(u.x);
+    return vec2(r * (1.0 - u.y), r * u.y);
+}
+
+LightSample sampleMesh(SurfacePoint s, Light light, vec3 u) {
+    const float scaled = u.z * float(light.entryCount);
+    const uint column = min(uint(scaled), light.entryCount - 1u);
+    const EmitterEntry entry = fetchEmitterEntry(light.firstEntry + column);
+    const bool own = scaled - float(column) < entry.threshold;
+    const Primitive p = fetchPrimitive(own ? entry.primitive : entry.alias);
+    const vec2 b = sampleTriangle(u.xy);
+    const float b0 = 1.0 - b.x - b.y;
+    const vec3 point = b0 * p.v0 + b.x * p.v1 + b.y * p.v2;
+    const vec3 error = (8.0 * UNIT_ROUNDOFF) *
+                       (abs(b0 * p.v0) + abs(b.x * p.v1) + abs(b.y * p.v2));
+    const vec3 n = normalize(cross(p.v1 - p.v0, p.v2 - p.v0));
+    return areaSample(s, point, error, n, light.area, light);
+}
+
+/// From outside: uniform in the cone the sphere subtends (Shirley, Wang and Zimmerman 1996), with
+/// 1 - cos computed as sin^2 / (1 + cos), stable for small cones; from inside: uniform on the area.
+LightSample sampleSphere(SurfacePoint s, Light light, vec2 u) {
+    const float radius = light.edgeA.x;
+    const vec3 toCenter = light.position - s.position;
+    const float distance2 = dot(toCenter, toCenter);
+    const float sin2Max = radius * radius / distance2;
+    const vec3 error = vec3((16.0 * UNIT_ROUNDOFF) * radius) +
+                       (4.0 * UNIT_ROUNDOFF) * abs(light.position);
+    if (!(sin2Max < 1.0)) {
+        const float z = 1.0 - 2.0 * u.x, r = 2.0 * sqrt(u.x * (1.0 - u.x)), phi = 2.0 * PI * u.y;
+        const vec3 n = vec3(r * cos(phi), r * sin(phi), z);
+        return areaSample(s, light.position + radius * n, error, n,
+                          4.0 * PI * radius * radius, light);
+    }
+    const float oneMinusCosMax = sin2Max / (1.0 + sqrt(1.0 - sin2Max));
+    const float oneMinusCos = u.x * oneMinusCosMax;
+    const float cosine = 1.0 - oneMinusCos;
+    const float sin2 = oneMinusCos * (2.0 - oneMinusCos);
+    const float phi = 2.0 * PI * u.y;
+    const float distance = sqrt(distance2);
+    const ShadingFrame cone = makeFrame(toCenter / distance);
+    const vec3 w = toWorld(cone, vec3(sqrt(sin2) * vec2(cos(phi), sin(phi)), cosine));
+    // The near intersection of the direction with the sphere, put back on its surface.
+    const float t = distance * cosine - sqrt(max(radius * radius - distance2 * sin2, 0.0));
+    const vec3 n = normalize(s.position + t * w - light.position);
+    LightSample r;
+    r.direction = w;
+    r.infinite = false;
+    r.target = stopBefore(light.position + radius * n, error, n, s.position);
+    r.radiance = light.color * (2.0 * PI * oneMinusCosMax);
+    return r;
+}
+
+LightSample sampleAmbient(SurfacePoint s, Light light, vec2 u) {
+    LightSample r;
+    const vec3 w = sampleUniformHemisphere(u);
+    r.direction = toWorld(makeFrame(s.shading), w);
+    if (light.upperHemisphereOnly != 0u) r.direction = w.xzy; // y is up
+    r.infinite = true;
+    r.target = r.direction;
+    r.radiance = light.color * (2.0 * PI);
+    return r;
+}
+
+LightSample sampleDelta(SurfacePoint s, Light light) {
+    LightSample r;
+    if (light.kind == LIGHT_DIRECTIONAL)
+        return LightSample(light.position, true, light.position, light.color);
+    const vec3 d = light.position - s.position;
+    const float distance2 = dot(d, d), distance = sqrt(distance2);
+    r.direction = d / distance;
+    r.infinite = false;
+    r.target = light.position;
+    const float attenuation =
+        light.edgeB.x + light.edgeB.y * distance + light.edgeB.z * distance2;
+    r.radiance = distance2 > 0.0 ? light.color / attenuation : vec3(0.0);
+    if (sceneHasLight(LIGHT_SPOT) && light.kind == LIGHT_SPOT) {
+        const float cosine = -dot(r.direction, light.edgeA);
+        const float falloff =
+            light.falloffExponent == 0.0 ? 1.0 : pow(max(cosine, 0.0), light.falloffExponent);
+        r.radiance *= cosine >= light.cosCutoff ? falloff : 0.0;
+    }
+    return r;
+}
+
+LightSample sampleLight(SurfacePoint s, Light light, vec3 u) {
+    if (sceneHasLight(LIGHT_QUAD) && light.kind == LIGHT_QUAD) return sampleQuad(s, light, u.xy);
+    if (sceneHasLight(LIGHT_MESH) && light.kind == LIGHT_MESH) return sampleMesh(s, light, u);
+    if (sceneHasLight(LIGHT_SPHERE) && light.kind == LIGHT_SPHERE)
+        return sampleSphere(s, light, u.xy);
+    if (sceneHasLight(LIGHT_AMBIENT) && light.kind == LIGHT_AMBIENT)
+        return sampleAmbient(s, light, u.xy);
+    if (sceneHasLight(LIGHT_DIRECTIONAL) || sceneHasLight(LIGHT_POINT) ||
+        sceneHasLight(LIGHT_SPOT))
+        return sampleDelta(s, light);
+    return LightSample(vec3(0.0), true, vec3(0.0, 0.0, 1.0), vec3(0.0));
+}
+
+/// Radiance that all ambient lights send from direction w (unit, away from the surface).
+vec3 ambientRadiance(vec3 w) {
+    vec3 sum = vec3(0.0);
+    if (!sceneHasLight(LIGHT_AMBIENT)) return sum;
+    for (uint i = 0u; i < frame.areaLights; ++i) {
+        const Light light = fetchLight(i);
+        const bool reaches = light.upperHemisphereOnly == 0u || w.y > 0.0;
+        if (light.kind == LIGHT_AMBIENT && reaches) sum += light.color;
+    }
+    return sum;
+}

@@ -1,0 +1,48 @@
+// Floating-point facts the kernel relies on (docs/numerics.md has the derivations).
+
+const float PI = 3.14159265358979;
+const float INV_PI = 0.318309886183791;
+/// Unit round-off of float: 2^-24.
+const float UNIT_ROUNDOFF = 5.9604644775390625e-8;
+/// Farther than any hit: rays without an end.
+const float INFINITE_DISTANCE = 3.402823466e38;
+
+/// Knuth's TwoSum: sum + error is a + b exactly.
+void twoSum(vec3 a, vec3 b, out vec3 sum, out vec3 error) {
+    precise vec3 s = a + b;
+    precise vec3 bRounded = s - a;
+    precise vec3 e = (a - (s - bRounded)) + (b - bRounded);
+    sum = s;
+    error = e;
+}
+
+/// Adds x to the two-float sum (high, low).
+void addCompensated(inout vec3 high, inout vec3 low, vec3 x) {
+    vec3 sum, error;
+    twoSum(high, x, sum, error);
+    high = sum;
+    low += error;
+}
+
+/// Moves p, whose error is at most `error` per component, along the unit normal n to the side
+/// of w, far enough that the exact surface lies behind it (pbrt 4, section 6.8.6).
+vec3 offsetOrigin(vec3 p, vec3 error, vec3 n, vec3 w) {
+    const float distance = dot(abs(n), error);
+    return p + (dot(n, w) < 0.0 ? -distance : distance) * n;
+}
+
+/// Orthonormal frame about unit n (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
+struct ShadingFrame {
+    vec3 x, y, z;
+};
+
+ShadingFrame makeFrame(vec3 n) {
+    const float s = n.z >= 0.0 ? 1.0 : -1.0;
+    const float a = -1.0 / (s + n.z);
+    const float b = n.x * n.y * a;
+    return ShadingFrame(vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x),
+                        vec3(b, s + n.y * n.y * a, -n.y), n);
+}
+
+vec3 toWorld(ShadingFrame f, vec3 v) { return v.x * f.x + v.y * f.y + v.z * f.z; }
+vec3 toLocal(ShadingFrame f, vec3 v) { return vec3(dot(v, f.x), dot(v, f.y), dot(v, f.z)); }

@@ -1,0 +1,187 @@
+// The path tracer as a state machine. Each lane is in one phase; its rays are traced a few steps
+// at a time (traverse.glsl), and a lane whose ray is done is served here: it takes in the result,
+// works out its next ray, and begins its next sample as soon as a path ends, so that lanes stay
+// busy. docs/estimator.md defines what a sample is.
+
+const uint PHASE_FINISHED = 0u;
+const uint PHASE_PATH = 1u;       ///< tracing a camera or bounce ray
+const uint PHASE_SHADOW = 2u;     ///< tracing a ray to a light
+const uint PHASE_HEMISPHERE = 3u; ///< tracing a ray of hemisphere sampling
+const uint PHASE_DIRECT = 4u;     ///< at a surface, direct light samples left
+const uint PHASE_BOUNCE = 5u;     ///< at a surface, direct light done
+const uint PHASE_ENDED = 6u;      ///< the path is over
+const uint PHASE_NEXT = 7u;       ///< ready for a new sample
+
+/// All a lane knows. `ray` is what PHASE_PATH, _SHADOW and _HEMISPHERE trace.
+uint phase;
+Traversal ray;
+PixelState pixelState;
+uint pixelId;   ///< in the whole picture: names the random numbers
+uvec2 pixelAt;  ///< column, row (from the top) in the whole picture
+uint sampleIndex;
+uint bounce;    ///< scatterings so far
+vec3 throughput;
+vec3 radiance;
+bool countsEmission; ///< a lamp found by the ray adds to the picture
+SurfacePoint surface;
+Material material;
+uint directIndex; ///< direct light samples done at this surface
+vec3 directValue; ///< what the ray under way adds if it is free (or, hemisphere, per radiance)
+uint rayCount;
+
+vec4 randomNumbers(uint slot) {
+    const uint perBounce = 1u + frame.areaSamples + frame.deltaLights;
+    const uint block = bounce == 0u ? 0u : 1u + (bounce - 1u) * perBounce + slot;
+    return randomBlock(pixelId, sampleIndex, block, frame.seed);
+}
+
+void trace(uint newPhase, vec3 origin, vec3 direction, float tMin, float tMax, uint skipPrimitive) {
+    phase = newPhase;
+    startTraversal(ray, origin, direction, tMin, tMax, skipPrimitive, newPhase == PHASE_SHADOW);
+    ++rayCount;
+}
+
+// --- Arrivals ----------------------------------------------------------------------------------
+
+vec3 emissionAt(SurfacePoint s, Material m) {
+    if (!HAS_EMISSION) return vec3(0.0);
+    return m.emitsBothSides != 0u || s.outside ? m.emission : vec3(0.0);
+}
+
+void finishShadowRay() {
+    if (ray.hitPrimitive == NO_PRIMITIVE) radiance += throughput * directValue;
+    phase = PHASE_DIRECT;
+}
+
+void finishHemisphereRay() {
+    const bool hit = ray.hitPrimitive != NO_PRIMITIVE;
+    vec3 found = CS184 ? vec3(0.0) : ambientRadiance(ray.ray.direction);
+    if (hit) {
+        const SurfacePoint s = surfaceAt(ray);
+        found = emissionAt(s, fetchMaterial(s.material));
+    }
+    radiance += throughput * directValue * found;
+    phase = PHASE_DIRECT;
+}
+
+/// A path ray is done: takes in the emission and sets up the surface for scattering.
+void arrive() {
+    const bool hit = ray.hitPrimitive != NO_PRIMITIVE;
+    phase = PHASE_ENDED;
+    if (!hit) {
+        if (countsEmission && bounce > 0u && !CS184)
+            radiance += throughput * ambientRadiance(ray.ray.direction);
+        return;
+    }
+    surface = surfaceAt(ray);
+    if (INTEGRATOR == INTEGRATOR_NORMALS) {
+        radiance = 0.5 * surface.shading + 0.5;
+        return;
+    }
+    material = fetchMaterial(surface.material);
+    if (countsEmission) radiance += throughput * emissionAt(surface, material);
+    faceForward(surface);
+    ++bounce;
+    if (bounce > frame.maxBounces) return;
+    if (ROULETTE == ROULETTE_FIXED) {
+        if (randomNumbers(0u).w < frame.terminationProbability) return;
+        throughput /= 1.0 - frame.terminationProbability;
+    }
+    const bool direct = !isDelta(material.kind) && bounce >= frame.minBounce;
+    directIndex = direct ? 0u : frame.areaSamples + frame.deltaLights;
+    phase = PHASE_DIRECT;
+}
+
+// --- Departures --------------------------------------------------------------------------------
+
+/// Starts the ray of the next hemisphere sample.
+void sampleHemisphere(vec4 u) {
+    const vec3 w = toWorld(makeFrame(surface.shading), sampleUniformHemisphere(u.xy));
+    directValue = evaluateBsdf(material, surface, w) * (2.0 * PI / float(frame.areaSamples));
+    if (dot(directValue, vec3(1.0)) > 0.0)
+        trace(PHASE_HEMISPHERE, leave(surface, w), w, 0.0, INFINITE_DISTANCE,
+              surface.skipPrimitive);
+}
+
+/// Starts the shadow ray of the next light sample, if that light can reach the surface.
+void sampleLights(vec4 u, uint index) {
+    const bool isArea = index < frame.areaSamples;
+    const uint lightIndex = isArea ? index / frame.lightSamples
+                                   : frame.areaLights + index - frame.areaSamples;
+    const LightSample light = sampleLight(surface, fetchLight(lightIndex), u.xyz);
+    const float share = isArea ? 1.0 / float(frame.lightSamples) : 1.0;
+    directValue = evaluateBsdf(material, surface, light.direction) * light.radiance * share;
+    if (!(dot(directValue, vec3(1.0)) > 0.0)) return;
+    const vec3 origin = leave(surface, light.direction);
+    if (light.infinite)
+        trace(PHASE_SHADOW, origin, light.direction, 0.0, INFINITE_DISTANCE,
+              surface.skipPrimitive);
+    else
+        trace(PHASE_SHADOW, origin, light.target - origin, 0.0, 1.0, surface.skipPrimitive);
+}
+
+/// One direct light sample; a sample that cannot contribute traces nothing.
+void sampleDirect() {
+    const uint index = directIndex++;
+    const vec4 u = randomNumbers(1u + index);
+    if (DIRECT_LIGHT == DIRECT_HEMISPHERE && index < frame.areaSamples)
+        sampleHemisphere(u);
+    else
+        sampleLights(u, index);
+}
+
+void scatter() {
+    phase = PHASE_ENDED;
+    const vec4 u = randomNumbers(0u);
+    const BsdfSample b = sampleBsdf(material, surface, u.xyz);
+    throughput *= b.weight;
+    const float largest = max(throughput.x, max(throughput.y, throughput.z));
+    if (!(largest > 0.0)) return;
+    if (ROULETTE == ROULETTE_THROUGHPUT && bounce >= ROULETTE_THROUGHPUT_START) {
+        const float q = min(ROULETTE_MAX_CONTINUE, largest);
+        if (u.w >= q) return;
+        throughput /= q;
+    }
+    countsEmission = bounce >= frame.minBounce &&
+                     (isDelta(material.kind) || (DIRECT_LIGHT == DIRECT_BSDF && !CS184));
+    if (bounce == frame.maxBounces && !countsEmission) return;
+    trace(PHASE_PATH, leave(surface, b.direction), b.direction, 0.0, INFINITE_DISTANCE,
+          surface.skipPrimitive);
+}
+
+void startSample() {
+    sampleIndex = pixelState.count + pixelState.rejected;
+    bounce = 0u;
+    throughput = vec3(1.0);
+    radiance = vec3(0.0);
+    countsEmission = frame.minBounce == 0u;
+    const vec2 u = randomNumbers(0u).xy;
+    const CameraRay c = cameraRay((float(pixelAt.x) + u.x) / float(frame.width),
+                                  (float(pixelAt.y) + u.y) / float(frame.height));
+    trace(PHASE_PATH, c.origin, c.direction, c.tMin, c.tMax, NO_PRIMITIVE);
+}
+
+// --- Service -------------------------------------------------------------------------------------
+
+/// Takes in the finished ray and finds the next one. `target`: samples the pixel shall have.
+void serve(uint target) {
+    if (phase == PHASE_SHADOW) finishShadowRay();
+    else if (DIRECT_LIGHT == DIRECT_HEMISPHERE && phase == PHASE_HEMISPHERE) finishHemisphereRay();
+    else if (phase == PHASE_PATH) arrive();
+
+    if (INTEGRATOR == INTEGRATOR_PATH) {
+        const uint directSamples = frame.areaSamples + frame.deltaLights;
+        if (phase == PHASE_DIRECT && directIndex < directSamples) sampleDirect();
+        // A sample without a contribution was the last one: bounce in the same pass.
+        if (phase == PHASE_DIRECT && directIndex >= directSamples) phase = PHASE_BOUNCE;
+        if (phase == PHASE_BOUNCE) scatter();
+    }
+    if (phase == PHASE_ENDED) {
+        addSample(pixelState, radiance);
+        phase = PHASE_NEXT;
+    }
+    if (phase == PHASE_NEXT) {
+        phase = PHASE_FINISHED;
+        if (pixelState.count + pixelState.rejected < target) startSample();
+    }
+}

@@ -1,0 +1,27 @@
+// Counter-based random numbers: a pure function of pixel, sample, dimension block and seed, so
+// that no order of work changes a picture.
+
+/// Jarzynski and Olano, "Hash Functions for GPU Rendering" (JCGT 2020): pcg4d.
+uvec4 pcg4d(uvec4 v) {
+    v = v * 1664525u + 1013904223u;
+    v.x += v.y * v.w;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v.w += v.y * v.z;
+    v ^= v >> 16u;
+    v.x += v.y * v.w;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v.w += v.y * v.z;
+    return v;
+}
+
+/// Uniform in [0, 1 - 2^-24]: the top 24 bits, so that 1 never comes out by rounding.
+vec4 unitFloats(uvec4 words) { return vec4(words >> 8u) * (1.0 / 16777216.0); }
+
+/// Four independent numbers in [0, 1). A block is a use of randomness within a sample: block 0
+/// the camera, then for each bounce one for the bounce and one for each direct light sample
+/// (path.glsl).
+vec4 randomBlock(uint pixel, uint sampleIndex, uint block, uint seed) {
+    return unitFloats(pcg4d(uvec4(pixel, sampleIndex, block, seed)));
+}

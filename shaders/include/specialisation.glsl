@@ -1,0 +1,20 @@
+// Only what a scene needs: the host sets these when it makes the pipeline, the compiler removes
+// what they switch off (host/render/kernel_features.hpp decides them).
+layout(local_size_x_id = SPEC_WORKGROUP_SIZE) in;
+layout(constant_id = SPEC_TRAVERSAL_STEPS) const uint TRAVERSAL_STEPS = 8u;
+layout(constant_id = SPEC_STACK_SIZE) const uint STACK_SIZE = 64u;
+layout(constant_id = SPEC_HAS_TRIANGLES) const bool HAS_TRIANGLES = true;
+layout(constant_id = SPEC_HAS_SPHERES) const bool HAS_SPHERES = true;
+layout(constant_id = SPEC_HAS_NORMALS) const bool HAS_NORMALS = true;
+layout(constant_id = SPEC_MATERIAL_KINDS) const uint MATERIAL_KINDS = 31u;
+layout(constant_id = SPEC_HAS_EMISSION) const bool HAS_EMISSION = true;
+layout(constant_id = SPEC_LIGHT_KINDS) const uint LIGHT_KINDS = 127u;
+layout(constant_id = SPEC_INTEGRATOR) const uint INTEGRATOR = INTEGRATOR_PATH;
+layout(constant_id = SPEC_DIRECT_LIGHT) const uint DIRECT_LIGHT = DIRECT_LIGHTS;
+layout(constant_id = SPEC_ROULETTE) const uint ROULETTE = ROULETTE_THROUGHPUT;
+layout(constant_id = SPEC_ORTHOGRAPHIC) const bool ORTHOGRAPHIC = false;
+layout(constant_id = SPEC_CLIP_ALONG_RAY) const bool CLIP_ALONG_RAY = false;
+layout(constant_id = SPEC_CS184) const bool CS184 = false;
+
+bool sceneHasMaterial(uint kind) { return (MATERIAL_KINDS & (1u << kind)) != 0u; }
+bool sceneHasLight(uint kind) { return (LIGHT_KINDS & (1u << kind)) != 0u; }

@@ -1,0 +1,58 @@
+// Numbers the host and the shaders agree on: bindings and specialisation constants.
+#ifndef STROMBOLI_SHARED_INTERFACE_H
+#define STROMBOLI_SHARED_INTERFACE_H
+
+#include "language.h"
+
+SHARED_BEGIN
+
+// --- Bindings of the path kernel (set 0) -----------------------------------------------------
+// As macros, since GLSL layout qualifiers of older compilers take literals only.
+#define BINDING_NODES 0
+#define BINDING_PRIMITIVES 1
+#define BINDING_NORMALS 2
+#define BINDING_MATERIALS 3
+#define BINDING_LIGHTS 4
+#define BINDING_EMITTER_ENTRIES 5
+#define BINDING_FRAME 6
+#define BINDING_WORK_ITEMS 7
+#define BINDING_PIXELS 8
+#define BINDING_SUSPENDED 9
+#define BINDING_STATUS 10
+#define BINDING_COUNT 11
+#define SCENE_BINDING_COUNT 6 // bindings 0 to 5 hold the scene and are read row by row
+
+// --- Specialisation constants: only what a scene needs ---------------------------------------
+#define SPEC_WORKGROUP_SIZE 0
+#define SPEC_TRAVERSAL_STEPS 1 // traversal steps between two service passes
+#define SPEC_STACK_SIZE 2      // proven sufficient by the BVH builder
+#define SPEC_HAS_TRIANGLES 3
+#define SPEC_HAS_SPHERES 4
+#define SPEC_HAS_NORMALS 5
+#define SPEC_MATERIAL_KINDS 6 // bit n: MATERIAL_ kind n occurs
+#define SPEC_HAS_EMISSION 7
+#define SPEC_LIGHT_KINDS 8 // bit n: LIGHT_ kind n occurs
+#define SPEC_INTEGRATOR 9
+#define SPEC_DIRECT_LIGHT 10
+#define SPEC_ROULETTE 11
+#define SPEC_ORTHOGRAPHIC 12
+#define SPEC_CLIP_ALONG_RAY 13
+#define SPEC_CS184 14
+#define SPEC_COUNT 15
+
+SHARED_CONST uint INTEGRATOR_PATH = 0u;
+SHARED_CONST uint INTEGRATOR_NORMALS = 1u;
+
+SHARED_CONST uint DIRECT_LIGHTS = 0u;
+SHARED_CONST uint DIRECT_HEMISPHERE = 1u;
+SHARED_CONST uint DIRECT_BSDF = 2u;
+
+SHARED_CONST uint ROULETTE_NONE = 0u;
+SHARED_CONST uint ROULETTE_THROUGHPUT = 1u;
+SHARED_CONST uint ROULETTE_FIXED = 2u;
+SHARED_CONST uint ROULETTE_THROUGHPUT_START = 3u; // bounces before roulette by throughput
+SHARED_CONST float ROULETTE_MAX_CONTINUE = 0.95f;
+
+SHARED_END
+
+#endif

@@ -1,0 +1,92 @@
+// What a dispatch is told and what it leaves behind.
+#ifndef STROMBOLI_SHARED_RENDER_TYPES_H
+#define STROMBOLI_SHARED_RENDER_TYPES_H
+
+#include "language.h"
+
+SHARED_BEGIN
+
+/// The same for all dispatches of a picture.
+struct Frame {
+    vec3 cameraPosition;
+    uint width; ///< of the whole picture, pixels
+    vec3 cameraRight; ///< times halfWidth
+    uint height;
+    vec3 cameraUp; ///< times halfHeight
+    uint cropX;
+    vec3 cameraBack;
+    uint cropY;
+    float nearDistance;
+    float farDistance;
+    uint cropWidth;
+    uint seed;
+    uint minBounce;
+    uint maxBounces;
+    float terminationProbability; ///< roulette, fixed
+    uint lightSamples;
+    uint areaLights; ///< number of quad, mesh, sphere and ambient lights, first in the buffer
+    uint deltaLights;
+    uint areaSamples; ///< direct light samples per shading point that are not for delta lights
+    uint unused;
+};
+SHARED_ROWS(Frame, 7);
+SHARED_OFFSET(Frame, nearDistance, 64);
+SHARED_OFFSET(Frame, areaLights, 96);
+
+/// Push constants of one dispatch.
+struct Dispatch {
+    uint itemCount;
+    uint segmentBase; ///< first pixel of the crop that the bound film segment holds
+    uint softIterations; ///< start no further ray of a path at or after this loop iteration
+    uint hardIterations; ///< leave the loop here: an error, reported as overflow
+};
+SHARED_ROWS(Dispatch, 1);
+
+/// One pixel's work in a pass.
+struct WorkItem {
+    uint pixel;  ///< index in the film segment
+    uint target; ///< number of samples it shall have
+};
+
+/// Statistics of a pixel's samples, updated one sample at a time, so that they do not depend on
+/// how samples are cut into dispatches. Sums are two floats (value + error) to stay right at
+/// 1e7 samples and more.
+struct PixelState {
+    vec3 sum;
+    uint count; ///< samples in the sums
+    vec3 sumError;
+    uint rejected; ///< samples that were not finite, or negative
+    vec3 m2; ///< sum of squared deviations from the running mean (Welford 1962)
+    uint firstRejected; ///< sample index, or 0xFFFFFFFF
+    vec3 m2Error;
+    uint unused;
+};
+SHARED_ROWS(PixelState, 4);
+SHARED_OFFSET(PixelState, rejected, 28);
+
+/// A path between two dispatches: the ray that is to be traced next.
+struct SuspendedPath {
+    vec3 origin;
+    uint bounce; ///< scatterings so far; SUSPENDED_NONE: no path under way
+    vec3 direction;
+    uint skipPrimitive;
+    vec3 throughput;
+    uint countsEmission;
+    vec3 radiance;
+    uint unused;
+};
+SHARED_ROWS(SuspendedPath, 4);
+SHARED_CONST uint SUSPENDED_NONE = 0xFFFFFFFFu;
+
+/// Counters of one dispatch; zeroed by the host before it.
+struct DispatchStatus {
+    uint unfinishedItems; ///< items that have not reached their target yet
+    uint overflowedItems; ///< items whose loop hit its limit: their samples are wrong
+    uint rays;
+    uint samples;
+};
+SHARED_ROWS(DispatchStatus, 1);
+
+SHARED_END
+
+#endif
