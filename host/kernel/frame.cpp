@@ -1,0 +1,44 @@
+#include "host/kernel/frame.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace stromboli {
+namespace {
+
+/// How many direct light samples a shading point takes for other than delta lights.
+uint32_t areaSamples(const GpuScene& scene, const RenderSettings& s) {
+    if (s.directLight == DirectLight::Lights) return s.lightSamples * scene.areaLights;
+    if (s.directLight == DirectLight::Bsdf) return 0;
+    // The CS184 renderer multiplies by the number of all its lights.
+    return s.lightSamples * (s.cs184 ? scene.areaLights + scene.deltaLights : scene.areaLights);
+}
+
+} // namespace
+
+gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const RenderSettings& s) {
+    gpu::Frame f{};
+    f.cameraPosition = camera.position;
+    f.cameraRight = camera.halfWidth * camera.right;
+    f.cameraUp = camera.halfHeight * camera.up;
+    f.cameraBack = camera.back;
+    f.nearDistance = float(camera.nearDistance);
+    f.farDistance = float(std::min(camera.farDistance, double(std::numeric_limits<float>::max())));
+    f.width = s.width;
+    f.height = s.height;
+    f.cropX = s.crop.x;
+    f.cropY = s.crop.y;
+    f.cropWidth = s.crop.width ? s.crop.width : s.width;
+    f.seed = s.seed;
+    f.minBounce = s.minBounce;
+    f.maxBounces = s.maxBounces;
+    f.terminationProbability = float(s.roulette.terminationProbability);
+    f.lightSamples = s.lightSamples;
+    f.areaLights = scene.areaLights;
+    const bool noDelta = s.cs184 && s.directLight == DirectLight::Hemisphere;
+    f.deltaLights = noDelta ? 0 : scene.deltaLights;
+    f.areaSamples = areaSamples(scene, s);
+    return f;
+}
+
+} // namespace stromboli

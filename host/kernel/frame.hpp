@@ -1,0 +1,13 @@
+#pragma once
+
+#include "host/kernel/gpu_scene.hpp"
+#include "host/render/settings.hpp"
+#include "scene/camera/camera.hpp"
+#include "shaders/shared/render_types.h"
+
+namespace stromboli {
+
+/// The uniform data of a picture.
+gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const RenderSettings& settings);
+
+} // namespace stromboli

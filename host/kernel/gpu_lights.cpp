@@ -1,0 +1,108 @@
+#include "host/kernel/gpu_lights.hpp"
+
+#include "host/kernel/alias_table.hpp"
+
+#include <cmath>
+
+namespace stromboli {
+namespace {
+
+gpu::Light quadLight(const glm::vec3& corner, const glm::vec3& a, const glm::vec3& b,
+                     const glm::vec3& radiance, bool bothSides) {
+    gpu::Light g{};
+    g.kind = gpu::LIGHT_QUAD;
+    g.position = corner;
+    g.edgeA = a;
+    g.edgeB = b;
+    g.area = float(glm::length(glm::cross(glm::dvec3(a), glm::dvec3(b))));
+    g.color = radiance;
+    g.bothSides = bothSides;
+    return g;
+}
+
+/// One column per triangle, chosen in proportion to its area.
+void addEntries(const Scene& scene, const Emitter& e, const std::vector<uint32_t>& slotOf,
+                GpuScene& g) {
+    std::vector<double> areas;
+    for (uint32_t i : e.triangles) {
+        const Triangle& t = scene.triangles[i];
+        const glm::dvec3 a = scene.positions[t.corner[0]], b = scene.positions[t.corner[1]],
+                         c = scene.positions[t.corner[2]];
+        areas.push_back(0.5 * glm::length(glm::cross(b - a, c - a)));
+    }
+    const std::vector<AliasColumn> table = buildAliasTable(areas);
+    for (size_t i = 0; i < table.size(); ++i)
+        g.emitterEntries.push_back({slotOf[e.triangles[i]], slotOf[e.triangles[table[i].alias]],
+                                    float(table[i].threshold), 0});
+}
+
+gpu::Light packEmitter(const Scene& scene, const Emitter& e, const std::vector<uint32_t>& slotOf,
+                       GpuScene& g) {
+    const Material& m = scene.materials[e.material];
+    if (e.kind == EmitterKind::Quad)
+        return quadLight(e.corner, e.edgeA, e.edgeB, m.emission, m.emitsBothSides);
+    gpu::Light light{};
+    light.color = m.emission;
+    light.bothSides = m.emitsBothSides;
+    light.area = float(e.area);
+    if (e.kind == EmitterKind::Sphere) {
+        light.kind = gpu::LIGHT_SPHERE;
+        light.position = scene.spheres[e.sphere].center;
+        light.edgeA.x = scene.spheres[e.sphere].radius;
+    } else {
+        light.kind = gpu::LIGHT_MESH;
+        light.firstEntry = uint32_t(g.emitterEntries.size());
+        light.entryCount = uint32_t(e.triangles.size());
+        addEntries(scene, e, slotOf, g);
+    }
+    return light;
+}
+
+gpu::Light packLight(const Light& l) {
+    gpu::Light g{};
+    g.color = l.color;
+    switch (l.kind) {
+    case LightKind::Area: {
+        // The kernel's normal is edgeA x edgeB: swap the edges where the light faces the other way.
+        const bool swap = glm::dot(glm::cross(l.edgeX, l.edgeY), l.direction) < 0;
+        const glm::vec3 a = swap ? l.edgeY : l.edgeX, b = swap ? l.edgeX : l.edgeY;
+        return quadLight(l.position - 0.5f * a - 0.5f * b, a, b, l.color, false);
+    }
+    case LightKind::Ambient:
+        g.kind = gpu::LIGHT_AMBIENT;
+        g.upperHemisphereOnly = l.upperHemisphereOnly;
+        break;
+    case LightKind::Directional:
+        g.kind = gpu::LIGHT_DIRECTIONAL;
+        g.position = -l.direction;
+        break;
+    case LightKind::Point:
+    case LightKind::Spot:
+        g.kind = l.kind == LightKind::Spot ? gpu::LIGHT_SPOT : gpu::LIGHT_POINT;
+        g.position = l.position;
+        g.edgeA = l.direction;
+        g.edgeB = {l.constantAttenuation, l.linearAttenuation, l.quadraticAttenuation};
+        g.cosCutoff = std::cos(0.5f * l.falloffAngle);
+        g.falloffExponent = l.falloffExponent;
+        break;
+    }
+    return g;
+}
+
+} // namespace
+
+void packLights(const Scene& scene, const std::vector<uint32_t>& slotOf, bool cs184, GpuScene& g) {
+    if (!cs184)
+        for (const Emitter& e : collectEmitters(scene)) {
+            const gpu::Light light = packEmitter(scene, e, slotOf, g);
+            g.lights.push_back(light);
+        }
+    for (const Light& l : scene.lights)
+        if (!l.isDelta()) g.lights.push_back(packLight(l));
+    g.areaLights = uint32_t(g.lights.size());
+    for (const Light& l : scene.lights)
+        if (l.isDelta()) g.lights.push_back(packLight(l));
+    g.deltaLights = uint32_t(g.lights.size()) - g.areaLights;
+}
+
+} // namespace stromboli

@@ -1,0 +1,111 @@
+#include "host/kernel/kernel_features.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace stromboli {
+namespace {
+
+uint32_t materialKinds(const GpuScene& scene) {
+    uint32_t kinds = 0;
+    for (const gpu::Primitive& p : scene.primitives)
+        kinds |= 1u << scene.materials[p.material].kind;
+    return kinds;
+}
+
+bool hasEmission(const GpuScene& scene) {
+    return std::any_of(scene.primitives.begin(), scene.primitives.end(),
+                       [&](const gpu::Primitive& p) {
+                           const glm::vec3& e = scene.materials[p.material].emission;
+                           return e.x > 0 || e.y > 0 || e.z > 0;
+                       });
+}
+
+/// Lights that are sampled; an ambient light is also found by rays that miss.
+uint32_t lightKinds(const GpuScene& scene, const RenderSettings& settings) {
+    if (settings.integrator == Integrator::Normals) return 0;
+    uint32_t kinds = 0;
+    for (const gpu::Light& light : scene.lights) {
+        const bool isArea = light.kind < gpu::LIGHT_DIRECTIONAL;
+        const bool sampled =
+            settings.directLight == DirectLight::Lights ||
+            (!isArea && !(settings.cs184 && settings.directLight == DirectLight::Hemisphere)) ||
+            (light.kind == gpu::LIGHT_AMBIENT && !settings.cs184);
+        if (sampled) kinds |= 1u << light.kind;
+    }
+    return kinds;
+}
+
+bool has(const GpuScene& scene, uint32_t kind) {
+    return std::any_of(scene.primitives.begin(), scene.primitives.end(),
+                       [&](const gpu::Primitive& p) { return p.kind == kind; });
+}
+
+std::string list(uint32_t bits, const std::vector<const char*>& names) {
+    std::string text;
+    for (uint32_t i = 0; i < names.size(); ++i)
+        if (bits & (1u << i)) text += (text.empty() ? "" : ", ") + std::string(names[i]);
+    return text.empty() ? "none" : text;
+}
+
+} // namespace
+
+KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
+                              const RenderSettings& settings, const DeviceTuning& tuning) {
+    const bool normalsOnly = settings.integrator == Integrator::Normals;
+    KernelFeatures f{};
+    f[SPEC_WORKGROUP_SIZE] = tuning.workgroupSize;
+    f[SPEC_TRAVERSAL_STEPS] = tuning.traversalSteps;
+    f[SPEC_STACK_SIZE] = std::max(scene.bvh.stackSize, 1u);
+    f[SPEC_HAS_TRIANGLES] = has(scene, gpu::PRIMITIVE_TRIANGLE);
+    f[SPEC_HAS_SPHERES] = has(scene, gpu::PRIMITIVE_SPHERE);
+    f[SPEC_HAS_NORMALS] = !scene.normals.empty();
+    f[SPEC_MATERIAL_KINDS] = normalsOnly ? 0 : materialKinds(scene);
+    f[SPEC_HAS_EMISSION] = !normalsOnly && hasEmission(scene);
+    f[SPEC_LIGHT_KINDS] = lightKinds(scene, settings);
+    f[SPEC_INTEGRATOR] = normalsOnly ? gpu::INTEGRATOR_NORMALS : gpu::INTEGRATOR_PATH;
+    f[SPEC_DIRECT_LIGHT] = settings.directLight == DirectLight::Lights ? gpu::DIRECT_LIGHTS
+                           : settings.directLight == DirectLight::Hemisphere
+                               ? gpu::DIRECT_HEMISPHERE
+                               : gpu::DIRECT_BSDF;
+    f[SPEC_ROULETTE] = settings.roulette.mode == Roulette::Mode::None ? gpu::ROULETTE_NONE
+                       : settings.roulette.mode == Roulette::Mode::Throughput
+                           ? gpu::ROULETTE_THROUGHPUT
+                           : gpu::ROULETTE_FIXED;
+    // Roulette by throughput never acts on paths shorter than where it starts.
+    if (settings.roulette.mode == Roulette::Mode::Throughput &&
+        settings.maxBounces < gpu::ROULETTE_THROUGHPUT_START)
+        f[SPEC_ROULETTE] = gpu::ROULETTE_NONE;
+    f[SPEC_ORTHOGRAPHIC] = camera.orthographic;
+    f[SPEC_CLIP_ALONG_RAY] = camera.clipAlongRay;
+    f[SPEC_CS184] = settings.cs184;
+    return f;
+}
+
+std::vector<std::string> describe(const KernelFeatures& f) {
+    static const char* const kIntegrators[] = {"path", "normals"};
+    static const char* const kDirect[] = {"light sampling", "uniform hemisphere",
+                                          "left to bounces (delta lights sampled)"};
+    static const char* const kRoulette[] = {"none", "by throughput", "fixed probability"};
+    const std::string primitives =
+        list(f[SPEC_HAS_TRIANGLES] | (f[SPEC_HAS_SPHERES] << 1), {"triangles", "spheres"});
+    return {
+        fmt::format("primitives: {}", primitives),
+        fmt::format("shading normals: {}", f[SPEC_HAS_NORMALS] ? "interpolated" : "none"),
+        fmt::format("materials: {}",
+                    list(f[SPEC_MATERIAL_KINDS],
+                         {"diffuse", "mirror", "refraction", "glass", "microfacet"})),
+        fmt::format("emission: {}", f[SPEC_HAS_EMISSION] ? "yes" : "none"),
+        fmt::format("lights: {}", list(f[SPEC_LIGHT_KINDS], {"quad", "mesh", "sphere", "ambient",
+                                                             "directional", "point", "spot"})),
+        fmt::format("integrator: {}", kIntegrators[f[SPEC_INTEGRATOR]]),
+        fmt::format("direct light: {}", kDirect[f[SPEC_DIRECT_LIGHT]]),
+        fmt::format("roulette: {}", kRoulette[f[SPEC_ROULETTE]]),
+        fmt::format("camera: {}", f[SPEC_ORTHOGRAPHIC] ? "orthographic" : "perspective"),
+        fmt::format("CS184 conventions: {}", f[SPEC_CS184] ? "yes" : "no"),
+        fmt::format("traversal stack: {} entries", f[SPEC_STACK_SIZE]),
+    };
+}
+
+} // namespace stromboli

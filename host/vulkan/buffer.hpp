@@ -1,0 +1,52 @@
+#pragma once
+
+#include "host/vulkan/device.hpp"
+#include "host/vulkan/queue.hpp"
+
+#include <span>
+#include <string>
+
+namespace stromboli::vulkan {
+
+enum class BufferUse {
+    Storage, ///< storage buffer
+    Texel,   ///< storage texel buffer of RGBA32UI rows
+    Uniform, ///< uniform buffer
+};
+
+/// A buffer in the device's memory. Where that is the host's memory it is mapped; elsewhere
+/// uploads and downloads go through a staging buffer.
+class Buffer {
+  public:
+    /// `name` is for error messages. An empty buffer gets 16 bytes: Vulkan has none of size 0.
+    /// Throws DeviceError naming the buffer and both sizes if it is over a limit of the device.
+    Buffer(const Device& device, std::string name, uint64_t bytes, BufferUse use);
+    ~Buffer();
+    Buffer(Buffer&& other) noexcept;
+    Buffer(const Buffer&) = delete;
+    Buffer& operator=(const Buffer&) = delete;
+
+    VkBuffer handle() const { return buffer_; }
+    VkBufferView view() const { return view_; } ///< Texel only
+    uint64_t bytes() const { return bytes_; }
+    BufferUse use() const { return use_; }
+
+    void upload(Queue& queue, std::span<const std::byte> data, uint64_t offset = 0);
+    void download(Queue& queue, std::span<std::byte> data, uint64_t offset = 0) const;
+
+    /// Throws as the constructor does, before anything is allocated.
+    static void checkLimits(const Device& device, const std::string& name, uint64_t bytes,
+                            BufferUse use);
+
+  private:
+    const Device* device_;
+    std::string name_;
+    uint64_t bytes_;
+    BufferUse use_;
+    VkBuffer buffer_ = VK_NULL_HANDLE;
+    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    VkBufferView view_ = VK_NULL_HANDLE;
+    std::byte* mapped_ = nullptr;
+};
+
+} // namespace stromboli::vulkan

@@ -1,0 +1,158 @@
+#include "host/vulkan/compute_pipeline.hpp"
+
+#include "host/vulkan/result.hpp"
+
+namespace stromboli::vulkan {
+namespace {
+
+VkDescriptorType descriptorType(BufferUse use) {
+    switch (use) {
+    case BufferUse::Texel:
+        return VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
+    case BufferUse::Uniform:
+        return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    default:
+        return VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    }
+}
+
+VkDescriptorSetLayout createSetLayout(const Device& device, std::span<const Binding> bindings) {
+    std::vector<VkDescriptorSetLayoutBinding> entries;
+    for (const Binding& b : bindings)
+        entries.push_back({.binding = b.number,
+                           .descriptorType = descriptorType(b.use),
+                           .descriptorCount = 1,
+                           .stageFlags = VK_SHADER_STAGE_COMPUTE_BIT});
+    const VkDescriptorSetLayoutCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+        .bindingCount = uint32_t(entries.size()),
+        .pBindings = entries.data()};
+    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+    check(device.vk().vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout),
+          "create a descriptor set layout");
+    return layout;
+}
+
+VkPipelineLayout createLayout(const Device& device, VkDescriptorSetLayout set, uint32_t pushBytes) {
+    const VkPushConstantRange range = {.stageFlags = VK_SHADER_STAGE_COMPUTE_BIT,
+                                       .size = pushBytes};
+    const VkPipelineLayoutCreateInfo info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                             .setLayoutCount = 1,
+                                             .pSetLayouts = &set,
+                                             .pushConstantRangeCount = pushBytes > 0 ? 1u : 0u,
+                                             .pPushConstantRanges = &range};
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    check(device.vk().vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout),
+          "create a pipeline layout");
+    return layout;
+}
+
+VkPipeline createPipeline(const Device& device, std::span<const uint32_t> spirv,
+                          std::span<const uint32_t> constants, VkPipelineLayout layout) {
+    const VkShaderModuleCreateInfo moduleInfo = {.sType =
+                                                     VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                                 .codeSize = spirv.size_bytes(),
+                                                 .pCode = spirv.data()};
+    VkShaderModule module = VK_NULL_HANDLE;
+    check(device.vk().vkCreateShaderModule(device.handle(), &moduleInfo, nullptr, &module),
+          "create a shader module");
+    std::vector<VkSpecializationMapEntry> entries;
+    for (uint32_t i = 0; i < constants.size(); ++i)
+        entries.push_back({.constantID = i, .offset = 4 * i, .size = 4});
+    const VkSpecializationInfo specialisation = {.mapEntryCount = uint32_t(entries.size()),
+                                                 .pMapEntries = entries.data(),
+                                                 .dataSize = constants.size_bytes(),
+                                                 .pData = constants.data()};
+    const VkComputePipelineCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                  .module = module,
+                  .pName = "main",
+                  .pSpecializationInfo = &specialisation},
+        .layout = layout};
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    const VkResult result = device.vk().vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1,
+                                                                 &info, nullptr, &pipeline);
+    device.vk().vkDestroyShaderModule(device.handle(), module, nullptr);
+    check(result, "compile the kernel");
+    return pipeline;
+}
+
+} // namespace
+
+ComputePipeline::ComputePipeline(const Device& device, std::span<const uint32_t> spirv,
+                                 std::span<const Binding> bindings,
+                                 std::span<const uint32_t> constants, uint32_t pushConstantBytes)
+    : device_(device), bindings_(bindings.begin(), bindings.end()),
+      setLayout_(createSetLayout(device, bindings)),
+      layout_(createLayout(device, setLayout_, pushConstantBytes)),
+      pipeline_(createPipeline(device, spirv, constants, layout_)) {}
+
+ComputePipeline::~ComputePipeline() {
+    device_.vk().vkDestroyPipeline(device_.handle(), pipeline_, nullptr);
+    device_.vk().vkDestroyPipelineLayout(device_.handle(), layout_, nullptr);
+    device_.vk().vkDestroyDescriptorSetLayout(device_.handle(), setLayout_, nullptr);
+}
+
+DescriptorSet::DescriptorSet(const Device& device, const ComputePipeline& pipeline,
+                             std::span<const Buffer* const> buffers)
+    : device_(device) {
+    std::vector<VkDescriptorPoolSize> sizes;
+    for (const Binding& b : pipeline.bindings())
+        sizes.push_back({descriptorType(b.use), 1});
+    const VkDescriptorPoolCreateInfo poolInfo = {.sType =
+                                                     VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                                 .maxSets = 1,
+                                                 .poolSizeCount = uint32_t(sizes.size()),
+                                                 .pPoolSizes = sizes.data()};
+    check(device.vk().vkCreateDescriptorPool(device.handle(), &poolInfo, nullptr, &pool_),
+          "create a descriptor pool");
+    const VkDescriptorSetLayout layout = pipeline.setLayout();
+    const VkDescriptorSetAllocateInfo info = {.sType =
+                                                  VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                              .descriptorPool = pool_,
+                                              .descriptorSetCount = 1,
+                                              .pSetLayouts = &layout};
+    check(device.vk().vkAllocateDescriptorSets(device.handle(), &info, &set_),
+          "create a descriptor set");
+
+    std::vector<VkDescriptorBufferInfo> infos(buffers.size());
+    std::vector<VkBufferView> views(buffers.size());
+    std::vector<VkWriteDescriptorSet> writes;
+    for (size_t i = 0; i < buffers.size(); ++i) {
+        const Binding& binding = pipeline.bindings()[i];
+        infos[i] = {buffers[i]->handle(), 0, VK_WHOLE_SIZE};
+        views[i] = buffers[i]->view();
+        writes.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                          .dstSet = set_,
+                          .dstBinding = binding.number,
+                          .descriptorCount = 1,
+                          .descriptorType = descriptorType(binding.use),
+                          .pBufferInfo = &infos[i],
+                          .pTexelBufferView = &views[i]});
+    }
+    device.vk().vkUpdateDescriptorSets(device.handle(), uint32_t(writes.size()), writes.data(), 0,
+                                       nullptr);
+}
+
+DescriptorSet::~DescriptorSet() {
+    if (pool_) device_.vk().vkDestroyDescriptorPool(device_.handle(), pool_, nullptr);
+}
+
+void recordDispatch(const Device& device, VkCommandBuffer commands, const ComputePipeline& pipeline,
+                    const DescriptorSet& set, std::span<const std::byte> pushConstants,
+                    uint32_t groups) {
+    const VolkDeviceTable& vk = device.vk();
+    const VkDescriptorSet handle = set.handle();
+    vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle());
+    vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout(), 0, 1,
+                               &handle, 0, nullptr);
+    if (!pushConstants.empty())
+        vk.vkCmdPushConstants(commands, pipeline.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                              uint32_t(pushConstants.size()), pushConstants.data());
+    vk.vkCmdDispatch(commands, groups, 1, 1);
+    fullBarrier(device, commands);
+}
+
+} // namespace stromboli::vulkan

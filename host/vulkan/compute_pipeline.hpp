@@ -1,0 +1,62 @@
+#pragma once
+
+#include "host/vulkan/buffer.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace stromboli::vulkan {
+
+struct Binding {
+    uint32_t number = 0;
+    BufferUse use = BufferUse::Storage;
+};
+
+/// A compute shader specialised and ready to run, with the layout of its one descriptor set.
+class ComputePipeline {
+  public:
+    /// `constants[i]` is specialisation constant i (32-bit words; bool as 0 or 1).
+    ComputePipeline(const Device& device, std::span<const uint32_t> spirv,
+                    std::span<const Binding> bindings, std::span<const uint32_t> constants,
+                    uint32_t pushConstantBytes);
+    ~ComputePipeline();
+    ComputePipeline(const ComputePipeline&) = delete;
+    ComputePipeline& operator=(const ComputePipeline&) = delete;
+
+    VkPipeline handle() const { return pipeline_; }
+    VkPipelineLayout layout() const { return layout_; }
+    VkDescriptorSetLayout setLayout() const { return setLayout_; }
+    std::span<const Binding> bindings() const { return bindings_; }
+
+  private:
+    const Device& device_;
+    std::vector<Binding> bindings_;
+    VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
+    VkPipelineLayout layout_ = VK_NULL_HANDLE;
+    VkPipeline pipeline_ = VK_NULL_HANDLE;
+};
+
+/// Buffers bound to a pipeline's set, in the order of its bindings.
+class DescriptorSet {
+  public:
+    DescriptorSet(const Device& device, const ComputePipeline& pipeline,
+                  std::span<const Buffer* const> buffers);
+    ~DescriptorSet();
+    DescriptorSet(const DescriptorSet&) = delete;
+    DescriptorSet& operator=(const DescriptorSet&) = delete;
+    VkDescriptorSet handle() const { return set_; }
+
+  private:
+    const Device& device_;
+    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    VkDescriptorSet set_ = VK_NULL_HANDLE;
+};
+
+/// Records a dispatch of `groups` workgroups along x and a barrier after it.
+void recordDispatch(const Device& device, VkCommandBuffer commands, const ComputePipeline& pipeline,
+                    const DescriptorSet& set, std::span<const std::byte> pushConstants,
+                    uint32_t groups);
+
+} // namespace stromboli::vulkan

@@ -1,0 +1,193 @@
+#include "host/vulkan/device.hpp"
+
+#include "host/core/error.hpp"
+#include "host/vulkan/result.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+
+namespace stromboli::vulkan {
+namespace {
+
+std::string lower(std::string s) {
+    std::transform(s.begin(), s.end(), s.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    return s;
+}
+
+void describeQueues(DeviceDescription& d) {
+    uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(d.handle, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(d.handle, &count, families.data());
+    for (uint32_t i = 0; i < count && d.queueFamily < 0; ++i)
+        if (families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) {
+            d.queueFamily = int(i);
+            d.timestampBits = families[i].timestampValidBits;
+        }
+}
+
+DeviceDescription describe(VkPhysicalDevice handle) {
+    DeviceDescription d;
+    d.handle = handle;
+    vkGetPhysicalDeviceProperties(handle, &d.properties);
+    if (d.properties.apiVersion < VK_API_VERSION_1_1) {
+        d.missing = "Vulkan 1.1";
+        return d;
+    }
+    VkPhysicalDeviceDriverProperties driver = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceSubgroupProperties subgroup = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &subgroup};
+    if (d.properties.apiVersion >= VK_API_VERSION_1_2) subgroup.pNext = &driver;
+    vkGetPhysicalDeviceProperties2(handle, &properties);
+    d.subgroupSize = subgroup.subgroupSize;
+    d.driver = driver.driverName[0] ? fmt::format("{} {}", driver.driverName, driver.driverInfo)
+                                    : fmt::format("driver {}", d.properties.driverVersion);
+    VkPhysicalDeviceMemoryProperties memory;
+    vkGetPhysicalDeviceMemoryProperties(handle, &memory);
+    for (uint32_t i = 0; i < memory.memoryHeapCount; ++i)
+        if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
+            d.memory = std::max<uint64_t>(d.memory, memory.memoryHeaps[i].size);
+    describeQueues(d);
+    if (d.queueFamily < 0) d.missing = "a queue with compute";
+    return d;
+}
+
+int rank(VkPhysicalDeviceType type) {
+    switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+        return 0;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+        return 1;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+        return 2;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+        return 3;
+    default:
+        return 4;
+    }
+}
+
+DeviceChoice usable(const std::vector<DeviceDescription>& devices, size_t index,
+                    std::string reason) {
+    if (!devices[index].usable())
+        throw DeviceError(fmt::format("device {} ({}) cannot be used: it lacks {}", index,
+                                      devices[index].name(), devices[index].missing));
+    return {index, std::move(reason)};
+}
+
+DeviceChoice chooseBest(const std::vector<DeviceDescription>& devices) {
+    size_t best = devices.size();
+    for (size_t i = 0; i < devices.size(); ++i)
+        if (devices[i].usable() &&
+            (best == devices.size() ||
+             rank(devices[i].properties.deviceType) < rank(devices[best].properties.deviceType)))
+            best = i;
+    if (best == devices.size())
+        throw DeviceError(fmt::format("device 0 ({}) cannot be used: it lacks {}",
+                                      devices[0].name(), devices[0].missing));
+    return {best, fmt::format("first {} among {} device{}", devices[best].type(), devices.size(),
+                              devices.size() == 1 ? "" : "s")};
+}
+
+bool matches(const DeviceDescription& d, const std::string& wanted) {
+    if (wanted == "cpu") return d.isCpu();
+    return lower(d.name()).find(wanted) != std::string::npos || d.uuid() == wanted;
+}
+
+} // namespace
+
+std::string DeviceDescription::type() const {
+    switch (properties.deviceType) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+        return "discrete GPU";
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+        return "integrated GPU";
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+        return "virtual GPU";
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+        return "CPU";
+    default:
+        return "other";
+    }
+}
+
+std::string DeviceDescription::uuid() const {
+    std::string s;
+    for (uint8_t byte : properties.pipelineCacheUUID)
+        s += fmt::format("{:02x}", byte);
+    return s;
+}
+
+bool DeviceDescription::sharesHostMemory() const {
+    return isCpu() || properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU;
+}
+
+std::vector<DeviceDescription> listDevices(const Instance& instance) {
+    uint32_t count = 0;
+    check(vkEnumeratePhysicalDevices(instance.handle(), &count, nullptr), "list devices");
+    std::vector<VkPhysicalDevice> handles(count);
+    check(vkEnumeratePhysicalDevices(instance.handle(), &count, handles.data()), "list devices");
+    std::vector<DeviceDescription> devices;
+    for (VkPhysicalDevice handle : handles)
+        devices.push_back(describe(handle));
+    return devices;
+}
+
+DeviceChoice chooseDevice(const std::vector<DeviceDescription>& devices,
+                          const std::string& wanted) {
+    if (devices.empty())
+        throw DeviceError("no Vulkan device: no driver is installed; on Debian, for a machine "
+                          "without a GPU: apt install mesa-vulkan-drivers");
+    if (wanted.empty()) return chooseBest(devices);
+    size_t index = 0;
+    const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+    if (error == std::errc() && end == wanted.data() + wanted.size()) {
+        if (index >= devices.size())
+            throw DeviceError(
+                fmt::format("there is no device {}: 'stromboli devices' lists 0 to {}", index,
+                            devices.size() - 1));
+        return usable(devices, index, "asked for by number");
+    }
+    std::vector<size_t> found;
+    for (size_t i = 0; i < devices.size(); ++i)
+        if (matches(devices[i], lower(wanted))) found.push_back(i);
+    if (found.empty())
+        throw DeviceError(
+            fmt::format("no device matches '{}': 'stromboli devices' lists them", wanted));
+    if (found.size() > 1)
+        throw DeviceError(fmt::format("{} devices match '{}': give a number or a UUID of "
+                                      "'stromboli devices'",
+                                      found.size(), wanted));
+    return usable(devices, found[0], fmt::format("matches '{}'", wanted));
+}
+
+Device::Device(const Instance&, const DeviceDescription& description) : description_(description) {
+    const float priority = 1.0f;
+    const VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                           .queueFamilyIndex = uint32_t(description.queueFamily),
+                                           .queueCount = 1,
+                                           .pQueuePriorities = &priority};
+    const VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                     .queueCreateInfoCount = 1,
+                                     .pQueueCreateInfos = &queue};
+    check(vkCreateDevice(description.handle, &info, nullptr, &device_),
+          "open device " + description.name());
+    volkLoadDeviceTable(&table_, device_);
+    table_.vkGetDeviceQueue(device_, uint32_t(description.queueFamily), 0, &queue_);
+    vkGetPhysicalDeviceMemoryProperties(description.handle, &memory_);
+}
+
+Device::~Device() {
+    if (!device_) return;
+    table_.vkDeviceWaitIdle(device_);
+    table_.vkDestroyDevice(device_, nullptr);
+}
+
+} // namespace stromboli::vulkan

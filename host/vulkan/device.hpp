@@ -1,0 +1,67 @@
+#pragma once
+
+#include "host/vulkan/instance.hpp"
+
+#include <string>
+#include <vector>
+
+namespace stromboli::vulkan {
+
+/// What a physical device is and whether the renderer can use it.
+struct DeviceDescription {
+    VkPhysicalDevice handle = VK_NULL_HANDLE;
+    VkPhysicalDeviceProperties properties{};
+    std::string driver; ///< name and version, as the driver states them
+    uint32_t subgroupSize = 0;
+    uint64_t memory = 0;  ///< largest device-local heap, bytes
+    int queueFamily = -1; ///< with compute; -1: none
+    uint32_t timestampBits = 0;
+    std::string missing; ///< why it cannot be used; empty: it can
+
+    bool usable() const { return missing.empty(); }
+    std::string name() const { return properties.deviceName; }
+    std::string type() const; ///< "discrete GPU", "integrated GPU", "virtual GPU", "CPU", "other"
+    std::string uuid() const;
+    bool isCpu() const { return properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU; }
+    /// Device memory is the host's memory: buffers are mapped instead of copied.
+    bool sharesHostMemory() const;
+};
+
+/// All devices in the loader's order.
+std::vector<DeviceDescription> listDevices(const Instance& instance);
+
+struct DeviceChoice {
+    size_t index = 0;
+    std::string reason;
+};
+
+/// Picks by `wanted`: empty (the best usable one: discrete, integrated, virtual, CPU, other), a
+/// number in the list, "cpu", a UUID or part of a name (case-insensitive, must be unique).
+/// Throws DeviceError if nothing fits or the device lacks something, saying what.
+DeviceChoice chooseDevice(const std::vector<DeviceDescription>& devices, const std::string& wanted);
+
+/// A logical device with one compute queue.
+class Device {
+  public:
+    Device(const Instance& instance, const DeviceDescription& description);
+    ~Device();
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    VkDevice handle() const { return device_; }
+    VkQueue queue() const { return queue_; }
+    const DeviceDescription& description() const { return description_; }
+    const VkPhysicalDeviceLimits& limits() const { return description_.properties.limits; }
+    /// The calls of this device (volk's table: no trampoline, several devices at once are fine).
+    const VolkDeviceTable& vk() const { return table_; }
+    const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
+
+  private:
+    DeviceDescription description_;
+    VkPhysicalDeviceMemoryProperties memory_{};
+    VkDevice device_ = VK_NULL_HANDLE;
+    VkQueue queue_ = VK_NULL_HANDLE;
+    VolkDeviceTable table_{};
+};
+
+} // namespace stromboli::vulkan

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "host/vulkan/device.hpp"
+
+#include <memory>
+#include <string>
+
+namespace stromboli::vulkan {
+
+/// An instance and the device chosen from it, kept together in the right order of destruction.
+struct OpenDevice {
+    std::unique_ptr<Instance> instance;
+    std::unique_ptr<Device> device;
+    DeviceChoice choice;
+};
+
+/// Opens the device `wanted` names (chooseDevice), with the validation layer if the environment
+/// asks for it. Throws DeviceError.
+OpenDevice openDevice(const std::string& wanted);
+
+/// Throws DeviceError if the validation layer had anything to say.
+void requireNoValidationMessages(const OpenDevice& open);
+
+} // namespace stromboli::vulkan
