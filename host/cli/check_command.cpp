@@ -1,0 +1,49 @@
+#include "host/check/cross_check.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/job.hpp"
+#include "host/cli/progress.hpp"
+#include "host/core/error.hpp"
+#include "host/kernel/vulkan_backend.hpp"
+#include "host/reference/reference_backend.hpp"
+#include "host/render/render.hpp"
+#include "host/vulkan/open_device.hpp"
+
+#include <fmt/format.h>
+
+namespace stromboli {
+namespace {
+
+Film renderWatched(Backend& backend, const Job& job, const Options& options) {
+    ProgressBar bar(options.verbosity != Verbosity::Quiet);
+    return render(backend, job.settings, [&](const RenderProgress& progress) {
+        bar.show(progress);
+        return !interrupted();
+    });
+}
+
+} // namespace
+
+int checkCommand(const Options& options) {
+    watchForInterrupt();
+    const Job job = prepareJob(options);
+    const vulkan::OpenDevice open = vulkan::openDevice(options.device);
+    const BuiltScene built = buildScene(job);
+    Film onDevice;
+    {
+        VulkanBackend backend(*open.device, built.gpu, job.camera, job.settings);
+        onDevice = renderWatched(backend, job, options);
+    }
+    ReferenceBackend reference(job.scene, job.camera, job.settings, options.threads);
+    const Film onHost = renderWatched(reference, job, options);
+    if (interrupted()) throw UsageError("interrupted before the check was done");
+
+    CheckSettings settings;
+    settings.familyError = options.familyWiseError;
+    const CheckResult result = crossCheck(onDevice, onHost, settings);
+    fmt::print("A: {}\nB: CPU reference (double precision)\n{}", open.device->description().name(),
+               formatCheck(result));
+    vulkan::requireNoValidationMessages(open);
+    return result.agree() ? 0 : int(ExitCode::Device);
+}
+
+} // namespace stromboli

@@ -1,0 +1,37 @@
+#include "host/cli/commands.hpp"
+#include "host/core/error.hpp"
+#include "host/vulkan/device.hpp"
+
+#include <fmt/format.h>
+
+namespace stromboli {
+namespace {
+
+void print(size_t index, const vulkan::DeviceDescription& d, bool chosen) {
+    const VkPhysicalDeviceLimits& limits = d.properties.limits;
+    const uint32_t api = d.properties.apiVersion;
+    fmt::print("{} {}  {} ({})\n", chosen ? '*' : ' ', index, d.name(), d.type());
+    fmt::print("     driver: {}; Vulkan {}.{}.{}\n", d.driver, VK_API_VERSION_MAJOR(api),
+               VK_API_VERSION_MINOR(api), VK_API_VERSION_PATCH(api));
+    fmt::print("     memory: {} MiB; storage buffers up to {} MiB; texel buffers up to {} M rows\n",
+               d.memory >> 20, limits.maxStorageBufferRange >> 20,
+               limits.maxTexelBufferElements >> 20);
+    fmt::print("     subgroup: {} lanes; timestamps: {}\n", d.subgroupSize,
+               d.timestampBits ? "yes" : "no (the host's clock is used)");
+    fmt::print("     uuid: {}\n", d.uuid());
+    fmt::print("     {}\n", d.usable() ? "usable" : "not usable: lacks " + d.missing);
+}
+
+} // namespace
+
+int devicesCommand(const Options& options) {
+    const vulkan::Instance instance(vulkan::validationRequested());
+    const std::vector<vulkan::DeviceDescription> devices = vulkan::listDevices(instance);
+    const vulkan::DeviceChoice choice = vulkan::chooseDevice(devices, options.device);
+    for (size_t i = 0; i < devices.size(); ++i)
+        print(i, devices[i], i == choice.index);
+    fmt::print("* chosen: {}\n", choice.reason);
+    return 0;
+}
+
+} // namespace stromboli

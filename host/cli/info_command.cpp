@@ -1,0 +1,68 @@
+#include "host/bvh/statistics.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/job.hpp"
+#include "host/cli/progress.hpp"
+#include "host/kernel/kernel_features.hpp"
+#include "host/kernel/vulkan_backend.hpp"
+
+#include <fmt/format.h>
+
+namespace stromboli {
+namespace {
+
+void printScene(const Job& job) {
+    const Scene& s = job.scene;
+    const Bounds b = s.bounds();
+    fmt::print("scene {} (loaded in {})\n", s.file, formatDuration(job.loadSeconds));
+    fmt::print("  triangles {}, spheres {}, materials {}, lights {}, cameras {}{}\n",
+               s.triangles.size(), s.spheres.size(), s.materials.size(), s.lights.size(),
+               s.cameras.size(), s.cglDialect ? ", CS184 dialect" : "");
+    if (!b.empty())
+        fmt::print("  bounds ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m\n", b.lo.x, b.lo.y, b.lo.z,
+                   b.hi.x, b.hi.y, b.hi.z);
+    for (const std::string& line : s.report.ignored)
+        fmt::print("  ignored: {}\n", line);
+}
+
+void printCamera(const Job& job) {
+    const Camera& c = job.camera;
+    fmt::print(
+        "picture {} x {}, {} camera at ({:g}, {:g}, {:g}) looking along ({:g}, {:g}, {:g})\n",
+        job.settings.width, job.settings.height, c.orthographic ? "orthographic" : "perspective",
+        c.position.x, c.position.y, c.position.z, -c.back.x, -c.back.y, -c.back.z);
+}
+
+void printBvh(const BuiltScene& built) {
+    const BvhStatistics s = measure(built.tree, built.gpu.bvh, BuildOptions{});
+    fmt::print("BVH (built in {})\n", formatDuration(built.buildSeconds));
+    fmt::print("  nodes {}, leaves {}, depth {}, SAH cost {:.2f}, {} bytes\n", s.nodes, s.leaves,
+               s.depth, s.sahCost, s.layoutBytes);
+    fmt::print("  primitives per leaf:");
+    for (size_t size = 0; size < s.leavesOfSize.size(); ++size)
+        if (s.leavesOfSize[size] > 0) fmt::print(" {}: {}", size, s.leavesOfSize[size]);
+    fmt::print("\n");
+}
+
+} // namespace
+
+int infoCommand(const Options& options) {
+    const Job job = prepareJob(options);
+    const BuiltScene built = buildScene(job);
+    printScene(job);
+    printCamera(job);
+    printBvh(built);
+    fmt::print("kernel (only what the scene needs)\n");
+    for (const std::string& line :
+         describe(kernelFeatures(built.gpu, job.camera, job.settings, {})))
+        fmt::print("  {}\n", line);
+    fmt::print("buffers on the device\n");
+    uint64_t total = 0;
+    for (const BufferSize& b : predictBuffers(built.gpu, job.settings)) {
+        fmt::print("  {:<18} {:>12} bytes\n", b.name, b.bytes);
+        total += b.bytes;
+    }
+    fmt::print("  {:<18} {:>12} bytes\n", "together", total);
+    return 0;
+}
+
+} // namespace stromboli

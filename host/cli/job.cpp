@@ -1,0 +1,66 @@
+#include "host/cli/job.hpp"
+
+#include "host/bvh/primitive_bounds.hpp"
+#include "host/core/error.hpp"
+#include "host/core/log.hpp"
+#include "host/core/stopwatch.hpp"
+#include "scene/collada/load_collada.hpp"
+#include "scene/model/emitters.hpp"
+
+#include <fmt/format.h>
+
+namespace stromboli {
+namespace {
+
+void reportLoading(const Scene& scene, const Options& options) {
+    for (const std::string& line : scene.report.warnings)
+        spdlog::warn("{}", line);
+    for (const std::string& line : scene.report.ignored)
+        spdlog::info("ignored: {}", line);
+    if (scene.cameras.empty())
+        spdlog::info("{} has no camera: framing the whole scene", options.scene);
+    if (scene.triangles.empty() && scene.spheres.empty())
+        spdlog::warn("{} has no geometry: the picture is black", options.scene);
+    if (scene.lights.empty() && collectEmitters(scene).empty() &&
+        options.settings.integrator == Integrator::Path)
+        spdlog::warn("{} has no light: the picture is black", options.scene);
+}
+
+void checkCrop(const RenderSettings& s) {
+    if (s.crop.width == 0) return;
+    if (uint64_t(s.crop.x) + s.crop.width > s.width ||
+        uint64_t(s.crop.y) + s.crop.height > s.height)
+        throw UsageError(fmt::format("--crop {} {} {} {} is not inside the picture of {} x {}",
+                                     s.crop.x, s.crop.y, s.crop.width, s.crop.height, s.width,
+                                     s.height));
+}
+
+} // namespace
+
+Job prepareJob(const Options& options) {
+    Stopwatch watch;
+    Job job{loadCollada(options.scene, {.cs184 = options.settings.cs184}), {}, options.settings, 0};
+    job.loadSeconds = watch.seconds();
+    reportLoading(job.scene, options);
+    if (!options.sizeGiven) {
+        const PictureSize size =
+            defaultPictureSize(job.scene, options.camera, options.settings.cs184);
+        job.settings.width = size.width;
+        job.settings.height = size.height;
+    }
+    checkCrop(job.settings);
+    job.camera = makeCamera(job.scene, options.camera, job.settings.width, job.settings.height,
+                            job.settings.cs184);
+    return job;
+}
+
+BuiltScene buildScene(const Job& job) {
+    Stopwatch watch;
+    BuiltScene built;
+    built.tree = buildBinaryTree(primitiveBounds(job.scene));
+    built.gpu = packScene(job.scene, built.tree, job.settings.cs184);
+    built.buildSeconds = watch.seconds();
+    return built;
+}
+
+} // namespace stromboli

@@ -1,0 +1,45 @@
+#include "host/cli/commands.hpp"
+#include "host/cli/options.hpp"
+#include "host/core/error.hpp"
+#include "host/core/log.hpp"
+
+#include <exception>
+#include <new>
+
+namespace {
+
+int run(const stromboli::Options& options) {
+    using stromboli::Command;
+    switch (options.command) {
+    case Command::Render:
+        return stromboli::renderCommand(options);
+    case Command::Check:
+        return stromboli::checkCommand(options);
+    case Command::Info:
+        return stromboli::infoCommand(options);
+    case Command::Devices:
+        return stromboli::devicesCommand(options);
+    }
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    stromboli::setUpLogging(stromboli::Verbosity::Normal);
+    try {
+        const auto options = stromboli::parseOptions({argv + 1, argv + argc});
+        if (!options) return 0;
+        stromboli::setUpLogging(options->verbosity);
+        return run(*options);
+    } catch (const stromboli::Error& error) {
+        spdlog::error("{}", error.what());
+        return int(error.code());
+    } catch (const std::bad_alloc&) {
+        spdlog::error("out of memory");
+        return int(stromboli::ExitCode::Scene);
+    } catch (const std::exception& error) {
+        spdlog::error("{}", error.what());
+        return int(stromboli::ExitCode::Device);
+    }
+}

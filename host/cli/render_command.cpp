@@ -1,0 +1,112 @@
+#include "host/cli/commands.hpp"
+#include "host/cli/job.hpp"
+#include "host/cli/progress.hpp"
+#include "host/cli/report.hpp"
+#include "host/core/log.hpp"
+#include "host/core/stopwatch.hpp"
+#include "host/film/atomic_file.hpp"
+#include "host/film/image_file.hpp"
+#include "host/film/png.hpp"
+#include "host/film/rate_picture.hpp"
+#include "host/kernel/vulkan_backend.hpp"
+#include "host/reference/reference_backend.hpp"
+#include "host/render/render.hpp"
+#include "host/vulkan/open_device.hpp"
+
+#include <tbb/global_control.h>
+
+#include <thread>
+
+namespace stromboli {
+namespace {
+
+constexpr int kInterruptedExitCode = 130; // as a shell reports SIGINT
+
+/// Output that cannot be written must be found out before the work, not after it.
+void checkOutputs(const Options& options) {
+    checkWritable(options.output);
+    if (!options.statsFile.empty()) checkFileWritable(options.statsFile);
+}
+
+Film takeSamples(Backend& backend, const Job& job, const Options& options, RenderReport& report) {
+    Stopwatch watch;
+    bool complete = true;
+    Film film = [&] {
+        ProgressBar bar(options.verbosity != Verbosity::Quiet);
+        return render(backend, job.settings, [&](const RenderProgress& progress) {
+            bar.show(progress);
+            complete = !interrupted();
+            return complete;
+        });
+    }();
+    RenderReport summary = summarise(film, job.settings);
+    summary.backend = report.backend;
+    summary.buildSeconds = report.buildSeconds;
+    summary.loadSeconds = job.loadSeconds;
+    summary.renderSeconds = watch.seconds();
+    summary.counters = backend.counters();
+    summary.complete = complete;
+    report = summary;
+    return film;
+}
+
+Film renderOnDevice(const Job& job, const Options& options, RenderReport& report) {
+    const vulkan::OpenDevice open = vulkan::openDevice(options.device);
+    report.backend = open.device->description().name();
+    spdlog::debug("device {}: {} ({})", open.choice.index, report.backend, open.choice.reason);
+    const BuiltScene built = buildScene(job);
+    report.buildSeconds = built.buildSeconds;
+    Film film;
+    {
+        VulkanBackend backend(*open.device, built.gpu, job.camera, job.settings);
+        for (const std::string& line : describe(backend.features()))
+            spdlog::debug("kernel: {}", line);
+        film = takeSamples(backend, job, options, report);
+    }
+    vulkan::requireNoValidationMessages(open);
+    return film;
+}
+
+Film renderOnReference(const Job& job, const Options& options, RenderReport& report) {
+    report.backend = "CPU reference (double precision)";
+    ReferenceBackend backend(job.scene, job.camera, job.settings, options.threads);
+    return takeSamples(backend, job, options, report);
+}
+
+void writeOutputs(const Film& film, const Job& job, const Options& options,
+                  const RenderReport& report) {
+    PictureOptions picture;
+    picture.tone.kind = job.settings.cs184 ? ToneCurve::Kind::Cs184 : ToneCurve::Kind::Srgb;
+    picture.tone.exposure = options.exposure;
+    picture.statistics = options.statisticsChannels;
+    writePicture(options.output, film, job.settings.crop, picture);
+    if (job.settings.adaptive.enabled)
+        writePng(ratePicturePath(options.output),
+                 ratePicture(film, job.settings.crop, job.settings.samplesPerPixel),
+                 PngColorSpace::Unnamed);
+    if (!options.statsFile.empty()) writeStatistics(options.statsFile, report, job);
+}
+
+} // namespace
+
+int renderCommand(const Options& options) {
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                      options.threads ? options.threads
+                                                      : std::thread::hardware_concurrency());
+    checkOutputs(options);
+    watchForInterrupt();
+    const Job job = prepareJob(options);
+    RenderReport report;
+    const Film film = options.backend == BackendChoice::Vulkan
+                          ? renderOnDevice(job, options, report)
+                          : renderOnReference(job, options, report);
+    writeOutputs(film, job, options, report);
+    logReport(report, film);
+    if (report.complete) return 0;
+    spdlog::warn("interrupted: {} holds the {:.1f} % of the samples that were taken",
+                 options.output,
+                 100.0 * double(report.samplesTaken) / double(report.samplesAtMost));
+    return kInterruptedExitCode;
+}
+
+} // namespace stromboli

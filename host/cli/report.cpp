@@ -1,0 +1,73 @@
+#include "host/cli/report.hpp"
+
+#include "host/cli/progress.hpp"
+#include "host/core/error.hpp"
+#include "host/core/log.hpp"
+#include "host/film/atomic_file.hpp"
+#include "host/render/render.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <span>
+
+namespace stromboli {
+
+RenderReport summarise(const Film& film, const RenderSettings& settings) {
+    RenderReport r;
+    const std::vector<uint32_t> pixels = cropPixels(settings);
+    for (uint32_t pixel : pixels) {
+        r.samplesTaken += film.pixels[pixel].taken();
+        r.samplesRejected += film.pixels[pixel].rejected;
+    }
+    r.samplesAtMost = uint64_t(pixels.size()) * settings.samplesPerPixel;
+    return r;
+}
+
+void logReport(const RenderReport& r, const Film& film) {
+    const double rate = double(r.counters.rays) * 1e-6 / std::max(r.renderSeconds, 1e-9);
+    spdlog::info("{}: {} ({} to load, {} to build the BVH)", r.backend,
+                 formatDuration(r.renderSeconds), formatDuration(r.loadSeconds),
+                 formatDuration(r.buildSeconds));
+    spdlog::info(
+        "{} paths, {} rays, {:.2f} Mrays/s; {} samples ({:.1f} % of the most), {} rejected",
+        r.counters.paths, r.counters.rays, rate, r.samplesTaken,
+        r.samplesAtMost ? 100.0 * double(r.samplesTaken) / double(r.samplesAtMost) : 0.0,
+        r.samplesRejected);
+    if (r.samplesRejected == 0) return;
+    const auto first = std::find_if(film.pixels.begin(), film.pixels.end(),
+                                    [](const PixelStatistics& p) { return p.rejected > 0; });
+    const auto index = uint32_t(first - film.pixels.begin());
+    spdlog::warn("{} samples were not finite or negative and were left out; the first: pixel {} {} "
+                 "sample {}",
+                 r.samplesRejected, index % film.width, index / film.width, first->firstRejected);
+}
+
+void writeStatistics(const std::string& file, const RenderReport& r, const Job& job) {
+    const RenderSettings& s = job.settings;
+    const nlohmann::json json = {
+        {"scene", job.scene.file},
+        {"backend", r.backend},
+        {"complete", r.complete},
+        {"width", s.width},
+        {"height", s.height},
+        {"samplesPerPixel", s.samplesPerPixel},
+        {"maxBounces", s.maxBounces},
+        {"seed", s.seed},
+        {"triangles", job.scene.triangles.size()},
+        {"spheres", job.scene.spheres.size()},
+        {"seconds",
+         {{"load", r.loadSeconds}, {"build", r.buildSeconds}, {"render", r.renderSeconds}}},
+        {"paths", r.counters.paths},
+        {"rays", r.counters.rays},
+        {"raysPerSecond", double(r.counters.rays) / std::max(r.renderSeconds, 1e-9)},
+        {"samplesTaken", r.samplesTaken},
+        {"samplesAtMost", r.samplesAtMost},
+        {"samplesRejected", r.samplesRejected},
+    };
+    const std::string text = json.dump(4) + "\n";
+    writeFileAtomically(file, std::as_bytes(std::span(text)));
+}
+
+} // namespace stromboli
