@@ -1,0 +1,169 @@
+#include "tests/bvh/fixtures.hpp"
+
+#include "host/bvh/primitive_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace stromboli::test {
+
+namespace {
+
+gpu::Primitive kernelPrimitive(const Scene& scene, uint32_t index) {
+    gpu::Primitive p{};
+    p.normals = gpu::NO_NORMALS;
+    if (index < scene.triangles.size()) {
+        const Triangle& t = scene.triangles[index];
+        p.kind = gpu::PRIMITIVE_TRIANGLE;
+        p.v0 = scene.positions[t.corner[0]];
+        p.v1 = scene.positions[t.corner[1]];
+        p.v2 = scene.positions[t.corner[2]];
+    } else {
+        const Sphere& s = scene.spheres[index - scene.triangles.size()];
+        p.kind = gpu::PRIMITIVE_SPHERE;
+        p.v0 = s.center;
+        p.v1.x = s.radius;
+    }
+    return p;
+}
+
+void addIndexedTriangle(Scene& scene, uint32_t a, uint32_t b, uint32_t c) {
+    Triangle t;
+    t.corner[0] = a, t.corner[1] = b, t.corner[2] = c;
+    scene.triangles.push_back(t);
+}
+
+/// Divides every triangle into four, at the middles of its edges.
+Scene divided(const Scene& mesh) {
+    Scene result;
+    result.positions = mesh.positions;
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
+    const auto middle = [&](uint32_t a, uint32_t b) {
+        const auto [entry, isNew] =
+            middles.try_emplace(std::minmax(a, b), uint32_t(result.positions.size()));
+        if (isNew) result.positions.push_back(0.5f * (mesh.positions[a] + mesh.positions[b]));
+        return entry->second;
+    };
+    for (const Triangle& t : mesh.triangles) {
+        const uint32_t a = t.corner[0], b = t.corner[1], c = t.corner[2];
+        const uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+        addIndexedTriangle(result, a, ab, ca);
+        addIndexedTriangle(result, ab, b, bc);
+        addIndexedTriangle(result, ca, bc, c);
+        addIndexedTriangle(result, ab, bc, ca);
+    }
+    return result;
+}
+
+} // namespace
+
+Traceable::Traceable(Scene scene_, const BuildOptions& options)
+    : scene(std::move(scene_)), bounds(primitiveBounds(scene)),
+      tree(buildBinaryTree(bounds, options)), layout(layOut(tree)) {
+    for (const uint32_t index : layout.primitiveOrder)
+        primitives.push_back(kernelPrimitive(scene, index));
+}
+
+void addTriangle(Scene& scene, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    const uint32_t first = uint32_t(scene.positions.size());
+    scene.positions.insert(scene.positions.end(), {a, b, c});
+    addIndexedTriangle(scene, first, first + 1, first + 2);
+}
+
+Scene soup(uint32_t triangles, uint32_t spheres, float size, Random& random) {
+    Scene scene;
+    for (uint32_t i = 0; i < triangles; ++i) {
+        const glm::vec3 center = random.inCube(1);
+        const glm::vec3 a = center + random.inCube(size), b = center + random.inCube(size);
+        addTriangle(scene, a, b, center + random.inCube(size));
+    }
+    for (uint32_t i = 0; i < spheres; ++i) {
+        Sphere s;
+        s.center = random.inCube(1);
+        s.radius = random.uniform(0.1f, 1.0f) * size;
+        scene.spheres.push_back(s);
+    }
+    return scene;
+}
+
+Scene starMesh(uint32_t levels, Random& random) {
+    Scene mesh;
+    mesh.positions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    for (const uint32_t z : {4u, 5u})
+        for (const auto& [x, y] : {std::pair{0u, 2u}, {2u, 1u}, {1u, 3u}, {3u, 0u}})
+            z == 4 ? addIndexedTriangle(mesh, x, y, z) : addIndexedTriangle(mesh, y, x, z);
+    for (uint32_t i = 0; i < levels; ++i)
+        mesh = divided(mesh);
+    for (glm::vec3& p : mesh.positions)
+        p = glm::normalize(p) * random.uniform(0.6f, 1.4f);
+    return mesh;
+}
+
+Scene cubeMesh(uint32_t n) {
+    Scene mesh;
+    std::map<std::array<uint32_t, 3>, uint32_t> corners;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const uint32_t side : {0u, n}) {
+            const auto corner = [&](uint32_t i, uint32_t j) {
+                std::array<uint32_t, 3> at{};
+                at[size_t(axis)] = side, at[size_t(axis + 1) % 3] = i, at[size_t(axis + 2) % 3] = j;
+                const auto [entry, isNew] =
+                    corners.try_emplace(at, uint32_t(mesh.positions.size()));
+                const glm::vec3 grid{at[0], at[1], at[2]};
+                if (isNew) mesh.positions.push_back(grid * (2.0f / float(n)) - 1.0f);
+                return entry->second;
+            };
+            for (uint32_t i = 0; i < n; ++i)
+                for (uint32_t j = 0; j < n; ++j) {
+                    addIndexedTriangle(mesh, corner(i, j), corner(i + 1, j), corner(i + 1, j + 1));
+                    addIndexedTriangle(mesh, corner(i, j), corner(i + 1, j + 1), corner(i, j + 1));
+                }
+        }
+    return mesh;
+}
+
+Scene landscape(uint32_t n) {
+    Scene scene;
+    const auto at = [n](uint32_t i, uint32_t j) {
+        const float x = 2 * float(i) / float(n) - 1, y = 2 * float(j) / float(n) - 1;
+        return glm::vec3(x, y, 0.2f * std::sin(7 * x) * std::cos(5 * y) + 0.02f * std::sin(40 * x));
+    };
+    for (uint32_t i = 0; i < n; ++i)
+        for (uint32_t j = 0; j < n; ++j) {
+            addTriangle(scene, at(i, j), at(i + 1, j), at(i + 1, j + 1));
+            addTriangle(scene, at(i, j), at(i + 1, j + 1), at(i, j + 1));
+        }
+    return scene;
+}
+
+Scene clusterInSoup(Random& random) {
+    Scene scene = soup(2000, 0, 1e-4f, random);
+    for (glm::vec3& p : scene.positions)
+        p = 0.9f + 0.001f * p;
+    const Scene stadium = soup(1000, 0, 0.3f, random);
+    for (const Triangle& t : stadium.triangles)
+        addTriangle(scene, stadium.positions[t.corner[0]], stadium.positions[t.corner[1]],
+                    stadium.positions[t.corner[2]]);
+    return scene;
+}
+
+Scene sliverStrip(uint32_t n) {
+    Scene scene;
+    const float width = 1.0f / float(n);
+    for (uint32_t i = 0; i < n; ++i) {
+        const float x = float(i) * width;
+        addTriangle(scene, {x, 0, 0}, {x + width, 0, 0}, {x, 1, 0});
+    }
+    return scene;
+}
+
+void translate(Scene& scene, const glm::vec3& by) {
+    for (glm::vec3& p : scene.positions)
+        p += by;
+    for (Sphere& s : scene.spheres)
+        s.center += by;
+}
+
+} // namespace stromboli::test
