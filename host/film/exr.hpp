@@ -1,0 +1,17 @@
+#pragma once
+
+#include "host/film/image.hpp"
+
+#include <filesystem>
+
+namespace stromboli {
+
+/// Writes every channel as 32-bit float (lossless ZIP), complete or not at all. Throws
+/// OutputError.
+void writeExr(const std::filesystem::path& path, const FloatImage& image);
+
+/// Reads every channel of a scan-line or tiled OpenEXR file of one part, its data window only.
+/// Half and integer channels become float. Throws UsageError if there is no readable file.
+FloatImage readExr(const std::filesystem::path& path);
+
+} // namespace stromboli

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace stromboli {
+
+/// 8-bit picture: rows from the top, three bytes (R, G, B) per pixel.
+struct ByteImage {
+    uint32_t width = 0, height = 0;
+    std::vector<uint8_t> rgb;
+
+    ByteImage() = default;
+    ByteImage(uint32_t w, uint32_t h) : width(w), height(h), rgb(size_t(w) * h * 3) {}
+    uint8_t* pixel(uint32_t x, uint32_t y) { return &rgb[(size_t(y) * width + x) * 3]; }
+    const uint8_t* pixel(uint32_t x, uint32_t y) const { return &rgb[(size_t(y) * width + x) * 3]; }
+};
+
+/// Linear picture: named channels ("R", "G", "B", ...), each with width * height values, rows
+/// from the top.
+struct FloatImage {
+    uint32_t width = 0, height = 0;
+    std::map<std::string, std::vector<float>> channels;
+
+    FloatImage() = default;
+    FloatImage(uint32_t w, uint32_t h) : width(w), height(h) {}
+    /// The channel of that name, made (all 0) if there is none.
+    std::vector<float>& channel(const std::string& name);
+};
+
+} // namespace stromboli

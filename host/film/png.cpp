@@ -1,0 +1,111 @@
+#include "host/film/png.hpp"
+
+#include "host/core/error.hpp"
+#include "host/film/atomic_file.hpp"
+
+#include <fmt/format.h>
+#include <png.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <string>
+
+namespace stromboli {
+
+namespace fs = std::filesystem;
+
+// libpng reports errors by longjmp, which must not skip destructors: the functions that call
+// setjmp own nothing, and the objects live in their callers.
+
+static void onError(png_structp png, png_const_charp message) {
+    static_cast<std::string*>(png_get_error_ptr(png))->assign(message);
+    png_longjmp(png, 1);
+}
+
+static void onWarning(png_structp, png_const_charp) {}
+
+static void append(png_structp png, png_bytep data, size_t size) {
+    auto* bytes = static_cast<std::vector<png_byte>*>(png_get_io_ptr(png));
+    bytes->insert(bytes->end(), data, data + size);
+}
+
+static void flush(png_structp) {}
+
+namespace {
+
+struct Writer {
+    std::string error;
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &error, onError, onWarning);
+    png_infop info = png_create_info_struct(png);
+    Writer() {
+        if (!info) throw std::bad_alloc();
+    }
+    ~Writer() { png_destroy_write_struct(&png, &info); }
+};
+
+struct Reader {
+    std::string error;
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &error, onError, onWarning);
+    png_infop info = png_create_info_struct(png);
+    Reader() {
+        if (!info) throw std::bad_alloc();
+    }
+    ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+};
+
+} // namespace
+
+static bool encode(png_structp png, png_infop info, const ByteImage& image,
+                   PngColorSpace colorSpace, std::vector<png_byte>& bytes) {
+    if (setjmp(png_jmpbuf(png))) return false;
+    png_set_write_fn(png, &bytes, append, flush);
+    png_set_IHDR(png, info, image.width, image.height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    if (colorSpace == PngColorSpace::Srgb) png_set_sRGB(png, info, PNG_sRGB_INTENT_RELATIVE);
+    png_write_info(png, info);
+    for (uint32_t y = 0; y < image.height; ++y)
+        png_write_row(png, image.pixel(0, y));
+    png_write_end(png, info);
+    return true;
+}
+
+static bool decode(png_structp png, png_infop info, std::FILE* file) {
+    if (setjmp(png_jmpbuf(png))) return false;
+    png_init_io(png, file);
+    png_read_png(png, info,
+                 PNG_TRANSFORM_EXPAND | PNG_TRANSFORM_SCALE_16 | PNG_TRANSFORM_GRAY_TO_RGB |
+                     PNG_TRANSFORM_STRIP_ALPHA,
+                 nullptr);
+    return true;
+}
+
+void writePng(const fs::path& path, const ByteImage& image, PngColorSpace colorSpace) {
+    Writer writer;
+    std::vector<png_byte> bytes;
+    if (!encode(writer.png, writer.info, image, colorSpace, bytes))
+        throw OutputError(fmt::format("{}: cannot encode PNG: {}", path.string(), writer.error));
+    writeFileAtomically(path, std::as_bytes(std::span(bytes)));
+}
+
+ByteImage readPng(const fs::path& path) {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                               &std::fclose);
+    if (!file)
+        throw UsageError(fmt::format("{}: cannot read: {}", path.string(), std::strerror(errno)));
+    Reader reader;
+    if (!decode(reader.png, reader.info, file.get()))
+        throw UsageError(fmt::format("{}: cannot read PNG: {}", path.string(), reader.error));
+
+    ByteImage image(png_get_image_width(reader.png, reader.info),
+                    png_get_image_height(reader.png, reader.info));
+    png_bytepp rows = png_get_rows(reader.png, reader.info);
+    const size_t rowSize = size_t(image.width) * 3;
+    for (uint32_t y = 0; y < image.height; ++y)
+        std::memcpy(image.pixel(0, y), rows[y], rowSize);
+    return image;
+}
+
+} // namespace stromboli
