@@ -58,7 +58,7 @@ gpu::Light packEmitter(const Scene& scene, const Emitter& e, const std::vector<u
     return light;
 }
 
-gpu::Light packLight(const Light& l) {
+gpu::Light packLight(const Light& l, bool cs184) {
     gpu::Light g{};
     g.color = l.color;
     switch (l.kind) {
@@ -70,7 +70,7 @@ gpu::Light packLight(const Light& l) {
     }
     case LightKind::Ambient:
         g.kind = gpu::LIGHT_AMBIENT;
-        g.upperHemisphereOnly = l.upperHemisphereOnly;
+        g.upperHemisphereOnly = l.upperHemisphereOnly || cs184;
         break;
     case LightKind::Directional:
         g.kind = gpu::LIGHT_DIRECTIONAL;
@@ -84,6 +84,10 @@ gpu::Light packLight(const Light& l) {
         g.edgeB = {l.constantAttenuation, l.linearAttenuation, l.quadraticAttenuation};
         g.cosCutoff = std::cos(0.5f * l.falloffAngle);
         g.falloffExponent = l.falloffExponent;
+        if (cs184) { // no attenuation; spot lights shine nowhere
+            g.edgeB = {1, 0, 0};
+            if (l.kind == LightKind::Spot) g.color = {0, 0, 0};
+        }
         break;
     }
     return g;
@@ -98,10 +102,10 @@ void packLights(const Scene& scene, const std::vector<uint32_t>& slotOf, bool cs
             g.lights.push_back(light);
         }
     for (const Light& l : scene.lights)
-        if (!l.isDelta()) g.lights.push_back(packLight(l));
+        if (!l.isDelta()) g.lights.push_back(packLight(l, cs184));
     g.areaLights = uint32_t(g.lights.size());
     for (const Light& l : scene.lights)
-        if (l.isDelta()) g.lights.push_back(packLight(l));
+        if (l.isDelta()) g.lights.push_back(packLight(l, cs184));
     g.deltaLights = uint32_t(g.lights.size()) - g.areaLights;
 }
 

@@ -9,12 +9,12 @@
 namespace stromboli {
 namespace {
 
-gpu::Material packMaterial(const Material& m) {
+gpu::Material packMaterial(const Material& m, bool cs184) {
     gpu::Material g{};
     g.kind = uint32_t(m.kind); // the enumerations agree: see the static_asserts below
     g.reflectance = m.kind == MaterialKind::Diffuse ? m.albedo : m.reflectance;
     g.emission = m.emission;
-    g.emitsBothSides = m.emitsBothSides;
+    g.emitsBothSides = m.emitsBothSides || cs184;
     if (m.kind == MaterialKind::Microfacet) {
         g.transmittanceOrEta = m.eta;
         g.iorOrAlpha = m.alpha;
@@ -84,7 +84,7 @@ GpuScene packScene(const Scene& scene, const BinaryTree& tree, bool cs184) {
                                               : packSphere(scene.spheres[id - triangles]));
     }
     for (const Material& m : scene.materials)
-        g.materials.push_back(packMaterial(m));
+        g.materials.push_back(packMaterial(m, cs184));
     packLights(scene, slotOf, cs184, g);
     return g;
 }

@@ -18,23 +18,20 @@ constexpr uint64_t kRowBytes = 16; // one RGBA32UI texel
 class Staging {
   public:
     Staging(const Device& device, uint64_t bytes);
-    ~Staging() {
-        device_.vk().vkDestroyBuffer(device_.handle(), buffer, nullptr);
-        device_.vk().vkFreeMemory(device_.handle(), memory_, nullptr);
-    }
-    VkBuffer buffer = VK_NULL_HANDLE;
-    std::byte* mapped = nullptr;
 
   private:
-    const Device& device_;
-    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    Handle<VkDeviceMemory> memory_; // declared first: freed last
+
+  public:
+    Handle<VkBuffer> buffer;
+    std::byte* mapped = nullptr;
 };
 
 constexpr VkMemoryPropertyFlags kHostVisible =
     VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
-VkDeviceMemory allocateFor(const Device& device, VkBuffer buffer, VkMemoryPropertyFlags wanted,
-                           const std::string& name) {
+Handle<VkDeviceMemory> allocateFor(const Device& device, VkBuffer buffer,
+                                   VkMemoryPropertyFlags wanted, const std::string& name) {
     VkMemoryRequirements needs;
     device.vk().vkGetBufferMemoryRequirements(device.handle(), buffer, &needs);
     const VkPhysicalDeviceMemoryProperties& memory = device.memory();
@@ -47,22 +44,23 @@ VkDeviceMemory allocateFor(const Device& device, VkBuffer buffer, VkMemoryProper
         VkDeviceMemory result = VK_NULL_HANDLE;
         check(device.vk().vkAllocateMemory(device.handle(), &info, nullptr, &result),
               fmt::format("allocate {} bytes for the {}", needs.size, name));
+        Handle<VkDeviceMemory> owned(device.handle(), result, device.vk().vkFreeMemory);
         check(device.vk().vkBindBufferMemory(device.handle(), buffer, result, 0),
               fmt::format("bind the {}", name));
-        return result;
+        return owned;
     }
     throw DeviceError(
         fmt::format("no memory type of {} fits the {}", device.description().name(), name));
 }
 
-VkBuffer createBuffer(const Device& device, uint64_t bytes, VkBufferUsageFlags usage,
-                      const std::string& name) {
+Handle<VkBuffer> createBuffer(const Device& device, uint64_t bytes, VkBufferUsageFlags usage,
+                              const std::string& name) {
     const VkBufferCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = bytes, .usage = usage};
     VkBuffer buffer = VK_NULL_HANDLE;
     check(device.vk().vkCreateBuffer(device.handle(), &info, nullptr, &buffer),
           fmt::format("create the {}", name));
-    return buffer;
+    return {device.handle(), buffer, device.vk().vkDestroyBuffer};
 }
 
 std::byte* map(const Device& device, VkDeviceMemory memory, const std::string& name) {
@@ -72,12 +70,12 @@ std::byte* map(const Device& device, VkDeviceMemory memory, const std::string& n
     return static_cast<std::byte*>(mapped);
 }
 
-Staging::Staging(const Device& device, uint64_t bytes) : device_(device) {
-    buffer = createBuffer(device, bytes,
+Staging::Staging(const Device& device, uint64_t bytes)
+    : buffer(createBuffer(device, bytes,
                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                          "staging buffer");
-    memory_ = allocateFor(device, buffer, kHostVisible, "staging buffer");
-    mapped = map(device, memory_, "staging buffer");
+                          "staging buffer")) {
+    memory_ = allocateFor(device, buffer.get(), kHostVisible, "staging buffer");
+    mapped = map(device, memory_.get(), "staging buffer");
 }
 
 VkBufferUsageFlags usageOf(BufferUse use) {
@@ -120,30 +118,18 @@ Buffer::Buffer(const Device& device, std::string name, uint64_t bytes, BufferUse
     buffer_ = createBuffer(device, bytes_, usageOf(use), name_);
     const bool shared = device.description().sharesHostMemory();
     const VkMemoryPropertyFlags deviceLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
-    memory_ = allocateFor(device, buffer_, shared ? kHostVisible : deviceLocal, name_);
-    if (shared) mapped_ = map(device, memory_, name_);
+    memory_ = allocateFor(device, buffer_.get(), shared ? kHostVisible : deviceLocal, name_);
+    if (shared) mapped_ = map(device, memory_.get(), name_);
     if (use == BufferUse::Texel) {
         const VkBufferViewCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
-                                             .buffer = buffer_,
+                                             .buffer = buffer_.get(),
                                              .format = VK_FORMAT_R32G32B32A32_UINT,
                                              .range = VK_WHOLE_SIZE};
-        check(device.vk().vkCreateBufferView(device.handle(), &info, nullptr, &view_),
+        VkBufferView view = VK_NULL_HANDLE;
+        check(device.vk().vkCreateBufferView(device.handle(), &info, nullptr, &view),
               fmt::format("create a view of the {}", name_));
+        view_ = {device.handle(), view, device.vk().vkDestroyBufferView};
     }
-}
-
-Buffer::Buffer(Buffer&& other) noexcept
-    : device_(other.device_), name_(std::move(other.name_)), bytes_(other.bytes_), use_(other.use_),
-      buffer_(std::exchange(other.buffer_, VK_NULL_HANDLE)),
-      memory_(std::exchange(other.memory_, VK_NULL_HANDLE)),
-      view_(std::exchange(other.view_, VK_NULL_HANDLE)),
-      mapped_(std::exchange(other.mapped_, nullptr)) {}
-
-Buffer::~Buffer() {
-    const VolkDeviceTable& vk = device_->vk();
-    if (view_) vk.vkDestroyBufferView(device_->handle(), view_, nullptr);
-    if (buffer_) vk.vkDestroyBuffer(device_->handle(), buffer_, nullptr);
-    if (memory_) vk.vkFreeMemory(device_->handle(), memory_, nullptr);
 }
 
 void Buffer::upload(Queue& queue, std::span<const std::byte> data, uint64_t offset) {
@@ -156,7 +142,7 @@ void Buffer::upload(Queue& queue, std::span<const std::byte> data, uint64_t offs
     std::memcpy(staging.mapped, data.data(), data.size());
     queue.run("upload a buffer", [&](VkCommandBuffer commands) {
         const VkBufferCopy region = {0, offset, data.size()};
-        device_->vk().vkCmdCopyBuffer(commands, staging.buffer, buffer_, 1, &region);
+        device_->vk().vkCmdCopyBuffer(commands, staging.buffer.get(), buffer_.get(), 1, &region);
         fullBarrier(*device_, commands);
     });
 }
@@ -170,7 +156,7 @@ void Buffer::download(Queue& queue, std::span<std::byte> data, uint64_t offset) 
     Staging staging(*device_, data.size());
     queue.run("download a buffer", [&](VkCommandBuffer commands) {
         const VkBufferCopy region = {offset, 0, data.size()};
-        device_->vk().vkCmdCopyBuffer(commands, buffer_, staging.buffer, 1, &region);
+        device_->vk().vkCmdCopyBuffer(commands, buffer_.get(), staging.buffer.get(), 1, &region);
         fullBarrier(*device_, commands);
     });
     std::memcpy(data.data(), staging.mapped, data.size());

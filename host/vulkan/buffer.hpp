@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/vulkan/device.hpp"
+#include "host/vulkan/handle.hpp"
 #include "host/vulkan/queue.hpp"
 
 #include <span>
@@ -21,13 +22,9 @@ class Buffer {
     /// `name` is for error messages. An empty buffer gets 16 bytes: Vulkan has none of size 0.
     /// Throws DeviceError naming the buffer and both sizes if it is over a limit of the device.
     Buffer(const Device& device, std::string name, uint64_t bytes, BufferUse use);
-    ~Buffer();
-    Buffer(Buffer&& other) noexcept;
-    Buffer(const Buffer&) = delete;
-    Buffer& operator=(const Buffer&) = delete;
 
-    VkBuffer handle() const { return buffer_; }
-    VkBufferView view() const { return view_; } ///< Texel only
+    VkBuffer handle() const { return buffer_.get(); }
+    VkBufferView view() const { return view_.get(); } ///< Texel only
     uint64_t bytes() const { return bytes_; }
     BufferUse use() const { return use_; }
 
@@ -43,9 +40,9 @@ class Buffer {
     std::string name_;
     uint64_t bytes_;
     BufferUse use_;
-    VkBuffer buffer_ = VK_NULL_HANDLE;
-    VkDeviceMemory memory_ = VK_NULL_HANDLE;
-    VkBufferView view_ = VK_NULL_HANDLE;
+    Handle<VkDeviceMemory> memory_; ///< declared first: freed last
+    Handle<VkBuffer> buffer_;
+    Handle<VkBufferView> view_;
     std::byte* mapped_ = nullptr;
 };
 

@@ -16,7 +16,8 @@ VkDescriptorType descriptorType(BufferUse use) {
     }
 }
 
-VkDescriptorSetLayout createSetLayout(const Device& device, std::span<const Binding> bindings) {
+Handle<VkDescriptorSetLayout> createSetLayout(const Device& device,
+                                              std::span<const Binding> bindings) {
     std::vector<VkDescriptorSetLayoutBinding> entries;
     for (const Binding& b : bindings)
         entries.push_back({.binding = b.number,
@@ -30,10 +31,11 @@ VkDescriptorSetLayout createSetLayout(const Device& device, std::span<const Bind
     VkDescriptorSetLayout layout = VK_NULL_HANDLE;
     check(device.vk().vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout),
           "create a descriptor set layout");
-    return layout;
+    return {device.handle(), layout, device.vk().vkDestroyDescriptorSetLayout};
 }
 
-VkPipelineLayout createLayout(const Device& device, VkDescriptorSetLayout set, uint32_t pushBytes) {
+Handle<VkPipelineLayout> createLayout(const Device& device, VkDescriptorSetLayout set,
+                                      uint32_t pushBytes) {
     const VkPushConstantRange range = {.stageFlags = VK_SHADER_STAGE_COMPUTE_BIT,
                                        .size = pushBytes};
     const VkPipelineLayoutCreateInfo info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
@@ -44,11 +46,11 @@ VkPipelineLayout createLayout(const Device& device, VkDescriptorSetLayout set, u
     VkPipelineLayout layout = VK_NULL_HANDLE;
     check(device.vk().vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout),
           "create a pipeline layout");
-    return layout;
+    return {device.handle(), layout, device.vk().vkDestroyPipelineLayout};
 }
 
-VkPipeline createPipeline(const Device& device, std::span<const uint32_t> spirv,
-                          std::span<const uint32_t> constants, VkPipelineLayout layout) {
+Handle<VkPipeline> createPipeline(const Device& device, std::span<const uint32_t> spirv,
+                                  std::span<const uint32_t> constants, VkPipelineLayout layout) {
     const VkShaderModuleCreateInfo moduleInfo = {.sType =
                                                      VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
                                                  .codeSize = spirv.size_bytes(),
@@ -76,7 +78,7 @@ VkPipeline createPipeline(const Device& device, std::span<const uint32_t> spirv,
                                                                  &info, nullptr, &pipeline);
     device.vk().vkDestroyShaderModule(device.handle(), module, nullptr);
     check(result, "compile the kernel");
-    return pipeline;
+    return {device.handle(), pipeline, device.vk().vkDestroyPipeline};
 }
 
 } // namespace
@@ -84,20 +86,12 @@ VkPipeline createPipeline(const Device& device, std::span<const uint32_t> spirv,
 ComputePipeline::ComputePipeline(const Device& device, std::span<const uint32_t> spirv,
                                  std::span<const Binding> bindings,
                                  std::span<const uint32_t> constants, uint32_t pushConstantBytes)
-    : device_(device), bindings_(bindings.begin(), bindings.end()),
-      setLayout_(createSetLayout(device, bindings)),
-      layout_(createLayout(device, setLayout_, pushConstantBytes)),
-      pipeline_(createPipeline(device, spirv, constants, layout_)) {}
-
-ComputePipeline::~ComputePipeline() {
-    device_.vk().vkDestroyPipeline(device_.handle(), pipeline_, nullptr);
-    device_.vk().vkDestroyPipelineLayout(device_.handle(), layout_, nullptr);
-    device_.vk().vkDestroyDescriptorSetLayout(device_.handle(), setLayout_, nullptr);
-}
+    : bindings_(bindings.begin(), bindings.end()), setLayout_(createSetLayout(device, bindings)),
+      layout_(createLayout(device, setLayout_.get(), pushConstantBytes)),
+      pipeline_(createPipeline(device, spirv, constants, layout_.get())) {}
 
 DescriptorSet::DescriptorSet(const Device& device, const ComputePipeline& pipeline,
-                             std::span<const Buffer* const> buffers)
-    : device_(device) {
+                             std::span<const Buffer* const> buffers) {
     std::vector<VkDescriptorPoolSize> sizes;
     for (const Binding& b : pipeline.bindings())
         sizes.push_back({descriptorType(b.use), 1});
@@ -106,12 +100,14 @@ DescriptorSet::DescriptorSet(const Device& device, const ComputePipeline& pipeli
                                                  .maxSets = 1,
                                                  .poolSizeCount = uint32_t(sizes.size()),
                                                  .pPoolSizes = sizes.data()};
-    check(device.vk().vkCreateDescriptorPool(device.handle(), &poolInfo, nullptr, &pool_),
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    check(device.vk().vkCreateDescriptorPool(device.handle(), &poolInfo, nullptr, &pool),
           "create a descriptor pool");
+    pool_ = {device.handle(), pool, device.vk().vkDestroyDescriptorPool};
     const VkDescriptorSetLayout layout = pipeline.setLayout();
     const VkDescriptorSetAllocateInfo info = {.sType =
                                                   VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-                                              .descriptorPool = pool_,
+                                              .descriptorPool = pool,
                                               .descriptorSetCount = 1,
                                               .pSetLayouts = &layout};
     check(device.vk().vkAllocateDescriptorSets(device.handle(), &info, &set_),
@@ -134,10 +130,6 @@ DescriptorSet::DescriptorSet(const Device& device, const ComputePipeline& pipeli
     }
     device.vk().vkUpdateDescriptorSets(device.handle(), uint32_t(writes.size()), writes.data(), 0,
                                        nullptr);
-}
-
-DescriptorSet::~DescriptorSet() {
-    if (pool_) device_.vk().vkDestroyDescriptorPool(device_.handle(), pool_, nullptr);
 }
 
 void recordDispatch(const Device& device, VkCommandBuffer commands, const ComputePipeline& pipeline,

@@ -21,21 +21,17 @@ class ComputePipeline {
     ComputePipeline(const Device& device, std::span<const uint32_t> spirv,
                     std::span<const Binding> bindings, std::span<const uint32_t> constants,
                     uint32_t pushConstantBytes);
-    ~ComputePipeline();
-    ComputePipeline(const ComputePipeline&) = delete;
-    ComputePipeline& operator=(const ComputePipeline&) = delete;
 
-    VkPipeline handle() const { return pipeline_; }
-    VkPipelineLayout layout() const { return layout_; }
-    VkDescriptorSetLayout setLayout() const { return setLayout_; }
+    VkPipeline handle() const { return pipeline_.get(); }
+    VkPipelineLayout layout() const { return layout_.get(); }
+    VkDescriptorSetLayout setLayout() const { return setLayout_.get(); }
     std::span<const Binding> bindings() const { return bindings_; }
 
   private:
-    const Device& device_;
     std::vector<Binding> bindings_;
-    VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
-    VkPipelineLayout layout_ = VK_NULL_HANDLE;
-    VkPipeline pipeline_ = VK_NULL_HANDLE;
+    Handle<VkDescriptorSetLayout> setLayout_;
+    Handle<VkPipelineLayout> layout_;
+    Handle<VkPipeline> pipeline_;
 };
 
 /// Buffers bound to a pipeline's set, in the order of its bindings.
@@ -43,15 +39,11 @@ class DescriptorSet {
   public:
     DescriptorSet(const Device& device, const ComputePipeline& pipeline,
                   std::span<const Buffer* const> buffers);
-    ~DescriptorSet();
-    DescriptorSet(const DescriptorSet&) = delete;
-    DescriptorSet& operator=(const DescriptorSet&) = delete;
     VkDescriptorSet handle() const { return set_; }
 
   private:
-    const Device& device_;
-    VkDescriptorPool pool_ = VK_NULL_HANDLE;
-    VkDescriptorSet set_ = VK_NULL_HANDLE;
+    Handle<VkDescriptorPool> pool_;
+    VkDescriptorSet set_ = VK_NULL_HANDLE; ///< the pool's
 };
 
 /// Records a dispatch of `groups` workgroups along x and a barrier after it.

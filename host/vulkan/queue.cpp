@@ -6,36 +6,57 @@
 
 namespace stromboli::vulkan {
 
-Queue::Queue(const Device& device) : device_(device) {
-    const VkCommandPoolCreateInfo poolInfo = {
-        .sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-        .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
-        .queueFamilyIndex = uint32_t(device.description().queueFamily)};
-    check(device.vk().vkCreateCommandPool(device.handle(), &poolInfo, nullptr, &pool_),
+namespace {
+
+Handle<VkCommandPool> createPool(const Device& device) {
+    const VkCommandPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                          .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
+                                          .queueFamilyIndex =
+                                              uint32_t(device.description().queueFamily)};
+    VkCommandPool pool = VK_NULL_HANDLE;
+    check(device.vk().vkCreateCommandPool(device.handle(), &info, nullptr, &pool),
           "create a command pool");
-    const VkCommandBufferAllocateInfo bufferInfo = {
-        .sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-        .commandPool = pool_,
-        .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-        .commandBufferCount = 1};
-    check(device.vk().vkAllocateCommandBuffers(device.handle(), &bufferInfo, &commands_),
-          "create a command buffer");
-    const VkFenceCreateInfo fenceInfo = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    check(device.vk().vkCreateFence(device.handle(), &fenceInfo, nullptr, &fence_),
-          "create a fence");
-    if (device.description().timestampBits == 0) return;
-    const VkQueryPoolCreateInfo queryInfo = {.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
-                                             .queryType = VK_QUERY_TYPE_TIMESTAMP,
-                                             .queryCount = 2};
-    check(device.vk().vkCreateQueryPool(device.handle(), &queryInfo, nullptr, &timestamps_),
-          "create timestamp queries");
+    return {device.handle(), pool, device.vk().vkDestroyCommandPool};
 }
+
+VkCommandBuffer createCommands(const Device& device, VkCommandPool pool) {
+    const VkCommandBufferAllocateInfo info = {.sType =
+                                                  VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                              .commandPool = pool,
+                                              .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                              .commandBufferCount = 1};
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    check(device.vk().vkAllocateCommandBuffers(device.handle(), &info, &commands),
+          "create a command buffer");
+    return commands;
+}
+
+Handle<VkFence> createFence(const Device& device) {
+    const VkFenceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    VkFence fence = VK_NULL_HANDLE;
+    check(device.vk().vkCreateFence(device.handle(), &info, nullptr, &fence), "create a fence");
+    return {device.handle(), fence, device.vk().vkDestroyFence};
+}
+
+Handle<VkQueryPool> createTimestamps(const Device& device) {
+    if (device.description().timestampBits == 0) return {};
+    const VkQueryPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                                        .queryType = VK_QUERY_TYPE_TIMESTAMP,
+                                        .queryCount = 2};
+    VkQueryPool pool = VK_NULL_HANDLE;
+    check(device.vk().vkCreateQueryPool(device.handle(), &info, nullptr, &pool),
+          "create timestamp queries");
+    return {device.handle(), pool, device.vk().vkDestroyQueryPool};
+}
+
+} // namespace
+
+Queue::Queue(const Device& device)
+    : device_(device), pool_(createPool(device)), commands_(createCommands(device, pool_.get())),
+      fence_(createFence(device)), timestamps_(createTimestamps(device)) {}
 
 Queue::~Queue() {
     device_.vk().vkDeviceWaitIdle(device_.handle());
-    if (timestamps_) device_.vk().vkDestroyQueryPool(device_.handle(), timestamps_, nullptr);
-    if (fence_) device_.vk().vkDestroyFence(device_.handle(), fence_, nullptr);
-    if (pool_) device_.vk().vkDestroyCommandPool(device_.handle(), pool_, nullptr);
 }
 
 double Queue::run(const char* what, const std::function<void(VkCommandBuffer)>& record) {
@@ -44,26 +65,28 @@ double Queue::run(const char* what, const std::function<void(VkCommandBuffer)>& 
                                             .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
     check(vk.vkBeginCommandBuffer(commands_, &begin), what);
     if (timestamps_) {
-        vk.vkCmdResetQueryPool(commands_, timestamps_, 0, 2);
-        vk.vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, timestamps_, 0);
+        vk.vkCmdResetQueryPool(commands_, timestamps_.get(), 0, 2);
+        vk.vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, timestamps_.get(), 0);
     }
     record(commands_);
     if (timestamps_)
-        vk.vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, timestamps_, 1);
+        vk.vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, timestamps_.get(),
+                               1);
     check(vk.vkEndCommandBuffer(commands_), what);
 
     const auto start = std::chrono::steady_clock::now();
+    const VkFence fence = fence_.get();
     const VkSubmitInfo submit = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
                                  .commandBufferCount = 1,
                                  .pCommandBuffers = &commands_};
-    check(vk.vkQueueSubmit(device_.queue(), 1, &submit, fence_), what);
-    check(vk.vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, UINT64_MAX), what);
-    check(vk.vkResetFences(device_.handle(), 1, &fence_), what);
+    check(vk.vkQueueSubmit(device_.queue(), 1, &submit, fence), what);
+    check(vk.vkWaitForFences(device_.handle(), 1, &fence, VK_TRUE, UINT64_MAX), what);
+    check(vk.vkResetFences(device_.handle(), 1, &fence), what);
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     if (!timestamps_) return wall.count();
 
     uint64_t ticks[2] = {0, 0};
-    check(vk.vkGetQueryPoolResults(device_.handle(), timestamps_, 0, 2, sizeof ticks, ticks,
+    check(vk.vkGetQueryPoolResults(device_.handle(), timestamps_.get(), 0, 2, sizeof ticks, ticks,
                                    sizeof ticks[0],
                                    VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
           what);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/vulkan/device.hpp"
+#include "host/vulkan/handle.hpp"
 
 #include <functional>
 
@@ -21,10 +22,10 @@ class Queue {
 
   private:
     const Device& device_;
-    VkCommandPool pool_ = VK_NULL_HANDLE;
-    VkCommandBuffer commands_ = VK_NULL_HANDLE;
-    VkFence fence_ = VK_NULL_HANDLE;
-    VkQueryPool timestamps_ = VK_NULL_HANDLE;
+    Handle<VkCommandPool> pool_;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE; ///< the pool's
+    Handle<VkFence> fence_;
+    Handle<VkQueryPool> timestamps_; ///< empty: the queue has none
 };
 
 /// All writes of shaders and transfers before it are visible to all that follows, the host too.

@@ -64,7 +64,7 @@ glm::dvec3 framingDirection(const Scene& scene) {
 /// The CS184 renderer's placement: on a line through the middle of the bounding box, 1.5 times
 /// its diagonal away, y up.
 Camera framedView(const Scene& scene) {
-    const Bounds bounds = scene.bounds();
+    const Bounds bounds = scene.framing.value_or(scene.bounds());
     const glm::dvec3 low = bounds.empty() ? glm::dvec3(-0.5) : glm::dvec3(bounds.lo);
     const glm::dvec3 high = bounds.empty() ? glm::dvec3(0.5) : glm::dvec3(bounds.hi);
     const glm::dvec3 d = framingDirection(scene);

@@ -66,6 +66,7 @@ void addLamp(Scene& scene, const Light& light) {
 } // namespace
 
 void resolveAreaLights(Scene& scene) {
+    scene.framing = scene.bounds();
     std::vector<Light> kept;
     for (const Light& light : scene.lights) {
         if (light.kind != LightKind::Area) {

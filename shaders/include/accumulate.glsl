@@ -3,7 +3,7 @@
 /// Largest radiance a sample may have: 2^48. Its square, summed 2^31 times, is still finite.
 const float LARGEST_RADIANCE = 281474976710656.0;
 
-/// Adds one sample: exact compensated sums, Welford's update for the squares. A sample that is
+/// Adds one sample: compensated sums, Welford's update for the squares. A sample that is
 /// not finite, negative or absurdly large is counted and left out, so that it cannot spoil its
 /// pixel; ordered comparisons are false for NaN whatever the driver makes of isnan.
 void addSample(inout PixelState state, vec3 radiance) {
@@ -15,11 +15,11 @@ void addSample(inout PixelState state, vec3 radiance) {
         ++state.rejected;
         return;
     }
-    const float before = float(max(state.count, 1u));
-    const float after = float(state.count + 1u);
-    const vec3 meanBefore = state.count == 0u ? radiance : (state.sum + state.sumError) / before;
+    const float before = float(state.count);
+    const vec3 mean = (state.sum + state.sumError) / max(before, 1.0);
+    const vec3 deviation = radiance - mean;
+    // Welford's (x - mean before)(x - mean after), in the form that no rounding makes negative.
+    addCompensated(state.m2, state.m2Error, deviation * deviation * (before / (before + 1.0)));
     addCompensated(state.sum, state.sumError, radiance);
     ++state.count;
-    const vec3 meanAfter = (state.sum + state.sumError) / after;
-    addCompensated(state.m2, state.m2Error, (radiance - meanBefore) * (radiance - meanAfter));
 }

@@ -31,16 +31,16 @@ Ray makeRay(vec3 origin, vec3 direction) {
 }
 
 /// Where the ray enters the box, at least 0, or INFINITE_DISTANCE if it misses it within
-/// [0, tMax]. Conservative: never misses a box it touches. The far end is widened by 8 ulp:
-/// both ends carry a subtraction, a 2.5 ulp division and a product, 14 unit round-offs together
-/// (after Ize 2013).
+/// [0, tMax]. Conservative: never misses a box it touches, nor one that holds a primitive at tMax;
+/// docs/numerics.md derives the slack (after Ize 2013). Planes are chosen by the direction's sign:
+/// sorting the two distances would turn the inverted box of an absent child into a huge one.
 float enterBox(vec3 low, vec3 high, Ray ray, float tMax) {
-    const vec3 a = (low - ray.origin) * ray.inverse;
-    const vec3 b = (high - ray.origin) * ray.inverse;
-    const vec3 nearest = min(a, b), farthest = max(a, b);
+    const bvec3 negative = lessThan(ray.inverse, vec3(0.0));
+    const vec3 nearest = (mix(low, high, negative) - ray.origin) * ray.inverse;
+    const vec3 farthest = (mix(high, low, negative) - ray.origin) * ray.inverse;
     const float tNear = max(max(nearest.x, nearest.y), max(nearest.z, 0.0));
     const float tFar = min(min(farthest.x, farthest.y), min(farthest.z, tMax));
-    return tNear <= tFar * 1.00000095367431640625 ? tNear : INFINITE_DISTANCE;
+    return tNear <= tFar * BOX_SLACK ? tNear : INFINITE_DISTANCE;
 }
 
 struct TriangleHit {
@@ -73,18 +73,23 @@ TriangleHit hitTriangle(vec3 v0, vec3 v1, vec3 v2, Ray ray) {
 
 /// Nearest t in (tMin, tMax) at which the ray meets the sphere, or INFINITE_DISTANCE. The
 /// discriminant comes from the distance of the line to the centre, not from b^2 - 4ac, which
-/// has no correct digit left once the sphere is 4096 radii away; the nearer root to zero comes
-/// from the product of the roots.
+/// has no correct digit left once the sphere is 4096 radii away. The perpendicular is found in two
+/// steps: after the first, rounding leaves a part along the line of some 2^-22 of the distance.
+/// The root that would cancel comes from the product of the roots.
 float hitSphere(vec3 center, float radius, Ray ray, float tMin, float tMax) {
     const float inverseLength2 = 1.0 / dot(ray.direction, ray.direction);
     const vec3 f = ray.origin - center;
-    const float b = -dot(f, ray.direction) * inverseLength2; // t of the closest approach
-    const vec3 l = f + b * ray.direction;
-    const float discriminant = (radius - length(l)) * (radius + length(l)) * inverseLength2;
+    const float nearlyClosest = -dot(f, ray.direction) * inverseLength2;
+    const vec3 nearlyPerpendicular = f + nearlyClosest * ray.direction;
+    const float correction = -dot(nearlyPerpendicular, ray.direction) * inverseLength2;
+    const float closest = nearlyClosest + correction;
+    const float distance = length(nearlyPerpendicular + correction * ray.direction);
+    const float discriminant = (radius - distance) * (radius + distance) * inverseLength2;
     const float s = sqrt(max(discriminant, 0.0));
-    const float q = b + (b >= 0.0 ? s : -s);
-    const float c = (length(f) - radius) * (length(f) + radius) * inverseLength2;
-    const float other = q != 0.0 ? c / q : INFINITE_DISTANCE;
+    const float q = closest + (closest >= 0.0 ? s : -s);
+    const float fromOrigin = length(f);
+    const float product = (fromOrigin - radius) * (fromOrigin + radius) * inverseLength2;
+    const float other = q != 0.0 ? product / q : INFINITE_DISTANCE;
     const float t0 = min(q, other), t1 = max(q, other);
     const float t = t0 > tMin ? t0 : t1;
     return discriminant >= 0.0 && t > tMin && t < tMax ? t : INFINITE_DISTANCE;

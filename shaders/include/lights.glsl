@@ -64,7 +64,9 @@ LightSample sampleMesh(SurfacePoint s, Light light, vec3 u) {
 /// 1 - cos computed as sin^2 / (1 + cos), stable for small cones; from inside: uniform on the area.
 LightSample sampleSphere(SurfacePoint s, Light light, vec2 u) {
     const float radius = light.edgeA.x;
-    const vec3 toCenter = light.position - s.position;
+    // A point on the sphere itself counts as on the side of wo.
+    const vec3 from = leave(s, s.wo);
+    const vec3 toCenter = light.position - from;
     const float distance2 = dot(toCenter, toCenter);
     const float sin2Max = radius * radius / distance2;
     const vec3 error = vec3((16.0 * UNIT_ROUNDOFF) * radius) +
@@ -85,7 +87,7 @@ LightSample sampleSphere(SurfacePoint s, Light light, vec2 u) {
     const vec3 w = toWorld(cone, vec3(sqrt(sin2) * vec2(cos(phi), sin(phi)), cosine));
     // The near intersection of the direction with the sphere, put back on its surface.
     const float t = distance * cosine - sqrt(max(radius * radius - distance2 * sin2, 0.0));
-    const vec3 n = normalize(s.position + t * w - light.position);
+    const vec3 n = normalize(from + t * w - light.position);
     LightSample r;
     r.direction = w;
     r.infinite = false;

@@ -4,6 +4,9 @@ const float PI = 3.14159265358979;
 const float INV_PI = 0.318309886183791;
 /// Unit round-off of float: 2^-24.
 const float UNIT_ROUNDOFF = 5.9604644775390625e-8;
+/// Widening of a box's far end: 1 + 2^-18 = 1 + 64 u (docs/numerics.md, "Boxes": 14 u for the slabs,
+/// 37 u with the error of a triangle's own distance).
+const float BOX_SLACK = 1.000003814697265625;
 /// Farther than any hit: rays without an end.
 const float INFINITE_DISTANCE = 3.402823466e38;
 

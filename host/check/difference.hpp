@@ -1,0 +1,34 @@
+#pragma once
+
+#include "host/film/film.hpp"
+
+namespace stromboli {
+
+/// Sum over pixels of the difference of two films' means in one channel, with its variance.
+///
+/// The variance is the one that holds if the films agree. Two estimates of it are kept and the
+/// larger one is used:
+/// - separate: each film's own variance. Right whatever the two sample counts and whether or not
+///   single samples of both films have the same distribution.
+/// - pooled: both films' samples as one set, as in a permutation test. Right for rare bright
+/// samples
+///   that one film happens to have and the other has not, where the separate one is too small.
+/// Either contains the difference itself, so that a pixel of n samples in each film never has
+/// |z| > sqrt(2 n - 1): few samples prove little, however equal they are.
+class Difference {
+  public:
+    /// Both pixels have at least one sample.
+    void add(const PixelStatistics& a, const PixelStatistics& b, int channel);
+    void add(const Difference& other);
+
+    double sumA() const { return sumA_; }
+    double sumB() const { return sumB_; }
+    /// Difference of the sums, A - B, moved towards 0 by what rounding to float may explain, in
+    /// standard deviations. `rounding`: relative error of each film's values.
+    double z(double rounding) const;
+
+  private:
+    double sumA_ = 0, sumB_ = 0, separate_ = 0, pooled_ = 0;
+};
+
+} // namespace stromboli

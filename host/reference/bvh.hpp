@@ -1,0 +1,57 @@
+#pragma once
+
+#include "host/reference/intersect.hpp"
+#include "scene/model/scene.hpp"
+
+#include <array>
+#include <vector>
+
+namespace stromboli::reference {
+
+/// A primitive that a ray cannot hit: the triangle it starts on, the lamp it ends on.
+struct Skip {
+    uint32_t first = kNoPrimitive, second = kNoPrimitive;
+    bool operator()(uint32_t primitive) const { return primitive == first || primitive == second; }
+};
+
+/// Bounding volume hierarchy of a scene's triangles and spheres, split by the surface area
+/// heuristic over bins of centroids (Wald 2007). Refers to the scene, which must outlive it.
+class Bvh {
+  public:
+    explicit Bvh(const Scene& scene);
+
+    /// The hit with the smallest t; `primitive` is kNoPrimitive for none.
+    Hit closest(const Ray& ray, Skip skip) const;
+    /// Whether there is any hit.
+    bool occluded(const Ray& ray, Skip skip) const;
+
+  private:
+    struct Box {
+        glm::dvec3 lo{kInfinity}, hi{-kInfinity};
+        void extend(const Box& other);
+        double halfArea() const;
+    };
+    struct Node {
+        Box box;
+        uint32_t first = 0; ///< leaf: into order_; inner: the left child, the right one follows it
+        uint32_t count = 0; ///< 0 for inner nodes
+    };
+    struct Range {
+        uint32_t begin = 0, end = 0;
+    };
+
+    Box boxOf(uint32_t primitive) const;
+    void build(uint32_t node, Range range, unsigned depth);
+    uint32_t split(Range range, const Box& box, unsigned depth);
+    uint32_t splitAtMedian(Range range, int axis);
+    std::optional<Hit> intersect(const Ray& ray, uint32_t primitive) const;
+    template <class Visit>
+    void traverse(const Ray& ray, Visit&& visit) const;
+
+    const Scene& scene_;
+    std::vector<Box> boxes_; ///< of the primitives; empty once built
+    std::vector<uint32_t> order_;
+    std::vector<Node> nodes_;
+};
+
+} // namespace stromboli::reference

@@ -1,0 +1,22 @@
+#include "host/reference/camera_ray.hpp"
+
+namespace stromboli::reference {
+
+Ray cameraRay(const Camera& camera, double s, double t) {
+    const glm::dvec3 offset =
+        (2 * s - 1) * camera.halfWidth * camera.right + (1 - 2 * t) * camera.halfHeight * camera.up;
+    Ray ray;
+    if (camera.orthographic) {
+        ray.origin = camera.position + offset;
+        ray.direction = -camera.back;
+    } else {
+        ray.origin = camera.position;
+        ray.direction = glm::normalize(offset - camera.back);
+    }
+    const double depthPerLength = camera.clipAlongRay ? 1 : -glm::dot(ray.direction, camera.back);
+    ray.tMin = camera.nearDistance / depthPerLength;
+    ray.tMax = camera.farDistance / depthPerLength;
+    return ray;
+}
+
+} // namespace stromboli::reference

@@ -1,0 +1,144 @@
+#include "host/reference/integrator.hpp"
+
+#include "host/reference/bsdf.hpp"
+#include "host/reference/sampling.hpp"
+
+#include <algorithm>
+
+namespace stromboli::reference {
+namespace {
+
+double largest(const glm::dvec3& v) {
+    return std::max({v.x, v.y, v.z});
+}
+
+} // namespace
+
+PathSample::PathSample(const World& world, const RenderSettings& settings, RandomStream& random)
+    : world_(world), settings_(settings), random_(random) {}
+
+glm::dvec3 PathSample::radiance(const Ray& cameraRay) {
+    if (!arrive(cameraRay, {})) return radiance_; // ambient light is not a backdrop
+    if (settings_.minBounce == 0) addEmission();
+    for (uint32_t bounce = 1; bounce <= settings_.maxBounces; ++bounce) {
+        faceForward(surface_, world_.convention);
+        if (!survivesFixed()) break;
+        if (!surface_.material->isDelta() && bounce >= settings_.minBounce) addDirectLight();
+
+        const BsdfSample next = sampleBsdf(surface_, random_, world_.convention);
+        throughput_ *= next.weight;
+        if (!(largest(throughput_) > 0)) break;
+        if (!survivesThroughput(bounce)) break;
+
+        const bool counts = emissionCounts(bounce);
+        if (bounce == settings_.maxBounces && !counts) break;
+        const bool hit = arrive(leave(next.direction), {surface_.triangle});
+        if (counts && hit) addEmission();
+        if (counts && !hit)
+            radiance_ += throughput_ * world_.lights.ambientRadiance(next.direction);
+        if (!hit) break;
+    }
+    return radiance_;
+}
+
+glm::dvec3 PathSample::normalColor(const Ray& cameraRay) {
+    return arrive(cameraRay, {}) ? 0.5 * surface_.shading + 0.5 : glm::dvec3(0.0);
+}
+
+bool PathSample::arrive(const Ray& ray, Skip skip) {
+    ++rays_;
+    const Hit hit = world_.bvh.closest(ray, skip);
+    if (hit.primitive == kNoPrimitive) return false;
+    surface_ = surfaceAt(world_.scene, ray, hit);
+    return true;
+}
+
+Ray PathSample::leave(const glm::dvec3& direction) const {
+    return {moveOff(surface_.position, surface_.error, surface_.geometric, direction), direction};
+}
+
+void PathSample::addEmission() {
+    radiance_ += throughput_ * emission(surface_, world_.convention);
+}
+
+/// Whether a lamp that the ray after this scattering finds adds to the picture, or whether direct
+/// light has accounted for it.
+bool PathSample::emissionCounts(uint32_t bounce) const {
+    const bool bsdfMode =
+        settings_.directLight == DirectLight::Bsdf && world_.convention == Convention::Physical;
+    return bounce >= settings_.minBounce && (surface_.material->isDelta() || bsdfMode);
+}
+
+bool PathSample::survivesFixed() {
+    if (settings_.roulette.mode != Roulette::Mode::Fixed) return true;
+    const double p = settings_.roulette.terminationProbability;
+    throughput_ /= 1 - p;
+    return random_.next() >= p;
+}
+
+bool PathSample::survivesThroughput(uint32_t bounce) {
+    if (settings_.roulette.mode != Roulette::Mode::Throughput) return true;
+    if (bounce < Roulette::kThroughputStart) return true;
+    const double q = std::min(Roulette::kMaxContinue, largest(throughput_));
+    throughput_ /= q;
+    return random_.next() < q;
+}
+
+void PathSample::addDirectLight() {
+    const bool hemisphere = settings_.directLight == DirectLight::Hemisphere;
+    if (hemisphere) addHemisphereSamples();
+    if (settings_.directLight == DirectLight::Lights) addBroadLights();
+    // The CS184 renderer's hemisphere mode knows no other light than geometry.
+    if (!hemisphere || world_.convention == Convention::Physical) addDeltaLights();
+}
+
+void PathSample::addBroadLights() {
+    const double share = 1.0 / settings_.lightSamples;
+    for (size_t light = 0; light < world_.lights.broadCount(); ++light)
+        for (uint32_t i = 0; i < settings_.lightSamples; ++i)
+            addLightSample(world_.lights.sampleBroad(light, surface_, random_), share);
+}
+
+void PathSample::addDeltaLights() {
+    for (size_t light = 0; light < world_.lights.deltaCount(); ++light)
+        addLightSample(world_.lights.sampleDelta(light, surface_), 1);
+}
+
+void PathSample::addLightSample(const LightSample& light, double share) {
+    const glm::dvec3 value =
+        light.value * evaluateBsdf(surface_, light.direction, world_.convention) * share;
+    if (!(largest(value) > 0)) return;
+    Ray ray = leave(light.direction);
+    if (!light.infinite) {
+        const glm::dvec3 to = light.target - ray.origin;
+        ray.tMax = glm::length(to);
+        if (ray.tMax > 0) ray.direction = to / ray.tMax;
+    }
+    ++rays_;
+    if (!world_.bvh.occluded(ray, {surface_.triangle, light.primitive}))
+        radiance_ += throughput_ * value;
+}
+
+void PathSample::addHemisphereSamples() {
+    const bool physical = world_.convention == Convention::Physical;
+    const size_t lights = physical ? world_.lights.broadCount() : world_.lights.fileCount();
+    const size_t count = lights * settings_.lightSamples;
+    const Frame frame(surface_.shading);
+    for (size_t i = 0; i < count; ++i) {
+        const double u = random_.next(), v = random_.next();
+        const glm::dvec3 direction = frame.toWorld(uniformHemisphere(u, v));
+        const glm::dvec3 weight =
+            evaluateBsdf(surface_, direction, world_.convention) * (2 * kPi / double(count));
+        if (!(largest(weight) > 0)) continue;
+        ++rays_;
+        const Ray ray = leave(direction);
+        const Hit hit = world_.bvh.closest(ray, {surface_.triangle});
+        const glm::dvec3 found =
+            hit.primitive == kNoPrimitive
+                ? world_.lights.ambientRadiance(direction)
+                : emission(surfaceAt(world_.scene, ray, hit), world_.convention);
+        radiance_ += throughput_ * weight * found;
+    }
+}
+
+} // namespace stromboli::reference

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "host/reference/world.hpp"
+#include "host/render/settings.hpp"
+
+namespace stromboli::reference {
+
+/// One sample of a pixel (docs/estimator.md), in the order of that page.
+class PathSample {
+  public:
+    /// All three must outlive the object.
+    PathSample(const World& world, const RenderSettings& settings, RandomStream& random);
+
+    /// The radiance the camera ray brings back. To be called once.
+    glm::dvec3 radiance(const Ray& cameraRay);
+    /// 0.5 n + 0.5 of the shading normal at the first hit; 0 for a miss.
+    glm::dvec3 normalColor(const Ray& cameraRay);
+    /// Rays traced so far.
+    uint64_t rays() const { return rays_; }
+
+  private:
+    /// Traces a path ray and, if it hits, makes that point the current surface.
+    bool arrive(const Ray& ray, Skip skip);
+    /// The ray from the current surface in a unit direction.
+    Ray leave(const glm::dvec3& direction) const;
+    void addEmission();
+    bool emissionCounts(uint32_t bounce) const;
+    bool survivesFixed();
+    bool survivesThroughput(uint32_t bounce);
+    void addDirectLight();
+    void addBroadLights();
+    void addDeltaLights();
+    void addHemisphereSamples();
+    void addLightSample(const LightSample& light, double share);
+
+    const World& world_;
+    const RenderSettings& settings_;
+    RandomStream& random_;
+    SurfacePoint surface_;
+    glm::dvec3 throughput_{1.0}, radiance_{0.0};
+    uint64_t rays_ = 0;
+};
+
+} // namespace stromboli::reference

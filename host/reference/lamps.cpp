@@ -1,0 +1,108 @@
+#include "host/reference/lamps.hpp"
+
+#include "host/reference/sampling.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stromboli::reference {
+namespace {
+
+/// A point chosen uniformly on a lamp's area.
+struct LampPoint {
+    glm::dvec3 position;
+    double error;      ///< distance to stop before the lamp
+    glm::dvec3 normal; ///< unit, of the side that always emits
+    uint32_t primitive;
+};
+
+LightSample toLampPoint(const LampPoint& p, const Material& material, double area,
+                        const glm::dvec3& from) {
+    LightSample sample;
+    const glm::dvec3 to = p.position - from;
+    const double distance2 = glm::dot(to, to);
+    if (distance2 == 0) return sample;
+    sample.direction = to / std::sqrt(distance2);
+    sample.infinite = false;
+    sample.target = moveOff(p.position, p.error, p.normal, -sample.direction);
+    sample.primitive = p.primitive;
+    const double cosine = -glm::dot(sample.direction, p.normal);
+    if (cosine > 0 || material.emitsBothSides)
+        sample.value = glm::dvec3(material.emission) * (area * std::abs(cosine) / distance2);
+    return sample;
+}
+
+} // namespace
+
+LampTriangle::LampTriangle(const Scene& scene, uint32_t i) : index(i) {
+    const Triangle& t = scene.triangles[i];
+    v0 = scene.positions[t.corner[0]];
+    v1 = scene.positions[t.corner[1]];
+    v2 = scene.positions[t.corner[2]];
+    area = 0.5 * glm::length(glm::cross(v1 - v0, v2 - v0));
+}
+
+LightSample sampleTriangle(const LampTriangle& t, double meshArea, const Material& material,
+                           const glm::dvec3& from, RandomStream& random) {
+    const double u = random.next(), v = random.next();
+    const glm::dvec2 b = uniformTriangle(u, v);
+    const LampPoint point{(1 - b.x - b.y) * t.v0 + b.x * t.v1 + b.y * t.v2,
+                          errorOnTriangle(t.v0, t.v1, t.v2), triangleNormal(t.v0, t.v1, t.v2),
+                          t.index};
+    return toLampPoint(point, material, meshArea, from);
+}
+
+LightSample sampleSphere(const Scene& scene, const Emitter& emitter, const SurfacePoint& surface,
+                         RandomStream& random) {
+    const double u = random.next(), v = random.next();
+    const Sphere& sphere = scene.spheres[emitter.sphere];
+    const Material& material = scene.materials[emitter.material];
+    const auto primitive = uint32_t(scene.triangles.size()) + emitter.sphere;
+    const glm::dvec3 center = sphere.center;
+    const double radius = sphere.radius, error = errorOnSphere(center, radius);
+    const glm::dvec3 toCenter = center - surface.position;
+    const double distance2 = glm::dot(toCenter, toCenter), sine2 = radius * radius / distance2;
+    const bool inside = surface.primitive == primitive ? !surface.outside : !(sine2 < 1);
+    if (inside) {
+        const glm::dvec3 n = uniformSphere(u, v);
+        return toLampPoint({center + radius * n, error, n, primitive}, material, emitter.area,
+                           surface.position);
+    }
+    if (surface.primitive == primitive) return {}; // all of the sphere is below its own horizon
+
+    const double oneMinusCosMax = sine2 / (1 + std::sqrt(1 - sine2));
+    const double distance = std::sqrt(distance2);
+    const Frame cone(toCenter / distance);
+    const glm::dvec3 w = uniformCone(u, v, oneMinusCosMax);
+    const double across2 = distance2 * (w.x * w.x + w.y * w.y);
+    const double t = distance * w.z - std::sqrt(std::max(radius * radius - across2, 0.0));
+    LightSample sample;
+    sample.direction = cone.toWorld(w);
+    const glm::dvec3 n = glm::normalize(surface.position + t * sample.direction - center);
+    sample.target = center + (radius + error) * n;
+    sample.infinite = false;
+    sample.primitive = primitive;
+    sample.value = glm::dvec3(material.emission) * (2 * kPi * oneMinusCosMax);
+    return sample;
+}
+
+LightSample sampleCs184Rectangle(const Light& light, const glm::dvec3& from, RandomStream& random) {
+    const double u = random.next(), v = random.next();
+    const glm::dvec3 center = light.position, x = light.edgeX, y = light.edgeY;
+    const glm::dvec3 n = glm::normalize(glm::dvec3(light.direction));
+    const glm::dvec3 point = center + (u - 0.5) * x + (v - 0.5) * y;
+    const glm::dvec3 to = point - from;
+    LightSample sample;
+    if (!(glm::dot(to, n) < 0)) return sample;
+    const double distance = glm::length(to);
+    sample.direction = to / distance;
+    sample.infinite = false;
+    // The mesh that stands for the light lies in its plane, but both were rounded to float.
+    const double error = 0x1p29 * errorOnTriangle(center, center + x, center + y);
+    sample.target = moveOff(point, error, n, -to);
+    sample.value = glm::dvec3(light.color) *
+                   (glm::length(glm::cross(x, y)) * -glm::dot(sample.direction, n) / distance);
+    return sample;
+}
+
+} // namespace stromboli::reference

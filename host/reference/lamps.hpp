@@ -1,0 +1,32 @@
+#pragma once
+
+#include "host/reference/lights.hpp"
+
+namespace stromboli::reference {
+
+/// A triangle of a mesh that emits.
+struct LampTriangle {
+    glm::dvec3 v0, v1, v2;
+    double area; ///< of one side
+    uint32_t index;
+
+    LampTriangle(const Scene& scene, uint32_t index);
+};
+
+// Samples of one lamp each, from a surface at `from`.
+
+/// Uniform on the triangle, which was picked by its share of `meshArea`:
+/// density distance^2 / (meshArea cos_light).
+LightSample sampleTriangle(const LampTriangle& triangle, double meshArea, const Material& material,
+                           const glm::dvec3& from, RandomStream& random);
+
+/// From outside uniform in the cone the sphere subtends (Shirley, Wang and Zimmerman 1996), from
+/// inside uniform on its area. A surface point on the sphere itself is on the side wo is on.
+LightSample sampleSphere(const Scene& scene, const Emitter& emitter, const SurfacePoint& surface,
+                         RandomStream& random);
+
+/// Uniform on the rectangle with the CS184 renderer's density, distance^2 / (area |D . n|) with D
+/// not normalised; only the side n points to emits.
+LightSample sampleCs184Rectangle(const Light& light, const glm::dvec3& from, RandomStream& random);
+
+} // namespace stromboli::reference

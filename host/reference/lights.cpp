@@ -1,0 +1,124 @@
+#include "host/reference/lights.hpp"
+
+#include "host/reference/lamps.hpp"
+#include "host/reference/sampling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace stromboli::reference {
+namespace {
+
+std::vector<double> runningAreas(const Scene& scene, const Emitter& emitter) {
+    std::vector<double> sums;
+    double sum = 0;
+    for (uint32_t index : emitter.triangles) {
+        sum += LampTriangle(scene, index).area;
+        sums.push_back(sum);
+    }
+    return sums;
+}
+
+/// The first entry whose running sum exceeds u times the total: never one of area 0.
+size_t pickByArea(const std::vector<double>& sums, double u) {
+    const auto found = std::upper_bound(sums.begin(), sums.end(), u * sums.back());
+    if (found != sums.end()) return size_t(found - sums.begin());
+    // u * total was rounded up to the total: the last entry that has an area.
+    return size_t(std::lower_bound(sums.begin(), sums.end(), sums.back()) - sums.begin());
+}
+
+double attenuation(const Light& light, double distance) {
+    return double(light.constantAttenuation) + double(light.linearAttenuation) * distance +
+           double(light.quadraticAttenuation) * distance * distance;
+}
+
+/// cosine: of the angle between the spot's axis and the way to the surface.
+double spotFalloff(const Light& light, double cosine) {
+    if (cosine < std::cos(double(light.falloffAngle) / 2)) return 0;
+    if (light.falloffExponent == 0) return 1;
+    return std::pow(std::max(cosine, 0.0), double(light.falloffExponent));
+}
+
+} // namespace
+
+Lights::Lights(const Scene& scene, Convention convention) : scene_(scene), convention_(convention) {
+    const bool physical = convention == Convention::Physical;
+    if (physical) emitters_ = collectEmitters(scene);
+    for (const Emitter& emitter : emitters_)
+        areaSums_.push_back(runningAreas(scene, emitter));
+    for (const Light& light : scene.lights) {
+        if (light.kind == LightKind::Area) {
+            if (physical)
+                throw std::invalid_argument("area light '" + light.name +
+                                            "' is not resolved to an emitter");
+            areas_.push_back(&light);
+        } else if (light.kind == LightKind::Ambient) {
+            ambient_.push_back(&light);
+        } else if (physical || light.kind != LightKind::Spot) {
+            delta_.push_back(&light);
+        }
+    }
+}
+
+LightSample Lights::sampleBroad(size_t index, const SurfacePoint& surface,
+                                RandomStream& random) const {
+    if (index < emitters_.size()) return sampleEmitter(index, surface, random);
+    index -= emitters_.size();
+    if (index < ambient_.size()) return sampleAmbient(*ambient_[index], surface, random);
+    return sampleCs184Rectangle(*areas_[index - ambient_.size()], surface.position, random);
+}
+
+LightSample Lights::sampleEmitter(size_t index, const SurfacePoint& surface,
+                                  RandomStream& random) const {
+    const Emitter& emitter = emitters_[index];
+    const Material& material = scene_.materials[emitter.material];
+    if (emitter.kind == EmitterKind::Sphere) return sampleSphere(scene_, emitter, surface, random);
+    // A quad needs no case of its own: its triangles by area are the parallelogram uniformly.
+    const uint32_t triangle = emitter.triangles[pickByArea(areaSums_[index], random.next())];
+    return sampleTriangle(LampTriangle(scene_, triangle), emitter.area, material, surface.position,
+                          random);
+}
+
+LightSample Lights::sampleAmbient(const Light& light, const SurfacePoint& surface,
+                                  RandomStream& random) const {
+    const double u = random.next(), v = random.next();
+    const bool upper = light.upperHemisphereOnly || convention_ == Convention::Cs184;
+    const Frame frame(upper ? glm::dvec3(0, 1, 0) : surface.shading);
+    LightSample sample;
+    sample.direction = frame.toWorld(uniformHemisphere(u, v));
+    sample.value = glm::dvec3(light.color) * (2 * kPi);
+    return sample;
+}
+
+LightSample Lights::sampleDelta(size_t index, const SurfacePoint& surface) const {
+    const Light& light = *delta_[index];
+    const glm::dvec3 axis = glm::normalize(glm::dvec3(light.direction));
+    LightSample sample;
+    sample.value = light.color;
+    if (light.kind == LightKind::Directional) {
+        sample.direction = -axis;
+        return sample;
+    }
+    sample.infinite = false;
+    sample.target = light.position;
+    const glm::dvec3 to = sample.target - surface.position;
+    const double distance = glm::length(to);
+    if (distance == 0) return LightSample{};
+    sample.direction = to / distance;
+    if (convention_ == Convention::Cs184) return sample;
+    sample.value /= attenuation(light, distance);
+    if (light.kind == LightKind::Spot)
+        sample.value *= spotFalloff(light, -glm::dot(sample.direction, axis));
+    return sample;
+}
+
+glm::dvec3 Lights::ambientRadiance(const glm::dvec3& direction) const {
+    glm::dvec3 sum(0.0);
+    if (convention_ == Convention::Cs184) return sum;
+    for (const Light* light : ambient_)
+        if (!light->upperHemisphereOnly || direction.y > 0) sum += glm::dvec3(light->color);
+    return sum;
+}
+
+} // namespace stromboli::reference

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "host/reference/random.hpp"
+#include "host/reference/surface.hpp"
+#include "scene/model/emitters.hpp"
+
+#include <vector>
+
+namespace stromboli::reference {
+
+/// A sampled way from a surface to a light.
+struct LightSample {
+    glm::dvec3 direction{0, 0, 1}; ///< unit, to the light
+    /// Radiance over the density of the direction (solid angle); delta lights: the irradiance on a
+    /// surface that faces the light. 0: nothing arrives.
+    glm::dvec3 value{0.0};
+    bool infinite = true;
+    glm::dvec3 target{0.0};            ///< finite lights: the segment ends here, before the light
+    uint32_t primitive = kNoPrimitive; ///< the lamp, which cannot hide itself
+};
+
+/// All a scene has to light a surface with, under either convention. The lights that are not delta
+/// functions ("broad": emitters, ambient light, CS184 rectangles) get several samples each.
+/// Refers to the scene, which must outlive it.
+class Lights {
+  public:
+    /// Throws std::invalid_argument if a scene for the physical convention still has area lights
+    /// (resolveAreaLights() turns them into emitters).
+    Lights(const Scene& scene, Convention convention);
+
+    size_t broadCount() const { return emitters_.size() + ambient_.size() + areas_.size(); }
+    size_t deltaCount() const { return delta_.size(); }
+    /// Every light of the file, whatever its kind.
+    size_t fileCount() const { return scene_.lights.size(); }
+
+    /// index < broadCount(). The surface is faced forward.
+    LightSample sampleBroad(size_t index, const SurfacePoint& surface, RandomStream& random) const;
+    /// index < deltaCount().
+    LightSample sampleDelta(size_t index, const SurfacePoint& surface) const;
+    /// What ambient lights send to a ray with this direction that hits nothing.
+    glm::dvec3 ambientRadiance(const glm::dvec3& direction) const;
+
+  private:
+    LightSample sampleEmitter(size_t index, const SurfacePoint& surface,
+                              RandomStream& random) const;
+    LightSample sampleAmbient(const Light& light, const SurfacePoint& surface,
+                              RandomStream& random) const;
+
+    const Scene& scene_;
+    Convention convention_;
+    std::vector<Emitter> emitters_;
+    std::vector<std::vector<double>> areaSums_; ///< of each mesh emitter: running sums of areas
+    std::vector<const Light*> ambient_, areas_, delta_;
+};
+
+} // namespace stromboli::reference

@@ -1,0 +1,129 @@
+#include "host/reference/reference_backend.hpp"
+
+#include "host/reference/camera_ray.hpp"
+#include "host/reference/integrator.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <climits>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+
+namespace stromboli {
+namespace {
+
+using reference::Convention;
+
+/// Counts the samples of a pass and passes the count on about ten times a second.
+class PassReport {
+  public:
+    explicit PassReport(const PassProgress& progress) : progress_(progress) {}
+
+    bool stopped() const { return stopped_.load(std::memory_order_relaxed); }
+    void add(uint64_t samples) {
+        const uint64_t done = done_.fetch_add(samples) + samples;
+        const std::unique_lock lock(mutex_, std::try_to_lock);
+        if (!lock.owns_lock()) return; // another thread is reporting
+        const auto now = std::chrono::steady_clock::now();
+        if (now < next_) return;
+        tell(done);
+        next_ = now + std::chrono::milliseconds(100);
+    }
+    void finish() { tell(done_.load()); }
+
+  private:
+    void tell(uint64_t done) {
+        if (progress_ && !stopped() && !progress_(done)) stopped_ = true;
+    }
+
+    const PassProgress& progress_;
+    std::atomic<uint64_t> done_{0};
+    std::atomic<bool> stopped_{false};
+    std::mutex mutex_;
+    std::chrono::steady_clock::time_point next_{};
+};
+
+} // namespace
+
+struct ReferenceBackend::Implementation {
+    reference::World world;
+    Camera camera;
+    RenderSettings settings;
+    tbb::task_arena arena;
+    std::atomic<uint64_t> paths{0}, rays{0};
+
+    Implementation(const Scene& scene, const Camera& c, const RenderSettings& s, unsigned threads)
+        : world(scene, s.cs184 ? Convention::Cs184 : Convention::Physical), camera(c), settings(s),
+          arena(std::min(threads == 0 ? INT_MAX : int(threads), tbb::info::default_concurrency())) {
+    }
+
+    /// One sample; a pure function of pixel and index.
+    glm::dvec3 take(uint32_t pixel, uint32_t index, uint64_t& rayCount) const {
+        reference::RandomStream random(pixel, index, settings.seed);
+        const double x = pixel % settings.width + random.next();
+        const double y = pixel / settings.width + random.next();
+        const reference::Ray ray =
+            reference::cameraRay(camera, x / settings.width, y / settings.height);
+        reference::PathSample path(world, settings, random);
+        const glm::dvec3 value =
+            settings.integrator == Integrator::Normals ? path.normalColor(ray) : path.radiance(ray);
+        rayCount += path.rays();
+        return value;
+    }
+
+    /// The samples of a pixel are taken in order by one thread: their statistics are rounded, and
+    /// so depend on the order.
+    void fill(const PixelTarget& target, PixelStatistics& pixel, PassReport& report) {
+        constexpr uint32_t kSamplesPerReport = 64;
+        while (pixel.taken() < target.samples && !report.stopped()) {
+            const uint32_t first = pixel.taken();
+            const uint32_t count = std::min(kSamplesPerReport, target.samples - first);
+            uint64_t rayCount = 0;
+            for (uint32_t i = first; i < first + count; ++i)
+                pixel.add(take(target.pixel, i, rayCount));
+            paths += count;
+            rays += rayCount;
+            report.add(count);
+        }
+    }
+};
+
+ReferenceBackend::ReferenceBackend(const Scene& scene, const Camera& camera,
+                                   const RenderSettings& settings, unsigned threads)
+    : implementation_(std::make_unique<Implementation>(scene, camera, settings, threads)) {
+    if (settings.lightSamples == 0) throw std::invalid_argument("lightSamples is 0");
+}
+
+ReferenceBackend::~ReferenceBackend() = default;
+
+void ReferenceBackend::sample(std::span<const PixelTarget> targets, Film& film,
+                              const PassProgress& progress) {
+    const RenderSettings& settings = implementation_->settings;
+    if (film.width != settings.width || film.height != settings.height)
+        throw std::invalid_argument("the film is not the size of the picture");
+    for (const PixelTarget& target : targets)
+        if (target.pixel >= film.pixels.size())
+            throw std::invalid_argument("pixel " + std::to_string(target.pixel) +
+                                        " is not in the film");
+
+    PassReport report(progress);
+    implementation_->arena.execute([&] {
+        tbb::parallel_for(tbb::blocked_range<size_t>(0, targets.size()), [&](const auto& range) {
+            for (size_t i = range.begin(); i != range.end(); ++i)
+                implementation_->fill(targets[i], film.pixels[targets[i].pixel], report);
+        });
+    });
+    report.finish();
+}
+
+RenderCounters ReferenceBackend::counters() const {
+    return {implementation_->paths, implementation_->rays};
+}
+
+} // namespace stromboli

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "host/render/backend.hpp"
+#include "host/render/settings.hpp"
+#include "scene/camera/camera.hpp"
+#include "scene/model/scene.hpp"
+
+#include <memory>
+
+namespace stromboli {
+
+/// Path tracer in double precision on the CPU: the second, independent implementation of
+/// docs/estimator.md, for checking the Vulkan kernel against. Random numbers depend on pixel,
+/// sample and seed only, so the film is the same to the last bit for every number of threads and
+/// every division into passes.
+class ReferenceBackend final : public Backend {
+  public:
+    /// The scene must outlive the backend. threads: 0 for all the machine has, which is also the
+    /// most there will be. Throws std::invalid_argument for a scene with area lights that are not
+    /// resolved (scene/model/ area_lights.hpp) unless settings.cs184, and for 0 light samples.
+    ReferenceBackend(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                     unsigned threads = 0);
+    ~ReferenceBackend() override;
+
+    /// The film is the whole picture, settings.width x settings.height; each pixel is named at most
+    /// once (std::invalid_argument if one is not in it). `progress` is called from the threads at
+    /// work, one at a time.
+    void sample(std::span<const PixelTarget> targets, Film& film,
+                const PassProgress& progress) override;
+    RenderCounters counters() const override;
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+} // namespace stromboli

@@ -1,0 +1,90 @@
+#include "host/reference/surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stromboli::reference {
+namespace {
+
+double sumOfMagnitudes(const glm::dvec3& v) {
+    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+}
+
+void fillTriangle(SurfacePoint& s, const Scene& scene, const Triangle& t, const Hit& hit) {
+    const glm::dvec3 v0 = scene.positions[t.corner[0]], v1 = scene.positions[t.corner[1]],
+                     v2 = scene.positions[t.corner[2]];
+    const double b0 = 1 - hit.b1 - hit.b2;
+    s.position = b0 * v0 + hit.b1 * v1 + hit.b2 * v2;
+    s.error = errorOnTriangle(v0, v1, v2);
+    s.geometric = triangleNormal(v0, v1, v2);
+    s.shading = s.geometric;
+    s.triangle = hit.primitive;
+    s.material = &scene.materials[t.material];
+    if (t.normals[0] == kNoNormals) return;
+    const glm::dvec3 n0 = scene.normals[t.normals[0]], n1 = scene.normals[t.normals[1]],
+                     n2 = scene.normals[t.normals[2]];
+    const glm::dvec3 n = b0 * n0 + hit.b1 * n1 + hit.b2 * n2;
+    // Opposite corner normals can cancel; then only the geometric one is a direction.
+    if (glm::dot(n, n) > 0) s.shading = glm::normalize(n);
+}
+
+void fillSphere(SurfacePoint& s, const Scene& scene, const Sphere& sphere, const Ray& ray,
+                const Hit& hit) {
+    const glm::dvec3 center = sphere.center;
+    s.geometric = glm::normalize(ray.origin + hit.t * ray.direction - center);
+    s.position = center + double(sphere.radius) * s.geometric;
+    s.error = errorOnSphere(center, sphere.radius);
+    s.shading = s.geometric;
+    s.material = &scene.materials[sphere.material];
+}
+
+} // namespace
+
+double errorOnTriangle(const glm::dvec3& v0, const glm::dvec3& v1, const glm::dvec3& v2) {
+    // Interpolation: 8 roundings of terms no larger than the coordinates. The other 8 are those of
+    // the distance to a plane through such points, as intersectTriangle() computes it.
+    return 16 * kRoundoff *
+           std::max({sumOfMagnitudes(v0), sumOfMagnitudes(v1), sumOfMagnitudes(v2)});
+}
+
+double errorOnSphere(const glm::dvec3& center, double radius) {
+    // 4 roundings each for the unit vector, its scaling and the sum with the centre; the rest for
+    // |f|^2 - r^2 in intersectSphere(), whose sign tells inside from outside.
+    return 16 * kRoundoff * (sumOfMagnitudes(center) + radius);
+}
+
+glm::dvec3 triangleNormal(const glm::dvec3& v0, const glm::dvec3& v1, const glm::dvec3& v2) {
+    return glm::normalize(glm::cross(v1 - v0, v2 - v0));
+}
+
+SurfacePoint surfaceAt(const Scene& scene, const Ray& ray, const Hit& hit) {
+    SurfacePoint s;
+    s.wo = -ray.direction;
+    s.primitive = hit.primitive;
+    const auto triangles = uint32_t(scene.triangles.size());
+    if (hit.primitive < triangles)
+        fillTriangle(s, scene, scene.triangles[hit.primitive], hit);
+    else
+        fillSphere(s, scene, scene.spheres[hit.primitive - triangles], ray, hit);
+    s.outside = glm::dot(s.geometric, s.wo) >= 0;
+    return s;
+}
+
+void faceForward(SurfacePoint& s, Convention convention) {
+    if (convention == Convention::Cs184) return;
+    if (!s.outside) s.geometric = -s.geometric;
+    if (glm::dot(s.shading, s.geometric) < 0) s.shading = -s.shading;
+    if (glm::dot(s.shading, s.wo) <= 0) s.shading = s.geometric;
+}
+
+glm::dvec3 moveOff(const glm::dvec3& position, double error, const glm::dvec3& n,
+                   const glm::dvec3& direction) {
+    return position + (glm::dot(n, direction) < 0 ? -error : error) * n;
+}
+
+glm::dvec3 emission(const SurfacePoint& s, Convention convention) {
+    const bool lit = convention == Convention::Cs184 || s.material->emitsBothSides || s.outside;
+    return lit ? glm::dvec3(s.material->emission) : glm::dvec3(0.0);
+}
+
+} // namespace stromboli::reference

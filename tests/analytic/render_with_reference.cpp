@@ -1,0 +1,20 @@
+#include "host/reference/reference_backend.hpp"
+#include "tests/analytic/scenes.hpp"
+
+namespace stromboli::test {
+
+// pointCamera() sees more than a point: 1e-10 of the distance on each side.
+const double kRounding = 1e-9;
+
+Film renderFilm(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                unsigned threads) {
+    ReferenceBackend backend(scene, camera, settings, threads);
+    Film film(settings.width, settings.height);
+    std::vector<PixelTarget> targets;
+    for (uint32_t i = 0; i < film.pixels.size(); ++i)
+        targets.push_back({i, settings.samplesPerPixel});
+    backend.sample(targets, film, {});
+    return film;
+}
+
+} // namespace stromboli::test

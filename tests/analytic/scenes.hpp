@@ -1,0 +1,74 @@
+#pragma once
+
+#include "host/film/film.hpp"
+#include "host/render/settings.hpp"
+#include "scene/camera/camera.hpp"
+#include "scene/model/scene.hpp"
+
+#include <initializer_list>
+
+namespace stromboli::test {
+
+/// Makes scenes in code.
+class SceneBuilder {
+  public:
+    Scene scene;
+
+    uint32_t add(const Material& material);
+    /// Starts a new instance for the geometry that follows.
+    void startInstance();
+    /// Counter-clockwise from the side the normal points to.
+    void triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, uint32_t material);
+    /// Normal edgeA x edgeB; an instance of its own.
+    void quad(const glm::vec3& corner, const glm::vec3& edgeA, const glm::vec3& edgeB,
+              uint32_t material);
+    /// Closed box with normals inwards, one instance.
+    void room(const glm::vec3& lo, const glm::vec3& hi, uint32_t material);
+    void sphere(const glm::vec3& center, float radius, uint32_t material);
+    void add(const Light& light) { scene.lights.push_back(light); }
+
+  private:
+    void addQuad(const glm::vec3& corner, const glm::vec3& edgeA, const glm::vec3& edgeB,
+                 uint32_t material);
+};
+
+Material diffuse(float albedo, float emission = 0);
+Material lamp(float radiance, bool bothSides = true);
+Material glass(float ior);
+
+/// Side 20, y = 0, normal up.
+void addFloor(SceneBuilder& builder, uint32_t material);
+
+/// Unit box with a lamp below its ceiling, a mirror and a glass sphere, and a conductor quad.
+Scene cornellBox();
+
+/// Sees the point `at` from `from`, so narrowly that the whole picture is that point.
+Camera pointCamera(const glm::dvec3& from, const glm::dvec3& at, double halfWidth = 1e-10);
+
+/// Settings of a small picture without roulette.
+RenderSettings smallPicture(uint32_t samplesPerPixel, uint32_t maxBounces);
+
+/// The mean over all pixels and samples, with its standard error.
+struct Estimate {
+    glm::dvec3 mean{0.0}, error{0.0};
+};
+
+/// Renders with the renderer that the executable is about: render_with_reference.cpp or
+/// render_with_kernel.cpp. threads: the reference's; 0 for all.
+Film renderFilm(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                unsigned threads = 0);
+/// Relative error that the renderer's arithmetic may put on a mean.
+extern const double kRounding;
+Estimate estimate(const Scene& scene, const Camera& camera, const RenderSettings& settings);
+
+/// Fails if the estimate is 4.5 standard errors from the expected value in a channel; false alarm
+/// below 1e-5 per channel. kRounding of the value is allowed besides.
+void expectMean(const Estimate& found, const glm::dvec3& expected);
+void expectMean(const Estimate& found, double expected);
+/// The same for two independent estimates of one value.
+void expectSameMean(const Estimate& a, const Estimate& b);
+
+inline constexpr DirectLight kDirectLightModes[] = {DirectLight::Lights, DirectLight::Hemisphere,
+                                                    DirectLight::Bsdf};
+
+} // namespace stromboli::test

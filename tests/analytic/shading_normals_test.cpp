@@ -1,0 +1,85 @@
+// A small triangle at the origin whose shading normal is tilted towards +x, off its geometric
+// normal +y.
+#include "tests/analytic/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace stromboli {
+namespace {
+
+using namespace test;
+
+constexpr double kF = 0.5 / 3.14159265358979323846; ///< BSDF of the triangle
+const Camera kFromAbove = pointCamera({0.5, 2, 0}, {0, 0, 0});
+const glm::vec3 kShadingNormal(0.8f, 0.6f, 0);
+
+SceneBuilder tiltedTriangle(const Material& material) {
+    SceneBuilder b;
+    b.triangle({-0.1f, 0, -0.1f}, {0, 0, 0.2f}, {0.2f, 0, -0.1f}, b.add(material));
+    b.scene.normals = {kShadingNormal};
+    for (uint32_t& n : b.scene.triangles[0].normals)
+        n = 0;
+    return b;
+}
+
+Light pointLight(const glm::vec3& position) {
+    Light light;
+    light.position = position;
+    return light;
+}
+
+TEST(ShadingNormals, CosineIsTheirs) {
+    SceneBuilder b = tiltedTriangle(diffuse(0.5f));
+    b.add(pointLight({1, 1, 0}));
+    const double cosine =
+        glm::dot(glm::normalize(glm::dvec3(1, 1, 0)), glm::normalize(glm::dvec3(kShadingNormal)));
+    const Estimate found = estimate(b.scene, kFromAbove, smallPicture(1, 1));
+    EXPECT_NEAR(found.mean.x / (kF * cosine), 1, 1e-7);
+}
+
+TEST(ShadingNormals, NothingComesFromBelowThem) {
+    SceneBuilder b = tiltedTriangle(diffuse(0.5f));
+    b.add(pointLight({-3, 1, 0})); // above the triangle
+    expectMean(estimate(b.scene, kFromAbove, smallPicture(1, 1)), 0);
+}
+
+TEST(ShadingNormals, AreFlippedForTheOtherSide) {
+    SceneBuilder b = tiltedTriangle(diffuse(0.5f));
+    b.add(pointLight({0, -1, 0}));
+    const Camera fromBelow = pointCamera({-0.5, -2, 0}, {0, 0, 0});
+    const Estimate found = estimate(b.scene, fromBelow, smallPicture(1, 1));
+    EXPECT_NEAR(found.mean.x / (kF * 0.6), 1, 1e-7);
+}
+
+TEST(ShadingNormals, GeometricNormalStandsInBeyondTheirHorizon) {
+    SceneBuilder b = tiltedTriangle(diffuse(0.5f));
+    b.add(pointLight({0, 1, 0}));
+    const Camera low = pointCamera({-2, 0.5, 0}, {0, 0, 0}); // above the triangle, below the normal
+    const Estimate found = estimate(b.scene, low, smallPicture(1, 1));
+    EXPECT_NEAR(found.mean.x / kF, 1, 1e-7);
+}
+
+/// A lamp below the triangle's plane, though above the shading normal's horizon: no light leaks to
+/// the other side, whatever finds the lamp.
+TEST(ShadingNormals, LetNoLightThroughTheSurface) {
+    Material metal;
+    metal.kind = MaterialKind::Microfacet;
+    metal.alpha = 0.8f, metal.k = glm::vec3(5);
+    Material mirror;
+    mirror.kind = MaterialKind::Mirror;
+    for (const Material& material : {diffuse(0.5f), metal, mirror}) {
+        SceneBuilder b = tiltedTriangle(material);
+        b.sphere({2, -0.4f, 0}, 0.35f, b.add(lamp(1)));
+        b.add(pointLight({2, -0.2f, 0}));
+        for (DirectLight mode : kDirectLightModes) {
+            RenderSettings s = smallPicture(64, 3);
+            s.directLight = mode;
+            expectMean(estimate(b.scene, kFromAbove, s), 0);
+        }
+    }
+}
+
+} // namespace
+} // namespace stromboli

@@ -1,0 +1,144 @@
+// Delta lights and ambient light over a diffuse floor of albedo 0.5: radiance = 0.5 / pi times the
+// irradiance, which has a closed form.
+#include "tests/analytic/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace stromboli {
+namespace {
+
+using namespace test;
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kF = 0.5 / kPi; ///< BSDF of the floor
+
+const Camera kSeesOrigin = pointCamera({1, 2, 3}, {0, 0, 0});
+
+Scene floorUnder(const Light& light) {
+    SceneBuilder b;
+    addFloor(b, b.add(diffuse(0.5f)));
+    b.add(light);
+    return b.scene;
+}
+
+/// At (0, 2, 1.5): distance 2.5, cosine to the floor 0.8.
+Light lightAbove(LightKind kind) {
+    Light light;
+    light.kind = kind;
+    light.color = {3, 2, 1};
+    light.position = {0, 2, 1.5f};
+    light.direction = {0, -0.8f, -0.6f};
+    return light;
+}
+
+TEST(SimpleLights, Point) {
+    Light light = lightAbove(LightKind::Point);
+    light.constantAttenuation = 0.5f, light.linearAttenuation = 0.25f,
+    light.quadraticAttenuation = 2;
+    const double irradiance = 0.8 / (0.5 + 0.25 * 2.5 + 2 * 2.5 * 2.5);
+    for (DirectLight mode : kDirectLightModes) {
+        RenderSettings s = smallPicture(1, 1);
+        s.directLight = mode;
+        expectMean(estimate(floorUnder(light), kSeesOrigin, s),
+                   kF * irradiance * glm::dvec3(3, 2, 1));
+    }
+}
+
+TEST(SimpleLights, PointBehindTheFloorGivesNothing) {
+    Light light = lightAbove(LightKind::Point);
+    light.position.y = -2;
+    expectMean(estimate(floorUnder(light), kSeesOrigin, smallPicture(1, 1)), 0);
+}
+
+TEST(SimpleLights, TwoSidedFloorIsLitFromBelow) {
+    Light light = lightAbove(LightKind::Point);
+    light.position.y = -2;
+    const Camera below = pointCamera({1, -2, 3}, {0, 0, 0});
+    expectMean(estimate(floorUnder(light), below, smallPicture(1, 1)),
+               kF * 0.8 * glm::dvec3(3, 2, 1));
+}
+
+TEST(SimpleLights, Shadow) {
+    SceneBuilder b;
+    addFloor(b, b.add(diffuse(0.5f)));
+    b.sphere({0, 1, 0.75f}, 0.1f, 0);
+    b.add(lightAbove(LightKind::Point));
+    expectMean(estimate(b.scene, kSeesOrigin, smallPicture(1, 1)), 0);
+    // The sphere beyond the light does not shade it.
+    b.scene.spheres[0].center = {0, 4, 3};
+    expectMean(estimate(b.scene, kSeesOrigin, smallPicture(1, 1)), kF * 0.8 * glm::dvec3(3, 2, 1));
+}
+
+TEST(SimpleLights, Directional) {
+    const Light light = lightAbove(LightKind::Directional);
+    const glm::dvec3 axis = glm::normalize(glm::dvec3(light.direction));
+    expectMean(estimate(floorUnder(light), kSeesOrigin, smallPicture(1, 1)),
+               kF * -axis.y * glm::dvec3(3, 2, 1));
+}
+
+TEST(SimpleLights, Spot) {
+    Light light = lightAbove(LightKind::Spot);
+    light.direction = {0, -1, 0}; // the floor point is off the axis by acos 0.8 = 36.87 degrees
+    light.falloffExponent = 3;
+    light.falloffAngle = float(74 * kPi / 180);
+    const double lit = kF * 0.8 * std::pow(0.8, 3);
+    expectMean(estimate(floorUnder(light), kSeesOrigin, smallPicture(1, 1)),
+               lit * glm::dvec3(3, 2, 1));
+    light.falloffAngle = float(73 * kPi / 180);
+    expectMean(estimate(floorUnder(light), kSeesOrigin, smallPicture(1, 1)), 0);
+}
+
+TEST(SimpleLights, AmbientFromAllSidesInEveryMode) {
+    Light light;
+    light.kind = LightKind::Ambient;
+    light.color = {3, 2, 1};
+    for (DirectLight mode : kDirectLightModes) {
+        RenderSettings s = smallPicture(64, 1);
+        s.directLight = mode;
+        expectMean(estimate(floorUnder(light), kSeesOrigin, s), 0.5 * glm::dvec3(3, 2, 1));
+    }
+}
+
+TEST(SimpleLights, UpperHemisphereLightsHalfOfAWall) {
+    SceneBuilder b;
+    b.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, b.add(diffuse(0.5f)));
+    Light light;
+    light.kind = LightKind::Ambient;
+    light.upperHemisphereOnly = true;
+    b.add(light);
+    for (DirectLight mode : kDirectLightModes) {
+        RenderSettings s = smallPicture(64, 1);
+        s.directLight = mode;
+        expectMean(estimate(b.scene, kSeesOrigin, s), 0.25);
+    }
+}
+
+TEST(SimpleLights, AmbientIsNoBackdrop) {
+    Scene empty;
+    empty.lights.emplace_back().kind = LightKind::Ambient;
+    for (DirectLight mode : kDirectLightModes) {
+        RenderSettings s = smallPicture(1, 5);
+        s.directLight = mode;
+        expectMean(estimate(empty, kSeesOrigin, s), 0);
+    }
+}
+
+TEST(SimpleLights, MirrorShowsAmbientLightWithoutDirectLight) {
+    SceneBuilder b;
+    Material mirror;
+    mirror.kind = MaterialKind::Mirror;
+    mirror.reflectance = glm::vec3(0.25f);
+    addFloor(b, b.add(mirror));
+    b.add(lightAbove(LightKind::Point));
+    b.scene.lights.emplace_back().kind = LightKind::Ambient;
+    for (DirectLight mode : kDirectLightModes) {
+        RenderSettings s = smallPicture(1, 1);
+        s.directLight = mode;
+        expectMean(estimate(b.scene, kSeesOrigin, s), 0.25);
+    }
+}
+
+} // namespace
+} // namespace stromboli
