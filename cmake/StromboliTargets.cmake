@@ -6,6 +6,11 @@ target_include_directories(stromboli_settings INTERFACE ${PROJECT_SOURCE_DIR})
 # error bounds and the edge functions' antisymmetry no longer hold (docs/numerics.md).
 target_compile_options(stromboli_settings INTERFACE -Wall -Wextra -Wshadow -Wconversion
                        -Wno-sign-conversion -ffp-contract=off)
+# g++ 12.2 vectorises double -> float -> double conversions of neighbouring members into nothing:
+# the rounding to float is lost, and with it the rule that all backends see the same geometry.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(stromboli_settings INTERFACE -fno-tree-slp-vectorize)
+endif()
 # Vulkan's structures are filled by designated initialisers that leave the zero members out.
 target_compile_options(stromboli_settings INTERFACE -Wno-missing-field-initializers)
 if(STROMBOLI_WARNINGS_AS_ERRORS)

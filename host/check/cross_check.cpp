@@ -142,8 +142,9 @@ void checkConstants(const Film& a, const Film& b, const CheckSettings& settings,
         bool differs = false;
         for (int c = 0; c < 3; ++c) {
             const double larger = std::max(pa.mean[c], pb.mean[c]);
-            differs = differs || (isConstant(pa, c, settings) && isConstant(pb, c, settings) &&
-                                  std::abs(pa.mean[c] - pb.mean[c]) > settings.rounding * larger);
+            differs = differs ||
+                      (isConstant(pa, c, settings) && isConstant(pb, c, settings) &&
+                       std::abs(pa.mean[c] - pb.mean[c]) > settings.rounding * larger + kUnderflow);
         }
         if (differs) ++result.constantMismatches;
     }

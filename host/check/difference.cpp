@@ -27,7 +27,7 @@ void Difference::add(const Difference& other) {
 double Difference::z(double rounding) const {
     const double d = sumA_ - sumB_;
     // Radiance is not negative, so the sums bound the sum of the pixels' own rounding errors.
-    const double excess = std::abs(d) - rounding * std::max(sumA_, sumB_);
+    const double excess = std::abs(d) - rounding * std::max(sumA_, sumB_) - kUnderflow;
     if (!(excess > 0)) return 0;
     return std::copysign(excess / std::sqrt(std::max(separate_, pooled_)), d);
 }

@@ -4,6 +4,10 @@
 
 namespace stromboli {
 
+/// Radiance that float arithmetic may turn into 0: a factor below 2^-126 vanishes, and may have been
+/// about to be multiplied by up to 2^26 (radiance, areas, densities).
+inline constexpr double kUnderflow = 0x1p-100;
+
 /// Sum over pixels of the difference of two films' means in one channel, with its variance.
 ///
 /// The variance is the one that holds if the films agree. Two estimates of it are kept and the

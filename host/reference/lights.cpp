@@ -91,6 +91,9 @@ LightSample Lights::sampleAmbient(const Light& light, const SurfacePoint& surfac
     return sample;
 }
 
+/// The share of the way to a point light, at its end, where nothing shades: docs/estimator.md.
+constexpr double kPointLightGap = 0x1p-16;
+
 LightSample Lights::sampleDelta(size_t index, const SurfacePoint& surface) const {
     const Light& light = *delta_[index];
     const glm::dvec3 axis = glm::normalize(glm::dvec3(light.direction));
@@ -101,8 +104,8 @@ LightSample Lights::sampleDelta(size_t index, const SurfacePoint& surface) const
         return sample;
     }
     sample.infinite = false;
-    sample.target = light.position;
-    const glm::dvec3 to = sample.target - surface.position;
+    const glm::dvec3 to = glm::dvec3(light.position) - surface.position;
+    sample.target = glm::dvec3(light.position) - kPointLightGap * to;
     const double distance = glm::length(to);
     if (distance == 0) return LightSample{};
     sample.direction = to / distance;

@@ -107,6 +107,10 @@ LightSample sampleAmbient(SurfacePoint s, Light light, vec2 u) {
     return r;
 }
 
+/// The share of the way to a point light, at its end, where nothing shades: 2^-16, 256 roundings.
+/// A light placed in the very plane of a surface (lamps often are) would else be shaded by chance.
+const float POINT_LIGHT_GAP = 1.52587890625e-5;
+
 LightSample sampleDelta(SurfacePoint s, Light light) {
     LightSample r;
     if (light.kind == LIGHT_DIRECTIONAL)
@@ -115,7 +119,7 @@ LightSample sampleDelta(SurfacePoint s, Light light) {
     const float distance2 = dot(d, d), distance = sqrt(distance2);
     r.direction = d / distance;
     r.infinite = false;
-    r.target = light.position;
+    r.target = light.position - POINT_LIGHT_GAP * d;
     const float attenuation =
         light.edgeB.x + light.edgeB.y * distance + light.edgeB.z * distance2;
     r.radiance = distance2 > 0.0 ? light.color / attenuation : vec3(0.0);

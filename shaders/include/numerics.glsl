@@ -19,12 +19,17 @@ void twoSum(vec3 a, vec3 b, out vec3 sum, out vec3 error) {
     error = e;
 }
 
-/// Adds x to the two-float sum (high, low).
+/// Adds x to the two-float sum (high, low). The low part takes over what rounding left and hands
+/// what has grown above the rounding of the high part back to it: summed on its own it would drift
+/// as any float sum does (by 0.2 % in 1e7 samples of 0.1).
 void addCompensated(inout vec3 high, inout vec3 low, vec3 x) {
     vec3 sum, error;
     twoSum(high, x, sum, error);
-    high = sum;
-    low += error;
+    precise vec3 rest = low + error;
+    precise vec3 newHigh = sum + rest; // Dekker's FastTwoSum: |rest| is below |sum|
+    precise vec3 newLow = rest - (newHigh - sum);
+    high = newHigh;
+    low = newLow;
 }
 
 /// Moves p, whose error is at most `error` per component, along the unit normal n to the side

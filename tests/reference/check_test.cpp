@@ -243,5 +243,17 @@ TEST(Normal, QuantilesAndSidakLevels) {
     EXPECT_NEAR(1 - std::pow(1 - sidakLevel(0.05, 1000), 1000), 0.05, 1e-12);
 }
 
+TEST(CrossCheck, WhatFloatsCannotHoldIsBlack) {
+    Film black(8, 8), faint(8, 8);
+    for (PixelStatistics& p : black.pixels)
+        p.count = 64;
+    for (PixelStatistics& p : faint.pixels)
+        p.count = 64, p.mean = glm::dvec3(1e-40);
+    EXPECT_TRUE(crossCheck(black, faint).agree());
+    for (PixelStatistics& p : faint.pixels)
+        p.mean = glm::dvec3(1e-20);
+    EXPECT_FALSE(crossCheck(black, faint).agree());
+}
+
 } // namespace
 } // namespace stromboli

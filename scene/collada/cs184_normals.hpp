@@ -1,0 +1,22 @@
+#pragma once
+
+#include "scene/collada/mesh.hpp"
+
+#include <glm/glm.hpp>
+
+#include <span>
+#include <vector>
+
+namespace stromboli::collada {
+
+/// The vertex normals of the CS184 renderer, one per position; NaN or zero where it has none.
+/// `positions` in world space.
+/// - Inside the mesh: the sum of the cross products of the triangles around the vertex.
+/// - On the boundary: that renderer walks around the neighbour n that follows the vertex v along
+///   the open edge (the boundary loop runs against the triangles' winding), with v as the apex, and
+///   takes the loop for a triangle like the others. The sum is that of (n - v) x (m - v) over all
+///   neighbours m of n: minus the winding's normal if everything is plane and convex.
+std::vector<glm::dvec3> cs184VertexNormals(std::span<const glm::dvec3> positions,
+                                           std::span<const PrimitiveGroup> groups);
+
+} // namespace stromboli::collada

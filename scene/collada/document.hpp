@@ -1,0 +1,82 @@
+#pragma once
+
+#include <tinyxml2.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+namespace stromboli::collada {
+
+using Element = tinyxml2::XMLElement;
+
+/// A COLLADA file in memory: its elements, their ids, and errors that say where.
+class Document {
+  public:
+    /// Reads and parses the file. Throws SceneError if it cannot be read, is not well-formed XML
+    /// or its root is not COLLADA.
+    explicit Document(const std::filesystem::path& file);
+
+    const Element& root() const { return *xml_.RootElement(); }
+    size_t elementCount() const { return elementCount_; }
+    /// True if any element belongs to the CS184 dialect.
+    bool cglDialect() const { return cglDialect_; }
+
+    /// Throws SceneError with file, line and name of the element.
+    [[noreturn]] void fail(const Element& at, const std::string& message) const;
+
+    /// The first child of that name; throws SceneError where there is none.
+    const Element& require(const Element& parent, const char* child) const;
+    /// The attribute's text; throws SceneError where there is none.
+    std::string requireAttribute(const Element& at, const char* name) const;
+
+    /// What the reference `#id` in the attribute points to: an element named `kind`. Throws
+    /// SceneError if the attribute is missing, the reference leaves the file or nothing matches.
+    const Element& resolve(const Element& at, const char* attribute, const char* kind) const;
+
+  private:
+    void read(const std::filesystem::path& file);
+    void collectIds();
+
+    std::string file_;
+    tinyxml2::XMLDocument xml_;
+    std::unordered_map<std::string, const Element*> byKindAndId_;
+    size_t elementCount_ = 0;
+    bool cglDialect_ = false;
+};
+
+/// True if the element has that name.
+bool named(const Element& element, const char* name);
+
+/// The name attribute, else the id, else the element's own name: for messages.
+std::string displayName(const Element& element);
+
+/// The element's `<technique profile="CGL">` (or CMU462) inside one of its `<extra>`; null if it
+/// has none.
+const Element* cglTechnique(const Element& element);
+
+/// Range over an element's children: `for (const Element& child : children(parent))`.
+class children {
+  public:
+    explicit children(const Element& parent) : first_(parent.FirstChildElement()) {}
+
+    struct Iterator {
+        const Element* at;
+        const Element& operator*() const { return *at; }
+        Iterator& operator++() {
+            at = at->NextSiblingElement();
+            return *this;
+        }
+        bool operator!=(const Iterator& other) const { return at != other.at; }
+    };
+    Iterator begin() const { return {first_}; }
+    Iterator end() const { return {nullptr}; }
+
+  private:
+    const Element* first_;
+};
+
+} // namespace stromboli::collada

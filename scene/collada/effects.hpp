@@ -1,0 +1,19 @@
+#pragma once
+
+#include "scene/collada/context.hpp"
+
+namespace stromboli::collada {
+
+/// The material an <effect> describes: its CS184 dialect if it has one, else its profile_COMMON
+/// (constant, lambert, phong, blinn: diffuse reflection and emission; everything else those models
+/// have is reported). Throws SceneError for values that make no sense.
+Material readEffect(Context& context, const Element& effect, const std::string& name);
+
+/// A fraction of light per channel: clamped to [0, 1] with a warning, since a surface that
+/// reflects more than it receives has no picture. With cs184 only below.
+glm::vec3 readFraction(Context& context, const Element& at);
+
+/// A radiance or other amount of light: negative channels become 0, with a warning.
+glm::vec3 readLightColor(Context& context, const Element& at);
+
+} // namespace stromboli::collada

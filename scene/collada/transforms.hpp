@@ -1,0 +1,26 @@
+#pragma once
+
+#include "scene/collada/document.hpp"
+
+#include <glm/glm.hpp>
+
+namespace stromboli::collada {
+
+/// From the file's axes and unit to the world's: y up, metres (`up_axis`, `unit`). `useUnit` false
+/// leaves lengths as they are.
+glm::dmat4 fileToWorld(const Document& document, bool useUnit);
+
+/// Metres per unit of length of the file; throws SceneError unless positive and finite.
+double metersPerUnit(const Document& document);
+
+/// The product of the node's transformation elements, in document order: the first in the file is
+/// the last applied to a point. Throws SceneError for one that makes no sense.
+glm::dmat4 nodeTransform(const Document& document, const Element& node);
+
+/// True for <matrix>, <translate>, <rotate>, <scale>, <lookat> and <skew>.
+bool isTransform(const Element& element);
+
+/// True if every element of the matrix is a finite number.
+bool isFinite(const glm::dmat4& matrix);
+
+} // namespace stromboli::collada

@@ -1,0 +1,178 @@
+#include "scene/collada/visual_scene.hpp"
+
+#include "scene/collada/cameras.hpp"
+#include "scene/collada/cgl_dialect.hpp"
+#include "scene/collada/lights.hpp"
+#include "scene/collada/materials.hpp"
+#include "scene/collada/placement.hpp"
+#include "scene/collada/primitives.hpp"
+#include "scene/collada/transforms.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace stromboli::collada {
+namespace {
+
+/// References to nodes can be nested so deep...
+constexpr size_t kDeepestNode = 1000;
+/// ...and repeat so many nodes, before a file of a few lines fills any memory.
+constexpr size_t kMostRepeatedNodes = size_t(1) << 20;
+
+/// A <geometry>, read once for all its instances.
+struct Geometry {
+    std::string name;
+    std::optional<double> sphereRadius;
+    Mesh mesh;
+    Drops drops;
+};
+
+class SceneWalk {
+  public:
+    explicit SceneWalk(Context& context) : context_(context), materials_(context) {}
+
+    void run(const Element& visualScene) {
+        const glm::dmat4 toWorld = fileToWorld(context_.document, !context_.options.cs184);
+        for (const Element& child : children(visualScene)) {
+            if (named(child, "node"))
+                visitNode(child, toWorld);
+            else if (!isMetadata(child))
+                ignore(child, "has no effect on the picture");
+        }
+        for (const Element* geometry : geometryOrder_) {
+            const Geometry& read = geometries_.at(geometry);
+            read.drops.reportTo(context_.report, read.name);
+        }
+    }
+
+  private:
+    static bool isMetadata(const Element& element) {
+        return named(element, "asset") || named(element, "extra");
+    }
+
+    void ignore(const Element& element, const std::string& why) {
+        context_.report.ignore(fmt::format("<{}>", element.Name()), why);
+    }
+
+    void visitNode(const Element& node, const glm::dmat4& parentToWorld) {
+        const Document& document = context_.document;
+        if (std::find(path_.begin(), path_.end(), &node) != path_.end())
+            document.fail(node, fmt::format("'{}' contains itself through <instance_node>",
+                                            displayName(node)));
+        if (path_.size() >= kDeepestNode)
+            document.fail(node, fmt::format("nodes are nested more than {} deep", kDeepestNode));
+        if (++visited_ > document.elementCount() + kMostRepeatedNodes)
+            document.fail(node, fmt::format("<instance_node> repeats more than {} nodes",
+                                            kMostRepeatedNodes));
+        const glm::dmat4 toWorld = parentToWorld * nodeTransform(document, node);
+        if (!isFinite(toWorld)) document.fail(node, "its transformation overflows");
+        path_.push_back(&node);
+        for (const Element& child : children(node))
+            visitChild(node, child, toWorld);
+        path_.pop_back();
+    }
+
+    void visitChild(const Element& node, const Element& child, const glm::dmat4& toWorld) {
+        const Document& document = context_.document;
+        const std::string_view kind = child.Name();
+        if (kind == "node") {
+            visitNode(child, toWorld);
+        } else if (kind == "instance_node") {
+            visitNode(document.resolve(child, "url", "node"), toWorld);
+        } else if (kind == "instance_geometry") {
+            placeGeometry(node, child, toWorld);
+        } else if (kind == "instance_light") {
+            placeLight(context_, document.resolve(child, "url", "light"), toWorld);
+        } else if (kind == "instance_camera") {
+            placeCamera(context_, document.resolve(child, "url", "camera"), toWorld);
+        } else if (kind == "instance_controller") {
+            ignore(child, "skinned and morphed meshes are left out");
+        } else if (!isTransform(child) && !isMetadata(child)) {
+            ignore(child, "has no effect on the picture");
+        }
+    }
+
+    void placeGeometry(const Element& node, const Element& instance, const glm::dmat4& toWorld) {
+        Geometry& geometry = read(context_.document.resolve(instance, "url", "geometry"));
+        const MaterialBinding binding(context_, materials_, instance);
+        const std::string name = displayName(node);
+        if (geometry.sphereRadius) {
+            placeSphere(context_, *geometry.sphereRadius, toWorld, binding.first(), name,
+                        geometry.drops);
+            return;
+        }
+        std::vector<uint32_t> materials;
+        for (const PrimitiveGroup& group : geometry.mesh.groups)
+            materials.push_back(binding.indexFor(group.materialSymbol));
+        placeMesh(context_, instance, geometry.mesh, toWorld, materials, name, geometry.drops);
+    }
+
+    Geometry& read(const Element& element) {
+        const auto [found, isNew] = geometries_.try_emplace(&element);
+        if (!isNew) return found->second;
+        geometryOrder_.push_back(&element);
+        Geometry& geometry = found->second;
+        geometry.name = displayName(element);
+        geometry.sphereRadius = readCglSphere(context_, element);
+        for (const Element& child : children(element)) {
+            const bool isMesh = named(child, "mesh");
+            if (isMesh && !geometry.sphereRadius)
+                geometry.mesh = MeshReader(context_).read(child);
+            else if (isMesh)
+                ignore(child, "the geometry's <sphere> takes its place");
+            else if (!isMetadata(child))
+                ignore(child, "only <mesh> and spheres are rendered");
+        }
+        size_t triangles = 0;
+        for (const PrimitiveGroup& group : geometry.mesh.groups)
+            triangles += group.triangles.size();
+        if (!geometry.sphereRadius && triangles == 0)
+            context_.report.warn(fmt::format("geometry '{}' has no triangles", geometry.name));
+        return geometry;
+    }
+
+    Context& context_;
+    MaterialTable materials_;
+    std::unordered_map<const Element*, Geometry> geometries_;
+    std::vector<const Element*> geometryOrder_;
+    std::vector<const Element*> path_; ///< the nodes from the root to the one being visited
+    size_t visited_ = 0;
+};
+
+/// Counts the contents of libraries nothing here reads, and what <scene> shows besides.
+void reportUnread(Context& context) {
+    for (const Element& library : children(context.document.root())) {
+        const std::string_view kind = library.Name();
+        if (kind == "scene") {
+            for (const Element& instance : children(library))
+                if (!named(instance, "instance_visual_scene") && !named(instance, "extra"))
+                    context.report.ignore(fmt::format("<{}>", instance.Name()),
+                                          "has no effect on the picture");
+            continue;
+        }
+        const bool isRead = kind == "asset" || kind == "extra" || kind == "library_cameras" ||
+                            kind == "library_lights" || kind == "library_effects" ||
+                            kind == "library_materials" || kind == "library_geometries" ||
+                            kind == "library_nodes" || kind == "library_visual_scenes";
+        if (isRead) continue;
+        for (const Element& element : children(library))
+            if (!named(element, "asset") && !named(element, "extra"))
+                context.report.ignore(fmt::format("<{}>", element.Name()), "not supported");
+    }
+}
+
+} // namespace
+
+void readVisualScene(Context& context) {
+    const Document& document = context.document;
+    const Element& scene = document.require(document.root(), "scene");
+    const Element& instance = document.require(scene, "instance_visual_scene");
+    SceneWalk(context).run(document.resolve(instance, "url", "visual_scene"));
+    reportUnread(context);
+}
+
+} // namespace stromboli::collada

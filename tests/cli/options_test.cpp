@@ -1,0 +1,108 @@
+// What the command line means.
+#include "host/cli/cs184_spelling.hpp"
+#include "host/cli/options.hpp"
+#include "host/core/error.hpp"
+
+#include <gtest/gtest.h>
+
+namespace stromboli {
+namespace {
+
+Options parse(std::vector<std::string> arguments) {
+    const std::optional<Options> options = parseOptions(std::move(arguments));
+    if (!options) throw std::runtime_error("nothing to run");
+    return *options;
+}
+
+TEST(Options, Defaults) {
+    const Options o = parse({"render", "a.dae", "-o", "a.png"});
+    EXPECT_EQ(o.command, Command::Render);
+    EXPECT_EQ(o.scene, "a.dae");
+    EXPECT_EQ(o.output, "a.png");
+    EXPECT_EQ(o.settings.samplesPerPixel, 64u);
+    EXPECT_EQ(o.settings.maxBounces, 8u);
+    EXPECT_FALSE(o.settings.adaptive.enabled);
+    EXPECT_EQ(o.settings.roulette.mode, Roulette::Mode::Throughput);
+    EXPECT_FALSE(o.sizeGiven);
+}
+
+TEST(Options, EverythingGiven) {
+    const Options o =
+        parse({"render", "a.dae",      "-o",   "a.exr",     "-s",        "9",
+               "-l",     "3",          "-m",   "4",         "-r",        "20",
+               "10",     "-a",         "8",    "0.1",       "-H",        "--min-bounce",
+               "2",      "--roulette", "0.25", "--camera",  "frame",     "--seed",
+               "5",      "--device",   "cpu",  "--backend", "reference", "--exposure",
+               "-1.5",   "--crop",     "1",    "2",         "3",         "4",
+               "-q"});
+    EXPECT_EQ(o.settings.samplesPerPixel, 9u);
+    EXPECT_EQ(o.settings.lightSamples, 3u);
+    EXPECT_EQ(o.settings.maxBounces, 4u);
+    EXPECT_EQ(o.settings.width, 20u);
+    EXPECT_EQ(o.settings.height, 10u);
+    EXPECT_TRUE(o.settings.adaptive.enabled);
+    EXPECT_EQ(o.settings.adaptive.batch, 8u);
+    EXPECT_EQ(o.settings.adaptive.tolerance, 0.1);
+    EXPECT_EQ(o.settings.directLight, DirectLight::Hemisphere);
+    EXPECT_EQ(o.settings.minBounce, 2u);
+    EXPECT_EQ(o.settings.roulette.mode, Roulette::Mode::Fixed);
+    EXPECT_EQ(o.settings.roulette.terminationProbability, 0.25);
+    EXPECT_EQ(o.camera, CameraChoice::Frame);
+    EXPECT_EQ(o.settings.seed, 5u);
+    EXPECT_EQ(o.device, "cpu");
+    EXPECT_EQ(o.backend, BackendChoice::Reference);
+    EXPECT_EQ(o.exposure, -1.5);
+    EXPECT_EQ(o.settings.crop.height, 4u);
+    EXPECT_EQ(o.verbosity, Verbosity::Quiet);
+}
+
+TEST(Options, Cs184ChangesDefaults) {
+    const Options o = parse({"render", "a.dae", "-o", "a.png", "--cs184"});
+    EXPECT_EQ(o.settings.samplesPerPixel, 1u);
+    EXPECT_EQ(o.settings.maxBounces, 1u);
+    EXPECT_TRUE(o.settings.adaptive.enabled);
+    EXPECT_EQ(o.settings.adaptive.batch, 32u);
+    EXPECT_EQ(o.settings.roulette.mode, Roulette::Mode::None);
+}
+
+TEST(Options, Cs184Spellings) {
+    const Options o =
+        parse({"render", "-t",  "4",  "-s", "2",  "-m", "3",  "-o", "0",     "-r",
+               "480",    "360", "-p", "10", "20", "30", "40", "-f", "a.png", "a.dae"});
+    EXPECT_EQ(o.output, "a.png");
+    EXPECT_EQ(o.settings.minBounce, 3u); // -o 0: only the light of exactly m bounces
+    EXPECT_EQ(o.threads, 4u);
+    EXPECT_EQ(o.settings.crop.x, 10u);
+    EXPECT_EQ(o.settings.crop.y, 360u - 20 - 40); // Y counts from the bottom
+    EXPECT_EQ(parse({"render", "a.dae", "-f", "a.png", "-o", "1", "-m", "3"}).settings.minBounce,
+              0u);
+}
+
+TEST(Options, SpellingLeavesOutputsAlone) {
+    EXPECT_EQ(fromCs184Spelling({"-o", "0.png"}), (std::vector<std::string>{"-o", "0.png"}));
+    EXPECT_EQ(fromCs184Spelling({"-o", "0"}), (std::vector<std::string>{"--accumulate", "0"}));
+}
+
+TEST(Options, ContradictionsAreRefused) {
+    for (const std::vector<std::string>& extra : std::vector<std::vector<std::string>>{
+             {"-s", "0"},           {"-s", "99999999999"},
+             {"-s", "many"},        {"-l", "0"},
+             {"-m", "-1"},          {"-r", "0", "10"},
+             {"-r", "10"},          {"-r", "100000", "10"},
+             {"--min-bounce", "9"}, {"-a", "0", "0.05"},
+             {"-a", "1.5", "0.05"}, {"-a", "32", "-1"},
+             {"--roulette", "1"},   {"--roulette", "sometimes"},
+             {"--camera", "left"},  {"--crop", "0", "0", "0", "5"},
+             {"-q", "-v"},          {"-H", "--direct", "bsdf"},
+             {"--no-such-option"},  {"second.dae"}}) {
+        std::vector<std::string> arguments = {"render", "a.dae", "-o", "a.png"};
+        arguments.insert(arguments.end(), extra.begin(), extra.end());
+        EXPECT_THROW(parse(arguments), UsageError) << extra[0];
+    }
+    EXPECT_THROW(parse({}), UsageError);
+    EXPECT_THROW(parse({"paint"}), UsageError);
+    EXPECT_THROW(parse({"render", "a.dae"}), UsageError); // no output
+}
+
+} // namespace
+} // namespace stromboli

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stromboli::test {
+
+/// What a run of the program left behind.
+struct Run {
+    int exitCode = -1; ///< 128 + n if signal n ended it
+    std::string out;   ///< standard output
+    std::string err;   ///< standard error
+};
+
+/// Runs the program with the Vulkan validation layer on; `environment` is put before the command,
+/// as in a shell ("A=1").
+Run stromboli(const std::vector<std::string>& arguments, const std::string& environment = "");
+
+/// A folder of its own for each test, removed at the end.
+class ScratchFolder {
+  public:
+    ScratchFolder();
+    ~ScratchFolder();
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+    std::string file(const std::string& name) const { return (path_ / name).string(); }
+    std::string write(const std::string& name, const std::string& text) const;
+    /// Names of all there is in the folder.
+    std::vector<std::string> entries() const;
+
+  private:
+    std::filesystem::path path_;
+};
+
+/// A scene of scene/library.
+std::string libraryScene(const std::string& name);
+
+} // namespace stromboli::test

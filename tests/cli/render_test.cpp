@@ -1,0 +1,131 @@
+// The program as its users run it.
+#include "host/film/exr.hpp"
+#include "host/film/png.hpp"
+#include "tests/cli/program.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+
+namespace stromboli::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class Program : public testing::Test {
+  protected:
+    ScratchFolder folder;
+    std::string scene = libraryScene("cornell_boxes.dae");
+
+    Run render(const std::string& output, std::vector<std::string> extra) {
+        std::vector<std::string> arguments = {"render", scene, "-o", folder.file(output),
+                                              "-r",     "32",  "24"};
+        arguments.insert(arguments.end(), extra.begin(), extra.end());
+        Run run = stromboli(arguments);
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        return run;
+    }
+};
+
+TEST_F(Program, WritesPngAndReportsTheWork) {
+    const Run run = render("a.png", {"-s", "4"});
+    const ByteImage image = readPng(folder.file("a.png"));
+    EXPECT_EQ(image.width, 32u);
+    EXPECT_EQ(image.height, 24u);
+    EXPECT_THAT(run.err, HasSubstr("3072 paths"));
+    EXPECT_THAT(run.err, HasSubstr("Mrays/s"));
+    EXPECT_THAT(run.err, HasSubstr("0 rejected"));
+    EXPECT_THAT(run.err, Not(HasSubstr("\r"))); // no progress bar in a pipe
+    EXPECT_EQ(run.out, "");
+}
+
+TEST_F(Program, QuietSaysNothing) {
+    EXPECT_EQ(render("a.png", {"-s", "1", "-q"}).err, "");
+}
+
+TEST_F(Program, SameArgumentsSameBytes) {
+    render("a.png", {"-s", "8"});
+    render("b.png", {"-s", "8"});
+    render("c.png", {"-s", "8", "--seed", "1"});
+    EXPECT_EQ(readPng(folder.file("a.png")).rgb, readPng(folder.file("b.png")).rgb);
+    EXPECT_NE(readPng(folder.file("a.png")).rgb, readPng(folder.file("c.png")).rgb);
+}
+
+TEST_F(Program, ExrHoldsWhatThePngShows) {
+    render("a.exr", {"-s", "16", "--aov"});
+    render("a.png", {"-s", "16", "--exposure", "1"});
+    const FloatImage linear = readExr(folder.file("a.exr"));
+    const ByteImage bytes = readPng(folder.file("a.png"));
+    for (size_t i = 0; i < linear.channels.at("G").size(); ++i) {
+        const double l = std::min(1.0, 2.0 * double(linear.channels.at("G")[i]));
+        const double s = l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055;
+        EXPECT_NEAR(bytes.rgb[3 * i + 1], 255 * s, 0.51);
+        EXPECT_EQ(linear.channels.at("samples")[i], 16.0f);
+    }
+}
+
+TEST_F(Program, AdaptiveWritesARatePicture) {
+    render("a.png", {"-s", "256", "-a", "16", "0.2"});
+    EXPECT_EQ(readPng(folder.file("a_rate.png")).width, 32u);
+}
+
+TEST_F(Program, StatisticsAreJson) {
+    render("a.png", {"-s", "2", "--stats", folder.file("s.json")});
+    const auto json = nlohmann::json::parse(std::ifstream(folder.path() / "s.json"));
+    EXPECT_EQ(json["samplesTaken"], 32 * 24 * 2);
+    EXPECT_EQ(json["paths"], 32 * 24 * 2);
+    EXPECT_TRUE(json["complete"]);
+    EXPECT_GT(json["rays"], json["paths"]);
+}
+
+TEST_F(Program, ReferenceBackend) {
+    render("a.png", {"-s", "1", "--backend", "reference"});
+    EXPECT_EQ(readPng(folder.file("a.png")).width, 32u);
+}
+
+TEST_F(Program, CheckAgrees) {
+    const Run run = stromboli({"check", scene, "-r", "48", "36", "-s", "64", "--alpha", "1e-6"});
+    EXPECT_EQ(run.exitCode, 0) << run.out << run.err;
+    EXPECT_THAT(run.out, HasSubstr("agree"));
+}
+
+TEST_F(Program, InfoNamesWhatTheKernelHolds) {
+    const Run run = stromboli({"info", libraryScene("cornell_mirror_glass.dae")});
+    EXPECT_EQ(run.exitCode, 0) << run.err;
+    for (const char* part : {"mirror", "glass", "SAH cost", "primitive buffer", "film", "leaf"})
+        EXPECT_THAT(run.out, HasSubstr(part));
+    EXPECT_THAT(run.out, Not(HasSubstr("microfacet")));
+}
+
+TEST_F(Program, DevicesNamesTheChosenOne) {
+    const Run run = stromboli({"devices"});
+    EXPECT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("chosen"));
+    EXPECT_THAT(run.out, HasSubstr("usable"));
+}
+
+TEST_F(Program, HelpAndVersion) {
+    const Run help = stromboli({"render", "--help"});
+    EXPECT_EQ(help.exitCode, 0);
+    for (const char* part : {"--samples", "--roulette", "[64", "Sampling", "Output", "Device"})
+        EXPECT_THAT(help.out, HasSubstr(part));
+    const Run version = stromboli({"--version"});
+    EXPECT_EQ(version.exitCode, 0);
+    EXPECT_THAT(version.out, HasSubstr("stromboli"));
+}
+
+TEST_F(Program, InterruptWritesWhatThereIs) {
+    const std::string output = folder.file("a.png");
+    const Run run = stromboli({"render", scene, "-o", output, "-r", "32", "24", "-s", "10000000"},
+                              "timeout --preserve-status -s INT 3");
+    EXPECT_EQ(run.exitCode, 130) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("interrupted"));
+    EXPECT_EQ(readPng(output).width, 32u);
+}
+
+} // namespace
+} // namespace stromboli::test

@@ -1,0 +1,185 @@
+// --cs184 reproduces pictures of the renderer it is named after: ../shared/reference holds some,
+// with their settings. Two runs of that renderer itself differ by up to 0.2 of an 8-bit step in a
+// channel's mean and by 0.25 to 0.4 in the mean absolute difference of 8 x 8 block means (0.9 for
+// rates); we allow 0.3, 0.6 and 1.2.
+//
+// A part of each picture is rendered, with all its settings, where most happens: the whole takes
+// minutes. STROMBOLI_WHOLE_PICTURES=1 renders the whole. The limits are for whole pictures, most of
+// whose blocks are black background and differ by nothing; a part without background is given its
+// share: the limit divided by the share of lit blocks in the whole.
+#include "host/film/image_file.hpp"
+#include "host/film/png.hpp"
+#include "host/film/rate_picture.hpp"
+#include "tests/render/device_render.hpp"
+#include "tests/support/device_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+namespace stromboli {
+namespace {
+
+using namespace test;
+
+struct Picture {
+    const char* name;
+    const char* file;  ///< in ../shared/reference
+    const char* rates; ///< or null
+    const char* scene; ///< in ../shared/scenes
+    uint32_t width, height;
+    Crop part; ///< multiples of 8
+    void (*change)(RenderSettings&);
+};
+
+const Picture kPictures[] = {
+    {"DirectLight",
+     "CBsphereslamb_ada_acc_m1_1024_4.png",
+     nullptr,
+     "sky/CBspheres_lambertian.dae",
+     460,
+     345,
+     {120, 96, 224, 168},
+     [](RenderSettings& s) { s.samplesPerPixel = 1024, s.lightSamples = 4, s.maxBounces = 1; }},
+    {"Hemisphere",
+     "CBbunny_mini_ada_acc_m1_H_256_16.png",
+     nullptr,
+     "sky/CBbunny.dae",
+     460,
+     345,
+     {200, 120, 48, 96},
+     [](RenderSettings& s) {
+         s.samplesPerPixel = 256, s.lightSamples = 16, s.maxBounces = 1;
+         s.directLight = DirectLight::Hemisphere;
+     }},
+    {"SecondBounceAlone",
+     "CBbunny_ada_m2_1024_4.png",
+     nullptr,
+     "sky/CBbunny.dae",
+     460,
+     345,
+     {160, 144, 96, 64},
+     [](RenderSettings& s) {
+         s.samplesPerPixel = 1024, s.lightSamples = 4, s.maxBounces = 2, s.minBounce = 2;
+     }},
+    {"Adaptive",
+     "CBbunny_ada_acc_m5_2048_1.png",
+     "CBbunny_ada_acc_m5_2048_1_rate.png",
+     "sky/CBbunny.dae",
+     460,
+     345,
+     {160, 144, 80, 64},
+     [](RenderSettings& s) { s.samplesPerPixel = 2048, s.maxBounces = 5; }},
+    {"Roulette",
+     "CBbunny_ada_dp3_m100_1024_4.png",
+     nullptr,
+     "sky/CBbunny.dae",
+     460,
+     345,
+     {160, 144, 64, 64},
+     [](RenderSettings& s) {
+         s.samplesPerPixel = 1024, s.lightSamples = 4, s.maxBounces = 100;
+         s.roulette = {Roulette::Mode::Fixed, 0.3};
+     }},
+    {"Normals",
+     "cow2.png",
+     nullptr,
+     "meshedit/cow.dae",
+     800,
+     600,
+     {0, 0, 800, 600},
+     [](RenderSettings& s) {
+         s.samplesPerPixel = 1;
+         s.integrator = Integrator::Normals;
+         s.adaptive.enabled = false;
+     }},
+};
+
+struct Difference {
+    double mean[3] = {0, 0, 0}; ///< ours - theirs, 8-bit steps
+    double blocks = 0;          ///< mean absolute difference of 8 x 8 block means
+};
+
+/// `ours` holds the part only, `theirs` the whole picture.
+Difference differ(const ByteImage& ours, const ByteImage& theirs, const Crop& part) {
+    Difference d;
+    size_t blocks = 0;
+    for (uint32_t by = 0; by + 8 <= part.height; by += 8)
+        for (uint32_t bx = 0; bx + 8 <= part.width; bx += 8)
+            for (int c = 0; c < 3; ++c) {
+                double sum = 0;
+                for (uint32_t y = by; y < by + 8; ++y)
+                    for (uint32_t x = bx; x < bx + 8; ++x)
+                        sum += double(ours.pixel(x, y)[c]) -
+                               double(theirs.pixel(part.x + x, part.y + y)[c]);
+                d.mean[c] += sum;
+                d.blocks += std::abs(sum / 64);
+                ++blocks;
+            }
+    for (double& mean : d.mean)
+        mean /= double(blocks) / 3 * 64;
+    d.blocks /= double(blocks);
+    return d;
+}
+
+/// Share of a picture's 8 x 8 blocks, within a part of it, that are not black.
+double litShare(const ByteImage& image, const Crop& part) {
+    size_t lit = 0, blocks = 0;
+    for (uint32_t by = part.y; by + 8 <= part.y + part.height; by += 8)
+        for (uint32_t bx = part.x; bx + 8 <= part.x + part.width; bx += 8, ++blocks) {
+            bool any = false;
+            for (uint32_t y = by; y < by + 8; ++y)
+                for (uint32_t x = bx; x < bx + 8; ++x)
+                    for (int c = 0; c < 3; ++c)
+                        any = any || image.pixel(x, y)[c] > 0;
+            lit += any;
+        }
+    return double(lit) / double(blocks);
+}
+
+class Cs184Pictures : public DeviceTest, public testing::WithParamInterface<Picture> {};
+
+TEST_P(Cs184Pictures, AreReproduced) {
+    const Picture& picture = GetParam();
+    const auto reference = sharedFolder() / "reference";
+    if (!std::filesystem::exists(reference / picture.file))
+        GTEST_SKIP() << "needs the pictures of ../shared/reference";
+    RenderSettings s;
+    s.width = picture.width, s.height = picture.height;
+    s.cs184 = true;
+    s.roulette.mode = Roulette::Mode::None;
+    s.adaptive = {true, 32, 0.05};
+    picture.change(s);
+    const char* whole = std::getenv("STROMBOLI_WHOLE_PICTURES");
+    const Crop part = whole && *whole == '1' ? Crop{0, 0, s.width, s.height} : picture.part;
+    s.crop = part;
+
+    const Scene scene = loadScene(sharedFolder() / "scenes" / picture.scene, true);
+    const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.width, s.height, true);
+    const Film film = renderOnDevice(testDevice(), scene, camera, s);
+
+    const ByteImage theirs = readPng(reference / picture.file);
+    const double share =
+        litShare(theirs, part) / litShare(theirs, {0, 0, theirs.width, theirs.height});
+    const Difference d = differ(toneMap(film, part, {ToneCurve::Kind::Cs184, 0}), theirs, part);
+    for (double mean : d.mean)
+        EXPECT_LE(std::abs(mean), 0.3 * share);
+    EXPECT_LE(d.blocks, 0.6 * share);
+    std::printf("whole-picture equivalents: means %+.3f %+.3f %+.3f, blocks %.3f\n",
+                d.mean[0] / share, d.mean[1] / share, d.mean[2] / share, d.blocks / share);
+    if (!picture.rates) return;
+    const Difference rates = differ(ratePicture(film, part, s.samplesPerPixel),
+                                    readPng(reference / picture.rates), part);
+    for (double mean : rates.mean)
+        EXPECT_LE(std::abs(mean), 0.3 * share);
+    EXPECT_LE(rates.blocks, 1.2 * share);
+    std::printf("rates: means %+.3f %+.3f %+.3f, blocks %.3f\n", rates.mean[0] / share,
+                rates.mean[1] / share, rates.mean[2] / share, rates.blocks / share);
+}
+
+INSTANTIATE_TEST_SUITE_P(Reference, Cs184Pictures, testing::ValuesIn(kPictures),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+} // namespace
+} // namespace stromboli

@@ -1,0 +1,126 @@
+// The same scene, settings and device give the same bytes, however the work is cut.
+#include "tests/render/device_render.hpp"
+#include "tests/support/device_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace stromboli {
+namespace {
+
+using namespace test;
+
+const std::filesystem::path kLibrary =
+    std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene" / "library";
+
+RenderSettings settings() {
+    RenderSettings s;
+    s.width = 61, s.height = 37; // no multiples of a tile or a workgroup
+    s.samplesPerPixel = 24;
+    s.maxBounces = 6;
+    s.lightSamples = 2;
+    return s;
+}
+
+class Determinism : public DeviceTest {
+  protected:
+    Scene scene = loadScene(kLibrary / "cornell_mirror_glass.dae");
+
+    Film renderWith(const RenderSettings& s, const KernelTuning& tuning = {}) {
+        const Camera camera =
+            makeCamera(scene, CameraChoice::Automatic, s.width, s.height, s.cs184);
+        return renderOnDevice(testDevice(), scene, camera, s, tuning);
+    }
+};
+
+bool sameBytes(const PixelStatistics& a, const PixelStatistics& b) {
+    return a.count == b.count && a.rejected == b.rejected &&
+           std::memcmp(&a.mean, &b.mean, sizeof a.mean) == 0 &&
+           std::memcmp(&a.m2, &b.m2, sizeof a.m2) == 0;
+}
+
+void expectSameBytes(const Film& a, const Film& b) {
+    ASSERT_EQ(a.pixels.size(), b.pixels.size());
+    size_t different = 0;
+    for (size_t i = 0; i < a.pixels.size(); ++i)
+        if (!sameBytes(a.pixels[i], b.pixels[i])) ++different;
+    EXPECT_EQ(different, 0u) << "of " << a.pixels.size() << " pixels";
+}
+
+TEST_F(Determinism, TwoRuns) {
+    expectSameBytes(renderWith(settings()), renderWith(settings()));
+}
+
+TEST_F(Determinism, AnotherSeedIsAnotherPicture) {
+    RenderSettings s = settings();
+    const Film a = renderWith(s);
+    s.seed = 1;
+    const Film b = renderWith(s);
+    size_t same = 0;
+    for (size_t i = 0; i < a.pixels.size(); ++i)
+        same += sameBytes(a.pixels[i], b.pixels[i]);
+    EXPECT_LT(same, a.pixels.size() / 2); // black background is the same
+}
+
+TEST_F(Determinism, ItemsPerDispatch) {
+    const Film whole = renderWith(settings());
+    for (uint32_t items : {64u, 100u, 1000u})
+        expectSameBytes(whole, renderWith(settings(), {.itemsPerDispatch = items}));
+}
+
+TEST_F(Determinism, LengthOfDispatches) {
+    // A few loop iterations a dispatch: paths are suspended and resumed at nearly every bounce.
+    const Film whole = renderWith(settings());
+    for (uint32_t iterations : {1u, 7u, 50u})
+        expectSameBytes(whole, renderWith(settings(), {.fixedIterations = iterations}));
+}
+
+TEST_F(Determinism, WorkgroupSizeAndTraversalSteps) {
+    const Film whole = renderWith(settings());
+    for (uint32_t size : {8u, 32u, 128u})
+        expectSameBytes(whole, renderWith(settings(), {.workgroupSize = size}));
+    for (uint32_t steps : {1u, 3u, 16u})
+        expectSameBytes(whole, renderWith(settings(), {.traversalSteps = steps}));
+}
+
+TEST_F(Determinism, SceneFetch) {
+    expectSameBytes(renderWith(settings(), {.texelFetch = true}),
+                    renderWith(settings(), {.texelFetch = false}));
+}
+
+TEST_F(Determinism, CropIsThePartOfTheWhole) {
+    RenderSettings s = settings();
+    const Film whole = renderWith(s);
+    s.crop = {13, 5, 20, 17};
+    const Film part = renderWith(s);
+    for (uint32_t y = 0; y < s.height; ++y)
+        for (uint32_t x = 0; x < s.width; ++x) {
+            const bool inside = x >= 13 && x < 33 && y >= 5 && y < 22;
+            if (inside)
+                EXPECT_TRUE(sameBytes(whole.at(x, y), part.at(x, y)));
+            else
+                EXPECT_EQ(part.at(x, y).count, 0u);
+        }
+}
+
+TEST_F(Determinism, AdaptiveInSmallDispatches) {
+    RenderSettings s = settings();
+    s.samplesPerPixel = 200;
+    s.adaptive = {true, 16, 0.1};
+    expectSameBytes(renderWith(s), renderWith(s, {.itemsPerDispatch = 128, .fixedIterations = 9}));
+}
+
+TEST_F(Determinism, OddPictureSizes) {
+    for (const auto& [width, height] : {std::pair{1u, 1u}, {1u, 17u}, {7u, 13u}, {300u, 1u}}) {
+        RenderSettings s = settings();
+        s.width = width, s.height = height;
+        s.samplesPerPixel = 3;
+        const Film film = renderWith(s);
+        for (const PixelStatistics& p : film.pixels)
+            EXPECT_EQ(p.taken(), 3u);
+    }
+}
+
+} // namespace
+} // namespace stromboli

@@ -1,0 +1,39 @@
+#include "tests/render/device_render.hpp"
+
+#include "host/bvh/primitive_bounds.hpp"
+#include "host/render/render.hpp"
+#include "scene/collada/load_collada.hpp"
+
+#include <algorithm>
+
+namespace stromboli::test {
+
+Film renderOnDevice(const vulkan::Device& device, const Scene& scene, const Camera& camera,
+                    const RenderSettings& settings, const KernelTuning& tuning) {
+    const GpuScene gpu = packScene(scene, buildBinaryTree(primitiveBounds(scene)), settings.cs184);
+    VulkanBackend backend(device, gpu, camera, settings, tuning);
+    return render(backend, settings);
+}
+
+Scene loadScene(const std::filesystem::path& file, bool cs184) {
+    return loadCollada(file, {.cs184 = cs184});
+}
+
+std::filesystem::path sharedFolder() {
+    return std::filesystem::path(STROMBOLI_SOURCE_DIR) / ".." / "shared";
+}
+
+std::vector<std::filesystem::path> allScenes() {
+    std::vector<std::filesystem::path> files;
+    for (const auto& folder :
+         {std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene" / "library",
+          sharedFolder() / "scenes" / "sky", sharedFolder() / "scenes" / "meshedit"}) {
+        if (!std::filesystem::is_directory(folder)) continue;
+        for (const auto& entry : std::filesystem::directory_iterator(folder))
+            if (entry.path().extension() == ".dae") files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+} // namespace stromboli::test

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "host/film/film.hpp"
+#include "host/kernel/vulkan_backend.hpp"
+#include "host/render/settings.hpp"
+#include "scene/camera/camera.hpp"
+#include "scene/model/scene.hpp"
+
+#include <filesystem>
+#include <vector>
+
+namespace stromboli::test {
+
+/// Renders with the Vulkan kernel.
+Film renderOnDevice(const vulkan::Device& device, const Scene& scene, const Camera& camera,
+                    const RenderSettings& settings, const KernelTuning& tuning = {});
+
+/// Loads a scene of the repository (scene/library) or of ../shared.
+Scene loadScene(const std::filesystem::path& file, bool cs184 = false);
+
+/// All scenes of scene/library, and of ../shared/scenes where that exists.
+std::vector<std::filesystem::path> allScenes();
+
+std::filesystem::path sharedFolder();
+
+} // namespace stromboli::test

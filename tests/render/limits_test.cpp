@@ -1,0 +1,84 @@
+// What happens at the device's limits: an error that says so, never a wrong picture.
+#include "host/core/error.hpp"
+#include "host/vulkan/result.hpp"
+#include "tests/render/device_render.hpp"
+#include "tests/support/device_fixture.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace stromboli {
+namespace {
+
+using namespace test;
+
+class Limits : public DeviceTest {};
+
+std::string messageOf(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const DeviceError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+TEST_F(Limits, BufferOverTheBindingLimitIsNamed) {
+    const uint64_t tooMuch = uint64_t(testDevice().limits().maxStorageBufferRange) + 1;
+    const std::string message = messageOf([&] {
+        vulkan::Buffer::checkLimits(testDevice(), "primitive buffer", tooMuch,
+                                    vulkan::BufferUse::Storage);
+    });
+    EXPECT_THAT(message, testing::HasSubstr("primitive buffer"));
+    EXPECT_THAT(message, testing::HasSubstr(std::to_string(tooMuch)));
+    EXPECT_THAT(message, testing::HasSubstr("maxStorageBufferRange"));
+}
+
+TEST_F(Limits, LostDeviceIsAClearError) {
+    EXPECT_THAT(messageOf([] { vulkan::check(VK_ERROR_DEVICE_LOST, "run the path kernel"); }),
+                testing::AllOf(testing::HasSubstr("run the path kernel"),
+                               testing::HasSubstr("device lost")));
+}
+
+TEST_F(Limits, TexelBuffersAreMeasuredInRows) {
+    const uint64_t rows = testDevice().limits().maxTexelBufferElements;
+    EXPECT_THAT(messageOf([&] {
+                    vulkan::Buffer::checkLimits(testDevice(), "BVH node buffer", (rows + 1) * 16,
+                                                vulkan::BufferUse::Texel);
+                }),
+                testing::HasSubstr("maxTexelBufferElements"));
+}
+
+TEST_F(Limits, LoopOverflowIsReportedNotRendered) {
+    // On llvmpipe a surface with 1024 samples of each of 16 lights needs more loop passes than a
+    // dispatch has; elsewhere there is no such limit to meet.
+    if (!testDevice().description().isCpu()) GTEST_SKIP() << "the limit is llvmpipe's";
+    Scene scene =
+        loadScene(std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene/library/light_area.dae");
+    RenderSettings s;
+    s.width = 8, s.height = 8, s.samplesPerPixel = 1, s.maxBounces = 1;
+    s.directLight = DirectLight::Hemisphere;
+    s.lightSamples = 1024 * 16;
+    const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.width, s.height, false);
+    EXPECT_THAT(messageOf([&] { renderOnDevice(testDevice(), scene, camera, s); }),
+                testing::HasSubstr("loop iterations"));
+}
+
+TEST_F(Limits, FilmLargerThanOneBindingIsSplit) {
+    // 128 MiB of pixel states are 2 M pixels: this picture needs two segments on lavapipe. Only
+    // its last rows are looked at, to see that the second segment is the right part.
+    Scene scene =
+        loadScene(std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene/library/cornell_boxes.dae");
+    RenderSettings s;
+    s.width = 2048, s.height = 1100, s.samplesPerPixel = 1, s.maxBounces = 0;
+    const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.width, s.height, false);
+    const Film whole = renderOnDevice(testDevice(), scene, camera, s);
+    s.crop = {900, 1000, 200, 100};
+    const Film part = renderOnDevice(testDevice(), scene, camera, s);
+    for (uint32_t y = 1000; y < 1100; ++y)
+        for (uint32_t x = 900; x < 1100; ++x)
+            ASSERT_EQ(whole.at(x, y).mean, part.at(x, y).mean) << x << " " << y;
+}
+
+} // namespace
+} // namespace stromboli
