@@ -73,7 +73,11 @@ Instance::Instance(bool validation) {
     info.ppEnabledLayerNames = layers.data();
     info.enabledExtensionCount = uint32_t(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
-    check(vkCreateInstance(&info, nullptr, &instance_), "create the instance");
+    const VkResult result = vkCreateInstance(&info, nullptr, &instance_);
+    if (result == VK_ERROR_INCOMPATIBLE_DRIVER) // the loader's way to say that it found none
+        throw DeviceError("no Vulkan driver on this machine; on Debian, without a GPU: apt install "
+                          "mesa-vulkan-drivers");
+    check(result, "create the instance");
     volkLoadInstanceOnly(instance_);
     if (validation)
         check(vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_),

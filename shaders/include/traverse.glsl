@@ -85,5 +85,6 @@ bool traversing(Traversal t) { return t.current != CHILD_NONE; }
 
 void traversalStep(inout Traversal t) {
     if (t.current < CHILD_LEAF_BIT) visitNode(t);
+    if (t.current < CHILD_LEAF_BIT) visitNode(t);
     if (t.current >= CHILD_LEAF_BIT && t.current != CHILD_NONE) visitLeaf(t);
 }

@@ -44,7 +44,7 @@ class BadInput : public testing::Test {
   protected:
     ScratchFolder folder;
 
-    Run renderFile(const std::string& scene, std::vector<std::string> extra = {}) {
+    ProgramRun renderFile(const std::string& scene, std::vector<std::string> extra = {}) {
         std::vector<std::string> arguments = {
             "render", scene, "-o", folder.file("out.png"), "-s", "1", "-r", "8", "8"};
         arguments.insert(arguments.end(), extra.begin(), extra.end());
@@ -52,7 +52,7 @@ class BadInput : public testing::Test {
     }
 
     /// One error line that says what is wrong; nothing written.
-    void expectRefused(const Run& run, int exitCode, const std::string& message) {
+    void expectRefused(const ProgramRun& run, int exitCode, const std::string& message) {
         EXPECT_EQ(run.exitCode, exitCode) << run.err;
         EXPECT_THAT(run.err, HasSubstr(message));
         size_t errors = 0;
@@ -69,7 +69,7 @@ class BadInput : public testing::Test {
 };
 
 TEST_F(BadInput, GoodDocumentIsRendered) {
-    const Run run = renderFile(folder.write("good.dae", kGood));
+    const ProgramRun run = renderFile(folder.write("good.dae", kGood));
     EXPECT_EQ(run.exitCode, 0) << run.err;
     EXPECT_THAT(run.err, AllOf(HasSubstr("no camera"), HasSubstr("no light")));
     EXPECT_THAT(folder.entries(), testing::Contains("out.png"));
@@ -111,7 +111,7 @@ TEST_F(BadInput, NanAndInfinityAreNotNumbers) {
 }
 
 TEST_F(BadInput, EmptyMeshIsBlackNotAnError) {
-    const Run run = renderFile(folder.write(
+    const ProgramRun run = renderFile(folder.write(
         "empty.dae", kHead + "<library_visual_scenes><visual_scene id='s'/>"
                              "</library_visual_scenes><scene><instance_visual_scene url='#s'/>"
                              "</scene></COLLADA>"));
@@ -147,7 +147,7 @@ TEST_F(BadInput, CropOutsideThePicture) {
 }
 
 TEST_F(BadInput, OutputFolderMissing) {
-    const Run run = stromboli(
+    const ProgramRun run = stromboli(
         {"render", libraryScene("light_point.dae"), "-o", folder.file("nowhere/out.png")});
     expectRefused(run, kOutput, "nowhere");
 }
@@ -174,7 +174,7 @@ TEST_F(BadInput, UnknownDevice) {
 
 TEST_F(BadInput, NoDevice) {
     // The loader finds no driver when told to look in an empty place.
-    const Run run =
+    const ProgramRun run =
         stromboli({"render", libraryScene("light_point.dae"), "-o", folder.file("out.png")},
                   "VK_ICD_FILENAMES=/nonexistent VK_DRIVER_FILES=/nonexistent");
     EXPECT_EQ(run.exitCode, kDevice) << run.err;
@@ -183,7 +183,7 @@ TEST_F(BadInput, NoDevice) {
 
 TEST_F(BadInput, OldPictureSurvivesAFailure) {
     folder.write("out.png", "precious");
-    const Run run = renderFile(folder.file("none.dae"));
+    const ProgramRun run = renderFile(folder.file("none.dae"));
     EXPECT_EQ(run.exitCode, kScene);
     EXPECT_EQ(folder.entries(), std::vector<std::string>{"out.png"});
     EXPECT_EQ(std::filesystem::file_size(folder.path() / "out.png"), 8u);

@@ -27,14 +27,14 @@ std::string read(const std::filesystem::path& path) {
 
 } // namespace
 
-Run stromboli(const std::vector<std::string>& arguments, const std::string& environment) {
+ProgramRun stromboli(const std::vector<std::string>& arguments, const std::string& environment) {
     const ScratchFolder outputs;
     std::string command = "STROMBOLI_VALIDATION=1 " + environment + " " + STROMBOLI_PROGRAM;
     for (const std::string& a : arguments)
         command += " " + quoted(a);
     command += " >" + outputs.file("out") + " 2>" + outputs.file("err") + " </dev/null";
     const int status = std::system(command.c_str());
-    Run run;
+    ProgramRun run;
     run.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     run.out = read(outputs.path() / "out");
     run.err = read(outputs.path() / "err");

@@ -7,7 +7,7 @@
 namespace stromboli::test {
 
 /// What a run of the program left behind.
-struct Run {
+struct ProgramRun {
     int exitCode = -1; ///< 128 + n if signal n ended it
     std::string out;   ///< standard output
     std::string err;   ///< standard error
@@ -15,7 +15,8 @@ struct Run {
 
 /// Runs the program with the Vulkan validation layer on; `environment` is put before the command,
 /// as in a shell ("A=1").
-Run stromboli(const std::vector<std::string>& arguments, const std::string& environment = "");
+ProgramRun stromboli(const std::vector<std::string>& arguments,
+                     const std::string& environment = "");
 
 /// A folder of its own for each test, removed at the end.
 class ScratchFolder {

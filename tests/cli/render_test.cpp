@@ -21,18 +21,18 @@ class Program : public testing::Test {
     ScratchFolder folder;
     std::string scene = libraryScene("cornell_boxes.dae");
 
-    Run render(const std::string& output, std::vector<std::string> extra) {
+    ProgramRun render(const std::string& output, std::vector<std::string> extra) {
         std::vector<std::string> arguments = {"render", scene, "-o", folder.file(output),
                                               "-r",     "32",  "24"};
         arguments.insert(arguments.end(), extra.begin(), extra.end());
-        Run run = stromboli(arguments);
+        ProgramRun run = stromboli(arguments);
         EXPECT_EQ(run.exitCode, 0) << run.err;
         return run;
     }
 };
 
 TEST_F(Program, WritesPngAndReportsTheWork) {
-    const Run run = render("a.png", {"-s", "4"});
+    const ProgramRun run = render("a.png", {"-s", "4"});
     const ByteImage image = readPng(folder.file("a.png"));
     EXPECT_EQ(image.width, 32u);
     EXPECT_EQ(image.height, 24u);
@@ -88,13 +88,14 @@ TEST_F(Program, ReferenceBackend) {
 }
 
 TEST_F(Program, CheckAgrees) {
-    const Run run = stromboli({"check", scene, "-r", "48", "36", "-s", "64", "--alpha", "1e-6"});
+    const ProgramRun run =
+        stromboli({"check", scene, "-r", "48", "36", "-s", "64", "--alpha", "1e-6"});
     EXPECT_EQ(run.exitCode, 0) << run.out << run.err;
     EXPECT_THAT(run.out, HasSubstr("agree"));
 }
 
 TEST_F(Program, InfoNamesWhatTheKernelHolds) {
-    const Run run = stromboli({"info", libraryScene("cornell_mirror_glass.dae")});
+    const ProgramRun run = stromboli({"info", libraryScene("cornell_mirror_glass.dae")});
     EXPECT_EQ(run.exitCode, 0) << run.err;
     for (const char* part : {"mirror", "glass", "SAH cost", "primitive buffer", "film", "leaf"})
         EXPECT_THAT(run.out, HasSubstr(part));
@@ -102,26 +103,27 @@ TEST_F(Program, InfoNamesWhatTheKernelHolds) {
 }
 
 TEST_F(Program, DevicesNamesTheChosenOne) {
-    const Run run = stromboli({"devices"});
+    const ProgramRun run = stromboli({"devices"});
     EXPECT_EQ(run.exitCode, 0) << run.err;
     EXPECT_THAT(run.out, HasSubstr("chosen"));
     EXPECT_THAT(run.out, HasSubstr("usable"));
 }
 
 TEST_F(Program, HelpAndVersion) {
-    const Run help = stromboli({"render", "--help"});
+    const ProgramRun help = stromboli({"render", "--help"});
     EXPECT_EQ(help.exitCode, 0);
     for (const char* part : {"--samples", "--roulette", "[64", "Sampling", "Output", "Device"})
         EXPECT_THAT(help.out, HasSubstr(part));
-    const Run version = stromboli({"--version"});
+    const ProgramRun version = stromboli({"--version"});
     EXPECT_EQ(version.exitCode, 0);
     EXPECT_THAT(version.out, HasSubstr("stromboli"));
 }
 
 TEST_F(Program, InterruptWritesWhatThereIs) {
     const std::string output = folder.file("a.png");
-    const Run run = stromboli({"render", scene, "-o", output, "-r", "32", "24", "-s", "10000000"},
-                              "timeout --preserve-status -s INT 3");
+    const ProgramRun run =
+        stromboli({"render", scene, "-o", output, "-r", "32", "24", "-s", "10000000"},
+                  "timeout --preserve-status -s INT 3");
     EXPECT_EQ(run.exitCode, 130) << run.err;
     EXPECT_THAT(run.err, HasSubstr("interrupted"));
     EXPECT_EQ(readPng(output).width, 32u);

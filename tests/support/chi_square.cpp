@@ -48,8 +48,8 @@ double chiSquareTest(const std::vector<double>& counts, const std::vector<double
         ++bins;
     }
     if (pooledExpected > 0) {
-        statistic += (pooledCount - pooledExpected) * (pooledCount - pooledExpected) /
-                     pooledExpected;
+        statistic +=
+            (pooledCount - pooledExpected) * (pooledCount - pooledExpected) / pooledExpected;
         ++bins;
     }
     return chiSquareTail(statistic, double(bins) - 1);

@@ -34,6 +34,12 @@ ShaderOptions::ShaderOptions() {
     set(SPEC_MATERIAL_KINDS, ~0u).set(SPEC_LIGHT_KINDS, ~0u);
 }
 
+ShaderOptions ShaderOptions::texel() {
+    ShaderOptions options;
+    options.texelFetch = true;
+    return options;
+}
+
 ShaderOptions& ShaderOptions::set(uint32_t constant, uint32_t value) {
     constants.at(constant) = value;
     return *this;

@@ -24,10 +24,12 @@ inline constexpr uint32_t kAnswerBinding = BINDING_COUNT + 1;
 /// How a test shader is specialised. As it stands, everything is switched on but CS184.
 struct ShaderOptions {
     ShaderOptions();
+    /// For a shader that was compiled with FETCH_TEXEL.
+    static ShaderOptions texel();
     ShaderOptions& set(uint32_t constant, uint32_t value);
 
     std::array<uint32_t, SPEC_COUNT> constants{}; ///< by SPEC_ number
-    bool texelFetch = false; ///< the shader was compiled with FETCH_TEXEL
+    bool texelFetch = false;
 };
 
 /// A compute shader on the test device with every binding of the path kernel, a buffer of queries

@@ -1,0 +1,15 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "prelude.glsl"
+
+QUERIES_AND_ANSWERS(BsdfQuery, BsdfAnswer)
+
+BsdfAnswer answer(BsdfQuery q) {
+    SurfacePoint s = SurfacePoint(vec3(0.0), vec3(0.0), q.geometric, q.shading, q.wo,
+                                  q.outside != 0u, q.material, NO_PRIMITIVE);
+    faceForward(s);
+    const Material m = fetchMaterial(q.material);
+    const BsdfSample b = sampleBsdf(m, s, vec3(q.u, q.v, q.w));
+    return BsdfAnswer(evaluateBsdf(m, s, q.wi), b.transmitted ? 1u : 0u, b.direction, 0u, b.weight,
+                      0u);
+}

@@ -1,0 +1,51 @@
+#include "tests/shaders/bsdf_fixture.hpp"
+
+#include "embedded/bsdf_texel.h"
+
+#include <utility>
+
+namespace stromboli::test {
+BsdfFixture::BsdfFixture(std::vector<Material> materials, reference::Convention convention)
+    : materials_(std::move(materials)), convention_(convention),
+      shader_(bsdf_texel,
+              ShaderOptions::texel().set(SPEC_CS184, convention == reference::Convention::Cs184)) {
+    Scene scene;
+    scene.materials = materials_;
+    shader_.setScene(packScene(scene, buildBinaryTree({}), false));
+}
+
+std::vector<gpu::BsdfAnswer> BsdfFixture::answers(const std::vector<gpu::BsdfQuery>& queries) {
+    return ask<gpu::BsdfAnswer>(shader_, queries);
+}
+
+gpu::BsdfQuery BsdfFixture::randomQuery(uint32_t material, Random& random) const {
+    gpu::BsdfQuery q{};
+    q.material = material;
+    q.geometric = glm::normalize(random.direction());
+    q.shading = glm::normalize(q.geometric + 0.5f * glm::normalize(random.direction()));
+    q.wo = glm::normalize(random.direction());
+    q.wi = glm::normalize(random.direction());
+    q.outside = glm::dot(q.geometric, q.wo) >= 0;
+    q.u = random.uniform(), q.v = random.uniform(), q.w = random.uniform();
+    return q;
+}
+
+glm::vec3 BsdfFixture::reflected(const gpu::BsdfQuery& q, float tangent, Random& random) {
+    const glm::vec3 n = glm::dot(q.wo, q.shading) < 0 ? -q.shading : q.shading;
+    const glm::vec3 side = glm::normalize(glm::cross(n, random.direction()));
+    const glm::vec3 h = glm::normalize(n + tangent * side);
+    return glm::normalize(2 * glm::dot(q.wo, h) * h - q.wo);
+}
+
+reference::SurfacePoint BsdfFixture::surface(const gpu::BsdfQuery& q) const {
+    reference::SurfacePoint s;
+    s.geometric = q.geometric;
+    s.shading = q.shading;
+    s.wo = q.wo;
+    s.outside = q.outside != 0;
+    s.material = &materials_[q.material];
+    reference::faceForward(s, convention_);
+    return s;
+}
+
+} // namespace stromboli::test

@@ -1,0 +1,170 @@
+// Mirror, refraction and glass: directions by the laws of reflection and of Snell, weights and the
+// probability of reflection, under both conventions.
+#include "tests/shaders/bsdf_fixture.hpp"
+
+#include "host/reference/fresnel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace stromboli::test {
+namespace {
+
+using reference::Convention;
+
+std::vector<Material> deltaMaterials() {
+    std::vector<Material> materials;
+    for (const MaterialKind kind :
+         {MaterialKind::Mirror, MaterialKind::Refraction, MaterialKind::Glass})
+        for (const float ior : {1.1f, 1.45f, 2.4f, 0.7f}) {
+            Material m;
+            m.kind = kind;
+            m.ior = ior;
+            m.reflectance = {0.9f, 0.5f, 0.1f};
+            m.transmittance = {0.2f, 0.6f, 1.0f};
+            materials.push_back(m);
+        }
+    return materials;
+}
+
+/// What one of the two lobes should give.
+struct Lobe {
+    glm::dvec3 direction{0.0}, weight{0.0};
+};
+
+/// Everything docs/estimator.md says of a delta material at a surface.
+struct Delta {
+    double reflection = 0; ///< probability
+    bool total = false;
+    double margin = 1; ///< distance to the critical angle, in squared cosines
+    Lobe reflected, transmitted;
+};
+
+Delta expected(const reference::SurfacePoint& s, Convention convention) {
+    const Material& m = *s.material;
+    const bool cs184 = convention == Convention::Cs184;
+    const bool entering = cs184 ? glm::dot(s.shading, s.wo) >= 0 : s.outside;
+    const glm::dvec3 n = glm::dot(s.shading, s.wo) < 0 ? -s.shading : s.shading;
+    const double cosine = glm::dot(n, s.wo), ior = m.ior, eta = entering ? 1 / ior : ior;
+    Delta d;
+    d.reflected = {2 * cosine * n - s.wo, m.reflectance};
+    if (m.kind == MaterialKind::Mirror) {
+        d.reflection = 1;
+        return d;
+    }
+    const double sine2 = eta * eta * (1 - cosine * cosine);
+    d.margin = std::abs(1 - sine2);
+    d.total = sine2 >= 1;
+    if (m.kind == MaterialKind::Glass) {
+        const double exact = reference::dielectric(cosine, eta).reflectance;
+        d.reflection = cs184 && !d.total ? reference::schlick(cosine, ior) : exact;
+    }
+    if (d.total) return d;
+    // Snell: the part across n grows by eta, the rest follows.
+    d.transmitted.direction = -eta * (s.wo - cosine * n) - std::sqrt(1 - sine2) * n;
+    d.transmitted.weight = glm::dvec3(m.transmittance) * (cs184 ? 1 / (eta * eta) : eta * eta);
+    return d;
+}
+
+class DielectricTest : public BsdfFixture, public ::testing::WithParamInterface<Convention> {
+  protected:
+    DielectricTest() : BsdfFixture(deltaMaterials(), GetParam()) {}
+
+    void expectLobe(const gpu::BsdfAnswer& a, const Lobe& lobe, bool transmitted,
+                    const reference::SurfacePoint& s, double tolerance, size_t i) {
+        EXPECT_EQ(a.transmitted != 0, transmitted) << i;
+        EXPECT_LT(glm::length(glm::dvec3(a.direction) - lobe.direction), tolerance) << i;
+        EXPECT_NEAR(glm::length(glm::dvec3(a.direction)), 1, tolerance) << i;
+        // Light stays on the side of the true surface it was sent to.
+        const double side = glm::dot(s.geometric, lobe.direction) * (transmitted ? -1 : 1);
+        if (GetParam() == Convention::Physical && std::abs(side) < 1e-5) return;
+        const bool leaks = GetParam() == Convention::Physical && side < 0;
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(a.weight[c], leaks ? 0 : lobe.weight[c], 1e-6 * lobe.weight[c]) << i;
+        leaks_ += leaks;
+    }
+
+    int leaks_ = 0;
+};
+
+TEST_P(DielectricTest, DirectionsAndWeights) {
+    Random random(111);
+    std::vector<gpu::BsdfQuery> queries;
+    for (uint32_t i = 0; i < 40000; ++i)
+        queries.push_back(randomQuery(i % uint32_t(materials_.size()), random));
+    const std::vector<gpu::BsdfAnswer> found = answers(queries);
+    int reflected = 0, transmitted = 0, total = 0;
+    for (size_t i = 0; i < queries.size(); ++i) {
+        EXPECT_EQ(found[i].value, glm::vec3(0.0f)) << "delta: never found by light samples";
+        const reference::SurfacePoint s = surface(queries[i]);
+        const Delta d = expected(s, GetParam());
+        const double tolerance = 1e-6 / std::sqrt(d.margin);
+        if (d.margin < 1e-4 || std::abs(queries[i].w - d.reflection) < 1e-5) continue;
+        if (queries[i].w < d.reflection) {
+            ++reflected;
+            total += d.total;
+            expectLobe(found[i], d.reflected, false, s, tolerance, i);
+        } else if (d.total) { // Refraction without Fresnel reflection: black
+            EXPECT_EQ(found[i].weight, glm::vec3(0.0f)) << i;
+        } else {
+            ++transmitted;
+            expectLobe(found[i], d.transmitted, true, s, 8 * tolerance, i);
+        }
+    }
+    EXPECT_GT(reflected, 10000);
+    EXPECT_GT(transmitted, 10000);
+    EXPECT_GT(total, 200);
+    EXPECT_TRUE(leaks_ > 50 || GetParam() == Convention::Cs184);
+}
+
+/// The choice changes from reflection to transmission where w passes the reflectance.
+TEST_P(DielectricTest, ReflectionHasTheProbabilityOfFresnel) {
+    Random random(112);
+    std::vector<gpu::BsdfQuery> queries;
+    std::vector<bool> reflects;
+    for (uint32_t i = 0; i < 8000; ++i) {
+        gpu::BsdfQuery q = randomQuery(8 + i % 4, random); // Glass
+        const Delta d = expected(surface(q), GetParam());
+        if (d.margin < 1e-4 || d.reflection < 1e-3 || d.reflection > 1 - 1e-3) continue;
+        const double step = 1e-6 / std::sqrt(d.margin);
+        for (const double sign : {-1.0, 1.0}) {
+            q.w = float(d.reflection + sign * step);
+            queries.push_back(q);
+            reflects.push_back(sign < 0);
+        }
+    }
+    EXPECT_GT(queries.size(), 8000u);
+    const std::vector<gpu::BsdfAnswer> found = answers(queries);
+    for (size_t i = 0; i < queries.size(); ++i)
+        ASSERT_EQ(found[i].transmitted == 0, reflects[i]) << i;
+}
+
+/// In and out again multiplies radiance by the transmittance squared, not by any index.
+TEST_P(DielectricTest, RadianceFactorsOfBothSidesCancel) {
+    for (uint32_t material = 4; material < 12; ++material) {
+        gpu::BsdfQuery q{};
+        q.material = material;
+        q.geometric = q.shading = {0, 0, 1};
+        q.w = 0.999f;
+        q.wo = {0, 0, 1};
+        q.outside = 1;
+        gpu::BsdfQuery out = q;
+        out.wo = {0, 0, -1};
+        out.outside = 0;
+        const std::vector<gpu::BsdfAnswer> found = answers({q, out});
+        const glm::vec3 product = found[0].weight * found[1].weight;
+        const glm::vec3 t = materials_[material].transmittance;
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(product[c], t[c] * t[c], 1e-6) << material;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Convention, DielectricTest,
+                         ::testing::Values(Convention::Physical, Convention::Cs184),
+                         [](const auto& c) {
+                             return c.param == Convention::Cs184 ? "Cs184" : "Physical";
+                         });
+
+} // namespace
+} // namespace stromboli::test

@@ -1,0 +1,196 @@
+// Every field of every structure that C++ and GLSL share arrives where it is meant to, bit for
+// bit: through storage and texel buffers, as uniforms, push constants and storage buffers.
+#include "shaders/shared/scene_types.h"
+#include "tests/support/device_fixture.hpp"
+#include "tests/support/test_shader.hpp"
+
+#include "embedded/layout_storage.h"
+#include "embedded/layout_texel.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <string>
+#include <type_traits>
+
+namespace stromboli::test {
+namespace {
+
+/// Fields of a structure as words, by name: what the compiler of C++ holds them to be.
+class Words {
+  public:
+    void put(uint32_t word) { words_.push_back(word); }
+    void put(float x) { put(std::bit_cast<uint32_t>(x)); }
+    void put(const glm::vec3& v) { put(v.x), put(v.y), put(v.z); }
+    template <class... Fields>
+    void structure(const std::string& name, const Fields&... fields) {
+        const size_t first = words_.size();
+        (put(fields), ...);
+        while (names_.size() < words_.size())
+            names_.push_back(name + " word " + std::to_string(names_.size() - first));
+    }
+    size_t size() const { return words_.size(); }
+    uint32_t word(size_t i) const { return words_[i]; }
+    const std::string& name(size_t i) const { return names_[i]; }
+
+  private:
+    std::vector<uint32_t> words_;
+    std::vector<std::string> names_;
+};
+
+/// Distinct words for each use: plain counters, or the bits of NaNs (quiet and signalling, both
+/// signs), infinities and denormals, which a detour through float arithmetic would change.
+class Patterns {
+  public:
+    explicit Patterns(bool awkward) : awkward_(awkward) {}
+
+    /// Three of a structure, every word distinct; index 1 is what the shader reads.
+    template <class T>
+    std::vector<T> several() {
+        static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % 4 == 0);
+        std::vector<T> result(3);
+        for (T& value : result) {
+            std::array<uint32_t, sizeof(T) / 4> words;
+            for (uint32_t& word : words)
+                word = next();
+            std::memcpy(&value, words.data(), sizeof(T));
+        }
+        return result;
+    }
+
+  private:
+    uint32_t next() {
+        ++counter_;
+        if (!awkward_) return 0x01000000u + counter_ * 0x00010203u;
+        static constexpr uint32_t kBases[] = {0x7F800000, 0x7FC00000, 0xFF800000, 0xFFC00000,
+                                              0x00000000, 0x80000000, 0x7F000000};
+        return kBases[counter_ % 7] + counter_;
+    }
+    bool awkward_;
+    uint32_t counter_ = 0;
+};
+
+struct LayoutCase {
+    bool texelFetch;
+    bool awkward;
+};
+
+class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<LayoutCase> {
+  protected:
+    void fillScene(TestShader& shader, Patterns& patterns) {
+        const auto nodes = patterns.several<gpu::Node>();
+        const auto primitives = patterns.several<gpu::Primitive>();
+        const auto normals = patterns.several<gpu::NormalTriple>();
+        const auto materials = patterns.several<gpu::Material>();
+        const auto lights = patterns.several<gpu::Light>();
+        const auto entries = patterns.several<gpu::EmitterEntry>();
+        shader.set(BINDING_NODES, nodes);
+        shader.set(BINDING_PRIMITIVES, primitives);
+        shader.set(BINDING_NORMALS, normals);
+        shader.set(BINDING_MATERIALS, materials);
+        shader.set(BINDING_LIGHTS, lights);
+        shader.set(BINDING_EMITTER_ENTRIES, entries);
+        expectScene(nodes[1], primitives[1], normals[1]);
+        expectShading(materials[1], lights[1], entries[1]);
+    }
+
+    void expectScene(const gpu::Node& n, const gpu::Primitive& p, const gpu::NormalTriple& t) {
+        expected_.structure("Node", n.leftLow, n.left, n.leftHigh, n.right, n.rightLow, n.unused0,
+                            n.rightHigh, n.unused1);
+        expected_.structure("Primitive", p.v0, p.material, p.v1, p.normals, p.v2, p.kind);
+        expected_.structure("NormalTriple", t.n0, t.n1, t.n2, t.unused);
+    }
+
+    void expectShading(const gpu::Material& m, const gpu::Light& l, const gpu::EmitterEntry& e) {
+        expected_.structure("Material", m.reflectance, m.kind, m.emission, m.emitsBothSides,
+                            m.transmittanceOrEta, m.iorOrAlpha, m.k, m.unused);
+        expected_.structure("Light", l.position, l.kind, l.edgeA, l.area, l.edgeB, l.bothSides,
+                            l.color, l.upperHemisphereOnly, l.firstEntry, l.entryCount, l.cosCutoff,
+                            l.falloffExponent);
+        expected_.structure("EmitterEntry", e.primitive, e.alias, e.threshold, e.unused);
+    }
+
+    void fillFrame(TestShader& shader, Patterns& patterns) {
+        const gpu::Frame f = patterns.several<gpu::Frame>()[1];
+        shader.setOne(BINDING_FRAME, f);
+        expected_.structure("Frame", f.cameraPosition, f.width, f.cameraRight, f.height, f.cameraUp,
+                            f.cropX, f.cameraBack, f.cropY, f.nearDistance, f.farDistance,
+                            f.cropWidth, f.seed, f.minBounce, f.maxBounces,
+                            f.terminationProbability, f.lightSamples, f.areaLights, f.deltaLights,
+                            f.areaSamples, f.unused);
+    }
+
+    void fillWork(TestShader& shader, Patterns& patterns, const gpu::Dispatch& d) {
+        expected_.structure("Dispatch", 1u, d.segmentBase, d.softIterations, d.hardIterations);
+        const auto items = patterns.several<gpu::WorkItem>();
+        shader.set(BINDING_WORK_ITEMS, items);
+        expected_.structure("WorkItem", items[1].pixel, items[1].target);
+        states_ = patterns.several<gpu::PixelState>();
+        shader.set(BINDING_PIXELS, states_);
+        const gpu::PixelState& s = states_[1];
+        expected_.structure("PixelState", s.sum, s.count, s.sumError, s.rejected, s.m2,
+                            s.firstRejected, s.m2Error, s.unused);
+        paths_ = patterns.several<gpu::SuspendedPath>();
+        shader.set(BINDING_SUSPENDED, paths_);
+        const gpu::SuspendedPath& p = paths_[1];
+        expected_.structure("SuspendedPath", p.origin, p.bounce, p.direction, p.skipPrimitive,
+                            p.throughput, p.countsEmission, p.radiance, p.unused);
+        const gpu::DispatchStatus status = patterns.several<gpu::DispatchStatus>()[0];
+        shader.setOne(BINDING_STATUS, status);
+        expected_.structure("DispatchStatus", status.unfinishedItems, status.overflowedItems,
+                            status.rays, status.samples);
+    }
+
+    Words expected_;
+    std::vector<gpu::PixelState> states_;
+    std::vector<gpu::SuspendedPath> paths_;
+};
+
+/// Compares memory: NaNs are not equal to themselves.
+template <class T>
+bool sameBits(const T& a, const T& b) {
+    return std::memcmp(&a, &b, sizeof(T)) == 0;
+}
+
+TEST_P(LayoutTest, EveryFieldArrives) {
+    ShaderOptions options;
+    options.texelFetch = GetParam().texelFetch;
+    TestShader shader(options.texelFetch ? std::span<const uint32_t>(layout_texel)
+                                         : std::span<const uint32_t>(layout_storage),
+                      options);
+    Patterns patterns(GetParam().awkward);
+    gpu::Dispatch constants = patterns.several<gpu::Dispatch>()[1];
+    fillScene(shader, patterns);
+    fillFrame(shader, patterns);
+    fillWork(shader, patterns, constants);
+    shader.set(kAnswerBinding, std::vector<uint32_t>(expected_.size() + 1, 0xDEADBEEF));
+    shader.run(1, constants);
+
+    const auto found = shader.get<uint32_t>(kAnswerBinding, expected_.size() + 1);
+    for (size_t i = 0; i < expected_.size(); ++i)
+        EXPECT_EQ(found[i], expected_.word(i)) << expected_.name(i);
+    EXPECT_EQ(found.back(), 0xDEADBEEF) << "the shader writes more fields than C++ has";
+    EXPECT_TRUE(sameBits(shader.get<gpu::PixelState>(BINDING_PIXELS, 3)[2], states_[1]));
+    EXPECT_TRUE(sameBits(shader.get<gpu::SuspendedPath>(BINDING_SUSPENDED, 3)[2], paths_[1]));
+}
+
+INSTANTIATE_TEST_SUITE_P(Fetch, LayoutTest,
+                         ::testing::Values(LayoutCase{false, false}, LayoutCase{false, true},
+                                           LayoutCase{true, false}, LayoutCase{true, true}),
+                         [](const auto& layout) {
+                             return std::string(layout.param.texelFetch ? "Texel" : "Storage") +
+                                    (layout.param.awkward ? "WithNans" : "");
+                         });
+
+/// The expectation above names fields in the order of declaration; nothing may be left out.
+TEST(LayoutSizes, NoFieldIsForgotten) {
+    const size_t bytes = sizeof(gpu::Node) + sizeof(gpu::Primitive) + sizeof(gpu::NormalTriple) +
+                         sizeof(gpu::Material) + sizeof(gpu::Light) + sizeof(gpu::EmitterEntry) +
+                         sizeof(gpu::Frame) + sizeof(gpu::Dispatch) + sizeof(gpu::WorkItem) +
+                         sizeof(gpu::PixelState) + sizeof(gpu::SuspendedPath) +
+                         sizeof(gpu::DispatchStatus);
+    EXPECT_EQ(bytes / 4, 16 + 12 + 4 + 16 + 20 + 4 + 28 + 4 + 2 + 16 + 16 + 4u);
+}
+
+} // namespace
+} // namespace stromboli::test

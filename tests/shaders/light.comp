@@ -1,0 +1,24 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "prelude.glsl"
+
+QUERIES_AND_ANSWERS(LightQuery, LightAnswer)
+
+bool blocked(vec3 origin, vec3 direction, float tMax) {
+    Traversal t;
+    startTraversal(t, origin, direction, 0.0, tMax, NO_PRIMITIVE, true);
+    for (uint i = 0u; traversing(t) && i < 1000u; ++i)
+        traversalStep(t);
+    return t.hitPrimitive != NO_PRIMITIVE;
+}
+
+LightAnswer answer(LightQuery q) {
+    const SurfacePoint s = SurfacePoint(q.position, q.error, q.geometric, q.shading, q.wo,
+                                        q.outside != 0u, 0u, NO_PRIMITIVE);
+    const LightSample l = sampleLight(s, fetchLight(q.light), vec3(q.u, q.v, q.w));
+    const vec3 origin = leave(s, l.direction); // as sampleLights in path.glsl
+    const bool isBlocked = l.infinite ? blocked(origin, l.direction, INFINITE_DISTANCE)
+                                      : blocked(origin, l.target - origin, 1.0);
+    return LightAnswer(l.target, l.infinite ? 1u : 0u, l.direction, isBlocked ? 1u : 0u,
+                       l.radiance, 0u);
+}

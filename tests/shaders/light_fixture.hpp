@@ -1,0 +1,43 @@
+#pragma once
+
+#include "host/kernel/gpu_scene.hpp"
+#include "tests/bvh/random.hpp"
+#include "tests/shaders/queries.h"
+#include "tests/support/device_fixture.hpp"
+#include "tests/support/test_shader.hpp"
+
+#include <vector>
+
+namespace stromboli::test {
+
+/// Asks light.comp for samples of the lights of a scene, packed as the renderer packs them.
+class LightFixture : public DeviceTest {
+  protected:
+    explicit LightFixture(bool cs184 = false);
+
+    void setScene(const Scene& scene);
+    std::vector<gpu::LightAnswer> answers(const std::vector<gpu::LightQuery>& queries);
+
+    /// A surface at `position` that faces `normal`, seen from there.
+    static gpu::LightQuery surfaceAt(const glm::vec3& position, const glm::vec3& normal);
+    /// The same surface with n samples of light 0.
+    static std::vector<gpu::LightQuery> samples(const gpu::LightQuery& surface, size_t n,
+                                                uint32_t seed);
+    /// With every pair of u, v and w from the ends of their interval.
+    static std::vector<gpu::LightQuery> ends(const gpu::LightQuery& surface);
+
+    GpuScene packed_;
+
+  private:
+    bool cs184_;
+    TestShader shader_;
+};
+
+/// A scene with material 0 that reflects and material 1 that emits.
+Scene sceneWithLamp(const glm::vec3& emission, bool bothSides);
+void addLampTriangle(Scene& scene, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
+
+/// Checks that an answer has no NaN and no negative radiance.
+::testing::AssertionResult isSound(const gpu::LightAnswer& a);
+
+} // namespace stromboli::test

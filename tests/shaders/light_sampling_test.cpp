@@ -1,0 +1,257 @@
+// Samples of quads, meshes, ambient and delta lights: where they fall (chi-square, .01 for the
+// tests of this file together), what they weigh, and that the lamp does not shade itself.
+#include "host/reference/lights.hpp"
+#include "tests/shaders/light_fixture.hpp"
+#include "tests/support/chi_square.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace stromboli::test {
+namespace {
+
+using gpu::LightAnswer;
+using gpu::LightQuery;
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr size_t kSamples = 100000;
+const double kLevel = sidakLevel(0.01, 4);
+
+class LightSampling : public LightFixture {};
+class LightSamplingCs184 : public LightFixture {
+  protected:
+    LightSamplingCs184() : LightFixture(true) {}
+};
+
+/// Where the sampled direction meets the plane z = height.
+glm::dvec3 onPlane(const LightQuery& q, const LightAnswer& a, double height) {
+    const glm::dvec3 o(q.position), d(a.direction);
+    return o + (height - o.z) / d.z * d;
+}
+
+/// A lamp above the origin that faces down, a parallelogram in the plane z = 2.
+struct QuadLamp {
+    glm::vec3 corner{-0.5f, -0.25f, 2}, edgeA{0.25f, 1, 0}, edgeB{1.5f, 0.125f, 0};
+    glm::vec3 emission{1, 2, 4};
+    double area = glm::length(glm::cross(glm::dvec3(edgeA), glm::dvec3(edgeB)));
+
+    Scene scene(bool bothSides) const {
+        Scene s = sceneWithLamp(emission, bothSides);
+        // edgeA x edgeB points down.
+        addLampTriangle(s, corner, corner + edgeA, corner + edgeA + edgeB);
+        addLampTriangle(s, corner + edgeA + edgeB, corner + edgeB, corner);
+        return s;
+    }
+};
+
+TEST_F(LightSampling, QuadUniformlyWithTheDensityOfItsArea) {
+    const QuadLamp lamp;
+    setScene(lamp.scene(false));
+    ASSERT_EQ(packed_.lights[0].kind, gpu::LIGHT_QUAD);
+    const auto queries = samples(surfaceAt({0.5f, -1, 0.25f}, {0, 0, 1}), kSamples, 121);
+    const std::vector<LightAnswer> found = answers(queries);
+    constexpr size_t kGrid = 10;
+    std::vector<double> counts(kGrid * kGrid);
+    const glm::dmat2 toCorner(glm::dvec2(lamp.edgeA), glm::dvec2(lamp.edgeB));
+    for (size_t i = 0; i < found.size(); ++i) {
+        const LightAnswer& a = found[i];
+        ASSERT_TRUE(isSound(a)) << i;
+        const glm::dvec3 p = onPlane(queries[i], a, 2), to = p - glm::dvec3(queries[i].position);
+        const glm::dvec2 at =
+            glm::inverse(toCorner) * (glm::dvec2(p) - glm::dvec2(lamp.corner)) * double(kGrid);
+        ASSERT_GE(std::min(at.x, at.y), -1e-4) << i;
+        ASSERT_LE(std::max(at.x, at.y), kGrid + 1e-4) << i;
+        const auto cell = [](double x) { return std::min(size_t(std::max(x, 0.0)), kGrid - 1); };
+        ++counts[cell(at.x) * kGrid + cell(at.y)];
+        // L / pdf, pdf = dist^2 / (area cos).
+        const double d2 = glm::dot(to, to), cosine = to.z / std::sqrt(d2);
+        for (int c = 0; c < 3; ++c)
+            ASSERT_NEAR(a.radiance[c] / (lamp.emission[c] * lamp.area * cosine / d2), 1, 2e-6);
+        ASSERT_EQ(a.infinite, 0u);
+        ASSERT_EQ(a.blocked, 0u) << i << ": the lamp shades itself";
+        ASSERT_LT(a.target.z, 2) << "short of the lamp";
+    }
+    const std::vector<double> expected(counts.size(), double(kSamples) / double(counts.size()));
+    EXPECT_GT(chiSquareTest(counts, expected), kLevel);
+}
+
+TEST_F(LightSampling, QuadEmitsOnTheSideItShould) {
+    for (const bool bothSides : {false, true}) {
+        setScene(QuadLamp().scene(bothSides));
+        const LightQuery below = surfaceAt({0, 0, 1}, {0, 0, 1});
+        const LightQuery above = surfaceAt({0, 0, 3}, {0, 0, -1});
+        for (const LightAnswer& a : answers(samples(below, 1000, 122)))
+            ASSERT_GT(a.radiance.x, 0);
+        for (const LightAnswer& a : answers(samples(above, 1000, 122))) {
+            ASSERT_EQ(a.radiance.x > 0, bothSides);
+            ASSERT_EQ(a.blocked, 0u);
+        }
+        const LightQuery inItsPlane = surfaceAt({5, 0, 2}, {-1, 0, 0});
+        for (const LightQuery& from : {below, above, inItsPlane})
+            for (const LightAnswer& a : answers(ends(from)))
+                EXPECT_TRUE(isSound(a));
+    }
+}
+
+TEST_F(LightSampling, QuadAnywhereInSpaceNeverShadesItself) {
+    Random random(123);
+    for (int k = 0; k < 20; ++k) {
+        const float scale = std::exp2(float(random.below(40)) - 20);
+        const glm::vec3 far = (k % 2 ? 1000.0f : 1.0f) * scale * random.inCube(1);
+        const glm::vec3 corner = far + scale * random.inCube(1);
+        const glm::vec3 edgeA = scale * random.direction();
+        const glm::vec3 edgeB = scale * glm::cross(random.direction(), glm::normalize(edgeA));
+        Scene s = sceneWithLamp({1, 1, 1}, true);
+        addLampTriangle(s, corner, corner + edgeA, corner + edgeA + edgeB);
+        addLampTriangle(s, corner, corner + edgeA + edgeB, corner + edgeB);
+        setScene(s);
+        std::vector<LightQuery> queries;
+        for (int i = 0; i < 500; ++i) {
+            const glm::vec3 p = far + 3.0f * scale * random.inCube(1);
+            const auto some = samples(surfaceAt(p, corner - p), 4, random.below(1u << 30));
+            queries.insert(queries.end(), some.begin(), some.end());
+        }
+        uint32_t blocked = 0;
+        for (const LightAnswer& a : answers(queries))
+            blocked += a.blocked && a.radiance.x > 0;
+        EXPECT_EQ(blocked, 0u) << k << ": scale " << scale;
+    }
+}
+
+TEST_F(LightSampling, MeshTrianglesInProportionToTheirAreas) {
+    // Side by side along x, facing down from z = 1, areas 0, 1, 2, ... times 1/2.
+    constexpr size_t kTriangles = 9;
+    Scene scene = sceneWithLamp({3, 2, 1}, false);
+    std::vector<double> expected;
+    for (size_t i = 0; i < kTriangles; ++i) {
+        const float x = 2 * float(i), size = float(i) / 8;
+        addLampTriangle(scene, {x, 0, 1}, {x, size, 1}, {x + 1, 0, 1});
+        expected.push_back(double(i) * kSamples / (kTriangles * (kTriangles - 1) / 2));
+    }
+    const double area = 0.5 * (1 + 2 + 3 + 4 + 5 + 6 + 7 + 8) / 8.0;
+    setScene(scene);
+    ASSERT_EQ(packed_.lights[0].kind, gpu::LIGHT_MESH);
+    const auto queries = samples(surfaceAt({8, 1, 0}, {0, 0, 1}), kSamples, 124);
+    const std::vector<LightAnswer> found = answers(queries);
+    constexpr size_t kGrid = 6; // of barycentric cells within a triangle
+    std::vector<double> counts(kTriangles), within(kGrid * kGrid), uniform(kGrid * kGrid);
+    for (size_t i = 0; i < found.size(); ++i) {
+        const LightAnswer& a = found[i];
+        ASSERT_TRUE(isSound(a)) << i;
+        const glm::dvec3 p = onPlane(queries[i], a, 1), to = p - glm::dvec3(queries[i].position);
+        const size_t triangle = size_t((p.x + 0.5) / 2);
+        ASSERT_LT(triangle, kTriangles);
+        ++counts[triangle];
+        const double b1 = p.y * 8 / std::max(double(triangle), 1.0),
+                     b2 = p.x - 2.0 * double(triangle);
+        ASSERT_GT(std::min({b1, b2, 1 - b1 - b2}), -1e-4) << i << ": off the triangle";
+        ++within[std::min(size_t(std::max(b1, 0.0) * kGrid), kGrid - 1) * kGrid +
+                 std::min(size_t(std::max(b2, 0.0) * kGrid), kGrid - 1)];
+        const double d2 = glm::dot(to, to), value = area * to.z / std::sqrt(d2) / d2;
+        ASSERT_NEAR(a.radiance.x / (3 * value), 1, 3e-6) << i;
+        ASSERT_EQ(a.blocked, 0u) << i;
+    }
+    EXPECT_EQ(counts[0], 0) << "the triangle without area was picked";
+    EXPECT_GT(chiSquareTest(counts, expected), kLevel);
+    for (size_t i = 0; i < kGrid; ++i)
+        for (size_t j = 0; i + j < kGrid; ++j)
+            uniform[i * kGrid + j] = (i + j + 1 == kGrid ? 1.0 : 2.0) * kSamples / (kGrid * kGrid);
+    // Rounding may put a point of the diagonal into the cells beyond it.
+    for (size_t i = 1; i < kGrid; ++i)
+        within[i * kGrid + kGrid - i] = 0;
+    EXPECT_GT(chiSquareTest(within, uniform), kLevel);
+    for (const LightAnswer& a : answers(ends(queries[0])))
+        EXPECT_TRUE(isSound(a));
+}
+
+TEST_F(LightSampling, AmbientAboutTheNormalOrAboveTheHorizon) {
+    for (const bool upper : {false, true}) {
+        Scene scene = sceneWithLamp(glm::vec3(0.0f), true);
+        Light light;
+        light.kind = LightKind::Ambient;
+        light.color = {1, 2, 3};
+        light.upperHemisphereOnly = upper;
+        scene.lights.push_back(light);
+        setScene(scene);
+        const LightQuery surface = surfaceAt({1, 2, 3}, {0.6f, -0.64f, 0.48f});
+        const glm::dvec3 pole = upper ? glm::dvec3(0, 1, 0) : glm::dvec3(surface.shading);
+        std::vector<double> counts(20);
+        for (const LightAnswer& a : answers(samples(surface, kSamples, 125))) {
+            ASSERT_TRUE(isSound(a));
+            ASSERT_EQ(a.infinite, 1u);
+            ASSERT_NEAR(a.radiance.z, 3 * 2 * kPi, 1e-5); // L / pdf
+            const double cosine = glm::dot(glm::dvec3(a.direction), pole);
+            ASSERT_GE(cosine, -1e-6);
+            ++counts[std::min(size_t(std::max(cosine, 0.0) * 20), size_t(19))];
+        }
+        EXPECT_GT(chiSquareTest(counts, std::vector<double>(20, kSamples / 20.0)), kLevel);
+    }
+}
+
+TEST_F(LightSampling, DeltaLightsAsTheReferenceHasThem) {
+    Random random(126);
+    for (int k = 0; k < 60; ++k) {
+        Scene scene = sceneWithLamp(glm::vec3(0.0f), true);
+        Light& light = scene.lights.emplace_back();
+        constexpr LightKind kKinds[] = {LightKind::Directional, LightKind::Point, LightKind::Spot};
+        light.kind = kKinds[k % 3];
+        light.color = {1, 20, 300};
+        light.position = random.inCube(2);
+        light.direction = glm::normalize(random.direction());
+        light.constantAttenuation = random.uniform();
+        light.linearAttenuation = random.uniform();
+        light.quadraticAttenuation = 0.01f + random.uniform();
+        light.falloffAngle = random.uniform(0.2f, 3);
+        light.falloffExponent = k % 2 ? 0 : random.uniform(0, 20);
+        setScene(scene);
+        const reference::Lights expected(scene, reference::Convention::Physical);
+        std::vector<LightQuery> queries;
+        for (int i = 0; i < 100; ++i) // around the axis
+            queries.push_back(surfaceAt(light.position + random.uniform(0.5f, 2) *
+                                                             (light.direction + random.inCube(1)),
+                                        random.direction()));
+        const std::vector<LightAnswer> found = answers(queries);
+        for (size_t i = 0; i < queries.size(); ++i) {
+            reference::SurfacePoint s;
+            s.position = queries[i].position;
+            const reference::LightSample e = expected.sampleDelta(0, s);
+            ASSERT_TRUE(isSound(found[i]));
+            EXPECT_EQ(found[i].infinite != 0, e.infinite);
+            EXPECT_LT(glm::length(glm::dvec3(found[i].direction) - e.direction), 1e-6);
+            const double cosine = -glm::dot(e.direction, glm::dvec3(light.direction));
+            if (std::abs(cosine - std::cos(double(light.falloffAngle) / 2)) < 1e-5) continue;
+            // pow to 16 ulp per exponent (Vulkan) of a cosine that rounding has changed.
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(found[i].radiance[c], e.value[c], 2e-4 * e.value[c] + 1e-6);
+        }
+    }
+}
+
+/// docs/estimator.md, "CS184 mode": nothing unless D . n < 0; area cos_light / |D|.
+TEST_F(LightSamplingCs184, RectangleWithOneFactorOfDistanceTooFew) {
+    Scene scene = sceneWithLamp(glm::vec3(0.0f), true);
+    Light& light = scene.lights.emplace_back();
+    light.kind = LightKind::Area;
+    light.color = {10, 5, 1};
+    light.position = {0, 0, 2};
+    light.direction = {0, 0, -1};
+    light.edgeX = {1.5f, 0, 0};
+    light.edgeY = {0, 0.5f, 0};
+    setScene(scene);
+    const auto queries = samples(surfaceAt({0.25f, 1, -1}, {0, 0, 1}), 10000, 127);
+    const std::vector<LightAnswer> found = answers(queries);
+    for (size_t i = 0; i < found.size(); ++i) {
+        const glm::dvec3 p = onPlane(queries[i], found[i], 2);
+        const glm::dvec3 to = p - glm::dvec3(queries[i].position);
+        const double distance = glm::length(to), cosine = to.z / distance;
+        ASSERT_LE(std::abs(p.x), 0.75 + 1e-5);
+        ASSERT_LE(std::abs(p.y), 0.25 + 1e-5);
+        ASSERT_NEAR(found[i].radiance.x / (10 * 0.75 * cosine / distance), 1, 3e-6) << i;
+    }
+    for (const LightAnswer& a : answers(samples(surfaceAt({0, 0, 3}, {0, 0, -1}), 100, 127)))
+        EXPECT_EQ(a.radiance, glm::vec3(0.0f)) << "from behind";
+}
+
+} // namespace
+} // namespace stromboli::test

@@ -1,0 +1,237 @@
+// What the tests ask their shaders and what these answer, for C++ and GLSL. Rows as in
+// shaders/shared: a vec3 and a scalar share 16 bytes.
+#ifndef STROMBOLI_TEST_QUERIES_H
+#define STROMBOLI_TEST_QUERIES_H
+
+#include "shared/language.h"
+#include "shared/render_types.h"
+
+SHARED_BEGIN
+
+/// pcg4d and unitFloats of the words, randomBlock of them in the order pixel, sample, block, seed.
+struct RandomQuery {
+    uint x;
+    uint y;
+    uint z;
+    uint w;
+};
+struct RandomAnswer {
+    uint hashed[4];
+    float units[4];
+    float block[4];
+};
+SHARED_ROWS(RandomAnswer, 3);
+
+struct TriangleQuery {
+    vec3 v0;
+    uint unused0;
+    vec3 v1;
+    uint unused1;
+    vec3 v2;
+    uint unused2;
+    vec3 origin;
+    uint unused3;
+    vec3 direction;
+    uint unused4;
+};
+SHARED_ROWS(TriangleQuery, 5);
+struct TriangleAnswer {
+    float t;
+    float b1;
+    float b2;
+    float naive; ///< t of Moeller-Trumbore with an absolute cut-off
+};
+
+struct SphereQuery {
+    vec3 center;
+    float radius;
+    vec3 origin;
+    float tMin;
+    vec3 direction;
+    float tMax;
+};
+struct SphereAnswer {
+    float t;
+    float naive; ///< t by b^2 - 4ac
+};
+
+struct BoxQuery {
+    vec3 low;
+    float tMax;
+    vec3 high;
+    uint unused0;
+    vec3 origin;
+    uint unused1;
+    vec3 direction;
+    uint unused2;
+};
+struct BoxAnswer {
+    float t;
+    float naive; ///< t of the slab test without slack and with infinite reciprocals
+};
+
+struct RayQuery {
+    vec3 origin;
+    float tMin;
+    vec3 direction;
+    float tMax;
+    uint skipPrimitive;
+    uint anyHit;
+    uint unused0;
+    uint unused1;
+};
+struct RayAnswer {
+    float t;
+    float b1;
+    float b2;
+    uint primitive;
+    uint steps;
+    uint bruteHits; ///< of all triangles, tried one by one
+    uint naiveHits; ///< the same by Moeller-Trumbore
+    float bruteT;   ///< of the closest primitive, tried one by one
+};
+
+/// `count` samples for a pixel: even and odd by turns, or drawn from a distribution.
+struct AccumulateQuery {
+    PixelState state;
+    vec3 naiveSum;
+    uint count;
+    vec3 even;
+    uint random; ///< not 0: even / u, u the random numbers of this pixel
+    vec3 odd;
+    uint injectAt; ///< this sample of the query is replaced ...
+    vec3 injected; ///< ... by this
+    uint unused;
+};
+SHARED_ROWS(AccumulateQuery, 8);
+struct AccumulateAnswer {
+    PixelState state;
+    vec3 naiveSum; ///< negative control: one float
+    uint unused;
+};
+SHARED_ROWS(AccumulateAnswer, 5);
+
+struct WarpQuery {
+    vec3 normal; ///< of makeFrame
+    float alpha;
+    float u;
+    float v;
+    uint encodedNormal;
+    uint unused;
+};
+SHARED_ROWS(WarpQuery, 2);
+struct WarpAnswer {
+    vec3 cosine;
+    float diskX;
+    vec3 hemisphere;
+    float diskY;
+    vec3 beckmann;
+    float triangleX;
+    vec3 frameX;
+    float triangleY;
+    vec3 frameY;
+    uint unused0;
+    vec3 frameZ;
+    uint unused1;
+    vec3 decoded;
+    uint unused2;
+};
+SHARED_ROWS(WarpAnswer, 7);
+
+/// A light sample for a surface, and whether its segment is blocked by the scene.
+struct LightQuery {
+    vec3 position;
+    uint light;
+    vec3 error;
+    uint outside;
+    vec3 geometric;
+    float u;
+    vec3 shading;
+    float v;
+    vec3 wo;
+    float w;
+};
+SHARED_ROWS(LightQuery, 5);
+struct LightAnswer {
+    vec3 target;
+    uint infinite;
+    vec3 direction;
+    uint blocked;
+    vec3 radiance;
+    uint unused;
+};
+SHARED_ROWS(LightAnswer, 3);
+
+/// evaluateBsdf towards wi and sampleBsdf with u, v, w, on a surface that is turned to wo first.
+struct BsdfQuery {
+    vec3 wo;
+    uint material;
+    vec3 wi;
+    uint outside;
+    vec3 geometric;
+    float u;
+    vec3 shading;
+    float v;
+    float w;
+    uint unused0;
+    uint unused1;
+    uint unused2;
+};
+SHARED_ROWS(BsdfQuery, 5);
+struct BsdfAnswer {
+    vec3 value; ///< f |cos|
+    uint transmitted;
+    vec3 direction;
+    uint unused0;
+    vec3 weight;
+    uint unused1;
+};
+SHARED_ROWS(BsdfAnswer, 3);
+
+struct TermQuery {
+    vec3 eta;
+    float x; ///< a cosine; of erfPositive any number
+    vec3 k;
+    float alpha; ///< or an index of refraction
+};
+struct TermAnswer {
+    vec3 conductor;
+    float erf;
+    vec3 conductorCs184;
+    float lambda;
+    float dielectric;
+    float cosTransmitted;
+    float schlick;
+    float unused;
+};
+SHARED_ROWS(TermAnswer, 3);
+
+/// A ray at one primitive, and a direction in which to leave the point it hits.
+struct SurfaceQuery {
+    vec3 origin;
+    uint primitive;
+    vec3 direction;
+    uint unused0;
+    vec3 leaving;
+    uint unused1;
+};
+SHARED_ROWS(SurfaceQuery, 3);
+struct SurfaceAnswer {
+    vec3 position;
+    float t; ///< of the hit
+    vec3 error;
+    float again; ///< t at which the ray that leaves hits the same primitive, if it is not skipped
+    vec3 geometric;
+    uint outside;
+    vec3 shading; ///< before faceForward
+    uint skipPrimitive;
+    vec3 facing; ///< the shading normal after faceForward
+    uint unused0;
+    vec3 start; ///< of the ray that leaves
+    uint unused1;
+};
+SHARED_ROWS(SurfaceAnswer, 6);
+
+SHARED_END
+
+#endif

@@ -1,0 +1,224 @@
+// surface.glsl on hits of real rays: the point, its error bound, the normals, and where rays that
+// leave start: on the right side of the exact surface, at any scale.
+#include "host/bvh/primitive_bounds.hpp"
+#include "host/kernel/gpu_scene.hpp"
+#include "tests/bvh/fixtures.hpp"
+#include "tests/shaders/queries.h"
+#include "tests/support/device_fixture.hpp"
+#include "tests/support/test_shader.hpp"
+
+#include "embedded/surface_texel.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace stromboli::test {
+namespace {
+
+using gpu::SurfaceAnswer;
+using gpu::SurfaceQuery;
+
+constexpr float kInfinite = 3.402823466e38f;
+
+class SurfaceTest : public DeviceTest {
+  protected:
+    void setScene(Scene scene) {
+        scene.materials.resize(1);
+        packed_ = packScene(scene, buildBinaryTree(primitiveBounds(scene)), false);
+        shader_.setScene(packed_);
+    }
+
+    std::vector<SurfaceAnswer> answers(const std::vector<SurfaceQuery>& queries) {
+        return ask<SurfaceAnswer>(shader_, queries);
+    }
+
+    GpuScene packed_;
+
+  private:
+    TestShader shader_{surface_texel, ShaderOptions::texel()};
+};
+
+glm::dvec3 normalOf(const gpu::Primitive& p) {
+    const glm::dvec3 a(p.v0), b(p.v1), c(p.v2);
+    return glm::normalize(glm::cross(b - a, c - a));
+}
+
+/// A ray from some way off at a point of the primitive, to leave it in any direction.
+SurfaceQuery rayAt(const GpuScene& scene, uint32_t primitive, float size, Random& random) {
+    const gpu::Primitive& p = scene.primitives[primitive];
+    SurfaceQuery q{};
+    q.primitive = primitive;
+    glm::vec3 target;
+    if (p.kind == gpu::PRIMITIVE_TRIANGLE) {
+        const float b1 = random.uniform(), b2 = random.uniform() * (1 - b1);
+        target = p.v0 + b1 * (p.v1 - p.v0) + b2 * (p.v2 - p.v0);
+    } else {
+        target = p.v0 + 0.9f * p.v1.x * glm::normalize(random.direction());
+    }
+    q.origin = target + size * random.direction();
+    q.direction = glm::normalize(target - q.origin);
+    q.leaving = glm::normalize(random.direction());
+    return q;
+}
+
+TEST_F(SurfaceTest, RaysLeaveTrianglesOnTheRightSideAtAnyScale) {
+    Random random(141);
+    size_t hits = 0, naiveWrong = 0;
+    for (int exponent = -8; exponent <= 8; exponent += 2)
+        for (const float shift : {0.0f, 100.0f}) { // coordinates of the size, or far larger
+            const float scale = std::pow(10.0f, float(exponent));
+            Scene scene = soup(200, 0, 0.5f, random);
+            const glm::vec3 by = shift * random.inCube(1);
+            for (glm::vec3& p : scene.positions)
+                p = scale * (p + by);
+            setScene(scene);
+            std::vector<SurfaceQuery> queries;
+            for (uint32_t i = 0; i < 5000; ++i)
+                queries.push_back(rayAt(packed_, i % 200, 2 * scale, random));
+            const std::vector<SurfaceAnswer> found = answers(queries);
+            for (size_t i = 0; i < queries.size(); ++i) {
+                const SurfaceAnswer& a = found[i];
+                if (!(a.t < kInfinite)) continue; // rounded past an edge
+                ++hits;
+                const gpu::Primitive& p = packed_.primitives[queries[i].primitive];
+                const glm::dvec3 n = normalOf(p), corner(p.v0);
+                ASSERT_GT(std::abs(glm::dot(n, glm::dvec3(a.geometric))), 0.9);
+                const glm::dvec3 w(queries[i].leaving);
+                const double side = glm::dot(n, w) > 0 ? 1 : -1;
+                const double height = side * glm::dot(n, glm::dvec3(a.start) - corner);
+                naiveWrong += side * glm::dot(n, glm::dvec3(a.position) - corner) < 0;
+                if (std::abs(glm::dot(n, w)) < 1e-5) continue; // which side is for rounding to say
+                ASSERT_GT(height, 0) << scale << ' ' << i << ": behind the surface";
+                // Nor farther off than it need be: some roundings of the coordinates.
+                const glm::dvec3 size = glm::abs(glm::dvec3(a.position));
+                ASSERT_LT(height, 64 * 0x1p-24 * (size.x + size.y + size.z + 3 * scale));
+                EXPECT_EQ(a.skipPrimitive, queries[i].primitive);
+                EXPECT_FALSE(a.again < kInfinite) << scale << ' ' << i << ": hits itself";
+            }
+        }
+    EXPECT_GT(hits, 60000u);
+    EXPECT_GT(naiveWrong, hits / 10) << "negative control: without the offset";
+}
+
+TEST_F(SurfaceTest, TheErrorBoundHolds) {
+    Random random(142);
+    double most = 0;
+    for (const float shift : {0.0f, 1.0f, 1000.0f}) {
+        Scene scene = soup(200, 0, 0.5f, random);
+        for (glm::vec3& p : scene.positions)
+            p = p + shift;
+        setScene(scene);
+        std::vector<SurfaceQuery> queries;
+        for (uint32_t i = 0; i < 20000; ++i)
+            queries.push_back(rayAt(packed_, i % 200, 2, random));
+        const std::vector<SurfaceAnswer> found = answers(queries);
+        for (size_t i = 0; i < queries.size(); ++i) {
+            if (!(found[i].t < kInfinite)) continue;
+            const gpu::Primitive& p = packed_.primitives[queries[i].primitive];
+            const glm::dvec3 n = normalOf(p);
+            const double off = std::abs(glm::dot(n, glm::dvec3(found[i].position - p.v0)));
+            const double bound = glm::dot(glm::abs(n), glm::dvec3(found[i].error));
+            ASSERT_LE(off, bound) << shift << ' ' << i;
+            most = std::max(most, off / bound);
+        }
+    }
+    EXPECT_GT(most, 0.05) << "the bound is loose by far";
+}
+
+/// Spheres are not skipped: only the offset keeps a ray from hitting the one it leaves.
+TEST_F(SurfaceTest, RaysLeaveSpheresWithoutHittingThemAgain) {
+    Random random(143);
+    for (const float radius : {1e-6f, 0.1f, 1.0f, 1e6f})
+        for (const float shift : {0.0f, 1.0f, 1e3f}) { // of the centre, in radii
+            Scene scene;
+            Sphere s;
+            s.center = shift * radius * random.inCube(1);
+            s.radius = radius;
+            scene.spheres.push_back(s);
+            setScene(scene);
+            std::vector<SurfaceQuery> queries;
+            for (uint32_t i = 0; i < 10000; ++i) {
+                queries.push_back(rayAt(packed_, 0, 3 * radius, random));
+                // Every other one starts inside.
+                if (i % 2) queries.back().origin = s.center + 0.4f * radius * random.inCube(1);
+            }
+            const std::vector<SurfaceAnswer> found = answers(queries);
+            int again = 0, missing = 0, wrongSide = 0;
+            for (size_t i = 0; i < queries.size(); ++i) {
+                ASSERT_LT(found[i].t, kInfinite) << radius << ' ' << i;
+                const glm::dvec3 n =
+                    glm::normalize(glm::dvec3(found[i].position) - glm::dvec3(s.center));
+                const double cosine = glm::dot(n, glm::dvec3(queries[i].leaving));
+                const double height =
+                    glm::length(glm::dvec3(found[i].start) - glm::dvec3(s.center)) - double(radius);
+                wrongSide += std::abs(cosine) > 1e-3 && (height > 0) != (cosine > 0);
+                again += cosine > 1e-3 && found[i].again < kInfinite;
+                // A ray into the sphere crosses it: 2 r cos.
+                missing += cosine < -0.1 && std::abs(found[i].again / (-2 * cosine * radius) - 1) >
+                                                0.01 + 1e-4 * shift;
+            }
+            EXPECT_EQ(wrongSide, 0) << radius << ' ' << shift;
+            EXPECT_EQ(again, 0) << radius << ' ' << shift << ": hits itself";
+            EXPECT_EQ(missing, 0) << radius << ' ' << shift << ": does not cross it";
+        }
+}
+
+/// Shading normals: interpolated, or the geometric one where there are none or they cancel; both
+/// turned to the viewer.
+TEST_F(SurfaceTest, NormalsAreInterpolatedAndFaceTheViewer) {
+    Random random(144);
+    Scene scene = soup(300, 0, 1, random);
+    for (uint32_t i = 0; i < 300; ++i) {
+        if (i % 3 == 0) continue; // without normals
+        Triangle& t = scene.triangles[i];
+        const glm::vec3 n = scene.geometricNormal(t);
+        const bool opposite = i % 30 == 1; // two of them cancel
+        for (uint32_t c = 0; c < 3; ++c) {
+            t.normals[c] = uint32_t(scene.normals.size());
+            const glm::vec3 tilted = glm::normalize(n + 0.7f * glm::normalize(random.direction()));
+            scene.normals.push_back(opposite ? (c == 1 ? -n : n) : tilted);
+        }
+    }
+    setScene(scene);
+    std::vector<SurfaceQuery> queries;
+    for (uint32_t i = 0; i < 30000; ++i)
+        queries.push_back(rayAt(packed_, i % 300, 2, random));
+    const std::vector<SurfaceAnswer> found = answers(queries);
+    int hits = 0;
+    for (size_t i = 0; i < queries.size(); ++i) {
+        const SurfaceAnswer& a = found[i];
+        if (!(a.t < kInfinite)) continue;
+        const uint32_t slot = queries[i].primitive, id = packed_.bvh.primitiveOrder[slot];
+        const gpu::Primitive& p = packed_.primitives[slot];
+        const glm::dvec3 ng = normalOf(p), wo = -glm::dvec3(queries[i].direction);
+        if (std::abs(glm::dot(ng, wo)) < 1e-3) continue;
+        ++hits;
+        EXPECT_EQ(a.outside != 0, glm::dot(ng, wo) > 0) << i;
+        EXPECT_GT(glm::dot(glm::dvec3(a.geometric), wo), 0) << i;
+        EXPECT_NEAR(glm::length(a.shading), 1, 1e-6) << i;
+        EXPECT_GE(glm::dot(a.facing, a.geometric), 0) << i;
+        EXPECT_GT(glm::dot(glm::dvec3(a.facing), wo), 0) << i;
+        const Triangle& t = scene.triangles[id];
+        glm::dvec3 expected = ng;
+        if (t.normals[0] != kNoNormals) {
+            // Barycentric weights of the point, by areas.
+            const glm::dvec3 v0(p.v0), v1(p.v1), v2(p.v2), x(a.position);
+            const double area = glm::dot(ng, glm::cross(v1 - v0, v2 - v0));
+            const double b1 = glm::dot(ng, glm::cross(x - v0, v2 - v0)) / area;
+            const double b2 = glm::dot(ng, glm::cross(v1 - v0, x - v0)) / area;
+            expected = (1 - b1 - b2) * glm::dvec3(scene.normals[t.normals[0]]) +
+                       b1 * glm::dvec3(scene.normals[t.normals[1]]) +
+                       b2 * glm::dvec3(scene.normals[t.normals[2]]);
+        }
+        const double length = glm::length(expected);
+        if (length < 0.05) continue; // as good as cancelled
+        // Octahedral normals are good to 4e-5; slivers have rough weights.
+        const double tolerance = (1e-4 + 1e-4) / length;
+        EXPECT_LT(glm::length(glm::dvec3(a.shading) - expected / length), tolerance) << i;
+    }
+    EXPECT_GT(hits, 20000);
+}
+
+} // namespace
+} // namespace stromboli::test

@@ -1,0 +1,13 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "prelude.glsl"
+
+QUERIES_AND_ANSWERS(WarpQuery, WarpAnswer)
+
+WarpAnswer answer(WarpQuery q) {
+    const vec2 u = vec2(q.u, q.v), disk = sampleDisk(u), triangle = sampleTriangle(u);
+    const ShadingFrame f = makeFrame(q.normal);
+    return WarpAnswer(sampleCosineHemisphere(u), disk.x, sampleUniformHemisphere(u), disk.y,
+                      sampleBeckmann(u, q.alpha), triangle.x, f.x, triangle.y, f.y, 0u, f.z, 0u,
+                      decodeNormal(q.encodedNormal), 0u);
+}
