@@ -17,7 +17,7 @@ using KernelFeatures = std::array<uint32_t, SPEC_COUNT>;
 /// What suits a device rather than a scene.
 struct DeviceTuning {
     uint32_t workgroupSize = 64;
-    uint32_t traversalSteps = 6; ///< between two service passes
+    uint32_t traversalSteps = 8; ///< between two service passes
 };
 
 /// Switches off all that the scene and the settings do not need.

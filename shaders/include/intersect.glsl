@@ -38,8 +38,12 @@ float enterBox(vec3 low, vec3 high, Ray ray, float tMax) {
     const bvec3 negative = lessThan(ray.inverse, vec3(0.0));
     const vec3 nearest = (mix(low, high, negative) - ray.origin) * ray.inverse;
     const vec3 farthest = (mix(high, low, negative) - ray.origin) * ray.inverse;
-    const float tNear = max(max(nearest.x, nearest.y), max(nearest.z, 0.0));
-    const float tFar = min(min(farthest.x, farthest.y), min(farthest.z, tMax));
+    // As integers, bit patterns of floats that are not negative compare as the floats do, and a
+    // negative one is below them all, which is all that is needed here. llvmpipe takes one
+    // instruction for it, and three for a float minimum that minds NaN.
+    const ivec3 n = floatBitsToInt(nearest), f = floatBitsToInt(farthest);
+    const float tNear = intBitsToFloat(max(max(n.x, n.y), max(n.z, 0)));
+    const float tFar = intBitsToFloat(min(min(f.x, f.y), min(f.z, floatBitsToInt(tMax))));
     return tNear <= tFar * BOX_SLACK ? tNear : INFINITE_DISTANCE;
 }
 
