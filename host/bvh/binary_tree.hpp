@@ -24,11 +24,11 @@ struct BinaryTree {
 };
 
 struct BuildOptions {
-    uint32_t maxLeafSize = 4;    ///< 1..16
-    uint32_t bins = 32;          ///< per axis, 2..64
-    float traversalCost = 1.0f;  ///< of a node's two box tests, in units of ...
+    uint32_t maxLeafSize = 4;      ///< 1..16
+    uint32_t bins = 32;            ///< per axis, 2..64
+    float traversalCost = 1.0f;    ///< of a node's two box tests, in units of ...
     float intersectionCost = 1.0f; ///< ... one primitive test
-    uint32_t depthCap = 48;      ///< the builder proves depth <= depthCap for every input
+    uint32_t depthCap = 48;        ///< the builder proves depth <= depthCap for every input
 };
 
 /// Binned SAH over centroid bounds (Wald 2007), all three axes; median split where SAH finds

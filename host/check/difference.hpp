@@ -4,8 +4,8 @@
 
 namespace stromboli {
 
-/// Radiance that float arithmetic may turn into 0: a factor below 2^-126 vanishes, and may have been
-/// about to be multiplied by up to 2^26 (radiance, areas, densities).
+/// Radiance that float arithmetic may turn into 0: a factor below 2^-126 vanishes, and may have
+/// been about to be multiplied by up to 2^26 (radiance, areas, densities).
 inline constexpr double kUnderflow = 0x1p-100;
 
 /// Sum over pixels of the difference of two films' means in one channel, with its variance.

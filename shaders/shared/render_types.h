@@ -9,7 +9,7 @@ SHARED_BEGIN
 /// The same for all dispatches of a picture.
 struct Frame {
     vec3 cameraPosition;
-    uint width; ///< of the whole picture, pixels
+    uint width;       ///< of the whole picture, pixels
     vec3 cameraRight; ///< times halfWidth
     uint height;
     vec3 cameraUp; ///< times halfHeight
@@ -36,7 +36,7 @@ SHARED_OFFSET(Frame, areaLights, 96);
 /// Push constants of one dispatch.
 struct Dispatch {
     uint itemCount;
-    uint segmentBase; ///< first pixel of the crop that the bound film segment holds
+    uint segmentBase;    ///< first pixel of the crop that the bound film segment holds
     uint softIterations; ///< start no further ray of a path at or after this loop iteration
     uint hardIterations; ///< leave the loop here: an error, reported as overflow
 };
@@ -55,8 +55,8 @@ struct PixelState {
     vec3 sum;
     uint count; ///< samples in the sums
     vec3 sumError;
-    uint rejected; ///< samples that were not finite, or negative
-    vec3 m2; ///< sum of squared deviations from the running mean (Welford 1962)
+    uint rejected;      ///< samples that were not finite, or negative
+    vec3 m2;            ///< sum of squared deviations from the running mean (Welford 1962)
     uint firstRejected; ///< sample index, or 0xFFFFFFFF
     vec3 m2Error;
     uint unused;

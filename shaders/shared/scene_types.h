@@ -101,13 +101,13 @@ SHARED_CONST uint LIGHT_SPOT = 6u;
 struct Light {
     vec3 position; ///< quad: corner; sphere: centre; directional: unit vector to the light
     uint kind;
-    vec3 edgeA; ///< quad; sphere: x = radius; spot: unit vector the light travels along
-    float area; ///< quad, mesh: of one side
-    vec3 edgeB; ///< quad; point, spot: constant, linear, quadratic attenuation
+    vec3 edgeA;     ///< quad; sphere: x = radius; spot: unit vector the light travels along
+    float area;     ///< quad, mesh: of one side
+    vec3 edgeB;     ///< quad; point, spot: constant, linear, quadratic attenuation
     uint bothSides; ///< quad, mesh, sphere: emits on both sides
-    vec3 color; ///< radiance (quad, mesh, sphere, ambient), or as scene/model/light.hpp says
+    vec3 color;     ///< radiance (quad, mesh, sphere, ambient), or as scene/model/light.hpp says
     uint upperHemisphereOnly; ///< ambient
-    uint firstEntry; ///< mesh: into the EmitterEntry buffer
+    uint firstEntry;          ///< mesh: into the EmitterEntry buffer
     uint entryCount;
     float cosCutoff; ///< spot: cosine of half the opening angle
     float falloffExponent;
@@ -119,8 +119,8 @@ SHARED_OFFSET(Light, cosCutoff, 72);
 /// One column of an alias table over the triangles of an emissive mesh, by area (Walker 1977,
 /// Vose 1991).
 struct EmitterEntry {
-    uint primitive; ///< this column's triangle, in BVH order
-    uint alias;     ///< the other triangle of this column, in BVH order
+    uint primitive;  ///< this column's triangle, in BVH order
+    uint alias;      ///< the other triangle of this column, in BVH order
     float threshold; ///< take `primitive` where the fraction within the column is below this
     uint unused;
 };
