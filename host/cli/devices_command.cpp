@@ -18,7 +18,7 @@ void print(size_t index, const vulkan::DeviceDescription& d, bool chosen) {
                limits.maxTexelBufferElements >> 20);
     fmt::print("     subgroup: {} lanes; timestamps: {}\n", d.subgroupSize,
                d.timestampBits ? "yes" : "no (the host's clock is used)");
-    fmt::print("     uuid: {}\n", d.uuid());
+    fmt::print("     uuid: {}\n", d.uuid);
     fmt::print("     {}\n", d.usable() ? "usable" : "not usable: lacks " + d.missing);
 }
 

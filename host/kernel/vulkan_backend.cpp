@@ -70,7 +70,7 @@ std::span<const uint32_t> kernelCode(bool texelFetch) {
 /// A GPU wants every lane of a big picture at once; llvmpipe is full with a few groups, and
 /// smaller dispatches let its lanes run longer within the time target.
 uint32_t defaultItems(const vulkan::Device& device) {
-    return device.description().isCpu() ? 1u << 14 : 1u << 20;
+    return device.description().isCpu() ? 1u << 14 : kLargestDispatch;
 }
 
 DeviceTuning deviceTuning(const KernelTuning& t) {
@@ -98,11 +98,32 @@ RenderSettings withCrop(RenderSettings s) {
     return s;
 }
 
+/// Says what does not fit before anything is allocated or uploaded.
+void checkMemory(const vulkan::Device& device, const GpuScene& scene,
+                 const RenderSettings& settings, uint32_t itemsPerDispatch, BufferUse use) {
+    for (const BufferSize& b : sceneSizes(scene))
+        Buffer::checkLimits(device, b.name, b.bytes, use);
+    uint64_t total = 0;
+    for (const BufferSize& b : predictBuffers(scene, settings, itemsPerDispatch))
+        total += b.bytes;
+    if (total > device.description().memory)
+        throw DeviceError(fmt::format("scene and picture need {} bytes, but {} has {} bytes of "
+                                      "memory; 'stromboli info' lists the buffers",
+                                      total, device.description().name(),
+                                      device.description().memory));
+}
+
 } // namespace
 
-std::vector<BufferSize> predictBuffers(const GpuScene& scene, const RenderSettings& settings) {
+std::vector<BufferSize> predictBuffers(const GpuScene& scene, const RenderSettings& settings,
+                                       uint32_t itemsPerDispatch) {
+    const uint64_t items = std::min<uint64_t>(itemsPerDispatch, pixelCount(settings));
     std::vector<BufferSize> sizes = sceneSizes(scene);
     sizes.push_back({"film", pixelCount(settings) * sizeof(gpu::PixelState)});
+    sizes.push_back({"work list", items * sizeof(gpu::WorkItem)});
+    sizes.push_back({"suspended paths", items * sizeof(gpu::SuspendedPath)});
+    sizes.push_back({"frame constants", sizeof(gpu::Frame)});
+    sizes.push_back({"dispatch status", sizeof(gpu::DispatchStatus)});
     return sizes;
 }
 
@@ -119,8 +140,7 @@ VulkanBackend::VulkanBackend(const vulkan::Device& device, const GpuScene& scene
       fixedIterations_(tuning.fixedIterations),
       pace_(tuning.targetSeconds, softLimit(hardIterations_)), queue_(device), sceneBuffers_([&] {
           const BufferUse use = texelFetch_ ? BufferUse::Texel : BufferUse::Storage;
-          for (const BufferSize& b : sceneSizes(scene))
-              Buffer::checkLimits(device, b.name, b.bytes, use);
+          checkMemory(device, scene, settings_, itemsPerDispatch_, use);
           std::vector<Buffer> buffers;
           for (const BufferSize& b : sceneSizes(scene))
               buffers.emplace_back(device, b.name, b.bytes, use);

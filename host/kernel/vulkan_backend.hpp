@@ -25,15 +25,19 @@ struct KernelTuning {
     std::optional<uint32_t> fixedIterations; ///< instead of pacing by time (tests)
 };
 
+/// Pixels of a dispatch on a GPU: enough lanes to fill any, and 64 MiB of suspended paths.
+inline constexpr uint32_t kLargestDispatch = 1u << 20;
+
 /// A buffer the kernel needs: for `stromboli info` and the check before the upload.
 struct BufferSize {
     std::string name;
     uint64_t bytes = 0;
 };
 
-/// The device buffers of a scene and a picture, largest use predicted before anything is
-/// allocated.
-std::vector<BufferSize> predictBuffers(const GpuScene& scene, const RenderSettings& settings);
+/// All device buffers of a scene and a picture, known before anything is allocated.
+/// itemsPerDispatch: pixels that a dispatch works on at most.
+std::vector<BufferSize> predictBuffers(const GpuScene& scene, const RenderSettings& settings,
+                                       uint32_t itemsPerDispatch = kLargestDispatch);
 
 /// Takes samples with the Vulkan path kernel.
 class VulkanBackend final : public Backend {

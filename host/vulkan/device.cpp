@@ -40,13 +40,17 @@ DeviceDescription describe(VkPhysicalDevice handle) {
     }
     VkPhysicalDeviceDriverProperties driver = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceIDProperties identity = {.sType =
+                                                 VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES};
     VkPhysicalDeviceSubgroupProperties subgroup = {
-        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES, .pNext = &identity};
     VkPhysicalDeviceProperties2 properties = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &subgroup};
-    if (d.properties.apiVersion >= VK_API_VERSION_1_2) subgroup.pNext = &driver;
+    if (d.properties.apiVersion >= VK_API_VERSION_1_2) identity.pNext = &driver;
     vkGetPhysicalDeviceProperties2(handle, &properties);
     d.subgroupSize = subgroup.subgroupSize;
+    for (uint8_t byte : identity.deviceUUID)
+        d.uuid += fmt::format("{:02x}", byte);
     d.driver = driver.driverName[0] ? fmt::format("{} {}", driver.driverName, driver.driverInfo)
                                     : fmt::format("driver {}", d.properties.driverVersion);
     VkPhysicalDeviceMemoryProperties memory;
@@ -98,7 +102,7 @@ DeviceChoice chooseBest(const std::vector<DeviceDescription>& devices) {
 
 bool matches(const DeviceDescription& d, const std::string& wanted) {
     if (wanted == "cpu") return d.isCpu();
-    return lower(d.name()).find(wanted) != std::string::npos || d.uuid() == wanted;
+    return lower(d.name()).find(wanted) != std::string::npos || d.uuid == wanted;
 }
 
 } // namespace
@@ -116,13 +120,6 @@ std::string DeviceDescription::type() const {
     default:
         return "other";
     }
-}
-
-std::string DeviceDescription::uuid() const {
-    std::string s;
-    for (uint8_t byte : properties.pipelineCacheUUID)
-        s += fmt::format("{:02x}", byte);
-    return s;
 }
 
 bool DeviceDescription::sharesHostMemory() const {

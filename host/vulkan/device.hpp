@@ -11,6 +11,7 @@ namespace stromboli::vulkan {
 struct DeviceDescription {
     VkPhysicalDevice handle = VK_NULL_HANDLE;
     VkPhysicalDeviceProperties properties{};
+    std::string uuid;   ///< tells twin devices apart
     std::string driver; ///< name and version, as the driver states them
     uint32_t subgroupSize = 0;
     uint64_t memory = 0;  ///< largest device-local heap, bytes
@@ -21,7 +22,6 @@ struct DeviceDescription {
     bool usable() const { return missing.empty(); }
     std::string name() const { return properties.deviceName; }
     std::string type() const; ///< "discrete GPU", "integrated GPU", "virtual GPU", "CPU", "other"
-    std::string uuid() const;
     bool isCpu() const { return properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU; }
     /// Device memory is the host's memory: buffers are mapped instead of copied.
     bool sharesHostMemory() const;

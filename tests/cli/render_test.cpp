@@ -123,7 +123,7 @@ TEST_F(Program, InterruptWritesWhatThereIs) {
     const std::string output = folder.file("a.png");
     const ProgramRun run =
         stromboli({"render", scene, "-o", output, "-r", "32", "24", "-s", "10000000"},
-                  "timeout --preserve-status -s INT 3");
+                  "timeout --foreground --preserve-status -s INT 3");
     EXPECT_EQ(run.exitCode, 130) << run.err;
     EXPECT_THAT(run.err, HasSubstr("interrupted"));
     EXPECT_EQ(readPng(output).width, 32u);
