@@ -102,7 +102,7 @@ DeviceChoice chooseBest(const std::vector<DeviceDescription>& devices) {
 
 bool matches(const DeviceDescription& d, const std::string& wanted) {
     if (wanted == "cpu") return d.isCpu();
-    return lower(d.name()).find(wanted) != std::string::npos || d.uuid == wanted;
+    return lower(d.name()).find(wanted) != std::string::npos || lower(d.uuid) == wanted;
 }
 
 } // namespace
