@@ -3,6 +3,7 @@
 #include "host/cli/job.hpp"
 #include "host/cli/progress.hpp"
 #include "host/core/error.hpp"
+#include "host/core/log.hpp"
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/reference/reference_backend.hpp"
 #include "host/render/render.hpp"
@@ -35,7 +36,10 @@ int checkCommand(const Options& options) {
     }
     ReferenceBackend reference(job.scene, job.camera, job.settings, options.threads);
     const Film onHost = renderWatched(reference, job, options);
-    if (interrupted()) throw UsageError("interrupted before the check was done");
+    if (interrupted()) {
+        spdlog::warn("interrupted before the check was done");
+        return kInterruptedExitCode;
+    }
 
     CheckSettings settings;
     settings.familyError = options.familyWiseError;

@@ -4,10 +4,13 @@
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
 #include "host/core/stopwatch.hpp"
+#include "host/film/film.hpp"
 #include "scene/collada/load_collada.hpp"
 #include "scene/model/emitters.hpp"
 
 #include <fmt/format.h>
+
+#include <unistd.h>
 
 namespace stromboli {
 namespace {
@@ -35,6 +38,16 @@ void checkCrop(const RenderSettings& s) {
                                      s.height));
 }
 
+/// The film of the whole picture is kept in the host's memory, whatever the backend.
+void checkFilmFits(const RenderSettings& s) {
+    const uint64_t bytes = uint64_t(s.width) * s.height * sizeof(PixelStatistics);
+    const uint64_t memory = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGE_SIZE));
+    if (bytes > memory / 2) // the other half is for the scene and the pictures made of the film
+        throw UsageError(fmt::format("a picture of {} x {} needs {} MiB for its film, more than "
+                                     "half of this machine's memory",
+                                     s.width, s.height, bytes >> 20));
+}
+
 } // namespace
 
 Job prepareJob(const Options& options) {
@@ -49,6 +62,7 @@ Job prepareJob(const Options& options) {
         job.settings.height = size.height;
     }
     checkCrop(job.settings);
+    checkFilmFits(job.settings);
     job.camera = makeCamera(job.scene, options.camera, job.settings.width, job.settings.height,
                             job.settings.cs184);
     return job;

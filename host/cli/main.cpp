@@ -3,13 +3,20 @@
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
 
+#include <tbb/global_control.h>
+
+#include <algorithm>
 #include <exception>
 #include <new>
+#include <thread>
 
 namespace {
 
 int run(const stromboli::Options& options) {
     using stromboli::Command;
+    const tbb::global_control threads(
+        tbb::global_control::max_allowed_parallelism,
+        options.threads ? options.threads : std::max(1u, std::thread::hardware_concurrency()));
     switch (options.command) {
     case Command::Render:
         return stromboli::renderCommand(options);

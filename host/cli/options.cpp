@@ -34,9 +34,11 @@ void addScene(CLI::App& app, Options& o) {
     app.add_option("SCENE", o.scene, "COLLADA file (.dae)")->required()->group("Scene");
 }
 
-void addPicture(CLI::App& app, Raw& raw) {
-    app.add_option("-r,--size", raw.size, "picture size [the camera's shape, 800 wide]")
+void addPicture(CLI::App& app, Raw& raw,
+                const char* sizeHelp = "picture size [the camera's shape, 800 wide]") {
+    app.add_option("-r,--size", raw.size, sizeHelp)
         ->expected(2)
+        ->allow_extra_args(false)
         ->type_name("W H")
         ->group("Picture");
     app.add_option("--camera", raw.camera,
@@ -48,10 +50,12 @@ void addPicture(CLI::App& app, Raw& raw) {
         ->group("Picture");
     app.add_option("--crop", raw.crop, "only this part: left, top, width, height in pixels")
         ->expected(4)
+        ->allow_extra_args(false)
         ->type_name("X Y W H")
         ->group("Picture");
     app.add_option("--cell", raw.cell, "the same with Y from the bottom (CS184's -p)")
         ->expected(4)
+        ->allow_extra_args(false)
         ->type_name("X Y W H")
         ->group("Picture");
 }
@@ -92,19 +96,20 @@ void addLightTransport(CLI::App& app, Raw& raw, Options& o) {
         ->group("Light");
 }
 
-void addSampling(CLI::App& app, Raw& raw, Options& o) {
-    app.add_option("-s,--samples", raw.samples,
-                   "samples per pixel; with -a the most a pixel gets [64; --cs184: 1]")
-        ->type_name("N")
+void addSampling(CLI::App& app, Raw& raw, Options& o, const char* samplesHelp) {
+    app.add_option("-s,--samples", raw.samples, samplesHelp)->type_name("N")->group("Sampling");
+    app.add_option("--seed", o.settings.seed, "another seed, another noise")
+        ->default_str("0")
         ->group("Sampling");
+}
+
+void addAdaptive(CLI::App& app, Raw& raw) {
     app.add_option("-a,--adaptive", raw.adaptive,
                    "adaptive sampling: test a pixel every BATCH samples, stop at 1.96 sigma <= "
                    "TOLERANCE * mean [off; --cs184: 32 0.05]")
         ->expected(2)
+        ->allow_extra_args(false)
         ->type_name("BATCH TOLERANCE")
-        ->group("Sampling");
-    app.add_option("--seed", o.settings.seed, "another seed, another noise")
-        ->default_str("0")
         ->group("Sampling");
 }
 
@@ -140,7 +145,8 @@ void addRender(CLI::App& app, Raw& raw, Options& o) {
         ->group("Output");
     addPicture(app, raw);
     addLightTransport(app, raw, o);
-    addSampling(app, raw, o);
+    addSampling(app, raw, o, "samples per pixel; with -a the most a pixel gets [64; --cs184: 1]");
+    addAdaptive(app, raw);
     app.add_option("--backend", raw.backend,
                    "vulkan, or reference: the slow double-precision path tracer on the CPU")
         ->check(CLI::IsMember({"vulkan", "reference"}))
@@ -270,9 +276,9 @@ std::optional<Options> parseOptions(std::vector<std::string> arguments) {
     CLI::App* check = app.add_subcommand(
         "check", "Render on the device and with the CPU reference; say whether they agree");
     addScene(*check, o);
-    addPicture(*check, raw);
+    addPicture(*check, raw, "picture size [160 120]");
     addLightTransport(*check, raw, o);
-    addSampling(*check, raw, o);
+    addSampling(*check, raw, o, "samples per pixel [256]");
     check->add_option("--alpha", o.familyWiseError, "probability of a false alarm")
         ->check(CLI::Range(1e-12, 0.5))
         ->default_str("0.01")
@@ -306,7 +312,6 @@ std::optional<Options> parseOptions(std::vector<std::string> arguments) {
     if (*check) { // a quick, small picture unless asked otherwise
         if (raw.size.empty()) raw.size = {160, 120};
         if (!raw.samples) raw.samples = 256;
-        if (raw.adaptive.empty()) raw.adaptive = {};
     }
     apply(raw, o);
     if (*check) o.settings.adaptive.enabled = false; // a z-test needs fixed sample counts

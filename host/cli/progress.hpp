@@ -9,6 +9,7 @@ namespace stromboli {
 /// program at once.
 void watchForInterrupt();
 bool interrupted();
+inline constexpr int kInterruptedExitCode = 130; ///< as a shell reports SIGINT
 
 /// A line on standard error that shows how far a render is, redrawn in place: only on a terminal,
 /// at most four times a second.

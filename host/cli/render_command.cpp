@@ -2,6 +2,7 @@
 #include "host/cli/job.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/report.hpp"
+#include "host/core/error.hpp"
 #include "host/core/log.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/film/atomic_file.hpp"
@@ -13,19 +14,17 @@
 #include "host/render/render.hpp"
 #include "host/vulkan/open_device.hpp"
 
-#include <tbb/global_control.h>
-
-#include <thread>
-
 namespace stromboli {
 namespace {
-
-constexpr int kInterruptedExitCode = 130; // as a shell reports SIGINT
 
 /// Output that cannot be written must be found out before the work, not after it.
 void checkOutputs(const Options& options) {
     checkWritable(options.output);
-    if (!options.statsFile.empty()) checkFileWritable(options.statsFile);
+    if (options.settings.adaptive.enabled) checkFileWritable(ratePicturePath(options.output));
+    if (options.statsFile.empty()) return;
+    if (options.statsFile == options.output)
+        throw UsageError("--stats and -o name the same file: " + options.output);
+    checkFileWritable(options.statsFile);
 }
 
 Film takeSamples(Backend& backend, const Job& job, const Options& options, RenderReport& report) {
@@ -90,9 +89,6 @@ void writeOutputs(const Film& film, const Job& job, const Options& options,
 } // namespace
 
 int renderCommand(const Options& options) {
-    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                      options.threads ? options.threads
-                                                      : std::thread::hardware_concurrency());
     checkOutputs(options);
     watchForInterrupt();
     const Job job = prepareJob(options);

@@ -7,6 +7,9 @@
 namespace stromboli {
 namespace {
 
+static_assert(Roulette::kThroughputStart == gpu::ROULETTE_THROUGHPUT_START);
+static_assert(float(Roulette::kMaxContinue) == gpu::ROULETTE_MAX_CONTINUE);
+
 uint32_t materialKinds(const GpuScene& scene) {
     uint32_t kinds = 0;
     for (const gpu::Primitive& p : scene.primitives)

@@ -17,23 +17,27 @@ namespace {
 using vulkan::Buffer;
 using vulkan::BufferUse;
 
-/// llvmpipe ends all loops of a group, silently, after 65,535 passes of any loop. One pass of the
-/// kernel's loop counts for itself, its traversal steps, the service loop and the loop over
-/// ambient lights.
+/// llvmpipe ends all loops of a group, silently, after 65,535 passes of any loop.
 constexpr uint32_t kLlvmpipeLoopPasses = 65535;
 /// On other devices only a guard against endless loops: a ray through 2^20 nodes is none.
 constexpr uint32_t kGuardIterations = 1u << 20;
 
-uint32_t hardLimit(const vulkan::Device& device, const gpu::Frame& frame, uint32_t steps) {
-    const uint32_t perIteration = 1 + (steps + 1) + 2 + (frame.areaLights + 1);
-    if (device.description().isCpu()) return (kLlvmpipeLoopPasses - 1024) / perIteration;
-    return kGuardIterations;
+/// One pass of the kernel's loop counts for itself, its traversal steps, the service loop and,
+/// where there is ambient light, the loop that looks for it.
+uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene, uint32_t steps) {
+    if (!device.description().isCpu()) return kGuardIterations;
+    const bool ambient =
+        std::any_of(scene.lights.begin(), scene.lights.end(),
+                    [](const gpu::Light& l) { return l.kind == gpu::LIGHT_AMBIENT; });
+    const uint32_t perIteration = 1 + (steps + 1) + 2 + (ambient ? scene.areaLights + 1 : 0);
+    return std::max(kLlvmpipeLoopPasses / perIteration, 2u);
 }
 
-/// Where lanes stop taking rays: half the limit leaves the other half for the rays of one more
-/// surface.
-uint32_t softLimit(uint32_t hard) {
-    return hard / 2;
+/// Where lanes stop taking path rays. What is left has to do for one more surface with all its
+/// direct light samples: a pass or more for each.
+uint32_t softLimit(uint32_t hard, const gpu::Frame& frame) {
+    const uint32_t directSamples = frame.areaSamples + frame.deltaLights;
+    return directSamples < hard / 32 ? hard / 2 : 1;
 }
 
 template <class T>
@@ -136,9 +140,10 @@ VulkanBackend::VulkanBackend(const vulkan::Device& device, const GpuScene& scene
       features_(kernelFeatures(scene, camera, settings_, deviceTuning_)),
       itemsPerDispatch_(uint32_t(std::min<uint64_t>(
           tuning.itemsPerDispatch.value_or(defaultItems(device)), pixelCount(settings_)))),
-      hardIterations_(hardLimit(device, frame_, deviceTuning_.traversalSteps)),
+      hardIterations_(hardLimit(device, scene, deviceTuning_.traversalSteps)),
       fixedIterations_(tuning.fixedIterations),
-      pace_(tuning.targetSeconds, softLimit(hardIterations_)), queue_(device), sceneBuffers_([&] {
+      pace_(tuning.targetSeconds, softLimit(hardIterations_, frame_)), queue_(device),
+      sceneBuffers_([&] {
           const BufferUse use = texelFetch_ ? BufferUse::Texel : BufferUse::Storage;
           checkMemory(device, scene, settings_, itemsPerDispatch_, use);
           std::vector<Buffer> buffers;
@@ -238,7 +243,7 @@ bool VulkanBackend::runChunk(const Segment& segment, std::span<const gpu::WorkIt
         if (status.overflowedItems > 0)
             throw DeviceError(fmt::format(
                 "{} pixels needed more than {} loop iterations for one surface, the most that {} "
-                "runs in a dispatch; use fewer light samples (-l) and more samples (-s)",
+                "runs in a dispatch: too many lamps or light samples (-l) for one shading point",
                 status.overflowedItems, hardIterations_, device_.description().name()));
         if (!advance(status.samples)) return false;
         if (status.unfinishedItems == 0) return true;

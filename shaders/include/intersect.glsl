@@ -70,9 +70,11 @@ TriangleHit hitTriangle(vec3 v0, vec3 v1, vec3 v2, Ray ray) {
     const float determinant = u + v + w;
     const bool inside = (min(u, min(v, w)) >= 0.0 || max(u, max(v, w)) <= 0.0) &&
                         determinant != 0.0;
+    // Weights first: the product of an edge function and a distance may overflow.
     const float inverse = 1.0 / determinant;
-    const float t = (u * a.z + v * b.z + w * c.z) * ray.shear.z * inverse;
-    return TriangleHit(inside ? t : INFINITE_DISTANCE, v * inverse, w * inverse);
+    const float b0 = u * inverse, b1 = v * inverse, b2 = w * inverse;
+    const float t = (b0 * a.z + b1 * b.z + b2 * c.z) * ray.shear.z;
+    return TriangleHit(inside ? t : INFINITE_DISTANCE, b1, b2);
 }
 
 /// Nearest t in (tMin, tMax) at which the ray meets the sphere, or INFINITE_DISTANCE. The

@@ -11,7 +11,8 @@ struct LightSample {
 /// Ends the segment from s just before the lamp's surface, whatever the rounding of the point on
 /// it (pError, per component) and of the segment itself. n: unit normal of the lamp there.
 vec3 stopBefore(vec3 p, vec3 pError, vec3 n, vec3 from) {
-    const vec3 error = pError + (4.0 * UNIT_ROUNDOFF) * (abs(p - from) + abs(from));
+    const vec3 segment = (4.0 * UNIT_ROUNDOFF) * (abs(p - from) + abs(from));
+    const vec3 error = vec3(largestComponent(pError + segment));
     return offsetOrigin(p, error, n, from - p);
 }
 
@@ -34,9 +35,9 @@ LightSample areaSample(SurfacePoint s, vec3 p, vec3 pError, vec3 n, float area, 
 
 LightSample sampleQuad(SurfacePoint s, Light light, vec2 u) {
     const vec3 p = light.position + u.x * light.edgeA + u.y * light.edgeB;
-    const vec3 error = (6.0 * UNIT_ROUNDOFF) *
-                       (abs(light.position) + abs(u.x * light.edgeA) + abs(u.y * light.edgeB));
-    return areaSample(s, p, error, normalize(cross(light.edgeA, light.edgeB)), light.area, light);
+    const vec3 error = interpolationError(abs(light.position) + abs(u.x * light.edgeA) +
+                                          abs(u.y * light.edgeB));
+    return areaSample(s, p, error, planeNormal(light.edgeA, light.edgeB), light.area, light);
 }
 
 /// Uniform on a triangle: barycentric weights of v1 and v2 (Turk 1990).
@@ -45,19 +46,17 @@ vec2 sampleTriangle(vec2 u) {
     return vec2(r * (1.0 - u.y), r * u.y);
 }
 
-LightSample sampleMesh(SurfacePoint s, Light light, vec3 u) {
-    const float scaled = u.z * float(light.entryCount);
-    const uint column = min(uint(scaled), light.entryCount - 1u);
+/// u: x, y for the point, z for the column of the alias table, w for the choice within it.
+LightSample sampleMesh(SurfacePoint s, Light light, vec4 u) {
+    const uint column = min(uint(u.z * float(light.entryCount)), light.entryCount - 1u);
     const EmitterEntry entry = fetchEmitterEntry(light.firstEntry + column);
-    const bool own = scaled - float(column) < entry.threshold;
-    const Primitive p = fetchPrimitive(own ? entry.primitive : entry.alias);
+    const Primitive p = fetchPrimitive(u.w < entry.threshold ? entry.primitive : entry.alias);
     const vec2 b = sampleTriangle(u.xy);
     const float b0 = 1.0 - b.x - b.y;
     const vec3 point = b0 * p.v0 + b.x * p.v1 + b.y * p.v2;
-    const vec3 error = (8.0 * UNIT_ROUNDOFF) *
-                       (abs(b0 * p.v0) + abs(b.x * p.v1) + abs(b.y * p.v2));
-    const vec3 n = normalize(cross(p.v1 - p.v0, p.v2 - p.v0));
-    return areaSample(s, point, error, n, light.area, light);
+    const vec3 error =
+        interpolationError(abs(b0 * p.v0) + abs(b.x * p.v1) + abs(b.y * p.v2));
+    return areaSample(s, point, error, planeNormal(p.v1 - p.v0, p.v2 - p.v0), light.area, light);
 }
 
 /// From outside: uniform in the cone the sphere subtends (Shirley, Wang and Zimmerman 1996), with
@@ -132,7 +131,7 @@ LightSample sampleDelta(SurfacePoint s, Light light) {
     return r;
 }
 
-LightSample sampleLight(SurfacePoint s, Light light, vec3 u) {
+LightSample sampleLight(SurfacePoint s, Light light, vec4 u) {
     if (sceneHasLight(LIGHT_QUAD) && light.kind == LIGHT_QUAD) return sampleQuad(s, light, u.xy);
     if (sceneHasLight(LIGHT_MESH) && light.kind == LIGHT_MESH) return sampleMesh(s, light, u);
     if (sceneHasLight(LIGHT_SPHERE) && light.kind == LIGHT_SPHERE)

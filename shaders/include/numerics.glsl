@@ -39,6 +39,20 @@ vec3 offsetOrigin(vec3 p, vec3 error, vec3 n, vec3 w) {
     return p + (dot(n, w) < 0.0 ? -distance : distance) * n;
 }
 
+float largestComponent(vec3 v) { return max(v.x, max(v.y, v.z)); }
+
+/// Bound of the error of a point interpolated from corners whose weighted magnitudes sum to `sum`,
+/// and of the distance at which a neighbouring triangle's test finds it. The test mixes the
+/// components, so the largest one counts for all of them: a plane through a zero coordinate has no
+/// error of its own there (docs/numerics.md).
+vec3 interpolationError(vec3 sum) { return vec3(32.0 * UNIT_ROUNDOFF * largestComponent(sum)); }
+
+/// Unit normal of the plane of edges a and b. Scaled first: the cross product of edges above 1e9 or
+/// below 1e-9 would leave the range in which a length can be squared.
+vec3 planeNormal(vec3 a, vec3 b) {
+    return normalize(cross(a / largestComponent(abs(a)), b / largestComponent(abs(b))));
+}
+
 /// Orthonormal frame about unit n (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
 struct ShadingFrame {
     vec3 x, y, z;

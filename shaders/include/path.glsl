@@ -108,7 +108,7 @@ void sampleLights(vec4 u, uint index) {
     const bool isArea = index < frame.areaSamples;
     const uint lightIndex = isArea ? index / frame.lightSamples
                                    : frame.areaLights + index - frame.areaSamples;
-    const LightSample light = sampleLight(surface, fetchLight(lightIndex), u.xyz);
+    const LightSample light = sampleLight(surface, fetchLight(lightIndex), u);
     const float share = isArea ? 1.0 / float(frame.lightSamples) : 1.0;
     directValue = evaluateBsdf(material, surface, light.direction) * light.radiance * share;
     if (!(dot(directValue, vec3(1.0)) > 0.0)) return;

@@ -1,5 +1,5 @@
 // Only what a scene needs: the host sets these when it makes the pipeline, the compiler removes
-// what they switch off (host/render/kernel_features.hpp decides them).
+// what they switch off (host/kernel/kernel_features.hpp decides them).
 layout(local_size_x_id = SPEC_WORKGROUP_SIZE) in;
 layout(constant_id = SPEC_TRAVERSAL_STEPS) const uint TRAVERSAL_STEPS = 8u;
 layout(constant_id = SPEC_STACK_SIZE) const uint STACK_SIZE = 64u;

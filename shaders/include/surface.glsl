@@ -42,10 +42,8 @@ SurfacePoint surfaceAt(Traversal t) {
     if (HAS_TRIANGLES && !isSphere) {
         const float b0 = 1.0 - t.b1 - t.b2;
         s.position = b0 * p.v0 + t.b1 * p.v1 + t.b2 * p.v2;
-        // gamma(7) for the interpolation with its weights, 2u for adding the offset, 1u spare.
-        s.error = (10.0 * UNIT_ROUNDOFF) *
-                  (abs(b0 * p.v0) + abs(t.b1 * p.v1) + abs(t.b2 * p.v2));
-        s.geometric = normalize(cross(p.v1 - p.v0, p.v2 - p.v0));
+        s.error = interpolationError(abs(b0 * p.v0) + abs(t.b1 * p.v1) + abs(t.b2 * p.v2));
+        s.geometric = planeNormal(p.v1 - p.v0, p.v2 - p.v0);
         s.shading = interpolatedNormal(p, t.b1, t.b2, s.geometric);
         s.skipPrimitive = t.hitPrimitive;
     }

@@ -64,6 +64,22 @@ TEST_F(Limits, LoopOverflowIsReportedNotRendered) {
                 testing::HasSubstr("loop iterations"));
 }
 
+TEST_F(Limits, ManyLampsFitTheLoopLimit) {
+    // 600 lamps, each sampled at every surface.
+    Scene scene =
+        loadScene(std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene/library/light_point.dae");
+    const Light lamp = scene.lights.at(0);
+    for (int i = 1; i < 600; ++i) {
+        scene.lights.push_back(lamp);
+        scene.lights.back().position.x += 0.001f * float(i);
+    }
+    RenderSettings s;
+    s.width = 8, s.height = 8, s.samplesPerPixel = 2, s.maxBounces = 3;
+    const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.width, s.height, false);
+    for (const PixelStatistics& p : renderOnDevice(testDevice(), scene, camera, s).pixels)
+        EXPECT_EQ(p.count, 2u);
+}
+
 TEST_F(Limits, FilmLargerThanOneBindingIsSplit) {
     // 128 MiB of pixel states are 2 M pixels: this picture needs two segments on lavapipe. Only
     // its last rows are looked at, to see that the second segment is the right part.

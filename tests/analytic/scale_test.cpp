@@ -1,0 +1,45 @@
+// A scene scaled as a whole, its radiances unchanged, makes the same picture: there is no length in
+// the renderer.
+#include "tests/analytic/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+namespace stromboli {
+namespace {
+
+using namespace test;
+
+Scene scaled(Scene scene, float factor) {
+    for (glm::vec3& p : scene.positions)
+        p *= factor;
+    for (Sphere& s : scene.spheres)
+        s.center *= factor, s.radius *= factor;
+    return scene;
+}
+
+Camera scaled(Camera camera, double factor) {
+    camera.position *= factor;
+    return camera;
+}
+
+class Scale : public testing::TestWithParam<float> {};
+
+TEST_P(Scale, LeavesTheCornellBoxAsItIs) {
+    const Scene scene = cornellBox();
+    const glm::vec3 middle = 0.5f * (scene.bounds().lo + scene.bounds().hi);
+    const Camera camera = pointCamera(glm::dvec3(middle) + glm::dvec3(0.1, 0.05, 0.4), middle, 0.6);
+    for (DirectLight direct : kDirectLightModes) {
+        RenderSettings s = smallPicture(256, 5);
+        s.directLight = direct;
+        const Estimate one = estimate(scene, camera, s);
+        s.seed = 1;
+        const Estimate other = estimate(scaled(scene, GetParam()), scaled(camera, GetParam()), s);
+        EXPECT_GT(one.mean.x, 0);
+        expectSameMean(other, one);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Factors, Scale, testing::Values(1e-12f, 1e-6f, 1e-3f, 1e3f, 1e6f, 1e12f));
+
+} // namespace
+} // namespace stromboli
