@@ -166,6 +166,17 @@ TEST_F(BadInput, StatisticsNotWritable) {
         kOutput, "nowhere");
 }
 
+TEST_F(BadInput, OutputsInOneFile) {
+    expectRefused(renderFile(libraryScene("light_point.dae"), {"--stats", folder.file("out.png")}),
+                  kUsage, "same file");
+}
+TEST_F(BadInput, PictureLargerThanMemory) {
+    expectRefused(
+        stromboli({"render", libraryScene("light_point.dae"), "-o", folder.file("out.png"), "-r",
+                   "65536", "65536", "--backend", "reference"}),
+        kUsage, "memory");
+}
+
 TEST_F(BadInput, UnknownDevice) {
     expectRefused(renderFile(libraryScene("light_point.dae"), {"--device", "voodoo"}), kDevice,
                   "voodoo");

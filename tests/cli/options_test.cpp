@@ -78,6 +78,13 @@ TEST(Options, Cs184Spellings) {
               0u);
 }
 
+TEST(Options, SceneMayFollowAnOptionWithSeveralValues) {
+    EXPECT_EQ(parse({"render", "-o", "a.png", "-r", "8", "9", "a.dae"}).scene, "a.dae");
+    EXPECT_EQ(parse({"render", "-o", "a.png", "-a", "8", "0.1", "a.dae"}).scene, "a.dae");
+    EXPECT_EQ(parse({"render", "-o", "a.png", "--crop", "0", "0", "8", "9", "a.dae"}).scene,
+              "a.dae");
+}
+
 TEST(Options, SpellingLeavesOutputsAlone) {
     EXPECT_EQ(fromCs184Spelling({"-o", "0.png"}), (std::vector<std::string>{"-o", "0.png"}));
     EXPECT_EQ(fromCs184Spelling({"-o", "0"}), (std::vector<std::string>{"--accumulate", "0"}));

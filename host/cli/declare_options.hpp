@@ -1,0 +1,34 @@
+#pragma once
+
+#include "host/cli/options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stromboli {
+
+/// What is parsed as text or lists before it is checked.
+struct RawOptions {
+    std::vector<uint32_t> size, crop, cell;
+    std::vector<double> adaptive;
+    std::string roulette, integrator = "path", direct = "lights", camera = "auto",
+                          backend = "vulkan";
+    std::optional<uint32_t> samples, lightSamples, maxBounces, minBounce, accumulate;
+    bool hemisphere = false, quiet = false, verbose = false;
+};
+
+struct Subcommands {
+    CLI::App* render;
+    CLI::App* check;
+    CLI::App* info;
+    CLI::App* devices;
+};
+
+/// Declares every command and option with its help; parsing fills `raw` and `options`.
+Subcommands declareOptions(CLI::App& app, RawOptions& raw, Options& options);
+
+} // namespace stromboli
