@@ -26,9 +26,9 @@ class SamplingPlan {
     /// Samples before the first test: a variance from fewer is itself off by a third (chi-square,
     /// normal samples: relative sigma sqrt(2 / 63) = 18 %).
     static constexpr uint32_t kMinimumSamples = 64;
-    /// Fraction of the picture's mean luminance below which relative error is not asked for:
-    /// at the default exposure 5 % of a mid grey picture is about 1 % in 8-bit steps of tolerance
-    /// 0.05, less than a step.
+    /// Fraction of the picture's mean luminance below which relative error is not asked for. In a
+    /// picture whose mean is mid grey (0.18), a tolerance of 0.05 at this level (0.009) is 0.8 of a
+    /// step of 8-bit sRGB.
     static constexpr double kFloor = 0.05;
 
     static constexpr uint32_t kFirstPass = 16; ///< samples, uniform
