@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
+#include <iterator>
 
 namespace stromboli::test {
 namespace {
@@ -41,6 +43,18 @@ TEST_F(Program, WritesPngAndReportsTheWork) {
     EXPECT_THAT(run.err, HasSubstr("0 rejected"));
     EXPECT_THAT(run.err, Not(HasSubstr("\r"))); // no progress bar in a pipe
     EXPECT_EQ(run.out, "");
+}
+
+TEST_F(Program, ShowsProgressOnATerminal) {
+    // script (bsdutils, on every Debian) gives the program a terminal of its own.
+    const std::string command = "script -qec '" STROMBOLI_PROGRAM " render " + scene + " -o " +
+                                folder.file("a.png") + " -r 32 24 -s 64' /dev/null </dev/null >" +
+                                folder.file("terminal");
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    std::ifstream file(folder.path() / "terminal");
+    const std::string shown{std::istreambuf_iterator<char>(file), {}};
+    for (const char* part : {"\r", " %", "M samples", "Mrays/s", "left"})
+        EXPECT_THAT(shown, HasSubstr(part));
 }
 
 TEST_F(Program, QuietSaysNothing) {
