@@ -2,7 +2,6 @@
 
 #include "host/film/film.hpp"
 
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <span>
