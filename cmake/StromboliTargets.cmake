@@ -43,6 +43,7 @@ function(stromboli_test name)
                           ${ARG_DEPENDS})
     target_compile_definitions(${name} PRIVATE
         STROMBOLI_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    # Tests leave nothing in the user's cache folder, and find nothing there.
     gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
-        PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}")
+        PROPERTIES TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT STROMBOLI_CACHE_DIR= LABELS "${ARG_LABELS}")
 endfunction()

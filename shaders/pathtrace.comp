@@ -1,6 +1,8 @@
 #version 460
-// The path kernel: one invocation takes the samples of one pixel that a dispatch asks for.
+// The path kernel: each lane takes pixels of the work list, one after the other, and all the samples
+// that the list asks for of each.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_vote : require
 
 #include "shared/interface.h"
 #include "shared/scene_types.h"
@@ -8,17 +10,18 @@
 
 #include "include/specialisation.glsl"
 #include "include/fetch.glsl"
+#include "include/film.glsl"
 
-layout(set = 0, binding = BINDING_FRAME, std140) uniform FrameBuffer { Frame frame; };
-layout(set = 0, binding = BINDING_WORK_ITEMS, std430) readonly buffer WorkBuffer {
-    WorkItem workItems[];
-};
-layout(set = 0, binding = BINDING_PIXELS, std430) buffer PixelBuffer { PixelState pixels[]; };
+layout(set = 0, binding = BINDING_FRAME, std140) uniform FrameBuffer { Frame frameBuffer; };
 layout(set = 0, binding = BINDING_SUSPENDED, std430) buffer SuspendedBuffer {
     SuspendedPath suspendedPaths[];
 };
 layout(set = 0, binding = BINDING_STATUS, std430) buffer StatusBuffer { DispatchStatus status; };
-layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
+layout(push_constant) uniform DispatchConstants { Dispatch dispatchConstants; };
+
+// Read once: llvmpipe fetches a uniform's value lane by lane wherever it is used, 25 instructions.
+Frame frame;
+Dispatch dispatch;
 
 #include "include/numerics.glsl"
 #include "include/random.glsl"
@@ -31,18 +34,59 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "include/accumulate.glsl"
 #include "include/path.glsl"
 
-/// A lane about to trace a path ray may put it off to the next dispatch; in any other phase too
-/// much would have to be remembered.
-bool suspendable() { return phase == PHASE_PATH; }
+uint item; ///< of the work list, in this lane's hands; NO_ITEM: none
+uint pixel; ///< of the item, in the film segment
+uint target; ///< samples it shall have
+uint sampleCount; ///< taken in this dispatch
+uint busySteps, allSteps;
 
-void resume(uint item) {
-    const SuspendedPath p = suspendedPaths[item];
+uint samplesTaken() { return pixelState.count + pixelState.rejected; }
+
+/// Is ready for a new sample, but this pixel has all of its own.
+bool wantsPixel() { return phase == PHASE_NEXT && (item == NO_ITEM || samplesTaken() >= target); }
+
+void takeUp(uint newItem) {
+    item = newItem;
+    if (item == NO_ITEM) return;
+    const WorkItem work = fetchWorkItem(item);
+    pixel = work.pixel;
+    target = work.target;
+    pixelState = fetchPixel(pixel);
+    sampleCount -= samplesTaken();
+    pixelAt = uvec2(work.column, work.row);
+    pixelId = pixelAt.y * frame.width + pixelAt.x;
+}
+
+void putDown() {
+    if (item == NO_ITEM) return;
+    if (frame.keepsValue != 0u && samplesTaken() >= target) pixelState.sum = radiance;
+    storePixel(pixel, pixelState);
+    sampleCount += samplesTaken();
+    item = NO_ITEM;
+}
+
+/// A pixel has its samples: goes on with the next one that nobody has taken, so that lanes and
+/// threads have work to the end of the list. No pixel depends on which lane it falls to.
+void changePixel(bool mayGoOn) {
+    if (!wantsPixel()) return;
+    putDown();
+    phase = PHASE_FINISHED;
+    if (!mayGoOn) return;
+    const uint taken = atomicAdd(status.nextItem, 1u);
+    if (taken >= dispatch.itemCount) return;
+    takeUp(taken);
     phase = PHASE_NEXT;
-    ray.current = CHILD_NONE;
-    ray.hitPrimitive = NO_PRIMITIVE;
+}
+
+void resume(uint lane) {
+    const SuspendedPath p = suspendedPaths[lane];
+    sampleCount = 0u;
+    takeUp(p.item);
+    phase = PHASE_NEXT;
+    ray.group = 0u;
     ray.stackTop = 0u;
     if (p.bounce == SUSPENDED_NONE) return;
-    sampleIndex = pixelState.count + pixelState.rejected;
+    sampleIndex = nextSample();
     bounce = p.bounce;
     throughput = p.throughput;
     radiance = p.radiance;
@@ -50,58 +94,81 @@ void resume(uint item) {
     trace(PHASE_PATH, p.origin, p.direction, 0.0, INFINITE_DISTANCE, p.skipPrimitive);
 }
 
-/// Remembers a bounce ray that has just been started; a camera ray is simply begun anew.
-void suspend(uint item) {
+/// Remembers the bounce ray that was to be started; a camera ray is simply begun anew.
+void suspend(uint lane) {
     SuspendedPath p;
-    p.origin = ray.ray.origin;
+    p.origin = next.origin;
     p.bounce = bounce == 0u ? SUSPENDED_NONE : bounce;
-    p.direction = ray.ray.direction;
-    p.skipPrimitive = ray.skipPrimitive;
+    p.direction = next.direction;
+    p.skipPrimitive = next.skipPrimitive;
     p.throughput = throughput;
     p.countsEmission = countsEmission ? 1u : 0u;
     p.radiance = radiance;
-    p.unused = 0u;
-    suspendedPaths[item] = p;
-    --rayCount;
+    p.item = item;
+    suspendedPaths[lane] = p;
+}
+
+/// Starts the ray that a lane has asked for, or its next sample. A lane about to trace a path ray may
+/// put it off to the next dispatch; in any other phase too much would have to be remembered.
+void startWork(bool late) {
+    if (phase == PHASE_NEXT && !wantsPixel()) startSample();
+    if (late && phase == PHASE_PATH && !traversing(ray)) phase = PHASE_SUSPENDED;
+    startRay();
+}
+
+void traverseSomeSteps() {
+    for (uint k = 0u; k < TRAVERSAL_STEPS; ++k) {
+        if (COUNT_STEPS) busySteps += traversing(ray) ? 1u : 0u;
+        traversalStep(ray);
+    }
+    if (COUNT_STEPS) allSteps += TRAVERSAL_STEPS;
+}
+
+bool atWork() { return phase != PHASE_FINISHED && phase != PHASE_SUSPENDED; }
+
+void report() {
+    if (phase == PHASE_SUSPENDED) atomicAdd(status.unfinishedItems, 1u);
+    if (atWork()) atomicAdd(status.overflowedItems, 1u);
+    atomicAdd(status.rays, rayCount);
+    atomicAdd(status.samples, sampleCount);
+    if (COUNT_STEPS) {
+        atomicAdd(status.busySteps, busySteps);
+        atomicAdd(status.allSteps, allSteps);
+    }
 }
 
 void main() {
-    const uint item = gl_GlobalInvocationID.x;
-    if (item >= dispatch.itemCount) return;
-    const WorkItem work = workItems[item];
-    pixelState = pixels[work.pixel];
-    const uint cropPixel = dispatch.segmentBase + work.pixel;
-    pixelAt = uvec2(frame.cropX + cropPixel % frame.cropWidth,
-                    frame.cropY + cropPixel / frame.cropWidth);
-    pixelId = pixelAt.y * frame.width + pixelAt.x;
-    const uint samplesBefore = pixelState.count + pixelState.rejected;
+    frame = frameBuffer;
+    dispatch = dispatchConstants;
+    if (ONE_LIGHT) onlyLight = fetchLight(0u);
+    const uint lane = gl_GlobalInvocationID.x;
+    if (lane >= dispatch.laneCount) return;
     rayCount = 0u;
-    resume(item);
+    busySteps = 0u;
+    allSteps = 0u;
+    resume(lane);
 
-    // Every exit is in the loop's header: an exit in the middle of such a loop was seen to be
-    // miscompiled by llvmpipe. The limit keeps a dispatch finite on any device, and below the
-    // number of loop iterations after which llvmpipe ends all loops without a word.
-    bool suspended = false;
+    // llvmpipe runs both sides of every `if`, and a loop's body at least once: all that is in the
+    // inner loop is paid for in each pass, by all lanes. So changing pixels, which is rare, is outside
+    // of it, and the lanes of a subgroup leave it together when one of them wants another pixel.
+    // Every exit is in a loop's header: an exit in the middle was seen to be miscompiled by
+    // llvmpipe. The limit keeps a dispatch finite on any device, and below the number of passes
+    // after which llvmpipe ends all loops without a word.
     uint iteration = 0u;
-    while (phase != PHASE_FINISHED && !suspended && iteration < dispatch.hardIterations) {
-        for (uint k = 0u; k < TRAVERSAL_STEPS; ++k)
-            if (traversing(ray)) traversalStep(ray);
-        // `if` does not branch on llvmpipe, a loop does: groups without a waiting lane skip this.
-        bool waiting = !traversing(ray);
-        while (waiting) {
-            serve(work.target);
-            suspended = suspendable() && iteration >= dispatch.softIterations;
-            waiting = false;
+    while (atWork() && iteration < dispatch.hardIterations) {
+        changePixel(iteration < dispatch.softIterations);
+        bool pixelWanted = false;
+        while (!pixelWanted && atWork() && iteration < dispatch.hardIterations) {
+            startWork(iteration >= dispatch.softIterations);
+            traverseSomeSteps();
+            if (!traversing(ray)) followPath();
+            ++iteration;
+            pixelWanted = subgroupAny(wantsPixel());
         }
-        ++iteration;
     }
-    const bool overflowed = phase != PHASE_FINISHED && !suspended;
-    suspendedPaths[item].bounce = SUSPENDED_NONE;
-    if (suspended) suspend(item);
-
-    pixels[work.pixel] = pixelState;
-    if (suspended) atomicAdd(status.unfinishedItems, 1u);
-    if (overflowed) atomicAdd(status.overflowedItems, 1u);
-    atomicAdd(status.rays, rayCount);
-    atomicAdd(status.samples, pixelState.count + pixelState.rejected - samplesBefore);
+    suspendedPaths[lane].bounce = SUSPENDED_NONE;
+    suspendedPaths[lane].item = NO_ITEM;
+    if (phase == PHASE_SUSPENDED) suspend(lane);
+    putDown();
+    report();
 }

@@ -2,10 +2,9 @@
 
 #include "host/bvh/binned_split.hpp"
 #include "host/bvh/build_input.hpp"
+#include "host/bvh/reinsertion.hpp"
 #include "host/bvh/run_partition.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_group.h>
 
 #include <algorithm>
@@ -20,13 +19,13 @@ using namespace bvh;
 /// Runs at least this long become tasks of their own.
 constexpr size_t kTaskRun = 1u << 12;
 
-/// A node where it is built. A subtree over n primitives has at most 2n - 1 nodes, so it gets a
+/// A node where it is built. A subtree over n items has at most 2n - 1 nodes, so it gets a
 /// run of 2n - 1 slots: the node, the left subtree's slots, the right subtree's. Tasks need no
 /// agreement on who takes which slot, and slots are in depth-first order from the start.
 struct Slot {
     Float4 lo, hi;
-    uint32_t right;        ///< inner: slot of the right child; the left one is the next slot
-    uint32_t first, count; ///< leaf, or count = 0
+    uint32_t right; ///< inner: slot of the right child, the left one is the next slot; leaf: 0
+    uint32_t item;  ///< leaf
 };
 
 /// A subtree still to be built.
@@ -47,11 +46,6 @@ class TreeBuilder {
         buildSubtree({0, 0, uint32_t(references_.size()), 0, bounds_});
         tasks_.wait();
         BinaryTree tree;
-        tree.order.resize(references_.size());
-        tbb::parallel_for(tbb::blocked_range<size_t>(0, references_.size()), [&](const auto& r) {
-            for (size_t i = r.begin(); i != r.end(); ++i)
-                tree.order[i] = references_[i].primitive;
-        });
         compact(tree);
         return tree;
     }
@@ -63,13 +57,12 @@ class TreeBuilder {
             Slot& slot = slots_[job.slot];
             slot.lo = job.bounds.box.lo;
             slot.hi = job.bounds.box.hi;
-            slot.first = job.first;
-            slot.count = 0;
-            Partition parts;
-            if (!split(job, parts)) {
-                slot.count = job.count;
+            slot.right = 0;
+            if (job.count == 1) {
+                slot.item = references_[job.first].item;
                 return;
             }
+            const Partition parts = split(job);
             const uint32_t leftCount = uint32_t(parts.leftCount);
             slot.right = job.slot + 2 * leftCount;
             const Job right{slot.right, job.first + leftCount, job.count - leftCount, job.depth + 1,
@@ -82,37 +75,23 @@ class TreeBuilder {
         }
     }
 
-    /// Parts the job's run in two; false: it is to be a leaf.
+    /// Parts the job's run of two or more in two.
     ///
-    /// Depth stays within the cap. Let M be the largest leaf size and L(n) = ceil(log2(ceil(n/M))),
-    /// that is, the least k with n <= M 2^k. Every job satisfies depth + L(count) <= cap:
+    /// Depth stays within the cap. Let L(n) = ceil(log2(n)), the least k with n <= 2^k. Every job
+    /// satisfies depth + L(count) <= cap:
     /// - The root does: checkBuild refuses other input.
     /// - SAH (and middle) splits happen only where depth + L(count) < cap. A child has fewer
-    ///   primitives and L does not decrease, so depth + 1 + L(child) <= cap.
-    /// - Where depth + L(count) = cap and L(count) >= 1, the run is halved at the median: from
-    ///   count <= M 2^L follows ceil(count / 2) <= M 2^(L-1), M 2^(L-1) being an integer. So
-    ///   L(child) <= L - 1, and depth + 1 + L(child) <= cap.
-    /// - Where depth + L(count) = cap and L(count) = 0, count <= M: it becomes a leaf.
-    bool split(const Job& job, Partition& parts) {
-        const bool fitsLeaf = job.count <= options_.maxLeafSize;
+    ///   items and L does not decrease, so depth + 1 + L(child) <= cap.
+    /// - Where depth + L(count) = cap, the run is halved at the median: from count <= 2^L follows
+    ///   ceil(count / 2) <= 2^(L-1). So L(child) <= L - 1, and depth + 1 + L(child) <= cap.
+    Partition split(const Job& job) {
         const std::span<BuildReference> run(references_.data() + job.first, job.count);
-        if (job.depth + levelsNeeded(job.count, options_.maxLeafSize) >= options_.depthCap) {
-            if (fitsLeaf) return false;
-            parts = partitionAtMedian(run, job.bounds.centroids);
-            return true;
-        }
-        if (job.count == 1) return false;
+        if (job.depth + levelsNeeded(job.count) >= options_.depthCap)
+            return partitionAtMedian(run, job.bounds.centroids);
+        if (job.count == 2) return partitionInTheMiddle(run);
         const BinMapping mapping(job.bounds.centroids, binsFor(job.count, options_.bins));
         const BinnedSplit best = findBinnedSplit(run, mapping);
-        if (fitsLeaf && (!best.found() || leafIsCheaper(job, best))) return false;
-        parts = best.found() ? partitionByBin(run, mapping, best) : partitionInTheMiddle(run);
-        return true;
-    }
-
-    bool leafIsCheaper(const Job& job, const BinnedSplit& best) const {
-        const double area = job.bounds.box.halfArea();
-        return area * job.count * options_.intersectionCost <=
-               area * options_.traversalCost + best.cost * options_.intersectionCost;
+        return best.found() ? partitionByBin(run, mapping, best) : partitionInTheMiddle(run);
     }
 
     /// Copies the slots in use, depth first.
@@ -129,12 +108,11 @@ class TreeBuilder {
         for (;;) {
             const Slot& slot = slots_[next.slot];
             const uint32_t index = uint32_t(tree.nodes.size());
-            tree.nodes.push_back({Box4{slot.lo, slot.hi}.bounds(), 0, 0, slot.first, slot.count});
+            tree.nodes.push_back({Box4{slot.lo, slot.hi}.bounds(), slot.item, 0});
             tree.depth = std::max(tree.depth, next.depth);
             if (next.parent != kNone) tree.nodes[next.parent].right = index;
-            if (slot.count == 0) {
+            if (slot.right != 0) {
                 tree.nodes[index].left = index + 1;
-                tree.nodes[index].first = 0;
                 rightChildren.push_back({slot.right, index, next.depth + 1});
                 next = {next.slot + 1, kNone, next.depth + 1};
             } else {
@@ -154,14 +132,12 @@ class TreeBuilder {
 
 } // namespace
 
-BinaryTree buildBinaryTree(std::span<const Bounds> primitives, const BuildOptions& options) {
-    checkBuild(primitives.size(), options);
-    if (primitives.empty()) {
-        BinaryTree tree;
-        tree.nodes.emplace_back();
-        return tree;
-    }
-    return TreeBuilder(readBounds(primitives), options).build();
+BinaryTree buildBinaryTree(std::span<const Bounds> items, const BuildOptions& options) {
+    checkBuild(items.size(), options);
+    if (items.empty()) return {};
+    BinaryTree tree = TreeBuilder(readBounds(items), options).build();
+    if (options.reinsert) reinsertSubtrees(tree, options.depthCap);
+    return tree;
 }
 
 } // namespace stromboli

@@ -8,32 +8,34 @@
 
 namespace stromboli {
 
-/// Node of the binary tree that the SAH builder makes: inner (count = 0, two children) or leaf.
+/// Node of the binary tree: inner, or a leaf of one item (what one leaf record of the layout is
+/// to hold; the builder knows only its box).
 struct BinaryNode {
     Bounds bounds;
-    uint32_t left = 0, right = 0;  ///< inner: node indices
-    uint32_t first = 0, count = 0; ///< leaf: a run of BinaryTree::order
+    uint32_t left = 0;  ///< inner: node index; leaf: number of its item
+    uint32_t right = 0; ///< inner: node index; leaf: 0, as the root is nobody's child
+
+    bool isLeaf() const { return right == 0; }
 };
 
-/// A BVH over primitives 0..n-1, before any layout. nodes[0] is the root, children follow their
-/// parents. Without primitives: one leaf with count 0 and empty bounds.
+/// A BVH over items 0..n-1, before any layout: 2n - 1 nodes depth first, so that a node's left
+/// child follows it, and a subtree is a run of nodes. Without items there are no nodes.
 struct BinaryTree {
     std::vector<BinaryNode> nodes;
-    std::vector<uint32_t> order; ///< primitive indices; each primitive exactly once
-    uint32_t depth = 0;          ///< edges on the longest path from the root; <= depthCap
+    uint32_t depth = 0; ///< edges on the longest path from the root; <= depthCap
 };
 
 struct BuildOptions {
-    uint32_t maxLeafSize = 4;      ///< 1..16
-    uint32_t bins = 32;            ///< per axis, 2..64
-    float traversalCost = 1.0f;    ///< of a node's two box tests, in units of ...
-    float intersectionCost = 1.0f; ///< ... one primitive test
-    uint32_t depthCap = 48;        ///< the builder proves depth <= depthCap for every input
+    uint32_t bins = 32;     ///< per axis, 2..64
+    uint32_t depthCap = 48; ///< of the binary tree; the builder proves it for every input
+    bool reinsert = true;   ///< improve the tree by moving subtrees (reinsertion.hpp)
 };
 
 /// Binned SAH over centroid bounds (Wald 2007), all three axes; median split where SAH finds
 /// nothing (equal centroids) or the depth left is only just enough. Parallel, and the same tree
-/// for any number of threads.
-BinaryTree buildBinaryTree(std::span<const Bounds> primitives, const BuildOptions& options = {});
+/// for any number of threads. Throws SceneError for boxes that are not finite or beyond
+/// gpu::LARGEST_COORDINATE, and for more items than there can be records; UsageError for options
+/// out of range.
+BinaryTree buildBinaryTree(std::span<const Bounds> items, const BuildOptions& options = {});
 
 } // namespace stromboli

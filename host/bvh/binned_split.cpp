@@ -45,7 +45,7 @@ class Bins {
     }
 
     /// Lets `best` take over a better split of this axis, if there is one. n: number of
-    /// primitives in all bins.
+    /// items in all bins.
     void improve(BinnedSplit& best, uint32_t& bestImbalance, int axis, uint32_t n) const {
         std::array<float, kMaxBins> areaFrom; // half area of the bins from i on
         Box4 right;

@@ -26,13 +26,13 @@ class BinMapping {
 
 /// The best way to part a run in two: bins below `bin` on `axis` go left.
 struct BinnedSplit {
-    double cost = 0;   ///< sum of half area times number of primitives over both children
+    double cost = 0;   ///< sum of half area times number of items over both children
     uint32_t axis = 0; ///< 0..2
-    uint32_t bin = 0;  ///< 0: no split puts primitives on both sides
+    uint32_t bin = 0;  ///< 0: no split puts items on both sides
     bool found() const { return bin != 0; }
 };
 
-/// Bins for a run of n primitives: options.bins for long runs; short ones make do with fewer, as
+/// Bins for a run of n items: options.bins for long runs; short ones make do with fewer, as
 /// most of their bins would stay empty.
 uint32_t binsFor(size_t n, uint32_t mostBins);
 

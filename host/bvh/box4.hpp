@@ -41,16 +41,16 @@ struct Box4 {
     Bounds bounds() const { return Bounds{{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}}; }
 };
 
-/// What the builder moves around: a primitive's box and its number, 32 bytes, so that a node's
-/// primitives are always one contiguous run of memory.
+/// What the builder moves around: an item's box and its number, 32 bytes, so that a node's
+/// items are always one contiguous run of memory.
 struct alignas(16) BuildReference {
     float lo[3];
-    uint32_t primitive;
+    uint32_t item;
     float hi[3];
     uint32_t unused;
 
     Box4 box() const {
-        // The lane of the primitive's number is cleared: read as a float it is denormal, and
+        // The lane of the item's number is cleared: read as a float it is denormal, and
         // adding denormals is slow.
         constexpr Int4 kXyz{-1, -1, -1, 0};
         Int4 l, h;
@@ -65,7 +65,7 @@ inline Float4 doubledCentroid(const Box4& b) {
     return b.lo + b.hi;
 }
 
-/// What a node knows of its run of primitives.
+/// What a node knows of its run of items.
 struct RunBounds {
     Box4 box;
     Box4 centroids; ///< of the doubled centroids

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <limits>
 
 namespace stromboli::bvh {
@@ -19,7 +18,6 @@ namespace {
 constexpr uint32_t kMostBins = 64;
 /// The builder recurses once per level; trees need a fraction of this.
 constexpr uint32_t kMostDepth = 256;
-constexpr size_t kMostPrimitives = size_t(gpu::CHILD_FIRST_MASK) + 1;
 
 void require(bool valid, const char* option, double value, const char* expected) {
     if (!valid)
@@ -35,11 +33,11 @@ bool isUsable(const Bounds& b) {
     return true;
 }
 
-BuildReference makeReference(const Bounds& b, size_t primitive) {
-    return {{b.lo.x, b.lo.y, b.lo.z}, uint32_t(primitive), {b.hi.x, b.hi.y, b.hi.z}, 0};
+BuildReference makeReference(const Bounds& b, size_t item) {
+    return {{b.lo.x, b.lo.y, b.lo.z}, uint32_t(item), {b.hi.x, b.hi.y, b.hi.z}, 0};
 }
 
-/// What reading a part of the primitives gave.
+/// What reading a part of the items gave.
 struct PartRead {
     RunBounds bounds;
     size_t firstUnusable = std::numeric_limits<size_t>::max();
@@ -47,38 +45,30 @@ struct PartRead {
 
 } // namespace
 
-void checkBuild(size_t primitives, const BuildOptions& options) {
-    require(options.maxLeafSize >= 1 && options.maxLeafSize <= gpu::MAX_LEAF_PRIMITIVES,
-            "the largest leaf size", options.maxLeafSize, "1 to 16");
+void checkBuild(size_t items, const BuildOptions& options) {
     require(options.bins >= 2 && options.bins <= kMostBins, "the number of bins", options.bins,
             "2 to 64");
-    require(std::isfinite(options.traversalCost) && options.traversalCost >= 0,
-            "the traversal cost", options.traversalCost, "a finite number, at least 0");
-    require(std::isfinite(options.intersectionCost) && options.intersectionCost > 0,
-            "the intersection cost", options.intersectionCost, "a finite number above 0");
     require(options.depthCap <= kMostDepth, "the depth cap", options.depthCap, "0 to 256");
-    if (primitives > kMostPrimitives)
+    if (items > gpu::MAX_RECORDS)
         throw SceneError(
-            fmt::format("BVH: {} primitives, expected at most {}", primitives, kMostPrimitives));
-    if (primitives > 0 && levelsNeeded(primitives, options.maxLeafSize) > options.depthCap)
-        throw UsageError(fmt::format(
-            "BVH: {} primitives in leaves of at most {} need a depth of {}, the cap is {}",
-            primitives, options.maxLeafSize, levelsNeeded(primitives, options.maxLeafSize),
-            options.depthCap));
+            fmt::format("BVH: {} leaves, expected at most {}", items, gpu::MAX_RECORDS));
+    if (items > 0 && levelsNeeded(items) > options.depthCap)
+        throw UsageError(fmt::format("BVH: {} leaves need a depth of {}, the cap is {}", items,
+                                     levelsNeeded(items), options.depthCap));
 }
 
-BuildInput readBounds(std::span<const Bounds> primitives) {
+BuildInput readBounds(std::span<const Bounds> items) {
     BuildInput input;
-    input.references.resize(primitives.size());
+    input.references.resize(items.size());
     using Range = tbb::blocked_range<size_t>;
     constexpr size_t kGrain = 1u << 14;
     const PartRead all = tbb::parallel_reduce(
-        Range(0, primitives.size(), kGrain), PartRead{},
+        Range(0, items.size(), kGrain), PartRead{},
         [&](const Range& range, PartRead part) {
             for (size_t i = range.begin(); i != range.end(); ++i) {
-                input.references[i] = makeReference(primitives[i], i);
+                input.references[i] = makeReference(items[i], i);
                 part.bounds.extend(input.references[i].box());
-                if (!isUsable(primitives[i])) part.firstUnusable = std::min(part.firstUnusable, i);
+                if (!isUsable(items[i])) part.firstUnusable = std::min(part.firstUnusable, i);
             }
             return part;
         },
@@ -87,17 +77,16 @@ BuildInput readBounds(std::span<const Bounds> primitives) {
             a.firstUnusable = std::min(a.firstUnusable, b.firstUnusable);
             return a;
         });
-    if (all.firstUnusable < primitives.size())
-        throw SceneError(fmt::format("BVH: primitive {} has no usable bounds, expected finite "
+    if (all.firstUnusable < items.size())
+        throw SceneError(fmt::format("BVH: leaf {} has no usable bounds, expected finite "
                                      "coordinates within +-2^60",
                                      all.firstUnusable));
     input.bounds = all.bounds;
     return input;
 }
 
-uint32_t levelsNeeded(size_t n, uint32_t maxLeafSize) {
-    const size_t leaves = (n + maxLeafSize - 1) / maxLeafSize;
-    return uint32_t(std::bit_width(leaves - 1));
+uint32_t levelsNeeded(size_t n) {
+    return uint32_t(std::bit_width(n - 1));
 }
 
 } // namespace stromboli::bvh

@@ -1,7 +1,8 @@
 #include "host/bvh/cpu_traversal.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 namespace stromboli {
@@ -21,76 +22,97 @@ bool canHit(const TraversalRay& ray) {
 /// One ray on its way through the tree.
 class Traversal {
   public:
-    Traversal(const BinaryLayout& layout, std::span<const gpu::Primitive> primitives,
-              const TraversalRay& ray)
-        : layout_(layout), primitives_(primitives), ray_(ray), prepared_(ray.origin, ray.direction),
-          stack_(layout.stackSize) {}
+    Traversal(const WideLayout& layout, const TraversalRay& ray)
+        : layout_(layout), ray_(ray), prepared_(ray.origin, ray.direction),
+          stack_(layout.stackSize - 1) {}
 
     TraversalHit run(bool stopAtFirst) {
         hit_.t = ray_.tMax;
-        uint32_t current = 0;
-        while (current != gpu::CHILD_NONE) {
-            if (current & gpu::CHILD_LEAF_BIT) {
-                visitLeaf(current, stopAtFirst);
-                if (stopAtFirst && hit_) break;
-                current = pop();
-            } else {
-                current = visitNode(layout_.nodes[current]);
-            }
+        // The root is slot 0 of a group that begins at record 0.
+        for (uint32_t group = 1u << prepared_.octant; group != 0;) {
+            group = step(group);
+            if (stopAtFirst && hit_) break;
         }
         if (!hit_) hit_.t = kInfiniteDistance;
         return hit_;
     }
 
+    const TraversalCounts& counts() const { return counts_; }
+
   private:
-    /// The child to visit next; a farther one that is hit too is pushed.
-    uint32_t visitNode(const gpu::Node& node) {
-        const auto left = enterBox(node.leftLow, node.leftHigh, prepared_, hit_.t);
-        const auto right = enterBox(node.rightLow, node.rightHigh, prepared_, hit_.t);
-        if (left && right) {
-            const bool leftFirst = *left <= *right;
-            stack_.at(stackTop_++) = leftFirst ? node.right : node.left;
-            return leftFirst ? node.left : node.right;
+    /// Visits the nearest child of the group; returns the group to go on with, 0 if none is left.
+    uint32_t step(uint32_t group) {
+        const uint32_t next = uint32_t(std::bit_width(group & 255u)) - 1;
+        const uint32_t record = (group >> 8) + (next ^ prepared_.octant);
+        uint32_t rest = group ^ (1u << next);
+        if ((rest & 255u) == 0) rest = 0;
+
+        const Record& r = layout_.records.at(record);
+        if (isNode(r)) {
+            ++counts_.nodes;
+            const gpu::NodeRecord node = asNode(r);
+            if (const uint32_t entered = enterChildren(node, prepared_, hit_.t)) {
+                if (rest != 0) push(rest);
+                return node.firstChild << 8 | entered; // the record's kind is shifted out
+            }
+        } else {
+            ++counts_.leaves;
+            visitLeaf(asLeaf(r), record);
         }
-        if (left) return node.left;
-        return right ? node.right : pop();
+        return rest != 0 ? rest : pop();
     }
 
-    void visitLeaf(uint32_t reference, bool stopAtFirst) {
-        const uint32_t first = reference & gpu::CHILD_FIRST_MASK;
-        const uint32_t last =
-            first + ((reference & ~gpu::CHILD_LEAF_BIT) >> gpu::CHILD_COUNT_SHIFT);
-        for (uint32_t i = first; i <= last; ++i) {
-            const gpu::Primitive& primitive = primitives_[i];
-            if (i == ray_.skipPrimitive && primitive.kind == gpu::PRIMITIVE_TRIANGLE) continue;
-            const auto hit = hitPrimitive(primitive, prepared_, ray_.tMin, hit_.t);
-            if (!hit) continue;
-            hit_ = {i, hit->t, hit->b1, hit->b2};
-            if (stopAtFirst) return;
+    void visitLeaf(const gpu::LeafRecord& r, uint32_t record) {
+        if (r.primitive & gpu::RECORD_IS_SPHERE) {
+            const auto hit = hitSphere(r.p0, r.radius, prepared_, ray_.tMin, hit_.t);
+            if (hit) hit_ = {2 * record, hit->t, 0, 0};
+            return;
         }
+        const glm::vec3 p2(r.p2x, r.p2y, r.p2z), p3(r.p3x, r.p3y, r.p3z);
+        visitTriangle(r.p0, r.p1, p2, 2 * record);
+        visitTriangle(r.p0, p2, p3, 2 * record + 1);
     }
 
-    uint32_t pop() { return stackTop_ == 0 ? gpu::CHILD_NONE : stack_[--stackTop_]; }
+    void visitTriangle(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2,
+                       uint32_t place) {
+        if (place == ray_.skipPrimitive) return;
+        const auto hit = hitTriangle(v0, v1, v2, prepared_);
+        if (hit && hit->t > ray_.tMin && hit->t < hit_.t) hit_ = {place, hit->t, hit->b1, hit->b2};
+    }
 
-    const BinaryLayout& layout_;
-    std::span<const gpu::Primitive> primitives_;
+    void push(uint32_t group) {
+        stack_.at(waiting_++) = group;
+        counts_.mostWaiting = std::max(counts_.mostWaiting, waiting_);
+    }
+    uint32_t pop() { return waiting_ == 0 ? 0 : stack_[--waiting_]; }
+
+    const WideLayout& layout_;
     const TraversalRay& ray_;
     PreparedRay prepared_;
     TraversalHit hit_;            ///< t: the end of the interval still of interest
     std::vector<uint32_t> stack_; ///< as large as the kernel's; exceeding it throws
-    uint32_t stackTop_ = 0;
+    uint32_t waiting_ = 0;
+    TraversalCounts counts_;
 };
+
+TraversalHit trace(const WideLayout& layout, const TraversalRay& ray, bool stopAtFirst,
+                   TraversalCounts* counts) {
+    if (!canHit(ray)) return {};
+    Traversal traversal(layout, ray);
+    const TraversalHit hit = traversal.run(stopAtFirst);
+    if (counts) *counts = traversal.counts();
+    return hit;
+}
 
 } // namespace
 
-TraversalHit closestHit(const BinaryLayout& layout, std::span<const gpu::Primitive> primitives,
-                        const TraversalRay& ray) {
-    return canHit(ray) ? Traversal(layout, primitives, ray).run(false) : TraversalHit{};
+TraversalHit closestHit(const WideLayout& layout, const TraversalRay& ray,
+                        TraversalCounts* counts) {
+    return trace(layout, ray, false, counts);
 }
 
-bool anyHit(const BinaryLayout& layout, std::span<const gpu::Primitive> primitives,
-            const TraversalRay& ray) {
-    return canHit(ray) && Traversal(layout, primitives, ray).run(true);
+bool anyHit(const WideLayout& layout, const TraversalRay& ray, TraversalCounts* counts) {
+    return bool(trace(layout, ray, true, counts));
 }
 
 } // namespace stromboli

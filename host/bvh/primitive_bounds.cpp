@@ -38,17 +38,13 @@ Bounds sphereBounds(const Sphere& s) {
 
 } // namespace
 
-std::vector<Bounds> primitiveBounds(const Scene& scene) {
-    std::vector<Bounds> bounds;
-    bounds.reserve(scene.triangles.size() + scene.spheres.size());
-    for (const Triangle& t : scene.triangles) {
-        Bounds& b = bounds.emplace_back();
-        for (const uint32_t corner : t.corner)
-            b.extend(scene.positions[corner]);
-    }
-    for (const Sphere& s : scene.spheres)
-        bounds.push_back(sphereBounds(s));
-    return bounds;
+Bounds primitiveBounds(const Scene& scene, uint32_t primitive) {
+    if (primitive >= scene.triangles.size())
+        return sphereBounds(scene.spheres[primitive - scene.triangles.size()]);
+    Bounds b;
+    for (const uint32_t corner : scene.triangles[primitive].corner)
+        b.extend(scene.positions[corner]);
+    return b;
 }
 
 } // namespace stromboli

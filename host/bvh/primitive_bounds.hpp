@@ -2,12 +2,12 @@
 
 #include "scene/model/scene.hpp"
 
-#include <vector>
+#include <cstdint>
 
 namespace stromboli {
 
-/// The box of every primitive of the scene: triangles 0..nt-1, then spheres nt..nt+ns-1. The
+/// The box of one primitive of the scene: triangles are 0..nt-1, then spheres nt..nt+ns-1. The
 /// primitive lies wholly inside: a triangle's box is exact, a sphere's is rounded outward.
-std::vector<Bounds> primitiveBounds(const Scene& scene);
+Bounds primitiveBounds(const Scene& scene, uint32_t primitive);
 
 } // namespace stromboli

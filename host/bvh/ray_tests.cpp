@@ -1,6 +1,8 @@
 #include "host/bvh/ray_tests.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 namespace stromboli {
@@ -17,16 +19,17 @@ float largestComponent(const glm::vec3& v) {
     return std::max(v.x, std::max(v.y, v.z));
 }
 
-/// Both ends of an interval carry three roundings here: lo - origin, the reciprocal and the
-/// product, 6 units of 2^-24 together. On the GPU, with a division of 2.5 ulp, 14 units. Moving
-/// the far end by 2^-20 (16 units; a rounding of its own included) makes up for either
-/// (after Ize 2013, "Robust BVH Ray Traversal").
-constexpr float kFarSlack = 1.0f + 0x1p-20f;
+/// What rounding relative to the distance can take from the far end of an interval
+/// (docs/numerics.md, "Boxes"; after Ize 2013).
+constexpr float kBoxSlack = 1.0f + 0x1p-18f;
 
 /// Below this fraction of the largest component a component of the direction is replaced, so that
-/// no 0 * infinity arises. The ray moves by 2^-40 of its length: far below the rounding of its
-/// coordinates.
-constexpr float kLeastComponent = 0x1p-40f;
+/// no 0 * infinity arises.
+constexpr float kLeastComponent = 0x1p-60f;
+
+uint32_t byteOf(const std::array<uint32_t, 2>& words, uint32_t slot) {
+    return words[slot / 4] >> (8 * (slot % 4)) & 255u;
+}
 
 } // namespace
 
@@ -38,23 +41,45 @@ PreparedRay::PreparedRay(const glm::vec3& origin_, const glm::vec3& direction_)
         const float component = std::max(size[i], largest * kLeastComponent);
         reciprocal[i] = 1.0f / (direction[i] < 0 ? -component : component);
     }
+    octant =
+        (reciprocal.x < 0 ? 0u : 1u) | (reciprocal.y < 0 ? 0u : 2u) | (reciprocal.z < 0 ? 0u : 4u);
     axis = size.z == largest ? 2 : (size.x == largest ? 0 : 1);
     const glm::vec3 d = permute(direction, axis);
     shear = {d.x / d.z, d.y / d.z, 1.0f / d.z};
 }
 
-std::optional<float> enterBox(const glm::vec3& lo, const glm::vec3& hi, const PreparedRay& ray,
-                              float tMax) {
-    float tNear = 0, tFar = tMax;
-    for (int i = 0; i < 3; ++i) {
-        // The nearer plane by the direction's sign, not as the lesser of both distances: an
-        // inverted box must stay inverted.
-        const bool descending = ray.reciprocal[i] < 0;
-        tNear = std::max(tNear, ((descending ? hi : lo)[i] - ray.origin[i]) * ray.reciprocal[i]);
-        tFar = std::min(tFar, ((descending ? lo : hi)[i] - ray.origin[i]) * ray.reciprocal[i]);
+uint32_t enterChildren(const gpu::NodeRecord& node, const PreparedRay& ray, float tMax) {
+    struct Axis {
+        uint32_t gridWord;
+        std::array<uint32_t, 2> low, high;
+    };
+    const Axis axes[3] = {
+        {node.originAndExponentX, {node.lowX0, node.lowX1}, {node.highX0, node.highX1}},
+        {node.originAndExponentY, {node.lowY0, node.lowY1}, {node.highY0, node.highY1}},
+        {node.originAndExponentZ, {node.lowZ0, node.lowZ1}, {node.highZ0, node.highZ1}}};
+    uint32_t entered = 0;
+    for (uint32_t slot = 0; slot < gpu::WIDE_CHILDREN; ++slot) {
+        // Bit patterns, as the kernel compares them: those of floats that are not negative
+        // compare as the floats do, and negative ones are below them all.
+        int32_t enter = 0, leave = std::bit_cast<int32_t>(tMax * kBoxSlack);
+        for (int i = 0; i < 3; ++i) {
+            const float origin = std::bit_cast<float>(axes[i].gridWord & 0xFFFFFF00u);
+            const float cell = std::bit_cast<float>((axes[i].gridWord & 255u) << 23);
+            const float base = (origin - ray.origin[i]) * ray.reciprocal[i];
+            const float scale = cell * ray.reciprocal[i];
+            // Near and far by the direction's sign, not as the lesser and the greater of both
+            // distances: the inverted box of an absent child must stay inverted.
+            const bool ascending = (ray.octant >> i & 1u) != 0;
+            const float nearPlane = float(byteOf(ascending ? axes[i].low : axes[i].high, slot));
+            const float farPlane = float(byteOf(ascending ? axes[i].high : axes[i].low, slot));
+            const float near = nearPlane * scale + base;
+            const float far = farPlane * (scale * kBoxSlack) + base * kBoxSlack;
+            enter = std::max(enter, std::bit_cast<int32_t>(near));
+            leave = std::min(leave, std::bit_cast<int32_t>(far));
+        }
+        if (enter <= leave) entered |= 1u << (slot ^ ray.octant);
     }
-    if (tNear <= tFar * kFarSlack) return tNear;
-    return std::nullopt;
+    return entered;
 }
 
 /// Why no ray passes between two triangles: a corner is translated, permuted and sheared to the
@@ -106,15 +131,6 @@ std::optional<PrimitiveHit> hitSphere(const glm::vec3& center, float radius, con
     const float t = t0 > tMin ? t0 : t1;
     if (!(t > tMin && t < tMax)) return std::nullopt;
     return PrimitiveHit{t, 0, 0};
-}
-
-std::optional<PrimitiveHit> hitPrimitive(const gpu::Primitive& primitive, const PreparedRay& ray,
-                                         float tMin, float tMax) {
-    if (primitive.kind == gpu::PRIMITIVE_SPHERE)
-        return hitSphere(primitive.v0, primitive.v1.x, ray, tMin, tMax);
-    const auto hit = hitTriangle(primitive.v0, primitive.v1, primitive.v2, ray);
-    if (hit && hit->t > tMin && hit->t < tMax) return hit;
-    return std::nullopt;
 }
 
 } // namespace stromboli

@@ -21,15 +21,15 @@ struct PreparedRay {
 
     glm::vec3 origin, direction;
     glm::vec3 reciprocal; ///< of the direction; finite (boxes)
+    uint32_t octant;      ///< bit k: the direction is not negative on axis k (boxes)
     int axis;             ///< largest component of the direction (triangles)
     glm::vec3 shear;      ///< maps the permuted direction to the z axis (triangles)
 };
 
-/// Where the ray enters the box, at least 0; nothing if it does not meet the box within [0, tMax].
-/// Conservative: what rounding does to the ends of the interval never loses a box that the exact
-/// ray touches within the interval. A box with lo > hi is not hit.
-std::optional<float> enterBox(const glm::vec3& lo, const glm::vec3& hi, const PreparedRay& ray,
-                              float tMax);
+/// Which children of a node the ray enters within [0, tMax]: bit (slot ^ octant) for each, so that
+/// the highest bit is the nearest child, more or less. Conservative: never misses a child whose
+/// true box the exact ray touches within the interval.
+uint32_t enterChildren(const gpu::NodeRecord& node, const PreparedRay& ray, float tMax);
 
 /// Where a primitive is hit.
 struct PrimitiveHit {
@@ -46,9 +46,5 @@ std::optional<PrimitiveHit> hitTriangle(const glm::vec3& v0, const glm::vec3& v1
 /// The least t in (tMin, tMax) at which the ray meets the sphere, from either side.
 std::optional<PrimitiveHit> hitSphere(const glm::vec3& center, float radius, const PreparedRay& ray,
                                       float tMin, float tMax);
-
-/// The first hit with t in (tMin, tMax).
-std::optional<PrimitiveHit> hitPrimitive(const gpu::Primitive& primitive, const PreparedRay& ray,
-                                         float tMin, float tMax);
 
 } // namespace stromboli

@@ -59,7 +59,7 @@ Partition partitionAtMedian(std::span<BuildReference> run, const Box4& centroids
     const int axis = widestAxis(centroids);
     const auto before = [axis](const BuildReference& a, const BuildReference& b) {
         const float x = a.lo[axis] + a.hi[axis], y = b.lo[axis] + b.hi[axis];
-        return x != y ? x < y : a.primitive < b.primitive;
+        return x != y ? x < y : a.item < b.item;
     };
     const auto middle = run.begin() + std::ptrdiff_t((run.size() + 1) / 2);
     std::nth_element(run.begin(), middle, run.end(), before);

@@ -8,7 +8,7 @@
 
 namespace stromboli::bvh {
 
-/// A run parted in two: its first leftCount primitives go left. Neither part is empty.
+/// A run parted in two: its first leftCount items go left. Neither part is empty.
 struct Partition {
     size_t leftCount = 0;
     RunBounds left, right;
@@ -18,11 +18,11 @@ struct Partition {
 Partition partitionByBin(std::span<BuildReference> run, const BinMapping& mapping,
                          const BinnedSplit& split);
 
-/// Half of the primitives (rounded up) to each side, by centroid on the axis where `centroids`
-/// is widest, equal ones by primitive number. At least two primitives.
+/// Half of the items (rounded up) to each side, by centroid on the axis where `centroids`
+/// is widest, equal ones by item number. At least two items.
 Partition partitionAtMedian(std::span<BuildReference> run, const Box4& centroids);
 
-/// Half of the primitives (rounded up) to each side, in the order they are in.
+/// Half of the items (rounded up) to each side, in the order they are in.
 Partition partitionInTheMiddle(std::span<const BuildReference> run);
 
 } // namespace stromboli::bvh

@@ -1,35 +1,93 @@
 #include "host/bvh/statistics.hpp"
 
+#include "host/bvh/node_record.hpp"
+
+#include <algorithm>
+#include <vector>
+
 namespace stromboli {
 
-double sahCost(const BinaryTree& tree, const BuildOptions& options) {
-    const double rootArea = tree.nodes.front().bounds.halfArea();
-    if (rootArea == 0) return 0;
-    double cost = 0;
-    for (const BinaryNode& node : tree.nodes) {
-        const double ofNode =
-            node.count == 0 ? options.traversalCost : double(node.count) * options.intersectionCost;
-        cost += ofNode * (node.bounds.halfArea() / rootArea);
-    }
-    return cost;
+namespace {
+
+double halfArea(const bvh::GridBox& box) {
+    const glm::dvec3 e = box.hi - box.lo;
+    return e.x * e.y + e.y * e.z + e.z * e.x;
 }
 
-BvhStatistics measure(const BinaryTree& tree, const BinaryLayout& layout,
-                      const BuildOptions& options) {
-    BvhStatistics s;
-    s.nodes = uint32_t(tree.nodes.size());
-    s.depth = tree.depth;
-    s.sahCost = sahCost(tree, options);
-    s.layoutBytes = layout.nodes.size() * sizeof layout.nodes[0] +
-                    layout.primitiveOrder.size() * sizeof layout.primitiveOrder[0];
-    // The one node of a tree without primitives is a leaf although its count is 0.
-    const bool rootIsLeaf = tree.nodes.size() == 1;
-    for (const BinaryNode& node : tree.nodes)
-        if (node.count > 0 || rootIsLeaf) {
-            ++s.leaves;
-            ++s.leavesOfSize.at(node.count);
+struct Visit {
+    uint32_t record, depth;
+    double area;
+};
+
+class Measuring {
+  public:
+    explicit Measuring(const WideLayout& layout) : layout_(layout) {
+        s_.recordBytes = layout.records.size() * sizeof(Record);
+        s_.primitives = layout.primitiveOrder.size();
+    }
+
+    BvhStatistics run() {
+        pending_.push_back({0, 0, 0});
+        while (!pending_.empty()) {
+            const Visit next = pending_.back();
+            pending_.pop_back();
+            s_.depth = std::max(s_.depth, next.depth);
+            area_ += next.area;
+            const Record& r = layout_.records.at(next.record);
+            isNode(r) ? visitNode(asNode(r), next) : visitLeaf(asLeaf(r));
         }
-    return s;
+        s_.expectedVisits = 1 + (rootArea_ > 0 ? area_ / rootArea_ : 0);
+        return s_;
+    }
+
+  private:
+    void visitNode(const gpu::NodeRecord& node, const Visit& visit) {
+        ++s_.nodes;
+        uint32_t children = 0;
+        bvh::GridBox all;
+        for (uint32_t slot = 0; slot < gpu::WIDE_CHILDREN; ++slot) {
+            const bvh::GridBox box = bvh::childBox(node, slot);
+            if (box.empty()) continue;
+            ++children;
+            all.extend(box);
+            pending_.push_back({bvh::firstChild(node) + slot, visit.depth + 1, halfArea(box)});
+        }
+        ++s_.nodesOfSize[children];
+        if (visit.record == 0 && children > 0) rootArea_ = halfArea(all);
+    }
+
+    void visitLeaf(const gpu::LeafRecord& leaf) {
+        ++s_.leaves;
+        const bool isPair =
+            glm::vec3(leaf.p3x, leaf.p3y, leaf.p3z) != glm::vec3(leaf.p2x, leaf.p2y, leaf.p2z);
+        ++s_.leavesOfSize[isPair ? 2 : 1];
+    }
+
+    const WideLayout& layout_;
+    BvhStatistics s_;
+    std::vector<Visit> pending_;
+    double area_ = 0, rootArea_ = 0;
+};
+
+} // namespace
+
+double BvhStatistics::childrenPerNode() const {
+    double children = 0;
+    for (size_t n = 0; n < nodesOfSize.size(); ++n)
+        children += double(n) * nodesOfSize[n];
+    return children / nodes;
+}
+
+double BvhStatistics::primitivesPerLeaf() const {
+    return leaves > 0 ? double(primitives) / leaves : 0;
+}
+
+double BvhStatistics::bytesPerPrimitive() const {
+    return primitives > 0 ? double(recordBytes) / double(primitives) + sizeof(gpu::Primitive) : 0;
+}
+
+BvhStatistics measure(const WideLayout& layout) {
+    return Measuring(layout).run();
 }
 
 } // namespace stromboli

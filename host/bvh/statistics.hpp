@@ -1,7 +1,6 @@
 #pragma once
 
-#include "host/bvh/binary_layout.hpp"
-#include "host/bvh/binary_tree.hpp"
+#include "host/bvh/wide_layout.hpp"
 
 #include <array>
 #include <cstdint>
@@ -9,21 +8,24 @@
 namespace stromboli {
 
 struct BvhStatistics {
-    uint32_t nodes = 0; ///< inner nodes and leaves of the tree
-    uint32_t leaves = 0;
-    uint32_t depth = 0;                      ///< edges on the longest path from the root
-    std::array<uint32_t, 17> leavesOfSize{}; ///< [n]: leaves with n primitives
-    double sahCost = 0;                      ///< see sahCost()
-    uint64_t layoutBytes = 0;                ///< of the nodes and the primitive order
+    uint32_t nodes = 0, leaves = 0;
+    uint32_t depth = 0;                     ///< edges on the longest path from the root
+    std::array<uint32_t, 9> nodesOfSize{};  ///< [n]: nodes with n children
+    std::array<uint32_t, 3> leavesOfSize{}; ///< [n]: leaves with n primitives
+    /// Records a random line through the root's box is expected to visit without an end to it
+    /// (Goldsmith and Salmon 1987): the areas of all records' boxes, as the kernel has them,
+    /// over the root's. Node and leaf records count alike: the kernel does the same for both. 1 if
+    /// the root has no area.
+    double expectedVisits = 0;
+    uint64_t recordBytes = 0;
+    uint64_t primitives = 0;
+
+    double childrenPerNode() const;
+    double primitivesPerLeaf() const;
+    /// Of the records and of a gpu::Primitive; 0 without primitives.
+    double bytesPerPrimitive() const;
 };
 
-/// Expected cost of a random line that meets the root's box (Goldsmith and Salmon 1987): over all
-/// inner nodes the traversal cost, over all leaves the intersection cost of their primitives,
-/// each times the node's area relative to the root's. 0 if the root has no area.
-double sahCost(const BinaryTree& tree, const BuildOptions& options);
-
-/// `options` must be the ones the tree was built with, `layout` the tree's.
-BvhStatistics measure(const BinaryTree& tree, const BinaryLayout& layout,
-                      const BuildOptions& options);
+BvhStatistics measure(const WideLayout& layout);
 
 } // namespace stromboli

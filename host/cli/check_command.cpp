@@ -7,7 +7,6 @@
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/reference/reference_backend.hpp"
 #include "host/render/render.hpp"
-#include "host/vulkan/open_device.hpp"
 
 #include <fmt/format.h>
 
@@ -26,9 +25,10 @@ Film renderWatched(Backend& backend, const Job& job, const Options& options) {
 
 int checkCommand(const Options& options) {
     watchForInterrupt();
+    std::future<vulkan::OpenDevice> device = openDeviceMeanwhile(options);
     const Job job = prepareJob(options);
-    const vulkan::OpenDevice open = vulkan::openDevice(options.device);
     const BuiltScene built = buildScene(job);
+    const vulkan::OpenDevice open = device.get();
     Film onDevice;
     {
         VulkanBackend backend(*open.device, built.gpu, job.camera, job.settings);

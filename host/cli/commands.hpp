@@ -6,8 +6,11 @@ namespace stromboli {
 
 /// Each runs one command and returns the program's exit code; errors are thrown.
 int renderCommand(const Options& options);
+/// `render` with --pixel and --sample: prints that sample's radiance and whether it is rejected.
+int sampleCommand(const Options& options);
 int checkCommand(const Options& options);
 int infoCommand(const Options& options);
 int devicesCommand(const Options& options);
+int benchCommand(const Options& options);
 
 } // namespace stromboli

@@ -4,7 +4,12 @@ namespace stromboli {
 namespace {
 
 void addScene(CLI::App& app, Options& o) {
-    app.add_option("SCENE", o.scene, "COLLADA file (.dae)")->required()->group("Scene");
+    app.add_option(
+           "SCENE", o.scene,
+           "COLLADA file (.dae), or generate:cornell_mesh:N for a scene of N triangles made "
+           "in memory")
+        ->required()
+        ->group("Scene");
 }
 
 void addPicture(CLI::App& app, RawOptions& raw,
@@ -86,6 +91,23 @@ void addAdaptive(CLI::App& app, RawOptions& raw) {
         ->group("Sampling");
 }
 
+/// As a line about rejected samples names one: added to the same command, they show it again.
+void addSampleAlone(CLI::App& app, RawOptions& raw) {
+    CLI::Option* pixel = app.add_option("--pixel", raw.pixel,
+                                        "with --sample: no picture, only print the radiance of "
+                                        "one sample of this pixel (column, row from the top)")
+                             ->expected(2)
+                             ->allow_extra_args(false)
+                             ->type_name("X Y")
+                             ->group("Sampling");
+    CLI::Option* sample =
+        app.add_option("--sample", raw.sample, "the sample's number, the first being 0")
+            ->type_name("N")
+            ->group("Sampling");
+    pixel->needs(sample);
+    sample->needs(pixel);
+}
+
 void addDevice(CLI::App& app, Options& o) {
     app.add_option("--device", o.device,
                    "number, UUID or part of a name from 'stromboli devices', or cpu [the best]")
@@ -104,7 +126,6 @@ void addHost(CLI::App& app, RawOptions& raw, Options& o) {
 void addRender(CLI::App& app, RawOptions& raw, Options& o) {
     addScene(app, o);
     app.add_option("-o,--output", o.output, "picture to write: .png (sRGB, 8 bit) or .exr (linear)")
-        ->required()
         ->type_name("FILE")
         ->group("Output");
     app.add_option("--exposure", o.exposure, "PNG: radiance times 2^EV")
@@ -120,6 +141,7 @@ void addRender(CLI::App& app, RawOptions& raw, Options& o) {
     addLightTransport(app, raw, o);
     addSampling(app, raw, o, "samples per pixel; with -a the most a pixel gets [64; --cs184: 1]");
     addAdaptive(app, raw);
+    addSampleAlone(app, raw);
     app.add_option("--backend", raw.backend,
                    "vulkan, or reference: the slow double-precision path tracer on the CPU")
         ->check(CLI::IsMember({"vulkan", "reference"}))
@@ -130,6 +152,21 @@ void addRender(CLI::App& app, RawOptions& raw, Options& o) {
     addHost(app, raw, o);
     app.add_option("--accumulate", raw.accumulate, "CS184's -o: 0 is --min-bounce equal to -m")
         ->group("");
+}
+
+void addBench(CLI::App& app, RawOptions& raw, Options& o) {
+    declareBench(app, raw.bench, o.bench);
+    app.add_option("-r,--size", raw.size, "picture size [512 512; --quick: 192 192]")
+        ->expected(2)
+        ->allow_extra_args(false)
+        ->type_name("W H")
+        ->group("Measuring");
+    app.add_option("-m,--max-bounces", raw.maxBounces, "scatterings of light at most [5]")
+        ->type_name("N")
+        ->group("Measuring");
+    addSampling(app, raw, o, "samples per pixel in a measurement of paths [8; --quick: 4]");
+    addDevice(app, o);
+    addHost(app, raw, o);
 }
 
 } // namespace
@@ -165,7 +202,10 @@ Subcommands declareOptions(CLI::App& app, RawOptions& raw, Options& o) {
     CLI::App* devices =
         app.add_subcommand("devices", "List Vulkan devices and which one is chosen, and why");
     addDevice(*devices, o);
-    return {render, check, info, devices};
+    CLI::App* bench = app.add_subcommand(
+        "bench", "Measure BVH, rays, paths, start-up; against Embree where that is installed");
+    addBench(*bench, raw, o);
+    return {render, check, info, devices, bench};
 }
 
 } // namespace stromboli

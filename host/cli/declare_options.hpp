@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/cli/bench_options.hpp"
 #include "host/cli/options.hpp"
 
 #include <CLI/CLI.hpp>
@@ -13,12 +14,13 @@ namespace stromboli {
 
 /// What is parsed as text or lists before it is checked.
 struct RawOptions {
-    std::vector<uint32_t> size, crop, cell;
+    std::vector<uint32_t> size, crop, cell, pixel;
     std::vector<double> adaptive;
     std::string roulette, integrator = "path", direct = "lights", camera = "auto",
                           backend = "vulkan";
-    std::optional<uint32_t> samples, lightSamples, maxBounces, minBounce, accumulate;
+    std::optional<uint32_t> sample, samples, lightSamples, maxBounces, minBounce, accumulate;
     bool hemisphere = false, quiet = false, verbose = false;
+    RawBenchOptions bench;
 };
 
 struct Subcommands {
@@ -26,6 +28,7 @@ struct Subcommands {
     CLI::App* check;
     CLI::App* info;
     CLI::App* devices;
+    CLI::App* bench;
 };
 
 /// Declares every command and option with its help; parsing fills `raw` and `options`.

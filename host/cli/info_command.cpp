@@ -2,8 +2,8 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/job.hpp"
 #include "host/cli/progress.hpp"
+#include "host/kernel/kernel_buffers.hpp"
 #include "host/kernel/kernel_features.hpp"
-#include "host/kernel/vulkan_backend.hpp"
 
 #include <fmt/format.h>
 
@@ -33,14 +33,12 @@ void printCamera(const Job& job) {
 }
 
 void printBvh(const BuiltScene& built) {
-    const BvhStatistics s = measure(built.tree, built.gpu.bvh, BuildOptions{});
+    const BvhStatistics s = measure(built.gpu.bvh);
     fmt::print("BVH (built in {})\n", formatDuration(built.buildSeconds));
-    fmt::print("  nodes {}, leaves {}, depth {}, SAH cost {:.2f}, {} bytes\n", s.nodes, s.leaves,
-               s.depth, s.sahCost, s.layoutBytes);
-    fmt::print("  primitives per leaf:");
-    for (size_t size = 0; size < s.leavesOfSize.size(); ++size)
-        if (s.leavesOfSize[size] > 0) fmt::print(" {}: {}", size, s.leavesOfSize[size]);
-    fmt::print("\n");
+    fmt::print("  nodes {} with {:.1f} children, leaves {} with {:.2f} primitives, depth {}\n",
+               s.nodes, s.childrenPerNode(), s.leaves, s.primitivesPerLeaf(), s.depth);
+    fmt::print("  {:.1f} records on a line's way, {:.1f} bytes per primitive\n", s.expectedVisits,
+               s.bytesPerPrimitive());
 }
 
 } // namespace
@@ -57,7 +55,7 @@ int infoCommand(const Options& options) {
         fmt::print("  {}\n", line);
     fmt::print("buffers on the device\n");
     uint64_t total = 0;
-    for (const BufferSize& b : predictBuffers(built.gpu, job.settings)) {
+    for (const vulkan::BufferPlan& b : planBuffers(built.gpu, job.settings, {})) {
         fmt::print("  {:<18} {:>12} bytes\n", b.name, b.bytes);
         total += b.bytes;
     }

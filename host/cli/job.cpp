@@ -1,11 +1,10 @@
 #include "host/cli/job.hpp"
 
-#include "host/bvh/primitive_bounds.hpp"
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/film/film.hpp"
-#include "scene/collada/load_collada.hpp"
+#include "scene/generate/generated_scene.hpp"
 #include "scene/model/emitters.hpp"
 
 #include <fmt/format.h>
@@ -50,9 +49,13 @@ void checkFilmFits(const RenderSettings& s) {
 
 } // namespace
 
+std::future<vulkan::OpenDevice> openDeviceMeanwhile(const Options& options) {
+    return std::async(std::launch::async, vulkan::openDevice, options.device);
+}
+
 Job prepareJob(const Options& options) {
     Stopwatch watch;
-    Job job{loadCollada(options.scene, {.cs184 = options.settings.cs184}), {}, options.settings, 0};
+    Job job{readScene(options.scene, {.cs184 = options.settings.cs184}), {}, options.settings, 0};
     job.loadSeconds = watch.seconds();
     reportLoading(job.scene, options);
     if (!options.sizeGiven) {
@@ -71,8 +74,7 @@ Job prepareJob(const Options& options) {
 BuiltScene buildScene(const Job& job) {
     Stopwatch watch;
     BuiltScene built;
-    built.tree = buildBinaryTree(primitiveBounds(job.scene));
-    built.gpu = packScene(job.scene, built.tree, job.settings.cs184);
+    built.gpu = packScene(job.scene, buildWideBvh(job.scene), job.settings.cs184);
     built.buildSeconds = watch.seconds();
     return built;
 }

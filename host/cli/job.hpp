@@ -1,10 +1,12 @@
 #pragma once
 
-#include "host/bvh/binary_tree.hpp"
 #include "host/cli/options.hpp"
 #include "host/kernel/gpu_scene.hpp"
+#include "host/vulkan/open_device.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/model/scene.hpp"
+
+#include <future>
 
 namespace stromboli {
 
@@ -16,13 +18,16 @@ struct Job {
     double loadSeconds = 0;
 };
 
-/// Loads the scene, reports what was ignored, dropped or is missing (no light, no camera), and
-/// fixes the picture's size. Throws SceneError, UsageError (crop outside the picture).
+/// Begins to open the device on a thread of its own: nearly all of it is loading and linking the
+/// driver's libraries, which takes as long as reading a scene. get() throws DeviceError.
+std::future<vulkan::OpenDevice> openDeviceMeanwhile(const Options& options);
+
+/// Loads or makes the scene, reports what was ignored, dropped or is missing (no light, no camera),
+/// and fixes the picture's size. Throws SceneError, UsageError (crop outside the picture).
 Job prepareJob(const Options& options);
 
 /// A BVH and the kernel's arrays.
 struct BuiltScene {
-    BinaryTree tree;
     GpuScene gpu;
     double buildSeconds = 0;
 };

@@ -19,13 +19,16 @@ int run(const stromboli::Options& options) {
         options.threads ? options.threads : std::max(1u, std::thread::hardware_concurrency()));
     switch (options.command) {
     case Command::Render:
-        return stromboli::renderCommand(options);
+        return options.sampleAlone ? stromboli::sampleCommand(options)
+                                   : stromboli::renderCommand(options);
     case Command::Check:
         return stromboli::checkCommand(options);
     case Command::Info:
         return stromboli::infoCommand(options);
     case Command::Devices:
         return stromboli::devicesCommand(options);
+    case Command::Bench:
+        return stromboli::benchCommand(options);
     }
     return 0;
 }

@@ -70,6 +70,12 @@ Roulette parseRoulette(const std::string& text, bool cs184) {
     return r;
 }
 
+void applySampleAlone(const RawOptions& raw, Options& o) {
+    if (!raw.sample) return;
+    checkRange("--sample", *raw.sample, 0, kMostSamples - 1);
+    o.sampleAlone = {raw.pixel[0], raw.pixel[1], *raw.sample};
+}
+
 void applyAdaptive(const RawOptions& raw, Options& o) {
     Adaptive& a = o.settings.adaptive;
     a.enabled = o.settings.cs184 && o.settings.integrator == Integrator::Path;
@@ -119,6 +125,7 @@ void apply(const RawOptions& raw, Options& o) {
     applyCrop(raw, o);
     applyLight(raw, o);
     applyAdaptive(raw, o);
+    applySampleAlone(raw, o);
 }
 
 } // namespace
@@ -141,12 +148,17 @@ std::optional<Options> parseOptions(std::vector<std::string> arguments) {
     o.command = *commands.render  ? Command::Render
                 : *commands.check ? Command::Check
                 : *commands.info  ? Command::Info
+                : *commands.bench ? Command::Bench
                                   : Command::Devices;
     if (*commands.check) { // a quick, small picture unless asked otherwise
         if (raw.size.empty()) raw.size = {160, 120};
         if (!raw.samples) raw.samples = 256;
     }
+    if (*commands.bench) applyBenchDefaults(raw);
     apply(raw, o);
+    if (*commands.bench) applyBench(raw.bench, o);
+    if (*commands.render && o.output.empty() && !o.sampleAlone)
+        throw UsageError("--output is required (see --help)");
     if (*commands.check) o.settings.adaptive.enabled = false; // a z-test needs fixed sample counts
     return o;
 }

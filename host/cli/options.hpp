@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/cli/bench_options.hpp"
 #include "host/core/log.hpp"
 #include "host/render/settings.hpp"
 #include "scene/camera/camera.hpp"
@@ -11,8 +12,13 @@
 
 namespace stromboli {
 
-enum class Command { Render, Check, Info, Devices };
+enum class Command { Render, Check, Info, Devices, Bench };
 enum class BackendChoice { Vulkan, Reference };
+
+/// Names one sample of a picture: column, row from the top, number.
+struct SampleName {
+    uint32_t x = 0, y = 0, sample = 0;
+};
 
 /// The command line, understood and checked; what needs the scene (picture size) is still open.
 struct Options {
@@ -26,10 +32,12 @@ struct Options {
     BackendChoice backend = BackendChoice::Vulkan;
     double exposure = 0; ///< stops
     std::string statsFile;
-    bool statisticsChannels = false; ///< EXR: sample counts and variances
-    uint32_t threads = 0;            ///< host threads; 0: all
+    bool statisticsChannels = false;       ///< EXR: sample counts and variances
+    std::optional<SampleName> sampleAlone; ///< print this sample and write nothing
+    uint32_t threads = 0;                  ///< host threads; 0: all
     Verbosity verbosity = Verbosity::Normal;
     double familyWiseError = 0.01; ///< check
+    BenchOptions bench;
 };
 
 /// Parses the arguments (without the program's name). Empty: help or version was printed and the

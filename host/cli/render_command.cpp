@@ -2,17 +2,16 @@
 #include "host/cli/job.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/report.hpp"
+#include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
 #include "host/core/stopwatch.hpp"
-#include "host/film/atomic_file.hpp"
 #include "host/film/image_file.hpp"
 #include "host/film/png.hpp"
 #include "host/film/rate_picture.hpp"
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/reference/reference_backend.hpp"
 #include "host/render/render.hpp"
-#include "host/vulkan/open_device.hpp"
 
 namespace stromboli {
 namespace {
@@ -49,12 +48,13 @@ Film takeSamples(Backend& backend, const Job& job, const Options& options, Rende
     return film;
 }
 
-Film renderOnDevice(const Job& job, const Options& options, RenderReport& report) {
-    const vulkan::OpenDevice open = vulkan::openDevice(options.device);
-    report.backend = open.device->description().name();
-    spdlog::debug("device {}: {} ({})", open.choice.index, report.backend, open.choice.reason);
+Film renderOnDevice(const Job& job, std::future<vulkan::OpenDevice> device, const Options& options,
+                    RenderReport& report) {
     const BuiltScene built = buildScene(job);
     report.buildSeconds = built.buildSeconds;
+    const vulkan::OpenDevice open = device.get();
+    report.backend = open.device->description().name();
+    spdlog::debug("device {}: {} ({})", open.choice.index, report.backend, open.choice.reason);
     Film film;
     {
         VulkanBackend backend(*open.device, built.gpu, job.camera, job.settings);
@@ -91,11 +91,13 @@ void writeOutputs(const Film& film, const Job& job, const Options& options,
 int renderCommand(const Options& options) {
     checkOutputs(options);
     watchForInterrupt();
+    const bool onDevice = options.backend == BackendChoice::Vulkan;
+    std::future<vulkan::OpenDevice> device;
+    if (onDevice) device = openDeviceMeanwhile(options);
     const Job job = prepareJob(options);
     RenderReport report;
-    const Film film = options.backend == BackendChoice::Vulkan
-                          ? renderOnDevice(job, options, report)
-                          : renderOnReference(job, options, report);
+    const Film film = onDevice ? renderOnDevice(job, std::move(device), options, report)
+                               : renderOnReference(job, options, report);
     writeOutputs(film, job, options, report);
     logReport(report, film);
     if (report.complete) return 0;

@@ -1,9 +1,9 @@
 #include "host/cli/report.hpp"
 
 #include "host/cli/progress.hpp"
+#include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
-#include "host/film/atomic_file.hpp"
 #include "host/render/render.hpp"
 
 #include <fmt/format.h>
@@ -39,8 +39,8 @@ void logReport(const RenderReport& r, const Film& film) {
     const auto first = std::find_if(film.pixels.begin(), film.pixels.end(),
                                     [](const PixelStatistics& p) { return p.rejected > 0; });
     const auto index = uint32_t(first - film.pixels.begin());
-    spdlog::warn("{} samples were not finite or negative and were left out; the first: pixel {} {} "
-                 "sample {}",
+    spdlog::warn("{} samples were not finite, negative or too large and were left out; to see the "
+                 "first, add --pixel {} {} --sample {} to the command",
                  r.samplesRejected, index % film.width, index / film.width, first->firstRejected);
 }
 

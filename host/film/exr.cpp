@@ -1,7 +1,7 @@
 #include "host/film/exr.hpp"
 
+#include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
-#include "host/film/atomic_file.hpp"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>

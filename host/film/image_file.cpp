@@ -1,7 +1,7 @@
 #include "host/film/image_file.hpp"
 
+#include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
-#include "host/film/atomic_file.hpp"
 #include "host/film/crop.hpp"
 #include "host/film/exr.hpp"
 #include "host/film/png.hpp"

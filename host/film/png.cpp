@@ -1,7 +1,7 @@
 #include "host/film/png.hpp"
 
+#include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
-#include "host/film/atomic_file.hpp"
 
 #include <fmt/format.h>
 #include <png.h>

@@ -26,9 +26,6 @@ gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const RenderSe
     f.farDistance = float(std::min(camera.farDistance, double(std::numeric_limits<float>::max())));
     f.width = s.width;
     f.height = s.height;
-    f.cropX = s.crop.x;
-    f.cropY = s.crop.y;
-    f.cropWidth = s.crop.width ? s.crop.width : s.width;
     f.seed = s.seed;
     f.minBounce = s.minBounce;
     f.maxBounces = s.maxBounces;

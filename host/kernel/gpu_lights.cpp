@@ -21,7 +21,7 @@ gpu::Light quadLight(const glm::vec3& corner, const glm::vec3& a, const glm::vec
 }
 
 /// One column per triangle, chosen in proportion to its area.
-void addEntries(const Scene& scene, const Emitter& e, const std::vector<uint32_t>& slotOf,
+void addEntries(const Scene& scene, const Emitter& e, const std::vector<uint32_t>& placeOf,
                 GpuScene& g) {
     std::vector<double> areas;
     for (uint32_t i : e.triangles) {
@@ -32,11 +32,11 @@ void addEntries(const Scene& scene, const Emitter& e, const std::vector<uint32_t
     }
     const std::vector<AliasColumn> table = buildAliasTable(areas);
     for (size_t i = 0; i < table.size(); ++i)
-        g.emitterEntries.push_back({slotOf[e.triangles[i]], slotOf[e.triangles[table[i].alias]],
+        g.emitterEntries.push_back({placeOf[e.triangles[i]], placeOf[e.triangles[table[i].alias]],
                                     float(table[i].threshold), 0});
 }
 
-gpu::Light packEmitter(const Scene& scene, const Emitter& e, const std::vector<uint32_t>& slotOf,
+gpu::Light packEmitter(const Scene& scene, const Emitter& e, const std::vector<uint32_t>& placeOf,
                        GpuScene& g) {
     const Material& m = scene.materials[e.material];
     if (e.kind == EmitterKind::Quad)
@@ -53,7 +53,7 @@ gpu::Light packEmitter(const Scene& scene, const Emitter& e, const std::vector<u
         light.kind = gpu::LIGHT_MESH;
         light.firstEntry = uint32_t(g.emitterEntries.size());
         light.entryCount = uint32_t(e.triangles.size());
-        addEntries(scene, e, slotOf, g);
+        addEntries(scene, e, placeOf, g);
     }
     return light;
 }
@@ -95,10 +95,10 @@ gpu::Light packLight(const Light& l, bool cs184) {
 
 } // namespace
 
-void packLights(const Scene& scene, const std::vector<uint32_t>& slotOf, bool cs184, GpuScene& g) {
+void packLights(const Scene& scene, const std::vector<uint32_t>& placeOf, bool cs184, GpuScene& g) {
     if (!cs184)
         for (const Emitter& e : collectEmitters(scene)) {
-            const gpu::Light light = packEmitter(scene, e, slotOf, g);
+            const gpu::Light light = packEmitter(scene, e, placeOf, g);
             g.lights.push_back(light);
         }
     for (const Light& l : scene.lights)

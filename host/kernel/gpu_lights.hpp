@@ -4,8 +4,8 @@
 
 namespace stromboli {
 
-/// Fills g.lights, g.emitterEntries and the light counts. slotOf[i] is the place of scene
+/// Fills g.lights, g.emitterEntries and the light counts. placeOf[i] is the place of scene
 /// triangle i in BVH order.
-void packLights(const Scene& scene, const std::vector<uint32_t>& slotOf, bool cs184, GpuScene& g);
+void packLights(const Scene& scene, const std::vector<uint32_t>& placeOf, bool cs184, GpuScene& g);
 
 } // namespace stromboli

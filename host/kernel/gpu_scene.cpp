@@ -32,32 +32,27 @@ static_assert(uint32_t(MaterialKind::Refraction) == gpu::MATERIAL_REFRACTION);
 static_assert(uint32_t(MaterialKind::Glass) == gpu::MATERIAL_GLASS);
 static_assert(uint32_t(MaterialKind::Microfacet) == gpu::MATERIAL_MICROFACET);
 
-gpu::Primitive packTriangle(const Scene& scene, const Triangle& t,
-                            std::vector<gpu::NormalTriple>& normals) {
-    gpu::Primitive p{};
-    p.v0 = scene.positions[t.corner[0]];
-    p.v1 = scene.positions[t.corner[1]];
-    p.v2 = scene.positions[t.corner[2]];
-    p.material = t.material;
-    p.kind = gpu::PRIMITIVE_TRIANGLE;
-    p.normals = gpu::NO_NORMALS;
-    if (t.normals[0] != kNoNormals) {
-        p.normals = uint32_t(normals.size());
-        normals.push_back({encodeNormal(scene.normals[t.normals[0]]),
-                           encodeNormal(scene.normals[t.normals[1]]),
-                           encodeNormal(scene.normals[t.normals[2]]), 0});
-    }
-    return p;
+/// firstCorner: the corner of the file that the leaf has first.
+gpu::Primitive packTriangle(const Scene& scene, const Triangle& t, uint32_t firstCorner) {
+    if (t.normals[0] == kNoNormals) return {t.material, gpu::NO_NORMAL, 0, 0};
+    const auto normal = [&](uint32_t c) {
+        return encodeNormal(scene.normals[t.normals[(c + firstCorner) % 3]]);
+    };
+    return {t.material, normal(0), normal(1), normal(2)};
 }
 
-gpu::Primitive packSphere(const Sphere& s) {
-    gpu::Primitive p{};
-    p.v0 = s.center;
-    p.v1.x = s.radius;
-    p.material = s.material;
-    p.normals = gpu::NO_NORMALS;
-    p.kind = gpu::PRIMITIVE_SPHERE;
-    return p;
+void packPrimitives(const Scene& scene, GpuScene& g) {
+    const auto triangles = uint32_t(scene.triangles.size());
+    g.hasTriangles = triangles > 0;
+    g.hasSpheres = !scene.spheres.empty();
+    g.primitives.reserve(g.bvh.primitiveOrder.size());
+    for (const uint32_t id : g.bvh.primitiveOrder) {
+        g.primitives.push_back(
+            id < triangles
+                ? packTriangle(scene, scene.triangles[id], g.bvh.firstCorner[id])
+                : gpu::Primitive{scene.spheres[id - triangles].material, gpu::NO_NORMAL, 0, 0});
+        g.hasNormals |= g.primitives.back().n0 != gpu::NO_NORMAL;
+    }
 }
 
 } // namespace
@@ -72,20 +67,13 @@ uint32_t encodeNormal(const glm::vec3& n) {
     return glm::packSnorm2x16(e);
 }
 
-GpuScene packScene(const Scene& scene, const BinaryTree& tree, bool cs184) {
+GpuScene packScene(const Scene& scene, WideLayout bvh, bool cs184) {
     GpuScene g;
-    g.bvh = layOut(tree);
-    const auto triangles = uint32_t(scene.triangles.size());
-    std::vector<uint32_t> slotOf(triangles + scene.spheres.size());
-    for (uint32_t slot = 0; slot < g.bvh.primitiveOrder.size(); ++slot) {
-        const uint32_t id = g.bvh.primitiveOrder[slot];
-        slotOf[id] = slot;
-        g.primitives.push_back(id < triangles ? packTriangle(scene, scene.triangles[id], g.normals)
-                                              : packSphere(scene.spheres[id - triangles]));
-    }
+    g.bvh = std::move(bvh);
+    packPrimitives(scene, g);
     for (const Material& m : scene.materials)
         g.materials.push_back(packMaterial(m, cs184));
-    packLights(scene, slotOf, cs184, g);
+    packLights(scene, g.bvh.placeOf, cs184, g);
     return g;
 }
 

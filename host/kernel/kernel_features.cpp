@@ -40,9 +40,11 @@ uint32_t lightKinds(const GpuScene& scene, const RenderSettings& settings) {
     return kinds;
 }
 
-bool has(const GpuScene& scene, uint32_t kind) {
-    return std::any_of(scene.primitives.begin(), scene.primitives.end(),
-                       [&](const gpu::Primitive& p) { return p.kind == kind; });
+void switchOnAllTheSceneCouldHave(KernelFeatures& f) {
+    f[SPEC_HAS_TRIANGLES] = f[SPEC_HAS_SPHERES] = f[SPEC_HAS_NORMALS] = f[SPEC_HAS_EMISSION] = 1;
+    f[SPEC_ONE_LIGHT] = 0;
+    f[SPEC_MATERIAL_KINDS] = (2u << gpu::MATERIAL_MICROFACET) - 1;
+    f[SPEC_LIGHT_KINDS] = (2u << gpu::LIGHT_SPOT) - 1;
 }
 
 std::string list(uint32_t bits, const std::vector<const char*>& names) {
@@ -61,9 +63,9 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_WORKGROUP_SIZE] = tuning.workgroupSize;
     f[SPEC_TRAVERSAL_STEPS] = tuning.traversalSteps;
     f[SPEC_STACK_SIZE] = std::max(scene.bvh.stackSize, 1u);
-    f[SPEC_HAS_TRIANGLES] = has(scene, gpu::PRIMITIVE_TRIANGLE);
-    f[SPEC_HAS_SPHERES] = has(scene, gpu::PRIMITIVE_SPHERE);
-    f[SPEC_HAS_NORMALS] = !scene.normals.empty();
+    f[SPEC_HAS_TRIANGLES] = scene.hasTriangles;
+    f[SPEC_HAS_SPHERES] = scene.hasSpheres;
+    f[SPEC_HAS_NORMALS] = scene.hasNormals;
     f[SPEC_MATERIAL_KINDS] = normalsOnly ? 0 : materialKinds(scene);
     f[SPEC_HAS_EMISSION] = !normalsOnly && hasEmission(scene);
     f[SPEC_LIGHT_KINDS] = lightKinds(scene, settings);
@@ -83,6 +85,10 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_ORTHOGRAPHIC] = camera.orthographic;
     f[SPEC_CLIP_ALONG_RAY] = camera.clipAlongRay;
     f[SPEC_CS184] = settings.cs184;
+    f[SPEC_ONE_LIGHT] = scene.lights.size() == 1;
+    f[SPEC_LIGHT_SAMPLES] = settings.lightSamples;
+    f[SPEC_COUNT_STEPS] = tuning.countSteps;
+    if (tuning.everythingOn) switchOnAllTheSceneCouldHave(f);
     return f;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/kernel/gpu_scene.hpp"
+#include "host/kernel/kernel_tuning.hpp"
 #include "host/render/settings.hpp"
 #include "scene/camera/camera.hpp"
 #include "shaders/shared/interface.h"
@@ -14,13 +15,8 @@ namespace stromboli {
 /// The specialisation constants of the path kernel, indexed by SPEC_ numbers.
 using KernelFeatures = std::array<uint32_t, SPEC_COUNT>;
 
-/// What suits a device rather than a scene.
-struct DeviceTuning {
-    uint32_t workgroupSize = 64;
-    uint32_t traversalSteps = 8; ///< between two service passes
-};
-
-/// Switches off all that the scene and the settings do not need.
+/// Switches off all that the scene and the settings do not need; with tuning.everythingOn only
+/// what the settings do not need.
 KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
                               const RenderSettings& settings, const DeviceTuning& tuning);
 

@@ -2,6 +2,7 @@
 
 #include "host/core/error.hpp"
 #include "host/kernel/frame.hpp"
+#include "host/kernel/kernel_buffers.hpp"
 #include "host/kernel/work_order.hpp"
 
 #include "embedded/pathtrace_storage.h"
@@ -22,8 +23,8 @@ constexpr uint32_t kLlvmpipeLoopPasses = 65535;
 /// On other devices only a guard against endless loops: a ray through 2^20 nodes is none.
 constexpr uint32_t kGuardIterations = 1u << 20;
 
-/// One pass of the kernel's loop counts for itself, its traversal steps, the service loop and,
-/// where there is ambient light, the loop that looks for it.
+/// One pass of the kernel's loop counts for itself, its traversal steps, the loop around it that
+/// changes pixels and, where there is ambient light, the loop that looks for it.
 uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene, uint32_t steps) {
     if (!device.description().isCpu()) return kGuardIterations;
     const bool ambient =
@@ -50,16 +51,12 @@ std::span<const std::byte> bytesOf(const T& value) {
     return std::as_bytes(std::span(&value, 1));
 }
 
-template <class T>
-uint64_t sizeOf(const std::vector<T>& v) {
-    return v.size() * sizeof(T);
-}
-
 std::vector<vulkan::Binding> kernelBindings(bool texelFetch) {
     std::vector<vulkan::Binding> bindings;
     for (uint32_t i = 0; i < BINDING_COUNT; ++i) {
-        const bool scene = i < SCENE_BINDING_COUNT;
-        bindings.push_back({i, scene && texelFetch  ? BufferUse::Texel
+        // The film and the work list are read and written row by row as well.
+        const bool rows = i < SCENE_BINDING_COUNT || i == BINDING_WORK_ITEMS || i == BINDING_PIXELS;
+        bindings.push_back({i, rows && texelFetch   ? BufferUse::Texel
                                : i == BINDING_FRAME ? BufferUse::Uniform
                                                     : BufferUse::Storage});
     }
@@ -71,116 +68,67 @@ std::span<const uint32_t> kernelCode(bool texelFetch) {
                       : std::span<const uint32_t>(pathtrace_storage);
 }
 
-/// A GPU wants every lane of a big picture at once; llvmpipe is full with a few groups, and
-/// smaller dispatches let its lanes run longer within the time target.
-uint32_t defaultItems(const vulkan::Device& device) {
-    return device.description().isCpu() ? 1u << 14 : kLargestDispatch;
-}
-
-DeviceTuning deviceTuning(const KernelTuning& t) {
-    DeviceTuning tuning;
-    tuning.workgroupSize = t.workgroupSize.value_or(tuning.workgroupSize);
-    tuning.traversalSteps = t.traversalSteps.value_or(tuning.traversalSteps);
-    return tuning;
-}
-
-std::vector<BufferSize> sceneSizes(const GpuScene& scene) {
-    return {{"BVH node buffer", sizeOf(scene.bvh.nodes)},
-            {"primitive buffer", sizeOf(scene.primitives)},
-            {"normal buffer", sizeOf(scene.normals)},
-            {"material buffer", sizeOf(scene.materials)},
-            {"light buffer", sizeOf(scene.lights)},
-            {"emitter table", sizeOf(scene.emitterEntries)}};
-}
-
-uint64_t pixelCount(const RenderSettings& s) {
-    return s.crop.width ? uint64_t(s.crop.width) * s.crop.height : uint64_t(s.width) * s.height;
-}
-
 RenderSettings withCrop(RenderSettings s) {
     if (s.crop.width == 0) s.crop = {0, 0, s.width, s.height};
     return s;
 }
 
-/// Says what does not fit before anything is allocated or uploaded.
-void checkMemory(const vulkan::Device& device, const GpuScene& scene,
-                 const RenderSettings& settings, uint32_t itemsPerDispatch, BufferUse use) {
-    for (const BufferSize& b : sceneSizes(scene))
-        Buffer::checkLimits(device, b.name, b.bytes, use);
-    uint64_t total = 0;
-    for (const BufferSize& b : predictBuffers(scene, settings, itemsPerDispatch))
-        total += b.bytes;
-    if (total > device.description().memory)
-        throw DeviceError(fmt::format("scene and picture need {} bytes, but {} has {} bytes of "
-                                      "memory; 'stromboli info' lists the buffers",
-                                      total, device.description().name(),
-                                      device.description().memory));
+/// No more lanes or items than there are pixels.
+DeviceTuning tuningFor(const KernelTuning& tuning, const vulkan::Device& device,
+                       const RenderSettings& settings) {
+    DeviceTuning t = resolve(tuning, device);
+    t.lanes = uint32_t(std::min<uint64_t>(t.lanes, pixelCount(settings)));
+    t.itemsPerDispatch = uint32_t(std::min<uint64_t>(t.itemsPerDispatch, pixelCount(settings)));
+    return t;
 }
 
 } // namespace
-
-std::vector<BufferSize> predictBuffers(const GpuScene& scene, const RenderSettings& settings,
-                                       uint32_t itemsPerDispatch) {
-    const uint64_t items = std::min<uint64_t>(itemsPerDispatch, pixelCount(settings));
-    std::vector<BufferSize> sizes = sceneSizes(scene);
-    sizes.push_back({"film", pixelCount(settings) * sizeof(gpu::PixelState)});
-    sizes.push_back({"work list", items * sizeof(gpu::WorkItem)});
-    sizes.push_back({"suspended paths", items * sizeof(gpu::SuspendedPath)});
-    sizes.push_back({"frame constants", sizeof(gpu::Frame)});
-    sizes.push_back({"dispatch status", sizeof(gpu::DispatchStatus)});
-    return sizes;
-}
 
 VulkanBackend::VulkanBackend(const vulkan::Device& device, const GpuScene& scene,
                              const Camera& camera, const RenderSettings& settings,
                              const KernelTuning& tuning)
     : device_(device), settings_(withCrop(settings)), frame_(makeFrame(scene, camera, settings_)),
-      texelFetch_(tuning.texelFetch.value_or(device.description().isCpu())),
-      deviceTuning_(deviceTuning(tuning)),
-      features_(kernelFeatures(scene, camera, settings_, deviceTuning_)),
-      itemsPerDispatch_(uint32_t(std::min<uint64_t>(
-          tuning.itemsPerDispatch.value_or(defaultItems(device)), pixelCount(settings_)))),
-      hardIterations_(hardLimit(device, scene, deviceTuning_.traversalSteps)),
+      tuning_(tuningFor(tuning, device, settings_)),
+      features_(kernelFeatures(scene, camera, settings_, tuning_)),
+      hardIterations_(hardLimit(device, scene, tuning_.traversalSteps)),
       fixedIterations_(tuning.fixedIterations),
       pace_(tuning.targetSeconds, softLimit(hardIterations_, frame_)), queue_(device),
       sceneBuffers_([&] {
-          const BufferUse use = texelFetch_ ? BufferUse::Texel : BufferUse::Storage;
-          checkMemory(device, scene, settings_, itemsPerDispatch_, use);
+          checkMemory(device.description(), scene, settings_, tuning_);
           std::vector<Buffer> buffers;
-          for (const BufferSize& b : sceneSizes(scene))
-              buffers.emplace_back(device, b.name, b.bytes, use);
+          for (const vulkan::BufferPlan& b : planSceneBuffers(scene, tuning_))
+              buffers.emplace_back(device, b.name, b.bytes, b.use);
           return buffers;
       }()),
       frameBuffer_(device, "frame constants", sizeof(gpu::Frame), BufferUse::Uniform),
-      workItems_(device, "work list", itemsPerDispatch_ * sizeof(gpu::WorkItem),
-                 BufferUse::Storage),
-      suspended_(device, "suspended paths", itemsPerDispatch_ * sizeof(gpu::SuspendedPath),
+      workItems_(device, "work list", tuning_.itemsPerDispatch * sizeof(gpu::WorkItem),
+                 rowUse(tuning_)),
+      suspended_(device, "suspended paths", tuning_.lanes * sizeof(gpu::SuspendedPath),
                  BufferUse::Storage),
       status_(device, "dispatch status", sizeof(gpu::DispatchStatus), BufferUse::Storage),
-      pipeline_(device, kernelCode(texelFetch_), kernelBindings(texelFetch_), features_,
-                sizeof(gpu::Dispatch)) {
-    sceneBuffers_[BINDING_NODES].upload(queue_, bytesOf(scene.bvh.nodes));
+      pipeline_(device, kernelCode(tuning_.texelFetch), kernelBindings(tuning_.texelFetch),
+                features_, sizeof(gpu::Dispatch)) {
+    sceneBuffers_[BINDING_RECORDS].upload(queue_, bytesOf(scene.bvh.records));
     sceneBuffers_[BINDING_PRIMITIVES].upload(queue_, bytesOf(scene.primitives));
-    sceneBuffers_[BINDING_NORMALS].upload(queue_, bytesOf(scene.normals));
     sceneBuffers_[BINDING_MATERIALS].upload(queue_, bytesOf(scene.materials));
     sceneBuffers_[BINDING_LIGHTS].upload(queue_, bytesOf(scene.lights));
     sceneBuffers_[BINDING_EMITTER_ENTRIES].upload(queue_, bytesOf(scene.emitterEntries));
     frameBuffer_.upload(queue_, bytesOf(frame_));
     gpu::SuspendedPath none{};
     none.bounce = gpu::SUSPENDED_NONE;
-    suspended_.upload(queue_, bytesOf(std::vector(itemsPerDispatch_, none)));
+    none.item = gpu::NO_ITEM;
+    suspended_.upload(queue_, bytesOf(std::vector(tuning_.lanes, none)));
     createSegments();
 }
 
 void VulkanBackend::createSegments() {
     const uint64_t total = pixelCount(settings_);
-    const uint64_t perSegment = std::min<uint64_t>(
-        device_.limits().maxStorageBufferRange / sizeof(gpu::PixelState), 1u << 24);
+    const uint64_t perSegment = pixelsPerSegment(device_.description(), tuning_);
     for (uint64_t first = 0; first < total; first += perSegment) {
         const auto count = uint32_t(std::min(perSegment, total - first));
         Segment& s = segments_.emplace_back(Segment{
             uint32_t(first), count,
-            Buffer(device_, "film", uint64_t(count) * sizeof(gpu::PixelState), BufferUse::Storage),
+            Buffer(device_, "film", uint64_t(count) * sizeof(gpu::PixelState), rowUse(tuning_)),
             nullptr});
         gpu::PixelState empty{};
         empty.firstRejected = 0xFFFFFFFFu;
@@ -208,12 +156,13 @@ uint32_t VulkanBackend::picturePixel(uint32_t pixel) const {
 
 void VulkanBackend::sample(std::span<const PixelTarget> targets, Film& film,
                            const PassProgress& progress) {
-    const std::vector<PixelTarget> order = interleave(targets, settings_.width);
+    const std::vector<PixelTarget> order = tileOrder(targets, settings_.width);
     std::vector<std::vector<gpu::WorkItem>> work(segments_.size());
     const uint32_t perSegment = segments_.front().pixelCount;
     for (const PixelTarget& t : order) {
         const uint32_t pixel = cropPixel(t.pixel);
-        work[pixel / perSegment].push_back({pixel % perSegment, t.samples});
+        work[pixel / perSegment].push_back(
+            {pixel % perSegment, t.samples, t.pixel % settings_.width, t.pixel / settings_.width});
     }
     uint64_t done = 0;
     const auto advance = [&](uint64_t samples) {
@@ -223,48 +172,81 @@ void VulkanBackend::sample(std::span<const PixelTarget> targets, Film& film,
     bool goOn = true;
     for (size_t i = 0; i < segments_.size(); ++i) {
         const std::span<const gpu::WorkItem> items = work[i];
-        for (size_t first = 0; first < items.size() && goOn; first += itemsPerDispatch_)
-            goOn = runChunk(
-                segments_[i],
-                items.subspan(first, std::min<size_t>(itemsPerDispatch_, items.size() - first)),
-                advance);
+        for (size_t first = 0; first < items.size() && goOn; first += tuning_.itemsPerDispatch)
+            goOn = runChunk(segments_[i],
+                            items.subspan(first, std::min<size_t>(tuning_.itemsPerDispatch,
+                                                                  items.size() - first)),
+                            advance);
         readBack(segments_[i], items, film);
     }
+}
+
+/// With a pixel state and frame constants of its own, which are put back at the end.
+SampleValue VulkanBackend::sampleAlone(uint32_t pixel, uint32_t sample) {
+    const uint32_t inCrop = cropPixel(pixel), perSegment = segments_.front().pixelCount;
+    Segment& segment = segments_[inCrop / perSegment];
+    const gpu::WorkItem item = {inCrop % perSegment, 1, pixel % settings_.width,
+                                pixel / settings_.width};
+    gpu::Frame frame = frame_;
+    frame.firstSample = sample;
+    frame.keepsValue = 1;
+    frameBuffer_.upload(queue_, bytesOf(frame));
+    const uint64_t offset = uint64_t(item.pixel) * sizeof(gpu::PixelState);
+    gpu::PixelState before{}, state{};
+    segment.pixels.download(queue_, std::as_writable_bytes(std::span(&before, 1)), offset);
+    segment.pixels.upload(queue_, bytesOf(state), offset);
+    runChunk(segment, std::span(&item, 1), [](uint64_t) { return true; });
+    segment.pixels.download(queue_, std::as_writable_bytes(std::span(&state, 1)), offset);
+    segment.pixels.upload(queue_, bytesOf(before), offset);
+    frameBuffer_.upload(queue_, bytesOf(frame_));
+    return {state.sum, state.rejected > 0};
 }
 
 /// Dispatches until every item of the chunk has its samples; false if asked to stop.
 bool VulkanBackend::runChunk(const Segment& segment, std::span<const gpu::WorkItem> items,
                              const std::function<bool(uint64_t)>& advance) {
     workItems_.upload(queue_, std::as_bytes(items));
-    for (;;) {
-        const gpu::DispatchStatus status = dispatch(segment, uint32_t(items.size()));
-        counters_.rays += status.rays;
-        counters_.paths += status.samples;
+    gpu::DispatchStatus status{};
+    do {
+        dispatch(segment, uint32_t(items.size()), status);
+        count(status);
         if (status.overflowedItems > 0)
             throw DeviceError(fmt::format(
                 "{} pixels needed more than {} loop iterations for one surface, the most that {} "
                 "runs in a dispatch: too many lamps or light samples (-l) for one shading point",
                 status.overflowedItems, hardIterations_, device_.description().name()));
         if (!advance(status.samples)) return false;
-        if (status.unfinishedItems == 0) return true;
-    }
+    } while (status.unfinishedItems > 0 || status.nextItem < items.size());
+    return true;
 }
 
-gpu::DispatchStatus VulkanBackend::dispatch(const Segment& segment, uint32_t itemCount) {
-    const gpu::Dispatch constants = {itemCount, segment.firstPixel,
-                                     fixedIterations_.value_or(pace_.iterations()),
-                                     hardIterations_};
-    const uint32_t groups =
-        (itemCount + deviceTuning_.workgroupSize - 1) / deviceTuning_.workgroupSize;
-    gpu::DispatchStatus status{};
+/// `status`: what the dispatch before this one left; then what this one leaves.
+void VulkanBackend::dispatch(const Segment& segment, uint32_t itemCount,
+                             gpu::DispatchStatus& status) {
+    const gpu::Dispatch constants = {.itemCount = itemCount,
+                                     .segmentBase = segment.firstPixel,
+                                     .softIterations =
+                                         fixedIterations_.value_or(pace_.iterations()),
+                                     .hardIterations = hardIterations_,
+                                     .laneCount = tuning_.lanes};
+    const uint32_t groups = (tuning_.lanes + tuning_.workgroupSize - 1) / tuning_.workgroupSize;
+    // Lanes that find the list empty count on; started anew, the count cannot wrap around.
+    status = {.nextItem = std::min(status.nextItem, itemCount)};
     status_.upload(queue_, bytesOf(status));
     const double seconds = queue_.run("run the path kernel", [&](VkCommandBuffer commands) {
         vulkan::recordDispatch(device_, commands, pipeline_, *segment.set, bytesOf(constants),
                                groups);
     });
     pace_.took(seconds);
+    kernelSeconds_ += seconds;
     status_.download(queue_, std::as_writable_bytes(std::span(&status, 1)));
-    return status;
+}
+
+void VulkanBackend::count(const gpu::DispatchStatus& status) {
+    counters_.rays += status.rays;
+    counters_.paths += status.samples;
+    steps_.busy += status.busySteps;
+    steps_.all += status.allSteps;
 }
 
 void VulkanBackend::readBack(const Segment& segment, std::span<const gpu::WorkItem> items,

@@ -3,6 +3,7 @@
 #include "host/kernel/dispatch_pace.hpp"
 #include "host/kernel/gpu_scene.hpp"
 #include "host/kernel/kernel_features.hpp"
+#include "host/kernel/kernel_tuning.hpp"
 #include "host/render/backend.hpp"
 #include "host/render/settings.hpp"
 #include "host/vulkan/buffer.hpp"
@@ -15,29 +16,11 @@
 
 namespace stromboli {
 
-/// How the kernel runs; the defaults suit the device. None of it changes a picture.
-struct KernelTuning {
-    std::optional<bool> texelFetch; ///< read the scene through storage texel buffers
-    std::optional<uint32_t> workgroupSize;
-    std::optional<uint32_t> traversalSteps;
-    std::optional<uint32_t> itemsPerDispatch;
-    double targetSeconds = 0.1;              ///< of a dispatch
-    std::optional<uint32_t> fixedIterations; ///< instead of pacing by time (tests)
+/// How well traversal filled the lanes.
+struct StepCounters {
+    uint64_t busy = 0; ///< traversal steps of lanes that had a ray under way ...
+    uint64_t all = 0;  ///< ... out of these
 };
-
-/// Pixels of a dispatch on a GPU: enough lanes to fill any, and 64 MiB of suspended paths.
-inline constexpr uint32_t kLargestDispatch = 1u << 20;
-
-/// A buffer the kernel needs: for `stromboli info` and the check before the upload.
-struct BufferSize {
-    std::string name;
-    uint64_t bytes = 0;
-};
-
-/// All device buffers of a scene and a picture, known before anything is allocated.
-/// itemsPerDispatch: pixels that a dispatch works on at most.
-std::vector<BufferSize> predictBuffers(const GpuScene& scene, const RenderSettings& settings,
-                                       uint32_t itemsPerDispatch = kLargestDispatch);
 
 /// Takes samples with the Vulkan path kernel.
 class VulkanBackend final : public Backend {
@@ -48,8 +31,14 @@ class VulkanBackend final : public Backend {
 
     void sample(std::span<const PixelTarget> targets, Film& film,
                 const PassProgress& progress) override;
+    /// The pixel is in the crop.
+    SampleValue sampleAlone(uint32_t pixel, uint32_t sample) override;
     RenderCounters counters() const override { return counters_; }
     const KernelFeatures& features() const { return features_; }
+    /// Only with KernelTuning::countSteps.
+    StepCounters steps() const { return steps_; }
+    /// Seconds by the device's clock in all dispatches so far.
+    double kernelSeconds() const { return kernelSeconds_; }
 
   private:
     /// A run of the crop's pixels whose states fit one binding.
@@ -62,7 +51,8 @@ class VulkanBackend final : public Backend {
     void createSegments();
     bool runChunk(const Segment& segment, std::span<const gpu::WorkItem> items,
                   const std::function<bool(uint64_t)>& advance);
-    gpu::DispatchStatus dispatch(const Segment& segment, uint32_t itemCount);
+    void dispatch(const Segment& segment, uint32_t itemCount, gpu::DispatchStatus& status);
+    void count(const gpu::DispatchStatus& status);
     void readBack(const Segment& segment, std::span<const gpu::WorkItem> items, Film& film);
     uint32_t cropPixel(uint32_t picturePixel) const;
     uint32_t picturePixel(uint32_t cropPixel) const;
@@ -70,10 +60,8 @@ class VulkanBackend final : public Backend {
     const vulkan::Device& device_;
     RenderSettings settings_;
     gpu::Frame frame_;
-    bool texelFetch_;
-    DeviceTuning deviceTuning_;
+    DeviceTuning tuning_;
     KernelFeatures features_;
-    uint32_t itemsPerDispatch_;
     uint32_t hardIterations_;
     std::optional<uint32_t> fixedIterations_;
     DispatchPace pace_;
@@ -83,6 +71,8 @@ class VulkanBackend final : public Backend {
     vulkan::ComputePipeline pipeline_;
     std::vector<Segment> segments_;
     RenderCounters counters_;
+    StepCounters steps_;
+    double kernelSeconds_ = 0;
 };
 
 } // namespace stromboli

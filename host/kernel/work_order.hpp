@@ -8,10 +8,10 @@
 
 namespace stromboli {
 
-/// Puts targets (in row order) into the order in which lanes take them: 8 x 8 tiles stay together,
-/// so that a workgroup's rays are alike, and neighbouring workgroups are far apart in the picture,
-/// because a driver that gives each thread one contiguous share of a dispatch (lavapipe does)
-/// would leave the thread with the empty half idle.
-std::vector<PixelTarget> interleave(std::span<const PixelTarget> targets, uint32_t width);
+/// Puts targets (in row order) into the order in which lanes take them: tile by tile of 8 x 8
+/// pixels, so that the rays of lanes that work side by side are alike. Pixels that need no more
+/// samples are not in the list, and lanes take the next item whenever they are done with one, so
+/// the order need not balance anything.
+std::vector<PixelTarget> tileOrder(std::span<const PixelTarget> targets, uint32_t width);
 
 } // namespace stromboli

@@ -87,8 +87,7 @@ glm::dvec3 evaluateBsdf(const SurfacePoint& s, const glm::dvec3& wi, Convention 
     const Material& m = *s.material;
     const double cosine = glm::dot(s.shading, wi);
     if (m.isDelta() || !(cosine > 0)) return glm::dvec3(0.0);
-    if (convention == Convention::Physical && !(glm::dot(s.geometric, wi) > 0))
-        return glm::dvec3(0.0);
+    if (convention == Convention::Physical && !isReflected(s, wi)) return glm::dvec3(0.0);
     if (m.kind == MaterialKind::Diffuse) return glm::dvec3(m.albedo) * (cosine / kPi);
     const Frame frame(s.shading);
     return microfacet(m, frame.toLocal(s.wo), frame.toLocal(wi), convention) * cosine;
@@ -98,11 +97,11 @@ BsdfSample sampleBsdf(const SurfacePoint& s, RandomStream& random, Convention co
     const Frame frame(s.shading);
     const LocalSample local = sampleLocal(s, frame.toLocal(s.wo), random, convention);
     // Rounding errors of the direction's length would add up along a path.
-    BsdfSample sample{glm::normalize(frame.toWorld(local.direction)), local.weight};
-    if (convention == Convention::Physical) {
-        const double side = glm::dot(s.geometric, sample.direction);
-        if (!(local.transmitted ? side < 0 : side > 0)) sample.weight = glm::dvec3(0.0);
-    }
+    BsdfSample sample{glm::normalize(frame.toWorld(local.direction)), local.weight,
+                      local.transmitted};
+    const bool rightSide = local.transmitted ? glm::dot(s.geometric, sample.direction) < 0
+                                             : isReflected(s, sample.direction);
+    if (convention == Convention::Physical && !rightSide) sample.weight = glm::dvec3(0.0);
     return sample;
 }
 

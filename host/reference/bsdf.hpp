@@ -9,6 +9,7 @@ namespace stromboli::reference {
 struct BsdfSample {
     glm::dvec3 direction{0.0}; ///< unit, world space, away from the surface
     glm::dvec3 weight{0.0};    ///< f |cos| / pdf (solid angle); 0 ends the path
+    bool transmitted = false;  ///< to the other side of the surface
 };
 
 /// f(wo, wi) |cos(wi, shading normal)| for a unit world direction wi away from the surface; 0 for

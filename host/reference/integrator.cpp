@@ -32,7 +32,8 @@ glm::dvec3 PathSample::radiance(const Ray& cameraRay) {
 
         const bool counts = emissionCounts(bounce);
         if (bounce == settings_.maxBounces && !counts) break;
-        const bool hit = arrive(leave(next.direction), {surface_.triangle});
+        const bool hit = next.transmitted ? arrive(transmit(next.direction), {surface_.triangle})
+                                          : arrive(reflect(next.direction), {startOfReflected()});
         if (counts && hit) addEmission();
         if (counts && !hit)
             radiance_ += throughput_ * world_.lights.ambientRadiance(next.direction);
@@ -53,8 +54,18 @@ bool PathSample::arrive(const Ray& ray, Skip skip) {
     return true;
 }
 
-Ray PathSample::leave(const glm::dvec3& direction) const {
+Ray PathSample::reflect(const glm::dvec3& direction) const {
+    // The side of a lifted point is known; a direction may be below the plane all the same.
+    const glm::dvec3& towards = surface_.lift > 0 ? surface_.geometric : direction;
+    return {moveOff(litPoint(surface_), surface_.error, surface_.geometric, towards), direction};
+}
+
+Ray PathSample::transmit(const glm::dvec3& direction) const {
     return {moveOff(surface_.position, surface_.error, surface_.geometric, direction), direction};
+}
+
+uint32_t PathSample::startOfReflected() const {
+    return surface_.lift > 0 ? kNoPrimitive : surface_.triangle;
 }
 
 void PathSample::addEmission() {
@@ -108,14 +119,14 @@ void PathSample::addLightSample(const LightSample& light, double share) {
     const glm::dvec3 value =
         light.value * evaluateBsdf(surface_, light.direction, world_.convention) * share;
     if (!(largest(value) > 0)) return;
-    Ray ray = leave(light.direction);
+    Ray ray = reflect(light.direction);
     if (!light.infinite) {
         const glm::dvec3 to = light.target - ray.origin;
         ray.tMax = glm::length(to);
         if (ray.tMax > 0) ray.direction = to / ray.tMax;
     }
     ++rays_;
-    if (!world_.bvh.occluded(ray, {surface_.triangle, light.primitive}))
+    if (!world_.bvh.occluded(ray, {startOfReflected(), light.primitive}))
         radiance_ += throughput_ * value;
 }
 
@@ -131,8 +142,8 @@ void PathSample::addHemisphereSamples() {
             evaluateBsdf(surface_, direction, world_.convention) * (2 * kPi / double(count));
         if (!(largest(weight) > 0)) continue;
         ++rays_;
-        const Ray ray = leave(direction);
-        const Hit hit = world_.bvh.closest(ray, {surface_.triangle});
+        const Ray ray = reflect(direction);
+        const Hit hit = world_.bvh.closest(ray, {startOfReflected()});
         const glm::dvec3 found =
             hit.primitive == kNoPrimitive
                 ? world_.lights.ambientRadiance(direction)

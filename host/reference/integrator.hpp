@@ -21,8 +21,12 @@ class PathSample {
   private:
     /// Traces a path ray and, if it hits, makes that point the current surface.
     bool arrive(const Ray& ray, Skip skip);
-    /// The ray from the current surface in a unit direction.
-    Ray leave(const glm::dvec3& direction) const;
+    /// The ray that leaves the current surface, reflected, in a unit direction.
+    Ray reflect(const glm::dvec3& direction) const;
+    /// The same for light that goes through it.
+    Ray transmit(const glm::dvec3& direction) const;
+    /// What a reflected ray cannot hit: the plane it starts on, but not one that it starts above.
+    uint32_t startOfReflected() const;
     void addEmission();
     bool emissionCounts(uint32_t bounce) const;
     bool survivesFixed();

@@ -60,13 +60,13 @@ LightSample sampleSphere(const Scene& scene, const Emitter& emitter, const Surfa
     const auto primitive = uint32_t(scene.triangles.size()) + emitter.sphere;
     const glm::dvec3 center = sphere.center;
     const double radius = sphere.radius, error = errorOnSphere(center, radius);
-    const glm::dvec3 toCenter = center - surface.position;
+    const glm::dvec3 from = litPoint(surface), toCenter = center - from;
     const double distance2 = glm::dot(toCenter, toCenter), sine2 = radius * radius / distance2;
     const bool inside = surface.primitive == primitive ? !surface.outside : !(sine2 < 1);
     if (inside) {
         const glm::dvec3 n = uniformSphere(u, v);
         return toLampPoint({center + radius * n, error, n, primitive}, material, emitter.area,
-                           surface.position);
+                           from);
     }
     if (surface.primitive == primitive) return {}; // all of the sphere is below its own horizon
 
@@ -78,7 +78,7 @@ LightSample sampleSphere(const Scene& scene, const Emitter& emitter, const Surfa
     const double t = distance * w.z - std::sqrt(std::max(radius * radius - across2, 0.0));
     LightSample sample;
     sample.direction = cone.toWorld(w);
-    const glm::dvec3 n = glm::normalize(surface.position + t * sample.direction - center);
+    const glm::dvec3 n = glm::normalize(from + t * sample.direction - center);
     sample.target = center + (radius + error) * n;
     sample.infinite = false;
     sample.primitive = primitive;

@@ -66,7 +66,7 @@ LightSample Lights::sampleBroad(size_t index, const SurfacePoint& surface,
     if (index < emitters_.size()) return sampleEmitter(index, surface, random);
     index -= emitters_.size();
     if (index < ambient_.size()) return sampleAmbient(*ambient_[index], surface, random);
-    return sampleCs184Rectangle(*areas_[index - ambient_.size()], surface.position, random);
+    return sampleCs184Rectangle(*areas_[index - ambient_.size()], litPoint(surface), random);
 }
 
 LightSample Lights::sampleEmitter(size_t index, const SurfacePoint& surface,
@@ -76,7 +76,7 @@ LightSample Lights::sampleEmitter(size_t index, const SurfacePoint& surface,
     if (emitter.kind == EmitterKind::Sphere) return sampleSphere(scene_, emitter, surface, random);
     // A quad needs no case of its own: its triangles by area are the parallelogram uniformly.
     const uint32_t triangle = emitter.triangles[pickByArea(areaSums_[index], random.next())];
-    return sampleTriangle(LampTriangle(scene_, triangle), emitter.area, material, surface.position,
+    return sampleTriangle(LampTriangle(scene_, triangle), emitter.area, material, litPoint(surface),
                           random);
 }
 
@@ -104,7 +104,7 @@ LightSample Lights::sampleDelta(size_t index, const SurfacePoint& surface) const
         return sample;
     }
     sample.infinite = false;
-    const glm::dvec3 to = glm::dvec3(light.position) - surface.position;
+    const glm::dvec3 to = glm::dvec3(light.position) - litPoint(surface);
     sample.target = glm::dvec3(light.position) - kPointLightGap * to;
     const double distance = glm::length(to);
     if (distance == 0) return LightSample{};

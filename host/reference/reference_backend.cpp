@@ -122,6 +122,16 @@ void ReferenceBackend::sample(std::span<const PixelTarget> targets, Film& film,
     report.finish();
 }
 
+SampleValue ReferenceBackend::sampleAlone(uint32_t pixel, uint32_t sample) {
+    uint64_t rays = 0;
+    const glm::dvec3 radiance = implementation_->take(pixel, sample, rays);
+    implementation_->paths += 1;
+    implementation_->rays += rays;
+    PixelStatistics statistics;
+    statistics.add(radiance);
+    return {radiance, statistics.rejected > 0};
+}
+
 RenderCounters ReferenceBackend::counters() const {
     return {implementation_->paths, implementation_->rays};
 }

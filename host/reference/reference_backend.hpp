@@ -27,6 +27,7 @@ class ReferenceBackend final : public Backend {
     /// work, one at a time.
     void sample(std::span<const PixelTarget> targets, Film& film,
                 const PassProgress& progress) override;
+    SampleValue sampleAlone(uint32_t pixel, uint32_t sample) override;
     RenderCounters counters() const override;
 
   private:

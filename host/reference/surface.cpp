@@ -10,6 +10,18 @@ double sumOfMagnitudes(const glm::dvec3& v) {
     return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
 }
 
+/// Which side of a plane points or normals are on.
+enum class Side { Front, Back, Both };
+
+Side sideOf(const glm::dvec3 (&normals)[3], const glm::dvec3& front) {
+    int before = 0, behind = 0;
+    for (const glm::dvec3& n : normals) {
+        before += glm::dot(n, front) > 0;
+        behind += glm::dot(n, front) < 0;
+    }
+    return before == 3 ? Side::Front : behind == 3 ? Side::Back : Side::Both;
+}
+
 void fillTriangle(SurfacePoint& s, const Scene& scene, const Triangle& t, const Hit& hit) {
     const glm::dvec3 v0 = scene.positions[t.corner[0]], v1 = scene.positions[t.corner[1]],
                      v2 = scene.positions[t.corner[2]];
@@ -17,15 +29,21 @@ void fillTriangle(SurfacePoint& s, const Scene& scene, const Triangle& t, const 
     s.position = b0 * v0 + hit.b1 * v1 + hit.b2 * v2;
     s.error = errorOnTriangle(v0, v1, v2);
     s.geometric = triangleNormal(v0, v1, v2);
+    s.outside = glm::dot(s.geometric, s.wo) >= 0;
     s.shading = s.geometric;
     s.triangle = hit.primitive;
     s.material = &scene.materials[t.material];
     if (t.normals[0] == kNoNormals) return;
-    const glm::dvec3 n0 = scene.normals[t.normals[0]], n1 = scene.normals[t.normals[1]],
-                     n2 = scene.normals[t.normals[2]];
-    const glm::dvec3 n = b0 * n0 + hit.b1 * n1 + hit.b2 * n2;
+    SmoothTriangle smooth{{v0, v1, v2}, {}};
+    const glm::dvec3 weights(b0, hit.b1, hit.b2);
+    glm::dvec3 n(0.0);
+    for (int c = 0; c < 3; ++c) {
+        smooth.normal[c] = scene.normals[t.normals[c]];
+        n += weights[c] * smooth.normal[c];
+    }
     // Opposite corner normals can cancel; then only the geometric one is a direction.
     if (glm::dot(n, n) > 0) s.shading = glm::normalize(n);
+    s.lift = smooth.height(weights, s.outside ? s.geometric : -s.geometric);
 }
 
 void fillSphere(SurfacePoint& s, const Scene& scene, const Sphere& sphere, const Ray& ray,
@@ -34,6 +52,7 @@ void fillSphere(SurfacePoint& s, const Scene& scene, const Sphere& sphere, const
     s.geometric = glm::normalize(ray.origin + hit.t * ray.direction - center);
     s.position = center + double(sphere.radius) * s.geometric;
     s.error = errorOnSphere(center, sphere.radius);
+    s.outside = glm::dot(s.geometric, s.wo) >= 0;
     s.shading = s.geometric;
     s.material = &scene.materials[sphere.material];
 }
@@ -66,12 +85,27 @@ SurfacePoint surfaceAt(const Scene& scene, const Ray& ray, const Hit& hit) {
         fillTriangle(s, scene, scene.triangles[hit.primitive], hit);
     else
         fillSphere(s, scene, scene.spheres[hit.primitive - triangles], ray, hit);
-    s.outside = glm::dot(s.geometric, s.wo) >= 0;
     return s;
 }
 
+double SmoothTriangle::height(const glm::dvec3& weights, const glm::dvec3& front) const {
+    const Side side = sideOf(normal, front);
+    if (side == Side::Both) return 0;
+    double sum = 0;
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3;
+        const double diverge = glm::dot(normal[i] - normal[j], corner[i] - corner[j]);
+        const double bulge = side == Side::Front ? diverge : -diverge;
+        sum += weights[i] * weights[j] * std::max(bulge, 0.0);
+    }
+    return std::max(sum, 0.0);
+}
+
 void faceForward(SurfacePoint& s, Convention convention) {
-    if (convention == Convention::Cs184) return;
+    if (convention == Convention::Cs184) {
+        s.lift = 0;
+        return;
+    }
     if (!s.outside) s.geometric = -s.geometric;
     if (glm::dot(s.shading, s.geometric) < 0) s.shading = -s.shading;
     if (glm::dot(s.shading, s.wo) <= 0) s.shading = s.geometric;
@@ -80,6 +114,14 @@ void faceForward(SurfacePoint& s, Convention convention) {
 glm::dvec3 moveOff(const glm::dvec3& position, double error, const glm::dvec3& n,
                    const glm::dvec3& direction) {
     return position + (glm::dot(n, direction) < 0 ? -error : error) * n;
+}
+
+glm::dvec3 litPoint(const SurfacePoint& s) {
+    return s.position + s.lift * s.geometric;
+}
+
+bool isReflected(const SurfacePoint& s, const glm::dvec3& w) {
+    return s.lift > 0 || glm::dot(s.geometric, w) > 0;
 }
 
 glm::dvec3 emission(const SurfacePoint& s, Convention convention) {

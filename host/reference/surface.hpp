@@ -10,7 +10,7 @@ enum class Convention { Physical, Cs184 };
 
 /// What the path needs to know of the point it hit.
 struct SurfacePoint {
-    glm::dvec3 position{0.0};
+    glm::dvec3 position{0.0}; ///< on the flat triangle, or the sphere
     /// Bound of the distance between `position` and the plane or sphere it lies on, for that
     /// surface and all that coincide with it.
     double error = 0;
@@ -18,6 +18,9 @@ struct SurfacePoint {
     glm::dvec3 shading{0, 0, 1};   ///< unit; interpolated, or the geometric one
     glm::dvec3 wo{0, 0, 1};        ///< unit, back along the ray
     bool outside = true;           ///< wo is on the side the stored geometric normal points to
+    /// Height of the smooth surface over `position` along the geometric normal that faces wo, and
+    /// from which light is reflected; 0 under the CS184 convention.
+    double lift = 0;
     uint32_t primitive = kNoPrimitive;
     uint32_t triangle = kNoPrimitive; ///< the primitive if it is planar: rays that leave it miss it
     const Material* material = nullptr;
@@ -26,15 +29,34 @@ struct SurfacePoint {
 /// Normals as the scene states them. The hit is one of the scene's.
 SurfacePoint surfaceAt(const Scene& scene, const Ray& ray, const Hit& hit);
 
+/// A triangle with the normals of its corners, which may be on either side of it.
+struct SmoothTriangle {
+    glm::dvec3 corner[3], normal[3]; ///< normals: unit
+
+    /// How far the smooth surface is in front of the point with these barycentric weights, `front`
+    /// being one of the two unit normals of the plane; 0 where it is behind, or where not all
+    /// corner normals are on one side of the plane. The sum, over the edges where the mesh bulges
+    /// forward, of b_i b_j (n_i - n_j) . (v_i - v_j): docs/numerics.md, "Shading normals and the
+    /// terminator", after Hanika 2021.
+    double height(const glm::dvec3& weights, const glm::dvec3& front) const;
+};
+
 /// Turns the geometric normal to the side of wo and the shading normal to that of the geometric
 /// one; where wo is then below the shading normal's horizon, the geometric one takes its place.
-/// Does nothing under the CS184 convention.
+/// Under the CS184 convention nothing but the lift is changed.
 void faceForward(SurfacePoint& surface, Convention convention);
 
 /// The point moved by its error bound along n (unit) to the side of `direction`, so that nothing
 /// that coincides with the surface lies ahead of a ray from there in that direction.
 glm::dvec3 moveOff(const glm::dvec3& position, double error, const glm::dvec3& n,
                    const glm::dvec3& direction);
+
+/// The point that light is reflected from: on the smooth surface. The surface is faced forward.
+glm::dvec3 litPoint(const SurfacePoint& surface);
+
+/// Whether light can be reflected towards w: not through the plane of a flat surface. What is below
+/// the plane of a smooth one is for rays from litPoint() to find out, which can hit that plane.
+bool isReflected(const SurfacePoint& surface, const glm::dvec3& w);
 
 /// Radiance the surface emits towards wo.
 glm::dvec3 emission(const SurfacePoint& surface, Convention convention);

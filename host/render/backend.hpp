@@ -20,6 +20,12 @@ struct RenderCounters {
     uint64_t rays = 0; ///< camera, bounce, shadow and hemisphere rays traced
 };
 
+/// One sample by itself.
+struct SampleValue {
+    glm::dvec3 radiance{0.0};
+    bool rejected = false; ///< not finite, negative or too large for a film
+};
+
 /// Called now and then with the number of samples done in this pass; returning false asks the
 /// backend to stop early, leaving the film valid.
 using PassProgress = std::function<bool(uint64_t samplesDone)>;
@@ -32,6 +38,8 @@ class Backend {
     /// whatever the pass it is taken in.
     virtual void sample(std::span<const PixelTarget> targets, Film& film,
                         const PassProgress& progress) = 0;
+    /// Sample number `sample` of a pixel, to the last bit as sample() takes it.
+    virtual SampleValue sampleAlone(uint32_t pixel, uint32_t sample) = 0;
     virtual RenderCounters counters() const = 0;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "host/vulkan/device.hpp"
+#include "host/vulkan/buffer_limits.hpp"
+#include "host/vulkan/device_memory.hpp"
 #include "host/vulkan/handle.hpp"
 #include "host/vulkan/queue.hpp"
 
@@ -9,18 +10,12 @@
 
 namespace stromboli::vulkan {
 
-enum class BufferUse {
-    Storage, ///< storage buffer
-    Texel,   ///< storage texel buffer of RGBA32UI rows
-    Uniform, ///< uniform buffer
-};
-
 /// A buffer in the device's memory. Where that is the host's memory it is mapped; elsewhere
 /// uploads and downloads go through a staging buffer.
 class Buffer {
   public:
     /// `name` is for error messages. An empty buffer gets 16 bytes: Vulkan has none of size 0.
-    /// Throws DeviceError naming the buffer and both sizes if it is over a limit of the device.
+    /// Throws DeviceError as requireFits does, and if the driver has no memory left.
     Buffer(const Device& device, std::string name, uint64_t bytes, BufferUse use);
 
     VkBuffer handle() const { return buffer_.get(); }
@@ -31,19 +26,14 @@ class Buffer {
     void upload(Queue& queue, std::span<const std::byte> data, uint64_t offset = 0);
     void download(Queue& queue, std::span<std::byte> data, uint64_t offset = 0) const;
 
-    /// Throws as the constructor does, before anything is allocated.
-    static void checkLimits(const Device& device, const std::string& name, uint64_t bytes,
-                            BufferUse use);
-
   private:
     const Device* device_;
     std::string name_;
     uint64_t bytes_;
     BufferUse use_;
-    Handle<VkDeviceMemory> memory_; ///< declared first: freed last
+    DeviceMemory memory_; ///< declared first: freed last
     Handle<VkBuffer> buffer_;
     Handle<VkBufferView> view_;
-    std::byte* mapped_ = nullptr;
 };
 
 } // namespace stromboli::vulkan

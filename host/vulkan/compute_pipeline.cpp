@@ -74,8 +74,8 @@ Handle<VkPipeline> createPipeline(const Device& device, std::span<const uint32_t
                   .pSpecializationInfo = &specialisation},
         .layout = layout};
     VkPipeline pipeline = VK_NULL_HANDLE;
-    const VkResult result = device.vk().vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1,
-                                                                 &info, nullptr, &pipeline);
+    const VkResult result = device.vk().vkCreateComputePipelines(
+        device.handle(), device.pipelineCache(), 1, &info, nullptr, &pipeline);
     device.vk().vkDestroyShaderModule(device.handle(), module, nullptr);
     check(result, "compile the kernel");
     return {device.handle(), pipeline, device.vk().vkDestroyPipeline};

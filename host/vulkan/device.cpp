@@ -42,13 +42,16 @@ DeviceDescription describe(VkPhysicalDevice handle) {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceIDProperties identity = {.sType =
                                                  VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES};
+    VkPhysicalDeviceMaintenance3Properties allocation = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES, .pNext = &identity};
     VkPhysicalDeviceSubgroupProperties subgroup = {
-        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES, .pNext = &identity};
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES, .pNext = &allocation};
     VkPhysicalDeviceProperties2 properties = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &subgroup};
     if (d.properties.apiVersion >= VK_API_VERSION_1_2) identity.pNext = &driver;
     vkGetPhysicalDeviceProperties2(handle, &properties);
     d.subgroupSize = subgroup.subgroupSize;
+    d.largestAllocation = allocation.maxMemoryAllocationSize;
     for (uint8_t byte : identity.deviceUUID)
         d.uuid += fmt::format("{:02x}", byte);
     d.driver = driver.driverName[0] ? fmt::format("{} {}", driver.driverName, driver.driverInfo)
@@ -59,6 +62,9 @@ DeviceDescription describe(VkPhysicalDevice handle) {
         if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
             d.memory = std::max<uint64_t>(d.memory, memory.memoryHeaps[i].size);
     describeQueues(d);
+    const bool votes = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
+                       (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_VOTE_BIT);
+    if (!votes) d.missing = "subgroup votes in compute shaders";
     if (d.queueFamily < 0) d.missing = "a queue with compute";
     return d;
 }
@@ -165,7 +171,9 @@ DeviceChoice chooseDevice(const std::vector<DeviceDescription>& devices,
     return usable(devices, found[0], fmt::format("matches '{}'", wanted));
 }
 
-Device::Device(const Instance&, const DeviceDescription& description) : description_(description) {
+Device::Device(const Instance&, const DeviceDescription& description,
+               std::optional<BlobCache> cache)
+    : description_(description) {
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                            .queueFamilyIndex = uint32_t(description.queueFamily),
@@ -179,11 +187,14 @@ Device::Device(const Instance&, const DeviceDescription& description) : descript
     volkLoadDeviceTable(&table_, device_);
     table_.vkGetDeviceQueue(device_, uint32_t(description.queueFamily), 0, &queue_);
     vkGetPhysicalDeviceMemoryProperties(description.handle, &memory_);
+    pipelines_ =
+        std::make_unique<PipelineCache>(device_, table_, description.properties, std::move(cache));
 }
 
 Device::~Device() {
     if (!device_) return;
     table_.vkDeviceWaitIdle(device_);
+    pipelines_.reset();
     table_.vkDestroyDevice(device_, nullptr);
 }
 

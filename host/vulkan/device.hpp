@@ -1,7 +1,11 @@
 #pragma once
 
 #include "host/vulkan/instance.hpp"
+#include "host/vulkan/pipeline_cache.hpp"
 
+#include <atomic>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,8 +18,9 @@ struct DeviceDescription {
     std::string uuid;   ///< tells twin devices apart
     std::string driver; ///< name and version, as the driver states them
     uint32_t subgroupSize = 0;
-    uint64_t memory = 0;  ///< largest device-local heap, bytes
-    int queueFamily = -1; ///< with compute; -1: none
+    uint64_t memory = 0;            ///< largest device-local heap, bytes
+    uint64_t largestAllocation = 0; ///< maxMemoryAllocationSize, bytes
+    int queueFamily = -1;           ///< with compute; -1: none
     uint32_t timestampBits = 0;
     std::string missing; ///< why it cannot be used; empty: it can
 
@@ -43,7 +48,9 @@ DeviceChoice chooseDevice(const std::vector<DeviceDescription>& devices, const s
 /// A logical device with one compute queue.
 class Device {
   public:
-    Device(const Instance& instance, const DeviceDescription& description);
+    /// `cache`: where compiled pipelines are kept between runs; none: they are not.
+    Device(const Instance& instance, const DeviceDescription& description,
+           std::optional<BlobCache> cache = std::nullopt);
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
@@ -55,6 +62,12 @@ class Device {
     /// The calls of this device (volk's table: no trampoline, several devices at once are fine).
     const VolkDeviceTable& vk() const { return table_; }
     const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
+    /// Pass it to the creation of pipelines; may be VK_NULL_HANDLE.
+    VkPipelineCache pipelineCache() const { return pipelines_->handle(); }
+    /// Device memory that the buffers of this device take now, bytes.
+    uint64_t allocatedBytes() const { return allocated_.load(); }
+    /// What a buffer tells the device it is made on.
+    void countAllocation(int64_t bytes) const { allocated_ += uint64_t(bytes); }
 
   private:
     DeviceDescription description_;
@@ -62,6 +75,8 @@ class Device {
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     VolkDeviceTable table_{};
+    std::unique_ptr<PipelineCache> pipelines_;
+    mutable std::atomic<uint64_t> allocated_ = 0;
 };
 
 } // namespace stromboli::vulkan

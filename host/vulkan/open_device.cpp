@@ -11,7 +11,10 @@ OpenDevice openDevice(const std::string& wanted) {
     open.instance = std::make_unique<Instance>(validationRequested());
     const std::vector<DeviceDescription> devices = listDevices(*open.instance);
     open.choice = chooseDevice(devices, wanted);
-    open.device = std::make_unique<Device>(*open.instance, devices[open.choice.index]);
+    std::optional<BlobCache> cache;
+    if (const auto folder = userCacheFolder()) cache.emplace(*folder);
+    open.device =
+        std::make_unique<Device>(*open.instance, devices[open.choice.index], std::move(cache));
     return open;
 }
 

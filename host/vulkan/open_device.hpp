@@ -15,7 +15,8 @@ struct OpenDevice {
 };
 
 /// Opens the device `wanted` names (chooseDevice), with the validation layer if the environment
-/// asks for it. Throws DeviceError.
+/// asks for it, and with the pipelines that earlier runs kept in the user's cache folder. Throws
+/// DeviceError.
 OpenDevice openDevice(const std::string& wanted);
 
 /// Throws DeviceError if the validation layer had anything to say.

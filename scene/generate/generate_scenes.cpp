@@ -21,7 +21,8 @@ int main(int argc, char** argv) {
         return 1;
     }
     const std::filesystem::path folder = argv[1];
-    const bool written = write(folder / "cornell_mesh.dae", stromboli::cornellMeshScene()) &&
+    const bool written = write(folder / "cornell_mesh.dae",
+                               stromboli::cornellMeshText(stromboli::cornellMesh(500, 50))) &&
                          write(folder / "island.dae", stromboli::islandScene());
     return written ? 0 : 1;
 }

@@ -1,5 +1,7 @@
 #include "scene/generate/gnarled_knot.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -52,12 +54,15 @@ glm::dvec3 normalAt(double u, double v) {
 
 StripMesh gnarledKnot(uint32_t along, uint32_t around, const std::string& material) {
     StripMesh mesh;
-    for (uint32_t i = 0; i < along; ++i)
+    mesh.positions.resize(size_t(along) * around);
+    mesh.normals.resize(mesh.positions.size());
+    tbb::parallel_for(0u, along, [&](uint32_t i) {
         for (uint32_t j = 0; j < around; ++j) {
             const double u = kTurn * i / along, v = kTurn * j / around;
-            mesh.positions.push_back(surfaceAt(u, v));
-            mesh.normals.push_back(normalAt(u, v));
+            mesh.positions[size_t(i) * around + j] = surfaceAt(u, v);
+            mesh.normals[size_t(i) * around + j] = normalAt(u, v);
         }
+    });
     for (uint32_t i = 0; i < along; ++i) {
         Strip strip;
         for (uint32_t j = 0; j <= around; ++j) {

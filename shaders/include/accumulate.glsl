@@ -16,6 +16,7 @@ void addSample(inout PixelState state, vec3 radiance) {
         return;
     }
     const float before = float(state.count);
+    // Divided, not multiplied by a reciprocal: equal samples have no deviation.
     const vec3 mean = (state.sum + state.sumError) / max(before, 1.0);
     const vec3 deviation = radiance - mean;
     // Welford's (x - mean before)(x - mean after), in the form that no rounding makes negative.

@@ -98,7 +98,7 @@ vec3 fresnelConductorCs184(float c, vec3 eta, vec3 k) {
 vec3 evaluateMicrofacet(Material m, vec3 wo, vec3 wi) {
     if (wo.z <= 0.0 || wi.z <= 0.0) return vec3(0.0);
     const float alpha = m.iorOrAlpha;
-    const vec3 h = normalize(wo + wi);
+    const vec3 h = unit(wo + wi);
     const float g = 1.0 / (1.0 + smithLambda(wo.z, alpha) + smithLambda(wi.z, alpha));
     const vec3 f = CS184 ? fresnelConductorCs184(wi.z, m.transmittanceOrEta, m.k)
                          : fresnelConductor(dot(wi, h), m.transmittanceOrEta, m.k);
@@ -171,7 +171,7 @@ BsdfSample sampleDielectric(Material m, vec3 n, vec3 wo, bool entering, bool ref
 /// f(wo, wi) |cos(wi)| for world direction wi; 0 for delta materials.
 vec3 evaluateBsdf(Material m, SurfacePoint s, vec3 wi) {
     const float cosine = dot(s.shading, wi);
-    if (cosine <= 0.0 || (!CS184 && dot(s.geometric, wi) <= 0.0)) return vec3(0.0);
+    if (cosine <= 0.0 || (!CS184 && !isReflected(s, wi))) return vec3(0.0);
     vec3 f = vec3(0.0);
     if (sceneHasMaterial(MATERIAL_DIFFUSE) && m.kind == MATERIAL_DIFFUSE)
         f = m.reflectance * INV_PI;
@@ -199,8 +199,11 @@ BsdfSample sampleBsdf(Material m, SurfacePoint s, vec3 u) {
         const vec3 n = dot(s.shading, s.wo) < 0.0 ? -s.shading : s.shading;
         b = sampleDielectric(m, n, s.wo, entering, glass, u.z);
     }
+    // Deflections keep the length of wo but for rounding, which would add up over many.
+    if (m.kind != MATERIAL_DIFFUSE) b.direction = unit(b.direction);
     // Light stays on the side of the true surface it was sent to.
-    const float side = dot(s.geometric, b.direction);
-    if (!CS184 && (b.transmitted ? side >= 0.0 : side <= 0.0)) b.weight = vec3(0.0);
+    const bool rightSide = b.transmitted ? dot(s.geometric, b.direction) < 0.0
+                                         : isReflected(s, b.direction);
+    if (!CS184 && !rightSide) b.weight = vec3(0.0);
     return b;
 }

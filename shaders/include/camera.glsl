@@ -17,9 +17,8 @@ CameraRay cameraRay(float s, float t) {
         ray.origin += offset;
     } else {
         const vec3 d = offset - frame.cameraBack;
-        const float length_ = length(d);
-        ray.direction = d / length_;
-        if (!CLIP_ALONG_RAY) alongAxis = length_;
+        ray.direction = unit(d);
+        if (!CLIP_ALONG_RAY) alongAxis = length(d);
     }
     ray.tMin = frame.nearDistance * alongAxis;
     ray.tMax = min(frame.farDistance * alongAxis, INFINITE_DISTANCE);

@@ -14,30 +14,59 @@
 #define ROW(name, i) name.rows[i]
 #endif
 
-SCENE_BUFFER(BINDING_NODES, nodeRows)
+SCENE_BUFFER(BINDING_RECORDS, recordRows)
 SCENE_BUFFER(BINDING_PRIMITIVES, primitiveRows)
-SCENE_BUFFER(BINDING_NORMALS, normalRows)
 SCENE_BUFFER(BINDING_MATERIALS, materialRows)
 SCENE_BUFFER(BINDING_LIGHTS, lightRows)
 SCENE_BUFFER(BINDING_EMITTER_ENTRIES, emitterEntryRows)
 
-Node fetchNode(uint index) {
-    const uvec4 r0 = ROW(nodeRows, 4u * index), r1 = ROW(nodeRows, 4u * index + 1u);
-    const uvec4 r2 = ROW(nodeRows, 4u * index + 2u), r3 = ROW(nodeRows, 4u * index + 3u);
-    return Node(uintBitsToFloat(r0.xyz), r0.w, uintBitsToFloat(r1.xyz), r1.w,
-                uintBitsToFloat(r2.xyz), r2.w, uintBitsToFloat(r3.xyz), r3.w);
+/// A record of the BVH as it lies in memory: a NodeRecord or a LeafRecord.
+struct Record {
+    uvec4 r0, r1, r2, r3;
+};
+
+Record fetchRecord(uint index) {
+    const uint row = RECORD_ROWS * index;
+    return Record(ROW(recordRows, row), ROW(recordRows, row + 1u), ROW(recordRows, row + 2u),
+                  ROW(recordRows, row + 3u));
+}
+
+/// The points of a leaf: slot 0 is the triangle p0 p1 p2, slot 1 is p0 p2 p3.
+struct LeafPoints {
+    vec3 p0, p1, p2, p3;
+};
+
+LeafPoints leafPoints(Record r) {
+    return LeafPoints(uintBitsToFloat(r.r0.xyz), uintBitsToFloat(r.r1.xyz),
+                      uintBitsToFloat(uvec3(r.r1.w, r.r2.xy)),
+                      uintBitsToFloat(uvec3(r.r2.zw, r.r3.x)));
+}
+
+/// One primitive by its place in the tree, 2 * record + slot.
+struct PlacedPrimitive {
+    vec3 v0, v1, v2; ///< corners; spheres: v0 is the centre
+    float radius;    ///< spheres
+    bool isSphere;
+    uint primitive; ///< in the Primitive buffer
+};
+
+PlacedPrimitive fetchPlace(uint place) {
+    const Record r = fetchRecord(place >> 1u);
+    const LeafPoints points = leafPoints(r);
+    const uint slot = place & 1u;
+    PlacedPrimitive p;
+    p.v0 = points.p0;
+    p.v1 = slot == 0u ? points.p1 : points.p2;
+    p.v2 = slot == 0u ? points.p2 : points.p3;
+    p.radius = uintBitsToFloat(r.r3.y);
+    p.isSphere = HAS_SPHERES && (!HAS_TRIANGLES || (r.r0.w & RECORD_IS_SPHERE) != 0u);
+    p.primitive = (r.r0.w & RECORD_INDEX_MASK) + slot;
+    return p;
 }
 
 Primitive fetchPrimitive(uint index) {
-    const uvec4 r0 = ROW(primitiveRows, 3u * index), r1 = ROW(primitiveRows, 3u * index + 1u);
-    const uvec4 r2 = ROW(primitiveRows, 3u * index + 2u);
-    return Primitive(uintBitsToFloat(r0.xyz), r0.w, uintBitsToFloat(r1.xyz), r1.w,
-                     uintBitsToFloat(r2.xyz), r2.w);
-}
-
-NormalTriple fetchNormals(uint index) {
-    const uvec4 r = ROW(normalRows, index);
-    return NormalTriple(r.x, r.y, r.z, r.w);
+    const uvec4 r = ROW(primitiveRows, index);
+    return Primitive(r.x, r.y, r.z, r.w);
 }
 
 Material fetchMaterial(uint index) {

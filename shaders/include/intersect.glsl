@@ -20,31 +20,99 @@ Ray makeRay(vec3 origin, vec3 direction) {
     ray.direction = direction;
     const vec3 a = abs(direction);
     const float largest = max(a.x, max(a.y, a.z));
-    // A component below 2^-40 of the largest is taken as that in box tests: it moves the ray by
-    // less than the rounding of its own coordinates, and keeps 0 * infinity away.
+    // A component below 2^-60 of the largest is taken as that in box tests, which keeps
+    // 0 * infinity and infinity - infinity away (docs/numerics.md).
     const vec3 sign = mix(vec3(1.0), vec3(-1.0), lessThan(direction, vec3(0.0)));
-    ray.inverse = 1.0 / (sign * max(a, vec3(largest * 9.094947017729282e-13)));
+    ray.inverse = 1.0 / (sign * max(a, vec3(largest * 8.673617379884035e-19)));
     ray.axis = a.z == largest ? 2u : (a.x == largest ? 0u : 1u);
     const vec3 d = permute(direction, ray.axis);
-    ray.shear = vec3(d.x / d.z, d.y / d.z, 1.0 / d.z);
+    const float inverseZ = permute(ray.inverse, ray.axis).z;
+    ray.shear = vec3(d.xy * inverseZ, inverseZ);
     return ray;
 }
 
-/// Where the ray enters the box, at least 0, or INFINITE_DISTANCE if it misses it within
-/// [0, tMax]. Conservative: never misses a box it touches, nor one that holds a primitive at tMax;
-/// docs/numerics.md derives the slack (after Ize 2013). Planes are chosen by the direction's sign:
-/// sorting the two distances would turn the inverted box of an absent child into a huge one.
-float enterBox(vec3 low, vec3 high, Ray ray, float tMax) {
-    const bvec3 negative = lessThan(ray.inverse, vec3(0.0));
-    const vec3 nearest = (mix(low, high, negative) - ray.origin) * ray.inverse;
-    const vec3 farthest = (mix(high, low, negative) - ray.origin) * ray.inverse;
-    // As integers, bit patterns of floats that are not negative compare as the floats do, and a
-    // negative one is below them all, which is all that is needed here. llvmpipe takes one
-    // instruction for it, and three for a float minimum that minds NaN.
-    const ivec3 n = floatBitsToInt(nearest), f = floatBitsToInt(farthest);
-    const float tNear = intBitsToFloat(max(max(n.x, n.y), max(n.z, 0)));
-    const float tFar = intBitsToFloat(min(min(f.x, f.y), min(f.z, floatBitsToInt(tMax))));
-    return tNear <= tFar * BOX_SLACK ? tNear : INFINITE_DISTANCE;
+/// Bit k is set where the direction's component k is not negative.
+uint octantOf(vec3 inverse) {
+    return (inverse.x < 0.0 ? 0u : 1u) | (inverse.y < 0.0 ? 0u : 2u) | (inverse.z < 0.0 ? 0u : 4u);
+}
+
+/// Position of the highest bit of x, 1 to 255: the exponent of x as a float. llvmpipe has no
+/// instruction for it.
+uint highestBit(uint x) { return (floatBitsToUint(float(int(x))) >> 23u) - 127u; }
+
+/// Planes of a node's grid along a ray: plane q of an axis is at distance q * scale + base.
+struct GridAxis {
+    vec3 nearScale; ///< for bytes 0 and 3, 1 and 2 of a word: 1, 2^-8 and 2^-16 times the scale
+    vec3 farScale;
+    float nearBase, farBase;
+};
+
+const vec3 BYTE_SCALES = vec3(1.0, 1.0 / 256.0, 1.0 / 65536.0);
+
+/// word: originAndExponent of a NodeRecord.
+GridAxis gridAxis(uint word, float rayOrigin, float inverse) {
+    const float origin = uintBitsToFloat(word & 0xFFFFFF00u);
+    precise float base = (origin - rayOrigin) * inverse;
+    precise float scale = uintBitsToFloat((word & 0xFFu) << 23u) * inverse;
+    GridAxis g;
+    g.nearScale = scale * BYTE_SCALES;
+    g.farScale = scale * BOX_SLACK * BYTE_SCALES;
+    g.nearBase = base;
+    g.farBase = base * BOX_SLACK;
+    return g;
+}
+
+// The bytes of a word as floats, times 1, 2^8, 2^16 and 1: BYTE_SCALES undoes it, and a mask is
+// cheaper than a shift and a mask. Signed, since llvmpipe converts those in one instruction.
+#define BYTES_AS_FLOATS(w)                                                                         \
+    vec4(float(int((w)&0xFFu)), float(int((w)&0xFF00u)), float(int((w)&0xFF0000u)),                \
+         float(int((w) >> 24u)))
+
+/// Distances of four planes as bit patterns. As integers, patterns of floats that are not
+/// negative compare as the floats do, and a negative one is below them all, which is all that is
+/// needed here. llvmpipe takes one instruction for an integer minimum, and three for a float one,
+/// which minds NaN.
+ivec4 planeDistances(uint word, vec3 scale, float base) {
+    precise vec4 t = BYTES_AS_FLOATS(word) * scale.xyzx + base;
+    return floatBitsToInt(t);
+}
+
+/// Which of four children the ray enters within [0, end]: bit i for child i.
+uint enterFour(uvec3 nearWords, uvec3 farWords, GridAxis x, GridAxis y, GridAxis z, int end) {
+    const ivec4 nx = planeDistances(nearWords.x, x.nearScale, x.nearBase);
+    const ivec4 ny = planeDistances(nearWords.y, y.nearScale, y.nearBase);
+    const ivec4 nz = planeDistances(nearWords.z, z.nearScale, z.nearBase);
+    const ivec4 fx = planeDistances(farWords.x, x.farScale, x.farBase);
+    const ivec4 fy = planeDistances(farWords.y, y.farScale, y.farBase);
+    const ivec4 fz = planeDistances(farWords.z, z.farScale, z.farBase);
+    const ivec4 enter = max(max(nx, ny), max(nz, ivec4(0)));
+    const ivec4 leave = min(min(fx, fy), min(fz, ivec4(end)));
+    return (enter.x <= leave.x ? 1u : 0u) | (enter.y <= leave.y ? 2u : 0u) |
+           (enter.z <= leave.z ? 4u : 0u) | (enter.w <= leave.w ? 8u : 0u);
+}
+
+/// Which children of a node the ray enters within [0, tMax]: bit (slot ^ octant) for each slot.
+/// Conservative: never misses a box it touches, nor one that holds a primitive at tMax.
+/// Rounding is covered by the margin of the boxes (BOX_MARGIN) where it is relative to the node's
+/// size, and by the slack of the far planes where it is relative to the distance (after Ize 2013);
+/// docs/numerics.md derives both. Planes are near or far by the direction's sign: sorting
+/// their distances would turn the inverted box of an absent child into a huge one.
+uint enterChildren(Record r, Ray ray, uint octant, float tMax) {
+    const GridAxis x = gridAxis(r.r0.x, ray.origin.x, ray.inverse.x);
+    const GridAxis y = gridAxis(r.r0.y, ray.origin.y, ray.inverse.y);
+    const GridAxis z = gridAxis(r.r0.z, ray.origin.z, ray.inverse.z);
+    // Rows hold low (xy) and high planes (zw) of the eight children.
+    const uvec4 wx = (octant & 1u) != 0u ? r.r1 : r.r1.zwxy;
+    const uvec4 wy = (octant & 2u) != 0u ? r.r2 : r.r2.zwxy;
+    const uvec4 wz = (octant & 4u) != 0u ? r.r3 : r.r3.zwxy;
+    const int end = floatBitsToInt(tMax * BOX_SLACK);
+    uint hits = enterFour(uvec3(wx.x, wy.x, wz.x), uvec3(wx.z, wy.z, wz.z), x, y, z, end) |
+                (enterFour(uvec3(wx.y, wy.y, wz.y), uvec3(wx.w, wy.w, wz.w), x, y, z, end) << 4u);
+    // Bit i moves to bit (i ^ octant).
+    hits = (octant & 1u) != 0u ? ((hits & 0x55u) << 1u) | ((hits >> 1u) & 0x55u) : hits;
+    hits = (octant & 2u) != 0u ? ((hits & 0x33u) << 2u) | ((hits >> 2u) & 0x33u) : hits;
+    hits = (octant & 4u) != 0u ? ((hits & 0x0Fu) << 4u) | (hits >> 4u) : hits;
+    return hits;
 }
 
 struct TriangleHit {
@@ -52,29 +120,49 @@ struct TriangleHit {
     float b1, b2; ///< barycentric weights of v1 and v2
 };
 
-/// Watertight ray-triangle test (Woop, Benthin and Wald 2013). A vertex is mapped to the same bits
-/// in every triangle that shares it, and the two products of an edge function are rounded alike
-/// in both triangles of an edge; since rounding is monotonic, the difference of the rounded
-/// products is never of the wrong sign, at worst zero, and zero counts as inside: no ray passes
-/// between two triangles. `precise` keeps the products from being fused.
-TriangleHit hitTriangle(vec3 v0, vec3 v1, vec3 v2, Ray ray) {
-    precise vec3 a = permute(v0 - ray.origin, ray.axis);
-    precise vec3 b = permute(v1 - ray.origin, ray.axis);
-    precise vec3 c = permute(v2 - ray.origin, ray.axis);
-    precise vec2 as = a.xy - ray.shear.xy * a.z;
-    precise vec2 bs = b.xy - ray.shear.xy * b.z;
-    precise vec2 cs = c.xy - ray.shear.xy * c.z;
-    precise float u = cs.x * bs.y - cs.y * bs.x;
-    precise float v = as.x * cs.y - as.y * cs.x;
-    precise float w = bs.x * as.y - bs.y * as.x;
+/// A point seen along the ray: z is its depth (times the direction's largest component), x and y
+/// where it is when the ray is the z axis.
+vec3 alongRay(vec3 v, Ray ray) {
+    precise vec3 p = permute(v - ray.origin, ray.axis);
+    precise vec2 sheared = p.xy - ray.shear.xy * p.z;
+    return vec3(sheared, p.z);
+}
+
+/// On which side of the edge from a to b the ray passes. The two products are rounded alike
+/// whichever way round the edge is walked, and since rounding is monotonic, the difference of the
+/// rounded products is never of the wrong sign, at worst zero. `precise` keeps them from being
+/// fused.
+float edgeFunction(vec3 a, vec3 b) {
+    precise float e = a.x * b.y - a.y * b.x;
+    return e;
+}
+
+/// u, v, w: the edge functions opposite to a, b and c. Zero counts as inside.
+TriangleHit triangleHit(vec3 a, vec3 b, vec3 c, float u, float v, float w, Ray ray) {
     const float determinant = u + v + w;
-    const bool inside = (min(u, min(v, w)) >= 0.0 || max(u, max(v, w)) <= 0.0) &&
+    const bool inside = ((u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0)) &&
                         determinant != 0.0;
     // Weights first: the product of an edge function and a distance may overflow.
     const float inverse = 1.0 / determinant;
     const float b0 = u * inverse, b1 = v * inverse, b2 = w * inverse;
     const float t = (b0 * a.z + b1 * b.z + b2 * c.z) * ray.shear.z;
     return TriangleHit(inside ? t : INFINITE_DISTANCE, b1, b2);
+}
+
+struct TrianglePairHit {
+    TriangleHit first, second;
+};
+
+/// Watertight test (Woop, Benthin and Wald 2013) of the triangles p0 p1 p2 and p0 p2 p3. A point
+/// is mapped to the same bits in every triangle that shares it, and the edge functions of an edge
+/// agree: no ray passes between two triangles.
+TrianglePairHit hitTrianglePair(LeafPoints points, Ray ray) {
+    const vec3 a = alongRay(points.p0, ray), b = alongRay(points.p1, ray);
+    const vec3 c = alongRay(points.p2, ray), d = alongRay(points.p3, ray);
+    const float shared_ = edgeFunction(a, c);
+    return TrianglePairHit(
+        triangleHit(a, b, c, edgeFunction(c, b), shared_, edgeFunction(b, a), ray),
+        triangleHit(a, c, d, edgeFunction(d, c), edgeFunction(a, d), -shared_, ray));
 }
 
 /// Nearest t in (tMin, tMax) at which the ray meets the sphere, or INFINITE_DISTANCE. The

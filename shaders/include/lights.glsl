@@ -19,14 +19,15 @@ vec3 stopBefore(vec3 p, vec3 pError, vec3 n, vec3 from) {
 /// Completes a sample taken uniformly on an area: radiance * area * cos / distance^2.
 LightSample areaSample(SurfacePoint s, vec3 p, vec3 pError, vec3 n, float area, Light light) {
     LightSample r;
-    const vec3 d = p - s.position;
+    const vec3 from = litPoint(s), d = p - from;
     const float distance2 = dot(d, d);
-    r.direction = d * inversesqrt(distance2);
+    const float inverseDistance = inversesqrt(distance2);
+    r.direction = d * inverseDistance;
     r.infinite = false;
-    r.target = stopBefore(p, pError, n, s.position);
+    r.target = stopBefore(p, pError, n, from);
     const float cosine = -dot(r.direction, n);
     // The CS184 renderer's density lacks one factor 1 / distance, and its lights have one side.
-    const float falloff = CS184 ? inversesqrt(distance2) : 1.0 / distance2;
+    const float falloff = CS184 ? inverseDistance : inverseDistance * inverseDistance;
     const bool emits = CS184 || light.bothSides == 0u ? cosine > 0.0 : cosine != 0.0;
     r.radiance = emits && distance2 > 0.0 ? light.color * (area * abs(cosine) * falloff)
                                           : vec3(0.0);
@@ -50,7 +51,7 @@ vec2 sampleTriangle(vec2 u) {
 LightSample sampleMesh(SurfacePoint s, Light light, vec4 u) {
     const uint column = min(uint(u.z * float(light.entryCount)), light.entryCount - 1u);
     const EmitterEntry entry = fetchEmitterEntry(light.firstEntry + column);
-    const Primitive p = fetchPrimitive(u.w < entry.threshold ? entry.primitive : entry.alias);
+    const PlacedPrimitive p = fetchPlace(u.w < entry.threshold ? entry.place : entry.alias);
     const vec2 b = sampleTriangle(u.xy);
     const float b0 = 1.0 - b.x - b.y;
     const vec3 point = b0 * p.v0 + b.x * p.v1 + b.y * p.v2;
@@ -64,7 +65,7 @@ LightSample sampleMesh(SurfacePoint s, Light light, vec4 u) {
 LightSample sampleSphere(SurfacePoint s, Light light, vec2 u) {
     const float radius = light.edgeA.x;
     // A point on the sphere itself counts as on the side of wo.
-    const vec3 from = leave(s, s.wo);
+    const vec3 from = leave(s, s.wo, false);
     const vec3 toCenter = light.position - from;
     const float distance2 = dot(toCenter, toCenter);
     const float sin2Max = radius * radius / distance2;
@@ -86,11 +87,11 @@ LightSample sampleSphere(SurfacePoint s, Light light, vec2 u) {
     const vec3 w = toWorld(cone, vec3(sqrt(sin2) * vec2(cos(phi), sin(phi)), cosine));
     // The near intersection of the direction with the sphere, put back on its surface.
     const float t = distance * cosine - sqrt(max(radius * radius - distance2 * sin2, 0.0));
-    const vec3 n = normalize(from + t * w - light.position);
+    const vec3 n = unit(from + t * w - light.position);
     LightSample r;
     r.direction = w;
     r.infinite = false;
-    r.target = stopBefore(light.position + radius * n, error, n, s.position);
+    r.target = stopBefore(light.position + radius * n, error, n, from);
     r.radiance = light.color * (2.0 * PI * oneMinusCosMax);
     return r;
 }
@@ -114,7 +115,7 @@ LightSample sampleDelta(SurfacePoint s, Light light) {
     LightSample r;
     if (light.kind == LIGHT_DIRECTIONAL)
         return LightSample(light.position, true, light.position, light.color);
-    const vec3 d = light.position - s.position;
+    const vec3 d = light.position - litPoint(s);
     const float distance2 = dot(d, d), distance = sqrt(distance2);
     r.direction = d / distance;
     r.infinite = false;

@@ -3,7 +3,7 @@
 // works out its next ray, and begins its next sample as soon as a path ends, so that lanes stay
 // busy. docs/estimator.md defines what a sample is.
 
-const uint PHASE_FINISHED = 0u;
+const uint PHASE_FINISHED = 0u;   ///< nothing left to do for this lane
 const uint PHASE_PATH = 1u;       ///< tracing a camera or bounce ray
 const uint PHASE_SHADOW = 2u;     ///< tracing a ray to a light
 const uint PHASE_HEMISPHERE = 3u; ///< tracing a ray of hemisphere sampling
@@ -11,10 +11,20 @@ const uint PHASE_DIRECT = 4u;     ///< at a surface, direct light samples left
 const uint PHASE_BOUNCE = 5u;     ///< at a surface, direct light done
 const uint PHASE_ENDED = 6u;      ///< the path is over
 const uint PHASE_NEXT = 7u;       ///< ready for a new sample
+const uint PHASE_SUSPENDED = 8u;  ///< a path ray has been put off to the next dispatch
+
+struct NextRay {
+    vec3 origin;
+    float tMin;
+    vec3 direction;
+    float tMax;
+    uint skipPrimitive;
+};
 
 /// All a lane knows. `ray` is what PHASE_PATH, _SHADOW and _HEMISPHERE trace.
 uint phase;
 Traversal ray;
+NextRay next; ///< asked for by trace()
 PixelState pixelState;
 uint pixelId;   ///< in the whole picture: names the random numbers
 uvec2 pixelAt;  ///< column, row (from the top) in the whole picture
@@ -28,6 +38,7 @@ Material material;
 uint directIndex; ///< direct light samples done at this surface
 vec3 directValue; ///< what the ray under way adds if it is free (or, hemisphere, per radiance)
 uint rayCount;
+Light onlyLight; ///< ONE_LIGHT: read once (five rows), not for each sample
 
 vec4 randomNumbers(uint slot) {
     const uint perBounce = 1u + frame.areaSamples + frame.deltaLights;
@@ -35,9 +46,22 @@ vec4 randomNumbers(uint slot) {
     return randomBlock(pixelId, sampleIndex, block, frame.seed);
 }
 
+/// Asks for a ray. It is started at the end of the service (startRay): llvmpipe runs every branch for
+/// all lanes, so that preparing a ray wherever one is asked for would be paid for every time.
 void trace(uint newPhase, vec3 origin, vec3 direction, float tMin, float tMax, uint skipPrimitive) {
     phase = newPhase;
-    startTraversal(ray, origin, direction, tMin, tMax, skipPrimitive, newPhase == PHASE_SHADOW);
+    next = NextRay(origin, tMin, direction, tMax, skipPrimitive);
+}
+
+bool isTracing(uint p) {
+    return p == PHASE_PATH || p == PHASE_SHADOW ||
+           (DIRECT_LIGHT == DIRECT_HEMISPHERE && p == PHASE_HEMISPHERE);
+}
+
+void startRay() {
+    if (!isTracing(phase) || traversing(ray)) return;
+    startTraversal(ray, next.origin, next.direction, next.tMin, next.tMax, next.skipPrimitive,
+                   phase == PHASE_SHADOW);
     ++rayCount;
 }
 
@@ -99,25 +123,29 @@ void sampleHemisphere(vec4 u) {
     const vec3 w = toWorld(makeFrame(surface.shading), sampleUniformHemisphere(u.xy));
     directValue = evaluateBsdf(material, surface, w) * (2.0 * PI / float(frame.areaSamples));
     if (dot(directValue, vec3(1.0)) > 0.0)
-        trace(PHASE_HEMISPHERE, leave(surface, w), w, 0.0, INFINITE_DISTANCE,
-              surface.skipPrimitive);
+        trace(PHASE_HEMISPHERE, leave(surface, w, false), w, 0.0, INFINITE_DISTANCE,
+              skipOnLeaving(surface, false));
+}
+
+Light lightOf(uint index) {
+    if (ONE_LIGHT) return onlyLight;
+    return fetchLight(index < frame.areaSamples ? index / LIGHT_SAMPLES
+                                                : frame.areaLights + index - frame.areaSamples);
 }
 
 /// Starts the shadow ray of the next light sample, if that light can reach the surface.
 void sampleLights(vec4 u, uint index) {
     const bool isArea = index < frame.areaSamples;
-    const uint lightIndex = isArea ? index / frame.lightSamples
-                                   : frame.areaLights + index - frame.areaSamples;
-    const LightSample light = sampleLight(surface, fetchLight(lightIndex), u);
-    const float share = isArea ? 1.0 / float(frame.lightSamples) : 1.0;
+    const LightSample light = sampleLight(surface, lightOf(index), u);
+    const float share = isArea ? 1.0 / float(LIGHT_SAMPLES) : 1.0;
     directValue = evaluateBsdf(material, surface, light.direction) * light.radiance * share;
     if (!(dot(directValue, vec3(1.0)) > 0.0)) return;
-    const vec3 origin = leave(surface, light.direction);
+    const vec3 origin = leave(surface, light.direction, false);
+    const uint skip = skipOnLeaving(surface, false);
     if (light.infinite)
-        trace(PHASE_SHADOW, origin, light.direction, 0.0, INFINITE_DISTANCE,
-              surface.skipPrimitive);
+        trace(PHASE_SHADOW, origin, light.direction, 0.0, INFINITE_DISTANCE, skip);
     else
-        trace(PHASE_SHADOW, origin, light.target - origin, 0.0, 1.0, surface.skipPrimitive);
+        trace(PHASE_SHADOW, origin, light.target - origin, 0.0, 1.0, skip);
 }
 
 /// One direct light sample; a sample that cannot contribute traces nothing.
@@ -140,17 +168,20 @@ void scatter() {
     if (ROULETTE == ROULETTE_THROUGHPUT && bounce >= ROULETTE_THROUGHPUT_START) {
         const float q = min(ROULETTE_MAX_CONTINUE, largest);
         if (u.w >= q) return;
-        throughput /= q;
+        throughput *= 1.0 / q;
     }
     countsEmission = bounce >= frame.minBounce &&
                      (isDelta(material.kind) || (DIRECT_LIGHT == DIRECT_BSDF && !CS184));
     if (bounce == frame.maxBounces && !countsEmission) return;
-    trace(PHASE_PATH, leave(surface, b.direction), b.direction, 0.0, INFINITE_DISTANCE,
-          surface.skipPrimitive);
+    trace(PHASE_PATH, leave(surface, b.direction, b.transmitted), b.direction, 0.0,
+          INFINITE_DISTANCE, skipOnLeaving(surface, b.transmitted));
 }
 
+/// The number of the sample that is next for this pixel.
+uint nextSample() { return frame.firstSample + pixelState.count + pixelState.rejected; }
+
 void startSample() {
-    sampleIndex = pixelState.count + pixelState.rejected;
+    sampleIndex = nextSample();
     bounce = 0u;
     throughput = vec3(1.0);
     radiance = vec3(0.0);
@@ -163,8 +194,8 @@ void startSample() {
 
 // --- Service -------------------------------------------------------------------------------------
 
-/// Takes in the finished ray and finds the next one. `target`: samples the pixel shall have.
-void serve(uint target) {
+/// Takes in the finished ray and finds the next one of the path, or ends the path (PHASE_NEXT).
+void followPath() {
     if (phase == PHASE_SHADOW) finishShadowRay();
     else if (DIRECT_LIGHT == DIRECT_HEMISPHERE && phase == PHASE_HEMISPHERE) finishHemisphereRay();
     else if (phase == PHASE_PATH) arrive();
@@ -179,9 +210,5 @@ void serve(uint target) {
     if (phase == PHASE_ENDED) {
         addSample(pixelState, radiance);
         phase = PHASE_NEXT;
-    }
-    if (phase == PHASE_NEXT) {
-        phase = PHASE_FINISHED;
-        if (pixelState.count + pixelState.rejected < target) startSample();
     }
 }

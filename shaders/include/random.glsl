@@ -17,7 +17,8 @@ uvec4 pcg4d(uvec4 v) {
 }
 
 /// Uniform in [0, 1 - 2^-24]: the top 24 bits, so that 1 never comes out by rounding.
-vec4 unitFloats(uvec4 words) { return vec4(words >> 8u) * (1.0 / 16777216.0); }
+/// Converted as signed integers, which llvmpipe does in one instruction.
+vec4 unitFloats(uvec4 words) { return vec4(ivec4(words >> 8u)) * (1.0 / 16777216.0); }
 
 /// Four independent numbers in [0, 1). A block is a use of randomness within a sample: block 0
 /// the camera, then for each bounce one for the bounce and one for each direct light sample

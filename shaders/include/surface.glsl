@@ -1,14 +1,15 @@
 // What the path needs to know of the point it hit.
 
 struct SurfacePoint {
-    vec3 position;
+    vec3 position; ///< on the flat triangle, or the sphere
     vec3 error;     ///< bound of the position's error, per component
     vec3 geometric; ///< unit geometric normal, on the side of wo
     vec3 shading;   ///< unit shading normal
-    vec3 wo;        ///< unit, back along the ray
+    vec3 wo;        ///< back along the ray; unit, as the rays of paths are
     bool outside;   ///< wo is on the side the stored geometric normal points to
     uint material;
     uint skipPrimitive; ///< planar primitives cannot be hit by rays that leave them
+    float lift; ///< height of the smooth surface over `position`, along `geometric`; 0: flat
 };
 
 /// Octahedral to unit vector (Meyer et al. 2010).
@@ -17,45 +18,79 @@ vec3 decodeNormal(uint packed_) {
     vec3 n = vec3(e, 1.0 - abs(e.x) - abs(e.y));
     const float fold = max(-n.z, 0.0);
     n.xy += vec2(n.x >= 0.0 ? -fold : fold, n.y >= 0.0 ? -fold : fold);
-    return normalize(n);
+    return unit(n);
 }
 
-/// The interpolated normal as the file means it, or the geometric one where there is none.
-vec3 interpolatedNormal(Primitive p, float b1, float b2, vec3 geometric) {
-    if (!HAS_NORMALS) return geometric;
-    const NormalTriple normals = fetchNormals(p.normals == NO_NORMALS ? 0u : p.normals);
-    const vec3 n = (1.0 - b1 - b2) * decodeNormal(normals.n0) + b1 * decodeNormal(normals.n1) +
-                   b2 * decodeNormal(normals.n2);
-    const float length2 = dot(n, n);
-    // Opposite corner normals may cancel: no direction is better than the geometric one then.
-    return p.normals != NO_NORMALS && length2 > 0.0 ? n * inversesqrt(length2) : geometric;
+/// Of a triangle that has normals; those of its corners, as the file means them.
+struct CornerNormals {
+    vec3 n0, n1, n2;
+};
+
+/// The interpolated normal, or the geometric one where opposite normals cancel and there is no better
+/// direction.
+vec3 interpolatedNormal(CornerNormals n, vec3 b, vec3 geometric) {
+    const vec3 sum = b.x * n.n0 + b.y * n.n1 + b.z * n.n2;
+    const float length2 = dot(sum, sum);
+    return length2 > 0.0 ? sum * inversesqrt(length2) : geometric;
+}
+
+/// How high the smooth surface that the corner normals speak of is over a point of the triangle, on
+/// the side of `facing`, the geometric normal towards wo; 0 where it is below, or where the normals are
+/// on both sides.
+///
+/// Lit from where it is flat, a coarse mesh shades itself in steps of the shape of its triangles, the
+/// "shadow terminator". After Hanika, "Hacking the Shadow Terminator" (Ray Tracing Gems II, 2021),
+/// reflected light leaves from the smooth surface instead. His height, what a point lacks to the
+/// tangent planes of the corners, is a sum over the edges where the mesh is convex; taken by edges,
+/// normals that are tilted but parallel do not lift (docs/numerics.md, "Shading normals").
+float liftAt(CornerNormals n, PlacedPrimitive at, vec3 b, vec3 facing) {
+    const vec3 c = vec3(dot(n.n0, facing), dot(n.n1, facing), dot(n.n2, facing));
+    const float least = min(c.x, min(c.y, c.z)), most = max(c.x, max(c.y, c.z));
+    const float side = least > 0.0 ? 1.0 : (most < 0.0 ? -1.0 : 0.0);
+    // An edge bulges by as much as its normals diverge.
+    const vec3 bulge = side * vec3(dot(n.n0 - n.n1, at.v0 - at.v1), dot(n.n1 - n.n2, at.v1 - at.v2),
+                                   dot(n.n2 - n.n0, at.v2 - at.v0));
+    return max(dot(b.xyz * b.yzx, max(bulge, vec3(0.0))), 0.0);
+}
+
+/// Fills in what depends on the normals of the corners. b: barycentric weights.
+void smoothShading(inout SurfacePoint s, Primitive p, PlacedPrimitive at, vec3 b) {
+    if (!HAS_NORMALS) return;
+    const bool given = p.n0 != NO_NORMAL;
+    const CornerNormals n =
+        CornerNormals(decodeNormal(p.n0), decodeNormal(p.n1), decodeNormal(p.n2));
+    if (given) s.shading = interpolatedNormal(n, b, s.geometric);
+    if (given && !CS184) s.lift = liftAt(n, at, b, s.outside ? s.geometric : -s.geometric);
 }
 
 /// Fills in the point of the hit that `t` found. `shading` is left as the scene states it; see
 /// faceForward.
 SurfacePoint surfaceAt(Traversal t) {
     SurfacePoint s;
-    const Primitive p = fetchPrimitive(t.hitPrimitive);
+    const PlacedPrimitive place = fetchPlace(t.hitPrimitive);
+    const Primitive p = fetchPrimitive(place.primitive);
+    const vec3 v0 = place.v0, v1 = place.v1, v2 = place.v2;
     s.material = p.material;
-    s.wo = -normalize(t.ray.direction);
-    const bool isSphere = HAS_SPHERES && (!HAS_TRIANGLES || p.kind == PRIMITIVE_SPHERE);
-    if (HAS_TRIANGLES && !isSphere) {
+    s.wo = -t.ray.direction;
+    s.lift = 0.0;
+    if (HAS_TRIANGLES && !place.isSphere) {
         const float b0 = 1.0 - t.b1 - t.b2;
-        s.position = b0 * p.v0 + t.b1 * p.v1 + t.b2 * p.v2;
-        s.error = interpolationError(abs(b0 * p.v0) + abs(t.b1 * p.v1) + abs(t.b2 * p.v2));
-        s.geometric = planeNormal(p.v1 - p.v0, p.v2 - p.v0);
-        s.shading = interpolatedNormal(p, t.b1, t.b2, s.geometric);
+        s.position = b0 * v0 + t.b1 * v1 + t.b2 * v2;
+        s.error = interpolationError(abs(b0 * v0) + abs(t.b1 * v1) + abs(t.b2 * v2));
+        s.geometric = planeNormal(v1 - v0, v2 - v0);
         s.skipPrimitive = t.hitPrimitive;
     }
-    if (HAS_SPHERES && isSphere) {
-        const vec3 along = t.ray.origin + t.tMax * t.ray.direction - p.v0;
-        s.geometric = normalize(along);
-        s.position = p.v0 + p.v1.x * s.geometric;
-        s.error = vec3((16.0 * UNIT_ROUNDOFF) * p.v1.x) + (4.0 * UNIT_ROUNDOFF) * abs(p.v0);
-        s.shading = s.geometric;
+    if (HAS_SPHERES && place.isSphere) {
+        const vec3 along = t.ray.origin + t.tMax * t.ray.direction - v0;
+        s.geometric = unit(along);
+        s.position = v0 + place.radius * s.geometric;
+        s.error = vec3((16.0 * UNIT_ROUNDOFF) * place.radius) + (4.0 * UNIT_ROUNDOFF) * abs(v0);
         s.skipPrimitive = NO_PRIMITIVE;
     }
+    s.shading = s.geometric;
     s.outside = dot(s.geometric, s.wo) >= 0.0;
+    if (HAS_TRIANGLES && !place.isSphere)
+        smoothShading(s, p, place, vec3(1.0 - t.b1 - t.b2, t.b1, t.b2));
     return s;
 }
 
@@ -67,5 +102,25 @@ void faceForward(inout SurfacePoint s) {
     if (dot(s.shading, s.wo) <= 0.0) s.shading = s.geometric;
 }
 
-/// Where a ray that leaves s towards w starts.
-vec3 leave(SurfacePoint s, vec3 w) { return offsetOrigin(s.position, s.error, s.geometric, w); }
+/// Whether light can be reflected towards w. A smooth surface ends at the horizon of its shading
+/// normal; the triangle under it is then but one of the things that may be in the way.
+bool isReflected(SurfacePoint s, vec3 w) { return s.lift > 0.0 || dot(s.geometric, w) > 0.0; }
+
+/// The point that light is reflected from.
+vec3 litPoint(SurfacePoint s) {
+    return HAS_NORMALS && !CS184 ? s.position + s.lift * s.geometric : s.position;
+}
+
+/// Where a ray starts that leaves s towards w: on the side of wo, or, transmitted, on the other one.
+/// Refracted light leaves from the triangle itself, which lies in its way otherwise. The CS184
+/// renderer lets light leave on either side whatever the material.
+vec3 leave(SurfacePoint s, vec3 w, bool transmitted) {
+    if (CS184) return offsetOrigin(s.position, s.error, s.geometric, w);
+    const vec3 side = transmitted ? -s.geometric : s.geometric;
+    return offsetOrigin(transmitted ? s.position : litPoint(s), s.error, s.geometric, side);
+}
+
+/// What that ray cannot hit: the plane it starts on. From above it can.
+uint skipOnLeaving(SurfacePoint s, bool transmitted) {
+    return HAS_NORMALS && !transmitted && s.lift > 0.0 ? NO_PRIMITIVE : s.skipPrimitive;
+}

@@ -1,6 +1,6 @@
-// Traversal of the binary BVH in steps, so that lanes whose rays are done can be served while
-// others go on (path.glsl). A step visits up to two nodes and tests at most one primitive: rays visit
-// about twice as many nodes as primitives, and llvmpipe pays for both kinds of work in every step.
+// Traversal of the 8-wide BVH in steps, so that lanes whose rays are done can be served while
+// others go on (path.glsl). A step visits one record, whatever its kind: llvmpipe runs both sides of
+// an `if` anyway, and a GPU's lanes do not part ways.
 
 struct Traversal {
     Ray ray;
@@ -8,12 +8,16 @@ struct Traversal {
     float tMax; ///< hits at or after this do not count; shrinks to the closest hit
     uint skipPrimitive; ///< the planar primitive the ray starts on
     bool anyHit; ///< stop at the first hit
-    uint current; ///< child reference to visit next; CHILD_NONE: done
+    uint octant; ///< bit k: the direction is not negative on axis k
+    /// Children still to visit: the record of slot 0 in bits 8-31; in bits 0-7 bit (slot ^ octant)
+    /// for each, so that the highest one is the nearest, more or less. 0: done.
+    uint group;
     uint stackTop;
-    uint hitPrimitive; ///< NO_PRIMITIVE: nothing hit
+    uint hitPrimitive; ///< 2 * record + slot; NO_PRIMITIVE: nothing hit
     float b1, b2; ///< barycentric weights of the hit (triangles)
 };
 
+/// The groups that wait; each level of the tree leaves at most one (host/bvh/wide_layout.hpp).
 uint traversalStack[STACK_SIZE];
 
 void startTraversal(out Traversal t, vec3 origin, vec3 direction, float tMin, float tMax,
@@ -23,6 +27,7 @@ void startTraversal(out Traversal t, vec3 origin, vec3 direction, float tMin, fl
     t.tMax = tMax;
     t.skipPrimitive = skipPrimitive;
     t.anyHit = anyHit;
+    t.octant = octantOf(t.ray.inverse);
     t.hitPrimitive = NO_PRIMITIVE;
     t.b1 = 0.0;
     t.b2 = 0.0;
@@ -31,61 +36,61 @@ void startTraversal(out Traversal t, vec3 origin, vec3 direction, float tMin, fl
     const vec3 size = abs(direction) + abs(origin);
     const bool finite = size.x + size.y + size.z < INFINITE_DISTANCE &&
                         dot(abs(direction), vec3(1.0)) > 0.0;
-    t.current = finite ? 0u : CHILD_NONE;
+    // The root is slot 0 of a group that begins at record 0.
+    t.group = finite ? 1u << t.octant : 0u;
 }
 
-void popTraversal(inout Traversal t) {
-    const bool empty = t.stackTop == 0u;
-    t.stackTop = empty ? 0u : t.stackTop - 1u;
-    const uint top = traversalStack[t.stackTop];
-    t.current = empty ? CHILD_NONE : top;
+bool traversing(Traversal t) { return t.group != 0u; }
+
+void acceptTriangle(inout Traversal t, TriangleHit hit, uint place, bool isLeaf) {
+    const bool accepted =
+        isLeaf && hit.t > t.tMin && hit.t < t.tMax && place != t.skipPrimitive;
+    t.tMax = accepted ? hit.t : t.tMax;
+    t.b1 = accepted ? hit.b1 : t.b1;
+    t.b2 = accepted ? hit.b2 : t.b2;
+    t.hitPrimitive = accepted ? place : t.hitPrimitive;
 }
 
-void visitNode(inout Traversal t) {
-    const Node node = fetchNode(t.current);
-    const float tLeft = enterBox(node.leftLow, node.leftHigh, t.ray, t.tMax);
-    const float tRight = enterBox(node.rightLow, node.rightHigh, t.ray, t.tMax);
-    const bool hitsLeft = tLeft < INFINITE_DISTANCE, hitsRight = tRight < INFINITE_DISTANCE;
-    const bool leftFirst = hitsLeft && (!hitsRight || tLeft <= tRight);
-    if (hitsLeft && hitsRight) {
-        traversalStack[t.stackTop] = leftFirst ? node.right : node.left;
-        ++t.stackTop;
+/// Tests the one or two triangles of a leaf, or its sphere.
+void testLeaf(inout Traversal t, Record r, uint record, bool isLeaf) {
+    if (HAS_TRIANGLES) {
+        const TrianglePairHit hit = hitTrianglePair(leafPoints(r), t.ray);
+        acceptTriangle(t, hit.first, 2u * record, isLeaf);
+        acceptTriangle(t, hit.second, 2u * record + 1u, isLeaf);
     }
-    t.current = leftFirst ? node.left : node.right;
-    if (!hitsLeft && !hitsRight) popTraversal(t);
-}
-
-void acceptHit(inout Traversal t, float distance, uint primitive, float b1, float b2) {
-    t.tMax = distance;
-    t.hitPrimitive = primitive;
-    t.b1 = b1;
-    t.b2 = b2;
-}
-
-/// Tests the first primitive of the leaf run and moves on to the next one of the run.
-void visitLeaf(inout Traversal t) {
-    const uint first = t.current & CHILD_FIRST_MASK;
-    const uint left = (t.current >> CHILD_COUNT_SHIFT) & (MAX_LEAF_PRIMITIVES - 1u);
-    const Primitive p = fetchPrimitive(first);
-    const bool isSphere = HAS_SPHERES && (!HAS_TRIANGLES || p.kind == PRIMITIVE_SPHERE);
-    if (HAS_TRIANGLES && !isSphere) {
-        const TriangleHit hit = hitTriangle(p.v0, p.v1, p.v2, t.ray);
-        if (hit.t > t.tMin && hit.t < t.tMax && first != t.skipPrimitive)
-            acceptHit(t, hit.t, first, hit.b1, hit.b2);
+    if (HAS_SPHERES) {
+        const vec3 center = uintBitsToFloat(r.r0.xyz);
+        const float distance = hitSphere(center, uintBitsToFloat(r.r3.y), t.ray, t.tMin, t.tMax);
+        const bool isSphere = isLeaf && (r.r0.w & RECORD_IS_SPHERE) != 0u;
+        if (isSphere && distance < INFINITE_DISTANCE) {
+            t.tMax = distance;
+            t.hitPrimitive = 2u * record;
+        }
     }
-    if (HAS_SPHERES && isSphere) {
-        const float distance = hitSphere(p.v0, p.v1.x, t.ray, t.tMin, t.tMax);
-        if (distance < INFINITE_DISTANCE) acceptHit(t, distance, first, 0.0, 0.0);
-    }
-    t.current = CHILD_LEAF_BIT | ((left - 1u) << CHILD_COUNT_SHIFT) | (first + 1u);
-    if (left == 0u) popTraversal(t);
-    if (t.anyHit && t.hitPrimitive != NO_PRIMITIVE) t.current = CHILD_NONE;
 }
 
-bool traversing(Traversal t) { return t.current != CHILD_NONE; }
-
+/// Visits the next record. A ray that is done visits the root to no effect: that is cheaper on
+/// llvmpipe than an `if` around all this, whose every result has to be selected by lane.
 void traversalStep(inout Traversal t) {
-    if (t.current < CHILD_LEAF_BIT) visitNode(t);
-    if (t.current < CHILD_LEAF_BIT) visitNode(t);
-    if (t.current >= CHILD_LEAF_BIT && t.current != CHILD_NONE) visitLeaf(t);
+    const bool working = traversing(t);
+    const uint next = highestBit(t.group & 0xFFu) & 7u;
+    const uint record = working ? (t.group >> 8u) + (next ^ t.octant) : 0u;
+    uint rest = t.group & ~(1u << next);
+    rest = (rest & 0xFFu) != 0u ? rest : 0u;
+
+    const Record r = fetchRecord(record);
+    const bool isNode = (r.r0.w & RECORD_IS_NODE) != 0u;
+    const uint entered = enterChildren(r, t.ray, t.octant, t.tMax);
+    testLeaf(t, r, record, working && !isNode);
+
+    const bool descend = working && isNode && entered != 0u;
+    const bool push = descend && rest != 0u;
+    const bool pop = working && !descend && rest == 0u;
+    traversalStack[t.stackTop] = rest; // counts only where `push` keeps it
+    t.stackTop += push ? 1u : 0u;
+    const bool empty = t.stackTop == 0u;
+    t.stackTop -= pop && !empty ? 1u : 0u;
+    const uint top = traversalStack[t.stackTop];
+    t.group = descend ? (r.r0.w << 8u) | entered : (pop ? (empty ? 0u : top) : rest);
+    if (t.anyHit && t.hitPrimitive != NO_PRIMITIVE) t.group = 0u;
 }

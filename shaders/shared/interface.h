@@ -8,19 +8,18 @@ SHARED_BEGIN
 
 // --- Bindings of the path kernel (set 0) -----------------------------------------------------
 // As macros, since GLSL layout qualifiers of older compilers take literals only.
-#define BINDING_NODES 0
+#define BINDING_RECORDS 0
 #define BINDING_PRIMITIVES 1
-#define BINDING_NORMALS 2
-#define BINDING_MATERIALS 3
-#define BINDING_LIGHTS 4
-#define BINDING_EMITTER_ENTRIES 5
-#define BINDING_FRAME 6
-#define BINDING_WORK_ITEMS 7
-#define BINDING_PIXELS 8
-#define BINDING_SUSPENDED 9
-#define BINDING_STATUS 10
-#define BINDING_COUNT 11
-#define SCENE_BINDING_COUNT 6 // bindings 0 to 5 hold the scene and are read row by row
+#define BINDING_MATERIALS 2
+#define BINDING_LIGHTS 3
+#define BINDING_EMITTER_ENTRIES 4
+#define BINDING_FRAME 5
+#define BINDING_WORK_ITEMS 6
+#define BINDING_PIXELS 7
+#define BINDING_SUSPENDED 8
+#define BINDING_STATUS 9
+#define BINDING_COUNT 10
+#define SCENE_BINDING_COUNT 5 // bindings 0 to 4 hold the scene and are read row by row
 
 // --- Specialisation constants: only what a scene needs ---------------------------------------
 #define SPEC_WORKGROUP_SIZE 0
@@ -38,7 +37,10 @@ SHARED_BEGIN
 #define SPEC_ORTHOGRAPHIC 12
 #define SPEC_CLIP_ALONG_RAY 13
 #define SPEC_CS184 14
-#define SPEC_COUNT 15
+#define SPEC_ONE_LIGHT 15     // the scene has a single light
+#define SPEC_LIGHT_SAMPLES 16 // direct light samples per area light
+#define SPEC_COUNT_STEPS 17   // count how many lanes are at work in each step
+#define SPEC_COUNT 18
 
 SHARED_CONST uint INTEGRATOR_PATH = 0u;
 SHARED_CONST uint INTEGRATOR_NORMALS = 1u;

@@ -13,12 +13,12 @@ struct Frame {
     vec3 cameraRight; ///< times halfWidth
     uint height;
     vec3 cameraUp; ///< times halfHeight
-    uint cropX;
+    uint firstSample; ///< number of the first sample of each pixel: 0, or that of a sample on its own
     vec3 cameraBack;
-    uint cropY;
+    uint keepsValue; ///< 1: leave the last sample's value in PixelState::sum, rejected or not
     float nearDistance;
     float farDistance;
-    uint cropWidth;
+    uint unused0;
     uint seed;
     uint minBounce;
     uint maxBounces;
@@ -27,7 +27,7 @@ struct Frame {
     uint areaLights; ///< number of quad, mesh, sphere and ambient lights, first in the buffer
     uint deltaLights;
     uint areaSamples; ///< direct light samples per shading point that are not for delta lights
-    uint unused;
+    uint unused1;
 };
 SHARED_ROWS(Frame, 7);
 SHARED_OFFSET(Frame, nearDistance, 64);
@@ -39,14 +39,21 @@ struct Dispatch {
     uint segmentBase;    ///< first pixel of the crop that the bound film segment holds
     uint softIterations; ///< start no further ray of a path at or after this loop iteration
     uint hardIterations; ///< leave the loop here: an error, reported as overflow
+    uint laneCount;      ///< invocations that take part
+    uint unused0;
+    uint unused1;
+    uint unused2;
 };
-SHARED_ROWS(Dispatch, 1);
+SHARED_ROWS(Dispatch, 2);
 
 /// One pixel's work in a pass.
 struct WorkItem {
     uint pixel;  ///< index in the film segment
     uint target; ///< number of samples it shall have
+    uint column; ///< in the whole picture
+    uint row;    ///< from the top
 };
+SHARED_ROWS(WorkItem, 1);
 
 /// Statistics of a pixel's samples, updated one sample at a time, so that they do not depend on
 /// how samples are cut into dispatches. Sums are two floats (value + error) to stay right at
@@ -64,7 +71,7 @@ struct PixelState {
 SHARED_ROWS(PixelState, 4);
 SHARED_OFFSET(PixelState, rejected, 28);
 
-/// A path between two dispatches: the ray that is to be traced next.
+/// What a lane has in hand between two dispatches: a pixel, and the ray that is to be traced next.
 struct SuspendedPath {
     vec3 origin;
     uint bounce; ///< scatterings so far; SUSPENDED_NONE: no path under way
@@ -73,19 +80,24 @@ struct SuspendedPath {
     vec3 throughput;
     uint countsEmission;
     vec3 radiance;
-    uint unused;
+    uint item; ///< of the work list; NO_ITEM: the lane has none
 };
 SHARED_ROWS(SuspendedPath, 4);
 SHARED_CONST uint SUSPENDED_NONE = 0xFFFFFFFFu;
+SHARED_CONST uint NO_ITEM = 0xFFFFFFFFu;
 
-/// Counters of one dispatch; zeroed by the host before it.
+/// Counters of one dispatch; zeroed by the host before it, but for nextItem.
 struct DispatchStatus {
-    uint unfinishedItems; ///< items that have not reached their target yet
+    uint unfinishedItems; ///< items that lanes have in hand
     uint overflowedItems; ///< items whose loop hit its limit: their samples are wrong
     uint rays;
     uint samples;
+    uint nextItem;  ///< the first item that no lane has taken
+    uint busySteps; ///< traversal steps of lanes that had a ray under way (COUNT_STEPS) ...
+    uint allSteps;  ///< ... out of these
+    uint unused;
 };
-SHARED_ROWS(DispatchStatus, 1);
+SHARED_ROWS(DispatchStatus, 2);
 
 SHARED_END
 

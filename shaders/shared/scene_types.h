@@ -9,60 +9,76 @@
 SHARED_BEGIN
 
 // --- Bounding volume hierarchy -------------------------------------------------------------
+//
+// An 8-wide tree with quantised boxes (after Ylitie, Karras and Laine 2017). Nodes and leaves are
+// records of one size in one buffer, so that lanes at a node and lanes at a leaf run the same
+// code. Record 0 is the root and always a node. The host packs them: host/bvh/wide_layout.hpp.
 
-/// Node of the binary BVH: the boxes of both children and a reference to each. Node 0 is the
-/// root. An absent child has an inverted box, which no ray hits.
-struct Node {
-    vec3 leftLow;
-    uint left;
-    vec3 leftHigh;
-    uint right;
-    vec3 rightLow;
-    uint unused0;
-    vec3 rightHigh;
-    uint unused1;
+/// An inner node: the boxes of up to eight children on a grid of 256^3 cells.
+/// Child s is the record firstChild + s, for those slots s that are in use; other records may lie
+/// in the gaps between. Bit k of a slot number (k = 0, 1, 2 for x, y, z) is set for children on the
+/// high side of axis k, so that `slot ^ octant` orders them along a ray.
+/// The grid: on axis k, w = originAndExponent[k]; its upper 24 bits, the lower 8 cleared, are the
+/// float `origin`, the lower 8 the exponent of `cell` = 2^(exponent - 127).
+/// Box of child s on an axis: [origin + low[s] * cell, origin + high[s] * cell], low and high being
+/// bytes, s = 0 in the lowest byte of the first word. The true box lies inside by BOX_MARGIN
+/// cells or more (docs/numerics.md derives the margin). An absent child has low = 255 and high = 0
+/// on every axis.
+struct NodeRecord {
+    uint originAndExponentX;
+    uint originAndExponentY;
+    uint originAndExponentZ;
+    uint firstChild; ///< < 2^24; | RECORD_IS_NODE
+    uint lowX0, lowX1, highX0, highX1;
+    uint lowY0, lowY1, highY0, highY1;
+    uint lowZ0, lowZ1, highZ0, highZ1;
 };
-SHARED_ROWS(Node, 4);
-SHARED_OFFSET(Node, right, 28);
-SHARED_OFFSET(Node, rightHigh, 48);
+SHARED_ROWS(NodeRecord, 4);
+SHARED_OFFSET(NodeRecord, firstChild, 12);
+SHARED_OFFSET(NodeRecord, lowX0, 16);
 
-/// A child reference is a node index, or, with the leaf bit, a run of primitives:
-/// bits 0-26 the first one, bits 27-30 their number minus one.
-SHARED_CONST uint CHILD_LEAF_BIT = 0x80000000u;
-SHARED_CONST uint CHILD_COUNT_SHIFT = 27u;
-SHARED_CONST uint CHILD_FIRST_MASK = 0x07FFFFFFu;
-SHARED_CONST uint MAX_LEAF_PRIMITIVES = 16u;
-SHARED_CONST uint CHILD_NONE = 0xFFFFFFFFu;
-/// Bounds of an absent child, inverted: finite, so that no arithmetic on them gives NaN.
-/// 2^60; coordinates of scenes stay below it (the loader drops what does not).
+/// A leaf: one triangle, or two that share the edge p0 p2 and have the same orientation: slot 0 is
+/// p0 p1 p2, slot 1 is p0 p2 p3 (corners may have been rotated: p0 need not be the first in the
+/// file). One triangle on its own has p3 = p2: slot 1 has no area then and is never hit. A
+/// sphere has its centre in all four, and its radius.
+struct LeafRecord {
+    vec3 p0;
+    uint primitive; ///< of slot 0 in the Primitive buffer; slot 1's is the next. | RECORD_IS_SPHERE
+    vec3 p1;
+    float p2x;
+    float p2y, p2z, p3x, p3y;
+    float p3z;
+    float radius; ///< spheres; 0 else
+    uint unused0, unused1;
+};
+SHARED_ROWS(LeafRecord, 4);
+SHARED_OFFSET(LeafRecord, primitive, 12);
+SHARED_OFFSET(LeafRecord, radius, 52);
+
+SHARED_CONST uint RECORD_ROWS = 4u;
+SHARED_CONST uint RECORD_IS_NODE = 0x80000000u;   ///< in word 3
+SHARED_CONST uint RECORD_IS_SPHERE = 0x40000000u; ///< in word 3
+SHARED_CONST uint RECORD_INDEX_MASK = 0x3FFFFFFFu;
+SHARED_CONST uint MAX_RECORDS = 0x01000000u; ///< 2^24: stack entries have 24 bits for a record
+SHARED_CONST uint WIDE_CHILDREN = 8u;
+/// In cells: what a plane's distance along a ray can lose to the rounding of 255 cells,
+/// 8 * 255 * 2^-24 < 2^-13 (docs/numerics.md).
+SHARED_CONST float BOX_MARGIN = 0.0001220703125f;
+/// Coordinates of scenes stay below 2^60 (the loader drops what does not), so that no
+/// arithmetic on them overflows.
 SHARED_CONST float LARGEST_COORDINATE = 1.152921504606846976e18f;
 
-/// One primitive in BVH order. Triangle: the corners. Sphere: v0 is the centre, v1.x the radius.
-struct Primitive {
-    vec3 v0;
-    uint material;
-    vec3 v1;
-    uint normals; ///< into the NormalTriple buffer, or NO_NORMALS
-    vec3 v2;
-    uint kind; ///< PRIMITIVE_TRIANGLE or PRIMITIVE_SPHERE
-};
-SHARED_ROWS(Primitive, 3);
-SHARED_OFFSET(Primitive, kind, 44);
-
-SHARED_CONST uint PRIMITIVE_TRIANGLE = 0u;
-SHARED_CONST uint PRIMITIVE_SPHERE = 1u;
-SHARED_CONST uint NO_NORMALS = 0xFFFFFFFFu;
+/// Names a primitive where it lies in the tree: 2 * record + slot.
 SHARED_CONST uint NO_PRIMITIVE = 0xFFFFFFFFu;
 
-/// Shading normals of one triangle's corners, octahedral, two 16-bit signed fractions each
-/// (Meyer et al. 2010; largest error 4e-5 rad).
-struct NormalTriple {
-    uint n0;
-    uint n1;
-    uint n2;
-    uint unused;
+/// What a hit needs beside the geometry. Normals: of the corners, octahedral, two 16-bit signed
+/// fractions each (Meyer et al. 2010; largest error 4e-5 rad), or NO_NORMAL.
+struct Primitive {
+    uint material;
+    uint n0, n1, n2;
 };
-SHARED_ROWS(NormalTriple, 1);
+SHARED_ROWS(Primitive, 1);
+SHARED_CONST uint NO_NORMAL = 0x80008000u; ///< no unit vector has this code
 
 // --- Materials -----------------------------------------------------------------------------
 
@@ -119,9 +135,9 @@ SHARED_OFFSET(Light, cosCutoff, 72);
 /// One column of an alias table over the triangles of an emissive mesh, by area (Walker 1977,
 /// Vose 1991).
 struct EmitterEntry {
-    uint primitive;  ///< this column's triangle, in BVH order
-    uint alias;      ///< the other triangle of this column, in BVH order
-    float threshold; ///< take `primitive` where the fraction within the column is below this
+    uint place;      ///< this column's triangle, 2 * record + slot
+    uint alias;      ///< the other triangle of this column, the same
+    float threshold; ///< take `place` where the fraction within the column is below this
     uint unused;
 };
 SHARED_ROWS(EmitterEntry, 1);

@@ -1,4 +1,4 @@
-#include "host/bvh/primitive_bounds.hpp"
+#include "host/bvh/wide_layout.hpp"
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/render/render.hpp"
 #include "tests/analytic/scenes.hpp"
@@ -30,9 +30,33 @@ const bool kListening = [] {
 
 Film renderFilm(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                 unsigned) {
-    const GpuScene gpu = packScene(scene, buildBinaryTree(primitiveBounds(scene)), settings.cs184);
+    const GpuScene gpu = packScene(scene, buildWideBvh(scene), settings.cs184);
     VulkanBackend backend(testDevice(), gpu, camera, settings);
     return render(backend, settings);
+}
+
+/// From the last to the first: the order is nothing to a sample.
+std::vector<SampleValue> samplesAlone(const Scene& scene, const Camera& camera,
+                                      const RenderSettings& settings, uint32_t pixel,
+                                      uint32_t count) {
+    const GpuScene gpu = packScene(scene, buildWideBvh(scene), settings.cs184);
+    VulkanBackend backend(testDevice(), gpu, camera, settings);
+    std::vector<SampleValue> samples(count);
+    for (uint32_t i = count; i-- > 0;)
+        samples[i] = backend.sampleAlone(pixel, i);
+    return samples;
+}
+
+/// The kernel's two-float sum (shaders/include/numerics.glsl): TwoSum, then FastTwoSum.
+glm::dvec3 meanInOrder(std::span<const SampleValue> samples) {
+    glm::vec3 high(0.0f), low(0.0f);
+    for (const SampleValue& s : samples) {
+        const glm::vec3 x(s.radiance), sum = high + x, rounded = sum - high;
+        const glm::vec3 error = (high - (sum - rounded)) + (x - rounded), rest = low + error;
+        high = sum + rest;
+        low = rest - (high - sum);
+    }
+    return (glm::dvec3(high) + glm::dvec3(low)) / double(samples.size());
 }
 
 } // namespace stromboli::test

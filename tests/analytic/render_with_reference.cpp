@@ -17,4 +17,21 @@ Film renderFilm(const Scene& scene, const Camera& camera, const RenderSettings& 
     return film;
 }
 
+std::vector<SampleValue> samplesAlone(const Scene& scene, const Camera& camera,
+                                      const RenderSettings& settings, uint32_t pixel,
+                                      uint32_t count) {
+    ReferenceBackend backend(scene, camera, settings);
+    std::vector<SampleValue> samples;
+    for (uint32_t i = 0; i < count; ++i)
+        samples.push_back(backend.sampleAlone(pixel, i));
+    return samples;
+}
+
+glm::dvec3 meanInOrder(std::span<const SampleValue> samples) {
+    PixelStatistics statistics;
+    for (const SampleValue& s : samples)
+        statistics.add(s.radiance);
+    return statistics.mean;
+}
+
 } // namespace stromboli::test

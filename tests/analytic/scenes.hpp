@@ -1,11 +1,14 @@
 #pragma once
 
 #include "host/film/film.hpp"
+#include "host/render/backend.hpp"
 #include "host/render/settings.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/model/scene.hpp"
 
 #include <initializer_list>
+#include <span>
+#include <vector>
 
 namespace stromboli::test {
 
@@ -57,6 +60,12 @@ struct Estimate {
 /// render_with_kernel.cpp. threads: the reference's; 0 for all.
 Film renderFilm(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                 unsigned threads = 0);
+/// The first `count` samples of a pixel, each taken on its own.
+std::vector<SampleValue> samplesAlone(const Scene& scene, const Camera& camera,
+                                      const RenderSettings& settings, uint32_t pixel,
+                                      uint32_t count);
+/// What the renderer's statistics make of samples, accepted ones, in this order.
+glm::dvec3 meanInOrder(std::span<const SampleValue> samples);
 /// Relative error that the renderer's arithmetic may put on a mean.
 extern const double kRounding;
 Estimate estimate(const Scene& scene, const Camera& camera, const RenderSettings& settings);

@@ -1,7 +1,6 @@
-// The same boxes give the same bytes, whatever the number of threads.
+// The same scene gives the same bytes, whatever the number of threads.
 
-#include "host/bvh/binary_tree.hpp"
-#include "host/bvh/primitive_bounds.hpp"
+#include "host/bvh/wide_layout.hpp"
 #include "tests/bvh/fixtures.hpp"
 
 #include <gtest/gtest.h>
@@ -13,38 +12,45 @@
 namespace stromboli::test {
 namespace {
 
-BinaryTree buildWith(int threads, const std::vector<Bounds>& boxes) {
+template <class Function>
+auto withThreads(int threads, Function function) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, size_t(threads));
     tbb::task_arena arena(threads); // as many threads even where there are fewer cores
-    return arena.execute([&] { return buildBinaryTree(boxes); });
+    return arena.execute(function);
 }
 
-void expectSameBytes(const BinaryTree& a, const BinaryTree& b) {
-    static_assert(std::has_unique_object_representations_v<BinaryNode> ||
-                      sizeof(BinaryNode) == 6 * sizeof(float) + 4 * sizeof(uint32_t),
-                  "padding would compare unequal");
-    ASSERT_EQ(a.nodes.size(), b.nodes.size());
-    EXPECT_EQ(std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(BinaryNode)), 0);
-    EXPECT_EQ(a.order, b.order);
-    EXPECT_EQ(a.depth, b.depth);
-}
+constexpr int kThreads[] = {2, 3, 8};
 
-void expectDeterministic(const std::vector<Bounds>& boxes) {
-    const BinaryTree alone = buildWith(1, boxes);
-    for (const int threads : {1, 2, 3, 8, 8})
-        expectSameBytes(buildWith(threads, boxes), alone);
+void expectDeterministic(const Scene& scene) {
+    const auto build = [&] { return buildWideBvh(scene); };
+    const WideLayout alone = withThreads(1, build);
+    for (const int threads : kThreads) {
+        const WideLayout other = withThreads(threads, build);
+        EXPECT_EQ(other.records, alone.records);
+        EXPECT_EQ(other.primitiveOrder, alone.primitiveOrder);
+        EXPECT_EQ(other.placeOf, alone.placeOf);
+        EXPECT_EQ(other.firstCorner, alone.firstCorner);
+        EXPECT_EQ(other.stackSize, alone.stackSize);
+    }
 }
 
 TEST(Determinism, Soup) {
+    // Enough items for every loop to be divided.
     Random random(5);
-    expectDeterministic(primitiveBounds(soup(200000, 100000, 0.01f, random)));
+    expectDeterministic(soup(60000, 40000, 0.02f, random));
+}
+
+TEST(Determinism, MeshInARoom) {
+    Scene scene = landscape(200);
+    addRoom(scene);
+    expectDeterministic(scene);
 }
 
 TEST(Determinism, ManyEqualCentroidsAndZerosOfBothSigns) {
     // Which zero a minimum of +0 and -0 gives depends on the order of its arguments.
     Random random(6);
     std::vector<Bounds> boxes;
-    for (int i = 0; i < 200000; ++i) {
+    for (int i = 0; i < 100000; ++i) {
         Bounds b;
         for (int axis = 0; axis < 3; ++axis) {
             const float zero = random.below(2) ? 0.0f : -0.0f;
@@ -54,7 +60,17 @@ TEST(Determinism, ManyEqualCentroidsAndZerosOfBothSigns) {
         }
         boxes.push_back(b);
     }
-    expectDeterministic(boxes);
+    const auto build = [&] { return buildBinaryTree(boxes); };
+    const BinaryTree alone = withThreads(1, build);
+    static_assert(sizeof(BinaryNode) == 6 * sizeof(float) + 2 * sizeof(uint32_t),
+                  "padding would compare unequal");
+    for (const int threads : kThreads) {
+        const BinaryTree other = withThreads(threads, build);
+        ASSERT_EQ(other.nodes.size(), alone.nodes.size());
+        EXPECT_EQ(std::memcmp(other.nodes.data(), alone.nodes.data(),
+                              alone.nodes.size() * sizeof(BinaryNode)),
+                  0);
+    }
 }
 
 } // namespace

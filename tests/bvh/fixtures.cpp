@@ -11,24 +11,6 @@ namespace stromboli::test {
 
 namespace {
 
-gpu::Primitive kernelPrimitive(const Scene& scene, uint32_t index) {
-    gpu::Primitive p{};
-    p.normals = gpu::NO_NORMALS;
-    if (index < scene.triangles.size()) {
-        const Triangle& t = scene.triangles[index];
-        p.kind = gpu::PRIMITIVE_TRIANGLE;
-        p.v0 = scene.positions[t.corner[0]];
-        p.v1 = scene.positions[t.corner[1]];
-        p.v2 = scene.positions[t.corner[2]];
-    } else {
-        const Sphere& s = scene.spheres[index - scene.triangles.size()];
-        p.kind = gpu::PRIMITIVE_SPHERE;
-        p.v0 = s.center;
-        p.v1.x = s.radius;
-    }
-    return p;
-}
-
 void addIndexedTriangle(Scene& scene, uint32_t a, uint32_t b, uint32_t c) {
     Triangle t;
     t.corner[0] = a, t.corner[1] = b, t.corner[2] = c;
@@ -60,10 +42,24 @@ Scene divided(const Scene& mesh) {
 } // namespace
 
 Traceable::Traceable(Scene scene_, const BuildOptions& options)
-    : scene(std::move(scene_)), bounds(primitiveBounds(scene)),
-      tree(buildBinaryTree(bounds, options)), layout(layOut(tree)) {
-    for (const uint32_t index : layout.primitiveOrder)
-        primitives.push_back(kernelPrimitive(scene, index));
+    : scene(std::move(scene_)), layout(buildWideBvh(scene, options)),
+      primitiveAt(2 * layout.records.size(), gpu::NO_PRIMITIVE) {
+    for (uint32_t i = 0; i < layout.placeOf.size(); ++i)
+        primitiveAt.at(layout.placeOf[i]) = i;
+}
+
+std::optional<PrimitiveHit> Traceable::hitPrimitive(uint32_t primitive, const PreparedRay& ray,
+                                                    float tMin, float tMax) const {
+    if (primitive >= scene.triangles.size()) {
+        const Sphere& s = scene.spheres[primitive - scene.triangles.size()];
+        return hitSphere(s.center, s.radius, ray, tMin, tMax);
+    }
+    const auto corner = [&](uint32_t c) {
+        const uint32_t rotated = (c + layout.firstCorner[primitive]) % 3;
+        return scene.positions[scene.triangles[primitive].corner[rotated]];
+    };
+    const auto hit = hitTriangle(corner(0), corner(1), corner(2), ray);
+    return hit && hit->t > tMin && hit->t < tMax ? hit : std::nullopt;
 }
 
 void addTriangle(Scene& scene, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
@@ -159,11 +155,32 @@ Scene sliverStrip(uint32_t n) {
     return scene;
 }
 
+std::vector<Bounds> boxesOf(const Scene& scene) {
+    std::vector<Bounds> boxes;
+    for (uint32_t i = 0; i < scene.triangles.size() + scene.spheres.size(); ++i)
+        boxes.push_back(primitiveBounds(scene, i));
+    return boxes;
+}
+
+void addRoom(Scene& scene) {
+    const Scene room = cubeMesh(1);
+    for (const Triangle& t : room.triangles)
+        addTriangle(scene, room.positions[t.corner[0]], room.positions[t.corner[1]],
+                    room.positions[t.corner[2]]);
+}
+
 void translate(Scene& scene, const glm::vec3& by) {
     for (glm::vec3& p : scene.positions)
         p += by;
     for (Sphere& s : scene.spheres)
         s.center += by;
+}
+
+void scale(Scene& scene, float factor) {
+    for (glm::vec3& p : scene.positions)
+        p *= factor;
+    for (Sphere& s : scene.spheres)
+        s.center *= factor, s.radius *= factor;
 }
 
 } // namespace stromboli::test

@@ -1,11 +1,12 @@
 #pragma once
 
-#include "host/bvh/binary_layout.hpp"
-#include "host/bvh/binary_tree.hpp"
+#include "host/bvh/cpu_traversal.hpp"
+#include "host/bvh/wide_layout.hpp"
 #include "scene/model/scene.hpp"
 #include "tests/bvh/random.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace stromboli::test {
@@ -14,11 +15,13 @@ namespace stromboli::test {
 struct Traceable {
     explicit Traceable(Scene scene, const BuildOptions& options = {});
 
+    /// One scene primitive alone, corners in the order its leaf has them.
+    std::optional<PrimitiveHit> hitPrimitive(uint32_t primitive, const PreparedRay& ray, float tMin,
+                                             float tMax) const;
+
     Scene scene;
-    std::vector<Bounds> bounds;
-    BinaryTree tree;
-    BinaryLayout layout;
-    std::vector<gpu::Primitive> primitives; ///< in kernel order
+    WideLayout layout;
+    std::vector<uint32_t> primitiveAt; ///< by place
 };
 
 void addTriangle(Scene& scene, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
@@ -44,7 +47,16 @@ Scene clusterInSoup(Random& random);
 /// Long thin triangles side by side, in order.
 Scene sliverStrip(uint32_t n);
 
+/// The boxes of its triangles and spheres.
+std::vector<Bounds> boxesOf(const Scene& scene);
+
+/// The inside of a room [-1, 1]^3 of two triangles a side.
+void addRoom(Scene& scene);
+
 /// Each position moved by `by`, then rounded to float.
 void translate(Scene& scene, const glm::vec3& by);
+
+/// Positions and radii multiplied by the factor, then rounded to float.
+void scale(Scene& scene, float factor);
 
 } // namespace stromboli::test

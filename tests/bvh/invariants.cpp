@@ -1,5 +1,8 @@
 #include "tests/bvh/invariants.hpp"
 
+#include "host/bvh/node_record.hpp"
+#include "host/bvh/primitive_bounds.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,125 +12,173 @@ namespace stromboli::test {
 
 namespace {
 
-bool inside(const Bounds& inner, const Bounds& outer) {
-    return glm::all(glm::lessThanEqual(outer.lo, inner.lo)) &&
-           glm::all(glm::lessThanEqual(inner.hi, outer.hi));
-}
-
-/// 0 where every number below order.size() occurs once.
-size_t missingFromPermutation(const std::vector<uint32_t>& order) {
-    std::vector<bool> seen(order.size(), false);
-    for (const uint32_t i : order)
-        if (i < seen.size()) seen[i] = true;
-    return size_t(std::count(seen.begin(), seen.end(), false));
+Bounds joined(const Bounds& a, const Bounds& b) {
+    Bounds both = a;
+    both.extend(b);
+    return both;
 }
 
 class TreeCheck {
   public:
-    TreeCheck(const BinaryTree& tree, std::span<const Bounds> primitives,
-              const BuildOptions& options)
-        : tree_(tree), primitives_(primitives), options_(options) {}
+    TreeCheck(const BinaryTree& tree, std::span<const Bounds> items)
+        : tree_(tree), items_(items), leavesOf_(items.size(), 0) {}
 
-    void run() {
+    void run(uint32_t depthCap) {
+        ASSERT_EQ(tree_.nodes.size(), 2 * items_.size() - 1);
         visit(0, 0);
         EXPECT_EQ(visited_, tree_.nodes.size()) << "nodes that no parent has";
-        EXPECT_EQ(nextInOrder_, primitives_.size()) << "leaves must cover the order";
-        EXPECT_EQ(tree_.order.size(), primitives_.size());
-        EXPECT_EQ(missingFromPermutation(tree_.order), 0u);
+        EXPECT_EQ(std::count(leavesOf_.begin(), leavesOf_.end(), 1), std::ptrdiff_t(items_.size()));
         EXPECT_EQ(tree_.depth, deepest_);
-        EXPECT_LE(tree_.depth, options_.depthCap);
+        EXPECT_LE(tree_.depth, depthCap);
     }
 
   private:
     /// Depth first, left before right; recursion is as deep as the tree.
     void visit(uint32_t index, uint32_t depth) {
+        ASSERT_EQ(index, visited_++) << "nodes must be depth first";
         ASSERT_LT(index, tree_.nodes.size());
-        const BinaryNode& node = tree_.nodes[index];
-        ++visited_;
         deepest_ = std::max(deepest_, depth);
-        if (node.count > 0) {
-            visitLeaf(node);
-            return;
+        const BinaryNode& node = tree_.nodes[index];
+        Bounds expected;
+        if (node.isLeaf()) {
+            ASSERT_LT(node.left, items_.size());
+            ++leavesOf_[node.left];
+            expected = items_[node.left];
+        } else {
+            visit(node.left, depth + 1);
+            visit(node.right, depth + 1);
+            if (testing::Test::HasFatalFailure()) return;
+            expected = joined(tree_.nodes[node.left].bounds, tree_.nodes[node.right].bounds);
         }
-        for (const uint32_t child : {node.left, node.right}) {
-            ASSERT_GT(child, index) << "children must follow their parent";
-            visit(child, depth + 1);
-            ASSERT_TRUE(inside(tree_.nodes[child].bounds, node.bounds)) << "node " << index;
-        }
-    }
-
-    void visitLeaf(const BinaryNode& leaf) {
-        ASSERT_LE(leaf.count, options_.maxLeafSize);
-        ASSERT_EQ(leaf.first, nextInOrder_) << "leaves must follow each other in the order";
-        nextInOrder_ += leaf.count;
-        ASSERT_LE(nextInOrder_, tree_.order.size());
-        Bounds all;
-        for (uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i)
-            all.extend(primitives_[tree_.order[i]]);
-        ASSERT_EQ(all.lo, leaf.bounds.lo) << "a leaf's box must be tight";
-        ASSERT_EQ(all.hi, leaf.bounds.hi) << "a leaf's box must be tight";
+        ASSERT_EQ(expected.lo, node.bounds.lo) << "a box must be tight";
+        ASSERT_EQ(expected.hi, node.bounds.hi) << "a box must be tight";
     }
 
     const BinaryTree& tree_;
-    std::span<const Bounds> primitives_;
-    const BuildOptions& options_;
-    size_t visited_ = 0, nextInOrder_ = 0;
+    std::span<const Bounds> items_;
+    std::vector<int> leavesOf_; ///< by item: leaves that hold it
+    size_t visited_ = 0;
     uint32_t deepest_ = 0;
 };
 
 class LayoutCheck {
   public:
-    LayoutCheck(const BinaryLayout& layout, const BinaryTree& tree)
-        : layout_(layout), tree_(tree) {}
+    LayoutCheck(const WideLayout& layout, const Scene& scene)
+        : layout_(layout), scene_(scene), timesReached_(layout.records.size(), 0) {}
 
     void run() {
-        EXPECT_EQ(layout_.primitiveOrder, tree_.order);
-        const uint32_t mostPushed = visit(0, 0);
-        EXPECT_EQ(next_, layout_.nodes.size());
-        EXPECT_GE(layout_.stackSize, std::max(mostPushed, 1u));
+        const size_t primitives = scene_.triangles.size() + scene_.spheres.size();
+        ASSERT_FALSE(layout_.records.empty());
+        ASSERT_TRUE(isNode(layout_.records[0]));
+        ASSERT_EQ(layout_.primitiveOrder.size(), primitives);
+        ASSERT_EQ(layout_.placeOf.size(), primitives);
+        ASSERT_EQ(layout_.firstCorner.size(), primitives);
+        visit(0, 0);
+        EXPECT_EQ(primitivesSeen_, primitives);
+        EXPECT_LE(*std::max_element(timesReached_.begin(), timesReached_.end()), 1);
+        EXPECT_EQ(layout_.stackSize, deepestNode_ + 1);
     }
 
   private:
-    /// Returns the most entries a traversal of this subtree can have on the stack at once, if it
-    /// meets all boxes and takes the worse child first.
-    uint32_t visit(uint32_t index, uint32_t treeNode) {
-        EXPECT_EQ(index, next_++) << "layout must be depth first";
-        const gpu::Node& node = layout_.nodes[index];
-        const BinaryNode& inTree = tree_.nodes[treeNode];
-        const uint32_t left = child(node.left, node.leftLow, node.leftHigh, inTree.left);
-        const uint32_t right = child(node.right, node.rightLow, node.rightHigh, inTree.right);
-        return 1 + std::max(left, right);
+    /// Returns the box of all primitives below.
+    Bounds visit(uint32_t index, uint32_t depth) {
+        EXPECT_LT(index, layout_.records.size());
+        ++timesReached_.at(index);
+        const Record& record = layout_.records.at(index);
+        return isNode(record) ? visitNode(asNode(record), depth) : visitLeaf(asLeaf(record), index);
     }
 
-    uint32_t child(uint32_t reference, const glm::vec3& low, const glm::vec3& high,
-                   uint32_t treeNode) {
-        const BinaryNode& expected = tree_.nodes[treeNode];
-        EXPECT_EQ(low, expected.bounds.lo);
-        EXPECT_EQ(high, expected.bounds.hi);
-        const bool isLeaf = (reference & gpu::CHILD_LEAF_BIT) != 0;
-        EXPECT_EQ(isLeaf, expected.count > 0);
-        if (!isLeaf) return visit(reference, treeNode);
-        EXPECT_EQ(reference & gpu::CHILD_FIRST_MASK, expected.first);
-        EXPECT_EQ(((reference >> gpu::CHILD_COUNT_SHIFT) & 15u) + 1, expected.count);
-        return 0;
+    Bounds visitNode(const gpu::NodeRecord& node, uint32_t depth) {
+        deepestNode_ = std::max(deepestNode_, depth);
+        Bounds all;
+        for (uint32_t slot = 0; slot < gpu::WIDE_CHILDREN; ++slot) {
+            const uint32_t child = bvh::firstChild(node) + slot;
+            const bvh::GridBox box = bvh::childBox(node, slot);
+            if (box.empty()) {
+                expectHarmless(child);
+                EXPECT_TRUE(glm::all(glm::greaterThan(box.lo, box.hi))) << "inverted on each axis";
+                continue;
+            }
+            const Bounds inside = visit(child, depth + 1);
+            expectHolds(node, box, inside);
+            all.extend(inside);
+        }
+        return all;
     }
 
-    const BinaryLayout& layout_;
-    const BinaryTree& tree_;
-    uint32_t next_ = 0;
+    /// A record that a ray may visit by way of an absent child.
+    void expectHarmless(uint32_t record) const {
+        ASSERT_LT(record, layout_.records.size());
+        EXPECT_FALSE(isNode(layout_.records[record]));
+    }
+
+    /// Exact: long double has the bits for a sum of numbers that are 2^63 apart.
+    static void expectHolds(const gpu::NodeRecord& node, const bvh::GridBox& box,
+                            const Bounds& inside) {
+        const uint32_t words[3] = {node.originAndExponentX, node.originAndExponentY,
+                                   node.originAndExponentZ};
+        for (int axis = 0; axis < 3; ++axis) {
+            const long double margin =
+                gpu::BOX_MARGIN * std::ldexp(1.0L, int(words[axis] & 255u) - 127);
+            EXPECT_LE(box.lo[axis] + margin, (long double)inside.lo[axis]);
+            EXPECT_GE(box.hi[axis] - margin, (long double)inside.hi[axis]);
+        }
+    }
+
+    Bounds visitLeaf(const gpu::LeafRecord& leaf, uint32_t record) {
+        const uint32_t entry = leaf.primitive & gpu::RECORD_INDEX_MASK;
+        const bool isSphere = (leaf.primitive & gpu::RECORD_IS_SPHERE) != 0;
+        Bounds inside;
+        for (uint32_t slot = 0; slot < 2; ++slot) {
+            if (entry + slot >= layout_.primitiveOrder.size()) break;
+            const uint32_t primitive = layout_.primitiveOrder[entry + slot];
+            if (layout_.placeOf[primitive] != 2 * record + slot) {
+                EXPECT_EQ(slot, 1u) << "a leaf must hold a primitive";
+                continue;
+            }
+            ++primitivesSeen_;
+            inside.extend(primitiveBounds(scene_, primitive));
+            EXPECT_EQ(isSphere, primitive >= scene_.triangles.size());
+            isSphere ? expectSphere(leaf, primitive) : expectTriangle(leaf, slot, primitive);
+        }
+        return inside;
+    }
+
+    void expectTriangle(const gpu::LeafRecord& leaf, uint32_t slot, uint32_t primitive) const {
+        const glm::vec3 p2(leaf.p2x, leaf.p2y, leaf.p2z), p3(leaf.p3x, leaf.p3y, leaf.p3z);
+        const glm::vec3 corners[2][3] = {{leaf.p0, leaf.p1, p2}, {leaf.p0, p2, p3}};
+        const Triangle& t = scene_.triangles[primitive];
+        for (uint32_t c = 0; c < 3; ++c)
+            EXPECT_EQ(corners[slot][c],
+                      scene_.positions[t.corner[(c + layout_.firstCorner[primitive]) % 3]]);
+        EXPECT_EQ(leaf.radius, 0);
+    }
+
+    void expectSphere(const gpu::LeafRecord& leaf, uint32_t primitive) const {
+        const Sphere& s = scene_.spheres[primitive - scene_.triangles.size()];
+        EXPECT_EQ(leaf.radius, s.radius);
+        EXPECT_EQ(leaf.p0, s.center);
+        EXPECT_EQ(leaf.p1, s.center);
+        EXPECT_EQ(glm::vec3(leaf.p2x, leaf.p2y, leaf.p2z), s.center);
+        EXPECT_EQ(glm::vec3(leaf.p3x, leaf.p3y, leaf.p3z), s.center);
+    }
+
+    const WideLayout& layout_;
+    const Scene& scene_;
+    std::vector<int> timesReached_; ///< by record
+    size_t primitivesSeen_ = 0;
+    uint32_t deepestNode_ = 0;
 };
 
 } // namespace
 
-void expectValidTree(const BinaryTree& tree, std::span<const Bounds> primitives,
-                     const BuildOptions& options) {
-    ASSERT_FALSE(tree.nodes.empty());
-    TreeCheck(tree, primitives, options).run();
+void expectValidTree(const BinaryTree& tree, std::span<const Bounds> items, uint32_t depthCap) {
+    ASSERT_FALSE(items.empty());
+    TreeCheck(tree, items).run(depthCap);
 }
 
-void expectValidLayout(const BinaryLayout& layout, const BinaryTree& tree) {
-    ASSERT_GT(tree.nodes.size(), 1u) << "trees of one node are laid out otherwise";
-    LayoutCheck(layout, tree).run();
+void expectValidLayout(const WideLayout& layout, const Scene& scene) {
+    LayoutCheck(layout, scene).run();
 }
 
 } // namespace stromboli::test

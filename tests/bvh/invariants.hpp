@@ -1,20 +1,20 @@
 #pragma once
 
-#include "host/bvh/binary_layout.hpp"
 #include "host/bvh/binary_tree.hpp"
+#include "host/bvh/wide_layout.hpp"
 
 #include <span>
 
 namespace stromboli::test {
 
-/// Reports a test failure for anything that makes the tree not a BVH of these primitives, of the
-/// shape the options demand: boxes that do not enclose what is below, primitives in no leaf or in
-/// several, children before parents, leaves too large, the wrong depth.
-void expectValidTree(const BinaryTree& tree, std::span<const Bounds> primitives,
-                     const BuildOptions& options);
+/// Reports a test failure for anything that makes the tree not a BVH of these items, of the shape
+/// the builder promises: boxes that are not those of what is below, items in no leaf or in
+/// several, nodes that are not depth first, the wrong depth.
+void expectValidTree(const BinaryTree& tree, std::span<const Bounds> items, uint32_t depthCap);
 
-/// The same for the layout of a valid tree: references decode to the tree's leaves, nodes are
-/// depth first, boxes are the children's, the stack holds the deepest descent.
-void expectValidLayout(const BinaryLayout& layout, const BinaryTree& tree);
+/// The same for a scene's layout: every primitive in one leaf, where placeOf says and with its own
+/// corners; in every node boxes that hold all that is below and the margin; absent children that
+/// do no harm; a stack for the deepest way down.
+void expectValidLayout(const WideLayout& layout, const Scene& scene);
 
 } // namespace stromboli::test

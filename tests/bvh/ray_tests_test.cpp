@@ -1,5 +1,6 @@
 // The single tests of ray against box, triangle and sphere, against double precision.
 
+#include "host/bvh/node_record.hpp"
 #include "host/bvh/ray_tests.hpp"
 #include "tests/bvh/oracle.hpp"
 #include "tests/bvh/random.hpp"
@@ -12,88 +13,128 @@
 namespace stromboli::test {
 namespace {
 
-/// The slab test without slack, else as enterBox.
-bool entersBoxWithoutSlack(const glm::vec3& lo, const glm::vec3& hi, const PreparedRay& ray) {
-    float tNear = 0, tFar = kInfiniteDistance;
-    for (int i = 0; i < 3; ++i) {
-        const float a = (lo[i] - ray.origin[i]) * ray.reciprocal[i];
-        const float b = (hi[i] - ray.origin[i]) * ray.reciprocal[i];
-        tNear = std::max(tNear, std::min(a, b));
-        tFar = std::min(tFar, std::max(a, b));
-    }
-    return tNear <= tFar;
-}
-
-bool entersBoxInDouble(const glm::dvec3& lo, const glm::dvec3& hi, const glm::dvec3& o,
-                       const glm::dvec3& d) {
+bool entersBoxInDouble(const Bounds& box, const glm::dvec3& o, const glm::dvec3& d) {
     double tNear = 0, tFar = INFINITY;
     for (int i = 0; i < 3; ++i) {
-        const double a = (lo[i] - o[i]) / d[i], b = (hi[i] - o[i]) / d[i];
+        if (d[i] == 0) {
+            if (o[i] < box.lo[i] || o[i] > box.hi[i]) return false;
+            continue;
+        }
+        const double a = (box.lo[i] - o[i]) / d[i], b = (box.hi[i] - o[i]) / d[i];
         tNear = std::max(tNear, std::min(a, b));
         tFar = std::min(tFar, std::max(a, b));
     }
     return tNear <= tFar;
 }
 
-/// Boxes of which some are flat, and rays at points of them, at their corners and edges above
-/// all, from near and from 1e7 away.
-TEST(EnterBox, LosesNoBoxThatTheExactRayMeets) {
+/// The kernel's planes for a node that has the box as its only child, with neither margin nor
+/// slack: the grid is laid so that the box's ends are on it.
+bool entersWithoutMarginOrSlack(const Bounds& box, const PreparedRay& ray) {
+    float tNear = 0, tFar = kInfiniteDistance;
+    for (int i = 0; i < 3; ++i) {
+        const float cell = (box.hi[i] - box.lo[i]) / 255;
+        const float base = (box.lo[i] - ray.origin[i]) * ray.reciprocal[i];
+        const float end = 255.0f * (cell * ray.reciprocal[i]) + base;
+        tNear = std::max(tNear, std::min(base, end));
+        tFar = std::min(tFar, std::max(base, end));
+    }
+    return tNear <= tFar;
+}
+
+/// In slot `slot` of a node, with a larger sibling or none.
+gpu::NodeRecord nodeWith(const Bounds& box, uint32_t slot, Random& random) {
+    bvh::ChildBoxes boxes;
+    boxes[slot] = box;
+    if (random.below(2)) {
+        const glm::vec3 p = box.lo + random.inCube(0.3f);
+        boxes[(slot + 3) % 8] = Bounds{glm::min(p, box.lo), glm::max(p, box.hi)};
+    }
+    return bvh::packNode(boxes, 0, bvh::boxPadding(box));
+}
+
+/// Boxes of which some are flat, near the origin and far from it, and rays at points of them, at
+/// their corners and edges above all, from near and from 1e7 away; some with components that are
+/// zero of either sign, in the planes of the box.
+TEST(EnterChildren, LosesNoBoxThatTheExactRayMeets) {
     Random random(12);
-    uint32_t met = 0, lostWithoutSlack = 0;
+    uint32_t met = 0, lostWithout = 0, inPlanes = 0;
     for (int i = 0; i < 400000; ++i) {
-        const glm::vec3 lo = random.inCube(1);
-        glm::vec3 hi = lo, target;
+        Bounds box;
+        box.lo = random.inCube(1) * (random.below(3) ? 1.0f : 1e5f);
+        box.hi = box.lo;
+        glm::vec3 target;
         for (int axis = 0; axis < 3; ++axis) {
-            if (random.below(3) > 0) hi[axis] += random.uniform() * 0.1f;
+            if (random.below(3) > 0) box.hi[axis] += random.uniform() * 0.1f;
             const uint32_t where = random.below(3);
-            target[axis] = where == 0   ? lo[axis]
-                           : where == 1 ? hi[axis]
-                                        : 0.5f * (lo[axis] + hi[axis]);
+            target[axis] = where == 0   ? box.lo[axis]
+                           : where == 1 ? box.hi[axis]
+                                        : 0.5f * (box.lo[axis] + box.hi[axis]);
         }
-        const glm::vec3 origin = random.direction() * (random.below(2) ? 3.0f : 1e7f);
+        glm::vec3 origin = target + random.direction() * (random.below(2) ? 3.0f : 1e7f);
+        for (int axis = 0; axis < 3; ++axis)
+            if (random.below(4) == 0) origin[axis] = target[axis];
         const glm::vec3 direction = target - origin;
-        if (!entersBoxInDouble(lo, hi, origin, direction)) continue;
+        if (direction == glm::vec3(0.0f) || !entersBoxInDouble(box, origin, direction)) continue;
         ++met;
+        inPlanes += direction.x == 0 || direction.y == 0 || direction.z == 0;
         const PreparedRay ray(origin, direction);
-        ASSERT_TRUE(enterBox(lo, hi, ray, kInfiniteDistance)) << "ray " << i;
-        lostWithoutSlack += !entersBoxWithoutSlack(lo, hi, ray);
+        const uint32_t slot = random.below(8);
+        const uint32_t entered = enterChildren(nodeWith(box, slot, random), ray, kInfiniteDistance);
+        ASSERT_TRUE(entered >> (slot ^ ray.octant) & 1u) << "ray " << i;
+        lostWithout += !entersWithoutMarginOrSlack(box, ray);
     }
-    EXPECT_GT(met, 20000u);
-    EXPECT_GT(lostWithoutSlack, 20u) << "these rays do not need the slack: the test is blunt";
+    EXPECT_GT(met, 50000u);
+    EXPECT_GT(inPlanes, 20000u);
+    EXPECT_GT(lostWithout, 1000u) << "these rays need neither margin nor slack: a blunt test";
 }
 
-TEST(EnterBox, InvertedBoxIsNotHit) {
-    Random random(13);
-    const glm::vec3 largest(gpu::LARGEST_COORDINATE);
-    for (int i = 0; i < 1000; ++i) {
-        glm::vec3 d = random.direction();
-        if (i % 3 == 0) d[int(random.below(3))] = 0;
-        EXPECT_FALSE(
-            enterBox(largest, -largest, PreparedRay(random.inCube(10), d), kInfiniteDistance));
-    }
-    EXPECT_FALSE(enterBox(largest, -largest, PreparedRay({0, 0, 0}, {1, 1, 1}), kInfiniteDistance));
-}
-
-TEST(EnterBox, ReciprocalOfAZeroIsFiniteAndKeepsTheSign) {
+TEST(EnterChildren, ReciprocalOfAZeroIsFiniteAndKeepsTheSign) {
     for (const float length : {1e-15f, 1.0f, 1e15f}) {
         const PreparedRay ray({0, 0, 0}, length * glm::vec3(0, 1, -1e-30f));
-        EXPECT_FLOAT_EQ(ray.reciprocal.x, 0x1p40f / length);
+        EXPECT_FLOAT_EQ(ray.reciprocal.x, 0x1p60f / length);
         EXPECT_FLOAT_EQ(ray.reciprocal.y, 1 / length);
-        EXPECT_FLOAT_EQ(ray.reciprocal.z, -0x1p40f / length);
+        EXPECT_FLOAT_EQ(ray.reciprocal.z, -0x1p60f / length);
+        EXPECT_EQ(ray.octant, 3u);
     }
 }
 
-TEST(EnterBox, RespectsTheInterval) {
-    const glm::vec3 lo(-1, -1, 2), hi(1, 1, 3);
-    const PreparedRay ray({0, 0, 0}, {0, 0, 1});
-    EXPECT_EQ(enterBox(lo, hi, ray, 10).value(), 2);
-    EXPECT_EQ(enterBox(lo, hi, ray, 2).value(), 2);
-    EXPECT_FALSE(enterBox(lo, hi, ray, 1.99f));
-    EXPECT_EQ(enterBox(lo, hi, PreparedRay({0, 0, 2.5f}, {0, 0, 1}), 10).value(), 0);
-    EXPECT_TRUE(enterBox(lo, hi, PreparedRay({0, 0, 3}, {0, 0, 1}), 10)) << "leaves it at t = 0";
-    EXPECT_FALSE(enterBox(lo, hi, PreparedRay({0, 0, 3.1f}, {0, 0, 1}), 10)) << "behind";
-    EXPECT_FALSE(enterBox(lo, hi, PreparedRay({1.1f, 0, 0}, {0, 0, 1}), 10)) << "beside";
-    EXPECT_FALSE(enterBox(lo, hi, PreparedRay({-1.1f, 0, 0}, {0, 0, 1}), 10)) << "beside";
+TEST(EnterChildren, RespectsTheInterval) {
+    bvh::ChildBoxes boxes;
+    boxes[5] = Bounds{{-1, -1, 2}, {1, 1, 3}};
+    const gpu::NodeRecord node = bvh::packNode(boxes, 0, 0);
+    const auto enters = [&](const glm::vec3& origin, const glm::vec3& direction, float tMax) {
+        const PreparedRay ray(origin, direction);
+        const uint32_t entered = enterChildren(node, ray, tMax);
+        EXPECT_EQ(entered & ~(1u << (5 ^ ray.octant)), 0u) << "an absent child";
+        return entered != 0;
+    };
+    // Cells are 1/64 here, and boxes may be larger by one on each side, and a margin.
+    const float cell = 1.01f / 64;
+    for (const float sign : {1.0f, -1.0f}) {
+        const float start = sign > 0 ? 0.0f : 5.0f;
+        EXPECT_TRUE(enters({0, 0, start}, {0, 0, sign}, 10));
+        EXPECT_TRUE(enters({0, 0, start}, {0, 0, sign}, 2));
+        EXPECT_FALSE(enters({0, 0, start}, {0, 0, sign}, 2 - 2 * cell));
+    }
+    EXPECT_TRUE(enters({0, 0, 2.5f}, {0, 0, 1}, 10));
+    EXPECT_TRUE(enters({0, 0, 3}, {0, 0, 1}, 10)) << "leaves it at t = 0";
+    EXPECT_FALSE(enters({0, 0, 3 + 2 * cell}, {0, 0, 1}, 10)) << "behind";
+    EXPECT_FALSE(enters({1 + 2 * cell, 0, 0}, {0, 0, 1}, 10)) << "beside";
+    EXPECT_FALSE(enters({-1 - 2 * cell, 0, 0}, {0, 0, 1}, 10)) << "beside";
+}
+
+TEST(EnterChildren, BitsAreInTheRaysOrder) {
+    bvh::ChildBoxes boxes;
+    for (uint32_t slot = 0; slot < 8; ++slot)
+        boxes[slot] = Bounds{glm::vec3(0), glm::vec3(1)};
+    boxes[6].reset();
+    const gpu::NodeRecord node = bvh::packNode(boxes, 0, 0);
+    for (uint32_t octant = 0; octant < 8; ++octant) {
+        const glm::vec3 d(octant & 1 ? 1 : -1, octant & 2 ? 1 : -1, octant & 4 ? 1 : -1);
+        const PreparedRay ray(glm::vec3(0.5f) - d, d);
+        EXPECT_EQ(ray.octant, octant);
+        EXPECT_EQ(enterChildren(node, ray, 10), 255u ^ 1u << (6 ^ octant));
+    }
 }
 
 TEST(HitTriangle, AgreesWithDoublePrecision) {

@@ -11,21 +11,15 @@ namespace {
 
 class SweepBuilder {
   public:
-    SweepBuilder(std::span<const Bounds> primitives, const BuildOptions& options)
-        : primitives_(primitives), options_(options) {}
+    explicit SweepBuilder(std::span<const Bounds> primitives) : primitives_(primitives) {}
 
-    /// Cost of the subtree over a run of primitives, times its half area.
+    /// Area of the inner nodes of the subtree over a run of primitives.
     double cost(std::span<uint32_t> run) const {
+        if (run.size() == 1) return 0;
         const double area = boundsOf(run).halfArea();
-        const double asLeaf = area * double(run.size()) * options_.intersectionCost;
-        if (run.size() == 1) return asLeaf;
         const Split best = bestSplit(run);
-        if (run.size() <= options_.maxLeafSize &&
-            asLeaf <= area * options_.traversalCost + best.cost * options_.intersectionCost)
-            return asLeaf;
         sortBy(best.axis, run);
-        return area * options_.traversalCost + cost(run.first(best.leftCount)) +
-               cost(run.subspan(best.leftCount));
+        return area + cost(run.first(best.leftCount)) + cost(run.subspan(best.leftCount));
     }
 
   private:
@@ -70,18 +64,17 @@ class SweepBuilder {
     }
 
     std::span<const Bounds> primitives_;
-    const BuildOptions& options_;
 };
 
 } // namespace
 
-double sweepSahCost(std::span<const Bounds> primitives, const BuildOptions& options) {
-    std::vector<uint32_t> run(primitives.size());
+double sweepInnerArea(std::span<const Bounds> boxes) {
+    std::vector<uint32_t> run(boxes.size());
     std::iota(run.begin(), run.end(), 0u);
     Bounds all;
-    for (const Bounds& b : primitives)
+    for (const Bounds& b : boxes)
         all.extend(b);
-    return SweepBuilder(primitives, options).cost(run) / double(all.halfArea());
+    return SweepBuilder(boxes).cost(run) / double(all.halfArea());
 }
 
 } // namespace stromboli::test

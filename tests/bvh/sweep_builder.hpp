@@ -6,9 +6,9 @@
 
 namespace stromboli::test {
 
-/// SAH cost of the tree that a top-down builder makes which tries every split between two
-/// primitives in centroid order on every axis: what binning approximates. Same costs, leaf rule
-/// and largest leaf as the options; no depth cap. Slow and plain on purpose.
-double sweepSahCost(std::span<const Bounds> primitives, const BuildOptions& options);
+/// Area of all inner nodes, relative to the root's, of the tree that a top-down builder makes which
+/// tries every split between two boxes in centroid order on every axis: what binning
+/// approximates. No depth cap. Slow and plain on purpose.
+double sweepInnerArea(std::span<const Bounds> boxes);
 
 } // namespace stromboli::test

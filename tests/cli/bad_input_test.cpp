@@ -125,8 +125,8 @@ TEST_F(BadInput, CameraFromAFileWithoutOne) {
 }
 
 TEST_F(BadInput, UnknownOption) {
-    expectRefused(renderFile(folder.write("good.dae", kGood), {"--sample", "3"}), kUsage,
-                  "--sample");
+    expectRefused(renderFile(folder.write("good.dae", kGood), {"--sampels", "3"}), kUsage,
+                  "--sampels");
 }
 TEST_F(BadInput, ZeroSamples) {
     expectRefused(stromboli({"render", libraryScene("light_point.dae"), "-o",

@@ -1,14 +1,13 @@
 #include "host/core/error.hpp"
 #include "host/film/image_file.hpp"
 #include "tests/film/temporary_folder.hpp"
+#include "tests/support/failing_writes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <csignal>
 #include <fstream>
 #include <functional>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -34,38 +33,8 @@ void expectRefused(const fs::path& path, const std::string& reason) {
     EXPECT_THAT(messageOf([&] { writePicture(path, Film(2, 2), {}, {}); }), message);
 }
 
-/// Root may write anywhere; as nobody, permissions count.
-class AsNobody {
-  public:
-    AsNobody() : wasRoot_(::geteuid() == 0), changed_(!wasRoot_ || ::seteuid(65534) == 0) {}
-    ~AsNobody() {
-        if (wasRoot_ && changed_ && ::seteuid(0) != 0) std::abort();
-    }
-    bool works() const { return changed_; }
-
-  private:
-    bool wasRoot_, changed_;
-};
-
-/// Files of this process can grow no longer than `bytes`: the same path through the code as a
-/// full disk, which needs no privilege to set up.
-class FileSizeLimit {
-  public:
-    explicit FileSizeLimit(rlim_t bytes) {
-        ::getrlimit(RLIMIT_FSIZE, &before_);
-        const rlimit limit{bytes, before_.rlim_max};
-        ::setrlimit(RLIMIT_FSIZE, &limit);
-        handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    }
-    ~FileSizeLimit() {
-        ::setrlimit(RLIMIT_FSIZE, &before_);
-        std::signal(SIGXFSZ, handler_);
-    }
-
-  private:
-    rlimit before_{};
-    void (*handler_)(int);
-};
+using test::AsNobody;
+using test::FileSizeLimit;
 
 class FailedWrites : public testing::TestWithParam<const char*> {
   protected:

@@ -65,8 +65,23 @@ TEST_F(Determinism, AnotherSeedIsAnotherPicture) {
 
 TEST_F(Determinism, ItemsPerDispatch) {
     const Film whole = renderWith(settings());
-    for (uint32_t items : {64u, 100u, 1000u})
+    for (uint32_t items : {7u, 100u, 4096u})
         expectSameBytes(whole, renderWith(settings(), {.itemsPerDispatch = items}));
+}
+
+TEST_F(Determinism, OnePixelAWorkList) {
+    RenderSettings s = settings();
+    s.samplesPerPixel = 2;
+    s.crop = {20, 10, 16, 12};
+    expectSameBytes(renderWith(s), renderWith(s, {.itemsPerDispatch = 1}));
+}
+
+TEST_F(Determinism, NumberOfLanes) {
+    // One group that takes all pixels in turn; lanes that fill no group; more lanes than items.
+    const Film whole = renderWith(settings());
+    for (uint32_t lanes : {8u, 100u, 1000u, 1000000u})
+        expectSameBytes(whole, renderWith(settings(), {.lanes = lanes}));
+    expectSameBytes(whole, renderWith(settings(), {.lanes = 1000, .itemsPerDispatch = 64}));
 }
 
 TEST_F(Determinism, LengthOfDispatches) {
@@ -78,7 +93,7 @@ TEST_F(Determinism, LengthOfDispatches) {
 
 TEST_F(Determinism, WorkgroupSizeAndTraversalSteps) {
     const Film whole = renderWith(settings());
-    for (uint32_t size : {8u, 32u, 128u})
+    for (uint32_t size : {8u, 64u, 100u})
         expectSameBytes(whole, renderWith(settings(), {.workgroupSize = size}));
     for (uint32_t steps : {1u, 3u, 16u})
         expectSameBytes(whole, renderWith(settings(), {.traversalSteps = steps}));
@@ -108,7 +123,8 @@ TEST_F(Determinism, AdaptiveInSmallDispatches) {
     RenderSettings s = settings();
     s.samplesPerPixel = 200;
     s.adaptive = {true, 16, 0.1};
-    expectSameBytes(renderWith(s), renderWith(s, {.itemsPerDispatch = 128, .fixedIterations = 9}));
+    expectSameBytes(renderWith(s),
+                    renderWith(s, {.lanes = 64, .itemsPerDispatch = 128, .fixedIterations = 9}));
 }
 
 TEST_F(Determinism, OddPictureSizes) {

@@ -1,6 +1,6 @@
 #include "tests/render/device_render.hpp"
 
-#include "host/bvh/primitive_bounds.hpp"
+#include "host/bvh/wide_layout.hpp"
 #include "host/render/render.hpp"
 #include "scene/collada/load_collada.hpp"
 
@@ -10,7 +10,7 @@ namespace stromboli::test {
 
 Film renderOnDevice(const vulkan::Device& device, const Scene& scene, const Camera& camera,
                     const RenderSettings& settings, const KernelTuning& tuning) {
-    const GpuScene gpu = packScene(scene, buildBinaryTree(primitiveBounds(scene)), settings.cs184);
+    const GpuScene gpu = packScene(scene, buildWideBvh(scene), settings.cs184);
     VulkanBackend backend(device, gpu, camera, settings, tuning);
     return render(backend, settings);
 }

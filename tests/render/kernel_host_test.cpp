@@ -1,6 +1,5 @@
 // The host's side of the kernel: work order, pace of dispatches, alias tables, features.
-#include "host/bvh/binary_tree.hpp"
-#include "host/bvh/primitive_bounds.hpp"
+#include "host/bvh/wide_layout.hpp"
 #include "host/kernel/alias_table.hpp"
 #include "host/kernel/dispatch_pace.hpp"
 #include "host/kernel/kernel_features.hpp"
@@ -8,44 +7,48 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <random>
-#include <set>
 
 namespace stromboli {
 namespace {
 
-TEST(WorkOrder, IsAPermutationThatSpreadsHalves) {
-    constexpr uint32_t kWidth = 100, kHeight = 60;
+/// Of every n-th pixel, as an adaptive pass leaves them; the sample number names the pixel.
+std::vector<PixelTarget> everyNth(uint32_t n, uint32_t pixels) {
     std::vector<PixelTarget> targets;
-    for (uint32_t i = 0; i < kWidth * kHeight; ++i)
+    for (uint32_t i = 0; i < pixels; i += n)
         targets.push_back({i, i + 1});
-    const auto order = interleave(targets, kWidth);
-    ASSERT_EQ(order.size(), targets.size());
-    std::set<uint32_t> seen;
-    size_t topInFirstHalf = 0;
-    for (size_t i = 0; i < order.size(); ++i) {
-        EXPECT_EQ(order[i].samples, order[i].pixel + 1);
-        seen.insert(order[i].pixel);
-        if (i < order.size() / 2 && order[i].pixel / kWidth < kHeight / 2) ++topInFirstHalf;
-    }
-    EXPECT_EQ(seen.size(), targets.size());
-    // A thread that takes the first half of the list gets its fair share of the upper half.
-    EXPECT_NEAR(double(topInFirstHalf), double(order.size()) / 4, double(order.size()) / 40);
+    return targets;
 }
 
-TEST(WorkOrder, KeepsTilesTogether) {
-    std::vector<PixelTarget> targets;
-    for (uint32_t i = 0; i < 64 * 64; ++i)
-        targets.push_back({i, 1});
-    const auto order = interleave(targets, 64);
-    for (size_t group = 0; group < order.size(); group += 64) {
-        const uint32_t tileX = order[group].pixel % 64 / 8, tileY = order[group].pixel / 64 / 8;
-        for (size_t i = group; i < group + 64; ++i) {
-            EXPECT_EQ(order[i].pixel % 64 / 8, tileX);
-            EXPECT_EQ(order[i].pixel / 64 / 8, tileY);
+uint32_t tileOf(const PixelTarget& t, uint32_t width) {
+    return t.pixel / width / 8 * 1000 + t.pixel % width / 8;
+}
+
+TEST(WorkOrder, TakesTileAfterTileInReadingOrder) {
+    for (const uint32_t width : {64u, 61u, 1u, 300u})
+        for (const uint32_t n : {1u, 7u}) {
+            const auto order = tileOrder(everyNth(n, width * 37), width);
+            for (size_t i = 1; i < order.size(); ++i) {
+                const uint32_t before = tileOf(order[i - 1], width), now = tileOf(order[i], width);
+                ASSERT_LE(before, now) << width << ' ' << i;
+                // Row by row within a tile: eight side by side are a row.
+                ASSERT_TRUE(before < now || order[i - 1].pixel < order[i].pixel) << i;
+            }
         }
+}
+
+TEST(WorkOrder, KeepsEveryTarget) {
+    const auto targets = everyNth(3, 100 * 60);
+    auto order = tileOrder(targets, 100);
+    std::ranges::sort(order, {}, &PixelTarget::pixel);
+    ASSERT_EQ(order.size(), targets.size());
+    for (size_t i = 0; i < order.size(); ++i) {
+        EXPECT_EQ(order[i].pixel, targets[i].pixel);
+        EXPECT_EQ(order[i].samples, targets[i].samples);
     }
+    EXPECT_TRUE(tileOrder({}, 100).empty());
 }
 
 TEST(DispatchPace, ApproachesTheTargetTime) {
@@ -104,9 +107,9 @@ Scene oneTriangle(const Material& material) {
     return scene;
 }
 
-KernelFeatures featuresOf(const Scene& scene, const RenderSettings& settings = {}) {
-    const GpuScene gpu = packScene(scene, buildBinaryTree(primitiveBounds(scene)), false);
-    return kernelFeatures(gpu, Camera{}, settings, {});
+KernelFeatures featuresOf(const Scene& scene, const RenderSettings& settings = {},
+                          const DeviceTuning& tuning = {}) {
+    return kernelFeatures(packScene(scene, buildWideBvh(scene), false), Camera{}, settings, tuning);
 }
 
 TEST(KernelFeatures, HoldOnlyWhatTheSceneNeeds) {
@@ -151,6 +154,33 @@ TEST(KernelFeatures, NoRouletteWherePathsEndBeforeIt) {
     EXPECT_EQ(featuresOf(oneTriangle({}), s)[SPEC_ROULETTE], gpu::ROULETTE_NONE);
     s.maxBounces = 3;
     EXPECT_EQ(featuresOf(oneTriangle({}), s)[SPEC_ROULETTE], gpu::ROULETTE_THROUGHPUT);
+}
+
+TEST(KernelFeatures, FollowTheTuning) {
+    DeviceTuning tuning;
+    tuning.workgroupSize = 24, tuning.traversalSteps = 5, tuning.countSteps = true;
+    const KernelFeatures f = featuresOf(oneTriangle({}), {}, tuning);
+    EXPECT_EQ(f[SPEC_WORKGROUP_SIZE], 24u);
+    EXPECT_EQ(f[SPEC_TRAVERSAL_STEPS], 5u);
+    EXPECT_EQ(f[SPEC_COUNT_STEPS], 1u);
+    EXPECT_GE(f[SPEC_STACK_SIZE], 1u);
+}
+
+/// The benchmark's kernel: all that scenes may hold, but of the settings only what is asked for.
+TEST(KernelFeatures, EverythingOn) {
+    DeviceTuning tuning;
+    tuning.everythingOn = true;
+    RenderSettings s;
+    s.roulette.mode = Roulette::Mode::None;
+    const KernelFeatures f = featuresOf(oneTriangle({}), s, tuning);
+    for (const uint32_t feature :
+         {SPEC_HAS_TRIANGLES, SPEC_HAS_SPHERES, SPEC_HAS_NORMALS, SPEC_HAS_EMISSION})
+        EXPECT_EQ(f[feature], 1u) << feature;
+    EXPECT_EQ(f[SPEC_MATERIAL_KINDS], 31u);
+    EXPECT_EQ(f[SPEC_LIGHT_KINDS], 127u);
+    EXPECT_EQ(f[SPEC_ROULETTE], gpu::ROULETTE_NONE);
+    EXPECT_EQ(f[SPEC_CS184], 0u);
+    EXPECT_EQ(f[SPEC_COUNT_STEPS], 0u);
 }
 
 } // namespace

@@ -23,30 +23,10 @@ std::string messageOf(const std::function<void()>& action) {
     return "no error";
 }
 
-TEST_F(Limits, BufferOverTheBindingLimitIsNamed) {
-    const uint64_t tooMuch = uint64_t(testDevice().limits().maxStorageBufferRange) + 1;
-    const std::string message = messageOf([&] {
-        vulkan::Buffer::checkLimits(testDevice(), "primitive buffer", tooMuch,
-                                    vulkan::BufferUse::Storage);
-    });
-    EXPECT_THAT(message, testing::HasSubstr("primitive buffer"));
-    EXPECT_THAT(message, testing::HasSubstr(std::to_string(tooMuch)));
-    EXPECT_THAT(message, testing::HasSubstr("maxStorageBufferRange"));
-}
-
 TEST_F(Limits, LostDeviceIsAClearError) {
     EXPECT_THAT(messageOf([] { vulkan::check(VK_ERROR_DEVICE_LOST, "run the path kernel"); }),
                 testing::AllOf(testing::HasSubstr("run the path kernel"),
                                testing::HasSubstr("device lost")));
-}
-
-TEST_F(Limits, TexelBuffersAreMeasuredInRows) {
-    const uint64_t rows = testDevice().limits().maxTexelBufferElements;
-    EXPECT_THAT(messageOf([&] {
-                    vulkan::Buffer::checkLimits(testDevice(), "BVH node buffer", (rows + 1) * 16,
-                                                vulkan::BufferUse::Texel);
-                }),
-                testing::HasSubstr("maxTexelBufferElements"));
 }
 
 TEST_F(Limits, LoopOverflowIsReportedNotRendered) {

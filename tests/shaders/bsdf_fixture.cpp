@@ -1,5 +1,7 @@
 #include "tests/shaders/bsdf_fixture.hpp"
 
+#include "host/bvh/wide_layout.hpp"
+
 #include "embedded/bsdf_texel.h"
 
 #include <utility>
@@ -11,7 +13,7 @@ BsdfFixture::BsdfFixture(std::vector<Material> materials, reference::Convention 
               ShaderOptions::texel().set(SPEC_CS184, convention == reference::Convention::Cs184)) {
     Scene scene;
     scene.materials = materials_;
-    shader_.setScene(packScene(scene, buildBinaryTree({}), false));
+    shader_.setScene(packScene(scene, buildWideBvh(scene), false));
 }
 
 std::vector<gpu::BsdfAnswer> BsdfFixture::answers(const std::vector<gpu::BsdfQuery>& queries) {

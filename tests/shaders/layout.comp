@@ -3,11 +3,8 @@
 // Writes back every field of every structure of shaders/shared, in the order of its declaration;
 // the index of each is 1, so that the stride counts too.
 #include "prelude.glsl"
+#include "include/film.glsl"
 
-layout(set = 0, binding = BINDING_WORK_ITEMS, std430) readonly buffer WorkBuffer {
-    WorkItem workItems[];
-};
-layout(set = 0, binding = BINDING_PIXELS, std430) buffer PixelBuffer { PixelState pixels[]; };
 layout(set = 0, binding = BINDING_SUSPENDED, std430) buffer SuspendedBuffer {
     SuspendedPath suspendedPaths[];
 };
@@ -23,14 +20,32 @@ void put(vec3 v) {
     put(v.z);
 }
 
+/// As enterChildren takes a node apart.
+void putNode(Record r) {
+    put(r.r0.x), put(r.r0.y), put(r.r0.z), put(r.r0.w);
+    put(r.r1.x), put(r.r1.y), put(r.r1.z), put(r.r1.w);
+    put(r.r2.x), put(r.r2.y), put(r.r2.z), put(r.r2.w);
+    put(r.r3.x), put(r.r3.y), put(r.r3.z), put(r.r3.w);
+}
+
+/// As testLeaf takes a leaf apart.
+void putLeaf(Record r) {
+    const LeafPoints p = leafPoints(r);
+    put(p.p0), put(r.r0.w), put(p.p1), put(p.p2), put(p.p3), put(uintBitsToFloat(r.r3.y));
+    put(r.r3.z), put(r.r3.w);
+}
+
+void putPlace(PlacedPrimitive p) {
+    put(p.v0), put(p.v1), put(p.v2), put(p.radius), put(p.isSphere ? 1u : 0u), put(p.primitive);
+}
+
 void putScene() {
-    const Node n = fetchNode(1u);
-    put(n.leftLow), put(n.left), put(n.leftHigh), put(n.right);
-    put(n.rightLow), put(n.unused0), put(n.rightHigh), put(n.unused1);
+    putNode(fetchRecord(1u));
+    putLeaf(fetchRecord(2u));
+    putPlace(fetchPlace(4u));
+    putPlace(fetchPlace(5u));
     const Primitive p = fetchPrimitive(1u);
-    put(p.v0), put(p.material), put(p.v1), put(p.normals), put(p.v2), put(p.kind);
-    const NormalTriple t = fetchNormals(1u);
-    put(t.n0), put(t.n1), put(t.n2), put(t.unused);
+    put(p.material), put(p.n0), put(p.n1), put(p.n2);
     const Material m = fetchMaterial(1u);
     put(m.reflectance), put(m.kind), put(m.emission), put(m.emitsBothSides);
     put(m.transmittanceOrEta), put(m.iorOrAlpha), put(m.k), put(m.unused);
@@ -39,30 +54,33 @@ void putScene() {
     put(l.color), put(l.upperHemisphereOnly);
     put(l.firstEntry), put(l.entryCount), put(l.cosCutoff), put(l.falloffExponent);
     const EmitterEntry e = fetchEmitterEntry(1u);
-    put(e.primitive), put(e.alias), put(e.threshold), put(e.unused);
+    put(e.place), put(e.alias), put(e.threshold), put(e.unused);
 }
 
 void putFrame() {
     put(frame.cameraPosition), put(frame.width), put(frame.cameraRight), put(frame.height);
-    put(frame.cameraUp), put(frame.cropX), put(frame.cameraBack), put(frame.cropY);
-    put(frame.nearDistance), put(frame.farDistance), put(frame.cropWidth), put(frame.seed);
+    put(frame.cameraUp), put(frame.firstSample), put(frame.cameraBack), put(frame.keepsValue);
+    put(frame.nearDistance), put(frame.farDistance), put(frame.unused0), put(frame.seed);
     put(frame.minBounce), put(frame.maxBounces), put(frame.terminationProbability);
     put(frame.lightSamples), put(frame.areaLights), put(frame.deltaLights);
-    put(frame.areaSamples), put(frame.unused);
+    put(frame.areaSamples), put(frame.unused1);
 }
 
 void putWork() {
     put(dispatch.itemCount), put(dispatch.segmentBase), put(dispatch.softIterations);
-    put(dispatch.hardIterations);
-    put(workItems[1].pixel), put(workItems[1].target);
-    const PixelState s = pixels[1];
+    put(dispatch.hardIterations), put(dispatch.laneCount);
+    put(dispatch.unused0), put(dispatch.unused1), put(dispatch.unused2);
+    const WorkItem w = fetchWorkItem(1u);
+    put(w.pixel), put(w.target), put(w.column), put(w.row);
+    const PixelState s = fetchPixel(1u);
     put(s.sum), put(s.count), put(s.sumError), put(s.rejected), put(s.m2), put(s.firstRejected);
     put(s.m2Error), put(s.unused);
     const SuspendedPath p = suspendedPaths[1];
     put(p.origin), put(p.bounce), put(p.direction), put(p.skipPrimitive), put(p.throughput);
-    put(p.countsEmission), put(p.radiance), put(p.unused);
+    put(p.countsEmission), put(p.radiance), put(p.item);
     put(status.unfinishedItems), put(status.overflowedItems), put(status.rays);
-    put(status.samples);
+    put(status.samples), put(status.nextItem), put(status.busySteps), put(status.allSteps);
+    put(status.unused);
 }
 
 void main() {
@@ -70,6 +88,6 @@ void main() {
     putScene();
     putFrame();
     putWork();
-    pixels[2] = pixels[1]; // as the kernel stores whole structures
+    storePixel(2u, fetchPixel(1u)); // as the kernel stores whole structures
     suspendedPaths[2] = suspendedPaths[1];
 }

@@ -1,5 +1,6 @@
 // Every field of every structure that C++ and GLSL share arrives where it is meant to, bit for
 // bit: through storage and texel buffers, as uniforms, push constants and storage buffers.
+#include "host/bvh/wide_layout.hpp"
 #include "shaders/shared/scene_types.h"
 #include "tests/support/device_fixture.hpp"
 #include "tests/support/test_shader.hpp"
@@ -78,27 +79,40 @@ struct LayoutCase {
 class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<LayoutCase> {
   protected:
     void fillScene(TestShader& shader, Patterns& patterns) {
-        const auto nodes = patterns.several<gpu::Node>();
+        const auto records = patterns.several<Record>();
         const auto primitives = patterns.several<gpu::Primitive>();
-        const auto normals = patterns.several<gpu::NormalTriple>();
         const auto materials = patterns.several<gpu::Material>();
         const auto lights = patterns.several<gpu::Light>();
         const auto entries = patterns.several<gpu::EmitterEntry>();
-        shader.set(BINDING_NODES, nodes);
+        shader.set(BINDING_RECORDS, records);
         shader.set(BINDING_PRIMITIVES, primitives);
-        shader.set(BINDING_NORMALS, normals);
         shader.set(BINDING_MATERIALS, materials);
         shader.set(BINDING_LIGHTS, lights);
         shader.set(BINDING_EMITTER_ENTRIES, entries);
-        expectScene(nodes[1], primitives[1], normals[1]);
+        expectNode(asNode(records[1]));
+        expectLeaf(asLeaf(records[2]));
+        expected_.structure("Primitive", primitives[1].material, primitives[1].n0, primitives[1].n1,
+                            primitives[1].n2);
         expectShading(materials[1], lights[1], entries[1]);
     }
 
-    void expectScene(const gpu::Node& n, const gpu::Primitive& p, const gpu::NormalTriple& t) {
-        expected_.structure("Node", n.leftLow, n.left, n.leftHigh, n.right, n.rightLow, n.unused0,
-                            n.rightHigh, n.unused1);
-        expected_.structure("Primitive", p.v0, p.material, p.v1, p.normals, p.v2, p.kind);
-        expected_.structure("NormalTriple", t.n0, t.n1, t.n2, t.unused);
+    void expectNode(const gpu::NodeRecord& n) {
+        expected_.structure("NodeRecord", n.originAndExponentX, n.originAndExponentY,
+                            n.originAndExponentZ, n.firstChild, n.lowX0, n.lowX1, n.highX0,
+                            n.highX1, n.lowY0, n.lowY1, n.highY0, n.highY1, n.lowZ0, n.lowZ1,
+                            n.highZ0, n.highZ1);
+    }
+
+    /// Once as it is, then both of its primitives.
+    void expectLeaf(const gpu::LeafRecord& l) {
+        expected_.structure("LeafRecord", l.p0, l.primitive, l.p1, l.p2x, l.p2y, l.p2z, l.p3x,
+                            l.p3y, l.p3z, l.radius, l.unused0, l.unused1);
+        const uint32_t isSphere = (l.primitive & gpu::RECORD_IS_SPHERE) != 0;
+        const uint32_t primitive = l.primitive & gpu::RECORD_INDEX_MASK;
+        expected_.structure("slot 0", l.p0, l.p1, l.p2x, l.p2y, l.p2z, l.radius, isSphere,
+                            primitive);
+        expected_.structure("slot 1", l.p0, l.p2x, l.p2y, l.p2z, l.p3x, l.p3y, l.p3z, l.radius,
+                            isSphere, primitive + 1);
     }
 
     void expectShading(const gpu::Material& m, const gpu::Light& l, const gpu::EmitterEntry& e) {
@@ -107,24 +121,26 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         expected_.structure("Light", l.position, l.kind, l.edgeA, l.area, l.edgeB, l.bothSides,
                             l.color, l.upperHemisphereOnly, l.firstEntry, l.entryCount, l.cosCutoff,
                             l.falloffExponent);
-        expected_.structure("EmitterEntry", e.primitive, e.alias, e.threshold, e.unused);
+        expected_.structure("EmitterEntry", e.place, e.alias, e.threshold, e.unused);
     }
 
     void fillFrame(TestShader& shader, Patterns& patterns) {
         const gpu::Frame f = patterns.several<gpu::Frame>()[1];
         shader.setOne(BINDING_FRAME, f);
         expected_.structure("Frame", f.cameraPosition, f.width, f.cameraRight, f.height, f.cameraUp,
-                            f.cropX, f.cameraBack, f.cropY, f.nearDistance, f.farDistance,
-                            f.cropWidth, f.seed, f.minBounce, f.maxBounces,
+                            f.firstSample, f.cameraBack, f.keepsValue, f.nearDistance,
+                            f.farDistance, f.unused0, f.seed, f.minBounce, f.maxBounces,
                             f.terminationProbability, f.lightSamples, f.areaLights, f.deltaLights,
-                            f.areaSamples, f.unused);
+                            f.areaSamples, f.unused1);
     }
 
     void fillWork(TestShader& shader, Patterns& patterns, const gpu::Dispatch& d) {
-        expected_.structure("Dispatch", 1u, d.segmentBase, d.softIterations, d.hardIterations);
+        expected_.structure("Dispatch", 1u, d.segmentBase, d.softIterations, d.hardIterations,
+                            d.laneCount, d.unused0, d.unused1, d.unused2);
         const auto items = patterns.several<gpu::WorkItem>();
         shader.set(BINDING_WORK_ITEMS, items);
-        expected_.structure("WorkItem", items[1].pixel, items[1].target);
+        expected_.structure("WorkItem", items[1].pixel, items[1].target, items[1].column,
+                            items[1].row);
         states_ = patterns.several<gpu::PixelState>();
         shader.set(BINDING_PIXELS, states_);
         const gpu::PixelState& s = states_[1];
@@ -134,11 +150,12 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         shader.set(BINDING_SUSPENDED, paths_);
         const gpu::SuspendedPath& p = paths_[1];
         expected_.structure("SuspendedPath", p.origin, p.bounce, p.direction, p.skipPrimitive,
-                            p.throughput, p.countsEmission, p.radiance, p.unused);
+                            p.throughput, p.countsEmission, p.radiance, p.item);
         const gpu::DispatchStatus status = patterns.several<gpu::DispatchStatus>()[0];
         shader.setOne(BINDING_STATUS, status);
         expected_.structure("DispatchStatus", status.unfinishedItems, status.overflowedItems,
-                            status.rays, status.samples);
+                            status.rays, status.samples, status.nextItem, status.busySteps,
+                            status.allSteps, status.unused);
     }
 
     Words expected_;
@@ -184,12 +201,12 @@ INSTANTIATE_TEST_SUITE_P(Fetch, LayoutTest,
 
 /// The expectation above names fields in the order of declaration; nothing may be left out.
 TEST(LayoutSizes, NoFieldIsForgotten) {
-    const size_t bytes = sizeof(gpu::Node) + sizeof(gpu::Primitive) + sizeof(gpu::NormalTriple) +
-                         sizeof(gpu::Material) + sizeof(gpu::Light) + sizeof(gpu::EmitterEntry) +
-                         sizeof(gpu::Frame) + sizeof(gpu::Dispatch) + sizeof(gpu::WorkItem) +
-                         sizeof(gpu::PixelState) + sizeof(gpu::SuspendedPath) +
-                         sizeof(gpu::DispatchStatus);
-    EXPECT_EQ(bytes / 4, 16 + 12 + 4 + 16 + 20 + 4 + 28 + 4 + 2 + 16 + 16 + 4u);
+    const size_t bytes = sizeof(gpu::NodeRecord) + sizeof(gpu::LeafRecord) +
+                         sizeof(gpu::Primitive) + sizeof(gpu::Material) + sizeof(gpu::Light) +
+                         sizeof(gpu::EmitterEntry) + sizeof(gpu::Frame) + sizeof(gpu::Dispatch) +
+                         sizeof(gpu::WorkItem) + sizeof(gpu::PixelState) +
+                         sizeof(gpu::SuspendedPath) + sizeof(gpu::DispatchStatus);
+    EXPECT_EQ(bytes / 4, 16 + 16 + 4 + 16 + 20 + 4 + 28 + 8 + 4 + 16 + 16 + 8u);
 }
 
 } // namespace

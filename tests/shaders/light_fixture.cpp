@@ -1,6 +1,6 @@
 #include "tests/shaders/light_fixture.hpp"
 
-#include "host/bvh/primitive_bounds.hpp"
+#include "host/bvh/wide_layout.hpp"
 
 #include "embedded/light_texel.h"
 
@@ -12,7 +12,7 @@ LightFixture::LightFixture(bool cs184)
     : cs184_(cs184), shader_(light_texel, ShaderOptions::texel().set(SPEC_CS184, cs184)) {}
 
 void LightFixture::setScene(const Scene& scene) {
-    packed_ = packScene(scene, buildBinaryTree(primitiveBounds(scene)), cs184_);
+    packed_ = packScene(scene, buildWideBvh(scene), cs184_);
     shader_.setScene(packed_);
 }
 

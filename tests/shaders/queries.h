@@ -35,12 +35,18 @@ struct TriangleQuery {
     uint unused4;
 };
 SHARED_ROWS(TriangleQuery, 5);
+/// The triangle as slot 0 of a leaf, then as slot 1; the other slot has no area.
 struct TriangleAnswer {
     float t;
     float b1;
     float b2;
     float naive; ///< t of Moeller-Trumbore with an absolute cut-off
+    float t1;
+    float b11;
+    float b21;
+    float t2; ///< nearest of the slots without area
 };
+SHARED_ROWS(TriangleAnswer, 2);
 
 struct SphereQuery {
     vec3 center;
@@ -55,21 +61,23 @@ struct SphereAnswer {
     float naive; ///< t by b^2 - 4ac
 };
 
-struct BoxQuery {
-    vec3 low;
-    float tMax;
-    vec3 high;
-    uint unused0;
+/// A NodeRecord and a ray that may enter its children.
+struct NodeQuery {
+    uint record[16];
     vec3 origin;
-    uint unused1;
+    float tMax;
     vec3 direction;
-    uint unused2;
+    uint number; ///< for highestBit
 };
-struct BoxAnswer {
-    float t;
-    float naive; ///< t of the slab test without slack and with infinite reciprocals
+SHARED_ROWS(NodeQuery, 6);
+struct NodeAnswer {
+    uint entered; ///< as enterChildren gives them: bit (slot ^ octant)
+    uint octant;
+    uint naive; ///< bit (slot) by the slab test without slack and with infinite reciprocals
+    uint highest;
 };
 
+/// Primitives by their place in the tree, 2 * record + slot.
 struct RayQuery {
     vec3 origin;
     float tMin;
@@ -86,10 +94,15 @@ struct RayAnswer {
     float b2;
     uint primitive;
     uint steps;
-    uint bruteHits; ///< of all triangles, tried one by one
-    uint naiveHits; ///< the same by Moeller-Trumbore
-    float bruteT;   ///< of the closest primitive, tried one by one
+    uint bruteHits;    ///< of all primitives, tried one by one
+    uint naiveHits;    ///< the same by Moeller-Trumbore (triangles)
+    float bruteT;      ///< of the closest primitive, tried one by one
+    uint highestEntry; ///< of the stack, written to
+    uint bruteRecords; ///< leaves that were tried
+    uint unused0;
+    uint unused1;
 };
+SHARED_ROWS(RayAnswer, 3);
 
 /// `count` samples for a pixel: even and odd by turns, or drawn from a distribution.
 struct AccumulateQuery {
@@ -209,7 +222,7 @@ SHARED_ROWS(TermAnswer, 3);
 /// A ray at one primitive, and a direction in which to leave the point it hits.
 struct SurfaceQuery {
     vec3 origin;
-    uint primitive;
+    uint place; ///< 2 * record + slot
     vec3 direction;
     uint unused0;
     vec3 leaving;
@@ -226,9 +239,9 @@ struct SurfaceAnswer {
     vec3 shading; ///< before faceForward
     uint skipPrimitive;
     vec3 facing; ///< the shading normal after faceForward
-    uint unused0;
+    float lift;
     vec3 start; ///< of the ray that leaves
-    uint unused1;
+    uint unused;
 };
 SHARED_ROWS(SurfaceAnswer, 6);
 

@@ -4,17 +4,17 @@
 
 QUERIES_AND_ANSWERS(SurfaceQuery, SurfaceAnswer)
 
-/// What one primitive, on its own, does to a ray.
-Traversal hitOne(uint primitive, vec3 origin, vec3 direction) {
+/// What one primitive, on its own, does to a ray: the other slot of its leaf is skipped.
+Traversal hitOne(uint place, vec3 origin, vec3 direction) {
     Traversal t;
-    startTraversal(t, origin, direction, 0.0, INFINITE_DISTANCE, NO_PRIMITIVE, false);
-    t.current = CHILD_LEAF_BIT | primitive; // a leaf of one
-    visitLeaf(t);
+    startTraversal(t, origin, direction, 0.0, INFINITE_DISTANCE, place ^ 1u, false);
+    const uint record = place >> 1u;
+    testLeaf(t, fetchRecord(record), record, true);
     return t;
 }
 
 SurfaceAnswer answer(SurfaceQuery q) {
-    const Traversal hit = hitOne(q.primitive, q.origin, q.direction);
+    const Traversal hit = hitOne(q.place, q.origin, q.direction);
     SurfacePoint s = surfaceAt(hit);
     SurfaceAnswer a;
     a.position = s.position;
@@ -26,9 +26,9 @@ SurfaceAnswer answer(SurfaceQuery q) {
     faceForward(s);
     a.geometric = s.geometric;
     a.facing = s.shading;
-    a.start = leave(s, q.leaving);
-    a.again = hitOne(q.primitive, a.start, q.leaving).tMax;
-    a.unused0 = 0u;
-    a.unused1 = 0u;
+    a.start = leave(s, q.leaving, dot(s.geometric, q.leaving) < 0.0);
+    a.again = hitOne(q.place, a.start, q.leaving).tMax;
+    a.lift = s.lift;
+    a.unused = 0u;
     return a;
 }

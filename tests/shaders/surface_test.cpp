@@ -1,8 +1,8 @@
 // surface.glsl on hits of real rays: the point, its error bound, the normals, and where rays that
 // leave start: on the right side of the exact surface, at any scale.
-#include "host/bvh/primitive_bounds.hpp"
-#include "host/kernel/gpu_scene.hpp"
+#include "host/reference/surface.hpp"
 #include "tests/bvh/fixtures.hpp"
+#include "tests/shaders/placed.hpp"
 #include "tests/shaders/queries.h"
 #include "tests/support/device_fixture.hpp"
 #include "tests/support/test_shader.hpp"
@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace stromboli::test {
@@ -23,38 +24,37 @@ constexpr float kInfinite = 3.402823466e38f;
 
 class SurfaceTest : public DeviceTest {
   protected:
-    void setScene(Scene scene) {
-        scene.materials.resize(1);
-        packed_ = packScene(scene, buildBinaryTree(primitiveBounds(scene)), false);
-        shader_.setScene(packed_);
+    void setScene(const Scene& scene) {
+        const GpuScene packed = pack(scene);
+        primitives_ = placed(packed);
+        shader_.setScene(packed);
     }
 
     std::vector<SurfaceAnswer> answers(const std::vector<SurfaceQuery>& queries) {
         return ask<SurfaceAnswer>(shader_, queries);
     }
 
-    GpuScene packed_;
+    std::vector<Placed> primitives_; ///< by scene primitive
 
   private:
     TestShader shader_{surface_texel, ShaderOptions::texel()};
 };
 
-glm::dvec3 normalOf(const gpu::Primitive& p) {
+glm::dvec3 normalOf(const Placed& p) {
     const glm::dvec3 a(p.v0), b(p.v1), c(p.v2);
     return glm::normalize(glm::cross(b - a, c - a));
 }
 
 /// A ray from some way off at a point of the primitive, to leave it in any direction.
-SurfaceQuery rayAt(const GpuScene& scene, uint32_t primitive, float size, Random& random) {
-    const gpu::Primitive& p = scene.primitives[primitive];
+SurfaceQuery rayAt(const Placed& p, float size, Random& random) {
     SurfaceQuery q{};
-    q.primitive = primitive;
+    q.place = p.place;
     glm::vec3 target;
-    if (p.kind == gpu::PRIMITIVE_TRIANGLE) {
+    if (p.isSphere) {
+        target = p.v0 + 0.9f * p.radius * glm::normalize(random.direction());
+    } else {
         const float b1 = random.uniform(), b2 = random.uniform() * (1 - b1);
         target = p.v0 + b1 * (p.v1 - p.v0) + b2 * (p.v2 - p.v0);
-    } else {
-        target = p.v0 + 0.9f * p.v1.x * glm::normalize(random.direction());
     }
     q.origin = target + size * random.direction();
     q.direction = glm::normalize(target - q.origin);
@@ -68,20 +68,21 @@ TEST_F(SurfaceTest, RaysLeaveTrianglesOnTheRightSideAtAnyScale) {
     for (int exponent = -8; exponent <= 8; exponent += 2)
         for (const float shift : {0.0f, 100.0f}) { // coordinates of the size, or far larger
             const float scale = std::pow(10.0f, float(exponent));
-            Scene scene = soup(200, 0, 0.5f, random);
+            // Triangles on their own, and pairs in a leaf.
+            Scene scene = exponent % 4 == 0 ? soup(200, 0, 0.5f, random) : landscape(10);
             const glm::vec3 by = shift * random.inCube(1);
             for (glm::vec3& p : scene.positions)
                 p = scale * (p + by);
             setScene(scene);
             std::vector<SurfaceQuery> queries;
             for (uint32_t i = 0; i < 5000; ++i)
-                queries.push_back(rayAt(packed_, i % 200, 2 * scale, random));
+                queries.push_back(rayAt(primitives_[i % 200], 2 * scale, random));
             const std::vector<SurfaceAnswer> found = answers(queries);
             for (size_t i = 0; i < queries.size(); ++i) {
                 const SurfaceAnswer& a = found[i];
                 if (!(a.t < kInfinite)) continue; // rounded past an edge
                 ++hits;
-                const gpu::Primitive& p = packed_.primitives[queries[i].primitive];
+                const Placed& p = primitives_[i % 200];
                 const glm::dvec3 n = normalOf(p), corner(p.v0);
                 ASSERT_GT(std::abs(glm::dot(n, glm::dvec3(a.geometric))), 0.9);
                 const glm::dvec3 w(queries[i].leaving);
@@ -93,7 +94,7 @@ TEST_F(SurfaceTest, RaysLeaveTrianglesOnTheRightSideAtAnyScale) {
                 // Nor farther off than it need be: some roundings of the coordinates.
                 const glm::dvec3 size = glm::abs(glm::dvec3(a.position));
                 ASSERT_LT(height, 64 * 0x1p-24 * (size.x + size.y + size.z + 3 * scale));
-                EXPECT_EQ(a.skipPrimitive, queries[i].primitive);
+                EXPECT_EQ(a.skipPrimitive, queries[i].place);
                 EXPECT_FALSE(a.again < kInfinite) << scale << ' ' << i << ": hits itself";
             }
         }
@@ -111,11 +112,11 @@ TEST_F(SurfaceTest, TheErrorBoundHolds) {
         setScene(scene);
         std::vector<SurfaceQuery> queries;
         for (uint32_t i = 0; i < 20000; ++i)
-            queries.push_back(rayAt(packed_, i % 200, 2, random));
+            queries.push_back(rayAt(primitives_[i % 200], 2, random));
         const std::vector<SurfaceAnswer> found = answers(queries);
         for (size_t i = 0; i < queries.size(); ++i) {
             if (!(found[i].t < kInfinite)) continue;
-            const gpu::Primitive& p = packed_.primitives[queries[i].primitive];
+            const Placed& p = primitives_[i % 200];
             const glm::dvec3 n = normalOf(p);
             const double off = std::abs(glm::dot(n, glm::dvec3(found[i].position - p.v0)));
             const double bound = glm::dot(glm::abs(n), glm::dvec3(found[i].error));
@@ -139,7 +140,7 @@ TEST_F(SurfaceTest, RaysLeaveSpheresWithoutHittingThemAgain) {
             setScene(scene);
             std::vector<SurfaceQuery> queries;
             for (uint32_t i = 0; i < 10000; ++i) {
-                queries.push_back(rayAt(packed_, 0, 3 * radius, random));
+                queries.push_back(rayAt(primitives_[0], 3 * radius, random));
                 // Every other one starts inside.
                 if (i % 2) queries.back().origin = s.center + 0.4f * radius * random.inCube(1);
             }
@@ -164,60 +165,134 @@ TEST_F(SurfaceTest, RaysLeaveSpheresWithoutHittingThemAgain) {
         }
 }
 
-/// Shading normals: interpolated, or the geometric one where there are none or they cancel; both
-/// turned to the viewer.
-TEST_F(SurfaceTest, NormalsAreInterpolatedAndFaceTheViewer) {
-    Random random(144);
-    Scene scene = soup(300, 0, 1, random);
-    for (uint32_t i = 0; i < 300; ++i) {
-        if (i % 3 == 0) continue; // without normals
+/// Gives two triangles in three shading normals; of some the normals cancel in the middle.
+void addNormals(Scene& scene, Random& random) {
+    for (uint32_t i = 0; i < scene.triangles.size(); ++i) {
+        if (i % 3 == 0) continue;
         Triangle& t = scene.triangles[i];
         const glm::vec3 n = scene.geometricNormal(t);
-        const bool opposite = i % 30 == 1; // two of them cancel
+        const bool opposite = i % 30 == 1;
         for (uint32_t c = 0; c < 3; ++c) {
             t.normals[c] = uint32_t(scene.normals.size());
             const glm::vec3 tilted = glm::normalize(n + 0.7f * glm::normalize(random.direction()));
             scene.normals.push_back(opposite ? (c == 1 ? -n : n) : tilted);
         }
     }
-    setScene(scene);
-    std::vector<SurfaceQuery> queries;
-    for (uint32_t i = 0; i < 30000; ++i)
-        queries.push_back(rayAt(packed_, i % 300, 2, random));
-    const std::vector<SurfaceAnswer> found = answers(queries);
-    int hits = 0;
-    for (size_t i = 0; i < queries.size(); ++i) {
-        const SurfaceAnswer& a = found[i];
-        if (!(a.t < kInfinite)) continue;
-        const uint32_t slot = queries[i].primitive, id = packed_.bvh.primitiveOrder[slot];
-        const gpu::Primitive& p = packed_.primitives[slot];
-        const glm::dvec3 ng = normalOf(p), wo = -glm::dvec3(queries[i].direction);
-        if (std::abs(glm::dot(ng, wo)) < 1e-3) continue;
-        ++hits;
-        EXPECT_EQ(a.outside != 0, glm::dot(ng, wo) > 0) << i;
-        EXPECT_GT(glm::dot(glm::dvec3(a.geometric), wo), 0) << i;
-        EXPECT_NEAR(glm::length(a.shading), 1, 1e-6) << i;
-        EXPECT_GE(glm::dot(a.facing, a.geometric), 0) << i;
-        EXPECT_GT(glm::dot(glm::dvec3(a.facing), wo), 0) << i;
-        const Triangle& t = scene.triangles[id];
-        glm::dvec3 expected = ng;
-        if (t.normals[0] != kNoNormals) {
-            // Barycentric weights of the point, by areas.
-            const glm::dvec3 v0(p.v0), v1(p.v1), v2(p.v2), x(a.position);
-            const double area = glm::dot(ng, glm::cross(v1 - v0, v2 - v0));
-            const double b1 = glm::dot(ng, glm::cross(x - v0, v2 - v0)) / area;
-            const double b2 = glm::dot(ng, glm::cross(v1 - v0, x - v0)) / area;
-            expected = (1 - b1 - b2) * glm::dvec3(scene.normals[t.normals[0]]) +
+}
+
+/// What a triangle of the file has at a point: normals by barycentric weights, these by areas.
+struct FileNormals {
+    FileNormals(const Scene& scene, const Triangle& t, const glm::dvec3& x) {
+        const glm::dvec3 v0(scene.positions[t.corner[0]]), v1(scene.positions[t.corner[1]]);
+        const glm::dvec3 v2(scene.positions[t.corner[2]]);
+        geometric = glm::normalize(glm::cross(v1 - v0, v2 - v0));
+        interpolated = geometric;
+        if (t.normals[0] == kNoNormals) return;
+        const double area = glm::dot(geometric, glm::cross(v1 - v0, v2 - v0));
+        const double b1 = glm::dot(geometric, glm::cross(x - v0, v2 - v0)) / area;
+        const double b2 = glm::dot(geometric, glm::cross(v1 - v0, x - v0)) / area;
+        interpolated = (1 - b1 - b2) * glm::dvec3(scene.normals[t.normals[0]]) +
                        b1 * glm::dvec3(scene.normals[t.normals[1]]) +
                        b2 * glm::dvec3(scene.normals[t.normals[2]]);
-        }
-        const double length = glm::length(expected);
-        if (length < 0.05) continue; // as good as cancelled
-        // Octahedral normals are good to 4e-5; slivers have rough weights.
-        const double tolerance = (1e-4 + 1e-4) / length;
-        EXPECT_LT(glm::length(glm::dvec3(a.shading) - expected / length), tolerance) << i;
     }
-    EXPECT_GT(hits, 20000);
+    glm::dvec3 geometric, interpolated; ///< the latter not of unit length
+};
+
+/// Shading normals: interpolated, or the geometric one where there are none or they cancel; both
+/// turned to the viewer. Leaves may hold triangles in pairs and begin with another of their
+/// corners.
+TEST_F(SurfaceTest, NormalsAreInterpolatedAndFaceTheViewer) {
+    Random random(144);
+    Scene mesh = landscape(12);
+    for (Triangle& t : mesh.triangles)
+        std::rotate(t.corner, t.corner + random.below(3), t.corner + 3);
+    int hits = 0;
+    for (Scene scene : {soup(300, 0, 1, random), mesh}) {
+        addNormals(scene, random);
+        setScene(scene);
+        const size_t n = scene.triangles.size();
+        std::vector<SurfaceQuery> queries;
+        for (size_t i = 0; i < 30000; ++i)
+            queries.push_back(rayAt(primitives_[i % n], 2, random));
+        const std::vector<SurfaceAnswer> found = answers(queries);
+        for (size_t i = 0; i < queries.size(); ++i) {
+            const SurfaceAnswer& a = found[i];
+            if (!(a.t < kInfinite)) continue;
+            const FileNormals file(scene, scene.triangles[i % n], glm::dvec3(a.position));
+            const glm::dvec3 wo = -glm::dvec3(queries[i].direction);
+            if (std::abs(glm::dot(file.geometric, wo)) < 1e-3) continue;
+            ++hits;
+            EXPECT_EQ(a.outside != 0, glm::dot(file.geometric, wo) > 0) << i;
+            EXPECT_GT(glm::dot(glm::dvec3(a.geometric), wo), 0) << i;
+            EXPECT_NEAR(glm::length(a.shading), 1, 1e-6) << i;
+            EXPECT_GE(glm::dot(a.facing, a.geometric), 0) << i;
+            EXPECT_GT(glm::dot(glm::dvec3(a.facing), wo), 0) << i;
+            const double length = glm::length(file.interpolated);
+            if (length < 0.05) continue; // as good as cancelled
+            // Octahedral normals are good to 4e-5; slivers have rough weights.
+            const double tolerance = (1e-4 + 1e-4) / length;
+            EXPECT_LT(glm::length(glm::dvec3(a.shading) - file.interpolated / length), tolerance)
+                << i;
+        }
+    }
+    EXPECT_GT(hits, 40000);
+}
+
+/// What the reference makes of a triangle of the file at the point that the kernel found.
+struct FileSurface {
+    FileSurface(const Scene& scene, const Triangle& t, const SurfaceAnswer& a) {
+        for (int c = 0; c < 3; ++c) {
+            smooth.corner[c] = scene.positions[t.corner[c]];
+            smooth.normal[c] = scene.normals[t.normals[c]];
+        }
+        const glm::dvec3 g(a.geometric), x = glm::dvec3(a.position) - smooth.corner[0];
+        const glm::dvec3 e1 = smooth.corner[1] - smooth.corner[0];
+        const glm::dvec3 e2 = smooth.corner[2] - smooth.corner[0];
+        const double area = glm::dot(g, glm::cross(e1, e2));
+        const double b1 = glm::dot(g, glm::cross(x, e2)) / area;
+        const double b2 = glm::dot(g, glm::cross(e1, x)) / area;
+        size = glm::length(e1) + glm::length(e2);
+        height = smooth.height({1 - b1 - b2, b1, b2}, g);
+        for (const glm::dvec3& n : smooth.normal)
+            leastTilt = std::min(leastTilt, std::abs(glm::dot(n, g)));
+    }
+    reference::SmoothTriangle smooth;
+    double size, height, leastTilt = 1; ///< the last: sine of a normal's angle to the plane
+};
+
+/// The height of the smooth surface is the reference's, at any scale and whichever corner a leaf
+/// begins with; and that is how far above the triangle light is reflected from.
+TEST_F(SurfaceTest, LightLeavesFromTheSmoothSurface) {
+    Random random(145);
+    int lifted = 0;
+    for (const float scale : {1e-8f, 1.0f, 1e8f}) {
+        Scene scene = landscape(12);
+        addNormals(scene, random);
+        for (glm::vec3& p : scene.positions)
+            p *= scale;
+        setScene(scene);
+        const size_t n = scene.triangles.size();
+        std::vector<SurfaceQuery> queries;
+        for (size_t i = 0; i < 10000; ++i)
+            queries.push_back(rayAt(primitives_[i % n], 2 * scale, random));
+        const std::vector<SurfaceAnswer> found = answers(queries);
+        for (size_t i = 0; i < queries.size(); ++i) {
+            const SurfaceAnswer& a = found[i];
+            const Triangle& t = scene.triangles[i % n];
+            if (!(a.t < kInfinite) || t.normals[0] == kNoNormals) continue;
+            const FileSurface file(scene, t, a);
+            // Octahedral normals are good to 4e-5; one in the plane may fall on either side.
+            if (file.leastTilt < 1e-3) continue;
+            EXPECT_NEAR(a.lift, file.height, 2e-4 * file.size) << scale << ' ' << i;
+            const glm::dvec3 g(a.geometric);
+            if (glm::dot(glm::dvec3(queries[i].leaving), g) < 1e-3) continue;
+            lifted += file.height > 0.01 * file.size;
+            const double start = glm::dot(g, glm::dvec3(a.start) - glm::dvec3(a.position));
+            EXPECT_NEAR(start, file.height, 2e-4 * file.size) << scale << ' ' << i;
+            EXPECT_GT(start, 0) << scale << ' ' << i;
+        }
+    }
+    EXPECT_GT(lifted, 1000);
 }
 
 } // namespace

@@ -1,16 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Rays through the hierarchy, and, with segmentBase primitives, against every one of them.
+// Rays through the hierarchy, and against every primitive of its first segmentBase records.
 #include "prelude.glsl"
 #include "naive.glsl"
 
 QUERIES_AND_ANSWERS(RayQuery, RayAnswer)
 
-RayAnswer answer(RayQuery q) {
-    RayAnswer a = RayAnswer(0.0, 0.0, 0.0, NO_PRIMITIVE, 0u, 0u, 0u, q.tMax);
-    Traversal t;
-    startTraversal(t, q.origin, q.direction, q.tMin, q.tMax, q.skipPrimitive, q.anyHit != 0u);
+void traverse(inout Traversal t, inout RayAnswer a) {
     while (traversing(t) && a.steps < dispatch.hardIterations) {
+        a.highestEntry = max(a.highestEntry, t.stackTop);
         traversalStep(t);
         ++a.steps;
     }
@@ -18,16 +16,37 @@ RayAnswer answer(RayQuery q) {
     a.b1 = t.b1;
     a.b2 = t.b2;
     a.primitive = t.hitPrimitive;
-    for (uint i = 0u; i < dispatch.segmentBase; ++i) {
-        const Primitive p = fetchPrimitive(i);
-        const float hit = p.kind == PRIMITIVE_SPHERE
-                              ? hitSphere(p.v0, p.v1.x, t.ray, q.tMin, q.tMax)
-                              : hitTriangle(p.v0, p.v1, p.v2, t.ray).t;
-        const float naive = hitTriangleNaively(p.v0, p.v1, p.v2, t.ray);
-        const bool counts = hit > q.tMin && hit < q.tMax && i != q.skipPrimitive;
-        if (counts) a.bruteT = min(a.bruteT, hit);
-        a.bruteHits += counts ? 1u : 0u;
-        a.naiveHits += naive > q.tMin && naive < q.tMax ? 1u : 0u;
-    }
+}
+
+void tryOne(RayQuery q, Ray ray, uint place, float t, vec3 v0, vec3 v1, vec3 v2,
+            inout RayAnswer a) {
+    const float naive = hitTriangleNaively(v0, v1, v2, ray);
+    const bool counts = t > q.tMin && t < q.tMax && place != q.skipPrimitive;
+    if (counts) a.bruteT = min(a.bruteT, t);
+    a.bruteHits += counts ? 1u : 0u;
+    a.naiveHits += naive > q.tMin && naive < q.tMax ? 1u : 0u;
+}
+
+void tryRecord(RayQuery q, Ray ray, uint record, inout RayAnswer a) {
+    const Record r = fetchRecord(record);
+    if ((r.r0.w & RECORD_IS_NODE) != 0u) return;
+    ++a.bruteRecords;
+    const LeafPoints p = leafPoints(r);
+    const TrianglePairHit hit = hitTrianglePair(p, ray);
+    const bool isSphere = (r.r0.w & RECORD_IS_SPHERE) != 0u;
+    const float first =
+        isSphere ? hitSphere(p.p0, uintBitsToFloat(r.r3.y), ray, q.tMin, q.tMax) : hit.first.t;
+    tryOne(q, ray, 2u * record, first, p.p0, p.p1, p.p2, a);
+    tryOne(q, ray, 2u * record + 1u, hit.second.t, p.p0, p.p2, p.p3, a);
+}
+
+RayAnswer answer(RayQuery q) {
+    RayAnswer a =
+        RayAnswer(0.0, 0.0, 0.0, NO_PRIMITIVE, 0u, 0u, 0u, q.tMax, 0u, 0u, 0u, 0u);
+    Traversal t;
+    startTraversal(t, q.origin, q.direction, q.tMin, q.tMax, q.skipPrimitive, q.anyHit != 0u);
+    traverse(t, a);
+    for (uint record = 0u; record < dispatch.segmentBase; ++record)
+        tryRecord(q, t.ray, record, a);
     return a;
 }

@@ -1,8 +1,7 @@
-// No ray passes between triangles of a closed mesh on the device: neither hitTriangle, tried on
+// No ray passes between triangles of a closed mesh on the device: neither hitTrianglePair, tried on
 // every triangle, nor the traversal lets one out. Half a million rays at edges and corners each.
-#include "host/bvh/primitive_bounds.hpp"
-#include "host/kernel/gpu_scene.hpp"
 #include "tests/bvh/fixtures.hpp"
+#include "tests/shaders/placed.hpp"
 #include "tests/shaders/queries.h"
 #include "tests/support/device_fixture.hpp"
 #include "tests/support/test_shader.hpp"
@@ -34,13 +33,6 @@ glm::vec3 pointOnWireframe(const Scene& mesh, Random& random) {
     }
 }
 
-GpuScene pack(Scene& scene) {
-    scene.materials.resize(1);
-    BuildOptions options;
-    options.maxLeafSize = 1; // boxes as tight as can be
-    return packScene(scene, buildBinaryTree(primitiveBounds(scene), options), false);
-}
-
 struct Escapes {
     uint32_t brute = 0, traversal = 0, naive = 0;
 };
@@ -63,7 +55,7 @@ class Watertight : public DeviceTest {
             q.anyHit = i % 4 < 2;
         }
         gpu::Dispatch constants{};
-        constants.segmentBase = uint32_t(scene.primitives.size());
+        constants.segmentBase = uint32_t(scene.bvh.records.size());
         constants.hardIterations = 1000;
         Escapes escapes;
         for (const RayAnswer& a : ask<RayAnswer>(shader_, queries, constants)) {

@@ -16,8 +16,8 @@ constexpr uint32_t kBindings = BINDING_COUNT + 2;
 std::vector<vulkan::Binding> allBindings(bool texelFetch) {
     std::vector<vulkan::Binding> bindings;
     for (uint32_t i = 0; i < kBindings; ++i) {
-        const bool scene = i < SCENE_BINDING_COUNT;
-        bindings.push_back({i, scene && texelFetch  ? BufferUse::Texel
+        const bool rows = i < SCENE_BINDING_COUNT || i == BINDING_WORK_ITEMS || i == BINDING_PIXELS;
+        bindings.push_back({i, rows && texelFetch   ? BufferUse::Texel
                                : i == BINDING_FRAME ? BufferUse::Uniform
                                                     : BufferUse::Storage});
     }
@@ -31,7 +31,7 @@ ShaderOptions::ShaderOptions() {
     for (const uint32_t feature :
          {SPEC_HAS_TRIANGLES, SPEC_HAS_SPHERES, SPEC_HAS_NORMALS, SPEC_HAS_EMISSION})
         set(feature, 1);
-    set(SPEC_MATERIAL_KINDS, ~0u).set(SPEC_LIGHT_KINDS, ~0u);
+    set(SPEC_MATERIAL_KINDS, ~0u).set(SPEC_LIGHT_KINDS, ~0u).set(SPEC_LIGHT_SAMPLES, 1);
 }
 
 ShaderOptions ShaderOptions::texel() {
@@ -69,9 +69,8 @@ void TestShader::getBytes(uint32_t binding, std::span<std::byte> bytes) {
 }
 
 void TestShader::setScene(const GpuScene& scene) {
-    set(BINDING_NODES, scene.bvh.nodes);
+    set(BINDING_RECORDS, scene.bvh.records);
     set(BINDING_PRIMITIVES, scene.primitives);
-    set(BINDING_NORMALS, scene.normals);
     set(BINDING_MATERIALS, scene.materials);
     set(BINDING_LIGHTS, scene.lights);
     set(BINDING_EMITTER_ENTRIES, scene.emitterEntries);

@@ -1,4 +1,4 @@
-#include "host/film/atomic_file.hpp"
+#include "host/core/atomic_file.hpp"
 
 #include "host/core/error.hpp"
 
@@ -93,8 +93,8 @@ class TemporaryFile {
     }
 
     /// Some file systems report a full disk only when the data are flushed or the file is closed.
-    void rename() {
-        if (::fsync(descriptor_) != 0) fail(path_, systemReason(errno));
+    void rename(Sync sync) {
+        if (sync == Sync::Now && ::fsync(descriptor_) != 0) fail(path_, systemReason(errno));
         const int closed = ::close(descriptor_);
         descriptor_ = -1;
         if (closed != 0) fail(path_, systemReason(errno));
@@ -110,12 +110,12 @@ class TemporaryFile {
 
 } // namespace
 
-void writeFileAtomically(const fs::path& path, std::span<const std::byte> bytes) {
+void writeFileAtomically(const fs::path& path, std::span<const std::byte> bytes, Sync sync) {
     const fs::path target = followLinks(path);
     checkTarget(target);
     TemporaryFile file(target);
     file.write(bytes);
-    file.rename();
+    file.rename(sync);
 }
 
 void checkFileWritable(const fs::path& path) {

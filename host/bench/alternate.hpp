@@ -1,0 +1,55 @@
+#pragma once
+
+#include "host/bench/spread.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace stromboli::bench {
+
+/// What one run of a contestant did.
+struct Work {
+    double items = 1;         ///< rays, paths, ...
+    double deviceSeconds = 0; ///< by the device's own clock; 0: it has none
+};
+
+/// One of several ways to do the same work.
+struct Contestant {
+    std::string name;
+    std::function<Work()> run;
+};
+
+/// All measurements of a contestant; entry i of each list is of round i.
+struct Series {
+    std::string name;
+    std::vector<double> wallSeconds;   ///< per item
+    std::vector<double> cpuSeconds;    ///< per item, user and system, of all threads
+    std::vector<double> deviceSeconds; ///< per item; empty if the device has no clock
+
+    /// Items per second of wall time.
+    Spread wallRate() const;
+    /// CPU seconds over wall seconds: the number of threads at work, on average.
+    double parallelism() const;
+};
+
+struct AlternatePlan {
+    uint32_t repeats = 5;
+    double leastSeconds = 0.2; ///< a measurement runs its contestant again until it took that long
+    std::function<void(const std::string&)> progress; ///< told what comes next; may be empty
+};
+
+/// Thrown where the user asked to stop.
+struct Stopped {};
+
+/// Runs each contestant once unmeasured (caches, first compilation), then all in turn, A B C A B C,
+/// `repeats` times: what changes on the machine meanwhile (other load, clock rates) meets all of
+/// them alike.
+std::vector<Series> alternate(const std::vector<Contestant>& contestants,
+                              const AlternatePlan& plan);
+
+/// How many times faster `a` was than `b`: of the ratios within each round.
+Spread speedup(const std::vector<double>& secondsOfA, const std::vector<double>& secondsOfB);
+
+} // namespace stromboli::bench

@@ -1,0 +1,150 @@
+#include "host/bench/device_rays.hpp"
+
+#include "host/core/error.hpp"
+#include "host/kernel/kernel_features.hpp"
+#include "host/vulkan/queue.hpp"
+
+#include "embedded/trace_rays_storage.h"
+#include "embedded/trace_rays_texel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace stromboli::bench {
+namespace {
+
+using vulkan::Buffer;
+using vulkan::BufferUse;
+
+constexpr uint32_t kBindings = BINDING_RAY_DISTANCES + 1;
+/// llvmpipe ends all loops of a group, silently, after 65,535 passes of any loop.
+constexpr uint32_t kLlvmpipeLoopPasses = 65535;
+/// On other devices only a guard against endless loops.
+constexpr uint32_t kGuardIterations = 1u << 20;
+
+/// The scene's buffers by binding; the traversal reads the first ones only, but all are bound.
+std::vector<std::span<const std::byte>> sceneRows(const GpuScene& scene) {
+    return {std::as_bytes(std::span(scene.bvh.records)), std::as_bytes(std::span(scene.primitives)),
+            std::as_bytes(std::span(scene.materials)), std::as_bytes(std::span(scene.lights)),
+            std::as_bytes(std::span(scene.emitterEntries))};
+}
+
+bool isRow(uint32_t binding) {
+    return binding < SCENE_BINDING_COUNT || binding == BINDING_RAYS;
+}
+
+std::vector<vulkan::Binding> bindings(bool texelFetch) {
+    std::vector<vulkan::Binding> all;
+    for (uint32_t i = 0; i < kBindings; ++i)
+        if (isRow(i) || i > BINDING_RAYS)
+            all.push_back({i, isRow(i) && texelFetch ? BufferUse::Texel : BufferUse::Storage});
+    return all;
+}
+
+} // namespace
+
+RayTuning rayTuning(const vulkan::Device& device) {
+    RayTuning t = {resolve({}, device), 1};
+    if (!device.description().isCpu()) return t;
+    // The service pass costs next to nothing here (the path kernel's is dear), so that it comes
+    // after every step. Rays per lane: enough that lanes seldom wait for the last rays of others,
+    // few enough for the limit of loop passes.
+    t.kernel.traversalSteps = 1;
+    t.raysPerLane = 64;
+    return t;
+}
+
+DeviceRays::DeviceRays(const vulkan::Device& device, const GpuScene& scene, const RayTuning& tuning)
+    : device_(device), tuning_(tuning), queue_(device) {
+    const KernelFeatures features = kernelFeatures(scene, {}, {}, tuning_.kernel);
+    constants_.assign(features.begin(), features.end());
+    for (const std::span<const std::byte> rows : sceneRows(scene)) {
+        Buffer& buffer = sceneBuffers_.emplace_back(device, "scene of the ray kernel", rows.size(),
+                                                    tuning_.kernel.texelFetch ? BufferUse::Texel
+                                                                              : BufferUse::Storage);
+        buffer.upload(queue_, rows);
+    }
+}
+
+vulkan::ComputePipeline DeviceRays::makePipeline(bool anyHit, bool writeDistances) const {
+    std::vector<uint32_t> constants = constants_;
+    constants.push_back(anyHit);
+    constants.push_back(writeDistances);
+    const std::span<const uint32_t> code = tuning_.kernel.texelFetch
+                                               ? std::span<const uint32_t>(trace_rays_texel)
+                                               : std::span<const uint32_t>(trace_rays_storage);
+    return {device_, code, bindings(tuning_.kernel.texelFetch), constants,
+            sizeof(gpu::RayDispatch)};
+}
+
+void DeviceRays::load(const RaySet& set) {
+    rayCount_ = uint32_t(set.rays.size());
+    anyHit_ = set.anyHit;
+    const uint32_t raysPerGroup = tuning_.kernel.workgroupSize * tuning_.raysPerLane;
+    groups_ = (rayCount_ + raysPerGroup - 1) / raysPerGroup;
+    rays_.emplace(device_, "ray buffer", set.rays.size() * sizeof(gpu::TracedRay),
+                  tuning_.kernel.texelFetch ? BufferUse::Texel : BufferUse::Storage);
+    rays_->upload(queue_, std::as_bytes(std::span(set.rays)));
+    totals_.emplace(device_, "ray totals",
+                    groups_ * tuning_.kernel.workgroupSize * sizeof(gpu::LaneTotals),
+                    BufferUse::Storage);
+    distances_.emplace(device_, "ray distances", rayCount_ * sizeof(float), BufferUse::Storage);
+    pipeline_.emplace(makePipeline(anyHit_, false));
+    set_ = makeSet(*pipeline_);
+}
+
+std::unique_ptr<vulkan::DescriptorSet>
+DeviceRays::makeSet(const vulkan::ComputePipeline& pipeline) const {
+    std::vector<const Buffer*> buffers;
+    for (const Buffer& b : sceneBuffers_)
+        buffers.push_back(&b);
+    for (const Buffer* b : {&*rays_, &*totals_, &*distances_})
+        buffers.push_back(b);
+    return std::make_unique<vulkan::DescriptorSet>(device_, pipeline, buffers);
+}
+
+double DeviceRays::dispatch(const vulkan::ComputePipeline& pipeline,
+                            const vulkan::DescriptorSet& set) {
+    gpu::RayDispatch constants{};
+    constants.rayCount = rayCount_;
+    constants.raysPerLane = tuning_.raysPerLane;
+    // A pass counts for itself, its traversal steps and the service loop.
+    constants.hardIterations =
+        device_.description().isCpu()
+            ? kLlvmpipeLoopPasses / (1 + (tuning_.kernel.traversalSteps + 1) + 2)
+            : kGuardIterations;
+    return queue_.run("run the ray kernel", [&](VkCommandBuffer commands) {
+        vulkan::recordDispatch(device_, commands, pipeline, set,
+                               std::as_bytes(std::span(&constants, 1)), groups_);
+    });
+}
+
+RayTotals DeviceRays::trace() {
+    const double seconds = dispatch(*pipeline_, *set_);
+    std::vector<gpu::LaneTotals> lanes(groups_ * tuning_.kernel.workgroupSize);
+    totals_->download(queue_, std::as_writable_bytes(std::span(lanes)));
+    RayTotals totals;
+    totals.deviceSeconds = device_.description().timestampBits > 0 ? seconds : 0;
+    uint64_t unfinished = 0;
+    for (const gpu::LaneTotals& lane : lanes) {
+        totals.hits += lane.hits;
+        totals.distances += double(lane.distances);
+        unfinished += lane.unfinished;
+    }
+    if (unfinished > 0)
+        throw DeviceError(fmt::format("the ray kernel did not finish: {} of {} lanes met the limit "
+                                      "of loop passes",
+                                      unfinished, lanes.size()));
+    return totals;
+}
+
+std::vector<float> DeviceRays::distances() {
+    const vulkan::ComputePipeline pipeline = makePipeline(anyHit_, true);
+    dispatch(pipeline, *makeSet(pipeline));
+    std::vector<float> result(rayCount_);
+    distances_->download(queue_, std::as_writable_bytes(std::span(result)));
+    return result;
+}
+
+} // namespace stromboli::bench

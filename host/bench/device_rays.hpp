@@ -1,0 +1,63 @@
+#pragma once
+
+#include "host/bench/ray_sets.hpp"
+#include "host/kernel/gpu_scene.hpp"
+#include "host/kernel/kernel_tuning.hpp"
+#include "host/vulkan/buffer.hpp"
+#include "host/vulkan/compute_pipeline.hpp"
+
+#include <memory>
+#include <optional>
+
+namespace stromboli::bench {
+
+/// What tracing a ray set found, summed: equal work leaves equal sums, and a compiler cannot leave
+/// out work whose result is used.
+struct RayTotals {
+    uint64_t hits = 0;
+    double distances = 0;     ///< sum of t over closest hits
+    double deviceSeconds = 0; ///< 0: no device clock
+};
+
+/// How the ray kernel runs.
+struct RayTuning {
+    DeviceTuning kernel;
+    uint32_t raysPerLane = 1; ///< one after the other
+};
+
+/// What suits the device.
+RayTuning rayTuning(const vulkan::Device& device);
+
+/// Traces ray sets on the device with the kernel's own traversal (shaders/trace_rays.comp).
+class DeviceRays {
+  public:
+    /// Uploads the scene. Throws DeviceError.
+    DeviceRays(const vulkan::Device& device, const GpuScene& scene, const RayTuning& tuning);
+
+    /// Uploads the rays (at least one); not part of the time of trace().
+    void load(const RaySet& set);
+    /// Traces the loaded rays once. Throws DeviceError if a lane met the loop limit.
+    RayTotals trace();
+    /// Where each loaded ray ended; the largest float for misses.
+    std::vector<float> distances();
+
+  private:
+    vulkan::ComputePipeline makePipeline(bool anyHit, bool writeDistances) const;
+    std::unique_ptr<vulkan::DescriptorSet> makeSet(const vulkan::ComputePipeline& pipeline) const;
+    /// Returns the seconds it took (vulkan::Queue::run).
+    double dispatch(const vulkan::ComputePipeline& pipeline, const vulkan::DescriptorSet& set);
+
+    const vulkan::Device& device_;
+    RayTuning tuning_;
+    std::vector<uint32_t> constants_; ///< specialisation constants of the path kernel
+    vulkan::Queue queue_;
+    std::vector<vulkan::Buffer> sceneBuffers_;
+    // Of the loaded rays:
+    uint32_t rayCount_ = 0, groups_ = 0;
+    bool anyHit_ = false;
+    std::optional<vulkan::Buffer> rays_, totals_, distances_;
+    std::optional<vulkan::ComputePipeline> pipeline_;
+    std::unique_ptr<vulkan::DescriptorSet> set_;
+};
+
+} // namespace stromboli::bench

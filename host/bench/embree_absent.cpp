@@ -1,0 +1,15 @@
+// Stands for the other embree files where Embree's headers were not found.
+#include "host/bench/embree.hpp"
+
+namespace stromboli::bench {
+
+OpenedEmbree openEmbree(uint32_t) {
+    return {nullptr, "the program was built without it; on Debian: apt install libembree-dev, "
+                     "then build again"};
+}
+
+std::string embreePathsLack(const Scene&, const RenderSettings&) {
+    return {};
+}
+
+} // namespace stromboli::bench

@@ -1,0 +1,149 @@
+#pragma once
+
+#include "host/bench/embree_kernel_surface.hpp"
+
+namespace stromboli::bench::native {
+namespace {
+
+/// A sampled way to a light (docs/estimator.md has the densities).
+struct LightSample {
+    Vec direction; ///< unit
+    Vec radiance;  ///< over the density; 0: nothing arrives
+    Vec target;    ///< finite lights: just before the lamp
+    bool infinite;
+};
+
+inline bool isLit(Vec v) {
+    return v[0] + v[1] + v[2] > 0;
+}
+
+/// Bound of the error of a point on a lamp seen from `from`: its own, and that of the segment.
+inline float lampError(Vec lamp, Vec from) {
+    return 64 * kRoundoff * (largest(absolute(lamp)) + largest(absolute(from)));
+}
+
+/// Completes a sample taken uniformly on an area.
+inline LightSample areaSample(const Point& p, const Light& light, Vec at, Vec normal) {
+    const Vec to = at - p.position;
+    const float distance2 = dot(to, to);
+    LightSample s;
+    s.infinite = false;
+    s.direction = to * (1 / std::sqrt(distance2));
+    s.target = offset(at, lampError(at, p.position), normal, -to);
+    const float cosine = -dot(s.direction, normal);
+    const bool emits = light.bothSides ? cosine != 0 : cosine > 0;
+    s.radiance = emits && distance2 > 0
+                     ? vec(light.color) * (light.area * std::fabs(cosine) / distance2)
+                     : vec(0);
+    return s;
+}
+
+inline LightSample sampleQuad(const Point& p, const Light& light, const Random4& u) {
+    const Vec at = vec(light.position) + u.x * vec(light.edgeA) + u.y * vec(light.edgeB);
+    return areaSample(p, light, at, vec(light.normal));
+}
+
+inline LightSample sampleMesh(const World& w, const Point& p, const Light& light,
+                              const Random4& u) {
+    const auto index = uint32_t(u.z * float(light.columnCount));
+    const LampColumn& column =
+        w.lampColumns[light.firstColumn +
+                      (index < light.columnCount ? index : light.columnCount - 1)];
+    const LampTriangle& t = w.lampTriangles[u.w < column.threshold ? column.own : column.alias];
+    const float r = std::sqrt(u.x);
+    const Vec at = vec(t.corner) + (r * (1 - u.y)) * vec(t.edgeA) + (r * u.y) * vec(t.edgeB);
+    return areaSample(p, light, at, vec(t.normal));
+}
+
+inline LightSample sampleSphere(const Point& p, const Light& light, const Random4& u) {
+    const Vec center = vec(light.position);
+    const Vec from = offset(p.position, p.error, p.geometric, p.wo);
+    const Vec toCenter = center - from;
+    const float distance2 = dot(toCenter, toCenter), radius = light.radius;
+    const float sin2Max = radius * radius / distance2;
+    const SineCosine phi = turn(u.y);
+    if (!(sin2Max < 1)) {
+        const float z = 1 - 2 * u.x, r = 2 * std::sqrt(u.x * (1 - u.x));
+        const Vec n = vec(r * phi.cosine, r * phi.sine, z);
+        return areaSample(p, light, center + radius * n, n);
+    }
+    const float oneMinusCosMax = sin2Max / (1 + std::sqrt(1 - sin2Max));
+    const float oneMinusCos = u.x * oneMinusCosMax, cosine = 1 - oneMinusCos;
+    const float sin2 = oneMinusCos * (2 - oneMinusCos), sine = std::sqrt(sin2);
+    const float distance = std::sqrt(distance2);
+    LightSample s;
+    s.direction =
+        Frame(toCenter * (1 / distance)).toWorld(sine * phi.cosine, sine * phi.sine, cosine);
+    const float t = distance * cosine - std::sqrt(larger(radius * radius - distance2 * sin2, 0.0f));
+    const Vec n = normalize(from + t * s.direction - center);
+    const Vec at = center + radius * n;
+    s.target = offset(at, lampError(at, p.position), n, p.position - at);
+    s.infinite = false;
+    s.radiance = vec(light.color) * (2 * kPi * oneMinusCosMax);
+    return s;
+}
+
+inline LightSample sampleAmbient(const Point& p, const Light& light, const Random4& u) {
+    const float r = std::sqrt(larger(1 - u.x * u.x, 0.0f));
+    const SineCosine phi = turn(u.y);
+    LightSample s;
+    s.direction = light.upperHemisphereOnly
+                      ? vec(r * phi.cosine, u.x, r * phi.sine)
+                      : Frame(p.shading).toWorld(r * phi.cosine, r * phi.sine, u.x);
+    s.infinite = true;
+    s.target = s.direction;
+    s.radiance = vec(light.color) * (2 * kPi);
+    return s;
+}
+
+/// The share of the way to a point light, at its end, where nothing shades (docs/estimator.md).
+constexpr float kPointLightGap = 0x1p-16f;
+
+inline LightSample sampleDelta(const Point& p, const Light& light) {
+    const Vec position = vec(light.position);
+    if (light.kind == LightKind::Directional) return {position, vec(light.color), position, true};
+    const Vec to = position - p.position;
+    const float distance2 = dot(to, to), distance = std::sqrt(distance2);
+    const float attenuation =
+        light.attenuation[0] + light.attenuation[1] * distance + light.attenuation[2] * distance2;
+    LightSample s{to * (1 / distance), vec(light.color) * (1 / attenuation),
+                  position - kPointLightGap * to, false};
+    if (!(distance2 > 0)) s.radiance = vec(0);
+    if (light.kind == LightKind::Spot) {
+        const float cosine = -dot(s.direction, vec(light.edgeA));
+        const float falloff =
+            light.falloffExponent == 0 ? 1 : std::pow(larger(cosine, 0.0f), light.falloffExponent);
+        s.radiance = cosine >= light.cosCutoff ? s.radiance * falloff : vec(0);
+    }
+    return s;
+}
+
+template <bool otherLights>
+LightSample sampleLight(const World& w, const Point& p, const Light& light, const Random4& u) {
+    if (!otherLights) return sampleQuad(p, light, u);
+    switch (light.kind) {
+    case LightKind::Quad:
+        return sampleQuad(p, light, u);
+    case LightKind::Mesh:
+        return sampleMesh(w, p, light, u);
+    case LightKind::Sphere:
+        return sampleSphere(p, light, u);
+    case LightKind::Ambient:
+        return sampleAmbient(p, light, u);
+    default:
+        return sampleDelta(p, light);
+    }
+}
+
+/// What all ambient lights send to a ray that hits nothing.
+inline Vec ambientRadiance(const World& w, Vec direction) {
+    Vec sum = vec(0);
+    for (uint32_t i = 0; i < w.areaLights; ++i)
+        if (w.lights[i].kind == LightKind::Ambient &&
+            (!w.lights[i].upperHemisphereOnly || direction[1] > 0))
+            sum = sum + vec(w.lights[i].color);
+    return sum;
+}
+
+} // namespace
+} // namespace stromboli::bench::native

@@ -1,0 +1,75 @@
+#include "host/bench/embree_paths.hpp"
+
+#include "host/bench/embree.hpp"
+#include "host/bench/workers.hpp"
+
+#include <algorithm>
+#include <atomic>
+
+namespace stromboli::bench {
+namespace {
+
+constexpr uint64_t kBlock = 64; ///< pixels a thread takes at a time
+
+/// The samples' statistics in the film's terms.
+PixelStatistics statisticsOf(const native::PixelSums& sums) {
+    PixelStatistics p;
+    p.count = sums.count;
+    p.rejected = sums.rejected;
+    if (sums.rejected > 0) p.firstRejected = sums.firstRejected;
+    if (sums.count == 0) return p;
+    for (int c = 0; c < 3; ++c) {
+        p.mean[c] = sums.sum[c] / sums.count;
+        p.m2[c] = std::max(sums.squares[c] - sums.sum[c] * p.mean[c], 0.0);
+    }
+    return p;
+}
+
+} // namespace
+
+void EmbreePaths::sample(std::span<const PixelTarget> targets, Film& film,
+                         const PassProgress& progress) {
+    std::atomic<uint64_t> paths{0}, rays{0};
+    forBlocks(threads_, targets.size(), kBlock, native::prepareThread,
+              [&](uint64_t first, uint64_t count) {
+                  uint64_t blockPaths = 0, blockRays = 0;
+                  for (const PixelTarget& target : targets.subspan(first, count)) {
+                      PixelStatistics& pixel = film.pixels[target.pixel];
+                      if (pixel.taken() >= target.samples) continue;
+                      const uint32_t wanted = target.samples - pixel.taken();
+                      const native::PixelSums sums = native::samplePixel(
+                          world_.world(), world_.features(), target.pixel, pixel.taken(), wanted);
+                      pixel.merge(statisticsOf(sums));
+                      blockPaths += wanted;
+                      blockRays += sums.rays;
+                  }
+                  paths += blockPaths;
+                  rays += blockRays;
+              });
+    counters_.paths += paths;
+    counters_.rays += rays;
+    if (progress) progress(paths);
+}
+
+SampleValue EmbreePaths::sampleAlone(uint32_t pixel, uint32_t sample) {
+    const native::PixelSums sums =
+        native::samplePixel(world_.world(), world_.features(), pixel, sample, 1);
+    counters_.paths += 1;
+    counters_.rays += sums.rays;
+    return {{sums.sum[0], sums.sum[1], sums.sum[2]}, sums.rejected > 0};
+}
+
+std::string embreePathsLack(const Scene& scene, const RenderSettings& settings) {
+    if (settings.cs184) return "CS184 conventions";
+    if (settings.integrator != Integrator::Path) return "normals integrator";
+    if (settings.directLight != DirectLight::Lights) return "direct light other than by lights";
+    const auto isMetal = [&](const auto& primitive) {
+        return scene.materials[primitive.material].kind == MaterialKind::Microfacet;
+    };
+    if (std::any_of(scene.triangles.begin(), scene.triangles.end(), isMetal) ||
+        std::any_of(scene.spheres.begin(), scene.spheres.end(), isMetal))
+        return "microfacet materials";
+    return {};
+}
+
+} // namespace stromboli::bench

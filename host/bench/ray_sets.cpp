@@ -1,0 +1,128 @@
+#include "host/bench/ray_sets.hpp"
+
+#include "host/kernel/work_order.hpp"
+#include "host/reference/camera_ray.hpp"
+#include "host/reference/sampling.hpp"
+#include "host/reference/world.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace stromboli::bench {
+namespace {
+
+using reference::Convention;
+using reference::SurfacePoint;
+
+constexpr float kInfinite = std::numeric_limits<float>::max();
+/// The share of a shadow ray, at its end, where nothing counts: far more than any contestant's
+/// rounding, so that none of them takes the lamp for an obstacle.
+constexpr float kLampGap = 0x1p-12f;
+
+/// What became of one camera ray.
+struct PathStart {
+    gpu::TracedRay camera{};
+    std::optional<gpu::TracedRay> shadow, bounce;
+};
+
+/// The kernel's bound of a hit point's error (docs/numerics.md, "Hit points"): 32 u of the largest
+/// coordinate.
+double floatError(const glm::dvec3& p) {
+    return 32 * 0x1p-24 * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+}
+
+gpu::TracedRay leave(const SurfacePoint& s, const glm::dvec3& direction, float tMax) {
+    const glm::dvec3 origin =
+        reference::moveOff(s.position, floatError(s.position), s.geometric, direction);
+    return {glm::vec3(origin), tMax, glm::vec3(direction), 0};
+}
+
+std::optional<gpu::TracedRay> shadowRay(const reference::Lights& lights, const SurfacePoint& s,
+                                        reference::RandomStream& random) {
+    const size_t count = lights.broadCount() + lights.deltaCount();
+    if (count == 0) return {};
+    const auto index = size_t(random.next() * double(count));
+    const reference::LightSample light = index < lights.broadCount()
+                                             ? lights.sampleBroad(index, s, random)
+                                             : lights.sampleDelta(index - lights.broadCount(), s);
+    const bool lit = light.value.x > 0 || light.value.y > 0 || light.value.z > 0;
+    if (!lit || glm::dot(s.geometric, light.direction) <= 0) return {};
+    if (light.infinite) return leave(s, light.direction, kInfinite);
+    gpu::TracedRay ray = leave(s, light.direction, 1 - kLampGap);
+    ray.direction = glm::vec3(light.target - glm::dvec3(ray.origin));
+    return ray;
+}
+
+gpu::TracedRay bounceRay(const SurfacePoint& s, reference::RandomStream& random) {
+    const double u = random.next(), v = random.next();
+    const reference::Frame frame(s.shading);
+    glm::dvec3 direction = frame.toWorld(reference::cosineHemisphere(u, v));
+    // Interpolated normals may send it into the surface; a path would end there.
+    if (glm::dot(direction, s.geometric) <= 0)
+        direction -= 2 * glm::dot(direction, s.geometric) * s.geometric;
+    return leave(s, direction, kInfinite);
+}
+
+PathStart startPath(const reference::World& world, const Camera& camera,
+                    const RenderSettings& settings, uint32_t pixel, uint32_t sample) {
+    reference::RandomStream random(pixel, sample, settings.seed);
+    const double x = pixel % settings.width + random.next();
+    const double y = pixel / settings.width + random.next();
+    const reference::Ray ray =
+        reference::cameraRay(camera, x / settings.width, y / settings.height);
+    PathStart start;
+    start.camera = {glm::vec3(ray.origin), kInfinite, glm::vec3(ray.direction), 0};
+    const reference::Hit hit = world.bvh.closest(ray, {});
+    if (hit.primitive == reference::kNoPrimitive) return start;
+    SurfacePoint surface = reference::surfaceAt(world.scene, ray, hit);
+    reference::faceForward(surface, world.convention);
+    start.shadow = shadowRay(world.lights, surface, random);
+    start.bounce = bounceRay(surface, random);
+    return start;
+}
+
+/// All pixels in tiles of 8 x 8; tiles that follow each other are far apart in the picture.
+/// lavapipe gives each of its threads one contiguous share of a dispatch, and none shall have the
+/// empty half.
+std::vector<PixelTarget> pixelsInOrder(const RenderSettings& settings) {
+    std::vector<PixelTarget> pixels(size_t(settings.width) * settings.height);
+    for (uint32_t i = 0; i < pixels.size(); ++i)
+        pixels[i].pixel = i;
+    const std::vector<PixelTarget> tiled = tileOrder(pixels, settings.width);
+    constexpr size_t kTile = 64, kStride = 61;
+    const size_t tiles = (tiled.size() + kTile - 1) / kTile;
+    std::vector<PixelTarget> order;
+    for (size_t start = 0; start < kStride; ++start)
+        for (size_t tile = start; tile < tiles; tile += kStride) {
+            const auto first = tiled.begin() + ptrdiff_t(tile * kTile);
+            const size_t count = std::min(kTile, tiled.size() - tile * kTile);
+            order.insert(order.end(), first, first + ptrdiff_t(count));
+        }
+    return order;
+}
+
+} // namespace
+
+RaySets makeRaySets(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                    uint32_t perPixel) {
+    const reference::World world(scene, Convention::Physical);
+    const std::vector<PixelTarget> order = pixelsInOrder(settings);
+    std::vector<PathStart> starts(order.size() * perPixel);
+    tbb::parallel_for(size_t(0), starts.size(), [&](size_t i) {
+        starts[i] = startPath(world, camera, settings, order[i % order.size()].pixel,
+                              uint32_t(i / order.size()));
+    });
+    RaySets sets;
+    for (const PathStart& start : starts) {
+        sets.camera.rays.push_back(start.camera);
+        if (start.shadow) sets.shadow.rays.push_back(*start.shadow);
+        if (start.bounce) sets.bounce.rays.push_back(*start.bounce);
+    }
+    return sets;
+}
+
+} // namespace stromboli::bench

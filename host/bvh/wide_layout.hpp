@@ -1,0 +1,44 @@
+#pragma once
+
+#include "host/bvh/binary_tree.hpp"
+#include "scene/model/scene.hpp"
+#include "shaders/shared/scene_types.h"
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+namespace stromboli {
+
+/// 64 bytes: a gpu::NodeRecord or a gpu::LeafRecord.
+using Record = std::array<uint32_t, sizeof(gpu::NodeRecord) / sizeof(uint32_t)>;
+
+inline gpu::NodeRecord asNode(const Record& r) {
+    return std::bit_cast<gpu::NodeRecord>(r);
+}
+inline gpu::LeafRecord asLeaf(const Record& r) {
+    return std::bit_cast<gpu::LeafRecord>(r);
+}
+inline bool isNode(const Record& r) {
+    return (asNode(r).firstChild & gpu::RECORD_IS_NODE) != 0;
+}
+
+/// The tree as the kernel reads it: 8-wide, boxes on a grid of 8 bits per axis (after Ylitie,
+/// Karras and Laine 2017).
+struct WideLayout {
+    std::vector<Record> records;          ///< record 0: the root, always a node
+    std::vector<uint32_t> primitiveOrder; ///< entry i of the Primitive buffer is order[i]
+    std::vector<uint32_t> placeOf;        ///< by scene primitive: 2 * record + slot in the leaf
+    /// By scene primitive: the slot's corner c is corner (c + firstCorner) % 3 of the triangle.
+    std::vector<uint8_t> firstCorner;
+    /// Entries the kernel's stack needs: those that can wait at once, and one that it writes
+    /// beyond them without keeping it.
+    uint32_t stackSize = 1;
+};
+
+/// The tree over all primitives of the scene (triangles first, then spheres). Throws SceneError
+/// where it has more records than gpu::MAX_RECORDS, and what buildBinaryTree throws.
+WideLayout buildWideBvh(const Scene& scene, const BuildOptions& options = {});
+
+} // namespace stromboli

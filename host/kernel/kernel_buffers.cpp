@@ -1,0 +1,72 @@
+#include "host/kernel/kernel_buffers.hpp"
+
+#include "shaders/shared/render_types.h"
+
+#include <algorithm>
+
+namespace stromboli {
+
+using vulkan::BufferPlan;
+using vulkan::BufferUse;
+
+namespace {
+
+template <class T>
+uint64_t sizeOf(const std::vector<T>& v) {
+    return v.size() * sizeof(T);
+}
+
+} // namespace
+
+vulkan::BufferUse rowUse(const DeviceTuning& tuning) {
+    return tuning.texelFetch ? BufferUse::Texel : BufferUse::Storage;
+}
+
+std::vector<BufferPlan> planSceneBuffers(const GpuScene& scene, const DeviceTuning& tuning) {
+    const BufferUse rows = rowUse(tuning);
+    return {{"BVH buffer", sizeOf(scene.bvh.records), rows},
+            {"primitive buffer", sizeOf(scene.primitives), rows},
+            {"material buffer", sizeOf(scene.materials), rows},
+            {"light buffer", sizeOf(scene.lights), rows},
+            {"emitter table", sizeOf(scene.emitterEntries), rows}};
+}
+
+uint64_t pixelCount(const RenderSettings& s) {
+    return s.crop.width ? uint64_t(s.crop.width) * s.crop.height : uint64_t(s.width) * s.height;
+}
+
+std::vector<BufferPlan> planBuffers(const GpuScene& scene, const RenderSettings& settings,
+                                    const DeviceTuning& tuning) {
+    const uint64_t pixels = pixelCount(settings);
+    const uint64_t items = std::min<uint64_t>(tuning.itemsPerDispatch, pixels);
+    const uint64_t lanes = std::min<uint64_t>(tuning.lanes, pixels);
+    const BufferUse rows = rowUse(tuning);
+    std::vector<BufferPlan> plans = planSceneBuffers(scene, tuning);
+    plans.push_back({"film", pixels * sizeof(gpu::PixelState), rows});
+    plans.push_back({"work list", items * sizeof(gpu::WorkItem), rows});
+    plans.push_back({"suspended paths", lanes * sizeof(gpu::SuspendedPath), BufferUse::Storage});
+    plans.push_back({"frame constants", sizeof(gpu::Frame), BufferUse::Uniform});
+    plans.push_back({"dispatch status", sizeof(gpu::DispatchStatus), BufferUse::Storage});
+    return plans;
+}
+
+uint64_t pixelsPerSegment(const vulkan::DeviceDescription& device, const DeviceTuning& tuning) {
+    constexpr uint64_t kMostPixels = uint64_t(1) << 24; // 1 GiB
+    const uint64_t bytes =
+        std::min(bindingLimit(device, rowUse(tuning)).bytes, device.largestAllocation);
+    return std::min(bytes / sizeof(gpu::PixelState), kMostPixels);
+}
+
+void checkMemory(const vulkan::DeviceDescription& device, const GpuScene& scene,
+                 const RenderSettings& settings, const DeviceTuning& tuning) {
+    const std::vector<BufferPlan> plans = planBuffers(scene, settings, tuning);
+    for (BufferPlan plan : plans) {
+        if (plan.name == "film")
+            plan.bytes =
+                std::min(plan.bytes, pixelsPerSegment(device, tuning) * sizeof(gpu::PixelState));
+        requireFits(device, plan);
+    }
+    requireTogetherFit(device, plans);
+}
+
+} // namespace stromboli

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "host/kernel/gpu_scene.hpp"
+#include "host/kernel/kernel_tuning.hpp"
+#include "host/render/settings.hpp"
+#include "host/vulkan/buffer_limits.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace stromboli {
+
+/// How buffers that are read row by row are bound.
+vulkan::BufferUse rowUse(const DeviceTuning& tuning);
+
+/// The scene's buffers, in the order of their bindings.
+std::vector<vulkan::BufferPlan> planSceneBuffers(const GpuScene& scene, const DeviceTuning& tuning);
+
+/// All device buffers of a scene and a picture, known before anything is allocated: the driver
+/// adds no more than its alignment to each. The film may be several buffers (pixelsPerSegment).
+std::vector<vulkan::BufferPlan> planBuffers(const GpuScene& scene, const RenderSettings& settings,
+                                            const DeviceTuning& tuning);
+
+/// Pixels of the film that fit one buffer and one binding.
+uint64_t pixelsPerSegment(const vulkan::DeviceDescription& device, const DeviceTuning& tuning);
+
+/// Throws DeviceError that names what does not fit, before anything is allocated or uploaded.
+void checkMemory(const vulkan::DeviceDescription& device, const GpuScene& scene,
+                 const RenderSettings& settings, const DeviceTuning& tuning);
+
+/// Number of pixels that are rendered.
+uint64_t pixelCount(const RenderSettings& settings);
+
+} // namespace stromboli

@@ -1,0 +1,43 @@
+#include "host/kernel/kernel_tuning.hpp"
+
+#include <algorithm>
+#include <thread>
+
+namespace stromboli {
+namespace {
+
+/// A CPU device (lavapipe) runs a group of lanes as one SIMD register per thread. A group per
+/// workgroup, so that no group waits for another's lanes; a few groups per thread, so that a
+/// dispatch takes some 0.1 s although each group ends at the driver's limit of loop iterations; all
+/// other pixels come to these lanes through the work list. Storage texel buffers, because
+/// storage buffer loads are a scalar loop over the lanes there, 20 times slower.
+DeviceTuning forCpu() {
+    DeviceTuning t;
+    t.texelFetch = true;
+    t.workgroupSize = 8;
+    t.traversalSteps = 5;
+    t.lanes = 8 * 16 * std::max(std::thread::hardware_concurrency(), 1u);
+    return t;
+}
+
+/// A GPU needs a lane per pixel, up to a million, to hide the latency of its memory; storage
+/// buffers, because texel buffers are limited in size (2^27 texels is common, 2^16 allowed).
+DeviceTuning forGpu() {
+    return {};
+}
+
+} // namespace
+
+DeviceTuning resolve(const KernelTuning& tuning, const vulkan::Device& device) {
+    DeviceTuning t = device.description().isCpu() ? forCpu() : forGpu();
+    t.texelFetch = tuning.texelFetch.value_or(t.texelFetch);
+    t.workgroupSize = tuning.workgroupSize.value_or(t.workgroupSize);
+    t.traversalSteps = tuning.traversalSteps.value_or(t.traversalSteps);
+    t.lanes = tuning.lanes.value_or(t.lanes);
+    t.itemsPerDispatch = tuning.itemsPerDispatch.value_or(t.itemsPerDispatch);
+    t.countSteps = tuning.countSteps;
+    t.everythingOn = tuning.everythingOn;
+    return t;
+}
+
+} // namespace stromboli

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "host/vulkan/device.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace stromboli {
+
+/// How the kernel runs; what is not given suits the device (resolve). None of it changes a picture.
+struct KernelTuning {
+    std::optional<bool> texelFetch; ///< read the scene through storage texel buffers
+    std::optional<uint32_t> workgroupSize;
+    std::optional<uint32_t> traversalSteps;   ///< between two service passes
+    std::optional<uint32_t> lanes;            ///< invocations of a dispatch
+    std::optional<uint32_t> itemsPerDispatch; ///< pixels in a work list
+    double targetSeconds = 0.1;               ///< of a dispatch
+    std::optional<uint32_t> fixedIterations;  ///< instead of pacing by time (tests)
+    bool countSteps = false;                  ///< count how many lanes are at work in each step
+    bool everythingOn = false; ///< leave in all features, also those the scene lacks (benchmark)
+};
+
+/// The same with nothing left open.
+struct DeviceTuning {
+    bool texelFetch = false;
+    uint32_t workgroupSize = 64;
+    uint32_t traversalSteps = 8;
+    uint32_t lanes = 1u << 20;
+    uint32_t itemsPerDispatch = 1u << 20;
+    bool countSteps = false;
+    bool everythingOn = false;
+};
+
+/// The rules, with their reasons, are in the source; docs/kernel.md has the measurements.
+DeviceTuning resolve(const KernelTuning& tuning, const vulkan::Device& device);
+
+} // namespace stromboli

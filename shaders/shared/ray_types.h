@@ -1,0 +1,43 @@
+// Rays for shaders/trace_rays.comp, which `stromboli bench` measures traversal with.
+#ifndef STROMBOLI_SHARED_RAY_TYPES_H
+#define STROMBOLI_SHARED_RAY_TYPES_H
+
+#include "interface.h"
+#include "language.h"
+
+SHARED_BEGIN
+
+#define BINDING_RAYS BINDING_COUNT
+#define BINDING_LANE_TOTALS (BINDING_COUNT + 1)
+#define BINDING_RAY_DISTANCES (BINDING_COUNT + 2)
+
+#define SPEC_ANY_HIT SPEC_COUNT               // stop at the first hit (shadow rays)
+#define SPEC_WRITE_DISTANCES (SPEC_COUNT + 1) // where every ray ended, for comparisons
+
+/// The part of origin + t direction with 0 < t < tMax.
+struct TracedRay {
+    vec3 origin;
+    float tMax;
+    vec3 direction;
+    uint unused;
+};
+SHARED_ROWS(TracedRay, 2);
+
+/// What a lane's rays found. Few words, written once a lane: a store for every ray would cost
+/// lavapipe a good part of the traversal.
+struct LaneTotals {
+    uint hits;
+    float distances; ///< sum over closest hits of t
+    uint unfinished; ///< 1: the lane met the loop limit with rays left
+};
+
+/// Push constants of one dispatch.
+struct RayDispatch {
+    uint rayCount;
+    uint raysPerLane;
+    uint hardIterations; ///< leave the loop here: an error
+};
+
+SHARED_END
+
+#endif

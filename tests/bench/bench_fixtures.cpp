@@ -1,0 +1,23 @@
+#include "tests/bench/bench_fixtures.hpp"
+
+#include "scene/collada/load_collada.hpp"
+
+#include <filesystem>
+
+namespace stromboli::test {
+
+LibraryPicture libraryPicture(const std::string& name, uint32_t width, uint32_t height,
+                              uint32_t samples) {
+    LibraryPicture p;
+    p.scene = loadCollada(
+        (std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene/library" / (name + ".dae")).string(),
+        {});
+    p.settings.width = width;
+    p.settings.height = height;
+    p.settings.samplesPerPixel = samples;
+    p.settings.maxBounces = 5;
+    p.camera = makeCamera(p.scene, CameraChoice::Automatic, width, height, false);
+    return p;
+}
+
+} // namespace stromboli::test

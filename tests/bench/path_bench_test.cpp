@@ -1,0 +1,86 @@
+// The contestants do the same work: the kernel and the path tracer on Embree have the same random
+// numbers, so that nearly every pixel is the same.
+#include "host/bench/growth_bench.hpp"
+#include "host/bench/path_bench.hpp"
+#include "tests/bench/bench_fixtures.hpp"
+#include "tests/support/device_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+namespace stromboli::bench {
+namespace {
+
+using test::DeviceTest;
+using test::testDevice;
+
+AlternatePlan shortPlan() {
+    AlternatePlan plan;
+    plan.repeats = 1;
+    plan.leastSeconds = 0;
+    return plan;
+}
+
+/// A scene of the library and all that benchmarks of it need.
+struct Bench {
+    OpenedEmbree embree = openEmbree(2);
+    BenchScene scene;
+    RenderSettings settings;
+    Arena arena;
+
+    explicit Bench(const std::string& name)
+        : scene(loadBenchScene(name)),
+          settings(small()), arena{testDevice(), embree.embree.get(),       2,       shortPlan(),
+                                   scene,        cameraOf(scene, settings), settings} {}
+
+    static RenderSettings small() {
+        RenderSettings s;
+        s.width = s.height = 48;
+        s.samplesPerPixel = 4;
+        s.maxBounces = 5;
+        return s;
+    }
+    RaySet bounceRays() const { return makeRaySets(scene.scene, arena.camera, settings, 1).bounce; }
+    GpuScene gpu() const { return packScene(scene.scene, buildWideBvh(scene.scene), false); }
+};
+
+TEST_F(DeviceTest, PathContestantsMakeOnePicture) {
+    const Bench bench("cornell_boxes");
+    const PathReport report =
+        benchPaths(bench.arena, bench.gpu(), buildBest(bench.arena, bench.bounceRays()));
+    EXPECT_GT(report.raysPerPath, 1);
+    EXPECT_GT(report.lanesBusy, 0);
+    EXPECT_LE(report.lanesBusy, 1);
+    EXPECT_EQ(report.contestants[0].wallSeconds.size(), 1u);
+#ifdef STROMBOLI_TEST_EMBREE
+    ASSERT_EQ(report.contestants.size(), 3u);
+    ASSERT_TRUE(report.picturesAgree.has_value());
+    EXPECT_TRUE(*report.picturesAgree) << report.disagreement;
+    // Of 8 samples with their shadow rays a few pass an edge on the other side.
+    EXPECT_GT(report.equalPixels, 0.98);
+#else
+    EXPECT_EQ(report.contestants.size(), 1u);
+    EXPECT_FALSE(report.picturesAgree.has_value());
+    EXPECT_EQ(report.embreeMissing, "there is no Embree");
+#endif
+}
+
+TEST_F(DeviceTest, VariantsMakeTheSamePictureToTheBit) {
+    const Bench bench("cornell_boxes");
+    const VariantReport report = benchVariants(bench.arena, bench.gpu(), kernelVariants());
+    ASSERT_EQ(report.samePicture.size() + 1, report.contestants.size());
+    for (const bool same : report.samePicture)
+        EXPECT_TRUE(same);
+}
+
+TEST_F(DeviceTest, GrowingSceneHasTheSizeItSays) {
+    const OpenedEmbree embree = openEmbree(2);
+    const GrowthPoint point =
+        benchSize(2000, testDevice(), embree.embree.get(), 2, Bench::small(), 1, shortPlan());
+    EXPECT_NEAR(double(point.triangles), 2000, 20); // to within 1 %
+    EXPECT_GT(point.bounce.rays, 0u);
+    for (const uint64_t count : point.bounce.disagreements)
+        EXPECT_LE(count, point.bounce.rays / 100);
+}
+
+} // namespace
+} // namespace stromboli::bench

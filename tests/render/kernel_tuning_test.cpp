@@ -1,0 +1,105 @@
+// How the kernel runs on a device: what is chosen, and that no choice changes the picture.
+#include "host/bvh/wide_layout.hpp"
+#include "host/render/render.hpp"
+#include "tests/render/device_render.hpp"
+#include "tests/support/device_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace stromboli {
+namespace {
+
+using namespace test;
+
+class KernelTuningTest : public DeviceTest {
+  protected:
+    VulkanBackend backend(const KernelTuning& tuning) {
+        return VulkanBackend(testDevice(), scene_, camera_, settings_, tuning);
+    }
+
+    static RenderSettings settings() {
+        RenderSettings s;
+        s.width = 61, s.height = 37;
+        s.samplesPerPixel = 8;
+        s.maxBounces = 5;
+        return s;
+    }
+
+    RenderSettings settings_ = settings();
+
+  private:
+    Scene loaded_ =
+        loadScene(std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene/library/cornell_boxes.dae");
+    GpuScene scene_ = packScene(loaded_, buildWideBvh(loaded_), false);
+    Camera camera_ = makeCamera(loaded_, CameraChoice::Automatic, 61, 37, false);
+};
+
+bool sameStatistics(const Film& a, const Film& b) {
+    for (size_t i = 0; i < a.pixels.size(); ++i)
+        if (a.pixels[i].count != b.pixels[i].count || a.pixels[i].mean != b.pixels[i].mean ||
+            a.pixels[i].m2 != b.pixels[i].m2)
+            return false;
+    return a.pixels.size() == b.pixels.size();
+}
+
+TEST_F(KernelTuningTest, TheDeviceDecidesWhatIsLeftOpen) {
+    const DeviceTuning t = resolve({}, testDevice());
+    const bool cpu = testDevice().description().isCpu();
+    EXPECT_EQ(t.texelFetch, cpu) << "storage buffer loads are slow on llvmpipe only";
+    EXPECT_EQ(t.workgroupSize % 8, 0u) << "SIMD groups of llvmpipe are filled along x";
+    EXPECT_LE(t.workgroupSize, testDevice().limits().maxComputeWorkGroupInvocations);
+    EXPECT_EQ(t.lanes % t.workgroupSize, 0u);
+    EXPECT_GE(t.traversalSteps, 1u);
+    EXPECT_GE(t.itemsPerDispatch, t.lanes);
+    EXPECT_FALSE(t.countSteps);
+    EXPECT_FALSE(t.everythingOn);
+}
+
+TEST_F(KernelTuningTest, WhatIsGivenIsTaken) {
+    const DeviceTuning t = resolve({.texelFetch = false,
+                                    .workgroupSize = 24,
+                                    .traversalSteps = 3,
+                                    .lanes = 7,
+                                    .itemsPerDispatch = 5,
+                                    .countSteps = true,
+                                    .everythingOn = true},
+                                   testDevice());
+    EXPECT_FALSE(t.texelFetch);
+    EXPECT_TRUE(resolve({.texelFetch = true}, testDevice()).texelFetch);
+    EXPECT_EQ(t.workgroupSize, 24u);
+    EXPECT_EQ(t.traversalSteps, 3u);
+    EXPECT_EQ(t.lanes, 7u);
+    EXPECT_EQ(t.itemsPerDispatch, 5u);
+    EXPECT_TRUE(t.countSteps);
+    EXPECT_TRUE(t.everythingOn);
+}
+
+TEST_F(KernelTuningTest, EverythingOnIsTheSamePicture) {
+    VulkanBackend specialised = backend({}), everything = backend({.everythingOn = true});
+    EXPECT_NE(specialised.features(), everything.features());
+    EXPECT_TRUE(sameStatistics(render(specialised, settings_), render(everything, settings_)));
+}
+
+TEST_F(KernelTuningTest, CountsStepsWithoutChangingThePicture) {
+    VulkanBackend plain = backend({}), counting = backend({.countSteps = true});
+    EXPECT_TRUE(sameStatistics(render(plain, settings_), render(counting, settings_)));
+    EXPECT_EQ(plain.steps().all, 0u);
+    const StepCounters steps = counting.steps();
+    EXPECT_GT(steps.busy, counting.counters().rays) << "a ray visits the root, at least";
+    EXPECT_LE(steps.busy, steps.all);
+    EXPECT_GT(double(steps.busy), 0.25 * double(steps.all)) << "lanes are idle most of the time";
+}
+
+/// With a step a service pass, a lane that has work is busy in every step.
+TEST_F(KernelTuningTest, FewerStepsBetweenServicesKeepLanesBusier) {
+    VulkanBackend often = backend({.traversalSteps = 1, .countSteps = true});
+    VulkanBackend seldom = backend({.traversalSteps = 16, .countSteps = true});
+    render(often, settings_), render(seldom, settings_);
+    EXPECT_EQ(often.steps().busy, seldom.steps().busy) << "the rays' steps are the rays'";
+    EXPECT_LT(often.steps().all, seldom.steps().all);
+}
+
+} // namespace
+} // namespace stromboli

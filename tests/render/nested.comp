@@ -1,0 +1,85 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The path tracer as the textbook has it: for each sample, for each bounce, trace a ray to its end,
+// then each shadow ray to its own, then scatter. One pixel an invocation, and nothing of the
+// product kernel's scheduling: what pathtrace.comp does with the same functions must be the same.
+#include "shared/interface.h"
+#include "shared/scene_types.h"
+#include "shared/render_types.h"
+
+#include "include/specialisation.glsl"
+#include "include/fetch.glsl"
+#include "include/film.glsl"
+
+layout(set = 0, binding = BINDING_FRAME, std140) uniform FrameBuffer { Frame frame; };
+layout(set = 0, binding = BINDING_STATUS, std430) buffer StatusBuffer { DispatchStatus status; };
+layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
+
+#include "include/numerics.glsl"
+#include "include/random.glsl"
+#include "include/intersect.glsl"
+#include "include/traverse.glsl"
+#include "include/camera.glsl"
+#include "include/surface.glsl"
+#include "include/bsdf.glsl"
+#include "include/lights.glsl"
+#include "include/accumulate.glsl"
+#include "include/path.glsl"
+
+uint loopPasses; ///< of this invocation: llvmpipe ends all loops of a group at 65,535
+
+void traceToTheEnd() {
+    startRay();
+    while (traversing(ray)) {
+        traversalStep(ray);
+        ++loopPasses;
+    }
+}
+
+void gatherDirectLight() {
+    const uint samples = frame.areaSamples + frame.deltaLights;
+    while (directIndex < samples) {
+        sampleDirect();
+        if (phase == PHASE_SHADOW) {
+            traceToTheEnd();
+            finishShadowRay();
+        }
+        if (phase == PHASE_HEMISPHERE) {
+            traceToTheEnd();
+            finishHemisphereRay();
+        }
+        ++loopPasses;
+    }
+}
+
+void takeSample() {
+    startSample();
+    while (phase == PHASE_PATH) {
+        traceToTheEnd();
+        arrive();
+        if (INTEGRATOR == INTEGRATOR_PATH && phase == PHASE_DIRECT) {
+            gatherDirectLight();
+            scatter();
+        }
+        ++loopPasses;
+    }
+    addSample(pixelState, radiance);
+}
+
+/// segmentBase: the samples that each pixel gets.
+void main() {
+    const uint pixel = gl_GlobalInvocationID.x;
+    if (pixel >= dispatch.itemCount) return;
+    pixelState = fetchPixel(pixel);
+    pixelAt = uvec2(pixel % frame.width, pixel / frame.width);
+    pixelId = pixel;
+    if (ONE_LIGHT) onlyLight = fetchLight(0u);
+    ray.group = 0u;
+    rayCount = 0u;
+    loopPasses = 0u;
+    for (uint i = 0u; i < dispatch.segmentBase; ++i)
+        takeSample();
+    storePixel(pixel, pixelState);
+    atomicAdd(status.rays, rayCount);
+    atomicMax(status.allSteps, loopPasses);
+}

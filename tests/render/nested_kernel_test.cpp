@@ -1,0 +1,222 @@
+// The product kernel against the textbook's loops (nested.comp): the same picture bit for bit,
+// whatever the scene needs and however the product's work is cut. A form of the product's loop was
+// once compiled wrongly by a driver; nothing but such a comparison would show it.
+#include "host/bvh/wide_layout.hpp"
+#include "host/kernel/frame.hpp"
+#include "host/kernel/kernel_features.hpp"
+#include "host/render/render.hpp"
+#include "tests/render/device_render.hpp"
+#include "tests/support/device_fixture.hpp"
+#include "tests/support/test_shader.hpp"
+
+#include "embedded/nested_texel.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <string>
+
+namespace stromboli {
+namespace {
+
+using namespace test;
+
+/// llvmpipe ends the loops of a group of 8 lanes after 65,535 passes by all of them.
+constexpr uint32_t kLoopPassesPerLane = 65535 / 8;
+constexpr uint32_t kSamples = 5, kSamplesPerDispatch = 2;
+
+struct Picture {
+    const char* name;
+    const char* scene;
+    void (*change)(Scene&, RenderSettings&);
+    bool cs184 = false;
+};
+
+/// Every material, kind of light, way of sampling, roulette, integrator and camera of the kernel.
+const Picture kPictures[] = {
+    {"diffuse", "cornell_boxes.dae", [](Scene&, RenderSettings&) {}},
+    {"spheres", "cornell_spheres.dae", [](Scene&, RenderSettings& s) { s.lightSamples = 3; }},
+    {"mirrorAndGlass", "cornell_mirror_glass.dae",
+     [](Scene&, RenderSettings& s) { s.maxBounces = 9; }},
+    {"refraction", "cornell_mirror_glass.dae",
+     [](Scene& scene, RenderSettings&) {
+         for (Material& m : scene.materials)
+             if (m.kind == MaterialKind::Glass) m.kind = MaterialKind::Refraction;
+     }},
+    {"metal", "cornell_metal.dae", [](Scene&, RenderSettings&) {}},
+    {"mesh", "cornell_mesh.dae", [](Scene&, RenderSettings&) {}},
+    {"meshLamp", "light_mesh.dae", [](Scene&, RenderSettings&) {}},
+    {"sphereLamps", "light_sphere.dae", [](Scene&, RenderSettings&) {}},
+    {"ambient", "light_ambient.dae", [](Scene&, RenderSettings&) {}},
+    {"sun", "light_directional.dae", [](Scene&, RenderSettings&) {}},
+    {"point", "light_point.dae", [](Scene&, RenderSettings&) {}},
+    {"spots", "light_spot.dae", [](Scene&, RenderSettings&) {}},
+    {"orthographic", "ortho.dae", [](Scene&, RenderSettings&) {}},
+    {"hemisphere", "cornell_boxes.dae",
+     [](Scene&, RenderSettings& s) {
+         s.directLight = DirectLight::Hemisphere;
+         s.lightSamples = 3;
+     }},
+    {"lampsByBounces", "cornell_mirror_glass.dae",
+     [](Scene&, RenderSettings& s) { s.directLight = DirectLight::Bsdf; }},
+    {"secondBounceAlone", "cornell_boxes.dae",
+     [](Scene&, RenderSettings& s) { s.minBounce = s.maxBounces = 2; }},
+    {"emissionOnly", "cornell_boxes.dae", [](Scene&, RenderSettings& s) { s.maxBounces = 0; }},
+    {"fixedRoulette", "cornell_boxes.dae",
+     [](Scene&, RenderSettings& s) {
+         s.maxBounces = 100;
+         s.roulette = {Roulette::Mode::Fixed, 0.3};
+     }},
+    {"noRoulette", "cornell_boxes.dae",
+     [](Scene&, RenderSettings& s) { s.roulette.mode = Roulette::Mode::None; }},
+    {"normals", "cornell_mesh.dae",
+     [](Scene&, RenderSettings& s) { s.integrator = Integrator::Normals; }},
+    {"cs184Glass", "cornell_mirror_glass.dae", [](Scene&, RenderSettings&) {}, true},
+    {"cs184Metal", "cornell_metal.dae", [](Scene&, RenderSettings&) {}, true},
+    {"cs184Hemisphere", "cornell_boxes.dae",
+     [](Scene&, RenderSettings& s) { s.directLight = DirectLight::Hemisphere; }, true},
+    {"rejectedSamples", "cornell_boxes.dae",
+     [](Scene& scene, RenderSettings&) { // lamps brighter than a sample may be
+         for (Material& m : scene.materials)
+             m.emission *= 1e20f;
+     }},
+};
+
+/// What suits the device, few lanes, many, groups of several widths, work lists of one pixel, paths
+/// that are put off at every bounce, and all of it at once.
+const KernelTuning kTunings[] = {
+    {},
+    {.lanes = 8},
+    {.workgroupSize = 64, .lanes = 1000},
+    {.traversalSteps = 1, .fixedIterations = 40},
+    {.itemsPerDispatch = 7, .fixedIterations = 3},
+    {.workgroupSize = 24, .traversalSteps = 3, .lanes = 100, .fixedIterations = 1},
+    {.texelFetch = false, .traversalSteps = 16},
+    {.countSteps = true, .everythingOn = true},
+};
+
+struct Result {
+    Film film;
+    uint64_t rays = 0;
+};
+
+class NestedKernel : public DeviceTest {
+  protected:
+    void load(const Picture& picture) {
+        settings_.width = 37, settings_.height = 27; // no multiples of a tile or a workgroup
+        settings_.samplesPerPixel = kSamples;
+        settings_.maxBounces = 5;
+        const auto library = std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene/library";
+        settings_.cs184 = picture.cs184;
+        Scene scene = loadScene(library / picture.scene, picture.cs184);
+        picture.change(scene, settings_);
+        camera_ = makeCamera(scene, CameraChoice::Automatic, settings_.width, settings_.height,
+                             settings_.cs184);
+        scene_ = packScene(scene, buildWideBvh(scene), settings_.cs184);
+    }
+
+    Result product(const KernelTuning& tuning) const {
+        VulkanBackend backend(testDevice(), scene_, camera_, settings_, tuning);
+        Film film = render(backend, settings_);
+        return {std::move(film), backend.counters().rays};
+    }
+
+    Result nested() const {
+        ShaderOptions options = ShaderOptions::texel();
+        options.constants = kernelFeatures(scene_, camera_, settings_, {.workgroupSize = 8});
+        TestShader shader(nested_texel, options);
+        shader.setScene(scene_);
+        shader.setOne(BINDING_FRAME, makeFrame(scene_, camera_, settings_));
+        gpu::PixelState empty{};
+        empty.firstRejected = 0xFFFFFFFFu;
+        const uint32_t pixels = settings_.width * settings_.height;
+        shader.set(BINDING_PIXELS, std::vector(pixels, empty));
+        shader.setOne(BINDING_STATUS, gpu::DispatchStatus{});
+        for (uint32_t done = 0; done < kSamples; done += kSamplesPerDispatch) {
+            gpu::Dispatch constants{};
+            constants.segmentBase = std::min(kSamplesPerDispatch, kSamples - done);
+            shader.run(pixels, constants);
+        }
+        const auto status = shader.get<gpu::DispatchStatus>(BINDING_STATUS, 1)[0];
+        EXPECT_LT(status.allSteps, kLoopPassesPerLane) << "take fewer samples per dispatch";
+        return {filmOf(shader.get<gpu::PixelState>(BINDING_PIXELS, pixels)), status.rays};
+    }
+
+    static void expectSame(const Result& a, const Result& b, const std::string& what) {
+        ASSERT_EQ(a.film.pixels.size(), b.film.pixels.size());
+        size_t different = 0;
+        for (size_t i = 0; i < a.film.pixels.size(); ++i)
+            different += !sameBytes(a.film.pixels[i], b.film.pixels[i]);
+        EXPECT_EQ(different, 0u) << what << ": of " << a.film.pixels.size() << " pixels";
+        EXPECT_EQ(a.rays, b.rays) << what;
+    }
+
+    RenderSettings settings_;
+
+  private:
+    /// As the product reads its states back: every field, two floats exactly in a double.
+    Film filmOf(const std::vector<gpu::PixelState>& states) const {
+        Film film(settings_.width, settings_.height);
+        for (size_t i = 0; i < states.size(); ++i) {
+            const gpu::PixelState& s = states[i];
+            PixelStatistics& p = film.pixels[i];
+            p.count = s.count;
+            p.rejected = s.rejected;
+            p.firstRejected = s.firstRejected;
+            if (s.count == 0) continue;
+            p.mean = (glm::dvec3(s.sum) + glm::dvec3(s.sumError)) / double(s.count);
+            p.m2 = glm::dvec3(s.m2) + glm::dvec3(s.m2Error);
+        }
+        return film;
+    }
+
+    static bool sameBytes(const PixelStatistics& a, const PixelStatistics& b) {
+        return a.count == b.count && a.rejected == b.rejected &&
+               a.firstRejected == b.firstRejected &&
+               std::memcmp(&a.mean, &b.mean, sizeof a.mean) == 0 &&
+               std::memcmp(&a.m2, &b.m2, sizeof a.m2) == 0;
+    }
+
+    GpuScene scene_;
+    Camera camera_;
+};
+
+class NestedPictures : public NestedKernel, public testing::WithParamInterface<size_t> {};
+
+TEST_P(NestedPictures, AreTheProductsBitForBit) {
+    const Picture& picture = kPictures[GetParam()];
+    load(picture);
+    const Result textbook = nested();
+    uint64_t samples = 0, rejected = 0;
+    for (const PixelStatistics& p : textbook.film.pixels)
+        samples += p.taken(), rejected += p.rejected;
+    EXPECT_EQ(samples, uint64_t(settings_.width) * settings_.height * kSamples);
+    EXPECT_EQ(rejected > 0, std::string(picture.name) == "rejectedSamples");
+    const size_t tuning = GetParam() % std::size(kTunings); // each in turn
+    expectSame(product(kTunings[tuning]), textbook, "tuning " + std::to_string(tuning));
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, NestedPictures, testing::Range<size_t>(0, std::size(kPictures)),
+                         [](const auto& test) { return std::string(kPictures[test.param].name); });
+
+TEST_F(NestedKernel, AgreesWithEveryTuning) {
+    load(kPictures[2]); // mirror and glass: paths of very different lengths
+    const Result textbook = nested();
+    for (size_t i = 0; i < std::size(kTunings); ++i)
+        expectSame(product(kTunings[i]), textbook, "tuning " + std::to_string(i));
+}
+
+/// The comparison has teeth: another seed is another picture.
+TEST_F(NestedKernel, DiffersForAnotherSeed) {
+    load(kPictures[0]);
+    const Result textbook = nested();
+    settings_.seed = 1;
+    const Result other = product({});
+    size_t same = 0;
+    for (size_t i = 0; i < other.film.pixels.size(); ++i)
+        same += other.film.pixels[i].mean == textbook.film.pixels[i].mean;
+    EXPECT_LT(same, other.film.pixels.size() / 2);
+}
+
+} // namespace
+} // namespace stromboli

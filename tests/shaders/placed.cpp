@@ -1,0 +1,24 @@
+#include "tests/shaders/placed.hpp"
+
+#include "host/bvh/wide_layout.hpp"
+
+namespace stromboli::test {
+
+GpuScene pack(Scene scene) {
+    if (scene.materials.empty()) scene.materials.resize(1);
+    return packScene(scene, buildWideBvh(scene), false);
+}
+
+std::vector<Placed> placed(const GpuScene& scene) {
+    std::vector<Placed> primitives;
+    for (const uint32_t place : scene.bvh.placeOf) {
+        const gpu::LeafRecord leaf = asLeaf(scene.bvh.records[place / 2]);
+        const glm::vec3 p2(leaf.p2x, leaf.p2y, leaf.p2z), p3(leaf.p3x, leaf.p3y, leaf.p3z);
+        const bool first = place % 2 == 0;
+        primitives.push_back({place, (leaf.primitive & gpu::RECORD_IS_SPHERE) != 0, leaf.p0,
+                              first ? leaf.p1 : p2, first ? p2 : p3, leaf.radius});
+    }
+    return primitives;
+}
+
+} // namespace stromboli::test

@@ -1,0 +1,104 @@
+// Memory of buffers on the device: what is counted is what the driver asks for.
+#include "host/vulkan/buffer.hpp"
+#include "tests/support/device_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace stromboli::test {
+namespace {
+
+using vulkan::Buffer;
+using vulkan::BufferUse;
+
+class DeviceMemory : public DeviceTest {
+  protected:
+    static VkMemoryRequirements needs(const Buffer& buffer) {
+        VkMemoryRequirements needs;
+        testDevice().vk().vkGetBufferMemoryRequirements(testDevice().handle(), buffer.handle(),
+                                                        &needs);
+        return needs;
+    }
+};
+
+TEST_F(DeviceMemory, IsCountedFromTheBirthOfABufferToItsEnd) {
+    const uint64_t before = testDevice().allocatedBytes();
+    {
+        std::vector<Buffer> buffers;
+        uint64_t asked = 0, needed = 0, rounding = 0;
+        for (uint64_t bytes : {0, 1, 16, 17, 1000, 4096, 1'000'003})
+            for (BufferUse use : {BufferUse::Storage, BufferUse::Texel, BufferUse::Uniform}) {
+                // A texel buffer has whole rows, a uniform buffer is small.
+                if (use == BufferUse::Texel) bytes = bytes / 16 * 16;
+                if (use == BufferUse::Uniform) bytes %= 4096;
+                const Buffer& b = buffers.emplace_back(testDevice(), "buffer", bytes, use);
+                asked += b.bytes();
+                needed += needs(b).size;
+                rounding += needs(b).alignment;
+            }
+        EXPECT_EQ(testDevice().allocatedBytes() - before, needed);
+        // The driver rounds each buffer up to its alignment, and adds no more than that.
+        EXPECT_GE(needed, asked);
+        EXPECT_LE(needed, asked + rounding);
+        std::vector<Buffer> moved = std::move(buffers);
+        EXPECT_EQ(testDevice().allocatedBytes() - before, needed);
+        moved.pop_back();
+        EXPECT_LT(testDevice().allocatedBytes() - before, needed);
+    }
+    EXPECT_EQ(testDevice().allocatedBytes(), before);
+}
+
+TEST_F(DeviceMemory, CopiesLeaveNothingBehind) {
+    Buffer buffer(testDevice(), "buffer", 1000, BufferUse::Storage);
+    const uint64_t before = testDevice().allocatedBytes();
+    std::vector<std::byte> bytes(1000, std::byte(7));
+    buffer.upload(testQueue(), bytes);
+    buffer.download(testQueue(), bytes);
+    EXPECT_EQ(testDevice().allocatedBytes(), before);
+}
+
+/// More than a staging buffer holds, so that it goes in pieces.
+void expectLargeCopiesArrive(const vulkan::Device& device, vulkan::Queue& queue) {
+    const uint64_t count = (uint64_t(64) << 20) / 4 + 1001;
+    std::vector<uint32_t> sent(count), received(count);
+    for (uint64_t i = 0; i < count; ++i)
+        sent[i] = uint32_t(i * 2654435761u);
+    Buffer buffer(device, "buffer", 4 * count + 4, BufferUse::Storage);
+    buffer.upload(queue, std::as_bytes(std::span(sent)), 4);
+    buffer.download(queue, std::as_writable_bytes(std::span(received)), 4);
+    EXPECT_TRUE(sent == received);
+    EXPECT_GE(device.allocatedBytes(), buffer.bytes());
+    EXPECT_LT(device.allocatedBytes(), buffer.bytes() + (1 << 20)) << "staging left behind";
+}
+
+TEST_F(DeviceMemory, LargeCopiesArriveWhole) {
+    expectLargeCopiesArrive(testDevice(), testQueue());
+}
+
+/// The same on a device that claims to have memory of its own, as a graphics card has.
+TEST_F(DeviceMemory, LargeCopiesArriveWholeInMemoryOfTheDevicesOwn) {
+    const vulkan::Instance instance(true);
+    std::vector<vulkan::DeviceDescription> devices = vulkan::listDevices(instance);
+    vulkan::DeviceDescription& d = devices[vulkan::chooseDevice(devices, "").index];
+    d.properties.deviceType = VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
+    {
+        const vulkan::Device device(instance, d);
+        ASSERT_FALSE(device.description().sharesHostMemory());
+        vulkan::Queue queue(device);
+        expectLargeCopiesArrive(device, queue);
+        EXPECT_EQ(device.allocatedBytes(), 0u);
+    }
+    EXPECT_EQ(instance.validationMessages(), 0u);
+}
+
+TEST_F(DeviceMemory, LimitsAreTheDevices) {
+    const vulkan::DeviceDescription& d = testDevice().description();
+    EXPECT_GE(d.largestAllocation, uint64_t(1) << 30); // the least that Vulkan allows
+    EXPECT_GE(d.memory, uint64_t(1) << 28);
+    EXPECT_GE(bindingLimit(d, BufferUse::Storage).bytes, uint64_t(1) << 27);
+    EXPECT_GE(bindingLimit(d, BufferUse::Texel).bytes, uint64_t(16) << 16);
+}
+
+} // namespace
+} // namespace stromboli::test
