@@ -25,12 +25,15 @@ constexpr uint32_t kGuardIterations = 1u << 20;
 
 /// One pass of the kernel's loop counts for itself, its traversal steps, the loop around it that
 /// changes pixels and, where there is ambient light, the loop that looks for it.
-uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene, uint32_t steps) {
+uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene,
+                   const DeviceTuning& tuning) {
     if (!device.description().isCpu()) return kGuardIterations;
     const bool ambient =
+        tuning.everythingOn ||
         std::any_of(scene.lights.begin(), scene.lights.end(),
                     [](const gpu::Light& l) { return l.kind == gpu::LIGHT_AMBIENT; });
-    const uint32_t perIteration = 1 + (steps + 1) + 2 + (ambient ? scene.areaLights + 1 : 0);
+    const uint32_t perIteration =
+        1 + (tuning.traversalSteps + 1) + 2 + (ambient ? scene.areaLights + 1 : 0);
     return std::max(kLlvmpipeLoopPasses / perIteration, 2u);
 }
 
@@ -90,8 +93,7 @@ VulkanBackend::VulkanBackend(const vulkan::Device& device, const GpuScene& scene
     : device_(device), settings_(withCrop(settings)), frame_(makeFrame(scene, camera, settings_)),
       tuning_(tuningFor(tuning, device, settings_)),
       features_(kernelFeatures(scene, camera, settings_, tuning_)),
-      hardIterations_(hardLimit(device, scene, tuning_.traversalSteps)),
-      fixedIterations_(tuning.fixedIterations),
+      hardIterations_(hardLimit(device, scene, tuning_)), fixedIterations_(tuning.fixedIterations),
       pace_(tuning.targetSeconds, softLimit(hardIterations_, frame_)), queue_(device),
       sceneBuffers_([&] {
           checkMemory(device.description(), scene, settings_, tuning_);
