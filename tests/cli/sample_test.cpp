@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <regex>
 #include <sstream>
 
 namespace stromboli::test {
@@ -105,10 +104,11 @@ std::string lampOf(const std::string& emission) {
 
 /// The words after "add" in a line on rejected samples, up to "to".
 std::vector<std::string> optionsToAdd(const std::string& line) {
-    std::smatch found;
-    if (!std::regex_search(line, found, std::regex("add ((?:--pixel|--sample| |[0-9])+) to the")))
-        return {};
-    std::istringstream words(found[1].str());
+    const std::string before = "add ";
+    const size_t add = line.find(before + "--pixel");
+    const size_t to = line.find(" to the", add);
+    if (add == std::string::npos || to == std::string::npos) return {};
+    std::istringstream words(line.substr(add + before.size(), to - add - before.size()));
     return {std::istream_iterator<std::string>(words), {}};
 }
 
