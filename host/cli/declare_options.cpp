@@ -91,6 +91,20 @@ void addAdaptive(CLI::App& app, RawOptions& raw) {
         ->group("Sampling");
 }
 
+void addStopRule(CLI::App& app, RawOptions& raw) {
+    app.add_option(
+           "--noise", raw.noise,
+           "go on until the picture's noise, the square root of its estimated relMSE, is at "
+           "most T (0.02: 2 %); samples go where they help most; -s is the most per pixel")
+        ->type_name("T")
+        ->group("Sampling");
+    app.add_option("--time", raw.seconds,
+                   "render for at most S seconds (loading not counted); samples go where they help "
+                   "most; -s is the most per pixel")
+        ->type_name("S")
+        ->group("Sampling");
+}
+
 /// As a line about rejected samples names one: added to the same command, they show it again.
 void addSampleAlone(CLI::App& app, RawOptions& raw) {
     CLI::Option* pixel = app.add_option("--pixel", raw.pixel,
@@ -141,6 +155,7 @@ void addRender(CLI::App& app, RawOptions& raw, Options& o) {
     addLightTransport(app, raw, o);
     addSampling(app, raw, o, "samples per pixel; with -a the most a pixel gets [64; --cs184: 1]");
     addAdaptive(app, raw);
+    addStopRule(app, raw);
     addSampleAlone(app, raw);
     app.add_option("--backend", raw.backend,
                    "vulkan, or reference: the slow double-precision path tracer on the CPU")

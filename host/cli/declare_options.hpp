@@ -16,6 +16,7 @@ namespace stromboli {
 struct RawOptions {
     std::vector<uint32_t> size, crop, cell, pixel;
     std::vector<double> adaptive;
+    std::optional<double> noise, seconds;
     std::string roulette, integrator = "path", direct = "lights", camera = "auto",
                           backend = "vulkan";
     std::optional<uint32_t> sample, samples, lightSamples, maxBounces, minBounce, accumulate;

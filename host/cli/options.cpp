@@ -89,6 +89,25 @@ void applyAdaptive(const RawOptions& raw, Options& o) {
     a.tolerance = raw.adaptive[1];
 }
 
+void applyStopRule(const RawOptions& raw, Options& o) {
+    StopRule& stop = o.settings.stop;
+    if (raw.noise) {
+        checkRange("--noise", *raw.noise, 1e-6, 1e6); // a float has no more digits
+        stop.noise = *raw.noise;
+    }
+    if (raw.seconds) {
+        checkRange("--time", *raw.seconds, 0.01, 1e9);
+        stop.seconds = *raw.seconds;
+    }
+    if (!stop.given()) return;
+    const char* name = raw.noise ? "--noise" : "--time";
+    if (!raw.adaptive.empty())
+        throw UsageError(
+            fmt::format("{} and -a exclude each other: both say where samples go", name));
+    o.settings.adaptive.enabled = false; // --cs184 turns it on
+    if (!raw.samples) o.settings.samplesPerPixel = kMostSamples;
+}
+
 void applyLight(const RawOptions& raw, Options& o) {
     RenderSettings& s = o.settings;
     s.samplesPerPixel = raw.samples.value_or(s.cs184 ? 1 : s.samplesPerPixel);
@@ -125,6 +144,7 @@ void apply(const RawOptions& raw, Options& o) {
     applyCrop(raw, o);
     applyLight(raw, o);
     applyAdaptive(raw, o);
+    applyStopRule(raw, o);
     applySampleAlone(raw, o);
 }
 

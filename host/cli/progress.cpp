@@ -43,7 +43,7 @@ void ProgressBar::show(const RenderProgress& p) {
     if (!shown_ || (lastShown_ >= 0 && now - lastShown_ < kRedrawSeconds)) return;
     lastShown_ = now;
     drawn_ = true;
-    const double done = p.samplesAtMost ? double(p.samplesDone) / double(p.samplesAtMost) : 0.0;
+    const double done = std::clamp(p.share, 0.0, 1.0);
     const int filled = int(done * kBarWidth);
     const double left = done > 0 ? now * (1 - done) / done : 0;
     fmt::print(stderr,

@@ -13,13 +13,29 @@
 #include "host/reference/reference_backend.hpp"
 #include "host/render/render.hpp"
 
+#include <algorithm>
+
 namespace stromboli {
 namespace {
+
+/// Whether pixels differ in their number of samples, which a picture of its own shows.
+bool isUneven(const RenderSettings& settings) {
+    return settings.adaptive.enabled || settings.stop.given();
+}
+
+/// What the rate picture shows as full.
+uint32_t mostSamples(const Film& film, const RenderSettings& settings) {
+    if (!settings.stop.given()) return settings.samplesPerPixel;
+    uint32_t most = 1;
+    for (const PixelStatistics& p : film.pixels)
+        most = std::max(most, p.taken());
+    return most;
+}
 
 /// Output that cannot be written must be found out before the work, not after it.
 void checkOutputs(const Options& options) {
     checkWritable(options.output);
-    if (options.settings.adaptive.enabled) checkFileWritable(ratePicturePath(options.output));
+    if (isUneven(options.settings)) checkFileWritable(ratePicturePath(options.output));
     if (options.statsFile.empty()) return;
     if (options.statsFile == options.output)
         throw UsageError("--stats and -o name the same file: " + options.output);
@@ -29,13 +45,15 @@ void checkOutputs(const Options& options) {
 Film takeSamples(Backend& backend, const Job& job, const Options& options, RenderReport& report) {
     Stopwatch watch;
     bool complete = true;
+    RenderOutcome outcome;
     Film film = [&] {
         ProgressBar bar(options.verbosity != Verbosity::Quiet);
-        return render(backend, job.settings, [&](const RenderProgress& progress) {
+        const auto show = [&](const RenderProgress& progress) {
             bar.show(progress);
             complete = !interrupted();
             return complete;
-        });
+        };
+        return render(backend, job.settings, show, &outcome);
     }();
     RenderReport summary = summarise(film, job.settings);
     summary.backend = report.backend;
@@ -43,6 +61,7 @@ Film takeSamples(Backend& backend, const Job& job, const Options& options, Rende
     summary.loadSeconds = job.loadSeconds;
     summary.renderSeconds = watch.seconds();
     summary.counters = backend.counters();
+    summary.noise = outcome.noise;
     summary.complete = complete;
     report = summary;
     return film;
@@ -79,9 +98,9 @@ void writeOutputs(const Film& film, const Job& job, const Options& options,
     picture.tone.exposure = options.exposure;
     picture.statistics = options.statisticsChannels;
     writePicture(options.output, film, job.settings.crop, picture);
-    if (job.settings.adaptive.enabled)
+    if (isUneven(job.settings))
         writePng(ratePicturePath(options.output),
-                 ratePicture(film, job.settings.crop, job.settings.samplesPerPixel),
+                 ratePicture(film, job.settings.crop, mostSamples(film, job.settings)),
                  PngColorSpace::Unnamed);
     if (!options.statsFile.empty()) writeStatistics(options.statsFile, report, job);
 }
@@ -99,11 +118,14 @@ int renderCommand(const Options& options) {
     const Film film = onDevice ? renderOnDevice(job, std::move(device), options, report)
                                : renderOnReference(job, options, report);
     writeOutputs(film, job, options, report);
-    logReport(report, film);
+    logReport(report, film, job.settings);
     if (report.complete) return 0;
-    spdlog::warn("interrupted: {} holds the {:.1f} % of the samples that were taken",
-                 options.output,
-                 100.0 * double(report.samplesTaken) / double(report.samplesAtMost));
+    if (job.settings.stop.given())
+        spdlog::warn("interrupted: {} holds the samples that were taken", options.output);
+    else
+        spdlog::warn("interrupted: {} holds the {:.1f} % of the samples that were taken",
+                     options.output,
+                     100.0 * double(report.samplesTaken) / double(report.samplesAtMost));
     return kInterruptedExitCode;
 }
 

@@ -25,16 +25,34 @@ RenderReport summarise(const Film& film, const RenderSettings& settings) {
     return r;
 }
 
-void logReport(const RenderReport& r, const Film& film) {
+namespace {
+
+void logNoise(const RenderReport& r, const StopRule& stop) {
+    const std::string reached = fmt::format("noise about {:.2f} %", 100 * r.noise);
+    if (stop.noise == 0)
+        spdlog::info("{}", reached);
+    else if (r.noise <= stop.noise)
+        spdlog::info("{}, asked for {:.2f} %", reached, 100 * stop.noise);
+    else
+        spdlog::warn("{}, more than the {:.2f} % asked for: {} ended the render", reached,
+                     100 * stop.noise, r.complete ? "--time or -s" : "the interruption");
+}
+
+} // namespace
+
+void logReport(const RenderReport& r, const Film& film, const RenderSettings& settings) {
     const double rate = double(r.counters.rays) * 1e-6 / std::max(r.renderSeconds, 1e-9);
     spdlog::info("{}: {} ({} to load, {} to build the BVH)", r.backend,
                  formatDuration(r.renderSeconds), formatDuration(r.loadSeconds),
                  formatDuration(r.buildSeconds));
-    spdlog::info(
-        "{} paths, {} rays, {:.2f} Mrays/s; {} samples ({:.1f} % of the most), {} rejected",
-        r.counters.paths, r.counters.rays, rate, r.samplesTaken,
-        r.samplesAtMost ? 100.0 * double(r.samplesTaken) / double(r.samplesAtMost) : 0.0,
-        r.samplesRejected);
+    const std::string share = // of a number that nobody chose it says nothing
+        settings.stop.given() || r.samplesAtMost == 0
+            ? ""
+            : fmt::format(" ({:.1f} % of the most)",
+                          100.0 * double(r.samplesTaken) / double(r.samplesAtMost));
+    spdlog::info("{} paths, {} rays, {:.2f} Mrays/s; {} samples{}, {} rejected", r.counters.paths,
+                 r.counters.rays, rate, r.samplesTaken, share, r.samplesRejected);
+    if (settings.integrator == Integrator::Path) logNoise(r, settings.stop);
     if (r.samplesRejected == 0) return;
     const auto first = std::find_if(film.pixels.begin(), film.pixels.end(),
                                     [](const PixelStatistics& p) { return p.rejected > 0; });
@@ -65,6 +83,7 @@ void writeStatistics(const std::string& file, const RenderReport& r, const Job& 
         {"samplesTaken", r.samplesTaken},
         {"samplesAtMost", r.samplesAtMost},
         {"samplesRejected", r.samplesRejected},
+        {"noise", r.noise},
     };
     const std::string text = json.dump(4) + "\n";
     writeFileAtomically(file, std::as_bytes(std::span(text)));

@@ -14,6 +14,13 @@ struct RenderProgress {
     uint64_t samplesDone = 0;
     uint64_t samplesAtMost = 0; ///< adaptive renders need fewer
     RenderCounters counters;
+    double share = 0; ///< of the work that is done, by samples or, if less is allowed, by time
+};
+
+/// How a render ended.
+struct RenderOutcome {
+    double noise = 0;       ///< square root of the estimated relMSE (noise_estimate.hpp)
+    bool outOfTime = false; ///< StopRule::seconds ended it
 };
 
 /// Returns false to stop the render early.
@@ -24,7 +31,7 @@ std::vector<uint32_t> cropPixels(const RenderSettings& settings);
 
 /// Takes all samples of a picture: pass by pass until the sampling plan is content. The film has
 /// the whole picture's size; pixels outside the crop have no samples.
-Film render(Backend& backend, const RenderSettings& settings,
-            const ProgressCallback& progress = {});
+Film render(Backend& backend, const RenderSettings& settings, const ProgressCallback& progress = {},
+            RenderOutcome* outcome = nullptr);
 
 } // namespace stromboli

@@ -37,6 +37,15 @@ struct Adaptive {
     double tolerance = 0.05; ///< 1.96 sqrt(variance / n) <= tolerance * mean
 };
 
+/// When a render is over, apart from samplesPerPixel. Either one spreads the samples to where they
+/// lower the picture's noise most (noise_plan.hpp).
+struct StopRule {
+    double noise = 0; ///< square root of the picture's estimated relMSE, a fraction; 0: none
+    double seconds =
+        0; ///< of sampling; 0: no limit. The picture then depends on the machine's speed.
+    bool given() const { return noise > 0 || seconds > 0; }
+};
+
 /// The part of the picture to render, in pixels from the top left corner of the whole.
 struct Crop {
     uint32_t x = 0, y = 0, width = 0, height = 0;
@@ -55,6 +64,7 @@ struct RenderSettings {
     DirectLight directLight = DirectLight::Lights;
     Roulette roulette;
     Adaptive adaptive;
+    StopRule stop; ///< excludes adaptive
     uint32_t seed = 0;
     bool cs184 = false; ///< shade by the CS184 renderer's conventions (docs/cs184.md)
 };

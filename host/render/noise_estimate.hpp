@@ -1,0 +1,50 @@
+#pragma once
+
+#include "host/film/film.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace stromboli {
+
+/// Share of the picture's mean radiance m that is added, squared, to the squared value an error is
+/// compared with, so that black pixels do not divide by zero: relMSE with epsilon = 0.01 m^2, as
+/// `stromboli compare` computes it.
+constexpr double kRelativeFloor = 0.1;
+
+/// How far a picture still is from its limit, judged by its own samples.
+///
+/// A pixel's squared error after n samples is taken from what the last pass changed: if n grew to
+/// N and the mean moved by d, then d^2 n / (N - n) has, for independent samples, the expectation
+/// of the variance of the new mean (the variances of both means and of their difference add up).
+/// For samples that fill the gaps of earlier ones, as Sobol points do, it is too large, by 1.8 at
+/// most where errors fall as N^-0.75, and right where they fall as N^-0.5; Welford's variance over
+/// N would ignore the gain altogether. One pixel's estimate is as rough as any from
+/// three numbers; the picture's is a mean over thousands.
+class NoiseEstimate {
+  public:
+    /// pixels: those that are rendered, as indices in the film.
+    explicit NoiseEstimate(std::vector<uint32_t> pixels);
+
+    /// Takes in what a pass changed. The first time there is nothing to compare with, and the
+    /// variance of the samples is used.
+    void update(const Film& film);
+
+    /// Square root of the expected relMSE of the picture, a fraction: 0.02 is 2 % of noise.
+    double picture(const Film& film) const;
+
+    /// For each pixel of the film, the variance of one sample over squared radiance (with the
+    /// floor), means over the channels and a window of 5 x 5 pixels: a pixel that has not met the
+    /// light yet is judged by those around it, and its own luck hardly matters to how many samples
+    /// it gets.
+    std::vector<double> relativeVariance(const Film& film) const;
+
+  private:
+    double meanRadiance(const Film& film) const;
+
+    std::vector<uint32_t> pixels_;
+    std::vector<uint32_t> counts_; ///< as of the last update, by place in pixels_
+    std::vector<glm::dvec3> means_, squaredErrors_;
+};
+
+} // namespace stromboli

@@ -1,0 +1,112 @@
+#include "host/render/noise_plan.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace stromboli {
+namespace {
+
+/// A pass that adds a smaller share than this to the samples is not worth its start: the noise
+/// falls by half of it.
+constexpr uint64_t kLeastPassShare = 64;
+
+/// The rung above n: 16, 24, 32, 48, 64, ...
+uint32_t nextRung(uint32_t n) {
+    const uint32_t power = std::bit_floor(n);
+    return n < power + power / 2 ? power + power / 2 : 2 * power;
+}
+
+/// One rung for one pixel, and what it is worth: less for each further rung of the same pixel.
+struct Step {
+    uint32_t pixel;
+    uint32_t target;
+    uint32_t cost; ///< samples
+    double worth;  ///< fall of the picture's squared error per sample
+};
+
+/// Rungs a pixel may climb in one pass: four times the samples. Variances of a few samples are
+/// rough.
+constexpr int kMostRungs = 4;
+
+uint64_t samplesOf(const Film& film, const std::vector<uint32_t>& pixels) {
+    uint64_t sum = 0;
+    for (uint32_t pixel : pixels)
+        sum += film.pixels[pixel].taken();
+    return sum;
+}
+
+} // namespace
+
+NoisePlan::NoisePlan(std::vector<uint32_t> pixels, uint32_t mostSamples)
+    : pixels_(std::move(pixels)), mostSamples_(mostSamples) {}
+
+/// Brings all pixels to kFirstSamples, or to the power of two that the budget allows.
+std::vector<PixelTarget> NoisePlan::raiseAll(const Film& film, uint64_t budget) const {
+    const uint64_t goal = std::min(kFirstSamples, mostSamples_);
+    uint64_t least = goal;
+    for (uint32_t pixel : pixels_)
+        least = std::min<uint64_t>(least, film.pixels[pixel].taken());
+    const uint64_t affordable = least + budget / pixels_.size();
+    const uint64_t samples = affordable >= goal ? goal : std::bit_floor(affordable);
+    std::vector<PixelTarget> pass;
+    for (uint32_t pixel : pixels_)
+        if (film.pixels[pixel].taken() < samples) pass.push_back({pixel, uint32_t(samples)});
+    return samples > least ? pass : std::vector<PixelTarget>{};
+}
+
+std::vector<PixelTarget> NoisePlan::spread(const Film& film, const std::vector<double>& variance,
+                                           uint64_t budget) const {
+    const double least = kLeastShare * double(samplesOf(film, pixels_)) /
+                         double(std::max<size_t>(pixels_.size(), 1));
+    std::vector<Step> steps;
+    for (uint32_t pixel : pixels_) {
+        uint32_t n = film.pixels[pixel].taken();
+        for (int rung = 0; rung < kMostRungs && n < mostSamples_; ++rung) {
+            const uint32_t target = std::min(nextRung(n), mostSamples_);
+            const double worth = n < least ? std::numeric_limits<double>::infinity()
+                                           : variance[pixel] / (double(n) * double(target));
+            steps.push_back({pixel, target, target - n, worth});
+            n = target;
+        }
+    }
+    // Of equal worth, the first in the picture: the same film always gives the same pass.
+    std::stable_sort(steps.begin(), steps.end(),
+                     [](const Step& a, const Step& b) { return a.worth > b.worth; });
+    std::vector<uint32_t> target(film.pixels.size(), 0);
+    uint64_t spent = 0;
+    for (const Step& step : steps) {
+        if (spent + step.cost > budget) break;
+        spent += step.cost;
+        target[step.pixel] = step.target;
+    }
+    std::vector<PixelTarget> pass;
+    for (uint32_t pixel : pixels_)
+        if (target[pixel] > 0) pass.push_back({pixel, target[pixel]});
+    return pass;
+}
+
+std::vector<PixelTarget> NoisePlan::next(const Film& film, const NoiseEstimate& estimate,
+                                         uint64_t budget, double noise) const {
+    if (pixels_.empty()) return {};
+    const auto fewest =
+        std::ranges::min(pixels_, {}, [&](uint32_t pixel) { return film.pixels[pixel].taken(); });
+    if (film.pixels[fewest].taken() < std::min(kFirstSamples, mostSamples_))
+        return raiseAll(film, budget);
+    const double reached = estimate.picture(film);
+    if (reached <= noise) return {};
+
+    const uint64_t taken = samplesOf(film, pixels_);
+    if (budget < taken / kLeastPassShare) return {};
+    uint64_t wanted = taken / 2;
+    if (noise > 0) { // what is missing if errors fall as slowly as those of independent samples
+        const double ratio = reached / noise;
+        const double missing = double(taken) * (ratio * ratio - 1);
+        if (missing < double(wanted)) wanted = uint64_t(missing);
+    }
+    return spread(film, estimate.relativeVariance(film),
+                  std::min(budget, std::max(wanted, taken / kLeastPassShare + 1)));
+}
+
+} // namespace stromboli

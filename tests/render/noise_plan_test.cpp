@@ -1,0 +1,247 @@
+// Stop rules against samples of known mean and variance: a backend that draws numbers, no renderer.
+#include "host/render/noise_estimate.hpp"
+#include "host/render/noise_plan.hpp"
+#include "host/render/render.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace stromboli {
+namespace {
+
+constexpr uint32_t kSide = 48;
+
+/// SplitMix64 (Steele, Lea and Flood 2014): a generator that is cheap to start, for each sample has
+/// its own.
+struct Random {
+    using result_type = uint64_t;
+    uint64_t state;
+    static constexpr uint64_t min() { return 0; }
+    static constexpr uint64_t max() { return ~uint64_t(0); }
+    uint64_t operator()() {
+        uint64_t z = state += 0x9E3779B97F4A7C15u;
+        z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+        z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+        return z ^ (z >> 31);
+    }
+};
+
+/// Draws one sample of a pixel.
+using Draw = std::function<double(uint32_t pixel, Random& random)>;
+
+class DrawnBackend : public Backend {
+  public:
+    DrawnBackend(Draw draw, uint32_t seed) : draw_(std::move(draw)), seed_(seed) {}
+
+    void sample(std::span<const PixelTarget> targets, Film& film,
+                const PassProgress& progress) override {
+        uint64_t done = 0;
+        for (const PixelTarget& t : targets)
+            while (film.pixels[t.pixel].taken() < t.samples) {
+                film.pixels[t.pixel].add(
+                    sampleAlone(t.pixel, film.pixels[t.pixel].taken()).radiance);
+                if (++done % 4096 == 0 && !progress(done)) return;
+            }
+        progress(done);
+    }
+    SampleValue sampleAlone(uint32_t pixel, uint32_t sample) override {
+        Random random{seed_ * 0x9E3779B97F4A7C15u ^ (uint64_t(pixel) << 32 | sample)};
+        random.state = random();
+        return {glm::dvec3(draw_(pixel, random))};
+    }
+    RenderCounters counters() const override { return {}; }
+
+  private:
+    Draw draw_;
+    uint32_t seed_;
+};
+
+/// Gamma-distributed with mean 1 and this relative sigma.
+double gamma(double sigma, Random& random) {
+    return std::gamma_distribution<double>(1 / (sigma * sigma), sigma * sigma)(random);
+}
+
+RenderSettings settingsOf(uint32_t samples) {
+    RenderSettings s;
+    s.width = s.height = kSide;
+    s.samplesPerPixel = samples;
+    return s;
+}
+
+/// relMSE against a picture that is 1 everywhere.
+double trueRelativeError(const Film& film) {
+    double sum = 0;
+    for (const PixelStatistics& p : film.pixels)
+        sum += (p.mean.x - 1) * (p.mean.x - 1);
+    return sum / double(film.pixels.size()) / (1 + kRelativeFloor * kRelativeFloor);
+}
+
+uint64_t samplesOf(const Film& film) {
+    uint64_t sum = 0;
+    for (const PixelStatistics& p : film.pixels)
+        sum += p.taken();
+    return sum;
+}
+
+struct Rendered {
+    Film film;
+    RenderOutcome outcome;
+};
+
+Rendered renderDrawn(const Draw& draw, const RenderSettings& s, uint32_t seed) {
+    DrawnBackend backend(draw, seed);
+    Rendered r;
+    r.film = render(backend, s, {}, &r.outcome);
+    return r;
+}
+
+/// Every tenth pixel's sigma is 20 times the others'.
+double uneven(uint32_t pixel, Random& random) {
+    const bool noisy = pixel % kSide / 5 == 3;
+    return gamma(noisy ? 4.0 : 0.2, random);
+}
+
+double even(uint32_t, Random& random) {
+    return gamma(0.7, random);
+}
+
+/// Over seeds, the relMSE of a stop rule times its samples, over that of uniform sampling: the
+/// noise is as 1 / samples, so that this is the ratio at an equal number of samples.
+double efficiencyRatio(const Draw& draw, double noise) {
+    double ruled = 0, uniform = 0;
+    for (uint32_t seed = 0; seed < 8; ++seed) {
+        RenderSettings s = settingsOf(1u << 20);
+        s.stop.noise = noise;
+        const Rendered a = renderDrawn(draw, s, seed);
+        ruled += trueRelativeError(a.film) * double(samplesOf(a.film));
+        const Rendered b = renderDrawn(draw, settingsOf(64), 100 + seed);
+        uniform += trueRelativeError(b.film) * double(samplesOf(b.film));
+    }
+    return ruled / uniform;
+}
+
+TEST(NoiseEstimate, IsTheErrorOfIndependentSamples) {
+    // 8 seeds of 2304 pixels; relMSE's own relative sigma is about sqrt(2 / 18432) = 1 %.
+    double estimated = 0, error = 0;
+    for (uint32_t seed = 0; seed < 8; ++seed) {
+        const Rendered r = renderDrawn(even, settingsOf(64), seed);
+        estimated += r.outcome.noise * r.outcome.noise;
+        error += trueRelativeError(r.film);
+    }
+    EXPECT_NEAR(estimated / error, 1, 0.08); // 4 sigma of the ratio with gamma's excess kurtosis
+}
+
+TEST(NoiseEstimate, SeesTheGainOfSamplesThatFillGaps) {
+    // Means that are off by n^-0.75, as with Sobol points, and right in their variance: Welford's
+    // variance over n would say 8 times the squared error at 64.
+    constexpr double kSigma = 0.5;
+    NoiseEstimate estimate({0, 1, 2, 3});
+    Film film(2, 2);
+    const auto setTo = [&](uint32_t n) {
+        const double off = kSigma * std::pow(double(n), -0.75);
+        for (size_t i = 0; i < 4; ++i) {
+            film.pixels[i].count = n;
+            // Errors of doublings are independent enough: each has its own sign.
+            film.pixels[i].mean = glm::dvec3(1 + ((i + n / 32) % 2 ? off : -off));
+            film.pixels[i].m2 = glm::dvec3(kSigma * kSigma * (n - 1));
+        }
+        estimate.update(film);
+    };
+    setTo(32);
+    setTo(64);
+    const double welford = kSigma / std::sqrt(64.0);
+    EXPECT_LT(estimate.picture(film), welford);
+    EXPECT_GT(estimate.picture(film), kSigma * std::pow(64.0, -0.75));
+}
+
+TEST(StopRule, NoiseIsWhatWasAskedFor) {
+    for (double noise : {0.1, 0.03}) {
+        RenderSettings s = settingsOf(1u << 20);
+        s.stop.noise = noise;
+        const Rendered r = renderDrawn(uneven, s, 1);
+        EXPECT_LE(r.outcome.noise, noise);
+        EXPECT_LT(std::sqrt(trueRelativeError(r.film)), 1.15 * noise);
+        EXPECT_GT(std::sqrt(trueRelativeError(r.film)), 0.7 * noise);
+    }
+}
+
+TEST(StopRule, UnevenNoiseTakesFewerSamples) {
+    // In theory (sum of sigmas)^2 / sum of squared sigmas: 0.2 for these.
+    EXPECT_LT(efficiencyRatio(uneven, 0.05), 1 / 1.3);
+}
+
+TEST(StopRule, EvenNoiseLosesLessThanFivePercent) {
+    EXPECT_LT(efficiencyRatio(even, 0.08), 1.05);
+}
+
+TEST(StopRule, RareLightIsNotLost) {
+    // Black but for one sample in 200: pixels that have not met the light look finished.
+    const Draw rare = [](uint32_t pixel, Random& random) {
+        if (pixel % kSide < kSide / 2) return gamma(0.2, random);
+        return std::bernoulli_distribution(0.005)(random) ? 200.0 : 0.0;
+    };
+    double sum = 0, squares = 0;
+    constexpr int kSeeds = 12;
+    for (uint32_t seed = 0; seed < kSeeds; ++seed) {
+        RenderSettings s = settingsOf(4096);
+        s.stop.noise = 0.25;
+        const Rendered r = renderDrawn(rare, s, seed);
+        double mean = 0;
+        for (const PixelStatistics& p : r.film.pixels)
+            mean += p.mean.x / double(r.film.pixels.size());
+        sum += mean, squares += mean * mean;
+    }
+    const double mean = sum / kSeeds;
+    const double sigma = std::sqrt((squares / kSeeds - mean * mean) / (kSeeds - 1));
+    EXPECT_LT(sigma, 0.02);
+    EXPECT_LT(std::abs(mean - 1), 4.5 * sigma); // one false alarm in 150,000
+}
+
+TEST(StopRule, MostSamplesAreKept) {
+    RenderSettings s = settingsOf(100);
+    s.stop.noise = 1e-6;
+    const Rendered r = renderDrawn(even, s, 1);
+    for (const PixelStatistics& p : r.film.pixels)
+        EXPECT_EQ(p.taken(), 100u);
+    EXPECT_GT(r.outcome.noise, 1e-6);
+}
+
+TEST(StopRule, BlackPicturesEnd) {
+    RenderSettings s = settingsOf(1u << 20);
+    s.stop.noise = 0.01;
+    const Rendered r = renderDrawn([](uint32_t, Random&) { return 0.0; }, s, 1);
+    EXPECT_EQ(samplesOf(r.film), uint64_t(NoisePlan::kFirstSamples) * kSide * kSide);
+}
+
+TEST(StopRule, TimeEndsARender) {
+    RenderSettings s = settingsOf(1u << 24);
+    s.stop.seconds = 0.05;
+    const Rendered r = renderDrawn(even, s, 1);
+    EXPECT_TRUE(r.outcome.outOfTime || samplesOf(r.film) > 0);
+    EXPECT_LT(samplesOf(r.film), uint64_t(1) << 34); // not all
+}
+
+TEST(NoisePlan, TheSameFilmGivesTheSamePass) {
+    DrawnBackend backend(uneven, 3);
+    const Film film = render(backend, settingsOf(16));
+    const NoisePlan plan(cropPixels(settingsOf(16)), 1024);
+    NoiseEstimate estimate(cropPixels(settingsOf(16)));
+    estimate.update(film);
+    const auto a = plan.next(film, estimate, 20000, 0), b = plan.next(film, estimate, 20000, 0);
+    ASSERT_EQ(a.size(), b.size());
+    ASSERT_FALSE(a.empty());
+    uint64_t spent = 0;
+    for (size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(a[i].pixel, b[i].pixel);
+        EXPECT_TRUE(a[i].samples == 24 || a[i].samples == 32 || a[i].samples == 48 ||
+                    a[i].samples == 64);
+        spent += a[i].samples - film.pixels[a[i].pixel].taken();
+    }
+    EXPECT_LE(spent, 20000u);
+}
+
+} // namespace
+} // namespace stromboli
