@@ -17,7 +17,7 @@ struct RawOptions {
     std::vector<uint32_t> size, crop, cell, pixel;
     std::vector<double> adaptive;
     std::string roulette, integrator = "path", direct = "lights", camera = "auto",
-                          backend = "vulkan";
+                          backend = "vulkan", sampler;
     std::optional<uint32_t> sample, samples, lightSamples, maxBounces, minBounce, accumulate;
     bool hemisphere = false, quiet = false, verbose = false;
     RawBenchOptions bench;
