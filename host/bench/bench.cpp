@@ -69,6 +69,7 @@ class Benchmark {
         s.samplesPerPixel = settings_.samplesPerPixel;
         s.maxBounces = settings_.maxBounces;
         s.seed = settings_.seed;
+        s.sampler = settings_.sampler;
         return s;
     }
 

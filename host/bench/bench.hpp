@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/bench/report.hpp"
+#include "host/render/settings.hpp"
 
 #include <functional>
 #include <set>
@@ -27,6 +28,7 @@ struct BenchSettings {
     uint32_t repeats = 5;
     double leastSeconds = 0.2; ///< of a measurement of builds and rays
     uint32_t seed = 0;
+    Sampler sampler = Sampler::Sobol;
     uint32_t threads = 0; ///< 0: as many as the device has, if it is a CPU; else all cores
     std::string device;
     std::string program;     ///< the file to start for start-up times

@@ -4,6 +4,7 @@
 #include "host/bench/embree_kernel.hpp"
 
 #include "host/bench/embree_kernel_lights.hpp"
+#include "host/bench/embree_kernel_random.hpp"
 
 #ifdef __SSE__
 #include <pmmintrin.h>
@@ -75,7 +76,10 @@ class PathSample {
     static constexpr bool otherLights = features & kHasOtherLights;
 
     uint32_t areaSamples() const { return w_.areaLights * w_.lightSamples; }
-    Random4 random(uint32_t block) const { return randomBlock(pixel_, sample_, block, w_.seed); }
+    Random4 random(uint32_t block) const {
+        return w_.sobol ? sobolBlock(pixel_, sample_, block, w_.seed)
+                        : randomBlock(pixel_, sample_, block, w_.seed);
+    }
 
     bool traceCamera() {
         const Random4 u = random(0);

@@ -110,6 +110,7 @@ struct World {
     const LampColumn* lampColumns;
     uint32_t areaLights, deltaLights;
     uint32_t width, height, seed, minBounce, maxBounces, lightSamples;
+    bool sobol; ///< the sampler; independent else
     Roulette roulette;
     float terminationProbability;
     View view;

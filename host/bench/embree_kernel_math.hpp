@@ -115,27 +115,6 @@ struct Random4 {
     float x, y, z, w;
 };
 
-/// Four numbers in [0, 1): Jarzynski and Olano's pcg4d (JCGT 2020), as in
-/// shaders/include/random.glsl.
-inline Random4 randomBlock(uint32_t pixel, uint32_t sample, uint32_t block, uint32_t seed) {
-    const auto lcg = [](uint32_t v) { return v * 1664525u + 1013904223u; };
-    uint32_t x = lcg(pixel), y = lcg(sample), z = lcg(block), w = lcg(seed);
-    const auto mix = [&] {
-        x += y * w;
-        y += z * x;
-        z += x * y;
-        w += y * z;
-    };
-    mix();
-    x ^= x >> 16;
-    y ^= y >> 16;
-    z ^= z >> 16;
-    w ^= w >> 16;
-    mix();
-    const auto unit = [](uint32_t v) { return float(int(v >> 8)) * 0x1p-24f; };
-    return {unit(x), unit(y), unit(z), unit(w)};
-}
-
 /// Moves p, whose error is at most `error`, along the unit normal n to the side of w.
 inline Vec offset(Vec p, float error, Vec n, Vec w) {
     return p + std::copysign(error, dot(n, w)) * n;

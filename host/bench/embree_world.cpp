@@ -134,6 +134,7 @@ void EmbreeWorld::setSettings(const RenderSettings& settings) {
     world_.width = settings.width;
     world_.height = settings.height;
     world_.seed = settings.seed;
+    world_.sobol = settings.sampler == Sampler::Sobol;
     world_.minBounce = settings.minBounce;
     world_.maxBounces = settings.maxBounces;
     world_.lightSamples = settings.lightSamples;

@@ -115,6 +115,7 @@ void applyBench(const RawBenchOptions& raw, Options& o) {
     s.samplesPerPixel = o.settings.samplesPerPixel;
     s.maxBounces = o.settings.maxBounces;
     s.seed = o.settings.seed;
+    s.sampler = o.settings.sampler;
     s.threads = o.threads;
     s.device = o.device;
     o.bench.probeStartup = raw.probeStartup;

@@ -74,8 +74,19 @@ void addLightTransport(CLI::App& app, RawOptions& raw, Options& o) {
         ->group("Light");
 }
 
+void addSampler(CLI::App& app, RawOptions& raw) {
+    app.add_option(
+           "--sampler", raw.sampler,
+           "sobol: the samples of a pixel spread evenly, less noise; independent: each on its "
+           "own [sobol; --cs184: independent]")
+        ->check(CLI::IsMember({"independent", "sobol"}))
+        ->type_name("WHICH")
+        ->group("Sampling");
+}
+
 void addSampling(CLI::App& app, RawOptions& raw, Options& o, const char* samplesHelp) {
     app.add_option("-s,--samples", raw.samples, samplesHelp)->type_name("N")->group("Sampling");
+    addSampler(app, raw);
     app.add_option("--seed", o.settings.seed, "another seed, another noise")
         ->default_str("0")
         ->group("Sampling");
@@ -213,6 +224,7 @@ Subcommands declareOptions(CLI::App& app, RawOptions& raw, Options& o) {
     addScene(*info, o);
     addPicture(*info, raw);
     addLightTransport(*info, raw, o);
+    addSampler(*info, raw);
     addHost(*info, raw, o);
     CLI::App* devices =
         app.add_subcommand("devices", "List Vulkan devices and which one is chosen, and why");

@@ -127,6 +127,8 @@ void applyLight(const RawOptions& raw, Options& o) {
     s.directLight = raw.hemisphere || raw.direct == "hemisphere" ? DirectLight::Hemisphere
                     : raw.direct == "bsdf"                       ? DirectLight::Bsdf
                                                                  : DirectLight::Lights;
+    const bool sobol = raw.sampler.empty() ? !s.cs184 : raw.sampler == "sobol";
+    s.sampler = sobol ? Sampler::Sobol : Sampler::Independent;
     s.roulette = parseRoulette(raw.roulette, s.cs184);
 }
 

@@ -73,6 +73,7 @@ void writeStatistics(const std::string& file, const RenderReport& r, const Job& 
         {"samplesPerPixel", s.samplesPerPixel},
         {"maxBounces", s.maxBounces},
         {"seed", s.seed},
+        {"sampler", s.sampler == Sampler::Sobol ? "sobol" : "independent"},
         {"triangles", job.scene.triangles.size()},
         {"spheres", job.scene.spheres.size()},
         {"seconds",

@@ -87,6 +87,8 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_CS184] = settings.cs184;
     f[SPEC_ONE_LIGHT] = scene.lights.size() == 1;
     f[SPEC_LIGHT_SAMPLES] = settings.lightSamples;
+    f[SPEC_SAMPLER] =
+        settings.sampler == Sampler::Sobol ? gpu::SAMPLER_SOBOL : gpu::SAMPLER_INDEPENDENT;
     f[SPEC_COUNT_STEPS] = tuning.countSteps;
     if (tuning.everythingOn) switchOnAllTheSceneCouldHave(f);
     return f;
@@ -110,6 +112,7 @@ std::vector<std::string> describe(const KernelFeatures& f) {
                                                              "directional", "point", "spot"})),
         fmt::format("integrator: {}", kIntegrators[f[SPEC_INTEGRATOR]]),
         fmt::format("direct light: {}", kDirect[f[SPEC_DIRECT_LIGHT]]),
+        fmt::format("sampler: {}", f[SPEC_SAMPLER] == gpu::SAMPLER_SOBOL ? "sobol" : "independent"),
         fmt::format("roulette: {}", kRoulette[f[SPEC_ROULETTE]]),
         fmt::format("camera: {}", f[SPEC_ORTHOGRAPHIC] ? "orthographic" : "perspective"),
         fmt::format("CS184 conventions: {}", f[SPEC_CS184] ? "yes" : "no"),

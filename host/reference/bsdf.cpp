@@ -94,6 +94,7 @@ glm::dvec3 evaluateBsdf(const SurfacePoint& s, const glm::dvec3& wi, Convention 
 }
 
 BsdfSample sampleBsdf(const SurfacePoint& s, RandomStream& random, Convention convention) {
+    random.beginBlock();
     const Frame frame(s.shading);
     const LocalSample local = sampleLocal(s, frame.toLocal(s.wo), random, convention);
     // Rounding errors of the direction's length would add up along a path.

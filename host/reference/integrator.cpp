@@ -136,6 +136,7 @@ void PathSample::addHemisphereSamples() {
     const size_t count = lights * settings_.lightSamples;
     const Frame frame(surface_.shading);
     for (size_t i = 0; i < count; ++i) {
+        random_.beginBlock();
         const double u = random_.next(), v = random_.next();
         const glm::dvec3 direction = frame.toWorld(uniformHemisphere(u, v));
         const glm::dvec3 weight =

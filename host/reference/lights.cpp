@@ -63,6 +63,7 @@ Lights::Lights(const Scene& scene, Convention convention) : scene_(scene), conve
 
 LightSample Lights::sampleBroad(size_t index, const SurfacePoint& surface,
                                 RandomStream& random) const {
+    random.beginBlock();
     if (index < emitters_.size()) return sampleEmitter(index, surface, random);
     index -= emitters_.size();
     if (index < ambient_.size()) return sampleAmbient(*ambient_[index], surface, random);

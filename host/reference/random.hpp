@@ -1,5 +1,7 @@
 #pragma once
 
+#include "host/render/settings.hpp"
+
 #include <array>
 #include <cstdint>
 
@@ -10,19 +12,28 @@ namespace stromboli::reference {
 std::array<uint32_t, 4> philox(std::array<uint32_t, 4> counter, std::array<uint32_t, 2> key);
 
 /// The random numbers of one sample of one pixel: a pure function of (pixel, sample, seed), so
-/// that neither threads nor passes change a picture. Streams never overlap, because their Philox
-/// counters are distinct.
+/// that neither threads nor passes change a picture. They come in blocks of four. Blocks never
+/// overlap, because their Philox counters are distinct; with Sampler::Sobol, a block's numbers over
+/// the samples of a pixel are a sequence that fills the unit cube evenly (docs/estimator.md), and
+/// different blocks are independent.
 class RandomStream {
   public:
-    RandomStream(uint32_t pixel, uint32_t sample, uint32_t seed);
+    RandomStream(uint32_t pixel, uint32_t sample, uint32_t seed,
+                 Sampler sampler = Sampler::Independent);
     /// Uniform in [0, 1): a multiple of 2^-53.
     double next();
+    /// Takes the next numbers from the beginning of a block: to be called before numbers that
+    /// belong together, so that they are even together.
+    void beginBlock();
 
   private:
-    std::array<uint32_t, 2> key_;
-    std::array<uint32_t, 4> counter_; ///< number of the next block, sample, pixel, 0
-    std::array<uint32_t, 4> words_{};
-    unsigned used_ = 4; ///< words of words_ that have been handed out
+    void fill();
+
+    uint32_t pixel_, sample_, seed_;
+    Sampler sampler_;
+    uint32_t block_ = 0;
+    std::array<double, 4> numbers_{};
+    unsigned used_ = 4; ///< numbers of numbers_ that have been handed out
 };
 
 } // namespace stromboli::reference

@@ -65,7 +65,7 @@ struct ReferenceBackend::Implementation {
 
     /// One sample; a pure function of pixel and index.
     glm::dvec3 take(uint32_t pixel, uint32_t index, uint64_t& rayCount) const {
-        reference::RandomStream random(pixel, index, settings.seed);
+        reference::RandomStream random(pixel, index, settings.seed, settings.sampler);
         const double x = pixel % settings.width + random.next();
         const double y = pixel / settings.width + random.next();
         const reference::Ray ray =

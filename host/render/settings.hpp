@@ -16,6 +16,12 @@ enum class DirectLight {
     Bsdf,       ///< let the bounce find the lamps; delta lights as in Lights
 };
 
+/// Where random numbers come from (docs/estimator.md, "Random numbers").
+enum class Sampler {
+    Independent, ///< each sample on its own
+    Sobol,       ///< the samples of a pixel spread evenly: less noise
+};
+
 struct Roulette {
     enum class Mode {
         None,
@@ -62,6 +68,7 @@ struct RenderSettings {
     uint32_t minBounce = 0;             ///< light scattered fewer times is left out
     Integrator integrator = Integrator::Path;
     DirectLight directLight = DirectLight::Lights;
+    Sampler sampler = Sampler::Sobol;
     Roulette roulette;
     Adaptive adaptive;
     StopRule stop; ///< excludes adaptive

@@ -20,9 +20,13 @@ uvec4 pcg4d(uvec4 v) {
 /// Converted as signed integers, which llvmpipe does in one instruction.
 vec4 unitFloats(uvec4 words) { return vec4(ivec4(words >> 8u)) * (1.0 / 16777216.0); }
 
-/// Four independent numbers in [0, 1). A block is a use of randomness within a sample: block 0
+#include "sobol.glsl"
+
+/// Four numbers in [0, 1), each uniform. A block is a use of randomness within a sample: block 0
 /// the camera, then for each bounce one for the bounce and one for each direct light sample
-/// (path.glsl).
+/// (path.glsl). Blocks are independent of each other, and so are pixels; the samples of a block are
+/// either independent too or spread evenly.
 vec4 randomBlock(uint pixel, uint sampleIndex, uint block, uint seed) {
+    if (SAMPLER == SAMPLER_SOBOL) return unitFloats(sobolWords(pixel, sampleIndex, block, seed));
     return unitFloats(pcg4d(uvec4(pixel, sampleIndex, block, seed)));
 }

@@ -40,7 +40,8 @@ SHARED_BEGIN
 #define SPEC_ONE_LIGHT 15     // the scene has a single light
 #define SPEC_LIGHT_SAMPLES 16 // direct light samples per area light
 #define SPEC_COUNT_STEPS 17   // count how many lanes are at work in each step
-#define SPEC_COUNT 18
+#define SPEC_SAMPLER 18
+#define SPEC_COUNT 19
 
 SHARED_CONST uint INTEGRATOR_PATH = 0u;
 SHARED_CONST uint INTEGRATOR_NORMALS = 1u;
@@ -48,6 +49,9 @@ SHARED_CONST uint INTEGRATOR_NORMALS = 1u;
 SHARED_CONST uint DIRECT_LIGHTS = 0u;
 SHARED_CONST uint DIRECT_HEMISPHERE = 1u;
 SHARED_CONST uint DIRECT_BSDF = 2u;
+
+SHARED_CONST uint SAMPLER_INDEPENDENT = 0u;
+SHARED_CONST uint SAMPLER_SOBOL = 1u;
 
 SHARED_CONST uint ROULETTE_NONE = 0u;
 SHARED_CONST uint ROULETTE_THROUGHPUT = 1u;

@@ -56,6 +56,18 @@ TEST(Options, EverythingGiven) {
     EXPECT_EQ(o.verbosity, Verbosity::Quiet);
 }
 
+TEST(Options, Samplers) {
+    EXPECT_EQ(parse({"render", "a.dae", "-o", "a.png"}).settings.sampler, Sampler::Sobol);
+    EXPECT_EQ(parse({"check", "a.dae", "--sampler", "independent"}).settings.sampler,
+              Sampler::Independent);
+    // That renderer's samples are independent; its adaptive rule counts on it.
+    EXPECT_EQ(parse({"render", "a.dae", "-o", "a.png", "--cs184"}).settings.sampler,
+              Sampler::Independent);
+    EXPECT_EQ(parse({"info", "a.dae", "--cs184", "--sampler", "sobol"}).settings.sampler,
+              Sampler::Sobol);
+    EXPECT_THROW(parse({"render", "a.dae", "-o", "a.png", "--sampler", "halton"}), UsageError);
+}
+
 TEST(Options, Cs184ChangesDefaults) {
     const Options o = parse({"render", "a.dae", "-o", "a.png", "--cs184"});
     EXPECT_EQ(o.settings.samplesPerPixel, 1u);
