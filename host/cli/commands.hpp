@@ -12,5 +12,6 @@ int checkCommand(const Options& options);
 int infoCommand(const Options& options);
 int devicesCommand(const Options& options);
 int benchCommand(const Options& options);
+int compareCommand(const Options& options);
 
 } // namespace stromboli

@@ -178,7 +178,7 @@ Subcommands declareOptions(CLI::App& app, RawOptions& raw, Options& o) {
     app.set_version_flag("--version", std::string("stromboli ") + STROMBOLI_VERSION);
     app.require_subcommand(1);
     app.footer("'stromboli COMMAND --help' explains a command. Exit codes: 0 done, 1 usage, "
-               "2 scene, 3 device, 4 output.");
+               "2 scene, 3 device (or a difference found), 4 output.");
     CLI::App* render = app.add_subcommand("render", "Render a scene to a picture");
     addRender(*render, raw, o);
     CLI::App* check = app.add_subcommand(
@@ -205,7 +205,10 @@ Subcommands declareOptions(CLI::App& app, RawOptions& raw, Options& o) {
     CLI::App* bench = app.add_subcommand(
         "bench", "Measure BVH, rays, paths, start-up; against Embree where that is installed");
     addBench(*bench, raw, o);
-    return {render, check, info, devices, bench};
+    CLI::App* compare = app.add_subcommand(
+        "compare", "How far a picture is from a reference: relMSE, PSNR, SSIM, FLIP, bias; limits");
+    declareCompare(*compare, o.compare);
+    return {render, check, info, devices, bench, compare};
 }
 
 } // namespace stromboli

@@ -29,6 +29,7 @@ struct Subcommands {
     CLI::App* info;
     CLI::App* devices;
     CLI::App* bench;
+    CLI::App* compare;
 };
 
 /// Declares every command and option with its help; parsing fills `raw` and `options`.

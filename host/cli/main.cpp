@@ -29,6 +29,8 @@ int run(const stromboli::Options& options) {
         return stromboli::devicesCommand(options);
     case Command::Bench:
         return stromboli::benchCommand(options);
+    case Command::Compare:
+        return stromboli::compareCommand(options);
     }
     return 0;
 }
