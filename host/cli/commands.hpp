@@ -13,5 +13,6 @@ int infoCommand(const Options& options);
 int devicesCommand(const Options& options);
 int benchCommand(const Options& options);
 int compareCommand(const Options& options);
+int studyCommand(const Options& options);
 
 } // namespace stromboli

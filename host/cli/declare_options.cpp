@@ -208,7 +208,12 @@ Subcommands declareOptions(CLI::App& app, RawOptions& raw, Options& o) {
     CLI::App* compare = app.add_subcommand(
         "compare", "How far a picture is from a reference: relMSE, PSNR, SSIM, FLIP, bias; limits");
     declareCompare(*compare, o.compare);
-    return {render, check, info, devices, bench, compare};
+    CLI::App* study = app.add_subcommand(
+        "study", "Error against time and samples of several configurations; a report to look at");
+    declareStudy(*study, raw.study, o.study);
+    addDevice(*study, o);
+    addHost(*study, raw, o);
+    return {render, check, info, devices, bench, compare, study};
 }
 
 } // namespace stromboli

@@ -31,6 +31,8 @@ int run(const stromboli::Options& options) {
         return stromboli::benchCommand(options);
     case Command::Compare:
         return stromboli::compareCommand(options);
+    case Command::Study:
+        return stromboli::studyCommand(options);
     }
     return 0;
 }

@@ -134,6 +134,7 @@ Command commandOf(const Subcommands& commands) {
     if (*commands.info) return Command::Info;
     if (*commands.bench) return Command::Bench;
     if (*commands.compare) return Command::Compare;
+    if (*commands.study) return Command::Study;
     return Command::Devices;
 }
 
@@ -162,6 +163,7 @@ std::optional<Options> parseOptions(std::vector<std::string> arguments) {
     if (*commands.bench) applyBenchDefaults(raw);
     apply(raw, o);
     if (*commands.bench) applyBench(raw.bench, o);
+    if (*commands.study) applyStudy(raw.study, o.study);
     if (*commands.render && o.output.empty() && !o.sampleAlone)
         throw UsageError("--output is required (see --help)");
     if (*commands.check) o.settings.adaptive.enabled = false; // a z-test needs fixed sample counts

@@ -75,6 +75,9 @@ TEST(Comparison, APixelThatIsNotFiniteBreaksEveryLimitButNoFigure) {
     EXPECT_EQ(c.flip, 0);
     EXPECT_EQ(violations(c, {.relMse = 1}).size(), 1u);
     EXPECT_EQ(violations(c, {}).size(), 0u);
+    Picture noisy = noisyPicture(1, 0);
+    noisy.rgb[9].x = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(comparePictures(noisy, noisyPicture(2, 0), {}).zTest->pixels, 24u * 16 - 1);
 }
 
 TEST(Comparison, FlipIsOfHighDynamicRangeForLinearPicturesOnly) {
