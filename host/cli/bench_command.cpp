@@ -2,6 +2,7 @@
 #include "host/bench/report_json.hpp"
 #include "host/bench/report_table.hpp"
 #include "host/bench/startup_bench.hpp"
+#include "host/cli/command_line.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/progress.hpp"
 #include "host/core/atomic_file.hpp"
@@ -15,7 +16,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <span>
 
 namespace stromboli {
@@ -40,15 +40,6 @@ class StepLine {
   private:
     bool shown_;
 };
-
-/// As it was typed, but for quotes.
-std::string commandLine() {
-    std::ifstream file("/proc/self/cmdline");
-    std::string text;
-    for (std::string argument; std::getline(file, argument, '\0');)
-        text += (text.empty() ? "" : " ") + argument;
-    return text;
-}
 
 void writeJson(const std::string& file, const bench::BenchReport& report) {
     const std::string text = bench::toJson(report).dump(2) + "\n";

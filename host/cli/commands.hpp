@@ -12,5 +12,7 @@ int checkCommand(const Options& options);
 int infoCommand(const Options& options);
 int devicesCommand(const Options& options);
 int benchCommand(const Options& options);
+int compareCommand(const Options& options);
+int studyCommand(const Options& options);
 
 } // namespace stromboli

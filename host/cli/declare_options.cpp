@@ -204,7 +204,7 @@ Subcommands declareOptions(CLI::App& app, RawOptions& raw, Options& o) {
     app.set_version_flag("--version", std::string("stromboli ") + STROMBOLI_VERSION);
     app.require_subcommand(1);
     app.footer("'stromboli COMMAND --help' explains a command. Exit codes: 0 done, 1 usage, "
-               "2 scene, 3 device, 4 output.");
+               "2 scene, 3 device (or a difference found), 4 output.");
     CLI::App* render = app.add_subcommand("render", "Render a scene to a picture");
     addRender(*render, raw, o);
     CLI::App* check = app.add_subcommand(
@@ -232,7 +232,15 @@ Subcommands declareOptions(CLI::App& app, RawOptions& raw, Options& o) {
     CLI::App* bench = app.add_subcommand(
         "bench", "Measure BVH, rays, paths, start-up; against Embree where that is installed");
     addBench(*bench, raw, o);
-    return {render, check, info, devices, bench};
+    CLI::App* compare = app.add_subcommand(
+        "compare", "How far a picture is from a reference: relMSE, PSNR, SSIM, FLIP, bias; limits");
+    declareCompare(*compare, o.compare);
+    CLI::App* study = app.add_subcommand(
+        "study", "Error against time and samples of several configurations; a report to look at");
+    declareStudy(*study, raw.study, o.study);
+    addDevice(*study, o);
+    addHost(*study, raw, o);
+    return {render, check, info, devices, bench, compare, study};
 }
 
 } // namespace stromboli

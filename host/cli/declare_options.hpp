@@ -22,6 +22,7 @@ struct RawOptions {
     std::optional<uint32_t> sample, samples, lightSamples, maxBounces, minBounce, accumulate;
     bool hemisphere = false, quiet = false, verbose = false;
     RawBenchOptions bench;
+    RawStudyOptions study;
 };
 
 struct Subcommands {
@@ -30,6 +31,8 @@ struct Subcommands {
     CLI::App* info;
     CLI::App* devices;
     CLI::App* bench;
+    CLI::App* compare;
+    CLI::App* study;
 };
 
 /// Declares every command and option with its help; parsing fills `raw` and `options`.

@@ -29,6 +29,10 @@ int run(const stromboli::Options& options) {
         return stromboli::devicesCommand(options);
     case Command::Bench:
         return stromboli::benchCommand(options);
+    case Command::Compare:
+        return stromboli::compareCommand(options);
+    case Command::Study:
+        return stromboli::studyCommand(options);
     }
     return 0;
 }

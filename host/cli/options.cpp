@@ -150,6 +150,16 @@ void apply(const RawOptions& raw, Options& o) {
     applySampleAlone(raw, o);
 }
 
+Command commandOf(const Subcommands& commands) {
+    if (*commands.render) return Command::Render;
+    if (*commands.check) return Command::Check;
+    if (*commands.info) return Command::Info;
+    if (*commands.bench) return Command::Bench;
+    if (*commands.compare) return Command::Compare;
+    if (*commands.study) return Command::Study;
+    return Command::Devices;
+}
+
 } // namespace
 
 std::optional<Options> parseOptions(std::vector<std::string> arguments) {
@@ -167,11 +177,7 @@ std::optional<Options> parseOptions(std::vector<std::string> arguments) {
     } catch (const CLI::ParseError& error) {
         throw UsageError(std::string(error.what()) + " (see --help)");
     }
-    o.command = *commands.render  ? Command::Render
-                : *commands.check ? Command::Check
-                : *commands.info  ? Command::Info
-                : *commands.bench ? Command::Bench
-                                  : Command::Devices;
+    o.command = commandOf(commands);
     if (*commands.check) { // a quick, small picture unless asked otherwise
         if (raw.size.empty()) raw.size = {160, 120};
         if (!raw.samples) raw.samples = 256;
@@ -179,6 +185,7 @@ std::optional<Options> parseOptions(std::vector<std::string> arguments) {
     if (*commands.bench) applyBenchDefaults(raw);
     apply(raw, o);
     if (*commands.bench) applyBench(raw.bench, o);
+    if (*commands.study) applyStudy(raw.study, o.study);
     if (*commands.render && o.output.empty() && !o.sampleAlone)
         throw UsageError("--output is required (see --help)");
     if (*commands.check) o.settings.adaptive.enabled = false; // a z-test needs fixed sample counts

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "host/cli/bench_options.hpp"
+#include "host/cli/compare_options.hpp"
+#include "host/cli/study_options.hpp"
 #include "host/core/log.hpp"
 #include "host/render/settings.hpp"
 #include "scene/camera/camera.hpp"
@@ -12,7 +14,7 @@
 
 namespace stromboli {
 
-enum class Command { Render, Check, Info, Devices, Bench };
+enum class Command { Render, Check, Info, Devices, Bench, Compare, Study };
 enum class BackendChoice { Vulkan, Reference };
 
 /// Names one sample of a picture: column, row from the top, number.
@@ -38,6 +40,8 @@ struct Options {
     Verbosity verbosity = Verbosity::Normal;
     double familyWiseError = 0.01; ///< check
     BenchOptions bench;
+    CompareOptions compare;
+    StudyOptions study;
 };
 
 /// Parses the arguments (without the program's name). Empty: help or version was printed and the

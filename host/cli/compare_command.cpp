@@ -1,0 +1,81 @@
+#include "host/cli/commands.hpp"
+#include "host/compare/false_color.hpp"
+#include "host/core/atomic_file.hpp"
+#include "host/core/error.hpp"
+#include "host/film/exr.hpp"
+#include "host/film/png.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <span>
+
+namespace stromboli {
+namespace {
+
+using compare::Comparison;
+using compare::Picture;
+
+ByteImage differenceImage(const Picture& reference, const Picture& picture, const Comparison& c,
+                          const std::string& show) {
+    if (show == "signed") return compare::signedDifference(reference, picture);
+    if (show == "flip") return compare::falseColor(c.flipMap, c.width, c.height, 1);
+    std::vector<double> errors = compare::relativeErrorMap(reference, picture);
+    for (double& error : errors)
+        error = std::sqrt(error);
+    return compare::falseColor(errors, c.width, c.height, 1);
+}
+
+FloatImage differenceValues(const Picture& reference, const Picture& picture) {
+    FloatImage image(picture.width, picture.height);
+    const char* const names[] = {"R", "G", "B"};
+    for (int c = 0; c < 3; ++c) {
+        std::vector<float>& channel = image.channel(names[c]);
+        for (size_t i = 0; i < channel.size(); ++i)
+            channel[i] = float(picture.rgb[i][c] - reference.rgb[i][c]);
+    }
+    return image;
+}
+
+void writeDifference(const CompareOptions& o, const Picture& reference, const Picture& picture,
+                     const Comparison& comparison) {
+    if (o.differenceFile.empty()) return;
+    if (o.differenceFile.ends_with(".exr") || o.differenceFile.ends_with(".EXR"))
+        writeExr(o.differenceFile, differenceValues(reference, picture));
+    else
+        writePng(o.differenceFile, differenceImage(reference, picture, comparison, o.show),
+                 PngColorSpace::Srgb);
+}
+
+void writeFigures(const CompareOptions& o, const Comparison& comparison,
+                  const std::vector<std::string>& broken) {
+    if (o.jsonFile != "-") fmt::print("{}", compare::toText(comparison));
+    if (o.jsonFile.empty()) return;
+    nlohmann::ordered_json json = compare::toJson(comparison);
+    json["reference"] = o.reference;
+    json["picture"] = o.picture;
+    json["violations"] = broken;
+    const std::string text = json.dump(2) + "\n";
+    if (o.jsonFile == "-")
+        fmt::print("{}", text);
+    else
+        writeFileAtomically(o.jsonFile, std::as_bytes(std::span(text)));
+}
+
+} // namespace
+
+int compareCommand(const Options& options) {
+    const CompareOptions& o = options.compare;
+    checkCompare(o);
+    const Picture reference = compare::readPicture(o.reference);
+    const Picture picture = compare::readPicture(o.picture);
+    const Comparison comparison = compare::comparePictures(reference, picture, o.settings);
+    const std::vector<std::string> broken = compare::violations(comparison, o.thresholds);
+    writeDifference(o, reference, picture, comparison);
+    writeFigures(o, comparison, broken);
+    for (const std::string& line : broken)
+        fmt::print(stderr, "{}: {}\n", o.picture, line);
+    return broken.empty() ? 0 : int(ExitCode::Device);
+}
+
+} // namespace stromboli

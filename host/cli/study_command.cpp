@@ -1,0 +1,195 @@
+#include "host/bench/bench_scene.hpp"
+#include "host/bench/circumstances.hpp"
+#include "host/cli/command_line.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/job.hpp"
+#include "host/cli/progress.hpp"
+#include "host/core/atomic_file.hpp"
+#include "host/core/error.hpp"
+#include "host/core/log.hpp"
+#include "host/kernel/vulkan_backend.hpp"
+#include "host/reference/reference_backend.hpp"
+#include "host/study/journal.hpp"
+#include "host/study/run_study.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <span>
+
+namespace stromboli {
+namespace {
+
+namespace fs = std::filesystem;
+using study::Study;
+
+/// A bar on standard error, redrawn in place: only on a terminal.
+class StudyLine {
+  public:
+    explicit StudyLine(bool wanted) : shown_(wanted && isatty(STDERR_FILENO)) {}
+    ~StudyLine() {
+        if (shown_) fmt::print(stderr, "\r\033[K");
+    }
+    StudyLine(const StudyLine&) = delete;
+    StudyLine& operator=(const StudyLine&) = delete;
+
+    void show(const study::StudyProgress& p) {
+        constexpr int kWidth = 24; // characters
+        constexpr double kRedrawSeconds = 0.25;
+        if (!shown_ || (drawn_ && watch_.seconds() < kRedrawSeconds)) return;
+        watch_ = {};
+        drawn_ = true;
+        const int filled = std::clamp(int(p.share * kWidth), 0, kWidth);
+        fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {:3.0f} %  {} left  {}", "", filled, "",
+                   kWidth - filled, 100 * p.share,
+                   p.secondsLeft ? formatDuration(*p.secondsLeft) : "?", p.doing);
+        std::fflush(stderr);
+    }
+
+  private:
+    bool shown_, drawn_ = false;
+    Stopwatch watch_;
+};
+
+std::string checksum(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    return fmt::format("{:08x}",
+                       crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), uInt(bytes.size())));
+}
+
+/// The command line of `render` that a picture of the study is.
+Options renderLine(const std::string& scene, const std::vector<std::string>& words) {
+    const std::string file = bench::benchSceneFile(scene);
+    std::vector<std::string> line = {"render", file.empty() ? scene : file, "-o", "study.exr"};
+    line.insert(line.end(), words.begin(), words.end());
+    const std::optional<Options> options = parseOptions(line);
+    if (!options || options->settings.crop.width != 0 || options->sampleAlone)
+        throw UsageError(fmt::format("a study renders whole pictures: {}", fmt::join(words, " ")));
+    return *options;
+}
+
+/// What a wrong option would say hours later, when its turn comes.
+void checkConfigurations(const study::StudySettings& s) {
+    for (const std::string& scene : s.scenes)
+        for (const study::Configuration& c : s.configurations) {
+            const double step = c.steps.empty() ? 0 : c.steps.front();
+            try {
+                renderLine(scene, study::renderOptions(s, c, step, 1, s.sampleCounts.front()));
+            } catch (const UsageError& error) {
+                throw UsageError(fmt::format("configuration '{}': {}", c.name, error.what()));
+            }
+        }
+}
+
+/// Scene and arrays that a backend refers to.
+struct Held {
+    Job job;
+    BuiltScene built;
+};
+
+study::PreparedRender prepareRender(const vulkan::Device& device, const std::string& scene,
+                                    const std::vector<std::string>& words) {
+    const Options options = renderLine(scene, words);
+    auto held = std::make_shared<Held>(Held{prepareJob(options), {}});
+    spdlog::set_level(spdlog::level::err); // what the loader has to say, it says once
+    study::PreparedRender render{held, held->job.settings, nullptr};
+    if (options.backend == BackendChoice::Reference) {
+        render.backend = std::make_unique<ReferenceBackend>(held->job.scene, held->job.camera,
+                                                            held->job.settings, options.threads);
+        return render;
+    }
+    held->built = buildScene(held->job);
+    render.backend = std::make_unique<VulkanBackend>(device, held->built.gpu, held->job.camera,
+                                                     held->job.settings);
+    return render;
+}
+
+Study newStudy(const study::StudySettings& settings, const vulkan::Device& device) {
+    Study s;
+    s.settings = settings;
+    const bench::Circumstances c = bench::circumstancesOf(
+        device.description(), {}, bench::deviceThreads(device.description()), commandLine());
+    s.deviceIsCpu = c.deviceIsCpu;
+    s.circumstances = {{"date", c.date},
+                       {"command", c.commandLine},
+                       {"version", c.version},
+                       {"cpu", c.cpu},
+                       {"system", c.system},
+                       {"cores", std::to_string(c.cores)},
+                       {"threads", std::to_string(c.threads)},
+                       {"device", c.device},
+                       {"driver", c.driver},
+                       {"compiler", c.compiler}};
+    s.key = fmt::format("program {}, {} on {}, driver {}, {} threads: {} ({})",
+                        checksum("/proc/self/exe"), c.device, c.cpu, c.driver, c.threads,
+                        settings.commonOptions, settings.referenceSamples);
+    for (const std::string& name : settings.scenes) {
+        const std::string file = bench::benchSceneFile(name);
+        study::SceneStudy scene;
+        scene.name = name;
+        scene.content = file.empty() ? name : checksum(file);
+        s.scenes.push_back(scene);
+    }
+    return s;
+}
+
+void listConfigurations() {
+    for (const study::Configuration& c : study::knownConfigurations())
+        fmt::print("{:<14} {:<24} {}\n", c.name,
+                   c.options + c.effort + (c.options.empty() && c.effort.empty() ? "-" : ""),
+                   c.what);
+}
+
+void writeText(const fs::path& path, const std::string& text) {
+    writeFileAtomically(path, std::as_bytes(std::span(text)));
+}
+
+void writeReports(const fs::path& folder, const Study& s) {
+    writeText(folder / "study.json", study::toJson(s).dump(1) + "\n");
+    writeText(folder / "study.csv", study::toCsv(s));
+}
+
+} // namespace
+
+int studyCommand(const Options& options) {
+    const StudyOptions& o = options.study;
+    if (o.list) {
+        listConfigurations();
+        return 0;
+    }
+    checkConfigurations(o.settings);
+    const fs::path folder = o.folder;
+    std::error_code failed;
+    fs::create_directories(folder, failed);
+    checkFileWritable(folder / "study.json");
+    watchForInterrupt();
+    const vulkan::OpenDevice open = vulkan::openDevice(options.device);
+    Study s = newStudy(o.settings, *open.device);
+    const size_t before = study::takeOver(folder / "study.json", s);
+    if (before > 0) spdlog::info("going on: {} runs are there already", before);
+    const bool complete = [&] {
+        StudyLine line(options.verbosity != Verbosity::Quiet);
+        return study::runStudy(
+            folder, s,
+            {[&](const std::string& scene, const std::vector<std::string>& words) {
+                 return prepareRender(*open.device, scene, words);
+             },
+             [&](const study::StudyProgress& progress) { line.show(progress); }, interrupted});
+    }();
+    setUpLogging(options.verbosity);
+    writeReports(folder, s);
+    vulkan::requireNoValidationMessages(open);
+    fmt::print("{}", study::toText(s));
+    if (complete) return 0;
+    spdlog::warn("interrupted: what is done is kept; the same command goes on");
+    return kInterruptedExitCode;
+}
+
+} // namespace stromboli

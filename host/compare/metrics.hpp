@@ -1,0 +1,35 @@
+#pragma once
+
+#include "host/compare/picture.hpp"
+
+#include <array>
+
+namespace stromboli::compare {
+
+/// Errors of a picture against a reference, over pixels and channels, in linear radiance. Pictures
+/// have the same size (std::invalid_argument otherwise) and finite values.
+struct LinearErrors {
+    double mse = 0; ///< mean of (x - r)^2
+    /// Mean of (x - r)^2 / (r^2 + epsilon), epsilon = relativeEpsilon(reference).
+    double relMse = 0;
+    double epsilon = 0;
+    std::array<double, 3> bias{};         ///< mean of x - r, per channel
+    std::array<double, 3> relativeBias{}; ///< the same over the channel's mean of r; 0 for 0 / 0
+};
+
+/// relMSE (Rousselle et al. 2011) divides by r^2 + epsilon, so that black pixels do not divide by
+/// 0. Here epsilon is 0.01 m^2, m the mean of all channels of the reference: pixels darker than a
+/// tenth of the mean count by their absolute error, and a scene that is a million times brighter
+/// has the same relMSE. In a picture with mean 1 it is the usual 0.01.
+double relativeEpsilon(const Picture& reference);
+
+LinearErrors linearErrors(const Picture& reference, const Picture& picture);
+
+/// Share of each pixel in relMSE, its three channels averaged; the mean over the picture is relMse.
+std::vector<double> relativeErrorMap(const Picture& reference, const Picture& picture);
+
+/// 10 log10(1 / MSE) dB of the sRGB signals in [0, 1] (not rounded to bytes) at an exposure of
+/// `stops`; infinite for equal pictures.
+double psnr(const Picture& reference, const Picture& picture, double stops = 0);
+
+} // namespace stromboli::compare

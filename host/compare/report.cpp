@@ -1,0 +1,81 @@
+#include "host/compare/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace stromboli::compare {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kColors[] = {"red", "green", "blue"};
+
+std::string flipName(const Comparison& c) {
+    if (!c.highDynamicRange) return "FLIP (LDR)";
+    return "FLIP (HDR)";
+}
+
+Json toJson(const CheckResult& z) {
+    Json channels = Json::array();
+    for (const CheckChannel& channel : z.channels)
+        channels.push_back(channel.z);
+    return {{"agree", z.agree()},
+            {"channels", channels},
+            {"channelLimit", z.channelLimit},
+            {"worstBlock", z.worstBlock.z},
+            {"blockLimit", z.blockLimit},
+            {"pixelsPassing", z.fractionPassing},
+            {"constantMismatches", z.constantMismatches}};
+}
+
+} // namespace
+
+std::string toText(const Comparison& c) {
+    std::string text =
+        fmt::format("{:<11} {:.6g}\n{:<11} {:.6g}   of linear radiance, epsilon {:.3g}\n"
+                    "{:<11} {:.2f} dB   of sRGB signals\n{:<11} {:.6f}   of sRGB signals, grey\n",
+                    "MSE", c.errors.mse, "relMSE", c.errors.relMse, c.errors.epsilon, "PSNR",
+                    c.psnr, "SSIM", c.ssim);
+    text += fmt::format("{:<11} {:.6f}", flipName(c), c.flip);
+    if (c.highDynamicRange)
+        text += fmt::format("   {} exposures, {:+.2f} to {:+.2f} stops", c.flipExposures,
+                            c.flipStartStops, c.flipStopStops);
+    text += "\nbias       ";
+    for (size_t i = 0; i < 3; ++i)
+        text += fmt::format(" {} {:+.4f} %", kColors[i], 100 * c.errors.relativeBias[i]);
+    text += "\n";
+    if (c.notFiniteReference + c.notFinitePicture > 0)
+        text += fmt::format("not finite: {} pixels of the reference, {} of the picture; left out\n",
+                            c.notFiniteReference, c.notFinitePicture);
+    if (!c.zTest) return text;
+    text += "z-tests, A the picture, B the reference:\n" + formatCheck(*c.zTest);
+    if (c.unevenSamples)
+        text += "note: sample counts vary; adaptive sampling is slightly biased, and tests with "
+                "many samples may see it\n";
+    return text;
+}
+
+nlohmann::ordered_json toJson(const Comparison& c) {
+    // JSON has no infinity: PSNR is null for equal pictures.
+    return {{"width", c.width},
+            {"height", c.height},
+            {"mse", c.errors.mse},
+            {"relMse", c.errors.relMse},
+            {"relMseEpsilon", c.errors.epsilon},
+            {"psnr", std::isfinite(c.psnr) ? Json(c.psnr) : Json(nullptr)},
+            {"ssim", c.ssim},
+            {"flip",
+             {{"mean", c.flip},
+              {"kind", c.highDynamicRange ? "hdr" : "ldr"},
+              {"exposures", c.flipExposures},
+              {"startStops", c.flipStartStops},
+              {"stopStops", c.flipStopStops}}},
+            {"bias", c.errors.bias},
+            {"relativeBias", c.errors.relativeBias},
+            {"notFinite", {{"reference", c.notFiniteReference}, {"picture", c.notFinitePicture}}},
+            {"zTest", c.zTest ? toJson(*c.zTest) : Json(nullptr)},
+            {"unevenSamples", c.unevenSamples}};
+}
+
+} // namespace stromboli::compare

@@ -1,0 +1,146 @@
+#include "host/study/measure.hpp"
+
+#include "host/bench/cpu_clock.hpp"
+#include "host/compare/metrics.hpp"
+#include "host/core/stopwatch.hpp"
+#include "host/render/render.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+namespace stromboli::study {
+namespace {
+
+double meanOfChannels(const compare::Picture& picture) {
+    double sum = 0;
+    for (const glm::dvec3& c : picture.rgb)
+        sum += c.x + c.y + c.z;
+    return sum / (3 * double(picture.rgb.size()));
+}
+
+/// The driver compiles what it has put off until the first dispatch.
+void warmUp(PreparedRender& render) {
+    render.backend->sampleAlone(0, 0);
+}
+
+/// Time since the last step at the pace of the work so far.
+bool wouldTakeTooLong(const std::vector<Point>& points, double growth, const StudySettings& s) {
+    return !points.empty() && points.back().wallSeconds * growth > s.mostSecondsPerRun;
+}
+
+std::optional<Run> growSamples(const RunPlan& plan, const Prepare& prepare,
+                               const KeepGoing& keepGoing, const TakeFilm& takeFilm) {
+    const StudySettings& s = plan.settings;
+    PreparedRender render = prepare(
+        plan.scene, renderOptions(s, plan.configuration, 0, plan.seed, s.sampleCounts.back()));
+    warmUp(render);
+    const uint64_t raysBefore = render.backend->counters().rays;
+    Film film(render.settings.width, render.settings.height);
+    std::vector<PixelTarget> targets(film.pixels.size());
+    Run run{plan.configuration.name, plan.seed, {}, false};
+    double wallSeconds = 0, cpuSeconds = 0;
+    for (const uint32_t samples : s.sampleCounts) {
+        if (!run.points.empty() &&
+            wouldTakeTooLong(run.points, samples / run.points.back().effort, s)) {
+            run.cutShort = true;
+            break;
+        }
+        for (uint32_t i = 0; i < targets.size(); ++i)
+            targets[i] = {i, samples};
+        bool stopped = false;
+        const Stopwatch wall;
+        const bench::CpuClock cpu;
+        render.backend->sample(targets, film, [&](uint64_t) {
+            stopped = !keepGoing(wallSeconds + wall.seconds());
+            return !stopped;
+        });
+        if (stopped) return std::nullopt;
+        wallSeconds += wall.seconds();
+        cpuSeconds += cpu.seconds();
+        Point point = pointOf(film, plan.reference);
+        point.effort = samples;
+        point.wallSeconds = wallSeconds;
+        point.cpuSeconds = cpuSeconds;
+        point.rays = render.backend->counters().rays - raysBefore;
+        run.points.push_back(point);
+        takeFilm(point, film);
+    }
+    return run;
+}
+
+std::optional<Run> growSteps(const RunPlan& plan, const Prepare& prepare,
+                             const KeepGoing& keepGoing, const TakeFilm& takeFilm) {
+    const StudySettings& s = plan.settings;
+    Run run{plan.configuration.name, plan.seed, {}, false};
+    double secondsBefore = 0;
+    for (const double step : plan.configuration.steps) {
+        // Halving a tolerance takes four times the samples.
+        if (wouldTakeTooLong(run.points, 4, s)) {
+            run.cutShort = true;
+            break;
+        }
+        // Far more than any pixel of these steps is meant to need.
+        const uint32_t mostSamples = 16 * s.sampleCounts.back();
+        PreparedRender render =
+            prepare(plan.scene, renderOptions(s, plan.configuration, step, plan.seed, mostSamples));
+        warmUp(render);
+        const uint64_t raysBefore = render.backend->counters().rays;
+        bool stopped = false;
+        const Stopwatch wall;
+        const bench::CpuClock cpu;
+        const Film film =
+            stromboli::render(*render.backend, render.settings, [&](const RenderProgress&) {
+                stopped = !keepGoing(secondsBefore + wall.seconds());
+                return !stopped;
+            });
+        if (stopped) return std::nullopt;
+        Point point = pointOf(film, plan.reference);
+        point.wallSeconds = wall.seconds();
+        point.cpuSeconds = cpu.seconds();
+        secondsBefore += point.wallSeconds;
+        point.effort = step;
+        point.rays = render.backend->counters().rays - raysBefore;
+        run.points.push_back(point);
+        takeFilm(point, film);
+    }
+    return run;
+}
+
+} // namespace
+
+std::vector<std::string> renderOptions(const StudySettings& settings, const Configuration& c,
+                                       double step, uint32_t seed, uint32_t samples) {
+    std::vector<std::string> words = splitOptions(settings.commonOptions);
+    for (const std::string& word : optionsAt(c, step))
+        words.push_back(word);
+    for (const std::string& word : {std::string("--seed"), fmt::format("{}", seed),
+                                    std::string("-s"), fmt::format("{}", samples)})
+        words.push_back(word);
+    return words;
+}
+
+Point pointOf(const Film& film, const compare::Picture& reference) {
+    compare::Picture picture(film.width, film.height);
+    Point point;
+    for (size_t i = 0; i < picture.rgb.size(); ++i) {
+        picture.rgb[i] = film.pixels[i].mean;
+        point.samples += film.pixels[i].taken();
+        point.rejected += film.pixels[i].rejected;
+    }
+    point.samples /= double(picture.rgb.size());
+    const compare::LinearErrors errors = compare::linearErrors(reference, picture);
+    point.relMse = errors.relMse;
+    point.mse = errors.mse;
+    const double mean = meanOfChannels(reference);
+    point.bias = mean > 0 ? meanOfChannels(picture) / mean - 1 : 0;
+    return point;
+}
+
+std::optional<Run> measureRun(const RunPlan& plan, const Prepare& prepare,
+                              const KeepGoing& keepGoing, const TakeFilm& takeFilm) {
+    return plan.configuration.effort.empty() ? growSamples(plan, prepare, keepGoing, takeFilm)
+                                             : growSteps(plan, prepare, keepGoing, takeFilm);
+}
+
+} // namespace stromboli::study

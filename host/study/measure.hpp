@@ -1,0 +1,51 @@
+#pragma once
+
+#include "host/compare/picture.hpp"
+#include "host/render/backend.hpp"
+#include "host/render/settings.hpp"
+#include "host/study/study.hpp"
+
+#include <functional>
+#include <memory>
+
+namespace stromboli::study {
+
+/// A render that is ready to start: scene loaded, kernel built.
+struct PreparedRender {
+    std::shared_ptr<void> scene; ///< whatever the backend needs as long as it lives
+    RenderSettings settings;
+    std::unique_ptr<Backend> backend;
+};
+
+/// Makes a render of a scene by the options of `stromboli render`. Throws Error.
+using Prepare = std::function<PreparedRender(const std::string& scene,
+                                             const std::vector<std::string>& options)>;
+
+/// Called while samples are taken, with the seconds since the run began; false stops the run.
+using KeepGoing = std::function<bool(double seconds)>;
+/// Every picture of a run.
+using TakeFilm = std::function<void(const Point&, const Film&)>;
+
+/// Where and with what a run is measured.
+struct RunPlan {
+    std::string scene;
+    const Configuration& configuration;
+    uint32_t seed = 0;
+    const StudySettings& settings;
+    const compare::Picture& reference;
+};
+
+/// Takes the pictures of one run. Sample counts grow within one render, each continuing the last;
+/// other efforts are renders of their own. Each kernel first takes one sample that is thrown away,
+/// so that the driver's compilation is not in the times. Empty: stopped by `keepGoing`.
+std::optional<Run> measureRun(const RunPlan& plan, const Prepare& prepare,
+                              const KeepGoing& keepGoing, const TakeFilm& takeFilm);
+
+/// The options of one render, in full.
+std::vector<std::string> renderOptions(const StudySettings& settings, const Configuration& c,
+                                       double step, uint32_t seed, uint32_t samples);
+
+/// Compares a film with the reference; all of the point but the effort and the times.
+Point pointOf(const Film& film, const compare::Picture& reference);
+
+} // namespace stromboli::study

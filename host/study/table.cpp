@@ -1,0 +1,64 @@
+#include "host/study/journal.hpp"
+
+#include <fmt/format.h>
+
+namespace stromboli::study {
+namespace {
+
+std::string interval(const Estimate& e, const char* format, double scale = 1) {
+    std::string text = fmt::format(fmt::runtime(format), scale * e.value);
+    if (e.interval)
+        text += fmt::format(fmt::runtime(fmt::format(" ({0}..{0})", format)),
+                            scale * e.interval->first, scale * e.interval->second);
+    return text;
+}
+
+std::string ratio(const std::optional<Estimate>& e) {
+    return e ? interval(*e, "{:.2f}") : "-";
+}
+
+std::string seconds(const ClockSummary& s) {
+    if (!s.timeToTarget) return "-";
+    return fmt::format("{:.3g} s{}", *s.timeToTarget, s.extrapolated ? " *" : "");
+}
+
+const ConfigurationSummary* find(const SceneSummary& s, const std::string& name) {
+    for (const ConfigurationSummary& c : s.configurations)
+        if (c.name == name) return &c;
+    return nullptr;
+}
+
+std::string tableOf(const SceneStudy& scene, const SceneSummary& s, Clock clock) {
+    std::string text = fmt::format("\n{}, {} x {}; reference of {} samples, its own relMSE {:.2e}\n"
+                                   "target: relMSE {:.4g}, that of '{}'; {} time; 95 % intervals\n"
+                                   "{:<14} {:>24} {:>12} {:>20} {:>20} {:>24}\n",
+                                   scene.name, scene.width, scene.height, scene.reference.samples,
+                                   scene.reference.relMse, s.targetError, s.baseline,
+                                   clock == Clock::Cpu ? "CPU" : "wall", "", "slope", "to target",
+                                   "times less time", "times less error", "bias %");
+    const ConfigurationSummary* baseline = find(s, s.baseline);
+    bool extrapolated = false;
+    for (const ConfigurationSummary& c : s.configurations) {
+        extrapolated = extrapolated || c.by(clock).extrapolated;
+        text += fmt::format("{:<14} {:>24} {:>12} {:>20} {:>20} {:>24}\n", c.name,
+                            c.slope ? interval(*c.slope, "{:.2f}") : "-", seconds(c.by(clock)),
+                            baseline ? ratio(timeRatio(*baseline, c, clock)) : "-",
+                            baseline ? ratio(errorRatio(*baseline, c, clock)) : "-",
+                            interval(c.bias, "{:.3f}", 100));
+    }
+    if (extrapolated) text += "* beyond the efforts measured\n";
+    return text;
+}
+
+} // namespace
+
+std::string toText(const Study& study) {
+    std::string text;
+    for (const SceneStudy& scene : study.scenes)
+        if (!scene.runs.empty())
+            text += tableOf(scene, summarise(scene, study.settings),
+                            study.deviceIsCpu ? Clock::Cpu : Clock::Wall);
+    return text;
+}
+
+} // namespace stromboli::study

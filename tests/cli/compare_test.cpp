@@ -1,0 +1,76 @@
+#include "host/film/exr.hpp"
+#include "host/film/png.hpp"
+#include "tests/cli/program.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+
+namespace stromboli::test {
+namespace {
+
+using testing::HasSubstr;
+
+std::string constantExr(const ScratchFolder& folder, const std::string& name, float value) {
+    FloatImage image(8, 6);
+    for (const char* channel : {"R", "G", "B"})
+        image.channel(channel).assign(48, value);
+    writeExr(folder.file(name), image);
+    return folder.file(name);
+}
+
+TEST(CompareCommand, LimitsDecideTheExitCode) {
+    const ScratchFolder folder;
+    const std::string a = constantExr(folder, "a.exr", 1), b = constantExr(folder, "b.exr", 1.1f);
+    const ProgramRun plain = stromboli({"compare", a, b});
+    EXPECT_EQ(plain.exitCode, 0) << plain.err;
+    EXPECT_THAT(plain.out, HasSubstr("relMSE      0.00990")); // 0.1^2 / 1.01
+    EXPECT_EQ(stromboli({"compare", a, b, "--max-relmse", "0.01", "--max-bias", "11"}).exitCode, 0);
+    const ProgramRun broken = stromboli({"compare", a, b, "--max-relmse", "0.009"});
+    EXPECT_EQ(broken.exitCode, 3);
+    EXPECT_THAT(broken.err, HasSubstr("relMSE is 0.00990"));
+}
+
+TEST(CompareCommand, WritesJsonAndDifferences) {
+    const ScratchFolder folder;
+    const std::string a = constantExr(folder, "a.exr", 1), b = constantExr(folder, "b.exr", 1.5f);
+    const ProgramRun run =
+        stromboli({"compare", a, b, "--json", "-", "--diff", folder.file("d.exr")});
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    const nlohmann::json json = nlohmann::json::parse(run.out);
+    EXPECT_DOUBLE_EQ(json["mse"].get<double>(), 0.25);
+    EXPECT_TRUE(json["violations"].empty());
+    EXPECT_EQ(readExr(folder.file("d.exr")).channels.at("G")[7], 0.5f);
+    for (const char* what : {"flip", "relative", "signed"}) {
+        EXPECT_EQ(stromboli({"compare", a, b, "--diff", folder.file("d.png"), "--show", what,
+                             "--json", folder.file("d.json")})
+                      .exitCode,
+                  0);
+        EXPECT_EQ(readPng(folder.file("d.png")).width, 8u);
+    }
+    EXPECT_EQ(nlohmann::json::parse(std::ifstream(folder.file("d.json")))["width"], 8);
+}
+
+TEST(CompareCommand, BadInputIsOneLine) {
+    const ScratchFolder folder;
+    const std::string a = constantExr(folder, "a.exr", 1);
+    const std::vector<std::vector<std::string>> bad = {
+        {"compare", a},
+        {"compare", a, folder.file("none.exr")},
+        {"compare", a, folder.write("b.txt", "x")},
+        {"compare", a, a, "--diff", a},
+        {"compare", a, a, "--ztest"},
+        {"compare", a, a, "--show", "nothing"},
+        {"compare", a, a, "--diff", folder.file("d.jpg")}};
+    for (const std::vector<std::string>& arguments : bad) {
+        const ProgramRun run = stromboli(arguments);
+        EXPECT_EQ(run.exitCode, 1) << arguments.back();
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    }
+}
+
+} // namespace
+} // namespace stromboli::test

@@ -1,0 +1,106 @@
+#include "host/compare/comparison.hpp"
+#include "host/core/error.hpp"
+#include "tests/compare/pictures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace stromboli::compare {
+namespace {
+
+/// A film of normal samples about 1, shifted by `shift`.
+Picture noisyPicture(unsigned seed, double shift, uint32_t samples = 64) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> noise(1 + shift, 0.2);
+    Film film(24, 16);
+    for (PixelStatistics& p : film.pixels)
+        for (uint32_t i = 0; i < samples; ++i)
+            p.add(glm::dvec3(std::max(noise(random), 0.0)));
+    return pictureOf(std::move(film));
+}
+
+TEST(Comparison, ZTestsWhereBothHaveVariances) {
+    // Standard error of the mean difference: 0.2 sqrt(2 / (24 16 64)) = 0.0018.
+    const Picture a = noisyPicture(1, 0), b = noisyPicture(2, 0), shifted = noisyPicture(3, 0.02);
+    const Comparison same = comparePictures(a, b, {}), other = comparePictures(a, shifted, {});
+    ASSERT_TRUE(same.zTest && other.zTest);
+    EXPECT_TRUE(same.zTest->agree());
+    EXPECT_FALSE(other.zTest->agree());
+    EXPECT_GT(other.zTest->channels[0].z, 5); // the picture is the brighter one
+    EXPECT_FALSE(same.unevenSamples);
+    Picture plain = b;
+    plain.film.reset();
+    EXPECT_FALSE(comparePictures(a, plain, {}).zTest);
+    EXPECT_THROW(violations(comparePictures(a, plain, {}), {.zTest = true}), UsageError);
+    EXPECT_EQ(violations(same, {.zTest = true}).size(), 0u);
+    EXPECT_EQ(violations(other, {.zTest = true}).size(), 1u);
+}
+
+TEST(Comparison, SaysThatSampleCountsVary) {
+    Picture a = noisyPicture(1, 0), b = noisyPicture(2, 0);
+    b.film->pixels[7].add(glm::dvec3(1));
+    EXPECT_TRUE(comparePictures(a, b, {}).unevenSamples);
+}
+
+TEST(Comparison, EveryLimitIsKeptAtItsValueAndBrokenBeyond) {
+    const Picture a = randomPicture(20, 12, 1), b = randomPicture(20, 12, 2);
+    const Comparison c = comparePictures(a, b, {});
+    const double bias =
+        100 * std::max({std::abs(c.errors.relativeBias[0]), std::abs(c.errors.relativeBias[1]),
+                        std::abs(c.errors.relativeBias[2])});
+    const Thresholds kept = {.mse = c.errors.mse,
+                             .relMse = c.errors.relMse,
+                             .flip = c.flip,
+                             .biasPercent = bias,
+                             .psnr = c.psnr,
+                             .ssim = c.ssim};
+    EXPECT_TRUE(violations(c, kept).empty());
+    const double less = 1 - 1e-9, more = 1 + 1e-9;
+    EXPECT_EQ(violations(c, {.mse = less * c.errors.mse}).size(), 1u);
+    EXPECT_EQ(violations(c, {.relMse = less * c.errors.relMse}).size(), 1u);
+    EXPECT_EQ(violations(c, {.flip = less * c.flip}).size(), 1u);
+    EXPECT_EQ(violations(c, {.biasPercent = less * bias}).size(), 1u);
+    EXPECT_EQ(violations(c, {.psnr = more * c.psnr}).size(), 1u);
+    EXPECT_EQ(violations(c, {.ssim = c.ssim + 1e-9}).size(), 1u);
+}
+
+TEST(Comparison, APixelThatIsNotFiniteBreaksEveryLimitButNoFigure) {
+    const Picture a = randomPicture(8, 8, 1);
+    Picture b = a;
+    b.rgb[9].x = std::numeric_limits<double>::quiet_NaN();
+    const Comparison c = comparePictures(a, b, {});
+    EXPECT_EQ(c.notFinitePicture, 1u);
+    EXPECT_EQ(c.errors.mse, 0);
+    EXPECT_EQ(c.flip, 0);
+    EXPECT_EQ(violations(c, {.relMse = 1}).size(), 1u);
+    EXPECT_EQ(violations(c, {}).size(), 0u);
+    Picture noisy = noisyPicture(1, 0);
+    noisy.rgb[9].x = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(comparePictures(noisy, noisyPicture(2, 0), {}).zTest->pixels, 24u * 16 - 1);
+}
+
+TEST(Comparison, FlipIsOfHighDynamicRangeForLinearPicturesOnly) {
+    const Picture a = randomPicture(8, 8, 1, 3), b = randomPicture(8, 8, 2, 3);
+    Picture png = b;
+    png.lowDynamicRange = true;
+    EXPECT_TRUE(comparePictures(a, b, {}).highDynamicRange);
+    const Comparison low = comparePictures(a, png, {});
+    EXPECT_FALSE(low.highDynamicRange);
+    EXPECT_DOUBLE_EQ(low.flip, meanOf(flipMap(a, b)));
+}
+
+TEST(Comparison, JsonHasNoInfinity) {
+    const Picture a = randomPicture(4, 4, 1);
+    const nlohmann::ordered_json json = toJson(comparePictures(a, a, {}));
+    EXPECT_TRUE(json["psnr"].is_null());
+    EXPECT_EQ(json["ssim"], 1.0);
+    EXPECT_EQ(json["relMse"], 0.0);
+}
+
+TEST(Comparison, OtherSizesAreAUserError) {
+    EXPECT_THROW(comparePictures(Picture(2, 3), Picture(3, 2), {}), UsageError);
+}
+
+} // namespace
+} // namespace stromboli::compare
