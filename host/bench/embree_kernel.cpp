@@ -52,7 +52,8 @@ class PathSample {
                 throughput_ = throughput_ * (1 / (1 - w_.terminationProbability));
             }
             const bool delta = hasDelta && isDelta(*point_.surface);
-            if (!delta && bounce >= w_.minBounce) addDirectLight(block + 1);
+            if (!delta && bounce >= w_.minBounce)
+                addDirectLight(block + 1, w_.lightJoinsCamera && bounce == 1);
 
             const Bounce next = scatter<hasDelta>(point_, u);
             throughput_ = throughput_ * next.weight;
@@ -82,10 +83,12 @@ class PathSample {
     }
 
     bool traceCamera() {
-        const Random4 u = random(0);
+        const Random4 numbers = random(0);
+        const float x = w_.lightJoinsCamera ? numbers.z : numbers.x,
+                    y = w_.lightJoinsCamera ? numbers.w : numbers.y;
         const View& view = w_.view;
-        const float s = (float(pixel_ % w_.width) + u.x) / float(w_.width);
-        const float t = (float(pixel_ / w_.width) + u.y) / float(w_.height);
+        const float s = (float(pixel_ % w_.width) + x) / float(w_.width);
+        const float t = (float(pixel_ / w_.width) + y) / float(w_.height);
         const Vec across = (2 * s - 1) * vec(view.right) + (1 - 2 * t) * vec(view.up);
         Vec origin = vec(view.position), direction = -vec(view.back);
         float alongAxis = 1; // length of the ray per unit of depth
@@ -134,10 +137,10 @@ class PathSample {
         if (isLit(value) && isFree(s)) radiance_ = radiance_ + throughput_ * value;
     }
 
-    void addDirectLight(uint32_t block) {
+    void addDirectLight(uint32_t block, bool firstJoinsCamera) {
         const float share = 1 / float(w_.lightSamples);
-        for (uint32_t i = 0; i < areaSamples(); ++i)
-            addLight(w_.lights[i / w_.lightSamples], block++, share);
+        for (uint32_t i = 0; i < areaSamples(); ++i, ++block)
+            addLight(w_.lights[i / w_.lightSamples], i == 0 && firstJoinsCamera ? 0 : block, share);
         for (uint32_t i = 0; i < w_.deltaLights; ++i)
             addLight(w_.lights[w_.areaLights + i], block++, 1);
     }

@@ -110,7 +110,8 @@ struct World {
     const LampColumn* lampColumns;
     uint32_t areaLights, deltaLights;
     uint32_t width, height, seed, minBounce, maxBounces, lightSamples;
-    bool sobol; ///< the sampler; independent else
+    bool sobol;            ///< the sampler; independent else
+    bool lightJoinsCamera; ///< the first light sample takes numbers of the camera's block
     Roulette roulette;
     float terminationProbability;
     View view;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/bench/embree_kernel_spherical.hpp"
 #include "host/bench/embree_kernel_surface.hpp"
 
 namespace stromboli::bench::native {
@@ -38,9 +39,29 @@ inline LightSample areaSample(const Point& p, const Light& light, Vec at, Vec no
     return s;
 }
 
+/// Completes a sample taken uniformly by direction. z: distance of the lamp's plane on the side
+/// that `normal` points from.
+inline LightSample angleSample(const Point& p, const Light& light, Vec at, Vec normal, float z,
+                               float angle) {
+    const Vec to = at - p.position;
+    const float distance2 = dot(to, to), error = lampError(at, p.position);
+    LightSample s;
+    s.infinite = false;
+    s.direction = to * (1 / std::sqrt(larger(distance2, kTiny)));
+    s.target = offset(at, error, normal, -to);
+    const bool apart = std::fabs(z) > p.error + error && distance2 > 0;
+    const bool emits = apart && (light.bothSides || z < 0);
+    s.radiance = emits ? vec(light.color) * angle : vec(0);
+    return s;
+}
+
 inline LightSample sampleQuad(const Point& p, const Light& light, const Random4& u) {
-    const Vec at = vec(light.position) + u.x * vec(light.edgeA) + u.y * vec(light.edgeB);
-    return areaSample(p, light, at, vec(light.normal));
+    const Vec corner = vec(light.position), a = vec(light.edgeA), b = vec(light.edgeB),
+              normal = vec(light.normal);
+    const Vec v0 = corner - p.position;
+    const float z = dot(v0, normal);
+    const SolidAngleSample s = sampleQuadByAngle(v0, a, b, z, light.area, u.x, u.y);
+    return angleSample(p, light, corner + s.weights.a * a + s.weights.b * b, normal, z, s.angle);
 }
 
 inline LightSample sampleMesh(const World& w, const Point& p, const Light& light,
@@ -50,9 +71,12 @@ inline LightSample sampleMesh(const World& w, const Point& p, const Light& light
         w.lampColumns[light.firstColumn +
                       (index < light.columnCount ? index : light.columnCount - 1)];
     const LampTriangle& t = w.lampTriangles[u.w < column.threshold ? column.own : column.alias];
-    const float r = std::sqrt(u.x);
-    const Vec at = vec(t.corner) + (r * (1 - u.y)) * vec(t.edgeA) + (r * u.y) * vec(t.edgeB);
-    return areaSample(p, light, at, vec(t.normal));
+    const Vec corner = vec(t.corner), a = vec(t.edgeA), b = vec(t.edgeB), normal = vec(t.normal);
+    const Vec v0 = corner - p.position;
+    const float z = dot(v0, normal), doubleArea = dot(cross(a, b), normal);
+    const SolidAngleSample s = sampleTriangleByAngle(v0, a, b, z, doubleArea, u.x, u.y);
+    return angleSample(p, light, corner + s.weights.a * a + s.weights.b * b, normal, z,
+                       s.angle * (2 * light.area / larger(doubleArea, kTiny)));
 }
 
 inline LightSample sampleSphere(const Point& p, const Light& light, const Random4& u) {

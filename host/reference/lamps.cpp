@@ -1,9 +1,11 @@
 #include "host/reference/lamps.hpp"
 
 #include "host/reference/sampling.hpp"
+#include "host/reference/spherical_triangle.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace stromboli::reference {
 namespace {
@@ -42,14 +44,43 @@ LampTriangle::LampTriangle(const Scene& scene, uint32_t i) : index(i) {
     area = 0.5 * glm::length(glm::cross(v1 - v0, v2 - v0));
 }
 
-LightSample sampleTriangle(const LampTriangle& t, double meshArea, const Material& material,
-                           const glm::dvec3& from, RandomStream& random) {
+namespace {
+
+/// A triangle as seen: unit directions of the corners. Nothing where the point is one of them.
+std::optional<SphericalTriangle> asSeen(const LampTriangle& t, const glm::dvec3& from) {
+    const glm::dvec3 a = t.v0 - from, b = t.v1 - from, c = t.v2 - from;
+    if (a == glm::dvec3(0.0) || b == glm::dvec3(0.0) || c == glm::dvec3(0.0)) return std::nullopt;
+    return SphericalTriangle(glm::normalize(a), glm::normalize(b), glm::normalize(c));
+}
+
+} // namespace
+
+double solidAngle(const LampTriangle& t, const glm::dvec3& from) {
+    const auto seen = asSeen(t, from);
+    return seen ? seen->solidAngle() : 0;
+}
+
+LightSample sampleTriangle(const LampTriangle& t, double probability, const Material& material,
+                           const SurfacePoint& surface, RandomStream& random) {
     const double u = random.next(), v = random.next();
-    const glm::dvec2 b = uniformTriangle(u, v);
-    const LampPoint point{(1 - b.x - b.y) * t.v0 + b.x * t.v1 + b.y * t.v2,
-                          errorOnTriangle(t.v0, t.v1, t.v2), triangleNormal(t.v0, t.v1, t.v2),
-                          t.index};
-    return toLampPoint(point, material, meshArea, from);
+    const glm::dvec3 n = triangleNormal(t.v0, t.v1, t.v2), from = litPoint(surface);
+    const double error = errorOnTriangle(t.v0, t.v1, t.v2), z = glm::dot(t.v0 - from, n);
+    if (std::abs(z) <= error + surface.error) return {};
+    const auto seen = asSeen(t, from);
+    if (!seen || seen->solidAngle() < SphericalTriangle::kSmallest) { // uniform on the area
+        const glm::dvec2 b = uniformTriangle(u, v);
+        const LampPoint point{(1 - b.x - b.y) * t.v0 + b.x * t.v1 + b.y * t.v2, error, n, t.index};
+        return toLampPoint(point, material, t.area / probability, from);
+    }
+    LightSample sample;
+    sample.direction = glm::normalize(seen->sample(u, v));
+    sample.infinite = false;
+    sample.primitive = t.index;
+    const glm::dvec3 point = from + z / glm::dot(sample.direction, n) * sample.direction;
+    sample.target = moveOff(point, error, n, -sample.direction);
+    if (z < 0 || material.emitsBothSides)
+        sample.value = glm::dvec3(material.emission) * (seen->solidAngle() / probability);
+    return sample;
 }
 
 LightSample sampleSphere(const Scene& scene, const Emitter& emitter, const SurfacePoint& surface,

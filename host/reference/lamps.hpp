@@ -15,10 +15,14 @@ struct LampTriangle {
 
 // Samples of one lamp each, from a surface at `from`.
 
-/// Uniform on the triangle, which was picked by its share of `meshArea`:
-/// density distance^2 / (meshArea cos_light).
-LightSample sampleTriangle(const LampTriangle& triangle, double meshArea, const Material& material,
-                           const glm::dvec3& from, RandomStream& random);
+/// Uniform by direction: density `probability`, that of picking this triangle, over its solid
+/// angle. Nothing from a surface in the triangle's plane, whose distance is rounding.
+LightSample sampleTriangle(const LampTriangle& triangle, double probability,
+                           const Material& material, const SurfacePoint& surface,
+                           RandomStream& random);
+
+/// Steradians that the triangle takes up as seen from a point; 0 in its plane.
+double solidAngle(const LampTriangle& triangle, const glm::dvec3& from);
 
 /// From outside uniform in the cone the sphere subtends (Shirley, Wang and Zimmerman 1996), from
 /// inside uniform on its area. A surface point on the sphere itself is on the side wo is on.

@@ -75,10 +75,16 @@ LightSample Lights::sampleEmitter(size_t index, const SurfacePoint& surface,
     const Emitter& emitter = emitters_[index];
     const Material& material = scene_.materials[emitter.material];
     if (emitter.kind == EmitterKind::Sphere) return sampleSphere(scene_, emitter, surface, random);
-    // A quad needs no case of its own: its triangles by area are the parallelogram uniformly.
-    const uint32_t triangle = emitter.triangles[pickByArea(areaSums_[index], random.next())];
-    return sampleTriangle(LampTriangle(scene_, triangle), emitter.area, material, litPoint(surface),
-                          random);
+    const double u = random.next();
+    if (emitter.kind == EmitterKind::Quad) { // its triangles by solid angle
+        const LampTriangle a(scene_, emitter.triangles[0]), b(scene_, emitter.triangles[1]);
+        const double ofA = solidAngle(a, litPoint(surface)), ofB = solidAngle(b, litPoint(surface));
+        const double share = ofA + ofB > 0 ? ofA / (ofA + ofB) : 0.5;
+        return u < share ? sampleTriangle(a, share, material, surface, random)
+                         : sampleTriangle(b, 1 - share, material, surface, random);
+    }
+    const LampTriangle triangle(scene_, emitter.triangles[pickByArea(areaSums_[index], u)]);
+    return sampleTriangle(triangle, triangle.area / emitter.area, material, surface, random);
 }
 
 LightSample Lights::sampleAmbient(const Light& light, const SurfacePoint& surface,

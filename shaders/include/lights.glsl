@@ -1,5 +1,7 @@
 // Sampling of lamps: docs/estimator.md has the table of densities.
 
+#include "spherical.glsl"
+
 /// A sampled segment from a shading point to a light.
 struct LightSample {
     vec3 target;     ///< finite lights: point just before the lamp; else: unit direction
@@ -34,30 +36,56 @@ LightSample areaSample(SurfacePoint s, vec3 p, vec3 pError, vec3 n, float area, 
     return r;
 }
 
+/// Completes a sample taken uniformly by direction: radiance * solid angle. z: distance of the lamp's
+/// plane on the side n points from. One that rounding may have put there gives no light, as a surface
+/// in the lamp's own plane gets none.
+LightSample angleSample(SurfacePoint s, vec3 p, vec3 pError, vec3 n, float z, float angle,
+                        Light light) {
+    LightSample r;
+    const vec3 from = litPoint(s), d = p - from;
+    const float distance2 = dot(d, d);
+    r.direction = d * inversesqrt(max(distance2, TINY));
+    r.infinite = false;
+    r.target = stopBefore(p, pError, n, from);
+    const bool apart = abs(z) > dot(abs(n), s.error + pError) && distance2 > 0.0;
+    const bool emits = apart && (light.bothSides != 0u || z < 0.0);
+    r.radiance = emits ? light.color * angle : vec3(0.0);
+    return r;
+}
+
+LightSample sampleQuadByAngle(SurfacePoint s, Light light, vec2 u) {
+    const vec3 n = planeNormal(light.edgeA, light.edgeB), v0 = light.position - litPoint(s);
+    const float z = dot(v0, n);
+    const SolidAngleSample a =
+        sampleQuadByAngle(v0, light.edgeA, light.edgeB, z, light.area, u);
+    const vec3 alongA = a.weights.x * light.edgeA, alongB = a.weights.y * light.edgeB;
+    const vec3 error = interpolationError(abs(light.position) + abs(alongA) + abs(alongB));
+    return angleSample(s, light.position + alongA + alongB, error, n, z, a.angle, light);
+}
+
 LightSample sampleQuad(SurfacePoint s, Light light, vec2 u) {
+    if (!CS184) return sampleQuadByAngle(s, light, u);
     const vec3 p = light.position + u.x * light.edgeA + u.y * light.edgeB;
     const vec3 error = interpolationError(abs(light.position) + abs(u.x * light.edgeA) +
                                           abs(u.y * light.edgeB));
     return areaSample(s, p, error, planeNormal(light.edgeA, light.edgeB), light.area, light);
 }
 
-/// Uniform on a triangle: barycentric weights of v1 and v2 (Turk 1990).
-vec2 sampleTriangle(vec2 u) {
-    const float r = sqrt(u.x);
-    return vec2(r * (1.0 - u.y), r * u.y);
-}
-
-/// u: x, y for the point, z for the column of the alias table, w for the choice within it.
+/// u: x, y for the direction, z for the column of the alias table, w for the choice within it.
 LightSample sampleMesh(SurfacePoint s, Light light, vec4 u) {
     const uint column = min(uint(u.z * float(light.entryCount)), light.entryCount - 1u);
     const EmitterEntry entry = fetchEmitterEntry(light.firstEntry + column);
     const PlacedPrimitive p = fetchPlace(u.w < entry.threshold ? entry.place : entry.alias);
-    const vec2 b = sampleTriangle(u.xy);
-    const float b0 = 1.0 - b.x - b.y;
-    const vec3 point = b0 * p.v0 + b.x * p.v1 + b.y * p.v2;
-    const vec3 error =
-        interpolationError(abs(b0 * p.v0) + abs(b.x * p.v1) + abs(b.y * p.v2));
-    return areaSample(s, point, error, planeNormal(p.v1 - p.v0, p.v2 - p.v0), light.area, light);
+    const vec3 a = p.v1 - p.v0, b = p.v2 - p.v0, n = planeNormal(a, b);
+    const vec3 v0 = p.v0 - litPoint(s);
+    const float z = dot(v0, n), doubleArea = dot(cross(a, b), n);
+    const SolidAngleSample t = sampleTriangleByAngle(v0, a, b, z, doubleArea, u.xy);
+    const float b0 = 1.0 - t.weights.x - t.weights.y;
+    const vec3 b0v0 = b0 * p.v0, b1v1 = t.weights.x * p.v1, b2v2 = t.weights.y * p.v2;
+    const vec3 error = interpolationError(abs(b0v0) + abs(b1v1) + abs(b2v2));
+    // Over the triangle's probability, its share of the area.
+    const float angle = t.angle * (2.0 * light.area / max(doubleArea, TINY));
+    return angleSample(s, b0v0 + b1v1 + b2v2, error, n, z, angle, light);
 }
 
 /// From outside: uniform in the cone the sphere subtends (Shirley, Wang and Zimmerman 1996), with

@@ -139,9 +139,9 @@ struct WarpAnswer {
     vec3 hemisphere;
     float diskY;
     vec3 beckmann;
-    float triangleX;
+    uint unused3;
     vec3 frameX;
-    float triangleY;
+    uint unused4;
     vec3 frameY;
     uint unused0;
     vec3 frameZ;

@@ -5,9 +5,9 @@
 QUERIES_AND_ANSWERS(WarpQuery, WarpAnswer)
 
 WarpAnswer answer(WarpQuery q) {
-    const vec2 u = vec2(q.u, q.v), disk = sampleDisk(u), triangle = sampleTriangle(u);
+    const vec2 u = vec2(q.u, q.v), disk = sampleDisk(u);
     const ShadingFrame f = makeFrame(q.normal);
     return WarpAnswer(sampleCosineHemisphere(u), disk.x, sampleUniformHemisphere(u), disk.y,
-                      sampleBeckmann(u, q.alpha), triangle.x, f.x, triangle.y, f.y, 0u, f.z, 0u,
+                      sampleBeckmann(u, q.alpha), 0u, f.x, 0u, f.y, 0u, f.z, 0u,
                       decodeNormal(q.encodedNormal), 0u);
 }
