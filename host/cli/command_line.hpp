@@ -4,7 +4,7 @@
 
 namespace stromboli {
 
-/// This process's command line as it was typed, but for quotes.
+/// This process's command line, quoted so that a shell would read it again.
 std::string commandLine();
 
 } // namespace stromboli

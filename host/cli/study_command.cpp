@@ -10,6 +10,7 @@
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/reference/reference_backend.hpp"
 #include "host/study/journal.hpp"
+#include "host/study/page.hpp"
 #include "host/study/run_study.hpp"
 
 #include <fmt/format.h>
@@ -73,6 +74,16 @@ Options renderLine(const std::string& scene, const std::vector<std::string>& wor
     if (!options || options->settings.crop.width != 0 || options->sampleAlone)
         throw UsageError(fmt::format("a study renders whole pictures: {}", fmt::join(words, " ")));
     return *options;
+}
+
+/// Whether there is more than one way of sampling.
+bool knowsSamplers() {
+    try {
+        return parseOptions({"render", "scene", "-o", "study.exr", "--sampler", "independent"})
+            .has_value();
+    } catch (const UsageError&) {
+        return false;
+    }
 }
 
 /// What a wrong option would say hours later, when its turn comes.
@@ -154,16 +165,18 @@ void writeText(const fs::path& path, const std::string& text) {
 void writeReports(const fs::path& folder, const Study& s) {
     writeText(folder / "study.json", study::toJson(s).dump(1) + "\n");
     writeText(folder / "study.csv", study::toCsv(s));
+    writeText(folder / "report.html", study::toPage(s, folder));
 }
 
 } // namespace
 
 int studyCommand(const Options& options) {
-    const StudyOptions& o = options.study;
+    StudyOptions o = options.study;
     if (o.list) {
         listConfigurations();
         return 0;
     }
+    if (knowsSamplers()) o.settings.referenceOptions = "--sampler independent";
     checkConfigurations(o.settings);
     const fs::path folder = o.folder;
     std::error_code failed;
@@ -186,7 +199,7 @@ int studyCommand(const Options& options) {
     setUpLogging(options.verbosity);
     writeReports(folder, s);
     vulkan::requireNoValidationMessages(open);
-    fmt::print("{}", study::toText(s));
+    fmt::print("{}\nreport: {}\n", study::toText(s), (folder / "report.html").string());
     if (complete) return 0;
     spdlog::warn("interrupted: what is done is kept; the same command goes on");
     return kInterruptedExitCode;

@@ -53,6 +53,8 @@ Configuration configurationFor(const std::string& text) {
 const std::vector<Configuration>& knownConfigurations() {
     static const std::vector<Configuration> all = {
         {"default", "", "what `render` does without options"},
+        {"sobol", "--sampler sobol", "Owen-scrambled Sobol points"},
+        {"independent", "--sampler independent", "every sample on its own: the control"},
         {"no-roulette", "--roulette none", "paths end at the last bounce only"},
         {"hemisphere", "--direct hemisphere", "lamps are found by uniform directions"},
         {"bsdf", "--direct bsdf", "lamps are found by bounces only"},

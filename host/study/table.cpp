@@ -13,7 +13,10 @@ std::string interval(const Estimate& e, const char* format, double scale = 1) {
     return text;
 }
 
-std::string ratio(const std::optional<Estimate>& e) {
+/// The baseline is what it is compared with: no uncertainty is in that.
+std::string ratio(const std::optional<Estimate>& e, const ConfigurationSummary& c,
+                  const SceneSummary& s) {
+    if (c.name == s.baseline) return "1";
     return e ? interval(*e, "{:.2f}") : "-";
 }
 
@@ -35,15 +38,15 @@ std::string tableOf(const SceneStudy& scene, const SceneSummary& s, Clock clock)
                                    scene.name, scene.width, scene.height, scene.reference.samples,
                                    scene.reference.relMse, s.targetError, s.baseline,
                                    clock == Clock::Cpu ? "CPU" : "wall", "", "slope", "to target",
-                                   "times less time", "times less error", "bias %");
+                                   "speed-up", "times less error", "bias %");
     const ConfigurationSummary* baseline = find(s, s.baseline);
     bool extrapolated = false;
     for (const ConfigurationSummary& c : s.configurations) {
         extrapolated = extrapolated || c.by(clock).extrapolated;
         text += fmt::format("{:<14} {:>24} {:>12} {:>20} {:>20} {:>24}\n", c.name,
                             c.slope ? interval(*c.slope, "{:.2f}") : "-", seconds(c.by(clock)),
-                            baseline ? ratio(timeRatio(*baseline, c, clock)) : "-",
-                            baseline ? ratio(errorRatio(*baseline, c, clock)) : "-",
+                            baseline ? ratio(timeRatio(*baseline, c, clock), c, s) : "-",
+                            baseline ? ratio(errorRatio(*baseline, c, clock), c, s) : "-",
                             interval(c.bias, "{:.3f}", 100));
     }
     if (extrapolated) text += "* beyond the efforts measured\n";

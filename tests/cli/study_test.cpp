@@ -39,7 +39,7 @@ TEST(StudyCommand, MeasuresAndGoesOn) {
     const auto json = nlohmann::json::parse(std::ifstream(folder.file("s/study.json")));
     EXPECT_EQ(json["scenes"][0]["runs"].size(), 4u);
     EXPECT_GT(json["scenes"][0]["runs"][0]["points"][1]["wallSeconds"].get<double>(), 0);
-    for (const char* name : {"s/study.csv", "s/references/cornell_spheres.exr",
+    for (const char* name : {"s/study.csv", "s/report.html", "s/references/cornell_spheres.exr",
                              "s/pictures/cornell_spheres-few-0-samples.png"})
         EXPECT_TRUE(std::filesystem::exists(folder.file(name))) << name;
 

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "host/study/study.hpp"
+
+#include <filesystem>
+#include <string>
+
+namespace stromboli::study {
+
+/// The report as one HTML page that needs nothing else: figures, script, and, from the study's
+/// folder, the reference and a picture of each configuration, the one that took nearest the time
+/// in which the baseline reaches the target error. Pictures that are not there are left out.
+std::string toPage(const Study& study, const std::filesystem::path& folder);
+
+} // namespace stromboli::study
