@@ -55,19 +55,31 @@ Finding partialSums(Run& run) {
     return f;
 }
 
+struct Lamp {
+    const char* name;
+    float size, height;
+    bool bothSides, faceAway;
+    bool standing = false; ///< upright, its lower edge at `height`
+};
+
 /// A lamp over a floor, in a box without a roof; `pieces` per side of it, each a lamp of its own or
 /// all one mesh.
-Scene lampInBox(float size, float height, int pieces, bool oneMesh, bool bothSides, bool faceAway) {
+Scene lampInBox(const Lamp& l, int pieces, bool oneMesh) {
     SceneMaker m;
-    const uint32_t white = m.add(diffuse(0.6f)), light = m.add(lamp(1 / (size * size), bothSides));
+    const float size = l.size;
+    const uint32_t white = m.add(diffuse(0.6f)),
+                   light = m.add(lamp(1 / (size * size), l.bothSides));
     m.quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, white);
     m.quad({-1, 0, -1}, {2, 0, 0}, {0, 1, 0}, white); // a wall that the lamp's back can light
     const float step = size / float(pieces);
     for (int i = 0; i < pieces; ++i)
         for (int k = 0; k < pieces; ++k) {
-            const glm::vec3 x(step, 0, 0), z(0, 0, step);
-            m.quad({-0.5f * size + float(i) * step, height, -0.5f * size + float(k) * step},
-                   faceAway ? z : x, faceAway ? x : z, light);
+            const glm::vec3 x(step, 0, 0),
+                other = l.standing ? glm::vec3(0, step, 0) : glm::vec3(0, 0, step);
+            const glm::vec3 corner = l.standing ? glm::vec3(-0.5f * size, l.height, 0)
+                                                : glm::vec3(-0.5f * size, l.height, -0.5f * size);
+            m.quad(corner + float(i) * x + float(k) * other, l.faceAway ? other : x,
+                   l.faceAway ? x : other, light);
         }
     if (oneMesh)
         for (Triangle& t : m.scene.triangles)
@@ -77,23 +89,17 @@ Scene lampInBox(float size, float height, int pieces, bool oneMesh, bool bothSid
 
 /// What lights the scene is the same lamp, however it is cut up and however it is found.
 Finding lampsInPieces(Run& run) {
-    struct Lamp {
-        const char* name;
-        float size, height;
-        bool bothSides, faceAway;
-    };
     const std::vector<Lamp> lamps = {{"small", 0.05f, 0.5f, false, false},
                                      {"large", 1.5f, 0.5f, false, false},
                                      {"one-sided, facing away", 0.5f, 0.5f, false, true},
-                                     {"two-sided, facing away", 0.5f, 0.5f, true, true}};
+                                     {"two-sided, facing away", 0.5f, 0.5f, true, true},
+                                     {"touching", 0.5f, 0, true, false, true}};
     const Camera camera = lookingAt({0.3, 0.4, 0.9}, {0, 0, -0.3}, 0.6);
     Finding f;
     f.bound = 3;
     for (const Lamp& l : lamps) {
         if (run.quick() && l.size != 0.5f) continue;
-        const auto scene = [&](int pieces, bool oneMesh) {
-            return lampInBox(l.size, l.height, pieces, oneMesh, l.bothSides, l.faceAway);
-        };
+        const auto scene = [&](int pieces, bool oneMesh) { return lampInBox(l, pieces, oneMesh); };
         const auto totals = [&](const Scene& lit, RenderSettings s, DirectLight mode) {
             s.directLight = mode;
             s.minBounce = 1; // not the lamp itself
