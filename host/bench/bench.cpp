@@ -5,6 +5,7 @@
 #include "host/bench/growth_bench.hpp"
 #include "host/bench/path_bench.hpp"
 #include "host/bench/ray_bench.hpp"
+#include "host/bench/robustness_bench.hpp"
 #include "host/bench/startup_bench.hpp"
 #include "host/bench/transfer_bench.hpp"
 #include "host/vulkan/open_device.hpp"
@@ -90,7 +91,9 @@ class Benchmark {
                              scene,    cameraOf(scene, settings), settings};
         SceneReport report = describe(scene, settings);
         if (wants(Part::Bvh)) report.bvh = benchBvh(arena);
-        if (wants(Part::Rays) || wants(Part::Paths) || wants(Part::Variants)) trace(arena, report);
+        if (wants(Part::Rays) || wants(Part::Paths) || wants(Part::Variants) ||
+            wants(Part::Robustness))
+            trace(arena, report);
         return report;
     }
 
@@ -121,6 +124,7 @@ class Benchmark {
         }
         if (wants(Part::Paths)) report.paths = benchPaths(arena, gpu, embree);
         if (wants(Part::Variants)) report.variants = benchVariants(arena, gpu, kernelVariants());
+        if (wants(Part::Robustness)) report.robustness = benchRobustness(arena, gpu, sets);
     }
 
     /// Of the first scene that is a file.
@@ -150,6 +154,8 @@ const char* nameOf(Part part) {
         return "paths";
     case Part::Variants:
         return "variants";
+    case Part::Robustness:
+        return "robustness";
     case Part::Startup:
         return "startup";
     case Part::Transfer:

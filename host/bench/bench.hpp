@@ -11,9 +11,9 @@
 namespace stromboli::bench {
 
 /// Parts of a benchmark.
-enum class Part { Bvh, Rays, Paths, Variants, Startup, Transfer };
-inline constexpr Part kAllParts[] = {Part::Bvh,      Part::Rays,    Part::Paths,
-                                     Part::Variants, Part::Startup, Part::Transfer};
+enum class Part { Bvh, Rays, Paths, Variants, Robustness, Startup, Transfer };
+inline constexpr Part kAllParts[] = {Part::Bvh,        Part::Rays,    Part::Paths,   Part::Variants,
+                                     Part::Robustness, Part::Startup, Part::Transfer};
 const char* nameOf(Part part);
 
 /// What to measure and how long.

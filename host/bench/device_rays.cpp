@@ -55,8 +55,12 @@ RayTuning rayTuning(const vulkan::Device& device) {
     return t;
 }
 
-DeviceRays::DeviceRays(const vulkan::Device& device, const GpuScene& scene, const RayTuning& tuning)
-    : device_(device), tuning_(tuning), queue_(device) {
+DeviceRays::DeviceRays(const vulkan::Device& device, const GpuScene& scene, const RayTuning& tuning,
+                       std::span<const uint32_t> code)
+    : device_(device), tuning_(tuning), code_(code), queue_(device) {
+    if (code_.empty())
+        code_ = tuning_.kernel.texelFetch ? std::span<const uint32_t>(trace_rays_texel)
+                                          : std::span<const uint32_t>(trace_rays_storage);
     const KernelFeatures features = kernelFeatures(scene, {}, {}, tuning_.kernel);
     constants_.assign(features.begin(), features.end());
     for (const std::span<const std::byte> rows : sceneRows(scene)) {
@@ -71,10 +75,7 @@ vulkan::ComputePipeline DeviceRays::makePipeline(bool anyHit, bool writeDistance
     std::vector<uint32_t> constants = constants_;
     constants.push_back(anyHit);
     constants.push_back(writeDistances);
-    const std::span<const uint32_t> code = tuning_.kernel.texelFetch
-                                               ? std::span<const uint32_t>(trace_rays_texel)
-                                               : std::span<const uint32_t>(trace_rays_storage);
-    return {device_, code, bindings(tuning_.kernel.texelFetch), constants,
+    return {device_, code_, bindings(tuning_.kernel.texelFetch), constants,
             sizeof(gpu::RayDispatch)};
 }
 

@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 
 namespace stromboli::bench {
 
@@ -31,8 +32,10 @@ RayTuning rayTuning(const vulkan::Device& device);
 /// Traces ray sets on the device with the kernel's own traversal (shaders/trace_rays.comp).
 class DeviceRays {
   public:
-    /// Uploads the scene. Throws DeviceError.
-    DeviceRays(const vulkan::Device& device, const GpuScene& scene, const RayTuning& tuning);
+    /// Uploads the scene. code: another ray kernel, for the same way to fetch; empty: the
+    /// product's. Throws DeviceError.
+    DeviceRays(const vulkan::Device& device, const GpuScene& scene, const RayTuning& tuning,
+               std::span<const uint32_t> code = {});
 
     /// Uploads the rays (at least one); not part of the time of trace().
     void load(const RaySet& set);
@@ -49,6 +52,7 @@ class DeviceRays {
 
     const vulkan::Device& device_;
     RayTuning tuning_;
+    std::span<const uint32_t> code_;
     std::vector<uint32_t> constants_; ///< specialisation constants of the path kernel
     vulkan::Queue queue_;
     std::vector<vulkan::Buffer> sceneBuffers_;

@@ -134,7 +134,8 @@ std::vector<KernelVariant> kernelVariants() {
 }
 
 VariantReport benchVariants(const Arena& arena, const GpuScene& gpu,
-                            const std::vector<KernelVariant>& variants) {
+                            const std::vector<KernelVariant>& variants,
+                            const std::string& ourName) {
     std::vector<Painter> painters;
     const auto add = [&](const std::string& name, const KernelTuning& tuning) {
         painters.emplace_back(name,
@@ -142,7 +143,7 @@ VariantReport benchVariants(const Arena& arena, const GpuScene& gpu,
                                                               arena.settings, tuning),
                               arena.settings);
     };
-    add("specialised", {});
+    add(ourName, {});
     for (const KernelVariant& v : variants)
         add(v.name, v.tuning);
     VariantReport report;

@@ -21,7 +21,9 @@ struct KernelVariant {
 /// The forms that are of interest: with all features left in.
 std::vector<KernelVariant> kernelVariants();
 
+/// ourName: of the kernel that renders use.
 VariantReport benchVariants(const Arena& arena, const GpuScene& gpu,
-                            const std::vector<KernelVariant>& variants);
+                            const std::vector<KernelVariant>& variants,
+                            const std::string& ourName = "specialised");
 
 } // namespace stromboli::bench

@@ -21,12 +21,12 @@ bool agree(float a, float b, bool anyHit) {
     return std::abs(a - b) <= kSameDistance * std::max(a, b);
 }
 
+} // namespace
+
 double hitShare(const std::vector<float>& distances) {
     return double(std::count_if(distances.begin(), distances.end(), isHit)) /
            double(std::max<size_t>(distances.size(), 1));
 }
-
-} // namespace
 
 uint64_t countDisagreements(const RaySet& set, const std::vector<float>& a,
                             const std::vector<float>& b) {

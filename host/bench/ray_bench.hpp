@@ -16,4 +16,7 @@ RayReport benchRays(const Arena& arena, DeviceRays& device, const EmbreePair& em
 uint64_t countDisagreements(const RaySet& set, const std::vector<float>& a,
                             const std::vector<float>& b);
 
+/// Of rays, by where they end.
+double hitShare(const std::vector<float>& distances);
+
 } // namespace stromboli::bench

@@ -59,6 +59,13 @@ struct VariantReport {
     std::vector<bool> samePicture;   ///< of each variant: to the bit
 };
 
+/// The kernels that renders use against the same ones with plain code; the slower ours, the more
+/// robustness costs.
+struct RobustnessReport {
+    std::vector<RayReport> rays; ///< of camera, shadow and bounce rays
+    std::vector<Series> paths;
+};
+
 struct SceneReport {
     std::string name;
     uint64_t triangles = 0, spheres = 0;
@@ -68,6 +75,7 @@ struct SceneReport {
     std::vector<RayReport> rays;
     std::optional<PathReport> paths;
     std::optional<VariantReport> variants;
+    std::optional<RobustnessReport> robustness;
 };
 
 /// One size of a growing scene.

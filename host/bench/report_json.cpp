@@ -85,6 +85,7 @@ Json toJson(const VariantReport& v) {
     return {{"contestants", toJson(v.contestants)}, {"samePicture", v.samePicture}};
 }
 
+Json toJson(const RobustnessReport& r);
 Json toJson(const SceneReport& s);
 Json toJson(const GrowthPoint& g);
 Json toJson(const StartupReport& s);
@@ -103,6 +104,10 @@ Json listOf(const std::vector<T>& values) {
     return json;
 }
 
+Json toJson(const RobustnessReport& r) {
+    return {{"rays", listOf(r.rays)}, {"paths", toJson(r.paths)}};
+}
+
 Json toJson(const SceneReport& s) {
     return {{"name", s.name},
             {"triangles", s.triangles},
@@ -115,7 +120,8 @@ Json toJson(const SceneReport& s) {
             {"bvh", orNull(s.bvh)},
             {"rays", listOf(s.rays)},
             {"paths", orNull(s.paths)},
-            {"variants", orNull(s.variants)}};
+            {"variants", orNull(s.variants)},
+            {"robustness", orNull(s.robustness)}};
 }
 
 Json toJson(const GrowthPoint& g) {

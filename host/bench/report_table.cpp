@@ -113,6 +113,13 @@ std::string table(const VariantReport& v, bool deviceIsCpu) {
     return text;
 }
 
+std::string table(const RobustnessReport& r, bool deviceIsCpu) {
+    std::string text = "  what robustness costs: x below 1\n";
+    for (const RayReport& rays : r.rays)
+        text += table(rays, deviceIsCpu);
+    return text + "  paths\n" + rates(r.paths, deviceIsCpu);
+}
+
 std::string table(const SceneReport& s, bool deviceIsCpu) {
     std::string text = fmt::format(
         "\n{}: {} triangles, {} spheres; {} x {}, {} samples, {} bounces{}\n", s.name, s.triangles,
@@ -124,6 +131,7 @@ std::string table(const SceneReport& s, bool deviceIsCpu) {
         text += table(r, deviceIsCpu);
     if (s.paths) text += table(*s.paths, deviceIsCpu);
     if (s.variants) text += table(*s.variants, deviceIsCpu);
+    if (s.robustness) text += table(*s.robustness, deviceIsCpu);
     return text;
 }
 

@@ -102,10 +102,12 @@ std::optional<PrimitiveHit> hitTriangle(const glm::vec3& v0, const glm::vec3& v1
     const bool inside = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
     const float determinant = u + v + w;
     if (!inside || determinant == 0) return std::nullopt;
+    // Weights first: the product of an edge function and a distance may overflow.
     const float inverse = 1.0f / determinant;
-    const float t = (u * a.z + v * b.z + w * c.z) * ray.shear.z * inverse;
+    const float b0 = u * inverse, b1 = v * inverse, b2 = w * inverse;
+    const float t = (b0 * a.z + b1 * b.z + b2 * c.z) * ray.shear.z;
     if (!std::isfinite(t)) return std::nullopt;
-    return PrimitiveHit{t, v * inverse, w * inverse};
+    return PrimitiveHit{t, b1, b2};
 }
 
 /// The discriminant comes from the line's distance to the centre: b^2 - 4ac has no correct digit

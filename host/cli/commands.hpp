@@ -14,5 +14,6 @@ int devicesCommand(const Options& options);
 int benchCommand(const Options& options);
 int compareCommand(const Options& options);
 int studyCommand(const Options& options);
+int stressCommand(const Options& options);
 
 } // namespace stromboli

@@ -240,7 +240,12 @@ Subcommands declareOptions(CLI::App& app, RawOptions& raw, Options& o) {
     declareStudy(*study, raw.study, o.study);
     addDevice(*study, o);
     addHost(*study, raw, o);
-    return {render, check, info, devices, bench, compare, study};
+    CLI::App* stress = app.add_subcommand(
+        "stress", "Try the hard cases of docs/hard_cases.md on the device: does it do them right?");
+    declareStress(*stress, o.stress);
+    addDevice(*stress, o);
+    addHost(*stress, raw, o);
+    return {render, check, info, devices, bench, compare, study, stress};
 }
 
 } // namespace stromboli

@@ -33,6 +33,7 @@ struct Subcommands {
     CLI::App* bench;
     CLI::App* compare;
     CLI::App* study;
+    CLI::App* stress;
 };
 
 /// Declares every command and option with its help; parsing fills `raw` and `options`.

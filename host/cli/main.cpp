@@ -33,6 +33,8 @@ int run(const stromboli::Options& options) {
         return stromboli::compareCommand(options);
     case Command::Study:
         return stromboli::studyCommand(options);
+    case Command::Stress:
+        return stromboli::stressCommand(options);
     }
     return 0;
 }

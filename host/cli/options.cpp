@@ -157,6 +157,7 @@ Command commandOf(const Subcommands& commands) {
     if (*commands.bench) return Command::Bench;
     if (*commands.compare) return Command::Compare;
     if (*commands.study) return Command::Study;
+    if (*commands.stress) return Command::Stress;
     return Command::Devices;
 }
 

@@ -2,6 +2,7 @@
 
 #include "host/cli/bench_options.hpp"
 #include "host/cli/compare_options.hpp"
+#include "host/cli/stress_options.hpp"
 #include "host/cli/study_options.hpp"
 #include "host/core/log.hpp"
 #include "host/render/settings.hpp"
@@ -14,7 +15,7 @@
 
 namespace stromboli {
 
-enum class Command { Render, Check, Info, Devices, Bench, Compare, Study };
+enum class Command { Render, Check, Info, Devices, Bench, Stress, Compare, Study };
 enum class BackendChoice { Vulkan, Reference };
 
 /// Names one sample of a picture: column, row from the top, number.
@@ -42,6 +43,7 @@ struct Options {
     BenchOptions bench;
     CompareOptions compare;
     StudyOptions study;
+    StressOptions stress;
 };
 
 /// Parses the arguments (without the program's name). Empty: help or version was printed and the

@@ -108,8 +108,8 @@ VulkanBackend::VulkanBackend(const vulkan::Device& device, const GpuScene& scene
       suspended_(device, "suspended paths", tuning_.lanes * sizeof(gpu::SuspendedPath),
                  BufferUse::Storage),
       status_(device, "dispatch status", sizeof(gpu::DispatchStatus), BufferUse::Storage),
-      pipeline_(device, kernelCode(tuning_.texelFetch), kernelBindings(tuning_.texelFetch),
-                features_, sizeof(gpu::Dispatch)) {
+      pipeline_(device, tuning.code.empty() ? kernelCode(tuning_.texelFetch) : tuning.code,
+                kernelBindings(tuning_.texelFetch), features_, sizeof(gpu::Dispatch)) {
     sceneBuffers_[BINDING_RECORDS].upload(queue_, bytesOf(scene.bvh.records));
     sceneBuffers_[BINDING_PRIMITIVES].upload(queue_, bytesOf(scene.primitives));
     sceneBuffers_[BINDING_MATERIALS].upload(queue_, bytesOf(scene.materials));

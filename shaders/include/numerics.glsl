@@ -6,7 +6,11 @@ const float INV_PI = 0.318309886183791;
 const float UNIT_ROUNDOFF = 5.9604644775390625e-8;
 /// Widening of a box's far end: 1 + 2^-18 = 1 + 64 u (docs/numerics.md, "Boxes": 14 u for the slabs,
 /// 37 u with the error of a triangle's own distance).
+#ifdef PLAIN_BOXES // `stromboli bench`: what it costs
+const float BOX_SLACK = 1.0;
+#else
 const float BOX_SLACK = 1.000003814697265625;
+#endif
 /// Farther than any hit: rays without an end.
 const float INFINITE_DISTANCE = 3.402823466e38;
 
@@ -35,7 +39,11 @@ void addCompensated(inout vec3 high, inout vec3 low, vec3 x) {
 /// Moves p, whose error is at most `error` per component, along the unit normal n to the side
 /// of w, far enough that the exact surface lies behind it (pbrt 4, section 6.8.6).
 vec3 offsetOrigin(vec3 p, vec3 error, vec3 n, vec3 w) {
+#ifdef PLAIN_OFFSETS // `stromboli bench`: what the bounds cost; a length that suits no scene but some
+    const float distance = 1e-4;
+#else
     const float distance = dot(abs(n), error);
+#endif
     return p + (dot(n, w) < 0.0 ? -distance : distance) * n;
 }
 

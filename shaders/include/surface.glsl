@@ -60,7 +60,9 @@ void smoothShading(inout SurfacePoint s, Primitive p, PlacedPrimitive at, vec3 b
     const CornerNormals n =
         CornerNormals(decodeNormal(p.n0), decodeNormal(p.n1), decodeNormal(p.n2));
     if (given) s.shading = interpolatedNormal(n, b, s.geometric);
+#ifndef PLAIN_TERMINATOR // `stromboli bench`: what it costs
     if (given && !CS184) s.lift = liftAt(n, at, b, s.outside ? s.geometric : -s.geometric);
+#endif
 }
 
 /// Fills in the point of the hit that `t` found. `shading` is left as the scene states it; see

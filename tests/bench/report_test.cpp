@@ -43,6 +43,9 @@ BenchReport fullReport() {
     scene.paths = paths;
     scene.variants =
         VariantReport{{series("specialised", 1e-6), series("everything on", 1.5e-6)}, {true}};
+    scene.robustness = RobustnessReport{
+        {{"bounce", 1000, 0.75, {series("robust", 1e-7), series("plain triangles", 0.9e-7)}, {3}}},
+        {series("robust", 1e-6), series("plain offsets", 0.9e-6)}};
     report.growth.push_back({"generate:cornell_mesh:1000", 1006, 0.001, 0.002, scene.rays.front()});
     report.startup = StartupReport{{series("cold", 0.5), series("warm", 0.1)}, {}, {}};
     report.transfer = TransferReport{1 << 26, {series("upload", 1e-9), series("readback", 1e-9)}};
@@ -113,6 +116,8 @@ TEST(BenchJson, HasEveryKey) {
                             "/scenes[]/paths/equalPixels",
                             "/scenes[]/variants/contestants",
                             "/scenes[]/variants/samePicture",
+                            "/scenes[]/robustness/rays[]/contestants",
+                            "/scenes[]/robustness/paths",
                             "/growth[]/scene",
                             "/growth[]/triangles",
                             "/growth[]/buildSeconds",

@@ -1,0 +1,138 @@
+#include "host/cli/commands.hpp"
+#include "host/cli/progress.hpp"
+#include "host/core/atomic_file.hpp"
+#include "host/core/error.hpp"
+#include "host/core/log.hpp"
+#include "host/stress/device_subject.hpp"
+#include "host/stress/report.hpp"
+#include "host/vulkan/open_device.hpp"
+
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace stromboli {
+namespace {
+
+using stress::Case;
+using stress::Outcome;
+
+/// Names the case that runs, on standard error and only on a terminal.
+class CaseLine {
+  public:
+    explicit CaseLine(bool wanted) : shown_(wanted && isatty(STDERR_FILENO)) {}
+    ~CaseLine() { clear(); }
+    CaseLine(const CaseLine&) = delete;
+    CaseLine& operator=(const CaseLine&) = delete;
+
+    void show(const std::string& name, size_t number, size_t count) {
+        if (!shown_) return;
+        fmt::print(stderr, "\r\033[K{} of {}: {}", number, count, name);
+        std::fflush(stderr);
+    }
+    void clear() {
+        if (!shown_) return;
+        fmt::print(stderr, "\r\033[K");
+        std::fflush(stderr);
+    }
+
+  private:
+    bool shown_;
+};
+
+/// "14, 30" has 14 and 30.
+bool hasNumber(const Case& c, const std::string& number) {
+    return (", " + c.numbers + ",").find(", " + number + ",") != std::string::npos;
+}
+
+std::vector<Case> chosenCases(const std::vector<std::string>& wanted) {
+    if (wanted.empty()) return stress::allCases();
+    std::vector<bool> chosen(stress::allCases().size());
+    for (const std::string& word : wanted) {
+        bool known = false;
+        for (size_t i = 0; i < chosen.size(); ++i) {
+            const Case& c = stress::allCases()[i];
+            if (c.name != word && !hasNumber(c, word)) continue;
+            chosen[i] = known = true;
+        }
+        if (!known)
+            throw UsageError(
+                fmt::format("there is no case '{}'; 'stromboli stress --list' lists them", word));
+    }
+    std::vector<Case> cases;
+    for (size_t i = 0; i < chosen.size(); ++i)
+        if (chosen[i]) cases.push_back(stress::allCases()[i]);
+    return cases;
+}
+
+Outcome runCase(const Case& which, stress::Run& run) {
+    Outcome outcome{which, {}, {}};
+    try {
+        outcome.finding = which.run(run);
+    } catch (const Error& error) { // a finding about the device, too: the other cases go on
+        outcome.error = error.what();
+    }
+    return outcome;
+}
+
+void writeJson(const std::string& file, const nlohmann::json& json) {
+    const std::string text = json.dump(2) + "\n";
+    writeFileAtomically(file, std::as_bytes(std::span(text)));
+}
+
+/// The table grows as cases end. Stops where the user interrupts.
+std::vector<Outcome> runCases(const std::vector<Case>& cases, const vulkan::Device& device,
+                              const Options& options, stress::Amount amount) {
+    stress::DeviceSubject subject(device);
+    stress::Run run(subject, amount, [] { return !interrupted(); });
+    CaseLine line(options.verbosity != Verbosity::Quiet);
+    fmt::print("{}", stress::tableHead());
+    std::vector<Outcome> outcomes;
+    try {
+        for (const Case& c : cases) {
+            line.show(c.name, outcomes.size() + 1, cases.size());
+            outcomes.push_back(runCase(c, run));
+            line.clear();
+            fmt::print("{}", stress::tableRow(outcomes.back()));
+            std::fflush(stdout);
+        }
+    } catch (const stress::Interrupted&) {
+    }
+    return outcomes;
+}
+
+} // namespace
+
+int stressCommand(const Options& options) {
+    const std::vector<Case> cases = chosenCases(options.stress.cases);
+    if (options.stress.list) {
+        for (const Case& c : cases)
+            fmt::print("{}", stress::listRow(c));
+        return 0;
+    }
+    if (!options.stress.jsonFile.empty()) checkFileWritable(options.stress.jsonFile);
+    watchForInterrupt();
+    const vulkan::OpenDevice open = vulkan::openDevice(options.device);
+    const vulkan::DeviceDescription& device = open.device->description();
+    fmt::print("{}, {}\n", device.name(), device.driver);
+    const auto amount = options.stress.full ? stress::Amount::Full : stress::Amount::Quick;
+    const std::vector<Outcome> outcomes = runCases(cases, *open.device, options, amount);
+    if (outcomes.size() < cases.size()) {
+        spdlog::warn("interrupted after {} of {} cases", outcomes.size(), cases.size());
+        return kInterruptedExitCode;
+    }
+    if (!options.stress.jsonFile.empty())
+        writeJson(
+            options.stress.jsonFile,
+            stress::toJson({device.name(), device.driver, STROMBOLI_VERSION, amount}, outcomes));
+    vulkan::requireNoValidationMessages(open);
+    const auto failed = std::ranges::count_if(outcomes, std::not_fn(&Outcome::passed));
+    fmt::print("{}: {} of {} cases\n", failed == 0 ? "PASS" : "FAIL",
+               outcomes.size() - size_t(failed), outcomes.size());
+    return failed == 0 ? 0 : int(ExitCode::Device);
+}
+
+} // namespace stromboli

@@ -1,0 +1,63 @@
+#include "host/stress/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace stromboli::stress {
+namespace {
+
+constexpr const char* kRow = "{:<4}  {:<17}  {:>6}  {:>10}  {:>8}  {:<18}  {:>8} {:<8}  {}\n";
+
+/// "0", "1.2e-07", "5e+07".
+std::string brief(double x) {
+    return fmt::format("{:.3g}", x);
+}
+
+} // namespace
+
+std::string tableHead() {
+    return fmt::format(kRow, "", "case", "no.", "measured", "bound", "", "of", "", "property");
+}
+
+std::string tableRow(const Outcome& o) {
+    const Case& c = o.which;
+    if (!o.error.empty())
+        return fmt::format(kRow, "FAIL", c.name, c.numbers, "-", "-", "", "-", "", o.error);
+    const Finding& f = o.finding;
+    const bool passed = o.passed();
+    const std::string property =
+        passed || f.where.empty() ? c.property : c.property + "; worst: " + f.where;
+    return fmt::format(kRow, passed ? "pass" : "FAIL", c.name, c.numbers, brief(f.measured),
+                       brief(f.bound), c.measure, brief(double(f.trials)), c.trial, property);
+}
+
+std::string listRow(const Case& c) {
+    return fmt::format("{:<17}  {:>6}  {}\n", c.name, c.numbers, c.property);
+}
+
+nlohmann::json toJson(const Circumstances& circumstances, const std::vector<Outcome>& outcomes) {
+    nlohmann::json cases = nlohmann::json::array();
+    for (const Outcome& o : outcomes) {
+        nlohmann::json entry = {{"name", o.which.name},         {"numbers", o.which.numbers},
+                                {"property", o.which.property}, {"measure", o.which.measure},
+                                {"trial", o.which.trial},       {"passed", o.passed()}};
+        if (o.error.empty()) {
+            entry["measured"] = o.finding.measured;
+            entry["bound"] = o.finding.bound;
+            entry["trials"] = o.finding.trials;
+            entry["where"] = o.finding.where;
+        } else {
+            entry["error"] = o.error;
+        }
+        cases.push_back(std::move(entry));
+    }
+    return {{"device", circumstances.device},
+            {"driver", circumstances.driver},
+            {"version", circumstances.version},
+            {"full", circumstances.amount == Amount::Full},
+            {"passed", std::ranges::all_of(outcomes, &Outcome::passed)},
+            {"cases", std::move(cases)}};
+}
+
+} // namespace stromboli::stress
