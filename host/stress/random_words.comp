@@ -8,6 +8,8 @@ layout(set = 0, binding = 1, std430) writeonly buffer Words { uvec4 words[]; };
 layout(set = 0, binding = 2, std430) writeonly buffer Numbers { vec4 numbers[]; };
 layout(push_constant) uniform Constants { uint count; };
 
+#include "shared/interface.h"
+const uint SAMPLER = SAMPLER_INDEPENDENT; // the hash that all samplers rest on
 #include "include/random.glsl"
 
 void main() {
