@@ -40,6 +40,13 @@ uint32_t lightKinds(const GpuScene& scene, const RenderSettings& settings) {
     return kinds;
 }
 
+/// The samples of a mesh take all four numbers of a block.
+bool lightJoinsCamera(const GpuScene& scene, const RenderSettings& settings) {
+    return settings.sampler == Sampler::Sobol &&
+           std::none_of(scene.lights.begin(), scene.lights.end(),
+                        [](const gpu::Light& l) { return l.kind == gpu::LIGHT_MESH; });
+}
+
 void switchOnAllTheSceneCouldHave(KernelFeatures& f) {
     f[SPEC_HAS_TRIANGLES] = f[SPEC_HAS_SPHERES] = f[SPEC_HAS_NORMALS] = f[SPEC_HAS_EMISSION] = 1;
     f[SPEC_ONE_LIGHT] = 0;
@@ -89,6 +96,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_LIGHT_SAMPLES] = settings.lightSamples;
     f[SPEC_SAMPLER] =
         settings.sampler == Sampler::Sobol ? gpu::SAMPLER_SOBOL : gpu::SAMPLER_INDEPENDENT;
+    f[SPEC_LIGHT_JOINS_CAMERA] = lightJoinsCamera(scene, settings);
     f[SPEC_COUNT_STEPS] = tuning.countSteps;
     if (tuning.everythingOn) switchOnAllTheSceneCouldHave(f);
     return f;

@@ -40,14 +40,11 @@ vec3 directValue; ///< what the ray under way adds if it is free (or, hemisphere
 uint rayCount;
 Light onlyLight; ///< ONE_LIGHT: read once (five rows), not for each sample
 
-/// Whether the first light sample of a path takes x and y of the camera's block, the camera z and w:
-/// at the edges of things, light depends on both, so they are spread evenly together. The samples of
-/// a mesh take four numbers.
-bool lightJoinsCamera() { return SAMPLER == SAMPLER_SOBOL && !sceneHasLight(LIGHT_MESH); }
-
+/// LIGHT_JOINS_CAMERA: the first light sample of a path takes x and y of the camera's block, the camera z
+/// and w. At the edges of things light depends on both, so they are spread evenly together.
 vec4 randomNumbers(uint slot) {
     const uint perBounce = 1u + frame.areaSamples + frame.deltaLights;
-    const bool joins = lightJoinsCamera() && bounce == 1u && slot == 1u;
+    const bool joins = LIGHT_JOINS_CAMERA && bounce == 1u && slot == 1u;
     const uint block = bounce == 0u || joins ? 0u : 1u + (bounce - 1u) * perBounce + slot;
     return randomBlock(pixelId, sampleIndex, block, frame.seed);
 }
@@ -193,7 +190,7 @@ void startSample() {
     radiance = vec3(0.0);
     countsEmission = frame.minBounce == 0u;
     const vec4 numbers = randomNumbers(0u);
-    const vec2 u = lightJoinsCamera() ? numbers.zw : numbers.xy;
+    const vec2 u = LIGHT_JOINS_CAMERA ? numbers.zw : numbers.xy;
     const CameraRay c = cameraRay((float(pixelAt.x) + u.x) / float(frame.width),
                                   (float(pixelAt.y) + u.y) / float(frame.height));
     trace(PHASE_PATH, c.origin, c.direction, c.tMin, c.tMax, NO_PRIMITIVE);

@@ -41,7 +41,8 @@ SHARED_BEGIN
 #define SPEC_LIGHT_SAMPLES 16 // direct light samples per area light
 #define SPEC_COUNT_STEPS 17   // count how many lanes are at work in each step
 #define SPEC_SAMPLER 18
-#define SPEC_COUNT 19
+#define SPEC_LIGHT_JOINS_CAMERA 19 // the first light sample shares the camera's random numbers
+#define SPEC_COUNT 20
 
 SHARED_CONST uint INTEGRATOR_PATH = 0u;
 SHARED_CONST uint INTEGRATOR_NORMALS = 1u;
