@@ -76,16 +76,6 @@ Options renderLine(const std::string& scene, const std::vector<std::string>& wor
     return *options;
 }
 
-/// Whether there is more than one way of sampling.
-bool knowsSamplers() {
-    try {
-        return parseOptions({"render", "scene", "-o", "study.exr", "--sampler", "independent"})
-            .has_value();
-    } catch (const UsageError&) {
-        return false;
-    }
-}
-
 /// What a wrong option would say hours later, when its turn comes.
 void checkConfigurations(const study::StudySettings& s) {
     for (const std::string& scene : s.scenes)
@@ -171,12 +161,11 @@ void writeReports(const fs::path& folder, const Study& s) {
 } // namespace
 
 int studyCommand(const Options& options) {
-    StudyOptions o = options.study;
+    const StudyOptions& o = options.study;
     if (o.list) {
         listConfigurations();
         return 0;
     }
-    if (knowsSamplers()) o.settings.referenceOptions = "--sampler independent";
     checkConfigurations(o.settings);
     const fs::path folder = o.folder;
     std::error_code failed;

@@ -12,7 +12,8 @@ namespace {
 /// The configuration that others are compared with, where it takes part.
 constexpr const char* kUsualBaseline = "independent";
 
-const std::vector<std::string> kUsualConfigurations = {"default", "hemisphere", "adaptive"};
+const std::vector<std::string> kUsualConfigurations = {"independent", "default", "noise",
+                                                       "hemisphere"};
 
 void addScenes(CLI::App& app, RawStudyOptions& raw, StudyOptions& o) {
     app.add_option("SCENE", raw.scenes,
@@ -31,7 +32,7 @@ void addConfigurations(CLI::App& app, RawStudyOptions& raw, StudyOptions& o) {
                    "a configuration by name (--list), or one of your own as NAME=OPTIONS of "
                    "render; an option with {a,b,c} grows along these values instead of along "
                    "samples, as \"mine=-a 16 {0.4,0.2,0.1}\"; once for each "
-                   "[default, hemisphere, adaptive]")
+                   "[independent, default, noise, hemisphere]")
         ->allow_extra_args(false)
         ->type_name("NAME")
         ->group("Configurations");
@@ -145,6 +146,7 @@ void applyStudy(const RawStudyOptions& raw, StudyOptions& o) {
     s.commonOptions =
         fmt::format("-r {} {} -m {}{}{}", size[0], size[1], raw.maxBounces.value_or(5),
                     raw.moreOptions.empty() ? "" : " ", raw.moreOptions);
+    s.referenceOptions = "--sampler independent"; // no structure that a study's runs might share
     applyCounts(raw, s);
     applyBaseline(s);
 }

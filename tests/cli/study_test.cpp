@@ -1,3 +1,5 @@
+#include "host/cli/options.hpp"
+#include "host/study/configuration.hpp"
 #include "tests/cli/program.hpp"
 
 #include <gmock/gmock.h>
@@ -54,6 +56,16 @@ TEST(StudyCommand, ListsItsConfigurations) {
     const ProgramRun run = stromboli({"study", "--list"});
     EXPECT_EQ(run.exitCode, 0);
     EXPECT_THAT(run.out, HasSubstr("hemisphere     --direct hemisphere"));
+}
+
+TEST(StudyCommand, EveryKnownConfigurationIsMadeOfOptionsOfRender) {
+    for (const study::Configuration& c : study::knownConfigurations())
+        for (const double step : c.steps.empty() ? std::vector<double>{0} : c.steps) {
+            std::vector<std::string> line = {"render", "scene.dae", "-o", "a.exr"};
+            for (const std::string& word : study::optionsAt(c, step))
+                line.push_back(word);
+            EXPECT_NO_THROW(parseOptions(line)) << c.name;
+        }
 }
 
 TEST(StudyCommand, BadInputIsOneLine) {

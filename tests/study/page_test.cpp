@@ -27,8 +27,7 @@ const cells = index => rows().map(r => r.cells[index].firstChild.textContent);
 const firstNames = () => rows().map(r => r.cells[0].childNodes[1].textContent);
 const button = (parent, text) => [...byId(parent).querySelectorAll('button')].find(b => b.textContent === text);
 const heading = text => [...byId('figures').tHead.rows[0].cells].find(c => c.textContent === text);
-const plotted = color => {
-  const canvas = byId('plot').querySelector('canvas');
+const plotted = (color, canvas = byId('plot').querySelector('canvas')) => {
   const data = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
   const wanted = [1, 3, 5].map(i => parseInt(color.slice(i, i + 2), 16));
   let count = 0;
@@ -95,6 +94,10 @@ async function drive() {
     e.tabIndex < 0 || !(e.textContent.trim() || (e.labels && e.labels.length))).map(e => e.outerHTML);
   button('scenes', 'other <scene>').click();
   seen.otherScene = [firstNames(), byId('target').textContent];
+
+  drawFigure();
+  await new Promise(done => setTimeout(done, 50));
+  seen.figure = [...document.querySelectorAll('canvas')].map(c => plotted(colorOf('bsdf'), c) > 100);
 }
 drive().catch(e => { seen.failed = String(e.stack); })
   .finally(() => { document.documentElement.dataset.results = JSON.stringify(seen); });
@@ -196,6 +199,7 @@ TEST(StudyPageInBrowser, ComparesWithAnyConfigurationAndShowsPictures) {
     EXPECT_THAT(seen["captions"].get<std::string>(), testing::StartsWith("bsdf: 64 samples"));
     EXPECT_THAT(seen["missing"].get<std::string>(), testing::HasSubstr("no sample counts"));
     EXPECT_EQ(seen["otherScene"][0].size(), 2u);
+    EXPECT_EQ(seen["figure"], (std::vector{true, false})); // the second scene has no "bsdf"
 }
 
 TEST(StudyPageInBrowser, ReadsInLightAndInDark) {

@@ -65,13 +65,13 @@ function keepingFocus(work) {
 
 let plot = null;
 
-function drawBands(u) {
+function drawBands(u, list, target) {
   const ctx = u.ctx;
   ctx.save();
   ctx.beginPath();
   ctx.rect(u.bbox.left, u.bbox.top, u.bbox.width, u.bbox.height);
   ctx.clip();
-  for (const c of shown()) {
+  for (const c of list) {
     const points = c.points.filter(p => p.relMse.low !== null && p.relMse.low > 0 && p[state.axis] > 0);
     if (points.length < 1) continue;
     const x = p => u.valToPos(p[state.axis], 'x', true), y = v => u.valToPos(v, 'y', true);
@@ -81,7 +81,6 @@ function drawBands(u) {
     [...points].reverse().forEach(p => ctx.lineTo(x(p), y(p.relMse.low)));
     ctx.fill();
   }
-  const target = scene().summary.targetError;
   if (target > 0) {
     const y = u.valToPos(target, 'y', true);
     ctx.setLineDash([6, 5]);
@@ -95,11 +94,11 @@ function drawBands(u) {
   ctx.restore();
 }
 
-function drawPoints(u) {
+function drawPoints(u, list) {
   const ctx = u.ctx, ratio = devicePixelRatio;
   const ground = getComputedStyle(document.documentElement).getPropertyValue('--card');
   ctx.save();
-  for (const c of shown())
+  for (const c of list)
     c.points.forEach((p, i) => {
       if (!(p.relMse.value > 0) || !(p[state.axis] > 0)) return;
       const x = u.valToPos(p[state.axis], 'x', true), y = u.valToPos(p.relMse.value, 'y', true);
@@ -117,8 +116,8 @@ function drawPoints(u) {
 }
 
 /// uPlot wants one column of x for all: each configuration has a table of its own, joined.
-function plotData() {
-  const tables = shown().map(c => {
+function plotData(list) {
+  const tables = list.map(c => {
     const points = c.points.filter(p => p.relMse.value > 0 && p[state.axis] > 0)
       .sort((a, b) => a[state.axis] - b[state.axis]);
     return [points.map(p => p[state.axis]), points.map(p => p.relMse.value)];
@@ -135,6 +134,12 @@ function tick(value) {
 
 function drawPlot() {
   if (plot) plot.destroy();
+  plot = newPlot(byId('plot'), byId('plot').clientWidth, Math.max(320, Math.min(520, innerHeight * 0.55)));
+}
+
+/// Of the scene and configurations that are chosen now; uPlot draws later.
+function newPlot(parent, width, height) {
+  const list = shown(), target = scene().summary.targetError;
   const styles = getComputedStyle(document.documentElement);
   const ink = styles.getPropertyValue('--soft'), line = styles.getPropertyValue('--line');
   const axis = label => ({
@@ -142,26 +147,29 @@ function drawPlot() {
     values: (u, splits) => splits.map(v => v === null ? '' : tick(v)),
     font: '13px system-ui, sans-serif', labelFont: '13px system-ui, sans-serif',
   });
-  const series = shown().length ? shown().map(c => ({
+  const series = list.length ? list.map(c => ({
     label: c.name, stroke: colorOf(c.name), width: 2, spanGaps: true, points: { show: false },
   })) : [{ label: 'nothing' }];
   const logarithmic = { distr: 3, log: 10 };
-  plot = new uPlot({
-    width: byId('plot').clientWidth, height: Math.max(320, Math.min(520, innerHeight * 0.55)),
+  return new uPlot({
+    width, height,
     scales: { x: { time: false, ...logarithmic }, y: logarithmic },
     series: [{}, ...series],
     axes: [axis(AXES[state.axis][0] + AXES[state.axis][1].replace(' s', ' in seconds')), { ...axis('relMSE'), size: 66 }],
     legend: { show: false },
     cursor: { drag: { x: true, y: true, uni: 30 }, points: { show: false } },
-    hooks: { drawAxes: [drawBands], draw: [drawPoints], setCursor: [readNearest] },
-  }, plotData(), byId('plot'));
+    hooks: {
+      drawAxes: [u => drawBands(u, list, target)], draw: [u => drawPoints(u, list)],
+      setCursor: [u => readNearest(u, list)],
+    },
+  }, plotData(list), parent);
 }
 
-function readNearest(u) {
+function readNearest(u, list) {
   const { left, top } = u.cursor;
   if (left === null || left < 0) return;
   let best = null, distance = 40; // CSS pixels
-  for (const c of shown())
+  for (const c of list)
     c.points.forEach((p, i) => {
       if (!(p.relMse.value > 0) || !(p[state.axis] > 0)) return;
       const d = Math.hypot(u.valToPos(p[state.axis], 'x') - left, u.valToPos(p.relMse.value, 'y') - top);
@@ -387,8 +395,24 @@ function draw() {
 
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', draw);
 let resizing = 0;
-addEventListener('resize', () => { clearTimeout(resizing); resizing = setTimeout(drawPlot, 100); });
-drawCircumstances();
-firstZoom();
-draw();
+/// "report.html#figure": the plots of all scenes side by side and nothing else, to take a picture of.
+function drawFigure() {
+  const row = make('div', { id: 'figure' });
+  document.body.replaceChildren(row);
+  study.scenes.forEach((s, i) => {
+    const legend = make('p', {}, ...s.summary.configurations.flatMap(c => [swatch(c.name), c.name + '   ']));
+    const parent = make('div');
+    row.append(make('div', {}, make('h2', { textContent: s.name }), legend, parent));
+    state.scene = i;
+    newPlot(parent, innerWidth / study.scenes.length - 30, 360);
+  });
+}
+
+addEventListener('resize', () => { clearTimeout(resizing); resizing = setTimeout(drawPlot, 100); }); // ms
+if (location.hash === '#figure') drawFigure();
+else {
+  drawCircumstances();
+  firstZoom();
+  draw();
+}
 document.documentElement.dataset.state = 'ready';
