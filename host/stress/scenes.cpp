@@ -161,6 +161,7 @@ RenderSettings picture(uint32_t side, uint32_t samplesPerPixel, uint32_t maxBoun
     settings.samplesPerPixel = samplesPerPixel;
     settings.maxBounces = maxBounces;
     settings.roulette.mode = Roulette::Mode::None;
+    settings.sampler = Sampler::Independent; // z-tests know the error of independent samples
     return settings;
 }
 
