@@ -68,6 +68,17 @@ TEST(Options, Samplers) {
     EXPECT_THROW(parse({"render", "a.dae", "-o", "a.png", "--sampler", "halton"}), UsageError);
 }
 
+TEST(Options, StopRules) {
+    const Options noise = parse({"render", "a.dae", "-o", "a.png", "--noise", "0.02"});
+    EXPECT_EQ(noise.settings.stop.noise, 0.02);
+    EXPECT_GT(noise.settings.samplesPerPixel, 1000000u); // no limit but the noise
+    const Options both = parse({"render", "a.dae", "-o", "a.png", "--cs184", "--noise", "0.02",
+                                "--time", "10", "-s", "500"});
+    EXPECT_EQ(both.settings.stop.seconds, 10);
+    EXPECT_EQ(both.settings.samplesPerPixel, 500u);
+    EXPECT_FALSE(both.settings.adaptive.enabled);
+}
+
 TEST(Options, Cs184ChangesDefaults) {
     const Options o = parse({"render", "a.dae", "-o", "a.png", "--cs184"});
     EXPECT_EQ(o.settings.samplesPerPixel, 1u);
@@ -113,6 +124,8 @@ TEST(Options, ContradictionsAreRefused) {
              {"--roulette", "1"},   {"--roulette", "sometimes"},
              {"--camera", "left"},  {"--crop", "0", "0", "0", "5"},
              {"-q", "-v"},          {"-H", "--direct", "bsdf"},
+             {"--noise", "0"},      {"--noise", "0.1", "-a", "32", "0.05"},
+             {"--time", "-1"},      {"--time", "nan"},
              {"--no-such-option"},  {"second.dae"}}) {
         std::vector<std::string> arguments = {"render", "a.dae", "-o", "a.png"};
         arguments.insert(arguments.end(), extra.begin(), extra.end());

@@ -57,6 +57,24 @@ TEST_F(Program, ShowsProgressOnATerminal) {
         EXPECT_THAT(shown, HasSubstr(part));
 }
 
+TEST_F(Program, StopsAtTheNoiseAskedForAndSaysSo) {
+    const ProgramRun run = render("a.png", {"--noise", "0.2", "--stats", folder.file("s.json")});
+    EXPECT_THAT(run.err, HasSubstr("asked for 20.00 %"));
+    const auto json = nlohmann::json::parse(std::ifstream(folder.path() / "s.json"));
+    EXPECT_LE(json["noise"].get<double>(), 0.2);
+    EXPECT_GT(json["noise"].get<double>(), 0.05);
+    EXPECT_GE(json["samplesTaken"].get<uint64_t>(), 16u * 32 * 24);
+    EXPECT_EQ(readPng(folder.file("a_rate.png")).width, 32u); // where the samples went
+}
+
+TEST_F(Program, SaysWhatNoiseItReachedWhenSomethingElseEndedIt) {
+    EXPECT_THAT(render("a.png", {"--noise", "0.001", "-s", "16"}).err,
+                HasSubstr("more than the 0.10 % asked for: --time or -s ended the render"));
+    const ProgramRun timed = render("b.png", {"--time", "0.2"});
+    EXPECT_THAT(timed.err, HasSubstr("noise about"));
+    EXPECT_THAT(timed.err, Not(HasSubstr("interrupted")));
+}
+
 TEST_F(Program, QuietSaysNothing) {
     EXPECT_EQ(render("a.png", {"-s", "1", "-q"}).err, "");
 }

@@ -36,12 +36,12 @@ struct MeanAndError {
 
 /// The picture's mean over seeds, with its standard error from their spread.
 MeanAndError overSeeds(const vulkan::Device& device, const Scene& scene, RenderSettings s,
-                       uint32_t firstSeed) {
+                       uint32_t firstSeed, uint32_t seeds = kSeeds) {
     const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.width, s.height, s.cs184);
     double sum = 0, squares = 0;
     MeanAndError result;
     std::vector<double> means;
-    for (uint32_t i = 0; i < kSeeds; ++i) {
+    for (uint32_t i = 0; i < seeds; ++i) {
         s.seed = firstSeed + i;
         const Film film = renderOnDevice(device, scene, camera, s);
         means.push_back(meanOf(film));
@@ -50,10 +50,10 @@ MeanAndError overSeeds(const vulkan::Device& device, const Scene& scene, RenderS
     }
     for (double m : means)
         sum += m;
-    result.mean = sum / kSeeds;
+    result.mean = sum / seeds;
     for (double m : means)
         squares += (m - result.mean) * (m - result.mean);
-    result.error = std::sqrt(squares / (kSeeds - 1) / kSeeds);
+    result.error = std::sqrt(squares / (seeds - 1) / seeds);
     return result;
 }
 
@@ -75,6 +75,21 @@ TEST_F(AdaptiveBias, DefaultRuleIsBelowHalfAPercent) {
     EXPECT_LT(adaptive.samples, uniform.samples); // else nothing was adaptive
     EXPECT_LT(std::abs(bias), 0.005 + 4 * sigma);
     EXPECT_LT(sigma, 0.004); // else the test proves nothing
+}
+
+TEST_F(AdaptiveBias, StoppingAtAStatedNoiseIsBelowATenthOfAPercent) {
+    RenderSettings s = baseSettings();
+    s.samplesPerPixel = 128;
+    const MeanAndError uniform = overSeeds(testDevice(), scene, s, 1000, 2 * kSeeds);
+    s.samplesPerPixel = 1u << 16;
+    s.stop.noise = 0.06;
+    const MeanAndError stopped = overSeeds(testDevice(), scene, s, 0, 2 * kSeeds);
+    const double bias = (stopped.mean - uniform.mean) / uniform.mean;
+    const double sigma = std::hypot(stopped.error, uniform.error) / uniform.mean;
+    std::printf("bias %+.4f %% (standard error %.4f %%), %.1f samples a pixel\n", 100 * bias,
+                100 * sigma, double(stopped.samples) / (2 * kSeeds * s.width * s.height));
+    EXPECT_LT(std::abs(bias), 0.001 + 3 * sigma);
+    EXPECT_LT(sigma, 0.0005); // else the test proves nothing
 }
 
 TEST_F(AdaptiveBias, RareLightIsNeverLost) {
