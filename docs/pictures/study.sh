@@ -1,11 +1,11 @@
 #!/bin/bash
 # Makes docs/pictures/study.png, the plot in the README, by a study of two scenes; prints the table.
-# Needs the package chromium. About a quarter of an hour on two cores; goes on if it was stopped.
+# Needs the package chromium. Some ten minutes on two cores; goes on if it was stopped.
 set -euo pipefail
 root=$(dirname "$(readlink -f "$0")")/../..
 work=${1:-$root/build/readme-study}
-"$root/stromboli" study cornell_boxes cornell_mirror_glass -o "$work" -r 200 150 -m 5 \
-    -c independent -c default -c noise -c hemisphere -s 4,16,64,256 --seeds 3 --most-seconds 40
+"$root/stromboli" study cornell_boxes cornell_mirror_glass -o "$work" -r 160 120 -m 5 \
+    -c independent -c default -c noise -c hemisphere -s 4,16,64,256 --seeds 3 --reference-samples 2048 --most-seconds 40
 profile=$(mktemp -d)
 trap 'rm -rf "$profile"' EXIT
 chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --user-data-dir="$profile" \

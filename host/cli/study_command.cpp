@@ -152,10 +152,15 @@ void writeText(const fs::path& path, const std::string& text) {
     writeFileAtomically(path, std::as_bytes(std::span(text)));
 }
 
+bool hasRuns(const Study& s) {
+    return std::any_of(s.scenes.begin(), s.scenes.end(),
+                       [](const study::SceneStudy& scene) { return !scene.runs.empty(); });
+}
+
 void writeReports(const fs::path& folder, const Study& s) {
     writeText(folder / "study.json", study::toJson(s).dump(1) + "\n");
     writeText(folder / "study.csv", study::toCsv(s));
-    writeText(folder / "report.html", study::toPage(s, folder));
+    if (hasRuns(s)) writeText(folder / "report.html", study::toPage(s, folder));
 }
 
 } // namespace
@@ -188,7 +193,8 @@ int studyCommand(const Options& options) {
     setUpLogging(options.verbosity);
     writeReports(folder, s);
     vulkan::requireNoValidationMessages(open);
-    fmt::print("{}\nreport: {}\n", study::toText(s), (folder / "report.html").string());
+    fmt::print("{}", study::toText(s));
+    if (hasRuns(s)) fmt::print("\nreport: {}\n", (folder / "report.html").string());
     if (complete) return 0;
     spdlog::warn("interrupted: what is done is kept; the same command goes on");
     return kInterruptedExitCode;

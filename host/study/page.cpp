@@ -84,7 +84,8 @@ std::string forScript(std::string json) {
     return json;
 }
 
-std::string dataOf(const Study& study, const fs::path& folder) {
+std::string dataOf(Study study, const fs::path& folder) {
+    std::erase_if(study.scenes, [](const SceneStudy& scene) { return scene.runs.empty(); });
     Json json = toJson(study);
     for (size_t i = 0; i < study.scenes.size(); ++i) {
         json["scenes"][i].erase("runs"); // the page shows their summary
