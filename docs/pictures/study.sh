@@ -9,5 +9,5 @@ work=${1:-$root/build/readme-study}
 profile=$(mktemp -d)
 trap 'rm -rf "$profile"' EXIT
 chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --user-data-dir="$profile" \
-    --window-size=1100,470 --blink-settings=preferredColorScheme=1 --virtual-time-budget=3000 \
+    --window-size=1100,430 --blink-settings=preferredColorScheme=1 --virtual-time-budget=3000 \
     --screenshot="$root/docs/pictures/study.png" "file://$(readlink -f "$work")/report.html#figure" 2>/dev/null

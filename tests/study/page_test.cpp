@@ -90,8 +90,10 @@ async function drive() {
   button('kind', 'sample counts').click();
   seen.missing = byId('caption-right').textContent;
 
-  seen.nameless = [...document.querySelectorAll('button, select, input')].filter(e =>
-    e.tabIndex < 0 || !(e.textContent.trim() || (e.labels && e.labels.length))).map(e => e.outerHTML);
+  const nameOf = e => e.tagName === 'BUTTON' ? e.textContent.trim()
+    : [...e.labels].flatMap(l => [...l.childNodes]).filter(n => n !== e).map(n => n.textContent).join('').trim();
+  seen.nameless = [...document.querySelectorAll('button, select, input')]
+    .filter(e => e.tabIndex < 0 || !nameOf(e)).map(e => e.outerHTML);
   button('scenes', 'other <scene>').click();
   seen.otherScene = [firstNames(), byId('target').textContent];
 

@@ -72,7 +72,8 @@ function drawBands(u, list, target) {
   ctx.rect(u.bbox.left, u.bbox.top, u.bbox.width, u.bbox.height);
   ctx.clip();
   for (const c of list) {
-    const points = c.points.filter(p => p.relMse.low !== null && p.relMse.low > 0 && p[state.axis] > 0);
+    const points = c.points.filter(p => p.relMse.low !== null && p.relMse.low > 0 && p[state.axis] > 0)
+      .sort((a, b) => a[state.axis] - b[state.axis]);
     if (points.length < 1) continue;
     const x = p => u.valToPos(p[state.axis], 'x', true), y = v => u.valToPos(v, 'y', true);
     ctx.fillStyle = colorOf(c.name) + '2e';
