@@ -78,6 +78,8 @@ struct Light {
 struct LampTriangle {
     Vec3 corner, edgeA, edgeB;
     Vec3 normal; ///< unit
+    Vec3 emission;
+    bool bothSides;
 };
 
 /// Of the alias table of an emissive mesh; indices of LampTriangles.
@@ -85,6 +87,19 @@ struct LampColumn {
     float threshold;
     uint32_t own, alias;
 };
+
+/// As gpu::LightNode, decoded.
+struct LightNode {
+    Vec3 center;
+    float radius;
+    Vec3 axis; ///< unit
+    float cosSpread, power;
+    uint32_t child, count; ///< count: of a leaf's columns; 0: not a leaf
+    bool bothSides;
+};
+
+/// How a triangle of a mesh light is picked: as gpu::LIGHT_CHOICE_...
+enum class LightChoice : uint32_t { Area, Tree, Power, Uniform };
 
 struct View {
     bool orthographic, clipAlongRay;
@@ -108,6 +123,8 @@ struct World {
     const Light* lights; ///< area lights first
     const LampTriangle* lampTriangles;
     const LampColumn* lampColumns;
+    const LightNode* lightNodes; ///< LightChoice::Tree
+    LightChoice lightChoice;
     uint32_t areaLights, deltaLights;
     uint32_t width, height, seed, minBounce, maxBounces, lightSamples;
     bool sobol;            ///< the sampler; independent else

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/bench/embree_kernel_light_tree.hpp"
 #include "host/bench/embree_kernel_spherical.hpp"
 #include "host/bench/embree_kernel_surface.hpp"
 
@@ -64,19 +65,56 @@ inline LightSample sampleQuad(const Point& p, const Light& light, const Random4&
     return angleSample(p, light, corner + s.weights.a * a + s.weights.b * b, normal, z, s.angle);
 }
 
+/// A triangle of a mesh light, and the probability with which it was picked.
+struct PickedTriangle {
+    const LampTriangle* triangle;
+    float probability, doubleArea;
+};
+
+inline float trianglePower(const LampTriangle& t) {
+    return (0.2126f * t.emission.x + 0.7152f * t.emission.y + 0.0722f * t.emission.z) *
+           (t.bothSides ? 2.0f : 1.0f);
+}
+
+inline PickedTriangle pickFrom(const World& w, uint32_t first, uint32_t count, float sum, float u,
+                               float v) {
+    const auto index = uint32_t(u * float(count));
+    const LampColumn& column = w.lampColumns[first + (index < count ? index : count - 1)];
+    const LampTriangle& t = w.lampTriangles[v < column.threshold ? column.own : column.alias];
+    const float doubleArea = dot(cross(vec(t.edgeA), vec(t.edgeB)), vec(t.normal));
+    const float weight =
+        0.5f * doubleArea * (w.lightChoice == LightChoice::Area ? 1.0f : trianglePower(t));
+    return {&t, w.lightChoice == LightChoice::Uniform ? 1 / float(count) : weight / sum,
+            doubleArea};
+}
+
+inline PickedTriangle pickTriangle(const World& w, const Point& p, const Light& light, float u,
+                                   float v) {
+    if (w.lightChoice != LightChoice::Tree)
+        return pickFrom(w, light.firstColumn, light.columnCount, light.area, u, v);
+    const PickedLeaf leaf = walkLightTree(w.lightNodes, p, u, v);
+    const float column = leaf.u * float(leaf.node->count);
+    PickedTriangle t = pickFrom(w, leaf.node->child, leaf.node->count, leaf.node->power, leaf.u,
+                                column - std::floor(column));
+    t.probability *= leaf.probability;
+    return t;
+}
+
 inline LightSample sampleMesh(const World& w, const Point& p, const Light& light,
                               const Random4& u) {
-    const auto index = uint32_t(u.z * float(light.columnCount));
-    const LampColumn& column =
-        w.lampColumns[light.firstColumn +
-                      (index < light.columnCount ? index : light.columnCount - 1)];
-    const LampTriangle& t = w.lampTriangles[u.w < column.threshold ? column.own : column.alias];
+    const PickedTriangle picked = pickTriangle(w, p, light, u.z, u.w);
+    const LampTriangle& t = *picked.triangle;
+    Light lamp = light;
+    if (w.lightChoice != LightChoice::Area) {
+        lamp.color = t.emission;
+        lamp.bothSides = t.bothSides;
+    }
     const Vec corner = vec(t.corner), a = vec(t.edgeA), b = vec(t.edgeB), normal = vec(t.normal);
     const Vec v0 = corner - p.position;
-    const float z = dot(v0, normal), doubleArea = dot(cross(a, b), normal);
-    const SolidAngleSample s = sampleTriangleByAngle(v0, a, b, z, doubleArea, u.x, u.y);
-    return angleSample(p, light, corner + s.weights.a * a + s.weights.b * b, normal, z,
-                       s.angle * (2 * light.area / larger(doubleArea, kTiny)));
+    const float z = dot(v0, normal);
+    const SolidAngleSample s = sampleTriangleByAngle(v0, a, b, z, picked.doubleArea, u.x, u.y);
+    return angleSample(p, lamp, corner + s.weights.a * a + s.weights.b * b, normal, z,
+                       picked.probability > 0 ? s.angle / picked.probability : 0.0f);
 }
 
 inline LightSample sampleSphere(const Point& p, const Light& light, const Random4& u) {

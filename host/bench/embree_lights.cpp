@@ -1,6 +1,8 @@
 #include "host/bench/embree_lights.hpp"
 
 #include "host/kernel/alias_table.hpp"
+#include "host/kernel/gpu_scene.hpp"
+#include "host/kernel/light_tree.hpp"
 #include "scene/model/emitters.hpp"
 
 #include <cmath>
@@ -11,8 +13,12 @@ namespace {
 native::LampTriangle lampTriangle(const Scene& scene, uint32_t index) {
     const Triangle& t = scene.triangles[index];
     const glm::vec3 corner = scene.positions[t.corner[0]];
-    return {plain(corner), plain(scene.positions[t.corner[1]] - corner),
-            plain(scene.positions[t.corner[2]] - corner), plain(scene.geometricNormal(t))};
+    return {plain(corner),
+            plain(scene.positions[t.corner[1]] - corner),
+            plain(scene.positions[t.corner[2]] - corner),
+            plain(scene.geometricNormal(t)),
+            plain(scene.materials[t.material].emission),
+            scene.materials[t.material].emitsBothSides};
 }
 
 double area(const Scene& scene, uint32_t index) {
@@ -63,6 +69,53 @@ void addEmitter(const Scene& scene, const Emitter& emitter, EmbreeLights& all) {
     all.lights.push_back(light);
 }
 
+void addColumns(const std::vector<gpu::EmitterEntry>& entries, EmbreeLights& all) {
+    for (const gpu::EmitterEntry& e : entries)
+        all.columns.push_back({e.threshold, e.place, e.alias});
+}
+
+native::LightNode decoded(const gpu::LightNode& n) {
+    native::LightNode node{};
+    node.center = plain(n.center);
+    node.radius = n.radius;
+    node.axis = plain(decodeNormal(n.axis));
+    node.cosSpread = n.cosSpread;
+    node.power = n.power;
+    node.child = n.child & gpu::LIGHT_NODE_CHILD_MASK;
+    if (n.child & gpu::LIGHT_NODE_IS_LEAF)
+        node.count = n.child >> gpu::LIGHT_NODE_COUNT_SHIFT & gpu::LIGHT_NODE_MOST_TRIANGLES;
+    node.bothSides = n.child & gpu::LIGHT_NODE_BOTH_SIDES;
+    return node;
+}
+
+/// All emissive triangles as one light, from the kernel's own tree or table.
+void addManyTriangles(const Scene& scene, const std::vector<Emitter>& emitters, LightChoice choice,
+                      EmbreeLights& all) {
+    std::vector<LightTriangle> triangles = lightTriangles(scene, emitters);
+    native::Light light{};
+    light.kind = native::LightKind::Mesh;
+    light.columnCount = uint32_t(triangles.size());
+    double power = 0;
+    for (LightTriangle& t : triangles) {
+        all.triangles.push_back(lampTriangle(scene, t.id));
+        t.id = uint32_t(all.triangles.size() - 1);
+        power += t.power;
+    }
+    light.area = float(power);
+    all.lights.push_back(light);
+    if (choice != LightChoice::Tree) {
+        const bool uniformly = choice == LightChoice::Uniform;
+        all.choice = uniformly ? native::LightChoice::Uniform : native::LightChoice::Power;
+        addColumns(lightTable(triangles, uniformly), all);
+        return;
+    }
+    const LightTree tree = buildLightTree(std::move(triangles));
+    all.choice = native::LightChoice::Tree;
+    addColumns(tree.entries, all);
+    for (const gpu::LightNode& node : tree.nodes)
+        all.nodes.push_back(decoded(node));
+}
+
 native::LightKind kindOf(LightKind kind) {
     switch (kind) {
     case LightKind::Directional:
@@ -93,10 +146,13 @@ void addFileLight(const Light& l, EmbreeLights& all) {
 
 } // namespace
 
-EmbreeLights embreeLights(const Scene& scene) {
+EmbreeLights embreeLights(const Scene& scene, LightChoice choice) {
     EmbreeLights all;
-    for (const Emitter& emitter : collectEmitters(scene))
-        addEmitter(scene, emitter, all);
+    const std::vector<Emitter> emitters = collectEmitters(scene);
+    const bool many = haveManyTriangles(emitters);
+    if (many) addManyTriangles(scene, emitters, choice, all);
+    for (const Emitter& emitter : emitters)
+        if (!many || emitter.kind == EmitterKind::Sphere) addEmitter(scene, emitter, all);
     for (const Light& light : scene.lights)
         if (!light.isDelta()) addFileLight(light, all);
     all.areaLights = uint32_t(all.lights.size());

@@ -59,7 +59,7 @@ EmbreeWorld::EmbreeWorld(const Scene& scene, const Camera& camera, const RenderS
     world_.tracer = tracer;
     addSurfaces(scene);
     addGeometry(scene);
-    addLights(scene);
+    addLights(scene, settings.lightChoice);
     setView(camera);
     setSettings(settings);
 }
@@ -102,14 +102,17 @@ void EmbreeWorld::addGeometry(const Scene& scene) {
     world_.spheres = spheres_.data();
 }
 
-void EmbreeWorld::addLights(const Scene& scene) {
-    EmbreeLights all = embreeLights(scene);
+void EmbreeWorld::addLights(const Scene& scene, LightChoice choice) {
+    EmbreeLights all = embreeLights(scene, choice);
     lights_ = std::move(all.lights);
     lampTriangles_ = std::move(all.triangles);
     lampColumns_ = std::move(all.columns);
     world_.lights = lights_.data();
     world_.lampTriangles = lampTriangles_.data();
     world_.lampColumns = lampColumns_.data();
+    lightNodes_ = std::move(all.nodes);
+    world_.lightNodes = lightNodes_.data();
+    world_.lightChoice = all.choice;
     world_.areaLights = all.areaLights;
     world_.deltaLights = uint32_t(lights_.size()) - all.areaLights;
     const bool onlyQuads = std::all_of(lights_.begin(), lights_.end(), [](const native::Light& l) {

@@ -25,7 +25,7 @@ class EmbreeWorld {
   private:
     void addSurfaces(const Scene& scene);
     void addGeometry(const Scene& scene);
-    void addLights(const Scene& scene);
+    void addLights(const Scene& scene, LightChoice choice);
     void setView(const Camera& camera);
     void setSettings(const RenderSettings& settings);
 
@@ -36,6 +36,7 @@ class EmbreeWorld {
     std::vector<native::Light> lights_;
     std::vector<native::LampTriangle> lampTriangles_;
     std::vector<native::LampColumn> lampColumns_;
+    std::vector<native::LightNode> lightNodes_;
     native::World world_{};
     uint32_t features_ = 0;
 };

@@ -7,7 +7,7 @@ void addScene(CLI::App& app, Options& o) {
     app.add_option(
            "SCENE", o.scene,
            "COLLADA file (.dae), or generate:cornell_mesh:N for a scene of N triangles made "
-           "in memory")
+           "in memory, generate:lamps:N for one lit by N triangles")
         ->required()
         ->group("Scene");
 }
@@ -38,6 +38,16 @@ void addPicture(CLI::App& app, RawOptions& raw,
         ->group("Picture");
 }
 
+void addLightChoice(CLI::App& app, RawOptions& raw) {
+    app.add_option("--light-choice", raw.lightChoice,
+                   "which of many emissive triangles a light sample takes: tree, by what it is "
+                   "likely to bring to the surface; power; or uniform")
+        ->check(CLI::IsMember({"tree", "power", "uniform"}))
+        ->default_str("tree")
+        ->type_name("HOW")
+        ->group("Light");
+}
+
 void addLightTransport(CLI::App& app, RawOptions& raw, Options& o) {
     app.add_option("-m,--max-bounces", raw.maxBounces,
                    "scatterings of light at most; 0: lamps only [8; --cs184: 1]")
@@ -58,6 +68,7 @@ void addLightTransport(CLI::App& app, RawOptions& raw, Options& o) {
         ->type_name("HOW")
         ->group("Light");
     app.add_flag("-H", raw.hemisphere, "same as --direct hemisphere")->group("Light");
+    addLightChoice(app, raw);
     app.add_option("--roulette", raw.roulette,
                    "none, throughput (from bounce 3 on), or a probability P of ending a path at "
                    "every hit [throughput; --cs184: none]")

@@ -18,7 +18,7 @@ struct RawOptions {
     std::vector<double> adaptive;
     std::optional<double> noise, seconds;
     std::string roulette, integrator = "path", direct = "lights", camera = "auto",
-                          backend = "vulkan", sampler;
+                          backend = "vulkan", sampler, lightChoice = "tree";
     std::optional<uint32_t> sample, samples, lightSamples, maxBounces, minBounce, accumulate;
     bool hemisphere = false, quiet = false, verbose = false;
     RawBenchOptions bench;

@@ -74,7 +74,8 @@ Job prepareJob(const Options& options) {
 BuiltScene buildScene(const Job& job) {
     Stopwatch watch;
     BuiltScene built;
-    built.gpu = packScene(job.scene, buildWideBvh(job.scene), job.settings.cs184);
+    built.gpu =
+        packScene(job.scene, buildWideBvh(job.scene), job.settings.cs184, job.settings.lightChoice);
     built.buildSeconds = watch.seconds();
     return built;
 }

@@ -128,6 +128,9 @@ void applyLight(const RawOptions& raw, Options& o) {
                     : raw.direct == "bsdf"                       ? DirectLight::Bsdf
                                                                  : DirectLight::Lights;
     const bool sobol = raw.sampler.empty() ? !s.cs184 : raw.sampler == "sobol";
+    s.lightChoice = raw.lightChoice == "tree"    ? LightChoice::Tree
+                    : raw.lightChoice == "power" ? LightChoice::Power
+                                                 : LightChoice::Uniform;
     s.sampler = sobol ? Sampler::Sobol : Sampler::Independent;
     s.roulette = parseRoulette(raw.roulette, s.cs184);
 }

@@ -1,8 +1,12 @@
 #include "host/kernel/gpu_lights.hpp"
 
 #include "host/kernel/alias_table.hpp"
+#include "host/kernel/light_tree.hpp"
 
+#include <array>
+#include <bit>
 #include <cmath>
+#include <utility>
 
 namespace stromboli {
 namespace {
@@ -58,6 +62,43 @@ gpu::Light packEmitter(const Scene& scene, const Emitter& e, const std::vector<u
     return light;
 }
 
+void addNode(const gpu::LightNode& node, uint32_t firstEntry, GpuScene& g) {
+    gpu::LightNode n = node;
+    if (n.child & gpu::LIGHT_NODE_IS_LEAF) n.child += firstEntry; // rows of the whole buffer
+    for (const gpu::EmitterEntry& row : std::bit_cast<std::array<gpu::EmitterEntry, 2>>(n))
+        g.emitterEntries.push_back(row);
+}
+
+/// All emissive triangles as one light.
+gpu::Light packManyTriangles(const Scene& scene, const std::vector<Emitter>& emitters,
+                             const std::vector<uint32_t>& placeOf, GpuScene& g) {
+    std::vector<LightTriangle> triangles = lightTriangles(scene, emitters);
+    gpu::Light light{};
+    light.kind = gpu::LIGHT_MESH;
+    double power = 0;
+    for (LightTriangle& t : triangles) {
+        t.id = placeOf[t.id];
+        power += t.power;
+    }
+    light.area = float(power);
+    light.entryCount = uint32_t(triangles.size());
+    light.firstEntry = uint32_t(g.emitterEntries.size());
+    g.manyLampTriangles = true;
+    if (g.lightChoice != LightChoice::Tree) {
+        const auto table = lightTable(triangles, g.lightChoice == LightChoice::Uniform);
+        g.emitterEntries.insert(g.emitterEntries.end(), table.begin(), table.end());
+        return light;
+    }
+    const LightTree tree = buildLightTree(std::move(triangles));
+    g.lightTreeLevels = tree.levels;
+    const uint32_t firstEntry = light.firstEntry;
+    g.emitterEntries.insert(g.emitterEntries.end(), tree.entries.begin(), tree.entries.end());
+    light.firstEntry = uint32_t(g.emitterEntries.size());
+    for (const gpu::LightNode& node : tree.nodes)
+        addNode(node, firstEntry, g);
+    return light;
+}
+
 gpu::Light packLight(const Light& l, bool cs184) {
     gpu::Light g{};
     g.color = l.color;
@@ -96,11 +137,14 @@ gpu::Light packLight(const Light& l, bool cs184) {
 } // namespace
 
 void packLights(const Scene& scene, const std::vector<uint32_t>& placeOf, bool cs184, GpuScene& g) {
-    if (!cs184)
-        for (const Emitter& e : collectEmitters(scene)) {
-            const gpu::Light light = packEmitter(scene, e, placeOf, g);
-            g.lights.push_back(light);
-        }
+    if (!cs184) {
+        const std::vector<Emitter> emitters = collectEmitters(scene);
+        const bool many = haveManyTriangles(emitters);
+        if (many) g.lights.push_back(packManyTriangles(scene, emitters, placeOf, g));
+        for (const Emitter& e : emitters)
+            if (!many || e.kind == EmitterKind::Sphere)
+                g.lights.push_back(packEmitter(scene, e, placeOf, g));
+    }
     for (const Light& l : scene.lights)
         if (!l.isDelta()) g.lights.push_back(packLight(l, cs184));
     g.areaLights = uint32_t(g.lights.size());

@@ -4,6 +4,7 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace stromboli {
@@ -67,8 +68,18 @@ uint32_t encodeNormal(const glm::vec3& n) {
     return glm::packSnorm2x16(e);
 }
 
-GpuScene packScene(const Scene& scene, WideLayout bvh, bool cs184) {
+glm::vec3 decodeNormal(uint32_t code) {
+    const glm::vec2 e = glm::unpackSnorm2x16(code);
+    glm::vec3 n(e.x, e.y, 1 - std::abs(e.x) - std::abs(e.y));
+    const float fold = std::max(-n.z, 0.0f);
+    n.x += n.x >= 0 ? -fold : fold;
+    n.y += n.y >= 0 ? -fold : fold;
+    return glm::normalize(n);
+}
+
+GpuScene packScene(const Scene& scene, WideLayout bvh, bool cs184, LightChoice choice) {
     GpuScene g;
+    g.lightChoice = choice;
     g.bvh = std::move(bvh);
     packPrimitives(scene, g);
     for (const Material& m : scene.materials)

@@ -94,6 +94,10 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_CS184] = settings.cs184;
     f[SPEC_ONE_LIGHT] = scene.lights.size() == 1;
     f[SPEC_LIGHT_SAMPLES] = settings.lightSamples;
+    f[SPEC_LIGHT_CHOICE] = !scene.manyLampTriangles                  ? gpu::LIGHT_CHOICE_AREA
+                           : scene.lightChoice == LightChoice::Tree  ? gpu::LIGHT_CHOICE_TREE
+                           : scene.lightChoice == LightChoice::Power ? gpu::LIGHT_CHOICE_POWER
+                                                                     : gpu::LIGHT_CHOICE_UNIFORM;
     f[SPEC_SAMPLER] =
         settings.sampler == Sampler::Sobol ? gpu::SAMPLER_SOBOL : gpu::SAMPLER_INDEPENDENT;
     f[SPEC_LIGHT_JOINS_CAMERA] = lightJoinsCamera(scene, settings);

@@ -24,7 +24,8 @@ constexpr uint32_t kLlvmpipeLoopPasses = 65535;
 constexpr uint32_t kGuardIterations = 1u << 20;
 
 /// One pass of the kernel's loop counts for itself, its traversal steps, the loop around it that
-/// changes pixels and, where there is ambient light, the loop that looks for it.
+/// changes pixels and, where there are such, the loops that look for ambient light and walk a light
+/// tree.
 uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene,
                    const DeviceTuning& tuning) {
     if (!device.description().isCpu()) return kGuardIterations;
@@ -32,8 +33,9 @@ uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene,
         tuning.everythingOn ||
         std::any_of(scene.lights.begin(), scene.lights.end(),
                     [](const gpu::Light& l) { return l.kind == gpu::LIGHT_AMBIENT; });
-    const uint32_t perIteration =
-        1 + (tuning.traversalSteps + 1) + 2 + (ambient ? scene.areaLights + 1 : 0);
+    const uint32_t perIteration = 1 + (tuning.traversalSteps + 1) + 2 +
+                                  (ambient ? scene.areaLights + 1 : 0) +
+                                  (scene.manyLampTriangles ? scene.lightTreeLevels + 1 : 0);
     return std::max(kLlvmpipeLoopPasses / perIteration, 2u);
 }
 

@@ -20,11 +20,22 @@ std::vector<double> runningAreas(const Scene& scene, const Emitter& emitter) {
     return sums;
 }
 
-/// The first entry whose running sum exceeds u times the total: never one of area 0.
-size_t pickByArea(const std::vector<double>& sums, double u) {
+ManyTriangles asOneLight(const Scene& scene, const std::vector<Emitter>& emitters) {
+    ManyTriangles many;
+    double sum = 0;
+    for (const Emitter& emitter : emitters)
+        for (const uint32_t index : emitter.triangles) {
+            many.triangles.push_back(index);
+            many.powerSums.push_back(sum += trianglePower(scene, index));
+        }
+    return many;
+}
+
+/// The first entry whose running sum exceeds u times the total: never one without a share.
+size_t pickByShare(const std::vector<double>& sums, double u) {
     const auto found = std::upper_bound(sums.begin(), sums.end(), u * sums.back());
     if (found != sums.end()) return size_t(found - sums.begin());
-    // u * total was rounded up to the total: the last entry that has an area.
+    // u * total was rounded up to the total: the last entry that has a share.
     return size_t(std::lower_bound(sums.begin(), sums.end(), sums.back()) - sums.begin());
 }
 
@@ -45,6 +56,10 @@ double spotFalloff(const Light& light, double cosine) {
 Lights::Lights(const Scene& scene, Convention convention) : scene_(scene), convention_(convention) {
     const bool physical = convention == Convention::Physical;
     if (physical) emitters_ = collectEmitters(scene);
+    if (haveManyTriangles(emitters_)) {
+        many_.push_back(asOneLight(scene, emitters_));
+        std::erase_if(emitters_, [](const Emitter& e) { return e.kind != EmitterKind::Sphere; });
+    }
     for (const Emitter& emitter : emitters_)
         areaSums_.push_back(runningAreas(scene, emitter));
     for (const Light& light : scene.lights) {
@@ -64,10 +79,21 @@ Lights::Lights(const Scene& scene, Convention convention) : scene_(scene), conve
 LightSample Lights::sampleBroad(size_t index, const SurfacePoint& surface,
                                 RandomStream& random) const {
     random.beginBlock();
+    if (index < many_.size()) return sampleMany(surface, random);
+    index -= many_.size();
     if (index < emitters_.size()) return sampleEmitter(index, surface, random);
     index -= emitters_.size();
     if (index < ambient_.size()) return sampleAmbient(*ambient_[index], surface, random);
     return sampleCs184Rectangle(*areas_[index - ambient_.size()], litPoint(surface), random);
+}
+
+LightSample Lights::sampleMany(const SurfacePoint& surface, RandomStream& random) const {
+    const ManyTriangles& many = many_.front();
+    const size_t picked = pickByShare(many.powerSums, random.next());
+    const LampTriangle triangle(scene_, many.triangles[picked]);
+    const Material& material = scene_.materials[scene_.triangles[triangle.index].material];
+    const double power = trianglePower(scene_, triangle.index);
+    return sampleTriangle(triangle, power / many.powerSums.back(), material, surface, random);
 }
 
 LightSample Lights::sampleEmitter(size_t index, const SurfacePoint& surface,
@@ -83,7 +109,7 @@ LightSample Lights::sampleEmitter(size_t index, const SurfacePoint& surface,
         return u < share ? sampleTriangle(a, share, material, surface, random)
                          : sampleTriangle(b, 1 - share, material, surface, random);
     }
-    const LampTriangle triangle(scene_, emitter.triangles[pickByArea(areaSums_[index], u)]);
+    const LampTriangle triangle(scene_, emitter.triangles[pickByShare(areaSums_[index], u)]);
     return sampleTriangle(triangle, triangle.area / emitter.area, material, surface, random);
 }
 

@@ -19,6 +19,12 @@ struct LightSample {
     uint32_t primitive = kNoPrimitive; ///< the lamp, which cannot hide itself
 };
 
+/// All emissive triangles of a scene that has many, as one light: picked by power.
+struct ManyTriangles {
+    std::vector<uint32_t> triangles;
+    std::vector<double> powerSums; ///< running sums of trianglePower()
+};
+
 /// All a scene has to light a surface with, under either convention. The lights that are not delta
 /// functions ("broad": emitters, ambient light, CS184 rectangles) get several samples each.
 /// Refers to the scene, which must outlive it.
@@ -28,7 +34,9 @@ class Lights {
     /// (resolveAreaLights() turns them into emitters).
     Lights(const Scene& scene, Convention convention);
 
-    size_t broadCount() const { return emitters_.size() + ambient_.size() + areas_.size(); }
+    size_t broadCount() const {
+        return many_.size() + emitters_.size() + ambient_.size() + areas_.size();
+    }
     size_t deltaCount() const { return delta_.size(); }
     /// Every light of the file, whatever its kind.
     size_t fileCount() const { return scene_.lights.size(); }
@@ -41,6 +49,7 @@ class Lights {
     glm::dvec3 ambientRadiance(const glm::dvec3& direction) const;
 
   private:
+    LightSample sampleMany(const SurfacePoint& surface, RandomStream& random) const;
     LightSample sampleEmitter(size_t index, const SurfacePoint& surface,
                               RandomStream& random) const;
     LightSample sampleAmbient(const Light& light, const SurfacePoint& surface,
@@ -48,6 +57,7 @@ class Lights {
 
     const Scene& scene_;
     Convention convention_;
+    std::vector<ManyTriangles> many_; ///< one, or none
     std::vector<Emitter> emitters_;
     std::vector<std::vector<double>> areaSums_; ///< of each mesh emitter: running sums of areas
     std::vector<const Light*> ambient_, areas_, delta_;

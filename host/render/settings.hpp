@@ -22,6 +22,13 @@ enum class Sampler {
     Sobol,       ///< the samples of a pixel spread evenly: less noise
 };
 
+/// How a sample of many emissive triangles picks one (docs/estimator.md, "Many lamps").
+enum class LightChoice {
+    Tree,    ///< by what it is likely to bring to the surface
+    Power,   ///< by its power
+    Uniform, ///< the control
+};
+
 struct Roulette {
     enum class Mode {
         None,
@@ -69,6 +76,7 @@ struct RenderSettings {
     Integrator integrator = Integrator::Path;
     DirectLight directLight = DirectLight::Lights;
     Sampler sampler = Sampler::Sobol;
+    LightChoice lightChoice = LightChoice::Tree;
     Roulette roulette;
     Adaptive adaptive;
     StopRule stop; ///< excludes adaptive

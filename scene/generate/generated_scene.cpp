@@ -2,6 +2,7 @@
 
 #include "host/core/error.hpp"
 #include "scene/generate/cornell_mesh.hpp"
+#include "scene/generate/lamps_room.hpp"
 
 #include <fmt/format.h>
 
@@ -11,9 +12,10 @@
 namespace stromboli {
 namespace {
 
-constexpr std::string_view kCornellMesh = "cornell_mesh:";
+constexpr std::string_view kCornellMesh = "cornell_mesh:", kLampsRoom = "lamps:";
 // Fewer triangles make no knot; more leave no room in 32-bit numbers of corners.
 constexpr uint32_t kLeastTriangles = 1000, kMostTriangles = 100'000'000;
+constexpr uint32_t kLeastLamps = 8, kMostLamps = 8'000'000;
 
 /// The tube's triangles keep the shape they have in the library's file: ten times as many steps
 /// along it as around it.
@@ -23,21 +25,30 @@ CornellMesh cornellMeshOf(uint32_t triangles) {
     return cornellMesh(uint32_t(along), uint32_t(around));
 }
 
+/// The number after a prefix; 0 if the name is another one or that is no number.
+uint32_t numberAfter(std::string_view prefix, std::string_view name) {
+    if (!name.starts_with(prefix)) return 0;
+    const std::string_view text = name.substr(prefix.size());
+    const char* const end = text.data() + text.size();
+    uint32_t number = 0;
+    const auto [last, error] = std::from_chars(text.data(), end, number);
+    return error == std::errc() && last == end ? number : 0;
+}
+
 } // namespace
 
 Scene generatedScene(std::string_view name) {
     const std::string source = std::string(kGeneratePrefix) + std::string(name);
-    uint32_t triangles = 0;
-    if (name.starts_with(kCornellMesh)) {
-        const std::string_view number = name.substr(kCornellMesh.size());
-        const char* const end = number.data() + number.size();
-        const auto [last, error] = std::from_chars(number.data(), end, triangles);
-        if (error != std::errc() || last != end) triangles = 0;
-    }
+    const uint32_t lamps = numberAfter(kLampsRoom, name);
+    if (lamps >= kLeastLamps && lamps <= kMostLamps && lamps % 8 == 0)
+        return lampsRoom(lamps, source);
+    const uint32_t triangles = numberAfter(kCornellMesh, name);
     if (triangles < kLeastTriangles || triangles > kMostTriangles)
-        throw SceneError(fmt::format("{}: no such scene; expected {}{}N with N from {} to {}",
+        throw SceneError(fmt::format("{}: no such scene; expected {}{}N with N from {} to {}, or "
+                                     "{}{}N with N from {} to {}, a multiple of 8",
                                      source, kGeneratePrefix, kCornellMesh, kLeastTriangles,
-                                     kMostTriangles));
+                                     kMostTriangles, kGeneratePrefix, kLampsRoom, kLeastLamps,
+                                     kMostLamps));
     return cornellMeshScene(cornellMeshOf(triangles), source);
 }
 

@@ -48,6 +48,20 @@ bool asParallelogram(const Scene& scene, Emitter& emitter) {
 
 } // namespace
 
+bool haveManyTriangles(const std::vector<Emitter>& emitters) {
+    size_t triangles = 0;
+    for (const Emitter& emitter : emitters)
+        triangles += emitter.triangles.size();
+    return triangles >= kManyLampTriangles;
+}
+
+double trianglePower(const Scene& scene, uint32_t index) {
+    const Triangle& t = scene.triangles[index];
+    const Material& m = scene.materials[t.material];
+    const double luminance = glm::dot(glm::dvec3(m.emission), glm::dvec3(0.2126, 0.7152, 0.0722));
+    return luminance * area(scene, t) * (m.emitsBothSides ? 2 : 1);
+}
+
 std::vector<Emitter> collectEmitters(const Scene& scene) {
     std::map<std::pair<uint32_t, uint32_t>, Emitter> meshes; // by instance, then material
     for (uint32_t i = 0; i < scene.triangles.size(); ++i) {

@@ -24,6 +24,15 @@ struct Emitter {
     double area = 0;                                  ///< of one side, world units squared
 };
 
+/// From this many emissive triangles on, those of all quads and meshes of a scene are one light, of
+/// which a sample takes one triangle by its likely contribution.
+inline constexpr size_t kManyLampTriangles = 64;
+bool haveManyTriangles(const std::vector<Emitter>& emitters);
+
+/// Of an emissive triangle: luminance of its emission (Rec. 709) times the area of the sides that
+/// emit.
+double trianglePower(const Scene& scene, uint32_t triangle);
+
 /// Groups the emissive geometry of a scene, in the order of instances. Deterministic.
 std::vector<Emitter> collectEmitters(const Scene& scene);
 

@@ -92,6 +92,14 @@ Light fetchLight(uint index) {
                  uintBitsToFloat(r4.z), uintBitsToFloat(r4.w));
 }
 
+/// root: row of the tree's first node.
+LightNode fetchLightNode(uint root, uint index) {
+    const uvec4 r0 = ROW(emitterEntryRows, root + 2u * index),
+                r1 = ROW(emitterEntryRows, root + 2u * index + 1u);
+    return LightNode(uintBitsToFloat(r0.xyz), uintBitsToFloat(r0.w), r1.x, uintBitsToFloat(r1.y),
+                     uintBitsToFloat(r1.z), r1.w);
+}
+
 EmitterEntry fetchEmitterEntry(uint index) {
     const uvec4 r = ROW(emitterEntryRows, index);
     return EmitterEntry(r.x, r.y, uintBitsToFloat(r.z), r.w);

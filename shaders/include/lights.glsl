@@ -1,6 +1,7 @@
 // Sampling of lamps: docs/estimator.md has the table of densities.
 
 #include "spherical.glsl"
+#include "light_tree.glsl"
 
 /// A sampled segment from a shading point to a light.
 struct LightSample {
@@ -71,21 +72,64 @@ LightSample sampleQuad(SurfacePoint s, Light light, vec2 u) {
     return areaSample(s, p, error, planeNormal(light.edgeA, light.edgeB), light.area, light);
 }
 
-/// u: x, y for the direction, z for the column of the alias table, w for the choice within it.
+/// A triangle of an emissive mesh, or of all of them, picked by u: z and w.
+struct PickedTriangle {
+    PlacedPrimitive triangle;
+    float probability;
+    float doubleArea;
+    vec3 normal; ///< unit
+};
+
+PickedTriangle placed(uint place) {
+    PickedTriangle t;
+    t.triangle = fetchPlace(place);
+    const vec3 a = t.triangle.v1 - t.triangle.v0, b = t.triangle.v2 - t.triangle.v0;
+    t.normal = planeNormal(a, b);
+    t.doubleArea = dot(cross(a, b), t.normal);
+    return t;
+}
+
+/// By an alias table; `sum` is that of its weights: areas, or powers.
+PickedTriangle pickTriangle(uint firstEntry, uint entryCount, float sum, vec2 u,
+                            inout Light light) {
+    const uint column = min(uint(u.x * float(entryCount)), entryCount - 1u);
+    const EmitterEntry entry = fetchEmitterEntry(firstEntry + column);
+    PickedTriangle t = placed(u.y < entry.threshold ? entry.place : entry.alias);
+    float weight = 0.5 * t.doubleArea;
+    if (LIGHT_CHOICE != LIGHT_CHOICE_AREA) {
+        const Material m = fetchMaterial(fetchPrimitive(t.triangle.primitive).material);
+        light.color = m.emission;
+        light.bothSides = m.emitsBothSides;
+        weight *= trianglePower(m);
+    }
+    t.probability = LIGHT_CHOICE == LIGHT_CHOICE_UNIFORM ? 1.0 / float(entryCount) : weight / sum;
+    return t;
+}
+
+PickedTriangle pickTriangle(SurfacePoint s, inout Light light, vec2 u) {
+    if (LIGHT_CHOICE != LIGHT_CHOICE_TREE)
+        return pickTriangle(light.firstEntry, light.entryCount, light.area, u, light);
+    const PickedLeaf leaf = walkLightTree(light.firstEntry, litPoint(s), s.shading, u);
+    const float column = leaf.u * float(leaf.entryCount);
+    PickedTriangle t = pickTriangle(leaf.firstEntry, leaf.entryCount, leaf.power,
+                                    vec2(leaf.u, fract(column)), light);
+    t.probability *= leaf.probability;
+    return t;
+}
+
+/// u: x, y for the direction, z and w for the triangle.
 LightSample sampleMesh(SurfacePoint s, Light light, vec4 u) {
-    const uint column = min(uint(u.z * float(light.entryCount)), light.entryCount - 1u);
-    const EmitterEntry entry = fetchEmitterEntry(light.firstEntry + column);
-    const PlacedPrimitive p = fetchPlace(u.w < entry.threshold ? entry.place : entry.alias);
-    const vec3 a = p.v1 - p.v0, b = p.v2 - p.v0, n = planeNormal(a, b);
+    const PickedTriangle t = pickTriangle(s, light, u.zw);
+    const PlacedPrimitive p = t.triangle;
     const vec3 v0 = p.v0 - litPoint(s);
-    const float z = dot(v0, n), doubleArea = dot(cross(a, b), n);
-    const SolidAngleSample t = sampleTriangleByAngle(v0, a, b, z, doubleArea, u.xy);
-    const float b0 = 1.0 - t.weights.x - t.weights.y;
-    const vec3 b0v0 = b0 * p.v0, b1v1 = t.weights.x * p.v1, b2v2 = t.weights.y * p.v2;
+    const float z = dot(v0, t.normal);
+    const SolidAngleSample a =
+        sampleTriangleByAngle(v0, p.v1 - p.v0, p.v2 - p.v0, z, t.doubleArea, u.xy);
+    const float b0 = 1.0 - a.weights.x - a.weights.y;
+    const vec3 b0v0 = b0 * p.v0, b1v1 = a.weights.x * p.v1, b2v2 = a.weights.y * p.v2;
     const vec3 error = interpolationError(abs(b0v0) + abs(b1v1) + abs(b2v2));
-    // Over the triangle's probability, its share of the area.
-    const float angle = t.angle * (2.0 * light.area / max(doubleArea, TINY));
-    return angleSample(s, b0v0 + b1v1 + b2v2, error, n, z, angle, light);
+    const float angle = t.probability > 0.0 ? a.angle / t.probability : 0.0;
+    return angleSample(s, b0v0 + b1v1 + b2v2, error, t.normal, z, angle, light);
 }
 
 /// From outside: uniform in the cone the sphere subtends (Shirley, Wang and Zimmerman 1996), with

@@ -42,7 +42,8 @@ SHARED_BEGIN
 #define SPEC_COUNT_STEPS 17   // count how many lanes are at work in each step
 #define SPEC_SAMPLER 18
 #define SPEC_LIGHT_JOINS_CAMERA 19 // the first light sample shares the camera's random numbers
-#define SPEC_COUNT 20
+#define SPEC_LIGHT_CHOICE 20       // of a triangle of a mesh light
+#define SPEC_COUNT 21
 
 SHARED_CONST uint INTEGRATOR_PATH = 0u;
 SHARED_CONST uint INTEGRATOR_NORMALS = 1u;
@@ -53,6 +54,12 @@ SHARED_CONST uint DIRECT_BSDF = 2u;
 
 SHARED_CONST uint SAMPLER_INDEPENDENT = 0u;
 SHARED_CONST uint SAMPLER_SOBOL = 1u;
+
+SHARED_CONST uint LIGHT_CHOICE_AREA = 0u; ///< of one mesh
+// Of all emissive triangles of the scene, which are one light:
+SHARED_CONST uint LIGHT_CHOICE_TREE = 1u;
+SHARED_CONST uint LIGHT_CHOICE_POWER = 2u;
+SHARED_CONST uint LIGHT_CHOICE_UNIFORM = 3u;
 
 SHARED_CONST uint ROULETTE_NONE = 0u;
 SHARED_CONST uint ROULETTE_THROUGHPUT = 1u;

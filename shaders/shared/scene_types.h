@@ -118,12 +118,12 @@ struct Light {
     vec3 position; ///< quad: corner; sphere: centre; directional: unit vector to the light
     uint kind;
     vec3 edgeA;     ///< quad; sphere: x = radius; spot: unit vector the light travels along
-    float area;     ///< quad, mesh: of one side
+    float area;     ///< quad, mesh: of one side; many triangles: the sum of their powers
     vec3 edgeB;     ///< quad; point, spot: constant, linear, quadratic attenuation
     uint bothSides; ///< quad, mesh, sphere: emits on both sides
     vec3 color;     ///< radiance (quad, mesh, sphere, ambient), or as scene/model/light.hpp says
     uint upperHemisphereOnly; ///< ambient
-    uint firstEntry;          ///< mesh: into the EmitterEntry buffer
+    uint firstEntry;          ///< mesh: row of the EmitterEntry buffer; light tree: of the root
     uint entryCount;
     float cosCutoff; ///< spot: cosine of half the opening angle
     float falloffExponent;
@@ -141,6 +141,23 @@ struct EmitterEntry {
     uint unused;
 };
 SHARED_ROWS(EmitterEntry, 1);
+
+/// A node of a light tree (host/kernel/light_tree.hpp), two rows of the EmitterEntry buffer: the bounds of
+/// what its triangles send out.
+struct LightNode {
+    vec3 center; ///< of a sphere that holds the triangles
+    float radius;
+    uint axis; ///< of a cone that holds their normals, octahedral as in Primitive
+    float cosSpread; ///< of the cone's half angle
+    float power;
+    uint child; ///< number of the first of two nodes, or of the leaf's first entry; flags
+};
+SHARED_ROWS(LightNode, 2);
+SHARED_CONST uint LIGHT_NODE_IS_LEAF = 0x80000000u;
+SHARED_CONST uint LIGHT_NODE_BOTH_SIDES = 0x40000000u;
+SHARED_CONST uint LIGHT_NODE_COUNT_SHIFT = 24u; ///< leaf: number of entries, 6 bits
+SHARED_CONST uint LIGHT_NODE_MOST_TRIANGLES = 63u;
+SHARED_CONST uint LIGHT_NODE_CHILD_MASK = 0x00FFFFFFu;
 
 SHARED_END
 

@@ -4,6 +4,7 @@
 #include "host/check/cross_check.hpp"
 #include "host/reference/reference_backend.hpp"
 #include "host/render/render.hpp"
+#include "scene/generate/generated_scene.hpp"
 #include "tests/bench/bench_fixtures.hpp"
 
 #include <gtest/gtest.h>
@@ -84,6 +85,21 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EmbreePaths,
                                          "light_directional", "light_mesh", "light_point",
                                          "light_sphere", "light_spot", "ortho"),
                          [](const auto& test) { return std::string(test.param); });
+
+TEST(EmbreePathsOf, ManyLampsMakeTheReferencesPicture) {
+    LibraryPicture p = libraryPicture("cornell_boxes", 48, 36, 64);
+    p.scene = readScene("generate:lamps:400");
+    p.settings.maxBounces = 2;
+    p.camera = makeCamera(p.scene, CameraChoice::Automatic, 48, 36, false);
+    CheckSettings check;
+    check.familyError = 1e-4;
+    const Film reference = paintReference(p);
+    for (const LightChoice choice : {LightChoice::Tree, LightChoice::Uniform}) {
+        p.settings.lightChoice = choice;
+        const CheckResult result = crossCheck(paint(p, EmbreeMode::Robust), reference, check);
+        EXPECT_TRUE(result.agree()) << formatCheck(result);
+    }
+}
 
 struct Mode {
     const char* name;

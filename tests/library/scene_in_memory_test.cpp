@@ -151,15 +151,32 @@ TEST_P(OfSize, KeepsThePromisesOfALoadedScene) {
 INSTANTIATE_TEST_SUITE_P(Sizes, OfSize, testing::Values(1000, 1001, 3456, 200'000));
 
 TEST(GeneratedScene, WrongNamesAreOneClearError) {
-    for (const char* name :
-         {"", "cornell_mesh", "cornell_mesh:", "cornell_mesh:many", "cornell_mesh:1000.5",
-          "cornell_mesh: 5000", "cornell_mesh:-5000", "cornell_mesh:5000:", "cornell_mesh:999",
-          "cornell_mesh:100000001", "cornell_mesh:99999999999", "cornell_box:5000",
-          "Cornell_mesh:5000", "cornell_mesh:1e6"})
+    for (const char* name : {"", "cornell_mesh", "cornell_mesh:", "cornell_mesh:many",
+                             "cornell_mesh:1000.5", "cornell_mesh: 5000", "cornell_mesh:-5000",
+                             "cornell_mesh:5000:", "cornell_mesh:999", "cornell_mesh:100000001",
+                             "cornell_mesh:99999999999", "cornell_box:5000", "Cornell_mesh:5000",
+                             "cornell_mesh:1e6", "lamps:", "lamps:7", "lamps:100", "lamps:8000008"})
         EXPECT_THAT(messageOf(std::string("generate:") + name),
                     AllOf(testing::StartsWith(std::string("generate:") + name + ": no such scene"),
                           HasSubstr("generate:cornell_mesh:N with N from 1000 to 100000000")));
     EXPECT_THAT(messageOf("generate:cornell_mesh:5000", {.cs184 = true}), HasSubstr("--cs184"));
+}
+
+TEST(GeneratedScene, LampsAreSpreadThroughARoom) {
+    const Scene scene = generatedScene("lamps:800");
+    size_t lamps = 0;
+    double sum = 0;
+    for (const Triangle& t : scene.triangles) {
+        if (!scene.materials[t.material].emits()) continue;
+        ++lamps;
+        const glm::vec3 a = scene.positions[t.corner[0]];
+        sum += a.x;
+        EXPECT_LT(std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}), 1.0f);
+    }
+    EXPECT_EQ(lamps, 800u);
+    EXPECT_EQ(scene.triangles.size(), lamps + 10); // the walls
+    // Uniform in [-.95, .95], 8 triangles a lamp: deviation .055.
+    EXPECT_NEAR(sum / 800, 0, 0.25);
 }
 
 TEST(GeneratedScene, AnythingElseIsAFile) {

@@ -5,6 +5,7 @@
 #include "host/check/cross_check.hpp"
 #include "host/reference/reference_backend.hpp"
 #include "host/render/render.hpp"
+#include "scene/generate/generated_scene.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
 
@@ -109,6 +110,23 @@ TEST_P(ModeAgreement, WithTheReference) {
 
 INSTANTIATE_TEST_SUITE_P(Modes, ModeAgreement, testing::ValuesIn(kModes),
                          [](const auto& test) { return std::string(test.param.name); });
+
+/// Many emissive triangles: the kernel walks its tree, the reference picks by power.
+TEST_F(DeviceTest, AgreementOnManyLamps) {
+    RenderSettings settings = smallSettings(128);
+    settings.width = settings.height = 48;
+    settings.maxBounces = 2;
+    const Scene scene = readScene("generate:lamps:400");
+    const Camera camera =
+        makeCamera(scene, CameraChoice::Automatic, settings.width, settings.height, false);
+    ReferenceBackend reference(scene, camera, settings);
+    CheckSettings check;
+    check.familyError = 1e-4;
+    const CheckResult result = crossCheck(renderOnDevice(testDevice(), scene, camera, settings),
+                                          render(reference, settings), check);
+    EXPECT_TRUE(result.agree()) << formatCheck(result);
+    EXPECT_EQ(result.rejectedA, 0u);
+}
 
 /// The check has teeth: two per cent more light in the reference's picture is found.
 TEST_F(DeviceTest, AgreementFailsForTwoPerCentMoreLight) {

@@ -5,6 +5,7 @@
 #include "host/kernel/frame.hpp"
 #include "host/kernel/kernel_features.hpp"
 #include "host/render/render.hpp"
+#include "scene/generate/generated_scene.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
 #include "tests/support/test_shader.hpp"
@@ -15,6 +16,7 @@
 
 #include <cstring>
 #include <string>
+#include <string_view>
 
 namespace stromboli {
 namespace {
@@ -46,6 +48,7 @@ const Picture kPictures[] = {
     {"metal", "cornell_metal.dae", [](Scene&, RenderSettings&) {}},
     {"mesh", "cornell_mesh.dae", [](Scene&, RenderSettings&) {}},
     {"meshLamp", "light_mesh.dae", [](Scene&, RenderSettings&) {}},
+    {"manyLamps", "generate:lamps:1000", [](Scene&, RenderSettings&) {}},
     {"sphereLamps", "light_sphere.dae", [](Scene&, RenderSettings&) {}},
     {"ambient", "light_ambient.dae", [](Scene&, RenderSettings&) {}},
     {"sun", "light_directional.dae", [](Scene&, RenderSettings&) {}},
@@ -108,7 +111,9 @@ class NestedKernel : public DeviceTest {
         settings_.maxBounces = 5;
         const auto library = std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene/library";
         settings_.cs184 = picture.cs184;
-        Scene scene = loadScene(library / picture.scene, picture.cs184);
+        Scene scene = std::string_view(picture.scene).starts_with(kGeneratePrefix)
+                          ? readScene(picture.scene)
+                          : loadScene(library / picture.scene, picture.cs184);
         picture.change(scene, settings_);
         camera_ = makeCamera(scene, CameraChoice::Automatic, settings_.width, settings_.height,
                              settings_.cs184);

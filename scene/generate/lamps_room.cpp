@@ -1,0 +1,66 @@
+#include "scene/generate/lamps_room.hpp"
+
+#include "scene/generate/cornell_mesh.hpp"
+
+#include <cmath>
+#include <random>
+
+namespace stromboli {
+namespace {
+
+/// The engine is standardised, distributions are not.
+double fraction(std::mt19937& engine) {
+    return uint32_t(engine()) * 0x1p-32;
+}
+
+void addOctahedron(Scene& scene, const glm::vec3& center, float radius, uint32_t material,
+                   uint32_t instance) {
+    const auto first = uint32_t(scene.positions.size());
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float side : {-radius, radius}) {
+            glm::vec3 corner = center;
+            corner[axis] += side;
+            scene.positions.push_back(corner);
+        }
+    for (uint32_t octant = 0; octant < 8; ++octant) {
+        const uint32_t x = octant & 1, y = octant >> 1 & 1, z = octant >> 2;
+        Triangle t;
+        t.material = material;
+        t.instance = instance;
+        t.corner[0] = first + x;
+        t.corner[1] = first + 2 + y;
+        t.corner[2] = first + 4 + z;
+        if ((x + y + z) % 2 == 0) std::swap(t.corner[1], t.corner[2]); // normals point out
+        scene.triangles.push_back(t);
+    }
+}
+
+} // namespace
+
+Scene lampsRoom(uint32_t triangles, const std::string& source) {
+    constexpr uint32_t kSmallestMesh = 3; // steps of a knot that is not used
+    CornellMesh room = cornellMesh(kSmallestMesh, kSmallestMesh);
+    room.knot = {};
+    room.walls.pop_back(); // its lamp
+    Scene scene = cornellMeshScene(room, source);
+    Material lamp;
+    lamp.name = "lamp";
+    lamp.albedo = glm::vec3(0.0f);
+    lamp.emission = {40, 32, 24};
+    lamp.emitsBothSides = false;
+    scene.materials.push_back(lamp);
+    const auto material = uint32_t(scene.materials.size() - 1);
+    scene.instances.push_back("lamps");
+    const auto instance = uint32_t(scene.instances.size() - 1);
+    std::mt19937 engine(1);
+    for (uint32_t i = 0; i < triangles / 8; ++i) {
+        glm::vec3 center;
+        for (int axis = 0; axis < 3; ++axis)
+            center[axis] = float(1.9 * fraction(engine) - 0.95);
+        const auto radius = float(0.004 * std::exp2(3 * fraction(engine)));
+        addOctahedron(scene, center, radius, material, instance);
+    }
+    return scene;
+}
+
+} // namespace stromboli

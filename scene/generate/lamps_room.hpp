@@ -1,0 +1,12 @@
+#pragma once
+
+#include "scene/model/scene.hpp"
+
+namespace stromboli {
+
+/// A room of 2 m, open towards the camera, lit by strings of small lamps throughout: octahedra with
+/// radii from 4 to 32 mm, even in the logarithm, all equally bright. `triangles` is a multiple of
+/// 8, at least 8. Always the same for the same number.
+Scene lampsRoom(uint32_t triangles, const std::string& source);
+
+} // namespace stromboli
