@@ -23,10 +23,9 @@ void ExpectedTime::runTook(const std::string& scene, const std::string& configur
     done_ += seconds;
 }
 
-void ExpectedTime::referenceTook(double seconds) {
+void ExpectedTime::referenceTook(double seconds, double making) {
     --referencesLeft_;
-    // Well below a millisecond it was read from a file, which says nothing of the others.
-    references_.add(seconds);
+    references_.add(making);
     done_ += seconds;
 }
 

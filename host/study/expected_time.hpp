@@ -15,7 +15,8 @@ class ExpectedTime {
 
     /// Wall time from the preparation to the end.
     void runTook(const std::string& scene, const std::string& configuration, double seconds);
-    void referenceTook(double seconds);
+    /// `making`: what it took when it was made, which is longer if it was read from a file.
+    void referenceTook(double seconds, double making);
     /// Of what is not done yet; none before anything is known.
     std::optional<double> secondsLeft() const;
     double secondsDone() const { return done_; }

@@ -88,7 +88,7 @@ std::optional<compare::Picture> Conductor::reference(SceneStudy& scene) {
                         watch.seconds());
         },
         scene);
-    if (picture) expected_.referenceTook(watch.seconds());
+    if (picture) expected_.referenceTook(watch.seconds(), scene.reference.seconds);
     return picture;
 }
 
@@ -163,7 +163,13 @@ void Conductor::save() const {
 bool Conductor::show(const std::string& doing, std::optional<double> expected, double spent) const {
     if (hooks_.stopped()) return false;
     StudyProgress progress{doing, 0, std::nullopt};
-    if (const auto left = expected_.secondsLeft()) {
+    std::optional<double> left = expected_.secondsLeft();
+    if (!left && expected) { // in the first reference, which foretells the rest
+        ExpectedTime guess = expected_;
+        guess.referenceTook(*expected, *expected);
+        left = *guess.secondsLeft() + *expected;
+    }
+    if (left) {
         const double inStep = expected ? std::min(spent, *expected) : 0;
         const double rest = std::max(*left - inStep, 0.0), done = expected_.secondsDone() + spent;
         progress.secondsLeft = rest;

@@ -15,7 +15,8 @@ TEST(StudyExpectedTime, LearnsFromWhatIsDone) {
     study.scenes[0].runs = {{"default", 1, {}, false}}; // from an earlier session
     ExpectedTime expected(study);
     EXPECT_FALSE(expected.secondsLeft());
-    expected.referenceTook(100); // ten times a run's samples: 10 s a run, 7 runs, one reference
+    expected.referenceTook(100,
+                           100); // ten times a run's samples: 10 s a run, 7 runs, one reference
     EXPECT_DOUBLE_EQ(*expected.secondsLeft(), 7 * 10 + 100);
     expected.runTook("a", "hemisphere", 20); // all other runs are expected to take 20 s as well
     EXPECT_DOUBLE_EQ(*expected.secondsLeft(), 6 * 20 + 100);
