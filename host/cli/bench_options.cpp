@@ -72,7 +72,8 @@ void declareBench(CLI::App& app, RawBenchOptions& raw, BenchOptions& options) {
     app.add_option("--rays", raw.raysPerPixel, "camera rays a pixel in ray sets [CPU: 1, GPU: 16]")
         ->type_name("N")
         ->group("Measuring");
-    app.add_option("--only", raw.parts, "bvh, rays, paths, variants, robustness, startup, transfer [all]")
+    app.add_option("--only", raw.parts,
+                   "bvh, rays, paths, variants, robustness, startup, transfer [all]")
         ->check(CLI::IsMember(partNames()))
         ->delimiter(',')
         ->allow_extra_args(false)
