@@ -128,6 +128,7 @@ RenderSettings settingsOf(const Picture& picture) {
     RenderSettings s;
     s.width = picture.width, s.height = picture.height;
     s.cs184 = true;
+    s.sampler = Sampler::Independent; // as theirs, and as --cs184 has it
     s.roulette.mode = Roulette::Mode::None;
     s.adaptive = {true, 32, 0.05};
     picture.change(s);
