@@ -3,6 +3,7 @@
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
+#include "host/core/stopwatch.hpp"
 #include "host/stress/device_subject.hpp"
 #include "host/stress/report.hpp"
 #include "host/vulkan/open_device.hpp"
@@ -20,7 +21,8 @@ namespace {
 using stress::Case;
 using stress::Outcome;
 
-/// Names the case that runs, on standard error and only on a terminal.
+/// Names the case that runs and says how long the others may take, on standard error and only on a
+/// terminal.
 class CaseLine {
   public:
     explicit CaseLine(bool wanted) : shown_(wanted && isatty(STDERR_FILENO)) {}
@@ -30,7 +32,7 @@ class CaseLine {
 
     void show(const std::string& name, size_t number, size_t count) {
         if (!shown_) return;
-        fmt::print(stderr, "\r\033[K{} of {}: {}", number, count, name);
+        fmt::print(stderr, "\r\033[K{} of {}: {}{}", number, count, name, timeLeft(number, count));
         std::fflush(stderr);
     }
     void clear() {
@@ -40,7 +42,15 @@ class CaseLine {
     }
 
   private:
+    /// As if all cases took the mean time of those that are done; nothing before the first is.
+    std::string timeLeft(size_t number, size_t count) const {
+        if (number == 1) return "";
+        const double each = watch_.seconds() / double(number - 1);
+        return fmt::format(", about {} left", formatDuration(each * double(count - number + 1)));
+    }
+
     bool shown_;
+    Stopwatch watch_;
 };
 
 /// "14, 30" has 14 and 30.

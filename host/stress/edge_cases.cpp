@@ -1,7 +1,7 @@
 // Rays at the edges and corners that triangles share: where a test that is not watertight lets
 // them through.
 #include "host/stress/case.hpp"
-#include "host/stress/meshes.hpp"
+#include "scene/generate/hard_meshes.hpp"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>

@@ -1,7 +1,7 @@
 // Primitives that are hard to hit, and rays that are hard to follow.
 #include "host/stress/case.hpp"
-#include "host/stress/meshes.hpp"
 #include "host/stress/oracle.hpp"
+#include "scene/generate/hard_meshes.hpp"
 
 #include <fmt/format.h>
 

@@ -59,7 +59,7 @@ Finding lampsNearFloors(Run& run) {
         for (const float scale : sizes(run))
             for (const bool round : {false, true}) {
                 SceneMaker m;
-                const uint32_t white = m.add(diffuse(0.5f)), light = m.add(lamp(1));
+                const uint32_t white = m.add(diffuse(0.5f)), light = m.add(lamp(1, false));
                 const float size = std::min(height, 1.0f); // of the lamp
                 m.quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, white);
                 if (round)
@@ -89,7 +89,7 @@ Finding leaks(Run& run) {
             for (const bool flipped : {false, true}) {
                 if (run.quick() && flipped == (mode == DirectLight::Bsdf)) continue;
                 SceneMaker m;
-                const uint32_t surface = m.add(material), light = m.add(lamp(1));
+                const uint32_t surface = m.add(material), light = m.add(lamp(1, false));
                 m.quad({-1, 0, -1}, flipped ? glm::vec3(2, 0, 0) : glm::vec3(0, 0, 2),
                        flipped ? glm::vec3(0, 0, 2) : glm::vec3(2, 0, 0), surface);
                 m.scene.normals = {{0.8f, flipped ? -0.6f : 0.6f, 0}};

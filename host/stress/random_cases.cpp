@@ -1,6 +1,6 @@
 // The kernel's random numbers.
+#include "host/core/random.hpp"
 #include "host/stress/case.hpp"
-#include "host/stress/random.hpp"
 
 #include <fmt/format.h>
 

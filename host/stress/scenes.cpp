@@ -4,115 +4,6 @@
 
 namespace stromboli::stress {
 
-uint32_t SceneMaker::add(const Material& material) {
-    scene.materials.push_back(material);
-    return uint32_t(scene.materials.size() - 1);
-}
-
-void SceneMaker::startInstance() {
-    scene.instances.push_back("instance " + std::to_string(scene.instances.size()));
-}
-
-void SceneMaker::addFace(const std::array<glm::vec3, 4>& corners, uint32_t material) {
-    const auto first = uint32_t(scene.positions.size());
-    scene.positions.insert(scene.positions.end(), corners.begin(), corners.end());
-    for (const uint32_t i : {1u, 2u}) {
-        Triangle& t = scene.triangles.emplace_back();
-        t.corner[0] = first, t.corner[1] = first + i, t.corner[2] = first + i + 1;
-        t.material = material;
-        t.instance = uint32_t(scene.instances.size() - 1);
-    }
-}
-
-void SceneMaker::quad(const glm::vec3& corner, const glm::vec3& edgeA, const glm::vec3& edgeB,
-                      uint32_t material) {
-    startInstance();
-    addFace({corner, corner + edgeA, corner + edgeA + edgeB, corner + edgeB}, material);
-}
-
-void SceneMaker::box(const glm::vec3& lo, const glm::vec3& hi, uint32_t material, bool inwards) {
-    startInstance();
-    for (int k = 0; k < 3; ++k)
-        for (const bool high : {false, true}) {
-            // Taken from lo and hi, not summed: the box is closed to the last bit.
-            const auto corner = [&](bool a, bool b) {
-                glm::vec3 p;
-                p[k] = (high ? hi : lo)[k];
-                p[(k + 1) % 3] = (a ? hi : lo)[(k + 1) % 3];
-                p[(k + 2) % 3] = (b ? hi : lo)[(k + 2) % 3];
-                return p;
-            };
-            if (high != inwards)
-                addFace({corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)}, material);
-            else
-                addFace({corner(0, 0), corner(0, 1), corner(1, 1), corner(1, 0)}, material);
-        }
-}
-
-void SceneMaker::sphere(const glm::vec3& center, float radius, uint32_t material) {
-    startInstance();
-    Sphere& s = scene.spheres.emplace_back();
-    s.center = center, s.radius = radius, s.material = material;
-    s.instance = uint32_t(scene.instances.size() - 1);
-}
-
-Material diffuse(float albedo, float emission) {
-    Material m;
-    m.albedo = glm::vec3(albedo);
-    m.emission = glm::vec3(emission);
-    return m;
-}
-
-Material mirror(float reflectance, float emission) {
-    Material m;
-    m.kind = MaterialKind::Mirror;
-    m.reflectance = glm::vec3(reflectance);
-    m.emission = glm::vec3(emission);
-    return m;
-}
-
-Material glass(float ior) {
-    Material m;
-    m.kind = MaterialKind::Glass;
-    m.ior = ior;
-    return m;
-}
-
-Material metal(float alpha, float emission) {
-    Material m;
-    m.kind = MaterialKind::Microfacet;
-    m.alpha = alpha;
-    m.eta = glm::vec3(1.2f);
-    m.k = glm::vec3(3);
-    m.emission = glm::vec3(emission);
-    return m;
-}
-
-Material lamp(float radiance, bool bothSides) {
-    Material m = diffuse(0, radiance);
-    m.emitsBothSides = bothSides;
-    return m;
-}
-
-Light ambient(float radiance) {
-    Light light;
-    light.kind = LightKind::Ambient;
-    light.color = glm::vec3(radiance);
-    return light;
-}
-
-Scene cornellBox() {
-    SceneMaker m;
-    Material walls = diffuse(0.7f);
-    walls.albedo = {0.7f, 0.3f, 0.2f};
-    m.box({0, 0, 0}, {1, 1, 1}, m.add(walls), true);
-    m.quad({0.3125f, 0.984375f, 0.3125f}, {0.375f, 0, 0}, {0, 0, 0.375f}, m.add(lamp(10)));
-    m.sphere({0.3125f, 0.25f, 0.3125f}, 0.1875f, m.add(mirror(0.9f)));
-    m.sphere({0.6875f, 0.25f, 0.625f}, 0.1875f, m.add(glass(1.5f)));
-    m.quad({0.125f, 0.5f, 0.125f}, {0.5f, 0, 0}, {0, 0.375f, 0.125f}, m.add(metal(0.3f)));
-    return m.scene;
-}
-
 std::vector<float> sizes(const Run& run) {
     if (run.quick()) return {1e-6f, 1e6f};
     return {1e-6f, 1e-4f, 1e-2f, 1, 1e2f, 1e4f, 1e6f};
@@ -142,17 +33,6 @@ Scene turned(Scene scene) {
     for (Sphere& s : scene.spheres)
         s.center = glm::vec3(turn * glm::dvec3(s.center));
     return scene;
-}
-
-Camera lookingAt(const glm::dvec3& from, const glm::dvec3& at, double halfWidth) {
-    Camera camera;
-    camera.position = from;
-    camera.back = glm::normalize(from - at);
-    const glm::dvec3 up = std::abs(camera.back.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
-    camera.right = glm::normalize(glm::cross(up, camera.back));
-    camera.up = glm::cross(camera.back, camera.right);
-    camera.halfWidth = camera.halfHeight = halfWidth;
-    return camera;
 }
 
 RenderSettings picture(uint32_t side, uint32_t samplesPerPixel, uint32_t maxBounces) {

@@ -88,6 +88,17 @@ FileCamera opticsOf(const Scene& scene) {
 
 } // namespace
 
+Camera lookingAt(const glm::dvec3& from, const glm::dvec3& at, double halfWidth) {
+    Camera camera;
+    camera.position = from;
+    camera.back = glm::normalize(from - at);
+    const glm::dvec3 up = std::abs(camera.back.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
+    camera.right = glm::normalize(glm::cross(up, camera.back));
+    camera.up = glm::cross(camera.back, camera.right);
+    camera.halfWidth = camera.halfHeight = halfWidth;
+    return camera;
+}
+
 PictureSize defaultPictureSize(const Scene& scene, CameraChoice choice, bool cs184) {
     if (cs184 || scene.cameras.empty() || !usesFile(scene, choice)) return {};
     const Frustum f = fileFrustum(scene.cameras.back(), kCs184Width / kCs184Height);

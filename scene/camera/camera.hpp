@@ -26,6 +26,10 @@ struct Camera {
     bool clipAlongRay = false;
 };
 
+/// Sees `at` from `from`; halfWidth: the tangent of half the angle of view, or half the width of an
+/// orthographic picture.
+Camera lookingAt(const glm::dvec3& from, const glm::dvec3& at, double halfWidth);
+
 enum class CameraChoice {
     Automatic, ///< the file's camera; a CGL-dialect file, or one without a camera, is framed
     File,      ///< the file's camera

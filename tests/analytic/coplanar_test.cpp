@@ -10,7 +10,7 @@ using namespace test;
 
 /// `copies` floors in the plane with this normal through `at`, and a point light over it.
 Scene floors(int copies, const glm::vec3& at, const glm::vec3& edgeA, const glm::vec3& edgeB) {
-    SceneBuilder b;
+    SceneMaker b;
     const uint32_t material = b.add(diffuse(0.5f));
     for (int i = 0; i < copies; ++i)
         b.quad(at - 0.5f * edgeA - 0.5f * edgeB, edgeA, edgeB, material);

@@ -21,8 +21,8 @@ RenderSettings cs184(uint32_t samples, uint32_t maxBounces = 1) {
     return s;
 }
 
-SceneBuilder floor() {
-    SceneBuilder b;
+SceneMaker floor() {
+    SceneMaker b;
     addFloor(b, b.add(diffuse(0.5f)));
     return b;
 }
@@ -41,7 +41,7 @@ Light rectangle(const glm::vec3& position, const glm::vec3& normal) {
 
 TEST(Cs184, AreaLightFallsOffWithDistanceNotItsSquare) {
     for (float height : {1.0f, 2.0f, 4.0f}) {
-        SceneBuilder b = floor();
+        SceneMaker b = floor();
         b.add(rectangle({0, height, 0}, {0, -1, 0}));
         // Radiance times area is 1; the lamp is small enough for a point to 1e-6.
         const Estimate found = estimate(b.scene, kFromAbove, cs184(16));
@@ -50,7 +50,7 @@ TEST(Cs184, AreaLightFallsOffWithDistanceNotItsSquare) {
 }
 
 TEST(Cs184, AreaLightIsOneSidedAndHiddenFromCameras) {
-    SceneBuilder b = floor();
+    SceneMaker b = floor();
     b.add(rectangle({0, 1, 0}, {0, 1, 0}));
     expectMean(estimate(b.scene, kFromAbove, cs184(4)), 0);
     Scene alone;
@@ -59,7 +59,7 @@ TEST(Cs184, AreaLightIsOneSidedAndHiddenFromCameras) {
 }
 
 TEST(Cs184, MeshInTheLightsPlaneDoesNotShadeIt) {
-    SceneBuilder b = floor();
+    SceneMaker b = floor();
     // 1.49 and its neighbours in float: what transforms of two objects give.
     for (float y : {1.49f, std::nextafter(1.49f, 1.0f), std::nextafter(1.49f, 2.0f)}) {
         b.scene.triangles.resize(2);
@@ -74,7 +74,7 @@ TEST(Cs184, MeshInTheLightsPlaneDoesNotShadeIt) {
 }
 
 TEST(Cs184, SurfacesShowTheirFrontSidesLightFromBehind) {
-    SceneBuilder b = floor();
+    SceneMaker b = floor();
     b.add(rectangle({0, 1, 0}, {0, -1, 0}));
     EXPECT_NEAR(estimate(b.scene, kFromBelow, cs184(4)).mean.x / kF, 1, 1e-6);
     b.scene.lights = {rectangle({0, -1, 0}, {0, 1, 0})}; // below the normal
@@ -82,7 +82,7 @@ TEST(Cs184, SurfacesShowTheirFrontSidesLightFromBehind) {
 }
 
 TEST(Cs184, PointLightHasNoFalloff) {
-    SceneBuilder b = floor();
+    SceneMaker b = floor();
     Light light;
     light.position = {0, 4, 3};
     light.quadraticAttenuation = 2;
@@ -91,7 +91,7 @@ TEST(Cs184, PointLightHasNoFalloff) {
 }
 
 TEST(Cs184, SpotLightIsDark) {
-    SceneBuilder b = floor();
+    SceneMaker b = floor();
     Light light;
     light.kind = LightKind::Spot;
     light.position = {0, 4, 0};
@@ -101,7 +101,7 @@ TEST(Cs184, SpotLightIsDark) {
 }
 
 TEST(Cs184, AmbientComesFromAboveOnly) {
-    SceneBuilder b;
+    SceneMaker b;
     b.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, b.add(diffuse(0.5f)));
     b.scene.lights.emplace_back().kind = LightKind::Ambient;
     expectMean(estimate(b.scene, kFromAbove, cs184(64)), 0.25);
@@ -113,7 +113,7 @@ TEST(Cs184, AmbientComesFromAboveOnly) {
 }
 
 TEST(Cs184, LampsAreNotSampledButSeenByHemisphereAndAfterMirrors) {
-    SceneBuilder b = floor();
+    SceneMaker b = floor();
     b.sphere({0, 0, 0}, 20, b.add(lamp(2, false))); // one-sided outwards: emits inside all the same
     expectMean(estimate(b.scene, kFromAbove, cs184(4, 3)), 0);
     RenderSettings s = cs184(64);
@@ -130,7 +130,7 @@ TEST(Cs184, LampsAreNotSampledButSeenByHemisphereAndAfterMirrors) {
 }
 
 TEST(Cs184, RefractionScalesRadianceTheOtherWay) {
-    SceneBuilder b;
+    SceneMaker b;
     b.sphere({0, 0, 0}, 20, b.add(lamp(1)));
     b.sphere({0, 0, 0}, 1, b.add(glass(1.5f)));
     const Camera center = pointCamera({0, 0, 0}, {0, 0, 1}, 0.5);

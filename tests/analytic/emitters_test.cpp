@@ -28,7 +28,7 @@ double polygonIrradiance(const std::vector<glm::dvec3>& corners, const glm::dvec
 
 class Emitters : public testing::TestWithParam<DirectLight> {
   protected:
-    SceneBuilder builder;
+    SceneMaker builder;
     RenderSettings settings = smallPicture(256, 1);
 
     void SetUp() override {
@@ -128,7 +128,7 @@ TEST_P(Emitters, MirrorShowsTheLamp) {
 INSTANTIATE_TEST_SUITE_P(AllModes, Emitters, testing::ValuesIn(kDirectLightModes));
 
 TEST(FarSphere, LightsModeFindsWhatNoOtherModeWould) {
-    SceneBuilder b;
+    SceneMaker b;
     addFloor(b, b.add(diffuse(0.5f)));
     b.sphere({0, 1e4f, 0}, 0.25f, b.add(lamp(1e9f)));
     expectMean(estimate(b.scene, kSeesOrigin, smallPicture(16, 1)), 0.5 * 1e9 * 0.0625 / 1e8);

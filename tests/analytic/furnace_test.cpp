@@ -21,14 +21,14 @@ double partialSum(double a, uint32_t from, uint32_t to) {
 }
 
 Scene sphereFurnace(float albedo) {
-    SceneBuilder b;
+    SceneMaker b;
     b.sphere({0, 0, 0}, 1, b.add(diffuse(albedo, 1)));
     return b.scene;
 }
 
 Scene boxFurnace(const Material& material) {
-    SceneBuilder b;
-    b.room({-1, -1, -1}, {1, 1, 1}, b.add(material));
+    SceneMaker b;
+    b.box({-1, -1, -1}, {1, 1, 1}, b.add(material), true);
     return b.scene;
 }
 

@@ -9,7 +9,7 @@ namespace {
 using namespace test;
 
 Scene sphereInAmbientLight(const Material& material) {
-    SceneBuilder b;
+    SceneMaker b;
     b.sphere({0, 0, 0}, 1, b.add(material));
     b.scene.lights.emplace_back().kind = LightKind::Ambient;
     return b.scene;

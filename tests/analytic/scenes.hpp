@@ -4,6 +4,7 @@
 #include "host/render/backend.hpp"
 #include "host/render/settings.hpp"
 #include "scene/camera/camera.hpp"
+#include "scene/generate/scene_maker.hpp"
 #include "scene/model/scene.hpp"
 
 #include <initializer_list>
@@ -12,41 +13,15 @@
 
 namespace stromboli::test {
 
-/// Makes scenes in code.
-class SceneBuilder {
-  public:
-    Scene scene;
-
-    uint32_t add(const Material& material);
-    /// Starts a new instance for the geometry that follows.
-    void startInstance();
-    /// Counter-clockwise from the side the normal points to.
-    void triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, uint32_t material);
-    /// Normal edgeA x edgeB; an instance of its own.
-    void quad(const glm::vec3& corner, const glm::vec3& edgeA, const glm::vec3& edgeB,
-              uint32_t material);
-    /// Closed box with normals inwards, one instance.
-    void room(const glm::vec3& lo, const glm::vec3& hi, uint32_t material);
-    void sphere(const glm::vec3& center, float radius, uint32_t material);
-    void add(const Light& light) { scene.lights.push_back(light); }
-
-  private:
-    void addQuad(const glm::vec3& corner, const glm::vec3& edgeA, const glm::vec3& edgeB,
-                 uint32_t material);
-};
-
-Material diffuse(float albedo, float emission = 0);
-Material lamp(float radiance, bool bothSides = true);
-Material glass(float ior);
+using namespace scenes;
 
 /// Side 20, y = 0, normal up.
-void addFloor(SceneBuilder& builder, uint32_t material);
-
-/// Unit box with a lamp below its ceiling, a mirror and a glass sphere, and a conductor quad.
-Scene cornellBox();
+void addFloor(SceneMaker& builder, uint32_t material);
 
 /// Sees the point `at` from `from`, so narrowly that the whole picture is that point.
-Camera pointCamera(const glm::dvec3& from, const glm::dvec3& at, double halfWidth = 1e-10);
+inline Camera pointCamera(const glm::dvec3& from, const glm::dvec3& at, double halfWidth = 1e-10) {
+    return lookingAt(from, at, halfWidth);
+}
 
 /// Settings of a small picture without roulette.
 RenderSettings smallPicture(uint32_t samplesPerPixel, uint32_t maxBounces);

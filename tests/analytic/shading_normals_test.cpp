@@ -15,8 +15,8 @@ constexpr double kF = 0.5 / 3.14159265358979323846; ///< BSDF of the triangle
 const Camera kFromAbove = pointCamera({0.5, 2, 0}, {0, 0, 0});
 const glm::vec3 kShadingNormal(0.8f, 0.6f, 0);
 
-SceneBuilder tiltedTriangle(const Material& material) {
-    SceneBuilder b;
+SceneMaker tiltedTriangle(const Material& material) {
+    SceneMaker b;
     b.triangle({-0.1f, 0, -0.1f}, {0, 0, 0.2f}, {0.2f, 0, -0.1f}, b.add(material));
     b.scene.normals = {kShadingNormal};
     for (uint32_t& n : b.scene.triangles[0].normals)
@@ -31,7 +31,7 @@ Light pointLight(const glm::vec3& position) {
 }
 
 TEST(ShadingNormals, CosineIsTheirs) {
-    SceneBuilder b = tiltedTriangle(diffuse(0.5f));
+    SceneMaker b = tiltedTriangle(diffuse(0.5f));
     b.add(pointLight({1, 1, 0}));
     const double cosine =
         glm::dot(glm::normalize(glm::dvec3(1, 1, 0)), glm::normalize(glm::dvec3(kShadingNormal)));
@@ -40,13 +40,13 @@ TEST(ShadingNormals, CosineIsTheirs) {
 }
 
 TEST(ShadingNormals, NothingComesFromBelowThem) {
-    SceneBuilder b = tiltedTriangle(diffuse(0.5f));
+    SceneMaker b = tiltedTriangle(diffuse(0.5f));
     b.add(pointLight({-3, 1, 0})); // above the triangle
     expectMean(estimate(b.scene, kFromAbove, smallPicture(1, 1)), 0);
 }
 
 TEST(ShadingNormals, AreFlippedForTheOtherSide) {
-    SceneBuilder b = tiltedTriangle(diffuse(0.5f));
+    SceneMaker b = tiltedTriangle(diffuse(0.5f));
     b.add(pointLight({0, -1, 0}));
     const Camera fromBelow = pointCamera({-0.5, -2, 0}, {0, 0, 0});
     const Estimate found = estimate(b.scene, fromBelow, smallPicture(1, 1));
@@ -54,7 +54,7 @@ TEST(ShadingNormals, AreFlippedForTheOtherSide) {
 }
 
 TEST(ShadingNormals, GeometricNormalStandsInBeyondTheirHorizon) {
-    SceneBuilder b = tiltedTriangle(diffuse(0.5f));
+    SceneMaker b = tiltedTriangle(diffuse(0.5f));
     b.add(pointLight({0, 1, 0}));
     const Camera low = pointCamera({-2, 0.5, 0}, {0, 0, 0}); // above the triangle, below the normal
     const Estimate found = estimate(b.scene, low, smallPicture(1, 1));
@@ -70,7 +70,7 @@ TEST(ShadingNormals, LetNoLightThroughTheSurface) {
     Material mirror;
     mirror.kind = MaterialKind::Mirror;
     for (const Material& material : {diffuse(0.5f), metal, mirror}) {
-        SceneBuilder b = tiltedTriangle(material);
+        SceneMaker b = tiltedTriangle(material);
         b.sphere({2, -0.4f, 0}, 0.35f, b.add(lamp(1)));
         b.add(pointLight({2, -0.2f, 0}));
         for (DirectLight mode : kDirectLightModes) {

@@ -17,7 +17,7 @@ constexpr double kF = 0.5 / kPi; ///< BSDF of the floor
 const Camera kSeesOrigin = pointCamera({1, 2, 3}, {0, 0, 0});
 
 Scene floorUnder(const Light& light) {
-    SceneBuilder b;
+    SceneMaker b;
     addFloor(b, b.add(diffuse(0.5f)));
     b.add(light);
     return b.scene;
@@ -61,7 +61,7 @@ TEST(SimpleLights, TwoSidedFloorIsLitFromBelow) {
 }
 
 TEST(SimpleLights, Shadow) {
-    SceneBuilder b;
+    SceneMaker b;
     addFloor(b, b.add(diffuse(0.5f)));
     b.sphere({0, 1, 0.75f}, 0.1f, 0);
     b.add(lightAbove(LightKind::Point));
@@ -102,7 +102,7 @@ TEST(SimpleLights, AmbientFromAllSidesInEveryMode) {
 }
 
 TEST(SimpleLights, UpperHemisphereLightsHalfOfAWall) {
-    SceneBuilder b;
+    SceneMaker b;
     b.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, b.add(diffuse(0.5f)));
     Light light;
     light.kind = LightKind::Ambient;
@@ -126,7 +126,7 @@ TEST(SimpleLights, AmbientIsNoBackdrop) {
 }
 
 TEST(SimpleLights, MirrorShowsAmbientLightWithoutDirectLight) {
-    SceneBuilder b;
+    SceneMaker b;
     Material mirror;
     mirror.kind = MaterialKind::Mirror;
     mirror.reflectance = glm::vec3(0.25f);

@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(Library, SingleSample,
 
 /// A sphere of infinite radiance reaches into the middle pixel.
 TEST(RejectedSample, IsFoundAgainByItsNumber) {
-    SceneBuilder b;
+    SceneMaker b;
     b.sphere({0.5f, 0, 0}, 0.5f, b.add(lamp(std::numeric_limits<float>::infinity())));
     b.sphere({-0.5f, 0, 0}, 0.5f, b.add(lamp(3)));
     RenderSettings s = smallPicture(24, 0);

@@ -53,7 +53,7 @@ Camera fromOutside() {
 }
 
 TEST(SmoothLeak, NoneOutOfAClosedSphere) {
-    SceneBuilder b;
+    SceneMaker b;
     addSmoothSphere(b, 5, 8, b.add(diffuse(0.5f)));
     const uint32_t materials[] = {0, b.add(mirror()), b.add(metal())};
     for (size_t i = 0; i < b.scene.triangles.size(); ++i)
@@ -64,7 +64,7 @@ TEST(SmoothLeak, NoneOutOfAClosedSphere) {
 }
 
 TEST(SmoothLeak, NoneIntoAClosedSphere) {
-    SceneBuilder b;
+    SceneMaker b;
     addSmoothSphere(b, 5, 8, b.add(diffuse(0.5f)));
     b.sphere({1.6f, 0.2f, 0}, 0.4f, b.add(lamp(5)));
     b.add(pointLight({0, -1.3f, 0.4f}));
@@ -76,7 +76,7 @@ TEST(SmoothLeak, NoneIntoAClosedSphere) {
 Scene roughRoom(double mostTilt) {
     std::mt19937 generator(5);
     std::uniform_real_distribution<double> uniform;
-    SceneBuilder b;
+    SceneMaker b;
     const uint32_t material = b.add(diffuse(0.5f));
     b.startInstance();
     const auto tilted = [&](const glm::dvec3& n, const glm::dvec3& x, const glm::dvec3& y) {
@@ -110,7 +110,7 @@ Scene roughRoom(double mostTilt) {
 
 TEST(SmoothLeak, NoneIntoARoomWithWildNormals) {
     for (const double tilt : {0.3, 1.4}) {
-        SceneBuilder b;
+        SceneMaker b;
         b.scene = roughRoom(tilt);
         b.sphere({0, -1.6f, 0}, 0.5f, b.add(lamp(5)));
         b.sphere({0, 0.2f, 2.6f}, 1.4f, b.add(lamp(5)));
@@ -128,7 +128,7 @@ TEST(SmoothLeak, DegenerateNormals) {
                                   {up, down, up},
                                   {up, down, level},
                                   {glm::vec3(0, 1e-20f, 1), up, glm::vec3(0.5f, -1e-20f, 1)}};
-    SceneBuilder b;
+    SceneMaker b;
     const uint32_t grey = b.add(diffuse(0.5f));
     for (size_t i = 0; i < std::size(cases); ++i) {
         const float x = 0.5f * float(i) - 1;

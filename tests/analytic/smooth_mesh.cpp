@@ -16,7 +16,7 @@ glm::dvec3 normalOf(const Scene& scene, const Triangle& t) {
 }
 
 /// A triangle whose corners are also its normals.
-void addFacet(SceneBuilder& builder, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c,
+void addFacet(SceneMaker& builder, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c,
               uint32_t material) {
     builder.triangle(a, b, c, material);
     setNormals(builder.scene, builder.scene.triangles.size() - 1, a, b, c);
@@ -24,7 +24,7 @@ void addFacet(SceneBuilder& builder, const glm::vec3& a, const glm::vec3& b, con
 
 } // namespace
 
-void addSmoothSphere(SceneBuilder& builder, uint32_t rows, uint32_t columns, uint32_t material) {
+void addSmoothSphere(SceneMaker& builder, uint32_t rows, uint32_t columns, uint32_t material) {
     const auto point = [&](uint32_t row, uint32_t column) {
         const double theta = 3.14159265358979323846 * row / rows;
         const double phi = 2 * 3.14159265358979323846 * (column % columns) / columns;

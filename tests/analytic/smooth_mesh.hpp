@@ -8,7 +8,7 @@ namespace stromboli::test {
 
 /// A unit sphere about the origin of `rows` x `columns` facets with the sphere's normals: a smooth
 /// low-poly mesh. All corners lie on the sphere.
-void addSmoothSphere(SceneBuilder& builder, uint32_t rows, uint32_t columns, uint32_t material);
+void addSmoothSphere(SceneMaker& builder, uint32_t rows, uint32_t columns, uint32_t material);
 
 /// Gives triangle `index` these corner normals.
 void setNormals(Scene& scene, size_t index, const glm::vec3& n0, const glm::vec3& n1,

@@ -89,7 +89,7 @@ Falloff falloffOf(const ScanLine& line, const std::vector<double>& radiance) {
 class Terminator : public testing::TestWithParam<std::pair<uint32_t, uint32_t>> {
   protected:
     Scene sphere() const {
-        SceneBuilder b;
+        SceneMaker b;
         addSmoothSphere(b, GetParam().first, GetParam().second, b.add(diffuse(float(kAlbedo))));
         Light sun;
         sun.kind = LightKind::Directional;
@@ -135,7 +135,7 @@ INSTANTIATE_TEST_SUITE_P(Spheres, Terminator,
 /// The white furnace: all of what a convex surface scatters escapes to the uniform light around it,
 /// so that every sample is the albedo, no more and no less.
 void expectNothingLost(const Material& material, DirectLight mode, double albedo) {
-    SceneBuilder b;
+    SceneMaker b;
     addSmoothSphere(b, 8, 16, b.add(material));
     Light sky;
     sky.kind = LightKind::Ambient;
@@ -166,7 +166,7 @@ TEST(SmoothFurnace, NothingIsLostOutside) {
 /// The share of a cosine lobe that a plane tilted by an angle cuts off is (1 - cos angle) / 2: what
 /// goes there is lost on the inner side, which is concave, and was lost on the outer one.
 TEST(SmoothFurnace, LittleIsLostInside) {
-    SceneBuilder b;
+    SceneMaker b;
     addSmoothSphere(b, 8, 16, b.add(diffuse(0.75f, 1)));
     const double share = (1 - std::cos(largestTilt(b.scene))) / 2;
     ASSERT_LT(share, 0.02);
@@ -182,7 +182,7 @@ TEST(SmoothFurnace, LittleIsLostInside) {
 
 /// Lamps near enough for the lift to matter: what is sampled is what bounces find.
 TEST(SmoothSphere, EveryWayOfFindingLampsGivesTheSame) {
-    SceneBuilder b;
+    SceneMaker b;
     addSmoothSphere(b, 5, 8, b.add(diffuse(float(kAlbedo))));
     b.sphere({2.2f, 0, 0.5f}, 1, b.add(lamp(1)));
     b.quad({-1, 1.3f, -1}, {2, 0, 0}, {0, 0, 2}, b.add(lamp(1)));

@@ -4,8 +4,8 @@
 #include "host/bench/device_rays.hpp"
 #include "host/bench/embree.hpp"
 #include "host/bench/ray_bench.hpp"
-#include "host/stress/meshes.hpp"
 #include "host/stress/oracle.hpp"
+#include "scene/generate/hard_meshes.hpp"
 #include "tests/support/device_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ Verdict judge(const Scene& scene, const RaySet& set, double error) {
 }
 
 /// Rays at corners and edges of the mesh, through it, from inside and outside.
-RaySet raysAt(const Scene& mesh, uint32_t count, stress::Random& random) {
+RaySet raysAt(const Scene& mesh, uint32_t count, Random& random) {
     RaySet set{"hard", false, {}};
     for (uint32_t i = 0; i < count; ++i) {
         const Triangle& t = mesh.triangles[random.below(uint32_t(mesh.triangles.size()))];
@@ -64,11 +64,11 @@ RaySet raysAt(const Scene& mesh, uint32_t count, stress::Random& random) {
 }
 
 TEST_F(DeviceTest, EmbreeFindsTheSameHitsOrIsWrong) {
-    stress::Random random(17);
+    Random random(17);
     // Coordinates stay below 8 and carry some 20 roundings (stress: soups).
     constexpr double kError = 8 * 20 * 0x1p-24;
-    for (const Scene& scene : {stress::soup(1500, 0, 0.2f, random), stress::starMesh(2, random),
-                               stress::starMesh(5, random)}) {
+    for (const Scene& scene :
+         {soup(1500, 0, 0.2f, random), starMesh(2, random), starMesh(5, random)}) {
         const RaySet set = raysAt(scene, 20000, random);
         const Verdict verdict = judge(scene, set, kError);
         EXPECT_EQ(verdict.wrong, 0u) << verdict.disagreements << " disagreements";
@@ -79,8 +79,8 @@ TEST_F(DeviceTest, EmbreeFindsTheSameHitsOrIsWrong) {
 
 /// Negative control: a triangle is missing on the device.
 TEST_F(DeviceTest, EmbreeFindsAMissingTriangle) {
-    stress::Random random(18);
-    Scene scene = stress::starMesh(2, random);
+    Random random(18);
+    Scene scene = starMesh(2, random);
     const RaySet set = raysAt(scene, 20000, random);
     const auto built =
         embree().build(embree().geometry(scene), EmbreeMode::Robust, EmbreeQuality::High);

@@ -1,8 +1,8 @@
 // No decoded box is ever inside the true one: the margin holds on hard intervals, exactly.
 
 #include "host/bvh/box_grid.hpp"
+#include "host/core/random.hpp"
 #include "shaders/shared/scene_types.h"
-#include "tests/bvh/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -17,28 +17,6 @@ void addIndexedTriangle(Scene& scene, uint32_t a, uint32_t b, uint32_t c) {
     scene.triangles.push_back(t);
 }
 
-/// Divides every triangle into four, at the middles of its edges.
-Scene divided(const Scene& mesh) {
-    Scene result;
-    result.positions = mesh.positions;
-    std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
-    const auto middle = [&](uint32_t a, uint32_t b) {
-        const auto [entry, isNew] =
-            middles.try_emplace(std::minmax(a, b), uint32_t(result.positions.size()));
-        if (isNew) result.positions.push_back(0.5f * (mesh.positions[a] + mesh.positions[b]));
-        return entry->second;
-    };
-    for (const Triangle& t : mesh.triangles) {
-        const uint32_t a = t.corner[0], b = t.corner[1], c = t.corner[2];
-        const uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-        addIndexedTriangle(result, a, ab, ca);
-        addIndexedTriangle(result, ab, b, bc);
-        addIndexedTriangle(result, ca, bc, c);
-        addIndexedTriangle(result, ab, bc, ca);
-    }
-    return result;
-}
-
 } // namespace
 
 Traceable::Traceable(Scene scene_, const BuildOptions& options)
@@ -66,35 +44,6 @@ void addTriangle(Scene& scene, const glm::vec3& a, const glm::vec3& b, const glm
     const uint32_t first = uint32_t(scene.positions.size());
     scene.positions.insert(scene.positions.end(), {a, b, c});
     addIndexedTriangle(scene, first, first + 1, first + 2);
-}
-
-Scene soup(uint32_t triangles, uint32_t spheres, float size, Random& random) {
-    Scene scene;
-    for (uint32_t i = 0; i < triangles; ++i) {
-        const glm::vec3 center = random.inCube(1);
-        const glm::vec3 a = center + random.inCube(size), b = center + random.inCube(size);
-        addTriangle(scene, a, b, center + random.inCube(size));
-    }
-    for (uint32_t i = 0; i < spheres; ++i) {
-        Sphere s;
-        s.center = random.inCube(1);
-        s.radius = random.uniform(0.1f, 1.0f) * size;
-        scene.spheres.push_back(s);
-    }
-    return scene;
-}
-
-Scene starMesh(uint32_t levels, Random& random) {
-    Scene mesh;
-    mesh.positions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-    for (const uint32_t z : {4u, 5u})
-        for (const auto& [x, y] : {std::pair{0u, 2u}, {2u, 1u}, {1u, 3u}, {3u, 0u}})
-            z == 4 ? addIndexedTriangle(mesh, x, y, z) : addIndexedTriangle(mesh, y, x, z);
-    for (uint32_t i = 0; i < levels; ++i)
-        mesh = divided(mesh);
-    for (glm::vec3& p : mesh.positions)
-        p = glm::normalize(p) * random.uniform(0.6f, 1.4f);
-    return mesh;
 }
 
 Scene cubeMesh(uint32_t n) {
@@ -167,13 +116,6 @@ void addRoom(Scene& scene) {
     for (const Triangle& t : room.triangles)
         addTriangle(scene, room.positions[t.corner[0]], room.positions[t.corner[1]],
                     room.positions[t.corner[2]]);
-}
-
-void translate(Scene& scene, const glm::vec3& by) {
-    for (glm::vec3& p : scene.positions)
-        p += by;
-    for (Sphere& s : scene.spheres)
-        s.center += by;
 }
 
 void scale(Scene& scene, float factor) {

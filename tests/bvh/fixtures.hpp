@@ -2,8 +2,9 @@
 
 #include "host/bvh/cpu_traversal.hpp"
 #include "host/bvh/wide_layout.hpp"
+#include "host/core/random.hpp"
+#include "scene/generate/hard_meshes.hpp"
 #include "scene/model/scene.hpp"
-#include "tests/bvh/random.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -26,14 +27,6 @@ struct Traceable {
 
 void addTriangle(Scene& scene, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
-/// Triangles and spheres of extent about `size` in the cube [-1, 1]^3.
-Scene soup(uint32_t triangles, uint32_t spheres, float size, Random& random);
-
-/// A closed mesh that every ray from its middle meets once: an octahedron, each triangle divided
-/// into 4^levels, pushed out to the unit sphere and back to random radii in [0.6, 1.4]. Corners
-/// are shared.
-Scene starMesh(uint32_t levels, Random& random);
-
 /// The surface of the cube [-1, 1]^3 with n x n squares of two triangles on each face: its edges
 /// lie in the planes of its boxes. Corners are shared.
 Scene cubeMesh(uint32_t n);
@@ -52,9 +45,6 @@ std::vector<Bounds> boxesOf(const Scene& scene);
 
 /// The inside of a room [-1, 1]^3 of two triangles a side.
 void addRoom(Scene& scene);
-
-/// Each position moved by `by`, then rounded to float.
-void translate(Scene& scene, const glm::vec3& by);
 
 /// Positions and radii multiplied by the factor, then rounded to float.
 void scale(Scene& scene, float factor);

@@ -122,7 +122,7 @@ TEST(Layout, AbsentChildrenAreEnteredFromFarAwayAndDoNoHarm) {
     uint32_t enteredAbsent = 0, hits = 0;
     for (int i = 0; i < 3000; ++i) {
         TraversalRay ray;
-        ray.origin = 1e7f * random.direction();
+        ray.origin = 1e7f * random.vector();
         ray.direction = random.inCube(0.5f) - ray.origin;
         const PreparedRay prepared(ray.origin, ray.direction);
         for (const Record& record : t.layout.records) {

@@ -2,8 +2,8 @@
 
 #include "host/bvh/node_record.hpp"
 #include "host/bvh/ray_tests.hpp"
+#include "host/core/random.hpp"
 #include "tests/bvh/oracle.hpp"
-#include "tests/bvh/random.hpp"
 
 #include <gtest/gtest.h>
 
@@ -70,7 +70,7 @@ TEST(EnterChildren, LosesNoBoxThatTheExactRayMeets) {
                            : where == 1 ? box.hi[axis]
                                         : 0.5f * (box.lo[axis] + box.hi[axis]);
         }
-        glm::vec3 origin = target + random.direction() * (random.below(2) ? 3.0f : 1e7f);
+        glm::vec3 origin = target + random.vector() * (random.below(2) ? 3.0f : 1e7f);
         for (int axis = 0; axis < 3; ++axis)
             if (random.below(4) == 0) origin[axis] = target[axis];
         const glm::vec3 direction = target - origin;
@@ -145,7 +145,7 @@ TEST(HitTriangle, AgreesWithDoublePrecision) {
     uint32_t hits = 0, misses = 0;
     for (int i = 0; i < 200000; ++i) {
         const glm::vec3 a = random.inCube(1), b = random.inCube(1), c = random.inCube(1);
-        const glm::vec3 origin = random.inCube(2), direction = random.direction();
+        const glm::vec3 origin = random.inCube(2), direction = random.vector();
         const TriangleTruth truth = intersectInDouble(a, b, c, origin, direction);
         const auto hit = hitTriangle(a, b, c, PreparedRay(origin, direction));
         if (std::abs(truth.margin) < kMargin) continue;

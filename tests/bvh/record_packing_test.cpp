@@ -1,5 +1,5 @@
 #include "host/bvh/record_packing.hpp"
-#include "tests/bvh/random.hpp"
+#include "host/core/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -30,7 +30,7 @@ TraversalHit closestByTryingAll(const Traceable& t, const TraversalRay& ray) {
 TraversalRay randomRay(Random& random) {
     TraversalRay ray;
     ray.origin = random.inCube(random.below(2) ? 1.0f : 4.0f);
-    ray.direction = random.below(2) ? random.direction() : random.inCube(1) - ray.origin;
+    ray.direction = random.below(2) ? random.vector() : random.inCube(1) - ray.origin;
     const uint32_t kind = random.below(8);
     if (kind < 4) ray.direction[int(kind % 3)] = random.below(2) ? 0.0f : -0.0f;
     if (kind < 2) ray.direction[int(kind + 1)] = random.below(2) ? 0.0f : -0.0f;
@@ -88,7 +88,7 @@ TEST(Traversal, FlatScene) {
             ray.direction = glm::vec3(0.0f);
             ray.direction[axis] = ray.origin[axis] < 0.25f ? 2.0f : -2.0f;
             EXPECT_EQ(closestHit(t.layout, ray).t, closestByTryingAll(t, ray).t);
-            ray.direction = random.direction();
+            ray.direction = random.vector();
             ray.direction[axis] = 0;
             ray.origin[axis] = 0.25f;
             EXPECT_FALSE(closestHit(t.layout, ray));
@@ -196,7 +196,7 @@ TEST(Traversal, PairsAreTwoTriangles) {
     Random random(21);
     for (int i = 0; i < 2000; ++i) {
         TraversalRay ray;
-        ray.direction = random.direction();
+        ray.direction = random.vector();
         const TraversalHit hit = closestHit(t.layout, ray);
         ASSERT_TRUE(hit);
         const PreparedRay prepared(ray.origin, ray.direction);
@@ -264,7 +264,7 @@ TEST(Traversal, ExtremeFiniteRaysEnd) {
         for (int i = 0; i < 200; ++i) {
             TraversalRay ray;
             ray.origin = random.inCube(1);
-            ray.direction = random.direction() * size;
+            ray.direction = random.vector() * size;
             const TraversalHit hit = closestHit(t.layout, ray);
             EXPECT_FALSE(std::isnan(hit.t));
             ray.origin *= size;

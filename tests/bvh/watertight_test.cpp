@@ -113,8 +113,8 @@ TEST(Watertight, ClosedMeshesOfNeedles) {
     Random random(26);
     for (int i = 0; i < 12; ++i) {
         Scene mesh = starMesh(1 + random.below(3), random);
-        const glm::vec3 x = glm::normalize(random.direction());
-        const glm::vec3 y = glm::normalize(glm::cross(x, random.direction()));
+        const glm::vec3 x = glm::normalize(random.vector());
+        const glm::vec3 y = glm::normalize(glm::cross(x, random.vector()));
         const glm::mat3 axes(x, std::ldexp(1.0f, -int(random.below(20))) * y,
                              std::ldexp(1.0f, -int(random.below(20))) * glm::cross(x, y));
         for (glm::vec3& p : mesh.positions)

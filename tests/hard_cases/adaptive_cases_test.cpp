@@ -14,10 +14,10 @@ TEST_F(HardCases, C57_SamplesInTheFilmAreThoseTraced) {
     stress::DeviceSubject device(testDevice());
     RenderSettings s = stress::picture(32, 500, 0); // a sample is a ray
     s.adaptive = {true, 32, 0.05};
-    stress::SceneMaker m; // half of the picture lit, its edge noisy
-    m.quad({0, -1, 0}, {1, 0.1f, 0}, {0.1f, 2, 0}, m.add(stress::lamp(1, true)));
+    scenes::SceneMaker m; // half of the picture lit, its edge noisy
+    m.quad({0, -1, 0}, {1, 0.1f, 0}, {0.1f, 2, 0}, m.add(scenes::lamp(1, true)));
     const stress::Picture p =
-        device.render(m.scene, stress::lookingAt({0, 0, 1}, {0, 0, 0}, 0.9), s, {}, {});
+        device.render(m.scene, lookingAt({0, 0, 1}, {0, 0, 0}, 0.9), s, {}, {});
     uint64_t samples = 0;
     uint32_t least = s.samplesPerPixel, most = 0;
     for (const PixelStatistics& pixel : p.film.pixels) {

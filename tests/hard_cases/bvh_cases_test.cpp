@@ -201,7 +201,7 @@ TEST_F(HardCases, C27_RaysThatAreNotFiniteEndAtOnce) {
     uint32_t usual = 0, most = 0;
     for (int i = 0; i < 1000; ++i) {
         TraversalRay ray;
-        ray.origin = random.inCube(1), ray.direction = random.direction();
+        ray.origin = random.inCube(1), ray.direction = random.vector();
         usual += visits(ray);
         for (const float bad : {kNaN, -kNaN, kInfinity, -kInfinity}) {
             TraversalRay spoilt = ray;

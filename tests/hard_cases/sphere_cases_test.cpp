@@ -1,9 +1,9 @@
 // Hard cases 30 and 31: spheres from within and from far away, as surfaces and as lamps.
 #include "host/bvh/ray_tests.hpp"
+#include "host/core/random.hpp"
 #include "host/stress/device_subject.hpp"
 #include "host/stress/scenes.hpp"
 #include "host/stress/totals.hpp"
-#include "tests/bvh/random.hpp"
 #include "tests/hard_cases/cpu_subject.hpp"
 #include "tests/hard_cases/hits.hpp"
 #include "tests/hard_cases/naive_intersection.hpp"
@@ -28,7 +28,7 @@ TEST_F(HardCases, C30_SpheresFromEverywhere) {
             return found ? found->t : kInfiniteDistance;
         };
         for (int i = 0; i < 2000; ++i) {
-            const glm::vec3 n = glm::normalize(random.direction());
+            const glm::vec3 n = glm::normalize(random.vector());
             EXPECT_NEAR(hit(center, n) / radius, 1, 1e-6);
             const glm::vec3 inside = center + 0.5f * radius * random.inCube(1);
             const glm::dvec3 f = glm::dvec3(inside) - glm::dvec3(center), d(n);
@@ -38,7 +38,7 @@ TEST_F(HardCases, C30_SpheresFromEverywhere) {
             // Off the surface by a few roundings of what the point is made of, and away from it.
             const glm::vec3 on =
                 center + radius * (1 + 16 * 0x1p-24f) * n + 4 * 0x1p-24f * n * glm::length(center);
-            const glm::vec3 away = glm::normalize(n + 0.9f * glm::normalize(random.direction()));
+            const glm::vec3 away = glm::normalize(n + 0.9f * glm::normalize(random.vector()));
             EXPECT_EQ(hit(on, away), kInfiniteDistance) << radius << ' ' << i;
             // Where the ray from ten radii away says it hit.
             const glm::vec3 from = center + 10 * radius * n;
@@ -75,13 +75,12 @@ TEST_F(HardCases, C31_SphereLamps) {
                                 {"touching", 1, 1.0001f, 1, 5, M_PI * touching},
                                 {"far", 0.1f, 1e4f, 1e10f, 5, M_PI},
                                 {"tiny and far", 1e-6f, 0.1f, 1e10f, 0.05f, M_PI}}) {
-        stress::SceneMaker m;
+        scenes::SceneMaker m;
         m.quad({-l.floor, 0, -l.floor}, {0, 0, 2 * l.floor}, {2 * l.floor, 0, 0},
-               m.add(stress::diffuse(0.5f)));
-        m.sphere({0, l.height, 0}, l.radius, m.add(stress::lamp(l.radiance, true)));
+               m.add(scenes::diffuse(0.5f)));
+        m.sphere({0, l.height, 0}, l.radius, m.add(scenes::lamp(l.radiance, true)));
         // From below 0.8 degrees of elevation the lamp that touches the floor is not in the way.
-        const Camera camera =
-            stress::lookingAt({0.6 * l.floor, 0.004 * l.floor, 0}, {0, 0, 0}, 1e-7);
+        const Camera camera = lookingAt({0.6 * l.floor, 0.004 * l.floor, 0}, {0, 0, 0}, 1e-7);
         const RenderSettings s = stress::picture(16, 64, 1);
         for (stress::Subject* subject :
              {static_cast<stress::Subject*>(&device), static_cast<stress::Subject*>(&cpu)}) {

@@ -97,8 +97,8 @@ TEST_F(HardCases, C09_GrazingRaysAtSkinnyTriangles) {
     uint32_t hits = 0, madeUp = 0;
     stress::DeviceSubject device(testDevice());
     for (int i = 0; i < 40; ++i) {
-        const glm::vec3 along = 100.0f * glm::normalize(random.direction());
-        const glm::vec3 across = glm::normalize(glm::cross(along, random.direction()));
+        const glm::vec3 along = 100.0f * glm::normalize(random.vector());
+        const glm::vec3 across = glm::normalize(glm::cross(along, random.vector()));
         const glm::vec3 normal = glm::normalize(glm::cross(along, across));
         const glm::vec3 a = random.inCube(1);
         const glm::vec3 corner[] = {a, a + along, a + along + 0.1f * across};
@@ -146,7 +146,7 @@ TEST_F(HardCases, C10_RaysInThePlaneAndZeroDirections) {
     mesh.materials.resize(1);
     uint32_t lost = 0;
     for (int i = 0; i < 3000; ++i) {
-        glm::vec3 o = random.inCube(2), d = random.direction();
+        glm::vec3 o = random.inCube(2), d = random.vector();
         o.y = 0.25f, d.y = i % 2 ? 0.0f : -0.0f;
         inPlane.push_back({o, naive::kMissed, d, 0});
         // From inside the cube, on the planes where boxes of its triangles end.
@@ -155,7 +155,7 @@ TEST_F(HardCases, C10_RaysInThePlaneAndZeroDirections) {
             if (k != i % 3) straight[k] = random.below(2) ? 0.0f : -0.0f;
         straight[i % 3] = random.below(2) ? 1.0f : -1.0f;
         zeros.push_back({inside, naive::kMissed, straight, 0});
-        nearly.push_back({inside, naive::kMissed, straight + 1e-30f * random.direction(), 0});
+        nearly.push_back({inside, naive::kMissed, straight + 1e-30f * random.vector(), 0});
         // The face that is ahead, as a box of no thickness.
         glm::vec3 lo(-1), hi(1);
         lo[i % 3] = hi[i % 3] = straight[i % 3];

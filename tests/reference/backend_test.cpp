@@ -60,7 +60,7 @@ TEST(ReferenceBackend, SeedsAreIndependent) {
 }
 
 TEST(ReferenceBackend, CountsPathsAndRays) {
-    SceneBuilder b;
+    SceneMaker b;
     addFloor(b, b.add(diffuse(0.5f)));
     b.scene.lights.emplace_back().kind = LightKind::Directional;
     b.scene.lights.back().direction = {0, -1, 0};
@@ -112,7 +112,7 @@ TEST(ReferenceBackend, RefusesWhatItCannotRender) {
 
 /// A red lamp on the upper left, seen in a picture of 4 x 2.
 TEST(ReferenceBackend, RowsGoDownAndColumnsToTheRight) {
-    SceneBuilder b;
+    SceneMaker b;
     b.quad({-1, 0, -5}, {0.5f, 0, 0}, {0, 0.5f, 0}, b.add(lamp(1)));
     Camera camera;
     camera.orthographic = true;
@@ -126,7 +126,7 @@ TEST(ReferenceBackend, RowsGoDownAndColumnsToTheRight) {
 }
 
 TEST(ReferenceBackend, PerspectiveSeesHalfWidthAtDistanceOne) {
-    SceneBuilder b;
+    SceneMaker b;
     b.quad({-0.5f, -0.5f, -2}, {1, 0, 0}, {0, 1, 0}, b.add(lamp(1)));
     Camera camera;
     camera.halfWidth = 1; // 4 x 2 at distance 2
@@ -136,7 +136,7 @@ TEST(ReferenceBackend, PerspectiveSeesHalfWidthAtDistanceOne) {
 
 TEST(ReferenceBackend, ClipsAlongTheAxisOrTheRay) {
     // At 45 degrees a plane at depth 2 is 2.83 away along the ray.
-    SceneBuilder b;
+    SceneMaker b;
     b.quad({-10, -10, -2}, {20, 0, 0}, {0, 20, 0}, b.add(lamp(1)));
     Camera camera = pointCamera({0, 0, 0}, {0, 0, -1});
     const auto seen = [&](double near, double far, bool alongRay) {
@@ -153,7 +153,7 @@ TEST(ReferenceBackend, ClipsAlongTheAxisOrTheRay) {
 }
 
 TEST(ReferenceBackend, NormalsPicture) {
-    SceneBuilder b;
+    SceneMaker b;
     b.triangle({-9, -9, 0}, {9, -9, 0}, {0, 9, 0}, b.add(diffuse(0.5f)));
     RenderSettings s = smallPicture(2, 3);
     s.integrator = Integrator::Normals;

@@ -11,7 +11,7 @@
 namespace stromboli::reference {
 namespace {
 
-using test::SceneBuilder;
+using test::SceneMaker;
 
 glm::dvec3 pointIn(RandomStream& random, double size) {
     const double x = random.next(), y = random.next(), z = random.next();
@@ -44,7 +44,7 @@ Hit bruteForce(const Scene& scene, const Ray& ray, Skip skip) {
 
 /// Small triangles and spheres in a cube; `equal`: all triangles the same.
 Scene soup(uint32_t count, bool equal) {
-    SceneBuilder b;
+    SceneMaker b;
     b.add(test::diffuse(0.5f));
     RandomStream random(count, 0, 5);
     glm::dvec3 corner = pointIn(random, 1);
@@ -125,7 +125,7 @@ TEST(ReferenceIntersect, SphereFromOutsideInsideAndFar) {
 TEST(ReferenceSurface, RaysLeaveTheSurfaceTheyStartOn) {
     for (double scale : {1e-6, 1.0, 1e6})
         for (double shift : {0.0, 1e4}) {
-            SceneBuilder b;
+            SceneMaker b;
             b.add(test::diffuse(0.5f));
             const auto at = [&](double x, double y, double z) {
                 return glm::vec3(scale * (glm::dvec3(x, y, z) + shift));
@@ -169,7 +169,7 @@ TEST(ReferenceSurface, RaysLeaveTheSurfaceTheyStartOn) {
 }
 
 TEST(ReferenceSurface, NormalsFaceTheViewer) {
-    SceneBuilder b;
+    SceneMaker b;
     b.add(test::diffuse(0.5f));
     b.triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0);
     b.scene.normals = {{0, 0, 1}, {0.6f, 0, 0.8f}, {0, 0, 1}};

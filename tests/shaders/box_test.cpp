@@ -79,7 +79,7 @@ NodeQuery randomRay(const WideNode& node, float size, float distance, bool unit,
     const double inwards = random.below(2) ? gpu::BOX_MARGIN : 0;
     const DoubleBox box = node.box(slot, inwards);
     const glm::vec3 target = pointOf(box, random);
-    glm::vec3 origin = target + size * distance * random.direction();
+    glm::vec3 origin = target + size * distance * random.vector();
     if (random.below(4) == 0) origin = pointOf(box, random);
     glm::vec3 direction = target - origin;
     for (int axis = 0; axis < 3; ++axis)
@@ -87,7 +87,7 @@ NodeQuery randomRay(const WideNode& node, float size, float distance, bool unit,
             origin[axis] = target[axis];
             direction[axis] = random.below(2) ? 0.0f : -0.0f;
         }
-    if (direction == glm::vec3(0.0f)) direction = size * random.direction();
+    if (direction == glm::vec3(0.0f)) direction = size * random.vector();
     const float largest =
         std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
     if (unit) direction = glm::normalize(direction / largest);

@@ -23,10 +23,10 @@ std::vector<gpu::BsdfAnswer> BsdfFixture::answers(const std::vector<gpu::BsdfQue
 gpu::BsdfQuery BsdfFixture::randomQuery(uint32_t material, Random& random) const {
     gpu::BsdfQuery q{};
     q.material = material;
-    q.geometric = glm::normalize(random.direction());
-    q.shading = glm::normalize(q.geometric + 0.5f * glm::normalize(random.direction()));
-    q.wo = glm::normalize(random.direction());
-    q.wi = glm::normalize(random.direction());
+    q.geometric = glm::normalize(random.vector());
+    q.shading = glm::normalize(q.geometric + 0.5f * glm::normalize(random.vector()));
+    q.wo = glm::normalize(random.vector());
+    q.wi = glm::normalize(random.vector());
     q.outside = glm::dot(q.geometric, q.wo) >= 0;
     q.u = random.uniform(), q.v = random.uniform(), q.w = random.uniform();
     return q;
@@ -34,7 +34,7 @@ gpu::BsdfQuery BsdfFixture::randomQuery(uint32_t material, Random& random) const
 
 glm::vec3 BsdfFixture::reflected(const gpu::BsdfQuery& q, float tangent, Random& random) {
     const glm::vec3 n = glm::dot(q.wo, q.shading) < 0 ? -q.shading : q.shading;
-    const glm::vec3 side = glm::normalize(glm::cross(n, random.direction()));
+    const glm::vec3 side = glm::normalize(glm::cross(n, random.vector()));
     const glm::vec3 h = glm::normalize(n + tangent * side);
     return glm::normalize(2 * glm::dot(q.wo, h) * h - q.wo);
 }

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "host/core/random.hpp"
 #include "host/kernel/gpu_scene.hpp"
 #include "host/reference/bsdf.hpp"
 #include "host/reference/sampling.hpp"
-#include "tests/bvh/random.hpp"
 #include "tests/shaders/queries.h"
 #include "tests/support/device_fixture.hpp"
 #include "tests/support/test_shader.hpp"

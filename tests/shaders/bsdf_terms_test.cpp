@@ -1,8 +1,8 @@
 // The terms of the BSDFs against formulas in double precision: host/reference where it has them,
 // docs/estimator.md for the conventions of CS184.
+#include "host/core/random.hpp"
 #include "host/reference/fresnel.hpp"
 #include "host/reference/microfacet.hpp"
-#include "tests/bvh/random.hpp"
 #include "tests/shaders/queries.h"
 #include "tests/support/device_fixture.hpp"
 #include "tests/support/test_shader.hpp"

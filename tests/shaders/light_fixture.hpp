@@ -1,7 +1,7 @@
 #pragma once
 
+#include "host/core/random.hpp"
 #include "host/kernel/gpu_scene.hpp"
-#include "tests/bvh/random.hpp"
 #include "tests/shaders/queries.h"
 #include "tests/support/device_fixture.hpp"
 #include "tests/support/test_shader.hpp"

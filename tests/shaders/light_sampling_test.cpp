@@ -69,8 +69,8 @@ TEST_F(LightSampling, QuadAnywhereInSpaceNeverShadesItself) {
         const float scale = std::exp2(float(random.below(40)) - 20);
         const glm::vec3 far = (k % 2 ? 1000.0f : 1.0f) * scale * random.inCube(1);
         const glm::vec3 corner = far + scale * random.inCube(1);
-        const glm::vec3 edgeA = scale * random.direction();
-        const glm::vec3 edgeB = scale * glm::cross(random.direction(), glm::normalize(edgeA));
+        const glm::vec3 edgeA = scale * random.vector();
+        const glm::vec3 edgeB = scale * glm::cross(random.vector(), glm::normalize(edgeA));
         Scene s = sceneWithLamp({1, 1, 1}, true);
         addLampTriangle(s, corner, corner + edgeA, corner + edgeA + edgeB);
         addLampTriangle(s, corner, corner + edgeA + edgeB, corner + edgeB);
@@ -156,7 +156,7 @@ TEST_F(LightSampling, DeltaLightsAsTheReferenceHasThem) {
         light.kind = kKinds[k % 3];
         light.color = {1, 20, 300};
         light.position = random.inCube(2);
-        light.direction = glm::normalize(random.direction());
+        light.direction = glm::normalize(random.vector());
         light.constantAttenuation = random.uniform();
         light.linearAttenuation = random.uniform();
         light.quadraticAttenuation = 0.01f + random.uniform();
@@ -168,7 +168,7 @@ TEST_F(LightSampling, DeltaLightsAsTheReferenceHasThem) {
         for (int i = 0; i < 100; ++i) // around the axis
             queries.push_back(surfaceAt(light.position + random.uniform(0.5f, 2) *
                                                              (light.direction + random.inCube(1)),
-                                        random.direction()));
+                                        random.vector()));
         const std::vector<LightAnswer> found = answers(queries);
         for (size_t i = 0; i < queries.size(); ++i) {
             reference::SurfacePoint s;

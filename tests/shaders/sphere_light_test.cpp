@@ -35,7 +35,7 @@ TEST_P(SphereLight, FromOutsideUniformlyInTheCone) {
     const auto [radius, ratio] = GetParam();
     Random random(131);
     const glm::vec3 center = radius * random.inCube(1);
-    const glm::vec3 away = glm::normalize(random.direction());
+    const glm::vec3 away = glm::normalize(random.vector());
     setScene(sphereLamp(center, radius, false));
     LightQuery surface = surfaceAt(center + ratio * radius * away, -away);
     surface.error = glm::vec3(0.0f); // the point is where it is, as near to the sphere as it is
@@ -128,7 +128,7 @@ TEST_F(SphereLightInside, PointsOfTheSphereItself) {
             setScene(sphereLamp(center, radius, bothSides));
             std::vector<LightQuery> inside, outside;
             for (int i = 0; i < 20000; ++i) {
-                const glm::vec3 n = glm::normalize(random.direction());
+                const glm::vec3 n = glm::normalize(random.vector());
                 LightQuery q = surfaceAt(center + radius * n, n);
                 q.error = glm::vec3(16 * 0x1p-24f * radius) + 4 * 0x1p-24f * glm::abs(center);
                 q.u = random.uniform(), q.v = random.uniform();

@@ -1,5 +1,5 @@
 // hitSphere of intersect.glsl against double precision.
-#include "tests/bvh/random.hpp"
+#include "host/core/random.hpp"
 #include "tests/shaders/queries.h"
 #include "tests/support/device_fixture.hpp"
 #include "tests/support/test_shader.hpp"
@@ -56,8 +56,8 @@ std::vector<SphereQuery> farRays(float distance, float radius, From from, int n,
             axis[i % 3] = i & 1 ? 1.0f : -1.0f;
             side[(i + 1) % 3] = 1;
         } else {
-            axis = glm::normalize(random.direction());
-            side = glm::normalize(glm::cross(axis, random.direction()));
+            axis = glm::normalize(random.vector());
+            side = glm::normalize(glm::cross(axis, random.vector()));
         }
         const glm::vec3 center = radius * random.inCube(1);
         const glm::vec3 target = center + radius * random.uniform(-2, 2) * side +
@@ -136,7 +136,7 @@ TEST_F(HitSphere, FromInsideTheMiddleAndTheSurface) {
     std::vector<SphereQuery> queries;
     for (int i = 0; i < 3000; ++i) {
         const float radius = i % 2 ? 1e-3f : 10.0f;
-        const glm::vec3 d = random.direction();
+        const glm::vec3 d = random.vector();
         const glm::vec3 inside = 0.3f * radius * random.inCube(1);
         queries.push_back({{0, 0, 0}, radius, inside, 0, d, kInfinite});
         queries.push_back({{0, 0, 0}, radius, {0, 0, 0}, 0, d, kInfinite});

@@ -51,14 +51,14 @@ SurfaceQuery rayAt(const Placed& p, float size, Random& random) {
     q.place = p.place;
     glm::vec3 target;
     if (p.isSphere) {
-        target = p.v0 + 0.9f * p.radius * glm::normalize(random.direction());
+        target = p.v0 + 0.9f * p.radius * glm::normalize(random.vector());
     } else {
         const float b1 = random.uniform(), b2 = random.uniform() * (1 - b1);
         target = p.v0 + b1 * (p.v1 - p.v0) + b2 * (p.v2 - p.v0);
     }
-    q.origin = target + size * random.direction();
+    q.origin = target + size * random.vector();
     q.direction = glm::normalize(target - q.origin);
-    q.leaving = glm::normalize(random.direction());
+    q.leaving = glm::normalize(random.vector());
     return q;
 }
 
@@ -174,7 +174,7 @@ void addNormals(Scene& scene, Random& random) {
         const bool opposite = i % 30 == 1;
         for (uint32_t c = 0; c < 3; ++c) {
             t.normals[c] = uint32_t(scene.normals.size());
-            const glm::vec3 tilted = glm::normalize(n + 0.7f * glm::normalize(random.direction()));
+            const glm::vec3 tilted = glm::normalize(n + 0.7f * glm::normalize(random.vector()));
             scene.normals.push_back(opposite ? (c == 1 ? -n : n) : tilted);
         }
     }

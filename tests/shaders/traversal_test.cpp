@@ -29,8 +29,7 @@ constexpr size_t kTriedOneByOne = 1000; ///< records of a scene at most
 RayQuery randomRay(const std::vector<Placed>& primitives, Random& random) {
     RayQuery q{};
     q.origin = random.inCube(random.below(2) ? 1.0f : 4.0f);
-    q.direction =
-        glm::normalize(random.below(2) ? random.direction() : random.inCube(1) - q.origin);
+    q.direction = glm::normalize(random.below(2) ? random.vector() : random.inCube(1) - q.origin);
     q.tMax = random.below(4) ? kInfinite : random.uniform(0, 3);
     q.tMin = random.below(4) ? 0 : random.uniform(0, 1);
     q.skipPrimitive = gpu::NO_PRIMITIVE;
@@ -169,7 +168,7 @@ TEST_P(TraversalTest, FromAfar) {
     for (int i = 0; i < 5000; ++i) {
         const Placed& p = primitives[random.below(uint32_t(primitives.size()))];
         RayQuery q{};
-        q.origin = std::pow(10.0f, random.uniform(3, 8)) * random.direction();
+        q.origin = std::pow(10.0f, random.uniform(3, 8)) * random.vector();
         q.direction = p.v0 + 0.1f * random.inCube(1) - q.origin;
         q.tMax = kInfinite;
         q.skipPrimitive = gpu::NO_PRIMITIVE;
@@ -221,7 +220,7 @@ TEST_P(TraversalTest, EmptySceneIsMissed) {
     for (int i = 0; i < 100; ++i) {
         RayQuery q{};
         q.origin = random.inCube(2);
-        q.direction = random.direction();
+        q.direction = random.vector();
         q.tMax = kInfinite;
         queries.push_back(q);
     }

@@ -1,6 +1,6 @@
 // hitTrianglePair of intersect.glsl against plane equations in double precision.
+#include "host/core/random.hpp"
 #include "tests/bvh/oracle.hpp"
-#include "tests/bvh/random.hpp"
 #include "tests/shaders/queries.h"
 #include "tests/support/device_fixture.hpp"
 #include "tests/support/test_shader.hpp"
@@ -56,8 +56,8 @@ class HitTriangle : public DeviceTest {
 TriangleQuery wellConditioned(float size, Random& random) {
     for (;;) {
         const glm::vec3 v0 = size * random.inCube(1);
-        const glm::vec3 e = glm::normalize(random.direction());
-        const glm::vec3 f = glm::normalize(glm::cross(e, random.direction()));
+        const glm::vec3 e = glm::normalize(random.vector());
+        const glm::vec3 f = glm::normalize(glm::cross(e, random.vector()));
         const glm::vec3 v1 = v0 + size * e, v2 = v0 + size * f;
         const float b1 = random.uniform(0.1f, 0.8f), b2 = random.uniform(0.1f, 0.9f - b1);
         const glm::vec3 target = v0 + b1 * (v1 - v0) + b2 * (v2 - v0);
@@ -115,7 +115,7 @@ TEST_F(HitTriangle, DecidesAsDoublePrecisionDoes) {
     std::vector<TriangleQuery> queries;
     for (int i = 0; i < 300000; ++i) {
         const glm::vec3 a = random.inCube(1), b = random.inCube(1), c = random.inCube(1);
-        queries.push_back(query(a, b, c, random.inCube(2), random.direction()));
+        queries.push_back(query(a, b, c, random.inCube(2), random.vector()));
     }
     const std::vector<TriangleAnswer> found = answers(queries);
     // Corners in the sheared plane carry 6 roundings or so of coordinates up to 6.
@@ -163,7 +163,7 @@ TEST_F(HitTriangle, WithoutAreaIsNeverHit) {
         const glm::vec3 corners[] = {a, a, b, b, a, a}; // two or three of them equal
         const uint32_t k = random.below(4);
         queries.push_back(query(corners[k], corners[k + 1], corners[k + 2], origin,
-                                random.below(2) ? target - origin : random.direction()));
+                                random.below(2) ? target - origin : random.vector()));
         // Collinear, exactly so: halves, in a plane of the axes, hit head on.
         const glm::vec3 c(random.below(64), random.below(64), 0), d(random.below(64), 64, 0);
         const glm::vec3 middle = 0.5f * (c + d);
@@ -212,7 +212,7 @@ TEST_F(HitTriangle, SkinnyOnesBesideTheRay) {
     Random random(36);
     std::vector<TriangleQuery> queries;
     for (int i = 0; i < 50000; ++i) {
-        const glm::vec3 a = random.inCube(1), along = 100.0f * random.direction();
+        const glm::vec3 a = random.inCube(1), along = 100.0f * random.vector();
         const glm::vec3 c = a + along + 1e-3f * random.inCube(1);
         const glm::vec3 origin = a + random.uniform() * along + 0.05f * random.inCube(1);
         const glm::vec3 direction = glm::normalize(along) + 0.01f * random.inCube(1);

@@ -1,7 +1,7 @@
 // The warps of [0,1)^2, frames and octahedral normals: distributions by chi-square at a level of
 // .01 for all tests of this file together, and the ends of the square.
+#include "host/core/random.hpp"
 #include "host/kernel/gpu_scene.hpp"
-#include "tests/bvh/random.hpp"
 #include "tests/shaders/queries.h"
 #include "tests/support/chi_square.hpp"
 #include "tests/support/device_fixture.hpp"
@@ -140,7 +140,7 @@ TEST_F(Warps, FramesAreOrthonormal) {
     Random random(86);
     for (int i = 0; i < 20000; ++i) {
         const float nearPole = i % 2 ? 1 : std::exp2(-float(i % 50));
-        glm::dvec3 n = random.direction();
+        glm::dvec3 n = random.vector();
         n.x *= nearPole, n.y *= nearPole;
         add(glm::vec3(glm::normalize(n)));
     }
@@ -165,7 +165,7 @@ TEST_F(Warps, OctahedralNormals) {
         }
     Random random(87);
     for (int i = 0; i < 100000; ++i) {
-        glm::dvec3 n = random.direction();
+        glm::dvec3 n = random.vector();
         if (i % 3 == 0) n[i / 3 % 3] *= 1e-4; // near the folds
         normals.push_back(glm::vec3(glm::normalize(n)));
     }

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "host/core/random.hpp"
 #include "shaders/shared/scene_types.h"
-#include "tests/bvh/random.hpp"
 
 #include <array>
 #include <cmath>

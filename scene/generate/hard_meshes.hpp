@@ -1,9 +1,9 @@
 #pragma once
 
-#include "host/stress/random.hpp"
+#include "host/core/random.hpp"
 #include "scene/model/scene.hpp"
 
-namespace stromboli::stress {
+namespace stromboli {
 
 /// Each mesh has one diffuse material; corners are shared between triangles.
 
@@ -24,4 +24,4 @@ Scene soup(uint32_t triangles, uint32_t spheres, float size, Random& random);
 /// Each position moved by `by`, then rounded to float.
 void translate(Scene& scene, const glm::vec3& by);
 
-} // namespace stromboli::stress
+} // namespace stromboli

@@ -1,11 +1,11 @@
-#include "host/stress/meshes.hpp"
+#include "scene/generate/hard_meshes.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
-namespace stromboli::stress {
+namespace stromboli {
 namespace {
 
 Scene meshOf(std::vector<glm::vec3> positions) {
@@ -119,4 +119,4 @@ void translate(Scene& scene, const glm::vec3& by) {
         s.center += by;
 }
 
-} // namespace stromboli::stress
+} // namespace stromboli

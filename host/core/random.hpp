@@ -2,10 +2,11 @@
 
 #include <glm/glm.hpp>
 
+#include <cmath>
 #include <cstdint>
 #include <random>
 
-namespace stromboli::stress {
+namespace stromboli {
 
 /// Random numbers that are the same on every machine: the engine is standardised, the library's
 /// distributions are not.
@@ -21,7 +22,14 @@ class Random {
         const float x = uniform(-half, half), y = uniform(-half, half);
         return {x, y, uniform(-half, half)};
     }
-    /// Of unit length; nearly uniform.
+    /// Of a length between 0.1 and sqrt(3), as rays may have; not uniform.
+    glm::vec3 vector() {
+        for (;;) {
+            const glm::vec3 v = inCube(1);
+            if (glm::dot(v, v) > 0.01f) return v;
+        }
+    }
+    /// Of unit length, uniform.
     glm::vec3 direction() {
         for (;;) {
             const glm::vec3 d = inCube(1);
@@ -38,4 +46,4 @@ class Random {
     std::mt19937 engine_;
 };
 
-} // namespace stromboli::stress
+} // namespace stromboli
