@@ -31,6 +31,7 @@ Dispatch dispatch;
 #include "include/surface.glsl"
 #include "include/bsdf.glsl"
 #include "include/lights.glsl"
+#include "include/mis.glsl"
 #include "include/accumulate.glsl"
 #include "include/path.glsl"
 
@@ -90,7 +91,8 @@ void resume(uint lane) {
     bounce = p.bounce;
     throughput = p.throughput;
     radiance = p.radiance;
-    countsEmission = p.countsEmission != 0u;
+    countsEmission = p.emission != SUSPENDED_NO_EMISSION;
+    bouncePdf = max(p.emission, 0.0);
     trace(PHASE_PATH, p.origin, p.direction, 0.0, INFINITE_DISTANCE, p.skipPrimitive);
 }
 
@@ -102,7 +104,7 @@ void suspend(uint lane) {
     p.direction = next.direction;
     p.skipPrimitive = next.skipPrimitive;
     p.throughput = throughput;
-    p.countsEmission = countsEmission ? 1u : 0u;
+    p.emission = countsEmission ? bouncePdf : SUSPENDED_NO_EMISSION;
     p.radiance = radiance;
     p.item = item;
     suspendedPaths[lane] = p;

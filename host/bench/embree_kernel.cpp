@@ -149,7 +149,7 @@ class PathSample {
         const float most = largest(throughput_);
         if (!(most > 0)) return false;
         if (w_.roulette != Roulette::Throughput || bounce < kRouletteStart) return true;
-        const float q = smaller(kMostContinue, most);
+        const float q = smaller(kMostContinue, kBoldness * most);
         throughput_ = throughput_ * (1 / q);
         return u < q;
     }

@@ -110,6 +110,7 @@ struct View {
 enum class Roulette : uint32_t { None, Throughput, Fixed };
 inline constexpr uint32_t kRouletteStart = 3; ///< by throughput: the bounce it begins at
 inline constexpr float kMostContinue = 0.95f;
+inline constexpr float kBoldness = 3.0f;
 
 inline constexpr uint32_t kTriangleGeometry = 0, kSphereGeometry = 1; ///< Embree's geometry numbers
 

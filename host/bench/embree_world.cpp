@@ -10,6 +10,7 @@ namespace {
 
 static_assert(native::kRouletteStart == Roulette::kThroughputStart);
 static_assert(native::kMostContinue == float(Roulette::kMaxContinue));
+static_assert(native::kBoldness == float(Roulette::kBoldness));
 
 native::SurfaceKind kindOf(MaterialKind kind) {
     switch (kind) {

@@ -8,7 +8,7 @@ namespace {
 
 /// How many direct light samples a shading point takes for other than delta lights.
 uint32_t areaSamples(const GpuScene& scene, const RenderSettings& s) {
-    if (s.directLight == DirectLight::Lights) return s.lightSamples * scene.areaLights;
+    if (samplesLights(s.directLight)) return s.lightSamples * scene.areaLights;
     if (s.directLight == DirectLight::Bsdf) return 0;
     // The CS184 renderer multiplies by the number of all its lights.
     return s.lightSamples * (s.cs184 ? scene.areaLights + scene.deltaLights : scene.areaLights);

@@ -3,6 +3,7 @@
 #include "host/kernel/alias_table.hpp"
 #include "host/kernel/light_tree.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -111,7 +112,7 @@ gpu::Light packLight(const Light& l, bool cs184) {
     }
     case LightKind::Ambient:
         g.kind = gpu::LIGHT_AMBIENT;
-        g.upperHemisphereOnly = l.upperHemisphereOnly || cs184;
+        if (l.upperHemisphereOnly || cs184) g.flags = gpu::LIGHT_UPPER_HEMISPHERE_ONLY;
         break;
     case LightKind::Directional:
         g.kind = gpu::LIGHT_DIRECTIONAL;
@@ -134,6 +135,36 @@ gpu::Light packLight(const Light& l, bool cs184) {
     return g;
 }
 
+/// Gives each emitter that is a light of its own a material that names that light. Only where rough
+/// metals make use of it.
+void nameLights(const Scene& scene, const std::vector<Emitter>& emitters, GpuScene& g) {
+    const bool metals =
+        std::any_of(scene.materials.begin(), scene.materials.end(),
+                    [](const Material& m) { return m.kind == MaterialKind::Microfacet; });
+    if (!metals) return;
+    std::vector<uint32_t> lightOf(scene.triangles.size() + scene.spheres.size(), gpu::NO_LIGHT);
+    uint32_t light = g.manyLampTriangles ? 1 : 0; // the first is that of many triangles
+    for (const Emitter& e : emitters) {
+        if (g.manyLampTriangles && e.kind != EmitterKind::Sphere) continue;
+        if (e.kind == EmitterKind::Sphere) lightOf[scene.triangles.size() + e.sphere] = light;
+        for (const uint32_t triangle : e.triangles)
+            lightOf[triangle] = light;
+        if (e.kind != EmitterKind::Sphere) g.lights[light].flags |= gpu::LIGHT_FOUND_BY_BOUNCES;
+        ++light;
+    }
+    std::vector<uint32_t> materialOf(light, gpu::NO_LIGHT);
+    for (size_t i = 0; i < g.primitives.size(); ++i) {
+        const uint32_t named = lightOf[g.bvh.primitiveOrder[i]];
+        if (named == gpu::NO_LIGHT) continue;
+        if (materialOf[named] == gpu::NO_LIGHT) {
+            materialOf[named] = uint32_t(g.materials.size());
+            g.materials.push_back(g.materials[g.primitives[i].material]);
+            g.materials.back().light = named;
+        }
+        g.primitives[i].material = materialOf[named];
+    }
+}
+
 } // namespace
 
 void packLights(const Scene& scene, const std::vector<uint32_t>& placeOf, bool cs184, GpuScene& g) {
@@ -144,6 +175,7 @@ void packLights(const Scene& scene, const std::vector<uint32_t>& placeOf, bool c
         for (const Emitter& e : emitters)
             if (!many || e.kind == EmitterKind::Sphere)
                 g.lights.push_back(packEmitter(scene, e, placeOf, g));
+        nameLights(scene, emitters, g);
     }
     for (const Light& l : scene.lights)
         if (!l.isDelta()) g.lights.push_back(packLight(l, cs184));

@@ -15,6 +15,7 @@ gpu::Material packMaterial(const Material& m, bool cs184) {
     g.kind = uint32_t(m.kind); // the enumerations agree: see the static_asserts below
     g.reflectance = m.kind == MaterialKind::Diffuse ? m.albedo : m.reflectance;
     g.emission = m.emission;
+    g.light = gpu::NO_LIGHT;
     g.emitsBothSides = m.emitsBothSides || cs184;
     if (m.kind == MaterialKind::Microfacet) {
         g.transmittanceOrEta = m.eta;

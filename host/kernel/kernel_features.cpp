@@ -9,6 +9,7 @@ namespace {
 
 static_assert(Roulette::kThroughputStart == gpu::ROULETTE_THROUGHPUT_START);
 static_assert(float(Roulette::kMaxContinue) == gpu::ROULETTE_MAX_CONTINUE);
+static_assert(float(Roulette::kBoldness) == gpu::ROULETTE_BOLDNESS);
 
 uint32_t materialKinds(const GpuScene& scene) {
     uint32_t kinds = 0;
@@ -32,7 +33,7 @@ uint32_t lightKinds(const GpuScene& scene, const RenderSettings& settings) {
     for (const gpu::Light& light : scene.lights) {
         const bool isArea = light.kind < gpu::LIGHT_DIRECTIONAL;
         const bool sampled =
-            settings.directLight == DirectLight::Lights ||
+            samplesLights(settings.directLight) ||
             (!isArea && !(settings.cs184 && settings.directLight == DirectLight::Hemisphere)) ||
             (light.kind == gpu::LIGHT_AMBIENT && !settings.cs184);
         if (sampled) kinds |= 1u << light.kind;
@@ -45,6 +46,16 @@ bool lightJoinsCamera(const GpuScene& scene, const RenderSettings& settings) {
     return settings.sampler == Sampler::Sobol &&
            std::none_of(scene.lights.begin(), scene.lights.end(),
                         [](const gpu::Light& l) { return l.kind == gpu::LIGHT_MESH; });
+}
+
+/// Where bounces from rough metals may find what light samples find too.
+bool usesMis(const GpuScene& scene, const RenderSettings& settings, uint32_t materialKinds) {
+    const bool metal = materialKinds & 1u << gpu::MATERIAL_MICROFACET;
+    return metal && settings.directLight == DirectLight::Mis && !settings.cs184 &&
+           std::any_of(scene.lights.begin(), scene.lights.end(), [](const gpu::Light& light) {
+               return light.kind == gpu::LIGHT_SPHERE || light.kind == gpu::LIGHT_AMBIENT ||
+                      light.flags & gpu::LIGHT_FOUND_BY_BOUNCES;
+           });
 }
 
 void switchOnAllTheSceneCouldHave(KernelFeatures& f) {
@@ -77,7 +88,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_HAS_EMISSION] = !normalsOnly && hasEmission(scene);
     f[SPEC_LIGHT_KINDS] = lightKinds(scene, settings);
     f[SPEC_INTEGRATOR] = normalsOnly ? gpu::INTEGRATOR_NORMALS : gpu::INTEGRATOR_PATH;
-    f[SPEC_DIRECT_LIGHT] = settings.directLight == DirectLight::Lights ? gpu::DIRECT_LIGHTS
+    f[SPEC_DIRECT_LIGHT] = samplesLights(settings.directLight) ? gpu::DIRECT_LIGHTS
                            : settings.directLight == DirectLight::Hemisphere
                                ? gpu::DIRECT_HEMISPHERE
                                : gpu::DIRECT_BSDF;
@@ -101,6 +112,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_SAMPLER] =
         settings.sampler == Sampler::Sobol ? gpu::SAMPLER_SOBOL : gpu::SAMPLER_INDEPENDENT;
     f[SPEC_LIGHT_JOINS_CAMERA] = lightJoinsCamera(scene, settings);
+    f[SPEC_USE_MIS] = usesMis(scene, settings, f[SPEC_MATERIAL_KINDS]);
     f[SPEC_COUNT_STEPS] = tuning.countSteps;
     if (tuning.everythingOn) switchOnAllTheSceneCouldHave(f);
     return f;
@@ -123,7 +135,8 @@ std::vector<std::string> describe(const KernelFeatures& f) {
         fmt::format("lights: {}", list(f[SPEC_LIGHT_KINDS], {"quad", "mesh", "sphere", "ambient",
                                                              "directional", "point", "spot"})),
         fmt::format("integrator: {}", kIntegrators[f[SPEC_INTEGRATOR]]),
-        fmt::format("direct light: {}", kDirect[f[SPEC_DIRECT_LIGHT]]),
+        fmt::format("direct light: {}{}", kDirect[f[SPEC_DIRECT_LIGHT]],
+                    f[SPEC_USE_MIS] ? ", with bounces from rough metals" : ""),
         fmt::format("sampler: {}", f[SPEC_SAMPLER] == gpu::SAMPLER_SOBOL ? "sobol" : "independent"),
         fmt::format("roulette: {}", kRoulette[f[SPEC_ROULETTE]]),
         fmt::format("camera: {}", f[SPEC_ORTHOGRAPHIC] ? "orthographic" : "perspective"),

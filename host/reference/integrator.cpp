@@ -90,7 +90,7 @@ bool PathSample::survivesFixed() {
 bool PathSample::survivesThroughput(uint32_t bounce) {
     if (settings_.roulette.mode != Roulette::Mode::Throughput) return true;
     if (bounce < Roulette::kThroughputStart) return true;
-    const double q = std::min(Roulette::kMaxContinue, largest(throughput_));
+    const double q = std::min(Roulette::kMaxContinue, Roulette::kBoldness * largest(throughput_));
     throughput_ /= q;
     return random_.next() < q;
 }
@@ -98,7 +98,7 @@ bool PathSample::survivesThroughput(uint32_t bounce) {
 void PathSample::addDirectLight() {
     const bool hemisphere = settings_.directLight == DirectLight::Hemisphere;
     if (hemisphere) addHemisphereSamples();
-    if (settings_.directLight == DirectLight::Lights) addBroadLights();
+    if (samplesLights(settings_.directLight)) addBroadLights();
     // The CS184 renderer's hemisphere mode knows no other light than geometry.
     if (!hemisphere || world_.convention == Convention::Physical) addDeltaLights();
 }

@@ -11,10 +11,14 @@ enum class Integrator {
 
 /// How the light that reaches a surface straight from a lamp is estimated (docs/estimator.md).
 enum class DirectLight {
+    Mis,        ///< sample each light; bounces from rough metals find lamps too, weighted
     Lights,     ///< sample each light
     Hemisphere, ///< sample uniform directions; delta lights as in Lights
     Bsdf,       ///< let the bounce find the lamps; delta lights as in Lights
 };
+inline bool samplesLights(DirectLight mode) {
+    return mode == DirectLight::Mis || mode == DirectLight::Lights;
+}
 
 /// Where random numbers come from (docs/estimator.md, "Random numbers").
 enum class Sampler {
@@ -33,12 +37,17 @@ struct Roulette {
     enum class Mode {
         None,
         Throughput, ///< after bounce kThroughputStart continue with probability
-                    ///< min(kMaxContinue, largest component of the throughput)
+                    ///< min(kMaxContinue, kBoldness * largest component of the throughput)
         Fixed,      ///< terminate with terminationProbability at every hit, before direct light
     };
     /// Paths are at least this many bounces long under Throughput.
     static constexpr uint32_t kThroughputStart = 3;
     static constexpr double kMaxContinue = 0.95;
+    /// A path is worth going on with as long as what it may still bring is not small beside the
+    /// noise the pixel has anyway: the best probability is the throughput times sqrt(second moment
+    /// of the light to come / its cost) / sqrt(variance of the pixel / cost of a sample) (Bolin and
+    /// Meyer 1997). Between 2 and 4 in diffuse rooms (docs/estimator.md).
+    static constexpr double kBoldness = 3;
 
     Mode mode = Mode::Throughput;
     double terminationProbability = 0; ///< Fixed: in [0, 1)
@@ -69,12 +78,12 @@ struct Crop {
 struct RenderSettings {
     uint32_t width = 800, height = 600; ///< of the whole picture, before the crop
     Crop crop;                          ///< width 0: the whole picture
-    uint32_t samplesPerPixel = 64;      ///< the most a pixel gets when adaptive
+    uint32_t samplesPerPixel = 64;      ///< the most a pixel gets where they are spread unevenly
     uint32_t lightSamples = 1;          ///< per shading point and area light
     uint32_t maxBounces = 8;            ///< number of scatterings; 0: emission only
     uint32_t minBounce = 0;             ///< light scattered fewer times is left out
     Integrator integrator = Integrator::Path;
-    DirectLight directLight = DirectLight::Lights;
+    DirectLight directLight = DirectLight::Mis;
     Sampler sampler = Sampler::Sobol;
     LightChoice lightChoice = LightChoice::Tree;
     Roulette roulette;

@@ -108,7 +108,7 @@ Finding lampsInPieces(Run& run) {
             return t;
         };
         const RenderSettings s = picture(16, run.amount(64u, 2048u), 3);
-        const Totals one = totals(scene(1, false), s, DirectLight::Lights);
+        const Totals one = totals(scene(1, false), s, DirectLight::Mis);
         const auto compare = [&](const char* what, const Scene& other, DirectLight mode) {
             const double z = confirmed(s, [&](RenderSettings now) {
                 now.seed += 1; // not that of `one`
@@ -117,8 +117,8 @@ Finding lampsInPieces(Run& run) {
             if (!(z <= f.measured))
                 f.measured = z, f.where = fmt::format("{} lamp, {}", l.name, what);
         };
-        compare("100 lamps", scene(10, false), DirectLight::Lights);
-        compare("a mesh of 200 triangles", scene(10, true), DirectLight::Lights);
+        compare("100 lamps", scene(10, false), DirectLight::Mis);
+        compare("a mesh of 200 triangles", scene(10, true), DirectLight::Mis);
         compare("by hemisphere", scene(1, false), DirectLight::Hemisphere);
         if (l.size > 0.1f) compare("by bounces", scene(1, false), DirectLight::Bsdf);
     }

@@ -79,8 +79,7 @@ Finding closedFurnaces(Run& run) {
         for (const DirectLight mode : kDirectLightModes)
             for (const Roulette& roulette : roulettes)
                 for (const Sampler sampler : {Sampler::Independent, Sampler::Sobol}) {
-                    if (run.quick() && (sampler == Sampler::Sobol) != (mode == DirectLight::Lights))
-                        continue;
+                    if (run.quick() && (sampler == Sampler::Sobol) != samplesLights(mode)) continue;
                     RenderSettings s = picture(16, run.amount(32u, 512u), 100);
                     s.directLight = mode;
                     s.roulette = roulette;

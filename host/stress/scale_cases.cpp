@@ -36,7 +36,7 @@ Finding compare(Run& run, const std::vector<float>& parameters, const RenderSett
     Finding f;
     f.bound = 1;
     std::vector<DirectLight> modes(std::begin(kDirectLightModes), std::end(kDirectLightModes));
-    if (run.quick()) modes = {DirectLight::Lights};
+    if (run.quick()) modes = {DirectLight::Mis};
     CheckSettings check;
     check.familyError = kFalseAlarms / double(parameters.size() * modes.size());
     RenderSettings s = settings;

@@ -46,9 +46,7 @@ RenderSettings picture(uint32_t side, uint32_t samplesPerPixel, uint32_t maxBoun
 }
 
 const char* nameOf(DirectLight mode) {
-    return mode == DirectLight::Lights       ? "lights"
-           : mode == DirectLight::Hemisphere ? "hemisphere"
-                                             : "bsdf";
+    return samplesLights(mode) ? "lights" : mode == DirectLight::Hemisphere ? "hemisphere" : "bsdf";
 }
 
 } // namespace stromboli::stress

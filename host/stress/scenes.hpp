@@ -21,7 +21,7 @@ Scene turned(Scene scene);
 /// Settings of a square picture, no roulette.
 RenderSettings picture(uint32_t side, uint32_t samplesPerPixel, uint32_t maxBounces);
 
-inline constexpr DirectLight kDirectLightModes[] = {DirectLight::Lights, DirectLight::Hemisphere,
+inline constexpr DirectLight kDirectLightModes[] = {DirectLight::Mis, DirectLight::Hemisphere,
                                                     DirectLight::Bsdf};
 const char* nameOf(DirectLight mode);
 

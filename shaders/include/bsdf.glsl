@@ -105,6 +105,13 @@ vec3 evaluateMicrofacet(Material m, vec3 wo, vec3 wi) {
     return f * (g * beckmannD(h, alpha) / (4.0 * wo.z * wi.z));
 }
 
+/// Density (solid angle) of sampleMicrofacet, for directions that evaluateMicrofacet() is not 0 for.
+float microfacetPdf(Material m, SurfacePoint s, vec3 wi) {
+    const ShadingFrame frame_ = makeFrame(s.shading);
+    const vec3 wo = toLocal(frame_, s.wo), h = unit(wo + toLocal(frame_, wi));
+    return beckmannD(h, m.iorOrAlpha) * h.z / (4.0 * dot(wo, h));
+}
+
 BsdfSample sampleMicrofacet(Material m, ShadingFrame frame_, vec3 wo, vec2 u) {
     const vec3 h = sampleBeckmann(u, m.iorOrAlpha);
     const float cosine = dot(wo, h);

@@ -3,12 +3,20 @@
 #include "spherical.glsl"
 #include "light_tree.glsl"
 
+Light onlyLight; ///< ONE_LIGHT: read once (five rows), not for each sample
+
+Light lightNumber(uint index) {
+    if (ONE_LIGHT) return onlyLight;
+    return fetchLight(index);
+}
+
 /// A sampled segment from a shading point to a light.
 struct LightSample {
     vec3 target;     ///< finite lights: point just before the lamp; else: unit direction
     bool infinite;   ///< target is a direction
     vec3 direction;  ///< unit, to the light
     vec3 radiance;   ///< times the inverse of the density (solid angle); 0: nothing arrives
+    float inversePdf; ///< steradians; 0: of what bounces do not find
 };
 
 /// Ends the segment from s just before the lamp's surface, whatever the rounding of the point on
@@ -32,8 +40,8 @@ LightSample areaSample(SurfacePoint s, vec3 p, vec3 pError, vec3 n, float area, 
     // The CS184 renderer's density lacks one factor 1 / distance, and its lights have one side.
     const float falloff = CS184 ? inverseDistance : inverseDistance * inverseDistance;
     const bool emits = CS184 || light.bothSides == 0u ? cosine > 0.0 : cosine != 0.0;
-    r.radiance = emits && distance2 > 0.0 ? light.color * (area * abs(cosine) * falloff)
-                                          : vec3(0.0);
+    r.inversePdf = area * abs(cosine) * falloff;
+    r.radiance = emits && distance2 > 0.0 ? light.color * r.inversePdf : vec3(0.0);
     return r;
 }
 
@@ -51,6 +59,7 @@ LightSample angleSample(SurfacePoint s, vec3 p, vec3 pError, vec3 n, float z, fl
     const bool apart = abs(z) > dot(abs(n), s.error + pError) && distance2 > 0.0;
     const bool emits = apart && (light.bothSides != 0u || z < 0.0);
     r.radiance = emits ? light.color * angle : vec3(0.0);
+    r.inversePdf = (light.flags & LIGHT_FOUND_BY_BOUNCES) != 0u ? angle : 0.0;
     return r;
 }
 
@@ -164,7 +173,8 @@ LightSample sampleSphere(SurfacePoint s, Light light, vec2 u) {
     r.direction = w;
     r.infinite = false;
     r.target = stopBefore(light.position + radius * n, error, n, from);
-    r.radiance = light.color * (2.0 * PI * oneMinusCosMax);
+    r.inversePdf = 2.0 * PI * oneMinusCosMax;
+    r.radiance = light.color * r.inversePdf;
     return r;
 }
 
@@ -172,10 +182,11 @@ LightSample sampleAmbient(SurfacePoint s, Light light, vec2 u) {
     LightSample r;
     const vec3 w = sampleUniformHemisphere(u);
     r.direction = toWorld(makeFrame(s.shading), w);
-    if (light.upperHemisphereOnly != 0u) r.direction = w.xzy; // y is up
+    if ((light.flags & LIGHT_UPPER_HEMISPHERE_ONLY) != 0u) r.direction = w.xzy; // y is up
     r.infinite = true;
     r.target = r.direction;
-    r.radiance = light.color * (2.0 * PI);
+    r.inversePdf = 2.0 * PI;
+    r.radiance = light.color * r.inversePdf;
     return r;
 }
 
@@ -186,9 +197,10 @@ const float POINT_LIGHT_GAP = 1.52587890625e-5;
 LightSample sampleDelta(SurfacePoint s, Light light) {
     LightSample r;
     if (light.kind == LIGHT_DIRECTIONAL)
-        return LightSample(light.position, true, light.position, light.color);
+        return LightSample(light.position, true, light.position, light.color, 0.0);
     const vec3 d = light.position - litPoint(s);
     const float distance2 = dot(d, d), distance = sqrt(distance2);
+    r.inversePdf = 0.0;
     r.direction = d / distance;
     r.infinite = false;
     r.target = light.position - POINT_LIGHT_GAP * d;
@@ -214,7 +226,7 @@ LightSample sampleLight(SurfacePoint s, Light light, vec4 u) {
     if (sceneHasLight(LIGHT_DIRECTIONAL) || sceneHasLight(LIGHT_POINT) ||
         sceneHasLight(LIGHT_SPOT))
         return sampleDelta(s, light);
-    return LightSample(vec3(0.0), true, vec3(0.0, 0.0, 1.0), vec3(0.0));
+    return LightSample(vec3(0.0), true, vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0);
 }
 
 /// Radiance that all ambient lights send from direction w (unit, away from the surface).
@@ -223,7 +235,7 @@ vec3 ambientRadiance(vec3 w) {
     if (!sceneHasLight(LIGHT_AMBIENT)) return sum;
     for (uint i = 0u; i < frame.areaLights; ++i) {
         const Light light = fetchLight(i);
-        const bool reaches = light.upperHemisphereOnly == 0u || w.y > 0.0;
+        const bool reaches = (light.flags & LIGHT_UPPER_HEMISPHERE_ONLY) == 0u || w.y > 0.0;
         if (light.kind == LIGHT_AMBIENT && reaches) sum += light.color;
     }
     return sum;

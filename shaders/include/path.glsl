@@ -32,13 +32,13 @@ uint sampleIndex;
 uint bounce;    ///< scatterings so far
 vec3 throughput;
 vec3 radiance;
-bool countsEmission; ///< a lamp found by the ray adds to the picture
+bool countsEmission; ///< a lamp found by the ray adds to the picture ...
+float bouncePdf; ///< ... weighted, if it came from a surface where MIS combines (mis.glsl): density; else 0
 SurfacePoint surface;
 Material material;
 uint directIndex; ///< direct light samples done at this surface
 vec3 directValue; ///< what the ray under way adds if it is free (or, hemisphere, per radiance)
 uint rayCount;
-Light onlyLight; ///< ONE_LIGHT: read once (five rows), not for each sample
 
 /// LIGHT_JOINS_CAMERA: the first light sample of a path takes x and y of the camera's block, the camera z
 /// and w. At the edges of things light depends on both, so they are spread evenly together.
@@ -75,6 +75,19 @@ vec3 emissionAt(SurfacePoint s, Material m) {
     return m.emitsBothSides != 0u || s.outside ? m.emission : vec3(0.0);
 }
 
+/// What MIS leaves to this bounce of the ambient light it has found.
+float ambientWeight() {
+    if (!USE_MIS || bouncePdf == 0.0) return 1.0;
+    return bounceWeight(AMBIENT_INVERSE_PDF, bouncePdf);
+}
+
+/// The same of an emissive surface, `material`; all of what no bounce is expected to find is light samples'.
+float emitterWeight() {
+    if (!USE_MIS || bouncePdf == 0.0) return 1.0;
+    if (material.light == NO_LIGHT) return 0.0;
+    return bounceWeight(lightSampleInversePdf(ray, material.light), bouncePdf);
+}
+
 void finishShadowRay() {
     if (ray.hitPrimitive == NO_PRIMITIVE) radiance += throughput * directValue;
     phase = PHASE_DIRECT;
@@ -97,7 +110,7 @@ void arrive() {
     phase = PHASE_ENDED;
     if (!hit) {
         if (countsEmission && bounce > 0u && !CS184)
-            radiance += throughput * ambientRadiance(ray.ray.direction);
+            radiance += throughput * ambientRadiance(ray.ray.direction) * ambientWeight();
         return;
     }
     surface = surfaceAt(ray);
@@ -106,7 +119,7 @@ void arrive() {
         return;
     }
     material = fetchMaterial(surface.material);
-    if (countsEmission) radiance += throughput * emissionAt(surface, material);
+    if (countsEmission) radiance += throughput * emissionAt(surface, material) * emitterWeight();
     faceForward(surface);
     ++bounce;
     if (bounce > frame.maxBounces) return;
@@ -131,9 +144,8 @@ void sampleHemisphere(vec4 u) {
 }
 
 Light lightOf(uint index) {
-    if (ONE_LIGHT) return onlyLight;
-    return fetchLight(index < frame.areaSamples ? index / LIGHT_SAMPLES
-                                                : frame.areaLights + index - frame.areaSamples);
+    return lightNumber(index < frame.areaSamples ? index / LIGHT_SAMPLES
+                                                 : frame.areaLights + index - frame.areaSamples);
 }
 
 /// Starts the shadow ray of the next light sample, if that light can reach the surface.
@@ -143,6 +155,9 @@ void sampleLights(vec4 u, uint index) {
     const float share = isArea ? 1.0 / float(LIGHT_SAMPLES) : 1.0;
     directValue = evaluateBsdf(material, surface, light.direction) * light.radiance * share;
     if (!(dot(directValue, vec3(1.0)) > 0.0)) return;
+    if (combines(material))
+        directValue *= lightSampleWeight(light.inversePdf,
+                                         microfacetPdf(material, surface, light.direction));
     const vec3 origin = leave(surface, light.direction, false);
     const uint skip = skipOnLeaving(surface, false);
     if (light.infinite)
@@ -169,12 +184,14 @@ void scatter() {
     const float largest = max(throughput.x, max(throughput.y, throughput.z));
     if (!(largest > 0.0)) return;
     if (ROULETTE == ROULETTE_THROUGHPUT && bounce >= ROULETTE_THROUGHPUT_START) {
-        const float q = min(ROULETTE_MAX_CONTINUE, largest);
+        const float q = min(ROULETTE_MAX_CONTINUE, ROULETTE_BOLDNESS * largest);
         if (u.w >= q) return;
         throughput *= 1.0 / q;
     }
+    const bool mis = combines(material);
     countsEmission = bounce >= frame.minBounce &&
-                     (isDelta(material.kind) || (DIRECT_LIGHT == DIRECT_BSDF && !CS184));
+                     (isDelta(material.kind) || mis || (DIRECT_LIGHT == DIRECT_BSDF && !CS184));
+    bouncePdf = mis ? max(microfacetPdf(material, surface, b.direction), TINY) : 0.0;
     if (bounce == frame.maxBounces && !countsEmission) return;
     trace(PHASE_PATH, leave(surface, b.direction, b.transmitted), b.direction, 0.0,
           INFINITE_DISTANCE, skipOnLeaving(surface, b.transmitted));
@@ -189,6 +206,7 @@ void startSample() {
     throughput = vec3(1.0);
     radiance = vec3(0.0);
     countsEmission = frame.minBounce == 0u;
+    bouncePdf = 0.0;
     const vec4 numbers = randomNumbers(0u);
     const vec2 u = LIGHT_JOINS_CAMERA ? numbers.zw : numbers.xy;
     const CameraRay c = cameraRay((float(pixelAt.x) + u.x) / float(frame.width),

@@ -43,7 +43,8 @@ SHARED_BEGIN
 #define SPEC_SAMPLER 18
 #define SPEC_LIGHT_JOINS_CAMERA 19 // the first light sample shares the camera's random numbers
 #define SPEC_LIGHT_CHOICE 20       // of a triangle of a mesh light
-#define SPEC_COUNT 21
+#define SPEC_USE_MIS 21            // bounces from rough metals find lamps too
+#define SPEC_COUNT 22
 
 SHARED_CONST uint INTEGRATOR_PATH = 0u;
 SHARED_CONST uint INTEGRATOR_NORMALS = 1u;
@@ -66,6 +67,7 @@ SHARED_CONST uint ROULETTE_THROUGHPUT = 1u;
 SHARED_CONST uint ROULETTE_FIXED = 2u;
 SHARED_CONST uint ROULETTE_THROUGHPUT_START = 3u; // bounces before roulette by throughput
 SHARED_CONST float ROULETTE_MAX_CONTINUE = 0.95f;
+SHARED_CONST float ROULETTE_BOLDNESS = 3.0f; // probability to go on, over throughput
 
 SHARED_END
 

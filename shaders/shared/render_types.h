@@ -78,11 +78,12 @@ struct SuspendedPath {
     vec3 direction;
     uint skipPrimitive;
     vec3 throughput;
-    uint countsEmission;
+    float emission; ///< SUSPENDED_NO_EMISSION, or bouncePdf of path.glsl
     vec3 radiance;
     uint item; ///< of the work list; NO_ITEM: the lane has none
 };
 SHARED_ROWS(SuspendedPath, 4);
+SHARED_CONST float SUSPENDED_NO_EMISSION = -1.0f;
 SHARED_CONST uint SUSPENDED_NONE = 0xFFFFFFFFu;
 SHARED_CONST uint NO_ITEM = 0xFFFFFFFFu;
 

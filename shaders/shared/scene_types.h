@@ -98,8 +98,9 @@ struct Material {
     vec3 transmittanceOrEta; ///< refraction, glass: transmittance; microfacet: eta
     float iorOrAlpha;        ///< refraction, glass: ior; microfacet: alpha
     vec3 k;
-    uint unused;
+    uint light; ///< number of the light this emissive material stands for; NO_LIGHT: unknown, or none
 };
+SHARED_CONST uint NO_LIGHT = 0xFFFFFFFFu;
 SHARED_ROWS(Material, 4);
 SHARED_OFFSET(Material, iorOrAlpha, 44);
 
@@ -122,8 +123,8 @@ struct Light {
     vec3 edgeB;     ///< quad; point, spot: constant, linear, quadratic attenuation
     uint bothSides; ///< quad, mesh, sphere: emits on both sides
     vec3 color;     ///< radiance (quad, mesh, sphere, ambient), or as scene/model/light.hpp says
-    uint upperHemisphereOnly; ///< ambient
-    uint firstEntry;          ///< mesh: row of the EmitterEntry buffer; light tree: of the root
+    uint flags;     ///< LIGHT_ bits below
+    uint firstEntry; ///< mesh: row of the EmitterEntry buffer; light tree: of the root
     uint entryCount;
     float cosCutoff; ///< spot: cosine of half the opening angle
     float falloffExponent;
@@ -131,6 +132,11 @@ struct Light {
 SHARED_ROWS(Light, 5);
 SHARED_OFFSET(Light, color, 48);
 SHARED_OFFSET(Light, cosCutoff, 72);
+
+SHARED_CONST uint LIGHT_UPPER_HEMISPHERE_ONLY = 1u; ///< ambient
+/// Quad, mesh: geometry whose material names it (Material::light), so that the density of its samples
+/// is known where a bounce finds it.
+SHARED_CONST uint LIGHT_FOUND_BY_BOUNCES = 2u;
 
 /// One column of an alias table over the triangles of an emissive mesh, by area (Walker 1977,
 /// Vose 1991).

@@ -152,22 +152,22 @@ class Modes : public testing::Test {
 };
 
 TEST_F(Modes, DirectLightModesAgree) {
-    const Estimate lights = render(DirectLight::Lights, Roulette::Mode::Throughput, 0, 6, 1);
+    const Estimate lights = render(DirectLight::Mis, Roulette::Mode::Throughput, 0, 6, 1);
     expectSameMean(render(DirectLight::Hemisphere, Roulette::Mode::Throughput, 0, 6, 2), lights);
     expectSameMean(render(DirectLight::Bsdf, Roulette::Mode::Throughput, 0, 6, 3), lights);
 }
 
 TEST_F(Modes, RouletteDoesNotChangeTheMean) {
-    const Estimate none = render(DirectLight::Lights, Roulette::Mode::None, 0, 8, 4);
-    expectSameMean(render(DirectLight::Lights, Roulette::Mode::Throughput, 0, 8, 5), none);
-    expectSameMean(render(DirectLight::Lights, Roulette::Mode::Fixed, 0, 8, 6), none);
+    const Estimate none = render(DirectLight::Mis, Roulette::Mode::None, 0, 8, 4);
+    expectSameMean(render(DirectLight::Mis, Roulette::Mode::Throughput, 0, 8, 5), none);
+    expectSameMean(render(DirectLight::Mis, Roulette::Mode::Fixed, 0, 8, 6), none);
 }
 
 TEST_F(Modes, NumbersOfBouncesPartitionTheSum) {
-    const Estimate whole = render(DirectLight::Lights, Roulette::Mode::None, 0, 4, 7);
+    const Estimate whole = render(DirectLight::Mis, Roulette::Mode::None, 0, 4, 7);
     Estimate sum;
     for (uint32_t k = 0; k <= 4; ++k) {
-        const Estimate part = render(DirectLight::Lights, Roulette::Mode::None, k, k, 10 + k);
+        const Estimate part = render(DirectLight::Mis, Roulette::Mode::None, k, k, 10 + k);
         EXPECT_TRUE(part.mean.x > 0 || k == 0); // the lamp is behind the camera
         sum.mean += part.mean;
         sum.error = glm::sqrt(sum.error * sum.error + part.error * part.error);

@@ -80,9 +80,9 @@ TEST_P(Furnace, MirrorBox) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllModes, Furnace,
-                         testing::Values(Case{DirectLight::Lights, Roulette::Mode::None},
-                                         Case{DirectLight::Lights, Roulette::Mode::Throughput},
-                                         Case{DirectLight::Lights, Roulette::Mode::Fixed},
+                         testing::Values(Case{DirectLight::Mis, Roulette::Mode::None},
+                                         Case{DirectLight::Mis, Roulette::Mode::Throughput},
+                                         Case{DirectLight::Mis, Roulette::Mode::Fixed},
                                          Case{DirectLight::Hemisphere, Roulette::Mode::None},
                                          Case{DirectLight::Hemisphere, Roulette::Mode::Throughput},
                                          Case{DirectLight::Hemisphere, Roulette::Mode::Fixed},

@@ -157,7 +157,7 @@ glm::vec3 radiance(const Scene& scene, const RenderSettings& settings, glm::vec3
     Path p{scene, settings, random, rays};
     if (!p.arrive(origin, direction, tMin)) return p.radiance;
     p.addEmission(0);
-    const bool byBounces = settings.directLight != DirectLight::Lights;
+    const bool byBounces = !samplesLights(settings.directLight);
     for (uint32_t k = 1; k <= settings.maxBounces; ++k) {
         const bool delta = p.material->isDelta();
         if (!delta && p.counts(k)) {

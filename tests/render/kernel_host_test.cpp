@@ -148,6 +148,27 @@ TEST(KernelFeatures, LightsFollowTheSettings) {
     EXPECT_EQ(featuresOf(scene, s)[SPEC_LIGHT_KINDS], 0u);
 }
 
+TEST(KernelFeatures, MisOnlyWhereRoughMetalsMeetLampsThatBouncesFind) {
+    Material metal, lamp;
+    metal.kind = MaterialKind::Microfacet;
+    lamp.emission = glm::vec3(1);
+    Scene scene = oneTriangle(metal);
+    EXPECT_FALSE(featuresOf(scene)[SPEC_USE_MIS]); // no light
+    scene.lights.emplace_back();                   // a point
+    EXPECT_FALSE(featuresOf(scene)[SPEC_USE_MIS]);
+    scene.materials.push_back(lamp);
+    scene.spheres.push_back({{0, 0, 5}, 1, 1, 0});
+    EXPECT_TRUE(featuresOf(scene)[SPEC_USE_MIS]);
+    for (const DirectLight mode :
+         {DirectLight::Lights, DirectLight::Hemisphere, DirectLight::Bsdf}) {
+        RenderSettings s;
+        s.directLight = mode;
+        EXPECT_FALSE(featuresOf(scene, s)[SPEC_USE_MIS]);
+    }
+    scene.materials[0].kind = MaterialKind::Diffuse;
+    EXPECT_FALSE(featuresOf(scene)[SPEC_USE_MIS]);
+}
+
 TEST(KernelFeatures, NoRouletteWherePathsEndBeforeIt) {
     RenderSettings s;
     s.maxBounces = 2;

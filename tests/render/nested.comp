@@ -23,6 +23,7 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "include/surface.glsl"
 #include "include/bsdf.glsl"
 #include "include/lights.glsl"
+#include "include/mis.glsl"
 #include "include/accumulate.glsl"
 #include "include/path.glsl"
 

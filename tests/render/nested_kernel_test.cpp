@@ -34,6 +34,15 @@ struct Picture {
     bool cs184 = false;
 };
 
+/// Rough metal in the place of all that scatters.
+void makeMetal(Scene& scene) {
+    for (Material& m : scene.materials) {
+        m.kind = MaterialKind::Microfacet;
+        m.alpha = 0.2f;
+        m.eta = glm::vec3(1.5f), m.k = glm::vec3(3);
+    }
+}
+
 /// Every material, kind of light, way of sampling, roulette, integrator and camera of the kernel.
 const Picture kPictures[] = {
     {"diffuse", "cornell_boxes.dae", [](Scene&, RenderSettings&) {}},
@@ -46,6 +55,16 @@ const Picture kPictures[] = {
              if (m.kind == MaterialKind::Glass) m.kind = MaterialKind::Refraction;
      }},
     {"metal", "cornell_metal.dae", [](Scene&, RenderSettings&) {}},
+    {"metalUnderAMesh", "light_mesh.dae", [](Scene& scene, RenderSettings&) { makeMetal(scene); }},
+    {"metalUnderSpheres", "light_sphere.dae",
+     [](Scene& scene, RenderSettings& s) {
+         makeMetal(scene);
+         s.lightSamples = 2;
+     }},
+    {"metalUnderTheSky", "light_ambient.dae",
+     [](Scene& scene, RenderSettings&) { makeMetal(scene); }},
+    {"metalUnderManyLamps", "generate:lamps:1000",
+     [](Scene& scene, RenderSettings&) { makeMetal(scene); }},
     {"mesh", "cornell_mesh.dae", [](Scene&, RenderSettings&) {}},
     {"meshLamp", "light_mesh.dae", [](Scene&, RenderSettings&) {}},
     {"manyLamps", "generate:lamps:1000", [](Scene&, RenderSettings&) {}},

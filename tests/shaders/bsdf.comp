@@ -10,6 +10,7 @@ BsdfAnswer answer(BsdfQuery q) {
     faceForward(s);
     const Material m = fetchMaterial(q.material);
     const BsdfSample b = sampleBsdf(m, s, vec3(q.u, q.v, q.w));
-    return BsdfAnswer(evaluateBsdf(m, s, q.wi), b.transmitted ? 1u : 0u, b.direction, 0u, b.weight,
-                      0u);
+    const bool rough = m.kind == MATERIAL_MICROFACET;
+    return BsdfAnswer(evaluateBsdf(m, s, q.wi), b.transmitted ? 1u : 0u, b.direction,
+                      rough ? microfacetPdf(m, s, q.wi) : 0.0, b.weight, 0u);
 }

@@ -66,6 +66,7 @@ TEST_P(BsdfTest, ValuesAreThoseOfTheReference) {
         if (std::abs(cosI) < 1e-3 || std::abs(glm::dot(s.geometric, wi)) < 1e-6) continue;
         if (std::abs(cosO) < 1e-3) continue;
         const glm::dvec3 expected = reference::evaluateBsdf(s, wi, GetParam());
+        const reference::Frame frame(s.shading);
         const glm::dvec3 h = glm::normalize(s.wo + wi);
         const double cosH = glm::dot(h, s.shading), tan2 = 1 / (cosH * cosH) - 1;
         const bool tail = s.material->kind == MaterialKind::Microfacet &&
@@ -77,6 +78,13 @@ TEST_P(BsdfTest, ValuesAreThoseOfTheReference) {
                                                 glm::dot(s.wo, h)))
                 << i << ' ' << s.material->alpha;
         compared += expected.x > 0;
+        if (s.material->kind != MaterialKind::Microfacet || expected.x == 0) continue;
+        const double density =
+            reference::microfacetDensity(s.material->alpha, frame.toLocal(s.wo), frame.toLocal(wi));
+        ASSERT_NEAR(found[i].density, density,
+                    density *
+                        tolerance(*s.material, std::abs(cosO), std::abs(cosI), glm::dot(s.wo, h)))
+            << i << ' ' << s.material->alpha;
     }
     EXPECT_GT(compared, 10000);
 }

@@ -48,10 +48,10 @@ void putScene() {
     put(p.material), put(p.n0), put(p.n1), put(p.n2);
     const Material m = fetchMaterial(1u);
     put(m.reflectance), put(m.kind), put(m.emission), put(m.emitsBothSides);
-    put(m.transmittanceOrEta), put(m.iorOrAlpha), put(m.k), put(m.unused);
+    put(m.transmittanceOrEta), put(m.iorOrAlpha), put(m.k), put(m.light);
     const Light l = fetchLight(1u);
     put(l.position), put(l.kind), put(l.edgeA), put(l.area), put(l.edgeB), put(l.bothSides);
-    put(l.color), put(l.upperHemisphereOnly);
+    put(l.color), put(l.flags);
     put(l.firstEntry), put(l.entryCount), put(l.cosCutoff), put(l.falloffExponent);
     const EmitterEntry e = fetchEmitterEntry(1u);
     put(e.place), put(e.alias), put(e.threshold), put(e.unused);
@@ -77,7 +77,7 @@ void putWork() {
     put(s.m2Error), put(s.unused);
     const SuspendedPath p = suspendedPaths[1];
     put(p.origin), put(p.bounce), put(p.direction), put(p.skipPrimitive), put(p.throughput);
-    put(p.countsEmission), put(p.radiance), put(p.item);
+    put(p.emission), put(p.radiance), put(p.item);
     put(status.unfinishedItems), put(status.overflowedItems), put(status.rays);
     put(status.samples), put(status.nextItem), put(status.busySteps), put(status.allSteps);
     put(status.unused);

@@ -117,9 +117,9 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
 
     void expectShading(const gpu::Material& m, const gpu::Light& l, const gpu::EmitterEntry& e) {
         expected_.structure("Material", m.reflectance, m.kind, m.emission, m.emitsBothSides,
-                            m.transmittanceOrEta, m.iorOrAlpha, m.k, m.unused);
+                            m.transmittanceOrEta, m.iorOrAlpha, m.k, m.light);
         expected_.structure("Light", l.position, l.kind, l.edgeA, l.area, l.edgeB, l.bothSides,
-                            l.color, l.upperHemisphereOnly, l.firstEntry, l.entryCount, l.cosCutoff,
+                            l.color, l.flags, l.firstEntry, l.entryCount, l.cosCutoff,
                             l.falloffExponent);
         expected_.structure("EmitterEntry", e.place, e.alias, e.threshold, e.unused);
     }
@@ -150,7 +150,7 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         shader.set(BINDING_SUSPENDED, paths_);
         const gpu::SuspendedPath& p = paths_[1];
         expected_.structure("SuspendedPath", p.origin, p.bounce, p.direction, p.skipPrimitive,
-                            p.throughput, p.countsEmission, p.radiance, p.item);
+                            p.throughput, p.emission, p.radiance, p.item);
         const gpu::DispatchStatus status = patterns.several<gpu::DispatchStatus>()[0];
         shader.setOne(BINDING_STATUS, status);
         expected_.structure("DispatchStatus", status.unfinishedItems, status.overflowedItems,

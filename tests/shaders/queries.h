@@ -195,9 +195,9 @@ struct BsdfAnswer {
     vec3 value; ///< f |cos|
     uint transmitted;
     vec3 direction;
-    uint unused0;
+    float density; ///< of bounces towards wi; microfacet
     vec3 weight;
-    uint unused1;
+    uint unused;
 };
 SHARED_ROWS(BsdfAnswer, 3);
 

@@ -1,0 +1,104 @@
+// Rough metals under lamps of every kind: light samples alone, bounces alone and both, weighted,
+// find the same light. The reference combines nothing, so that there two independent estimators are
+// left.
+#include "tests/analytic/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+namespace stromboli {
+namespace {
+
+using namespace test;
+
+const Camera kLow = pointCamera({3, 1.5, 3}, {0, 0, 0});
+
+/// A lamp that a floor at y = 0 reflects towards kLow.
+struct LampKind {
+    const char* name;
+    std::function<void(SceneMaker&)> add;
+    uint32_t lightSamples = 1;
+};
+
+void addQuad(SceneMaker& maker, bool bothSides) {
+    maker.quad({-3, 1, -3}, {1.5f, 0, -0.5f}, {0, 1, 0}, maker.add(lamp(2, bothSides)));
+}
+
+/// Many triangles in the plane of addQuad's, or few of unequal size.
+void addMesh(SceneMaker& maker, int columns) {
+    const uint32_t material = maker.add(lamp(2));
+    maker.startInstance();
+    for (int i = 0; i < columns; ++i) {
+        const auto at = [&](int k, float height) {
+            const float x = float(k * k) / float(columns * columns);
+            return glm::vec3(-3 + 1.5f * x, height, -3 - 0.5f * x);
+        };
+        maker.triangle(at(i, 1), at(i + 1, 1), at(i + 1, 2), material);
+        maker.triangle(at(i, 1), at(i + 1, 2), at(i, 2.5f), material);
+    }
+}
+
+void addAmbient(SceneMaker& maker, bool upperHemisphereOnly) {
+    Light light = ambient(1);
+    light.upperHemisphereOnly = upperHemisphereOnly;
+    maker.add(light);
+}
+
+const LampKind kLamps[] = {{"quad", [](SceneMaker& m) { addQuad(m, true); }},
+                           {"one_sided_quad", [](SceneMaker& m) { addQuad(m, false); }},
+                           {"quad_of_four_samples", [](SceneMaker& m) { addQuad(m, true); }, 4},
+                           {"mesh", [](SceneMaker& m) { addMesh(m, 3); }},
+                           {"many_triangles", [](SceneMaker& m) { addMesh(m, 40); }},
+                           {"many_triangles_and_a_sphere",
+                            [](SceneMaker& m) {
+                                addMesh(m, 40);
+                                m.sphere({-2, 0.75f, -1}, 0.5f, m.add(lamp(3)));
+                            }},
+                           {"sphere",
+                            [](SceneMaker& m) {
+                                m.sphere({-2, 1.5f, -2}, 0.75f, m.add(lamp(2)));
+                            }},
+                           {"in_a_sphere",
+                            [](SceneMaker& m) {
+                                m.sphere({1, 2, -1}, 8, m.add(lamp(2)));
+                            }},
+                           {"ambient", [](SceneMaker& m) { addAmbient(m, false); }},
+                           {"upper_ambient", [](SceneMaker& m) { addAmbient(m, true); }},
+                           {"all", [](SceneMaker& m) {
+                                addQuad(m, true);
+                                m.sphere({-1, 0.75f, -2}, 0.5f, m.add(lamp(3)));
+                                addAmbient(m, false);
+                            }}};
+
+class Mis : public testing::TestWithParam<LampKind> {
+  protected:
+    Estimate render(double alpha, DirectLight mode, uint32_t seed) {
+        SceneMaker maker;
+        addFloor(maker, maker.add(metal(float(alpha))));
+        GetParam().add(maker);
+        RenderSettings s = smallPicture(400, 3);
+        s.directLight = mode;
+        s.lightSamples = GetParam().lightSamples;
+        s.seed = seed;
+        return estimate(maker.scene, kLow, s);
+    }
+};
+
+TEST_P(Mis, FindsTheLightThatEitherFinds) {
+    for (const double alpha : {0.03, 0.2, 0.8}) {
+        SCOPED_TRACE(alpha);
+        const Estimate both = render(alpha, DirectLight::Mis, 1);
+        EXPECT_GT(both.mean.x, 0);
+        expectSameMean(both, render(alpha, DirectLight::Bsdf, 2));
+        // A narrow lobe's light samples are so rarely in it that their error is not known.
+        if (alpha > 0.1) expectSameMean(both, render(alpha, DirectLight::Lights, 3));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Lamps, Mis, testing::ValuesIn(kLamps),
+                         [](const auto& lamp) { return lamp.param.name; });
+
+} // namespace
+} // namespace stromboli
