@@ -62,9 +62,11 @@ void addLightTransport(CLI::App& app, RawOptions& raw, Options& o) {
         ->type_name("N")
         ->group("Light");
     app.add_option("--direct", raw.direct,
-                   "lights, hemisphere or bsdf: how lamps are found from a surface")
-        ->check(CLI::IsMember({"lights", "hemisphere", "bsdf"}))
-        ->default_str("lights")
+                   "how lamps are found from a surface: mis, by sampling each lamp and from rough "
+                   "metals by bounces too; lights, by sampling alone; hemisphere, by uniform "
+                   "directions; bsdf, by bounces")
+        ->check(CLI::IsMember({"mis", "lights", "hemisphere", "bsdf"}))
+        ->default_str("mis")
         ->type_name("HOW")
         ->group("Light");
     app.add_flag("-H", raw.hemisphere, "same as --direct hemisphere")->group("Light");
@@ -175,7 +177,15 @@ void addRender(CLI::App& app, RawOptions& raw, Options& o) {
         ->group("Output");
     addPicture(app, raw);
     addLightTransport(app, raw, o);
-    addSampling(app, raw, o, "samples per pixel; with -a the most a pixel gets [64; --cs184: 1]");
+    addSampling(
+        app, raw, o,
+        "samples per pixel, on the mean: they go where they help most (--even: to all alike); "
+        "with -a, --noise and --time the most a pixel gets [64; --cs184: 1]");
+    app.add_flag(
+           "--even", raw.even,
+           "the same number of samples for every pixel, so that a --crop has the bytes it has "
+           "in the whole picture")
+        ->group("Sampling");
     addAdaptive(app, raw);
     addStopRule(app, raw);
     addSampleAlone(app, raw);

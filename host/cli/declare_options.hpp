@@ -17,10 +17,10 @@ struct RawOptions {
     std::vector<uint32_t> size, crop, cell, pixel;
     std::vector<double> adaptive;
     std::optional<double> noise, seconds;
-    std::string roulette, integrator = "path", direct = "lights", camera = "auto",
-                          backend = "vulkan", sampler, lightChoice = "tree";
+    std::string roulette, integrator = "path", direct = "mis", camera = "auto", backend = "vulkan",
+                          sampler, lightChoice = "tree";
     std::optional<uint32_t> sample, samples, lightSamples, maxBounces, minBounce, accumulate;
-    bool hemisphere = false, quiet = false, verbose = false;
+    bool hemisphere = false, even = false, quiet = false, verbose = false;
     RawBenchOptions bench;
     RawStudyOptions study;
 };

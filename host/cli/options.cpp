@@ -3,6 +3,7 @@
 #include "host/cli/cs184_spelling.hpp"
 #include "host/cli/declare_options.hpp"
 #include "host/core/error.hpp"
+#include "host/render/noise_plan.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -99,13 +100,29 @@ void applyStopRule(const RawOptions& raw, Options& o) {
         checkRange("--time", *raw.seconds, 0.01, 1e9);
         stop.seconds = *raw.seconds;
     }
-    if (!stop.given()) return;
+    if (!stop.open()) return;
     const char* name = raw.noise ? "--noise" : "--time";
     if (!raw.adaptive.empty())
         throw UsageError(
             fmt::format("{} and -a exclude each other: both say where samples go", name));
+    if (raw.even)
+        throw UsageError(
+            fmt::format("{} and --even exclude each other: both say where samples go", name));
     o.settings.adaptive.enabled = false; // --cs184 turns it on
     if (!raw.samples) o.settings.samplesPerPixel = kMostSamples;
+}
+
+/// Samples go where they help most unless something else is asked for. With as few as the first,
+/// uniform pass takes there is nothing to spread.
+void spreadSamples(const RawOptions& raw, Options& o) {
+    RenderSettings& s = o.settings;
+    if (raw.even && !raw.adaptive.empty())
+        throw UsageError("-a and --even exclude each other: both say where samples go");
+    if (raw.even) s.adaptive.enabled = false; // --cs184 turns it on
+    if (raw.even || s.cs184 || s.adaptive.enabled || s.stop.open() || o.sampleAlone) return;
+    if (s.samplesPerPixel <= NoisePlan::kFirstSamples) return;
+    s.stop.meanSamples = s.samplesPerPixel;
+    s.samplesPerPixel = kMostSamples;
 }
 
 void applyLight(const RawOptions& raw, Options& o) {
@@ -126,7 +143,8 @@ void applyLight(const RawOptions& raw, Options& o) {
         throw UsageError("-H and --direct bsdf exclude each other");
     s.directLight = raw.hemisphere || raw.direct == "hemisphere" ? DirectLight::Hemisphere
                     : raw.direct == "bsdf"                       ? DirectLight::Bsdf
-                                                                 : DirectLight::Lights;
+                    : raw.direct == "lights"                     ? DirectLight::Lights
+                                                                 : DirectLight::Mis;
     const bool sobol = raw.sampler.empty() ? !s.cs184 : raw.sampler == "sobol";
     s.lightChoice = raw.lightChoice == "tree"    ? LightChoice::Tree
                     : raw.lightChoice == "power" ? LightChoice::Power
@@ -188,6 +206,7 @@ std::optional<Options> parseOptions(std::vector<std::string> arguments) {
     }
     if (*commands.bench) applyBenchDefaults(raw);
     apply(raw, o);
+    if (*commands.render) spreadSamples(raw, o);
     if (*commands.bench) applyBench(raw.bench, o);
     if (*commands.study) applyStudy(raw.study, o.study);
     if (*commands.render && o.output.empty() && !o.sampleAlone)

@@ -18,14 +18,15 @@
 namespace stromboli {
 namespace {
 
-/// Whether pixels differ in their number of samples, which a picture of its own shows.
-bool isUneven(const RenderSettings& settings) {
-    return settings.adaptive.enabled || settings.stop.given();
+/// Whether a picture of its own shows how many samples each pixel has. Where they are spread
+/// without being asked to, it would be a file that nobody asked for.
+bool showsRates(const RenderSettings& settings) {
+    return settings.adaptive.enabled || settings.stop.open();
 }
 
 /// What the rate picture shows as full.
 uint32_t mostSamples(const Film& film, const RenderSettings& settings) {
-    if (!settings.stop.given()) return settings.samplesPerPixel;
+    if (!settings.stop.open()) return settings.samplesPerPixel;
     uint32_t most = 1;
     for (const PixelStatistics& p : film.pixels)
         most = std::max(most, p.taken());
@@ -35,7 +36,7 @@ uint32_t mostSamples(const Film& film, const RenderSettings& settings) {
 /// Output that cannot be written must be found out before the work, not after it.
 void checkOutputs(const Options& options) {
     checkWritable(options.output);
-    if (isUneven(options.settings)) checkFileWritable(ratePicturePath(options.output));
+    if (showsRates(options.settings)) checkFileWritable(ratePicturePath(options.output));
     if (options.statsFile.empty()) return;
     if (options.statsFile == options.output)
         throw UsageError("--stats and -o name the same file: " + options.output);
@@ -98,7 +99,7 @@ void writeOutputs(const Film& film, const Job& job, const Options& options,
     picture.tone.exposure = options.exposure;
     picture.statistics = options.statisticsChannels;
     writePicture(options.output, film, job.settings.crop, picture);
-    if (isUneven(job.settings))
+    if (showsRates(job.settings))
         writePng(ratePicturePath(options.output),
                  ratePicture(film, job.settings.crop, mostSamples(film, job.settings)),
                  PngColorSpace::Unnamed);
@@ -120,7 +121,7 @@ int renderCommand(const Options& options) {
     writeOutputs(film, job, options, report);
     logReport(report, film, job.settings);
     if (report.complete) return 0;
-    if (job.settings.stop.given())
+    if (job.settings.stop.open())
         spdlog::warn("interrupted: {} holds the samples that were taken", options.output);
     else
         spdlog::warn("interrupted: {} holds the {:.1f} % of the samples that were taken",

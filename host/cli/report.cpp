@@ -21,7 +21,7 @@ RenderReport summarise(const Film& film, const RenderSettings& settings) {
         r.samplesTaken += film.pixels[pixel].taken();
         r.samplesRejected += film.pixels[pixel].rejected;
     }
-    r.samplesAtMost = uint64_t(pixels.size()) * settings.samplesPerPixel;
+    r.samplesAtMost = samplesAtMost(settings);
     return r;
 }
 
@@ -46,7 +46,7 @@ void logReport(const RenderReport& r, const Film& film, const RenderSettings& se
                  formatDuration(r.renderSeconds), formatDuration(r.loadSeconds),
                  formatDuration(r.buildSeconds));
     const std::string share = // of a number that nobody chose it says nothing
-        settings.stop.given() || r.samplesAtMost == 0
+        settings.stop.spreads() || r.samplesAtMost == 0
             ? ""
             : fmt::format(" ({:.1f} % of the most)",
                           100.0 * double(r.samplesTaken) / double(r.samplesAtMost));
@@ -70,7 +70,8 @@ void writeStatistics(const std::string& file, const RenderReport& r, const Job& 
         {"complete", r.complete},
         {"width", s.width},
         {"height", s.height},
-        {"samplesPerPixel", s.samplesPerPixel},
+        {"samplesPerPixel", s.stop.meanSamples > 0 ? s.stop.meanSamples : s.samplesPerPixel},
+        {"spread", s.stop.spreads() || s.adaptive.enabled ? "by noise" : "even"},
         {"maxBounces", s.maxBounces},
         {"seed", s.seed},
         {"sampler", s.sampler == Sampler::Sobol ? "sobol" : "independent"},

@@ -12,7 +12,7 @@ namespace {
 /// The configuration that others are compared with, where it takes part.
 constexpr const char* kUsualBaseline = "independent";
 
-const std::vector<std::string> kUsualConfigurations = {"independent", "default", "noise",
+const std::vector<std::string> kUsualConfigurations = {"independent", "even", "default",
                                                        "hemisphere"};
 
 void addScenes(CLI::App& app, RawStudyOptions& raw, StudyOptions& o) {
@@ -32,7 +32,7 @@ void addConfigurations(CLI::App& app, RawStudyOptions& raw, StudyOptions& o) {
                    "a configuration by name (--list), or one of your own as NAME=OPTIONS of "
                    "render; an option with {a,b,c} grows along these values instead of along "
                    "samples, as \"mine=-a 16 {0.4,0.2,0.1}\"; once for each "
-                   "[independent, default, noise, hemisphere]")
+                   "[independent, even, default, hemisphere]")
         ->allow_extra_args(false)
         ->type_name("NAME")
         ->group("Configurations");

@@ -10,28 +10,56 @@ namespace {
 /// samples: a relative sigma of 7 % for normal samples.
 constexpr int64_t kReach = 2;
 
-/// Sums over a window of a picture: variances of one sample and means.
-struct WindowSums {
+/// Sums over some pixels: variances of one sample and means.
+struct Sums {
     glm::dvec3 variance{0.0}, mean{0.0};
-    uint32_t pixels = 0;
+    double pixels = 0;
+
+    void operator+=(const Sums& other) {
+        variance += other.variance;
+        mean += other.mean;
+        pixels += other.pixels;
+    }
 };
 
-WindowSums windowAround(const Film& film, int64_t x, int64_t y) {
-    WindowSums sums;
-    const int64_t top = std::max<int64_t>(y - kReach, 0);
-    const int64_t bottom = std::min<int64_t>(y + kReach, int64_t(film.height) - 1);
-    const int64_t left = std::max<int64_t>(x - kReach, 0);
-    const int64_t right = std::min<int64_t>(x + kReach, int64_t(film.width) - 1);
-    for (int64_t j = top; j <= bottom; ++j)
-        for (int64_t i = left; i <= right; ++i) {
-            const PixelStatistics& p = film.at(uint32_t(i), uint32_t(j));
+/// Sums over the windows around pixels, row after row: the rows a window touches are kept as sums
+/// over its width.
+class Windows {
+  public:
+    explicit Windows(const Film& film) : film_(film) {
+        rows_.assign(2 * kReach + 1, std::vector<Sums>(film.width));
+        for (int64_t y = 0; y < kReach; ++y)
+            sumRow(y);
+    }
+
+    /// Rows in order, from the first.
+    std::vector<Sums> around(int64_t y) {
+        sumRow(y + kReach);
+        std::vector<Sums> windows(film_.width);
+        for (const std::vector<Sums>& row : rows_)
+            for (size_t x = 0; x < windows.size(); ++x)
+                windows[x] += row[x];
+        return windows;
+    }
+
+  private:
+    void sumRow(int64_t y) {
+        std::vector<Sums>& row = rows_[size_t(y) % rows_.size()];
+        std::fill(row.begin(), row.end(), Sums{});
+        if (y >= int64_t(film_.height)) return;
+        for (int64_t x = 0; x < int64_t(film_.width); ++x) {
+            const PixelStatistics& p = film_.at(uint32_t(x), uint32_t(y));
             if (p.count < 2) continue; // outside the crop, or nothing but rejected samples
-            sums.variance += p.variance();
-            sums.mean += p.mean;
-            ++sums.pixels;
+            const Sums own{p.variance(), p.mean, 1};
+            const int64_t right = std::min<int64_t>(x + kReach, int64_t(film_.width) - 1);
+            for (int64_t i = std::max<int64_t>(x - kReach, 0); i <= right; ++i)
+                row[size_t(i)] += own;
         }
-    return sums;
-}
+    }
+
+    const Film& film_;
+    std::vector<std::vector<Sums>> rows_; ///< of rows y, at y modulo their number
+};
 
 double meanOfChannels(const glm::dvec3& v) {
     return (v.x + v.y + v.z) / 3;
@@ -78,12 +106,16 @@ std::vector<double> NoiseEstimate::relativeVariance(const Film& film) const {
     const double floor = kRelativeFloor * meanRadiance(film);
     std::vector<double> result(film.pixels.size(), 0.0);
     if (floor == 0) return result;
-    for (uint32_t pixel : pixels_) {
-        const WindowSums sums = windowAround(film, pixel % film.width, pixel / film.width);
-        if (sums.pixels == 0) continue;
-        const glm::dvec3 mean = sums.mean / double(sums.pixels);
-        const glm::dvec3 variance = sums.variance / double(sums.pixels);
-        result[pixel] = meanOfChannels(variance / (mean * mean + floor * floor));
+    Windows windows(film);
+    for (uint32_t y = 0; y < film.height; ++y) {
+        const std::vector<Sums> row = windows.around(y);
+        for (uint32_t x = 0; x < film.width; ++x) {
+            if (row[x].pixels == 0) continue;
+            const glm::dvec3 mean = row[x].mean / row[x].pixels;
+            const glm::dvec3 variance = row[x].variance / row[x].pixels;
+            result[size_t(y) * film.width + x] =
+                meanOfChannels(variance / (mean * mean + floor * floor));
+        }
     }
     return result;
 }

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <tuple>
 
 namespace stromboli {
 namespace {
@@ -25,6 +27,30 @@ struct Step {
     uint32_t cost; ///< samples
     double worth;  ///< fall of the picture's squared error per sample
 };
+
+/// The most worth steps of `steps` that fit into the budget, in any order: selection by halves
+/// instead of sorting. Of equal worth, the first in the picture: the same film always gives the
+/// same pass.
+std::span<const Step> mostWorth(std::vector<Step>& steps, uint64_t budget) {
+    const auto before = [](const Step& a, const Step& b) {
+        return std::tie(b.worth, a.pixel, a.target) < std::tie(a.worth, b.pixel, b.target);
+    };
+    auto taken = steps.begin(), end = steps.end();
+    while (taken != end) {
+        const auto half = taken + (end - taken) / 2;
+        std::nth_element(taken, half, end, before); // *half is in its place
+        uint64_t cost = 0;
+        for (auto step = taken; step <= half; ++step)
+            cost += step->cost;
+        if (cost > budget) {
+            end = half;
+        } else {
+            budget -= cost;
+            taken = half + 1;
+        }
+    }
+    return {steps.begin(), taken};
+}
 
 /// Rungs a pixel may climb in one pass: four times the samples. Variances of a few samples are
 /// rough.
@@ -71,16 +97,9 @@ std::vector<PixelTarget> NoisePlan::spread(const Film& film, const std::vector<d
             n = target;
         }
     }
-    // Of equal worth, the first in the picture: the same film always gives the same pass.
-    std::stable_sort(steps.begin(), steps.end(),
-                     [](const Step& a, const Step& b) { return a.worth > b.worth; });
     std::vector<uint32_t> target(film.pixels.size(), 0);
-    uint64_t spent = 0;
-    for (const Step& step : steps) {
-        if (spent + step.cost > budget) break;
-        spent += step.cost;
-        target[step.pixel] = step.target;
-    }
+    for (const Step& step : mostWorth(steps, budget))
+        target[step.pixel] = std::max(target[step.pixel], step.target);
     std::vector<PixelTarget> pass;
     for (uint32_t pixel : pixels_)
         if (target[pixel] > 0) pass.push_back({pixel, target[pixel]});
@@ -95,7 +114,7 @@ std::vector<PixelTarget> NoisePlan::next(const Film& film, const NoiseEstimate& 
     if (film.pixels[fewest].taken() < std::min(kFirstSamples, mostSamples_))
         return raiseAll(film, budget);
     const double reached = estimate.picture(film);
-    if (reached <= noise) return {};
+    if (noise > 0 && reached <= noise) return {};
 
     const uint64_t taken = samplesOf(film, pixels_);
     if (budget < taken / kLeastPassShare) return {};
@@ -105,8 +124,10 @@ std::vector<PixelTarget> NoisePlan::next(const Film& film, const NoiseEstimate& 
         const double missing = double(taken) * (ratio * ratio - 1);
         if (missing < double(wanted)) wanted = uint64_t(missing);
     }
-    return spread(film, estimate.relativeVariance(film),
-                  std::min(budget, std::max(wanted, taken / kLeastPassShare + 1)));
+    const std::vector<double> variance =
+        reached > 0 ? estimate.relativeVariance(film)
+                    : std::vector<double>(film.pixels.size(), 1.0); // nothing known: all alike
+    return spread(film, variance, std::min(budget, std::max(wanted, taken / kLeastPassShare + 1)));
 }
 
 } // namespace stromboli

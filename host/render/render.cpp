@@ -21,25 +21,39 @@ std::vector<uint32_t> cropPixels(const RenderSettings& settings) {
     return pixels;
 }
 
+uint64_t samplesAtMost(const RenderSettings& settings) {
+    const Crop& c = settings.crop;
+    const uint64_t pixels =
+        c.width == 0 ? uint64_t(settings.width) * settings.height : uint64_t(c.width) * c.height;
+    const StopRule& stop = settings.stop;
+    return pixels * (stop.meanSamples > 0 ? std::min(stop.meanSamples, settings.samplesPerPixel)
+                                          : settings.samplesPerPixel);
+}
+
 namespace {
 
 /// What a render may still spend.
-class TimeLimit {
+class Limit {
   public:
-    explicit TimeLimit(double seconds) : seconds_(seconds) {}
-    bool over() const { return seconds_ > 0 && watch_.seconds() >= seconds_; }
-    double shareUsed() const { return seconds_ > 0 ? watch_.seconds() / seconds_ : 0; }
+    Limit(const StopRule& stop, uint64_t pixels)
+        : seconds_(stop.seconds), pixels_(pixels),
+          samples_(stop.meanSamples > 0 ? pixels * stop.meanSamples
+                                        : std::numeric_limits<uint64_t>::max()) {}
+    bool timeIsOver() const { return seconds_ > 0 && watch_.seconds() >= seconds_; }
+    double shareOfTimeUsed() const { return seconds_ > 0 ? watch_.seconds() / seconds_ : 0; }
 
-    /// Samples that fit into the time left, at the rate so far; `first` while there is none.
-    uint64_t samplesLeft(uint64_t done, uint64_t first) const {
-        if (seconds_ == 0) return std::numeric_limits<uint64_t>::max();
+    /// Samples that fit, as to time at the rate so far, or one a pixel while there is none.
+    uint64_t samplesLeft(uint64_t done) const {
+        const uint64_t left = samples_ - std::min(done, samples_);
+        if (seconds_ == 0) return left;
         const double used = watch_.seconds();
-        if (done == 0 || used == 0) return first;
-        return uint64_t(std::max(seconds_ - used, 0.0) * double(done) / used);
+        if (done == 0 || used == 0) return std::min(left, pixels_);
+        return std::min(left, uint64_t(std::max(seconds_ - used, 0.0) * double(done) / used));
     }
 
   private:
     double seconds_;
+    uint64_t pixels_, samples_;
     Stopwatch watch_;
 };
 
@@ -60,18 +74,18 @@ Film render(Backend& backend, const RenderSettings& settings, const ProgressCall
     SamplingPlan plan(settings, pixels);
     const NoisePlan noisePlan(pixels, settings.samplesPerPixel);
     NoiseEstimate estimate(pixels);
-    const TimeLimit time(settings.stop.seconds);
+    const Limit limit(settings.stop, pixels.size());
     RenderProgress state;
-    state.samplesAtMost = uint64_t(pixels.size()) * settings.samplesPerPixel;
+    state.samplesAtMost = samplesAtMost(settings);
 
     const auto nextPass = [&] {
-        if (!settings.stop.given()) return plan.next(film);
-        const uint64_t budget = time.samplesLeft(state.samplesDone, pixels.size());
-        return noisePlan.next(film, estimate, budget, settings.stop.noise);
+        if (!settings.stop.spreads()) return plan.next(film);
+        return noisePlan.next(film, estimate, limit.samplesLeft(state.samplesDone),
+                              settings.stop.noise);
     };
     double noise = 0;
     bool goOn = true;
-    while (goOn && !time.over()) {
+    while (goOn && !limit.timeIsOver()) {
         const std::vector<PixelTarget> pass = nextPass();
         if (pass.empty()) break;
         const uint64_t before = state.samplesDone;
@@ -79,14 +93,15 @@ Film render(Backend& backend, const RenderSettings& settings, const ProgressCall
         backend.sample(pass, film, [&](uint64_t done) {
             state.samplesDone = before + done;
             state.counters = backend.counters();
-            state.share = std::max(time.shareUsed(), double(state.samplesDone) / double(atMost));
+            state.share =
+                std::max(limit.shareOfTimeUsed(), double(state.samplesDone) / double(atMost));
             if (progress) goOn = progress(state);
-            return goOn && !time.over();
+            return goOn && !limit.timeIsOver();
         });
         estimate.update(film);
         noise = estimate.picture(film);
     }
-    if (outcome) *outcome = {noise, time.over()};
+    if (outcome) *outcome = {noise, limit.timeIsOver()};
     return film;
 }
 

@@ -29,6 +29,9 @@ using ProgressCallback = std::function<bool(const RenderProgress&)>;
 /// Pixels of the crop, row by row, as indices in the whole picture.
 std::vector<uint32_t> cropPixels(const RenderSettings& settings);
 
+/// The most samples a render of these settings takes.
+uint64_t samplesAtMost(const RenderSettings& settings);
+
 /// Takes all samples of a picture: pass by pass until the sampling plan is content. The film has
 /// the whole picture's size; pixels outside the crop have no samples.
 Film render(Backend& backend, const RenderSettings& settings, const ProgressCallback& progress = {},

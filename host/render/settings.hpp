@@ -59,13 +59,15 @@ struct Adaptive {
     double tolerance = 0.05; ///< 1.96 sqrt(variance / n) <= tolerance * mean
 };
 
-/// When a render is over, apart from samplesPerPixel. Either one spreads the samples to where they
-/// lower the picture's noise most (noise_plan.hpp).
+/// When a render is over, apart from samplesPerPixel. Any of these spreads the samples to where
+/// they lower the picture's noise most (noise_plan.hpp).
 struct StopRule {
     double noise = 0; ///< square root of the picture's estimated relMSE, a fraction; 0: none
     double seconds =
         0; ///< of sampling; 0: no limit. The picture then depends on the machine's speed.
-    bool given() const { return noise > 0 || seconds > 0; }
+    uint32_t meanSamples = 0; ///< per pixel, over the picture; 0: no limit
+    bool open() const { return noise > 0 || seconds > 0; } ///< samples are not known beforehand
+    bool spreads() const { return open() || meanSamples > 0; }
 };
 
 /// The part of the picture to render, in pixels from the top left corner of the whole.

@@ -55,10 +55,15 @@ Configuration configurationFor(const std::string& text) {
 const std::vector<Configuration>& knownConfigurations() {
     static const std::vector<Configuration> all = {
         {"default", "", "what `render` does by itself"},
-        {"independent", "--sampler independent", "every sample on its own: the control"},
+        {"independent", "--sampler independent --even",
+         "every sample on its own, as many for each "
+         "pixel: the control"},
+        {"even", "--even", "the same number of samples for every pixel"},
         {"no-roulette", "--roulette none", "paths end at the last bounce only"},
         {"hemisphere", "--direct hemisphere", "lamps are found by uniform directions"},
         {"bsdf", "--direct bsdf", "lamps are found by bounces only"},
+        {"light-samples", "--direct lights", "no bounces from rough metals find lamps"},
+        {"uniform-lamps", "--light-choice uniform", "of many lamps any is sampled, equally often"},
         {"lights-4", "-l 4", "four samples per shading point and light"},
         {"noise", "", "samples where they help most, to a stated noise", "--noise {}", kNoise},
         {"adaptive", "", "adaptive sampling, batches of 16", "-a 16 {}", kTolerances},

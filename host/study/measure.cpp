@@ -20,7 +20,7 @@ double meanOfChannels(const compare::Picture& picture) {
 }
 
 /// The driver compiles what it has put off until the first dispatch.
-void warmUp(PreparedRender& render) {
+void warmUp(const PreparedRender& render) {
     render.backend->sampleAlone(0, 0);
 }
 
@@ -29,11 +29,10 @@ bool wouldTakeTooLong(const std::vector<Point>& points, double growth, const Stu
     return !points.empty() && points.back().wallSeconds * growth > s.mostSecondsPerRun;
 }
 
-std::optional<Run> growSamples(const RunPlan& plan, const Prepare& prepare,
+/// One render, each sample count continuing the last.
+std::optional<Run> growSamples(const RunPlan& plan, const PreparedRender& render,
                                const KeepGoing& keepGoing, const TakeFilm& takeFilm) {
     const StudySettings& s = plan.settings;
-    PreparedRender render = prepare(
-        plan.scene, renderOptions(s, plan.configuration, 0, plan.seed, s.sampleCounts.back()));
     warmUp(render);
     const uint64_t raysBefore = render.backend->counters().rays;
     Film film(render.settings.width, render.settings.height);
@@ -69,21 +68,42 @@ std::optional<Run> growSamples(const RunPlan& plan, const Prepare& prepare,
     return run;
 }
 
-std::optional<Run> growSteps(const RunPlan& plan, const Prepare& prepare,
-                             const KeepGoing& keepGoing, const TakeFilm& takeFilm) {
+/// One of the renders that growRenders makes.
+struct Step {
+    double effort;
+    uint32_t samples; ///< -s
+};
+
+/// The steps of a configuration's own option, or the sample counts.
+std::vector<Step> stepsOf(const RunPlan& plan) {
+    const std::vector<uint32_t>& counts = plan.settings.sampleCounts;
+    std::vector<Step> steps;
+    if (plan.configuration.effort.empty())
+        for (const uint32_t samples : counts)
+            steps.push_back({double(samples), samples});
+    else // the most of a pixel: far more than any of these steps is meant to need
+        for (const double step : plan.configuration.steps)
+            steps.push_back({step, 16 * counts.back()});
+    return steps;
+}
+
+/// A render of its own for each step.
+std::optional<Run> growRenders(const RunPlan& plan, const Prepare& prepare,
+                               const KeepGoing& keepGoing, const TakeFilm& takeFilm) {
     const StudySettings& s = plan.settings;
     Run run{plan.configuration.name, plan.seed, {}, false};
     double secondsBefore = 0;
-    for (const double step : plan.configuration.steps) {
+    for (const Step& step : stepsOf(plan)) {
         // Halving a tolerance takes four times the samples.
-        if (wouldTakeTooLong(run.points, 4, s)) {
+        const double growth = !plan.configuration.effort.empty() || run.points.empty()
+                                  ? 4
+                                  : step.effort / run.points.back().effort;
+        if (wouldTakeTooLong(run.points, growth, s)) {
             run.cutShort = true;
             break;
         }
-        // Far more than any pixel of these steps is meant to need.
-        const uint32_t mostSamples = 16 * s.sampleCounts.back();
-        PreparedRender render =
-            prepare(plan.scene, renderOptions(s, plan.configuration, step, plan.seed, mostSamples));
+        PreparedRender render = prepare(
+            plan.scene, renderOptions(s, plan.configuration, step.effort, plan.seed, step.samples));
         warmUp(render);
         const uint64_t raysBefore = render.backend->counters().rays;
         bool stopped = false;
@@ -99,7 +119,7 @@ std::optional<Run> growSteps(const RunPlan& plan, const Prepare& prepare,
         point.wallSeconds = wall.seconds();
         point.cpuSeconds = cpu.seconds();
         secondsBefore += point.wallSeconds;
-        point.effort = step;
+        point.effort = step.effort;
         point.rays = render.backend->counters().rays - raysBefore;
         run.points.push_back(point);
         takeFilm(point, film);
@@ -139,8 +159,14 @@ Point pointOf(const Film& film, const compare::Picture& reference) {
 
 std::optional<Run> measureRun(const RunPlan& plan, const Prepare& prepare,
                               const KeepGoing& keepGoing, const TakeFilm& takeFilm) {
-    return plan.configuration.effort.empty() ? growSamples(plan, prepare, keepGoing, takeFilm)
-                                             : growSteps(plan, prepare, keepGoing, takeFilm);
+    if (plan.configuration.effort.empty()) {
+        const StudySettings& s = plan.settings;
+        const PreparedRender render = prepare(
+            plan.scene, renderOptions(s, plan.configuration, 0, plan.seed, s.sampleCounts.back()));
+        const bool even = !render.settings.stop.spreads() && !render.settings.adaptive.enabled;
+        if (even) return growSamples(plan, render, keepGoing, takeFilm);
+    }
+    return growRenders(plan, prepare, keepGoing, takeFilm);
 }
 
 } // namespace stromboli::study

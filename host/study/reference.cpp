@@ -51,8 +51,9 @@ std::optional<Film> renderReference(const std::string& scene, const StudySetting
                                     const std::vector<std::string>& options, const Prepare& prepare,
                                     const KeepGoing& keepGoing) {
     std::vector<std::string> words = options;
-    words.push_back("-s");
-    words.push_back(fmt::format("{}", settings.referenceSamples));
+    for (const std::string& word :
+         {std::string("--even"), std::string("-s"), fmt::format("{}", settings.referenceSamples)})
+        words.push_back(word);
     PreparedRender render = prepare(scene, words);
     bool stopped = false;
     Film film =

@@ -19,7 +19,7 @@ TEST(Options, Defaults) {
     EXPECT_EQ(o.command, Command::Render);
     EXPECT_EQ(o.scene, "a.dae");
     EXPECT_EQ(o.output, "a.png");
-    EXPECT_EQ(o.settings.samplesPerPixel, 64u);
+    EXPECT_EQ(o.settings.stop.meanSamples, 64u);
     EXPECT_EQ(o.settings.maxBounces, 8u);
     EXPECT_FALSE(o.settings.adaptive.enabled);
     EXPECT_EQ(o.settings.roulette.mode, Roulette::Mode::Throughput);
@@ -77,6 +77,31 @@ TEST(Options, StopRules) {
     EXPECT_EQ(both.settings.stop.seconds, 10);
     EXPECT_EQ(both.settings.samplesPerPixel, 500u);
     EXPECT_FALSE(both.settings.adaptive.enabled);
+}
+
+TEST(Options, SamplesAreSpreadUnlessSomethingElseIsAsked) {
+    const RenderSettings spread = parse({"render", "a.dae", "-o", "a.png", "-s", "40"}).settings;
+    EXPECT_EQ(spread.stop.meanSamples, 40u);
+    EXPECT_GT(spread.samplesPerPixel, 40u);
+    for (const std::vector<std::string>& evenly : {std::vector<std::string>{"--even"},
+                                                   {"--cs184", "--even"},
+                                                   {"-s", "16"},
+                                                   {"--cs184"},
+                                                   {"-a", "32", "0.1"}}) {
+        std::vector<std::string> words = {"render", "a.dae", "-o", "a.png"};
+        words.insert(words.end(), evenly.begin(), evenly.end());
+        const RenderSettings s = parse(words).settings;
+        EXPECT_FALSE(s.stop.spreads()) << evenly[0];
+        EXPECT_LE(s.samplesPerPixel, 64u) << evenly[0];
+        EXPECT_EQ(s.adaptive.enabled, evenly[0] == "-a" || words.back() == "--cs184");
+    }
+    for (const std::vector<std::string>& both :
+         {std::vector<std::string>{"-a", "32", "0.1"}, {"--noise", "0.1"}, {"--time", "1"}}) {
+        std::vector<std::string> words = {"render", "a.dae", "-o", "a.png", "--even"};
+        words.insert(words.end(), both.begin(), both.end());
+        EXPECT_THROW(parse(words), UsageError) << both[0];
+    }
+    EXPECT_FALSE(parse({"check", "a.dae", "-s", "64"}).settings.stop.spreads());
 }
 
 TEST(Options, Cs184ChangesDefaults) {

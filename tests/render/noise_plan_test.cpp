@@ -110,11 +110,11 @@ double even(uint32_t, Random& random) {
 
 /// Over seeds, the relMSE of a stop rule times its samples, over that of uniform sampling: the
 /// noise is as 1 / samples, so that this is the ratio at an equal number of samples.
-double efficiencyRatio(const Draw& draw, double noise) {
+double efficiencyRatio(const Draw& draw, const StopRule& stop) {
     double ruled = 0, uniform = 0;
     for (uint32_t seed = 0; seed < 8; ++seed) {
         RenderSettings s = settingsOf(1u << 20);
-        s.stop.noise = noise;
+        s.stop = stop;
         const Rendered a = renderDrawn(draw, s, seed);
         ruled += trueRelativeError(a.film) * double(samplesOf(a.film));
         const Rendered b = renderDrawn(draw, settingsOf(64), 100 + seed);
@@ -170,11 +170,28 @@ TEST(StopRule, NoiseIsWhatWasAskedFor) {
 
 TEST(StopRule, UnevenNoiseTakesFewerSamples) {
     // In theory (sum of sigmas)^2 / sum of squared sigmas: 0.2 for these.
-    EXPECT_LT(efficiencyRatio(uneven, 0.05), 1 / 1.3);
+    EXPECT_LT(efficiencyRatio(uneven, {.noise = 0.05}), 1 / 1.3);
 }
 
 TEST(StopRule, EvenNoiseLosesLessThanFivePercent) {
-    EXPECT_LT(efficiencyRatio(even, 0.08), 1.05);
+    EXPECT_LT(efficiencyRatio(even, {.noise = 0.08}), 1.05);
+}
+
+TEST(StopRule, MeanSamplesAreSpread) {
+    EXPECT_LT(efficiencyRatio(uneven, {.meanSamples = 64}), 1 / 1.3);
+    EXPECT_LT(efficiencyRatio(even, {.meanSamples = 64}), 1.05);
+}
+
+TEST(StopRule, MeanSamplesAreTaken) {
+    for (const Draw& draw : {Draw(uneven), Draw(even), Draw([](uint32_t, Random&) { return 0.0; })})
+        for (uint32_t mean : {16u, 17u, 40u, 64u, 1000u}) {
+            RenderSettings s = settingsOf(1u << 20);
+            s.stop.meanSamples = mean;
+            const uint64_t asked = samplesAtMost(s),
+                           taken = samplesOf(renderDrawn(draw, s, 1).film);
+            EXPECT_LE(taken, asked);
+            EXPECT_GE(taken, asked - asked / 64 - 2 * mean) << mean; // what is not worth a pass
+        }
 }
 
 TEST(StopRule, RareLightIsNotLost) {
@@ -200,6 +217,18 @@ TEST(StopRule, RareLightIsNotLost) {
     EXPECT_LT(std::abs(mean - 1), 4.5 * sigma); // one false alarm in 150,000
 }
 
+TEST(StopRule, PixelsThatLookFinishedGetTheirShare) {
+    const Draw halfConstant = [](uint32_t pixel, Random& random) {
+        return pixel % kSide < kSide / 2 ? 1.0 : gamma(1.0, random);
+    };
+    RenderSettings s = settingsOf(1u << 20);
+    s.stop.meanSamples = 1024;
+    const Film film = renderDrawn(halfConstant, s, 1).film;
+    for (const PixelStatistics& p :
+         film.pixels) // the last passes may have left them behind a little
+        EXPECT_GE(p.taken(), NoisePlan::kLeastShare * 1024 / 1.5);
+}
+
 TEST(StopRule, MostSamplesAreKept) {
     RenderSettings s = settingsOf(100);
     s.stop.noise = 1e-6;
@@ -222,6 +251,60 @@ TEST(StopRule, TimeEndsARender) {
     const Rendered r = renderDrawn(even, s, 1);
     EXPECT_TRUE(r.outcome.outOfTime || samplesOf(r.film) > 0);
     EXPECT_LT(samplesOf(r.film), uint64_t(1) << 34); // not all
+}
+
+TEST(NoisePlan, NoStepLeftOutIsWorthMore) {
+    DrawnBackend backend(uneven, 3);
+    const Film film = render(backend, settingsOf(16));
+    const std::vector<uint32_t> pixels = cropPixels(settingsOf(16));
+    NoiseEstimate estimate(pixels);
+    estimate.update(film);
+    const std::vector<double> variance = estimate.relativeVariance(film);
+    const auto pass = NoisePlan(pixels, 1024).next(film, estimate, 9999, 0);
+    std::vector<uint32_t> target(film.pixels.size(), 16);
+    uint64_t spent = 0;
+    for (const PixelTarget& t : pass)
+        target[t.pixel] = t.samples, spent += t.samples - 16;
+    EXPECT_LE(spent, 9999u);
+    EXPECT_GT(spent + 32, 9999u);
+    // From 16 to 24, 32, 48, 64: n and the next.
+    const auto next = [](uint32_t n) { return n % 3 == 0 ? n / 3 * 4 : n / 2 * 3; };
+    double leastTaken = 1e300, mostLeft = 0;
+    for (uint32_t pixel : pixels) {
+        for (uint32_t n = 16; n < target[pixel]; n = next(n))
+            leastTaken = std::min(leastTaken, variance[pixel] / (double(n) * next(n)));
+        const uint32_t n = target[pixel];
+        if (n < 64) mostLeft = std::max(mostLeft, variance[pixel] / (double(n) * next(n)));
+    }
+    EXPECT_GE(leastTaken, mostLeft);
+}
+
+/// Pixel by pixel from the definition.
+TEST(NoiseEstimate, JudgesAPixelByTheWindowAroundIt) {
+    RenderSettings s = settingsOf(16);
+    s.crop = {3, 5, 40, 30};
+    DrawnBackend backend(uneven, 3);
+    const Film film = render(backend, s);
+    const std::vector<uint32_t> pixels = cropPixels(s);
+    NoiseEstimate estimate(pixels);
+    const std::vector<double> found = estimate.relativeVariance(film);
+    double pictureMean = 0;
+    for (uint32_t pixel : pixels)
+        pictureMean += film.pixels[pixel].mean.x / double(pixels.size());
+    for (uint32_t pixel : pixels) {
+        double variance = 0, mean = 0;
+        int count = 0;
+        for (int dy = -2; dy <= 2; ++dy)
+            for (int dx = -2; dx <= 2; ++dx) {
+                const int x = int(pixel % kSide) + dx, y = int(pixel / kSide) + dy;
+                if (x < 3 || y < 5 || x >= 43 || y >= 35) continue;
+                const PixelStatistics& p = film.at(uint32_t(x), uint32_t(y));
+                variance += p.variance().x, mean += p.mean.x, ++count;
+            }
+        variance /= count, mean /= count;
+        const double expected = variance / (mean * mean + 0.01 * pictureMean * pictureMean);
+        ASSERT_NEAR(found[pixel] / expected, 1, 1e-9) << pixel;
+    }
 }
 
 TEST(NoisePlan, TheSameFilmGivesTheSamePass) {

@@ -44,7 +44,7 @@ class NoiseBackend final : public Backend {
     uint64_t paths_ = 0;
 };
 
-/// Understands "--seed", "-s" and, for a configuration of more noise, "-l 4".
+/// Understands "--seed", "-s", "-a", "--spread" and, for a configuration of more noise, "-l 4".
 struct FakeRenderer {
     int prepared = 0;
     std::vector<std::vector<std::string>> lines;
@@ -64,6 +64,10 @@ struct FakeRenderer {
             render.settings.adaptive.enabled = true;
             render.settings.adaptive.batch = uint32_t(std::stoul(*(at + 1)));
             render.settings.adaptive.tolerance = std::stod(*(at + 2));
+        }
+        if (std::find(words.begin(), words.end(), "--spread") != words.end()) {
+            render.settings.stop.meanSamples = after("-s");
+            render.settings.samplesPerPixel = 1u << 20;
         }
         render.backend = std::make_unique<NoiseBackend>(after("-l") ? 0.5 : 0.25, after("--seed"));
         return render;
@@ -113,6 +117,30 @@ TEST(RunStudy, FindsTheNoiseThatWasPutIn) {
     }
 }
 
+TEST(RunStudy, RendersSpreadSamplesAnewForEachCount) {
+    const TemporaryFolder folder;
+    FakeRenderer renderer;
+    Study study = newStudy({"default", "mine=--spread"});
+    study.settings.seeds = 1;
+    ASSERT_TRUE(runStudy(folder.path(), study, hooksOf(renderer)));
+    const std::vector<uint32_t>& counts = study.settings.sampleCounts;
+    for (const uint32_t count : counts)
+        EXPECT_TRUE(std::find(renderer.lines.begin(), renderer.lines.end(),
+                              std::vector<std::string>{"-m", "5", "--spread", "--seed", "1", "-s",
+                                                       std::to_string(count)}) !=
+                    renderer.lines.end());
+    const auto& runs = study.scenes.at(0).runs;
+    const auto run = std::find_if(runs.begin(), runs.end(),
+                                  [](const auto& r) { return r.configuration == "mine"; });
+    ASSERT_NE(run, runs.end());
+    ASSERT_EQ(run->points.size(), counts.size());
+    for (size_t i = 0; i < counts.size(); ++i) {
+        EXPECT_EQ(run->points[i].effort, counts[i]);
+        EXPECT_LE(run->points[i].samples, counts[i]);
+        EXPECT_GT(run->points[i].samples, 0.9 * counts[i]);
+    }
+}
+
 TEST(RunStudy, RendersWithTheOptionsOfTheConfiguration) {
     const TemporaryFolder folder;
     FakeRenderer renderer;
@@ -124,7 +152,7 @@ TEST(RunStudy, RendersWithTheOptionsOfTheConfiguration) {
                renderer.lines.end();
     };
     ASSERT_EQ(renderer.lines.size(), 5u); // reference, two runs, and one for each tolerance
-    EXPECT_TRUE(has({"-m", "5", "--seed", std::to_string(kReferenceSeed), "-s", "512"}));
+    EXPECT_TRUE(has({"-m", "5", "--seed", std::to_string(kReferenceSeed), "--even", "-s", "512"}));
     EXPECT_TRUE(has({"-m", "5", "--seed", "1", "-s", "64"}));
     EXPECT_TRUE(has({"-m", "5", "-l", "4", "--seed", "1", "-s", "64"}));
     EXPECT_TRUE(has({"-m", "5", "-a", "4", "0.9", "--seed", "1", "-s", "1024"}));
