@@ -42,8 +42,12 @@ Bounds primitiveBounds(const Scene& scene, uint32_t primitive) {
     if (primitive >= scene.triangles.size())
         return sphereBounds(scene.spheres[primitive - scene.triangles.size()]);
     Bounds b;
-    for (const uint32_t corner : scene.triangles[primitive].corner)
+    glm::vec3 poison(0.0f); // min and max pass over NaN; 0 times it, or infinity, is NaN
+    for (const uint32_t corner : scene.triangles[primitive].corner) {
         b.extend(scene.positions[corner]);
+        poison += 0.0f * scene.positions[corner];
+    }
+    b.lo += poison;
     return b;
 }
 

@@ -34,9 +34,10 @@ class NoiseEstimate {
     double picture(const Film& film) const;
 
     /// For each pixel of the film, the variance of one sample over squared radiance (with the
-    /// floor), means over the channels and a window of 5 x 5 pixels: a pixel that has not met the
-    /// light yet is judged by those around it, and its own luck hardly matters to how many samples
-    /// it gets.
+    /// floor), means over the channels and the window of 7 x 7 pixels around it, itself left out.
+    /// If its own samples had a say in their number, lucky ones would be diluted and unlucky ones
+    /// kept, and the picture too dark: by 0.5 % where light is rare (Kirk and Arvo 1991). A pixel
+    /// that has not met the light yet is judged by those around it.
     std::vector<double> relativeVariance(const Film& film) const;
 
   private:

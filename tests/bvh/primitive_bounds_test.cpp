@@ -1,4 +1,7 @@
 #include "host/bvh/primitive_bounds.hpp"
+#include "host/bvh/wide_layout.hpp"
+#include "host/core/error.hpp"
+#include "scene/generate/scene_maker.hpp"
 #include "tests/bvh/fixtures.hpp"
 
 #include <gtest/gtest.h>
@@ -14,6 +17,19 @@ namespace {
 int compareWithSum(float bound, float a, float b) {
     const __float128 difference = __float128(bound) - (__float128(a) + __float128(b));
     return difference > 0 ? 1 : (difference < 0 ? -1 : 0);
+}
+
+TEST(PrimitiveBounds, CornersThatAreNotFiniteAreRefused) {
+    for (const float bad :
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()})
+        for (size_t corner = 0; corner < 8; ++corner)
+            for (int axis = 0; axis < 3; ++axis) {
+                scenes::SceneMaker maker; // 12 triangles, which the leaves hold in pairs
+                maker.box({-1, -2, -3}, {1, 2, 3}, maker.add(scenes::diffuse(0.5f)));
+                ASSERT_NO_THROW(buildWideBvh(maker.scene));
+                maker.scene.positions.at(corner)[axis] = bad;
+                EXPECT_THROW(buildWideBvh(maker.scene), SceneError) << corner << ' ' << axis;
+            }
 }
 
 TEST(PrimitiveBounds, TrianglesThenSpheres) {

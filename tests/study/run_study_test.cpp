@@ -20,10 +20,11 @@ class NoiseBackend final : public Backend {
 
     void sample(std::span<const PixelTarget> targets, Film& film,
                 const PassProgress& progress) override {
+        const uint64_t before = paths_;
         for (const PixelTarget& t : targets)
             for (uint32_t i = film.pixels[t.pixel].taken(); i < t.samples; ++i)
                 film.pixels[t.pixel].add(sampleAlone(t.pixel, i).radiance), ++paths_;
-        progress(paths_);
+        progress(paths_ - before);
     }
     SampleValue sampleAlone(uint32_t pixel, uint32_t sample) override {
         // Steele, Lea and Flood 2014 (SplitMix), its state a different one for each sample.
