@@ -1,112 +1,15 @@
-// Stop rules against samples of known mean and variance: a backend that draws numbers, no renderer.
-#include "host/render/noise_estimate.hpp"
+// Stop rules, and where they send samples, against samples of known mean and variance.
 #include "host/render/noise_plan.hpp"
-#include "host/render/render.hpp"
+#include "tests/render/drawn_samples.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
-#include <random>
 
 namespace stromboli {
 namespace {
 
-constexpr uint32_t kSide = 48;
-
-/// SplitMix64 (Steele, Lea and Flood 2014): a generator that is cheap to start, for each sample has
-/// its own.
-struct Random {
-    using result_type = uint64_t;
-    uint64_t state;
-    static constexpr uint64_t min() { return 0; }
-    static constexpr uint64_t max() { return ~uint64_t(0); }
-    uint64_t operator()() {
-        uint64_t z = state += 0x9E3779B97F4A7C15u;
-        z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-        z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-        return z ^ (z >> 31);
-    }
-};
-
-/// Draws one sample of a pixel.
-using Draw = std::function<double(uint32_t pixel, Random& random)>;
-
-class DrawnBackend : public Backend {
-  public:
-    DrawnBackend(Draw draw, uint32_t seed) : draw_(std::move(draw)), seed_(seed) {}
-
-    void sample(std::span<const PixelTarget> targets, Film& film,
-                const PassProgress& progress) override {
-        uint64_t done = 0;
-        for (const PixelTarget& t : targets)
-            while (film.pixels[t.pixel].taken() < t.samples) {
-                film.pixels[t.pixel].add(
-                    sampleAlone(t.pixel, film.pixels[t.pixel].taken()).radiance);
-                if (++done % 4096 == 0 && !progress(done)) return;
-            }
-        progress(done);
-    }
-    SampleValue sampleAlone(uint32_t pixel, uint32_t sample) override {
-        Random random{seed_ * 0x9E3779B97F4A7C15u ^ (uint64_t(pixel) << 32 | sample)};
-        random.state = random();
-        return {glm::dvec3(draw_(pixel, random))};
-    }
-    RenderCounters counters() const override { return {}; }
-
-  private:
-    Draw draw_;
-    uint32_t seed_;
-};
-
-/// Gamma-distributed with mean 1 and this relative sigma.
-double gamma(double sigma, Random& random) {
-    return std::gamma_distribution<double>(1 / (sigma * sigma), sigma * sigma)(random);
-}
-
-RenderSettings settingsOf(uint32_t samples) {
-    RenderSettings s;
-    s.width = s.height = kSide;
-    s.samplesPerPixel = samples;
-    return s;
-}
-
-/// relMSE against a picture that is 1 everywhere.
-double trueRelativeError(const Film& film) {
-    double sum = 0;
-    for (const PixelStatistics& p : film.pixels)
-        sum += (p.mean.x - 1) * (p.mean.x - 1);
-    return sum / double(film.pixels.size()) / (1 + kRelativeFloor * kRelativeFloor);
-}
-
-uint64_t samplesOf(const Film& film) {
-    uint64_t sum = 0;
-    for (const PixelStatistics& p : film.pixels)
-        sum += p.taken();
-    return sum;
-}
-
-struct Rendered {
-    Film film;
-    RenderOutcome outcome;
-};
-
-Rendered renderDrawn(const Draw& draw, const RenderSettings& s, uint32_t seed) {
-    DrawnBackend backend(draw, seed);
-    Rendered r;
-    r.film = render(backend, s, {}, &r.outcome);
-    return r;
-}
-
-/// Every tenth pixel's sigma is 20 times the others'.
-double uneven(uint32_t pixel, Random& random) {
-    const bool noisy = pixel % kSide / 5 == 3;
-    return gamma(noisy ? 4.0 : 0.2, random);
-}
-
-double even(uint32_t, Random& random) {
-    return gamma(0.7, random);
-}
+using namespace test;
 
 /// Over seeds, the relMSE of a stop rule times its samples, over that of uniform sampling: the
 /// noise is as 1 / samples, so that this is the ratio at an equal number of samples.
@@ -121,40 +24,6 @@ double efficiencyRatio(const Draw& draw, const StopRule& stop) {
         uniform += trueRelativeError(b.film) * double(samplesOf(b.film));
     }
     return ruled / uniform;
-}
-
-TEST(NoiseEstimate, IsTheErrorOfIndependentSamples) {
-    // 8 seeds of 2304 pixels; relMSE's own relative sigma is about sqrt(2 / 18432) = 1 %.
-    double estimated = 0, error = 0;
-    for (uint32_t seed = 0; seed < 8; ++seed) {
-        const Rendered r = renderDrawn(even, settingsOf(64), seed);
-        estimated += r.outcome.noise * r.outcome.noise;
-        error += trueRelativeError(r.film);
-    }
-    EXPECT_NEAR(estimated / error, 1, 0.08); // 4 sigma of the ratio with gamma's excess kurtosis
-}
-
-TEST(NoiseEstimate, SeesTheGainOfSamplesThatFillGaps) {
-    // Means that are off by n^-0.75, as with Sobol points, and right in their variance: Welford's
-    // variance over n would say 8 times the squared error at 64.
-    constexpr double kSigma = 0.5;
-    NoiseEstimate estimate({0, 1, 2, 3});
-    Film film(2, 2);
-    const auto setTo = [&](uint32_t n) {
-        const double off = kSigma * std::pow(double(n), -0.75);
-        for (size_t i = 0; i < 4; ++i) {
-            film.pixels[i].count = n;
-            // Errors of doublings are independent enough: each has its own sign.
-            film.pixels[i].mean = glm::dvec3(1 + ((i + n / 32) % 2 ? off : -off));
-            film.pixels[i].m2 = glm::dvec3(kSigma * kSigma * (n - 1));
-        }
-        estimate.update(film);
-    };
-    setTo(32);
-    setTo(64);
-    const double welford = kSigma / std::sqrt(64.0);
-    EXPECT_LT(estimate.picture(film), welford);
-    EXPECT_GT(estimate.picture(film), kSigma * std::pow(64.0, -0.75));
 }
 
 TEST(StopRule, NoiseIsWhatWasAskedFor) {
@@ -300,34 +169,6 @@ TEST(NoisePlan, NoStepLeftOutIsWorthMore) {
         if (n < 64) mostLeft = std::max(mostLeft, variance[pixel] / (double(n) * next(n)));
     }
     EXPECT_GE(leastTaken, mostLeft);
-}
-
-/// Pixel by pixel from the definition.
-TEST(NoiseEstimate, JudgesAPixelByItsNeighbours) {
-    RenderSettings s = settingsOf(16);
-    s.crop = {3, 5, 40, 30};
-    DrawnBackend backend(uneven, 3);
-    const Film film = render(backend, s);
-    const std::vector<uint32_t> pixels = cropPixels(s);
-    NoiseEstimate estimate(pixels);
-    const std::vector<double> found = estimate.relativeVariance(film);
-    double pictureMean = 0;
-    for (uint32_t pixel : pixels)
-        pictureMean += film.pixels[pixel].mean.x / double(pixels.size());
-    for (uint32_t pixel : pixels) {
-        double variance = 0, mean = 0;
-        int count = 0;
-        for (int dy = -3; dy <= 3; ++dy)
-            for (int dx = -3; dx <= 3; ++dx) {
-                const int x = int(pixel % kSide) + dx, y = int(pixel / kSide) + dy;
-                if (x < 3 || y < 5 || x >= 43 || y >= 35 || (dx == 0 && dy == 0)) continue;
-                const PixelStatistics& p = film.at(uint32_t(x), uint32_t(y));
-                variance += p.variance().x, mean += p.mean.x, ++count;
-            }
-        variance /= count, mean /= count;
-        const double expected = variance / (mean * mean + 0.01 * pictureMean * pictureMean);
-        ASSERT_NEAR(found[pixel] / expected, 1, 1e-9) << pixel;
-    }
 }
 
 TEST(NoisePlan, TheSameFilmGivesTheSamePass) {

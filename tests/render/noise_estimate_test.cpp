@@ -1,0 +1,75 @@
+// The estimate of a picture's noise against samples of known mean and variance.
+#include "tests/render/drawn_samples.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace stromboli {
+namespace {
+
+using namespace test;
+
+TEST(NoiseEstimate, IsTheErrorOfIndependentSamples) {
+    // 8 seeds of 2304 pixels; relMSE's own relative sigma is about sqrt(2 / 18432) = 1 %.
+    double estimated = 0, error = 0;
+    for (uint32_t seed = 0; seed < 8; ++seed) {
+        const Rendered r = renderDrawn(even, settingsOf(64), seed);
+        estimated += r.outcome.noise * r.outcome.noise;
+        error += trueRelativeError(r.film);
+    }
+    EXPECT_NEAR(estimated / error, 1, 0.08); // 4 sigma of the ratio with gamma's excess kurtosis
+}
+
+TEST(NoiseEstimate, SeesTheGainOfSamplesThatFillGaps) {
+    // Means that are off by n^-0.75, as with Sobol points, and right in their variance: Welford's
+    // variance over n would say 8 times the squared error at 64.
+    constexpr double kSigma = 0.5;
+    NoiseEstimate estimate({0, 1, 2, 3});
+    Film film(2, 2);
+    const auto setTo = [&](uint32_t n) {
+        const double off = kSigma * std::pow(double(n), -0.75);
+        for (size_t i = 0; i < 4; ++i) {
+            film.pixels[i].count = n;
+            // Errors of doublings are independent enough: each has its own sign.
+            film.pixels[i].mean = glm::dvec3(1 + ((i + n / 32) % 2 ? off : -off));
+            film.pixels[i].m2 = glm::dvec3(kSigma * kSigma * (n - 1));
+        }
+        estimate.update(film);
+    };
+    setTo(32);
+    setTo(64);
+    const double welford = kSigma / std::sqrt(64.0);
+    EXPECT_LT(estimate.picture(film), welford);
+    EXPECT_GT(estimate.picture(film), kSigma * std::pow(64.0, -0.75));
+}
+/// Pixel by pixel from the definition.
+TEST(NoiseEstimate, JudgesAPixelByItsNeighbours) {
+    RenderSettings s = settingsOf(16);
+    s.crop = {3, 5, 40, 30};
+    DrawnBackend backend(uneven, 3);
+    const Film film = render(backend, s);
+    const std::vector<uint32_t> pixels = cropPixels(s);
+    NoiseEstimate estimate(pixels);
+    const std::vector<double> found = estimate.relativeVariance(film);
+    double pictureMean = 0;
+    for (uint32_t pixel : pixels)
+        pictureMean += film.pixels[pixel].mean.x / double(pixels.size());
+    for (uint32_t pixel : pixels) {
+        double variance = 0, mean = 0;
+        int count = 0;
+        for (int dy = -3; dy <= 3; ++dy)
+            for (int dx = -3; dx <= 3; ++dx) {
+                const int x = int(pixel % kSide) + dx, y = int(pixel / kSide) + dy;
+                if (x < 3 || y < 5 || x >= 43 || y >= 35 || (dx == 0 && dy == 0)) continue;
+                const PixelStatistics& p = film.at(uint32_t(x), uint32_t(y));
+                variance += p.variance().x, mean += p.mean.x, ++count;
+            }
+        variance /= count, mean /= count;
+        const double expected = variance / (mean * mean + 0.01 * pictureMean * pictureMean);
+        ASSERT_NEAR(found[pixel] / expected, 1, 1e-9) << pixel;
+    }
+}
+
+} // namespace
+} // namespace stromboli
