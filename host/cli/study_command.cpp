@@ -9,6 +9,7 @@
 #include "host/core/log.hpp"
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/reference/reference_backend.hpp"
+#include "host/study/folder_lock.hpp"
 #include "host/study/journal.hpp"
 #include "host/study/page.hpp"
 #include "host/study/run_study.hpp"
@@ -176,6 +177,7 @@ int studyCommand(const Options& options) {
     std::error_code failed;
     fs::create_directories(folder, failed);
     checkFileWritable(folder / "study.json");
+    const study::FolderLock lock(folder);
     watchForInterrupt();
     const vulkan::OpenDevice open = vulkan::openDevice(options.device);
     Study s = newStudy(o.settings, *open.device);
