@@ -56,8 +56,7 @@ const std::vector<Configuration>& knownConfigurations() {
     static const std::vector<Configuration> all = {
         {"default", "", "what `render` does by itself"},
         {"independent", "--sampler independent --even",
-         "every sample on its own, as many for each "
-         "pixel: the control"},
+         "every sample on its own, as many for each pixel: the control"},
         {"even", "--even", "the same number of samples for every pixel"},
         {"no-roulette", "--roulette none", "paths end at the last bounce only"},
         {"hemisphere", "--direct hemisphere", "lamps are found by uniform directions"},

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <span>
 
 namespace stromboli::study {
@@ -139,9 +140,10 @@ void Conductor::writePictures(const SceneStudy& scene, const Configuration& c, c
     fs::create_directories(base.parent_path());
     writePicture(base.string() + ".png", film, {}, {});
     compare::Picture means(film.width, film.height);
-    uint32_t most = 1;
+    uint32_t least = std::numeric_limits<uint32_t>::max(), most = 1;
     for (size_t i = 0; i < film.pixels.size(); ++i) {
         means.rgb[i] = film.pixels[i].mean;
+        least = std::min(least, film.pixels[i].taken());
         most = std::max(most, film.pixels[i].taken());
     }
     std::vector<double> errors =
@@ -151,7 +153,7 @@ void Conductor::writePictures(const SceneStudy& scene, const Configuration& c, c
     const uint32_t w = (film.width + 1) / 2, h = (film.height + 1) / 2;
     writePng(base.string() + "-error.png", compare::falseColor(errors, w, h, 1),
              PngColorSpace::Srgb);
-    if (!c.effort.empty())
+    if (least < most)
         writePng(base.string() + "-samples.png", ratePicture(film, {}, most), PngColorSpace::Srgb);
 }
 

@@ -16,7 +16,9 @@ namespace {
 
 class NoiseBackend final : public Backend {
   public:
-    NoiseBackend(double sigma, uint32_t seed) : sigma_(sigma), seed_(seed) {}
+    /// `share`: of the noise that the lower half has.
+    NoiseBackend(double sigma, double share, uint32_t seed)
+        : sigma_(sigma), share_(share), seed_(seed) {}
 
     void sample(std::span<const PixelTarget> targets, Film& film,
                 const PassProgress& progress) override {
@@ -34,13 +36,14 @@ class NoiseBackend final : public Backend {
         x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
         x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
         x ^= x >> 31;
-        const double noise = double(x >> 11) * 0x1p-52 - 1;              // in [-1, 1)
-        return {glm::dvec3(1 + sigma_ * std::sqrt(3.0) * noise), false}; // variance sigma^2
+        const double noise = double(x >> 11) * 0x1p-52 - 1; // in [-1, 1)
+        const double sigma = sigma_ * (pixel / (24 * 10) ? share_ : 1);
+        return {glm::dvec3(1 + sigma * std::sqrt(3.0) * noise), false}; // variance sigma^2
     }
     RenderCounters counters() const override { return {paths_, 2 * paths_}; }
 
   private:
-    double sigma_;
+    double sigma_, share_;
     uint32_t seed_;
     uint64_t paths_ = 0;
 };
@@ -66,11 +69,13 @@ struct FakeRenderer {
             render.settings.adaptive.batch = uint32_t(std::stoul(*(at + 1)));
             render.settings.adaptive.tolerance = std::stod(*(at + 2));
         }
-        if (std::find(words.begin(), words.end(), "--spread") != words.end()) {
+        const bool spread = std::find(words.begin(), words.end(), "--spread") != words.end();
+        if (spread) {
             render.settings.stop.meanSamples = after("-s");
             render.settings.samplesPerPixel = 1u << 20;
         }
-        render.backend = std::make_unique<NoiseBackend>(after("-l") ? 0.5 : 0.25, after("--seed"));
+        render.backend = std::make_unique<NoiseBackend>(after("-l") ? 0.5 : 0.25, spread ? 0.1 : 1,
+                                                        after("--seed"));
         return render;
     }
 };
@@ -140,6 +145,7 @@ TEST(RunStudy, RendersSpreadSamplesAnewForEachCount) {
         EXPECT_LE(run->points[i].samples, counts[i]);
         EXPECT_GT(run->points[i].samples, 0.9 * counts[i]);
     }
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "pictures/scene-mine-2-samples.png"));
 }
 
 TEST(RunStudy, RendersWithTheOptionsOfTheConfiguration) {
@@ -210,7 +216,7 @@ TEST(RunStudy, AnotherReferenceIsMadeOnlyIfItHasTo) {
 TEST(RunStudy, PicturesOfTheFirstSeed) {
     const TemporaryFolder folder;
     FakeRenderer renderer;
-    Study study = newStudy({"default", "mine=-a 4 {0.9,0.5}"});
+    Study study = newStudy({"default", "mine=-a 4 {0.9,0.02}"});
     ASSERT_TRUE(runStudy(folder.path(), study, hooksOf(renderer)));
     for (const char* name :
          {"scene-default-0.png", "scene-default-2-error.png", "scene-mine-1-samples.png"})
