@@ -48,21 +48,26 @@ bool lightJoinsCamera(const GpuScene& scene, const RenderSettings& settings) {
                         [](const gpu::Light& l) { return l.kind == gpu::LIGHT_MESH; });
 }
 
+bool misIsWanted(const RenderSettings& settings) {
+    return settings.directLight == DirectLight::Mis && !settings.cs184;
+}
+
 /// Where bounces from rough metals may find what light samples find too.
 bool usesMis(const GpuScene& scene, const RenderSettings& settings, uint32_t materialKinds) {
     const bool metal = materialKinds & 1u << gpu::MATERIAL_MICROFACET;
-    return metal && settings.directLight == DirectLight::Mis && !settings.cs184 &&
+    return metal && misIsWanted(settings) &&
            std::any_of(scene.lights.begin(), scene.lights.end(), [](const gpu::Light& light) {
                return light.kind == gpu::LIGHT_SPHERE || light.kind == gpu::LIGHT_AMBIENT ||
                       light.flags & gpu::LIGHT_FOUND_BY_BOUNCES;
            });
 }
 
-void switchOnAllTheSceneCouldHave(KernelFeatures& f) {
+void switchOnAllTheSceneCouldHave(KernelFeatures& f, const RenderSettings& settings) {
     f[SPEC_HAS_TRIANGLES] = f[SPEC_HAS_SPHERES] = f[SPEC_HAS_NORMALS] = f[SPEC_HAS_EMISSION] = 1;
     f[SPEC_ONE_LIGHT] = 0;
     f[SPEC_MATERIAL_KINDS] = (2u << gpu::MATERIAL_MICROFACET) - 1;
     f[SPEC_LIGHT_KINDS] = (2u << gpu::LIGHT_SPOT) - 1;
+    f[SPEC_USE_MIS] = misIsWanted(settings);
 }
 
 std::string list(uint32_t bits, const std::vector<const char*>& names) {
@@ -114,7 +119,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_LIGHT_JOINS_CAMERA] = lightJoinsCamera(scene, settings);
     f[SPEC_USE_MIS] = usesMis(scene, settings, f[SPEC_MATERIAL_KINDS]);
     f[SPEC_COUNT_STEPS] = tuning.countSteps;
-    if (tuning.everythingOn) switchOnAllTheSceneCouldHave(f);
+    if (tuning.everythingOn) switchOnAllTheSceneCouldHave(f, settings);
     return f;
 }
 

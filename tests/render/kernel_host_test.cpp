@@ -194,6 +194,9 @@ TEST(KernelFeatures, EverythingOn) {
     RenderSettings s;
     s.roulette.mode = Roulette::Mode::None;
     const KernelFeatures f = featuresOf(oneTriangle({}), s, tuning);
+    EXPECT_TRUE(f[SPEC_USE_MIS]);
+    s.directLight = DirectLight::Lights;
+    EXPECT_FALSE(featuresOf(oneTriangle({}), s, tuning)[SPEC_USE_MIS]);
     for (const uint32_t feature :
          {SPEC_HAS_TRIANGLES, SPEC_HAS_SPHERES, SPEC_HAS_NORMALS, SPEC_HAS_EMISSION})
         EXPECT_EQ(f[feature], 1u) << feature;
