@@ -63,6 +63,14 @@ TEST(StopRule, MeanSamplesAreTaken) {
         }
 }
 
+TEST(StopRule, MeanSamplesAreThoseOfTheCrop) {
+    RenderSettings s = settingsOf(1u << 20);
+    s.crop = {5, 7, 30, 20};
+    s.stop.meanSamples = 40;
+    EXPECT_EQ(samplesAtMost(s), 30u * 20 * 40);
+    EXPECT_NEAR(double(samplesOf(renderDrawn(uneven, s, 1).film)), 30 * 20 * 40, 30 * 20);
+}
+
 TEST(StopRule, RareLightIsNotLost) {
     // Black but for one sample in 200: pixels that have not met the light look finished.
     const Draw rare = [](uint32_t pixel, Random& random) {
