@@ -7,8 +7,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -85,6 +87,37 @@ TEST_F(Program, SameArgumentsSameBytes) {
     render("c.png", {"-s", "8", "--seed", "1"});
     EXPECT_EQ(readPng(folder.file("a.png")).rgb, readPng(folder.file("b.png")).rgb);
     EXPECT_NE(readPng(folder.file("a.png")).rgb, readPng(folder.file("c.png")).rgb);
+}
+
+TEST_F(Program, SpreadsSamplesUnlessToldNotTo) {
+    render("a.exr", {"-s", "40", "--aov", "--stats", folder.file("a.json")});
+    render("b.exr", {"-s", "40", "--aov"});
+    render("even.exr", {"-s", "40", "--aov", "--even", "--stats", folder.file("even.json")});
+    const std::vector<float> a = readExr(folder.file("a.exr")).channels.at("samples");
+    EXPECT_EQ(a, readExr(folder.file("b.exr")).channels.at("samples"));
+    EXPECT_LT(*std::min_element(a.begin(), a.end()), 40);
+    EXPECT_GT(*std::max_element(a.begin(), a.end()), 40);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "a_rate.png")); // nobody asked for it
+    for (const float samples : readExr(folder.file("even.exr")).channels.at("samples"))
+        EXPECT_EQ(samples, 40.0f);
+    const auto read = [&](const char* name) {
+        return nlohmann::json::parse(std::ifstream(folder.path() / name));
+    };
+    EXPECT_EQ(read("a.json")["spread"], "by noise");
+    EXPECT_EQ(read("a.json")["samplesPerPixel"], 40);
+    EXPECT_LE(read("a.json")["samplesTaken"], 40 * 32 * 24);
+    EXPECT_EQ(read("even.json")["spread"], "even");
+    EXPECT_EQ(read("even.json")["samplesTaken"], 40 * 32 * 24);
+}
+
+TEST_F(Program, AnEvenCropHasTheBytesOfTheWhole) {
+    render("whole.exr", {"-s", "20", "--even"});
+    render("part.exr", {"-s", "20", "--even", "--crop", "9", "5", "12", "10"});
+    const std::vector<float> whole = readExr(folder.file("whole.exr")).channels.at("G");
+    const std::vector<float> part = readExr(folder.file("part.exr")).channels.at("G");
+    ASSERT_EQ(part.size(), 120u);
+    for (size_t i = 0; i < part.size(); ++i)
+        EXPECT_EQ(part[i], whole[(5 + i / 12) * 32 + 9 + i % 12]);
 }
 
 TEST_F(Program, ExrHoldsWhatThePngShows) {
