@@ -1,6 +1,7 @@
 #include "host/vulkan/device_memory.hpp"
 
 #include "host/core/error.hpp"
+#include "host/vulkan/huge_pages.hpp"
 #include "host/vulkan/result.hpp"
 
 #include <fmt/format.h>
@@ -49,6 +50,7 @@ DeviceMemory::DeviceMemory(const Device& device, VkBuffer buffer, MemoryPlace pl
         check(device.vk().vkMapMemory(device.handle(), memory, 0, VK_WHOLE_SIZE, 0, &mapped),
               fmt::format("map the {}", name));
         mapped_ = static_cast<std::byte*>(mapped);
+        if (device.description().isCpu()) preferHugePages({mapped_, needs.size});
     }
     device_ = &device;
     bytes_ = needs.size;

@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <fstream>
+#include <iterator>
+#include <string>
 
 namespace stromboli::test {
 namespace {
@@ -47,6 +50,29 @@ TEST_F(DeviceMemory, IsCountedFromTheBirthOfABufferToItsEnd) {
         EXPECT_LT(testDevice().allocatedBytes() - before, needed);
     }
     EXPECT_EQ(testDevice().allocatedBytes(), before);
+}
+
+/// Bytes in huge pages, of all of this process's memory.
+uint64_t inHugePages() {
+    std::ifstream file("/proc/self/smaps_rollup");
+    std::string line;
+    while (std::getline(file, line))
+        if (line.starts_with("AnonHugePages:")) return std::stoull(line.substr(14)) << 10; // kB
+    return 0;
+}
+
+TEST_F(DeviceMemory, LargeBuffersOfTheCpuLieInHugePages) {
+    if (!testDevice().description().isCpu()) GTEST_SKIP() << "a GPU's pages are the driver's";
+    std::ifstream file("/sys/kernel/mm/transparent_hugepage/enabled");
+    const std::string enabled{std::istreambuf_iterator<char>(file), {}};
+    if (enabled.find("[madvise]") == std::string::npos)
+        GTEST_SKIP() << "the system gives huge pages to all memory, or to none";
+    const uint64_t before = inHugePages();
+    constexpr uint64_t bytes = uint64_t(64) << 20;
+    Buffer buffer(testDevice(), "buffer", bytes, BufferUse::Texel);
+    buffer.upload(testQueue(), std::vector<std::byte>(bytes, std::byte(7)));
+    // The system gives what it has; without the request it gives none.
+    EXPECT_GE(inHugePages() - before, bytes / 2);
 }
 
 TEST_F(DeviceMemory, CopiesLeaveNothingBehind) {
