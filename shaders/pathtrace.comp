@@ -126,6 +126,27 @@ void traverseSomeSteps() {
     if (COUNT_STEPS) allSteps += TRAVERSAL_STEPS;
 }
 
+/// Iterations between two looks at all lanes' iterations: a look costs some tenth of an iteration.
+const uint LOOK_INTERVAL = 64u;
+
+/// This lane is to start no further ray of a path. llvmpipe gives each of its threads the same number
+/// of groups, one after the other, and a dispatch ends with the slowest thread. So groups do not
+/// count their own iterations, but go by those of all lanes: the first groups of all threads end
+/// together, then the second ones, and so on, however fast each thread is.
+bool isLate(uint iteration, uint sinceLastLook) {
+    if (dispatch.groupsPerThread == 0u) return iteration >= dispatch.softIterations;
+    const uint done = atomicAdd(status.iterations, sinceLastLook) + sinceLastLook;
+    const uint groupsEnded = gl_WorkGroupID.x % dispatch.groupsPerThread + 1u;
+    return iteration >= dispatch.softIterations ||
+           iteration > 0u && done >= groupsEnded * dispatch.sharedIterations;
+}
+
+uint nextLook(uint iteration, bool late) {
+    if (late) return dispatch.hardIterations;
+    if (dispatch.groupsPerThread == 0u) return dispatch.softIterations;
+    return min(dispatch.softIterations, iteration + LOOK_INTERVAL);
+}
+
 bool atWork() { return phase != PHASE_FINISHED && phase != PHASE_SUSPENDED; }
 
 void report() {
@@ -157,11 +178,15 @@ void main() {
     // llvmpipe. The limit keeps a dispatch finite on any device, and below the number of passes
     // after which llvmpipe ends all loops without a word.
     uint iteration = 0u;
+    uint lastLook = 0u;
     while (atWork() && iteration < dispatch.hardIterations) {
-        changePixel(iteration < dispatch.softIterations);
+        const bool late = subgroupAny(isLate(iteration, iteration - lastLook));
+        lastLook = iteration;
+        const uint pause = nextLook(iteration, late);
+        changePixel(!late);
         bool pixelWanted = false;
-        while (!pixelWanted && atWork() && iteration < dispatch.hardIterations) {
-            startWork(iteration >= dispatch.softIterations);
+        while (!pixelWanted && atWork() && iteration < pause) {
+            startWork(late);
             traverseSomeSteps();
             if (!traversing(ray)) followPath();
             ++iteration;

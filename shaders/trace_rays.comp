@@ -3,6 +3,7 @@
 // traversal code and the same shape of loop as the path kernel: a number of steps, then a service
 // pass in which lanes whose rays are done take their next one.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_ballot : require
 
 #include "shared/interface.h"
 #include "shared/scene_types.h"
@@ -15,7 +16,8 @@ layout(constant_id = SPEC_WRITE_DISTANCES) const bool WRITE_DISTANCES = false;
 #include "include/fetch.glsl"
 
 SCENE_BUFFER(BINDING_RAYS, rayRows)
-layout(set = 0, binding = BINDING_LANE_TOTALS, std430) writeonly buffer TotalsBuffer {
+layout(set = 0, binding = BINDING_LANE_TOTALS, std430) buffer TotalsBuffer {
+    uint nextChunk;
     LaneTotals laneTotals[];
 };
 layout(set = 0, binding = BINDING_RAY_DISTANCES, std430) writeonly buffer DistanceBuffer {
@@ -57,11 +59,20 @@ void serve() {
     if (tracing) startRay();
 }
 
+/// The rays of this group. llvmpipe gives each of its threads as many groups; where a group is one
+/// subgroup that takes the next chunk, if there is one left, a thread that is faster does more.
+uint takeChunk() {
+    if (dispatch.chunkCount == 0u) return gl_WorkGroupID.x;
+    uint chunk = 0u;
+    if (subgroupElect()) chunk = atomicAdd(nextChunk, 1u);
+    return subgroupBroadcastFirst(chunk);
+}
+
 void main() {
     // Neighbouring lanes take neighbouring rays at about the same time.
-    rayIndex = gl_WorkGroupID.x * gl_WorkGroupSize.x * dispatch.raysPerLane +
-               gl_LocalInvocationID.x;
-    raysLeft = dispatch.raysPerLane;
+    const uint chunk = takeChunk();
+    rayIndex = chunk * gl_WorkGroupSize.x * dispatch.raysPerLane + gl_LocalInvocationID.x;
+    raysLeft = dispatch.chunkCount == 0u || chunk < dispatch.chunkCount ? dispatch.raysPerLane : 0u;
     totals = LaneTotals(0u, 0.0, 0u);
     tracing = false;
     startTraversal(ray, vec3(0.0), vec3(0.0), 0.0, 0.0, NO_PRIMITIVE, ANY_HIT); // done at once

@@ -22,6 +22,8 @@ constexpr uint32_t kBindings = BINDING_RAY_DISTANCES + 1;
 constexpr uint32_t kLlvmpipeLoopPasses = 65535;
 /// On other devices only a guard against endless loops.
 constexpr uint32_t kGuardIterations = 1u << 20;
+/// Of the lanes' totals in their buffer, after the number of the next chunk of rays.
+constexpr uint64_t kTotalsOffset = sizeof(uint32_t);
 
 /// The scene's buffers by binding; the traversal reads the first ones only, but all are bound.
 std::vector<std::span<const std::byte>> sceneRows(const GpuScene& scene) {
@@ -79,16 +81,25 @@ vulkan::ComputePipeline DeviceRays::makePipeline(bool anyHit, bool writeDistance
             sizeof(gpu::RayDispatch)};
 }
 
+/// On a CPU device, where a group is a subgroup.
+bool DeviceRays::groupsTakeChunks() const {
+    return tuning_.kernel.driverThreads > 0 &&
+           tuning_.kernel.workgroupSize == device_.description().subgroupSize;
+}
+
 void DeviceRays::load(const RaySet& set) {
     rayCount_ = uint32_t(set.rays.size());
     anyHit_ = set.anyHit;
     const uint32_t raysPerGroup = tuning_.kernel.workgroupSize * tuning_.raysPerLane;
-    groups_ = (rayCount_ + raysPerGroup - 1) / raysPerGroup;
+    chunks_ = (rayCount_ + raysPerGroup - 1) / raysPerGroup;
+    // Of twice the groups a thread may do its own half, or up to all.
+    groups_ = groupsTakeChunks() ? 2 * chunks_ : chunks_;
     rays_.emplace(device_, "ray buffer", set.rays.size() * sizeof(gpu::TracedRay),
                   tuning_.kernel.texelFetch ? BufferUse::Texel : BufferUse::Storage);
     rays_->upload(queue_, std::as_bytes(std::span(set.rays)));
     totals_.emplace(device_, "ray totals",
-                    groups_ * tuning_.kernel.workgroupSize * sizeof(gpu::LaneTotals),
+                    kTotalsOffset +
+                        groups_ * tuning_.kernel.workgroupSize * sizeof(gpu::LaneTotals),
                     BufferUse::Storage);
     distances_.emplace(device_, "ray distances", rayCount_ * sizeof(float), BufferUse::Storage);
     pipeline_.emplace(makePipeline(anyHit_, false));
@@ -110,11 +121,14 @@ double DeviceRays::dispatch(const vulkan::ComputePipeline& pipeline,
     gpu::RayDispatch constants{};
     constants.rayCount = rayCount_;
     constants.raysPerLane = tuning_.raysPerLane;
+    constants.chunkCount = groupsTakeChunks() ? chunks_ : 0;
     // A pass counts for itself, its traversal steps and the service loop.
     constants.hardIterations =
         device_.description().isCpu()
             ? kLlvmpipeLoopPasses / (1 + (tuning_.kernel.traversalSteps + 1) + 2)
             : kGuardIterations;
+    const uint32_t nextChunk = 0;
+    totals_->upload(queue_, std::as_bytes(std::span(&nextChunk, 1)));
     return queue_.run("run the ray kernel", [&](VkCommandBuffer commands) {
         vulkan::recordDispatch(device_, commands, pipeline, set,
                                std::as_bytes(std::span(&constants, 1)), groups_);
@@ -124,7 +138,7 @@ double DeviceRays::dispatch(const vulkan::ComputePipeline& pipeline,
 RayTotals DeviceRays::trace() {
     const double seconds = dispatch(*pipeline_, *set_);
     std::vector<gpu::LaneTotals> lanes(groups_ * tuning_.kernel.workgroupSize);
-    totals_->download(queue_, std::as_writable_bytes(std::span(lanes)));
+    totals_->download(queue_, std::as_writable_bytes(std::span(lanes)), kTotalsOffset);
     RayTotals totals;
     totals.deviceSeconds = device_.description().timestampBits > 0 ? seconds : 0;
     uint64_t unfinished = 0;

@@ -48,6 +48,7 @@ class DeviceRays {
     vulkan::ComputePipeline makePipeline(bool anyHit, bool writeDistances) const;
     std::unique_ptr<vulkan::DescriptorSet> makeSet(const vulkan::ComputePipeline& pipeline) const;
     /// Returns the seconds it took (vulkan::Queue::run).
+    bool groupsTakeChunks() const;
     double dispatch(const vulkan::ComputePipeline& pipeline, const vulkan::DescriptorSet& set);
 
     const vulkan::Device& device_;
@@ -57,7 +58,7 @@ class DeviceRays {
     vulkan::Queue queue_;
     std::vector<vulkan::Buffer> sceneBuffers_;
     // Of the loaded rays:
-    uint32_t rayCount_ = 0, groups_ = 0;
+    uint32_t rayCount_ = 0, chunks_ = 0, groups_ = 0;
     bool anyHit_ = false;
     std::optional<vulkan::Buffer> rays_, totals_, distances_;
     std::optional<vulkan::ComputePipeline> pipeline_;

@@ -14,6 +14,7 @@ struct KernelTuning {
     std::optional<uint32_t> workgroupSize;
     std::optional<uint32_t> traversalSteps;   ///< between two service passes
     std::optional<uint32_t> lanes;            ///< invocations of a dispatch
+    std::optional<uint32_t> driverThreads;    ///< 0: unknown
     std::optional<uint32_t> itemsPerDispatch; ///< pixels in a work list
     double targetSeconds = 0.1;               ///< of a dispatch
     std::optional<uint32_t> fixedIterations;  ///< instead of pacing by time (tests)
@@ -30,6 +31,7 @@ struct DeviceTuning {
     uint32_t workgroupSize = 64;
     uint32_t traversalSteps = 8;
     uint32_t lanes = 1u << 20;
+    uint32_t driverThreads = 0; ///< that run workgroups one after the other; 0: unknown, a GPU
     uint32_t itemsPerDispatch = 1u << 20;
     bool countSteps = false;
     bool everythingOn = false;

@@ -46,6 +46,12 @@ uint32_t softLimit(uint32_t hard, const gpu::Frame& frame) {
     return directSamples < hard / 32 ? hard / 2 : 1;
 }
 
+/// Iterations a dispatch may be given. Where threads share them, a fast one runs more of them in a
+/// group than the others: up to twice as many.
+uint32_t paceLimit(uint32_t soft, const DeviceTuning& tuning) {
+    return tuning.driverThreads > 0 ? std::max(soft / 2, 1u) : soft;
+}
+
 template <class T>
 std::span<const std::byte> bytesOf(const std::vector<T>& v) {
     return std::as_bytes(std::span(v));
@@ -95,8 +101,9 @@ VulkanBackend::VulkanBackend(const vulkan::Device& device, const GpuScene& scene
     : device_(device), settings_(withCrop(settings)), frame_(makeFrame(scene, camera, settings_)),
       tuning_(tuningFor(tuning, device, settings_)),
       features_(kernelFeatures(scene, camera, settings_, tuning_)),
-      hardIterations_(hardLimit(device, scene, tuning_)), fixedIterations_(tuning.fixedIterations),
-      pace_(tuning.targetSeconds, softLimit(hardIterations_, frame_)), queue_(device),
+      hardIterations_(hardLimit(device, scene, tuning_)),
+      softIterations_(softLimit(hardIterations_, frame_)), fixedIterations_(tuning.fixedIterations),
+      pace_(tuning.targetSeconds, paceLimit(softIterations_, tuning_)), queue_(device),
       sceneBuffers_([&] {
           checkMemory(device.description(), scene, settings_, tuning_);
           std::vector<Buffer> buffers;
@@ -224,16 +231,28 @@ bool VulkanBackend::runChunk(const Segment& segment, std::span<const gpu::WorkIt
     return true;
 }
 
+gpu::Dispatch VulkanBackend::dispatchConstants(const Segment& segment, uint32_t itemCount,
+                                               uint32_t groups) const {
+    gpu::Dispatch d{};
+    d.itemCount = itemCount;
+    d.segmentBase = segment.firstPixel;
+    d.softIterations = softIterations_;
+    d.hardIterations = hardIterations_;
+    d.laneCount = tuning_.lanes;
+    if (tuning_.driverThreads == 0 || fixedIterations_) {
+        d.softIterations = fixedIterations_.value_or(pace_.iterations());
+        return d;
+    }
+    d.groupsPerThread = std::max(groups / tuning_.driverThreads, 1u);
+    d.sharedIterations = pace_.iterations() * tuning_.workgroupSize * tuning_.driverThreads;
+    return d;
+}
+
 /// `status`: what the dispatch before this one left; then what this one leaves.
 void VulkanBackend::dispatch(const Segment& segment, uint32_t itemCount,
                              gpu::DispatchStatus& status) {
-    const gpu::Dispatch constants = {.itemCount = itemCount,
-                                     .segmentBase = segment.firstPixel,
-                                     .softIterations =
-                                         fixedIterations_.value_or(pace_.iterations()),
-                                     .hardIterations = hardIterations_,
-                                     .laneCount = tuning_.lanes};
     const uint32_t groups = (tuning_.lanes + tuning_.workgroupSize - 1) / tuning_.workgroupSize;
+    const gpu::Dispatch constants = dispatchConstants(segment, itemCount, groups);
     // Lanes that find the list empty count on; started anew, the count cannot wrap around.
     status = {.nextItem = std::min(status.nextItem, itemCount)};
     status_.upload(queue_, bytesOf(status));

@@ -51,6 +51,8 @@ class VulkanBackend final : public Backend {
     void createSegments();
     bool runChunk(const Segment& segment, std::span<const gpu::WorkItem> items,
                   const std::function<bool(uint64_t)>& advance);
+    gpu::Dispatch dispatchConstants(const Segment& segment, uint32_t itemCount,
+                                    uint32_t groups) const;
     void dispatch(const Segment& segment, uint32_t itemCount, gpu::DispatchStatus& status);
     void count(const gpu::DispatchStatus& status);
     void readBack(const Segment& segment, std::span<const gpu::WorkItem> items, Film& film);
@@ -62,7 +64,7 @@ class VulkanBackend final : public Backend {
     gpu::Frame frame_;
     DeviceTuning tuning_;
     KernelFeatures features_;
-    uint32_t hardIterations_;
+    uint32_t hardIterations_, softIterations_;
     std::optional<uint32_t> fixedIterations_;
     DispatchPace pace_;
     vulkan::Queue queue_;

@@ -36,6 +36,7 @@ struct RayDispatch {
     uint rayCount;
     uint raysPerLane;
     uint hardIterations; ///< leave the loop here: an error
+    uint chunkCount; ///< 0: a group for each chunk of rays; else groups take the next one of so many
 };
 
 SHARED_END

@@ -40,8 +40,8 @@ struct Dispatch {
     uint softIterations; ///< start no further ray of a path at or after this loop iteration
     uint hardIterations; ///< leave the loop here: an error, reported as overflow
     uint laneCount;      ///< invocations that take part
-    uint unused0;
-    uint unused1;
+    uint groupsPerThread;  ///< that a thread of the driver runs in turn; 0: not known
+    uint sharedIterations; ///< of all lanes together until each thread shall have ended one group
     uint unused2;
 };
 SHARED_ROWS(Dispatch, 2);
@@ -96,7 +96,7 @@ struct DispatchStatus {
     uint nextItem;  ///< the first item that no lane has taken
     uint busySteps; ///< traversal steps of lanes that had a ray under way (COUNT_STEPS) ...
     uint allSteps;  ///< ... out of these
-    uint unused;
+    uint iterations; ///< loop iterations of all lanes, where groupsPerThread is not 0
 };
 SHARED_ROWS(DispatchStatus, 2);
 

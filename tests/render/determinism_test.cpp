@@ -84,6 +84,14 @@ TEST_F(Determinism, NumberOfLanes) {
     expectSameBytes(whole, renderWith(settings(), {.lanes = 1000, .itemsPerDispatch = 64}));
 }
 
+TEST_F(Determinism, WhateverThreadsTheDriverIsBelievedToHave) {
+    const Film whole = renderWith(settings());
+    for (uint32_t threads : {0u, 1u, 3u, 1000u})
+        for (uint32_t lanes : {100u, 2000u})
+            expectSameBytes(whole,
+                            renderWith(settings(), {.lanes = lanes, .driverThreads = threads}));
+}
+
 TEST_F(Determinism, LengthOfDispatches) {
     // A few loop iterations a dispatch: paths are suspended and resumed at nearly every bounce.
     const Film whole = renderWith(settings());

@@ -51,6 +51,7 @@ TEST_F(KernelTuningTest, TheDeviceDecidesWhatIsLeftOpen) {
     EXPECT_EQ(t.workgroupSize % 8, 0u) << "SIMD groups of llvmpipe are filled along x";
     EXPECT_LE(t.workgroupSize, testDevice().limits().maxComputeWorkGroupInvocations);
     EXPECT_EQ(t.lanes % t.workgroupSize, 0u);
+    EXPECT_EQ(t.driverThreads > 0, cpu) << "llvmpipe gives each thread as many groups in turn";
     EXPECT_GE(t.traversalSteps, 1u);
     EXPECT_GE(t.itemsPerDispatch, t.lanes);
     EXPECT_FALSE(t.countSteps);
@@ -62,6 +63,7 @@ TEST_F(KernelTuningTest, WhatIsGivenIsTaken) {
                                     .workgroupSize = 24,
                                     .traversalSteps = 3,
                                     .lanes = 7,
+                                    .driverThreads = 9,
                                     .itemsPerDispatch = 5,
                                     .countSteps = true,
                                     .everythingOn = true},
@@ -71,6 +73,7 @@ TEST_F(KernelTuningTest, WhatIsGivenIsTaken) {
     EXPECT_EQ(t.workgroupSize, 24u);
     EXPECT_EQ(t.traversalSteps, 3u);
     EXPECT_EQ(t.lanes, 7u);
+    EXPECT_EQ(t.driverThreads, 9u);
     EXPECT_EQ(t.itemsPerDispatch, 5u);
     EXPECT_TRUE(t.countSteps);
     EXPECT_TRUE(t.everythingOn);

@@ -69,7 +69,7 @@ void putFrame() {
 void putWork() {
     put(dispatch.itemCount), put(dispatch.segmentBase), put(dispatch.softIterations);
     put(dispatch.hardIterations), put(dispatch.laneCount);
-    put(dispatch.unused0), put(dispatch.unused1), put(dispatch.unused2);
+    put(dispatch.groupsPerThread), put(dispatch.sharedIterations), put(dispatch.unused2);
     const WorkItem w = fetchWorkItem(1u);
     put(w.pixel), put(w.target), put(w.column), put(w.row);
     const PixelState s = fetchPixel(1u);
@@ -80,7 +80,7 @@ void putWork() {
     put(p.emission), put(p.radiance), put(p.item);
     put(status.unfinishedItems), put(status.overflowedItems), put(status.rays);
     put(status.samples), put(status.nextItem), put(status.busySteps), put(status.allSteps);
-    put(status.unused);
+    put(status.iterations);
 }
 
 void main() {

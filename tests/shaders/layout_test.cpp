@@ -136,7 +136,7 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
 
     void fillWork(TestShader& shader, Patterns& patterns, const gpu::Dispatch& d) {
         expected_.structure("Dispatch", 1u, d.segmentBase, d.softIterations, d.hardIterations,
-                            d.laneCount, d.unused0, d.unused1, d.unused2);
+                            d.laneCount, d.groupsPerThread, d.sharedIterations, d.unused2);
         const auto items = patterns.several<gpu::WorkItem>();
         shader.set(BINDING_WORK_ITEMS, items);
         expected_.structure("WorkItem", items[1].pixel, items[1].target, items[1].column,
@@ -155,7 +155,7 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         shader.setOne(BINDING_STATUS, status);
         expected_.structure("DispatchStatus", status.unfinishedItems, status.overflowedItems,
                             status.rays, status.samples, status.nextItem, status.busySteps,
-                            status.allSteps, status.unused);
+                            status.allSteps, status.iterations);
     }
 
     Words expected_;
