@@ -16,6 +16,9 @@ layout(set = 0, binding = BINDING_FRAME, std140) uniform FrameBuffer { Frame fra
 layout(set = 0, binding = BINDING_SUSPENDED, std430) buffer SuspendedBuffer {
     SuspendedPath suspendedPaths[];
 };
+layout(set = 0, binding = BINDING_SPLITS, std430) buffer SplitBuffer {
+    SuspendedSplit suspendedSplits[];
+};
 layout(set = 0, binding = BINDING_STATUS, std430) buffer StatusBuffer { DispatchStatus status; };
 layout(push_constant) uniform DispatchConstants { Dispatch dispatchConstants; };
 
@@ -79,6 +82,22 @@ void changePixel(bool mayGoOn) {
     phase = PHASE_NEXT;
 }
 
+void resumeSplit(uint lane) {
+    const SuspendedSplit s = suspendedSplits[lane];
+    splitPoint.bounce = s.bounce;
+    splitPoint.throughput = s.throughput;
+    splitPoint.surface = SurfacePoint(s.position, s.error, s.geometric, s.shading, s.wo,
+                                      s.outside != 0u, s.material, s.skipPrimitive, s.lift);
+    branchesLeft = s.branchesLeft;
+}
+
+void suspendSplit(uint lane) {
+    const SurfacePoint p = splitPoint.surface;
+    suspendedSplits[lane] = SuspendedSplit(
+        p.position, splitPoint.bounce, p.error, branchesLeft, p.geometric, p.material, p.shading,
+        p.skipPrimitive, p.wo, p.lift, splitPoint.throughput, p.outside ? 1u : 0u);
+}
+
 void resume(uint lane) {
     const SuspendedPath p = suspendedPaths[lane];
     sampleCount = 0u;
@@ -93,6 +112,7 @@ void resume(uint lane) {
     radiance = p.radiance;
     countsEmission = p.emission != SUSPENDED_NO_EMISSION;
     bouncePdf = max(p.emission, 0.0);
+    if (SPLITS) resumeSplit(lane);
     trace(PHASE_PATH, p.origin, p.direction, 0.0, INFINITE_DISTANCE, p.skipPrimitive);
 }
 
@@ -108,6 +128,7 @@ void suspend(uint lane) {
     p.radiance = radiance;
     p.item = item;
     suspendedPaths[lane] = p;
+    if (SPLITS) suspendSplit(lane);
 }
 
 /// Starts the ray that a lane has asked for, or its next sample. A lane about to trace a path ray may

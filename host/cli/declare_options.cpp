@@ -105,6 +105,15 @@ void addSampling(CLI::App& app, RawOptions& raw, Options& o, const char* samples
         ->group("Sampling");
 }
 
+void addBranches(CLI::App& app, RawOptions& raw, const char* what) {
+    app.add_option("--branches", raw.branches,
+                   std::string("paths that share a camera ray and the light samples where it ends; "
+                               "-s, which counts paths, is a multiple of it [") +
+                       what + "]")
+        ->type_name("K")
+        ->group("Sampling");
+}
+
 void addAdaptive(CLI::App& app, RawOptions& raw) {
     app.add_option("-a,--adaptive", raw.adaptive,
                    "adaptive sampling: test a pixel every BATCH samples, stop at 1.96 sigma <= "
@@ -181,6 +190,7 @@ void addRender(CLI::App& app, RawOptions& raw, Options& o) {
         app, raw, o,
         "samples per pixel, on the mean: they go where they help most (--even: to all alike); "
         "with -a, --noise and --time the most a pixel gets [64; --cs184: 1]");
+    addBranches(app, raw, "4 where bounces make most of the noise, else 1 (docs/estimator.md)");
     app.add_flag(
            "--even", raw.even,
            "the same number of samples for every pixel, so that a --crop has the bytes it has "
@@ -234,6 +244,7 @@ Subcommands declareOptions(CLI::App& app, RawOptions& raw, Options& o) {
     addPicture(*check, raw, "picture size [160 120]");
     addLightTransport(*check, raw, o);
     addSampling(*check, raw, o, "samples per pixel [256]");
+    addBranches(*check, raw, "1");
     check->add_option("--alpha", o.familyWiseError, "probability of a false alarm")
         ->check(CLI::Range(1e-12, 0.5))
         ->default_str("0.01")

@@ -19,7 +19,8 @@ struct RawOptions {
     std::optional<double> noise, seconds;
     std::string roulette, integrator = "path", direct = "mis", camera = "auto", backend = "vulkan",
                           sampler, lightChoice = "tree";
-    std::optional<uint32_t> sample, samples, lightSamples, maxBounces, minBounce, accumulate;
+    std::optional<uint32_t> sample, samples, lightSamples, maxBounces, minBounce, accumulate,
+        branches;
     bool hemisphere = false, even = false, quiet = false, verbose = false;
     RawBenchOptions bench;
     RawStudyOptions study;

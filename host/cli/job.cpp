@@ -4,6 +4,7 @@
 #include "host/core/log.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/film/film.hpp"
+#include "host/render/branches.hpp"
 #include "scene/generate/generated_scene.hpp"
 #include "scene/model/emitters.hpp"
 
@@ -64,6 +65,10 @@ Job prepareJob(const Options& options) {
         job.settings.width = size.width;
         job.settings.height = size.height;
     }
+    const StopRule& stop = job.settings.stop;
+    const uint32_t paths = stop.meanSamples > 0 ? stop.meanSamples : job.settings.samplesPerPixel;
+    splitSamples(job.settings,
+                 options.branches.value_or(branchesThatPay(job.scene, job.settings, paths)));
     checkCrop(job.settings);
     checkFilmFits(job.settings);
     job.camera = makeCamera(job.scene, options.camera, job.settings.width, job.settings.height,

@@ -19,6 +19,7 @@ namespace {
 constexpr uint32_t kLargestSide = 65536;
 /// Sample counts are exact up to this (24-bit floats in the running mean).
 constexpr uint32_t kMostSamples = 1u << 24;
+constexpr uint32_t kMostBranches = 64;
 constexpr uint32_t kMostLightSamples = 1024;
 constexpr uint32_t kMostBounces = 10000;
 
@@ -120,9 +121,22 @@ void spreadSamples(const RawOptions& raw, Options& o) {
         throw UsageError("-a and --even exclude each other: both say where samples go");
     if (raw.even) s.adaptive.enabled = false; // --cs184 turns it on
     if (raw.even || s.cs184 || s.adaptive.enabled || s.stop.open() || o.sampleAlone) return;
-    if (s.samplesPerPixel <= NoisePlan::kFirstSamples) return;
+    if (s.samplesPerPixel <= NoisePlan::kFirstPaths) return;
     s.stop.meanSamples = s.samplesPerPixel;
     s.samplesPerPixel = kMostSamples;
+}
+
+void applyBranches(const RawOptions& raw, Options& o) {
+    if (o.command != Command::Render) o.branches = 1;
+    if (!raw.branches) return;
+    const uint32_t paths = o.settings.samplesPerPixel;
+    o.branches = *raw.branches;
+    checkRange("--branches", *o.branches, 1, kMostBranches);
+    if ((raw.samples || !o.settings.stop.open()) && paths % *o.branches != 0)
+        throw UsageError(
+            fmt::format("-s {} is not a multiple of --branches {}", paths, *o.branches));
+    if (*o.branches > 1 && (o.settings.cs184 || o.settings.adaptive.enabled))
+        throw UsageError("--branches does not go with -a and --cs184, which count paths");
 }
 
 void applyLight(const RawOptions& raw, Options& o) {
@@ -206,6 +220,7 @@ std::optional<Options> parseOptions(std::vector<std::string> arguments) {
     }
     if (*commands.bench) applyBenchDefaults(raw);
     apply(raw, o);
+    applyBranches(raw, o);
     if (*commands.render) spreadSamples(raw, o);
     if (*commands.bench) applyBench(raw.bench, o);
     if (*commands.study) applyStudy(raw.study, o.study);

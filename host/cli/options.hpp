@@ -29,7 +29,8 @@ struct Options {
     std::string scene;
     std::string output;
     RenderSettings settings;
-    bool sizeGiven = false; ///< settings.width, height
+    bool sizeGiven = false;           ///< settings.width, height
+    std::optional<uint32_t> branches; ///< empty: what pays in the scene; until then -s counts paths
     CameraChoice camera = CameraChoice::Automatic;
     std::string device;
     BackendChoice backend = BackendChoice::Vulkan;

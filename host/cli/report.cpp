@@ -18,10 +18,10 @@ RenderReport summarise(const Film& film, const RenderSettings& settings) {
     RenderReport r;
     const std::vector<uint32_t> pixels = cropPixels(settings);
     for (uint32_t pixel : pixels) {
-        r.samplesTaken += film.pixels[pixel].taken();
+        r.samplesTaken += uint64_t(film.pixels[pixel].taken()) * film.branches;
         r.samplesRejected += film.pixels[pixel].rejected;
     }
-    r.samplesAtMost = samplesAtMost(settings);
+    r.samplesAtMost = samplesAtMost(settings) * settings.branches;
     return r;
 }
 
@@ -70,7 +70,9 @@ void writeStatistics(const std::string& file, const RenderReport& r, const Job& 
         {"complete", r.complete},
         {"width", s.width},
         {"height", s.height},
-        {"samplesPerPixel", s.stop.meanSamples > 0 ? s.stop.meanSamples : s.samplesPerPixel},
+        {"samplesPerPixel",
+         s.branches * (s.stop.meanSamples > 0 ? s.stop.meanSamples : s.samplesPerPixel)},
+        {"branches", s.branches},
         {"spread", s.stop.spreads() || s.adaptive.enabled ? "by noise" : "even"},
         {"maxBounces", s.maxBounces},
         {"seed", s.seed},

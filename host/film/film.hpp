@@ -31,6 +31,7 @@ struct PixelStatistics {
 struct Film {
     uint32_t width = 0, height = 0;
     std::vector<PixelStatistics> pixels;
+    uint32_t branches = 1; ///< paths of a sample (docs/estimator.md, "Branches")
 
     Film() = default;
     Film(uint32_t w, uint32_t h) : width(w), height(h), pixels(size_t(w) * h) {}

@@ -71,7 +71,8 @@ FloatImage linearPicture(const Film& film, const Crop& crop, bool statistics) {
         fill(image, names[c], film, part, [c](const PixelStatistics& p) { return p.mean[c]; });
     if (!statistics) return image;
 
-    fill(image, "samples", film, part, [](const PixelStatistics& p) { return p.taken(); });
+    fill(image, "samples", film, part,
+         [&](const PixelStatistics& p) { return p.taken() * film.branches; });
     for (int c = 0; c < 3; ++c)
         fill(image, std::string("variance.") + names[c], film, part,
              [c](const PixelStatistics& p) { return p.varianceOfMean()[c]; });

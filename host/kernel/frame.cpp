@@ -35,6 +35,7 @@ gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const RenderSe
     const bool noDelta = s.cs184 && s.directLight == DirectLight::Hemisphere;
     f.deltaLights = noDelta ? 0 : scene.deltaLights;
     f.areaSamples = areaSamples(scene, s);
+    f.branches = s.branches;
     return f;
 }
 

@@ -35,6 +35,10 @@ uint64_t pixelCount(const RenderSettings& s) {
     return s.crop.width ? uint64_t(s.crop.width) * s.crop.height : uint64_t(s.width) * s.height;
 }
 
+uint64_t splitCount(const RenderSettings& settings, uint64_t lanes) {
+    return settings.branches > 1 ? lanes : 1;
+}
+
 std::vector<BufferPlan> planBuffers(const GpuScene& scene, const RenderSettings& settings,
                                     const DeviceTuning& tuning) {
     const uint64_t pixels = pixelCount(settings);
@@ -45,6 +49,9 @@ std::vector<BufferPlan> planBuffers(const GpuScene& scene, const RenderSettings&
     plans.push_back({"film", pixels * sizeof(gpu::PixelState), rows});
     plans.push_back({"work list", items * sizeof(gpu::WorkItem), rows});
     plans.push_back({"suspended paths", lanes * sizeof(gpu::SuspendedPath), BufferUse::Storage});
+    plans.push_back({"splits of suspended paths",
+                     splitCount(settings, lanes) * sizeof(gpu::SuspendedSplit),
+                     BufferUse::Storage});
     plans.push_back({"frame constants", sizeof(gpu::Frame), BufferUse::Uniform});
     plans.push_back({"dispatch status", sizeof(gpu::DispatchStatus), BufferUse::Storage});
     return plans;

@@ -28,6 +28,9 @@ uint64_t pixelsPerSegment(const vulkan::DeviceDescription& device, const DeviceT
 void checkMemory(const vulkan::DeviceDescription& device, const GpuScene& scene,
                  const RenderSettings& settings, const DeviceTuning& tuning);
 
+/// Entries of the buffer of SuspendedSplit; one, for the binding, where paths do not split.
+uint64_t splitCount(const RenderSettings& settings, uint64_t lanes);
+
 /// Number of pixels that are rendered.
 uint64_t pixelCount(const RenderSettings& settings);
 

@@ -118,6 +118,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
         settings.sampler == Sampler::Sobol ? gpu::SAMPLER_SOBOL : gpu::SAMPLER_INDEPENDENT;
     f[SPEC_LIGHT_JOINS_CAMERA] = lightJoinsCamera(scene, settings);
     f[SPEC_USE_MIS] = usesMis(scene, settings, f[SPEC_MATERIAL_KINDS]);
+    f[SPEC_SPLITS] = settings.branches > 1;
     f[SPEC_COUNT_STEPS] = tuning.countSteps;
     if (tuning.everythingOn) switchOnAllTheSceneCouldHave(f, settings);
     return f;

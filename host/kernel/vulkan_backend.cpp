@@ -116,6 +116,9 @@ VulkanBackend::VulkanBackend(const vulkan::Device& device, const GpuScene& scene
                  rowUse(tuning_)),
       suspended_(device, "suspended paths", tuning_.lanes * sizeof(gpu::SuspendedPath),
                  BufferUse::Storage),
+      splits_(device, "splits of suspended paths",
+              splitCount(settings_, tuning_.lanes) * sizeof(gpu::SuspendedSplit),
+              BufferUse::Storage),
       status_(device, "dispatch status", sizeof(gpu::DispatchStatus), BufferUse::Storage),
       pipeline_(device, tuning.code.empty() ? kernelCode(tuning_.texelFetch) : tuning.code,
                 kernelBindings(tuning_.texelFetch), features_, sizeof(gpu::Dispatch)) {
@@ -149,7 +152,8 @@ void VulkanBackend::createSegments() {
         std::vector<const Buffer*> buffers;
         for (const Buffer& b : sceneBuffers_)
             buffers.push_back(&b);
-        for (const Buffer* b : {&frameBuffer_, &workItems_, &s.pixels, &suspended_, &status_})
+        for (const Buffer* b :
+             {&frameBuffer_, &workItems_, &s.pixels, &suspended_, &status_, &splits_})
             buffers.push_back(b);
         s.set = std::make_unique<vulkan::DescriptorSet>(device_, pipeline_, buffers);
     }

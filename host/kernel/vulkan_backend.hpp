@@ -69,7 +69,7 @@ class VulkanBackend final : public Backend {
     DispatchPace pace_;
     vulkan::Queue queue_;
     std::vector<vulkan::Buffer> sceneBuffers_;
-    vulkan::Buffer frameBuffer_, workItems_, suspended_, status_;
+    vulkan::Buffer frameBuffer_, workItems_, suspended_, splits_, status_;
     vulkan::ComputePipeline pipeline_;
     std::vector<Segment> segments_;
     RenderCounters counters_;

@@ -8,6 +8,10 @@
 namespace stromboli::reference {
 namespace {
 
+bool scattersAtRandom(const Material& material) {
+    return material.kind != MaterialKind::Mirror && material.kind != MaterialKind::Refraction;
+}
+
 double largest(const glm::dvec3& v) {
     return std::max({v.x, v.y, v.z});
 }
@@ -20,26 +24,45 @@ PathSample::PathSample(const World& world, const RenderSettings& settings, Rando
 glm::dvec3 PathSample::radiance(const Ray& cameraRay) {
     if (!arrive(cameraRay, {})) return radiance_; // ambient light is not a backdrop
     if (settings_.minBounce == 0) addEmission();
-    for (uint32_t bounce = 1; bounce <= settings_.maxBounces; ++bounce) {
-        faceForward(surface_, world_.convention);
-        if (!survivesFixed()) break;
-        if (!surface_.material->isDelta() && bounce >= settings_.minBounce) addDirectLight();
-
-        const BsdfSample next = sampleBsdf(surface_, random_, world_.convention);
-        throughput_ *= next.weight;
-        if (!(largest(throughput_) > 0)) break;
-        if (!survivesThroughput(bounce)) break;
-
-        const bool counts = emissionCounts(bounce);
-        if (bounce == settings_.maxBounces && !counts) break;
-        const bool hit = next.transmitted ? arrive(transmit(next.direction), {surface_.triangle})
-                                          : arrive(reflect(next.direction), {startOfReflected()});
-        if (counts && hit) addEmission();
-        if (counts && !hit)
-            radiance_ += throughput_ * world_.lights.ambientRadiance(next.direction);
-        if (!hit) break;
-    }
+    follow(1, settings_.branches > 1);
     return radiance_;
+}
+
+void PathSample::follow(uint32_t bounce, bool splits) {
+    for (; bounce <= settings_.maxBounces; ++bounce) {
+        faceForward(surface_, world_.convention);
+        if (!survivesFixed()) return;
+        if (!surface_.material->isDelta() && bounce >= settings_.minBounce) addDirectLight();
+        if (splits && scattersAtRandom(*surface_.material)) return followBranches(bounce);
+        if (!scatter(bounce)) return;
+    }
+}
+
+void PathSample::followBranches(uint32_t bounce) {
+    const PathSample before = *this;
+    radiance_ = {};
+    for (uint32_t branch = 0; branch < settings_.branches; ++branch) {
+        surface_ = before.surface_;
+        throughput_ = before.throughput_;
+        random_ = before.random_.branch(branch, settings_.branches);
+        if (scatter(bounce)) follow(bounce + 1, false);
+    }
+    radiance_ = before.radiance_ + radiance_ / double(settings_.branches);
+}
+
+bool PathSample::scatter(uint32_t bounce) {
+    const BsdfSample next = sampleBsdf(surface_, random_, world_.convention);
+    throughput_ *= next.weight;
+    if (!(largest(throughput_) > 0)) return false;
+    if (!survivesThroughput(bounce)) return false;
+
+    const bool counts = emissionCounts(bounce);
+    if (bounce == settings_.maxBounces && !counts) return false;
+    const bool hit = next.transmitted ? arrive(transmit(next.direction), {surface_.triangle})
+                                      : arrive(reflect(next.direction), {startOfReflected()});
+    if (counts && hit) addEmission();
+    if (counts && !hit) radiance_ += throughput_ * world_.lights.ambientRadiance(next.direction);
+    return hit;
 }
 
 glm::dvec3 PathSample::normalColor(const Ray& cameraRay) {

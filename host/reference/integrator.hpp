@@ -19,6 +19,13 @@ class PathSample {
     uint64_t rays() const { return rays_; }
 
   private:
+    /// The path from scattering number `bounce` at the current surface on; until `splits` are used
+    /// up, it splits at the first surface that scatters at random.
+    void follow(uint32_t bounce, bool splits);
+    /// Every branch from the current surface on, scattering number `bounce` there.
+    void followBranches(uint32_t bounce);
+    /// Scattering number `bounce` and the ray after it; false if the path ends.
+    bool scatter(uint32_t bounce);
     /// Traces a path ray and, if it hits, makes that point the current surface.
     bool arrive(const Ray& ray, Skip skip);
     /// The ray that leaves the current surface, reflected, in a unit direction.
@@ -39,7 +46,7 @@ class PathSample {
 
     const World& world_;
     const RenderSettings& settings_;
-    RandomStream& random_;
+    RandomStream random_;
     SurfacePoint surface_;
     glm::dvec3 throughput_{1.0}, radiance_{0.0};
     uint64_t rays_ = 0;

@@ -68,4 +68,11 @@ void RandomStream::beginBlock() {
     used_ = unsigned(numbers_.size());
 }
 
+RandomStream RandomStream::branch(uint32_t number, uint32_t count) const {
+    constexpr uint32_t kBranchBlocks = 1u << 31;
+    RandomStream stream(pixel_, sample_ * count + number, seed_, sampler_);
+    stream.block_ = block_ | kBranchBlocks;
+    return stream;
+}
+
 } // namespace stromboli::reference

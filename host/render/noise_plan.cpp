@@ -14,7 +14,7 @@ namespace {
 /// falls by half of it.
 constexpr uint64_t kLeastPassShare = 64;
 
-/// The rung above n: 16, 24, 32, 48, 64, ...
+/// The rung above n: 4, 6, 8, 12, 16, ...
 uint32_t nextRung(uint32_t n) {
     const uint32_t power = std::bit_floor(n);
     return n < power + power / 2 ? power + power / 2 : 2 * power;
@@ -65,12 +65,13 @@ uint64_t samplesOf(const Film& film, const std::vector<uint32_t>& pixels) {
 
 } // namespace
 
-NoisePlan::NoisePlan(std::vector<uint32_t> pixels, uint32_t mostSamples)
-    : pixels_(std::move(pixels)), mostSamples_(mostSamples) {}
+NoisePlan::NoisePlan(std::vector<uint32_t> pixels, uint32_t mostSamples, uint32_t branches)
+    : pixels_(std::move(pixels)), mostSamples_(mostSamples),
+      firstSamples_(std::max(kFirstPaths / branches, kLeastFirstSamples)) {}
 
-/// Brings all pixels to kFirstSamples, or to the power of two that the budget allows.
+/// Brings all pixels to firstSamples_, or to the power of two that the budget allows.
 std::vector<PixelTarget> NoisePlan::raiseAll(const Film& film, uint64_t budget) const {
-    const uint64_t goal = std::min(kFirstSamples, mostSamples_);
+    const uint64_t goal = std::min(firstSamples_, mostSamples_);
     uint64_t least = goal;
     for (uint32_t pixel : pixels_)
         least = std::min<uint64_t>(least, film.pixels[pixel].taken());
@@ -111,7 +112,7 @@ std::vector<PixelTarget> NoisePlan::next(const Film& film, const NoiseEstimate& 
     if (pixels_.empty()) return {};
     const auto fewest =
         std::ranges::min(pixels_, {}, [&](uint32_t pixel) { return film.pixels[pixel].taken(); });
-    if (film.pixels[fewest].taken() < std::min(kFirstSamples, mostSamples_))
+    if (film.pixels[fewest].taken() < std::min(firstSamples_, mostSamples_))
         return raiseAll(film, budget);
     const double reached = estimate.picture(film);
     if (noise > 0 && reached <= noise) return {};

@@ -13,19 +13,22 @@ namespace stromboli {
 /// samples has n proportional to the square root of a pixel's relative variance (Lagrange); growing
 /// n where variance / n^2 is largest leads there.
 ///
-/// Counts go up the ladder 16, 24, 32, 48, 64, ..., powers of two and halves between: Sobol points
-/// are best at the former, and where all pixels are alike a pass that reaches but some of them
-/// costs 4 % at most (half at n, half at 1.5 n, against all at 1.25 n).
+/// Counts go up the ladder 4, 6, 8, 12, 16, 24, 32, ..., powers of two and halves between: Sobol
+/// points are best at the former, and where all pixels are alike a pass that reaches but some of
+/// them costs 4 % at most (half at n, half at 1.5 n, against all at 1.25 n).
 class NoisePlan {
   public:
-    static constexpr uint32_t kFirstSamples = 16; ///< uniform
+    /// Paths of the uniform pass; a pixel has at least four samples then, whose variances mean
+    /// something over its neighbours.
+    static constexpr uint32_t kFirstPaths = 16;
+    static constexpr uint32_t kLeastFirstSamples = 4;
 
     /// A pixel has at least this share of the mean number of samples: what is not
     /// known yet cannot show in a variance.
     static constexpr double kLeastShare = 0.125;
 
-    /// mostSamples: of one pixel.
-    NoisePlan(std::vector<uint32_t> pixels, uint32_t mostSamples);
+    /// mostSamples: of one pixel; branches: paths of a sample.
+    NoisePlan(std::vector<uint32_t> pixels, uint32_t mostSamples, uint32_t branches = 1);
 
     /// The next pass, of at most `budget` samples. Empty when the picture is there, when every
     /// pixel has mostSamples, or when the budget would change next to nothing. noise: the picture's
@@ -39,7 +42,7 @@ class NoisePlan {
                                     uint64_t budget) const;
 
     std::vector<uint32_t> pixels_;
-    uint32_t mostSamples_;
+    uint32_t mostSamples_, firstSamples_;
 };
 
 } // namespace stromboli

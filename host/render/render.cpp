@@ -70,9 +70,10 @@ uint64_t expectedSamples(const RenderProgress& state, double reached, double tar
 Film render(Backend& backend, const RenderSettings& settings, const ProgressCallback& progress,
             RenderOutcome* outcome) {
     Film film(settings.width, settings.height);
+    film.branches = settings.branches;
     const std::vector<uint32_t> pixels = cropPixels(settings);
     SamplingPlan plan(settings, pixels);
-    const NoisePlan noisePlan(pixels, settings.samplesPerPixel);
+    const NoisePlan noisePlan(pixels, settings.samplesPerPixel, settings.branches);
     NoiseEstimate estimate(pixels);
     const Limit limit(settings.stop, pixels.size());
     RenderProgress state;

@@ -88,6 +88,7 @@ struct RenderSettings {
     DirectLight directLight = DirectLight::Mis;
     Sampler sampler = Sampler::Sobol;
     LightChoice lightChoice = LightChoice::Tree;
+    uint32_t branches = 1; ///< paths of a sample, from the first surface that scatters at random on
     Roulette roulette;
     Adaptive adaptive;
     StopRule stop; ///< excludes adaptive

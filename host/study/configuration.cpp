@@ -55,8 +55,9 @@ Configuration configurationFor(const std::string& text) {
 const std::vector<Configuration>& knownConfigurations() {
     static const std::vector<Configuration> all = {
         {"default", "", "what `render` does by itself"},
-        {"independent", "--sampler independent --even",
-         "every sample on its own, as many for each pixel: the control"},
+        {"independent", "--sampler independent --even --branches 1",
+         "every path on its own, as many for each pixel: the control"},
+        {"unsplit", "--branches 1", "every path with a camera ray of its own"},
         {"even", "--even", "the same number of samples for every pixel"},
         {"no-roulette", "--roulette none", "paths end at the last bounce only"},
         {"hemisphere", "--direct hemisphere", "lamps are found by uniform directions"},

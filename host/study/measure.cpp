@@ -148,7 +148,7 @@ Point pointOf(const Film& film, const compare::Picture& reference) {
         point.samples += film.pixels[i].taken();
         point.rejected += film.pixels[i].rejected;
     }
-    point.samples /= double(picture.rgb.size());
+    point.samples *= double(film.branches) / double(picture.rgb.size());
     const compare::LinearErrors errors = compare::linearErrors(reference, picture);
     point.relMse = errors.relMse;
     point.mse = errors.mse;
@@ -163,8 +163,10 @@ std::optional<Run> measureRun(const RunPlan& plan, const Prepare& prepare,
         const StudySettings& s = plan.settings;
         const PreparedRender render = prepare(
             plan.scene, renderOptions(s, plan.configuration, 0, plan.seed, s.sampleCounts.back()));
-        const bool even = !render.settings.stop.spreads() && !render.settings.adaptive.enabled;
-        if (even) return growSamples(plan, render, keepGoing, takeFilm);
+        const RenderSettings& r = render.settings;
+        // How many branches a sample has depends on the count, too.
+        const bool grows = !r.stop.spreads() && !r.adaptive.enabled && r.branches == 1;
+        if (grows) return growSamples(plan, render, keepGoing, takeFilm);
     }
     return growRenders(plan, prepare, keepGoing, takeFilm);
 }

@@ -153,7 +153,7 @@ void Conductor::writePictures(const SceneStudy& scene, const Configuration& c, c
     const uint32_t w = (film.width + 1) / 2, h = (film.height + 1) / 2;
     writePng(base.string() + "-error.png", compare::falseColor(errors, w, h, 1),
              PngColorSpace::Srgb);
-    if (least < most)
+    if (!c.effort.empty() || least < most)
         writePng(base.string() + "-samples.png", ratePicture(film, {}, most), PngColorSpace::Srgb);
 }
 

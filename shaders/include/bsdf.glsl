@@ -12,6 +12,12 @@ bool isDelta(uint kind) {
            (sceneHasMaterial(MATERIAL_GLASS) && kind == MATERIAL_GLASS);
 }
 
+/// Two paths that come the same way may leave by different ones.
+bool scattersAtRandom(uint kind) {
+    return !(sceneHasMaterial(MATERIAL_MIRROR) && kind == MATERIAL_MIRROR) &&
+           !(sceneHasMaterial(MATERIAL_REFRACTION) && kind == MATERIAL_REFRACTION);
+}
+
 // --- Warps of [0,1)^2 ------------------------------------------------------------------------
 
 /// Uniform on the unit disk. Polar map, area measure.

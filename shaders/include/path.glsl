@@ -40,13 +40,30 @@ uint directIndex; ///< direct light samples done at this surface
 vec3 directValue; ///< what the ray under way adds if it is free (or, hemisphere, per radiance)
 uint rayCount;
 
+/// Where a sample's path has split into branches (docs/estimator.md, "Branches"): at the first surface
+/// that scatters at random.
+struct SplitPoint {
+    SurfacePoint surface;
+    vec3 throughput; ///< before scattering
+    uint bounce;     ///< 0: has not split
+};
+SplitPoint splitPoint;
+uint branchesLeft; ///< that have not begun
+
+/// Blocks of random numbers that branches take: none of those before paths split.
+const uint BRANCH_BLOCKS = 0x80000000u;
+
 /// LIGHT_JOINS_CAMERA: the first light sample of a path takes x and y of the camera's block, the camera z
 /// and w. At the edges of things light depends on both, so they are spread evenly together.
 vec4 randomNumbers(uint slot) {
     const uint perBounce = 1u + frame.areaSamples + frame.deltaLights;
     const bool joins = LIGHT_JOINS_CAMERA && bounce == 1u && slot == 1u;
     const uint block = bounce == 0u || joins ? 0u : 1u + (bounce - 1u) * perBounce + slot;
-    return randomBlock(pixelId, sampleIndex, block, frame.seed);
+    if (!SPLITS || splitPoint.bounce == 0u)
+        return randomBlock(pixelId, sampleIndex, block, frame.seed);
+    const uint branch = frame.branches - 1u - branchesLeft;
+    return randomBlock(pixelId, sampleIndex * frame.branches + branch, BRANCH_BLOCKS | block,
+                       frame.seed);
 }
 
 /// Asks for a ray. It is started at the end of the service (startRay): llvmpipe runs every branch for
@@ -176,8 +193,37 @@ void sampleDirect() {
         sampleLights(u, index);
 }
 
+/// A lamp found by the bounce from here adds to the picture.
+bool emissionCounts() {
+    return bounce >= frame.minBounce && (isDelta(material.kind) || combines(material) ||
+                                         (DIRECT_LIGHT == DIRECT_BSDF && !CS184));
+}
+
+/// All branches are of one weight. From here on `radiance` is their sum, until finishSample.
+void splitPath() {
+    splitPoint = SplitPoint(surface, throughput, bounce);
+    branchesLeft = frame.branches - 1u;
+    radiance *= float(frame.branches);
+}
+
+/// Goes back to where the path split, with the next branch.
+void nextBranch() {
+    --branchesLeft;
+    surface = splitPoint.surface;
+    material = fetchMaterial(surface.material);
+    throughput = splitPoint.throughput;
+    bounce = splitPoint.bounce;
+    phase = PHASE_BOUNCE;
+}
+
+/// No bounce from here would be traced. Known before scattering, so that the next branch can do so in the
+/// same pass.
+bool endsHere() { return bounce == frame.maxBounces && !emissionCounts(); }
+
 void scatter() {
     phase = PHASE_ENDED;
+    if (endsHere()) return;
+    if (SPLITS && splitPoint.bounce == 0u && scattersAtRandom(material.kind)) splitPath();
     const vec4 u = randomNumbers(0u);
     const BsdfSample b = sampleBsdf(material, surface, u.xyz);
     throughput *= b.weight;
@@ -188,11 +234,8 @@ void scatter() {
         if (u.w >= q) return;
         throughput *= 1.0 / q;
     }
-    const bool mis = combines(material);
-    countsEmission = bounce >= frame.minBounce &&
-                     (isDelta(material.kind) || mis || (DIRECT_LIGHT == DIRECT_BSDF && !CS184));
-    bouncePdf = mis ? max(microfacetPdf(material, surface, b.direction), TINY) : 0.0;
-    if (bounce == frame.maxBounces && !countsEmission) return;
+    countsEmission = emissionCounts();
+    bouncePdf = combines(material) ? max(microfacetPdf(material, surface, b.direction), TINY) : 0.0;
     trace(PHASE_PATH, leave(surface, b.direction, b.transmitted), b.direction, 0.0,
           INFINITE_DISTANCE, skipOnLeaving(surface, b.transmitted));
 }
@@ -207,11 +250,22 @@ void startSample() {
     radiance = vec3(0.0);
     countsEmission = frame.minBounce == 0u;
     bouncePdf = 0.0;
+    splitPoint.bounce = 0u;
+    branchesLeft = 0u;
     const vec4 numbers = randomNumbers(0u);
     const vec2 u = LIGHT_JOINS_CAMERA ? numbers.zw : numbers.xy;
     const CameraRay c = cameraRay((float(pixelAt.x) + u.x) / float(frame.width),
                                   (float(pixelAt.y) + u.y) / float(frame.height));
     trace(PHASE_PATH, c.origin, c.direction, c.tMin, c.tMax, NO_PRIMITIVE);
+}
+
+/// The path is over, but not the sample.
+bool branchIsOver() { return SPLITS && phase == PHASE_ENDED && branchesLeft > 0u; }
+
+void finishSample() {
+    if (SPLITS && splitPoint.bounce != 0u) radiance /= float(frame.branches);
+    addSample(pixelState, radiance);
+    phase = PHASE_NEXT;
 }
 
 // --- Service -------------------------------------------------------------------------------------
@@ -227,10 +281,9 @@ void followPath() {
         if (phase == PHASE_DIRECT && directIndex < directSamples) sampleDirect();
         // A sample without a contribution was the last one: bounce in the same pass.
         if (phase == PHASE_DIRECT && directIndex >= directSamples) phase = PHASE_BOUNCE;
+        if (SPLITS && phase == PHASE_BOUNCE && endsHere()) phase = PHASE_ENDED;
+        if (branchIsOver()) nextBranch();
         if (phase == PHASE_BOUNCE) scatter();
     }
-    if (phase == PHASE_ENDED) {
-        addSample(pixelState, radiance);
-        phase = PHASE_NEXT;
-    }
+    if (phase == PHASE_ENDED && !branchIsOver()) finishSample();
 }

@@ -21,6 +21,7 @@ layout(constant_id = SPEC_SAMPLER) const uint SAMPLER = SAMPLER_INDEPENDENT;
 layout(constant_id = SPEC_LIGHT_CHOICE) const uint LIGHT_CHOICE = LIGHT_CHOICE_AREA;
 layout(constant_id = SPEC_LIGHT_JOINS_CAMERA) const bool LIGHT_JOINS_CAMERA = false;
 layout(constant_id = SPEC_USE_MIS) const bool USE_MIS = false;
+layout(constant_id = SPEC_SPLITS) const bool SPLITS = false;
 layout(constant_id = SPEC_COUNT_STEPS) const bool COUNT_STEPS = false;
 
 bool sceneHasMaterial(uint kind) { return (MATERIAL_KINDS & (1u << kind)) != 0u; }

@@ -18,7 +18,8 @@ SHARED_BEGIN
 #define BINDING_PIXELS 7
 #define BINDING_SUSPENDED 8
 #define BINDING_STATUS 9
-#define BINDING_COUNT 10
+#define BINDING_SPLITS 10 // of suspended paths
+#define BINDING_COUNT 11
 #define SCENE_BINDING_COUNT 5 // bindings 0 to 4 hold the scene and are read row by row
 
 // --- Specialisation constants: only what a scene needs ---------------------------------------
@@ -44,7 +45,8 @@ SHARED_BEGIN
 #define SPEC_LIGHT_JOINS_CAMERA 19 // the first light sample shares the camera's random numbers
 #define SPEC_LIGHT_CHOICE 20       // of a triangle of a mesh light
 #define SPEC_USE_MIS 21            // bounces from rough metals find lamps too
-#define SPEC_COUNT 22
+#define SPEC_SPLITS 22 // paths may split into branches
+#define SPEC_COUNT 23
 
 SHARED_CONST uint INTEGRATOR_PATH = 0u;
 SHARED_CONST uint INTEGRATOR_NORMALS = 1u;

@@ -27,7 +27,7 @@ struct Frame {
     uint areaLights; ///< number of quad, mesh, sphere and ambient lights, first in the buffer
     uint deltaLights;
     uint areaSamples; ///< direct light samples per shading point that are not for delta lights
-    uint unused1;
+    uint branches; ///< of a sample's path, from the first surface that scatters at random
 };
 SHARED_ROWS(Frame, 7);
 SHARED_OFFSET(Frame, nearDistance, 64);
@@ -83,6 +83,22 @@ struct SuspendedPath {
     uint item; ///< of the work list; NO_ITEM: the lane has none
 };
 SHARED_ROWS(SuspendedPath, 4);
+/// Where the path of a suspended lane split, if it has; the surface as in surface.glsl.
+struct SuspendedSplit {
+    vec3 position;
+    uint bounce; ///< 0: has not split
+    vec3 error;
+    uint branchesLeft; ///< that have not begun
+    vec3 geometric;
+    uint material;
+    vec3 shading;
+    uint skipPrimitive;
+    vec3 wo;
+    float lift;
+    vec3 throughput;
+    uint outside;
+};
+SHARED_ROWS(SuspendedSplit, 6);
 SHARED_CONST float SUSPENDED_NO_EMISSION = -1.0f;
 SHARED_CONST uint SUSPENDED_NONE = 0xFFFFFFFFu;
 SHARED_CONST uint NO_ITEM = 0xFFFFFFFFu;

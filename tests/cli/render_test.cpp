@@ -98,8 +98,8 @@ TEST_F(Program, SpreadsSamplesUnlessToldNotTo) {
     EXPECT_LT(*std::min_element(a.begin(), a.end()), 40);
     EXPECT_GT(*std::max_element(a.begin(), a.end()), 40);
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "a_rate.png")); // nobody asked for it
-    for (const float samples : readExr(folder.file("even.exr")).channels.at("samples"))
-        EXPECT_EQ(samples, 40.0f);
+    EXPECT_EQ(readExr(folder.file("even.exr")).channels.at("samples"),
+              std::vector<float>(32 * 24, 40.0f));
     const auto read = [&](const char* name) {
         return nlohmann::json::parse(std::ifstream(folder.path() / name));
     };
@@ -108,6 +108,48 @@ TEST_F(Program, SpreadsSamplesUnlessToldNotTo) {
     EXPECT_LE(read("a.json")["samplesTaken"], 40 * 32 * 24);
     EXPECT_EQ(read("even.json")["spread"], "even");
     EXPECT_EQ(read("even.json")["samplesTaken"], 40 * 32 * 24);
+}
+
+TEST_F(Program, SamplesHaveBranchesWhereThatPays) {
+    const auto statistics = [&](std::vector<std::string> words) {
+        words.insert(words.end(), {"--even", "--aov", "--stats", folder.file("s.json")});
+        render("a.exr", words);
+        auto json = nlohmann::json::parse(std::ifstream(folder.file("s.json")));
+        EXPECT_EQ(readExr(folder.file("a.exr")).channels.at("samples"), // of paths, all of them
+                  std::vector<float>(32 * 24, json["samplesPerPixel"].get<float>()));
+        return json;
+    };
+    const auto split = statistics({"-s", "64"}),
+               whole = statistics({"-s", "64", "--branches", "1"});
+    EXPECT_EQ(split["branches"], 4);
+    EXPECT_EQ(whole["branches"], 1);
+    EXPECT_EQ(split["samplesTaken"], whole["samplesTaken"]);
+    EXPECT_LT(split["rays"].get<double>(), 0.8 * whole["rays"].get<double>());
+    EXPECT_EQ(statistics({"-s", "63"})["branches"], 1); // as many as asked for
+    EXPECT_EQ(statistics({"-s", "16"})["branches"], 2);
+    EXPECT_EQ(statistics({"-s", "64", "-m", "1"})["branches"], 1);
+    EXPECT_EQ(statistics({"-s", "60", "--branches", "3"})["samplesTaken"], 60 * 32 * 24);
+}
+
+TEST_F(Program, BranchesThatCannotBe) {
+    for (const auto& [words, message] :
+         {std::pair(std::vector<std::string>{"-s", "10", "--branches", "4"},
+                    "-s 10 is not a multiple of --branches 4"),
+          {{"-s", "64", "--branches", "65"}, "--branches"},
+          {{"-s", "64", "-a", "16", "0.1", "--branches", "4"}, "--branches does not go with -a"},
+          {{"--cs184", "-s", "4", "--branches", "4"}, "--branches does not go with -a"}}) {
+        std::vector<std::string> all = {"render", scene, "-o", folder.file("no.png")};
+        all.insert(all.end(), words.begin(), words.end());
+        const ProgramRun run = stromboli(all);
+        EXPECT_EQ(run.exitCode, 1);
+        EXPECT_THAT(run.err, HasSubstr(message));
+    }
+}
+
+TEST_F(Program, CheckAgreesOnBranches) {
+    const ProgramRun run = stromboli(
+        {"check", scene, "-r", "48", "36", "-s", "128", "--branches", "4", "--alpha", "1e-6"});
+    EXPECT_EQ(run.exitCode, 0) << run.out << run.err;
 }
 
 TEST_F(Program, AnEvenCropHasTheBytesOfTheWhole) {

@@ -39,20 +39,29 @@ class Sample : public testing::Test {
 /// All samples of a picture of one sample a pixel, from its EXR; no digit is lost.
 TEST_F(Sample, PrintsWhatThePictureHolds) {
     for (const std::string backend : {"vulkan", "reference"}) {
-        const std::string picture = folder.file(backend + ".exr");
-        ASSERT_EQ(renderWith({"-o", picture, "-s", "1", "--backend", backend}).exitCode, 0);
-        const FloatImage image = readExr(picture);
-        const ProgramRun run =
-            renderWith({"--pixel", "13", "17", "--sample", "0", "--backend", backend});
-        EXPECT_EQ(run.exitCode, 0);
-        EXPECT_THAT(run.out, HasSubstr("accepted"));
-        const std::vector<std::string> radiance = radianceOf(run);
-        ASSERT_EQ(radiance.size(), 3u);
-        const char* const channels[] = {"R", "G", "B"};
-        for (int c = 0; c < 3; ++c) {
-            const float inPicture = image.channels.at(channels[c])[17 * 32 + 13];
-            EXPECT_GT(inPicture, 0);
-            EXPECT_EQ(float(std::stod(radiance[c])), inPicture) << backend << ' ' << channels[c];
+        // One sample: of one path, and of four.
+        for (const std::string paths : {"1", "4"}) {
+            const std::string picture = folder.file(backend + ".exr");
+            const std::vector<std::string> common = {"-s",  paths,       "--branches",
+                                                     paths, "--backend", backend};
+            std::vector<std::string> words = common;
+            words.insert(words.end(), {"-o", picture});
+            ASSERT_EQ(renderWith(words).exitCode, 0);
+            const FloatImage image = readExr(picture);
+            words = common;
+            words.insert(words.end(), {"--pixel", "13", "17", "--sample", "0"});
+            const ProgramRun run = renderWith(words);
+            EXPECT_EQ(run.exitCode, 0);
+            EXPECT_THAT(run.out, HasSubstr("accepted"));
+            const std::vector<std::string> radiance = radianceOf(run);
+            ASSERT_EQ(radiance.size(), 3u);
+            const char* const channels[] = {"R", "G", "B"};
+            for (int c = 0; c < 3; ++c) {
+                const float inPicture = image.channels.at(channels[c])[17 * 32 + 13];
+                EXPECT_GT(inPicture, 0);
+                EXPECT_EQ(float(std::stod(radiance[c])), inPicture)
+                    << backend << ' ' << channels[c];
+            }
         }
     }
 }
@@ -68,9 +77,11 @@ TEST_F(Sample, DependsOnItsNumberPixelAndSeed) {
         EXPECT_NE(renderWith(other).out, run.out) << testing::PrintToString(other);
 }
 
-/// As a command gets them that is run again: what only concerns pictures is of no effect.
+/// As a command gets them that is run again: what only concerns pictures is of no effect, but for
+/// the branches of a sample, if it chooses them.
 TEST_F(Sample, WritesNoFile) {
-    const std::vector<std::string> name = {"--pixel", "13", "17", "--sample", "3"};
+    const std::vector<std::string> name = {"--pixel", "13",         "17", "--sample",
+                                           "3",       "--branches", "1"};
     std::vector<std::string> all = {
         "-o",      folder.file("a.png"),  "-s",     "2", "-a", "32", "0.1",
         "--stats", folder.file("s.json"), "--crop", "1", "1",  "2",  "2"};

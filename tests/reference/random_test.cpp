@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 namespace stromboli::reference {
 namespace {
@@ -32,6 +33,26 @@ TEST(Random, UniformInTheUnitInterval) {
     // Deviations of the mean of u and u^2: sqrt(1/12 / n), sqrt(4/45 / n); 4.5 of each.
     EXPECT_NEAR(sum / kCount, 0.5, 4.5 * std::sqrt(1.0 / 12 / kCount));
     EXPECT_NEAR(sum2 / kCount, 1.0 / 3, 4.5 * std::sqrt(4.0 / 45 / kCount));
+}
+
+TEST(Random, BranchesTakeNumbersThatNoPathTakes) {
+    for (const Sampler sampler : {Sampler::Independent, Sampler::Sobol}) {
+        std::set<double> numbers;
+        size_t drawn = 0;
+        const auto draw = [&](RandomStream& stream) {
+            for (int i = 0; i < 12; ++i, ++drawn)
+                numbers.insert(stream.next());
+        };
+        for (uint32_t sample = 0; sample < 16; ++sample) {
+            RandomStream stream(7, sample, 0, sampler);
+            draw(stream);
+            for (uint32_t branch = 0; branch < 4; ++branch) {
+                RandomStream part = stream.branch(branch, 4);
+                draw(part);
+            }
+        }
+        EXPECT_EQ(numbers.size(), drawn); // of 53 bits: two are equal once in 2^33
+    }
 }
 
 TEST(Random, StreamsOfNeighboursAreNotCorrelated) {

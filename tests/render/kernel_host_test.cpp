@@ -177,6 +177,13 @@ TEST(KernelFeatures, NoRouletteWherePathsEndBeforeIt) {
     EXPECT_EQ(featuresOf(oneTriangle({}), s)[SPEC_ROULETTE], gpu::ROULETTE_THROUGHPUT);
 }
 
+TEST(KernelFeatures, PathsSplitOnlyIfAskedTo) {
+    RenderSettings s;
+    EXPECT_FALSE(featuresOf(oneTriangle({}), s)[SPEC_SPLITS]);
+    s.branches = 2;
+    EXPECT_TRUE(featuresOf(oneTriangle({}), s)[SPEC_SPLITS]);
+}
+
 TEST(KernelFeatures, FollowTheTuning) {
     DeviceTuning tuning;
     tuning.workgroupSize = 24, tuning.traversalSteps = 5, tuning.countSteps = true;

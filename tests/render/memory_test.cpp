@@ -63,6 +63,9 @@ TEST_F(Memory, WhatIsPlannedIsAllocated) {
     expectPlanned(pictureOf(61, 37), {}, 1);
     expectPlanned(pictureOf(61, 37), {.texelFetch = false}, 1);
     expectPlanned(pictureOf(320, 240), {.lanes = 1000, .itemsPerDispatch = 500}, 1);
+    RenderSettings branches = pictureOf(320, 240);
+    branches.branches = 4;
+    expectPlanned(branches, {}, 1);
     RenderSettings crop = pictureOf(4000, 3000);
     crop.crop = {10, 20, 30, 40};
     expectPlanned(crop, {}, 1);

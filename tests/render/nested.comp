@@ -53,8 +53,7 @@ void gatherDirectLight() {
     }
 }
 
-void takeSample() {
-    startSample();
+void followToTheEnd() {
     while (phase == PHASE_PATH) {
         traceToTheEnd();
         arrive();
@@ -64,7 +63,18 @@ void takeSample() {
         }
         ++loopPasses;
     }
-    addSample(pixelState, radiance);
+}
+
+void takeSample() {
+    startSample();
+    followToTheEnd();
+    while (branchIsOver()) {
+        nextBranch();
+        scatter();
+        followToTheEnd();
+        ++loopPasses;
+    }
+    finishSample();
 }
 
 /// segmentBase: the samples that each pixel gets.

@@ -91,6 +91,10 @@ const Picture kPictures[] = {
      }},
     {"noRoulette", "cornell_boxes.dae",
      [](Scene&, RenderSettings& s) { s.roulette.mode = Roulette::Mode::None; }},
+    {"branches", "cornell_boxes.dae", [](Scene&, RenderSettings& s) { s.branches = 4; }},
+    {"branchesBehindGlass", "cornell_mirror_glass.dae",
+     [](Scene&, RenderSettings& s) { s.branches = 3; }},
+    {"branchesOfMetal", "cornell_metal.dae", [](Scene&, RenderSettings& s) { s.branches = 2; }},
     {"normals", "cornell_mesh.dae",
      [](Scene&, RenderSettings& s) { s.integrator = Integrator::Normals; }},
     {"cs184Glass", "cornell_mirror_glass.dae", [](Scene&, RenderSettings&) {}, true},
@@ -225,6 +229,14 @@ INSTANTIATE_TEST_SUITE_P(Scenes, NestedPictures, testing::Range<size_t>(0, std::
 
 TEST_F(NestedKernel, AgreesWithEveryTuning) {
     load(kPictures[2]); // mirror and glass: paths of very different lengths
+    const Result textbook = nested();
+    for (size_t i = 0; i < std::size(kTunings); ++i)
+        expectSame(product(kTunings[i]), textbook, "tuning " + std::to_string(i));
+}
+
+TEST_F(NestedKernel, AgreesOnBranchesWithEveryTuning) {
+    load(kPictures[2]);
+    settings_.branches = 3; // lanes stop with some branches done, and go on
     const Result textbook = nested();
     for (size_t i = 0; i < std::size(kTunings); ++i)
         expectSame(product(kTunings[i]), textbook, "tuning " + std::to_string(i));

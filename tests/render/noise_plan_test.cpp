@@ -142,7 +142,17 @@ TEST(StopRule, BlackPicturesEnd) {
     RenderSettings s = settingsOf(1u << 20);
     s.stop.noise = 0.01;
     const Rendered r = renderDrawn([](uint32_t, Random&) { return 0.0; }, s, 1);
-    EXPECT_EQ(samplesOf(r.film), uint64_t(NoisePlan::kFirstSamples) * kSide * kSide);
+    EXPECT_EQ(samplesOf(r.film), uint64_t(NoisePlan::kFirstPaths) * kSide * kSide);
+}
+
+TEST(StopRule, FirstPathsAreThoseOfBranchesToo) {
+    for (const auto& [branches, samples] : {std::pair(1u, 16u), {2u, 8u}, {4u, 4u}, {9u, 4u}}) {
+        RenderSettings s = settingsOf(1u << 20);
+        s.stop.noise = 0.01;
+        s.branches = branches;
+        const Rendered r = renderDrawn([](uint32_t, Random&) { return 0.0; }, s, 1);
+        EXPECT_EQ(samplesOf(r.film), uint64_t(samples) * kSide * kSide);
+    }
 }
 
 TEST(StopRule, TimeEndsARender) {

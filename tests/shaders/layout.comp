@@ -8,6 +8,9 @@
 layout(set = 0, binding = BINDING_SUSPENDED, std430) buffer SuspendedBuffer {
     SuspendedPath suspendedPaths[];
 };
+layout(set = 0, binding = BINDING_SPLITS, std430) buffer SplitBuffer {
+    SuspendedSplit suspendedSplits[];
+};
 layout(set = 0, binding = BINDING_STATUS, std430) buffer StatusBuffer { DispatchStatus status; };
 layout(set = 0, binding = BINDING_ANSWERS, std430) buffer AnswerBuffer { uint words[]; };
 
@@ -63,7 +66,7 @@ void putFrame() {
     put(frame.nearDistance), put(frame.farDistance), put(frame.unused0), put(frame.seed);
     put(frame.minBounce), put(frame.maxBounces), put(frame.terminationProbability);
     put(frame.lightSamples), put(frame.areaLights), put(frame.deltaLights);
-    put(frame.areaSamples), put(frame.unused1);
+    put(frame.areaSamples), put(frame.branches);
 }
 
 void putWork() {
@@ -78,6 +81,10 @@ void putWork() {
     const SuspendedPath p = suspendedPaths[1];
     put(p.origin), put(p.bounce), put(p.direction), put(p.skipPrimitive), put(p.throughput);
     put(p.emission), put(p.radiance), put(p.item);
+    const SuspendedSplit q = suspendedSplits[1];
+    put(q.position), put(q.bounce), put(q.error), put(q.branchesLeft), put(q.geometric);
+    put(q.material), put(q.shading), put(q.skipPrimitive), put(q.wo), put(q.lift);
+    put(q.throughput), put(q.outside);
     put(status.unfinishedItems), put(status.overflowedItems), put(status.rays);
     put(status.samples), put(status.nextItem), put(status.busySteps), put(status.allSteps);
     put(status.iterations);
@@ -90,4 +97,5 @@ void main() {
     putWork();
     storePixel(2u, fetchPixel(1u)); // as the kernel stores whole structures
     suspendedPaths[2] = suspendedPaths[1];
+    suspendedSplits[2] = suspendedSplits[1];
 }

@@ -131,7 +131,7 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
                             f.firstSample, f.cameraBack, f.keepsValue, f.nearDistance,
                             f.farDistance, f.unused0, f.seed, f.minBounce, f.maxBounces,
                             f.terminationProbability, f.lightSamples, f.areaLights, f.deltaLights,
-                            f.areaSamples, f.unused1);
+                            f.areaSamples, f.branches);
     }
 
     void fillWork(TestShader& shader, Patterns& patterns, const gpu::Dispatch& d) {
@@ -151,6 +151,12 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         const gpu::SuspendedPath& p = paths_[1];
         expected_.structure("SuspendedPath", p.origin, p.bounce, p.direction, p.skipPrimitive,
                             p.throughput, p.emission, p.radiance, p.item);
+        splits_ = patterns.several<gpu::SuspendedSplit>();
+        shader.set(BINDING_SPLITS, splits_);
+        const gpu::SuspendedSplit& q = splits_[1];
+        expected_.structure("SuspendedSplit", q.position, q.bounce, q.error, q.branchesLeft,
+                            q.geometric, q.material, q.shading, q.skipPrimitive, q.wo, q.lift,
+                            q.throughput, q.outside);
         const gpu::DispatchStatus status = patterns.several<gpu::DispatchStatus>()[0];
         shader.setOne(BINDING_STATUS, status);
         expected_.structure("DispatchStatus", status.unfinishedItems, status.overflowedItems,
@@ -161,6 +167,7 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
     Words expected_;
     std::vector<gpu::PixelState> states_;
     std::vector<gpu::SuspendedPath> paths_;
+    std::vector<gpu::SuspendedSplit> splits_;
 };
 
 /// Compares memory: NaNs are not equal to themselves.
@@ -189,6 +196,7 @@ TEST_P(LayoutTest, EveryFieldArrives) {
     EXPECT_EQ(found.back(), 0xDEADBEEF) << "the shader writes more fields than C++ has";
     EXPECT_TRUE(sameBits(shader.get<gpu::PixelState>(BINDING_PIXELS, 3)[2], states_[1]));
     EXPECT_TRUE(sameBits(shader.get<gpu::SuspendedPath>(BINDING_SUSPENDED, 3)[2], paths_[1]));
+    EXPECT_TRUE(sameBits(shader.get<gpu::SuspendedSplit>(BINDING_SPLITS, 3)[2], splits_[1]));
 }
 
 INSTANTIATE_TEST_SUITE_P(Fetch, LayoutTest,
