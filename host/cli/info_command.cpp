@@ -56,10 +56,10 @@ int infoCommand(const Options& options) {
     fmt::print("buffers on the device\n");
     uint64_t total = 0;
     for (const vulkan::BufferPlan& b : planBuffers(built.gpu, job.settings, {})) {
-        fmt::print("  {:<18} {:>12} bytes\n", b.name, b.bytes);
+        fmt::print("  {:<26} {:>12} bytes\n", b.name, b.bytes);
         total += b.bytes;
     }
-    fmt::print("  {:<18} {:>12} bytes\n", "together", total);
+    fmt::print("  {:<26} {:>12} bytes\n", "together", total);
     return 0;
 }
 

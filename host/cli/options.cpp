@@ -127,7 +127,8 @@ void spreadSamples(const RawOptions& raw, Options& o) {
 }
 
 void applyBranches(const RawOptions& raw, Options& o) {
-    if (o.command != Command::Render) o.branches = 1;
+    const bool chooses = o.command == Command::Render || o.command == Command::Info;
+    if (!chooses) o.branches = 1;
     if (!raw.branches) return;
     const uint32_t paths = o.settings.samplesPerPixel;
     o.branches = *raw.branches;

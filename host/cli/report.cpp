@@ -50,8 +50,9 @@ void logReport(const RenderReport& r, const Film& film, const RenderSettings& se
             ? ""
             : fmt::format(" ({:.1f} % of the most)",
                           100.0 * double(r.samplesTaken) / double(r.samplesAtMost));
-    spdlog::info("{} paths, {} rays, {:.2f} Mrays/s; {} samples{}, {} rejected", r.counters.paths,
-                 r.counters.rays, rate, r.samplesTaken, share, r.samplesRejected);
+    spdlog::info("{} paths, {} rays, {:.2f} Mrays/s; {} samples{}, {} rejected",
+                 r.counters.paths * film.branches, r.counters.rays, rate, r.samplesTaken, share,
+                 r.samplesRejected);
     if (settings.integrator == Integrator::Path) logNoise(r, settings.stop);
     if (r.samplesRejected == 0) return;
     const auto first = std::find_if(film.pixels.begin(), film.pixels.end(),
@@ -81,7 +82,7 @@ void writeStatistics(const std::string& file, const RenderReport& r, const Job& 
         {"spheres", job.scene.spheres.size()},
         {"seconds",
          {{"load", r.loadSeconds}, {"build", r.buildSeconds}, {"render", r.renderSeconds}}},
-        {"paths", r.counters.paths},
+        {"paths", r.counters.paths * s.branches},
         {"rays", r.counters.rays},
         {"raysPerSecond", double(r.counters.rays) / std::max(r.renderSeconds, 1e-9)},
         {"samplesTaken", r.samplesTaken},

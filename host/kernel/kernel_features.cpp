@@ -145,6 +145,7 @@ std::vector<std::string> describe(const KernelFeatures& f) {
                     f[SPEC_USE_MIS] ? ", with bounces from rough metals" : ""),
         fmt::format("sampler: {}", f[SPEC_SAMPLER] == gpu::SAMPLER_SOBOL ? "sobol" : "independent"),
         fmt::format("roulette: {}", kRoulette[f[SPEC_ROULETTE]]),
+        fmt::format("paths: {}", f[SPEC_SPLITS] ? "with branches" : "each by itself"),
         fmt::format("camera: {}", f[SPEC_ORTHOGRAPHIC] ? "orthographic" : "perspective"),
         fmt::format("CS184 conventions: {}", f[SPEC_CS184] ? "yes" : "no"),
         fmt::format("traversal stack: {} entries", f[SPEC_STACK_SIZE]),
