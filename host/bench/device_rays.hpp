@@ -47,8 +47,8 @@ class DeviceRays {
   private:
     vulkan::ComputePipeline makePipeline(bool anyHit, bool writeDistances) const;
     std::unique_ptr<vulkan::DescriptorSet> makeSet(const vulkan::ComputePipeline& pipeline) const;
-    /// Returns the seconds it took (vulkan::Queue::run).
     bool groupsTakeChunks() const;
+    /// Returns the seconds it took (vulkan::Queue::run).
     double dispatch(const vulkan::ComputePipeline& pipeline, const vulkan::DescriptorSet& set);
 
     const vulkan::Device& device_;

@@ -19,6 +19,7 @@ namespace {
 constexpr uint32_t kLargestSide = 65536;
 /// Sample counts are exact up to this (24-bit floats in the running mean).
 constexpr uint32_t kMostSamples = 1u << 24;
+/// A sample is the least work a lane takes on: more would leave lanes without work at the end.
 constexpr uint32_t kMostBranches = 64;
 constexpr uint32_t kMostLightSamples = 1024;
 constexpr uint32_t kMostBounces = 10000;

@@ -18,7 +18,8 @@ double largest(const glm::dvec3& v) {
 
 } // namespace
 
-PathSample::PathSample(const World& world, const RenderSettings& settings, RandomStream& random)
+PathSample::PathSample(const World& world, const RenderSettings& settings,
+                       const RandomStream& random)
     : world_(world), settings_(settings), random_(random) {}
 
 glm::dvec3 PathSample::radiance(const Ray& cameraRay) {

@@ -9,7 +9,7 @@ namespace stromboli::reference {
 class PathSample {
   public:
     /// All three must outlive the object.
-    PathSample(const World& world, const RenderSettings& settings, RandomStream& random);
+    PathSample(const World& world, const RenderSettings& settings, const RandomStream& random);
 
     /// The radiance the camera ray brings back. To be called once.
     glm::dvec3 radiance(const Ray& cameraRay);
@@ -19,10 +19,10 @@ class PathSample {
     uint64_t rays() const { return rays_; }
 
   private:
-    /// The path from scattering number `bounce` at the current surface on; until `splits` are used
-    /// up, it splits at the first surface that scatters at random.
+    /// The path from the current surface on, where it is scattered for the `bounce`-th time.
+    /// splits: into branches, at the first surface that scatters at random.
     void follow(uint32_t bounce, bool splits);
-    /// Every branch from the current surface on, scattering number `bounce` there.
+    /// All branches of a path that splits at the current surface.
     void followBranches(uint32_t bounce);
     /// Scattering number `bounce` and the ray after it; false if the path ends.
     bool scatter(uint32_t bounce);

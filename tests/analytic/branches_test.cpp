@@ -51,8 +51,6 @@ TEST_P(Branches, FixedRoulette) {
     expectMean(estimate(furnace(diffuse(0.5f, 1)), kInside, s), glm::dvec3(2));
 }
 
-/// Roulette by throughput is that of an unsplit path: a branch is not ended the sooner for being
-/// one of many. Seen in the rays that are traced, by kernel_tuning_test; here, that it is right.
 TEST_P(Branches, RouletteByThroughput) {
     RenderSettings s = branching(GetParam(), 50);
     s.roulette.mode = Roulette::Mode::Throughput;

@@ -37,12 +37,12 @@ class BranchesGain : public DeviceTest {
     }
 
     /// Of 64 paths a pixel, from the difference of two pictures of independent noise.
-    static Expense expense(const Scene& scene, uint32_t branches) {
+    static Expense expense(const Scene& scene, uint32_t branches, uint32_t maxBounces = 5) {
         RenderSettings s;
         s.width = 64, s.height = 48;
         s.samplesPerPixel = 64 / branches;
         s.branches = branches;
-        s.maxBounces = 5;
+        s.maxBounces = maxBounces;
         const GpuScene gpu = packScene(scene, buildWideBvh(scene), false);
         const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.width, s.height, false);
         VulkanBackend first(testDevice(), gpu, camera, s);
@@ -55,14 +55,16 @@ class BranchesGain : public DeviceTest {
 };
 
 TEST_F(BranchesGain, LessNoisePerRayWhereTheyAreUsed) {
-    // Variance times CPU time, by hand at 240 x 180 with 128 paths: 1.2, 1.4 and 1.7 times less.
-    for (const char* name : {"cornell_boxes", "cornell_metal", "light_spot"}) {
+    // Variance times CPU time, by hand at 240 x 180 with 128 paths: 1.2, 1.2 and 1.7 times less.
+    for (const char* name : {"cornell_boxes", "cornell_spheres", "light_spot"}) {
         const Scene scene = libraryScene(name);
         const uint32_t branches = branchesThatPay(scene, {}, 64);
         ASSERT_EQ(branches, 4u) << name;
         const Expense split = expense(scene, branches), whole = expense(scene, 1);
-        EXPECT_LT(split.rays, 0.8 * whole.rays) << name; // all but the first vertex stays
-        EXPECT_GT(split.rays, whole.rays / branches) << name;
+        // What is shared is traced once for all branches, and they are no shorter than whole paths:
+        // roulette does not end a branch the sooner for being one of four.
+        const double shared = expense(scene, 1, 1).rays;
+        EXPECT_NEAR(split.rays, shared / branches + whole.rays - shared, 0.02 * whole.rays) << name;
         EXPECT_LT(split.variance * split.rays, 0.95 * whole.variance * whole.rays) << name;
     }
 }

@@ -95,6 +95,26 @@ TEST_F(KernelTuningTest, CountsStepsWithoutChangingThePicture) {
     EXPECT_GT(double(steps.busy), 0.25 * double(steps.all)) << "lanes are idle most of the time";
 }
 
+/// Groups that go by the iterations of all lanes end when these have had what the pace allows, not
+/// at the limit of their own, and look at the count only now and then.
+TEST_F(KernelTuningTest, DispatchesAreAsLongAsThePaceAllows) {
+    if (!testDevice().description().isCpu()) GTEST_SKIP() << "no shared count on a GPU";
+    settings_.samplesPerPixel = 64;
+    const auto iterationsPerDispatch = [&](double targetSeconds) {
+        constexpr uint32_t steps = 4, lanes = 64;
+        VulkanBackend b = backend({.traversalSteps = steps,
+                                   .lanes = lanes,
+                                   .driverThreads = 2,
+                                   .targetSeconds = targetSeconds,
+                                   .countSteps = true});
+        uint32_t dispatches = 0;
+        render(b, settings_, [&](const RenderProgress&) { return ++dispatches > 0; });
+        return double(b.steps().all) / steps / lanes / dispatches;
+    };
+    EXPECT_LT(iterationsPerDispatch(1e-9), 200); // the least pace, 16, but no look before 64
+    EXPECT_GT(iterationsPerDispatch(10), 800);   // 64, and four times as many each time
+}
+
 /// With a step a service pass, a lane that has work is busy in every step.
 TEST_F(KernelTuningTest, FewerStepsBetweenServicesKeepLanesBusier) {
     VulkanBackend often = backend({.traversalSteps = 1, .countSteps = true});

@@ -361,7 +361,8 @@ function drawCircumstances() {
     'the larger part are hollow, and no figure uses them.',
     'Times are of sampling alone: the scene is loaded, the kernel compiled and warm. CPU time is that of all threads, ' +
     'the driver’s too, and suffers less from other work on the machine than wall time. Counts of samples grow within ' +
-    'one render where every pixel has as many paths and each its own camera ray; all else is a render of its own. Times at equal error are read between points on the straight ' +
+    'one render where every pixel has as many paths and each its own camera ray; all else is a render of its own. ' +
+    'Times at equal error are read between points on the straight ' +
     'line of the logarithms, seed by seed.',
     'Intervals are of 95 %: Student’s t over seeds for slopes and bias, on the logarithmic axis for errors, Welch’s ' +
     'test for ratios. The interval of the bias has the uncertainty of the reference’s mean in it.',
