@@ -35,6 +35,7 @@ Dispatch dispatch;
 #include "include/bsdf.glsl"
 #include "include/lights.glsl"
 #include "include/mis.glsl"
+#include "include/lamp_gap.glsl"
 #include "include/accumulate.glsl"
 #include "include/path.glsl"
 
@@ -112,6 +113,7 @@ void resume(uint lane) {
     radiance = p.radiance;
     countsEmission = p.emission != SUSPENDED_NO_EMISSION;
     bouncePdf = max(p.emission, 0.0);
+    arrivalNumbers = p.arrivalNumbers;
     if (SPLITS) resumeSplit(lane);
     trace(PHASE_PATH, p.origin, p.direction, 0.0, INFINITE_DISTANCE, p.skipPrimitive);
 }
@@ -127,6 +129,7 @@ void suspend(uint lane) {
     p.emission = countsEmission ? bouncePdf : SUSPENDED_NO_EMISSION;
     p.radiance = radiance;
     p.item = item;
+    p.arrivalNumbers = arrivalNumbers;
     suspendedPaths[lane] = p;
     if (SPLITS) suspendSplit(lane);
 }
@@ -134,7 +137,7 @@ void suspend(uint lane) {
 /// Starts the ray that a lane has asked for, or its next sample. A lane about to trace a path ray may
 /// put it off to the next dispatch; in any other phase too much would have to be remembered.
 void startWork(bool late) {
-    if (phase == PHASE_NEXT && !wantsPixel()) startSample();
+    if (phase == PHASE_BOUNCE || phase == PHASE_NEXT && !wantsPixel()) depart();
     if (late && phase == PHASE_PATH && !traversing(ray)) phase = PHASE_SUSPENDED;
     startRay();
 }
@@ -185,6 +188,7 @@ void main() {
     frame = frameBuffer;
     dispatch = dispatchConstants;
     if (ONE_LIGHT) onlyLight = fetchLight(0u);
+    if (GUIDES) findLampGap();
     const uint lane = gl_GlobalInvocationID.x;
     if (lane >= dispatch.laneCount) return;
     rayCount = 0u;

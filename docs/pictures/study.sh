@@ -4,7 +4,7 @@
 set -euo pipefail
 root=$(dirname "$(readlink -f "$0")")/../..
 work=${1:-$root/build/readme-study}
-"$root/stromboli" study cornell_spheres cornell_mirror_glass -o "$work" -r 480 360 -m 5 --target-samples 64 \
+"$root/stromboli" study cornell_boxes cornell_mirror_glass -o "$work" -r 480 360 -m 5 --target-samples 64 \
     -c independent -c even -c default -c hemisphere -s 16,32,64 --seeds 3 --reference-samples 2048 --most-seconds 60
 profile=$(mktemp -d)
 trap 'rm -rf "$profile"' EXIT

@@ -71,6 +71,7 @@ class Benchmark {
         s.maxBounces = settings_.maxBounces;
         s.seed = settings_.seed;
         s.sampler = settings_.sampler;
+        s.guides = false; // Embree's path tracer does not: the same estimator
         return s;
     }
 

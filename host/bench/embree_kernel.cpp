@@ -40,24 +40,24 @@ class PathSample {
     }
 
     Vec radiance() {
-        if (!traceCamera()) return radiance_; // ambient light is not a backdrop
+        Random u = random(0);
+        if (!traceCamera(forRay(u))) return radiance_; // ambient light is not a backdrop
         bool countsEmission = w_.minBounce == 0;
         for (uint32_t bounce = 1;; ++bounce) {
             if (countsEmission) radiance_ = radiance_ + throughput_ * emission(point_);
             if (bounce > w_.maxBounces) break;
-            const uint32_t block = 1 + (bounce - 1) * (1 + areaSamples() + w_.deltaLights);
-            const Random4 u = random(block);
             if (w_.roulette == Roulette::Fixed) {
-                if (u.w < w_.terminationProbability) break;
+                if (u.leftOver < w_.terminationProbability) break;
                 throughput_ = throughput_ * (1 / (1 - w_.terminationProbability));
             }
             const bool delta = hasDelta && isDelta(*point_.surface);
-            if (!delta && bounce >= w_.minBounce)
-                addDirectLight(block + 1, w_.lightJoinsCamera && bounce == 1);
+            const uint32_t blocks = 1 + areaSamples() + w_.deltaLights;
+            if (!delta && bounce >= w_.minBounce) addDirectLight((bounce - 1) * blocks, u);
 
-            const Bounce next = scatter<hasDelta>(point_, u);
+            u = random(bounce * blocks);
+            const Bounce next = scatter<hasDelta>(point_, forRay(u));
             throughput_ = throughput_ * next.weight;
-            if (!survives(bounce, u.w)) break;
+            if (!survives(bounce, u.leftOver)) break;
             countsEmission = delta && bounce >= w_.minBounce;
             if (bounce == w_.maxBounces && !countsEmission) break;
             if (trace(leave(point_, next.direction), next.direction, 0, kLargestFloat)) continue;
@@ -77,18 +77,20 @@ class PathSample {
     static constexpr bool otherLights = features & kHasOtherLights;
 
     uint32_t areaSamples() const { return w_.areaLights * w_.lightSamples; }
-    Random4 random(uint32_t block) const {
+    Random random(uint32_t block) const {
         return w_.sobol ? sobolBlock(pixel_, sample_, block, w_.seed)
                         : randomBlock(pixel_, sample_, block, w_.seed);
     }
 
-    bool traceCamera() {
-        const Random4 numbers = random(0);
-        const float x = w_.lightJoinsCamera ? numbers.z : numbers.x,
-                    y = w_.lightJoinsCamera ? numbers.w : numbers.y;
+    /// Which numbers of its block a path ray takes.
+    Random2 forRay(const Random& u) const {
+        return w_.lightsShare ? Random2{u.z, u.w} : Random2{u.x, u.y};
+    }
+
+    bool traceCamera(Random2 u) {
         const View& view = w_.view;
-        const float s = (float(pixel_ % w_.width) + x) / float(w_.width);
-        const float t = (float(pixel_ / w_.width) + y) / float(w_.height);
+        const float s = (float(pixel_ % w_.width) + u.x) / float(w_.width);
+        const float t = (float(pixel_ / w_.width) + u.y) / float(w_.height);
         const Vec across = (2 * s - 1) * vec(view.right) + (1 - 2 * t) * vec(view.up);
         Vec origin = vec(view.position), direction = -vec(view.back);
         float alongAxis = 1; // length of the ray per unit of depth
@@ -131,18 +133,20 @@ class PathSample {
         return r.tfar >= 0; // minus infinity where something is in the way
     }
 
-    void addLight(const Light& light, uint32_t block, float share) {
-        const LightSample s = sampleLight<otherLights>(w_, point_, light, random(block));
+    void addLight(const Light& light, const Random& u, float share) {
+        const LightSample s = sampleLight<otherLights>(w_, point_, light, u);
         const Vec value = evaluate(point_, s.direction) * s.radiance * share;
         if (isLit(value) && isFree(s)) radiance_ = radiance_ + throughput_ * value;
     }
 
-    void addDirectLight(uint32_t block, bool firstJoinsCamera) {
+    /// block: that of the ray that came here, its numbers u.
+    void addDirectLight(uint32_t block, const Random& u) {
         const float share = 1 / float(w_.lightSamples);
-        for (uint32_t i = 0; i < areaSamples(); ++i, ++block)
-            addLight(w_.lights[i / w_.lightSamples], i == 0 && firstJoinsCamera ? 0 : block, share);
+        for (uint32_t i = 0; i < areaSamples(); ++i)
+            addLight(w_.lights[i / w_.lightSamples],
+                     i == 0 && w_.lightsShare ? u : random(block + 1 + i), share);
         for (uint32_t i = 0; i < w_.deltaLights; ++i)
-            addLight(w_.lights[w_.areaLights + i], block++, 1);
+            addLight(w_.lights[w_.areaLights + i], u, 1); // takes no numbers
     }
 
     bool survives(uint32_t bounce, float u) {

@@ -128,8 +128,8 @@ struct World {
     LightChoice lightChoice;
     uint32_t areaLights, deltaLights;
     uint32_t width, height, seed, minBounce, maxBounces, lightSamples;
-    bool sobol;            ///< the sampler; independent else
-    bool lightJoinsCamera; ///< the first light sample takes numbers of the camera's block
+    bool sobol;       ///< the sampler; independent else
+    bool lightsShare; ///< the first light sample shares the random numbers of the path ray
     Roulette roulette;
     float terminationProbability;
     View view;

@@ -56,7 +56,7 @@ inline LightSample angleSample(const Point& p, const Light& light, Vec at, Vec n
     return s;
 }
 
-inline LightSample sampleQuad(const Point& p, const Light& light, const Random4& u) {
+inline LightSample sampleQuad(const Point& p, const Light& light, const Random& u) {
     const Vec corner = vec(light.position), a = vec(light.edgeA), b = vec(light.edgeB),
               normal = vec(light.normal);
     const Vec v0 = corner - p.position;
@@ -100,8 +100,7 @@ inline PickedTriangle pickTriangle(const World& w, const Point& p, const Light& 
     return t;
 }
 
-inline LightSample sampleMesh(const World& w, const Point& p, const Light& light,
-                              const Random4& u) {
+inline LightSample sampleMesh(const World& w, const Point& p, const Light& light, const Random& u) {
     const PickedTriangle picked = pickTriangle(w, p, light, u.z, u.w);
     const LampTriangle& t = *picked.triangle;
     Light lamp = light;
@@ -117,7 +116,7 @@ inline LightSample sampleMesh(const World& w, const Point& p, const Light& light
                        picked.probability > 0 ? s.angle / picked.probability : 0.0f);
 }
 
-inline LightSample sampleSphere(const Point& p, const Light& light, const Random4& u) {
+inline LightSample sampleSphere(const Point& p, const Light& light, const Random& u) {
     const Vec center = vec(light.position);
     const Vec from = offset(p.position, p.error, p.geometric, p.wo);
     const Vec toCenter = center - from;
@@ -145,7 +144,7 @@ inline LightSample sampleSphere(const Point& p, const Light& light, const Random
     return s;
 }
 
-inline LightSample sampleAmbient(const Point& p, const Light& light, const Random4& u) {
+inline LightSample sampleAmbient(const Point& p, const Light& light, const Random& u) {
     const float r = std::sqrt(larger(1 - u.x * u.x, 0.0f));
     const SineCosine phi = turn(u.y);
     LightSample s;
@@ -181,7 +180,7 @@ inline LightSample sampleDelta(const Point& p, const Light& light) {
 }
 
 template <bool otherLights>
-LightSample sampleLight(const World& w, const Point& p, const Light& light, const Random4& u) {
+LightSample sampleLight(const World& w, const Point& p, const Light& light, const Random& u) {
     if (!otherLights) return sampleQuad(p, light, u);
     switch (light.kind) {
     case LightKind::Quad:

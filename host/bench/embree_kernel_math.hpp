@@ -111,8 +111,13 @@ inline SineCosine turn(float u) {
     return {quadrant & 2 ? -sine : sine, (quadrant + 1) & 2 ? -cosine : cosine};
 }
 
-struct Random4 {
-    float x, y, z, w;
+struct Random2 {
+    float x, y;
+};
+
+/// A block of random numbers: four, and a fifth of their last digits.
+struct Random {
+    float x, y, z, w, leftOver;
 };
 
 /// Moves p, whose error is at most `error`, along the unit normal n to the side of w.

@@ -30,13 +30,14 @@ inline Words4 hashed(Words4 v) {
     return {x, y, z, w};
 }
 
-inline Random4 unitFloats(Words4 v) {
-    const auto unit = [](uint32_t u) { return float(int(u >> 8)) * 0x1p-24f; };
-    return {unit(v.x), unit(v.y), unit(v.z), unit(v.w)};
+inline Random unitFloats(Words4 v) {
+    const auto unit = [](uint32_t u) { return float(int(u)) * 0x1p-24f; };
+    const uint32_t leftOver = (v.x & 0xFF) | (v.y & 0xFF) << 8 | (v.z & 0xFF) << 16;
+    return {unit(v.x >> 8), unit(v.y >> 8), unit(v.z >> 8), unit(v.w >> 8), unit(leftOver)};
 }
 
-/// Four independent numbers in [0, 1).
-inline Random4 randomBlock(uint32_t pixel, uint32_t sample, uint32_t block, uint32_t seed) {
+/// Independent numbers in [0, 1).
+inline Random randomBlock(uint32_t pixel, uint32_t sample, uint32_t block, uint32_t seed) {
     return unitFloats(hashed({pixel, sample, block, seed}));
 }
 
@@ -79,7 +80,7 @@ inline uint32_t sobolReversed3(uint32_t y) {
 }
 
 /// A point of a shuffled and scrambled Sobol sequence.
-inline Random4 sobolBlock(uint32_t pixel, uint32_t sample, uint32_t block, uint32_t seed) {
+inline Random sobolBlock(uint32_t pixel, uint32_t sample, uint32_t block, uint32_t seed) {
     const Words4 key = hashed({pixel, sample >> 24, block, seed});
     const uint32_t index =
         reversedBits(scrambleReversed(reversedBits(sample), key.x + key.z)) & 0xFFFFFFu;

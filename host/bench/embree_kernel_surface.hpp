@@ -114,14 +114,14 @@ inline Vec evaluate(const Point& p, Vec wi) {
     return vec(p.surface->reflectance) * (cosine * (1 / kPi));
 }
 
-inline Bounce scatterDiffuse(const Point& p, const Random4& u) {
+inline Bounce scatterDiffuse(const Point& p, Random2 u) {
     const float r = std::sqrt(u.x), z = std::sqrt(larger(1 - u.x, 0.0f));
     const SineCosine phi = turn(u.y);
     return {Frame(p.shading).toWorld(r * phi.cosine, r * phi.sine, z), vec(p.surface->reflectance)};
 }
 
 /// Refraction and glass; radiance is compressed by the square of the index ratio.
-inline Bounce scatterDielectric(const Point& p, const Random4& u) {
+inline Bounce scatterDielectric(const Point& p, Random2 u) {
     const Surface& s = *p.surface;
     const float eta = p.outside ? 1 / s.ior : s.ior;
     const float cosine = smaller(dot(p.shading, p.wo), 1.0f);
@@ -134,13 +134,13 @@ inline Bounce scatterDielectric(const Point& p, const Random4& u) {
         const float rp = (cosine - eta * transmitted) / (cosine + eta * transmitted);
         reflectance = total ? 1 : 0.5f * (rs * rs + rp * rp);
     }
-    if (u.z < reflectance) return {2 * cosine * p.shading - p.wo, vec(s.reflectance)};
+    if (u.x < reflectance) return {2 * cosine * p.shading - p.wo, vec(s.reflectance)};
     return {(eta * cosine - transmitted) * p.shading - eta * p.wo,
             total ? vec(0) : vec(s.transmittance) * (eta * eta)};
 }
 
 template <bool hasDelta>
-Bounce scatter(const Point& p, const Random4& u) {
+Bounce scatter(const Point& p, Random2 u) {
     Bounce b;
     bool transmitted = false;
     if (!hasDelta || p.surface->kind == SurfaceKind::Diffuse) {

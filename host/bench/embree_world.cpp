@@ -139,10 +139,9 @@ void EmbreeWorld::setSettings(const RenderSettings& settings) {
     world_.height = settings.height;
     world_.seed = settings.seed;
     world_.sobol = settings.sampler == Sampler::Sobol;
-    world_.lightJoinsCamera =
-        world_.sobol && std::none_of(lights_.begin(), lights_.end(), [](const native::Light& l) {
-            return l.kind == native::LightKind::Mesh;
-        });
+    world_.lightsShare = std::none_of(lights_.begin(), lights_.end(), [](const native::Light& l) {
+        return l.kind == native::LightKind::Mesh;
+    });
     world_.minBounce = settings.minBounce;
     world_.maxBounces = settings.maxBounces;
     world_.lightSamples = settings.lightSamples;

@@ -76,6 +76,13 @@ void addLightTransport(CLI::App& app, RawOptions& raw, Options& o) {
                    "every hit [throughput; --cs184: none]")
         ->type_name("MODE")
         ->group("Light");
+    app.add_option("--guide", raw.guide,
+                   "on: some bounces go into the bright gap between a lamp and a surface close to "
+                   "it; off: all as the materials scatter")
+        ->check(CLI::IsMember({"on", "off"}))
+        ->default_str("on")
+        ->type_name("WHETHER")
+        ->group("Light");
     app.add_option("--integrator", raw.integrator, "path or normals")
         ->check(CLI::IsMember({"path", "normals"}))
         ->default_str("path")

@@ -18,7 +18,7 @@ struct RawOptions {
     std::vector<double> adaptive;
     std::optional<double> noise, seconds;
     std::string roulette, integrator = "path", direct = "mis", camera = "auto", backend = "vulkan",
-                          sampler, lightChoice = "tree";
+                          sampler, lightChoice = "tree", guide = "on";
     std::optional<uint32_t> sample, samples, lightSamples, maxBounces, minBounce, accumulate,
         branches;
     bool hemisphere = false, even = false, quiet = false, verbose = false;

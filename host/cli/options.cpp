@@ -162,6 +162,7 @@ void applyLight(const RawOptions& raw, Options& o) {
                     : raw.direct == "lights"                     ? DirectLight::Lights
                                                                  : DirectLight::Mis;
     const bool sobol = raw.sampler.empty() ? !s.cs184 : raw.sampler == "sobol";
+    s.guides = raw.guide == "on";
     s.lightChoice = raw.lightChoice == "tree"    ? LightChoice::Tree
                     : raw.lightChoice == "power" ? LightChoice::Power
                                                  : LightChoice::Uniform;

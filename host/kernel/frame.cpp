@@ -36,6 +36,7 @@ gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const RenderSe
     f.deltaLights = noDelta ? 0 : scene.deltaLights;
     f.areaSamples = areaSamples(scene, s);
     f.branches = s.branches;
+    f.lampGap = scene.lampGap;
     return f;
 }
 

@@ -1,6 +1,7 @@
 #include "host/kernel/gpu_scene.hpp"
 
 #include "host/kernel/gpu_lights.hpp"
+#include "host/kernel/lamp_gap.hpp"
 
 #include <glm/gtc/packing.hpp>
 
@@ -86,6 +87,7 @@ GpuScene packScene(const Scene& scene, WideLayout bvh, bool cs184, LightChoice c
     for (const Material& m : scene.materials)
         g.materials.push_back(packMaterial(m, cs184));
     packLights(scene, g.bvh.placeOf, cs184, g);
+    if (!cs184) g.lampGap = lampGap(g);
     return g;
 }
 

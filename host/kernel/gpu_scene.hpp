@@ -22,6 +22,7 @@ struct GpuScene {
     LightChoice lightChoice = LightChoice::Tree; ///< of many emissive triangles ...
     bool manyLampTriangles = false;              ///< ... which are lights[0] then
     uint32_t lightTreeLevels = 0;
+    float lampGap = 0; ///< lamp_gap.hpp
     bool hasTriangles = false, hasSpheres = false;
     bool hasNormals = false; ///< any triangle with shading normals
 };

@@ -41,11 +41,15 @@ uint32_t lightKinds(const GpuScene& scene, const RenderSettings& settings) {
     return kinds;
 }
 
-/// The samples of a mesh take all four numbers of a block.
-bool lightJoinsCamera(const GpuScene& scene, const RenderSettings& settings) {
-    return settings.sampler == Sampler::Sobol &&
-           std::none_of(scene.lights.begin(), scene.lights.end(),
-                        [](const gpu::Light& l) { return l.kind == gpu::LIGHT_MESH; });
+uint32_t lightNumbers(const GpuScene& scene, const RenderSettings& settings) {
+    // The samples of a mesh take all four numbers of a block; those of delta lights none.
+    uint32_t area = 0;
+    for (const gpu::Light& light : scene.lights) {
+        if (light.kind == gpu::LIGHT_MESH) return gpu::LIGHT_NUMBERS_OWN;
+        area += light.kind < gpu::LIGHT_DIRECTIONAL;
+    }
+    return area * settings.lightSamples <= 1 && !settings.cs184 ? gpu::LIGHT_NUMBERS_SHARED
+                                                                : gpu::LIGHT_NUMBERS_FIRST;
 }
 
 bool misIsWanted(const RenderSettings& settings) {
@@ -62,9 +66,16 @@ bool usesMis(const GpuScene& scene, const RenderSettings& settings, uint32_t mat
            });
 }
 
+bool guidesBounces(const GpuScene& scene, const RenderSettings& settings) {
+    return settings.guides && scene.lampGap != 0 && samplesLights(settings.directLight) &&
+           settings.integrator == Integrator::Path && !settings.cs184 && settings.maxBounces > 1;
+}
+
 void switchOnAllTheSceneCouldHave(KernelFeatures& f, const RenderSettings& settings) {
     f[SPEC_HAS_TRIANGLES] = f[SPEC_HAS_SPHERES] = f[SPEC_HAS_NORMALS] = f[SPEC_HAS_EMISSION] = 1;
     f[SPEC_ONE_LIGHT] = 0;
+    if (f[SPEC_LIGHT_NUMBERS] == gpu::LIGHT_NUMBERS_SHARED)
+        f[SPEC_LIGHT_NUMBERS] = gpu::LIGHT_NUMBERS_FIRST;
     f[SPEC_MATERIAL_KINDS] = (2u << gpu::MATERIAL_MICROFACET) - 1;
     f[SPEC_LIGHT_KINDS] = (2u << gpu::LIGHT_SPOT) - 1;
     f[SPEC_USE_MIS] = misIsWanted(settings);
@@ -116,9 +127,10 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
                                                                      : gpu::LIGHT_CHOICE_UNIFORM;
     f[SPEC_SAMPLER] =
         settings.sampler == Sampler::Sobol ? gpu::SAMPLER_SOBOL : gpu::SAMPLER_INDEPENDENT;
-    f[SPEC_LIGHT_JOINS_CAMERA] = lightJoinsCamera(scene, settings);
+    f[SPEC_LIGHT_NUMBERS] = lightNumbers(scene, settings);
     f[SPEC_USE_MIS] = usesMis(scene, settings, f[SPEC_MATERIAL_KINDS]);
     f[SPEC_SPLITS] = settings.branches > 1;
+    f[SPEC_GUIDES] = guidesBounces(scene, settings);
     f[SPEC_COUNT_STEPS] = tuning.countSteps;
     if (tuning.everythingOn) switchOnAllTheSceneCouldHave(f, settings);
     return f;
@@ -146,6 +158,8 @@ std::vector<std::string> describe(const KernelFeatures& f) {
         fmt::format("sampler: {}", f[SPEC_SAMPLER] == gpu::SAMPLER_SOBOL ? "sobol" : "independent"),
         fmt::format("roulette: {}", kRoulette[f[SPEC_ROULETTE]]),
         fmt::format("paths: {}", f[SPEC_SPLITS] ? "with branches" : "each by itself"),
+        fmt::format("bounces: {}",
+                    f[SPEC_GUIDES] ? "some into the gap behind the lamp" : "by the materials"),
         fmt::format("camera: {}", f[SPEC_ORTHOGRAPHIC] ? "orthographic" : "perspective"),
         fmt::format("CS184 conventions: {}", f[SPEC_CS184] ? "yes" : "no"),
         fmt::format("traversal stack: {} entries", f[SPEC_STACK_SIZE]),

@@ -10,9 +10,10 @@ namespace {
 /// Near the best of the bundled scenes where more than one pays (docs/estimator.md, "Branches"): a
 /// branch's share of the camera ray and first light samples is a tenth to a sixth of its cost then.
 constexpr uint32_t kBranches = 4;
-/// With fewer camera rays the noise at edges and in soft shadows is no longer small beside that of
-/// bounces: it falls as n^-1.5, theirs as 1/n, and in a diffuse room they are 1 to 100 at 16.
-constexpr uint32_t kLeastSamples = 8;
+/// Camera rays of a pixel for each branch. With fewer the noise at edges and in soft shadows is no
+/// longer small beside that of bounces: it falls as n^-1.5, theirs as 1/n, and in a diffuse room
+/// they are 1 to 100 at 16.
+constexpr uint32_t kLeastSamplesPerBranch = 4;
 
 /// Light samples leave little noise beside that of bounces: not where one sample stands for all of
 /// the sky or for many lamps.
@@ -32,7 +33,8 @@ uint32_t branchesThatPay(const Scene& scene, const RenderSettings& settings, uin
     const bool countsPaths = settings.cs184 || settings.adaptive.enabled;
     if (!bounces || countsPaths || !directLightIsSmooth(scene, settings)) return 1;
     uint32_t branches = kBranches;
-    while (branches > 1 && (paths % branches != 0 || paths / branches < kLeastSamples))
+    while (branches > 1 &&
+           (paths % branches != 0 || paths / branches < kLeastSamplesPerBranch * branches))
         branches /= 2;
     return branches;
 }

@@ -20,7 +20,7 @@ class NoisePlan {
   public:
     /// Paths of the uniform pass; a pixel has at least four samples then, whose variances mean
     /// something over its neighbours.
-    static constexpr uint32_t kFirstPaths = 16;
+    static constexpr uint32_t kFirstPaths = 8;
     static constexpr uint32_t kLeastFirstSamples = 4;
 
     /// A pixel has at least this share of the mean number of samples: what is not

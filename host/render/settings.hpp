@@ -89,6 +89,7 @@ struct RenderSettings {
     Sampler sampler = Sampler::Sobol;
     LightChoice lightChoice = LightChoice::Tree;
     uint32_t branches = 1; ///< paths of a sample, from the first surface that scatters at random on
+    bool guides = true;    ///< bounces are sent into bright gaps too (docs/estimator.md, "Gaps")
     Roulette roulette;
     Adaptive adaptive;
     StopRule stop; ///< excludes adaptive

@@ -55,9 +55,10 @@ Configuration configurationFor(const std::string& text) {
 const std::vector<Configuration>& knownConfigurations() {
     static const std::vector<Configuration> all = {
         {"default", "", "what `render` does by itself"},
-        {"independent", "--sampler independent --even --branches 1",
+        {"independent", "--sampler independent --even --branches 1 --guide off",
          "every path on its own, as many for each pixel: the control"},
         {"unsplit", "--branches 1", "every path with a camera ray of its own"},
+        {"unguided", "--guide off", "bounces go where the materials scatter, not into gaps too"},
         {"even", "--even", "the same number of samples for every pixel"},
         {"no-roulette", "--roulette none", "paths end at the last bounce only"},
         {"hemisphere", "--direct hemisphere", "lamps are found by uniform directions"},

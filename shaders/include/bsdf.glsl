@@ -195,14 +195,14 @@ vec3 evaluateBsdf(Material m, SurfacePoint s, vec3 wi) {
     return f * cosine;
 }
 
-/// Samples the next direction; u: x, y for the direction, z for the choice of a lobe.
-BsdfSample sampleBsdf(Material m, SurfacePoint s, vec3 u) {
+/// Samples the next direction; u: for the direction, or x for the choice of one of two.
+BsdfSample sampleBsdf(Material m, SurfacePoint s, vec2 u) {
     const ShadingFrame frame_ = makeFrame(s.shading);
     BsdfSample b = BsdfSample(s.shading, vec3(0.0), false);
     if (sceneHasMaterial(MATERIAL_DIFFUSE) && m.kind == MATERIAL_DIFFUSE)
-        b = BsdfSample(toWorld(frame_, sampleCosineHemisphere(u.xy)), m.reflectance, false);
+        b = BsdfSample(toWorld(frame_, sampleCosineHemisphere(u)), m.reflectance, false);
     if (sceneHasMaterial(MATERIAL_MICROFACET) && m.kind == MATERIAL_MICROFACET)
-        b = sampleMicrofacet(m, frame_, toLocal(frame_, s.wo), u.xy);
+        b = sampleMicrofacet(m, frame_, toLocal(frame_, s.wo), u);
     if (sceneHasMaterial(MATERIAL_MIRROR) && m.kind == MATERIAL_MIRROR)
         b = BsdfSample(2.0 * dot(s.shading, s.wo) * s.shading - s.wo, m.reflectance, false);
     const bool refracts = sceneHasMaterial(MATERIAL_REFRACTION) && m.kind == MATERIAL_REFRACTION;
@@ -210,7 +210,7 @@ BsdfSample sampleBsdf(Material m, SurfacePoint s, vec3 u) {
     if (refracts || glass) {
         const bool entering = CS184 ? dot(s.shading, s.wo) >= 0.0 : s.outside;
         const vec3 n = dot(s.shading, s.wo) < 0.0 ? -s.shading : s.shading;
-        b = sampleDielectric(m, n, s.wo, entering, glass, u.z);
+        b = sampleDielectric(m, n, s.wo, entering, glass, u.x);
     }
     // Deflections keep the length of wo but for rounding, which would add up over many.
     if (m.kind != MATERIAL_DIFFUSE) b.direction = unit(b.direction);

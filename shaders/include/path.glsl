@@ -37,6 +37,9 @@ float bouncePdf; ///< ... weighted, if it came from a surface where MIS combines
 SurfacePoint surface;
 Material material;
 uint directIndex; ///< direct light samples done at this surface
+/// Drawn with the path ray for where it ends. x, y: for the first light sample there, unless
+/// LIGHT_NUMBERS_OWN; z: for roulette.
+vec3 arrivalNumbers;
 vec3 directValue; ///< what the ray under way adds if it is free (or, hemisphere, per radiance)
 uint rayCount;
 
@@ -53,16 +56,14 @@ uint branchesLeft; ///< that have not begun
 /// Blocks of random numbers that branches take: none of those before paths split.
 const uint BRANCH_BLOCKS = 0x80000000u;
 
-/// LIGHT_JOINS_CAMERA: the first light sample of a path takes x and y of the camera's block, the camera z
-/// and w. At the edges of things light depends on both, so they are spread evenly together.
-vec4 randomNumbers(uint slot) {
-    const uint perBounce = 1u + frame.areaSamples + frame.deltaLights;
-    const bool joins = LIGHT_JOINS_CAMERA && bounce == 1u && slot == 1u;
-    const uint block = bounce == 0u || joins ? 0u : 1u + (bounce - 1u) * perBounce + slot;
+/// Block 0 of a path ray, `bounce` of its path, is for the ray itself and for what happens where it ends;
+/// further light samples there take the blocks after it.
+uvec4 randomWords(uint slot) {
+    const uint block = bounce * (1u + frame.areaSamples + frame.deltaLights) + slot;
     if (!SPLITS || splitPoint.bounce == 0u)
-        return randomBlock(pixelId, sampleIndex, block, frame.seed);
+        return randomWords(pixelId, sampleIndex, block, frame.seed);
     const uint branch = frame.branches - 1u - branchesLeft;
-    return randomBlock(pixelId, sampleIndex * frame.branches + branch, BRANCH_BLOCKS | block,
+    return randomWords(pixelId, sampleIndex * frame.branches + branch, BRANCH_BLOCKS | block,
                        frame.seed);
 }
 
@@ -141,7 +142,7 @@ void arrive() {
     ++bounce;
     if (bounce > frame.maxBounces) return;
     if (ROULETTE == ROULETTE_FIXED) {
-        if (randomNumbers(0u).w < frame.terminationProbability) return;
+        if (arrivalNumbers.z < frame.terminationProbability) return;
         throughput /= 1.0 - frame.terminationProbability;
     }
     const bool direct = !isDelta(material.kind) && bounce >= frame.minBounce;
@@ -186,7 +187,9 @@ void sampleLights(vec4 u, uint index) {
 /// One direct light sample; a sample that cannot contribute traces nothing.
 void sampleDirect() {
     const uint index = directIndex++;
-    const vec4 u = randomNumbers(1u + index);
+    vec4 u = vec4(arrivalNumbers.xy, 0.0, 0.0);
+    if (LIGHT_NUMBERS == LIGHT_NUMBERS_OWN || LIGHT_NUMBERS == LIGHT_NUMBERS_FIRST && index > 0u)
+        u = unitFloats(randomWords(1u + index));
     if (DIRECT_LIGHT == DIRECT_HEMISPHERE && index < frame.areaSamples)
         sampleHemisphere(u);
     else
@@ -216,24 +219,26 @@ void nextBranch() {
     phase = PHASE_BOUNCE;
 }
 
-/// No bounce from here would be traced. Known before scattering, so that the next branch can do so in the
-/// same pass.
+/// No bounce from here would be traced.
 bool endsHere() { return bounce == frame.maxBounces && !emissionCounts(); }
 
-void scatter() {
+/// u: for the direction; roulette: for its end.
+void scatter(vec2 u, float roulette) {
     phase = PHASE_ENDED;
-    if (endsHere()) return;
-    if (SPLITS && splitPoint.bounce == 0u && scattersAtRandom(material.kind)) splitPath();
-    const vec4 u = randomNumbers(0u);
-    const BsdfSample b = sampleBsdf(material, surface, u.xyz);
+    const bool guided = looksIntoGap(surface, material), aims = guided && u.x < GAP_SHARE;
+    if (guided) u = afterChoice(u);
+    BsdfSample b = sampleBsdf(material, surface, u);
+    const float guideWeight = guided ? mixWithGap(b, material, surface, aims, u) : 1.0;
     throughput *= b.weight;
     const float largest = max(throughput.x, max(throughput.y, throughput.z));
     if (!(largest > 0.0)) return;
     if (ROULETTE == ROULETTE_THROUGHPUT && bounce >= ROULETTE_THROUGHPUT_START) {
         const float q = min(ROULETTE_MAX_CONTINUE, ROULETTE_BOLDNESS * largest);
-        if (u.w >= q) return;
+        if (roulette >= q) return;
         throughput *= 1.0 / q;
     }
+    // After roulette: a small weight is no reason to end a path that goes where it is bright.
+    if (guided) throughput *= guideWeight;
     countsEmission = emissionCounts();
     bouncePdf = combines(material) ? max(microfacetPdf(material, surface, b.direction), TINY) : 0.0;
     trace(PHASE_PATH, leave(surface, b.direction, b.transmitted), b.direction, 0.0,
@@ -243,7 +248,7 @@ void scatter() {
 /// The number of the sample that is next for this pixel.
 uint nextSample() { return frame.firstSample + pixelState.count + pixelState.rejected; }
 
-void startSample() {
+void beginSample() {
     sampleIndex = nextSample();
     bounce = 0u;
     throughput = vec3(1.0);
@@ -252,11 +257,26 @@ void startSample() {
     bouncePdf = 0.0;
     splitPoint.bounce = 0u;
     branchesLeft = 0u;
-    const vec4 numbers = randomNumbers(0u);
-    const vec2 u = LIGHT_JOINS_CAMERA ? numbers.zw : numbers.xy;
+}
+
+void startCameraRay(vec2 u) {
     const CameraRay c = cameraRay((float(pixelAt.x) + u.x) / float(frame.width),
                                   (float(pixelAt.y) + u.y) / float(frame.height));
     trace(PHASE_PATH, c.origin, c.direction, c.tMin, c.tMax, NO_PRIMITIVE);
+}
+
+/// Starts the next path ray: of a new sample (PHASE_NEXT), or the bounce (PHASE_BOUNCE). Both draw their
+/// numbers in one place, as llvmpipe would run two for all lanes. A bounce may end the path.
+void depart() {
+    const bool begins = phase == PHASE_NEXT;
+    if (begins) beginSample();
+    else if (SPLITS && splitPoint.bounce == 0u && scattersAtRandom(material.kind)) splitPath();
+    const uvec4 words = randomWords(0u);
+    const vec4 u = unitFloats(words);
+    arrivalNumbers = vec3(u.xy, leftOver(words));
+    const vec2 direction = LIGHT_NUMBERS == LIGHT_NUMBERS_OWN ? u.xy : u.zw;
+    if (begins) startCameraRay(direction);
+    else if (INTEGRATOR == INTEGRATOR_PATH) scatter(direction, arrivalNumbers.z);
 }
 
 /// The path is over, but not the sample.
@@ -270,7 +290,8 @@ void finishSample() {
 
 // --- Service -------------------------------------------------------------------------------------
 
-/// Takes in the finished ray and finds the next one of the path, or ends the path (PHASE_NEXT).
+/// Takes in the finished ray. What is next: a shadow ray, which it asks for; a bounce (PHASE_BOUNCE), or
+/// another sample (PHASE_NEXT), both by depart().
 void followPath() {
     if (phase == PHASE_SHADOW) finishShadowRay();
     else if (DIRECT_LIGHT == DIRECT_HEMISPHERE && phase == PHASE_HEMISPHERE) finishHemisphereRay();
@@ -279,11 +300,9 @@ void followPath() {
     if (INTEGRATOR == INTEGRATOR_PATH) {
         const uint directSamples = frame.areaSamples + frame.deltaLights;
         if (phase == PHASE_DIRECT && directIndex < directSamples) sampleDirect();
-        // A sample without a contribution was the last one: bounce in the same pass.
-        if (phase == PHASE_DIRECT && directIndex >= directSamples) phase = PHASE_BOUNCE;
-        if (SPLITS && phase == PHASE_BOUNCE && endsHere()) phase = PHASE_ENDED;
+        if (phase == PHASE_DIRECT && directIndex >= directSamples)
+            phase = endsHere() ? PHASE_ENDED : PHASE_BOUNCE;
         if (branchIsOver()) nextBranch();
-        if (phase == PHASE_BOUNCE) scatter();
     }
     if (phase == PHASE_ENDED && !branchIsOver()) finishSample();
 }

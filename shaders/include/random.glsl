@@ -22,11 +22,22 @@ vec4 unitFloats(uvec4 words) { return vec4(ivec4(words >> 8u)) * (1.0 / 16777216
 
 #include "sobol.glsl"
 
-/// Four numbers in [0, 1), each uniform. A block is a use of randomness within a sample: block 0
-/// the camera, then for each bounce one for the bounce and one for each direct light sample
-/// (path.glsl). Blocks are independent of each other, and so are pixels; the samples of a block are
-/// either independent too or spread evenly.
+/// Four words, each uniform. A block is a use of randomness within a sample (path.glsl). Blocks are
+/// independent of each other, and so are pixels; the samples of a block are either independent too or
+/// spread evenly.
+uvec4 randomWords(uint pixel, uint sampleIndex, uint block, uint seed) {
+    if (SAMPLER == SAMPLER_SOBOL) return sobolWords(pixel, sampleIndex, block, seed);
+    return pcg4d(uvec4(pixel, sampleIndex, block, seed));
+}
+
+/// Four numbers in [0, 1).
 vec4 randomBlock(uint pixel, uint sampleIndex, uint block, uint seed) {
-    if (SAMPLER == SAMPLER_SOBOL) return unitFloats(sobolWords(pixel, sampleIndex, block, seed));
-    return unitFloats(pcg4d(uvec4(pixel, sampleIndex, block, seed)));
+    return unitFloats(randomWords(pixel, sampleIndex, block, seed));
+}
+
+/// A fifth number in [0, 1), of the 24 digits that unitFloats leaves of the first three words. Scrambled
+/// digits do not depend on those before them.
+float leftOver(uvec4 words) {
+    const uvec3 low = words.xyz & 0xFFu;
+    return float(int(low.x | low.y << 8u | low.z << 16u)) * (1.0 / 16777216.0);
 }

@@ -19,9 +19,10 @@ layout(constant_id = SPEC_ONE_LIGHT) const bool ONE_LIGHT = false;
 layout(constant_id = SPEC_LIGHT_SAMPLES) const uint LIGHT_SAMPLES = 1u;
 layout(constant_id = SPEC_SAMPLER) const uint SAMPLER = SAMPLER_INDEPENDENT;
 layout(constant_id = SPEC_LIGHT_CHOICE) const uint LIGHT_CHOICE = LIGHT_CHOICE_AREA;
-layout(constant_id = SPEC_LIGHT_JOINS_CAMERA) const bool LIGHT_JOINS_CAMERA = false;
+layout(constant_id = SPEC_LIGHT_NUMBERS) const uint LIGHT_NUMBERS = LIGHT_NUMBERS_OWN;
 layout(constant_id = SPEC_USE_MIS) const bool USE_MIS = false;
 layout(constant_id = SPEC_SPLITS) const bool SPLITS = false;
+layout(constant_id = SPEC_GUIDES) const bool GUIDES = false;
 layout(constant_id = SPEC_COUNT_STEPS) const bool COUNT_STEPS = false;
 
 bool sceneHasMaterial(uint kind) { return (MATERIAL_KINDS & (1u << kind)) != 0u; }

@@ -42,11 +42,12 @@ SHARED_BEGIN
 #define SPEC_LIGHT_SAMPLES 16 // direct light samples per area light
 #define SPEC_COUNT_STEPS 17   // count how many lanes are at work in each step
 #define SPEC_SAMPLER 18
-#define SPEC_LIGHT_JOINS_CAMERA 19 // the first light sample shares the camera's random numbers
+#define SPEC_LIGHT_NUMBERS 19      // which random numbers light samples take
 #define SPEC_LIGHT_CHOICE 20       // of a triangle of a mesh light
 #define SPEC_USE_MIS 21            // bounces from rough metals find lamps too
 #define SPEC_SPLITS 22 // paths may split into branches
-#define SPEC_COUNT 23
+#define SPEC_GUIDES 23 // some bounces go into the gap behind the lamp
+#define SPEC_COUNT 24
 
 SHARED_CONST uint INTEGRATOR_PATH = 0u;
 SHARED_CONST uint INTEGRATOR_NORMALS = 1u;
@@ -57,6 +58,10 @@ SHARED_CONST uint DIRECT_BSDF = 2u;
 
 SHARED_CONST uint SAMPLER_INDEPENDENT = 0u;
 SHARED_CONST uint SAMPLER_SOBOL = 1u;
+
+SHARED_CONST uint LIGHT_NUMBERS_OWN = 0u;    ///< each sample a block of its own
+SHARED_CONST uint LIGHT_NUMBERS_FIRST = 1u;  ///< the first at a surface shares that of the path ray
+SHARED_CONST uint LIGHT_NUMBERS_SHARED = 2u; ///< there is no other
 
 SHARED_CONST uint LIGHT_CHOICE_AREA = 0u; ///< of one mesh
 // Of all emissive triangles of the scene, which are one light:

@@ -18,7 +18,7 @@ struct Frame {
     uint keepsValue; ///< 1: leave the last sample's value in PixelState::sum, rejected or not
     float nearDistance;
     float farDistance;
-    uint unused0;
+    float lampGap; ///< host/kernel/lamp_gap.hpp
     uint seed;
     uint minBounce;
     uint maxBounces;
@@ -81,8 +81,10 @@ struct SuspendedPath {
     float emission; ///< SUSPENDED_NO_EMISSION, or bouncePdf of path.glsl
     vec3 radiance;
     uint item; ///< of the work list; NO_ITEM: the lane has none
+    vec3 arrivalNumbers; ///< path.glsl
+    uint unused;
 };
-SHARED_ROWS(SuspendedPath, 4);
+SHARED_ROWS(SuspendedPath, 5);
 /// Where the path of a suspended lane split, if it has; the surface as in surface.glsl.
 struct SuspendedSplit {
     vec3 position;

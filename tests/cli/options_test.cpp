@@ -85,7 +85,7 @@ TEST(Options, SamplesAreSpreadUnlessSomethingElseIsAsked) {
     EXPECT_GT(spread.samplesPerPixel, 40u);
     for (const std::vector<std::string>& evenly : {std::vector<std::string>{"--even"},
                                                    {"--cs184", "--even"},
-                                                   {"-s", "16"},
+                                                   {"-s", "8"},
                                                    {"--cs184"},
                                                    {"-a", "32", "0.1"}}) {
         std::vector<std::string> words = {"render", "a.dae", "-o", "a.png"};

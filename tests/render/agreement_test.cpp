@@ -29,9 +29,8 @@ RenderSettings smallSettings(uint32_t samples) {
     return s;
 }
 
-void expectAgreement(const vulkan::Device& device, const std::filesystem::path& file,
+void expectAgreement(const vulkan::Device& device, const Scene& scene, const std::string& name,
                      const RenderSettings& settings) {
-    const Scene scene = loadScene(file, settings.cs184);
     const Camera camera =
         makeCamera(scene, CameraChoice::Automatic, settings.width, settings.height, settings.cs184);
     const Film onDevice = renderOnDevice(device, scene, camera, settings);
@@ -40,9 +39,14 @@ void expectAgreement(const vulkan::Device& device, const std::filesystem::path& 
     CheckSettings check;
     check.familyError = 1e-4;
     const CheckResult result = crossCheck(onDevice, onHost, check);
-    EXPECT_TRUE(result.agree()) << file << "\n" << formatCheck(result);
+    EXPECT_TRUE(result.agree()) << name << "\n" << formatCheck(result);
     EXPECT_GE(result.fractionPassing, 0.9975);
     EXPECT_EQ(result.rejectedA, 0u);
+}
+
+void expectAgreement(const vulkan::Device& device, const std::filesystem::path& file,
+                     const RenderSettings& settings) {
+    expectAgreement(device, loadScene(file, settings.cs184), file, settings);
 }
 
 std::string nameOf(const testing::TestParamInfo<std::filesystem::path>& info) {
@@ -143,6 +147,48 @@ TEST_F(DeviceTest, AgreementFailsForTwoPerCentMoreLight) {
     ReferenceBackend reference(brighter, camera, settings);
     EXPECT_FALSE(crossCheck(a, render(reference, settings)).agree());
 }
+
+/// The reference sends no bounces into gaps.
+struct Gap {
+    const char* name;
+    float height; ///< of the lamp, m; the ceiling is at 2
+    float tilt;   ///< height of one edge over the other
+    bool turned;  ///< the room on its head: the gap is on the lamp's other side
+};
+
+class GapAgreement : public DeviceTest, public testing::WithParamInterface<Gap> {
+  protected:
+    static Scene room() {
+        Scene scene = loadScene(std::filesystem::path(STROMBOLI_SOURCE_DIR) /
+                                "scene/library/cornell_boxes.dae");
+        const Gap gap = GetParam();
+        for (const Triangle& t : scene.triangles)
+            if (scene.materials[t.material].emission.x > 0)
+                for (const uint32_t corner : t.corner) {
+                    glm::vec3& p = scene.positions[corner];
+                    p.y = gap.height + (p.x > 0 ? gap.tilt : 0);
+                }
+        for (glm::vec3& p : scene.positions)
+            if (gap.turned) p = glm::vec3(p.x, 2 - p.y, -p.z);
+        return scene;
+    }
+};
+
+TEST_P(GapAgreement, WithTheReference) {
+    const Scene scene = room();
+    const GpuScene packed = packScene(scene, buildWideBvh(scene), false);
+    ASSERT_NE(packed.lampGap, 0);
+    RenderSettings settings = smallSettings(256);
+    settings.minBounce = 2, settings.maxBounces = 3; // light out of the gap, and once more
+    expectAgreement(testDevice(), scene, GetParam().name, settings);
+}
+
+INSTANTIATE_TEST_SUITE_P(Lamps, GapAgreement,
+                         testing::Values(Gap{"narrow", 1.998f, 0, false},
+                                         Gap{"wide", 1.85f, 0, false},
+                                         Gap{"tilted", 1.95f, 0.03f, false},
+                                         Gap{"turned", 1.98f, 0, true}),
+                         [](const auto& test) { return std::string(test.param.name); });
 
 } // namespace
 } // namespace stromboli

@@ -24,6 +24,7 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "include/bsdf.glsl"
 #include "include/lights.glsl"
 #include "include/mis.glsl"
+#include "include/lamp_gap.glsl"
 #include "include/accumulate.glsl"
 #include "include/path.glsl"
 
@@ -53,24 +54,30 @@ void gatherDirectLight() {
     }
 }
 
+void bounceOn() {
+    phase = endsHere() ? PHASE_ENDED : PHASE_BOUNCE;
+    if (phase == PHASE_BOUNCE) depart();
+}
+
 void followToTheEnd() {
     while (phase == PHASE_PATH) {
         traceToTheEnd();
         arrive();
         if (INTEGRATOR == INTEGRATOR_PATH && phase == PHASE_DIRECT) {
             gatherDirectLight();
-            scatter();
+            bounceOn();
         }
         ++loopPasses;
     }
 }
 
 void takeSample() {
-    startSample();
+    phase = PHASE_NEXT;
+    depart();
     followToTheEnd();
     while (branchIsOver()) {
         nextBranch();
-        scatter();
+        bounceOn();
         followToTheEnd();
         ++loopPasses;
     }
@@ -85,6 +92,7 @@ void main() {
     pixelAt = uvec2(pixel % frame.width, pixel / frame.width);
     pixelId = pixel;
     if (ONE_LIGHT) onlyLight = fetchLight(0u);
+    if (GUIDES) findLampGap();
     ray.group = 0u;
     rayCount = 0u;
     loopPasses = 0u;

@@ -146,7 +146,7 @@ TEST(StopRule, BlackPicturesEnd) {
 }
 
 TEST(StopRule, FirstPathsAreThoseOfBranchesToo) {
-    for (const auto& [branches, samples] : {std::pair(1u, 16u), {2u, 8u}, {4u, 4u}, {9u, 4u}}) {
+    for (const auto& [branches, samples] : {std::pair(1u, 8u), {2u, 4u}, {4u, 4u}, {9u, 4u}}) {
         RenderSettings s = settingsOf(1u << 20);
         s.stop.noise = 0.01;
         s.branches = branches;

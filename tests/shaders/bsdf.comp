@@ -9,7 +9,7 @@ BsdfAnswer answer(BsdfQuery q) {
                                   q.outside != 0u, q.material, NO_PRIMITIVE, 0.0);
     faceForward(s);
     const Material m = fetchMaterial(q.material);
-    const BsdfSample b = sampleBsdf(m, s, vec3(q.u, q.v, q.w));
+    const BsdfSample b = sampleBsdf(m, s, vec2(q.u, q.v));
     const bool rough = m.kind == MATERIAL_MICROFACET;
     return BsdfAnswer(evaluateBsdf(m, s, q.wi), b.transmitted ? 1u : 0u, b.direction,
                       rough ? microfacetPdf(m, s, q.wi) : 0.0, b.weight, 0u);

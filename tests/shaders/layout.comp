@@ -63,7 +63,7 @@ void putScene() {
 void putFrame() {
     put(frame.cameraPosition), put(frame.width), put(frame.cameraRight), put(frame.height);
     put(frame.cameraUp), put(frame.firstSample), put(frame.cameraBack), put(frame.keepsValue);
-    put(frame.nearDistance), put(frame.farDistance), put(frame.unused0), put(frame.seed);
+    put(frame.nearDistance), put(frame.farDistance), put(frame.lampGap), put(frame.seed);
     put(frame.minBounce), put(frame.maxBounces), put(frame.terminationProbability);
     put(frame.lightSamples), put(frame.areaLights), put(frame.deltaLights);
     put(frame.areaSamples), put(frame.branches);
@@ -80,7 +80,8 @@ void putWork() {
     put(s.m2Error), put(s.unused);
     const SuspendedPath p = suspendedPaths[1];
     put(p.origin), put(p.bounce), put(p.direction), put(p.skipPrimitive), put(p.throughput);
-    put(p.emission), put(p.radiance), put(p.item);
+    put(p.emission), put(p.radiance), put(p.item), put(p.arrivalNumbers);
+    put(p.unused);
     const SuspendedSplit q = suspendedSplits[1];
     put(q.position), put(q.bounce), put(q.error), put(q.branchesLeft), put(q.geometric);
     put(q.material), put(q.shading), put(q.skipPrimitive), put(q.wo), put(q.lift);

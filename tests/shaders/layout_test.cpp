@@ -129,7 +129,7 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         shader.setOne(BINDING_FRAME, f);
         expected_.structure("Frame", f.cameraPosition, f.width, f.cameraRight, f.height, f.cameraUp,
                             f.firstSample, f.cameraBack, f.keepsValue, f.nearDistance,
-                            f.farDistance, f.unused0, f.seed, f.minBounce, f.maxBounces,
+                            f.farDistance, f.lampGap, f.seed, f.minBounce, f.maxBounces,
                             f.terminationProbability, f.lightSamples, f.areaLights, f.deltaLights,
                             f.areaSamples, f.branches);
     }
@@ -150,7 +150,8 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         shader.set(BINDING_SUSPENDED, paths_);
         const gpu::SuspendedPath& p = paths_[1];
         expected_.structure("SuspendedPath", p.origin, p.bounce, p.direction, p.skipPrimitive,
-                            p.throughput, p.emission, p.radiance, p.item);
+                            p.throughput, p.emission, p.radiance, p.item, p.arrivalNumbers,
+                            p.unused);
         splits_ = patterns.several<gpu::SuspendedSplit>();
         shader.set(BINDING_SPLITS, splits_);
         const gpu::SuspendedSplit& q = splits_[1];
@@ -213,8 +214,9 @@ TEST(LayoutSizes, NoFieldIsForgotten) {
                          sizeof(gpu::Primitive) + sizeof(gpu::Material) + sizeof(gpu::Light) +
                          sizeof(gpu::EmitterEntry) + sizeof(gpu::Frame) + sizeof(gpu::Dispatch) +
                          sizeof(gpu::WorkItem) + sizeof(gpu::PixelState) +
-                         sizeof(gpu::SuspendedPath) + sizeof(gpu::DispatchStatus);
-    EXPECT_EQ(bytes / 4, 16 + 16 + 4 + 16 + 20 + 4 + 28 + 8 + 4 + 16 + 16 + 8u);
+                         sizeof(gpu::SuspendedPath) + sizeof(gpu::SuspendedSplit) +
+                         sizeof(gpu::DispatchStatus);
+    EXPECT_EQ(bytes / 4, 16 + 16 + 4 + 16 + 20 + 4 + 28 + 8 + 4 + 16 + 20 + 24 + 8u);
 }
 
 } // namespace

@@ -19,8 +19,10 @@ struct RandomAnswer {
     uint hashed[4];
     float units[4];
     float block[4];
+    float leftOver; ///< of the block's words
+    uint unused[3];
 };
-SHARED_ROWS(RandomAnswer, 3);
+SHARED_ROWS(RandomAnswer, 4);
 
 struct TriangleQuery {
     vec3 v0;
@@ -244,6 +246,24 @@ struct SurfaceAnswer {
     uint unused;
 };
 SHARED_ROWS(SurfaceAnswer, 6);
+
+/// A bounce into the gap behind the scene's lamp, from a point on its other side; u, v in [0, 1).
+struct GapQuery {
+    vec3 position;
+    float u;
+    float v;
+    uint unused[3];
+};
+SHARED_ROWS(GapQuery, 2);
+struct GapAnswer {
+    vec3 direction; ///< unit
+    float pdf;      ///< of it, by solid angle
+    float along0;   ///< the point of the lamp's plane it goes through, from the corner along the edges
+    float along1;
+    float pdfBehind; ///< of the opposite direction
+    float pdfAtLamp; ///< of the direction to the lamp's middle
+};
+SHARED_ROWS(GapAnswer, 2);
 
 SHARED_END
 

@@ -108,6 +108,30 @@ TEST_F(RandomShader, UniformInEveryComponent) {
     }
 }
 
+/// The fifth number of a block is uniform whatever the others are, with both samplers.
+TEST_F(RandomShader, LeftOverDigitsAreAFifthNumber) {
+    constexpr uint32_t kSide = 16;
+    const std::vector<double> each(kSide * kSide, double(kMany) / (kSide * kSide));
+    const double level = sidakLevel(0.01, 2 * 5);
+    for (const uint32_t sampler : {gpu::SAMPLER_INDEPENDENT, gpu::SAMPLER_SOBOL}) {
+        const auto found = ask<RandomAnswer>(random_shader, pictureCounters({}),
+                                             ShaderOptions().set(SPEC_SAMPLER, sampler));
+        for (size_t k = 0; k < 4; ++k) {
+            std::vector<double> held(kSide * kSide);
+            for (const RandomAnswer& a : found) {
+                ASSERT_GE(a.leftOver, 0);
+                ASSERT_LT(a.leftOver, 1);
+                ++held[uint32_t(a.block[k] * kSide) * kSide + uint32_t(a.leftOver * kSide)];
+            }
+            EXPECT_GT(chiSquareTest(held, each), level) << sampler << ' ' << k;
+        }
+        std::vector<double> low(kSide * kSide); // digits 17 to 24
+        for (const RandomAnswer& a : found)
+            ++low[uint32_t(a.leftOver * 0x1p24f) & 0xFF];
+        EXPECT_GT(chiSquareTest(low, each), level) << sampler;
+    }
+}
+
 /// Sample correlation of n pairs of uniform numbers; its standard deviation is n^-1/2, so that
 /// .01 is ten of them here.
 double correlation(const std::vector<RandomAnswer>& a, size_t component,

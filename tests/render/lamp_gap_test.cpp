@@ -1,0 +1,108 @@
+// Which lamps have a gap that bounces are sent into, and how wide it is.
+#include "host/kernel/lamp_gap.hpp"
+
+#include "host/bvh/wide_layout.hpp"
+#include "host/kernel/kernel_features.hpp"
+#include "scene/collada/load_collada.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+
+namespace stromboli {
+namespace {
+
+struct Room {
+    float gap = 0.01f, scale = 1;
+    float tilt = 0; ///< height of one edge of the lamp over the other
+    bool bothSides = true, facesUp = false;
+    MaterialKind ceiling = MaterialKind::Diffuse;
+    int lamps = 1;
+};
+
+void addQuad(Scene& scene, const glm::vec3& corner, const glm::vec3& a, const glm::vec3& b,
+             uint32_t material) {
+    const auto first = uint32_t(scene.positions.size());
+    scene.positions.insert(scene.positions.end(), {corner, corner + a, corner + a + b, corner + b});
+    for (const uint32_t second : {1u, 2u}) {
+        Triangle t;
+        t.corner[0] = first, t.corner[1] = first + second, t.corner[2] = first + second + 1;
+        t.material = material;
+        scene.triangles.push_back(t);
+    }
+}
+
+/// A lamp of 1 x 0.5 below a ceiling.
+float gapOf(const Room& room) {
+    Scene scene;
+    scene.materials.resize(3);
+    scene.materials[0].kind = room.ceiling;
+    scene.materials[0].albedo = scene.materials[0].reflectance = glm::vec3(0.5f);
+    scene.materials[1].emission = glm::vec3(1);
+    scene.materials[1].emitsBothSides = room.bothSides;
+    scene.materials[2] = scene.materials[1];
+    const auto quad = [&](glm::vec3 corner, glm::vec3 a, glm::vec3 b, uint32_t material) {
+        addQuad(scene, room.scale * corner, room.scale * a, room.scale * b, material);
+    };
+    quad({-5, room.gap, -5}, {10, 0, 0}, {0, 0, 10}, 0);
+    // edgeA x edgeB points down, or up.
+    const glm::vec3 a(1, room.tilt, 0), b(0, 0, 0.5f);
+    for (int lamp = 0; lamp < room.lamps; ++lamp)
+        room.facesUp ? quad({2.0f * float(lamp), 0, 0}, b, a, 1 + uint32_t(lamp))
+                     : quad({2.0f * float(lamp), 0, 0}, a, b, 1 + uint32_t(lamp));
+    return std::abs(packScene(scene, buildWideBvh(scene), false).lampGap) / room.scale;
+}
+
+TEST(LampGap, IsTheDistanceOfTheCeiling) {
+    for (const float scale : {1.0f, 1e-9f, 1e9f})
+        for (const float gap : {0.001f, 0.01f, 0.1f})
+            for (const bool facesUp : {false, true})
+                EXPECT_NEAR(gapOf({.gap = gap, .scale = scale, .facesUp = facesUp}), gap, 1e-5)
+                    << scale;
+}
+
+TEST(LampGap, OfATiltedLampIsTheMedian) {
+    EXPECT_NEAR(gapOf({.gap = 0.05f, .tilt = 0.04f}), 0.03, 0.004);
+}
+
+TEST(LampGap, OnlyWhereLightComesOutOfIt) {
+    EXPECT_EQ(gapOf({.gap = 0.3f}), 0); // wide: bounces find it
+    EXPECT_EQ(gapOf({.gap = -0.3f}), 0);
+    EXPECT_EQ(gapOf({.ceiling = MaterialKind::Mirror}), 0);
+    EXPECT_EQ(gapOf({.lamps = 2}), 0);
+    EXPECT_EQ(gapOf({.bothSides = false}), 0) << "shines down";
+    EXPECT_NEAR(gapOf({.bothSides = false, .facesUp = true}), 0.01, 1e-5) << "shines up";
+}
+
+TEST(LampGap, NotInScenesWithoutOne) {
+    const auto folder = std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene/library";
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (entry.path().extension() != ".dae") continue;
+        const Scene scene = loadCollada(entry.path());
+        const GpuScene packed = packScene(scene, buildWideBvh(scene), false);
+        const std::string name = entry.path().stem();
+        EXPECT_EQ(packed.lampGap != 0, name == "cornell_boxes" || name == "cornell_mesh") << name;
+    }
+}
+
+/// The kernel has it only where it can matter.
+TEST(LampGap, OnlyInKernelsThatNeedIt) {
+    const Scene scene = loadCollada(std::filesystem::path(STROMBOLI_SOURCE_DIR) /
+                                    "scene/library/cornell_boxes.dae");
+    const GpuScene packed = packScene(scene, buildWideBvh(scene), false);
+    const auto guides = [&](const std::function<void(RenderSettings&)>& change) {
+        RenderSettings s;
+        change(s);
+        const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.width, s.height, false);
+        return kernelFeatures(packed, camera, s, {})[SPEC_GUIDES] != 0;
+    };
+    EXPECT_TRUE(guides([](RenderSettings&) {}));
+    EXPECT_FALSE(guides([](RenderSettings& s) { s.guides = false; }));
+    EXPECT_FALSE(guides([](RenderSettings& s) { s.maxBounces = 1; }));
+    EXPECT_FALSE(guides([](RenderSettings& s) { s.directLight = DirectLight::Bsdf; }));
+    EXPECT_FALSE(guides([](RenderSettings& s) { s.integrator = Integrator::Normals; }));
+}
+
+} // namespace
+} // namespace stromboli
