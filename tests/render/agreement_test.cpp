@@ -169,7 +169,7 @@ class GapAgreement : public DeviceTest, public testing::WithParamInterface<Gap> 
                     p.y = gap.height + (p.x > 0 ? gap.tilt : 0);
                 }
         for (glm::vec3& p : scene.positions)
-            if (gap.turned) p = glm::vec3(p.x, 2 - p.y, -p.z);
+            if (gap.turned) p = glm::vec3(-p.x, 2 - p.y, p.z); // about the view
         return scene;
     }
 };

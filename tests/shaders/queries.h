@@ -258,7 +258,8 @@ SHARED_ROWS(GapQuery, 2);
 struct GapAnswer {
     vec3 direction; ///< unit
     float pdf;      ///< of it, by solid angle
-    float along0;   ///< the point of the lamp's plane it goes through, from the corner along the edges
+    float
+        along0; ///< the point of the lamp's plane it goes through, from the corner along the edges
     float along1;
     float pdfBehind; ///< of the opposite direction
     float pdfAtLamp; ///< of the direction to the lamp's middle
