@@ -6,9 +6,9 @@
 namespace stromboli {
 namespace {
 
-/// Half the width of the window of neighbours, less a half. 48 pixels of 16 samples: a relative
-/// sigma of 5 % for normal samples. Neighbours that have more samples for a pixel's sake judge that
-/// pixel in turn, the more so the fewer they are: 2, for all its 8 % less error, darkens
+/// Half the width of the window of neighbours, less a half. 48 pixels of 4 samples: a relative
+/// sigma of 12 % for normal samples. Neighbours that have more samples for a pixel's sake judge
+/// that pixel in turn, the more so the fewer they are: 2, for all its 8 % less error, darkens
 /// cornell_mirror_glass by 0.15 % (64 samples), 3 by 0.03 %.
 constexpr int64_t kReach = 3;
 
