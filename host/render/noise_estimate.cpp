@@ -12,6 +12,9 @@ namespace {
 /// cornell_mirror_glass by 0.15 % (64 samples), 3 by 0.03 %.
 constexpr int64_t kReach = 3;
 
+/// By pixel of the film: the squared error times the samples it is of.
+using Variances = std::vector<glm::dvec3>;
+
 /// Sums over some pixels: variances of one sample and means.
 struct Sums {
     glm::dvec3 variance{0.0}, mean{0.0};
@@ -24,16 +27,18 @@ struct Sums {
     }
 };
 
-Sums sumsOf(const PixelStatistics& p) {
+Sums sumsOf(const Film& film, const Variances& variances, size_t pixel) {
+    const PixelStatistics& p = film.pixels[pixel];
     if (p.count < 2) return {}; // outside the crop, or nothing but rejected samples
-    return {p.variance(), p.mean, 1};
+    return {variances[pixel], p.mean, 1};
 }
 
 /// Sums over the neighbours of pixels, row after row from `first` on: the rows a window touches are
 /// kept as sums over its width.
 class Neighbours {
   public:
-    Neighbours(const Film& film, int64_t first) : film_(film) {
+    Neighbours(const Film& film, const Variances& variances, int64_t first)
+        : film_(film), variances_(variances) {
         rows_.assign(2 * kReach + 1, std::vector<Sums>(film.width));
         for (int64_t y = std::max<int64_t>(first - kReach, 0); y < first + kReach; ++y)
             sumRow(y);
@@ -50,13 +55,17 @@ class Neighbours {
     }
 
   private:
+    Sums ownSums(int64_t x, int64_t y) const {
+        return sumsOf(film_, variances_, size_t(y) * film_.width + size_t(x));
+    }
+
     /// Neighbours in the same row.
     std::vector<Sums> besides(int64_t y) const {
         std::vector<Sums> sums(film_.width);
         for (int64_t x = 0; x < int64_t(film_.width); ++x) {
             const int64_t right = std::min<int64_t>(x + kReach, int64_t(film_.width) - 1);
             for (int64_t i = std::max<int64_t>(x - kReach, 0); i <= right; ++i)
-                if (i != x) sums[size_t(x)] += sumsOf(film_.at(uint32_t(i), uint32_t(y)));
+                if (i != x) sums[size_t(x)] += ownSums(i, y);
         }
         return sums;
     }
@@ -66,7 +75,7 @@ class Neighbours {
         std::fill(row.begin(), row.end(), Sums{});
         if (y >= int64_t(film_.height)) return;
         for (int64_t x = 0; x < int64_t(film_.width); ++x) {
-            const Sums own = sumsOf(film_.at(uint32_t(x), uint32_t(y)));
+            const Sums own = ownSums(x, y);
             const int64_t right = std::min<int64_t>(x + kReach, int64_t(film_.width) - 1);
             for (int64_t i = std::max<int64_t>(x - kReach, 0); i <= right; ++i)
                 row[size_t(i)] += own;
@@ -74,6 +83,7 @@ class Neighbours {
     }
 
     const Film& film_;
+    const Variances& variances_;
     std::vector<std::vector<Sums>> rows_; ///< of rows y, at y modulo their number
 };
 
@@ -125,11 +135,15 @@ std::vector<double> NoiseEstimate::relativeVariance(const Film& film) const {
     if (pixels_.empty()) return result;
     const auto [least, most] = std::ranges::minmax(pixels_); // a crop's rows are not the picture's
     const uint32_t first = least / film.width, last = most / film.width;
-    Neighbours neighbours(film, first);
+    Variances variances(film.pixels.size(), glm::dvec3(0.0));
+    for (size_t i = 0; i < pixels_.size(); ++i)
+        variances[pixels_[i]] = squaredErrors_[i] * double(counts_[i]);
+    Neighbours neighbours(film, variances, first);
     for (uint32_t y = first; y <= last; ++y) {
         std::vector<Sums> row = neighbours.of(y);
         for (uint32_t x = 0; x < film.width; ++x) {
-            if (row[x].pixels == 0) row[x] = sumsOf(film.at(x, y)); // alone
+            if (row[x].pixels == 0) // alone
+                row[x] = sumsOf(film, variances, size_t(y) * film.width + x);
             if (row[x].pixels == 0) continue;
             const glm::dvec3 mean = row[x].mean / row[x].pixels;
             const glm::dvec3 variance = row[x].variance / row[x].pixels;

@@ -33,11 +33,13 @@ class NoiseEstimate {
     /// Square root of the expected relMSE of the picture, a fraction: 0.02 is 2 % of noise.
     double picture(const Film& film) const;
 
-    /// For each pixel of the film, the variance of one sample over squared radiance (with the
-    /// floor), means over the channels and the window of 7 x 7 pixels around it, itself left out.
-    /// If its own samples had a say in their number, lucky ones would be diluted and unlucky ones
-    /// kept, and the picture too dark: by 0.5 % where light is rare (Kirk and Arvo 1991). A pixel
-    /// that has not met the light yet is judged by those around it.
+    /// For each pixel of the film, the squared error times the number of samples, over squared
+    /// radiance (with the floor): the variance of one sample, were they independent. Where Sobol
+    /// points leave less of it, as at edges, fewer samples are worth taking. Means over the
+    /// channels and the window of 7 x 7 pixels around it, itself left out. If its own samples had a
+    /// say in their number, lucky ones would be diluted and unlucky ones kept, and the picture too
+    /// dark: by 0.5 % where light is rare (Kirk and Arvo 1991). A pixel that has not met the light
+    /// yet is judged by those around it.
     std::vector<double> relativeVariance(const Film& film) const;
 
   private:

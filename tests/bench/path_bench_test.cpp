@@ -37,6 +37,7 @@ struct Bench {
         s.width = s.height = 48;
         s.samplesPerPixel = 4;
         s.maxBounces = 5;
+        s.guides = false; // as `bench` has it
         return s;
     }
     RaySet bounceRays() const { return makeRaySets(scene.scene, arena.camera, settings, 1).bounce; }

@@ -163,8 +163,8 @@ TEST_F(Program, AnEvenCropHasTheBytesOfTheWhole) {
 }
 
 TEST_F(Program, ExrHoldsWhatThePngShows) {
-    render("a.exr", {"-s", "16", "--aov"});
-    render("a.png", {"-s", "16", "--exposure", "1"});
+    render("a.exr", {"-s", "16", "--even", "--aov"});
+    render("a.png", {"-s", "16", "--even", "--exposure", "1"});
     const FloatImage linear = readExr(folder.file("a.exr"));
     const ByteImage bytes = readPng(folder.file("a.png"));
     for (size_t i = 0; i < linear.channels.at("G").size(); ++i) {

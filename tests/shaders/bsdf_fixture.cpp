@@ -28,7 +28,7 @@ gpu::BsdfQuery BsdfFixture::randomQuery(uint32_t material, Random& random) const
     q.wo = glm::normalize(random.vector());
     q.wi = glm::normalize(random.vector());
     q.outside = glm::dot(q.geometric, q.wo) >= 0;
-    q.u = random.uniform(), q.v = random.uniform(), q.w = random.uniform();
+    q.u = random.uniform(), q.v = random.uniform();
     return q;
 }
 

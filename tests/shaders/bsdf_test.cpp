@@ -117,7 +117,7 @@ TEST_P(BsdfTest, WeightsAreValueTimesCosineOverDensity) {
             // D, whose error is the larger part of f's, is in both and drops out; the direction
             // carries the roundings of the frame, both ways.
             ASSERT_NEAR(found[i].weight[c], expected,
-                        expected * (100 + 30 / cosO + 30 / cosI) * kRoundoff)
+                        expected * (100 + 40 / cosO + 40 / cosI) * kRoundoff)
                 << i << ' ' << m.alpha;
         }
         compared += !zero;

@@ -100,8 +100,8 @@ TEST_P(DielectricTest, DirectionsAndWeights) {
         const reference::SurfacePoint s = surface(queries[i]);
         const Delta d = expected(s, GetParam());
         const double tolerance = 1e-6 / std::sqrt(d.margin);
-        if (d.margin < 1e-4 || std::abs(queries[i].w - d.reflection) < 1e-5) continue;
-        if (queries[i].w < d.reflection) {
+        if (d.margin < 1e-4 || std::abs(queries[i].u - d.reflection) < 1e-5) continue;
+        if (queries[i].u < d.reflection) {
             ++reflected;
             total += d.total;
             expectLobe(found[i], d.reflected, false, s, tolerance, i);
@@ -118,7 +118,7 @@ TEST_P(DielectricTest, DirectionsAndWeights) {
     EXPECT_TRUE(leaks_ > 50 || GetParam() == Convention::Cs184);
 }
 
-/// The choice changes from reflection to transmission where w passes the reflectance.
+/// The choice changes from reflection to transmission where u passes the reflectance.
 TEST_P(DielectricTest, ReflectionHasTheProbabilityOfFresnel) {
     Random random(112);
     std::vector<gpu::BsdfQuery> queries;
@@ -129,7 +129,7 @@ TEST_P(DielectricTest, ReflectionHasTheProbabilityOfFresnel) {
         if (d.margin < 1e-4 || d.reflection < 1e-3 || d.reflection > 1 - 1e-3) continue;
         const double step = 1e-6 / std::sqrt(d.margin);
         for (const double sign : {-1.0, 1.0}) {
-            q.w = float(d.reflection + sign * step);
+            q.u = float(d.reflection + sign * step);
             queries.push_back(q);
             reflects.push_back(sign < 0);
         }
@@ -146,7 +146,7 @@ TEST_P(DielectricTest, RadianceFactorsOfBothSidesCancel) {
         gpu::BsdfQuery q{};
         q.material = material;
         q.geometric = q.shading = {0, 0, 1};
-        q.w = 0.999f;
+        q.u = 0.999f;
         q.wo = {0, 0, 1};
         q.outside = 1;
         gpu::BsdfQuery out = q;

@@ -187,10 +187,10 @@ struct BsdfQuery {
     float u;
     vec3 shading;
     float v;
-    float w;
     uint unused0;
     uint unused1;
     uint unused2;
+    uint unused3;
 };
 SHARED_ROWS(BsdfQuery, 5);
 struct BsdfAnswer {
