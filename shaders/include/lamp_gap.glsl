@@ -95,7 +95,8 @@ vec2 afterChoice(vec2 u) {
 }
 
 /// Turns the bounce b of a diffuse surface into one into the gap if `aims`; u: as afterChoice() left it.
-/// Returns its weight beside b.weight, cos / pi over the density of both techniques.
+/// Returns its weight beside b.weight, cos / pi over the density of both techniques; where no light is
+/// reflected b.weight is 0.
 float mixWithGap(inout BsdfSample b, Material m, SurfacePoint s, bool aims, vec2 u) {
     const GapView g = viewGap(s.position);
     if (aims) {
@@ -104,6 +105,9 @@ float mixWithGap(inout BsdfSample b, Material m, SurfacePoint s, bool aims, vec2
         b.weight = isReflected(s, b.direction) ? m.reflectance : vec3(0.0);
     }
     const float pdf = max(dot(s.shading, b.direction), 0.0) * INV_PI;
-    if (!(pdf > 0.0)) return 0.0;
+    if (!(pdf > 0.0)) {
+        b.weight = vec3(0.0);
+        return 0.0;
+    }
     return pdf / ((1.0 - GAP_SHARE) * pdf + GAP_SHARE * gapPdf(g, b.direction));
 }
