@@ -95,8 +95,8 @@ void resumeSplit(uint lane) {
 void suspendSplit(uint lane) {
     const SurfacePoint p = splitPoint.surface;
     suspendedSplits[lane] = SuspendedSplit(
-        p.position, splitPoint.bounce, p.error, branchesLeft, p.geometric, p.material, p.shading,
-        p.skipPrimitive, p.wo, p.lift, splitPoint.throughput, p.outside ? 1u : 0u);
+        p.position, splitPoint.bounce, p.geometric, p.material, p.shading, p.skipPrimitive, p.wo,
+        p.lift, splitPoint.throughput, p.error, p.outside ? 1u : 0u, branchesLeft, 0u, 0u);
 }
 
 void resume(uint lane) {
@@ -105,9 +105,8 @@ void resume(uint lane) {
     takeUp(p.item);
     phase = PHASE_NEXT;
     ray.group = 0u;
-    ray.stackTop = 0u;
+    clearStack();
     if (p.bounce == SUSPENDED_NONE) return;
-    sampleIndex = nextSample();
     bounce = p.bounce;
     throughput = p.throughput;
     radiance = p.radiance;
@@ -121,10 +120,10 @@ void resume(uint lane) {
 /// Remembers the bounce ray that was to be started; a camera ray is simply begun anew.
 void suspend(uint lane) {
     SuspendedPath p;
-    p.origin = next.origin;
+    p.origin = ray.ray.origin;
     p.bounce = bounce == 0u ? SUSPENDED_NONE : bounce;
-    p.direction = next.direction;
-    p.skipPrimitive = next.skipPrimitive;
+    p.direction = ray.ray.direction;
+    p.skipPrimitive = ray.skipPrimitive;
     p.throughput = throughput;
     p.emission = countsEmission ? bouncePdf : SUSPENDED_NO_EMISSION;
     p.radiance = radiance;
@@ -187,7 +186,8 @@ void report() {
 void main() {
     frame = frameBuffer;
     dispatch = dispatchConstants;
-    if (ONE_LIGHT) onlyLight = fetchLight(0u);
+    pixelSize = 1.0 / vec2(frame.width, frame.height);
+    findOnlyLight();
     if (GUIDES) findLampGap();
     const uint lane = gl_GlobalInvocationID.x;
     if (lane >= dispatch.laneCount) return;

@@ -68,9 +68,8 @@ class Traversal {
             if (hit) hit_ = {2 * record, hit->t, 0, 0};
             return;
         }
-        const glm::vec3 p2(r.p2x, r.p2y, r.p2z), p3(r.p3x, r.p3y, r.p3z);
-        visitTriangle(r.p0, r.p1, p2, 2 * record);
-        visitTriangle(r.p0, p2, p3, 2 * record + 1);
+        visitTriangle(r.p0, r.p1, r.p2, 2 * record);
+        visitTriangle(r.p0, r.p2, r.p3, 2 * record + 1);
     }
 
     void visitTriangle(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2,

@@ -58,9 +58,7 @@ class Measuring {
 
     void visitLeaf(const gpu::LeafRecord& leaf) {
         ++s_.leaves;
-        const bool isPair =
-            glm::vec3(leaf.p3x, leaf.p3y, leaf.p3z) != glm::vec3(leaf.p2x, leaf.p2y, leaf.p2z);
-        ++s_.leavesOfSize[isPair ? 2 : 1];
+        ++s_.leavesOfSize[leaf.p3 != leaf.p2 ? 2 : 1];
     }
 
     const WideLayout& layout_;

@@ -104,8 +104,7 @@ class LayoutWriter {
 
     static gpu::LeafRecord packLeaf(const std::array<glm::vec3, 4>& p, float radius,
                                     uint32_t primitive) {
-        return {p[0],   primitive, p[1],   p[2].x, p[2].y, p[2].z,
-                p[3].x, p[3].y,    p[3].z, radius, 0,      0};
+        return {p[0], primitive, p[1], 0, p[3], 0, p[2], radius};
     }
 
     const Scene& scene_;

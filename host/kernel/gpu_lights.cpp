@@ -152,16 +152,17 @@ void nameLights(const Scene& scene, const std::vector<Emitter>& emitters, GpuSce
         if (e.kind != EmitterKind::Sphere) g.lights[light].flags |= gpu::LIGHT_FOUND_BY_BOUNCES;
         ++light;
     }
-    std::vector<uint32_t> materialOf(light, gpu::NO_LIGHT);
+    std::vector<uint32_t> materialNaming(light, gpu::NO_LIGHT);
     for (size_t i = 0; i < g.primitives.size(); ++i) {
+        gpu::Primitive& p = g.primitives[i];
         const uint32_t named = lightOf[g.bvh.primitiveOrder[i]];
         if (named == gpu::NO_LIGHT) continue;
-        if (materialOf[named] == gpu::NO_LIGHT) {
-            materialOf[named] = uint32_t(g.materials.size());
-            g.materials.push_back(g.materials[g.primitives[i].material]);
+        if (materialNaming[named] == gpu::NO_LIGHT) {
+            materialNaming[named] = uint32_t(g.materials.size());
+            g.materials.push_back(g.materials[materialOf(p)]);
             g.materials.back().light = named;
         }
-        g.primitives[i].material = materialOf[named];
+        p.material = materialNaming[named] | (p.material & gpu::PRIMITIVE_IS_SMOOTH);
     }
 }
 

@@ -35,13 +35,20 @@ static_assert(uint32_t(MaterialKind::Refraction) == gpu::MATERIAL_REFRACTION);
 static_assert(uint32_t(MaterialKind::Glass) == gpu::MATERIAL_GLASS);
 static_assert(uint32_t(MaterialKind::Microfacet) == gpu::MATERIAL_MICROFACET);
 
+gpu::Primitive packFlatTriangle(const Scene& scene, const Triangle& t) {
+    const glm::dvec3 a = scene.positions[t.corner[0]], b = scene.positions[t.corner[1]],
+                     c = scene.positions[t.corner[2]];
+    const glm::uvec3 bits = glm::floatBitsToUint(glm::vec3(glm::normalize(glm::cross(b - a, c - a))));
+    return {t.material, bits.x, bits.y, bits.z};
+}
+
 /// firstCorner: the corner of the file that the leaf has first.
 gpu::Primitive packTriangle(const Scene& scene, const Triangle& t, uint32_t firstCorner) {
-    if (t.normals[0] == kNoNormals) return {t.material, gpu::NO_NORMAL, 0, 0};
+    if (t.normals[0] == kNoNormals) return packFlatTriangle(scene, t);
     const auto normal = [&](uint32_t c) {
         return encodeNormal(scene.normals[t.normals[(c + firstCorner) % 3]]);
     };
-    return {t.material, normal(0), normal(1), normal(2)};
+    return {t.material | gpu::PRIMITIVE_IS_SMOOTH, normal(0), normal(1), normal(2)};
 }
 
 void packPrimitives(const Scene& scene, GpuScene& g) {
@@ -53,8 +60,8 @@ void packPrimitives(const Scene& scene, GpuScene& g) {
         g.primitives.push_back(
             id < triangles
                 ? packTriangle(scene, scene.triangles[id], g.bvh.firstCorner[id])
-                : gpu::Primitive{scene.spheres[id - triangles].material, gpu::NO_NORMAL, 0, 0});
-        g.hasNormals |= g.primitives.back().n0 != gpu::NO_NORMAL;
+                : gpu::Primitive{scene.spheres[id - triangles].material, 0, 0, 0});
+        g.hasNormals |= (g.primitives.back().material & gpu::PRIMITIVE_IS_SMOOTH) != 0;
     }
 }
 

@@ -32,6 +32,11 @@ struct GpuScene {
 GpuScene packScene(const Scene& scene, WideLayout bvh, bool cs184,
                    LightChoice choice = LightChoice::Tree);
 
+/// Number of the primitive's material.
+inline uint32_t materialOf(const gpu::Primitive& p) {
+    return p.material & ~gpu::PRIMITIVE_IS_SMOOTH;
+}
+
 /// Octahedral encoding of a unit vector (Meyer et al. 2010), two 16-bit signed fractions.
 uint32_t encodeNormal(const glm::vec3& n);
 /// The unit vector of a code, as the shaders decode it but for rounding.

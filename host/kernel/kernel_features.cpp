@@ -14,14 +14,14 @@ static_assert(float(Roulette::kBoldness) == gpu::ROULETTE_BOLDNESS);
 uint32_t materialKinds(const GpuScene& scene) {
     uint32_t kinds = 0;
     for (const gpu::Primitive& p : scene.primitives)
-        kinds |= 1u << scene.materials[p.material].kind;
+        kinds |= 1u << scene.materials[materialOf(p)].kind;
     return kinds;
 }
 
 bool hasEmission(const GpuScene& scene) {
     return std::any_of(scene.primitives.begin(), scene.primitives.end(),
                        [&](const gpu::Primitive& p) {
-                           const glm::vec3& e = scene.materials[p.material].emission;
+                           const glm::vec3& e = scene.materials[materialOf(p)].emission;
                            return e.x > 0 || e.y > 0 || e.z > 0;
                        });
 }

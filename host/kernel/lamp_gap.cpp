@@ -25,7 +25,7 @@ bool isRectangle(const gpu::Light& lamp) {
 bool isDiffuse(const GpuScene& scene, uint32_t place) {
     const gpu::LeafRecord leaf = asLeaf(scene.bvh.records[place / 2]);
     const uint32_t primitive = (leaf.primitive & gpu::RECORD_INDEX_MASK) + place % 2;
-    const gpu::Material& m = scene.materials[scene.primitives[primitive].material];
+    const gpu::Material& m = scene.materials[materialOf(scene.primitives[primitive])];
     return m.kind == gpu::MATERIAL_DIFFUSE &&
            glm::any(glm::greaterThan(m.reflectance, glm::vec3(0)));
 }

@@ -7,15 +7,15 @@ struct BsdfSample {
 };
 
 bool isDelta(uint kind) {
-    return (sceneHasMaterial(MATERIAL_MIRROR) && kind == MATERIAL_MIRROR) ||
-           (sceneHasMaterial(MATERIAL_REFRACTION) && kind == MATERIAL_REFRACTION) ||
-           (sceneHasMaterial(MATERIAL_GLASS) && kind == MATERIAL_GLASS);
+    return isMaterial(kind, MATERIAL_MIRROR) ||
+           isMaterial(kind, MATERIAL_REFRACTION) ||
+           isMaterial(kind, MATERIAL_GLASS);
 }
 
 /// Two paths that come the same way may leave by different ones.
 bool scattersAtRandom(uint kind) {
-    return !(sceneHasMaterial(MATERIAL_MIRROR) && kind == MATERIAL_MIRROR) &&
-           !(sceneHasMaterial(MATERIAL_REFRACTION) && kind == MATERIAL_REFRACTION);
+    return !isMaterial(kind, MATERIAL_MIRROR) &&
+           !isMaterial(kind, MATERIAL_REFRACTION);
 }
 
 // --- Warps of [0,1)^2 ------------------------------------------------------------------------
@@ -113,7 +113,7 @@ vec3 evaluateMicrofacet(Material m, vec3 wo, vec3 wi) {
 
 /// Density (solid angle) of sampleMicrofacet, for directions that evaluateMicrofacet() is not 0 for.
 float microfacetPdf(Material m, SurfacePoint s, vec3 wi) {
-    const ShadingFrame frame_ = makeFrame(s.shading);
+    const ShadingFrame frame_ = makeFrame(shadingNormal(s));
     const vec3 wo = toLocal(frame_, s.wo), h = unit(wo + toLocal(frame_, wi));
     return beckmannD(h, m.iorOrAlpha) * h.z / (4.0 * dot(wo, h));
 }
@@ -183,13 +183,13 @@ BsdfSample sampleDielectric(Material m, vec3 n, vec3 wo, bool entering, bool ref
 
 /// f(wo, wi) |cos(wi)| for world direction wi; 0 for delta materials.
 vec3 evaluateBsdf(Material m, SurfacePoint s, vec3 wi) {
-    const float cosine = dot(s.shading, wi);
+    const float cosine = dot(shadingNormal(s), wi);
     if (cosine <= 0.0 || (!CS184 && !isReflected(s, wi))) return vec3(0.0);
     vec3 f = vec3(0.0);
-    if (sceneHasMaterial(MATERIAL_DIFFUSE) && m.kind == MATERIAL_DIFFUSE)
+    if (isMaterial(m.kind, MATERIAL_DIFFUSE))
         f = m.reflectance * INV_PI;
-    if (sceneHasMaterial(MATERIAL_MICROFACET) && m.kind == MATERIAL_MICROFACET) {
-        const ShadingFrame frame_ = makeFrame(s.shading);
+    if (isMaterial(m.kind, MATERIAL_MICROFACET)) {
+        const ShadingFrame frame_ = makeFrame(shadingNormal(s));
         f = evaluateMicrofacet(m, toLocal(frame_, s.wo), toLocal(frame_, wi));
     }
     return f * cosine;
@@ -197,23 +197,24 @@ vec3 evaluateBsdf(Material m, SurfacePoint s, vec3 wi) {
 
 /// Samples the next direction; u: for the direction, or x for the choice of one of two.
 BsdfSample sampleBsdf(Material m, SurfacePoint s, vec2 u) {
-    const ShadingFrame frame_ = makeFrame(s.shading);
-    BsdfSample b = BsdfSample(s.shading, vec3(0.0), false);
-    if (sceneHasMaterial(MATERIAL_DIFFUSE) && m.kind == MATERIAL_DIFFUSE)
+    const vec3 normal = shadingNormal(s);
+    const ShadingFrame frame_ = makeFrame(normal);
+    BsdfSample b = BsdfSample(normal, vec3(0.0), false);
+    if (isMaterial(m.kind, MATERIAL_DIFFUSE))
         b = BsdfSample(toWorld(frame_, sampleCosineHemisphere(u)), m.reflectance, false);
-    if (sceneHasMaterial(MATERIAL_MICROFACET) && m.kind == MATERIAL_MICROFACET)
+    if (isMaterial(m.kind, MATERIAL_MICROFACET))
         b = sampleMicrofacet(m, frame_, toLocal(frame_, s.wo), u);
-    if (sceneHasMaterial(MATERIAL_MIRROR) && m.kind == MATERIAL_MIRROR)
-        b = BsdfSample(2.0 * dot(s.shading, s.wo) * s.shading - s.wo, m.reflectance, false);
-    const bool refracts = sceneHasMaterial(MATERIAL_REFRACTION) && m.kind == MATERIAL_REFRACTION;
-    const bool glass = sceneHasMaterial(MATERIAL_GLASS) && m.kind == MATERIAL_GLASS;
+    if (isMaterial(m.kind, MATERIAL_MIRROR))
+        b = BsdfSample(2.0 * dot(normal, s.wo) * normal - s.wo, m.reflectance, false);
+    const bool refracts = isMaterial(m.kind, MATERIAL_REFRACTION);
+    const bool glass = isMaterial(m.kind, MATERIAL_GLASS);
     if (refracts || glass) {
-        const bool entering = CS184 ? dot(s.shading, s.wo) >= 0.0 : s.outside;
-        const vec3 n = dot(s.shading, s.wo) < 0.0 ? -s.shading : s.shading;
+        const bool entering = CS184 ? dot(normal, s.wo) >= 0.0 : s.outside;
+        const vec3 n = dot(normal, s.wo) < 0.0 ? -normal : normal;
         b = sampleDielectric(m, n, s.wo, entering, glass, u.x);
     }
     // Deflections keep the length of wo but for rounding, which would add up over many.
-    if (m.kind != MATERIAL_DIFFUSE) b.direction = unit(b.direction);
+    if (!isMaterial(m.kind, MATERIAL_DIFFUSE)) b.direction = unit(b.direction);
     // Light stays on the side of the true surface it was sent to.
     const bool rightSide = b.transmitted ? dot(s.geometric, b.direction) < 0.0
                                          : isReflected(s, b.direction);

@@ -38,9 +38,10 @@ struct LeafPoints {
 
 LeafPoints leafPoints(Record r) {
     return LeafPoints(uintBitsToFloat(r.r0.xyz), uintBitsToFloat(r.r1.xyz),
-                      uintBitsToFloat(uvec3(r.r1.w, r.r2.xy)),
-                      uintBitsToFloat(uvec3(r.r2.zw, r.r3.x)));
+                      uintBitsToFloat(r.r3.xyz), uintBitsToFloat(r.r2.xyz));
 }
+
+float leafRadius(Record r) { return uintBitsToFloat(r.r3.w); }
 
 /// One primitive by its place in the tree, 2 * record + slot.
 struct PlacedPrimitive {
@@ -51,16 +52,17 @@ struct PlacedPrimitive {
 };
 
 PlacedPrimitive fetchPlace(uint place) {
-    const Record r = fetchRecord(place >> 1u);
-    const LeafPoints points = leafPoints(r);
-    const uint slot = place & 1u;
+    const uint slot = place & 1u, row = RECORD_ROWS * (place >> 1u);
+    const uvec4 first = ROW(recordRows, row), last = ROW(recordRows, row + 3u);
+    const vec3 own = uintBitsToFloat(ROW(recordRows, row + 1u + slot).xyz); // p1 or p3
+    const vec3 p2 = uintBitsToFloat(last.xyz);
     PlacedPrimitive p;
-    p.v0 = points.p0;
-    p.v1 = slot == 0u ? points.p1 : points.p2;
-    p.v2 = slot == 0u ? points.p2 : points.p3;
-    p.radius = uintBitsToFloat(r.r3.y);
-    p.isSphere = HAS_SPHERES && (!HAS_TRIANGLES || (r.r0.w & RECORD_IS_SPHERE) != 0u);
-    p.primitive = (r.r0.w & RECORD_INDEX_MASK) + slot;
+    p.v0 = uintBitsToFloat(first.xyz);
+    p.v1 = slot == 0u ? own : p2;
+    p.v2 = slot == 0u ? p2 : own;
+    p.radius = uintBitsToFloat(last.w);
+    p.isSphere = HAS_SPHERES && (!HAS_TRIANGLES || (first.w & RECORD_IS_SPHERE) != 0u);
+    p.primitive = (first.w & RECORD_INDEX_MASK) + slot;
     return p;
 }
 
@@ -68,6 +70,10 @@ Primitive fetchPrimitive(uint index) {
     const uvec4 r = ROW(primitiveRows, index);
     return Primitive(r.x, r.y, r.z, r.w);
 }
+
+bool isSmooth(Primitive p) { return HAS_NORMALS && (p.material & PRIMITIVE_IS_SMOOTH) != 0u; }
+
+uint materialOf(Primitive p) { return HAS_NORMALS ? p.material & ~PRIMITIVE_IS_SMOOTH : p.material; }
 
 Material fetchMaterial(uint index) {
     const uvec4 r0 = ROW(materialRows, 4u * index);

@@ -9,9 +9,11 @@ struct Ray {
     vec3 shear;    ///< maps the direction to the z axis (triangles)
 };
 
-/// Woop's permutation: the component `axis` becomes z. Cyclic, so orientation is kept.
+/// The component `axis` becomes z, and z takes its place: two selections fewer than Woop's cyclic permutation, and
+/// nothing here asks for the orientation of triangles.
 vec3 permute(vec3 v, uint axis) {
-    return axis == 2u ? v : (axis == 0u ? v.yzx : v.zxy);
+    return vec3(axis == 0u ? v.z : v.x, axis == 1u ? v.z : v.y,
+                axis == 0u ? v.x : (axis == 1u ? v.y : v.z));
 }
 
 Ray makeRay(vec3 origin, vec3 direction) {

@@ -17,7 +17,7 @@ LampGap lampGap; ///< GUIDES: found once, as onlyLight is
 
 void findLampGap() {
     const Light lamp = lightNumber(0u);
-    const vec3 n = planeNormal(lamp.edgeA, lamp.edgeB);
+    const vec3 n = quadNormal(lamp);
     lampGap.corner = lamp.position;
     lampGap.along0 = unit(lamp.edgeA);
     lampGap.along1 = cross(n, lampGap.along0);
@@ -28,7 +28,7 @@ void findLampGap() {
 
 /// Whether bounces from s are mixed with those into the gap.
 bool looksIntoGap(SurfacePoint s, Material m) {
-    return GUIDES && m.kind == MATERIAL_DIFFUSE &&
+    return GUIDES && isMaterial(m.kind, MATERIAL_DIFFUSE) &&
            dot(s.position - lampGap.corner, lampGap.normal) > 0.0;
 }
 
@@ -104,7 +104,7 @@ float mixWithGap(inout BsdfSample b, Material m, SurfacePoint s, bool aims, vec2
         b.direction = unit(at.x * lampGap.along0 + at.y * lampGap.along1 - g.height * lampGap.normal);
         b.weight = isReflected(s, b.direction) ? m.reflectance : vec3(0.0);
     }
-    const float pdf = max(dot(s.shading, b.direction), 0.0) * INV_PI;
+    const float pdf = max(dot(shadingNormal(s), b.direction), 0.0) * INV_PI;
     if (!(pdf > 0.0)) {
         b.weight = vec3(0.0);
         return 0.0;

@@ -3,11 +3,24 @@
 #include "spherical.glsl"
 #include "light_tree.glsl"
 
-Light onlyLight; ///< ONE_LIGHT: read once (five rows), not for each sample
+// ONE_LIGHT: read once, and what follows from it; llvmpipe moves nothing out of loops.
+Light onlyLight;
+vec3 onlyLightNormal; ///< LIGHT_QUAD
+
+void findOnlyLight() {
+    if (!ONE_LIGHT) return;
+    onlyLight = fetchLight(0u);
+    if (sceneHasLight(LIGHT_QUAD)) onlyLightNormal = planeNormal(onlyLight.edgeA, onlyLight.edgeB);
+}
 
 Light lightNumber(uint index) {
     if (ONE_LIGHT) return onlyLight;
     return fetchLight(index);
+}
+
+/// Unit normal of a LIGHT_QUAD.
+vec3 quadNormal(Light light) {
+    return ONE_LIGHT ? onlyLightNormal : planeNormal(light.edgeA, light.edgeB);
 }
 
 /// A sampled segment from a shading point to a light.
@@ -21,14 +34,13 @@ struct LightSample {
 
 /// Ends the segment from s just before the lamp's surface, whatever the rounding of the point on
 /// it (pError, per component) and of the segment itself. n: unit normal of the lamp there.
-vec3 stopBefore(vec3 p, vec3 pError, vec3 n, vec3 from) {
-    const vec3 segment = (4.0 * UNIT_ROUNDOFF) * (abs(p - from) + abs(from));
-    const vec3 error = vec3(largestComponent(pError + segment));
-    return offsetOrigin(p, error, n, from - p);
+vec3 stopBefore(vec3 p, float pError, vec3 n, vec3 from) {
+    const float segment = (4.0 * UNIT_ROUNDOFF) * largestComponent(abs(p - from) + abs(from));
+    return offsetOrigin(p, pError + segment, n, from - p);
 }
 
 /// Completes a sample taken uniformly on an area: radiance * area * cos / distance^2.
-LightSample areaSample(SurfacePoint s, vec3 p, vec3 pError, vec3 n, float area, Light light) {
+LightSample areaSample(SurfacePoint s, vec3 p, float pError, vec3 n, float area, Light light) {
     LightSample r;
     const vec3 from = litPoint(s), d = p - from;
     const float distance2 = dot(d, d);
@@ -48,7 +60,7 @@ LightSample areaSample(SurfacePoint s, vec3 p, vec3 pError, vec3 n, float area, 
 /// Completes a sample taken uniformly by direction: radiance * solid angle. z: distance of the lamp's
 /// plane on the side n points from. One that rounding may have put there gives no light, as a surface
 /// in the lamp's own plane gets none.
-LightSample angleSample(SurfacePoint s, vec3 p, vec3 pError, vec3 n, float z, float angle,
+LightSample angleSample(SurfacePoint s, vec3 p, float pError, vec3 n, float z, float angle,
                         Light light) {
     LightSample r;
     const vec3 from = litPoint(s), d = p - from;
@@ -56,7 +68,7 @@ LightSample angleSample(SurfacePoint s, vec3 p, vec3 pError, vec3 n, float z, fl
     r.direction = d * inversesqrt(max(distance2, TINY));
     r.infinite = false;
     r.target = stopBefore(p, pError, n, from);
-    const bool apart = abs(z) > dot(abs(n), s.error + pError) && distance2 > 0.0;
+    const bool apart = abs(z) > (s.error + pError) * dot(abs(n), vec3(1.0)) && distance2 > 0.0;
     const bool emits = apart && (light.bothSides != 0u || z < 0.0);
     r.radiance = emits ? light.color * angle : vec3(0.0);
     r.inversePdf = (light.flags & LIGHT_FOUND_BY_BOUNCES) != 0u ? angle : 0.0;
@@ -64,21 +76,21 @@ LightSample angleSample(SurfacePoint s, vec3 p, vec3 pError, vec3 n, float z, fl
 }
 
 LightSample sampleQuadByAngle(SurfacePoint s, Light light, vec2 u) {
-    const vec3 n = planeNormal(light.edgeA, light.edgeB), v0 = light.position - litPoint(s);
+    const vec3 n = quadNormal(light), v0 = light.position - litPoint(s);
     const float z = dot(v0, n);
     const SolidAngleSample a =
         sampleQuadByAngle(v0, light.edgeA, light.edgeB, z, light.area, u);
     const vec3 alongA = a.weights.x * light.edgeA, alongB = a.weights.y * light.edgeB;
-    const vec3 error = interpolationError(abs(light.position) + abs(alongA) + abs(alongB));
+    const float error = interpolationError(abs(light.position) + abs(alongA) + abs(alongB));
     return angleSample(s, light.position + alongA + alongB, error, n, z, a.angle, light);
 }
 
 LightSample sampleQuad(SurfacePoint s, Light light, vec2 u) {
     if (!CS184) return sampleQuadByAngle(s, light, u);
     const vec3 p = light.position + u.x * light.edgeA + u.y * light.edgeB;
-    const vec3 error = interpolationError(abs(light.position) + abs(u.x * light.edgeA) +
+    const float error = interpolationError(abs(light.position) + abs(u.x * light.edgeA) +
                                           abs(u.y * light.edgeB));
-    return areaSample(s, p, error, planeNormal(light.edgeA, light.edgeB), light.area, light);
+    return areaSample(s, p, error, quadNormal(light), light.area, light);
 }
 
 /// A triangle of an emissive mesh, or of all of them, picked by u: z and w.
@@ -106,7 +118,7 @@ PickedTriangle pickTriangle(uint firstEntry, uint entryCount, float sum, vec2 u,
     PickedTriangle t = placed(u.y < entry.threshold ? entry.place : entry.alias);
     float weight = 0.5 * t.doubleArea;
     if (LIGHT_CHOICE != LIGHT_CHOICE_AREA) {
-        const Material m = fetchMaterial(fetchPrimitive(t.triangle.primitive).material);
+        const Material m = fetchMaterial(materialOf(fetchPrimitive(t.triangle.primitive)));
         light.color = m.emission;
         light.bothSides = m.emitsBothSides;
         weight *= trianglePower(m);
@@ -118,7 +130,7 @@ PickedTriangle pickTriangle(uint firstEntry, uint entryCount, float sum, vec2 u,
 PickedTriangle pickTriangle(SurfacePoint s, inout Light light, vec2 u) {
     if (LIGHT_CHOICE != LIGHT_CHOICE_TREE)
         return pickTriangle(light.firstEntry, light.entryCount, light.area, u, light);
-    const PickedLeaf leaf = walkLightTree(light.firstEntry, litPoint(s), s.shading, u);
+    const PickedLeaf leaf = walkLightTree(light.firstEntry, litPoint(s), shadingNormal(s), u);
     const float column = leaf.u * float(leaf.entryCount);
     PickedTriangle t = pickTriangle(leaf.firstEntry, leaf.entryCount, leaf.power,
                                     vec2(leaf.u, fract(column)), light);
@@ -136,7 +148,7 @@ LightSample sampleMesh(SurfacePoint s, Light light, vec4 u) {
         sampleTriangleByAngle(v0, p.v1 - p.v0, p.v2 - p.v0, z, t.doubleArea, u.xy);
     const float b0 = 1.0 - a.weights.x - a.weights.y;
     const vec3 b0v0 = b0 * p.v0, b1v1 = a.weights.x * p.v1, b2v2 = a.weights.y * p.v2;
-    const vec3 error = interpolationError(abs(b0v0) + abs(b1v1) + abs(b2v2));
+    const float error = interpolationError(abs(b0v0) + abs(b1v1) + abs(b2v2));
     const float angle = t.probability > 0.0 ? a.angle / t.probability : 0.0;
     return angleSample(s, b0v0 + b1v1 + b2v2, error, t.normal, z, angle, light);
 }
@@ -150,8 +162,7 @@ LightSample sampleSphere(SurfacePoint s, Light light, vec2 u) {
     const vec3 toCenter = light.position - from;
     const float distance2 = dot(toCenter, toCenter);
     const float sin2Max = radius * radius / distance2;
-    const vec3 error = vec3((16.0 * UNIT_ROUNDOFF) * radius) +
-                       (4.0 * UNIT_ROUNDOFF) * abs(light.position);
+    const float error = sphereError(light.position, radius);
     if (!(sin2Max < 1.0)) {
         const float z = 1.0 - 2.0 * u.x, r = 2.0 * sqrt(u.x * (1.0 - u.x)), phi = 2.0 * PI * u.y;
         const vec3 n = vec3(r * cos(phi), r * sin(phi), z);
@@ -181,7 +192,7 @@ LightSample sampleSphere(SurfacePoint s, Light light, vec2 u) {
 LightSample sampleAmbient(SurfacePoint s, Light light, vec2 u) {
     LightSample r;
     const vec3 w = sampleUniformHemisphere(u);
-    r.direction = toWorld(makeFrame(s.shading), w);
+    r.direction = toWorld(makeFrame(shadingNormal(s)), w);
     if ((light.flags & LIGHT_UPPER_HEMISPHERE_ONLY) != 0u) r.direction = w.xzy; // y is up
     r.infinite = true;
     r.target = r.direction;
@@ -207,7 +218,7 @@ LightSample sampleDelta(SurfacePoint s, Light light) {
     const float attenuation =
         light.edgeB.x + light.edgeB.y * distance + light.edgeB.z * distance2;
     r.radiance = distance2 > 0.0 ? light.color / attenuation : vec3(0.0);
-    if (sceneHasLight(LIGHT_SPOT) && light.kind == LIGHT_SPOT) {
+    if (isLight(light.kind, LIGHT_SPOT)) {
         const float cosine = -dot(r.direction, light.edgeA);
         const float falloff =
             light.falloffExponent == 0.0 ? 1.0 : pow(max(cosine, 0.0), light.falloffExponent);
@@ -217,11 +228,11 @@ LightSample sampleDelta(SurfacePoint s, Light light) {
 }
 
 LightSample sampleLight(SurfacePoint s, Light light, vec4 u) {
-    if (sceneHasLight(LIGHT_QUAD) && light.kind == LIGHT_QUAD) return sampleQuad(s, light, u.xy);
-    if (sceneHasLight(LIGHT_MESH) && light.kind == LIGHT_MESH) return sampleMesh(s, light, u);
-    if (sceneHasLight(LIGHT_SPHERE) && light.kind == LIGHT_SPHERE)
+    if (isLight(light.kind, LIGHT_QUAD)) return sampleQuad(s, light, u.xy);
+    if (isLight(light.kind, LIGHT_MESH)) return sampleMesh(s, light, u);
+    if (isLight(light.kind, LIGHT_SPHERE))
         return sampleSphere(s, light, u.xy);
-    if (sceneHasLight(LIGHT_AMBIENT) && light.kind == LIGHT_AMBIENT)
+    if (isLight(light.kind, LIGHT_AMBIENT))
         return sampleAmbient(s, light, u.xy);
     if (sceneHasLight(LIGHT_DIRECTIONAL) || sceneHasLight(LIGHT_POINT) ||
         sceneHasLight(LIGHT_SPOT))

@@ -5,7 +5,7 @@
 
 /// Whether a bounce from a surface of this material shares finding lamps with its light samples.
 bool combines(Material m) {
-    return USE_MIS && sceneHasMaterial(MATERIAL_MICROFACET) && m.kind == MATERIAL_MICROFACET;
+    return USE_MIS && isMaterial(m.kind, MATERIAL_MICROFACET);
 }
 
 /// 1 / (1 + (q / p)^2).
@@ -35,12 +35,12 @@ float triangleAngle(vec3 v0, vec3 a, vec3 b) {
 float lightSampleInversePdf(Traversal t, uint lightIndex) {
     const vec3 from = t.ray.origin;
     const Light light = lightNumber(lightIndex);
-    if (sceneHasLight(LIGHT_QUAD) && light.kind == LIGHT_QUAD) {
+    if (isLight(light.kind, LIGHT_QUAD)) {
         const vec3 v0 = light.position - from, a = light.edgeA, b = light.edgeB;
         return triangleAngle(v0, a, b) + triangleAngle(v0 + a + b, -a, -b);
     }
     const PlacedPrimitive place = fetchPlace(t.hitPrimitive);
-    if (sceneHasLight(LIGHT_MESH) && light.kind == LIGHT_MESH) {
+    if (isLight(light.kind, LIGHT_MESH)) {
         const vec3 a = place.v1 - place.v0, b = place.v2 - place.v0;
         const float share = 0.5 * length(cross(a, b)) / light.area;
         return triangleAngle(place.v0 - from, a, b) / max(share, TINY);

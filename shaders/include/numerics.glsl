@@ -36,14 +36,19 @@ void addCompensated(inout vec3 high, inout vec3 low, vec3 x) {
     low = newLow;
 }
 
-/// Moves p, whose error is at most `error` per component, along the unit normal n to the side
-/// of w, far enough that the exact surface lies behind it (pbrt 4, section 6.8.6).
-vec3 offsetOrigin(vec3 p, vec3 error, vec3 n, vec3 w) {
+/// How far a point whose error is at most `error` per component has to move along the unit normal n for the
+/// exact surface to lie behind it (pbrt 4, section 6.8.6).
+float offsetLength(float error, vec3 n) {
 #ifdef PLAIN_OFFSETS // `stromboli bench`: what the bounds cost; a length that suits no scene but some
-    const float distance = 1e-4;
+    return 1e-4;
 #else
-    const float distance = dot(abs(n), error);
+    return error * dot(abs(n), vec3(1.0));
 #endif
+}
+
+/// Moves p that far, to the side of w.
+vec3 offsetOrigin(vec3 p, float error, vec3 n, vec3 w) {
+    const float distance = offsetLength(error, n);
     return p + (dot(n, w) < 0.0 ? -distance : distance) * n;
 }
 
@@ -53,7 +58,12 @@ float largestComponent(vec3 v) { return max(v.x, max(v.y, v.z)); }
 /// and of the distance at which a neighbouring triangle's test finds it. The test mixes the
 /// components, so the largest one counts for all of them: a plane through a zero coordinate has no
 /// error of its own there (docs/numerics.md).
-vec3 interpolationError(vec3 sum) { return vec3(32.0 * UNIT_ROUNDOFF * largestComponent(sum)); }
+float interpolationError(vec3 sum) { return 32.0 * UNIT_ROUNDOFF * largestComponent(sum); }
+
+/// The same of a point put on a sphere: of its unit normal, times the radius, and the sum.
+float sphereError(vec3 center, float radius) {
+    return (16.0 * UNIT_ROUNDOFF) * radius + (4.0 * UNIT_ROUNDOFF) * largestComponent(abs(center));
+}
 
 /// v / |v|, within 4 ulp: one division, where normalize() is compiled into three.
 vec3 unit(vec3 v) { return v * inversesqrt(dot(v, v)); }

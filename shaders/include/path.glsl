@@ -13,22 +13,13 @@ const uint PHASE_ENDED = 6u;      ///< the path is over
 const uint PHASE_NEXT = 7u;       ///< ready for a new sample
 const uint PHASE_SUSPENDED = 8u;  ///< a path ray has been put off to the next dispatch
 
-struct NextRay {
-    vec3 origin;
-    float tMin;
-    vec3 direction;
-    float tMax;
-    uint skipPrimitive;
-};
-
 /// All a lane knows. `ray` is what PHASE_PATH, _SHADOW and _HEMISPHERE trace.
 uint phase;
 Traversal ray;
-NextRay next; ///< asked for by trace()
 PixelState pixelState;
 uint pixelId;   ///< in the whole picture: names the random numbers
 uvec2 pixelAt;  ///< column, row (from the top) in the whole picture
-uint sampleIndex;
+vec2 pixelSize; ///< in parts of the picture
 uint bounce;    ///< scatterings so far
 vec3 throughput;
 vec3 radiance;
@@ -56,22 +47,29 @@ uint branchesLeft; ///< that have not begun
 /// Blocks of random numbers that branches take: none of those before paths split.
 const uint BRANCH_BLOCKS = 0x80000000u;
 
+/// The number of the sample under way, or the next one, of this pixel.
+uint sampleIndex() { return frame.firstSample + pixelState.count + pixelState.rejected; }
+
 /// Block 0 of a path ray, `bounce` of its path, is for the ray itself and for what happens where it ends;
 /// further light samples there take the blocks after it.
 uvec4 randomWords(uint slot) {
     const uint block = bounce * (1u + frame.areaSamples + frame.deltaLights) + slot;
     if (!SPLITS || splitPoint.bounce == 0u)
-        return randomWords(pixelId, sampleIndex, block, frame.seed);
+        return randomWords(pixelId, sampleIndex(), block, frame.seed);
     const uint branch = frame.branches - 1u - branchesLeft;
-    return randomWords(pixelId, sampleIndex * frame.branches + branch, BRANCH_BLOCKS | block,
+    return randomWords(pixelId, sampleIndex() * frame.branches + branch, BRANCH_BLOCKS | block,
                        frame.seed);
 }
 
-/// Asks for a ray. It is started at the end of the service (startRay): llvmpipe runs every branch for
-/// all lanes, so that preparing a ray wherever one is asked for would be paid for every time.
+/// Asks for a ray. It is started by startRay(): llvmpipe runs every branch for all lanes, so that
+/// preparing a ray wherever one is asked for would be paid for every time.
 void trace(uint newPhase, vec3 origin, vec3 direction, float tMin, float tMax, uint skipPrimitive) {
     phase = newPhase;
-    next = NextRay(origin, tMin, direction, tMax, skipPrimitive);
+    ray.ray.origin = origin;
+    ray.ray.direction = direction;
+    ray.tMin = tMin;
+    ray.tMax = tMax;
+    ray.skipPrimitive = skipPrimitive;
 }
 
 bool isTracing(uint p) {
@@ -81,8 +79,8 @@ bool isTracing(uint p) {
 
 void startRay() {
     if (!isTracing(phase) || traversing(ray)) return;
-    startTraversal(ray, next.origin, next.direction, next.tMin, next.tMax, next.skipPrimitive,
-                   phase == PHASE_SHADOW);
+    ray.anyHit = phase == PHASE_SHADOW;
+    startTraversal(ray);
     ++rayCount;
 }
 
@@ -133,7 +131,7 @@ void arrive() {
     }
     surface = surfaceAt(ray);
     if (INTEGRATOR == INTEGRATOR_NORMALS) {
-        radiance = 0.5 * surface.shading + 0.5;
+        radiance = 0.5 * shadingNormal(surface) + 0.5;
         return;
     }
     material = fetchMaterial(surface.material);
@@ -154,7 +152,7 @@ void arrive() {
 
 /// Starts the ray of the next hemisphere sample.
 void sampleHemisphere(vec4 u) {
-    const vec3 w = toWorld(makeFrame(surface.shading), sampleUniformHemisphere(u.xy));
+    const vec3 w = toWorld(makeFrame(shadingNormal(surface)), sampleUniformHemisphere(u.xy));
     directValue = evaluateBsdf(material, surface, w) * (2.0 * PI / float(frame.areaSamples));
     if (dot(directValue, vec3(1.0)) > 0.0)
         trace(PHASE_HEMISPHERE, leave(surface, w, false), w, 0.0, INFINITE_DISTANCE,
@@ -245,11 +243,7 @@ void scatter(vec2 u, float roulette) {
           INFINITE_DISTANCE, skipOnLeaving(surface, b.transmitted));
 }
 
-/// The number of the sample that is next for this pixel.
-uint nextSample() { return frame.firstSample + pixelState.count + pixelState.rejected; }
-
 void beginSample() {
-    sampleIndex = nextSample();
     bounce = 0u;
     throughput = vec3(1.0);
     radiance = vec3(0.0);
@@ -260,8 +254,8 @@ void beginSample() {
 }
 
 void startCameraRay(vec2 u) {
-    const CameraRay c = cameraRay((float(pixelAt.x) + u.x) / float(frame.width),
-                                  (float(pixelAt.y) + u.y) / float(frame.height));
+    const vec2 at = (vec2(ivec2(pixelAt)) + u) * pixelSize;
+    const CameraRay c = cameraRay(at.x, at.y);
     trace(PHASE_PATH, c.origin, c.direction, c.tMin, c.tMax, NO_PRIMITIVE);
 }
 

@@ -27,3 +27,10 @@ layout(constant_id = SPEC_COUNT_STEPS) const bool COUNT_STEPS = false;
 
 bool sceneHasMaterial(uint kind) { return (MATERIAL_KINDS & (1u << kind)) != 0u; }
 bool sceneHasLight(uint kind) { return (LIGHT_KINDS & (1u << kind)) != 0u; }
+/// kind == wanted, known without looking where there is but one, or none of that kind.
+bool isMaterial(uint kind, uint wanted) {
+    return sceneHasMaterial(wanted) && (MATERIAL_KINDS == 1u << wanted || kind == wanted);
+}
+bool isLight(uint kind, uint wanted) {
+    return sceneHasLight(wanted) && (LIGHT_KINDS == 1u << wanted || kind == wanted);
+}

@@ -22,12 +22,12 @@ float angleOf(float y, float x) {
 /// A corner as seen from the point.
 struct SeenCorner {
     vec3 direction; ///< unit
-    float distance;
+    float distance, inverse; ///< its reciprocal
 };
 
 SeenCorner see(vec3 toCorner) {
-    const float inverse = inversesqrt(max(dot(toCorner, toCorner), TINY));
-    return SeenCorner(toCorner * inverse, 1.0 / inverse);
+    const float distance2 = max(dot(toCorner, toCorner), TINY), inverse = inversesqrt(distance2);
+    return SeenCorner(toCorner * inverse, distance2 * inverse, inverse);
 }
 
 /// A triangle as seen: `pivot` and the edge that is swept from `start` to `end`.
@@ -39,7 +39,7 @@ struct SeenTriangle {
 /// volume = |z| doubleArea / (product of distances), z being the distance of the plane.
 SeenTriangle seeTriangle(SeenCorner pivot, SeenCorner start, SeenCorner end, float z,
                          float doubleArea) {
-    const float volume = (abs(z) / pivot.distance) * ((doubleArea / start.distance) / end.distance);
+    const float volume = (abs(z) * pivot.inverse) * ((doubleArea * start.inverse) * end.inverse);
     return SeenTriangle(pivot, start, end, volume);
 }
 

@@ -2,15 +2,18 @@
 
 struct SurfacePoint {
     vec3 position; ///< on the flat triangle, or the sphere
-    vec3 error;     ///< bound of the position's error, per component
+    float error;   ///< bound of the position's error, per component
     vec3 geometric; ///< unit geometric normal, on the side of wo
-    vec3 shading;   ///< unit shading normal
+    vec3 shading;   ///< unit; read through shadingNormal()
     vec3 wo;        ///< back along the ray; unit, as the rays of paths are
     bool outside;   ///< wo is on the side the stored geometric normal points to
     uint material;
     uint skipPrimitive; ///< planar primitives cannot be hit by rays that leave them
     float lift; ///< height of the smooth surface over `position`, along `geometric`; 0: flat
 };
+
+/// Without normals of corners a second copy of the geometric one, which would be carried along.
+vec3 shadingNormal(SurfacePoint s) { return HAS_NORMALS ? s.shading : s.geometric; }
 
 /// Octahedral to unit vector (Meyer et al. 2010).
 vec3 decodeNormal(uint packed_) {
@@ -19,6 +22,12 @@ vec3 decodeNormal(uint packed_) {
     const float fold = max(-n.z, 0.0);
     n.xy += vec2(n.x >= 0.0 ? -fold : fold, n.y >= 0.0 ? -fold : fold);
     return unit(n);
+}
+
+/// Unit geometric normal.
+vec3 triangleNormal(Primitive p, PlacedPrimitive at) {
+    const vec3 stored = uintBitsToFloat(uvec3(p.n0, p.n1, p.n2));
+    return isSmooth(p) ? planeNormal(at.v1 - at.v0, at.v2 - at.v0) : stored;
 }
 
 /// Of a triangle that has normals; those of its corners, as the file means them.
@@ -56,7 +65,7 @@ float liftAt(CornerNormals n, PlacedPrimitive at, vec3 b, vec3 facing) {
 /// Fills in what depends on the normals of the corners. b: barycentric weights.
 void smoothShading(inout SurfacePoint s, Primitive p, PlacedPrimitive at, vec3 b) {
     if (!HAS_NORMALS) return;
-    const bool given = p.n0 != NO_NORMAL;
+    const bool given = isSmooth(p);
     const CornerNormals n =
         CornerNormals(decodeNormal(p.n0), decodeNormal(p.n1), decodeNormal(p.n2));
     if (given) s.shading = interpolatedNormal(n, b, s.geometric);
@@ -72,21 +81,21 @@ SurfacePoint surfaceAt(Traversal t) {
     const PlacedPrimitive place = fetchPlace(t.hitPrimitive);
     const Primitive p = fetchPrimitive(place.primitive);
     const vec3 v0 = place.v0, v1 = place.v1, v2 = place.v2;
-    s.material = p.material;
+    s.material = materialOf(p);
     s.wo = -t.ray.direction;
     s.lift = 0.0;
     if (HAS_TRIANGLES && !place.isSphere) {
         const float b0 = 1.0 - t.b1 - t.b2;
         s.position = b0 * v0 + t.b1 * v1 + t.b2 * v2;
         s.error = interpolationError(abs(b0 * v0) + abs(t.b1 * v1) + abs(t.b2 * v2));
-        s.geometric = planeNormal(v1 - v0, v2 - v0);
+        s.geometric = triangleNormal(p, place);
         s.skipPrimitive = t.hitPrimitive;
     }
     if (HAS_SPHERES && place.isSphere) {
         const vec3 along = t.ray.origin + t.tMax * t.ray.direction - v0;
         s.geometric = unit(along);
         s.position = v0 + place.radius * s.geometric;
-        s.error = vec3((16.0 * UNIT_ROUNDOFF) * place.radius) + (4.0 * UNIT_ROUNDOFF) * abs(v0);
+        s.error = sphereError(v0, place.radius);
         s.skipPrimitive = NO_PRIMITIVE;
     }
     s.shading = s.geometric;
@@ -100,6 +109,7 @@ SurfacePoint surfaceAt(Traversal t) {
 void faceForward(inout SurfacePoint s) {
     if (CS184) return;
     if (!s.outside) s.geometric = -s.geometric;
+    if (!HAS_NORMALS) return;
     if (dot(s.shading, s.geometric) < 0.0) s.shading = -s.shading;
     if (dot(s.shading, s.wo) <= 0.0) s.shading = s.geometric;
 }
@@ -118,8 +128,9 @@ vec3 litPoint(SurfacePoint s) {
 /// renderer lets light leave on either side whatever the material.
 vec3 leave(SurfacePoint s, vec3 w, bool transmitted) {
     if (CS184) return offsetOrigin(s.position, s.error, s.geometric, w);
-    const vec3 side = transmitted ? -s.geometric : s.geometric;
-    return offsetOrigin(transmitted ? s.position : litPoint(s), s.error, s.geometric, side);
+    const vec3 from = transmitted ? s.position : litPoint(s);
+    const vec3 lift = offsetLength(s.error, s.geometric) * s.geometric;
+    return transmitted ? from - lift : from + lift;
 }
 
 /// What that ray cannot hit: the plane it starts on. From above it can.

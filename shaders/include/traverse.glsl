@@ -2,6 +2,8 @@
 // others go on (path.glsl). A step visits one record, whatever its kind: llvmpipe runs both sides of
 // an `if` anyway, and a GPU's lanes do not part ways.
 
+#include "traversal_stack.glsl"
+
 struct Traversal {
     Ray ray;
     float tMin; ///< hits at or before this do not count (camera clipping; 0 elsewhere)
@@ -12,32 +14,35 @@ struct Traversal {
     /// Children still to visit: the record of slot 0 in bits 8-31; in bits 0-7 bit (slot ^ octant)
     /// for each, so that the highest one is the nearest, more or less. 0: done.
     uint group;
-    uint stackTop;
     uint hitPrimitive; ///< 2 * record + slot; NO_PRIMITIVE: nothing hit
     float b1, b2; ///< barycentric weights of the hit (triangles)
 };
 
-/// The groups that wait; each level of the tree leaves at most one (host/bvh/wide_layout.hpp).
-uint traversalStack[STACK_SIZE];
-
-void startTraversal(out Traversal t, vec3 origin, vec3 direction, float tMin, float tMax,
-                    uint skipPrimitive, bool anyHit) {
-    t.ray = makeRay(origin, direction);
-    t.tMin = tMin;
-    t.tMax = tMax;
-    t.skipPrimitive = skipPrimitive;
-    t.anyHit = anyHit;
+/// Begins at the root. The ray's origin and direction, tMin, tMax, skipPrimitive and anyHit are set.
+void startTraversal(inout Traversal t) {
+    t.ray = makeRay(t.ray.origin, t.ray.direction);
     t.octant = octantOf(t.ray.inverse);
     t.hitPrimitive = NO_PRIMITIVE;
     t.b1 = 0.0;
     t.b2 = 0.0;
-    t.stackTop = 0u;
+    clearStack();
     // A ray with a part that is not finite hits nothing: ordered comparisons are false for NaN.
-    const vec3 size = abs(direction) + abs(origin);
+    const vec3 size = abs(t.ray.direction) + abs(t.ray.origin);
     const bool finite = size.x + size.y + size.z < INFINITE_DISTANCE &&
-                        dot(abs(direction), vec3(1.0)) > 0.0;
+                        dot(abs(t.ray.direction), vec3(1.0)) > 0.0;
     // The root is slot 0 of a group that begins at record 0.
     t.group = finite ? 1u << t.octant : 0u;
+}
+
+void startTraversal(out Traversal t, vec3 origin, vec3 direction, float tMin, float tMax,
+                    uint skipPrimitive, bool anyHit) {
+    t.ray.origin = origin;
+    t.ray.direction = direction;
+    t.tMin = tMin;
+    t.tMax = tMax;
+    t.skipPrimitive = skipPrimitive;
+    t.anyHit = anyHit;
+    startTraversal(t);
 }
 
 bool traversing(Traversal t) { return t.group != 0u; }
@@ -60,7 +65,7 @@ void testLeaf(inout Traversal t, Record r, uint record, bool isLeaf) {
     }
     if (HAS_SPHERES) {
         const vec3 center = uintBitsToFloat(r.r0.xyz);
-        const float distance = hitSphere(center, uintBitsToFloat(r.r3.y), t.ray, t.tMin, t.tMax);
+        const float distance = hitSphere(center, leafRadius(r), t.ray, t.tMin, t.tMax);
         const bool isSphere = isLeaf && (r.r0.w & RECORD_IS_SPHERE) != 0u;
         if (isSphere && distance < INFINITE_DISTANCE) {
             t.tMax = distance;
@@ -86,11 +91,7 @@ void traversalStep(inout Traversal t) {
     const bool descend = working && isNode && entered != 0u;
     const bool push = descend && rest != 0u;
     const bool pop = working && !descend && rest == 0u;
-    traversalStack[t.stackTop] = rest; // counts only where `push` keeps it
-    t.stackTop += push ? 1u : 0u;
-    const bool empty = t.stackTop == 0u;
-    t.stackTop -= pop && !empty ? 1u : 0u;
-    const uint top = traversalStack[t.stackTop];
-    t.group = descend ? (r.r0.w << 8u) | entered : (pop ? (empty ? 0u : top) : rest);
+    const uint newest = moveStack(push, pop, rest);
+    t.group = descend ? (r.r0.w << 8u) | entered : (pop ? newest : rest);
     if (t.anyHit && t.hitPrimitive != NO_PRIMITIVE) t.group = 0u;
 }

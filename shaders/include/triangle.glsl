@@ -22,14 +22,13 @@ float edgeFunction(vec3 a, vec3 b) {
     return e;
 }
 
-/// u, v, w: the edge functions opposite to a, b and c. Zero counts as inside.
+/// u, v, w: the edge functions opposite to a, b and c. Zero counts as inside. All of one sign, that of their
+/// sum: none of the weights is negative. Where all are zero weights are not numbers, which no comparison takes.
 TriangleHit triangleHit(vec3 a, vec3 b, vec3 c, float u, float v, float w, Ray ray) {
-    const float determinant = u + v + w;
-    const bool inside = ((u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0)) &&
-                        determinant != 0.0;
     // Weights first: the product of an edge function and a distance may overflow.
-    const float inverse = 1.0 / determinant;
+    const float inverse = 1.0 / (u + v + w);
     const float b0 = u * inverse, b1 = v * inverse, b2 = w * inverse;
+    const bool inside = b0 >= 0.0 && b1 >= 0.0 && b2 >= 0.0;
     const float t = (b0 * a.z + b1 * b.z + b2 * c.z) * ray.shear.z;
     return TriangleHit(inside ? t : INFINITE_DISTANCE, b1, b2);
 }

@@ -89,8 +89,6 @@ SHARED_ROWS(SuspendedPath, 5);
 struct SuspendedSplit {
     vec3 position;
     uint bounce; ///< 0: has not split
-    vec3 error;
-    uint branchesLeft; ///< that have not begun
     vec3 geometric;
     uint material;
     vec3 shading;
@@ -98,7 +96,10 @@ struct SuspendedSplit {
     vec3 wo;
     float lift;
     vec3 throughput;
+    float error;
     uint outside;
+    uint branchesLeft; ///< that have not begun
+    uint unused0, unused1;
 };
 SHARED_ROWS(SuspendedSplit, 6);
 SHARED_CONST float SUSPENDED_NO_EMISSION = -1.0f;

@@ -41,19 +41,21 @@ SHARED_OFFSET(NodeRecord, lowX0, 16);
 /// p0 p1 p2, slot 1 is p0 p2 p3 (corners may have been rotated: p0 need not be the first in the
 /// file). One triangle on its own has p3 = p2: slot 1 has no area then and is never hit. A
 /// sphere has its centre in all four, and its radius.
+/// Row 1 + slot is the slot's own.
 struct LeafRecord {
     vec3 p0;
     uint primitive; ///< of slot 0 in the Primitive buffer; slot 1's is the next. | RECORD_IS_SPHERE
     vec3 p1;
-    float p2x;
-    float p2y, p2z, p3x, p3y;
-    float p3z;
+    uint unused0;
+    vec3 p3;
+    uint unused1;
+    vec3 p2;
     float radius; ///< spheres; 0 else
-    uint unused0, unused1;
 };
 SHARED_ROWS(LeafRecord, 4);
 SHARED_OFFSET(LeafRecord, primitive, 12);
-SHARED_OFFSET(LeafRecord, radius, 52);
+SHARED_OFFSET(LeafRecord, p3, 32);
+SHARED_OFFSET(LeafRecord, radius, 60);
 
 SHARED_CONST uint RECORD_ROWS = 4u;
 SHARED_CONST uint RECORD_IS_NODE = 0x80000000u;   ///< in word 3
@@ -71,14 +73,15 @@ SHARED_CONST float LARGEST_COORDINATE = 1.152921504606846976e18f;
 /// Names a primitive where it lies in the tree: 2 * record + slot.
 SHARED_CONST uint NO_PRIMITIVE = 0xFFFFFFFFu;
 
-/// What a hit needs beside the geometry. Normals: of the corners, octahedral, two 16-bit signed
-/// fractions each (Meyer et al. 2010; largest error 4e-5 rad), or NO_NORMAL.
+/// What a hit needs beside the geometry. Normals of a smooth triangle: of the corners, octahedral, two
+/// 16-bit signed fractions each (Meyer et al. 2010; largest error 4e-5 rad). Of a flat one: x, y and z of
+/// its unit normal as floats, 40 instructions and a square root that a hit need not wait for. Of a sphere: 0.
 struct Primitive {
-    uint material;
+    uint material; ///< | PRIMITIVE_IS_SMOOTH
     uint n0, n1, n2;
 };
 SHARED_ROWS(Primitive, 1);
-SHARED_CONST uint NO_NORMAL = 0x80008000u; ///< no unit vector has this code
+SHARED_CONST uint PRIMITIVE_IS_SMOOTH = 0x80000000u;
 
 // --- Materials -----------------------------------------------------------------------------
 

@@ -145,8 +145,8 @@ class LayoutCheck {
     }
 
     void expectTriangle(const gpu::LeafRecord& leaf, uint32_t slot, uint32_t primitive) const {
-        const glm::vec3 p2(leaf.p2x, leaf.p2y, leaf.p2z), p3(leaf.p3x, leaf.p3y, leaf.p3z);
-        const glm::vec3 corners[2][3] = {{leaf.p0, leaf.p1, p2}, {leaf.p0, p2, p3}};
+        const glm::vec3 corners[2][3] = {{leaf.p0, leaf.p1, leaf.p2},
+                                         {leaf.p0, leaf.p2, leaf.p3}};
         const Triangle& t = scene_.triangles[primitive];
         for (uint32_t c = 0; c < 3; ++c)
             EXPECT_EQ(corners[slot][c],
@@ -159,8 +159,8 @@ class LayoutCheck {
         EXPECT_EQ(leaf.radius, s.radius);
         EXPECT_EQ(leaf.p0, s.center);
         EXPECT_EQ(leaf.p1, s.center);
-        EXPECT_EQ(glm::vec3(leaf.p2x, leaf.p2y, leaf.p2z), s.center);
-        EXPECT_EQ(glm::vec3(leaf.p3x, leaf.p3y, leaf.p3z), s.center);
+        EXPECT_EQ(leaf.p2, s.center);
+        EXPECT_EQ(leaf.p3, s.center);
     }
 
     const WideLayout& layout_;

@@ -91,7 +91,8 @@ void main() {
     pixelState = fetchPixel(pixel);
     pixelAt = uvec2(pixel % frame.width, pixel / frame.width);
     pixelId = pixel;
-    if (ONE_LIGHT) onlyLight = fetchLight(0u);
+    pixelSize = 1.0 / vec2(frame.width, frame.height);
+    findOnlyLight();
     if (GUIDES) findLampGap();
     ray.group = 0u;
     rayCount = 0u;

@@ -5,7 +5,7 @@
 QUERIES_AND_ANSWERS(BsdfQuery, BsdfAnswer)
 
 BsdfAnswer answer(BsdfQuery q) {
-    SurfacePoint s = SurfacePoint(vec3(0.0), vec3(0.0), q.geometric, q.shading, q.wo,
+    SurfacePoint s = SurfacePoint(vec3(0.0), 0.0, q.geometric, q.shading, q.wo,
                                   q.outside != 0u, q.material, NO_PRIMITIVE, 0.0);
     faceForward(s);
     const Material m = fetchMaterial(q.material);

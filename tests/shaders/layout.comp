@@ -34,8 +34,8 @@ void putNode(Record r) {
 /// As testLeaf takes a leaf apart.
 void putLeaf(Record r) {
     const LeafPoints p = leafPoints(r);
-    put(p.p0), put(r.r0.w), put(p.p1), put(p.p2), put(p.p3), put(uintBitsToFloat(r.r3.y));
-    put(r.r3.z), put(r.r3.w);
+    put(p.p0), put(r.r0.w), put(p.p1), put(r.r1.w), put(p.p3), put(r.r2.w), put(p.p2);
+    put(leafRadius(r));
 }
 
 void putPlace(PlacedPrimitive p) {
@@ -83,9 +83,9 @@ void putWork() {
     put(p.emission), put(p.radiance), put(p.item), put(p.arrivalNumbers);
     put(p.unused);
     const SuspendedSplit q = suspendedSplits[1];
-    put(q.position), put(q.bounce), put(q.error), put(q.branchesLeft), put(q.geometric);
-    put(q.material), put(q.shading), put(q.skipPrimitive), put(q.wo), put(q.lift);
-    put(q.throughput), put(q.outside);
+    put(q.position), put(q.bounce), put(q.geometric), put(q.material), put(q.shading);
+    put(q.skipPrimitive), put(q.wo), put(q.lift), put(q.throughput), put(q.error);
+    put(q.outside), put(q.branchesLeft), put(q.unused0), put(q.unused1);
     put(status.unfinishedItems), put(status.overflowedItems), put(status.rays);
     put(status.samples), put(status.nextItem), put(status.busySteps), put(status.allSteps);
     put(status.iterations);

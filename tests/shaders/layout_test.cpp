@@ -105,14 +105,12 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
 
     /// Once as it is, then both of its primitives.
     void expectLeaf(const gpu::LeafRecord& l) {
-        expected_.structure("LeafRecord", l.p0, l.primitive, l.p1, l.p2x, l.p2y, l.p2z, l.p3x,
-                            l.p3y, l.p3z, l.radius, l.unused0, l.unused1);
+        expected_.structure("LeafRecord", l.p0, l.primitive, l.p1, l.unused0, l.p3, l.unused1,
+                            l.p2, l.radius);
         const uint32_t isSphere = (l.primitive & gpu::RECORD_IS_SPHERE) != 0;
         const uint32_t primitive = l.primitive & gpu::RECORD_INDEX_MASK;
-        expected_.structure("slot 0", l.p0, l.p1, l.p2x, l.p2y, l.p2z, l.radius, isSphere,
-                            primitive);
-        expected_.structure("slot 1", l.p0, l.p2x, l.p2y, l.p2z, l.p3x, l.p3y, l.p3z, l.radius,
-                            isSphere, primitive + 1);
+        expected_.structure("slot 0", l.p0, l.p1, l.p2, l.radius, isSphere, primitive);
+        expected_.structure("slot 1", l.p0, l.p2, l.p3, l.radius, isSphere, primitive + 1);
     }
 
     void expectShading(const gpu::Material& m, const gpu::Light& l, const gpu::EmitterEntry& e) {
@@ -155,9 +153,9 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         splits_ = patterns.several<gpu::SuspendedSplit>();
         shader.set(BINDING_SPLITS, splits_);
         const gpu::SuspendedSplit& q = splits_[1];
-        expected_.structure("SuspendedSplit", q.position, q.bounce, q.error, q.branchesLeft,
-                            q.geometric, q.material, q.shading, q.skipPrimitive, q.wo, q.lift,
-                            q.throughput, q.outside);
+        expected_.structure("SuspendedSplit", q.position, q.bounce, q.geometric, q.material,
+                            q.shading, q.skipPrimitive, q.wo, q.lift, q.throughput, q.error,
+                            q.outside, q.branchesLeft, q.unused0, q.unused1);
         const gpu::DispatchStatus status = patterns.several<gpu::DispatchStatus>()[0];
         shader.setOne(BINDING_STATUS, status);
         expected_.structure("DispatchStatus", status.unfinishedItems, status.overflowedItems,

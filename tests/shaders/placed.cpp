@@ -13,10 +13,9 @@ std::vector<Placed> placed(const GpuScene& scene) {
     std::vector<Placed> primitives;
     for (const uint32_t place : scene.bvh.placeOf) {
         const gpu::LeafRecord leaf = asLeaf(scene.bvh.records[place / 2]);
-        const glm::vec3 p2(leaf.p2x, leaf.p2y, leaf.p2z), p3(leaf.p3x, leaf.p3y, leaf.p3z);
         const bool first = place % 2 == 0;
         primitives.push_back({place, (leaf.primitive & gpu::RECORD_IS_SPHERE) != 0, leaf.p0,
-                              first ? leaf.p1 : p2, first ? p2 : p3, leaf.radius});
+                              first ? leaf.p1 : leaf.p2, first ? leaf.p2 : leaf.p3, leaf.radius});
     }
     return primitives;
 }

@@ -19,7 +19,7 @@ SurfaceAnswer answer(SurfaceQuery q) {
     SurfaceAnswer a;
     a.position = s.position;
     a.t = hit.tMax;
-    a.error = s.error;
+    a.error = vec3(s.error);
     a.shading = s.shading;
     a.outside = s.outside ? 1u : 0u;
     a.skipPrimitive = s.skipPrimitive;

@@ -8,7 +8,7 @@ QUERIES_AND_ANSWERS(RayQuery, RayAnswer)
 
 void traverse(inout Traversal t, inout RayAnswer a) {
     while (traversing(t) && a.steps < dispatch.hardIterations) {
-        a.highestEntry = max(a.highestEntry, t.stackTop);
+        a.highestEntry = max(a.highestEntry, entriesInUse());
         traversalStep(t);
         ++a.steps;
     }
@@ -35,7 +35,7 @@ void tryRecord(RayQuery q, Ray ray, uint record, inout RayAnswer a) {
     const TrianglePairHit hit = hitTrianglePair(p, ray);
     const bool isSphere = (r.r0.w & RECORD_IS_SPHERE) != 0u;
     const float first =
-        isSphere ? hitSphere(p.p0, uintBitsToFloat(r.r3.y), ray, q.tMin, q.tMax) : hit.first.t;
+        isSphere ? hitSphere(p.p0, leafRadius(r), ray, q.tMin, q.tMax) : hit.first.t;
     tryOne(q, ray, 2u * record, first, p.p0, p.p1, p.p2, a);
     tryOne(q, ray, 2u * record + 1u, hit.second.t, p.p0, p.p2, p.p3, a);
 }
