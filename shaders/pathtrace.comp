@@ -120,9 +120,9 @@ void resume(uint lane) {
 /// Remembers the bounce ray that was to be started; a camera ray is simply begun anew.
 void suspend(uint lane) {
     SuspendedPath p;
-    p.origin = ray.ray.origin;
+    p.origin = ray.origin;
     p.bounce = bounce == 0u ? SUSPENDED_NONE : bounce;
-    p.direction = ray.ray.direction;
+    p.direction = ray.direction;
     p.skipPrimitive = ray.skipPrimitive;
     p.throughput = throughput;
     p.emission = countsEmission ? bouncePdf : SUSPENDED_NO_EMISSION;
@@ -141,10 +141,13 @@ void startWork(bool late) {
     startRay();
 }
 
+/// What follows from the ray is worked out anew for all lanes: carried along, each number would have to be
+/// selected by lane, stored and loaded.
 void traverseSomeSteps() {
+    const Ray prepared = makeRay(ray.origin, ray.direction);
     for (uint k = 0u; k < TRAVERSAL_STEPS; ++k) {
         if (COUNT_STEPS) busySteps += traversing(ray) ? 1u : 0u;
-        traversalStep(ray);
+        traversalStep(ray, prepared);
     }
     if (COUNT_STEPS) allSteps += TRAVERSAL_STEPS;
 }

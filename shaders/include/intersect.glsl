@@ -1,41 +1,52 @@
 // Ray against box, triangle and sphere. The bounds used here are derived in docs/numerics.md.
 
-/// A ray with what its intersection tests need. Distances are in units of the direction's length.
+/// A ray with what its intersection tests need, all of which follows from origin and direction. Distances
+/// are in units of the direction's length.
 struct Ray {
     vec3 origin;
     vec3 direction;
-    vec3 inverse;  ///< reciprocal direction, finite (boxes)
-    uint axis;     ///< largest component of the direction (triangles)
-    vec3 shear;    ///< maps the direction to the z axis (triangles)
+    vec3 inverse;      ///< reciprocal direction, finite (boxes)
+    bool ascends[3];   ///< the direction is not negative on an axis (boxes)
+    uint octant;       ///< bit k: the same for axis k
+    uvec4 childBits[2]; ///< of slots 0-3 and 4-7: bit (slot ^ octant)
+    bool xIsLargest, yIsLargest; ///< component of the direction (triangles); neither: z
+    vec3 shear; ///< maps the direction to the z axis (triangles)
 };
 
-/// The component `axis` becomes z, and z takes its place: two selections fewer than Woop's cyclic permutation, and
-/// nothing here asks for the orientation of triangles.
-vec3 permute(vec3 v, uint axis) {
-    return vec3(axis == 0u ? v.z : v.x, axis == 1u ? v.z : v.y,
-                axis == 0u ? v.x : (axis == 1u ? v.y : v.z));
+/// The direction's largest component becomes z, and z takes its place: two selections fewer than Woop's cyclic
+/// permutation, and nothing here asks for the orientation of triangles.
+vec3 permute(vec3 v, Ray ray) {
+    return vec3(ray.xIsLargest ? v.z : v.x, ray.yIsLargest ? v.z : v.y,
+                ray.xIsLargest ? v.x : (ray.yIsLargest ? v.y : v.z));
+}
+
+/// Bit k is set where the direction's component k is not negative.
+uint octantOf(vec3 direction) {
+    return (direction.x < 0.0 ? 0u : 1u) | (direction.y < 0.0 ? 0u : 2u) |
+           (direction.z < 0.0 ? 0u : 4u);
 }
 
 Ray makeRay(vec3 origin, vec3 direction) {
     Ray ray;
     ray.origin = origin;
     ray.direction = direction;
+    for (uint k = 0u; k < 3u; ++k)
+        ray.ascends[k] = !(direction[k] < 0.0);
+    ray.octant = octantOf(direction);
+    ray.childBits[0] = uvec4(1u) << (uvec4(0u, 1u, 2u, 3u) ^ ray.octant);
+    ray.childBits[1] = uvec4(1u) << (uvec4(4u, 5u, 6u, 7u) ^ ray.octant);
     const vec3 a = abs(direction);
     const float largest = max(a.x, max(a.y, a.z));
     // A component below 2^-60 of the largest is taken as that in box tests, which keeps
     // 0 * infinity and infinity - infinity away (docs/numerics.md).
     const vec3 sign = mix(vec3(1.0), vec3(-1.0), lessThan(direction, vec3(0.0)));
     ray.inverse = 1.0 / (sign * max(a, vec3(largest * 8.673617379884035e-19)));
-    ray.axis = a.z == largest ? 2u : (a.x == largest ? 0u : 1u);
-    const vec3 d = permute(direction, ray.axis);
-    const float inverseZ = permute(ray.inverse, ray.axis).z;
+    ray.xIsLargest = a.z != largest && a.x == largest;
+    ray.yIsLargest = a.z != largest && a.x != largest;
+    const vec3 d = permute(direction, ray);
+    const float inverseZ = permute(ray.inverse, ray).z;
     ray.shear = vec3(d.xy * inverseZ, inverseZ);
     return ray;
-}
-
-/// Bit k is set where the direction's component k is not negative.
-uint octantOf(vec3 inverse) {
-    return (inverse.x < 0.0 ? 0u : 1u) | (inverse.y < 0.0 ? 0u : 2u) | (inverse.z < 0.0 ? 0u : 4u);
 }
 
 /// Position of the highest bit of x, 1 to 255: the exponent of x as a float. llvmpipe has no
@@ -44,9 +55,8 @@ uint highestBit(uint x) { return (floatBitsToUint(float(int(x))) >> 23u) - 127u;
 
 /// Planes of a node's grid along a ray: plane q of an axis is at distance q * scale + base.
 struct GridAxis {
-    vec3 nearScale; ///< for bytes 0 and 3, 1 and 2 of a word: 1, 2^-8 and 2^-16 times the scale
-    vec3 farScale;
-    float nearBase, farBase;
+    vec3 scale; ///< for bytes 0 and 3, 1 and 2 of a word: 1, 2^-8 and 2^-16 times the scale
+    float base;
 };
 
 const vec3 BYTE_SCALES = vec3(1.0, 1.0 / 256.0, 1.0 / 65536.0);
@@ -56,12 +66,7 @@ GridAxis gridAxis(uint word, float rayOrigin, float inverse) {
     const float origin = uintBitsToFloat(word & 0xFFFFFF00u);
     precise float base = (origin - rayOrigin) * inverse;
     precise float scale = uintBitsToFloat((word & 0xFFu) << 23u) * inverse;
-    GridAxis g;
-    g.nearScale = scale * BYTE_SCALES;
-    g.farScale = scale * BOX_SLACK * BYTE_SCALES;
-    g.nearBase = base;
-    g.farBase = base * BOX_SLACK;
-    return g;
+    return GridAxis(scale * BYTE_SCALES, base);
 }
 
 // The bytes of a word as floats, times 1, 2^8, 2^16 and 1: BYTE_SCALES undoes it, and a mask is
@@ -74,23 +79,23 @@ GridAxis gridAxis(uint word, float rayOrigin, float inverse) {
 /// negative compare as the floats do, and a negative one is below them all, which is all that is
 /// needed here. llvmpipe takes one instruction for an integer minimum, and three for a float one,
 /// which minds NaN.
-ivec4 planeDistances(uint word, vec3 scale, float base) {
-    precise vec4 t = BYTES_AS_FLOATS(word) * scale.xyzx + base;
+ivec4 planeDistances(uint word, GridAxis g) {
+    precise vec4 t = BYTES_AS_FLOATS(word) * g.scale.xyzx + g.base;
     return floatBitsToInt(t);
 }
 
-/// Which of four children the ray enters within [0, end]: bit i for child i.
-uint enterFour(uvec3 nearWords, uvec3 farWords, GridAxis x, GridAxis y, GridAxis z, int end) {
-    const ivec4 nx = planeDistances(nearWords.x, x.nearScale, x.nearBase);
-    const ivec4 ny = planeDistances(nearWords.y, y.nearScale, y.nearBase);
-    const ivec4 nz = planeDistances(nearWords.z, z.nearScale, z.nearBase);
-    const ivec4 fx = planeDistances(farWords.x, x.farScale, x.farBase);
-    const ivec4 fy = planeDistances(farWords.y, y.farScale, y.farBase);
-    const ivec4 fz = planeDistances(farWords.z, z.farScale, z.farBase);
+/// Which of four children the ray enters within [0, tMax]: the `bits` of those.
+uint enterFour(uvec3 nearWords, uvec3 farWords, GridAxis x, GridAxis y, GridAxis z, float tMax,
+               uvec4 bits) {
+    const ivec4 nx = planeDistances(nearWords.x, x), fx = planeDistances(farWords.x, x);
+    const ivec4 ny = planeDistances(nearWords.y, y), fy = planeDistances(farWords.y, y);
+    const ivec4 nz = planeDistances(nearWords.z, z), fz = planeDistances(farWords.z, z);
     const ivec4 enter = max(max(nx, ny), max(nz, ivec4(0)));
-    const ivec4 leave = min(min(fx, fy), min(fz, ivec4(end)));
-    return (enter.x <= leave.x ? 1u : 0u) | (enter.y <= leave.y ? 2u : 0u) |
-           (enter.z <= leave.z ? 4u : 0u) | (enter.w <= leave.w ? 8u : 0u);
+    const ivec4 last = min(min(fx, fy), min(fz, ivec4(floatBitsToInt(tMax))));
+    precise vec4 widened = intBitsToFloat(last) * BOX_SLACK;
+    const ivec4 leave = floatBitsToInt(widened);
+    return (enter.x <= leave.x ? bits.x : 0u) | (enter.y <= leave.y ? bits.y : 0u) |
+           (enter.z <= leave.z ? bits.z : 0u) | (enter.w <= leave.w ? bits.w : 0u);
 }
 
 /// Which children of a node the ray enters within [0, tMax]: bit (slot ^ octant) for each slot.
@@ -99,22 +104,18 @@ uint enterFour(uvec3 nearWords, uvec3 farWords, GridAxis x, GridAxis y, GridAxis
 /// size, and by the slack of the far planes where it is relative to the distance (after Ize 2013);
 /// docs/numerics.md derives both. Planes are near or far by the direction's sign: sorting
 /// their distances would turn the inverted box of an absent child into a huge one.
-uint enterChildren(Record r, Ray ray, uint octant, float tMax) {
+uint enterChildren(Record r, Ray ray, float tMax) {
     const GridAxis x = gridAxis(r.r0.x, ray.origin.x, ray.inverse.x);
     const GridAxis y = gridAxis(r.r0.y, ray.origin.y, ray.inverse.y);
     const GridAxis z = gridAxis(r.r0.z, ray.origin.z, ray.inverse.z);
     // Rows hold low (xy) and high planes (zw) of the eight children.
-    const uvec4 wx = (octant & 1u) != 0u ? r.r1 : r.r1.zwxy;
-    const uvec4 wy = (octant & 2u) != 0u ? r.r2 : r.r2.zwxy;
-    const uvec4 wz = (octant & 4u) != 0u ? r.r3 : r.r3.zwxy;
-    const int end = floatBitsToInt(tMax * BOX_SLACK);
-    uint hits = enterFour(uvec3(wx.x, wy.x, wz.x), uvec3(wx.z, wy.z, wz.z), x, y, z, end) |
-                (enterFour(uvec3(wx.y, wy.y, wz.y), uvec3(wx.w, wy.w, wz.w), x, y, z, end) << 4u);
-    // Bit i moves to bit (i ^ octant).
-    hits = (octant & 1u) != 0u ? ((hits & 0x55u) << 1u) | ((hits >> 1u) & 0x55u) : hits;
-    hits = (octant & 2u) != 0u ? ((hits & 0x33u) << 2u) | ((hits >> 2u) & 0x33u) : hits;
-    hits = (octant & 4u) != 0u ? ((hits & 0x0Fu) << 4u) | (hits >> 4u) : hits;
-    return hits;
+    const uvec4 wx = ray.ascends[0] ? r.r1 : r.r1.zwxy;
+    const uvec4 wy = ray.ascends[1] ? r.r2 : r.r2.zwxy;
+    const uvec4 wz = ray.ascends[2] ? r.r3 : r.r3.zwxy;
+    return enterFour(uvec3(wx.x, wy.x, wz.x), uvec3(wx.z, wy.z, wz.z), x, y, z, tMax,
+                     ray.childBits[0]) |
+           enterFour(uvec3(wx.y, wy.y, wz.y), uvec3(wx.w, wy.w, wz.w), x, y, z, tMax,
+                     ray.childBits[1]);
 }
 
 // `stromboli bench` also compiles the kernels with plain tests, to see what these cost.

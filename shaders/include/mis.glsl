@@ -33,7 +33,7 @@ float triangleAngle(vec3 v0, vec3 a, vec3 b) {
 /// has hit; as in sampleLight(). 0: no light sample does. The ray starts within rounding of where light
 /// samples start; the weights of both add up to 1 but for that share of the lamp's distance.
 float lightSampleInversePdf(Traversal t, uint lightIndex) {
-    const vec3 from = t.ray.origin;
+    const vec3 from = t.origin;
     const Light light = lightNumber(lightIndex);
     if (isLight(light.kind, LIGHT_QUAD)) {
         const vec3 v0 = light.position - from, a = light.edgeA, b = light.edgeB;
@@ -50,8 +50,8 @@ float lightSampleInversePdf(Traversal t, uint lightIndex) {
     const vec3 toCenter = light.position - from;
     const float sin2Max = radius * radius / dot(toCenter, toCenter);
     if (sin2Max < 1.0) return 2.0 * PI * sin2Max / (1.0 + sqrt(1.0 - sin2Max));
-    const vec3 d = t.tMax * t.ray.direction;
-    const float cosine = abs(dot(t.ray.direction, unit(d - toCenter)));
+    const vec3 d = t.tMax * t.direction;
+    const float cosine = abs(dot(t.direction, unit(d - toCenter)));
     return 4.0 * PI * radius * radius * cosine / max(dot(d, d), TINY);
 }
 

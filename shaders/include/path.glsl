@@ -65,8 +65,8 @@ uvec4 randomWords(uint slot) {
 /// preparing a ray wherever one is asked for would be paid for every time.
 void trace(uint newPhase, vec3 origin, vec3 direction, float tMin, float tMax, uint skipPrimitive) {
     phase = newPhase;
-    ray.ray.origin = origin;
-    ray.ray.direction = direction;
+    ray.origin = origin;
+    ray.direction = direction;
     ray.tMin = tMin;
     ray.tMax = tMax;
     ray.skipPrimitive = skipPrimitive;
@@ -111,7 +111,7 @@ void finishShadowRay() {
 
 void finishHemisphereRay() {
     const bool hit = ray.hitPrimitive != NO_PRIMITIVE;
-    vec3 found = CS184 ? vec3(0.0) : ambientRadiance(ray.ray.direction);
+    vec3 found = CS184 ? vec3(0.0) : ambientRadiance(ray.direction);
     if (hit) {
         const SurfacePoint s = surfaceAt(ray);
         found = emissionAt(s, fetchMaterial(s.material));
@@ -126,7 +126,7 @@ void arrive() {
     phase = PHASE_ENDED;
     if (!hit) {
         if (countsEmission && bounce > 0u && !CS184)
-            radiance += throughput * ambientRadiance(ray.ray.direction) * ambientWeight();
+            radiance += throughput * ambientRadiance(ray.direction) * ambientWeight();
         return;
     }
     surface = surfaceAt(ray);

@@ -82,7 +82,7 @@ SurfacePoint surfaceAt(Traversal t) {
     const Primitive p = fetchPrimitive(place.primitive);
     const vec3 v0 = place.v0, v1 = place.v1, v2 = place.v2;
     s.material = materialOf(p);
-    s.wo = -t.ray.direction;
+    s.wo = -t.direction;
     s.lift = 0.0;
     if (HAS_TRIANGLES && !place.isSphere) {
         const float b0 = 1.0 - t.b1 - t.b2;
@@ -92,7 +92,7 @@ SurfacePoint surfaceAt(Traversal t) {
         s.skipPrimitive = t.hitPrimitive;
     }
     if (HAS_SPHERES && place.isSphere) {
-        const vec3 along = t.ray.origin + t.tMax * t.ray.direction - v0;
+        const vec3 along = t.origin + t.tMax * t.direction - v0;
         s.geometric = unit(along);
         s.position = v0 + place.radius * s.geometric;
         s.error = sphereError(v0, place.radius);

@@ -5,12 +5,11 @@
 #include "traversal_stack.glsl"
 
 struct Traversal {
-    Ray ray;
+    vec3 origin, direction;
     float tMin; ///< hits at or before this do not count (camera clipping; 0 elsewhere)
     float tMax; ///< hits at or after this do not count; shrinks to the closest hit
     uint skipPrimitive; ///< the planar primitive the ray starts on
     bool anyHit; ///< stop at the first hit
-    uint octant; ///< bit k: the direction is not negative on axis k
     /// Children still to visit: the record of slot 0 in bits 8-31; in bits 0-7 bit (slot ^ octant)
     /// for each, so that the highest one is the nearest, more or less. 0: done.
     uint group;
@@ -20,24 +19,22 @@ struct Traversal {
 
 /// Begins at the root. The ray's origin and direction, tMin, tMax, skipPrimitive and anyHit are set.
 void startTraversal(inout Traversal t) {
-    t.ray = makeRay(t.ray.origin, t.ray.direction);
-    t.octant = octantOf(t.ray.inverse);
     t.hitPrimitive = NO_PRIMITIVE;
     t.b1 = 0.0;
     t.b2 = 0.0;
     clearStack();
     // A ray with a part that is not finite hits nothing: ordered comparisons are false for NaN.
-    const vec3 size = abs(t.ray.direction) + abs(t.ray.origin);
+    const vec3 size = abs(t.direction) + abs(t.origin);
     const bool finite = size.x + size.y + size.z < INFINITE_DISTANCE &&
-                        dot(abs(t.ray.direction), vec3(1.0)) > 0.0;
+                        dot(abs(t.direction), vec3(1.0)) > 0.0;
     // The root is slot 0 of a group that begins at record 0.
-    t.group = finite ? 1u << t.octant : 0u;
+    t.group = finite ? 1u << octantOf(t.direction) : 0u;
 }
 
 void startTraversal(out Traversal t, vec3 origin, vec3 direction, float tMin, float tMax,
                     uint skipPrimitive, bool anyHit) {
-    t.ray.origin = origin;
-    t.ray.direction = direction;
+    t.origin = origin;
+    t.direction = direction;
     t.tMin = tMin;
     t.tMax = tMax;
     t.skipPrimitive = skipPrimitive;
@@ -57,15 +54,15 @@ void acceptTriangle(inout Traversal t, TriangleHit hit, uint place, bool isLeaf)
 }
 
 /// Tests the one or two triangles of a leaf, or its sphere.
-void testLeaf(inout Traversal t, Record r, uint record, bool isLeaf) {
+void testLeaf(inout Traversal t, Ray ray, Record r, uint record, bool isLeaf) {
     if (HAS_TRIANGLES) {
-        const TrianglePairHit hit = hitTrianglePair(leafPoints(r), t.ray);
+        const TrianglePairHit hit = hitTrianglePair(leafPoints(r), ray);
         acceptTriangle(t, hit.first, 2u * record, isLeaf);
         acceptTriangle(t, hit.second, 2u * record + 1u, isLeaf);
     }
     if (HAS_SPHERES) {
         const vec3 center = uintBitsToFloat(r.r0.xyz);
-        const float distance = hitSphere(center, leafRadius(r), t.ray, t.tMin, t.tMax);
+        const float distance = hitSphere(center, leafRadius(r), ray, t.tMin, t.tMax);
         const bool isSphere = isLeaf && (r.r0.w & RECORD_IS_SPHERE) != 0u;
         if (isSphere && distance < INFINITE_DISTANCE) {
             t.tMax = distance;
@@ -76,17 +73,17 @@ void testLeaf(inout Traversal t, Record r, uint record, bool isLeaf) {
 
 /// Visits the next record. A ray that is done visits the root to no effect: that is cheaper on
 /// llvmpipe than an `if` around all this, whose every result has to be selected by lane.
-void traversalStep(inout Traversal t) {
+void traversalStep(inout Traversal t, Ray ray) {
     const bool working = traversing(t);
     const uint next = highestBit(t.group & 0xFFu) & 7u;
-    const uint record = working ? (t.group >> 8u) + (next ^ t.octant) : 0u;
+    const uint record = working ? (t.group >> 8u) + (next ^ ray.octant) : 0u;
     uint rest = t.group & ~(1u << next);
     rest = (rest & 0xFFu) != 0u ? rest : 0u;
 
     const Record r = fetchRecord(record);
     const bool isNode = (r.r0.w & RECORD_IS_NODE) != 0u;
-    const uint entered = enterChildren(r, t.ray, t.octant, t.tMax);
-    testLeaf(t, r, record, working && !isNode);
+    const uint entered = enterChildren(r, ray, t.tMax);
+    testLeaf(t, ray, r, record, working && !isNode);
 
     const bool descend = working && isNode && entered != 0u;
     const bool push = descend && rest != 0u;

@@ -8,7 +8,7 @@ struct TriangleHit {
 /// A point seen along the ray: z is its depth (times the direction's largest component), x and y
 /// where it is when the ray is the z axis.
 vec3 alongRay(vec3 v, Ray ray) {
-    precise vec3 p = permute(v - ray.origin, ray.axis);
+    precise vec3 p = permute(v - ray.origin, ray);
     precise vec2 sheared = p.xy - ray.shear.xy * p.z;
     return vec3(sheared, p.z);
 }

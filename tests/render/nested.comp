@@ -32,8 +32,9 @@ uint loopPasses; ///< of this invocation: llvmpipe ends all loops of a group at 
 
 void traceToTheEnd() {
     startRay();
+    const Ray prepared = makeRay(ray.origin, ray.direction);
     while (traversing(ray)) {
-        traversalStep(ray);
+        traversalStep(ray, prepared);
         ++loopPasses;
     }
 }

@@ -31,7 +31,6 @@ uint enterNaively(Record r, Ray ray, float tMax) {
 NodeAnswer answer(NodeQuery q) {
     const Ray ray = makeRay(q.origin, q.direction);
     const Record r = recordOf(q.record);
-    const uint octant = octantOf(ray.inverse);
-    return NodeAnswer(enterChildren(r, ray, octant, q.tMax), octant, enterNaively(r, ray, q.tMax),
+    return NodeAnswer(enterChildren(r, ray, q.tMax), ray.octant, enterNaively(r, ray, q.tMax),
                       highestBit(q.number));
 }

@@ -7,8 +7,9 @@ QUERIES_AND_ANSWERS(LightQuery, LightAnswer)
 bool blocked(vec3 origin, vec3 direction, float tMax) {
     Traversal t;
     startTraversal(t, origin, direction, 0.0, tMax, NO_PRIMITIVE, true);
+    const Ray ray = makeRay(origin, direction);
     for (uint i = 0u; traversing(t) && i < 1000u; ++i)
-        traversalStep(t);
+        traversalStep(t, ray);
     return t.hitPrimitive != NO_PRIMITIVE;
 }
 

@@ -9,7 +9,7 @@ Traversal hitOne(uint place, vec3 origin, vec3 direction) {
     Traversal t;
     startTraversal(t, origin, direction, 0.0, INFINITE_DISTANCE, place ^ 1u, false);
     const uint record = place >> 1u;
-    testLeaf(t, fetchRecord(record), record, true);
+    testLeaf(t, makeRay(origin, direction), fetchRecord(record), record, true);
     return t;
 }
 

@@ -6,10 +6,10 @@
 
 QUERIES_AND_ANSWERS(RayQuery, RayAnswer)
 
-void traverse(inout Traversal t, inout RayAnswer a) {
+void traverse(inout Traversal t, Ray ray, inout RayAnswer a) {
     while (traversing(t) && a.steps < dispatch.hardIterations) {
         a.highestEntry = max(a.highestEntry, entriesInUse());
-        traversalStep(t);
+        traversalStep(t, ray);
         ++a.steps;
     }
     a.t = t.tMax;
@@ -45,8 +45,9 @@ RayAnswer answer(RayQuery q) {
         RayAnswer(0.0, 0.0, 0.0, NO_PRIMITIVE, 0u, 0u, 0u, q.tMax, 0u, 0u, 0u, 0u);
     Traversal t;
     startTraversal(t, q.origin, q.direction, q.tMin, q.tMax, q.skipPrimitive, q.anyHit != 0u);
-    traverse(t, a);
+    const Ray ray = makeRay(q.origin, q.direction);
+    traverse(t, ray, a);
     for (uint record = 0u; record < dispatch.segmentBase; ++record)
-        tryRecord(q, t.ray, record, a);
+        tryRecord(q, ray, record, a);
     return a;
 }
