@@ -22,8 +22,7 @@ bool scattersAtRandom(uint kind) {
 
 /// Uniform on the unit disk. Polar map, area measure.
 vec2 sampleDisk(vec2 u) {
-    const float r = sqrt(u.x), phi = 2.0 * PI * u.y;
-    return r * vec2(cos(phi), sin(phi));
+    return sqrt(u.x) * cosSin(4.0 * u.y);
 }
 
 /// Hemisphere about +z, pdf cos / pi in solid angle (Malley's method).
@@ -34,8 +33,7 @@ vec3 sampleCosineHemisphere(vec2 u) {
 
 /// Hemisphere about +z, pdf 1 / (2 pi) in solid angle.
 vec3 sampleUniformHemisphere(vec2 u) {
-    const float phi = 2.0 * PI * u.y, r = sqrt(max(1.0 - u.x * u.x, 0.0));
-    return vec3(r * cos(phi), r * sin(phi), u.x);
+    return vec3(sqrt(max(1.0 - u.x * u.x, 0.0)) * cosSin(4.0 * u.y), u.x);
 }
 
 /// Half vector of the Beckmann distribution, pdf D(h) cos(h) in solid angle; frame: normal +z.
@@ -43,8 +41,7 @@ vec3 sampleBeckmann(vec2 u, float alpha) {
     const float tan2 = -alpha * alpha * log(1.0 - u.x);
     const float cosine = inversesqrt(1.0 + tan2);
     const float sine = sqrt(tan2) * cosine;
-    const float phi = 2.0 * PI * u.y;
-    return vec3(sine * cos(phi), sine * sin(phi), cosine);
+    return vec3(sine * cosSin(4.0 * u.y), cosine);
 }
 
 // --- Microfacets -----------------------------------------------------------------------------

@@ -164,8 +164,7 @@ LightSample sampleSphere(SurfacePoint s, Light light, vec2 u) {
     const float sin2Max = radius * radius / distance2;
     const float error = sphereError(light.position, radius);
     if (!(sin2Max < 1.0)) {
-        const float z = 1.0 - 2.0 * u.x, r = 2.0 * sqrt(u.x * (1.0 - u.x)), phi = 2.0 * PI * u.y;
-        const vec3 n = vec3(r * cos(phi), r * sin(phi), z);
+        const vec3 n = vec3(2.0 * sqrt(u.x * (1.0 - u.x)) * cosSin(4.0 * u.y), 1.0 - 2.0 * u.x);
         return areaSample(s, light.position + radius * n, error, n,
                           4.0 * PI * radius * radius, light);
     }
@@ -173,10 +172,9 @@ LightSample sampleSphere(SurfacePoint s, Light light, vec2 u) {
     const float oneMinusCos = u.x * oneMinusCosMax;
     const float cosine = 1.0 - oneMinusCos;
     const float sin2 = oneMinusCos * (2.0 - oneMinusCos);
-    const float phi = 2.0 * PI * u.y;
     const float distance = sqrt(distance2);
     const ShadingFrame cone = makeFrame(toCenter / distance);
-    const vec3 w = toWorld(cone, vec3(sqrt(sin2) * vec2(cos(phi), sin(phi)), cosine));
+    const vec3 w = toWorld(cone, vec3(sqrt(sin2) * cosSin(4.0 * u.y), cosine));
     // The near intersection of the direction with the sphere, put back on its surface.
     const float t = distance * cosine - sqrt(max(radius * radius - distance2 * sin2, 0.0));
     const vec3 n = unit(from + t * w - light.position);

@@ -61,7 +61,8 @@ float halfChord2(vec3 a, vec3 b) { return 0.25 * dot(a - b, a - b); }
 /// span `angle`: van Oosterom and Strackee's formula solved for tan(theta / 2). Then 1 - cos is
 /// uniform between the pivot and that point.
 vec2 sampleSeenTriangle(SeenTriangle t, float angle, float v) {
-    const float s = sin(0.5 * angle), c = cos(0.5 * angle);
+    const vec2 half_ = cosSin(INV_PI * angle);
+    const float c = half_.x, s = half_.y;
     const float startPivot = dot(t.start.direction, t.pivot.direction);
     const float endPivot = dot(t.end.direction, t.pivot.direction);
     const float edge2 = halfChord2(t.start.direction, t.end.direction);
