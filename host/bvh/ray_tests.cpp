@@ -4,15 +4,16 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace stromboli {
 
 namespace {
 
-/// Woop's permutation: component `axis` becomes z. Cyclic, so that orientation is kept.
-glm::vec3 permute(const glm::vec3& v, int axis) {
-    if (axis == 2) return v;
-    return axis == 0 ? glm::vec3(v.y, v.z, v.x) : glm::vec3(v.z, v.x, v.y);
+/// Component `axis` becomes z, and z takes its place.
+glm::vec3 permute(glm::vec3 v, int axis) {
+    std::swap(v[axis], v.z);
+    return v;
 }
 
 float largestComponent(const glm::vec3& v) {
@@ -61,7 +62,7 @@ uint32_t enterChildren(const gpu::NodeRecord& node, const PreparedRay& ray, floa
     for (uint32_t slot = 0; slot < gpu::WIDE_CHILDREN; ++slot) {
         // Bit patterns, as the kernel compares them: those of floats that are not negative
         // compare as the floats do, and negative ones are below them all.
-        int32_t enter = 0, leave = std::bit_cast<int32_t>(tMax * kBoxSlack);
+        int32_t enter = 0, last = std::bit_cast<int32_t>(tMax);
         for (int i = 0; i < 3; ++i) {
             const float origin = std::bit_cast<float>(axes[i].gridWord & 0xFFFFFF00u);
             const float cell = std::bit_cast<float>((axes[i].gridWord & 255u) << 23);
@@ -73,11 +74,12 @@ uint32_t enterChildren(const gpu::NodeRecord& node, const PreparedRay& ray, floa
             const float nearPlane = float(byteOf(ascending ? axes[i].low : axes[i].high, slot));
             const float farPlane = float(byteOf(ascending ? axes[i].high : axes[i].low, slot));
             const float near = nearPlane * scale + base;
-            const float far = farPlane * (scale * kBoxSlack) + base * kBoxSlack;
+            const float far = farPlane * scale + base;
             enter = std::max(enter, std::bit_cast<int32_t>(near));
-            leave = std::min(leave, std::bit_cast<int32_t>(far));
+            last = std::min(last, std::bit_cast<int32_t>(far));
         }
-        if (enter <= leave) entered |= 1u << (slot ^ ray.octant);
+        if (enter <= std::bit_cast<int32_t>(std::bit_cast<float>(last) * kBoxSlack))
+            entered |= 1u << (slot ^ ray.octant);
     }
     return entered;
 }
@@ -86,8 +88,9 @@ uint32_t enterChildren(const gpu::NodeRecord& node, const PreparedRay& ray, floa
 /// same bits in every triangle that has it, and an edge's function is computed from the same two
 /// rounded products in both triangles of the edge, with opposite signs. Rounding is monotonic, so
 /// ab < cd gives fl(ab) <= fl(cd): the sign of fl(ab) - fl(cd) is never inverted, at worst zero,
-/// and zero counts as inside. Fused products would break this (StromboliTargets.cmake forbids
-/// them).
+/// and zero counts as inside: of functions of one sign, that of their sum, no weight is negative;
+/// where all are zero weights are NaN, which no comparison takes. Fused products would break this
+/// (StromboliTargets.cmake forbids them).
 std::optional<PrimitiveHit> hitTriangle(const glm::vec3& v0, const glm::vec3& v1,
                                         const glm::vec3& v2, const PreparedRay& ray) {
     const glm::vec3 a = permute(v0 - ray.origin, ray.axis);
@@ -99,12 +102,10 @@ std::optional<PrimitiveHit> hitTriangle(const glm::vec3& v0, const glm::vec3& v1
     const float u = cx * by - cy * bx;
     const float v = ax * cy - ay * cx;
     const float w = bx * ay - by * ax;
-    const bool inside = (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
-    const float determinant = u + v + w;
-    if (!inside || determinant == 0) return std::nullopt;
     // Weights first: the product of an edge function and a distance may overflow.
-    const float inverse = 1.0f / determinant;
+    const float inverse = 1.0f / (u + v + w);
     const float b0 = u * inverse, b1 = v * inverse, b2 = w * inverse;
+    if (!(b0 >= 0 && b1 >= 0 && b2 >= 0)) return std::nullopt;
     const float t = (b0 * a.z + b1 * b.z + b2 * c.z) * ray.shear.z;
     if (!std::isfinite(t)) return std::nullopt;
     return PrimitiveHit{t, b1, b2};

@@ -38,7 +38,8 @@ static_assert(uint32_t(MaterialKind::Microfacet) == gpu::MATERIAL_MICROFACET);
 gpu::Primitive packFlatTriangle(const Scene& scene, const Triangle& t) {
     const glm::dvec3 a = scene.positions[t.corner[0]], b = scene.positions[t.corner[1]],
                      c = scene.positions[t.corner[2]];
-    const glm::uvec3 bits = glm::floatBitsToUint(glm::vec3(glm::normalize(glm::cross(b - a, c - a))));
+    const glm::uvec3 bits =
+        glm::floatBitsToUint(glm::vec3(glm::normalize(glm::cross(b - a, c - a))));
     return {t.material, bits.x, bits.y, bits.z};
 }
 
@@ -58,9 +59,8 @@ void packPrimitives(const Scene& scene, GpuScene& g) {
     g.primitives.reserve(g.bvh.primitiveOrder.size());
     for (const uint32_t id : g.bvh.primitiveOrder) {
         g.primitives.push_back(
-            id < triangles
-                ? packTriangle(scene, scene.triangles[id], g.bvh.firstCorner[id])
-                : gpu::Primitive{scene.spheres[id - triangles].material, 0, 0, 0});
+            id < triangles ? packTriangle(scene, scene.triangles[id], g.bvh.firstCorner[id])
+                           : gpu::Primitive{scene.spheres[id - triangles].material, 0, 0, 0});
         g.hasNormals |= (g.primitives.back().material & gpu::PRIMITIVE_IS_SMOOTH) != 0;
     }
 }

@@ -17,6 +17,8 @@ constexpr double kLeastShare = 0.75;
 /// (docs/estimator.md); narrower ones are not told from the lamp itself.
 constexpr float kWidest = 0.25f, kNarrowest = 0x1p-12f;
 
+/// Or nearly: the kernel squares it up, and what it misses of the rims is left to the other
+/// bounces.
 bool isRectangle(const gpu::Light& lamp) {
     const float a = glm::length(lamp.edgeA), b = glm::length(lamp.edgeB);
     return std::abs(glm::dot(lamp.edgeA, lamp.edgeB)) <= 1e-3f * a * b;

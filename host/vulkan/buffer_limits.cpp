@@ -1,6 +1,7 @@
 #include "host/vulkan/buffer_limits.hpp"
 
 #include "host/core/error.hpp"
+#include "shaders/shared/interface.h"
 
 #include <fmt/format.h>
 
@@ -8,6 +9,7 @@ namespace stromboli::vulkan {
 namespace {
 
 constexpr uint64_t kRowBytes = 16; // one RGBA32UI texel
+constexpr uint32_t kMostRows = gpu::TEXEL_ROW_MASK + 1;
 
 } // namespace
 
@@ -15,7 +17,10 @@ BindingLimit bindingLimit(const DeviceDescription& device, BufferUse use) {
     const VkPhysicalDeviceLimits& limits = device.properties.limits;
     switch (use) {
     case BufferUse::Texel:
-        return {uint64_t(limits.maxTexelBufferElements) * kRowBytes, "maxTexelBufferElements"};
+        return limits.maxTexelBufferElements <= kMostRows
+                   ? BindingLimit{uint64_t(limits.maxTexelBufferElements) * kRowBytes,
+                                  "maxTexelBufferElements"}
+                   : BindingLimit{uint64_t(kMostRows) * kRowBytes, "27 bits for the kernel's rows"};
     case BufferUse::Uniform:
         return {limits.maxUniformBufferRange, "maxUniformBufferRange"};
     default:

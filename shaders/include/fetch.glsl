@@ -6,7 +6,7 @@
 #ifdef FETCH_TEXEL
 #define SCENE_BUFFER(binding_, name)                                                               \
     layout(set = 0, binding = binding_, rgba32ui) uniform readonly uimageBuffer name;
-#define ROW(name, i) imageLoad(name, int((i) & 0x07FFFFFFu))
+#define ROW(name, i) imageLoad(name, int((i) & TEXEL_ROW_MASK))
 #else
 #define SCENE_BUFFER(binding_, name)                                                               \
     layout(set = 0, binding = binding_, std430) readonly buffer name##Buffer { uvec4 rows[]; }     \

@@ -22,6 +22,10 @@ SHARED_BEGIN
 #define BINDING_COUNT 11
 #define SCENE_BINDING_COUNT 5 // bindings 0 to 4 hold the scene and are read row by row
 
+/// Numbers of rows in texel buffers are cut to these bits. Lavapipe's buffers have no more rows, and saying so
+/// spares it the sign extension of each lane's address.
+SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
+
 // --- Specialisation constants: only what a scene needs ---------------------------------------
 #define SPEC_WORKGROUP_SIZE 0
 #define SPEC_TRAVERSAL_STEPS 1 // traversal steps between two service passes

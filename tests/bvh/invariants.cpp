@@ -145,8 +145,7 @@ class LayoutCheck {
     }
 
     void expectTriangle(const gpu::LeafRecord& leaf, uint32_t slot, uint32_t primitive) const {
-        const glm::vec3 corners[2][3] = {{leaf.p0, leaf.p1, leaf.p2},
-                                         {leaf.p0, leaf.p2, leaf.p3}};
+        const glm::vec3 corners[2][3] = {{leaf.p0, leaf.p1, leaf.p2}, {leaf.p0, leaf.p2, leaf.p3}};
         const Triangle& t = scene_.triangles[primitive];
         for (uint32_t c = 0; c < 3; ++c)
             EXPECT_EQ(corners[slot][c],

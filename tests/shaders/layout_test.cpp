@@ -105,8 +105,8 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
 
     /// Once as it is, then both of its primitives.
     void expectLeaf(const gpu::LeafRecord& l) {
-        expected_.structure("LeafRecord", l.p0, l.primitive, l.p1, l.unused0, l.p3, l.unused1,
-                            l.p2, l.radius);
+        expected_.structure("LeafRecord", l.p0, l.primitive, l.p1, l.unused0, l.p3, l.unused1, l.p2,
+                            l.radius);
         const uint32_t isSphere = (l.primitive & gpu::RECORD_IS_SPHERE) != 0;
         const uint32_t primitive = l.primitive & gpu::RECORD_INDEX_MASK;
         expected_.structure("slot 0", l.p0, l.p1, l.p2, l.radius, isSphere, primitive);

@@ -141,9 +141,9 @@ struct WarpAnswer {
     vec3 hemisphere;
     float diskY;
     vec3 beckmann;
-    uint unused3;
+    float cosine4u; ///< of 4 u quarter turns ...
     vec3 frameX;
-    uint unused4;
+    float sine4u; ///< ... the same
     vec3 frameY;
     uint unused0;
     vec3 frameZ;

@@ -25,7 +25,7 @@ SurfaceAnswer answer(SurfaceQuery q) {
     a.skipPrimitive = s.skipPrimitive;
     faceForward(s);
     a.geometric = s.geometric;
-    a.facing = s.shading;
+    a.facing = shadingNormal(s);
     a.start = leave(s, q.leaving, dot(s.geometric, q.leaving) < 0.0);
     a.again = hitOne(q.place, a.start, q.leaving).tMax;
     a.lift = s.lift;

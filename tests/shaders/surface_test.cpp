@@ -36,6 +36,14 @@ class SurfaceTest : public DeviceTest {
 
     std::vector<Placed> primitives_; ///< by scene primitive
 
+    /// As a kernel without shading normals does it.
+    std::vector<SurfaceAnswer> flatAnswers(const Scene& scene,
+                                           const std::vector<SurfaceQuery>& queries) {
+        TestShader shader(surface_texel, ShaderOptions::texel().set(SPEC_HAS_NORMALS, false));
+        shader.setScene(pack(scene));
+        return ask<SurfaceAnswer>(shader, queries);
+    }
+
   private:
     TestShader shader_{surface_texel, ShaderOptions::texel()};
 };
@@ -100,6 +108,35 @@ TEST_F(SurfaceTest, RaysLeaveTrianglesOnTheRightSideAtAnyScale) {
         }
     EXPECT_GT(hits, 60000u);
     EXPECT_GT(naiveWrong, hits / 10) << "negative control: without the offset";
+}
+
+/// The normals of flat triangles come with the scene: right to the last digit at any scale, and the
+/// same bits with and without shading normals in the kernel.
+TEST_F(SurfaceTest, FlatTrianglesHaveTheirNormalStored) {
+    Random random(146);
+    size_t hits = 0;
+    for (const float scale : {1e-12f, 1.0f, 1e12f}) {
+        Scene scene = soup(200, 0, 0.5f, random);
+        for (glm::vec3& p : scene.positions)
+            p = scale * (p + 1.0f);
+        setScene(scene);
+        std::vector<SurfaceQuery> queries;
+        for (uint32_t i = 0; i < 5000; ++i)
+            queries.push_back(rayAt(primitives_[i % 200], 2 * scale, random));
+        const std::vector<SurfaceAnswer> found = answers(queries);
+        const std::vector<SurfaceAnswer> flat = flatAnswers(scene, queries);
+        for (size_t i = 0; i < queries.size(); ++i) {
+            if (!(found[i].t < kInfinite)) continue;
+            ++hits;
+            const glm::dvec3 n = normalOf(primitives_[i % 200]);
+            const double side = glm::dot(n, glm::dvec3(queries[i].direction)) < 0 ? 1 : -1;
+            ASSERT_LE(glm::length(side * n - glm::dvec3(found[i].geometric)), 0x1p-24) << i;
+            ASSERT_EQ(found[i].facing, found[i].geometric);
+            ASSERT_EQ(flat[i].geometric, found[i].geometric);
+            ASSERT_EQ(flat[i].start, found[i].start);
+        }
+    }
+    EXPECT_GT(hits, 12000u);
 }
 
 TEST_F(SurfaceTest, TheErrorBoundHolds) {

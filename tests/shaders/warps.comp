@@ -7,7 +7,8 @@ QUERIES_AND_ANSWERS(WarpQuery, WarpAnswer)
 WarpAnswer answer(WarpQuery q) {
     const vec2 u = vec2(q.u, q.v), disk = sampleDisk(u);
     const ShadingFrame f = makeFrame(q.normal);
+    const vec2 turned = cosSin(4.0 * q.u);
     return WarpAnswer(sampleCosineHemisphere(u), disk.x, sampleUniformHemisphere(u), disk.y,
-                      sampleBeckmann(u, q.alpha), 0u, f.x, 0u, f.y, 0u, f.z, 0u,
+                      sampleBeckmann(u, q.alpha), turned.x, f.x, turned.y, f.y, 0u, f.z, 0u,
                       decodeNormal(q.encodedNormal), 0u);
 }
