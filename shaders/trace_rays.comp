@@ -30,7 +30,6 @@ layout(push_constant) uniform DispatchConstants { RayDispatch dispatch; };
 #include "include/traverse.glsl"
 
 Traversal ray;
-Ray prepared; ///< for `ray`
 uint rayIndex;
 uint raysLeft;
 bool tracing; ///< `ray` is one of the buffer's
@@ -47,7 +46,6 @@ void startRay() {
     const uvec4 r0 = ROW(rayRows, 2u * rayIndex), r1 = ROW(rayRows, 2u * rayIndex + 1u);
     startTraversal(ray, uintBitsToFloat(r0.xyz), uintBitsToFloat(r1.xyz), 0.0,
                    uintBitsToFloat(r0.w), NO_PRIMITIVE, ANY_HIT);
-    prepared = makeRay(ray.origin, ray.direction);
 }
 
 /// Takes in the finished ray and starts the lane's next one, if there is one.
@@ -83,8 +81,9 @@ void main() {
     bool finished = false;
     uint iteration = 0u;
     while (!finished && iteration < dispatch.hardIterations) {
+        const Ray prepared = makeRay(ray.origin, ray.direction);
         for (uint k = 0u; k < TRAVERSAL_STEPS; ++k)
-            if (traversing(ray)) traversalStep(ray, prepared);
+            traversalStep(ray, prepared);
         bool waiting = !traversing(ray);
         while (waiting) {
             serve();
