@@ -189,7 +189,7 @@ void report() {
 void main() {
     frame = frameBuffer;
     dispatch = dispatchConstants;
-    pixelSize = 1.0 / vec2(frame.width, frame.height);
+    findPictureGrid();
     findOnlyLight();
     if (GUIDES) findLampGap();
     const uint lane = gl_GlobalInvocationID.x;

@@ -5,12 +5,10 @@ const float LARGEST_RADIANCE = 281474976710656.0;
 
 /// Adds one sample: compensated sums, Welford's update for the squares. A sample that is
 /// not finite, negative or absurdly large is counted and left out, so that it cannot spoil its
-/// pixel; ordered comparisons are false for NaN whatever the driver makes of isnan.
+/// pixel: as unsigned integers, the patterns of all of these are above that of the largest allowed.
 void addSample(inout PixelState state, vec3 radiance) {
-    const bool valid = radiance.x >= 0.0 && radiance.y >= 0.0 && radiance.z >= 0.0 &&
-                       radiance.x <= LARGEST_RADIANCE && radiance.y <= LARGEST_RADIANCE &&
-                       radiance.z <= LARGEST_RADIANCE;
-    if (!valid) {
+    const uvec3 bits = floatBitsToUint(radiance);
+    if (max(bits.x, max(bits.y, bits.z)) > floatBitsToUint(LARGEST_RADIANCE)) {
         if (state.rejected == 0u) state.firstRejected = state.count;
         ++state.rejected;
         return;

@@ -6,17 +6,30 @@ struct CameraRay {
     float tMin, tMax;
 };
 
-/// The ray through picture coordinates s, t in [0, 1], from the left and from the top.
-CameraRay cameraRay(float s, float t) {
-    const vec3 offset = (2.0 * s - 1.0) * frame.cameraRight + (1.0 - 2.0 * t) * frame.cameraUp;
+/// From the camera to the picture, at a distance of 1 (orthographic: 0): its top left corner, and the steps
+/// from one pixel to the next. The same for all rays, so found before they are.
+struct PictureGrid {
+    vec3 corner, right, down;
+};
+PictureGrid pictureGrid;
+
+void findPictureGrid() {
+    pictureGrid.corner = frame.cameraUp - frame.cameraRight;
+    if (!ORTHOGRAPHIC) pictureGrid.corner -= frame.cameraBack;
+    pictureGrid.right = frame.cameraRight * (2.0 / float(frame.width));
+    pictureGrid.down = frame.cameraUp * (-2.0 / float(frame.height));
+}
+
+/// The ray through a point of the picture: pixels from the left and from the top.
+CameraRay cameraRay(vec2 at) {
+    const vec3 d = pictureGrid.corner + at.x * pictureGrid.right + at.y * pictureGrid.down;
     CameraRay ray;
     ray.origin = frame.cameraPosition;
     ray.direction = -frame.cameraBack;
     float alongAxis = 1.0; // length of the ray per unit of depth
     if (ORTHOGRAPHIC) {
-        ray.origin += offset;
+        ray.origin += d;
     } else {
-        const vec3 d = offset - frame.cameraBack;
         ray.direction = unit(d);
         if (!CLIP_ALONG_RAY) alongAxis = length(d);
     }

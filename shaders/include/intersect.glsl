@@ -36,11 +36,12 @@ Ray makeRay(vec3 origin, vec3 direction) {
     ray.childBits[0] = uvec4(1u) << (uvec4(0u, 1u, 2u, 3u) ^ ray.octant);
     ray.childBits[1] = uvec4(1u) << (uvec4(4u, 5u, 6u, 7u) ^ ray.octant);
     const vec3 a = abs(direction);
-    const float largest = max(a.x, max(a.y, a.z));
+    const float largest = largestComponent(a);
     // A component below 2^-60 of the largest is taken as that in box tests, which keeps
     // 0 * infinity and infinity - infinity away (docs/numerics.md).
     const vec3 sign = mix(vec3(1.0), vec3(-1.0), lessThan(direction, vec3(0.0)));
-    ray.inverse = 1.0 / (sign * max(a, vec3(largest * 8.673617379884035e-19)));
+    const float least = largest * 8.673617379884035e-19;
+    ray.inverse = 1.0 / (sign * vec3(larger(a.x, least), larger(a.y, least), larger(a.z, least)));
     ray.xIsLargest = a.z != largest && a.x == largest;
     ray.yIsLargest = a.z != largest && a.x != largest;
     const vec3 d = permute(direction, ray);

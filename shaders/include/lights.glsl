@@ -32,11 +32,12 @@ struct LightSample {
     float inversePdf; ///< steradians; 0: of what bounces do not find
 };
 
-/// Ends the segment from s just before the lamp's surface, whatever the rounding of the point on
-/// it (pError, per component) and of the segment itself. n: unit normal of the lamp there.
-vec3 stopBefore(vec3 p, float pError, vec3 n, vec3 from) {
-    const float segment = (4.0 * UNIT_ROUNDOFF) * largestComponent(abs(p - from) + abs(from));
-    return offsetOrigin(p, pError + segment, n, from - p);
+/// Ends the segment d from `from` to the point p just before the lamp's surface, whatever the rounding of p
+/// (pError, per component) and of the segment itself. n: unit normal of the lamp there; away: from `from`.
+vec3 stopBefore(vec3 p, float pError, vec3 n, bool away, vec3 from, vec3 d) {
+    const float segment = (4.0 * UNIT_ROUNDOFF) * largestComponent(abs(d) + abs(from));
+    const float distance = offsetLength(pError + segment, n);
+    return p + (away ? -distance : distance) * n;
 }
 
 /// Completes a sample taken uniformly on an area: radiance * area * cos / distance^2.
@@ -47,8 +48,8 @@ LightSample areaSample(SurfacePoint s, vec3 p, float pError, vec3 n, float area,
     const float inverseDistance = inversesqrt(distance2);
     r.direction = d * inverseDistance;
     r.infinite = false;
-    r.target = stopBefore(p, pError, n, from);
     const float cosine = -dot(r.direction, n);
+    r.target = stopBefore(p, pError, n, cosine < 0.0, from, d);
     // The CS184 renderer's density lacks one factor 1 / distance, and its lights have one side.
     const float falloff = CS184 ? inverseDistance : inverseDistance * inverseDistance;
     const bool emits = CS184 || light.bothSides == 0u ? cosine > 0.0 : cosine != 0.0;
@@ -67,7 +68,7 @@ LightSample angleSample(SurfacePoint s, vec3 p, float pError, vec3 n, float z, f
     const float distance2 = dot(d, d);
     r.direction = d * inversesqrt(max(distance2, TINY));
     r.infinite = false;
-    r.target = stopBefore(p, pError, n, from);
+    r.target = stopBefore(p, pError, n, z > 0.0, from, d);
     const bool apart = abs(z) > (s.error + pError) * dot(abs(n), vec3(1.0)) && distance2 > 0.0;
     const bool emits = apart && (light.bothSides != 0u || z < 0.0);
     r.radiance = emits ? light.color * angle : vec3(0.0);
@@ -181,7 +182,8 @@ LightSample sampleSphere(SurfacePoint s, Light light, vec2 u) {
     LightSample r;
     r.direction = w;
     r.infinite = false;
-    r.target = stopBefore(light.position + radius * n, error, n, from);
+    const vec3 p = light.position + radius * n, d = p - from;
+    r.target = stopBefore(p, error, n, dot(n, d) > 0.0, from, d);
     r.inversePdf = 2.0 * PI * oneMinusCosMax;
     r.radiance = light.color * r.inversePdf;
     return r;

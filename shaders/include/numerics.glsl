@@ -52,7 +52,17 @@ vec3 offsetOrigin(vec3 p, float error, vec3 n, vec3 w) {
     return p + (dot(n, w) < 0.0 ? -distance : distance) * n;
 }
 
-float largestComponent(vec3 v) { return max(v.x, max(v.y, v.z)); }
+/// Of two numbers that are not negative: patterns of bits compare as the numbers do. One instruction on
+/// llvmpipe, whose max() and min() mind NaN and take three.
+float larger(float a, float b) {
+    return intBitsToFloat(max(floatBitsToInt(a), floatBitsToInt(b)));
+}
+float smaller(float a, float b) {
+    return intBitsToFloat(min(floatBitsToInt(a), floatBitsToInt(b)));
+}
+
+/// None is negative.
+float largestComponent(vec3 v) { return larger(v.x, larger(v.y, v.z)); }
 
 /// Bound of the error of a point interpolated from corners whose weighted magnitudes sum to `sum`,
 /// and of the distance at which a neighbouring triangle's test finds it. The test mixes the

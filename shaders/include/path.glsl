@@ -19,7 +19,6 @@ Traversal ray;
 PixelState pixelState;
 uint pixelId;   ///< in the whole picture: names the random numbers
 uvec2 pixelAt;  ///< column, row (from the top) in the whole picture
-vec2 pixelSize; ///< in parts of the picture
 uint bounce;    ///< scatterings so far
 vec3 throughput;
 vec3 radiance;
@@ -228,7 +227,7 @@ void scatter(vec2 u, float roulette) {
     BsdfSample b = sampleBsdf(material, surface, u);
     const float guideWeight = guided ? mixWithGap(b, material, surface, aims, u) : 1.0;
     throughput *= b.weight;
-    const float largest = max(throughput.x, max(throughput.y, throughput.z));
+    const float largest = largestComponent(throughput);
     if (!(largest > 0.0)) return;
     if (ROULETTE == ROULETTE_THROUGHPUT && bounce >= ROULETTE_THROUGHPUT_START) {
         const float q = min(ROULETTE_MAX_CONTINUE, ROULETTE_BOLDNESS * largest);
@@ -254,8 +253,7 @@ void beginSample() {
 }
 
 void startCameraRay(vec2 u) {
-    const vec2 at = (vec2(ivec2(pixelAt)) + u) * pixelSize;
-    const CameraRay c = cameraRay(at.x, at.y);
+    const CameraRay c = cameraRay(vec2(ivec2(pixelAt)) + u);
     trace(PHASE_PATH, c.origin, c.direction, c.tMin, c.tMax, NO_PRIMITIVE);
 }
 

@@ -10,7 +10,7 @@ const float TINY = 7.52316384526264e-37;
 /// Angle in [0, pi] of the point (x, y), y >= 0: polynomial 4.4.49 of Abramowitz and Stegun, relative
 /// error below 1e-7 (atan() has 2e-5 on llvmpipe).
 float angleOf(float y, float x) {
-    const float far = max(abs(x), y), near = min(abs(x), y);
+    const float far = larger(abs(x), y), near = smaller(abs(x), y);
     const float q = near / max(far, TINY), q2 = q * q;
     const float small = q +
         q * q2 * (-0.3333314528 + q2 * (0.1999355085 + q2 * (-0.1420889944 + q2 * (0.1065626393 +

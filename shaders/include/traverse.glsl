@@ -25,9 +25,8 @@ void startTraversal(inout Traversal t) {
     t.b2 = 0.0;
     clearStack();
     // A ray with a part that is not finite hits nothing: ordered comparisons are false for NaN.
-    const vec3 size = abs(t.direction) + abs(t.origin);
-    const bool finite = size.x + size.y + size.z < INFINITE_DISTANCE &&
-                        dot(abs(t.direction), vec3(1.0)) > 0.0;
+    const float size = dot(abs(t.direction), vec3(1.0));
+    const bool finite = size > 0.0 && size + dot(abs(t.origin), vec3(1.0)) < INFINITE_DISTANCE;
     // The root is slot 0 of a group that begins at record 0.
     t.group = finite ? 1u << octantOf(t.direction) : 0u;
 }

@@ -92,7 +92,7 @@ void main() {
     pixelState = fetchPixel(pixel);
     pixelAt = uvec2(pixel % frame.width, pixel / frame.width);
     pixelId = pixel;
-    pixelSize = 1.0 / vec2(frame.width, frame.height);
+    findPictureGrid();
     findOnlyLight();
     if (GUIDES) findLampGap();
     ray.group = 0u;
