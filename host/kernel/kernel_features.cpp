@@ -97,6 +97,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_WORKGROUP_SIZE] = tuning.workgroupSize;
     f[SPEC_TRAVERSAL_STEPS] = tuning.traversalSteps;
     f[SPEC_STACK_SIZE] = std::max(scene.bvh.stackSize, 1u);
+    f[SPEC_STACK_IN_REGISTERS] = f[SPEC_STACK_SIZE] <= tuning.registerStack;
     f[SPEC_HAS_TRIANGLES] = scene.hasTriangles;
     f[SPEC_HAS_SPHERES] = scene.hasSpheres;
     f[SPEC_HAS_NORMALS] = scene.hasNormals;
@@ -162,7 +163,8 @@ std::vector<std::string> describe(const KernelFeatures& f) {
                     f[SPEC_GUIDES] ? "some into the gap behind the lamp" : "by the materials"),
         fmt::format("camera: {}", f[SPEC_ORTHOGRAPHIC] ? "orthographic" : "perspective"),
         fmt::format("CS184 conventions: {}", f[SPEC_CS184] ? "yes" : "no"),
-        fmt::format("traversal stack: {} entries", f[SPEC_STACK_SIZE]),
+        fmt::format("traversal stack: {} entries in {}", f[SPEC_STACK_SIZE],
+                    f[SPEC_STACK_IN_REGISTERS] ? "registers" : "memory"),
     };
 }
 

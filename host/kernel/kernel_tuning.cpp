@@ -13,19 +13,23 @@ constexpr uint32_t kGroupsPerThread = 32;
 /// A CPU device (lavapipe) runs a group of lanes as one SIMD register per thread. A group per
 /// workgroup, so that no group waits for another's lanes; all other pixels come to these lanes
 /// through the work list. Storage texel buffers, because storage buffer loads are a scalar loop
-/// over the lanes there, 20 times slower.
+/// over the lanes there, 20 times slower. Up to 16 entries a traversal stack in registers, of which
+/// each costs two selections a step and some spilling, is cheaper than one in memory, also a loop
+/// over the lanes.
 DeviceTuning forCpu() {
     DeviceTuning t;
     t.texelFetch = true;
     t.workgroupSize = 8;
     t.traversalSteps = 5;
+    t.registerStack = 16;
     t.driverThreads = std::max(std::thread::hardware_concurrency(), 1u);
     t.lanes = t.workgroupSize * kGroupsPerThread * t.driverThreads;
     return t;
 }
 
 /// A GPU needs a lane per pixel, up to a million, to hide the latency of its memory; storage
-/// buffers, because texel buffers are limited in size (2^27 texels is common, 2^16 allowed).
+/// buffers, because texel buffers are limited in size (2^27 texels is common, 2^16 allowed). Its
+/// lanes index their own memory in one instruction.
 DeviceTuning forGpu() {
     return {};
 }
@@ -37,6 +41,7 @@ DeviceTuning resolve(const KernelTuning& tuning, const vulkan::Device& device) {
     t.texelFetch = tuning.texelFetch.value_or(t.texelFetch);
     t.workgroupSize = tuning.workgroupSize.value_or(t.workgroupSize);
     t.traversalSteps = tuning.traversalSteps.value_or(t.traversalSteps);
+    t.registerStack = tuning.registerStack.value_or(t.registerStack);
     t.lanes = tuning.lanes.value_or(t.lanes);
     t.driverThreads = tuning.driverThreads.value_or(t.driverThreads);
     t.itemsPerDispatch = tuning.itemsPerDispatch.value_or(t.itemsPerDispatch);

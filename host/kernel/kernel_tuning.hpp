@@ -13,6 +13,7 @@ struct KernelTuning {
     std::optional<bool> texelFetch; ///< read the scene through storage texel buffers
     std::optional<uint32_t> workgroupSize;
     std::optional<uint32_t> traversalSteps;   ///< between two service passes
+    std::optional<uint32_t> registerStack;    ///< largest traversal stack that is in registers
     std::optional<uint32_t> lanes;            ///< invocations of a dispatch
     std::optional<uint32_t> driverThreads;    ///< 0: unknown
     std::optional<uint32_t> itemsPerDispatch; ///< pixels in a work list
@@ -30,6 +31,7 @@ struct DeviceTuning {
     bool texelFetch = false;
     uint32_t workgroupSize = 64;
     uint32_t traversalSteps = 8;
+    uint32_t registerStack = 0; ///< entries
     uint32_t lanes = 1u << 20;
     uint32_t driverThreads = 0; ///< that run workgroups one after the other; 0: unknown, a GPU
     uint32_t itemsPerDispatch = 1u << 20;

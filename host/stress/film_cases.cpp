@@ -91,10 +91,10 @@ Finding cuts(Run& run) {
     const Camera camera = lookingAt({0.5, 0.5, 0.9375}, {0.5, 0.4375, 0}, 0.75);
     RenderSettings s = picture(run.amount(24u, 128u), run.amount(8u, 64u), 6);
     s.width += 5; // no multiple of a tile or a workgroup
-    std::vector<KernelTuning> tunings = {{.workgroupSize = 8},  {.workgroupSize = 32},
-                                         {.workgroupSize = 64}, {.traversalSteps = 3},
-                                         {.lanes = 100},        {.itemsPerDispatch = 77},
-                                         {.fixedIterations = 9}};
+    std::vector<KernelTuning> tunings = {{.workgroupSize = 8},     {.workgroupSize = 32},
+                                         {.workgroupSize = 64},    {.traversalSteps = 3},
+                                         {.registerStack = 0},     {.lanes = 100},
+                                         {.itemsPerDispatch = 77}, {.fixedIterations = 9}};
     for (const bool texel : {false, true})
         tunings.push_back({.texelFetch = texel});
     const Film whole = run.render(scene, camera, s).film;

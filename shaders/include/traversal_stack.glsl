@@ -1,12 +1,8 @@
 // The groups of children that a traversal has put off, newest first; 0: none. Each level of the tree leaves at
 // most one (host/bvh/wide_layout.hpp), and STACK_SIZE counts one more.
 //
-// A short stack is in registers and moves as a whole: two selections an entry. A memory that each lane
-// indexes for itself is 90 instructions a step on llvmpipe, which stores and loads lane by lane, and every step
-// waits for it.
-
-/// Beyond, moving the whole stack is no cheaper.
-const bool STACK_IN_REGISTERS = STACK_SIZE <= 16u;
+// In registers it moves as a whole: two selections an entry. A memory that each lane indexes for itself is 90
+// instructions a step on llvmpipe, which stores and loads lane by lane, and every step waits for it.
 
 uint stack[STACK_SIZE];
 uint stackTop; ///< entries in use, where they are in memory

@@ -112,6 +112,34 @@ KernelFeatures featuresOf(const Scene& scene, const RenderSettings& settings = {
     return kernelFeatures(packScene(scene, buildWideBvh(scene), false), Camera{}, settings, tuning);
 }
 
+/// A flat triangle brings its normal, a smooth one those of its corners, also where its material is
+/// replaced by a copy that names the lamp it stands for (beside rough metals, which weigh bounces
+/// against its samples).
+TEST(PackedPrimitives, HaveTheirNormalsWhateverTheirMaterialNames) {
+    Material metal, lamp;
+    metal.kind = MaterialKind::Microfacet;
+    lamp.emission = glm::vec3(1);
+    Scene scene = oneTriangle(metal);
+    scene.materials.push_back(lamp);
+    scene.positions.insert(scene.positions.end(), {{0, 0, 4}, {4, 0, 4}, {0, 4, 7}});
+    const glm::vec3 smooth = glm::normalize(glm::vec3(1, 2, 3));
+    scene.normals = {smooth};
+    scene.triangles.push_back({{3, 4, 5}, {0, 0, 0}, 1});
+    const GpuScene packed = packScene(scene, buildWideBvh(scene), false);
+    EXPECT_TRUE(packed.hasNormals);
+    for (size_t i = 0; i < 2; ++i) {
+        const gpu::Primitive& p = packed.primitives[i];
+        const bool isLamp = packed.bvh.primitiveOrder[i] == 1;
+        const gpu::Material& m = packed.materials.at(materialOf(p));
+        EXPECT_EQ(m.light, isLamp ? 0 : gpu::NO_LIGHT);
+        EXPECT_EQ((p.material & gpu::PRIMITIVE_IS_SMOOTH) != 0, isLamp);
+        if (isLamp)
+            EXPECT_LT(glm::distance(decodeNormal(p.n2), smooth), 1e-4f);
+        else
+            EXPECT_EQ(glm::uintBitsToFloat(glm::uvec3(p.n0, p.n1, p.n2)), glm::vec3(0, 0, 1));
+    }
+}
+
 TEST(KernelFeatures, HoldOnlyWhatTheSceneNeeds) {
     Scene scene = oneTriangle({});
     KernelFeatures f = featuresOf(scene);
