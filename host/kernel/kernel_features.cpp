@@ -163,8 +163,7 @@ std::vector<std::string> describe(const KernelFeatures& f) {
                     f[SPEC_GUIDES] ? "some into the gap behind the lamp" : "by the materials"),
         fmt::format("camera: {}", f[SPEC_ORTHOGRAPHIC] ? "orthographic" : "perspective"),
         fmt::format("CS184 conventions: {}", f[SPEC_CS184] ? "yes" : "no"),
-        fmt::format("traversal stack: {} entries in {}", f[SPEC_STACK_SIZE],
-                    f[SPEC_STACK_IN_REGISTERS] ? "registers" : "memory"),
+        fmt::format("traversal stack: {} entries", f[SPEC_STACK_SIZE]),
     };
 }
 
