@@ -6,6 +6,7 @@ const float LARGEST_RADIANCE = 281474976710656.0;
 /// Adds one sample: compensated sums, Welford's update for the squares. A sample that is
 /// not finite, negative or absurdly large is counted and left out, so that it cannot spoil its
 /// pixel: as unsigned integers, the patterns of all of these are above that of the largest allowed.
+/// (So is that of -0, which no sum that begins with 0 comes to.)
 void addSample(inout PixelState state, vec3 radiance) {
     const uvec3 bits = floatBitsToUint(radiance);
     if (max(bits.x, max(bits.y, bits.z)) > floatBitsToUint(LARGEST_RADIANCE)) {

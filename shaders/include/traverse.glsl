@@ -10,9 +10,8 @@ struct Traversal {
     float tMax; ///< hits at or after this do not count; shrinks to the closest hit
     uint skipPrimitive; ///< the planar primitive the ray starts on
     bool anyHit; ///< stop at the first hit
-    /// Children still to visit: the record of slot 0 in bits 8-31; in bits 0-7 bit
-    /// (slot ^ Ray::octant)
-    /// for each, so that the highest one is the nearest, more or less. 0: done.
+    /// Children still to visit: the record of slot 0 in bits 8-31; in bits 0-7 bit (slot ^ octant)
+    /// for each (Ray::octant), so that the highest one is the nearest, more or less. 0: done.
     uint group;
     uint hitPrimitive; ///< 2 * record + slot; NO_PRIMITIVE: nothing hit
     float b1, b2; ///< barycentric weights of the hit (triangles)

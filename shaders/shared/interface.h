@@ -51,7 +51,7 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_USE_MIS 21            // bounces from rough metals find lamps too
 #define SPEC_SPLITS 22 // paths may split into branches
 #define SPEC_GUIDES 23 // some bounces go into the gap behind the lamp
-#define SPEC_STACK_IN_REGISTERS 24
+#define SPEC_STACK_IN_REGISTERS 24 // else in a memory that each lane indexes
 #define SPEC_COUNT 25
 
 SHARED_CONST uint INTEGRATOR_PATH = 0u;

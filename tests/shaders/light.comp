@@ -14,8 +14,8 @@ bool blocked(vec3 origin, vec3 direction, float tMax) {
 }
 
 LightAnswer answer(LightQuery q) {
-    const SurfacePoint s = SurfacePoint(q.position, largestComponent(q.error), q.geometric, q.shading, q.wo,
-                                        q.outside != 0u, 0u, NO_PRIMITIVE, 0.0);
+    const SurfacePoint s = SurfacePoint(q.position, largestComponent(q.error), q.geometric, q.shading,
+                                        q.wo, q.outside != 0u, 0u, NO_PRIMITIVE, 0.0);
     const Light light = fetchLight(q.light);
     // One number for both the column of an alias table and the choice within it: three are enough
     // for the small tables of the tests.
