@@ -59,7 +59,8 @@ float lampGap(const GpuScene& scene) {
     if (scene.lights.size() != 1 || scene.lights[0].kind != gpu::LIGHT_QUAD) return 0;
     const gpu::Light& lamp = scene.lights[0];
     if (!isRectangle(lamp)) return 0;
-    const glm::vec3 n = glm::normalize(glm::cross(lamp.edgeA, lamp.edgeB));
+    // In double: the square of an area leaves the range of float.
+    const glm::vec3 n = glm::normalize(glm::cross(glm::dvec3(lamp.edgeA), glm::dvec3(lamp.edgeB)));
     const std::optional<float> front = gapAlong(scene, lamp, n);
     if (front) return *front;
     return lamp.bothSides != 0 ? -gapAlong(scene, lamp, -n).value_or(0) : 0;

@@ -55,7 +55,7 @@ float gapOf(const Room& room) {
 }
 
 TEST(LampGap, IsTheDistanceOfTheCeiling) {
-    for (const float scale : {1.0f, 1e-9f, 1e9f})
+    for (const float scale : {1.0f, 1e-12f, 1e-9f, 1e9f, 1e12f})
         for (const float gap : {0.001f, 0.01f, 0.1f})
             for (const bool facesUp : {false, true})
                 EXPECT_NEAR(gapOf({.gap = gap, .scale = scale, .facesUp = facesUp}), gap, 1e-5)
