@@ -2,6 +2,7 @@
 #include "host/cli/options.hpp"
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
+#include "host/vulkan/vector_width.hpp"
 
 #include <tbb/global_control.h>
 
@@ -43,6 +44,7 @@ int run(const stromboli::Options& options) {
 
 int main(int argc, char** argv) {
     stromboli::setUpLogging(stromboli::Verbosity::Normal);
+    stromboli::vulkan::useWideVectors();
     try {
         const auto options = stromboli::parseOptions({argv + 1, argv + argc});
         if (!options) return 0;

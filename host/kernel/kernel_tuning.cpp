@@ -10,16 +10,16 @@ namespace {
 /// loop passes (hardLimit): 32 groups of 1800 iterations of 1.2 us (a Zen 3 core).
 constexpr uint32_t kGroupsPerThread = 32;
 
-/// A CPU device (lavapipe) runs a group of lanes as one SIMD register per thread. A group per
-/// workgroup, so that no group waits for another's lanes; all other pixels come to these lanes
+/// A CPU device (lavapipe) runs a subgroup as one SIMD register per thread. A subgroup per
+/// workgroup, so that none waits for another's lanes; all other pixels come to these lanes
 /// through the work list. Storage texel buffers, because storage buffer loads are a scalar loop
 /// over the lanes there, 20 times slower. Up to 16 entries a traversal stack in registers, of which
 /// each costs two selections a step and some spilling, is cheaper than one in memory, also a loop
 /// over the lanes.
-DeviceTuning forCpu() {
+DeviceTuning forCpu(uint32_t subgroupSize) {
     DeviceTuning t;
     t.texelFetch = true;
-    t.workgroupSize = 8;
+    t.workgroupSize = subgroupSize;
     t.traversalSteps = 5;
     t.registerStack = 16;
     t.driverThreads = std::max(std::thread::hardware_concurrency(), 1u);
@@ -37,7 +37,8 @@ DeviceTuning forGpu() {
 } // namespace
 
 DeviceTuning resolve(const KernelTuning& tuning, const vulkan::Device& device) {
-    DeviceTuning t = device.description().isCpu() ? forCpu() : forGpu();
+    DeviceTuning t =
+        device.description().isCpu() ? forCpu(device.description().subgroupSize) : forGpu();
     t.texelFetch = tuning.texelFetch.value_or(t.texelFetch);
     t.workgroupSize = tuning.workgroupSize.value_or(t.workgroupSize);
     t.traversalSteps = tuning.traversalSteps.value_or(t.traversalSteps);

@@ -95,9 +95,11 @@ TEST_F(DeviceTest, RayKernelOwnsUpToALoopLimit) {
     if (!testDevice().description().isCpu()) GTEST_SKIP() << "only llvmpipe has the limit";
     const LibraryPicture picture = libraryPicture("cornell_boxes");
     RaySet set = makeRaySets(picture.scene, picture.camera, picture.settings, 1).camera;
-    set.rays.resize(1 << 16, set.rays[set.rays.size() / 2]);
+    constexpr uint32_t kRaysPerLane = 1 << 13; // of some steps each
+    set.rays.resize(kRaysPerLane * rayTuning(testDevice()).kernel.workgroupSize,
+                    set.rays[set.rays.size() / 2]);
     const GpuScene gpu = packScene(picture.scene, buildWideBvh(picture.scene), false);
-    DeviceRays device(testDevice(), gpu, tuningWith(1 << 13));
+    DeviceRays device(testDevice(), gpu, tuningWith(kRaysPerLane));
     device.load(set);
     EXPECT_THROW(device.trace(), DeviceError);
 }

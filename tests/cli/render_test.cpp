@@ -47,6 +47,38 @@ TEST_F(Program, WritesPngAndReportsTheWork) {
     EXPECT_EQ(run.out, "");
 }
 
+std::string bytesOf(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST_F(Program, LavapipeHasTheProcessorsLanes) {
+    const std::string narrow = stromboli({"devices"}, "LP_NATIVE_VECTOR_WIDTH=128").out;
+    if (narrow.find("llvmpipe") == std::string::npos) GTEST_SKIP() << "no lavapipe";
+    EXPECT_THAT(narrow, HasSubstr("subgroup: 4 lanes")) << "what the user asks for";
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx512vl")) {
+        EXPECT_THAT(stromboli({"devices"}, "env -u LP_NATIVE_VECTOR_WIDTH").out,
+                    HasSubstr("subgroup: 16 lanes"));
+    }
+#endif
+}
+
+TEST_F(Program, TheWidthOfVectorsDoesNotShow) {
+    render("own.exr", {"-s", "9"});
+    const std::string own = bytesOf(folder.path() / "own.exr");
+    ASSERT_FALSE(own.empty());
+    for (const char* bits : {"128", "256", "512"}) {
+        const std::string environment = std::string("LP_NATIVE_VECTOR_WIDTH=") + bits;
+        const ProgramRun run =
+            stromboli({"render", scene, "-o", folder.file(bits + std::string(".exr")), "-r", "32",
+                       "24", "-s", "9"},
+                      environment);
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        EXPECT_TRUE(bytesOf(folder.path() / (bits + std::string(".exr"))) == own) << bits;
+    }
+}
+
 TEST_F(Program, ShowsProgressOnATerminal) {
     // script (bsdutils, on every Debian) gives the program a terminal of its own.
     const std::string command = "script -qec '" STROMBOLI_PROGRAM " render " + scene + " -o " +

@@ -1,6 +1,7 @@
 #include "tests/support/device_fixture.hpp"
 
 #include "host/vulkan/open_device.hpp"
+#include "host/vulkan/vector_width.hpp"
 
 #include <memory>
 #include <optional>
@@ -28,9 +29,11 @@ SharedDevice& open() {
     return *shared;
 }
 
-/// Closes the device while the validation layer is still heard.
-class CloseDevice : public ::testing::Environment {
+/// Makes ready for the device as the program does, and closes it while the validation layer is
+/// still heard.
+class DeviceEnvironment : public ::testing::Environment {
   public:
+    void SetUp() override { vulkan::useWideVectors(); }
     void TearDown() override {
         if (!shared) return;
         const uint32_t before = shared->instance->validationMessages();
@@ -43,7 +46,7 @@ class CloseDevice : public ::testing::Environment {
 };
 
 [[maybe_unused]] ::testing::Environment* const registered =
-    ::testing::AddGlobalTestEnvironment(new CloseDevice);
+    ::testing::AddGlobalTestEnvironment(new DeviceEnvironment);
 
 } // namespace
 
