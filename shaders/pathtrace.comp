@@ -3,6 +3,7 @@
 // that the list asks for of each.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_vote : require
+#extension GL_KHR_shader_subgroup_ballot : require
 
 #include "shared/interface.h"
 #include "shared/scene_types.h"
@@ -60,6 +61,15 @@ void takeUp(uint newItem) {
     sampleCount -= samplesTaken();
     pixelAt = uvec2(work.column, work.row);
     pixelId = pixelAt.y * frame.width + pixelAt.x;
+}
+
+bool atWork() { return phase != PHASE_FINISHED && phase != PHASE_SUSPENDED; }
+
+/// An eighth of the lanes at work want another pixel. To change that of one lane takes as long as that of
+/// several, for it is the same code; but lanes that wait for others do nothing.
+bool pixelsAreWanted() {
+    const uint wanting = subgroupBallotBitCount(subgroupBallot(wantsPixel()));
+    return 8u * wanting >= subgroupBallotBitCount(subgroupBallot(atWork()));
 }
 
 void putDown() {
@@ -173,8 +183,6 @@ uint nextLook(uint iteration, bool late) {
     return min(dispatch.softIterations, iteration + LOOK_INTERVAL);
 }
 
-bool atWork() { return phase != PHASE_FINISHED && phase != PHASE_SUSPENDED; }
-
 void report() {
     if (phase == PHASE_SUSPENDED) atomicAdd(status.unfinishedItems, 1u);
     if (atWork()) atomicAdd(status.overflowedItems, 1u);
@@ -201,7 +209,7 @@ void main() {
 
     // llvmpipe runs both sides of every `if`, and a loop's body at least once: all that is in the
     // inner loop is paid for in each pass, by all lanes. So changing pixels, which is rare, is outside
-    // of it, and the lanes of a subgroup leave it together when one of them wants another pixel.
+    // of it, and the lanes of a subgroup leave it together when enough of them want another pixel.
     // Every exit is in a loop's header: an exit in the middle was seen to be miscompiled by
     // llvmpipe. The limit keeps a dispatch finite on any device, and below the number of passes
     // after which llvmpipe ends all loops without a word.
@@ -212,13 +220,13 @@ void main() {
         lastLook = iteration;
         const uint pause = nextLook(iteration, late);
         changePixel(!late);
-        bool pixelWanted = false;
-        while (!pixelWanted && atWork() && iteration < pause) {
+        bool pixelsWanted = false;
+        while (!pixelsWanted && atWork() && iteration < pause) {
             startWork(late);
             traverseSomeSteps();
             if (!traversing(ray)) followPath();
             ++iteration;
-            pixelWanted = subgroupAny(wantsPixel());
+            pixelsWanted = pixelsAreWanted();
         }
     }
     suspendedPaths[lane].bounce = SUSPENDED_NONE;

@@ -135,6 +135,19 @@ std::string table(const SceneReport& s, bool deviceIsCpu) {
     return text;
 }
 
+/// From the first size to the last, in wall time: nanoseconds, and how many times.
+std::string increase(const std::vector<GrowthPoint>& growth) {
+    std::string text = "  grows by:";
+    for (size_t i = 0; i < growth.front().bounce.contestants.size(); ++i) {
+        const auto time = [&](const GrowthPoint& g) {
+            return spreadOf(g.bounce.contestants.at(i).wallSeconds).median * 1e9;
+        };
+        const double first = time(growth.front()), last = time(growth.back());
+        text += fmt::format("{:>18}", fmt::format("{:.1f} (x {:.2f})", last - first, last / first));
+    }
+    return text + "   wall time, the last size against the first\n";
+}
+
 std::string table(const std::vector<GrowthPoint>& growth) {
     if (growth.empty()) return {};
     std::string text = "\ntime for a bounce ray as the scene grows, ns (in brackets CPU time)\n"
@@ -151,6 +164,7 @@ std::string table(const std::vector<GrowthPoint>& growth) {
         text +=
             fmt::format("{:>14.1f}{:>12.1f}\n", g.buildSeconds * 1e3, g.embreeBuildSeconds * 1e3);
     }
+    if (growth.size() > 1) text += increase(growth);
     return text;
 }
 

@@ -11,6 +11,10 @@
 #include <new>
 #include <thread>
 
+#if __has_include(<malloc.h>)
+#include <malloc.h>
+#endif
+
 namespace {
 
 int run(const stromboli::Options& options) {
@@ -40,10 +44,22 @@ int run(const stromboli::Options& options) {
     return 0;
 }
 
+/// Of what is freed some is kept for what is asked for next: between two passes the plan takes and
+/// frees many times the picture, and to have its pages zeroed anew each time is 5 % of a render's
+/// CPU time.
+void keepFreedMemory() {
+#ifdef __GLIBC__
+    constexpr int kKept = 256 << 20; // bytes: the plan of a picture of two million pixels
+    mallopt(M_TRIM_THRESHOLD, kKept);
+    mallopt(M_MMAP_THRESHOLD, kKept);
+#endif
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
     stromboli::setUpLogging(stromboli::Verbosity::Normal);
+    keepFreedMemory();
     stromboli::vulkan::useWideVectors();
     try {
         const auto options = stromboli::parseOptions({argv + 1, argv + argc});

@@ -62,9 +62,11 @@ DeviceDescription describe(VkPhysicalDevice handle) {
         if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
             d.memory = std::max<uint64_t>(d.memory, memory.memoryHeaps[i].size);
     describeQueues(d);
-    const bool votes = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
-                       (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_VOTE_BIT);
-    if (!votes) d.missing = "subgroup votes in compute shaders";
+    constexpr VkSubgroupFeatureFlags kNeeded =
+        VK_SUBGROUP_FEATURE_VOTE_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT;
+    if (!(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) ||
+        (subgroup.supportedOperations & kNeeded) != kNeeded)
+        d.missing = "subgroup votes and ballots in compute shaders";
     if (d.queueFamily < 0) d.missing = "a queue with compute";
     return d;
 }

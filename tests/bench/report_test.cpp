@@ -175,6 +175,20 @@ TEST(BenchTable, SaysWhyThereIsNoEmbree) {
     EXPECT_THAT(table, HasSubstr("without Embree: there is no Embree"));
 }
 
+TEST(BenchTable, SaysHowTimesGrow) {
+    BenchReport report = fullReport();
+    EXPECT_THAT(toTable(report), Not(HasSubstr("grows by"))) << "one size";
+    report.growth.push_back({"generate:cornell_mesh:4000",
+                             4006,
+                             0.001,
+                             0.002,
+                             {"bounce", 1000, 0.75, contestants(5e-7), {}}});
+    // Medians: 200, 400 and 600 ns with the first size, 1000, 2000 and 3000 ns with the last.
+    EXPECT_THAT(toTable(report),
+                testing::ContainsRegex(
+                    "grows by: +800\\.0 \\(x 5\\.00\\) +1600\\.0 \\(x 5\\.00\\) +2400\\.0"));
+}
+
 /// A GPU's work is no CPU time: no comparison by it.
 TEST(BenchTable, ComparesGpusByWallTimeAlone) {
     BenchReport report = fullReport();

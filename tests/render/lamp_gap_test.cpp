@@ -19,6 +19,8 @@ struct Room {
     bool bothSides = true, facesUp = false;
     MaterialKind ceiling = MaterialKind::Diffuse;
     int lamps = 1;
+    float skew = 0;         ///< how far a corner of the lamp is from where a rectangle has it
+    float ceilingFrom = -5; ///< x; the lamp is at 0 to 1
 };
 
 void addQuad(Scene& scene, const glm::vec3& corner, const glm::vec3& a, const glm::vec3& b,
@@ -45,9 +47,9 @@ float gapOf(const Room& room) {
     const auto quad = [&](glm::vec3 corner, glm::vec3 a, glm::vec3 b, uint32_t material) {
         addQuad(scene, room.scale * corner, room.scale * a, room.scale * b, material);
     };
-    quad({-5, room.gap, -5}, {10, 0, 0}, {0, 0, 10}, 0);
+    quad({room.ceilingFrom, room.gap, -5}, {10, 0, 0}, {0, 0, 10}, 0);
     // edgeA x edgeB points down, or up.
-    const glm::vec3 a(1, room.tilt, 0), b(0, 0, 0.5f);
+    const glm::vec3 a(1, room.tilt, 0), b(room.skew, 0, 0.5f);
     for (int lamp = 0; lamp < room.lamps; ++lamp)
         room.facesUp ? quad({2.0f * float(lamp), 0, 0}, b, a, 1 + uint32_t(lamp))
                      : quad({2.0f * float(lamp), 0, 0}, a, b, 1 + uint32_t(lamp));
@@ -64,6 +66,16 @@ TEST(LampGap, IsTheDistanceOfTheCeiling) {
 
 TEST(LampGap, OfATiltedLampIsTheMedian) {
     EXPECT_NEAR(gapOf({.gap = 0.05f, .tilt = 0.04f}), 0.03, 0.004);
+}
+
+TEST(LampGap, OnlyOfRectangles) {
+    EXPECT_EQ(gapOf({.skew = 0.1f}), 0);
+    EXPECT_NEAR(gapOf({.skew = 1e-6f}), 0.01, 1e-5) << "rounding";
+}
+
+TEST(LampGap, OnlyBelowTheCeiling) {
+    EXPECT_NEAR(gapOf({.ceilingFrom = 0.125f}), 0.01, 1e-5) << "7 of 8";
+    EXPECT_EQ(gapOf({.ceilingFrom = 0.5f}), 0) << "half";
 }
 
 TEST(LampGap, OnlyWhereLightComesOutOfIt) {
