@@ -119,7 +119,7 @@ std::vector<PixelTarget> NoisePlan::next(const Film& film, const NoiseEstimate& 
 
     const uint64_t taken = samplesOf(film, pixels_);
     if (budget < taken / kLeastPassShare) return {};
-    uint64_t wanted = taken / 2;
+    uint64_t wanted = taken; // a pass has its costs whatever its size
     if (noise > 0) { // what is missing if errors fall as slowly as those of independent samples
         const double ratio = reached / noise;
         const double missing = double(taken) * (ratio * ratio - 1);
