@@ -85,7 +85,7 @@ std::vector<PixelTarget> NoisePlan::raiseAll(const Film& film, uint64_t budget) 
 
 std::vector<PixelTarget> NoisePlan::spread(const Film& film, const std::vector<double>& variance,
                                            uint64_t budget) const {
-    const double least = kLeastShare * double(samplesOf(film, pixels_)) /
+    const double least = kLeastShare * double(samplesOf(film, pixels_) + budget) /
                          double(std::max<size_t>(pixels_.size(), 1));
     std::vector<Step> steps;
     for (uint32_t pixel : pixels_) {

@@ -101,9 +101,8 @@ TEST(StopRule, PixelsThatLookFinishedGetTheirShare) {
     RenderSettings s = settingsOf(1u << 20);
     s.stop.meanSamples = 1024;
     const Film film = renderDrawn(halfConstant, s, 1).film;
-    for (const PixelStatistics& p :
-         film.pixels) // the last passes may have left them behind a little
-        EXPECT_GE(p.taken(), NoisePlan::kLeastShare * 1024 / 1.5);
+    for (const PixelStatistics& p : film.pixels)
+        EXPECT_GE(p.taken(), NoisePlan::kLeastShare * 1024);
 }
 
 TEST(StopRule, SpreadingDoesNotDarken) {
