@@ -197,6 +197,28 @@ TEST(KernelFeatures, MisOnlyWhereRoughMetalsMeetLampsThatBouncesFind) {
     EXPECT_FALSE(featuresOf(scene)[SPEC_USE_MIS]);
 }
 
+/// A light sample may use the numbers drawn with the path ray, but no two of a surface the same.
+TEST(KernelFeatures, LightSamplesShareNumbersOnlyWhereThereIsOne) {
+    Material lamp;
+    lamp.emission = glm::vec3(1);
+    Scene scene = oneTriangle({});
+    scene.materials.push_back(lamp);
+    EXPECT_EQ(featuresOf(scene)[SPEC_LIGHT_NUMBERS], gpu::LIGHT_NUMBERS_SHARED);
+    scene.spheres.push_back({{0, 0, 5}, 1, 1, 0});
+    scene.lights.emplace_back(); // a point: takes no numbers
+    RenderSettings s;
+    EXPECT_EQ(featuresOf(scene, s)[SPEC_LIGHT_NUMBERS], gpu::LIGHT_NUMBERS_SHARED);
+    s.lightSamples = 2;
+    EXPECT_EQ(featuresOf(scene, s)[SPEC_LIGHT_NUMBERS], gpu::LIGHT_NUMBERS_FIRST);
+    s.lightSamples = 1;
+    s.cs184 = true; // hemisphere samples for point lights too
+    EXPECT_EQ(featuresOf(scene, s)[SPEC_LIGHT_NUMBERS], gpu::LIGHT_NUMBERS_FIRST);
+    scene.spheres.push_back({{0, 0, 9}, 1, 1, 0});
+    EXPECT_EQ(featuresOf(scene)[SPEC_LIGHT_NUMBERS], gpu::LIGHT_NUMBERS_FIRST);
+    scene.triangles[0].material = 1; // a mesh takes four numbers a sample
+    EXPECT_EQ(featuresOf(scene)[SPEC_LIGHT_NUMBERS], gpu::LIGHT_NUMBERS_OWN);
+}
+
 TEST(KernelFeatures, NoRouletteWherePathsEndBeforeIt) {
     RenderSettings s;
     s.maxBounces = 2;
