@@ -11,7 +11,7 @@
 #include <new>
 #include <thread>
 
-#if __has_include(<malloc.h>)
+#ifdef __GLIBC__
 #include <malloc.h>
 #endif
 

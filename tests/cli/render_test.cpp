@@ -85,8 +85,7 @@ TEST_F(Program, ShowsProgressOnATerminal) {
                                 folder.file("a.png") + " -r 32 24 -s 64' /dev/null </dev/null >" +
                                 folder.file("terminal");
     ASSERT_EQ(std::system(command.c_str()), 0);
-    std::ifstream file(folder.path() / "terminal");
-    const std::string shown{std::istreambuf_iterator<char>(file), {}};
+    const std::string shown = bytesOf(folder.path() / "terminal");
     for (const char* part : {"\r", " %", "M samples", "Mrays/s", "left"})
         EXPECT_THAT(shown, HasSubstr(part));
 }

@@ -117,6 +117,17 @@ TEST_F(KernelTuningTest, DispatchesAreAsLongAsThePaceAllows) {
     EXPECT_GT(iterationsPerDispatch(10), 800);   // 64, and four times as many each time
 }
 
+/// A lane whose pixel is done waits until an eighth of the others' are, not all.
+TEST_F(KernelTuningTest, LanesSeldomWaitForAnotherPixel) {
+    const auto busyShare = [&](uint32_t samples) {
+        settings_.samplesPerPixel = samples;
+        VulkanBackend b = backend({.lanes = 256, .countSteps = true});
+        render(b, settings_);
+        return double(b.steps().busy) / double(b.steps().all);
+    };
+    EXPECT_GT(busyShare(2), 0.9 * busyShare(64));
+}
+
 /// With a step a service pass, a lane that has work is busy in every step.
 TEST_F(KernelTuningTest, FewerStepsBetweenServicesKeepLanesBusier) {
     VulkanBackend often = backend({.traversalSteps = 1, .countSteps = true});
