@@ -68,6 +68,10 @@ DeviceDescription describe(VkPhysicalDevice handle) {
         (subgroup.supportedOperations & kNeeded) != kNeeded)
         d.missing = "subgroup votes and ballots in compute shaders";
     if (d.queueFamily < 0) d.missing = "a queue with compute";
+    // llvmpipe takes any width; above 16 lanes it was seen to leave out the others.
+    if (d.isCpu() && d.subgroupSize > 16)
+        d.missing =
+            "a right way to run more than 16 lanes; set LP_NATIVE_VECTOR_WIDTH to 512 at most";
     return d;
 }
 

@@ -64,6 +64,17 @@ TEST_F(Program, LavapipeHasTheProcessorsLanes) {
 #endif
 }
 
+TEST_F(Program, VectorsTooWideForLavapipeAreRefused) {
+    const std::string wide = "LP_NATIVE_VECTOR_WIDTH=1024";
+    if (stromboli({"devices"}).out.find("llvmpipe") == std::string::npos)
+        GTEST_SKIP() << "no lavapipe";
+    const ProgramRun run =
+        stromboli({"render", scene, "-o", folder.file("a.png"), "--device", "cpu"}, wide);
+    EXPECT_EQ(run.exitCode, 3);
+    EXPECT_THAT(run.err, HasSubstr("LP_NATIVE_VECTOR_WIDTH"));
+    EXPECT_TRUE(folder.entries().empty());
+}
+
 TEST_F(Program, TheWidthOfVectorsDoesNotShow) {
     render("own.exr", {"-s", "9"});
     const std::string own = bytesOf(folder.path() / "own.exr");
