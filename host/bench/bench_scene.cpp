@@ -2,6 +2,7 @@
 
 #include "host/core/error.hpp"
 #include "scene/generate/generated_scene.hpp"
+#include "scene/read_scene.hpp"
 
 #include <filesystem>
 

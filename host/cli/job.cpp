@@ -5,8 +5,8 @@
 #include "host/core/stopwatch.hpp"
 #include "host/film/film.hpp"
 #include "host/render/branches.hpp"
-#include "scene/generate/generated_scene.hpp"
 #include "scene/model/emitters.hpp"
+#include "scene/read_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -48,6 +48,10 @@ void checkFilmFits(const RenderSettings& s) {
                                      s.width, s.height, bytes >> 20));
 }
 
+SceneConventions conventionsOf(const Options& options) {
+    return options.settings.cs184 ? cs184Conventions() : SceneConventions{};
+}
+
 } // namespace
 
 std::future<vulkan::OpenDevice> openDeviceMeanwhile(const Options& options) {
@@ -56,7 +60,7 @@ std::future<vulkan::OpenDevice> openDeviceMeanwhile(const Options& options) {
 
 Job prepareJob(const Options& options) {
     Stopwatch watch;
-    Job job{readScene(options.scene, {.cs184 = options.settings.cs184}), {}, options.settings, 0};
+    Job job{readScene(options.scene, conventionsOf(options)), {}, options.settings, 0};
     job.loadSeconds = watch.seconds();
     reportLoading(job.scene, options);
     if (!options.sizeGiven) {

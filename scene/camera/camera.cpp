@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace stromboli {
 namespace {
@@ -20,15 +21,13 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kCs184Width = 800, kCs184Height = 600;
 constexpr double kDefaultX = 50 * kDegree, kDefaultY = 35 * kDegree;
 
-/// COLLADA allows one of xfov, yfov, both, or one with aspect_ratio; with one alone the picture's
-/// own shape gives the other.
+/// What the file states; the picture's own shape gives the extent that it leaves open.
 Frustum fileFrustum(const FileCamera& camera, double pictureAspect) {
-    const auto half = [&](double full) { return camera.orthographic ? full : std::tan(full / 2); };
-    const double aspect = camera.aspectRatio.value_or(pictureAspect);
-    if (camera.x && camera.y) return {half(*camera.x), half(*camera.y)};
-    if (camera.x) return {half(*camera.x), half(*camera.x) / aspect};
-    if (camera.y) return {half(*camera.y) * aspect, half(*camera.y)};
-    return {half(kDefaultX), half(kDefaultY)};
+    const std::optional<double>&x = camera.halfWidth, &y = camera.halfHeight;
+    if (x && y) return {*x, *y};
+    if (x) return {*x, *x / pictureAspect};
+    if (y) return {*y * pictureAspect, *y};
+    return {std::tan(kDefaultX / 2), std::tan(kDefaultY / 2)};
 }
 
 /// Widens the frustum to the picture's shape so that nothing of it is lost.
@@ -41,14 +40,13 @@ bool usesFile(const Scene& scene, CameraChoice choice) {
     return choice == CameraChoice::File;
 }
 
-/// The camera where the file puts it. A scaled or mirrored node still gives an orthonormal,
-/// right-handed view.
+/// The camera where the file puts it.
 Camera fileView(const FileCamera& file) {
     Camera camera;
-    camera.position = glm::dvec3(file.toWorld[3]);
-    camera.back = glm::normalize(glm::dvec3(file.toWorld[2]));
-    camera.right = glm::normalize(glm::cross(glm::dvec3(file.toWorld[1]), camera.back));
-    camera.up = glm::cross(camera.back, camera.right);
+    camera.position = file.position;
+    camera.right = file.right;
+    camera.up = file.up;
+    camera.back = file.back;
     return camera;
 }
 
@@ -56,8 +54,7 @@ Camera fileView(const FileCamera& file) {
 /// the CS184 renderer looks from.
 glm::dvec3 framingDirection(const Scene& scene) {
     if (scene.cameras.empty()) return {0, 0, 1};
-    const glm::dvec4 p = scene.cameras.back().toWorld * glm::dvec4(0, 0, -1, 1);
-    const glm::dvec3 d(p);
+    const glm::dvec3 d = scene.cameras.back().pointAhead;
     return glm::length(d) > 0 ? glm::normalize(d) : glm::dvec3(0, 0, 1);
 }
 
@@ -116,12 +113,13 @@ Camera makeCamera(const Scene& scene, CameraChoice choice, uint32_t width, uint3
     const double aspect = double(width) / double(height);
     Camera camera = fromFile ? fileView(optics) : framedView(scene);
     Frustum f = fileFrustum(optics, aspect);
-    if (!fromFile && optics.orthographic) {
+    const bool orthographic = optics.projection == Projection::Orthographic;
+    if (!fromFile && orthographic) {
         // Framing needs an angle; an orthographic camera has none.
         camera.orthographic = false;
         f = {std::tan(kDefaultX / 2), std::tan(kDefaultY / 2)};
     } else {
-        camera.orthographic = optics.orthographic;
+        camera.orthographic = orthographic;
     }
     if (!fromFile) f = widen(f, kCs184Width / kCs184Height);
     if (!fromFile && cs184) {

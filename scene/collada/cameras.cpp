@@ -1,13 +1,12 @@
 #include "scene/collada/cameras.hpp"
 
 #include "scene/collada/numbers.hpp"
-#include "scene/collada/transforms.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace stromboli::collada {
 namespace {
@@ -26,19 +25,37 @@ std::optional<double> readPositive(const Document& document, const Element& pare
 
 constexpr double kNoLimit = HUGE_VAL;
 
+/// COLLADA states the width of a view, its height, both, or one of them with the ratio of the two;
+/// the ratio beside both says nothing new.
+void setExtents(const Document& document, const Element& at, std::optional<double> halfWidth,
+                std::optional<double> halfHeight, FileCamera& camera) {
+    if (const auto aspect = readPositive(document, at, "aspect_ratio", kNoLimit)) {
+        if (!halfHeight)
+            halfHeight = *halfWidth / *aspect;
+        else if (!halfWidth)
+            halfWidth = *halfHeight * *aspect;
+    }
+    camera.halfWidth = halfWidth;
+    camera.halfHeight = halfHeight;
+}
+
 void readPerspective(const Document& document, const Element& at, FileCamera& camera) {
-    camera.x = readPositive(document, at, "xfov", 180);
-    camera.y = readPositive(document, at, "yfov", 180);
-    if (!camera.x && !camera.y) document.fail(at, "has neither <xfov> nor <yfov>");
-    for (std::optional<double>* angle : {&camera.x, &camera.y})
-        if (*angle) *angle = glm::radians(**angle);
+    const auto halfTangent = [&](const char* name) -> std::optional<double> {
+        const std::optional<double> degrees = readPositive(document, at, name, 180);
+        if (!degrees) return std::nullopt;
+        return std::tan(glm::radians(*degrees) / 2);
+    };
+    const std::optional<double> x = halfTangent("xfov"), y = halfTangent("yfov");
+    if (!x && !y) document.fail(at, "has neither <xfov> nor <yfov>");
+    setExtents(document, at, x, y, camera);
 }
 
 void readOrthographic(const Document& document, const Element& at, FileCamera& camera) {
-    camera.orthographic = true;
-    camera.x = readPositive(document, at, "xmag", kNoLimit);
-    camera.y = readPositive(document, at, "ymag", kNoLimit);
-    if (!camera.x && !camera.y) document.fail(at, "has neither <xmag> nor <ymag>");
+    camera.projection = Projection::Orthographic;
+    const std::optional<double> x = readPositive(document, at, "xmag", kNoLimit);
+    const std::optional<double> y = readPositive(document, at, "ymag", kNoLimit);
+    if (!x && !y) document.fail(at, "has neither <xmag> nor <ymag>");
+    setExtents(document, at, x, y, camera);
 }
 
 void readDepthRange(Context& context, const Element& at, FileCamera& camera) {
@@ -52,30 +69,6 @@ void readDepthRange(Context& context, const Element& at, FileCamera& camera) {
     if (!(camera.farDistance > camera.nearDistance))
         document.fail(at, fmt::format("<zfar> ({}) must be greater than <znear> ({})",
                                       camera.farDistance, camera.nearDistance));
-}
-
-/// Applies the lengths of the node's axes (the document's unit among them) to the camera's own.
-/// False if one of them is no length.
-bool scaleToWorld(Context& context, FileCamera& camera) {
-    glm::dvec3 scale;
-    for (int axis = 0; axis < 3; ++axis)
-        scale[axis] = glm::length(glm::dvec3(camera.toWorld[axis]));
-    const double smallest = std::min({scale.x, scale.y, scale.z});
-    const double largest = std::max({scale.x, scale.y, scale.z});
-    if (!(smallest > 0) || !std::isfinite(largest)) return false;
-    // Files carry about six digits: what is less apart was meant to be equal.
-    if (largest / smallest > 1.0001)
-        context.report.warn(fmt::format("camera '{}': its node scales the axes unequally, which "
-                                        "its picture does not show",
-                                        camera.name));
-    if (context.options.cs184) return true;
-    if (camera.orthographic) {
-        if (camera.x) *camera.x *= scale.x;
-        if (camera.y) *camera.y *= scale.y;
-    }
-    camera.nearDistance *= scale.z;
-    camera.farDistance *= scale.z;
-    return true;
 }
 
 } // namespace
@@ -92,19 +85,12 @@ void placeCamera(Context& context, const Element& element, const glm::dmat4& toW
 
     FileCamera camera;
     camera.name = displayName(element);
-    camera.toWorld = toWorld;
     if (perspective)
         readPerspective(document, at, camera);
     else
         readOrthographic(document, at, camera);
-    camera.aspectRatio = readPositive(document, at, "aspect_ratio", kNoLimit);
     readDepthRange(context, at, camera);
-    if (scaleToWorld(context, camera)) {
-        context.scene.cameras.push_back(camera);
-    } else {
-        context.report.warn(fmt::format(
-            "camera '{}' is left out: its node's transformation is singular", camera.name));
-    }
+    context.builder.placeCamera(std::move(camera), toWorld);
 }
 
 } // namespace stromboli::collada

@@ -1,26 +1,14 @@
 #include "scene/collada/document.hpp"
 
 #include "host/core/error.hpp"
+#include "scene/build/read_file.hpp"
 
 #include <fmt/format.h>
 
 #include <cstring>
-#include <fstream>
-#include <iterator>
 
 namespace stromboli::collada {
 namespace {
-
-std::string readAll(const std::filesystem::path& file) {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(file, ignored))
-        throw SceneError(file.string(), 0, "", "is a directory, expected a COLLADA file (.dae)");
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw SceneError(file.string(), 0, "", "cannot be opened for reading");
-    std::string text(std::istreambuf_iterator<char>(in), {});
-    if (in.bad()) throw SceneError(file.string(), 0, "", "cannot be read to its end");
-    return text;
-}
 
 std::string describe(tinyxml2::XMLError error) {
     switch (error) {
@@ -74,7 +62,7 @@ Document::Document(const std::filesystem::path& file) : file_(file.string()) {
 }
 
 void Document::read(const std::filesystem::path& file) {
-    const std::string text = readAll(file);
+    const std::string text = build::readFile(file);
     xml_.Parse(text.data(), text.size());
     if (xml_.Error())
         throw SceneError(file_, xml_.ErrorLineNum(), "",
@@ -97,8 +85,12 @@ void Document::collectIds() {
     visit(visit, root());
 }
 
+build::FilePlace Document::place(const Element& at) const {
+    return {file_, at.GetLineNum(), at.Name()};
+}
+
 void Document::fail(const Element& at, const std::string& message) const {
-    throw SceneError(file_, at.GetLineNum(), at.Name(), message);
+    place(at).fail(message);
 }
 
 const Element& Document::require(const Element& parent, const char* child) const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scene/build/file_place.hpp"
+
 #include <tinyxml2.h>
 
 #include <cstddef>
@@ -25,6 +27,8 @@ class Document {
     /// True if any element belongs to the CS184 dialect.
     bool cglDialect() const { return cglDialect_; }
 
+    /// Where the element stands.
+    build::FilePlace place(const Element& at) const;
     /// Throws SceneError with file, line and name of the element.
     [[noreturn]] void fail(const Element& at, const std::string& message) const;
 

@@ -6,7 +6,8 @@
 #include <fmt/format.h>
 
 #include <cstring>
-#include <limits>
+#include <optional>
+#include <string>
 
 namespace stromboli::collada {
 namespace {
@@ -112,7 +113,7 @@ void reportIgnored(Context& context, const Scope& scope, const Element& model) {
 glm::vec3 readAlbedo(Context& context, const Scope& scope, const Element& model) {
     const Channel channel = readChannel(context, scope, model, "diffuse");
     if (channel.kind == ChannelKind::Numbers) return readFraction(context, *channel.numbers);
-    if (channel.kind == ChannelKind::Absent) return context.options.cs184 ? kMidGrey : glm::vec3(0);
+    if (channel.kind == ChannelKind::Absent) return glm::vec3(context.conventions.unstatedAlbedo);
     context.report.ignore("<texture> of <diffuse>", "mid grey (0.5) takes its place");
     return kMidGrey;
 }
@@ -125,8 +126,9 @@ glm::vec3 readEmission(Context& context, const Scope& scope, const Element& mode
         return glm::vec3(0);
     }
     const glm::vec3 emission = readLightColor(context, *channel.numbers);
-    if (!context.options.cs184 || emission == glm::vec3(0)) return emission;
-    context.report.ignore("<emission> of a shading model", "the CS184 renderer does not read it");
+    if (context.conventions.shadingModelsEmit || emission == glm::vec3(0)) return emission;
+    context.report.ignore("<emission> of a shading model",
+                          context.conventions.renderer + " does not read it");
     return glm::vec3(0);
 }
 
@@ -143,10 +145,10 @@ Material readCommonProfile(Context& context, const Element& effect, const Elemen
         context.document.fail(technique, "has none of <constant>, <lambert>, <phong>, <blinn>");
     Material material;
     material.albedo = kMidGrey;
-    if (context.options.cs184 && !named(*model, "phong")) {
+    if (context.conventions.shadingModels == ShadingModels::PhongOnly && !named(*model, "phong")) {
         context.report.ignore(fmt::format("<{}>", model->Name()),
-                              "the CS184 renderer reads <phong> only; mid grey (0.5) takes its "
-                              "place");
+                              context.conventions.renderer +
+                                  " reads <phong> only; mid grey (0.5) takes its place");
         return material;
     }
     const Scope scope{&technique, &profile, &effect};
@@ -157,23 +159,16 @@ Material readCommonProfile(Context& context, const Element& effect, const Elemen
     return material;
 }
 
-glm::vec3 clamped(Context& context, const Element& at, float limit, const char* what) {
-    const glm::vec3 color = readColor(context.document, at);
-    const glm::vec3 inside = glm::clamp(color, glm::vec3(0), glm::vec3(limit));
-    if (inside != color) context.report.warn(fmt::format("<{}>: {}", at.Name(), what));
-    return inside;
-}
-
 } // namespace
 
 glm::vec3 readFraction(Context& context, const Element& at) {
-    if (context.options.cs184) return readLightColor(context, at);
-    return clamped(context, at, 1, "a reflected fraction outside [0, 1] is clamped to it");
+    return context.builder.reflectedFraction(fmt::format("<{}>", at.Name()),
+                                             readColor(context.document, at));
 }
 
 glm::vec3 readLightColor(Context& context, const Element& at) {
-    return clamped(context, at, std::numeric_limits<float>::max(),
-                   "negative channels of a colour become 0");
+    return context.builder.lightColor(fmt::format("<{}>", at.Name()),
+                                      readColor(context.document, at));
 }
 
 Material readEffect(Context& context, const Element& effect, const std::string& name) {

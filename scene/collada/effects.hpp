@@ -9,11 +9,10 @@ namespace stromboli::collada {
 /// have is reported). Throws SceneError for values that make no sense.
 Material readEffect(Context& context, const Element& effect, const std::string& name);
 
-/// A fraction of light per channel: clamped to [0, 1] with a warning, since a surface that
-/// reflects more than it receives has no picture. With cs184 only below.
+/// A fraction of light per channel (SceneBuilder::reflectedFraction).
 glm::vec3 readFraction(Context& context, const Element& at);
 
-/// A radiance or other amount of light: negative channels become 0, with a warning.
+/// A radiance or other amount of light (SceneBuilder::lightColor).
 glm::vec3 readLightColor(Context& context, const Element& at);
 
 } // namespace stromboli::collada

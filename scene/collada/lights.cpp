@@ -4,13 +4,11 @@
 #include "scene/collada/effects.hpp"
 #include "scene/collada/numbers.hpp"
 #include "scene/collada/transforms.hpp"
-#include "scene/collada/vectors.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
+#include <utility>
 
 namespace stromboli::collada {
 namespace {
@@ -28,8 +26,7 @@ const Element& lightKind(Context& context, const Element& light) {
 /// converted so that the light falls off over the same things.
 void readAttenuation(Context& context, const Element& at, Light& light) {
     const Document& document = context.document;
-    if (context.options.cs184) return; // no falloff
-    const double meters = metersPerUnit(document);
+    const double meters = context.conventions.applyUnit ? metersPerUnit(document) : 1;
     const double constant = readNumberOr(document, at, "constant_attenuation", 1);
     const double linear = readNumberOr(document, at, "linear_attenuation", 0) / meters;
     const double quadratic =
@@ -54,32 +51,6 @@ void readCone(Context& context, const Element& at, Light& light) {
     light.falloffExponent = toFloat(document, at, exponent);
 }
 
-/// Where and how the light stands in the world; false if the matrix leaves it no place.
-bool placeInWorld(const glm::dmat4& toWorld, bool cs184, Light& light) {
-    const glm::dvec3 position = toWorld[3], ahead = -glm::dvec3(toWorld[2]);
-    if (light.kind == LightKind::Ambient) return true;
-    if (!inRange(position)) return false;
-    light.position = position;
-    if (light.kind == LightKind::Point) return true;
-
-    // The CS184 renderer transforms (0, 0, -1) as a point, which includes the translation, and
-    // takes the result as the direction to the light.
-    const bool asPoint = cs184 && light.kind == LightKind::Directional;
-    const std::optional<glm::dvec3> direction = unit(asPoint ? -(position + ahead) : ahead);
-    if (!direction) return false;
-    light.direction = *direction;
-    if (light.kind != LightKind::Area) return true;
-
-    const glm::dvec3 x = -glm::dvec3(toWorld[0]), y = toWorld[1];
-    if (!inRange(x) || !inRange(y)) return false;
-    light.edgeX = x, light.edgeY = y;
-    // A sheared node tilts its axis against the rectangle; light leaves at right angles to it.
-    const std::optional<glm::dvec3> normal = unit(glm::cross(x, y));
-    if (!normal) return false;
-    if (!cs184) light.direction = glm::dot(*normal, *direction) < 0 ? -*normal : *normal;
-    return true;
-}
-
 } // namespace
 
 void placeLight(Context& context, const Element& element, const glm::dmat4& toWorld) {
@@ -91,24 +62,11 @@ void placeLight(Context& context, const Element& element, const glm::dmat4& toWo
     if (named(kind, "directional")) light.kind = LightKind::Directional;
     if (named(kind, "point")) light.kind = LightKind::Point;
     if (named(kind, "spot")) light.kind = LightKind::Spot;
-    if (named(kind, "ambient") || named(kind, "hemisphere")) {
-        light.kind = LightKind::Ambient;
-        light.upperHemisphereOnly = context.options.cs184;
-    }
+    if (named(kind, "ambient") || named(kind, "hemisphere")) light.kind = LightKind::Ambient;
     if (light.kind == LightKind::Spot) readCone(context, kind, light);
-    if (light.kind == LightKind::Spot && context.options.cs184) {
-        context.report.ignore("<spot> light", "gives no light in the CS184 renderer");
-        return;
-    }
-    if (light.kind == LightKind::Point || light.kind == LightKind::Spot)
-        readAttenuation(context, kind, light);
-    if (placeInWorld(toWorld, context.options.cs184, light)) {
-        context.scene.lights.push_back(light);
-    } else {
-        context.report.warn(fmt::format("light '{}' is left out: its node's transformation gives "
-                                        "it no place, direction or area within 2^60",
-                                        light.name));
-    }
+    const bool fallsOff = light.kind == LightKind::Point || light.kind == LightKind::Spot;
+    if (fallsOff && context.conventions.attenuation) readAttenuation(context, kind, light);
+    context.builder.placeLight(std::move(light), toWorld);
 }
 
 } // namespace stromboli::collada

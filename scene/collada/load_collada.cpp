@@ -2,24 +2,18 @@
 
 #include "host/core/error.hpp"
 #include "scene/collada/visual_scene.hpp"
-#include "scene/model/area_lights.hpp"
 
 #include <new>
 
 namespace stromboli {
 
-Scene loadCollada(const std::filesystem::path& file, const LoadOptions& options) try {
+Scene loadCollada(const std::filesystem::path& file, const SceneConventions& conventions) try {
     const collada::Document document(file);
-    Scene scene;
-    scene.file = file.string();
-    scene.cglDialect = document.cglDialect();
-    collada::Report report;
-    collada::Context context{document, options, scene, report};
+    build::SceneBuilder builder(file.string(), conventions);
+    if (document.cglDialect()) builder.markCglDialect();
+    collada::Context context{document, builder};
     collada::readVisualScene(context);
-    report.writeTo(scene.report);
-    // The CS184 renderer samples the rectangle and sees the mesh in its place.
-    if (!options.cs184) resolveAreaLights(scene);
-    return scene;
+    return builder.finish();
 } catch (const std::bad_alloc&) {
     throw SceneError(file.string(), 0, "", "does not fit in memory");
 }

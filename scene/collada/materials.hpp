@@ -1,38 +1,34 @@
 #pragma once
 
+#include "scene/build/material_table.hpp"
 #include "scene/collada/context.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <unordered_map>
 
 namespace stromboli::collada {
 
-/// The materials of the scene, each read once.
-class MaterialTable {
+/// The <material>s of the document, each read once.
+class Materials {
   public:
-    explicit MaterialTable(Context& context) : context_(context) {}
+    explicit Materials(Context& context) : context_(context), table_(context.builder) {}
 
-    /// Index into Scene::materials of a <material>.
+    /// The scene's number of a <material>.
     uint32_t indexOf(const Element& material);
-    /// Index of the material of surfaces that name none: mid grey.
-    uint32_t defaultIndex();
 
   private:
-    uint32_t add(Material material);
-
     Context& context_;
-    std::unordered_map<const Element*, uint32_t> indices_;
-    std::optional<uint32_t> default_;
+    build::MaterialTable<const Element*> table_;
 };
 
 /// The <bind_material> of one <instance_geometry>: which symbol stands for which material.
-class MaterialBinding {
+class BoundMaterials {
   public:
-    MaterialBinding(Context& context, MaterialTable& table, const Element& instanceGeometry);
+    BoundMaterials(Context& context, Materials& materials, const Element& instanceGeometry);
 
-    /// The material bound to a primitive's symbol; mid grey, with a warning, where none is. With
-    /// cs184 the first material bound counts for all.
+    /// The material bound to a primitive's symbol; mid grey, with a warning, where none is.
     uint32_t indexFor(const std::string& symbol) const;
     /// The material of a geometry without symbols (a sphere): the first one bound.
     uint32_t first() const;
@@ -41,7 +37,6 @@ class MaterialBinding {
     uint32_t missing() const;
 
     Context& context_;
-    MaterialTable& table_;
     std::optional<uint32_t> first_;
     std::unordered_map<std::string, uint32_t> bySymbol_;
 };

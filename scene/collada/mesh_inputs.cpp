@@ -11,7 +11,7 @@
 namespace stromboli::collada {
 namespace {
 
-void reportUnused(Report& report, const std::string& semantic) {
+void reportUnused(build::Report& report, const std::string& semantic) {
     report.ignore(fmt::format("<input semantic=\"{}\">", semantic),
                   "only positions and normals are used");
 }

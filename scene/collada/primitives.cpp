@@ -1,7 +1,6 @@
 #include "scene/collada/primitives.hpp"
 
 #include "scene/collada/sources.hpp"
-#include "scene/collada/triangulate.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +8,7 @@
 
 namespace stromboli::collada {
 
-void MeshReader::readTriangles(const Element& primitive, const Inputs& inputs,
-                               PrimitiveGroup& group) {
+void MeshReader::readTriangles(const Element& primitive, const Inputs& inputs, MeshPart& part) {
     size_t count = 0;
     for (const Element& p : children(primitive)) {
         if (!named(p, "p")) continue;
@@ -19,14 +17,13 @@ void MeshReader::readTriangles(const Element& primitive, const Inputs& inputs,
             context_.document.fail(
                 p, fmt::format("has {} corners, not a multiple of 3", corners.size()));
         for (size_t i = 0; i < corners.size(); i += 3)
-            group.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
+            part.push_back({corners[i], corners[i + 1], corners[i + 2]});
         count += corners.size() / 3;
     }
     checkCount(primitive, count);
 }
 
-void MeshReader::readPolylist(const Element& primitive, const Inputs& inputs,
-                              PrimitiveGroup& group) {
+void MeshReader::readPolylist(const Element& primitive, const Inputs& inputs, MeshPart& part) {
     const Element* vcount = primitive.FirstChildElement("vcount");
     const Element* p = primitive.FirstChildElement("p");
     if (!vcount && !p) return checkCount(primitive, 0);
@@ -41,23 +38,22 @@ void MeshReader::readPolylist(const Element& primitive, const Inputs& inputs,
     if (sum != corners.size())
         document.fail(*vcount, fmt::format("its numbers add up to {} corners, but <p> has {}", sum,
                                            corners.size()));
-    group.triangles.reserve(corners.size());
+    part.reserve(corners.size());
     const Corner* first = corners.data();
     for (uint32_t size : sizes) {
-        addPolygon(first, size, group);
+        polygons_.add({first, size}, part);
         first += size;
     }
 }
 
-void MeshReader::readPolygons(const Element& primitive, const Inputs& inputs,
-                              PrimitiveGroup& group) {
+void MeshReader::readPolygons(const Element& primitive, const Inputs& inputs, MeshPart& part) {
     size_t count = 0;
     for (const Element& child : children(primitive)) {
         const bool withHoles = named(child, "ph");
         if (!withHoles && !named(child, "p")) continue;
         const Element& p = withHoles ? context_.document.require(child, "p") : child;
         const std::vector<Corner> corners = readCorners(p, inputs);
-        addPolygon(corners.data(), corners.size(), group);
+        polygons_.add(corners, part);
         ++count;
         if (!withHoles) continue;
         for (const Element& hole : children(child))
@@ -66,49 +62,30 @@ void MeshReader::readPolygons(const Element& primitive, const Inputs& inputs,
     checkCount(primitive, count);
 }
 
-void MeshReader::readStrips(const Element& primitive, const Inputs& inputs, PrimitiveGroup& group) {
+void MeshReader::readStrips(const Element& primitive, const Inputs& inputs, MeshPart& part) {
     size_t count = 0;
     for (const Element& p : children(primitive)) {
         if (!named(p, "p")) continue;
         const std::vector<Corner> c = readCorners(p, inputs);
         for (size_t i = 2; i < c.size(); ++i) {
             const bool odd = i % 2 != 0; // every other triangle runs the other way round
-            group.triangles.push_back({c[odd ? i - 1 : i - 2], c[odd ? i - 2 : i - 1], c[i]});
+            part.push_back({c[odd ? i - 1 : i - 2], c[odd ? i - 2 : i - 1], c[i]});
         }
         ++count;
     }
     checkCount(primitive, count);
 }
 
-void MeshReader::readFans(const Element& primitive, const Inputs& inputs, PrimitiveGroup& group) {
+void MeshReader::readFans(const Element& primitive, const Inputs& inputs, MeshPart& part) {
     size_t count = 0;
     for (const Element& p : children(primitive)) {
         if (!named(p, "p")) continue;
         const std::vector<Corner> c = readCorners(p, inputs);
         for (size_t i = 2; i < c.size(); ++i)
-            group.triangles.push_back({c[0], c[i - 1], c[i]});
+            part.push_back({c[0], c[i - 1], c[i]});
         ++count;
     }
     checkCount(primitive, count);
-}
-
-void MeshReader::addPolygon(const Corner* corners, size_t count, PrimitiveGroup& group) {
-    if (count == 3) {
-        group.triangles.push_back({corners[0], corners[1], corners[2]});
-        return;
-    }
-    if (count < 3) {
-        context_.report.warn("a polygon of fewer than 3 corners is left out");
-        return;
-    }
-    polygon_.clear();
-    for (size_t i = 0; i < count; ++i)
-        polygon_.push_back(mesh_.positions[corners[i].position]);
-    pieces_.clear();
-    if (!triangulate(polygon_, pieces_))
-        context_.report.warn("a polygon crosses itself or has no area; its triangles may overlap");
-    for (const auto& [a, b, c] : pieces_)
-        group.triangles.push_back({corners[a], corners[b], corners[c]});
 }
 
 void MeshReader::checkCount(const Element& primitive, size_t found) const {
@@ -122,17 +99,18 @@ void MeshReader::checkCount(const Element& primitive, size_t found) const {
 void MeshReader::readPrimitive(const Element& primitive) {
     const std::string_view kind = primitive.Name();
     const Inputs inputs = readInputs(primitive);
-    PrimitiveGroup group;
-    if (const char* symbol = primitive.Attribute("material")) group.materialSymbol = symbol;
-    if (kind == "triangles") readTriangles(primitive, inputs, group);
-    if (kind == "polylist") readPolylist(primitive, inputs, group);
-    if (kind == "polygons") readPolygons(primitive, inputs, group);
-    if (kind == "tristrips") readStrips(primitive, inputs, group);
-    if (kind == "trifans") readFans(primitive, inputs, group);
-    mesh_.groups.push_back(std::move(group));
+    MeshPart part;
+    if (kind == "triangles") readTriangles(primitive, inputs, part);
+    if (kind == "polylist") readPolylist(primitive, inputs, part);
+    if (kind == "polygons") readPolygons(primitive, inputs, part);
+    if (kind == "tristrips") readStrips(primitive, inputs, part);
+    if (kind == "trifans") readFans(primitive, inputs, part);
+    mesh_.parts.push_back(std::move(part));
+    const char* symbol = primitive.Attribute("material");
+    symbols_.emplace_back(symbol ? symbol : "");
 }
 
-Mesh MeshReader::read(const Element& meshElement) {
+ColladaMesh MeshReader::read(const Element& meshElement) {
     readVertices(meshElement);
     for (const Element& child : children(meshElement)) {
         const std::string_view kind = child.Name();
@@ -142,7 +120,7 @@ Mesh MeshReader::read(const Element& meshElement) {
         else if (kind != "source" && kind != "vertices" && kind != "extra")
             context_.report.ignore(fmt::format("<{}>", kind), "only surfaces are rendered");
     }
-    return std::move(mesh_);
+    return {std::move(mesh_), std::move(symbols_)};
 }
 
 } // namespace stromboli::collada

@@ -1,19 +1,30 @@
 #pragma once
 
+#include "scene/build/mesh.hpp"
+#include "scene/build/polygon.hpp"
 #include "scene/collada/context.hpp"
-#include "scene/collada/mesh.hpp"
 
 #include <map>
+#include <string>
+#include <vector>
 
 namespace stromboli::collada {
+
+using build::Corner, build::Mesh, build::MeshPart;
+
+/// A <mesh> and, for each of its parts, the symbol of its material (empty where it names none).
+struct ColladaMesh {
+    Mesh mesh;
+    std::vector<std::string> symbols;
+};
 
 /// Reads the children of one <mesh>. Throws SceneError for indices out of range, counts that
 /// disagree, and a mesh without positions.
 class MeshReader {
   public:
-    explicit MeshReader(Context& context) : context_(context) {}
+    explicit MeshReader(Context& context) : context_(context), polygons_(mesh_, context.report) {}
 
-    Mesh read(const Element& meshElement);
+    ColladaMesh read(const Element& meshElement);
 
   private:
     /// The vectors of one NORMAL source within Mesh::normals.
@@ -34,21 +45,20 @@ class MeshReader {
     std::vector<Corner> readCorners(const Element& p, const Inputs& inputs);
 
     void readPrimitive(const Element& primitive);
-    void readTriangles(const Element& primitive, const Inputs& inputs, PrimitiveGroup& group);
-    void readPolylist(const Element& primitive, const Inputs& inputs, PrimitiveGroup& group);
-    void readPolygons(const Element& primitive, const Inputs& inputs, PrimitiveGroup& group);
-    void readStrips(const Element& primitive, const Inputs& inputs, PrimitiveGroup& group);
-    void readFans(const Element& primitive, const Inputs& inputs, PrimitiveGroup& group);
-    void addPolygon(const Corner* corners, size_t count, PrimitiveGroup& group);
+    void readTriangles(const Element& primitive, const Inputs& inputs, MeshPart& part);
+    void readPolylist(const Element& primitive, const Inputs& inputs, MeshPart& part);
+    void readPolygons(const Element& primitive, const Inputs& inputs, MeshPart& part);
+    void readStrips(const Element& primitive, const Inputs& inputs, MeshPart& part);
+    void readFans(const Element& primitive, const Inputs& inputs, MeshPart& part);
     void checkCount(const Element& primitive, size_t found) const;
 
     Context& context_;
     Mesh mesh_;
+    std::vector<std::string> symbols_;
     const Element* vertices_ = nullptr;
     std::map<const Element*, NormalRange> normalRanges_; ///< by <source>
     const Element* vertexNormals_ = nullptr;             ///< the NORMAL input of <vertices>
-    std::vector<glm::dvec3> polygon_;                    ///< scratch of addPolygon
-    std::vector<std::array<uint32_t, 3>> pieces_;        ///< scratch of addPolygon
+    build::PolygonCutter polygons_;
 };
 
 } // namespace stromboli::collada

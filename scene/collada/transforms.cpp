@@ -143,11 +143,4 @@ glm::dmat4 nodeTransform(const Document& document, const Element& node) {
     return product;
 }
 
-bool isFinite(const glm::dmat4& matrix) {
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            if (!std::isfinite(matrix[column][row])) return false;
-    return true;
-}
-
 } // namespace stromboli::collada

@@ -20,7 +20,4 @@ glm::dmat4 nodeTransform(const Document& document, const Element& node);
 /// True for <matrix>, <translate>, <rotate>, <scale>, <lookat> and <skew>.
 bool isTransform(const Element& element);
 
-/// True if every element of the matrix is a finite number.
-bool isFinite(const glm::dmat4& matrix);
-
 } // namespace stromboli::collada

@@ -1,18 +1,21 @@
 #include "scene/collada/visual_scene.hpp"
 
+#include "scene/build/vectors.hpp"
 #include "scene/collada/cameras.hpp"
 #include "scene/collada/cgl_dialect.hpp"
 #include "scene/collada/lights.hpp"
 #include "scene/collada/materials.hpp"
-#include "scene/collada/placement.hpp"
 #include "scene/collada/primitives.hpp"
 #include "scene/collada/transforms.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace stromboli::collada {
@@ -25,10 +28,9 @@ constexpr size_t kMostRepeatedNodes = size_t(1) << 20;
 
 /// A <geometry>, read once for all its instances.
 struct Geometry {
-    std::string name;
-    std::optional<double> sphereRadius;
-    Mesh mesh;
-    Drops drops;
+    build::ShapeId shape{};
+    bool isSphere = false;
+    std::vector<std::string> symbols; ///< of the materials of the mesh's parts
 };
 
 class SceneWalk {
@@ -36,16 +38,12 @@ class SceneWalk {
     explicit SceneWalk(Context& context) : context_(context), materials_(context) {}
 
     void run(const Element& visualScene) {
-        const glm::dmat4 toWorld = fileToWorld(context_.document, !context_.options.cs184);
+        const glm::dmat4 toWorld = fileToWorld(context_.document, context_.conventions.applyUnit);
         for (const Element& child : children(visualScene)) {
             if (named(child, "node"))
                 visitNode(child, toWorld);
             else if (!isMetadata(child))
                 ignore(child, "has no effect on the picture");
-        }
-        for (const Element* geometry : geometryOrder_) {
-            const Geometry& read = geometries_.at(geometry);
-            read.drops.reportTo(context_.report, read.name);
         }
     }
 
@@ -69,7 +67,7 @@ class SceneWalk {
             document.fail(node, fmt::format("<instance_node> repeats more than {} nodes",
                                             kMostRepeatedNodes));
         const glm::dmat4 toWorld = parentToWorld * nodeTransform(document, node);
-        if (!isFinite(toWorld)) document.fail(node, "its transformation overflows");
+        if (!build::isFinite(toWorld)) document.fail(node, "its transformation overflows");
         path_.push_back(&node);
         for (const Element& child : children(node))
             visitChild(node, child, toWorld);
@@ -97,48 +95,42 @@ class SceneWalk {
     }
 
     void placeGeometry(const Element& node, const Element& instance, const glm::dmat4& toWorld) {
-        Geometry& geometry = read(context_.document.resolve(instance, "url", "geometry"));
-        const MaterialBinding binding(context_, materials_, instance);
-        const std::string name = displayName(node);
-        if (geometry.sphereRadius) {
-            placeSphere(context_, *geometry.sphereRadius, toWorld, binding.first(), name,
-                        geometry.drops);
-            return;
-        }
+        const Geometry& geometry = read(context_.document.resolve(instance, "url", "geometry"));
+        const BoundMaterials bound(context_, materials_, instance);
         std::vector<uint32_t> materials;
-        for (const PrimitiveGroup& group : geometry.mesh.groups)
-            materials.push_back(binding.indexFor(group.materialSymbol));
-        placeMesh(context_, instance, geometry.mesh, toWorld, materials, name, geometry.drops);
+        if (geometry.isSphere) materials.push_back(bound.first());
+        for (const std::string& symbol : geometry.symbols)
+            materials.push_back(bound.indexFor(symbol));
+        context_.builder.place(context_.document.place(instance), geometry.shape, toWorld,
+                               materials, displayName(node));
     }
 
-    Geometry& read(const Element& element) {
+    const Geometry& read(const Element& element) {
         const auto [found, isNew] = geometries_.try_emplace(&element);
         if (!isNew) return found->second;
-        geometryOrder_.push_back(&element);
-        Geometry& geometry = found->second;
-        geometry.name = displayName(element);
-        geometry.sphereRadius = readCglSphere(context_, element);
+        const std::optional<double> sphereRadius = readCglSphere(context_, element);
+        ColladaMesh mesh;
         for (const Element& child : children(element)) {
             const bool isMesh = named(child, "mesh");
-            if (isMesh && !geometry.sphereRadius)
-                geometry.mesh = MeshReader(context_).read(child);
+            if (isMesh && !sphereRadius)
+                mesh = MeshReader(context_).read(child);
             else if (isMesh)
                 ignore(child, "the geometry's <sphere> takes its place");
             else if (!isMetadata(child))
                 ignore(child, "only <mesh> and spheres are rendered");
         }
-        size_t triangles = 0;
-        for (const PrimitiveGroup& group : geometry.mesh.groups)
-            triangles += group.triangles.size();
-        if (!geometry.sphereRadius && triangles == 0)
-            context_.report.warn(fmt::format("geometry '{}' has no triangles", geometry.name));
+        Geometry& geometry = found->second;
+        geometry.isSphere = sphereRadius.has_value();
+        geometry.symbols = std::move(mesh.symbols);
+        const std::string name = displayName(element);
+        geometry.shape = sphereRadius ? context_.builder.addSphere(name, *sphereRadius)
+                                      : context_.builder.addMesh(name, std::move(mesh.mesh));
         return geometry;
     }
 
     Context& context_;
-    MaterialTable materials_;
+    Materials materials_;
     std::unordered_map<const Element*, Geometry> geometries_;
-    std::vector<const Element*> geometryOrder_;
     std::vector<const Element*> path_; ///< the nodes from the root to the one being visited
     size_t visited_ = 0;
 };

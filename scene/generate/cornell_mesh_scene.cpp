@@ -1,6 +1,7 @@
 #include "scene/generate/cornell_mesh.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -95,12 +96,11 @@ FileCamera cameraOf(const CornellMesh::View& view) {
     constexpr double metre = CornellMesh::kMetresPerUnit;
     FileCamera camera;
     camera.name = "camera";
-    camera.x = glm::radians(view.fieldOfView);
-    camera.aspectRatio = 1;
+    camera.halfWidth = camera.halfHeight = std::tan(glm::radians(view.fieldOfView) / 2);
     camera.nearDistance = view.nearDistance * metre;
     camera.farDistance = view.farDistance * metre;
-    camera.toWorld = glm::dmat4(glm::dmat3(metre));
-    camera.toWorld[3] = {0, 0, view.distance * metre, 1};
+    camera.position = {0, 0, view.distance * metre};
+    camera.pointAhead = camera.position - glm::dvec3(0, 0, metre);
     return camera;
 }
 

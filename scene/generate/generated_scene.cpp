@@ -52,11 +52,4 @@ Scene generatedScene(std::string_view name) {
     return cornellMeshScene(cornellMeshOf(triangles), source);
 }
 
-Scene readScene(const std::string& source, const LoadOptions& options) {
-    if (!source.starts_with(kGeneratePrefix)) return loadCollada(source, options);
-    if (options.cs184)
-        throw SceneError(source + ": --cs184 is about files; a generated scene has no use for it");
-    return generatedScene(std::string_view(source).substr(kGeneratePrefix.size()));
-}
-
 } // namespace stromboli

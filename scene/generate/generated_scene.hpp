@@ -1,9 +1,7 @@
 #pragma once
 
-#include "scene/collada/load_collada.hpp"
 #include "scene/model/scene.hpp"
 
-#include <string>
 #include <string_view>
 
 namespace stromboli {
@@ -17,9 +15,5 @@ inline constexpr std::string_view kGeneratePrefix = "generate:";
 /// "lamps:N" is a room of 2 m with N emissive triangles spread through it, N a multiple of 8.
 /// Throws SceneError if there is no such scene.
 Scene generatedScene(std::string_view name);
-
-/// A scene as a user names it: a COLLADA file, or kGeneratePrefix and the name of a generated one,
-/// which knows no conventions of the CS184 renderer. Throws SceneError.
-Scene readScene(const std::string& source, const LoadOptions& options = {});
 
 } // namespace stromboli

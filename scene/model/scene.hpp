@@ -47,17 +47,25 @@ struct Sphere {
     uint32_t instance = 0;
 };
 
-/// The camera as a file states it; scene/camera turns it into rays for a picture.
+enum class Projection : uint32_t { Perspective, Orthographic };
+
+/// The camera as a file states it, whatever the format; scene/camera turns it into rays for a
+/// picture. All in world space.
 struct FileCamera {
     std::string name;
-    bool orthographic = false;
-    /// Perspective: full fields of view in radians. Orthographic: half the picture's size in
-    /// world units (COLLADA xmag, ymag).
-    std::optional<double> x, y;
-    std::optional<double> aspectRatio; ///< width / height
-    double nearDistance = 0;           ///< world units along the view axis
+    Projection projection = Projection::Perspective;
+    glm::dvec3 position{0.0};
+    glm::dvec3 right{1, 0, 0}, up{0, 1, 0}, back{0, 0, 1}; ///< orthonormal, right-handed
+    /// Half the extents of the view: tangents of half the fields of view (perspective) or lengths
+    /// in world units (orthographic). Where the file states both, a picture of another shape shows
+    /// all of them and more on its longer side. Where it states one, the picture's shape gives the
+    /// other. Where it states none, scene/camera has a default.
+    std::optional<double> halfWidth, halfHeight;
+    double nearDistance = 0; ///< world units along the view axis
     double farDistance = 1e30;
-    glm::dmat4 toWorld{1.0}; ///< camera looks along its -z axis, +y up
+    /// On the view axis, one of the file's units in front of the position. A camera that frames the
+    /// scene (docs/cs184.md) looks at it from the direction in which this lies from the origin.
+    glm::dvec3 pointAhead{0, 0, -1};
 };
 
 /// What a loader skipped or dropped, for the user: each line says what, how often and why.

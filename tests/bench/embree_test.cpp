@@ -4,7 +4,7 @@
 #include "host/check/cross_check.hpp"
 #include "host/reference/reference_backend.hpp"
 #include "host/render/render.hpp"
-#include "scene/generate/generated_scene.hpp"
+#include "scene/read_scene.hpp"
 #include "tests/bench/bench_fixtures.hpp"
 
 #include <gtest/gtest.h>

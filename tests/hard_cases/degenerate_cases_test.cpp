@@ -2,7 +2,7 @@
 #include "host/core/error.hpp"
 #include "tests/hard_cases/hits.hpp"
 #include "tests/hard_cases/naive_intersection.hpp"
-#include "tests/scene/document_text.hpp"
+#include "tests/scene/collada/document_text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include "tests/bvh/oracle.hpp"
 #include "tests/hard_cases/hits.hpp"
 #include "tests/hard_cases/naive_intersection.hpp"
-#include "tests/scene/document_text.hpp"
+#include "tests/scene/collada/document_text.hpp"
 
 #include <fmt/format.h>
 

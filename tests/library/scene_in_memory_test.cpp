@@ -2,6 +2,7 @@
 #include "host/core/error.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/generate/generated_scene.hpp"
+#include "scene/read_scene.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,9 +19,9 @@ using testing::HasSubstr;
 
 const std::string kFile = STROMBOLI_SOURCE_DIR "/scene/library/cornell_mesh.dae";
 
-std::string messageOf(const std::string& source, const LoadOptions& options = {}) {
+std::string messageOf(const std::string& source, const SceneConventions& conventions = {}) {
     try {
-        readScene(source, options);
+        readScene(source, conventions);
     } catch (const SceneError& error) {
         return error.what();
     }
@@ -80,13 +81,16 @@ TEST_F(InMemory, CameraIsTheFiles) {
     ASSERT_EQ(read_.cameras.size(), 1u);
     const FileCamera &a = made_.cameras[0], &b = read_.cameras[0];
     EXPECT_EQ(a.name, b.name);
-    EXPECT_EQ(a.orthographic, b.orthographic);
-    EXPECT_EQ(a.x, b.x);
-    EXPECT_EQ(a.y, b.y);
-    EXPECT_EQ(a.aspectRatio, b.aspectRatio);
+    EXPECT_EQ(a.projection, b.projection);
+    EXPECT_EQ(a.halfWidth, b.halfWidth);
+    EXPECT_EQ(a.halfHeight, b.halfHeight);
     EXPECT_EQ(a.nearDistance, b.nearDistance);
     EXPECT_EQ(a.farDistance, b.farDistance);
-    EXPECT_EQ(a.toWorld, b.toWorld);
+    EXPECT_EQ(a.position, b.position);
+    EXPECT_EQ(a.right, b.right);
+    EXPECT_EQ(a.up, b.up);
+    EXPECT_EQ(a.back, b.back);
+    EXPECT_EQ(a.pointAhead, b.pointAhead);
     EXPECT_EQ(made_.cglDialect, read_.cglDialect);
     const Bounds framedMade = made_.framing.value_or(made_.bounds());
     const Bounds framedRead = read_.framing.value_or(read_.bounds());
@@ -159,7 +163,7 @@ TEST(GeneratedScene, WrongNamesAreOneClearError) {
         EXPECT_THAT(messageOf(std::string("generate:") + name),
                     AllOf(testing::StartsWith(std::string("generate:") + name + ": no such scene"),
                           HasSubstr("generate:cornell_mesh:N with N from 1000 to 100000000")));
-    EXPECT_THAT(messageOf("generate:cornell_mesh:5000", {.cs184 = true}), HasSubstr("--cs184"));
+    EXPECT_THAT(messageOf("generate:cornell_mesh:5000", cs184Conventions()), HasSubstr("--cs184"));
 }
 
 TEST(GeneratedScene, LampsAreSpreadThroughARoom) {

@@ -5,7 +5,7 @@
 #include "host/check/cross_check.hpp"
 #include "host/reference/reference_backend.hpp"
 #include "host/render/render.hpp"
-#include "scene/generate/generated_scene.hpp"
+#include "scene/read_scene.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
 

@@ -1,7 +1,7 @@
 // What branches are for: less noise for the rays that are traced, where bounces make the noise.
 #include "host/render/branches.hpp"
 #include "host/render/render.hpp"
-#include "scene/generate/generated_scene.hpp"
+#include "scene/read_scene.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
 

@@ -16,7 +16,7 @@ Film renderOnDevice(const vulkan::Device& device, const Scene& scene, const Came
 }
 
 Scene loadScene(const std::filesystem::path& file, bool cs184) {
-    return loadCollada(file, {.cs184 = cs184});
+    return loadCollada(file, cs184 ? cs184Conventions() : SceneConventions{});
 }
 
 std::filesystem::path sharedFolder() {

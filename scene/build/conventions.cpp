@@ -1,0 +1,26 @@
+#include "scene/build/conventions.hpp"
+
+namespace stromboli {
+
+SceneConventions cs184Conventions() {
+    SceneConventions c;
+    c.renderer = "the CS184 renderer";
+    c.option = "--cs184";
+    c.applyUnit = false;
+    c.scaleCameras = false;
+    c.vertexNormals = VertexNormals::Recomputed;
+    c.winding = Winding::AsTransformed;
+    c.materialBinding = MaterialBinding::FirstForMesh;
+    c.shadingModels = ShadingModels::PhongOnly;
+    c.unstatedAlbedo = 0.5f;
+    c.clampReflectedFractions = false;
+    c.shadingModelsEmit = false;
+    c.areaLights = AreaLights::StayLights;
+    c.directionalAim = DirectionalAim::NodePoint;
+    c.ambientFrom = AmbientFrom::UpperHemisphere;
+    c.attenuation = false;
+    c.spotLights = false;
+    return c;
+}
+
+} // namespace stromboli

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <string>
+
+namespace stromboli {
+
+/// Which normals meshes are shaded with.
+enum class VertexNormals {
+    FromFile,   ///< those the file states, by the inverse transpose; without any, flat shading
+    Recomputed, ///< sums over the triangles around each vertex (scene/build/vertex_normals.hpp)
+};
+
+/// Which side of a triangle is its front.
+enum class Winding {
+    /// The side its normals are on; without normals, the side that it has before transformation,
+    /// also where the transformation mirrors it.
+    TowardsNormals,
+    AsTransformed, ///< the side that its corners give after transformation, in the file's order
+};
+
+/// Which material the parts of a mesh have.
+enum class MaterialBinding {
+    ByPart,       ///< each the one that the file binds to it
+    FirstForMesh, ///< all of them the first one that the file binds to any
+};
+
+/// What becomes of lights that are rectangles.
+enum class AreaLights {
+    BecomeGeometry, ///< emissive triangles, or the emissive mesh in the same place: one lamp
+    StayLights,     ///< rectangles that are sampled and are not seen
+};
+
+/// How a node's matrix aims a directional light.
+enum class DirectionalAim {
+    NodeAxis, ///< its light travels along the node's -z axis
+    /// The point (0, 0, -1) of the node is the direction from the scene to the light: the node's
+    /// position counts.
+    NodePoint,
+};
+
+/// Where ambient light comes from.
+enum class AmbientFrom { EveryDirection, UpperHemisphere };
+
+/// Which shading models of a file give a surface its material.
+enum class ShadingModels {
+    All,
+    PhongOnly, ///< the others become mid grey
+};
+
+/// How the statements of a file become a scene, where renderers differ. The default is what the
+/// formats' standards and physics say. Loaders and the builder ask for a convention by its name
+/// and do not know whose it is.
+struct SceneConventions {
+    /// The renderer that reads files in this way, as the subject of a sentence; for messages. Empty
+    /// for the default.
+    std::string renderer;
+    std::string option; ///< of the command line that asks for them; for messages
+
+    /// Lengths are multiplied by the file's unit; otherwise its numbers are taken as metres.
+    bool applyUnit = true;
+    /// Sizes and depth ranges of cameras are multiplied by the scale of their nodes.
+    bool scaleCameras = true;
+
+    VertexNormals vertexNormals = VertexNormals::FromFile;
+    Winding winding = Winding::TowardsNormals;
+
+    MaterialBinding materialBinding = MaterialBinding::ByPart;
+    ShadingModels shadingModels = ShadingModels::All;
+    /// A surface whose material states no diffuse colour reflects this fraction.
+    float unstatedAlbedo = 0;
+    /// Reflected fractions above 1 become 1; otherwise they are kept.
+    bool clampReflectedFractions = true;
+    /// Materials emit what their shading model says; otherwise only elements made for it count.
+    bool shadingModelsEmit = true;
+
+    AreaLights areaLights = AreaLights::BecomeGeometry;
+    DirectionalAim directionalAim = DirectionalAim::NodeAxis;
+    AmbientFrom ambientFrom = AmbientFrom::EveryDirection;
+    bool attenuation = true; ///< point and spot lights fall off as the file says; otherwise not
+    bool spotLights = true;  ///< spot lights shine; otherwise they are left out
+
+    /// True for those of the default: no other renderer is followed.
+    bool areDefault() const { return renderer.empty(); }
+};
+
+/// Those of the CS184 renderer (docs/cs184.md).
+SceneConventions cs184Conventions();
+
+} // namespace stromboli

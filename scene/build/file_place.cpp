@@ -1,0 +1,11 @@
+#include "scene/build/file_place.hpp"
+
+#include "host/core/error.hpp"
+
+namespace stromboli::build {
+
+void FilePlace::fail(const std::string& message) const {
+    throw SceneError(file, line, element, message);
+}
+
+} // namespace stromboli::build

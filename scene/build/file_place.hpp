@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+namespace stromboli::build {
+
+/// A place in a scene file, for messages about it.
+struct FilePlace {
+    std::string file;
+    int line = 0;        ///< from 1; 0 where the format has no lines
+    std::string element; ///< what stands there, by the format's own name; empty if it has none
+
+    /// Throws SceneError: `file:line: <element>: message`.
+    [[noreturn]] void fail(const std::string& message) const;
+};
+
+} // namespace stromboli::build

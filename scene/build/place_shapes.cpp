@@ -1,0 +1,102 @@
+// The part of SceneBuilder that adds meshes and spheres.
+
+#include "scene/build/scene_builder.hpp"
+#include "scene/build/vectors.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace stromboli::build {
+namespace {
+
+/// More triangles than this do not fit in the scene's 32-bit corner numbers with room to spare.
+constexpr size_t kMostTriangles = size_t(1) << 28;
+
+size_t triangleCount(const Mesh& mesh) {
+    size_t count = 0;
+    for (const MeshPart& part : mesh.parts)
+        count += part.size();
+    return count;
+}
+
+} // namespace
+
+ShapeId SceneBuilder::addMesh(std::string name, Mesh mesh) {
+    if (triangleCount(mesh) == 0) report_.warn(fmt::format("geometry '{}' has no triangles", name));
+    shapes_.push_back({std::move(name), std::move(mesh), {}});
+    return ShapeId(shapes_.size() - 1);
+}
+
+ShapeId SceneBuilder::addSphere(std::string name, double radius) {
+    shapes_.push_back({std::move(name), radius, {}});
+    return ShapeId(shapes_.size() - 1);
+}
+
+void SceneBuilder::place(const FilePlace& where, ShapeId id, const glm::dmat4& toWorld,
+                         std::span<const uint32_t> materials, const std::string& instanceName) {
+    Shape& shape = shapes_.at(size_t(id));
+    if (const double* radius = std::get_if<double>(&shape.form))
+        placeSphere(*radius, toWorld, materials.front(), instanceName, shape.drops);
+    else
+        placeMesh(where, std::get<Mesh>(shape.form), toWorld, materials, instanceName, shape.drops);
+}
+
+uint32_t SceneBuilder::startInstance(const std::string& name) {
+    scene_.instances.push_back(name);
+    return uint32_t(scene_.instances.size() - 1);
+}
+
+void SceneBuilder::placeMesh(const FilePlace& where, const Mesh& mesh, const glm::dmat4& toWorld,
+                             std::span<const uint32_t> materials, const std::string& instanceName,
+                             Drops& drops) {
+    const size_t count = scene_.triangles.size() + triangleCount(mesh);
+    if (count > kMostTriangles)
+        where.fail(fmt::format("brings the scene to {} triangles, more than the {} there is room "
+                               "for",
+                               count, kMostTriangles));
+    const uint32_t instance = startInstance(instanceName);
+    MeshPlacer placer(scene_, conventions_, mesh, toWorld, drops);
+    for (size_t i = 0; i < mesh.parts.size(); ++i)
+        for (const MeshTriangle& triangle : mesh.parts[i])
+            placer.add(triangle, materials[i], instance);
+}
+
+void SceneBuilder::placeSphere(double radius, const glm::dmat4& toWorld, uint32_t material,
+                               const std::string& instanceName, Drops& drops) {
+    const glm::dvec3 scale = axisLengths(toWorld);
+    const glm::dvec3 center = toWorld[3];
+    const double worldRadius = radius * scale.x;
+    const bool fits =
+        float(worldRadius) > 0 && inRange(center + worldRadius) && inRange(center - worldRadius);
+    if (!fits) return void(++drops.spheres);
+    if (areUnequal(scale))
+        report_.warn(fmt::format("sphere '{}': scaled unequally; it stays a sphere with the scale "
+                                 "of its x axis",
+                                 instanceName));
+    Sphere sphere;
+    sphere.center = center;
+    sphere.radius = float(worldRadius);
+    sphere.material = material;
+    sphere.instance = startInstance(instanceName);
+    scene_.spheres.push_back(sphere);
+}
+
+void SceneBuilder::reportDrops(const Shape& shape) {
+    const Drops& d = shape.drops;
+    if (d.zeroArea + d.outOfRange > 0)
+        report_.warn(fmt::format("mesh '{}': {} of {} triangles left out: {} of zero area, {} not "
+                                 "finite or beyond 2^60",
+                                 shape.name, d.zeroArea + d.outOfRange, d.triangles, d.zeroArea,
+                                 d.outOfRange));
+    if (d.badNormals > 0)
+        report_.warn(fmt::format("mesh '{}': {} of {} triangles have zero or non-finite normals "
+                                 "and are shaded flat",
+                                 shape.name, d.badNormals, d.triangles));
+    if (d.spheres > 0)
+        report_.warn(fmt::format("sphere '{}': {} left out: radius not greater than 0, not finite "
+                                 "or beyond 2^60",
+                                 shape.name, d.spheres));
+}
+
+} // namespace stromboli::build

@@ -1,0 +1,100 @@
+#pragma once
+
+#include "scene/build/conventions.hpp"
+#include "scene/build/file_place.hpp"
+#include "scene/build/mesh.hpp"
+#include "scene/build/mesh_placer.hpp"
+#include "scene/build/report.hpp"
+#include "scene/model/scene.hpp"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace stromboli::build {
+
+/// A mesh or sphere that a file defines once and shows any number of times.
+enum class ShapeId : size_t {};
+
+/// Makes a Scene of what a loader reads: a loader parses its format, hands over materials, shapes,
+/// lights and cameras with the matrices that place them in the world (y up, metres), and asks for
+/// the scene. What all formats have in common is here: precision, ranges, orientation, conventions,
+/// and the report of what was left out.
+class SceneBuilder {
+  public:
+    /// `file`: the scene's name, for messages.
+    SceneBuilder(std::string file, const SceneConventions& conventions);
+
+    const SceneConventions& conventions() const { return conventions_; }
+    Report& report() { return report_; }
+
+    /// The file has elements of the CS184 dialect (Scene::cglDialect).
+    void markCglDialect() { scene_.cglDialect = true; }
+
+    /// Returns the number by which parts of meshes name the material.
+    uint32_t addMaterial(Material material);
+    /// The material of surfaces that name none: mid grey.
+    uint32_t defaultMaterial();
+    /// A fraction of light per channel: negative ones become 0 and those above 1 become 1 (unless
+    /// the conventions keep them), with a warning, since a surface that reflects more than it
+    /// receives has no picture. `what` is the name the file gives it.
+    glm::vec3 reflectedFraction(std::string_view what, const glm::vec3& color);
+    /// A radiance or other amount of light: negative channels become 0, with a warning.
+    glm::vec3 lightColor(std::string_view what, const glm::vec3& color);
+
+    /// `name`: of the shape in the file, for messages.
+    ShapeId addMesh(std::string name, Mesh mesh);
+    /// A sphere about its own origin.
+    ShapeId addSphere(std::string name, double radius);
+
+    /// Adds a new instance of a shape, transformed to the world. `materials` has one number per
+    /// part of the mesh; a sphere has one part. Triangles are turned as Winding says; those without
+    /// area or beyond the range of coordinates are left out and counted. A sphere's radius is
+    /// scaled as the matrix scales the x axis. Throws SceneError (at `where`) if the scene gets too
+    /// large.
+    void place(const FilePlace& where, ShapeId shape, const glm::dmat4& toWorld,
+               std::span<const uint32_t> materials, const std::string& instanceName);
+
+    /// Adds a light with name, kind, colour and falloff set; the matrix gives its place and aim:
+    /// it shines along its own -z axis, and a rectangle spans its x and y axes from -1/2 to 1/2.
+    /// Lights without a place or a direction in the world (a singular matrix, coordinates beyond
+    /// 2^60) are left out with a warning.
+    void placeLight(Light light, const glm::dmat4& toWorld);
+
+    /// Adds a camera with name, projection, extents and depth range set, in lengths of its own
+    /// space; the matrix gives its pose (it looks along its own -z axis, +y up) and scales its
+    /// lengths. A camera whose matrix is singular is left out with a warning.
+    void placeCamera(FileCamera camera, const glm::dmat4& toWorld);
+
+    /// The scene, with its report; nothing can be added after.
+    Scene finish();
+
+  private:
+    struct Shape {
+        std::string name;
+        std::variant<Mesh, double> form; ///< double: the radius of a sphere
+        Drops drops;
+    };
+
+    uint32_t startInstance(const std::string& name);
+    void placeMesh(const FilePlace& where, const Mesh& mesh, const glm::dmat4& toWorld,
+                   std::span<const uint32_t> materials, const std::string& instanceName,
+                   Drops& drops);
+    void placeSphere(double radius, const glm::dmat4& toWorld, uint32_t material,
+                     const std::string& instanceName, Drops& drops);
+    void reportDrops(const Shape& shape);
+
+    SceneConventions conventions_;
+    Scene scene_;
+    Report report_;
+    std::vector<Shape> shapes_;
+    std::optional<uint32_t> defaultMaterial_;
+};
+
+} // namespace stromboli::build

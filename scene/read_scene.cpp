@@ -1,0 +1,78 @@
+#include "scene/read_scene.hpp"
+
+#include "host/core/error.hpp"
+#include "scene/build/read_file.hpp"
+#include "scene/collada/load_collada.hpp"
+#include "scene/generate/generated_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <string_view>
+
+namespace stromboli {
+namespace {
+
+/// One kind of scene file. Another loader is another line of kFormats.
+struct Format {
+    std::string_view name;   ///< for messages
+    std::string_view suffix; ///< of file names, in small letters
+    bool (*looksLikeIt)(std::string_view beginning);
+    Scene (*load)(const std::filesystem::path& file, const SceneConventions& conventions);
+};
+
+constexpr Format kFormats[] = {
+    {"COLLADA (.dae, or XML whose root element is <COLLADA>)", ".dae", looksLikeCollada,
+     loadCollada},
+};
+
+/// What is looked at to tell a format. Comments may stand before the first element.
+constexpr size_t kBeginning = 65536;
+
+const Format* byName(const std::filesystem::path& file) {
+    std::string suffix = file.extension().string();
+    std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    for (const Format& format : kFormats)
+        if (suffix == format.suffix) return &format;
+    return nullptr;
+}
+
+const Format* byContent(const std::filesystem::path& file) {
+    const std::string beginning = build::readFile(file, kBeginning);
+    for (const Format& format : kFormats)
+        if (format.looksLikeIt(beginning)) return &format;
+    return nullptr;
+}
+
+std::string formatNames() {
+    std::string names;
+    for (const Format& format : kFormats)
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", format.name);
+    return names;
+}
+
+} // namespace
+
+Scene readScene(const std::string& source, const SceneConventions& conventions) {
+    if (source.starts_with(kGeneratePrefix)) {
+        if (!conventions.areDefault())
+            throw SceneError(fmt::format("{}: {} is about files; a generated scene has no use "
+                                         "for it",
+                                         source, conventions.option));
+        return generatedScene(std::string_view(source).substr(kGeneratePrefix.size()));
+    }
+    const std::filesystem::path file = source;
+    const Format* format = byName(file);
+    if (!format) format = byContent(file);
+    if (!format)
+        throw SceneError(source, 0, "",
+                         fmt::format("is in no format that is read; expected {}, or {}NAME for a "
+                                     "scene that is made in memory",
+                                     formatNames(), kGeneratePrefix));
+    return format->load(file, conventions);
+}
+
+} // namespace stromboli

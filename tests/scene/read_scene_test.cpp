@@ -1,0 +1,104 @@
+// Which loader reads what: told by the file's name, and where that says nothing, by its content.
+
+#include "scene/read_scene.hpp"
+
+#include "host/core/error.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace stromboli::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// A COLLADA document with one triangle, up to where its root element begins and from there.
+const std::string kProlog = "<?xml version=\"1.0\"?>\n<!-- <COLLADA in a comment> -->\n";
+const std::string kRoot =
+    "<COLLADA version=\"1.4.1\"><library_geometries><geometry id=\"g\"><mesh><source id=\"s\">"
+    "<float_array id=\"a\" count=\"9\">0 0 0 1 0 0 0 1 0</float_array><technique_common><accessor "
+    "source=\"#a\" count=\"3\" stride=\"3\"><param name=\"X\"/><param name=\"Y\"/><param "
+    "name=\"Z\"/></accessor></technique_common></source><vertices id=\"v\"><input "
+    "semantic=\"POSITION\" source=\"#s\"/></vertices><triangles count=\"1\"><input "
+    "semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 1 2</p></triangles></mesh></geometry>"
+    "</library_geometries><library_visual_scenes><visual_scene id=\"S\"><node><instance_geometry "
+    "url=\"#g\"/></node></visual_scene></library_visual_scenes><scene><instance_visual_scene "
+    "url=\"#S\"/></scene></COLLADA>";
+
+class ReadScene : public testing::Test {
+  protected:
+    void SetUp() override {
+        folder_ = std::filesystem::path(testing::TempDir()) /
+                  ("stromboli_read_scene_" + std::to_string(getpid()));
+        std::filesystem::create_directories(folder_);
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    std::string write(const std::string& name, const std::string& content) const {
+        const std::filesystem::path file = folder_ / name;
+        std::ofstream(file, std::ios::binary) << content;
+        return file.string();
+    }
+    size_t trianglesOf(const std::string& name, const std::string& content) const {
+        return readScene(write(name, content)).triangles.size();
+    }
+    static std::string messageOf(const std::string& source) {
+        try {
+            readScene(source);
+        } catch (const SceneError& error) {
+            return error.what();
+        }
+        return "no error";
+    }
+
+    std::filesystem::path folder_;
+};
+
+TEST_F(ReadScene, ByTheEndingOfTheName) {
+    EXPECT_EQ(trianglesOf("a.dae", kProlog + kRoot), 1u);
+    EXPECT_EQ(trianglesOf("a.DAE", kProlog + kRoot), 1u);
+    // The loader that the name asks for says what is wrong, and where.
+    EXPECT_THAT(messageOf(write("b.dae", "<wrong>\n")),
+                AllOf(HasSubstr("b.dae"), HasSubstr("not well-formed XML")));
+}
+
+TEST_F(ReadScene, ByContentWhereTheNameSaysNothing) {
+    for (const char* name : {"scene", "scene.xml", "scene.txt", ".dae"})
+        EXPECT_EQ(trianglesOf(name, kProlog + kRoot), 1u) << name;
+    EXPECT_EQ(trianglesOf("marked", "\xEF\xBB\xBF" + kProlog + kRoot), 1u);
+    EXPECT_EQ(trianglesOf("bare", kRoot), 1u);
+    EXPECT_EQ(trianglesOf("typed", "<!DOCTYPE COLLADA>" + kRoot), 1u);
+    EXPECT_EQ(trianglesOf("commented", "<!--" + std::string(60000, 'x') + "-->" + kRoot), 1u);
+}
+
+TEST_F(ReadScene, OtherFilesAreOneErrorThatNamesTheFormats) {
+    for (const char* content :
+         {"", "glTF", "{\"asset\": {}}", "<?xml version=\"1.0\"?><scene version=\"3.0.0\"/>",
+          "<!-- <COLLADA> -->", "<COLLADAS/>", "v 0 0 0\n", "<?xml", "COLLADA"}) {
+        const std::string file = write("scene.xyz", content);
+        EXPECT_THAT(messageOf(file), AllOf(testing::StartsWith(file), HasSubstr("COLLADA (.dae"),
+                                           HasSubstr("generate:")))
+            << content;
+    }
+}
+
+TEST_F(ReadScene, FilesThatCannotBeRead) {
+    for (const char* name : {"none.dae", "none.xyz", "none"})
+        EXPECT_THAT(messageOf((folder_ / name).string()), HasSubstr("cannot be opened")) << name;
+    EXPECT_THAT(messageOf(folder_.string()), HasSubstr("is a directory"));
+}
+
+TEST_F(ReadScene, GeneratedScenesByTheirPrefix) {
+    EXPECT_GT(readScene("generate:lamps:8").triangles.size(), 8u);
+    EXPECT_THAT(messageOf("generate:nothing"), HasSubstr("no such scene"));
+    EXPECT_THROW(readScene("generate:lamps:8", cs184Conventions()), SceneError);
+}
+
+} // namespace
+} // namespace stromboli::test
