@@ -3,8 +3,6 @@
 namespace stromboli::bench {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 Json toJson(const Spread& s) {
     return {{"median", s.median},
             {"least", s.least},
@@ -153,7 +151,7 @@ Json toJson(const TransferReport& t) {
 
 } // namespace
 
-nlohmann::ordered_json toJson(const BenchReport& report) {
+Json toJson(const BenchReport& report) {
     return {{"circumstances", toJson(report.circumstances)},
             {"scenes", listOf(report.scenes)},
             {"growth", listOf(report.growth)},

@@ -2,12 +2,12 @@
 
 #include "host/bench/report.hpp"
 
-#include <nlohmann/json.hpp>
+#include "host/core/json.hpp"
 
 namespace stromboli::bench {
 
 /// All of the report, every single measurement included; times in seconds for one item (build, ray,
 /// path, byte). Comparisons are against the first contestant of a list, which is ours.
-nlohmann::ordered_json toJson(const BenchReport& report);
+Json toJson(const BenchReport& report);
 
 } // namespace stromboli::bench

@@ -7,7 +7,7 @@ namespace stromboli::bvh {
 
 namespace {
 
-constexpr uint32_t kSlots = gpu::WIDE_CHILDREN;
+constexpr uint32_t kChildren = gpu::WIDE_CHILDREN;
 
 /// Marks among the records of the window; bit 0 of the first word is the window's first record.
 class Marks {
@@ -18,19 +18,20 @@ class Marks {
     uint32_t from(uint32_t i) const {
         const uint32_t word = i / 64, bit = i % 64;
         uint64_t marks = words_[word] >> bit;
-        if (bit > 64 - kSlots && word + 1 < words_.size()) marks |= words_[word + 1] << (64 - bit);
+        if (bit > 64 - kChildren && word + 1 < words_.size())
+            marks |= words_[word + 1] << (64 - bit);
         return uint32_t(marks & 255u);
     }
     void set(uint32_t i, uint32_t slots) {
         const uint32_t word = i / 64, bit = i % 64;
         words_[word] |= uint64_t(slots) << bit;
-        if (bit > 64 - kSlots && word + 1 < words_.size())
+        if (bit > 64 - kChildren && word + 1 < words_.size())
             words_[word + 1] |= uint64_t(slots) >> (64 - bit);
     }
     void advance() {
         for (size_t word = 0; word + 1 < words_.size(); ++word)
-            words_[word] = words_[word] >> kSlots | words_[word + 1] << (64 - kSlots);
-        words_.back() >>= kSlots;
+            words_[word] = words_[word] >> kChildren | words_[word + 1] << (64 - kChildren);
+        words_.back() >>= kChildren;
     }
 
   private:
@@ -46,7 +47,7 @@ class Window {
     uint32_t place(const WideNode& node) {
         const uint32_t used = node.nodes | node.leaves, absent = used ^ 255u;
         for (;; advance())
-            for (uint32_t i = 0; i + kSlots <= Marks::kRecords; ++i) {
+            for (uint32_t i = 0; i + kChildren <= Marks::kRecords; ++i) {
                 const bool fits = (used_.from(i) & used) == 0 && (nodes_.from(i) & absent) == 0 &&
                                   (absent_.from(i) & node.nodes) == 0;
                 if (!fits) continue;
@@ -58,7 +59,7 @@ class Window {
   private:
     void advance() {
         used_.advance(), nodes_.advance(), absent_.advance();
-        start_ += kSlots;
+        start_ += kChildren;
     }
 
     uint32_t start_ = 0;
@@ -81,9 +82,9 @@ RecordPacking packRecords(std::span<const WideNode> nodes) {
         pending.pop_back();
         const uint32_t firstChild = window.place(node);
         packing.places.push_back({next.record, firstChild});
-        packing.records = std::max(packing.records, firstChild + kSlots);
+        packing.records = std::max(packing.records, firstChild + kChildren);
         packing.depth = std::max(packing.depth, next.depth);
-        for (uint32_t slot = kSlots; slot-- > 0;)
+        for (uint32_t slot = kChildren; slot-- > 0;)
             if (node.isNode(slot)) pending.push_back({firstChild + slot, next.depth + 1});
     }
     return packing;

@@ -72,7 +72,7 @@ int benchCommand(const Options& options) {
         fmt::print("{}", bench::toTable(report));
         if (!options.bench.jsonFile.empty()) writeJson(options.bench.jsonFile, report);
     } catch (const bench::Stopped&) {
-        spdlog::warn("interrupted: nothing is reported");
+        logging::warn("interrupted: nothing is reported");
         return kInterruptedExitCode;
     }
     return 0;

@@ -3,6 +3,7 @@
 #include "host/cli/declare_options.hpp"
 #include "host/core/error.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -2,11 +2,13 @@
 
 #include "host/bench/bench.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace stromboli {
 

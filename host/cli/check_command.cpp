@@ -37,7 +37,7 @@ int checkCommand(const Options& options) {
     ReferenceBackend reference(job.scene, job.camera, job.settings, options.threads);
     const Film onHost = renderWatched(reference, job, options);
     if (interrupted()) {
-        spdlog::warn("interrupted before the check was done");
+        logging::warn("interrupted before the check was done");
         return kInterruptedExitCode;
     }
 

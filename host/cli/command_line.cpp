@@ -4,7 +4,7 @@
 
 namespace stromboli {
 
-static std::string quoted(const std::string& argument) {
+static std::string shellQuoted(const std::string& argument) {
     constexpr const char* kPlain =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=./:,@%";
     if (!argument.empty() && argument.find_first_not_of(kPlain) == std::string::npos)
@@ -19,7 +19,7 @@ std::string commandLine() {
     std::ifstream file("/proc/self/cmdline");
     std::string text;
     for (std::string argument; std::getline(file, argument, '\0');)
-        text += (text.empty() ? "" : " ") + quoted(argument);
+        text += (text.empty() ? "" : " ") + shellQuoted(argument);
     return text;
 }
 

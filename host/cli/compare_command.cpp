@@ -2,6 +2,7 @@
 #include "host/compare/false_color.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/json.hpp"
 #include "host/film/exr.hpp"
 #include "host/film/png.hpp"
 
@@ -51,7 +52,7 @@ void writeFigures(const CompareOptions& o, const Comparison& comparison,
                   const std::vector<std::string>& broken) {
     if (o.jsonFile != "-") fmt::print("{}", compare::toText(comparison));
     if (o.jsonFile.empty()) return;
-    nlohmann::ordered_json json = compare::toJson(comparison);
+    Json json = compare::toJson(comparison);
     json["reference"] = o.reference;
     json["picture"] = o.picture;
     json["violations"] = broken;

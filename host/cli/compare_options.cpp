@@ -3,6 +3,8 @@
 #include "host/core/error.hpp"
 #include "host/film/image_file.hpp"
 
+#include <CLI/CLI.hpp>
+
 namespace stromboli {
 namespace {
 

@@ -2,9 +2,11 @@
 
 #include "host/compare/comparison.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace stromboli {
 

@@ -1,5 +1,7 @@
 #include "host/cli/declare_options.hpp"
 
+#include <CLI/CLI.hpp>
+
 namespace stromboli {
 namespace {
 

@@ -3,12 +3,14 @@
 #include "host/cli/bench_options.hpp"
 #include "host/cli/options.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace stromboli {
 

@@ -17,16 +17,16 @@ namespace {
 
 void reportLoading(const Scene& scene, const Options& options) {
     for (const std::string& line : scene.report.warnings)
-        spdlog::warn("{}", line);
+        logging::warn(line);
     for (const std::string& line : scene.report.ignored)
-        spdlog::info("ignored: {}", line);
+        logging::info(fmt::format("ignored: {}", line));
     if (scene.cameras.empty())
-        spdlog::info("{} has no camera: framing the whole scene", options.scene);
+        logging::info(fmt::format("{} has no camera: framing the whole scene", options.scene));
     if (scene.triangles.empty() && scene.spheres.empty())
-        spdlog::warn("{} has no geometry: the picture is black", options.scene);
+        logging::warn(fmt::format("{} has no geometry: the picture is black", options.scene));
     if (scene.lights.empty() && collectEmitters(scene).empty() &&
         options.settings.integrator == Integrator::Path)
-        spdlog::warn("{} has no light: the picture is black", options.scene);
+        logging::warn(fmt::format("{} has no light: the picture is black", options.scene));
 }
 
 void checkCrop(const RenderSettings& s) {

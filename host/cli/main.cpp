@@ -67,13 +67,13 @@ int main(int argc, char** argv) {
         stromboli::setUpLogging(options->verbosity);
         return run(*options);
     } catch (const stromboli::Error& error) {
-        spdlog::error("{}", error.what());
+        stromboli::logging::error(error.what());
         return int(error.code());
     } catch (const std::bad_alloc&) {
-        spdlog::error("out of memory");
+        stromboli::logging::error("out of memory");
         return int(stromboli::ExitCode::Scene);
     } catch (const std::exception& error) {
-        spdlog::error("{}", error.what());
+        stromboli::logging::error(error.what());
         return int(stromboli::ExitCode::Device);
     }
 }

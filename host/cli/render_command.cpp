@@ -13,6 +13,8 @@
 #include "host/reference/reference_backend.hpp"
 #include "host/render/render.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace stromboli {
@@ -74,12 +76,13 @@ Film renderOnDevice(const Job& job, std::future<vulkan::OpenDevice> device, cons
     report.buildSeconds = built.buildSeconds;
     const vulkan::OpenDevice open = device.get();
     report.backend = open.device->description().name();
-    spdlog::debug("device {}: {} ({})", open.choice.index, report.backend, open.choice.reason);
+    logging::debug(
+        fmt::format("device {}: {} ({})", open.choice.index, report.backend, open.choice.reason));
     Film film;
     {
         VulkanBackend backend(*open.device, built.gpu, job.camera, job.settings);
         for (const std::string& line : describe(backend.features()))
-            spdlog::debug("kernel: {}", line);
+            logging::debug(fmt::format("kernel: {}", line));
         film = takeSamples(backend, job, options, report);
     }
     vulkan::requireNoValidationMessages(open);
@@ -122,11 +125,12 @@ int renderCommand(const Options& options) {
     logReport(report, film, job.settings);
     if (report.complete) return 0;
     if (job.settings.stop.open())
-        spdlog::warn("interrupted: {} holds the samples that were taken", options.output);
+        logging::warn(
+            fmt::format("interrupted: {} holds the samples that were taken", options.output));
     else
-        spdlog::warn("interrupted: {} holds the {:.1f} % of the samples that were taken",
-                     options.output,
-                     100.0 * double(report.samplesTaken) / double(report.samplesAtMost));
+        logging::warn(fmt::format(
+            "interrupted: {} holds the {:.1f} % of the samples that were taken", options.output,
+            100.0 * double(report.samplesTaken) / double(report.samplesAtMost)));
     return kInterruptedExitCode;
 }
 

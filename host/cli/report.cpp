@@ -3,11 +3,11 @@
 #include "host/cli/progress.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/json.hpp"
 #include "host/core/log.hpp"
 #include "host/render/render.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <span>
@@ -30,42 +30,44 @@ namespace {
 void logNoise(const RenderReport& r, const StopRule& stop) {
     const std::string reached = fmt::format("noise about {:.2f} %", 100 * r.noise);
     if (stop.noise == 0)
-        spdlog::info("{}", reached);
+        logging::info(reached);
     else if (r.noise <= stop.noise)
-        spdlog::info("{}, asked for {:.2f} %", reached, 100 * stop.noise);
+        logging::info(fmt::format("{}, asked for {:.2f} %", reached, 100 * stop.noise));
     else
-        spdlog::warn("{}, more than the {:.2f} % asked for: {} ended the render", reached,
-                     100 * stop.noise, r.complete ? "--time or -s" : "the interruption");
+        logging::warn(fmt::format("{}, more than the {:.2f} % asked for: {} ended the render",
+                                  reached, 100 * stop.noise,
+                                  r.complete ? "--time or -s" : "the interruption"));
 }
 
 } // namespace
 
 void logReport(const RenderReport& r, const Film& film, const RenderSettings& settings) {
     const double rate = double(r.counters.rays) * 1e-6 / std::max(r.renderSeconds, 1e-9);
-    spdlog::info("{}: {} ({} to load, {} to build the BVH)", r.backend,
-                 formatDuration(r.renderSeconds), formatDuration(r.loadSeconds),
-                 formatDuration(r.buildSeconds));
+    logging::info(fmt::format("{}: {} ({} to load, {} to build the BVH)", r.backend,
+                              formatDuration(r.renderSeconds), formatDuration(r.loadSeconds),
+                              formatDuration(r.buildSeconds)));
     const std::string share = // of a number that nobody chose it says nothing
         settings.stop.spreads() || r.samplesAtMost == 0
             ? ""
             : fmt::format(" ({:.1f} % of the most)",
                           100.0 * double(r.samplesTaken) / double(r.samplesAtMost));
-    spdlog::info("{} paths, {} rays, {:.2f} Mrays/s; {} samples{}, {} rejected",
-                 r.counters.paths * film.branches, r.counters.rays, rate, r.samplesTaken, share,
-                 r.samplesRejected);
+    logging::info(fmt::format("{} paths, {} rays, {:.2f} Mrays/s; {} samples{}, {} rejected",
+                              r.counters.paths * film.branches, r.counters.rays, rate,
+                              r.samplesTaken, share, r.samplesRejected));
     if (settings.integrator == Integrator::Path) logNoise(r, settings.stop);
     if (r.samplesRejected == 0) return;
     const auto first = std::find_if(film.pixels.begin(), film.pixels.end(),
                                     [](const PixelStatistics& p) { return p.rejected > 0; });
     const auto index = uint32_t(first - film.pixels.begin());
-    spdlog::warn("{} samples were not finite, negative or too large and were left out; to see the "
-                 "first, add --pixel {} {} --sample {} to the command",
-                 r.samplesRejected, index % film.width, index / film.width, first->firstRejected);
+    logging::warn(fmt::format(
+        "{} samples were not finite, negative or too large and were left out; to see the "
+        "first, add --pixel {} {} --sample {} to the command",
+        r.samplesRejected, index % film.width, index / film.width, first->firstRejected));
 }
 
 void writeStatistics(const std::string& file, const RenderReport& r, const Job& job) {
     const RenderSettings& s = job.settings;
-    const nlohmann::json json = {
+    const Json json = {
         {"scene", job.scene.file},
         {"backend", r.backend},
         {"complete", r.complete},

@@ -2,6 +2,7 @@
 #include "host/cli/progress.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/json.hpp"
 #include "host/core/log.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/stress/device_subject.hpp"
@@ -88,7 +89,7 @@ Outcome runCase(const Case& which, stress::Run& run) {
     return outcome;
 }
 
-void writeJson(const std::string& file, const nlohmann::json& json) {
+void writeJson(const std::string& file, const Json& json) {
     const std::string text = json.dump(2) + "\n";
     writeFileAtomically(file, std::as_bytes(std::span(text)));
 }
@@ -131,7 +132,8 @@ int stressCommand(const Options& options) {
     const auto amount = options.stress.full ? stress::Amount::Full : stress::Amount::Quick;
     const std::vector<Outcome> outcomes = runCases(cases, *open.device, options, amount);
     if (outcomes.size() < cases.size()) {
-        spdlog::warn("interrupted after {} of {} cases", outcomes.size(), cases.size());
+        logging::warn(
+            fmt::format("interrupted after {} of {} cases", outcomes.size(), cases.size()));
         return kInterruptedExitCode;
     }
     if (!options.stress.jsonFile.empty())

@@ -1,5 +1,7 @@
 #include "host/cli/stress_options.hpp"
 
+#include <CLI/CLI.hpp>
+
 namespace stromboli {
 
 void declareStress(CLI::App& app, StressOptions& options) {

@@ -43,8 +43,8 @@ class StudyLine {
 
     void show(const study::StudyProgress& p) {
         constexpr int kWidth = 24; // characters
-        constexpr double kRedrawSeconds = 0.25;
-        if (!shown_ || (drawn_ && watch_.seconds() < kRedrawSeconds)) return;
+        constexpr double kLineEverySeconds = 0.25;
+        if (!shown_ || (drawn_ && watch_.seconds() < kLineEverySeconds)) return;
         watch_ = {};
         drawn_ = true;
         const int filled = std::clamp(int(p.share * kWidth), 0, kWidth);
@@ -100,7 +100,7 @@ study::PreparedRender prepareRender(const vulkan::Device& device, const std::str
                                     const std::vector<std::string>& words) {
     const Options options = renderLine(scene, words);
     auto held = std::make_shared<Held>(Held{prepareJob(options), {}});
-    spdlog::set_level(spdlog::level::err); // what the loader has to say, it says once
+    setVerbosity(Verbosity::ErrorsOnly); // what the loader has to say, it says once
     study::PreparedRender render{held, held->job.settings, nullptr};
     if (options.backend == BackendChoice::Reference) {
         render.backend = std::make_unique<ReferenceBackend>(held->job.scene, held->job.camera,
@@ -182,7 +182,7 @@ int studyCommand(const Options& options) {
     const vulkan::OpenDevice open = vulkan::openDevice(options.device);
     Study s = newStudy(o.settings, *open.device);
     const size_t before = study::takeOver(folder / "study.json", s);
-    if (before > 0) spdlog::info("going on: {} runs are there already", before);
+    if (before > 0) logging::info(fmt::format("going on: {} runs are there already", before));
     const bool complete = [&] {
         StudyLine line(options.verbosity != Verbosity::Quiet);
         return study::runStudy(
@@ -198,7 +198,7 @@ int studyCommand(const Options& options) {
     fmt::print("{}", study::toText(s));
     if (hasRuns(s)) fmt::print("\nreport: {}\n", (folder / "report.html").string());
     if (complete) return 0;
-    spdlog::warn("interrupted: what is done is kept; the same command goes on");
+    logging::warn("interrupted: what is done is kept; the same command goes on");
     return kInterruptedExitCode;
 }
 

@@ -2,6 +2,7 @@
 
 #include "host/core/error.hpp"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>

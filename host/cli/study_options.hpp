@@ -2,11 +2,13 @@
 
 #include "host/study/study.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace CLI {
+class App;
+}
 
 namespace stromboli {
 

@@ -98,7 +98,7 @@ std::vector<std::string> violations(const Comparison& c, const Thresholds& t) {
                100 * std::abs(c.errors.relativeBias[i]), t.biasPercent);
     atLeast("PSNR", c.psnr, t.psnr);
     atLeast("SSIM", c.ssim, t.ssim);
-    if (t.zTest && !c.zTest->agree()) lines.push_back("the z-tests find a difference");
+    if (t.zTest && !c.zTest->agree()) lines.emplace_back("the z-tests find a difference");
     return lines;
 }
 

@@ -3,8 +3,7 @@
 #include "host/check/cross_check.hpp"
 #include "host/compare/flip.hpp"
 #include "host/compare/metrics.hpp"
-
-#include <nlohmann/json.hpp>
+#include "host/core/json.hpp"
 
 #include <optional>
 #include <string>
@@ -54,6 +53,6 @@ struct Thresholds {
 std::vector<std::string> violations(const Comparison& comparison, const Thresholds& thresholds);
 
 std::string toText(const Comparison& comparison);
-nlohmann::ordered_json toJson(const Comparison& comparison);
+Json toJson(const Comparison& comparison);
 
 } // namespace stromboli::compare

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kColors[] = {"R", "G", "B"};
+constexpr const char* kChannels[] = {"R", "G", "B"};
 
 Picture fromBytes(const ByteImage& image) {
     Picture picture(image.width, image.height);
@@ -29,7 +29,7 @@ Picture fromBytes(const ByteImage& image) {
 }
 
 bool hasAll(const FloatImage& image, const std::string& prefix) {
-    return std::all_of(std::begin(kColors), std::end(kColors),
+    return std::all_of(std::begin(kChannels), std::end(kChannels),
                        [&](const char* color) { return image.channels.contains(prefix + color); });
 }
 
@@ -44,7 +44,8 @@ Film filmOf(const Picture& picture, const FloatImage& image) {
         pixel.count = uint32_t(n);
         pixel.mean = picture.rgb[i];
         for (int c = 0; c < 3; ++c)
-            pixel.m2[c] = image.channels.at(std::string("variance.") + kColors[c])[i] * n * (n - 1);
+            pixel.m2[c] =
+                image.channels.at(std::string("variance.") + kChannels[c])[i] * n * (n - 1);
     }
     return film;
 }
@@ -55,7 +56,7 @@ Picture fromFloats(const fs::path& path, const FloatImage& image) {
     Picture picture(image.width, image.height);
     for (size_t i = 0; i < picture.rgb.size(); ++i)
         for (int c = 0; c < 3; ++c)
-            picture.rgb[i][c] = image.channels.at(kColors[c])[i];
+            picture.rgb[i][c] = image.channels.at(kChannels[c])[i];
     if (image.channels.contains("samples") && hasAll(image, "variance."))
         picture.film = filmOf(picture, image);
     return picture;

@@ -7,8 +7,6 @@
 namespace stromboli::compare {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr const char* kColors[] = {"red", "green", "blue"};
 
 std::string flipName(const Comparison& c) {
@@ -56,7 +54,7 @@ std::string toText(const Comparison& c) {
     return text;
 }
 
-nlohmann::ordered_json toJson(const Comparison& c) {
+Json toJson(const Comparison& c) {
     // JSON has no infinity: PSNR is null for equal pictures.
     return {{"width", c.width},
             {"height", c.height},

@@ -1,13 +1,25 @@
 #pragma once
 
-#include <spdlog/spdlog.h>
+#include <string_view>
 
 namespace stromboli {
 
-enum class Verbosity { Quiet, Normal, Verbose };
+/// What is said: errors only, warnings too, information too, or everything.
+enum class Verbosity { ErrorsOnly, Quiet, Normal, Verbose };
 
-/// Sends spdlog's default logger to standard error, without time stamps: warnings only when
-/// quiet, information by default, debug when verbose.
+/// From now on messages go to standard error, without time stamps, down to this verbosity.
 void setUpLogging(Verbosity verbosity);
+
+/// Changes what is said from now on.
+void setVerbosity(Verbosity verbosity);
+
+/// Messages, one line each. Callers format them: the logging library's headers, which are slow to
+/// compile, are in log.cpp alone.
+namespace logging {
+void debug(std::string_view message);
+void info(std::string_view message);
+void warn(std::string_view message);
+void error(std::string_view message);
+} // namespace logging
 
 } // namespace stromboli

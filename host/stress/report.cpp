@@ -36,12 +36,12 @@ std::string listRow(const Case& c) {
     return fmt::format("{:<17}  {:>6}  {}\n", c.name, c.numbers, c.property);
 }
 
-nlohmann::json toJson(const Circumstances& circumstances, const std::vector<Outcome>& outcomes) {
-    nlohmann::json cases = nlohmann::json::array();
+Json toJson(const Circumstances& circumstances, const std::vector<Outcome>& outcomes) {
+    Json cases = Json::array();
     for (const Outcome& o : outcomes) {
-        nlohmann::json entry = {{"name", o.which.name},         {"numbers", o.which.numbers},
-                                {"property", o.which.property}, {"measure", o.which.measure},
-                                {"trial", o.which.trial},       {"passed", o.passed()}};
+        Json entry = {{"name", o.which.name},         {"numbers", o.which.numbers},
+                      {"property", o.which.property}, {"measure", o.which.measure},
+                      {"trial", o.which.trial},       {"passed", o.passed()}};
         if (o.error.empty()) {
             entry["measured"] = o.finding.measured;
             entry["bound"] = o.finding.bound;

@@ -1,8 +1,7 @@
 #pragma once
 
+#include "host/core/json.hpp"
 #include "host/stress/case.hpp"
-
-#include <nlohmann/json.hpp>
 
 #include <string>
 #include <vector>
@@ -31,6 +30,6 @@ struct Circumstances {
 };
 
 /// A number that is not finite becomes null.
-nlohmann::json toJson(const Circumstances& circumstances, const std::vector<Outcome>& outcomes);
+Json toJson(const Circumstances& circumstances, const std::vector<Outcome>& outcomes);
 
 } // namespace stromboli::stress

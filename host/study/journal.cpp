@@ -10,8 +10,6 @@
 namespace stromboli::study {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr const char* kFormat = "stromboli study 1";
 
 Json toJson(const Estimate& e) {
@@ -118,14 +116,19 @@ Json toJson(const StudySettings& s) {
 }
 
 Point pointFrom(const Json& j) {
-    return {j.at("effort"),     j.at("samples"), j.at("wallSeconds"),
-            j.at("cpuSeconds"), j.at("relMse"),  j.at("mse"),
-            j.at("bias"),       j.at("rays"),    j.at("rejected")};
+    const auto number = [&](const char* name) { return j.at(name).get<double>(); };
+    const auto count = [&](const char* name) { return j.at(name).get<uint64_t>(); };
+    return {number("effort"),     number("samples"), number("wallSeconds"),
+            number("cpuSeconds"), number("relMse"),  number("mse"),
+            number("bias"),       count("rays"),     count("rejected")};
 }
 
 Run runFrom(const Json& j) {
-    Run run{j.at("configuration"), j.at("seed"), {}, j.at("cutShort")};
-    for (const Json& p : j.at("points"))
+    Run run{j.at("configuration").get<std::string>(),
+            j.at("seed").get<uint32_t>(),
+            {},
+            j.at("cutShort").get<bool>()};
+    for (const Json& p : j.at("points").elements())
         run.points.push_back(pointFrom(p));
     return run;
 }
@@ -146,7 +149,8 @@ bool fits(const Run& run, const Configuration& c, const StudySettings& s) {
 }
 
 bool sameOptions(const Json& configurations, const Configuration& c) {
-    return std::any_of(configurations.begin(), configurations.end(), [&](const Json& j) {
+    const Json::Array& all = configurations.elements();
+    return std::any_of(all.begin(), all.end(), [&](const Json& j) {
         return j.at("name") == c.name && j.at("options") == c.options && j.at("effort") == c.effort;
     });
 }
@@ -154,7 +158,7 @@ bool sameOptions(const Json& configurations, const Configuration& c) {
 size_t takeRuns(const Json& json, const Json& configurations, const StudySettings& settings,
                 SceneStudy& scene) {
     size_t taken = 0;
-    for (const Json& j : json.at("runs")) {
+    for (const Json& j : json.at("runs").elements()) {
         const Run run = runFrom(j);
         for (const Configuration& c : settings.configurations)
             if (c.name == run.configuration && sameOptions(configurations, c) &&
@@ -168,7 +172,7 @@ size_t takeRuns(const Json& json, const Json& configurations, const StudySetting
 
 } // namespace
 
-nlohmann::ordered_json toJson(const Study& study) {
+Json toJson(const Study& study) {
     Json scenes = Json::array();
     for (const SceneStudy& s : study.scenes) {
         Json runs = Json::array();
@@ -193,18 +197,18 @@ nlohmann::ordered_json toJson(const Study& study) {
 size_t takeOver(const std::filesystem::path& file, Study& study) {
     if (!std::filesystem::exists(file)) return 0;
     std::ifstream in(file);
-    const Json json = Json::parse(in, nullptr, false);
-    if (!json.is_object() || json.value("format", "") != kFormat)
+    const Json json = Json::parse(in).value_or(nullptr);
+    if (!json.isObject() || json.value("format", std::string()) != kFormat)
         throw OutputError(file.string() + ": not a study of this program; choose another folder");
-    if (json.value("key", "") != study.key) return 0;
+    if (json.value("key", std::string()) != study.key) return 0;
     size_t taken = 0;
     try {
-        for (const Json& j : json.at("scenes"))
+        for (const Json& j : json.at("scenes").elements())
             for (SceneStudy& scene : study.scenes)
                 if (j.at("name") == scene.name && j.at("content") == scene.content)
                     taken += takeRuns(j, json.at("settings").at("configurations"), study.settings,
                                       scene);
-    } catch (const nlohmann::json::exception& error) {
+    } catch (const JsonError& error) {
         throw OutputError(fmt::format("{}: {}", file.string(), error.what()));
     }
     return taken;

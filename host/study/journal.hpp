@@ -1,16 +1,15 @@
 #pragma once
 
+#include "host/core/json.hpp"
 #include "host/study/study.hpp"
 #include "host/study/summary.hpp"
-
-#include <nlohmann/json.hpp>
 
 #include <filesystem>
 
 namespace stromboli::study {
 
 /// All of a study, measurements and what follows from them, as written to study.json.
-nlohmann::ordered_json toJson(const Study& study);
+Json toJson(const Study& study);
 
 /// The measurements of a study.json with the same key: scene by scene, runs of configurations
 /// whose options are the same and whose efforts are those of `study` (as many as its settings

@@ -20,7 +20,6 @@ namespace stromboli::study {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 std::string_view textOf(std::span<const unsigned char> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -66,7 +65,7 @@ Json picturesOf(const Study& study, const SceneStudy& scene, const fs::path& fol
         const std::string base =
             (folder / pictureName(scene.name, run.configuration, index)).string();
         const Json picture = imageOf(base + ".png");
-        if (picture.is_null()) continue;
+        if (picture.isNull()) continue;
         pictures[run.configuration] = {{"picture", picture},
                                        {"error", imageOf(base + "-error.png")},
                                        {"samples", imageOf(base + "-samples.png")},

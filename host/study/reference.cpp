@@ -3,13 +3,13 @@
 #include "host/compare/metrics.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/json.hpp"
 #include "host/core/log.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/film/image_file.hpp"
 #include "host/render/render.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <fstream>
@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What the picture was made of, in a file beside it.
-nlohmann::ordered_json labelOf(const SceneStudy& scene) {
+Json labelOf(const SceneStudy& scene) {
     const Reference& r = scene.reference;
     return {{"scene", scene.name},
             {"content", scene.content},
@@ -34,9 +34,10 @@ std::optional<compare::Picture> kept(const fs::path& picture, const fs::path& la
                                      SceneStudy& scene) {
     Reference& described = scene.reference;
     std::ifstream file(label);
-    const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
-    if (!json.is_object() || json.value("options", "") != described.options ||
-        json.value("scene", "") != scene.name || json.value("content", "") != scene.content ||
+    const Json json = Json::parse(file).value_or(nullptr);
+    if (!json.isObject() || json.value("options", std::string()) != described.options ||
+        json.value("scene", std::string()) != scene.name ||
+        json.value("content", std::string()) != scene.content ||
         json.value("samples", 0u) < described.samples || !fs::exists(picture))
         return std::nullopt;
     described.samples = json.value("samples", 0u);

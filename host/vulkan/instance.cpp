@@ -4,6 +4,8 @@
 #include "host/core/log.hpp"
 #include "host/vulkan/result.hpp"
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <cstring>
 #include <string_view>
@@ -19,7 +21,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                          const VkDebugUtilsMessengerCallbackDataEXT* data,
                                          void* counter) {
     ++*static_cast<std::atomic<uint32_t>*>(counter);
-    spdlog::error("validation: {}", data->pMessage);
+    logging::error(fmt::format("validation: {}", data->pMessage));
     return VK_FALSE;
 }
 

@@ -52,7 +52,7 @@ PipelineCache::PipelineCache(VkDevice device, const VolkDeviceTable& vk,
         found_.clear();
         cache_ = createCache(device, vk, {});
     }
-    spdlog::debug("pipeline cache: {} bytes from earlier runs", found_.size());
+    logging::debug(fmt::format("pipeline cache: {} bytes from earlier runs", found_.size()));
 }
 
 /// Empty if the driver does not give it out.

@@ -3,6 +3,7 @@
 #include "tests/compare/pictures.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <limits>
 
@@ -92,7 +93,7 @@ TEST(Comparison, FlipIsOfHighDynamicRangeForLinearPicturesOnly) {
 
 TEST(Comparison, JsonHasNoInfinity) {
     const Picture a = randomPicture(4, 4, 1);
-    const nlohmann::ordered_json json = toJson(comparePictures(a, a, {}));
+    const auto json = nlohmann::json::parse(toJson(comparePictures(a, a, {})).dump());
     EXPECT_TRUE(json["psnr"].is_null());
     EXPECT_EQ(json["ssim"], 1.0);
     EXPECT_EQ(json["relMse"], 0.0);

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <limits>
 #include <set>
@@ -49,7 +50,8 @@ TEST(StressReport, JsonHasTheVerdictOfAllAndNullForWhatIsNoNumber) {
     EXPECT_TRUE(json["cases"][0]["passed"]);
     EXPECT_TRUE(json["cases"][1]["measured"].is_null());
     EXPECT_EQ(json["cases"][1]["where"], "there");
-    const auto lost = stress::toJson(circumstances, {outcomeOf({}, "lost")});
+    const auto lost =
+        nlohmann::json::parse(stress::toJson(circumstances, {outcomeOf({}, "lost")}).dump());
     EXPECT_FALSE(lost["passed"]);
     EXPECT_EQ(lost["cases"][0]["error"], "lost");
 }
