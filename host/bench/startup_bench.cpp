@@ -6,7 +6,7 @@
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/render/render.hpp"
 #include "host/vulkan/open_device.hpp"
-#include "scene/collada/load_collada.hpp"
+#include "scene/read_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -119,7 +119,7 @@ Stages probeStartup(const std::string& sceneFile, const std::string& device) {
     };
     const vulkan::OpenDevice open = vulkan::openDevice(device);
     lap(&Stages::device);
-    const Scene scene = loadCollada(sceneFile, {});
+    const Scene scene = readScene(sceneFile);
     lap(&Stages::load);
     const GpuScene gpu = packScene(scene, buildWideBvh(scene), false);
     lap(&Stages::build);

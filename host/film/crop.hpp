@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/film/film.hpp"
-#include "host/render/settings.hpp"
+#include "host/film/picture_area.hpp"
 
 namespace stromboli {
 

@@ -2,8 +2,8 @@
 
 #include "host/film/film.hpp"
 #include "host/film/image.hpp"
+#include "host/film/picture_area.hpp"
 #include "host/film/tone.hpp"
-#include "host/render/settings.hpp"
 
 #include <filesystem>
 

@@ -2,7 +2,7 @@
 
 #include "host/film/film.hpp"
 #include "host/film/image.hpp"
-#include "host/render/settings.hpp"
+#include "host/film/picture_area.hpp"
 
 #include <filesystem>
 

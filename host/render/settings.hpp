@@ -1,5 +1,7 @@
 #pragma once
 
+#include "host/film/picture_area.hpp"
+
 #include <cstdint>
 
 namespace stromboli {
@@ -68,11 +70,6 @@ struct StopRule {
     uint32_t meanSamples = 0; ///< per pixel, over the picture; 0: no limit
     bool open() const { return noise > 0 || seconds > 0; } ///< samples are not known beforehand
     bool spreads() const { return open() || meanSamples > 0; }
-};
-
-/// The part of the picture to render, in pixels from the top left corner of the whole.
-struct Crop {
-    uint32_t x = 0, y = 0, width = 0, height = 0;
 };
 
 /// What a picture is, apart from the scene. The same settings, scene and device give the same

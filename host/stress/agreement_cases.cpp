@@ -4,7 +4,7 @@
 #include "host/core/error.hpp"
 #include "host/reference/reference_backend.hpp"
 #include "host/stress/case.hpp"
-#include "scene/collada/load_collada.hpp"
+#include "scene/read_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -41,7 +41,7 @@ Finding agreement(Run& run) {
     s.maxBounces = 5;
     double done = 0;
     for (const auto& file : files) {
-        const Scene scene = loadCollada(file, {});
+        const Scene scene = readScene(file.string());
         const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.width, s.height, false);
         const Film onDevice = run.render(scene, camera, s).film;
         ReferenceBackend reference(scene, camera, s);

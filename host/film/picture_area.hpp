@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+
+namespace stromboli {
+
+/// A part of a picture, in pixels from the top left corner of the whole.
+struct Crop {
+    uint32_t x = 0, y = 0, width = 0, height = 0;
+};
+
+/// Which pixels a picture has and which of them are rendered.
+struct PictureArea {
+    uint32_t width = 800, height = 600; ///< of the whole picture, before the crop
+    Crop crop;                          ///< width 0: the whole picture
+
+    /// What is rendered: the crop, or the whole picture where there is none.
+    Crop rendered() const { return crop.width == 0 ? Crop{0, 0, width, height} : crop; }
+    /// The number of pixels that are rendered.
+    uint64_t pixelCount() const {
+        const Crop part = rendered();
+        return uint64_t(part.width) * part.height;
+    }
+};
+
+} // namespace stromboli
