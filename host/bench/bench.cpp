@@ -119,7 +119,7 @@ class Benchmark {
         if (embree.fast) report.embreeQuality = nameOf(embree.quality);
         const GpuScene gpu = packScene(scene, buildWideBvh(scene), false);
         if (wants(Part::Rays)) {
-            DeviceRays rays(device(), gpu, rayTuning(device()));
+            DeviceRays rays(device(), gpu, rayTuning(device(), rowBytes(gpu, sets.largest())));
             for (const RaySet* set : {&sets.camera, &sets.shadow, &sets.bounce})
                 report.rays.push_back(benchRays(arena, rays, embree, *set));
         }

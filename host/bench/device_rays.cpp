@@ -1,6 +1,7 @@
 #include "host/bench/device_rays.hpp"
 
 #include "host/core/error.hpp"
+#include "host/kernel/kernel_buffers.hpp"
 #include "host/kernel/kernel_features.hpp"
 #include "host/vulkan/queue.hpp"
 
@@ -46,8 +47,12 @@ std::vector<vulkan::Binding> bindings(bool texelFetch) {
 
 } // namespace
 
-RayTuning rayTuning(const vulkan::Device& device) {
-    RayTuning t = {resolve({}, device), 1};
+uint64_t rowBytes(const GpuScene& scene, uint64_t mostRays) {
+    return std::max(largestSceneBuffer(scene), mostRays * sizeof(gpu::TracedRay));
+}
+
+RayTuning rayTuning(const vulkan::Device& device, uint64_t rowBytes) {
+    RayTuning t = {resolve({}, device, rowBytes), 1};
     if (!device.description().isCpu()) return t;
     // The service pass costs next to nothing here (the path kernel's is dear), so that it comes
     // after every step. Rays per lane: enough that lanes seldom wait for the last rays of others,

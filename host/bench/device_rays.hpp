@@ -26,8 +26,12 @@ struct RayTuning {
     uint32_t raysPerLane = 1; ///< one after the other
 };
 
-/// What suits the device.
-RayTuning rayTuning(const vulkan::Device& device);
+/// Bytes of the largest buffer that the ray kernel reads row by row: of the scene, or of a ray set
+/// of that size.
+uint64_t rowBytes(const GpuScene& scene, uint64_t mostRays);
+
+/// What suits the device, and buffers of up to so many bytes (rowBytes).
+RayTuning rayTuning(const vulkan::Device& device, uint64_t rowBytes = 0);
 
 /// Traces ray sets on the device with the kernel's own traversal (shaders/trace_rays.comp).
 class DeviceRays {

@@ -5,6 +5,7 @@
 #include "scene/model/scene.hpp"
 #include "shaders/shared/ray_types.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,10 @@ struct RaySets {
     RaySet camera{"camera", false, {}};
     RaySet shadow{"shadow", true, {}};
     RaySet bounce{"bounce", false, {}}; ///< cosine-distributed
+
+    uint64_t largest() const {
+        return std::max({camera.rays.size(), shadow.rays.size(), bounce.rays.size()});
+    }
 };
 
 /// Rays as paths make them, once, in double precision on the CPU and rounded to float: jittered

@@ -4,6 +4,7 @@
 #include "host/bench/path_bench.hpp"
 #include "host/bench/plain_kernels.hpp"
 #include "host/bench/ray_bench.hpp"
+#include "host/kernel/kernel_buffers.hpp"
 
 #include <list>
 
@@ -16,7 +17,7 @@ RayReport benchPlainRays(const Arena& arena, const GpuScene& gpu, const RaySet& 
     report.kind = set.name;
     report.rays = set.rays.size();
     if (set.rays.empty()) return report;
-    const RayTuning tuning = rayTuning(arena.device);
+    const RayTuning tuning = rayTuning(arena.device, rowBytes(gpu, set.rays.size()));
     std::list<DeviceRays> kernels; // which stay where they are
     std::vector<Contestant> contestants;
     const auto add = [&](const std::string& name, std::span<const uint32_t> code) {
@@ -37,9 +38,10 @@ RayReport benchPlainRays(const Arena& arena, const GpuScene& gpu, const RaySet& 
     return report;
 }
 
-std::vector<KernelVariant> plainPathVariants(const vulkan::Device& device) {
+std::vector<KernelVariant> plainPathVariants(const Arena& arena, const GpuScene& gpu) {
     std::vector<KernelVariant> variants;
-    const bool texelFetch = resolve({}, device).texelFetch;
+    const bool texelFetch =
+        resolve({}, arena.device, largestRowBuffer(gpu, pixelCount(arena.settings))).texelFetch;
     for (const PlainKernel& plain : plainPathKernels()) {
         KernelTuning tuning;
         tuning.code = plain.code(texelFetch);
@@ -54,7 +56,7 @@ RobustnessReport benchRobustness(const Arena& arena, const GpuScene& gpu, const 
     RobustnessReport report;
     for (const RaySet* set : {&sets.camera, &sets.shadow, &sets.bounce})
         report.rays.push_back(benchPlainRays(arena, gpu, *set));
-    report.paths = benchVariants(arena, gpu, plainPathVariants(arena.device), "robust").contestants;
+    report.paths = benchVariants(arena, gpu, plainPathVariants(arena, gpu), "robust").contestants;
     return report;
 }
 

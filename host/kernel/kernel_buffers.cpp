@@ -31,6 +31,18 @@ std::vector<BufferPlan> planSceneBuffers(const GpuScene& scene, const DeviceTuni
             {"emitter table", sizeOf(scene.emitterEntries), rows}};
 }
 
+uint64_t largestSceneBuffer(const GpuScene& scene) {
+    uint64_t most = 0;
+    for (const BufferPlan& plan : planSceneBuffers(scene, {}))
+        most = std::max(most, plan.bytes);
+    return most;
+}
+
+uint64_t largestRowBuffer(const GpuScene& scene, uint64_t pixels) {
+    const uint64_t items = std::min<uint64_t>(DeviceTuning{}.itemsPerDispatch, pixels);
+    return std::max(largestSceneBuffer(scene), items * sizeof(gpu::WorkItem));
+}
+
 uint64_t pixelCount(const RenderSettings& s) {
     return s.crop.width ? uint64_t(s.crop.width) * s.crop.height : uint64_t(s.width) * s.height;
 }

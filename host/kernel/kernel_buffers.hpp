@@ -16,6 +16,12 @@ vulkan::BufferUse rowUse(const DeviceTuning& tuning);
 /// The scene's buffers, in the order of their bindings.
 std::vector<vulkan::BufferPlan> planSceneBuffers(const GpuScene& scene, const DeviceTuning& tuning);
 
+/// Bytes of the largest buffer of the scene.
+uint64_t largestSceneBuffer(const GpuScene& scene);
+/// Bytes of the largest buffer that the path kernel reads row by row and that cannot be cut into
+/// parts: of the scene, or the work list of a picture of so many pixels.
+uint64_t largestRowBuffer(const GpuScene& scene, uint64_t pixels);
+
 /// All device buffers of a scene and a picture, known before anything is allocated: the driver
 /// adds no more than its alignment to each. The film may be several buffers (pixelsPerSegment).
 std::vector<vulkan::BufferPlan> planBuffers(const GpuScene& scene, const RenderSettings& settings,

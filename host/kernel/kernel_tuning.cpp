@@ -1,7 +1,11 @@
 #include "host/kernel/kernel_tuning.hpp"
 
+#include "host/vulkan/buffer_limits.hpp"
+#include "shaders/shared/interface.h"
+
 #include <algorithm>
 #include <thread>
+#include <vector>
 
 namespace stromboli {
 namespace {
@@ -10,15 +14,18 @@ namespace {
 /// loop passes (hardLimit): 32 groups of 1800 iterations of 1.2 us (a Zen 3 core).
 constexpr uint32_t kGroupsPerThread = 32;
 
+/// Texel buffers of the path kernel: the scene's, the work list and the film; other kernels have
+/// fewer.
+constexpr size_t kTexelBuffers = SCENE_BINDING_COUNT + 2;
+
 /// A CPU device (lavapipe) runs a subgroup as one SIMD register per thread. A subgroup per
 /// workgroup, so that none waits for another's lanes; all other pixels come to these lanes
-/// through the work list. Storage texel buffers, because storage buffer loads are a scalar loop
-/// over the lanes there, 20 times slower. Up to 16 entries a traversal stack in registers, of which
-/// each costs two selections a step and some spilling, is cheaper than one in memory, also a loop
-/// over the lanes.
+/// through the work list. Storage texel buffers where they are large enough (prefersTexels),
+/// because storage buffer loads are a scalar loop over the lanes there, 20 times slower. Up to 16
+/// entries a traversal stack in registers, of which each costs two selections a step and some
+/// spilling, is cheaper than one in memory, also a loop over the lanes.
 DeviceTuning forCpu(uint32_t subgroupSize) {
     DeviceTuning t;
-    t.texelFetch = true;
     t.workgroupSize = subgroupSize;
     t.traversalSteps = 5;
     t.registerStack = 16;
@@ -36,10 +43,16 @@ DeviceTuning forGpu() {
 
 } // namespace
 
-DeviceTuning resolve(const KernelTuning& tuning, const vulkan::Device& device) {
+bool prefersTexels(const vulkan::DeviceDescription& device, uint64_t rowBytes) {
+    const std::vector<vulkan::BufferUse> texels(kTexelBuffers, vulkan::BufferUse::Texel);
+    return device.isCpu() && vulkan::areBindable(device, texels) &&
+           rowBytes <= bindingLimit(device, vulkan::BufferUse::Texel).bytes;
+}
+
+DeviceTuning resolve(const KernelTuning& tuning, const vulkan::Device& device, uint64_t rowBytes) {
     DeviceTuning t =
         device.description().isCpu() ? forCpu(device.description().subgroupSize) : forGpu();
-    t.texelFetch = tuning.texelFetch.value_or(t.texelFetch);
+    t.texelFetch = tuning.texelFetch.value_or(prefersTexels(device.description(), rowBytes));
     t.workgroupSize = tuning.workgroupSize.value_or(t.workgroupSize);
     t.traversalSteps = tuning.traversalSteps.value_or(t.traversalSteps);
     t.registerStack = tuning.registerStack.value_or(t.registerStack);

@@ -40,6 +40,13 @@ struct DeviceTuning {
 };
 
 /// The rules, with their reasons, are in the source; docs/kernel.md has the measurements.
-DeviceTuning resolve(const KernelTuning& tuning, const vulkan::Device& device);
+/// `rowBytes`: of the largest buffer that is read row by row; it decides whether the device's texel
+/// buffers are large enough.
+DeviceTuning resolve(const KernelTuning& tuning, const vulkan::Device& device,
+                     uint64_t rowBytes = 0);
+
+/// Whether rows are read through storage texel buffers on this device: where that is faster and
+/// its limits allow it.
+bool prefersTexels(const vulkan::DeviceDescription& device, uint64_t rowBytes);
 
 } // namespace stromboli

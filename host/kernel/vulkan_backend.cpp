@@ -86,8 +86,8 @@ RenderSettings withCrop(RenderSettings s) {
 
 /// No more lanes or items than there are pixels.
 DeviceTuning tuningFor(const KernelTuning& tuning, const vulkan::Device& device,
-                       const RenderSettings& settings) {
-    DeviceTuning t = resolve(tuning, device);
+                       const GpuScene& scene, const RenderSettings& settings) {
+    DeviceTuning t = resolve(tuning, device, largestRowBuffer(scene, pixelCount(settings)));
     t.lanes = uint32_t(std::min<uint64_t>(t.lanes, pixelCount(settings)));
     t.itemsPerDispatch = uint32_t(std::min<uint64_t>(t.itemsPerDispatch, pixelCount(settings)));
     return t;
@@ -99,7 +99,7 @@ VulkanBackend::VulkanBackend(const vulkan::Device& device, const GpuScene& scene
                              const Camera& camera, const RenderSettings& settings,
                              const KernelTuning& tuning)
     : device_(device), settings_(withCrop(settings)), frame_(makeFrame(scene, camera, settings_)),
-      tuning_(tuningFor(tuning, device, settings_)),
+      tuning_(tuningFor(tuning, device, scene, settings_)),
       features_(kernelFeatures(scene, camera, settings_, tuning_)),
       hardIterations_(hardLimit(device, scene, tuning_)),
       softIterations_(softLimit(hardIterations_, frame_)), fixedIterations_(tuning.fixedIterations),

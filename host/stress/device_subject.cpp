@@ -11,18 +11,21 @@
 namespace stromboli::stress {
 namespace {
 
+/// Sets of the hard cases are smaller.
+constexpr uint64_t kMostRays = 1 << 20;
+
 /// Hard cases may have rays that visit thousands of records; few rays a lane leave each many passes
 /// before the driver's limit.
-bench::RayTuning patientTuning(const vulkan::Device& device) {
-    bench::RayTuning tuning = bench::rayTuning(device);
+bench::RayTuning patientTuning(const vulkan::Device& device, const GpuScene& scene) {
+    bench::RayTuning tuning = bench::rayTuning(device, bench::rowBytes(scene, kMostRays));
     tuning.raysPerLane = std::min(tuning.raysPerLane, 8u);
     return tuning;
 }
 
 class DeviceTracer final : public RayTracer {
   public:
-    DeviceTracer(const vulkan::Device& device, const Scene& scene)
-        : rays_(device, packScene(scene, buildWideBvh(scene), false), patientTuning(device)) {}
+    DeviceTracer(const vulkan::Device& device, const GpuScene& scene)
+        : rays_(device, scene, patientTuning(device, scene)) {}
 
     uint64_t countHits(std::span<const Ray> rays, bool anyHit) override {
         load(rays, anyHit);
@@ -45,7 +48,7 @@ constexpr uint32_t kGroupSize = 64; ///< local_size_x of random_words.comp
 } // namespace
 
 std::unique_ptr<RayTracer> DeviceSubject::tracer(const Scene& scene) {
-    return std::make_unique<DeviceTracer>(device_, scene);
+    return std::make_unique<DeviceTracer>(device_, packScene(scene, buildWideBvh(scene), false));
 }
 
 Picture DeviceSubject::render(const Scene& scene, const Camera& camera,

@@ -5,13 +5,52 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <optional>
+
 namespace stromboli::vulkan {
 namespace {
 
 constexpr uint64_t kRowBytes = 16; // one RGBA32UI texel
 constexpr uint32_t kMostRows = gpu::TEXEL_ROW_MASK + 1;
 
+/// A number of buffers of one kind, and the limit it must keep.
+struct BufferCount {
+    const char* what;
+    const char* limit;
+    uint64_t needed;
+    uint32_t allowed;
+};
+
+/// The first count that the device does not allow; nothing if it allows all.
+std::optional<BufferCount> tooMany(const DeviceDescription& device,
+                                   std::span<const BufferUse> buffers) {
+    const VkPhysicalDeviceLimits& limits = device.properties.limits;
+    const auto count = [&](BufferUse use) { return uint64_t(std::ranges::count(buffers, use)); };
+    for (const BufferCount& c :
+         {BufferCount{"storage buffers", "maxPerStageDescriptorStorageBuffers",
+                      count(BufferUse::Storage), limits.maxPerStageDescriptorStorageBuffers},
+          BufferCount{"storage texel buffers", "maxPerStageDescriptorStorageImages",
+                      count(BufferUse::Texel), limits.maxPerStageDescriptorStorageImages},
+          BufferCount{"uniform buffers", "maxPerStageDescriptorUniformBuffers",
+                      count(BufferUse::Uniform), limits.maxPerStageDescriptorUniformBuffers},
+          BufferCount{"buffers", "maxPerStageResources", buffers.size(),
+                      limits.maxPerStageResources}})
+        if (c.needed > c.allowed) return c;
+    return std::nullopt;
+}
+
 } // namespace
+
+void requireBindable(const DeviceDescription& device, std::span<const BufferUse> buffers) {
+    if (const auto c = tooMany(device, buffers))
+        throw DeviceError(fmt::format("the kernel needs {} {}, but {} allows a shader {} ({})",
+                                      c->needed, c->what, device.name(), c->allowed, c->limit));
+}
+
+bool areBindable(const DeviceDescription& device, std::span<const BufferUse> buffers) {
+    return !tooMany(device, buffers);
+}
 
 BindingLimit bindingLimit(const DeviceDescription& device, BufferUse use) {
     const VkPhysicalDeviceLimits& limits = device.properties.limits;

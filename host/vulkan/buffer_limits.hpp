@@ -33,6 +33,13 @@ BindingLimit bindingLimit(const DeviceDescription& device, BufferUse use);
 /// binding, one allocation or the device's memory.
 void requireFits(const DeviceDescription& device, const BufferPlan& buffer);
 
+/// Throws DeviceError, naming the limit, what is needed and what there is, if a shader cannot have
+/// that many buffers of each kind. Storage texel buffers count as storage images.
+void requireBindable(const DeviceDescription& device, std::span<const BufferUse> buffers);
+
+/// True if requireBindable would not throw.
+bool areBindable(const DeviceDescription& device, std::span<const BufferUse> buffers);
+
 /// Throws DeviceError that lists the buffers if they do not fit the device's memory together.
 void requireTogetherFit(const DeviceDescription& device, std::span<const BufferPlan> buffers);
 

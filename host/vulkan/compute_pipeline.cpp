@@ -1,5 +1,6 @@
 #include "host/vulkan/compute_pipeline.hpp"
 
+#include "host/vulkan/buffer_limits.hpp"
 #include "host/vulkan/result.hpp"
 
 namespace stromboli::vulkan {
@@ -18,6 +19,10 @@ VkDescriptorType descriptorType(BufferUse use) {
 
 Handle<VkDescriptorSetLayout> createSetLayout(const Device& device,
                                               std::span<const Binding> bindings) {
+    std::vector<BufferUse> uses;
+    for (const Binding& b : bindings)
+        uses.push_back(b.use);
+    requireBindable(device.description(), uses);
     std::vector<VkDescriptorSetLayoutBinding> entries;
     for (const Binding& b : bindings)
         entries.push_back({.binding = b.number,

@@ -17,6 +17,7 @@ struct Binding {
 /// A compute shader specialised and ready to run, with the layout of its one descriptor set.
 class ComputePipeline {
   public:
+    /// Throws DeviceError if the device does not allow that many buffers of a kind.
     /// `constants[i]` is specialisation constant i (32-bit words; bool as 0 or 1).
     ComputePipeline(const Device& device, std::span<const uint32_t> spirv,
                     std::span<const Binding> bindings, std::span<const uint32_t> constants,

@@ -52,6 +52,40 @@ TEST(BufferLimits, StorageBuffersAreBoundByTheirRange) {
     expectLimit(d, BufferUse::Storage, 1u << 27, "maxStorageBufferRange");
 }
 
+/// What a shader may have of each kind, and all together.
+DeviceDescription deviceWithCounts(uint32_t storage, uint32_t images, uint32_t uniforms,
+                                   uint32_t all) {
+    DeviceDescription d = roomyDevice();
+    d.properties.limits.maxPerStageDescriptorStorageBuffers = storage;
+    d.properties.limits.maxPerStageDescriptorStorageImages = images;
+    d.properties.limits.maxPerStageDescriptorUniformBuffers = uniforms;
+    d.properties.limits.maxPerStageResources = all;
+    return d;
+}
+
+TEST(BufferLimits, AShaderHasNoMoreBuffersOfAKindThanTheDeviceAllows) {
+    const std::vector<BufferUse> uses = {BufferUse::Storage, BufferUse::Storage,
+                                         BufferUse::Storage, BufferUse::Texel,
+                                         BufferUse::Texel,   BufferUse::Uniform};
+    const auto messageOn = [&](const DeviceDescription& device) {
+        const std::string message = messageOf([&] { requireBindable(device, uses); });
+        EXPECT_EQ(areBindable(device, uses), message == "no error") << message;
+        return message;
+    };
+    EXPECT_EQ(messageOn(deviceWithCounts(3, 2, 1, 6)), "no error");
+    EXPECT_THAT(messageOn(deviceWithCounts(2, 2, 1, 6)),
+                AllOf(HasSubstr("needs 3 storage buffers"), HasSubstr("Roomy"), HasSubstr(" 2 "),
+                      HasSubstr("maxPerStageDescriptorStorageBuffers")));
+    EXPECT_THAT(messageOn(deviceWithCounts(3, 1, 1, 6)),
+                AllOf(HasSubstr("needs 2 storage texel buffers"),
+                      HasSubstr("maxPerStageDescriptorStorageImages")));
+    EXPECT_THAT(messageOn(deviceWithCounts(3, 2, 0, 6)),
+                AllOf(HasSubstr("needs 1 uniform buffers"),
+                      HasSubstr("maxPerStageDescriptorUniformBuffers")));
+    EXPECT_THAT(messageOn(deviceWithCounts(3, 2, 1, 5)),
+                AllOf(HasSubstr("needs 6 buffers"), HasSubstr("maxPerStageResources")));
+}
+
 TEST(BufferLimits, TexelBuffersAreMeasuredInRows) {
     DeviceDescription d = roomyDevice();
     d.properties.limits.maxTexelBufferElements = 1u << 27;
