@@ -90,7 +90,24 @@ void changePixel(bool mayGoOn) {
     const uint taken = atomicAdd(status.nextItem, 1u);
     if (taken >= dispatch.itemCount) return;
     takeUp(taken);
+    pixelState.samplesBefore = samplesTaken();
     phase = PHASE_NEXT;
+}
+
+/// Of random numbers (randomWords); no sample uses it.
+const uint STOPPING_BLOCK = 0x7FFFFFFFu;
+
+/// The render was stopped while this lane had a pixel in hand: is its sample under way to be ended, or
+/// dropped? Samples that take long are under way more often than others, and are often brighter. A pixel
+/// that has no other sample ends it and one that began in this pass drops it, which leaves its mean
+/// without bias (Glynn and Heidelberger 1990); with samples of earlier passes the errors of ending and
+/// dropping cancel, to the first order, where it is ended with the share of those in all (docs/estimator.md,
+/// "A render that is stopped"). The choice knows nothing of the samples' values.
+bool endsSampleUnderWay() {
+    const uint taken = samplesTaken();
+    if (taken == 0u) return true;
+    const uint word = pcg4d(uvec4(pixelId, taken, STOPPING_BLOCK, frame.seed)).x;
+    return float(word >> 8u) * (1.0 / 16777216.0) * float(taken) < float(pixelState.samplesBefore);
 }
 
 void resumeSplit(uint lane) {
@@ -116,7 +133,12 @@ void resume(uint lane) {
     phase = PHASE_NEXT;
     ray.group = 0u;
     clearStack();
-    if (p.bounce == SUSPENDED_NONE) return;
+    bool isDropped = false;
+    if (dispatch.beginsNoSample != 0u && item != NO_ITEM) {
+        isDropped = !endsSampleUnderWay();
+        target = samplesTaken() + (isDropped ? 0u : 1u);
+    }
+    if (isDropped || p.bounce == SUSPENDED_NONE) return;
     bounce = p.bounce;
     throughput = p.throughput;
     radiance = p.radiance;
@@ -219,7 +241,7 @@ void main() {
         const bool late = subgroupAny(isLate(iteration, iteration - lastLook));
         lastLook = iteration;
         const uint pause = nextLook(iteration, late);
-        changePixel(!late);
+        changePixel(!late && dispatch.beginsNoSample == 0u);
         bool pixelsWanted = false;
         while (!pixelsWanted && atWork() && iteration < pause) {
             startWork(late);

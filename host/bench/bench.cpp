@@ -65,13 +65,13 @@ class Benchmark {
 
     RenderSettings renderSettings() const {
         RenderSettings s;
-        s.width = settings_.width;
-        s.height = settings_.height;
-        s.samplesPerPixel = settings_.samplesPerPixel;
-        s.maxBounces = settings_.maxBounces;
-        s.seed = settings_.seed;
-        s.sampler = settings_.sampler;
-        s.guides = false; // Embree's path tracer does not: the same estimator
+        s.area.width = settings_.width;
+        s.area.height = settings_.height;
+        s.budget.mostSamplesPerPixel = settings_.samplesPerPixel;
+        s.estimator.maxBounces = settings_.maxBounces;
+        s.estimator.seed = settings_.seed;
+        s.estimator.sampler = settings_.sampler;
+        s.estimator.guides = false; // Embree's path tracer does not: the same estimator
         return s;
     }
 
@@ -103,10 +103,10 @@ class Benchmark {
         report.name = scene.name;
         report.triangles = scene.scene.triangles.size();
         report.spheres = scene.scene.spheres.size();
-        report.width = settings.width;
-        report.height = settings.height;
-        report.samplesPerPixel = settings.samplesPerPixel;
-        report.maxBounces = settings.maxBounces;
+        report.width = settings.area.width;
+        report.height = settings.area.height;
+        report.samplesPerPixel = settings.budget.mostSamplesPerPixel;
+        report.maxBounces = settings.estimator.maxBounces;
         return report;
     }
 
@@ -145,24 +145,11 @@ class Benchmark {
 
 } // namespace
 
-const char* nameOf(Part part) {
-    switch (part) {
-    case Part::Bvh:
-        return "bvh";
-    case Part::Rays:
-        return "rays";
-    case Part::Paths:
-        return "paths";
-    case Part::Variants:
-        return "variants";
-    case Part::Robustness:
-        return "robustness";
-    case Part::Startup:
-        return "startup";
-    case Part::Transfer:
-        return "transfer";
-    }
-    return "";
+std::set<Part> allParts() {
+    std::set<Part> parts;
+    for (const NamedValue<Part>& row : kNamedValues<Part>)
+        parts.insert(row.value);
+    return parts;
 }
 
 BenchReport runBench(const BenchSettings& settings,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/bench/report.hpp"
+#include "host/core/named_values.hpp"
 #include "host/render/settings.hpp"
 
 #include <functional>
@@ -8,19 +9,33 @@
 #include <string>
 #include <vector>
 
-namespace stromboli::bench {
+namespace stromboli {
+namespace bench {
 
 /// Parts of a benchmark.
 enum class Part { Bvh, Rays, Paths, Variants, Robustness, Startup, Transfer };
-inline constexpr Part kAllParts[] = {Part::Bvh,        Part::Rays,    Part::Paths,   Part::Variants,
-                                     Part::Robustness, Part::Startup, Part::Transfer};
-const char* nameOf(Part part);
+} // namespace bench
+
+template <>
+inline constexpr auto kNamedValues<bench::Part> = std::to_array<NamedValue<bench::Part>>({
+    {bench::Part::Bvh, "bvh", "building and quality of the tree"},
+    {bench::Part::Rays, "rays", "rays alone"},
+    {bench::Part::Paths, "paths", "whole paths"},
+    {bench::Part::Variants, "variants", "kernels with everything on, or other tunings"},
+    {bench::Part::Robustness, "robustness", "what exactness costs"},
+    {bench::Part::Startup, "startup", "a small render, the whole process"},
+    {bench::Part::Transfer, "transfer", "to and from the device"},
+});
+
+namespace bench {
+
+std::set<Part> allParts();
 
 /// What to measure and how long.
 struct BenchSettings {
     std::vector<std::string> scenes = {"cornell_boxes", "cornell_mesh",
                                        "generate:cornell_mesh:1000000"};
-    std::set<Part> parts{std::begin(kAllParts), std::end(kAllParts)};
+    std::set<Part> parts = allParts();
     std::vector<uint64_t> sizes; ///< triangles of the growing scene; empty: no such part
     uint32_t width = 512, height = 512;
     uint32_t samplesPerPixel = 8, maxBounces = 5;
@@ -40,4 +55,5 @@ struct BenchSettings {
 BenchReport runBench(const BenchSettings& settings,
                      const std::function<void(const std::string&)>& progress);
 
-} // namespace stromboli::bench
+} // namespace bench
+} // namespace stromboli

@@ -60,7 +60,7 @@ EmbreeWorld::EmbreeWorld(const Scene& scene, const Camera& camera, const RenderS
     world_.tracer = tracer;
     addSurfaces(scene);
     addGeometry(scene);
-    addLights(scene, settings.lightChoice);
+    addLights(scene, settings.estimator.lightChoice);
     setView(camera);
     setSettings(settings);
 }
@@ -135,18 +135,18 @@ void EmbreeWorld::setView(const Camera& camera) {
 }
 
 void EmbreeWorld::setSettings(const RenderSettings& settings) {
-    world_.width = settings.width;
-    world_.height = settings.height;
-    world_.seed = settings.seed;
-    world_.sobol = settings.sampler == Sampler::Sobol;
+    world_.width = settings.area.width;
+    world_.height = settings.area.height;
+    world_.seed = settings.estimator.seed;
+    world_.sobol = settings.estimator.sampler == Sampler::Sobol;
     world_.lightsShare = std::none_of(lights_.begin(), lights_.end(), [](const native::Light& l) {
         return l.kind == native::LightKind::Mesh;
     });
-    world_.minBounce = settings.minBounce;
-    world_.maxBounces = settings.maxBounces;
-    world_.lightSamples = settings.lightSamples;
-    world_.roulette = modeOf(settings.roulette.mode);
-    world_.terminationProbability = float(settings.roulette.terminationProbability);
+    world_.minBounce = settings.estimator.minBounce;
+    world_.maxBounces = settings.estimator.maxBounces;
+    world_.lightSamples = settings.estimator.lightSamples;
+    world_.roulette = modeOf(settings.estimator.roulette.mode);
+    world_.terminationProbability = float(settings.estimator.roulette.terminationProbability);
 }
 
 } // namespace stromboli::bench

@@ -15,20 +15,21 @@ class Painter {
   public:
     Painter(std::string name, std::unique_ptr<Backend> backend, const RenderSettings& settings)
         : name_(std::move(name)), backend_(std::move(backend)), settings_(settings),
-          pixels_(cropPixels(settings)), film_(settings.width, settings.height) {}
+          pixels_(cropPixels(settings.area)), film_(settings.area.width, settings.area.height) {}
 
     const std::string& name() const { return name_; }
     const Film& film() const { return film_; }
     const Backend& backend() const { return *backend_; }
 
     Work goOn() {
-        samples_ += settings_.samplesPerPixel;
+        samples_ += settings_.budget.mostSamplesPerPixel;
         std::vector<PixelTarget> targets;
         for (const uint32_t pixel : pixels_)
             targets.push_back({pixel, samples_});
         const double before = deviceSeconds();
         backend_->sample(targets, film_, {});
-        return {double(pixels_.size()) * settings_.samplesPerPixel, deviceSeconds() - before};
+        return {double(pixels_.size()) * settings_.budget.mostSamplesPerPixel,
+                deviceSeconds() - before};
     }
 
   private:

@@ -69,11 +69,11 @@ gpu::TracedRay bounceRay(const SurfacePoint& s, reference::RandomStream& random)
 
 PathStart startPath(const reference::World& world, const Camera& camera,
                     const RenderSettings& settings, uint32_t pixel, uint32_t sample) {
-    reference::RandomStream random(pixel, sample, settings.seed);
-    const double x = pixel % settings.width + random.next();
-    const double y = pixel / settings.width + random.next();
+    reference::RandomStream random(pixel, sample, settings.estimator.seed);
+    const double x = pixel % settings.area.width + random.next();
+    const double y = pixel / settings.area.width + random.next();
     const reference::Ray ray =
-        reference::cameraRay(camera, x / settings.width, y / settings.height);
+        reference::cameraRay(camera, x / settings.area.width, y / settings.area.height);
     PathStart start;
     start.camera = {glm::vec3(ray.origin), kInfinite, glm::vec3(ray.direction), 0};
     const reference::Hit hit = world.bvh.closest(ray, {});
@@ -89,10 +89,10 @@ PathStart startPath(const reference::World& world, const Camera& camera,
 /// lavapipe gives each of its threads one contiguous share of a dispatch, and none shall have the
 /// empty half.
 std::vector<PixelTarget> pixelsInOrder(const RenderSettings& settings) {
-    std::vector<PixelTarget> pixels(size_t(settings.width) * settings.height);
+    std::vector<PixelTarget> pixels(size_t(settings.area.width) * settings.area.height);
     for (uint32_t i = 0; i < pixels.size(); ++i)
         pixels[i].pixel = i;
-    const std::vector<PixelTarget> tiled = tileOrder(pixels, settings.width);
+    const std::vector<PixelTarget> tiled = tileOrder(pixels, settings.area.width);
     constexpr size_t kTile = 64, kStride = 61;
     const size_t tiles = (tiled.size() + kTile - 1) / kTile;
     std::vector<PixelTarget> order;

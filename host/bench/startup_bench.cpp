@@ -124,15 +124,15 @@ Stages probeStartup(const std::string& sceneFile, const std::string& device) {
     const GpuScene gpu = packScene(scene, buildWideBvh(scene), false);
     lap(&Stages::build);
     RenderSettings settings;
-    settings.width = settings.height = kSide;
-    settings.samplesPerPixel = 1;
+    settings.area.width = settings.area.height = kSide;
+    settings.budget.mostSamplesPerPixel = 1;
     const Camera camera = makeCamera(scene, CameraChoice::Automatic, kSide, kSide, false);
     VulkanBackend backend(*open.device, gpu, camera, settings);
     lap(&Stages::pipeline);
     Film film = render(backend, settings);
     lap(&Stages::firstDispatch);
     std::vector<PixelTarget> again;
-    for (const uint32_t pixel : cropPixels(settings))
+    for (const uint32_t pixel : cropPixels(settings.area))
         again.push_back({pixel, 2});
     backend.sample(again, film, {});
     lap(&Stages::secondDispatch);

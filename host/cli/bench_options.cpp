@@ -1,28 +1,15 @@
-#include "host/cli/bench_options.hpp"
+#include "host/cli/declared_command.hpp"
 
-#include "host/cli/declare_options.hpp"
-#include "host/core/error.hpp"
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <charconv>
 #include <sstream>
 
 namespace stromboli {
 namespace {
 
-constexpr uint32_t kMostRepeats = 1000, kMostRaysPerPixel = 1024;
+constexpr Range<uint32_t> kRepeats{1, 1000}, kRaysPerPixel{1, 1024}, kSide{1, 65536},
+    kBounces{0, 10000}, kSamples{1, kMostSamples}, kSeeds{0, 0xFFFFFFFFu};
 /// What scene/generate makes.
 constexpr uint64_t kFewestTriangles = 1000, kMostTriangles = 100'000'000;
-
-std::vector<std::string> partNames() {
-    std::vector<std::string> names;
-    for (const bench::Part part : bench::kAllParts)
-        names.push_back(bench::nameOf(part));
-    return names;
-}
 
 /// "4M", "10k" or "50000".
 uint64_t parseSize(const std::string& text) {
@@ -48,79 +35,74 @@ std::vector<uint64_t> parseSizes(const std::string& list) {
     return sizes;
 }
 
-void checkRange(const char* what, uint32_t value, uint32_t most) {
-    if (value < 1 || value > most)
-        throw UsageError(fmt::format("{} is {}: expected 1 to {}", what, value, most));
+bench::Part partNamed(const std::string& name) {
+    if (const auto part = valueNamed<bench::Part>(name)) return *part;
+    throw UsageError(fmt::format("--only is '{}': expected {}", name, allNames<bench::Part>()));
+}
+
+/// A short run.
+void beQuick(bench::BenchSettings& s) {
+    s.scenes = {"cornell_boxes", "cornell_mesh"};
+    s.repeats = 3;
+    s.leastSeconds = 0.05;
+    s.width = s.height = 192;
+    s.samplesPerPixel = 4;
+}
+
+void declareMeasuring(OptionList& list, bench::BenchSettings& s) {
+    list.group("Measuring");
+    list.flag("--quick", "a short run: small pictures, few repeats, no large scene",
+              [&s] { beQuick(s); })
+        .changesDefaults();
+    list.number("--repeats", "N", "rounds; each measures every contestant once", s.repeats,
+                kRepeats);
+    list.number("--rays", "N", "camera rays a pixel in ray sets", s.raysPerPixel, kRaysPerPixel)
+        .usually("CPU: 1, GPU: 16");
+    list.words("--only", "PART,PART,...", "what to measure (" + allMeanings<bench::Part>() + ")", 1,
+               [&s](const Words& words) {
+                   s.parts.clear();
+                   for (const std::string& word : words)
+                       s.parts.insert(partNamed(word));
+               })
+        .usually("all")
+        .separatedByCommas = true;
+    list.numbers("-r,--size", "W H", "picture size", {&s.width, &s.height}, kSide)
+        .usually(fmt::format("{} {}; --quick: 192 192", s.width, s.height));
+    list.number("-m,--max-bounces", "N", "scatterings of light at most", s.maxBounces, kBounces);
+    list.group("Sampling");
+    list.number("-s,--samples", "N", "samples per pixel in a measurement of paths",
+                s.samplesPerPixel, kSamples)
+        .usually(fmt::format("{}; --quick: 4", s.samplesPerPixel));
+    list.choice("--sampler", "WHICH", "where random numbers come from", s.sampler);
+    list.number("--seed", "N", "another seed, another noise", s.seed, kSeeds);
 }
 
 } // namespace
 
-void declareBench(CLI::App& app, RawBenchOptions& raw, BenchOptions& options) {
-    app.add_option("SCENE", raw.scenes,
-                   "files, scenes of scene/library by name, or generate:cornell_mesh:N "
-                   "[cornell_boxes cornell_mesh generate:cornell_mesh:1000000]")
-        ->group("Scenes");
-    app.add_option("--sizes", raw.sizes,
-                   "also: time per ray in the generated mesh of so many triangles each, as "
-                   "1k,10k,100k,1M,4M")
-        ->type_name("N,N,...")
-        ->group("Scenes");
-    app.add_flag("--quick", raw.quick, "a short run: small pictures, few repeats, no large scene")
-        ->group("Measuring");
-    app.add_option("--repeats", raw.repeats, "rounds; each measures every contestant once [5]")
-        ->type_name("N")
-        ->group("Measuring");
-    app.add_option("--rays", raw.raysPerPixel, "camera rays a pixel in ray sets [CPU: 1, GPU: 16]")
-        ->type_name("N")
-        ->group("Measuring");
-    app.add_option("--only", raw.parts,
-                   "bvh, rays, paths, variants, robustness, startup, transfer [all]")
-        ->check(CLI::IsMember(partNames()))
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->type_name("PART,PART,...")
-        ->group("Measuring");
-    app.add_option("--json", options.jsonFile, "write all measurements as JSON")
-        ->type_name("FILE.json")
-        ->group("Output");
-    app.add_flag("--probe-startup", raw.probeStartup)->group("");
-}
-
-void applyBenchDefaults(RawOptions& raw) {
-    const uint32_t side = raw.bench.quick ? 192 : 512; // pixels
-    if (raw.size.empty()) raw.size = {side, side};
-    if (!raw.samples) raw.samples = raw.bench.quick ? 4 : 8;
-    if (!raw.maxBounces) raw.maxBounces = 5;
-}
-
-void applyBench(const RawBenchOptions& raw, Options& o) {
-    bench::BenchSettings& s = o.bench.settings;
-    if (raw.quick) {
-        s.scenes = {"cornell_boxes", "cornell_mesh"};
-        s.repeats = 3;
-        s.leastSeconds = 0.05;
-    }
-    if (!raw.scenes.empty()) s.scenes = raw.scenes;
-    if (!raw.parts.empty()) {
-        s.parts.clear();
-        for (const bench::Part part : bench::kAllParts)
-            if (std::count(raw.parts.begin(), raw.parts.end(), bench::nameOf(part)) > 0)
-                s.parts.insert(part);
-    }
-    s.sizes = parseSizes(raw.sizes);
-    s.repeats = raw.repeats.value_or(s.repeats);
-    checkRange("--repeats", s.repeats, kMostRepeats);
-    if (raw.raysPerPixel) checkRange("--rays", *raw.raysPerPixel, kMostRaysPerPixel);
-    s.raysPerPixel = raw.raysPerPixel.value_or(0);
-    s.width = o.settings.width;
-    s.height = o.settings.height;
-    s.samplesPerPixel = o.settings.samplesPerPixel;
-    s.maxBounces = o.settings.maxBounces;
-    s.seed = o.settings.seed;
-    s.sampler = o.settings.sampler;
-    s.threads = o.threads;
-    s.device = o.device;
-    o.bench.probeStartup = raw.probeStartup;
+void declareBench(DeclaredCommand& c) {
+    BenchOptions& o = c.options.bench;
+    bench::BenchSettings& s = o.settings;
+    OptionList& list = c.list;
+    list.group("Scenes");
+    list.list("SCENE", "", "files, scenes of scene/library by name, or generate:cornell_mesh:N",
+              s.scenes)
+        .usually(fmt::format("{}", fmt::join(s.scenes, " ")));
+    list.words("--sizes", "N,N,...",
+               "also: time per ray in the generated mesh of so many triangles each, as "
+               "1k,10k,100k,1M,4M",
+               1, [&s](const Words& words) { s.sizes = parseSizes(words[0]); });
+    declareMeasuring(list, s);
+    list.group("Output");
+    list.text("--json", "FILE.json", "write all measurements as JSON", o.jsonFile);
+    list.flag("--probe-startup", "time the stages of this process's start, and no more",
+              o.probeStartup)
+        .hidden();
+    declareDevice(c);
+    declareHost(c);
+    c.finish = [&c, &s] {
+        s.threads = c.options.threads;
+        s.device = c.options.device;
+    };
 }
 
 } // namespace stromboli

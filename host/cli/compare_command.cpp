@@ -18,9 +18,9 @@ using compare::Comparison;
 using compare::Picture;
 
 ByteImage differenceImage(const Picture& reference, const Picture& picture, const Comparison& c,
-                          const std::string& show) {
-    if (show == "signed") return compare::signedDifference(reference, picture);
-    if (show == "flip") return compare::falseColor(c.flipMap, c.width, c.height, 1);
+                          DifferenceView show) {
+    if (show == DifferenceView::Signed) return compare::signedDifference(reference, picture);
+    if (show == DifferenceView::Flip) return compare::falseColor(c.flipMap, c.width, c.height, 1);
     std::vector<double> errors = compare::relativeErrorMap(reference, picture);
     for (double& error : errors)
         error = std::sqrt(error);
@@ -67,7 +67,6 @@ void writeFigures(const CompareOptions& o, const Comparison& comparison,
 
 int compareCommand(const Options& options) {
     const CompareOptions& o = options.compare;
-    checkCompare(o);
     const Picture reference = compare::readPicture(o.reference);
     const Picture picture = compare::readPicture(o.picture);
     const Comparison comparison = compare::comparePictures(reference, picture, o.settings);

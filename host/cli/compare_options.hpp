@@ -1,14 +1,20 @@
 #pragma once
 
 #include "host/compare/comparison.hpp"
+#include "host/core/named_values.hpp"
 
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace stromboli {
+
+/// What a PNG of the difference shows.
+enum class DifferenceView { Flip, Relative, Signed };
+template <>
+inline constexpr auto kNamedValues<DifferenceView> = std::to_array<NamedValue<DifferenceView>>({
+    {DifferenceView::Flip, "flip", "FLIP, black 0 to white 1"},
+    {DifferenceView::Relative, "relative", "the error that relMSE squares, black 0 to white 1"},
+    {DifferenceView::Signed, "signed", "blue where IMG is darker, red where it is brighter"},
+});
 
 /// `compare` as understood.
 struct CompareOptions {
@@ -17,12 +23,7 @@ struct CompareOptions {
     compare::Thresholds thresholds;
     std::string jsonFile;       ///< empty: none; "-": standard output, instead of the text
     std::string differenceFile; ///< empty: none
-    std::string show = "flip";  ///< what a PNG of the difference holds: flip, relative, signed
+    DifferenceView show = DifferenceView::Flip;
 };
-
-void declareCompare(CLI::App& app, CompareOptions& options);
-
-/// Throws UsageError: output files that name an input, an unknown kind of picture.
-void checkCompare(const CompareOptions& options);
 
 } // namespace stromboli

@@ -28,8 +28,9 @@ void printCamera(const Job& job) {
     const Camera& c = job.camera;
     fmt::print(
         "picture {} x {}, {} camera at ({:g}, {:g}, {:g}) looking along ({:g}, {:g}, {:g})\n",
-        job.settings.width, job.settings.height, c.orthographic ? "orthographic" : "perspective",
-        c.position.x, c.position.y, c.position.z, -c.back.x, -c.back.y, -c.back.z);
+        job.settings.area.width, job.settings.area.height,
+        c.orthographic ? "orthographic" : "perspective", c.position.x, c.position.y, c.position.z,
+        -c.back.x, -c.back.y, -c.back.z);
 }
 
 void printBvh(const BuiltScene& built) {
@@ -51,11 +52,12 @@ int infoCommand(const Options& options) {
     printBvh(built);
     fmt::print("kernel (only what the scene needs)\n");
     for (const std::string& line :
-         describe(kernelFeatures(built.gpu, job.camera, job.settings, {})))
+         describe(kernelFeatures(built.gpu, job.camera, job.settings.estimator, {})))
         fmt::print("  {}\n", line);
     fmt::print("buffers on the device\n");
     uint64_t total = 0;
-    for (const vulkan::BufferPlan& b : planBuffers(built.gpu, job.settings, {})) {
+    for (const vulkan::BufferPlan& b :
+         planBuffers(built.gpu, job.settings.area, job.settings.estimator.branches, {})) {
         fmt::print("  {:<26} {:>12} bytes\n", b.name, b.bytes);
         total += b.bytes;
     }

@@ -25,11 +25,11 @@ void reportLoading(const Scene& scene, const Options& options) {
     if (scene.triangles.empty() && scene.spheres.empty())
         logging::warn(fmt::format("{} has no geometry: the picture is black", options.scene));
     if (scene.lights.empty() && collectEmitters(scene).empty() &&
-        options.settings.integrator == Integrator::Path)
+        options.estimator.integrator == Integrator::Path)
         logging::warn(fmt::format("{} has no light: the picture is black", options.scene));
 }
 
-void checkCrop(const RenderSettings& s) {
+void checkCrop(const PictureArea& s) {
     if (s.crop.width == 0) return;
     if (uint64_t(s.crop.x) + s.crop.width > s.width ||
         uint64_t(s.crop.y) + s.crop.height > s.height)
@@ -39,7 +39,7 @@ void checkCrop(const RenderSettings& s) {
 }
 
 /// The film of the whole picture is kept in the host's memory, whatever the backend.
-void checkFilmFits(const RenderSettings& s) {
+void checkFilmFits(const PictureArea& s) {
     const uint64_t bytes = uint64_t(s.width) * s.height * sizeof(PixelStatistics);
     const uint64_t memory = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGE_SIZE));
     if (bytes > memory / 2) // the other half is for the scene and the pictures made of the film
@@ -49,7 +49,7 @@ void checkFilmFits(const RenderSettings& s) {
 }
 
 SceneConventions conventionsOf(const Options& options) {
-    return options.settings.cs184 ? cs184Conventions() : SceneConventions{};
+    return options.estimator.cs184 ? cs184Conventions() : SceneConventions{};
 }
 
 } // namespace
@@ -60,31 +60,34 @@ std::future<vulkan::OpenDevice> openDeviceMeanwhile(const Options& options) {
 
 Job prepareJob(const Options& options) {
     Stopwatch watch;
-    Job job{readScene(options.scene, conventionsOf(options)), {}, options.settings, 0};
+    Job job{readScene(options.scene, conventionsOf(options)),
+            {},
+            {options.area, options.estimator, {}},
+            0};
     job.loadSeconds = watch.seconds();
     reportLoading(job.scene, options);
     if (!options.sizeGiven) {
         const PictureSize size =
-            defaultPictureSize(job.scene, options.camera, options.settings.cs184);
-        job.settings.width = size.width;
-        job.settings.height = size.height;
+            defaultPictureSize(job.scene, options.camera, options.estimator.cs184);
+        job.settings.area.width = size.width;
+        job.settings.area.height = size.height;
     }
-    const StopRule& stop = job.settings.stop;
-    const uint32_t paths = stop.meanSamples > 0 ? stop.meanSamples : job.settings.samplesPerPixel;
-    splitSamples(job.settings,
-                 options.branches.value_or(branchesThatPay(job.scene, job.settings, paths)));
-    checkCrop(job.settings);
-    checkFilmFits(job.settings);
-    job.camera = makeCamera(job.scene, options.camera, job.settings.width, job.settings.height,
-                            job.settings.cs184);
+    const uint32_t branches =
+        options.branches.value_or(branchesThatPay(job.scene, options.estimator, options.budget));
+    job.settings.estimator.branches = branches;
+    job.settings.budget = inSamples(options.budget, branches);
+    checkCrop(job.settings.area);
+    checkFilmFits(job.settings.area);
+    job.camera = makeCamera(job.scene, options.camera, job.settings.area.width,
+                            job.settings.area.height, job.settings.estimator.cs184);
     return job;
 }
 
 BuiltScene buildScene(const Job& job) {
     Stopwatch watch;
     BuiltScene built;
-    built.gpu =
-        packScene(job.scene, buildWideBvh(job.scene), job.settings.cs184, job.settings.lightChoice);
+    built.gpu = packScene(job.scene, buildWideBvh(job.scene), job.settings.estimator.cs184,
+                          job.settings.estimator.lightChoice);
     built.buildSeconds = watch.seconds();
     return built;
 }

@@ -5,6 +5,7 @@
 #include "host/cli/stress_options.hpp"
 #include "host/cli/study_options.hpp"
 #include "host/core/log.hpp"
+#include "host/core/named_values.hpp"
 #include "host/render/settings.hpp"
 #include "scene/camera/camera.hpp"
 
@@ -17,6 +18,18 @@ namespace stromboli {
 
 enum class Command { Render, Check, Info, Devices, Bench, Stress, Compare, Study };
 enum class BackendChoice { Vulkan, Reference };
+template <>
+inline constexpr auto kNamedValues<BackendChoice> = std::to_array<NamedValue<BackendChoice>>({
+    {BackendChoice::Vulkan, "vulkan", "the kernel, on a Vulkan device"},
+    {BackendChoice::Reference, "reference", "the slow double-precision path tracer on the CPU"},
+});
+template <>
+inline constexpr auto kNamedValues<CameraChoice> = std::to_array<NamedValue<CameraChoice>>({
+    {CameraChoice::Automatic, "auto",
+     "frame for the CS184 dialect and for files without a camera, else file"},
+    {CameraChoice::File, "file", "the file's camera"},
+    {CameraChoice::Frame, "frame", "all of the scene, as the CS184 renderer frames it"},
+});
 
 /// Names one sample of a picture: column, row from the top, number.
 struct SampleName {
@@ -28,9 +41,11 @@ struct Options {
     Command command = Command::Render;
     std::string scene;
     std::string output;
-    RenderSettings settings;
-    bool sizeGiven = false;           ///< settings.width, height
-    std::optional<uint32_t> branches; ///< empty: what pays in the scene; until then -s counts paths
+    PictureArea area;
+    bool sizeGiven = false;           ///< area.width, height
+    Estimator estimator;              ///< its branches are not yet chosen
+    std::optional<uint32_t> branches; ///< empty: what pays in the scene
+    PathBudget budget;
     CameraChoice camera = CameraChoice::Automatic;
     std::string device;
     BackendChoice backend = BackendChoice::Vulkan;

@@ -22,13 +22,14 @@ namespace {
 
 /// Whether a picture of its own shows how many samples each pixel has. Where they are spread
 /// without being asked to, it would be a file that nobody asked for.
-bool showsRates(const RenderSettings& settings) {
-    return settings.adaptive.enabled || settings.stop.open();
+template <class AnyBudget>
+bool showsRates(const AnyBudget& budget) {
+    return budget.adaptive.enabled || budget.stop.open();
 }
 
 /// What the rate picture shows as full.
-uint32_t mostSamples(const Film& film, const RenderSettings& settings) {
-    if (!settings.stop.open()) return settings.samplesPerPixel;
+uint32_t mostSamples(const Film& film, const Budget& budget) {
+    if (!budget.stop.open()) return budget.mostSamplesPerPixel;
     uint32_t most = 1;
     for (const PixelStatistics& p : film.pixels)
         most = std::max(most, p.taken());
@@ -38,7 +39,7 @@ uint32_t mostSamples(const Film& film, const RenderSettings& settings) {
 /// Output that cannot be written must be found out before the work, not after it.
 void checkOutputs(const Options& options) {
     checkWritable(options.output);
-    if (showsRates(options.settings)) checkFileWritable(ratePicturePath(options.output));
+    if (showsRates(options.budget)) checkFileWritable(ratePicturePath(options.output));
     if (options.statsFile.empty()) return;
     if (options.statsFile == options.output)
         throw UsageError("--stats and -o name the same file: " + options.output);
@@ -98,13 +99,14 @@ Film renderOnReference(const Job& job, const Options& options, RenderReport& rep
 void writeOutputs(const Film& film, const Job& job, const Options& options,
                   const RenderReport& report) {
     PictureOptions picture;
-    picture.tone.kind = job.settings.cs184 ? ToneCurve::Kind::Cs184 : ToneCurve::Kind::Srgb;
+    picture.tone.kind =
+        job.settings.estimator.cs184 ? ToneCurve::Kind::Cs184 : ToneCurve::Kind::Srgb;
     picture.tone.exposure = options.exposure;
     picture.statistics = options.statisticsChannels;
-    writePicture(options.output, film, job.settings.crop, picture);
-    if (showsRates(job.settings))
+    writePicture(options.output, film, job.settings.area.crop, picture);
+    if (showsRates(job.settings.budget))
         writePng(ratePicturePath(options.output),
-                 ratePicture(film, job.settings.crop, mostSamples(film, job.settings)),
+                 ratePicture(film, job.settings.area.crop, mostSamples(film, job.settings.budget)),
                  PngColorSpace::Unnamed);
     if (!options.statsFile.empty()) writeStatistics(options.statsFile, report, job);
 }
@@ -124,7 +126,7 @@ int renderCommand(const Options& options) {
     writeOutputs(film, job, options, report);
     logReport(report, film, job.settings);
     if (report.complete) return 0;
-    if (job.settings.stop.open())
+    if (job.settings.budget.stop.open())
         logging::warn(
             fmt::format("interrupted: {} holds the samples that were taken", options.output));
     else

@@ -16,12 +16,12 @@ namespace stromboli {
 
 RenderReport summarise(const Film& film, const RenderSettings& settings) {
     RenderReport r;
-    const std::vector<uint32_t> pixels = cropPixels(settings);
+    const std::vector<uint32_t> pixels = cropPixels(settings.area);
     for (uint32_t pixel : pixels) {
         r.samplesTaken += uint64_t(film.pixels[pixel].taken()) * film.branches;
         r.samplesRejected += film.pixels[pixel].rejected;
     }
-    r.samplesAtMost = samplesAtMost(settings) * settings.branches;
+    r.samplesAtMost = samplesAtMost(settings.area, settings.budget) * settings.estimator.branches;
     return r;
 }
 
@@ -47,14 +47,14 @@ void logReport(const RenderReport& r, const Film& film, const RenderSettings& se
                               formatDuration(r.renderSeconds), formatDuration(r.loadSeconds),
                               formatDuration(r.buildSeconds)));
     const std::string share = // of a number that nobody chose it says nothing
-        settings.stop.spreads() || r.samplesAtMost == 0
+        settings.budget.spreads() || r.samplesAtMost == 0
             ? ""
             : fmt::format(" ({:.1f} % of the most)",
                           100.0 * double(r.samplesTaken) / double(r.samplesAtMost));
     logging::info(fmt::format("{} paths, {} rays, {:.2f} Mrays/s; {} samples{}, {} rejected",
                               r.counters.paths * film.branches, r.counters.rays, rate,
                               r.samplesTaken, share, r.samplesRejected));
-    if (settings.integrator == Integrator::Path) logNoise(r, settings.stop);
+    if (settings.estimator.integrator == Integrator::Path) logNoise(r, settings.budget.stop);
     if (r.samplesRejected == 0) return;
     const auto first = std::find_if(film.pixels.begin(), film.pixels.end(),
                                     [](const PixelStatistics& p) { return p.rejected > 0; });
@@ -71,20 +71,21 @@ void writeStatistics(const std::string& file, const RenderReport& r, const Job& 
         {"scene", job.scene.file},
         {"backend", r.backend},
         {"complete", r.complete},
-        {"width", s.width},
-        {"height", s.height},
+        {"width", s.area.width},
+        {"height", s.area.height},
         {"samplesPerPixel",
-         s.branches * (s.stop.meanSamples > 0 ? s.stop.meanSamples : s.samplesPerPixel)},
-        {"branches", s.branches},
-        {"spread", s.stop.spreads() || s.adaptive.enabled ? "by noise" : "even"},
-        {"maxBounces", s.maxBounces},
-        {"seed", s.seed},
-        {"sampler", s.sampler == Sampler::Sobol ? "sobol" : "independent"},
+         s.estimator.branches * (s.budget.meanSamplesPerPixel > 0 ? s.budget.meanSamplesPerPixel
+                                                                  : s.budget.mostSamplesPerPixel)},
+        {"branches", s.estimator.branches},
+        {"spread", s.budget.spreads() || s.budget.adaptive.enabled ? "by noise" : "even"},
+        {"maxBounces", s.estimator.maxBounces},
+        {"seed", s.estimator.seed},
+        {"sampler", nameOf(s.estimator.sampler)},
         {"triangles", job.scene.triangles.size()},
         {"spheres", job.scene.spheres.size()},
         {"seconds",
          {{"load", r.loadSeconds}, {"build", r.buildSeconds}, {"render", r.renderSeconds}}},
-        {"paths", r.counters.paths * s.branches},
+        {"paths", r.counters.paths * s.estimator.branches},
         {"rays", r.counters.rays},
         {"raysPerSecond", double(r.counters.rays) / std::max(r.renderSeconds, 1e-9)},
         {"samplesTaken", r.samplesTaken},

@@ -16,10 +16,10 @@ namespace {
 /// A picture of its size, of which only the one pixel is rendered.
 Job prepareJobOfPixel(const Options& options, const SampleName& name) {
     Job job = prepareJob(options);
-    if (name.x >= job.settings.width || name.y >= job.settings.height)
+    if (name.x >= job.settings.area.width || name.y >= job.settings.area.height)
         throw UsageError(fmt::format("--pixel {} {} is not in the picture of {} x {}", name.x,
-                                     name.y, job.settings.width, job.settings.height));
-    job.settings.crop = {name.x, name.y, 1, 1};
+                                     name.y, job.settings.area.width, job.settings.area.height));
+    job.settings.area.crop = {name.x, name.y, 1, 1};
     return job;
 }
 
@@ -52,7 +52,7 @@ int sampleCommand(const Options& options) {
     std::future<vulkan::OpenDevice> device;
     if (onDevice) device = openDeviceMeanwhile(options);
     const Job job = prepareJobOfPixel(options, name);
-    const uint32_t pixel = name.y * job.settings.width + name.x;
+    const uint32_t pixel = name.y * job.settings.area.width + name.x;
     const SampleValue value =
         onDevice ? sampleOnDevice(job, std::move(device), pixel, name.sample)
                  : ReferenceBackend(job.scene, job.camera, job.settings, options.threads)

@@ -3,10 +3,6 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 namespace stromboli {
 
 /// What only `stress` is told.
@@ -15,7 +11,5 @@ struct StressOptions {
     bool list = false, full = false;
     std::string jsonFile; ///< empty: none
 };
-
-void declareStress(CLI::App& app, StressOptions& options);
 
 } // namespace stromboli

@@ -72,7 +72,7 @@ Options renderLine(const std::string& scene, const std::vector<std::string>& wor
     std::vector<std::string> line = {"render", file.empty() ? scene : file, "-o", "study.exr"};
     line.insert(line.end(), words.begin(), words.end());
     const std::optional<Options> options = parseOptions(line);
-    if (!options || options->settings.crop.width != 0 || options->sampleAlone)
+    if (!options || options->area.crop.width != 0 || options->sampleAlone)
         throw UsageError(fmt::format("a study renders whole pictures: {}", fmt::join(words, " ")));
     return *options;
 }

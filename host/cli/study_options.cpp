@@ -1,11 +1,9 @@
-#include "host/cli/study_options.hpp"
+#include "host/cli/declared_command.hpp"
 
-#include "host/core/error.hpp"
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <memory>
 
 namespace stromboli {
 namespace {
@@ -13,76 +11,79 @@ namespace {
 /// The configuration that others are compared with, where it takes part.
 constexpr const char* kUsualBaseline = "independent";
 
-const std::vector<std::string> kUsualConfigurations = {"independent", "even", "default",
-                                                       "hemisphere"};
+constexpr uint32_t kMostPaths = 1u << 20; // a reference of 16 times that is the most there can be
+constexpr Range<uint32_t> kSamples{1, kMostPaths}, kSeeds{1, 10000}, kSide{1, 65536},
+    kBounces{0, 10000};
+constexpr Range<double> kSeconds{1e-3, 1e9};
 
-void addScenes(CLI::App& app, RawStudyOptions& raw, StudyOptions& o) {
-    app.add_option("SCENE", raw.scenes,
-                   "files, scenes of scene/library by name, or generate:cornell_mesh:N")
-        ->group("Scenes");
-    app.add_option("-o,--output", o.folder,
-                   "folder for report.html, study.json, study.csv, references and pictures; a "
-                   "study that was stopped goes on where the same command finds its folder")
-        ->default_str("study")
-        ->type_name("FOLDER")
-        ->group("Output");
+/// What was asked for, before it is known what it means together with the rest.
+struct AskedStudy {
+    Words configurations = {"independent", "even", "default", "hemisphere"};
+    uint32_t width = 480, height = 360, maxBounces = 5;
+    std::string moreOptions;
+    std::optional<uint32_t> referenceSamples, targetSamples;
+};
+
+void declareScenes(OptionList& list, StudyOptions& o) {
+    list.group("Scenes");
+    list.list("SCENE", "", "files, scenes of scene/library by name, or generate:cornell_mesh:N",
+              o.settings.scenes);
+    list.group("Output");
+    list.text("-o,--output", "FOLDER",
+              "folder for report.html, study.json, study.csv, references and pictures; a study "
+              "that was stopped goes on where the same command finds its folder",
+              o.folder);
 }
 
-void addConfigurations(CLI::App& app, RawStudyOptions& raw, StudyOptions& o) {
-    app.add_option("-c,--config", raw.configurations,
-                   "a configuration by name (--list), or one of your own as NAME=OPTIONS of "
-                   "render; an option with {a,b,c} grows along these values instead of along "
-                   "samples, as \"mine=-a 16 {0.4,0.2,0.1}\"; once for each "
-                   "[independent, even, default, hemisphere]")
-        ->allow_extra_args(false)
-        ->type_name("NAME")
-        ->group("Configurations");
-    app.add_flag("--list", o.list, "print the known configurations")->group("Configurations");
-    app.add_option("--baseline", o.settings.baseline,
-                   "what the others are compared with [independent if it takes part, else the "
-                   "first]")
-        ->type_name("NAME")
-        ->group("Configurations");
-    app.add_option("--options", raw.moreOptions, "options of render for every picture")
-        ->type_name("OPTIONS")
-        ->group("Configurations");
+void declareConfigurations(OptionList& list, AskedStudy& asked, StudyOptions& o) {
+    list.group("Configurations");
+    CommandOption& config = list.list(
+        "-c,--config", "NAME",
+        "a configuration by name (--list), or one of your own as NAME=OPTIONS of render; an option "
+        "with {a,b,c} grows along these values instead of along samples, as \"mine=-a 16 "
+        "{0.4,0.2,0.1}\"; once for each",
+        asked.configurations);
+    config.usually(fmt::format("{}", fmt::join(asked.configurations, ", ")));
+    config.mayRepeat = true;
+    list.flag("--list", "print the known configurations", o.list);
+    list.text("--baseline", "NAME", "what the others are compared with", o.settings.baseline)
+        .usually("independent if it takes part, else the first");
+    list.text("--options", "OPTIONS", "options of render for every picture", asked.moreOptions);
 }
 
-void addMeasuring(CLI::App& app, RawStudyOptions& raw, StudyOptions& o) {
-    app.add_option("-r,--size", raw.size, "picture size [480 360; --quick: 160 120]")
-        ->expected(2)
-        ->allow_extra_args(false)
-        ->type_name("W H")
-        ->group("Measuring");
-    app.add_option("-m,--max-bounces", raw.maxBounces, "scatterings of light at most [5]")
-        ->type_name("N")
-        ->group("Measuring");
-    app.add_option("-s,--samples", raw.sampleCounts,
-                   "growing sample counts [4,16,64,256; --quick: 4,16,64]")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->type_name("N,N,...")
-        ->group("Measuring");
-    app.add_option("--seeds", raw.seeds, "runs of each configuration [4; --quick: 3]")
-        ->type_name("N")
-        ->group("Measuring");
-    app.add_option("--reference-samples", raw.referenceSamples,
-                   "of the picture that errors are measured against [16 times the largest count]")
-        ->type_name("N")
-        ->group("Measuring");
-    app.add_option("--target-samples", raw.targetSamples,
-                   "times are compared at the error of the baseline with so many samples [64, or "
-                   "the largest count]")
-        ->type_name("N")
-        ->group("Measuring");
-    app.add_option("--most-seconds", o.settings.mostSecondsPerRun,
-                   "efforts that would take longer are left out")
-        ->check(CLI::PositiveNumber)
-        ->default_str("120")
-        ->type_name("S")
-        ->group("Measuring");
-    app.add_flag("--quick", raw.quick, "a short study: small pictures, fewer samples and seeds")
-        ->group("Measuring");
+void declareMeasuring(OptionList& list, AskedStudy& asked, StudyOptions& o) {
+    study::StudySettings& s = o.settings;
+    list.group("Measuring");
+    list.flag("--quick", "a short study: small pictures, fewer samples and seeds",
+              [&asked, &s] {
+                  asked.width = 160, asked.height = 120;
+                  s.sampleCounts = {4, 16, 64};
+                  s.seeds = 3;
+              })
+        .changesDefaults();
+    list.numbers("-r,--size", "W H", "picture size", {&asked.width, &asked.height}, kSide)
+        .usually(fmt::format("{} {}; --quick: 160 120", asked.width, asked.height));
+    list.number("-m,--max-bounces", "N", "scatterings of light at most", asked.maxBounces,
+                kBounces);
+    list.words("-s,--samples", "N,N,...", "growing sample counts", 1,
+               [&s](const Words& words) {
+                   s.sampleCounts.clear();
+                   for (const std::string& word : words)
+                       s.sampleCounts.push_back(readNumber("-s", word, kSamples));
+               })
+        .usually(fmt::format("{}; --quick: 4,16,64", fmt::join(s.sampleCounts, ",")))
+        .separatedByCommas = true;
+    list.number("--seeds", "N", "runs of each configuration", s.seeds, kSeeds)
+        .usually(fmt::format("{}; --quick: 3", s.seeds));
+    list.number("--reference-samples", "N", "of the picture that errors are measured against",
+                asked.referenceSamples, {1, 16 * kMostPaths})
+        .usually("16 times the largest count");
+    list.number("--target-samples", "N",
+                "times are compared at the error of the baseline with so many samples",
+                asked.targetSamples, kSamples)
+        .usually("64, or the largest count");
+    list.real("--most-seconds", "S", "efforts that would take longer are left out",
+              s.mostSecondsPerRun, kSeconds);
 }
 
 void checkRange(const char* what, uint32_t value, uint32_t least, uint32_t most) {
@@ -90,25 +91,19 @@ void checkRange(const char* what, uint32_t value, uint32_t least, uint32_t most)
         throw UsageError(fmt::format("{} is {}: expected {} to {}", what, value, least, most));
 }
 
-void applyCounts(const RawStudyOptions& raw, study::StudySettings& s) {
-    if (raw.quick) s.sampleCounts = {4, 16, 64};
-    if (!raw.sampleCounts.empty()) s.sampleCounts = raw.sampleCounts;
-    constexpr uint32_t kMost = 1u << 20; // a reference of 16 times that is the most there can be
-    for (size_t i = 0; i < s.sampleCounts.size(); ++i) {
-        checkRange("-s", s.sampleCounts[i], 1, kMost);
-        if (i > 0 && s.sampleCounts[i] <= s.sampleCounts[i - 1])
+void finishCounts(const AskedStudy& asked, study::StudySettings& s) {
+    for (size_t i = 1; i < s.sampleCounts.size(); ++i)
+        if (s.sampleCounts[i] <= s.sampleCounts[i - 1])
             throw UsageError("-s: the sample counts must grow");
-    }
     if (s.sampleCounts.size() < 2) throw UsageError("-s: at least two sample counts are needed");
-    s.seeds = raw.seeds.value_or(raw.quick ? 3 : 4);
-    checkRange("--seeds", s.seeds, 1, 10000);
-    s.referenceSamples = raw.referenceSamples.value_or(16 * s.sampleCounts.back());
-    checkRange("--reference-samples", s.referenceSamples, s.sampleCounts.back(), 16 * kMost);
-    s.targetSamples = raw.targetSamples.value_or(std::min(64u, s.sampleCounts.back()));
-    checkRange("--target-samples", s.targetSamples, s.sampleCounts.front(), s.sampleCounts.back());
+    const uint32_t fewest = s.sampleCounts.front(), largest = s.sampleCounts.back();
+    s.referenceSamples = asked.referenceSamples.value_or(16 * largest);
+    checkRange("--reference-samples", s.referenceSamples, largest, 16 * kMostPaths);
+    s.targetSamples = asked.targetSamples.value_or(std::min(64u, largest));
+    checkRange("--target-samples", s.targetSamples, fewest, largest);
 }
 
-void applyBaseline(study::StudySettings& s) {
+void finishBaseline(study::StudySettings& s) {
     const auto has = [&](const std::string& name) {
         return std::any_of(s.configurations.begin(), s.configurations.end(),
                            [&](const study::Configuration& c) { return c.name == name; });
@@ -123,33 +118,32 @@ void applyBaseline(study::StudySettings& s) {
                 "--baseline: '{}' does not grow along samples; choose another", s.baseline));
 }
 
-} // namespace
-
-void declareStudy(CLI::App& app, RawStudyOptions& raw, StudyOptions& o) {
-    addScenes(app, raw, o);
-    addConfigurations(app, raw, o);
-    addMeasuring(app, raw, o);
-    app.footer("Errors are relMSE, the mean of (x - r)^2 / (r^2 + 0.01 m^2), r the reference and m "
-               "its mean, less what the reference's own noise adds. Times are those of sampling "
-               "alone.\nExample: stromboli study cornell_boxes island -c default -c hemisphere "
-               "-c \"four=-l 4\" --seeds 8");
+void finishStudy(const AskedStudy& asked, StudyOptions& o) {
+    study::StudySettings& s = o.settings;
+    s.configurations = study::chooseConfigurations(asked.configurations);
+    if (s.scenes.empty() && !o.list) throw UsageError("SCENE is required (see --help)");
+    s.commonOptions = fmt::format("-r {} {} -m {}{}{}", asked.width, asked.height, asked.maxBounces,
+                                  asked.moreOptions.empty() ? "" : " ", asked.moreOptions);
+    s.referenceOptions = "--sampler independent"; // no structure that a study's runs might share
+    finishCounts(asked, s);
+    finishBaseline(s);
 }
 
-void applyStudy(const RawStudyOptions& raw, StudyOptions& o) {
-    study::StudySettings& s = o.settings;
-    s.configurations = study::chooseConfigurations(raw.configurations.empty() ? kUsualConfigurations
-                                                                              : raw.configurations);
-    s.scenes = raw.scenes;
-    if (s.scenes.empty() && !o.list) throw UsageError("SCENE is required (see --help)");
-    const std::vector<uint32_t> usual =
-        raw.quick ? std::vector<uint32_t>{160, 120} : std::vector<uint32_t>{480, 360};
-    const std::vector<uint32_t>& size = raw.size.empty() ? usual : raw.size;
-    s.commonOptions =
-        fmt::format("-r {} {} -m {}{}{}", size[0], size[1], raw.maxBounces.value_or(5),
-                    raw.moreOptions.empty() ? "" : " ", raw.moreOptions);
-    s.referenceOptions = "--sampler independent"; // no structure that a study's runs might share
-    applyCounts(raw, s);
-    applyBaseline(s);
+} // namespace
+
+void declareStudy(DeclaredCommand& c) {
+    StudyOptions& o = c.options.study;
+    const auto asked = std::make_shared<AskedStudy>();
+    declareScenes(c.list, o);
+    declareConfigurations(c.list, *asked, o);
+    declareMeasuring(c.list, *asked, o);
+    declareDevice(c);
+    declareHost(c);
+    c.footer = "Errors are relMSE, the mean of (x - r)^2 / (r^2 + 0.01 m^2), r the reference and m "
+               "its mean, less what the reference's own noise adds. Times are those of sampling "
+               "alone.\nExample: stromboli study cornell_boxes island -c default -c hemisphere "
+               "-c \"four=-l 4\" --seeds 8";
+    c.finish = [asked, &o] { finishStudy(*asked, o); };
 }
 
 } // namespace stromboli

@@ -7,7 +7,7 @@ namespace stromboli {
 namespace {
 
 /// How many direct light samples a shading point takes for other than delta lights.
-uint32_t areaSamples(const GpuScene& scene, const RenderSettings& s) {
+uint32_t areaSamples(const GpuScene& scene, const Estimator& s) {
     if (samplesLights(s.directLight)) return s.lightSamples * scene.areaLights;
     if (s.directLight == DirectLight::Bsdf) return 0;
     // The CS184 renderer multiplies by the number of all its lights.
@@ -16,7 +16,8 @@ uint32_t areaSamples(const GpuScene& scene, const RenderSettings& s) {
 
 } // namespace
 
-gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const RenderSettings& s) {
+gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const PictureArea& area,
+                     const Estimator& s) {
     gpu::Frame f{};
     f.cameraPosition = camera.position;
     f.cameraRight = camera.halfWidth * camera.right;
@@ -24,8 +25,8 @@ gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const RenderSe
     f.cameraBack = camera.back;
     f.nearDistance = float(camera.nearDistance);
     f.farDistance = float(std::min(camera.farDistance, double(std::numeric_limits<float>::max())));
-    f.width = s.width;
-    f.height = s.height;
+    f.width = area.width;
+    f.height = area.height;
     f.seed = s.seed;
     f.minBounce = s.minBounce;
     f.maxBounces = s.maxBounces;

@@ -43,17 +43,13 @@ uint64_t largestRowBuffer(const GpuScene& scene, uint64_t pixels) {
     return std::max(largestSceneBuffer(scene), items * sizeof(gpu::WorkItem));
 }
 
-uint64_t pixelCount(const RenderSettings& s) {
-    return s.crop.width ? uint64_t(s.crop.width) * s.crop.height : uint64_t(s.width) * s.height;
+uint64_t splitCount(uint32_t branches, uint64_t lanes) {
+    return branches > 1 ? lanes : 1;
 }
 
-uint64_t splitCount(const RenderSettings& settings, uint64_t lanes) {
-    return settings.branches > 1 ? lanes : 1;
-}
-
-std::vector<BufferPlan> planBuffers(const GpuScene& scene, const RenderSettings& settings,
-                                    const DeviceTuning& tuning) {
-    const uint64_t pixels = pixelCount(settings);
+std::vector<BufferPlan> planBuffers(const GpuScene& scene, const PictureArea& area,
+                                    uint32_t branches, const DeviceTuning& tuning) {
+    const uint64_t pixels = area.pixelCount();
     const uint64_t items = std::min<uint64_t>(tuning.itemsPerDispatch, pixels);
     const uint64_t lanes = std::min<uint64_t>(tuning.lanes, pixels);
     const BufferUse rows = rowUse(tuning);
@@ -62,7 +58,7 @@ std::vector<BufferPlan> planBuffers(const GpuScene& scene, const RenderSettings&
     plans.push_back({"work list", items * sizeof(gpu::WorkItem), rows});
     plans.push_back({"suspended paths", lanes * sizeof(gpu::SuspendedPath), BufferUse::Storage});
     plans.push_back({"splits of suspended paths",
-                     splitCount(settings, lanes) * sizeof(gpu::SuspendedSplit),
+                     splitCount(branches, lanes) * sizeof(gpu::SuspendedSplit),
                      BufferUse::Storage});
     plans.push_back({"frame constants", sizeof(gpu::Frame), BufferUse::Uniform});
     plans.push_back({"dispatch status", sizeof(gpu::DispatchStatus), BufferUse::Storage});
@@ -77,8 +73,8 @@ uint64_t pixelsPerSegment(const vulkan::DeviceDescription& device, const DeviceT
 }
 
 void checkMemory(const vulkan::DeviceDescription& device, const GpuScene& scene,
-                 const RenderSettings& settings, const DeviceTuning& tuning) {
-    const std::vector<BufferPlan> plans = planBuffers(scene, settings, tuning);
+                 const PictureArea& area, uint32_t branches, const DeviceTuning& tuning) {
+    const std::vector<BufferPlan> plans = planBuffers(scene, area, branches, tuning);
     for (BufferPlan plan : plans) {
         if (plan.name == "film")
             plan.bytes =

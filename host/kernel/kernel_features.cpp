@@ -27,7 +27,7 @@ bool hasEmission(const GpuScene& scene) {
 }
 
 /// Lights that are sampled; an ambient light is also found by rays that miss.
-uint32_t lightKinds(const GpuScene& scene, const RenderSettings& settings) {
+uint32_t lightKinds(const GpuScene& scene, const Estimator& settings) {
     if (settings.integrator == Integrator::Normals) return 0;
     uint32_t kinds = 0;
     for (const gpu::Light& light : scene.lights) {
@@ -41,7 +41,7 @@ uint32_t lightKinds(const GpuScene& scene, const RenderSettings& settings) {
     return kinds;
 }
 
-uint32_t lightNumbers(const GpuScene& scene, const RenderSettings& settings) {
+uint32_t lightNumbers(const GpuScene& scene, const Estimator& settings) {
     // The samples of a mesh take all four numbers of a block; those of delta lights none.
     uint32_t area = 0;
     for (const gpu::Light& light : scene.lights) {
@@ -52,12 +52,12 @@ uint32_t lightNumbers(const GpuScene& scene, const RenderSettings& settings) {
                                                                 : gpu::LIGHT_NUMBERS_FIRST;
 }
 
-bool misIsWanted(const RenderSettings& settings) {
+bool misIsWanted(const Estimator& settings) {
     return settings.directLight == DirectLight::Mis && !settings.cs184;
 }
 
 /// Where bounces from rough metals may find what light samples find too.
-bool usesMis(const GpuScene& scene, const RenderSettings& settings, uint32_t materialKinds) {
+bool usesMis(const GpuScene& scene, const Estimator& settings, uint32_t materialKinds) {
     const bool metal = materialKinds & 1u << gpu::MATERIAL_MICROFACET;
     return metal && misIsWanted(settings) &&
            std::any_of(scene.lights.begin(), scene.lights.end(), [](const gpu::Light& light) {
@@ -66,12 +66,12 @@ bool usesMis(const GpuScene& scene, const RenderSettings& settings, uint32_t mat
            });
 }
 
-bool guidesBounces(const GpuScene& scene, const RenderSettings& settings) {
+bool guidesBounces(const GpuScene& scene, const Estimator& settings) {
     return settings.guides && scene.lampGap != 0 && samplesLights(settings.directLight) &&
            settings.integrator == Integrator::Path && !settings.cs184 && settings.maxBounces > 1;
 }
 
-void switchOnAllTheSceneCouldHave(KernelFeatures& f, const RenderSettings& settings) {
+void switchOnAllTheSceneCouldHave(KernelFeatures& f, const Estimator& settings) {
     f[SPEC_HAS_TRIANGLES] = f[SPEC_HAS_SPHERES] = f[SPEC_HAS_NORMALS] = f[SPEC_HAS_EMISSION] = 1;
     f[SPEC_ONE_LIGHT] = 0;
     if (f[SPEC_LIGHT_NUMBERS] == gpu::LIGHT_NUMBERS_SHARED)
@@ -91,7 +91,7 @@ std::string list(uint32_t bits, const std::vector<const char*>& names) {
 } // namespace
 
 KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
-                              const RenderSettings& settings, const DeviceTuning& tuning) {
+                              const Estimator& settings, const DeviceTuning& tuning) {
     const bool normalsOnly = settings.integrator == Integrator::Normals;
     KernelFeatures f{};
     f[SPEC_WORKGROUP_SIZE] = tuning.workgroupSize;

@@ -2,7 +2,7 @@
 
 #include "host/kernel/gpu_scene.hpp"
 #include "host/kernel/kernel_tuning.hpp"
-#include "host/render/settings.hpp"
+#include "host/render/estimator.hpp"
 #include "scene/camera/camera.hpp"
 #include "shaders/shared/interface.h"
 
@@ -18,7 +18,7 @@ using KernelFeatures = std::array<uint32_t, SPEC_COUNT>;
 /// Switches off all that the scene and the settings do not need; with tuning.everythingOn only
 /// what the settings do not need.
 KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
-                              const RenderSettings& settings, const DeviceTuning& tuning);
+                              const Estimator& settings, const DeviceTuning& tuning);
 
 /// The features that a kernel contains, in words, for `stromboli info`.
 std::vector<std::string> describe(const KernelFeatures& features);

@@ -18,8 +18,7 @@ double largest(const glm::dvec3& v) {
 
 } // namespace
 
-PathSample::PathSample(const World& world, const RenderSettings& settings,
-                       const RandomStream& random)
+PathSample::PathSample(const World& world, const Estimator& settings, const RandomStream& random)
     : world_(world), settings_(settings), random_(random) {}
 
 glm::dvec3 PathSample::radiance(const Ray& cameraRay) {

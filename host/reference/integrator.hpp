@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/reference/world.hpp"
-#include "host/render/settings.hpp"
+#include "host/render/estimator.hpp"
 
 namespace stromboli::reference {
 
@@ -9,7 +9,7 @@ namespace stromboli::reference {
 class PathSample {
   public:
     /// All three must outlive the object.
-    PathSample(const World& world, const RenderSettings& settings, const RandomStream& random);
+    PathSample(const World& world, const Estimator& settings, const RandomStream& random);
 
     /// The radiance the camera ray brings back. To be called once.
     glm::dvec3 radiance(const Ray& cameraRay);
@@ -45,7 +45,7 @@ class PathSample {
     void addLightSample(const LightSample& light, double share);
 
     const World& world_;
-    const RenderSettings& settings_;
+    const Estimator& settings_;
     RandomStream random_;
     SurfacePoint surface_;
     glm::dvec3 throughput_{1.0}, radiance_{0.0};

@@ -59,20 +59,23 @@ struct ReferenceBackend::Implementation {
     std::atomic<uint64_t> paths{0}, rays{0};
 
     Implementation(const Scene& scene, const Camera& c, const RenderSettings& s, unsigned threads)
-        : world(scene, s.cs184 ? Convention::Cs184 : Convention::Physical), camera(c), settings(s),
+        : world(scene, s.estimator.cs184 ? Convention::Cs184 : Convention::Physical), camera(c),
+          settings(s),
           arena(std::min(threads == 0 ? INT_MAX : int(threads), tbb::info::default_concurrency())) {
     }
 
     /// One sample; a pure function of pixel and index.
     glm::dvec3 take(uint32_t pixel, uint32_t index, uint64_t& rayCount) const {
-        reference::RandomStream random(pixel, index, settings.seed, settings.sampler);
-        const double x = pixel % settings.width + random.next();
-        const double y = pixel / settings.width + random.next();
+        reference::RandomStream random(pixel, index, settings.estimator.seed,
+                                       settings.estimator.sampler);
+        const double x = pixel % settings.area.width + random.next();
+        const double y = pixel / settings.area.width + random.next();
         const reference::Ray ray =
-            reference::cameraRay(camera, x / settings.width, y / settings.height);
-        reference::PathSample path(world, settings, random);
-        const glm::dvec3 value =
-            settings.integrator == Integrator::Normals ? path.normalColor(ray) : path.radiance(ray);
+            reference::cameraRay(camera, x / settings.area.width, y / settings.area.height);
+        reference::PathSample path(world, settings.estimator, random);
+        const glm::dvec3 value = settings.estimator.integrator == Integrator::Normals
+                                     ? path.normalColor(ray)
+                                     : path.radiance(ray);
         rayCount += path.rays();
         return value;
     }
@@ -97,7 +100,7 @@ struct ReferenceBackend::Implementation {
 ReferenceBackend::ReferenceBackend(const Scene& scene, const Camera& camera,
                                    const RenderSettings& settings, unsigned threads)
     : implementation_(std::make_unique<Implementation>(scene, camera, settings, threads)) {
-    if (settings.lightSamples == 0) throw std::invalid_argument("lightSamples is 0");
+    if (settings.estimator.lightSamples == 0) throw std::invalid_argument("lightSamples is 0");
 }
 
 ReferenceBackend::~ReferenceBackend() = default;
@@ -105,7 +108,7 @@ ReferenceBackend::~ReferenceBackend() = default;
 void ReferenceBackend::sample(std::span<const PixelTarget> targets, Film& film,
                               const PassProgress& progress) {
     const RenderSettings& settings = implementation_->settings;
-    if (film.width != settings.width || film.height != settings.height)
+    if (film.width != settings.area.width || film.height != settings.area.height)
         throw std::invalid_argument("the film is not the size of the picture");
     for (const PixelTarget& target : targets)
         if (target.pixel >= film.pixels.size())

@@ -15,7 +15,7 @@ double luminance(const glm::dvec3& c) {
 
 /// The CS184 rule: each channel's 95 % interval within tolerance times its mean. A pixel whose
 /// samples are all black passes at once.
-bool cs184Done(const PixelStatistics& p, double tolerance) {
+bool everyChannelIsDone(const PixelStatistics& p, double tolerance) {
     const glm::dvec3 variance = p.varianceOfMean();
     for (int c = 0; c < 3; ++c)
         if (k95 * std::sqrt(variance[c]) > tolerance * p.mean[c]) return false;
@@ -38,19 +38,19 @@ double luminanceVariance(const glm::dvec3& variance) {
 
 } // namespace
 
-SamplingPlan::SamplingPlan(const RenderSettings& settings, std::vector<uint32_t> pixels)
-    : settings_(settings), pixels_(std::move(pixels)) {}
+SamplingPlan::SamplingPlan(const Budget& budget, std::vector<uint32_t> pixels)
+    : budget_(budget), pixels_(std::move(pixels)) {}
 
-std::vector<PixelTarget> SamplingPlan::next(const Film& film) {
-    return settings_.adaptive.enabled ? adaptive(film) : uniform(film);
+std::vector<PixelTarget> SamplingPlan::next(const Film& film) const {
+    return budget_.adaptive.enabled ? adaptive(film) : uniform(film);
 }
 
 std::vector<PixelTarget> SamplingPlan::uniform(const Film& film) const {
-    uint32_t least = settings_.samplesPerPixel;
+    uint32_t least = budget_.mostSamplesPerPixel;
     for (uint32_t pixel : pixels_)
         least = std::min(least, film.pixels[pixel].taken());
     const uint64_t target = least == 0 ? kFirstPass : uint64_t(least) * 4;
-    const auto samples = uint32_t(std::min<uint64_t>(target, settings_.samplesPerPixel));
+    const auto samples = uint32_t(std::min<uint64_t>(target, budget_.mostSamplesPerPixel));
     std::vector<PixelTarget> pass;
     for (uint32_t pixel : pixels_)
         if (film.pixels[pixel].taken() < samples) pass.push_back({pixel, samples});
@@ -58,26 +58,27 @@ std::vector<PixelTarget> SamplingPlan::uniform(const Film& film) const {
 }
 
 std::vector<PixelTarget> SamplingPlan::adaptive(const Film& film) const {
+    const bool perChannel = budget_.adaptive.rule == Adaptive::Rule::PerChannel;
     const std::vector<bool> wanted =
-        settings_.cs184 ? unfinishedByCs184Rule(film) : unfinishedByDefaultRule(film);
+        perChannel ? unfinishedPerChannel(film) : unfinishedByNeighbourhood(film);
     std::vector<PixelTarget> pass;
     for (uint32_t pixel : pixels_) {
         const uint32_t taken = film.pixels[pixel].taken();
-        if (!wanted[pixel] || taken >= settings_.samplesPerPixel) continue;
-        const uint32_t batch = settings_.adaptive.batch;
+        if (!wanted[pixel] || taken >= budget_.mostSamplesPerPixel) continue;
+        const uint32_t batch = budget_.adaptive.batch;
         const uint32_t first =
-            settings_.cs184 ? batch : std::max(batch, kMinimumSamples); // before the first test
+            perChannel ? batch : std::max(batch, kMinimumSamples); // before the first test
         const uint64_t target = taken == 0 ? first : uint64_t(taken) + batch;
-        pass.push_back({pixel, uint32_t(std::min<uint64_t>(target, settings_.samplesPerPixel))});
+        pass.push_back({pixel, uint32_t(std::min<uint64_t>(target, budget_.mostSamplesPerPixel))});
     }
     return pass;
 }
 
-std::vector<bool> SamplingPlan::unfinishedByCs184Rule(const Film& film) const {
+std::vector<bool> SamplingPlan::unfinishedPerChannel(const Film& film) const {
     std::vector<bool> wanted(film.pixels.size(), false);
     for (uint32_t pixel : pixels_) {
         const PixelStatistics& p = film.pixels[pixel];
-        wanted[pixel] = p.taken() == 0 || !cs184Done(p, settings_.adaptive.tolerance);
+        wanted[pixel] = p.taken() == 0 || !everyChannelIsDone(p, budget_.adaptive.tolerance);
     }
     return wanted;
 }
@@ -89,7 +90,7 @@ double SamplingPlan::pictureMean(const Film& film) const {
     return pixels_.empty() ? 0 : sum / double(pixels_.size());
 }
 
-std::vector<bool> SamplingPlan::unfinishedByDefaultRule(const Film& film) const {
+std::vector<bool> SamplingPlan::unfinishedByNeighbourhood(const Film& film) const {
     const double floor = kFloor * pictureMean(film);
     const auto at = [&](int64_t x, int64_t y) -> const PixelStatistics* {
         if (x < 0 || y < 0 || x >= film.width || y >= film.height) return nullptr;
@@ -120,7 +121,7 @@ std::vector<bool> SamplingPlan::unfinishedByDefaultRule(const Film& film) const 
         const double variance = std::max(luminanceVariance(p.variance()), n.variance);
         const double level = std::max(std::min(luminance(p.mean), n.mean), floor);
         const double error = k95 * std::sqrt(variance / std::max(p.count, 1u));
-        noisy[pixel] = error > settings_.adaptive.tolerance * level;
+        noisy[pixel] = error > budget_.adaptive.tolerance * level;
     }
     return dilate(noisy, film);
 }

@@ -2,7 +2,7 @@
 
 #include "host/film/film.hpp"
 #include "host/render/backend.hpp"
-#include "host/render/settings.hpp"
+#include "host/render/budget.hpp"
 
 #include <vector>
 
@@ -10,8 +10,8 @@ namespace stromboli {
 
 /// Decides, pass by pass, which pixels get more samples.
 ///
-/// Uniform: every pixel gets samplesPerPixel, in passes that each quadruple the samples, so that
-/// a render that is stopped has a whole picture.
+/// Uniform: every pixel gets mostSamplesPerPixel, in passes that each quadruple the samples, so
+/// that a render that is stopped has a whole picture.
 ///
 /// Adaptive, default rule: a pixel is finished when 1.96 sigma of its mean luminance is within
 /// tolerance times that luminance. Against the published rule's failures: sigma is the larger of
@@ -20,7 +20,7 @@ namespace stromboli {
 /// luminance is at least kFloor of the picture's mean (black pixels do finish), and neighbours of
 /// unfinished pixels go on, so that a finished pixel is taken up again.
 ///
-/// Adaptive with cs184: the published rule, per channel, at every multiple of the batch.
+/// Adaptive, rule per channel: the published one, at every multiple of the batch.
 class SamplingPlan {
   public:
     /// Samples before the first test: a variance from fewer is itself off by a third (chi-square,
@@ -33,19 +33,19 @@ class SamplingPlan {
 
     static constexpr uint32_t kFirstPass = 16; ///< samples, uniform
 
-    SamplingPlan(const RenderSettings& settings, std::vector<uint32_t> pixels);
+    SamplingPlan(const Budget& budget, std::vector<uint32_t> pixels);
     /// The next pass: pixels in the order given to the constructor; empty when all are done.
-    std::vector<PixelTarget> next(const Film& film);
+    std::vector<PixelTarget> next(const Film& film) const;
 
   private:
     std::vector<PixelTarget> uniform(const Film& film) const;
     std::vector<PixelTarget> adaptive(const Film& film) const;
-    std::vector<bool> unfinishedByCs184Rule(const Film& film) const;
-    std::vector<bool> unfinishedByDefaultRule(const Film& film) const;
+    std::vector<bool> unfinishedPerChannel(const Film& film) const;
+    std::vector<bool> unfinishedByNeighbourhood(const Film& film) const;
     std::vector<bool> dilate(const std::vector<bool>& noisy, const Film& film) const;
     double pictureMean(const Film& film) const;
 
-    RenderSettings settings_;
+    Budget budget_;
     std::vector<uint32_t> pixels_;
 };
 

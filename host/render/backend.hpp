@@ -1,10 +1,12 @@
 #pragma once
 
 #include "host/film/film.hpp"
+#include "host/render/pixel_sums.hpp"
 
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 namespace stromboli {
 
@@ -27,7 +29,9 @@ struct SampleValue {
 };
 
 /// Called now and then with the number of samples done in this pass; returning false asks the
-/// backend to stop early, leaving the film valid.
+/// backend to stop early: it begins no further sample, and leaves a valid film, whose pixels are
+/// not biased by which samples were under way (docs/estimator.md, "A render that is stopped"). It
+/// may be called again while samples under way are ended.
 using PassProgress = std::function<bool(uint64_t samplesDone)>;
 
 /// Something that takes samples of a picture: the Vulkan kernel or the CPU reference.
@@ -41,6 +45,12 @@ class Backend {
     /// Sample number `sample` of a pixel, to the last bit as sample() takes it.
     virtual SampleValue sampleAlone(uint32_t pixel, uint32_t sample) = 0;
     virtual RenderCounters counters() const = 0;
+    /// The statistics of the picture's pixels to the last bit; `film` is the one that sample() has
+    /// filled. Here: of a backend that keeps nothing of its own beside the film.
+    virtual std::vector<PixelSums> save(const Film& film);
+    /// Goes on from there: in a backend of the same kind, made for the same picture. Fills in the
+    /// film. Throws std::invalid_argument if the number of pixels is another.
+    virtual void restore(std::span<const PixelSums> sums, Film& film);
 };
 
 } // namespace stromboli

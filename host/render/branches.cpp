@@ -17,32 +17,27 @@ constexpr uint32_t kLeastSamplesPerBranch = 4;
 
 /// Light samples leave little noise beside that of bounces: not where one sample stands for all of
 /// the sky or for many lamps.
-bool directLightIsSmooth(const Scene& scene, const RenderSettings& settings) {
+bool directLightIsSmooth(const Scene& scene, const Estimator& estimator) {
     const bool sky = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
         return light.kind == LightKind::Ambient;
     });
-    return samplesLights(settings.directLight) && !sky &&
+    return samplesLights(estimator.directLight) && !sky &&
            !haveManyTriangles(collectEmitters(scene));
 }
 
 } // namespace
 
-uint32_t branchesThatPay(const Scene& scene, const RenderSettings& settings, uint32_t paths) {
-    const bool bounces = settings.integrator == Integrator::Path && settings.maxBounces > 1;
+uint32_t branchesThatPay(const Scene& scene, const Estimator& estimator, const PathBudget& budget) {
+    const bool bounces = estimator.integrator == Integrator::Path && estimator.maxBounces > 1;
     // Both count samples for what they decide, and mean paths.
-    const bool countsPaths = settings.cs184 || settings.adaptive.enabled;
-    if (!bounces || countsPaths || !directLightIsSmooth(scene, settings)) return 1;
+    const bool countsPaths = estimator.cs184 || budget.adaptive.enabled;
+    if (!bounces || countsPaths || !directLightIsSmooth(scene, estimator)) return 1;
+    const uint32_t paths = budget.pathsPerPixel();
     uint32_t branches = kBranches;
     while (branches > 1 &&
            (paths % branches != 0 || paths / branches < kLeastSamplesPerBranch * branches))
         branches /= 2;
     return branches;
-}
-
-void splitSamples(RenderSettings& settings, uint32_t branches) {
-    settings.branches = branches;
-    settings.samplesPerPixel /= branches;
-    settings.stop.meanSamples /= branches;
 }
 
 } // namespace stromboli

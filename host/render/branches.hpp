@@ -5,12 +5,8 @@
 
 namespace stromboli {
 
-/// How many branches pay in this scene (docs/estimator.md, "Branches"), for `paths` paths a pixel;
-/// a divisor of it.
-uint32_t branchesThatPay(const Scene& scene, const RenderSettings& settings, uint32_t paths);
-
-/// Makes samples of `branches` paths out of the counts in `settings`, which are of paths so far and
-/// are multiples of it.
-void splitSamples(RenderSettings& settings, uint32_t branches);
+/// How many branches pay in this scene (docs/estimator.md, "Branches"); a divisor of the number of
+/// paths a pixel is to have.
+uint32_t branchesThatPay(const Scene& scene, const Estimator& estimator, const PathBudget& budget);
 
 } // namespace stromboli

@@ -94,19 +94,22 @@ double meanOfChannels(const glm::dvec3& v) {
 } // namespace
 
 NoiseEstimate::NoiseEstimate(std::vector<uint32_t> pixels)
-    : pixels_(std::move(pixels)), counts_(pixels_.size(), 0), means_(pixels_.size()),
-      squaredErrors_(pixels_.size(), glm::dvec3(0.0)) {}
+    : pixels_(std::move(pixels)), memory_{
+                                      std::vector<uint32_t>(pixels_.size(), 0),
+                                      std::vector<glm::dvec3>(pixels_.size()),
+                                      std::vector<glm::dvec3>(pixels_.size(), glm::dvec3(0.0))} {}
 
 void NoiseEstimate::update(const Film& film) {
     for (size_t i = 0; i < pixels_.size(); ++i) {
         const PixelStatistics& p = film.pixels[pixels_[i]];
-        if (p.count == counts_[i]) continue;
-        const glm::dvec3 moved = p.mean - means_[i];
-        squaredErrors_[i] = counts_[i] == 0
-                                ? p.varianceOfMean()
-                                : moved * moved * double(counts_[i]) / double(p.count - counts_[i]);
-        counts_[i] = p.count;
-        means_[i] = p.mean;
+        if (p.count == memory_.counts[i]) continue;
+        const glm::dvec3 moved = p.mean - memory_.means[i];
+        memory_.squaredErrors[i] =
+            memory_.counts[i] == 0
+                ? p.varianceOfMean()
+                : moved * moved * double(memory_.counts[i]) / double(p.count - memory_.counts[i]);
+        memory_.counts[i] = p.count;
+        memory_.means[i] = p.mean;
     }
 }
 
@@ -123,7 +126,7 @@ double NoiseEstimate::picture(const Film& film) const {
     double sum = 0;
     for (size_t i = 0; i < pixels_.size(); ++i) {
         const glm::dvec3 mean = film.pixels[pixels_[i]].mean;
-        sum += meanOfChannels(squaredErrors_[i] / (mean * mean + floor * floor));
+        sum += meanOfChannels(memory_.squaredErrors[i] / (mean * mean + floor * floor));
     }
     return std::sqrt(sum / double(pixels_.size()));
 }
@@ -137,7 +140,7 @@ std::vector<double> NoiseEstimate::relativeVariance(const Film& film) const {
     const uint32_t first = least / film.width, last = most / film.width;
     Variances variances(film.pixels.size(), glm::dvec3(0.0));
     for (size_t i = 0; i < pixels_.size(); ++i)
-        variances[pixels_[i]] = squaredErrors_[i] * double(counts_[i]);
+        variances[pixels_[i]] = memory_.squaredErrors[i] * double(memory_.counts[i]);
     Neighbours neighbours(film, variances, first);
     for (uint32_t y = first; y <= last; ++y) {
         std::vector<Sums> row = neighbours.of(y);

@@ -23,12 +23,22 @@ constexpr double kRelativeFloor = 0.1;
 /// three numbers; the picture's is a mean over thousands.
 class NoiseEstimate {
   public:
+    /// What it remembers of the picture from one pass to the next.
+    struct Memory {
+        std::vector<uint32_t> counts; ///< as of the last update, by place in the list of pixels
+        std::vector<glm::dvec3> means, squaredErrors;
+    };
+
     /// pixels: those that are rendered, as indices in the film.
     explicit NoiseEstimate(std::vector<uint32_t> pixels);
 
     /// Takes in what a pass changed. The first time there is nothing to compare with, and the
     /// variance of the samples is used.
     void update(const Film& film);
+
+    const Memory& memory() const { return memory_; }
+    /// Goes on from there; the pixels must be the same.
+    void remember(Memory memory) { memory_ = std::move(memory); }
 
     /// Square root of the expected relMSE of the picture, a fraction: 0.02 is 2 % of noise.
     double picture(const Film& film) const;
@@ -46,8 +56,7 @@ class NoiseEstimate {
     double meanRadiance(const Film& film) const;
 
     std::vector<uint32_t> pixels_;
-    std::vector<uint32_t> counts_; ///< as of the last update, by place in pixels_
-    std::vector<glm::dvec3> means_, squaredErrors_;
+    Memory memory_;
 };
 
 } // namespace stromboli

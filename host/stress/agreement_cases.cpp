@@ -36,13 +36,14 @@ Finding agreement(Run& run) {
     CheckSettings check;
     check.familyError = 0.01 / double(files.size());
     RenderSettings s;
-    s.width = run.amount(32u, 160u), s.height = run.amount(24u, 120u);
-    s.samplesPerPixel = run.amount(32u, 256u);
-    s.maxBounces = 5;
+    s.area.width = run.amount(32u, 160u), s.area.height = run.amount(24u, 120u);
+    s.budget.mostSamplesPerPixel = run.amount(32u, 256u);
+    s.estimator.maxBounces = 5;
     double done = 0;
     for (const auto& file : files) {
         const Scene scene = readScene(file.string());
-        const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.width, s.height, false);
+        const Camera camera =
+            makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, false);
         const Film onDevice = run.render(scene, camera, s).film;
         ReferenceBackend reference(scene, camera, s);
         const Film onHost = render(reference, s, [&](const RenderProgress&) {

@@ -40,8 +40,8 @@ std::vector<Body> convexBodies() {
 /// Light that is scattered twice or more by a convex body has met it twice.
 Finding selfHits(Run& run) {
     RenderSettings s = picture(64, run.amount(16u, 128u), 4);
-    s.minBounce = 2;
-    s.directLight = DirectLight::Bsdf;
+    s.estimator.minBounce = 2;
+    s.estimator.directLight = DirectLight::Bsdf;
     const std::vector<Body> bodies = convexBodies();
     std::vector<float> scales = sizes(run);
     if (!run.quick()) scales.insert(scales.end(), {1e-8f, 1e8f});
@@ -57,7 +57,7 @@ Finding selfHits(Run& run) {
                 const double again = Totals(film).sum();
                 if (again > 0) f.where = fmt::format("{} of size {}", body.name, scale);
                 f.measured += again;
-                f.trials += uint64_t(s.width) * s.height * s.samplesPerPixel;
+                f.trials += uint64_t(s.area.width) * s.area.height * s.budget.mostSamplesPerPixel;
             }
     return f;
 }
@@ -91,7 +91,7 @@ Finding escapes(Run& run) {
     constexpr uint32_t kBounces = 100;
     // 1e7 bounces for each scale, on all rooms together.
     RenderSettings s = picture(16, run.amount(2u, 100u), kBounces);
-    s.directLight = DirectLight::Bsdf;
+    s.estimator.directLight = DirectLight::Bsdf;
     const std::vector<Body> rooms = closedRooms();
     Finding f;
     for (const float scale : sizes(run))

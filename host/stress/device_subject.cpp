@@ -54,7 +54,7 @@ std::unique_ptr<RayTracer> DeviceSubject::tracer(const Scene& scene) {
 Picture DeviceSubject::render(const Scene& scene, const Camera& camera,
                               const RenderSettings& settings, const KernelTuning& tuning,
                               const ProgressCallback& progress) {
-    const GpuScene packed = packScene(scene, buildWideBvh(scene), settings.cs184);
+    const GpuScene packed = packScene(scene, buildWideBvh(scene), settings.estimator.cs184);
     VulkanBackend backend(device_, packed, camera, settings, tuning);
     Picture picture;
     picture.film = stromboli::render(backend, settings, progress);

@@ -19,8 +19,8 @@ double confirmed(RenderSettings s, const Measure& sigmas) {
     for (int attempt = 0; attempt < 2; ++attempt) {
         z = sigmas(s);
         if (z <= 3) break;
-        s.samplesPerPixel *= 4;
-        s.seed += 1000;
+        s.budget.mostSamplesPerPixel *= 4;
+        s.estimator.seed += 1000;
     }
     return z;
 }
@@ -39,10 +39,10 @@ Finding partialSums(Run& run) {
     for (const Roulette& roulette : roulettes)
         for (uint32_t least = 0; least <= 8; least += run.amount(4u, 1u)) {
             RenderSettings s = picture(16, run.amount(32u, 512u), run.quick() ? 8 : least + 4);
-            s.minBounce = least;
-            s.roulette = roulette;
+            s.estimator.minBounce = least;
+            s.estimator.roulette = roulette;
             double expected = 0;
-            for (uint32_t k = least; k <= s.maxBounces; ++k)
+            for (uint32_t k = least; k <= s.estimator.maxBounces; ++k)
                 expected += std::pow(kAlbedo, k);
             const double z = confirmed(s, [&](const RenderSettings& now) {
                 const Totals totals(run.render(m.scene, camera, now).film);
@@ -50,7 +50,8 @@ Finding partialSums(Run& run) {
                 return sigmasOff(totals, glm::dvec3(expected));
             });
             if (!(z <= f.measured))
-                f.measured = z, f.where = fmt::format("{} to {} scatterings", least, s.maxBounces);
+                f.measured = z,
+                f.where = fmt::format("{} to {} scatterings", least, s.estimator.maxBounces);
         }
     return f;
 }
@@ -101,8 +102,8 @@ Finding lampsInPieces(Run& run) {
         if (run.quick() && l.size != 0.5f) continue;
         const auto scene = [&](int pieces, bool oneMesh) { return lampInBox(l, pieces, oneMesh); };
         const auto totals = [&](const Scene& lit, RenderSettings s, DirectLight mode) {
-            s.directLight = mode;
-            s.minBounce = 1; // not the lamp itself
+            s.estimator.directLight = mode;
+            s.estimator.minBounce = 1; // not the lamp itself
             const Totals t(run.render(lit, camera, s).film);
             f.trials += t.all.taken();
             return t;
@@ -111,7 +112,7 @@ Finding lampsInPieces(Run& run) {
         const Totals one = totals(scene(1, false), s, DirectLight::Mis);
         const auto compare = [&](const char* what, const Scene& other, DirectLight mode) {
             const double z = confirmed(s, [&](RenderSettings now) {
-                now.seed += 1; // not that of `one`
+                now.estimator.seed += 1; // not that of `one`
                 return sigmasOff(totals(other, now, mode), one);
             });
             if (!(z <= f.measured))

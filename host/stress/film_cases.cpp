@@ -37,7 +37,8 @@ Finding manySamples(Run& run) {
             const double off = std::abs(p.mean[c] - double(value[c]));
             // The running mean is rounded to float where deviations from it are formed.
             const double spread = std::sqrt(p.variance()[c]) - 0x1p-23 * double(value[c]);
-            const double worst = p.count == s.samplesPerPixel ? std::max(off, spread) : 1;
+            const double worst =
+                p.count == s.budget.mostSamplesPerPixel ? std::max(off, spread) : 1;
             if (!(worst <= f.measured)) f.measured = worst, f.where = fmt::format("{}", value[c]);
         }
     }
@@ -63,11 +64,11 @@ Finding badSamples(Run& run) {
         camera.orthographic = true;
         const RenderSettings s = picture(3 * 8, run.amount(5u, 500u), 0);
         const Film film = run.render(m.scene, camera, s).film;
-        for (uint32_t y = 0; y < s.height; ++y)
-            for (uint32_t x = 0; x < s.width; ++x) {
+        for (uint32_t y = 0; y < s.area.height; ++y)
+            for (uint32_t x = 0; x < s.area.width; ++x) {
                 const PixelStatistics& p = film.at(x, y);
                 const bool spoilt = x / 8 == 1 && y / 8 == 1;
-                const uint32_t n = s.samplesPerPixel;
+                const uint32_t n = s.budget.mostSamplesPerPixel;
                 const bool right = spoilt ? p.count == 0 && p.rejected == n && p.firstRejected == 0
                                           : p.count == n && p.mean == glm::dvec3(0.25);
                 if (right) continue;
@@ -90,7 +91,7 @@ Finding cuts(Run& run) {
     const Scene scene = cornellBox();
     const Camera camera = lookingAt({0.5, 0.5, 0.9375}, {0.5, 0.4375, 0}, 0.75);
     RenderSettings s = picture(run.amount(24u, 128u), run.amount(8u, 64u), 6);
-    s.width += 5; // no multiple of a tile or a workgroup
+    s.area.width += 5; // no multiple of a tile or a workgroup
     std::vector<KernelTuning> tunings = {{.workgroupSize = 8},     {.workgroupSize = 32},
                                          {.workgroupSize = 64},    {.traversalSteps = 3},
                                          {.registerStack = 0},     {.lanes = 100},
@@ -116,7 +117,7 @@ Finding shapes(Run& run) {
     const auto check = [&](const char* what, const Scene& scene, const Camera& camera,
                            const RenderSettings& s, bool lit) {
         for (const PixelStatistics& p : run.render(scene, camera, s).film.pixels) {
-            const bool right = p.count == s.samplesPerPixel && p.rejected == 0 &&
+            const bool right = p.count == s.budget.mostSamplesPerPixel && p.rejected == 0 &&
                                (lit ? p.mean.x > 0 : p.mean == glm::dvec3(0.0));
             if (!right) f.measured += 1, f.where = what;
             ++f.trials;
@@ -127,7 +128,7 @@ Finding shapes(Run& run) {
          {std::pair{1u, 1u}, {1u, 17u}, {7u, 13u}, {run.amount(4000u, 16384u), 1u}})
         for (const uint32_t bounces : {0u, 1u}) {
             RenderSettings s = picture(1, 1, bounces);
-            s.width = width, s.height = height;
+            s.area.width = width, s.area.height = height;
             check("shape", glow, kInside, s, true);
         }
     check("empty scene", Scene{}, kInside, picture(9, 3, 5), false);

@@ -60,8 +60,8 @@ double confirmedSigmas(Run& run, const Furnace& furnace, RenderSettings s, uint6
         samples += totals.all.taken();
         z = sigmasOff(totals, glm::dvec3(furnace.radiance));
         if (z <= 3) break;
-        s.samplesPerPixel *= 4;
-        ++s.seed;
+        s.budget.mostSamplesPerPixel *= 4;
+        ++s.estimator.seed;
     }
     return z;
 }
@@ -81,9 +81,10 @@ Finding closedFurnaces(Run& run) {
                 for (const Sampler sampler : {Sampler::Independent, Sampler::Sobol}) {
                     if (run.quick() && (sampler == Sampler::Sobol) != samplesLights(mode)) continue;
                     RenderSettings s = picture(16, run.amount(32u, 512u), 100);
-                    s.directLight = mode;
-                    s.roulette = roulette;
-                    s.sampler = sampler; // Sobol: the error is less than what it is taken for
+                    s.estimator.directLight = mode;
+                    s.estimator.roulette = roulette;
+                    s.estimator.sampler =
+                        sampler; // Sobol: the error is less than what it is taken for
                     const double z = confirmedSigmas(run, furnace, s, f.trials);
                     if (!(z <= f.measured))
                         f.measured = z, f.where = fmt::format("{}, {}", furnace.name, nameOf(mode));
@@ -108,8 +109,8 @@ Finding centralLight(Run& run) {
             Camera camera = lookingAt({0.1, 0.2, 0.3}, {0.7, -0.4, 0.1}, 0.5);
             camera.orthographic = orthographic;
             RenderSettings s = picture(16, run.amount(16u, 256u), 60);
-            s.roulette.mode = Roulette::Mode::Throughput;
-            s.directLight = mode;
+            s.estimator.roulette.mode = Roulette::Mode::Throughput;
+            s.estimator.directLight = mode;
             const double z = confirmedSigmas(run, {"", m.scene, camera, 1.0}, s, f.trials);
             if (!(z <= f.measured))
                 f.measured = z, f.where = orthographic ? "orthographic" : "perspective";

@@ -34,7 +34,7 @@ Finding parallelPlanes(Run& run) {
     for (const float scale : sizes(run)) {
         const auto mean = [&](Camera camera) {
             camera.halfWidth *= scale, camera.halfHeight *= scale, camera.nearDistance *= scale;
-            f.trials += uint64_t(s.width) * s.height * s.samplesPerPixel;
+            f.trials += uint64_t(s.area.width) * s.area.height * s.budget.mostSamplesPerPixel;
             return Totals(run.render(placed(m.scene, scale), placed(camera, scale), s).film)
                 .all.mean.x;
         };
@@ -101,14 +101,14 @@ Finding leaks(Run& run) {
                 point.position = {2, -0.2f, 0};
                 m.add(point);
                 RenderSettings s = picture(32, run.amount(8u, 256u), 4);
-                s.minBounce = 1;
-                s.directLight = mode;
+                s.estimator.minBounce = 1;
+                s.estimator.directLight = mode;
                 const Camera camera = lookingAt({0.5, 0.5, 0}, {0, 0, 0}, 0.5);
                 const Film film = run.render(m.scene, camera, s).film;
                 const double leaked = Totals(film).sum();
                 if (leaked > 0) f.where = fmt::format("mode {}", nameOf(mode));
                 f.measured += leaked;
-                f.trials += uint64_t(s.width) * s.height * s.samplesPerPixel;
+                f.trials += uint64_t(s.area.width) * s.area.height * s.budget.mostSamplesPerPixel;
             }
     return f;
 }

@@ -41,11 +41,11 @@ Finding compare(Run& run, const std::vector<float>& parameters, const RenderSett
     check.familyError = kFalseAlarms / double(parameters.size() * modes.size());
     RenderSettings s = settings;
     for (const DirectLight mode : modes) {
-        s.directLight = mode;
-        s.seed = 1;
+        s.estimator.directLight = mode;
+        s.estimator.seed = 1;
         const Film before = run.render(scene, camera, s).film;
         for (const float parameter : parameters) {
-            ++s.seed;
+            ++s.estimator.seed;
             const auto [otherScene, otherCamera] = place(scene, camera, parameter);
             const Film after = run.render(otherScene, otherCamera, s).film;
             const double found = worst(crossCheck(before, after, check));

@@ -37,16 +37,13 @@ Scene turned(Scene scene) {
 
 RenderSettings picture(uint32_t side, uint32_t samplesPerPixel, uint32_t maxBounces) {
     RenderSettings settings;
-    settings.width = settings.height = side;
-    settings.samplesPerPixel = samplesPerPixel;
-    settings.maxBounces = maxBounces;
-    settings.roulette.mode = Roulette::Mode::None;
-    settings.sampler = Sampler::Independent; // z-tests know the error of independent samples
+    settings.area.width = settings.area.height = side;
+    settings.budget.mostSamplesPerPixel = samplesPerPixel;
+    settings.estimator.maxBounces = maxBounces;
+    settings.estimator.roulette.mode = Roulette::Mode::None;
+    settings.estimator.sampler =
+        Sampler::Independent; // z-tests know the error of independent samples
     return settings;
-}
-
-const char* nameOf(DirectLight mode) {
-    return samplesLights(mode) ? "lights" : mode == DirectLight::Hemisphere ? "hemisphere" : "bsdf";
 }
 
 } // namespace stromboli::stress

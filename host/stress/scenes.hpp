@@ -23,6 +23,5 @@ RenderSettings picture(uint32_t side, uint32_t samplesPerPixel, uint32_t maxBoun
 
 inline constexpr DirectLight kDirectLightModes[] = {DirectLight::Mis, DirectLight::Hemisphere,
                                                     DirectLight::Bsdf};
-const char* nameOf(DirectLight mode);
 
 } // namespace stromboli::stress

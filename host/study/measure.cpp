@@ -35,7 +35,7 @@ std::optional<Run> growSamples(const RunPlan& plan, const PreparedRender& render
     const StudySettings& s = plan.settings;
     warmUp(render);
     const uint64_t raysBefore = render.backend->counters().rays;
-    Film film(render.settings.width, render.settings.height);
+    Film film(render.settings.area.width, render.settings.area.height);
     std::vector<PixelTarget> targets(film.pixels.size());
     Run run{plan.configuration.name, plan.seed, {}, false};
     double wallSeconds = 0, cpuSeconds = 0;
@@ -165,7 +165,8 @@ std::optional<Run> measureRun(const RunPlan& plan, const Prepare& prepare,
             plan.scene, renderOptions(s, plan.configuration, 0, plan.seed, s.sampleCounts.back()));
         const RenderSettings& r = render.settings;
         // How many branches a sample has depends on the count, too.
-        const bool grows = !r.stop.spreads() && !r.adaptive.enabled && r.branches == 1;
+        const bool grows =
+            !r.budget.spreads() && !r.budget.adaptive.enabled && r.estimator.branches == 1;
         if (grows) return growSamples(plan, render, keepGoing, takeFilm);
     }
     return growRenders(plan, prepare, keepGoing, takeFilm);

@@ -100,6 +100,7 @@ Buffer::Buffer(const Device& device, std::string name, uint64_t bytes, BufferUse
 
 void Buffer::upload(Queue& queue, std::span<const std::byte> data, uint64_t offset) {
     if (data.empty()) return;
+    device_->countUpload(data.size());
     if (std::byte* mapped = memory_.mapped()) {
         std::memcpy(mapped + offset, data.data(), data.size());
         return;

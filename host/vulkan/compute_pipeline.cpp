@@ -93,7 +93,9 @@ ComputePipeline::ComputePipeline(const Device& device, std::span<const uint32_t>
                                  std::span<const uint32_t> constants, uint32_t pushConstantBytes)
     : bindings_(bindings.begin(), bindings.end()), setLayout_(createSetLayout(device, bindings)),
       layout_(createLayout(device, setLayout_.get(), pushConstantBytes)),
-      pipeline_(createPipeline(device, spirv, constants, layout_.get())) {}
+      pipeline_(createPipeline(device, spirv, constants, layout_.get())) {
+    device.countPipeline();
+}
 
 DescriptorSet::DescriptorSet(const Device& device, const ComputePipeline& pipeline,
                              std::span<const Buffer* const> buffers) {

@@ -68,6 +68,13 @@ class Device {
     uint64_t allocatedBytes() const { return allocated_.load(); }
     /// What a buffer tells the device it is made on.
     void countAllocation(int64_t bytes) const { allocated_ += uint64_t(bytes); }
+    /// Compute pipelines that were made on this device so far.
+    uint64_t pipelinesMade() const { return pipelinesMade_.load(); }
+    /// What a pipeline tells the device it is made on.
+    void countPipeline() const { ++pipelinesMade_; }
+    /// Bytes that were uploaded to buffers of this device so far.
+    uint64_t bytesUploaded() const { return uploaded_.load(); }
+    void countUpload(uint64_t bytes) const { uploaded_ += bytes; }
 
   private:
     DeviceDescription description_;
@@ -76,7 +83,7 @@ class Device {
     VkQueue queue_ = VK_NULL_HANDLE;
     VolkDeviceTable table_{};
     std::unique_ptr<PipelineCache> pipelines_;
-    mutable std::atomic<uint64_t> allocated_ = 0;
+    mutable std::atomic<uint64_t> allocated_ = 0, pipelinesMade_ = 0, uploaded_ = 0;
 };
 
 } // namespace stromboli::vulkan

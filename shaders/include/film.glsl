@@ -28,5 +28,5 @@ void storePixel(uint index, PixelState s) {
     STORE_ROW(pixelRows, 4u * index, uvec4(floatBitsToUint(s.sum), s.count));
     STORE_ROW(pixelRows, 4u * index + 1u, uvec4(floatBitsToUint(s.sumError), s.rejected));
     STORE_ROW(pixelRows, 4u * index + 2u, uvec4(floatBitsToUint(s.m2), s.firstRejected));
-    STORE_ROW(pixelRows, 4u * index + 3u, uvec4(floatBitsToUint(s.m2Error), s.unused));
+    STORE_ROW(pixelRows, 4u * index + 3u, uvec4(floatBitsToUint(s.m2Error), s.samplesBefore));
 }

@@ -42,7 +42,7 @@ struct Dispatch {
     uint laneCount;      ///< invocations that take part
     uint groupsPerThread;  ///< that a thread of the driver runs in turn; 0: not known
     uint sharedIterations; ///< of all lanes together until each thread shall have ended one group
-    uint unused2;
+    uint beginsNoSample;   ///< 1: the render was stopped; only what is under way may be ended
 };
 SHARED_ROWS(Dispatch, 2);
 
@@ -66,7 +66,7 @@ struct PixelState {
     vec3 m2;            ///< sum of squared deviations from the running mean (Welford 1962)
     uint firstRejected; ///< sample index, or 0xFFFFFFFF
     vec3 m2Error;
-    uint unused;
+    uint samplesBefore; ///< that it had when the pass under way took it up
 };
 SHARED_ROWS(PixelState, 4);
 SHARED_OFFSET(PixelState, rejected, 28);

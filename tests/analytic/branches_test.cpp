@@ -23,7 +23,7 @@ Scene furnace(const Material& material) {
 
 RenderSettings branching(uint32_t branches, uint32_t maxBounces) {
     RenderSettings s = smallPicture(36 / branches, maxBounces);
-    s.branches = branches;
+    s.estimator.branches = branches;
     return s;
 }
 
@@ -33,7 +33,7 @@ TEST_P(Branches, FurnaceOfAnyDirectLight) {
     for (const DirectLight mode :
          {DirectLight::Lights, DirectLight::Hemisphere, DirectLight::Bsdf}) {
         RenderSettings s = branching(GetParam(), 20);
-        s.directLight = mode;
+        s.estimator.directLight = mode;
         expectMean(estimate(furnace(diffuse(0.5f, 1)), kInside, s),
                    glm::dvec3(2 - std::pow(0.5, 20)));
     }
@@ -47,13 +47,13 @@ TEST_P(Branches, PartialSums) {
 
 TEST_P(Branches, FixedRoulette) {
     RenderSettings s = branching(GetParam(), 100);
-    s.roulette = {Roulette::Mode::Fixed, 0.2};
+    s.estimator.roulette = {Roulette::Mode::Fixed, 0.2};
     expectMean(estimate(furnace(diffuse(0.5f, 1)), kInside, s), glm::dvec3(2));
 }
 
 TEST_P(Branches, RouletteByThroughput) {
     RenderSettings s = branching(GetParam(), 50);
-    s.roulette.mode = Roulette::Mode::Throughput;
+    s.estimator.roulette.mode = Roulette::Mode::Throughput;
     expectMean(estimate(furnace(diffuse(0.5f, 1)), kInside, s), glm::dvec3(2));
 }
 
@@ -72,17 +72,17 @@ TEST_P(Branches, BehindEveryMaterial) {
         m.alpha = 0.3f, m.eta = glm::vec3(1.5f), m.k = glm::vec3(3);
         maker.sphere({0.5f, -0.3f, 0}, 0.4f, maker.add(m));
         RenderSettings s = branching(GetParam(), 6);
-        s.samplesPerPixel *= 2;
+        s.budget.mostSamplesPerPixel *= 2;
         RenderSettings unsplit = branching(1, 6);
-        unsplit.samplesPerPixel *= 2;
-        unsplit.seed = 1;
+        unsplit.budget.mostSamplesPerPixel *= 2;
+        unsplit.estimator.seed = 1;
         expectSameMean(estimate(maker.scene, kInside, s), estimate(maker.scene, kInside, unsplit));
     }
 }
 
 TEST_P(Branches, LightOfOneBounceAlone) {
     RenderSettings s = branching(GetParam(), 3);
-    s.minBounce = 3;
+    s.estimator.minBounce = 3;
     expectMean(estimate(furnace(diffuse(0.5f, 1)), kInside, s), glm::dvec3(0.125));
 }
 

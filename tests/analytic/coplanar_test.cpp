@@ -35,10 +35,10 @@ TEST(Coplanar, CopiesOfAFloorDoNotLightEachOther) {
         const Camera camera =
             pointCamera(glm::dvec3(p.at) + 2.0 * normal + 0.5 * glm::dvec3(p.edgeB), p.at, 0.2);
         RenderSettings s = smallPicture(64, 3);
-        s.minBounce = 2;
+        s.estimator.minBounce = 2;
         expectMean(estimate(scene, camera, s), 0);
-        s.minBounce = 1;
-        s.maxBounces = 1;
+        s.estimator.minBounce = 1;
+        s.estimator.maxBounces = 1;
         EXPECT_GT(estimate(scene, camera, s).mean.x, 0); // light does reach it
     }
 }

@@ -17,7 +17,7 @@ const Camera kFromBelow = pointCamera({3, -2, 3}, {0, 0, 0});
 
 RenderSettings cs184(uint32_t samples, uint32_t maxBounces = 1) {
     RenderSettings s = smallPicture(samples, maxBounces);
-    s.cs184 = true;
+    s.estimator.cs184 = true;
     return s;
 }
 
@@ -106,7 +106,7 @@ TEST(Cs184, AmbientComesFromAboveOnly) {
     b.scene.lights.emplace_back().kind = LightKind::Ambient;
     expectMean(estimate(b.scene, kFromAbove, cs184(64)), 0.25);
     RenderSettings s = cs184(4);
-    s.directLight = DirectLight::Hemisphere;
+    s.estimator.directLight = DirectLight::Hemisphere;
     expectMean(estimate(b.scene, kFromAbove, s), 0);
     b.scene.materials[0].kind = MaterialKind::Mirror;
     expectMean(estimate(b.scene, kFromAbove, cs184(4, 5)), 0);
@@ -117,9 +117,9 @@ TEST(Cs184, LampsAreNotSampledButSeenByHemisphereAndAfterMirrors) {
     b.sphere({0, 0, 0}, 20, b.add(lamp(2, false))); // one-sided outwards: emits inside all the same
     expectMean(estimate(b.scene, kFromAbove, cs184(4, 3)), 0);
     RenderSettings s = cs184(64);
-    s.directLight = DirectLight::Bsdf;
+    s.estimator.directLight = DirectLight::Bsdf;
     expectMean(estimate(b.scene, kFromAbove, s), 0);
-    s.directLight = DirectLight::Hemisphere;
+    s.estimator.directLight = DirectLight::Hemisphere;
     expectMean(estimate(b.scene, kFromAbove, s), 0); // no light: no direction
     b.scene.lights.emplace_back();                   // counts, but gives nothing itself
     b.scene.lights.back().position = {0, 4, 0};

@@ -32,7 +32,7 @@ class Emitters : public testing::TestWithParam<DirectLight> {
     RenderSettings settings = smallPicture(256, 1);
 
     void SetUp() override {
-        settings.directLight = GetParam();
+        settings.estimator.directLight = GetParam();
         addFloor(builder, builder.add(diffuse(0.5f)));
     }
     void expectIrradiance(double irradiance) {
@@ -111,7 +111,7 @@ TEST_P(Emitters, EmittersAddUp) {
 TEST_P(Emitters, LampSeenByTheCamera) {
     builder.sphere({0, 0, 0}, 0.5f, builder.add(lamp(2)));
     expectMean(estimate(builder.scene, kSeesOrigin, settings), 2);
-    settings.minBounce = 1;
+    settings.estimator.minBounce = 1;
     expectMean(estimate(builder.scene, kSeesOrigin, settings), 0);
 }
 
@@ -120,8 +120,8 @@ TEST_P(Emitters, MirrorShowsTheLamp) {
     builder.scene.materials[0].reflectance = glm::vec3(0.25f);
     builder.sphere({-3, 2, -3}, 0.5f, builder.add(lamp(2)));
     expectMean(estimate(builder.scene, kSeesOrigin, settings), 0.5);
-    settings.minBounce = 2;
-    settings.maxBounces = 4;
+    settings.estimator.minBounce = 2;
+    settings.estimator.maxBounces = 4;
     expectMean(estimate(builder.scene, kSeesOrigin, settings), 0);
 }
 
@@ -142,11 +142,11 @@ class Modes : public testing::Test {
     Estimate render(DirectLight mode, Roulette::Mode roulette, uint32_t min, uint32_t max,
                     uint32_t seed) {
         RenderSettings s = smallPicture(400, max);
-        s.minBounce = min;
-        s.directLight = mode;
-        s.roulette.mode = roulette;
-        s.roulette.terminationProbability = 0.3;
-        s.seed = seed;
+        s.estimator.minBounce = min;
+        s.estimator.directLight = mode;
+        s.estimator.roulette.mode = roulette;
+        s.estimator.roulette.terminationProbability = 0.3;
+        s.estimator.seed = seed;
         return estimate(scene, camera, s);
     }
 };

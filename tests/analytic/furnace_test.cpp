@@ -41,9 +41,9 @@ class Furnace : public testing::TestWithParam<Case> {
   protected:
     RenderSettings settings(uint32_t samples, uint32_t maxBounces) {
         RenderSettings s = smallPicture(samples, maxBounces);
-        s.directLight = GetParam().directLight;
-        s.roulette.mode = GetParam().roulette;
-        s.roulette.terminationProbability = 0.2;
+        s.estimator.directLight = GetParam().directLight;
+        s.estimator.roulette.mode = GetParam().roulette;
+        s.estimator.roulette.terminationProbability = 0.2;
         return s;
     }
 };
@@ -61,14 +61,14 @@ TEST_P(Furnace, SphereOfFewBounces) {
 TEST_P(Furnace, MinBounceLeavesOutWhatScatteredLess) {
     for (uint32_t k : {1u, 2u, 4u}) {
         RenderSettings s = settings(16, 5);
-        s.minBounce = k;
+        s.estimator.minBounce = k;
         expectMean(estimate(sphereFurnace(0.5f), kInside, s), partialSum(0.5, k, 5));
     }
 }
 
 TEST_P(Furnace, SeveralLightSamplesAreAveraged) {
     RenderSettings s = settings(16, 3);
-    s.lightSamples = 3;
+    s.estimator.lightSamples = 3;
     expectMean(estimate(sphereFurnace(0.5f), kInside, s), partialSum(0.5, 0, 3));
 }
 
@@ -94,8 +94,8 @@ INSTANTIATE_TEST_SUITE_P(AllModes, Furnace,
 TEST(BoxFurnace, HemisphereAndBsdfModes) {
     for (DirectLight directLight : {DirectLight::Hemisphere, DirectLight::Bsdf}) {
         RenderSettings s = smallPicture(32, 40);
-        s.directLight = directLight;
-        s.roulette.mode = Roulette::Mode::Throughput;
+        s.estimator.directLight = directLight;
+        s.estimator.roulette.mode = Roulette::Mode::Throughput;
         expectMean(estimate(boxFurnace(diffuse(0.5f, 1)), kInside, s), 2.0);
     }
 }

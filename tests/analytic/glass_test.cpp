@@ -20,7 +20,7 @@ const Camera kOutside = pointCamera({0, 0, 4}, {0, 0, 0}, 0.18); // the sphere f
 TEST(Glass, WhiteFurnaceIsOneInEverySample) {
     for (Roulette::Mode mode : {Roulette::Mode::None, Roulette::Mode::Throughput}) {
         RenderSettings s = smallPicture(64, 1000);
-        s.roulette.mode = mode;
+        s.estimator.roulette.mode = mode;
         const Estimate found = estimate(sphereInAmbientLight(glass(1.5f)), kOutside, s);
         if (mode == Roulette::Mode::None) {
             EXPECT_LT(found.error.x, kRounding);

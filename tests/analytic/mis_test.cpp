@@ -79,9 +79,9 @@ class Mis : public testing::TestWithParam<LampKind> {
         addFloor(maker, maker.add(metal(float(alpha))));
         GetParam().add(maker);
         RenderSettings s = smallPicture(400, 3);
-        s.directLight = mode;
-        s.lightSamples = GetParam().lightSamples;
-        s.seed = seed;
+        s.estimator.directLight = mode;
+        s.estimator.lightSamples = GetParam().lightSamples;
+        s.estimator.seed = seed;
         return estimate(maker.scene, kLow, s);
     }
 };

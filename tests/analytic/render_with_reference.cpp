@@ -9,10 +9,10 @@ const double kRounding = 1e-9;
 Film renderFilm(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                 unsigned threads) {
     ReferenceBackend backend(scene, camera, settings, threads);
-    Film film(settings.width, settings.height);
+    Film film(settings.area.width, settings.area.height);
     std::vector<PixelTarget> targets;
     for (uint32_t i = 0; i < film.pixels.size(); ++i)
-        targets.push_back({i, settings.samplesPerPixel});
+        targets.push_back({i, settings.budget.mostSamplesPerPixel});
     backend.sample(targets, film, {});
     return film;
 }

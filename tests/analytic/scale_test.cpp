@@ -30,9 +30,9 @@ TEST_P(Scale, LeavesTheCornellBoxAsItIs) {
     const Camera camera = pointCamera(glm::dvec3(middle) + glm::dvec3(0.1, 0.05, 0.4), middle, 0.6);
     for (DirectLight direct : kDirectLightModes) {
         RenderSettings s = smallPicture(256, 5);
-        s.directLight = direct;
+        s.estimator.directLight = direct;
         const Estimate one = estimate(scene, camera, s);
-        s.seed = 1;
+        s.estimator.seed = 1;
         const Estimate other = estimate(scaled(scene, GetParam()), scaled(camera, GetParam()), s);
         EXPECT_GT(one.mean.x, 0);
         expectSameMean(other, one);

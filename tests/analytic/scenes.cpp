@@ -12,10 +12,10 @@ void addFloor(SceneMaker& builder, uint32_t material) {
 
 RenderSettings smallPicture(uint32_t samplesPerPixel, uint32_t maxBounces) {
     RenderSettings settings;
-    settings.width = settings.height = 16;
-    settings.samplesPerPixel = samplesPerPixel;
-    settings.maxBounces = maxBounces;
-    settings.roulette.mode = Roulette::Mode::None;
+    settings.area.width = settings.area.height = 16;
+    settings.budget.mostSamplesPerPixel = samplesPerPixel;
+    settings.estimator.maxBounces = maxBounces;
+    settings.estimator.roulette.mode = Roulette::Mode::None;
     return settings;
 }
 

@@ -75,7 +75,7 @@ TEST(ShadingNormals, LetNoLightThroughTheSurface) {
         b.add(pointLight({2, -0.2f, 0}));
         for (DirectLight mode : kDirectLightModes) {
             RenderSettings s = smallPicture(64, 3);
-            s.directLight = mode;
+            s.estimator.directLight = mode;
             expectMean(estimate(b.scene, kFromAbove, s), 0);
         }
     }

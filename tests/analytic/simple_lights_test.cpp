@@ -40,7 +40,7 @@ TEST(SimpleLights, Point) {
     const double irradiance = 0.8 / (0.5 + 0.25 * 2.5 + 2 * 2.5 * 2.5);
     for (DirectLight mode : kDirectLightModes) {
         RenderSettings s = smallPicture(1, 1);
-        s.directLight = mode;
+        s.estimator.directLight = mode;
         expectMean(estimate(floorUnder(light), kSeesOrigin, s),
                    kF * irradiance * glm::dvec3(3, 2, 1));
     }
@@ -96,7 +96,7 @@ TEST(SimpleLights, AmbientFromAllSidesInEveryMode) {
     light.color = {3, 2, 1};
     for (DirectLight mode : kDirectLightModes) {
         RenderSettings s = smallPicture(64, 1);
-        s.directLight = mode;
+        s.estimator.directLight = mode;
         expectMean(estimate(floorUnder(light), kSeesOrigin, s), 0.5 * glm::dvec3(3, 2, 1));
     }
 }
@@ -110,7 +110,7 @@ TEST(SimpleLights, UpperHemisphereLightsHalfOfAWall) {
     b.add(light);
     for (DirectLight mode : kDirectLightModes) {
         RenderSettings s = smallPicture(64, 1);
-        s.directLight = mode;
+        s.estimator.directLight = mode;
         expectMean(estimate(b.scene, kSeesOrigin, s), 0.25);
     }
 }
@@ -120,7 +120,7 @@ TEST(SimpleLights, AmbientIsNoBackdrop) {
     empty.lights.emplace_back().kind = LightKind::Ambient;
     for (DirectLight mode : kDirectLightModes) {
         RenderSettings s = smallPicture(1, 5);
-        s.directLight = mode;
+        s.estimator.directLight = mode;
         expectMean(estimate(empty, kSeesOrigin, s), 0);
     }
 }
@@ -135,7 +135,7 @@ TEST(SimpleLights, MirrorShowsAmbientLightWithoutDirectLight) {
     b.scene.lights.emplace_back().kind = LightKind::Ambient;
     for (DirectLight mode : kDirectLightModes) {
         RenderSettings s = smallPicture(1, 1);
-        s.directLight = mode;
+        s.estimator.directLight = mode;
         expectMean(estimate(b.scene, kSeesOrigin, s), 0.25);
     }
 }

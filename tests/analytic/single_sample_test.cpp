@@ -18,10 +18,10 @@ const std::filesystem::path kLibrary =
 
 RenderSettings picture() {
     RenderSettings s;
-    s.width = 24, s.height = 18;
-    s.samplesPerPixel = 20; // more than the first pass of a render
-    s.lightSamples = 2;
-    s.seed = 7;
+    s.area.width = 24, s.area.height = 18;
+    s.budget.mostSamplesPerPixel = 20; // more than the first pass of a render
+    s.estimator.lightSamples = 2;
+    s.estimator.seed = 7;
     return s;
 }
 
@@ -30,12 +30,13 @@ class SingleSample : public testing::TestWithParam<const char*> {};
 TEST_P(SingleSample, IsTheSameAsInTheRun) {
     const Scene scene = loadCollada(kLibrary / GetParam(), {});
     const RenderSettings settings = picture();
-    const Camera camera =
-        makeCamera(scene, CameraChoice::Automatic, settings.width, settings.height, settings.cs184);
+    const Camera camera = makeCamera(scene, CameraChoice::Automatic, settings.area.width,
+                                     settings.area.height, settings.estimator.cs184);
     const Film film = renderFilm(scene, camera, settings);
     int different = 0;
     for (const uint32_t pixel : {101u, 200u, 233u, 276u, 370u}) {
-        const auto samples = samplesAlone(scene, camera, settings, pixel, settings.samplesPerPixel);
+        const auto samples =
+            samplesAlone(scene, camera, settings, pixel, settings.budget.mostSamplesPerPixel);
         for (const SampleValue& s : samples)
             different += s.radiance != samples.front().radiance;
         const glm::dvec3 mean = meanInOrder(samples);
@@ -56,7 +57,7 @@ TEST(RejectedSample, IsFoundAgainByItsNumber) {
     b.sphere({0.5f, 0, 0}, 0.5f, b.add(lamp(std::numeric_limits<float>::infinity())));
     b.sphere({-0.5f, 0, 0}, 0.5f, b.add(lamp(3)));
     RenderSettings s = smallPicture(24, 0);
-    s.width = s.height = 3;
+    s.area.width = s.area.height = 3;
     const Camera camera = pointCamera({0, 0, 3}, {0, 0, 0}, 0.1);
     const Film film = renderFilm(b.scene, camera, s);
     const PixelStatistics& middle = film.at(1, 1);
@@ -64,7 +65,7 @@ TEST(RejectedSample, IsFoundAgainByItsNumber) {
     ASSERT_GT(middle.count, 0u);
     EXPECT_EQ(film.at(0, 1).rejected, 0u) << "a neighbour";
 
-    const auto samples = samplesAlone(b.scene, camera, s, 4, s.samplesPerPixel);
+    const auto samples = samplesAlone(b.scene, camera, s, 4, s.budget.mostSamplesPerPixel);
     uint32_t rejected = 0;
     for (uint32_t i = 0; i < samples.size(); ++i) {
         rejected += samples[i].rejected;

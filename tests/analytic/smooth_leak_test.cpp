@@ -36,7 +36,7 @@ Material metal() {
 void expectDark(const Scene& scene, const Camera& camera) {
     for (const DirectLight mode : kDirectLightModes) {
         RenderSettings s = smallPicture(64, 4);
-        s.directLight = mode;
+        s.estimator.directLight = mode;
         for (const PixelStatistics& p : renderFilm(scene, camera, s).pixels) {
             ASSERT_EQ(p.rejected, 0u);
             ASSERT_EQ(p.mean, glm::dvec3(0.0));

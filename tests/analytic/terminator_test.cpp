@@ -43,7 +43,7 @@ ScanLine scan(const Scene& scene, double y) {
     camera.position = {0, y, 5};
     camera.halfWidth = kHalfWidth, camera.halfHeight = 1e-9;
     RenderSettings s = smallPicture(16, 1);
-    s.width = kPixels, s.height = 1;
+    s.area.width = kPixels, s.area.height = 1;
     const Film film = renderFilm(scene, camera, s);
     ScanLine line;
     for (uint32_t i = 0; i < kPixels; ++i) {
@@ -145,8 +145,8 @@ void expectNothingLost(const Material& material, DirectLight mode, double albedo
     camera.position = {0, 0, 5};
     camera.halfWidth = camera.halfHeight = 0.65; // its corners are at 0.92: every sample hits
     RenderSettings s = smallPicture(64, 1);
-    s.directLight = mode;
-    s.width = s.height = 32;
+    s.estimator.directLight = mode;
+    s.area.width = s.area.height = 32;
     const Estimate found = estimate(b.scene, camera, s);
     EXPECT_NEAR(found.mean.x, albedo, 4.5 * found.error.x + 1e-6 * albedo);
     if (mode == DirectLight::Bsdf) {
@@ -172,7 +172,7 @@ TEST(SmoothFurnace, LittleIsLostInside) {
     ASSERT_LT(share, 0.02);
     const Camera inside = pointCamera({0.1, 0.2, 0.3}, {0.7, -0.4, 0.1}, 1.0);
     RenderSettings s = smallPicture(64, 60);
-    s.directLight = DirectLight::Bsdf;
+    s.estimator.directLight = DirectLight::Bsdf;
     const Estimate found = estimate(b.scene, inside, s);
     EXPECT_GT(found.mean.x, 1 / (1 - 0.75 * (1 - share)) - 4.5 * found.error.x);
     EXPECT_LT(found.mean.x, 4 + 4.5 * found.error.x);
@@ -194,7 +194,7 @@ TEST(SmoothSphere, EveryWayOfFindingLampsGivesTheSame) {
     const Estimate lights = estimate(b.scene, camera, s);
     EXPECT_GT(lights.mean.x, 0.02);
     for (const DirectLight mode : {DirectLight::Hemisphere, DirectLight::Bsdf}) {
-        s.directLight = mode;
+        s.estimator.directLight = mode;
         expectSameMean(estimate(b.scene, camera, s), lights);
     }
 }

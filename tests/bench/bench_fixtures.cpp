@@ -12,10 +12,10 @@ LibraryPicture libraryPicture(const std::string& name, uint32_t width, uint32_t 
     p.scene = loadCollada(
         (std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene/library" / (name + ".dae")).string(),
         {});
-    p.settings.width = width;
-    p.settings.height = height;
-    p.settings.samplesPerPixel = samples;
-    p.settings.maxBounces = 5;
+    p.settings.area.width = width;
+    p.settings.area.height = height;
+    p.settings.budget.mostSamplesPerPixel = samples;
+    p.settings.estimator.maxBounces = 5;
     p.camera = makeCamera(p.scene, CameraChoice::Automatic, width, height, false);
     return p;
 }

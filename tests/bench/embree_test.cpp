@@ -89,13 +89,13 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EmbreePaths,
 TEST(EmbreePathsOf, ManyLampsMakeTheReferencesPicture) {
     LibraryPicture p = libraryPicture("cornell_boxes", 48, 36, 64);
     p.scene = readScene("generate:lamps:400");
-    p.settings.maxBounces = 2;
+    p.settings.estimator.maxBounces = 2;
     p.camera = makeCamera(p.scene, CameraChoice::Automatic, 48, 36, false);
     CheckSettings check;
     check.familyError = 1e-4;
     const Film reference = paintReference(p);
     for (const LightChoice choice : {LightChoice::Tree, LightChoice::Uniform}) {
-        p.settings.lightChoice = choice;
+        p.settings.estimator.lightChoice = choice;
         const CheckResult result = crossCheck(paint(p, EmbreeMode::Robust), reference, check);
         EXPECT_TRUE(result.agree()) << formatCheck(result);
     }
@@ -118,15 +118,16 @@ TEST_P(EmbreePathsWith, MakeTheReferencesPicture) {
 }
 
 const Mode kModes[] = {
-    {"noRoulette", [](RenderSettings& s) { s.roulette.mode = Roulette::Mode::None; }},
+    {"noRoulette", [](RenderSettings& s) { s.estimator.roulette.mode = Roulette::Mode::None; }},
     {"fixedRoulette",
      [](RenderSettings& s) {
-         s.maxBounces = 50;
-         s.roulette = {Roulette::Mode::Fixed, 0.3};
+         s.estimator.maxBounces = 50;
+         s.estimator.roulette = {Roulette::Mode::Fixed, 0.3};
      }},
-    {"severalLightSamples", [](RenderSettings& s) { s.lightSamples = 3; }},
-    {"secondBounceAlone", [](RenderSettings& s) { s.minBounce = s.maxBounces = 2; }},
-    {"emissionOnly", [](RenderSettings& s) { s.maxBounces = 0; }},
+    {"severalLightSamples", [](RenderSettings& s) { s.estimator.lightSamples = 3; }},
+    {"secondBounceAlone",
+     [](RenderSettings& s) { s.estimator.minBounce = s.estimator.maxBounces = 2; }},
+    {"emissionOnly", [](RenderSettings& s) { s.estimator.maxBounces = 0; }},
 };
 
 INSTANTIATE_TEST_SUITE_P(Modes, EmbreePathsWith, testing::ValuesIn(kModes),
@@ -170,10 +171,10 @@ TEST(EmbreePaths, SayWhatTheyLack) {
     EXPECT_EQ(embreePathsLack(p.scene, p.settings), "microfacet materials");
     p = libraryPicture("cornell_boxes");
     EXPECT_EQ(embreePathsLack(p.scene, p.settings), "");
-    p.settings.directLight = DirectLight::Hemisphere;
+    p.settings.estimator.directLight = DirectLight::Hemisphere;
     EXPECT_NE(embreePathsLack(p.scene, p.settings), "");
     p.settings = {};
-    p.settings.cs184 = true;
+    p.settings.estimator.cs184 = true;
     EXPECT_EQ(embreePathsLack(p.scene, p.settings), "CS184 conventions");
 }
 

@@ -34,10 +34,10 @@ struct Bench {
 
     static RenderSettings small() {
         RenderSettings s;
-        s.width = s.height = 48;
-        s.samplesPerPixel = 4;
-        s.maxBounces = 5;
-        s.guides = false; // as `bench` has it
+        s.area.width = s.area.height = 48;
+        s.budget.mostSamplesPerPixel = 4;
+        s.estimator.maxBounces = 5;
+        s.estimator.guides = false; // as `bench` has it
         return s;
     }
     RaySet bounceRays() const { return makeRaySets(scene.scene, arena.camera, settings, 1).bounce; }

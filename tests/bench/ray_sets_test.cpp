@@ -95,7 +95,7 @@ TEST_P(RaySetsOf, ArePureFunctions) {
     EXPECT_TRUE(sameBits(sets.shadow, again.shadow));
     EXPECT_TRUE(sameBits(sets.bounce, again.bounce));
     LibraryPicture other = picture;
-    other.settings.seed = 1;
+    other.settings.estimator.seed = 1;
     EXPECT_FALSE(sameBits(sets.camera, raysOf(other).camera));
 }
 

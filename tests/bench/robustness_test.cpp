@@ -64,7 +64,7 @@ double meanOf(const LibraryPicture& p, std::span<const uint32_t> code) {
     double sum = 0;
     for (const PixelStatistics& pixel : render(backend, p.settings, {}).pixels)
         sum += pixel.mean.y;
-    return sum / double(p.settings.width * p.settings.height);
+    return sum / double(p.settings.area.width * p.settings.area.height);
 }
 
 /// Same random numbers, so the mean is the same but for samples that went another way. At a

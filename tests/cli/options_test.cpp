@@ -19,10 +19,10 @@ TEST(Options, Defaults) {
     EXPECT_EQ(o.command, Command::Render);
     EXPECT_EQ(o.scene, "a.dae");
     EXPECT_EQ(o.output, "a.png");
-    EXPECT_EQ(o.settings.stop.meanSamples, 64u);
-    EXPECT_EQ(o.settings.maxBounces, 8u);
-    EXPECT_FALSE(o.settings.adaptive.enabled);
-    EXPECT_EQ(o.settings.roulette.mode, Roulette::Mode::Throughput);
+    EXPECT_EQ(o.budget.meanPathsPerPixel, 64u);
+    EXPECT_EQ(o.estimator.maxBounces, 8u);
+    EXPECT_FALSE(o.budget.adaptive.enabled);
+    EXPECT_EQ(o.estimator.roulette.mode, Roulette::Mode::Throughput);
     EXPECT_FALSE(o.sizeGiven);
 }
 
@@ -35,54 +35,54 @@ TEST(Options, EverythingGiven) {
                "5",      "--device",   "cpu",  "--backend", "reference", "--exposure",
                "-1.5",   "--crop",     "1",    "2",         "3",         "4",
                "-q"});
-    EXPECT_EQ(o.settings.samplesPerPixel, 9u);
-    EXPECT_EQ(o.settings.lightSamples, 3u);
-    EXPECT_EQ(o.settings.maxBounces, 4u);
-    EXPECT_EQ(o.settings.width, 20u);
-    EXPECT_EQ(o.settings.height, 10u);
-    EXPECT_TRUE(o.settings.adaptive.enabled);
-    EXPECT_EQ(o.settings.adaptive.batch, 8u);
-    EXPECT_EQ(o.settings.adaptive.tolerance, 0.1);
-    EXPECT_EQ(o.settings.directLight, DirectLight::Hemisphere);
-    EXPECT_EQ(o.settings.minBounce, 2u);
-    EXPECT_EQ(o.settings.roulette.mode, Roulette::Mode::Fixed);
-    EXPECT_EQ(o.settings.roulette.terminationProbability, 0.25);
+    EXPECT_EQ(o.budget.mostPathsPerPixel, 9u);
+    EXPECT_EQ(o.estimator.lightSamples, 3u);
+    EXPECT_EQ(o.estimator.maxBounces, 4u);
+    EXPECT_EQ(o.area.width, 20u);
+    EXPECT_EQ(o.area.height, 10u);
+    EXPECT_TRUE(o.budget.adaptive.enabled);
+    EXPECT_EQ(o.budget.adaptive.batch, 8u);
+    EXPECT_EQ(o.budget.adaptive.tolerance, 0.1);
+    EXPECT_EQ(o.estimator.directLight, DirectLight::Hemisphere);
+    EXPECT_EQ(o.estimator.minBounce, 2u);
+    EXPECT_EQ(o.estimator.roulette.mode, Roulette::Mode::Fixed);
+    EXPECT_EQ(o.estimator.roulette.terminationProbability, 0.25);
     EXPECT_EQ(o.camera, CameraChoice::Frame);
-    EXPECT_EQ(o.settings.seed, 5u);
+    EXPECT_EQ(o.estimator.seed, 5u);
     EXPECT_EQ(o.device, "cpu");
     EXPECT_EQ(o.backend, BackendChoice::Reference);
     EXPECT_EQ(o.exposure, -1.5);
-    EXPECT_EQ(o.settings.crop.height, 4u);
+    EXPECT_EQ(o.area.crop.height, 4u);
     EXPECT_EQ(o.verbosity, Verbosity::Quiet);
 }
 
 TEST(Options, Samplers) {
-    EXPECT_EQ(parse({"render", "a.dae", "-o", "a.png"}).settings.sampler, Sampler::Sobol);
-    EXPECT_EQ(parse({"check", "a.dae", "--sampler", "independent"}).settings.sampler,
+    EXPECT_EQ(parse({"render", "a.dae", "-o", "a.png"}).estimator.sampler, Sampler::Sobol);
+    EXPECT_EQ(parse({"check", "a.dae", "--sampler", "independent"}).estimator.sampler,
               Sampler::Independent);
     // That renderer's samples are independent; its adaptive rule counts on it.
-    EXPECT_EQ(parse({"render", "a.dae", "-o", "a.png", "--cs184"}).settings.sampler,
+    EXPECT_EQ(parse({"render", "a.dae", "-o", "a.png", "--cs184"}).estimator.sampler,
               Sampler::Independent);
-    EXPECT_EQ(parse({"info", "a.dae", "--cs184", "--sampler", "sobol"}).settings.sampler,
+    EXPECT_EQ(parse({"info", "a.dae", "--cs184", "--sampler", "sobol"}).estimator.sampler,
               Sampler::Sobol);
     EXPECT_THROW(parse({"render", "a.dae", "-o", "a.png", "--sampler", "halton"}), UsageError);
 }
 
 TEST(Options, StopRules) {
     const Options noise = parse({"render", "a.dae", "-o", "a.png", "--noise", "0.02"});
-    EXPECT_EQ(noise.settings.stop.noise, 0.02);
-    EXPECT_GT(noise.settings.samplesPerPixel, 1000000u); // no limit but the noise
+    EXPECT_EQ(noise.budget.stop.noise, 0.02);
+    EXPECT_FALSE(noise.budget.mostPathsPerPixel); // no limit but the noise
     const Options both = parse({"render", "a.dae", "-o", "a.png", "--cs184", "--noise", "0.02",
                                 "--time", "10", "-s", "500"});
-    EXPECT_EQ(both.settings.stop.seconds, 10);
-    EXPECT_EQ(both.settings.samplesPerPixel, 500u);
-    EXPECT_FALSE(both.settings.adaptive.enabled);
+    EXPECT_EQ(both.budget.stop.seconds, 10);
+    EXPECT_EQ(both.budget.mostPathsPerPixel, 500u);
+    EXPECT_FALSE(both.budget.adaptive.enabled);
 }
 
 TEST(Options, SamplesAreSpreadUnlessSomethingElseIsAsked) {
-    const RenderSettings spread = parse({"render", "a.dae", "-o", "a.png", "-s", "40"}).settings;
-    EXPECT_EQ(spread.stop.meanSamples, 40u);
-    EXPECT_GT(spread.samplesPerPixel, 40u);
+    const PathBudget spread = parse({"render", "a.dae", "-o", "a.png", "-s", "40"}).budget;
+    EXPECT_EQ(spread.meanPathsPerPixel, 40u);
+    EXPECT_FALSE(spread.mostPathsPerPixel);
     for (const std::vector<std::string>& evenly : {std::vector<std::string>{"--even"},
                                                    {"--cs184", "--even"},
                                                    {"-s", "8"},
@@ -90,9 +90,9 @@ TEST(Options, SamplesAreSpreadUnlessSomethingElseIsAsked) {
                                                    {"-a", "32", "0.1"}}) {
         std::vector<std::string> words = {"render", "a.dae", "-o", "a.png"};
         words.insert(words.end(), evenly.begin(), evenly.end());
-        const RenderSettings s = parse(words).settings;
-        EXPECT_FALSE(s.stop.spreads()) << evenly[0];
-        EXPECT_LE(s.samplesPerPixel, 64u) << evenly[0];
+        const PathBudget s = parse(words).budget;
+        EXPECT_FALSE(s.spreads()) << evenly[0];
+        EXPECT_LE(s.mostPathsPerPixel.value_or(kMostSamples), 64u) << evenly[0];
         EXPECT_EQ(s.adaptive.enabled, evenly[0] == "-a" || words.back() == "--cs184");
     }
     for (const std::vector<std::string>& both :
@@ -101,16 +101,16 @@ TEST(Options, SamplesAreSpreadUnlessSomethingElseIsAsked) {
         words.insert(words.end(), both.begin(), both.end());
         EXPECT_THROW(parse(words), UsageError) << both[0];
     }
-    EXPECT_FALSE(parse({"check", "a.dae", "-s", "64"}).settings.stop.spreads());
+    EXPECT_FALSE(parse({"check", "a.dae", "-s", "64"}).budget.spreads());
 }
 
 TEST(Options, Cs184ChangesDefaults) {
     const Options o = parse({"render", "a.dae", "-o", "a.png", "--cs184"});
-    EXPECT_EQ(o.settings.samplesPerPixel, 1u);
-    EXPECT_EQ(o.settings.maxBounces, 1u);
-    EXPECT_TRUE(o.settings.adaptive.enabled);
-    EXPECT_EQ(o.settings.adaptive.batch, 32u);
-    EXPECT_EQ(o.settings.roulette.mode, Roulette::Mode::None);
+    EXPECT_EQ(o.budget.mostPathsPerPixel, 1u);
+    EXPECT_EQ(o.estimator.maxBounces, 1u);
+    EXPECT_TRUE(o.budget.adaptive.enabled);
+    EXPECT_EQ(o.budget.adaptive.batch, 32u);
+    EXPECT_EQ(o.estimator.roulette.mode, Roulette::Mode::None);
 }
 
 TEST(Options, Cs184Spellings) {
@@ -118,11 +118,11 @@ TEST(Options, Cs184Spellings) {
         parse({"render", "-t",  "4",  "-s", "2",  "-m", "3",  "-o", "0",     "-r",
                "480",    "360", "-p", "10", "20", "30", "40", "-f", "a.png", "a.dae"});
     EXPECT_EQ(o.output, "a.png");
-    EXPECT_EQ(o.settings.minBounce, 3u); // -o 0: only the light of exactly m bounces
+    EXPECT_EQ(o.estimator.minBounce, 3u); // -o 0: only the light of exactly m bounces
     EXPECT_EQ(o.threads, 4u);
-    EXPECT_EQ(o.settings.crop.x, 10u);
-    EXPECT_EQ(o.settings.crop.y, 360u - 20 - 40); // Y counts from the bottom
-    EXPECT_EQ(parse({"render", "a.dae", "-f", "a.png", "-o", "1", "-m", "3"}).settings.minBounce,
+    EXPECT_EQ(o.area.crop.x, 10u);
+    EXPECT_EQ(o.area.crop.y, 360u - 20 - 40); // Y counts from the bottom
+    EXPECT_EQ(parse({"render", "a.dae", "-f", "a.png", "-o", "1", "-m", "3"}).estimator.minBounce,
               0u);
 }
 
@@ -136,6 +136,99 @@ TEST(Options, SceneMayFollowAnOptionWithSeveralValues) {
 TEST(Options, SpellingLeavesOutputsAlone) {
     EXPECT_EQ(fromCs184Spelling({"-o", "0.png"}), (std::vector<std::string>{"-o", "0.png"}));
     EXPECT_EQ(fromCs184Spelling({"-o", "0"}), (std::vector<std::string>{"--accumulate", "0"}));
+}
+
+/// What is not in the range of an option is refused by a message that names the option and the
+/// range.
+TEST(Options, RangesAreNamed) {
+    const auto refusal = [](std::vector<std::string> words) -> std::string {
+        try {
+            parse(std::move(words));
+        } catch (const UsageError& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    const std::vector<std::pair<std::vector<std::string>, std::string>> renders = {
+        {{"-s", "0"}, "-s is '0': expected a whole number from 1 to 16777216"},
+        {{"-s", "nan"}, "-s is 'nan': expected a whole number from 1 to 16777216"},
+        {{"-s", "1e3"}, "-s is '1e3': expected a whole number from 1 to 16777216"},
+        {{"-l", ""}, "-l is '': expected a whole number from 1 to 1024"},
+        {{"--time", "nan"}, "--time is 'nan': expected a number from 0.01 to 1000000000"},
+        {{"--time", "inf"}, "--time is 'inf': expected a number from 0.01 to 1000000000"},
+        {{"--noise", "0.1x"}, "--noise is '0.1x': expected a number from 1e-06 to 1000000"},
+        {{"--exposure", "nan"}, "--exposure is 'nan': expected a number from -100 to 100"},
+        {{"-a", "32", "nan"}, "-a: TOLERANCE is 'nan': expected a number from 0 to 1000000"},
+        {{"--roulette", "nan"},
+         "--roulette is 'nan': expected none, throughput or a probability in [0, 1)"},
+        {{"--direct", "sun"}, "--direct is 'sun': expected mis, lights, hemisphere or bsdf"},
+        {{"--device", ""}, "--device is empty: expected text"},
+        {{"--seed", "-1"}, "--seed is '-1': expected a whole number from 0 to 4294967295"},
+        {{"--time", "9", "--even"},
+         "--time and --even exclude each other: both say where samples "
+         "go"}};
+    for (const auto& [words, message] : renders) {
+        std::vector<std::string> line = {"render", "a.dae", "-o", "a.png"};
+        line.insert(line.end(), words.begin(), words.end());
+        EXPECT_EQ(refusal(line), message);
+    }
+    EXPECT_EQ(refusal({"compare", "a.png", "b.png", "--max-mse", "nan"}),
+              "--max-mse is 'nan': expected a number from 0 to 1e+300");
+    EXPECT_EQ(refusal({"bench", "--repeats", "0"}),
+              "--repeats is '0': expected a whole number from 1 to 1000");
+    EXPECT_EQ(refusal({"study", "a.dae", "--seeds", "0"}),
+              "--seeds is '0': expected a whole number from 1 to 10000");
+    EXPECT_EQ(refusal({"check", "a.dae", "--alpha", "nan"}),
+              "--alpha is 'nan': expected a number from 1e-12 to 0.5");
+}
+
+/// Profiles change what options are by default, wherever they stand; what is given is kept.
+TEST(Options, ProfilesChangeOnlyDefaults) {
+    const Options o = parse({"render", "a.dae", "-o", "a.png", "-m", "6", "-s", "9", "--sampler",
+                             "sobol", "--roulette", "0.5", "--cs184"});
+    EXPECT_EQ(o.estimator.maxBounces, 6u);
+    EXPECT_EQ(o.budget.mostPathsPerPixel, 9u);
+    EXPECT_EQ(o.estimator.sampler, Sampler::Sobol);
+    EXPECT_EQ(o.estimator.roulette.mode, Roulette::Mode::Fixed);
+    const Options bench = parse({"bench", "-s", "3", "--repeats", "2", "--quick"});
+    EXPECT_EQ(bench.bench.settings.samplesPerPixel, 3u);
+    EXPECT_EQ(bench.bench.settings.repeats, 2u);
+    EXPECT_EQ(bench.bench.settings.width, 192u);
+    const Options study = parse({"study", "a.dae", "--seeds", "2", "--quick"});
+    EXPECT_EQ(study.study.settings.seeds, 2u);
+    EXPECT_EQ(study.study.settings.commonOptions, "-r 160 120 -m 5");
+}
+
+/// Each command has defaults of its own.
+TEST(Options, DefaultsOfCommands) {
+    const Options check = parse({"check", "a.dae"});
+    EXPECT_EQ(check.area.width, 160u);
+    EXPECT_EQ(check.area.height, 120u);
+    EXPECT_TRUE(check.sizeGiven);
+    EXPECT_EQ(check.budget.mostPathsPerPixel, 256u);
+    EXPECT_EQ(check.branches, 1u);
+    EXPECT_FALSE(parse({"check", "a.dae", "--cs184"}).budget.adaptive.enabled);
+    EXPECT_FALSE(parse({"info", "a.dae"}).branches);
+}
+
+/// Values of an enumeration, by name.
+template <class E>
+void expectEveryName(const std::string& option, E (*value)(const Options&)) {
+    for (const NamedValue<E>& row : kNamedValues<E>)
+        EXPECT_EQ(value(parse({"render", "a.dae", "-o", "a.png", option, row.name})), row.value)
+            << row.name;
+}
+
+TEST(Options, EveryNameOfATableIsUnderstood) {
+    expectEveryName<DirectLight>("--direct",
+                                 [](const Options& o) { return o.estimator.directLight; });
+    expectEveryName<Sampler>("--sampler", [](const Options& o) { return o.estimator.sampler; });
+    expectEveryName<LightChoice>("--light-choice",
+                                 [](const Options& o) { return o.estimator.lightChoice; });
+    expectEveryName<Integrator>("--integrator",
+                                [](const Options& o) { return o.estimator.integrator; });
+    expectEveryName<CameraChoice>("--camera", [](const Options& o) { return o.camera; });
+    expectEveryName<BackendChoice>("--backend", [](const Options& o) { return o.backend; });
 }
 
 TEST(Options, ContradictionsAreRefused) {

@@ -55,9 +55,9 @@ using Sampler = std::function<double(uint32_t pixel, std::mt19937_64&)>;
 
 /// Renders made-up pixels as the sampling plan wants them.
 Film renderMadeUp(const RenderSettings& s, const Sampler& sampler, uint64_t seed) {
-    const std::vector<uint32_t> pixels = cropPixels(s);
-    SamplingPlan plan(s, pixels);
-    Film film(s.width, s.height);
+    const std::vector<uint32_t> pixels = cropPixels(s.area);
+    SamplingPlan plan(s.budget, pixels);
+    Film film(s.area.width, s.area.height);
     std::vector<std::mt19937_64> engines;
     for (const uint32_t i : pixels)
         engines.emplace_back(seed * 1000003 + i);
@@ -70,11 +70,14 @@ Film renderMadeUp(const RenderSettings& s, const Sampler& sampler, uint64_t seed
 
 RenderSettings adaptive(uint32_t side, uint32_t samples, bool published) {
     RenderSettings s;
-    s.width = s.height = side;
-    s.samplesPerPixel = samples;
-    s.adaptive = {true, 32, 0.1};
-    s.cs184 = published; // that renderer's rule: stop where 1.96 sigma is within the tolerance, 0
-                         // <= 0 too
+    s.area.width = s.area.height = side;
+    s.budget.mostSamplesPerPixel = samples;
+    s.budget.adaptive = {true, Adaptive::Rule::Neighbourhood, 32, 0.1};
+    if (published)
+        s.budget.adaptive.rule =
+            Adaptive::Rule::PerChannel; // that renderer's rule: stop where 1.96 sigma is within the
+                                        // tolerance, 0
+                                        // <= 0 too
     return s;
 }
 

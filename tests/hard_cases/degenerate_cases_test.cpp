@@ -110,7 +110,7 @@ TEST_F(HardCases, C16_CoplanarCopies) {
     camera.position = {0, 0, 1};
     camera.halfWidth = camera.halfHeight = 0.5;
     RenderSettings s;
-    s.width = s.height = 16, s.samplesPerPixel = 1, s.maxBounces = 0;
+    s.area.width = s.area.height = 16, s.budget.mostSamplesPerPixel = 1, s.estimator.maxBounces = 0;
     stress::DeviceSubject device(testDevice());
     const Film first = device.render(scene, camera, s, {}, {}).film;
     const Film again = device.render(scene, camera, s, {.workgroupSize = 16, .lanes = 64}, {}).film;

@@ -22,7 +22,7 @@ struct Path {
     glm::vec3 throughput{1.0f}, radiance{0.0f};
 
     bool arrive(const glm::vec3& origin, const glm::vec3& direction, float tMin);
-    bool counts(uint32_t scatterings) const { return scatterings >= settings.minBounce; }
+    bool counts(uint32_t scatterings) const { return scatterings >= settings.estimator.minBounce; }
     void addEmission(uint32_t scatterings);
     void addAmbient(uint32_t scatterings);
     void addLamps();
@@ -157,15 +157,15 @@ glm::vec3 radiance(const Scene& scene, const RenderSettings& settings, glm::vec3
     Path p{scene, settings, random, rays};
     if (!p.arrive(origin, direction, tMin)) return p.radiance;
     p.addEmission(0);
-    const bool byBounces = !samplesLights(settings.directLight);
-    for (uint32_t k = 1; k <= settings.maxBounces; ++k) {
+    const bool byBounces = !samplesLights(settings.estimator.directLight);
+    for (uint32_t k = 1; k <= settings.estimator.maxBounces; ++k) {
         const bool delta = p.material->isDelta();
         if (!delta && p.counts(k)) {
             if (!byBounces) p.addLamps();
             p.addDeltaLights();
         }
         const glm::vec3 next = p.scatter();
-        if (settings.roulette.mode != Roulette::Mode::None && k >= 3 &&
+        if (settings.estimator.roulette.mode != Roulette::Mode::None && k >= 3 &&
             random.uniform() > p.throughput.x)
             break;
         if (!p.arrive(p.position, next, kEpsilon)) {

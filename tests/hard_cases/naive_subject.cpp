@@ -110,16 +110,16 @@ stress::Picture NaiveSubject::render(const Scene& scene, const Camera& camera,
                                      const RenderSettings& s, const KernelTuning& tuning,
                                      const ProgressCallback&) {
     stress::Picture picture;
-    picture.film = Film(s.width, s.height);
+    picture.film = Film(s.area.width, s.area.height);
     const uint32_t group = tuning.workgroupSize.value_or(64);
-    for (uint32_t y = 0; y < s.height / 8 * 8; ++y)
-        for (uint32_t x = 0; x < s.width / 8 * 8; ++x) {
-            const uint32_t index = y * s.width + x;
-            naive::Random random(index / group * 977 + index % group + s.seed);
+    for (uint32_t y = 0; y < s.area.height / 8 * 8; ++y)
+        for (uint32_t x = 0; x < s.area.width / 8 * 8; ++x) {
+            const uint32_t index = y * s.area.width + x;
+            naive::Random random(index / group * 977 + index % group + s.estimator.seed);
             NaivePixel pixel;
-            for (uint32_t i = 0; i < s.samplesPerPixel; ++i) {
-                const float u = 2 * (float(x) + random.uniform()) / float(s.width) - 1;
-                const float v = 1 - 2 * (float(y) + random.uniform()) / float(s.height);
+            for (uint32_t i = 0; i < s.budget.mostSamplesPerPixel; ++i) {
+                const float u = 2 * (float(x) + random.uniform()) / float(s.area.width) - 1;
+                const float v = 1 - 2 * (float(y) + random.uniform()) / float(s.area.height);
                 const glm::vec3 offset = u * glm::vec3(camera.halfWidth * camera.right) +
                                          v * glm::vec3(camera.halfHeight * camera.up);
                 const glm::vec3 position(camera.position), back(camera.back);

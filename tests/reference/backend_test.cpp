@@ -35,7 +35,7 @@ TEST(ReferenceBackend, PassesDoNotChangeTheFilm) {
     const Scene scene = cornellBox();
     const RenderSettings s = smallPicture(16, 5);
     ReferenceBackend backend(scene, kCamera, s);
-    Film film(s.width, s.height);
+    Film film(s.area.width, s.area.height);
     const auto pass = [&](uint32_t first, uint32_t step, uint32_t samples) {
         std::vector<PixelTarget> targets;
         for (uint32_t i = first; i < film.pixels.size(); i += step)
@@ -54,7 +54,7 @@ TEST(ReferenceBackend, SeedsAreIndependent) {
     const Scene scene = cornellBox();
     RenderSettings s = smallPicture(4, 2);
     const Film a = renderFilm(scene, kCamera, s);
-    s.seed = 1;
+    s.estimator.seed = 1;
     const Film b = renderFilm(scene, kCamera, s);
     EXPECT_NE(a.at(3, 3).mean, b.at(3, 3).mean);
 }
@@ -100,13 +100,13 @@ TEST(ReferenceBackend, RefusesWhatItCannotRender) {
     scene.lights.emplace_back().kind = LightKind::Area;
     RenderSettings s = smallPicture(1, 1);
     EXPECT_THROW(ReferenceBackend(scene, kCamera, s), std::invalid_argument);
-    s.cs184 = true;
+    s.estimator.cs184 = true;
     ReferenceBackend backend(scene, kCamera, s);
     Film film(16, 16), other(8, 8);
     const std::vector<PixelTarget> outside{{256, 1}}, inside{{0, 1}};
     EXPECT_THROW(backend.sample(outside, film, {}), std::invalid_argument);
     EXPECT_THROW(backend.sample(inside, other, {}), std::invalid_argument);
-    s.lightSamples = 0;
+    s.estimator.lightSamples = 0;
     EXPECT_THROW(ReferenceBackend(scene, kCamera, s), std::invalid_argument);
 }
 
@@ -118,7 +118,7 @@ TEST(ReferenceBackend, RowsGoDownAndColumnsToTheRight) {
     camera.orthographic = true;
     camera.halfHeight = 0.5;
     RenderSettings s = smallPicture(4, 0);
-    s.width = 4, s.height = 2;
+    s.area.width = 4, s.area.height = 2;
     const Film film = renderFilm(b.scene, camera, s);
     for (uint32_t y = 0; y < 2; ++y)
         for (uint32_t x = 0; x < 4; ++x)
@@ -156,7 +156,7 @@ TEST(ReferenceBackend, NormalsPicture) {
     SceneMaker b;
     b.triangle({-9, -9, 0}, {9, -9, 0}, {0, 9, 0}, b.add(diffuse(0.5f)));
     RenderSettings s = smallPicture(2, 3);
-    s.integrator = Integrator::Normals;
+    s.estimator.integrator = Integrator::Normals;
     const Camera front = pointCamera({0, 0, 5}, {0, 0, 0});
     const Camera behind = pointCamera({0, 0, -5}, {0, 0, 0});
     const Camera away = pointCamera({0, 0, 5}, {0, 0, 9});

@@ -22,17 +22,17 @@ constexpr uint32_t kWidth = 96, kHeight = 72;
 
 RenderSettings smallSettings(uint32_t samples) {
     RenderSettings s;
-    s.width = kWidth;
-    s.height = kHeight;
-    s.samplesPerPixel = samples;
-    s.maxBounces = 5;
+    s.area.width = kWidth;
+    s.area.height = kHeight;
+    s.budget.mostSamplesPerPixel = samples;
+    s.estimator.maxBounces = 5;
     return s;
 }
 
 void expectAgreement(const vulkan::Device& device, const Scene& scene, const std::string& name,
                      const RenderSettings& settings) {
-    const Camera camera =
-        makeCamera(scene, CameraChoice::Automatic, settings.width, settings.height, settings.cs184);
+    const Camera camera = makeCamera(scene, CameraChoice::Automatic, settings.area.width,
+                                     settings.area.height, settings.estimator.cs184);
     const Film onDevice = renderOnDevice(device, scene, camera, settings);
     ReferenceBackend reference(scene, camera, settings);
     const Film onHost = render(reference, settings);
@@ -46,7 +46,7 @@ void expectAgreement(const vulkan::Device& device, const Scene& scene, const std
 
 void expectAgreement(const vulkan::Device& device, const std::filesystem::path& file,
                      const RenderSettings& settings) {
-    expectAgreement(device, loadScene(file, settings.cs184), file, settings);
+    expectAgreement(device, loadScene(file, settings.estimator.cs184), file, settings);
 }
 
 std::string nameOf(const testing::TestParamInfo<std::filesystem::path>& info) {
@@ -70,36 +70,40 @@ struct Mode {
 
 const Mode kModes[] = {
     {"hemisphere", "cornell_boxes.dae",
-     [](RenderSettings& s) { s.directLight = DirectLight::Hemisphere, s.lightSamples = 4; }},
+     [](RenderSettings& s) {
+         s.estimator.directLight = DirectLight::Hemisphere, s.estimator.lightSamples = 4;
+     }},
     {"bsdf", "cornell_mirror_glass.dae",
-     [](RenderSettings& s) { s.directLight = DirectLight::Bsdf; }},
-    {"lightSamples", "cornell_spheres.dae", [](RenderSettings& s) { s.lightSamples = 3; }},
+     [](RenderSettings& s) { s.estimator.directLight = DirectLight::Bsdf; }},
+    {"lightSamples", "cornell_spheres.dae",
+     [](RenderSettings& s) { s.estimator.lightSamples = 3; }},
     {"secondBounceAlone", "cornell_boxes.dae",
-     [](RenderSettings& s) { s.minBounce = 2, s.maxBounces = 2; }},
-    {"emissionOnly", "cornell_boxes.dae", [](RenderSettings& s) { s.maxBounces = 0; }},
+     [](RenderSettings& s) { s.estimator.minBounce = 2, s.estimator.maxBounces = 2; }},
+    {"emissionOnly", "cornell_boxes.dae", [](RenderSettings& s) { s.estimator.maxBounces = 0; }},
     {"fixedRoulette", "cornell_boxes.dae",
      [](RenderSettings& s) {
-         s.maxBounces = 100;
-         s.roulette = {Roulette::Mode::Fixed, 0.3};
+         s.estimator.maxBounces = 100;
+         s.estimator.roulette = {Roulette::Mode::Fixed, 0.3};
      }},
     {"noRoulette", "cornell_mirror_glass.dae",
-     [](RenderSettings& s) { s.roulette.mode = Roulette::Mode::None; }},
-    {"normals", "cornell_mesh.dae", [](RenderSettings& s) { s.integrator = Integrator::Normals; }},
-    {"cs184", "cornell_metal.dae", [](RenderSettings& s) { s.cs184 = true; }},
-    {"cs184Glass", "cornell_mirror_glass.dae", [](RenderSettings& s) { s.cs184 = true; }},
+     [](RenderSettings& s) { s.estimator.roulette.mode = Roulette::Mode::None; }},
+    {"normals", "cornell_mesh.dae",
+     [](RenderSettings& s) { s.estimator.integrator = Integrator::Normals; }},
+    {"cs184", "cornell_metal.dae", [](RenderSettings& s) { s.estimator.cs184 = true; }},
+    {"cs184Glass", "cornell_mirror_glass.dae", [](RenderSettings& s) { s.estimator.cs184 = true; }},
     {"cs184Hemisphere", "cornell_mesh.dae",
      [](RenderSettings& s) {
-         s.cs184 = true;
-         s.directLight = DirectLight::Hemisphere;
-         s.lightSamples = 4;
+         s.estimator.cs184 = true;
+         s.estimator.directLight = DirectLight::Hemisphere;
+         s.estimator.lightSamples = 4;
      }},
-    {"cs184Sun", "island.dae", [](RenderSettings& s) { s.cs184 = true; }},
+    {"cs184Sun", "island.dae", [](RenderSettings& s) { s.estimator.cs184 = true; }},
     {"ambientByBounces", "light_ambient.dae",
-     [](RenderSettings& s) { s.directLight = DirectLight::Bsdf; }},
+     [](RenderSettings& s) { s.estimator.directLight = DirectLight::Bsdf; }},
     {"sphereByHemisphere", "light_sphere.dae",
-     [](RenderSettings& s) { s.directLight = DirectLight::Hemisphere; }},
+     [](RenderSettings& s) { s.estimator.directLight = DirectLight::Hemisphere; }},
     {"meshByBounces", "light_mesh.dae",
-     [](RenderSettings& s) { s.directLight = DirectLight::Bsdf; }},
+     [](RenderSettings& s) { s.estimator.directLight = DirectLight::Bsdf; }},
 };
 
 class ModeAgreement : public DeviceTest, public testing::WithParamInterface<Mode> {};
@@ -118,11 +122,11 @@ INSTANTIATE_TEST_SUITE_P(Modes, ModeAgreement, testing::ValuesIn(kModes),
 /// Many emissive triangles: the kernel walks its tree, the reference picks by power.
 TEST_F(DeviceTest, AgreementOnManyLamps) {
     RenderSettings settings = smallSettings(128);
-    settings.width = settings.height = 48;
-    settings.maxBounces = 2;
+    settings.area.width = settings.area.height = 48;
+    settings.estimator.maxBounces = 2;
     const Scene scene = readScene("generate:lamps:400");
-    const Camera camera =
-        makeCamera(scene, CameraChoice::Automatic, settings.width, settings.height, false);
+    const Camera camera = makeCamera(scene, CameraChoice::Automatic, settings.area.width,
+                                     settings.area.height, false);
     ReferenceBackend reference(scene, camera, settings);
     CheckSettings check;
     check.familyError = 1e-4;
@@ -141,8 +145,8 @@ TEST_F(DeviceTest, AgreementFailsForTwoPerCentMoreLight) {
     Scene brighter = scene;
     for (Material& m : brighter.materials)
         m.emission *= 1.02f;
-    const Camera camera =
-        makeCamera(scene, CameraChoice::Automatic, settings.width, settings.height, false);
+    const Camera camera = makeCamera(scene, CameraChoice::Automatic, settings.area.width,
+                                     settings.area.height, false);
     const Film a = renderOnDevice(testDevice(), scene, camera, settings);
     ReferenceBackend reference(brighter, camera, settings);
     EXPECT_FALSE(crossCheck(a, render(reference, settings)).agree());
@@ -179,7 +183,8 @@ TEST_P(GapAgreement, WithTheReference) {
     const GpuScene packed = packScene(scene, buildWideBvh(scene), false);
     ASSERT_NE(packed.lampGap, 0);
     RenderSettings settings = smallSettings(256);
-    settings.minBounce = 2, settings.maxBounces = 3; // light out of the gap, and once more
+    settings.estimator.minBounce = 2,
+    settings.estimator.maxBounces = 3; // light out of the gap, and once more
     expectAgreement(testDevice(), scene, GetParam().name, settings);
 }
 

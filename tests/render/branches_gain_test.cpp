@@ -39,16 +39,17 @@ class BranchesGain : public DeviceTest {
     /// Of 64 paths a pixel, from the difference of two pictures of independent noise.
     static Expense expense(const Scene& scene, uint32_t branches, uint32_t maxBounces = 5) {
         RenderSettings s;
-        s.width = 64, s.height = 48;
-        s.samplesPerPixel = 64 / branches;
-        s.branches = branches;
-        s.guides = false; // which takes noise away from bounces
-        s.maxBounces = maxBounces;
+        s.area.width = 64, s.area.height = 48;
+        s.budget.mostSamplesPerPixel = 64 / branches;
+        s.estimator.branches = branches;
+        s.estimator.guides = false; // which takes noise away from bounces
+        s.estimator.maxBounces = maxBounces;
         const GpuScene gpu = packScene(scene, buildWideBvh(scene), false);
-        const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.width, s.height, false);
+        const Camera camera =
+            makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, false);
         VulkanBackend first(testDevice(), gpu, camera, s);
         const Film a = render(first, s);
-        s.seed = 1;
+        s.estimator.seed = 1;
         VulkanBackend second(testDevice(), gpu, camera, s);
         const Film b = render(second, s);
         return {relativeDifference(a, b) / 2, double(first.counters().rays)};
@@ -59,7 +60,7 @@ TEST_F(BranchesGain, LessNoisePerRayWhereTheyAreUsed) {
     // Variance times CPU time, by hand at 240 x 180 with 128 paths: 1.2, 1.2 and 1.7 times less.
     for (const char* name : {"cornell_boxes", "cornell_spheres", "light_spot"}) {
         const Scene scene = libraryScene(name);
-        const uint32_t branches = branchesThatPay(scene, {}, 64);
+        const uint32_t branches = branchesThatPay(scene, {}, {});
         ASSERT_EQ(branches, 4u) << name;
         const Expense split = expense(scene, branches), whole = expense(scene, 1);
         // What is shared is traced once for all branches, and they are no shorter than whole paths:
@@ -72,8 +73,8 @@ TEST_F(BranchesGain, LessNoisePerRayWhereTheyAreUsed) {
 
 TEST_F(BranchesGain, NotUsedWhereTheyDoNotPay) {
     for (const char* name : {"island", "light_ambient"})
-        EXPECT_EQ(branchesThatPay(libraryScene(name), {}, 64), 1u) << name;
-    EXPECT_EQ(branchesThatPay(readScene("generate:lamps:1000"), {}, 64), 1u);
+        EXPECT_EQ(branchesThatPay(libraryScene(name), {}, {}), 1u) << name;
+    EXPECT_EQ(branchesThatPay(readScene("generate:lamps:1000"), {}, {}), 1u);
     const Scene sky = libraryScene("light_ambient");
     const Expense split = expense(sky, 4), whole = expense(sky, 1);
     EXPECT_GT(split.variance * split.rays, whole.variance * whole.rays);
@@ -81,7 +82,6 @@ TEST_F(BranchesGain, NotUsedWhereTheyDoNotPay) {
 
 TEST(BranchesThatPay, LeavesSamplesForEdges) {
     const Scene boxes = libraryScene("cornell_boxes");
-    RenderSettings s;
     for (const auto& [paths, branches] : {std::pair(1u, 1u),
                                           {8u, 1u},
                                           {15u, 1u},
@@ -93,23 +93,23 @@ TEST(BranchesThatPay, LeavesSamplesForEdges) {
                                           {63u, 1u},
                                           {64u, 4u},
                                           {1u << 24, 4u}})
-        EXPECT_EQ(branchesThatPay(boxes, s, paths), branches) << paths;
+        EXPECT_EQ(branchesThatPay(boxes, {}, {.mostPathsPerPixel = paths}), branches) << paths;
 }
 
 TEST(BranchesThatPay, OnlyWhereSomethingBouncesAfterDirectLight) {
     const Scene boxes = libraryScene("cornell_boxes");
-    const auto with = [&](void (*change)(RenderSettings&)) {
-        RenderSettings s;
-        change(s);
-        return branchesThatPay(boxes, s, 64);
+    const auto with = [&](void (*change)(Estimator&), const PathBudget& budget = {}) {
+        Estimator estimator;
+        change(estimator);
+        return branchesThatPay(boxes, estimator, budget);
     };
-    EXPECT_EQ(with([](RenderSettings& s) { s.maxBounces = 1; }), 1u);
-    EXPECT_EQ(with([](RenderSettings& s) { s.maxBounces = 2; }), 4u);
-    EXPECT_EQ(with([](RenderSettings& s) { s.integrator = Integrator::Normals; }), 1u);
-    EXPECT_EQ(with([](RenderSettings& s) { s.directLight = DirectLight::Hemisphere; }), 1u);
-    EXPECT_EQ(with([](RenderSettings& s) { s.directLight = DirectLight::Bsdf; }), 1u);
-    EXPECT_EQ(with([](RenderSettings& s) { s.cs184 = true; }), 1u);
-    EXPECT_EQ(with([](RenderSettings& s) { s.adaptive.enabled = true; }), 1u);
+    EXPECT_EQ(with([](Estimator& e) { e.maxBounces = 1; }), 1u);
+    EXPECT_EQ(with([](Estimator& e) { e.maxBounces = 2; }), 4u);
+    EXPECT_EQ(with([](Estimator& e) { e.integrator = Integrator::Normals; }), 1u);
+    EXPECT_EQ(with([](Estimator& e) { e.directLight = DirectLight::Hemisphere; }), 1u);
+    EXPECT_EQ(with([](Estimator& e) { e.directLight = DirectLight::Bsdf; }), 1u);
+    EXPECT_EQ(with([](Estimator& e) { e.cs184 = true; }), 1u);
+    EXPECT_EQ(with([](Estimator&) {}, {.adaptive = {.enabled = true}}), 1u);
 }
 
 } // namespace

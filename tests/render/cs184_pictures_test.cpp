@@ -40,7 +40,10 @@ const Picture kPictures[] = {
      460,
      345,
      {0, 96, 456, 96},
-     [](RenderSettings& s) { s.samplesPerPixel = 1024, s.lightSamples = 4, s.maxBounces = 1; }},
+     [](RenderSettings& s) {
+         s.budget.mostSamplesPerPixel = 1024, s.estimator.lightSamples = 4,
+         s.estimator.maxBounces = 1;
+     }},
     {"Hemisphere",
      "CBbunny_mini_ada_acc_m1_H_256_16.png",
      nullptr,
@@ -49,8 +52,9 @@ const Picture kPictures[] = {
      345,
      {0, 208, 456, 8},
      [](RenderSettings& s) {
-         s.samplesPerPixel = 256, s.lightSamples = 16, s.maxBounces = 1;
-         s.directLight = DirectLight::Hemisphere;
+         s.budget.mostSamplesPerPixel = 256, s.estimator.lightSamples = 16,
+         s.estimator.maxBounces = 1;
+         s.estimator.directLight = DirectLight::Hemisphere;
      }},
     {"SecondBounceAlone",
      "CBbunny_ada_m2_1024_4.png",
@@ -60,7 +64,8 @@ const Picture kPictures[] = {
      345,
      {0, 160, 456, 24},
      [](RenderSettings& s) {
-         s.samplesPerPixel = 1024, s.lightSamples = 4, s.maxBounces = 2, s.minBounce = 2;
+         s.budget.mostSamplesPerPixel = 1024, s.estimator.lightSamples = 4,
+         s.estimator.maxBounces = 2, s.estimator.minBounce = 2;
      }},
     {"Adaptive",
      "CBbunny_ada_acc_m5_2048_1.png",
@@ -69,7 +74,7 @@ const Picture kPictures[] = {
      460,
      345,
      {0, 160, 456, 24},
-     [](RenderSettings& s) { s.samplesPerPixel = 2048, s.maxBounces = 5; }},
+     [](RenderSettings& s) { s.budget.mostSamplesPerPixel = 2048, s.estimator.maxBounces = 5; }},
     {"Roulette",
      "CBbunny_ada_dp3_m100_1024_4.png",
      nullptr,
@@ -78,8 +83,9 @@ const Picture kPictures[] = {
      345,
      {0, 160, 456, 8},
      [](RenderSettings& s) {
-         s.samplesPerPixel = 1024, s.lightSamples = 4, s.maxBounces = 100;
-         s.roulette = {Roulette::Mode::Fixed, 0.3};
+         s.budget.mostSamplesPerPixel = 1024, s.estimator.lightSamples = 4,
+         s.estimator.maxBounces = 100;
+         s.estimator.roulette = {Roulette::Mode::Fixed, 0.3};
      }},
     {"Normals",
      "cow2.png",
@@ -89,9 +95,9 @@ const Picture kPictures[] = {
      600,
      {0, 0, 800, 600},
      [](RenderSettings& s) {
-         s.samplesPerPixel = 1;
-         s.integrator = Integrator::Normals;
-         s.adaptive.enabled = false;
+         s.budget.mostSamplesPerPixel = 1;
+         s.estimator.integrator = Integrator::Normals;
+         s.budget.adaptive.enabled = false;
      }},
 };
 
@@ -126,14 +132,15 @@ class Cs184Pictures : public DeviceTest, public testing::WithParamInterface<Pict
 
 RenderSettings settingsOf(const Picture& picture) {
     RenderSettings s;
-    s.width = picture.width, s.height = picture.height;
-    s.cs184 = true;
-    s.sampler = Sampler::Independent; // as theirs, and as --cs184 has it
-    s.roulette.mode = Roulette::Mode::None;
-    s.adaptive = {true, 32, 0.05};
+    s.area.width = picture.width, s.area.height = picture.height;
+    s.estimator.cs184 = true;
+    s.estimator.sampler = Sampler::Independent; // as theirs, and as --cs184 has it
+    s.estimator.roulette.mode = Roulette::Mode::None;
+    s.budget.adaptive = {
+        .enabled = true, .rule = Adaptive::Rule::PerChannel, .batch = 32, .tolerance = 0.05};
     picture.change(s);
     const char* whole = std::getenv("STROMBOLI_WHOLE_PICTURES");
-    s.crop = whole && *whole == '1' ? Crop{0, 0, s.width, s.height} : picture.part;
+    s.area.crop = whole && *whole == '1' ? Crop{0, 0, s.area.width, s.area.height} : picture.part;
     return s;
 }
 
@@ -149,29 +156,30 @@ TEST_P(Cs184Pictures, AreReproduced) {
         GTEST_SKIP() << "needs the pictures of ../shared/reference";
     RenderSettings s = settingsOf(picture);
     const Scene scene = loadScene(sharedFolder() / "scenes" / picture.scene, true);
-    const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.width, s.height, true);
+    const Camera camera =
+        makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, true);
     const Film film = renderOnDevice(testDevice(), scene, camera, s);
     const ToneCurve tone{ToneCurve::Kind::Cs184, 0};
 
-    const ByteImage ours = toneMap(film, s.crop, tone);
-    const Difference d = differ(ours, readPng(reference / picture.file), s.crop);
+    const ByteImage ours = toneMap(film, s.area.crop, tone);
+    const Difference d = differ(ours, readPng(reference / picture.file), s.area.crop);
     report(picture.file, d);
     for (double mean : d.mean)
         EXPECT_LE(std::abs(mean), 0.3);
     double blockLimit = 0.6;
     if (d.blocks > blockLimit) {
-        s.seed = 1;
-        const Crop all{0, 0, s.crop.width, s.crop.height};
+        s.estimator.seed = 1;
+        const Crop all{0, 0, s.area.crop.width, s.area.crop.height};
         const ByteImage again =
-            toneMap(renderOnDevice(testDevice(), scene, camera, s), s.crop, tone);
+            toneMap(renderOnDevice(testDevice(), scene, camera, s), s.area.crop, tone);
         const Difference noise = differ(ours, again, all);
         report("another seed of ours", noise);
         blockLimit = std::max(blockLimit, 1.25 * noise.blocks);
     }
     EXPECT_LE(d.blocks, blockLimit);
     if (!picture.rates) return;
-    const Difference rates = differ(ratePicture(film, s.crop, s.samplesPerPixel),
-                                    readPng(reference / picture.rates), s.crop);
+    const Difference rates = differ(ratePicture(film, s.area.crop, s.budget.mostSamplesPerPixel),
+                                    readPng(reference / picture.rates), s.area.crop);
     report(picture.rates, rates);
     // 0.04 in the whole picture; in the strip 0.27 of green and blue, with a standard deviation of
     // 0.05 over our seeds (five of them; theirs is one more).

@@ -16,10 +16,10 @@ const std::filesystem::path kLibrary =
 
 RenderSettings settings() {
     RenderSettings s;
-    s.width = 61, s.height = 37; // no multiples of a tile or a workgroup
-    s.samplesPerPixel = 24;
-    s.maxBounces = 6;
-    s.lightSamples = 2;
+    s.area.width = 61, s.area.height = 37; // no multiples of a tile or a workgroup
+    s.budget.mostSamplesPerPixel = 24;
+    s.estimator.maxBounces = 6;
+    s.estimator.lightSamples = 2;
     return s;
 }
 
@@ -28,8 +28,8 @@ class Determinism : public DeviceTest {
     Scene scene = loadScene(kLibrary / "cornell_mirror_glass.dae");
 
     Film renderWith(const RenderSettings& s, const KernelTuning& tuning = {}) {
-        const Camera camera =
-            makeCamera(scene, CameraChoice::Automatic, s.width, s.height, s.cs184);
+        const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.area.width,
+                                         s.area.height, s.estimator.cs184);
         return renderOnDevice(testDevice(), scene, camera, s, tuning);
     }
 };
@@ -55,7 +55,7 @@ TEST_F(Determinism, TwoRuns) {
 TEST_F(Determinism, AnotherSeedIsAnotherPicture) {
     RenderSettings s = settings();
     const Film a = renderWith(s);
-    s.seed = 1;
+    s.estimator.seed = 1;
     const Film b = renderWith(s);
     size_t same = 0;
     for (size_t i = 0; i < a.pixels.size(); ++i)
@@ -71,8 +71,8 @@ TEST_F(Determinism, ItemsPerDispatch) {
 
 TEST_F(Determinism, OnePixelAWorkList) {
     RenderSettings s = settings();
-    s.samplesPerPixel = 2;
-    s.crop = {20, 10, 16, 12};
+    s.budget.mostSamplesPerPixel = 2;
+    s.area.crop = {20, 10, 16, 12};
     expectSameBytes(renderWith(s), renderWith(s, {.itemsPerDispatch = 1}));
 }
 
@@ -115,10 +115,10 @@ TEST_F(Determinism, SceneFetch) {
 TEST_F(Determinism, CropIsThePartOfTheWhole) {
     RenderSettings s = settings();
     const Film whole = renderWith(s);
-    s.crop = {13, 5, 20, 17};
+    s.area.crop = {13, 5, 20, 17};
     const Film part = renderWith(s);
-    for (uint32_t y = 0; y < s.height; ++y)
-        for (uint32_t x = 0; x < s.width; ++x) {
+    for (uint32_t y = 0; y < s.area.height; ++y)
+        for (uint32_t x = 0; x < s.area.width; ++x) {
             const bool inside = x >= 13 && x < 33 && y >= 5 && y < 22;
             if (inside)
                 EXPECT_TRUE(sameBytes(whole.at(x, y), part.at(x, y)));
@@ -129,8 +129,8 @@ TEST_F(Determinism, CropIsThePartOfTheWhole) {
 
 TEST_F(Determinism, AdaptiveInSmallDispatches) {
     RenderSettings s = settings();
-    s.samplesPerPixel = 200;
-    s.adaptive = {true, 16, 0.1};
+    s.budget.mostSamplesPerPixel = 200;
+    s.budget.adaptive = {.enabled = true, .batch = 16, .tolerance = 0.1};
     expectSameBytes(renderWith(s),
                     renderWith(s, {.lanes = 64, .itemsPerDispatch = 128, .fixedIterations = 9}));
 }
@@ -138,8 +138,8 @@ TEST_F(Determinism, AdaptiveInSmallDispatches) {
 TEST_F(Determinism, OddPictureSizes) {
     for (const auto& [width, height] : {std::pair{1u, 1u}, {1u, 17u}, {7u, 13u}, {300u, 1u}}) {
         RenderSettings s = settings();
-        s.width = width, s.height = height;
-        s.samplesPerPixel = 3;
+        s.area.width = width, s.area.height = height;
+        s.budget.mostSamplesPerPixel = 3;
         const Film film = renderWith(s);
         for (const PixelStatistics& p : film.pixels)
             EXPECT_EQ(p.taken(), 3u);

@@ -67,8 +67,8 @@ inline double gamma(double sigma, Random& random) {
 
 inline RenderSettings settingsOf(uint32_t samples) {
     RenderSettings s;
-    s.width = s.height = kSide;
-    s.samplesPerPixel = samples;
+    s.area.width = s.area.height = kSide;
+    s.budget.mostSamplesPerPixel = samples;
     return s;
 }
 

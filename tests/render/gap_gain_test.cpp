@@ -24,14 +24,15 @@ class GapGain : public DeviceTest {
                                       "scene/library/cornell_boxes.dae");
         const GpuScene gpu = packScene(scene, buildWideBvh(scene), false);
         RenderSettings s;
-        s.width = 64, s.height = 48;
-        s.samplesPerPixel = 32;
-        s.maxBounces = 5;
-        s.guides = guides;
-        const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.width, s.height, false);
+        s.area.width = 64, s.area.height = 48;
+        s.budget.mostSamplesPerPixel = 32;
+        s.estimator.maxBounces = 5;
+        s.estimator.guides = guides;
+        const Camera camera =
+            makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, false);
         Expense e;
-        Film over(s.width, s.height); // statistics of the pixels' means over seeds
-        for (s.seed = 0; s.seed < kSeeds; ++s.seed) {
+        Film over(s.area.width, s.area.height); // statistics of the pixels' means over seeds
+        for (s.estimator.seed = 0; s.estimator.seed < kSeeds; ++s.estimator.seed) {
             VulkanBackend backend(testDevice(), gpu, camera, s);
             const Film film = render(backend, s);
             for (size_t i = 0; i < film.pixels.size(); ++i)

@@ -109,7 +109,8 @@ Scene oneTriangle(const Material& material) {
 
 KernelFeatures featuresOf(const Scene& scene, const RenderSettings& settings = {},
                           const DeviceTuning& tuning = {}) {
-    return kernelFeatures(packScene(scene, buildWideBvh(scene), false), Camera{}, settings, tuning);
+    return kernelFeatures(packScene(scene, buildWideBvh(scene), false), Camera{},
+                          settings.estimator, tuning);
 }
 
 /// A flat triangle brings its normal, a smooth one those of its corners, also where its material is
@@ -170,9 +171,9 @@ TEST(KernelFeatures, LightsFollowTheSettings) {
     EXPECT_EQ(featuresOf(scene)[SPEC_LIGHT_KINDS],
               (1u << gpu::LIGHT_MESH) | (1u << gpu::LIGHT_POINT));
     RenderSettings s;
-    s.directLight = DirectLight::Bsdf;
+    s.estimator.directLight = DirectLight::Bsdf;
     EXPECT_EQ(featuresOf(scene, s)[SPEC_LIGHT_KINDS], 1u << gpu::LIGHT_POINT);
-    s.integrator = Integrator::Normals;
+    s.estimator.integrator = Integrator::Normals;
     EXPECT_EQ(featuresOf(scene, s)[SPEC_LIGHT_KINDS], 0u);
 }
 
@@ -190,7 +191,7 @@ TEST(KernelFeatures, MisOnlyWhereRoughMetalsMeetLampsThatBouncesFind) {
     for (const DirectLight mode :
          {DirectLight::Lights, DirectLight::Hemisphere, DirectLight::Bsdf}) {
         RenderSettings s;
-        s.directLight = mode;
+        s.estimator.directLight = mode;
         EXPECT_FALSE(featuresOf(scene, s)[SPEC_USE_MIS]);
     }
     scene.materials[0].kind = MaterialKind::Diffuse;
@@ -208,10 +209,10 @@ TEST(KernelFeatures, LightSamplesShareNumbersOnlyWhereThereIsOne) {
     scene.lights.emplace_back(); // a point: takes no numbers
     RenderSettings s;
     EXPECT_EQ(featuresOf(scene, s)[SPEC_LIGHT_NUMBERS], gpu::LIGHT_NUMBERS_SHARED);
-    s.lightSamples = 2;
+    s.estimator.lightSamples = 2;
     EXPECT_EQ(featuresOf(scene, s)[SPEC_LIGHT_NUMBERS], gpu::LIGHT_NUMBERS_FIRST);
-    s.lightSamples = 1;
-    s.cs184 = true; // hemisphere samples for point lights too
+    s.estimator.lightSamples = 1;
+    s.estimator.cs184 = true; // hemisphere samples for point lights too
     EXPECT_EQ(featuresOf(scene, s)[SPEC_LIGHT_NUMBERS], gpu::LIGHT_NUMBERS_FIRST);
     scene.spheres.push_back({{0, 0, 9}, 1, 1, 0});
     EXPECT_EQ(featuresOf(scene)[SPEC_LIGHT_NUMBERS], gpu::LIGHT_NUMBERS_FIRST);
@@ -221,16 +222,16 @@ TEST(KernelFeatures, LightSamplesShareNumbersOnlyWhereThereIsOne) {
 
 TEST(KernelFeatures, NoRouletteWherePathsEndBeforeIt) {
     RenderSettings s;
-    s.maxBounces = 2;
+    s.estimator.maxBounces = 2;
     EXPECT_EQ(featuresOf(oneTriangle({}), s)[SPEC_ROULETTE], gpu::ROULETTE_NONE);
-    s.maxBounces = 3;
+    s.estimator.maxBounces = 3;
     EXPECT_EQ(featuresOf(oneTriangle({}), s)[SPEC_ROULETTE], gpu::ROULETTE_THROUGHPUT);
 }
 
 TEST(KernelFeatures, PathsSplitOnlyIfAskedTo) {
     RenderSettings s;
     EXPECT_FALSE(featuresOf(oneTriangle({}), s)[SPEC_SPLITS]);
-    s.branches = 2;
+    s.estimator.branches = 2;
     EXPECT_TRUE(featuresOf(oneTriangle({}), s)[SPEC_SPLITS]);
 }
 
@@ -249,10 +250,10 @@ TEST(KernelFeatures, EverythingOn) {
     DeviceTuning tuning;
     tuning.everythingOn = true;
     RenderSettings s;
-    s.roulette.mode = Roulette::Mode::None;
+    s.estimator.roulette.mode = Roulette::Mode::None;
     const KernelFeatures f = featuresOf(oneTriangle({}), s, tuning);
     EXPECT_TRUE(f[SPEC_USE_MIS]);
-    s.directLight = DirectLight::Lights;
+    s.estimator.directLight = DirectLight::Lights;
     EXPECT_FALSE(featuresOf(oneTriangle({}), s, tuning)[SPEC_USE_MIS]);
     for (const uint32_t feature :
          {SPEC_HAS_TRIANGLES, SPEC_HAS_SPHERES, SPEC_HAS_NORMALS, SPEC_HAS_EMISSION})

@@ -21,9 +21,9 @@ class KernelTuningTest : public DeviceTest {
 
     static RenderSettings settings() {
         RenderSettings s;
-        s.width = 61, s.height = 37;
-        s.samplesPerPixel = 8;
-        s.maxBounces = 5;
+        s.area.width = 61, s.area.height = 37;
+        s.budget.mostSamplesPerPixel = 8;
+        s.estimator.maxBounces = 5;
         return s;
     }
 
@@ -101,7 +101,7 @@ TEST_F(KernelTuningTest, CountsStepsWithoutChangingThePicture) {
 /// at the limit of their own, and look at the count only now and then.
 TEST_F(KernelTuningTest, DispatchesAreAsLongAsThePaceAllows) {
     if (!testDevice().description().isCpu()) GTEST_SKIP() << "no shared count on a GPU";
-    settings_.samplesPerPixel = 64;
+    settings_.budget.mostSamplesPerPixel = 64;
     const auto iterationsPerDispatch = [&](double targetSeconds) {
         constexpr uint32_t steps = 4, lanes = 64;
         VulkanBackend b = backend({.traversalSteps = steps,
@@ -120,7 +120,7 @@ TEST_F(KernelTuningTest, DispatchesAreAsLongAsThePaceAllows) {
 /// A lane whose pixel is done waits until an eighth of the others' are, not all.
 TEST_F(KernelTuningTest, LanesSeldomWaitForAnotherPixel) {
     const auto busyShare = [&](uint32_t samples) {
-        settings_.samplesPerPixel = samples;
+        settings_.budget.mostSamplesPerPixel = samples;
         VulkanBackend b = backend({.lanes = 256, .countSteps = true});
         render(b, settings_);
         return double(b.steps().busy) / double(b.steps().all);

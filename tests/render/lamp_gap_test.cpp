@@ -106,14 +106,15 @@ TEST(LampGap, OnlyInKernelsThatNeedIt) {
     const auto guides = [&](const std::function<void(RenderSettings&)>& change) {
         RenderSettings s;
         change(s);
-        const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.width, s.height, false);
-        return kernelFeatures(packed, camera, s, {})[SPEC_GUIDES] != 0;
+        const Camera camera =
+            makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, false);
+        return kernelFeatures(packed, camera, s.estimator, {})[SPEC_GUIDES] != 0;
     };
     EXPECT_TRUE(guides([](RenderSettings&) {}));
-    EXPECT_FALSE(guides([](RenderSettings& s) { s.guides = false; }));
-    EXPECT_FALSE(guides([](RenderSettings& s) { s.maxBounces = 1; }));
-    EXPECT_FALSE(guides([](RenderSettings& s) { s.directLight = DirectLight::Bsdf; }));
-    EXPECT_FALSE(guides([](RenderSettings& s) { s.integrator = Integrator::Normals; }));
+    EXPECT_FALSE(guides([](RenderSettings& s) { s.estimator.guides = false; }));
+    EXPECT_FALSE(guides([](RenderSettings& s) { s.estimator.maxBounces = 1; }));
+    EXPECT_FALSE(guides([](RenderSettings& s) { s.estimator.directLight = DirectLight::Bsdf; }));
+    EXPECT_FALSE(guides([](RenderSettings& s) { s.estimator.integrator = Integrator::Normals; }));
 }
 
 } // namespace

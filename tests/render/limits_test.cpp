@@ -36,10 +36,12 @@ TEST_F(Limits, LoopOverflowIsReportedNotRendered) {
     Scene scene =
         loadScene(std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene/library/light_area.dae");
     RenderSettings s;
-    s.width = 8, s.height = 8, s.samplesPerPixel = 1, s.maxBounces = 1;
-    s.directLight = DirectLight::Hemisphere;
-    s.lightSamples = 1024 * 16;
-    const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.width, s.height, false);
+    s.area.width = 8, s.area.height = 8, s.budget.mostSamplesPerPixel = 1,
+    s.estimator.maxBounces = 1;
+    s.estimator.directLight = DirectLight::Hemisphere;
+    s.estimator.lightSamples = 1024 * 16;
+    const Camera camera =
+        makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, false);
     EXPECT_THAT(messageOf([&] { renderOnDevice(testDevice(), scene, camera, s); }),
                 testing::HasSubstr("loop iterations"));
 }
@@ -54,8 +56,10 @@ TEST_F(Limits, ManyLampsFitTheLoopLimit) {
         scene.lights.back().position.x += 0.001f * float(i);
     }
     RenderSettings s;
-    s.width = 8, s.height = 8, s.samplesPerPixel = 2, s.maxBounces = 3;
-    const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.width, s.height, false);
+    s.area.width = 8, s.area.height = 8, s.budget.mostSamplesPerPixel = 2,
+    s.estimator.maxBounces = 3;
+    const Camera camera =
+        makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, false);
     for (const PixelStatistics& p : renderOnDevice(testDevice(), scene, camera, s).pixels)
         EXPECT_EQ(p.count, 2u);
 }
@@ -66,10 +70,12 @@ TEST_F(Limits, FilmLargerThanOneBindingIsSplit) {
     Scene scene =
         loadScene(std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene/library/cornell_boxes.dae");
     RenderSettings s;
-    s.width = 2048, s.height = 1100, s.samplesPerPixel = 1, s.maxBounces = 0;
-    const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.width, s.height, false);
+    s.area.width = 2048, s.area.height = 1100, s.budget.mostSamplesPerPixel = 1,
+    s.estimator.maxBounces = 0;
+    const Camera camera =
+        makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, false);
     const Film whole = renderOnDevice(testDevice(), scene, camera, s);
-    s.crop = {900, 1000, 200, 100};
+    s.area.crop = {900, 1000, 200, 100};
     const Film part = renderOnDevice(testDevice(), scene, camera, s);
     for (uint32_t y = 1000; y < 1100; ++y)
         for (uint32_t x = 900; x < 1100; ++x)

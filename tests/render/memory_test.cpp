@@ -20,7 +20,7 @@ class Memory : public DeviceTest {
   protected:
     static RenderSettings pictureOf(uint32_t width, uint32_t height) {
         RenderSettings s;
-        s.width = width, s.height = height, s.samplesPerPixel = 1;
+        s.area.width = width, s.area.height = height, s.budget.mostSamplesPerPixel = 1;
         return s;
     }
 
@@ -31,16 +31,17 @@ class Memory : public DeviceTest {
         const vulkan::Device& device = testDevice();
         uint64_t planned = 0, rounding = 0;
         const DeviceTuning resolved = resolve(tuning, device);
-        for (const vulkan::BufferPlan& plan : planBuffers(scene_, settings, resolved)) {
+        for (const vulkan::BufferPlan& plan :
+             planBuffers(scene_, settings.area, settings.estimator.branches, resolved)) {
             planned += plan.bytes;
             const uint64_t count = plan.name == "film" ? segments : 1;
             rounding += count * alignmentOf(plan.use);
         }
         const uint64_t before = device.allocatedBytes();
-        const VulkanBackend backend(
-            device, scene_,
-            makeCamera(loaded_, CameraChoice::Automatic, settings.width, settings.height, false),
-            settings, tuning);
+        const VulkanBackend backend(device, scene_,
+                                    makeCamera(loaded_, CameraChoice::Automatic,
+                                               settings.area.width, settings.area.height, false),
+                                    settings, tuning);
         const uint64_t allocated = device.allocatedBytes() - before;
         EXPECT_GE(allocated, planned);
         EXPECT_LE(allocated, planned + rounding);
@@ -64,10 +65,10 @@ TEST_F(Memory, WhatIsPlannedIsAllocated) {
     expectPlanned(pictureOf(61, 37), {.texelFetch = false}, 1);
     expectPlanned(pictureOf(320, 240), {.lanes = 1000, .itemsPerDispatch = 500}, 1);
     RenderSettings branches = pictureOf(320, 240);
-    branches.branches = 4;
+    branches.estimator.branches = 4;
     expectPlanned(branches, {}, 1);
     RenderSettings crop = pictureOf(4000, 3000);
-    crop.crop = {10, 20, 30, 40};
+    crop.area.crop = {10, 20, 30, 40};
     expectPlanned(crop, {}, 1);
 }
 
@@ -93,7 +94,7 @@ vulkan::DeviceDescription roomyDevice() {
 std::string messageOf(const vulkan::DeviceDescription& device, const GpuScene& scene,
                       const RenderSettings& settings, const DeviceTuning& tuning) {
     try {
-        checkMemory(device, scene, settings, tuning);
+        checkMemory(device, scene, settings.area, settings.estimator.branches, tuning);
     } catch (const DeviceError& error) {
         return error.what();
     }

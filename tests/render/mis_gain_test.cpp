@@ -17,14 +17,14 @@ class MisGain : public DeviceTest {
     /// the squared mean radiance.
     double noise(DirectLight mode) {
         RenderSettings s;
-        s.width = 64, s.height = 48;
-        s.samplesPerPixel = 64;
-        s.maxBounces = 3;
-        s.directLight = mode;
-        const Camera camera =
-            makeCamera(scene_, CameraChoice::Automatic, s.width, s.height, s.cs184);
+        s.area.width = 64, s.area.height = 48;
+        s.budget.mostSamplesPerPixel = 64;
+        s.estimator.maxBounces = 3;
+        s.estimator.directLight = mode;
+        const Camera camera = makeCamera(scene_, CameraChoice::Automatic, s.area.width,
+                                         s.area.height, s.estimator.cs184);
         const Film a = renderOnDevice(testDevice(), scene_, camera, s);
-        s.seed = 1;
+        s.estimator.seed = 1;
         const Film b = renderOnDevice(testDevice(), scene_, camera, s);
         double squares = 0, mean = 0;
         for (size_t i = 0; i < a.pixels.size(); ++i) {

@@ -46,9 +46,10 @@ void makeMetal(Scene& scene) {
 /// Every material, kind of light, way of sampling, roulette, integrator and camera of the kernel.
 const Picture kPictures[] = {
     {"diffuse", "cornell_boxes.dae", [](Scene&, RenderSettings&) {}},
-    {"spheres", "cornell_spheres.dae", [](Scene&, RenderSettings& s) { s.lightSamples = 3; }},
+    {"spheres", "cornell_spheres.dae",
+     [](Scene&, RenderSettings& s) { s.estimator.lightSamples = 3; }},
     {"mirrorAndGlass", "cornell_mirror_glass.dae",
-     [](Scene&, RenderSettings& s) { s.maxBounces = 9; }},
+     [](Scene&, RenderSettings& s) { s.estimator.maxBounces = 9; }},
     {"refraction", "cornell_mirror_glass.dae",
      [](Scene& scene, RenderSettings&) {
          for (Material& m : scene.materials)
@@ -59,7 +60,7 @@ const Picture kPictures[] = {
     {"metalUnderSpheres", "light_sphere.dae",
      [](Scene& scene, RenderSettings& s) {
          makeMetal(scene);
-         s.lightSamples = 2;
+         s.estimator.lightSamples = 2;
      }},
     {"metalUnderTheSky", "light_ambient.dae",
      [](Scene& scene, RenderSettings&) { makeMetal(scene); }},
@@ -76,31 +77,33 @@ const Picture kPictures[] = {
     {"orthographic", "ortho.dae", [](Scene&, RenderSettings&) {}},
     {"hemisphere", "cornell_boxes.dae",
      [](Scene&, RenderSettings& s) {
-         s.directLight = DirectLight::Hemisphere;
-         s.lightSamples = 3;
+         s.estimator.directLight = DirectLight::Hemisphere;
+         s.estimator.lightSamples = 3;
      }},
     {"lampsByBounces", "cornell_mirror_glass.dae",
-     [](Scene&, RenderSettings& s) { s.directLight = DirectLight::Bsdf; }},
+     [](Scene&, RenderSettings& s) { s.estimator.directLight = DirectLight::Bsdf; }},
     {"secondBounceAlone", "cornell_boxes.dae",
-     [](Scene&, RenderSettings& s) { s.minBounce = s.maxBounces = 2; }},
-    {"emissionOnly", "cornell_boxes.dae", [](Scene&, RenderSettings& s) { s.maxBounces = 0; }},
+     [](Scene&, RenderSettings& s) { s.estimator.minBounce = s.estimator.maxBounces = 2; }},
+    {"emissionOnly", "cornell_boxes.dae",
+     [](Scene&, RenderSettings& s) { s.estimator.maxBounces = 0; }},
     {"fixedRoulette", "cornell_boxes.dae",
      [](Scene&, RenderSettings& s) {
-         s.maxBounces = 100;
-         s.roulette = {Roulette::Mode::Fixed, 0.3};
+         s.estimator.maxBounces = 100;
+         s.estimator.roulette = {Roulette::Mode::Fixed, 0.3};
      }},
     {"noRoulette", "cornell_boxes.dae",
-     [](Scene&, RenderSettings& s) { s.roulette.mode = Roulette::Mode::None; }},
-    {"branches", "cornell_boxes.dae", [](Scene&, RenderSettings& s) { s.branches = 4; }},
+     [](Scene&, RenderSettings& s) { s.estimator.roulette.mode = Roulette::Mode::None; }},
+    {"branches", "cornell_boxes.dae", [](Scene&, RenderSettings& s) { s.estimator.branches = 4; }},
     {"branchesBehindGlass", "cornell_mirror_glass.dae",
-     [](Scene&, RenderSettings& s) { s.branches = 3; }},
-    {"branchesOfMetal", "cornell_metal.dae", [](Scene&, RenderSettings& s) { s.branches = 2; }},
+     [](Scene&, RenderSettings& s) { s.estimator.branches = 3; }},
+    {"branchesOfMetal", "cornell_metal.dae",
+     [](Scene&, RenderSettings& s) { s.estimator.branches = 2; }},
     {"normals", "cornell_mesh.dae",
-     [](Scene&, RenderSettings& s) { s.integrator = Integrator::Normals; }},
+     [](Scene&, RenderSettings& s) { s.estimator.integrator = Integrator::Normals; }},
     {"cs184Glass", "cornell_mirror_glass.dae", [](Scene&, RenderSettings&) {}, true},
     {"cs184Metal", "cornell_metal.dae", [](Scene&, RenderSettings&) {}, true},
     {"cs184Hemisphere", "cornell_boxes.dae",
-     [](Scene&, RenderSettings& s) { s.directLight = DirectLight::Hemisphere; }, true},
+     [](Scene&, RenderSettings& s) { s.estimator.directLight = DirectLight::Hemisphere; }, true},
     {"rejectedSamples", "cornell_boxes.dae",
      [](Scene& scene, RenderSettings&) { // lamps brighter than a sample may be
          for (Material& m : scene.materials)
@@ -129,18 +132,19 @@ struct Result {
 class NestedKernel : public DeviceTest {
   protected:
     void load(const Picture& picture) {
-        settings_.width = 37, settings_.height = 27; // no multiples of a tile or a workgroup
-        settings_.samplesPerPixel = kSamples;
-        settings_.maxBounces = 5;
+        settings_.area.width = 37,
+        settings_.area.height = 27; // no multiples of a tile or a workgroup
+        settings_.budget.mostSamplesPerPixel = kSamples;
+        settings_.estimator.maxBounces = 5;
         const auto library = std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene/library";
-        settings_.cs184 = picture.cs184;
+        settings_.estimator.cs184 = picture.cs184;
         Scene scene = std::string_view(picture.scene).starts_with(kGeneratePrefix)
                           ? readScene(picture.scene)
                           : loadScene(library / picture.scene, picture.cs184);
         picture.change(scene, settings_);
-        camera_ = makeCamera(scene, CameraChoice::Automatic, settings_.width, settings_.height,
-                             settings_.cs184);
-        scene_ = packScene(scene, buildWideBvh(scene), settings_.cs184);
+        camera_ = makeCamera(scene, CameraChoice::Automatic, settings_.area.width,
+                             settings_.area.height, settings_.estimator.cs184);
+        scene_ = packScene(scene, buildWideBvh(scene), settings_.estimator.cs184);
     }
 
     Result product(const KernelTuning& tuning) const {
@@ -151,13 +155,15 @@ class NestedKernel : public DeviceTest {
 
     Result nested() const {
         ShaderOptions options = ShaderOptions::texel();
-        options.constants = kernelFeatures(scene_, camera_, settings_, {.workgroupSize = 8});
+        options.constants =
+            kernelFeatures(scene_, camera_, settings_.estimator, {.workgroupSize = 8});
         TestShader shader(nested_texel, options);
         shader.setScene(scene_);
-        shader.setOne(BINDING_FRAME, makeFrame(scene_, camera_, settings_));
+        shader.setOne(BINDING_FRAME,
+                      makeFrame(scene_, camera_, settings_.area, settings_.estimator));
         gpu::PixelState empty{};
         empty.firstRejected = 0xFFFFFFFFu;
-        const uint32_t pixels = settings_.width * settings_.height;
+        const uint32_t pixels = settings_.area.width * settings_.area.height;
         shader.set(BINDING_PIXELS, std::vector(pixels, empty));
         shader.setOne(BINDING_STATUS, gpu::DispatchStatus{});
         for (uint32_t done = 0; done < kSamples; done += kSamplesPerDispatch) {
@@ -184,7 +190,7 @@ class NestedKernel : public DeviceTest {
   private:
     /// As the product reads its states back: every field, two floats exactly in a double.
     Film filmOf(const std::vector<gpu::PixelState>& states) const {
-        Film film(settings_.width, settings_.height);
+        Film film(settings_.area.width, settings_.area.height);
         for (size_t i = 0; i < states.size(); ++i) {
             const gpu::PixelState& s = states[i];
             PixelStatistics& p = film.pixels[i];
@@ -218,7 +224,7 @@ TEST_P(NestedPictures, AreTheProductsBitForBit) {
     uint64_t samples = 0, rejected = 0;
     for (const PixelStatistics& p : textbook.film.pixels)
         samples += p.taken(), rejected += p.rejected;
-    EXPECT_EQ(samples, uint64_t(settings_.width) * settings_.height * kSamples);
+    EXPECT_EQ(samples, uint64_t(settings_.area.width) * settings_.area.height * kSamples);
     EXPECT_EQ(rejected > 0, std::string(picture.name) == "rejectedSamples");
     const size_t tuning = GetParam() % std::size(kTunings); // each in turn
     expectSame(product(kTunings[tuning]), textbook, "tuning " + std::to_string(tuning));
@@ -236,7 +242,7 @@ TEST_F(NestedKernel, AgreesWithEveryTuning) {
 
 TEST_F(NestedKernel, AgreesOnBranchesWithEveryTuning) {
     load(kPictures[2]);
-    settings_.branches = 3; // lanes stop with some branches done, and go on
+    settings_.estimator.branches = 3; // lanes stop with some branches done, and go on
     const Result textbook = nested();
     for (size_t i = 0; i < std::size(kTunings); ++i)
         expectSame(product(kTunings[i]), textbook, "tuning " + std::to_string(i));
@@ -246,7 +252,7 @@ TEST_F(NestedKernel, AgreesOnBranchesWithEveryTuning) {
 TEST_F(NestedKernel, DiffersForAnotherSeed) {
     load(kPictures[0]);
     const Result textbook = nested();
-    settings_.seed = 1;
+    settings_.estimator.seed = 1;
     const Result other = product({});
     size_t same = 0;
     for (size_t i = 0; i < other.film.pixels.size(); ++i)

@@ -47,10 +47,10 @@ TEST(NoiseEstimate, SeesTheGainOfSamplesThatFillGaps) {
 /// Pixel by pixel from the definition.
 TEST(NoiseEstimate, JudgesAPixelByItsNeighbours) {
     RenderSettings s = settingsOf(16);
-    s.crop = {3, 5, 40, 30};
+    s.area.crop = {3, 5, 40, 30};
     DrawnBackend backend(uneven, 3);
     const Film film = render(backend, s);
-    const std::vector<uint32_t> pixels = cropPixels(s);
+    const std::vector<uint32_t> pixels = cropPixels(s.area);
     NoiseEstimate estimate(pixels);
     estimate.update(film); // the first: by the samples' variances
     const std::vector<double> found = estimate.relativeVariance(film);

@@ -13,11 +13,12 @@ using namespace test;
 
 /// Over seeds, the relMSE of a stop rule times its samples, over that of uniform sampling: the
 /// noise is as 1 / samples, so that this is the ratio at an equal number of samples.
-double efficiencyRatio(const Draw& draw, const StopRule& stop) {
+double efficiencyRatio(const Draw& draw, const StopRule& stop, uint32_t meanSamples = 0) {
     double ruled = 0, uniform = 0;
     for (uint32_t seed = 0; seed < 8; ++seed) {
         RenderSettings s = settingsOf(1u << 20);
-        s.stop = stop;
+        s.budget.stop = stop;
+        s.budget.meanSamplesPerPixel = meanSamples;
         const Rendered a = renderDrawn(draw, s, seed);
         ruled += trueRelativeError(a.film) * double(samplesOf(a.film));
         const Rendered b = renderDrawn(draw, settingsOf(64), 100 + seed);
@@ -29,7 +30,7 @@ double efficiencyRatio(const Draw& draw, const StopRule& stop) {
 TEST(StopRule, NoiseIsWhatWasAskedFor) {
     for (double noise : {0.1, 0.03}) {
         RenderSettings s = settingsOf(1u << 20);
-        s.stop.noise = noise;
+        s.budget.stop.noise = noise;
         const Rendered r = renderDrawn(uneven, s, 1);
         EXPECT_LE(r.outcome.noise, noise);
         EXPECT_LT(std::sqrt(trueRelativeError(r.film)), 1.15 * noise);
@@ -47,16 +48,16 @@ TEST(StopRule, EvenNoiseLosesLessThanFivePercent) {
 }
 
 TEST(StopRule, MeanSamplesAreSpread) {
-    EXPECT_LT(efficiencyRatio(uneven, {.meanSamples = 64}), 1 / 1.3);
-    EXPECT_LT(efficiencyRatio(even, {.meanSamples = 64}), 1.05);
+    EXPECT_LT(efficiencyRatio(uneven, {}, 64), 1 / 1.3);
+    EXPECT_LT(efficiencyRatio(even, {}, 64), 1.05);
 }
 
 TEST(StopRule, MeanSamplesAreTaken) {
     for (const Draw& draw : {Draw(uneven), Draw(even), Draw([](uint32_t, Random&) { return 0.0; })})
         for (uint32_t mean : {16u, 17u, 40u, 64u, 1000u}) {
             RenderSettings s = settingsOf(1u << 20);
-            s.stop.meanSamples = mean;
-            const uint64_t asked = samplesAtMost(s),
+            s.budget.meanSamplesPerPixel = mean;
+            const uint64_t asked = samplesAtMost(s.area, s.budget),
                            taken = samplesOf(renderDrawn(draw, s, 1).film);
             EXPECT_LE(taken, asked);
             EXPECT_GE(taken, asked - asked / 64 - 2 * mean) << mean; // what is not worth a pass
@@ -65,9 +66,9 @@ TEST(StopRule, MeanSamplesAreTaken) {
 
 TEST(StopRule, MeanSamplesAreThoseOfTheCrop) {
     RenderSettings s = settingsOf(1u << 20);
-    s.crop = {5, 7, 30, 20};
-    s.stop.meanSamples = 40;
-    EXPECT_EQ(samplesAtMost(s), 30u * 20 * 40);
+    s.area.crop = {5, 7, 30, 20};
+    s.budget.meanSamplesPerPixel = 40;
+    EXPECT_EQ(samplesAtMost(s.area, s.budget), 30u * 20 * 40);
     EXPECT_NEAR(double(samplesOf(renderDrawn(uneven, s, 1).film)), 30 * 20 * 40, 30 * 20);
 }
 
@@ -81,7 +82,7 @@ TEST(StopRule, RareLightIsNotLost) {
     constexpr int kSeeds = 12;
     for (uint32_t seed = 0; seed < kSeeds; ++seed) {
         RenderSettings s = settingsOf(4096);
-        s.stop.noise = 0.25;
+        s.budget.stop.noise = 0.25;
         const Rendered r = renderDrawn(rare, s, seed);
         double mean = 0;
         for (const PixelStatistics& p : r.film.pixels)
@@ -99,7 +100,7 @@ TEST(StopRule, PixelsThatLookFinishedGetTheirShare) {
         return pixel % kSide < kSide / 2 ? 1.0 : gamma(1.0, random);
     };
     RenderSettings s = settingsOf(1u << 20);
-    s.stop.meanSamples = 1024;
+    s.budget.meanSamplesPerPixel = 1024;
     const Film film = renderDrawn(halfConstant, s, 1).film;
     for (const PixelStatistics& p : film.pixels)
         EXPECT_GE(p.taken(), NoisePlan::kLeastShare * 1024);
@@ -116,7 +117,7 @@ TEST(StopRule, SpreadingDoesNotDarken) {
     double sum = 0, squares = 0;
     for (uint32_t seed = 0; seed < kSeeds; ++seed) {
         RenderSettings s = settingsOf(1u << 20);
-        s.stop.meanSamples = 64;
+        s.budget.meanSamplesPerPixel = 64;
         double mean = 0;
         for (const PixelStatistics& p : renderDrawn(caustic, s, seed).film.pixels)
             mean += p.mean.x / (kSide * kSide);
@@ -130,7 +131,7 @@ TEST(StopRule, SpreadingDoesNotDarken) {
 
 TEST(StopRule, MostSamplesAreKept) {
     RenderSettings s = settingsOf(100);
-    s.stop.noise = 1e-6;
+    s.budget.stop.noise = 1e-6;
     const Rendered r = renderDrawn(even, s, 1);
     for (const PixelStatistics& p : r.film.pixels)
         EXPECT_EQ(p.taken(), 100u);
@@ -139,7 +140,7 @@ TEST(StopRule, MostSamplesAreKept) {
 
 TEST(StopRule, BlackPicturesEnd) {
     RenderSettings s = settingsOf(1u << 20);
-    s.stop.noise = 0.01;
+    s.budget.stop.noise = 0.01;
     const Rendered r = renderDrawn([](uint32_t, Random&) { return 0.0; }, s, 1);
     EXPECT_EQ(samplesOf(r.film), uint64_t(NoisePlan::kFirstPaths) * kSide * kSide);
 }
@@ -147,8 +148,8 @@ TEST(StopRule, BlackPicturesEnd) {
 TEST(StopRule, FirstPathsAreThoseOfBranchesToo) {
     for (const auto& [branches, samples] : {std::pair(1u, 8u), {2u, 4u}, {4u, 4u}, {9u, 4u}}) {
         RenderSettings s = settingsOf(1u << 20);
-        s.stop.noise = 0.01;
-        s.branches = branches;
+        s.budget.stop.noise = 0.01;
+        s.estimator.branches = branches;
         const Rendered r = renderDrawn([](uint32_t, Random&) { return 0.0; }, s, 1);
         EXPECT_EQ(samplesOf(r.film), uint64_t(samples) * kSide * kSide);
     }
@@ -156,7 +157,7 @@ TEST(StopRule, FirstPathsAreThoseOfBranchesToo) {
 
 TEST(StopRule, TimeEndsARender) {
     RenderSettings s = settingsOf(1u << 24);
-    s.stop.seconds = 0.05;
+    s.budget.stop.seconds = 0.05;
     const Rendered r = renderDrawn(even, s, 1);
     EXPECT_TRUE(r.outcome.outOfTime || samplesOf(r.film) > 0);
     EXPECT_LT(samplesOf(r.film), uint64_t(1) << 34); // not all
@@ -165,7 +166,7 @@ TEST(StopRule, TimeEndsARender) {
 TEST(NoisePlan, NoStepLeftOutIsWorthMore) {
     DrawnBackend backend(uneven, 3);
     const Film film = render(backend, settingsOf(16));
-    const std::vector<uint32_t> pixels = cropPixels(settingsOf(16));
+    const std::vector<uint32_t> pixels = cropPixels(settingsOf(16).area);
     NoiseEstimate estimate(pixels);
     estimate.update(film);
     const std::vector<double> variance = estimate.relativeVariance(film);
@@ -191,8 +192,8 @@ TEST(NoisePlan, NoStepLeftOutIsWorthMore) {
 TEST(NoisePlan, TheSameFilmGivesTheSamePass) {
     DrawnBackend backend(uneven, 3);
     const Film film = render(backend, settingsOf(16));
-    const NoisePlan plan(cropPixels(settingsOf(16)), 1024);
-    NoiseEstimate estimate(cropPixels(settingsOf(16)));
+    const NoisePlan plan(cropPixels(settingsOf(16).area), 1024);
+    NoiseEstimate estimate(cropPixels(settingsOf(16).area));
     estimate.update(film);
     const auto a = plan.next(film, estimate, 20000, 0), b = plan.next(film, estimate, 20000, 0);
     ASSERT_EQ(a.size(), b.size());

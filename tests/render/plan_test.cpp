@@ -11,10 +11,10 @@ namespace {
 
 RenderSettings adaptiveSettings(uint32_t width, uint32_t height) {
     RenderSettings s;
-    s.width = width;
-    s.height = height;
-    s.samplesPerPixel = 1000;
-    s.adaptive = {true, 32, 0.05};
+    s.area.width = width;
+    s.area.height = height;
+    s.budget.mostSamplesPerPixel = 1000;
+    s.budget.adaptive = {.enabled = true, .batch = 32, .tolerance = 0.05};
     return s;
 }
 
@@ -28,13 +28,13 @@ PixelStatistics pixel(uint32_t count, double mean, double sigma) {
 }
 
 Film filmOf(const RenderSettings& s, const PixelStatistics& p) {
-    Film film(s.width, s.height);
+    Film film(s.area.width, s.area.height);
     std::fill(film.pixels.begin(), film.pixels.end(), p);
     return film;
 }
 
 std::vector<PixelTarget> next(const RenderSettings& s, const Film& film) {
-    return SamplingPlan(s, cropPixels(s)).next(film);
+    return SamplingPlan(s.budget, cropPixels(s.area)).next(film);
 }
 
 bool wants(const std::vector<PixelTarget>& pass, uint32_t pixel_) {
@@ -44,7 +44,7 @@ bool wants(const std::vector<PixelTarget>& pass, uint32_t pixel_) {
 
 TEST(UniformPlan, QuadruplesUntilAllSamplesAreTaken) {
     RenderSettings s;
-    s.width = 3, s.height = 2, s.samplesPerPixel = 100;
+    s.area.width = 3, s.area.height = 2, s.budget.mostSamplesPerPixel = 100;
     std::vector<uint32_t> targets;
     Film film(3, 2);
     for (;;) {
@@ -60,7 +60,7 @@ TEST(UniformPlan, QuadruplesUntilAllSamplesAreTaken) {
 
 TEST(UniformPlan, RejectedSamplesCountAsTaken) {
     RenderSettings s;
-    s.width = 1, s.height = 1, s.samplesPerPixel = 10;
+    s.area.width = 1, s.area.height = 1, s.budget.mostSamplesPerPixel = 10;
     Film film(1, 1);
     film.pixels[0].count = 7;
     film.pixels[0].rejected = 3;
@@ -69,8 +69,8 @@ TEST(UniformPlan, RejectedSamplesCountAsTaken) {
 
 TEST(CropPixels, AreRowsOfTheWholePicture) {
     RenderSettings s;
-    s.width = 10, s.height = 10, s.crop = {3, 7, 2, 2};
-    EXPECT_EQ(cropPixels(s), (std::vector<uint32_t>{73, 74, 83, 84}));
+    s.area.width = 10, s.area.height = 10, s.area.crop = {3, 7, 2, 2};
+    EXPECT_EQ(cropPixels(s.area), (std::vector<uint32_t>{73, 74, 83, 84}));
 }
 
 TEST(DefaultRule, EveryPixelGetsTheMinimumFirst) {
@@ -118,7 +118,7 @@ TEST(DefaultRule, BlackPixelBesideLitOnesIsNotFinished) {
 
 TEST(DefaultRule, NeverPassesTheMostSamples) {
     RenderSettings s = adaptiveSettings(2, 2);
-    s.samplesPerPixel = 80;
+    s.budget.mostSamplesPerPixel = 80;
     const auto first = next(s, filmOf(s, pixel(64, 0.5, 10)));
     ASSERT_EQ(first.size(), 4u);
     EXPECT_EQ(first[0].samples, 80u);
@@ -127,7 +127,7 @@ TEST(DefaultRule, NeverPassesTheMostSamples) {
 
 TEST(Cs184Rule, TestsEachChannelAtEveryBatch) {
     RenderSettings s = adaptiveSettings(1, 1);
-    s.cs184 = true;
+    s.budget.adaptive.rule = Adaptive::Rule::PerChannel;
     EXPECT_EQ(next(s, Film(1, 1))[0].samples, 32u);
     const double sigma = 0.05 * 0.5 * std::sqrt(32.0) / 1.96;
     PixelStatistics p = pixel(32, 0.5, sigma * 0.999);
@@ -141,7 +141,7 @@ TEST(Cs184Rule, TestsEachChannelAtEveryBatch) {
 
 TEST(Cs184Rule, StopsAnAllBlackPixelForEver) {
     RenderSettings s = adaptiveSettings(1, 1);
-    s.cs184 = true;
+    s.budget.adaptive.rule = Adaptive::Rule::PerChannel;
     EXPECT_TRUE(next(s, filmOf(s, pixel(32, 0, 0))).empty());
 }
 

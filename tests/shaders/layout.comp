@@ -72,12 +72,12 @@ void putFrame() {
 void putWork() {
     put(dispatch.itemCount), put(dispatch.segmentBase), put(dispatch.softIterations);
     put(dispatch.hardIterations), put(dispatch.laneCount);
-    put(dispatch.groupsPerThread), put(dispatch.sharedIterations), put(dispatch.unused2);
+    put(dispatch.groupsPerThread), put(dispatch.sharedIterations), put(dispatch.beginsNoSample);
     const WorkItem w = fetchWorkItem(1u);
     put(w.pixel), put(w.target), put(w.column), put(w.row);
     const PixelState s = fetchPixel(1u);
     put(s.sum), put(s.count), put(s.sumError), put(s.rejected), put(s.m2), put(s.firstRejected);
-    put(s.m2Error), put(s.unused);
+    put(s.m2Error), put(s.samplesBefore);
     const SuspendedPath p = suspendedPaths[1];
     put(p.origin), put(p.bounce), put(p.direction), put(p.skipPrimitive), put(p.throughput);
     put(p.emission), put(p.radiance), put(p.item), put(p.arrivalNumbers);

@@ -134,7 +134,7 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
 
     void fillWork(TestShader& shader, Patterns& patterns, const gpu::Dispatch& d) {
         expected_.structure("Dispatch", 1u, d.segmentBase, d.softIterations, d.hardIterations,
-                            d.laneCount, d.groupsPerThread, d.sharedIterations, d.unused2);
+                            d.laneCount, d.groupsPerThread, d.sharedIterations, d.beginsNoSample);
         const auto items = patterns.several<gpu::WorkItem>();
         shader.set(BINDING_WORK_ITEMS, items);
         expected_.structure("WorkItem", items[1].pixel, items[1].target, items[1].column,
@@ -143,7 +143,7 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         shader.set(BINDING_PIXELS, states_);
         const gpu::PixelState& s = states_[1];
         expected_.structure("PixelState", s.sum, s.count, s.sumError, s.rejected, s.m2,
-                            s.firstRejected, s.m2Error, s.unused);
+                            s.firstRejected, s.m2Error, s.samplesBefore);
         paths_ = patterns.several<gpu::SuspendedPath>();
         shader.set(BINDING_SUSPENDED, paths_);
         const gpu::SuspendedPath& p = paths_[1];

@@ -71,7 +71,7 @@ struct FakeRenderer {
         }
         const bool spread = std::find(words.begin(), words.end(), "--spread") != words.end();
         if (spread) {
-            render.settings.stop.meanSamples = after("-s");
+            render.settings.budget.meanSamplesPerPixel = after("-s");
             render.settings.samplesPerPixel = 1u << 20;
         }
         render.backend = std::make_unique<NoiseBackend>(after("-l") ? 0.5 : 0.25, spread ? 0.1 : 1,

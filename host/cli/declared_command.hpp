@@ -1,0 +1,77 @@
+#pragma once
+
+#include "host/cli/option_list.hpp"
+#include "host/cli/options.hpp"
+
+#include <deque>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace stromboli {
+
+/// What was asked for, before it is known what it means together with the rest.
+struct Asked {
+    uint32_t usualPaths = 64; ///< -s where it is not given
+    std::optional<uint32_t> paths;
+    bool adaptive = false, even = false;
+    std::optional<Crop> cell; ///< y counts from the bottom of the picture
+    std::optional<uint32_t> accumulate;
+    SampleName sample;
+    bool sampleAlone = false; ///< `sample` and nothing else
+};
+
+/// A command with its options. Each has its own defaults: `options` and `asked` as they are when
+/// the options are declared.
+struct DeclaredCommand {
+    std::string name, description, footer;
+    Options options;
+    Asked asked;
+    OptionList list;
+    /// Works out what the options mean together. Throws UsageError.
+    std::function<void()> finish = [] {};
+};
+
+/// All commands. The functions inside refer to their own command: it must not be moved.
+std::deque<DeclaredCommand> declareCommands();
+
+/// Understands the arguments (without the program's name): stores them in the command that they
+/// name, checks conflicts, and finishes it. Null: help or version was printed and the program is
+/// done. Throws UsageError.
+DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, Words arguments);
+
+// Groups of options that several commands have. Each `finish...` belongs to the group above it.
+
+void declareScene(DeclaredCommand& command);
+
+/// Size, camera, crop.
+void declarePicture(DeclaredCommand& command);
+void finishPicture(DeclaredCommand& command);
+
+/// What the estimator is, and --cs184.
+void declareEstimator(DeclaredCommand& command);
+void finishEstimator(DeclaredCommand& command);
+
+void declareSampler(DeclaredCommand& command, Sampler& where);
+/// -s, --sampler, --seed.
+void declareSamples(DeclaredCommand& command, const std::string& samplesHelp);
+/// usually: the default, in words.
+void declareBranches(DeclaredCommand& command, const std::string& usually);
+/// Where samples go and when it is enough: --even, -a, --noise, --time.
+void declareSpreading(DeclaredCommand& command);
+/// Works out the budget of a command whose samples may be spread, or not.
+void finishBudget(DeclaredCommand& command, bool maySpread);
+/// --pixel and --sample.
+void declareSampleAlone(DeclaredCommand& command);
+
+void declareDevice(DeclaredCommand& command);
+/// Threads and how much is said.
+void declareHost(DeclaredCommand& command);
+
+// Commands with options of their own.
+void declareBench(DeclaredCommand& command);
+void declareCompare(DeclaredCommand& command);
+void declareStress(DeclaredCommand& command);
+void declareStudy(DeclaredCommand& command);
+
+} // namespace stromboli

@@ -1,0 +1,93 @@
+// Options: what is estimated, and how.
+#include "host/cli/declared_command.hpp"
+
+namespace stromboli {
+namespace {
+
+constexpr Range<uint32_t> kLightSamples{1, 1024};
+constexpr Range<uint32_t> kBounces{0, 10000};
+
+/// none, throughput, or the probability of ending a path.
+Roulette readRoulette(const std::string& word) {
+    if (word == "none") return {Roulette::Mode::None};
+    if (word == "throughput") return {Roulette::Mode::Throughput};
+    try {
+        const double p = readReal("--roulette", word, {0, 1});
+        if (p < 1) return {Roulette::Mode::Fixed, p};
+    } catch (const UsageError&) { // the message below names all there is
+    }
+    throw UsageError(fmt::format(
+        "--roulette is '{}': expected none, throughput or a probability in [0, 1)", word));
+}
+
+/// That renderer's conventions and defaults.
+void useCs184(DeclaredCommand& c) {
+    Estimator& e = c.options.estimator;
+    e.cs184 = true;
+    e.maxBounces = 1;
+    e.sampler = Sampler::Independent;
+    e.roulette.mode = Roulette::Mode::None;
+    c.asked.usualPaths = 1;
+    c.options.budget.adaptive.enabled = true;
+    c.options.budget.adaptive.rule = Adaptive::Rule::PerChannel;
+}
+
+} // namespace
+
+void declareEstimator(DeclaredCommand& c) {
+    Estimator& e = c.options.estimator;
+    OptionList& list = c.list;
+    list.group("Light");
+    list.number("-m,--max-bounces", "N", "scatterings of light at most; 0: lamps only",
+                e.maxBounces, kBounces)
+        .usually(fmt::format("{}; --cs184: 1", e.maxBounces));
+    list.number("--min-bounce", "K",
+                "leave out light scattered fewer times; equal to -m: that bounce alone",
+                e.minBounce, kBounces);
+    list.number("-l,--light-samples", "N", "samples per shading point and area light",
+                e.lightSamples, kLightSamples);
+    list.choice("--direct", "HOW", "how lamps are found from a surface", e.directLight);
+    list.flag("-H", "same as --direct hemisphere",
+              [&e] { e.directLight = DirectLight::Hemisphere; })
+        .excludes("--direct", "both say how lamps are found");
+    list.choice("--light-choice", "HOW", "which of many emissive triangles a light sample takes",
+                e.lightChoice);
+    list.words("--roulette", "MODE",
+               "none, throughput (from bounce 3 on), or a probability P of ending a path at every "
+               "hit",
+               1, [&e](const Words& words) { e.roulette = readRoulette(words[0]); })
+        .usually("throughput; --cs184: none");
+    list.words("--guide", "WHETHER",
+               "on: some bounces go into the bright gap between a lamp and a surface close to it; "
+               "off: all as the materials scatter",
+               1,
+               [&e](const Words& words) {
+                   if (words[0] != "on" && words[0] != "off")
+                       throw UsageError(
+                           fmt::format("--guide is '{}': expected on or off", words[0]));
+                   e.guides = words[0] == "on";
+               })
+        .usually(e.guides ? "on" : "off");
+    list.choice("--integrator", "KIND", "what a sample is", e.integrator);
+    list.flag("--cs184",
+              "the CS184 renderer's conventions: framing and crop, normals, lights, tone curve, "
+              "adaptive sampling by default (docs/cs184.md)",
+              [&c] { useCs184(c); })
+        .changesDefaults();
+}
+
+void finishEstimator(DeclaredCommand& c) {
+    Estimator& e = c.options.estimator;
+    if (c.asked.accumulate && *c.asked.accumulate == 0) e.minBounce = e.maxBounces;
+    if (e.minBounce > e.maxBounces)
+        throw UsageError(fmt::format("--min-bounce {} is more than -m {}: no light is left",
+                                     e.minBounce, e.maxBounces));
+}
+
+void declareSampler(DeclaredCommand& c, Sampler& where) {
+    c.list.group("Sampling");
+    c.list.choice("--sampler", "WHICH", "where random numbers come from", where)
+        .usually(fmt::format("{}; --cs184: independent", nameOf(where)));
+}
+
+} // namespace stromboli

@@ -1,0 +1,63 @@
+// Options: which scene, and which part of which picture of it.
+#include "host/cli/declared_command.hpp"
+
+namespace stromboli {
+namespace {
+
+/// Larger pictures than this on a side are taken for mistakes.
+constexpr Range<uint32_t> kSide{1, 65536};
+constexpr Range<uint32_t> kPlace{0, 65535};
+
+Crop readCrop(const std::string& name, const Words& words) {
+    return {readNumber(name + ": left", words[0], kPlace),
+            readNumber(name + ": top", words[1], kPlace),
+            readNumber(name + ": width", words[2], kSide),
+            readNumber(name + ": height", words[3], kSide)};
+}
+
+} // namespace
+
+void declareScene(DeclaredCommand& c) {
+    c.list.group("Scene");
+    c.list
+        .text("SCENE", "",
+              "COLLADA file (.dae), or generate:cornell_mesh:N for a scene of N triangles made in "
+              "memory, generate:lamps:N for one lit by N triangles",
+              c.options.scene)
+        .required();
+}
+
+void declarePicture(DeclaredCommand& c) {
+    c.list.group("Picture");
+    Options& o = c.options;
+    c.list
+        .words("-r,--size", "W H", "picture size", 2,
+               [&o](const Words& words) {
+                   o.area.width = readNumber("-r: width", words[0], kSide);
+                   o.area.height = readNumber("-r: height", words[1], kSide);
+                   o.sizeGiven = true;
+               })
+        .usually(o.sizeGiven ? fmt::format("{} {}", o.area.width, o.area.height)
+                             : "the camera's shape, 800 wide");
+    c.list.choice("--camera", "WHICH", "whose view", o.camera);
+    c.list.words("--crop", "X Y W H", "only this part: left, top, width, height in pixels", 4,
+                 [&o](const Words& words) { o.area.crop = readCrop("--crop", words); });
+    c.list
+        .words("--cell", "X Y W H", "the same with Y from the bottom (CS184's -p)", 4,
+               [&c](const Words& words) { c.asked.cell = readCrop("-p", words); })
+        .excludes("--crop");
+}
+
+void finishPicture(DeclaredCommand& c) {
+    Options& o = c.options;
+    if (!c.asked.cell) return;
+    const Crop& cell = *c.asked.cell;
+    o.sizeGiven = true; // 800 x 600, unless the user gave another
+    if (uint64_t(cell.y) + cell.height > o.area.height)
+        throw UsageError(fmt::format("-p: the cell ends at row {} of {}",
+                                     uint64_t(cell.y) + cell.height, o.area.height));
+    o.area.crop = cell;
+    o.area.crop.y = o.area.height - cell.y - cell.height;
+}
+
+} // namespace stromboli

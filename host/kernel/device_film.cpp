@@ -1,0 +1,137 @@
+#include "host/kernel/device_film.hpp"
+
+#include "host/kernel/kernel_buffers.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace stromboli {
+namespace {
+
+std::span<const std::byte> bytesOf(const std::vector<gpu::PixelState>& states) {
+    return std::as_bytes(std::span(states));
+}
+
+PixelStatistics statisticsOf(const gpu::PixelState& s) {
+    PixelStatistics p;
+    p.count = s.count;
+    p.rejected = s.rejected;
+    p.firstRejected = s.firstRejected;
+    if (s.count == 0) return p;
+    p.mean = (glm::dvec3(s.sum) + glm::dvec3(s.sumError)) / double(s.count);
+    p.m2 = glm::dvec3(s.m2) + glm::dvec3(s.m2Error);
+    return p;
+}
+
+PixelSums sumsOf(const gpu::PixelState& s) {
+    return {.count = s.count,
+            .rejected = s.rejected,
+            .firstRejected = s.firstRejected,
+            .first = s.sum,
+            .firstError = s.sumError,
+            .second = s.m2,
+            .secondError = s.m2Error};
+}
+
+gpu::PixelState stateOf(const PixelSums& s) {
+    gpu::PixelState state{};
+    state.count = s.count;
+    state.rejected = s.rejected;
+    state.firstRejected = s.firstRejected;
+    state.sum = s.first;
+    state.sumError = s.firstError;
+    state.m2 = s.second;
+    state.m2Error = s.secondError;
+    return state;
+}
+
+} // namespace
+
+DeviceFilm::DeviceFilm(const vulkan::Device& device, const PictureArea& area,
+                       const DeviceTuning& tuning)
+    : area_(area), part_(area.rendered()), queue_(device) {
+    const uint64_t total = area.pixelCount();
+    const uint64_t perSegment = pixelsPerSegment(device.description(), tuning);
+    gpu::PixelState empty{};
+    empty.firstRejected = 0xFFFFFFFFu;
+    for (uint64_t first = 0; first < total; first += perSegment) {
+        const auto count = uint32_t(std::min(perSegment, total - first));
+        Segment& s = segments_.emplace_back(
+            Segment{uint32_t(first), count,
+                    vulkan::Buffer(device, "film", uint64_t(count) * sizeof(gpu::PixelState),
+                                   rowUse(tuning))});
+        s.pixels.upload(queue_, bytesOf(std::vector(count, empty)));
+    }
+}
+
+std::pair<size_t, uint32_t> DeviceFilm::placeOf(uint32_t pixel) const {
+    const uint32_t rendered =
+        (pixel / area_.width - part_.y) * part_.width + pixel % area_.width - part_.x;
+    const uint32_t perSegment = segments_.front().pixelCount;
+    return {rendered / perSegment, rendered % perSegment};
+}
+
+uint32_t DeviceFilm::picturePixel(uint32_t pixel) const {
+    return (pixel / part_.width + part_.y) * area_.width + pixel % part_.width + part_.x;
+}
+
+std::vector<std::vector<gpu::WorkItem>>
+DeviceFilm::workOf(std::span<const PixelTarget> targets) const {
+    std::vector<std::vector<gpu::WorkItem>> work(segments_.size());
+    for (const PixelTarget& t : targets) {
+        const auto [segment, pixel] = placeOf(t.pixel);
+        work[segment].push_back({pixel, t.samples, t.pixel % area_.width, t.pixel / area_.width});
+    }
+    return work;
+}
+
+gpu::PixelState DeviceFilm::read(size_t segment, uint32_t pixel) {
+    gpu::PixelState state{};
+    segments_[segment].pixels.download(queue_, std::as_writable_bytes(std::span(&state, 1)),
+                                       uint64_t(pixel) * sizeof(gpu::PixelState));
+    return state;
+}
+
+void DeviceFilm::write(size_t segment, uint32_t pixel, const gpu::PixelState& state) {
+    segments_[segment].pixels.upload(queue_, std::as_bytes(std::span(&state, 1)),
+                                     uint64_t(pixel) * sizeof(gpu::PixelState));
+}
+
+std::vector<gpu::PixelState> DeviceFilm::download(const Segment& segment) {
+    std::vector<gpu::PixelState> states(segment.pixelCount);
+    segment.pixels.download(queue_, std::as_writable_bytes(std::span(states)));
+    return states;
+}
+
+void DeviceFilm::readBack(size_t index, std::span<const gpu::WorkItem> items, Film& film) {
+    if (items.empty()) return;
+    const Segment& segment = segments_[index];
+    const std::vector<gpu::PixelState> states = download(segment);
+    for (const gpu::WorkItem& item : items)
+        film.pixels[picturePixel(segment.firstPixel + item.pixel)] =
+            statisticsOf(states[item.pixel]);
+}
+
+std::vector<PixelSums> DeviceFilm::save() {
+    std::vector<PixelSums> sums;
+    sums.reserve(area_.pixelCount());
+    for (const Segment& segment : segments_)
+        for (const gpu::PixelState& state : download(segment))
+            sums.push_back(sumsOf(state));
+    return sums;
+}
+
+void DeviceFilm::restore(std::span<const PixelSums> sums, Film& film) {
+    if (sums.size() != area_.pixelCount())
+        throw std::invalid_argument("the saved film is not of this area");
+    for (Segment& segment : segments_) {
+        std::vector<gpu::PixelState> states;
+        for (const PixelSums& s : sums.subspan(segment.firstPixel, segment.pixelCount))
+            states.push_back(stateOf(s));
+        segment.pixels.upload(queue_, bytesOf(states));
+        for (uint32_t i = 0; i < segment.pixelCount; ++i)
+            film.pixels[picturePixel(segment.firstPixel + i)] = statisticsOf(states[i]);
+    }
+}
+
+} // namespace stromboli

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "host/film/film.hpp"
+#include "host/film/picture_area.hpp"
+#include "host/kernel/kernel_tuning.hpp"
+#include "host/render/backend.hpp"
+#include "host/vulkan/buffer.hpp"
+#include "shaders/shared/render_types.h"
+
+#include <span>
+#include <vector>
+
+namespace stromboli {
+
+/// The statistics of a picture's pixels in the device's memory.
+class DeviceFilm {
+  public:
+    /// A run of the rendered pixels whose states fit one binding.
+    struct Segment {
+        uint32_t firstPixel; ///< counted in the part that is rendered
+        uint32_t pixelCount;
+        vulkan::Buffer pixels;
+    };
+
+    /// An empty film. Throws DeviceError if it does not fit.
+    DeviceFilm(const vulkan::Device& device, const PictureArea& area, const DeviceTuning& tuning);
+
+    const PictureArea& area() const { return area_; }
+    const std::vector<Segment>& segments() const { return segments_; }
+
+    /// The targets as work items of each segment, in their order.
+    std::vector<std::vector<gpu::WorkItem>> workOf(std::span<const PixelTarget> targets) const;
+    /// The segment of a pixel of the picture, and its index there.
+    std::pair<size_t, uint32_t> placeOf(uint32_t picturePixel) const;
+
+    gpu::PixelState read(size_t segment, uint32_t pixel);
+    void write(size_t segment, uint32_t pixel, const gpu::PixelState& state);
+    /// Statistics of all pixels of a segment that are in `items`, into `film`.
+    void readBack(size_t segment, std::span<const gpu::WorkItem> items, Film& film);
+
+    /// All pixels that are rendered, row by row, to the last bit.
+    std::vector<PixelSums> save();
+    /// What was saved of a film of the same area; also into `film`.
+    void restore(std::span<const PixelSums> sums, Film& film);
+
+  private:
+    std::vector<gpu::PixelState> download(const Segment& segment);
+    uint32_t picturePixel(uint32_t renderedPixel) const;
+
+    PictureArea area_;
+    Crop part_;
+    vulkan::Queue queue_;
+    std::vector<Segment> segments_;
+};
+
+} // namespace stromboli

@@ -1,0 +1,167 @@
+#include "host/kernel/dispatcher.hpp"
+
+#include "host/core/error.hpp"
+#include "host/kernel/kernel_buffers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace stromboli {
+namespace {
+
+using vulkan::Buffer;
+using vulkan::BufferUse;
+
+/// llvmpipe ends all loops of a group, silently, after 65,535 passes of any loop.
+constexpr uint32_t kLlvmpipeLoopPasses = 65535;
+/// On other devices only a guard against endless loops: a ray through 2^20 nodes is none.
+constexpr uint32_t kGuardIterations = 1u << 20;
+
+/// One pass of the kernel's loop counts for itself, its traversal steps, the loop around it that
+/// changes pixels and, where there are such, the loops that look for ambient light and walk a light
+/// tree.
+uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene,
+                   const DeviceTuning& tuning) {
+    if (!device.description().isCpu()) return kGuardIterations;
+    const bool ambient =
+        tuning.everythingOn ||
+        std::any_of(scene.lights.begin(), scene.lights.end(),
+                    [](const gpu::Light& l) { return l.kind == gpu::LIGHT_AMBIENT; });
+    const uint32_t perIteration = 1 + (tuning.traversalSteps + 1) + 2 +
+                                  (ambient ? scene.areaLights + 1 : 0) +
+                                  (scene.manyLampTriangles ? scene.lightTreeLevels + 1 : 0);
+    return std::max(kLlvmpipeLoopPasses / perIteration, 2u);
+}
+
+/// Where lanes stop taking path rays. What is left has to do for one more surface with all its
+/// direct light samples: a pass or more for each.
+uint32_t softLimit(uint32_t hard, const gpu::Frame& frame) {
+    const uint32_t directSamples = frame.areaSamples + frame.deltaLights;
+    return directSamples < hard / 32 ? hard / 2 : 1;
+}
+
+/// Iterations a dispatch may be given. Where threads share them, a fast one runs more of them in a
+/// group than the others: up to twice as many.
+uint32_t paceLimit(uint32_t soft, const DeviceTuning& tuning) {
+    return tuning.driverThreads > 0 ? std::max(soft / 2, 1u) : soft;
+}
+
+template <class T>
+std::span<const std::byte> bytesOf(const T& value) {
+    return std::as_bytes(std::span(&value, 1));
+}
+
+} // namespace
+
+Dispatcher::Dispatcher(const vulkan::Device& device, const DeviceScene& scene,
+                       const PathKernel& kernel, DeviceFilm& film, const gpu::Frame& frame,
+                       const DeviceTuning& tuning, double targetSeconds,
+                       std::optional<uint32_t> fixedIterations)
+    : device_(device), kernel_(kernel), film_(film), tuning_(tuning),
+      hardIterations_(hardLimit(device, scene.scene(), tuning)),
+      softIterations_(softLimit(hardIterations_, frame)), fixedIterations_(fixedIterations),
+      pace_(targetSeconds, paceLimit(softIterations_, tuning)), queue_(device),
+      frameBuffer_(device, "frame constants", sizeof(gpu::Frame), BufferUse::Uniform),
+      workItems_(device, "work list", tuning.itemsPerDispatch * sizeof(gpu::WorkItem),
+                 rowUse(tuning)),
+      suspended_(device, "suspended paths", tuning.lanes * sizeof(gpu::SuspendedPath),
+                 BufferUse::Storage),
+      splits_(device, "splits of suspended paths",
+              splitCount(frame.branches, tuning.lanes) * sizeof(gpu::SuspendedSplit),
+              BufferUse::Storage),
+      status_(device, "dispatch status", sizeof(gpu::DispatchStatus), BufferUse::Storage) {
+    setFrame(frame);
+    gpu::SuspendedPath none{};
+    none.bounce = gpu::SUSPENDED_NONE;
+    none.item = gpu::NO_ITEM;
+    const std::vector<gpu::SuspendedPath> idle(tuning.lanes, none);
+    suspended_.upload(queue_, std::as_bytes(std::span(idle)));
+    for (const DeviceFilm::Segment& s : film.segments()) {
+        std::vector<const Buffer*> buffers;
+        for (const Buffer& b : scene.buffers())
+            buffers.push_back(&b);
+        buffers.insert(buffers.end(),
+                       {&frameBuffer_, &workItems_, &s.pixels, &suspended_, &status_, &splits_});
+        sets_.push_back(
+            std::make_unique<vulkan::DescriptorSet>(device, kernel.pipeline(), buffers));
+    }
+}
+
+void Dispatcher::setFrame(const gpu::Frame& frame) {
+    frameBuffer_.upload(queue_, bytesOf(frame));
+}
+
+bool Dispatcher::run(size_t segment, std::span<const gpu::WorkItem> items,
+                     const std::function<bool(uint64_t)>& advance) {
+    for (size_t first = 0; first < items.size(); first += tuning_.itemsPerDispatch) {
+        const size_t count = std::min<size_t>(tuning_.itemsPerDispatch, items.size() - first);
+        if (!runChunk(segment, items.subspan(first, count), advance)) return false;
+    }
+    return true;
+}
+
+bool Dispatcher::runChunk(size_t segment, std::span<const gpu::WorkItem> items,
+                          const std::function<bool(uint64_t)>& advance) {
+    workItems_.upload(queue_, std::as_bytes(items));
+    gpu::DispatchStatus status{};
+    bool goesOn = true;
+    const auto somethingIsLeft = [&] {
+        return status.unfinishedItems > 0 || (goesOn && status.nextItem < items.size());
+    };
+    do {
+        dispatch(segment, uint32_t(items.size()), !goesOn, status);
+        count(status);
+        if (status.overflowedItems > 0)
+            throw DeviceError(fmt::format(
+                "{} pixels needed more than {} loop iterations for one surface, the most that {} "
+                "runs in a dispatch: too many lamps or light samples (-l) for one shading point",
+                status.overflowedItems, hardIterations_, device_.description().name()));
+        goesOn = advance(status.samples) && goesOn;
+    } while (somethingIsLeft());
+    return goesOn;
+}
+
+gpu::Dispatch Dispatcher::constants(size_t segment, uint32_t itemCount, uint32_t groups,
+                                    bool ends) const {
+    gpu::Dispatch d{};
+    d.itemCount = itemCount;
+    d.segmentBase = film_.segments()[segment].firstPixel;
+    d.softIterations = softIterations_;
+    d.hardIterations = hardIterations_;
+    d.laneCount = tuning_.lanes;
+    d.beginsNoSample = ends;
+    if (tuning_.driverThreads == 0 || fixedIterations_) {
+        d.softIterations = fixedIterations_.value_or(pace_.iterations());
+        return d;
+    }
+    d.groupsPerThread = std::max(groups / tuning_.driverThreads, 1u);
+    d.sharedIterations = pace_.iterations() * tuning_.workgroupSize * tuning_.driverThreads;
+    return d;
+}
+
+/// `status`: what the dispatch before this one left; then what this one leaves.
+void Dispatcher::dispatch(size_t segment, uint32_t itemCount, bool ends,
+                          gpu::DispatchStatus& status) {
+    const uint32_t groups = (tuning_.lanes + tuning_.workgroupSize - 1) / tuning_.workgroupSize;
+    const gpu::Dispatch dispatchConstants = constants(segment, itemCount, groups, ends);
+    // Lanes that find the list empty count on; started anew, the count cannot wrap around.
+    status = {.nextItem = std::min(status.nextItem, itemCount)};
+    status_.upload(queue_, bytesOf(status));
+    const double seconds = queue_.run("run the path kernel", [&](VkCommandBuffer commands) {
+        vulkan::recordDispatch(device_, commands, kernel_.pipeline(), *sets_[segment],
+                               bytesOf(dispatchConstants), groups);
+    });
+    pace_.took(seconds);
+    kernelSeconds_ += seconds;
+    status_.download(queue_, std::as_writable_bytes(std::span(&status, 1)));
+}
+
+void Dispatcher::count(const gpu::DispatchStatus& status) {
+    counters_.rays += status.rays;
+    counters_.paths += status.samples;
+    steps_.busy += status.busySteps;
+    steps_.all += status.allSteps;
+}
+
+} // namespace stromboli

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "host/kernel/kernel_features.hpp"
+#include "host/kernel/kernel_tuning.hpp"
+#include "host/vulkan/compute_pipeline.hpp"
+
+namespace stromboli {
+
+/// The path kernel, compiled with the features that a picture needs.
+class PathKernel {
+  public:
+    /// `code`: another kernel in its place (KernelTuning::code); empty: none.
+    PathKernel(const vulkan::Device& device, const KernelFeatures& features, bool texelFetch,
+               std::span<const uint32_t> code);
+
+    const KernelFeatures& features() const { return features_; }
+    const vulkan::ComputePipeline& pipeline() const { return pipeline_; }
+
+  private:
+    KernelFeatures features_;
+    vulkan::ComputePipeline pipeline_;
+};
+
+} // namespace stromboli

@@ -1,0 +1,98 @@
+#pragma once
+
+#include "host/core/named_values.hpp"
+
+#include <cstdint>
+
+namespace stromboli {
+
+enum class Integrator {
+    Path,    ///< path tracing
+    Normals, ///< 0.5 n + 0.5 of the interpolated shading normal at the first hit
+};
+template <>
+inline constexpr auto kNamedValues<Integrator> = std::to_array<NamedValue<Integrator>>({
+    {Integrator::Path, "path", "path tracing"},
+    {Integrator::Normals, "normals", "the shading normal at the first hit, as a colour"},
+});
+
+/// How the light that reaches a surface straight from a lamp is estimated (docs/estimator.md).
+enum class DirectLight {
+    Mis,        ///< sample each light; bounces from rough metals find lamps too, weighted
+    Lights,     ///< sample each light
+    Hemisphere, ///< sample uniform directions; delta lights as in Lights
+    Bsdf,       ///< let the bounce find the lamps; delta lights as in Lights
+};
+template <>
+inline constexpr auto kNamedValues<DirectLight> = std::to_array<NamedValue<DirectLight>>({
+    {DirectLight::Mis, "mis", "by sampling each lamp, and from rough metals by bounces too"},
+    {DirectLight::Lights, "lights", "by sampling each lamp"},
+    {DirectLight::Hemisphere, "hemisphere", "by uniform directions"},
+    {DirectLight::Bsdf, "bsdf", "by bounces"},
+});
+inline bool samplesLights(DirectLight mode) {
+    return mode == DirectLight::Mis || mode == DirectLight::Lights;
+}
+
+/// Where random numbers come from (docs/estimator.md, "Random numbers").
+enum class Sampler {
+    Independent, ///< each sample on its own
+    Sobol,       ///< the samples of a pixel spread evenly: less noise
+};
+template <>
+inline constexpr auto kNamedValues<Sampler> = std::to_array<NamedValue<Sampler>>({
+    {Sampler::Independent, "independent", "each sample on its own"},
+    {Sampler::Sobol, "sobol", "the samples of a pixel spread evenly, less noise"},
+});
+
+/// How a sample of many emissive triangles picks one (docs/estimator.md, "Many lamps").
+enum class LightChoice {
+    Tree,    ///< by what it is likely to bring to the surface
+    Power,   ///< by its power
+    Uniform, ///< the control
+};
+template <>
+inline constexpr auto kNamedValues<LightChoice> = std::to_array<NamedValue<LightChoice>>({
+    {LightChoice::Tree, "tree", "by what it is likely to bring to the surface"},
+    {LightChoice::Power, "power", "by its power"},
+    {LightChoice::Uniform, "uniform", "any, equally often"},
+});
+
+struct Roulette {
+    enum class Mode {
+        None,
+        Throughput, ///< after bounce kThroughputStart continue with probability
+                    ///< min(kMaxContinue, kBoldness * largest component of the throughput)
+        Fixed,      ///< terminate with terminationProbability at every hit, before direct light
+    };
+    /// Paths are at least this many bounces long under Throughput.
+    static constexpr uint32_t kThroughputStart = 3;
+    static constexpr double kMaxContinue = 0.95;
+    /// A path is worth going on with as long as what it may still bring is not small beside the
+    /// noise the pixel has anyway: the best probability is the throughput times sqrt(second moment
+    /// of the light to come / its cost) / sqrt(variance of the pixel / cost of a sample) (Bolin and
+    /// Meyer 1997). Between 2 and 4 in diffuse rooms (docs/estimator.md).
+    static constexpr double kBoldness = 3;
+
+    Mode mode = Mode::Throughput;
+    double terminationProbability = 0; ///< Fixed: in [0, 1)
+};
+
+/// What is estimated, and how: what a sample is (docs/estimator.md). The same estimator, scene,
+/// picture size and device give the same sample for the same pixel and number.
+struct Estimator {
+    uint32_t lightSamples = 1; ///< per shading point and area light
+    uint32_t maxBounces = 8;   ///< number of scatterings; 0: emission only
+    uint32_t minBounce = 0;    ///< light scattered fewer times is left out
+    Integrator integrator = Integrator::Path;
+    DirectLight directLight = DirectLight::Mis;
+    Sampler sampler = Sampler::Sobol;
+    LightChoice lightChoice = LightChoice::Tree;
+    uint32_t branches = 1; ///< paths of a sample, from the first surface that scatters at random on
+    bool guides = true;    ///< bounces are sent into bright gaps too (docs/estimator.md, "Gaps")
+    Roulette roulette;
+    uint32_t seed = 0;
+    bool cs184 = false; ///< shade by the CS184 renderer's conventions (docs/cs184.md)
+};
+
+} // namespace stromboli

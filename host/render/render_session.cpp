@@ -1,0 +1,112 @@
+#include "host/render/render_session.hpp"
+
+#include "host/render/render.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace stromboli {
+
+RenderSession::RenderSession(Backend& backend, const RenderSettings& settings)
+    : backend_(backend), settings_(settings), pixels_(cropPixels(settings.area)),
+      plan_(settings.budget, pixels_),
+      noisePlan_(pixels_, settings.budget.mostSamplesPerPixel, settings.estimator.branches),
+      estimate_(pixels_), film_(settings.area.width, settings.area.height) {
+    film_.branches = settings.estimator.branches;
+}
+
+RenderSession::RenderSession(Backend& backend, const SessionState& saved)
+    : RenderSession(backend, saved.settings) {
+    backend_.restore(saved.sums, film_);
+    estimate_.remember(saved.estimate);
+    pending_ = saved.pending;
+    secondsBefore_ = saved.secondsUsed;
+    for (const PixelStatistics& p : film_.pixels)
+        samplesDone_ += p.taken();
+}
+
+bool RenderSession::pass(const ProgressCallback& progress) {
+    if (timeIsUp()) return false;
+    if (pending_.empty()) pending_ = nextPass();
+    if (pending_.empty()) return false;
+    bool goesOn = true;
+    sample(progress, goesOn);
+    if (isComplete(pending_)) {
+        estimate_.update(film_);
+        pending_.clear();
+    }
+    return goesOn && !timeIsUp();
+}
+
+std::vector<PixelTarget> RenderSession::nextPass() const {
+    const Budget& budget = settings_.budget;
+    if (!budget.spreads()) return plan_.next(film_);
+    return noisePlan_.next(film_, estimate_, samplesLeft(), budget.stop.noise);
+}
+
+void RenderSession::sample(const ProgressCallback& progress, bool& goesOn) {
+    RenderProgress state;
+    state.samplesAtMost = samplesAtMost(settings_.area, settings_.budget);
+    const uint64_t before = samplesDone_, expected = expectedSamples();
+    const double seconds = settings_.budget.stop.seconds;
+    backend_.sample(pending_, film_, [&](uint64_t done) {
+        samplesDone_ = before + done;
+        state.samplesDone = samplesDone_;
+        state.counters = backend_.counters();
+        state.share = std::max(seconds > 0 ? secondsUsed() / seconds : 0,
+                               double(samplesDone_) / double(expected));
+        if (progress && goesOn) goesOn = progress(state);
+        return goesOn && !timeIsUp();
+    });
+}
+
+bool RenderSession::isComplete(const std::vector<PixelTarget>& pass) const {
+    return std::all_of(pass.begin(), pass.end(), [&](const PixelTarget& t) {
+        return film_.pixels[t.pixel].taken() >= t.samples;
+    });
+}
+
+bool RenderSession::timeIsUp() const {
+    const double seconds = settings_.budget.stop.seconds;
+    return seconds > 0 && secondsUsed() >= seconds;
+}
+
+/// Samples that the budget still has, as to time at the rate so far, or one a pixel while there is
+/// none.
+uint64_t RenderSession::samplesLeft() const {
+    const Budget& budget = settings_.budget;
+    const uint64_t all = budget.meanSamplesPerPixel > 0
+                             ? pixels_.size() * uint64_t(budget.meanSamplesPerPixel)
+                             : std::numeric_limits<uint64_t>::max();
+    const uint64_t left = all - std::min(samplesDone_, all);
+    if (budget.stop.seconds == 0) return left;
+    const double used = secondsUsed();
+    if (samplesDone_ == 0 || used == 0) return std::min(left, uint64_t(pixels_.size()));
+    const double remaining = std::max(budget.stop.seconds - used, 0.0);
+    return std::min(left, uint64_t(remaining * double(samplesDone_) / used));
+}
+
+/// In all: if the noise is to fall from where it is now to the one asked for, as 1 / sqrt(n).
+uint64_t RenderSession::expectedSamples() const {
+    const uint64_t atMost = samplesAtMost(settings_.area, settings_.budget);
+    const double target = settings_.budget.stop.noise;
+    const double reached = target > 0 && samplesDone_ > 0 ? estimate_.picture(film_) : 0;
+    if (target == 0 || reached <= target) return atMost;
+    const double ratio = reached / target;
+    const double expected = double(samplesDone_) * ratio * ratio;
+    return expected < double(atMost) ? uint64_t(expected) + 1 : atMost;
+}
+
+RenderOutcome RenderSession::outcome() const {
+    if (samplesDone_ == 0) return {0, timeIsUp()};
+    if (pending_.empty()) return {estimate_.picture(film_), timeIsUp()};
+    NoiseEstimate now = estimate_; // the pass that was stopped has changed some pixels
+    now.update(film_);
+    return {now.picture(film_), timeIsUp()};
+}
+
+SessionState RenderSession::save() const {
+    return {settings_, backend_.save(film_), estimate_.memory(), pending_, secondsUsed()};
+}
+
+} // namespace stromboli

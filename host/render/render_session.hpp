@@ -1,0 +1,79 @@
+#pragma once
+
+#include "host/core/stopwatch.hpp"
+#include "host/film/film.hpp"
+#include "host/render/adaptive.hpp"
+#include "host/render/backend.hpp"
+#include "host/render/noise_estimate.hpp"
+#include "host/render/noise_plan.hpp"
+#include "host/render/session_state.hpp"
+#include "host/render/settings.hpp"
+
+#include <functional>
+#include <vector>
+
+namespace stromboli {
+
+/// State of a render for a progress display.
+struct RenderProgress {
+    uint64_t samplesDone = 0;
+    uint64_t samplesAtMost = 0; ///< adaptive renders need fewer
+    RenderCounters counters;    ///< of the backend
+    double share = 0; ///< of the work that is done, by samples or, if less is allowed, by time
+};
+
+/// Returns false to stop the render early.
+using ProgressCallback = std::function<bool(const RenderProgress&)>;
+
+/// How far a render has come.
+struct RenderOutcome {
+    double noise = 0;       ///< square root of the estimated relMSE (noise_estimate.hpp)
+    bool outOfTime = false; ///< StopRule::seconds ended it
+};
+
+/// A picture in the making. It goes on pass by pass; between passes, and after one that was
+/// stopped, it can be looked at, saved, and gone on with. However often it is stopped, saved and
+/// restored, the film in the end has the same bytes (unless time limits the render).
+class RenderSession {
+  public:
+    /// The backend was made for these settings, has taken no sample yet, and outlives the session.
+    RenderSession(Backend& backend, const RenderSettings& settings);
+    /// Goes on where a session was saved; the backend was made for its settings, by the same kind
+    /// of backend, scene and camera. Throws std::invalid_argument if the film is of another size.
+    RenderSession(Backend& backend, const SessionState& saved);
+
+    /// Takes the samples of the next pass, or those that a stopped pass still lacks. False if there
+    /// is nothing more to do, if `progress` said stop, or if the time is up.
+    bool pass(const ProgressCallback& progress = {});
+
+    /// The picture so far: the size of the whole; pixels outside the crop have no samples.
+    const Film& film() const { return film_; }
+    Film takeFilm() && { return std::move(film_); }
+    RenderOutcome outcome() const;
+    uint64_t samplesDone() const { return samplesDone_; }
+
+    SessionState save() const;
+
+  private:
+    std::vector<PixelTarget> nextPass() const;
+    void sample(const ProgressCallback& progress, bool& goesOn);
+    bool isComplete(const std::vector<PixelTarget>& pass) const;
+    double secondsUsed() const { return secondsBefore_ + watch_.seconds(); }
+    bool timeIsUp() const;
+    uint64_t samplesLeft() const;
+    uint64_t expectedSamples() const;
+
+    Backend& backend_;
+    RenderSettings settings_;
+    std::vector<uint32_t> pixels_;
+    SamplingPlan plan_;
+    NoisePlan noisePlan_;
+    NoiseEstimate estimate_; ///< of the passes that are complete
+    Film film_;
+    std::vector<PixelTarget> pending_; ///< the pass under way; empty: between two passes
+    uint64_t samplesDone_ = 0;
+    double secondsBefore_ = 0; ///< of the sessions that this one continues
+    Stopwatch watch_;
+};
+
+} // namespace stromboli
