@@ -35,11 +35,15 @@ void declare(CLI::App& app, const CommandOption& o, Given& given) {
     if (!o.valueNames.empty()) option->type_name(o.valueNames);
     if (o.isRequired) option->required();
     if (o.mayRepeat || o.separatedByCommas)
-        option->type_size(1)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        option->type_size(1)->expected(1)->allow_extra_args(false)->multi_option_policy(
+            CLI::MultiOptionPolicy::TakeAll);
     else if (o.anyNumber)
-        option->type_size(1)->expected(-1);
+        option->type_size(1)->expected(-1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     else
-        option->type_size(int(o.wordCount))->expected(1);
+        option->type_size(1)
+            ->expected(int(o.wordCount))
+            ->allow_extra_args(false)
+            ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
     if (o.separatedByCommas) option->delimiter(',');
 }
 

@@ -138,7 +138,6 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
 }
 
 std::vector<std::string> describe(const KernelFeatures& f) {
-    static const char* const kIntegrators[] = {"path", "normals"};
     static const char* const kDirect[] = {"light sampling", "uniform hemisphere",
                                           "left to bounces (delta lights sampled)"};
     static const char* const kRoulette[] = {"none", "by throughput", "fixed probability"};
@@ -153,10 +152,14 @@ std::vector<std::string> describe(const KernelFeatures& f) {
         fmt::format("emission: {}", f[SPEC_HAS_EMISSION] ? "yes" : "none"),
         fmt::format("lights: {}", list(f[SPEC_LIGHT_KINDS], {"quad", "mesh", "sphere", "ambient",
                                                              "directional", "point", "spot"})),
-        fmt::format("integrator: {}", kIntegrators[f[SPEC_INTEGRATOR]]),
+        fmt::format("integrator: {}",
+                    nameOf(f[SPEC_INTEGRATOR] == gpu::INTEGRATOR_PATH ? Integrator::Path
+                                                                      : Integrator::Normals)),
         fmt::format("direct light: {}{}", kDirect[f[SPEC_DIRECT_LIGHT]],
                     f[SPEC_USE_MIS] ? ", with bounces from rough metals" : ""),
-        fmt::format("sampler: {}", f[SPEC_SAMPLER] == gpu::SAMPLER_SOBOL ? "sobol" : "independent"),
+        fmt::format(
+            "sampler: {}",
+            nameOf(f[SPEC_SAMPLER] == gpu::SAMPLER_SOBOL ? Sampler::Sobol : Sampler::Independent)),
         fmt::format("roulette: {}", kRoulette[f[SPEC_ROULETTE]]),
         fmt::format("paths: {}", f[SPEC_SPLITS] ? "with branches" : "each by itself"),
         fmt::format("bounces: {}",

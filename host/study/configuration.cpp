@@ -1,6 +1,7 @@
 #include "host/study/configuration.hpp"
 
 #include "host/core/error.hpp"
+#include "host/render/estimator.hpp"
 
 #include <fmt/format.h>
 
@@ -55,16 +56,21 @@ Configuration configurationFor(const std::string& text) {
 const std::vector<Configuration>& knownConfigurations() {
     static const std::vector<Configuration> all = {
         {"default", "", "what `render` does by itself"},
-        {"independent", "--sampler independent --even --branches 1 --guide off",
+        {"independent",
+         fmt::format("--sampler {} --even --branches 1 --guide off", nameOf(Sampler::Independent)),
          "every path on its own, as many for each pixel: the control"},
         {"unsplit", "--branches 1", "every path with a camera ray of its own"},
         {"unguided", "--guide off", "bounces go where the materials scatter, not into gaps too"},
         {"even", "--even", "the same number of samples for every pixel"},
         {"no-roulette", "--roulette none", "paths end at the last bounce only"},
-        {"hemisphere", "--direct hemisphere", "lamps are found by uniform directions"},
-        {"bsdf", "--direct bsdf", "lamps are found by bounces only"},
-        {"light-samples", "--direct lights", "no bounces from rough metals find lamps"},
-        {"uniform-lamps", "--light-choice uniform", "of many lamps any is sampled, equally often"},
+        {"hemisphere", fmt::format("--direct {}", nameOf(DirectLight::Hemisphere)),
+         "lamps are found by uniform directions"},
+        {"bsdf", fmt::format("--direct {}", nameOf(DirectLight::Bsdf)),
+         "lamps are found by bounces only"},
+        {"light-samples", fmt::format("--direct {}", nameOf(DirectLight::Lights)),
+         "no bounces from rough metals find lamps"},
+        {"uniform-lamps", fmt::format("--light-choice {}", nameOf(LightChoice::Uniform)),
+         "of many lamps any is sampled, equally often"},
         {"lights-4", "-l 4", "four samples per shading point and light"},
         {"noise", "", "samples where they help most, to a stated noise", "--noise {}", kNoise},
         {"adaptive", "", "adaptive sampling, batches of 16", "-a 16 {}", kTolerances},

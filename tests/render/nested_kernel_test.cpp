@@ -5,6 +5,7 @@
 #include "host/kernel/frame.hpp"
 #include "host/kernel/kernel_features.hpp"
 #include "host/render/render.hpp"
+#include "scene/generate/generated_scene.hpp"
 #include "scene/read_scene.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"

@@ -101,7 +101,7 @@ TEST_F(Session, SavedAndRestoredInTheMiddleOfPassesMakesTheSameBytes) {
         for (const int reports : {40, 100}) {
             int pieces = 0;
             const Film cut = inPieces(&Session::device, s, reports, pieces);
-            if (reports == 40) EXPECT_GT(pieces, 2) << name;
+            EXPECT_GT(pieces, reports == 40 ? 1 : 0) << name;
             EXPECT_EQ(differences(whole, cut), 0u) << name << ", " << pieces << " pieces";
         }
     }

@@ -61,18 +61,18 @@ struct FakeRenderer {
             return at == words.end() ? 0u : uint32_t(std::stoul(*(at + 1)));
         };
         PreparedRender render;
-        render.settings.width = 24;
-        render.settings.height = 20;
-        render.settings.samplesPerPixel = after("-s");
+        render.settings.area.width = 24;
+        render.settings.area.height = 20;
+        render.settings.budget.mostSamplesPerPixel = after("-s");
         if (const auto at = std::find(words.begin(), words.end(), "-a"); at != words.end()) {
-            render.settings.adaptive.enabled = true;
-            render.settings.adaptive.batch = uint32_t(std::stoul(*(at + 1)));
-            render.settings.adaptive.tolerance = std::stod(*(at + 2));
+            render.settings.budget.adaptive.enabled = true;
+            render.settings.budget.adaptive.batch = uint32_t(std::stoul(*(at + 1)));
+            render.settings.budget.adaptive.tolerance = std::stod(*(at + 2));
         }
         const bool spread = std::find(words.begin(), words.end(), "--spread") != words.end();
         if (spread) {
             render.settings.budget.meanSamplesPerPixel = after("-s");
-            render.settings.samplesPerPixel = 1u << 20;
+            render.settings.budget.mostSamplesPerPixel = 1u << 20;
         }
         render.backend = std::make_unique<NoiseBackend>(after("-l") ? 0.5 : 0.25, spread ? 0.1 : 1,
                                                         after("--seed"));

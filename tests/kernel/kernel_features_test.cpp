@@ -1,102 +1,11 @@
-// The host's side of the kernel: work order, pace of dispatches, alias tables, features.
+// What of the scene and the settings a kernel contains, and how primitives are packed.
 #include "host/bvh/wide_layout.hpp"
-#include "host/kernel/alias_table.hpp"
-#include "host/kernel/dispatch_pace.hpp"
 #include "host/kernel/kernel_features.hpp"
-#include "host/kernel/work_order.hpp"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <numeric>
-#include <random>
-
 namespace stromboli {
 namespace {
-
-/// Of every n-th pixel, as an adaptive pass leaves them; the sample number names the pixel.
-std::vector<PixelTarget> everyNth(uint32_t n, uint32_t pixels) {
-    std::vector<PixelTarget> targets;
-    for (uint32_t i = 0; i < pixels; i += n)
-        targets.push_back({i, i + 1});
-    return targets;
-}
-
-uint32_t tileOf(const PixelTarget& t, uint32_t width) {
-    return t.pixel / width / 8 * 1000 + t.pixel % width / 8;
-}
-
-TEST(WorkOrder, TakesTileAfterTileInReadingOrder) {
-    for (const uint32_t width : {64u, 61u, 1u, 300u})
-        for (const uint32_t n : {1u, 7u}) {
-            const auto order = tileOrder(everyNth(n, width * 37), width);
-            for (size_t i = 1; i < order.size(); ++i) {
-                const uint32_t before = tileOf(order[i - 1], width), now = tileOf(order[i], width);
-                ASSERT_LE(before, now) << width << ' ' << i;
-                // Row by row within a tile: eight side by side are a row.
-                ASSERT_TRUE(before < now || order[i - 1].pixel < order[i].pixel) << i;
-            }
-        }
-}
-
-TEST(WorkOrder, KeepsEveryTarget) {
-    const auto targets = everyNth(3, 100 * 60);
-    auto order = tileOrder(targets, 100);
-    std::ranges::sort(order, {}, &PixelTarget::pixel);
-    ASSERT_EQ(order.size(), targets.size());
-    for (size_t i = 0; i < order.size(); ++i) {
-        EXPECT_EQ(order[i].pixel, targets[i].pixel);
-        EXPECT_EQ(order[i].samples, targets[i].samples);
-    }
-    EXPECT_TRUE(tileOrder({}, 100).empty());
-}
-
-TEST(DispatchPace, ApproachesTheTargetTime) {
-    DispatchPace pace(0.1, 5000);
-    for (int i = 0; i < 20; ++i)
-        pace.took(pace.iterations() * 1e-4); // 0.1 ms an iteration
-    EXPECT_NEAR(pace.iterations(), 1000, 1);
-    for (int i = 0; i < 20; ++i)
-        pace.took(1e-9);
-    EXPECT_EQ(pace.iterations(), 5000u);
-    for (int i = 0; i < 40; ++i)
-        pace.took(100);
-    EXPECT_EQ(pace.iterations(), 16u);
-}
-
-/// Probability of each index that a table gives.
-std::vector<double> probabilities(const std::vector<AliasColumn>& table) {
-    std::vector<double> p(table.size(), 0.0);
-    for (size_t i = 0; i < table.size(); ++i) {
-        p[i] += table[i].threshold / double(table.size());
-        p[table[i].alias] += (1 - table[i].threshold) / double(table.size());
-    }
-    return p;
-}
-
-TEST(AliasTable, GivesTheWeights) {
-    std::mt19937 random(1);
-    for (size_t n : {1u, 2u, 3u, 10u, 1000u}) {
-        std::vector<double> weights(n);
-        for (double& w : weights)
-            w = std::exponential_distribution<>(1)(random);
-        const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-        const std::vector<double> p = probabilities(buildAliasTable(weights));
-        for (size_t i = 0; i < n; ++i)
-            EXPECT_NEAR(p[i], weights[i] / sum, 1e-12);
-    }
-}
-
-TEST(AliasTable, NeverPicksAWeightOfZero) {
-    for (const std::vector<double>& weights :
-         {std::vector<double>{0, 1, 2}, {1, 0, 2}, {1, 2, 0}, {0, 0, 1}, {0.1, 0, 0.1, 0, 0.1}}) {
-        const std::vector<AliasColumn> table = buildAliasTable(weights);
-        for (size_t i = 0; i < weights.size(); ++i) {
-            EXPECT_TRUE(weights[i] > 0 || table[i].threshold == 0);
-            EXPECT_TRUE(table[i].threshold == 1 || weights[table[i].alias] > 0);
-        }
-    }
-}
 
 Scene oneTriangle(const Material& material) {
     Scene scene;
