@@ -41,7 +41,8 @@ RayReport benchPlainRays(const Arena& arena, const GpuScene& gpu, const RaySet& 
 std::vector<KernelVariant> plainPathVariants(const Arena& arena, const GpuScene& gpu) {
     std::vector<KernelVariant> variants;
     const bool texelFetch =
-        resolve({}, arena.device, largestRowBuffer(gpu, pixelCount(arena.settings))).texelFetch;
+        resolve({}, arena.device, largestRowBuffer(gpu, arena.settings.area.pixelCount()))
+            .texelFetch;
     for (const PlainKernel& plain : plainPathKernels()) {
         KernelTuning tuning;
         tuning.code = plain.code(texelFetch);
