@@ -1,4 +1,7 @@
 #include "host/cli/declared_command.hpp"
+#include "host/core/error.hpp"
+
+#include <fmt/format.h>
 
 #include <charconv>
 #include <sstream>

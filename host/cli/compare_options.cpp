@@ -1,5 +1,8 @@
 #include "host/cli/declared_command.hpp"
+#include "host/core/error.hpp"
 #include "host/film/image_file.hpp"
+
+#include <fmt/format.h>
 
 namespace stromboli {
 namespace {

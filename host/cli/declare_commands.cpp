@@ -1,5 +1,6 @@
 // Which options each command has.
 #include "host/cli/declared_command.hpp"
+#include "host/core/error.hpp"
 
 namespace stromboli {
 namespace {

@@ -1,5 +1,8 @@
 // Options: what is estimated, and how.
 #include "host/cli/declared_command.hpp"
+#include "host/core/error.hpp"
+
+#include <fmt/format.h>
 
 namespace stromboli {
 namespace {

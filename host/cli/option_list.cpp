@@ -1,5 +1,9 @@
 #include "host/cli/option_list.hpp"
 
+#include "host/core/error.hpp"
+
+#include <fmt/format.h>
+
 #include <charconv>
 
 namespace stromboli {
@@ -33,6 +37,10 @@ uint32_t readNumber(const std::string& option, const std::string& word, Range<ui
 
 double readReal(const std::string& option, const std::string& word, Range<double> range) {
     return readInRange(option, word, range, "a number");
+}
+
+void refuse(const std::string& option, const std::string& word, const std::string& expected) {
+    throw UsageError(fmt::format("{} is '{}': expected {}", option, word, expected));
 }
 
 CommandOption& CommandOption::usually(std::string text) {

@@ -1,9 +1,6 @@
 #pragma once
 
-#include "host/core/error.hpp"
 #include "host/core/named_values.hpp"
-
-#include <fmt/format.h>
 
 #include <cstdint>
 #include <deque>
@@ -26,6 +23,10 @@ struct Range {
 uint32_t readNumber(const std::string& option, const std::string& word, Range<uint32_t> range);
 /// The same for a real number; NaN is in no range.
 double readReal(const std::string& option, const std::string& word, Range<double> range);
+
+/// Throws the UsageError that `option` is `word` where one of `expected` was to be.
+[[noreturn]] void refuse(const std::string& option, const std::string& word,
+                         const std::string& expected);
 
 /// One option of a command, and all there is to say about it: what it is called, which words it
 /// takes, what it means, where that is stored, and what it does not go with.
@@ -92,9 +93,7 @@ class OptionList {
         o.usual = nameOf(where);
         o.store = [&where, name = o.name()](const Words& given) {
             const std::optional<E> value = valueNamed<E>(given.front());
-            if (!value)
-                throw UsageError(
-                    fmt::format("{} is '{}': expected {}", name, given.front(), allNames<E>()));
+            if (!value) refuse(name, given.front(), allNames<E>());
             where = *value;
         };
         return o;

@@ -1,5 +1,8 @@
 // The only file that knows the library that splits the command line into options.
 #include "host/cli/declared_command.hpp"
+#include "host/core/error.hpp"
+
+#include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 

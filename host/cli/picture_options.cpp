@@ -1,5 +1,8 @@
 // Options: which scene, and which part of which picture of it.
 #include "host/cli/declared_command.hpp"
+#include "host/core/error.hpp"
+
+#include <fmt/format.h>
 
 namespace stromboli {
 namespace {

@@ -1,6 +1,9 @@
 // Options: how many samples, where they go, and when it is enough.
 #include "host/cli/declared_command.hpp"
+#include "host/core/error.hpp"
 #include "host/render/noise_plan.hpp"
+
+#include <fmt/format.h>
 
 namespace stromboli {
 namespace {
