@@ -12,7 +12,8 @@
 namespace stromboli {
 namespace {
 
-constexpr std::string_view kCornellMesh = "cornell_mesh:", kLampsRoom = "lamps:";
+constexpr std::string_view kCornellMesh = "cornell_mesh:", kLampsRoom = "lamps:",
+                           kPointsRoom = "points:";
 // Fewer triangles make no knot; more leave no room in 32-bit numbers of corners.
 constexpr uint32_t kLeastTriangles = 1000, kMostTriangles = 100'000'000;
 constexpr uint32_t kLeastLamps = 8, kMostLamps = 8'000'000;
@@ -42,13 +43,16 @@ Scene generatedScene(std::string_view name) {
     const uint32_t lamps = numberAfter(kLampsRoom, name);
     if (lamps >= kLeastLamps && lamps <= kMostLamps && lamps % 8 == 0)
         return lampsRoom(lamps, source);
+    const uint32_t points = numberAfter(kPointsRoom, name);
+    if (points > 0 && points <= kMostLamps) return pointsRoom(points, source);
     const uint32_t triangles = numberAfter(kCornellMesh, name);
     if (triangles < kLeastTriangles || triangles > kMostTriangles)
         throw SceneError(fmt::format("{}: no such scene; expected {}{}N with N from {} to {}, or "
-                                     "{}{}N with N from {} to {}, a multiple of 8",
+                                     "{}{}N with N from {} to {}, a multiple of 8, or {}{}N with N "
+                                     "from 1 to {}",
                                      source, kGeneratePrefix, kCornellMesh, kLeastTriangles,
                                      kMostTriangles, kGeneratePrefix, kLampsRoom, kLeastLamps,
-                                     kMostLamps));
+                                     kMostLamps, kGeneratePrefix, kPointsRoom, kMostLamps));
     return cornellMeshScene(cornellMeshOf(triangles), source);
 }
 

@@ -35,14 +35,26 @@ void addOctahedron(Scene& scene, const glm::vec3& center, float radius, uint32_t
     }
 }
 
-} // namespace
+/// Somewhere in the room.
+glm::vec3 placeIn(std::mt19937& engine) {
+    glm::vec3 place;
+    for (int axis = 0; axis < 3; ++axis)
+        place[axis] = float(1.9 * fraction(engine) - 0.95);
+    return place;
+}
 
-Scene lampsRoom(uint32_t triangles, const std::string& source) {
+Scene emptyRoom(const std::string& source) {
     constexpr uint32_t kSmallestMesh = 3; // steps of a knot that is not used
     CornellMesh room = cornellMesh(kSmallestMesh, kSmallestMesh);
     room.knot = {};
     room.walls.pop_back(); // its lamp
-    Scene scene = cornellMeshScene(room, source);
+    return cornellMeshScene(room, source);
+}
+
+} // namespace
+
+Scene lampsRoom(uint32_t triangles, const std::string& source) {
+    Scene scene = emptyRoom(source);
     Material lamp;
     lamp.name = "lamp";
     lamp.albedo = glm::vec3(0.0f);
@@ -54,11 +66,24 @@ Scene lampsRoom(uint32_t triangles, const std::string& source) {
     const auto instance = uint32_t(scene.instances.size() - 1);
     std::mt19937 engine(1);
     for (uint32_t i = 0; i < triangles / 8; ++i) {
-        glm::vec3 center;
-        for (int axis = 0; axis < 3; ++axis)
-            center[axis] = float(1.9 * fraction(engine) - 0.95);
+        const glm::vec3 center = placeIn(engine);
         const auto radius = float(0.004 * std::exp2(3 * fraction(engine)));
         addOctahedron(scene, center, radius, material, instance);
+    }
+    return scene;
+}
+
+Scene pointsRoom(uint32_t lights, const std::string& source) {
+    Scene scene = emptyRoom(source);
+    std::mt19937 engine(2);
+    for (uint32_t i = 0; i < lights; ++i) {
+        Light& light = scene.lights.emplace_back();
+        light.name = "point";
+        light.kind = LightKind::Point;
+        light.position = placeIn(engine);
+        light.color = glm::vec3(float(std::pow(10.0, 6 * fraction(engine) - 6)));
+        light.constantAttenuation = 0;
+        light.quadraticAttenuation = 1;
     }
     return scene;
 }

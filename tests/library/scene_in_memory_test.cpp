@@ -155,11 +155,26 @@ TEST_P(OfSize, KeepsThePromisesOfALoadedScene) {
 INSTANTIATE_TEST_SUITE_P(Sizes, OfSize, testing::Values(1000, 1001, 3456, 200'000));
 
 TEST(GeneratedScene, WrongNamesAreOneClearError) {
-    for (const char* name : {"", "cornell_mesh", "cornell_mesh:", "cornell_mesh:many",
-                             "cornell_mesh:1000.5", "cornell_mesh: 5000", "cornell_mesh:-5000",
-                             "cornell_mesh:5000:", "cornell_mesh:999", "cornell_mesh:100000001",
-                             "cornell_mesh:99999999999", "cornell_box:5000", "Cornell_mesh:5000",
-                             "cornell_mesh:1e6", "lamps:", "lamps:7", "lamps:100", "lamps:8000008"})
+    for (const char* name : {"",
+                             "cornell_mesh",
+                             "cornell_mesh:",
+                             "cornell_mesh:many",
+                             "cornell_mesh:1000.5",
+                             "cornell_mesh: 5000",
+                             "cornell_mesh:-5000",
+                             "cornell_mesh:5000:",
+                             "cornell_mesh:999",
+                             "cornell_mesh:100000001",
+                             "cornell_mesh:99999999999",
+                             "cornell_box:5000",
+                             "Cornell_mesh:5000",
+                             "cornell_mesh:1e6",
+                             "lamps:",
+                             "lamps:7",
+                             "lamps:100",
+                             "lamps:8000008",
+                             "points:0",
+                             "points:8000001"})
         EXPECT_THAT(messageOf(std::string("generate:") + name),
                     AllOf(testing::StartsWith(std::string("generate:") + name + ": no such scene"),
                           HasSubstr("generate:cornell_mesh:N with N from 1000 to 100000000")));
@@ -181,6 +196,18 @@ TEST(GeneratedScene, LampsAreSpreadThroughARoom) {
     EXPECT_EQ(scene.triangles.size(), lamps + 10); // the walls
     // Uniform in [-.95, .95], 8 triangles a lamp: deviation .055.
     EXPECT_NEAR(sum / 800, 0, 0.25);
+}
+
+TEST(GeneratedScene, PointsDifferAMillionfold) {
+    const Scene scene = generatedScene("points:1000");
+    ASSERT_EQ(scene.lights.size(), 1000u);
+    float least = 1, most = 0;
+    for (const Light& light : scene.lights) {
+        EXPECT_EQ(light.kind, LightKind::Point);
+        least = std::min(least, light.color.x), most = std::max(most, light.color.x);
+    }
+    EXPECT_GT(most / least, 9e5f);
+    EXPECT_EQ(scene.triangles.size(), 10u); // the walls
 }
 
 TEST(GeneratedScene, AnythingElseIsAFile) {
