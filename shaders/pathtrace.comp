@@ -32,11 +32,13 @@ Dispatch dispatch;
 #include "include/intersect.glsl"
 #include "include/traverse.glsl"
 #include "include/camera.glsl"
+#include "include/warps.glsl"
+#include "include/cs184.glsl"
 #include "include/surface.glsl"
-#include "include/bsdf.glsl"
-#include "include/lights.glsl"
+#include "bsdf/bsdf.glsl"
+#include "lights/lights.glsl"
 #include "include/mis.glsl"
-#include "include/lamp_gap.glsl"
+#include "include/gap_proposal.glsl"
 #include "include/accumulate.glsl"
 #include "include/path.glsl"
 
@@ -145,6 +147,7 @@ void resume(uint lane) {
     countsEmission = p.emission != SUSPENDED_NO_EMISSION;
     bouncePdf = max(p.emission, 0.0);
     arrivalNumbers = p.arrivalNumbers;
+    departureNormal = p.departureNormal;
     if (SPLITS) resumeSplit(lane);
     trace(PHASE_PATH, p.origin, p.direction, 0.0, INFINITE_DISTANCE, p.skipPrimitive);
 }
@@ -161,6 +164,7 @@ void suspend(uint lane) {
     p.radiance = radiance;
     p.item = item;
     p.arrivalNumbers = arrivalNumbers;
+    p.departureNormal = departureNormal;
     suspendedPaths[lane] = p;
     if (SPLITS) suspendSplit(lane);
 }
@@ -221,7 +225,7 @@ void main() {
     dispatch = dispatchConstants;
     findPictureGrid();
     findOnlyLight();
-    if (GUIDES) findLampGap();
+    if (GUIDES) findGap();
     const uint lane = gl_GlobalInvocationID.x;
     if (lane >= dispatch.laneCount) return;
     rayCount = 0u;

@@ -41,7 +41,7 @@ class PathSample {
 
     Vec radiance() {
         Random u = random(0);
-        if (!traceCamera(forRay(u))) return radiance_; // ambient light is not a backdrop
+        if (!traceCamera({u.z, u.w})) return radiance_; // ambient light is not a backdrop
         bool countsEmission = w_.minBounce == 0;
         for (uint32_t bounce = 1;; ++bounce) {
             if (countsEmission) radiance_ = radiance_ + throughput_ * emission(point_);
@@ -51,11 +51,11 @@ class PathSample {
                 throughput_ = throughput_ * (1 / (1 - w_.terminationProbability));
             }
             const bool delta = hasDelta && isDelta(*point_.surface);
-            const uint32_t blocks = 1 + areaSamples() + w_.deltaLights;
+            const uint32_t blocks = 1 + w_.lightSamples;
             if (!delta && bounce >= w_.minBounce) addDirectLight((bounce - 1) * blocks, u);
 
             u = random(bounce * blocks);
-            const Bounce next = scatter<hasDelta>(point_, forRay(u));
+            const Bounce next = scatter<hasDelta>(point_, {u.z, u.w});
             throughput_ = throughput_ * next.weight;
             if (!survives(bounce, u.leftOver)) break;
             countsEmission = delta && bounce >= w_.minBounce;
@@ -76,15 +76,9 @@ class PathSample {
     static constexpr bool hasDelta = features & kHasDeltaSurfaces;
     static constexpr bool otherLights = features & kHasOtherLights;
 
-    uint32_t areaSamples() const { return w_.areaLights * w_.lightSamples; }
     Random random(uint32_t block) const {
         return w_.sobol ? sobolBlock(pixel_, sample_, block, w_.seed)
                         : randomBlock(pixel_, sample_, block, w_.seed);
-    }
-
-    /// Which numbers of its block a path ray takes.
-    Random2 forRay(const Random& u) const {
-        return w_.lightsShare ? Random2{u.z, u.w} : Random2{u.x, u.y};
     }
 
     bool traceCamera(Random2 u) {
@@ -133,20 +127,22 @@ class PathSample {
         return r.tfar >= 0; // minus infinity where something is in the way
     }
 
-    void addLight(const Light& light, const Random& u, float share) {
-        const LightSample s = sampleLight<otherLights>(w_, point_, light, u);
-        const Vec value = evaluate(point_, s.direction) * s.radiance * share;
+    void addLight(uint32_t index, Random2 u) {
+        const PickedLight picked =
+            otherLights ? pickLight(w_, point_, index, u) : PickedLight{w_.lightEntries, 1, u};
+        if (!(picked.probability > 0)) return;
+        const LightSample s = sampleLight<otherLights>(w_, point_, *picked.entry, picked.u);
+        const Vec value = evaluate(point_, s.direction) * s.radiance *
+                          (lightSampleShare(w_, index) / picked.probability);
         if (isLit(value) && isFree(s)) radiance_ = radiance_ + throughput_ * value;
     }
 
     /// block: that of the ray that came here, its numbers u.
     void addDirectLight(uint32_t block, const Random& u) {
-        const float share = 1 / float(w_.lightSamples);
-        for (uint32_t i = 0; i < areaSamples(); ++i)
-            addLight(w_.lights[i / w_.lightSamples],
-                     i == 0 && w_.lightsShare ? u : random(block + 1 + i), share);
-        for (uint32_t i = 0; i < w_.deltaLights; ++i)
-            addLight(w_.lights[w_.areaLights + i], u, 1); // takes no numbers
+        for (uint32_t i = 0; i < w_.lightSamples; ++i) {
+            const Random own = i == 0 ? u : random(block + 1 + i);
+            addLight(i, {own.x, own.y});
+        }
     }
 
     bool survives(uint32_t bounce, float u) {

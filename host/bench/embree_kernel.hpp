@@ -60,32 +60,41 @@ struct Sphere {
     uint32_t material;
 };
 
-enum class LightKind : uint32_t { Quad, Mesh, Sphere, Ambient, Directional, Point, Spot };
-
-/// As gpu::Light.
+/// As gpu::LIGHT_ kinds, decoded.
 struct Light {
-    LightKind kind;
-    Vec3 position, edgeA, edgeB;
+    uint32_t kind;
+    Vec3 position; ///< quad: corner; sphere: centre; directional: unit vector to the light
+    Vec3 edgeA, edgeB;
     Vec3 normal; ///< quad; unit
     float area, radius;
     Vec3 color;
-    bool bothSides, upperHemisphereOnly;
-    uint32_t firstColumn, columnCount;
+    Vec3 fromAbove; ///< ambient
+    bool bothSides;
     float attenuation[3];
+    Vec3 axis;
     float cosCutoff, falloffExponent;
 };
 
-struct LampTriangle {
+/// An emissive triangle.
+struct TriangleLight {
     Vec3 corner, edgeA, edgeB;
     Vec3 normal; ///< unit
     Vec3 emission;
+    float doubleArea;
     bool bothSides;
 };
 
-/// Of the alias table of an emissive mesh; indices of LampTriangles.
-struct LampColumn {
+/// As gpu::LightEntry.
+struct LightEntry {
+    bool isTriangle;
+    uint32_t index; ///< into World::triangleLights or World::lights
+    float probability;
+};
+
+/// As gpu::AliasColumn.
+struct AliasColumn {
     float threshold;
-    uint32_t own, alias;
+    uint32_t alias;
 };
 
 /// As gpu::LightNode, decoded.
@@ -93,13 +102,10 @@ struct LightNode {
     Vec3 center;
     float radius;
     Vec3 axis; ///< unit
-    float cosSpread, power;
-    uint32_t child, count; ///< count: of a leaf's columns; 0: not a leaf
-    bool bothSides;
+    float cosSpread, sinSpread, power;
+    uint32_t child;
+    bool isLeaf, bothSides, sharp;
 };
-
-/// How a triangle of a mesh light is picked: as gpu::LIGHT_CHOICE_...
-enum class LightChoice : uint32_t { Area, Tree, Power, Uniform };
 
 struct View {
     bool orthographic, clipAlongRay;
@@ -121,15 +127,19 @@ struct World {
     const TriangleShading* triangles;
     const float* normals; ///< four floats each
     const Sphere* spheres;
-    const Light* lights; ///< area lights first
-    const LampTriangle* lampTriangles;
-    const LampColumn* lampColumns;
-    const LightNode* lightNodes; ///< LightChoice::Tree
-    LightChoice lightChoice;
-    uint32_t areaLights, deltaLights;
-    uint32_t width, height, seed, minBounce, maxBounces, lightSamples;
-    bool sobol;       ///< the sampler; independent else
-    bool lightsShare; ///< the first light sample shares the random numbers of the path ray
+    const Light* lights; ///< the ambient light first
+    const TriangleLight* triangleLights;
+    const LightEntry* lightEntries;
+    const AliasColumn* aliasColumns;
+    const LightNode* lightNodes;
+    uint32_t lightChoice; ///< gpu::LIGHT_CHOICE_
+    uint32_t lightGroups; ///< bit n: the light tree has lights of gpu::LIGHT_GROUP_ n
+    uint32_t lightCount, areaLights;
+    bool hasAmbient;       ///< then it is lights[0]
+    uint32_t lightSamples; ///< of all lights together, per shading point
+    uint32_t samplesPerLight;
+    uint32_t width, height, seed, minBounce, maxBounces;
+    bool sobol; ///< the sampler; independent else
     Roulette roulette;
     float terminationProbability;
     View view;
@@ -137,7 +147,7 @@ struct World {
 
 /// What paths must be able to do: each set is compiled on its own, as the kernel is.
 inline constexpr uint32_t kHasSpheres = 1, kHasNormals = 2, kHasDeltaSurfaces = 4,
-                          kHasOtherLights = 8; ///< than quads
+                          kHasOtherLights = 8; ///< than one quad
 inline constexpr uint32_t kFeatureSets = 16;
 
 /// Sums over the samples of a pixel that were finite and not negative.

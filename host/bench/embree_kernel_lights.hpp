@@ -25,7 +25,7 @@ inline float lampError(Vec lamp, Vec from) {
 }
 
 /// Completes a sample taken uniformly on an area.
-inline LightSample areaSample(const Point& p, const Light& light, Vec at, Vec normal) {
+inline LightSample areaSample(const Point& p, const Light& light, float area, Vec at, Vec normal) {
     const Vec to = at - p.position;
     const float distance2 = dot(to, to);
     LightSample s;
@@ -34,16 +34,15 @@ inline LightSample areaSample(const Point& p, const Light& light, Vec at, Vec no
     s.target = offset(at, lampError(at, p.position), normal, -to);
     const float cosine = -dot(s.direction, normal);
     const bool emits = light.bothSides ? cosine != 0 : cosine > 0;
-    s.radiance = emits && distance2 > 0
-                     ? vec(light.color) * (light.area * std::fabs(cosine) / distance2)
-                     : vec(0);
+    s.radiance =
+        emits && distance2 > 0 ? vec(light.color) * (area * std::fabs(cosine) / distance2) : vec(0);
     return s;
 }
 
 /// Completes a sample taken uniformly by direction. z: distance of the lamp's plane on the side
 /// that `normal` points from.
-inline LightSample angleSample(const Point& p, const Light& light, Vec at, Vec normal, float z,
-                               float angle) {
+inline LightSample angleSample(const Point& p, Vec emission, bool bothSides, Vec at, Vec normal,
+                               float z, float angle) {
     const Vec to = at - p.position;
     const float distance2 = dot(to, to), error = lampError(at, p.position);
     LightSample s;
@@ -51,72 +50,31 @@ inline LightSample angleSample(const Point& p, const Light& light, Vec at, Vec n
     s.direction = to * (1 / std::sqrt(larger(distance2, kTiny)));
     s.target = offset(at, error, normal, -to);
     const bool apart = std::fabs(z) > p.error + error && distance2 > 0;
-    const bool emits = apart && (light.bothSides || z < 0);
-    s.radiance = emits ? vec(light.color) * angle : vec(0);
+    const bool emits = apart && (bothSides || z < 0);
+    s.radiance = emits ? emission * angle : vec(0);
     return s;
 }
 
-inline LightSample sampleQuad(const Point& p, const Light& light, const Random& u) {
+inline LightSample sampleQuad(const Point& p, const Light& light, Random2 u) {
     const Vec corner = vec(light.position), a = vec(light.edgeA), b = vec(light.edgeB),
               normal = vec(light.normal);
     const Vec v0 = corner - p.position;
     const float z = dot(v0, normal);
     const SolidAngleSample s = sampleQuadByAngle(v0, a, b, z, light.area, u.x, u.y);
-    return angleSample(p, light, corner + s.weights.a * a + s.weights.b * b, normal, z, s.angle);
+    return angleSample(p, vec(light.color), light.bothSides,
+                       corner + s.weights.a * a + s.weights.b * b, normal, z, s.angle);
 }
 
-/// A triangle of a mesh light, and the probability with which it was picked.
-struct PickedTriangle {
-    const LampTriangle* triangle;
-    float probability, doubleArea;
-};
-
-inline float trianglePower(const LampTriangle& t) {
-    return (0.2126f * t.emission.x + 0.7152f * t.emission.y + 0.0722f * t.emission.z) *
-           (t.bothSides ? 2.0f : 1.0f);
-}
-
-inline PickedTriangle pickFrom(const World& w, uint32_t first, uint32_t count, float sum, float u,
-                               float v) {
-    const auto index = uint32_t(u * float(count));
-    const LampColumn& column = w.lampColumns[first + (index < count ? index : count - 1)];
-    const LampTriangle& t = w.lampTriangles[v < column.threshold ? column.own : column.alias];
-    const float doubleArea = dot(cross(vec(t.edgeA), vec(t.edgeB)), vec(t.normal));
-    const float weight =
-        0.5f * doubleArea * (w.lightChoice == LightChoice::Area ? 1.0f : trianglePower(t));
-    return {&t, w.lightChoice == LightChoice::Uniform ? 1 / float(count) : weight / sum,
-            doubleArea};
-}
-
-inline PickedTriangle pickTriangle(const World& w, const Point& p, const Light& light, float u,
-                                   float v) {
-    if (w.lightChoice != LightChoice::Tree)
-        return pickFrom(w, light.firstColumn, light.columnCount, light.area, u, v);
-    const PickedLeaf leaf = walkLightTree(w.lightNodes, p, u, v);
-    const float column = leaf.u * float(leaf.node->count);
-    PickedTriangle t = pickFrom(w, leaf.node->child, leaf.node->count, leaf.node->power, leaf.u,
-                                column - std::floor(column));
-    t.probability *= leaf.probability;
-    return t;
-}
-
-inline LightSample sampleMesh(const World& w, const Point& p, const Light& light, const Random& u) {
-    const PickedTriangle picked = pickTriangle(w, p, light, u.z, u.w);
-    const LampTriangle& t = *picked.triangle;
-    Light lamp = light;
-    if (w.lightChoice != LightChoice::Area) {
-        lamp.color = t.emission;
-        lamp.bothSides = t.bothSides;
-    }
+inline LightSample sampleTriangle(const Point& p, const TriangleLight& t, Random2 u) {
     const Vec corner = vec(t.corner), a = vec(t.edgeA), b = vec(t.edgeB), normal = vec(t.normal);
     const Vec v0 = corner - p.position;
     const float z = dot(v0, normal);
-    const SolidAngleSample s = sampleTriangleByAngle(v0, a, b, z, picked.doubleArea, u.x, u.y);
-    return angleSample(p, lamp, corner + s.weights.a * a + s.weights.b * b, normal, z,
-                       picked.probability > 0 ? s.angle / picked.probability : 0.0f);
+    const SolidAngleSample s = sampleTriangleByAngle(v0, a, b, z, t.doubleArea, u.x, u.y);
+    return angleSample(p, vec(t.emission), t.bothSides, corner + s.weights.a * a + s.weights.b * b,
+                       normal, z, s.angle);
 }
 
-inline LightSample sampleSphere(const Point& p, const Light& light, const Random& u) {
+inline LightSample sampleSphere(const Point& p, const Light& light, Random2 u) {
     const Vec center = vec(light.position);
     const Vec from = offset(p.position, p.error, p.geometric, p.wo);
     const Vec toCenter = center - from;
@@ -126,7 +84,7 @@ inline LightSample sampleSphere(const Point& p, const Light& light, const Random
     if (!(sin2Max < 1)) {
         const float z = 1 - 2 * u.x, r = 2 * std::sqrt(u.x * (1 - u.x));
         const Vec n = vec(r * phi.cosine, r * phi.sine, z);
-        return areaSample(p, light, center + radius * n, n);
+        return areaSample(p, light, 4 * kPi * radius * radius, center + radius * n, n);
     }
     const float oneMinusCosMax = sin2Max / (1 + std::sqrt(1 - sin2Max));
     const float oneMinusCos = u.x * oneMinusCosMax, cosine = 1 - oneMinusCos;
@@ -144,16 +102,18 @@ inline LightSample sampleSphere(const Point& p, const Light& light, const Random
     return s;
 }
 
-inline LightSample sampleAmbient(const Point& p, const Light& light, const Random& u) {
-    const float r = std::sqrt(larger(1 - u.x * u.x, 0.0f));
+inline Vec ambientRadianceOf(const Light& light, Vec direction) {
+    return direction[1] > 0 ? vec(light.color) + vec(light.fromAbove) : vec(light.color);
+}
+
+inline LightSample sampleAmbient(const Point& p, const Light& light, Random2 u) {
+    const float r = std::sqrt(u.x), z = std::sqrt(larger(1 - u.x, 0.0f));
     const SineCosine phi = turn(u.y);
     LightSample s;
-    s.direction = light.upperHemisphereOnly
-                      ? vec(r * phi.cosine, u.x, r * phi.sine)
-                      : Frame(p.shading).toWorld(r * phi.cosine, r * phi.sine, u.x);
+    s.direction = Frame(p.shading).toWorld(r * phi.cosine, r * phi.sine, z);
     s.infinite = true;
     s.target = s.direction;
-    s.radiance = vec(light.color) * (2 * kPi);
+    s.radiance = ambientRadianceOf(light, s.direction) * (kPi / larger(z, kTiny));
     return s;
 }
 
@@ -162,7 +122,7 @@ constexpr float kPointLightGap = 0x1p-16f;
 
 inline LightSample sampleDelta(const Point& p, const Light& light) {
     const Vec position = vec(light.position);
-    if (light.kind == LightKind::Directional) return {position, vec(light.color), position, true};
+    if (light.kind == gpu::LIGHT_DIRECTIONAL) return {position, vec(light.color), position, true};
     const Vec to = position - p.position;
     const float distance2 = dot(to, to), distance = std::sqrt(distance2);
     const float attenuation =
@@ -170,8 +130,8 @@ inline LightSample sampleDelta(const Point& p, const Light& light) {
     LightSample s{to * (1 / distance), vec(light.color) * (1 / attenuation),
                   position - kPointLightGap * to, false};
     if (!(distance2 > 0)) s.radiance = vec(0);
-    if (light.kind == LightKind::Spot) {
-        const float cosine = -dot(s.direction, vec(light.edgeA));
+    if (light.kind == gpu::LIGHT_SPOT) {
+        const float cosine = -dot(s.direction, vec(light.axis));
         const float falloff =
             light.falloffExponent == 0 ? 1 : std::pow(larger(cosine, 0.0f), light.falloffExponent);
         s.radiance = cosine >= light.cosCutoff ? s.radiance * falloff : vec(0);
@@ -180,30 +140,25 @@ inline LightSample sampleDelta(const Point& p, const Light& light) {
 }
 
 template <bool otherLights>
-LightSample sampleLight(const World& w, const Point& p, const Light& light, const Random& u) {
-    if (!otherLights) return sampleQuad(p, light, u);
+LightSample sampleLight(const World& w, const Point& p, const LightEntry& entry, Random2 u) {
+    if (!otherLights) return sampleQuad(p, w.lights[0], u);
+    if (entry.isTriangle) return sampleTriangle(p, w.triangleLights[entry.index], u);
+    const Light& light = w.lights[entry.index];
     switch (light.kind) {
-    case LightKind::Quad:
+    case gpu::LIGHT_QUAD:
         return sampleQuad(p, light, u);
-    case LightKind::Mesh:
-        return sampleMesh(w, p, light, u);
-    case LightKind::Sphere:
+    case gpu::LIGHT_SPHERE:
         return sampleSphere(p, light, u);
-    case LightKind::Ambient:
+    case gpu::LIGHT_AMBIENT:
         return sampleAmbient(p, light, u);
     default:
         return sampleDelta(p, light);
     }
 }
 
-/// What all ambient lights send to a ray that hits nothing.
+/// What ambient light sends to a ray that hits nothing.
 inline Vec ambientRadiance(const World& w, Vec direction) {
-    Vec sum = vec(0);
-    for (uint32_t i = 0; i < w.areaLights; ++i)
-        if (w.lights[i].kind == LightKind::Ambient &&
-            (!w.lights[i].upperHemisphereOnly || direction[1] > 0))
-            sum = sum + vec(w.lights[i].color);
-    return sum;
+    return w.hasAmbient ? ambientRadianceOf(w.lights[0], direction) : vec(0);
 }
 
 } // namespace

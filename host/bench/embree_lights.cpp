@@ -1,163 +1,126 @@
 #include "host/bench/embree_lights.hpp"
 
-#include "host/kernel/alias_table.hpp"
 #include "host/kernel/gpu_scene.hpp"
-#include "host/kernel/light_tree.hpp"
-#include "scene/model/emitters.hpp"
+#include "host/kernel/kernel_features.hpp"
+#include "host/kernel/light_table.hpp"
+#include "host/kernel/rows.hpp"
 
 #include <cmath>
+#include <numeric>
 
 namespace stromboli::bench {
 namespace {
 
-native::LampTriangle lampTriangle(const Scene& scene, uint32_t index) {
+native::TriangleLight triangleLight(const Scene& scene, uint32_t index) {
     const Triangle& t = scene.triangles[index];
     const glm::vec3 corner = scene.positions[t.corner[0]];
+    const glm::vec3 a = scene.positions[t.corner[1]] - corner,
+                    b = scene.positions[t.corner[2]] - corner;
     return {plain(corner),
-            plain(scene.positions[t.corner[1]] - corner),
-            plain(scene.positions[t.corner[2]] - corner),
+            plain(a),
+            plain(b),
             plain(scene.geometricNormal(t)),
             plain(scene.materials[t.material].emission),
+            float(glm::length(glm::cross(glm::dvec3(a), glm::dvec3(b)))),
             scene.materials[t.material].emitsBothSides};
 }
 
-double area(const Scene& scene, uint32_t index) {
-    const Triangle& t = scene.triangles[index];
-    const glm::dvec3 a = scene.positions[t.corner[0]], b = scene.positions[t.corner[1]],
-                     c = scene.positions[t.corner[2]];
-    return 0.5 * glm::length(glm::cross(b - a, c - a));
+void decodeQuad(const gpu::QuadLight& q, native::Light& light) {
+    light.position = plain(q.corner);
+    light.edgeA = plain(q.edgeA);
+    light.edgeB = plain(q.edgeB);
+    light.area = q.area;
+    light.normal =
+        plain(glm::vec3(glm::normalize(glm::cross(glm::dvec3(q.edgeA), glm::dvec3(q.edgeB)))));
 }
 
-/// One column per triangle, chosen in proportion to its area.
-void addColumns(const Scene& scene, const Emitter& emitter, native::Light& light,
-                EmbreeLights& all) {
-    const auto firstTriangle = uint32_t(all.triangles.size());
-    std::vector<double> areas;
-    for (const uint32_t index : emitter.triangles) {
-        areas.push_back(area(scene, index));
-        all.triangles.push_back(lampTriangle(scene, index));
-    }
-    light.firstColumn = uint32_t(all.columns.size());
-    light.columnCount = uint32_t(areas.size());
-    uint32_t own = firstTriangle;
-    for (const AliasColumn& column : buildAliasTable(areas))
-        all.columns.push_back({float(column.threshold), own++, firstTriangle + column.alias});
+void decodePoint(const gpu::PointLight& p, native::Light& light) {
+    light.position = plain(p.position);
+    for (int i = 0; i < 3; ++i)
+        light.attenuation[i] = p.attenuation[i];
+    light.axis = plain(p.axis);
+    light.cosCutoff = p.cosCutoff;
+    light.falloffExponent = p.falloffExponent;
 }
 
-void addEmitter(const Scene& scene, const Emitter& emitter, EmbreeLights& all) {
-    const Material& material = scene.materials[emitter.material];
+native::Light decodedLight(const std::vector<Row>& rows, size_t row) {
+    const auto header = structureAt<gpu::LightHeader>(rows, row);
     native::Light light{};
-    light.color = plain(material.emission);
-    light.bothSides = material.emitsBothSides;
-    light.area = float(emitter.area);
-    if (emitter.kind == EmitterKind::Quad) {
-        const glm::dvec3 normal = glm::cross(glm::dvec3(emitter.edgeA), glm::dvec3(emitter.edgeB));
-        light.kind = native::LightKind::Quad;
-        light.position = plain(emitter.corner);
-        light.edgeA = plain(emitter.edgeA);
-        light.edgeB = plain(emitter.edgeB);
-        light.area = float(glm::length(normal));
-        light.normal = plain(glm::normalize(normal));
-    } else if (emitter.kind == EmitterKind::Sphere) {
-        light.kind = native::LightKind::Sphere;
-        light.position = plain(scene.spheres[emitter.sphere].center);
-        light.radius = scene.spheres[emitter.sphere].radius;
-    } else {
-        light.kind = native::LightKind::Mesh;
-        addColumns(scene, emitter, light, all);
+    light.kind = header.kind & gpu::LIGHT_KIND_MASK;
+    light.color = plain(header.color);
+    light.bothSides = header.kind & gpu::LIGHT_BOTH_SIDES;
+    switch (light.kind) {
+    case gpu::LIGHT_QUAD:
+        decodeQuad(structureAt<gpu::QuadLight>(rows, row + 1), light);
+        break;
+    case gpu::LIGHT_AMBIENT:
+        light.fromAbove = plain(structureAt<gpu::AmbientLight>(rows, row + 1).fromAbove);
+        break;
+    case gpu::LIGHT_SPHERE: {
+        const auto sphere = structureAt<gpu::SphereLight>(rows, row + 1);
+        light.position = plain(sphere.center);
+        light.radius = sphere.radius;
+        break;
     }
-    all.lights.push_back(light);
+    case gpu::LIGHT_DIRECTIONAL:
+        light.position = plain(structureAt<gpu::DirectionalLight>(rows, row + 1).toLight);
+        break;
+    case gpu::LIGHT_POINT:
+    case gpu::LIGHT_SPOT:
+        decodePoint(structureAt<gpu::PointLight>(rows, row + 1), light);
+        break;
+    default:
+        break;
+    }
+    return light;
 }
 
-void addColumns(const std::vector<gpu::EmitterEntry>& entries, EmbreeLights& all) {
-    for (const gpu::EmitterEntry& e : entries)
-        all.columns.push_back({e.threshold, e.place, e.alias});
-}
-
-native::LightNode decoded(const gpu::LightNode& n) {
+native::LightNode decodedNode(const gpu::LightNode& n) {
     native::LightNode node{};
     node.center = plain(n.center);
     node.radius = n.radius;
     node.axis = plain(decodeNormal(n.axis));
     node.cosSpread = n.cosSpread;
+    node.sinSpread = std::sqrt(std::max(1 - n.cosSpread * n.cosSpread, 0.0f));
     node.power = n.power;
     node.child = n.child & gpu::LIGHT_NODE_CHILD_MASK;
-    if (n.child & gpu::LIGHT_NODE_IS_LEAF)
-        node.count = n.child >> gpu::LIGHT_NODE_COUNT_SHIFT & gpu::LIGHT_NODE_MOST_TRIANGLES;
+    node.isLeaf = n.child & gpu::LIGHT_NODE_IS_LEAF;
     node.bothSides = n.child & gpu::LIGHT_NODE_BOTH_SIDES;
+    node.sharp = n.child & gpu::LIGHT_NODE_SHARP;
     return node;
-}
-
-/// All emissive triangles as one light, from the kernel's own tree or table.
-void addManyTriangles(const Scene& scene, const std::vector<Emitter>& emitters, LightChoice choice,
-                      EmbreeLights& all) {
-    std::vector<LightTriangle> triangles = lightTriangles(scene, emitters);
-    native::Light light{};
-    light.kind = native::LightKind::Mesh;
-    light.columnCount = uint32_t(triangles.size());
-    double power = 0;
-    for (LightTriangle& t : triangles) {
-        all.triangles.push_back(lampTriangle(scene, t.id));
-        t.id = uint32_t(all.triangles.size() - 1);
-        power += t.power;
-    }
-    light.area = float(power);
-    all.lights.push_back(light);
-    if (choice != LightChoice::Tree) {
-        const bool uniformly = choice == LightChoice::Uniform;
-        all.choice = uniformly ? native::LightChoice::Uniform : native::LightChoice::Power;
-        addColumns(lightTable(triangles, uniformly), all);
-        return;
-    }
-    const LightTree tree = buildLightTree(std::move(triangles));
-    all.choice = native::LightChoice::Tree;
-    addColumns(tree.entries, all);
-    for (const gpu::LightNode& node : tree.nodes)
-        all.nodes.push_back(decoded(node));
-}
-
-native::LightKind kindOf(LightKind kind) {
-    switch (kind) {
-    case LightKind::Directional:
-        return native::LightKind::Directional;
-    case LightKind::Point:
-        return native::LightKind::Point;
-    case LightKind::Spot:
-        return native::LightKind::Spot;
-    default:
-        return native::LightKind::Ambient;
-    }
-}
-
-void addFileLight(const Light& l, EmbreeLights& all) {
-    native::Light light{};
-    light.kind = kindOf(l.kind);
-    light.color = plain(l.color);
-    light.position = plain(l.kind == LightKind::Directional ? -l.direction : l.position);
-    light.edgeA = plain(l.direction);
-    light.upperHemisphereOnly = l.upperHemisphereOnly;
-    light.attenuation[0] = l.constantAttenuation;
-    light.attenuation[1] = l.linearAttenuation;
-    light.attenuation[2] = l.quadraticAttenuation;
-    light.cosCutoff = std::cos(0.5f * l.falloffAngle);
-    light.falloffExponent = l.falloffExponent;
-    all.lights.push_back(light);
 }
 
 } // namespace
 
-EmbreeLights embreeLights(const Scene& scene, LightChoice choice) {
+EmbreeLights embreeLights(const Scene& scene, const RenderSettings& settings) {
+    std::vector<uint32_t> triangles(scene.triangles.size());
+    std::iota(triangles.begin(), triangles.end(), 0);
+    const LightTable table = packLights(scene, triangles, lightSelection(settings.estimator));
     EmbreeLights all;
-    const std::vector<Emitter> emitters = collectEmitters(scene);
-    const bool many = haveManyTriangles(emitters);
-    if (many) addManyTriangles(scene, emitters, choice, all);
-    for (const Emitter& emitter : emitters)
-        if (!many || emitter.kind == EmitterKind::Sphere) addEmitter(scene, emitter, all);
-    for (const Light& light : scene.lights)
-        if (!light.isDelta()) addFileLight(light, all);
-    all.areaLights = uint32_t(all.lights.size());
-    for (const Light& light : scene.lights)
-        if (light.isDelta()) addFileLight(light, all);
+    all.choice = lightChoiceConstant(table);
+    all.groups = table.groups;
+    all.areaLights = table.areaCount;
+    all.hasAmbient = table.hasAmbient;
+    all.direct = directSampling(table, settings.estimator);
+    all.oneQuad = table.count == 1 && table.sampledKinds == 1u << gpu::LIGHT_QUAD;
+    for (size_t row = 0; row < table.lights.size(); row += gpu::LIGHT_ROWS)
+        all.lights.push_back(decodedLight(table.lights, row));
+    for (uint32_t i = 0; i < table.count; ++i) {
+        const auto entry = structureAt<gpu::LightEntry>(table.table, i);
+        const bool isTriangle = entry.light & gpu::LIGHT_IS_TRIANGLE;
+        if (isTriangle)
+            all.triangles.push_back(triangleLight(scene, entry.light & ~gpu::LIGHT_IS_TRIANGLE));
+        const auto index = isTriangle ? uint32_t(all.triangles.size() - 1) : entry.light;
+        all.entries.push_back({isTriangle, index, entry.probability});
+    }
+    if (table.groups)
+        for (size_t row = table.count; row < table.table.size(); row += 2)
+            all.nodes.push_back(decodedNode(structureAt<gpu::LightNode>(table.table, row)));
+    else
+        for (size_t row = table.count; row < table.table.size(); ++row) {
+            const auto column = structureAt<gpu::AliasColumn>(table.table, row);
+            all.columns.push_back({column.threshold, column.alias});
+        }
     return all;
 }
 

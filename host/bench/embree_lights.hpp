@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/bench/embree_kernel.hpp"
+#include "host/kernel/direct_sampling.hpp"
 #include "host/render/settings.hpp"
 #include "scene/model/scene.hpp"
 
@@ -8,17 +9,20 @@
 
 namespace stromboli::bench {
 
-/// What an EmbreeWorld samples light from, in the kernel's order.
+/// What an EmbreeWorld samples light from: the kernel's own tables (host/kernel/light_table.hpp),
+/// decoded.
 struct EmbreeLights {
-    std::vector<native::Light> lights; ///< area lights first
-    std::vector<native::LampTriangle> triangles;
-    std::vector<native::LampColumn> columns;
+    std::vector<native::Light> lights;
+    std::vector<native::TriangleLight> triangles;
+    std::vector<native::LightEntry> entries;
+    std::vector<native::AliasColumn> columns;
     std::vector<native::LightNode> nodes;
-    native::LightChoice choice = native::LightChoice::Area;
-    uint32_t areaLights = 0;
+    uint32_t choice = 0, groups = 0, areaLights = 0;
+    DirectSampling direct;
+    bool oneQuad = false, hasAmbient = false;
 };
 
-EmbreeLights embreeLights(const Scene& scene, LightChoice choice);
+EmbreeLights embreeLights(const Scene& scene, const RenderSettings& settings);
 
 inline native::Vec3 plain(const glm::vec3& v) {
     return {v.x, v.y, v.z};

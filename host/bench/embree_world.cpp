@@ -60,7 +60,7 @@ EmbreeWorld::EmbreeWorld(const Scene& scene, const Camera& camera, const RenderS
     world_.tracer = tracer;
     addSurfaces(scene);
     addGeometry(scene);
-    addLights(scene, settings.estimator.lightChoice);
+    addLights(scene, settings);
     setView(camera);
     setSettings(settings);
 }
@@ -103,23 +103,21 @@ void EmbreeWorld::addGeometry(const Scene& scene) {
     world_.spheres = spheres_.data();
 }
 
-void EmbreeWorld::addLights(const Scene& scene, LightChoice choice) {
-    EmbreeLights all = embreeLights(scene, choice);
-    lights_ = std::move(all.lights);
-    lampTriangles_ = std::move(all.triangles);
-    lampColumns_ = std::move(all.columns);
-    world_.lights = lights_.data();
-    world_.lampTriangles = lampTriangles_.data();
-    world_.lampColumns = lampColumns_.data();
-    lightNodes_ = std::move(all.nodes);
-    world_.lightNodes = lightNodes_.data();
-    world_.lightChoice = all.choice;
-    world_.areaLights = all.areaLights;
-    world_.deltaLights = uint32_t(lights_.size()) - all.areaLights;
-    const bool onlyQuads = std::all_of(lights_.begin(), lights_.end(), [](const native::Light& l) {
-        return l.kind == native::LightKind::Quad;
-    });
-    if (!onlyQuads) features_ |= native::kHasOtherLights;
+void EmbreeWorld::addLights(const Scene& scene, const RenderSettings& settings) {
+    lights_ = embreeLights(scene, settings);
+    world_.lights = lights_.lights.data();
+    world_.triangleLights = lights_.triangles.data();
+    world_.lightEntries = lights_.entries.data();
+    world_.aliasColumns = lights_.columns.data();
+    world_.lightNodes = lights_.nodes.data();
+    world_.lightChoice = lights_.choice;
+    world_.lightGroups = lights_.groups;
+    world_.lightCount = uint32_t(lights_.entries.size());
+    world_.areaLights = lights_.areaLights;
+    world_.hasAmbient = lights_.hasAmbient;
+    world_.lightSamples = lights_.direct.lights;
+    world_.samplesPerLight = lights_.direct.perLight;
+    if (!lights_.oneQuad) features_ |= native::kHasOtherLights;
 }
 
 void EmbreeWorld::setView(const Camera& camera) {
@@ -139,12 +137,8 @@ void EmbreeWorld::setSettings(const RenderSettings& settings) {
     world_.height = settings.area.height;
     world_.seed = settings.estimator.seed;
     world_.sobol = settings.estimator.sampler == Sampler::Sobol;
-    world_.lightsShare = std::none_of(lights_.begin(), lights_.end(), [](const native::Light& l) {
-        return l.kind == native::LightKind::Mesh;
-    });
     world_.minBounce = settings.estimator.minBounce;
     world_.maxBounces = settings.estimator.maxBounces;
-    world_.lightSamples = settings.estimator.lightSamples;
     world_.roulette = modeOf(settings.estimator.roulette.mode);
     world_.terminationProbability = float(settings.estimator.roulette.terminationProbability);
 }

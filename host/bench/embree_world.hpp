@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/bench/embree_kernel.hpp"
+#include "host/bench/embree_lights.hpp"
 #include "host/render/settings.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/model/scene.hpp"
@@ -25,7 +25,7 @@ class EmbreeWorld {
   private:
     void addSurfaces(const Scene& scene);
     void addGeometry(const Scene& scene);
-    void addLights(const Scene& scene, LightChoice choice);
+    void addLights(const Scene& scene, const RenderSettings& settings);
     void setView(const Camera& camera);
     void setSettings(const RenderSettings& settings);
 
@@ -33,10 +33,7 @@ class EmbreeWorld {
     std::vector<native::TriangleShading> triangles_;
     std::vector<glm::vec4> normals_;
     std::vector<native::Sphere> spheres_;
-    std::vector<native::Light> lights_;
-    std::vector<native::LampTriangle> lampTriangles_;
-    std::vector<native::LampColumn> lampColumns_;
-    std::vector<native::LightNode> lightNodes_;
+    EmbreeLights lights_;
     native::World world_{};
     uint32_t features_ = 0;
 };

@@ -22,7 +22,7 @@ GrowthPoint benchSize(uint64_t triangles, const vulkan::Device& device, const Em
     point.buildSeconds = watch.seconds();
     const EmbreePair pair = buildBest(arena, bounce);
     if (pair.fast) point.embreeBuildSeconds = pair.fast->buildSeconds;
-    const GpuScene gpu = packScene(scene.scene, std::move(bvh), false);
+    const GpuScene gpu = packScene(scene.scene, std::move(bvh));
     DeviceRays rays(device, gpu, rayTuning(device, rowBytes(gpu, bounce.rays.size())));
     point.bounce = benchRays(arena, rays, pair, bounce);
     return point;

@@ -104,7 +104,7 @@ class LayoutWriter {
 
     static gpu::LeafRecord packLeaf(const std::array<glm::vec3, 4>& p, float radius,
                                     uint32_t primitive) {
-        return {p[0], primitive, p[1], 0, p[3], 0, p[2], radius};
+        return {p[0], primitive, p[1], gpu::NO_LIGHT, p[3], gpu::NO_LIGHT, p[2], radius};
     }
 
     const Scene& scene_;

@@ -47,8 +47,8 @@ void declareEstimator(DeclaredCommand& c) {
     list.number("--min-bounce", "K",
                 "leave out light scattered fewer times; equal to -m: that bounce alone",
                 e.minBounce, kBounces);
-    list.number("-l,--light-samples", "N", "samples per shading point and area light",
-                e.lightSamples, kLightSamples);
+    list.number("-l,--light-samples", "N", "samples of lights per shading point", e.lightSamples,
+                kLightSamples);
     list.choice("--direct", "HOW", "how lamps are found from a surface", e.directLight);
     list.flag("-H", "same as --direct hemisphere",
               [&e] { e.directLight = DirectLight::Hemisphere; })

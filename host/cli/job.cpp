@@ -86,8 +86,8 @@ Job prepareJob(const Options& options) {
 BuiltScene buildScene(const Job& job) {
     Stopwatch watch;
     BuiltScene built;
-    built.gpu = packScene(job.scene, buildWideBvh(job.scene), job.settings.estimator.cs184,
-                          job.settings.estimator.lightChoice);
+    built.gpu =
+        packScene(job.scene, buildWideBvh(job.scene), lightSelection(job.settings.estimator));
     built.buildSeconds = watch.seconds();
     return built;
 }

@@ -24,8 +24,8 @@ DeviceScene::DeviceScene(const vulkan::Device& device, const GpuScene& scene,
     buffers_[BINDING_RECORDS].upload(queue, bytesOf(scene.bvh.records));
     buffers_[BINDING_PRIMITIVES].upload(queue, bytesOf(scene.primitives));
     buffers_[BINDING_MATERIALS].upload(queue, bytesOf(scene.materials));
-    buffers_[BINDING_LIGHTS].upload(queue, bytesOf(scene.lights));
-    buffers_[BINDING_EMITTER_ENTRIES].upload(queue, bytesOf(scene.emitterEntries));
+    buffers_[BINDING_LIGHTS].upload(queue, bytesOf(scene.lights.lights));
+    buffers_[BINDING_LIGHT_TABLE].upload(queue, bytesOf(scene.lights.table));
 }
 
 } // namespace stromboli

@@ -19,25 +19,20 @@ constexpr uint32_t kLlvmpipeLoopPasses = 65535;
 constexpr uint32_t kGuardIterations = 1u << 20;
 
 /// One pass of the kernel's loop counts for itself, its traversal steps, the loop around it that
-/// changes pixels and, where there are such, the loops that look for ambient light and walk a light
-/// tree.
+/// changes pixels and, where there is one, the walk down the light tree.
 uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene,
                    const DeviceTuning& tuning) {
     if (!device.description().isCpu()) return kGuardIterations;
-    const bool ambient =
-        tuning.everythingOn ||
-        std::any_of(scene.lights.begin(), scene.lights.end(),
-                    [](const gpu::Light& l) { return l.kind == gpu::LIGHT_AMBIENT; });
+    // A light is picked for a light sample, and looked up once more for MIS.
     const uint32_t perIteration = 1 + (tuning.traversalSteps + 1) + 2 +
-                                  (ambient ? scene.areaLights + 1 : 0) +
-                                  (scene.manyLampTriangles ? scene.lightTreeLevels + 1 : 0);
+                                  (scene.lights.groups ? 2 * (scene.lights.levels + 1) : 0);
     return std::max(kLlvmpipeLoopPasses / perIteration, 2u);
 }
 
 /// Where lanes stop taking path rays. What is left has to do for one more surface with all its
 /// direct light samples: a pass or more for each.
 uint32_t softLimit(uint32_t hard, const gpu::Frame& frame) {
-    const uint32_t directSamples = frame.areaSamples + frame.deltaLights;
+    const uint32_t directSamples = frame.hemisphereSamples + frame.lightSamples;
     return directSamples < hard / 32 ? hard / 2 : 1;
 }
 

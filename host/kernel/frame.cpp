@@ -1,21 +1,11 @@
 #include "host/kernel/frame.hpp"
 
+#include "host/kernel/direct_sampling.hpp"
+
 #include <algorithm>
 #include <limits>
 
 namespace stromboli {
-namespace {
-
-/// How many direct light samples a shading point takes for other than delta lights.
-uint32_t areaSamples(const GpuScene& scene, const Estimator& s) {
-    if (samplesLights(s.directLight)) return s.lightSamples * scene.areaLights;
-    if (s.directLight == DirectLight::Bsdf) return 0;
-    // The CS184 renderer multiplies by the number of all its lights.
-    return s.lightSamples * (s.cs184 ? scene.areaLights + scene.deltaLights : scene.areaLights);
-}
-
-} // namespace
-
 gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const PictureArea& area,
                      const Estimator& s) {
     gpu::Frame f{};
@@ -31,13 +21,13 @@ gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const PictureA
     f.minBounce = s.minBounce;
     f.maxBounces = s.maxBounces;
     f.terminationProbability = float(s.roulette.terminationProbability);
-    f.lightSamples = s.lightSamples;
-    f.areaLights = scene.areaLights;
-    const bool noDelta = s.cs184 && s.directLight == DirectLight::Hemisphere;
-    f.deltaLights = noDelta ? 0 : scene.deltaLights;
-    f.areaSamples = areaSamples(scene, s);
+    f.lightCount = scene.lights.count;
+    f.areaLights = scene.lights.areaCount;
+    const DirectSampling direct = directSampling(scene.lights, s);
+    f.hemisphereSamples = direct.hemisphere;
+    f.lightSamples = direct.lights;
     f.branches = s.branches;
-    f.lampGap = scene.lampGap;
+    f.gapWidth = scene.gapWidth;
     return f;
 }
 

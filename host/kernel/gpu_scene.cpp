@@ -1,7 +1,6 @@
 #include "host/kernel/gpu_scene.hpp"
 
-#include "host/kernel/gpu_lights.hpp"
-#include "host/kernel/lamp_gap.hpp"
+#include "host/kernel/gap_proposal.hpp"
 
 #include <glm/gtc/packing.hpp>
 
@@ -11,57 +10,57 @@
 namespace stromboli {
 namespace {
 
-gpu::Material packMaterial(const Material& m, bool cs184) {
-    gpu::Material g{};
-    g.kind = uint32_t(m.kind); // the enumerations agree: see the static_asserts below
-    g.reflectance = m.kind == MaterialKind::Diffuse ? m.albedo : m.reflectance;
-    g.emission = m.emission;
-    g.light = gpu::NO_LIGHT;
-    g.emitsBothSides = m.emitsBothSides || cs184;
-    if (m.kind == MaterialKind::Microfacet) {
-        g.transmittanceOrEta = m.eta;
-        g.iorOrAlpha = m.alpha;
-        g.k = m.k;
-    } else {
-        g.transmittanceOrEta = m.transmittance;
-        g.iorOrAlpha = m.ior;
-    }
-    return g;
-}
-
-static_assert(uint32_t(MaterialKind::Diffuse) == gpu::MATERIAL_DIFFUSE);
-static_assert(uint32_t(MaterialKind::Mirror) == gpu::MATERIAL_MIRROR);
-static_assert(uint32_t(MaterialKind::Refraction) == gpu::MATERIAL_REFRACTION);
-static_assert(uint32_t(MaterialKind::Glass) == gpu::MATERIAL_GLASS);
-static_assert(uint32_t(MaterialKind::Microfacet) == gpu::MATERIAL_MICROFACET);
-
-gpu::Primitive packFlatTriangle(const Scene& scene, const Triangle& t) {
+glm::uvec3 normalWords(const Scene& scene, const Triangle& t) {
     const glm::dvec3 a = scene.positions[t.corner[0]], b = scene.positions[t.corner[1]],
                      c = scene.positions[t.corner[2]];
-    const glm::uvec3 bits =
-        glm::floatBitsToUint(glm::vec3(glm::normalize(glm::cross(b - a, c - a))));
-    return {t.material, bits.x, bits.y, bits.z};
+    return glm::floatBitsToUint(glm::vec3(glm::normalize(glm::cross(b - a, c - a))));
 }
 
 /// firstCorner: the corner of the file that the leaf has first.
-gpu::Primitive packTriangle(const Scene& scene, const Triangle& t, uint32_t firstCorner) {
-    if (t.normals[0] == kNoNormals) return packFlatTriangle(scene, t);
+gpu::Primitive packTriangle(const Scene& scene, const Triangle& t, uint32_t materialRow,
+                            uint32_t firstCorner) {
+    if (t.normals[0] == kNoNormals) {
+        const glm::uvec3 n = normalWords(scene, t);
+        return {materialRow, n.x, n.y, n.z};
+    }
     const auto normal = [&](uint32_t c) {
         return encodeNormal(scene.normals[t.normals[(c + firstCorner) % 3]]);
     };
-    return {t.material | gpu::PRIMITIVE_IS_SMOOTH, normal(0), normal(1), normal(2)};
+    return {materialRow | gpu::PRIMITIVE_IS_SMOOTH, normal(0), normal(1), normal(2)};
 }
 
-void packPrimitives(const Scene& scene, GpuScene& g) {
+void packPrimitives(const Scene& scene, const std::vector<uint32_t>& materialRow, GpuScene& g) {
     const auto triangles = uint32_t(scene.triangles.size());
     g.hasTriangles = triangles > 0;
     g.hasSpheres = !scene.spheres.empty();
+    std::vector<bool> used(scene.materials.size(), false);
     g.primitives.reserve(g.bvh.primitiveOrder.size());
     for (const uint32_t id : g.bvh.primitiveOrder) {
+        const uint32_t material =
+            id < triangles ? scene.triangles[id].material : scene.spheres[id - triangles].material;
+        used[material] = true;
+        const uint32_t row = materialRow[material];
         g.primitives.push_back(
-            id < triangles ? packTriangle(scene, scene.triangles[id], g.bvh.firstCorner[id])
-                           : gpu::Primitive{scene.spheres[id - triangles].material, 0, 0, 0});
+            id < triangles ? packTriangle(scene, scene.triangles[id], row, g.bvh.firstCorner[id])
+                           : gpu::Primitive{row, 0, 0, 0});
         g.hasNormals |= (g.primitives.back().material & gpu::PRIMITIVE_IS_SMOOTH) != 0;
+    }
+    for (size_t i = 0; i < used.size(); ++i) {
+        if (!used[i]) continue;
+        g.bsdfKinds |= 1u << bsdfKind(scene.materials[i].kind);
+        g.hasEmission |= scene.materials[i].emits();
+    }
+}
+
+/// Tells the leaves of the tree which lights they are.
+void nameLights(GpuScene& g) {
+    for (size_t id = 0; id < g.lights.numberOf.size(); ++id) {
+        const uint32_t number = g.lights.numberOf[id];
+        if (number == gpu::NO_LIGHT) continue;
+        const uint32_t place = g.bvh.placeOf[id];
+        gpu::LeafRecord leaf = asLeaf(g.bvh.records[place / 2]);
+        (place % 2 == 0 ? leaf.light0 : leaf.light1) = number;
+        g.bvh.records[place / 2] = std::bit_cast<Record>(leaf);
     }
 }
 
@@ -86,15 +85,15 @@ glm::vec3 decodeNormal(uint32_t code) {
     return glm::normalize(n);
 }
 
-GpuScene packScene(const Scene& scene, WideLayout bvh, bool cs184, LightChoice choice) {
+GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lights) {
     GpuScene g;
-    g.lightChoice = choice;
     g.bvh = std::move(bvh);
-    packPrimitives(scene, g);
-    for (const Material& m : scene.materials)
-        g.materials.push_back(packMaterial(m, cs184));
-    packLights(scene, g.bvh.placeOf, cs184, g);
-    if (!cs184) g.lampGap = lampGap(g);
+    MaterialRows materials = packMaterials(scene.materials, lights.cs184);
+    g.materials = std::move(materials.rows);
+    packPrimitives(scene, materials.firstRow, g);
+    g.lights = packLights(scene, g.bvh.placeOf, lights);
+    nameLights(g);
+    if (!lights.cs184) g.gapWidth = gapWidth(g);
     return g;
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
 #include "host/bvh/wide_layout.hpp"
+#include "host/kernel/light_table.hpp"
+#include "host/kernel/material_rows.hpp"
+#include "host/kernel/rows.hpp"
 #include "host/render/settings.hpp"
-#include "scene/model/emitters.hpp"
 #include "scene/model/scene.hpp"
 #include "shaders/shared/scene_types.h"
 
@@ -12,29 +14,29 @@ namespace stromboli {
 
 /// The scene in the arrays that the kernel reads, ready to upload.
 struct GpuScene {
-    WideLayout bvh;
+    WideLayout bvh;                         ///< leaves name the lights that they are
     std::vector<gpu::Primitive> primitives; ///< in the order of the tree's leaves
-    std::vector<gpu::Material> materials;
-    std::vector<gpu::Light> lights; ///< area lights first
-    std::vector<gpu::EmitterEntry> emitterEntries;
-    uint32_t areaLights = 0;
-    uint32_t deltaLights = 0;
-    LightChoice lightChoice = LightChoice::Tree; ///< of many emissive triangles ...
-    bool manyLampTriangles = false;              ///< ... which are lights[0] then
-    uint32_t lightTreeLevels = 0;
-    float lampGap = 0; ///< lamp_gap.hpp
+    std::vector<Row> materials;
+    LightTable lights;
+    uint32_t bsdfKinds = 0;   ///< bit n: a primitive has a material of BSDF_ kind n
+    bool hasEmission = false; ///< a primitive emits
+    float gapWidth = 0;       ///< gap_proposal.hpp
     bool hasTriangles = false, hasSpheres = false;
     bool hasNormals = false; ///< any triangle with shading normals
 };
 
-/// Packs the scene, whose hierarchy is `bvh`. With cs184, lights are those of scene.lights;
-/// emissive geometry is not sampled (docs/estimator.md, "CS184 mode").
-GpuScene packScene(const Scene& scene, WideLayout bvh, bool cs184,
-                   LightChoice choice = LightChoice::Tree);
+/// Packs the scene, whose hierarchy is `bvh`.
+GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lights = {});
 
-/// Number of the primitive's material.
+/// First row of the primitive's material.
 inline uint32_t materialOf(const gpu::Primitive& p) {
     return p.material & ~gpu::PRIMITIVE_IS_SMOOTH;
+}
+inline gpu::MaterialHeader materialHeader(const GpuScene& scene, const gpu::Primitive& p) {
+    return structureAt<gpu::MaterialHeader>(scene.materials, materialOf(p));
+}
+inline uint32_t bsdfKind(const gpu::MaterialHeader& header) {
+    return header.kind & ~gpu::MATERIAL_EMITS_BOTH_SIDES;
 }
 
 /// Octahedral encoding of a unit vector (Meyer et al. 2010), two 16-bit signed fractions.

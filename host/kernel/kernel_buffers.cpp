@@ -27,8 +27,8 @@ std::vector<BufferPlan> planSceneBuffers(const GpuScene& scene, const DeviceTuni
     return {{"BVH buffer", sizeOf(scene.bvh.records), rows},
             {"primitive buffer", sizeOf(scene.primitives), rows},
             {"material buffer", sizeOf(scene.materials), rows},
-            {"light buffer", sizeOf(scene.lights), rows},
-            {"emitter table", sizeOf(scene.emitterEntries), rows}};
+            {"light buffer", sizeOf(scene.lights.lights), rows},
+            {"light table", sizeOf(scene.lights.table), rows}};
 }
 
 uint64_t largestSceneBuffer(const GpuScene& scene) {

@@ -1,5 +1,7 @@
 #include "host/kernel/kernel_features.hpp"
 
+#include "host/kernel/direct_sampling.hpp"
+
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -11,74 +13,66 @@ static_assert(Roulette::kThroughputStart == gpu::ROULETTE_THROUGHPUT_START);
 static_assert(float(Roulette::kMaxContinue) == gpu::ROULETTE_MAX_CONTINUE);
 static_assert(float(Roulette::kBoldness) == gpu::ROULETTE_BOLDNESS);
 
-uint32_t materialKinds(const GpuScene& scene) {
-    uint32_t kinds = 0;
-    for (const gpu::Primitive& p : scene.primitives)
-        kinds |= 1u << scene.materials[materialOf(p)].kind;
-    return kinds;
+/// By BSDF_ kind.
+constexpr std::array<uint32_t, gpu::BSDF_KIND_COUNT> kBsdfLobes = {
+    gpu::DIFFUSE_BSDF_LOBES, gpu::MIRROR_BSDF_LOBES, gpu::REFRACTION_BSDF_LOBES,
+    gpu::GLASS_BSDF_LOBES, gpu::ROUGH_CONDUCTOR_BSDF_LOBES};
+
+/// The numbers of a path ray that a BSDF takes are either the two within a lobe or the one that
+/// chooses a lobe, which is one of the two (scatter() in shaders/include/path.glsl). A kind with
+/// several lobes, one of them no delta lobe, needs all three: then that number has to come from a
+/// block of its own.
+constexpr bool someKindNeedsThreeNumbers() {
+    for (const uint32_t lobes : kBsdfLobes)
+        if ((lobes & (lobes - 1)) != 0 && (lobes & ~gpu::DELTA_LOBES) != 0) return true;
+    return false;
+}
+static_assert(!someKindNeedsThreeNumbers());
+
+uint32_t lobesOf(uint32_t bsdfKinds) {
+    uint32_t lobes = 0;
+    for (uint32_t kind = 0; kind < gpu::BSDF_KIND_COUNT; ++kind)
+        if (bsdfKinds & 1u << kind) lobes |= kBsdfLobes[kind];
+    return lobes;
 }
 
-bool hasEmission(const GpuScene& scene) {
-    return std::any_of(scene.primitives.begin(), scene.primitives.end(),
-                       [&](const gpu::Primitive& p) {
-                           const glm::vec3& e = scene.materials[materialOf(p)].emission;
-                           return e.x > 0 || e.y > 0 || e.z > 0;
-                       });
-}
-
-/// Lights that are sampled; an ambient light is also found by rays that miss.
+/// Lights that the kernel has to know: those that are sampled, and ambient light, which rays that
+/// miss find.
 uint32_t lightKinds(const GpuScene& scene, const Estimator& settings) {
     if (settings.integrator == Integrator::Normals) return 0;
-    uint32_t kinds = 0;
-    for (const gpu::Light& light : scene.lights) {
-        const bool isArea = light.kind < gpu::LIGHT_DIRECTIONAL;
-        const bool sampled =
-            samplesLights(settings.directLight) ||
-            (!isArea && !(settings.cs184 && settings.directLight == DirectLight::Hemisphere)) ||
-            (light.kind == gpu::LIGHT_AMBIENT && !settings.cs184);
-        if (sampled) kinds |= 1u << light.kind;
-    }
+    uint32_t kinds =
+        directSampling(scene.lights, settings).lights > 0 ? scene.lights.sampledKinds : 0;
+    if (scene.lights.hasAmbient) kinds |= 1u << gpu::LIGHT_AMBIENT;
     return kinds;
 }
 
 uint32_t lightNumbers(const GpuScene& scene, const Estimator& settings) {
-    // The samples of a mesh take all four numbers of a block; those of delta lights none.
-    uint32_t area = 0;
-    for (const gpu::Light& light : scene.lights) {
-        if (light.kind == gpu::LIGHT_MESH) return gpu::LIGHT_NUMBERS_OWN;
-        area += light.kind < gpu::LIGHT_DIRECTIONAL;
-    }
-    return area * settings.lightSamples <= 1 && !settings.cs184 ? gpu::LIGHT_NUMBERS_SHARED
-                                                                : gpu::LIGHT_NUMBERS_FIRST;
+    const DirectSampling direct = directSampling(scene.lights, settings);
+    return direct.hemisphere + direct.lights <= 1 ? gpu::LIGHT_NUMBERS_SHARED
+                                                  : gpu::LIGHT_NUMBERS_FIRST;
 }
 
-bool misIsWanted(const Estimator& settings) {
-    return settings.directLight == DirectLight::Mis && !settings.cs184;
-}
-
-/// Where bounces from rough metals may find what light samples find too.
-bool usesMis(const GpuScene& scene, const Estimator& settings, uint32_t materialKinds) {
-    const bool metal = materialKinds & 1u << gpu::MATERIAL_MICROFACET;
-    return metal && misIsWanted(settings) &&
-           std::any_of(scene.lights.begin(), scene.lights.end(), [](const gpu::Light& light) {
-               return light.kind == gpu::LIGHT_SPHERE || light.kind == gpu::LIGHT_AMBIENT ||
-                      light.flags & gpu::LIGHT_FOUND_BY_BOUNCES;
-           });
+/// Lobes from which MIS can help: where light samples and bounces find the same light.
+uint32_t misLobes(const GpuScene& scene, const Estimator& settings, uint32_t bsdfKinds) {
+    const bool wanted = settings.directLight == DirectLight::Mis && !settings.cs184;
+    if (!wanted || scene.lights.areaCount == 0) return 0;
+    return lobesOf(bsdfKinds) & gpu::GLOSSY_LOBES;
 }
 
 bool guidesBounces(const GpuScene& scene, const Estimator& settings) {
-    return settings.guides && scene.lampGap != 0 && samplesLights(settings.directLight) &&
+    return settings.guides && scene.gapWidth != 0 && samplesLights(settings.directLight) &&
            settings.integrator == Integrator::Path && !settings.cs184 && settings.maxBounces > 1;
 }
 
 void switchOnAllTheSceneCouldHave(KernelFeatures& f, const Estimator& settings) {
     f[SPEC_HAS_TRIANGLES] = f[SPEC_HAS_SPHERES] = f[SPEC_HAS_NORMALS] = f[SPEC_HAS_EMISSION] = 1;
-    f[SPEC_ONE_LIGHT] = 0;
     if (f[SPEC_LIGHT_NUMBERS] == gpu::LIGHT_NUMBERS_SHARED)
         f[SPEC_LIGHT_NUMBERS] = gpu::LIGHT_NUMBERS_FIRST;
-    f[SPEC_MATERIAL_KINDS] = (2u << gpu::MATERIAL_MICROFACET) - 1;
-    f[SPEC_LIGHT_KINDS] = (2u << gpu::LIGHT_SPOT) - 1;
-    f[SPEC_USE_MIS] = misIsWanted(settings);
+    f[SPEC_BSDF_KINDS] = (1u << gpu::BSDF_KIND_COUNT) - 1;
+    f[SPEC_LIGHT_KINDS] = (1u << gpu::LIGHT_KIND_COUNT) - 1;
+    if (f[SPEC_LIGHT_GROUPS]) f[SPEC_LIGHT_GROUPS] = (1u << gpu::LIGHT_GROUP_COUNT) - 1;
+    if (settings.directLight == DirectLight::Mis && !settings.cs184)
+        f[SPEC_MIS_LOBES] |= gpu::GLOSSY_LOBES;
 }
 
 std::string list(uint32_t bits, const std::vector<const char*>& names) {
@@ -89,6 +83,22 @@ std::string list(uint32_t bits, const std::vector<const char*>& names) {
 }
 
 } // namespace
+
+uint32_t lightChoiceConstant(const LightTable& lights) {
+    if (lights.count == 1) return gpu::LIGHT_CHOICE_ONE;
+    switch (lights.choice) {
+    case LightChoice::Automatic: // has been resolved by packLights()
+    case LightChoice::Tree:
+        return gpu::LIGHT_CHOICE_TREE;
+    case LightChoice::Power:
+        return gpu::LIGHT_CHOICE_POWER;
+    case LightChoice::Uniform:
+        return gpu::LIGHT_CHOICE_UNIFORM;
+    case LightChoice::Each:
+        return gpu::LIGHT_CHOICE_EACH;
+    }
+    return gpu::LIGHT_CHOICE_TREE;
+}
 
 KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
                               const Estimator& settings, const DeviceTuning& tuning) {
@@ -101,8 +111,8 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_HAS_TRIANGLES] = scene.hasTriangles;
     f[SPEC_HAS_SPHERES] = scene.hasSpheres;
     f[SPEC_HAS_NORMALS] = scene.hasNormals;
-    f[SPEC_MATERIAL_KINDS] = normalsOnly ? 0 : materialKinds(scene);
-    f[SPEC_HAS_EMISSION] = !normalsOnly && hasEmission(scene);
+    f[SPEC_BSDF_KINDS] = normalsOnly ? 0 : scene.bsdfKinds;
+    f[SPEC_HAS_EMISSION] = !normalsOnly && scene.hasEmission;
     f[SPEC_LIGHT_KINDS] = lightKinds(scene, settings);
     f[SPEC_INTEGRATOR] = normalsOnly ? gpu::INTEGRATOR_NORMALS : gpu::INTEGRATOR_PATH;
     f[SPEC_DIRECT_LIGHT] = samplesLights(settings.directLight) ? gpu::DIRECT_LIGHTS
@@ -120,16 +130,13 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_ORTHOGRAPHIC] = camera.orthographic;
     f[SPEC_CLIP_ALONG_RAY] = camera.clipAlongRay;
     f[SPEC_CS184] = settings.cs184;
-    f[SPEC_ONE_LIGHT] = scene.lights.size() == 1;
-    f[SPEC_LIGHT_SAMPLES] = settings.lightSamples;
-    f[SPEC_LIGHT_CHOICE] = !scene.manyLampTriangles                  ? gpu::LIGHT_CHOICE_AREA
-                           : scene.lightChoice == LightChoice::Tree  ? gpu::LIGHT_CHOICE_TREE
-                           : scene.lightChoice == LightChoice::Power ? gpu::LIGHT_CHOICE_POWER
-                                                                     : gpu::LIGHT_CHOICE_UNIFORM;
+    f[SPEC_LIGHT_SAMPLES] = directSampling(scene.lights, settings).perLight;
+    f[SPEC_LIGHT_CHOICE] = lightChoiceConstant(scene.lights);
+    f[SPEC_LIGHT_GROUPS] = scene.lights.groups;
     f[SPEC_SAMPLER] =
         settings.sampler == Sampler::Sobol ? gpu::SAMPLER_SOBOL : gpu::SAMPLER_INDEPENDENT;
     f[SPEC_LIGHT_NUMBERS] = lightNumbers(scene, settings);
-    f[SPEC_USE_MIS] = usesMis(scene, settings, f[SPEC_MATERIAL_KINDS]);
+    f[SPEC_MIS_LOBES] = normalsOnly ? 0 : misLobes(scene, settings, f[SPEC_BSDF_KINDS]);
     f[SPEC_SPLITS] = settings.branches > 1;
     f[SPEC_GUIDES] = guidesBounces(scene, settings);
     f[SPEC_COUNT_STEPS] = tuning.countSteps;
@@ -146,24 +153,23 @@ std::vector<std::string> describe(const KernelFeatures& f) {
     return {
         fmt::format("primitives: {}", primitives),
         fmt::format("shading normals: {}", f[SPEC_HAS_NORMALS] ? "interpolated" : "none"),
-        fmt::format("materials: {}",
-                    list(f[SPEC_MATERIAL_KINDS],
-                         {"diffuse", "mirror", "refraction", "glass", "microfacet"})),
+        fmt::format("materials: {}", list(f[SPEC_BSDF_KINDS], {"diffuse", "mirror", "refraction",
+                                                               "glass", "rough conductor"})),
         fmt::format("emission: {}", f[SPEC_HAS_EMISSION] ? "yes" : "none"),
-        fmt::format("lights: {}", list(f[SPEC_LIGHT_KINDS], {"quad", "mesh", "sphere", "ambient",
+        fmt::format("lights: {}", list(f[SPEC_LIGHT_KINDS], {"quad", "triangle", "sphere", "ambient",
                                                              "directional", "point", "spot"})),
         fmt::format("integrator: {}",
                     nameOf(f[SPEC_INTEGRATOR] == gpu::INTEGRATOR_PATH ? Integrator::Path
                                                                       : Integrator::Normals)),
         fmt::format("direct light: {}{}", kDirect[f[SPEC_DIRECT_LIGHT]],
-                    f[SPEC_USE_MIS] ? ", with bounces from rough metals" : ""),
+                    f[SPEC_MIS_LOBES] ? ", shared with bounces (MIS)" : ""),
         fmt::format(
             "sampler: {}",
             nameOf(f[SPEC_SAMPLER] == gpu::SAMPLER_SOBOL ? Sampler::Sobol : Sampler::Independent)),
         fmt::format("roulette: {}", kRoulette[f[SPEC_ROULETTE]]),
         fmt::format("paths: {}", f[SPEC_SPLITS] ? "with branches" : "each by itself"),
         fmt::format("bounces: {}",
-                    f[SPEC_GUIDES] ? "some into the gap behind the lamp" : "by the materials"),
+                    f[SPEC_GUIDES] ? "some into the gap behind the light" : "by the materials"),
         fmt::format("camera: {}", f[SPEC_ORTHOGRAPHIC] ? "orthographic" : "perspective"),
         fmt::format("CS184 conventions: {}", f[SPEC_CS184] ? "yes" : "no"),
         fmt::format("traversal stack: {} entries", f[SPEC_STACK_SIZE]),

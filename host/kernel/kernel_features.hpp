@@ -20,6 +20,9 @@ using KernelFeatures = std::array<uint32_t, SPEC_COUNT>;
 KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
                               const Estimator& settings, const DeviceTuning& tuning);
 
+/// The LIGHT_CHOICE_ that a kernel for these lights has.
+uint32_t lightChoiceConstant(const LightTable& lights);
+
 /// The features that a kernel contains, in words, for `stromboli info`.
 std::vector<std::string> describe(const KernelFeatures& features);
 

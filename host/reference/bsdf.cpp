@@ -10,99 +10,160 @@
 namespace stromboli::reference {
 namespace {
 
-/// A sample in the frame of the shading normal.
-struct LocalSample {
-    glm::dvec3 direction{0, 0, 1};
-    glm::dvec3 weight{0.0};
-    bool transmitted = false;
+/// What a BSDF knows of how light arrives. wo: unit, in the frame of the shading normal; entering:
+/// it comes from outside of what the surface bounds.
+struct Incidence {
+    glm::dvec3 wo;
+    bool entering;
+    Convention convention;
 };
 
-LocalSample reflect(const glm::dvec3& wo, const glm::dvec3& reflectance) {
-    return {{-wo.x, -wo.y, wo.z}, reflectance, false};
+// Samples are in the frame of the shading normal, too.
+
+BsdfSample reflect(const glm::dvec3& wo, const glm::dvec3& reflectance) {
+    return {{-wo.x, -wo.y, wo.z}, reflectance, 0, gpu::LOBE_DELTA_REFLECTION};
 }
 
 /// Refraction to the far side. eta: index of the side of wo over that of the other.
-LocalSample refract(const glm::dvec3& wo, double eta, double cosTransmitted,
-                    const glm::dvec3& weight) {
+BsdfSample refract(const glm::dvec3& wo, double eta, double cosTransmitted,
+                   const glm::dvec3& weight) {
     const double z = wo.z >= 0 ? -cosTransmitted : cosTransmitted;
-    return {{-eta * wo.x, -eta * wo.y, z}, weight, true};
+    return {{-eta * wo.x, -eta * wo.y, z}, weight, 0, gpu::LOBE_DELTA_TRANSMISSION};
 }
 
-LocalSample sampleDiffuse(const Material& m, RandomStream& random) {
-    const double u = random.next(), v = random.next();
-    return {cosineHemisphere(u, v), m.albedo, false};
+// --- Diffuse -----------------------------------------------------------------------------------
+
+BsdfValue evaluateDiffuse(const Material& m, const glm::dvec3& wi) {
+    if (!(wi.z > 0)) return {};
+    return {glm::dvec3(m.albedo) * (wi.z / kPi), wi.z / kPi};
 }
 
-LocalSample sampleMicrofacet(const Material& m, const glm::dvec3& wo, RandomStream& random,
-                             Convention convention) {
-    const double u = random.next(), v = random.next();
-    const glm::dvec3 h = sampleBeckmann(m.alpha, u, v);
-    const glm::dvec3 wi = 2 * glm::dot(wo, h) * h - wo;
-    if (!(wo.z > 0 && wi.z > 0)) return {};
-    const double density = microfacetDensity(m.alpha, wo, wi);
-    // So far down the tail of D that it has no double.
-    if (!(density > 0)) return {};
-    return {wi, microfacet(m, wo, wi, convention) * (wi.z / density), false};
+BsdfSample sampleDiffuse(const Material& m, const glm::dvec3& u) {
+    const glm::dvec3 wi = cosineHemisphere(u.x, u.y);
+    return {wi, m.albedo, wi.z / kPi, gpu::LOBE_DIFFUSE_REFLECTION};
 }
 
-/// Refraction and Glass. Radiance over the squared index is invariant: the path, traced against
+// --- Rough conductor -----------------------------------------------------------------------------
+
+BsdfValue evaluateRoughConductor(const Material& m, const Incidence& i, const glm::dvec3& wi) {
+    if (!(i.wo.z > 0 && wi.z > 0)) return {};
+    return {microfacet(m, i.wo, wi, i.convention) * wi.z, microfacetDensity(m.alpha, i.wo, wi)};
+}
+
+BsdfSample sampleRoughConductor(const Material& m, const Incidence& i, const glm::dvec3& u) {
+    const glm::dvec3 h = sampleBeckmann(m.alpha, u.x, u.y);
+    const glm::dvec3 wi = 2 * glm::dot(i.wo, h) * h - i.wo;
+    const BsdfValue f = evaluateRoughConductor(m, i, wi);
+    BsdfSample sample{wi, glm::dvec3(0.0), f.pdf, gpu::LOBE_GLOSSY_REFLECTION};
+    // The density is 0 so far down the tail of D that it has no double.
+    if (f.pdf > 0) sample.weight = f.value / f.pdf;
+    return sample;
+}
+
+// --- Interfaces
+// ------------------------------------------------------------------------------------
+
+/// Refraction and glass. Radiance over the squared index is invariant: the path, traced against
 /// the light, gains (index here / index beyond)^2; the CS184 renderer has the inverse.
-LocalSample sampleInterface(const Material& m, const glm::dvec3& wo, bool entering,
-                            RandomStream& random, Convention convention) {
-    const bool physical = convention == Convention::Physical;
-    const double ior = m.ior, eta = entering ? 1 / ior : ior;
-    const double cosine = std::min(std::abs(wo.z), 1.0);
+BsdfSample sampleInterface(const Material& m, const Incidence& i, double u) {
+    const bool physical = i.convention == Convention::Physical;
+    const double ior = m.ior, eta = i.entering ? 1 / ior : ior;
+    const double cosine = std::min(std::abs(i.wo.z), 1.0);
     const Interface face = dielectric(cosine, eta);
     const glm::dvec3 transmitted =
         glm::dvec3(m.transmittance) * (physical ? eta * eta : 1 / (eta * eta));
     if (m.kind == MaterialKind::Refraction)
-        return face.total ? LocalSample{} : refract(wo, eta, face.cosTransmitted, transmitted);
+        return face.total ? BsdfSample{} : refract(i.wo, eta, face.cosTransmitted, transmitted);
 
     const double reflectance = physical || face.total ? face.reflectance : schlick(cosine, ior);
-    if (random.next() < reflectance) return reflect(wo, m.reflectance);
-    return refract(wo, eta, face.cosTransmitted, transmitted);
+    if (u < reflectance) return reflect(i.wo, m.reflectance);
+    return refract(i.wo, eta, face.cosTransmitted, transmitted);
 }
 
-LocalSample sampleLocal(const SurfacePoint& s, const glm::dvec3& wo, RandomStream& random,
-                        Convention convention) {
-    const Material& m = *s.material;
-    const bool entering = convention == Convention::Physical ? s.outside : wo.z >= 0;
+// --- All kinds
+// -------------------------------------------------------------------------------------
+
+BsdfValue evaluateLocally(const Material& m, const Incidence& i, const glm::dvec3& wi) {
     switch (m.kind) {
     case MaterialKind::Diffuse:
-        return sampleDiffuse(m, random);
+        return evaluateDiffuse(m, wi);
+    case MaterialKind::Microfacet:
+        return evaluateRoughConductor(m, i, wi);
     case MaterialKind::Mirror:
-        return reflect(wo, m.reflectance);
     case MaterialKind::Refraction:
     case MaterialKind::Glass:
-        return sampleInterface(m, wo, entering, random, convention);
-    case MaterialKind::Microfacet:
-        return sampleMicrofacet(m, wo, random, convention);
+        return {}; // delta lobes
     }
     return {};
 }
 
-} // namespace
-
-glm::dvec3 evaluateBsdf(const SurfacePoint& s, const glm::dvec3& wi, Convention convention) {
-    const Material& m = *s.material;
-    const double cosine = glm::dot(s.shading, wi);
-    if (m.isDelta() || !(cosine > 0)) return glm::dvec3(0.0);
-    if (convention == Convention::Physical && !isReflected(s, wi)) return glm::dvec3(0.0);
-    if (m.kind == MaterialKind::Diffuse) return glm::dvec3(m.albedo) * (cosine / kPi);
-    const Frame frame(s.shading);
-    return microfacet(m, frame.toLocal(s.wo), frame.toLocal(wi), convention) * cosine;
+BsdfSample sampleLocally(const Material& m, const Incidence& i, const glm::dvec3& u) {
+    switch (m.kind) {
+    case MaterialKind::Diffuse:
+        return sampleDiffuse(m, u);
+    case MaterialKind::Mirror:
+        return reflect(i.wo, m.reflectance);
+    case MaterialKind::Refraction:
+    case MaterialKind::Glass:
+        return sampleInterface(m, i, u.z);
+    case MaterialKind::Microfacet:
+        return sampleRoughConductor(m, i, u);
+    }
+    return {};
 }
 
-BsdfSample sampleBsdf(const SurfacePoint& s, RandomStream& random, Convention convention) {
-    random.beginBlock();
+Incidence incidenceOn(const SurfacePoint& s, const Frame& frame, Convention convention) {
+    const glm::dvec3 wo = frame.toLocal(s.wo);
+    return {wo, convention == Convention::Physical ? s.outside : wo.z >= 0, convention};
+}
+
+/// Light stays on the side of the true surface that its lobe sends it to.
+bool isOnItsSide(const SurfacePoint& s, const glm::dvec3& wi, bool transmitted,
+                 Convention convention) {
+    if (convention == Convention::Cs184) return true;
+    return transmitted ? glm::dot(s.geometric, wi) < 0 : isReflected(s, wi);
+}
+
+} // namespace
+
+uint32_t lobesOf(const Material& material) {
+    switch (material.kind) {
+    case MaterialKind::Diffuse:
+        return gpu::LOBE_DIFFUSE_REFLECTION;
+    case MaterialKind::Mirror:
+        return gpu::LOBE_DELTA_REFLECTION;
+    case MaterialKind::Refraction:
+        return gpu::LOBE_DELTA_TRANSMISSION;
+    case MaterialKind::Glass:
+        return gpu::LOBE_DELTA_REFLECTION | gpu::LOBE_DELTA_TRANSMISSION;
+    case MaterialKind::Microfacet:
+        return gpu::LOBE_GLOSSY_REFLECTION;
+    }
+    return 0;
+}
+
+bool scattersIntoManyDirections(uint32_t lobes) {
+    return (lobes & ~gpu::DELTA_LOBES) != 0;
+}
+
+bool scattersAtRandom(uint32_t lobes) {
+    return lobes != gpu::LOBE_DELTA_REFLECTION && lobes != gpu::LOBE_DELTA_TRANSMISSION;
+}
+
+BsdfValue evaluateBsdf(const SurfacePoint& s, const glm::dvec3& wi, Convention convention) {
     const Frame frame(s.shading);
-    const LocalSample local = sampleLocal(s, frame.toLocal(s.wo), random, convention);
+    const glm::dvec3 local = frame.toLocal(wi);
+    if (!isOnItsSide(s, wi, local.z < 0, convention)) return {};
+    return evaluateLocally(*s.material, incidenceOn(s, frame, convention), local);
+}
+
+BsdfSample sampleBsdf(const SurfacePoint& s, const glm::dvec3& u, Convention convention) {
+    const Frame frame(s.shading);
+    BsdfSample sample = sampleLocally(*s.material, incidenceOn(s, frame, convention), u);
     // Rounding errors of the direction's length would add up along a path.
-    BsdfSample sample{glm::normalize(frame.toWorld(local.direction)), local.weight,
-                      local.transmitted};
-    const bool rightSide = local.transmitted ? glm::dot(s.geometric, sample.direction) < 0
-                                             : isReflected(s, sample.direction);
-    if (convention == Convention::Physical && !rightSide) sample.weight = glm::dvec3(0.0);
+    sample.direction = glm::normalize(frame.toWorld(sample.direction));
+    if (!isOnItsSide(s, sample.direction, sample.transmitted(), convention))
+        sample.weight = glm::dvec3(0.0);
     return sample;
 }
 

@@ -1,22 +1,40 @@
 #pragma once
 
-#include "host/reference/random.hpp"
 #include "host/reference/surface.hpp"
+#include "shaders/shared/bsdf_types.h"
 
 namespace stromboli::reference {
 
-/// A sampled bounce.
-struct BsdfSample {
-    glm::dvec3 direction{0.0}; ///< unit, world space, away from the surface
-    glm::dvec3 weight{0.0};    ///< f |cos| / pdf (solid angle); 0 ends the path
-    bool transmitted = false;  ///< to the other side of the surface
+/// Value and density of a BSDF for one pair of directions; both 0 where nothing scatters.
+struct BsdfValue {
+    glm::dvec3 value{0.0}; ///< f |cos(wi, shading normal)|
+    double pdf = 0;        ///< density of sampleBsdf(), by solid angle
 };
 
-/// f(wo, wi) |cos(wi, shading normal)| for a unit world direction wi away from the surface; 0 for
-/// delta materials. The surface is faced forward.
-glm::dvec3 evaluateBsdf(const SurfacePoint& surface, const glm::dvec3& wi, Convention convention);
+/// A sampled direction.
+struct BsdfSample {
+    glm::dvec3 direction{0, 0, 1};                ///< unit, world space, away from the surface
+    glm::dvec3 weight{0.0};                       ///< f |cos| / pdf; 0 ends the path
+    double pdf = 0;                               ///< by solid angle; delta lobes: of no meaning
+    uint32_t lobe = gpu::LOBE_DIFFUSE_REFLECTION; ///< one gpu::LOBE_ bit
 
-/// Samples the direction of the next bounce. The surface is faced forward.
-BsdfSample sampleBsdf(const SurfacePoint& surface, RandomStream& random, Convention convention);
+    bool transmitted() const { return lobe & gpu::TRANSMISSION_LOBES; } ///< to the other side
+    bool isDelta() const { return lobe & gpu::DELTA_LOBES; }
+};
+
+/// All lobes of a material, gpu::LOBE_ bits.
+uint32_t lobesOf(const Material& material);
+/// Whether light samples can find light that these lobes scatter.
+bool scattersIntoManyDirections(uint32_t lobes);
+/// Whether two paths that arrive by the same ray may leave by different ones.
+bool scattersAtRandom(uint32_t lobes);
+
+/// For a unit world direction wi away from the surface, of all lobes but delta ones. The surface is
+/// faced forward.
+BsdfValue evaluateBsdf(const SurfacePoint& surface, const glm::dvec3& wi, Convention convention);
+
+/// Samples the direction of the next bounce. u, each uniform in [0, 1): x and y for the direction
+/// within a lobe, z for the choice of one of several lobes. The surface is faced forward.
+BsdfSample sampleBsdf(const SurfacePoint& surface, const glm::dvec3& u, Convention convention);
 
 } // namespace stromboli::reference

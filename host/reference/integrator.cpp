@@ -8,10 +8,6 @@
 namespace stromboli::reference {
 namespace {
 
-bool scattersAtRandom(const Material& material) {
-    return material.kind != MaterialKind::Mirror && material.kind != MaterialKind::Refraction;
-}
-
 double largest(const glm::dvec3& v) {
     return std::max({v.x, v.y, v.z});
 }
@@ -32,8 +28,9 @@ void PathSample::follow(uint32_t bounce, bool splits) {
     for (; bounce <= settings_.maxBounces; ++bounce) {
         faceForward(surface_, world_.convention);
         if (!survivesFixed()) return;
-        if (!surface_.material->isDelta() && bounce >= settings_.minBounce) addDirectLight();
-        if (splits && scattersAtRandom(*surface_.material)) return followBranches(bounce);
+        const uint32_t lobes = lobesOf(*surface_.material);
+        if (scattersIntoManyDirections(lobes) && bounce >= settings_.minBounce) addDirectLight();
+        if (splits && scattersAtRandom(lobes)) return followBranches(bounce);
         if (!scatter(bounce)) return;
     }
 }
@@ -51,15 +48,15 @@ void PathSample::followBranches(uint32_t bounce) {
 }
 
 bool PathSample::scatter(uint32_t bounce) {
-    const BsdfSample next = sampleBsdf(surface_, random_, world_.convention);
+    const BsdfSample next = sampleBsdf(surface_, random_.threeNumbers(), world_.convention);
     throughput_ *= next.weight;
     if (!(largest(throughput_) > 0)) return false;
     if (!survivesThroughput(bounce)) return false;
 
-    const bool counts = emissionCounts(bounce);
+    const bool counts = emissionCounts(bounce, next.isDelta());
     if (bounce == settings_.maxBounces && !counts) return false;
-    const bool hit = next.transmitted ? arrive(transmit(next.direction), {surface_.triangle})
-                                      : arrive(reflect(next.direction), {startOfReflected()});
+    const bool hit = next.transmitted() ? arrive(transmit(next.direction), {surface_.triangle})
+                                        : arrive(reflect(next.direction), {startOfReflected()});
     if (counts && hit) addEmission();
     if (counts && !hit) radiance_ += throughput_ * world_.lights.ambientRadiance(next.direction);
     return hit;
@@ -97,10 +94,10 @@ void PathSample::addEmission() {
 
 /// Whether a lamp that the ray after this scattering finds adds to the picture, or whether direct
 /// light has accounted for it.
-bool PathSample::emissionCounts(uint32_t bounce) const {
+bool PathSample::emissionCounts(uint32_t bounce, bool delta) const {
     const bool bsdfMode =
         settings_.directLight == DirectLight::Bsdf && world_.convention == Convention::Physical;
-    return bounce >= settings_.minBounce && (surface_.material->isDelta() || bsdfMode);
+    return bounce >= settings_.minBounce && (delta || bsdfMode);
 }
 
 bool PathSample::survivesFixed() {
@@ -140,7 +137,7 @@ void PathSample::addDeltaLights() {
 
 void PathSample::addLightSample(const LightSample& light, double share) {
     const glm::dvec3 value =
-        light.value * evaluateBsdf(surface_, light.direction, world_.convention) * share;
+        light.value * evaluateBsdf(surface_, light.direction, world_.convention).value * share;
     if (!(largest(value) > 0)) return;
     Ray ray = reflect(light.direction);
     if (!light.infinite) {
@@ -163,7 +160,7 @@ void PathSample::addHemisphereSamples() {
         const double u = random_.next(), v = random_.next();
         const glm::dvec3 direction = frame.toWorld(uniformHemisphere(u, v));
         const glm::dvec3 weight =
-            evaluateBsdf(surface_, direction, world_.convention) * (2 * kPi / double(count));
+            evaluateBsdf(surface_, direction, world_.convention).value * (2 * kPi / double(count));
         if (!(largest(weight) > 0)) continue;
         ++rays_;
         const Ray ray = reflect(direction);

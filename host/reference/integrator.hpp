@@ -35,7 +35,7 @@ class PathSample {
     /// What a reflected ray cannot hit: the plane it starts on, but not one that it starts above.
     uint32_t startOfReflected() const;
     void addEmission();
-    bool emissionCounts(uint32_t bounce) const;
+    bool emissionCounts(uint32_t bounce, bool delta) const;
     bool survivesFixed();
     bool survivesThroughput(uint32_t bounce);
     void addDirectLight();

@@ -68,6 +68,12 @@ void RandomStream::beginBlock() {
     used_ = unsigned(numbers_.size());
 }
 
+glm::dvec3 RandomStream::threeNumbers() {
+    beginBlock();
+    const double x = next(), y = next(), z = next();
+    return {x, y, z};
+}
+
 RandomStream RandomStream::branch(uint32_t number, uint32_t count) const {
     constexpr uint32_t kBranchBlocks = 1u << 31;
     RandomStream stream(pixel_, sample_ * count + number, seed_, sampler_);

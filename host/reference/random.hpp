@@ -2,6 +2,8 @@
 
 #include "host/render/settings.hpp"
 
+#include <glm/glm.hpp>
+
 #include <array>
 #include <cstdint>
 
@@ -25,6 +27,8 @@ class RandomStream {
     /// Takes the next numbers from the beginning of a block: to be called before numbers that
     /// belong together, so that they are even together.
     void beginBlock();
+    /// The first three numbers of the next block.
+    glm::dvec3 threeNumbers();
     /// What the sample draws from here on in one of its branches: `count` times as many as there
     /// are samples, spread evenly together, in blocks that no unsplit path takes.
     RandomStream branch(uint32_t number, uint32_t count) const;

@@ -18,15 +18,15 @@ inline constexpr auto kNamedValues<Integrator> = std::to_array<NamedValue<Integr
 
 /// How the light that reaches a surface straight from a lamp is estimated (docs/estimator.md).
 enum class DirectLight {
-    Mis,        ///< sample each light; bounces from rough metals find lamps too, weighted
-    Lights,     ///< sample each light
+    Mis,        ///< sample lights; bounces find them too, weighted, where that helps
+    Lights,     ///< sample lights
     Hemisphere, ///< sample uniform directions; delta lights as in Lights
     Bsdf,       ///< let the bounce find the lamps; delta lights as in Lights
 };
 template <>
 inline constexpr auto kNamedValues<DirectLight> = std::to_array<NamedValue<DirectLight>>({
-    {DirectLight::Mis, "mis", "by sampling each lamp, and from rough metals by bounces too"},
-    {DirectLight::Lights, "lights", "by sampling each lamp"},
+    {DirectLight::Mis, "mis", "by sampling lights, and by bounces too where that helps"},
+    {DirectLight::Lights, "lights", "by sampling lights alone"},
     {DirectLight::Hemisphere, "hemisphere", "by uniform directions"},
     {DirectLight::Bsdf, "bsdf", "by bounces"},
 });
@@ -45,17 +45,21 @@ inline constexpr auto kNamedValues<Sampler> = std::to_array<NamedValue<Sampler>>
     {Sampler::Sobol, "sobol", "the samples of a pixel spread evenly, less noise"},
 });
 
-/// How a sample of many emissive triangles picks one (docs/estimator.md, "Many lamps").
+/// How a light sample picks one of the lights (docs/estimator.md, "Which light").
 enum class LightChoice {
-    Tree,    ///< by what it is likely to bring to the surface
-    Power,   ///< by its power
-    Uniform, ///< the control
+    Automatic, ///< what suits the lights: Tree, but Each of two, and Power in a single small mesh
+    Tree,      ///< by what it is likely to bring to the surface
+    Power,     ///< by its power
+    Uniform,   ///< the control
+    Each,      ///< no choice: every light in turn
 };
 template <>
 inline constexpr auto kNamedValues<LightChoice> = std::to_array<NamedValue<LightChoice>>({
+    {LightChoice::Automatic, "auto", "tree, but each of two lights"},
     {LightChoice::Tree, "tree", "by what it is likely to bring to the surface"},
     {LightChoice::Power, "power", "by its power"},
     {LightChoice::Uniform, "uniform", "any, equally often"},
+    {LightChoice::Each, "each", "none is left out: every light in turn"},
 });
 
 struct Roulette {
@@ -81,13 +85,13 @@ struct Roulette {
 /// What is estimated, and how: what a sample is (docs/estimator.md). The same estimator, scene,
 /// picture size and device give the same sample for the same pixel and number.
 struct Estimator {
-    uint32_t lightSamples = 1; ///< per shading point and area light
+    uint32_t lightSamples = 1; ///< per shading point (LightChoice::Each: and area light)
     uint32_t maxBounces = 8;   ///< number of scatterings; 0: emission only
     uint32_t minBounce = 0;    ///< light scattered fewer times is left out
     Integrator integrator = Integrator::Path;
     DirectLight directLight = DirectLight::Mis;
     Sampler sampler = Sampler::Sobol;
-    LightChoice lightChoice = LightChoice::Tree;
+    LightChoice lightChoice = LightChoice::Automatic;
     uint32_t branches = 1; ///< paths of a sample, from the first surface that scatters at random on
     bool guides = true;    ///< bounces are sent into bright gaps too (docs/estimator.md, "Gaps")
     Roulette roulette;

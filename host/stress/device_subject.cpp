@@ -48,13 +48,14 @@ constexpr uint32_t kGroupSize = 64; ///< local_size_x of random_words.comp
 } // namespace
 
 std::unique_ptr<RayTracer> DeviceSubject::tracer(const Scene& scene) {
-    return std::make_unique<DeviceTracer>(device_, packScene(scene, buildWideBvh(scene), false));
+    return std::make_unique<DeviceTracer>(device_, packScene(scene, buildWideBvh(scene)));
 }
 
 Picture DeviceSubject::render(const Scene& scene, const Camera& camera,
                               const RenderSettings& settings, const KernelTuning& tuning,
                               const ProgressCallback& progress) {
-    const GpuScene packed = packScene(scene, buildWideBvh(scene), settings.estimator.cs184);
+    const GpuScene packed =
+        packScene(scene, buildWideBvh(scene), lightSelection(settings.estimator));
     VulkanBackend backend(device_, packed, camera, settings, tuning);
     Picture picture;
     picture.film = stromboli::render(backend, settings, progress);

@@ -18,7 +18,7 @@ SCENE_BUFFER(BINDING_RECORDS, recordRows)
 SCENE_BUFFER(BINDING_PRIMITIVES, primitiveRows)
 SCENE_BUFFER(BINDING_MATERIALS, materialRows)
 SCENE_BUFFER(BINDING_LIGHTS, lightRows)
-SCENE_BUFFER(BINDING_EMITTER_ENTRIES, emitterEntryRows)
+SCENE_BUFFER(BINDING_LIGHT_TABLE, lightTableRows)
 
 /// A record of the BVH as it lies in memory: a NodeRecord or a LeafRecord.
 struct Record {
@@ -49,12 +49,14 @@ struct PlacedPrimitive {
     float radius;    ///< spheres
     bool isSphere;
     uint primitive; ///< in the Primitive buffer
+    uint light;     ///< its number among the lights; NO_LIGHT: it is none
 };
 
 PlacedPrimitive fetchPlace(uint place) {
     const uint slot = place & 1u, row = RECORD_ROWS * (place >> 1u);
     const uvec4 first = ROW(recordRows, row), last = ROW(recordRows, row + 3u);
-    const vec3 own = uintBitsToFloat(ROW(recordRows, row + 1u + slot).xyz); // p1 or p3
+    const uvec4 ownRow = ROW(recordRows, row + 1u + slot);
+    const vec3 own = uintBitsToFloat(ownRow.xyz); // p1 or p3
     const vec3 p2 = uintBitsToFloat(last.xyz);
     PlacedPrimitive p;
     p.v0 = uintBitsToFloat(first.xyz);
@@ -63,6 +65,7 @@ PlacedPrimitive fetchPlace(uint place) {
     p.radius = uintBitsToFloat(last.w);
     p.isSphere = HAS_SPHERES && (!HAS_TRIANGLES || (first.w & RECORD_IS_SPHERE) != 0u);
     p.primitive = (first.w & RECORD_INDEX_MASK) + slot;
+    p.light = ownRow.w;
     return p;
 }
 
@@ -75,38 +78,54 @@ bool isSmooth(Primitive p) { return HAS_NORMALS && (p.material & PRIMITIVE_IS_SM
 
 uint materialOf(Primitive p) { return HAS_NORMALS ? p.material & ~PRIMITIVE_IS_SMOOTH : p.material; }
 
-Material fetchMaterial(uint index) {
-    const uvec4 r0 = ROW(materialRows, 4u * index);
-    uvec4 r1 = uvec4(0u), r2 = uvec4(0u), r3 = uvec4(0u);
-    if (HAS_EMISSION) r1 = ROW(materialRows, 4u * index + 1u);
-    if (sceneHasMaterial(MATERIAL_REFRACTION) || sceneHasMaterial(MATERIAL_GLASS) ||
-        sceneHasMaterial(MATERIAL_MICROFACET))
-        r2 = ROW(materialRows, 4u * index + 2u);
-    if (sceneHasMaterial(MATERIAL_MICROFACET)) r3 = ROW(materialRows, 4u * index + 3u);
-    return Material(uintBitsToFloat(r0.xyz), r0.w, uintBitsToFloat(r1.xyz), r1.w,
-                    uintBitsToFloat(r2.xyz), uintBitsToFloat(r2.w), uintBitsToFloat(r3.xyz), r3.w);
+// --- Materials (shaders/shared/bsdf_types.h) --------------------------------------------------
+
+/// The rows of a material: its header, and two rows that its kind of BSDF reads its parameters from.
+struct Material {
+    uvec4 header, row1, row2;
+};
+
+/// Whether the material's BSDF is of this kind: known without looking where the scene has but one kind,
+/// or none of this one.
+bool isBsdf(Material m, uint kind) {
+    return sceneHasBsdf(kind) &&
+           (BSDF_KINDS == 1u << kind || (m.header.w & ~MATERIAL_EMITS_BOTH_SIDES) == kind);
 }
 
-Light fetchLight(uint index) {
-    const uvec4 r0 = ROW(lightRows, 5u * index), r1 = ROW(lightRows, 5u * index + 1u);
-    const uvec4 r2 = ROW(lightRows, 5u * index + 2u), r3 = ROW(lightRows, 5u * index + 3u);
-    uvec4 r4 = uvec4(0u);
-    if (sceneHasLight(LIGHT_MESH) || sceneHasLight(LIGHT_SPOT))
-        r4 = ROW(lightRows, 5u * index + 4u);
-    return Light(uintBitsToFloat(r0.xyz), r0.w, uintBitsToFloat(r1.xyz), uintBitsToFloat(r1.w),
-                 uintBitsToFloat(r2.xyz), r2.w, uintBitsToFloat(r3.xyz), r3.w, r4.x, r4.y,
-                 uintBitsToFloat(r4.z), uintBitsToFloat(r4.w));
+/// row: the material's first. Rows that no kind of the scene has are not read.
+Material fetchMaterial(uint row) {
+    const bool severalKinds = (BSDF_KINDS & (BSDF_KINDS - 1u)) != 0u;
+    Material m = Material(uvec4(0u), uvec4(0u), uvec4(0u));
+    if (HAS_EMISSION || severalKinds) m.header = ROW(materialRows, row);
+    m.row1 = ROW(materialRows, row + 1u);
+    if (sceneHasBsdf(BSDF_GLASS) || sceneHasBsdf(BSDF_ROUGH_CONDUCTOR))
+        m.row2 = ROW(materialRows, row + 2u);
+    return m;
 }
 
-/// root: row of the tree's first node.
-LightNode fetchLightNode(uint root, uint index) {
-    const uvec4 r0 = ROW(emitterEntryRows, root + 2u * index),
-                r1 = ROW(emitterEntryRows, root + 2u * index + 1u);
-    return LightNode(uintBitsToFloat(r0.xyz), uintBitsToFloat(r0.w), r1.x, uintBitsToFloat(r1.y),
-                     uintBitsToFloat(r1.z), r1.w);
+vec3 emissionOf(Material m) { return uintBitsToFloat(m.header.xyz); }
+bool emitsBothSides(Material m) { return (m.header.w & MATERIAL_EMITS_BOTH_SIDES) != 0u; }
+
+// The parameters of each kind of BSDF; of a material of that kind.
+
+DiffuseParameters diffuseParameters(Material m) {
+    return DiffuseParameters(uintBitsToFloat(m.row1.xyz), m.row1.w);
 }
 
-EmitterEntry fetchEmitterEntry(uint index) {
-    const uvec4 r = ROW(emitterEntryRows, index);
-    return EmitterEntry(r.x, r.y, uintBitsToFloat(r.z), r.w);
+MirrorParameters mirrorParameters(Material m) {
+    return MirrorParameters(uintBitsToFloat(m.row1.xyz), m.row1.w);
+}
+
+RefractionParameters refractionParameters(Material m) {
+    return RefractionParameters(uintBitsToFloat(m.row1.xyz), uintBitsToFloat(m.row1.w));
+}
+
+GlassParameters glassParameters(Material m) {
+    return GlassParameters(uintBitsToFloat(m.row1.xyz), uintBitsToFloat(m.row1.w),
+                           uintBitsToFloat(m.row2.xyz), m.row2.w);
+}
+
+RoughConductorParameters roughConductorParameters(Material m) {
+    return RoughConductorParameters(uintBitsToFloat(m.row1.xyz), uintBitsToFloat(m.row1.w),
+                                    uintBitsToFloat(m.row2.xyz), m.row2.w);
 }

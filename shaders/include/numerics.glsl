@@ -4,8 +4,8 @@ const float PI = 3.14159265358979;
 const float INV_PI = 0.318309886183791;
 /// Unit round-off of float: 2^-24.
 const float UNIT_ROUNDOFF = 5.9604644775390625e-8;
-/// Widening of a box's far end: 1 + 2^-18 = 1 + 64 u (docs/numerics.md, "Boxes": 14 u for the slabs,
-/// 37 u with the error of a triangle's own distance).
+/// Widening of a box's far end: 1 + 2^-18 = 1 + 64 u (docs/numerics.md, "Boxes": 33 u are needed for the two
+/// ends of a slab, 40 u against the distance of a primitive).
 #ifdef PLAIN_BOXES // `stromboli bench`: what it costs
 const float BOX_SLACK = 1.0;
 #else
@@ -61,7 +61,7 @@ float smaller(float a, float b) {
     return intBitsToFloat(min(floatBitsToInt(a), floatBitsToInt(b)));
 }
 
-/// None is negative.
+/// Of a vector whose components are not negative.
 float largestComponent(vec3 v) { return larger(v.x, larger(v.y, v.z)); }
 
 /// Bound of the error of a point interpolated from corners whose weighted magnitudes sum to `sum`,

@@ -22,13 +22,13 @@ uvec2 pixelAt;  ///< column, row (from the top) in the whole picture
 uint bounce;    ///< scatterings so far
 vec3 throughput;
 vec3 radiance;
-bool countsEmission; ///< a lamp found by the ray adds to the picture ...
-float bouncePdf; ///< ... weighted, if it came from a surface where MIS combines (mis.glsl): density; else 0
+bool countsEmission; ///< light that the ray finds adds to the picture ...
+float bouncePdf; ///< ... weighted (mis.glsl), by this density of the ray's direction; 0: not weighted
+vec3 departureNormal; ///< shading normal of the surface that the ray has left, for that weight
 SurfacePoint surface;
 Material material;
 uint directIndex; ///< direct light samples done at this surface
-/// Drawn with the path ray for where it ends. x, y: for the first light sample there, unless
-/// LIGHT_NUMBERS_OWN; z: for roulette.
+/// Drawn with the path ray for where it ends. x, y: for the first light sample there; z: for roulette.
 vec3 arrivalNumbers;
 vec3 directValue; ///< what the ray under way adds if it is free (or, hemisphere, per radiance)
 uint rayCount;
@@ -46,18 +46,21 @@ uint branchesLeft; ///< that have not begun
 /// Blocks of random numbers that branches take: none of those before paths split.
 const uint BRANCH_BLOCKS = 0x80000000u;
 
+/// Direct light samples at a surface: directions of hemisphere sampling, then samples of lights.
+uint directSamples() { return frame.hemisphereSamples + frame.lightSamples; }
+
 /// The number of the sample under way, or the next one, of this pixel.
 uint sampleIndex() { return frame.firstSample + pixelState.count + pixelState.rejected; }
 
 /// Block 0 of a path ray, `bounce` of its path, is for the ray itself and for what happens where it ends;
 /// further light samples there take the blocks after it.
 uvec4 randomWords(uint slot) {
-    const uint block = bounce * (1u + frame.areaSamples + frame.deltaLights) + slot;
-    if (!SPLITS || splitPoint.bounce == 0u)
-        return randomWords(pixelId, sampleIndex(), block, frame.seed);
-    const uint branch = frame.branches - 1u - branchesLeft;
-    return randomWords(pixelId, sampleIndex() * frame.branches + branch, BRANCH_BLOCKS | block,
-                       frame.seed);
+    uint sample_ = sampleIndex(), block = bounce * (1u + directSamples()) + slot;
+    if (SPLITS && splitPoint.bounce != 0u) {
+        sample_ = sample_ * frame.branches + frame.branches - 1u - branchesLeft;
+        block |= BRANCH_BLOCKS;
+    }
+    return randomWords(pixelId, sample_, block, frame.seed);
 }
 
 /// Asks for a ray. It is started by startRay(): llvmpipe runs every branch for all lanes, so that
@@ -87,20 +90,13 @@ void startRay() {
 
 vec3 emissionAt(SurfacePoint s, Material m) {
     if (!HAS_EMISSION) return vec3(0.0);
-    return m.emitsBothSides != 0u || s.outside ? m.emission : vec3(0.0);
+    return emitsBothSides(m) || s.outside ? emissionOf(m) : vec3(0.0);
 }
 
-/// What MIS leaves to this bounce of the ambient light it has found.
-float ambientWeight() {
-    if (!USE_MIS || bouncePdf == 0.0) return 1.0;
-    return bounceWeight(AMBIENT_INVERSE_PDF, bouncePdf);
-}
-
-/// The same of an emissive surface, `material`; all of what no bounce is expected to find is light samples'.
-float emitterWeight() {
-    if (!USE_MIS || bouncePdf == 0.0) return 1.0;
-    if (material.light == NO_LIGHT) return 0.0;
-    return bounceWeight(lightSampleInversePdf(ray, material.light), bouncePdf);
+/// The share of the light that the path ray has found that is this ray's, and not light samples'.
+float foundShare() {
+    if (MIS_LOBES == 0u || bouncePdf == 0.0) return 1.0;
+    return foundLightWeight(ray, departureNormal, bouncePdf);
 }
 
 void finishShadowRay() {
@@ -110,7 +106,7 @@ void finishShadowRay() {
 
 void finishHemisphereRay() {
     const bool hit = ray.hitPrimitive != NO_PRIMITIVE;
-    vec3 found = CS184 ? vec3(0.0) : ambientRadiance(ray.direction);
+    vec3 found = BOUNCES_FIND_ALL_LIGHT ? ambientRadiance(ray.direction) : vec3(0.0);
     if (hit) {
         const SurfacePoint s = surfaceAt(ray);
         found = emissionAt(s, fetchMaterial(s.material));
@@ -119,13 +115,14 @@ void finishHemisphereRay() {
     phase = PHASE_DIRECT;
 }
 
-/// A path ray is done: takes in the emission and sets up the surface for scattering.
+/// A path ray is done: takes in the light that it has found and sets up the surface for scattering.
 void arrive() {
     const bool hit = ray.hitPrimitive != NO_PRIMITIVE;
     phase = PHASE_ENDED;
+    const float share = foundShare();
     if (!hit) {
-        if (countsEmission && bounce > 0u && !CS184)
-            radiance += throughput * ambientRadiance(ray.direction) * ambientWeight();
+        if (countsEmission && bounce > 0u && BOUNCES_FIND_ALL_LIGHT)
+            radiance += throughput * ambientRadiance(ray.direction) * share;
         return;
     }
     surface = surfaceAt(ray);
@@ -134,7 +131,7 @@ void arrive() {
         return;
     }
     material = fetchMaterial(surface.material);
-    if (countsEmission) radiance += throughput * emissionAt(surface, material) * emitterWeight();
+    if (countsEmission) radiance += throughput * emissionAt(surface, material) * share;
     faceForward(surface);
     ++bounce;
     if (bounce > frame.maxBounces) return;
@@ -142,61 +139,63 @@ void arrive() {
         if (arrivalNumbers.z < frame.terminationProbability) return;
         throughput /= 1.0 - frame.terminationProbability;
     }
-    const bool direct = !isDelta(material.kind) && bounce >= frame.minBounce;
-    directIndex = direct ? 0u : frame.areaSamples + frame.deltaLights;
+    const bool direct =
+        scattersIntoManyDirections(lobesOf(material)) && bounce >= frame.minBounce;
+    directIndex = direct ? 0u : directSamples();
     phase = PHASE_DIRECT;
 }
 
 // --- Departures --------------------------------------------------------------------------------
 
-/// Starts the ray of the next hemisphere sample.
-void sampleHemisphere(vec4 u) {
-    const vec3 w = toWorld(makeFrame(shadingNormal(surface)), sampleUniformHemisphere(u.xy));
-    directValue = evaluateBsdf(material, surface, w) * (2.0 * PI / float(frame.areaSamples));
-    if (dot(directValue, vec3(1.0)) > 0.0)
-        trace(PHASE_HEMISPHERE, leave(surface, w, false), w, 0.0, INFINITE_DISTANCE,
-              skipOnLeaving(surface, false));
+/// A direction of hemisphere sampling as a light sample whose light is not known yet.
+LightSample hemisphereSample(vec2 u) {
+    const vec3 w = toWorld(makeFrame(shadingNormal(surface)), sampleUniformHemisphere(u));
+    return LightSample(w, true, w, vec3(2.0 * PI / float(frame.hemisphereSamples)), 0.0);
 }
 
-Light lightOf(uint index) {
-    return lightNumber(index < frame.areaSamples ? index / LIGHT_SAMPLES
-                                                 : frame.areaLights + index - frame.areaSamples);
+/// A sample of one of the lights, with the probability of its choice and its share of the direct light in
+/// its radiance and density.
+LightSample lightSample(vec2 u, uint index) {
+    const PickedLight picked = pickLight(litPoint(surface), shadingNormal(surface), index, u);
+    LightSample light = sampleLight(surface, picked.light, picked.u);
+    const float perProbability =
+        picked.probability > 0.0 ? 1.0 / picked.probability : 0.0;
+    light.radiance *= perProbability * lightSampleShare(index);
+    light.inversePdf *= perProbability;
+    return light;
 }
 
-/// Starts the shadow ray of the next light sample, if that light can reach the surface.
-void sampleLights(vec4 u, uint index) {
-    const bool isArea = index < frame.areaSamples;
-    const LightSample light = sampleLight(surface, lightOf(index), u);
-    const float share = isArea ? 1.0 / float(LIGHT_SAMPLES) : 1.0;
-    directValue = evaluateBsdf(material, surface, light.direction) * light.radiance * share;
+/// Starts the ray of a direct light sample, if it can contribute.
+void traceDirectSample(LightSample light, bool hemisphere) {
+    const BsdfValue f = evaluateBsdf(material, surface, light.direction);
+    directValue = f.value * light.radiance;
     if (!(dot(directValue, vec3(1.0)) > 0.0)) return;
-    if (combines(material))
-        directValue *= lightSampleWeight(light.inversePdf,
-                                         microfacetPdf(material, surface, light.direction));
+    if (combines(lobesOf(material))) directValue *= lightSampleWeight(light.inversePdf, f.pdf);
     const vec3 origin = leave(surface, light.direction, false);
-    const uint skip = skipOnLeaving(surface, false);
-    if (light.infinite)
-        trace(PHASE_SHADOW, origin, light.direction, 0.0, INFINITE_DISTANCE, skip);
-    else
-        trace(PHASE_SHADOW, origin, light.target - origin, 0.0, 1.0, skip);
+    trace(hemisphere ? PHASE_HEMISPHERE : PHASE_SHADOW, origin,
+          light.infinite ? light.direction : light.target - origin, 0.0,
+          light.infinite ? INFINITE_DISTANCE : 1.0, skipOnLeaving(surface, false));
 }
 
-/// One direct light sample; a sample that cannot contribute traces nothing.
+/// One direct light sample.
 void sampleDirect() {
     const uint index = directIndex++;
-    vec4 u = vec4(arrivalNumbers.xy, 0.0, 0.0);
-    if (LIGHT_NUMBERS == LIGHT_NUMBERS_OWN || LIGHT_NUMBERS == LIGHT_NUMBERS_FIRST && index > 0u)
-        u = unitFloats(randomWords(1u + index));
-    if (DIRECT_LIGHT == DIRECT_HEMISPHERE && index < frame.areaSamples)
-        sampleHemisphere(u);
-    else
-        sampleLights(u, index);
+    vec2 u = arrivalNumbers.xy;
+    if (LIGHT_NUMBERS == LIGHT_NUMBERS_FIRST && index > 0u)
+        u = unitFloats(randomWords(1u + index)).xy;
+    const bool hemisphere = DIRECT_LIGHT == DIRECT_HEMISPHERE && index < frame.hemisphereSamples;
+    LightSample light;
+    if (hemisphere) light = hemisphereSample(u);
+    else light = lightSample(u, DIRECT_LIGHT == DIRECT_HEMISPHERE ? index - frame.hemisphereSamples
+                                                                  : index);
+    traceDirectSample(light, hemisphere);
 }
 
-/// A lamp found by the bounce from here adds to the picture.
-bool emissionCounts() {
-    return bounce >= frame.minBounce && (isDelta(material.kind) || combines(material) ||
-                                         (DIRECT_LIGHT == DIRECT_BSDF && !CS184));
+/// Whether light found by the bounce from here, from one of these lobes, adds to the picture.
+bool emissionCounts(uint lobes) {
+    return bounce >= frame.minBounce &&
+           (isDelta(lobes) || combines(lobes) ||
+            DIRECT_LIGHT == DIRECT_BSDF && BOUNCES_FIND_ALL_LIGHT);
 }
 
 /// All branches are of one weight. From here on `radiance` is their sum, until finishSample.
@@ -217,15 +216,13 @@ void nextBranch() {
 }
 
 /// No bounce from here would be traced.
-bool endsHere() { return bounce == frame.maxBounces && !emissionCounts(); }
+bool endsHere() { return bounce == frame.maxBounces && !emissionCounts(lobesOf(material)); }
 
-/// u: for the direction; roulette: for its end.
-void scatter(vec2 u, float roulette) {
+/// u: as sampleBsdf() takes it; roulette: for the path's end.
+void scatter(vec3 u, float roulette) {
     phase = PHASE_ENDED;
-    const bool guided = looksIntoGap(surface, material), aims = guided && u.x < GAP_SHARE;
-    if (guided) u = afterChoice(u);
-    BsdfSample b = sampleBsdf(material, surface, u);
-    const float guideWeight = guided ? mixWithGap(b, material, surface, aims, u) : 1.0;
+    float mixtureWeight;
+    const BsdfSample b = sampleBsdfOrGap(material, surface, u, mixtureWeight);
     throughput *= b.weight;
     const float largest = largestComponent(throughput);
     if (!(largest > 0.0)) return;
@@ -234,12 +231,13 @@ void scatter(vec2 u, float roulette) {
         if (roulette >= q) return;
         throughput *= 1.0 / q;
     }
-    // After roulette: a small weight is no reason to end a path that goes where it is bright.
-    if (guided) throughput *= guideWeight;
-    countsEmission = emissionCounts();
-    bouncePdf = combines(material) ? max(microfacetPdf(material, surface, b.direction), TINY) : 0.0;
-    trace(PHASE_PATH, leave(surface, b.direction, b.transmitted), b.direction, 0.0,
-          INFINITE_DISTANCE, skipOnLeaving(surface, b.transmitted));
+    if (GUIDES) throughput *= mixtureWeight;
+    const bool transmitted = isTransmission(b.lobe);
+    countsEmission = emissionCounts(b.lobe);
+    bouncePdf = combines(b.lobe) ? max(b.pdf, TINY) : 0.0;
+    departureNormal = shadingNormal(surface);
+    trace(PHASE_PATH, leave(surface, b.direction, transmitted), b.direction, 0.0, INFINITE_DISTANCE,
+          skipOnLeaving(surface, transmitted));
 }
 
 void beginSample() {
@@ -262,13 +260,14 @@ void startCameraRay(vec2 u) {
 void depart() {
     const bool begins = phase == PHASE_NEXT;
     if (begins) beginSample();
-    else if (SPLITS && splitPoint.bounce == 0u && scattersAtRandom(material.kind)) splitPath();
+    else if (SPLITS && splitPoint.bounce == 0u && scattersAtRandom(lobesOf(material))) splitPath();
     const uvec4 words = randomWords(0u);
     const vec4 u = unitFloats(words);
     arrivalNumbers = vec3(u.xy, leftOver(words));
-    const vec2 direction = LIGHT_NUMBERS == LIGHT_NUMBERS_OWN ? u.xy : u.zw;
-    if (begins) startCameraRay(direction);
-    else if (INTEGRATOR == INTEGRATOR_PATH) scatter(direction, arrivalNumbers.z);
+    // A kind of BSDF takes either the two numbers within a lobe or the one that chooses a lobe, so that
+    // both may be the same (host/kernel/kernel_features.cpp asserts it).
+    if (begins) startCameraRay(u.zw);
+    else if (INTEGRATOR == INTEGRATOR_PATH) scatter(u.zwz, arrivalNumbers.z);
 }
 
 /// The path is over, but not the sample.
@@ -290,9 +289,8 @@ void followPath() {
     else if (phase == PHASE_PATH) arrive();
 
     if (INTEGRATOR == INTEGRATOR_PATH) {
-        const uint directSamples = frame.areaSamples + frame.deltaLights;
-        if (phase == PHASE_DIRECT && directIndex < directSamples) sampleDirect();
-        if (phase == PHASE_DIRECT && directIndex >= directSamples)
+        if (phase == PHASE_DIRECT && directIndex < directSamples()) sampleDirect();
+        if (phase == PHASE_DIRECT && directIndex >= directSamples())
             phase = endsHere() ? PHASE_ENDED : PHASE_BOUNCE;
         if (branchIsOver()) nextBranch();
     }

@@ -7,7 +7,7 @@ layout(constant_id = SPEC_STACK_IN_REGISTERS) const bool STACK_IN_REGISTERS = fa
 layout(constant_id = SPEC_HAS_TRIANGLES) const bool HAS_TRIANGLES = true;
 layout(constant_id = SPEC_HAS_SPHERES) const bool HAS_SPHERES = true;
 layout(constant_id = SPEC_HAS_NORMALS) const bool HAS_NORMALS = true;
-layout(constant_id = SPEC_MATERIAL_KINDS) const uint MATERIAL_KINDS = 31u;
+layout(constant_id = SPEC_BSDF_KINDS) const uint BSDF_KINDS = 31u;
 layout(constant_id = SPEC_HAS_EMISSION) const bool HAS_EMISSION = true;
 layout(constant_id = SPEC_LIGHT_KINDS) const uint LIGHT_KINDS = 127u;
 layout(constant_id = SPEC_INTEGRATOR) const uint INTEGRATOR = INTEGRATOR_PATH;
@@ -16,22 +16,19 @@ layout(constant_id = SPEC_ROULETTE) const uint ROULETTE = ROULETTE_THROUGHPUT;
 layout(constant_id = SPEC_ORTHOGRAPHIC) const bool ORTHOGRAPHIC = false;
 layout(constant_id = SPEC_CLIP_ALONG_RAY) const bool CLIP_ALONG_RAY = false;
 layout(constant_id = SPEC_CS184) const bool CS184 = false;
-layout(constant_id = SPEC_ONE_LIGHT) const bool ONE_LIGHT = false;
+layout(constant_id = SPEC_LIGHT_GROUPS) const uint LIGHT_GROUPS = 7u;
 layout(constant_id = SPEC_LIGHT_SAMPLES) const uint LIGHT_SAMPLES = 1u;
 layout(constant_id = SPEC_SAMPLER) const uint SAMPLER = SAMPLER_INDEPENDENT;
-layout(constant_id = SPEC_LIGHT_CHOICE) const uint LIGHT_CHOICE = LIGHT_CHOICE_AREA;
-layout(constant_id = SPEC_LIGHT_NUMBERS) const uint LIGHT_NUMBERS = LIGHT_NUMBERS_OWN;
-layout(constant_id = SPEC_USE_MIS) const bool USE_MIS = false;
+layout(constant_id = SPEC_LIGHT_CHOICE) const uint LIGHT_CHOICE = LIGHT_CHOICE_TREE;
+layout(constant_id = SPEC_LIGHT_NUMBERS) const uint LIGHT_NUMBERS = LIGHT_NUMBERS_FIRST;
+layout(constant_id = SPEC_MIS_LOBES) const uint MIS_LOBES = 0u;
 layout(constant_id = SPEC_SPLITS) const bool SPLITS = false;
 layout(constant_id = SPEC_GUIDES) const bool GUIDES = false;
 layout(constant_id = SPEC_COUNT_STEPS) const bool COUNT_STEPS = false;
 
-bool sceneHasMaterial(uint kind) { return (MATERIAL_KINDS & (1u << kind)) != 0u; }
+bool sceneHasBsdf(uint kind) { return (BSDF_KINDS & (1u << kind)) != 0u; }
 bool sceneHasLight(uint kind) { return (LIGHT_KINDS & (1u << kind)) != 0u; }
 /// kind == wanted, known without looking where there is but one, or none of that kind.
-bool isMaterial(uint kind, uint wanted) {
-    return sceneHasMaterial(wanted) && (MATERIAL_KINDS == 1u << wanted || kind == wanted);
-}
 bool isLight(uint kind, uint wanted) {
     return sceneHasLight(wanted) && (LIGHT_KINDS == 1u << wanted || kind == wanted);
 }

@@ -70,7 +70,7 @@ void smoothShading(inout SurfacePoint s, Primitive p, PlacedPrimitive at, vec3 b
         CornerNormals(decodeNormal(p.n0), decodeNormal(p.n1), decodeNormal(p.n2));
     if (given) s.shading = interpolatedNormal(n, b, s.geometric);
 #ifndef PLAIN_TERMINATOR // `stromboli bench`: what it costs
-    if (given && !CS184) s.lift = liftAt(n, at, b, s.outside ? s.geometric : -s.geometric);
+    if (given && FACES_FORWARD) s.lift = liftAt(n, at, b, s.outside ? s.geometric : -s.geometric);
 #endif
 }
 
@@ -107,7 +107,7 @@ SurfacePoint surfaceAt(Traversal t) {
 
 /// Two-sided shading: both normals on the side of wo. The CS184 renderer never flips one.
 void faceForward(inout SurfacePoint s) {
-    if (CS184) return;
+    if (!FACES_FORWARD) return;
     if (!s.outside) s.geometric = -s.geometric;
     if (!HAS_NORMALS) return;
     if (dot(s.shading, s.geometric) < 0.0) s.shading = -s.shading;
@@ -120,14 +120,14 @@ bool isReflected(SurfacePoint s, vec3 w) { return s.lift > 0.0 || dot(s.geometri
 
 /// The point that light is reflected from.
 vec3 litPoint(SurfacePoint s) {
-    return HAS_NORMALS && !CS184 ? s.position + s.lift * s.geometric : s.position;
+    return HAS_NORMALS && FACES_FORWARD ? s.position + s.lift * s.geometric : s.position;
 }
 
 /// Where a ray starts that leaves s towards w: on the side of wo, or, transmitted, on the other one.
 /// Refracted light leaves from the triangle itself, which lies in its way otherwise. The CS184
 /// renderer lets light leave on either side whatever the material.
 vec3 leave(SurfacePoint s, vec3 w, bool transmitted) {
-    if (CS184) return offsetOrigin(s.position, s.error, s.geometric, w);
+    if (!FACES_FORWARD) return offsetOrigin(s.position, s.error, s.geometric, w);
     const vec3 from = transmitted ? s.position : litPoint(s);
     const vec3 lift = offsetLength(s.error, s.geometric) * s.geometric;
     return transmitted ? from - lift : from + lift;

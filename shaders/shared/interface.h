@@ -12,7 +12,7 @@ SHARED_BEGIN
 #define BINDING_PRIMITIVES 1
 #define BINDING_MATERIALS 2
 #define BINDING_LIGHTS 3
-#define BINDING_EMITTER_ENTRIES 4
+#define BINDING_LIGHT_TABLE 4
 #define BINDING_FRAME 5
 #define BINDING_WORK_ITEMS 6
 #define BINDING_PIXELS 7
@@ -33,7 +33,7 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_HAS_TRIANGLES 3
 #define SPEC_HAS_SPHERES 4
 #define SPEC_HAS_NORMALS 5
-#define SPEC_MATERIAL_KINDS 6 // bit n: MATERIAL_ kind n occurs
+#define SPEC_BSDF_KINDS 6 // bit n: BSDF_ kind n occurs
 #define SPEC_HAS_EMISSION 7
 #define SPEC_LIGHT_KINDS 8 // bit n: LIGHT_ kind n occurs
 #define SPEC_INTEGRATOR 9
@@ -42,13 +42,13 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_ORTHOGRAPHIC 12
 #define SPEC_CLIP_ALONG_RAY 13
 #define SPEC_CS184 14
-#define SPEC_ONE_LIGHT 15     // the scene has a single light
-#define SPEC_LIGHT_SAMPLES 16 // direct light samples per area light
+#define SPEC_LIGHT_GROUPS 15 // bit n: the light tree has lights of LIGHT_GROUP_ n
+#define SPEC_LIGHT_SAMPLES 16 // per shading point (LIGHT_CHOICE_EACH: and light)
 #define SPEC_COUNT_STEPS 17   // count how many lanes are at work in each step
 #define SPEC_SAMPLER 18
 #define SPEC_LIGHT_NUMBERS 19      // which random numbers light samples take
-#define SPEC_LIGHT_CHOICE 20       // of a triangle of a mesh light
-#define SPEC_USE_MIS 21            // bounces from rough metals find lamps too
+#define SPEC_LIGHT_CHOICE 20       // how one of the lights is picked
+#define SPEC_MIS_LOBES 21 // LOBE_ bits: of these bounces find lights too, weighted
 #define SPEC_SPLITS 22 // paths may split into branches
 #define SPEC_GUIDES 23 // some bounces go into the gap behind the lamp
 #define SPEC_STACK_IN_REGISTERS 24 // else in a memory that each lane indexes
@@ -64,15 +64,14 @@ SHARED_CONST uint DIRECT_BSDF = 2u;
 SHARED_CONST uint SAMPLER_INDEPENDENT = 0u;
 SHARED_CONST uint SAMPLER_SOBOL = 1u;
 
-SHARED_CONST uint LIGHT_NUMBERS_OWN = 0u;    ///< each sample a block of its own
-SHARED_CONST uint LIGHT_NUMBERS_FIRST = 1u;  ///< the first at a surface shares that of the path ray
+SHARED_CONST uint LIGHT_NUMBERS_FIRST = 1u;  ///< the first at a surface shares the block of the path ray
 SHARED_CONST uint LIGHT_NUMBERS_SHARED = 2u; ///< there is no other
 
-SHARED_CONST uint LIGHT_CHOICE_AREA = 0u; ///< of one mesh
-// Of all emissive triangles of the scene, which are one light:
-SHARED_CONST uint LIGHT_CHOICE_TREE = 1u;
+SHARED_CONST uint LIGHT_CHOICE_ONE = 0u;  ///< there is a single light
+SHARED_CONST uint LIGHT_CHOICE_TREE = 1u; ///< by what it is likely to bring to the surface
 SHARED_CONST uint LIGHT_CHOICE_POWER = 2u;
 SHARED_CONST uint LIGHT_CHOICE_UNIFORM = 3u;
+SHARED_CONST uint LIGHT_CHOICE_EACH = 4u; ///< all of them in turn
 
 SHARED_CONST uint ROULETTE_NONE = 0u;
 SHARED_CONST uint ROULETTE_THROUGHPUT = 1u;

@@ -18,15 +18,15 @@ struct Frame {
     uint keepsValue; ///< 1: leave the last sample's value in PixelState::sum, rejected or not
     float nearDistance;
     float farDistance;
-    float lampGap; ///< host/kernel/lamp_gap.hpp
+    float gapWidth; ///< host/kernel/gap_proposal.hpp
     uint seed;
     uint minBounce;
     uint maxBounces;
     float terminationProbability; ///< roulette, fixed
-    uint lightSamples;
-    uint areaLights; ///< number of quad, mesh, sphere and ambient lights, first in the buffer
-    uint deltaLights;
-    uint areaSamples; ///< direct light samples per shading point that are not for delta lights
+    uint lightCount; ///< number of lights that light samples may go to; 0: none is sampled
+    uint areaLights; ///< those of them that rays can meet, which come first (LIGHT_CHOICE_EACH)
+    uint hemisphereSamples; ///< directions per shading point that are tried to find lights
+    uint lightSamples; ///< samples of lights per shading point, of all together
     uint branches; ///< of a sample's path, from the first surface that scatters at random
 };
 SHARED_ROWS(Frame, 7);
@@ -82,9 +82,11 @@ struct SuspendedPath {
     vec3 radiance;
     uint item; ///< of the work list; NO_ITEM: the lane has none
     vec3 arrivalNumbers; ///< path.glsl
-    uint unused;
+    uint unused0;
+    vec3 departureNormal; ///< path.glsl
+    uint unused1;
 };
-SHARED_ROWS(SuspendedPath, 5);
+SHARED_ROWS(SuspendedPath, 6);
 /// Where the path of a suspended lane split, if it has; the surface as in surface.glsl.
 struct SuspendedSplit {
     vec3 position;

@@ -4,7 +4,9 @@
 #ifndef STROMBOLI_SHARED_SCENE_TYPES_H
 #define STROMBOLI_SHARED_SCENE_TYPES_H
 
+#include "bsdf_types.h"
 #include "language.h"
+#include "light_types.h"
 
 SHARED_BEGIN
 
@@ -41,14 +43,14 @@ SHARED_OFFSET(NodeRecord, lowX0, 16);
 /// p0 p1 p2, slot 1 is p0 p2 p3 (corners may have been rotated: p0 need not be the first in the
 /// file). One triangle on its own has p3 = p2: slot 1 has no area then and is never hit. A
 /// sphere has its centre in all four, and its radius.
-/// Row 1 + slot is the slot's own.
+/// Row 1 + slot is the slot's own: a corner, and which light the primitive is (light_types.h).
 struct LeafRecord {
     vec3 p0;
     uint primitive; ///< of slot 0 in the Primitive buffer; slot 1's is the next. | RECORD_IS_SPHERE
     vec3 p1;
-    uint unused0;
+    uint light0; ///< of slot 0, or the sphere; NO_LIGHT: none
     vec3 p3;
-    uint unused1;
+    uint light1; ///< of slot 1
     vec3 p2;
     float radius; ///< spheres; 0 else
 };
@@ -77,96 +79,11 @@ SHARED_CONST uint NO_PRIMITIVE = 0xFFFFFFFFu;
 /// 16-bit signed fractions each (Meyer et al. 2010; largest error 4e-5 rad). Of a flat one: x, y and z of
 /// its unit normal as floats, 40 instructions and a square root that a hit need not wait for. Of a sphere: 0.
 struct Primitive {
-    uint material; ///< | PRIMITIVE_IS_SMOOTH
+    uint material; ///< its first row in the material buffer; | PRIMITIVE_IS_SMOOTH
     uint n0, n1, n2;
 };
 SHARED_ROWS(Primitive, 1);
 SHARED_CONST uint PRIMITIVE_IS_SMOOTH = 0x80000000u;
-
-// --- Materials -----------------------------------------------------------------------------
-
-SHARED_CONST uint MATERIAL_DIFFUSE = 0u;
-SHARED_CONST uint MATERIAL_MIRROR = 1u;
-SHARED_CONST uint MATERIAL_REFRACTION = 2u;
-SHARED_CONST uint MATERIAL_GLASS = 3u;
-SHARED_CONST uint MATERIAL_MICROFACET = 4u;
-
-/// scene/model/material.hpp, packed. The last two rows are fetched only for the kinds that use
-/// them.
-struct Material {
-    vec3 reflectance; ///< diffuse: albedo
-    uint kind;
-    vec3 emission; ///< W sr^-1 m^-2
-    uint emitsBothSides;
-    vec3 transmittanceOrEta; ///< refraction, glass: transmittance; microfacet: eta
-    float iorOrAlpha;        ///< refraction, glass: ior; microfacet: alpha
-    vec3 k;
-    uint light; ///< number of the light this emissive material stands for; NO_LIGHT: unknown, or none
-};
-SHARED_CONST uint NO_LIGHT = 0xFFFFFFFFu;
-SHARED_ROWS(Material, 4);
-SHARED_OFFSET(Material, iorOrAlpha, 44);
-
-// --- Lights --------------------------------------------------------------------------------
-
-SHARED_CONST uint LIGHT_QUAD = 0u;
-SHARED_CONST uint LIGHT_MESH = 1u;
-SHARED_CONST uint LIGHT_SPHERE = 2u;
-SHARED_CONST uint LIGHT_AMBIENT = 3u;
-SHARED_CONST uint LIGHT_DIRECTIONAL = 4u;
-SHARED_CONST uint LIGHT_POINT = 5u;
-SHARED_CONST uint LIGHT_SPOT = 6u;
-
-/// A light as it is sampled; area lights (quad, mesh, sphere, ambient) come before delta lights.
-struct Light {
-    vec3 position; ///< quad: corner; sphere: centre; directional: unit vector to the light
-    uint kind;
-    vec3 edgeA;     ///< quad; sphere: x = radius; spot: unit vector the light travels along
-    float area;     ///< quad, mesh: of one side; many triangles: the sum of their powers
-    vec3 edgeB;     ///< quad; point, spot: constant, linear, quadratic attenuation
-    uint bothSides; ///< quad, mesh, sphere: emits on both sides
-    vec3 color;     ///< radiance (quad, mesh, sphere, ambient), or as scene/model/light.hpp says
-    uint flags;     ///< LIGHT_ bits below
-    uint firstEntry; ///< mesh: row of the EmitterEntry buffer; light tree: of the root
-    uint entryCount;
-    float cosCutoff; ///< spot: cosine of half the opening angle
-    float falloffExponent;
-};
-SHARED_ROWS(Light, 5);
-SHARED_OFFSET(Light, color, 48);
-SHARED_OFFSET(Light, cosCutoff, 72);
-
-SHARED_CONST uint LIGHT_UPPER_HEMISPHERE_ONLY = 1u; ///< ambient
-/// Quad, mesh: geometry whose material names it (Material::light), so that the density of its samples
-/// is known where a bounce finds it.
-SHARED_CONST uint LIGHT_FOUND_BY_BOUNCES = 2u;
-
-/// One column of an alias table over the triangles of an emissive mesh, by area (Walker 1977,
-/// Vose 1991).
-struct EmitterEntry {
-    uint place;      ///< this column's triangle, 2 * record + slot
-    uint alias;      ///< the other triangle of this column, the same
-    float threshold; ///< take `place` where the fraction within the column is below this
-    uint unused;
-};
-SHARED_ROWS(EmitterEntry, 1);
-
-/// A node of a light tree (host/kernel/light_tree.hpp), two rows of the EmitterEntry buffer: the bounds of
-/// what its triangles send out.
-struct LightNode {
-    vec3 center; ///< of a sphere that holds the triangles
-    float radius;
-    uint axis; ///< of a cone that holds their normals, octahedral as in Primitive
-    float cosSpread; ///< of the cone's half angle
-    float power;
-    uint child; ///< number of the first of two nodes, or of the leaf's first entry; flags
-};
-SHARED_ROWS(LightNode, 2);
-SHARED_CONST uint LIGHT_NODE_IS_LEAF = 0x80000000u;
-SHARED_CONST uint LIGHT_NODE_BOTH_SIDES = 0x40000000u;
-SHARED_CONST uint LIGHT_NODE_COUNT_SHIFT = 24u; ///< leaf: number of entries, 6 bits
-SHARED_CONST uint LIGHT_NODE_MOST_TRIANGLES = 63u;
-SHARED_CONST uint LIGHT_NODE_CHILD_MASK = 0x00FFFFFFu;
 
 SHARED_END
 

@@ -30,7 +30,7 @@ const bool kListening = [] {
 
 Film renderFilm(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                 unsigned) {
-    const GpuScene gpu = packScene(scene, buildWideBvh(scene), settings.estimator.cs184);
+    const GpuScene gpu = packScene(scene, buildWideBvh(scene), lightSelection(settings.estimator));
     VulkanBackend backend(testDevice(), gpu, camera, settings);
     return render(backend, settings);
 }
@@ -39,7 +39,7 @@ Film renderFilm(const Scene& scene, const Camera& camera, const RenderSettings& 
 std::vector<SampleValue> samplesAlone(const Scene& scene, const Camera& camera,
                                       const RenderSettings& settings, uint32_t pixel,
                                       uint32_t count) {
-    const GpuScene gpu = packScene(scene, buildWideBvh(scene), settings.estimator.cs184);
+    const GpuScene gpu = packScene(scene, buildWideBvh(scene), lightSelection(settings.estimator));
     VulkanBackend backend(testDevice(), gpu, camera, settings);
     std::vector<SampleValue> samples(count);
     for (uint32_t i = count; i-- > 0;)

@@ -41,7 +41,7 @@ struct Traced {
 };
 
 Traced traceOnDevice(const Scene& scene, const RaySet& set, const RayTuning& tuning) {
-    const GpuScene gpu = packScene(scene, buildWideBvh(scene), false);
+    const GpuScene gpu = packScene(scene, buildWideBvh(scene));
     DeviceRays device(testDevice(), gpu, tuning);
     device.load(set);
     return {device.distances(), device.trace()};
@@ -98,7 +98,7 @@ TEST_F(DeviceTest, RayKernelOwnsUpToALoopLimit) {
     constexpr uint32_t kRaysPerLane = 1 << 13; // of some steps each
     set.rays.resize(kRaysPerLane * rayTuning(testDevice()).kernel.workgroupSize,
                     set.rays[set.rays.size() / 2]);
-    const GpuScene gpu = packScene(picture.scene, buildWideBvh(picture.scene), false);
+    const GpuScene gpu = packScene(picture.scene, buildWideBvh(picture.scene));
     DeviceRays device(testDevice(), gpu, tuningWith(kRaysPerLane));
     device.load(set);
     EXPECT_THROW(device.trace(), DeviceError);

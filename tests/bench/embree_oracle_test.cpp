@@ -25,7 +25,7 @@ const Embree& embree() {
 }
 
 std::vector<float> onDevice(const Scene& scene, const RaySet& set) {
-    const GpuScene gpu = packScene(scene, buildWideBvh(scene), false);
+    const GpuScene gpu = packScene(scene, buildWideBvh(scene));
     DeviceRays rays(testDevice(), gpu, rayTuning(testDevice()));
     rays.load(set);
     return rays.distances();

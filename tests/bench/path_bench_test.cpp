@@ -41,7 +41,7 @@ struct Bench {
         return s;
     }
     RaySet bounceRays() const { return makeRaySets(scene.scene, arena.camera, settings, 1).bounce; }
-    GpuScene gpu() const { return packScene(scene.scene, buildWideBvh(scene.scene), false); }
+    GpuScene gpu() const { return packScene(scene.scene, buildWideBvh(scene.scene)); }
 };
 
 TEST_F(DeviceTest, PathContestantsMakeOnePicture) {

@@ -20,7 +20,7 @@ using test::LibraryPicture;
 using test::testDevice;
 
 std::vector<float> trace(const Scene& scene, const RaySet& set, std::span<const uint32_t> code) {
-    const GpuScene gpu = packScene(scene, buildWideBvh(scene), false);
+    const GpuScene gpu = packScene(scene, buildWideBvh(scene));
     DeviceRays device(testDevice(), gpu, rayTuning(testDevice()), code);
     device.load(set);
     return device.distances();
@@ -59,7 +59,7 @@ TEST_F(DeviceTest, PlainTrianglesAreLostWhereTheyAreTiny) {
 double meanOf(const LibraryPicture& p, std::span<const uint32_t> code) {
     KernelTuning tuning;
     tuning.code = code;
-    const GpuScene gpu = packScene(p.scene, buildWideBvh(p.scene), false);
+    const GpuScene gpu = packScene(p.scene, buildWideBvh(p.scene));
     VulkanBackend backend(testDevice(), gpu, p.camera, p.settings, tuning);
     double sum = 0;
     for (const PixelStatistics& pixel : render(backend, p.settings, {}).pixels)

@@ -18,14 +18,12 @@ Scene oneTriangle(const Material& material) {
 
 KernelFeatures featuresOf(const Scene& scene, const RenderSettings& settings = {},
                           const DeviceTuning& tuning = {}) {
-    return kernelFeatures(packScene(scene, buildWideBvh(scene), false), Camera{},
-                          settings.estimator, tuning);
+    return kernelFeatures(packScene(scene, buildWideBvh(scene), lightSelection(settings.estimator)),
+                          Camera{}, settings.estimator, tuning);
 }
 
-/// A flat triangle brings its normal, a smooth one those of its corners, also where its material is
-/// replaced by a copy that names the lamp it stands for (beside rough metals, which weigh bounces
-/// against its samples).
-TEST(PackedPrimitives, HaveTheirNormalsWhateverTheirMaterialNames) {
+/// A flat triangle brings its normal, a smooth one those of its corners; a light's leaf names it.
+TEST(PackedPrimitives, HaveTheirNormalsAndNameTheirLights) {
     Material metal, lamp;
     metal.kind = MaterialKind::Microfacet;
     lamp.emission = glm::vec3(1);
@@ -35,13 +33,15 @@ TEST(PackedPrimitives, HaveTheirNormalsWhateverTheirMaterialNames) {
     const glm::vec3 smooth = glm::normalize(glm::vec3(1, 2, 3));
     scene.normals = {smooth};
     scene.triangles.push_back({{3, 4, 5}, {0, 0, 0}, 1});
-    const GpuScene packed = packScene(scene, buildWideBvh(scene), false);
+    const GpuScene packed = packScene(scene, buildWideBvh(scene));
     EXPECT_TRUE(packed.hasNormals);
     for (size_t i = 0; i < 2; ++i) {
         const gpu::Primitive& p = packed.primitives[i];
-        const bool isLamp = packed.bvh.primitiveOrder[i] == 1;
-        const gpu::Material& m = packed.materials.at(materialOf(p));
-        EXPECT_EQ(m.light, isLamp ? 0 : gpu::NO_LIGHT);
+        const uint32_t id = packed.bvh.primitiveOrder[i], place = packed.bvh.placeOf[id];
+        const bool isLamp = id == 1;
+        const gpu::LeafRecord leaf = asLeaf(packed.bvh.records[place / 2]);
+        EXPECT_EQ(place % 2 == 0 ? leaf.light0 : leaf.light1, isLamp ? 0 : gpu::NO_LIGHT);
+        EXPECT_EQ(materialHeader(packed, p).emission, glm::vec3(isLamp));
         EXPECT_EQ((p.material & gpu::PRIMITIVE_IS_SMOOTH) != 0, isLamp);
         if (isLamp)
             EXPECT_LT(glm::distance(decodeNormal(p.n2), smooth), 1e-4f);
@@ -57,18 +57,18 @@ TEST(KernelFeatures, HoldOnlyWhatTheSceneNeeds) {
     EXPECT_FALSE(f[SPEC_HAS_SPHERES]);
     EXPECT_FALSE(f[SPEC_HAS_NORMALS]);
     EXPECT_FALSE(f[SPEC_HAS_EMISSION]);
-    EXPECT_EQ(f[SPEC_MATERIAL_KINDS], 1u << gpu::MATERIAL_DIFFUSE);
+    EXPECT_EQ(f[SPEC_BSDF_KINDS], 1u << gpu::BSDF_DIFFUSE);
     EXPECT_EQ(f[SPEC_LIGHT_KINDS], 0u);
 
     Material unused;
     unused.kind = MaterialKind::Glass;
     scene.materials.push_back(unused); // no surface has it
-    EXPECT_EQ(featuresOf(scene)[SPEC_MATERIAL_KINDS], 1u << gpu::MATERIAL_DIFFUSE);
+    EXPECT_EQ(featuresOf(scene)[SPEC_BSDF_KINDS], 1u << gpu::BSDF_DIFFUSE);
 
     scene.spheres.push_back({{0, 0, 5}, 1, 1, 0});
     f = featuresOf(scene);
     EXPECT_TRUE(f[SPEC_HAS_SPHERES]);
-    EXPECT_EQ(f[SPEC_MATERIAL_KINDS], (1u << gpu::MATERIAL_DIFFUSE) | (1u << gpu::MATERIAL_GLASS));
+    EXPECT_EQ(f[SPEC_BSDF_KINDS], (1u << gpu::BSDF_DIFFUSE) | (1u << gpu::BSDF_GLASS));
 }
 
 TEST(KernelFeatures, LightsFollowTheSettings) {
@@ -78,7 +78,7 @@ TEST(KernelFeatures, LightsFollowTheSettings) {
     Light point;
     scene.lights.push_back(point);
     EXPECT_EQ(featuresOf(scene)[SPEC_LIGHT_KINDS],
-              (1u << gpu::LIGHT_MESH) | (1u << gpu::LIGHT_POINT));
+              (1u << gpu::LIGHT_TRIANGLE) | (1u << gpu::LIGHT_POINT));
     RenderSettings s;
     s.estimator.directLight = DirectLight::Bsdf;
     EXPECT_EQ(featuresOf(scene, s)[SPEC_LIGHT_KINDS], 1u << gpu::LIGHT_POINT);
@@ -91,20 +91,20 @@ TEST(KernelFeatures, MisOnlyWhereRoughMetalsMeetLampsThatBouncesFind) {
     metal.kind = MaterialKind::Microfacet;
     lamp.emission = glm::vec3(1);
     Scene scene = oneTriangle(metal);
-    EXPECT_FALSE(featuresOf(scene)[SPEC_USE_MIS]); // no light
-    scene.lights.emplace_back();                   // a point
-    EXPECT_FALSE(featuresOf(scene)[SPEC_USE_MIS]);
+    EXPECT_FALSE(featuresOf(scene)[SPEC_MIS_LOBES]); // no light
+    scene.lights.emplace_back();                     // a point
+    EXPECT_FALSE(featuresOf(scene)[SPEC_MIS_LOBES]);
     scene.materials.push_back(lamp);
     scene.spheres.push_back({{0, 0, 5}, 1, 1, 0});
-    EXPECT_TRUE(featuresOf(scene)[SPEC_USE_MIS]);
+    EXPECT_TRUE(featuresOf(scene)[SPEC_MIS_LOBES]);
     for (const DirectLight mode :
          {DirectLight::Lights, DirectLight::Hemisphere, DirectLight::Bsdf}) {
         RenderSettings s;
         s.estimator.directLight = mode;
-        EXPECT_FALSE(featuresOf(scene, s)[SPEC_USE_MIS]);
+        EXPECT_FALSE(featuresOf(scene, s)[SPEC_MIS_LOBES]);
     }
     scene.materials[0].kind = MaterialKind::Diffuse;
-    EXPECT_FALSE(featuresOf(scene)[SPEC_USE_MIS]);
+    EXPECT_FALSE(featuresOf(scene)[SPEC_MIS_LOBES]);
 }
 
 /// A light sample may use the numbers drawn with the path ray, but no two of a surface the same.
@@ -114,19 +114,28 @@ TEST(KernelFeatures, LightSamplesShareNumbersOnlyWhereThereIsOne) {
     Scene scene = oneTriangle({});
     scene.materials.push_back(lamp);
     EXPECT_EQ(featuresOf(scene)[SPEC_LIGHT_NUMBERS], gpu::LIGHT_NUMBERS_SHARED);
-    scene.spheres.push_back({{0, 0, 5}, 1, 1, 0});
-    scene.lights.emplace_back(); // a point: takes no numbers
+    for (int i = 0; i < 3; ++i)
+        scene.spheres.push_back({{0, 0, 5 + 4 * float(i)}, 1, 1, 0});
     RenderSettings s;
-    EXPECT_EQ(featuresOf(scene, s)[SPEC_LIGHT_NUMBERS], gpu::LIGHT_NUMBERS_SHARED);
+    EXPECT_EQ(featuresOf(scene, s)[SPEC_LIGHT_NUMBERS], gpu::LIGHT_NUMBERS_SHARED) << "one of all";
     s.estimator.lightSamples = 2;
     EXPECT_EQ(featuresOf(scene, s)[SPEC_LIGHT_NUMBERS], gpu::LIGHT_NUMBERS_FIRST);
     s.estimator.lightSamples = 1;
-    s.estimator.cs184 = true; // hemisphere samples for point lights too
+    s.estimator.lightChoice = LightChoice::Each;
     EXPECT_EQ(featuresOf(scene, s)[SPEC_LIGHT_NUMBERS], gpu::LIGHT_NUMBERS_FIRST);
-    scene.spheres.push_back({{0, 0, 9}, 1, 1, 0});
-    EXPECT_EQ(featuresOf(scene)[SPEC_LIGHT_NUMBERS], gpu::LIGHT_NUMBERS_FIRST);
-    scene.triangles[0].material = 1; // a mesh takes four numbers a sample
-    EXPECT_EQ(featuresOf(scene)[SPEC_LIGHT_NUMBERS], gpu::LIGHT_NUMBERS_OWN);
+}
+
+TEST(KernelFeatures, OneLightIsNotChosen) {
+    Material lamp;
+    lamp.emission = glm::vec3(1);
+    Scene scene = oneTriangle({});
+    scene.materials.push_back(lamp);
+    scene.spheres.push_back({{0, 0, 5}, 1, 1, 0});
+    EXPECT_EQ(featuresOf(scene)[SPEC_LIGHT_CHOICE], gpu::LIGHT_CHOICE_ONE);
+    for (int i = 0; i < 9; ++i)
+        scene.spheres.push_back({{0, 0, 9 + 4 * float(i)}, 1, 1, 0});
+    EXPECT_EQ(featuresOf(scene)[SPEC_LIGHT_CHOICE], gpu::LIGHT_CHOICE_TREE);
+    EXPECT_EQ(featuresOf(scene)[SPEC_LIGHT_GROUPS], 1u << gpu::LIGHT_GROUP_NEAR);
 }
 
 TEST(KernelFeatures, NoRouletteWherePathsEndBeforeIt) {
@@ -161,13 +170,13 @@ TEST(KernelFeatures, EverythingOn) {
     RenderSettings s;
     s.estimator.roulette.mode = Roulette::Mode::None;
     const KernelFeatures f = featuresOf(oneTriangle({}), s, tuning);
-    EXPECT_TRUE(f[SPEC_USE_MIS]);
+    EXPECT_TRUE(f[SPEC_MIS_LOBES]);
     s.estimator.directLight = DirectLight::Lights;
-    EXPECT_FALSE(featuresOf(oneTriangle({}), s, tuning)[SPEC_USE_MIS]);
+    EXPECT_FALSE(featuresOf(oneTriangle({}), s, tuning)[SPEC_MIS_LOBES]);
     for (const uint32_t feature :
          {SPEC_HAS_TRIANGLES, SPEC_HAS_SPHERES, SPEC_HAS_NORMALS, SPEC_HAS_EMISSION})
         EXPECT_EQ(f[feature], 1u) << feature;
-    EXPECT_EQ(f[SPEC_MATERIAL_KINDS], 31u);
+    EXPECT_EQ(f[SPEC_BSDF_KINDS], 31u);
     EXPECT_EQ(f[SPEC_LIGHT_KINDS], 127u);
     EXPECT_EQ(f[SPEC_ROULETTE], gpu::ROULETTE_NONE);
     EXPECT_EQ(f[SPEC_CS184], 0u);

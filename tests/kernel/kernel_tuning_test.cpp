@@ -32,7 +32,7 @@ class KernelTuningTest : public DeviceTest {
   private:
     Scene loaded_ =
         loadScene(std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene/library/cornell_boxes.dae");
-    GpuScene scene_ = packScene(loaded_, buildWideBvh(loaded_), false);
+    GpuScene scene_ = packScene(loaded_, buildWideBvh(loaded_));
     Camera camera_ = makeCamera(loaded_, CameraChoice::Automatic, 61, 37, false);
 };
 

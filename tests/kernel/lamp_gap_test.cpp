@@ -1,5 +1,5 @@
 // Which lamps have a gap that bounces are sent into, and how wide it is.
-#include "host/kernel/lamp_gap.hpp"
+#include "host/kernel/gap_proposal.hpp"
 
 #include "host/bvh/wide_layout.hpp"
 #include "host/kernel/kernel_features.hpp"
@@ -53,7 +53,7 @@ float gapOf(const Room& room) {
     for (int lamp = 0; lamp < room.lamps; ++lamp)
         room.facesUp ? quad({2.0f * float(lamp), 0, 0}, b, a, 1 + uint32_t(lamp))
                      : quad({2.0f * float(lamp), 0, 0}, a, b, 1 + uint32_t(lamp));
-    return std::abs(packScene(scene, buildWideBvh(scene), false).lampGap) / room.scale;
+    return std::abs(packScene(scene, buildWideBvh(scene)).gapWidth) / room.scale;
 }
 
 TEST(LampGap, IsTheDistanceOfTheCeiling) {
@@ -92,9 +92,9 @@ TEST(LampGap, NotInScenesWithoutOne) {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         if (entry.path().extension() != ".dae") continue;
         const Scene scene = loadCollada(entry.path());
-        const GpuScene packed = packScene(scene, buildWideBvh(scene), false);
+        const GpuScene packed = packScene(scene, buildWideBvh(scene));
         const std::string name = entry.path().stem();
-        EXPECT_EQ(packed.lampGap != 0, name == "cornell_boxes" || name == "cornell_mesh") << name;
+        EXPECT_EQ(packed.gapWidth != 0, name == "cornell_boxes" || name == "cornell_mesh") << name;
     }
 }
 
@@ -102,7 +102,7 @@ TEST(LampGap, NotInScenesWithoutOne) {
 TEST(LampGap, OnlyInKernelsThatNeedIt) {
     const Scene scene = loadCollada(std::filesystem::path(STROMBOLI_SOURCE_DIR) /
                                     "scene/library/cornell_boxes.dae");
-    const GpuScene packed = packScene(scene, buildWideBvh(scene), false);
+    const GpuScene packed = packScene(scene, buildWideBvh(scene));
     const auto guides = [&](const std::function<void(RenderSettings&)>& change) {
         RenderSettings s;
         change(s);

@@ -57,7 +57,7 @@ class Memory : public DeviceTest {
 
     Scene loaded_ =
         loadScene(std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene/library/cornell_mesh.dae");
-    GpuScene scene_ = packScene(loaded_, buildWideBvh(loaded_), false);
+    GpuScene scene_ = packScene(loaded_, buildWideBvh(loaded_));
 };
 
 TEST_F(Memory, WhatIsPlannedIsAllocated) {

@@ -1,5 +1,6 @@
 #include "host/reference/bsdf.hpp"
 #include "host/reference/fresnel.hpp"
+#include "host/reference/random.hpp"
 #include "tests/analytic/scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -25,18 +26,18 @@ TEST(Glass, RefractionBendsBySnellsLaw) {
     s.material = &m;
     RandomStream random(0, 0, 0);
     s.wo = {0.6, 0, 0.8};
-    const BsdfSample in = sampleBsdf(s, random, Convention::Physical);
+    const BsdfSample in = sampleBsdf(s, random.threeNumbers(), Convention::Physical);
     EXPECT_NEAR(in.direction.x, -0.4, 1e-12);
     EXPECT_NEAR(in.direction.z, -std::sqrt(1 - 0.16), 1e-12);
     EXPECT_NEAR(in.weight.x, 1 / 2.25, 1e-12);
 
     s.outside = false; // the same ray from inside the glass
-    const BsdfSample out = sampleBsdf(s, random, Convention::Physical);
+    const BsdfSample out = sampleBsdf(s, random.threeNumbers(), Convention::Physical);
     EXPECT_NEAR(out.direction.x, -0.9, 1e-12);
     EXPECT_NEAR(out.weight.x, 2.25, 1e-12);
 
     s.wo = {0.8, 0, 0.6}; // 1.5 * 0.8 > 1: total reflection
-    EXPECT_EQ(sampleBsdf(s, random, Convention::Physical).weight, glm::dvec3(0.0));
+    EXPECT_EQ(sampleBsdf(s, random.threeNumbers(), Convention::Physical).weight, glm::dvec3(0.0));
 }
 
 TEST(Glass, TotalReflectionIsCertain) {
@@ -49,7 +50,7 @@ TEST(Glass, TotalReflectionIsCertain) {
         if (convention == Convention::Cs184) s.shading = {0, 0, -1}; // inside is below its normal
         for (uint32_t i = 0; i < 1000; ++i) {
             RandomStream random(0, i, 0);
-            const BsdfSample sample = sampleBsdf(s, random, convention);
+            const BsdfSample sample = sampleBsdf(s, random.threeNumbers(), convention);
             EXPECT_NEAR(glm::distance(sample.direction, {-0.8, 0, 0.6}), 0, 1e-12);
             EXPECT_EQ(sample.weight, glm::dvec3(1.0));
         }
@@ -100,7 +101,8 @@ TEST(Glass, Cs184ReflectsBySchlick) {
     double reflected = 0;
     for (uint32_t i = 0; i < kSamples; ++i) {
         RandomStream random(0, i, 0);
-        if (sampleBsdf(s, random, Convention::Cs184).direction.z > 0) reflected += 1.0 / kSamples;
+        if (sampleBsdf(s, random.threeNumbers(), Convention::Cs184).direction.z > 0)
+            reflected += 1.0 / kSamples;
     }
     EXPECT_NEAR(reflected, expected, 4.5 * std::sqrt(expected * (1 - expected) / kSamples));
 }

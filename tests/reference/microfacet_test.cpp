@@ -1,6 +1,7 @@
 #include "host/reference/bsdf.hpp"
 #include "host/reference/fresnel.hpp"
 #include "host/reference/microfacet.hpp"
+#include "host/reference/random.hpp"
 #include "host/reference/sampling.hpp"
 
 #include <gtest/gtest.h>
@@ -134,7 +135,7 @@ double albedo(const Material& m, double cosine, Convention convention) {
     constexpr uint32_t kSamples = 20000;
     for (uint32_t i = 0; i < kSamples; ++i) {
         RandomStream random(7, i, 0);
-        sum += sampleBsdf(s, random, convention).weight.x / kSamples;
+        sum += sampleBsdf(s, random.threeNumbers(), convention).weight.x / kSamples;
     }
     return sum;
 }

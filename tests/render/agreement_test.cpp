@@ -180,8 +180,8 @@ class GapAgreement : public DeviceTest, public testing::WithParamInterface<Gap> 
 
 TEST_P(GapAgreement, WithTheReference) {
     const Scene scene = room();
-    const GpuScene packed = packScene(scene, buildWideBvh(scene), false);
-    ASSERT_NE(packed.lampGap, 0);
+    const GpuScene packed = packScene(scene, buildWideBvh(scene));
+    ASSERT_NE(packed.gapWidth, 0);
     RenderSettings settings = smallSettings(256);
     settings.estimator.minBounce = 2,
     settings.estimator.maxBounces = 3; // light out of the gap, and once more

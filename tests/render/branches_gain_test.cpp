@@ -44,7 +44,7 @@ class BranchesGain : public DeviceTest {
         s.estimator.branches = branches;
         s.estimator.guides = false; // which takes noise away from bounces
         s.estimator.maxBounces = maxBounces;
-        const GpuScene gpu = packScene(scene, buildWideBvh(scene), false);
+        const GpuScene gpu = packScene(scene, buildWideBvh(scene));
         const Camera camera =
             makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, false);
         VulkanBackend first(testDevice(), gpu, camera, s);

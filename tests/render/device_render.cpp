@@ -10,7 +10,7 @@ namespace stromboli::test {
 
 Film renderOnDevice(const vulkan::Device& device, const Scene& scene, const Camera& camera,
                     const RenderSettings& settings, const KernelTuning& tuning) {
-    const GpuScene gpu = packScene(scene, buildWideBvh(scene), settings.estimator.cs184);
+    const GpuScene gpu = packScene(scene, buildWideBvh(scene), lightSelection(settings.estimator));
     VulkanBackend backend(device, gpu, camera, settings, tuning);
     return render(backend, settings);
 }

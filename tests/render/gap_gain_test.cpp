@@ -22,7 +22,7 @@ class GapGain : public DeviceTest {
         constexpr uint32_t kSeeds = 8;
         const Scene scene = loadScene(std::filesystem::path(STROMBOLI_SOURCE_DIR) /
                                       "scene/library/cornell_boxes.dae");
-        const GpuScene gpu = packScene(scene, buildWideBvh(scene), false);
+        const GpuScene gpu = packScene(scene, buildWideBvh(scene));
         RenderSettings s;
         s.area.width = 64, s.area.height = 48;
         s.budget.mostSamplesPerPixel = 32;

@@ -20,11 +20,13 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "include/intersect.glsl"
 #include "include/traverse.glsl"
 #include "include/camera.glsl"
+#include "include/warps.glsl"
+#include "include/cs184.glsl"
 #include "include/surface.glsl"
-#include "include/bsdf.glsl"
-#include "include/lights.glsl"
+#include "bsdf/bsdf.glsl"
+#include "lights/lights.glsl"
 #include "include/mis.glsl"
-#include "include/lamp_gap.glsl"
+#include "include/gap_proposal.glsl"
 #include "include/accumulate.glsl"
 #include "include/path.glsl"
 
@@ -40,7 +42,7 @@ void traceToTheEnd() {
 }
 
 void gatherDirectLight() {
-    const uint samples = frame.areaSamples + frame.deltaLights;
+    const uint samples = directSamples();
     while (directIndex < samples) {
         sampleDirect();
         if (phase == PHASE_SHADOW) {
@@ -94,7 +96,7 @@ void main() {
     pixelId = pixel;
     findPictureGrid();
     findOnlyLight();
-    if (GUIDES) findLampGap();
+    if (GUIDES) findGap();
     ray.group = 0u;
     rayCount = 0u;
     loopPasses = 0u;

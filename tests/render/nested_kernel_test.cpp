@@ -145,7 +145,7 @@ class NestedKernel : public DeviceTest {
         picture.change(scene, settings_);
         camera_ = makeCamera(scene, CameraChoice::Automatic, settings_.area.width,
                              settings_.area.height, settings_.estimator.cs184);
-        scene_ = packScene(scene, buildWideBvh(scene), settings_.estimator.cs184);
+        scene_ = packScene(scene, buildWideBvh(scene), lightSelection(settings_.estimator));
     }
 
     Result product(const KernelTuning& tuning) const {

@@ -43,7 +43,7 @@ std::vector<std::pair<const char*, Budget>> budgets() {
 class Session : public DeviceTest {
   public: // so that tests may name its members
     Scene scene_ = loadScene(kScene);
-    GpuScene packed_ = packScene(scene_, buildWideBvh(scene_), false);
+    GpuScene packed_ = packScene(scene_, buildWideBvh(scene_));
 
     static RenderSettings settings(const Budget& budget, uint32_t width = 32,
                                    uint32_t height = 24) {
@@ -138,7 +138,7 @@ TEST_F(Session, ThePictureSoFarCanBeLookedAtAfterEveryPass) {
 /// Not one byte of the scene, nor a compilation.
 TEST_F(Session, AnotherPictureOfTheSceneNeitherCompilesNorUploadsIt) {
     const Scene scene = loadScene(kScene.parent_path() / "cornell_mesh.dae"); // some megabytes
-    const GpuScene mesh = packScene(scene, buildWideBvh(scene), false);
+    const GpuScene mesh = packScene(scene, buildWideBvh(scene));
     const RenderSettings s = settings({.mostSamplesPerPixel = 4});
     VulkanBackend backend(testDevice(), mesh, camera(s), s);
     { // something is there to be left over

@@ -13,10 +13,13 @@ BsdfFixture::BsdfFixture(std::vector<Material> materials, reference::Convention 
               ShaderOptions::texel().set(SPEC_CS184, convention == reference::Convention::Cs184)) {
     Scene scene;
     scene.materials = materials_;
-    shader_.setScene(packScene(scene, buildWideBvh(scene), false));
+    shader_.setScene(packScene(scene, buildWideBvh(scene)));
+    firstRow_ = packMaterials(materials_, false).firstRow;
 }
 
-std::vector<gpu::BsdfAnswer> BsdfFixture::answers(const std::vector<gpu::BsdfQuery>& queries) {
+std::vector<gpu::BsdfAnswer> BsdfFixture::answers(std::vector<gpu::BsdfQuery> queries) {
+    for (gpu::BsdfQuery& q : queries)
+        q.materialRow = firstRow_[q.material];
     return ask<gpu::BsdfAnswer>(shader_, queries);
 }
 
@@ -28,7 +31,7 @@ gpu::BsdfQuery BsdfFixture::randomQuery(uint32_t material, Random& random) const
     q.wo = glm::normalize(random.vector());
     q.wi = glm::normalize(random.vector());
     q.outside = glm::dot(q.geometric, q.wo) >= 0;
-    q.u = random.uniform(), q.v = random.uniform();
+    q.u = random.uniform(), q.v = random.uniform(), q.w = random.uniform();
     return q;
 }
 

@@ -18,7 +18,7 @@ class BsdfFixture : public DeviceTest {
   protected:
     BsdfFixture(std::vector<Material> materials, reference::Convention convention);
 
-    std::vector<gpu::BsdfAnswer> answers(const std::vector<gpu::BsdfQuery>& queries);
+    std::vector<gpu::BsdfAnswer> answers(std::vector<gpu::BsdfQuery> queries);
 
     /// Normals as stored and directions any which way: the shading normal within 30 degrees of
     /// the geometric one, wo and wi on either side; u, v, w at random.
@@ -32,6 +32,7 @@ class BsdfFixture : public DeviceTest {
 
     std::vector<Material> materials_;
     reference::Convention convention_;
+    std::vector<uint32_t> firstRow_; ///< by material
 
   private:
     TestShader shader_;

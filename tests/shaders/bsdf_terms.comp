@@ -9,5 +9,5 @@ TermAnswer answer(TermQuery q) {
     const float dielectric = fresnelDielectric(q.x, q.alpha, cosTransmitted);
     return TermAnswer(fresnelConductor(q.x, q.eta, q.k), erfPositive(q.x),
                       fresnelConductorCs184(q.x, q.eta, q.k), smithLambda(q.x, q.alpha), dielectric,
-                      cosTransmitted, schlick(q.x, q.alpha), 0.0);
+                      cosTransmitted, schlickCs184(q.x, q.alpha), 0.0);
 }

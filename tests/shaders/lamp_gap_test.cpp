@@ -63,15 +63,13 @@ struct GapCase {
 
 class LampGapShader : public DeviceTest, public ::testing::WithParamInterface<GapCase> {
   protected:
-    LampGapShader() : shader_(lamp_gap_texel, ShaderOptions::texel()) {
+    LampGapShader()
+        : shader_(lamp_gap_texel,
+                  ShaderOptions::texel().set(SPEC_LIGHT_CHOICE, gpu::LIGHT_CHOICE_ONE)) {
         const Scene scene = lampUnderCeiling(GetParam().scale, GetParam().turned);
-        const GpuScene packed = packScene(scene, buildWideBvh(scene), false);
-        EXPECT_NEAR(std::abs(packed.lampGap), kGap * GetParam().scale, 1e-5 * GetParam().scale);
+        const GpuScene packed = packScene(scene, buildWideBvh(scene));
+        EXPECT_NEAR(std::abs(packed.gapWidth), kGap * GetParam().scale, 1e-5 * GetParam().scale);
         shader_.setScene(packed);
-        gpu::Frame frame{};
-        frame.lampGap = packed.lampGap;
-        frame.areaLights = 1;
-        shader_.setOne(BINDING_FRAME, frame);
     }
 
     std::vector<GapAnswer> answers(const std::vector<glm::vec2>& numbers) {

@@ -40,6 +40,37 @@ void putLeaf(Record r) {
 
 void putPlace(PlacedPrimitive p) {
     put(p.v0), put(p.v1), put(p.v2), put(p.radius), put(p.isSphere ? 1u : 0u), put(p.primitive);
+    put(p.light);
+}
+
+void putMaterial(Material m) {
+    put(emissionOf(m)), put(m.header.w);
+    const DiffuseParameters diffuse = diffuseParameters(m);
+    put(diffuse.albedo), put(diffuse.unused);
+    const MirrorParameters mirror = mirrorParameters(m);
+    put(mirror.reflectance), put(mirror.unused);
+    const RefractionParameters refraction = refractionParameters(m);
+    put(refraction.transmittance), put(refraction.ior);
+    const GlassParameters glass = glassParameters(m);
+    put(glass.reflectance), put(glass.ior), put(glass.transmittance), put(glass.unused);
+    const RoughConductorParameters metal = roughConductorParameters(m);
+    put(metal.eta), put(metal.alpha), put(metal.k), put(metal.unused);
+}
+
+void putLight(LightRows l) {
+    put(colorOf(l)), put(l.header.w);
+    const QuadLight quad = quadLight(l);
+    put(quad.corner), put(quad.area), put(quad.edgeA), put(quad.unused0);
+    put(quad.edgeB), put(quad.unused1);
+    const PointLight point = pointLight(l);
+    put(point.position), put(point.falloffExponent), put(point.attenuation);
+    put(point.cosCutoff), put(point.axis), put(point.unused);
+    const SphereLight sphere = sphereLight(l);
+    put(sphere.center), put(sphere.radius);
+    const AmbientLight ambient = ambientLight(l);
+    put(ambient.fromAbove), put(ambient.unused);
+    const DirectionalLight sun = directionalLight(l);
+    put(sun.toLight), put(sun.unused);
 }
 
 void putScene() {
@@ -49,24 +80,23 @@ void putScene() {
     putPlace(fetchPlace(5u));
     const Primitive p = fetchPrimitive(1u);
     put(p.material), put(p.n0), put(p.n1), put(p.n2);
-    const Material m = fetchMaterial(1u);
-    put(m.reflectance), put(m.kind), put(m.emission), put(m.emitsBothSides);
-    put(m.transmittanceOrEta), put(m.iorOrAlpha), put(m.k), put(m.light);
-    const Light l = fetchLight(1u);
-    put(l.position), put(l.kind), put(l.edgeA), put(l.area), put(l.edgeB), put(l.bothSides);
-    put(l.color), put(l.flags);
-    put(l.firstEntry), put(l.entryCount), put(l.cosCutoff), put(l.falloffExponent);
-    const EmitterEntry e = fetchEmitterEntry(1u);
-    put(e.place), put(e.alias), put(e.threshold), put(e.unused);
+    putMaterial(fetchMaterial(3u)); // three rows each
+    putLight(fetchLightRows(1u));
+    const LightEntry e = fetchLightEntry(1u);
+    put(e.light), put(e.trail), put(e.probability), put(e.group);
+    const AliasColumn c = fetchAliasColumn(1u);
+    put(c.threshold), put(c.alias), put(c.unused0), put(c.unused1);
+    const LightNode n = fetchLightNode(0u);
+    put(n.center), put(n.radius), put(n.axis), put(n.cosSpread), put(n.power), put(n.child);
 }
 
 void putFrame() {
     put(frame.cameraPosition), put(frame.width), put(frame.cameraRight), put(frame.height);
     put(frame.cameraUp), put(frame.firstSample), put(frame.cameraBack), put(frame.keepsValue);
-    put(frame.nearDistance), put(frame.farDistance), put(frame.lampGap), put(frame.seed);
+    put(frame.nearDistance), put(frame.farDistance), put(frame.gapWidth), put(frame.seed);
     put(frame.minBounce), put(frame.maxBounces), put(frame.terminationProbability);
-    put(frame.lightSamples), put(frame.areaLights), put(frame.deltaLights);
-    put(frame.areaSamples), put(frame.branches);
+    put(frame.lightCount), put(frame.areaLights), put(frame.hemisphereSamples);
+    put(frame.lightSamples), put(frame.branches);
 }
 
 void putWork() {
@@ -81,7 +111,7 @@ void putWork() {
     const SuspendedPath p = suspendedPaths[1];
     put(p.origin), put(p.bounce), put(p.direction), put(p.skipPrimitive), put(p.throughput);
     put(p.emission), put(p.radiance), put(p.item), put(p.arrivalNumbers);
-    put(p.unused);
+    put(p.unused0), put(p.departureNormal), put(p.unused1);
     const SuspendedSplit q = suspendedSplits[1];
     put(q.position), put(q.bounce), put(q.geometric), put(q.material), put(q.shading);
     put(q.skipPrimitive), put(q.wo), put(q.lift), put(q.throughput), put(q.error);

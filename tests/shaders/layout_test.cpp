@@ -1,6 +1,7 @@
 // Every field of every structure that C++ and GLSL share arrives where it is meant to, bit for
 // bit: through storage and texel buffers, as uniforms, push constants and storage buffers.
 #include "host/bvh/wide_layout.hpp"
+#include "host/kernel/rows.hpp"
 #include "shaders/shared/scene_types.h"
 #include "tests/support/device_fixture.hpp"
 #include "tests/support/test_shader.hpp"
@@ -71,6 +72,10 @@ class Patterns {
     uint32_t counter_ = 0;
 };
 
+/// A header and the most rows of parameters that a kind has.
+using MaterialWords = std::array<Row, 3>;
+using LightWords = std::array<Row, gpu::LIGHT_ROWS>;
+
 struct LayoutCase {
     bool texelFetch;
     bool awkward;
@@ -81,19 +86,21 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
     void fillScene(TestShader& shader, Patterns& patterns) {
         const auto records = patterns.several<Record>();
         const auto primitives = patterns.several<gpu::Primitive>();
-        const auto materials = patterns.several<gpu::Material>();
-        const auto lights = patterns.several<gpu::Light>();
-        const auto entries = patterns.several<gpu::EmitterEntry>();
+        const auto materials = patterns.several<MaterialWords>();
+        const auto lights = patterns.several<LightWords>();
+        const auto table = patterns.several<Row>();
         shader.set(BINDING_RECORDS, records);
         shader.set(BINDING_PRIMITIVES, primitives);
         shader.set(BINDING_MATERIALS, materials);
         shader.set(BINDING_LIGHTS, lights);
-        shader.set(BINDING_EMITTER_ENTRIES, entries);
+        shader.set(BINDING_LIGHT_TABLE, table);
         expectNode(asNode(records[1]));
         expectLeaf(asLeaf(records[2]));
         expected_.structure("Primitive", primitives[1].material, primitives[1].n0, primitives[1].n1,
                             primitives[1].n2);
-        expectShading(materials[1], lights[1], entries[1]);
+        expectMaterial(materials[1]);
+        expectLight(lights[1]);
+        expectTable(table);
     }
 
     void expectNode(const gpu::NodeRecord& n) {
@@ -105,31 +112,75 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
 
     /// Once as it is, then both of its primitives.
     void expectLeaf(const gpu::LeafRecord& l) {
-        expected_.structure("LeafRecord", l.p0, l.primitive, l.p1, l.unused0, l.p3, l.unused1, l.p2,
+        expected_.structure("LeafRecord", l.p0, l.primitive, l.p1, l.light0, l.p3, l.light1, l.p2,
                             l.radius);
         const uint32_t isSphere = (l.primitive & gpu::RECORD_IS_SPHERE) != 0;
         const uint32_t primitive = l.primitive & gpu::RECORD_INDEX_MASK;
-        expected_.structure("slot 0", l.p0, l.p1, l.p2, l.radius, isSphere, primitive);
-        expected_.structure("slot 1", l.p0, l.p2, l.p3, l.radius, isSphere, primitive + 1);
+        expected_.structure("slot 0", l.p0, l.p1, l.p2, l.radius, isSphere, primitive, l.light0);
+        expected_.structure("slot 1", l.p0, l.p2, l.p3, l.radius, isSphere, primitive + 1,
+                            l.light1);
     }
 
-    void expectShading(const gpu::Material& m, const gpu::Light& l, const gpu::EmitterEntry& e) {
-        expected_.structure("Material", m.reflectance, m.kind, m.emission, m.emitsBothSides,
-                            m.transmittanceOrEta, m.iorOrAlpha, m.k, m.light);
-        expected_.structure("Light", l.position, l.kind, l.edgeA, l.area, l.edgeB, l.bothSides,
-                            l.color, l.flags, l.firstEntry, l.entryCount, l.cosCutoff,
-                            l.falloffExponent);
-        expected_.structure("EmitterEntry", e.place, e.alias, e.threshold, e.unused);
+    /// The rows that follow the header, as the parameters of every kind of BSDF.
+    void expectMaterial(const MaterialWords& m) {
+        const auto header = std::bit_cast<gpu::MaterialHeader>(m[0]);
+        expected_.structure("MaterialHeader", header.emission, header.kind);
+        const auto diffuse = std::bit_cast<gpu::DiffuseParameters>(m[1]);
+        expected_.structure("DiffuseParameters", diffuse.albedo, diffuse.unused);
+        const auto mirror = std::bit_cast<gpu::MirrorParameters>(m[1]);
+        expected_.structure("MirrorParameters", mirror.reflectance, mirror.unused);
+        const auto refraction = std::bit_cast<gpu::RefractionParameters>(m[1]);
+        expected_.structure("RefractionParameters", refraction.transmittance, refraction.ior);
+        const std::array<Row, 2> two = {m[1], m[2]};
+        const auto glass = std::bit_cast<gpu::GlassParameters>(two);
+        expected_.structure("GlassParameters", glass.reflectance, glass.ior, glass.transmittance,
+                            glass.unused);
+        const auto metal = std::bit_cast<gpu::RoughConductorParameters>(two);
+        expected_.structure("RoughConductorParameters", metal.eta, metal.alpha, metal.k,
+                            metal.unused);
+    }
+
+    void expectLight(const LightWords& l) {
+        const auto header = std::bit_cast<gpu::LightHeader>(l[0]);
+        expected_.structure("LightHeader", header.color, header.kind);
+        const std::array<Row, 3> three = {l[1], l[2], l[3]};
+        const auto quad = std::bit_cast<gpu::QuadLight>(three);
+        expected_.structure("QuadLight", quad.corner, quad.area, quad.edgeA, quad.unused0,
+                            quad.edgeB, quad.unused1);
+        const auto point = std::bit_cast<gpu::PointLight>(three);
+        expected_.structure("PointLight", point.position, point.falloffExponent, point.attenuation,
+                            point.cosCutoff, point.axis, point.unused);
+        const auto sphere = std::bit_cast<gpu::SphereLight>(l[1]);
+        expected_.structure("SphereLight", sphere.center, sphere.radius);
+        const auto ambient = std::bit_cast<gpu::AmbientLight>(l[1]);
+        expected_.structure("AmbientLight", ambient.fromAbove, ambient.unused);
+        const auto sun = std::bit_cast<gpu::DirectionalLight>(l[1]);
+        expected_.structure("DirectionalLight", sun.toLight, sun.unused);
+    }
+
+    /// Row 1 as an entry; the frame's count of lights is 0 there, so that rows 0 to 2 are columns
+    /// and nodes.
+    void expectTable(const std::vector<Row>& table) {
+        const auto entry = std::bit_cast<gpu::LightEntry>(table[1]);
+        expected_.structure("LightEntry", entry.light, entry.trail, entry.probability, entry.group);
+        const auto column = std::bit_cast<gpu::AliasColumn>(table[1]);
+        expected_.structure("AliasColumn", column.threshold, column.alias, column.unused0,
+                            column.unused1);
+        const std::array<Row, 2> two = {table[0], table[1]};
+        const auto node = std::bit_cast<gpu::LightNode>(two);
+        expected_.structure("LightNode", node.center, node.radius, node.axis, node.cosSpread,
+                            node.power, node.child);
     }
 
     void fillFrame(TestShader& shader, Patterns& patterns) {
-        const gpu::Frame f = patterns.several<gpu::Frame>()[1];
+        gpu::Frame f = patterns.several<gpu::Frame>()[1];
+        f.lightCount = 0; // where the table's nodes and columns begin: expectTable()
         shader.setOne(BINDING_FRAME, f);
         expected_.structure("Frame", f.cameraPosition, f.width, f.cameraRight, f.height, f.cameraUp,
                             f.firstSample, f.cameraBack, f.keepsValue, f.nearDistance,
-                            f.farDistance, f.lampGap, f.seed, f.minBounce, f.maxBounces,
-                            f.terminationProbability, f.lightSamples, f.areaLights, f.deltaLights,
-                            f.areaSamples, f.branches);
+                            f.farDistance, f.gapWidth, f.seed, f.minBounce, f.maxBounces,
+                            f.terminationProbability, f.lightCount, f.areaLights,
+                            f.hemisphereSamples, f.lightSamples, f.branches);
     }
 
     void fillWork(TestShader& shader, Patterns& patterns, const gpu::Dispatch& d) {
@@ -149,7 +200,7 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         const gpu::SuspendedPath& p = paths_[1];
         expected_.structure("SuspendedPath", p.origin, p.bounce, p.direction, p.skipPrimitive,
                             p.throughput, p.emission, p.radiance, p.item, p.arrivalNumbers,
-                            p.unused);
+                            p.unused0, p.departureNormal, p.unused1);
         splits_ = patterns.several<gpu::SuspendedSplit>();
         shader.set(BINDING_SPLITS, splits_);
         const gpu::SuspendedSplit& q = splits_[1];
@@ -208,13 +259,19 @@ INSTANTIATE_TEST_SUITE_P(Fetch, LayoutTest,
 
 /// The expectation above names fields in the order of declaration; nothing may be left out.
 TEST(LayoutSizes, NoFieldIsForgotten) {
-    const size_t bytes = sizeof(gpu::NodeRecord) + sizeof(gpu::LeafRecord) +
-                         sizeof(gpu::Primitive) + sizeof(gpu::Material) + sizeof(gpu::Light) +
-                         sizeof(gpu::EmitterEntry) + sizeof(gpu::Frame) + sizeof(gpu::Dispatch) +
-                         sizeof(gpu::WorkItem) + sizeof(gpu::PixelState) +
-                         sizeof(gpu::SuspendedPath) + sizeof(gpu::SuspendedSplit) +
-                         sizeof(gpu::DispatchStatus);
-    EXPECT_EQ(bytes / 4, 16 + 16 + 4 + 16 + 20 + 4 + 28 + 8 + 4 + 16 + 20 + 24 + 8u);
+    const size_t bytes =
+        sizeof(gpu::NodeRecord) + sizeof(gpu::LeafRecord) + sizeof(gpu::Primitive) +
+        sizeof(gpu::MaterialHeader) + sizeof(gpu::DiffuseParameters) +
+        sizeof(gpu::MirrorParameters) + sizeof(gpu::RefractionParameters) +
+        sizeof(gpu::GlassParameters) + sizeof(gpu::RoughConductorParameters) +
+        sizeof(gpu::LightHeader) + sizeof(gpu::QuadLight) + sizeof(gpu::PointLight) +
+        sizeof(gpu::SphereLight) + sizeof(gpu::AmbientLight) + sizeof(gpu::DirectionalLight) +
+        sizeof(gpu::LightEntry) + sizeof(gpu::AliasColumn) + sizeof(gpu::LightNode) +
+        sizeof(gpu::Frame) + sizeof(gpu::Dispatch) + sizeof(gpu::WorkItem) +
+        sizeof(gpu::PixelState) + sizeof(gpu::SuspendedPath) + sizeof(gpu::SuspendedSplit) +
+        sizeof(gpu::DispatchStatus);
+    EXPECT_EQ(bytes / 4, 16 + 16 + 4 + (4 + 4 + 4 + 4 + 8 + 8) + (4 + 12 + 12 + 4 + 4 + 4) +
+                             (4 + 4 + 8) + 28 + 8 + 4 + 16 + 24 + 24 + 8u);
 }
 
 } // namespace

@@ -16,15 +16,23 @@ bool blocked(vec3 origin, vec3 direction, float tMax) {
 LightAnswer answer(LightQuery q) {
     const SurfacePoint s = SurfacePoint(q.position, largestComponent(q.error), q.geometric, q.shading,
                                         q.wo, q.outside != 0u, 0u, NO_PRIMITIVE, 0.0);
-    const Light light = fetchLight(q.light);
-    // One number for both the column of an alias table and the choice within it: three are enough
-    // for the small tables of the tests.
-    const float within = fract(q.w * float(light.entryCount));
-    const LightSample l = sampleLight(s, light, vec4(q.u, q.v, q.w, within));
+    findOnlyLight();
+    const vec2 u = vec2(q.u, q.v);
+    PickedLight picked;
+    float again = 0.0;
+    if (q.light == NO_LIGHT) {
+        picked = pickLight(litPoint(s), shadingNormal(s), 0u, u);
+    } else {
+        const LightEntry entry = fetchLightEntry(q.light);
+        again = lightProbability(entry, litPoint(s), shadingNormal(s));
+        picked = PickedLight(entry.light, 1.0, u);
+    }
+    const LightSample l = sampleLight(s, picked.light, picked.u);
     const bool below = dot(s.geometric, l.direction) < 0.0;
-    const vec3 origin = leave(s, l.direction, below); // as sampleLights in path.glsl
+    const vec3 origin = leave(s, l.direction, below); // as traceDirectSample() in path.glsl
     const bool isBlocked = l.infinite ? blocked(origin, l.direction, INFINITE_DISTANCE)
                                       : blocked(origin, l.target - origin, 1.0);
-    return LightAnswer(l.target, l.infinite ? 1u : 0u, l.direction, isBlocked ? 1u : 0u,
-                       l.radiance, 0u);
+    const vec3 radiance = picked.probability > 0.0 ? l.radiance / picked.probability : vec3(0.0);
+    return LightAnswer(l.target, l.infinite ? 1u : 0u, l.direction, isBlocked ? 1u : 0u, radiance,
+                       picked.light, picked.probability, again, picked.u.x, picked.u.y);
 }

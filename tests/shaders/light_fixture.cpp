@@ -12,7 +12,8 @@ LightFixture::LightFixture(bool cs184)
     : cs184_(cs184), shader_(light_texel, ShaderOptions::texel().set(SPEC_CS184, cs184)) {}
 
 void LightFixture::setScene(const Scene& scene) {
-    packed_ = packScene(scene, buildWideBvh(scene), cs184_);
+    packed_ = packScene(scene, buildWideBvh(scene),
+                        cs184_ ? LightSelection{LightChoice::Each, false, true} : LightSelection{});
     shader_.setScene(packed_);
 }
 
@@ -34,18 +35,17 @@ std::vector<gpu::LightQuery> LightFixture::samples(const gpu::LightQuery& surfac
     Random random(seed);
     std::vector<gpu::LightQuery> queries(n, surface);
     for (gpu::LightQuery& q : queries)
-        q.u = random.uniform(), q.v = random.uniform(), q.w = random.uniform();
+        q.u = random.uniform(), q.v = random.uniform();
     return queries;
 }
 
 std::vector<gpu::LightQuery> LightFixture::ends(const gpu::LightQuery& surface) {
     std::vector<gpu::LightQuery> queries;
     for (const float u : {0.0f, 0x1p-24f, 0.5f, 1 - 0x1p-24f})
-        for (const float v : {0.0f, 0.25f, 0.5f, 1 - 0x1p-24f})
-            for (const float w : {0.0f, 1 - 0x1p-24f}) {
-                queries.push_back(surface);
-                queries.back().u = u, queries.back().v = v, queries.back().w = w;
-            }
+        for (const float v : {0.0f, 0.25f, 0.5f, 1 - 0x1p-24f}) {
+            queries.push_back(surface);
+            queries.back().u = u, queries.back().v = v;
+        }
     return queries;
 }
 

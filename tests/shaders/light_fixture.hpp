@@ -23,7 +23,7 @@ class LightFixture : public DeviceTest {
     /// The same surface with n samples of light 0.
     static std::vector<gpu::LightQuery> samples(const gpu::LightQuery& surface, size_t n,
                                                 uint32_t seed);
-    /// With every pair of u, v and w from the ends of their interval.
+    /// With every pair of u and v from the ends of their interval.
     static std::vector<gpu::LightQuery> ends(const gpu::LightQuery& surface);
 
     GpuScene packed_;

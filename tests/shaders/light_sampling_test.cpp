@@ -88,42 +88,7 @@ TEST_F(LightSampling, QuadAnywhereInSpaceNeverShadesItself) {
     }
 }
 
-TEST_F(LightSampling, MeshTrianglesInProportionToTheirAreas) {
-    // Side by side along x, facing down from z = 1, areas 0, 1, 2, ... times 1/2.
-    constexpr size_t kTriangles = 9;
-    Scene scene = sceneWithLamp({3, 2, 1}, false);
-    std::vector<double> expected;
-    for (size_t i = 0; i < kTriangles; ++i) {
-        const float x = 2 * float(i), size = float(i) / 8;
-        addLampTriangle(scene, {x, 0, 1}, {x, size, 1}, {x + 1, 0, 1});
-        expected.push_back(double(i) * kSamples / (kTriangles * (kTriangles - 1) / 2));
-    }
-    const double area = 0.5 * (1 + 2 + 3 + 4 + 5 + 6 + 7 + 8) / 8.0;
-    setScene(scene);
-    ASSERT_EQ(packed_.lights[0].kind, gpu::LIGHT_MESH);
-    const auto queries = samples(surfaceAt({8, 1, 0}, {0, 0, 1}), kSamples, 124);
-    const std::vector<LightAnswer> found = answers(queries);
-    std::vector<double> counts(kTriangles);
-    for (size_t i = 0; i < found.size(); ++i) {
-        const LightAnswer& a = found[i];
-        ASSERT_TRUE(isSound(a)) << i;
-        const glm::dvec3 p = onPlane(queries[i], a, 1), to = p - glm::dvec3(queries[i].position);
-        const size_t triangle = size_t((p.x + 0.5) / 2);
-        ASSERT_LT(triangle, kTriangles);
-        ++counts[triangle];
-        // L times the triangle's solid angle over its probability: in all, L area cos / d^2 where
-        // triangles are small.
-        const double d2 = glm::dot(to, to), value = area * to.z / std::sqrt(d2) / d2;
-        ASSERT_NEAR(a.radiance.x / (3 * value), 1, 1.5) << i;
-        ASSERT_EQ(a.blocked, 0u) << i;
-    }
-    EXPECT_EQ(counts[0], 0) << "the triangle without area was picked";
-    EXPECT_GT(chiSquareTest(counts, expected), kLevel);
-    for (const LightAnswer& a : answers(ends(queries[0])))
-        EXPECT_TRUE(isSound(a));
-}
-
-TEST_F(LightSampling, AmbientAboutTheNormalOrAboveTheHorizon) {
+TEST_F(LightSampling, AmbientByTheCosineAboutTheNormal) {
     for (const bool upper : {false, true}) {
         Scene scene = sceneWithLamp(glm::vec3(0.0f), true);
         Light light;
@@ -133,17 +98,41 @@ TEST_F(LightSampling, AmbientAboutTheNormalOrAboveTheHorizon) {
         scene.lights.push_back(light);
         setScene(scene);
         const LightQuery surface = surfaceAt({1, 2, 3}, {0.6f, -0.64f, 0.48f});
-        const glm::dvec3 pole = upper ? glm::dvec3(0, 1, 0) : glm::dvec3(surface.shading);
+        const glm::dvec3 normal(surface.shading);
         std::vector<double> counts(20);
         for (const LightAnswer& a : answers(samples(surface, kSamples, 125))) {
             ASSERT_TRUE(isSound(a));
             ASSERT_EQ(a.infinite, 1u);
-            ASSERT_NEAR(a.radiance.z, 3 * 2 * kPi, 1e-5); // L / pdf
-            const double cosine = glm::dot(glm::dvec3(a.direction), pole);
+            const double cosine = glm::dot(glm::dvec3(a.direction), normal);
             ASSERT_GE(cosine, -1e-6);
-            ++counts[std::min(size_t(std::max(cosine, 0.0) * 20), size_t(19))];
+            const bool reaches = !upper || a.direction.y > 0;
+            if (cosine > 1e-3 && std::abs(a.direction.y) > 1e-6f) {
+                ASSERT_NEAR(a.radiance.z * cosine / (reaches ? 3 * kPi : 1), reaches ? 1 : 0, 1e-3);
+            }
+            // cos^2 is uniform.
+            ++counts[std::min(size_t(std::max(cosine * cosine, 0.0) * 20), size_t(19))];
         }
         EXPECT_GT(chiSquareTest(counts, std::vector<double>(20, kSamples / 20.0)), kLevel);
+    }
+}
+
+/// Ambient light from everywhere and from above is one light, the sum of all.
+TEST_F(LightSampling, AmbientLightsAddUp) {
+    Scene scene = sceneWithLamp(glm::vec3(0.0f), true);
+    for (const bool upper : {false, true, false, true}) {
+        Light& light = scene.lights.emplace_back();
+        light.kind = LightKind::Ambient;
+        light.color = upper ? glm::vec3(0, 0, 5) : glm::vec3(1, 2, 0);
+        light.upperHemisphereOnly = upper;
+    }
+    setScene(scene);
+    ASSERT_EQ(packed_.lights.count, 1u);
+    const LightQuery surface = surfaceAt({1, 2, 3}, {1, 0, 0});
+    for (const LightAnswer& a : answers(samples(surface, 1000, 128))) {
+        const double inversePdf = kPi / std::max(double(a.direction.x), 1e-30);
+        if (a.direction.x < 1e-3f) continue;
+        EXPECT_NEAR(a.radiance.x / (2 * inversePdf), 1, 1e-3);
+        EXPECT_NEAR(a.radiance.z / inversePdf, a.direction.y > 0 ? 10 : 0, 1e-2);
     }
 }
 

@@ -1,5 +1,6 @@
 // light_tree.glsl by way of light.comp: triangles are picked as often as claimed, the light of all
 // of them is what Lambert's formula says, with less noise than picking one uniformly.
+#include "host/kernel/kernel_features.hpp"
 #include "scene/generate/generated_scene.hpp"
 #include "tests/shaders/light_fixture.hpp"
 
@@ -45,16 +46,14 @@ class ManyLights : public DeviceTest, public ::testing::WithParamInterface<Light
         scene_.materials.push_back(other);
     }
     Estimate estimate(LightChoice choice, const LightQuery& surface) {
-        const GpuScene packed = packScene(scene_, buildWideBvh(scene_), false, choice);
-        constexpr uint32_t kConstants[] = {gpu::LIGHT_CHOICE_TREE, gpu::LIGHT_CHOICE_POWER,
-                                           gpu::LIGHT_CHOICE_UNIFORM};
-        TestShader shader(light_texel,
-                          ShaderOptions::texel().set(SPEC_LIGHT_CHOICE, kConstants[int(choice)]));
+        const GpuScene packed = packScene(scene_, buildWideBvh(scene_), {.choice = choice});
+        TestShader shader(light_texel, ShaderOptions::texel().set(
+                                           SPEC_LIGHT_CHOICE, lightChoiceConstant(packed.lights)));
         shader.setScene(packed);
         Random random(151);
         std::vector<LightQuery> queries(kSamples, surface);
         for (LightQuery& q : queries)
-            q.u = random.uniform(), q.v = random.uniform(), q.w = random.uniform();
+            q.u = random.uniform(), q.v = random.uniform();
         Estimate e;
         for (const LightAnswer& a : ask<LightAnswer>(shader, queries)) {
             EXPECT_TRUE(isSound(a));
@@ -89,6 +88,7 @@ class ManyLights : public DeviceTest, public ::testing::WithParamInterface<Light
         q.error = glm::vec3(1e-6f);
         q.geometric = q.shading = q.wo = {0, 1, 0};
         q.outside = 1;
+        q.light = gpu::NO_LIGHT;
         return q;
     }
 

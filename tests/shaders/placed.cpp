@@ -6,7 +6,7 @@ namespace stromboli::test {
 
 GpuScene pack(Scene scene) {
     if (scene.materials.empty()) scene.materials.resize(1);
-    return packScene(scene, buildWideBvh(scene), false);
+    return packScene(scene, buildWideBvh(scene));
 }
 
 std::vector<Placed> placed(const GpuScene& scene) {

@@ -15,9 +15,11 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "include/intersect.glsl"
 #include "include/traverse.glsl"
 #include "include/camera.glsl"
+#include "include/warps.glsl"
+#include "include/cs184.glsl"
 #include "include/surface.glsl"
-#include "include/bsdf.glsl"
-#include "include/lights.glsl"
+#include "bsdf/bsdf.glsl"
+#include "lights/lights.glsl"
 #include "include/accumulate.glsl"
 
 #include "queries.h"

@@ -5,6 +5,7 @@
 
 #include "shared/language.h"
 #include "shared/render_types.h"
+#include "shared/scene_types.h"
 
 SHARED_BEGIN
 
@@ -156,7 +157,7 @@ SHARED_ROWS(WarpAnswer, 7);
 /// A light sample for a surface, and whether its segment is blocked by the scene.
 struct LightQuery {
     vec3 position;
-    uint light;
+    uint light; ///< its number; NO_LIGHT: the kernel picks one
     vec3 error;
     uint outside;
     vec3 geometric;
@@ -164,7 +165,7 @@ struct LightQuery {
     vec3 shading;
     float v;
     vec3 wo;
-    float w;
+    uint unused;
 };
 SHARED_ROWS(LightQuery, 5);
 struct LightAnswer {
@@ -172,34 +173,38 @@ struct LightAnswer {
     uint infinite;
     vec3 direction;
     uint blocked;
-    vec3 radiance;
-    uint unused;
+    vec3 radiance;     ///< over the density and the probability of the choice
+    uint light;        ///< LightEntry::light of what was sampled
+    float probability; ///< of the choice, as pickLight() states it
+    float again;       ///< the same, as lightProbability() states it of the light in the query
+    float u;           ///< what is left of the random numbers
+    float v;
 };
-SHARED_ROWS(LightAnswer, 3);
+SHARED_ROWS(LightAnswer, 4);
 
 /// evaluateBsdf towards wi and sampleBsdf with u, v, w, on a surface that is turned to wo first.
 struct BsdfQuery {
     vec3 wo;
-    uint material;
+    uint materialRow;
     vec3 wi;
     uint outside;
     vec3 geometric;
     float u;
     vec3 shading;
     float v;
+    float w;
+    uint material; ///< its number, for the test
     uint unused0;
     uint unused1;
-    uint unused2;
-    uint unused3;
 };
 SHARED_ROWS(BsdfQuery, 5);
 struct BsdfAnswer {
-    vec3 value; ///< f |cos|
-    uint transmitted;
+    vec3 value; ///< f |cos| for wi
+    float pdf;  ///< of bounces towards wi
     vec3 direction;
-    float density; ///< of bounces towards wi; microfacet
+    float samplePdf; ///< of that direction
     vec3 weight;
-    uint unused;
+    uint lobe;
 };
 SHARED_ROWS(BsdfAnswer, 3);
 

@@ -103,7 +103,8 @@ class SolidAngles : public LightFixture,
         addLampTriangle(scene, v0, a, isQuad() ? far : b);
         if (isQuad()) addLampTriangle(scene, far, b, v0);
         setScene(scene);
-        ASSERT_EQ(packed_.lights[0].kind, isQuad() ? gpu::LIGHT_QUAD : gpu::LIGHT_MESH);
+        ASSERT_EQ(packed_.lights.sampledKinds,
+                  1u << (isQuad() ? gpu::LIGHT_QUAD : gpu::LIGHT_TRIANGLE));
     }
     LightQuery surface() const {
         LightQuery q = surfaceAt(lamp().position, lamp().normal);

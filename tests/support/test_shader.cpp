@@ -31,7 +31,8 @@ ShaderOptions::ShaderOptions() {
     for (const uint32_t feature :
          {SPEC_HAS_TRIANGLES, SPEC_HAS_SPHERES, SPEC_HAS_NORMALS, SPEC_HAS_EMISSION})
         set(feature, 1);
-    set(SPEC_MATERIAL_KINDS, ~0u).set(SPEC_LIGHT_KINDS, ~0u).set(SPEC_LIGHT_SAMPLES, 1);
+    set(SPEC_BSDF_KINDS, ~0u).set(SPEC_LIGHT_KINDS, ~0u).set(SPEC_LIGHT_SAMPLES, 1);
+    set(SPEC_LIGHT_CHOICE, gpu::LIGHT_CHOICE_TREE).set(SPEC_LIGHT_GROUPS, 7);
 }
 
 ShaderOptions ShaderOptions::texel() {
@@ -72,8 +73,13 @@ void TestShader::setScene(const GpuScene& scene) {
     set(BINDING_RECORDS, scene.bvh.records);
     set(BINDING_PRIMITIVES, scene.primitives);
     set(BINDING_MATERIALS, scene.materials);
-    set(BINDING_LIGHTS, scene.lights);
-    set(BINDING_EMITTER_ENTRIES, scene.emitterEntries);
+    set(BINDING_LIGHTS, scene.lights.lights);
+    set(BINDING_LIGHT_TABLE, scene.lights.table);
+    gpu::Frame frame{};
+    frame.lightCount = scene.lights.count;
+    frame.areaLights = scene.lights.areaCount;
+    frame.gapWidth = scene.gapWidth;
+    setOne(BINDING_FRAME, frame);
 }
 
 void TestShader::run(uint32_t invocations, gpu::Dispatch constants) {

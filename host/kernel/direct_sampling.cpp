@@ -1,0 +1,34 @@
+#include "host/kernel/direct_sampling.hpp"
+
+namespace stromboli {
+namespace {
+
+/// Lights are sampled one by one or, in turn, each; a single delta light needs no second sample.
+void addLightSamples(const LightTable& lights, uint32_t samples, DirectSampling& direct) {
+    const uint32_t deltaLights = lights.count - lights.areaCount;
+    direct.perLight = samples;
+    if (lights.choice == LightChoice::Each)
+        direct.lights = lights.areaCount * samples + deltaLights;
+    else
+        direct.lights = lights.count > 0 ? samples : 0;
+    if (lights.count == 1 && deltaLights == 1) direct.lights = direct.perLight = 1;
+}
+
+} // namespace
+
+DirectSampling directSampling(const LightTable& lights, const Estimator& settings) {
+    DirectSampling direct;
+    const uint32_t samples = settings.lightSamples;
+    const bool hemisphere = settings.directLight == DirectLight::Hemisphere;
+    if (hemisphere && settings.cs184) {
+        direct.hemisphere = samples * lights.count; // times the number of all the file's lights
+        return direct;
+    }
+    if (hemisphere) direct.hemisphere = samples;
+    addLightSamples(lights, samples, direct);
+    if (settings.cs184 && settings.directLight == DirectLight::Bsdf)
+        direct.lights = lights.count - lights.areaCount;
+    return direct;
+}
+
+} // namespace stromboli

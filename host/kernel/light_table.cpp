@@ -1,0 +1,265 @@
+#include "host/kernel/light_table.hpp"
+
+#include "host/kernel/alias_table.hpp"
+#include "host/kernel/light_bounds.hpp"
+#include "host/kernel/light_tree.hpp"
+#include "scene/model/emitters.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stromboli {
+namespace {
+
+gpu::QuadLight quad(const glm::vec3& corner, const glm::vec3& a, const glm::vec3& b) {
+    gpu::QuadLight q{};
+    q.corner = corner;
+    q.edgeA = a;
+    q.edgeB = b;
+    q.area = float(glm::length(glm::cross(glm::dvec3(a), glm::dvec3(b))));
+    return q;
+}
+
+/// The rectangle of the CS184 dialect. The kernel's normal is edgeA x edgeB: the edges are swapped
+/// where the light faces the other way.
+gpu::QuadLight rectangle(const Light& l) {
+    const bool swap = glm::dot(glm::cross(l.edgeX, l.edgeY), l.direction) < 0;
+    const glm::vec3 a = swap ? l.edgeY : l.edgeX, b = swap ? l.edgeX : l.edgeY;
+    return quad(l.position - 0.5f * a - 0.5f * b, a, b);
+}
+
+gpu::PointLight pointLight(const Light& l, bool cs184) {
+    gpu::PointLight p{};
+    p.position = l.position;
+    p.axis = l.direction;
+    p.attenuation = {l.constantAttenuation, l.linearAttenuation, l.quadraticAttenuation};
+    p.cosCutoff = std::cos(0.5f * l.falloffAngle);
+    p.falloffExponent = l.falloffExponent;
+    if (cs184) p.attenuation = {1, 0, 0};
+    return p;
+}
+
+/// How far apart surfaces and lights are, more or less: half the diagonal of the scene.
+double radiusOf(const Scene& scene) {
+    const Bounds bounds = scene.bounds();
+    const double radius = bounds.empty() ? 0 : 0.5 * glm::length(glm::dvec3(bounds.extent()));
+    return radius > 0 ? radius : 1;
+}
+
+/// Collects the lights that are sampled, with what one is picked by.
+class Packer {
+  public:
+    Packer(const Scene& scene, std::span<const uint32_t> placeOf, const LightSelection& selection)
+        : scene_(scene), placeOf_(placeOf), selection_(selection), sceneRadius_(radiusOf(scene)) {
+        out_.choice = selection.choice;
+    }
+
+    LightTable pack() {
+        if (selection_.cs184)
+            addLights([](const Light& l) { return l.kind == LightKind::Ambient; });
+        else
+            addAmbientLight();
+        if (!selection_.cs184 && !selection_.deltaLightsOnly) addEmitters();
+        addLights([](const Light& l) { return l.kind == LightKind::Area; });
+        out_.areaCount = uint32_t(entries_.size());
+        addLights([](const Light& l) { return l.isDelta(); });
+        out_.count = uint32_t(entries_.size());
+        writeTable();
+        return std::move(out_);
+    }
+
+  private:
+    /// What can bring no light is no light, but in the CS184 renderer, which counts it.
+    bool isSampled(const LightBounds& bounds) const { return bounds.power > 0 || selection_.cs184; }
+
+    uint32_t addRows(const glm::vec3& color, uint32_t kindAndFlags) {
+        const auto number = uint32_t(out_.lights.size() / gpu::LIGHT_ROWS);
+        appendRows(out_.lights, gpu::LightHeader{color, kindAndFlags});
+        return number;
+    }
+
+    void fillRows() {
+        while (out_.lights.size() % gpu::LIGHT_ROWS != 0)
+            out_.lights.push_back({});
+    }
+
+    uint32_t addEntry(uint32_t kind, uint32_t reference, const LightBounds& bounds) {
+        out_.sampledKinds |= 1u << kind;
+        entries_.push_back({reference, 0, 0, bounds.group});
+        bounds_.push_back(bounds);
+        return uint32_t(entries_.size() - 1);
+    }
+
+    template <class Wanted>
+    void addLights(Wanted&& wanted) {
+        for (const Light& light : scene_.lights)
+            if (wanted(light)) addLight(light);
+    }
+
+    /// All of the scene's ambient light as one light: the sum of radiances is what arrives.
+    void addAmbientLight() {
+        Light everywhere, above;
+        everywhere.kind = above.kind = LightKind::Ambient;
+        everywhere.color = above.color = glm::vec3(0);
+        above.upperHemisphereOnly = true;
+        for (const Light& l : scene_.lights)
+            if (l.kind == LightKind::Ambient)
+                (l.upperHemisphereOnly ? above : everywhere).color += l.color;
+        LightBounds bounds = boundsOfLight(everywhere, sceneRadius_);
+        const LightBounds fromAbove = boundsOfLight(above, sceneRadius_);
+        if (!(bounds.power > 0))
+            bounds = fromAbove;
+        else
+            bounds.power += fromAbove.power;
+        if (!(bounds.power > 0)) return;
+        out_.hasAmbient = true;
+        const uint32_t number = addRows(everywhere.color, gpu::LIGHT_AMBIENT);
+        appendRows(out_.lights, gpu::AmbientLight{above.color, 0});
+        fillRows();
+        if (!selection_.deltaLightsOnly) addEntry(gpu::LIGHT_AMBIENT, number, bounds);
+    }
+
+    static uint32_t kindOf(LightKind kind) {
+        switch (kind) {
+        case LightKind::Area:
+            return gpu::LIGHT_QUAD;
+        case LightKind::Ambient:
+            return gpu::LIGHT_AMBIENT;
+        case LightKind::Directional:
+            return gpu::LIGHT_DIRECTIONAL;
+        case LightKind::Point:
+            return gpu::LIGHT_POINT;
+        case LightKind::Spot:
+            return gpu::LIGHT_SPOT;
+        }
+        return gpu::LIGHT_POINT;
+    }
+
+    void addLight(const Light& l) {
+        const LightBounds bounds = boundsOfLight(l, sceneRadius_);
+        if (!isSampled(bounds)) return;
+        const bool shinesNowhere = l.kind == LightKind::Spot && selection_.cs184;
+        const uint32_t kind = kindOf(l.kind);
+        const uint32_t number = addRows(shinesNowhere ? glm::vec3(0) : l.color, kind);
+        if (l.kind == LightKind::Area) appendRows(out_.lights, rectangle(l));
+        if (l.kind == LightKind::Directional)
+            appendRows(out_.lights, gpu::DirectionalLight{-l.direction, 0});
+        if (l.kind == LightKind::Point || l.kind == LightKind::Spot)
+            appendRows(out_.lights, pointLight(l, selection_.cs184));
+        fillRows();
+        addEntry(kind, number, bounds);
+    }
+
+    void addEmitters() {
+        for (const Emitter& e : collectEmitters(scene_)) {
+            if (e.kind == EmitterKind::Mesh) {
+                ++meshes_;
+                for (const uint32_t triangle : e.triangles)
+                    addTriangle(triangle);
+                continue;
+            }
+            const LightBounds bounds = boundsOfEmitter(scene_, e);
+            if (!isSampled(bounds)) continue;
+            const Material& m = scene_.materials[e.material];
+            const bool isQuad = e.kind == EmitterKind::Quad;
+            const uint32_t kind = isQuad ? gpu::LIGHT_QUAD : gpu::LIGHT_SPHERE;
+            const uint32_t number =
+                addRows(m.emission, kind | (m.emitsBothSides ? gpu::LIGHT_BOTH_SIDES : 0));
+            if (isQuad) {
+                appendRows(out_.lights, quad(e.corner, e.edgeA, e.edgeB));
+            } else {
+                const Sphere& sphere = scene_.spheres[e.sphere];
+                appendRows(out_.lights, gpu::SphereLight{sphere.center, sphere.radius});
+            }
+            fillRows();
+            const uint32_t entry = addEntry(kind, number, bounds);
+            for (const uint32_t triangle : e.triangles)
+                nameLight(triangle, entry);
+            if (!isQuad) nameLight(uint32_t(scene_.triangles.size()) + e.sphere, entry);
+        }
+    }
+
+    void addTriangle(uint32_t triangle) {
+        const LightBounds bounds = boundsOfTriangle(scene_, triangle);
+        if (!isSampled(bounds)) return;
+        nameLight(triangle, addEntry(gpu::LIGHT_TRIANGLE,
+                                     placeOf_[triangle] | gpu::LIGHT_IS_TRIANGLE, bounds));
+    }
+
+    void nameLight(uint32_t primitive, uint32_t entry) {
+        if (out_.numberOf.empty())
+            out_.numberOf.assign(scene_.triangles.size() + scene_.spheres.size(), gpu::NO_LIGHT);
+        out_.numberOf[primitive] = entry;
+    }
+
+    /// docs/results.md, "Few lights", has what was measured: of two lights, both are sampled with
+    /// less noise at equal time; the few triangles of a single mesh are picked as well by their
+    /// power, which is quicker.
+    LightChoice suitableChoice() const {
+        constexpr uint32_t kFewTriangles = 64;
+        const bool oneMesh = out_.sampledKinds == 1u << gpu::LIGHT_TRIANGLE && meshes_ == 1 &&
+                             out_.count < kFewTriangles;
+        if (oneMesh) return LightChoice::Power;
+        return out_.count == 2 ? LightChoice::Each : LightChoice::Tree;
+    }
+
+    void writeTable() {
+        if (out_.choice == LightChoice::Automatic) out_.choice = suitableChoice();
+        const bool byTree = out_.choice == LightChoice::Tree && out_.count > 1;
+        const bool byTable = !byTree && out_.choice != LightChoice::Each && out_.count > 1;
+        LightTree tree;
+        std::vector<double> weights;
+        double sum = 0;
+        if (byTree) tree = buildLightTree(bounds_);
+        if (byTable)
+            for (const LightBounds& b : bounds_)
+                sum += weights.emplace_back(weightOf(b));
+        for (size_t i = 0; i < entries_.size(); ++i) {
+            if (byTree) entries_[i].trail = tree.trails[i];
+            if (byTable) entries_[i].probability = float(weights[i] / sum);
+            appendRows(out_.table, entries_[i]);
+        }
+        for (const gpu::LightNode& node : tree.nodes)
+            appendRows(out_.table, node);
+        if (byTable)
+            for (const AliasColumn& column : buildAliasTable(weights))
+                appendRows(out_.table,
+                           gpu::AliasColumn{float(column.threshold), column.alias, 0, 0});
+        out_.groups = tree.groups;
+        out_.levels = tree.levels;
+    }
+
+    /// In an alias table: the irradiance that the light brings to a surface across the scene, both
+    /// sides of it counted.
+    double weightOf(const LightBounds& b) const {
+        if (out_.choice == LightChoice::Uniform) return 1;
+        const double falloff = b.group == gpu::LIGHT_GROUP_NEAR ? sceneRadius_ * sceneRadius_ : 1;
+        return b.power * (b.bothSides ? 2 : 1) / falloff;
+    }
+
+    const Scene& scene_;
+    std::span<const uint32_t> placeOf_;
+    LightSelection selection_;
+    double sceneRadius_;
+    uint32_t meshes_ = 0;
+    LightTable out_;
+    std::vector<gpu::LightEntry> entries_;
+    std::vector<LightBounds> bounds_;
+};
+
+} // namespace
+
+LightSelection lightSelection(const Estimator& settings) {
+    LightSelection selection;
+    selection.cs184 = settings.cs184;
+    selection.choice = settings.cs184 ? LightChoice::Each : settings.lightChoice;
+    selection.deltaLightsOnly = !settings.cs184 && !samplesLights(settings.directLight);
+    return selection;
+}
+
+LightTable packLights(const Scene& scene, std::span<const uint32_t> placeOf,
+                      const LightSelection& selection) {
+    return Packer(scene, placeOf, selection).pack();
+}
+
+} // namespace stromboli

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "host/kernel/rows.hpp"
+#include "host/render/estimator.hpp"
+#include "scene/model/scene.hpp"
+#include "shaders/shared/light_types.h"
+
+#include <span>
+#include <vector>
+
+namespace stromboli {
+
+/// Which lights are sampled, and how one of them is picked.
+struct LightSelection {
+    LightChoice choice = LightChoice::Automatic;
+    /// Only those that no ray can meet; the others are left to rays.
+    bool deltaLightsOnly = false;
+    /// Lights of the file as the CS184 renderer has them; emissive geometry is not sampled.
+    bool cs184 = false;
+};
+
+LightSelection lightSelection(const Estimator& settings);
+
+/// The lights of a scene in the arrays that the kernel reads (shaders/shared/light_types.h).
+struct LightTable {
+    std::vector<Row> lights;                ///< the parameters: ambient lights first
+    std::vector<Row> table;                 ///< LightEntry rows, then AliasColumn or LightNode rows
+    uint32_t count = 0;                     ///< lights that are sampled
+    uint32_t areaCount = 0;                 ///< those of them that rays can meet; they come first
+    bool hasAmbient = false;                ///< the scene has ambient light, sampled or not
+    uint32_t sampledKinds = 0;              ///< bit n: a light of LIGHT_ kind n is sampled
+    uint32_t groups = 0;                    ///< LightTree::groups
+    uint32_t levels = 0;                    ///< LightTree::levels
+    LightChoice choice = LightChoice::Tree; ///< what the selection came to; not Automatic
+    /// By primitive of the scene (triangles, then spheres): its light's number, or NO_LIGHT; empty
+    /// where no primitive is a sampled light.
+    std::vector<uint32_t> numberOf;
+};
+
+/// placeOf: by primitive of the scene, what a LightEntry is to name an emissive triangle by.
+LightTable packLights(const Scene& scene, std::span<const uint32_t> placeOf,
+                      const LightSelection& selection);
+
+} // namespace stromboli

@@ -1,0 +1,57 @@
+#include "host/kernel/material_rows.hpp"
+
+namespace stromboli {
+namespace {
+
+/// Rows that the kernel may read from the first row of a material on, whatever its kind.
+constexpr size_t kMostRows = 3;
+
+void appendParameters(std::vector<Row>& rows, const Material& m) {
+    switch (m.kind) {
+    case MaterialKind::Diffuse:
+        return appendRows(rows, gpu::DiffuseParameters{m.albedo, 0});
+    case MaterialKind::Mirror:
+        return appendRows(rows, gpu::MirrorParameters{m.reflectance, 0});
+    case MaterialKind::Refraction:
+        return appendRows(rows, gpu::RefractionParameters{m.transmittance, m.ior});
+    case MaterialKind::Glass:
+        return appendRows(rows, gpu::GlassParameters{m.reflectance, m.ior, m.transmittance, 0});
+    case MaterialKind::Microfacet:
+        return appendRows(rows, gpu::RoughConductorParameters{m.eta, m.alpha, m.k, 0});
+    }
+}
+
+} // namespace
+
+uint32_t bsdfKind(MaterialKind kind) {
+    switch (kind) {
+    case MaterialKind::Diffuse:
+        return gpu::BSDF_DIFFUSE;
+    case MaterialKind::Mirror:
+        return gpu::BSDF_MIRROR;
+    case MaterialKind::Refraction:
+        return gpu::BSDF_REFRACTION;
+    case MaterialKind::Glass:
+        return gpu::BSDF_GLASS;
+    case MaterialKind::Microfacet:
+        return gpu::BSDF_ROUGH_CONDUCTOR;
+    }
+    return gpu::BSDF_DIFFUSE;
+}
+
+MaterialRows packMaterials(std::span<const Material> materials, bool cs184) {
+    MaterialRows packed;
+    for (const Material& m : materials) {
+        packed.firstRow.push_back(uint32_t(packed.rows.size()));
+        const bool bothSides = m.emitsBothSides || cs184;
+        appendRows(
+            packed.rows,
+            gpu::MaterialHeader{m.emission, bsdfKind(m.kind) |
+                                                (bothSides ? gpu::MATERIAL_EMITS_BOTH_SIDES : 0)});
+        appendParameters(packed.rows, m);
+    }
+    packed.rows.resize(packed.rows.size() + kMostRows - 1);
+    return packed;
+}
+
+} // namespace stromboli

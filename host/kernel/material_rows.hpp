@@ -1,0 +1,24 @@
+#pragma once
+
+#include "host/kernel/rows.hpp"
+#include "scene/model/material.hpp"
+#include "shaders/shared/bsdf_types.h"
+
+#include <span>
+#include <vector>
+
+namespace stromboli {
+
+/// The materials of a scene as the kernel reads them (shaders/shared/bsdf_types.h).
+struct MaterialRows {
+    std::vector<Row> rows;
+    std::vector<uint32_t> firstRow; ///< by material of the scene
+};
+
+/// cs184: all surfaces emit on both sides.
+MaterialRows packMaterials(std::span<const Material> materials, bool cs184);
+
+/// The BSDF_ kind that stands for a material of the scene.
+uint32_t bsdfKind(MaterialKind kind);
+
+} // namespace stromboli

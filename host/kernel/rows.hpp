@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+namespace stromboli {
+
+/// 16 bytes: the unit in which the kernel reads the scene (shaders/include/fetch.glsl).
+using Row = std::array<uint32_t, 4>;
+
+/// Appends the rows of a structure of shaders/shared.
+template <class T>
+void appendRows(std::vector<Row>& rows, const T& value) {
+    static_assert(sizeof(T) % sizeof(Row) == 0 && std::is_trivially_copyable_v<T>);
+    const auto words = std::bit_cast<std::array<Row, sizeof(T) / sizeof(Row)>>(value);
+    rows.insert(rows.end(), words.begin(), words.end());
+}
+
+/// The structure that begins at a row.
+template <class T>
+T structureAt(const std::vector<Row>& rows, std::size_t row) {
+    std::array<Row, sizeof(T) / sizeof(Row)> words;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        words[i] = rows.at(row + i);
+    return std::bit_cast<T>(words);
+}
+
+} // namespace stromboli

@@ -1,0 +1,124 @@
+// The BSDF contract: what the integrator, light sampling and MIS know of how surfaces scatter light.
+// They ask for values, densities and lobes, never for a kind of material. A kind of BSDF is a file in
+// this folder with its parameters, its evaluation and its sampling in the frame of the shading normal,
+// and one line in each of the dispatching functions below.
+// docs/estimator.md has the formulas.
+
+/// Value and density of a BSDF for one pair of directions; both 0 where nothing scatters.
+struct BsdfValue {
+    vec3 value; ///< f |cos|
+    float pdf;  ///< density of sampleBsdf(), by solid angle
+};
+
+/// A sampled direction. `lobe` is a LOBE_ bit.
+struct BsdfSample {
+    vec3 direction; ///< unit; world space, or the frame's where a kind samples itself
+    vec3 weight;    ///< f |cos| / pdf; 0: the path ends
+    float pdf;      ///< by solid angle; delta lobes: of no meaning
+    uint lobe;
+};
+
+const BsdfValue NO_SCATTERING = BsdfValue(vec3(0.0), 0.0);
+const BsdfSample ABSORBED = BsdfSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0, LOBE_DIFFUSE_REFLECTION);
+
+/// Where light comes from, as a BSDF sees it. wo: unit, in the frame of the shading normal, whose z axis
+/// is on the side of wo (under the CS184 convention on either); entering: wo is outside of what the
+/// surface bounds.
+struct Incidence {
+    vec3 wo;
+    bool entering;
+};
+
+bool isDelta(uint lobe) { return (lobe & DELTA_LOBES) != 0u; }
+bool isTransmission(uint lobe) { return (lobe & TRANSMISSION_LOBES) != 0u; }
+
+#include "bsdf/diffuse.glsl"
+#include "bsdf/mirror.glsl"
+#include "bsdf/dielectric.glsl"
+#include "bsdf/rough_conductor.glsl"
+
+// --- Dispatch: one line for each kind of BSDF in each function ---------------------------------------------------
+
+/// All lobes of a material.
+uint lobesOf(Material m) {
+    uint lobes = 0u;
+    if (isBsdf(m, BSDF_DIFFUSE)) lobes = DIFFUSE_BSDF_LOBES;
+    if (isBsdf(m, BSDF_MIRROR)) lobes = MIRROR_BSDF_LOBES;
+    if (isBsdf(m, BSDF_REFRACTION)) lobes = REFRACTION_BSDF_LOBES;
+    if (isBsdf(m, BSDF_GLASS)) lobes = GLASS_BSDF_LOBES;
+    if (isBsdf(m, BSDF_ROUGH_CONDUCTOR)) lobes = ROUGH_CONDUCTOR_BSDF_LOBES;
+    return lobes;
+}
+
+/// All lobes of the scene's materials: known when the kernel is compiled.
+uint sceneLobes() {
+    return (sceneHasBsdf(BSDF_DIFFUSE) ? DIFFUSE_BSDF_LOBES : 0u) |
+           (sceneHasBsdf(BSDF_MIRROR) ? MIRROR_BSDF_LOBES : 0u) |
+           (sceneHasBsdf(BSDF_REFRACTION) ? REFRACTION_BSDF_LOBES : 0u) |
+           (sceneHasBsdf(BSDF_GLASS) ? GLASS_BSDF_LOBES : 0u) |
+           (sceneHasBsdf(BSDF_ROUGH_CONDUCTOR) ? ROUGH_CONDUCTOR_BSDF_LOBES : 0u);
+}
+
+BsdfValue evaluateLocally(Material m, Incidence i, vec3 wi) {
+    if (isBsdf(m, BSDF_DIFFUSE)) return evaluateDiffuse(diffuseParameters(m), i, wi);
+    if (isBsdf(m, BSDF_ROUGH_CONDUCTOR))
+        return evaluateRoughConductor(roughConductorParameters(m), i, wi);
+    return NO_SCATTERING; // delta lobes only
+}
+
+BsdfSample sampleLocally(Material m, Incidence i, vec3 u) {
+    BsdfSample s = ABSORBED;
+    if (isBsdf(m, BSDF_DIFFUSE)) s = sampleDiffuse(diffuseParameters(m), i, u);
+    if (isBsdf(m, BSDF_MIRROR)) s = sampleMirror(mirrorParameters(m), i, u);
+    if (isBsdf(m, BSDF_REFRACTION)) s = sampleRefraction(refractionParameters(m), i, u);
+    if (isBsdf(m, BSDF_GLASS)) s = sampleGlass(glassParameters(m), i, u);
+    if (isBsdf(m, BSDF_ROUGH_CONDUCTOR)) s = sampleRoughConductor(roughConductorParameters(m), i, u);
+    return s;
+}
+
+// --- What others ask ------------------------------------------------------------------------------
+
+/// Whether light samples can find light that the surface scatters.
+bool scattersIntoManyDirections(uint lobes) { return (lobes & ~DELTA_LOBES) != 0u; }
+
+/// Whether two paths that arrive by the same ray may leave by different ones.
+bool scattersAtRandom(uint lobes) {
+    return lobes != LOBE_DELTA_REFLECTION && lobes != LOBE_DELTA_TRANSMISSION;
+}
+
+Incidence incidenceOn(SurfacePoint s, ShadingFrame frame_) {
+    const vec3 wo = toLocal(frame_, s.wo);
+    return Incidence(wo, entersWhatItBounds(s.outside, wo));
+}
+
+/// Light stays on the side of the true surface that its lobe sends it to.
+bool isOnItsSide(SurfacePoint s, vec3 wi, bool transmitted) {
+    if (!TESTS_GEOMETRIC_SIDE) return true;
+    return transmitted ? dot(s.geometric, wi) < 0.0 : isReflected(s, wi);
+}
+
+/// f |cos| and the density for the unit world direction wi, of all lobes but delta ones.
+/// s: faced forward.
+BsdfValue evaluateBsdf(Material m, SurfacePoint s, vec3 wi) {
+    const ShadingFrame frame_ = makeFrame(shadingNormal(s));
+    const vec3 local = toLocal(frame_, wi);
+    const bool transmitted = local.z < 0.0;
+    const bool possible =
+        (transmitted ? (sceneLobes() & TRANSMISSION_LOBES & ~DELTA_LOBES) != 0u : local.z > 0.0) &&
+        isOnItsSide(s, wi, transmitted);
+    if (!possible) return NO_SCATTERING;
+    return evaluateLocally(m, incidenceOn(s, frame_), local);
+}
+
+/// Samples the direction in which light goes on. u, each in [0, 1): x and y for the direction within
+/// a lobe, z for the choice of one of several lobes. s: faced forward.
+BsdfSample sampleBsdf(Material m, SurfacePoint s, vec3 u) {
+    const ShadingFrame frame_ = makeFrame(shadingNormal(s));
+    BsdfSample b = sampleLocally(m, incidenceOn(s, frame_), u);
+    b.direction = toWorld(frame_, b.direction);
+    // Mirrored and refracted directions keep the length of wo but for rounding, which would add up
+    // along a path.
+    if ((b.lobe & DIFFUSE_LOBES) == 0u) b.direction = unit(b.direction);
+    if (!isOnItsSide(s, b.direction, isTransmission(b.lobe))) b.weight = vec3(0.0);
+    return b;
+}

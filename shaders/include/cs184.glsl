@@ -1,0 +1,56 @@
+// All that the kernel does differently under the conventions of the CS184 renderer (docs/cs184.md says
+// why, docs/estimator.md, "CS184 mode", what). Other files ask for a convention by its name; the
+// specialisation constant CS184 is read here only.
+
+/// Normals are turned to the side of wo, and the lit point is lifted onto the smooth surface.
+const bool FACES_FORWARD = !CS184;
+/// Light stays on the side of the geometric surface that its lobe sends it to.
+const bool TESTS_GEOMETRIC_SIDE = !CS184;
+/// Fresnel's equations; else that renderer's approximations below.
+const bool EXACT_FRESNEL = !CS184;
+/// Emission found by bounces that miss everything, or from non-delta surfaces, counts where light samples
+/// do not; else only emissive geometry right after a delta surface does.
+const bool BOUNCES_FIND_ALL_LIGHT = !CS184;
+/// Area lights are sampled by solid angle; else by area, with the density of that renderer.
+const bool SAMPLES_SOLID_ANGLE = !CS184;
+/// Ambient light comes from directions about the shading normal; else from those with y > 0.
+const bool AMBIENT_ABOUT_NORMAL = !CS184;
+
+/// A refracted path enters where wo is on the outer side of the surface. That renderer never turns
+/// normals, and goes by the side of the shading normal.
+bool entersWhatItBounds(bool outside, vec3 localWo) { return CS184 ? localWo.z >= 0.0 : outside; }
+
+/// A direction of ambient light: uniform with y > 0, density 1 / (2 pi).
+vec3 sampleAmbientCs184(vec2 u) { return sampleUniformHemisphere(u).xzy; }
+
+/// What refraction does to radiance, eta being the index on the side of wo over the other. That renderer
+/// divides where it should multiply.
+float radianceCompression(float eta) { return CS184 ? 1.0 / (eta * eta) : eta * eta; }
+
+/// The last term of Smith's Lambda. That renderer has pi where sqrt(pi) is due, and half of the
+/// term's weight is missing in its denominator.
+float lambdaTail(float tail) {
+    return CS184 ? 0.5 * tail * INV_PI : tail * 0.282094791773878; // 1 / (2 sqrt(pi))
+}
+
+/// Falloff of an area light that is sampled by area, besides the cosine: that renderer's density lacks
+/// one factor 1 / distance.
+float areaFalloff(float inverseDistance) {
+    return CS184 ? inverseDistance : inverseDistance * inverseDistance;
+}
+
+/// Schlick's approximation as that renderer uses it.
+float schlickCs184(float cosine, float ior) {
+    const float r = (1.0 - ior) / (1.0 + ior), r0 = r * r;
+    const float c = 1.0 - cosine, c2 = c * c;
+    return r0 + (1.0 - r0) * c2 * c2 * c;
+}
+
+/// That renderer's approximation of a conductor's reflectance, valid for k^2 >> 1; c: cosine between the
+/// normal and wi.
+vec3 fresnelConductorCs184(float c, vec3 eta, vec3 k) {
+    const vec3 s = eta * eta + k * k, e = 2.0 * c * eta;
+    const vec3 rs = (s - e + c * c) / (s + e + c * c);
+    const vec3 rp = (s * c * c - e + 1.0) / (s * c * c + e + 1.0);
+    return 0.5 * (rs + rp);
+}

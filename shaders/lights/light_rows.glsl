@@ -1,0 +1,64 @@
+// Reads lights and the table that one of them is picked by (shaders/shared/light_types.h).
+
+/// The rows of a light: its header, and three that its kind reads its parameters from.
+struct LightRows {
+    uvec4 header, row1, row2, row3;
+};
+
+/// Rows that no kind of the scene has are not read.
+LightRows fetchLightRows(uint light) {
+    const uint row = LIGHT_ROWS * light;
+    const bool two = sceneHasLight(LIGHT_QUAD) || sceneHasLight(LIGHT_POINT) || sceneHasLight(LIGHT_SPOT);
+    LightRows l = LightRows(ROW(lightRows, row), uvec4(0u), uvec4(0u), uvec4(0u));
+    l.row1 = ROW(lightRows, row + 1u);
+    if (two) l.row2 = ROW(lightRows, row + 2u);
+    if (sceneHasLight(LIGHT_QUAD) || sceneHasLight(LIGHT_SPOT)) l.row3 = ROW(lightRows, row + 3u);
+    return l;
+}
+
+vec3 colorOf(LightRows l) { return uintBitsToFloat(l.header.xyz); }
+uint kindOf(LightRows l) { return l.header.w & LIGHT_KIND_MASK; }
+bool hasFlag(LightRows l, uint flag) { return (l.header.w & flag) != 0u; }
+
+QuadLight quadLight(LightRows l) {
+    return QuadLight(uintBitsToFloat(l.row1.xyz), uintBitsToFloat(l.row1.w),
+                     uintBitsToFloat(l.row2.xyz), l.row2.w, uintBitsToFloat(l.row3.xyz), l.row3.w);
+}
+
+AmbientLight ambientLight(LightRows l) { return AmbientLight(uintBitsToFloat(l.row1.xyz), l.row1.w); }
+
+SphereLight sphereLight(LightRows l) {
+    return SphereLight(uintBitsToFloat(l.row1.xyz), uintBitsToFloat(l.row1.w));
+}
+
+DirectionalLight directionalLight(LightRows l) {
+    return DirectionalLight(uintBitsToFloat(l.row1.xyz), l.row1.w);
+}
+
+PointLight pointLight(LightRows l) {
+    return PointLight(uintBitsToFloat(l.row1.xyz), uintBitsToFloat(l.row1.w),
+                      uintBitsToFloat(l.row2.xyz), uintBitsToFloat(l.row2.w),
+                      uintBitsToFloat(l.row3.xyz), l.row3.w);
+}
+
+bool isTriangleLight(uint light) {
+    return sceneHasLight(LIGHT_TRIANGLE) &&
+           (LIGHT_KINDS == 1u << LIGHT_TRIANGLE || (light & LIGHT_IS_TRIANGLE) != 0u);
+}
+
+LightEntry fetchLightEntry(uint number) {
+    const uvec4 r = ROW(lightTableRows, number);
+    return LightEntry(r.x, r.y, uintBitsToFloat(r.z), r.w);
+}
+
+AliasColumn fetchAliasColumn(uint number) {
+    const uvec4 r = ROW(lightTableRows, frame.lightCount + number);
+    return AliasColumn(uintBitsToFloat(r.x), r.y, r.z, r.w);
+}
+
+LightNode fetchLightNode(uint index) {
+    const uint row = frame.lightCount + 2u * index;
+    const uvec4 r0 = ROW(lightTableRows, row), r1 = ROW(lightTableRows, row + 1u);
+    return LightNode(uintBitsToFloat(r0.xyz), uintBitsToFloat(r0.w), r1.x, uintBitsToFloat(r1.y),
+                     uintBitsToFloat(r1.z), r1.w);
+}

@@ -1,0 +1,171 @@
+// The choice of one of many lights by what it is likely to bring to a surface: a walk down a tree of
+// bounds (Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting",
+// HPG 2018). host/kernel/light_tree.hpp builds it.
+
+/// Cosine and sine of max(a - b, 0), angles in [0, pi] given by theirs.
+vec2 lessAngle(vec2 a, vec2 b) {
+    return a.x >= b.x ? vec2(1.0, 0.0) : vec2(dot(a, b), a.y * b.x - a.x * b.y);
+}
+
+vec2 angleOfCosine(float c) { return vec2(c, sqrt(max(1.0 - c * c, 0.0))); }
+
+bool isGroup(uint group, uint wanted) {
+    return (LIGHT_GROUPS & 1u << wanted) != 0u && (LIGHT_GROUPS == 1u << wanted || group == wanted);
+}
+
+/// A bound of the irradiance (luminance) that the node's lights bring to a point with unit normal n. Of
+/// near lights: the power over the squared distance, times the largest cosines that light and surface can
+/// have anywhere in the node's sphere; within the sphere the distance is its radius, and cosines are 1.
+/// 0 only where nothing can arrive.
+float likelyLight(LightNode node, uint group, vec3 p, vec3 n) {
+    const vec3 axis = decodeNormal(node.axis);
+    const vec2 spread = angleOfCosine(node.cosSpread);
+    if (LIGHT_GROUPS == 1u << LIGHT_GROUP_INFINITE)
+        return node.power * max(lessAngle(angleOfCosine(-dot(n, axis)), spread).x, 0.0);
+    const vec3 d = node.center - p;
+    const float distance2 = dot(d, d), radius2 = node.radius * node.radius;
+    const bool infinite = isGroup(group, LIGHT_GROUP_INFINITE);
+    const vec3 w = infinite ? -axis : d * inversesqrt(max(distance2, TINY));
+    const float sin2Bound = min(radius2 / max(distance2, TINY), 1.0);
+    const vec2 bound = infinite ? spread : vec2(sqrt(1.0 - sin2Bound), sqrt(sin2Bound));
+    const float towards = -dot(axis, w);
+    const bool bothSides = (node.child & LIGHT_NODE_BOTH_SIDES) != 0u;
+    const vec2 light = lessAngle(
+        lessAngle(angleOfCosine(bothSides ? abs(towards) : towards), spread), bound);
+    // An angle that is left is one out of the cone of normals.
+    const bool outside = (node.child & LIGHT_NODE_SHARP) != 0u && light.x < 1.0;
+    const float lightCosine = infinite ? 1.0 : (outside ? 0.0 : max(light.x, 0.0));
+    const vec2 surface = lessAngle(angleOfCosine(dot(n, w)), bound);
+    const bool within = !infinite && distance2 <= radius2;
+    const float cosines = within ? 1.0 : lightCosine * max(surface.x, 0.0);
+    const float falloff =
+        isGroup(group, LIGHT_GROUP_NEAR) ? max(max(distance2, radius2), TINY) : 1.0;
+    return node.power * cosines / falloff;
+}
+
+// --- Random choices -------------------------------------------------------------------------------
+// A choice uses up digits of a random number, and 24 of them do not last for a tree whose branches may
+// differ a millionfold. So the number is an integer of 31 bits; the share of a branch is a multiple of
+// 2^-31, at least one, so that the probability is stated exactly; and the digits that a choice has used up
+// are filled again, from a hash of the number itself and of its companion.
+
+struct ChoiceNumber {
+    uint value; ///< uniform in [0, 2^31)
+    uint digits; ///< state that new digits are made from
+};
+
+/// New digits (a variant of lowbias32, C. Wellons 2018): 32 bits.
+uint newDigits(inout ChoiceNumber c) {
+    c.digits = c.digits * 747796405u + 2891336453u;
+    uint x = c.digits;
+    x = (x ^ x >> 16u) * 0x7FEB352Du;
+    x = (x ^ x >> 15u) * 0x846CA68Bu;
+    return x ^ x >> 16u;
+}
+
+/// Of u.x, a multiple of 2^-24.
+ChoiceNumber choiceNumber(vec2 u) {
+    ChoiceNumber c;
+    c.digits = floatBitsToUint(u.x) * 0x9E3779B1u ^ floatBitsToUint(u.y) * 0x85EBCA6Bu;
+    c.value = uint(int(u.x * 16777216.0)) << 7u | newDigits(c) >> 25u;
+    return c;
+}
+
+/// What is left as a number in [0, 1), a multiple of 2^-24.
+float restOf(ChoiceNumber c) { return float(int(c.value >> 7u)) * (1.0 / 16777216.0); }
+
+/// How many of the 2^31 values choose the first of two, whose weights are not negative; 0 and 2^31 only
+/// where one of them has no weight.
+uint valuesOfFirst(float first, float second) {
+    if (!(first > 0.0)) return 0u;
+    if (!(second > 0.0)) return 0x80000000u;
+    // By the lesser of the two, of which a float has more digits.
+    const float least = 2147483648.0 * (min(first, second) / (first + second));
+    const uint values = uint(int(max(least, 1.0)));
+    return first < second ? values : 0x80000000u - values;
+}
+
+/// values of 2^31 as a probability.
+float shareOf(uint values) { return float(values) * (1.0 / 2147483648.0); }
+
+/// Chooses, and leaves a number that is uniform again. ofFirst: as valuesOfFirst() gives it; where that leaves
+/// no choice, no digit is used up.
+bool choosesFirst(inout ChoiceNumber c, uint ofFirst) {
+    const bool first = c.value < ofFirst;
+    if (ofFirst == 0u || ofFirst == 0x80000000u) return first;
+    const uint width = first ? ofFirst : 0x80000000u - ofFirst;
+    const uint offset = first ? c.value : c.value - ofFirst;
+    const uint digits = newDigits(c);
+    const float within = float(int(digits >> 8u)) * (1.0 / 16777216.0);
+    const float u = min((float(int(offset)) + within) / float(width), 1.0 - UNIT_ROUNDOFF);
+    c.value = uint(int(u * 16777216.0)) << 7u | digits & 0x7Fu;
+    return first;
+}
+
+// --- The walk ---------------------------------------------------------------------------------------
+// Walks that choose at random and walks along the trail to a given light are one function, and siblings and
+// groups are weighed in loops, so that the code stands in the kernel once: a driver takes it in before it
+// knows which of it the scene needs.
+
+struct LightWalk {
+    uint group;
+    uint link; ///< LightNode::child of where the walk is
+    float probability;
+};
+
+bool isLeaf(uint link) { return (link & LIGHT_NODE_IS_LEAF) != 0u; }
+
+/// Takes the first of two choices, or not, and notes the probability; where neither has any weight, that is 0.
+/// follows: goes where `wantsFirst` says, not at random.
+bool take(inout LightWalk walk, float first, float second, bool follows, bool wantsFirst,
+          inout ChoiceNumber c) {
+    const uint ofFirst = valuesOfFirst(first, second);
+    const bool takesFirst = follows ? wantsFirst : choosesFirst(c, ofFirst);
+    const float share = shareOf(takesFirst ? ofFirst : 0x80000000u - ofFirst);
+    walk.probability *= first + second > 0.0 ? share : 0.0;
+    return takesFirst;
+}
+
+/// To the root of a group: the first group against the other two, then the second against the third.
+void enterGroup(inout LightWalk walk, vec3 p, vec3 n, bool follows, LightEntry to,
+                inout ChoiceNumber c) {
+    walk.group = LIGHT_GROUPS >> 1u; // the only one, if it is: of the bits 1, 2 and 4
+    if ((LIGHT_GROUPS & (LIGHT_GROUPS - 1u)) != 0u) {
+        float likely[LIGHT_GROUP_COUNT];
+        for (uint group = 0u; group < LIGHT_GROUP_COUNT; ++group)
+            likely[group] = (LIGHT_GROUPS & 1u << group) != 0u
+                                ? likelyLight(fetchLightNode(group), group, p, n)
+                                : 0.0;
+        walk.group = 0u;
+        if (!take(walk, likely[0], likely[1] + likely[2], follows, to.group == 0u, c))
+            walk.group = take(walk, likely[1], likely[2], follows, to.group == 1u, c) ? 1u : 2u;
+    }
+    walk.link = fetchLightNode(walk.group).child;
+}
+
+/// One step down.
+void descend(inout LightWalk walk, vec3 p, vec3 n, bool follows, bool wantsFirst,
+             inout ChoiceNumber c) {
+    const uint child = walk.link & LIGHT_NODE_CHILD_MASK;
+    uint links[2];
+    float likely[2];
+    for (uint i = 0u; i < 2u; ++i) {
+        const LightNode node = fetchLightNode(child + i);
+        links[i] = node.child;
+        likely[i] = likelyLight(node, walk.group, p, n);
+    }
+    walk.link = take(walk, likely[0], likely[1], follows, wantsFirst, c) ? links[0] : links[1];
+}
+
+/// From the roots to a light, as seen from p with unit normal n: at random, or to a given one. Returns the
+/// light's number; the probability is 0 where no light reaches the point.
+uint walkLightTree(vec3 p, vec3 n, bool follows, LightEntry to, inout ChoiceNumber c,
+                   out float probability) {
+    LightWalk walk;
+    walk.probability = 1.0;
+    enterGroup(walk, p, n, follows, to, c);
+    for (uint level = 0u; level < MOST_LIGHT_LEVELS && !isLeaf(walk.link); ++level)
+        descend(walk, p, n, follows, (to.trail >> level & 1u) == 0u, c);
+    probability = walk.probability;
+    return walk.link & LIGHT_NODE_CHILD_MASK;
+}

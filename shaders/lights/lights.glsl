@@ -1,0 +1,59 @@
+// Sampling of lights: docs/estimator.md has the table of densities. A kind of light is a file in this
+// folder (or a part of one) and a line in sampleLight().
+
+#include "include/spherical.glsl"
+#include "lights/light_rows.glsl"
+
+/// A sampled segment from a shading point to a light.
+struct LightSample {
+    vec3 target;     ///< finite lights: point just before the light; else: unit direction
+    bool infinite;   ///< target is a direction
+    vec3 direction;  ///< unit, to the light
+    vec3 radiance;   ///< times the inverse of the density (solid angle); 0: nothing arrives
+    float inversePdf; ///< steradians; 0: of what no bounce can find
+};
+
+const LightSample NO_LIGHT_SAMPLE =
+    LightSample(vec3(0.0, 0.0, 1.0), true, vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0);
+
+// LIGHT_CHOICE_ONE: read once, and what follows from it; llvmpipe moves nothing out of loops.
+LightRows onlyLight;
+vec3 onlyLightNormal; ///< LIGHT_QUAD
+
+/// A scene's only light is the first in the light buffer, or an emissive triangle.
+uint onlyLightReference() {
+    return sceneHasLight(LIGHT_TRIANGLE) ? fetchLightEntry(0u).light : 0u;
+}
+
+LightRows fetchLight(uint light) {
+    if (LIGHT_CHOICE == LIGHT_CHOICE_ONE) return onlyLight;
+    return fetchLightRows(light);
+}
+
+#include "lights/area_lights.glsl"
+#include "lights/distant_lights.glsl"
+#include "lights/point_lights.glsl"
+#include "lights/light_tree.glsl"
+#include "lights/light_sampler.glsl"
+
+void findOnlyLight() {
+    if (LIGHT_CHOICE != LIGHT_CHOICE_ONE) return;
+    onlyLight = fetchLightRows(0u);
+    if (sceneHasLight(LIGHT_QUAD)) {
+        const QuadLight quad = quadLight(onlyLight);
+        onlyLightNormal = planeNormal(quad.edgeA, quad.edgeB);
+    }
+}
+
+/// s: faced forward; light: as LightEntry::light; u: where on the light.
+LightSample sampleLight(SurfacePoint s, uint light, vec2 u) {
+    if (isTriangleLight(light)) return sampleTriangleLight(s, light, u);
+    const LightRows rows = fetchLight(light);
+    const uint kind = kindOf(rows);
+    if (isLight(kind, LIGHT_QUAD)) return sampleQuadLight(s, rows, u);
+    if (isLight(kind, LIGHT_SPHERE)) return sampleSphereLight(s, rows, u);
+    if (isLight(kind, LIGHT_AMBIENT)) return sampleAmbientLight(s, rows, u);
+    if (isLight(kind, LIGHT_DIRECTIONAL)) return sampleDirectionalLight(rows);
+    if (sceneHasLight(LIGHT_POINT) || sceneHasLight(LIGHT_SPOT)) return samplePointLight(s, rows);
+    return NO_LIGHT_SAMPLE;
+}

@@ -1,0 +1,93 @@
+// Surfaces as the kernel reads them: emission, and the parameters of one BSDF.
+//
+// A material is a run of rows in the material buffer: its MaterialHeader, then the parameters of its
+// kind of BSDF, in a structure of that kind's own. Primitives name a material by its first row.
+// docs/architecture.md says how to add a kind.
+#ifndef STROMBOLI_SHARED_BSDF_TYPES_H
+#define STROMBOLI_SHARED_BSDF_TYPES_H
+
+#include "language.h"
+
+SHARED_BEGIN
+
+// --- Lobes ---------------------------------------------------------------------------------
+// A BSDF is a sum of lobes; each is one of these. Delta lobes scatter into single directions: no
+// light sample finds one, and their densities have no value.
+
+SHARED_CONST uint LOBE_DIFFUSE_REFLECTION = 1u;
+SHARED_CONST uint LOBE_GLOSSY_REFLECTION = 2u;
+SHARED_CONST uint LOBE_DELTA_REFLECTION = 4u;
+SHARED_CONST uint LOBE_DIFFUSE_TRANSMISSION = 8u;
+SHARED_CONST uint LOBE_GLOSSY_TRANSMISSION = 16u;
+SHARED_CONST uint LOBE_DELTA_TRANSMISSION = 32u;
+
+SHARED_CONST uint DELTA_LOBES = 4u | 32u;
+SHARED_CONST uint TRANSMISSION_LOBES = 8u | 16u | 32u;
+SHARED_CONST uint GLOSSY_LOBES = 2u | 16u;
+SHARED_CONST uint DIFFUSE_LOBES = 1u | 8u;
+
+// --- Kinds of BSDF and their parameters ------------------------------------------------------
+
+SHARED_CONST uint BSDF_DIFFUSE = 0u;
+SHARED_CONST uint BSDF_MIRROR = 1u;
+SHARED_CONST uint BSDF_REFRACTION = 2u;
+SHARED_CONST uint BSDF_GLASS = 3u;
+SHARED_CONST uint BSDF_ROUGH_CONDUCTOR = 4u;
+SHARED_CONST uint BSDF_KIND_COUNT = 5u;
+
+/// The lobes of each kind.
+SHARED_CONST uint DIFFUSE_BSDF_LOBES = LOBE_DIFFUSE_REFLECTION;
+SHARED_CONST uint MIRROR_BSDF_LOBES = LOBE_DELTA_REFLECTION;
+SHARED_CONST uint REFRACTION_BSDF_LOBES = LOBE_DELTA_TRANSMISSION;
+SHARED_CONST uint GLASS_BSDF_LOBES = LOBE_DELTA_REFLECTION | LOBE_DELTA_TRANSMISSION;
+SHARED_CONST uint ROUGH_CONDUCTOR_BSDF_LOBES = LOBE_GLOSSY_REFLECTION;
+
+/// What every material has.
+struct MaterialHeader {
+    vec3 emission; ///< radiance, W sr^-1 m^-2
+    uint kind;     ///< BSDF_ kind; | MATERIAL_EMITS_BOTH_SIDES
+};
+SHARED_ROWS(MaterialHeader, 1);
+/// Else a surface emits only on the side that its geometric normal, as stored, points to.
+SHARED_CONST uint MATERIAL_EMITS_BOTH_SIDES = 0x80000000u;
+
+struct DiffuseParameters {
+    vec3 albedo;
+    uint unused;
+};
+SHARED_ROWS(DiffuseParameters, 1);
+
+struct MirrorParameters {
+    vec3 reflectance;
+    uint unused;
+};
+SHARED_ROWS(MirrorParameters, 1);
+
+/// A smooth interface that only transmits; there is no Fresnel reflection.
+struct RefractionParameters {
+    vec3 transmittance;
+    float ior; ///< index inside over index outside
+};
+SHARED_ROWS(RefractionParameters, 1);
+
+/// A smooth dielectric interface.
+struct GlassParameters {
+    vec3 reflectance; ///< multiplies what Fresnel's equations reflect
+    float ior;        ///< index inside over index outside
+    vec3 transmittance;
+    uint unused;
+};
+SHARED_ROWS(GlassParameters, 2);
+
+/// A conductor with a Beckmann distribution of microfacets.
+struct RoughConductorParameters {
+    vec3 eta;    ///< real part of the index of refraction, per colour channel
+    float alpha; ///< Beckmann roughness: RMS slope times sqrt(2)
+    vec3 k;      ///< extinction coefficient
+    uint unused;
+};
+SHARED_ROWS(RoughConductorParameters, 2);
+
+SHARED_END
+
+#endif

@@ -1,0 +1,130 @@
+// Lights as the kernel reads them: their own parameters, and what one of them is picked by.
+//
+// Every light has a number, its LightEntry. It refers either to a run of LIGHT_ROWS rows in the light
+// buffer (a LightHeader, then the parameters of its kind), or, for an emissive triangle, to its place in
+// the tree: its corners are those of the leaf, its emission that of the material.
+#ifndef STROMBOLI_SHARED_LIGHT_TYPES_H
+#define STROMBOLI_SHARED_LIGHT_TYPES_H
+
+#include "language.h"
+
+SHARED_BEGIN
+
+// --- Kinds of light and their parameters -----------------------------------------------------
+
+SHARED_CONST uint LIGHT_QUAD = 0u;
+SHARED_CONST uint LIGHT_TRIANGLE = 1u;
+SHARED_CONST uint LIGHT_SPHERE = 2u;
+SHARED_CONST uint LIGHT_AMBIENT = 3u;
+SHARED_CONST uint LIGHT_DIRECTIONAL = 4u;
+SHARED_CONST uint LIGHT_POINT = 5u;
+SHARED_CONST uint LIGHT_SPOT = 6u;
+SHARED_CONST uint LIGHT_KIND_COUNT = 7u;
+/// Kinds that no ray can meet, bit by bit.
+SHARED_CONST uint DELTA_LIGHTS = 1u << 4u | 1u << 5u | 1u << 6u;
+
+SHARED_CONST uint LIGHT_ROWS = 4u;
+
+struct LightHeader {
+    vec3 color; ///< radiance (quad, sphere, ambient), or as scene/model/light.hpp says
+    uint kind;  ///< LIGHT_ kind; | LIGHT_BOTH_SIDES
+};
+SHARED_ROWS(LightHeader, 1);
+SHARED_CONST uint LIGHT_KIND_MASK = 0xFFu;
+SHARED_CONST uint LIGHT_BOTH_SIDES = 0x80000000u; ///< quad, sphere: emits on both sides
+
+/// A parallelogram. Its normal is edgeA x edgeB.
+struct QuadLight {
+    vec3 corner;
+    float area; ///< of one side
+    vec3 edgeA;
+    uint unused0;
+    vec3 edgeB;
+    uint unused1;
+};
+SHARED_ROWS(QuadLight, 3);
+
+/// All of a scene's ambient light is one, the first in the light buffer: radiance `color` from everywhere, and
+/// some from above the horizon.
+struct AmbientLight {
+    vec3 fromAbove; ///< radiance in addition from directions with y > 0
+    uint unused;
+};
+SHARED_ROWS(AmbientLight, 1);
+
+struct SphereLight {
+    vec3 center;
+    float radius;
+};
+SHARED_ROWS(SphereLight, 1);
+
+struct DirectionalLight {
+    vec3 toLight; ///< unit
+    uint unused;
+};
+SHARED_ROWS(DirectionalLight, 1);
+
+/// A point light, or a spot light: a point light that shines into a cone.
+struct PointLight {
+    vec3 position;
+    float falloffExponent; ///< spot: of the cosine to the axis
+    vec3 attenuation;      ///< constant, linear and quadratic
+    float cosCutoff;       ///< spot: cosine of half the opening angle
+    vec3 axis;             ///< spot: unit vector that the light travels along
+    uint unused;
+};
+SHARED_ROWS(PointLight, 3);
+
+// --- Picking one light --------------------------------------------------------------------------
+// The table of lights holds all LightEntry rows, and behind them either AliasColumn rows, one for each
+// light, or the nodes of the light tree.
+
+/// What a light's number stands for.
+struct LightEntry {
+    uint light;        ///< first row in the light buffer / LIGHT_ROWS, or a place | LIGHT_IS_TRIANGLE
+    uint trail;        ///< light tree: bit i says which child (1: the second) the walk takes at level i
+    float probability; ///< of being picked from the alias table
+    uint group;        ///< light tree: LIGHT_GROUP_
+};
+SHARED_ROWS(LightEntry, 1);
+SHARED_CONST uint LIGHT_IS_TRIANGLE = 0x80000000u;
+SHARED_CONST uint NO_LIGHT = 0xFFFFFFFFu;
+
+/// One column of an alias table over all lights (Walker 1977, Vose 1991).
+struct AliasColumn {
+    float threshold; ///< below this fraction of the column its own light is taken,
+    uint alias;      ///< above it the light with this number
+    uint unused0;
+    uint unused1;
+};
+SHARED_ROWS(AliasColumn, 1);
+
+/// Lights whose irradiance is bounded by power / distance^2 times cosines.
+SHARED_CONST uint LIGHT_GROUP_NEAR = 0u;
+/// Point and spot lights that hardly fall off within the scene: power times a cosine.
+SHARED_CONST uint LIGHT_GROUP_UNATTENUATED = 1u;
+/// Ambient and directional lights: power times a cosine, from within a cone of directions.
+SHARED_CONST uint LIGHT_GROUP_INFINITE = 2u;
+SHARED_CONST uint LIGHT_GROUP_COUNT = 3u;
+
+/// A node of a light tree (host/kernel/light_tree.hpp): bounds of what its lights send out. Nodes 0 to
+/// LIGHT_GROUP_COUNT - 1 are the roots of the groups.
+struct LightNode {
+    vec3 center;  ///< of a sphere that holds the lights; infinite lights: of no meaning
+    float radius;
+    uint axis;    ///< of a cone that holds their normals, or directions of travel; octahedral as in Primitive
+    float cosSpread; ///< of the cone's half angle
+    float power;     ///< luminance of the irradiance they bring at most, times distance^2 where near
+    uint child;      ///< the first of two nodes, or, of a leaf, the light's number; flags
+};
+SHARED_ROWS(LightNode, 2);
+SHARED_CONST uint LIGHT_NODE_IS_LEAF = 0x80000000u;
+SHARED_CONST uint LIGHT_NODE_BOTH_SIDES = 0x40000000u; ///< some emit against their normals too
+SHARED_CONST uint LIGHT_NODE_SHARP = 0x20000000u;      ///< nothing is sent out of the cone
+SHARED_CONST uint LIGHT_NODE_CHILD_MASK = 0x1FFFFFFFu;
+/// More levels than any tree has: lights are split in halves, and fewer than 2^29.
+SHARED_CONST uint MOST_LIGHT_LEVELS = 30u;
+
+SHARED_END
+
+#endif

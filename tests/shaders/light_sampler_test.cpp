@@ -1,0 +1,212 @@
+// The light sampler (shaders/lights/light_sampler.glsl), by way of light.comp: lights are picked as
+// often as claimed, also where their powers differ a millionfold; the probability of a given light
+// is the one it is picked with; what is left of the random numbers is uniform.
+#include "host/bvh/wide_layout.hpp"
+#include "host/kernel/kernel_features.hpp"
+#include "tests/shaders/light_fixture.hpp"
+#include "tests/support/chi_square.hpp"
+
+#include "embedded/light_texel.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace stromboli::test {
+namespace {
+
+using gpu::LightAnswer;
+using gpu::LightQuery;
+
+constexpr size_t kSamples = 400000;
+
+/// Every kind of light, `count` of each bounded one, with powers from 1e-3 to 1e3.
+Scene allKinds(int count, uint32_t seed) {
+    Random random(seed);
+    Scene scene = sceneWithLamp({1, 1, 1}, true);
+    const auto power = [&] { return std::pow(10.0f, random.uniform(-3, 3)); };
+    for (int i = 0; i < count; ++i) {
+        const glm::vec3 at = random.inCube(2);
+        Material m = scene.materials[1];
+        m.emission = glm::vec3(power());
+        m.emitsBothSides = i % 2;
+        scene.materials.push_back(m);
+        addLampTriangle(scene, at, at + 0.2f * random.vector(), at + 0.2f * random.vector());
+        scene.triangles.back().material = uint32_t(scene.materials.size() - 1);
+        scene.triangles.back().instance = uint32_t(i);
+        scene.spheres.push_back({random.inCube(2), 0.1f, scene.triangles.back().material, 0});
+        for (const LightKind kind : {LightKind::Point, LightKind::Spot}) {
+            Light& light = scene.lights.emplace_back();
+            light.kind = kind;
+            light.color = glm::vec3(power());
+            light.position = random.inCube(2);
+            light.direction = glm::normalize(random.vector());
+            light.falloffAngle = 2;
+            light.constantAttenuation = i % 3 == 0 ? 1.0f : 0.0f;
+            light.quadraticAttenuation = i % 3 == 0 ? 0.0f : 1.0f;
+        }
+    }
+    for (const LightKind kind : {LightKind::Ambient, LightKind::Directional}) {
+        Light& light = scene.lights.emplace_back();
+        light.kind = kind;
+        light.color = glm::vec3(0.3f);
+        light.direction = glm::normalize(glm::vec3(0.3f, -1, 0.2f));
+    }
+    return scene;
+}
+
+struct SamplerCase {
+    const char* name;
+    LightChoice choice;
+};
+
+class LightSampler : public DeviceTest, public ::testing::WithParamInterface<SamplerCase> {
+  protected:
+    void load(const Scene& scene) {
+        packed_ = packScene(scene, buildWideBvh(scene), {.choice = GetParam().choice});
+        shader_.emplace(light_texel, ShaderOptions::texel().set(
+                                         SPEC_LIGHT_CHOICE, lightChoiceConstant(packed_.lights)));
+        shader_->setScene(packed_);
+    }
+    static LightQuery surface(const glm::vec3& position, const glm::vec3& normal) {
+        LightQuery q{};
+        q.position = position;
+        q.error = glm::vec3(1e-6f);
+        q.geometric = q.shading = q.wo = glm::normalize(normal);
+        q.outside = 1;
+        q.light = gpu::NO_LIGHT;
+        return q;
+    }
+    std::vector<LightAnswer> picks(const LightQuery& from, size_t n, uint32_t seed) {
+        Random random(seed);
+        std::vector<LightQuery> queries(n, from);
+        for (LightQuery& q : queries)
+            q.u = random.uniform(), q.v = random.uniform();
+        return ask<LightAnswer>(*shader_, queries);
+    }
+    /// The probability of each light as lightProbability() states it, by LightEntry::light.
+    std::map<uint32_t, double> probabilities(const LightQuery& from) {
+        std::vector<LightQuery> queries(packed_.lights.count, from);
+        for (uint32_t i = 0; i < queries.size(); ++i)
+            queries[i].light = i;
+        std::map<uint32_t, double> byLight;
+        for (const LightAnswer& a : ask<LightAnswer>(*shader_, queries))
+            byLight[a.light] = a.again;
+        return byLight;
+    }
+
+    GpuScene packed_;
+    std::optional<TestShader> shader_;
+};
+
+TEST_P(LightSampler, PicksAsOftenAsItSays) {
+    load(allKinds(12, 131));
+    // .01 for the three surfaces of the three choices together.
+    const double level = sidakLevel(0.01, 9);
+    for (const LightQuery& from : {surface({0, -1, 0}, {0, 1, 0}), surface({1, 1, 1}, {-1, 0, 0}),
+                                   surface({-3, 0.5f, 0}, {1, 0.2f, 0.1f})}) {
+        const std::map<uint32_t, double> stated = probabilities(from);
+        ASSERT_EQ(stated.size(), packed_.lights.count);
+        double sum = 0;
+        for (const auto& [light, p] : stated)
+            sum += p;
+        // A walk down the tree may end where no light reaches the surface: bounds get narrower.
+        EXPECT_LT(sum, 1 + 1e-5);
+        std::map<uint32_t, double> counts;
+        double nowhere = 0;
+        for (const LightAnswer& a : picks(from, kSamples, 132)) {
+            ASSERT_NEAR(a.probability, stated.at(a.light), 1e-5 * stated.at(a.light) + 1e-9);
+            if (a.probability > 0)
+                ++counts[a.light];
+            else
+                ++nowhere;
+        }
+        std::vector<double> found, expected;
+        for (const auto& [light, p] : stated) {
+            found.push_back(counts[light]);
+            expected.push_back(p * kSamples);
+        }
+        found.push_back(nowhere);
+        expected.push_back(std::max(1 - sum, 0.0) * kSamples);
+        EXPECT_GT(chiSquareTest(found, expected), level);
+    }
+}
+
+/// Given the light, the number that is left is uniform: sixteen cells for each light that is picked
+/// often.
+TEST_P(LightSampler, LeavesAUniformNumber) {
+    load(allKinds(12, 131));
+    std::map<uint32_t, std::vector<double>> cells;
+    const LightQuery from = surface({0, -1, 0}, {0, 1, 0});
+    for (const LightAnswer& a : picks(from, kSamples, 133)) {
+        ASSERT_GE(a.u, 0);
+        ASSERT_LT(a.u, 1);
+        auto& counts = cells[a.light];
+        counts.resize(16);
+        ++counts[size_t(a.u * 16)];
+    }
+    size_t tested = 0;
+    double worst = 1;
+    for (const auto& [light, counts] : cells) {
+        double all = 0;
+        for (const double n : counts)
+            all += n;
+        if (all < 1600) continue;
+        ++tested;
+        worst = std::min(worst, chiSquareTest(counts, std::vector<double>(16, all / 16)));
+    }
+    EXPECT_GT(tested, 3u);
+    EXPECT_GT(worst, sidakLevel(0.01, 3 * tested));
+}
+
+/// A light of a millionth of the power is picked a millionth as often, not never and not too often:
+/// in float digits of 2^-24 that would be off by up to 6 %. Two point lights at the same place.
+TEST_P(LightSampler, RareLightsAreRareExactly) {
+    Scene scene = sceneWithLamp(glm::vec3(0), true);
+    for (const float power : {1.0f, 1e-6f, 1e-6f}) {
+        Light& light = scene.lights.emplace_back();
+        light.kind = LightKind::Point;
+        light.color = glm::vec3(power);
+        light.constantAttenuation = 0;
+        light.quadraticAttenuation = 1;
+        light.position = {0, 1, 0};
+    }
+    load(scene);
+    const LightQuery from = surface({0, 0, 0}, {0, 1, 0});
+    const std::map<uint32_t, double> stated = probabilities(from);
+    const double rare = stated.at(1);
+    if (GetParam().choice != LightChoice::Uniform) {
+        EXPECT_NEAR(rare / 1e-6, 1, 1e-3);
+    }
+    // The numbers at either end, in steps of 2^-24: some 17 of them choose each rare light.
+    std::vector<LightQuery> queries;
+    Random random(134);
+    constexpr uint32_t kEnd = 1u << 12;
+    for (uint32_t i = 0; i < kEnd; ++i)
+        for (const uint32_t number : {i, (1u << 24) - 1 - i})
+            for (int k = 0; k < 24; ++k) {
+                queries.push_back(from);
+                queries.back().u = float(number) * 0x1p-24f;
+                queries.back().v = random.uniform();
+            }
+    double found = 0;
+    for (const LightAnswer& a : ask<LightAnswer>(*shader_, queries))
+        found += a.light != 0;
+    // In an alias table they are elsewhere.
+    if (GetParam().choice != LightChoice::Tree) return;
+    // Of 2^24 numbers, 2 rare are such; each is tried 24 times with other digits below it.
+    const double expected = 2 * rare * double(1u << 24) * 24;
+    EXPECT_NEAR(found, expected, 4 * std::sqrt(expected));
+}
+
+INSTANTIATE_TEST_SUITE_P(Choices, LightSampler,
+                         ::testing::Values(SamplerCase{"tree", LightChoice::Tree},
+                                           SamplerCase{"power", LightChoice::Power},
+                                           SamplerCase{"uniform", LightChoice::Uniform}),
+                         [](const auto& c) { return std::string(c.param.name); });
+
+} // namespace
+} // namespace stromboli::test
