@@ -1,5 +1,7 @@
 #include "host/kernel/direct_sampling.hpp"
 
+#include <stdexcept>
+
 namespace stromboli {
 namespace {
 
@@ -17,6 +19,8 @@ void addLightSamples(const LightTable& lights, uint32_t samples, DirectSampling&
 } // namespace
 
 DirectSampling directSampling(const LightTable& lights, const Estimator& settings) {
+    if (!settings.cs184 && !samplesLights(settings.directLight) && lights.areaCount > 0)
+        throw std::invalid_argument("the lights were packed for another way to find direct light");
     DirectSampling direct;
     const uint32_t samples = settings.lightSamples;
     const bool hemisphere = settings.directLight == DirectLight::Hemisphere;

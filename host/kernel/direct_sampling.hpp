@@ -15,6 +15,8 @@ struct DirectSampling {
         1; ///< of those, for one light where each is sampled in turn; else all of them
 };
 
+/// Throws std::invalid_argument if the lights were selected for a mode of direct light in which all
+/// of them are sampled, and this one leaves some to rays: they would be counted twice.
 DirectSampling directSampling(const LightTable& lights, const Estimator& settings);
 
 } // namespace stromboli

@@ -156,8 +156,9 @@ std::vector<std::string> describe(const KernelFeatures& f) {
         fmt::format("materials: {}", list(f[SPEC_BSDF_KINDS], {"diffuse", "mirror", "refraction",
                                                                "glass", "rough conductor"})),
         fmt::format("emission: {}", f[SPEC_HAS_EMISSION] ? "yes" : "none"),
-        fmt::format("lights: {}", list(f[SPEC_LIGHT_KINDS], {"quad", "triangle", "sphere", "ambient",
-                                                             "directional", "point", "spot"})),
+        fmt::format("lights: {}",
+                    list(f[SPEC_LIGHT_KINDS], {"quad", "triangle", "sphere", "ambient",
+                                               "directional", "point", "spot"})),
         fmt::format("integrator: {}",
                     nameOf(f[SPEC_INTEGRATOR] == gpu::INTEGRATOR_PATH ? Integrator::Path
                                                                       : Integrator::Normals)),

@@ -30,7 +30,10 @@ LightSample sampleDirectionalLight(LightRows rows) {
     return LightSample(w, true, w, colorOf(rows), 0.0);
 }
 
-/// Radiance of the scene's ambient light from direction w. It is the first in the light buffer.
+/// Radiance of the scene's ambient light from direction w. It is the first in the light buffer, if the scene
+/// has one; a kernel with everything switched on does not know without looking.
 vec3 ambientRadiance(vec3 w) {
-    return sceneHasLight(LIGHT_AMBIENT) ? ambientRadianceOf(fetchLightRows(0u), w) : vec3(0.0);
+    if (!sceneHasLight(LIGHT_AMBIENT)) return vec3(0.0);
+    const LightRows rows = fetchLightRows(0u);
+    return isLight(kindOf(rows), LIGHT_AMBIENT) ? ambientRadianceOf(rows, w) : vec3(0.0);
 }

@@ -102,10 +102,10 @@ TEST(LampGap, NotInScenesWithoutOne) {
 TEST(LampGap, OnlyInKernelsThatNeedIt) {
     const Scene scene = loadCollada(std::filesystem::path(STROMBOLI_SOURCE_DIR) /
                                     "scene/library/cornell_boxes.dae");
-    const GpuScene packed = packScene(scene, buildWideBvh(scene));
     const auto guides = [&](const std::function<void(RenderSettings&)>& change) {
         RenderSettings s;
         change(s);
+        const GpuScene packed = packScene(scene, buildWideBvh(scene), lightSelection(s.estimator));
         const Camera camera =
             makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, false);
         return kernelFeatures(packed, camera, s.estimator, {})[SPEC_GUIDES] != 0;

@@ -30,7 +30,8 @@ class Stopping : public DeviceTest {
         b.sphere({0, 0, 0}, 1, b.add(diffuse(0.75f, 1)));
         return b.scene;
     }();
-    GpuScene packed_ = packScene(scene_, buildWideBvh(scene_));
+    GpuScene packed_ =
+        packScene(scene_, buildWideBvh(scene_), lightSelection(settings(0).estimator));
     Camera camera_ = lookingAt({0.1, 0.2, 0.3}, {0.7, -0.4, 0.1}, 1.0);
 
     static RenderSettings settings(uint32_t seed) {
