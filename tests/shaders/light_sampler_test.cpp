@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
@@ -162,44 +163,54 @@ TEST_P(LightSampler, LeavesAUniformNumber) {
     EXPECT_GT(worst, sidakLevel(0.01, 3 * tested));
 }
 
-/// A light of a millionth of the power is picked a millionth as often, not never and not too often:
-/// in float digits of 2^-24 that would be off by up to 6 %. Two point lights at the same place.
-TEST_P(LightSampler, RareLightsAreRareExactly) {
+/// Point lights of these powers at one place, above the origin.
+Scene pointLights(std::initializer_list<double> powers) {
     Scene scene = sceneWithLamp(glm::vec3(0), true);
-    for (const float power : {1.0f, 1e-6f, 1e-6f}) {
+    for (const double power : powers) {
         Light& light = scene.lights.emplace_back();
         light.kind = LightKind::Point;
-        light.color = glm::vec3(power);
+        light.color = glm::vec3(float(power));
         light.constantAttenuation = 0;
         light.quadraticAttenuation = 1;
         light.position = {0, 1, 0};
     }
-    load(scene);
+    return scene;
+}
+
+TEST_P(LightSampler, StatesTheProbabilityOfRareLights) {
+    if (GetParam().choice == LightChoice::Uniform) GTEST_SKIP() << "all are alike";
+    load(pointLights({1, 1e-6, 1e-6}));
+    const std::map<uint32_t, double> stated = probabilities(surface({0, 0, 0}, {0, 1, 0}));
+    // A share is a multiple of 2^-31, at most rounded down by one: 4.7e-4 of 1e-6.
+    EXPECT_NEAR(stated.at(1) / 1e-6, 1, 1e-3);
+    EXPECT_NEAR(stated.at(2) / 1e-6, 1, 1e-3);
+}
+
+/// The digits of a random number, multiples of 2^-24, neither decide how often a rare light is
+/// picked nor are used up by a choice: of three lights, two share 4.5 of the 2^24 numbers, the ones
+/// at the end, and one of these two has a two thousandth of that.
+TEST_P(LightSampler, RareLightsAreRareExactly) {
+    if (GetParam().choice != LightChoice::Tree) GTEST_SKIP() << "an alias table picks in one step";
+    const double both = 4.5 * 0x1p-24, rarest = both / 2000;
+    load(pointLights({1, both - rarest, rarest}));
+    constexpr uint32_t kNumbers = 8, kTrials = 40000;
     const LightQuery from = surface({0, 0, 0}, {0, 1, 0});
-    const std::map<uint32_t, double> stated = probabilities(from);
-    const double rare = stated.at(1);
-    if (GetParam().choice != LightChoice::Uniform) {
-        EXPECT_NEAR(rare / 1e-6, 1, 1e-3);
-    }
-    // The numbers at either end, in steps of 2^-24: some 17 of them choose each rare light.
-    std::vector<LightQuery> queries;
     Random random(134);
-    constexpr uint32_t kEnd = 1u << 12;
-    for (uint32_t i = 0; i < kEnd; ++i)
-        for (const uint32_t number : {i, (1u << 24) - 1 - i})
-            for (int k = 0; k < 24; ++k) {
-                queries.push_back(from);
-                queries.back().u = float(number) * 0x1p-24f;
-                queries.back().v = random.uniform();
-            }
-    double found = 0;
+    std::vector<LightQuery> queries;
+    for (uint32_t i = 1; i <= kNumbers; ++i)
+        for (uint32_t trial = 0; trial < kTrials; ++trial) {
+            queries.push_back(from);
+            queries.back().u = float((1u << 24) - i) * 0x1p-24f;
+            queries.back().v = random.uniform(); // and with it the digits below u's
+        }
+    double picked[3] = {0, 0, 0};
     for (const LightAnswer& a : ask<LightAnswer>(*shader_, queries))
-        found += a.light != 0;
-    // In an alias table they are elsewhere.
-    if (GetParam().choice != LightChoice::Tree) return;
-    // Of 2^24 numbers, 2 rare are such; each is tried 24 times with other digits below it.
-    const double expected = 2 * rare * double(1u << 24) * 24;
-    EXPECT_NEAR(found, expected, 4 * std::sqrt(expected));
+        ++picked[a.light];
+    // Four numbers always pick one of the two, the fifth every other time; rounding of the shares
+    // to 2^-31 moves that by less than 1/128.
+    const double expected = 4.5 * kTrials;
+    EXPECT_NEAR(picked[1] + picked[2], expected, 4 * std::sqrt(kTrials / 4.0) + kTrials / 128.0);
+    EXPECT_NEAR(picked[2], expected / 2000, 4 * std::sqrt(expected / 2000));
 }
 
 INSTANTIATE_TEST_SUITE_P(Choices, LightSampler,
