@@ -33,12 +33,16 @@ inline float likelyLight(const LightNode& node, uint32_t group, const Point& p) 
     const Vec w = d * (1 / std::sqrt(larger(distance2, kTiny)));
     const float sin2Bound = smaller(radius2 / larger(distance2, kTiny), 1.0f);
     const SineCosine bound{std::sqrt(sin2Bound), std::sqrt(1 - sin2Bound)};
-    const float towards = -dot(axis, w);
-    const SineCosine light = lessAngle(
-        lessAngle(angleOfCosine(node.bothSides ? std::fabs(towards) : towards), spread), bound);
-    if (node.sharp && light.cosine < 1) return 0;
+    float lightCosine = 1;
+    if (node.cosSpread > -1) {
+        const float towards = -dot(axis, w);
+        const SineCosine light = lessAngle(
+            lessAngle(angleOfCosine(node.bothSides ? std::fabs(towards) : towards), spread), bound);
+        if (node.sharp && light.cosine < 1) return 0;
+        lightCosine = larger(light.cosine, 0.0f);
+    }
     const SineCosine surface = lessAngle(angleOfCosine(dot(p.shading, w)), bound);
-    return node.power * larger(light.cosine, 0.0f) * larger(surface.cosine, 0.0f) / falloff;
+    return node.power * lightCosine * larger(surface.cosine, 0.0f) / falloff;
 }
 
 struct ChoiceNumber {

@@ -13,6 +13,21 @@ bool isGroup(uint group, uint wanted) {
     return (LIGHT_GROUPS & 1u << wanted) != 0u && (LIGHT_GROUPS == 1u << wanted || group == wanted);
 }
 
+/// Whether some light sends more to one side than to another: point lights and spheres do not.
+bool lightsHaveCones() { return (LIGHT_KINDS & ~(1u << LIGHT_POINT | 1u << LIGHT_SPHERE)) != 0u; }
+
+/// The largest cosine of a light's normal that the node's lights can turn towards w (unit, from the surface to
+/// them), as they are seen within the angle `bound` of it; or whether spot lights can shine there.
+float turnedTowards(LightNode node, vec3 axis, vec2 spread, vec3 w, vec2 bound) {
+    const float towards = -dot(axis, w);
+    const bool bothSides = (node.child & LIGHT_NODE_BOTH_SIDES) != 0u;
+    const vec2 angle = lessAngle(
+        lessAngle(angleOfCosine(bothSides ? abs(towards) : towards), spread), bound);
+    // An angle that is left is one out of the cone of normals.
+    const bool outside = (node.child & LIGHT_NODE_SHARP) != 0u && angle.x < 1.0;
+    return outside ? 0.0 : max(angle.x, 0.0);
+}
+
 /// A bound of the irradiance (luminance) that the node's lights bring to a point with unit normal n. Of
 /// near lights: the power over the squared distance, times the largest cosines that light and surface can
 /// have anywhere in the node's sphere; within the sphere the distance is its radius, and cosines are 1.
@@ -28,13 +43,8 @@ float likelyLight(LightNode node, uint group, vec3 p, vec3 n) {
     const vec3 w = infinite ? -axis : d * inversesqrt(max(distance2, TINY));
     const float sin2Bound = min(radius2 / max(distance2, TINY), 1.0);
     const vec2 bound = infinite ? spread : vec2(sqrt(1.0 - sin2Bound), sqrt(sin2Bound));
-    const float towards = -dot(axis, w);
-    const bool bothSides = (node.child & LIGHT_NODE_BOTH_SIDES) != 0u;
-    const vec2 light = lessAngle(
-        lessAngle(angleOfCosine(bothSides ? abs(towards) : towards), spread), bound);
-    // An angle that is left is one out of the cone of normals.
-    const bool outside = (node.child & LIGHT_NODE_SHARP) != 0u && light.x < 1.0;
-    const float lightCosine = infinite ? 1.0 : (outside ? 0.0 : max(light.x, 0.0));
+    float lightCosine = 1.0;
+    if (lightsHaveCones() && !infinite) lightCosine = turnedTowards(node, axis, spread, w, bound);
     const vec2 surface = lessAngle(angleOfCosine(dot(n, w)), bound);
     const bool within = !infinite && distance2 <= radius2;
     const float cosines = within ? 1.0 : lightCosine * max(surface.x, 0.0);
