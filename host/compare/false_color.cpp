@@ -1,6 +1,7 @@
 #include "host/compare/false_color.hpp"
 
 #include "host/compare/metrics.hpp"
+#include "host/core/color.hpp"
 
 #include <algorithm>
 #include <cmath>

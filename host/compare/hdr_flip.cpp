@@ -1,5 +1,7 @@
 #include "host/compare/flip.hpp"
 
+#include "host/core/color.hpp"
+
 #include <algorithm>
 #include <cmath>
 

@@ -31,9 +31,4 @@ Picture pictureOf(Film film);
 /// Pixels with a value that is NaN or infinite.
 uint64_t countNotFinite(const Picture& picture);
 
-/// 0.2126 R + 0.7152 G + 0.0722 B (ITU-R BT.709).
-inline double luminance(const glm::dvec3& c) {
-    return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
-}
-
 } // namespace stromboli::compare

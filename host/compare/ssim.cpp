@@ -1,6 +1,7 @@
 #include "host/compare/ssim.hpp"
 
 #include "host/compare/plane.hpp"
+#include "host/core/color.hpp"
 #include "host/film/tone.hpp"
 
 #include <cmath>

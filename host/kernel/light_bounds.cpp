@@ -1,5 +1,7 @@
 #include "host/kernel/light_bounds.hpp"
 
+#include "host/core/color.hpp"
+
 #include <glm/gtc/constants.hpp>
 
 #include <cmath>
@@ -48,10 +50,6 @@ void setFalloff(LightBounds& bounds, const Light& light, double sceneRadius) {
 }
 
 } // namespace
-
-double luminance(const glm::dvec3& color) {
-    return glm::dot(color, glm::dvec3(0.2126, 0.7152, 0.0722));
-}
 
 LightBounds boundsOfTriangle(const Scene& scene, uint32_t index) {
     const Triangle& t = scene.triangles[index];

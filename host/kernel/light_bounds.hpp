@@ -23,9 +23,6 @@ struct LightBounds {
     double power = 0;
 };
 
-/// Luminance of a colour (Rec. 709).
-double luminance(const glm::dvec3& color);
-
 LightBounds boundsOfTriangle(const Scene& scene, uint32_t triangle);
 /// A quad or a sphere.
 LightBounds boundsOfEmitter(const Scene& scene, const Emitter& emitter);

@@ -21,7 +21,9 @@ class VulkanBackend final : public Backend {
 
     /// Begins another picture of the scene, with an empty film; what was sampled so far is
     /// forgotten, and counters start anew. The scene stays where it is, and kernels that were
-    /// compiled for the same features are used again. Throws DeviceError as the constructor.
+    /// compiled for the same features are used again. Throws DeviceError as the constructor, and
+    /// std::invalid_argument if the scene was packed for another way to find direct light
+    /// (directSampling()).
     void setPicture(const Camera& camera, const RenderSettings& settings);
 
     void sample(std::span<const PixelTarget> targets, Film& film,

@@ -1,5 +1,7 @@
 #include "host/render/adaptive.hpp"
 
+#include "host/core/color.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,10 +10,6 @@ namespace {
 
 /// 97.5 % quantile of the normal distribution: half width of a 95 % interval in sigmas.
 constexpr double k95 = 1.96;
-
-double luminance(const glm::dvec3& c) {
-    return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
-}
 
 /// The CS184 rule: each channel's 95 % interval within tolerance times its mean. A pixel whose
 /// samples are all black passes at once.

@@ -1,5 +1,7 @@
 #include "scene/model/emitters.hpp"
 
+#include "host/core/color.hpp"
+
 #include <glm/gtc/constants.hpp>
 
 #include <cmath>
@@ -58,8 +60,7 @@ bool haveManyTriangles(const std::vector<Emitter>& emitters) {
 double trianglePower(const Scene& scene, uint32_t index) {
     const Triangle& t = scene.triangles[index];
     const Material& m = scene.materials[t.material];
-    const double luminance = glm::dot(glm::dvec3(m.emission), glm::dvec3(0.2126, 0.7152, 0.0722));
-    return luminance * area(scene, t) * (m.emitsBothSides ? 2 : 1);
+    return luminance(m.emission) * area(scene, t) * (m.emitsBothSides ? 2 : 1);
 }
 
 std::vector<Emitter> collectEmitters(const Scene& scene) {

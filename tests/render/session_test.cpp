@@ -173,16 +173,16 @@ TEST_F(Session, AnotherEstimatorIsCompiledOnce) {
     const RenderSettings s = settings({.mostSamplesPerPixel = 4});
     VulkanBackend backend(testDevice(), packed_, camera(s), s);
     const uint64_t pipelines = testDevice().pipelinesMade();
-    RenderSettings hemisphere = s;
-    hemisphere.estimator.directLight = DirectLight::Hemisphere;
+    RenderSettings independent = s;
+    independent.estimator.sampler = Sampler::Independent;
     for (int i = 0; i < 2; ++i)
-        for (const RenderSettings& picture : {hemisphere, s}) {
+        for (const RenderSettings& picture : {independent, s}) {
             backend.setPicture(camera(picture), picture);
             RenderSession session(backend, picture);
             session.pass();
             EXPECT_EQ(differences(session.film(), uninterrupted(&Session::device, picture)), 0u);
         }
-    // One for hemisphere sampling; and one for each of the four sessions to compare with.
+    // One for the other sampler; and one for each of the four sessions to compare with.
     EXPECT_EQ(testDevice().pipelinesMade(), pipelines + 1 + 4);
 }
 
