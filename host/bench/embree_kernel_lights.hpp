@@ -11,7 +11,7 @@ namespace {
 struct LightSample {
     Vec direction; ///< unit
     Vec radiance;  ///< over the density; 0: nothing arrives
-    Vec target;    ///< finite lights: just before the lamp
+    Vec target;    ///< finite lights: just before the emitter
     bool infinite;
 };
 
@@ -19,9 +19,9 @@ inline bool isLit(Vec v) {
     return v[0] + v[1] + v[2] > 0;
 }
 
-/// Bound of the error of a point on a lamp seen from `from`: its own, and that of the segment.
-inline float lampError(Vec lamp, Vec from) {
-    return 64 * kRoundoff * (largest(absolute(lamp)) + largest(absolute(from)));
+/// Bound of the error of a point on an emitter seen from `from`: its own, and that of the segment.
+inline float emitterError(Vec emitter, Vec from) {
+    return 64 * kRoundoff * (largest(absolute(emitter)) + largest(absolute(from)));
 }
 
 /// Completes a sample taken uniformly on an area.
@@ -31,7 +31,7 @@ inline LightSample areaSample(const Point& p, const Light& light, float area, Ve
     LightSample s;
     s.infinite = false;
     s.direction = to * (1 / std::sqrt(distance2));
-    s.target = offset(at, lampError(at, p.position), normal, -to);
+    s.target = offset(at, emitterError(at, p.position), normal, -to);
     const float cosine = -dot(s.direction, normal);
     const bool emits = light.bothSides ? cosine != 0 : cosine > 0;
     s.radiance =
@@ -39,12 +39,12 @@ inline LightSample areaSample(const Point& p, const Light& light, float area, Ve
     return s;
 }
 
-/// Completes a sample taken uniformly by direction. z: distance of the lamp's plane on the side
+/// Completes a sample taken uniformly by direction. z: distance of the emitter's plane on the side
 /// that `normal` points from.
 inline LightSample angleSample(const Point& p, Vec emission, bool bothSides, Vec at, Vec normal,
                                float z, float angle) {
     const Vec to = at - p.position;
-    const float distance2 = dot(to, to), error = lampError(at, p.position);
+    const float distance2 = dot(to, to), error = emitterError(at, p.position);
     LightSample s;
     s.infinite = false;
     s.direction = to * (1 / std::sqrt(larger(distance2, kTiny)));
@@ -96,7 +96,7 @@ inline LightSample sampleSphere(const Point& p, const Light& light, Random2 u) {
     const float t = distance * cosine - std::sqrt(larger(radius * radius - distance2 * sin2, 0.0f));
     const Vec n = normalize(from + t * s.direction - center);
     const Vec at = center + radius * n;
-    s.target = offset(at, lampError(at, p.position), n, p.position - at);
+    s.target = offset(at, emitterError(at, p.position), n, p.position - at);
     s.infinite = false;
     s.radiance = vec(light.color) * (2 * kPi * oneMinusCosMax);
     return s;

@@ -59,7 +59,7 @@ inline float unitShare(float part, float rest) {
     return smaller(larger(part / larger(part + rest, kTiny), 0.0f), 1.0f);
 }
 
-/// Weights of a lamp's edges from its first corner.
+/// Weights of an emitter's edges from its first corner.
 struct EdgeWeights {
     float a, b;
 };
@@ -85,7 +85,7 @@ inline EdgeWeights sampleSeenTriangle(const SeenTriangle& t, float angle, float 
     return {out * (1 - along), out * along};
 }
 
-/// A point chosen uniformly by direction, and the steradians that the lamp takes up.
+/// A point chosen uniformly by direction, and the steradians that the emitter takes up.
 struct SolidAngleSample {
     EdgeWeights weights;
     float angle;

@@ -20,8 +20,8 @@ using reference::SurfacePoint;
 
 constexpr float kInfinite = std::numeric_limits<float>::max();
 /// The share of a shadow ray, at its end, where nothing counts: far more than any contestant's
-/// rounding, so that none of them takes the lamp for an obstacle.
-constexpr float kLampGap = 0x1p-12f;
+/// rounding, so that none of them takes the emitter for an obstacle.
+constexpr float kEmitterGap = 0x1p-12f;
 
 /// What became of one camera ray.
 struct PathStart {
@@ -52,7 +52,7 @@ std::optional<gpu::TracedRay> shadowRay(const reference::Lights& lights, const S
     const bool lit = light.value.x > 0 || light.value.y > 0 || light.value.z > 0;
     if (!lit || glm::dot(s.geometric, light.direction) <= 0) return {};
     if (light.infinite) return leave(s, light.direction, kInfinite);
-    gpu::TracedRay ray = leave(s, light.direction, 1 - kLampGap);
+    gpu::TracedRay ray = leave(s, light.direction, 1 - kEmitterGap);
     ray.direction = glm::vec3(light.target - glm::dvec3(ray.origin));
     return ray;
 }

@@ -41,7 +41,7 @@ void declareEstimator(DeclaredCommand& c) {
     Estimator& e = c.options.estimator;
     OptionList& list = c.list;
     list.group("Light");
-    list.number("-m,--max-bounces", "N", "scatterings of light at most; 0: lamps only",
+    list.number("-m,--max-bounces", "N", "scatterings of light at most; 0: emission only",
                 e.maxBounces, kBounces)
         .usually(fmt::format("{}; --cs184: 1", e.maxBounces));
     list.number("--min-bounce", "K",
@@ -49,11 +49,11 @@ void declareEstimator(DeclaredCommand& c) {
                 e.minBounce, kBounces);
     list.number("-l,--light-samples", "N", "samples of lights per shading point", e.lightSamples,
                 kLightSamples);
-    list.choice("--direct", "HOW", "how lamps are found from a surface", e.directLight);
+    list.choice("--direct", "HOW", "how lights are found from a surface", e.directLight);
     list.flag("-H", "same as --direct hemisphere",
               [&e] { e.directLight = DirectLight::Hemisphere; })
-        .excludes("--direct", "both say how lamps are found");
-    list.choice("--light-choice", "HOW", "which of many emissive triangles a light sample takes",
+        .excludes("--direct", "both say how lights are found");
+    list.choice("--light-choice", "HOW", "which of several lights a light sample takes",
                 e.lightChoice);
     list.words("--roulette", "MODE",
                "none, throughput (from bounce 3 on), or a probability P of ending a path at every "
@@ -61,7 +61,7 @@ void declareEstimator(DeclaredCommand& c) {
                1, [&e](const Words& words) { e.roulette = readRoulette(words[0]); })
         .usually("throughput; --cs184: none");
     list.words("--guide", "WHETHER",
-               "on: some bounces go into the bright gap between a lamp and a surface close to it; "
+               "on: some bounces go into the bright gap between a light and a surface close to it; "
                "off: all as the materials scatter",
                1,
                [&e](const Words& words) {

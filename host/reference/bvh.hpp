@@ -8,7 +8,7 @@
 
 namespace stromboli::reference {
 
-/// A primitive that a ray cannot hit: the triangle it starts on, the lamp it ends on.
+/// A primitive that a ray cannot hit: the triangle it starts on, the emitter it ends on.
 struct Skip {
     uint32_t first = kNoPrimitive, second = kNoPrimitive;
     bool operator()(uint32_t primitive) const { return primitive == first || primitive == second; }

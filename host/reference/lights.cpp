@@ -1,6 +1,6 @@
 #include "host/reference/lights.hpp"
 
-#include "host/reference/lamps.hpp"
+#include "host/reference/emitters.hpp"
 #include "host/reference/sampling.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ std::vector<double> runningAreas(const Scene& scene, const Emitter& emitter) {
     std::vector<double> sums;
     double sum = 0;
     for (uint32_t index : emitter.triangles) {
-        sum += LampTriangle(scene, index).area;
+        sum += EmitterTriangle(scene, index).area;
         sums.push_back(sum);
     }
     return sums;
@@ -90,7 +90,7 @@ LightSample Lights::sampleBroad(size_t index, const SurfacePoint& surface,
 LightSample Lights::sampleMany(const SurfacePoint& surface, RandomStream& random) const {
     const ManyTriangles& many = many_.front();
     const size_t picked = pickByShare(many.powerSums, random.next());
-    const LampTriangle triangle(scene_, many.triangles[picked]);
+    const EmitterTriangle triangle(scene_, many.triangles[picked]);
     const Material& material = scene_.materials[scene_.triangles[triangle.index].material];
     const double power = trianglePower(scene_, triangle.index);
     return sampleTriangle(triangle, power / many.powerSums.back(), material, surface, random);
@@ -103,13 +103,13 @@ LightSample Lights::sampleEmitter(size_t index, const SurfacePoint& surface,
     if (emitter.kind == EmitterKind::Sphere) return sampleSphere(scene_, emitter, surface, random);
     const double u = random.next();
     if (emitter.kind == EmitterKind::Quad) { // its triangles by solid angle
-        const LampTriangle a(scene_, emitter.triangles[0]), b(scene_, emitter.triangles[1]);
+        const EmitterTriangle a(scene_, emitter.triangles[0]), b(scene_, emitter.triangles[1]);
         const double ofA = solidAngle(a, litPoint(surface)), ofB = solidAngle(b, litPoint(surface));
         const double share = ofA + ofB > 0 ? ofA / (ofA + ofB) : 0.5;
         return u < share ? sampleTriangle(a, share, material, surface, random)
                          : sampleTriangle(b, 1 - share, material, surface, random);
     }
-    const LampTriangle triangle(scene_, emitter.triangles[pickByShare(areaSums_[index], u)]);
+    const EmitterTriangle triangle(scene_, emitter.triangles[pickByShare(areaSums_[index], u)]);
     return sampleTriangle(triangle, triangle.area / emitter.area, material, surface, random);
 }
 

@@ -16,7 +16,7 @@ struct LightSample {
     glm::dvec3 value{0.0};
     bool infinite = true;
     glm::dvec3 target{0.0};            ///< finite lights: the segment ends here, before the light
-    uint32_t primitive = kNoPrimitive; ///< the lamp, which cannot hide itself
+    uint32_t primitive = kNoPrimitive; ///< the emitter, which cannot hide itself
 };
 
 /// All emissive triangles of a scene that has many, as one light: picked by power.

@@ -62,8 +62,9 @@ Finding selfHits(Run& run) {
     return f;
 }
 
-/// Closed rooms without a lamp in ambient light: what light there is has come through a wall. Walls
-/// reflect all, so that every escape counts 1, and paths that ended early would be missing rays.
+/// Closed rooms without an emitter in ambient light: what light there is has come through a wall.
+/// Walls reflect all, so that every escape counts 1, and paths that ended early would be missing
+/// rays.
 std::vector<Body> closedRooms() {
     const Camera camera = lookingAt({0.1, -0.2, 0.3}, {0.7, 0.4, -0.1}, 1.5);
     std::vector<Body> rooms;

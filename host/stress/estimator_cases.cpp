@@ -56,22 +56,22 @@ Finding partialSums(Run& run) {
     return f;
 }
 
-struct Lamp {
+struct EmitterCase {
     const char* name;
     float size, height;
     bool bothSides, faceAway;
     bool standing = false; ///< upright, its lower edge at `height`
 };
 
-/// A lamp over a floor, in a box without a roof; `pieces` per side of it, each a lamp of its own or
-/// all one mesh.
-Scene lampInBox(const Lamp& l, int pieces, bool oneMesh) {
+/// An emitter over a floor, in a box without a roof; `pieces` per side of it, each an emitter
+/// of its own or all one mesh.
+Scene emitterInBox(const EmitterCase& l, int pieces, bool oneMesh) {
     SceneMaker m;
     const float size = l.size;
     const uint32_t white = m.add(diffuse(0.6f)),
-                   light = m.add(lamp(1 / (size * size), l.bothSides));
+                   light = m.add(emissive(1 / (size * size), l.bothSides));
     m.quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, white);
-    m.quad({-1, 0, -1}, {2, 0, 0}, {0, 1, 0}, white); // a wall that the lamp's back can light
+    m.quad({-1, 0, -1}, {2, 0, 0}, {0, 1, 0}, white); // a wall that the emitter's back can light
     const float step = size / float(pieces);
     for (int i = 0; i < pieces; ++i)
         for (int k = 0; k < pieces; ++k) {
@@ -88,22 +88,24 @@ Scene lampInBox(const Lamp& l, int pieces, bool oneMesh) {
     return m.scene;
 }
 
-/// What lights the scene is the same lamp, however it is cut up and however it is found.
-Finding lampsInPieces(Run& run) {
-    const std::vector<Lamp> lamps = {{"small", 0.05f, 0.5f, false, false},
-                                     {"large", 1.5f, 0.5f, false, false},
-                                     {"one-sided, facing away", 0.5f, 0.5f, false, true},
-                                     {"two-sided, facing away", 0.5f, 0.5f, true, true},
-                                     {"touching", 0.5f, 0, true, false, true}};
+/// What lights the scene is the same emitter, however it is cut up and however it is found.
+Finding emitterInPieces(Run& run) {
+    const std::vector<EmitterCase> emitters = {{"small", 0.05f, 0.5f, false, false},
+                                               {"large", 1.5f, 0.5f, false, false},
+                                               {"one-sided, facing away", 0.5f, 0.5f, false, true},
+                                               {"two-sided, facing away", 0.5f, 0.5f, true, true},
+                                               {"touching", 0.5f, 0, true, false, true}};
     const Camera camera = lookingAt({0.3, 0.4, 0.9}, {0, 0, -0.3}, 0.6);
     Finding f;
     f.bound = 3;
-    for (const Lamp& l : lamps) {
+    for (const EmitterCase& l : emitters) {
         if (run.quick() && l.size != 0.5f) continue;
-        const auto scene = [&](int pieces, bool oneMesh) { return lampInBox(l, pieces, oneMesh); };
+        const auto scene = [&](int pieces, bool oneMesh) {
+            return emitterInBox(l, pieces, oneMesh);
+        };
         const auto totals = [&](const Scene& lit, RenderSettings s, DirectLight mode) {
             s.estimator.directLight = mode;
-            s.estimator.minBounce = 1; // not the lamp itself
+            s.estimator.minBounce = 1; // not the emitter itself
             const Totals t(run.render(lit, camera, s).film);
             f.trials += t.all.taken();
             return t;
@@ -116,9 +118,9 @@ Finding lampsInPieces(Run& run) {
                 return sigmasOff(totals(other, now, mode), one);
             });
             if (!(z <= f.measured))
-                f.measured = z, f.where = fmt::format("{} lamp, {}", l.name, what);
+                f.measured = z, f.where = fmt::format("{} emitter, {}", l.name, what);
         };
-        compare("100 lamps", scene(10, false), DirectLight::Mis);
+        compare("100 emitters", scene(10, false), DirectLight::Mis);
         compare("a mesh of 200 triangles", scene(10, true), DirectLight::Mis);
         compare("by hemisphere", scene(1, false), DirectLight::Hemisphere);
         if (l.size > 0.1f) compare("by bounces", scene(1, false), DirectLight::Bsdf);
@@ -132,8 +134,8 @@ std::vector<Case> estimatorCases() {
     return {
         {"partial-sums", "49", "light of 0 to 12 scatterings, with and without roulette", "sigma",
          "samples", partialSums},
-        {"lamps-in-pieces", "50", "one lamp, 100 pieces, any way to find it: the same light",
-         "sigma", "samples", lampsInPieces},
+        {"emitter-in-pieces", "50", "one emitter, 100 pieces, any way to find it: the same light",
+         "sigma", "samples", emitterInPieces},
     };
 }
 

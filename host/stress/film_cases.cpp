@@ -13,10 +13,10 @@
 namespace stromboli::stress {
 namespace {
 
-/// Inside a lamp: every sample is its radiance.
-Scene insideLamp(const glm::vec3& radiance) {
+/// Inside an emitter: every sample is its radiance.
+Scene insideEmitter(const glm::vec3& radiance) {
     SceneMaker m;
-    Material glow = lamp(1, true);
+    Material glow = emissive(1, true);
     glow.emission = radiance;
     m.sphere({0, 0, 0}, 1, m.add(glow));
     return m.scene;
@@ -28,7 +28,7 @@ const Camera kInside = lookingAt({0, 0, 0}, {0, 0, 1}, 1);
 Finding manySamples(Run& run) {
     const glm::vec3 value(0.5f, 0.1f, 0.7f);
     RenderSettings s = picture(4, run.amount(200'000u, 10'000'000u), 0);
-    const Film film = run.render(insideLamp(value), kInside, s).film;
+    const Film film = run.render(insideEmitter(value), kInside, s).film;
     Finding f;
     f.bound = 1e-6;
     for (const PixelStatistics& p : film.pixels) {
@@ -45,15 +45,15 @@ Finding manySamples(Run& run) {
     return f;
 }
 
-/// A wall of nine lamps, the middle one of a radiance that is none.
+/// A wall of nine emitters, the middle one of a radiance that is none.
 Finding badSamples(Run& run) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
     Finding f;
     for (const float bad : {kNaN, -kNaN, kInfinity, -kInfinity, -1.0f, 1e38f, 0x1.000002p48f}) {
         SceneMaker m;
-        const uint32_t good = m.add(lamp(0.25f, true));
-        Material wrong = lamp(1, true);
+        const uint32_t good = m.add(emissive(0.25f, true));
+        Material wrong = emissive(1, true);
         wrong.emission = {0.5f, bad, 0.5f};
         const uint32_t middle = m.add(wrong);
         for (int i = -1; i <= 1; ++i)
@@ -123,7 +123,7 @@ Finding shapes(Run& run) {
             ++f.trials;
         }
     };
-    const Scene glow = insideLamp(glm::vec3(0.5f));
+    const Scene glow = insideEmitter(glm::vec3(0.5f));
     for (const auto& [width, height] :
          {std::pair{1u, 1u}, {1u, 17u}, {7u, 13u}, {run.amount(4000u, 16384u), 1u}})
         for (const uint32_t bounces : {0u, 1u}) {
@@ -136,7 +136,7 @@ Finding shapes(Run& run) {
     dark.box({-1, -1, -1}, {1, 1, 1}, dark.add(diffuse(0.5f)), true);
     check("no lights", dark.scene, kInside, picture(9, 3, 5), false);
     ball.sphere({0, 0, 0}, 1, ball.add(glass(1.5f)));
-    ball.sphere({0, 0, 0}, 10, ball.add(lamp(1, true)));
+    ball.sphere({0, 0, 0}, 10, ball.add(emissive(1, true)));
     check("camera in glass", ball.scene, kInside, picture(9, 3, 100), true);
     return f;
 }

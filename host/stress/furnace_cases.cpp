@@ -153,7 +153,7 @@ std::vector<Case> furnaceCases() {
     return {
         {"glass", "36", "glass in a white furnace is 1 in every sample", "difference", "samples",
          glassInFurnace},
-        {"furnaces", "46", "every BSDF, sampler and way to find lamps: radiance 1 / (1 - albedo)",
+        {"furnaces", "46", "every BSDF, sampler and way to find lights: radiance 1 / (1 - albedo)",
          "sigma", "samples", closedFurnaces},
         {"central-light", "47", "a light in a diffuse ball: radiance 1 for every camera", "sigma",
          "samples", centralLight},

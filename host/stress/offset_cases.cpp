@@ -11,7 +11,7 @@
 namespace stromboli::stress {
 namespace {
 
-/// Two parallel floors, 1e-4 of their size apart, under a lamp at infinity. A camera whose near
+/// Two parallel floors, 1e-4 of their size apart, under a directional light. A camera whose near
 /// plane lies between the two sees the lower one, which must be black; one above sees the upper
 /// one.
 Finding parallelPlanes(Run& run) {
@@ -48,9 +48,9 @@ Finding parallelPlanes(Run& run) {
     return f;
 }
 
-/// A lamp just over a floor: shadow rays must end before it, however short they are. Each pixel is
-/// one sample, which is black only if the lamp shades itself.
-Finding lampsNearFloors(Run& run) {
+/// An emitter just over a floor: shadow rays must end before it, however short they are. Each pixel
+/// is one sample, which is black only if the emitter shades itself.
+Finding emittersNearFloors(Run& run) {
     Finding f;
     const RenderSettings s = picture(run.amount(64u, 512u), 1, 1);
     const std::vector<float> heights = run.quick() ? std::vector<float>{1e-5f, 1e5f}
@@ -59,8 +59,8 @@ Finding lampsNearFloors(Run& run) {
         for (const float scale : sizes(run))
             for (const bool round : {false, true}) {
                 SceneMaker m;
-                const uint32_t white = m.add(diffuse(0.5f)), light = m.add(lamp(1, false));
-                const float size = std::min(height, 1.0f); // of the lamp
+                const uint32_t white = m.add(diffuse(0.5f)), light = m.add(emissive(1, false));
+                const float size = std::min(height, 1.0f); // of the emitter
                 m.quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, white);
                 if (round)
                     m.sphere({0, height + size, 0}, size, light);
@@ -80,8 +80,8 @@ Finding lampsNearFloors(Run& run) {
     return f;
 }
 
-/// A floor whose shading normal is tilted, lamps below it: nothing arrives above, by whatever way a
-/// lamp is found, and nothing comes from the dark side of a lamp above it.
+/// A floor whose shading normal is tilted, emitters below it: nothing arrives above, however a
+/// light is found, and nothing comes from the dark side of an emitter above it.
 Finding leaks(Run& run) {
     Finding f;
     for (const Material& material : {diffuse(0.5f), metal(0.8f), mirror(1)})
@@ -89,14 +89,14 @@ Finding leaks(Run& run) {
             for (const bool flipped : {false, true}) {
                 if (run.quick() && flipped == (mode == DirectLight::Bsdf)) continue;
                 SceneMaker m;
-                const uint32_t surface = m.add(material), light = m.add(lamp(1, false));
+                const uint32_t surface = m.add(material), light = m.add(emissive(1, false));
                 m.quad({-1, 0, -1}, flipped ? glm::vec3(2, 0, 0) : glm::vec3(0, 0, 2),
                        flipped ? glm::vec3(0, 0, 2) : glm::vec3(2, 0, 0), surface);
                 m.scene.normals = {{0.8f, flipped ? -0.6f : 0.6f, 0}};
                 for (Triangle& t : m.scene.triangles)
                     std::fill_n(t.normals, 3, 0u);
-                m.sphere({2, -0.4f, 0}, 0.35f, m.add(lamp(1, true))); // below the floor
-                m.quad({-1, 0.75f, -1}, {0, 0, 2}, {2, 0, 0}, light); // faces away
+                m.sphere({2, -0.4f, 0}, 0.35f, m.add(emissive(1, true))); // below the floor
+                m.quad({-1, 0.75f, -1}, {0, 0, 2}, {2, 0, 0}, light);     // faces away
                 Light point;
                 point.position = {2, -0.2f, 0};
                 m.add(point);
@@ -119,8 +119,8 @@ std::vector<Case> offsetCases() {
     return {
         {"parallel-planes", "34", "of two floors 1e-4 of their size apart the upper one is lit",
          "share of the light", "samples", parallelPlanes},
-        {"lamps-near-floors", "35", "lamps 1e-5 to 1e5 away do not shade themselves", "black",
-         "samples", lampsNearFloors},
+        {"emitters-near-floors", "35", "emitters 1e-5 to 1e5 away do not shade themselves", "black",
+         "samples", emittersNearFloors},
         {"leaks", "51", "no light comes through an opaque surface", "light", "samples", leaks},
     };
 }

@@ -26,7 +26,7 @@ enum class MaterialBinding {
 
 /// What becomes of lights that are rectangles.
 enum class AreaLights {
-    BecomeGeometry, ///< emissive triangles, or the emissive mesh in the same place: one lamp
+    BecomeGeometry, ///< emissive triangles, or the emissive mesh in the same place: one emitter
     StayLights,     ///< rectangles that are sampled and are not seen
 };
 

@@ -23,8 +23,8 @@ bool poseLight(Light& light, const glm::dmat4& toWorld, const SceneConventions& 
     const glm::dvec3 x = -glm::dvec3(toWorld[0]), y = toWorld[1];
     if (!inRange(x) || !inRange(y)) return false;
     light.edgeX = x, light.edgeY = y;
-    // A sheared node tilts its axis against the rectangle; a lamp's light leaves at right angles to
-    // it.
+    // A sheared node tilts its axis against the rectangle; an emitter's light leaves at right
+    // angles to it.
     const std::optional<glm::dvec3> normal = unit(glm::cross(x, y));
     if (!normal) return false;
     if (conventions.areaLights == AreaLights::BecomeGeometry)

@@ -29,7 +29,7 @@ struct CornellMesh {
     static constexpr double kMetresPerUnit = 0.001;
 
     std::vector<Surface> surfaces;
-    std::vector<Wall> walls; ///< the lamp among them
+    std::vector<Wall> walls; ///< the emitter among them
     StripMesh knot;          ///< on the floor
     std::string knotSurface;
     View view;

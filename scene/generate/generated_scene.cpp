@@ -2,7 +2,7 @@
 
 #include "host/core/error.hpp"
 #include "scene/generate/cornell_mesh.hpp"
-#include "scene/generate/lamps_room.hpp"
+#include "scene/generate/emitters_room.hpp"
 
 #include <fmt/format.h>
 
@@ -12,11 +12,11 @@
 namespace stromboli {
 namespace {
 
-constexpr std::string_view kCornellMesh = "cornell_mesh:", kLampsRoom = "lamps:",
+constexpr std::string_view kCornellMesh = "cornell_mesh:", kEmittersRoom = "lamps:",
                            kPointsRoom = "points:";
 // Fewer triangles make no knot; more leave no room in 32-bit numbers of corners.
 constexpr uint32_t kLeastTriangles = 1000, kMostTriangles = 100'000'000;
-constexpr uint32_t kLeastLamps = 8, kMostLamps = 8'000'000;
+constexpr uint32_t kLeastEmitters = 8, kMostEmitters = 8'000'000;
 
 /// The tube's triangles keep the shape they have in the library's file: ten times as many steps
 /// along it as around it.
@@ -40,19 +40,19 @@ uint32_t numberAfter(std::string_view prefix, std::string_view name) {
 
 Scene generatedScene(std::string_view name) {
     const std::string source = std::string(kGeneratePrefix) + std::string(name);
-    const uint32_t lamps = numberAfter(kLampsRoom, name);
-    if (lamps >= kLeastLamps && lamps <= kMostLamps && lamps % 8 == 0)
-        return lampsRoom(lamps, source);
+    const uint32_t emitters = numberAfter(kEmittersRoom, name);
+    if (emitters >= kLeastEmitters && emitters <= kMostEmitters && emitters % 8 == 0)
+        return emittersRoom(emitters, source);
     const uint32_t points = numberAfter(kPointsRoom, name);
-    if (points > 0 && points <= kMostLamps) return pointsRoom(points, source);
+    if (points > 0 && points <= kMostEmitters) return pointsRoom(points, source);
     const uint32_t triangles = numberAfter(kCornellMesh, name);
     if (triangles < kLeastTriangles || triangles > kMostTriangles)
         throw SceneError(fmt::format("{}: no such scene; expected {}{}N with N from {} to {}, or "
                                      "{}{}N with N from {} to {}, a multiple of 8, or {}{}N with N "
                                      "from 1 to {}",
                                      source, kGeneratePrefix, kCornellMesh, kLeastTriangles,
-                                     kMostTriangles, kGeneratePrefix, kLampsRoom, kLeastLamps,
-                                     kMostLamps, kGeneratePrefix, kPointsRoom, kMostLamps));
+                                     kMostTriangles, kGeneratePrefix, kEmittersRoom, kLeastEmitters,
+                                     kMostEmitters, kGeneratePrefix, kPointsRoom, kMostEmitters));
     return cornellMeshScene(cornellMeshOf(triangles), source);
 }
 

@@ -100,7 +100,7 @@ Material metal(float alpha, float emission) {
     return m;
 }
 
-Material lamp(float radiance, bool bothSides) {
+Material emissive(float radiance, bool bothSides) {
     Material m = diffuse(0, radiance);
     m.emitsBothSides = bothSides;
     return m;
@@ -118,7 +118,8 @@ Scene cornellBox() {
     Material walls = diffuse(0.7f);
     walls.albedo = {0.7f, 0.3f, 0.2f};
     m.box({0, 0, 0}, {1, 1, 1}, m.add(walls), true);
-    m.quad({0.3125f, 0.984375f, 0.3125f}, {0.375f, 0, 0}, {0, 0, 0.375f}, m.add(lamp(10, false)));
+    m.quad({0.3125f, 0.984375f, 0.3125f}, {0.375f, 0, 0}, {0, 0, 0.375f},
+           m.add(emissive(10, false)));
     m.sphere({0.3125f, 0.25f, 0.3125f}, 0.1875f, m.add(mirror(0.9f)));
     m.sphere({0.6875f, 0.25f, 0.625f}, 0.1875f, m.add(glass(1.5f)));
     m.quad({0.125f, 0.5f, 0.125f}, {0.5f, 0, 0}, {0, 0.375f, 0.125f}, m.add(metal(0.3f)));

@@ -20,7 +20,7 @@ class SceneMaker {
     void startInstance();
     /// Counter-clockwise from the side the normal points to.
     void triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, uint32_t material);
-    /// Normal edgeA x edgeB; an instance, and so a lamp, of its own.
+    /// Normal edgeA x edgeB; an instance, and so an emitter, of its own.
     void quad(const glm::vec3& corner, const glm::vec3& edgeA, const glm::vec3& edgeB,
               uint32_t material);
     /// Closed box, normals outwards or inwards; one instance.
@@ -37,12 +37,12 @@ Material mirror(float reflectance, float emission = 0);
 Material glass(float ior);
 /// A rough conductor that reflects between one half and nearly all, by angle.
 Material metal(float alpha, float emission = 0);
-Material lamp(float radiance, bool bothSides = true);
+Material emissive(float radiance, bool bothSides = true);
 
 /// Constant radiance from everywhere, found by rays that leave the scene.
 Light ambient(float radiance);
 
-/// A unit box with a lamp below its ceiling, a mirror and a glass sphere, and a conductor. All
+/// A unit box with an emitter below its ceiling, a mirror and a glass sphere, and a conductor. All
 /// coordinates are multiples of 1/512, so that it can be moved by whole numbers up to 2^14 exactly.
 Scene cornellBox();
 

@@ -11,7 +11,7 @@ namespace {
 
 /// True where every corner of the triangle lies within a hundredth of the light's own size of its
 /// plane and the triangle's centre lies over the rectangle. The hundredth is a matter of modelling
-/// (how far apart an author may put a lamp and its light), not of rounding.
+/// (how far apart an author may put an emitter and its light), not of rounding.
 bool standsFor(const Scene& scene, const Triangle& t, const Light& light) {
     const glm::dvec3 ex = light.edgeX, ey = light.edgeY, center = light.position;
     const glm::dvec3 normal = glm::normalize(glm::cross(ex, ey));
@@ -33,7 +33,7 @@ std::optional<uint32_t> emissiveInstanceFor(const Scene& scene, const Light& lig
     return std::nullopt;
 }
 
-void addLamp(Scene& scene, const Light& light) {
+void addEmitter(Scene& scene, const Light& light) {
     Material material;
     material.name = light.name + " (area light)";
     material.albedo = glm::vec3(0);
@@ -73,10 +73,10 @@ void resolveAreaLights(Scene& scene) {
             kept.push_back(light);
         } else if (const auto instance = emissiveInstanceFor(scene, light)) {
             scene.report.ignored.push_back(
-                fmt::format("area light '{}': the emissive mesh '{}' in its place is the lamp",
+                fmt::format("area light '{}': the emissive mesh '{}' in its place is the emitter",
                             light.name, scene.instances[*instance]));
         } else {
-            addLamp(scene, light);
+            addEmitter(scene, light);
         }
     }
     scene.lights = std::move(kept);

@@ -54,7 +54,7 @@ bool haveManyTriangles(const std::vector<Emitter>& emitters) {
     size_t triangles = 0;
     for (const Emitter& emitter : emitters)
         triangles += emitter.triangles.size();
-    return triangles >= kManyLampTriangles;
+    return triangles >= kManyEmissiveTriangles;
 }
 
 double trianglePower(const Scene& scene, uint32_t index) {

@@ -26,7 +26,7 @@ struct Emitter {
 
 /// From this many emissive triangles on, those of all quads and meshes of a scene are one light, of
 /// which a sample takes one triangle by its likely contribution.
-inline constexpr size_t kManyLampTriangles = 64;
+inline constexpr size_t kManyEmissiveTriangles = 64;
 bool haveManyTriangles(const std::vector<Emitter>& emitters);
 
 /// Of an emissive triangle: luminance of its emission (Rec. 709) times the area of the sides that

@@ -16,7 +16,7 @@ enum class MaterialKind : uint32_t {
 };
 
 /// What a surface does with light. Only the members its kind names are meaningful; emission is
-/// meaningful for all (a lamp is a diffuse material of albedo 0 that emits).
+/// meaningful for all (an emitter is a diffuse material of albedo 0 that emits).
 struct Material {
     std::string name;
     MaterialKind kind = MaterialKind::Diffuse;

@@ -87,7 +87,7 @@ struct Scene {
     std::vector<FileCamera> cameras;    ///< in document order
     std::vector<std::string> instances; ///< names of the placed meshes and spheres
     /// What a camera that frames the scene frames, where that is not bounds(): the geometry the
-    /// file states, without lamps made from area lights.
+    /// file states, without emitters made from area lights.
     std::optional<Bounds> framing;
     bool cglDialect = false; ///< the file has elements of the CS184 dialect (profile CGL, CMU462)
     LoadReport report;

@@ -64,7 +64,7 @@ TEST_P(Branches, BehindEveryMaterial) {
         SCOPED_TRACE(int(kind));
         SceneMaker maker;
         maker.box({-1, -1, -1}, {1, 1, 1}, maker.add(diffuse(0.5f)), true);
-        maker.quad({-0.3f, 0.9f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}, maker.add(lamp(5)));
+        maker.quad({-0.3f, 0.9f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}, maker.add(emissive(5)));
         Material m = diffuse(0.5f);
         m.kind = kind;
         m.reflectance = m.transmittance = glm::vec3(0.9f);

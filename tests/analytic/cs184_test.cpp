@@ -43,7 +43,7 @@ TEST(Cs184, AreaLightFallsOffWithDistanceNotItsSquare) {
     for (float height : {1.0f, 2.0f, 4.0f}) {
         SceneMaker b = floor();
         b.add(rectangle({0, height, 0}, {0, -1, 0}));
-        // Radiance times area is 1; the lamp is small enough for a point to 1e-6.
+        // Radiance times area is 1; the emitter is small enough for a point to 1e-6.
         const Estimate found = estimate(b.scene, kFromAbove, cs184(16));
         EXPECT_NEAR(found.mean.x / (kF / height), 1, 1e-6);
     }
@@ -65,11 +65,11 @@ TEST(Cs184, MeshInTheLightsPlaneDoesNotShadeIt) {
         b.scene.triangles.resize(2);
         Light light = rectangle({0, 1.49f, 0}, {0, -1, 0});
         b.add(light);
-        b.quad({-0.5f, y, -0.5f}, {1, 0, 0}, {0, 0, 1}, b.add(lamp(10)));
+        b.quad({-0.5f, y, -0.5f}, {1, 0, 0}, {0, 0, 1}, b.add(emissive(10)));
         const Estimate found = estimate(b.scene, kFromAbove, cs184(4));
         EXPECT_NEAR(found.mean.x * 1.49 / kF, double(b.scene.lights.size()), 1e-5);
     }
-    b.quad({-0.5f, 1.4f, -0.5f}, {1, 0, 0}, {0, 0, 1}, b.add(lamp(10)));
+    b.quad({-0.5f, 1.4f, -0.5f}, {1, 0, 0}, {0, 0, 1}, b.add(emissive(10)));
     expectMean(estimate(b.scene, kFromAbove, cs184(4)), 0);
 }
 
@@ -112,9 +112,10 @@ TEST(Cs184, AmbientComesFromAboveOnly) {
     expectMean(estimate(b.scene, kFromAbove, cs184(4, 5)), 0);
 }
 
-TEST(Cs184, LampsAreNotSampledButSeenByHemisphereAndAfterMirrors) {
+TEST(Cs184, EmittersAreNotSampledButSeenByHemisphereAndAfterMirrors) {
     SceneMaker b = floor();
-    b.sphere({0, 0, 0}, 20, b.add(lamp(2, false))); // one-sided outwards: emits inside all the same
+    b.sphere({0, 0, 0}, 20,
+             b.add(emissive(2, false))); // one-sided outwards: emits inside all the same
     expectMean(estimate(b.scene, kFromAbove, cs184(4, 3)), 0);
     RenderSettings s = cs184(64);
     s.estimator.directLight = DirectLight::Bsdf;
@@ -131,7 +132,7 @@ TEST(Cs184, LampsAreNotSampledButSeenByHemisphereAndAfterMirrors) {
 
 TEST(Cs184, RefractionScalesRadianceTheOtherWay) {
     SceneMaker b;
-    b.sphere({0, 0, 0}, 20, b.add(lamp(1)));
+    b.sphere({0, 0, 0}, 20, b.add(emissive(1)));
     b.sphere({0, 0, 0}, 1, b.add(glass(1.5f)));
     const Camera center = pointCamera({0, 0, 0}, {0, 0, 1}, 0.5);
     b.scene.materials[1].kind = MaterialKind::Refraction;

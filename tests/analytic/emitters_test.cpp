@@ -1,5 +1,5 @@
-// Lamps with a shape over a diffuse floor of albedo 0.5, whose irradiance has a closed form, in all
-// three direct light modes.
+// Emitters with a shape over a diffuse floor of albedo 0.5, whose irradiance has a closed form, in
+// all three direct light modes.
 #include "tests/analytic/scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -39,10 +39,10 @@ class Emitters : public testing::TestWithParam<DirectLight> {
         expectMean(estimate(builder.scene, kSeesOrigin, settings), 0.5 / kPi * irradiance);
     }
     /// 1 x 0.5 at height 1, beside the origin; the normal points down, or up.
-    void addQuadLamp(bool down, bool bothSides) {
+    void addQuadEmitter(bool down, bool bothSides) {
         const glm::vec3 a(1, 0, 0), b(0, 0.25f, 0.5f);
         builder.quad({-0.25f, 1, 0.25f}, down ? a : b, down ? b : a,
-                     builder.add(lamp(2, bothSides)));
+                     builder.add(emissive(2, bothSides)));
     }
     double quadIrradiance() const {
         return 2 * polygonIrradiance(
@@ -52,27 +52,27 @@ class Emitters : public testing::TestWithParam<DirectLight> {
 };
 
 TEST_P(Emitters, Quad) {
-    addQuadLamp(true, true);
+    addQuadEmitter(true, true);
     expectIrradiance(quadIrradiance());
 }
 
 TEST_P(Emitters, OneSidedQuadFacingTheFloor) {
-    addQuadLamp(true, false);
+    addQuadEmitter(true, false);
     expectIrradiance(quadIrradiance());
 }
 
 TEST_P(Emitters, OneSidedQuadFacingAway) {
-    addQuadLamp(false, false);
+    addQuadEmitter(false, false);
     expectIrradiance(0);
 }
 
 TEST_P(Emitters, TwoSidedQuadFacingAway) {
-    addQuadLamp(false, true);
+    addQuadEmitter(false, true);
     expectIrradiance(quadIrradiance());
 }
 
 TEST_P(Emitters, MeshOfUnequalTriangles) {
-    const uint32_t material = builder.add(lamp(2));
+    const uint32_t material = builder.add(emissive(2));
     const std::vector<glm::dvec3> fan = {
         {-1, 1, 0}, {0, 1, 1}, {0.25, 1, 1}, {1, 1, 0.5}, {0.5, 1, -0.5}};
     builder.startInstance();
@@ -82,43 +82,43 @@ TEST_P(Emitters, MeshOfUnequalTriangles) {
 }
 
 TEST_P(Emitters, Sphere) {
-    builder.sphere({0.75f, 1, 0}, 0.25f, builder.add(lamp(2)));
+    builder.sphere({0.75f, 1, 0}, 0.25f, builder.add(emissive(2)));
     const double distance2 = 1 + 0.75 * 0.75;
     expectIrradiance(2 * kPi * 0.25 * 0.25 / distance2 * (1 / std::sqrt(distance2)));
 }
 
 TEST_P(Emitters, InsideASphere) {
-    builder.sphere({0, 0, 0}, 8, builder.add(lamp(2)));
+    builder.sphere({0, 0, 0}, 8, builder.add(emissive(2)));
     expectIrradiance(2 * kPi);
 }
 
 TEST_P(Emitters, InsideAOneSidedSphere) {
-    builder.sphere({0, 0, 0}, 8, builder.add(lamp(2, false)));
+    builder.sphere({0, 0, 0}, 8, builder.add(emissive(2, false)));
     expectIrradiance(0);
 }
 
 TEST_P(Emitters, EmittersAddUp) {
-    addQuadLamp(true, true);
-    builder.sphere({0, 1, -1}, 0.25f, builder.add(lamp(2)));
+    addQuadEmitter(true, true);
+    builder.sphere({0, 1, -1}, 0.25f, builder.add(emissive(2)));
     Light ambient;
     ambient.kind = LightKind::Ambient;
     builder.add(ambient);
     const double sphere = 2 * kPi * 0.0625 / 2 / std::sqrt(2.0), quad = quadIrradiance();
-    // The lamps hide as much of the ambient light as they give, for their own radiance of 2.
+    // The emitters hide as much of the ambient light as they give, for their own radiance of 2.
     expectIrradiance(kPi + (sphere + quad) / 2);
 }
 
-TEST_P(Emitters, LampSeenByTheCamera) {
-    builder.sphere({0, 0, 0}, 0.5f, builder.add(lamp(2)));
+TEST_P(Emitters, EmitterSeenByTheCamera) {
+    builder.sphere({0, 0, 0}, 0.5f, builder.add(emissive(2)));
     expectMean(estimate(builder.scene, kSeesOrigin, settings), 2);
     settings.estimator.minBounce = 1;
     expectMean(estimate(builder.scene, kSeesOrigin, settings), 0);
 }
 
-TEST_P(Emitters, MirrorShowsTheLamp) {
+TEST_P(Emitters, MirrorShowsTheEmitter) {
     builder.scene.materials[0].kind = MaterialKind::Mirror;
     builder.scene.materials[0].reflectance = glm::vec3(0.25f);
-    builder.sphere({-3, 2, -3}, 0.5f, builder.add(lamp(2)));
+    builder.sphere({-3, 2, -3}, 0.5f, builder.add(emissive(2)));
     expectMean(estimate(builder.scene, kSeesOrigin, settings), 0.5);
     settings.estimator.minBounce = 2;
     settings.estimator.maxBounces = 4;
@@ -130,11 +130,11 @@ INSTANTIATE_TEST_SUITE_P(AllModes, Emitters, testing::ValuesIn(kDirectLightModes
 TEST(FarSphere, LightsModeFindsWhatNoOtherModeWould) {
     SceneMaker b;
     addFloor(b, b.add(diffuse(0.5f)));
-    b.sphere({0, 1e4f, 0}, 0.25f, b.add(lamp(1e9f)));
+    b.sphere({0, 1e4f, 0}, 0.25f, b.add(emissive(1e9f)));
     expectMean(estimate(b.scene, kSeesOrigin, smallPicture(16, 1)), 0.5 * 1e9 * 0.0625 / 1e8);
 }
 
-/// A complete scene: all materials, a lamp, many bounces.
+/// A complete scene: all materials, an emitter, many bounces.
 class Modes : public testing::Test {
   protected:
     Scene scene = cornellBox();
@@ -168,7 +168,7 @@ TEST_F(Modes, NumbersOfBouncesPartitionTheSum) {
     Estimate sum;
     for (uint32_t k = 0; k <= 4; ++k) {
         const Estimate part = render(DirectLight::Mis, Roulette::Mode::None, k, k, 10 + k);
-        EXPECT_TRUE(part.mean.x > 0 || k == 0); // the lamp is behind the camera
+        EXPECT_TRUE(part.mean.x > 0 || k == 0); // the emitter is behind the camera
         sum.mean += part.mean;
         sum.error = glm::sqrt(sum.error * sum.error + part.error * part.error);
     }

@@ -1,4 +1,4 @@
-// Rough metals under lamps of every kind: light samples alone, bounces alone and both, weighted,
+// Rough metals under lights of every kind: light samples alone, bounces alone and both, weighted,
 // find the same light. The reference combines nothing, so that there two independent estimators are
 // left.
 #include "tests/analytic/scenes.hpp"
@@ -15,20 +15,20 @@ using namespace test;
 
 const Camera kLow = pointCamera({3, 1.5, 3}, {0, 0, 0});
 
-/// A lamp that a floor at y = 0 reflects towards kLow.
-struct LampKind {
+/// A light that a floor at y = 0 reflects towards kLow.
+struct LightCase {
     const char* name;
     std::function<void(SceneMaker&)> add;
     uint32_t lightSamples = 1;
 };
 
 void addQuad(SceneMaker& maker, bool bothSides) {
-    maker.quad({-3, 1, -3}, {1.5f, 0, -0.5f}, {0, 1, 0}, maker.add(lamp(2, bothSides)));
+    maker.quad({-3, 1, -3}, {1.5f, 0, -0.5f}, {0, 1, 0}, maker.add(emissive(2, bothSides)));
 }
 
 /// Many triangles in the plane of addQuad's, or few of unequal size.
 void addMesh(SceneMaker& maker, int columns) {
-    const uint32_t material = maker.add(lamp(2));
+    const uint32_t material = maker.add(emissive(2));
     maker.startInstance();
     for (int i = 0; i < columns; ++i) {
         const auto at = [&](int k, float height) {
@@ -46,33 +46,34 @@ void addAmbient(SceneMaker& maker, bool upperHemisphereOnly) {
     maker.add(light);
 }
 
-const LampKind kLamps[] = {{"quad", [](SceneMaker& m) { addQuad(m, true); }},
-                           {"one_sided_quad", [](SceneMaker& m) { addQuad(m, false); }},
-                           {"quad_of_four_samples", [](SceneMaker& m) { addQuad(m, true); }, 4},
-                           {"mesh", [](SceneMaker& m) { addMesh(m, 3); }},
-                           {"many_triangles", [](SceneMaker& m) { addMesh(m, 40); }},
-                           {"many_triangles_and_a_sphere",
-                            [](SceneMaker& m) {
-                                addMesh(m, 40);
-                                m.sphere({-2, 0.75f, -1}, 0.5f, m.add(lamp(3)));
-                            }},
-                           {"sphere",
-                            [](SceneMaker& m) {
-                                m.sphere({-2, 1.5f, -2}, 0.75f, m.add(lamp(2)));
-                            }},
-                           {"in_a_sphere",
-                            [](SceneMaker& m) {
-                                m.sphere({1, 2, -1}, 8, m.add(lamp(2)));
-                            }},
-                           {"ambient", [](SceneMaker& m) { addAmbient(m, false); }},
-                           {"upper_ambient", [](SceneMaker& m) { addAmbient(m, true); }},
-                           {"all", [](SceneMaker& m) {
-                                addQuad(m, true);
-                                m.sphere({-1, 0.75f, -2}, 0.5f, m.add(lamp(3)));
-                                addAmbient(m, false);
-                            }}};
+const LightCase kLightCases[] = {
+    {"quad", [](SceneMaker& m) { addQuad(m, true); }},
+    {"one_sided_quad", [](SceneMaker& m) { addQuad(m, false); }},
+    {"quad_of_four_samples", [](SceneMaker& m) { addQuad(m, true); }, 4},
+    {"mesh", [](SceneMaker& m) { addMesh(m, 3); }},
+    {"many_triangles", [](SceneMaker& m) { addMesh(m, 40); }},
+    {"many_triangles_and_a_sphere",
+     [](SceneMaker& m) {
+         addMesh(m, 40);
+         m.sphere({-2, 0.75f, -1}, 0.5f, m.add(emissive(3)));
+     }},
+    {"sphere",
+     [](SceneMaker& m) {
+         m.sphere({-2, 1.5f, -2}, 0.75f, m.add(emissive(2)));
+     }},
+    {"in_a_sphere",
+     [](SceneMaker& m) {
+         m.sphere({1, 2, -1}, 8, m.add(emissive(2)));
+     }},
+    {"ambient", [](SceneMaker& m) { addAmbient(m, false); }},
+    {"upper_ambient", [](SceneMaker& m) { addAmbient(m, true); }},
+    {"all", [](SceneMaker& m) {
+         addQuad(m, true);
+         m.sphere({-1, 0.75f, -2}, 0.5f, m.add(emissive(3)));
+         addAmbient(m, false);
+     }}};
 
-class Mis : public testing::TestWithParam<LampKind> {
+class Mis : public testing::TestWithParam<LightCase> {
   protected:
     Estimate render(double alpha, DirectLight mode, uint32_t seed) {
         SceneMaker maker;
@@ -97,8 +98,8 @@ TEST_P(Mis, FindsTheLightThatEitherFinds) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Lamps, Mis, testing::ValuesIn(kLamps),
-                         [](const auto& lamp) { return lamp.param.name; });
+INSTANTIATE_TEST_SUITE_P(Lights, Mis, testing::ValuesIn(kLightCases),
+                         [](const auto& light) { return light.param.name; });
 
 } // namespace
 } // namespace stromboli

@@ -61,8 +61,8 @@ TEST(ShadingNormals, GeometricNormalStandsInBeyondTheirHorizon) {
     EXPECT_NEAR(found.mean.x / kF, 1, 1e-7);
 }
 
-/// A lamp below the triangle's plane, though above the shading normal's horizon: no light leaks to
-/// the other side, whatever finds the lamp.
+/// An emitter below the triangle's plane, though above the shading normal's horizon: no light leaks
+/// to the other side, whatever finds the emitter.
 TEST(ShadingNormals, LetNoLightThroughTheSurface) {
     Material metal;
     metal.kind = MaterialKind::Microfacet;
@@ -71,7 +71,7 @@ TEST(ShadingNormals, LetNoLightThroughTheSurface) {
     mirror.kind = MaterialKind::Mirror;
     for (const Material& material : {diffuse(0.5f), metal, mirror}) {
         SceneMaker b = tiltedTriangle(material);
-        b.sphere({2, -0.4f, 0}, 0.35f, b.add(lamp(1)));
+        b.sphere({2, -0.4f, 0}, 0.35f, b.add(emissive(1)));
         b.add(pointLight({2, -0.2f, 0}));
         for (DirectLight mode : kDirectLightModes) {
             RenderSettings s = smallPicture(64, 3);

@@ -54,8 +54,8 @@ INSTANTIATE_TEST_SUITE_P(Library, SingleSample,
 /// A sphere of infinite radiance reaches into the middle pixel.
 TEST(RejectedSample, IsFoundAgainByItsNumber) {
     SceneMaker b;
-    b.sphere({0.5f, 0, 0}, 0.5f, b.add(lamp(std::numeric_limits<float>::infinity())));
-    b.sphere({-0.5f, 0, 0}, 0.5f, b.add(lamp(3)));
+    b.sphere({0.5f, 0, 0}, 0.5f, b.add(emissive(std::numeric_limits<float>::infinity())));
+    b.sphere({-0.5f, 0, 0}, 0.5f, b.add(emissive(3)));
     RenderSettings s = smallPicture(24, 0);
     s.area.width = s.area.height = 3;
     const Camera camera = pointCamera({0, 0, 3}, {0, 0, 0}, 0.1);

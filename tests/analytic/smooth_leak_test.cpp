@@ -58,7 +58,7 @@ TEST(SmoothLeak, NoneOutOfAClosedSphere) {
     const uint32_t materials[] = {0, b.add(mirror()), b.add(metal())};
     for (size_t i = 0; i < b.scene.triangles.size(); ++i)
         b.scene.triangles[i].material = materials[i % 3];
-    b.sphere({0.3f, 0.2f, 0}, 0.4f, b.add(lamp(5)));
+    b.sphere({0.3f, 0.2f, 0}, 0.4f, b.add(emissive(5)));
     b.add(pointLight({0, -0.3f, 0.4f}));
     expectDark(b.scene, fromOutside());
 }
@@ -66,7 +66,7 @@ TEST(SmoothLeak, NoneOutOfAClosedSphere) {
 TEST(SmoothLeak, NoneIntoAClosedSphere) {
     SceneMaker b;
     addSmoothSphere(b, 5, 8, b.add(diffuse(0.5f)));
-    b.sphere({1.6f, 0.2f, 0}, 0.4f, b.add(lamp(5)));
+    b.sphere({1.6f, 0.2f, 0}, 0.4f, b.add(emissive(5)));
     b.add(pointLight({0, -1.3f, 0.4f}));
     expectDark(b.scene, pointCamera({0.1, 0, 0}, {0.5, 0.3, 0.2}, 1.0));
 }
@@ -112,8 +112,8 @@ TEST(SmoothLeak, NoneIntoARoomWithWildNormals) {
     for (const double tilt : {0.3, 1.4}) {
         SceneMaker b;
         b.scene = roughRoom(tilt);
-        b.sphere({0, -1.6f, 0}, 0.5f, b.add(lamp(5)));
-        b.sphere({0, 0.2f, 2.6f}, 1.4f, b.add(lamp(5)));
+        b.sphere({0, -1.6f, 0}, 0.5f, b.add(emissive(5)));
+        b.sphere({0, 0.2f, 2.6f}, 1.4f, b.add(emissive(5)));
         b.add(pointLight({1.2f, 1.1f, 0.9f}));
         expectDark(b.scene, pointCamera({0.1, 0, 0}, {-0.5, -0.3, -0.2}, 2.0));
     }
@@ -135,11 +135,11 @@ TEST(SmoothLeak, DegenerateNormals) {
         b.triangle({x - 0.2f, 0, -0.2f}, {x, 0, 0.4f}, {x + 0.2f, 0, -0.2f}, grey);
         setNormals(b.scene, i, cases[i][0], cases[i][1], cases[i][2]);
     }
-    b.sphere({1, -0.6f, 0}, 0.5f, b.add(lamp(5)));
-    b.sphere({-1, -0.6f, 0}, 0.5f, b.add(lamp(5)));
+    b.sphere({1, -0.6f, 0}, 0.5f, b.add(emissive(5)));
+    b.sphere({-1, -0.6f, 0}, 0.5f, b.add(emissive(5)));
     b.add(pointLight({0.1f, -0.2f, 0}));
     Camera above = pointCamera({0, 2, 0}, {0, 0, 0}, 0.6);
-    above.farDistance = 2.01; // sees the triangles, but not the lamps
+    above.farDistance = 2.01; // sees the triangles, but not the emitters
     expectDark(b.scene, above);
     b.add(pointLight({0, 1, 0.2f}));
     for (const PixelStatistics& p : renderFilm(b.scene, above, smallPicture(16, 2)).pixels)

@@ -180,12 +180,12 @@ TEST(SmoothFurnace, LittleIsLostInside) {
 
 // --- Ways of finding light agree -----------------------------------------------------------------
 
-/// Lamps near enough for the lift to matter: what is sampled is what bounces find.
-TEST(SmoothSphere, EveryWayOfFindingLampsGivesTheSame) {
+/// Emitters near enough for the lift to matter: what is sampled is what bounces find.
+TEST(SmoothSphere, EveryWayOfFindingEmittersGivesTheSame) {
     SceneMaker b;
     addSmoothSphere(b, 5, 8, b.add(diffuse(float(kAlbedo))));
-    b.sphere({2.2f, 0, 0.5f}, 1, b.add(lamp(1)));
-    b.quad({-1, 1.3f, -1}, {2, 0, 0}, {0, 0, 2}, b.add(lamp(1)));
+    b.sphere({2.2f, 0, 0.5f}, 1, b.add(emissive(1)));
+    b.quad({-1, 1.3f, -1}, {2, 0, 0}, {0, 0, 2}, b.add(emissive(1)));
     Camera camera;
     camera.orthographic = true;
     camera.position = {0, 0, 5};

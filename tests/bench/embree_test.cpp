@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EmbreePaths,
                                          "light_sphere", "light_spot", "ortho"),
                          [](const auto& test) { return std::string(test.param); });
 
-TEST(EmbreePathsOf, ManyLampsMakeTheReferencesPicture) {
+TEST(EmbreePathsOf, ManyEmittersMakeTheReferencesPicture) {
     LibraryPicture p = libraryPicture("cornell_boxes", 48, 36, 64);
     p.scene = readScene("generate:lamps:400");
     p.settings.estimator.maxBounces = 2;

@@ -103,8 +103,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, RaySetsOf,
                          testing::Values("cornell_boxes", "cornell_spheres", "light_mesh"),
                          [](const auto& test) { return std::string(test.param); });
 
-/// The lamp of the Cornell box is one quad.
-TEST(RaySets, ShadowRaysEndJustBeforeTheLamp) {
+/// The emitter of the Cornell box is one quad.
+TEST(RaySets, ShadowRaysEndJustBeforeTheEmitter) {
     const LibraryPicture picture = libraryPicture("cornell_boxes");
     const RaySets sets = raysOf(picture);
     const std::vector<Emitter> emitters = collectEmitters(picture.scene);

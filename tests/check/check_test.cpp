@@ -51,8 +51,8 @@ double fireflies(uint32_t, uint32_t, Generator& random) {
 double pareto(uint32_t, uint32_t, Generator& random) {
     return std::pow(1 - uniform(random), -1 / 1.5);
 }
-/// Black, constant, and pixels that a lamp of radiance 10 covers in part.
-double lampEdges(uint32_t x, uint32_t y, Generator& random) {
+/// Black, constant, and pixels that an emitter of radiance 10 covers in part.
+double emitterEdges(uint32_t x, uint32_t y, Generator& random) {
     if (x < 8) return 0;
     if (x < 16) return 10;
     return uniform(random) < (y + 1) / 33.0 ? 10 : 0;
@@ -85,15 +85,19 @@ TEST_P(FalseAlarms, AreAsRareAsStated) {
     RecordProperty("alarms", alarms);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Distributions, FalseAlarms,
-    testing::Values(
-        FalseAlarm{"mild", mild, 8, 8}, FalseAlarm{"exponential", exponential, 2, 2},
-        FalseAlarm{"exponential", exponential, 1, 1}, FalseAlarm{"exponential", exponential, 4, 16},
-        FalseAlarm{"fireflies", fireflies, 4, 4}, FalseAlarm{"fireflies", fireflies, 16, 16},
-        FalseAlarm{"fireflies", fireflies, 4, 16}, FalseAlarm{"pareto", pareto, 8, 8},
-        FalseAlarm{"pareto", pareto, 4, 16}, FalseAlarm{"lamp edges", lampEdges, 4, 4},
-        FalseAlarm{"lamp edges", lampEdges, 16, 16}, FalseAlarm{"lamp edges", lampEdges, 4, 16}));
+INSTANTIATE_TEST_SUITE_P(Distributions, FalseAlarms,
+                         testing::Values(FalseAlarm{"mild", mild, 8, 8},
+                                         FalseAlarm{"exponential", exponential, 2, 2},
+                                         FalseAlarm{"exponential", exponential, 1, 1},
+                                         FalseAlarm{"exponential", exponential, 4, 16},
+                                         FalseAlarm{"fireflies", fireflies, 4, 4},
+                                         FalseAlarm{"fireflies", fireflies, 16, 16},
+                                         FalseAlarm{"fireflies", fireflies, 4, 16},
+                                         FalseAlarm{"pareto", pareto, 8, 8},
+                                         FalseAlarm{"pareto", pareto, 4, 16},
+                                         FalseAlarm{"emitter edges", emitterEdges, 4, 4},
+                                         FalseAlarm{"emitter edges", emitterEdges, 16, 16},
+                                         FalseAlarm{"emitter edges", emitterEdges, 4, 16}));
 
 /// Films of 64 x 64 pixels of 64 samples with deviation 0.2 of the mean: in a region of 32 x 32 the
 /// difference of the means has deviation 0.2 sqrt(2 / (64 * 1024)) = 0.11 %.

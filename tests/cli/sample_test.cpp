@@ -93,7 +93,7 @@ TEST_F(Sample, WritesNoFile) {
 }
 
 /// A triangle of the given emission that fills half of the view.
-std::string lampOf(const std::string& emission) {
+std::string emitterOf(const std::string& emission) {
     return R"(<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
 <asset><up_axis>Y_UP</up_axis></asset>
@@ -126,7 +126,7 @@ std::vector<std::string> optionsToAdd(const std::string& line) {
 /// Radiance beyond what a film can add up (2^48), and the same below it: a run's own line is all
 /// that is needed to see the sample that it left out.
 TEST_F(Sample, ARejectedOneIsFoundByTheLineThatReportsIt) {
-    scene = folder.write("bright.dae", lampOf("1e20 2 3"));
+    scene = folder.write("bright.dae", emitterOf("1e20 2 3"));
     const std::vector<std::string> command = {"-o", folder.file("a.png"), "-s", "8"};
     const ProgramRun run = renderWith(command);
     EXPECT_EQ(run.exitCode, 0) << run.err;
@@ -140,7 +140,7 @@ TEST_F(Sample, ARejectedOneIsFoundByTheLineThatReportsIt) {
     EXPECT_THAT(alone.out, HasSubstr("rejected: too large"));
     EXPECT_THAT(radianceOf(alone), testing::ElementsAre("1.00000002e+20", "2", "3"));
 
-    scene = folder.write("dim.dae", lampOf("1e14 2 3"));
+    scene = folder.write("dim.dae", emitterOf("1e14 2 3"));
     EXPECT_THAT(renderWith(command).err, testing::Not(HasSubstr("left out")));
     EXPECT_THAT(renderWith(again).out, HasSubstr("accepted"));
 }

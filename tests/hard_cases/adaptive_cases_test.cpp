@@ -15,7 +15,7 @@ TEST_F(HardCases, C57_SamplesInTheFilmAreThoseTraced) {
     RenderSettings s = stress::picture(32, 500, 0); // a sample is a ray
     s.budget.adaptive = {.enabled = true, .batch = 32, .tolerance = 0.05};
     scenes::SceneMaker m; // half of the picture lit, its edge noisy
-    m.quad({0, -1, 0}, {1, 0.1f, 0}, {0.1f, 2, 0}, m.add(scenes::lamp(1, true)));
+    m.quad({0, -1, 0}, {1, 0.1f, 0}, {0.1f, 2, 0}, m.add(scenes::emissive(1, true)));
     const stress::Picture p =
         device.render(m.scene, lookingAt({0, 0, 1}, {0, 0, 0}, 0.9), s, {}, {});
     uint64_t samples = 0;

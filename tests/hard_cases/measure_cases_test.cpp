@@ -22,14 +22,15 @@ double solidAngle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
                                        glm::dot(c, a) * lb));
 }
 
-/// The mean of 1 / pdf over the samples of a triangular lamp is the solid angle it is seen under.
+/// The mean of 1 / pdf over the samples of a triangular emitter is the solid angle it is seen
+/// under.
 TEST(HardCases, C41_SolidAnglesOfTriangles) {
     Uniform uniform(41);
     for (int i = 0; i < 30; ++i) {
         Scene scene;
         scene.materials.resize(1);
         scene.materials[0].emission = glm::vec3(1);
-        scene.instances = {"lamp"};
+        scene.instances = {"emitter"};
         for (int k = 0; k < 3; ++k)
             scene.positions.push_back(glm::vec3(2.0 * uniform.direction()));
         scene.triangles.push_back({{0, 1, 2}});

@@ -25,9 +25,9 @@ struct Path {
     bool counts(uint32_t scatterings) const { return scatterings >= settings.estimator.minBounce; }
     void addEmission(uint32_t scatterings);
     void addAmbient(uint32_t scatterings);
-    void addLamps();
-    void addLamp(const glm::vec3& target, const glm::vec3& lampNormal, const glm::vec3& light,
-                 float area, bool bothSides);
+    void addEmitters();
+    void addEmitter(const glm::vec3& target, const glm::vec3& emitterNormal, const glm::vec3& light,
+                    float area, bool bothSides);
     void addDeltaLights();
     bool shadowed(const glm::vec3& direction, float distance);
     glm::vec3 scatter();
@@ -56,19 +56,19 @@ void Path::addAmbient(uint32_t scatterings) {
             radiance += throughput * light.color;
 }
 
-/// Up to the lamp itself.
+/// Up to the emitter itself.
 bool Path::shadowed(const glm::vec3& direction, float distance) {
     ++rays;
     return bool(closest(scene, position, direction, kEpsilon, distance));
 }
 
-void Path::addLamp(const glm::vec3& target, const glm::vec3& lampNormal, const glm::vec3& light,
-                   float area, bool bothSides) {
+void Path::addEmitter(const glm::vec3& target, const glm::vec3& emitterNormal,
+                      const glm::vec3& light, float area, bool bothSides) {
     const glm::vec3 d = target - position;
     const float distance = glm::length(d);
     const glm::vec3 w = d / distance;
     const float cosine = glm::dot(normal, w);
-    float cosineThere = -glm::dot(lampNormal, w);
+    float cosineThere = -glm::dot(emitterNormal, w);
     if (bothSides) cosineThere = std::abs(cosineThere);
     if (cosine <= 0 || cosineThere <= 0 || shadowed(w, distance)) return;
     radiance += throughput * material->albedo / kPi * light * cosine * cosineThere * area /
@@ -76,7 +76,7 @@ void Path::addLamp(const glm::vec3& target, const glm::vec3& lampNormal, const g
 }
 
 /// One emissive primitive, taken at random.
-void Path::addLamps() {
+void Path::addEmitters() {
     std::vector<const Triangle*> triangles;
     std::vector<const Sphere*> spheres;
     for (const Triangle& t : scene.triangles)
@@ -93,15 +93,15 @@ void Path::addLamps() {
         const glm::vec3 c = scene.positions[t.corner[2]], cross = glm::cross(b - a, c - a);
         const float r = std::sqrt(u);
         const Material& m = scene.materials[t.material];
-        addLamp(a + r * (1 - v) * (b - a) + r * v * (c - a), glm::normalize(cross), m.emission,
-                glm::length(cross) / 2, m.emitsBothSides);
+        addEmitter(a + r * (1 - v) * (b - a) + r * v * (c - a), glm::normalize(cross), m.emission,
+                   glm::length(cross) / 2, m.emitsBothSides);
     } else {
         const Sphere& s = *spheres[chosen - triangles.size()];
         const float z = 1 - 2 * u, r = std::sqrt(std::max(1 - z * z, 0.0f));
         const glm::vec3 n(r * std::cos(2 * kPi * v), r * std::sin(2 * kPi * v), z);
         const Material& m = scene.materials[s.material];
-        addLamp(s.center + s.radius * n, n, m.emission, 4 * kPi * s.radius * s.radius,
-                m.emitsBothSides);
+        addEmitter(s.center + s.radius * n, n, m.emission, 4 * kPi * s.radius * s.radius,
+                   m.emitsBothSides);
     }
 }
 
@@ -161,7 +161,7 @@ glm::vec3 radiance(const Scene& scene, const RenderSettings& settings, glm::vec3
     for (uint32_t k = 1; k <= settings.estimator.maxBounces; ++k) {
         const bool delta = p.material->isDelta();
         if (!delta && p.counts(k)) {
-            if (!byBounces) p.addLamps();
+            if (!byBounces) p.addEmitters();
             p.addDeltaLights();
         }
         const glm::vec3 next = p.scatter();

@@ -10,9 +10,9 @@ namespace stromboli::test {
 /// textbooks and many renderers do. Its faults, each harmless in the scenes that its author tried:
 /// - Moeller-Trumbore with a cut-off, spheres by b^2 - 4ac, boxes without slack, in
 /// half precision to save memory, rounded to the nearest;
-/// - rays start 1e-4 along the way, and shadow rays end at the lamp itself;
+/// - rays start 1e-4 along the way, and shadow rays end at the emitter itself;
 /// - only the shading normal says which side a direction is on;
-/// - roulette without dividing by the probability; one lamp taken at random, without its
+/// - roulette without dividing by the probability; one emitter taken at random, without its
 /// probability;
 /// - pixels are sums in float of whatever samples there are;
 /// - random numbers by a congruential generator, seeded by numbers in sequence, that may be 1;

@@ -1,4 +1,4 @@
-// Hard cases 30 and 31: spheres from within and from far away, as surfaces and as lamps.
+// Hard cases 30 and 31: spheres from within and from far away, as surfaces and as emitters.
 #include "host/bvh/ray_tests.hpp"
 #include "host/core/random.hpp"
 #include "host/stress/device_subject.hpp"
@@ -57,7 +57,7 @@ TEST_F(HardCases, C30_SpheresFromEverywhere) {
     EXPECT_GT(naiveAgain, 0u) << "negative control: a point along the ray, as it is";
 }
 
-struct SphereLamp {
+struct SphereCase {
     const char* name;
     float radius, height; ///< of its centre over the floor
     float radiance;
@@ -65,21 +65,21 @@ struct SphereLamp {
     double expected; ///< irradiance under it
 };
 
-/// A floor in a lamp, under one that all but touches it, under one 1e5 radii away: the irradiance
-/// is pi L (r / d)^2, pi L inside.
-TEST_F(HardCases, C31_SphereLamps) {
+/// A floor in an emitter, under one that all but touches it, under one 1e5 radii away: the
+/// irradiance is pi L (r / d)^2, pi L inside.
+TEST_F(HardCases, C31_SphereEmitters) {
     const double touching = 1 / (1.0001 * 1.0001);
     stress::DeviceSubject device(testDevice());
     CpuSubject cpu;
-    for (const SphereLamp& l : {SphereLamp{"around", 8, 0, 1, 5, M_PI},
+    for (const SphereCase& l : {SphereCase{"around", 8, 0, 1, 5, M_PI},
                                 {"touching", 1, 1.0001f, 1, 5, M_PI * touching},
                                 {"far", 0.1f, 1e4f, 1e10f, 5, M_PI},
                                 {"tiny and far", 1e-6f, 0.1f, 1e10f, 0.05f, M_PI}}) {
         scenes::SceneMaker m;
         m.quad({-l.floor, 0, -l.floor}, {0, 0, 2 * l.floor}, {2 * l.floor, 0, 0},
                m.add(scenes::diffuse(0.5f)));
-        m.sphere({0, l.height, 0}, l.radius, m.add(scenes::lamp(l.radiance, true)));
-        // From below 0.8 degrees of elevation the lamp that touches the floor is not in the way.
+        m.sphere({0, l.height, 0}, l.radius, m.add(scenes::emissive(l.radiance, true)));
+        // From below 0.8 degrees of elevation the emitter that touches the floor is not in the way.
         const Camera camera = lookingAt({0.6 * l.floor, 0.004 * l.floor, 0}, {0, 0, 0}, 1e-7);
         const RenderSettings s = stress::picture(16, 64, 1);
         for (stress::Subject* subject :

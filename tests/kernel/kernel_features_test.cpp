@@ -24,11 +24,11 @@ KernelFeatures featuresOf(const Scene& scene, const RenderSettings& settings = {
 
 /// A flat triangle brings its normal, a smooth one those of its corners; a light's leaf names it.
 TEST(PackedPrimitives, HaveTheirNormalsAndNameTheirLights) {
-    Material metal, lamp;
+    Material metal, emitter;
     metal.kind = MaterialKind::Microfacet;
-    lamp.emission = glm::vec3(1);
+    emitter.emission = glm::vec3(1);
     Scene scene = oneTriangle(metal);
-    scene.materials.push_back(lamp);
+    scene.materials.push_back(emitter);
     scene.positions.insert(scene.positions.end(), {{0, 0, 4}, {4, 0, 4}, {0, 4, 7}});
     const glm::vec3 smooth = glm::normalize(glm::vec3(1, 2, 3));
     scene.normals = {smooth};
@@ -38,12 +38,12 @@ TEST(PackedPrimitives, HaveTheirNormalsAndNameTheirLights) {
     for (size_t i = 0; i < 2; ++i) {
         const gpu::Primitive& p = packed.primitives[i];
         const uint32_t id = packed.bvh.primitiveOrder[i], place = packed.bvh.placeOf[id];
-        const bool isLamp = id == 1;
+        const bool isEmitter = id == 1;
         const gpu::LeafRecord leaf = asLeaf(packed.bvh.records[place / 2]);
-        EXPECT_EQ(place % 2 == 0 ? leaf.light0 : leaf.light1, isLamp ? 0 : gpu::NO_LIGHT);
-        EXPECT_EQ(materialHeader(packed, p).emission, glm::vec3(isLamp));
-        EXPECT_EQ((p.material & gpu::PRIMITIVE_IS_SMOOTH) != 0, isLamp);
-        if (isLamp)
+        EXPECT_EQ(place % 2 == 0 ? leaf.light0 : leaf.light1, isEmitter ? 0 : gpu::NO_LIGHT);
+        EXPECT_EQ(materialHeader(packed, p).emission, glm::vec3(isEmitter));
+        EXPECT_EQ((p.material & gpu::PRIMITIVE_IS_SMOOTH) != 0, isEmitter);
+        if (isEmitter)
             EXPECT_LT(glm::distance(decodeNormal(p.n2), smooth), 1e-4f);
         else
             EXPECT_EQ(glm::uintBitsToFloat(glm::uvec3(p.n0, p.n1, p.n2)), glm::vec3(0, 0, 1));
@@ -72,9 +72,9 @@ TEST(KernelFeatures, HoldOnlyWhatTheSceneNeeds) {
 }
 
 TEST(KernelFeatures, LightsFollowTheSettings) {
-    Material lamp;
-    lamp.emission = glm::vec3(1);
-    Scene scene = oneTriangle(lamp);
+    Material emitter;
+    emitter.emission = glm::vec3(1);
+    Scene scene = oneTriangle(emitter);
     Light point;
     scene.lights.push_back(point);
     EXPECT_EQ(featuresOf(scene)[SPEC_LIGHT_KINDS],
@@ -86,15 +86,15 @@ TEST(KernelFeatures, LightsFollowTheSettings) {
     EXPECT_EQ(featuresOf(scene, s)[SPEC_LIGHT_KINDS], 0u);
 }
 
-TEST(KernelFeatures, MisOnlyWhereRoughMetalsMeetLampsThatBouncesFind) {
-    Material metal, lamp;
+TEST(KernelFeatures, MisOnlyWhereRoughMetalsMeetEmittersThatBouncesFind) {
+    Material metal, emitter;
     metal.kind = MaterialKind::Microfacet;
-    lamp.emission = glm::vec3(1);
+    emitter.emission = glm::vec3(1);
     Scene scene = oneTriangle(metal);
     EXPECT_FALSE(featuresOf(scene)[SPEC_MIS_LOBES]); // no light
     scene.lights.emplace_back();                     // a point
     EXPECT_FALSE(featuresOf(scene)[SPEC_MIS_LOBES]);
-    scene.materials.push_back(lamp);
+    scene.materials.push_back(emitter);
     scene.spheres.push_back({{0, 0, 5}, 1, 1, 0});
     EXPECT_TRUE(featuresOf(scene)[SPEC_MIS_LOBES]);
     for (const DirectLight mode :
@@ -109,10 +109,10 @@ TEST(KernelFeatures, MisOnlyWhereRoughMetalsMeetLampsThatBouncesFind) {
 
 /// A light sample may use the numbers drawn with the path ray, but no two of a surface the same.
 TEST(KernelFeatures, LightSamplesShareNumbersOnlyWhereThereIsOne) {
-    Material lamp;
-    lamp.emission = glm::vec3(1);
+    Material emitter;
+    emitter.emission = glm::vec3(1);
     Scene scene = oneTriangle({});
-    scene.materials.push_back(lamp);
+    scene.materials.push_back(emitter);
     EXPECT_EQ(featuresOf(scene)[SPEC_LIGHT_NUMBERS], gpu::LIGHT_NUMBERS_SHARED);
     for (int i = 0; i < 3; ++i)
         scene.spheres.push_back({{0, 0, 5 + 4 * float(i)}, 1, 1, 0});
@@ -126,10 +126,10 @@ TEST(KernelFeatures, LightSamplesShareNumbersOnlyWhereThereIsOne) {
 }
 
 TEST(KernelFeatures, OneLightIsNotChosen) {
-    Material lamp;
-    lamp.emission = glm::vec3(1);
+    Material emitter;
+    emitter.emission = glm::vec3(1);
     Scene scene = oneTriangle({});
-    scene.materials.push_back(lamp);
+    scene.materials.push_back(emitter);
     scene.spheres.push_back({{0, 0, 5}, 1, 1, 0});
     EXPECT_EQ(featuresOf(scene)[SPEC_LIGHT_CHOICE], gpu::LIGHT_CHOICE_ONE);
     for (int i = 0; i < 9; ++i)

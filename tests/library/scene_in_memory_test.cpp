@@ -181,20 +181,20 @@ TEST(GeneratedScene, WrongNamesAreOneClearError) {
     EXPECT_THAT(messageOf("generate:cornell_mesh:5000", cs184Conventions()), HasSubstr("--cs184"));
 }
 
-TEST(GeneratedScene, LampsAreSpreadThroughARoom) {
+TEST(GeneratedScene, EmittersAreSpreadThroughARoom) {
     const Scene scene = generatedScene("lamps:800");
-    size_t lamps = 0;
+    size_t emitters = 0;
     double sum = 0;
     for (const Triangle& t : scene.triangles) {
         if (!scene.materials[t.material].emits()) continue;
-        ++lamps;
+        ++emitters;
         const glm::vec3 a = scene.positions[t.corner[0]];
         sum += a.x;
         EXPECT_LT(std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}), 1.0f);
     }
-    EXPECT_EQ(lamps, 800u);
-    EXPECT_EQ(scene.triangles.size(), lamps + 10); // the walls
-    // Uniform in [-.95, .95], 8 triangles a lamp: deviation .055.
+    EXPECT_EQ(emitters, 800u);
+    EXPECT_EQ(scene.triangles.size(), emitters + 10); // the walls
+    // Uniform in [-.95, .95], 8 triangles an emitter: deviation .055.
     EXPECT_NEAR(sum / 800, 0, 0.25);
 }
 

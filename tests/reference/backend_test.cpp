@@ -110,10 +110,10 @@ TEST(ReferenceBackend, RefusesWhatItCannotRender) {
     EXPECT_THROW(ReferenceBackend(scene, kCamera, s), std::invalid_argument);
 }
 
-/// A red lamp on the upper left, seen in a picture of 4 x 2.
+/// A red emitter on the upper left, seen in a picture of 4 x 2.
 TEST(ReferenceBackend, RowsGoDownAndColumnsToTheRight) {
     SceneMaker b;
-    b.quad({-1, 0, -5}, {0.5f, 0, 0}, {0, 0.5f, 0}, b.add(lamp(1)));
+    b.quad({-1, 0, -5}, {0.5f, 0, 0}, {0, 0.5f, 0}, b.add(emissive(1)));
     Camera camera;
     camera.orthographic = true;
     camera.halfHeight = 0.5;
@@ -127,7 +127,7 @@ TEST(ReferenceBackend, RowsGoDownAndColumnsToTheRight) {
 
 TEST(ReferenceBackend, PerspectiveSeesHalfWidthAtDistanceOne) {
     SceneMaker b;
-    b.quad({-0.5f, -0.5f, -2}, {1, 0, 0}, {0, 1, 0}, b.add(lamp(1)));
+    b.quad({-0.5f, -0.5f, -2}, {1, 0, 0}, {0, 1, 0}, b.add(emissive(1)));
     Camera camera;
     camera.halfWidth = 1; // 4 x 2 at distance 2
     camera.halfHeight = 0.5;
@@ -137,7 +137,7 @@ TEST(ReferenceBackend, PerspectiveSeesHalfWidthAtDistanceOne) {
 TEST(ReferenceBackend, ClipsAlongTheAxisOrTheRay) {
     // At 45 degrees a plane at depth 2 is 2.83 away along the ray.
     SceneMaker b;
-    b.quad({-10, -10, -2}, {20, 0, 0}, {0, 20, 0}, b.add(lamp(1)));
+    b.quad({-10, -10, -2}, {20, 0, 0}, {0, 20, 0}, b.add(emissive(1)));
     Camera camera = pointCamera({0, 0, 0}, {0, 0, -1});
     const auto seen = [&](double near, double far, bool alongRay) {
         camera.nearDistance = near, camera.farDistance = far, camera.clipAlongRay = alongRay;

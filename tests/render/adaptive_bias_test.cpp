@@ -115,7 +115,7 @@ TEST_F(AdaptiveBias, StoppingAtAStatedNoiseIsBelowAQuarterOfAPercent) {
 }
 
 TEST_F(AdaptiveBias, RareLightIsNeverLost) {
-    // A lamp so small that bounces meet it about once in 200 samples: the published rule stops
+    // An emitter so small that bounces meet it about once in 200 samples: the published rule stops
     // most pixels black.
     RenderSettings s = baseSettings();
     s.estimator.directLight = DirectLight::Bsdf;

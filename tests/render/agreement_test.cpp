@@ -120,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(Modes, ModeAgreement, testing::ValuesIn(kModes),
                          [](const auto& test) { return std::string(test.param.name); });
 
 /// Many emissive triangles: the kernel walks its tree, the reference picks by power.
-TEST_F(DeviceTest, AgreementOnManyLamps) {
+TEST_F(DeviceTest, AgreementOnManyEmitters) {
     RenderSettings settings = smallSettings(128);
     settings.area.width = settings.area.height = 48;
     settings.estimator.maxBounces = 2;
@@ -155,9 +155,9 @@ TEST_F(DeviceTest, AgreementFailsForTwoPerCentMoreLight) {
 /// The reference sends no bounces into gaps.
 struct Gap {
     const char* name;
-    float height; ///< of the lamp, m; the ceiling is at 2
+    float height; ///< of the emitter, m; the ceiling is at 2
     float tilt;   ///< height of one edge over the other
-    bool turned;  ///< the room on its head: the gap is on the lamp's other side
+    bool turned;  ///< the room on its head: the gap is on the emitter's other side
 };
 
 class GapAgreement : public DeviceTest, public testing::WithParamInterface<Gap> {
@@ -188,7 +188,7 @@ TEST_P(GapAgreement, WithTheReference) {
     expectAgreement(testDevice(), scene, GetParam().name, settings);
 }
 
-INSTANTIATE_TEST_SUITE_P(Lamps, GapAgreement,
+INSTANTIATE_TEST_SUITE_P(Rooms, GapAgreement,
                          testing::Values(Gap{"narrow", 1.998f, 0, false},
                                          Gap{"wide", 1.85f, 0, false},
                                          Gap{"tilted", 1.95f, 0.03f, false},

@@ -1,4 +1,4 @@
-// What bounces into gaps are for: less noise where a lamp hangs close below a ceiling.
+// What the gap proposal is for: less noise where a light hangs close below a ceiling.
 #include "host/render/render.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
@@ -18,7 +18,7 @@ struct Expense {
 class GapGain : public DeviceTest {
   protected:
     /// From the pixels' spread over several seeds.
-    static Expense expense(bool guides) {
+    static Expense expense(bool gapProposal) {
         constexpr uint32_t kSeeds = 8;
         const Scene scene = loadScene(std::filesystem::path(STROMBOLI_SOURCE_DIR) /
                                       "scene/library/cornell_boxes.dae");
@@ -27,7 +27,7 @@ class GapGain : public DeviceTest {
         s.area.width = 64, s.area.height = 48;
         s.budget.mostSamplesPerPixel = 32;
         s.estimator.maxBounces = 5;
-        s.estimator.guides = guides;
+        s.estimator.guides = gapProposal;
         const Camera camera =
             makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, false);
         Expense e;
@@ -51,9 +51,9 @@ class GapGain : public DeviceTest {
 };
 
 TEST_F(GapGain, LessNoiseForNoMoreRays) {
-    const Expense guided = expense(true), plain = expense(false);
-    EXPECT_LT(guided.variance, 0.85 * plain.variance); // by hand at 240 x 180: 0.70
-    EXPECT_LT(guided.rays, 1.01 * plain.rays);
+    const Expense mixed = expense(true), plain = expense(false);
+    EXPECT_LT(mixed.variance, 0.85 * plain.variance); // by hand at 240 x 180: 0.70
+    EXPECT_LT(mixed.rays, 1.01 * plain.rays);
 }
 
 } // namespace

@@ -46,13 +46,13 @@ TEST_F(Limits, LoopOverflowIsReportedNotRendered) {
                 testing::HasSubstr("loop iterations"));
 }
 
-TEST_F(Limits, ManyLampsFitTheLoopLimit) {
-    // 600 lamps, each sampled at every surface.
+TEST_F(Limits, ManyLightsFitTheLoopLimit) {
+    // 600 lights, each sampled at every surface.
     Scene scene =
         loadScene(std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene/library/light_point.dae");
-    const Light lamp = scene.lights.at(0);
+    const Light light = scene.lights.at(0);
     for (int i = 1; i < 600; ++i) {
-        scene.lights.push_back(lamp);
+        scene.lights.push_back(light);
         scene.lights.back().position.x += 0.001f * float(i);
     }
     RenderSettings s;

@@ -1,5 +1,5 @@
 // What multiple importance sampling is for: less noise on rough metals than either way to find
-// lamps alone.
+// lights alone.
 #include "host/render/render.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"

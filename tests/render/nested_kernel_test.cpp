@@ -65,12 +65,12 @@ const Picture kPictures[] = {
      }},
     {"metalUnderTheSky", "light_ambient.dae",
      [](Scene& scene, RenderSettings&) { makeMetal(scene); }},
-    {"metalUnderManyLamps", "generate:lamps:1000",
+    {"metalUnderManyLights", "generate:lamps:1000",
      [](Scene& scene, RenderSettings&) { makeMetal(scene); }},
     {"mesh", "cornell_mesh.dae", [](Scene&, RenderSettings&) {}},
-    {"meshLamp", "light_mesh.dae", [](Scene&, RenderSettings&) {}},
-    {"manyLamps", "generate:lamps:1000", [](Scene&, RenderSettings&) {}},
-    {"sphereLamps", "light_sphere.dae", [](Scene&, RenderSettings&) {}},
+    {"meshEmitter", "light_mesh.dae", [](Scene&, RenderSettings&) {}},
+    {"manyLights", "generate:lamps:1000", [](Scene&, RenderSettings&) {}},
+    {"sphereEmitters", "light_sphere.dae", [](Scene&, RenderSettings&) {}},
     {"ambient", "light_ambient.dae", [](Scene&, RenderSettings&) {}},
     {"sun", "light_directional.dae", [](Scene&, RenderSettings&) {}},
     {"point", "light_point.dae", [](Scene&, RenderSettings&) {}},
@@ -81,7 +81,7 @@ const Picture kPictures[] = {
          s.estimator.directLight = DirectLight::Hemisphere;
          s.estimator.lightSamples = 3;
      }},
-    {"lampsByBounces", "cornell_mirror_glass.dae",
+    {"lightsByBounces", "cornell_mirror_glass.dae",
      [](Scene&, RenderSettings& s) { s.estimator.directLight = DirectLight::Bsdf; }},
     {"secondBounceAlone", "cornell_boxes.dae",
      [](Scene&, RenderSettings& s) { s.estimator.minBounce = s.estimator.maxBounces = 2; }},
@@ -106,7 +106,7 @@ const Picture kPictures[] = {
     {"cs184Hemisphere", "cornell_boxes.dae",
      [](Scene&, RenderSettings& s) { s.estimator.directLight = DirectLight::Hemisphere; }, true},
     {"rejectedSamples", "cornell_boxes.dae",
-     [](Scene& scene, RenderSettings&) { // lamps brighter than a sample may be
+     [](Scene& scene, RenderSettings&) { // emitters brighter than a sample may be
          for (Material& m : scene.materials)
              m.emission *= 1e20f;
      }},

@@ -49,7 +49,7 @@ std::vector<gpu::LightQuery> LightFixture::ends(const gpu::LightQuery& surface) 
     return queries;
 }
 
-Scene sceneWithLamp(const glm::vec3& emission, bool bothSides) {
+Scene sceneWithEmitter(const glm::vec3& emission, bool bothSides) {
     Scene scene;
     scene.materials.resize(2);
     scene.materials[1].emission = emission;
@@ -57,7 +57,7 @@ Scene sceneWithLamp(const glm::vec3& emission, bool bothSides) {
     return scene;
 }
 
-void addLampTriangle(Scene& scene, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+void addEmitterTriangle(Scene& scene, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     const auto first = uint32_t(scene.positions.size());
     scene.positions.insert(scene.positions.end(), {a, b, c});
     Triangle t;

@@ -34,8 +34,8 @@ class LightFixture : public DeviceTest {
 };
 
 /// A scene with material 0 that reflects and material 1 that emits.
-Scene sceneWithLamp(const glm::vec3& emission, bool bothSides);
-void addLampTriangle(Scene& scene, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
+Scene sceneWithEmitter(const glm::vec3& emission, bool bothSides);
+void addEmitterTriangle(Scene& scene, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
 /// Checks that an answer has no NaN and no negative radiance.
 ::testing::AssertionResult isSound(const gpu::LightAnswer& a);

@@ -27,7 +27,7 @@ constexpr size_t kSamples = 400000;
 /// Every kind of light, `count` of each bounded one, with powers from 1e-3 to 1e3.
 Scene allKinds(int count, uint32_t seed) {
     Random random(seed);
-    Scene scene = sceneWithLamp({1, 1, 1}, true);
+    Scene scene = sceneWithEmitter({1, 1, 1}, true);
     const auto power = [&] { return std::pow(10.0f, random.uniform(-3, 3)); };
     for (int i = 0; i < count; ++i) {
         const glm::vec3 at = random.inCube(2);
@@ -35,7 +35,7 @@ Scene allKinds(int count, uint32_t seed) {
         m.emission = glm::vec3(power());
         m.emitsBothSides = i % 2;
         scene.materials.push_back(m);
-        addLampTriangle(scene, at, at + 0.2f * random.vector(), at + 0.2f * random.vector());
+        addEmitterTriangle(scene, at, at + 0.2f * random.vector(), at + 0.2f * random.vector());
         scene.triangles.back().material = uint32_t(scene.materials.size() - 1);
         scene.triangles.back().instance = uint32_t(i);
         scene.spheres.push_back({random.inCube(2), 0.1f, scene.triangles.back().material, 0});
@@ -165,7 +165,7 @@ TEST_P(LightSampler, LeavesAUniformNumber) {
 
 /// Point lights of these powers at one place, above the origin.
 Scene pointLights(std::initializer_list<double> powers) {
-    Scene scene = sceneWithLamp(glm::vec3(0), true);
+    Scene scene = sceneWithEmitter(glm::vec3(0), true);
     for (const double power : powers) {
         Light& light = scene.lights.emplace_back();
         light.kind = LightKind::Point;

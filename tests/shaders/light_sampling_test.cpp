@@ -1,5 +1,5 @@
 // Samples of quads, meshes, ambient and delta lights: where they fall (chi-square, .01 for the
-// tests of this file together), what they weigh, and that the lamp does not shade itself.
+// tests of this file together), what they weigh, and that the emitter does not shade itself.
 #include "host/reference/lights.hpp"
 #include "tests/shaders/light_fixture.hpp"
 #include "tests/support/chi_square.hpp"
@@ -30,24 +30,24 @@ glm::dvec3 onPlane(const LightQuery& q, const LightAnswer& a, double height) {
     return o + (height - o.z) / d.z * d;
 }
 
-/// A lamp above the origin that faces down, a parallelogram in the plane z = 2.
-struct QuadLamp {
+/// An emitter above the origin that faces down, a parallelogram in the plane z = 2.
+struct QuadEmitter {
     glm::vec3 corner{-0.5f, -0.25f, 2}, edgeA{0.25f, 1, 0}, edgeB{1.5f, 0.125f, 0};
     glm::vec3 emission{1, 2, 4};
     double area = glm::length(glm::cross(glm::dvec3(edgeA), glm::dvec3(edgeB)));
 
     Scene scene(bool bothSides) const {
-        Scene s = sceneWithLamp(emission, bothSides);
+        Scene s = sceneWithEmitter(emission, bothSides);
         // edgeA x edgeB points down.
-        addLampTriangle(s, corner, corner + edgeA, corner + edgeA + edgeB);
-        addLampTriangle(s, corner + edgeA + edgeB, corner + edgeB, corner);
+        addEmitterTriangle(s, corner, corner + edgeA, corner + edgeA + edgeB);
+        addEmitterTriangle(s, corner + edgeA + edgeB, corner + edgeB, corner);
         return s;
     }
 };
 
 TEST_F(LightSampling, QuadEmitsOnTheSideItShould) {
     for (const bool bothSides : {false, true}) {
-        setScene(QuadLamp().scene(bothSides));
+        setScene(QuadEmitter().scene(bothSides));
         const LightQuery below = surfaceAt({0, 0, 1}, {0, 0, 1});
         const LightQuery above = surfaceAt({0, 0, 3}, {0, 0, -1});
         for (const LightAnswer& a : answers(samples(below, 1000, 122)))
@@ -71,9 +71,9 @@ TEST_F(LightSampling, QuadAnywhereInSpaceNeverShadesItself) {
         const glm::vec3 corner = far + scale * random.inCube(1);
         const glm::vec3 edgeA = scale * random.vector();
         const glm::vec3 edgeB = scale * glm::cross(random.vector(), glm::normalize(edgeA));
-        Scene s = sceneWithLamp({1, 1, 1}, true);
-        addLampTriangle(s, corner, corner + edgeA, corner + edgeA + edgeB);
-        addLampTriangle(s, corner, corner + edgeA + edgeB, corner + edgeB);
+        Scene s = sceneWithEmitter({1, 1, 1}, true);
+        addEmitterTriangle(s, corner, corner + edgeA, corner + edgeA + edgeB);
+        addEmitterTriangle(s, corner, corner + edgeA + edgeB, corner + edgeB);
         setScene(s);
         std::vector<LightQuery> queries;
         for (int i = 0; i < 500; ++i) {
@@ -90,7 +90,7 @@ TEST_F(LightSampling, QuadAnywhereInSpaceNeverShadesItself) {
 
 TEST_F(LightSampling, AmbientByTheCosineAboutTheNormal) {
     for (const bool upper : {false, true}) {
-        Scene scene = sceneWithLamp(glm::vec3(0.0f), true);
+        Scene scene = sceneWithEmitter(glm::vec3(0.0f), true);
         Light light;
         light.kind = LightKind::Ambient;
         light.color = {1, 2, 3};
@@ -118,7 +118,7 @@ TEST_F(LightSampling, AmbientByTheCosineAboutTheNormal) {
 
 /// Ambient light from everywhere and from above is one light, the sum of all.
 TEST_F(LightSampling, AmbientLightsAddUp) {
-    Scene scene = sceneWithLamp(glm::vec3(0.0f), true);
+    Scene scene = sceneWithEmitter(glm::vec3(0.0f), true);
     for (const bool upper : {false, true, false, true}) {
         Light& light = scene.lights.emplace_back();
         light.kind = LightKind::Ambient;
@@ -139,7 +139,7 @@ TEST_F(LightSampling, AmbientLightsAddUp) {
 TEST_F(LightSampling, DeltaLightsAsTheReferenceHasThem) {
     Random random(126);
     for (int k = 0; k < 60; ++k) {
-        Scene scene = sceneWithLamp(glm::vec3(0.0f), true);
+        Scene scene = sceneWithEmitter(glm::vec3(0.0f), true);
         Light& light = scene.lights.emplace_back();
         constexpr LightKind kKinds[] = {LightKind::Directional, LightKind::Point, LightKind::Spot};
         light.kind = kKinds[k % 3];
@@ -177,7 +177,7 @@ TEST_F(LightSampling, DeltaLightsAsTheReferenceHasThem) {
 
 /// docs/estimator.md, "CS184 mode": nothing unless D . n < 0; area cos_light / |D|.
 TEST_F(LightSamplingCs184, RectangleWithOneFactorOfDistanceTooFew) {
-    Scene scene = sceneWithLamp(glm::vec3(0.0f), true);
+    Scene scene = sceneWithEmitter(glm::vec3(0.0f), true);
     Light& light = scene.lights.emplace_back();
     light.kind = LightKind::Area;
     light.color = {10, 5, 1};

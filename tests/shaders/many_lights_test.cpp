@@ -81,7 +81,7 @@ class ManyLights : public DeviceTest, public ::testing::WithParamInterface<Light
         }
         return sum;
     }
-    /// On the floor: all lamps are above the horizon.
+    /// On the floor: all lights are above the horizon.
     static LightQuery floor(float x, float z) {
         LightQuery q{};
         q.position = {x, -1, z};

@@ -252,7 +252,7 @@ struct SurfaceAnswer {
 };
 SHARED_ROWS(SurfaceAnswer, 6);
 
-/// A bounce into the gap behind the scene's lamp, from a point on its other side; u, v in [0, 1).
+/// A bounce into the gap behind the scene's light, from a point on its other side; u, v in [0, 1).
 struct GapQuery {
     vec3 position;
     float u;
@@ -264,10 +264,10 @@ struct GapAnswer {
     vec3 direction; ///< unit
     float pdf;      ///< of it, by solid angle
     float
-        along0; ///< the point of the lamp's plane it goes through, from the corner along the edges
+        along0; ///< the point of the light's plane it goes through, from the corner along the edges
     float along1;
     float pdfBehind; ///< of the opposite direction
-    float pdfAtLamp; ///< of the direction to the lamp's middle
+    float pdfAtLight; ///< of the direction to the light's middle
 };
 SHARED_ROWS(GapAnswer, 2);
 

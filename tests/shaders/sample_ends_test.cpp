@@ -1,6 +1,6 @@
 // Samplers at the ends of the interval that random numbers come from, 0 and 1 - 2^-24, in all
-// combinations: what comes out is finite and in its domain. Warps of the square and lamps have such
-// tests of their own (warps_test.cpp, light_sampling_test.cpp, sphere_light_test.cpp).
+// combinations: what comes out is finite and in its domain. Warps of the square and emitters have
+// such tests of their own (warps_test.cpp, light_sampling_test.cpp, sphere_light_test.cpp).
 #include "host/reference/microfacet.hpp"
 #include "tests/shaders/bsdf_fixture.hpp"
 #include "tests/shaders/light_fixture.hpp"
@@ -150,7 +150,7 @@ class AmbientEnds : public LightFixture {};
 
 TEST_F(AmbientEnds, DirectionsAreAboveTheHorizon) {
     for (const bool upper : {false, true}) {
-        Scene scene = sceneWithLamp(glm::vec3(0.0f), true);
+        Scene scene = sceneWithEmitter(glm::vec3(0.0f), true);
         Light light;
         light.kind = LightKind::Ambient;
         light.upperHemisphereOnly = upper;

@@ -18,8 +18,8 @@ using gpu::LightQuery;
 
 constexpr size_t kSamples = 60000;
 
-/// A lamp v0 + s a + t b and a surface; with `triangle`, s + t <= 1.
-struct LampCase {
+/// An emitter v0 + s a + t b and a surface; with `triangle`, s + t <= 1.
+struct EmitterCase {
     const char* name;
     glm::vec3 v0, a, b, position, normal;
     /// Mean square deviation over squared mean of the irradiance's samples, by area over by
@@ -27,7 +27,7 @@ struct LampCase {
     double areaIsWorse;
 };
 
-const LampCase kCases[] = {
+const EmitterCase kCases[] = {
     {"small", {0.3f, 0, 1}, {0.01f, 0, 0}, {0, 0.01f, 0}, {0, 0, 0}, {0, 0, 1}, 0.5},
     {"far", {3000, 200, 9000}, {1, 0.25f, 0}, {-0.5f, 0.75f, 0}, {0, 0, 0}, {0, 0, 1}, 0.1},
     {"large", {-4, -3, 0.5f}, {8, 0, 0}, {0, 7, 0}, {0, 0, 0}, {0, 0, 1}, 3},
@@ -63,13 +63,13 @@ double irradiance(const std::vector<glm::dvec3>& corners, const glm::dvec3& n) {
 }
 
 class SolidAngles : public LightFixture,
-                    public ::testing::WithParamInterface<std::tuple<LampCase, bool>> {
+                    public ::testing::WithParamInterface<std::tuple<EmitterCase, bool>> {
   protected:
-    const LampCase& lamp() const { return std::get<0>(GetParam()); }
+    const EmitterCase& emitter() const { return std::get<0>(GetParam()); }
     bool isQuad() const { return std::get<1>(GetParam()); }
     glm::dvec3 at(double s, double t) const {
-        return glm::dvec3(lamp().v0) - glm::dvec3(lamp().position) + s * glm::dvec3(lamp().a) +
-               t * glm::dvec3(lamp().b);
+        return glm::dvec3(emitter().v0) - glm::dvec3(emitter().position) +
+               s * glm::dvec3(emitter().a) + t * glm::dvec3(emitter().b);
     }
     std::vector<glm::dvec3> corners() const {
         if (isQuad()) return {at(0, 0), at(1, 0), at(1, 1), at(0, 1)};
@@ -98,16 +98,17 @@ class SolidAngles : public LightFixture,
         return angles;
     }
     void makeScene() {
-        Scene scene = sceneWithLamp({1, 2, 4}, true);
-        const glm::vec3 v0 = lamp().v0, a = v0 + lamp().a, b = v0 + lamp().b, far = a + lamp().b;
-        addLampTriangle(scene, v0, a, isQuad() ? far : b);
-        if (isQuad()) addLampTriangle(scene, far, b, v0);
+        Scene scene = sceneWithEmitter({1, 2, 4}, true);
+        const glm::vec3 v0 = emitter().v0, a = v0 + emitter().a, b = v0 + emitter().b,
+                        far = a + emitter().b;
+        addEmitterTriangle(scene, v0, a, isQuad() ? far : b);
+        if (isQuad()) addEmitterTriangle(scene, far, b, v0);
         setScene(scene);
         ASSERT_EQ(packed_.lights.sampledKinds,
                   1u << (isQuad() ? gpu::LIGHT_QUAD : gpu::LIGHT_TRIANGLE));
     }
     LightQuery surface() const {
-        LightQuery q = surfaceAt(lamp().position, lamp().normal);
+        LightQuery q = surfaceAt(emitter().position, emitter().normal);
         q.error = glm::vec3(0.0f); // the point is where it is
         return q;
     }
@@ -118,28 +119,28 @@ TEST_P(SolidAngles, AreSampledUniformly) {
     const std::vector<LightAnswer> found = answers(samples(surface(), kSamples, 141));
     const double angle = wholeAngle();
     const glm::dmat3 toWeights = glm::inverse(
-        glm::dmat3(glm::dvec3(lamp().a), glm::dvec3(lamp().b),
-                   glm::normalize(glm::cross(glm::dvec3(lamp().a), glm::dvec3(lamp().b)))));
+        glm::dmat3(glm::dvec3(emitter().a), glm::dvec3(emitter().b),
+                   glm::normalize(glm::cross(glm::dvec3(emitter().a), glm::dvec3(emitter().b)))));
     constexpr size_t kGrid = 8;
     std::vector<double> counts(kGrid * kGrid), expected = cellAngles(kGrid);
     for (double& e : expected)
         e *= double(kSamples) / angle;
-    // A few roundings of coordinates, over edges of 1 or in a lamp that is small and near.
-    const double off = 1e-4 + 0x1p-22 * glm::length(lamp().v0);
+    // A few roundings of coordinates, over edges of 1 or in an emitter that is small and near.
+    const double off = 1e-4 + 0x1p-22 * glm::length(emitter().v0);
     double sum = 0, squares = 0;
     for (const LightAnswer& a : found) {
         ASSERT_TRUE(isSound(a));
         // Rounding of the sum 1 + three cosines, 2^-22, over its size in the touched cases, 2^-7.
         ASSERT_NEAR(a.radiance.y / (2 * angle), 1, 3e-5) << "not the inverse of the density";
-        ASSERT_EQ(a.blocked, 0u) << "the lamp shades itself";
-        const glm::dvec3 w = toWeights * (glm::dvec3(a.target) - glm::dvec3(lamp().v0));
+        ASSERT_EQ(a.blocked, 0u) << "the emitter shades itself";
+        const glm::dvec3 w = toWeights * (glm::dvec3(a.target) - glm::dvec3(emitter().v0));
         ASSERT_GT(std::min(w.x, w.y), -off);
         ASSERT_LT(isQuad() ? std::max(w.x, w.y) : w.x + w.y, 1 + off);
         const auto cell = [](double x) {
             return std::min(size_t(std::max(x, 0.0) * kGrid), kGrid - 1);
         };
         ++counts[cell(w.x) * kGrid + cell(w.y)];
-        const double value = a.radiance.x * double(glm::dot(a.direction, lamp().normal));
+        const double value = a.radiance.x * double(glm::dot(a.direction, emitter().normal));
         sum += value;
         squares += value * value;
     }
@@ -147,28 +148,28 @@ TEST_P(SolidAngles, AreSampledUniformly) {
         for (size_t i = 1; i < kGrid; ++i)
             counts[i * kGrid + kGrid - 1 - i] += std::exchange(counts[i * kGrid + kGrid - i], 0);
     EXPECT_GT(chiSquareTest(counts, expected), sidakLevel(0.01, 2 * std::size(kCases)));
-    const double mean = sum / kSamples, truth = irradiance(corners(), lamp().normal);
+    const double mean = sum / kSamples, truth = irradiance(corners(), emitter().normal);
     const double variance = squares / kSamples - mean * mean;
     EXPECT_NEAR(mean, truth, 4.5 * std::sqrt(std::max(variance, 0.0) / kSamples) + 1e-5 * truth);
 
-    // Negative control: the same lamp by area.
+    // Negative control: the same emitter by area.
     Random random(142);
     double areaSum = 0, areaSquares = 0;
-    const glm::dvec3 normal = glm::cross(glm::dvec3(lamp().a), glm::dvec3(lamp().b));
+    const glm::dvec3 normal = glm::cross(glm::dvec3(emitter().a), glm::dvec3(emitter().b));
     for (size_t i = 0; i < kSamples; ++i) {
         double s = random.uniform(), t = random.uniform();
         if (!isQuad() && s + t > 1) s = 1 - s, t = 1 - t;
         const glm::dvec3 to = at(s, t);
         const double d2 = glm::dot(to, to);
         const double value = std::abs(glm::dot(to, normal)) *
-                             glm::dot(to, glm::dvec3(lamp().normal)) / (d2 * d2) *
+                             glm::dot(to, glm::dvec3(emitter().normal)) / (d2 * d2) *
                              (isQuad() ? 1 : 0.5);
         areaSum += value;
         areaSquares += value * value;
     }
     const double relative = variance / (mean * mean);
     const double relativeByArea = areaSquares * kSamples / (areaSum * areaSum) - 1;
-    EXPECT_GT(relativeByArea, lamp().areaIsWorse * relative);
+    EXPECT_GT(relativeByArea, emitter().areaIsWorse * relative);
 }
 
 TEST_P(SolidAngles, EndsOfTheSquareAreSound) {
@@ -177,7 +178,7 @@ TEST_P(SolidAngles, EndsOfTheSquareAreSound) {
         EXPECT_TRUE(isSound(a));
 }
 
-INSTANTIATE_TEST_SUITE_P(Lamps, SolidAngles,
+INSTANTIATE_TEST_SUITE_P(Emitters, SolidAngles,
                          ::testing::Combine(::testing::ValuesIn(kCases), ::testing::Bool()),
                          [](const auto& test) {
                              return std::string(std::get<0>(test.param).name) +
@@ -186,12 +187,12 @@ INSTANTIATE_TEST_SUITE_P(Lamps, SolidAngles,
 
 class InThePlane : public LightFixture {};
 
-/// In the plane of a lamp, or as near to it as rounding puts a surface that lies in it, there is
-/// no light, and nothing that is not a number.
-TEST_F(InThePlane, OfALampThereIsNoLight) {
-    Scene scene = sceneWithLamp({1, 1, 1}, true);
-    addLampTriangle(scene, {0, 0, 1}, {1, 0, 1}, {1, 1, 1});
-    addLampTriangle(scene, {1, 1, 1}, {0, 1, 1}, {0, 0, 1});
+/// In the plane of an emitter, or as near to it as rounding puts a surface that lies in it, there
+/// is no light, and nothing that is not a number.
+TEST_F(InThePlane, OfAnEmitterThereIsNoLight) {
+    Scene scene = sceneWithEmitter({1, 1, 1}, true);
+    addEmitterTriangle(scene, {0, 0, 1}, {1, 0, 1}, {1, 1, 1});
+    addEmitterTriangle(scene, {1, 1, 1}, {0, 1, 1}, {0, 0, 1});
     setScene(scene);
     for (const glm::vec3 p : {glm::vec3(0.5f, 0.25f, 1), glm::vec3(0, 0, 1), glm::vec3(1, 0.5f, 1),
                               glm::vec3(2, 0, 1), glm::vec3(0.5f, 0.5f, 1 - 0x1p-24f)})

@@ -15,8 +15,8 @@ using gpu::LightQuery;
 constexpr double kPi = 3.14159265358979323846;
 constexpr size_t kSamples = 40000;
 
-Scene sphereLamp(const glm::vec3& center, float radius, bool bothSides) {
-    Scene scene = sceneWithLamp({1, 2, 4}, bothSides);
+Scene sphereEmitter(const glm::vec3& center, float radius, bool bothSides) {
+    Scene scene = sceneWithEmitter({1, 2, 4}, bothSides);
     Sphere s;
     s.center = center;
     s.radius = radius;
@@ -36,7 +36,7 @@ TEST_P(SphereLight, FromOutsideUniformlyInTheCone) {
     Random random(131);
     const glm::vec3 center = radius * random.inCube(1);
     const glm::vec3 away = glm::normalize(random.vector());
-    setScene(sphereLamp(center, radius, false));
+    setScene(sphereEmitter(center, radius, false));
     LightQuery surface = surfaceAt(center + ratio * radius * away, -away);
     surface.error = glm::vec3(0.0f); // the point is where it is, as near to the sphere as it is
     const std::vector<LightAnswer> found = answers(samples(surface, kSamples, 132));
@@ -62,7 +62,7 @@ TEST_P(SphereLight, FromOutsideUniformlyInTheCone) {
                  std::min(size_t(turn * kGrid), kGrid - 1)];
         // L / pdf, pdf = 1 / (2 pi (1 - cos_max)).
         ASSERT_NEAR(a.radiance.y / (2 * 2 * kPi * oneMinusCosMax), 1, 1e-5 / std::sqrt(1 - sine2));
-        ASSERT_EQ(a.blocked, 0u) << "the lamp shades itself";
+        ASSERT_EQ(a.blocked, 0u) << "the emitter shades itself";
         irradiance += a.radiance.x * cosine / double(kSamples);
     }
     EXPECT_GT(chiSquareTest(counts, std::vector<double>(counts.size(),
@@ -87,7 +87,7 @@ TEST_F(SphereLightInside, UniformlyOnTheArea) {
     const glm::vec3 center(3, -2, 1);
     const float radius = 2;
     for (const bool bothSides : {false, true}) {
-        setScene(sphereLamp(center, radius, bothSides));
+        setScene(sphereEmitter(center, radius, bothSides));
         const LightQuery surface = surfaceAt(center + glm::vec3(0.5f, 1, -0.75f), {0, 1, 0});
         std::vector<double> heights(16);
         double irradiance = 0, squares = 0;
@@ -125,7 +125,7 @@ TEST_F(SphereLightInside, PointsOfTheSphereItself) {
     for (const float radius : {1e-3f, 1.0f, 50.0f})
         for (const bool bothSides : {false, true}) {
             const glm::vec3 center = 1000.0f * radius * random.inCube(1);
-            setScene(sphereLamp(center, radius, bothSides));
+            setScene(sphereEmitter(center, radius, bothSides));
             std::vector<LightQuery> inside, outside;
             for (int i = 0; i < 20000; ++i) {
                 const glm::vec3 n = glm::normalize(random.vector());
@@ -143,7 +143,7 @@ TEST_F(SphereLightInside, PointsOfTheSphereItself) {
             for (size_t i = 0; i < inside.size(); ++i) {
                 const LightAnswer& a = fromWithin[i];
                 ASSERT_TRUE(bothSides || a.radiance == glm::vec3(0.0f))
-                    << radius << ' ' << i << ": light from the dark inside of a lamp";
+                    << radius << ' ' << i << ": light from the dark inside of an emitter";
                 const double cosine =
                     glm::dot(glm::dvec3(a.direction), glm::dvec3(inside[i].shading));
                 sum += a.radiance.x * std::max(cosine, 0.0) / double(inside.size());

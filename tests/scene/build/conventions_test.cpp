@@ -23,9 +23,9 @@ Scene withLight(LightKind kind, const glm::dmat4& toWorld, const SceneConvention
 
 TEST(Conventions, AreasBecomeGeometryOrStayLights) {
     SceneConventions conventions;
-    const Scene lamp = withLight(LightKind::Area, glm::dmat4(1), conventions);
-    EXPECT_EQ(lamp.triangles.size(), 2u);
-    EXPECT_TRUE(lamp.lights.empty());
+    const Scene emitter = withLight(LightKind::Area, glm::dmat4(1), conventions);
+    EXPECT_EQ(emitter.triangles.size(), 2u);
+    EXPECT_TRUE(emitter.lights.empty());
     conventions.areaLights = AreaLights::StayLights;
     const Scene light = withLight(LightKind::Area, glm::dmat4(1), conventions);
     EXPECT_TRUE(light.triangles.empty());

@@ -23,7 +23,7 @@ Scene loadLight(const LightText& text, bool cs184 = false) {
                              : "<extra><technique profile=\"blender\"><type>1</type></technique>"
                                "<technique profile=\"CGL\">" +
                                    text.dialect + "</technique></extra>";
-    document.libraries = fmt::format("<library_lights><light id=\"l\" name=\"Lamp\">"
+    document.libraries = fmt::format("<library_lights><light id=\"l\" name=\"Light\">"
                                      "<technique_common>{}</technique_common>{}</light>"
                                      "</library_lights>",
                                      text.common, extra);
@@ -40,7 +40,7 @@ Light onlyLight(const LightText& text, bool cs184 = false) {
 TEST(Lights, Point) {
     const Light light = onlyLight({.transforms = "<translate>4 5 6</translate>"});
     EXPECT_EQ(light.kind, LightKind::Point);
-    EXPECT_EQ(light.name, "Lamp");
+    EXPECT_EQ(light.name, "Light");
     EXPECT_EQ(light.color, glm::vec3(1, 2, 3));
     EXPECT_EQ(light.position, glm::vec3(4, 5, 6));
     EXPECT_EQ(light.constantAttenuation, 1);
@@ -159,7 +159,7 @@ TEST(Lights, WithoutPlaceInTheWorldTheyAreLeftOut) {
         const Scene scene = loadLight(text);
         EXPECT_TRUE(scene.lights.empty());
         EXPECT_TRUE(scene.triangles.empty());
-        EXPECT_THAT(scene.report.warnings, Contains(HasSubstr("'Lamp' is left out")));
+        EXPECT_THAT(scene.report.warnings, Contains(HasSubstr("'Light' is left out")));
     }
 }
 

@@ -88,7 +88,7 @@ TEST_P(CornellBox, WallsFaceInwards) {
         const Scene scene = read(cs184);
         for (const Triangle& t : scene.triangles) {
             const std::string& name = scene.instances[t.instance];
-            // That renderer's lamp faces up; its emission has no side.
+            // That renderer's emitter faces up; its emission has no side.
             if (name == "bunny" || (cs184 && name == "light")) continue;
             const glm::dvec3 inwards = center - glm::dvec3(scene.positions[t.corner[0]]);
             const glm::dvec3 n = cs184 ? glm::dvec3(scene.normals[t.normals[0]])
@@ -101,7 +101,7 @@ TEST_P(CornellBox, WallsFaceInwards) {
     }
 }
 
-TEST_P(CornellBox, TheLampIsCountedOnce) {
+TEST_P(CornellBox, TheEmitterIsCountedOnce) {
     const Scene scene = read(false);
     const std::vector<Emitter> emitters = collectEmitters(scene);
     ASSERT_EQ(emitters.size(), 1u);

@@ -9,7 +9,7 @@ namespace {
 
 Light areaLight() {
     Light light;
-    light.name = "Lamp";
+    light.name = "Light";
     light.kind = LightKind::Area;
     light.color = glm::vec3(3, 4, 5);
     light.position = {0, 1.5f, 0};
@@ -39,7 +39,7 @@ void addMesh(Scene& scene, float x, float y, const glm::vec3& emission) {
     }
 }
 
-TEST(AreaLights, BecomeOneSidedLamps) {
+TEST(AreaLights, BecomeOneSidedEmitters) {
     for (bool swapped : {false, true}) {
         Scene scene;
         scene.lights = {areaLight()};
@@ -71,7 +71,7 @@ TEST(AreaLights, AreTheMeshInTheirPlace) {
         EXPECT_TRUE(scene.lights.empty());
         EXPECT_EQ(scene.triangles.size(), 2u);
         EXPECT_EQ(collectEmitters(scene).size(), 1u);
-        EXPECT_THAT(scene.report.ignored, testing::ElementsAre(testing::HasSubstr("'Lamp'")));
+        EXPECT_THAT(scene.report.ignored, testing::ElementsAre(testing::HasSubstr("'Light'")));
     }
 }
 

@@ -1,4 +1,4 @@
-// Which lamps have a gap that bounces are sent into, and how wide it is.
+// Which lights have a gap into which some bounces are sent, and how wide it is.
 #include "host/kernel/gap_proposal.hpp"
 
 #include "host/bvh/wide_layout.hpp"
@@ -15,12 +15,12 @@ namespace {
 
 struct Room {
     float gap = 0.01f, scale = 1;
-    float tilt = 0; ///< height of one edge of the lamp over the other
+    float tilt = 0; ///< height of one edge of the light over the other
     bool bothSides = true, facesUp = false;
     MaterialKind ceiling = MaterialKind::Diffuse;
-    int lamps = 1;
-    float skew = 0;         ///< how far a corner of the lamp is from where a rectangle has it
-    float ceilingFrom = -5; ///< x; the lamp is at 0 to 1
+    int lights = 1;
+    float skew = 0;         ///< how far a corner of the light is from where a rectangle has it
+    float ceilingFrom = -5; ///< x; the light is at 0 to 1
 };
 
 void addQuad(Scene& scene, const glm::vec3& corner, const glm::vec3& a, const glm::vec3& b,
@@ -35,7 +35,7 @@ void addQuad(Scene& scene, const glm::vec3& corner, const glm::vec3& a, const gl
     }
 }
 
-/// A lamp of 1 x 0.5 below a ceiling.
+/// A light of 1 x 0.5 below a ceiling.
 float gapOf(const Room& room) {
     Scene scene;
     scene.materials.resize(3);
@@ -50,13 +50,13 @@ float gapOf(const Room& room) {
     quad({room.ceilingFrom, room.gap, -5}, {10, 0, 0}, {0, 0, 10}, 0);
     // edgeA x edgeB points down, or up.
     const glm::vec3 a(1, room.tilt, 0), b(room.skew, 0, 0.5f);
-    for (int lamp = 0; lamp < room.lamps; ++lamp)
-        room.facesUp ? quad({2.0f * float(lamp), 0, 0}, b, a, 1 + uint32_t(lamp))
-                     : quad({2.0f * float(lamp), 0, 0}, a, b, 1 + uint32_t(lamp));
+    for (int light = 0; light < room.lights; ++light)
+        room.facesUp ? quad({2.0f * float(light), 0, 0}, b, a, 1 + uint32_t(light))
+                     : quad({2.0f * float(light), 0, 0}, a, b, 1 + uint32_t(light));
     return std::abs(packScene(scene, buildWideBvh(scene)).gapWidth) / room.scale;
 }
 
-TEST(LampGap, IsTheDistanceOfTheCeiling) {
+TEST(Gap, IsTheDistanceOfTheCeiling) {
     for (const float scale : {1.0f, 1e-12f, 1e-9f, 1e9f, 1e12f})
         for (const float gap : {0.001f, 0.01f, 0.1f})
             for (const bool facesUp : {false, true})
@@ -64,30 +64,30 @@ TEST(LampGap, IsTheDistanceOfTheCeiling) {
                     << scale;
 }
 
-TEST(LampGap, OfATiltedLampIsTheMedian) {
+TEST(Gap, OfATiltedLightIsTheMedian) {
     EXPECT_NEAR(gapOf({.gap = 0.05f, .tilt = 0.04f}), 0.03, 0.004);
 }
 
-TEST(LampGap, OnlyOfRectangles) {
+TEST(Gap, OnlyOfRectangles) {
     EXPECT_EQ(gapOf({.skew = 0.1f}), 0);
     EXPECT_NEAR(gapOf({.skew = 1e-6f}), 0.01, 1e-5) << "rounding";
 }
 
-TEST(LampGap, OnlyBelowTheCeiling) {
+TEST(Gap, OnlyBelowTheCeiling) {
     EXPECT_NEAR(gapOf({.ceilingFrom = 0.125f}), 0.01, 1e-5) << "7 of 8";
     EXPECT_EQ(gapOf({.ceilingFrom = 0.5f}), 0) << "half";
 }
 
-TEST(LampGap, OnlyWhereLightComesOutOfIt) {
+TEST(Gap, OnlyWhereLightComesOutOfIt) {
     EXPECT_EQ(gapOf({.gap = 0.3f}), 0); // wide: bounces find it
     EXPECT_EQ(gapOf({.gap = -0.3f}), 0);
     EXPECT_EQ(gapOf({.ceiling = MaterialKind::Mirror}), 0);
-    EXPECT_EQ(gapOf({.lamps = 2}), 0);
+    EXPECT_EQ(gapOf({.lights = 2}), 0);
     EXPECT_EQ(gapOf({.bothSides = false}), 0) << "shines down";
     EXPECT_NEAR(gapOf({.bothSides = false, .facesUp = true}), 0.01, 1e-5) << "shines up";
 }
 
-TEST(LampGap, NotInScenesWithoutOne) {
+TEST(Gap, NotInScenesWithoutOne) {
     const auto folder = std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene/library";
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         if (entry.path().extension() != ".dae") continue;
@@ -99,10 +99,10 @@ TEST(LampGap, NotInScenesWithoutOne) {
 }
 
 /// The kernel has it only where it can matter.
-TEST(LampGap, OnlyInKernelsThatNeedIt) {
+TEST(Gap, OnlyInKernelsThatNeedIt) {
     const Scene scene = loadCollada(std::filesystem::path(STROMBOLI_SOURCE_DIR) /
                                     "scene/library/cornell_boxes.dae");
-    const auto guides = [&](const std::function<void(RenderSettings&)>& change) {
+    const auto hasGapProposal = [&](const std::function<void(RenderSettings&)>& change) {
         RenderSettings s;
         change(s);
         const GpuScene packed = packScene(scene, buildWideBvh(scene), lightSelection(s.estimator));
@@ -110,11 +110,13 @@ TEST(LampGap, OnlyInKernelsThatNeedIt) {
             makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, false);
         return kernelFeatures(packed, camera, s.estimator, {})[SPEC_GUIDES] != 0;
     };
-    EXPECT_TRUE(guides([](RenderSettings&) {}));
-    EXPECT_FALSE(guides([](RenderSettings& s) { s.estimator.guides = false; }));
-    EXPECT_FALSE(guides([](RenderSettings& s) { s.estimator.maxBounces = 1; }));
-    EXPECT_FALSE(guides([](RenderSettings& s) { s.estimator.directLight = DirectLight::Bsdf; }));
-    EXPECT_FALSE(guides([](RenderSettings& s) { s.estimator.integrator = Integrator::Normals; }));
+    EXPECT_TRUE(hasGapProposal([](RenderSettings&) {}));
+    EXPECT_FALSE(hasGapProposal([](RenderSettings& s) { s.estimator.guides = false; }));
+    EXPECT_FALSE(hasGapProposal([](RenderSettings& s) { s.estimator.maxBounces = 1; }));
+    EXPECT_FALSE(
+        hasGapProposal([](RenderSettings& s) { s.estimator.directLight = DirectLight::Bsdf; }));
+    EXPECT_FALSE(
+        hasGapProposal([](RenderSettings& s) { s.estimator.integrator = Integrator::Normals; }));
 }
 
 } // namespace

@@ -5,24 +5,24 @@
 namespace stromboli::reference {
 
 /// A triangle of a mesh that emits.
-struct LampTriangle {
+struct EmitterTriangle {
     glm::dvec3 v0, v1, v2;
     double area; ///< of one side
     uint32_t index;
 
-    LampTriangle(const Scene& scene, uint32_t index);
+    EmitterTriangle(const Scene& scene, uint32_t index);
 };
 
-// Samples of one lamp each, from a surface at `from`.
+// Samples of one emitter each, from a surface at `from`.
 
 /// Uniform by direction: density `probability`, that of picking this triangle, over its solid
 /// angle. Nothing from a surface in the triangle's plane, whose distance is rounding.
-LightSample sampleTriangle(const LampTriangle& triangle, double probability,
+LightSample sampleTriangle(const EmitterTriangle& triangle, double probability,
                            const Material& material, const SurfacePoint& surface,
                            RandomStream& random);
 
 /// Steradians that the triangle takes up as seen from a point; 0 in its plane.
-double solidAngle(const LampTriangle& triangle, const glm::dvec3& from);
+double solidAngle(const EmitterTriangle& triangle, const glm::dvec3& from);
 
 /// From outside uniform in the cone the sphere subtends (Shirley, Wang and Zimmerman 1996), from
 /// inside uniform on its area. A surface point on the sphere itself is on the side wo is on.

@@ -1,4 +1,4 @@
-#include "scene/generate/lamps_room.hpp"
+#include "scene/generate/emitters_room.hpp"
 
 #include "scene/generate/cornell_mesh.hpp"
 
@@ -47,22 +47,22 @@ Scene emptyRoom(const std::string& source) {
     constexpr uint32_t kSmallestMesh = 3; // steps of a knot that is not used
     CornellMesh room = cornellMesh(kSmallestMesh, kSmallestMesh);
     room.knot = {};
-    room.walls.pop_back(); // its lamp
+    room.walls.pop_back(); // its emitter
     return cornellMeshScene(room, source);
 }
 
 } // namespace
 
-Scene lampsRoom(uint32_t triangles, const std::string& source) {
+Scene emittersRoom(uint32_t triangles, const std::string& source) {
     Scene scene = emptyRoom(source);
-    Material lamp;
-    lamp.name = "lamp";
-    lamp.albedo = glm::vec3(0.0f);
-    lamp.emission = {40, 32, 24};
-    lamp.emitsBothSides = false;
-    scene.materials.push_back(lamp);
+    Material emitter;
+    emitter.name = "emitter";
+    emitter.albedo = glm::vec3(0.0f);
+    emitter.emission = {40, 32, 24};
+    emitter.emitsBothSides = false;
+    scene.materials.push_back(emitter);
     const auto material = uint32_t(scene.materials.size() - 1);
-    scene.instances.push_back("lamps");
+    scene.instances.push_back("emitters");
     const auto instance = uint32_t(scene.instances.size() - 1);
     std::mt19937 engine(1);
     for (uint32_t i = 0; i < triangles / 8; ++i) {

@@ -1,4 +1,4 @@
-#include "host/reference/lamps.hpp"
+#include "host/reference/emitters.hpp"
 
 #include "host/reference/sampling.hpp"
 #include "host/reference/spherical_triangle.hpp"
@@ -10,16 +10,16 @@
 namespace stromboli::reference {
 namespace {
 
-/// A point chosen uniformly on a lamp's area.
-struct LampPoint {
+/// A point chosen uniformly on an emitter's area.
+struct EmitterPoint {
     glm::dvec3 position;
-    double error;      ///< distance to stop before the lamp
+    double error;      ///< distance to stop before the emitter
     glm::dvec3 normal; ///< unit, of the side that always emits
     uint32_t primitive;
 };
 
-LightSample toLampPoint(const LampPoint& p, const Material& material, double area,
-                        const glm::dvec3& from) {
+LightSample toEmitterPoint(const EmitterPoint& p, const Material& material, double area,
+                           const glm::dvec3& from) {
     LightSample sample;
     const glm::dvec3 to = p.position - from;
     const double distance2 = glm::dot(to, to);
@@ -36,7 +36,7 @@ LightSample toLampPoint(const LampPoint& p, const Material& material, double are
 
 } // namespace
 
-LampTriangle::LampTriangle(const Scene& scene, uint32_t i) : index(i) {
+EmitterTriangle::EmitterTriangle(const Scene& scene, uint32_t i) : index(i) {
     const Triangle& t = scene.triangles[i];
     v0 = scene.positions[t.corner[0]];
     v1 = scene.positions[t.corner[1]];
@@ -47,7 +47,7 @@ LampTriangle::LampTriangle(const Scene& scene, uint32_t i) : index(i) {
 namespace {
 
 /// A triangle as seen: unit directions of the corners. Nothing where the point is one of them.
-std::optional<SphericalTriangle> asSeen(const LampTriangle& t, const glm::dvec3& from) {
+std::optional<SphericalTriangle> asSeen(const EmitterTriangle& t, const glm::dvec3& from) {
     const glm::dvec3 a = t.v0 - from, b = t.v1 - from, c = t.v2 - from;
     if (a == glm::dvec3(0.0) || b == glm::dvec3(0.0) || c == glm::dvec3(0.0)) return std::nullopt;
     return SphericalTriangle(glm::normalize(a), glm::normalize(b), glm::normalize(c));
@@ -55,12 +55,12 @@ std::optional<SphericalTriangle> asSeen(const LampTriangle& t, const glm::dvec3&
 
 } // namespace
 
-double solidAngle(const LampTriangle& t, const glm::dvec3& from) {
+double solidAngle(const EmitterTriangle& t, const glm::dvec3& from) {
     const auto seen = asSeen(t, from);
     return seen ? seen->solidAngle() : 0;
 }
 
-LightSample sampleTriangle(const LampTriangle& t, double probability, const Material& material,
+LightSample sampleTriangle(const EmitterTriangle& t, double probability, const Material& material,
                            const SurfacePoint& surface, RandomStream& random) {
     const double u = random.next(), v = random.next();
     const glm::dvec3 n = triangleNormal(t.v0, t.v1, t.v2), from = litPoint(surface);
@@ -69,8 +69,9 @@ LightSample sampleTriangle(const LampTriangle& t, double probability, const Mate
     const auto seen = asSeen(t, from);
     if (!seen || seen->solidAngle() < SphericalTriangle::kSmallest) { // uniform on the area
         const glm::dvec2 b = uniformTriangle(u, v);
-        const LampPoint point{(1 - b.x - b.y) * t.v0 + b.x * t.v1 + b.y * t.v2, error, n, t.index};
-        return toLampPoint(point, material, t.area / probability, from);
+        const EmitterPoint point{(1 - b.x - b.y) * t.v0 + b.x * t.v1 + b.y * t.v2, error, n,
+                                 t.index};
+        return toEmitterPoint(point, material, t.area / probability, from);
     }
     LightSample sample;
     sample.direction = glm::normalize(seen->sample(u, v));
@@ -96,8 +97,8 @@ LightSample sampleSphere(const Scene& scene, const Emitter& emitter, const Surfa
     const bool inside = surface.primitive == primitive ? !surface.outside : !(sine2 < 1);
     if (inside) {
         const glm::dvec3 n = uniformSphere(u, v);
-        return toLampPoint({center + radius * n, error, n, primitive}, material, emitter.area,
-                           from);
+        return toEmitterPoint({center + radius * n, error, n, primitive}, material, emitter.area,
+                              from);
     }
     if (surface.primitive == primitive) return {}; // all of the sphere is below its own horizon
 

@@ -1,6 +1,6 @@
-// lamp_gap.glsl: the density of bounces into the gap is the one that the points of the rims are
+// gap_proposal.glsl: the density of bounces into the gap is the one that the points of the rims are
 // sampled with. The mean of 1 / pdf over the samples in a region is the region's solid angle, which
-// for a rectangle of the lamp's plane is known.
+// for a rectangle in the light's plane is known.
 #include "host/bvh/wide_layout.hpp"
 #include "host/kernel/gpu_scene.hpp"
 #include "tests/shaders/light_fixture.hpp"
@@ -8,7 +8,7 @@
 #include "tests/support/device_fixture.hpp"
 #include "tests/support/test_shader.hpp"
 
-#include "embedded/lamp_gap_texel.h"
+#include "embedded/gap_proposal_texel.h"
 
 #include <gtest/gtest.h>
 
@@ -25,17 +25,17 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr glm::dvec2 kSize(0.8, 0.5);
 constexpr double kGap = 0.02;
 
-/// A lamp in the plane y = 0, from (0, 0, 0) to (0.8, 0, 0.5), and a ceiling 0.02 above it; all of
-/// it times `scale`, and turned upside down if `turned`.
-Scene lampUnderCeiling(float scale, bool turned) {
-    Scene scene = sceneWithLamp(glm::vec3(1), true);
+/// An emitter in the plane y = 0, from (0, 0, 0) to (0.8, 0, 0.5), and a ceiling 0.02 above it; all
+/// of it times `scale`, and turned upside down if `turned`.
+Scene emitterUnderCeiling(float scale, bool turned) {
+    Scene scene = sceneWithEmitter(glm::vec3(1), true);
     scene.materials[0].albedo = glm::vec3(0.5f);
     const auto place = [&](float x, float y, float z) {
         return scale * (turned ? glm::vec3(x, -y, -z) : glm::vec3(x, y, z));
     };
     const auto quad = [&](float x0, float x1, float y, float z0, float z1, uint32_t material) {
-        addLampTriangle(scene, place(x0, y, z0), place(x1, y, z0), place(x1, y, z1));
-        addLampTriangle(scene, place(x0, y, z0), place(x1, y, z1), place(x0, y, z1));
+        addEmitterTriangle(scene, place(x0, y, z0), place(x1, y, z0), place(x1, y, z1));
+        addEmitterTriangle(scene, place(x0, y, z0), place(x1, y, z1), place(x0, y, z1));
         scene.triangles[scene.triangles.size() - 1].material = material;
         scene.triangles[scene.triangles.size() - 2].material = material;
     };
@@ -56,17 +56,17 @@ double solidAngle(const glm::dvec2& low, const glm::dvec2& high, double height) 
 
 struct GapCase {
     const char* name;
-    glm::dvec3 from; ///< before scaling; below the lamp: y < 0
+    glm::dvec3 from; ///< before scaling; below the emitter: y < 0
     float scale;
     bool turned;
 };
 
-class LampGapShader : public DeviceTest, public ::testing::WithParamInterface<GapCase> {
+class GapShader : public DeviceTest, public ::testing::WithParamInterface<GapCase> {
   protected:
-    LampGapShader()
-        : shader_(lamp_gap_texel,
+    GapShader()
+        : shader_(gap_proposal_texel,
                   ShaderOptions::texel().set(SPEC_LIGHT_CHOICE, gpu::LIGHT_CHOICE_ONE)) {
-        const Scene scene = lampUnderCeiling(GetParam().scale, GetParam().turned);
+        const Scene scene = emitterUnderCeiling(GetParam().scale, GetParam().turned);
         const GpuScene packed = packScene(scene, buildWideBvh(scene));
         EXPECT_NEAR(std::abs(packed.gapWidth), kGap * GetParam().scale, 1e-5 * GetParam().scale);
         shader_.setScene(packed);
@@ -84,7 +84,7 @@ class LampGapShader : public DeviceTest, public ::testing::WithParamInterface<Ga
     TestShader shader_;
 };
 
-TEST_P(LampGapShader, DensityIsThatOfTheSamples) {
+TEST_P(GapShader, DensityIsThatOfTheSamples) {
     // The smallest share of a rim is 0.03: 3e4 samples there. One in each cell of a grid, so that
     // only the few hundred cells at the ends of a region are a matter of chance.
     constexpr int kGrid = 1024;
@@ -95,11 +95,11 @@ TEST_P(LampGapShader, DensityIsThatOfTheSamples) {
             numbers.push_back(glm::vec2(float(i) + random.uniform(), float(j) + random.uniform()) /
                               float(kGrid));
     const std::vector<GapAnswer> found = answers(numbers);
-    // At a rim itself rounding may take a point for one of the lamp's.
+    // At a rim itself rounding may take a point for one of the emitter's.
     EXPECT_LT(std::ranges::count_if(found, [](const GapAnswer& a) { return a.pdf == 0; }), 20);
 
-    // Beside each rim, up to `depth` from it. Axes as of a lamp that is not turned: the rims of one
-    // axis are alike when it is.
+    // Beside each rim, up to `depth` from it. Axes as of an emitter that is not turned: the rims of
+    // one axis are alike when it is.
     const double depth = 3 * kGap;
     const glm::dvec2 lows[] = {{-depth, 0}, {kSize.x, 0}, {0, -depth}, {0, kSize.y}};
     const glm::dvec2 highs[] = {
@@ -122,14 +122,14 @@ TEST_P(LampGapShader, DensityIsThatOfTheSamples) {
     }
 }
 
-TEST_P(LampGapShader, NothingElsewhere) {
+TEST_P(GapShader, NothingElsewhere) {
     for (const GapAnswer& a : answers({{0.1f, 0.2f}, {0.9f, 0.7f}})) {
-        EXPECT_EQ(a.pdfAtLamp, 0);
+        EXPECT_EQ(a.pdfAtLight, 0);
         EXPECT_EQ(a.pdfBehind, 0);
     }
 }
 
-TEST_P(LampGapShader, EndsOfTheSquare) {
+TEST_P(GapShader, EndsOfTheSquare) {
     std::vector<glm::vec2> numbers;
     const float ends[] = {0, 0x1p-24f, 0.25f, 0.5f, 1 - 0x1p-23f, 1 - 0x1p-24f};
     for (const float u : ends)
@@ -142,7 +142,7 @@ TEST_P(LampGapShader, EndsOfTheSquare) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Places, LampGapShader,
+INSTANTIATE_TEST_SUITE_P(Places, GapShader,
                          ::testing::Values(GapCase{"below", {0.3, -1, 0.2}, 1, false},
                                            GapCase{"beside", {1.5, -0.5, 0.3}, 1, false},
                                            GapCase{"beyondACorner", {-1, -0.7, -1.2}, 1, false},

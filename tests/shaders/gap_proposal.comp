@@ -13,7 +13,7 @@ GapAnswer answer(GapQuery q) {
     const vec3 alongPlane = (at.x - g.foot.x) * gap.along0 + (at.y - g.foot.y) * gap.along1;
     const vec3 w = unit(alongPlane - g.height * gap.normal);
     const vec2 middle = 0.5 * gap.size - g.foot;
-    const vec3 toLamp = unit(middle.x * gap.along0 + middle.y * gap.along1 -
+    const vec3 toLight = unit(middle.x * gap.along0 + middle.y * gap.along1 -
                              g.height * gap.normal);
-    return GapAnswer(w, gapPdf(g, w), at.x, at.y, gapPdf(g, -w), gapPdf(g, toLamp));
+    return GapAnswer(w, gapPdf(g, w), at.x, at.y, gapPdf(g, -w), gapPdf(g, toLight));
 }
