@@ -23,7 +23,7 @@ layout(set = 0, binding = BINDING_SPLITS, std430) buffer SplitBuffer {
 layout(set = 0, binding = BINDING_STATUS, std430) buffer StatusBuffer { DispatchStatus status; };
 layout(push_constant) uniform DispatchConstants { Dispatch dispatchConstants; };
 
-// Read once: llvmpipe fetches a uniform's value lane by lane wherever it is used, 25 instructions.
+// Uniforms are read once, before all loops (docs/kernel.md, "Nothing is moved out of loops").
 Frame frame;
 Dispatch dispatch;
 
@@ -67,8 +67,8 @@ void takeUp(uint newItem) {
 
 bool atWork() { return phase != PHASE_FINISHED && phase != PHASE_SUSPENDED; }
 
-/// An eighth of the lanes at work want another pixel. To change that of one lane takes as long as that of
-/// several, for it is the same code; but lanes that wait for others do nothing.
+/// Whether an eighth of the subgroup's lanes at work want another pixel (docs/kernel.md,
+/// "Leaving the inner loop together").
 bool pixelsAreWanted() {
     const uint wanting = subgroupBallotBitCount(subgroupBallot(wantsPixel()));
     return 8u * wanting >= subgroupBallotBitCount(subgroupBallot(atWork()));
@@ -82,8 +82,8 @@ void putDown() {
     item = NO_ITEM;
 }
 
-/// A pixel has its samples: goes on with the next one that nobody has taken, so that lanes and
-/// threads have work to the end of the list. No pixel depends on which lane it falls to.
+/// When the pixel has all its samples, goes on with the next one that no lane has taken. No pixel
+/// depends on which lane it falls to.
 void changePixel(bool mayGoOn) {
     if (!wantsPixel()) return;
     putDown();
@@ -177,8 +177,8 @@ void startWork(bool late) {
     startRay();
 }
 
-/// What follows from the ray is worked out anew for all lanes: carried along, each number would have to be
-/// selected by lane, stored and loaded.
+/// What follows from the ray is worked out anew in each pass, not kept beside it (docs/kernel.md,
+/// "Nothing is moved out of loops").
 void traverseSomeSteps() {
     const Ray prepared = makeRay(ray.origin, ray.direction);
     for (uint k = 0u; k < TRAVERSAL_STEPS; ++k) {
@@ -188,13 +188,12 @@ void traverseSomeSteps() {
     if (COUNT_STEPS) allSteps += TRAVERSAL_STEPS;
 }
 
-/// Iterations between two looks at all lanes' iterations: a look costs some tenth of an iteration.
+/// Iterations between two looks at the count of all lanes' iterations.
 const uint LOOK_INTERVAL = 64u;
 
-/// This lane is to start no further ray of a path. llvmpipe gives each of its threads the same number
-/// of groups, one after the other, and a dispatch ends with the slowest thread. So groups do not
-/// count their own iterations, but go by those of all lanes: the first groups of all threads end
-/// together, then the second ones, and so on, however fast each thread is.
+/// Whether this lane is to start no further ray of a path. Where the host knows how many groups a
+/// thread of the driver runs in turn, the n-th group of every thread is late when all lanes together
+/// have done n groups' share of iterations (docs/kernel.md, "Both threads to the end").
 bool isLate(uint iteration, uint sinceLastLook) {
     if (dispatch.groupsPerThread == 0u) return iteration >= dispatch.softIterations;
     const uint done = atomicAdd(status.iterations, sinceLastLook) + sinceLastLook;
@@ -233,12 +232,9 @@ void main() {
     allSteps = 0u;
     resume(lane);
 
-    // llvmpipe runs both sides of every `if`, and a loop's body at least once: all that is in the
-    // inner loop is paid for in each pass, by all lanes. So changing pixels, which is rare, is outside
-    // of it, and the lanes of a subgroup leave it together when enough of them want another pixel.
-    // Every exit is in a loop's header: an exit in the middle was seen to be miscompiled by
-    // llvmpipe. The limit keeps a dispatch finite on any device, and below the number of passes
-    // after which llvmpipe ends all loops without a word.
+    // The lanes of a subgroup leave the inner loop together, when enough of them want another pixel;
+    // every exit is in a loop's header; and hardIterations keeps a dispatch finite on any device
+    // (docs/kernel.md, "Leaving the inner loop together", "Exits of loops", "The loop limit").
     uint iteration = 0u;
     uint lastLook = 0u;
     while (atWork() && iteration < dispatch.hardIterations) {

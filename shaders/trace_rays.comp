@@ -59,8 +59,8 @@ void serve() {
     if (tracing) startRay();
 }
 
-/// The rays of this group. llvmpipe gives each of its threads as many groups; where a group is one
-/// subgroup that takes the next chunk, if there is one left, a thread that is faster does more.
+/// The rays of this group: those of its number, or the next chunk that no group has taken, where a
+/// group is one subgroup (docs/kernel.md, "Both threads to the end").
 uint takeChunk() {
     if (dispatch.chunkCount == 0u) return gl_WorkGroupID.x;
     uint chunk = 0u;
@@ -77,7 +77,7 @@ void main() {
     tracing = false;
     startTraversal(ray, vec3(0.0), vec3(0.0), 0.0, 0.0, NO_PRIMITIVE, ANY_HIT); // done at once
 
-    // As in pathtrace.comp, every exit is in the loop's header.
+    // Every exit is in a loop's header (docs/kernel.md, "Exits of loops").
     bool finished = false;
     uint iteration = 0u;
     while (!finished && iteration < dispatch.hardIterations) {

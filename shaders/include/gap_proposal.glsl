@@ -1,8 +1,9 @@
-// A proposal for bounces besides the BSDF's own: into the gap between the scene's only light, a rectangle,
-// and a surface close behind it (docs/estimator.md, "Gaps"). That surface is bright, and is seen past the
-// rims of the light only: in few directions, but from everywhere. One bounce in sixteen of surfaces that
-// scatter diffusely goes there, by the one-sample balance heuristic (Veach and Guibas 1995), so that no
-// weight is above 16 / 15. host/kernel/gap_proposal.hpp finds the gap.
+// The gap proposal: a second density from which bounces are drawn, besides the BSDF's own. It aims
+// into the gap between the scene's only light, a rectangle, and a surface close behind it
+// (docs/estimator.md, "Gaps"). That surface is bright, and is seen past the rims of the light
+// only: in few directions, but from everywhere. One bounce in sixteen from diffuse surfaces goes
+// there, by the one-sample balance heuristic (Veach and Guibas 1995), so that no weight is above
+// 16 / 15. host/kernel/gap_proposal.hpp finds the gap.
 
 const float GAP_SHARE = 0.0625; ///< of a surface's bounces
 
@@ -14,7 +15,7 @@ struct Gap {
     vec2 size;           ///< of the light along the two
     float width;         ///< from the light to the surface; > 0
 };
-Gap gap; ///< GUIDES: found once, as onlyLight is
+Gap gap; ///< with the gap proposal (GUIDES): found once, as onlyLight is
 
 void findGap() {
     const QuadLight light = quadLight(onlyLight);

@@ -33,8 +33,8 @@ vec3 arrivalNumbers;
 vec3 directValue; ///< what the ray under way adds if it is free (or, hemisphere, per radiance)
 uint rayCount;
 
-/// Where a sample's path has split into branches (docs/estimator.md, "Branches"): at the first surface
-/// that scatters at random.
+/// Where a sample's path has split into branches (path splitting; docs/estimator.md, "Branches"): at
+/// the first surface that scatters at random.
 struct SplitPoint {
     SurfacePoint surface;
     vec3 throughput; ///< before scattering
@@ -63,8 +63,7 @@ uvec4 randomWords(uint slot) {
     return randomWords(pixelId, sample_, block, frame.seed);
 }
 
-/// Asks for a ray. It is started by startRay(): llvmpipe runs every branch for all lanes, so that
-/// preparing a ray wherever one is asked for would be paid for every time.
+/// Asks for a ray. Rays are prepared in one place, startRay() (docs/kernel.md, "What llvmpipe does").
 void trace(uint newPhase, vec3 origin, vec3 direction, float tMin, float tMax, uint skipPrimitive) {
     phase = newPhase;
     ray.origin = origin;
@@ -255,8 +254,8 @@ void startCameraRay(vec2 u) {
     trace(PHASE_PATH, c.origin, c.direction, c.tMin, c.tMax, NO_PRIMITIVE);
 }
 
-/// Starts the next path ray: of a new sample (PHASE_NEXT), or the bounce (PHASE_BOUNCE). Both draw their
-/// numbers in one place, as llvmpipe would run two for all lanes. A bounce may end the path.
+/// Starts the next path ray: of a new sample (PHASE_NEXT), or the bounce (PHASE_BOUNCE). Both draw
+/// their numbers in one place (docs/kernel.md, "What llvmpipe does"). A bounce may end the path.
 void depart() {
     const bool begins = phase == PHASE_NEXT;
     if (begins) beginSample();

@@ -1,8 +1,7 @@
-// The groups of children that a traversal has put off, newest first; 0: none. Each level of the tree leaves at
-// most one (host/bvh/wide_layout.hpp), and STACK_SIZE counts one more.
-//
-// In registers it moves as a whole: two selections an entry. A memory that each lane indexes for itself is 90
-// instructions a step on llvmpipe, which stores and loads lane by lane, and every step waits for it.
+// The groups of children that a traversal has put off, newest first; 0: none. Each level of the
+// tree leaves at most one (host/bvh/wide_layout.hpp), and STACK_SIZE counts one more. In registers
+// the stack moves as a whole, in memory each lane has an index of its own (docs/kernel.md,
+// "The traversal stack").
 
 uint stack[STACK_SIZE];
 uint stackTop; ///< entries in use, where they are in memory

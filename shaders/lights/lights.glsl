@@ -16,7 +16,8 @@ struct LightSample {
 const LightSample NO_LIGHT_SAMPLE =
     LightSample(vec3(0.0, 0.0, 1.0), true, vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0);
 
-// LIGHT_CHOICE_ONE: read once, and what follows from it; llvmpipe moves nothing out of loops.
+// LIGHT_CHOICE_ONE: the light, and what follows from it, is read once, before all loops
+// (docs/kernel.md, "Nothing is moved out of loops").
 LightRows onlyLight;
 vec3 onlyLightNormal; ///< LIGHT_QUAD
 

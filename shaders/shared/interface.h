@@ -22,8 +22,8 @@ SHARED_BEGIN
 #define BINDING_COUNT 11
 #define SCENE_BINDING_COUNT 5 // bindings 0 to 4 hold the scene and are read row by row
 
-/// Numbers of rows in texel buffers are cut to these bits. Lavapipe's buffers have no more rows, and saying so
-/// spares it the sign extension of each lane's address.
+/// Numbers of rows in texel buffers are cut to these bits; no buffer has more rows (docs/kernel.md,
+/// "Fetch").
 SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 
 // --- Specialisation constants: only what a scene needs ---------------------------------------
@@ -50,7 +50,7 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_LIGHT_CHOICE 20       // how one of the lights is picked
 #define SPEC_MIS_LOBES 21 // LOBE_ bits: of these bounces find lights too, weighted
 #define SPEC_SPLITS 22 // paths may split into branches
-#define SPEC_GUIDES 23 // some bounces go into the gap behind the lamp
+#define SPEC_GUIDES 23 // the gap proposal: some bounces go into the gap (gap_proposal.glsl)
 #define SPEC_STACK_IN_REGISTERS 24 // else in a memory that each lane indexes
 #define SPEC_COUNT 25
 

@@ -23,8 +23,8 @@ struct TracedRay {
 };
 SHARED_ROWS(TracedRay, 2);
 
-/// What a lane's rays found. Few words, written once a lane: a store for every ray would cost
-/// lavapipe a good part of the traversal.
+/// What a lane's rays found: few words, written once a lane and not once a ray (docs/kernel.md,
+/// "The ray kernel").
 struct LaneTotals {
     uint hits;
     float distances; ///< sum over closest hits of t

@@ -77,7 +77,7 @@ SHARED_CONST uint NO_PRIMITIVE = 0xFFFFFFFFu;
 
 /// What a hit needs beside the geometry. Normals of a smooth triangle: of the corners, octahedral, two
 /// 16-bit signed fractions each (Meyer et al. 2010; largest error 4e-5 rad). Of a flat one: x, y and z of
-/// its unit normal as floats, 40 instructions and a square root that a hit need not wait for. Of a sphere: 0.
+/// its unit normal as floats, so that a hit need not compute it. Of a sphere: 0.
 struct Primitive {
     uint material; ///< its first row in the material buffer; | PRIMITIVE_IS_SMOOTH
     uint n0, n1, n2;
