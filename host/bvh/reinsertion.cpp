@@ -16,7 +16,7 @@ namespace {
 
 constexpr uint32_t kNone = LinkedTree::kNone;
 
-// How much work it is worth; docs/kernel.md has the measurements. Only the largest boxes matter:
+// How much work it is worth; docs/results.md has the measurements. Only the largest boxes matter:
 // an eighth of the nodes, in rounds until one gains less than a hundredth.
 constexpr size_t kCandidateShare = 8, kLeastCandidates = 1u << 13;
 constexpr uint32_t kMostRounds = 10;

@@ -14,7 +14,7 @@ constexpr int kProbesPerEdge = 8;
 /// Share of the probes that have to find the surface.
 constexpr double kLeastShare = 0.75;
 /// Gaps, in units of the light's shorter edge. Wider ones are found by bounces well enough
-/// (docs/estimator.md); narrower ones are not told from the light itself.
+/// (docs/results.md); narrower ones are not told from the light itself.
 constexpr float kWidest = 0.25f, kNarrowest = 0x1p-12f;
 
 /// Or nearly: the kernel squares it up, and what it misses of the rims is left to the other

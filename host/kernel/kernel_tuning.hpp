@@ -39,7 +39,7 @@ struct DeviceTuning {
     bool everythingOn = false;
 };
 
-/// The rules, with their reasons, are in the source; docs/kernel.md has the measurements.
+/// The rules, with their reasons, are in the source; docs/results.md has the measurements.
 /// `rowBytes`: of the largest buffer that is read row by row; it decides whether the device's texel
 /// buffers are large enough.
 DeviceTuning resolve(const KernelTuning& tuning, const vulkan::Device& device,

@@ -49,7 +49,7 @@ std::vector<glm::vec3> views() {
 /// docs/numerics.md, "Weights": of a half vector of the Beckmann distribution, drawn with u, at a
 /// view of this cosine. A sampler that is better at it stays below 1.
 double largestMicrofacetWeight(double alpha, double cosine, double u, bool cs184) {
-    constexpr double kLogError = 1e-6; // of the device, docs/numerics.md
+    constexpr double kLogError = 1e-6; // of the device, docs/kernel.md
     const double tangent = alpha * std::sqrt(kLogError - std::log1p(-u));
     const double sine = std::sqrt(1 - cosine * cosine);
     const double root = cs184 ? kPi : std::sqrt(kPi), least = cs184 ? 0.95 : 1;
