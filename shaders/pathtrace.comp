@@ -133,7 +133,7 @@ void resume(uint lane) {
     sampleCount = 0u;
     takeUp(p.item);
     phase = PHASE_NEXT;
-    ray.group = 0u;
+    endTraversal(ray);
     clearStack();
     bool isDropped = false;
     if (dispatch.beginsNoSample != 0u && item != NO_ITEM) {

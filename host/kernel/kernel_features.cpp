@@ -66,6 +66,7 @@ bool guidesBounces(const GpuScene& scene, const Estimator& settings) {
 
 void switchOnAllTheSceneCouldHave(KernelFeatures& f, const Estimator& settings) {
     f[SPEC_HAS_TRIANGLES] = f[SPEC_HAS_SPHERES] = f[SPEC_HAS_NORMALS] = f[SPEC_HAS_EMISSION] = 1;
+    f[SPEC_LARGE_TREE] = 1;
     if (f[SPEC_LIGHT_NUMBERS] == gpu::LIGHT_NUMBERS_SHARED)
         f[SPEC_LIGHT_NUMBERS] = gpu::LIGHT_NUMBERS_FIRST;
     f[SPEC_BSDF_KINDS] = (1u << gpu::BSDF_KIND_COUNT) - 1;
@@ -108,6 +109,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_TRAVERSAL_STEPS] = tuning.traversalSteps;
     f[SPEC_STACK_SIZE] = std::max(scene.bvh.stackSize, 1u);
     f[SPEC_STACK_IN_REGISTERS] = f[SPEC_STACK_SIZE] <= tuning.registerStack;
+    f[SPEC_LARGE_TREE] = scene.bvh.records.size() > gpu::SMALL_TREE_RECORDS;
     f[SPEC_HAS_TRIANGLES] = scene.hasTriangles;
     f[SPEC_HAS_SPHERES] = scene.hasSpheres;
     f[SPEC_HAS_NORMALS] = scene.hasNormals;
@@ -173,7 +175,8 @@ std::vector<std::string> describe(const KernelFeatures& f) {
                     f[SPEC_GUIDES] ? "some into the gap behind the light" : "by the materials"),
         fmt::format("camera: {}", f[SPEC_ORTHOGRAPHIC] ? "orthographic" : "perspective"),
         fmt::format("CS184 conventions: {}", f[SPEC_CS184] ? "yes" : "no"),
-        fmt::format("traversal stack: {} entries", f[SPEC_STACK_SIZE]),
+        fmt::format("traversal stack: {} entries{}", f[SPEC_STACK_SIZE],
+                    f[SPEC_LARGE_TREE] ? " of two words" : ""),
     };
 }
 

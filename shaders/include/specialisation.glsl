@@ -4,6 +4,7 @@ layout(local_size_x_id = SPEC_WORKGROUP_SIZE) in;
 layout(constant_id = SPEC_TRAVERSAL_STEPS) const uint TRAVERSAL_STEPS = 8u;
 layout(constant_id = SPEC_STACK_SIZE) const uint STACK_SIZE = 64u;
 layout(constant_id = SPEC_STACK_IN_REGISTERS) const bool STACK_IN_REGISTERS = false;
+layout(constant_id = SPEC_LARGE_TREE) const bool LARGE_TREE = false;
 layout(constant_id = SPEC_HAS_TRIANGLES) const bool HAS_TRIANGLES = true;
 layout(constant_id = SPEC_HAS_SPHERES) const bool HAS_SPHERES = true;
 layout(constant_id = SPEC_HAS_NORMALS) const bool HAS_NORMALS = true;

@@ -10,9 +10,7 @@ struct Traversal {
     float tMax; ///< hits at or after this do not count; shrinks to the closest hit
     uint skipPrimitive; ///< the planar primitive the ray starts on
     bool anyHit; ///< stop at the first hit
-    /// Children still to visit: the record of slot 0 in bits 8-31; in bits 0-7 bit (slot ^ octant)
-    /// for each (Ray::octant), so that the highest one is the nearest, more or less. 0: done.
-    uint group;
+    Group group;          ///< children still to visit; empty: the ray is done
     uint hitPrimitive; ///< 2 * record + slot; NO_PRIMITIVE: nothing hit
     float b1, b2; ///< barycentric weights of the hit (triangles)
 };
@@ -27,7 +25,7 @@ void startTraversal(inout Traversal t) {
     const float size = dot(abs(t.direction), vec3(1.0));
     const bool finite = size > 0.0 && size + dot(abs(t.origin), vec3(1.0)) < INFINITE_DISTANCE;
     // The root is slot 0 of a group that begins at record 0.
-    t.group = finite ? 1u << octantOf(t.direction) : 0u;
+    t.group = finite ? makeGroup(0u, 1u << octantOf(t.direction)) : noGroup();
 }
 
 void startTraversal(out Traversal t, vec3 origin, vec3 direction, float tMin, float tMax,
@@ -41,7 +39,9 @@ void startTraversal(out Traversal t, vec3 origin, vec3 direction, float tMin, fl
     startTraversal(t);
 }
 
-bool traversing(Traversal t) { return t.group != 0u; }
+bool traversing(Traversal t) { return !isEmpty(t.group); }
+
+void endTraversal(inout Traversal t) { t.group.word = 0u; }
 
 void acceptTriangle(inout Traversal t, TriangleHit hit, uint place, bool isLeaf) {
     const bool accepted =
@@ -74,10 +74,9 @@ void testLeaf(inout Traversal t, Ray ray, Record r, uint record, bool isLeaf) {
 /// llvmpipe than an `if` around all this, whose every result has to be selected by lane.
 void traversalStep(inout Traversal t, Ray ray) {
     const bool working = traversing(t);
-    const uint next = highestBit(t.group & 0xFFu) & 7u;
-    const uint record = working ? (t.group >> 8u) + (next ^ ray.octant) : 0u;
-    uint rest = t.group & ~(1u << next);
-    rest = (rest & 0xFFu) != 0u ? rest : 0u;
+    const uint next = nearestSlot(t.group);
+    const uint record = working ? firstRecord(t.group) + (next ^ ray.octant) : 0u;
+    const Group rest = without(t.group, next);
 
     const Record r = fetchRecord(record);
     const bool isNode = (r.r0.w & RECORD_IS_NODE) != 0u;
@@ -85,9 +84,10 @@ void traversalStep(inout Traversal t, Ray ray) {
     testLeaf(t, ray, r, record, working && !isNode);
 
     const bool descend = working && isNode && entered != 0u;
-    const bool push = descend && rest != 0u;
-    const bool pop = working && !descend && rest == 0u;
-    const uint newest = moveStack(push, pop, rest);
-    t.group = descend ? (r.r0.w << 8u) | entered : (pop ? newest : rest);
-    if (t.anyHit && t.hitPrimitive != NO_PRIMITIVE) t.group = 0u;
+    const bool push = descend && !isEmpty(rest);
+    const bool pop = working && !descend && isEmpty(rest);
+    const Group newest = moveStack(push, pop, rest);
+    const Group children = makeGroup(r.r0.w, entered);
+    t.group = select(descend, children, select(pop, newest, rest));
+    if (t.anyHit && t.hitPrimitive != NO_PRIMITIVE) endTraversal(t);
 }

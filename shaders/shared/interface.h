@@ -52,7 +52,8 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_SPLITS 22 // paths may split into branches
 #define SPEC_GUIDES 23 // the gap proposal: some bounces go into the gap (gap_proposal.glsl)
 #define SPEC_STACK_IN_REGISTERS 24 // else in a memory that each lane indexes
-#define SPEC_COUNT 25
+#define SPEC_LARGE_TREE 25 // the tree has more than SMALL_TREE_RECORDS records
+#define SPEC_COUNT 26
 
 SHARED_CONST uint INTEGRATOR_PATH = 0u;
 SHARED_CONST uint INTEGRATOR_NORMALS = 1u;

@@ -30,7 +30,7 @@ struct NodeRecord {
     uint originAndExponentX;
     uint originAndExponentY;
     uint originAndExponentZ;
-    uint firstChild; ///< < 2^24; | RECORD_IS_NODE
+    uint firstChild; ///< < MAX_RECORDS; | RECORD_IS_NODE
     uint lowX0, lowX1, highX0, highX1;
     uint lowY0, lowY1, highY0, highY1;
     uint lowZ0, lowZ1, highZ0, highZ1;
@@ -63,7 +63,9 @@ SHARED_CONST uint RECORD_ROWS = 4u;
 SHARED_CONST uint RECORD_IS_NODE = 0x80000000u;   ///< in word 3
 SHARED_CONST uint RECORD_IS_SPHERE = 0x40000000u; ///< in word 3
 SHARED_CONST uint RECORD_INDEX_MASK = 0x3FFFFFFFu;
-SHARED_CONST uint MAX_RECORDS = 0x01000000u; ///< 2^24: stack entries have 24 bits for a record
+SHARED_CONST uint MAX_RECORDS = 0x40000000u; ///< 2^30: their rows are numbered in 32 bits
+/// Trees of at most so many records keep a group of children in one word (traversal_stack.glsl).
+SHARED_CONST uint SMALL_TREE_RECORDS = 0x01000000u;
 SHARED_CONST uint WIDE_CHILDREN = 8u;
 /// In cells: what a plane's distance along a ray can lose to the rounding of 255 cells,
 /// 8 * 255 * 2^-24 < 2^-13 (docs/numerics.md).

@@ -226,9 +226,11 @@ TEST_F(HardCases, C27_RaysThatAreNotFiniteEndAtOnce) {
 TEST_F(HardCases, C28_MoreThanFloatsCanCountAndLimitsHold) {
     // An index beyond 2^24 in a float is another record's.
     EXPECT_EQ(uint32_t(float((1u << 24) + 1)), 1u << 24) << "negative control";
-    // Records are named by 24 bits, with the child's number below: the last one fits, one more is
-    // refused.
-    EXPECT_EQ(((gpu::MAX_RECORDS - 1) << 8) >> 8, gpu::MAX_RECORDS - 1);
+    // Small trees name a record by 24 bits, with the slots below; large ones by a word whose rows
+    // are numbered by another. The last one fits; one more is refused.
+    EXPECT_EQ(((gpu::SMALL_TREE_RECORDS - 1) << 8) >> 8, gpu::SMALL_TREE_RECORDS - 1);
+    EXPECT_EQ(gpu::MAX_RECORDS - 1, (gpu::MAX_RECORDS - 1) & gpu::RECORD_INDEX_MASK);
+    EXPECT_LT(uint64_t(gpu::MAX_RECORDS) * gpu::RECORD_ROWS - 1, uint64_t(1) << 32);
     const Bounds one{{0, 0, 0}, {1, 1, 1}};
     EXPECT_THROW(buildBinaryTree(std::span<const Bounds>(&one, gpu::MAX_RECORDS + 1)), SceneError);
     const vulkan::DeviceDescription& device = testDevice().description();

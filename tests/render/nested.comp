@@ -97,7 +97,7 @@ void main() {
     findPictureGrid();
     findOnlyLight();
     if (GUIDES) findGap();
-    ray.group = 0u;
+    endTraversal(ray);
     rayCount = 0u;
     loopPasses = 0u;
     for (uint i = 0u; i < dispatch.segmentBase; ++i)

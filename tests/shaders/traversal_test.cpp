@@ -1,4 +1,6 @@
 // The traversal on the device against trying every primitive in double precision.
+#include "host/kernel/kernel_features.hpp"
+#include "host/vulkan/buffer_limits.hpp"
 #include "tests/bvh/fixtures.hpp"
 #include "tests/shaders/placed.hpp"
 #include "tests/shaders/queries.h"
@@ -47,15 +49,22 @@ RayQuery randomRay(const std::vector<Placed>& primitives, Random& random) {
     return q;
 }
 
-class TraversalTest : public DeviceTest, public ::testing::WithParamInterface<bool> {
+/// How the scene is read, where the stack is, and what its entries are.
+struct Variant {
+    bool texelsAndRegisters;
+    bool largeTree;
+};
+
+class TraversalTest : public DeviceTest, public ::testing::WithParamInterface<Variant> {
   protected:
     void trace(const GpuScene& scene, const std::vector<RayQuery>& queries) {
         ShaderOptions options;
-        options.texelFetch = GetParam();
+        options.texelFetch = GetParam().texelsAndRegisters;
         options.set(SPEC_STACK_SIZE, scene.bvh.stackSize); // what the builder proves sufficient
-        options.set(SPEC_STACK_IN_REGISTERS, GetParam());
-        TestShader shader(GetParam() ? std::span<const uint32_t>(trace_texel)
-                                     : std::span<const uint32_t>(trace_storage),
+        options.set(SPEC_STACK_IN_REGISTERS, GetParam().texelsAndRegisters);
+        options.set(SPEC_LARGE_TREE, GetParam().largeTree);
+        TestShader shader(GetParam().texelsAndRegisters ? std::span<const uint32_t>(trace_texel)
+                                                        : std::span<const uint32_t>(trace_storage),
                           options);
         shader.setScene(scene);
         gpu::Dispatch constants{};
@@ -264,8 +273,63 @@ TEST_F(DeviceTest, TheStackIsAsDeepAsTheBuilderSays) {
     EXPECT_TRUE(full) << "the bound is loose";
 }
 
-INSTANTIATE_TEST_SUITE_P(Fetch, TraversalTest, ::testing::Bool(),
-                         [](const auto& fetch) { return fetch.param ? "Texel" : "Storage"; });
+/// The same tree with `records` unused ones behind the root.
+GpuScene movedBack(GpuScene scene, uint32_t records) {
+    for (Record& r : scene.bvh.records)
+        if (isNode(r)) {
+            gpu::NodeRecord node = asNode(r);
+            node.firstChild += records;
+            r = std::bit_cast<Record>(node);
+        }
+    scene.bvh.records.insert(scene.bvh.records.begin() + 1, records, Record{});
+    return scene;
+}
+
+/// Record numbers that 24 bits cannot hold. The kernel that keeps them in one word with the slots
+/// finds something else, or nothing.
+TEST_F(DeviceTest, TreesOfMoreThanSixteenMillionRecords) {
+    Random random(78);
+    const GpuScene scene = pack(soup(300, 30, 0.3f, random));
+    constexpr uint32_t kBehind = gpu::SMALL_TREE_RECORDS + 5;
+    const uint64_t bytes = (kBehind + scene.bvh.records.size()) * sizeof(Record);
+    if (vulkan::bindingLimit(testDevice().description(), vulkan::BufferUse::Texel).bytes < bytes)
+        GTEST_SKIP() << "texel buffers of this device hold fewer";
+    std::vector<RayQuery> rays = randomRays(scene, 1000, random);
+    for (RayQuery& ray : rays)
+        ray.skipPrimitive = gpu::NO_PRIMITIVE; // places are other ones in the moved tree
+    const GpuScene moved = movedBack(scene, kBehind);
+    EXPECT_FALSE(kernelFeatures(scene, Camera{}, Estimator{}, {})[SPEC_LARGE_TREE]);
+    EXPECT_TRUE(kernelFeatures(moved, Camera{}, Estimator{}, {})[SPEC_LARGE_TREE]);
+
+    gpu::Dispatch constants{};
+    constants.hardIterations = kStepLimit;
+    const auto answersOf = [&](const GpuScene& s, bool largeTree) {
+        TestShader shader(trace_texel, ShaderOptions::texel().set(SPEC_LARGE_TREE, largeTree));
+        shader.setScene(s);
+        return ask<RayAnswer>(shader, rays, constants);
+    };
+    const auto expected = answersOf(scene, false), found = answersOf(moved, true),
+               tooSmall = answersOf(moved, false);
+    uint32_t hits = 0, lost = 0;
+    for (size_t i = 0; i < rays.size(); ++i) {
+        const bool hit = expected[i].primitive != gpu::NO_PRIMITIVE;
+        const uint32_t place = hit ? expected[i].primitive + 2 * kBehind : gpu::NO_PRIMITIVE;
+        EXPECT_EQ(found[i].t, expected[i].t) << i;
+        EXPECT_EQ(found[i].primitive, place) << i;
+        hits += hit;
+        lost += hit && tooSmall[i].primitive != place;
+    }
+    EXPECT_GT(hits, 300u);
+    EXPECT_EQ(lost, hits) << "negative control";
+}
+
+INSTANTIATE_TEST_SUITE_P(Fetch, TraversalTest,
+                         ::testing::Values(Variant{false, false}, Variant{true, false},
+                                           Variant{false, true}, Variant{true, true}),
+                         [](const auto& p) {
+                             return std::string(p.param.texelsAndRegisters ? "Texel" : "Storage") +
+                                    (p.param.largeTree ? "LargeTree" : "");
+                         });
 
 } // namespace
 } // namespace stromboli::test
