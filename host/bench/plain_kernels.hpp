@@ -7,8 +7,8 @@
 
 namespace stromboli::bench {
 
-/// A kernel compiled once more with plain code in the place of robust code (the PLAIN_ macros of
-/// shaders/include), to see what robustness costs. Its pictures have the faults that go with it.
+/// A kernel compiled once more with plain code in the place of robust code (host/bench/plain), to
+/// see what robustness costs. Its pictures have the faults that go with it.
 struct PlainKernel {
     std::string name; ///< what is plain
     std::span<const uint32_t> texel, storage;

@@ -76,6 +76,8 @@ GridAxis gridAxis(uint word, float rayOrigin, float inverse) {
     vec4(float(int((w)&0xFFu)), float(int((w)&0xFF00u)), float(int((w)&0xFF0000u)),                \
          float(int((w) >> 24u)))
 
+#include "box_slack.glsl"
+
 /// Distances of four planes as bit patterns. As integers, patterns of floats that are not
 /// negative compare as the floats do, and a negative one is below them all, which is all that is
 /// needed here. llvmpipe takes one instruction for an integer minimum, and three for a float one,
@@ -119,12 +121,7 @@ uint enterChildren(Record r, Ray ray, float tMax) {
                      ray.childBits[1]);
 }
 
-// `stromboli bench` also compiles the kernels with plain tests, to see what these cost.
-#ifdef PLAIN_TRIANGLES
-#include "include/plain_triangle.glsl"
-#else
-#include "include/triangle.glsl"
-#endif
+#include "triangle.glsl"
 
 /// Nearest t in (tMin, tMax) at which the ray meets the sphere, or INFINITE_DISTANCE. The
 /// discriminant comes from the distance of the line to the centre, not from b^2 - 4ac, which

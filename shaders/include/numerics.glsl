@@ -4,13 +4,6 @@ const float PI = 3.14159265358979;
 const float INV_PI = 0.318309886183791;
 /// Unit round-off of float: 2^-24.
 const float UNIT_ROUNDOFF = 5.9604644775390625e-8;
-/// Widening of a box's far end: 1 + 2^-18 = 1 + 64 u (docs/numerics.md, "Boxes": 33 u are needed for the two
-/// ends of a slab, 40 u against the distance of a primitive).
-#ifdef PLAIN_BOXES // `stromboli bench`: what it costs
-const float BOX_SLACK = 1.0;
-#else
-const float BOX_SLACK = 1.000003814697265625;
-#endif
 /// Farther than any hit: rays without an end.
 const float INFINITE_DISTANCE = 3.402823466e38;
 
@@ -36,15 +29,7 @@ void addCompensated(inout vec3 high, inout vec3 low, vec3 x) {
     low = newLow;
 }
 
-/// How far a point whose error is at most `error` per component has to move along the unit normal n for the
-/// exact surface to lie behind it (pbrt 4, section 6.8.6).
-float offsetLength(float error, vec3 n) {
-#ifdef PLAIN_OFFSETS // `stromboli bench`: what the bounds cost; a length that suits no scene but some
-    return 1e-4;
-#else
-    return error * dot(abs(n), vec3(1.0));
-#endif
-}
+#include "origin_offset.glsl"
 
 /// Moves p that far, to the side of w.
 vec3 offsetOrigin(vec3 p, float error, vec3 n, vec3 w) {

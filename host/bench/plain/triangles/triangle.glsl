@@ -1,5 +1,5 @@
-// `stromboli bench` only: what most ray tracers do, to see what triangle.glsl costs. Moeller and
-// Trumbore 1997; not watertight, and a triangle with edges below 1e-4 is lost by the cut-off.
+// In the place of shaders/robust/triangle.glsl: what most ray tracers do. Moeller and Trumbore 1997; not
+// watertight, and a triangle with edges below 1e-4 is lost by the cut-off.
 
 struct TriangleHit {
     float t; ///< INFINITE_DISTANCE: no hit
