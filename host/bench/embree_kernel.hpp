@@ -103,8 +103,7 @@ struct LightNode {
     float radius;
     Vec3 axis; ///< unit
     float cosSpread, sinSpread, power;
-    uint32_t child;
-    bool isLeaf, bothSides, sharp;
+    bool bothSides, sharp;
 };
 
 struct View {
@@ -132,8 +131,8 @@ struct World {
     const LightEntry* lightEntries;
     const AliasColumn* aliasColumns;
     const LightNode* lightNodes;
-    uint32_t lightChoice; ///< gpu::LIGHT_CHOICE_
-    uint32_t lightGroups; ///< bit n: the light tree has lights of gpu::LIGHT_GROUP_ n
+    uint32_t lightChoice;      ///< gpu::LIGHT_CHOICE_
+    uint32_t lightsInGroup[3]; ///< of the light tree, by gpu::LIGHT_GROUP_
     uint32_t lightCount, areaLights;
     bool hasAmbient;       ///< then it is lights[0]
     uint32_t lightSamples; ///< of all lights together, per shading point

@@ -107,26 +107,31 @@ inline uint32_t pickGroup(const float light[3], ChoiceNumber& c, float& probabil
 }
 
 inline uint32_t walkLightTree(const World& w, const Point& p, ChoiceNumber& c, float& probability) {
-    const LightNode* nodes = w.lightNodes;
+    const uint32_t* lights = w.lightsInGroup;
+    const uint32_t firstLight[3] = {0, lights[0], lights[0] + lights[1]};
     probability = 1;
-    uint32_t group = w.lightGroups >> 1;
-    if (w.lightGroups & (w.lightGroups - 1)) {
+    uint32_t group = 0;
+    while (group < 3 && lights[group] < w.lightCount)
+        ++group;
+    if (group == 3) { // lights of several groups
         float light[3] = {0, 0, 0};
         for (uint32_t i = 0; i < 3; ++i)
-            if (w.lightGroups & 1u << i) light[i] = likelyLight(nodes[i], i, p);
+            if (lights[i] > 0) light[i] = likelyLight(w.lightNodes[2 * firstLight[i] + 1], i, p);
         group = pickGroup(light, c, probability);
     }
-    const LightNode* node = nodes + group;
-    while (!node->isLeaf) {
-        const LightNode *a = nodes + node->child, *b = a + 1;
-        const float ofA = likelyLight(*a, group, p), ofB = likelyLight(*b, group, p);
+    const LightNode* nodes = w.lightNodes + 2 * firstLight[group];
+    uint32_t node = 1;
+    while (node < lights[group]) {
+        node *= 2;
+        const float ofA = likelyLight(nodes[node], group, p),
+                    ofB = likelyLight(nodes[node + 1], group, p);
         const uint32_t ofFirst = valuesOfFirst(ofA, ofB);
         const bool first = choosesFirst(c, ofFirst);
-        node = first ? a : b;
+        node += first ? 0 : 1;
         const bool some = ofA > 0 || ofB > 0;
         probability *= some ? shareOf(first ? ofFirst : 0x80000000u - ofFirst) : 0.0f;
     }
-    return node->child;
+    return firstLight[group] + node - lights[group];
 }
 
 inline uint32_t pickByAlias(const World& w, ChoiceNumber& c) {

@@ -78,15 +78,13 @@ native::Light decodedLight(const std::vector<Row>& rows, size_t row) {
 native::LightNode decodedNode(const gpu::LightNode& n) {
     native::LightNode node{};
     node.center = plain(n.center);
-    node.radius = n.radius;
+    node.radius = std::bit_cast<float>(n.radiusAndPower & 0xFFFF0000u);
     node.axis = plain(decodeNormal(n.axis));
     node.cosSpread = n.cosSpread;
     node.sinSpread = std::sqrt(std::max(1 - n.cosSpread * n.cosSpread, 0.0f));
-    node.power = n.power;
-    node.child = n.child & gpu::LIGHT_NODE_CHILD_MASK;
-    node.isLeaf = n.child & gpu::LIGHT_NODE_IS_LEAF;
-    node.bothSides = n.child & gpu::LIGHT_NODE_BOTH_SIDES;
-    node.sharp = n.child & gpu::LIGHT_NODE_SHARP;
+    node.power = std::bit_cast<float>(n.radiusAndPower << 16);
+    node.bothSides = n.flags & gpu::LIGHT_NODE_BOTH_SIDES;
+    node.sharp = n.flags & gpu::LIGHT_NODE_SHARP;
     return node;
 }
 
@@ -98,7 +96,7 @@ EmbreeLights embreeLights(const Scene& scene, const RenderSettings& settings) {
     const LightTable table = packLights(scene, triangles, lightSelection(settings.estimator));
     EmbreeLights all;
     all.choice = lightChoiceConstant(table);
-    all.groups = table.groups;
+    all.lightsInGroup = table.lightsInGroup;
     all.areaLights = table.areaCount;
     all.hasAmbient = table.hasAmbient;
     all.direct = directSampling(table, settings.estimator);

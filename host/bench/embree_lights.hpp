@@ -17,7 +17,8 @@ struct EmbreeLights {
     std::vector<native::LightEntry> entries;
     std::vector<native::AliasColumn> columns;
     std::vector<native::LightNode> nodes;
-    uint32_t choice = 0, groups = 0, areaLights = 0;
+    uint32_t choice = 0, areaLights = 0;
+    std::array<uint32_t, gpu::LIGHT_GROUP_COUNT> lightsInGroup{};
     DirectSampling direct;
     bool oneQuad = false, hasAmbient = false;
 };

@@ -111,7 +111,7 @@ void EmbreeWorld::addLights(const Scene& scene, const RenderSettings& settings) 
     world_.aliasColumns = lights_.columns.data();
     world_.lightNodes = lights_.nodes.data();
     world_.lightChoice = lights_.choice;
-    world_.lightGroups = lights_.groups;
+    std::ranges::copy(lights_.lightsInGroup, world_.lightsInGroup);
     world_.lightCount = uint32_t(lights_.entries.size());
     world_.areaLights = lights_.areaLights;
     world_.hasAmbient = lights_.hasAmbient;

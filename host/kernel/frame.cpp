@@ -23,6 +23,10 @@ gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const PictureA
     f.terminationProbability = float(s.roulette.terminationProbability);
     f.lightCount = scene.lights.count;
     f.areaLights = scene.lights.areaCount;
+    f.ambientLight = scene.lights.ambientNumber;
+    f.lightsInGroup0 = scene.lights.lightsInGroup[0];
+    f.lightsInGroup1 = scene.lights.lightsInGroup[1];
+    f.lightsInGroup2 = scene.lights.lightsInGroup[2];
     const DirectSampling direct = directSampling(scene.lights, s);
     f.hemisphereSamples = direct.hemisphere;
     f.lightSamples = direct.lights;

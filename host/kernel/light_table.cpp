@@ -210,7 +210,10 @@ class Packer {
         LightTree tree;
         std::vector<double> weights;
         double sum = 0;
-        if (byTree) tree = buildLightTree(bounds_);
+        if (byTree) {
+            tree = buildLightTree(bounds_);
+            renumber(tree.order);
+        }
         if (byTable)
             for (const LightBounds& b : bounds_)
                 sum += weights.emplace_back(weightOf(b));
@@ -226,7 +229,22 @@ class Packer {
                 appendRows(out_.table,
                            gpu::AliasColumn{float(column.threshold), column.alias, 0, 0});
         out_.groups = tree.groups;
+        out_.lightsInGroup = tree.lightsInGroup;
         out_.levels = tree.levels;
+    }
+
+    /// order: by the new number, the number so far.
+    void renumber(std::span<const uint32_t> order) {
+        std::vector<gpu::LightEntry> entries;
+        std::vector<uint32_t> newNumber(order.size());
+        for (const uint32_t number : order) {
+            newNumber[number] = uint32_t(entries.size());
+            entries.push_back(entries_[number]);
+        }
+        entries_ = std::move(entries);
+        for (uint32_t& number : out_.numberOf)
+            if (number != gpu::NO_LIGHT) number = newNumber[number];
+        out_.ambientNumber = newNumber[0]; // it was added first, if at all
     }
 
     /// In an alias table: the irradiance that the light brings to a surface across the scene, both

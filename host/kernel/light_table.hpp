@@ -5,6 +5,7 @@
 #include "scene/model/scene.hpp"
 #include "shaders/shared/light_types.h"
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -23,14 +24,16 @@ LightSelection lightSelection(const Estimator& settings);
 
 /// The lights of a scene in the arrays that the kernel reads (shaders/shared/light_types.h).
 struct LightTable {
-    std::vector<Row> lights;                ///< the parameters: ambient lights first
-    std::vector<Row> table;                 ///< LightEntry rows, then AliasColumn or LightNode rows
-    uint32_t count = 0;                     ///< lights that are sampled
-    uint32_t areaCount = 0;                 ///< those of them that rays can meet; they come first
-    bool hasAmbient = false;                ///< the scene has ambient light, sampled or not
-    uint32_t sampledKinds = 0;              ///< bit n: a light of LIGHT_ kind n is sampled
-    uint32_t groups = 0;                    ///< LightTree::groups
-    uint32_t levels = 0;                    ///< LightTree::levels
+    std::vector<Row> lights;    ///< the parameters: ambient lights first
+    std::vector<Row> table;     ///< LightEntry rows, then AliasColumn or LightNode rows
+    uint32_t count = 0;         ///< lights that are sampled
+    uint32_t areaCount = 0;     ///< those of them that rays can meet; but in a tree they come first
+    bool hasAmbient = false;    ///< the scene has ambient light, sampled or not
+    uint32_t sampledKinds = 0;  ///< bit n: a light of LIGHT_ kind n is sampled
+    uint32_t ambientNumber = 0; ///< of the ambient light, where it is sampled
+    uint32_t groups = 0;        ///< LightTree::groups
+    std::array<uint32_t, gpu::LIGHT_GROUP_COUNT> lightsInGroup{}; ///< LightTree::lightsInGroup
+    uint32_t levels = 0;                                          ///< LightTree::levels
     LightChoice choice = LightChoice::Tree; ///< what the selection came to; not Automatic
     /// By primitive of the scene (triangles, then spheres): its light's number, or NO_LIGHT; empty
     /// where no primitive is a sampled light.

@@ -3,8 +3,8 @@
 #include "host/kernel/gpu_scene.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <numeric>
 
 namespace stromboli {
 namespace {
@@ -23,34 +23,58 @@ double cosineFrom(const glm::dvec3& axis, const LightBounds& light) {
     return angle >= std::acos(-1.0) ? -1.0 : std::cos(angle);
 }
 
+/// How many of a complete tree's leaves, the nodes n to 2 n - 1, lie below a node.
+uint32_t leavesBelow(uint32_t node, uint32_t n) {
+    uint32_t leaves = 0;
+    for (uint64_t first = node, last = node; first < 2 * uint64_t(n); first *= 2) {
+        if (last >= n)
+            leaves += uint32_t(std::min<uint64_t>(last, 2 * uint64_t(n) - 1) + 1 -
+                               std::max<uint64_t>(first, n));
+        last = 2 * std::min<uint64_t>(last, n - 1) + 1;
+    }
+    return leaves;
+}
+
+/// The upper half of a float of at least this value, and finite.
+uint32_t halfRoundedUp(double value) {
+    constexpr uint32_t kLeast = 0x0080, kMost = 0x7F7F; // 2^-126 and the largest
+    float up = float(std::min(value, 3e38));
+    if (up < value) up = std::nextafter(up, INFINITY);
+    return std::clamp((std::bit_cast<uint32_t>(up) + 0xFFFF) >> 16, value > 0 ? kLeast : 0, kMost);
+}
+
+/// The tree of one group.
 class TreeBuilder {
   public:
-    TreeBuilder(std::span<const LightBounds> lights, LightTree& tree)
-        : lights_(lights), tree_(tree) {}
-
     using Numbers = std::span<uint32_t>;
 
-    /// Fills in node `index`, which exists.
-    void build(Numbers numbers, uint32_t index, uint32_t level, uint32_t trail) {
-        gpu::LightNode node = boundsOf(numbers);
-        tree_.levels = std::max(tree_.levels, level);
-        if (numbers.size() == 1) {
-            node.child |= gpu::LIGHT_NODE_IS_LEAF | numbers[0];
-            tree_.nodes[index] = node;
-            tree_.trails[numbers[0]] = trail;
-            return;
-        }
-        sortAlong(numbers, bestAxis(numbers));
-        const auto children = uint32_t(tree_.nodes.size());
-        tree_.nodes.resize(children + 2);
-        node.child |= children;
-        tree_.nodes[index] = node;
-        const size_t half = numbers.size() / 2;
-        build(numbers.first(half), children, level + 1, trail);
-        build(numbers.subspan(half), children + 1, level + 1, trail | 1u << level);
+    /// numbers: of the group's lights in `lights`; they are put into the order of the leaves.
+    TreeBuilder(std::span<const LightBounds> lights, Numbers numbers, LightTree& tree)
+        : lights_(lights), count_(uint32_t(numbers.size())),
+          firstNode_(uint32_t(tree.nodes.size())), firstLight_(uint32_t(tree.order.size())),
+          tree_(tree) {
+        tree_.nodes.resize(firstNode_ + 2 * size_t(count_));
+        tree_.order.resize(firstLight_ + size_t(count_));
+        tree_.trails.resize(tree_.order.size());
+        build(numbers, 1, 0, 0);
     }
 
   private:
+    void build(Numbers numbers, uint32_t node, uint32_t level, uint32_t trail) {
+        tree_.nodes[firstNode_ + node] = boundsOf(numbers);
+        tree_.levels = std::max(tree_.levels, level);
+        if (node >= count_) {
+            const uint32_t light = firstLight_ + node - count_;
+            tree_.order[light] = numbers[0];
+            tree_.trails[light] = trail;
+            return;
+        }
+        const size_t left = leavesBelow(2 * node, count_);
+        sortAlong(numbers, left, bestAxis(numbers, left));
+        build(numbers.first(left), 2 * node, level + 1, trail);
+        build(numbers.subspan(left), 2 * node + 1, level + 1, trail | 1u << level);
+    }
+
     const LightBounds& light(uint32_t number) const { return lights_[number]; }
 
     glm::dvec3 centroid(uint32_t number) const {
@@ -94,21 +118,21 @@ class TreeBuilder {
                (2 - coneOf(numbers).cosine);
     }
 
-    void sortAlong(Numbers numbers, int axis) const {
-        std::nth_element(numbers.begin(), numbers.begin() + long(numbers.size() / 2), numbers.end(),
+    /// The `left` lowest along the axis come first.
+    void sortAlong(Numbers numbers, size_t left, int axis) const {
+        std::nth_element(numbers.begin(), numbers.begin() + long(left), numbers.end(),
                          [&](uint32_t a, uint32_t b) {
                              const double x = centroid(a)[axis], y = centroid(b)[axis];
                              return x != y ? x < y : a < b;
                          });
     }
 
-    int bestAxis(Numbers numbers) const {
+    int bestAxis(Numbers numbers, size_t left) const {
         int best = 0;
         double least = INFINITY;
         for (int axis = 0; axis < 3; ++axis) {
-            sortAlong(numbers, axis);
-            const size_t half = numbers.size() / 2;
-            const double sum = cost(numbers.first(half)) + cost(numbers.subspan(half));
+            sortAlong(numbers, left, axis);
+            const double sum = cost(numbers.first(left)) + cost(numbers.subspan(left));
             if (sum < least) least = sum, best = axis;
         }
         return best;
@@ -134,43 +158,36 @@ class TreeBuilder {
                 glm::max(glm::abs(light(n).lo - center), glm::abs(light(n).hi - center));
             radius = std::max(radius, glm::length(farthest) + light(n).reach);
         }
-        node.radius = float(radius * (1 + 0x1p-20));
+        node.radiusAndPower =
+            halfRoundedUp(radius * (1 + 0x1p-20)) << 16 | halfRoundedUp(powerOf(numbers));
         node.axis = encodeNormal(glm::vec3(coneOf(numbers).axis));
         const glm::dvec3 axis = decodeNormal(node.axis);
         double cosine = 1;
         for (uint32_t n : numbers)
             cosine = std::min(cosine, cosineFrom(axis, light(n)));
         node.cosSpread = float(std::max(cosine - 0x1p-20, -1.0));
-        node.power = float(powerOf(numbers));
-        node.child =
+        node.flags =
             (bothSides ? gpu::LIGHT_NODE_BOTH_SIDES : 0) | (sharp ? gpu::LIGHT_NODE_SHARP : 0);
         return node;
     }
 
     std::span<const LightBounds> lights_;
+    uint32_t count_, firstNode_, firstLight_;
     LightTree& tree_;
 };
-
-gpu::LightNode emptyNode() {
-    gpu::LightNode node{};
-    node.child = gpu::LIGHT_NODE_IS_LEAF;
-    return node;
-}
 
 } // namespace
 
 LightTree buildLightTree(std::span<const LightBounds> lights) {
     LightTree tree;
-    tree.nodes.assign(gpu::LIGHT_GROUP_COUNT, emptyNode());
-    tree.trails.assign(lights.size(), 0);
-    TreeBuilder builder(lights, tree);
     for (uint32_t group = 0; group < gpu::LIGHT_GROUP_COUNT; ++group) {
         std::vector<uint32_t> numbers;
         for (uint32_t i = 0; i < lights.size(); ++i)
             if (lights[i].group == group) numbers.push_back(i);
         if (numbers.empty()) continue;
         tree.groups |= 1u << group;
-        builder.build(numbers, group, 0, 0);
+        tree.lightsInGroup[group] = uint32_t(numbers.size());
+        TreeBuilder(lights, numbers, tree);
     }
     return tree;
 }

@@ -26,7 +26,7 @@ float bounceWeight(float inversePdf, float bouncePdf) {
 float foundLightWeight(Traversal t, vec3 normal, float bouncePdf) {
     const bool hit = t.hitPrimitive != NO_PRIMITIVE;
     PlacedPrimitive place;
-    uint number = 0u; // the ambient light is the first
+    uint number = frame.ambientLight;
     if (hit) {
         place = fetchPlace(t.hitPrimitive);
         number = place.light;

@@ -56,9 +56,14 @@ AliasColumn fetchAliasColumn(uint number) {
     return AliasColumn(uintBitsToFloat(r.x), r.y, r.z, r.w);
 }
 
-LightNode fetchLightNode(uint index) {
+/// index: of all groups' nodes. Without a cone: row 1 is left out.
+LightNode fetchLightNode(uint index, bool withCone) {
     const uint row = frame.lightCount + 2u * index;
-    const uvec4 r0 = ROW(lightTableRows, row), r1 = ROW(lightTableRows, row + 1u);
-    return LightNode(uintBitsToFloat(r0.xyz), uintBitsToFloat(r0.w), r1.x, uintBitsToFloat(r1.y),
-                     uintBitsToFloat(r1.z), r1.w);
+    const uvec4 r0 = ROW(lightTableRows, row);
+    uvec4 r1 = uvec4(0u);
+    if (withCone) r1 = ROW(lightTableRows, row + 1u);
+    return LightNode(uintBitsToFloat(r0.xyz), r0.w, r1.x, uintBitsToFloat(r1.y), r1.z, r1.w);
 }
+
+float radiusOf(LightNode node) { return uintBitsToFloat(node.radiusAndPower & 0xFFFF0000u); }
+float powerOf(LightNode node) { return uintBitsToFloat(node.radiusAndPower << 16u); }

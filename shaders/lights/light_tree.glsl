@@ -20,11 +20,11 @@ bool lightsHaveCones() { return (LIGHT_KINDS & ~(1u << LIGHT_POINT | 1u << LIGHT
 /// them), as they are seen within the angle `bound` of it; or whether spot lights can shine there.
 float turnedTowards(LightNode node, vec3 axis, vec2 spread, vec3 w, vec2 bound) {
     const float towards = -dot(axis, w);
-    const bool bothSides = (node.child & LIGHT_NODE_BOTH_SIDES) != 0u;
+    const bool bothSides = (node.flags & LIGHT_NODE_BOTH_SIDES) != 0u;
     const vec2 angle = lessAngle(
         lessAngle(angleOfCosine(bothSides ? abs(towards) : towards), spread), bound);
     // An angle that is left is one out of the cone of normals.
-    const bool outside = (node.child & LIGHT_NODE_SHARP) != 0u && angle.x < 1.0;
+    const bool outside = (node.flags & LIGHT_NODE_SHARP) != 0u && angle.x < 1.0;
     return outside ? 0.0 : max(angle.x, 0.0);
 }
 
@@ -33,24 +33,30 @@ float turnedTowards(LightNode node, vec3 axis, vec2 spread, vec3 w, vec2 bound) 
 /// have anywhere in the node's sphere; within the sphere the distance is its radius, and cosines are 1.
 /// 0 only where nothing can arrive.
 float likelyLight(LightNode node, uint group, vec3 p, vec3 n) {
+    const float power = powerOf(node), radius = radiusOf(node);
     const vec3 axis = decodeNormal(node.axis);
     const vec2 spread = angleOfCosine(node.cosSpread);
     if (LIGHT_GROUPS == 1u << LIGHT_GROUP_INFINITE)
-        return node.power * max(lessAngle(angleOfCosine(-dot(n, axis)), spread).x, 0.0);
-    const vec3 d = node.center - p;
-    const float distance2 = dot(d, d), radius2 = node.radius * node.radius;
+        return power * max(lessAngle(angleOfCosine(-dot(n, axis)), spread).x, 0.0);
     const bool infinite = isGroup(group, LIGHT_GROUP_INFINITE);
-    const vec3 w = infinite ? -axis : d * inversesqrt(max(distance2, TINY));
-    const float sin2Bound = min(radius2 / max(distance2, TINY), 1.0);
-    const vec2 bound = infinite ? spread : vec2(sqrt(1.0 - sin2Bound), sqrt(sin2Bound));
-    float lightCosine = 1.0;
-    if (lightsHaveCones() && !infinite) lightCosine = turnedTowards(node, axis, spread, w, bound);
-    const vec2 surface = lessAngle(angleOfCosine(dot(n, w)), bound);
+    const vec3 d = infinite ? -axis : node.center - p;
+    const float distance2 = infinite ? 1.0 : dot(d, d), radius2 = radius * radius;
     const bool within = !infinite && distance2 <= radius2;
-    const float cosines = within ? 1.0 : lightCosine * max(surface.x, 0.0);
-    const float falloff =
-        isGroup(group, LIGHT_GROUP_NEAR) ? max(max(distance2, radius2), TINY) : 1.0;
-    return node.power * cosines / falloff;
+    const float scale = infinite ? 1.0 : 1.0 / max(max(distance2, radius2), TINY);
+    // Cosine and sine of the angle at which the sphere is seen, both times the distance.
+    const float gap = infinite ? spread.x : sqrt(max(distance2 - radius2, 0.0));
+    const float reach = infinite ? spread.y : radius;
+    // The least angle between n and a direction to the sphere, as in lessAngle().
+    const float towards = dot(n, d);
+    const float across = sqrt(max(distance2 - towards * towards, 0.0));
+    const float cosine = within || towards >= gap ? 1.0 : (towards * gap + across * reach) * scale;
+    float lightCosine = 1.0;
+    if (lightsHaveCones() && !infinite && !within) {
+        const float inverse = inversesqrt(max(distance2, TINY));
+        lightCosine = turnedTowards(node, axis, spread, d * inverse, vec2(gap, reach) * inverse);
+    }
+    const float falloff = isGroup(group, LIGHT_GROUP_NEAR) ? scale : 1.0;
+    return power * lightCosine * max(cosine, 0.0) * falloff;
 }
 
 // --- Random choices -------------------------------------------------------------------------------
@@ -119,63 +125,75 @@ bool choosesFirst(inout ChoiceNumber c, uint ofFirst) {
 
 struct LightWalk {
     uint group;
-    uint link; ///< LightNode::child of where the walk is
+    uint lights; ///< of the group
+    uint first;  ///< number of the group's first light
+    uint node;   ///< where the walk is, as LightNode numbers them
     float probability;
 };
 
-bool isLeaf(uint link) { return (link & LIGHT_NODE_IS_LEAF) != 0u; }
+bool isLeaf(LightWalk walk) { return walk.node >= walk.lights; }
+
+uint lightsInGroup(uint group) {
+    return group == 0u ? frame.lightsInGroup0
+                       : (group == 1u ? frame.lightsInGroup1 : frame.lightsInGroup2);
+}
+
+/// The walk at the root of a group.
+LightWalk atRoot(uint group) {
+    LightWalk walk = LightWalk(group, lightsInGroup(group), 0u, 1u, 1.0);
+    if (group > 0u) walk.first = frame.lightsInGroup0;
+    if (group > 1u) walk.first += frame.lightsInGroup1;
+    return walk;
+}
+
+float likelyLight(LightWalk walk, uint node, vec3 p, vec3 n) {
+    return likelyLight(fetchLightNode(2u * walk.first + node, lightsHaveCones()), walk.group, p, n);
+}
 
 /// Takes the first of two choices, or not, and notes the probability; where neither has any weight, that is 0.
 /// follows: goes where `wantsFirst` says, not at random.
-bool take(inout LightWalk walk, float first, float second, bool follows, bool wantsFirst,
+bool take(inout float probability, float first, float second, bool follows, bool wantsFirst,
           inout ChoiceNumber c) {
     const uint ofFirst = valuesOfFirst(first, second);
     const bool takesFirst = follows ? wantsFirst : choosesFirst(c, ofFirst);
     const float share = shareOf(takesFirst ? ofFirst : 0x80000000u - ofFirst);
-    walk.probability *= first + second > 0.0 ? share : 0.0;
+    probability *= first + second > 0.0 ? share : 0.0;
     return takesFirst;
 }
 
 /// To the root of a group: the first group against the other two, then the second against the third.
-void enterGroup(inout LightWalk walk, vec3 p, vec3 n, bool follows, LightEntry to,
-                inout ChoiceNumber c) {
-    walk.group = LIGHT_GROUPS >> 1u; // the only one, if it is: of the bits 1, 2 and 4
-    if ((LIGHT_GROUPS & (LIGHT_GROUPS - 1u)) != 0u) {
-        float likely[LIGHT_GROUP_COUNT];
-        for (uint group = 0u; group < LIGHT_GROUP_COUNT; ++group)
-            likely[group] = (LIGHT_GROUPS & 1u << group) != 0u
-                                ? likelyLight(fetchLightNode(group), group, p, n)
-                                : 0.0;
-        walk.group = 0u;
-        if (!take(walk, likely[0], likely[1] + likely[2], follows, to.group == 0u, c))
-            walk.group = take(walk, likely[1], likely[2], follows, to.group == 1u, c) ? 1u : 2u;
-    }
-    walk.link = fetchLightNode(walk.group).child;
+LightWalk enterGroup(vec3 p, vec3 n, bool follows, LightEntry to, inout ChoiceNumber c) {
+    // The only one, if it is: of the bits 1, 2 and 4.
+    if ((LIGHT_GROUPS & (LIGHT_GROUPS - 1u)) == 0u) return atRoot(LIGHT_GROUPS >> 1u);
+    float likely[LIGHT_GROUP_COUNT];
+    for (uint group = 0u; group < LIGHT_GROUP_COUNT; ++group)
+        likely[group] = lightsInGroup(group) > 0u ? likelyLight(atRoot(group), 1u, p, n) : 0.0;
+    float probability = 1.0;
+    uint group = 0u;
+    if (!take(probability, likely[0], likely[1] + likely[2], follows, to.group == 0u, c))
+        group = take(probability, likely[1], likely[2], follows, to.group == 1u, c) ? 1u : 2u;
+    LightWalk walk = atRoot(group);
+    walk.probability = probability;
+    return walk;
 }
 
 /// One step down.
 void descend(inout LightWalk walk, vec3 p, vec3 n, bool follows, bool wantsFirst,
              inout ChoiceNumber c) {
-    const uint child = walk.link & LIGHT_NODE_CHILD_MASK;
-    uint links[2];
+    const uint child = 2u * walk.node;
     float likely[2];
-    for (uint i = 0u; i < 2u; ++i) {
-        const LightNode node = fetchLightNode(child + i);
-        links[i] = node.child;
-        likely[i] = likelyLight(node, walk.group, p, n);
-    }
-    walk.link = take(walk, likely[0], likely[1], follows, wantsFirst, c) ? links[0] : links[1];
+    for (uint i = 0u; i < 2u; ++i)
+        likely[i] = likelyLight(walk, child + i, p, n);
+    walk.node = take(walk.probability, likely[0], likely[1], follows, wantsFirst, c) ? child : child + 1u;
 }
 
 /// From the roots to a light, as seen from p with unit normal n: at random, or to a given one. Returns the
 /// light's number; the probability is 0 where no light reaches the point.
 uint walkLightTree(vec3 p, vec3 n, bool follows, LightEntry to, inout ChoiceNumber c,
                    out float probability) {
-    LightWalk walk;
-    walk.probability = 1.0;
-    enterGroup(walk, p, n, follows, to, c);
-    for (uint level = 0u; level < MOST_LIGHT_LEVELS && !isLeaf(walk.link); ++level)
+    LightWalk walk = enterGroup(p, n, follows, to, c);
+    for (uint level = 0u; level < MOST_LIGHT_LEVELS && !isLeaf(walk); ++level)
         descend(walk, p, n, follows, (to.trail >> level & 1u) == 0u, c);
     probability = walk.probability;
-    return walk.link & LIGHT_NODE_CHILD_MASK;
+    return walk.first + walk.node - walk.lights;
 }

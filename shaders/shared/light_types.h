@@ -107,22 +107,24 @@ SHARED_CONST uint LIGHT_GROUP_UNATTENUATED = 1u;
 SHARED_CONST uint LIGHT_GROUP_INFINITE = 2u;
 SHARED_CONST uint LIGHT_GROUP_COUNT = 3u;
 
-/// A node of a light tree (host/kernel/light_tree.hpp): bounds of what its lights send out. Nodes 0 to
-/// LIGHT_GROUP_COUNT - 1 are the roots of the groups.
+/// A node of a light tree (host/kernel/light_tree.hpp): bounds of what its lights send out. Each group has a tree
+/// of its own, complete but for its deepest level: node 1 is the root, the children of node i are 2 i and 2 i + 1,
+/// and of n lights the leaves are the nodes n to 2 n - 1, in the order of the lights' numbers. Groups follow each
+/// other; each has 2 n nodes, of which the first, number 0, is of no use.
+/// Row 1 is read only where some light has a cone.
 struct LightNode {
-    vec3 center;  ///< of a sphere that holds the lights; infinite lights: of no meaning
-    float radius;
-    uint axis;    ///< of a cone that holds their normals, or directions of travel; octahedral as in Primitive
-    float cosSpread; ///< of the cone's half angle
-    float power;     ///< luminance of the irradiance they bring at most, times distance^2 where near
-    uint child;      ///< the first of two nodes, or, of a leaf, the light's number; flags
+    vec3 center;         ///< of a sphere that holds the lights; infinite lights: of no meaning
+    uint radiusAndPower; ///< the upper halves of two floats, the radius in the upper half. The power is the luminance
+                         ///< of the irradiance that the lights bring at most, times distance^2 where they are near
+    uint axis;           ///< of a cone that holds their normals, or directions of travel; octahedral as in Primitive
+    float cosSpread;     ///< of the cone's half angle
+    uint flags;          ///< LIGHT_NODE_
+    uint unused;
 };
 SHARED_ROWS(LightNode, 2);
-SHARED_CONST uint LIGHT_NODE_IS_LEAF = 0x80000000u;
-SHARED_CONST uint LIGHT_NODE_BOTH_SIDES = 0x40000000u; ///< some emit against their normals too
-SHARED_CONST uint LIGHT_NODE_SHARP = 0x20000000u;      ///< nothing is sent out of the cone
-SHARED_CONST uint LIGHT_NODE_CHILD_MASK = 0x1FFFFFFFu;
-/// More levels than any tree has: lights are split in halves, and fewer than 2^29.
+SHARED_CONST uint LIGHT_NODE_BOTH_SIDES = 1u; ///< some emit against their normals too
+SHARED_CONST uint LIGHT_NODE_SHARP = 2u;      ///< nothing is sent out of the cone
+/// More levels than any tree has: its nodes are numbered in 31 bits.
 SHARED_CONST uint MOST_LIGHT_LEVELS = 30u;
 
 SHARED_END

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <set>
 
@@ -22,42 +23,52 @@ class LightTreeTest : public testing::Test {
         tree = buildLightTree(lights);
     }
 
-    /// The lights below a node; checks the node on the way.
-    std::vector<uint32_t> check(uint32_t index, uint32_t level, uint32_t trail) {
-        const gpu::LightNode& node = tree.nodes.at(index);
-        const uint32_t child = node.child & gpu::LIGHT_NODE_CHILD_MASK;
+    /// The lights below a node of a group, by the numbers the tree gives them; checks the node on
+    /// the way.
+    std::vector<uint32_t> check(uint32_t group, uint32_t node = 1, uint32_t level = 0,
+                                uint32_t trail = 0) {
+        uint32_t firstLight = 0;
+        for (uint32_t g = 0; g < group; ++g)
+            firstLight += tree.lightsInGroup[g];
+        const uint32_t count = tree.lightsInGroup[group];
         std::vector<uint32_t> numbers;
-        if (node.child & gpu::LIGHT_NODE_IS_LEAF) {
-            EXPECT_GE(level + 1, tree.levels) << "the tree is balanced";
-            EXPECT_EQ(tree.trails.at(child), trail);
-            numbers.push_back(child);
+        if (node >= count) {
+            EXPECT_GE(level + 1, uint32_t(std::bit_width(count - 1))) << "the tree is balanced";
+            numbers.push_back(firstLight + node - count);
+            EXPECT_EQ(tree.trails.at(numbers[0]), trail);
+            EXPECT_EQ(lights.at(tree.order.at(numbers[0])).group, group);
         } else {
-            numbers = check(child, level + 1, trail);
-            const std::vector<uint32_t> right = check(child + 1, level + 1, trail | 1u << level);
+            numbers = check(group, 2 * node, level + 1, trail);
+            const std::vector<uint32_t> right =
+                check(group, 2 * node + 1, level + 1, trail | 1u << level);
             numbers.insert(numbers.end(), right.begin(), right.end());
         }
-        expectBounds(node, numbers);
+        expectBounds(tree.nodes.at(2 * firstLight + node), numbers);
         return numbers;
     }
 
     void expectBounds(const gpu::LightNode& node, const std::vector<uint32_t>& numbers) {
         const glm::dvec3 axis = decodeNormal(node.axis);
+        const double radius = std::bit_cast<float>(node.radiusAndPower & 0xFFFF0000u);
+        const double rounded = std::bit_cast<float>(node.radiusAndPower << 16);
         double power = 0;
         for (const uint32_t number : numbers) {
-            const LightBounds& l = lights.at(number);
+            const LightBounds& l = lights.at(tree.order.at(number));
             power += l.power;
             for (int corner = 0; corner < 8; ++corner) {
                 const glm::dvec3 p(corner & 1 ? l.lo.x : l.hi.x, corner & 2 ? l.lo.y : l.hi.y,
                                    corner & 4 ? l.lo.z : l.hi.z);
-                EXPECT_LE(glm::length(p - glm::dvec3(node.center)) + l.reach, node.radius);
+                EXPECT_LE(glm::length(p - glm::dvec3(node.center)) + l.reach, radius);
             }
             const double angle =
                 std::acos(std::clamp(glm::dot(axis, l.axis), -1.0, 1.0)) + std::acos(l.cosSpread);
             EXPECT_LE(angle, std::acos(double(node.cosSpread)) + 1e-6);
-            EXPECT_TRUE(!l.bothSides || (node.child & gpu::LIGHT_NODE_BOTH_SIDES));
-            EXPECT_TRUE(l.sharp || !(node.child & gpu::LIGHT_NODE_SHARP));
+            EXPECT_TRUE(!l.bothSides || (node.flags & gpu::LIGHT_NODE_BOTH_SIDES));
+            EXPECT_TRUE(l.sharp || !(node.flags & gpu::LIGHT_NODE_SHARP));
         }
-        EXPECT_NEAR(node.power / power, 1, 1e-6);
+        // An eighth bit of precision is the last of a float's upper half.
+        EXPECT_GE(rounded, power);
+        EXPECT_LE(rounded, power * (1 + 0x1p-7));
     }
 
     Scene scene = generatedScene("lamps:1000");
@@ -66,17 +77,38 @@ class LightTreeTest : public testing::Test {
 };
 
 TEST_F(LightTreeTest, BoundsHoldAndEveryLightIsInItOnce) {
-    const std::vector<uint32_t> numbers = check(gpu::LIGHT_GROUP_NEAR, 0, 0);
+    const std::vector<uint32_t> numbers = check(gpu::LIGHT_GROUP_NEAR);
     EXPECT_EQ(std::set<uint32_t>(numbers.begin(), numbers.end()).size(), 1000u);
     EXPECT_EQ(numbers.size(), 1000u);
+    EXPECT_EQ(std::set<uint32_t>(tree.order.begin(), tree.order.end()).size(), 1000u);
     EXPECT_EQ(tree.levels, 10u);
     EXPECT_EQ(tree.groups, 1u << gpu::LIGHT_GROUP_NEAR);
 }
 
-TEST_F(LightTreeTest, OneLightIsATree) {
-    const LightTree one = buildLightTree(std::span(lights).first(1));
-    EXPECT_EQ(one.levels, 0u);
-    EXPECT_TRUE(one.nodes[0].child & gpu::LIGHT_NODE_IS_LEAF);
+/// Whatever the number of lights: the deepest level is filled from the left.
+TEST_F(LightTreeTest, AnyNumberOfLights) {
+    const std::vector<LightBounds> all = lights;
+    for (uint32_t n = 1; n < 70; ++n) {
+        lights.assign(all.begin(), all.begin() + n);
+        tree = buildLightTree(lights);
+        const std::vector<uint32_t> numbers = check(gpu::LIGHT_GROUP_NEAR);
+        EXPECT_EQ(std::set<uint32_t>(numbers.begin(), numbers.end()).size(), n);
+        EXPECT_EQ(tree.nodes.size(), 2 * n);
+        EXPECT_EQ(tree.levels, uint32_t(std::bit_width(n - 1))) << n;
+    }
+}
+
+/// Powers that are not floats keep their order, and none becomes 0 or infinite.
+TEST_F(LightTreeTest, PowersOfAnySize) {
+    for (const double power : {1e-320, 1e-40, 1e-30, 1.0, 1e30, 1e39, 1e300}) {
+        lights[0].power = power;
+        const LightTree one = buildLightTree(std::span(lights).first(1));
+        const float stored = std::bit_cast<float>(one.nodes[1].radiusAndPower << 16);
+        EXPECT_TRUE(std::isnormal(stored)) << power;
+        if (power > 1e-37 && power < 1e38) {
+            EXPECT_NEAR(stored / power, 1, 0x1p-7);
+        }
+    }
 }
 
 Light lightOf(LightKind kind) {
@@ -106,10 +138,11 @@ TEST_F(LightTreeTest, GroupsHaveTreesOfTheirOwn) {
     lights.push_back(boundsOfLight(lightOf(LightKind::Point), 1));
     tree = buildLightTree(lights);
     EXPECT_EQ(tree.groups, 7u);
-    EXPECT_EQ(check(gpu::LIGHT_GROUP_NEAR, 0, 0).size(), 1000u);
-    const auto below = [&](uint32_t group) { return tree.nodes[group].child; };
-    EXPECT_EQ(below(gpu::LIGHT_GROUP_UNATTENUATED), gpu::LIGHT_NODE_IS_LEAF | 1002u);
-    EXPECT_FALSE(below(gpu::LIGHT_GROUP_INFINITE) & gpu::LIGHT_NODE_IS_LEAF);
+    EXPECT_EQ(tree.lightsInGroup, (std::array<uint32_t, 3>{1000, 1, 2}));
+    EXPECT_EQ(check(gpu::LIGHT_GROUP_NEAR).size(), 1000u);
+    EXPECT_EQ(check(gpu::LIGHT_GROUP_UNATTENUATED), std::vector<uint32_t>{1000});
+    EXPECT_EQ(tree.order.at(1000), 1002u);
+    EXPECT_EQ(check(gpu::LIGHT_GROUP_INFINITE).size(), 2u);
 }
 
 } // namespace

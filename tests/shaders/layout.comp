@@ -86,8 +86,8 @@ void putScene() {
     put(e.light), put(e.trail), put(e.probability), put(e.group);
     const AliasColumn c = fetchAliasColumn(1u);
     put(c.threshold), put(c.alias), put(c.unused0), put(c.unused1);
-    const LightNode n = fetchLightNode(0u);
-    put(n.center), put(n.radius), put(n.axis), put(n.cosSpread), put(n.power), put(n.child);
+    const LightNode n = fetchLightNode(0u, true);
+    put(n.center), put(n.radiusAndPower), put(n.axis), put(n.cosSpread), put(n.flags), put(n.unused);
 }
 
 void putFrame() {
@@ -96,7 +96,8 @@ void putFrame() {
     put(frame.nearDistance), put(frame.farDistance), put(frame.gapWidth), put(frame.seed);
     put(frame.minBounce), put(frame.maxBounces), put(frame.terminationProbability);
     put(frame.lightCount), put(frame.areaLights), put(frame.hemisphereSamples);
-    put(frame.lightSamples), put(frame.branches);
+    put(frame.lightSamples), put(frame.branches), put(frame.ambientLight);
+    put(frame.lightsInGroup0), put(frame.lightsInGroup1), put(frame.lightsInGroup2);
 }
 
 void putWork() {

@@ -168,8 +168,8 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
                             column.unused1);
         const std::array<Row, 2> two = {table[0], table[1]};
         const auto node = std::bit_cast<gpu::LightNode>(two);
-        expected_.structure("LightNode", node.center, node.radius, node.axis, node.cosSpread,
-                            node.power, node.child);
+        expected_.structure("LightNode", node.center, node.radiusAndPower, node.axis,
+                            node.cosSpread, node.flags, node.unused);
     }
 
     void fillFrame(TestShader& shader, Patterns& patterns) {
@@ -180,7 +180,8 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
                             f.firstSample, f.cameraBack, f.keepsValue, f.nearDistance,
                             f.farDistance, f.gapWidth, f.seed, f.minBounce, f.maxBounces,
                             f.terminationProbability, f.lightCount, f.areaLights,
-                            f.hemisphereSamples, f.lightSamples, f.branches);
+                            f.hemisphereSamples, f.lightSamples, f.branches, f.ambientLight,
+                            f.lightsInGroup0, f.lightsInGroup1, f.lightsInGroup2);
     }
 
     void fillWork(TestShader& shader, Patterns& patterns, const gpu::Dispatch& d) {
@@ -271,7 +272,7 @@ TEST(LayoutSizes, NoFieldIsForgotten) {
         sizeof(gpu::PixelState) + sizeof(gpu::SuspendedPath) + sizeof(gpu::SuspendedSplit) +
         sizeof(gpu::DispatchStatus);
     EXPECT_EQ(bytes / 4, 16 + 16 + 4 + (4 + 4 + 4 + 4 + 8 + 8) + (4 + 12 + 12 + 4 + 4 + 4) +
-                             (4 + 4 + 8) + 28 + 8 + 4 + 16 + 24 + 24 + 8u);
+                             (4 + 4 + 8) + 32 + 8 + 4 + 16 + 24 + 24 + 8u);
 }
 
 } // namespace

@@ -78,6 +78,10 @@ void TestShader::setScene(const GpuScene& scene) {
     gpu::Frame frame{};
     frame.lightCount = scene.lights.count;
     frame.areaLights = scene.lights.areaCount;
+    frame.ambientLight = scene.lights.ambientNumber;
+    frame.lightsInGroup0 = scene.lights.lightsInGroup[0];
+    frame.lightsInGroup1 = scene.lights.lightsInGroup[1];
+    frame.lightsInGroup2 = scene.lights.lightsInGroup[2];
     frame.gapWidth = scene.gapWidth;
     setOne(BINDING_FRAME, frame);
 }
