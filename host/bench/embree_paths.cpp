@@ -62,7 +62,9 @@ SampleValue EmbreePaths::sampleAlone(uint32_t pixel, uint32_t sample) {
 std::string embreePathsLack(const Scene& scene, const RenderSettings& settings) {
     if (settings.estimator.cs184) return "CS184 conventions";
     if (settings.estimator.integrator != Integrator::Path) return "normals integrator";
-    if (!samplesLights(settings.estimator.directLight)) return "direct light other than by lights";
+    if (!samplesLights(settings.estimator.directLight) ||
+        settings.estimator.directLight == DirectLight::MisAll)
+        return "direct light other than by lights";
     const auto isMetal = [&](const auto& primitive) {
         return scene.materials[primitive.material].kind == MaterialKind::Microfacet;
     };

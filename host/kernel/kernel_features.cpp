@@ -54,9 +54,11 @@ uint32_t lightNumbers(const GpuScene& scene, const Estimator& settings) {
 
 /// Lobes from which MIS can help: where light samples and bounces find the same light.
 uint32_t misLobes(const GpuScene& scene, const Estimator& settings, uint32_t bsdfKinds) {
-    const bool wanted = settings.directLight == DirectLight::Mis && !settings.cs184;
+    const bool wanted = combinesWithBounces(settings.directLight) && !settings.cs184;
     if (!wanted || scene.lights.areaCount == 0) return 0;
-    return lobesOf(bsdfKinds) & gpu::GLOSSY_LOBES;
+    const uint32_t helped =
+        settings.directLight == DirectLight::MisAll ? ~gpu::DELTA_LOBES : gpu::GLOSSY_LOBES;
+    return lobesOf(bsdfKinds) & helped;
 }
 
 bool guidesBounces(const GpuScene& scene, const Estimator& settings) {
@@ -72,7 +74,7 @@ void switchOnAllTheSceneCouldHave(KernelFeatures& f, const Estimator& settings) 
     f[SPEC_BSDF_KINDS] = (1u << gpu::BSDF_KIND_COUNT) - 1;
     f[SPEC_LIGHT_KINDS] = (1u << gpu::LIGHT_KIND_COUNT) - 1;
     if (f[SPEC_LIGHT_GROUPS]) f[SPEC_LIGHT_GROUPS] = (1u << gpu::LIGHT_GROUP_COUNT) - 1;
-    if (settings.directLight == DirectLight::Mis && !settings.cs184)
+    if (combinesWithBounces(settings.directLight) && !settings.cs184)
         f[SPEC_MIS_LOBES] |= gpu::GLOSSY_LOBES;
 }
 

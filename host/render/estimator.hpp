@@ -19,6 +19,7 @@ inline constexpr auto kNamedValues<Integrator> = std::to_array<NamedValue<Integr
 /// How the light that reaches a surface straight from a lamp is estimated (docs/estimator.md).
 enum class DirectLight {
     Mis,        ///< sample lights; bounces find them too, weighted, where that helps
+    MisAll,     ///< the same from every lobe that is no delta: the control
     Lights,     ///< sample lights
     Hemisphere, ///< sample uniform directions; delta lights as in Lights
     Bsdf,       ///< let the bounce find the lamps; delta lights as in Lights
@@ -26,12 +27,17 @@ enum class DirectLight {
 template <>
 inline constexpr auto kNamedValues<DirectLight> = std::to_array<NamedValue<DirectLight>>({
     {DirectLight::Mis, "mis", "by sampling lights, and by bounces too where that helps"},
+    {DirectLight::MisAll, "mis-all", "by both from all surfaces, also where that does not help"},
     {DirectLight::Lights, "lights", "by sampling lights alone"},
     {DirectLight::Hemisphere, "hemisphere", "by uniform directions"},
     {DirectLight::Bsdf, "bsdf", "by bounces"},
 });
 inline bool samplesLights(DirectLight mode) {
-    return mode == DirectLight::Mis || mode == DirectLight::Lights;
+    return mode == DirectLight::Mis || mode == DirectLight::MisAll || mode == DirectLight::Lights;
+}
+/// Whether bounces may find the lights that are sampled, too.
+inline bool combinesWithBounces(DirectLight mode) {
+    return mode == DirectLight::Mis || mode == DirectLight::MisAll;
 }
 
 /// Where random numbers come from (docs/estimator.md, "Random numbers").

@@ -69,6 +69,8 @@ const std::vector<Configuration>& knownConfigurations() {
          "lights are found by bounces only"},
         {"light-samples", fmt::format("--direct {}", nameOf(DirectLight::Lights)),
          "no bounces from rough metals find lights"},
+        {"mis-all", fmt::format("--direct {}", nameOf(DirectLight::MisAll)),
+         "bounces from diffuse surfaces find lights too, weighted"},
         {"uniform-lights", fmt::format("--light-choice {}", nameOf(LightChoice::Uniform)),
          "of many lights any is sampled, equally often"},
         {"lights-4", "-l 4", "four light samples per shading point"},

@@ -90,6 +90,12 @@ float gapPdf(GapView g, vec3 w) {
     return (reach / g.weights) * reach / cosine;
 }
 
+/// Density of bounces from s in the direction w, of which that by the BSDF alone is bsdfPdf.
+float bouncePdfWithGap(SurfacePoint s, uint lobes, float bsdfPdf, vec3 w) {
+    if (!looksIntoGap(s, lobes)) return bsdfPdf;
+    return (1.0 - GAP_SHARE) * bsdfPdf + GAP_SHARE * gapPdf(viewGap(s.position), w);
+}
+
 /// Which numbers are left when u has decided whether to go into the gap: u.x < GAP_SHARE.
 vec2 afterChoice(vec2 u) {
     return vec2(u.x < GAP_SHARE ? u.x / GAP_SHARE : (u.x - GAP_SHARE) / (1.0 - GAP_SHARE), u.y);

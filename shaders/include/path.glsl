@@ -169,7 +169,10 @@ void traceDirectSample(LightSample light, bool hemisphere) {
     const BsdfValue f = evaluateBsdf(material, surface, light.direction);
     directValue = f.value * light.radiance;
     if (!(dot(directValue, vec3(1.0)) > 0.0)) return;
-    if (combines(lobesOf(material))) directValue *= lightSampleWeight(light.inversePdf, f.pdf);
+    if (combines(lobesOf(material))) {
+        const float pdf = bouncePdfWithGap(surface, lobesOf(material), f.pdf, light.direction);
+        directValue *= lightSampleWeight(light.inversePdf, pdf);
+    }
     const vec3 origin = leave(surface, light.direction, false);
     trace(hemisphere ? PHASE_HEMISPHERE : PHASE_SHADOW, origin,
           light.infinite ? light.direction : light.target - origin, 0.0,

@@ -51,6 +51,11 @@ const LightCase kLightCases[] = {
     {"one_sided_quad", [](SceneMaker& m) { addQuad(m, false); }},
     {"quad_of_four_samples", [](SceneMaker& m) { addQuad(m, true); }, 4},
     {"mesh", [](SceneMaker& m) { addMesh(m, 3); }},
+    {"quad_before_a_wall",
+     [](SceneMaker& m) { // with a gap that bounces are sent into (docs/estimator.md, "Gaps")
+         m.quad({-1, 2, -1}, {0, 0, 2}, {2, 0, 0}, m.add(emissive(2)));
+         m.quad({-3, 2.02f, -3}, {6, 0, 0}, {0, 0, 6}, m.add(diffuse(0.8f)));
+     }},
     {"many_triangles", [](SceneMaker& m) { addMesh(m, 40); }},
     {"many_triangles_and_a_sphere",
      [](SceneMaker& m) {
@@ -76,8 +81,11 @@ const LightCase kLightCases[] = {
 class Mis : public testing::TestWithParam<LightCase> {
   protected:
     Estimate render(double alpha, DirectLight mode, uint32_t seed) {
+        return render(metal(float(alpha)), mode, seed);
+    }
+    Estimate render(const Material& floor, DirectLight mode, uint32_t seed) {
         SceneMaker maker;
-        addFloor(maker, maker.add(metal(float(alpha))));
+        addFloor(maker, maker.add(floor));
         GetParam().add(maker);
         RenderSettings s = smallPicture(400, 3);
         s.estimator.directLight = mode;
@@ -96,6 +104,15 @@ TEST_P(Mis, FindsTheLightThatEitherFinds) {
         // A narrow lobe's light samples are so rarely in it that their error is not known.
         if (alpha > 0.1) expectSameMean(both, render(alpha, DirectLight::Lights, 3));
     }
+}
+
+/// Diffuse surfaces share only where that is asked for.
+TEST_P(Mis, DiffuseSurfacesMayShareToo) {
+    const Material floor = diffuse(0.5f);
+    const Estimate both = render(floor, DirectLight::MisAll, 4);
+    EXPECT_GT(both.mean.x, 0);
+    expectSameMean(both, render(floor, DirectLight::Lights, 5));
+    expectSameMean(both, render(floor, DirectLight::Bsdf, 6));
 }
 
 INSTANTIATE_TEST_SUITE_P(Lights, Mis, testing::ValuesIn(kLightCases),
