@@ -1,6 +1,7 @@
 // All that the kernel does differently under the conventions of the CS184 renderer (docs/cs184.md says
 // why, docs/estimator.md, "CS184 mode", what). Other files ask for a convention by its name; the
-// specialisation constant CS184 is read here only.
+// specialisation constant CS184 is read here only, for two sets of conventions. They have the names that
+// they have on the host (host/render/shading_conventions.hpp).
 
 /// Normals are turned to the side of wo, and the lit point is lifted onto the smooth surface.
 const bool FACES_FORWARD = !CS184;
@@ -8,35 +9,44 @@ const bool FACES_FORWARD = !CS184;
 const bool TESTS_GEOMETRIC_SIDE = !CS184;
 /// Fresnel's equations; else that renderer's approximations below.
 const bool EXACT_FRESNEL = !CS184;
+/// Smith's Lambda; else that renderer's form of it.
+const bool EXACT_LAMBDA = !CS184;
+/// Refraction multiplies radiance by the squared ratio of the indices; else it divides.
+const bool COMPRESSES_RADIANCE = !CS184;
 /// Emission found by bounces that miss everything, or from non-delta surfaces, counts where light samples
 /// do not; else only emissive geometry right after a delta surface does.
 const bool BOUNCES_FIND_ALL_LIGHT = !CS184;
-/// Area lights are sampled by solid angle; else by area, with the density of that renderer.
-const bool SAMPLES_SOLID_ANGLE = !CS184;
+/// Area lights fall off with the square of the distance, as the solid angle does by which they are
+/// sampled; else with the distance, and they are sampled by area.
+const bool INVERSE_SQUARE_FALLOFF = !CS184;
 /// Ambient light comes from directions about the shading normal; else from those with y > 0.
 const bool AMBIENT_ABOUT_NORMAL = !CS184;
 
-/// A refracted path enters where wo is on the outer side of the surface. That renderer never turns
-/// normals, and goes by the side of the shading normal.
-bool entersWhatItBounds(bool outside, vec3 localWo) { return CS184 ? localWo.z >= 0.0 : outside; }
+/// A refracted path enters where wo is on the outer side of the surface. Where normals are not turned,
+/// the side of the shading normal tells.
+bool entersWhatItBounds(bool outside, vec3 localWo) {
+    return FACES_FORWARD ? outside : localWo.z >= 0.0;
+}
 
 /// A direction of ambient light: uniform with y > 0, density 1 / (2 pi).
 vec3 sampleAmbientCs184(vec2 u) { return sampleUniformHemisphere(u).xzy; }
 
 /// What refraction does to radiance, eta being the index on the side of wo over the other. That renderer
 /// divides where it should multiply.
-float radianceCompression(float eta) { return CS184 ? 1.0 / (eta * eta) : eta * eta; }
+float radianceCompression(float eta) {
+    return COMPRESSES_RADIANCE ? eta * eta : 1.0 / (eta * eta);
+}
 
 /// The last term of Smith's Lambda. That renderer has pi where sqrt(pi) is due, and half of the
 /// term's weight is missing in its denominator.
 float lambdaTail(float tail) {
-    return CS184 ? 0.5 * tail * INV_PI : tail * 0.282094791773878; // 1 / (2 sqrt(pi))
+    return EXACT_LAMBDA ? tail * 0.282094791773878 : 0.5 * tail * INV_PI; // 1 / (2 sqrt(pi))
 }
 
 /// Falloff of an area light that is sampled by area, besides the cosine: that renderer's density lacks
 /// one factor 1 / distance.
 float areaFalloff(float inverseDistance) {
-    return CS184 ? inverseDistance : inverseDistance * inverseDistance;
+    return INVERSE_SQUARE_FALLOFF ? inverseDistance * inverseDistance : inverseDistance;
 }
 
 /// Schlick's approximation as that renderer uses it.

@@ -64,11 +64,11 @@ LightSample sampleQuadLight(SurfacePoint s, LightRows rows, vec2 u) {
     const vec3 n = quadNormal(q), v0 = q.corner - litPoint(s);
     const float z = dot(v0, n);
     SolidAngleSample a = SolidAngleSample(u, 0.0);
-    if (SAMPLES_SOLID_ANGLE) a = sampleQuadByAngle(v0, q.edgeA, q.edgeB, z, q.area, u);
+    if (INVERSE_SQUARE_FALLOFF) a = sampleQuadByAngle(v0, q.edgeA, q.edgeB, z, q.area, u);
     const vec3 alongA = a.weights.x * q.edgeA, alongB = a.weights.y * q.edgeB;
     const vec3 p = q.corner + alongA + alongB;
     const float error = interpolationError(abs(q.corner) + abs(alongA) + abs(alongB));
-    if (SAMPLES_SOLID_ANGLE) return angleSample(s, p, error, n, z, a.angle, emissionOf(rows));
+    if (INVERSE_SQUARE_FALLOFF) return angleSample(s, p, error, n, z, a.angle, emissionOf(rows));
     return areaSample(s, p, error, n, q.area, emissionOf(rows));
 }
 
