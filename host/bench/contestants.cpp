@@ -8,7 +8,7 @@ const char* nameOf(EmbreeQuality quality) {
 
 Camera cameraOf(const BenchScene& scene, const RenderSettings& settings) {
     return makeCamera(scene.scene, CameraChoice::Automatic, settings.area.width,
-                      settings.area.height, settings.estimator.cs184);
+                      settings.area.height);
 }
 
 EmbreePair buildBest(const Arena& arena, const RaySet& rays) {

@@ -60,7 +60,8 @@ SampleValue EmbreePaths::sampleAlone(uint32_t pixel, uint32_t sample) {
 }
 
 std::string embreePathsLack(const Scene& scene, const RenderSettings& settings) {
-    if (settings.estimator.cs184) return "CS184 conventions";
+    if (settings.estimator.conventions != ShadingConventions{})
+        return "other shading conventions than the default";
     if (settings.estimator.integrator != Integrator::Path) return "normals integrator";
     if (!samplesLights(settings.estimator.directLight) ||
         settings.estimator.directLight == DirectLight::MisAll)

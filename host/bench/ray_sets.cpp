@@ -15,7 +15,6 @@
 namespace stromboli::bench {
 namespace {
 
-using reference::Convention;
 using reference::SurfacePoint;
 
 constexpr float kInfinite = std::numeric_limits<float>::max();
@@ -79,7 +78,7 @@ PathStart startPath(const reference::World& world, const Camera& camera,
     const reference::Hit hit = world.bvh.closest(ray, {});
     if (hit.primitive == reference::kNoPrimitive) return start;
     SurfacePoint surface = reference::surfaceAt(world.scene, ray, hit);
-    reference::faceForward(surface, world.convention);
+    reference::faceForward(surface, world.conventions);
     start.shadow = shadowRay(world.lights, surface, random);
     start.bounce = bounceRay(surface, random);
     return start;
@@ -109,7 +108,7 @@ std::vector<PixelTarget> pixelsInOrder(const RenderSettings& settings) {
 
 RaySets makeRaySets(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                     uint32_t perPixel) {
-    const reference::World world(scene, Convention::Physical);
+    const reference::World world(scene, {});
     const std::vector<PixelTarget> order = pixelsInOrder(settings);
     std::vector<PathStart> starts(order.size() * perPixel);
     tbb::parallel_for(size_t(0), starts.size(), [&](size_t i) {

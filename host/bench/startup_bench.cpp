@@ -126,7 +126,7 @@ Stages probeStartup(const std::string& sceneFile, const std::string& device) {
     RenderSettings settings;
     settings.area.width = settings.area.height = kSide;
     settings.budget.mostSamplesPerPixel = 1;
-    const Camera camera = makeCamera(scene, CameraChoice::Automatic, kSide, kSide, false);
+    const Camera camera = makeCamera(scene, CameraChoice::Automatic, kSide, kSide);
     VulkanBackend backend(*open.device, gpu, camera, settings);
     lap(&Stages::pipeline);
     Film film = render(backend, settings);

@@ -13,7 +13,7 @@ void declareOutput(DeclaredCommand& c) {
     c.list.group("Output");
     c.list.text("-o,--output", "FILE", "picture to write: .png (sRGB, 8 bit) or .exr (linear)",
                 o.output);
-    c.list.real("--exposure", "EV", "PNG: radiance times 2^EV", o.exposure, kStops);
+    c.list.real("--exposure", "EV", "PNG: radiance times 2^EV", o.tone.exposure, kStops);
     c.list.flag("--aov", "EXR: also sample counts and variances of the mean", o.statisticsChannels);
     c.list.text("--stats", "FILE.json", "write statistics of the render as JSON", o.statsFile);
 }

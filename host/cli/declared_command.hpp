@@ -12,7 +12,8 @@ namespace stromboli {
 
 /// What was asked for, before it is known what it means together with the rest.
 struct Asked {
-    uint32_t usualPaths = 64; ///< -s where it is not given
+    uint32_t usualPaths = 64;  ///< -s where it is not given
+    bool usuallySpread = true; ///< samples go where they help most
     std::optional<uint32_t> paths;
     bool adaptive = false, even = false;
     std::optional<Crop> cell; ///< y counts from the bottom of the picture

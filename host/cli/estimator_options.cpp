@@ -23,16 +23,23 @@ Roulette readRoulette(const std::string& word) {
         "--roulette is '{}': expected none, throughput or a probability in [0, 1)", word));
 }
 
-/// That renderer's conventions and defaults.
+/// That renderer's conventions, each by its name, and its defaults. What is below the command line
+/// knows of the conventions and not of the option.
 void useCs184(DeclaredCommand& c) {
-    Estimator& e = c.options.estimator;
-    e.cs184 = true;
-    e.maxBounces = 1;
-    e.sampler = Sampler::Independent;
-    e.roulette.mode = Roulette::Mode::None;
+    Options& o = c.options;
+    o.reading = cs184Conventions();
+    o.framing = cs184Framing();
+    o.estimator.conventions = cs184Shading();
+    o.tone.kind = ToneCurve::Kind::Cs184;
+    o.budget.adaptive.rule = Adaptive::Rule::PerChannel;
+
+    o.estimator.maxBounces = 1;
+    o.estimator.sampler = Sampler::Independent;
+    o.estimator.roulette.mode = Roulette::Mode::None;
+    o.branches = 1;
+    o.budget.adaptive.enabled = true;
     c.asked.usualPaths = 1;
-    c.options.budget.adaptive.enabled = true;
-    c.options.budget.adaptive.rule = Adaptive::Rule::PerChannel;
+    c.asked.usuallySpread = false;
 }
 
 } // namespace

@@ -48,10 +48,6 @@ void checkFilmFits(const PictureArea& s) {
                                      s.width, s.height, bytes >> 20));
 }
 
-SceneConventions conventionsOf(const Options& options) {
-    return options.estimator.cs184 ? cs184Conventions() : SceneConventions{};
-}
-
 } // namespace
 
 std::future<vulkan::OpenDevice> openDeviceMeanwhile(const Options& options) {
@@ -60,15 +56,12 @@ std::future<vulkan::OpenDevice> openDeviceMeanwhile(const Options& options) {
 
 Job prepareJob(const Options& options) {
     Stopwatch watch;
-    Job job{readScene(options.scene, conventionsOf(options)),
-            {},
-            {options.area, options.estimator, {}},
-            0};
+    Job job{
+        readScene(options.scene, options.reading), {}, {options.area, options.estimator, {}}, 0};
     job.loadSeconds = watch.seconds();
     reportLoading(job.scene, options);
     if (!options.sizeGiven) {
-        const PictureSize size =
-            defaultPictureSize(job.scene, options.camera, options.estimator.cs184);
+        const PictureSize size = defaultPictureSize(job.scene, options.camera, options.framing);
         job.settings.area.width = size.width;
         job.settings.area.height = size.height;
     }
@@ -79,7 +72,7 @@ Job prepareJob(const Options& options) {
     checkCrop(job.settings.area);
     checkFilmFits(job.settings.area);
     job.camera = makeCamera(job.scene, options.camera, job.settings.area.width,
-                            job.settings.area.height, job.settings.estimator.cs184);
+                            job.settings.area.height, options.framing);
     return job;
 }
 

@@ -6,7 +6,9 @@
 #include "host/cli/study_options.hpp"
 #include "host/core/log.hpp"
 #include "host/core/named_values.hpp"
+#include "host/film/tone.hpp"
 #include "host/render/settings.hpp"
+#include "scene/build/conventions.hpp"
 #include "scene/camera/camera.hpp"
 
 #include <cstdint>
@@ -42,14 +44,16 @@ struct Options {
     std::string scene;
     std::string output;
     PictureArea area;
-    bool sizeGiven = false;           ///< area.width, height
+    bool sizeGiven = false;   ///< area.width, height
+    SceneConventions reading; ///< of the scene's file
+    FramingConventions framing;
     Estimator estimator;              ///< its branches are not yet chosen
     std::optional<uint32_t> branches; ///< empty: what pays in the scene
     PathBudget budget;
     CameraChoice camera = CameraChoice::Automatic;
     std::string device;
     BackendChoice backend = BackendChoice::Vulkan;
-    double exposure = 0; ///< stops
+    ToneCurve tone;
     std::string statsFile;
     bool statisticsChannels = false;       ///< EXR: sample counts and variances
     std::optional<SampleName> sampleAlone; ///< print this sample and write nothing

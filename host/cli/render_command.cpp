@@ -99,9 +99,7 @@ Film renderOnReference(const Job& job, const Options& options, RenderReport& rep
 void writeOutputs(const Film& film, const Job& job, const Options& options,
                   const RenderReport& report) {
     PictureOptions picture;
-    picture.tone.kind =
-        job.settings.estimator.cs184 ? ToneCurve::Kind::Cs184 : ToneCurve::Kind::Srgb;
-    picture.tone.exposure = options.exposure;
+    picture.tone = options.tone;
     picture.statistics = options.statisticsChannels;
     writePicture(options.output, film, job.settings.area.crop, picture);
     if (showsRates(job.settings.budget))

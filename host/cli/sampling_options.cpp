@@ -22,8 +22,9 @@ void checkBranches(const DeclaredCommand& c) {
     const uint32_t paths = o.budget.pathsPerPixel(), branches = o.branches.value_or(1);
     if ((c.asked.paths || !o.budget.stop.open()) && paths % branches != 0)
         throw UsageError(fmt::format("-s {} is not a multiple of --branches {}", paths, branches));
-    if (branches > 1 && (o.estimator.cs184 || o.budget.adaptive.enabled))
-        throw UsageError("--branches does not go with -a and --cs184, which count paths");
+    if (branches > 1 && o.budget.adaptive.enabled)
+        throw UsageError(
+            "--branches does not go with -a, which counts paths and which --cs184 switches on");
 }
 
 } // namespace
@@ -96,9 +97,11 @@ void finishBudget(DeclaredCommand& c, bool maySpread) {
 
     // Samples go where they help most unless something else is asked for. With as few as the
     // first, uniform pass takes there is nothing to spread.
-    const bool asked = c.asked.even || o.estimator.cs184 || b.adaptive.enabled || b.stop.open() ||
-                       o.sampleAlone.has_value();
-    if (!maySpread || asked || b.pathsPerPixel() <= NoisePlan::kFirstPaths) return;
+    const bool asked =
+        c.asked.even || b.adaptive.enabled || b.stop.open() || o.sampleAlone.has_value();
+    if (!maySpread || !c.asked.usuallySpread || asked ||
+        b.pathsPerPixel() <= NoisePlan::kFirstPaths)
+        return;
     b.meanPathsPerPixel = b.pathsPerPixel();
     b.mostPathsPerPixel.reset();
 }

@@ -19,19 +19,16 @@ void addLightSamples(const LightTable& lights, uint32_t samples, DirectSampling&
 } // namespace
 
 DirectSampling directSampling(const LightTable& lights, const Estimator& settings) {
-    if (!settings.cs184 && !samplesLights(settings.directLight) && lights.areaCount > 0)
-        throw std::invalid_argument("the lights were packed for another way to find direct light");
     DirectSampling direct;
     const uint32_t samples = settings.lightSamples;
-    const bool hemisphere = settings.directLight == DirectLight::Hemisphere;
-    if (hemisphere && settings.cs184) {
-        direct.hemisphere = samples * lights.count; // times the number of all the file's lights
+    if (settings.countsLightsForHemisphere()) {
+        direct.hemisphere = samples * lights.count;
         return direct;
     }
-    if (hemisphere) direct.hemisphere = samples;
+    if (!samplesLights(settings.directLight) && lights.areaCount > 0)
+        throw std::invalid_argument("the lights were packed for another way to find direct light");
+    if (settings.directLight == DirectLight::Hemisphere) direct.hemisphere = samples;
     addLightSamples(lights, samples, direct);
-    if (settings.cs184 && settings.directLight == DirectLight::Bsdf)
-        direct.lights = lights.count - lights.areaCount;
     return direct;
 }
 

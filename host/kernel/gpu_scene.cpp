@@ -88,12 +88,13 @@ glm::vec3 decodeNormal(uint32_t code) {
 GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lights) {
     GpuScene g;
     g.bvh = std::move(bvh);
-    MaterialRows materials = packMaterials(scene.materials, lights.cs184);
+    MaterialRows materials = packMaterials(scene.materials);
     g.materials = std::move(materials.rows);
     packPrimitives(scene, materials.firstRow, g);
     g.lights = packLights(scene, g.bvh.placeOf, lights);
     nameLights(g);
-    if (!lights.cs184) g.gapWidth = gapWidth(g);
+    // Beside lamps that are geometry: a rectangle that is none has its own mesh close by.
+    if (lights.emitters) g.gapWidth = gapWidth(g);
     return g;
 }
 

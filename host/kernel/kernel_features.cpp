@@ -3,6 +3,7 @@
 #include "host/kernel/direct_sampling.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -52,10 +53,13 @@ uint32_t lightNumbers(const GpuScene& scene, const Estimator& settings) {
                                                   : gpu::LIGHT_NUMBERS_FIRST;
 }
 
+bool combinesBouncesAndLightSamples(const Estimator& settings) {
+    return combinesWithBounces(settings.directLight) && settings.conventions.bouncesFindAllLight;
+}
+
 /// Lobes from which MIS can help: where light samples and bounces find the same light.
 uint32_t misLobes(const GpuScene& scene, const Estimator& settings, uint32_t bsdfKinds) {
-    const bool wanted = combinesWithBounces(settings.directLight) && !settings.cs184;
-    if (!wanted || scene.lights.areaCount == 0) return 0;
+    if (!combinesBouncesAndLightSamples(settings) || scene.lights.areaCount == 0) return 0;
     const uint32_t helped =
         settings.directLight == DirectLight::MisAll ? ~gpu::DELTA_LOBES : gpu::GLOSSY_LOBES;
     return lobesOf(bsdfKinds) & helped;
@@ -63,7 +67,14 @@ uint32_t misLobes(const GpuScene& scene, const Estimator& settings, uint32_t bsd
 
 bool guidesBounces(const GpuScene& scene, const Estimator& settings) {
     return settings.guides && scene.gapWidth != 0 && samplesLights(settings.directLight) &&
-           settings.integrator == Integrator::Path && !settings.cs184 && settings.maxBounces > 1;
+           settings.integrator == Integrator::Path && settings.maxBounces > 1;
+}
+
+/// The shaders have two sets of conventions, told apart by one constant (include/cs184.glsl).
+uint32_t conventionsConstant(const ShadingConventions& conventions) {
+    if (conventions == ShadingConventions{}) return 0;
+    if (conventions == cs184Shading()) return 1;
+    throw std::invalid_argument("the kernel has no mixture of two sets of shading conventions");
 }
 
 void switchOnAllTheSceneCouldHave(KernelFeatures& f, const Estimator& settings) {
@@ -74,8 +85,7 @@ void switchOnAllTheSceneCouldHave(KernelFeatures& f, const Estimator& settings) 
     f[SPEC_BSDF_KINDS] = (1u << gpu::BSDF_KIND_COUNT) - 1;
     f[SPEC_LIGHT_KINDS] = (1u << gpu::LIGHT_KIND_COUNT) - 1;
     if (f[SPEC_LIGHT_GROUPS]) f[SPEC_LIGHT_GROUPS] = (1u << gpu::LIGHT_GROUP_COUNT) - 1;
-    if (combinesWithBounces(settings.directLight) && !settings.cs184)
-        f[SPEC_MIS_LOBES] |= gpu::GLOSSY_LOBES;
+    if (combinesBouncesAndLightSamples(settings)) f[SPEC_MIS_LOBES] |= gpu::GLOSSY_LOBES;
 }
 
 std::string list(uint32_t bits, const std::vector<const char*>& names) {
@@ -133,7 +143,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
         f[SPEC_ROULETTE] = gpu::ROULETTE_NONE;
     f[SPEC_ORTHOGRAPHIC] = camera.orthographic;
     f[SPEC_CLIP_ALONG_RAY] = camera.clipAlongRay;
-    f[SPEC_CS184] = settings.cs184;
+    f[SPEC_CS184] = conventionsConstant(settings.conventions);
     f[SPEC_LIGHT_SAMPLES] = directSampling(scene.lights, settings).perLight;
     f[SPEC_LIGHT_CHOICE] = lightChoiceConstant(scene.lights);
     f[SPEC_LIGHT_GROUPS] = scene.lights.groups;

@@ -16,7 +16,8 @@ namespace stromboli {
 using KernelFeatures = std::array<uint32_t, SPEC_COUNT>;
 
 /// Switches off all that the scene and the settings do not need; with tuning.everythingOn only
-/// what the settings do not need.
+/// what the settings do not need. Throws std::invalid_argument for shading conventions that are
+/// neither the default nor cs184Shading(): the shaders have no mixture of the two.
 KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
                               const Estimator& settings, const DeviceTuning& tuning);
 

@@ -20,7 +20,7 @@ gpu::QuadLight quad(const glm::vec3& corner, const glm::vec3& a, const glm::vec3
     return q;
 }
 
-/// The rectangle of the CS184 dialect. The kernel's normal is edgeA x edgeB: the edges are swapped
+/// An area light of the file. The kernel's normal is edgeA x edgeB: the edges are swapped
 /// where the light faces the other way.
 gpu::QuadLight rectangle(const Light& l) {
     const bool swap = glm::dot(glm::cross(l.edgeX, l.edgeY), l.direction) < 0;
@@ -28,14 +28,13 @@ gpu::QuadLight rectangle(const Light& l) {
     return quad(l.position - 0.5f * a - 0.5f * b, a, b);
 }
 
-gpu::PointLight pointLight(const Light& l, bool cs184) {
+gpu::PointLight pointLight(const Light& l) {
     gpu::PointLight p{};
     p.position = l.position;
     p.axis = l.direction;
     p.attenuation = {l.constantAttenuation, l.linearAttenuation, l.quadraticAttenuation};
     p.cosCutoff = std::cos(0.5f * l.falloffAngle);
     p.falloffExponent = l.falloffExponent;
-    if (cs184) p.attenuation = {1, 0, 0};
     return p;
 }
 
@@ -55,12 +54,13 @@ class Packer {
     }
 
     LightTable pack() {
-        if (selection_.cs184)
-            addLights([](const Light& l) { return l.kind == LightKind::Ambient; });
-        else
+        if (!selection_.everyLightOfTheFile)
             addAmbientLight();
-        if (!selection_.cs184 && !selection_.deltaLightsOnly) addEmitters();
-        addLights([](const Light& l) { return l.kind == LightKind::Area; });
+        else if (!selection_.deltaLightsOnly)
+            addLights([](const Light& l) { return l.kind == LightKind::Ambient; });
+        if (selection_.emitters && !selection_.deltaLightsOnly) addEmitters();
+        if (!selection_.deltaLightsOnly)
+            addLights([](const Light& l) { return l.kind == LightKind::Area; });
         out_.areaCount = uint32_t(entries_.size());
         addLights([](const Light& l) { return l.isDelta(); });
         out_.count = uint32_t(entries_.size());
@@ -69,8 +69,8 @@ class Packer {
     }
 
   private:
-    /// What can bring no light is no light, but in the CS184 renderer, which counts it.
-    bool isSampled(const LightBounds& bounds) const { return bounds.power > 0 || selection_.cs184; }
+    /// What can bring no light is no light, but in the file, where each may count.
+    static bool shines(const LightBounds& bounds) { return bounds.power > 0; }
 
     uint32_t addRows(const glm::vec3& color, uint32_t kindAndFlags) {
         const auto number = uint32_t(out_.lights.size() / gpu::LIGHT_ROWS);
@@ -137,15 +137,14 @@ class Packer {
 
     void addLight(const Light& l) {
         const LightBounds bounds = boundsOfLight(l, sceneRadius_);
-        if (!isSampled(bounds)) return;
-        const bool shinesNowhere = l.kind == LightKind::Spot && selection_.cs184;
+        if (!shines(bounds) && !selection_.everyLightOfTheFile) return;
         const uint32_t kind = kindOf(l.kind);
-        const uint32_t number = addRows(shinesNowhere ? glm::vec3(0) : l.color, kind);
+        const uint32_t number = addRows(l.color, kind);
         if (l.kind == LightKind::Area) appendRows(out_.lights, rectangle(l));
         if (l.kind == LightKind::Directional)
             appendRows(out_.lights, gpu::DirectionalLight{-l.direction, 0});
         if (l.kind == LightKind::Point || l.kind == LightKind::Spot)
-            appendRows(out_.lights, pointLight(l, selection_.cs184));
+            appendRows(out_.lights, pointLight(l));
         fillRows();
         addEntry(kind, number, bounds);
     }
@@ -159,7 +158,7 @@ class Packer {
                 continue;
             }
             const LightBounds bounds = boundsOfEmitter(scene_, e);
-            if (!isSampled(bounds)) continue;
+            if (!shines(bounds)) continue;
             const Material& m = scene_.materials[e.material];
             const bool isQuad = e.kind == EmitterKind::Quad;
             const uint32_t kind = isQuad ? gpu::LIGHT_QUAD : gpu::LIGHT_SPHERE;
@@ -181,7 +180,7 @@ class Packer {
 
     void addTriangle(uint32_t triangle) {
         const LightBounds bounds = boundsOfTriangle(scene_, triangle);
-        if (!isSampled(bounds)) return;
+        if (!shines(bounds)) return;
         nameLight(triangle, addEntry(gpu::LIGHT_TRIANGLE,
                                      placeOf_[triangle] | gpu::LIGHT_IS_TRIANGLE, bounds));
     }
@@ -268,10 +267,13 @@ class Packer {
 } // namespace
 
 LightSelection lightSelection(const Estimator& settings) {
+    const ShadingConventions& conventions = settings.conventions;
     LightSelection selection;
-    selection.cs184 = settings.cs184;
-    selection.choice = settings.cs184 ? LightChoice::Each : settings.lightChoice;
-    selection.deltaLightsOnly = !settings.cs184 && !samplesLights(settings.directLight);
+    selection.choice = conventions.everyLightInTurn ? LightChoice::Each : settings.lightChoice;
+    selection.deltaLightsOnly =
+        !samplesLights(settings.directLight) && !settings.countsLightsForHemisphere();
+    selection.emitters = conventions.samplesEmitters;
+    selection.everyLightOfTheFile = conventions.everyLightInTurn;
     return selection;
 }
 

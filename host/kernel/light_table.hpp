@@ -14,10 +14,13 @@ namespace stromboli {
 /// Which lights are sampled, and how one of them is picked.
 struct LightSelection {
     LightChoice choice = LightChoice::Automatic;
-    /// Only those that no ray can meet; the others are left to rays.
+    /// Others are left to rays.
     bool deltaLightsOnly = false;
-    /// Lights of the file as the CS184 renderer has them; emissive geometry is not sampled.
-    bool cs184 = false;
+    /// Emissive geometry is sampled.
+    bool emitters = true;
+    /// Lights of the file that bring no light are lights too, and each of several ambient lights is
+    /// one by itself.
+    bool everyLightOfTheFile = false;
 };
 
 LightSelection lightSelection(const Estimator& settings);

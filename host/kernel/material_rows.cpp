@@ -39,15 +39,14 @@ uint32_t bsdfKind(MaterialKind kind) {
     return gpu::BSDF_DIFFUSE;
 }
 
-MaterialRows packMaterials(std::span<const Material> materials, bool cs184) {
+MaterialRows packMaterials(std::span<const Material> materials) {
     MaterialRows packed;
     for (const Material& m : materials) {
         packed.firstRow.push_back(uint32_t(packed.rows.size()));
-        const bool bothSides = m.emitsBothSides || cs184;
-        appendRows(
-            packed.rows,
-            gpu::MaterialHeader{m.emission, bsdfKind(m.kind) |
-                                                (bothSides ? gpu::MATERIAL_EMITS_BOTH_SIDES : 0)});
+        appendRows(packed.rows,
+                   gpu::MaterialHeader{
+                       m.emission,
+                       bsdfKind(m.kind) | (m.emitsBothSides ? gpu::MATERIAL_EMITS_BOTH_SIDES : 0)});
         appendParameters(packed.rows, m);
     }
     packed.rows.resize(packed.rows.size() + kMostRows - 1);

@@ -15,8 +15,7 @@ struct MaterialRows {
     std::vector<uint32_t> firstRow; ///< by material of the scene
 };
 
-/// cs184: all surfaces emit on both sides.
-MaterialRows packMaterials(std::span<const Material> materials, bool cs184);
+MaterialRows packMaterials(std::span<const Material> materials);
 
 /// The BSDF_ kind that stands for a material of the scene.
 uint32_t bsdfKind(MaterialKind kind);

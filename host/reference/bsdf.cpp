@@ -15,7 +15,7 @@ namespace {
 struct Incidence {
     glm::dvec3 wo;
     bool entering;
-    Convention convention;
+    const ShadingConventions& conventions;
 };
 
 // Samples are in the frame of the shading normal, too.
@@ -47,7 +47,7 @@ BsdfSample sampleDiffuse(const Material& m, const glm::dvec3& u) {
 
 BsdfValue evaluateRoughConductor(const Material& m, const Incidence& i, const glm::dvec3& wi) {
     if (!(i.wo.z > 0 && wi.z > 0)) return {};
-    return {microfacet(m, i.wo, wi, i.convention) * wi.z, microfacetDensity(m.alpha, i.wo, wi)};
+    return {microfacet(m, i.wo, wi, i.conventions) * wi.z, microfacetDensity(m.alpha, i.wo, wi)};
 }
 
 BsdfSample sampleRoughConductor(const Material& m, const Incidence& i, const glm::dvec3& u) {
@@ -64,18 +64,18 @@ BsdfSample sampleRoughConductor(const Material& m, const Incidence& i, const glm
 // ------------------------------------------------------------------------------------
 
 /// Refraction and glass. Radiance over the squared index is invariant: the path, traced against
-/// the light, gains (index here / index beyond)^2; the CS184 renderer has the inverse.
+/// the light, gains (index here / index beyond)^2, or by another convention the inverse.
 BsdfSample sampleInterface(const Material& m, const Incidence& i, double u) {
-    const bool physical = i.convention == Convention::Physical;
     const double ior = m.ior, eta = i.entering ? 1 / ior : ior;
     const double cosine = std::min(std::abs(i.wo.z), 1.0);
     const Interface face = dielectric(cosine, eta);
-    const glm::dvec3 transmitted =
-        glm::dvec3(m.transmittance) * (physical ? eta * eta : 1 / (eta * eta));
+    const double compression = i.conventions.compressesRadiance ? eta * eta : 1 / (eta * eta);
+    const glm::dvec3 transmitted = glm::dvec3(m.transmittance) * compression;
     if (m.kind == MaterialKind::Refraction)
         return face.total ? BsdfSample{} : refract(i.wo, eta, face.cosTransmitted, transmitted);
 
-    const double reflectance = physical || face.total ? face.reflectance : schlick(cosine, ior);
+    const bool exact = i.conventions.exactFresnel || face.total;
+    const double reflectance = exact ? face.reflectance : schlick(cosine, ior);
     if (u < reflectance) return reflect(i.wo, m.reflectance);
     return refract(i.wo, eta, face.cosTransmitted, transmitted);
 }
@@ -112,15 +112,16 @@ BsdfSample sampleLocally(const Material& m, const Incidence& i, const glm::dvec3
     return {};
 }
 
-Incidence incidenceOn(const SurfacePoint& s, const Frame& frame, Convention convention) {
+Incidence incidenceOn(const SurfacePoint& s, const Frame& frame,
+                      const ShadingConventions& conventions) {
     const glm::dvec3 wo = frame.toLocal(s.wo);
-    return {wo, convention == Convention::Physical ? s.outside : wo.z >= 0, convention};
+    return {wo, conventions.facesForward ? s.outside : wo.z >= 0, conventions};
 }
 
 /// Light stays on the side of the true surface that its lobe sends it to.
 bool isOnItsSide(const SurfacePoint& s, const glm::dvec3& wi, bool transmitted,
-                 Convention convention) {
-    if (convention == Convention::Cs184) return true;
+                 const ShadingConventions& conventions) {
+    if (!conventions.testsGeometricSide) return true;
     return transmitted ? glm::dot(s.geometric, wi) < 0 : isReflected(s, wi);
 }
 
@@ -150,19 +151,21 @@ bool scattersAtRandom(uint32_t lobes) {
     return lobes != gpu::LOBE_DELTA_REFLECTION && lobes != gpu::LOBE_DELTA_TRANSMISSION;
 }
 
-BsdfValue evaluateBsdf(const SurfacePoint& s, const glm::dvec3& wi, Convention convention) {
+BsdfValue evaluateBsdf(const SurfacePoint& s, const glm::dvec3& wi,
+                       const ShadingConventions& conventions) {
     const Frame frame(s.shading);
     const glm::dvec3 local = frame.toLocal(wi);
-    if (!isOnItsSide(s, wi, local.z < 0, convention)) return {};
-    return evaluateLocally(*s.material, incidenceOn(s, frame, convention), local);
+    if (!isOnItsSide(s, wi, local.z < 0, conventions)) return {};
+    return evaluateLocally(*s.material, incidenceOn(s, frame, conventions), local);
 }
 
-BsdfSample sampleBsdf(const SurfacePoint& s, const glm::dvec3& u, Convention convention) {
+BsdfSample sampleBsdf(const SurfacePoint& s, const glm::dvec3& u,
+                      const ShadingConventions& conventions) {
     const Frame frame(s.shading);
-    BsdfSample sample = sampleLocally(*s.material, incidenceOn(s, frame, convention), u);
+    BsdfSample sample = sampleLocally(*s.material, incidenceOn(s, frame, conventions), u);
     // Rounding errors of the direction's length would add up along a path.
     sample.direction = glm::normalize(frame.toWorld(sample.direction));
-    if (!isOnItsSide(s, sample.direction, sample.transmitted(), convention))
+    if (!isOnItsSide(s, sample.direction, sample.transmitted(), conventions))
         sample.weight = glm::dvec3(0.0);
     return sample;
 }

@@ -31,10 +31,12 @@ bool scattersAtRandom(uint32_t lobes);
 
 /// For a unit world direction wi away from the surface, of all lobes but delta ones. The surface is
 /// faced forward.
-BsdfValue evaluateBsdf(const SurfacePoint& surface, const glm::dvec3& wi, Convention convention);
+BsdfValue evaluateBsdf(const SurfacePoint& surface, const glm::dvec3& wi,
+                       const ShadingConventions& conventions);
 
 /// Samples the direction of the next bounce. u, each uniform in [0, 1): x and y for the direction
 /// within a lobe, z for the choice of one of several lobes. The surface is faced forward.
-BsdfSample sampleBsdf(const SurfacePoint& surface, const glm::dvec3& u, Convention convention);
+BsdfSample sampleBsdf(const SurfacePoint& surface, const glm::dvec3& u,
+                      const ShadingConventions& conventions);
 
 } // namespace stromboli::reference

@@ -118,7 +118,8 @@ LightSample sampleSphere(const Scene& scene, const Emitter& emitter, const Surfa
     return sample;
 }
 
-LightSample sampleCs184Rectangle(const Light& light, const glm::dvec3& from, RandomStream& random) {
+LightSample sampleRectangle(const Light& light, const glm::dvec3& from,
+                            const ShadingConventions& conventions, RandomStream& random) {
     const double u = random.next(), v = random.next();
     const glm::dvec3 center = light.position, x = light.edgeX, y = light.edgeY;
     const glm::dvec3 n = glm::normalize(glm::dvec3(light.direction));
@@ -132,8 +133,9 @@ LightSample sampleCs184Rectangle(const Light& light, const glm::dvec3& from, Ran
     // The mesh that stands for the light lies in its plane, but both were rounded to float.
     const double error = 0x1p29 * errorOnTriangle(center, center + x, center + y);
     sample.target = moveOff(point, error, n, -to);
+    const double falloff = conventions.inverseSquareFalloff ? distance * distance : distance;
     sample.value = glm::dvec3(light.color) *
-                   (glm::length(glm::cross(x, y)) * -glm::dot(sample.direction, n) / distance);
+                   (glm::length(glm::cross(x, y)) * -glm::dot(sample.direction, n) / falloff);
     return sample;
 }
 

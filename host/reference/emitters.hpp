@@ -29,8 +29,9 @@ double solidAngle(const EmitterTriangle& triangle, const glm::dvec3& from);
 LightSample sampleSphere(const Scene& scene, const Emitter& emitter, const SurfacePoint& surface,
                          RandomStream& random);
 
-/// Uniform on the rectangle with the CS184 renderer's density, distance^2 / (area |D . n|) with D
-/// not normalised; only the side n points to emits.
-LightSample sampleCs184Rectangle(const Light& light, const glm::dvec3& from, RandomStream& random);
+/// Uniform on the rectangle, falling off with the distance or its square; only the side that the
+/// light's direction points to emits.
+LightSample sampleRectangle(const Light& light, const glm::dvec3& from,
+                            const ShadingConventions& conventions, RandomStream& random);
 
 } // namespace stromboli::reference

@@ -35,7 +35,7 @@ glm::dvec3 conductor(double cosine, const glm::dvec3& eta, const glm::dvec3& k) 
     return reflectance;
 }
 
-glm::dvec3 conductorCs184(double c, const glm::dvec3& eta, const glm::dvec3& k) {
+glm::dvec3 approximateConductor(double c, const glm::dvec3& eta, const glm::dvec3& k) {
     const glm::dvec3 s = eta * eta + k * k, e = 2 * c * eta;
     const glm::dvec3 rs = (s - e + c * c) / (s + e + c * c);
     const glm::dvec3 rp = (s * c * c - e + 1.0) / (s * c * c + e + 1.0);

@@ -18,8 +18,8 @@ Interface dielectric(double cosine, double eta);
 /// cosine: of incidence, in (0, 1].
 glm::dvec3 conductor(double cosine, const glm::dvec3& eta, const glm::dvec3& k);
 
-/// The CS184 renderer's approximation of conductor(), made for k^2 >> 1.
-glm::dvec3 conductorCs184(double cosine, const glm::dvec3& eta, const glm::dvec3& k);
+/// An approximation of conductor() for k^2 >> 1.
+glm::dvec3 approximateConductor(double cosine, const glm::dvec3& eta, const glm::dvec3& k);
 
 /// Schlick's approximation of a dielectric of index `ior` against vacuum.
 double schlick(double cosine, double ior);

@@ -26,7 +26,7 @@ glm::dvec3 PathSample::radiance(const Ray& cameraRay) {
 
 void PathSample::follow(uint32_t bounce, bool splits) {
     for (; bounce <= settings_.maxBounces; ++bounce) {
-        faceForward(surface_, world_.convention);
+        faceForward(surface_, world_.conventions);
         if (!survivesFixed()) return;
         const uint32_t lobes = lobesOf(*surface_.material);
         if (scattersIntoManyDirections(lobes) && bounce >= settings_.minBounce) addDirectLight();
@@ -48,7 +48,7 @@ void PathSample::followBranches(uint32_t bounce) {
 }
 
 bool PathSample::scatter(uint32_t bounce) {
-    const BsdfSample next = sampleBsdf(surface_, random_.threeNumbers(), world_.convention);
+    const BsdfSample next = sampleBsdf(surface_, random_.threeNumbers(), world_.conventions);
     throughput_ *= next.weight;
     if (!(largest(throughput_) > 0)) return false;
     if (!survivesThroughput(bounce)) return false;
@@ -89,15 +89,15 @@ uint32_t PathSample::startOfReflected() const {
 }
 
 void PathSample::addEmission() {
-    radiance_ += throughput_ * emission(surface_, world_.convention);
+    radiance_ += throughput_ * emission(surface_);
 }
 
 /// Whether a lamp that the ray after this scattering finds adds to the picture, or whether direct
 /// light has accounted for it.
 bool PathSample::emissionCounts(uint32_t bounce, bool delta) const {
-    const bool bsdfMode =
-        settings_.directLight == DirectLight::Bsdf && world_.convention == Convention::Physical;
-    return bounce >= settings_.minBounce && (delta || bsdfMode);
+    const bool leftToBounces =
+        settings_.directLight == DirectLight::Bsdf && world_.conventions.bouncesFindAllLight;
+    return bounce >= settings_.minBounce && (delta || leftToBounces);
 }
 
 bool PathSample::survivesFixed() {
@@ -116,11 +116,9 @@ bool PathSample::survivesThroughput(uint32_t bounce) {
 }
 
 void PathSample::addDirectLight() {
-    const bool hemisphere = settings_.directLight == DirectLight::Hemisphere;
-    if (hemisphere) addHemisphereSamples();
+    if (settings_.directLight == DirectLight::Hemisphere) addHemisphereSamples();
     if (samplesLights(settings_.directLight)) addBroadLights();
-    // The CS184 renderer's hemisphere mode knows no other light than geometry.
-    if (!hemisphere || world_.convention == Convention::Physical) addDeltaLights();
+    if (!settings_.countsLightsForHemisphere()) addDeltaLights();
 }
 
 void PathSample::addBroadLights() {
@@ -137,7 +135,7 @@ void PathSample::addDeltaLights() {
 
 void PathSample::addLightSample(const LightSample& light, double share) {
     const glm::dvec3 value =
-        light.value * evaluateBsdf(surface_, light.direction, world_.convention).value * share;
+        light.value * evaluateBsdf(surface_, light.direction, world_.conventions).value * share;
     if (!(largest(value) > 0)) return;
     Ray ray = reflect(light.direction);
     if (!light.infinite) {
@@ -151,8 +149,8 @@ void PathSample::addLightSample(const LightSample& light, double share) {
 }
 
 void PathSample::addHemisphereSamples() {
-    const bool physical = world_.convention == Convention::Physical;
-    const size_t lights = physical ? world_.lights.broadCount() : world_.lights.fileCount();
+    const size_t lights = settings_.countsLightsForHemisphere() ? world_.lights.fileCount()
+                                                                : world_.lights.broadCount();
     const size_t count = lights * settings_.lightSamples;
     const Frame frame(surface_.shading);
     for (size_t i = 0; i < count; ++i) {
@@ -160,15 +158,14 @@ void PathSample::addHemisphereSamples() {
         const double u = random_.next(), v = random_.next();
         const glm::dvec3 direction = frame.toWorld(uniformHemisphere(u, v));
         const glm::dvec3 weight =
-            evaluateBsdf(surface_, direction, world_.convention).value * (2 * kPi / double(count));
+            evaluateBsdf(surface_, direction, world_.conventions).value * (2 * kPi / double(count));
         if (!(largest(weight) > 0)) continue;
         ++rays_;
         const Ray ray = reflect(direction);
         const Hit hit = world_.bvh.closest(ray, {startOfReflected()});
-        const glm::dvec3 found =
-            hit.primitive == kNoPrimitive
-                ? world_.lights.ambientRadiance(direction)
-                : emission(surfaceAt(world_.scene, ray, hit), world_.convention);
+        const glm::dvec3 found = hit.primitive == kNoPrimitive
+                                     ? world_.lights.ambientRadiance(direction)
+                                     : emission(surfaceAt(world_.scene, ray, hit));
         radiance_ += throughput_ * weight * found;
     }
 }

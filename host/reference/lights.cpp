@@ -53,9 +53,9 @@ double spotFalloff(const Light& light, double cosine) {
 
 } // namespace
 
-Lights::Lights(const Scene& scene, Convention convention) : scene_(scene), convention_(convention) {
-    const bool physical = convention == Convention::Physical;
-    if (physical) emitters_ = collectEmitters(scene);
+Lights::Lights(const Scene& scene, const ShadingConventions& conventions)
+    : scene_(scene), conventions_(conventions) {
+    if (conventions.samplesEmitters) emitters_ = collectEmitters(scene);
     if (haveManyTriangles(emitters_)) {
         many_.push_back(asOneLight(scene, emitters_));
         std::erase_if(emitters_, [](const Emitter& e) { return e.kind != EmitterKind::Sphere; });
@@ -64,13 +64,13 @@ Lights::Lights(const Scene& scene, Convention convention) : scene_(scene), conve
         areaSums_.push_back(runningAreas(scene, emitter));
     for (const Light& light : scene.lights) {
         if (light.kind == LightKind::Area) {
-            if (physical)
+            if (conventions.samplesEmitters)
                 throw std::invalid_argument("area light '" + light.name +
                                             "' is not resolved to an emitter");
             areas_.push_back(&light);
         } else if (light.kind == LightKind::Ambient) {
             ambient_.push_back(&light);
-        } else if (physical || light.kind != LightKind::Spot) {
+        } else {
             delta_.push_back(&light);
         }
     }
@@ -84,7 +84,8 @@ LightSample Lights::sampleBroad(size_t index, const SurfacePoint& surface,
     if (index < emitters_.size()) return sampleEmitter(index, surface, random);
     index -= emitters_.size();
     if (index < ambient_.size()) return sampleAmbient(*ambient_[index], surface, random);
-    return sampleCs184Rectangle(*areas_[index - ambient_.size()], litPoint(surface), random);
+    return sampleRectangle(*areas_[index - ambient_.size()], litPoint(surface), conventions_,
+                           random);
 }
 
 LightSample Lights::sampleMany(const SurfacePoint& surface, RandomStream& random) const {
@@ -116,7 +117,7 @@ LightSample Lights::sampleEmitter(size_t index, const SurfacePoint& surface,
 LightSample Lights::sampleAmbient(const Light& light, const SurfacePoint& surface,
                                   RandomStream& random) const {
     const double u = random.next(), v = random.next();
-    const bool upper = light.upperHemisphereOnly || convention_ == Convention::Cs184;
+    const bool upper = light.upperHemisphereOnly || !conventions_.ambientAboutNormal;
     const Frame frame(upper ? glm::dvec3(0, 1, 0) : surface.shading);
     LightSample sample;
     sample.direction = frame.toWorld(uniformHemisphere(u, v));
@@ -142,7 +143,6 @@ LightSample Lights::sampleDelta(size_t index, const SurfacePoint& surface) const
     const double distance = glm::length(to);
     if (distance == 0) return LightSample{};
     sample.direction = to / distance;
-    if (convention_ == Convention::Cs184) return sample;
     sample.value /= attenuation(light, distance);
     if (light.kind == LightKind::Spot)
         sample.value *= spotFalloff(light, -glm::dot(sample.direction, axis));
@@ -151,7 +151,7 @@ LightSample Lights::sampleDelta(size_t index, const SurfacePoint& surface) const
 
 glm::dvec3 Lights::ambientRadiance(const glm::dvec3& direction) const {
     glm::dvec3 sum(0.0);
-    if (convention_ == Convention::Cs184) return sum;
+    if (!conventions_.bouncesFindAllLight) return sum;
     for (const Light* light : ambient_)
         if (!light->upperHemisphereOnly || direction.y > 0) sum += glm::dvec3(light->color);
     return sum;

@@ -25,14 +25,14 @@ struct ManyTriangles {
     std::vector<double> powerSums; ///< running sums of trianglePower()
 };
 
-/// All a scene has to light a surface with, under either convention. The lights that are not delta
-/// functions ("broad": emitters, ambient light, CS184 rectangles) get several samples each.
+/// All a scene has to light a surface with. The lights that are not delta functions ("broad":
+/// emitters, ambient light, area lights that are no emitters) get several samples each.
 /// Refers to the scene, which must outlive it.
 class Lights {
   public:
-    /// Throws std::invalid_argument if a scene for the physical convention still has area lights
+    /// Throws std::invalid_argument if emitters are sampled and the scene still has area lights
     /// (resolveAreaLights() turns them into emitters).
-    Lights(const Scene& scene, Convention convention);
+    Lights(const Scene& scene, const ShadingConventions& conventions);
 
     size_t broadCount() const {
         return many_.size() + emitters_.size() + ambient_.size() + areas_.size();
@@ -56,7 +56,7 @@ class Lights {
                               RandomStream& random) const;
 
     const Scene& scene_;
-    Convention convention_;
+    ShadingConventions conventions_;
     std::vector<ManyTriangles> many_; ///< one, or none
     std::vector<Emitter> emitters_;
     std::vector<std::vector<double>> areaSums_; ///< of each mesh emitter: running sums of areas

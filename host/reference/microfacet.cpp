@@ -14,12 +14,11 @@ double beckmannD(const glm::dvec3& h, double alpha) {
     return std::exp(-tangent2 / (alpha * alpha)) / (kPi * alpha * alpha * cosine2 * cosine2);
 }
 
-double smithLambda(const glm::dvec3& w, double alpha, Convention convention) {
+double smithLambda(const glm::dvec3& w, double alpha, const ShadingConventions& conventions) {
     const double sine = std::hypot(w.x, w.y);
     if (sine == 0) return 0;
     const double a = w.z / (alpha * sine);
-    if (convention == Convention::Cs184)
-        return (std::erf(a) - 1 + std::exp(-a * a) / (a * kPi)) / 2;
+    if (!conventions.exactLambda) return (std::erf(a) - 1 + std::exp(-a * a) / (a * kPi)) / 2;
     return -std::erfc(a) / 2 + std::exp(-a * a) / (2 * a * std::sqrt(kPi));
 }
 
@@ -31,13 +30,13 @@ glm::dvec3 sampleBeckmann(double alpha, double u, double v) {
 }
 
 glm::dvec3 microfacet(const Material& m, const glm::dvec3& wo, const glm::dvec3& wi,
-                      Convention convention) {
+                      const ShadingConventions& conventions) {
     if (!(wo.z > 0 && wi.z > 0)) return glm::dvec3(0.0);
     const glm::dvec3 h = glm::normalize(wo + wi);
     const double g =
-        1 / (1 + smithLambda(wo, m.alpha, convention) + smithLambda(wi, m.alpha, convention));
-    const glm::dvec3 f = convention == Convention::Cs184 ? conductorCs184(wi.z, m.eta, m.k)
-                                                         : conductor(glm::dot(wi, h), m.eta, m.k);
+        1 / (1 + smithLambda(wo, m.alpha, conventions) + smithLambda(wi, m.alpha, conventions));
+    const glm::dvec3 f = conventions.exactFresnel ? conductor(glm::dot(wi, h), m.eta, m.k)
+                                                  : approximateConductor(wi.z, m.eta, m.k);
     return f * (g * beckmannD(h, m.alpha) / (4 * wo.z * wi.z));
 }
 

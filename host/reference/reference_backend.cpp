@@ -18,8 +18,6 @@
 namespace stromboli {
 namespace {
 
-using reference::Convention;
-
 /// Counts the samples of a pass and passes the count on about ten times a second.
 class PassReport {
   public:
@@ -59,8 +57,7 @@ struct ReferenceBackend::Implementation {
     std::atomic<uint64_t> paths{0}, rays{0};
 
     Implementation(const Scene& scene, const Camera& c, const RenderSettings& s, unsigned threads)
-        : world(scene, s.estimator.cs184 ? Convention::Cs184 : Convention::Physical), camera(c),
-          settings(s),
+        : world(scene, s.estimator.conventions), camera(c), settings(s),
           arena(std::min(threads == 0 ? INT_MAX : int(threads), tbb::info::default_concurrency())) {
     }
 

@@ -17,7 +17,7 @@ class ReferenceBackend final : public Backend {
   public:
     /// The scene must outlive the backend. threads: 0 for all the machine has, which is also the
     /// most there will be. Throws std::invalid_argument for a scene with area lights that are not
-    /// resolved (scene/model/ area_lights.hpp) unless settings.cs184, and for 0 light samples.
+    /// resolved (scene/model/ area_lights.hpp) where emitters are sampled, and for 0 light samples.
     ReferenceBackend(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                      unsigned threads = 0);
     ~ReferenceBackend() override;

@@ -101,8 +101,8 @@ double SmoothTriangle::height(const glm::dvec3& weights, const glm::dvec3& front
     return std::max(sum, 0.0);
 }
 
-void faceForward(SurfacePoint& s, Convention convention) {
-    if (convention == Convention::Cs184) {
+void faceForward(SurfacePoint& s, const ShadingConventions& conventions) {
+    if (!conventions.facesForward) {
         s.lift = 0;
         return;
     }
@@ -124,8 +124,8 @@ bool isReflected(const SurfacePoint& s, const glm::dvec3& w) {
     return s.lift > 0 || glm::dot(s.geometric, w) > 0;
 }
 
-glm::dvec3 emission(const SurfacePoint& s, Convention convention) {
-    const bool lit = convention == Convention::Cs184 || s.material->emitsBothSides || s.outside;
+glm::dvec3 emission(const SurfacePoint& s) {
+    const bool lit = s.material->emitsBothSides || s.outside;
     return lit ? glm::dvec3(s.material->emission) : glm::dvec3(0.0);
 }
 

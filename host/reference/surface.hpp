@@ -1,12 +1,10 @@
 #pragma once
 
 #include "host/reference/intersect.hpp"
+#include "host/render/shading_conventions.hpp"
 #include "scene/model/scene.hpp"
 
 namespace stromboli::reference {
-
-/// Whose rules of shading apply (docs/estimator.md, "CS184 mode").
-enum class Convention { Physical, Cs184 };
 
 /// What the path needs to know of the point it hit.
 struct SurfacePoint {
@@ -19,7 +17,7 @@ struct SurfacePoint {
     glm::dvec3 wo{0, 0, 1};        ///< unit, back along the ray
     bool outside = true;           ///< wo is on the side the stored geometric normal points to
     /// Height of the smooth surface over `position` along the geometric normal that faces wo, and
-    /// from which light is reflected; 0 under the CS184 convention.
+    /// from which light is reflected; faceForward() may put it on the flat one.
     double lift = 0;
     uint32_t primitive = kNoPrimitive;
     uint32_t triangle = kNoPrimitive; ///< the primitive if it is planar: rays that leave it miss it
@@ -43,8 +41,8 @@ struct SmoothTriangle {
 
 /// Turns the geometric normal to the side of wo and the shading normal to that of the geometric
 /// one; where wo is then below the shading normal's horizon, the geometric one takes its place.
-/// Under the CS184 convention nothing but the lift is changed.
-void faceForward(SurfacePoint& surface, Convention convention);
+/// Where conventions do not face forward, this only takes the lift away.
+void faceForward(SurfacePoint& surface, const ShadingConventions& conventions);
 
 /// The point moved by its error bound along n (unit) to the side of `direction`, so that nothing
 /// that coincides with the surface lies ahead of a ray from there in that direction.
@@ -59,7 +57,7 @@ glm::dvec3 litPoint(const SurfacePoint& surface);
 bool isReflected(const SurfacePoint& surface, const glm::dvec3& w);
 
 /// Radiance the surface emits towards wo.
-glm::dvec3 emission(const SurfacePoint& surface, Convention convention);
+glm::dvec3 emission(const SurfacePoint& surface);
 
 /// Error bound of a point computed on the triangle with these corners: see SurfacePoint::error.
 double errorOnTriangle(const glm::dvec3& v0, const glm::dvec3& v1, const glm::dvec3& v2);

@@ -8,11 +8,12 @@ namespace stromboli::reference {
 /// What paths are traced through. Refers to the scene, which must outlive it.
 struct World {
     const Scene& scene;
-    Convention convention;
+    ShadingConventions conventions;
     Bvh bvh;
     Lights lights;
 
-    World(const Scene& s, Convention c) : scene(s), convention(c), bvh(s), lights(s, c) {}
+    World(const Scene& s, const ShadingConventions& c)
+        : scene(s), conventions(c), bvh(s), lights(s, c) {}
 };
 
 } // namespace stromboli::reference

@@ -29,8 +29,8 @@ bool directLightIsSmooth(const Scene& scene, const Estimator& estimator) {
 
 uint32_t branchesThatPay(const Scene& scene, const Estimator& estimator, const PathBudget& budget) {
     const bool bounces = estimator.integrator == Integrator::Path && estimator.maxBounces > 1;
-    // Both count samples for what they decide, and mean paths.
-    const bool countsPaths = estimator.cs184 || budget.adaptive.enabled;
+    // It counts samples for what it decides, and means paths.
+    const bool countsPaths = budget.adaptive.enabled;
     if (!bounces || countsPaths || !directLightIsSmooth(scene, estimator)) return 1;
     const uint32_t paths = budget.pathsPerPixel();
     uint32_t branches = kBranches;

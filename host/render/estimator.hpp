@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/core/named_values.hpp"
+#include "host/render/shading_conventions.hpp"
 
 #include <cstdint>
 
@@ -102,7 +103,12 @@ struct Estimator {
     bool guides = true;    ///< bounces are sent into bright gaps too (docs/estimator.md, "Gaps")
     Roulette roulette;
     uint32_t seed = 0;
-    bool cs184 = false; ///< shade by the CS184 renderer's conventions (docs/cs184.md)
+    ShadingConventions conventions;
+
+    /// Hemisphere sampling by the convention of that name: it counts the lights and samples none.
+    bool countsLightsForHemisphere() const {
+        return conventions.hemispherePerLight && directLight == DirectLight::Hemisphere;
+    }
 };
 
 } // namespace stromboli

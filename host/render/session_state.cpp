@@ -13,7 +13,7 @@ namespace stromboli {
 namespace {
 
 /// Changes with every change of what is written.
-constexpr std::string_view kVersion = "stromboli session 1";
+constexpr std::string_view kVersion = "stromboli session 2";
 
 template <class T>
 concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::same_as<T, glm::dvec3>;
@@ -61,10 +61,20 @@ void pass(Archive& a, Crop& c) {
 }
 
 template <class Archive>
+void pass(Archive& a, ShadingConventions& conventions) {
+    // Names all members: one more is an error here.
+    auto& [forward, side, fresnel, lambda, compresses, find, square, ambient, emitters, every,
+           hemisphere] = conventions;
+    a(forward), a(side), a(fresnel), a(lambda), a(compresses), a(find), a(square), a(ambient);
+    a(emitters), a(every), a(hemisphere);
+}
+
+template <class Archive>
 void pass(Archive& a, Estimator& e) {
     a(e.lightSamples), a(e.maxBounces), a(e.minBounce), a(e.integrator), a(e.directLight);
     a(e.sampler), a(e.lightChoice), a(e.branches), a(e.guides), a(e.roulette.mode);
-    a(e.roulette.terminationProbability), a(e.seed), a(e.cs184);
+    a(e.roulette.terminationProbability), a(e.seed);
+    pass(a, e.conventions);
 }
 
 template <class Archive>

@@ -43,7 +43,7 @@ Finding agreement(Run& run) {
     for (const auto& file : files) {
         const Scene scene = readScene(file.string());
         const Camera camera =
-            makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, false);
+            makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height);
         const Film onDevice = run.render(scene, camera, s).film;
         ReferenceBackend reference(scene, camera, s);
         const Film onHost = render(reference, s, [&](const RenderProgress&) {

@@ -42,7 +42,7 @@ double kernel(const Material& m, double mu, double nu) {
     for (int i = 0; i < kAzimuths; ++i) {
         const double phi = 2 * M_PI * (i + 0.5) / kAzimuths, sine = std::sqrt(1 - nu * nu);
         const glm::dvec3 wi(sine * std::cos(phi), sine * std::sin(phi), nu);
-        sum += reference::microfacet(m, wo, wi, reference::Convention::Physical).x;
+        sum += reference::microfacet(m, wo, wi, {}).x;
     }
     return sum * nu * 2 * M_PI / kAzimuths;
 }

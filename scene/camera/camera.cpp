@@ -16,10 +16,16 @@ struct Frustum {
 };
 
 constexpr double kDegree = std::numbers::pi / 180;
-// The CS184 renderer's picture at load time, to which its framing belongs, and its default
-// fields of view.
-constexpr double kCs184Width = 800, kCs184Height = 600;
+// The fields of view of a camera that states none.
 constexpr double kDefaultX = 50 * kDegree, kDefaultY = 35 * kDegree;
+
+double aspectOf(const PictureSize& size) {
+    return double(size.width) / double(size.height);
+}
+
+Frustum defaultFrustum() {
+    return {std::tan(kDefaultX / 2), std::tan(kDefaultY / 2)};
+}
 
 /// What the file states; the picture's own shape gives the extent that it leaves open.
 Frustum fileFrustum(const FileCamera& camera, double pictureAspect) {
@@ -27,7 +33,7 @@ Frustum fileFrustum(const FileCamera& camera, double pictureAspect) {
     if (x && y) return {*x, *y};
     if (x) return {*x, *x / pictureAspect};
     if (y) return {*y * pictureAspect, *y};
-    return {std::tan(kDefaultX / 2), std::tan(kDefaultY / 2)};
+    return defaultFrustum();
 }
 
 /// Widens the frustum to the picture's shape so that nothing of it is lost.
@@ -35,8 +41,26 @@ Frustum widen(Frustum f, double aspect) {
     return f.x / f.y < aspect ? Frustum{f.y * aspect, f.y} : Frustum{f.x, f.x / aspect};
 }
 
-bool usesFile(const Scene& scene, CameraChoice choice) {
-    if (choice == CameraChoice::Automatic) return !scene.cglDialect && !scene.cameras.empty();
+/// The part of the frustum of a whole picture that one of another size shows, or shows with a
+/// margin: the middle, with pixels of the same angle.
+Frustum cutOut(Frustum f, const PictureSize& whole, const PictureSize& picture) {
+    const double pixelsPerUnit = whole.width / (2 * f.x); // focal length in pixels
+    return {picture.width / (2 * pixelsPerUnit), picture.height / (2 * pixelsPerUnit)};
+}
+
+Frustum framedFrustum(const FileCamera& optics, const PictureSize& picture,
+                      const FramingConventions& conventions) {
+    // Framing needs an angle; an orthographic camera has none.
+    const bool orthographic = optics.projection == Projection::Orthographic;
+    const PictureSize whole = conventions.pictureSize.value_or(PictureSize{});
+    const Frustum f = widen(
+        orthographic ? defaultFrustum() : fileFrustum(optics, aspectOf(picture)), aspectOf(whole));
+    return conventions.pictureSize ? cutOut(f, whole, picture) : widen(f, aspectOf(picture));
+}
+
+bool usesFile(const Scene& scene, CameraChoice choice, const FramingConventions& conventions) {
+    if (choice == CameraChoice::Automatic)
+        return !conventions.framesEveryScene && !scene.cglDialect && !scene.cameras.empty();
     return choice == CameraChoice::File;
 }
 
@@ -51,14 +75,14 @@ Camera fileView(const FileCamera& file) {
 }
 
 /// Direction from the world's origin to the point one unit in front of the file's camera: where
-/// the CS184 renderer looks from.
+/// framed views look from.
 glm::dvec3 framingDirection(const Scene& scene) {
     if (scene.cameras.empty()) return {0, 0, 1};
     const glm::dvec3 d = scene.cameras.back().pointAhead;
     return glm::length(d) > 0 ? glm::normalize(d) : glm::dvec3(0, 0, 1);
 }
 
-/// The CS184 renderer's placement: on a line through the middle of the bounding box, 1.5 times
+/// On a line through the middle of the bounding box, 1.5 times
 /// its diagonal away, y up.
 Camera framedView(const Scene& scene) {
     const Bounds bounds = scene.framing.value_or(scene.bounds());
@@ -67,8 +91,7 @@ Camera framedView(const Scene& scene) {
     const glm::dvec3 d = framingDirection(scene);
     double phi = std::acos(std::clamp(d.y, -1.0, 1.0));
     const double theta = std::atan2(d.x, d.z);
-    if (std::sin(phi) == 0)
-        phi += 1e-5; // radians: that renderer's way out of looking straight down
+    if (std::sin(phi) == 0) phi += 1e-5; // radians: looking straight down leaves open what is up
     Camera camera;
     camera.back = {std::sin(phi) * std::sin(theta), std::cos(phi), std::sin(phi) * std::cos(theta)};
     camera.position = 0.5 * (low + high) + 1.5 * glm::length(high - low) * camera.back;
@@ -96,41 +119,35 @@ Camera lookingAt(const glm::dvec3& from, const glm::dvec3& at, double halfWidth)
     return camera;
 }
 
-PictureSize defaultPictureSize(const Scene& scene, CameraChoice choice, bool cs184) {
-    if (cs184 || scene.cameras.empty() || !usesFile(scene, choice)) return {};
-    const Frustum f = fileFrustum(scene.cameras.back(), kCs184Width / kCs184Height);
+FramingConventions cs184Framing() {
+    return {.pictureSize = PictureSize{800, 600}, .framesEveryScene = true, .clipsAlongRay = true};
+}
+
+PictureSize defaultPictureSize(const Scene& scene, CameraChoice choice,
+                               const FramingConventions& conventions) {
+    if (conventions.pictureSize) return *conventions.pictureSize;
+    if (scene.cameras.empty() || !usesFile(scene, choice, conventions)) return {};
+    const Frustum f = fileFrustum(scene.cameras.back(), aspectOf({}));
     PictureSize size;
     size.height = uint32_t(std::clamp(std::round(size.width * f.y / f.x), 1.0, 16384.0));
     return size;
 }
 
 Camera makeCamera(const Scene& scene, CameraChoice choice, uint32_t width, uint32_t height,
-                  bool cs184) {
-    const bool fromFile = usesFile(scene, choice) && !(cs184 && choice == CameraChoice::Automatic);
+                  const FramingConventions& conventions) {
+    const bool fromFile = usesFile(scene, choice, conventions);
     if (fromFile && scene.cameras.empty())
         throw SceneError(scene.file + ": has no camera; use --camera frame");
     const FileCamera optics = opticsOf(scene);
-    const double aspect = double(width) / double(height);
+    const PictureSize picture{width, height};
+    const double aspect = aspectOf(picture);
     Camera camera = fromFile ? fileView(optics) : framedView(scene);
-    Frustum f = fileFrustum(optics, aspect);
-    const bool orthographic = optics.projection == Projection::Orthographic;
-    if (!fromFile && orthographic) {
-        // Framing needs an angle; an orthographic camera has none.
-        camera.orthographic = false;
-        f = {std::tan(kDefaultX / 2), std::tan(kDefaultY / 2)};
-    } else {
-        camera.orthographic = orthographic;
-    }
-    if (!fromFile) f = widen(f, kCs184Width / kCs184Height);
-    if (!fromFile && cs184) {
-        const double pixelsPerUnit = kCs184Width / (2 * f.x); // focal length in pixels
-        f = {width / (2 * pixelsPerUnit), height / (2 * pixelsPerUnit)};
-    } else {
-        f = widen(f, aspect);
-    }
+    camera.orthographic = fromFile && optics.projection == Projection::Orthographic;
+    const Frustum f = fromFile ? widen(fileFrustum(optics, aspect), aspect)
+                               : framedFrustum(optics, picture, conventions);
     camera.halfWidth = f.x;
     camera.halfHeight = f.y;
-    camera.clipAlongRay = cs184;
+    camera.clipAlongRay = conventions.clipsAlongRay;
     if (!scene.cameras.empty()) {
         camera.nearDistance = optics.nearDistance;
         camera.farDistance = optics.farDistance;

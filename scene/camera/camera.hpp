@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <optional>
 
 namespace stromboli {
 
@@ -21,7 +22,7 @@ struct Camera {
     double halfWidth = 1; ///< perspective: tangent of half the field of view; orthographic: length
     double halfHeight = 1;
     /// Hits count from nearDistance to farDistance: measured along the view axis, or, if
-    /// clipAlongRay (the CS184 renderer), along the ray.
+    /// clipAlongRay, along the ray.
     double nearDistance = 0, farDistance = 1e30;
     bool clipAlongRay = false;
 };
@@ -33,7 +34,7 @@ Camera lookingAt(const glm::dvec3& from, const glm::dvec3& at, double halfWidth)
 enum class CameraChoice {
     Automatic, ///< the file's camera; a CGL-dialect file, or one without a camera, is framed
     File,      ///< the file's camera
-    Frame,     ///< frame the scene as the CS184 renderer does
+    Frame,     ///< all of the scene (docs/cs184.md, "framing")
 };
 
 /// Size a picture gets when the user names none.
@@ -41,16 +42,30 @@ struct PictureSize {
     uint32_t width = 800, height = 600;
 };
 
+/// What belongs to a picture of a scene, where renderers differ.
+struct FramingConventions {
+    /// The size of a picture where none is named, to which framed views belong: a framed picture
+    /// of another size is a crop of it or adds a margin to it, and the angle of a pixel stays.
+    /// Empty: the file's camera states the picture's shape, and the framed view is scaled to it.
+    std::optional<PictureSize> pictureSize;
+    /// CameraChoice::Automatic frames every scene.
+    bool framesEveryScene = false;
+    bool clipsAlongRay = false; ///< Camera::clipAlongRay
+};
+
+/// Those of the CS184 renderer (docs/cs184.md).
+FramingConventions cs184Framing();
+
 /// 800 pixels wide in the file camera's aspect ratio if it states one; 800 x 600 otherwise.
-PictureSize defaultPictureSize(const Scene& scene, CameraChoice choice, bool cs184);
+PictureSize defaultPictureSize(const Scene& scene, CameraChoice choice,
+                               const FramingConventions& conventions = {});
 
 /// The camera for a picture of width x height pixels.
 /// File: the whole of the file's field of view is visible; where the picture's shape differs,
 /// it shows more on the longer side.
-/// Frame: docs/cs184.md; with `cs184` the picture is a crop of (or a margin around) the 800 x 600
-/// picture, as in that renderer, otherwise the same view scaled to the picture.
+/// Frame: docs/cs184.md.
 /// Throws SceneError if `choice` is File and the file has no camera.
 Camera makeCamera(const Scene& scene, CameraChoice choice, uint32_t width, uint32_t height,
-                  bool cs184);
+                  const FramingConventions& conventions = {});
 
 } // namespace stromboli

@@ -1,4 +1,5 @@
-// The CS184 mode: each deviation from the physical rules, by its closed form.
+// The CS184 renderer's conventions of shading: each deviation from the physical rules, by its
+// closed form. What the loader resolves (attenuation, spot lights) is in tests/scene.
 #include "tests/analytic/scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ const Camera kFromBelow = pointCamera({3, -2, 3}, {0, 0, 0});
 
 RenderSettings cs184(uint32_t samples, uint32_t maxBounces = 1) {
     RenderSettings s = smallPicture(samples, maxBounces);
-    s.estimator.cs184 = true;
+    s.estimator.conventions = cs184Shading();
     return s;
 }
 
@@ -81,23 +82,19 @@ TEST(Cs184, SurfacesShowTheirFrontSidesLightFromBehind) {
     expectMean(estimate(b.scene, kFromBelow, cs184(4)), 0);
 }
 
-TEST(Cs184, PointLightHasNoFalloff) {
+/// Each light of the file is sampled; where lamps are left to bounces, delta lights are all there
+/// is.
+TEST(Cs184, EveryLightIsSampledInTurn) {
     SceneMaker b = floor();
-    Light light;
-    light.position = {0, 4, 3};
-    light.quadraticAttenuation = 2;
-    b.add(light);
-    expectMean(estimate(b.scene, kFromAbove, cs184(1)), kF * 0.8);
-}
-
-TEST(Cs184, SpotLightIsDark) {
-    SceneMaker b = floor();
-    Light light;
-    light.kind = LightKind::Spot;
-    light.position = {0, 4, 0};
-    light.direction = {0, -1, 0};
-    b.add(light);
-    expectMean(estimate(b.scene, kFromAbove, cs184(1)), 0);
+    Light point;
+    point.position = {0, 4, 3};
+    b.add(point);
+    b.add(rectangle({0, 2, 0}, {0, -1, 0}));
+    RenderSettings s = cs184(4);
+    s.estimator.lightChoice = LightChoice::Power; // has nothing to choose
+    EXPECT_NEAR(estimate(b.scene, kFromAbove, s).mean.x / (kF * (0.8 + 0.5)), 1, 1e-6);
+    s.estimator.directLight = DirectLight::Bsdf;
+    expectMean(estimate(b.scene, kFromAbove, s), kF * 0.8);
 }
 
 TEST(Cs184, AmbientComesFromAboveOnly) {
@@ -114,8 +111,7 @@ TEST(Cs184, AmbientComesFromAboveOnly) {
 
 TEST(Cs184, EmittersAreNotSampledButSeenByHemisphereAndAfterMirrors) {
     SceneMaker b = floor();
-    b.sphere({0, 0, 0}, 20,
-             b.add(emissive(2, false))); // one-sided outwards: emits inside all the same
+    b.sphere({0, 0, 0}, 20, b.add(emissive(2)));
     expectMean(estimate(b.scene, kFromAbove, cs184(4, 3)), 0);
     RenderSettings s = cs184(64);
     s.estimator.directLight = DirectLight::Bsdf;

@@ -30,8 +30,8 @@ class SingleSample : public testing::TestWithParam<const char*> {};
 TEST_P(SingleSample, IsTheSameAsInTheRun) {
     const Scene scene = loadCollada(kLibrary / GetParam(), {});
     const RenderSettings settings = picture();
-    const Camera camera = makeCamera(scene, CameraChoice::Automatic, settings.area.width,
-                                     settings.area.height, settings.estimator.cs184);
+    const Camera camera =
+        makeCamera(scene, CameraChoice::Automatic, settings.area.width, settings.area.height);
     const Film film = renderFilm(scene, camera, settings);
     int different = 0;
     for (const uint32_t pixel : {101u, 200u, 233u, 276u, 370u}) {

@@ -16,7 +16,7 @@ LibraryPicture libraryPicture(const std::string& name, uint32_t width, uint32_t 
     p.settings.area.height = height;
     p.settings.budget.mostSamplesPerPixel = samples;
     p.settings.estimator.maxBounces = 5;
-    p.camera = makeCamera(p.scene, CameraChoice::Automatic, width, height, false);
+    p.camera = makeCamera(p.scene, CameraChoice::Automatic, width, height);
     return p;
 }
 

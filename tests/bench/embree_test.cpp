@@ -90,7 +90,7 @@ TEST(EmbreePathsOf, ManyEmittersMakeTheReferencesPicture) {
     LibraryPicture p = libraryPicture("cornell_boxes", 48, 36, 64);
     p.scene = readScene("generate:lamps:400");
     p.settings.estimator.maxBounces = 2;
-    p.camera = makeCamera(p.scene, CameraChoice::Automatic, 48, 36, false);
+    p.camera = makeCamera(p.scene, CameraChoice::Automatic, 48, 36);
     CheckSettings check;
     check.familyError = 1e-4;
     const Film reference = paintReference(p);
@@ -174,8 +174,8 @@ TEST(EmbreePaths, SayWhatTheyLack) {
     p.settings.estimator.directLight = DirectLight::Hemisphere;
     EXPECT_NE(embreePathsLack(p.scene, p.settings), "");
     p.settings = {};
-    p.settings.estimator.cs184 = true;
-    EXPECT_EQ(embreePathsLack(p.scene, p.settings), "CS184 conventions");
+    p.settings.estimator.conventions = cs184Shading();
+    EXPECT_EQ(embreePathsLack(p.scene, p.settings), "other shading conventions than the default");
 }
 
 } // namespace

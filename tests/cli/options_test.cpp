@@ -51,7 +51,7 @@ TEST(Options, EverythingGiven) {
     EXPECT_EQ(o.estimator.seed, 5u);
     EXPECT_EQ(o.device, "cpu");
     EXPECT_EQ(o.backend, BackendChoice::Reference);
-    EXPECT_EQ(o.exposure, -1.5);
+    EXPECT_EQ(o.tone.exposure, -1.5);
     EXPECT_EQ(o.area.crop.height, 4u);
     EXPECT_EQ(o.verbosity, Verbosity::Quiet);
 }
@@ -111,6 +111,29 @@ TEST(Options, Cs184ChangesDefaults) {
     EXPECT_TRUE(o.budget.adaptive.enabled);
     EXPECT_EQ(o.budget.adaptive.batch, 32u);
     EXPECT_EQ(o.estimator.roulette.mode, Roulette::Mode::None);
+}
+
+/// All that the option stands for, by its name; without it, the default of each.
+TEST(Options, Cs184IsResolvedIntoConventions) {
+    const Options none = parse({"render", "a.dae", "-o", "a.png", "-s", "100"});
+    EXPECT_TRUE(none.reading.areDefault());
+    EXPECT_FALSE(none.framing.pictureSize || none.framing.framesEveryScene ||
+                 none.framing.clipsAlongRay);
+    EXPECT_EQ(none.estimator.conventions, ShadingConventions{});
+    EXPECT_EQ(none.tone.kind, ToneCurve::Kind::Srgb);
+    EXPECT_EQ(none.budget.adaptive.rule, Adaptive::Rule::Neighbourhood);
+    EXPECT_FALSE(none.branches);
+    const Options o = parse({"render", "a.dae", "-o", "a.png", "-s", "100", "--cs184"});
+    EXPECT_EQ(o.reading.option, "--cs184");
+    EXPECT_TRUE(o.framing.pictureSize && o.framing.framesEveryScene && o.framing.clipsAlongRay);
+    EXPECT_EQ(o.estimator.conventions, cs184Shading());
+    EXPECT_EQ(o.tone.kind, ToneCurve::Kind::Cs184);
+    EXPECT_EQ(o.budget.adaptive.rule, Adaptive::Rule::PerChannel);
+    EXPECT_EQ(o.branches, 1u);
+    // Its pixels have as many samples each, where the adaptive rule has nothing to look at too.
+    EXPECT_FALSE(
+        parse({"render", "a.dae", "-o", "a.png", "-s", "100", "--cs184", "--integrator", "normals"})
+            .budget.spreads());
 }
 
 TEST(Options, Cs184Spellings) {

@@ -38,7 +38,7 @@ TEST(HardCases, C41_SolidAnglesOfTriangles) {
         // Not so near to the plane that 1 / distance^2 has no mean to speak of.
         const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
         if (std::abs(glm::dot(normal, a)) < 0.4) continue;
-        const Lights lights(scene, Convention::Physical);
+        const Lights lights(scene, {});
         SurfacePoint surface;
         surface.geometric = surface.shading = surface.wo = -glm::normalize(a + b + c);
         double sum = 0, naive = 0;

@@ -107,7 +107,7 @@ TEST(Gap, OnlyInKernelsThatNeedIt) {
         change(s);
         const GpuScene packed = packScene(scene, buildWideBvh(scene), lightSelection(s.estimator));
         const Camera camera =
-            makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, false);
+            makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height);
         return kernelFeatures(packed, camera, s.estimator, {})[SPEC_GUIDES] != 0;
     };
     EXPECT_TRUE(hasGapProposal([](RenderSettings&) {}));

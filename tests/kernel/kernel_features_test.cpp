@@ -163,6 +163,54 @@ TEST(KernelFeatures, FollowTheTuning) {
     EXPECT_GE(f[SPEC_STACK_SIZE], 1u);
 }
 
+/// The kernel has two sets of shading conventions; a mixture is refused, not rendered as one of
+/// them.
+TEST(KernelFeatures, ConventionsAreOneSetOrTheOther) {
+    const auto constant = [](const ShadingConventions& conventions) {
+        RenderSettings s;
+        s.estimator.conventions = conventions;
+        return featuresOf(oneTriangle({}), s)[SPEC_CS184];
+    };
+    EXPECT_EQ(constant({}), 0u);
+    EXPECT_EQ(constant(cs184Shading()), 1u);
+    using C = ShadingConventions;
+    for (bool C::*member : {&C::facesForward, &C::testsGeometricSide, &C::exactFresnel,
+                            &C::exactLambda, &C::compressesRadiance, &C::bouncesFindAllLight,
+                            &C::inverseSquareFalloff, &C::ambientAboutNormal, &C::samplesEmitters,
+                            &C::everyLightInTurn, &C::hemispherePerLight}) {
+        C one, allButOne = cs184Shading();
+        one.*member = cs184Shading().*member;
+        allButOne.*member = C{}.*member;
+        EXPECT_NE(one, C{});
+        EXPECT_THROW(constant(one), std::invalid_argument);
+        EXPECT_THROW(constant(allButOne), std::invalid_argument);
+    }
+}
+
+/// Which lights are packed, by the conventions that say so.
+TEST(LightSelection, FollowsTheConventions) {
+    Material lamp;
+    lamp.emission = glm::vec3(1);
+    Scene scene = oneTriangle(lamp);
+    scene.lights.resize(4);
+    scene.lights[0].kind = scene.lights[1].kind = LightKind::Ambient;
+    scene.lights[3].color = glm::vec3(0);
+    const auto count = [&](const ShadingConventions& conventions,
+                           DirectLight direct = DirectLight::Mis) {
+        Estimator e;
+        e.conventions = conventions;
+        e.directLight = direct;
+        return packScene(scene, buildWideBvh(scene), lightSelection(e)).lights.count;
+    };
+    EXPECT_EQ(count({}), 3u); // the triangle, the sum of ambient light, the point light that shines
+    EXPECT_EQ(count({.samplesEmitters = false}), 2u);
+    EXPECT_EQ(count({.everyLightInTurn = true}), 5u);
+    EXPECT_EQ(count({}, DirectLight::Hemisphere), 1u);
+    EXPECT_EQ(count({.hemispherePerLight = true}, DirectLight::Hemisphere), 3u);
+    EXPECT_EQ(count(cs184Shading(), DirectLight::Hemisphere), 4u);
+    EXPECT_EQ(count(cs184Shading(), DirectLight::Bsdf), 2u);
+}
+
 /// The benchmark's kernel: all that scenes may hold, but of the settings only what is asked for.
 TEST(KernelFeatures, EverythingOn) {
     DeviceTuning tuning;

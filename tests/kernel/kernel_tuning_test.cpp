@@ -33,7 +33,7 @@ class KernelTuningTest : public DeviceTest {
     Scene loaded_ =
         loadScene(std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene/library/cornell_boxes.dae");
     GpuScene scene_ = packScene(loaded_, buildWideBvh(loaded_));
-    Camera camera_ = makeCamera(loaded_, CameraChoice::Automatic, 61, 37, false);
+    Camera camera_ = makeCamera(loaded_, CameraChoice::Automatic, 61, 37);
 };
 
 bool sameStatistics(const Film& a, const Film& b) {

@@ -38,10 +38,10 @@ class Memory : public DeviceTest {
             rounding += count * alignmentOf(plan.use);
         }
         const uint64_t before = device.allocatedBytes();
-        const VulkanBackend backend(device, scene_,
-                                    makeCamera(loaded_, CameraChoice::Automatic,
-                                               settings.area.width, settings.area.height, false),
-                                    settings, tuning);
+        const VulkanBackend backend(
+            device, scene_,
+            makeCamera(loaded_, CameraChoice::Automatic, settings.area.width, settings.area.height),
+            settings, tuning);
         const uint64_t allocated = device.allocatedBytes() - before;
         EXPECT_GE(allocated, planned);
         EXPECT_LE(allocated, planned + rounding);

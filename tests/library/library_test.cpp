@@ -65,8 +65,8 @@ TEST_P(Library, IsListedInTheReadme) {
 /// The dialect's framing (and any other) sees what the file's camera sees, up to the six digits
 /// of the numbers in the file.
 TEST_P(Library, AutomaticCameraIsTheFilesCamera) {
-    const Camera automatic = makeCamera(scene_, CameraChoice::Automatic, 400, 300, false);
-    const Camera file = makeCamera(scene_, CameraChoice::File, 400, 300, false);
+    const Camera automatic = makeCamera(scene_, CameraChoice::Automatic, 400, 300);
+    const Camera file = makeCamera(scene_, CameraChoice::File, 400, 300);
     EXPECT_LT(glm::length(automatic.position - file.position), 2e-6);
     EXPECT_LT(glm::length(automatic.back - file.back), 2e-6);
     EXPECT_LT(glm::length(automatic.up - file.up), 2e-6);

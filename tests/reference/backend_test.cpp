@@ -100,7 +100,7 @@ TEST(ReferenceBackend, RefusesWhatItCannotRender) {
     scene.lights.emplace_back().kind = LightKind::Area;
     RenderSettings s = smallPicture(1, 1);
     EXPECT_THROW(ReferenceBackend(scene, kCamera, s), std::invalid_argument);
-    s.estimator.cs184 = true;
+    s.estimator.conventions.samplesEmitters = false;
     ReferenceBackend backend(scene, kCamera, s);
     Film film(16, 16), other(8, 8);
     const std::vector<PixelTarget> outside{{256, 1}}, inside{{0, 1}};

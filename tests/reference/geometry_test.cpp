@@ -183,14 +183,14 @@ TEST(ReferenceSurface, NormalsFaceTheViewer) {
         EXPECT_NEAR(glm::distance(s.shading, n), 0, 1e-7);
         EXPECT_EQ(s.outside, side > 0);
         SurfacePoint unflipped = s;
-        faceForward(unflipped, Convention::Cs184);
+        faceForward(unflipped, {.facesForward = false});
         EXPECT_EQ(unflipped.shading, s.shading);
-        faceForward(s, Convention::Physical);
+        faceForward(s, {});
         EXPECT_NEAR(glm::distance(s.shading, side * n), 0, 1e-7);
         EXPECT_NEAR(glm::distance(s.geometric, {0, 0, side}), 0, 1e-7);
 
         s.wo = glm::normalize(glm::dvec3(-1, 0, side * 1e-3)); // below the shading horizon
-        faceForward(s, Convention::Physical);
+        faceForward(s, {});
         s.outside = true;
         EXPECT_NEAR(std::abs(s.shading.z), 1, 1e-7);
     }

@@ -12,7 +12,6 @@ namespace {
 
 using namespace test;
 using reference::BsdfSample;
-using reference::Convention;
 using reference::RandomStream;
 using reference::SurfacePoint;
 
@@ -26,18 +25,43 @@ TEST(Glass, RefractionBendsBySnellsLaw) {
     s.material = &m;
     RandomStream random(0, 0, 0);
     s.wo = {0.6, 0, 0.8};
-    const BsdfSample in = sampleBsdf(s, random.threeNumbers(), Convention::Physical);
+    const BsdfSample in = sampleBsdf(s, random.threeNumbers(), {});
     EXPECT_NEAR(in.direction.x, -0.4, 1e-12);
     EXPECT_NEAR(in.direction.z, -std::sqrt(1 - 0.16), 1e-12);
     EXPECT_NEAR(in.weight.x, 1 / 2.25, 1e-12);
 
     s.outside = false; // the same ray from inside the glass
-    const BsdfSample out = sampleBsdf(s, random.threeNumbers(), Convention::Physical);
+    const BsdfSample out = sampleBsdf(s, random.threeNumbers(), {});
     EXPECT_NEAR(out.direction.x, -0.9, 1e-12);
     EXPECT_NEAR(out.weight.x, 2.25, 1e-12);
 
     s.wo = {0.8, 0, 0.6}; // 1.5 * 0.8 > 1: total reflection
-    EXPECT_EQ(sampleBsdf(s, random.threeNumbers(), Convention::Physical).weight, glm::dvec3(0.0));
+    EXPECT_EQ(sampleBsdf(s, random.threeNumbers(), {}).weight, glm::dvec3(0.0));
+}
+
+TEST(Glass, RadianceIsCompressedOrByConventionTheOtherWay) {
+    Material m = glass(1.5f);
+    m.kind = MaterialKind::Refraction;
+    SurfacePoint s;
+    s.material = &m;
+    RandomStream random(0, 0, 0);
+    const BsdfSample in = sampleBsdf(s, random.threeNumbers(), {.compressesRadiance = false});
+    EXPECT_NEAR(in.weight.x, 2.25, 1e-12);
+    s.outside = false;
+    const BsdfSample out = sampleBsdf(s, random.threeNumbers(), {.compressesRadiance = false});
+    EXPECT_NEAR(out.weight.x, 1 / 2.25, 1e-12);
+}
+
+/// Light from below the true surface, above the horizon of its shading normal.
+TEST(Diffuse, LightStaysOnItsSideOfTheSurfaceUnlessByConvention) {
+    const Material m;
+    SurfacePoint s;
+    s.material = &m;
+    s.wo = {0, 0, 1};
+    s.shading = {0.6, 0, 0.8};
+    const glm::dvec3 below = glm::normalize(glm::dvec3(1, 0, -0.1));
+    EXPECT_EQ(reference::evaluateBsdf(s, below, {}).pdf, 0);
+    EXPECT_GT(reference::evaluateBsdf(s, below, {.testsGeometricSide = false}).pdf, 0);
 }
 
 TEST(Glass, TotalReflectionIsCertain) {
@@ -46,11 +70,12 @@ TEST(Glass, TotalReflectionIsCertain) {
     s.material = &m;
     s.wo = {0.8, 0, 0.6};
     s.outside = false;
-    for (Convention convention : {Convention::Physical, Convention::Cs184}) {
-        if (convention == Convention::Cs184) s.shading = {0, 0, -1}; // inside is below its normal
+    for (const bool facesForward : {true, false}) {
+        if (!facesForward) s.shading = {0, 0, -1}; // inside is below its normal
         for (uint32_t i = 0; i < 1000; ++i) {
             RandomStream random(0, i, 0);
-            const BsdfSample sample = sampleBsdf(s, random.threeNumbers(), convention);
+            const BsdfSample sample =
+                sampleBsdf(s, random.threeNumbers(), {.facesForward = facesForward});
             EXPECT_NEAR(glm::distance(sample.direction, {-0.8, 0, 0.6}), 0, 1e-12);
             EXPECT_EQ(sample.weight, glm::dvec3(1.0));
         }
@@ -90,7 +115,7 @@ TEST(Fresnel, Conductor) {
     }
 }
 
-TEST(Glass, Cs184ReflectsBySchlick) {
+TEST(Glass, ReflectsBySchlickWhereFresnelIsNotExact) {
     using namespace reference;
     const Material m = glass(1.5f);
     SurfacePoint s;
@@ -101,7 +126,7 @@ TEST(Glass, Cs184ReflectsBySchlick) {
     double reflected = 0;
     for (uint32_t i = 0; i < kSamples; ++i) {
         RandomStream random(0, i, 0);
-        if (sampleBsdf(s, random.threeNumbers(), Convention::Cs184).direction.z > 0)
+        if (sampleBsdf(s, random.threeNumbers(), {.exactFresnel = false}).direction.z > 0)
             reflected += 1.0 / kSamples;
     }
     EXPECT_NEAR(reflected, expected, 4.5 * std::sqrt(expected * (1 - expected) / kSamples));

@@ -53,7 +53,7 @@ TEST(Microfacet, VisibleNormalsProjectToTheView) {
     for (double alpha : {0.3, 0.8})
         for (double cosine : {0.2, 0.6, 1.0}) {
             const glm::dvec3 w = direction(cosine, 0.7);
-            const double g1 = 1 / (1 + smithLambda(w, alpha, Convention::Physical));
+            const double g1 = 1 / (1 + smithLambda(w, alpha, {}));
             const double projected = integrate(0, 1, 0, 2 * kPi, 1000, [&](const glm::dvec3& h) {
                 return beckmannD(h, alpha) * std::max(glm::dot(w, h), 0.0);
             });
@@ -66,8 +66,8 @@ TEST(Microfacet, Reciprocity) {
     for (double a : {0.05, 0.4, 0.9})
         for (double b : {0.1, 0.7, 1.0}) {
             const glm::dvec3 wo = direction(a, 0.3), wi = direction(b, 2.0);
-            const glm::dvec3 f = microfacet(m, wo, wi, Convention::Physical);
-            const glm::dvec3 g = microfacet(m, wi, wo, Convention::Physical);
+            const glm::dvec3 f = microfacet(m, wo, wi, {});
+            const glm::dvec3 g = microfacet(m, wi, wo, {});
             for (int c = 0; c < 3; ++c) {
                 EXPECT_GT(f[c], 0);
                 EXPECT_NEAR(f[c] / g[c], 1, 1e-12);
@@ -127,7 +127,7 @@ TEST(Microfacet, SamplesFollowTheirDensity) {
 }
 
 /// Share of the light from wo that comes back, estimated with sampleBsdf().
-double albedo(const Material& m, double cosine, Convention convention) {
+double albedo(const Material& m, double cosine, const ShadingConventions& conventions) {
     SurfacePoint s;
     s.material = &m;
     s.wo = direction(cosine, 0.5);
@@ -135,7 +135,7 @@ double albedo(const Material& m, double cosine, Convention convention) {
     constexpr uint32_t kSamples = 20000;
     for (uint32_t i = 0; i < kSamples; ++i) {
         RandomStream random(7, i, 0);
-        sum += sampleBsdf(s, random.threeNumbers(), convention).weight.x / kSamples;
+        sum += sampleBsdf(s, random.threeNumbers(), conventions).weight.x / kSamples;
     }
     return sum;
 }
@@ -145,46 +145,55 @@ TEST(Microfacet, ReflectsNoMoreThanItReceives) {
         for (double cosine : {0.01, 0.1, 0.5, 1.0})
             // Single scattering loses energy; 1e-3 is several standard errors of 20000 samples of
             // a weight close to 1.
-            EXPECT_LE(albedo(perfectMetal(alpha), cosine, Convention::Physical), 1 + 1e-3);
+            EXPECT_LE(albedo(perfectMetal(alpha), cosine, {}), 1 + 1e-3);
 }
 
 TEST(Microfacet, SmoothLimitIsAMirror) {
     const Material m = metal(1e-3f);
     for (double cosine : {0.3, 0.8})
-        EXPECT_NEAR(albedo(m, cosine, Convention::Physical), conductor(cosine, m.eta, m.k).x, 1e-4);
+        EXPECT_NEAR(albedo(m, cosine, {}), conductor(cosine, m.eta, m.k).x, 1e-4);
 }
 
 TEST(Microfacet, SampledAlbedoIsTheIntegralOfF) {
-    for (Convention convention : {Convention::Physical, Convention::Cs184}) {
+    for (const ShadingConventions& conventions : {ShadingConventions{}, cs184Shading()}) {
         const Material m = metal(0.5f);
         const glm::dvec3 wo = direction(0.6, 0.5);
         const double integral = integrate(0, 1, 0, 2 * kPi, 500, [&](const glm::dvec3& wi) {
-            return microfacet(m, wo, wi, convention).x * wi.z;
+            return microfacet(m, wo, wi, conventions).x * wi.z;
         });
-        EXPECT_NEAR(albedo(m, 0.6, convention), integral, 0.015);
+        EXPECT_NEAR(albedo(m, 0.6, conventions), integral, 0.015);
     }
 }
 
 TEST(Microfacet, EvaluationNeedsBothDirectionsAbove) {
     const Material m = metal(0.5f);
     const glm::dvec3 up(0.6, 0, 0.8), down(0.6, 0, -0.8);
-    EXPECT_EQ(microfacet(m, up, down, Convention::Physical), glm::dvec3(0.0));
-    EXPECT_EQ(microfacet(m, down, up, Convention::Physical), glm::dvec3(0.0));
+    EXPECT_EQ(microfacet(m, up, down, {}), glm::dvec3(0.0));
+    EXPECT_EQ(microfacet(m, down, up, {}), glm::dvec3(0.0));
 }
 
-TEST(Microfacet, Cs184Forms) {
-    // Written out by hand for alpha 0.5, wo = wi = (0.6, 0, 0.8): h = that, tan = 0.75.
-    const Material m = metal(0.5f);
-    const glm::dvec3 w(0.6, 0, 0.8);
-    const double tangent2 = 0.5625;
-    const double d = std::exp(-tangent2 / 0.25) / (kPi * 0.25 * 0.8 * 0.8 * 0.8 * 0.8);
-    const double a = 1 / (0.5 * 0.75);
+TEST(Microfacet, FormsThatAreNotExact) {
+    // Written out by hand for alpha 1, wo = wi = (0.8, 0, 0.6): h = that, tan = 4 / 3.
+    const Material m = metal(1);
+    const glm::dvec3 w(0.8, 0, 0.6);
+    const double d = std::exp(-16.0 / 9) / (kPi * 0.6 * 0.6 * 0.6 * 0.6), rest = d / (4 * 0.36);
+    const double a = 0.75;
     const double lambda = (std::erf(a) - 1 + std::exp(-a * a) / (a * kPi)) / 2;
-    const double s = 1.3 * 1.3 + 7.3 * 7.3, c = 0.8;
+    const double s = 1.3 * 1.3 + 7.3 * 7.3, c = 0.6;
     const double rs = (s - 2 * 1.3 * c + c * c) / (s + 2 * 1.3 * c + c * c);
     const double rp = (s * c * c - 2 * 1.3 * c + 1) / (s * c * c + 2 * 1.3 * c + 1);
-    const double expected = (rs + rp) / 2 * d / (1 + 2 * lambda) / (4 * 0.64);
-    EXPECT_NEAR(microfacet(m, w, w, Convention::Cs184).x, expected, 1e-6);
+    const double fresnel = (rs + rp) / 2, masking = 1 / (1 + 2 * lambda);
+    const double exactFresnel = conductor(1, m.eta, m.k).x;
+    const double exactMasking = 1 / (1 + 2 * smithLambda(w, 1, {}));
+    const auto relative = [&](const ShadingConventions& conventions, double f, double g) {
+        return microfacet(m, w, w, conventions).x / (f * g * rest);
+    };
+    EXPECT_NEAR(relative({}, exactFresnel, exactMasking), 1, 1e-6);
+    EXPECT_NEAR(relative({.exactFresnel = false}, fresnel, exactMasking), 1, 1e-6);
+    EXPECT_NEAR(relative({.exactLambda = false}, exactFresnel, masking), 1, 1e-6);
+    EXPECT_NEAR(relative({.exactFresnel = false, .exactLambda = false}, fresnel, masking), 1, 1e-6);
+    EXPECT_GT(std::abs(exactFresnel / fresnel - 1), 1e-3); // the test can tell them apart
+    EXPECT_GT(std::abs(exactMasking / masking - 1), 1e-3);
 }
 
 } // namespace

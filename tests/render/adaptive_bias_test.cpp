@@ -37,8 +37,7 @@ struct MeanAndError {
 /// The picture's mean over seeds, with its standard error from their spread.
 MeanAndError overSeeds(const vulkan::Device& device, const Scene& scene, RenderSettings s,
                        uint32_t firstSeed, uint32_t seeds = kSeeds) {
-    const Camera camera =
-        makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, s.estimator.cs184);
+    const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height);
     double sum = 0, squares = 0;
     MeanAndError result;
     std::vector<double> means;
@@ -121,8 +120,7 @@ TEST_F(AdaptiveBias, RareLightIsNeverLost) {
     s.estimator.directLight = DirectLight::Bsdf;
     s.estimator.maxBounces = 1;
     s.budget.mostSamplesPerPixel = 2048;
-    const Camera camera =
-        makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, false);
+    const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height);
     const Film uniform = renderOnDevice(testDevice(), scene, camera, s);
     s.budget.adaptive = {.enabled = true, .batch = 32, .tolerance = 0.05};
     s.estimator.seed = 7;

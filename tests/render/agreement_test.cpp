@@ -32,7 +32,7 @@ RenderSettings smallSettings(uint32_t samples) {
 void expectAgreement(const vulkan::Device& device, const Scene& scene, const std::string& name,
                      const RenderSettings& settings) {
     const Camera camera = makeCamera(scene, CameraChoice::Automatic, settings.area.width,
-                                     settings.area.height, settings.estimator.cs184);
+                                     settings.area.height, framingOf(settings.estimator));
     const Film onDevice = renderOnDevice(device, scene, camera, settings);
     ReferenceBackend reference(scene, camera, settings);
     const Film onHost = render(reference, settings);
@@ -46,7 +46,7 @@ void expectAgreement(const vulkan::Device& device, const Scene& scene, const std
 
 void expectAgreement(const vulkan::Device& device, const std::filesystem::path& file,
                      const RenderSettings& settings) {
-    expectAgreement(device, loadScene(file, settings.estimator.cs184), file, settings);
+    expectAgreement(device, loadScene(file, readingOf(settings.estimator)), file, settings);
 }
 
 std::string nameOf(const testing::TestParamInfo<std::filesystem::path>& info) {
@@ -89,15 +89,17 @@ const Mode kModes[] = {
      [](RenderSettings& s) { s.estimator.roulette.mode = Roulette::Mode::None; }},
     {"normals", "cornell_mesh.dae",
      [](RenderSettings& s) { s.estimator.integrator = Integrator::Normals; }},
-    {"cs184", "cornell_metal.dae", [](RenderSettings& s) { s.estimator.cs184 = true; }},
-    {"cs184Glass", "cornell_mirror_glass.dae", [](RenderSettings& s) { s.estimator.cs184 = true; }},
+    {"cs184", "cornell_metal.dae",
+     [](RenderSettings& s) { s.estimator.conventions = cs184Shading(); }},
+    {"cs184Glass", "cornell_mirror_glass.dae",
+     [](RenderSettings& s) { s.estimator.conventions = cs184Shading(); }},
     {"cs184Hemisphere", "cornell_mesh.dae",
      [](RenderSettings& s) {
-         s.estimator.cs184 = true;
+         s.estimator.conventions = cs184Shading();
          s.estimator.directLight = DirectLight::Hemisphere;
          s.estimator.lightSamples = 4;
      }},
-    {"cs184Sun", "island.dae", [](RenderSettings& s) { s.estimator.cs184 = true; }},
+    {"cs184Sun", "island.dae", [](RenderSettings& s) { s.estimator.conventions = cs184Shading(); }},
     {"ambientByBounces", "light_ambient.dae",
      [](RenderSettings& s) { s.estimator.directLight = DirectLight::Bsdf; }},
     {"sphereByHemisphere", "light_sphere.dae",
@@ -125,8 +127,8 @@ TEST_F(DeviceTest, AgreementOnManyEmitters) {
     settings.area.width = settings.area.height = 48;
     settings.estimator.maxBounces = 2;
     const Scene scene = readScene("generate:lamps:400");
-    const Camera camera = makeCamera(scene, CameraChoice::Automatic, settings.area.width,
-                                     settings.area.height, false);
+    const Camera camera =
+        makeCamera(scene, CameraChoice::Automatic, settings.area.width, settings.area.height);
     ReferenceBackend reference(scene, camera, settings);
     CheckSettings check;
     check.familyError = 1e-4;
@@ -145,8 +147,8 @@ TEST_F(DeviceTest, AgreementFailsForTwoPerCentMoreLight) {
     Scene brighter = scene;
     for (Material& m : brighter.materials)
         m.emission *= 1.02f;
-    const Camera camera = makeCamera(scene, CameraChoice::Automatic, settings.area.width,
-                                     settings.area.height, false);
+    const Camera camera =
+        makeCamera(scene, CameraChoice::Automatic, settings.area.width, settings.area.height);
     const Film a = renderOnDevice(testDevice(), scene, camera, settings);
     ReferenceBackend reference(brighter, camera, settings);
     EXPECT_FALSE(crossCheck(a, render(reference, settings)).agree());

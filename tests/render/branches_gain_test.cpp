@@ -46,7 +46,7 @@ class BranchesGain : public DeviceTest {
         s.estimator.maxBounces = maxBounces;
         const GpuScene gpu = packScene(scene, buildWideBvh(scene));
         const Camera camera =
-            makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, false);
+            makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height);
         VulkanBackend first(testDevice(), gpu, camera, s);
         const Film a = render(first, s);
         s.estimator.seed = 1;
@@ -108,7 +108,6 @@ TEST(BranchesThatPay, OnlyWhereSomethingBouncesAfterDirectLight) {
     EXPECT_EQ(with([](Estimator& e) { e.integrator = Integrator::Normals; }), 1u);
     EXPECT_EQ(with([](Estimator& e) { e.directLight = DirectLight::Hemisphere; }), 1u);
     EXPECT_EQ(with([](Estimator& e) { e.directLight = DirectLight::Bsdf; }), 1u);
-    EXPECT_EQ(with([](Estimator& e) { e.cs184 = true; }), 1u);
     EXPECT_EQ(with([](Estimator&) {}, {.adaptive = {.enabled = true}}), 1u);
 }
 

@@ -133,7 +133,7 @@ class Cs184Pictures : public DeviceTest, public testing::WithParamInterface<Pict
 RenderSettings settingsOf(const Picture& picture) {
     RenderSettings s;
     s.area.width = picture.width, s.area.height = picture.height;
-    s.estimator.cs184 = true;
+    s.estimator.conventions = cs184Shading();
     s.estimator.sampler = Sampler::Independent; // as theirs, and as --cs184 has it
     s.estimator.roulette.mode = Roulette::Mode::None;
     s.budget.adaptive = {
@@ -155,9 +155,9 @@ TEST_P(Cs184Pictures, AreReproduced) {
     if (!std::filesystem::exists(reference / picture.file))
         GTEST_SKIP() << "needs the pictures of ../shared/reference";
     RenderSettings s = settingsOf(picture);
-    const Scene scene = loadScene(sharedFolder() / "scenes" / picture.scene, true);
+    const Scene scene = loadScene(sharedFolder() / "scenes" / picture.scene, cs184Conventions());
     const Camera camera =
-        makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, true);
+        makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, cs184Framing());
     const Film film = renderOnDevice(testDevice(), scene, camera, s);
     const ToneCurve tone{ToneCurve::Kind::Cs184, 0};
 

@@ -28,8 +28,8 @@ class Determinism : public DeviceTest {
     Scene scene = loadScene(kLibrary / "cornell_mirror_glass.dae");
 
     Film renderWith(const RenderSettings& s, const KernelTuning& tuning = {}) {
-        const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.area.width,
-                                         s.area.height, s.estimator.cs184);
+        const Camera camera =
+            makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height);
         return renderOnDevice(testDevice(), scene, camera, s, tuning);
     }
 };

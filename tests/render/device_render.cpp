@@ -15,8 +15,16 @@ Film renderOnDevice(const vulkan::Device& device, const Scene& scene, const Came
     return render(backend, settings);
 }
 
-Scene loadScene(const std::filesystem::path& file, bool cs184) {
-    return loadCollada(file, cs184 ? cs184Conventions() : SceneConventions{});
+Scene loadScene(const std::filesystem::path& file, const SceneConventions& conventions) {
+    return loadCollada(file, conventions);
+}
+
+SceneConventions readingOf(const Estimator& estimator) {
+    return estimator.conventions == cs184Shading() ? cs184Conventions() : SceneConventions{};
+}
+
+FramingConventions framingOf(const Estimator& estimator) {
+    return estimator.conventions == cs184Shading() ? cs184Framing() : FramingConventions{};
 }
 
 std::filesystem::path sharedFolder() {

@@ -3,6 +3,7 @@
 #include "host/film/film.hpp"
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/render/settings.hpp"
+#include "scene/build/conventions.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/model/scene.hpp"
 
@@ -16,7 +17,12 @@ Film renderOnDevice(const vulkan::Device& device, const Scene& scene, const Came
                     const RenderSettings& settings, const KernelTuning& tuning = {});
 
 /// Loads a scene of the repository (scene/library) or of ../shared.
-Scene loadScene(const std::filesystem::path& file, bool cs184 = false);
+Scene loadScene(const std::filesystem::path& file, const SceneConventions& conventions = {});
+
+/// The conventions of reading and framing that --cs184 has beside those of shading; else the
+/// default.
+SceneConventions readingOf(const Estimator& estimator);
+FramingConventions framingOf(const Estimator& estimator);
 
 /// All scenes of scene/library, and of ../shared/scenes where that exists.
 std::vector<std::filesystem::path> allScenes();

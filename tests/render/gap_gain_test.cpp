@@ -29,7 +29,7 @@ class GapGain : public DeviceTest {
         s.estimator.maxBounces = 5;
         s.estimator.guides = gapProposal;
         const Camera camera =
-            makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, false);
+            makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height);
         Expense e;
         Film over(s.area.width, s.area.height); // statistics of the pixels' means over seeds
         for (s.estimator.seed = 0; s.estimator.seed < kSeeds; ++s.estimator.seed) {

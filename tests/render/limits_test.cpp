@@ -40,8 +40,7 @@ TEST_F(Limits, LoopOverflowIsReportedNotRendered) {
     s.estimator.maxBounces = 1;
     s.estimator.directLight = DirectLight::Hemisphere;
     s.estimator.lightSamples = 1024 * 16;
-    const Camera camera =
-        makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, false);
+    const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height);
     EXPECT_THAT(messageOf([&] { renderOnDevice(testDevice(), scene, camera, s); }),
                 testing::HasSubstr("loop iterations"));
 }
@@ -58,8 +57,7 @@ TEST_F(Limits, ManyLightsFitTheLoopLimit) {
     RenderSettings s;
     s.area.width = 8, s.area.height = 8, s.budget.mostSamplesPerPixel = 2,
     s.estimator.maxBounces = 3;
-    const Camera camera =
-        makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, false);
+    const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height);
     for (const PixelStatistics& p : renderOnDevice(testDevice(), scene, camera, s).pixels)
         EXPECT_EQ(p.count, 2u);
 }
@@ -72,8 +70,7 @@ TEST_F(Limits, FilmLargerThanOneBindingIsSplit) {
     RenderSettings s;
     s.area.width = 2048, s.area.height = 1100, s.budget.mostSamplesPerPixel = 1,
     s.estimator.maxBounces = 0;
-    const Camera camera =
-        makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height, false);
+    const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height);
     const Film whole = renderOnDevice(testDevice(), scene, camera, s);
     s.area.crop = {900, 1000, 200, 100};
     const Film part = renderOnDevice(testDevice(), scene, camera, s);

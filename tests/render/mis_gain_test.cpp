@@ -21,8 +21,8 @@ class MisGain : public DeviceTest {
         s.budget.mostSamplesPerPixel = 64;
         s.estimator.maxBounces = 3;
         s.estimator.directLight = mode;
-        const Camera camera = makeCamera(scene_, CameraChoice::Automatic, s.area.width,
-                                         s.area.height, s.estimator.cs184);
+        const Camera camera =
+            makeCamera(scene_, CameraChoice::Automatic, s.area.width, s.area.height);
         const Film a = renderOnDevice(testDevice(), scene_, camera, s);
         s.estimator.seed = 1;
         const Film b = renderOnDevice(testDevice(), scene_, camera, s);

@@ -138,13 +138,13 @@ class NestedKernel : public DeviceTest {
         settings_.budget.mostSamplesPerPixel = kSamples;
         settings_.estimator.maxBounces = 5;
         const auto library = std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene/library";
-        settings_.estimator.cs184 = picture.cs184;
+        if (picture.cs184) settings_.estimator.conventions = cs184Shading();
         Scene scene = std::string_view(picture.scene).starts_with(kGeneratePrefix)
                           ? readScene(picture.scene)
-                          : loadScene(library / picture.scene, picture.cs184);
+                          : loadScene(library / picture.scene, readingOf(settings_.estimator));
         picture.change(scene, settings_);
         camera_ = makeCamera(scene, CameraChoice::Automatic, settings_.area.width,
-                             settings_.area.height, settings_.estimator.cs184);
+                             settings_.area.height, framingOf(settings_.estimator));
         scene_ = packScene(scene, buildWideBvh(scene), lightSelection(settings_.estimator));
     }
 

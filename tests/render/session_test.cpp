@@ -54,7 +54,7 @@ class Session : public DeviceTest {
         return s;
     }
     Camera camera(const RenderSettings& s) const {
-        return makeCamera(scene_, CameraChoice::Automatic, s.area.width, s.area.height, false);
+        return makeCamera(scene_, CameraChoice::Automatic, s.area.width, s.area.height);
     }
     std::unique_ptr<Backend> device(const RenderSettings& s) const {
         // Short dispatches: many places to stop at.

@@ -7,14 +7,13 @@
 #include <utility>
 
 namespace stromboli::test {
-BsdfFixture::BsdfFixture(std::vector<Material> materials, reference::Convention convention)
-    : materials_(std::move(materials)), convention_(convention),
-      shader_(bsdf_texel,
-              ShaderOptions::texel().set(SPEC_CS184, convention == reference::Convention::Cs184)) {
+BsdfFixture::BsdfFixture(std::vector<Material> materials, const ShadingConventions& conventions)
+    : materials_(std::move(materials)), conventions_(conventions),
+      shader_(bsdf_texel, ShaderOptions::texel().set(SPEC_CS184, conventions == cs184Shading())) {
     Scene scene;
     scene.materials = materials_;
     shader_.setScene(packScene(scene, buildWideBvh(scene)));
-    firstRow_ = packMaterials(materials_, false).firstRow;
+    firstRow_ = packMaterials(materials_).firstRow;
 }
 
 std::vector<gpu::BsdfAnswer> BsdfFixture::answers(std::vector<gpu::BsdfQuery> queries) {
@@ -49,7 +48,7 @@ reference::SurfacePoint BsdfFixture::surface(const gpu::BsdfQuery& q) const {
     s.wo = q.wo;
     s.outside = q.outside != 0;
     s.material = &materials_[q.material];
-    reference::faceForward(s, convention_);
+    reference::faceForward(s, conventions_);
     return s;
 }
 

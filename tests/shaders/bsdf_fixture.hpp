@@ -16,7 +16,7 @@ namespace stromboli::test {
 /// up to the reference.
 class BsdfFixture : public DeviceTest {
   protected:
-    BsdfFixture(std::vector<Material> materials, reference::Convention convention);
+    BsdfFixture(std::vector<Material> materials, const ShadingConventions& conventions);
 
     std::vector<gpu::BsdfAnswer> answers(std::vector<gpu::BsdfQuery> queries);
 
@@ -31,7 +31,7 @@ class BsdfFixture : public DeviceTest {
     reference::SurfacePoint surface(const gpu::BsdfQuery& q) const;
 
     std::vector<Material> materials_;
-    reference::Convention convention_;
+    ShadingConventions conventions_;
     std::vector<uint32_t> firstRow_; ///< by material
 
   private:

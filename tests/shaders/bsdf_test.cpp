@@ -27,7 +27,7 @@ double tolerance(const BsdfCase& c, double cosO, double cosI, double cosH) {
     return (20 + angles + lobe) * kRoundoff;
 }
 
-class BsdfTest : public BsdfFixture, public ::testing::WithParamInterface<reference::Convention> {
+class BsdfTest : public BsdfFixture, public ::testing::WithParamInterface<ShadingConventions> {
   protected:
     BsdfTest() : BsdfFixture(materialsOf(bsdfCases()), GetParam()) {}
 
@@ -126,18 +126,16 @@ TEST_P(BsdfTest, WeightsAreValuesOverDensities) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Convention, BsdfTest,
-                         ::testing::Values(reference::Convention::Physical,
-                                           reference::Convention::Cs184),
+                         ::testing::Values(ShadingConventions{}, cs184Shading()),
                          [](const auto& c) {
-                             return c.param == reference::Convention::Cs184 ? "Cs184" : "Physical";
+                             return c.param == cs184Shading() ? "Cs184" : "Physical";
                          });
 
 /// One case at a time, under the physical convention.
 class BsdfCases : public BsdfFixture, public ::testing::WithParamInterface<size_t> {
   protected:
     BsdfCases()
-        : BsdfFixture({bsdfCases()[GetParam()].material, bsdfCases()[GetParam()].white},
-                      reference::Convention::Physical) {}
+        : BsdfFixture({bsdfCases()[GetParam()].material, bsdfCases()[GetParam()].white}, {}) {}
     static constexpr uint32_t kMaterial = 0, kWhite = 1;
 
     gpu::BsdfQuery facing(uint32_t material, float cosine, Random& random) const {
@@ -182,9 +180,8 @@ TEST_P(BsdfCases, SamplesFallWhereTheDensitySays) {
                     2 * kPi * ((double(j) + 0.5) / double(kSectors * kPerCell) - 0.5);
                 const double r = std::sqrt(1 - z * z);
                 const glm::dvec3 w(r * std::cos(phi), r * std::sin(phi), z);
-                const double share =
-                    reference::evaluateBsdf(s, w, reference::Convention::Physical).pdf * 2 * kPi /
-                    double(kRings * kPerCell * kSectors * kPerCell);
+                const double share = reference::evaluateBsdf(s, w, {}).pdf * 2 * kPi /
+                                     double(kRings * kPerCell * kSectors * kPerCell);
                 expected[i / kPerCell * kSectors + j / kPerCell] += share * kSamples;
                 sum += share;
             }

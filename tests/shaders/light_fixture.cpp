@@ -8,12 +8,14 @@
 
 namespace stromboli::test {
 
-LightFixture::LightFixture(bool cs184)
-    : cs184_(cs184), shader_(light_texel, ShaderOptions::texel().set(SPEC_CS184, cs184)) {}
+LightFixture::LightFixture(const ShadingConventions& conventions)
+    : conventions_(conventions),
+      shader_(light_texel, ShaderOptions::texel().set(SPEC_CS184, conventions == cs184Shading())) {}
 
 void LightFixture::setScene(const Scene& scene) {
-    packed_ = packScene(scene, buildWideBvh(scene),
-                        cs184_ ? LightSelection{LightChoice::Each, false, true} : LightSelection{});
+    Estimator estimator;
+    estimator.conventions = conventions_;
+    packed_ = packScene(scene, buildWideBvh(scene), lightSelection(estimator));
     shader_.setScene(packed_);
 }
 

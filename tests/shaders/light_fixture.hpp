@@ -13,7 +13,7 @@ namespace stromboli::test {
 /// Asks light.comp for samples of the lights of a scene, packed as the renderer packs them.
 class LightFixture : public DeviceTest {
   protected:
-    explicit LightFixture(bool cs184 = false);
+    explicit LightFixture(const ShadingConventions& conventions = {});
 
     void setScene(const Scene& scene);
     std::vector<gpu::LightAnswer> answers(const std::vector<gpu::LightQuery>& queries);
@@ -29,7 +29,7 @@ class LightFixture : public DeviceTest {
     GpuScene packed_;
 
   private:
-    bool cs184_;
+    ShadingConventions conventions_;
     TestShader shader_;
 };
 

@@ -21,7 +21,7 @@ const double kLevel = sidakLevel(0.01, 4);
 class LightSampling : public LightFixture {};
 class LightSamplingCs184 : public LightFixture {
   protected:
-    LightSamplingCs184() : LightFixture(true) {}
+    LightSamplingCs184() : LightFixture(cs184Shading()) {}
 };
 
 /// Where the sampled direction meets the plane z = height.
@@ -152,7 +152,7 @@ TEST_F(LightSampling, DeltaLightsAsTheReferenceHasThem) {
         light.falloffAngle = random.uniform(0.2f, 3);
         light.falloffExponent = k % 2 ? 0 : random.uniform(0, 20);
         setScene(scene);
-        const reference::Lights expected(scene, reference::Convention::Physical);
+        const reference::Lights expected(scene, {});
         std::vector<LightQuery> queries;
         for (int i = 0; i < 100; ++i) // around the axis
             queries.push_back(surfaceAt(light.position + random.uniform(0.5f, 2) *

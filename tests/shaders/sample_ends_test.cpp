@@ -14,7 +14,6 @@
 namespace stromboli::test {
 namespace {
 
-using reference::Convention;
 using reference::kPi;
 
 const float kEnds[] = {0, 0x1p-24f, 0.5f, 1 - 0x1p-24f};
@@ -48,16 +47,18 @@ std::vector<glm::vec3> views() {
 
 /// docs/numerics.md, "Weights": of a half vector of the Beckmann distribution, drawn with u, at a
 /// view of this cosine. A sampler that is better at it stays below 1.
-double largestMicrofacetWeight(double alpha, double cosine, double u, bool cs184) {
+double largestMicrofacetWeight(double alpha, double cosine, double u,
+                               const ShadingConventions& conventions) {
     constexpr double kLogError = 1e-6; // of the device, docs/kernel.md
     const double tangent = alpha * std::sqrt(kLogError - std::log1p(-u));
     const double sine = std::sqrt(1 - cosine * cosine);
-    const double root = cs184 ? kPi : std::sqrt(kPi), least = cs184 ? 0.95 : 1;
+    const double root = conventions.exactLambda ? std::sqrt(kPi) : kPi;
+    const double least = conventions.exactLambda ? 1 : 0.95;
     const double bound = (sine * tangent + cosine) / (cosine + alpha * sine / root) * 2 / least;
     return std::max(bound, 1.0) * 1.0001; // rounding
 }
 
-class BsdfEnds : public BsdfFixture, public ::testing::WithParamInterface<Convention> {
+class BsdfEnds : public BsdfFixture, public ::testing::WithParamInterface<ShadingConventions> {
   protected:
     BsdfEnds() : BsdfFixture(allMaterials(), GetParam()) {}
 
@@ -68,7 +69,7 @@ class BsdfEnds : public BsdfFixture, public ::testing::WithParamInterface<Conven
         if (m.kind != MaterialKind::Microfacet) return 1.5 * 1.5;
         const reference::SurfacePoint s = surface(q);
         const double cosine = std::min(std::abs(glm::dot(s.shading, s.wo)), 1.0);
-        return largestMicrofacetWeight(m.alpha, cosine, q.u, GetParam() == Convention::Cs184);
+        return largestMicrofacetWeight(m.alpha, cosine, q.u, GetParam());
     }
 };
 
@@ -105,7 +106,7 @@ TEST_P(BsdfEnds, DirectionsAndWeightsAreInTheirDomains) {
         ++going;
         ASSERT_NEAR(glm::length(glm::dvec3(found[i].direction)), 1, 2e-6) << at; // fails for NaN
         ASSERT_LE(std::max({weight.x, weight.y, weight.z}), largestWeight(q)) << at;
-        if (GetParam() == Convention::Cs184) continue;
+        if (!GetParam().testsGeometricSide) continue;
         const double side = found[i].direction.z;
         ASSERT_GT((found[i].lobe & gpu::TRANSMISSION_LOBES) ? -side : side, 0) << at;
     }
@@ -130,10 +131,10 @@ TEST(MicrofacetWeights, AreBoundedButNotByOne) {
                     const double across = glm::dot(wo, h);
                     const glm::dvec3 wi = 2 * across * h - wo;
                     if (across <= 0 || wi.z <= 0) continue;
-                    const double f = reference::microfacet(m, wo, wi, Convention::Physical).x;
+                    const double f = reference::microfacet(m, wo, wi, {}).x;
                     const double weight =
                         f * wi.z * 4 * across / (reference::beckmannD(h, alpha) * h.z);
-                    EXPECT_LE(weight, largestMicrofacetWeight(alpha, cosine, u, false))
+                    EXPECT_LE(weight, largestMicrofacetWeight(alpha, cosine, u, {}))
                         << alpha << ' ' << cosine << ' ' << u << ' ' << v;
                     largest = std::max(largest, weight);
                 }
@@ -141,9 +142,9 @@ TEST(MicrofacetWeights, AreBoundedButNotByOne) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Convention, BsdfEnds,
-                         ::testing::Values(Convention::Physical, Convention::Cs184),
+                         ::testing::Values(ShadingConventions{}, cs184Shading()),
                          [](const auto& c) {
-                             return c.param == Convention::Cs184 ? "Cs184" : "Physical";
+                             return c.param == cs184Shading() ? "Cs184" : "Physical";
                          });
 
 class AmbientEnds : public LightFixture {};

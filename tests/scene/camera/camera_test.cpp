@@ -16,7 +16,7 @@ Scene sceneWith(const FileCamera& camera) {
 }
 
 Camera fileCamera(const FileCamera& camera, uint32_t width, uint32_t height) {
-    return makeCamera(sceneWith(camera), CameraChoice::File, width, height, false);
+    return makeCamera(sceneWith(camera), CameraChoice::File, width, height);
 }
 
 TEST(FileCamera, BothExtentsAreSeenAndMoreOnTheLongerSide) {
@@ -47,11 +47,11 @@ TEST(FileCamera, OneExtentIsKeptInPicturesOfAnyShape) {
 TEST(FileCamera, ExtentsGiveThePictureItsDefaultShape) {
     FileCamera file;
     file.halfWidth = 0.5, file.halfHeight = 0.25;
-    const PictureSize size = defaultPictureSize(sceneWith(file), CameraChoice::File, false);
+    const PictureSize size = defaultPictureSize(sceneWith(file), CameraChoice::File);
     EXPECT_EQ(size.width, 800u);
     EXPECT_EQ(size.height, 400u);
     file.halfHeight.reset();
-    EXPECT_EQ(defaultPictureSize(sceneWith(file), CameraChoice::File, false).height, 600u);
+    EXPECT_EQ(defaultPictureSize(sceneWith(file), CameraChoice::File).height, 600u);
 }
 
 TEST(FileCamera, PoseAndDepthRangeAreTheFiles) {
@@ -79,11 +79,57 @@ TEST(FramedCamera, LooksFromTheDirectionOfThePointAheadOfTheFilesCamera) {
     file.pointAhead = {3, 0, 4};
     Scene scene = sceneWith(file);
     scene.framing = Bounds{glm::vec3(-1), glm::vec3(1)};
-    const Camera camera = makeCamera(scene, CameraChoice::Frame, 800, 600, false);
+    const Camera camera = makeCamera(scene, CameraChoice::Frame, 800, 600);
     const double distance = 1.5 * std::sqrt(12.0);
     EXPECT_NEAR(camera.position.x, distance * 0.6, 1e-12);
     EXPECT_NEAR(camera.position.y, 0, 1e-12);
     EXPECT_NEAR(camera.position.z, distance * 0.8, 1e-12);
+}
+
+/// A file of no dialect whose camera states its whole shape.
+Scene sceneWithACameraOfItsOwn() {
+    FileCamera file;
+    file.halfWidth = 0.5, file.halfHeight = 0.25;
+    file.position = {0, 0, 5};
+    Scene scene = sceneWith(file);
+    scene.framing = Bounds{glm::vec3(-1), glm::vec3(1)};
+    return scene;
+}
+
+TEST(FramingConventions, PicturesOfAnotherSizeAreCropsOrTheSameView) {
+    const Scene scene = sceneWithACameraOfItsOwn();
+    const FramingConventions crops{.pictureSize = PictureSize{800, 600}};
+    const Camera whole = makeCamera(scene, CameraChoice::Frame, 800, 600, crops);
+    for (const uint32_t n : {1u, 2u, 4u, 16u}) {
+        const Camera part = makeCamera(scene, CameraChoice::Frame, 1600 / n, 600, crops);
+        EXPECT_DOUBLE_EQ(part.halfWidth, whole.halfWidth * 2 / n); // 800 pixels or less: a part
+        EXPECT_DOUBLE_EQ(part.halfHeight, whole.halfHeight);
+        const Camera scaled = makeCamera(scene, CameraChoice::Frame, 800 * n, 600 * n);
+        EXPECT_DOUBLE_EQ(scaled.halfWidth, whole.halfWidth);
+        EXPECT_DOUBLE_EQ(scaled.halfHeight, whole.halfHeight);
+    }
+    EXPECT_EQ(defaultPictureSize(scene, CameraChoice::File, crops).height, 600u);
+    EXPECT_EQ(defaultPictureSize(scene, CameraChoice::File).height, 400u);
+}
+
+TEST(FramingConventions, EverySceneCanBeFramed) {
+    const Scene scene = sceneWithACameraOfItsOwn();
+    const FramingConventions frames{.framesEveryScene = true};
+    const auto distance = [&](CameraChoice choice, const FramingConventions& conventions) {
+        return glm::length(makeCamera(scene, choice, 800, 600, conventions).position);
+    };
+    EXPECT_DOUBLE_EQ(distance(CameraChoice::Automatic, {}), 5);
+    EXPECT_DOUBLE_EQ(distance(CameraChoice::Automatic, frames), 1.5 * std::sqrt(12.0));
+    EXPECT_DOUBLE_EQ(distance(CameraChoice::File, frames), 5);
+}
+
+TEST(FramingConventions, DepthIsMeasuredAlongTheAxisOrTheRay) {
+    const Scene scene = sceneWithACameraOfItsOwn();
+    const auto alongRay = [&](const FramingConventions& conventions) {
+        return makeCamera(scene, CameraChoice::File, 800, 600, conventions).clipAlongRay;
+    };
+    EXPECT_FALSE(alongRay({}));
+    EXPECT_TRUE(alongRay({.clipsAlongRay = true}));
 }
 
 } // namespace
