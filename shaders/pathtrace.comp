@@ -224,7 +224,7 @@ void main() {
     dispatch = dispatchConstants;
     findPictureGrid();
     findOnlyLight();
-    if (GUIDES) findGap();
+    if (GAP_PROPOSAL) findGap();
     const uint lane = gl_GlobalInvocationID.x;
     if (lane >= dispatch.laneCount) return;
     rayCount = 0u;

@@ -71,7 +71,7 @@ class Benchmark {
         s.estimator.maxBounces = settings_.maxBounces;
         s.estimator.seed = settings_.seed;
         s.estimator.sampler = settings_.sampler;
-        s.estimator.guides = false; // Embree's path tracer does not: the same estimator
+        s.estimator.gapProposal = false; // Embree's path tracer does not: the same estimator
         return s;
     }
 

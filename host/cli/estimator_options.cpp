@@ -67,17 +67,17 @@ void declareEstimator(DeclaredCommand& c) {
                "hit",
                1, [&e](const Words& words) { e.roulette = readRoulette(words[0]); })
         .usually("throughput; --cs184: none");
-    list.words("--guide", "WHETHER",
+    list.words("--gap-proposal", "WHETHER",
                "on: some bounces go into the bright gap between a light and a surface close to it; "
                "off: all as the materials scatter",
                1,
                [&e](const Words& words) {
                    if (words[0] != "on" && words[0] != "off")
                        throw UsageError(
-                           fmt::format("--guide is '{}': expected on or off", words[0]));
-                   e.guides = words[0] == "on";
+                           fmt::format("--gap-proposal is '{}': expected on or off", words[0]));
+                   e.gapProposal = words[0] == "on";
                })
-        .usually(e.guides ? "on" : "off");
+        .usually(e.gapProposal ? "on" : "off");
     list.choice("--integrator", "KIND", "what a sample is", e.integrator);
     list.flag("--cs184",
               "the CS184 renderer's conventions: framing and crop, normals, lights, tone curve, "

@@ -93,7 +93,7 @@ GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lig
     packPrimitives(scene, materials.firstRow, g);
     g.lights = packLights(scene, g.bvh.placeOf, lights);
     nameLights(g);
-    // Beside lamps that are geometry: a rectangle that is none has its own mesh close by.
+    // Beside lights that are geometry: a rectangle that is none has its own mesh close by.
     if (lights.emitters) g.gapWidth = gapWidth(g);
     return g;
 }

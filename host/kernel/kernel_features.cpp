@@ -65,8 +65,8 @@ uint32_t misLobes(const GpuScene& scene, const Estimator& settings, uint32_t bsd
     return lobesOf(bsdfKinds) & helped;
 }
 
-bool guidesBounces(const GpuScene& scene, const Estimator& settings) {
-    return settings.guides && scene.gapWidth != 0 && samplesLights(settings.directLight) &&
+bool proposesGap(const GpuScene& scene, const Estimator& settings) {
+    return settings.gapProposal && scene.gapWidth != 0 && samplesLights(settings.directLight) &&
            settings.integrator == Integrator::Path && settings.maxBounces > 1;
 }
 
@@ -152,7 +152,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_LIGHT_NUMBERS] = lightNumbers(scene, settings);
     f[SPEC_MIS_LOBES] = normalsOnly ? 0 : misLobes(scene, settings, f[SPEC_BSDF_KINDS]);
     f[SPEC_SPLITS] = settings.branches > 1;
-    f[SPEC_GUIDES] = guidesBounces(scene, settings);
+    f[SPEC_GAP_PROPOSAL] = proposesGap(scene, settings);
     f[SPEC_COUNT_STEPS] = tuning.countSteps;
     if (tuning.everythingOn) switchOnAllTheSceneCouldHave(f, settings);
     return f;
@@ -183,8 +183,8 @@ std::vector<std::string> describe(const KernelFeatures& f) {
             nameOf(f[SPEC_SAMPLER] == gpu::SAMPLER_SOBOL ? Sampler::Sobol : Sampler::Independent)),
         fmt::format("roulette: {}", kRoulette[f[SPEC_ROULETTE]]),
         fmt::format("paths: {}", f[SPEC_SPLITS] ? "with branches" : "each by itself"),
-        fmt::format("bounces: {}",
-                    f[SPEC_GUIDES] ? "some into the gap behind the light" : "by the materials"),
+        fmt::format("bounces: {}", f[SPEC_GAP_PROPOSAL] ? "some into the gap behind the light"
+                                                        : "by the materials"),
         fmt::format("camera: {}", f[SPEC_ORTHOGRAPHIC] ? "orthographic" : "perspective"),
         fmt::format("CS184 conventions: {}", f[SPEC_CS184] ? "yes" : "no"),
         fmt::format("traversal stack: {} entries{}", f[SPEC_STACK_SIZE],

@@ -92,7 +92,7 @@ void PathSample::addEmission() {
     radiance_ += throughput_ * emission(surface_);
 }
 
-/// Whether a lamp that the ray after this scattering finds adds to the picture, or whether direct
+/// Whether a light that the ray after this scattering finds adds to the picture, or whether direct
 /// light has accounted for it.
 bool PathSample::emissionCounts(uint32_t bounce, bool delta) const {
     const bool leftToBounces =

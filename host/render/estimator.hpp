@@ -17,13 +17,13 @@ inline constexpr auto kNamedValues<Integrator> = std::to_array<NamedValue<Integr
     {Integrator::Normals, "normals", "the shading normal at the first hit, as a colour"},
 });
 
-/// How the light that reaches a surface straight from a lamp is estimated (docs/estimator.md).
+/// How the light that reaches a surface straight from a light is estimated (docs/estimator.md).
 enum class DirectLight {
     Mis,        ///< sample lights; bounces find them too, weighted, where that helps
     MisAll,     ///< the same from every lobe that is no delta: the control
     Lights,     ///< sample lights
     Hemisphere, ///< sample uniform directions; delta lights as in Lights
-    Bsdf,       ///< let the bounce find the lamps; delta lights as in Lights
+    Bsdf,       ///< let the bounce find the lights; delta lights as in Lights
 };
 template <>
 inline constexpr auto kNamedValues<DirectLight> = std::to_array<NamedValue<DirectLight>>({
@@ -100,7 +100,7 @@ struct Estimator {
     Sampler sampler = Sampler::Sobol;
     LightChoice lightChoice = LightChoice::Automatic;
     uint32_t branches = 1; ///< paths of a sample, from the first surface that scatters at random on
-    bool guides = true;    ///< bounces are sent into bright gaps too (docs/estimator.md, "Gaps")
+    bool gapProposal = true; ///< bounces are sent into bright gaps too (docs/estimator.md, "Gaps")
     Roulette roulette;
     uint32_t seed = 0;
     ShadingConventions conventions;

@@ -15,7 +15,7 @@ struct Gap {
     vec2 size;           ///< of the light along the two
     float width;         ///< from the light to the surface; > 0
 };
-Gap gap; ///< with the gap proposal (GUIDES): found once, as onlyLight is
+Gap gap; ///< with the gap proposal (GAP_PROPOSAL): found once, as onlyLight is
 
 void findGap() {
     const QuadLight light = quadLight(onlyLight);
@@ -30,7 +30,7 @@ void findGap() {
 
 /// Whether bounces from s are mixed with those into the gap.
 bool looksIntoGap(SurfacePoint s, uint lobes) {
-    return GUIDES && lobes == LOBE_DIFFUSE_REFLECTION && dot(s.position - gap.corner, gap.normal) > 0.0;
+    return GAP_PROPOSAL && lobes == LOBE_DIFFUSE_REFLECTION && dot(s.position - gap.corner, gap.normal) > 0.0;
 }
 
 /// The gap from a point on the light's other side, by points of the light's plane outside of a rim. Rims 0 and 1

@@ -233,7 +233,7 @@ void scatter(vec3 u, float roulette) {
         if (roulette >= q) return;
         throughput *= 1.0 / q;
     }
-    if (GUIDES) throughput *= mixtureWeight;
+    if (GAP_PROPOSAL) throughput *= mixtureWeight;
     const bool transmitted = isTransmission(b.lobe);
     countsEmission = emissionCounts(b.lobe);
     bouncePdf = combines(b.lobe) ? max(b.pdf, TINY) : 0.0;

@@ -24,7 +24,7 @@ layout(constant_id = SPEC_LIGHT_CHOICE) const uint LIGHT_CHOICE = LIGHT_CHOICE_T
 layout(constant_id = SPEC_LIGHT_NUMBERS) const uint LIGHT_NUMBERS = LIGHT_NUMBERS_FIRST;
 layout(constant_id = SPEC_MIS_LOBES) const uint MIS_LOBES = 0u;
 layout(constant_id = SPEC_SPLITS) const bool SPLITS = false;
-layout(constant_id = SPEC_GUIDES) const bool GUIDES = false;
+layout(constant_id = SPEC_GAP_PROPOSAL) const bool GAP_PROPOSAL = false;
 layout(constant_id = SPEC_COUNT_STEPS) const bool COUNT_STEPS = false;
 
 bool sceneHasBsdf(uint kind) { return (BSDF_KINDS & (1u << kind)) != 0u; }

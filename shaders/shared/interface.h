@@ -50,7 +50,7 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_LIGHT_CHOICE 20       // how one of the lights is picked
 #define SPEC_MIS_LOBES 21 // LOBE_ bits: of these bounces find lights too, weighted
 #define SPEC_SPLITS 22 // paths may split into branches
-#define SPEC_GUIDES 23 // the gap proposal: some bounces go into the gap (gap_proposal.glsl)
+#define SPEC_GAP_PROPOSAL 23 // the gap proposal: some bounces go into the gap (gap_proposal.glsl)
 #define SPEC_STACK_IN_REGISTERS 24 // else in a memory that each lane indexes
 #define SPEC_LARGE_TREE 25 // the tree has more than SMALL_TREE_RECORDS records
 #define SPEC_COUNT 26

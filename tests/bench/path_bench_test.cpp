@@ -37,7 +37,7 @@ struct Bench {
         s.area.width = s.area.height = 48;
         s.budget.mostSamplesPerPixel = 4;
         s.estimator.maxBounces = 5;
-        s.estimator.guides = false; // as `bench` has it
+        s.estimator.gapProposal = false; // as `bench` has it
         return s;
     }
     RaySet bounceRays() const { return makeRaySets(scene.scene, arena.camera, settings, 1).bounce; }

@@ -108,10 +108,10 @@ TEST(Gap, OnlyInKernelsThatNeedIt) {
         const GpuScene packed = packScene(scene, buildWideBvh(scene), lightSelection(s.estimator));
         const Camera camera =
             makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height);
-        return kernelFeatures(packed, camera, s.estimator, {})[SPEC_GUIDES] != 0;
+        return kernelFeatures(packed, camera, s.estimator, {})[SPEC_GAP_PROPOSAL] != 0;
     };
     EXPECT_TRUE(hasGapProposal([](RenderSettings&) {}));
-    EXPECT_FALSE(hasGapProposal([](RenderSettings& s) { s.estimator.guides = false; }));
+    EXPECT_FALSE(hasGapProposal([](RenderSettings& s) { s.estimator.gapProposal = false; }));
     EXPECT_FALSE(hasGapProposal([](RenderSettings& s) { s.estimator.maxBounces = 1; }));
     EXPECT_FALSE(
         hasGapProposal([](RenderSettings& s) { s.estimator.directLight = DirectLight::Bsdf; }));

@@ -189,9 +189,9 @@ TEST(KernelFeatures, ConventionsAreOneSetOrTheOther) {
 
 /// Which lights are packed, by the conventions that say so.
 TEST(LightSelection, FollowsTheConventions) {
-    Material lamp;
-    lamp.emission = glm::vec3(1);
-    Scene scene = oneTriangle(lamp);
+    Material emitter;
+    emitter.emission = glm::vec3(1);
+    Scene scene = oneTriangle(emitter);
     scene.lights.resize(4);
     scene.lights[0].kind = scene.lights[1].kind = LightKind::Ambient;
     scene.lights[3].color = glm::vec3(0);

@@ -42,7 +42,7 @@ class BranchesGain : public DeviceTest {
         s.area.width = 64, s.area.height = 48;
         s.budget.mostSamplesPerPixel = 64 / branches;
         s.estimator.branches = branches;
-        s.estimator.guides = false; // which takes noise away from bounces
+        s.estimator.gapProposal = false; // which takes noise away from bounces
         s.estimator.maxBounces = maxBounces;
         const GpuScene gpu = packScene(scene, buildWideBvh(scene));
         const Camera camera =

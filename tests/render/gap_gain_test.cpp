@@ -27,7 +27,7 @@ class GapGain : public DeviceTest {
         s.area.width = 64, s.area.height = 48;
         s.budget.mostSamplesPerPixel = 32;
         s.estimator.maxBounces = 5;
-        s.estimator.guides = gapProposal;
+        s.estimator.gapProposal = gapProposal;
         const Camera camera =
             makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height);
         Expense e;

@@ -96,7 +96,7 @@ void main() {
     pixelId = pixel;
     findPictureGrid();
     findOnlyLight();
-    if (GUIDES) findGap();
+    if (GAP_PROPOSAL) findGap();
     endTraversal(ray);
     rayCount = 0u;
     loopPasses = 0u;
