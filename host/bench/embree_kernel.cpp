@@ -59,10 +59,11 @@ class PathSample {
             throughput_ = throughput_ * next.weight;
             if (!survives(bounce, u.leftOver)) break;
             countsEmission = delta && bounce >= w_.minBounce;
-            if (bounce == w_.maxBounces && !countsEmission) break;
+            const float ofSky = countsEmission ? 1 : skyOfBounce(bounce);
+            if (bounce == w_.maxBounces && !countsEmission && ofSky == 0) break;
             if (trace(leave(point_, next.direction), next.direction, 0, kLargestFloat)) continue;
-            if (otherLights && countsEmission)
-                radiance_ = radiance_ + throughput_ * ambientRadiance(w_, next.direction);
+            if (otherLights && ofSky > 0)
+                radiance_ = radiance_ + throughput_ * ofSky * ambientRadiance(w_, next.direction);
             break;
         }
         return radiance_;
@@ -132,8 +133,10 @@ class PathSample {
             otherLights ? pickLight(w_, point_, index, u) : PickedLight{w_.lightEntries, 1, u};
         if (!(picked.probability > 0)) return;
         const LightSample s = sampleLight<otherLights>(w_, point_, *picked.entry, picked.u);
+        // Where bounces have a part of the sky and light samples too, there is no other light.
+        const float ofLights = w_.ambientOfBounces < 1 ? 1 - w_.ambientOfBounces : 1;
         const Vec value = evaluate(point_, s.direction) * s.radiance *
-                          (lightSampleShare(w_, index) / picked.probability);
+                          (ofLights * lightSampleShare(w_, index) / picked.probability);
         if (isLit(value) && isFree(s)) radiance_ = radiance_ + throughput_ * value;
     }
 
@@ -143,6 +146,11 @@ class PathSample {
             const Random own = i == 0 ? u : random(block + 1 + i);
             addLight(i, {own.x, own.y});
         }
+    }
+
+    /// The share of the ambient light that a bounce from a diffuse surface finds.
+    float skyOfBounce(uint32_t bounce) const {
+        return otherLights && bounce >= w_.minBounce ? w_.ambientOfBounces : 0;
     }
 
     bool survives(uint32_t bounce, float u) {

@@ -88,6 +88,16 @@ native::LightNode decodedNode(const gpu::LightNode& n) {
     return node;
 }
 
+/// Both techniques have the density cos / pi by solid angle where the sky is alone: their MIS
+/// weights by the power heuristic are the same everywhere.
+float ambientOfBounces(const LightTable& table, const Estimator& settings) {
+    if (table.ambientLeftToBounces) return 1;
+    const bool skyAlone = table.sampledKinds == 1u << gpu::LIGHT_AMBIENT;
+    if (!skyAlone || settings.directLight != DirectLight::Mis) return 0;
+    const auto samples = float(settings.lightSamples);
+    return 1 / (1 + samples * samples);
+}
+
 } // namespace
 
 EmbreeLights embreeLights(const Scene& scene, const RenderSettings& settings) {
@@ -100,7 +110,9 @@ EmbreeLights embreeLights(const Scene& scene, const RenderSettings& settings) {
     all.areaLights = table.areaCount;
     all.hasAmbient = table.hasAmbient;
     all.direct = directSampling(table, settings.estimator);
-    all.oneQuad = table.count == 1 && table.sampledKinds == 1u << gpu::LIGHT_QUAD;
+    all.oneQuad =
+        table.count == 1 && table.sampledKinds == 1u << gpu::LIGHT_QUAD && !table.hasAmbient;
+    all.ambientOfBounces = ambientOfBounces(table, settings.estimator);
     for (size_t row = 0; row < table.lights.size(); row += gpu::LIGHT_ROWS)
         all.lights.push_back(decodedLight(table.lights, row));
     for (uint32_t i = 0; i < table.count; ++i) {

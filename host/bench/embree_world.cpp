@@ -115,6 +115,7 @@ void EmbreeWorld::addLights(const Scene& scene, const RenderSettings& settings) 
     world_.lightCount = uint32_t(lights_.entries.size());
     world_.areaLights = lights_.areaLights;
     world_.hasAmbient = lights_.hasAmbient;
+    world_.ambientOfBounces = lights_.ambientOfBounces;
     world_.lightSamples = lights_.direct.lights;
     world_.samplesPerLight = lights_.direct.perLight;
     if (!lights_.oneQuad) features_ |= native::kHasOtherLights;

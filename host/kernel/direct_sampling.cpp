@@ -27,6 +27,10 @@ DirectSampling directSampling(const LightTable& lights, const Estimator& setting
     }
     if (!samplesLights(settings.directLight) && lights.areaCount > 0)
         throw std::invalid_argument("the lights were packed for another way to find direct light");
+    const bool samplesAll =
+        samplesLights(settings.directLight) && settings.directLight != DirectLight::Mis;
+    if (samplesAll && lights.ambientLeftToBounces)
+        throw std::invalid_argument("ambient light was left to bounces, which do not look for it");
     if (settings.directLight == DirectLight::Hemisphere) direct.hemisphere = samples;
     addLightSamples(lights, samples, direct);
     return direct;

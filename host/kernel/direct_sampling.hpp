@@ -16,7 +16,8 @@ struct DirectSampling {
 };
 
 /// Throws std::invalid_argument if the lights were selected for a mode of direct light in which all
-/// of them are sampled, and this one leaves some to rays: they would be counted twice.
+/// of them are sampled, and this one leaves some to rays, which would count them twice; or the
+/// other way round.
 DirectSampling directSampling(const LightTable& lights, const Estimator& settings);
 
 } // namespace stromboli

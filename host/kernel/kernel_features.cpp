@@ -57,11 +57,13 @@ bool combinesBouncesAndLightSamples(const Estimator& settings) {
     return combinesWithBounces(settings.directLight) && settings.conventions.bouncesFindAllLight;
 }
 
-/// Lobes from which MIS can help: where light samples and bounces find the same light.
+/// Lobes from which MIS helps: where light samples and bounces find the same light, and either
+/// often finds it better (docs/estimator.md, "MIS").
 uint32_t misLobes(const GpuScene& scene, const Estimator& settings, uint32_t bsdfKinds) {
     if (!combinesBouncesAndLightSamples(settings) || scene.lights.areaCount == 0) return 0;
-    const uint32_t helped =
-        settings.directLight == DirectLight::MisAll ? ~gpu::DELTA_LOBES : gpu::GLOSSY_LOBES;
+    const bool skyAlone = scene.lights.sampledKinds == 1u << gpu::LIGHT_AMBIENT;
+    const bool everywhere = skyAlone || settings.directLight == DirectLight::MisAll;
+    const uint32_t helped = everywhere ? ~gpu::DELTA_LOBES : gpu::GLOSSY_LOBES;
     return lobesOf(bsdfKinds) & helped;
 }
 
@@ -151,6 +153,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
         settings.sampler == Sampler::Sobol ? gpu::SAMPLER_SOBOL : gpu::SAMPLER_INDEPENDENT;
     f[SPEC_LIGHT_NUMBERS] = lightNumbers(scene, settings);
     f[SPEC_MIS_LOBES] = normalsOnly ? 0 : misLobes(scene, settings, f[SPEC_BSDF_KINDS]);
+    f[SPEC_AMBIENT_BY_BOUNCES] = !normalsOnly && scene.lights.ambientLeftToBounces;
     f[SPEC_SPLITS] = settings.branches > 1;
     f[SPEC_GAP_PROPOSAL] = proposesGap(scene, settings);
     f[SPEC_COUNT_STEPS] = tuning.countSteps;

@@ -63,6 +63,9 @@ class Packer {
             addLights([](const Light& l) { return l.kind == LightKind::Area; });
         out_.areaCount = uint32_t(entries_.size());
         addLights([](const Light& l) { return l.isDelta(); });
+        if (out_.ambientNumber != gpu::NO_LIGHT && selection_.ambientToBounces &&
+            entries_.size() > 1)
+            leaveAmbientToBounces();
         out_.count = uint32_t(entries_.size());
         writeTable();
         return std::move(out_);
@@ -116,7 +119,20 @@ class Packer {
         const uint32_t number = addRows(everywhere.color, gpu::LIGHT_AMBIENT);
         appendRows(out_.lights, gpu::AmbientLight{above.color, 0});
         fillRows();
-        if (!selection_.deltaLightsOnly) addEntry(gpu::LIGHT_AMBIENT, number, bounds);
+        if (!selection_.deltaLightsOnly)
+            out_.ambientNumber = addEntry(gpu::LIGHT_AMBIENT, number, bounds);
+    }
+
+    /// It is the first entry.
+    void leaveAmbientToBounces() {
+        out_.ambientLeftToBounces = true;
+        out_.ambientNumber = gpu::NO_LIGHT;
+        out_.sampledKinds &= ~(1u << gpu::LIGHT_AMBIENT);
+        --out_.areaCount;
+        entries_.erase(entries_.begin());
+        bounds_.erase(bounds_.begin());
+        for (uint32_t& number : out_.numberOf)
+            if (number != gpu::NO_LIGHT) --number;
     }
 
     static uint32_t kindOf(LightKind kind) {
@@ -243,7 +259,7 @@ class Packer {
         entries_ = std::move(entries);
         for (uint32_t& number : out_.numberOf)
             if (number != gpu::NO_LIGHT) number = newNumber[number];
-        out_.ambientNumber = newNumber[0]; // it was added first, if at all
+        if (out_.ambientNumber != gpu::NO_LIGHT) out_.ambientNumber = newNumber[out_.ambientNumber];
     }
 
     /// In an alias table: the irradiance that the light brings to a surface across the scene, both
@@ -272,6 +288,8 @@ LightSelection lightSelection(const Estimator& settings) {
     selection.choice = conventions.everyLightInTurn ? LightChoice::Each : settings.lightChoice;
     selection.deltaLightsOnly =
         !samplesLights(settings.directLight) && !settings.countsLightsForHemisphere();
+    selection.ambientToBounces =
+        settings.directLight == DirectLight::Mis && conventions.bouncesFindAllLight;
     selection.emitters = conventions.samplesEmitters;
     selection.everyLightOfTheFile = conventions.everyLightInTurn;
     return selection;

@@ -16,6 +16,8 @@ struct LightSelection {
     LightChoice choice = LightChoice::Automatic;
     /// Others are left to rays.
     bool deltaLightsOnly = false;
+    /// Ambient light is left to bounces where there are other lights.
+    bool ambientToBounces = false;
     /// Emissive geometry is sampled.
     bool emitters = true;
     /// Lights of the file that bring no light are lights too, and each of several ambient lights is
@@ -27,14 +29,15 @@ LightSelection lightSelection(const Estimator& settings);
 
 /// The lights of a scene in the arrays that the kernel reads (shaders/shared/light_types.h).
 struct LightTable {
-    std::vector<Row> lights;    ///< the parameters: ambient lights first
-    std::vector<Row> table;     ///< LightEntry rows, then AliasColumn or LightNode rows
-    uint32_t count = 0;         ///< lights that are sampled
-    uint32_t areaCount = 0;     ///< those of them that rays can meet; but in a tree they come first
-    bool hasAmbient = false;    ///< the scene has ambient light, sampled or not
-    uint32_t sampledKinds = 0;  ///< bit n: a light of LIGHT_ kind n is sampled
-    uint32_t ambientNumber = 0; ///< of the ambient light, where it is sampled
-    uint32_t groups = 0;        ///< LightTree::groups
+    std::vector<Row> lights; ///< the parameters: ambient lights first
+    std::vector<Row> table;  ///< LightEntry rows, then AliasColumn or LightNode rows
+    uint32_t count = 0;      ///< lights that are sampled
+    uint32_t areaCount = 0;  ///< those of them that rays can meet; LightChoice::Each: the first
+    bool hasAmbient = false; ///< the scene has ambient light, sampled or not
+    bool ambientLeftToBounces = false;      ///< by LightSelection::ambientToBounces
+    uint32_t sampledKinds = 0;              ///< bit n: a light of LIGHT_ kind n is sampled
+    uint32_t ambientNumber = gpu::NO_LIGHT; ///< of the ambient light, where it is sampled
+    uint32_t groups = 0;                    ///< LightTree::groups
     std::array<uint32_t, gpu::LIGHT_GROUP_COUNT> lightsInGroup{}; ///< LightTree::lightsInGroup
     uint32_t levels = 0;                                          ///< LightTree::levels
     LightChoice choice = LightChoice::Tree; ///< what the selection came to; not Automatic

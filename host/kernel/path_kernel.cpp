@@ -1,10 +1,8 @@
 #include "host/kernel/path_kernel.hpp"
 
+#include "host/kernel/kernel_modules.hpp"
 #include "shaders/shared/interface.h"
 #include "shaders/shared/render_types.h"
-
-#include "embedded/pathtrace_storage.h"
-#include "embedded/pathtrace_texel.h"
 
 namespace stromboli {
 namespace {
@@ -23,16 +21,12 @@ std::vector<vulkan::Binding> kernelBindings(bool texelFetch) {
     return bindings;
 }
 
-std::span<const uint32_t> kernelCode(bool texelFetch) {
-    return texelFetch ? std::span<const uint32_t>(pathtrace_texel)
-                      : std::span<const uint32_t>(pathtrace_storage);
-}
-
 } // namespace
 
 PathKernel::PathKernel(const vulkan::Device& device, const KernelFeatures& features,
                        bool texelFetch, std::span<const uint32_t> code)
-    : features_(features), pipeline_(device, code.empty() ? kernelCode(texelFetch) : code,
-                                     kernelBindings(texelFetch), features, sizeof(gpu::Dispatch)) {}
+    : features_(features),
+      pipeline_(device, code.empty() ? kernelModule(features, texelFetch) : code,
+                kernelBindings(texelFetch), features, sizeof(gpu::Dispatch)) {}
 
 } // namespace stromboli

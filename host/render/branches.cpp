@@ -15,8 +15,8 @@ constexpr uint32_t kBranches = 4;
 /// they are 1 to 100 at 16.
 constexpr uint32_t kLeastSamplesPerBranch = 4;
 
-/// Light samples leave little noise beside that of bounces: not where one sample stands for all of
-/// the sky or for many lights.
+/// Light samples leave little noise beside that of bounces: not where one sample or bounce
+/// stands for all of the sky, or one sample for many lights.
 bool directLightIsSmooth(const Scene& scene, const Estimator& estimator) {
     const bool sky = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
         return light.kind == LightKind::Ambient;

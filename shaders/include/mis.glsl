@@ -22,7 +22,7 @@ float bounceWeight(float inversePdf, float bouncePdf) {
 }
 
 /// Of the light that ray t, a bounce from a surface with this normal, has found: the emissive surface it has
-/// hit, or the ambient light. A surface that no light sample goes to is left to bounces.
+/// hit, or the ambient light. What no light sample goes to is left to bounces.
 float foundLightWeight(Traversal t, vec3 normal, float bouncePdf) {
     const bool hit = t.hitPrimitive != NO_PRIMITIVE;
     PlacedPrimitive place;

@@ -120,7 +120,8 @@ void arrive() {
     phase = PHASE_ENDED;
     const float share = foundShare();
     if (!hit) {
-        if (countsEmission && bounce > 0u && BOUNCES_FIND_ALL_LIGHT)
+        const bool counts = countsEmission || AMBIENT_BY_BOUNCES && bounce >= frame.minBounce;
+        if (counts && bounce > 0u && BOUNCES_FIND_ALL_LIGHT)
             radiance += throughput * ambientRadiance(ray.direction) * share;
         return;
     }
@@ -218,7 +219,9 @@ void nextBranch() {
 }
 
 /// No bounce from here would be traced.
-bool endsHere() { return bounce == frame.maxBounces && !emissionCounts(lobesOf(material)); }
+bool endsHere() {
+    return bounce == frame.maxBounces && !AMBIENT_BY_BOUNCES && !emissionCounts(lobesOf(material));
+}
 
 /// u: as sampleBsdf() takes it; roulette: for the path's end.
 void scatter(vec3 u, float roulette) {

@@ -4,28 +4,45 @@ layout(local_size_x_id = SPEC_WORKGROUP_SIZE) in;
 layout(constant_id = SPEC_TRAVERSAL_STEPS) const uint TRAVERSAL_STEPS = 8u;
 layout(constant_id = SPEC_STACK_SIZE) const uint STACK_SIZE = 64u;
 layout(constant_id = SPEC_STACK_IN_REGISTERS) const bool STACK_IN_REGISTERS = false;
-layout(constant_id = SPEC_LARGE_TREE) const bool LARGE_TREE = false;
 layout(constant_id = SPEC_HAS_TRIANGLES) const bool HAS_TRIANGLES = true;
 layout(constant_id = SPEC_HAS_SPHERES) const bool HAS_SPHERES = true;
 layout(constant_id = SPEC_HAS_NORMALS) const bool HAS_NORMALS = true;
 layout(constant_id = SPEC_BSDF_KINDS) const uint BSDF_KINDS = 31u;
 layout(constant_id = SPEC_HAS_EMISSION) const bool HAS_EMISSION = true;
 layout(constant_id = SPEC_LIGHT_KINDS) const uint LIGHT_KINDS = 127u;
-layout(constant_id = SPEC_INTEGRATOR) const uint INTEGRATOR = INTEGRATOR_PATH;
-layout(constant_id = SPEC_DIRECT_LIGHT) const uint DIRECT_LIGHT = DIRECT_LIGHTS;
 layout(constant_id = SPEC_ROULETTE) const uint ROULETTE = ROULETTE_THROUGHPUT;
 layout(constant_id = SPEC_ORTHOGRAPHIC) const bool ORTHOGRAPHIC = false;
 layout(constant_id = SPEC_CLIP_ALONG_RAY) const bool CLIP_ALONG_RAY = false;
-layout(constant_id = SPEC_CS184) const bool CS184 = false;
 layout(constant_id = SPEC_LIGHT_GROUPS) const uint LIGHT_GROUPS = 7u;
 layout(constant_id = SPEC_LIGHT_SAMPLES) const uint LIGHT_SAMPLES = 1u;
 layout(constant_id = SPEC_SAMPLER) const uint SAMPLER = SAMPLER_INDEPENDENT;
-layout(constant_id = SPEC_LIGHT_CHOICE) const uint LIGHT_CHOICE = LIGHT_CHOICE_TREE;
 layout(constant_id = SPEC_LIGHT_NUMBERS) const uint LIGHT_NUMBERS = LIGHT_NUMBERS_FIRST;
 layout(constant_id = SPEC_MIS_LOBES) const uint MIS_LOBES = 0u;
+layout(constant_id = SPEC_AMBIENT_BY_BOUNCES) const bool AMBIENT_BY_BOUNCES = false;
 layout(constant_id = SPEC_SPLITS) const bool SPLITS = false;
 layout(constant_id = SPEC_GAP_PROPOSAL) const bool GAP_PROPOSAL = false;
+
+// The kernel is compiled into several modules, of which the host takes the smallest that has all a picture needs
+// (host/kernel/kernel_modules.cpp): a driver reads the whole module before it knows what the constants switch off,
+// and that is most of a start.
+#ifdef USUAL_MODES
+const bool LARGE_TREE = false;
+const uint INTEGRATOR = INTEGRATOR_PATH;
+const uint DIRECT_LIGHT = DIRECT_LIGHTS;
+const bool CS184 = false;
+const bool COUNT_STEPS = false;
+#else
+layout(constant_id = SPEC_LARGE_TREE) const bool LARGE_TREE = false;
+layout(constant_id = SPEC_INTEGRATOR) const uint INTEGRATOR = INTEGRATOR_PATH;
+layout(constant_id = SPEC_DIRECT_LIGHT) const uint DIRECT_LIGHT = DIRECT_LIGHTS;
+layout(constant_id = SPEC_CS184) const bool CS184 = false;
 layout(constant_id = SPEC_COUNT_STEPS) const bool COUNT_STEPS = false;
+#endif
+#ifdef ONE_LIGHT
+const uint LIGHT_CHOICE = LIGHT_CHOICE_ONE;
+#else
+layout(constant_id = SPEC_LIGHT_CHOICE) const uint LIGHT_CHOICE = LIGHT_CHOICE_TREE;
+#endif
 
 bool sceneHasBsdf(uint kind) { return (BSDF_KINDS & (1u << kind)) != 0u; }
 bool sceneHasLight(uint kind) { return (LIGHT_KINDS & (1u << kind)) != 0u; }

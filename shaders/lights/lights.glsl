@@ -21,7 +21,7 @@ const LightSample NO_LIGHT_SAMPLE =
 LightRows onlyLight;
 vec3 onlyLightNormal; ///< LIGHT_QUAD
 
-/// A scene's only light is the first in the light buffer, or an emissive triangle.
+/// As LightEntry::light; of no meaning where it cannot be a triangle, since its rows are known then.
 uint onlyLightReference() {
     return sceneHasLight(LIGHT_TRIANGLE) ? fetchLightEntry(0u).light : 0u;
 }
@@ -39,7 +39,9 @@ LightRows fetchLight(uint light) {
 
 void findOnlyLight() {
     if (LIGHT_CHOICE != LIGHT_CHOICE_ONE) return;
-    onlyLight = fetchLightRows(0u);
+    const uint light = fetchLightEntry(0u).light;
+    if (isTriangleLight(light)) return;
+    onlyLight = fetchLightRows(light);
     if (sceneHasLight(LIGHT_QUAD)) {
         const QuadLight quad = quadLight(onlyLight);
         onlyLightNormal = planeNormal(quad.edgeA, quad.edgeB);

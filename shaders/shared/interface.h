@@ -53,7 +53,8 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_GAP_PROPOSAL 23 // the gap proposal: some bounces go into the gap (gap_proposal.glsl)
 #define SPEC_STACK_IN_REGISTERS 24 // else in a memory that each lane indexes
 #define SPEC_LARGE_TREE 25 // the tree has more than SMALL_TREE_RECORDS records
-#define SPEC_COUNT 26
+#define SPEC_AMBIENT_BY_BOUNCES 26 // bounces alone find the ambient light; light samples go to others
+#define SPEC_COUNT 27
 
 SHARED_CONST uint INTEGRATOR_PATH = 0u;
 SHARED_CONST uint INTEGRATOR_NORMALS = 1u;

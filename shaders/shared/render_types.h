@@ -28,7 +28,7 @@ struct Frame {
     uint hemisphereSamples; ///< directions per shading point that are tried to find lights
     uint lightSamples; ///< samples of lights per shading point, of all together
     uint branches; ///< of a sample's path, from the first surface that scatters at random
-    uint ambientLight; ///< the number of the ambient light, where that is sampled
+    uint ambientLight; ///< the number of the ambient light; NO_LIGHT: it is not sampled
     uint lightsInGroup0, lightsInGroup1, lightsInGroup2; ///< by LIGHT_GROUP_: how many the light tree has
 };
 SHARED_ROWS(Frame, 8);

@@ -52,7 +52,7 @@ void expectMean(const Estimate& found, double expected);
 /// The same for two independent estimates of one value.
 void expectSameMean(const Estimate& a, const Estimate& b);
 
-inline constexpr DirectLight kDirectLightModes[] = {DirectLight::Mis, DirectLight::Hemisphere,
-                                                    DirectLight::Bsdf};
+inline constexpr DirectLight kDirectLightModes[] = {DirectLight::Mis, DirectLight::MisAll,
+                                                    DirectLight::Hemisphere, DirectLight::Bsdf};
 
 } // namespace stromboli::test

@@ -2,6 +2,7 @@
 // irradiance, which has a closed form.
 #include "tests/analytic/scenes.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -112,6 +113,27 @@ TEST(SimpleLights, UpperHemisphereLightsHalfOfAWall) {
         RenderSettings s = smallPicture(64, 1);
         s.estimator.directLight = mode;
         expectMean(estimate(b.scene, kSeesOrigin, s), 0.25);
+    }
+}
+
+/// Ambient light is the first in the kernel's buffer of lights, sampled or not.
+TEST(SimpleLights, OthersBesideAmbientLight) {
+    for (const size_t points : {1, 2}) {
+        SceneMaker b = SceneMaker();
+        addFloor(b, b.add(diffuse(0.5f)));
+        for (size_t i = 0; i < points; ++i) {
+            b.add(lightAbove(LightKind::Point));
+            b.scene.lights.back().quadraticAttenuation = 1;
+            b.scene.lights.back().constantAttenuation = 0;
+        }
+        b.scene.lights.emplace_back().kind = LightKind::Ambient;
+        const glm::dvec3 ofPoint = kF * (0.8 / (2.5 * 2.5)) * glm::dvec3(3, 2, 1);
+        for (DirectLight mode : kDirectLightModes) {
+            SCOPED_TRACE(fmt::format("{} {}", nameOf(mode), points));
+            RenderSettings s = smallPicture(64, 1);
+            s.estimator.directLight = mode;
+            expectMean(estimate(b.scene, kSeesOrigin, s), 0.5 + double(points) * ofPoint);
+        }
     }
 }
 

@@ -107,6 +107,28 @@ TEST(KernelFeatures, MisOnlyWhereRoughMetalsMeetEmittersThatBouncesFind) {
     EXPECT_FALSE(featuresOf(scene)[SPEC_MIS_LOBES]);
 }
 
+/// Bounces find the sky as well as samples of it do: beside other lights they do it alone, else
+/// both share it, from diffuse surfaces too. docs/results.md has the gain.
+TEST(KernelFeatures, TheSkyIsFoundByBounces) {
+    Scene scene = oneTriangle({});
+    scene.lights.emplace_back().kind = LightKind::Ambient;
+    const auto featuresIn = [&](DirectLight mode) {
+        RenderSettings s;
+        s.estimator.directLight = mode;
+        return featuresOf(scene, s);
+    };
+    EXPECT_EQ(featuresIn(DirectLight::Mis)[SPEC_MIS_LOBES], gpu::LOBE_DIFFUSE_REFLECTION);
+    EXPECT_FALSE(featuresIn(DirectLight::Mis)[SPEC_AMBIENT_BY_BOUNCES]);
+    scene.lights.emplace_back(); // a point
+    EXPECT_FALSE(featuresIn(DirectLight::Mis)[SPEC_MIS_LOBES]);
+    EXPECT_TRUE(featuresIn(DirectLight::Mis)[SPEC_AMBIENT_BY_BOUNCES]);
+    EXPECT_EQ(featuresIn(DirectLight::Mis)[SPEC_LIGHT_CHOICE], gpu::LIGHT_CHOICE_ONE);
+    EXPECT_EQ(featuresIn(DirectLight::MisAll)[SPEC_MIS_LOBES], gpu::LOBE_DIFFUSE_REFLECTION);
+    for (const DirectLight mode :
+         {DirectLight::MisAll, DirectLight::Lights, DirectLight::Hemisphere, DirectLight::Bsdf})
+        EXPECT_FALSE(featuresIn(mode)[SPEC_AMBIENT_BY_BOUNCES]) << nameOf(mode);
+}
+
 /// A light sample may use the numbers drawn with the path ray, but no two of a surface the same.
 TEST(KernelFeatures, LightSamplesShareNumbersOnlyWhereThereIsOne) {
     Material emitter;

@@ -1,0 +1,36 @@
+#include "host/kernel/kernel_modules.hpp"
+
+#include "embedded/pathtrace_one_light_storage.h"
+#include "embedded/pathtrace_one_light_texel.h"
+#include "embedded/pathtrace_storage.h"
+#include "embedded/pathtrace_texel.h"
+#include "embedded/pathtrace_usual_storage.h"
+#include "embedded/pathtrace_usual_texel.h"
+
+namespace stromboli {
+namespace {
+
+using Code = std::span<const uint32_t>;
+
+/// What USUAL_MODES fixes in shaders/include/specialisation.glsl.
+bool hasUsualModes(const KernelFeatures& f) {
+    return f[SPEC_LARGE_TREE] == 0 && f[SPEC_INTEGRATOR] == gpu::INTEGRATOR_PATH &&
+           f[SPEC_DIRECT_LIGHT] == gpu::DIRECT_LIGHTS && f[SPEC_CS184] == 0 &&
+           f[SPEC_COUNT_STEPS] == 0;
+}
+
+/// What ONE_LIGHT fixes there.
+bool hasOneLight(const KernelFeatures& f) {
+    return f[SPEC_LIGHT_CHOICE] == gpu::LIGHT_CHOICE_ONE;
+}
+
+} // namespace
+
+std::span<const uint32_t> kernelModule(const KernelFeatures& features, bool texelFetch) {
+    if (!hasUsualModes(features)) return texelFetch ? Code(pathtrace_texel) : pathtrace_storage;
+    if (hasOneLight(features))
+        return texelFetch ? Code(pathtrace_one_light_texel) : pathtrace_one_light_storage;
+    return texelFetch ? Code(pathtrace_usual_texel) : pathtrace_usual_storage;
+}
+
+} // namespace stromboli

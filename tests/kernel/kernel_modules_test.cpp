@@ -1,0 +1,65 @@
+// Which module of the path kernel is taken, and that none fixes a constant which differs.
+#include "host/kernel/kernel_modules.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace stromboli {
+namespace {
+
+/// The ids of specialisation constants that a module has: OpDecorate <id> SpecId <n>.
+std::set<uint32_t> constantsOf(std::span<const uint32_t> module) {
+    constexpr uint32_t kHeader = 5, kOpDecorate = 71, kSpecId = 1;
+    std::set<uint32_t> ids;
+    for (size_t i = kHeader; i < module.size(); i += module[i] >> 16)
+        if ((module[i] & 0xFFFF) == kOpDecorate && module[i + 2] == kSpecId)
+            ids.insert(module[i + 3]);
+    return ids;
+}
+
+/// A path tracer of a scene with one light.
+KernelFeatures usual() {
+    KernelFeatures f{};
+    f[SPEC_LIGHT_CHOICE] = gpu::LIGHT_CHOICE_ONE;
+    return f;
+}
+
+class KernelModules : public testing::TestWithParam<bool> {
+  protected:
+    std::span<const uint32_t> module(const KernelFeatures& f) const {
+        return kernelModule(f, GetParam());
+    }
+};
+
+TEST_P(KernelModules, TheSmallestThatHasAllFeatures) {
+    KernelFeatures f = usual();
+    const auto one = module(f);
+    f[SPEC_LIGHT_CHOICE] = gpu::LIGHT_CHOICE_TREE;
+    const auto many = module(f);
+    f[SPEC_CS184] = 1;
+    const auto all = module(f);
+    EXPECT_LT(one.size(), 0.9 * double(many.size()));
+    EXPECT_LT(many.size(), 0.95 * double(all.size()));
+    EXPECT_EQ(constantsOf(all).size(), size_t(SPEC_COUNT)) << "all constants are used";
+}
+
+/// A constant with another value than the usual one leads to a module that has the constant. With
+/// one light nothing asks for the groups of a light tree.
+TEST_P(KernelModules, NoneFixesAConstantThatDiffers) {
+    for (uint32_t id = 0; id < SPEC_COUNT; ++id) {
+        KernelFeatures f = usual();
+        for (const uint32_t value : {1u, 2u, 3u}) {
+            f[id] = usual()[id] + value;
+            EXPECT_EQ(constantsOf(module(f)).contains(id), id != SPEC_LIGHT_GROUPS)
+                << id << " is " << f[id];
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Fetch, KernelModules, testing::Bool(), [](const auto& texelFetch) {
+    return texelFetch.param ? "Texel" : "Storage";
+});
+
+} // namespace
+} // namespace stromboli
