@@ -82,8 +82,8 @@ TEST(Cs184, SurfacesShowTheirFrontSidesLightFromBehind) {
     expectMean(estimate(b.scene, kFromBelow, cs184(4)), 0);
 }
 
-/// Each light of the file is sampled; where emitters are left to bounces, delta lights are all there
-/// is.
+/// Each light of the file is sampled; where emitters are left to bounces, delta lights are all
+/// there is.
 TEST(Cs184, EveryLightIsSampledInTurn) {
     SceneMaker b = floor();
     Light point;

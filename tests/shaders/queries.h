@@ -266,7 +266,7 @@ struct GapAnswer {
     float
         along0; ///< the point of the light's plane it goes through, from the corner along the edges
     float along1;
-    float pdfBehind; ///< of the opposite direction
+    float pdfBehind;  ///< of the opposite direction
     float pdfAtLight; ///< of the direction to the light's middle
 };
 SHARED_ROWS(GapAnswer, 2);
