@@ -50,8 +50,8 @@ Ray makeRay(vec3 origin, vec3 direction) {
     return ray;
 }
 
-/// Position of the highest bit of x, 1 to 255: the exponent of x as a float. llvmpipe has no
-/// instruction for it.
+/// Position of the highest bit of x, 1 to 255: the exponent of x as a float
+/// (docs/kernel.md, "Arithmetic").
 uint highestBit(uint x) { return (floatBitsToUint(float(int(x))) >> 23u) - 127u; }
 
 /// Planes of a node's grid along a ray: plane q of an axis is at distance q * scale + base.
@@ -71,7 +71,7 @@ GridAxis gridAxis(uint word, float rayOrigin, float inverse) {
 }
 
 // The bytes of a word as floats, times 1, 2^8, 2^16 and 1: BYTE_SCALES undoes it, and a mask is
-// cheaper than a shift and a mask. Signed, since llvmpipe converts those in one instruction.
+// cheaper than a shift and a mask. Signed: docs/kernel.md, "Arithmetic".
 #define BYTES_AS_FLOATS(w)                                                                         \
     vec4(float(int((w)&0xFFu)), float(int((w)&0xFF00u)), float(int((w)&0xFF0000u)),                \
          float(int((w) >> 24u)))
@@ -80,8 +80,7 @@ GridAxis gridAxis(uint word, float rayOrigin, float inverse) {
 
 /// Distances of four planes as bit patterns. As integers, patterns of floats that are not
 /// negative compare as the floats do, and a negative one is below them all, which is all that is
-/// needed here. llvmpipe takes one instruction for an integer minimum, and three for a float one,
-/// which minds NaN.
+/// needed here (docs/kernel.md, "Arithmetic").
 ivec4 planeDistances(uint word, GridAxis g) {
     precise vec4 t = BYTES_AS_FLOATS(word) * g.scale.xyzx + g.base;
     return floatBitsToInt(t);

@@ -37,8 +37,8 @@ vec3 offsetOrigin(vec3 p, float error, vec3 n, vec3 w) {
     return p + (dot(n, w) < 0.0 ? -distance : distance) * n;
 }
 
-/// Of two numbers that are not negative: patterns of bits compare as the numbers do. One instruction on
-/// llvmpipe, whose max() and min() mind NaN and take three.
+/// Of two numbers that are not negative, and no NaN: patterns of bits compare as the numbers do
+/// (docs/kernel.md, "Arithmetic").
 float larger(float a, float b) {
     return intBitsToFloat(max(floatBitsToInt(a), floatBitsToInt(b)));
 }

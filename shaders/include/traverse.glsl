@@ -1,6 +1,6 @@
 // Traversal of the 8-wide BVH in steps, so that lanes whose rays are done can be served while
-// others go on (path.glsl). A step visits one record, whatever its kind: llvmpipe runs both sides of
-// an `if` anyway, and a GPU's lanes do not part ways.
+// others go on (path.glsl). A step visits one record, whatever its kind, so that lanes do not part
+// ways (docs/kernel.md, "What llvmpipe does").
 
 #include "traversal_stack.glsl"
 
@@ -70,8 +70,8 @@ void testLeaf(inout Traversal t, Ray ray, Record r, uint record, bool isLeaf) {
     }
 }
 
-/// Visits the next record. A ray that is done visits the root to no effect: that is cheaper on
-/// llvmpipe than an `if` around all this, whose every result has to be selected by lane.
+/// Visits the next record. A ray that is done visits the root to no effect, which costs less than an `if`
+/// around all this (docs/kernel.md, "What llvmpipe does").
 void traversalStep(inout Traversal t, Ray ray) {
     const bool working = traversing(t);
     const uint next = nearestSlot(t.group);
