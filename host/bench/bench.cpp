@@ -117,7 +117,8 @@ class Benchmark {
         const RaySets sets = makeRaySets(scene, arena.camera, arena.settings, raysPerPixel());
         const EmbreePair embree = buildBest(arena, sets.bounce);
         if (embree.fast) report.embreeQuality = nameOf(embree.quality);
-        const GpuScene gpu = packScene(scene, buildWideBvh(scene));
+        const GpuScene gpu =
+            packScene(scene, buildWideBvh(scene), lightSelection(arena.settings.estimator));
         if (wants(Part::Rays)) {
             DeviceRays rays(device(), gpu, rayTuning(device(), rowBytes(gpu, sets.largest())));
             for (const RaySet* set : {&sets.camera, &sets.shadow, &sets.bounce})

@@ -121,7 +121,7 @@ Stages probeStartup(const std::string& sceneFile, const std::string& device) {
     lap(&Stages::device);
     const Scene scene = readScene(sceneFile);
     lap(&Stages::load);
-    const GpuScene gpu = packScene(scene, buildWideBvh(scene));
+    const GpuScene gpu = packScene(scene, buildWideBvh(scene), lightSelection(Estimator{}));
     lap(&Stages::build);
     RenderSettings settings;
     settings.area.width = settings.area.height = kSide;

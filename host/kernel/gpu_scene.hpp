@@ -25,7 +25,8 @@ struct GpuScene {
     bool hasNormals = false; ///< any triangle with shading normals
 };
 
-/// Packs the scene, whose hierarchy is `bvh`.
+/// Packs the scene, whose hierarchy is `bvh`. For a render `lights` is lightSelection() of its
+/// settings; by default all lights are sampled.
 GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lights = {});
 
 /// First row of the primitive's material.

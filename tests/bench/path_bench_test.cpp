@@ -41,7 +41,10 @@ struct Bench {
         return s;
     }
     RaySet bounceRays() const { return makeRaySets(scene.scene, arena.camera, settings, 1).bounce; }
-    GpuScene gpu() const { return packScene(scene.scene, buildWideBvh(scene.scene)); }
+    GpuScene gpu() const {
+        return packScene(scene.scene, buildWideBvh(scene.scene),
+                         lightSelection(settings.estimator));
+    }
 };
 
 TEST_F(DeviceTest, PathContestantsMakeOnePicture) {
@@ -64,6 +67,18 @@ TEST_F(DeviceTest, PathContestantsMakeOnePicture) {
     EXPECT_EQ(report.embreeMissing, "there is no Embree");
 #endif
 }
+
+#ifdef STROMBOLI_TEST_EMBREE
+/// The sky beside another light, and alone: bounces find it, with light samples or without.
+TEST_F(DeviceTest, PathContestantsFindTheSkyInTheSameWay) {
+    for (const char* name : {"ortho", "light_ambient"}) {
+        const Bench bench(name);
+        const PathReport report =
+            benchPaths(bench.arena, bench.gpu(), buildBest(bench.arena, bench.bounceRays()));
+        EXPECT_GT(report.equalPixels, 0.98) << name;
+    }
+}
+#endif
 
 TEST_F(DeviceTest, VariantsMakeTheSamePictureToTheBit) {
     const Bench bench("cornell_boxes");
