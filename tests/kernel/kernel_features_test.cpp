@@ -218,13 +218,14 @@ TEST(LightSelection, FollowsTheConventions) {
     scene.lights[0].kind = scene.lights[1].kind = LightKind::Ambient;
     scene.lights[3].color = glm::vec3(0);
     const auto count = [&](const ShadingConventions& conventions,
-                           DirectLight direct = DirectLight::Mis) {
+                           DirectLight direct = DirectLight::Lights) {
         Estimator e;
         e.conventions = conventions;
         e.directLight = direct;
         return packScene(scene, buildWideBvh(scene), lightSelection(e)).lights.count;
     };
     EXPECT_EQ(count({}), 3u); // the triangle, the sum of ambient light, the point light that shines
+    EXPECT_EQ(count({}, DirectLight::Mis), 2u); // the sky is left to bounces
     EXPECT_EQ(count({.samplesEmitters = false}), 2u);
     EXPECT_EQ(count({.everyLightInTurn = true}), 5u);
     EXPECT_EQ(count({}, DirectLight::Hemisphere), 1u);
