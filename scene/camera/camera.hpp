@@ -34,7 +34,7 @@ Camera lookingAt(const glm::dvec3& from, const glm::dvec3& at, double halfWidth)
 enum class CameraChoice {
     Automatic, ///< the file's camera; a CGL-dialect file, or one without a camera, is framed
     File,      ///< the file's camera
-    Frame,     ///< all of the scene (docs/cs184.md, "framing")
+    Frame,     ///< all of the scene (docs/cs184.md)
 };
 
 /// Size a picture gets when the user names none.
