@@ -3,6 +3,7 @@
 #include "host/core/error.hpp"
 #include "scene/build/read_file.hpp"
 #include "scene/collada/load_collada.hpp"
+#include "scene/find_scene.hpp"
 #include "scene/generate/generated_scene.hpp"
 
 #include <fmt/format.h>
@@ -26,6 +27,7 @@ struct Format {
 constexpr Format kFormats[] = {
     {"COLLADA (.dae, or XML whose root element is <COLLADA>)", ".dae", looksLikeCollada,
      loadCollada},
+    {"COLLADA archive (.zae)", ".zae", looksLikeColladaArchive, loadCollada},
 };
 
 /// What is looked at to tell a format. Comments may stand before the first element.
@@ -64,7 +66,7 @@ Scene readScene(const std::string& source, const SceneConventions& conventions) 
                                          source, conventions.option));
         return generatedScene(std::string_view(source).substr(kGeneratePrefix.size()));
     }
-    const std::filesystem::path file = source;
+    const std::filesystem::path file = sceneFile(source);
     const Format* format = byName(file);
     if (!format) format = byContent(file);
     if (!format)

@@ -9,6 +9,7 @@
 #include "host/bench/startup_bench.hpp"
 #include "host/bench/transfer_bench.hpp"
 #include "host/vulkan/open_device.hpp"
+#include "scene/find_scene.hpp"
 
 #include <tbb/global_control.h>
 
@@ -32,7 +33,7 @@ class Benchmark {
     BenchReport run() {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads_);
         for (const std::string& name : settings_.scenes) // found out before the work, not after it
-            benchSceneFile(name);
+            sceneFile(name);
         BenchReport report;
         report.circumstances =
             circumstancesOf(open_.device->description(), embree_, threads_, settings_.commandLine);
@@ -132,7 +133,7 @@ class Benchmark {
     /// Of the first scene that is a file.
     std::optional<StartupReport> startup() {
         for (const std::string& name : settings_.scenes)
-            if (const std::string file = benchSceneFile(name); !file.empty())
+            if (const std::string file = sceneFile(name); !file.empty())
                 return benchStartup(settings_.program, file, settings_.device, plan("start-up"));
         return {};
     }

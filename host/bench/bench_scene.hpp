@@ -14,12 +14,7 @@ struct BenchScene {
     Scene scene;
 };
 
-/// `name`: a file, a scene of scene/library without ".dae", or what scene/generate can make
-/// ("generate:cornell_mesh:1000000"). Throws SceneError.
+/// `name`: as readScene understands it. Throws SceneError.
 BenchScene loadBenchScene(const std::string& name);
-
-/// The file that a name stands for, without loading it; empty for generated scenes. Throws
-/// SceneError if there is none.
-std::string benchSceneFile(const std::string& name);
 
 } // namespace stromboli::bench

@@ -1,5 +1,7 @@
 #include "host/bench/circumstances.hpp"
 
+#include "host/version/version.hpp"
+
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
@@ -49,7 +51,7 @@ Circumstances circumstancesOf(const vulkan::DeviceDescription& device, const Ope
     Circumstances c;
     c.date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
     c.commandLine = commandLine;
-    c.version = STROMBOLI_VERSION;
+    c.version = version();
     c.cpu = cpuName();
     c.system = systemName();
     c.cores = cores();

@@ -15,7 +15,7 @@ class Painter {
   public:
     Painter(std::string name, std::unique_ptr<Backend> backend, const RenderSettings& settings)
         : name_(std::move(name)), backend_(std::move(backend)), settings_(settings),
-          pixels_(cropPixels(settings.area)), film_(settings.area.width, settings.area.height) {}
+          film_(settings.area) {}
 
     const std::string& name() const { return name_; }
     const Film& film() const { return film_; }
@@ -24,11 +24,11 @@ class Painter {
     Work goOn() {
         samples_ += settings_.budget.mostSamplesPerPixel;
         std::vector<PixelTarget> targets;
-        for (const uint32_t pixel : pixels_)
+        for (uint32_t pixel = 0; pixel < film_.pixels.size(); ++pixel)
             targets.push_back({pixel, samples_});
         const double before = deviceSeconds();
         backend_->sample(targets, film_, {});
-        return {double(pixels_.size()) * settings_.budget.mostSamplesPerPixel,
+        return {double(film_.pixels.size()) * settings_.budget.mostSamplesPerPixel,
                 deviceSeconds() - before};
     }
 
@@ -41,7 +41,6 @@ class Painter {
     std::string name_;
     std::unique_ptr<Backend> backend_;
     RenderSettings settings_;
-    std::vector<uint32_t> pixels_;
     uint32_t samples_ = 0;
     Film film_;
 };

@@ -132,7 +132,7 @@ Stages probeStartup(const std::string& sceneFile, const std::string& device) {
     Film film = render(backend, settings);
     lap(&Stages::firstDispatch);
     std::vector<PixelTarget> again;
-    for (const uint32_t pixel : cropPixels(settings.area))
+    for (uint32_t pixel = 0; pixel < film.pixels.size(); ++pixel)
         again.push_back({pixel, 2});
     backend.sample(again, film, {});
     lap(&Stages::secondDispatch);

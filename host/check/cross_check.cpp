@@ -68,7 +68,7 @@ CheckBlock worst(const Grid& grid, const Film& film, double rounding, double lim
         bool fails = false;
         for (int c = 0; c < 3; ++c) {
             const double z = grid.sums[i][c].z(rounding);
-            fails = fails || std::abs(z) > limit;
+            fails = fails || !(std::abs(z) <= limit);
             if (worstBlock.width != 0 && std::abs(z) <= std::abs(worstBlock.z)) continue;
             worstBlock = blockAt(grid, i, film);
             worstBlock.channel = c;
@@ -87,6 +87,7 @@ void checkChannels(const Grid& pixels, const CheckSettings& settings, double err
             whole[c].add(pixel[c]);
     result.channelLimit = twoSidedQuantile(sidakLevel(error, 3));
     result.channelsAgree = true;
+    result.power = settings.power;
     for (int c = 0; c < 3; ++c) {
         CheckChannel& channel = result.channels[c];
         channel.meanA = whole[c].sumA() / double(result.pixels);
@@ -94,7 +95,9 @@ void checkChannels(const Grid& pixels, const CheckSettings& settings, double err
         const double mean = 0.5 * (channel.meanA + channel.meanB);
         channel.relativeDifference = mean > 0 ? (channel.meanA - channel.meanB) / mean : 0;
         channel.z = whole[c].z(settings.rounding);
-        if (std::abs(channel.z) > result.channelLimit) result.channelsAgree = false;
+        channel.isBlack = whole[c].isBlack();
+        channel.visible = whole[c].visible(result.channelLimit, settings.power, settings.rounding);
+        if (!(std::abs(channel.z) <= result.channelLimit)) result.channelsAgree = false;
     }
 }
 
@@ -153,12 +156,27 @@ void checkConstants(const Film& a, const Film& b, const CheckSettings& settings,
 
 } // namespace
 
+bool CheckResult::couldSee() const {
+    constexpr double kBlackAgainstNot = 2; // (0 - m) / (m / 2)
+    if (varied == 0) return false;
+    const auto sees = [](const CheckChannel& c) { return c.visible < kBlackAgainstNot; };
+    return std::ranges::any_of(channels, sees) ||
+           std::ranges::all_of(channels, &CheckChannel::isBlack);
+}
+
+Verdict CheckResult::verdict() const {
+    if (anyDiffers()) return Verdict::Different;
+    return couldSee() ? Verdict::Agree : Verdict::Undecided;
+}
+
 CheckResult crossCheck(const Film& a, const Film& b, const CheckSettings& settings) {
     if (a.width != b.width || a.height != b.height)
         throw std::invalid_argument("the films to compare have different sizes");
     CheckResult result;
     const Grid pixels = pixelGrid(a, b);
     result.pixels = uint64_t(std::count(pixels.used.begin(), pixels.used.end(), 1));
+    for (size_t i = 0; i < a.pixels.size(); ++i)
+        if (pixels.used[i] && std::max(a.pixels[i].count, b.pixels[i].count) > 1) ++result.varied;
     for (const PixelStatistics& p : a.pixels)
         result.rejectedA += p.rejected;
     for (const PixelStatistics& p : b.pixels)

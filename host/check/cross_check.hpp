@@ -20,6 +20,8 @@ struct CheckSettings {
     /// gives a sample as a sum of products of some tens of operations, each good to 2^-24 to
     /// 2^-22; this allows 256 roundings.
     double rounding = 0x1p-16;
+    /// Probability of finding the differences that CheckChannel::visible states.
+    double power = 0.95;
 };
 
 /// A block of pixels and how far apart two films are in it.
@@ -34,11 +36,24 @@ struct CheckChannel {
     double meanA = 0, meanB = 0;
     double relativeDifference = 0; ///< (meanA - meanB) / the mean of both; 0 for black
     double z = 0;
+    bool isBlack = false; ///< in both films
+    /// The smallest relativeDifference of the whole picture that the test of the means finds with
+    /// probability CheckSettings::power; infinite: it finds none.
+    double visible = 0;
 };
 
-/// What a comparison found. The films agree if all four verdicts are true.
+/// A comparison that finds no difference says something only if it could have found one.
+enum class Verdict {
+    Agree,
+    Different,
+    Undecided ///< no difference was found, but none could have been
+};
+
+/// What a comparison found.
 struct CheckResult {
     uint64_t pixels = 0;     ///< with samples in both films
+    uint64_t varied = 0;     ///< of them, with two samples in one film: the least that varies
+    double power = 0;        ///< of CheckChannel::visible
     uint64_t blockTests = 0; ///< blocks of all sizes times channels
     std::array<CheckChannel, 3> channels;
     double channelLimit = 0; ///< on |CheckChannel::z|
@@ -51,7 +66,15 @@ struct CheckResult {
     uint64_t rejectedA = 0, rejectedB = 0; ///< samples that were not finite, for information
 
     bool channelsAgree = false, blocksAgree = false, pixelsAgree = false, constantsAgree = false;
-    bool agree() const { return channelsAgree && blocksAgree && pixelsAgree && constantsAgree; }
+
+    bool anyDiffers() const {
+        return !(channelsAgree && blocksAgree && pixelsAgree && constantsAgree);
+    }
+    /// Whether some channel is not black and would have told a black picture (a relative difference
+    /// of 2) from one that is not; or all channels are black.
+    bool couldSee() const;
+    Verdict verdict() const;
+    bool agree() const { return verdict() == Verdict::Agree; }
 };
 
 /// Tests the hypothesis that two films, made with independent random numbers and without adaptive

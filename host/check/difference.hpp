@@ -2,6 +2,8 @@
 
 #include "host/film/film.hpp"
 
+#include <algorithm>
+
 namespace stromboli {
 
 /// Radiance that float arithmetic may turn into 0: a factor below 2^-126 vanishes, and may have
@@ -30,9 +32,20 @@ class Difference {
     /// Difference of the sums, A - B, moved towards 0 by what rounding to float may explain, in
     /// standard deviations. `rounding`: relative error of each film's values.
     double z(double rounding) const;
+    /// How much brighter or darker one film has to be throughout, relative to the mean of both, for
+    /// |z| to exceed `limit` with probability `power` (> 1/2), as far as the variance found here is
+    /// the true one. Infinite where no difference would do: black pictures, and too few samples.
+    double visible(double limit, double power, double rounding) const;
+    /// Neither film has radiance that a float could hold.
+    bool isBlack() const { return std::max(sumA_, sumB_) <= kUnderflow; }
 
   private:
+    double variance() const { return std::max(separate_, pooled_); }
+
     double sumA_ = 0, sumB_ = 0, separate_ = 0, pooled_ = 0;
+    /// What a relative difference of 1 in every pixel adds to either variance: each contains the
+    /// pixel's squared difference / (n - 1).
+    double ownShare_ = 0;
 };
 
 } // namespace stromboli

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace stromboli {
 namespace {
 
@@ -9,6 +11,34 @@ constexpr const char* kChannelNames[] = {"red", "green", "blue"};
 
 const char* verdict(bool agrees) {
     return agrees ? "ok" : "DIFFERENT";
+}
+
+std::string percent(const CheckChannel& c) {
+    if (c.isBlack) return "black";
+    return std::isfinite(c.visible) ? fmt::format("{:.3g} %", 100 * c.visible) : "nothing";
+}
+
+/// What the test of the means was able to see, whatever it found.
+std::string formatSight(const CheckResult& r) {
+    if (r.varied == 0) return "sight      unknown: no pixel has two samples\n";
+    return fmt::format("sight      differences of the means found with {:g} % probability: from {} "
+                       "(red), {} (green), {} (blue)\n",
+                       100 * r.power, percent(r.channels[0]), percent(r.channels[1]),
+                       percent(r.channels[2]));
+}
+
+std::string finalWord(const CheckResult& r) {
+    switch (r.verdict()) {
+    case Verdict::Agree:
+        return "the pictures agree";
+    case Verdict::Different:
+        return "DIFFERENT";
+    case Verdict::Undecided:
+        break;
+    }
+    return r.varied == 0
+               ? "UNDECIDED: no pixel has two samples, and so nothing tells noise from a difference"
+               : "UNDECIDED: the noise would hide it if one picture were black; take more samples";
 }
 
 } // namespace
@@ -23,6 +53,7 @@ std::string formatCheck(const CheckResult& r) {
                         channel.meanA, channel.meanB, 100 * channel.relativeDifference, channel.z);
     }
     text += fmt::format("means      |z| <= {:.2f}: {}\n", r.channelLimit, verdict(r.channelsAgree));
+    text += formatSight(r);
     const CheckBlock& block = r.worstBlock;
     text += fmt::format(
         "blocks     |z| <= {:.2f}: {}; worst z = {:+.2f} of {} at ({}, {}), {} x {}, {}\n",
@@ -37,7 +68,7 @@ std::string formatCheck(const CheckResult& r) {
                         verdict(r.constantsAgree));
     if (r.rejectedA + r.rejectedB > 0)
         text += fmt::format("samples rejected: {} and {}\n", r.rejectedA, r.rejectedB);
-    text += fmt::format("verdict: {}\n", r.agree() ? "the pictures agree" : "DIFFERENT");
+    text += fmt::format("verdict: {}\n", finalWord(r));
     return text;
 }
 

@@ -3,40 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <sstream>
-
 namespace stromboli {
 namespace {
 
 constexpr Range<uint32_t> kRepeats{1, 1000}, kRaysPerPixel{1, 1024}, kSide{1, 65536},
     kBounces{0, 10000}, kSamples{1, kMostSamples}, kSeeds{0, 0xFFFFFFFFu};
 /// What scene/generate makes.
-constexpr uint64_t kFewestTriangles = 1000, kMostTriangles = 100'000'000;
-
-/// "4M", "10k" or "50000".
-uint64_t parseSize(const std::string& text) {
-    uint64_t size = 0;
-    const char* const last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data(), last, size);
-    const std::string suffix(end, last);
-    const uint64_t unit = suffix == "k" ? 1000 : suffix == "M" ? 1'000'000 : 1;
-    const bool known = suffix.empty() || unit > 1;
-    if (error != std::errc() || !known || size > kMostTriangles || size * unit < kFewestTriangles ||
-        size * unit > kMostTriangles)
-        throw UsageError(
-            fmt::format("--sizes: '{}' is no number of triangles from 1k to 100M", text));
-    return size * unit;
-}
-
-std::vector<uint64_t> parseSizes(const std::string& list) {
-    std::vector<uint64_t> sizes;
-    if (list.empty()) return sizes;
-    std::istringstream in(list + ","); // so that nothing after the last comma is an item too
-    for (std::string item; std::getline(in, item, ',');)
-        sizes.push_back(parseSize(item));
-    return sizes;
-}
+constexpr Range<uint32_t> kTriangles{1000, 100'000'000};
 
 bench::Part partNamed(const std::string& name) {
     if (const auto part = valueNamed<bench::Part>(name)) return *part;
@@ -68,6 +41,7 @@ void declareMeasuring(OptionList& list, bench::BenchSettings& s) {
                        s.parts.insert(partNamed(word));
                })
         .usually("all")
+        .proposes(namesOf<bench::Part>())
         .separatedByCommas = true;
     list.numbers("-r,--size", "W H", "picture size", {&s.width, &s.height}, kSide)
         .usually(fmt::format("{} {}; --quick: 192 192", s.width, s.height));
@@ -87,16 +61,24 @@ void declareBench(DeclaredCommand& c) {
     bench::BenchSettings& s = o.settings;
     OptionList& list = c.list;
     list.group("Scenes");
-    list.list("SCENE", "", "files, scenes of scene/library by name, or generate:cornell_mesh:N",
-              s.scenes)
-        .usually(fmt::format("{}", fmt::join(s.scenes, " ")));
+    list.list("SCENE", "", "files, bundled scenes by name, or generate:cornell_mesh:N", s.scenes)
+        .usually(fmt::format("{}", fmt::join(s.scenes, " ")))
+        .proposes(Proposed::Scenes);
     list.words("--sizes", "N,N,...",
                "also: time per ray in the generated mesh of so many triangles each, as "
                "1k,10k,100k,1M,4M",
-               1, [&s](const Words& words) { s.sizes = parseSizes(words[0]); });
+               1,
+               [&s](const Words& words) {
+                   s.sizes.clear();
+                   for (const std::string& word : words)
+                       s.sizes.push_back(readNumber("--sizes", word, kTriangles));
+               })
+        .from(inWords(kTriangles))
+        .separatedByCommas = true;
     declareMeasuring(list, s);
     list.group("Output");
-    list.text("--json", "FILE.json", "write all measurements as JSON", o.jsonFile);
+    list.text("--json", "FILE.json", "write all measurements as JSON", o.jsonFile)
+        .proposes(Proposed::Files);
     list.flag("--probe-startup", "time the stages of this process's start, and no more",
               o.probeStartup)
         .hidden();

@@ -1,15 +1,15 @@
+#include "host/cli/activity.hpp"
 #include "host/cli/commands.hpp"
 #include "host/compare/false_color.hpp"
-#include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
 #include "host/core/json.hpp"
+#include "host/core/output.hpp"
 #include "host/film/exr.hpp"
 #include "host/film/png.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <span>
 
 namespace stromboli {
 namespace {
@@ -50,28 +50,26 @@ void writeDifference(const CompareOptions& o, const Picture& reference, const Pi
 
 void writeFigures(const CompareOptions& o, const Comparison& comparison,
                   const std::vector<std::string>& broken) {
-    if (o.jsonFile != "-") fmt::print("{}", compare::toText(comparison));
+    if (!isStandardOutput(o.jsonFile)) fmt::print("{}", compare::toText(comparison));
     if (o.jsonFile.empty()) return;
     Json json = compare::toJson(comparison);
     json["reference"] = o.reference;
     json["picture"] = o.picture;
     json["violations"] = broken;
-    const std::string text = json.dump(2) + "\n";
-    if (o.jsonFile == "-")
-        fmt::print("{}", text);
-    else
-        writeFileAtomically(o.jsonFile, std::as_bytes(std::span(text)));
+    writeOutput(o.jsonFile, json.dump(2) + "\n");
 }
 
 } // namespace
 
 int compareCommand(const Options& options) {
     const CompareOptions& o = options.compare;
+    nowDoing("comparing " + o.picture);
     const Picture reference = compare::readPicture(o.reference);
     const Picture picture = compare::readPicture(o.picture);
     const Comparison comparison = compare::comparePictures(reference, picture, o.settings);
     const std::vector<std::string> broken = compare::violations(comparison, o.thresholds);
     writeDifference(o, reference, picture, comparison);
+    nowDoing("printing", StatusLine::OfOthers);
     writeFigures(o, comparison, broken);
     for (const std::string& line : broken)
         fmt::print(stderr, "{}: {}\n", o.picture, line);

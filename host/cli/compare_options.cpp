@@ -1,5 +1,6 @@
 #include "host/cli/declared_command.hpp"
 #include "host/core/error.hpp"
+#include "host/core/output.hpp"
 #include "host/film/image_file.hpp"
 
 #include <fmt/format.h>
@@ -31,8 +32,13 @@ void declareThresholds(OptionList& list, compare::Thresholds& t) {
               t.zTest);
 }
 
+bool namesPng(const std::string& file) {
+    return file.ends_with(".png") || file.ends_with(".PNG");
+}
+
 void checkFiles(const CompareOptions& o) {
     if (!o.differenceFile.empty()) checkWritable(o.differenceFile);
+    if (!o.jsonFile.empty()) checkOutputWritable(o.jsonFile);
     for (const std::string& out : {o.differenceFile, o.jsonFile})
         if (!out.empty() && (out == o.reference || out == o.picture))
             throw UsageError(out + ": the output would replace a picture that is compared");
@@ -47,15 +53,19 @@ void declareCompare(DeclaredCommand& c) {
     OptionList& list = c.list;
     list.group("Pictures");
     list.text("REF", "", "the reference: .png (sRGB), .exr or .pfm (linear)", o.reference)
-        .required();
-    list.text("IMG", "", "the picture to judge, of the same size", o.picture).required();
+        .required()
+        .proposes(Proposed::Files);
+    list.text("IMG", "", "the picture to judge, of the same size", o.picture)
+        .required()
+        .proposes(Proposed::Files);
     declareThresholds(list, o.thresholds);
     list.group("Output");
     list.text("--diff", "FILE", "write the difference: .png in false colour, .exr as IMG - REF",
-              o.differenceFile);
+              o.differenceFile)
+        .proposes(Proposed::Files);
     list.choice("--show", "WHAT", "what --diff FILE.png shows", o.show);
-    list.text("--json", "FILE.json", "write all figures as JSON; - for standard output",
-              o.jsonFile);
+    list.text("--json", "FILE.json", "write all figures as JSON; - for standard output", o.jsonFile)
+        .proposes(Proposed::Files);
     list.group("Metrics");
     list.real("--exposure", "EV", "radiance times 2^EV before PSNR and SSIM look at it",
               o.settings.exposure, kStops);
@@ -66,7 +76,11 @@ void declareCompare(DeclaredCommand& c) {
         .usually(fmt::format("{:.2f}", o.settings.pixelsPerDegree));
     list.real("--alpha", "P", "z-tests: probability of a false alarm", o.settings.familyError,
               kErrorRates);
-    c.finish = [&o] { checkFiles(o); };
+    c.finish = [&c, &o] {
+        checkFiles(o);
+        if (c.has("--show") && !namesPng(o.differenceFile))
+            throw UsageError("--show says what --diff FILE.png shows: there is no such file");
+    };
 }
 
 } // namespace stromboli

@@ -1,21 +1,78 @@
 // Which options each command has.
 #include "host/cli/declared_command.hpp"
 #include "host/core/error.hpp"
+#include "host/core/output.hpp"
+#include "host/film/image_file.hpp"
+
+#include <fmt/format.h>
 
 namespace stromboli {
 namespace {
 
 constexpr Range<double> kStops{-100, 100};
+constexpr Range<double> kSeconds{0.01, 1e9};
 constexpr Range<double> kErrorRates{1e-12, 0.5};
 
 void declareOutput(DeclaredCommand& c) {
     Options& o = c.options;
     c.list.group("Output");
-    c.list.text("-o,--output", "FILE", "picture to write: .png (sRGB, 8 bit) or .exr (linear)",
-                o.output);
+    c.list
+        .text("-o,--output", "FILE",
+              "picture to write: .png (sRGB, 8 bit) or .exr (linear); -: a PNG on standard output",
+              o.output)
+        .proposes(Proposed::Files);
     c.list.real("--exposure", "EV", "PNG: radiance times 2^EV", o.tone.exposure, kStops);
     c.list.flag("--aov", "EXR: also sample counts and variances of the mean", o.statisticsChannels);
-    c.list.text("--stats", "FILE.json", "write statistics of the render as JSON", o.statsFile);
+    c.list
+        .text("--stats", "FILE.json",
+              "write statistics of the render as JSON; - for standard output", o.statsFile)
+        .proposes(Proposed::Files);
+}
+
+/// What the kind of picture has no use for.
+void checkOutputOptions(const DeclaredCommand& c) {
+    const Options& o = c.options;
+    const bool isExr = !isPng(o.output);
+    if (o.statisticsChannels && !isExr)
+        throw UsageError(
+            fmt::format("--aov needs an EXR file: {} has no channels for it", o.output));
+    if (c.has("--exposure") && isExr)
+        throw UsageError(
+            fmt::format("--exposure is for PNG: {} holds radiance as it is", o.output));
+}
+
+/// What is given and has no effect here: said, and not refused, because these options are added to
+/// command lines that are there already.
+void remarkOnWhatIsIgnored(DeclaredCommand& c) {
+    Options& o = c.options;
+    const auto remark = [&](const std::string& because, const std::vector<std::string>& names) {
+        const std::string ignored = c.givenOf(names);
+        if (!ignored.empty()) o.remarks.push_back(fmt::format("{}: ignored: {}", because, ignored));
+    };
+    if (o.sampleAlone)
+        remark("--pixel prints one sample and makes no picture",
+               {"-o", "--stats", "--exposure", "--aov", "--crop", "--cell"});
+    if (isStandardOutput(o.output) && (o.budget.adaptive.enabled || o.budget.stop.open()))
+        o.remarks.emplace_back(
+            "-o - has no place for a second picture: the rate picture is left out");
+}
+
+void declareCheckpoints(DeclaredCommand& c) {
+    Options& o = c.options;
+    c.list.group("Going on");
+    c.list
+        .text("--checkpoint", "FILE",
+              "keep the state of the render there, and leave it at the end; off: nowhere",
+              o.checkpointFile)
+        .usually("OUTPUT.checkpoint, from the first minute to the end of the render")
+        .proposes({"off"})
+        .proposes(Proposed::Files);
+    c.list.real("--checkpoint-every", "S", "seconds from one checkpoint to the next",
+                o.checkpointSeconds, kSeconds);
+    c.list.flag("--resume",
+                "go on from the checkpoint, to the same bytes as if never interrupted; also with "
+                "another -s, --noise, --time or -a (--time counts all runs)",
+                o.resume);
 }
 
 void declareRender(DeclaredCommand& c) {
@@ -29,13 +86,21 @@ void declareRender(DeclaredCommand& c) {
     declareBranches(c, "4 where bounces make most of the noise, else 1 (docs/estimator.md)");
     declareSpreading(c);
     declareSampleAlone(c);
+    declareCheckpoints(c);
     c.list.group("Device");
+    c.list
+        .number("--film-memory", "MIB",
+                "mebibytes for the film and what belongs to it; a picture that needs more is "
+                "rendered in bands",
+                o.filmMebibytes, {1, 1u << 30})
+        .usually("half of the machine's memory");
     c.list.choice("--backend", "WHICH", "what takes the samples", o.backend);
     declareDevice(c);
     declareHost(c);
     c.list
         .number("--accumulate", "N", "CS184's -o: 0 is --min-bounce equal to -m",
                 c.asked.accumulate, {0, 0xFFFFFFFFu})
+        .excludes("--min-bounce", "both say which bounces are left out")
         .hidden();
     c.finish = [&c, &o] {
         finishPicture(c);
@@ -43,6 +108,11 @@ void declareRender(DeclaredCommand& c) {
         finishBudget(c, true);
         if (o.output.empty() && !o.sampleAlone)
             throw UsageError("--output is required (see --help)");
+        if (o.backend == BackendChoice::Reference && c.has("--device"))
+            throw UsageError("--device and --backend reference exclude each other: the reference "
+                             "runs on the CPU, without Vulkan");
+        if (!o.sampleAlone) checkOutputOptions(c);
+        remarkOnWhatIsIgnored(c);
     };
 }
 
@@ -73,6 +143,11 @@ void declareInfo(DeclaredCommand& c) {
     declarePicture(c);
     declareEstimator(c);
     declareSampler(c, c.options.estimator.sampler);
+    c.list.group("Output");
+    c.list
+        .text("--json", "FILE.json", "write all of it as JSON instead; - for standard output",
+              c.options.infoJsonFile)
+        .proposes(Proposed::Files);
     declareHost(c);
     c.finish = [&c] {
         finishPicture(c);

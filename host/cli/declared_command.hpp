@@ -6,7 +6,9 @@
 #include <deque>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 namespace stromboli {
 
@@ -29,6 +31,10 @@ struct DeclaredCommand {
     Options options;
     Asked asked;
     OptionList list;
+    std::set<std::string> given; ///< names of the options on the command line
+    bool has(const std::string& option) const { return given.contains(option); }
+    /// Those of the options that are on the command line: "-m, -l"; empty: none.
+    std::string givenOf(const std::vector<std::string>& names) const;
     /// Works out what the options mean together. Throws UsageError.
     std::function<void()> finish = [] {};
 };
@@ -36,10 +42,10 @@ struct DeclaredCommand {
 /// All commands. The functions inside refer to their own command: it must not be moved.
 std::deque<DeclaredCommand> declareCommands();
 
-/// Understands the arguments (without the program's name): stores them in the command that they
-/// name, checks conflicts, and finishes it. Null: help or version was printed and the program is
-/// done. Throws UsageError.
-DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, Words arguments);
+/// Understands the words of the command line (without the program's name): stores them in the
+/// command that they name, checks conflicts, and finishes it. Null: help or version was printed and
+/// the program is done. Throws UsageError.
+DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, const Words& words);
 
 // Groups of options that several commands have. Each `finish...` belongs to the group above it.
 

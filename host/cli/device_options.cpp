@@ -8,7 +8,8 @@ void declareDevice(DeclaredCommand& c) {
     c.list
         .text("--device", "D", "number, UUID or part of a name from 'stromboli devices', or cpu",
               c.options.device)
-        .usually("the best");
+        .usually("the best")
+        .proposes({"cpu"});
 }
 
 void declareHost(DeclaredCommand& c) {

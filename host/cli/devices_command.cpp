@@ -13,9 +13,9 @@ void print(size_t index, const vulkan::DeviceDescription& d, bool chosen) {
     fmt::print("{} {}  {} ({})\n", chosen ? '*' : ' ', index, d.name(), d.type());
     fmt::print("     driver: {}; Vulkan {}.{}.{}\n", d.driver, VK_API_VERSION_MAJOR(api),
                VK_API_VERSION_MINOR(api), VK_API_VERSION_PATCH(api));
-    fmt::print("     memory: {} MiB; storage buffers up to {} MiB; texel buffers up to {} M rows\n",
+    fmt::print("     memory: {} MiB; storage buffers up to {} MiB; texel buffers up to {} k rows\n",
                d.memory >> 20, limits.maxStorageBufferRange >> 20,
-               limits.maxTexelBufferElements >> 20);
+               limits.maxTexelBufferElements >> 10);
     fmt::print("     subgroup: {} lanes; timestamps: {}\n", d.subgroupSize,
                d.timestampBits ? "yes" : "no (the host's clock is used)");
     fmt::print("     uuid: {}\n", d.uuid);

@@ -38,7 +38,7 @@ void useCs184(DeclaredCommand& c) {
     o.estimator.roulette.mode = Roulette::Mode::None;
     o.branches = 1;
     o.budget.adaptive.enabled = true;
-    c.asked.usualPaths = 1;
+    if (o.command == Command::Render) c.asked.usualPaths = 1; // one sample checks nothing
     c.asked.usuallySpread = false;
 }
 
@@ -66,7 +66,9 @@ void declareEstimator(DeclaredCommand& c) {
                "none, throughput (from bounce 3 on), or a probability P of ending a path at every "
                "hit",
                1, [&e](const Words& words) { e.roulette = readRoulette(words[0]); })
-        .usually("throughput; --cs184: none");
+        .usually("throughput; --cs184: none")
+        .proposes({"none", "throughput"})
+        .from("0 to 1, without 1");
     list.words("--gap-proposal", "WHETHER",
                "on: some bounces go into the bright gap between a light and a surface close to it; "
                "off: all as the materials scatter",
@@ -77,7 +79,8 @@ void declareEstimator(DeclaredCommand& c) {
                            fmt::format("--gap-proposal is '{}': expected on or off", words[0]));
                    e.gapProposal = words[0] == "on";
                })
-        .usually(e.gapProposal ? "on" : "off");
+        .usually(e.gapProposal ? "on" : "off")
+        .proposes({"on", "off"});
     list.choice("--integrator", "KIND", "what a sample is", e.integrator);
     list.flag("--cs184",
               "the CS184 renderer's conventions: framing and crop, normals, lights, tone curve, "
@@ -89,6 +92,21 @@ void declareEstimator(DeclaredCommand& c) {
 void finishEstimator(DeclaredCommand& c) {
     Estimator& e = c.options.estimator;
     if (c.asked.accumulate && *c.asked.accumulate == 0) e.minBounce = e.maxBounces;
+    const std::string moot =
+        e.integrator == Integrator::Normals
+            ? c.givenOf({"-m", "--min-bounce", "-l", "--direct", "-H", "--light-choice",
+                         "--roulette", "--gap-proposal", "--branches", "-a"})
+            : "";
+    if (!moot.empty())
+        c.options.remarks.push_back(
+            fmt::format("--integrator normals follows no light: ignored: {}", moot));
+    if (c.has("--gap-proposal") && e.gapProposal && c.options.backend == BackendChoice::Reference)
+        c.options.remarks.emplace_back(
+            "the reference makes no gap proposal: --gap-proposal ignored");
+    if (c.has("--gap-proposal") && e.gapProposal && !samplesLights(e.directLight))
+        throw UsageError(
+            fmt::format("--gap-proposal on needs lights that are sampled: not --direct {}",
+                        nameOf(e.directLight)));
     if (e.minBounce > e.maxBounces)
         throw UsageError(fmt::format("--min-bounce {} is more than -m {}: no light is left",
                                      e.minBounce, e.maxBounces));

@@ -1,11 +1,19 @@
 #include "host/bvh/statistics.hpp"
+#include "host/cli/activity.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/info_json.hpp"
 #include "host/cli/job.hpp"
 #include "host/cli/progress.hpp"
+#include "host/core/output.hpp"
+#include "host/core/printable.hpp"
 #include "host/kernel/kernel_buffers.hpp"
 #include "host/kernel/kernel_features.hpp"
 
 #include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace stromboli {
 namespace {
@@ -13,15 +21,30 @@ namespace {
 void printScene(const Job& job) {
     const Scene& s = job.scene;
     const Bounds b = s.bounds();
-    fmt::print("scene {} (loaded in {})\n", s.file, formatDuration(job.loadSeconds));
+    fmt::print("scene {} (loaded in {})\n", printable(s.file), formatDuration(job.loadSeconds));
     fmt::print("  triangles {}, spheres {}, materials {}, lights {}, cameras {}{}\n",
                s.triangles.size(), s.spheres.size(), s.materials.size(), s.lights.size(),
                s.cameras.size(), s.cglDialect ? ", CS184 dialect" : "");
     if (!b.empty())
         fmt::print("  bounds ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m\n", b.lo.x, b.lo.y, b.lo.z,
                    b.hi.x, b.hi.y, b.hi.z);
+    for (const std::string& line : s.report.forgiven)
+        fmt::print("  forgiven: {}\n", printable(line));
     for (const std::string& line : s.report.ignored)
-        fmt::print("  ignored: {}\n", line);
+        fmt::print("  ignored: {}\n", printable(line));
+    for (const std::string& line : s.report.assumed)
+        fmt::print("  {}\n", printable(line));
+}
+
+void printFileCameras(const Job& job, const Options& options) {
+    const std::vector<FileCamera>& cameras = job.scene.cameras;
+    const std::optional<size_t> chosen = chosenCamera(job.scene, options.camera, options.framing);
+    const bool framed = isFramed(job.scene, options.camera, options.framing);
+    for (size_t i = 0; i < cameras.size(); ++i)
+        fmt::print("  camera {} '{}', {}{}\n", i + 1, printable(cameras[i].name),
+                   cameras[i].projection == Projection::Perspective ? "perspective"
+                                                                    : "orthographic",
+                   !framed && chosen == i ? ": taken" : "");
 }
 
 void printCamera(const Job& job) {
@@ -47,7 +70,13 @@ void printBvh(const BuiltScene& built) {
 int infoCommand(const Options& options) {
     const Job job = prepareJob(options);
     const BuiltScene built = buildScene(job);
+    nowDoing("printing", StatusLine::OfOthers);
+    if (!options.infoJsonFile.empty()) {
+        writeOutput(options.infoJsonFile, infoJson(job, built).dump(2) + "\n");
+        return 0;
+    }
     printScene(job);
+    printFileCameras(job, options);
     printCamera(job);
     printBvh(built);
     fmt::print("kernel (only what the scene needs)\n");

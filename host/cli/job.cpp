@@ -1,32 +1,63 @@
 #include "host/cli/job.hpp"
 
+#include "host/cli/activity.hpp"
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
+#include "host/core/memory.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/film/film.hpp"
 #include "host/render/branches.hpp"
-#include "scene/model/emitters.hpp"
+#include "scene/model/default_light.hpp"
 #include "scene/read_scene.hpp"
 
 #include <fmt/format.h>
 
-#include <unistd.h>
+#include <optional>
+#include <string>
 
 namespace stromboli {
 namespace {
 
-void reportLoading(const Scene& scene, const Options& options) {
+void reportScene(const Scene& scene, const Options& options) {
     for (const std::string& line : scene.report.warnings)
+        logging::warn(line);
+    for (const std::string& line : scene.report.forgiven)
         logging::warn(line);
     for (const std::string& line : scene.report.ignored)
         logging::info(fmt::format("ignored: {}", line));
-    if (scene.cameras.empty())
-        logging::info(fmt::format("{} has no camera: framing the whole scene", options.scene));
+    for (const std::string& line : scene.report.assumed)
+        logging::info(line);
     if (scene.triangles.empty() && scene.spheres.empty())
         logging::warn(fmt::format("{} has no geometry: the picture is black", options.scene));
-    if (scene.lights.empty() && collectEmitters(scene).empty() &&
-        options.estimator.integrator == Integrator::Path)
-        logging::warn(fmt::format("{} has no light: the picture is black", options.scene));
+    else if (!shines(scene) && options.estimator.integrator == Integrator::Path)
+        logging::warn(fmt::format("{} has no light: the picture is black (--default-light on: a "
+                                  "plain sky lights it)",
+                                  options.scene));
+}
+
+/// Which view was taken, where the file leaves a choice or is not followed.
+void reportCamera(const Job& job, const Options& options) {
+    const Scene& scene = job.scene;
+    const std::optional<size_t> chosen = chosenCamera(scene, options.camera, options.framing);
+    if (!chosen) {
+        logging::info(fmt::format("{} has no camera: framing the whole scene", options.scene));
+        return;
+    }
+    const std::string name = fmt::format("camera '{}'", scene.cameras[*chosen].name);
+    const bool isChoice = options.camera.choice == CameraChoice::Automatic;
+    const bool framed = isFramed(scene, options.camera, options.framing);
+    if (framed && isChoice)
+        logging::info(fmt::format("framing the whole scene, as the CS184 renderer does, instead of "
+                                  "taking the file's {} (--camera file)",
+                                  name));
+    if (!framed && scene.cameras.size() > 1 && options.camera.name.empty())
+        logging::info(fmt::format("{}, the {} of {} (--camera NAME for another; info lists them)",
+                                  name, options.framing.lastOfSeveral ? "last" : "first",
+                                  scene.cameras.size()));
+    if (!framed && !scene.bounds().empty() && !mayShow(job.camera, scene))
+        logging::warn(fmt::format("{} sees nothing of the scene: all of it is out of its field of "
+                                  "view or of its depth range (--camera frame shows it)",
+                                  name));
 }
 
 void checkCrop(const PictureArea& s) {
@@ -38,14 +69,14 @@ void checkCrop(const PictureArea& s) {
                                      s.height));
 }
 
-/// The film of the whole picture is kept in the host's memory, whatever the backend.
-void checkFilmFits(const PictureArea& s) {
-    const uint64_t bytes = uint64_t(s.width) * s.height * sizeof(PixelStatistics);
-    const uint64_t memory = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGE_SIZE));
-    if (bytes > memory / 2) // the other half is for the scene and the pictures made of the film
-        throw UsageError(fmt::format("a picture of {} x {} needs {} MiB for its film, more than "
-                                     "half of this machine's memory",
-                                     s.width, s.height, bytes >> 20));
+/// Films may be made in bands; the picture that is written is in the host's memory as a whole,
+/// twice: before and after it is compressed.
+void checkPictureFits(const PictureArea& s) {
+    const uint64_t bytes = 2 * s.pixelCount() * 3 * sizeof(float);
+    if (bytes > physicalMemory())
+        throw UsageError(fmt::format("a picture of {} pixels takes {} MiB to write, more than this "
+                                     "machine's memory: render it in parts (--crop)",
+                                     s.pixelCount(), bytes >> 20));
 }
 
 } // namespace
@@ -55,11 +86,12 @@ std::future<vulkan::OpenDevice> openDeviceMeanwhile(const Options& options) {
 }
 
 Job prepareJob(const Options& options) {
+    nowDoing("loading " + options.scene);
     Stopwatch watch;
     Job job{
         readScene(options.scene, options.reading), {}, {options.area, options.estimator, {}}, 0};
     job.loadSeconds = watch.seconds();
-    reportLoading(job.scene, options);
+    reportScene(job.scene, options);
     if (!options.sizeGiven) {
         const PictureSize size = defaultPictureSize(job.scene, options.camera, options.framing);
         job.settings.area.width = size.width;
@@ -70,18 +102,21 @@ Job prepareJob(const Options& options) {
     job.settings.estimator.branches = branches;
     job.settings.budget = inSamples(options.budget, branches);
     checkCrop(job.settings.area);
-    checkFilmFits(job.settings.area);
+    checkPictureFits(job.settings.area);
     job.camera = makeCamera(job.scene, options.camera, job.settings.area.width,
                             job.settings.area.height, options.framing);
+    reportCamera(job, options);
     return job;
 }
 
 BuiltScene buildScene(const Job& job) {
+    nowDoing(fmt::format("building the BVH of {} triangles", job.scene.triangles.size()));
     Stopwatch watch;
     BuiltScene built;
     built.gpu =
         packScene(job.scene, buildWideBvh(job.scene), lightSelection(job.settings.estimator));
     built.buildSeconds = watch.seconds();
+    nowDoing("opening the device and compiling the kernel"); // what follows a scene that is built
     return built;
 }
 

@@ -26,7 +26,7 @@ std::future<vulkan::OpenDevice> openDeviceMeanwhile(const Options& options);
 /// and fixes the picture's size. Throws SceneError, UsageError (crop outside the picture).
 Job prepareJob(const Options& options);
 
-/// A BVH and the kernel's arrays.
+/// A BVH and the kernel's arrays. Each of these functions says what it does with nowDoing().
 struct BuiltScene {
     GpuScene gpu;
     double buildSeconds = 0;

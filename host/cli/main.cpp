@@ -1,15 +1,24 @@
+#include "host/cli/activity.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/short_help.hpp"
+#include "host/cli/signals.hpp"
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
+#include "host/core/output.hpp"
+#include "host/core/status_line.hpp"
 #include "host/vulkan/vector_width.hpp"
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
 #include <thread>
+#include <vector>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -55,25 +64,53 @@ void keepFreedMemory() {
 #endif
 }
 
+int runLine(const std::vector<std::string>& arguments) {
+    if (arguments.empty()) {
+        fmt::print(stderr, "{}", stromboli::shortHelp());
+        return int(stromboli::ExitCode::Usage); // nothing was done, as scripts should notice
+    }
+    const auto options = stromboli::parseOptions(arguments);
+    if (!options) return 0;
+    stromboli::setUpLogging(options->verbosity);
+    stromboli::status_line::allow(options->verbosity != stromboli::Verbosity::Quiet);
+    stromboli::watchSignals();
+    for (const std::string& remark : options->remarks)
+        stromboli::logging::warn(remark);
+    return run(*options);
+}
+
+/// Nothing else is drawn from here on, and no line stays behind.
+int fail(const char* message, stromboli::ExitCode code) {
+    stromboli::nowDoing("ending", stromboli::StatusLine::OfOthers);
+    stromboli::logging::error(message);
+    return int(code);
+}
+
+/// What is printed must have been written, too.
+int finished(int code) try {
+    stromboli::nowDoing("ending", stromboli::StatusLine::OfOthers);
+    stromboli::finishStandardOutput();
+    return code;
+} catch (const stromboli::Error& error) {
+    return fail(error.what(), error.code());
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
+    using stromboli::ExitCode;
+    stromboli::reserveStandardStreams();
     stromboli::setUpLogging(stromboli::Verbosity::Normal);
     keepFreedMemory();
     stromboli::vulkan::useWideVectors();
     try {
-        const auto options = stromboli::parseOptions({argv + 1, argv + argc});
-        if (!options) return 0;
-        stromboli::setUpLogging(options->verbosity);
-        return run(*options);
+        return finished(runLine({argv + 1, argv + argc}));
     } catch (const stromboli::Error& error) {
-        stromboli::logging::error(error.what());
-        return int(error.code());
+        return fail(error.what(), error.code());
     } catch (const std::bad_alloc&) {
-        stromboli::logging::error("out of memory");
-        return int(stromboli::ExitCode::Scene);
+        return fail("out of memory", ExitCode::Scene);
     } catch (const std::exception& error) {
-        stromboli::logging::error(error.what());
-        return int(stromboli::ExitCode::Device);
+        if (std::ferror(stdout)) return finished(int(ExitCode::Output)); // fmt could not print
+        return fail(error.what(), ExitCode::Device);
     }
 }

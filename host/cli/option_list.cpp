@@ -1,42 +1,41 @@
 #include "host/cli/option_list.hpp"
 
 #include "host/core/error.hpp"
+#include "host/core/number_text.hpp"
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include <sstream>
 
 namespace stromboli {
-namespace {
 
-/// The whole word as a number; empty if it is none, or has more digits than the type holds.
-template <class T>
-std::optional<T> parsed(const std::string& word) {
-    T value{};
-    const char* const last = word.data() + word.size();
-    const auto [end, error] = std::from_chars(word.data(), last, value);
-    if (error != std::errc() || end != last) return std::nullopt;
-    return value;
+std::string inWords(Range<uint32_t> range) {
+    return fmt::format("{} to {}", range.least, range.most);
 }
 
-template <class T>
-T readInRange(const std::string& option, const std::string& word, Range<T> range,
-              const char* kind) {
-    const std::optional<T> value = parsed<T>(word);
-    if (!value || !(*value >= range.least && *value <= range.most)) // NaN fails both
-        throw UsageError(fmt::format("{} is '{}': expected {} from {} to {}", option, word, kind,
-                                     range.least, range.most));
-    return *value;
+std::string inWords(Range<double> range) {
+    return fmt::format("{} to {}", range.least, range.most);
+}
+
+namespace {
+
+/// The value in the range; otherwise the error that names the option and the range.
+template <class T, class Value>
+T inRange(const std::string& option, const std::string& word, const std::optional<Value>& value,
+          Range<T> range, const char* kind) {
+    if (!value || !(*value >= range.least && *value <= range.most))
+        refuse(option, word, fmt::format("{} from {}", kind, inWords(range)));
+    return T(*value);
 }
 
 } // namespace
 
 uint32_t readNumber(const std::string& option, const std::string& word, Range<uint32_t> range) {
-    return readInRange(option, word, range, "a whole number");
+    return inRange(option, word, wholeNumber(word), range, "a whole number");
 }
 
 double readReal(const std::string& option, const std::string& word, Range<double> range) {
-    return readInRange(option, word, range, "a number");
+    return inRange(option, word, realNumber(word), range, "a number");
 }
 
 void refuse(const std::string& option, const std::string& word, const std::string& expected) {
@@ -45,6 +44,11 @@ void refuse(const std::string& option, const std::string& word, const std::strin
 
 CommandOption& CommandOption::usually(std::string text) {
     usual = std::move(text);
+    return *this;
+}
+
+CommandOption& CommandOption::from(std::string numbers) {
+    range = std::move(numbers);
     return *this;
 }
 
@@ -71,6 +75,29 @@ CommandOption& CommandOption::changesDefaults() {
 CommandOption& CommandOption::hidden() {
     isHidden = true;
     return *this;
+}
+
+CommandOption& CommandOption::proposes(Words words) {
+    proposals = std::move(words);
+    return *this;
+}
+
+CommandOption& CommandOption::proposes(Proposed what) {
+    proposed = what;
+    return *this;
+}
+
+Words CommandOption::dashedNames() const {
+    Words dashed;
+    std::istringstream list(names);
+    for (std::string name; std::getline(list, name, ',');)
+        if (name.starts_with("-")) dashed.push_back(name);
+    return dashed;
+}
+
+std::string CommandOption::fullHelp() const {
+    return help + (range.empty() ? "" : "; " + range) +
+           (usual.empty() ? "" : fmt::format(" [{}]", usual));
 }
 
 std::string CommandOption::name() const {
@@ -121,7 +148,7 @@ CommandOption& OptionList::number(std::string names, std::string valueName, std:
 CommandOption& OptionList::number(std::string names, std::string valueName, std::string help,
                                   std::optional<uint32_t>& where, Range<uint32_t> range) {
     CommandOption& o = words(std::move(names), std::move(valueName), std::move(help), 1, {});
-    o.store = [&where, range, name = o.name()](const Words& given) {
+    o.from(inWords(range)).store = [&where, range, name = o.name()](const Words& given) {
         where = readNumber(name, given.front(), range);
     };
     return o;
@@ -131,7 +158,8 @@ CommandOption& OptionList::numbers(std::string names, std::string valueNames, st
                                    std::vector<uint32_t*> where, Range<uint32_t> range) {
     CommandOption& o =
         words(std::move(names), std::move(valueNames), std::move(help), uint32_t(where.size()), {});
-    o.store = [where = std::move(where), range, name = o.name()](const Words& given) {
+    o.from(inWords(range)).store = [where = std::move(where), range,
+                                    name = o.name()](const Words& given) {
         for (size_t i = 0; i < where.size(); ++i)
             *where[i] = readNumber(name, given[i], range);
     };
@@ -142,7 +170,7 @@ CommandOption& OptionList::real(std::string names, std::string valueName, std::s
                                 double& where, Range<double> range) {
     CommandOption& o = words(std::move(names), std::move(valueName), std::move(help), 1, {});
     o.usual = fmt::format("{}", where);
-    o.store = [&where, range, name = o.name()](const Words& given) {
+    o.from(inWords(range)).store = [&where, range, name = o.name()](const Words& given) {
         where = readReal(name, given.front(), range);
     };
     return o;
@@ -151,7 +179,7 @@ CommandOption& OptionList::real(std::string names, std::string valueName, std::s
 CommandOption& OptionList::real(std::string names, std::string valueName, std::string help,
                                 std::optional<double>& where, Range<double> range) {
     CommandOption& o = words(std::move(names), std::move(valueName), std::move(help), 1, {});
-    o.store = [&where, range, name = o.name()](const Words& given) {
+    o.from(inWords(range)).store = [&where, range, name = o.name()](const Words& given) {
         where = readReal(name, given.front(), range);
     };
     return o;

@@ -19,14 +19,31 @@ struct Range {
     T least, most;
 };
 
-/// A whole number in a range. Throws UsageError that names the option and the range.
+/// "1 to 1024".
+std::string inWords(Range<uint32_t> range);
+std::string inWords(Range<double> range);
+
+/// A whole number in a range, written as host/core/number_text.hpp says. Throws UsageError that
+/// names the option and the range.
 uint32_t readNumber(const std::string& option, const std::string& word, Range<uint32_t> range);
-/// The same for a real number; NaN is in no range.
+/// The same for a real number; NaN and infinity are none.
 double readReal(const std::string& option, const std::string& word, Range<double> range);
 
 /// Throws the UsageError that `option` is `word` where one of `expected` was to be.
 [[noreturn]] void refuse(const std::string& option, const std::string& word,
                          const std::string& expected);
+
+/// The names in the table of an enumeration.
+template <class E>
+Words namesOf() {
+    Words names;
+    for (const NamedValue<E>& row : kNamedValues<E>)
+        names.emplace_back(row.name);
+    return names;
+}
+
+/// What completion in a shell proposes for the words of an option, beside its `proposals`.
+enum class Proposed { Nothing, Files, Folders, Scenes };
 
 /// One option of a command, and all there is to say about it: what it is called, which words it
 /// takes, what it means, where that is stored, and what it does not go with.
@@ -40,26 +57,38 @@ class CommandOption {
 
     /// The default in words, for --help, where it is not a value that is stored from the start.
     CommandOption& usually(std::string text);
+    /// Takes numbers from this range, as inWords() puts it.
+    CommandOption& from(std::string numbers);
     CommandOption& excludes(std::string option, std::string reason = "");
     /// Cannot be given without the other.
     CommandOption& needs(std::string option);
     CommandOption& required();
     /// Changes the defaults of other options: is stored before them, wherever it stands.
     CommandOption& changesDefaults();
-    /// Is understood, but not listed by --help.
+    /// Is understood, but not listed by --help, the manual page and completion.
     CommandOption& hidden();
+    /// Words that completion proposes. Others may be understood too.
+    CommandOption& proposes(Words words);
+    CommandOption& proposes(Proposed what);
 
     /// As messages call it: the first of its names.
     std::string name() const;
+    /// {"-l", "--light-samples"}; none: by position.
+    Words dashedNames() const;
+    /// Its help with the range and the default.
+    std::string fullHelp() const;
 
     std::string names;      ///< "-l,--light-samples"; without dashes: by position
     std::string valueNames; ///< of its words, as "W H"; empty: a flag
     std::string help, group, usual;
+    std::string range; ///< of its numbers, in words; empty: it takes none
     uint32_t wordCount = 1;
     bool anyNumber = false, separatedByCommas = false, mayRepeat = false;
     bool isRequired = false, isHidden = false, isFirst = false;
     std::vector<Conflict> conflicts;
     std::vector<std::string> needed;
+    Proposed proposed = Proposed::Nothing;
+    Words proposals;
     /// Understands the words and keeps what they say. Throws UsageError.
     std::function<void(const Words&)> store;
 };
@@ -91,6 +120,7 @@ class OptionList {
         CommandOption& o = words(std::move(names), std::move(valueName),
                                  std::move(help) + " (" + allMeanings<E>() + ")", 1, {});
         o.usual = nameOf(where);
+        o.proposals = namesOf<E>();
         o.store = [&where, name = o.name()](const Words& given) {
             const std::optional<E> value = valueNamed<E>(given.front());
             if (!value) refuse(name, given.front(), allNames<E>());

@@ -29,7 +29,7 @@ template <>
 inline constexpr auto kNamedValues<CameraChoice> = std::to_array<NamedValue<CameraChoice>>({
     {CameraChoice::Automatic, "auto",
      "frame for the CS184 dialect and for files without a camera, else file"},
-    {CameraChoice::File, "file", "the file's camera"},
+    {CameraChoice::File, "file", "the file's camera, of several the first (--cs184: the last)"},
     {CameraChoice::Frame, "frame", "all of the scene, as the CS184 renderer frames it"},
 });
 
@@ -50,20 +50,26 @@ struct Options {
     Estimator estimator;              ///< its branches are not yet chosen
     std::optional<uint32_t> branches; ///< empty: what pays in the scene
     PathBudget budget;
-    CameraChoice camera = CameraChoice::Automatic;
+    CameraRequest camera;
     std::string device;
     BackendChoice backend = BackendChoice::Vulkan;
     ToneCurve tone;
     std::string statsFile;
+    std::string checkpointFile;            ///< empty: the usual one; "off": none
+    double checkpointSeconds = 60;         ///< from one to the next
+    bool resume = false;                   ///< goes on from the checkpoint
+    std::optional<uint32_t> filmMebibytes; ///< for the film; empty: half of the machine's memory
     bool statisticsChannels = false;       ///< EXR: sample counts and variances
     std::optional<SampleName> sampleAlone; ///< print this sample and write nothing
     uint32_t threads = 0;                  ///< host threads; 0: all
     Verbosity verbosity = Verbosity::Normal;
-    double familyWiseError = 0.01; ///< check
+    std::vector<std::string> remarks; ///< on what was given and has no effect
+    double familyWiseError = 0.01;    ///< check
     BenchOptions bench;
     CompareOptions compare;
     StudyOptions study;
     StressOptions stress;
+    std::string infoJsonFile; ///< info; empty: text
 };
 
 /// Parses the arguments (without the program's name). Empty: help or version was printed and the

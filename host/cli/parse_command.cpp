@@ -1,6 +1,9 @@
 // The only file that knows the library that splits the command line into options.
 #include "host/cli/declared_command.hpp"
+#include "host/cli/nearest_name.hpp"
+#include "host/cli/program_text.hpp"
 #include "host/core/error.hpp"
+#include "host/version/version.hpp"
 
 #include <fmt/format.h>
 
@@ -15,25 +18,33 @@ namespace {
 /// The words that followed each option that was given, by its name.
 using Given = std::map<std::string, Words>;
 
-/// With the default, as --help shows it.
-std::string helpOf(const CommandOption& o) {
-    return o.usual.empty() ? o.help : fmt::format("{} [{}]", o.help, o.usual);
+/// The pieces of all words. Also those that are empty, which CLI11's own splitting leaves out: a
+/// comma too many is a mistake.
+Words splitAtCommas(const Words& words) {
+    Words pieces;
+    for (const std::string& word : words)
+        for (size_t first = 0, end = 0; end != std::string::npos; first = end + 1) {
+            end = word.find(',', first);
+            pieces.push_back(word.substr(first, end - first));
+        }
+    return pieces;
 }
 
 void declare(CLI::App& app, const CommandOption& o, Given& given) {
     if (o.wordCount == 0) {
         app.add_flag_function(
                o.names, [&given, name = o.name()](std::int64_t) { given[name] = {}; }, o.help)
-            ->group(o.isHidden ? "" : o.group);
+            ->group(o.isHidden ? "" : o.group)
+            ->disable_flag_override(); // "--even=false" would turn it on
         return;
     }
     CLI::Option* option = app.add_option(
         o.names,
-        [&given, name = o.name()](const CLI::results_t& words) {
-            given[name] = words;
+        [&given, &o](const CLI::results_t& words) {
+            given[o.name()] = o.separatedByCommas ? splitAtCommas(words) : words;
             return true;
         },
-        helpOf(o));
+        o.fullHelp());
     option->group(o.isHidden ? "" : o.group);
     if (!o.valueNames.empty()) option->type_name(o.valueNames);
     if (o.isRequired) option->required();
@@ -47,7 +58,6 @@ void declare(CLI::App& app, const CommandOption& o, Given& given) {
             ->expected(int(o.wordCount))
             ->allow_extra_args(false)
             ->multi_option_policy(CLI::MultiOptionPolicy::Throw);
-    if (o.separatedByCommas) option->delimiter(',');
 }
 
 void checkTogether(const CommandOption& o, const Given& given) {
@@ -70,16 +80,86 @@ void store(const OptionList& list, const Given& given) {
                 o.store(words->second);
 }
 
+std::string perhaps(const std::string& word, const std::vector<std::string>& names) {
+    const std::optional<std::string> nearest = nearestName(word, names);
+    return nearest ? fmt::format("; did you mean {}?", *nearest) : "";
+}
+
+/// The first word has to be a command, or ask for help.
+void checkCommandName(const std::deque<DeclaredCommand>& commands, const Words& arguments) {
+    if (arguments.empty()) throw UsageError("a command is needed (see --help)");
+    const std::string& word = arguments.front();
+    if (word == "-h" || word == "--help" || word == "--version") return;
+    std::vector<std::string> names;
+    for (const DeclaredCommand& c : commands)
+        names.push_back(c.name);
+    if (std::ranges::count(names, word) > 0) return;
+    if (word.starts_with("-"))
+        throw UsageError(fmt::format("{} comes before the command: expected stromboli COMMAND "
+                                     "OPTIONS, as stromboli render SCENE.dae -o out.png",
+                                     word));
+    if (word.ends_with(".dae") || word.starts_with("generate:"))
+        throw UsageError(fmt::format(
+            "'{0}' is a scene, no command: did you mean stromboli render {0} -o out.png?", word));
+    throw UsageError(
+        fmt::format("there is no command '{}'{} (see --help)", word, perhaps(word, names)));
+}
+
+/// "-l,--light-samples" has -l and --light-samples.
+std::vector<std::string> namesOf(const DeclaredCommand& c) {
+    std::vector<std::string> names = {"--help"};
+    for (const CommandOption& o : c.list.all()) {
+        const Words dashed = o.dashedNames();
+        if (!o.isHidden) names.insert(names.end(), dashed.begin(), dashed.end());
+    }
+    return names;
+}
+
+/// Throws the UsageError that says more of a word that no option has: what is like it, and which
+/// other commands have it.
+void explainUnknown(const std::deque<DeclaredCommand>& commands, const DeclaredCommand& c,
+                    const Words& words) {
+    const auto known = [](const DeclaredCommand& one, const std::string& name) {
+        const std::vector<std::string> names = namesOf(one);
+        return std::ranges::count(names, name) > 0;
+    };
+    for (const std::string& word : words) {
+        const std::string name = word.substr(0, word.find('='));
+        if (!name.starts_with("-") || known(c, name)) continue;
+        std::string others;
+        for (const DeclaredCommand& one : commands)
+            if (known(one, name)) others += (others.empty() ? "" : ", ") + one.name;
+        throw UsageError(fmt::format(
+            "{} has no option {}{} (see stromboli {} --help)", c.name, name,
+            others.empty() ? perhaps(name, namesOf(c)) : fmt::format("; it is one of {}", others),
+            c.name));
+    }
+}
+
+/// Throws the UsageError that a flag was given a value, if one was.
+void explainFlagValue(const DeclaredCommand& c, const Words& words) {
+    for (const CommandOption& o : c.list.all())
+        for (const std::string& word : words)
+            if (o.wordCount == 0 && word.starts_with(o.name() + "="))
+                throw UsageError(fmt::format("{} takes no value: {}", o.name(), word));
+}
+
 } // namespace
 
-DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, Words arguments) {
-    CLI::App app("Stromboli: a path tracer in Vulkan compute shaders.\n"
-                 "COLLADA in, PNG or EXR out; on any Vulkan 1.1 device, GPU or not.",
-                 "stromboli");
-    app.set_version_flag("--version", std::string("stromboli ") + STROMBOLI_VERSION);
+std::string DeclaredCommand::givenOf(const std::vector<std::string>& names) const {
+    std::string text;
+    for (const std::string& option : names)
+        if (has(option)) text += (text.empty() ? "" : ", ") + option;
+    return text;
+}
+
+DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, const Words& words) {
+    CLI::App app(fmt::format("Stromboli: {}.\n{}", kInOneLine, kWhatItDoes), "stromboli");
+    app.set_version_flag("--version", std::string("stromboli ") + version());
     app.require_subcommand(1);
-    app.footer("'stromboli COMMAND --help' explains a command. Exit codes: 0 done, 1 usage, "
-               "2 scene, 3 device (or a difference found), 4 output.");
+    app.footer(fmt::format("'stromboli COMMAND --help' explains a command. Exit codes: {}. {}",
+                           exitCodesInOneLine(), kHowNumbersAreWritten));
+    checkCommandName(commands, words);
     Given given;
     std::vector<CLI::App*> apps;
     for (const DeclaredCommand& c : commands) {
@@ -89,17 +169,24 @@ DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, Words argum
             declare(*one, o, given);
     }
     try {
-        std::reverse(arguments.begin(), arguments.end()); // CLI11 takes them from the back
-        app.parse(arguments);
-    } catch (const CLI::Success& done) { // --help, --version
+        app.parse(Words(words.rbegin(), words.rend())); // CLI11 takes them from the back
+    } catch (const CLI::Success& done) {                // --help, --version
         app.exit(done);
         return nullptr;
+    } catch (const CLI::ExtrasError& error) {
+        for (size_t i = 0; i < apps.size(); ++i)
+            if (apps[i]->parsed()) explainUnknown(commands, commands[i], apps[i]->remaining());
+        throw UsageError(std::string(error.what()) + " (see --help)");
     } catch (const CLI::ParseError& error) {
+        for (size_t i = 0; i < apps.size(); ++i)
+            if (commands[i].name == words.front()) explainFlagValue(commands[i], words);
         throw UsageError(std::string(error.what()) + " (see --help)");
     }
     const auto chosen =
         std::find_if(apps.begin(), apps.end(), [](const CLI::App* one) { return one->parsed(); });
     DeclaredCommand& command = commands[size_t(chosen - apps.begin())];
+    for (const auto& option : given)
+        command.given.insert(option.first);
     store(command.list, given);
     command.finish();
     return &command;

@@ -18,16 +18,40 @@ Crop readCrop(const std::string& name, const Words& words) {
             readNumber(name + ": height", words[3], kSide)};
 }
 
+/// One of the words of CameraChoice, else the name or number of a camera of the file.
+CameraRequest readCamera(const std::string& word) {
+    if (word.empty()) throw UsageError("--camera is empty: expected text");
+    if (const std::optional<CameraChoice> choice = valueNamed<CameraChoice>(word)) return *choice;
+    return {CameraChoice::File, word};
+}
+
 } // namespace
 
 void declareScene(DeclaredCommand& c) {
     c.list.group("Scene");
     c.list
         .text("SCENE", "",
-              "COLLADA file (.dae), or generate:cornell_mesh:N for a scene of N triangles made in "
-              "memory, generate:lamps:N for one lit by N triangles",
+              "COLLADA file (.dae, .zae); or a bundled scene by its name (cornell_boxes, island, "
+              "...); or generate:cornell_mesh:N for a scene of N triangles made in memory, "
+              "generate:lamps:N for one lit by N triangles",
               c.options.scene)
-        .required();
+        .required()
+        .proposes(Proposed::Scenes);
+    SceneConventions& reading = c.options.reading;
+    c.list
+        .words("--default-light", "WHETHER",
+               "on: a plain sky lights a file without any light; off: it stays black", 1,
+               [&reading](const Words& words) {
+                   if (words[0] != "on" && words[0] != "off")
+                       refuse("--default-light", words[0], "on or off");
+                   reading.defaultLight = words[0] == "on";
+               })
+        .usually("on; --cs184: off")
+        .proposes({"on", "off"});
+    c.list.flag("--strict",
+                "what breaks the rules of the scene's format is an error, also where it is clear "
+                "what is meant",
+                reading.strict);
 }
 
 void declarePicture(DeclaredCommand& c) {
@@ -40,14 +64,26 @@ void declarePicture(DeclaredCommand& c) {
                    o.area.height = readNumber("-r: height", words[1], kSide);
                    o.sizeGiven = true;
                })
+        .from(inWords(kSide))
         .usually(o.sizeGiven ? fmt::format("{} {}", o.area.width, o.area.height)
                              : "the camera's shape, 800 wide");
-    c.list.choice("--camera", "WHICH", "whose view", o.camera);
-    c.list.words("--crop", "X Y W H", "only this part: left, top, width, height in pixels", 4,
-                 [&o](const Words& words) { o.area.crop = readCrop("--crop", words); });
+    c.list
+        .words("--camera", "WHICH",
+               fmt::format("whose view ({}; NAME or N: the file's camera of that name or number, "
+                           "which info lists)",
+                           allMeanings<CameraChoice>()),
+               1, [&o](const Words& words) { o.camera = readCamera(words[0]); })
+        .usually(nameOf(o.camera.choice))
+        .proposes(namesOf<CameraChoice>());
+    const std::string placeAndSize = fmt::format("{} and {}", inWords(kPlace), inWords(kSide));
+    c.list
+        .words("--crop", "X Y W H", "only this part: left, top, width, height in pixels", 4,
+               [&o](const Words& words) { o.area.crop = readCrop("--crop", words); })
+        .from(placeAndSize);
     c.list
         .words("--cell", "X Y W H", "the same with Y from the bottom (CS184's -p)", 4,
-               [&c](const Words& words) { c.asked.cell = readCrop("-p", words); })
+               [&c](const Words& words) { c.asked.cell = readCrop("--cell", words); })
+        .from(placeAndSize)
         .excludes("--crop");
 }
 

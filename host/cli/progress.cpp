@@ -1,57 +1,46 @@
 #include "host/cli/progress.hpp"
 
+#include "host/core/status_line.hpp"
+
 #include <fmt/format.h>
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <csignal>
-#include <cstdio>
 
 namespace stromboli {
 namespace {
 
-volatile std::sig_atomic_t interruptSeen = 0;
-
-void onInterrupt(int number) {
-    interruptSeen = 1;
-    std::signal(number, SIG_DFL);
-}
-
 constexpr double kRedrawSeconds = 0.25;
 constexpr int kBarWidth = 24; // characters
+/// Some twenty dispatches: their length settles, and single ones no longer matter.
+constexpr double kLeastToTellFromSeconds = 2;
 
 } // namespace
 
-void watchForInterrupt() {
-    std::signal(SIGINT, onInterrupt);
-    std::signal(SIGTERM, onInterrupt);
+std::optional<double> TimeLeft::after(double seconds, double done) {
+    if (!firstSeconds_) {
+        firstSeconds_ = seconds;
+        firstShare_ = done;
+    }
+    const double took = seconds - *firstSeconds_, came = done - firstShare_;
+    if (took < kLeastToTellFromSeconds || came <= 0) return std::nullopt;
+    return took * (1 - done) / came;
 }
-
-bool interrupted() {
-    return interruptSeen != 0;
-}
-
-ProgressBar::ProgressBar(bool wanted) : shown_(wanted && isatty(STDERR_FILENO)) {}
 
 ProgressBar::~ProgressBar() {
-    if (drawn_) fmt::print(stderr, "\r\033[K");
+    status_line::clear();
 }
 
+/// What matters most comes first: a narrow terminal shows the beginning.
 void ProgressBar::show(const RenderProgress& p) {
-    const double now = watch_.seconds();
-    if (!shown_ || (lastShown_ >= 0 && now - lastShown_ < kRedrawSeconds)) return;
+    const double now = watch_.seconds(), done = std::clamp(p.share, 0.0, 1.0);
+    const std::optional<double> left = left_.after(now, done);
+    if (!status_line::isShown() || (lastShown_ && now - *lastShown_ < kRedrawSeconds)) return;
     lastShown_ = now;
-    drawn_ = true;
-    const double done = std::clamp(p.share, 0.0, 1.0);
     const int filled = int(done * kBarWidth);
-    const double left = done > 0 ? now * (1 - done) / done : 0;
-    fmt::print(stderr,
-               "\r\033[K[{:#<{}}{:.<{}}] {:5.1f} %  {:.2f} M samples  {:.2f} Mrays/s  {} left", "",
-               filled, "", kBarWidth - filled, 100 * done, double(p.samplesDone) * 1e-6,
-               double(p.counters.rays) * 1e-6 / std::max(now, 1e-3),
-               done > 0 ? formatDuration(left) : "?");
-    std::fflush(stderr);
+    status_line::draw(fmt::format(
+        "{:5.1f} %  {} left  [{:#<{}}{:.<{}}] {:.2f} M samples  {:.2f} Mrays/s", 100 * done,
+        left ? formatDuration(*left) : "?", "", filled, "", kBarWidth - filled,
+        double(p.samplesDone) * 1e-6, double(p.counters.rays) * 1e-6 / std::max(now, 1e-3)));
 }
 
 std::string formatDuration(double seconds) {

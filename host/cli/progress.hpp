@@ -3,29 +3,37 @@
 #include "host/core/stopwatch.hpp"
 #include "host/render/render.hpp"
 
+#include <optional>
+#include <string>
+
 namespace stromboli {
 
-/// Ctrl-C: the first one asks the render to stop and write what it has, a second one ends the
-/// program at once.
-void watchForInterrupt();
-bool interrupted();
-inline constexpr int kInterruptedExitCode = 130; ///< as a shell reports SIGINT
+/// Foretells when something is done from how it has gone on since the first news of it: what came
+/// before, as the compilation of a kernel, says nothing about the rest.
+class TimeLeft {
+  public:
+    /// After `seconds` the share `done` of all is done. Empty as long as there is too little to
+    /// tell from.
+    std::optional<double> after(double seconds, double done);
 
-/// A line on standard error that shows how far a render is, redrawn in place: only on a terminal,
-/// at most four times a second.
+  private:
+    std::optional<double> firstSeconds_;
+    double firstShare_ = 0;
+};
+
+/// Shows in the status line how far a render is, at most four times a second.
 class ProgressBar {
   public:
-    explicit ProgressBar(bool wanted);
+    ProgressBar() = default;
     ~ProgressBar();
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
     void show(const RenderProgress& progress);
 
   private:
-    bool shown_;
     Stopwatch watch_;
-    double lastShown_ = -1; ///< seconds
-    bool drawn_ = false;
+    TimeLeft left_;
+    std::optional<double> lastShown_; ///< seconds
 };
 
 /// "850 ms", "12.3 s", "4 min 05 s", "2 h 03 min".

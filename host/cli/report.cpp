@@ -1,76 +1,134 @@
 #include "host/cli/report.hpp"
 
 #include "host/cli/progress.hpp"
-#include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
 #include "host/core/json.hpp"
 #include "host/core/log.hpp"
+#include "host/core/output.hpp"
+#include "host/film/image_file.hpp"
+#include "host/film/unreached.hpp"
 #include "host/render/render.hpp"
+#include "host/version/version.hpp"
+#include "scene/model/emitters.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
+#include <array>
 
 namespace stromboli {
 
-RenderReport summarise(const Film& film, const RenderSettings& settings) {
-    RenderReport r;
-    const std::vector<uint32_t> pixels = cropPixels(settings.area);
-    for (uint32_t pixel : pixels) {
-        r.samplesTaken += uint64_t(film.pixels[pixel].taken()) * film.branches;
-        r.samplesRejected += film.pixels[pixel].rejected;
+void count(const Film& film, const RenderSettings& settings, RenderReport& r) {
+    for (uint32_t i = 0; i < film.pixels.size(); ++i) {
+        const PixelStatistics& p = film.pixels[i];
+        r.samplesTaken += uint64_t(p.taken()) * settings.estimator.branches;
+        r.samplesRejected += p.rejected;
+        if (p.rejected == 0 || r.firstRejected) continue;
+        const PixelPlace place = film.area.placeOf(i);
+        r.firstRejected = SampleName{place.x, place.y, p.firstRejected};
     }
-    r.samplesAtMost = samplesAtMost(settings.area, settings.budget) * settings.estimator.branches;
-    return r;
+    r.pixelsUnreached += unreachedPixels(film);
+}
+
+uint64_t mostPathsOf(const RenderSettings& settings) {
+    return samplesAtMost(settings.area, settings.budget) * settings.estimator.branches;
 }
 
 namespace {
 
+/// With two digits that say something.
+std::string percent(double share) {
+    const double p = 100 * share;
+    return fmt::format("{:.{}f}", p, p >= 10 ? 0 : p >= 1 ? 1 : p >= 0.1 ? 2 : 3);
+}
+
+std::string inWords(const PictureNoise& noise) {
+    switch (noise.unknown) {
+    case PictureNoise::Unknown::No:
+        return fmt::format("noise about {} % (95 % range: {} to {} %)", percent(noise.estimate),
+                           percent(noise.least), percent(noise.most));
+    case PictureNoise::Unknown::TooFewSamples:
+        return "noise unknown: it takes two samples a pixel to tell";
+    case PictureNoise::Unknown::Black:
+        return "noise unknown: no sample has met light";
+    case PictureNoise::Unknown::TooFewPixels:
+        return "noise unknown: nearly all of it is that of one or two pixels";
+    }
+    return {};
+}
+
 void logNoise(const RenderReport& r, const StopRule& stop) {
-    const std::string reached = fmt::format("noise about {:.2f} %", 100 * r.noise);
+    const std::string reached = inWords(r.noise);
     if (stop.noise == 0)
         logging::info(reached);
-    else if (r.noise <= stop.noise)
-        logging::info(fmt::format("{}, asked for {:.2f} %", reached, 100 * stop.noise));
+    else if (r.noise.known() && r.noise.most <= stop.noise)
+        logging::info(fmt::format("{}; at most {} % was asked for", reached, percent(stop.noise)));
     else
-        logging::warn(fmt::format("{}, more than the {:.2f} % asked for: {} ended the render",
-                                  reached, 100 * stop.noise,
-                                  r.complete ? "--time or -s" : "the interruption"));
+        logging::warn(fmt::format("{}; at most {} % was asked for, but {} ended the render",
+                                  reached, percent(stop.noise),
+                                  r.interrupted ? "the interruption" : "--time or -s"));
 }
 
 } // namespace
 
-void logReport(const RenderReport& r, const Film& film, const RenderSettings& settings) {
+void logReport(const RenderReport& r, const RenderSettings& settings) {
     const double rate = double(r.counters.rays) * 1e-6 / std::max(r.renderSeconds, 1e-9);
-    logging::info(fmt::format("{}: {} ({} to load, {} to build the BVH)", r.backend,
-                              formatDuration(r.renderSeconds), formatDuration(r.loadSeconds),
-                              formatDuration(r.buildSeconds)));
+    logging::info(fmt::format("{}: {} ({} to load, {} to build the BVH, {} to "
+                              "prepare, {} to write)",
+                              r.backend, formatDuration(r.renderSeconds),
+                              formatDuration(r.loadSeconds), formatDuration(r.buildSeconds),
+                              formatDuration(r.prepareSeconds), formatDuration(r.writeSeconds)));
     const std::string share = // of a number that nobody chose it says nothing
         settings.budget.spreads() || r.samplesAtMost == 0
             ? ""
             : fmt::format(" ({:.1f} % of the most)",
                           100.0 * double(r.samplesTaken) / double(r.samplesAtMost));
     logging::info(fmt::format("{} paths, {} rays, {:.2f} Mrays/s; {} samples{}, {} rejected",
-                              r.counters.paths * film.branches, r.counters.rays, rate,
+                              r.counters.paths * settings.estimator.branches, r.counters.rays, rate,
                               r.samplesTaken, share, r.samplesRejected));
+    if (r.pixelsUnreached > 0)
+        logging::warn(fmt::format("{} of {} pixels have no sample ({}); they show a neighbour that "
+                                  "has, or black",
+                                  r.pixelsUnreached, settings.area.pixelCount(),
+                                  r.interrupted ? "interrupted" : "--time is too short for more"));
     if (settings.estimator.integrator == Integrator::Path) logNoise(r, settings.budget.stop);
-    if (r.samplesRejected == 0) return;
-    const auto first = std::find_if(film.pixels.begin(), film.pixels.end(),
-                                    [](const PixelStatistics& p) { return p.rejected > 0; });
-    const auto index = uint32_t(first - film.pixels.begin());
+    if (!r.firstRejected) return;
     logging::warn(fmt::format(
         "{} samples were not finite, negative or too large and were left out; to see the "
         "first, add --pixel {} {} --sample {} to the command",
-        r.samplesRejected, index % film.width, index / film.width, first->firstRejected));
+        r.samplesRejected, r.firstRejected->x, r.firstRejected->y, r.firstRejected->sample));
+}
+
+void logBrightness(const Brightness& b, const Job& job, const Options& options) {
+    if (b.unlit) {
+        const size_t lights = job.scene.lights.size() + collectEmitters(job.scene).size();
+        logging::warn(fmt::format(
+            "the picture is black: no path met light ({}); the camera may be inside an object or "
+            "look past the scene (--camera frame), or the light may be cut off (-m)",
+            lights == 0 ? "the scene has none"
+                        : fmt::format("lights and emitting surfaces: {}", lights)));
+        return;
+    }
+    if (!isPng(options.output)) return; // it keeps all radiances
+    if (b.darkShare == 1)
+        logging::warn(fmt::format("the picture is so dark that all of it is black in 8 bits: "
+                                  "--exposure {:.0f}, or write an .exr file",
+                                  *b.exposure));
+    else if (b.whiteShare > 0.5)
+        logging::warn(fmt::format("{:.0f} % of the pixels are brighter than white: --exposure "
+                                  "{:.1f}, or write an .exr file",
+                                  100 * b.whiteShare, *b.exposure));
 }
 
 void writeStatistics(const std::string& file, const RenderReport& r, const Job& job) {
     const RenderSettings& s = job.settings;
     const Json json = {
+        {"version", version()},
         {"scene", job.scene.file},
         {"backend", r.backend},
-        {"complete", r.complete},
+        {"complete", r.complete()},
+        {"pixels", s.area.pixelCount()},
+        {"pixelsWithoutSamples", r.pixelsUnreached},
         {"width", s.area.width},
         {"height", s.area.height},
         {"samplesPerPixel",
@@ -84,17 +142,20 @@ void writeStatistics(const std::string& file, const RenderReport& r, const Job& 
         {"triangles", job.scene.triangles.size()},
         {"spheres", job.scene.spheres.size()},
         {"seconds",
-         {{"load", r.loadSeconds}, {"build", r.buildSeconds}, {"render", r.renderSeconds}}},
+         {{"load", r.loadSeconds},
+          {"build", r.buildSeconds},
+          {"prepare", r.prepareSeconds},
+          {"render", r.renderSeconds}}},
         {"paths", r.counters.paths * s.estimator.branches},
         {"rays", r.counters.rays},
         {"raysPerSecond", double(r.counters.rays) / std::max(r.renderSeconds, 1e-9)},
         {"samplesTaken", r.samplesTaken},
         {"samplesAtMost", r.samplesAtMost},
         {"samplesRejected", r.samplesRejected},
-        {"noise", r.noise},
+        {"noise", r.noise.known() ? Json(r.noise.estimate) : Json()},
+        {"noiseRange", r.noise.known() ? Json(std::array{r.noise.least, r.noise.most}) : Json()},
     };
-    const std::string text = json.dump(4) + "\n";
-    writeFileAtomically(file, std::as_bytes(std::span(text)));
+    writeOutput(file, json.dump(4) + "\n");
 }
 
 } // namespace stromboli

@@ -1,4 +1,5 @@
 // `render` with --pixel and --sample: one sample of one pixel of a picture, by itself.
+#include "host/cli/activity.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/job.hpp"
 #include "host/core/error.hpp"
@@ -52,11 +53,12 @@ int sampleCommand(const Options& options) {
     std::future<vulkan::OpenDevice> device;
     if (onDevice) device = openDeviceMeanwhile(options);
     const Job job = prepareJobOfPixel(options, name);
-    const uint32_t pixel = name.y * job.settings.area.width + name.x;
+    constexpr uint32_t pixel = 0; // the only one
     const SampleValue value =
         onDevice ? sampleOnDevice(job, std::move(device), pixel, name.sample)
                  : ReferenceBackend(job.scene, job.camera, job.settings, options.threads)
                        .sampleAlone(pixel, name.sample);
+    nowDoing("printing", StatusLine::OfOthers);
     // Enough digits to tell any two floats, or doubles, apart.
     const int digits = onDevice ? 9 : 17;
     fmt::print("radiance {:.{}g} {:.{}g} {:.{}g}\n{}\n", value.radiance.x, digits, value.radiance.y,

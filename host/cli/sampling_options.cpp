@@ -12,6 +12,7 @@ constexpr Range<uint32_t> kSamples{1, kMostSamples};
 /// A sample is the least work a lane takes on: more would leave lanes without work at the end.
 constexpr Range<uint32_t> kBranches{1, 64};
 constexpr Range<uint32_t> kAnySeed{0, 0xFFFFFFFFu};
+constexpr Range<uint32_t> kSampleNumbers{0, kMostSamples - 1};
 constexpr Range<double> kTolerance{0, 1e6};
 constexpr Range<double> kNoise{1e-6, 1e6}; // a float has no more digits
 constexpr Range<double> kSeconds{0.01, 1e9};
@@ -32,7 +33,8 @@ void checkBranches(const DeclaredCommand& c) {
 void declareSamples(DeclaredCommand& c, const std::string& samplesHelp) {
     c.list.group("Sampling");
     c.list.number("-s,--samples", "N", samplesHelp, c.asked.paths, kSamples)
-        .usually(fmt::format("{}; --cs184: 1", c.asked.usualPaths));
+        .usually(fmt::format("{}{}", c.asked.usualPaths,
+                             c.options.command == Command::Render ? "; --cs184: 1" : ""));
     declareSampler(c, c.options.estimator.sampler);
     c.list.number("--seed", "N", "another seed, another noise", c.options.estimator.seed, kAnySeed);
 }
@@ -64,19 +66,23 @@ void declareSpreading(DeclaredCommand& c) {
                    a.batch = readNumber("-a: BATCH", words[0], kSamples);
                    a.tolerance = readReal("-a: TOLERANCE", words[1], kTolerance);
                })
+        .from(fmt::format("{} and {}", inWords(kSamples), inWords(kTolerance)))
         .usually(fmt::format("off; --cs184: {} {}", a.batch, a.tolerance))
         .excludes("--even", kBothSpread);
     list.real("--noise", "T",
-              "go on until the picture's noise, the square root of its estimated relMSE, is at "
-              "most T (0.02: 2 %); samples go where they help most; -s is the most per pixel",
+              "go on until the picture's noise, the square root of its relMSE, is at most T (0.02: "
+              "2 %) in 95 of 100 renders; samples go where they help most; -s is the most per "
+              "pixel",
               c.options.budget.stop.noise, kNoise)
         .usually("")
         .excludes("-a", kBothSpread)
         .excludes("--even", kBothSpread);
-    list.real("--time", "S",
-              "render for at most S seconds (loading not counted); samples go where they help "
-              "most; -s is the most per pixel",
-              c.options.budget.stop.seconds, kSeconds)
+    list.real(
+            "--time", "S",
+            "take samples for at most S seconds, from a coarse grid of pixels to all of them, then "
+            "where they help most; loading, preparing and writing are not counted; -s is the most "
+            "per pixel",
+            c.options.budget.stop.seconds, kSeconds)
         .usually("")
         .excludes("-a", kBothSpread)
         .excludes("--even", kBothSpread);
@@ -119,9 +125,10 @@ void declareSampleAlone(DeclaredCommand& c) {
     c.list
         .words("--sample", "N", "the sample's number, the first being 0", 1,
                [&c, &name](const Words& words) {
-                   name.sample = readNumber("--sample", words[0], {0, kMostSamples - 1});
+                   name.sample = readNumber("--sample", words[0], kSampleNumbers);
                    c.asked.sampleAlone = true;
                })
+        .from(inWords(kSampleNumbers))
         .needs("--pixel");
 }
 

@@ -1,17 +1,19 @@
+#include "host/cli/activity.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/progress.hpp"
-#include "host/core/atomic_file.hpp"
+#include "host/cli/signals.hpp"
 #include "host/core/error.hpp"
 #include "host/core/json.hpp"
 #include "host/core/log.hpp"
+#include "host/core/output.hpp"
+#include "host/core/status_line.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/stress/device_subject.hpp"
 #include "host/stress/report.hpp"
+#include "host/version/version.hpp"
 #include "host/vulkan/open_device.hpp"
 
 #include <fmt/format.h>
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -22,24 +24,18 @@ namespace {
 using stress::Case;
 using stress::Outcome;
 
-/// Names the case that runs and says how long the others may take, on standard error and only on a
-/// terminal.
+/// Names the case that runs and says how long the others may take, in the status line.
 class CaseLine {
   public:
-    explicit CaseLine(bool wanted) : shown_(wanted && isatty(STDERR_FILENO)) {}
-    ~CaseLine() { clear(); }
+    CaseLine() = default;
+    ~CaseLine() { status_line::clear(); }
     CaseLine(const CaseLine&) = delete;
     CaseLine& operator=(const CaseLine&) = delete;
 
     void show(const std::string& name, size_t number, size_t count) {
-        if (!shown_) return;
-        fmt::print(stderr, "\r\033[K{} of {}: {}{}", number, count, name, timeLeft(number, count));
-        std::fflush(stderr);
-    }
-    void clear() {
-        if (!shown_) return;
-        fmt::print(stderr, "\r\033[K");
-        std::fflush(stderr);
+        nowDoing(fmt::format("trying {}", name), StatusLine::OfOthers);
+        status_line::draw(
+            fmt::format("{} of {}: {}{}", number, count, name, timeLeft(number, count)));
     }
 
   private:
@@ -50,7 +46,6 @@ class CaseLine {
         return fmt::format(", about {} left", formatDuration(each * double(count - number + 1)));
     }
 
-    bool shown_;
     Stopwatch watch_;
 };
 
@@ -90,23 +85,23 @@ Outcome runCase(const Case& which, stress::Run& run) {
 }
 
 void writeJson(const std::string& file, const Json& json) {
-    const std::string text = json.dump(2) + "\n";
-    writeFileAtomically(file, std::as_bytes(std::span(text)));
+    writeOutput(file, json.dump(2) + "\n");
 }
 
 /// The table grows as cases end. Stops where the user interrupts.
 std::vector<Outcome> runCases(const std::vector<Case>& cases, const vulkan::Device& device,
-                              const Options& options, stress::Amount amount) {
+                              stress::Amount amount, bool prints) {
     stress::DeviceSubject subject(device);
     stress::Run run(subject, amount, [] { return !interrupted(); });
-    CaseLine line(options.verbosity != Verbosity::Quiet);
-    fmt::print("{}", stress::tableHead());
+    CaseLine line;
+    if (prints) fmt::print("{}", stress::tableHead());
     std::vector<Outcome> outcomes;
     try {
         for (const Case& c : cases) {
             line.show(c.name, outcomes.size() + 1, cases.size());
             outcomes.push_back(runCase(c, run));
-            line.clear();
+            status_line::clear();
+            if (!prints) continue;
             fmt::print("{}", stress::tableRow(outcomes.back()));
             std::fflush(stdout);
         }
@@ -124,26 +119,27 @@ int stressCommand(const Options& options) {
             fmt::print("{}", stress::listRow(c));
         return 0;
     }
-    if (!options.stress.jsonFile.empty()) checkFileWritable(options.stress.jsonFile);
-    watchForInterrupt();
+    if (!options.stress.jsonFile.empty()) checkOutputWritable(options.stress.jsonFile);
+    onSignal(OnSignal::Ask);
     const vulkan::OpenDevice open = vulkan::openDevice(options.device);
     const vulkan::DeviceDescription& device = open.device->description();
-    fmt::print("{}, {}\n", device.name(), device.driver);
+    const bool prints = !isStandardOutput(options.stress.jsonFile);
+    if (prints) fmt::print("{}, {}\n", device.name(), device.driver);
     const auto amount = options.stress.full ? stress::Amount::Full : stress::Amount::Quick;
-    const std::vector<Outcome> outcomes = runCases(cases, *open.device, options, amount);
+    const std::vector<Outcome> outcomes = runCases(cases, *open.device, amount, prints);
     if (outcomes.size() < cases.size()) {
         logging::warn(
             fmt::format("interrupted after {} of {} cases", outcomes.size(), cases.size()));
-        return kInterruptedExitCode;
+        return interruptedExitCode();
     }
     if (!options.stress.jsonFile.empty())
-        writeJson(
-            options.stress.jsonFile,
-            stress::toJson({device.name(), device.driver, STROMBOLI_VERSION, amount}, outcomes));
+        writeJson(options.stress.jsonFile,
+                  stress::toJson({device.name(), device.driver, version(), amount}, outcomes));
     vulkan::requireNoValidationMessages(open);
     const auto failed = std::ranges::count_if(outcomes, std::not_fn(&Outcome::passed));
-    fmt::print("{}: {} of {} cases\n", failed == 0 ? "PASS" : "FAIL",
-               outcomes.size() - size_t(failed), outcomes.size());
+    if (prints)
+        fmt::print("{}: {} of {} cases\n", failed == 0 ? "PASS" : "FAIL",
+                   outcomes.size() - size_t(failed), outcomes.size());
     return failed == 0 ? 0 : int(ExitCode::Device);
 }
 

@@ -1,27 +1,28 @@
-#include "host/bench/bench_scene.hpp"
 #include "host/bench/circumstances.hpp"
+#include "host/cli/activity.hpp"
 #include "host/cli/command_line.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/job.hpp"
 #include "host/cli/progress.hpp"
+#include "host/cli/signals.hpp"
 #include "host/core/atomic_file.hpp"
+#include "host/core/checksum.hpp"
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
+#include "host/core/status_line.hpp"
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/reference/reference_backend.hpp"
 #include "host/study/folder_lock.hpp"
 #include "host/study/journal.hpp"
 #include "host/study/page.hpp"
 #include "host/study/run_study.hpp"
+#include "scene/build/read_file.hpp"
+#include "scene/find_scene.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
-
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <iterator>
 #include <span>
 
@@ -31,49 +32,48 @@ namespace {
 namespace fs = std::filesystem;
 using study::Study;
 
-/// A bar on standard error, redrawn in place: only on a terminal.
+/// How far the study is, in the status line.
 class StudyLine {
   public:
-    explicit StudyLine(bool wanted) : shown_(wanted && isatty(STDERR_FILENO)) {}
-    ~StudyLine() {
-        if (shown_) fmt::print(stderr, "\r\033[K");
-    }
+    StudyLine() = default;
+    ~StudyLine() { status_line::clear(); }
     StudyLine(const StudyLine&) = delete;
     StudyLine& operator=(const StudyLine&) = delete;
 
     void show(const study::StudyProgress& p) {
         constexpr int kWidth = 24; // characters
         constexpr double kLineEverySeconds = 0.25;
-        if (!shown_ || (drawn_ && watch_.seconds() < kLineEverySeconds)) return;
+        if (!status_line::isShown() || (drawn_ && watch_.seconds() < kLineEverySeconds)) return;
         watch_ = {};
         drawn_ = true;
         const int filled = std::clamp(int(p.share * kWidth), 0, kWidth);
-        fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {:3.0f} %  {} left  {}", "", filled, "",
-                   kWidth - filled, 100 * p.share,
-                   p.secondsLeft ? formatDuration(*p.secondsLeft) : "?", p.doing);
-        std::fflush(stderr);
+        status_line::draw(fmt::format("{:3.0f} %  {} left  [{:#<{}}{:.<{}}] {}", 100 * p.share,
+                                      p.secondsLeft ? formatDuration(*p.secondsLeft) : "?", "",
+                                      filled, "", kWidth - filled, p.doing));
     }
 
   private:
-    bool shown_, drawn_ = false;
+    bool drawn_ = false;
     Stopwatch watch_;
 };
 
 std::string checksum(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-    return fmt::format("{:08x}",
-                       crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), uInt(bytes.size())));
+    return fmt::format("{:08x}", checksumOfFile(file));
 }
 
 /// The command line of `render` that a picture of the study is.
 Options renderLine(const std::string& scene, const std::vector<std::string>& words) {
-    const std::string file = bench::benchSceneFile(scene);
+    const std::string file = sceneFile(scene);
     std::vector<std::string> line = {"render", file.empty() ? scene : file, "-o", "study.exr"};
     line.insert(line.end(), words.begin(), words.end());
     const std::optional<Options> options = parseOptions(line);
     if (!options || options->area.crop.width != 0 || options->sampleAlone)
         throw UsageError(fmt::format("a study renders whole pictures: {}", fmt::join(words, " ")));
+    if (!options->statsFile.empty() || options->statisticsChannels || !options->device.empty() ||
+        options->verbosity != Verbosity::Normal)
+        throw UsageError(fmt::format("a study has one device and files of its own: --stats, --aov, "
+                                     "--device, -q and -v are not for its configurations: {}",
+                                     fmt::join(words, " ")));
     return *options;
 }
 
@@ -81,12 +81,13 @@ Options renderLine(const std::string& scene, const std::vector<std::string>& wor
 void checkConfigurations(const study::StudySettings& s) {
     for (const std::string& scene : s.scenes)
         for (const study::Configuration& c : s.configurations) {
-            const double step = c.steps.empty() ? 0 : c.steps.front();
-            try {
-                renderLine(scene, study::renderOptions(s, c, step, 1, s.sampleCounts.front()));
-            } catch (const UsageError& error) {
-                throw UsageError(fmt::format("configuration '{}': {}", c.name, error.what()));
-            }
+            const std::vector<double> none = {0};
+            for (const double step : c.steps.empty() ? none : c.steps)
+                try {
+                    renderLine(scene, study::renderOptions(s, c, step, 1, s.sampleCounts.front()));
+                } catch (const UsageError& error) {
+                    throw UsageError(fmt::format("configuration '{}': {}", c.name, error.what()));
+                }
         }
 }
 
@@ -108,6 +109,7 @@ study::PreparedRender prepareRender(const vulkan::Device& device, const std::str
         return render;
     }
     held->built = buildScene(held->job);
+    nowDoing("measuring", StatusLine::OfOthers);
     render.backend = std::make_unique<VulkanBackend>(device, held->built.gpu, held->job.camera,
                                                      held->job.settings);
     return render;
@@ -133,7 +135,7 @@ Study newStudy(const study::StudySettings& settings, const vulkan::Device& devic
                         checksum("/proc/self/exe"), c.device, c.cpu, c.driver, c.threads,
                         settings.commonOptions, settings.referenceSamples);
     for (const std::string& name : settings.scenes) {
-        const std::string file = bench::benchSceneFile(name);
+        const std::string file = sceneFile(name);
         study::SceneStudy scene;
         scene.name = name;
         scene.content = file.empty() ? name : checksum(file);
@@ -178,13 +180,14 @@ int studyCommand(const Options& options) {
     fs::create_directories(folder, failed);
     checkFileWritable(folder / "study.json");
     const study::FolderLock lock(folder);
-    watchForInterrupt();
+    onSignal(OnSignal::Ask); // every run that is done is on the disk
+    nowDoing("measuring", StatusLine::OfOthers);
     const vulkan::OpenDevice open = vulkan::openDevice(options.device);
     Study s = newStudy(o.settings, *open.device);
     const size_t before = study::takeOver(folder / "study.json", s);
     if (before > 0) logging::info(fmt::format("going on: {} runs are there already", before));
     const bool complete = [&] {
-        StudyLine line(options.verbosity != Verbosity::Quiet);
+        StudyLine line;
         return study::runStudy(
             folder, s,
             {[&](const std::string& scene, const std::vector<std::string>& words) {
@@ -199,7 +202,7 @@ int studyCommand(const Options& options) {
     if (hasRuns(s)) fmt::print("\nreport: {}\n", (folder / "report.html").string());
     if (complete) return 0;
     logging::warn("interrupted: what is done is kept; the same command goes on");
-    return kInterruptedExitCode;
+    return interruptedExitCode();
 }
 
 } // namespace stromboli

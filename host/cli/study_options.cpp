@@ -29,13 +29,15 @@ struct AskedStudy {
 
 void declareScenes(OptionList& list, StudyOptions& o) {
     list.group("Scenes");
-    list.list("SCENE", "", "files, scenes of scene/library by name, or generate:cornell_mesh:N",
-              o.settings.scenes);
+    list.list("SCENE", "", "files, bundled scenes by name, or generate:cornell_mesh:N",
+              o.settings.scenes)
+        .proposes(Proposed::Scenes);
     list.group("Output");
     list.text("-o,--output", "FOLDER",
               "folder for report.html, study.json, study.csv, references and pictures; a study "
               "that was stopped goes on where the same command finds its folder",
-              o.folder);
+              o.folder)
+        .proposes(Proposed::Folders);
 }
 
 void declareConfigurations(OptionList& list, AskedStudy& asked, StudyOptions& o) {
@@ -48,9 +50,14 @@ void declareConfigurations(OptionList& list, AskedStudy& asked, StudyOptions& o)
         asked.configurations);
     config.usually(fmt::format("{}", fmt::join(asked.configurations, ", ")));
     config.mayRepeat = true;
+    Words known;
+    for (const study::Configuration& one : study::knownConfigurations())
+        known.push_back(one.name);
+    config.proposes(known);
     list.flag("--list", "print the known configurations", o.list);
     list.text("--baseline", "NAME", "what the others are compared with", o.settings.baseline)
-        .usually("independent if it takes part, else the first");
+        .usually("independent if it takes part, else the first")
+        .proposes(known);
     list.text("--options", "OPTIONS", "options of render for every picture", asked.moreOptions);
 }
 
@@ -74,6 +81,7 @@ void declareMeasuring(OptionList& list, AskedStudy& asked, StudyOptions& o) {
                    for (const std::string& word : words)
                        s.sampleCounts.push_back(readNumber("-s", word, kSamples));
                })
+        .from(inWords(kSamples))
         .usually(fmt::format("{}; --quick: 4,16,64", fmt::join(s.sampleCounts, ",")))
         .separatedByCommas = true;
     list.number("--seeds", "N", "runs of each configuration", s.seeds, kSeeds)
@@ -146,7 +154,16 @@ void declareStudy(DeclaredCommand& c) {
                "its mean, less what the reference's own noise adds. Times are those of sampling "
                "alone.\nExample: stromboli study cornell_boxes island -c default -c hemisphere "
                "-c \"four=-l 4\" --seeds 8";
-    c.finish = [asked, &o] { finishStudy(*asked, o); };
+    c.finish = [&c, asked, &o] {
+        const std::string ignored =
+            o.list ? c.givenOf({"SCENE", "-o", "-c", "--baseline", "--options", "--quick", "-r",
+                                "-m", "-s", "--seeds", "--reference-samples", "--target-samples",
+                                "--most-seconds", "--device", "-t"})
+                   : "";
+        if (!ignored.empty())
+            c.options.remarks.push_back("--list measures nothing: ignored: " + ignored);
+        finishStudy(*asked, o);
+    };
 }
 
 } // namespace stromboli

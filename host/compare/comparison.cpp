@@ -15,13 +15,18 @@ bool isFinite(const glm::dvec3& c) {
     return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
 }
 
-/// Makes pixels black in both that are not finite in one.
-void blackenNotFinite(Picture& a, Picture& b) {
-    for (size_t i = 0; i < a.rgb.size(); ++i) {
-        if (isFinite(a.rgb[i]) && isFinite(b.rgb[i])) continue;
-        a.rgb[i] = b.rgb[i] = glm::dvec3(0);
-        if (a.film) a.film->pixels[i] = {};
-        if (b.film) b.film->pixels[i] = {};
+/// Makes pixels black in both that are not finite in one, and counts them.
+void blackenNotFinite(Picture& reference, Picture& picture, Comparison& result) {
+    for (size_t i = 0; i < reference.rgb.size(); ++i) {
+        const bool referenceIs = isFinite(reference.rgb[i]), pictureIs = isFinite(picture.rgb[i]);
+        if (referenceIs && pictureIs) {
+            ++result.compared;
+            continue;
+        }
+        if (referenceIs) ++result.notFiniteInPictureAlone;
+        reference.rgb[i] = picture.rgb[i] = glm::dvec3(0);
+        if (reference.film) reference.film->pixels[i] = {};
+        if (picture.film) picture.film->pixels[i] = {};
     }
 }
 
@@ -60,7 +65,7 @@ Comparison comparePictures(const Picture& referenceIn, const Picture& pictureIn,
     result.notFiniteReference = countNotFinite(referenceIn);
     result.notFinitePicture = countNotFinite(pictureIn);
     Picture reference = referenceIn, picture = pictureIn;
-    blackenNotFinite(reference, picture);
+    blackenNotFinite(reference, picture, result);
     result.errors = linearErrors(reference, picture);
     result.psnr = psnr(reference, picture, settings.exposure);
     result.ssim = ssim(reference, picture, settings.exposure);
@@ -78,8 +83,10 @@ std::vector<std::string> violations(const Comparison& c, const Thresholds& t) {
     if (t.zTest && !c.zTest)
         throw UsageError("--ztest needs the variances of both pictures: EXR files of render --aov");
     std::vector<std::string> lines;
-    if (t.any() && c.notFinitePicture > c.notFiniteReference)
-        lines.push_back(fmt::format("{} pixels are not finite", c.notFinitePicture));
+    if (t.any() && c.notFiniteInPictureAlone > 0)
+        lines.push_back(fmt::format("{} pixels are not finite, but are in the reference",
+                                    c.notFiniteInPictureAlone));
+    if (t.any() && c.compared == 0) lines.emplace_back("no pixel is finite in both pictures");
     const auto atMost = [&](const char* name, double value, const std::optional<double>& limit) {
         if (limit && !(value <= *limit))
             lines.push_back(fmt::format("{} is {:.6g}, above {:.6g}", name, value, *limit));
@@ -98,7 +105,10 @@ std::vector<std::string> violations(const Comparison& c, const Thresholds& t) {
                100 * std::abs(c.errors.relativeBias[i]), t.biasPercent);
     atLeast("PSNR", c.psnr, t.psnr);
     atLeast("SSIM", c.ssim, t.ssim);
-    if (t.zTest && !c.zTest->agree()) lines.emplace_back("the z-tests find a difference");
+    if (t.zTest && c.zTest->verdict() == Verdict::Different)
+        lines.emplace_back("the z-tests find a difference");
+    if (t.zTest && c.zTest->verdict() == Verdict::Undecided)
+        lines.emplace_back("the z-tests could not have found a difference: too few samples");
     return lines;
 }
 

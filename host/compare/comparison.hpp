@@ -23,6 +23,8 @@ struct Comparison {
     /// Pixels that are NaN or infinite in either picture; they are left out of all that follows
     /// (both pictures are taken to be black there).
     uint64_t notFiniteReference = 0, notFinitePicture = 0;
+    uint64_t notFiniteInPictureAlone = 0; ///< where the reference is finite
+    uint64_t compared = 0;                ///< pixels that are finite in both
     LinearErrors errors;
     double psnr = 0; ///< dB
     double ssim = 0;
@@ -48,8 +50,9 @@ struct Thresholds {
     bool any() const { return mse || relMse || flip || biasPercent || psnr || ssim || zTest; }
 };
 
-/// A line for each limit that is not kept. A picture with values that are not finite keeps none,
-/// unless the reference has as many. Throws UsageError for a z-test without variances.
+/// A line for each limit that is not kept; a figure that is NaN keeps none. No limit is kept by a
+/// picture that is not finite in a pixel where the reference is, or in all of them. Throws
+/// UsageError for a z-test without variances.
 std::vector<std::string> violations(const Comparison& comparison, const Thresholds& thresholds);
 
 std::string toText(const Comparison& comparison);

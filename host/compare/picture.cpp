@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 
 namespace stromboli::compare {
 namespace {
@@ -35,17 +36,26 @@ bool hasAll(const FloatImage& image, const std::string& prefix) {
 
 /// The sums that linearPicture() wrote the variances of. The channel "samples" counts rejected
 /// samples too; they are so few that the variance of the rest is not affected.
-Film filmOf(const Picture& picture, const FloatImage& image) {
+Film filmOf(const fs::path& path, const Picture& picture, const FloatImage& image) {
     Film film(picture.width, picture.height);
-    const std::vector<float>& samples = image.channels.at("samples");
     for (size_t i = 0; i < film.pixels.size(); ++i) {
+        const auto value = [&](const std::string& channel, double most) {
+            const double v = image.channels.at(channel)[i];
+            if (!(v >= 0 && v <= most))
+                throw UsageError(fmt::format("{}: the channel {} is {:g} at pixel {} {}: expected "
+                                             "a number from 0 to {:g}",
+                                             path.string(), channel, v, i % film.width,
+                                             i / film.width, most));
+            return v;
+        };
         PixelStatistics& pixel = film.pixels[i];
-        const double n = std::max(double(samples[i]), 0.0);
-        pixel.count = uint32_t(n);
+        pixel.count = uint32_t(value("samples", std::numeric_limits<uint32_t>::max()));
         pixel.mean = picture.rgb[i];
+        const double n = pixel.count;
         for (int c = 0; c < 3; ++c)
             pixel.m2[c] =
-                image.channels.at(std::string("variance.") + kChannels[c])[i] * n * (n - 1);
+                value(std::string("variance.") + kChannels[c], std::numeric_limits<float>::max()) *
+                n * (n - 1);
     }
     return film;
 }
@@ -58,7 +68,7 @@ Picture fromFloats(const fs::path& path, const FloatImage& image) {
         for (int c = 0; c < 3; ++c)
             picture.rgb[i][c] = image.channels.at(kChannels[c])[i];
     if (image.channels.contains("samples") && hasAll(image, "variance."))
-        picture.film = filmOf(picture, image);
+        picture.film = filmOf(path, picture, image);
     return picture;
 }
 

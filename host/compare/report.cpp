@@ -15,11 +15,17 @@ std::string flipName(const Comparison& c) {
 }
 
 Json toJson(const CheckResult& z) {
-    Json channels = Json::array();
-    for (const CheckChannel& channel : z.channels)
+    Json channels = Json::array(), visible = Json::array();
+    for (const CheckChannel& channel : z.channels) {
         channels.push_back(channel.z);
+        visible.push_back(channel.visible); // null: no difference is
+    }
+    const char* const verdicts[] = {"agree", "different", "undecided"};
     return {{"agree", z.agree()},
+            {"verdict", verdicts[size_t(z.verdict())]},
             {"channels", channels},
+            {"visible", visible},
+            {"power", z.power},
             {"channelLimit", z.channelLimit},
             {"worstBlock", z.worstBlock.z},
             {"blockLimit", z.blockLimit},
@@ -71,7 +77,10 @@ Json toJson(const Comparison& c) {
               {"stopStops", c.flipStopStops}}},
             {"bias", c.errors.bias},
             {"relativeBias", c.errors.relativeBias},
-            {"notFinite", {{"reference", c.notFiniteReference}, {"picture", c.notFinitePicture}}},
+            {"notFinite",
+             {{"reference", c.notFiniteReference},
+              {"picture", c.notFinitePicture},
+              {"pictureAlone", c.notFiniteInPictureAlone}}},
             {"zTest", c.zTest ? toJson(*c.zTest) : Json(nullptr)},
             {"unevenSamples", c.unevenSamples}};
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 
@@ -22,5 +23,8 @@ void writeFileAtomically(const std::filesystem::path& path, std::span<const std:
 /// Throws the OutputError that writeFileAtomically(path, ...) would throw, as far as that can be
 /// known beforehand: it makes and removes an empty file beside `path`.
 void checkFileWritable(const std::filesystem::path& path);
+
+/// Throws OutputError if the file system that `path` is on has not so many bytes free.
+void checkFreeSpace(const std::filesystem::path& path, uint64_t bytes);
 
 } // namespace stromboli

@@ -5,8 +5,16 @@
 
 namespace stromboli {
 
-/// Exit codes of the program; the numbers are part of its interface (README, "Exit codes").
-enum class ExitCode : int { Success = 0, Usage = 1, Scene = 2, Device = 3, Output = 4 };
+/// Exit codes of the program; the numbers are part of its interface (README, "Exit codes"). 5 is
+/// that of the `stromboli` script where it cannot build the program.
+enum class ExitCode : int {
+    Success = 0,
+    Usage = 1,
+    Scene = 2,
+    Device = 3,
+    Output = 4,
+    Undecided = 6
+};
 
 /// Base of every error a user can cause. Caught once, in main, which prints what() and exits
 /// with code(). The message is one line: where (file:line, element), what is wrong, what was
@@ -39,6 +47,12 @@ class SceneError : public Error {
 class DeviceError : public Error {
   public:
     explicit DeviceError(const std::string& message) : Error(ExitCode::Device, message) {}
+};
+
+/// The device stopped working; another try may succeed.
+class DeviceLostError : public DeviceError {
+  public:
+    using DeviceError::DeviceError;
 };
 
 /// A picture or report cannot be written.

@@ -1,7 +1,12 @@
 #include "host/core/log.hpp"
 
+#include "host/core/printable.hpp"
+#include "host/core/status_line.hpp"
+
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+
+#include <cstdlib>
 
 namespace stromboli {
 namespace {
@@ -23,8 +28,12 @@ spdlog::level::level_enum levelOf(Verbosity verbosity) {
 } // namespace
 
 void setUpLogging(Verbosity verbosity) {
+    // As https://no-color.org has it: set, and not empty.
+    const char* const plain = std::getenv("NO_COLOR");
     auto logger = std::make_shared<spdlog::logger>(
-        "stromboli", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
+        "stromboli",
+        std::make_shared<spdlog::sinks::stderr_color_sink_mt>(
+            plain && *plain ? spdlog::color_mode::never : spdlog::color_mode::automatic));
     logger->set_pattern("%^%l:%$ %v");
     spdlog::set_default_logger(logger);
     setVerbosity(verbosity);
@@ -34,20 +43,26 @@ void setVerbosity(Verbosity verbosity) {
     spdlog::set_level(levelOf(verbosity));
 }
 
+static void log(spdlog::level::level_enum level, std::string_view message) {
+    if (!spdlog::should_log(level)) return;
+    status_line::clear();
+    spdlog::log(level, printable(message));
+}
+
 void logging::debug(std::string_view message) {
-    spdlog::debug(message);
+    log(spdlog::level::debug, message);
 }
 
 void logging::info(std::string_view message) {
-    spdlog::info(message);
+    log(spdlog::level::info, message);
 }
 
 void logging::warn(std::string_view message) {
-    spdlog::warn(message);
+    log(spdlog::level::warn, message);
 }
 
 void logging::error(std::string_view message) {
-    spdlog::error(message);
+    log(spdlog::level::err, message);
 }
 
 } // namespace stromboli

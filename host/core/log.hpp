@@ -13,7 +13,8 @@ void setUpLogging(Verbosity verbosity);
 /// Changes what is said from now on.
 void setVerbosity(Verbosity verbosity);
 
-/// Messages, one line each. Callers format them: the logging library's headers, which are slow to
+/// Messages, one line each: control characters in them, which may come from a file, are shown
+/// (host/core/printable.hpp). Callers format them: the logging library's headers, which are slow to
 /// compile, are in log.cpp alone.
 namespace logging {
 void debug(std::string_view message);

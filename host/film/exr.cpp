@@ -1,7 +1,7 @@
 #include "host/film/exr.hpp"
 
-#include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/output.hpp"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -22,9 +22,16 @@ static Imf::Slice sliceOf(const std::vector<float>& values, const Imath::Box2i& 
                             width * sizeof(float));
 }
 
+/// The window of pixels that a part of a picture fills, whose corner the whole has at (0, 0).
+static Imath::Box2i windowOf(const Crop& part) {
+    const Imath::V2i corner(int(part.x), int(part.y));
+    return {corner, corner + Imath::V2i(int(part.width) - 1, int(part.height) - 1)};
+}
+
 /// Encoded in memory, because OpenEXR does not notice a disk that is full when it closes a file.
 static std::string encode(const FloatImage& image) {
-    Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
+    Imf::Header header(windowOf({0, 0, image.area.width, image.area.height}),
+                       windowOf(image.area.rendered()));
     header.compression() = Imf::ZIP_COMPRESSION;
     Imf::FrameBuffer frameBuffer;
     for (const auto& [name, values] : image.channels) {
@@ -41,11 +48,24 @@ static std::string encode(const FloatImage& image) {
     return stream.str();
 }
 
+/// Where the data lie in the picture that is to be shown: all there is to see, if they reach beyond
+/// it.
+static PictureArea areaOf(const Imath::Box2i& display, const Imath::Box2i& data) {
+    const Imath::V2i size = data.max - data.min + Imath::V2i(1);
+    const Imath::V2i whole = display.max - display.min + Imath::V2i(1);
+    const Imath::V2i corner = data.min - display.min;
+    PictureArea area{uint32_t(size.x), uint32_t(size.y), {}};
+    if (data == display || !display.intersects(data.min) || !display.intersects(data.max))
+        return area;
+    area.crop = {uint32_t(corner.x), uint32_t(corner.y), area.width, area.height};
+    area.width = uint32_t(whole.x), area.height = uint32_t(whole.y);
+    return area;
+}
+
 static FloatImage decode(const fs::path& path) {
     Imf::InputFile file(path.c_str());
     const Imath::Box2i window = file.header().dataWindow();
-    FloatImage image(static_cast<uint32_t>(window.max.x - window.min.x + 1),
-                     static_cast<uint32_t>(window.max.y - window.min.y + 1));
+    FloatImage image(areaOf(file.header().displayWindow(), window));
     Imf::FrameBuffer frameBuffer;
     const Imf::ChannelList& channels = file.header().channels();
     for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
@@ -65,7 +85,7 @@ void writeExr(const fs::path& path, const FloatImage& image) {
     } catch (const std::exception& error) {
         throw OutputError(fmt::format("{}: cannot encode EXR: {}", path.string(), error.what()));
     }
-    writeFileAtomically(path, std::as_bytes(std::span(bytes)));
+    writeOutput(path, std::as_bytes(std::span(bytes)));
 }
 
 FloatImage readExr(const fs::path& path) {

@@ -6,8 +6,8 @@
 
 namespace stromboli {
 
-/// Writes every channel as 32-bit float (lossless ZIP), complete or not at all. Throws
-/// OutputError.
+/// Writes every channel as 32-bit float (lossless ZIP), complete or not at all. The display window
+/// is the whole picture, the data window the part of it that there is. Throws OutputError.
 void writeExr(const std::filesystem::path& path, const FloatImage& image);
 
 /// Reads every channel of a scan-line or tiled OpenEXR file of one part, its data window only.

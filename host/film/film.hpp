@@ -1,5 +1,7 @@
 #pragma once
 
+#include "host/film/picture_area.hpp"
+
 #include <glm/glm.hpp>
 
 #include <cstdint>
@@ -27,14 +29,19 @@ struct PixelStatistics {
     void merge(const PixelStatistics& other);
 };
 
-/// A picture being made: row 0 is the top, pixel (x, y) is pixels[y * width + x].
+/// The part of a picture that is rendered, in the making: row 0 is the top, pixel (x, y) of the
+/// part is pixels[y * width + x].
 struct Film {
-    uint32_t width = 0, height = 0;
+    uint32_t width = 0, height = 0; ///< of the part
+    PictureArea area;               ///< where the part lies in the whole picture
     std::vector<PixelStatistics> pixels;
     uint32_t branches = 1; ///< paths of a sample (docs/estimator.md, "Branches")
 
     Film() = default;
-    Film(uint32_t w, uint32_t h) : width(w), height(h), pixels(size_t(w) * h) {}
+    explicit Film(const PictureArea& a)
+        : width(a.rendered().width), height(a.rendered().height), area(a), pixels(a.pixelCount()) {}
+    /// A whole picture.
+    Film(uint32_t w, uint32_t h) : Film(PictureArea{w, h, {}}) {}
     PixelStatistics& at(uint32_t x, uint32_t y) { return pixels[size_t(y) * width + x]; }
     const PixelStatistics& at(uint32_t x, uint32_t y) const {
         return pixels[size_t(y) * width + x];

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "host/film/picture_area.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -19,14 +21,17 @@ struct ByteImage {
     const uint8_t* pixel(uint32_t x, uint32_t y) const { return &rgb[(size_t(y) * width + x) * 3]; }
 };
 
-/// Linear picture: named channels ("R", "G", "B", ...), each with width * height values, rows
-/// from the top.
+/// Linear picture, or a part of one: named channels ("R", "G", "B", ...), each with width * height
+/// values, rows from the top.
 struct FloatImage {
-    uint32_t width = 0, height = 0;
+    uint32_t width = 0, height = 0; ///< of the part
+    PictureArea area;               ///< where the part lies in the whole picture
     std::map<std::string, std::vector<float>> channels;
 
     FloatImage() = default;
-    FloatImage(uint32_t w, uint32_t h) : width(w), height(h) {}
+    explicit FloatImage(const PictureArea& a)
+        : width(a.rendered().width), height(a.rendered().height), area(a) {}
+    FloatImage(uint32_t w, uint32_t h) : FloatImage(PictureArea{w, h, {}}) {}
     /// The channel of that name, made (all 0) if there is none.
     std::vector<float>& channel(const std::string& name);
 };

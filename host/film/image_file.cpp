@@ -1,8 +1,7 @@
 #include "host/film/image_file.hpp"
 
-#include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
-#include "host/film/crop.hpp"
+#include "host/core/output.hpp"
 #include "host/film/exr.hpp"
 #include "host/film/png.hpp"
 
@@ -21,6 +20,7 @@ enum class Format { Png, Exr };
 }
 
 static Format formatOf(const fs::path& path) {
+    if (isStandardOutput(path)) return Format::Png;
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -30,17 +30,36 @@ static Format formatOf(const fs::path& path) {
                                  path.string()));
 }
 
-void checkWritable(const fs::path& path) {
-    formatOf(path);
-    checkFileWritable(path);
+bool isPng(const fs::path& path) {
+    return formatOf(path) == Format::Png;
 }
 
-ByteImage toneMap(const Film& film, const Crop& crop, const ToneCurve& tone) {
-    const Crop part = cropInside(film, crop);
-    ByteImage image(part.width, part.height);
-    for (uint32_t y = 0; y < part.height; ++y)
-        for (uint32_t x = 0; x < part.width; ++x) {
-            const glm::dvec3& mean = film.at(part.x + x, part.y + y).mean;
+void checkWritable(const fs::path& path) {
+    formatOf(path);
+    checkOutputWritable(path);
+}
+
+uint64_t largestPictureFile(const fs::path& path, uint32_t width, uint32_t height,
+                            bool statistics) {
+    const uint64_t pixels = uint64_t(width) * height;
+    constexpr uint64_t kHeaders = 4096; // bytes; a few hundred are used
+    if (formatOf(path) == Format::Png) {
+        const uint64_t filtered = 3 * pixels + height; // a byte before each row names its filter
+        // zlib's compressBound(); libpng frames every 8192 bytes by 12 more.
+        const uint64_t compressed = filtered + (filtered >> 12) + (filtered >> 14) + 13;
+        return compressed + 12 * (compressed / 8192 + 1) + kHeaders;
+    }
+    // Blocks of 16 rows that ZIP does not make smaller are kept as they are; each has its place and
+    // size, and an entry in the table of blocks.
+    const uint64_t channels = statistics ? 7 : 3, blocks = height / 16 + 1;
+    return channels * 4 * pixels + blocks * (8 + 8) + kHeaders;
+}
+
+ByteImage toneMap(const Film& film, const ToneCurve& tone) {
+    ByteImage image(film.width, film.height);
+    for (uint32_t y = 0; y < film.height; ++y)
+        for (uint32_t x = 0; x < film.width; ++x) {
+            const glm::dvec3& mean = film.at(x, y).mean;
             uint8_t* pixel = image.pixel(x, y);
             for (int c = 0; c < 3; ++c)
                 pixel[c] = tone.toByte(mean[c]);
@@ -55,42 +74,61 @@ static float toFloat(double value) {
 
 /// Fills one channel of the image with a function of each pixel's statistics.
 template <typename Value>
-static void fill(FloatImage& image, const std::string& name, const Film& film, const Crop& part,
-                 const Value& value) {
+static void fill(FloatImage& image, const std::string& name, const Film& film, const Value& value) {
     std::vector<float>& channel = image.channel(name);
-    for (uint32_t y = 0; y < part.height; ++y)
-        for (uint32_t x = 0; x < part.width; ++x)
-            channel[size_t(y) * part.width + x] = toFloat(value(film.at(part.x + x, part.y + y)));
+    for (size_t i = 0; i < film.pixels.size(); ++i)
+        channel[i] = toFloat(value(film.pixels[i]));
 }
 
-FloatImage linearPicture(const Film& film, const Crop& crop, bool statistics) {
-    const Crop part = cropInside(film, crop);
-    FloatImage image(part.width, part.height);
+FloatImage linearPicture(const Film& film, bool statistics) {
+    FloatImage image(film.area);
     const char* const names[] = {"R", "G", "B"};
     for (int c = 0; c < 3; ++c)
-        fill(image, names[c], film, part, [c](const PixelStatistics& p) { return p.mean[c]; });
+        fill(image, names[c], film, [c](const PixelStatistics& p) { return p.mean[c]; });
     if (!statistics) return image;
 
-    fill(image, "samples", film, part,
+    fill(image, "samples", film,
          [&](const PixelStatistics& p) { return p.taken() * film.branches; });
     for (int c = 0; c < 3; ++c)
-        fill(image, std::string("variance.") + names[c], film, part,
+        fill(image, std::string("variance.") + names[c], film,
              [c](const PixelStatistics& p) { return p.varianceOfMean()[c]; });
     return image;
 }
 
-void writePicture(const fs::path& path, const Film& film, const Crop& crop,
-                  const PictureOptions& options) {
-    switch (formatOf(path)) {
-    case Format::Png:
-        writePng(path, toneMap(film, crop, options.tone),
-                 options.tone.kind == ToneCurve::Kind::Srgb ? PngColorSpace::Srgb
-                                                            : PngColorSpace::Unnamed);
-        break;
-    case Format::Exr:
-        writeExr(path, linearPicture(film, crop, options.statistics));
-        break;
+PictureFile::PictureFile(fs::path path, const PictureArea& area, const PictureOptions& options)
+    : path_(std::move(path)), options_(options), area_(area) {
+    const Crop part = area.rendered();
+    if (isPng(path_))
+        bytes_ = ByteImage(part.width, part.height);
+    else
+        floats_ = FloatImage(area); // place() makes the channels
+}
+
+void PictureFile::place(const Film& film) {
+    const size_t first = size_t(film.area.rendered().y - area_.rendered().y) * film.width;
+    if (isPng(path_)) {
+        const ByteImage part = toneMap(film, options_.tone);
+        std::copy(part.rgb.begin(), part.rgb.end(), bytes_.rgb.begin() + std::ptrdiff_t(3 * first));
+        return;
     }
+    for (const auto& [name, values] : linearPicture(film, options_.statistics).channels)
+        std::copy(values.begin(), values.end(),
+                  floats_.channel(name).begin() + std::ptrdiff_t(first));
+}
+
+void PictureFile::write() const {
+    if (isPng(path_))
+        writePng(path_, bytes_,
+                 options_.tone.kind == ToneCurve::Kind::Srgb ? PngColorSpace::Srgb
+                                                             : PngColorSpace::Unnamed);
+    else
+        writeExr(path_, floats_);
+}
+
+void writePicture(const fs::path& path, const Film& film, const PictureOptions& options) {
+    PictureFile file(path, film.area, options);
+    file.place(film);
+    file.write();
 }
 
 } // namespace stromboli

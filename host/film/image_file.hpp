@@ -2,7 +2,6 @@
 
 #include "host/film/film.hpp"
 #include "host/film/image.hpp"
-#include "host/film/picture_area.hpp"
 #include "host/film/tone.hpp"
 
 #include <filesystem>
@@ -16,19 +15,44 @@ struct PictureOptions {
 };
 
 /// To be called before a long render. Throws UsageError if the extension is neither .png nor
-/// .exr (in any case of letters), OutputError if no file can be written there.
+/// .exr (in any case of letters), OutputError if no file can be written there. "-" is a PNG on
+/// standard output.
 void checkWritable(const std::filesystem::path& path);
 
-/// The means of a part of the film (width 0: all of it) as bytes.
-ByteImage toneMap(const Film& film, const Crop& crop, const ToneCurve& tone);
+/// Whether a picture of that name keeps 8 bits of a radiance.
+bool isPng(const std::filesystem::path& path);
 
-/// The means of a part of the film (width 0: all of it) in the channels R, G, B, and the
-/// statistics of PictureOptions if asked for.
-FloatImage linearPicture(const Film& film, const Crop& crop, bool statistics);
+/// The most bytes that writePicture can make of so many pixels: what noise takes.
+uint64_t largestPictureFile(const std::filesystem::path& path, uint32_t width, uint32_t height,
+                            bool statistics);
 
-/// Writes a part of the film (width 0: all of it) as PNG or EXR, by the extension, complete or
-/// not at all. Throws UsageError (extension, crop) or OutputError.
-void writePicture(const std::filesystem::path& path, const Film& film, const Crop& crop,
+/// The film's means as bytes.
+ByteImage toneMap(const Film& film, const ToneCurve& tone);
+
+/// The film's means in the channels R, G, B, and the statistics of PictureOptions if asked for.
+FloatImage linearPicture(const Film& film, bool statistics);
+
+/// A picture file in the making, put together from films of its parts.
+class PictureFile {
+  public:
+    /// area: of all parts. Throws UsageError (extension).
+    PictureFile(std::filesystem::path path, const PictureArea& area, const PictureOptions& options);
+    /// Films of bands of whole rows of the area. What no film shows stays black.
+    void place(const Film& film);
+    /// As PNG or EXR, by the extension, complete or not at all. An EXR file says where in the whole
+    /// picture the area lies. Throws OutputError.
+    void write() const;
+
+  private:
+    std::filesystem::path path_;
+    PictureOptions options_;
+    PictureArea area_;
+    ByteImage bytes_;   ///< PNG
+    FloatImage floats_; ///< EXR
+};
+
+/// The same of a picture in one part.
+void writePicture(const std::filesystem::path& path, const Film& film,
                   const PictureOptions& options);
 
 } // namespace stromboli

@@ -9,6 +9,11 @@ struct Crop {
     uint32_t x = 0, y = 0, width = 0, height = 0;
 };
 
+/// A pixel of the whole picture: column, row from the top.
+struct PixelPlace {
+    uint32_t x = 0, y = 0;
+};
+
 /// Which pixels a picture has and which of them are rendered.
 struct PictureArea {
     uint32_t width = 800, height = 600; ///< of the whole picture, before the crop
@@ -16,6 +21,12 @@ struct PictureArea {
 
     /// What is rendered: the crop, or the whole picture where there is none.
     Crop rendered() const { return crop.width == 0 ? Crop{0, 0, width, height} : crop; }
+    /// Column and row, in the whole picture, of a pixel that is rendered: `index` counts these row
+    /// by row.
+    PixelPlace placeOf(uint32_t index) const {
+        const Crop part = rendered();
+        return {part.x + index % part.width, part.y + index / part.width};
+    }
     /// The number of pixels that are rendered.
     uint64_t pixelCount() const {
         const Crop part = rendered();

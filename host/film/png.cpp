@@ -1,7 +1,7 @@
 #include "host/film/png.hpp"
 
-#include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/output.hpp"
 
 #include <fmt/format.h>
 #include <png.h>
@@ -87,7 +87,7 @@ void writePng(const fs::path& path, const ByteImage& image, PngColorSpace colorS
     std::vector<png_byte> bytes;
     if (!encode(writer.png, writer.info, image, colorSpace, bytes))
         throw OutputError(fmt::format("{}: cannot encode PNG: {}", path.string(), writer.error));
-    writeFileAtomically(path, std::as_bytes(std::span(bytes)));
+    writeOutput(path, std::as_bytes(std::span(bytes)));
 }
 
 ByteImage readPng(const fs::path& path) {

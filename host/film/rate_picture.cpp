@@ -1,7 +1,5 @@
 #include "host/film/rate_picture.hpp"
 
-#include "host/film/crop.hpp"
-
 #include <algorithm>
 
 namespace stromboli {
@@ -16,13 +14,11 @@ static void paint(uint8_t* pixel, uint64_t taken, uint64_t maximum) {
     pixel[2] = lowerHalf ? part(maximum - 2 * taken) : uint8_t(0);
 }
 
-ByteImage ratePicture(const Film& film, const Crop& crop, uint32_t maximum) {
-    const Crop part = cropInside(film, crop);
-    ByteImage image(part.width, part.height);
-    for (uint32_t y = 0; y < part.height; ++y)
-        for (uint32_t x = 0; x < part.width; ++x)
-            paint(image.pixel(x, y), film.at(part.x + x, part.y + y).taken(),
-                  std::max(maximum, 1u));
+ByteImage ratePicture(const Film& film, uint32_t maximum) {
+    ByteImage image(film.width, film.height);
+    for (uint32_t y = 0; y < film.height; ++y)
+        for (uint32_t x = 0; x < film.width; ++x)
+            paint(image.pixel(x, y), film.at(x, y).taken(), std::max(maximum, 1u));
     return image;
 }
 

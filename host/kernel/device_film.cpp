@@ -2,6 +2,9 @@
 
 #include "host/kernel/kernel_buffers.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -16,7 +19,7 @@ PixelStatistics statisticsOf(const gpu::PixelState& s) {
     PixelStatistics p;
     p.count = s.count;
     p.rejected = s.rejected;
-    p.firstRejected = s.firstRejected;
+    if (s.rejected > 0) p.firstRejected = s.firstRejected;
     if (s.count == 0) return p;
     p.mean = (glm::dvec3(s.sum) + glm::dvec3(s.sumError)) / double(s.count);
     p.m2 = glm::dvec3(s.m2) + glm::dvec3(s.m2Error);
@@ -49,38 +52,31 @@ gpu::PixelState stateOf(const PixelSums& s) {
 
 DeviceFilm::DeviceFilm(const vulkan::Device& device, const PictureArea& area,
                        const DeviceTuning& tuning)
-    : area_(area), part_(area.rendered()), queue_(device) {
+    : area_(area), queue_(device) {
     const uint64_t total = area.pixelCount();
     const uint64_t perSegment = pixelsPerSegment(device.description(), tuning);
-    gpu::PixelState empty{};
-    empty.firstRejected = 0xFFFFFFFFu;
     for (uint64_t first = 0; first < total; first += perSegment) {
         const auto count = uint32_t(std::min(perSegment, total - first));
         Segment& s = segments_.emplace_back(
             Segment{uint32_t(first), count,
                     vulkan::Buffer(device, "film", uint64_t(count) * sizeof(gpu::PixelState),
                                    rowUse(tuning))});
-        s.pixels.upload(queue_, bytesOf(std::vector(count, empty)));
+        s.pixels.clear(queue_);
     }
 }
 
-std::pair<size_t, uint32_t> DeviceFilm::placeOf(uint32_t pixel) const {
-    const uint32_t rendered =
-        (pixel / area_.width - part_.y) * part_.width + pixel % area_.width - part_.x;
+std::pair<size_t, uint32_t> DeviceFilm::segmentOf(uint32_t pixel) const {
     const uint32_t perSegment = segments_.front().pixelCount;
-    return {rendered / perSegment, rendered % perSegment};
-}
-
-uint32_t DeviceFilm::picturePixel(uint32_t pixel) const {
-    return (pixel / part_.width + part_.y) * area_.width + pixel % part_.width + part_.x;
+    return {pixel / perSegment, pixel % perSegment};
 }
 
 std::vector<std::vector<gpu::WorkItem>>
 DeviceFilm::workOf(std::span<const PixelTarget> targets) const {
     std::vector<std::vector<gpu::WorkItem>> work(segments_.size());
     for (const PixelTarget& t : targets) {
-        const auto [segment, pixel] = placeOf(t.pixel);
-        work[segment].push_back({pixel, t.samples, t.pixel % area_.width, t.pixel / area_.width});
+        const auto [segment, pixel] = segmentOf(t.pixel);
+        const PixelPlace place = area_.placeOf(t.pixel);
+        work[segment].push_back({pixel, t.samples, place.x, place.y});
     }
     return work;
 }
@@ -97,26 +93,29 @@ void DeviceFilm::write(size_t segment, uint32_t pixel, const gpu::PixelState& st
                                      uint64_t(pixel) * sizeof(gpu::PixelState));
 }
 
-std::vector<gpu::PixelState> DeviceFilm::download(const Segment& segment) {
-    std::vector<gpu::PixelState> states(segment.pixelCount);
-    segment.pixels.download(queue_, std::as_writable_bytes(std::span(states)));
-    return states;
+std::span<const gpu::PixelState> DeviceFilm::statesOf(const Segment& segment) {
+    if (const std::byte* view = segment.pixels.hostView())
+        return {reinterpret_cast<const gpu::PixelState*>(view), segment.pixelCount};
+    copy_.resize(segment.pixelCount);
+    segment.pixels.download(queue_, std::as_writable_bytes(std::span(copy_)));
+    return copy_;
 }
 
 void DeviceFilm::readBack(size_t index, std::span<const gpu::WorkItem> items, Film& film) {
     if (items.empty()) return;
     const Segment& segment = segments_[index];
-    const std::vector<gpu::PixelState> states = download(segment);
-    for (const gpu::WorkItem& item : items)
-        film.pixels[picturePixel(segment.firstPixel + item.pixel)] =
-            statisticsOf(states[item.pixel]);
+    const std::span<const gpu::PixelState> states = statesOf(segment);
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, items.size(), 4096), [&](const auto& range) {
+        for (size_t i = range.begin(); i != range.end(); ++i)
+            film.pixels[segment.firstPixel + items[i].pixel] = statisticsOf(states[items[i].pixel]);
+    });
 }
 
 std::vector<PixelSums> DeviceFilm::save() {
     std::vector<PixelSums> sums;
     sums.reserve(area_.pixelCount());
     for (const Segment& segment : segments_)
-        for (const gpu::PixelState& state : download(segment))
+        for (const gpu::PixelState& state : statesOf(segment))
             sums.push_back(sumsOf(state));
     return sums;
 }
@@ -130,7 +129,7 @@ void DeviceFilm::restore(std::span<const PixelSums> sums, Film& film) {
             states.push_back(stateOf(s));
         segment.pixels.upload(queue_, bytesOf(states));
         for (uint32_t i = 0; i < segment.pixelCount; ++i)
-            film.pixels[picturePixel(segment.firstPixel + i)] = statisticsOf(states[i]);
+            film.pixels[segment.firstPixel + i] = statisticsOf(states[i]);
     }
 }
 

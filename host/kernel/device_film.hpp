@@ -30,8 +30,8 @@ class DeviceFilm {
 
     /// The targets as work items of each segment, in their order.
     std::vector<std::vector<gpu::WorkItem>> workOf(std::span<const PixelTarget> targets) const;
-    /// The segment of a pixel of the picture, and its index there.
-    std::pair<size_t, uint32_t> placeOf(uint32_t picturePixel) const;
+    /// The segment of a pixel, and its index there.
+    std::pair<size_t, uint32_t> segmentOf(uint32_t pixel) const;
 
     gpu::PixelState read(size_t segment, uint32_t pixel);
     void write(size_t segment, uint32_t pixel, const gpu::PixelState& state);
@@ -44,13 +44,13 @@ class DeviceFilm {
     void restore(std::span<const PixelSums> sums, Film& film);
 
   private:
-    std::vector<gpu::PixelState> download(const Segment& segment);
-    uint32_t picturePixel(uint32_t renderedPixel) const;
+    /// All pixels of a segment, until the next dispatch or call.
+    std::span<const gpu::PixelState> statesOf(const Segment& segment);
 
     PictureArea area_;
-    Crop part_;
     vulkan::Queue queue_;
     std::vector<Segment> segments_;
+    std::vector<gpu::PixelState> copy_; ///< of a segment, where it is not the host's memory
 };
 
 } // namespace stromboli

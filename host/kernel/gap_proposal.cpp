@@ -59,8 +59,10 @@ std::optional<float> gapAlong(const GpuScene& scene, const gpu::QuadLight& light
 
 float gapWidth(const GpuScene& scene) {
     if (scene.lights.count != 1 || scene.lights.sampledKinds != 1u << gpu::LIGHT_QUAD) return 0;
-    const auto header = structureAt<gpu::LightHeader>(scene.lights.lights, 0);
-    const auto light = structureAt<gpu::QuadLight>(scene.lights.lights, 1);
+    // Ambient light that is left to bounces lies before it.
+    const size_t row = gpu::LIGHT_ROWS * structureAt<gpu::LightEntry>(scene.lights.table, 0).light;
+    const auto header = structureAt<gpu::LightHeader>(scene.lights.lights, row);
+    const auto light = structureAt<gpu::QuadLight>(scene.lights.lights, row + 1);
     if (!isRectangle(light)) return 0;
     // In double: the square of an area leaves the range of float.
     const glm::vec3 n =

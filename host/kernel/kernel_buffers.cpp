@@ -72,6 +72,16 @@ uint64_t pixelsPerSegment(const vulkan::DeviceDescription& device, const DeviceT
     return std::min(bytes / sizeof(gpu::PixelState), kMostPixels);
 }
 
+uint64_t filmPixelsThatFit(const vulkan::DeviceDescription& device, const GpuScene& scene,
+                           uint32_t branches) {
+    // A picture of many pixels has the largest of the buffers that do not grow with it.
+    constexpr uint32_t kMany = 1u << 24;
+    uint64_t others = 0;
+    for (const BufferPlan& plan : planBuffers(scene, {kMany, 1, {}}, branches, {}))
+        if (plan.name != "film") others += plan.bytes;
+    return others < device.memory ? (device.memory - others) / sizeof(gpu::PixelState) : 0;
+}
+
 void checkMemory(const vulkan::DeviceDescription& device, const GpuScene& scene,
                  const PictureArea& area, uint32_t branches, const DeviceTuning& tuning) {
     const std::vector<BufferPlan> plans = planBuffers(scene, area, branches, tuning);

@@ -31,6 +31,10 @@ std::vector<vulkan::BufferPlan> planBuffers(const GpuScene& scene, const Picture
 /// Pixels of the film that fit one buffer and one binding.
 uint64_t pixelsPerSegment(const vulkan::DeviceDescription& device, const DeviceTuning& tuning);
 
+/// Pixels of the film for which the device has memory beside the scene.
+uint64_t filmPixelsThatFit(const vulkan::DeviceDescription& device, const GpuScene& scene,
+                           uint32_t branches);
+
 /// Throws DeviceError that names what does not fit, before anything is allocated or uploaded.
 void checkMemory(const vulkan::DeviceDescription& device, const GpuScene& scene,
                  const PictureArea& area, uint32_t branches, const DeviceTuning& tuning);

@@ -37,14 +37,11 @@ uint32_t lobesOf(uint32_t bsdfKinds) {
     return lobes;
 }
 
-/// Lights that the kernel has to know: those that are sampled, and ambient light, which rays that
-/// miss find.
+/// Kinds of lights that light samples go to.
 uint32_t lightKinds(const GpuScene& scene, const Estimator& settings) {
-    if (settings.integrator == Integrator::Normals) return 0;
-    uint32_t kinds =
-        directSampling(scene.lights, settings).lights > 0 ? scene.lights.sampledKinds : 0;
-    if (scene.lights.hasAmbient) kinds |= 1u << gpu::LIGHT_AMBIENT;
-    return kinds;
+    const bool samples = settings.integrator == Integrator::Path &&
+                         directSampling(scene.lights, settings).lights > 0;
+    return samples ? scene.lights.sampledKinds : 0;
 }
 
 uint32_t lightNumbers(const GpuScene& scene, const Estimator& settings) {
@@ -81,7 +78,7 @@ uint32_t conventionsConstant(const ShadingConventions& conventions) {
 
 void switchOnAllTheSceneCouldHave(KernelFeatures& f, const Estimator& settings) {
     f[SPEC_HAS_TRIANGLES] = f[SPEC_HAS_SPHERES] = f[SPEC_HAS_NORMALS] = f[SPEC_HAS_EMISSION] = 1;
-    f[SPEC_LARGE_TREE] = 1;
+    f[SPEC_LARGE_TREE] = f[SPEC_HAS_AMBIENT] = 1;
     if (f[SPEC_LIGHT_NUMBERS] == gpu::LIGHT_NUMBERS_SHARED)
         f[SPEC_LIGHT_NUMBERS] = gpu::LIGHT_NUMBERS_FIRST;
     f[SPEC_BSDF_KINDS] = (1u << gpu::BSDF_KIND_COUNT) - 1;
@@ -95,6 +92,11 @@ std::string list(uint32_t bits, const std::vector<const char*>& names) {
     for (uint32_t i = 0; i < names.size(); ++i)
         if (bits & (1u << i)) text += (text.empty() ? "" : ", ") + std::string(names[i]);
     return text.empty() ? "none" : text;
+}
+
+const char* ambientText(const KernelFeatures& f) {
+    if (!f[SPEC_HAS_AMBIENT]) return "none";
+    return f[SPEC_LIGHT_KINDS] & 1u << gpu::LIGHT_AMBIENT ? "sampled" : "left to bounces";
 }
 
 } // namespace
@@ -153,6 +155,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
         settings.sampler == Sampler::Sobol ? gpu::SAMPLER_SOBOL : gpu::SAMPLER_INDEPENDENT;
     f[SPEC_LIGHT_NUMBERS] = lightNumbers(scene, settings);
     f[SPEC_MIS_LOBES] = normalsOnly ? 0 : misLobes(scene, settings, f[SPEC_BSDF_KINDS]);
+    f[SPEC_HAS_AMBIENT] = !normalsOnly && scene.lights.hasAmbient;
     f[SPEC_AMBIENT_BY_BOUNCES] = !normalsOnly && scene.lights.ambientLeftToBounces;
     f[SPEC_SPLITS] = settings.branches > 1;
     f[SPEC_GAP_PROPOSAL] = proposesGap(scene, settings);
@@ -176,6 +179,7 @@ std::vector<std::string> describe(const KernelFeatures& f) {
         fmt::format("lights: {}",
                     list(f[SPEC_LIGHT_KINDS], {"quad", "triangle", "sphere", "ambient",
                                                "directional", "point", "spot"})),
+        fmt::format("ambient light: {}", ambientText(f)),
         fmt::format("integrator: {}",
                     nameOf(f[SPEC_INTEGRATOR] == gpu::INTEGRATOR_PATH ? Integrator::Path
                                                                       : Integrator::Normals)),

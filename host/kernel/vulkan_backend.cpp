@@ -58,7 +58,7 @@ const PathKernel& VulkanBackend::kernelFor(const KernelFeatures& features,
 void VulkanBackend::sample(std::span<const PixelTarget> targets, Film& film,
                            const PassProgress& progress) {
     const std::vector<std::vector<gpu::WorkItem>> work =
-        film_->workOf(tileOrder(targets, area_.width));
+        film_->workOf(tileOrder(targets, area_.rendered().width));
     uint64_t done = 0;
     const auto advance = [&](uint64_t samples) {
         done += samples;
@@ -73,8 +73,9 @@ void VulkanBackend::sample(std::span<const PixelTarget> targets, Film& film,
 
 /// With a pixel state and frame constants of its own, which are put back at the end.
 SampleValue VulkanBackend::sampleAlone(uint32_t pixel, uint32_t sample) {
-    const auto [segment, index] = film_->placeOf(pixel);
-    const gpu::WorkItem item = {index, 1, pixel % area_.width, pixel / area_.width};
+    const auto [segment, index] = film_->segmentOf(pixel);
+    const PixelPlace place = area_.placeOf(pixel);
+    const gpu::WorkItem item = {index, 1, place.x, place.y};
     gpu::Frame frame = frame_;
     frame.firstSample = sample;
     frame.keepsValue = 1;

@@ -28,7 +28,6 @@ class VulkanBackend final : public Backend {
 
     void sample(std::span<const PixelTarget> targets, Film& film,
                 const PassProgress& progress) override;
-    /// The pixel is in the crop.
     SampleValue sampleAlone(uint32_t pixel, uint32_t sample) override;
     RenderCounters counters() const override { return dispatcher_->counters(); }
     std::vector<PixelSums> save(const Film& film) override;

@@ -63,12 +63,12 @@ struct ReferenceBackend::Implementation {
 
     /// One sample; a pure function of pixel and index.
     glm::dvec3 take(uint32_t pixel, uint32_t index, uint64_t& rayCount) const {
-        reference::RandomStream random(pixel, index, settings.estimator.seed,
-                                       settings.estimator.sampler);
-        const double x = pixel % settings.area.width + random.next();
-        const double y = pixel / settings.area.width + random.next();
-        const reference::Ray ray =
-            reference::cameraRay(camera, x / settings.area.width, y / settings.area.height);
+        const PictureArea& area = settings.area;
+        const PixelPlace place = area.placeOf(pixel);
+        reference::RandomStream random(place.y * area.width + place.x, index,
+                                       settings.estimator.seed, settings.estimator.sampler);
+        const double x = place.x + random.next(), y = place.y + random.next();
+        const reference::Ray ray = reference::cameraRay(camera, x / area.width, y / area.height);
         reference::PathSample path(world, settings.estimator, random);
         const glm::dvec3 value = settings.estimator.integrator == Integrator::Normals
                                      ? path.normalColor(ray)
@@ -105,8 +105,8 @@ ReferenceBackend::~ReferenceBackend() = default;
 void ReferenceBackend::sample(std::span<const PixelTarget> targets, Film& film,
                               const PassProgress& progress) {
     const RenderSettings& settings = implementation_->settings;
-    if (film.width != settings.area.width || film.height != settings.area.height)
-        throw std::invalid_argument("the film is not the size of the picture");
+    if (film.pixels.size() != settings.area.pixelCount())
+        throw std::invalid_argument("the film is not the size of what is rendered");
     for (const PixelTarget& target : targets)
         if (target.pixel >= film.pixels.size())
             throw std::invalid_argument("pixel " + std::to_string(target.pixel) +

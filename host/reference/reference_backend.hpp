@@ -22,8 +22,8 @@ class ReferenceBackend final : public Backend {
                      unsigned threads = 0);
     ~ReferenceBackend() override;
 
-    /// The film is the whole picture, settings.area.width x height; each pixel is named at most
-    /// once (std::invalid_argument if one is not in it). `progress` is called from the threads at
+    /// The film is of settings.area; each pixel is named at most once (std::invalid_argument if one
+    /// is not in it). `progress` is called from the threads at
     /// work, one at a time.
     void sample(std::span<const PixelTarget> targets, Film& film,
                 const PassProgress& progress) override;

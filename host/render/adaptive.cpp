@@ -3,6 +3,7 @@
 #include "host/core/color.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace stromboli {
@@ -36,21 +37,25 @@ double luminanceVariance(const glm::dvec3& variance) {
 
 } // namespace
 
-SamplingPlan::SamplingPlan(const Budget& budget, std::vector<uint32_t> pixels)
-    : budget_(budget), pixels_(std::move(pixels)) {}
-
 std::vector<PixelTarget> SamplingPlan::next(const Film& film) const {
     return budget_.adaptive.enabled ? adaptive(film) : uniform(film);
 }
 
 std::vector<PixelTarget> SamplingPlan::uniform(const Film& film) const {
     uint32_t least = budget_.mostSamplesPerPixel;
-    for (uint32_t pixel : pixels_)
-        least = std::min(least, film.pixels[pixel].taken());
-    const uint64_t target = least == 0 ? kFirstPass : uint64_t(least) * 4;
-    const auto samples = uint32_t(std::min<uint64_t>(target, budget_.mostSamplesPerPixel));
+    for (const PixelStatistics& p : film.pixels)
+        least = std::min(least, p.taken());
+    // The largest power of two below the end: what the last pass changes says how large the noise
+    // is that is left (noise_estimate.hpp). A few samples, of which the variance says as much, are
+    // not worth a pass more.
+    const uint64_t lastButOne = budget_.mostSamplesPerPixel < kFirstPass
+                                    ? 0
+                                    : std::bit_floor(budget_.mostSamplesPerPixel - 1);
+    const uint64_t usual = least == 0 ? kFirstPass : uint64_t(least) * 4;
+    const auto samples =
+        uint32_t(least < lastButOne ? std::min(usual, lastButOne) : budget_.mostSamplesPerPixel);
     std::vector<PixelTarget> pass;
-    for (uint32_t pixel : pixels_)
+    for (uint32_t pixel = 0; pixel < film.pixels.size(); ++pixel)
         if (film.pixels[pixel].taken() < samples) pass.push_back({pixel, samples});
     return pass;
 }
@@ -60,7 +65,7 @@ std::vector<PixelTarget> SamplingPlan::adaptive(const Film& film) const {
     const std::vector<bool> wanted =
         perChannel ? unfinishedPerChannel(film) : unfinishedByNeighbourhood(film);
     std::vector<PixelTarget> pass;
-    for (uint32_t pixel : pixels_) {
+    for (uint32_t pixel = 0; pixel < film.pixels.size(); ++pixel) {
         const uint32_t taken = film.pixels[pixel].taken();
         if (!wanted[pixel] || taken >= budget_.mostSamplesPerPixel) continue;
         const uint32_t batch = budget_.adaptive.batch;
@@ -74,7 +79,7 @@ std::vector<PixelTarget> SamplingPlan::adaptive(const Film& film) const {
 
 std::vector<bool> SamplingPlan::unfinishedPerChannel(const Film& film) const {
     std::vector<bool> wanted(film.pixels.size(), false);
-    for (uint32_t pixel : pixels_) {
+    for (uint32_t pixel = 0; pixel < film.pixels.size(); ++pixel) {
         const PixelStatistics& p = film.pixels[pixel];
         wanted[pixel] = p.taken() == 0 || !everyChannelIsDone(p, budget_.adaptive.tolerance);
     }
@@ -83,9 +88,9 @@ std::vector<bool> SamplingPlan::unfinishedPerChannel(const Film& film) const {
 
 double SamplingPlan::pictureMean(const Film& film) const {
     double sum = 0;
-    for (uint32_t pixel : pixels_)
-        sum += luminance(film.pixels[pixel].mean);
-    return pixels_.empty() ? 0 : sum / double(pixels_.size());
+    for (const PixelStatistics& p : film.pixels)
+        sum += luminance(p.mean);
+    return film.pixels.empty() ? 0 : sum / double(film.pixels.size());
 }
 
 std::vector<bool> SamplingPlan::unfinishedByNeighbourhood(const Film& film) const {
@@ -109,7 +114,7 @@ std::vector<bool> SamplingPlan::unfinishedByNeighbourhood(const Film& film) cons
         return n;
     };
     std::vector<bool> noisy(film.pixels.size(), false);
-    for (uint32_t pixel : pixels_) {
+    for (uint32_t pixel = 0; pixel < film.pixels.size(); ++pixel) {
         const PixelStatistics& p = film.pixels[pixel];
         if (p.taken() == 0) {
             noisy[pixel] = true;
@@ -127,7 +132,7 @@ std::vector<bool> SamplingPlan::unfinishedByNeighbourhood(const Film& film) cons
 /// A pixel goes on while one of its eight neighbours does.
 std::vector<bool> SamplingPlan::dilate(const std::vector<bool>& noisy, const Film& film) const {
     std::vector<bool> wanted(noisy.size(), false);
-    for (uint32_t pixel : pixels_) {
+    for (uint32_t pixel = 0; pixel < film.pixels.size(); ++pixel) {
         const int64_t x = pixel % film.width, y = pixel / film.width;
         for (int64_t ny = std::max<int64_t>(y - 1, 0);
              ny <= std::min<int64_t>(y + 1, film.height - 1); ++ny)

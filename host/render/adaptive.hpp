@@ -11,7 +11,8 @@ namespace stromboli {
 /// Decides, pass by pass, which pixels get more samples.
 ///
 /// Uniform: every pixel gets mostSamplesPerPixel, in passes that each quadruple the samples, so
-/// that a render that is stopped has a whole picture.
+/// that a render that is stopped has a whole picture; the last pass about doubles them, where there
+/// are kFirstPass or more.
 ///
 /// Adaptive, default rule: a pixel is finished when 1.96 sigma of its mean luminance is within
 /// tolerance times that luminance. Against the published rule's failures: sigma is the larger of
@@ -33,8 +34,8 @@ class SamplingPlan {
 
     static constexpr uint32_t kFirstPass = 16; ///< samples, uniform
 
-    SamplingPlan(const Budget& budget, std::vector<uint32_t> pixels);
-    /// The next pass: pixels in the order given to the constructor; empty when all are done.
+    explicit SamplingPlan(const Budget& budget) : budget_(budget) {}
+    /// The next pass, in the order of the pixels; empty when all are done.
     std::vector<PixelTarget> next(const Film& film) const;
 
   private:
@@ -46,7 +47,6 @@ class SamplingPlan {
     double pictureMean(const Film& film) const;
 
     Budget budget_;
-    std::vector<uint32_t> pixels_;
 };
 
 } // namespace stromboli

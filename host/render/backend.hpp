@@ -12,7 +12,7 @@ namespace stromboli {
 
 /// A pixel that is to have `samples` samples after the pass (it may have some already).
 struct PixelTarget {
-    uint32_t pixel = 0; ///< y * width + x in the whole picture, row 0 at the top
+    uint32_t pixel = 0; ///< of those that are rendered, counted row by row (Film::pixels)
     uint32_t samples = 0;
 };
 

@@ -18,6 +18,8 @@ struct Adaptive {
     Rule rule = Rule::Neighbourhood;
     uint32_t batch = 32;     ///< samples between two tests of a pixel
     double tolerance = 0.05; ///< 1.96 sqrt(variance / n) <= tolerance * mean
+
+    bool operator==(const Adaptive&) const = default;
 };
 
 /// When a render is over, apart from the number of samples. Any of these spreads the samples to
@@ -27,6 +29,7 @@ struct StopRule {
     double seconds =
         0; ///< of sampling; 0: no limit. The picture then depends on the machine's speed.
     bool open() const { return noise > 0 || seconds > 0; } ///< samples are not known beforehand
+    bool operator==(const StopRule&) const = default;
 };
 
 /// How much of an estimate is taken, in samples, each of Estimator::branches paths.
@@ -39,6 +42,7 @@ struct Budget {
     StopRule stop; ///< excludes adaptive
 
     bool spreads() const { return stop.open() || meanSamplesPerPixel > 0; }
+    bool operator==(const Budget&) const = default;
 };
 
 /// The same as it is asked for: in paths, before it is known how many of them make a sample.

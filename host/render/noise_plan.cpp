@@ -56,39 +56,63 @@ std::span<const Step> mostWorth(std::vector<Step>& steps, uint64_t budget) {
 /// rough.
 constexpr int kMostRungs = 4;
 
-uint64_t samplesOf(const Film& film, const std::vector<uint32_t>& pixels) {
+uint64_t samplesOf(const Film& film) {
     uint64_t sum = 0;
-    for (uint32_t pixel : pixels)
-        sum += film.pixels[pixel].taken();
+    for (const PixelStatistics& p : film.pixels)
+        sum += p.taken();
     return sum;
+}
+
+/// A black picture is believed to be black when a light that one sample in a million meets would
+/// have been seen in 95 of 100 renders (rule of three).
+constexpr uint64_t kBlackSamples = 3'000'000;
+
+/// Whether the picture's noise is at most `noise`, in 95 of 100 renders.
+bool isEnough(const PictureNoise& reached, double noise, uint64_t samples) {
+    if (reached.unknown == PictureNoise::Unknown::Black) return samples >= kBlackSamples;
+    return reached.known() && reached.most <= noise;
 }
 
 } // namespace
 
-NoisePlan::NoisePlan(std::vector<uint32_t> pixels, uint32_t mostSamples, uint32_t branches)
-    : pixels_(std::move(pixels)), mostSamples_(mostSamples),
-      firstSamples_(std::max(kFirstPaths / branches, kLeastFirstSamples)) {}
+/// Steps, targets by pixel, and the pass.
+const uint64_t NoisePlan::kBytesPerPixel =
+    kMostRungs * sizeof(Step) + sizeof(uint32_t) + sizeof(PixelTarget);
+
+NoisePlan::NoisePlan(uint32_t mostSamples, uint32_t branches, Beginning beginning)
+    : mostSamples_(mostSamples),
+      firstSamples_(std::max(kFirstPaths / branches, kLeastFirstSamples)), beginning_(beginning) {}
+
+/// One sample for the pixels of the coarsest grid that has some without.
+std::vector<PixelTarget> NoisePlan::cover(const Film& film) const {
+    std::vector<PixelTarget> pass;
+    for (uint32_t step = kCoarsest; pass.empty() && step > 0; step /= 2)
+        for (uint32_t y = 0; y < film.height; y += step)
+            for (uint32_t x = 0; x < film.width; x += step)
+                if (film.at(x, y).taken() == 0) pass.push_back({y * film.width + x, 1});
+    return pass;
+}
 
 /// Brings all pixels to firstSamples_, or to the power of two that the budget allows.
 std::vector<PixelTarget> NoisePlan::raiseAll(const Film& film, uint64_t budget) const {
     const uint64_t goal = std::min(firstSamples_, mostSamples_);
     uint64_t least = goal;
-    for (uint32_t pixel : pixels_)
-        least = std::min<uint64_t>(least, film.pixels[pixel].taken());
-    const uint64_t affordable = least + budget / pixels_.size();
+    for (const PixelStatistics& p : film.pixels)
+        least = std::min<uint64_t>(least, p.taken());
+    const uint64_t affordable = least + budget / film.pixels.size();
     const uint64_t samples = affordable >= goal ? goal : std::bit_floor(affordable);
     std::vector<PixelTarget> pass;
-    for (uint32_t pixel : pixels_)
+    for (uint32_t pixel = 0; pixel < film.pixels.size(); ++pixel)
         if (film.pixels[pixel].taken() < samples) pass.push_back({pixel, uint32_t(samples)});
     return samples > least ? pass : std::vector<PixelTarget>{};
 }
 
 std::vector<PixelTarget> NoisePlan::spread(const Film& film, const std::vector<double>& variance,
                                            uint64_t budget) const {
-    const double least = kLeastShare * double(samplesOf(film, pixels_) + budget) /
-                         double(std::max<size_t>(pixels_.size(), 1));
+    const double least =
+        kLeastShare * double(samplesOf(film) + budget) / double(film.pixels.size());
     std::vector<Step> steps;
-    for (uint32_t pixel : pixels_) {
+    for (uint32_t pixel = 0; pixel < film.pixels.size(); ++pixel) {
         uint32_t n = film.pixels[pixel].taken();
         for (int rung = 0; rung < kMostRungs && n < mostSamples_; ++rung) {
             const uint32_t target = std::min(nextRung(n), mostSamples_);
@@ -102,32 +126,36 @@ std::vector<PixelTarget> NoisePlan::spread(const Film& film, const std::vector<d
     for (const Step& step : mostWorth(steps, budget))
         target[step.pixel] = std::max(target[step.pixel], step.target);
     std::vector<PixelTarget> pass;
-    for (uint32_t pixel : pixels_)
+    for (uint32_t pixel = 0; pixel < film.pixels.size(); ++pixel)
         if (target[pixel] > 0) pass.push_back({pixel, target[pixel]});
     return pass;
 }
 
 std::vector<PixelTarget> NoisePlan::next(const Film& film, const NoiseEstimate& estimate,
                                          uint64_t budget, double noise) const {
-    if (pixels_.empty()) return {};
-    const auto fewest =
-        std::ranges::min(pixels_, {}, [&](uint32_t pixel) { return film.pixels[pixel].taken(); });
-    if (film.pixels[fewest].taken() < std::min(firstSamples_, mostSamples_))
-        return raiseAll(film, budget);
-    const double reached = estimate.picture(film);
-    if (noise > 0 && reached <= noise) return {};
+    if (film.pixels.empty()) return {};
+    const uint32_t fewest =
+        std::ranges::min_element(film.pixels, {}, &PixelStatistics::taken)->taken();
+    if (fewest < std::min(firstSamples_, mostSamples_)) {
+        if (beginning_ == Beginning::AllAlike) return raiseAll(film, budget);
+        // However many there are: the time ends the pass, not the plan.
+        return fewest == 0 ? cover(film) : raiseAll(film, film.pixels.size() * uint64_t(fewest));
+    }
+    const PictureNoise reached = noise > 0 ? estimate.picture(film) : PictureNoise{};
+    if (noise > 0 && isEnough(reached, noise, samplesOf(film))) return {};
 
-    const uint64_t taken = samplesOf(film, pixels_);
+    const uint64_t taken = samplesOf(film);
     if (budget < taken / kLeastPassShare) return {};
     uint64_t wanted = taken; // a pass has its costs whatever its size
-    if (noise > 0) { // what is missing if errors fall as slowly as those of independent samples
-        const double ratio = reached / noise;
+    if (reached
+            .known()) { // what is missing if errors fall as slowly as those of independent samples
+        const double ratio = reached.most / noise;
         const double missing = double(taken) * (ratio * ratio - 1);
         if (missing < double(wanted)) wanted = uint64_t(missing);
     }
-    const std::vector<double> variance =
-        reached > 0 ? estimate.relativeVariance(film)
-                    : std::vector<double>(film.pixels.size(), 1.0); // nothing known: all alike
+    std::vector<double> variance = estimate.relativeVariance(film);
+    if (std::ranges::max(variance) == 0)
+        std::ranges::fill(variance, 1.0); // nothing known: all alike
     return spread(film, variance, std::min(budget, std::max(wanted, taken / kLeastPassShare + 1)));
 }
 

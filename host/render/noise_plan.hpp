@@ -27,22 +27,35 @@ class NoisePlan {
     /// known yet cannot show in a variance.
     static constexpr double kLeastShare = 0.125;
 
-    /// mostSamples: of one pixel; branches: paths of a sample.
-    NoisePlan(std::vector<uint32_t> pixels, uint32_t mostSamples, uint32_t branches = 1);
+    /// Whether the first samples go to all pixels at once, or, where time may be up before that, to
+    /// a coarse grid of them first, then to finer ones.
+    enum class Beginning { AllAlike, CoarseToFine };
 
-    /// The next pass, of at most `budget` samples. Empty when the picture is there, when every
-    /// pixel has mostSamples, or when the budget would change next to nothing. noise: the picture's
-    /// target (0: none); no more is planned than seems to be needed for it.
+    /// Distance, in pixels, of those that are sampled first. A power of two.
+    static constexpr uint32_t kCoarsest = 8;
+
+    /// What planning a pass takes, at most.
+    static const uint64_t kBytesPerPixel;
+
+    /// mostSamples: of one pixel; branches: paths of a sample.
+    explicit NoisePlan(uint32_t mostSamples, uint32_t branches = 1,
+                       Beginning beginning = Beginning::AllAlike);
+
+    /// The next pass, of at most `budget` samples. Empty when the picture's noise is known and, at
+    /// the upper end of its range, at most `noise` (0: none is asked for), when every pixel has
+    /// mostSamples, or when the budget would change next to nothing. No more is planned than seems
+    /// to be needed for that noise.
     std::vector<PixelTarget> next(const Film& film, const NoiseEstimate& estimate, uint64_t budget,
                                   double noise) const;
 
   private:
+    std::vector<PixelTarget> cover(const Film& film) const;
     std::vector<PixelTarget> raiseAll(const Film& film, uint64_t budget) const;
     std::vector<PixelTarget> spread(const Film& film, const std::vector<double>& relativeVariance,
                                     uint64_t budget) const;
 
-    std::vector<uint32_t> pixels_;
     uint32_t mostSamples_, firstSamples_;
+    Beginning beginning_;
 };
 
 } // namespace stromboli

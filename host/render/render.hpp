@@ -5,18 +5,13 @@
 #include "host/render/render_session.hpp"
 #include "host/render/settings.hpp"
 
-#include <vector>
-
 namespace stromboli {
-
-/// Pixels of the crop, row by row, as indices in the whole picture.
-std::vector<uint32_t> cropPixels(const PictureArea& area);
 
 /// The most samples a render of this budget takes.
 uint64_t samplesAtMost(const PictureArea& area, const Budget& budget);
 
 /// Takes all samples of a picture, in a session of its own: pass by pass until the sampling plan is
-/// content. The film has the whole picture's size; pixels outside the crop have no samples.
+/// content.
 Film render(Backend& backend, const RenderSettings& settings, const ProgressCallback& progress = {},
             RenderOutcome* outcome = nullptr);
 

@@ -8,10 +8,11 @@
 namespace stromboli {
 
 RenderSession::RenderSession(Backend& backend, const RenderSettings& settings)
-    : backend_(backend), settings_(settings), pixels_(cropPixels(settings.area)),
-      plan_(settings.budget, pixels_),
-      noisePlan_(pixels_, settings.budget.mostSamplesPerPixel, settings.estimator.branches),
-      estimate_(pixels_), film_(settings.area.width, settings.area.height) {
+    : backend_(backend), settings_(settings), plan_(settings.budget),
+      noisePlan_(settings.budget.mostSamplesPerPixel, settings.estimator.branches,
+                 settings.budget.stop.seconds > 0 ? NoisePlan::Beginning::CoarseToFine
+                                                  : NoisePlan::Beginning::AllAlike),
+      film_(settings.area) {
     film_.branches = settings.estimator.branches;
 }
 
@@ -26,13 +27,15 @@ RenderSession::RenderSession(Backend& backend, const SessionState& saved)
 }
 
 bool RenderSession::pass(const ProgressCallback& progress) {
+    if (!watch_) watch_.emplace();
     if (timeIsUp()) return false;
     if (pending_.empty()) pending_ = nextPass();
     if (pending_.empty()) return false;
     bool goesOn = true;
     sample(progress, goesOn);
     if (isComplete(pending_)) {
-        estimate_.update(film_);
+        // One sample tells no error; two do, without what was before them.
+        if (pending_.front().samples > 1) estimate_.update(film_);
         pending_.clear();
     }
     return goesOn && !timeIsUp();
@@ -76,12 +79,12 @@ bool RenderSession::timeIsUp() const {
 uint64_t RenderSession::samplesLeft() const {
     const Budget& budget = settings_.budget;
     const uint64_t all = budget.meanSamplesPerPixel > 0
-                             ? pixels_.size() * uint64_t(budget.meanSamplesPerPixel)
+                             ? film_.pixels.size() * uint64_t(budget.meanSamplesPerPixel)
                              : std::numeric_limits<uint64_t>::max();
     const uint64_t left = all - std::min(samplesDone_, all);
     if (budget.stop.seconds == 0) return left;
     const double used = secondsUsed();
-    if (samplesDone_ == 0 || used == 0) return std::min(left, uint64_t(pixels_.size()));
+    if (samplesDone_ == 0 || used == 0) return std::min(left, uint64_t(film_.pixels.size()));
     const double remaining = std::max(budget.stop.seconds - used, 0.0);
     return std::min(left, uint64_t(remaining * double(samplesDone_) / used));
 }
@@ -90,15 +93,15 @@ uint64_t RenderSession::samplesLeft() const {
 uint64_t RenderSession::expectedSamples() const {
     const uint64_t atMost = samplesAtMost(settings_.area, settings_.budget);
     const double target = settings_.budget.stop.noise;
-    const double reached = target > 0 && samplesDone_ > 0 ? estimate_.picture(film_) : 0;
-    if (target == 0 || reached <= target) return atMost;
-    const double ratio = reached / target;
+    if (target == 0 || samplesDone_ == 0) return atMost;
+    const PictureNoise reached = estimate_.picture(film_);
+    if (!reached.known() || reached.most <= target) return atMost;
+    const double ratio = reached.most / target;
     const double expected = double(samplesDone_) * ratio * ratio;
     return expected < double(atMost) ? uint64_t(expected) + 1 : atMost;
 }
 
 RenderOutcome RenderSession::outcome() const {
-    if (samplesDone_ == 0) return {0, timeIsUp()};
     if (pending_.empty()) return {estimate_.picture(film_), timeIsUp()};
     NoiseEstimate now = estimate_; // the pass that was stopped has changed some pixels
     now.update(film_);

@@ -10,6 +10,7 @@
 #include "host/render/settings.hpp"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace stromboli {
@@ -27,7 +28,7 @@ using ProgressCallback = std::function<bool(const RenderProgress&)>;
 
 /// How far a render has come.
 struct RenderOutcome {
-    double noise = 0;       ///< square root of the estimated relMSE (noise_estimate.hpp)
+    PictureNoise noise;
     bool outOfTime = false; ///< StopRule::seconds ended it
 };
 
@@ -46,7 +47,7 @@ class RenderSession {
     /// is nothing more to do, if `progress` said stop, or if the time is up.
     bool pass(const ProgressCallback& progress = {});
 
-    /// The picture so far: the size of the whole; pixels outside the crop have no samples.
+    /// The picture so far.
     const Film& film() const { return film_; }
     Film takeFilm() && { return std::move(film_); }
     RenderOutcome outcome() const;
@@ -58,22 +59,21 @@ class RenderSession {
     std::vector<PixelTarget> nextPass() const;
     void sample(const ProgressCallback& progress, bool& goesOn);
     bool isComplete(const std::vector<PixelTarget>& pass) const;
-    double secondsUsed() const { return secondsBefore_ + watch_.seconds(); }
+    double secondsUsed() const { return secondsBefore_ + (watch_ ? watch_->seconds() : 0); }
     bool timeIsUp() const;
     uint64_t samplesLeft() const;
     uint64_t expectedSamples() const;
 
     Backend& backend_;
     RenderSettings settings_;
-    std::vector<uint32_t> pixels_;
     SamplingPlan plan_;
     NoisePlan noisePlan_;
     NoiseEstimate estimate_; ///< of the passes that are complete
     Film film_;
     std::vector<PixelTarget> pending_; ///< the pass under way; empty: between two passes
     uint64_t samplesDone_ = 0;
-    double secondsBefore_ = 0; ///< of the sessions that this one continues
-    Stopwatch watch_;
+    double secondsBefore_ = 0;       ///< of the sessions that this one continues
+    std::optional<Stopwatch> watch_; ///< since the first pass began
 };
 
 } // namespace stromboli

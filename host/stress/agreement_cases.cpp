@@ -4,26 +4,19 @@
 #include "host/core/error.hpp"
 #include "host/reference/reference_backend.hpp"
 #include "host/stress/case.hpp"
+#include "scene/find_scene.hpp"
 #include "scene/read_scene.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <filesystem>
+#include <string>
+#include <vector>
 
 namespace stromboli::stress {
 namespace {
 
-std::vector<std::filesystem::path> bundledScenes() {
-    const std::filesystem::path folder = STROMBOLI_SCENE_LIBRARY;
-    std::vector<std::filesystem::path> files;
-    std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, error))
-        if (entry.path().extension() == ".dae") files.push_back(entry.path());
-    if (files.empty())
-        throw SceneError(fmt::format("{}: the bundled scenes are not here", folder.string()));
-    std::sort(files.begin(), files.end());
-    return files;
+std::vector<std::string> bundledScenes() {
+    std::vector<std::string> names = librarySceneNames();
+    if (names.empty()) throw SceneError("the bundled scenes (scene/library) are not there");
+    return names;
 }
 
 /// Share of the pixels that fail their own test; 1 for a picture whose mean, blocks or constant
@@ -32,16 +25,16 @@ std::vector<std::filesystem::path> bundledScenes() {
 Finding agreement(Run& run) {
     Finding f;
     f.bound = 1 - CheckSettings{}.requiredFraction;
-    const auto files = bundledScenes();
+    const std::vector<std::string> names = bundledScenes();
     CheckSettings check;
-    check.familyError = 0.01 / double(files.size());
+    check.familyError = 0.01 / double(names.size());
     RenderSettings s;
     s.area.width = run.amount(32u, 160u), s.area.height = run.amount(24u, 120u);
     s.budget.mostSamplesPerPixel = run.amount(32u, 256u);
     s.estimator.maxBounces = 5;
     double done = 0;
-    for (const auto& file : files) {
-        const Scene scene = readScene(file.string());
+    for (const std::string& name : names) {
+        const Scene scene = readScene(name);
         const Camera camera =
             makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height);
         const Film onDevice = run.render(scene, camera, s).film;
@@ -52,7 +45,7 @@ Finding agreement(Run& run) {
         });
         const CheckResult result = crossCheck(onDevice, onHost, check);
         const double failing = result.agree() ? 1 - result.fractionPassing : 1;
-        if (!(failing <= f.measured)) f.measured = failing, f.where = file.stem().string();
+        if (!(failing <= f.measured)) f.measured = failing, f.where = name;
         f.trials += result.pixels;
         ++done;
     }

@@ -1,12 +1,12 @@
 #include "host/study/configuration.hpp"
 
 #include "host/core/error.hpp"
+#include "host/core/number_text.hpp"
 #include "host/render/estimator.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <sstream>
 
 namespace stromboli::study {
@@ -22,23 +22,21 @@ void takeSteps(Configuration& c) {
     const size_t open = c.options.find('{'), close = c.options.find('}');
     if (open == std::string::npos) return;
     if (close == std::string::npos || close < open)
-        throw UsageError(fmt::format("--configs: '{}' has a {{ without a }}", c.options));
+        throw UsageError(fmt::format("-c: '{}' has a {{ without a }}", c.options));
     std::istringstream list(c.options.substr(open + 1, close - open - 1));
     for (std::string item; std::getline(list, item, ',');) {
-        double step = 0;
-        const auto [end, error] = std::from_chars(item.data(), item.data() + item.size(), step);
-        if (error != std::errc() || end != item.data() + item.size())
-            throw UsageError(fmt::format("--configs: '{}' is no number", item));
-        c.steps.push_back(step);
+        const std::optional<double> step = realNumber(item);
+        if (!step) throw UsageError(fmt::format("-c: '{}' is no number", item));
+        c.steps.push_back(*step);
     }
-    if (c.steps.empty()) throw UsageError("--configs: {} without numbers in it");
+    if (c.steps.empty()) throw UsageError("-c: {} without numbers in it");
     c.effort = c.options.substr(0, open) + "{}" + c.options.substr(close + 1);
     c.options.clear();
 }
 
 Configuration ownConfiguration(const std::string& text, size_t equals) {
     Configuration c{text.substr(0, equals), text.substr(equals + 1), "from the command line"};
-    if (c.name.empty()) throw UsageError(fmt::format("--configs: '{}' has no name", text));
+    if (c.name.empty()) throw UsageError(fmt::format("-c: '{}' has no name", text));
     takeSteps(c);
     return c;
 }
@@ -48,7 +46,7 @@ Configuration configurationFor(const std::string& text) {
         return ownConfiguration(text, equals);
     for (const Configuration& c : knownConfigurations())
         if (c.name == text) return c;
-    throw UsageError(fmt::format("--configs: there is no '{}' (--list shows all there are)", text));
+    throw UsageError(fmt::format("-c: there is no '{}' (--list shows all there are)", text));
 }
 
 } // namespace
@@ -89,7 +87,7 @@ std::vector<Configuration> chooseConfigurations(const std::vector<std::string>& 
         const Configuration c = configurationFor(text);
         if (std::any_of(chosen.begin(), chosen.end(),
                         [&](const Configuration& other) { return other.name == c.name; }))
-            throw UsageError(fmt::format("--configs: '{}' is there twice", c.name));
+            throw UsageError(fmt::format("-c: '{}' is there twice", c.name));
         chosen.push_back(c);
     }
     return chosen;

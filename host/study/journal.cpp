@@ -35,7 +35,11 @@ Json toJson(const Point& p) {
             {"mse", p.mse},
             {"bias", p.bias},
             {"rays", p.rays},
-            {"rejected", p.rejected}};
+            {"rejected", p.rejected},
+            {"noiseKnown", p.noise.known()},
+            {"noise", p.noise.estimate},
+            {"noiseLeast", p.noise.least},
+            {"noiseMost", p.noise.most}};
 }
 
 Json toJson(const Run& r) {
@@ -115,12 +119,19 @@ Json toJson(const StudySettings& s) {
             {"configurations", configurations}};
 }
 
+/// As the render stated it; why it did not is not kept.
+PictureNoise noiseFrom(const Json& j) {
+    if (!j.value("noiseKnown", false)) return {};
+    const auto number = [&](const char* name) { return j.at(name).get<double>(); };
+    return {PictureNoise::Unknown::No, number("noise"), number("noiseLeast"), number("noiseMost")};
+}
+
 Point pointFrom(const Json& j) {
     const auto number = [&](const char* name) { return j.at(name).get<double>(); };
     const auto count = [&](const char* name) { return j.at(name).get<uint64_t>(); };
-    return {number("effort"),     number("samples"), number("wallSeconds"),
-            number("cpuSeconds"), number("relMse"),  number("mse"),
-            number("bias"),       count("rays"),     count("rejected")};
+    return {number("effort"),  number("samples"), number("wallSeconds"), number("cpuSeconds"),
+            number("relMse"),  number("mse"),     number("bias"),        count("rays"),
+            count("rejected"), noiseFrom(j)};
 }
 
 Run runFrom(const Json& j) {
@@ -214,16 +225,21 @@ size_t takeOver(const std::filesystem::path& file, Study& study) {
     return taken;
 }
 
+static std::string noiseColumns(const PictureNoise& noise) {
+    if (!noise.known()) return ",,";
+    return fmt::format("{},{},{}", noise.estimate, noise.least, noise.most);
+}
+
 std::string toCsv(const Study& study) {
     std::string text = "scene,configuration,seed,effort,samples,wall_seconds,cpu_seconds,relmse,"
-                       "reference_relmse,mse,bias,rays,rejected\n";
+                       "reference_relmse,mse,bias,rays,rejected,noise,noise_least,noise_most\n";
     for (const SceneStudy& s : study.scenes)
         for (const Run& run : s.runs)
             for (const Point& p : run.points)
-                text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", s.name,
+                text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", s.name,
                                     run.configuration, run.seed, p.effort, p.samples, p.wallSeconds,
                                     p.cpuSeconds, p.relMse, s.reference.relMse, p.mse, p.bias,
-                                    p.rays, p.rejected);
+                                    p.rays, p.rejected, noiseColumns(p.noise));
     return text;
 }
 

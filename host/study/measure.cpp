@@ -35,7 +35,7 @@ std::optional<Run> growSamples(const RunPlan& plan, const PreparedRender& render
     const StudySettings& s = plan.settings;
     warmUp(render);
     const uint64_t raysBefore = render.backend->counters().rays;
-    Film film(render.settings.area.width, render.settings.area.height);
+    Film film(render.settings.area);
     std::vector<PixelTarget> targets(film.pixels.size());
     Run run{plan.configuration.name, plan.seed, {}, false};
     double wallSeconds = 0, cpuSeconds = 0;
@@ -109,16 +109,20 @@ std::optional<Run> growRenders(const RunPlan& plan, const Prepare& prepare,
         bool stopped = false;
         const Stopwatch wall;
         const bench::CpuClock cpu;
-        const Film film =
-            stromboli::render(*render.backend, render.settings, [&](const RenderProgress&) {
+        RenderOutcome outcome;
+        const Film film = stromboli::render(
+            *render.backend, render.settings,
+            [&](const RenderProgress&) {
                 stopped = !keepGoing(secondsBefore + wall.seconds());
                 return !stopped;
-            });
+            },
+            &outcome);
         if (stopped) return std::nullopt;
         Point point = pointOf(film, plan.reference);
         point.wallSeconds = wall.seconds();
         point.cpuSeconds = cpu.seconds();
         secondsBefore += point.wallSeconds;
+        point.noise = outcome.noise;
         point.effort = step.effort;
         point.rays = render.backend->counters().rays - raysBefore;
         run.points.push_back(point);

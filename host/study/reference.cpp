@@ -93,8 +93,8 @@ std::optional<compare::Picture> referencePicture(const fs::path& folder, const s
     described.seconds = watch.seconds();
     fs::create_directories(folder);
     fs::remove(label); // so that no label is ever beside another's picture
-    writePicture(picture, *film, {}, {.tone = {}, .statistics = true});
-    writePicture(folder / (name + ".png"), *film, {}, {});
+    writePicture(picture, *film, {.tone = {}, .statistics = true});
+    writePicture(folder / (name + ".png"), *film, {});
     const std::string text = labelOf(scene).dump(2) + "\n";
     writeFileAtomically(label, std::as_bytes(std::span(text)));
     // Read back, so that a study that goes on measures against the very same values.

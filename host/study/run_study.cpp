@@ -138,7 +138,7 @@ void Conductor::writePictures(const SceneStudy& scene, const Configuration& c, c
             : size_t(std::find(c.steps.begin(), c.steps.end(), point.effort) - c.steps.begin());
     const fs::path base = folder_ / pictureName(scene.name, c.name, index);
     fs::create_directories(base.parent_path());
-    writePicture(base.string() + ".png", film, {}, {});
+    writePicture(base.string() + ".png", film, {});
     compare::Picture means(film.width, film.height);
     uint32_t least = std::numeric_limits<uint32_t>::max(), most = 1;
     for (size_t i = 0; i < film.pixels.size(); ++i) {
@@ -154,7 +154,7 @@ void Conductor::writePictures(const SceneStudy& scene, const Configuration& c, c
     writePng(base.string() + "-error.png", compare::falseColor(errors, w, h, 1),
              PngColorSpace::Srgb);
     if (!c.effort.empty() || least < most)
-        writePng(base.string() + "-samples.png", ratePicture(film, {}, most), PngColorSpace::Srgb);
+        writePng(base.string() + "-samples.png", ratePicture(film, most), PngColorSpace::Srgb);
 }
 
 void Conductor::save() const {

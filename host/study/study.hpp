@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/render/picture_noise.hpp"
 #include "host/study/configuration.hpp"
 
 #include <array>
@@ -35,6 +36,7 @@ struct Point {
     double relMse = 0, mse = 0;             ///< against the reference, whose own error is in them
     double bias = 0;                        ///< mean of the picture over the reference's, minus 1
     uint64_t rays = 0, rejected = 0;
+    PictureNoise noise; ///< as the render states it; unknown where samples grow within one render
 };
 
 /// One configuration with one seed: growing efforts.

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <map>
+
 namespace stromboli::study {
 namespace {
 
@@ -53,6 +57,46 @@ std::string tableOf(const SceneStudy& scene, const SceneSummary& s, Clock clock)
     return text;
 }
 
+/// The pictures of a configuration and an effort whose render stated a noise, and what it was
+/// worth.
+struct StatedNoise {
+    double effort = 0;
+    int pictures = 0, stated = 0, held = 0;
+    double logRatio = 0; ///< sum of log (stated / true)
+
+    void add(const Point& p, double referenceError) {
+        ++pictures;
+        const double truth = std::sqrt(std::max(p.relMse - referenceError, 0.0));
+        if (!p.noise.known() || truth == 0) return;
+        ++stated;
+        held += truth >= p.noise.least && truth <= p.noise.most ? 1 : 0;
+        logRatio += std::log(std::max(p.noise.estimate, 1e-300) / truth);
+    }
+};
+
+std::string statedNoiseOf(const SceneStudy& scene) {
+    std::map<std::string, std::map<double, StatedNoise>> table;
+    bool any = false;
+    for (const Run& run : scene.runs)
+        for (const Point& p : run.points) {
+            StatedNoise& stated = table[run.configuration][p.effort];
+            stated.effort = p.effort;
+            stated.add(p, scene.reference.relMse);
+            any = any || stated.stated > 0;
+        }
+    if (!any) return "";
+    std::string text = fmt::format("stated noise: how often its 95 % range holds the true one\n"
+                                   "{:<14} {:>10} {:>10} {:>10} {:>10} {:>14}\n",
+                                   "", "effort", "pictures", "stated", "held", "stated / true");
+    for (const auto& [name, efforts] : table)
+        for (const auto& [effort, n] : efforts)
+            text += fmt::format(
+                "{:<14} {:>10} {:>10} {:>10} {:>10} {:>14}\n", name, effort, n.pictures, n.stated,
+                n.held,
+                n.stated > 0 ? fmt::format("{:.2f}", std::exp(n.logRatio / n.stated)) : "-");
+    return text;
+}
+
 } // namespace
 
 std::string toText(const Study& study) {
@@ -60,7 +104,8 @@ std::string toText(const Study& study) {
     for (const SceneStudy& scene : study.scenes)
         if (!scene.runs.empty())
             text += tableOf(scene, summarise(scene, study.settings),
-                            study.deviceIsCpu ? Clock::Cpu : Clock::Wall);
+                            study.deviceIsCpu ? Clock::Cpu : Clock::Wall) +
+                    statedNoiseOf(scene);
     return text;
 }
 

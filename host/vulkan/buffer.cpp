@@ -113,6 +113,17 @@ void Buffer::upload(Queue& queue, std::span<const std::byte> data, uint64_t offs
     });
 }
 
+void Buffer::clear(Queue& queue) {
+    if (std::byte* mapped = memory_.mapped()) {
+        std::memset(mapped, 0, bytes_);
+        return;
+    }
+    queue.run("clear a buffer", [&](VkCommandBuffer commands) {
+        device_->vk().vkCmdFillBuffer(commands, buffer_.get(), 0, VK_WHOLE_SIZE, 0);
+        fullBarrier(*device_, commands);
+    });
+}
+
 void Buffer::download(Queue& queue, std::span<std::byte> data, uint64_t offset) const {
     if (data.empty()) return;
     if (const std::byte* mapped = memory_.mapped()) {

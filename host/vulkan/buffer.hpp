@@ -23,8 +23,13 @@ class Buffer {
     uint64_t bytes() const { return bytes_; }
     BufferUse use() const { return use_; }
 
+    /// Sets every byte to zero.
+    void clear(Queue& queue);
     void upload(Queue& queue, std::span<const std::byte> data, uint64_t offset = 0);
     void download(Queue& queue, std::span<std::byte> data, uint64_t offset = 0) const;
+    /// The buffer's bytes where the device's memory is the host's; else null. To be read between
+    /// two dispatches.
+    const std::byte* hostView() const { return memory_.mapped(); }
 
   private:
     const Device* device_;

@@ -44,6 +44,8 @@ void check(VkResult result, std::string_view operation) {
     const std::string_view text = name(result);
     if (text.empty())
         throw DeviceError(fmt::format("Vulkan: cannot {}: VkResult {}", operation, int(result)));
+    if (result == VK_ERROR_DEVICE_LOST)
+        throw DeviceLostError(fmt::format("Vulkan: cannot {}: {}", operation, text));
     throw DeviceError(fmt::format("Vulkan: cannot {}: {}", operation, text));
 }
 

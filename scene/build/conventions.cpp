@@ -6,6 +6,7 @@ SceneConventions cs184Conventions() {
     SceneConventions c;
     c.renderer = "the CS184 renderer";
     c.option = "--cs184";
+    c.defaultLight = false;
     c.applyUnit = false;
     c.scaleCameras = false;
     c.vertexNormals = VertexNormals::Recomputed;

@@ -56,6 +56,11 @@ struct SceneConventions {
     std::string renderer;
     std::string option; ///< of the command line that asks for them; for messages
 
+    /// What breaks the rules of a format is an error, also where it is clear what is meant.
+    bool strict = false;
+    /// A scene without any light gets one (scene/model/default_light.hpp).
+    bool defaultLight = true;
+
     /// Lengths are multiplied by the file's unit; otherwise its numbers are taken as metres.
     bool applyUnit = true;
     /// Sizes and depth ranges of cameras are multiplied by the scale of their nodes.

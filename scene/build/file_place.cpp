@@ -4,6 +4,10 @@
 
 namespace stromboli::build {
 
+std::string FilePlace::describe(const std::string& message) const {
+    return SceneError(file, line, element, message).what();
+}
+
 void FilePlace::fail(const std::string& message) const {
     throw SceneError(file, line, element, message);
 }

@@ -10,7 +10,9 @@ struct FilePlace {
     int line = 0;        ///< from 1; 0 where the format has no lines
     std::string element; ///< what stands there, by the format's own name; empty if it has none
 
-    /// Throws SceneError: `file:line: <element>: message`.
+    /// `file:line: <element>: message`.
+    std::string describe(const std::string& message) const;
+    /// Throws SceneError with this line.
     [[noreturn]] void fail(const std::string& message) const;
 };
 

@@ -1,28 +1,85 @@
 #include "scene/build/read_file.hpp"
 
 #include "host/core/error.hpp"
+#include "host/core/memory.hpp"
 
-#include <fstream>
-#include <iterator>
+#include <fmt/format.h>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
 
 namespace stromboli::build {
+namespace {
+
+/// Open for reading; closed at the end.
+class Descriptor {
+  public:
+    /// Without O_NONBLOCK, opening a named pipe would wait for somebody to write to it.
+    explicit Descriptor(const std::filesystem::path& file)
+        : number_(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
+    ~Descriptor() {
+        if (number_ >= 0) close(number_);
+    }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+
+    int number() const { return number_; }
+
+  private:
+    int number_;
+};
+
+const char* kindOf(mode_t mode) {
+    if (S_ISDIR(mode)) return "a directory";
+    if (S_ISCHR(mode) || S_ISBLK(mode)) return "a device";
+    if (S_ISFIFO(mode)) return "a pipe";
+    return "no regular file";
+}
+
+} // namespace
+
+void requireMemory(const std::string& file, uint64_t bytes) {
+    const uint64_t memory = physicalMemory();
+    if (bytes > memory)
+        throw SceneError(
+            file, 0, "",
+            fmt::format("needs {} MiB of memory, more than the {} MiB this machine has",
+                        bytes >> 20, memory >> 20));
+}
 
 std::string readFile(const std::filesystem::path& file, size_t most) {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(file, ignored))
-        throw SceneError(file.string(), 0, "", "is a directory, expected a scene file");
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw SceneError(file.string(), 0, "", "cannot be opened for reading");
-    std::string text;
-    if (most == std::numeric_limits<size_t>::max()) {
-        text.assign(std::istreambuf_iterator<char>(in), {});
-    } else {
-        text.resize(most);
-        in.read(text.data(), std::streamsize(most));
-        text.resize(size_t(in.gcount()));
+    const auto fail = [&](const std::string& message) {
+        throw SceneError(file.string(), 0, "", message);
+    };
+    const auto failBecause = [&](const char* what) {
+        fail(fmt::format("cannot be {}: {}", what, std::strerror(errno)));
+    };
+    const Descriptor in(file);
+    if (in.number() < 0) failBecause("opened for reading");
+    struct stat status {};
+    if (fstat(in.number(), &status) != 0) failBecause("looked at");
+    if (!S_ISREG(status.st_mode))
+        fail(fmt::format("is {}, expected a scene file", kindOf(status.st_mode)));
+    requireMemory(file.string(), uint64_t(status.st_size));
+
+    // What the file has at this moment and no more, so that one without an end has one. Those of
+    // /proc state no size; none of them is a scene.
+    std::string bytes(std::min(most, size_t(status.st_size)), '\0');
+    size_t done = 0;
+    while (done < bytes.size()) {
+        const ssize_t got = read(in.number(), bytes.data() + done, bytes.size() - done);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) failBecause("read to its end");
+        if (got == 0) break; // it has been cut in the meantime
+        done += size_t(got);
     }
-    if (in.bad()) throw SceneError(file.string(), 0, "", "cannot be read to its end");
-    return text;
+    bytes.resize(done);
+    return bytes;
 }
 
 } // namespace stromboli::build

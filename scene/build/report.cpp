@@ -4,6 +4,10 @@
 
 namespace stromboli::build {
 
+static std::string counted(const std::string& line, size_t count) {
+    return count == 1 ? line : fmt::format("{} ({} times)", line, count);
+}
+
 void Report::Counts::add(const std::string& key, size_t count) {
     const auto [found, isNew] = index_.try_emplace(key, lines_.size());
     if (isNew) lines_.emplace_back(key, 0);
@@ -18,11 +22,26 @@ void Report::warn(const std::string& what) {
     warnings_.add(what, 1);
 }
 
+void Report::forgive(const FilePlace& where, const std::string& problem,
+                     const std::string& reading) {
+    if (strict_) where.fail(problem + " (an error because of --strict)");
+    firstForgiven_.try_emplace(reading, where.describe(problem + ": " + reading));
+    forgiven_.add(reading, 1);
+}
+
+void Report::assume(const std::string& what) {
+    assumed_.add(what, 1);
+}
+
 void Report::writeTo(LoadReport& report) const {
     for (const auto& [line, count] : ignored_.lines())
         report.ignored.push_back(fmt::format("{} {}", count, line));
     for (const auto& [line, count] : warnings_.lines())
-        report.warnings.push_back(count == 1 ? line : fmt::format("{} ({} times)", line, count));
+        report.warnings.push_back(counted(line, count));
+    for (const auto& [reading, count] : forgiven_.lines())
+        report.forgiven.push_back(counted(firstForgiven_.at(reading), count));
+    for (const auto& [line, count] : assumed_.lines())
+        report.assumed.push_back(counted(line, count));
 }
 
 } // namespace stromboli::build

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/build/file_place.hpp"
 #include "scene/model/scene.hpp"
 
 #include <cstddef>
@@ -12,10 +13,20 @@ namespace stromboli::build {
 /// Counts what a loader skips, so that the user reads one line per kind, not one per element.
 class Report {
   public:
+    /// `strict`: what would be forgiven is an error.
+    explicit Report(bool strict = false) : strict_(strict) {}
+
     /// `what` (plural-safe, such as "<skew>") had no effect; `why` completes the sentence.
     void ignore(const std::string& what, const std::string& why, size_t count = 1);
     /// `what` changes the picture. Equal lines are counted.
     void warn(const std::string& what);
+
+    /// What stands at `where` breaks the rules of its format, but what is meant can be told:
+    /// `problem` says what is wrong, `reading` what is made of it. There is one line for each
+    /// reading, with the first place and its problem, and a count. Throws SceneError if strict.
+    void forgive(const FilePlace& where, const std::string& problem, const std::string& reading);
+    /// The file may leave something open, and does: `what`, and what is taken for it.
+    void assume(const std::string& what);
 
     /// Appends the lines, in the order of first mention.
     void writeTo(LoadReport& report) const;
@@ -32,7 +43,9 @@ class Report {
         std::unordered_map<std::string, size_t> index_;
     };
 
-    Counts ignored_, warnings_;
+    bool strict_;
+    Counts ignored_, warnings_, forgiven_, assumed_;
+    std::unordered_map<std::string, std::string> firstForgiven_; ///< the line about the first one
 };
 
 } // namespace stromboli::build

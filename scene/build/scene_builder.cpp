@@ -4,6 +4,7 @@
 #include "scene/build/light_pose.hpp"
 #include "scene/build/vectors.hpp"
 #include "scene/model/area_lights.hpp"
+#include "scene/model/default_light.hpp"
 
 #include <fmt/format.h>
 
@@ -12,8 +13,15 @@
 
 namespace stromboli::build {
 
+Material greyMaterial() {
+    Material grey;
+    grey.name = "default";
+    grey.albedo = glm::vec3(0.5f);
+    return grey;
+}
+
 SceneBuilder::SceneBuilder(std::string file, const SceneConventions& conventions)
-    : conventions_(conventions) {
+    : conventions_(conventions), report_(conventions.strict) {
     scene_.file = std::move(file);
 }
 
@@ -23,12 +31,7 @@ uint32_t SceneBuilder::addMaterial(Material material) {
 }
 
 uint32_t SceneBuilder::defaultMaterial() {
-    if (!defaultMaterial_) {
-        Material grey;
-        grey.name = "default";
-        grey.albedo = glm::vec3(0.5f);
-        defaultMaterial_ = addMaterial(grey);
-    }
+    if (!defaultMaterial_) defaultMaterial_ = addMaterial(greyMaterial());
     return *defaultMaterial_;
 }
 
@@ -75,9 +78,19 @@ void SceneBuilder::placeCamera(FileCamera camera, const glm::dmat4& toWorld) {
     scene_.cameras.push_back(std::move(camera));
 }
 
+void SceneBuilder::lightTheDark() {
+    const bool hasGeometry = !scene_.triangles.empty() || !scene_.spheres.empty();
+    if (!conventions_.defaultLight || !hasGeometry || shines(scene_)) return;
+    scene_.lights.push_back(defaultLight());
+    report_.assume(
+        "the file has no light: a plain sky of radiance 1 lights the scene (--default-light "
+        "off: nothing does)");
+}
+
 Scene SceneBuilder::finish() {
     for (const Shape& shape : shapes_)
         reportDrops(shape);
+    lightTheDark();
     report_.writeTo(scene_.report);
     if (conventions_.areaLights == AreaLights::BecomeGeometry) resolveAreaLights(scene_);
     return std::move(scene_);

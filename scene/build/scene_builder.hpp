@@ -19,6 +19,9 @@
 
 namespace stromboli::build {
 
+/// What surfaces are made of that have no material: it reflects half of the light, diffusely.
+Material greyMaterial();
+
 /// A mesh or sphere that a file defines once and shows any number of times.
 enum class ShapeId : size_t {};
 
@@ -72,7 +75,8 @@ class SceneBuilder {
     /// lengths. A camera whose matrix is singular is left out with a warning.
     void placeCamera(FileCamera camera, const glm::dmat4& toWorld);
 
-    /// The scene, with its report; nothing can be added after.
+    /// The scene, with its report; nothing can be added after. A scene that has something to light
+    /// and nothing that lights it gets the default light, where the conventions have one.
     Scene finish();
 
   private:
@@ -89,6 +93,7 @@ class SceneBuilder {
     void placeSphere(double radius, const glm::dmat4& toWorld, uint32_t material,
                      const std::string& instanceName, Drops& drops);
     void reportDrops(const Shape& shape);
+    void lightTheDark();
 
     SceneConventions conventions_;
     Scene scene_;

@@ -2,10 +2,14 @@
 
 #include "host/core/error.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 namespace stromboli {
 namespace {
@@ -58,10 +62,28 @@ Frustum framedFrustum(const FileCamera& optics, const PictureSize& picture,
     return conventions.pictureSize ? cutOut(f, whole, picture) : widen(f, aspectOf(picture));
 }
 
-bool usesFile(const Scene& scene, CameraChoice choice, const FramingConventions& conventions) {
-    if (choice == CameraChoice::Automatic)
-        return !conventions.framesEveryScene && !scene.cglDialect && !scene.cameras.empty();
-    return choice == CameraChoice::File;
+/// The cameras by number and name, for messages.
+std::string listOf(const std::vector<FileCamera>& cameras) {
+    std::string list;
+    for (size_t i = 0; i < cameras.size(); ++i)
+        list += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i + 1, cameras[i].name);
+    return list;
+}
+
+/// The number from 1 to `count` that a text is; nothing if it is none.
+std::optional<size_t> numberOf(const std::string& text, size_t count) {
+    size_t number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [last, error] = std::from_chars(text.data(), end, number);
+    if (error != std::errc() || last != end || number < 1 || number > count) return std::nullopt;
+    return number;
+}
+
+/// The file's camera that is meant; the default one if it has none.
+FileCamera opticsOf(const Scene& scene, const CameraRequest& request,
+                    const FramingConventions& conventions) {
+    const std::optional<size_t> chosen = chosenCamera(scene, request, conventions);
+    return chosen ? scene.cameras[*chosen] : FileCamera{};
 }
 
 /// The camera where the file puts it.
@@ -74,21 +96,23 @@ Camera fileView(const FileCamera& file) {
     return camera;
 }
 
-/// Direction from the world's origin to the point one unit in front of the file's camera: where
-/// framed views look from.
-glm::dvec3 framingDirection(const Scene& scene) {
-    if (scene.cameras.empty()) return {0, 0, 1};
-    const glm::dvec3 d = scene.cameras.back().pointAhead;
+/// Where framed views look from: the direction from the world's origin to the point one unit in
+/// front of the file's camera.
+glm::dvec3 framingDirection(const Scene& scene, const FileCamera& optics,
+                            const FramingConventions& conventions) {
+    if (scene.cameras.empty()) return glm::normalize(conventions.directionWithoutCamera);
+    const glm::dvec3 d = optics.pointAhead;
     return glm::length(d) > 0 ? glm::normalize(d) : glm::dvec3(0, 0, 1);
 }
 
 /// On a line through the middle of the bounding box, 1.5 times
 /// its diagonal away, y up.
-Camera framedView(const Scene& scene) {
+Camera framedView(const Scene& scene, const FileCamera& optics,
+                  const FramingConventions& conventions) {
     const Bounds bounds = scene.framing.value_or(scene.bounds());
     const glm::dvec3 low = bounds.empty() ? glm::dvec3(-0.5) : glm::dvec3(bounds.lo);
     const glm::dvec3 high = bounds.empty() ? glm::dvec3(0.5) : glm::dvec3(bounds.hi);
-    const glm::dvec3 d = framingDirection(scene);
+    const glm::dvec3 d = framingDirection(scene, optics, conventions);
     double phi = std::acos(std::clamp(d.y, -1.0, 1.0));
     const double theta = std::atan2(d.x, d.z);
     if (std::sin(phi) == 0) phi += 1e-5; // radians: looking straight down leaves open what is up
@@ -98,12 +122,6 @@ Camera framedView(const Scene& scene) {
     camera.right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), camera.back));
     camera.up = glm::cross(camera.back, camera.right);
     return camera;
-}
-
-FileCamera opticsOf(const Scene& scene) {
-    FileCamera optics;
-    if (!scene.cameras.empty()) optics = scene.cameras.back();
-    return optics;
 }
 
 } // namespace
@@ -120,35 +138,64 @@ Camera lookingAt(const glm::dvec3& from, const glm::dvec3& at, double halfWidth)
 }
 
 FramingConventions cs184Framing() {
-    return {.pictureSize = PictureSize{800, 600}, .framesEveryScene = true, .clipsAlongRay = true};
+    return {.pictureSize = PictureSize{800, 600},
+            .framesEveryScene = true,
+            .lastOfSeveral = true,
+            .directionWithoutCamera = {0, 0, 1},
+            .clipsFramedViews = true,
+            .clipsAlongRay = true};
 }
 
-PictureSize defaultPictureSize(const Scene& scene, CameraChoice choice,
+std::optional<size_t> chosenCamera(const Scene& scene, const CameraRequest& request,
+                                   const FramingConventions& conventions) {
+    const std::vector<FileCamera>& cameras = scene.cameras;
+    if (request.name.empty()) {
+        if (cameras.empty()) return std::nullopt;
+        return conventions.lastOfSeveral ? cameras.size() - 1 : 0;
+    }
+    for (size_t i = 0; i < cameras.size(); ++i)
+        if (cameras[i].name == request.name) return i;
+    if (const std::optional<size_t> number = numberOf(request.name, cameras.size()))
+        return *number - 1;
+    throw SceneError(
+        scene.file, 0, "",
+        fmt::format("has no camera '{}'; {}", request.name,
+                    cameras.empty() ? "it has none at all" : "it has " + listOf(cameras)));
+}
+
+bool isFramed(const Scene& scene, const CameraRequest& request,
+              const FramingConventions& conventions) {
+    if (request.choice != CameraChoice::Automatic) return request.choice == CameraChoice::Frame;
+    return conventions.framesEveryScene || scene.cglDialect || scene.cameras.empty();
+}
+
+PictureSize defaultPictureSize(const Scene& scene, const CameraRequest& request,
                                const FramingConventions& conventions) {
     if (conventions.pictureSize) return *conventions.pictureSize;
-    if (scene.cameras.empty() || !usesFile(scene, choice, conventions)) return {};
-    const Frustum f = fileFrustum(scene.cameras.back(), aspectOf({}));
+    const std::optional<size_t> chosen = chosenCamera(scene, request, conventions);
+    if (!chosen || isFramed(scene, request, conventions)) return {};
+    const Frustum f = fileFrustum(scene.cameras[*chosen], aspectOf({}));
     PictureSize size;
     size.height = uint32_t(std::clamp(std::round(size.width * f.y / f.x), 1.0, 16384.0));
     return size;
 }
 
-Camera makeCamera(const Scene& scene, CameraChoice choice, uint32_t width, uint32_t height,
+Camera makeCamera(const Scene& scene, const CameraRequest& request, uint32_t width, uint32_t height,
                   const FramingConventions& conventions) {
-    const bool fromFile = usesFile(scene, choice, conventions);
-    if (fromFile && scene.cameras.empty())
+    const bool framed = isFramed(scene, request, conventions);
+    const FileCamera optics = opticsOf(scene, request, conventions);
+    if (!framed && scene.cameras.empty())
         throw SceneError(scene.file + ": has no camera; use --camera frame");
-    const FileCamera optics = opticsOf(scene);
     const PictureSize picture{width, height};
     const double aspect = aspectOf(picture);
-    Camera camera = fromFile ? fileView(optics) : framedView(scene);
-    camera.orthographic = fromFile && optics.projection == Projection::Orthographic;
-    const Frustum f = fromFile ? widen(fileFrustum(optics, aspect), aspect)
-                               : framedFrustum(optics, picture, conventions);
+    Camera camera = framed ? framedView(scene, optics, conventions) : fileView(optics);
+    camera.orthographic = !framed && optics.projection == Projection::Orthographic;
+    const Frustum f = framed ? framedFrustum(optics, picture, conventions)
+                             : widen(fileFrustum(optics, aspect), aspect);
     camera.halfWidth = f.x;
     camera.halfHeight = f.y;
     camera.clipAlongRay = conventions.clipsAlongRay;
-    if (!scene.cameras.empty()) {
+    if (!framed || conventions.clipsFramedViews) {
         camera.nearDistance = optics.nearDistance;
         camera.farDistance = optics.farDistance;
     }

@@ -4,8 +4,11 @@
 
 #include <glm/glm.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <utility>
 
 namespace stromboli {
 
@@ -37,6 +40,16 @@ enum class CameraChoice {
     Frame,     ///< all of the scene (docs/cs184.md)
 };
 
+/// Whose view a picture shows.
+struct CameraRequest {
+    CameraChoice choice = CameraChoice::Automatic;
+    /// The file's camera of this name, or of this number, from 1; empty: the conventions say which.
+    std::string name;
+
+    CameraRequest(CameraChoice which = CameraChoice::Automatic, std::string ofName = {})
+        : choice(which), name(std::move(ofName)) {}
+};
+
 /// Size a picture gets when the user names none.
 struct PictureSize {
     uint32_t width = 800, height = 600;
@@ -50,22 +63,42 @@ struct FramingConventions {
     std::optional<PictureSize> pictureSize;
     /// CameraChoice::Automatic frames every scene.
     bool framesEveryScene = false;
+    bool lastOfSeveral = false; ///< the last of a file's cameras counts; otherwise the first
+    /// From where a framed view looks at a scene whose file has no camera. From here a box shows
+    /// three sides alike; seen along an axis, it would be a rectangle.
+    glm::dvec3 directionWithoutCamera{1, 1, 1};
+    /// The depth range of the file's camera holds for framed views as well.
+    bool clipsFramedViews = false;
     bool clipsAlongRay = false; ///< Camera::clipAlongRay
 };
 
 /// Those of the CS184 renderer (docs/cs184.md).
 FramingConventions cs184Framing();
 
+/// The place in Scene::cameras of the one that is meant; nothing if the file has none. Throws
+/// SceneError, with the names that there are, if it has none of the name asked for.
+std::optional<size_t> chosenCamera(const Scene& scene, const CameraRequest& request,
+                                   const FramingConventions& conventions = {});
+
+/// True if the view is one that frames the scene, and not that of the file's camera.
+bool isFramed(const Scene& scene, const CameraRequest& request,
+              const FramingConventions& conventions = {});
+
 /// 800 pixels wide in the file camera's aspect ratio if it states one; 800 x 600 otherwise.
-PictureSize defaultPictureSize(const Scene& scene, CameraChoice choice,
+PictureSize defaultPictureSize(const Scene& scene, const CameraRequest& request,
                                const FramingConventions& conventions = {});
 
 /// The camera for a picture of width x height pixels.
 /// File: the whole of the file's field of view is visible; where the picture's shape differs,
 /// it shows more on the longer side.
 /// Frame: docs/cs184.md.
-/// Throws SceneError if `choice` is File and the file has no camera.
-Camera makeCamera(const Scene& scene, CameraChoice choice, uint32_t width, uint32_t height,
+/// Throws SceneError if the file's camera is wanted and there is none, or none of that name.
+Camera makeCamera(const Scene& scene, const CameraRequest& request, uint32_t width, uint32_t height,
                   const FramingConventions& conventions = {});
+
+/// False if it is certain that the camera sees nothing of the scene's geometry: all of it is beside
+/// the field of view or outside of the depth range. What hides behind something else counts as
+/// seen.
+bool mayShow(const Camera& camera, const Scene& scene);
 
 } // namespace stromboli

@@ -71,25 +71,33 @@ void readDepthRange(Context& context, const Element& at, FileCamera& camera) {
                                       camera.farDistance, camera.nearDistance));
 }
 
+/// The element that says what the camera sees; null where nothing does.
+const Element* projectionOf(const Document& document, const Element& camera) {
+    const Element* optics = camera.FirstChildElement("optics");
+    const Element* technique = optics ? optics->FirstChildElement("technique_common") : nullptr;
+    if (technique)
+        for (const char* known : {"perspective", "orthographic"})
+            if (const Element* projection = technique->FirstChildElement(known)) return projection;
+    document.forgive(camera,
+                     fmt::format("'{}' has no <optics> with a <technique_common> of <perspective> "
+                                 "or <orthographic>",
+                                 displayName(camera)),
+                     kNoCamera);
+    return nullptr;
+}
+
 } // namespace
 
 void placeCamera(Context& context, const Element& element, const glm::dmat4& toWorld) {
-    const Document& document = context.document;
-    const Element& technique =
-        document.require(document.require(element, "optics"), "technique_common");
-    const Element* perspective = technique.FirstChildElement("perspective");
-    const Element* orthographic = technique.FirstChildElement("orthographic");
-    if (!perspective && !orthographic)
-        document.fail(technique, "has neither <perspective> nor <orthographic>");
-    const Element& at = perspective ? *perspective : *orthographic;
-
+    const Element* projection = projectionOf(context.document, element);
+    if (!projection) return;
     FileCamera camera;
     camera.name = displayName(element);
-    if (perspective)
-        readPerspective(document, at, camera);
+    if (named(*projection, "perspective"))
+        readPerspective(context.document, *projection, camera);
     else
-        readOrthographic(document, at, camera);
-    readDepthRange(context, at, camera);
+        readOrthographic(context.document, *projection, camera);
+    readDepthRange(context, *projection, camera);
     context.builder.placeCamera(std::move(camera), toWorld);
 }
 

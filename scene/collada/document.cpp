@@ -1,52 +1,52 @@
 #include "scene/collada/document.hpp"
 
 #include "host/core/error.hpp"
-#include "scene/build/read_file.hpp"
+#include "scene/collada/markup_limits.hpp"
+#include "scene/collada/percent_decoding.hpp"
+#include "scene/collada/source_text.hpp"
 
 #include <fmt/format.h>
 
 #include <cstring>
+#include <utility>
 
 namespace stromboli::collada {
 namespace {
 
+/// In words.
 std::string describe(tinyxml2::XMLError error) {
     switch (error) {
-    case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
-        return "the file is empty";
+    case tinyxml2::XML_ERROR_PARSING_ELEMENT:
+        return "a tag is not written as <name ...>";
+    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
+        return "an attribute is not written as name=\"value\", or is there twice";
+    case tinyxml2::XML_ERROR_PARSING_TEXT:
+        return "a text does not end";
+    case tinyxml2::XML_ERROR_PARSING_CDATA:
+        return "a <![CDATA[ does not end";
+    case tinyxml2::XML_ERROR_PARSING_COMMENT:
+        return "a comment does not end";
+    case tinyxml2::XML_ERROR_PARSING_DECLARATION:
+        return "a <? does not end, or stands behind the first element";
+    case tinyxml2::XML_ERROR_PARSING_UNKNOWN:
+        return "a <! does not end";
     case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
-        return "an element is not closed, or closed by another's tag (is the file cut short?)";
+        return "an element is not closed, or closed by another's tag";
     case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
         return fmt::format("elements are nested more than {} deep", TINYXML2_MAX_ELEMENT_DEPTH);
     default:
-        return tinyxml2::XMLDocument::ErrorIDToName(error);
+        return "a '<' begins no tag";
     }
+}
+
+/// Documents end in the last tag; where another character is the last one, the end is missing.
+bool isCutShort(std::string_view text) {
+    const size_t last = text.find_last_not_of(" \t\r\n");
+    return last != std::string_view::npos && text[last] != '>';
 }
 
 std::string key(const char* kind, std::string_view id) {
     return fmt::format("{}#{}", kind, id);
-}
-
-/// `%20` and the like, which references may use where ids have the character itself.
-std::string percentDecoded(std::string_view text) {
-    const auto digit = [](char c) {
-        if (c >= '0' && c <= '9') return c - '0';
-        if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-        if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-        return -1;
-    };
-    std::string decoded;
-    for (size_t i = 0; i < text.size(); ++i) {
-        const bool escape = text[i] == '%' && i + 2 < text.size() && digit(text[i + 1]) >= 0 &&
-                            digit(text[i + 2]) >= 0;
-        if (escape) {
-            decoded += char(digit(text[i + 1]) * 16 + digit(text[i + 2]));
-            i += 2;
-        } else {
-            decoded += text[i];
-        }
-    }
-    return decoded;
 }
 
 bool isCgl(const Element& technique) {
@@ -56,17 +56,20 @@ bool isCgl(const Element& technique) {
 
 } // namespace
 
-Document::Document(const std::filesystem::path& file) : file_(file.string()) {
-    read(file);
+Document::Document(const std::filesystem::path& file, build::Report& report) : report_(report) {
+    SourceText source = readSourceText(file, report);
+    file_ = std::move(source.name);
+    parse(source.text);
     collectIds();
 }
 
-void Document::read(const std::filesystem::path& file) {
-    const std::string text = build::readFile(file);
+void Document::parse(const std::string& text) {
+    checkMarkupLimits(file_, text);
     xml_.Parse(text.data(), text.size());
     if (xml_.Error())
         throw SceneError(file_, xml_.ErrorLineNum(), "",
-                         "not well-formed XML: " + describe(xml_.ErrorID()));
+                         fmt::format("not well-formed XML: {}{}", describe(xml_.ErrorID()),
+                                     isCutShort(text) ? "; the file is cut short" : ""));
     if (!xml_.RootElement())
         throw SceneError(file_, 0, "", "has no elements, expected a COLLADA document");
     if (!named(root(), "COLLADA")) fail(root(), "the root element must be <COLLADA>");
@@ -76,13 +79,20 @@ void Document::collectIds() {
     // Recursion is bounded by the parser's limit on nesting.
     const auto visit = [this](const auto& self, const Element& element) -> void {
         ++elementCount_;
-        if (const char* id = element.Attribute("id"))
-            byKindAndId_.try_emplace(key(element.Name(), id), &element);
+        if (const char* id = element.Attribute("id")) addId(element, id);
         if (named(element, "technique") && isCgl(element)) cglDialect_ = true;
         for (const Element& child : children(element))
             self(self, child);
     };
     visit(visit, root());
+}
+
+void Document::addId(const Element& element, const char* id) {
+    const auto [known, isNew] = byKindAndId_.try_emplace(key(element.Name(), id), &element);
+    if (isNew) return;
+    forgive(element, fmt::format("the id '{}' is there already", id),
+            "the first element with it that is not empty counts");
+    if (known->second->NoChildren()) known->second = &element;
 }
 
 build::FilePlace Document::place(const Element& at) const {
@@ -91,6 +101,11 @@ build::FilePlace Document::place(const Element& at) const {
 
 void Document::fail(const Element& at, const std::string& message) const {
     place(at).fail(message);
+}
+
+void Document::forgive(const Element& at, const std::string& problem,
+                       const std::string& reading) const {
+    report_.forgive(place(at), problem, reading);
 }
 
 const Element& Document::require(const Element& parent, const char* child) const {
@@ -103,23 +118,41 @@ std::string Document::requireAttribute(const Element& at, const char* name) cons
     fail(at, fmt::format("has no attribute '{}', which is required", name));
 }
 
-const Element& Document::resolve(const Element& at, const char* attribute, const char* kind) const {
-    const std::string reference = requireAttribute(at, attribute);
-    const size_t hash = reference.find('#');
-    if (hash == std::string::npos)
-        fail(at, fmt::format("{}=\"{}\" must be the id of a <{}>, written as #id", attribute,
-                             reference, kind));
-    if (hash > 0)
-        fail(at, fmt::format("{}=\"{}\" refers to another file; only references within the file "
-                             "(#id) are supported",
-                             attribute, reference));
-    const std::string_view id = std::string_view(reference).substr(1);
+const Element* Document::find(const char* kind, std::string_view reference) const {
+    if (!reference.starts_with('#')) return nullptr;
+    const std::string_view id = reference.substr(1);
     auto found = byKindAndId_.find(key(kind, id));
     if (found == byKindAndId_.end()) found = byKindAndId_.find(key(kind, percentDecoded(id)));
-    if (found == byKindAndId_.end())
-        fail(at, fmt::format("{}=\"{}\": the file has no <{}> with this id", attribute, reference,
-                             kind));
-    return *found->second;
+    return found == byKindAndId_.end() ? nullptr : found->second;
+}
+
+Reference Document::lookUp(const Element& at, const char* attribute, const char* kind) const {
+    const std::string reference = requireAttribute(at, attribute);
+    const auto problem = [&](const std::string& what) {
+        return Reference{nullptr, fmt::format("{}=\"{}\"{}", attribute, reference, what)};
+    };
+    const size_t hash = reference.find('#');
+    if (hash == std::string::npos)
+        return {nullptr, fmt::format("{}=\"{}\" must be the id of a <{}>, written as #id",
+                                     attribute, reference, kind)};
+    if (hash > 0)
+        return problem(" refers to another file; only references within the file (#id) are "
+                       "supported");
+    if (const Element* target = find(kind, reference)) return {target, ""};
+    return problem(fmt::format(": the file has no <{}> with this id", kind));
+}
+
+const Element& Document::resolve(const Element& at, const char* attribute, const char* kind) const {
+    const Reference reference = lookUp(at, attribute, kind);
+    if (!reference.target) fail(at, reference.problem);
+    return *reference.target;
+}
+
+const Element* Document::resolveOr(const Element& at, const char* attribute, const char* kind,
+                                   const char* reading) const {
+    const Reference reference = lookUp(at, attribute, kind);
+    if (!reference.target) forgive(at, reference.problem, reading);
+    return reference.target;
 }
 
 bool named(const Element& element, const char* name) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/build/file_place.hpp"
+#include "scene/build/report.hpp"
 
 #include <tinyxml2.h>
 
@@ -15,12 +16,19 @@ namespace stromboli::collada {
 
 using Element = tinyxml2::XMLElement;
 
+/// What an attribute such as url="#id" points to; null, and why, where that is not there.
+struct Reference {
+    const Element* target = nullptr;
+    std::string problem;
+};
+
 /// A COLLADA file in memory: its elements, their ids, and errors that say where.
 class Document {
   public:
     /// Reads and parses the file. Throws SceneError if it cannot be read, is not well-formed XML
-    /// or its root is not COLLADA.
-    explicit Document(const std::filesystem::path& file);
+    /// or its root is not COLLADA. `report`, which must outlive the document, gets what is
+    /// forgiven.
+    Document(const std::filesystem::path& file, build::Report& report);
 
     const Element& root() const { return *xml_.RootElement(); }
     size_t elementCount() const { return elementCount_; }
@@ -32,19 +40,31 @@ class Document {
     /// Throws SceneError with file, line and name of the element.
     [[noreturn]] void fail(const Element& at, const std::string& message) const;
 
+    /// Reports how the element breaks the standard, and how it is read (Report::forgive). Throws
+    /// SceneError where nothing is forgiven.
+    void forgive(const Element& at, const std::string& problem, const std::string& reading) const;
+
     /// The first child of that name; throws SceneError where there is none.
     const Element& require(const Element& parent, const char* child) const;
     /// The attribute's text; throws SceneError where there is none.
     std::string requireAttribute(const Element& at, const char* name) const;
 
+    /// The element named `kind` that the reference `#id` points to; null where there is none.
+    const Element* find(const char* kind, std::string_view reference) const;
     /// What the reference `#id` in the attribute points to: an element named `kind`. Throws
     /// SceneError if the attribute is missing, the reference leaves the file or nothing matches.
     const Element& resolve(const Element& at, const char* attribute, const char* kind) const;
+    /// The same; where nothing matches, null, which is forgiven: `reading` says what becomes of it.
+    const Element* resolveOr(const Element& at, const char* attribute, const char* kind,
+                             const char* reading) const;
 
   private:
-    void read(const std::filesystem::path& file);
+    Reference lookUp(const Element& at, const char* attribute, const char* kind) const;
+    void parse(const std::string& text);
     void collectIds();
+    void addId(const Element& element, const char* id);
 
+    build::Report& report_;
     std::string file_;
     tinyxml2::XMLDocument xml_;
     std::unordered_map<std::string, const Element*> byKindAndId_;

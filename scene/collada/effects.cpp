@@ -13,6 +13,7 @@ namespace stromboli::collada {
 namespace {
 
 const glm::vec3 kMidGrey(0.5f);
+constexpr const char* kNoParameter = "the parameter counts as absent";
 
 /// Where a shading model's parameter can be defined, innermost first.
 struct Scope {
@@ -29,19 +30,6 @@ const Element* findParameter(const Scope& scope, const char* sid) {
     return nullptr;
 }
 
-/// The element that holds the numbers a `<param ref="...">` stands for; null for a texture.
-const Element* resolveParameter(const Context& context, const Scope& scope, const Element& param) {
-    const std::string sid = context.document.requireAttribute(param, "ref");
-    const Element* parameter = findParameter(scope, sid.c_str());
-    if (!parameter)
-        context.document.fail(param, fmt::format("ref=\"{}\": the effect has no <newparam> with "
-                                                 "this sid",
-                                                 sid));
-    for (const char* type : {"float", "float3", "float4"})
-        if (const Element* value = parameter->FirstChildElement(type)) return value;
-    return nullptr;
-}
-
 enum class ChannelKind { Absent, Numbers, Texture };
 
 /// One parameter of a shading model, such as <diffuse>.
@@ -50,19 +38,35 @@ struct Channel {
     const Element* numbers = nullptr;
 };
 
+/// What a `<param ref="...">` stands for.
+Channel resolveParameter(const Context& context, const Scope& scope, const Element& param) {
+    const std::string sid = context.document.requireAttribute(param, "ref");
+    const Element* parameter = findParameter(scope, sid.c_str());
+    if (!parameter) {
+        context.document.forgive(
+            param, fmt::format("ref=\"{}\": the effect has no <newparam> with this sid", sid),
+            kNoParameter);
+        return {};
+    }
+    for (const char* type : {"float", "float3", "float4"})
+        if (const Element* value = parameter->FirstChildElement(type))
+            return {ChannelKind::Numbers, value};
+    return {ChannelKind::Texture, nullptr};
+}
+
 Channel readChannel(const Context& context, const Scope& scope, const Element& model,
                     const char* name) {
     const Element* channel = model.FirstChildElement(name);
     if (!channel) return {};
-    if (const Element* param = channel->FirstChildElement("param")) {
-        const Element* numbers = resolveParameter(context, scope, *param);
-        return {numbers ? ChannelKind::Numbers : ChannelKind::Texture, numbers};
-    }
+    if (const Element* param = channel->FirstChildElement("param"))
+        return resolveParameter(context, scope, *param);
     if (channel->FirstChildElement("texture")) return {ChannelKind::Texture, nullptr};
     for (const char* type : {"color", "float"})
         if (const Element* numbers = channel->FirstChildElement(type))
             return {ChannelKind::Numbers, numbers};
-    context.document.fail(*channel, "has neither <color> nor <float>, <param> or <texture>");
+    context.document.forgive(*channel, "has neither <color> nor <float>, <param> or <texture>",
+                             kNoParameter);
+    return {};
 }
 
 /// A number of the model, or `otherwise`.
@@ -114,7 +118,7 @@ glm::vec3 readAlbedo(Context& context, const Scope& scope, const Element& model)
     const Channel channel = readChannel(context, scope, model, "diffuse");
     if (channel.kind == ChannelKind::Numbers) return readFraction(context, *channel.numbers);
     if (channel.kind == ChannelKind::Absent) return glm::vec3(context.conventions.unstatedAlbedo);
-    context.report.ignore("<texture> of <diffuse>", "mid grey (0.5) takes its place");
+    context.report.ignore("<texture> of <diffuse>", kGreyInstead);
     return kMidGrey;
 }
 
@@ -139,19 +143,23 @@ const Element* shadingModel(const Element& technique) {
 }
 
 Material readCommonProfile(Context& context, const Element& effect, const Element& profile) {
-    const Element& technique = context.document.require(profile, "technique");
-    const Element* model = shadingModel(technique);
-    if (!model)
-        context.document.fail(technique, "has none of <constant>, <lambert>, <phong>, <blinn>");
+    const Element* technique = profile.FirstChildElement("technique");
+    const Element* model = technique ? shadingModel(*technique) : nullptr;
     Material material;
     material.albedo = kMidGrey;
+    if (!model) {
+        context.document.forgive(technique ? *technique : profile,
+                                 "has none of <constant>, <lambert>, <phong>, <blinn>",
+                                 kGreyInstead);
+        return material;
+    }
     if (context.conventions.shadingModels == ShadingModels::PhongOnly && !named(*model, "phong")) {
         context.report.ignore(fmt::format("<{}>", model->Name()),
                               context.conventions.renderer +
                                   " reads <phong> only; mid grey (0.5) takes its place");
         return material;
     }
-    const Scope scope{&technique, &profile, &effect};
+    const Scope scope{technique, &profile, &effect};
     const bool constant = named(*model, "constant");
     material.albedo = constant ? glm::vec3(0) : readAlbedo(context, scope, *model);
     material.emission = readEmission(context, scope, *model);
@@ -178,9 +186,8 @@ Material readEffect(Context& context, const Element& effect, const std::string& 
         if (profile) {
             material = readCommonProfile(context, effect, *profile);
         } else {
-            context.report.warn(
-                fmt::format("effect '{}' has no <profile_COMMON>: mid grey (0.5) takes its place",
-                            displayName(effect)));
+            context.report.warn(fmt::format("effect '{}' has no <profile_COMMON>: {}",
+                                            displayName(effect), kGreyInstead));
             material.emplace().albedo = kMidGrey;
         }
     }

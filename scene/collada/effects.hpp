@@ -4,6 +4,9 @@
 
 namespace stromboli::collada {
 
+/// What messages say of surfaces whose material is not there, or says nothing.
+inline constexpr const char* kGreyInstead = "mid grey (0.5) takes its place";
+
 /// The material an <effect> describes: its CS184 dialect if it has one, else its profile_COMMON
 /// (constant, lambert, phong, blinn: diffuse reflection and emission; everything else those models
 /// have is reported). Throws SceneError for values that make no sense.

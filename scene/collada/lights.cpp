@@ -13,13 +13,19 @@
 namespace stromboli::collada {
 namespace {
 
-/// The element that says what the light is.
-const Element& lightKind(Context& context, const Element& light) {
-    if (const Element* dialect = findCglLight(context, light)) return *dialect;
-    const Element& technique = context.document.require(light, "technique_common");
-    for (const char* known : {"ambient", "directional", "point", "spot"})
-        if (const Element* kind = technique.FirstChildElement(known)) return *kind;
-    context.document.fail(technique, "has none of <ambient>, <directional>, <point>, <spot>");
+/// The element that says what the light is; null where nothing does.
+const Element* lightKind(Context& context, const Element& light) {
+    if (const Element* dialect = findCglLight(context, light)) return dialect;
+    const Element* technique = light.FirstChildElement("technique_common");
+    if (technique)
+        for (const char* known : {"ambient", "directional", "point", "spot"})
+            if (const Element* kind = technique->FirstChildElement(known)) return kind;
+    context.document.forgive(light,
+                             fmt::format("'{}' has no <technique_common> with <ambient>, "
+                                         "<directional>, <point> or <spot>",
+                                         displayName(light)),
+                             kNoLight);
+    return nullptr;
 }
 
 /// Distances in the file are in its own unit, those of the scene in metres: the coefficients are
@@ -54,7 +60,9 @@ void readCone(Context& context, const Element& at, Light& light) {
 } // namespace
 
 void placeLight(Context& context, const Element& element, const glm::dmat4& toWorld) {
-    const Element& kind = lightKind(context, element);
+    const Element* found = lightKind(context, element);
+    if (!found) return;
+    const Element& kind = *found;
     Light light;
     light.name = displayName(element);
     light.color = readLightColor(context, context.document.require(kind, "color"));

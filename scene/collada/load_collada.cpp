@@ -8,8 +8,8 @@
 namespace stromboli {
 
 Scene loadCollada(const std::filesystem::path& file, const SceneConventions& conventions) try {
-    const collada::Document document(file);
     build::SceneBuilder builder(file.string(), conventions);
+    const collada::Document document(file, builder.report());
     if (document.cglDialect()) builder.markCglDialect();
     collada::Context context{document, builder};
     collada::readVisualScene(context);

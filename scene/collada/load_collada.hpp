@@ -8,11 +8,16 @@
 
 namespace stromboli {
 
-/// Reads a COLLADA 1.4 or 1.5 file, with the CS184 dialect (profile CGL or CMU462).
+/// Reads a COLLADA 1.4 or 1.5 file, with the CS184 dialect (profile CGL or CMU462): a document in
+/// UTF-8 or UTF-16, or an archive (.zae).
 /// Throws SceneError with file, line and element for anything it cannot make sense of.
 Scene loadCollada(const std::filesystem::path& file, const SceneConventions& conventions = {});
 
-/// True if a file that begins like this is XML whose root element is <COLLADA>.
+/// True if a file that begins like this is XML, in UTF-8 or UTF-16, whose root element is
+/// <COLLADA>.
 bool looksLikeCollada(std::string_view beginning);
+
+/// True if a file that begins like this is a zip archive, as those of COLLADA (.zae) are.
+bool looksLikeColladaArchive(std::string_view beginning);
 
 } // namespace stromboli

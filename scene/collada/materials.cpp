@@ -6,26 +6,41 @@
 
 namespace stromboli::collada {
 
-uint32_t Materials::indexOf(const Element& material) {
-    return table_.indexOf(&material, [&] {
-        const Element& instance = context_.document.require(material, "instance_effect");
-        for (const Element& child : children(instance))
+Material Materials::read(const Element& material) {
+    const Document& document = context_.document;
+    const Element* instance = material.FirstChildElement("instance_effect");
+    if (!instance) document.forgive(material, "has no <instance_effect>", kGreyInstead);
+    if (instance)
+        for (const Element& child : children(*instance))
             if (named(child, "setparam"))
                 context_.report.ignore("<setparam>", "effects are read with their own values");
-        const Element& effect = context_.document.resolve(instance, "url", "effect");
-        return readEffect(context_, effect, displayName(material));
-    });
+    const Element* effect =
+        instance ? document.resolveOr(*instance, "url", "effect", kGreyInstead) : nullptr;
+    if (effect) return readEffect(context_, *effect, displayName(material));
+    Material grey = build::greyMaterial();
+    grey.name = displayName(material);
+    return grey;
 }
 
-BoundMaterials::BoundMaterials(Context& context, Materials& materials,
-                               const Element& instanceGeometry)
+uint32_t Materials::indexOf(const Element& material) {
+    return table_.indexOf(&material, [&] { return read(material); });
+}
+
+BoundMaterials::BoundMaterials(Context& context, Materials& materials, const Element& instance)
     : context_(context) {
     const Document& document = context.document;
-    const Element* binding = instanceGeometry.FirstChildElement("bind_material");
+    const Element* binding = instance.FirstChildElement("bind_material");
     if (!binding) return;
-    for (const Element& at : children(document.require(*binding, "technique_common"))) {
+    const Element* technique = binding->FirstChildElement("technique_common");
+    if (!technique) {
+        document.forgive(*binding, "has no <technique_common>", "it binds nothing");
+        return;
+    }
+    for (const Element& at : children(*technique)) {
         if (!named(at, "instance_material")) continue;
-        const uint32_t index = materials.indexOf(document.resolve(at, "target", "material"));
+        const Element* material = document.resolveOr(at, "target", "material", kGreyInstead);
+        const uint32_t index =
+            material ? materials.indexOf(*material) : context.builder.defaultMaterial();
         bySymbol_.try_emplace(document.requireAttribute(at, "symbol"), index);
         if (!first_) first_ = index;
         for (const Element& child : children(at))

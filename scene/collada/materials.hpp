@@ -19,14 +19,17 @@ class Materials {
     uint32_t indexOf(const Element& material);
 
   private:
+    Material read(const Element& material);
+
     Context& context_;
     build::MaterialTable<const Element*> table_;
 };
 
-/// The <bind_material> of one <instance_geometry>: which symbol stands for which material.
+/// The <bind_material> of an <instance_geometry> or <instance_controller>: which symbol stands for
+/// which material.
 class BoundMaterials {
   public:
-    BoundMaterials(Context& context, Materials& materials, const Element& instanceGeometry);
+    BoundMaterials(Context& context, Materials& materials, const Element& instance);
 
     /// The material bound to a primitive's symbol; mid grey, with a warning, where none is.
     uint32_t indexFor(const std::string& symbol) const;

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -50,20 +51,46 @@ bool isUnderflow(std::string_view word) {
     return digit != std::string_view::npos && word[digit] == '.';
 }
 
-double parseNumber(const Document& document, const Element& at, std::string_view word,
-                   NonFinite nonFinite) {
-    std::string_view digits = word;
-    if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
+/// A number as the standard writes it; nothing if it is none.
+std::optional<double> asNumber(std::string_view word) {
+    if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
     double value = 0;
-    const char* end = digits.data() + digits.size();
-    const auto [rest, error] = std::from_chars(digits.data(), end, value);
-    if (error == std::errc::invalid_argument || rest != end)
-        document.fail(at, quoted(word) + " is not a number");
+    const char* end = word.data() + word.size();
+    const auto [rest, error] = std::from_chars(word.data(), end, value);
+    if (error == std::errc::invalid_argument || rest != end) return std::nullopt;
     if (error == std::errc::result_out_of_range)
-        value = isUnderflow(digits) ? 0 : std::numeric_limits<double>::infinity();
+        return isUnderflow(word) ? 0 : std::numeric_limits<double>::infinity();
+    return value;
+}
+
+/// A number with a comma where a point should be, as programs write it that take the user's
+/// language for the file's.
+std::optional<double> asNumberWithComma(std::string_view word) {
+    const size_t comma = word.find(',');
+    if (comma == std::string_view::npos || word.find('.') != std::string_view::npos)
+        return std::nullopt;
+    std::string pointed(word);
+    pointed[comma] = '.';
+    return asNumber(pointed);
+}
+
+/// `commas` becomes true where the number is forgiven a decimal comma.
+double parseNumber(const Document& document, const Element& at, std::string_view word,
+                   NonFinite nonFinite, bool& commas) {
+    std::optional<double> number = asNumber(word);
+    if (!number) {
+        number = asNumberWithComma(word);
+        if (!number) document.fail(at, quoted(word) + " is not a number");
+        commas = true;
+    }
+    const double value = *number;
     if (nonFinite == NonFinite::Reject && !std::isfinite(value))
         document.fail(at, quoted(word) + " is not a finite number");
     return value;
+}
+
+void forgiveCommas(const Document& document, const Element& at, bool commas) {
+    if (commas) document.forgive(at, "has decimal commas", "they are read as points");
 }
 
 uint32_t parseIndex(const Document& document, const Element& at, std::string_view word,
@@ -81,9 +108,11 @@ uint32_t parseIndex(const Document& document, const Element& at, std::string_vie
 
 std::vector<double> readNumbers(const Document& document, const Element& at, NonFinite nonFinite) {
     std::vector<double> numbers;
+    bool commas = false;
     forEachWord(at, [&](std::string_view word) {
-        numbers.push_back(parseNumber(document, at, word, nonFinite));
+        numbers.push_back(parseNumber(document, at, word, nonFinite, commas));
     });
+    forgiveCommas(document, at, commas);
     return numbers;
 }
 
@@ -139,7 +168,11 @@ uint32_t readCountOr(const Document& document, const Element& at, const char* at
 double readAttributeOr(const Document& document, const Element& at, const char* attribute,
                        double otherwise) {
     const char* text = at.Attribute(attribute);
-    return text ? parseNumber(document, at, text, NonFinite::Reject) : otherwise;
+    if (!text) return otherwise;
+    bool commas = false;
+    const double number = parseNumber(document, at, text, NonFinite::Reject, commas);
+    forgiveCommas(document, at, commas);
+    return number;
 }
 
 } // namespace stromboli::collada

@@ -29,11 +29,7 @@ glm::dmat4 readMatrix(const Document& document, const Element& at) {
     if (rows[12] != 0 || rows[13] != 0 || rows[14] != 0 || rows[15] != 1)
         document.fail(at, "the last four numbers must be 0 0 0 1 (matrices are written row by "
                           "row; the translation is the last column)");
-    glm::dmat4 matrix;
-    for (int row = 0; row < 4; ++row)
-        for (int column = 0; column < 4; ++column)
-            matrix[column][row] = rows[row * 4 + column];
-    return matrix;
+    return matrixOfRows(rows);
 }
 
 glm::dmat4 readTranslate(const Document& document, const Element& at) {
@@ -115,6 +111,14 @@ glm::dmat4 axesToWorld(const Document& document) {
 }
 
 } // namespace
+
+glm::dmat4 matrixOfRows(const std::vector<double>& numbers) {
+    glm::dmat4 matrix;
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 4; ++column)
+            matrix[column][row] = numbers[size_t(row * 4 + column)];
+    return matrix;
+}
 
 double metersPerUnit(const Document& document) {
     const Element* asset = document.root().FirstChildElement("asset");

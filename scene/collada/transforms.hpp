@@ -4,6 +4,8 @@
 
 #include <glm/glm.hpp>
 
+#include <vector>
+
 namespace stromboli::collada {
 
 /// From the file's axes and unit to the world's: y up, metres (`up_axis`, `unit`). `useUnit` false
@@ -16,6 +18,9 @@ double metersPerUnit(const Document& document);
 /// The product of the node's transformation elements, in document order: the first in the file is
 /// the last applied to a point. Throws SceneError for one that makes no sense.
 glm::dmat4 nodeTransform(const Document& document, const Element& node);
+
+/// The matrix of the first sixteen numbers, which are in rows as in files.
+glm::dmat4 matrixOfRows(const std::vector<double>& numbers);
 
 /// True for <matrix>, <translate>, <rotate>, <scale>, <lookat> and <skew>.
 bool isTransform(const Element& element);

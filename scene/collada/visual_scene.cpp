@@ -3,6 +3,7 @@
 #include "scene/build/vectors.hpp"
 #include "scene/collada/cameras.hpp"
 #include "scene/collada/cgl_dialect.hpp"
+#include "scene/collada/controllers.hpp"
 #include "scene/collada/lights.hpp"
 #include "scene/collada/materials.hpp"
 #include "scene/collada/primitives.hpp"
@@ -35,13 +36,15 @@ struct Geometry {
 
 class SceneWalk {
   public:
-    explicit SceneWalk(Context& context) : context_(context), materials_(context) {}
+    explicit SceneWalk(Context& context)
+        : context_(context), materials_(context),
+          fileToWorld_(fileToWorld(context.document, context.conventions.applyUnit)),
+          controllers_(context, fileToWorld_) {}
 
     void run(const Element& visualScene) {
-        const glm::dmat4 toWorld = fileToWorld(context_.document, context_.conventions.applyUnit);
         for (const Element& child : children(visualScene)) {
             if (named(child, "node"))
-                visitNode(child, toWorld);
+                visitNode(child, fileToWorld_);
             else if (!isMetadata(child))
                 ignore(child, "has no effect on the picture");
         }
@@ -82,20 +85,25 @@ class SceneWalk {
         } else if (kind == "instance_node") {
             visitNode(document.resolve(child, "url", "node"), toWorld);
         } else if (kind == "instance_geometry") {
-            placeGeometry(node, child, toWorld);
-        } else if (kind == "instance_light") {
-            placeLight(context_, document.resolve(child, "url", "light"), toWorld);
-        } else if (kind == "instance_camera") {
-            placeCamera(context_, document.resolve(child, "url", "camera"), toWorld);
+            placeGeometry(node, child, document.resolve(child, "url", "geometry"), toWorld);
         } else if (kind == "instance_controller") {
-            ignore(child, "skinned and morphed meshes are left out");
+            const RestPose pose = controllers_.restPose(child, toWorld);
+            if (pose.geometry) placeGeometry(node, child, *pose.geometry, pose.toWorld);
+        } else if (kind == "instance_light") {
+            if (const Element* light = document.resolveOr(child, "url", "light", kNoLight))
+                placeLight(context_, *light, toWorld);
+        } else if (kind == "instance_camera") {
+            if (const Element* camera = document.resolveOr(child, "url", "camera", kNoCamera))
+                placeCamera(context_, *camera, toWorld);
         } else if (!isTransform(child) && !isMetadata(child)) {
             ignore(child, "has no effect on the picture");
         }
     }
 
-    void placeGeometry(const Element& node, const Element& instance, const glm::dmat4& toWorld) {
-        const Geometry& geometry = read(context_.document.resolve(instance, "url", "geometry"));
+    /// `instance` binds the materials.
+    void placeGeometry(const Element& node, const Element& instance, const Element& element,
+                       const glm::dmat4& toWorld) {
+        const Geometry& geometry = read(element);
         const BoundMaterials bound(context_, materials_, instance);
         std::vector<uint32_t> materials;
         if (geometry.isSphere) materials.push_back(bound.first());
@@ -130,6 +138,8 @@ class SceneWalk {
 
     Context& context_;
     Materials materials_;
+    glm::dmat4 fileToWorld_;
+    Controllers controllers_;
     std::unordered_map<const Element*, Geometry> geometries_;
     std::vector<const Element*> path_; ///< the nodes from the root to the one being visited
     size_t visited_ = 0;
@@ -149,7 +159,8 @@ void reportUnread(Context& context) {
         const bool isRead = kind == "asset" || kind == "extra" || kind == "library_cameras" ||
                             kind == "library_lights" || kind == "library_effects" ||
                             kind == "library_materials" || kind == "library_geometries" ||
-                            kind == "library_nodes" || kind == "library_visual_scenes";
+                            kind == "library_controllers" || kind == "library_nodes" ||
+                            kind == "library_visual_scenes";
         if (isRead) continue;
         for (const Element& element : children(library))
             if (!named(element, "asset") && !named(element, "extra"))
@@ -157,13 +168,33 @@ void reportUnread(Context& context) {
     }
 }
 
+/// The first <visual_scene> of the document; null if it has none.
+const Element* firstVisualScene(const Document& document) {
+    for (const Element& library : children(document.root()))
+        if (named(library, "library_visual_scenes"))
+            if (const Element* scene = library.FirstChildElement("visual_scene")) return scene;
+    return nullptr;
+}
+
+/// The <visual_scene> that the document's <scene> names; where it names none, the first.
+const Element& shownScene(const Document& document) {
+    const Element* scene = document.root().FirstChildElement("scene");
+    const Element* instance = scene ? scene->FirstChildElement("instance_visual_scene") : nullptr;
+    const Element* first = firstVisualScene(document);
+    if (instance || !first)
+        return document.resolve(
+            document.require(document.require(document.root(), "scene"), "instance_visual_scene"),
+            "url", "visual_scene");
+    document.forgive(scene ? *scene : document.root(),
+                     "no <instance_visual_scene> says what is shown",
+                     "the first <visual_scene> is");
+    return *first;
+}
+
 } // namespace
 
 void readVisualScene(Context& context) {
-    const Document& document = context.document;
-    const Element& scene = document.require(document.root(), "scene");
-    const Element& instance = document.require(scene, "instance_visual_scene");
-    SceneWalk(context).run(document.resolve(instance, "url", "visual_scene"));
+    SceneWalk(context).run(shownScene(context.document));
     reportUnread(context);
 }
 

@@ -1,19 +1,18 @@
 #include "scene/generate/generated_scene.hpp"
 
 #include "host/core/error.hpp"
+#include "host/core/number_text.hpp"
 #include "scene/generate/cornell_mesh.hpp"
 #include "scene/generate/emitters_room.hpp"
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace stromboli {
 namespace {
 
-constexpr std::string_view kCornellMesh = "cornell_mesh:", kEmittersRoom = "lamps:",
-                           kPointsRoom = "points:";
 // Fewer triangles make no knot; more leave no room in 32-bit numbers of corners.
 constexpr uint32_t kLeastTriangles = 1000, kMostTriangles = 100'000'000;
 constexpr uint32_t kLeastEmitters = 8, kMostEmitters = 8'000'000;
@@ -29,11 +28,8 @@ CornellMesh cornellMeshOf(uint32_t triangles) {
 /// The number after a prefix; 0 if the name is another one or that is no number.
 uint32_t numberAfter(std::string_view prefix, std::string_view name) {
     if (!name.starts_with(prefix)) return 0;
-    const std::string_view text = name.substr(prefix.size());
-    const char* const end = text.data() + text.size();
-    uint32_t number = 0;
-    const auto [last, error] = std::from_chars(text.data(), end, number);
-    return error == std::errc() && last == end ? number : 0;
+    const uint64_t number = wholeNumber(name.substr(prefix.size())).value_or(0);
+    return number <= std::numeric_limits<uint32_t>::max() ? uint32_t(number) : 0;
 }
 
 } // namespace

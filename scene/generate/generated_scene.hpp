@@ -2,12 +2,18 @@
 
 #include "scene/model/scene.hpp"
 
+#include <array>
 #include <string_view>
 
 namespace stromboli {
 
 /// Begins a scene that is made instead of read: "generate:cornell_mesh:1000000".
 inline constexpr std::string_view kGeneratePrefix = "generate:";
+
+/// What stands behind it, before a number.
+inline constexpr std::string_view kCornellMesh = "cornell_mesh:", kEmittersRoom = "lamps:",
+                                  kPointsRoom = "points:";
+inline constexpr std::array kGeneratedScenes = {kCornellMesh, kEmittersRoom, kPointsRoom};
 
 /// The scene of this name, made in memory: "cornell_mesh:N" is scene/library/cornell_mesh.dae
 /// with a mesh of N triangles, to within 1 %, for N from 1000 to 100000000; with 50000 it is that

@@ -72,6 +72,8 @@ struct FileCamera {
 struct LoadReport {
     std::vector<std::string> ignored;  ///< elements of the file without effect on the picture
     std::vector<std::string> warnings; ///< things that change the picture: dropped triangles, ...
+    std::vector<std::string> forgiven; ///< what breaks the format's rules, and how it was read
+    std::vector<std::string> assumed;  ///< what the file leaves open, and what was taken for it
 };
 
 /// All there is to render, flattened to world space. y is up; lengths are metres (COLLADA unit).

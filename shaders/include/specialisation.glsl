@@ -18,6 +18,7 @@ layout(constant_id = SPEC_LIGHT_SAMPLES) const uint LIGHT_SAMPLES = 1u;
 layout(constant_id = SPEC_SAMPLER) const uint SAMPLER = SAMPLER_INDEPENDENT;
 layout(constant_id = SPEC_LIGHT_NUMBERS) const uint LIGHT_NUMBERS = LIGHT_NUMBERS_FIRST;
 layout(constant_id = SPEC_MIS_LOBES) const uint MIS_LOBES = 0u;
+layout(constant_id = SPEC_HAS_AMBIENT) const bool HAS_AMBIENT = true;
 layout(constant_id = SPEC_AMBIENT_BY_BOUNCES) const bool AMBIENT_BY_BOUNCES = false;
 layout(constant_id = SPEC_SPLITS) const bool SPLITS = false;
 layout(constant_id = SPEC_GAP_PROPOSAL) const bool GAP_PROPOSAL = false;
@@ -45,8 +46,9 @@ layout(constant_id = SPEC_LIGHT_CHOICE) const uint LIGHT_CHOICE = LIGHT_CHOICE_T
 #endif
 
 bool sceneHasBsdf(uint kind) { return (BSDF_KINDS & (1u << kind)) != 0u; }
-bool sceneHasLight(uint kind) { return (LIGHT_KINDS & (1u << kind)) != 0u; }
+/// Whether light samples go to lights of this kind.
+bool samplesLightKind(uint kind) { return (LIGHT_KINDS & (1u << kind)) != 0u; }
 /// kind == wanted, known without looking where there is but one, or none of that kind.
 bool isLight(uint kind, uint wanted) {
-    return sceneHasLight(wanted) && (LIGHT_KINDS == 1u << wanted || kind == wanted);
+    return samplesLightKind(wanted) && (LIGHT_KINDS == 1u << wanted || kind == wanted);
 }

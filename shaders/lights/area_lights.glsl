@@ -157,6 +157,6 @@ float areaLightInversePdf(Traversal t, PlacedPrimitive place, uint light) {
         return triangleAngle(v0, q.edgeA, q.edgeB) +
                triangleAngle(v0 + q.edgeA + q.edgeB, -q.edgeA, -q.edgeB);
     }
-    if (sceneHasLight(LIGHT_SPHERE)) return sphereInversePdf(t, sphereLight(rows));
+    if (samplesLightKind(LIGHT_SPHERE)) return sphereInversePdf(t, sphereLight(rows));
     return 0.0;
 }

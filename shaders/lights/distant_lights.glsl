@@ -33,7 +33,7 @@ LightSample sampleDirectionalLight(LightRows rows) {
 /// Radiance of the scene's ambient light from direction w. It is the first in the light buffer, if the scene
 /// has one; a kernel with everything switched on does not know without looking.
 vec3 ambientRadiance(vec3 w) {
-    if (!sceneHasLight(LIGHT_AMBIENT)) return vec3(0.0);
+    if (!HAS_AMBIENT) return vec3(0.0);
     const LightRows rows = fetchLightRows(0u);
-    return isLight(kindOf(rows), LIGHT_AMBIENT) ? ambientRadianceOf(rows, w) : vec3(0.0);
+    return kindOf(rows) == LIGHT_AMBIENT ? ambientRadianceOf(rows, w) : vec3(0.0);
 }

@@ -8,11 +8,11 @@ struct LightRows {
 /// Rows that no kind of the scene has are not read.
 LightRows fetchLightRows(uint light) {
     const uint row = LIGHT_ROWS * light;
-    const bool two = sceneHasLight(LIGHT_QUAD) || sceneHasLight(LIGHT_POINT) || sceneHasLight(LIGHT_SPOT);
+    const bool two = samplesLightKind(LIGHT_QUAD) || samplesLightKind(LIGHT_POINT) || samplesLightKind(LIGHT_SPOT);
     LightRows l = LightRows(ROW(lightRows, row), uvec4(0u), uvec4(0u), uvec4(0u));
     l.row1 = ROW(lightRows, row + 1u);
     if (two) l.row2 = ROW(lightRows, row + 2u);
-    if (sceneHasLight(LIGHT_QUAD) || sceneHasLight(LIGHT_SPOT)) l.row3 = ROW(lightRows, row + 3u);
+    if (samplesLightKind(LIGHT_QUAD) || samplesLightKind(LIGHT_SPOT)) l.row3 = ROW(lightRows, row + 3u);
     return l;
 }
 
@@ -42,7 +42,7 @@ PointLight pointLight(LightRows l) {
 }
 
 bool isTriangleLight(uint light) {
-    return sceneHasLight(LIGHT_TRIANGLE) &&
+    return samplesLightKind(LIGHT_TRIANGLE) &&
            (LIGHT_KINDS == 1u << LIGHT_TRIANGLE || (light & LIGHT_IS_TRIANGLE) != 0u);
 }
 

@@ -23,7 +23,7 @@ vec3 onlyLightNormal; ///< LIGHT_QUAD
 
 /// As LightEntry::light; of no meaning where it cannot be a triangle, since its rows are known then.
 uint onlyLightReference() {
-    return sceneHasLight(LIGHT_TRIANGLE) ? fetchLightEntry(0u).light : 0u;
+    return samplesLightKind(LIGHT_TRIANGLE) ? fetchLightEntry(0u).light : 0u;
 }
 
 LightRows fetchLight(uint light) {
@@ -42,7 +42,7 @@ void findOnlyLight() {
     const uint light = fetchLightEntry(0u).light;
     if (isTriangleLight(light)) return;
     onlyLight = fetchLightRows(light);
-    if (sceneHasLight(LIGHT_QUAD)) {
+    if (samplesLightKind(LIGHT_QUAD)) {
         const QuadLight quad = quadLight(onlyLight);
         onlyLightNormal = planeNormal(quad.edgeA, quad.edgeB);
     }
@@ -57,6 +57,6 @@ LightSample sampleLight(SurfacePoint s, uint light, vec2 u) {
     if (isLight(kind, LIGHT_SPHERE)) return sampleSphereLight(s, rows, u);
     if (isLight(kind, LIGHT_AMBIENT)) return sampleAmbientLight(s, rows, u);
     if (isLight(kind, LIGHT_DIRECTIONAL)) return sampleDirectionalLight(rows);
-    if (sceneHasLight(LIGHT_POINT) || sceneHasLight(LIGHT_SPOT)) return samplePointLight(s, rows);
+    if (samplesLightKind(LIGHT_POINT) || samplesLightKind(LIGHT_SPOT)) return samplePointLight(s, rows);
     return NO_LIGHT_SAMPLE;
 }

@@ -35,7 +35,7 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_HAS_NORMALS 5
 #define SPEC_BSDF_KINDS 6 // bit n: BSDF_ kind n occurs
 #define SPEC_HAS_EMISSION 7
-#define SPEC_LIGHT_KINDS 8 // bit n: LIGHT_ kind n occurs
+#define SPEC_LIGHT_KINDS 8 // bit n: lights of LIGHT_ kind n are sampled
 #define SPEC_INTEGRATOR 9
 #define SPEC_DIRECT_LIGHT 10
 #define SPEC_ROULETTE 11
@@ -54,7 +54,8 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_STACK_IN_REGISTERS 24 // else in a memory that each lane indexes
 #define SPEC_LARGE_TREE 25 // the tree has more than SMALL_TREE_RECORDS records
 #define SPEC_AMBIENT_BY_BOUNCES 26 // bounces alone find the ambient light; light samples go to others
-#define SPEC_COUNT 27
+#define SPEC_HAS_AMBIENT 27 // rays that hit nothing find ambient light
+#define SPEC_COUNT 28
 
 SHARED_CONST uint INTEGRATOR_PATH = 0u;
 SHARED_CONST uint INTEGRATOR_NORMALS = 1u;

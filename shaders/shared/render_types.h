@@ -66,7 +66,7 @@ struct PixelState {
     vec3 sumError;
     uint rejected;      ///< samples that were not finite, or negative
     vec3 m2;            ///< sum of squared deviations from the running mean (Welford 1962)
-    uint firstRejected; ///< sample index, or 0xFFFFFFFF
+    uint firstRejected; ///< sample index; means nothing while none is
     vec3 m2Error;
     uint samplesBefore; ///< that it had when the pass under way took it up
 };

@@ -1,6 +1,7 @@
 // Paths that share a camera ray (docs/estimator.md, "Branches") bring the light that paths of their
 // own bring, whatever the number of branches.
 #include "tests/analytic/scenes.hpp"
+#include "tests/support/test_names.hpp"
 
 #include <gtest/gtest.h>
 
@@ -86,7 +87,7 @@ TEST_P(Branches, LightOfOneBounceAlone) {
     expectMean(estimate(furnace(diffuse(0.5f, 1)), kInside, s), glm::dvec3(0.125));
 }
 
-INSTANTIATE_TEST_SUITE_P(Numbers, Branches, testing::Values(1, 2, 3, 4, 9));
+INSTANTIATE_TEST_SUITE_P(Numbers, Branches, testing::Values(1, 2, 3, 4, 9), test::NamedByValue{});
 
 } // namespace
 } // namespace stromboli

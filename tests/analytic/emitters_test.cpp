@@ -1,6 +1,7 @@
 // Emitters with a shape over a diffuse floor of albedo 0.5, whose irradiance has a closed form, in
 // all three direct light modes.
 #include "tests/analytic/scenes.hpp"
+#include "tests/support/test_names.hpp"
 
 #include <gtest/gtest.h>
 
@@ -125,7 +126,8 @@ TEST_P(Emitters, MirrorShowsTheEmitter) {
     expectMean(estimate(builder.scene, kSeesOrigin, settings), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(AllModes, Emitters, testing::ValuesIn(kDirectLightModes));
+INSTANTIATE_TEST_SUITE_P(AllModes, Emitters, testing::ValuesIn(kDirectLightModes),
+                         [](const auto& one) { return test::testName(nameOf(one.param)); });
 
 TEST(FarSphere, LightsModeFindsWhatNoOtherModeWould) {
     SceneMaker b;

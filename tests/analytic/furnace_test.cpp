@@ -1,6 +1,7 @@
 // Closed surfaces of emission 1 and albedo a: light scattered k times has radiance a^k everywhere,
 // so a path limited to N scatterings sees (1 - a^(N + 1)) / (1 - a).
 #include "tests/analytic/scenes.hpp"
+#include "tests/support/test_names.hpp"
 
 #include <gtest/gtest.h>
 
@@ -79,6 +80,13 @@ TEST_P(Furnace, MirrorBox) {
     expectMean(estimate(boxFurnace(mirror), kInside, settings(32, 40)), 2.0);
 }
 
+std::string nameOfCase(const testing::TestParamInfo<Case>& one) {
+    const char* const roulette = one.param.roulette == Roulette::Mode::None         ? "none"
+                                 : one.param.roulette == Roulette::Mode::Throughput ? "throughput"
+                                                                                    : "fixed";
+    return test::testName(nameOf(one.param.directLight)) + "_roulette_" + roulette;
+}
+
 INSTANTIATE_TEST_SUITE_P(AllModes, Furnace,
                          testing::Values(Case{DirectLight::Mis, Roulette::Mode::None},
                                          Case{DirectLight::Mis, Roulette::Mode::Throughput},
@@ -88,7 +96,8 @@ INSTANTIATE_TEST_SUITE_P(AllModes, Furnace,
                                          Case{DirectLight::Hemisphere, Roulette::Mode::Fixed},
                                          Case{DirectLight::Bsdf, Roulette::Mode::None},
                                          Case{DirectLight::Bsdf, Roulette::Mode::Throughput},
-                                         Case{DirectLight::Bsdf, Roulette::Mode::Fixed}));
+                                         Case{DirectLight::Bsdf, Roulette::Mode::Fixed}),
+                         nameOfCase);
 
 /// Not in lights mode: 1 / distance^2 has no variance at the edges of the box, so no bound holds.
 TEST(BoxFurnace, HemisphereAndBsdfModes) {

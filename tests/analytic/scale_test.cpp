@@ -1,6 +1,7 @@
 // A scene scaled as a whole, its radiances unchanged, makes the same picture: there is no length in
 // the renderer.
 #include "tests/analytic/scenes.hpp"
+#include "tests/support/test_names.hpp"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +40,8 @@ TEST_P(Scale, LeavesTheCornellBoxAsItIs) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Factors, Scale, testing::Values(1e-12f, 1e-6f, 1e-3f, 1e3f, 1e6f, 1e12f));
+INSTANTIATE_TEST_SUITE_P(Factors, Scale, testing::Values(1e-12f, 1e-6f, 1e-3f, 1e3f, 1e6f, 1e12f),
+                         test::NamedByValue{});
 
 } // namespace
 } // namespace stromboli

@@ -133,6 +133,9 @@ TEST(SimpleLights, OthersBesideAmbientLight) {
             RenderSettings s = smallPicture(64, 1);
             s.estimator.directLight = mode;
             expectMean(estimate(b.scene, kSeesOrigin, s), 0.5 + double(points) * ofPoint);
+            // Nothing is scattered twice.
+            s.estimator.minBounce = s.estimator.maxBounces = 2;
+            expectMean(estimate(b.scene, kSeesOrigin, s), 0);
         }
     }
 }

@@ -1,6 +1,7 @@
 // A sample taken on its own is, to the last bit, the one that a whole picture has.
 #include "scene/collada/load_collada.hpp"
 #include "tests/analytic/scenes.hpp"
+#include "tests/support/test_names.hpp"
 
 #include <gtest/gtest.h>
 
@@ -48,8 +49,8 @@ TEST_P(SingleSample, IsTheSameAsInTheRun) {
 
 INSTANTIATE_TEST_SUITE_P(Library, SingleSample,
                          testing::Values("cornell_mirror_glass.dae", "cornell_metal.dae",
-                                         "cornell_mesh.dae", "light_ambient.dae",
-                                         "light_spot.dae"));
+                                         "cornell_mesh.dae", "light_ambient.dae", "light_spot.dae"),
+                         test::NamedByValue{});
 
 /// A sphere of infinite radiance reaches into the middle pixel.
 TEST(RejectedSample, IsFoundAgainByItsNumber) {

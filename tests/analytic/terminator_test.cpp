@@ -2,6 +2,7 @@
 // in steps of the shape of their facets, and none of it is lost where shading and geometric normal
 // disagree.
 #include "tests/analytic/smooth_mesh.hpp"
+#include "tests/support/test_names.hpp"
 
 #include <gtest/gtest.h>
 
@@ -128,7 +129,8 @@ TEST_P(Terminator, LightFallsOffAsOnTheSmoothSurface) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Spheres, Terminator,
-                         testing::Values(std::pair(8u, 16u), std::pair(6u, 5u)));
+                         testing::Values(std::pair(8u, 16u), std::pair(6u, 5u)),
+                         test::NamedByValue{});
 
 // --- Energy --------------------------------------------------------------------------------------
 

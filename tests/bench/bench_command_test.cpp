@@ -27,7 +27,7 @@ void expectRefused(const ProgramRun& run, int exitCode, const std::string& messa
 }
 
 TEST(BenchCommand, BadOptionsAreRefused) {
-    for (const char* sizes : {"5x", "k", "10", "1k,", "1k,,2k", "200M", "-1k", "1.5k"})
+    for (const char* sizes : {"5x", "k", "10", "1k,", "1k,,2k", "200M", "-1k", "1.0005k"})
         expectRefused(bench({"--sizes", sizes}), kUsage, "--sizes");
     expectRefused(bench({"--only", "speed"}), kUsage, "--only");
     expectRefused(stromboli({"bench", "--repeats", "0"}), kUsage, "--repeats");

@@ -3,6 +3,7 @@
 #include "host/check/cross_check.hpp"
 #include "host/check/difference.hpp"
 #include "host/check/normal.hpp"
+#include "tests/support/test_names.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -78,7 +79,7 @@ TEST_P(FalseAlarms, AreAsRareAsStated) {
     for (int i = 0; i < kTrials; ++i) {
         const Film a = makeFilm(32, GetParam().samplesA, GetParam().draw, random);
         const Film b = makeFilm(32, GetParam().samplesB, GetParam().draw, random);
-        alarms += crossCheck(a, b, settings).agree() ? 0 : 1;
+        alarms += crossCheck(a, b, settings).anyDiffers() ? 1 : 0;
     }
     // Binomial: 10 expected with deviation 3.1; 4.5 of those on top.
     EXPECT_LE(alarms, 24);
@@ -97,7 +98,8 @@ INSTANTIATE_TEST_SUITE_P(Distributions, FalseAlarms,
                                          FalseAlarm{"pareto", pareto, 4, 16},
                                          FalseAlarm{"emitter edges", emitterEdges, 4, 4},
                                          FalseAlarm{"emitter edges", emitterEdges, 16, 16},
-                                         FalseAlarm{"emitter edges", emitterEdges, 4, 16}));
+                                         FalseAlarm{"emitter edges", emitterEdges, 4, 16}),
+                         test::NamedByValue{});
 
 /// Films of 64 x 64 pixels of 64 samples with deviation 0.2 of the mean: in a region of 32 x 32 the
 /// difference of the means has deviation 0.2 sqrt(2 / (64 * 1024)) = 0.11 %.
@@ -117,6 +119,84 @@ TEST(Power, OnePercentInOneRegionIsFound) {
     EXPECT_LT(result.worstBlock.z, -result.blockLimit);
     EXPECT_GE(result.worstBlock.x, 16u); // inside the region, or around it
     EXPECT_TRUE(crossCheck(a, makeFilm(64, 64, mild, random)).agree());
+}
+
+/// (limit + 1.645) standard errors, and what rounding may explain.
+TEST(Sight, FollowsFromTheStandardError) {
+    Generator random(8);
+    const CheckResult r =
+        crossCheck(makeFilm(64, 64, mild, random), makeFilm(64, 64, mild, random));
+    const double expected =
+        (r.channelLimit + 1.6448536) * 0.2 * std::sqrt(2.0 / (64 * 64 * 64)) + 0x1p-16;
+    // The variance of a pixel's samples is known to some 15 %, of all of them to 0.2 %.
+    for (const CheckChannel& channel : r.channels)
+        EXPECT_NEAR(channel.visible, expected, 0.01 * expected);
+    EXPECT_EQ(r.verdict(), Verdict::Agree);
+    EXPECT_THAT(formatCheck(r), testing::HasSubstr("sight      differences of the means found"));
+}
+
+TEST(Sight, DifferencesOfThatSizeAreFoundAsOftenAsStated) {
+    constexpr int kTrials = 400;
+    Generator random(9);
+    int found = 0;
+    for (int i = 0; i < kTrials; ++i) {
+        const double seen = crossCheck(makeFilm(16, 4, mild, random), makeFilm(16, 4, mild, random))
+                                .channels[0]
+                                .visible;
+        const double factor = (1 + seen / 2) / (1 - seen / 2);
+        const Film brighter = makeFilm(
+            16, 4, [&](uint32_t x, uint32_t y, Generator& r) { return factor * mild(x, y, r); },
+            random);
+        const CheckResult r = crossCheck(brighter, makeFilm(16, 4, mild, random));
+        found += r.channels[0].z > r.channelLimit ? 1 : 0;
+    }
+    // Binomial: 380 expected with deviation 4.4; 4.5 of those either way.
+    EXPECT_GE(found, 360);
+    EXPECT_LT(found, kTrials);
+}
+
+/// Four pixels whose samples have the deviation 1 of their mean: a standard error of 50 %.
+TEST(Sight, NoiseThatWouldHideABlackPictureDecidesNothing) {
+    Generator random(10);
+    const CheckResult r =
+        crossCheck(makeFilm(2, 2, exponential, random), makeFilm(2, 2, exponential, random));
+    EXPECT_EQ(r.verdict(), Verdict::Undecided);
+    EXPECT_FALSE(r.agree());
+    EXPECT_THAT(formatCheck(r), testing::AllOf(testing::HasSubstr("from nothing (red)"),
+                                               testing::HasSubstr("UNDECIDED: the noise")));
+}
+
+TEST(Sight, OneSampleDecidesNothingButMayDiffer) {
+    Generator random(11);
+    const auto dark = [](uint32_t x, uint32_t y, Generator& r) { return 0.5 * mild(x, y, r); };
+    const Film one = makeFilm(32, 1, mild, random);
+    const CheckResult same = crossCheck(one, makeFilm(32, 1, mild, random));
+    EXPECT_EQ(same.verdict(), Verdict::Undecided);
+    EXPECT_THAT(formatCheck(same), testing::HasSubstr("UNDECIDED: no pixel has two samples"));
+    EXPECT_EQ(crossCheck(one, makeFilm(32, 1, dark, random)).verdict(), Verdict::Different);
+    EXPECT_EQ(crossCheck(one, makeFilm(32, 8, mild, random)).verdict(), Verdict::Agree);
+}
+
+TEST(Sight, BlackPicturesAgree) {
+    Film a(16, 16), b(16, 16);
+    for (Film* film : {&a, &b})
+        for (PixelStatistics& p : film->pixels)
+            for (int i = 0; i < 4; ++i)
+                p.add(glm::dvec3(0));
+    EXPECT_EQ(crossCheck(a, b).verdict(), Verdict::Agree);
+    EXPECT_THAT(formatCheck(crossCheck(a, b)), testing::HasSubstr("from black (red)"));
+}
+
+TEST(Check, WhatIsNotANumberAgreesWithNothing) {
+    Generator random(12);
+    const Film a = makeFilm(16, 8, mild, random);
+    Film b = makeFilm(16, 8, mild, random);
+    b.at(3, 4).m2.y = std::nan("");
+    EXPECT_FALSE(crossCheck(a, b).channelsAgree);
+    EXPECT_FALSE(crossCheck(a, b).blocksAgree);
+    b = makeFilm(16, 8, mild, random);
+    b.at(3, 4).mean.y = std::nan("");
+    EXPECT_EQ(crossCheck(a, b).verdict(), Verdict::Different);
 }
 
 TEST(Power, OneDarkBlockIsFoundAndNamed) {

@@ -1,9 +1,12 @@
 // What the command line means.
 #include "host/cli/cs184_spelling.hpp"
+#include "host/cli/declared_command.hpp"
 #include "host/cli/options.hpp"
 #include "host/core/error.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace stromboli {
 namespace {
@@ -28,13 +31,12 @@ TEST(Options, Defaults) {
 
 TEST(Options, EverythingGiven) {
     const Options o =
-        parse({"render", "a.dae",      "-o",   "a.exr",     "-s",        "9",
-               "-l",     "3",          "-m",   "4",         "-r",        "20",
-               "10",     "-a",         "8",    "0.1",       "-H",        "--min-bounce",
-               "2",      "--roulette", "0.25", "--camera",  "frame",     "--seed",
-               "5",      "--device",   "cpu",  "--backend", "reference", "--exposure",
-               "-1.5",   "--crop",     "1",    "2",         "3",         "4",
-               "-q"});
+        parse({"render", "a.dae",      "-o",        "a.png",      "-s",    "9",
+               "-l",     "3",          "-m",        "4",          "-r",    "20",
+               "10",     "-a",         "8",         "0.1",        "-H",    "--min-bounce",
+               "2",      "--roulette", "0.25",      "--camera",   "frame", "--seed",
+               "5",      "--backend",  "reference", "--exposure", "-1.5",  "--crop",
+               "1",      "2",          "3",         "4",          "-q"});
     EXPECT_EQ(o.budget.mostPathsPerPixel, 9u);
     EXPECT_EQ(o.estimator.lightSamples, 3u);
     EXPECT_EQ(o.estimator.maxBounces, 4u);
@@ -47,9 +49,8 @@ TEST(Options, EverythingGiven) {
     EXPECT_EQ(o.estimator.minBounce, 2u);
     EXPECT_EQ(o.estimator.roulette.mode, Roulette::Mode::Fixed);
     EXPECT_EQ(o.estimator.roulette.terminationProbability, 0.25);
-    EXPECT_EQ(o.camera, CameraChoice::Frame);
+    EXPECT_EQ(o.camera.choice, CameraChoice::Frame);
     EXPECT_EQ(o.estimator.seed, 5u);
-    EXPECT_EQ(o.device, "cpu");
     EXPECT_EQ(o.backend, BackendChoice::Reference);
     EXPECT_EQ(o.tone.exposure, -1.5);
     EXPECT_EQ(o.area.crop.height, 4u);
@@ -175,7 +176,7 @@ TEST(Options, RangesAreNamed) {
     const std::vector<std::pair<std::vector<std::string>, std::string>> renders = {
         {{"-s", "0"}, "-s is '0': expected a whole number from 1 to 16777216"},
         {{"-s", "nan"}, "-s is 'nan': expected a whole number from 1 to 16777216"},
-        {{"-s", "1e3"}, "-s is '1e3': expected a whole number from 1 to 16777216"},
+        {{"-s", "1.5"}, "-s is '1.5': expected a whole number from 1 to 16777216"},
         {{"-l", ""}, "-l is '': expected a whole number from 1 to 1024"},
         {{"--time", "nan"}, "--time is 'nan': expected a number from 0.01 to 1000000000"},
         {{"--time", "inf"}, "--time is 'inf': expected a number from 0.01 to 1000000000"},
@@ -204,6 +205,81 @@ TEST(Options, RangesAreNamed) {
               "--seeds is '0': expected a whole number from 1 to 10000");
     EXPECT_EQ(refusal({"check", "a.dae", "--alpha", "nan"}),
               "--alpha is 'nan': expected a number from 1e-12 to 0.5");
+}
+
+/// A complete line of the command in which `option` has these words.
+std::vector<std::string> lineWith(const DeclaredCommand& c, const CommandOption& option,
+                                  const std::vector<std::string>& words) {
+    std::vector<std::string> line = {c.name};
+    const auto add = [&](const CommandOption& o, const std::vector<std::string>& values) {
+        if (o.name().starts_with("-")) line.push_back(o.name());
+        line.insert(line.end(), values.begin(), values.end());
+    };
+    for (const CommandOption& o : c.list.all()) {
+        const bool isNeeded =
+            std::find(option.needed.begin(), option.needed.end(), o.name()) != option.needed.end();
+        if (o.name() == option.name())
+            add(o, words);
+        else if (isNeeded)
+            add(o, std::vector<std::string>(o.wordCount, "1"));
+        else if (o.isRequired || (o.name() == "-o" && c.name == "render"))
+            add(o, {"a.exr"});
+    }
+    return line;
+}
+
+/// What no number may be, wherever one is read (the largest of all ranges ends at 1e300); "-1"
+/// where the range has none below 0.
+std::vector<std::string> badNumbers(const CommandOption& o) {
+    std::vector<std::string> words = {"nan",   "inf",   "1x",  "1e400",
+                                      "1.2.3", "1e301", "0x1", "-1e301"};
+    if (!o.range.starts_with("-")) words.push_back("-1");
+    return words;
+}
+
+/// The message of the refusal; empty if there is none.
+std::string refusalOf(const std::vector<std::string>& line) {
+    try {
+        parse(line);
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+void expectRefusal(const DeclaredCommand& c, const CommandOption& o, const std::string& bad,
+                   uint32_t place) {
+    std::vector<std::string> words(o.wordCount, "1");
+    words[place] = bad;
+    const std::string message = refusalOf(lineWith(c, o, words));
+    EXPECT_EQ(message.rfind(o.name(), 0), 0u)
+        << c.name << " " << o.name() << " '" << bad << "' in place " << place << ": "
+        << (message.empty() ? "accepted" : message);
+    EXPECT_NE(message.find("expected"), std::string::npos) << message;
+}
+
+TEST(Options, EveryOptionOfEveryCommandRefusesWhatIsNoValue) {
+    size_t numbers = 0;
+    for (const DeclaredCommand& c : declareCommands())
+        for (const CommandOption& o : c.list.all())
+            for (uint32_t place = 0; place < o.wordCount; ++place) {
+                expectRefusal(c, o, "", place);
+                if (o.range.empty()) continue;
+                ++numbers;
+                for (const std::string& bad : badNumbers(o))
+                    expectRefusal(c, o, bad, place);
+            }
+    EXPECT_GT(numbers, 60u); // or ranges are not declared any more
+}
+
+TEST(Options, NumbersHaveExponentsAndUnits) {
+    EXPECT_EQ(parse({"render", "a.dae", "-o", "a.png", "-s", "2.5k"}).budget.meanPathsPerPixel,
+              2500u);
+    EXPECT_EQ(parse({"render", "a.dae", "-o", "a.png", "-s", "1e6"}).budget.meanPathsPerPixel,
+              1'000'000u);
+    EXPECT_EQ(parse({"render", "a.dae", "-o", "a.png", "--time", "1k"}).budget.stop.seconds, 1000);
+    EXPECT_EQ(parse({"bench", "--sizes", "1k,2.5M"}).bench.settings.sizes,
+              (std::vector<uint64_t>{1000, 2'500'000}));
 }
 
 /// Profiles change what options are by default, wherever they stand; what is given is kept.
@@ -251,24 +327,62 @@ TEST(Options, EveryNameOfATableIsUnderstood) {
                                  [](const Options& o) { return o.estimator.lightChoice; });
     expectEveryName<Integrator>("--integrator",
                                 [](const Options& o) { return o.estimator.integrator; });
-    expectEveryName<CameraChoice>("--camera", [](const Options& o) { return o.camera; });
+    expectEveryName<CameraChoice>("--camera", [](const Options& o) { return o.camera.choice; });
     expectEveryName<BackendChoice>("--backend", [](const Options& o) { return o.backend; });
 }
 
+TEST(Options, OtherWordsNameACameraOfTheFile) {
+    const auto camera = [](const char* word) {
+        return parse({"info", "a.dae", "--camera", word}).camera;
+    };
+    EXPECT_EQ(camera("2").choice, CameraChoice::File);
+    EXPECT_EQ(camera("2").name, "2");
+    EXPECT_EQ(camera("left eye").name, "left eye");
+    EXPECT_EQ(camera("file").name, "");
+}
+
+TEST(Options, HowFilesAreRead) {
+    const auto reading = [](std::vector<std::string> extra) {
+        extra.insert(extra.begin(), {"check", "a.dae"});
+        return parse(extra).reading;
+    };
+    EXPECT_TRUE(reading({}).defaultLight);
+    EXPECT_FALSE(reading({}).strict);
+    EXPECT_FALSE(reading({"--default-light", "off"}).defaultLight);
+    EXPECT_TRUE(reading({"--strict"}).strict);
+    // That renderer has no such light, unless it is asked for, wherever the option stands.
+    EXPECT_FALSE(reading({"--cs184"}).defaultLight);
+    EXPECT_TRUE(reading({"--cs184", "--default-light", "on"}).defaultLight);
+    EXPECT_TRUE(reading({"--default-light", "on", "--cs184", "--strict"}).defaultLight);
+}
+
 TEST(Options, ContradictionsAreRefused) {
-    for (const std::vector<std::string>& extra : std::vector<std::vector<std::string>>{
-             {"-s", "0"},           {"-s", "99999999999"},
-             {"-s", "many"},        {"-l", "0"},
-             {"-m", "-1"},          {"-r", "0", "10"},
-             {"-r", "10"},          {"-r", "100000", "10"},
-             {"--min-bounce", "9"}, {"-a", "0", "0.05"},
-             {"-a", "1.5", "0.05"}, {"-a", "32", "-1"},
-             {"--roulette", "1"},   {"--roulette", "sometimes"},
-             {"--camera", "left"},  {"--crop", "0", "0", "0", "5"},
-             {"-q", "-v"},          {"-H", "--direct", "bsdf"},
-             {"--noise", "0"},      {"--noise", "0.1", "-a", "32", "0.05"},
-             {"--time", "-1"},      {"--time", "nan"},
-             {"--no-such-option"},  {"second.dae"}}) {
+    for (const std::vector<std::string>& extra :
+         std::vector<std::vector<std::string>>{{"-s", "0"},
+                                               {"-s", "99999999999"},
+                                               {"-s", "many"},
+                                               {"-l", "0"},
+                                               {"-m", "-1"},
+                                               {"-r", "0", "10"},
+                                               {"-r", "10"},
+                                               {"-r", "100000", "10"},
+                                               {"--min-bounce", "9"},
+                                               {"-a", "0", "0.05"},
+                                               {"-a", "1.5", "0.05"},
+                                               {"-a", "32", "-1"},
+                                               {"--roulette", "1"},
+                                               {"--roulette", "sometimes"},
+                                               {"--default-light", "dim"},
+                                               {"--camera", ""},
+                                               {"--crop", "0", "0", "0", "5"},
+                                               {"-q", "-v"},
+                                               {"-H", "--direct", "bsdf"},
+                                               {"--noise", "0"},
+                                               {"--noise", "0.1", "-a", "32", "0.05"},
+                                               {"--time", "-1"},
+                                               {"--time", "nan"},
+                                               {"--no-such-option"},
+                                               {"second.dae"}}) {
         std::vector<std::string> arguments = {"render", "a.dae", "-o", "a.png"};
         arguments.insert(arguments.end(), extra.begin(), extra.end());
         EXPECT_THROW(parse(arguments), UsageError) << extra[0];

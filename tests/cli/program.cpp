@@ -27,12 +27,14 @@ std::string read(const std::filesystem::path& path) {
 
 } // namespace
 
-ProgramRun stromboli(const std::vector<std::string>& arguments, const std::string& environment) {
+ProgramRun stromboli(const std::vector<std::string>& arguments, const std::string& environment,
+                     const std::string& redirection) {
     const ScratchFolder outputs;
     std::string command = "STROMBOLI_VALIDATION=1 " + environment + " " + STROMBOLI_PROGRAM;
     for (const std::string& a : arguments)
         command += " " + quoted(a);
-    command += " >" + outputs.file("out") + " 2>" + outputs.file("err") + " </dev/null";
+    command +=
+        " >" + outputs.file("out") + " 2>" + outputs.file("err") + " </dev/null " + redirection;
     const int status = std::system(command.c_str());
     ProgramRun run;
     run.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

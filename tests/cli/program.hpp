@@ -14,9 +14,9 @@ struct ProgramRun {
 };
 
 /// Runs the program with the Vulkan validation layer on; `environment` is put before the command,
-/// as in a shell ("A=1").
-ProgramRun stromboli(const std::vector<std::string>& arguments,
-                     const std::string& environment = "");
+/// as in a shell ("A=1"), and `redirection` behind it (">/dev/full").
+ProgramRun stromboli(const std::vector<std::string>& arguments, const std::string& environment = "",
+                     const std::string& redirection = "");
 
 /// A folder of its own for each test, removed at the end.
 class ScratchFolder {

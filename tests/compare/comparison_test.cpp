@@ -36,6 +36,10 @@ TEST(Comparison, ZTestsWhereBothHaveVariances) {
     EXPECT_THROW(violations(comparePictures(a, plain, {}), {.zTest = true}), UsageError);
     EXPECT_EQ(violations(same, {.zTest = true}).size(), 0u);
     EXPECT_EQ(violations(other, {.zTest = true}).size(), 1u);
+    // With a sample each nothing is found, because nothing can be.
+    const Comparison blind = comparePictures(noisyPicture(1, 0, 1), noisyPicture(2, 0, 1), {});
+    EXPECT_FALSE(blind.zTest->anyDiffers());
+    EXPECT_EQ(violations(blind, {.zTest = true}).size(), 1u);
 }
 
 TEST(Comparison, SaysThatSampleCountsVary) {
@@ -79,6 +83,30 @@ TEST(Comparison, APixelThatIsNotFiniteBreaksEveryLimitButNoFigure) {
     Picture noisy = noisyPicture(1, 0);
     noisy.rgb[9].x = std::numeric_limits<double>::infinity();
     EXPECT_EQ(comparePictures(noisy, noisyPicture(2, 0), {}).zTest->pixels, 24u * 16 - 1);
+}
+
+TEST(Comparison, AsManyPixelsThatAreNotFiniteAsTheReferenceHasAreNoExcuse) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    Picture a = randomPicture(8, 8, 1), b = a;
+    a.rgb[3].y = nan;
+    b.rgb[9].x = nan;
+    EXPECT_EQ(violations(comparePictures(a, b, {}), {.relMse = 1}).size(), 1u);
+    b = a; // in the same place: left out
+    EXPECT_EQ(violations(comparePictures(a, b, {}), {.relMse = 1}).size(), 0u);
+    for (glm::dvec3& c : a.rgb)
+        c = glm::dvec3(nan);
+    EXPECT_EQ(violations(comparePictures(a, a, {}), {.relMse = 1}).size(), 1u); // nothing is left
+}
+
+TEST(Comparison, NoLimitIsKeptByANaN) {
+    const Picture a = randomPicture(8, 8, 1);
+    Comparison c = comparePictures(a, a, {});
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    c.errors.mse = c.errors.relMse = c.flip = c.psnr = c.ssim = nan;
+    c.errors.relativeBias = {nan, nan, nan};
+    const Thresholds all = {
+        .mse = 1, .relMse = 1, .flip = 1, .biasPercent = 1, .psnr = 1, .ssim = 0};
+    EXPECT_EQ(violations(c, all).size(), 8u); // three of them biases
 }
 
 TEST(Comparison, FlipIsOfHighDynamicRangeForLinearPicturesOnly) {

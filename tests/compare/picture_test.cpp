@@ -87,7 +87,7 @@ TEST(ReadPicture, StatisticsComeBackAsAFilm) {
     film.at(0, 0).add({3, 2, 1});
     film.at(0, 0).add({2, 5, 8});
     film.at(1, 0).add({1, 1, 1});
-    writePicture(folder / "a.exr", film, {}, {.tone = {}, .statistics = true});
+    writePicture(folder / "a.exr", film, {.tone = {}, .statistics = true});
     const Picture read = readPicture(folder / "a.exr");
     ASSERT_TRUE(read.film);
     for (size_t i = 0; i < 2; ++i) {
@@ -104,6 +104,23 @@ TEST(ReadPicture, WhatCannotBeReadIsRefused) {
     writeExr(folder / "grey.exr", grey);
     for (const char* name : {"grey.exr", "none.exr", "none.png", "a.jpg", "a"})
         EXPECT_THROW(readPicture(folder / name), UsageError) << name;
+}
+
+TEST(ReadPicture, StatisticsThatAreNoneAreRefused) {
+    const TemporaryFolder folder;
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    for (const auto& [channel, value] : {std::pair("samples", nan),
+                                         {"samples", 1e10f},
+                                         {"samples", -1.0f},
+                                         {"variance.G", nan},
+                                         {"variance.B", -1.0f},
+                                         {"variance.R", std::numeric_limits<float>::infinity()}}) {
+        Film film(2, 1);
+        FloatImage image = linearPicture(film, true);
+        image.channel(channel)[1] = value;
+        writeExr(folder / "a.exr", image);
+        EXPECT_THROW(readPicture(folder / "a.exr"), UsageError) << channel << " " << value;
+    }
 }
 
 TEST(ReadPicture, CountsPixelsThatAreNotFinite) {

@@ -48,8 +48,8 @@ TEST(Png, RoundTrip) {
 TEST(Png, SaysSrgbOnlyForTheSrgbCurve) {
     const TemporaryFolder folder;
     const Film film = randomFilm(2, 2);
-    writePicture(folder / "a.png", film, {}, {});
-    writePicture(folder / "b.png", film, {}, {{ToneCurve::Kind::Cs184}});
+    writePicture(folder / "a.png", film, {});
+    writePicture(folder / "b.png", film, {{ToneCurve::Kind::Cs184}});
     EXPECT_THAT(contentOf(folder / "a.png"), testing::HasSubstr("sRGB"));
     for (const char* chunk : {"sRGB", "gAMA", "cHRM", "iCCP"})
         EXPECT_THAT(contentOf(folder / "b.png"), testing::Not(testing::HasSubstr(chunk)));
@@ -60,7 +60,7 @@ TEST(Png, HoldsTheToneMappedMeans) {
     const Film film = randomFilm(5, 4);
     for (const ToneCurve& tone :
          {ToneCurve{}, ToneCurve{ToneCurve::Kind::Srgb, 1.5}, ToneCurve{ToneCurve::Kind::Cs184}}) {
-        writePicture(folder / "a.PNG", film, {}, {tone});
+        writePicture(folder / "a.PNG", film, {tone});
         const ByteImage image = readPng(folder / "a.PNG");
         for (uint32_t y = 0; y < 4; ++y)
             for (uint32_t x = 0; x < 5; ++x)
@@ -90,8 +90,8 @@ TEST(Exr, HoldsTheMeansAndOnRequestTheStatistics) {
     const TemporaryFolder folder;
     Film film = randomFilm(5, 4);
     film.at(1, 0).rejected = 2;
-    writePicture(folder / "plain.exr", film, {}, {});
-    writePicture(folder / "more.exr", film, {}, {.tone = {}, .statistics = true});
+    writePicture(folder / "plain.exr", film, {});
+    writePicture(folder / "more.exr", film, {.tone = {}, .statistics = true});
 
     const FloatImage plain = readExr(folder / "plain.exr"), more = readExr(folder / "more.exr");
     EXPECT_EQ(plain.channels.size(), 3u);
@@ -114,25 +114,29 @@ TEST(Exr, AVarianceBeyondFloatBecomesTheLargestFloat) {
     Film film(1, 1);
     film.at(0, 0).add({0, 0, 0});
     film.at(0, 0).add({1e30, 1, 1});
-    writePicture(folder / "a.exr", film, {}, {.tone = {}, .statistics = true});
+    writePicture(folder / "a.exr", film, {.tone = {}, .statistics = true});
     EXPECT_EQ(readExr(folder / "a.exr").channels.at("variance.R")[0], 3.402823466e38f);
 }
 
-TEST(PictureFile, CropKeepsItsPixels) {
+TEST(PictureFile, CropSaysWhereItLies) {
     const TemporaryFolder folder;
-    const Film film = randomFilm(8, 6);
-    const Crop crop{3, 2, 4, 3};
-    writePicture(folder / "a.png", film, crop, {});
-    writePicture(folder / "a.exr", film, crop, {});
+    Film film = randomFilm(4, 3);
+    film.area = {8, 6, {3, 2, 4, 3}};
+    writePicture(folder / "a.png", film, {});
+    writePicture(folder / "a.exr", film, {});
     const ByteImage bytes = readPng(folder / "a.png");
     const FloatImage floats = readExr(folder / "a.exr");
     ASSERT_EQ(bytes.width, 4u);
     ASSERT_EQ(bytes.height, 3u);
     ASSERT_EQ(floats.width, 4u);
     ASSERT_EQ(floats.height, 3u);
+    EXPECT_EQ(floats.area.width, 8u);
+    EXPECT_EQ(floats.area.height, 6u);
+    EXPECT_EQ(floats.area.crop.x, 3u);
+    EXPECT_EQ(floats.area.crop.y, 2u);
     for (uint32_t y = 0; y < 3; ++y)
         for (uint32_t x = 0; x < 4; ++x) {
-            const glm::dvec3& mean = film.at(3 + x, 2 + y).mean;
+            const glm::dvec3& mean = film.at(x, y).mean;
             EXPECT_EQ(bytes.pixel(x, y)[1], ToneCurve{}.toByte(mean.y));
             EXPECT_EQ(floats.channels.at("G")[y * 4 + x], float(mean.y));
         }
@@ -142,8 +146,8 @@ TEST(PictureFile, SameFilmSameBytes) {
     const TemporaryFolder folder;
     const Film film = randomFilm(30, 20);
     for (const std::string extension : {".png", ".exr"}) {
-        writePicture(folder / ("a" + extension), film, {}, {});
-        writePicture(folder / ("b" + extension), film, {}, {});
+        writePicture(folder / ("a" + extension), film, {});
+        writePicture(folder / ("b" + extension), film, {});
         EXPECT_EQ(contentOf(folder / ("a" + extension)), contentOf(folder / ("b" + extension)));
     }
 }

@@ -1,4 +1,5 @@
 #include "host/film/film.hpp"
+#include "tests/support/test_names.hpp"
 
 #include <gtest/gtest.h>
 
@@ -110,7 +111,7 @@ TEST_P(MergedSplits, AgreeWithTheDefinitions) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Centres, MergedSplits, testing::Values(1.0, 1e4));
+INSTANTIATE_TEST_SUITE_P(Centres, MergedSplits, testing::Values(1.0, 1e4), test::NamedByValue{});
 
 TEST(Statistics, MergingWithNothingChangesNothing) {
     const PixelStatistics some = statisticsOf({{1, 2, 3}, {2, 3, 5}, {kNaN, 0, 0}});
@@ -146,7 +147,8 @@ TEST_P(Rejection, LeavesTheMeanAloneAndIsCounted) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Values, Rejection,
-                         testing::Values(kNaN, -kNaN, kInfinity, -kInfinity, -1e-30, -5.0));
+                         testing::Values(kNaN, -kNaN, kInfinity, -kInfinity, -1e-30, -5.0),
+                         test::NamedByValue{});
 
 TEST(Statistics, ZeroAndNegativeZeroAreRadiances) {
     const PixelStatistics statistics = statisticsOf({{0, -0.0, 0}, {0, 0, -0.0}});

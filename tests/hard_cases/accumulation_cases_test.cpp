@@ -55,11 +55,10 @@ using Sampler = std::function<double(uint32_t pixel, std::mt19937_64&)>;
 
 /// Renders made-up pixels as the sampling plan wants them.
 Film renderMadeUp(const RenderSettings& s, const Sampler& sampler, uint64_t seed) {
-    const std::vector<uint32_t> pixels = cropPixels(s.area);
-    SamplingPlan plan(s.budget, pixels);
-    Film film(s.area.width, s.area.height);
+    const SamplingPlan plan(s.budget);
+    Film film(s.area);
     std::vector<std::mt19937_64> engines;
-    for (const uint32_t i : pixels)
+    for (uint32_t i = 0; i < film.pixels.size(); ++i)
         engines.emplace_back(seed * 1000003 + i);
     for (auto pass = plan.next(film); !pass.empty(); pass = plan.next(film))
         for (const PixelTarget& t : pass)

@@ -21,6 +21,7 @@ struct Room {
     int lights = 1;
     float skew = 0;         ///< how far a corner of the light is from where a rectangle has it
     float ceilingFrom = -5; ///< x; the light is at 0 to 1
+    bool sky = false;
 };
 
 void addQuad(Scene& scene, const glm::vec3& corner, const glm::vec3& a, const glm::vec3& b,
@@ -53,7 +54,9 @@ float gapOf(const Room& room) {
     for (int light = 0; light < room.lights; ++light)
         room.facesUp ? quad({2.0f * float(light), 0, 0}, b, a, 1 + uint32_t(light))
                      : quad({2.0f * float(light), 0, 0}, a, b, 1 + uint32_t(light));
-    return std::abs(packScene(scene, buildWideBvh(scene)).gapWidth) / room.scale;
+    if (room.sky) scene.lights.emplace_back().kind = LightKind::Ambient;
+    const LightSelection lights = lightSelection(Estimator{});
+    return std::abs(packScene(scene, buildWideBvh(scene), lights).gapWidth) / room.scale;
 }
 
 TEST(Gap, IsTheDistanceOfTheCeiling) {
@@ -85,6 +88,11 @@ TEST(Gap, OnlyWhereLightComesOutOfIt) {
     EXPECT_EQ(gapOf({.lights = 2}), 0);
     EXPECT_EQ(gapOf({.bothSides = false}), 0) << "shines down";
     EXPECT_NEAR(gapOf({.bothSides = false, .facesUp = true}), 0.01, 1e-5) << "shines up";
+}
+
+/// A sky that is left to bounces lies before the light in the kernel's buffer.
+TEST(Gap, UnderASky) {
+    EXPECT_NEAR(gapOf({.gap = 0.05f, .sky = true}), 0.05, 1e-5);
 }
 
 TEST(Gap, NotInScenesWithoutOne) {

@@ -1,5 +1,6 @@
 // What of the scene and the settings a kernel contains, and how primitives are packed.
 #include "host/bvh/wide_layout.hpp"
+#include "host/kernel/direct_sampling.hpp"
 #include "host/kernel/kernel_features.hpp"
 
 #include <gtest/gtest.h>
@@ -122,11 +123,41 @@ TEST(KernelFeatures, TheSkyIsFoundByBounces) {
     scene.lights.emplace_back(); // a point
     EXPECT_FALSE(featuresIn(DirectLight::Mis)[SPEC_MIS_LOBES]);
     EXPECT_TRUE(featuresIn(DirectLight::Mis)[SPEC_AMBIENT_BY_BOUNCES]);
+    EXPECT_TRUE(featuresIn(DirectLight::Mis)[SPEC_HAS_AMBIENT]);
+    EXPECT_EQ(featuresIn(DirectLight::Mis)[SPEC_LIGHT_KINDS], 1u << gpu::LIGHT_POINT)
+        << "no code to sample the sky";
     EXPECT_EQ(featuresIn(DirectLight::Mis)[SPEC_LIGHT_CHOICE], gpu::LIGHT_CHOICE_ONE);
     EXPECT_EQ(featuresIn(DirectLight::MisAll)[SPEC_MIS_LOBES], gpu::LOBE_DIFFUSE_REFLECTION);
     for (const DirectLight mode :
          {DirectLight::MisAll, DirectLight::Lights, DirectLight::Hemisphere, DirectLight::Bsdf})
         EXPECT_FALSE(featuresIn(mode)[SPEC_AMBIENT_BY_BOUNCES]) << nameOf(mode);
+}
+
+/// Lights packed for one way to find direct light are refused where another would count some of
+/// them twice or not at all.
+TEST(KernelFeatures, LightsPackedForAnotherModeAreRefused) {
+    Material emitter;
+    emitter.emission = glm::vec3(1);
+    Scene lit = oneTriangle(emitter), sunAndSky = oneTriangle({});
+    sunAndSky.lights.resize(2);
+    sunAndSky.lights[0].kind = LightKind::Ambient;
+    const auto sampling = [](const Scene& scene, DirectLight packedFor, DirectLight mode) {
+        Estimator packing, e;
+        packing.directLight = packedFor;
+        e.directLight = mode;
+        const GpuScene g = packScene(scene, buildWideBvh(scene), lightSelection(packing));
+        return directSampling(g.lights, e);
+    };
+    using enum DirectLight;
+    for (const DirectLight mode : {Hemisphere, Bsdf}) {
+        EXPECT_THROW(sampling(lit, Mis, mode), std::invalid_argument) << nameOf(mode);
+        EXPECT_EQ(sampling(lit, mode, mode).lights, 0u) << nameOf(mode);
+    }
+    for (const DirectLight mode : {MisAll, Lights}) {
+        EXPECT_THROW(sampling(sunAndSky, Mis, mode), std::invalid_argument) << nameOf(mode);
+        EXPECT_EQ(sampling(sunAndSky, mode, mode).lights, 2u) << nameOf(mode);
+    }
+    EXPECT_EQ(sampling(sunAndSky, Mis, Mis).lights, 1u);
 }
 
 /// A light sample may use the numbers drawn with the path ray, but no two of a surface the same.

@@ -161,7 +161,7 @@ TEST_P(Cs184Pictures, AreReproduced) {
     const Film film = renderOnDevice(testDevice(), scene, camera, s);
     const ToneCurve tone{ToneCurve::Kind::Cs184, 0};
 
-    const ByteImage ours = toneMap(film, s.area.crop, tone);
+    const ByteImage ours = toneMap(film, tone);
     const Difference d = differ(ours, readPng(reference / picture.file), s.area.crop);
     report(picture.file, d);
     for (double mean : d.mean)
@@ -170,15 +170,14 @@ TEST_P(Cs184Pictures, AreReproduced) {
     if (d.blocks > blockLimit) {
         s.estimator.seed = 1;
         const Crop all{0, 0, s.area.crop.width, s.area.crop.height};
-        const ByteImage again =
-            toneMap(renderOnDevice(testDevice(), scene, camera, s), s.area.crop, tone);
+        const ByteImage again = toneMap(renderOnDevice(testDevice(), scene, camera, s), tone);
         const Difference noise = differ(ours, again, all);
         report("another seed of ours", noise);
         blockLimit = std::max(blockLimit, 1.25 * noise.blocks);
     }
     EXPECT_LE(d.blocks, blockLimit);
     if (!picture.rates) return;
-    const Difference rates = differ(ratePicture(film, s.area.crop, s.budget.mostSamplesPerPixel),
+    const Difference rates = differ(ratePicture(film, s.budget.mostSamplesPerPixel),
                                     readPng(reference / picture.rates), s.area.crop);
     report(picture.rates, rates);
     // 0.04 in the whole picture; in the strip 0.27 of green and blue, with a standard deviation of

@@ -117,14 +117,10 @@ TEST_F(Determinism, CropIsThePartOfTheWhole) {
     const Film whole = renderWith(s);
     s.area.crop = {13, 5, 20, 17};
     const Film part = renderWith(s);
-    for (uint32_t y = 0; y < s.area.height; ++y)
-        for (uint32_t x = 0; x < s.area.width; ++x) {
-            const bool inside = x >= 13 && x < 33 && y >= 5 && y < 22;
-            if (inside)
-                EXPECT_TRUE(sameBytes(whole.at(x, y), part.at(x, y)));
-            else
-                EXPECT_EQ(part.at(x, y).count, 0u);
-        }
+    ASSERT_EQ(part.pixels.size(), 20u * 17u); // nothing is kept of the rest
+    for (uint32_t y = 0; y < part.height; ++y)
+        for (uint32_t x = 0; x < part.width; ++x)
+            EXPECT_TRUE(sameBytes(whole.at(13 + x, 5 + y), part.at(x, y)));
 }
 
 TEST_F(Determinism, AdaptiveInSmallDispatches) {

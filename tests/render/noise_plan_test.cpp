@@ -32,9 +32,9 @@ TEST(StopRule, NoiseIsWhatWasAskedFor) {
         RenderSettings s = settingsOf(1u << 20);
         s.budget.stop.noise = noise;
         const Rendered r = renderDrawn(uneven, s, 1);
-        EXPECT_LE(r.outcome.noise, noise);
-        EXPECT_LT(std::sqrt(trueRelativeError(r.film)), 1.15 * noise);
-        EXPECT_GT(std::sqrt(trueRelativeError(r.film)), 0.7 * noise);
+        EXPECT_LE(r.outcome.noise.most, noise);
+        EXPECT_LT(std::sqrt(trueRelativeError(r.film)), noise);
+        EXPECT_GT(std::sqrt(trueRelativeError(r.film)), 0.6 * noise); // the range is narrow
     }
 }
 
@@ -135,23 +135,52 @@ TEST(StopRule, MostSamplesAreKept) {
     const Rendered r = renderDrawn(even, s, 1);
     for (const PixelStatistics& p : r.film.pixels)
         EXPECT_EQ(p.taken(), 100u);
-    EXPECT_GT(r.outcome.noise, 1e-6);
+    EXPECT_GT(r.outcome.noise.least, 1e-6);
 }
 
 TEST(StopRule, BlackPicturesEnd) {
     RenderSettings s = settingsOf(1u << 20);
     s.budget.stop.noise = 0.01;
     const Rendered r = renderDrawn([](uint32_t, Random&) { return 0.0; }, s, 1);
-    EXPECT_EQ(samplesOf(r.film), uint64_t(NoisePlan::kFirstPaths) * kSide * kSide);
+    // A light that one sample in a million meets is ruled out in 95 of 100 renders: three million
+    // samples, and at most the pass that reaches them.
+    EXPECT_GE(samplesOf(r.film), 3'000'000u);
+    EXPECT_LT(samplesOf(r.film), 6'000'000u);
+    EXPECT_EQ(r.outcome.noise.unknown, PictureNoise::Unknown::Black);
 }
 
 TEST(StopRule, FirstPathsAreThoseOfBranchesToo) {
     for (const auto& [branches, samples] : {std::pair(1u, 8u), {2u, 4u}, {4u, 4u}, {9u, 4u}}) {
-        RenderSettings s = settingsOf(1u << 20);
-        s.budget.stop.noise = 0.01;
-        s.estimator.branches = branches;
-        const Rendered r = renderDrawn([](uint32_t, Random&) { return 0.0; }, s, 1);
-        EXPECT_EQ(samplesOf(r.film), uint64_t(samples) * kSide * kSide);
+        NoiseEstimate estimate;
+        const auto pass = NoisePlan(1024, branches).next(Film(kSide, kSide), estimate, 1u << 30, 0);
+        ASSERT_EQ(pass.size(), kSide * kSide);
+        for (const PixelTarget& t : pass)
+            EXPECT_EQ(t.samples, samples);
+    }
+}
+
+/// When the time is up, no part of the picture is left out.
+TEST(NoisePlan, CoversThePictureFromCoarseToFine) {
+    const NoisePlan plan(1024, 1, NoisePlan::Beginning::CoarseToFine);
+    const NoiseEstimate estimate;
+    Film film(21, 13);
+    for (const uint32_t step : {8u, 4u, 2u, 1u}) {
+        for (const PixelTarget& t : plan.next(film, estimate, 1, 0)) {
+            EXPECT_EQ(t.samples, 1u);
+            EXPECT_EQ(film.pixels[t.pixel].count, 0u);
+            film.pixels[t.pixel].count = 1;
+        }
+        for (uint32_t y = 0; y < film.height; ++y)
+            for (uint32_t x = 0; x < film.width; ++x)
+                ASSERT_EQ(film.at(x, y).count, x % step == 0 && y % step == 0) << step;
+    }
+    for (const uint32_t samples : {2u, 4u, 8u}) { // then all alike, up to the usual first pass
+        const auto pass = plan.next(film, estimate, 1, 0);
+        ASSERT_EQ(pass.size(), film.pixels.size());
+        for (const PixelTarget& t : pass) {
+            EXPECT_EQ(t.samples, samples);
+            film.pixels[t.pixel].count = samples;
+        }
     }
 }
 
@@ -166,11 +195,10 @@ TEST(StopRule, TimeEndsARender) {
 TEST(NoisePlan, NoStepLeftOutIsWorthMore) {
     DrawnBackend backend(uneven, 3);
     const Film film = render(backend, settingsOf(16));
-    const std::vector<uint32_t> pixels = cropPixels(settingsOf(16).area);
-    NoiseEstimate estimate(pixels);
+    NoiseEstimate estimate;
     estimate.update(film);
     const std::vector<double> variance = estimate.relativeVariance(film);
-    const auto pass = NoisePlan(pixels, 1024).next(film, estimate, 9999, 0);
+    const auto pass = NoisePlan(1024).next(film, estimate, 9999, 0);
     std::vector<uint32_t> target(film.pixels.size(), 16);
     uint64_t spent = 0;
     for (const PixelTarget& t : pass)
@@ -180,7 +208,7 @@ TEST(NoisePlan, NoStepLeftOutIsWorthMore) {
     // From 16 to 24, 32, 48, 64: n and the next.
     const auto next = [](uint32_t n) { return n % 3 == 0 ? n / 3 * 4 : n / 2 * 3; };
     double leastTaken = 1e300, mostLeft = 0;
-    for (uint32_t pixel : pixels) {
+    for (uint32_t pixel = 0; pixel < film.pixels.size(); ++pixel) {
         for (uint32_t n = 16; n < target[pixel]; n = next(n))
             leastTaken = std::min(leastTaken, variance[pixel] / (double(n) * next(n)));
         const uint32_t n = target[pixel];
@@ -192,8 +220,8 @@ TEST(NoisePlan, NoStepLeftOutIsWorthMore) {
 TEST(NoisePlan, TheSameFilmGivesTheSamePass) {
     DrawnBackend backend(uneven, 3);
     const Film film = render(backend, settingsOf(16));
-    const NoisePlan plan(cropPixels(settingsOf(16).area), 1024);
-    NoiseEstimate estimate(cropPixels(settingsOf(16).area));
+    const NoisePlan plan(1024);
+    NoiseEstimate estimate;
     estimate.update(film);
     const auto a = plan.next(film, estimate, 20000, 0), b = plan.next(film, estimate, 20000, 0);
     ASSERT_EQ(a.size(), b.size());

@@ -34,7 +34,7 @@ Film filmOf(const RenderSettings& s, const PixelStatistics& p) {
 }
 
 std::vector<PixelTarget> next(const RenderSettings& s, const Film& film) {
-    return SamplingPlan(s.budget, cropPixels(s.area)).next(film);
+    return SamplingPlan(s.budget).next(film);
 }
 
 bool wants(const std::vector<PixelTarget>& pass, uint32_t pixel_) {
@@ -58,6 +58,28 @@ TEST(UniformPlan, QuadruplesUntilAllSamplesAreTaken) {
     EXPECT_EQ(targets, (std::vector<uint32_t>{16, 64, 100}));
 }
 
+/// Else nothing would say how large the error is that is left.
+TEST(UniformPlan, TheLastPassGrowsThePictureByHalfAtLeast) {
+    for (uint32_t most = 1; most <= 300; ++most) {
+        RenderSettings s;
+        s.area.width = 1, s.area.height = 1, s.budget.mostSamplesPerPixel = most;
+        Film film(1, 1);
+        uint32_t before = 0;
+        for (auto pass = next(s, film); !pass.empty(); pass = next(s, film)) {
+            before = film.pixels[0].count;
+            ASSERT_GT(pass[0].samples, before);
+            film.pixels[0].count = pass[0].samples;
+        }
+        EXPECT_EQ(film.pixels[0].count, most);
+        if (most < SamplingPlan::kFirstPass) {
+            EXPECT_EQ(before, 0u) << most; // all at once
+        } else {
+            EXPECT_LE(before, most - 1);
+            EXPECT_GE(2 * before, most) << most;
+        }
+    }
+}
+
 TEST(UniformPlan, RejectedSamplesCountAsTaken) {
     RenderSettings s;
     s.area.width = 1, s.area.height = 1, s.budget.mostSamplesPerPixel = 10;
@@ -67,10 +89,12 @@ TEST(UniformPlan, RejectedSamplesCountAsTaken) {
     EXPECT_TRUE(next(s, film).empty());
 }
 
-TEST(CropPixels, AreRowsOfTheWholePicture) {
-    RenderSettings s;
-    s.area.width = 10, s.area.height = 10, s.area.crop = {3, 7, 2, 2};
-    EXPECT_EQ(cropPixels(s.area), (std::vector<uint32_t>{73, 74, 83, 84}));
+TEST(PictureArea, CropIsRowsOfTheWholePicture) {
+    const PictureArea area{10, 10, {3, 7, 2, 2}};
+    std::vector<uint32_t> places;
+    for (uint32_t i = 0; i < area.pixelCount(); ++i)
+        places.push_back(area.placeOf(i).y * area.width + area.placeOf(i).x);
+    EXPECT_EQ(places, (std::vector<uint32_t>{73, 74, 83, 84}));
 }
 
 TEST(DefaultRule, EveryPixelGetsTheMinimumFirst) {

@@ -1,5 +1,6 @@
 // Which loader reads what: told by the file's name, and where that says nothing, by its content.
 
+#include "scene/find_scene.hpp"
 #include "scene/read_scene.hpp"
 
 #include "host/core/error.hpp"
@@ -90,8 +91,43 @@ TEST_F(ReadScene, OtherFilesAreOneErrorThatNamesTheFormats) {
 
 TEST_F(ReadScene, FilesThatCannotBeRead) {
     for (const char* name : {"none.dae", "none.xyz", "none"})
-        EXPECT_THAT(messageOf((folder_ / name).string()), HasSubstr("cannot be opened")) << name;
+        EXPECT_THAT(messageOf((folder_ / name).string()), HasSubstr("there is no such file"))
+            << name;
     EXPECT_THAT(messageOf(folder_.string()), HasSubstr("is a directory"));
+}
+
+TEST_F(ReadScene, BundledScenesByNameFromAnyFolder) {
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(folder_);
+    for (const std::string& name : librarySceneNames()) {
+        EXPECT_EQ(std::filesystem::path(sceneFile(name)).stem(), name);
+        EXPECT_TRUE(std::filesystem::is_regular_file(sceneFile(name))) << name;
+    }
+    EXPECT_GT(readScene("cornell_boxes").triangles.size(), 12u);
+    // A file of that name comes first; a folder does not, which has no scene.
+    std::filesystem::create_directory("cornell_spheres");
+    EXPECT_EQ(readScene("cornell_spheres").spheres.size(), 3u);
+    EXPECT_EQ(trianglesOf("cornell_boxes", kRoot), 1u);
+    EXPECT_EQ(readScene("cornell_boxes").triangles.size(), 1u);
+    std::filesystem::current_path(before);
+}
+
+TEST_F(ReadScene, UnknownNamesAreOneErrorThatNamesTheBundledScenes) {
+    EXPECT_EQ(librarySceneNames().size(), 14u);
+    for (const char* name : {"cornell_boxs", "../library/cornell_boxes", "cornell_boxes.dae/", ""})
+        for (const std::string& known : librarySceneNames())
+            EXPECT_THAT(messageOf(name), AllOf(HasSubstr("no such file"), HasSubstr(known)))
+                << name;
+}
+
+TEST_F(ReadScene, InUtf16) {
+    for (const bool marked : {true, false}) {
+        std::string text = marked ? std::string("\xFE\xFF") : std::string();
+        for (const char c : kProlog + kRoot)
+            text += std::string{'\0', c};
+        EXPECT_EQ(trianglesOf("utf16.dae", text), 1u);
+        EXPECT_EQ(trianglesOf("utf16", text), 1u) << "by its content";
+    }
 }
 
 TEST_F(ReadScene, GeneratedScenesByTheirPrefix) {

@@ -59,6 +59,32 @@ Scene allKinds(int count, uint32_t seed) {
     return scene;
 }
 
+Scene manyPoints(Random& random) {
+    Scene scene = sceneWithEmitter(glm::vec3(0), true);
+    for (int i = 0; i < 40; ++i) {
+        Light& light = scene.lights.emplace_back();
+        light.kind = LightKind::Point;
+        light.color = glm::vec3(std::pow(10.0f, random.uniform(-3, 3)));
+        light.constantAttenuation = 0;
+        light.quadraticAttenuation = 1;
+        light.position = random.inCube(2);
+    }
+    return scene;
+}
+
+/// One-sided triangles at many heights that nearly face down: their cones are narrow, and from
+/// between them a node's middle may be seen from behind while some of its lights are not.
+Scene panels(Random& random) {
+    Scene scene = sceneWithEmitter(glm::vec3(1), false);
+    for (int i = 0; i < 40; ++i) {
+        const glm::vec3 at = random.inCube(2);
+        addEmitterTriangle(scene, at, at + glm::vec3(0.2f, 0.01f * random.uniform(), 0),
+                           at + glm::vec3(0, 0.01f * random.uniform(), 0.2f));
+        scene.triangles.back().instance = uint32_t(i);
+    }
+    return scene;
+}
+
 struct SamplerCase {
     const char* name;
     LightChoice choice;
@@ -68,8 +94,12 @@ class LightSampler : public DeviceTest, public ::testing::WithParamInterface<Sam
   protected:
     void load(const Scene& scene) {
         packed_ = packScene(scene, buildWideBvh(scene), {.choice = GetParam().choice});
-        shader_.emplace(light_texel, ShaderOptions::texel().set(
-                                         SPEC_LIGHT_CHOICE, lightChoiceConstant(packed_.lights)));
+        ShaderOptions options = ShaderOptions::texel();
+        options.set(SPEC_LIGHT_CHOICE, lightChoiceConstant(packed_.lights));
+        // As the product has it: rows and cones that no light of the scene has are not read.
+        options.set(SPEC_LIGHT_KINDS, packed_.lights.sampledKinds);
+        if (packed_.lights.groups) options.set(SPEC_LIGHT_GROUPS, packed_.lights.groups);
+        shader_.emplace(light_texel, options);
         shader_->setScene(packed_);
     }
     static LightQuery surface(const glm::vec3& position, const glm::vec3& normal) {
@@ -175,6 +205,37 @@ Scene pointLights(std::initializer_list<double> powers) {
         light.position = {0, 1, 0};
     }
     return scene;
+}
+
+/// A light that brings light to a surface may be picked there: the tree's bounds hold. Surfaces lie
+/// among the lights and far from them, and many look past nodes that reach over their horizon.
+TEST_P(LightSampler, LeavesOutNoLightThatArrives) {
+    Random random(135);
+    for (const Scene& scene : {allKinds(12, 131), manyPoints(random), panels(random)}) {
+        load(scene);
+        std::vector<LightQuery> queries;
+        for (int i = 0; i < 300; ++i) {
+            const LightQuery at =
+                surface(random.inCube(i % 2 ? 2.0f : 20.0f), random.inCube(1) + glm::vec3(1e-3f));
+            for (uint32_t light = 0; light < packed_.lights.count; ++light)
+                for (int k = 0; k < 4; ++k) {
+                    queries.push_back(at);
+                    queries.back().light = light;
+                    queries.back().u = random.uniform(), queries.back().v = random.uniform();
+                }
+        }
+        const std::vector<LightAnswer> answers = ask<LightAnswer>(*shader_, queries);
+        size_t arrive = 0, leftOut = 0;
+        for (size_t i = 0; i < queries.size(); ++i) {
+            // Where the cosine is of the order of rounding, either may be 0.
+            const bool arrives = answers[i].radiance.x > 0 &&
+                                 glm::dot(queries[i].shading, answers[i].direction) > 1e-5f;
+            arrive += arrives;
+            leftOut += arrives && !(answers[i].again > 0);
+        }
+        EXPECT_GT(arrive, queries.size() / 10);
+        EXPECT_EQ(leftOut, 0u) << "of " << arrive;
+    }
 }
 
 TEST_P(LightSampler, StatesTheProbabilityOfRareLights) {

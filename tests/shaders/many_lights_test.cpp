@@ -5,6 +5,7 @@
 #include "tests/shaders/light_fixture.hpp"
 
 #include "embedded/light_texel.h"
+#include "tests/support/test_names.hpp"
 
 #include <gtest/gtest.h>
 
@@ -124,7 +125,8 @@ TEST_P(ManyLightsByTree, HaveThreeTimesLessNoiseThanByPowerAndFiveThanUniformly)
     EXPECT_GT(estimate(LightChoice::Uniform, surface).variance, 5 * tree);
 }
 
-INSTANTIATE_TEST_SUITE_P(Noise, ManyLightsByTree, ::testing::Values(LightChoice::Tree));
+INSTANTIATE_TEST_SUITE_P(Noise, ManyLightsByTree, ::testing::Values(LightChoice::Tree),
+                         [](const auto& one) { return test::testName(nameOf(one.param)); });
 
 } // namespace
 } // namespace stromboli::test

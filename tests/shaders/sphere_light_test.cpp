@@ -1,6 +1,7 @@
 // Samples of sphere lights from outside, inside, and the sphere itself.
 #include "tests/shaders/light_fixture.hpp"
 #include "tests/support/chi_square.hpp"
+#include "tests/support/test_names.hpp"
 
 #include <gtest/gtest.h>
 
@@ -79,7 +80,11 @@ INSTANTIATE_TEST_SUITE_P(Distances, SphereLight,
                          ::testing::Values(SphereCase{1, 1.01f}, SphereCase{1, 1.5f},
                                            SphereCase{1e-6f, 3}, SphereCase{1e6f, 3},
                                            SphereCase{0.1f, 100}, SphereCase{0.1f, 1e4f},
-                                           SphereCase{0.1f, 1e5f}));
+                                           SphereCase{0.1f, 1e5f}),
+                         [](const auto& one) {
+                             return test::testName(fmt::format(
+                                 "radius {} at {} radii", one.param.radius, one.param.distance));
+                         });
 
 class SphereLightInside : public LightFixture {};
 

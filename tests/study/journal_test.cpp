@@ -21,7 +21,8 @@ Study withoutRuns(Study study) {
 
 TEST(StudyJournal, RunsComeBackAsTheyWere) {
     const TemporaryFolder folder;
-    const Study study = powerLawStudy(2, 1e-3);
+    Study study = powerLawStudy(2, 1e-3);
+    study.scenes[0].runs[0].points[0].noise = {PictureNoise::Unknown::No, 0.5, 0.25, 0.75};
     std::ofstream(folder.path() / "study.json") << toJson(study).dump();
     Study next = withoutRuns(study);
     EXPECT_EQ(takeOver(folder / "study.json", next), 6u);
@@ -71,6 +72,19 @@ TEST(StudyJournal, TableSaysRatiosAndSlopes) {
     EXPECT_THAT(text, testing::HasSubstr("hemisphere"));
     EXPECT_THAT(text, testing::HasSubstr("-1.50"));
     EXPECT_THAT(text, testing::HasSubstr("4.00 (4.00..4.00)"));
+}
+
+TEST(StudyJournal, TableSaysHowOftenAStatedNoiseWasTrue) {
+    Study study = powerLawStudy(2, 0);
+    EXPECT_THAT(toText(study), testing::Not(testing::HasSubstr("stated noise")));
+    Point& a = study.scenes[0].runs[0].points[0]; // one is right, one is half of the truth
+    Point& b = study.scenes[0].runs[3].points[0];
+    ASSERT_EQ(study.scenes[0].runs[3].configuration, study.scenes[0].runs[0].configuration);
+    for (Point* p : {&a, &b})
+        p->noise = {PictureNoise::Unknown::No, std::sqrt(p->relMse), 0.9 * std::sqrt(p->relMse),
+                    1.1 * std::sqrt(p->relMse)};
+    b.relMse *= 4;
+    EXPECT_THAT(toText(study), testing::ContainsRegex("default +4 +2 +2 +1 +0.71"));
 }
 
 TEST(StudyJournal, JsonHoldsRatiosOfEveryPair) {

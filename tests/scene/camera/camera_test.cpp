@@ -2,6 +2,8 @@
 
 #include "scene/camera/camera.hpp"
 
+#include "host/core/error.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -121,6 +123,84 @@ TEST(FramingConventions, EverySceneCanBeFramed) {
     EXPECT_DOUBLE_EQ(distance(CameraChoice::Automatic, {}), 5);
     EXPECT_DOUBLE_EQ(distance(CameraChoice::Automatic, frames), 1.5 * std::sqrt(12.0));
     EXPECT_DOUBLE_EQ(distance(CameraChoice::File, frames), 5);
+}
+
+TEST(FramingConventions, DepthRangesHoldForFramedViewsOrNot) {
+    Scene scene = sceneWithACameraOfItsOwn();
+    scene.cameras[0].nearDistance = 1, scene.cameras[0].farDistance = 2;
+    const auto farOf = [&](CameraChoice choice, const FramingConventions& conventions) {
+        return makeCamera(scene, choice, 800, 600, conventions).farDistance;
+    };
+    EXPECT_EQ(farOf(CameraChoice::File, {}), 2);
+    EXPECT_GE(farOf(CameraChoice::Frame, {}), 1e30) << "a framed view shows all of the scene";
+    EXPECT_EQ(farOf(CameraChoice::Frame, {.clipsFramedViews = true}), 2);
+}
+
+TEST(FramingConventions, ScenesWithoutACameraAreSeenFromACornerOrAlongAnAxis) {
+    Scene scene;
+    scene.framing = Bounds{glm::vec3(-1), glm::vec3(1)};
+    const auto from = [&](const FramingConventions& conventions) {
+        return makeCamera(scene, CameraChoice::Automatic, 800, 600, conventions).back;
+    };
+    EXPECT_LT(glm::distance(from({}), glm::dvec3(1 / std::sqrt(3.0))), 1e-15);
+    EXPECT_LT(glm::distance(from(cs184Framing()), glm::dvec3(0, 0, 1)), 1e-15);
+}
+
+/// Three cameras at z = 5, 6 and 7; the second one's name is a number.
+Scene sceneWithThreeCameras() {
+    Scene scene;
+    scene.file = "a.xyz";
+    scene.framing = Bounds{glm::vec3(-1), glm::vec3(1)};
+    for (const char* name : {"front", "1", "top view"}) {
+        FileCamera camera;
+        camera.name = name;
+        camera.position.z = 5 + double(scene.cameras.size());
+        camera.pointAhead = {0, double(scene.cameras.size()), 1};
+        scene.cameras.push_back(camera);
+    }
+    return scene;
+}
+
+TEST(SeveralCameras, TheFirstIsTakenOrTheLast) {
+    const Scene scene = sceneWithThreeCameras();
+    const auto z = [&](const FramingConventions& conventions) {
+        return makeCamera(scene, CameraChoice::File, 80, 60, conventions).position.z;
+    };
+    EXPECT_EQ(z({}), 5);
+    EXPECT_EQ(z({.lastOfSeveral = true}), 7);
+    // The direction of framed views is that of the same camera.
+    EXPECT_NEAR(makeCamera(scene, CameraChoice::Frame, 80, 60).back.y, 0, 1e-15);
+    EXPECT_GT(makeCamera(scene, CameraChoice::Frame, 80, 60, {.lastOfSeveral = true}).back.y, 0.5);
+}
+
+TEST(SeveralCameras, AreTakenByNameOrNumber) {
+    const Scene scene = sceneWithThreeCameras();
+    const auto z = [&](const char* name) {
+        return makeCamera(scene, {CameraChoice::File, name}, 80, 60, {.lastOfSeveral = true})
+            .position.z;
+    };
+    EXPECT_EQ(z("front"), 5);
+    EXPECT_EQ(z("top view"), 7);
+    EXPECT_EQ(z("2"), 6);
+    EXPECT_EQ(z("1"), 6) << "names go before numbers";
+    EXPECT_EQ(defaultPictureSize(scene, {CameraChoice::File, "3"}).width, 800u);
+}
+
+TEST(SeveralCameras, OtherNamesAreErrorsThatListThem) {
+    const auto error = [](const Scene& scene, const char* name) -> std::string {
+        try {
+            makeCamera(scene, {CameraChoice::File, name}, 80, 60);
+        } catch (const SceneError& e) {
+            return e.what();
+        }
+        return "no error";
+    };
+    const Scene scene = sceneWithThreeCameras();
+    EXPECT_EQ(error(scene, "back"),
+              "a.xyz: has no camera 'back'; it has 1 'front', 2 '1', 3 'top view'");
+    for (const char* name : {"0", "4", "3 ", "-1", "Front", "99999999999999999999"})
+        EXPECT_NE(error(scene, name), "no error") << name;
+    EXPECT_EQ(error(Scene{.file = "b.xyz"}, "1"), "b.xyz: has no camera '1'; it has none at all");
 }
 
 TEST(FramingConventions, DepthIsMeasuredAlongTheAxisOrTheRay) {

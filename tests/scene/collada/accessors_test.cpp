@@ -57,8 +57,8 @@ TEST(Accessors, BadArraysAreErrors) {
     for (const char* numbers :
          {"0 0 0 1 0 0 0 1", "0 0 0 1 0 0 0 1 0 0", "0 0 0 1 0 0 0 1 NaN", "0 0 0 1 0 0 0 1 INF",
           "0 0 0 1 0 0 0 1 -inf", "0 0 0 1 0 0 0 1 1e999", "0 0 0 1 0 0 0 1 x",
-          "0 0 0 1 0 0 0 1 0x1", "0 0 0 1 0 0 0 1 1,5", "0 0 0 1 0 0 0 1 1e", "",
-          "0 0 0 1 0 0 0 1 +-1"})
+          "0 0 0 1 0 0 0 1 1,000.5", "0 0 0 1 0 0 0 1 0x1", "0 0 0 1 0 0 0 1 1,000,5",
+          "0 0 0 1 0 0 0 1 1e", "", "0 0 0 1 0 0 0 1 +-1"})
         EXPECT_THROW(loadSource(source(fmt::format("<float_array id=\"a\" count=\"9\">{}"
                                                    "</float_array>",
                                                    numbers),

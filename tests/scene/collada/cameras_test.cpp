@@ -73,7 +73,7 @@ TEST(Cameras, LengthsAreInWorldUnits) {
 
 TEST(Cameras, BadOnesAreErrors) {
     for (const char* bad :
-         {"", "<perspective/>", "<perspective><aspect_ratio>1</aspect_ratio></perspective>",
+         {"<perspective/>", "<perspective><aspect_ratio>1</aspect_ratio></perspective>",
           "<perspective><xfov>0</xfov></perspective>",
           "<perspective><xfov>180</xfov></perspective>",
           "<perspective><yfov>-5</yfov></perspective>",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/core/error.hpp"
 #include "scene/collada/load_collada.hpp"
 
 #include <fmt/format.h>
@@ -41,6 +42,16 @@ inline Scene loadText(const std::string& text, const SceneConventions& conventio
     } removal{file};
     std::ofstream(file, std::ios::binary) << text;
     return loadCollada(file, conventions);
+}
+
+/// The message with which a document is refused.
+inline std::string errorOf(const std::string& text) {
+    try {
+        loadText(text);
+    } catch (const SceneError& error) {
+        return error.what();
+    }
+    return "no error";
 }
 
 inline SceneConventions conventionsOf(bool cs184) {
@@ -94,6 +105,10 @@ inline void expectNear(const glm::dvec3& actual, const glm::dvec3& expected,
 
 inline glm::vec3 corner(const Scene& scene, size_t triangle, int i) {
     return scene.positions[scene.triangles.at(triangle).corner[i]];
+}
+
+inline std::string errorOf(const DocumentText& document) {
+    return errorOf(document.str());
 }
 
 } // namespace stromboli::test

@@ -12,23 +12,11 @@ using testing::HasSubstr;
 using testing::MatchesRegex;
 using testing::ThrowsMessage;
 
-std::string errorOf(const std::string& text) {
-    try {
-        loadText(text);
-    } catch (const SceneError& error) {
-        return error.what();
-    }
-    return "no error";
-}
-
-std::string errorOf(const DocumentText& document) {
-    return errorOf(document.str());
-}
-
 TEST(Errors, FilesThatCannotBeRead) {
-    EXPECT_THAT([] { loadCollada("/nowhere/scene.dae"); },
-                ThrowsMessage<SceneError>(
-                    AllOf(HasSubstr("/nowhere/scene.dae"), HasSubstr("cannot be opened"))));
+    EXPECT_THAT(
+        [] { loadCollada("/nowhere/scene.dae"); },
+        ThrowsMessage<SceneError>(AllOf(HasSubstr("/nowhere/scene.dae"),
+                                        HasSubstr("cannot be opened"), HasSubstr("No such file"))));
     EXPECT_THAT([] { loadCollada(testing::TempDir()); },
                 ThrowsMessage<SceneError>(HasSubstr("is a directory")));
 }
@@ -37,8 +25,6 @@ TEST(Errors, TextThatIsNotCollada) {
     EXPECT_THAT(errorOf(std::string()), HasSubstr("empty"));
     EXPECT_THAT(errorOf(" \n"), HasSubstr("empty"));
     EXPECT_THAT(errorOf("<?xml version=\"1.0\"?>\n<!-- nothing -->"), HasSubstr("no elements"));
-    EXPECT_THAT(errorOf("solid cube\nfacet normal 0 0 1\n"), HasSubstr("not well-formed XML"));
-    EXPECT_THAT(errorOf(std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16)), HasSubstr("XML"));
     EXPECT_THAT(errorOf("<html>\n</html>"), MatchesRegex(".*:1: <html>: .*must be <COLLADA>"));
     EXPECT_THAT(errorOf("<COLLADA>\n<a>\n</b></COLLADA>"),
                 MatchesRegex(".*:[23]: not well-formed XML: .*"));
@@ -65,10 +51,10 @@ TEST(Errors, ExcessiveNesting) {
 
 TEST(Errors, NameFileLineAndElement) {
     DocumentText document;
-    document.nodes = "<node>\n\n<instance_light url=\"#Hemi-light\"/></node>";
+    document.nodes = "<node>\n\n<instance_geometry url=\"#Hemi-mesh\"/></node>";
     EXPECT_THAT(errorOf(document),
-                MatchesRegex(".*\\.dae:8: <instance_light>: url=\"#Hemi-light\": the file has no "
-                             "<light> with this id"));
+                MatchesRegex(".*\\.dae:8: <instance_geometry>: url=\"#Hemi-mesh\": the file has "
+                             "no <geometry> with this id"));
 }
 
 TEST(Errors, References) {
@@ -85,7 +71,6 @@ TEST(Errors, References) {
     EXPECT_THAT(error("<instance_geometry url=\"\"/>"), HasSubstr("written as #id"));
     EXPECT_THAT(error("<instance_geometry url=\"#\"/>"), HasSubstr("no <geometry>"));
     EXPECT_THAT(error("<instance_geometry url=\"other.dae#mesh\"/>"), HasSubstr("another file"));
-    EXPECT_THAT(error("<instance_camera url=\"#gone\"/>"), HasSubstr("no <camera>"));
     EXPECT_THAT(error("<instance_node url=\"#gone\"/>"), HasSubstr("no <node>"));
     EXPECT_EQ(error("<instance_geometry url=\"#mes%68\"/>"), "no error");
     const auto bound = [&](const std::string& attributes) {
@@ -93,7 +78,6 @@ TEST(Errors, References) {
                      "<instance_material " +
                      attributes + "/></technique_common></bind_material></instance_geometry>");
     };
-    EXPECT_THAT(bound("symbol=\"a\" target=\"#gone\""), HasSubstr("no <material>"));
     EXPECT_THAT(bound("symbol=\"a\""), HasSubstr("no attribute 'target'"));
 }
 

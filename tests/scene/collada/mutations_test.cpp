@@ -43,14 +43,26 @@ std::string everything() {
         "<library_geometries><geometry id=\"s\"><extra><technique profile=\"CGL\"><sphere><radius>"
         ".3</radius></sphere></technique></extra></geometry></library_geometries>\n"
         "<library_nodes><node id=\"k\"><skew>30 0 1 0 1 0 0</skew>"
-        "<instance_geometry url=\"#s\"/></node></library_nodes>\n";
+        "<instance_geometry url=\"#s\"/></node></library_nodes>\n"
+        "<library_controllers><controller id=\"w\"><skin source=\"#h\"><bind_shape_matrix>1 0 0 1 "
+        "0 1 "
+        "0 2 0 0 1 3 0 0 0 1</bind_shape_matrix><source id=\"j\"><Name_array id=\"ja\" "
+        "count=\"1\">bone</Name_array></source><source id=\"b\"><float_array id=\"ba\" "
+        "count=\"16\">"
+        "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</float_array></source><joints><input semantic=\"JOINT\" "
+        "source=\"#j\"/><input semantic=\"INV_BIND_MATRIX\" source=\"#b\"/></joints></skin>"
+        "</controller><controller id=\"h\"><morph source=\"#mesh\"/></controller>"
+        "</library_controllers>\n";
     document.nodes =
         "<node id=\"p\"><matrix>1 0 0 4 0 1 0 5 0 0 1 6 0 0 0 1</matrix><rotate>0 0 1 30</rotate>"
         "<instance_geometry url=\"#mesh\"><bind_material><technique_common><instance_material "
         "symbol=\"M\" target=\"#m\"/></technique_common></bind_material></instance_geometry>"
         "<node id=\"q\"><scale>1 2 -1</scale><instance_light url=\"#l\"/>"
         "<instance_camera url=\"#c\"/><instance_node url=\"#k\"/></node></node>\n"
-        "<node><lookat>1 2 3 0 0 0 0 1 0</lookat><instance_light url=\"#a\"/></node>";
+        "<node><lookat>1 2 3 0 0 0 0 1 0</lookat><instance_light url=\"#a\"/></node>"
+        "<node id=\"r\"><node sid=\"bone\"/></node><node><instance_controller "
+        "url=\"#w\"><skeleton>#r"
+        "</skeleton></instance_controller></node>";
     return document.str();
 }
 
@@ -105,7 +117,7 @@ TEST(Mutations, TheOriginalLoads) {
     outcome.load(everything());
     EXPECT_EQ(outcome.scenes, 2);
     const Scene scene = loadText(everything());
-    EXPECT_EQ(scene.triangles.size(), 3 + 1 + 3 + 2 + 2u);
+    EXPECT_EQ(scene.triangles.size(), 2 * (3 + 1 + 3 + 2) + 2u); // a mesh, twice, and an area light
     EXPECT_EQ(scene.spheres.size(), 1u);
     EXPECT_EQ(scene.lights.size(), 1u);
     EXPECT_EQ(scene.cameras.size(), 1u);
@@ -127,6 +139,21 @@ TEST(Mutations, FlippedBytes) {
         std::string damaged = text;
         for (int k = 0; k <= i % 3; ++k)
             damaged[random() % damaged.size()] ^= char(1u << (random() % 8));
+        outcome.load(damaged);
+    }
+    EXPECT_GT(outcome.scenes, 100);
+    EXPECT_GT(outcome.errors, 100);
+}
+
+TEST(Mutations, FlippedBytesOfUtf16) {
+    std::mt19937 random(9);
+    std::string text = "\xFF\xFE";
+    for (const char c : everything())
+        text += std::string{c, '\0'};
+    Outcome outcome;
+    for (int i = 0; i < 1000; ++i) {
+        std::string damaged = text.substr(0, text.size() - size_t(i % 5 == 0));
+        damaged[random() % damaged.size()] ^= char(1u << (random() % 8));
         outcome.load(damaged);
     }
     EXPECT_GT(outcome.scenes, 100);

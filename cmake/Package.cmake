@@ -1,0 +1,30 @@
+# A Debian package: ./stromboli package, or the target package_deb, or cpack after a build.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME stromboli)
+set(CPACK_PACKAGE_CONTACT "The Stromboli maintainers <stromboli@localhost>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "path tracer in Vulkan compute shaders")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
+    "Stromboli renders scenes in COLLADA to PNG or EXR on any Vulkan 1.1 device,
+without a ray-tracing extension, and on machines without a GPU through Mesa's
+lavapipe. A second path tracer, in double precision, checks it.")
+# Libraries that the program is linked with are found by dpkg-shlibdeps. The Vulkan loader is opened
+# when it runs, and finds a driver: Mesa's has a device that is a CPU, so that any machine renders.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libvulkan1, mesa-vulkan-drivers | vulkan-icd")
+# What `stromboli bench` measures against, and STROMBOLI_VALIDATION=1.
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libembree3-3, vulkan-validationlayers")
+set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_CURRENT_LIST_DIR}/PackageVersion.cmake)
+set(CPACK_STROMBOLI_PROGRAM ${CMAKE_BINARY_DIR}/bin/stromboli)
+include(CPack)
+
+# The tests, which `all` may hold, are not needed for it.
+add_custom_target(package_deb
+    COMMAND ${CMAKE_CPACK_COMMAND} -G DEB
+    WORKING_DIRECTORY ${CMAKE_BINARY_DIR}
+    COMMENT "Making a Debian package"
+    VERBATIM)
+add_dependencies(package_deb stromboli stromboli_manual_files stromboli_changelog)

@@ -1,0 +1,170 @@
+#include "host/checkpoint/checkpoint_file.hpp"
+
+#include "host/core/atomic_file.hpp"
+#include "host/core/error.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+
+namespace stromboli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Changes with every change of what is written around the session's own bytes.
+constexpr std::string_view kMagic = "stromboli checkpoint 1\n";
+
+void append(std::vector<std::byte>& bytes, const void* data, size_t size) {
+    const auto* const first = static_cast<const std::byte*>(data);
+    bytes.insert(bytes.end(), first, first + size);
+}
+
+void append(std::vector<std::byte>& bytes, const std::string& text) {
+    const uint64_t size = text.size();
+    append(bytes, &size, sizeof size);
+    append(bytes, text.data(), text.size());
+}
+
+/// Takes parts of a file from its beginning.
+class Parts {
+  public:
+    Parts(const fs::path& file, std::span<const std::byte> bytes) : file_(&file), bytes_(bytes) {}
+
+    std::span<const std::byte> take(uint64_t size) {
+        if (size > bytes_.size())
+            throw UsageError(fmt::format("{}: the checkpoint is cut short", file_->string()));
+        const auto part = bytes_.first(size);
+        bytes_ = bytes_.subspan(size);
+        return part;
+    }
+    template <class T>
+    T number() {
+        T value{};
+        std::memcpy(&value, take(sizeof value).data(), sizeof value);
+        return value;
+    }
+    std::string text() {
+        const auto part = take(number<uint64_t>());
+        return {reinterpret_cast<const char*>(part.data()), part.size()};
+    }
+    std::span<const std::byte> rest() const { return bytes_; }
+
+  private:
+    const fs::path* file_;
+    std::span<const std::byte> bytes_;
+};
+
+std::vector<std::byte> contentOf(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary | std::ios::ate);
+    const std::streamoff size = stream ? std::streamoff(stream.tellg()) : -1;
+    std::error_code error;
+    if (size < 0 || !fs::is_regular_file(file, error))
+        throw UsageError(fmt::format("{}: cannot read the checkpoint", file.string()));
+    std::vector<std::byte> bytes(static_cast<size_t>(size));
+    stream.seekg(0);
+    stream.read(reinterpret_cast<char*>(bytes.data()), size);
+    if (!stream) throw UsageError(fmt::format("{}: cannot read the checkpoint", file.string()));
+    return bytes;
+}
+
+uint32_t checksum(std::span<const std::byte> bytes) {
+    return uint32_t(
+        crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), z_size_t(bytes.size())));
+}
+
+bool sameArea(const PictureArea& a, const PictureArea& b) {
+    const Crop x = a.rendered(), y = b.rendered();
+    return a.width == b.width && a.height == b.height && x.x == y.x && x.y == y.y &&
+           x.width == y.width && x.height == y.height;
+}
+
+/// The bytes of a session in which only the estimator may differ.
+std::vector<std::byte> bytesOf(const Estimator& estimator) {
+    SessionState state;
+    state.settings.estimator = estimator;
+    return toBytes(state);
+}
+
+} // namespace
+
+fs::path usualCheckpointPath(const fs::path& picture) {
+    return picture.string() + ".checkpoint";
+}
+
+void writeCheckpoint(const fs::path& file, const Checkpoint& checkpoint) {
+    std::vector<std::byte> bytes;
+    append(bytes, kMagic.data(), kMagic.size());
+    append(bytes, checkpoint.identity.program);
+    append(bytes, checkpoint.identity.scene);
+    append(bytes, &checkpoint.identity.sceneSum, sizeof checkpoint.identity.sceneSum);
+    append(bytes, checkpoint.identity.backend);
+    append(bytes, checkpoint.identity.device);
+    const std::vector<std::byte> state = toBytes(checkpoint.state);
+    append(bytes, state.data(), state.size());
+    const uint32_t sum = checksum(bytes);
+    append(bytes, &sum, sizeof sum);
+    writeFileAtomically(file, bytes);
+}
+
+Checkpoint readCheckpoint(const fs::path& file) {
+    const std::vector<std::byte> bytes = contentOf(file);
+    Parts parts(file, bytes);
+    if (bytes.size() < kMagic.size() ||
+        std::memcmp(parts.take(kMagic.size()).data(), kMagic.data(), kMagic.size()) != 0)
+        throw UsageError(
+            fmt::format("{}: not a checkpoint of this version of the program", file.string()));
+    const size_t end = bytes.size() - std::min(bytes.size(), sizeof(uint32_t));
+    Parts sum(file, std::span(bytes).subspan(end));
+    if (sum.number<uint32_t>() != checksum(std::span(bytes).first(end)))
+        throw UsageError(fmt::format("{}: the checkpoint is damaged or cut short", file.string()));
+    parts = Parts(file, std::span(bytes).first(end).subspan(kMagic.size()));
+    Checkpoint c;
+    c.identity.program = parts.text();
+    c.identity.scene = parts.text();
+    c.identity.sceneSum = parts.number<uint32_t>();
+    c.identity.backend = parts.text();
+    c.identity.device = parts.text();
+    try {
+        c.state = sessionFromBytes(parts.rest());
+    } catch (const UsageError& error) {
+        throw UsageError(fmt::format("{}: {}", file.string(), error.what()));
+    }
+    return c;
+}
+
+void requireSameRender(const fs::path& file, const Checkpoint& checkpoint,
+                       const RenderIdentity& identity, const RenderSettings& settings) {
+    const RenderIdentity& kept = checkpoint.identity;
+    const auto refuse = [&](const std::string& what, const std::string& advice) {
+        throw UsageError(
+            fmt::format("{}: the checkpoint is of {}; {}", file.string(), what, advice));
+    };
+    if (kept.program != identity.program)
+        refuse("another build of the program", "finish it with that one, or begin anew");
+    if (kept.backend != identity.backend)
+        refuse("the backend " + kept.backend, "name it with --backend");
+    const PictureArea &a = checkpoint.state.settings.area, &b = settings.area;
+    if (!sameArea(a, b))
+        refuse(fmt::format("a picture of {} x {} pixels, {} of them rendered", a.width, a.height,
+                           a.pixelCount()),
+               "give the same -r and --crop");
+    if (kept.sceneSum != identity.sceneSum)
+        refuse("another scene or camera" + (kept.scene == identity.scene
+                                                ? std::string(": the file has changed")
+                                                : " (" + kept.scene + ")"),
+               "begin anew");
+    if (bytesOf(checkpoint.state.settings.estimator) != bytesOf(settings.estimator))
+        refuse("other settings", "only -s, --noise, --time and -a may change when it goes on");
+}
+
+SessionState withBudget(SessionState state, const Budget& budget) {
+    if (!(state.settings.budget == budget)) state.pending.clear();
+    state.settings.budget = budget;
+    return state;
+}
+
+} // namespace stromboli

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "host/render/session_state.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace stromboli {
+
+/// What a render is of: a checkpoint of it goes on with nothing else.
+struct RenderIdentity {
+    std::string program;   ///< version and checksum of the executable
+    std::string scene;     ///< its name, for messages
+    uint32_t sceneSum = 0; ///< sceneIdentity()
+    std::string backend;   ///< of a kind: kinds keep a pixel's sums in terms of their own
+    std::string device;    ///< whose rounding the samples have
+};
+
+/// A render's state as a file keeps it.
+struct Checkpoint {
+    RenderIdentity identity;
+    SessionState state;
+};
+
+/// Where a render keeps its state unless it is told otherwise: beside its picture.
+std::filesystem::path usualCheckpointPath(const std::filesystem::path& picture);
+
+/// Replaces the file whole. Throws OutputError.
+void writeCheckpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
+/// Throws UsageError that names the file if it is none, damaged, cut short or of another version.
+Checkpoint readCheckpoint(const std::filesystem::path& file);
+
+/// Throws UsageError that says what differs, unless a render of this identity and these settings
+/// may go on from the checkpoint: all but the budget and the name of the scene's file are the same.
+/// (Another device is left to the caller: pictures agree, bytes do not.)
+void requireSameRender(const std::filesystem::path& file, const Checkpoint& checkpoint,
+                       const RenderIdentity& identity, const RenderSettings& settings);
+
+/// The state to go on from with a budget that may be another. The pass that was under way belongs
+/// to the budget it was planned for: with another one it is planned anew.
+SessionState withBudget(SessionState state, const Budget& budget);
+
+} // namespace stromboli

@@ -1,0 +1,84 @@
+#include "host/checkpoint/scene_identity.hpp"
+
+#include <zlib.h>
+
+#include <type_traits>
+
+namespace stromboli {
+namespace {
+
+/// Member by member: the padding between them means nothing.
+class Sum {
+  public:
+    uint32_t value() const { return value_; }
+
+    template <class T>
+    requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void add(T value) {
+        addBytes(&value, sizeof value);
+    }
+    template <glm::length_t n, class T>
+    void add(const glm::vec<n, T>& v) {
+        for (glm::length_t i = 0; i < n; ++i)
+            add(v[i]);
+    }
+    /// Elements without padding, as they lie.
+    template <class T>
+    void addAll(const std::vector<T>& elements) {
+        add(uint64_t(elements.size()));
+        addBytes(elements.data(), elements.size() * sizeof(T));
+    }
+
+  private:
+    void addBytes(const void* bytes, size_t count) {
+        value_ = uint32_t(crc32_z(value_, static_cast<const Bytef*>(bytes), count));
+    }
+
+    uint32_t value_ = 0;
+};
+
+// Structured bindings name all members: one more is an error here.
+
+void add(Sum& sum, const Material& m) {
+    const auto& [name, kind, albedo, reflectance, transmittance, ior, alpha, eta, k, emission,
+                 bothSides] = m;
+    sum.add(kind), sum.add(albedo), sum.add(reflectance), sum.add(transmittance), sum.add(ior);
+    sum.add(alpha), sum.add(eta), sum.add(k), sum.add(emission), sum.add(bothSides);
+}
+
+void add(Sum& sum, const Light& l) {
+    const auto& [name, kind, color, position, direction, constant, linear, quadratic, angle,
+                 exponent, upperOnly, edgeX, edgeY] = l;
+    sum.add(kind), sum.add(color), sum.add(position), sum.add(direction), sum.add(constant);
+    sum.add(linear), sum.add(quadratic), sum.add(angle), sum.add(exponent), sum.add(upperOnly);
+    sum.add(edgeX), sum.add(edgeY);
+}
+
+void add(Sum& sum, const Camera& c) {
+    const auto& [orthographic, position, right, up, back, halfWidth, halfHeight, nearDistance,
+                 farDistance, clipAlongRay] = c;
+    sum.add(orthographic), sum.add(position), sum.add(right), sum.add(up), sum.add(back);
+    sum.add(halfWidth), sum.add(halfHeight), sum.add(nearDistance), sum.add(farDistance);
+    sum.add(clipAlongRay);
+}
+
+static_assert(sizeof(Triangle) == 8 * sizeof(uint32_t), "has padding, or a new member");
+static_assert(sizeof(Sphere) == 6 * sizeof(uint32_t), "has padding, or a new member");
+static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+
+} // namespace
+
+uint32_t sceneIdentity(const Scene& scene, const Camera& camera) {
+    Sum sum;
+    sum.addAll(scene.positions);
+    sum.addAll(scene.normals);
+    sum.addAll(scene.triangles);
+    sum.addAll(scene.spheres);
+    for (const Material& m : scene.materials)
+        add(sum, m);
+    for (const Light& l : scene.lights)
+        add(sum, l);
+    add(sum, camera);
+    return sum.value();
+}
+
+} // namespace stromboli

@@ -1,0 +1,55 @@
+#include "host/cli/activity.hpp"
+
+#include "host/core/status_line.hpp"
+#include "host/core/stopwatch.hpp"
+
+#include <fmt/format.h>
+
+#include <mutex>
+
+namespace stromboli {
+namespace {
+
+/// What takes less is done before anyone could have read its name.
+constexpr double kWorthNamingSeconds = 0.5;
+
+struct State {
+    std::mutex mutex; // held while the line is drawn, so that no old text is drawn over a new one
+    std::string what;
+    StatusLine line = StatusLine::OfOthers;
+    Stopwatch since;
+    bool isDrawn = false;
+};
+
+/// Never destroyed: the thread that watches for signals outlives main.
+State& state() {
+    static State& activity = *new State;
+    return activity;
+}
+
+} // namespace
+
+void nowDoing(const std::string& what, StatusLine line) {
+    State& s = state();
+    const std::lock_guard lock(s.mutex);
+    if (s.isDrawn) status_line::clear();
+    s.isDrawn = false;
+    s.what = what;
+    s.line = line;
+    s.since = {};
+}
+
+std::string whatIsBeingDone() {
+    const std::unique_lock lock(state().mutex, std::try_to_lock);
+    return lock ? state().what : std::string();
+}
+
+void redrawActivity() {
+    State& s = state();
+    const std::lock_guard lock(s.mutex);
+    if (s.line == StatusLine::OfOthers || s.since.seconds() < kWorthNamingSeconds) return;
+    s.isDrawn = true;
+    status_line::draw(fmt::format("{}, {:.0f} s", s.what, s.since.seconds()));
+}
+
+} // namespace stromboli

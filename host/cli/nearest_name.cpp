@@ -1,0 +1,46 @@
+#include "host/cli/nearest_name.hpp"
+
+#include <algorithm>
+
+namespace stromboli {
+
+size_t editDistance(const std::string& a, const std::string& b) {
+    // d[i][j]: between the first i letters of a and the first j of b.
+    std::vector<std::vector<size_t>> d(a.size() + 1, std::vector<size_t>(b.size() + 1));
+    for (size_t i = 0; i <= a.size(); ++i)
+        for (size_t j = 0; j <= b.size(); ++j) {
+            if (i == 0 || j == 0) {
+                d[i][j] = i + j;
+                continue;
+            }
+            const size_t replaced = d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+            d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, replaced});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+        }
+    return d[a.size()][b.size()];
+}
+
+static std::optional<std::string> onlyOneThatBegins(const std::string& word,
+                                                    const std::vector<std::string>& names) {
+    std::optional<std::string> found;
+    for (const std::string& name : names) {
+        if (!name.starts_with(word)) continue;
+        if (found) return std::nullopt;
+        found = name;
+    }
+    return found;
+}
+
+std::optional<std::string> nearestName(const std::string& word,
+                                       const std::vector<std::string>& names) {
+    if (word.empty() || names.empty()) return std::nullopt;
+    if (const auto begun = onlyOneThatBegins(word, names)) return begun;
+    const auto nearest = std::ranges::min_element(
+        names, {}, [&](const std::string& name) { return editDistance(word, name); });
+    if (3 * editDistance(word, *nearest) > std::max(word.size(), nearest->size()))
+        return std::nullopt;
+    return *nearest;
+}
+
+} // namespace stromboli

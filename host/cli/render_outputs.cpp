@@ -1,0 +1,80 @@
+#include "host/cli/render_outputs.hpp"
+
+#include "host/core/atomic_file.hpp"
+#include "host/core/error.hpp"
+#include "host/core/output.hpp"
+#include "host/film/png.hpp"
+#include "host/film/rate_picture.hpp"
+
+#include <algorithm>
+
+namespace stromboli {
+namespace {
+
+/// Whether a picture of its own shows how many samples each pixel has. Where they are spread
+/// without being asked to, it would be a file that nobody asked for.
+template <class AnyBudget>
+bool writesRates(const Options& options, const AnyBudget& budget) {
+    return !isStandardOutput(options.output) && (budget.adaptive.enabled || budget.stop.open());
+}
+
+/// What the rate picture shows as full.
+uint32_t mostSamples(const Film& film, const Budget& budget) {
+    if (!budget.stop.open()) return budget.mostSamplesPerPixel;
+    uint32_t most = 1;
+    for (const PixelStatistics& p : film.pixels)
+        most = std::max(most, p.taken());
+    return most;
+}
+
+} // namespace
+
+void checkOutputs(const Options& options) {
+    checkWritable(options.output);
+    if (writesRates(options, options.budget)) checkOutputWritable(ratePicturePath(options.output));
+    if (options.statsFile.empty()) return;
+    if (options.statsFile == options.output)
+        throw UsageError("--stats and -o name the same file: " + options.output);
+    if (writesRates(options, options.budget) &&
+        options.statsFile == ratePicturePath(options.output))
+        throw UsageError("--stats names the file of the rate picture: " + options.statsFile);
+    checkOutputWritable(options.statsFile);
+}
+
+/// The statistics take no more than the estimate spares.
+void checkDiskSpace(const Job& job, const Options& options) {
+    if (isStandardOutput(options.output)) return;
+    const Crop part = job.settings.area.rendered();
+    uint64_t bytes =
+        largestPictureFile(options.output, part.width, part.height, options.statisticsChannels);
+    if (writesRates(options, job.settings.budget))
+        bytes +=
+            largestPictureFile(ratePicturePath(options.output), part.width, part.height, false);
+    checkFreeSpace(options.output, bytes);
+}
+
+RenderOutputs::RenderOutputs(const Job& job, const Options& options)
+    : job_(job), options_(options),
+      picture_(options.output, job.settings.area, {options.tone, options.statisticsChannels}) {}
+
+void RenderOutputs::place(const Film& film, const PictureNoise& noise) {
+    picture_.place(film);
+    noises_.push_back({noise, film.pixels.size()});
+    const ToneCurve tone = isPng(options_.output) ? options_.tone : ToneCurve{};
+    brightness_.push_back({brightnessOf(film, tone), film.pixels.size()});
+    if (writesRates(options_, job_.settings.budget) &&
+        film.pixels.size() == job_.settings.area.pixelCount())
+        rates_ = ratePicture(film, mostSamples(film, job_.settings.budget));
+}
+
+void RenderOutputs::leaveOut(const PictureArea& band) {
+    noises_.push_back({{}, band.pixelCount()});
+}
+
+void RenderOutputs::write(const RenderReport& report) const {
+    picture_.write();
+    if (rates_) writePng(ratePicturePath(options_.output), *rates_, PngColorSpace::Unnamed);
+    if (!options_.statsFile.empty()) writeStatistics(options_.statsFile, report, job_);
+}
+
+} // namespace stromboli

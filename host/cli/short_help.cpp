@@ -1,0 +1,24 @@
+#include "host/cli/short_help.hpp"
+
+#include "host/cli/program_text.hpp"
+#include "host/version/version.hpp"
+
+#include <fmt/format.h>
+
+namespace stromboli {
+
+std::string shortHelp() {
+    std::string text = fmt::format("Stromboli {}: {}.\n\n", version(), kInOneLine);
+    for (const Explained& command : kFirstCommands)
+        text += fmt::format("  stromboli {:<39} {}\n", command.word, command.meaning);
+    return text +
+           "\n"
+           "SCENE is a COLLADA file (.dae), a bundled scene by its name, as cornell_mesh, or\n"
+           "generate:cornell_mesh:100k, which is made in memory.\n"
+           "\n"
+           "Other commands: devices, compare, study, bench, stress. 'stromboli --help' says "
+           "what\n"
+           "each does, 'stromboli COMMAND --help' lists its options.\n";
+}
+
+} // namespace stromboli

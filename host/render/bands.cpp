@@ -1,0 +1,33 @@
+#include "host/render/bands.hpp"
+
+#include "host/render/backend.hpp"
+#include "host/render/noise_plan.hpp"
+
+#include <algorithm>
+
+namespace stromboli {
+
+uint64_t hostBytesPerPixel() {
+    constexpr uint64_t kFilm = sizeof(PixelStatistics);
+    // NoiseEstimate: count, mean, squared error; variances of one sample, as sums and relative.
+    constexpr uint64_t kEstimate = sizeof(uint32_t) + 4 * sizeof(glm::dvec3) + sizeof(double);
+    // The pass, as planned, in the order of work, and as the device's items of 16 bytes.
+    constexpr uint64_t kWork = 2 * sizeof(PixelTarget) + 16;
+    return kFilm + kEstimate + kWork + NoisePlan::kBytesPerPixel;
+}
+
+std::vector<PictureArea> bandsOf(const PictureArea& area, uint64_t pixels) {
+    const Crop all = area.rendered();
+    const uint64_t rowsThatFit = std::clamp<uint64_t>(pixels / all.width, 1, all.height);
+    const auto count = uint32_t((all.height + rowsThatFit - 1) / rowsThatFit);
+    if (count == 1) return {area};
+    std::vector<PictureArea> bands;
+    for (uint32_t i = 0; i < count; ++i) {
+        const auto first = uint32_t(uint64_t(all.height) * i / count);
+        const auto end = uint32_t(uint64_t(all.height) * (i + 1) / count);
+        bands.push_back({area.width, area.height, {all.x, all.y + first, all.width, end - first}});
+    }
+    return bands;
+}
+
+} // namespace stromboli

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "host/film/picture_area.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace stromboli {
+
+/// Bytes of the host's memory that a render takes for each pixel, at most: film, noise estimate,
+/// lists of work, steps of the plan.
+uint64_t hostBytesPerPixel();
+
+/// The rows of what is rendered, from the top, in bands of about the same height and of at most
+/// `pixels` pixels each (at least one row). One band if all of it fits.
+std::vector<PictureArea> bandsOf(const PictureArea& area, uint64_t pixels);
+
+} // namespace stromboli

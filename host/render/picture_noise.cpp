@@ -1,0 +1,225 @@
+#include "host/render/picture_noise.hpp"
+
+#include "host/render/pixel_windows.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stromboli {
+namespace {
+
+/// Side of the tiles, in pixels, whose means stand between those of the picture and of a window: a
+/// thousand pixels meet a light of probability 1/2000 once in two samples.
+constexpr uint32_t kTile = 32;
+/// Rows a thread takes at a time, and whose sums are added first: the result does not depend on the
+/// number of threads.
+constexpr uint32_t kBand = 64;
+
+/// Mean and squared error of the mean, per channel, of some pixels that stand for another.
+struct Level {
+    glm::dvec3 mean{0.0}, squaredError{0.0};
+};
+
+Level levelOf(const PixelGroup& group) {
+    return {group.mean / group.pixels, group.value / group.pixels};
+}
+
+PixelGroup without(const PixelGroup& all, const PixelGroup& one) {
+    return {glm::max(all.value - one.value, 0.0), glm::max(all.mean - one.mean, 0.0),
+            all.pixels - one.pixels};
+}
+
+/// What is to be believed of two estimates, a finer one and a coarser one: the finer as far as the
+/// two differ by more than its own error explains (James and Stein 1961, one channel at a time).
+/// The error is the larger of what either level says: a window that has not met a rare light looks
+/// certain of being black, which its surroundings know better.
+Level shrink(const Level& finer, double pixels, const Level& coarser) {
+    Level result;
+    for (int c = 0; c < 3; ++c) {
+        const double variance = std::max(finer.squaredError[c], coarser.squaredError[c]) / pixels;
+        const double apart = finer.mean[c] - coarser.mean[c];
+        const double real = std::max(apart * apart - variance, 0.0);
+        const double trust = real + variance > 0 ? real / (real + variance) : 0;
+        result.mean[c] = coarser.mean[c] + trust * apart;
+        result.squaredError[c] =
+            coarser.squaredError[c] + trust * (finer.squaredError[c] - coarser.squaredError[c]);
+    }
+    return result;
+}
+
+/// The radiance that a pixel's error is compared with, by groups that get smaller, and `own` at
+/// last. Groups without pixels are passed over.
+glm::dvec3 believed(std::initializer_list<PixelGroup> coarseToFine, const PixelGroup& own) {
+    Level level = levelOf(own);
+    bool first = true;
+    for (const PixelGroup& group : coarseToFine) {
+        if (group.pixels == 0) continue;
+        level = first ? levelOf(group) : shrink(levelOf(group), group.pixels, level);
+        first = false;
+    }
+    return first ? level.mean : shrink(levelOf(own), 1, level).mean;
+}
+
+double relative(const glm::dvec3& squaredError, const glm::dvec3& radiance, double floor) {
+    const glm::dvec3 r = squaredError / (radiance * radiance + floor * floor);
+    return (r.x + r.y + r.z) / 3;
+}
+
+/// Sums over pixels of their relative squared errors x: compared with what the others say, without
+/// the pixel itself (`apart`) and with it. An error that is one bright sample is too large in the
+/// former, where its neighbours have met none, and too small in the latter, which it brightens.
+struct Errors {
+    double apart = 0, apartSquared = 0, together = 0;
+    double samples = 0;
+    uint64_t pixels = 0;
+};
+
+class Picture {
+  public:
+    Picture(const Film& film, std::span<const glm::dvec3> squaredErrors)
+        : film_(film), squaredErrors_(squaredErrors),
+          tilesAcross_((film.width + kTile - 1) / kTile),
+          tiles_(size_t(tilesAcross_) * ((film.height + kTile - 1) / kTile)) {
+        for (uint32_t y = 0; y < film.height; ++y)
+            for (uint32_t x = 0; x < film.width; ++x) {
+                const size_t i = size_t(y) * film.width + x;
+                if (film.pixels[i].count >= 2)
+                    tiles_[tileOf(x, y)] += {squaredErrors[i], film.pixels[i].mean, 1};
+            }
+        for (const PixelGroup& tile : tiles_)
+            all_ += tile;
+    }
+
+    double meanRadiance() const {
+        return all_.pixels > 0 ? (all_.mean.x + all_.mean.y + all_.mean.z) / (3 * all_.pixels) : 0;
+    }
+
+    Errors errors() const {
+        std::vector<Errors> bands((film_.height + kBand - 1) / kBand);
+        tbb::parallel_for(size_t(0), bands.size(), [&](size_t band) {
+            const auto first = uint32_t(band) * kBand;
+            bands[band] = errorsOfRows(first, std::min(first + kBand, film_.height));
+        });
+        Errors sum;
+        for (const Errors& e : bands) {
+            sum.apart += e.apart, sum.apartSquared += e.apartSquared, sum.together += e.together;
+            sum.samples += e.samples, sum.pixels += e.pixels;
+        }
+        return sum;
+    }
+
+  private:
+    size_t tileOf(uint32_t x, uint32_t y) const {
+        return size_t(y / kTile) * tilesAcross_ + x / kTile;
+    }
+
+    Errors errorsOfRows(uint32_t first, uint32_t end) const {
+        const double floor = kRelativeFloor * meanRadiance();
+        PixelWindows windows(film_, squaredErrors_, first);
+        Errors sum;
+        for (uint32_t y = first; y < end; ++y) {
+            const std::vector<PixelGroup> row = windows.of(y);
+            for (uint32_t x = 0; x < film_.width; ++x) {
+                const PixelGroup own = windows.alone(x, y);
+                if (own.pixels == 0) continue;
+                sum.samples += film_.at(x, y).count;
+                ++sum.pixels;
+                if (own.value == glm::dvec3(0.0)) continue; // no error adds none
+                const PixelGroup& tile = tiles_[tileOf(x, y)];
+                PixelGroup window = row[x];
+                // What the last pass changed is the error's size on the mean over pixels; in one
+                // pixel it may be next to nothing, where the samples' variance is not. For the
+                // upper end of the range the larger of the two says how far to believe the pixel.
+                PixelGroup careful = own;
+                careful.value = glm::max(own.value, film_.at(x, y).varianceOfMean());
+                const double apart = relative(
+                    own.value, believed({without(all_, own), without(tile, own), window}, careful),
+                    floor);
+                window += own;
+                sum.apart += apart, sum.apartSquared += apart * apart;
+                sum.together += relative(own.value, believed({all_, tile, window}, own), floor);
+            }
+        }
+        return sum;
+    }
+
+    const Film& film_;
+    std::span<const glm::dvec3> squaredErrors_;
+    uint32_t tilesAcross_;
+    std::vector<PixelGroup> tiles_;
+    PixelGroup all_;
+};
+
+/// A chi-square variable's quantile at the normal quantile z, for 3 degrees of freedom or more
+/// (Wilson and Hilferty 1931); the lower one is too low, by 16 % at 3 and less from there on.
+double chiSquareQuantile(double degrees, double z) {
+    const double spread = 2 / (9 * degrees);
+    const double root = 1 - spread + z * std::sqrt(spread);
+    return degrees * root * root * root;
+}
+
+constexpr double kZ = 1.96; ///< 97.5 % of the normal distribution
+/// With fewer pixels than these at work, a chi-square distribution stands for nothing.
+constexpr double kLeastPixels = 3;
+
+/// What the estimate of the relMSE may be off by besides chance. Measured on the bundled scenes at
+/// 2 to 64 samples (docs/results.md): edges and highlights, where the radiance around a pixel is
+/// not its own, make it up to 1.4 times too small, and more with a few samples, which meet the
+/// narrow side of an edge or do not: 2.1 times with four.
+double tooSmall(double samplesPerPixel) {
+    return 1.4 * (1 + 2 / samplesPerPixel);
+}
+/// Too large up to 3.7 times where Sobol points fill each other's gaps (the error of half the
+/// samples, which is what the last pass changed, is then nearly all there was), and where light is
+/// so rare that most pixels around one that has met it have not.
+constexpr double kTooLarge = 4;
+
+} // namespace
+
+PictureNoise pictureNoise(const Film& film, std::span<const glm::dvec3> squaredErrors) {
+    using Unknown = PictureNoise::Unknown;
+    const bool sampled = std::all_of(film.pixels.begin(), film.pixels.end(),
+                                     [](const PixelStatistics& p) { return p.taken() >= 2; });
+    if (!sampled) return {Unknown::TooFewSamples};
+    const Picture picture(film, squaredErrors);
+    if (!(picture.meanRadiance() > 0)) return {Unknown::Black};
+    const Errors errors = picture.errors();
+    if (errors.apart == 0) return {Unknown::No}; // every sample of a pixel is the same
+    // As many pixels of equal errors would vary as much. Both the estimate and the noise it is to
+    // hold vary so: half as many degrees of freedom as the estimate alone has.
+    const double pixels = errors.apart * errors.apart / errors.apartSquared;
+    if (pixels < kLeastPixels) return {Unknown::TooFewPixels};
+    const double apart = errors.apart / double(errors.pixels);
+    const double together = errors.together / double(errors.pixels);
+    PictureNoise noise{Unknown::No};
+    noise.estimate = std::sqrt(std::sqrt(apart * together));
+    noise.least =
+        std::sqrt(std::min(apart, together) * pixels / (chiSquareQuantile(pixels, kZ) * kTooLarge));
+    noise.most = std::sqrt(std::max(apart, together) * pixels *
+                           tooSmall(errors.samples / double(errors.pixels)) /
+                           chiSquareQuantile(pixels, -kZ));
+    return noise;
+}
+
+PictureNoise togetherOf(std::span<const PartNoise> parts) {
+    using Unknown = PictureNoise::Unknown;
+    if (parts.size() == 1) return parts[0].noise;
+    PictureNoise sum{Unknown::Black};
+    double pixels = 0;
+    for (const auto& [noise, count] : parts) {
+        pixels += double(count);
+        if (noise.unknown == Unknown::Black) continue;
+        if (!noise.known()) return {noise.unknown};
+        sum.unknown = Unknown::No;
+        sum.estimate += noise.estimate * noise.estimate * double(count);
+        sum.least += noise.least * noise.least * double(count);
+        sum.most += noise.most * noise.most * double(count);
+    }
+    if (!sum.known()) return sum;
+    return {Unknown::No, std::sqrt(sum.estimate / pixels), std::sqrt(sum.least / pixels),
+            std::sqrt(sum.most / pixels)};
+}
+
+} // namespace stromboli

@@ -1,0 +1,69 @@
+#include "scene/camera/camera.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace stromboli {
+namespace {
+
+/// How far a point is outside of each of the planes that bound what a camera sees, negative inside:
+/// left, right, bottom, top, near, far.
+using Distances = std::array<double, 6>;
+
+class Volume {
+  public:
+    explicit Volume(const Camera& camera)
+        : camera_(camera),
+          // Of one unit of depth, on each side; an orthographic view does not widen.
+          slopeX_(camera.orthographic ? 0 : camera.halfWidth),
+          slopeY_(camera.orthographic ? 0 : camera.halfHeight) {
+        // A ray is at most so much longer than its depth: in the corners of the picture.
+        const double stretch = std::sqrt(1 + slopeX_ * slopeX_ + slopeY_ * slopeY_);
+        nearDepth_ = camera.clipAlongRay ? camera.nearDistance / stretch : camera.nearDistance;
+    }
+
+    Distances distances(const glm::dvec3& point) const {
+        const glm::dvec3 v = point - camera_.position;
+        const double x = glm::dot(v, camera_.right), y = glm::dot(v, camera_.up);
+        const double depth = -glm::dot(v, camera_.back);
+        const double sideX = (camera_.orthographic ? camera_.halfWidth : 0) + slopeX_ * depth;
+        const double sideY = (camera_.orthographic ? camera_.halfHeight : 0) + slopeY_ * depth;
+        const double lengthX = std::hypot(1, slopeX_), lengthY = std::hypot(1, slopeY_);
+        return {(-x - sideX) / lengthX, (x - sideX) / lengthX, (-y - sideY) / lengthY,
+                (y - sideY) / lengthY,  nearDepth_ - depth,    depth - camera_.farDistance};
+    }
+
+  private:
+    const Camera& camera_;
+    double slopeX_, slopeY_, nearDepth_ = 0;
+};
+
+bool mayMeet(const Volume& volume, const Scene& scene, const Triangle& triangle) {
+    Distances least;
+    least.fill(HUGE_VAL);
+    for (const uint32_t corner : triangle.corner) {
+        const Distances d = volume.distances(scene.positions[corner]);
+        for (size_t i = 0; i < d.size(); ++i)
+            least[i] = std::min(least[i], d[i]);
+    }
+    return std::all_of(least.begin(), least.end(), [](double d) { return d <= 0; });
+}
+
+bool mayMeet(const Volume& volume, const Sphere& sphere) {
+    const Distances d = volume.distances(sphere.center);
+    return std::all_of(d.begin(), d.end(),
+                       [&](double one) { return one <= double(sphere.radius); });
+}
+
+} // namespace
+
+bool mayShow(const Camera& camera, const Scene& scene) {
+    const Volume volume(camera);
+    return std::any_of(scene.triangles.begin(), scene.triangles.end(),
+                       [&](const Triangle& t) { return mayMeet(volume, scene, t); }) ||
+           std::any_of(scene.spheres.begin(), scene.spheres.end(),
+                       [&](const Sphere& s) { return mayMeet(volume, s); });
+}
+
+} // namespace stromboli

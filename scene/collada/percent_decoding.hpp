@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace stromboli::collada {
+
+/// Text with `%20` and the like, as references are written, with the characters themselves.
+std::string percentDecoded(std::string_view text);
+
+} // namespace stromboli::collada

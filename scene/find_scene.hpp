@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace stromboli {
+
+/// The names of the bundled scenes (scene/library), which stand for their files everywhere.
+std::vector<std::string> librarySceneNames();
+
+/// The file that a scene's name stands for: a file, else a bundled scene. Empty for scenes that are
+/// made in memory (kGeneratePrefix). Throws SceneError, with the names of the bundled scenes, if it
+/// is none of these.
+std::string sceneFile(const std::string& name);
+
+} // namespace stromboli

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "scene/model/scene.hpp"
+
+namespace stromboli {
+
+/// True if anything gives light: a light, or geometry whose material emits, that is not black.
+bool shines(const Scene& scene);
+
+/// What lights a scene in which nothing shines: a sky that has the same radiance, 1, everywhere
+/// above the horizon (y > 0). A white surface that faces up is then as white as a picture can show;
+/// others are darker the more they face down, which shows their shape.
+Light defaultLight();
+
+} // namespace stromboli

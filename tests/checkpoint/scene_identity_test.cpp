@@ -1,0 +1,65 @@
+// What a checkpoint takes for another scene.
+#include "host/checkpoint/scene_identity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+
+namespace stromboli {
+namespace {
+
+Scene smallScene() {
+    Scene scene;
+    scene.file = "a.dae";
+    scene.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    scene.normals = {{0, 0, 1}};
+    scene.triangles.resize(2);
+    scene.spheres.resize(1);
+    scene.materials.resize(2);
+    scene.lights.resize(1);
+    return scene;
+}
+
+TEST(SceneIdentity, EveryMemberCounts) {
+    using Change = std::function<void(Scene&, Camera&)>;
+    const Change changes[] = {
+        [](Scene&, Camera&) {},
+        [](Scene& s, Camera&) { s.positions[3].z = 2; },
+        [](Scene& s, Camera&) { s.positions.pop_back(); },
+        [](Scene& s, Camera&) {
+            s.normals[0] = {0, 1, 0};
+        },
+        [](Scene& s, Camera&) { s.triangles[1].corner[2] = 3; },
+        [](Scene& s, Camera&) { s.triangles[1].material = 1; },
+        [](Scene& s, Camera&) { s.spheres[0].radius = 2; },
+        [](Scene& s, Camera&) { s.materials[1].albedo.y = 0.25f; },
+        [](Scene& s, Camera&) { s.materials[1].kind = MaterialKind::Glass; },
+        [](Scene& s, Camera&) { s.materials[1].emitsBothSides = false; },
+        [](Scene& s, Camera&) { s.lights[0].color.x = 2; },
+        [](Scene& s, Camera&) { s.lights[0].falloffAngle = 1; },
+        [](Scene& s, Camera&) { s.lights.push_back({}); },
+        [](Scene&, Camera& c) { c.position.x = 1e-9; },
+        [](Scene&, Camera& c) { c.clipAlongRay = true; },
+    };
+    std::set<uint32_t> sums;
+    for (const Change& change : changes) {
+        Scene scene = smallScene();
+        Camera camera;
+        change(scene, camera);
+        sums.insert(sceneIdentity(scene, camera));
+    }
+    EXPECT_EQ(sums.size(), std::size(changes));
+}
+
+TEST(SceneIdentity, NamesDoNotCount) {
+    Scene scene = smallScene();
+    const uint32_t before = sceneIdentity(scene, {});
+    scene.file = "b.dae";
+    scene.materials[0].name = "red";
+    scene.lights[0].name = "sun";
+    EXPECT_EQ(sceneIdentity(scene, {}), before);
+}
+
+} // namespace
+} // namespace stromboli

@@ -1,0 +1,150 @@
+// A render that is killed again and again, at random moments, loses next to nothing and never its
+// file.
+#include "tests/cli/program.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <random>
+#include <thread>
+
+namespace stromboli::test {
+namespace {
+
+using Milliseconds = std::chrono::milliseconds;
+
+class KilledRender : public testing::Test {
+  protected:
+    ScratchFolder folder;
+
+    /// Hundreds of milliseconds of samples, with a checkpoint every ten.
+    std::vector<std::string> arguments(const std::string& output) const {
+        return {"render", libraryScene("cornell_spheres.dae"),
+                "-o",     folder.file(output),
+                "-r",     "48",
+                "36",     "-s",
+                "1024",   "--checkpoint-every",
+                "0.01",   "--resume",
+                "-q"};
+    }
+
+    /// Exit code, or nothing if it was killed when the time was up.
+    std::optional<int> runFor(Milliseconds time, std::vector<std::string> words) const {
+        words.insert(words.begin(), STROMBOLI_PROGRAM);
+        std::vector<char*> pointers;
+        for (std::string& word : words)
+            pointers.push_back(word.data());
+        pointers.push_back(nullptr);
+        const std::string log = folder.file("log");
+        const pid_t child = fork();
+        if (child == 0) {
+            if (std::freopen(log.c_str(), "w", stderr)) execv(STROMBOLI_PROGRAM, pointers.data());
+            _exit(127);
+        }
+        const auto end = std::chrono::steady_clock::now() + time;
+        int status = 0;
+        while (waitpid(child, &status, WNOHANG) == 0) {
+            if (std::chrono::steady_clock::now() >= end) {
+                kill(child, SIGKILL);
+                waitpid(child, &status, 0);
+                break;
+            }
+            std::this_thread::sleep_for(Milliseconds(1));
+        }
+        if (WIFSIGNALED(status)) return std::nullopt;
+        return WEXITSTATUS(status);
+    }
+
+    std::string bytesOf(const std::string& name) const {
+        std::ifstream file(folder.path() / name, std::ios::binary);
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+};
+
+TEST_F(KilledRender, AHundredTimesHasTheSameBytes) {
+    constexpr Milliseconds kLong{600000};
+    ASSERT_EQ(runFor(kLong, arguments("whole.exr")), 0);
+    const std::string whole = bytesOf("whole.exr");
+    ASSERT_FALSE(whole.empty());
+
+    std::mt19937 random(1);
+    std::uniform_int_distribution<int> moment(1, 500); // starting takes 200 ms or so of them
+    int kills = 0, finished = 0, withFile = 0;
+    while (kills < 100 && finished < 100) {
+        const std::optional<int> code = runFor(Milliseconds(moment(random)), arguments("a.exr"));
+        if (!code) {
+            ++kills;
+            withFile += std::filesystem::exists(folder.file("a.exr.checkpoint"));
+            continue;
+        }
+        ASSERT_EQ(*code, 0) << bytesOf("log");
+        EXPECT_TRUE(bytesOf("a.exr") == whole);
+        std::filesystem::remove(folder.file("a.exr"));
+        ++finished;
+    }
+    EXPECT_EQ(kills, 100);
+    EXPECT_GT(withFile, 10); // it was killed while it had something to lose
+    ASSERT_EQ(runFor(kLong, arguments("a.exr")), 0) << bytesOf("log");
+    EXPECT_TRUE(bytesOf("a.exr") == whole);
+    EXPECT_FALSE(std::filesystem::exists(folder.file("a.exr.checkpoint")));
+}
+
+TEST_F(KilledRender, AFinishedOneCanBeExtended) {
+    const auto render = [&](const std::string& output, const std::string& samples, bool resumes) {
+        std::vector<std::string> words = {"render",       libraryScene("cornell_spheres.dae"),
+                                          "-o",           folder.file(output),
+                                          "-r",           "32",
+                                          "24",           "-s",
+                                          samples,        "--even",
+                                          "--checkpoint", folder.file("kept")};
+        if (resumes) words.push_back("--resume");
+        const ProgramRun run = stromboli(words);
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+        return run.err;
+    };
+    render("a.exr", "64", false);
+    EXPECT_THAT(render("a.exr", "256", true),
+                testing::HasSubstr("goes on from " + folder.file("kept") +
+                                   ", which has 64.0 samples a pixel"));
+    render("b.exr", "256", false);
+    EXPECT_TRUE(bytesOf("a.exr") == bytesOf("b.exr"));
+}
+
+TEST_F(KilledRender, WithoutACheckpointItBeginsAnewAndSaysSo) {
+    const ProgramRun run = stromboli({"render", libraryScene("cornell_spheres.dae"), "-o",
+                                      folder.file("a.exr"), "-r", "8", "6", "-s", "1", "--resume"});
+    EXPECT_EQ(run.exitCode, 0);
+    EXPECT_THAT(run.err, testing::HasSubstr("there is no " + folder.file("a.exr.checkpoint") +
+                                            ": the render begins anew"));
+}
+
+TEST_F(KilledRender, AnotherRenderIsRefused) {
+    const auto render = [&](std::vector<std::string> extra) {
+        std::vector<std::string> words = {"render",
+                                          libraryScene("cornell_spheres.dae"),
+                                          "-o",
+                                          folder.file("a.exr"),
+                                          "-r",
+                                          "8",
+                                          "6",
+                                          "--checkpoint",
+                                          folder.file("kept")};
+        words.insert(words.end(), extra.begin(), extra.end());
+        return stromboli(words);
+    };
+    ASSERT_EQ(render({"-s", "4"}).exitCode, 0);
+    const ProgramRun run = render({"-s", "4", "--seed", "2", "--resume"});
+    EXPECT_EQ(run.exitCode, 1);
+    EXPECT_THAT(run.err, testing::HasSubstr("the checkpoint is of other settings"));
+}
+
+} // namespace
+} // namespace stromboli::test

@@ -1,0 +1,116 @@
+// What the program says of command lines that it does not understand, or does not heed.
+#include "host/cli/nearest_name.hpp"
+#include "host/cli/options.hpp"
+#include "host/core/error.hpp"
+#include "tests/cli/program.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace stromboli::test {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+std::string refusal(const std::vector<std::string>& words) {
+    try {
+        parseOptions(words);
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+std::string renderRefusal(std::vector<std::string> words, const std::string& output = "a.png") {
+    words.insert(words.begin(), {"render", "a.dae", "-o", output});
+    return refusal(words);
+}
+
+std::vector<std::string> remarks(std::vector<std::string> words) {
+    return parseOptions(std::move(words))->remarks;
+}
+
+TEST(NearestName, DistancesCountSingleMistakes) {
+    EXPECT_EQ(editDistance("", "abc"), 3u);
+    EXPECT_EQ(editDistance("render", "render"), 0u);
+    EXPECT_EQ(editDistance("redner", "render"), 1u); // swapped
+    EXPECT_EQ(editDistance("rnder", "render"), 1u);
+    EXPECT_EQ(editDistance("kitten", "sitting"), 3u);
+}
+
+TEST(NearestName, IsNamedIfItIsNear) {
+    const std::vector<std::string> names = {"render", "check", "compare", "stress", "study"};
+    EXPECT_EQ(nearestName("rendr", names), "render");
+    EXPECT_EQ(nearestName("comp", names), "compare");  // as it begins
+    EXPECT_EQ(nearestName("st", names), std::nullopt); // as two begin
+    EXPECT_EQ(nearestName("paint", names), std::nullopt);
+    EXPECT_EQ(nearestName("", names), std::nullopt);
+}
+
+TEST(Messages, AnUnknownCommandIsNamed) {
+    EXPECT_EQ(refusal({"rendr", "a.dae"}),
+              "there is no command 'rendr'; did you mean render? (see --help)");
+    EXPECT_EQ(refusal({"nosuch"}), "there is no command 'nosuch' (see --help)");
+    EXPECT_THAT(refusal({"a.dae"}), HasSubstr("did you mean stromboli render a.dae -o out.png?"));
+    EXPECT_THAT(refusal({"--quiet", "render"}), HasSubstr("--quiet comes before the command"));
+}
+
+TEST(Messages, AnUnknownOptionIsNamedWithOneLikeIt) {
+    EXPECT_EQ(renderRefusal({"--sampels", "3"}),
+              "render has no option --sampels; did you mean --samples? (see stromboli render "
+              "--help)");
+    EXPECT_THAT(renderRefusal({"--exposre=2"}), HasSubstr("did you mean --exposure?"));
+    EXPECT_THAT(refusal({"check", "a.dae", "--stats", "f"}),
+                HasSubstr("check has no option --stats; it is one of render"));
+    EXPECT_THAT(renderRefusal({"--teapot"}), Not(HasSubstr("did you mean")));
+    EXPECT_EQ(renderRefusal({"--even=false"}), "--even takes no value: --even=false");
+}
+
+TEST(Messages, WhatCannotHaveAnEffectIsRefused) {
+    EXPECT_THAT(renderRefusal({"--aov"}), HasSubstr("--aov needs an EXR file: a.png"));
+    EXPECT_THAT(renderRefusal({"--aov"}, "-"), HasSubstr("--aov needs an EXR file"));
+    EXPECT_EQ(renderRefusal({"--aov"}, "a.EXR"), "accepted");
+    EXPECT_THAT(renderRefusal({"--exposure", "1"}, "a.exr"), HasSubstr("--exposure is for PNG"));
+    EXPECT_EQ(renderRefusal({"--exposure", "1"}), "accepted");
+    EXPECT_THAT(renderRefusal({"-H", "--direct", "lights"}), HasSubstr("exclude each other"));
+    EXPECT_THAT(renderRefusal({"--backend", "reference", "--device", "0"}),
+                HasSubstr("--device and --backend reference exclude each other"));
+    EXPECT_THAT(renderRefusal({"--gap-proposal", "on", "-H"}),
+                HasSubstr("--gap-proposal on needs lights that are sampled"));
+    EXPECT_EQ(renderRefusal({"--gap-proposal", "off", "-H"}), "accepted");
+    EXPECT_THAT(refusal({"render", "a.dae", "-f", "a.png", "-o", "0", "--min-bounce", "2"}),
+                HasSubstr("--accumulate and --min-bounce exclude each other"));
+    EXPECT_THAT(refusal({"compare", "a.exr", "b.exr", "--show", "signed"}), HasSubstr("--show"));
+}
+
+TEST(Messages, WhatHasNoEffectBesideAnotherOptionIsSaid) {
+    EXPECT_THAT(
+        remarks({"render", "a.dae", "-o", "a.png", "--stats", "s.json", "-s", "8", "--pixel", "1",
+                 "2", "--sample", "0"}),
+        ElementsAre("--pixel prints one sample and makes no picture: ignored: -o, --stats"));
+    EXPECT_THAT(remarks({"render", "a.dae", "-o", "a.png", "--integrator", "normals", "-l", "4",
+                         "-m", "2"}),
+                ElementsAre("--integrator normals follows no light: ignored: -m, -l"));
+    EXPECT_THAT(remarks({"render", "a.dae", "-o", "-", "--noise", "0.1"}),
+                ElementsAre(HasSubstr("the rate picture is left out")));
+    EXPECT_THAT(remarks({"stress", "--list", "--json", "f.json"}),
+                ElementsAre("--list runs nothing: ignored: --json"));
+    EXPECT_THAT(remarks({"study", "--list", "--seeds", "3"}),
+                ElementsAre("--list measures nothing: ignored: --seeds"));
+    EXPECT_THAT(remarks({"render", "a.dae", "-o", "a.png", "-s", "8", "-l", "2"}), IsEmpty());
+}
+
+TEST(Messages, WithoutArgumentsTheProgramTeaches) {
+    const ProgramRun run = stromboli({});
+    EXPECT_EQ(run.exitCode, 1);
+    EXPECT_EQ(run.out, "");
+    EXPECT_THAT(run.err, AllOf(HasSubstr("stromboli render SCENE -o out.png"), HasSubstr("--help"),
+                               Not(HasSubstr("error"))));
+}
+
+} // namespace
+} // namespace stromboli::test

@@ -1,0 +1,142 @@
+// What a picture's noise is said to be, against what it is: samples of known mean.
+#include "tests/render/drawn_samples.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace stromboli {
+namespace {
+
+using namespace test;
+
+/// Light that one sample in `rarity` meets, with mean 1.
+Draw rareLight(double rarity) {
+    return [rarity](uint32_t, Random& random) {
+        return std::bernoulli_distribution(1 / rarity)(random) ? rarity : 0.0;
+    };
+}
+
+/// Renders whose stated range does not hold their noise, those that state none, and the share of
+/// the ranges' widths: most over least.
+struct Outcomes {
+    int misses = 0, unknown = 0;
+    double widest = 1;
+};
+
+Outcomes outcomesOf(const Draw& draw, const RenderSettings& s, int seeds) {
+    Outcomes all;
+    for (int seed = 0; seed < seeds; ++seed) {
+        const Rendered r = renderDrawn(draw, s, uint32_t(seed));
+        const PictureNoise& noise = r.outcome.noise;
+        if (!noise.known()) {
+            ++all.unknown;
+            continue;
+        }
+        const double truth = std::sqrt(trueRelativeError(r.film));
+        all.misses += truth < noise.least || truth > noise.most;
+        all.widest = std::max(all.widest, noise.most / noise.least);
+    }
+    return all;
+}
+
+struct Kind {
+    const char* name;
+    Draw draw;
+};
+
+class StatedRange : public testing::TestWithParam<Kind> {};
+
+/// At a rate of 5 %, eight misses or more of 60 come by chance once in 200 times.
+TEST_P(StatedRange, HoldsTheNoiseIn95Of100Renders) {
+    constexpr int kSeeds = 60, kMostMisses = 7;
+    for (const uint32_t samples : {2u, 4u, 16u, 64u}) {
+        RenderSettings even = settingsOf(samples);
+        EXPECT_LE(outcomesOf(GetParam().draw, even, kSeeds).misses, kMostMisses) << samples;
+        if (samples < 16) continue;
+        RenderSettings spread = settingsOf(1u << 20);
+        spread.budget.meanSamplesPerPixel = samples;
+        EXPECT_LE(outcomesOf(GetParam().draw, spread, kSeeds).misses, kMostMisses)
+            << samples << ", spread";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Light, StatedRange,
+                         testing::Values(Kind{"even", even}, Kind{"uneven", uneven},
+                                         Kind{"oneIn20", rareLight(20)},
+                                         Kind{"oneIn200", rareLight(200)},
+                                         Kind{"oneIn2000", rareLight(2000)}),
+                         [](const auto& one) { return std::string(one.param.name); });
+
+TEST(PictureNoise, TheRangeIsNarrowWhereManyPixelsTell) {
+    RenderSettings s = settingsOf(64);
+    const Outcomes all = outcomesOf(even, s, 4);
+    EXPECT_EQ(all.unknown, 0);
+    EXPECT_LT(all.widest, 2.8); // 2.4 of the two allowances together, and chance
+}
+
+TEST(PictureNoise, OneSampleAPixelTellsNothing) {
+    for (const uint32_t samples : {1u, 2u}) {
+        const Rendered r = renderDrawn(even, settingsOf(samples), 1);
+        EXPECT_EQ(r.outcome.noise.known(), samples == 2);
+        EXPECT_EQ(r.outcome.noise.unknown == PictureNoise::Unknown::TooFewSamples, samples == 1);
+    }
+}
+
+TEST(PictureNoise, APixelThatWasNotReachedIsNotKnown) {
+    Film film = renderDrawn(even, settingsOf(16), 1).film;
+    NoiseEstimate estimate;
+    estimate.update(film);
+    EXPECT_TRUE(estimate.picture(film).known());
+    film.pixels[1000] = {};
+    EXPECT_EQ(estimate.picture(film).unknown, PictureNoise::Unknown::TooFewSamples);
+}
+
+TEST(PictureNoise, BlackIsNotWithoutNoise) {
+    const Rendered r = renderDrawn([](uint32_t, Random&) { return 0.0; }, settingsOf(16), 1);
+    EXPECT_EQ(r.outcome.noise.unknown, PictureNoise::Unknown::Black);
+}
+
+TEST(PictureNoise, OneBrightSampleSaysLittle) {
+    const Draw once = [](uint32_t pixel, Random&) { return pixel == 777 ? 1e6 : 1.0; };
+    Film film = renderDrawn(once, settingsOf(16), 1).film;
+    film.pixels[777].m2 = glm::dvec3(1e14);
+    NoiseEstimate estimate;
+    estimate.update(film);
+    EXPECT_EQ(estimate.picture(film).unknown, PictureNoise::Unknown::TooFewPixels);
+}
+
+TEST(PictureNoise, EqualSamplesHaveNone) {
+    const Rendered r = renderDrawn([](uint32_t, Random&) { return 0.5; }, settingsOf(16), 1);
+    EXPECT_TRUE(r.outcome.noise.known());
+    EXPECT_EQ(r.outcome.noise.most, 0);
+}
+
+/// By how much, against the error itself: for samples that are independent, and where light is as
+/// rare as leaves most pixels black.
+TEST(PictureNoise, TheEstimateIsTheErrorWithinATenth) {
+    for (const Draw& draw : {Draw(even), Draw(uneven), rareLight(20)}) {
+        double estimated = 0, error = 0;
+        for (uint32_t seed = 0; seed < 12; ++seed) {
+            const Rendered r = renderDrawn(draw, settingsOf(64), seed);
+            estimated += r.outcome.noise.estimate;
+            error += std::sqrt(trueRelativeError(r.film));
+        }
+        EXPECT_NEAR(estimated / error, 1, 0.1);
+    }
+}
+
+/// The bands in which threads work, and pixels at the edges.
+TEST(PictureNoise, PicturesOfAnyShape) {
+    for (const auto& [width, height] : {std::pair(1u, 2304u), {2304u, 1u}, {5u, 200u}, {2u, 2u}}) {
+        RenderSettings s = settingsOf(64);
+        s.area.width = width, s.area.height = height;
+        const Rendered r = renderDrawn(even, s, 1);
+        if (width * height < 100) continue; // it need only come back
+        ASSERT_TRUE(r.outcome.noise.known());
+        EXPECT_NEAR(r.outcome.noise.estimate, 0.7 / 8, 0.02);
+    }
+}
+
+} // namespace
+} // namespace stromboli
