@@ -38,11 +38,45 @@ class Sum {
 
 // Structured bindings name all members: one more is an error here.
 
+void add(Sum& sum, const PrincipledParameters& p) {
+    const auto& [baseColor, metallic, roughness, ior, specular, specularColor, clearcoat,
+                 clearcoatRoughness, sheenColor, sheenRoughness, anisotropy, rotation, transmission,
+                 isThin, attenuationColor, attenuationDistance] = p;
+    sum.add(baseColor), sum.add(metallic), sum.add(roughness), sum.add(ior), sum.add(specular);
+    sum.add(specularColor), sum.add(clearcoat), sum.add(clearcoatRoughness), sum.add(sheenColor);
+    sum.add(sheenRoughness), sum.add(anisotropy), sum.add(rotation), sum.add(transmission);
+    sum.add(isThin), sum.add(attenuationColor), sum.add(attenuationDistance);
+}
+
+void add(Sum& sum, const TextureUse& t) {
+    const auto& [slot, texture, uvSet, uRow, vRow, scale] = t;
+    sum.add(slot), sum.add(texture), sum.add(uvSet), sum.add(uRow), sum.add(vRow), sum.add(scale);
+}
+
 void add(Sum& sum, const Material& m) {
     const auto& [name, kind, albedo, reflectance, transmittance, ior, alpha, eta, k, emission,
-                 bothSides] = m;
+                 bothSides, principled, alphaMode, opacity, alphaCutoff, textures] = m;
     sum.add(kind), sum.add(albedo), sum.add(reflectance), sum.add(transmittance), sum.add(ior);
     sum.add(alpha), sum.add(eta), sum.add(k), sum.add(emission), sum.add(bothSides);
+    add(sum, principled);
+    sum.add(alphaMode), sum.add(opacity), sum.add(alphaCutoff);
+    for (const TextureUse& t : textures)
+        add(sum, t);
+}
+
+void add(Sum& sum, const TextureImage& i) {
+    const auto& [name, width, height, format, words] = i;
+    sum.add(width), sum.add(height), sum.add(format), sum.addAll(words);
+}
+
+void add(Sum& sum, const Texture& t) {
+    const auto& [image, wrapU, wrapV, nearest, srgb] = t;
+    sum.add(image), sum.add(wrapU), sum.add(wrapV), sum.add(nearest), sum.add(srgb);
+}
+
+void add(Sum& sum, const Environment& e) {
+    const auto& [name, width, height, radiance, strength, rotation] = e;
+    sum.add(width), sum.add(height), sum.addAll(radiance), sum.add(strength), sum.add(rotation);
 }
 
 void add(Sum& sum, const Light& l) {
@@ -63,6 +97,7 @@ void add(Sum& sum, const Camera& c) {
 
 static_assert(sizeof(Triangle) == 8 * sizeof(uint32_t), "has padding, or a new member");
 static_assert(sizeof(Sphere) == 6 * sizeof(uint32_t), "has padding, or a new member");
+static_assert(sizeof(VertexAttributes) == 12 * sizeof(float), "has padding, or a new member");
 static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
 
 } // namespace
@@ -77,6 +112,13 @@ uint32_t sceneIdentity(const Scene& scene, const Camera& camera) {
         add(sum, m);
     for (const Light& l : scene.lights)
         add(sum, l);
+    for (const TextureImage& i : scene.images)
+        add(sum, i);
+    for (const Texture& t : scene.textures)
+        add(sum, t);
+    sum.addAll(scene.attributes);
+    sum.addAll(scene.attributeCorners);
+    if (scene.environment) add(sum, *scene.environment);
     add(sum, camera);
     return sum.value();
 }

@@ -16,8 +16,8 @@ static_assert(float(Roulette::kBoldness) == gpu::ROULETTE_BOLDNESS);
 
 /// By BSDF_ kind.
 constexpr std::array<uint32_t, gpu::BSDF_KIND_COUNT> kBsdfLobes = {
-    gpu::DIFFUSE_BSDF_LOBES, gpu::MIRROR_BSDF_LOBES, gpu::REFRACTION_BSDF_LOBES,
-    gpu::GLASS_BSDF_LOBES, gpu::ROUGH_CONDUCTOR_BSDF_LOBES};
+    gpu::DIFFUSE_BSDF_LOBES, gpu::MIRROR_BSDF_LOBES,          gpu::REFRACTION_BSDF_LOBES,
+    gpu::GLASS_BSDF_LOBES,   gpu::ROUGH_CONDUCTOR_BSDF_LOBES, gpu::PRINCIPLED_BSDF_LOBES};
 
 /// The numbers of a path ray that a BSDF takes are either the two within a lobe or the one that
 /// chooses a lobe, which is one of the two (scatter() in shaders/include/path.glsl). A kind with
@@ -173,8 +173,9 @@ std::vector<std::string> describe(const KernelFeatures& f) {
     return {
         fmt::format("primitives: {}", primitives),
         fmt::format("shading normals: {}", f[SPEC_HAS_NORMALS] ? "interpolated" : "none"),
-        fmt::format("materials: {}", list(f[SPEC_BSDF_KINDS], {"diffuse", "mirror", "refraction",
-                                                               "glass", "rough conductor"})),
+        fmt::format("materials: {}",
+                    list(f[SPEC_BSDF_KINDS], {"diffuse", "mirror", "refraction", "glass",
+                                              "rough conductor", "principled"})),
         fmt::format("emission: {}", f[SPEC_HAS_EMISSION] ? "yes" : "none"),
         fmt::format("lights: {}",
                     list(f[SPEC_LIGHT_KINDS], {"quad", "triangle", "sphere", "ambient",

@@ -4,7 +4,31 @@ namespace stromboli {
 namespace {
 
 /// Rows that the kernel may read from the first row of a material on, whatever its kind.
-constexpr size_t kMostRows = 3;
+constexpr size_t kMostRows = 7;
+
+gpu::PrincipledParameters principledRows(const PrincipledParameters& p) {
+    // Beer and Lambert's law: attenuationColor = exp(-absorption attenuationDistance). A channel
+    // that lets nothing through gets the largest coefficient whose product with a length is finite.
+    constexpr float kLeastTransmitted = 1e-30f;
+    const glm::vec3 left = glm::max(p.attenuationColor, glm::vec3(kLeastTransmitted));
+    gpu::PrincipledParameters g{};
+    g.baseColor = p.baseColor;
+    g.metallic = p.metallic;
+    g.specularColor = p.specularColor;
+    g.roughness = p.roughness;
+    g.specular = p.specular;
+    g.ior = p.ior;
+    g.transmission = p.transmission;
+    g.anisotropy = p.anisotropy;
+    g.sheenColor = p.sheenColor;
+    g.sheenRoughness = p.sheenRoughness;
+    g.clearcoat = p.clearcoat;
+    g.clearcoatRoughness = p.clearcoatRoughness;
+    g.anisotropyRotation = p.anisotropyRotation;
+    g.flags = p.isThin ? gpu::PRINCIPLED_IS_THIN : 0;
+    g.absorption = -glm::log(left) / p.attenuationDistance;
+    return g;
+}
 
 void appendParameters(std::vector<Row>& rows, const Material& m) {
     switch (m.kind) {
@@ -18,6 +42,8 @@ void appendParameters(std::vector<Row>& rows, const Material& m) {
         return appendRows(rows, gpu::GlassParameters{m.reflectance, m.ior, m.transmittance, 0});
     case MaterialKind::Microfacet:
         return appendRows(rows, gpu::RoughConductorParameters{m.eta, m.alpha, m.k, 0});
+    case MaterialKind::Principled:
+        return appendRows(rows, principledRows(m.principled));
     }
 }
 
@@ -35,6 +61,8 @@ uint32_t bsdfKind(MaterialKind kind) {
         return gpu::BSDF_GLASS;
     case MaterialKind::Microfacet:
         return gpu::BSDF_ROUGH_CONDUCTOR;
+    case MaterialKind::Principled:
+        return gpu::BSDF_PRINCIPLED;
     }
     return gpu::BSDF_DIFFUSE;
 }

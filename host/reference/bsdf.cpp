@@ -89,6 +89,8 @@ BsdfValue evaluateLocally(const Material& m, const Incidence& i, const glm::dvec
         return evaluateDiffuse(m, wi);
     case MaterialKind::Microfacet:
         return evaluateRoughConductor(m, i, wi);
+    case MaterialKind::Principled:
+        return {};
     case MaterialKind::Mirror:
     case MaterialKind::Refraction:
     case MaterialKind::Glass:
@@ -108,6 +110,8 @@ BsdfSample sampleLocally(const Material& m, const Incidence& i, const glm::dvec3
         return sampleInterface(m, i, u.z);
     case MaterialKind::Microfacet:
         return sampleRoughConductor(m, i, u);
+    case MaterialKind::Principled:
+        return {};
     }
     return {};
 }
@@ -139,6 +143,8 @@ uint32_t lobesOf(const Material& material) {
         return gpu::LOBE_DELTA_REFLECTION | gpu::LOBE_DELTA_TRANSMISSION;
     case MaterialKind::Microfacet:
         return gpu::LOBE_GLOSSY_REFLECTION;
+    case MaterialKind::Principled:
+        return gpu::PRINCIPLED_BSDF_LOBES;
     }
     return 0;
 }

@@ -1,9 +1,13 @@
 #pragma once
 
+#include "scene/model/texture.hpp"
+
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <limits>
 #include <string>
+#include <vector>
 
 namespace stromboli {
 
@@ -13,6 +17,35 @@ enum class MaterialKind : uint32_t {
     Refraction, ///< perfect transmission without Fresnel: transmittance, ior
     Glass,      ///< smooth dielectric: reflectance, transmittance, ior
     Microfacet, ///< Beckmann conductor: alpha, eta, k
+    Principled, ///< glTF's metallic-roughness model and its extensions: principled
+};
+
+/// glTF 2.0's metallic-roughness material with KHR_materials_ior, specular, clearcoat, sheen,
+/// anisotropy, transmission and volume. Roughness is glTF's: the GGX parameter is its square.
+struct PrincipledParameters {
+    glm::vec3 baseColor{1.0f};
+    float metallic = 1;
+    float roughness = 1;
+    float ior = 1.5f; ///< index inside / index outside
+    float specular = 1;
+    glm::vec3 specularColor{1.0f};
+    float clearcoat = 0, clearcoatRoughness = 0;
+    glm::vec3 sheenColor{0.0f};
+    float sheenRoughness = 0;
+    float anisotropy = 0;         ///< strength, [0, 1]
+    float anisotropyRotation = 0; ///< radians from the tangent towards the bitangent
+    float transmission = 0;
+    bool isThin = true; ///< without a volume behind the surface: light goes straight through
+    /// Volume: the share of light that is left after attenuationDistance (metres).
+    glm::vec3 attenuationColor{1.0f};
+    float attenuationDistance = std::numeric_limits<float>::infinity();
+};
+
+/// Where a surface is not there, so that light passes through it unchanged.
+enum class AlphaMode : uint32_t {
+    Opaque, ///< opacity has no meaning
+    Mask,   ///< there where opacity is at least alphaCutoff
+    Blend,  ///< opacity is the share of light that meets the surface
 };
 
 /// What a surface does with light. Only the members its kind names are meaningful; emission is
@@ -29,6 +62,11 @@ struct Material {
     glm::vec3 k{0.0f};             ///< Microfacet: extinction coefficient
     glm::vec3 emission{0.0f};      ///< emitted radiance, W sr^-1 m^-2 (scene units of power)
     bool emitsBothSides = true;    ///< false: only on the side the geometric normal points to
+    PrincipledParameters principled;
+    AlphaMode alphaMode = AlphaMode::Opaque;
+    float opacity = 1; ///< times the alpha of texture and vertex colour
+    float alphaCutoff = 0.5f;
+    std::vector<TextureUse> textures; ///< at most one for each slot
 
     bool emits() const { return emission.x > 0 || emission.y > 0 || emission.z > 0; }
     /// True where no light sample can ever contribute: the BSDF is a delta distribution.

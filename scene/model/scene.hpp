@@ -1,10 +1,13 @@
 #pragma once
 
+#include "scene/model/environment.hpp"
 #include "scene/model/light.hpp"
 #include "scene/model/material.hpp"
+#include "scene/model/texture.hpp"
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -38,6 +41,9 @@ struct Triangle {
     uint32_t material = 0;                                      ///< into Scene::materials
     uint32_t instance = 0; ///< into Scene::instances: the placed mesh it came from
 };
+
+/// Marks a triangle whose corners have no attributes.
+inline constexpr uint32_t kNoAttributes = 0xFFFFFFFFu;
 
 /// Analytic sphere, outward normal.
 struct Sphere {
@@ -86,6 +92,13 @@ struct Scene {
     std::vector<Sphere> spheres;
     std::vector<Material> materials;
     std::vector<Light> lights;
+    std::vector<TextureImage> images;
+    std::vector<Texture> textures;
+    std::vector<VertexAttributes> attributes;
+    /// For each triangle, its corners in `attributes` (or all kNoAttributes); empty if no triangle
+    /// has any.
+    std::vector<std::array<uint32_t, 3>> attributeCorners;
+    std::optional<Environment> environment;
     std::vector<FileCamera> cameras;    ///< in document order
     std::vector<std::string> instances; ///< names of the placed meshes and spheres
     /// What a camera that frames the scene frames, where that is not bounds(): the geometry the

@@ -33,7 +33,8 @@ SHARED_CONST uint BSDF_MIRROR = 1u;
 SHARED_CONST uint BSDF_REFRACTION = 2u;
 SHARED_CONST uint BSDF_GLASS = 3u;
 SHARED_CONST uint BSDF_ROUGH_CONDUCTOR = 4u;
-SHARED_CONST uint BSDF_KIND_COUNT = 5u;
+SHARED_CONST uint BSDF_PRINCIPLED = 5u;
+SHARED_CONST uint BSDF_KIND_COUNT = 6u;
 
 /// The lobes of each kind.
 SHARED_CONST uint DIFFUSE_BSDF_LOBES = LOBE_DIFFUSE_REFLECTION;
@@ -41,6 +42,7 @@ SHARED_CONST uint MIRROR_BSDF_LOBES = LOBE_DELTA_REFLECTION;
 SHARED_CONST uint REFRACTION_BSDF_LOBES = LOBE_DELTA_TRANSMISSION;
 SHARED_CONST uint GLASS_BSDF_LOBES = LOBE_DELTA_REFLECTION | LOBE_DELTA_TRANSMISSION;
 SHARED_CONST uint ROUGH_CONDUCTOR_BSDF_LOBES = LOBE_GLOSSY_REFLECTION;
+SHARED_CONST uint PRINCIPLED_BSDF_LOBES = LOBE_GLOSSY_REFLECTION;
 
 /// What every material has.
 struct MaterialHeader {
@@ -87,6 +89,28 @@ struct RoughConductorParameters {
     uint unused;
 };
 SHARED_ROWS(RoughConductorParameters, 2);
+
+/// glTF 2.0's metallic-roughness model and its extensions (scene/model/material.hpp).
+struct PrincipledParameters {
+    vec3 baseColor;
+    float metallic;
+    vec3 specularColor;
+    float roughness; ///< glTF's: the GGX parameter is its square
+    float specular;
+    float ior; ///< index inside over index outside
+    float transmission;
+    float anisotropy; ///< strength
+    vec3 sheenColor;
+    float sheenRoughness;
+    float clearcoat;
+    float clearcoatRoughness;
+    float anisotropyRotation; ///< radians from the tangent towards the bitangent
+    uint flags;               ///< PRINCIPLED_
+    vec3 absorption; ///< per metre, inside the surface
+    uint unused;
+};
+SHARED_ROWS(PrincipledParameters, 6);
+SHARED_CONST uint PRINCIPLED_IS_THIN = 1u; ///< there is no volume behind the surface
 
 SHARED_END
 

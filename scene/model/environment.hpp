@@ -1,0 +1,23 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace stromboli {
+
+/// Light from infinity, seen by the camera too, of a radiance that depends on the direction: an
+/// equirectangular picture around the scene. Its upper edge is the direction `up` (+y), its middle
+/// column -z, its left and right edges +z; columns go from left to right as seen from the inside
+/// (at three quarters of the width lies +x).
+struct Environment {
+    std::string name; ///< for messages
+    uint32_t width = 1, height = 1;
+    std::vector<glm::vec3> radiance{glm::vec3(0)}; ///< row after row, from the top
+    float strength = 1;                            ///< multiplies the radiance
+    float rotation = 0; ///< radians, about +y, counter-clockwise seen from above
+};
+
+} // namespace stromboli
