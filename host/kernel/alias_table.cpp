@@ -1,5 +1,6 @@
 #include "host/kernel/alias_table.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 namespace stromboli {
@@ -30,10 +31,10 @@ std::vector<AliasColumn> buildAliasTable(std::span<const double> weights) {
         table[i] = {weights[i] > 0 ? 1.0 : 0.0, i};
     for (uint32_t i : large)
         table[i] = {1.0, i};
+    const auto heaviest =
+        uint32_t(std::max_element(weights.begin(), weights.end()) - weights.begin());
     for (uint32_t i = 0; i < n; ++i)
-        if (table[i].threshold == 0 && table[i].alias == i)
-            for (uint32_t j = 0; j < n; ++j)
-                if (weights[j] > weights[table[i].alias]) table[i].alias = j;
+        if (table[i].threshold == 0 && table[i].alias == i) table[i].alias = heaviest;
     return table;
 }
 

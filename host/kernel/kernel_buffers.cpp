@@ -28,7 +28,8 @@ std::vector<BufferPlan> planSceneBuffers(const GpuScene& scene, const DeviceTuni
             {"primitive buffer", sizeOf(scene.primitives), rows},
             {"material buffer", sizeOf(scene.materials), rows},
             {"light buffer", sizeOf(scene.lights.lights), rows},
-            {"light table", sizeOf(scene.lights.table), rows}};
+            {"light table", sizeOf(scene.lights.table), rows},
+            {"environment", sizeOf(scene.lights.environment), rows}};
 }
 
 uint64_t largestSceneBuffer(const GpuScene& scene) {

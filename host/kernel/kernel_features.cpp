@@ -59,7 +59,8 @@ bool combinesBouncesAndLightSamples(const Estimator& settings) {
 uint32_t misLobes(const GpuScene& scene, const Estimator& settings, uint32_t bsdfKinds) {
     if (!combinesBouncesAndLightSamples(settings) || scene.lights.areaCount == 0) return 0;
     const bool skyAlone = scene.lights.sampledKinds == 1u << gpu::LIGHT_AMBIENT;
-    const bool everywhere = skyAlone || settings.directLight == DirectLight::MisAll;
+    const bool isPicture = !scene.lights.environment.empty();
+    const bool everywhere = skyAlone || isPicture || settings.directLight == DirectLight::MisAll;
     const uint32_t helped = everywhere ? ~gpu::DELTA_LOBES : gpu::GLOSSY_LOBES;
     return lobesOf(bsdfKinds) & helped;
 }
@@ -78,7 +79,7 @@ uint32_t conventionsConstant(const ShadingConventions& conventions) {
 
 void switchOnAllTheSceneCouldHave(KernelFeatures& f, const Estimator& settings) {
     f[SPEC_HAS_TRIANGLES] = f[SPEC_HAS_SPHERES] = f[SPEC_HAS_NORMALS] = f[SPEC_HAS_EMISSION] = 1;
-    f[SPEC_LARGE_TREE] = f[SPEC_HAS_AMBIENT] = 1;
+    f[SPEC_LARGE_TREE] = f[SPEC_HAS_AMBIENT] = f[SPEC_HAS_ENVIRONMENT] = 1;
     if (f[SPEC_LIGHT_NUMBERS] == gpu::LIGHT_NUMBERS_SHARED)
         f[SPEC_LIGHT_NUMBERS] = gpu::LIGHT_NUMBERS_FIRST;
     f[SPEC_BSDF_KINDS] = (1u << gpu::BSDF_KIND_COUNT) - 1;
@@ -96,6 +97,7 @@ std::string list(uint32_t bits, const std::vector<const char*>& names) {
 
 const char* ambientText(const KernelFeatures& f) {
     if (!f[SPEC_HAS_AMBIENT]) return "none";
+    if (f[SPEC_HAS_ENVIRONMENT]) return "an environment, sampled by its radiance";
     return f[SPEC_LIGHT_KINDS] & 1u << gpu::LIGHT_AMBIENT ? "sampled" : "left to bounces";
 }
 
@@ -156,6 +158,8 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_LIGHT_NUMBERS] = lightNumbers(scene, settings);
     f[SPEC_MIS_LOBES] = normalsOnly ? 0 : misLobes(scene, settings, f[SPEC_BSDF_KINDS]);
     f[SPEC_HAS_AMBIENT] = !normalsOnly && scene.lights.hasAmbient;
+    f[SPEC_HAS_ENVIRONMENT] = !normalsOnly && !scene.lights.environment.empty();
+    f[SPEC_HAS_BACKDROP] = !normalsOnly && scene.lights.hasBackdrop;
     f[SPEC_AMBIENT_BY_BOUNCES] = !normalsOnly && scene.lights.ambientLeftToBounces;
     f[SPEC_SPLITS] = settings.branches > 1;
     f[SPEC_GAP_PROPOSAL] = proposesGap(scene, settings);
@@ -179,8 +183,9 @@ std::vector<std::string> describe(const KernelFeatures& f) {
         fmt::format("emission: {}", f[SPEC_HAS_EMISSION] ? "yes" : "none"),
         fmt::format("lights: {}",
                     list(f[SPEC_LIGHT_KINDS], {"quad", "triangle", "sphere", "ambient",
-                                               "directional", "point", "spot"})),
-        fmt::format("ambient light: {}", ambientText(f)),
+                                               "directional", "point", "spot", "environment"})),
+        fmt::format("ambient light: {}{}", ambientText(f),
+                    f[SPEC_HAS_BACKDROP] ? ", seen by the camera" : ""),
         fmt::format("integrator: {}",
                     nameOf(f[SPEC_INTEGRATOR] == gpu::INTEGRATOR_PATH ? Integrator::Path
                                                                       : Integrator::Normals)),

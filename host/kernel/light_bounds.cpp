@@ -79,6 +79,16 @@ LightBounds boundsOfEmitter(const Scene& scene, const Emitter& e) {
     return bounds;
 }
 
+LightBounds boundsOfEnvironment(double luminance) {
+    LightBounds bounds;
+    bounds.group = gpu::LIGHT_GROUP_INFINITE;
+    bounds.axis = {0, -1, 0};
+    bounds.cosSpread = -1;
+    // A surface that may face anywhere sees a quarter of it: the mean of its cosine.
+    bounds.power = luminance / 4;
+    return bounds;
+}
+
 LightBounds boundsOfLight(const Light& light, double sceneRadius) {
     LightBounds bounds;
     bounds.axis = glm::normalize(glm::dvec3(light.direction));

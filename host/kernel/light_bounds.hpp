@@ -29,5 +29,7 @@ LightBounds boundsOfEmitter(const Scene& scene, const Emitter& emitter);
 /// Not an area light. sceneRadius: how far apart, more or less, lights and surfaces are; it decides
 /// whether a point light falls off with the squared distance or hardly at all.
 LightBounds boundsOfLight(const Light& light, double sceneRadius);
+/// luminance: integral over all directions.
+LightBounds boundsOfEnvironment(double luminance);
 
 } // namespace stromboli

@@ -1,6 +1,7 @@
 #include "host/kernel/light_table.hpp"
 
 #include "host/kernel/alias_table.hpp"
+#include "host/kernel/environment_table.hpp"
 #include "host/kernel/light_bounds.hpp"
 #include "host/kernel/light_tree.hpp"
 #include "scene/model/emitters.hpp"
@@ -54,7 +55,10 @@ class Packer {
     }
 
     LightTable pack() {
-        if (!selection_.everyLightOfTheFile)
+        out_.hasBackdrop = scene_.environment.has_value();
+        if (scene_.environment && !scene_.environment->isConstant())
+            addEnvironment(*scene_.environment);
+        else if (!selection_.everyLightOfTheFile)
             addAmbientLight();
         else if (!selection_.deltaLightsOnly)
             addLights([](const Light& l) { return l.kind == LightKind::Ambient; });
@@ -63,8 +67,9 @@ class Packer {
             addLights([](const Light& l) { return l.kind == LightKind::Area; });
         out_.areaCount = uint32_t(entries_.size());
         addLights([](const Light& l) { return l.isDelta(); });
+        // Not a picture, in which a sun may stand.
         if (out_.ambientNumber != gpu::NO_LIGHT && selection_.ambientToBounces &&
-            entries_.size() > 1)
+            out_.environment.empty() && entries_.size() > 1)
             leaveAmbientToBounces();
         out_.count = uint32_t(entries_.size());
         writeTable();
@@ -108,6 +113,8 @@ class Packer {
         for (const Light& l : scene_.lights)
             if (l.kind == LightKind::Ambient)
                 (l.upperHemisphereOnly ? above : everywhere).color += l.color;
+        if (scene_.environment)
+            everywhere.color += scene_.environment->strength * scene_.environment->radiance[0];
         LightBounds bounds = boundsOfLight(everywhere, sceneRadius_);
         const LightBounds fromAbove = boundsOfLight(above, sceneRadius_);
         if (!(bounds.power > 0))
@@ -121,6 +128,19 @@ class Packer {
         fillRows();
         if (!selection_.deltaLightsOnly)
             out_.ambientNumber = addEntry(gpu::LIGHT_AMBIENT, number, bounds);
+    }
+
+    void addEnvironment(const Environment& environment) {
+        EnvironmentTable packed = packEnvironment(environment);
+        const LightBounds bounds = boundsOfEnvironment(packed.luminance);
+        if (!shines(bounds)) return;
+        out_.hasAmbient = true;
+        out_.environment = std::move(packed.texels);
+        const uint32_t number = addRows(glm::vec3(environment.strength), gpu::LIGHT_ENVIRONMENT);
+        appendRows(out_.lights, packed.light);
+        fillRows();
+        if (!selection_.deltaLightsOnly)
+            out_.ambientNumber = addEntry(gpu::LIGHT_ENVIRONMENT, number, bounds);
     }
 
     /// It is the first entry.

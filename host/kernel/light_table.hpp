@@ -29,14 +29,17 @@ LightSelection lightSelection(const Estimator& settings);
 
 /// The lights of a scene in the arrays that the kernel reads (shaders/shared/light_types.h).
 struct LightTable {
-    std::vector<Row> lights; ///< the parameters: ambient lights first
-    std::vector<Row> table;  ///< LightEntry rows, then AliasColumn or LightNode rows
-    uint32_t count = 0;      ///< lights that are sampled
-    uint32_t areaCount = 0;  ///< those of them that rays can meet; LightChoice::Each: the first
-    bool hasAmbient = false; ///< the scene has ambient light, sampled or not
+    std::vector<Row> lights;      ///< the parameters: ambient lights first
+    std::vector<Row> table;       ///< LightEntry rows, then AliasColumn or LightNode rows
+    std::vector<Row> environment; ///< EnvironmentTexel rows; empty: there is no picture
+    uint32_t count = 0;           ///< lights that are sampled
+    uint32_t areaCount = 0; ///< those of them that rays can meet; LightChoice::Each: the first
+    /// The scene has a sky, sampled or not: ambient light or an environment.
+    bool hasAmbient = false;
+    bool hasBackdrop = false;               ///< the camera sees the sky
     bool ambientLeftToBounces = false;      ///< by LightSelection::ambientToBounces
     uint32_t sampledKinds = 0;              ///< bit n: a light of LIGHT_ kind n is sampled
-    uint32_t ambientNumber = gpu::NO_LIGHT; ///< of the ambient light, where it is sampled
+    uint32_t ambientNumber = gpu::NO_LIGHT; ///< of the sky, where it is sampled
     uint32_t groups = 0;                    ///< LightTree::groups
     std::array<uint32_t, gpu::LIGHT_GROUP_COUNT> lightsInGroup{}; ///< LightTree::lightsInGroup
     uint32_t levels = 0;                                          ///< LightTree::levels

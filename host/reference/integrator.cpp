@@ -18,7 +18,10 @@ PathSample::PathSample(const World& world, const Estimator& settings, const Rand
     : world_(world), settings_(settings), random_(random) {}
 
 glm::dvec3 PathSample::radiance(const Ray& cameraRay) {
-    if (!arrive(cameraRay, {})) return radiance_; // ambient light is not a backdrop
+    if (!arrive(cameraRay, {})) { // ambient light is not a backdrop
+        if (settings_.minBounce == 0) radiance_ += world_.lights.backdrop(cameraRay.direction);
+        return radiance_;
+    }
     if (settings_.minBounce == 0) addEmission();
     follow(1, settings_.branches > 1);
     return radiance_;

@@ -62,6 +62,7 @@ Lights::Lights(const Scene& scene, const ShadingConventions& conventions)
     }
     for (const Emitter& emitter : emitters_)
         areaSums_.push_back(runningAreas(scene, emitter));
+    if (scene.environment) environment_.emplace_back(*scene.environment);
     for (const Light& light : scene.lights) {
         if (light.kind == LightKind::Area) {
             if (conventions.samplesEmitters)
@@ -84,7 +85,13 @@ LightSample Lights::sampleBroad(size_t index, const SurfacePoint& surface,
     if (index < emitters_.size()) return sampleEmitter(index, surface, random);
     index -= emitters_.size();
     if (index < ambient_.size()) return sampleAmbient(*ambient_[index], surface, random);
-    return sampleRectangle(*areas_[index - ambient_.size()], litPoint(surface), conventions_,
+    index -= ambient_.size();
+    if (index < environment_.size()) {
+        const EnvironmentMap::Sample s =
+            environment_[index].sample({random.next(), random.next(), random.next()});
+        return {s.direction, s.weight, true, s.direction};
+    }
+    return sampleRectangle(*areas_[index - environment_.size()], litPoint(surface), conventions_,
                            random);
 }
 
@@ -154,7 +161,13 @@ glm::dvec3 Lights::ambientRadiance(const glm::dvec3& direction) const {
     if (!conventions_.bouncesFindAllLight) return sum;
     for (const Light* light : ambient_)
         if (!light->upperHemisphereOnly || direction.y > 0) sum += glm::dvec3(light->color);
+    for (const EnvironmentMap& environment : environment_)
+        sum += environment.radiance(direction);
     return sum;
+}
+
+glm::dvec3 Lights::backdrop(const glm::dvec3& direction) const {
+    return environment_.empty() ? glm::dvec3(0.0) : environment_.front().radiance(direction);
 }
 
 } // namespace stromboli::reference

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/reference/environment.hpp"
 #include "host/reference/random.hpp"
 #include "host/reference/surface.hpp"
 #include "scene/model/emitters.hpp"
@@ -35,7 +36,8 @@ class Lights {
     Lights(const Scene& scene, const ShadingConventions& conventions);
 
     size_t broadCount() const {
-        return many_.size() + emitters_.size() + ambient_.size() + areas_.size();
+        return many_.size() + emitters_.size() + ambient_.size() + environment_.size() +
+               areas_.size();
     }
     size_t deltaCount() const { return delta_.size(); }
     /// Every light of the file, whatever its kind.
@@ -45,8 +47,10 @@ class Lights {
     LightSample sampleBroad(size_t index, const SurfacePoint& surface, RandomStream& random) const;
     /// index < deltaCount().
     LightSample sampleDelta(size_t index, const SurfacePoint& surface) const;
-    /// What ambient lights send to a ray with this direction that hits nothing.
+    /// What ambient lights and the environment send to a ray with this direction that hits nothing.
     glm::dvec3 ambientRadiance(const glm::dvec3& direction) const;
+    /// What the camera sees where it sees nothing of the scene: the environment.
+    glm::dvec3 backdrop(const glm::dvec3& direction) const;
 
   private:
     LightSample sampleMany(const SurfacePoint& surface, RandomStream& random) const;
@@ -60,6 +64,7 @@ class Lights {
     std::vector<ManyTriangles> many_; ///< one, or none
     std::vector<Emitter> emitters_;
     std::vector<std::vector<double>> areaSums_; ///< of each mesh emitter: running sums of areas
+    std::vector<EnvironmentMap> environment_;   ///< one, or none
     std::vector<const Light*> ambient_, areas_, delta_;
 };
 

@@ -18,6 +18,9 @@ SCENE_BUFFER(BINDING_PRIMITIVES, primitiveRows)
 SCENE_BUFFER(BINDING_MATERIALS, materialRows)
 SCENE_BUFFER(BINDING_LIGHTS, lightRows)
 SCENE_BUFFER(BINDING_LIGHT_TABLE, lightTableRows)
+#ifdef RICH_MATERIALS
+SCENE_BUFFER(BINDING_ENVIRONMENT, environmentRows)
+#endif
 
 /// A record of the BVH as it lies in memory: a NodeRecord or a LeafRecord.
 struct Record {

@@ -22,7 +22,7 @@ float bounceWeight(float inversePdf, float bouncePdf) {
 }
 
 /// Of the light that ray t, a bounce from a surface with this normal, has found: the emissive surface it has
-/// hit, or the ambient light. What no light sample goes to is left to bounces.
+/// hit, or the sky. What no light sample goes to is left to bounces.
 float foundLightWeight(Traversal t, vec3 normal, float bouncePdf) {
     const bool hit = t.hitPrimitive != NO_PRIMITIVE;
     PlacedPrimitive place;
@@ -36,6 +36,6 @@ float foundLightWeight(Traversal t, vec3 normal, float bouncePdf) {
     const float probability = lightProbability(entry, t.origin, normal);
     if (!(probability > 0.0)) return 1.0;
     const float inversePdf = hit ? areaLightInversePdf(t, place, entry.light)
-                                 : 1.0 / max(ambientPdf(normal, t.direction), TINY);
+                                 : skyInversePdf(normal, t.direction);
     return bounceWeight(inversePdf / probability, bouncePdf);
 }

@@ -121,7 +121,7 @@ void arrive() {
     const float share = foundShare();
     if (!hit) {
         const bool counts = countsEmission || AMBIENT_BY_BOUNCES && bounce >= frame.minBounce;
-        if (counts && bounce > 0u && BOUNCES_FIND_ALL_LIGHT)
+        if (counts && (bounce > 0u || HAS_BACKDROP) && BOUNCES_FIND_ALL_LIGHT)
             radiance += throughput * ambientRadiance(ray.direction) * share;
         return;
     }

@@ -9,7 +9,7 @@ layout(constant_id = SPEC_HAS_SPHERES) const bool HAS_SPHERES = true;
 layout(constant_id = SPEC_HAS_NORMALS) const bool HAS_NORMALS = true;
 layout(constant_id = SPEC_BSDF_KINDS) const uint BSDF_KINDS = 31u;
 layout(constant_id = SPEC_HAS_EMISSION) const bool HAS_EMISSION = true;
-layout(constant_id = SPEC_LIGHT_KINDS) const uint LIGHT_KINDS = 127u;
+layout(constant_id = SPEC_LIGHT_KINDS) const uint LIGHT_KINDS = 255u;
 layout(constant_id = SPEC_ROULETTE) const uint ROULETTE = ROULETTE_THROUGHPUT;
 layout(constant_id = SPEC_ORTHOGRAPHIC) const bool ORTHOGRAPHIC = false;
 layout(constant_id = SPEC_CLIP_ALONG_RAY) const bool CLIP_ALONG_RAY = false;
@@ -38,6 +38,13 @@ layout(constant_id = SPEC_INTEGRATOR) const uint INTEGRATOR = INTEGRATOR_PATH;
 layout(constant_id = SPEC_DIRECT_LIGHT) const uint DIRECT_LIGHT = DIRECT_LIGHTS;
 layout(constant_id = SPEC_CS184) const bool CS184 = false;
 layout(constant_id = SPEC_COUNT_STEPS) const bool COUNT_STEPS = false;
+#endif
+#ifdef RICH_MATERIALS
+layout(constant_id = SPEC_HAS_ENVIRONMENT) const bool HAS_ENVIRONMENT = true;
+layout(constant_id = SPEC_HAS_BACKDROP) const bool HAS_BACKDROP = true;
+#else
+const bool HAS_ENVIRONMENT = false;
+const bool HAS_BACKDROP = false;
 #endif
 #ifdef ONE_LIGHT
 const uint LIGHT_CHOICE = LIGHT_CHOICE_ONE;

@@ -30,10 +30,27 @@ LightSample sampleDirectionalLight(LightRows rows) {
     return LightSample(w, true, w, colorOf(rows), 0.0);
 }
 
-/// Radiance of the scene's ambient light from direction w. It is the first in the light buffer, if the scene
-/// has one; a kernel with everything switched on does not know without looking.
+#ifdef RICH_MATERIALS
+#include "lights/environment.glsl"
+#endif
+
+/// Radiance of the sky, the scene's ambient light or environment, from direction w. It is the first in the light
+/// buffer, if the scene has one; a kernel with everything switched on does not know without looking.
 vec3 ambientRadiance(vec3 w) {
     if (!HAS_AMBIENT) return vec3(0.0);
     const LightRows rows = fetchLightRows(0u);
-    return kindOf(rows) == LIGHT_AMBIENT ? ambientRadianceOf(rows, w) : vec3(0.0);
+    vec3 radiance = vec3(0.0);
+#ifdef RICH_MATERIALS
+    if (HAS_ENVIRONMENT && kindOf(rows) == LIGHT_ENVIRONMENT) radiance = environmentFrom(rows, w).radiance;
+#endif
+    return kindOf(rows) == LIGHT_AMBIENT ? ambientRadianceOf(rows, w) : radiance;
+}
+
+/// The inverse of the density with which the sky's light samples at a surface with this normal take direction w.
+float skyInversePdf(vec3 normal, vec3 w) {
+#ifdef RICH_MATERIALS
+    const bool isPicture = HAS_ENVIRONMENT && kindOf(fetchLightRows(0u)) == LIGHT_ENVIRONMENT;
+    if (isPicture) return 1.0 / max(environmentFrom(fetchLightRows(0u), w).pdf, TINY);
+#endif
+    return 1.0 / max(ambientPdf(normal, w), TINY);
 }

@@ -8,7 +8,8 @@ struct LightRows {
 /// Rows that no kind of the scene has are not read.
 LightRows fetchLightRows(uint light) {
     const uint row = LIGHT_ROWS * light;
-    const bool two = samplesLightKind(LIGHT_QUAD) || samplesLightKind(LIGHT_POINT) || samplesLightKind(LIGHT_SPOT);
+    const bool two = samplesLightKind(LIGHT_QUAD) || samplesLightKind(LIGHT_POINT) ||
+                     samplesLightKind(LIGHT_SPOT) || HAS_ENVIRONMENT;
     LightRows l = LightRows(ROW(lightRows, row), uvec4(0u), uvec4(0u), uvec4(0u));
     l.row1 = ROW(lightRows, row + 1u);
     if (two) l.row2 = ROW(lightRows, row + 2u);
@@ -26,6 +27,11 @@ QuadLight quadLight(LightRows l) {
 }
 
 AmbientLight ambientLight(LightRows l) { return AmbientLight(uintBitsToFloat(l.row1.xyz), l.row1.w); }
+
+EnvironmentLight environmentLight(LightRows l) {
+    return EnvironmentLight(l.row1.x, l.row1.y, uintBitsToFloat(l.row1.z), uintBitsToFloat(l.row1.w),
+                            uintBitsToFloat(l.row2.x), l.row2.y, l.row2.z, l.row2.w);
+}
 
 SphereLight sphereLight(LightRows l) {
     return SphereLight(uintBitsToFloat(l.row1.xyz), uintBitsToFloat(l.row1.w));

@@ -32,6 +32,7 @@ LightRows fetchLight(uint light) {
 }
 
 #include "lights/area_lights.glsl"
+#include "lights/choice_number.glsl"
 #include "lights/distant_lights.glsl"
 #include "lights/point_lights.glsl"
 #include "lights/light_tree.glsl"
@@ -57,6 +58,9 @@ LightSample sampleLight(SurfacePoint s, uint light, vec2 u) {
     if (isLight(kind, LIGHT_SPHERE)) return sampleSphereLight(s, rows, u);
     if (isLight(kind, LIGHT_AMBIENT)) return sampleAmbientLight(s, rows, u);
     if (isLight(kind, LIGHT_DIRECTIONAL)) return sampleDirectionalLight(rows);
+#ifdef RICH_MATERIALS
+    if (isLight(kind, LIGHT_ENVIRONMENT)) return sampleEnvironment(rows, u);
+#endif
     if (samplesLightKind(LIGHT_POINT) || samplesLightKind(LIGHT_SPOT)) return samplePointLight(s, rows);
     return NO_LIGHT_SAMPLE;
 }

@@ -13,14 +13,15 @@ SHARED_BEGIN
 #define BINDING_MATERIALS 2
 #define BINDING_LIGHTS 3
 #define BINDING_LIGHT_TABLE 4
-#define BINDING_FRAME 5
-#define BINDING_WORK_ITEMS 6
-#define BINDING_PIXELS 7
-#define BINDING_SUSPENDED 8
-#define BINDING_STATUS 9
-#define BINDING_SPLITS 10 // of suspended paths
-#define BINDING_COUNT 11
-#define SCENE_BINDING_COUNT 5 // bindings 0 to 4 hold the scene and are read row by row
+#define BINDING_ENVIRONMENT 5
+#define BINDING_FRAME 6
+#define BINDING_WORK_ITEMS 7
+#define BINDING_PIXELS 8
+#define BINDING_SUSPENDED 9
+#define BINDING_STATUS 10
+#define BINDING_SPLITS 11 // of suspended paths
+#define BINDING_COUNT 12
+#define SCENE_BINDING_COUNT 6 // bindings 0 to 5 hold the scene and are read row by row
 
 /// Numbers of rows in texel buffers are cut to these bits; no buffer has more rows (docs/kernel.md,
 /// "Fetch").
@@ -55,7 +56,9 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_LARGE_TREE 25 // the tree has more than SMALL_TREE_RECORDS records
 #define SPEC_AMBIENT_BY_BOUNCES 26 // bounces alone find the ambient light; light samples go to others
 #define SPEC_HAS_AMBIENT 27 // rays that hit nothing find ambient light
-#define SPEC_COUNT 28
+#define SPEC_HAS_ENVIRONMENT 28 // that light is a picture
+#define SPEC_HAS_BACKDROP 29    // the camera sees it
+#define SPEC_COUNT 30
 
 SHARED_CONST uint INTEGRATOR_PATH = 0u;
 SHARED_CONST uint INTEGRATOR_NORMALS = 1u;

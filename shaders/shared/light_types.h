@@ -19,7 +19,8 @@ SHARED_CONST uint LIGHT_AMBIENT = 3u;
 SHARED_CONST uint LIGHT_DIRECTIONAL = 4u;
 SHARED_CONST uint LIGHT_POINT = 5u;
 SHARED_CONST uint LIGHT_SPOT = 6u;
-SHARED_CONST uint LIGHT_KIND_COUNT = 7u;
+SHARED_CONST uint LIGHT_ENVIRONMENT = 7u;
+SHARED_CONST uint LIGHT_KIND_COUNT = 8u;
 /// Kinds that no ray can meet, bit by bit.
 SHARED_CONST uint DELTA_LIGHTS = 1u << 4u | 1u << 5u | 1u << 6u;
 
@@ -51,6 +52,28 @@ struct AmbientLight {
     uint unused;
 };
 SHARED_ROWS(AmbientLight, 1);
+
+/// A picture around the scene (scene/model/environment.hpp); it takes the place of ambient light. The header's
+/// colour multiplies its radiance.
+struct EnvironmentLight {
+    uint width, height;
+    float cosRotation, sinRotation;
+    float density; ///< of a sample by solid angle, where the interpolated weight is the sine of the polar angle
+    uint unused0, unused1, unused2;
+};
+SHARED_ROWS(EnvironmentLight, 2);
+
+/// A texel of the environment, in rows from the top. Its weight is the luminance times the sine of the polar angle
+/// of its middle; it is a column of an alias table by weight (Walker 1977, Vose 1991).
+/// Radiance: three mantissas of 18 bits, from the lowest on, and an exponent: m 2^(exponent - 146).
+struct EnvironmentTexel {
+    float threshold; ///< below this fraction of the column its own texel is taken,
+    uint alias;      ///< above it this one
+    uint low, high;
+};
+SHARED_ROWS(EnvironmentTexel, 1);
+SHARED_CONST uint ENVIRONMENT_MANTISSA_BITS = 18u;
+SHARED_CONST uint ENVIRONMENT_EXPONENT_BIAS = 146u;
 
 struct SphereLight {
     vec3 center;

@@ -46,6 +46,19 @@ void addAmbient(SceneMaker& maker, bool upperHemisphereOnly) {
     maker.add(light);
 }
 
+/// A dim sky with a sun of 3 degrees that lies where kLow sees its reflection.
+void addEnvironment(SceneMaker& maker) {
+    Environment e;
+    e.width = 128;
+    e.height = 64;
+    for (uint32_t y = 0; y < e.height; ++y)
+        for (uint32_t x = 0; x < e.width; ++x)
+            e.radiance.resize(e.radiance.size() + 1, glm::vec3(y < 32 ? 0.5f : 0.1f));
+    e.radiance.erase(e.radiance.begin());
+    e.radiance[25 * 128 + 80] = glm::vec3(200);
+    maker.scene.environment = e;
+}
+
 /// With a gap that bounces are sent into (docs/estimator.md, "Gaps").
 void addQuadBeforeAWall(SceneMaker& maker) {
     maker.quad({-1, 2, -1}, {0, 0, 2}, {2, 0, 0}, maker.add(emissive(2)));
@@ -79,6 +92,12 @@ const LightCase kLightCases[] = {
      }},
     {"ambient", [](SceneMaker& m) { addAmbient(m, false); }},
     {"upper_ambient", [](SceneMaker& m) { addAmbient(m, true); }},
+    {"environment", [](SceneMaker& m) { addEnvironment(m); }},
+    {"environment_and_a_quad",
+     [](SceneMaker& m) {
+         addEnvironment(m);
+         addQuad(m, true);
+     }},
     {"all", [](SceneMaker& m) {
          addQuad(m, true);
          m.sphere({-1, 0.75f, -2}, 0.5f, m.add(emissive(3)));

@@ -1,0 +1,31 @@
+// Random numbers that choices are made by.
+//
+// A choice uses up digits of a random number, and 24 of them do not last for a tree whose branches may
+// differ a millionfold. So the number is an integer of 31 bits; the share of a branch is a multiple of
+// 2^-31, at least one, so that the probability is stated exactly; and the digits that a choice has used up
+// are filled again, from a hash of the number itself and of its companion.
+
+struct ChoiceNumber {
+    uint value; ///< uniform in [0, 2^31)
+    uint digits; ///< state that new digits are made from
+};
+
+/// New digits (a variant of lowbias32, C. Wellons 2018): 32 bits.
+uint newDigits(inout ChoiceNumber c) {
+    c.digits = c.digits * 747796405u + 2891336453u;
+    uint x = c.digits;
+    x = (x ^ x >> 16u) * 0x7FEB352Du;
+    x = (x ^ x >> 15u) * 0x846CA68Bu;
+    return x ^ x >> 16u;
+}
+
+/// Of u.x, a multiple of 2^-24.
+ChoiceNumber choiceNumber(vec2 u) {
+    ChoiceNumber c;
+    c.digits = floatBitsToUint(u.x) * 0x9E3779B1u ^ floatBitsToUint(u.y) * 0x85EBCA6Bu;
+    c.value = uint(int(u.x * 16777216.0)) << 7u | newDigits(c) >> 25u;
+    return c;
+}
+
+/// What is left as a number in [0, 1), a multiple of 2^-24.
+float restOf(ChoiceNumber c) { return float(int(c.value >> 7u)) * (1.0 / 16777216.0); }
