@@ -33,6 +33,7 @@ Dispatch dispatch;
 #include "include/traverse.glsl"
 #include "include/camera.glsl"
 #include "include/warps.glsl"
+#include "include/pixel_filter.glsl"
 #include "include/cs184.glsl"
 #include "include/surface.glsl"
 #include "bsdf/bsdf.glsl"

@@ -89,10 +89,10 @@ void add(Sum& sum, const Light& l) {
 
 void add(Sum& sum, const Camera& c) {
     const auto& [orthographic, position, right, up, back, halfWidth, halfHeight, nearDistance,
-                 farDistance, clipAlongRay] = c;
+                 farDistance, clipAlongRay, lensRadius, focusDistance] = c;
     sum.add(orthographic), sum.add(position), sum.add(right), sum.add(up), sum.add(back);
     sum.add(halfWidth), sum.add(halfHeight), sum.add(nearDistance), sum.add(farDistance);
-    sum.add(clipAlongRay);
+    sum.add(clipAlongRay), sum.add(lensRadius), sum.add(focusDistance);
 }
 
 static_assert(sizeof(Triangle) == 8 * sizeof(uint32_t), "has padding, or a new member");

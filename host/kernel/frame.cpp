@@ -13,6 +13,8 @@ gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const PictureA
     f.cameraRight = camera.halfWidth * camera.right;
     f.cameraUp = camera.halfHeight * camera.up;
     f.cameraBack = camera.back;
+    f.lensRadius = float(camera.lensRadius);
+    f.focusDistance = float(camera.focusDistance);
     f.nearDistance = float(camera.nearDistance);
     f.farDistance = float(std::min(camera.farDistance, double(std::numeric_limits<float>::max())));
     f.width = area.width;

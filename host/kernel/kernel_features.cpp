@@ -77,6 +77,18 @@ uint32_t conventionsConstant(const ShadingConventions& conventions) {
     throw std::invalid_argument("the kernel has no mixture of two sets of shading conventions");
 }
 
+uint32_t filterConstant(PixelFilter filter) {
+    switch (filter) {
+    case PixelFilter::Box:
+        return gpu::FILTER_BOX;
+    case PixelFilter::Gaussian:
+        return gpu::FILTER_GAUSSIAN;
+    case PixelFilter::BlackmanHarris:
+        return gpu::FILTER_BLACKMAN_HARRIS;
+    }
+    return gpu::FILTER_BOX;
+}
+
 void switchOnAllTheSceneCouldHave(KernelFeatures& f, const Estimator& settings) {
     f[SPEC_HAS_TRIANGLES] = f[SPEC_HAS_SPHERES] = f[SPEC_HAS_NORMALS] = f[SPEC_HAS_EMISSION] = 1;
     f[SPEC_LARGE_TREE] = f[SPEC_HAS_AMBIENT] = f[SPEC_HAS_ENVIRONMENT] = 1;
@@ -148,6 +160,8 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
         settings.maxBounces < gpu::ROULETTE_THROUGHPUT_START)
         f[SPEC_ROULETTE] = gpu::ROULETTE_NONE;
     f[SPEC_ORTHOGRAPHIC] = camera.orthographic;
+    f[SPEC_HAS_LENS] = camera.lensRadius > 0;
+    f[SPEC_PIXEL_FILTER] = filterConstant(settings.filter);
     f[SPEC_CLIP_ALONG_RAY] = camera.clipAlongRay;
     f[SPEC_CS184] = conventionsConstant(settings.conventions);
     f[SPEC_LIGHT_SAMPLES] = directSampling(scene.lights, settings).perLight;
@@ -171,6 +185,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
 std::vector<std::string> describe(const KernelFeatures& f) {
     static const char* const kDirect[] = {"light sampling", "uniform hemisphere",
                                           "left to bounces (delta lights sampled)"};
+    static const char* const kFilters[] = {"box", "Gaussian", "Blackman-Harris"};
     static const char* const kRoulette[] = {"none", "by throughput", "fixed probability"};
     const std::string primitives =
         list(f[SPEC_HAS_TRIANGLES] | (f[SPEC_HAS_SPHERES] << 1), {"triangles", "spheres"});
@@ -198,7 +213,9 @@ std::vector<std::string> describe(const KernelFeatures& f) {
         fmt::format("paths: {}", f[SPEC_SPLITS] ? "with branches" : "each by itself"),
         fmt::format("bounces: {}", f[SPEC_GAP_PROPOSAL] ? "some into the gap behind the light"
                                                         : "by the materials"),
-        fmt::format("camera: {}", f[SPEC_ORTHOGRAPHIC] ? "orthographic" : "perspective"),
+        fmt::format("camera: {}{}", f[SPEC_ORTHOGRAPHIC] ? "orthographic" : "perspective",
+                    f[SPEC_HAS_LENS] ? ", through a lens" : ""),
+        fmt::format("pixel filter: {}", kFilters[f[SPEC_PIXEL_FILTER]]),
         fmt::format("CS184 conventions: {}", f[SPEC_CS184] ? "yes" : "no"),
         fmt::format("traversal stack: {} entries{}", f[SPEC_STACK_SIZE],
                     f[SPEC_LARGE_TREE] ? " of two words" : ""),

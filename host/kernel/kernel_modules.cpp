@@ -29,7 +29,8 @@ bool hasOneLight(const KernelFeatures& f) {
 } // namespace
 
 bool needsRichModule(const KernelFeatures& f) {
-    return f[SPEC_HAS_ENVIRONMENT] != 0 || f[SPEC_HAS_BACKDROP] != 0;
+    return f[SPEC_HAS_ENVIRONMENT] != 0 || f[SPEC_HAS_BACKDROP] != 0 || f[SPEC_HAS_LENS] != 0 ||
+           f[SPEC_PIXEL_FILTER] != gpu::FILTER_BOX;
 }
 
 std::span<const uint32_t> kernelModule(const KernelFeatures& features, bool texelFetch) {

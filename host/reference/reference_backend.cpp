@@ -2,6 +2,8 @@
 
 #include "host/reference/camera_ray.hpp"
 #include "host/reference/integrator.hpp"
+#include "host/reference/pixel_filter.hpp"
+#include "host/reference/sampling.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/info.h>
@@ -11,6 +13,7 @@
 #include <algorithm>
 #include <chrono>
 #include <climits>
+#include <cmath>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -67,8 +70,17 @@ struct ReferenceBackend::Implementation {
         const PixelPlace place = area.placeOf(pixel);
         reference::RandomStream random(place.y * area.width + place.x, index,
                                        settings.estimator.seed, settings.estimator.sampler);
-        const double x = place.x + random.next(), y = place.y + random.next();
-        const reference::Ray ray = reference::cameraRay(camera, x / area.width, y / area.height);
+        const double u = random.next(), v = random.next();
+        const glm::dvec2 at = reference::placeInPixel(settings.estimator.filter, u, v);
+        glm::dvec2 onLens(0);
+        if (camera.lensRadius > 0) {
+            random.beginBlock();
+            const double radius = std::sqrt(random.next()), turn = random.next();
+            onLens = radius * glm::dvec2(std::cos(2 * reference::kPi * turn),
+                                         std::sin(2 * reference::kPi * turn));
+        }
+        const reference::Ray ray = reference::cameraRay(camera, (place.x + at.x) / area.width,
+                                                        (place.y + at.y) / area.height, onLens);
         reference::PathSample path(world, settings.estimator, random);
         const glm::dvec3 value = settings.estimator.integrator == Integrator::Normals
                                      ? path.normalColor(ray)

@@ -52,6 +52,21 @@ inline constexpr auto kNamedValues<Sampler> = std::to_array<NamedValue<Sampler>>
     {Sampler::Sobol, "sobol", "the samples of a pixel spread evenly, less noise"},
 });
 
+/// How much a place in the picture counts for the pixels about it. Samples are spread as the filter
+/// weighs them (filter importance sampling, Ernst et al. 2006), so that all weigh the same and
+/// pixels stay independent of each other.
+enum class PixelFilter {
+    Box,
+    Gaussian,       ///< standard deviation 0.5 pixels
+    BlackmanHarris, ///< the four-term window (Harris 1978), 3 pixels wide
+};
+template <>
+inline constexpr auto kNamedValues<PixelFilter> = std::to_array<NamedValue<PixelFilter>>({
+    {PixelFilter::Box, "box", "the pixel's own square"},
+    {PixelFilter::Gaussian, "gaussian", "standard deviation 0.5 pixels"},
+    {PixelFilter::BlackmanHarris, "blackman-harris", "a bell 3 pixels wide"},
+});
+
 /// How a light sample picks one of the lights (docs/estimator.md, "Which light").
 enum class LightChoice {
     Automatic, ///< what suits the lights: Tree, but Each of two, and Power in a single small mesh
@@ -98,6 +113,7 @@ struct Estimator {
     Integrator integrator = Integrator::Path;
     DirectLight directLight = DirectLight::Mis;
     Sampler sampler = Sampler::Sobol;
+    PixelFilter filter = PixelFilter::Box;
     LightChoice lightChoice = LightChoice::Automatic;
     uint32_t branches = 1; ///< paths of a sample, from the first surface that scatters at random on
     bool gapProposal = true; ///< bounces are sent into bright gaps too (docs/estimator.md, "Gaps")

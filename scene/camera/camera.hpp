@@ -28,6 +28,11 @@ struct Camera {
     /// clipAlongRay, along the ray.
     double nearDistance = 0, farDistance = 1e30;
     bool clipAlongRay = false;
+    /// A thin lens (perspective cameras): rays begin anywhere on a disk of this radius about
+    /// `position`, and those of one place in the picture meet at focusDistance along the view axis.
+    /// 0: a pinhole.
+    double lensRadius = 0;
+    double focusDistance = 1; ///< > 0
 };
 
 /// Sees `at` from `from`; halfWidth: the tangent of half the angle of view, or half the width of an

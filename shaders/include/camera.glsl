@@ -20,8 +20,8 @@ void findPictureGrid() {
     pictureGrid.down = frame.cameraUp * (-2.0 / float(frame.height));
 }
 
-/// The ray through a point of the picture: pixels from the left and from the top.
-CameraRay cameraRay(vec2 at) {
+/// The ray through a point of the picture: pixels from the left and from the top. onLens: of the unit disk.
+CameraRay cameraRay(vec2 at, vec2 onLens) {
     const vec3 d = pictureGrid.corner + at.x * pictureGrid.right + at.y * pictureGrid.down;
     CameraRay ray;
     ray.origin = frame.cameraPosition;
@@ -29,6 +29,12 @@ CameraRay cameraRay(vec2 at) {
     float alongAxis = 1.0; // length of the ray per unit of depth
     if (ORTHOGRAPHIC) {
         ray.origin += d;
+    } else if (HAS_LENS) {
+        const vec3 lens = frame.lensRadius * (onLens.x * unit(frame.cameraRight) + onLens.y * unit(frame.cameraUp));
+        const vec3 w = frame.focusDistance * d - lens; // all rays through d meet at the distance of focus
+        ray.origin += lens;
+        ray.direction = unit(w);
+        if (!CLIP_ALONG_RAY) alongAxis = length(w) / frame.focusDistance;
     } else {
         ray.direction = unit(d);
         if (!CLIP_ALONG_RAY) alongAxis = length(d);

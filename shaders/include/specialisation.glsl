@@ -42,9 +42,13 @@ layout(constant_id = SPEC_COUNT_STEPS) const bool COUNT_STEPS = false;
 #ifdef RICH_MATERIALS
 layout(constant_id = SPEC_HAS_ENVIRONMENT) const bool HAS_ENVIRONMENT = true;
 layout(constant_id = SPEC_HAS_BACKDROP) const bool HAS_BACKDROP = true;
+layout(constant_id = SPEC_HAS_LENS) const bool HAS_LENS = false;
+layout(constant_id = SPEC_PIXEL_FILTER) const uint PIXEL_FILTER = FILTER_BOX;
 #else
 const bool HAS_ENVIRONMENT = false;
 const bool HAS_BACKDROP = false;
+const bool HAS_LENS = false;
+const uint PIXEL_FILTER = FILTER_BOX;
 #endif
 #ifdef ONE_LIGHT
 const uint LIGHT_CHOICE = LIGHT_CHOICE_ONE;

@@ -58,7 +58,9 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_HAS_AMBIENT 27 // rays that hit nothing find ambient light
 #define SPEC_HAS_ENVIRONMENT 28 // that light is a picture
 #define SPEC_HAS_BACKDROP 29    // the camera sees it
-#define SPEC_COUNT 30
+#define SPEC_HAS_LENS 30
+#define SPEC_PIXEL_FILTER 31 // how samples are spread about a pixel
+#define SPEC_COUNT 32
 
 SHARED_CONST uint INTEGRATOR_PATH = 0u;
 SHARED_CONST uint INTEGRATOR_NORMALS = 1u;
@@ -66,6 +68,14 @@ SHARED_CONST uint INTEGRATOR_NORMALS = 1u;
 SHARED_CONST uint DIRECT_LIGHTS = 0u;
 SHARED_CONST uint DIRECT_HEMISPHERE = 1u;
 SHARED_CONST uint DIRECT_BSDF = 2u;
+
+SHARED_CONST uint FILTER_BOX = 0u;
+SHARED_CONST uint FILTER_GAUSSIAN = 1u;
+SHARED_CONST uint FILTER_BLACKMAN_HARRIS = 2u;
+/// In pixels; of the Gaussian, what lies beyond four standard deviations is left out.
+SHARED_CONST float GAUSSIAN_DEVIATION = 0.5f;
+SHARED_CONST float GAUSSIAN_RADIUS = 2.0f;
+SHARED_CONST float BLACKMAN_HARRIS_RADIUS = 1.5f;
 
 SHARED_CONST uint SAMPLER_INDEPENDENT = 0u;
 SHARED_CONST uint SAMPLER_SOBOL = 1u;

@@ -30,8 +30,11 @@ struct Frame {
     uint branches; ///< of a sample's path, from the first surface that scatters at random
     uint ambientLight; ///< the number of the ambient light; NO_LIGHT: it is not sampled
     uint lightsInGroup0, lightsInGroup1, lightsInGroup2; ///< by LIGHT_GROUP_: how many the light tree has
+    float lensRadius;
+    float focusDistance; ///< of the plane that is sharp, along the view axis
+    uint unused0, unused1;
 };
-SHARED_ROWS(Frame, 8);
+SHARED_ROWS(Frame, 9);
 SHARED_OFFSET(Frame, nearDistance, 64);
 SHARED_OFFSET(Frame, areaLights, 96);
 

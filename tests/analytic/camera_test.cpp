@@ -1,0 +1,111 @@
+// What the camera does to a picture whose content is known: the filter's blur of an edge, and the
+// lens's blur of a point.
+#include "tests/analytic/scenes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace stromboli {
+namespace {
+
+using namespace test;
+
+/// Sees the plane z = 0 from z = distance; a pixel there is one unit wide and the middle of the
+/// picture is the origin.
+Camera facing(double distance, double pixels) {
+    Camera camera = lookingAt({0, 0, distance}, {0, 0, 0}, pixels / 2 / distance);
+    return camera;
+}
+
+/// Emits 1 where x < 0, on the plane z = 0.
+Scene edge() {
+    SceneMaker maker;
+    maker.quad({-50, -50, 0}, {50, 0, 0}, {0, 100, 0}, maker.add(emissive(1)));
+    return maker.scene;
+}
+
+/// Share of a filter's weight at distances below x from its middle line, in pixels.
+double gaussianBelow(double x) {
+    return 0.5 * std::erfc(-x / (0.5 * std::numbers::sqrt2));
+}
+double blackmanHarrisBelow(double x) {
+    const double t = (x + 1.5) / 3, turn = 2 * std::numbers::pi;
+    if (t <= 0 || t >= 1) return t <= 0 ? 0 : 1;
+    return t - (0.48829 * std::sin(turn * t) - 0.14128 / 2 * std::sin(2 * turn * t) +
+                0.01168 / 3 * std::sin(3 * turn * t)) /
+                   (0.35875 * turn);
+}
+
+TEST(PixelFilters, BlurAnEdgeAsTheirIntegralSays) {
+    for (const PixelFilter filter :
+         {PixelFilter::Box, PixelFilter::Gaussian, PixelFilter::BlackmanHarris}) {
+        SCOPED_TRACE(nameOf(filter));
+        RenderSettings s = smallPicture(20000, 0);
+        s.area = {4, 1, {}};
+        s.estimator.filter = filter;
+        s.estimator.sampler = Sampler::Independent;
+        const Film film = renderFilm(edge(), facing(1000, 4), s);
+        for (int pixel = 0; pixel < 4; ++pixel) {
+            const double toEdge = 2 - (pixel + 0.5); // from the pixel's middle to x = 0
+            const double expected = filter == PixelFilter::Box        ? double(pixel < 2)
+                                    : filter == PixelFilter::Gaussian ? gaussianBelow(toEdge)
+                                                                      : blackmanHarrisBelow(toEdge);
+            // 4.5 standard errors; what the Gaussian's cut takes away is 3.4e-4 of its weight.
+            const double error = std::sqrt(std::max(expected * (1 - expected), 1e-12) / 20000);
+            EXPECT_NEAR(film.pixels[size_t(pixel)].mean.x, expected, 4.5 * error + 3.4e-4)
+                << pixel;
+        }
+    }
+}
+
+/// A point at another depth than the focus is blurred to a disk of radius
+/// lens radius x |depth - focus| / focus on its own plane; an edge through it to the disk's
+/// segment.
+TEST(Lens, BlursWhatIsOutOfFocusToADisk) {
+    for (const double focus : {6.0, 10.0, 20.0}) {
+        SCOPED_TRACE(focus);
+        RenderSettings s = smallPicture(40000, 0);
+        s.area = {1, 1, {}};
+        Camera camera = facing(10, 1e-6);
+        camera.position.x = 0.3; // the edge is this far beside the middle
+        camera.lensRadius = 2;
+        camera.focusDistance = focus;
+        const double radius = 2 * std::abs(10 - focus) / focus;
+        double expected = 0;
+        if (radius > 0.3) { // the segment of the unit disk beyond h
+            const double h = 0.3 / radius;
+            expected = (std::acos(h) - h * std::sqrt(1 - h * h)) / std::numbers::pi;
+        }
+        expectMean(estimate(edge(), camera, s), expected);
+    }
+}
+
+TEST(Lens, LeavesWhatIsInFocusSharp) {
+    Camera camera = facing(10, 4);
+    RenderSettings s = smallPicture(64, 0);
+    s.area = {4, 1, {}};
+    camera.lensRadius = 1;
+    camera.focusDistance = 10;
+    const Film film = renderFilm(edge(), camera, s);
+    for (size_t pixel = 0; pixel < 4; ++pixel)
+        EXPECT_NEAR(film.pixels[pixel].mean.x, pixel < 2 ? 1 : 0, 1e-6) << pixel;
+}
+
+/// Near and far distances are depths along the axis for slanted rays, too.
+TEST(Lens, KeepsTheDepthRange) {
+    Camera camera = facing(10, 1e-6);
+    camera.position.x = -5;
+    camera.lensRadius = 3;
+    camera.focusDistance = 4;
+    const RenderSettings s = smallPicture(1000, 0);
+    camera.farDistance = 9.999;
+    expectMean(estimate(edge(), camera, s), 0);
+    camera.farDistance = 10.001;
+    camera.nearDistance = 9.999;
+    expectMean(estimate(edge(), camera, s), 1);
+}
+
+} // namespace
+} // namespace stromboli
