@@ -1,0 +1,46 @@
+#include "scene/images/picture.hpp"
+
+#include "host/core/error.hpp"
+#include "scene/build/read_file.hpp"
+
+#include <fmt/format.h>
+
+namespace stromboli::images {
+
+void failToDecode(const std::string& name, std::string_view format, std::string_view problem) {
+    // Libraries end their messages with full stops or line breaks; a message is one line.
+    std::string line(problem);
+    for (char& c : line)
+        if (c == '\n' || c == '\r') c = ' ';
+    line.erase(line.find_last_not_of(" .") + 1);
+    throw SceneError(name, 0, "", fmt::format("cannot be read as {}: {}", format, line));
+}
+
+void requireSize(const std::string& name, uint64_t width, uint64_t height, uint64_t bytesPerTexel,
+                 uint64_t fileBytes, uint64_t leastBytes) {
+    const auto fail = [&](const std::string& problem) { throw SceneError(name, 0, "", problem); };
+    if (width == 0 || height == 0 || width > kLargestSide || height > kLargestSide)
+        fail(fmt::format("the picture has {} x {} pixels, expected at least 1 and at most {} of "
+                         "each",
+                         width, height, kLargestSide));
+    if (fileBytes < leastBytes)
+        fail(fmt::format("claims {} x {} pixels, which {} bytes cannot hold; the file is "
+                         "truncated or damaged",
+                         width, height, fileBytes));
+    build::requireMemory(name, width * height * bytesPerTexel);
+}
+
+Picture decodePicture(std::string_view bytes, const std::string& name) {
+    if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return decodePng(bytes, name);
+    if (bytes.starts_with("\xFF\xD8\xFF")) return decodeJpeg(bytes, name);
+    if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP"))
+        return decodeWebp(bytes, name);
+    if (bytes.starts_with("#?")) return decodeHdr(bytes, name);
+    if (bytes.starts_with("\x76\x2f\x31\x01")) return decodeExr(bytes, name);
+    throw SceneError(name, 0, "",
+                     bytes.empty() ? "is empty, expected a picture"
+                                   : "is no picture that is read: expected PNG, JPEG, WebP, "
+                                     "Radiance HDR or OpenEXR");
+}
+
+} // namespace stromboli::images

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace stromboli::images {
+
+/// More columns or rows than this are refused: a file of a few bytes can claim any size.
+inline constexpr uint32_t kLargestSide = 16384;
+
+/// A picture as its file states it: red, green, blue and alpha of each pixel, row after row from
+/// the top. Grey pictures have three equal colours; without alpha in the file, it is 1.
+struct Picture {
+    uint32_t width = 0, height = 0;
+    /// Fractions of 255 or of 65535, with the file's transfer function (sRGB for colours), or
+    /// linear light as floats.
+    std::variant<std::vector<uint8_t>, std::vector<uint16_t>, std::vector<float>> values;
+
+    size_t texelCount() const { return size_t(width) * height; }
+};
+
+/// Decodes the bytes of a PNG, JPEG, WebP, Radiance HDR or OpenEXR file, told by their beginning.
+/// `name` is what messages call it. Throws SceneError if the bytes are none of these, truncated or
+/// damaged, if a side exceeds kLargestSide, if they are too few for the size that they claim, or if
+/// the pixels would not fit in the machine's memory.
+Picture decodePicture(std::string_view bytes, const std::string& name);
+
+/// The decoders, one for each format.
+Picture decodePng(std::string_view bytes, const std::string& name);
+Picture decodeJpeg(std::string_view bytes, const std::string& name);
+Picture decodeWebp(std::string_view bytes, const std::string& name);
+Picture decodeHdr(std::string_view bytes, const std::string& name);
+Picture decodeExr(std::string_view bytes, const std::string& name);
+
+/// Throws SceneError unless a picture of this size may be decoded: its sides lie within
+/// [1, kLargestSide], the machine can hold its pixels, and at least `leastBytes` of the file's
+/// `fileBytes` are there, below which no file of the format can describe so many pixels.
+void requireSize(const std::string& name, uint64_t width, uint64_t height, uint64_t bytesPerTexel,
+                 uint64_t fileBytes, uint64_t leastBytes);
+
+[[noreturn]] void failToDecode(const std::string& name, std::string_view format,
+                               std::string_view problem);
+
+} // namespace stromboli::images

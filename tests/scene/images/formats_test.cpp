@@ -1,0 +1,142 @@
+// Pictures that libraries encode, and ones written byte by byte, have the pixels they were given.
+
+#include "scene/images/float_image.hpp"
+#include "scene/images/picture.hpp"
+#include "tests/scene/images/encoders.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace stromboli::images {
+namespace {
+
+using testing::Each;
+using testing::ElementsAre;
+using testing::FloatEq;
+using testing::HasSubstr;
+using Bytes = std::vector<uint8_t>;
+using Words = std::vector<uint16_t>;
+using Floats = std::vector<float>;
+
+template <class Values>
+Values valuesOf(const std::string& bytes) {
+    return std::get<Values>(decodePicture(bytes, "picture").values);
+}
+
+TEST(Formats, PngOfEightBits) {
+    EXPECT_THAT(valuesOf<Bytes>(test::png8(2, 1, 3, {1, 2, 3, 250, 251, 252})),
+                ElementsAre(1, 2, 3, 255, 250, 251, 252, 255));
+    EXPECT_THAT(valuesOf<Bytes>(test::png8(1, 2, 4, {1, 2, 3, 4, 5, 6, 7, 8})),
+                ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
+    EXPECT_THAT(valuesOf<Bytes>(test::png8(2, 1, 1, {7, 200})),
+                ElementsAre(7, 7, 7, 255, 200, 200, 200, 255));
+    EXPECT_THAT(valuesOf<Bytes>(test::png8(1, 1, 2, {9, 10})), ElementsAre(9, 9, 9, 10));
+}
+
+TEST(Formats, PngOfSixteenBits) {
+    EXPECT_THAT(valuesOf<Words>(test::png16(1, 1, 3, {1, 256, 65535})),
+                ElementsAre(1, 256, 65535, 65535));
+    EXPECT_THAT(valuesOf<Words>(test::png16(1, 1, 2, {258, 3})), ElementsAre(258, 258, 258, 3));
+}
+
+TEST(Formats, JpegOfColourAndGrey) {
+    // A quantisation step of 1 and rounding in two transforms leave an error of a few steps.
+    const Bytes colour = valuesOf<Bytes>(test::jpeg(8, 8, 3, Bytes(8 * 8 * 3, 100)));
+    ASSERT_EQ(colour.size(), 8u * 8 * 4);
+    EXPECT_NEAR(colour[0], 100, 2);
+    EXPECT_EQ(colour[3], 255);
+    const Bytes grey = valuesOf<Bytes>(test::jpeg(3, 5, 1, Bytes(15, 50)));
+    ASSERT_EQ(grey.size(), 15u * 4);
+    EXPECT_NEAR(grey[0], 50, 1);
+    EXPECT_EQ(grey[0], grey[1]);
+}
+
+TEST(Formats, Webp) {
+    EXPECT_THAT(valuesOf<Bytes>(test::webp(2, 1, {1, 2, 3, 255, 250, 251, 252, 128})),
+                ElementsAre(1, 2, 3, 255, 250, 251, 252, 128));
+}
+
+TEST(Formats, OpenExr) {
+    EXPECT_THAT(valuesOf<Floats>(test::exr(1, 2, "RGB", {1, 2, 3, 0.5f, 1e30f, -1}, false)),
+                ElementsAre(1, 2, 3, 1, 0.5f, 1e30f, -1, 1));
+    EXPECT_THAT(valuesOf<Floats>(test::exr(1, 1, "RGBA", {1, 2, 3, 0.25f}, true)),
+                ElementsAre(1, 2, 3, 0.25f));
+    EXPECT_THAT(valuesOf<Floats>(test::exr(2, 1, "Y", {7, 9}, false)),
+                ElementsAre(7, 7, 7, 1, 9, 9, 9, 1));
+}
+
+/// The header of a Radiance file; `rows` follow.
+std::string hdr(const std::string& variables, const std::string& size, const std::string& rows) {
+    return "#?RADIANCE\n" + variables + "FORMAT=32-bit_rle_rgbe\n\n" + size + "\n" + rows;
+}
+
+TEST(Formats, HdrPixelByPixel) {
+    // Exponent 136 is a unit of 1.
+    const std::string rows("\x01\x02\x03\x88\x80\x40\x00\x81", 8);
+    EXPECT_THAT(valuesOf<Floats>(hdr("", "-Y 1 +X 2", rows)),
+                ElementsAre(1, 2, 3, 1, 1, 0.5f, 0, 1));
+    EXPECT_THAT(valuesOf<Floats>(hdr("EXPOSURE=2\n", "-Y 2 +X 1", rows)),
+                ElementsAre(0.5f, 1, 1.5f, 1, 0.5f, 0.25f, 0, 1));
+}
+
+TEST(Formats, HdrRepeatsPixels) {
+    const std::string rows("\x04\x02\x03\x88\x01\x01\x01\x02", 8);
+    EXPECT_THAT(valuesOf<Floats>(hdr("", "-Y 1 +X 3", rows)),
+                ElementsAre(4, 2, 3, 1, 4, 2, 3, 1, 4, 2, 3, 1));
+}
+
+TEST(Formats, HdrPackedRows) {
+    // Eight pixels: red is a run, green is literal, blue a run of 3 and one of 5, then exponents.
+    std::string rows("\x02\x02\x00\x08", 4);
+    rows += std::string("\x88\x05", 2);
+    rows += std::string("\x08\x00\x01\x02\x03\x04\x05\x06\x07", 9);
+    rows += std::string("\x83\x01\x85\x02", 4);
+    rows += std::string("\x88\x88", 2);
+    const Floats values = valuesOf<Floats>(hdr("", "-Y 1 +X 8", rows));
+    ASSERT_EQ(values.size(), 32u);
+    for (int x = 0; x < 8; ++x) {
+        EXPECT_EQ(values[4 * x], 5);
+        EXPECT_EQ(values[4 * x + 1], x);
+        EXPECT_EQ(values[4 * x + 2], x < 3 ? 1 : 2);
+    }
+}
+
+/// A file that is there as long as the object.
+struct File {
+    std::filesystem::path path;
+    explicit File(const std::string& bytes)
+        : path(std::filesystem::path(testing::TempDir()) /
+               ("stromboli_picture_" + std::to_string(getpid()))) {
+        std::ofstream(path, std::ios::binary) << bytes;
+    }
+    ~File() { std::filesystem::remove(path); }
+};
+
+TEST(FloatImages, AreLinear) {
+    const FloatImage eight = readFloatImage(File(test::png8(1, 1, 3, {0, 255, 188})).path);
+    // IEC 61966-2-1 of 188 / 255.
+    EXPECT_THAT(eight.texels.at(0).z, FloatEq(0.50288653f));
+    EXPECT_EQ(eight.texels.at(0).x, 0);
+    EXPECT_EQ(eight.texels.at(0).y, 1);
+    const FloatImage deep =
+        readFloatImage(File(test::exr(2, 1, "RGB", {1, 2, 3, 4, 5, 6}, false)).path);
+    ASSERT_EQ(deep.width, 2u);
+    EXPECT_EQ(deep.texels.at(1), glm::vec3(4, 5, 6));
+}
+
+TEST(FloatImages, RefuseWhatIsNoLight) {
+    const File file(test::exr(2, 1, "RGB", {1, 2, 3, 4, -5, 6}, false));
+    try {
+        readFloatImage(file.path);
+        FAIL();
+    } catch (const std::exception& error) {
+        EXPECT_THAT(error.what(), HasSubstr("pixel (1, 0) is (4, -5, 6), expected finite"));
+    }
+}
+
+} // namespace
+} // namespace stromboli::images
