@@ -51,6 +51,8 @@ DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, const Words
 
 void declareScene(DeclaredCommand& command);
 
+/// Views that files do not state: where from, which angle, which lens.
+void declareOptics(DeclaredCommand& command);
 /// Size, camera, crop.
 void declarePicture(DeclaredCommand& command);
 void finishPicture(DeclaredCommand& command);

@@ -7,6 +7,7 @@
 #include "host/core/stopwatch.hpp"
 #include "host/film/film.hpp"
 #include "host/render/branches.hpp"
+#include "scene/add_environment.hpp"
 #include "scene/model/default_light.hpp"
 #include "scene/read_scene.hpp"
 
@@ -17,6 +18,14 @@
 
 namespace stromboli {
 namespace {
+
+Scene loadScene(const Options& options) {
+    SceneConventions reading = options.reading;
+    if (options.environment.isGiven()) reading.defaultLight = false;
+    Scene scene = readScene(options.scene, reading);
+    if (options.environment.isGiven()) addEnvironment(scene, options.environment);
+    return scene;
+}
 
 void reportScene(const Scene& scene, const Options& options) {
     for (const std::string& line : scene.report.warnings)
@@ -38,6 +47,11 @@ void reportScene(const Scene& scene, const Options& options) {
 /// Which view was taken, where the file leaves a choice or is not followed.
 void reportCamera(const Job& job, const Options& options) {
     const Scene& scene = job.scene;
+    if (options.camera.from) {
+        if (!scene.bounds().empty() && !mayShow(job.camera, scene))
+            logging::warn("from --look-from nothing of the scene is in the picture");
+        return;
+    }
     const std::optional<size_t> chosen = chosenCamera(scene, options.camera, options.framing);
     if (!chosen) {
         logging::info(fmt::format("{} has no camera: framing the whole scene", options.scene));
@@ -88,8 +102,7 @@ std::future<vulkan::OpenDevice> openDeviceMeanwhile(const Options& options) {
 Job prepareJob(const Options& options) {
     nowDoing("loading " + options.scene);
     Stopwatch watch;
-    Job job{
-        readScene(options.scene, options.reading), {}, {options.area, options.estimator, {}}, 0};
+    Job job{loadScene(options), {}, {options.area, options.estimator, {}}, 0};
     job.loadSeconds = watch.seconds();
     reportScene(job.scene, options);
     if (!options.sizeGiven) {

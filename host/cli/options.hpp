@@ -8,6 +8,7 @@
 #include "host/core/named_values.hpp"
 #include "host/film/tone.hpp"
 #include "host/render/settings.hpp"
+#include "scene/add_environment.hpp"
 #include "scene/build/conventions.hpp"
 #include "scene/camera/camera.hpp"
 
@@ -46,6 +47,7 @@ struct Options {
     PictureArea area;
     bool sizeGiven = false;   ///< area.width, height
     SceneConventions reading; ///< of the scene's file
+    EnvironmentRequest environment;
     FramingConventions framing;
     Estimator estimator;              ///< its branches are not yet chosen
     std::optional<uint32_t> branches; ///< empty: what pays in the scene

@@ -1,6 +1,7 @@
 // Options: which scene, and which part of which picture of it.
 #include "host/cli/declared_command.hpp"
 #include "host/core/error.hpp"
+#include "host/core/number_text.hpp"
 
 #include <fmt/format.h>
 
@@ -16,6 +17,26 @@ Crop readCrop(const std::string& name, const Words& words) {
             readNumber(name + ": top", words[1], kPlace),
             readNumber(name + ": width", words[2], kSide),
             readNumber(name + ": height", words[3], kSide)};
+}
+
+/// Radiance: one number for all channels, or three with commas between. Empty if it is no such
+/// text.
+std::optional<glm::vec3> readRadiance(const std::string& word) {
+    const size_t first = word.find(','), second = word.find(',', first + 1);
+    const auto channel = [](const std::string& text) -> std::optional<float> {
+        const std::optional<double> value = realNumber(text);
+        if (!value || *value < 0 || *value > 1e30) return std::nullopt;
+        return float(*value);
+    };
+    if (first == std::string::npos) {
+        const std::optional<float> grey = channel(word);
+        return grey ? std::optional(glm::vec3(*grey)) : std::nullopt;
+    }
+    if (second == std::string::npos) return std::nullopt;
+    const std::optional<float> r = channel(word.substr(0, first)),
+                               g = channel(word.substr(first + 1, second - first - 1)),
+                               b = channel(word.substr(second + 1));
+    return r && g && b ? std::optional(glm::vec3(*r, *g, *b)) : std::nullopt;
 }
 
 /// One of the words of CameraChoice, else the name or number of a camera of the file.
@@ -48,6 +69,27 @@ void declareScene(DeclaredCommand& c) {
                })
         .usually("on; --cs184: off")
         .proposes({"on", "off"});
+    EnvironmentRequest& environment = c.options.environment;
+    c.list
+        .words("--env", "FILE",
+               "light from all around: an equirectangular picture (.hdr, .exr, ...), or its "
+               "radiance as a number or as R,G,B; takes the place of ambient light and is seen by "
+               "the camera",
+               1,
+               [&environment](const Words& words) {
+                   if (words[0].empty()) throw UsageError("--env is empty: expected text");
+                   environment.constant = readRadiance(words[0]);
+                   environment.file = environment.constant ? "" : words[0];
+               })
+        .excludes("--cs184")
+        .proposes(Proposed::Files);
+    c.list
+        .real("--env-rotate", "DEGREES",
+              "turns it about the vertical, counter-clockwise seen from above",
+              environment.rotationDegrees, {-3600, 3600})
+        .needs("--env");
+    c.list.real("--env-strength", "X", "multiplies its radiance", environment.strength, {0, 1e9})
+        .needs("--env");
     c.list.flag("--strict",
                 "what breaks the rules of the scene's format is an error, also where it is clear "
                 "what is meant",
@@ -72,9 +114,15 @@ void declarePicture(DeclaredCommand& c) {
                fmt::format("whose view ({}; NAME or N: the file's camera of that name or number, "
                            "which info lists)",
                            allMeanings<CameraChoice>()),
-               1, [&o](const Words& words) { o.camera = readCamera(words[0]); })
+               1,
+               [&o](const Words& words) {
+                   const CameraRequest which = readCamera(words[0]);
+                   o.camera.choice = which.choice;
+                   o.camera.name = which.name;
+               })
         .usually(nameOf(o.camera.choice))
         .proposes(namesOf<CameraChoice>());
+    declareOptics(c);
     const std::string placeAndSize = fmt::format("{} and {}", inWords(kPlace), inWords(kSide));
     c.list
         .words("--crop", "X Y W H", "only this part: left, top, width, height in pixels", 4,

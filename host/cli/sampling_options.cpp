@@ -36,6 +36,8 @@ void declareSamples(DeclaredCommand& c, const std::string& samplesHelp) {
         .usually(fmt::format("{}{}", c.asked.usualPaths,
                              c.options.command == Command::Render ? "; --cs184: 1" : ""));
     declareSampler(c, c.options.estimator.sampler);
+    c.list.choice("--filter", "WHICH", "how much places about a pixel count for it",
+                  c.options.estimator.filter);
     c.list.number("--seed", "N", "another seed, another noise", c.options.estimator.seed, kAnySeed);
 }
 

@@ -124,6 +124,35 @@ Camera framedView(const Scene& scene, const FileCamera& optics,
     return camera;
 }
 
+/// The angle that a view without a camera has if none is asked for.
+constexpr double kStatedView = 40 * kDegree;
+
+Camera statedView(const Scene& scene, const CameraRequest& request) {
+    const Bounds bounds = scene.bounds();
+    const glm::dvec3 middle =
+        bounds.empty() ? glm::dvec3(0) : 0.5 * (glm::dvec3(bounds.lo) + glm::dvec3(bounds.hi));
+    const glm::dvec3 at = request.at.value_or(middle);
+    if (at == *request.from)
+        throw SceneError(fmt::format("{}: the camera is where it is to look at: ({:g}, {:g}, {:g})",
+                                     scene.file, at.x, at.y, at.z));
+    return lookingAt(*request.from, at, std::tan(kStatedView / 2));
+}
+
+void applyOptics(Camera& camera, const CameraRequest& request, double aspect,
+                 const std::string& file) {
+    if (camera.orthographic && (request.fieldOfView || request.aperture > 0))
+        throw SceneError(
+            fmt::format("{}: an orthographic camera has neither an angle of view nor a lens "
+                        "(--fov, --aperture)",
+                        file));
+    if (request.fieldOfView) {
+        camera.halfHeight = std::tan(*request.fieldOfView / 2);
+        camera.halfWidth = camera.halfHeight * aspect;
+    }
+    camera.lensRadius = request.aperture / 2;
+    camera.focusDistance = request.focus;
+}
+
 } // namespace
 
 Camera lookingAt(const glm::dvec3& from, const glm::dvec3& at, double halfWidth) {
@@ -165,6 +194,7 @@ std::optional<size_t> chosenCamera(const Scene& scene, const CameraRequest& requ
 
 bool isFramed(const Scene& scene, const CameraRequest& request,
               const FramingConventions& conventions) {
+    if (request.from) return false;
     if (request.choice != CameraChoice::Automatic) return request.choice == CameraChoice::Frame;
     return conventions.framesEveryScene || scene.cglDialect || scene.cameras.empty();
 }
@@ -172,6 +202,7 @@ bool isFramed(const Scene& scene, const CameraRequest& request,
 PictureSize defaultPictureSize(const Scene& scene, const CameraRequest& request,
                                const FramingConventions& conventions) {
     if (conventions.pictureSize) return *conventions.pictureSize;
+    if (request.from) return {};
     const std::optional<size_t> chosen = chosenCamera(scene, request, conventions);
     if (!chosen || isFramed(scene, request, conventions)) return {};
     const Frustum f = fileFrustum(scene.cameras[*chosen], aspectOf({}));
@@ -182,12 +213,18 @@ PictureSize defaultPictureSize(const Scene& scene, const CameraRequest& request,
 
 Camera makeCamera(const Scene& scene, const CameraRequest& request, uint32_t width, uint32_t height,
                   const FramingConventions& conventions) {
+    const PictureSize picture{width, height};
+    const double aspect = aspectOf(picture);
+    if (request.from) {
+        Camera camera = statedView(scene, request);
+        camera.halfWidth = camera.halfHeight * aspect;
+        applyOptics(camera, request, aspect, scene.file);
+        return camera;
+    }
     const bool framed = isFramed(scene, request, conventions);
     const FileCamera optics = opticsOf(scene, request, conventions);
     if (!framed && scene.cameras.empty())
         throw SceneError(scene.file + ": has no camera; use --camera frame");
-    const PictureSize picture{width, height};
-    const double aspect = aspectOf(picture);
     Camera camera = framed ? framedView(scene, optics, conventions) : fileView(optics);
     camera.orthographic = !framed && optics.projection == Projection::Orthographic;
     const Frustum f = framed ? framedFrustum(optics, picture, conventions)
@@ -199,6 +236,7 @@ Camera makeCamera(const Scene& scene, const CameraRequest& request, uint32_t wid
         camera.nearDistance = optics.nearDistance;
         camera.farDistance = optics.farDistance;
     }
+    applyOptics(camera, request, aspect, scene.file);
     return camera;
 }
 

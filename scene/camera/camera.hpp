@@ -50,6 +50,13 @@ struct CameraRequest {
     CameraChoice choice = CameraChoice::Automatic;
     /// The file's camera of this name, or of this number, from 1; empty: the conventions say which.
     std::string name;
+    /// In place of all of these: a perspective view from this point.
+    std::optional<glm::dvec3> from;
+    std::optional<glm::dvec3> at; ///< with `from`: what it looks at; empty: the scene's middle
+    /// Radians, over the height of the picture: in place of the angle that the camera has.
+    std::optional<double> fieldOfView;
+    double aperture = 0; ///< diameter of the lens, metres; 0: a pinhole
+    double focus = 1;    ///< distance of the plane that is sharp, along the view axis, metres
 
     CameraRequest(CameraChoice which = CameraChoice::Automatic, std::string ofName = {})
         : choice(which), name(std::move(ofName)) {}
@@ -97,7 +104,8 @@ PictureSize defaultPictureSize(const Scene& scene, const CameraRequest& request,
 /// File: the whole of the file's field of view is visible; where the picture's shape differs,
 /// it shows more on the longer side.
 /// Frame: docs/cs184.md.
-/// Throws SceneError if the file's camera is wanted and there is none, or none of that name.
+/// Throws SceneError if the file's camera is wanted and there is none, or none of that name, and if
+/// an orthographic camera is to have an angle of view or a lens.
 Camera makeCamera(const Scene& scene, const CameraRequest& request, uint32_t width, uint32_t height,
                   const FramingConventions& conventions = {});
 

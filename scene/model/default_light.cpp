@@ -6,6 +6,7 @@ namespace stromboli {
 
 bool shines(const Scene& scene) {
     const auto emits = [&](const auto& shape) { return scene.materials[shape.material].emits(); };
+    if (scene.environment) return true;
     return std::any_of(scene.lights.begin(), scene.lights.end(),
                        [](const Light& light) { return light.color != glm::vec3(0); }) ||
            std::any_of(scene.triangles.begin(), scene.triangles.end(), emits) ||

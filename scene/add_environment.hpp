@@ -1,0 +1,24 @@
+#pragma once
+
+#include "scene/model/scene.hpp"
+
+#include <optional>
+#include <string>
+
+namespace stromboli {
+
+/// The light around a scene that a user asks for.
+struct EnvironmentRequest {
+    std::string file;                  ///< an equirectangular picture; empty: none
+    std::optional<glm::vec3> constant; ///< in place of a file: the same radiance from everywhere
+    double rotationDegrees = 0;        ///< about +y, counter-clockwise seen from above
+    double strength = 1;               ///< multiplies the radiance
+
+    bool isGiven() const { return !file.empty() || constant; }
+};
+
+/// Puts the environment around the scene, in the place of its ambient lights, which it reports.
+/// Throws SceneError if the file cannot be read.
+void addEnvironment(Scene& scene, const EnvironmentRequest& request);
+
+} // namespace stromboli
