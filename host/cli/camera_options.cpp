@@ -25,10 +25,10 @@ glm::dvec3 readPoint(const std::string& option, const Words& words) {
             readReal(option + ": z", words[2], kCoordinates)};
 }
 
-/// A positive length with its unit.
+/// A positive length; metres, where it has no unit.
 double readLength(const std::string& option, const std::string& word) {
-    constexpr std::array<std::pair<std::string_view, double>, 4> kUnits = {
-        {{"mm", 1e-3}, {"cm", 1e-2}, {"km", 1e3}, {"m", 1}}};
+    constexpr std::array<std::pair<std::string_view, double>, 5> kUnits = {
+        {{"mm", 1e-3}, {"cm", 1e-2}, {"km", 1e3}, {"m", 1}, {"", 1}}};
     for (const auto& [unit, metres] : kUnits) {
         if (!word.ends_with(unit)) continue;
         const std::optional<double> value = realNumber(word.substr(0, word.size() - unit.size()));
@@ -36,7 +36,8 @@ double readLength(const std::string& option, const std::string& word) {
             return *value * metres;
         break;
     }
-    refuse(option, word, "a length greater than 0 with its unit: 5mm, 2.5cm, 3m or 1km");
+    refuse(option, word,
+           "a length greater than 0, in metres or with its unit: 5mm, 2.5cm, 3m, 1km");
 }
 
 } // namespace
@@ -64,8 +65,7 @@ void declareOptics(DeclaredCommand& c) {
         .usually("the camera's; --look-from: 40");
     c.list
         .words(
-            "--aperture", "LENGTH",
-            "diameter of a thin lens, with its unit (5mm): blurs what is out of focus", 1,
+            "--aperture", "LENGTH", "diameter of a thin lens (5mm): blurs what is out of focus", 1,
             [&camera](const Words& words) { camera.aperture = readLength("--aperture", words[0]); })
         .needs("--focus")
         .usually("a pinhole");

@@ -65,7 +65,7 @@ SHARED_ROWS(EnvironmentLight, 2);
 
 /// A texel of the environment, in rows from the top. Its weight is the luminance times the sine of the polar angle
 /// of its middle; it is a column of an alias table by weight (Walker 1977, Vose 1991).
-/// Radiance: three mantissas of 18 bits, from the lowest on, and an exponent: m 2^(exponent - 146).
+/// Radiance: three mantissas of 18 bits, from the lowest on, and an exponent: m 2^(exponent - 145).
 struct EnvironmentTexel {
     float threshold; ///< below this fraction of the column its own texel is taken,
     uint alias;      ///< above it this one
@@ -73,7 +73,7 @@ struct EnvironmentTexel {
 };
 SHARED_ROWS(EnvironmentTexel, 1);
 SHARED_CONST uint ENVIRONMENT_MANTISSA_BITS = 18u;
-SHARED_CONST uint ENVIRONMENT_EXPONENT_BIAS = 146u;
+SHARED_CONST uint ENVIRONMENT_EXPONENT_BIAS = 145u;
 
 struct SphereLight {
     vec3 center;

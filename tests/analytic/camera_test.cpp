@@ -54,8 +54,7 @@ TEST(PixelFilters, BlurAnEdgeAsTheirIntegralSays) {
                                                                       : blackmanHarrisBelow(toEdge);
             // 4.5 standard errors; what the Gaussian's cut takes away is 3.4e-4 of its weight.
             const double error = std::sqrt(std::max(expected * (1 - expected), 1e-12) / 20000);
-            EXPECT_NEAR(film.pixels[size_t(pixel)].mean.x, expected, 4.5 * error + 3.4e-4)
-                << pixel;
+            EXPECT_NEAR(film.pixels[size_t(pixel)].mean.x, expected, 4.5 * error + 3.4e-4) << pixel;
         }
     }
 }

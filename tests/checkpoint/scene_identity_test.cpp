@@ -39,7 +39,22 @@ TEST(SceneIdentity, EveryMemberCounts) {
         [](Scene& s, Camera&) { s.lights[0].color.x = 2; },
         [](Scene& s, Camera&) { s.lights[0].falloffAngle = 1; },
         [](Scene& s, Camera&) { s.lights.push_back({}); },
+        [](Scene& s, Camera&) { s.materials[1].principled.roughness = 0.5f; },
+        [](Scene& s, Camera&) { s.materials[1].alphaCutoff = 0.25f; },
+        [](Scene& s, Camera&) { s.materials[1].textures.push_back({}); },
+        [](Scene& s, Camera&) {
+            s.images.push_back({"a", 1, 1, TexelFormat::Rgba8, {7}});
+        },
+        [](Scene& s, Camera&) { s.textures.push_back({}); },
+        [](Scene& s, Camera&) { s.attributes.push_back({}); },
+        [](Scene& s, Camera&) { s.environment.emplace(); },
+        [](Scene& s, Camera&) {
+            s.environment.emplace();
+            s.environment->rotation = 1;
+        },
         [](Scene&, Camera& c) { c.position.x = 1e-9; },
+        [](Scene&, Camera& c) { c.lensRadius = 1e-9; },
+        [](Scene&, Camera& c) { c.focusDistance = 2; },
         [](Scene&, Camera& c) { c.clipAlongRay = true; },
     };
     std::set<uint32_t> sums;

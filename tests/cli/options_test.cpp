@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace stromboli {
 namespace {
@@ -341,6 +342,37 @@ TEST(Options, OtherWordsNameACameraOfTheFile) {
     EXPECT_EQ(camera("file").name, "");
 }
 
+TEST(Options, TheLightAroundTheScene) {
+    const auto environment = [](std::vector<std::string> words) {
+        words.insert(words.begin(), {"info", "a.dae"});
+        return parse(words).environment;
+    };
+    EXPECT_FALSE(environment({}).isGiven());
+    EXPECT_EQ(environment({"--env", "sky.hdr"}).file, "sky.hdr");
+    EXPECT_EQ(environment({"--env", "0.5"}).constant, glm::vec3(0.5f));
+    EXPECT_EQ(environment({"--env", "1,0.5,2e1"}).constant, glm::vec3(1, 0.5f, 20));
+    EXPECT_EQ(environment({"--env", "1,2"}).file, "1,2"); // no radiance: a name
+    EXPECT_EQ(environment({"--env", "-1"}).file, "-1");
+    const EnvironmentRequest turned =
+        environment({"--env", "sky.hdr", "--env-rotate", "90", "--env-strength", "2"});
+    EXPECT_EQ(turned.rotationDegrees, 90);
+    EXPECT_EQ(turned.strength, 2);
+}
+
+TEST(Options, ViewsAndLenses) {
+    const CameraRequest camera =
+        parse({"info", "a.dae", "--look-from", "1", "-2", "3e1", "--look-at", "0", "0.5", "0",
+               "--fov", "90", "--aperture", "5mm", "--focus", "2.5"})
+            .camera;
+    EXPECT_EQ(camera.from, glm::dvec3(1, -2, 30));
+    EXPECT_EQ(camera.at, glm::dvec3(0, 0.5, 0));
+    EXPECT_DOUBLE_EQ(camera.fieldOfView.value(), std::acos(0.0));
+    EXPECT_DOUBLE_EQ(camera.aperture, 0.005);
+    EXPECT_DOUBLE_EQ(camera.focus, 2.5);
+    EXPECT_DOUBLE_EQ(parse({"info", "a.dae", "--aperture", "1cm", "--focus", "0.1km"}).camera.focus,
+                     100);
+}
+
 TEST(Options, HowFilesAreRead) {
     const auto reading = [](std::vector<std::string> extra) {
         extra.insert(extra.begin(), {"check", "a.dae"});
@@ -374,6 +406,15 @@ TEST(Options, ContradictionsAreRefused) {
                                                {"--roulette", "sometimes"},
                                                {"--default-light", "dim"},
                                                {"--camera", ""},
+                                               {"--camera", "2", "--look-from", "0", "0", "1"},
+                                               {"--look-at", "0", "0", "1"},
+                                               {"--aperture", "5mm"},
+                                               {"--focus", "5m"},
+                                               {"--aperture", "5 mm", "--focus", "5m"},
+                                               {"--aperture", "0", "--focus", "5m"},
+                                               {"--fov", "180"},
+                                               {"--env-rotate", "90"},
+                                               {"--env", "sky.hdr", "--cs184"},
                                                {"--crop", "0", "0", "0", "5"},
                                                {"-q", "-v"},
                                                {"-H", "--direct", "bsdf"},

@@ -21,6 +21,7 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "include/traverse.glsl"
 #include "include/camera.glsl"
 #include "include/warps.glsl"
+#include "include/pixel_filter.glsl"
 #include "include/cs184.glsl"
 #include "include/surface.glsl"
 #include "bsdf/bsdf.glsl"

@@ -69,6 +69,10 @@ void putLight(LightRows l) {
     put(sphere.center), put(sphere.radius);
     const AmbientLight ambient = ambientLight(l);
     put(ambient.fromAbove), put(ambient.unused);
+    const EnvironmentLight environment = environmentLight(l);
+    put(environment.width), put(environment.height), put(environment.cosRotation);
+    put(environment.sinRotation), put(environment.density), put(environment.unused0);
+    put(environment.unused1), put(environment.unused2);
     const DirectionalLight sun = directionalLight(l);
     put(sun.toLight), put(sun.unused);
 }
@@ -98,6 +102,7 @@ void putFrame() {
     put(frame.lightCount), put(frame.areaLights), put(frame.hemisphereSamples);
     put(frame.lightSamples), put(frame.branches), put(frame.ambientLight);
     put(frame.lightsInGroup0), put(frame.lightsInGroup1), put(frame.lightsInGroup2);
+    put(frame.lensRadius), put(frame.focusDistance), put(frame.unused0), put(frame.unused1);
 }
 
 void putWork() {

@@ -154,6 +154,11 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         expected_.structure("SphereLight", sphere.center, sphere.radius);
         const auto ambient = std::bit_cast<gpu::AmbientLight>(l[1]);
         expected_.structure("AmbientLight", ambient.fromAbove, ambient.unused);
+        const std::array<Row, 2> firstTwo = {l[1], l[2]};
+        const auto environment = std::bit_cast<gpu::EnvironmentLight>(firstTwo);
+        expected_.structure("EnvironmentLight", environment.width, environment.height,
+                            environment.cosRotation, environment.sinRotation, environment.density,
+                            environment.unused0, environment.unused1, environment.unused2);
         const auto sun = std::bit_cast<gpu::DirectionalLight>(l[1]);
         expected_.structure("DirectionalLight", sun.toLight, sun.unused);
     }
@@ -181,7 +186,8 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
                             f.farDistance, f.gapWidth, f.seed, f.minBounce, f.maxBounces,
                             f.terminationProbability, f.lightCount, f.areaLights,
                             f.hemisphereSamples, f.lightSamples, f.branches, f.ambientLight,
-                            f.lightsInGroup0, f.lightsInGroup1, f.lightsInGroup2);
+                            f.lightsInGroup0, f.lightsInGroup1, f.lightsInGroup2, f.lensRadius,
+                            f.focusDistance, f.unused0, f.unused1);
     }
 
     void fillWork(TestShader& shader, Patterns& patterns, const gpu::Dispatch& d) {
@@ -266,13 +272,13 @@ TEST(LayoutSizes, NoFieldIsForgotten) {
         sizeof(gpu::MirrorParameters) + sizeof(gpu::RefractionParameters) +
         sizeof(gpu::GlassParameters) + sizeof(gpu::RoughConductorParameters) +
         sizeof(gpu::LightHeader) + sizeof(gpu::QuadLight) + sizeof(gpu::PointLight) +
-        sizeof(gpu::SphereLight) + sizeof(gpu::AmbientLight) + sizeof(gpu::DirectionalLight) +
-        sizeof(gpu::LightEntry) + sizeof(gpu::AliasColumn) + sizeof(gpu::LightNode) +
-        sizeof(gpu::Frame) + sizeof(gpu::Dispatch) + sizeof(gpu::WorkItem) +
-        sizeof(gpu::PixelState) + sizeof(gpu::SuspendedPath) + sizeof(gpu::SuspendedSplit) +
-        sizeof(gpu::DispatchStatus);
-    EXPECT_EQ(bytes / 4, 16 + 16 + 4 + (4 + 4 + 4 + 4 + 8 + 8) + (4 + 12 + 12 + 4 + 4 + 4) +
-                             (4 + 4 + 8) + 32 + 8 + 4 + 16 + 24 + 24 + 8u);
+        sizeof(gpu::SphereLight) + sizeof(gpu::AmbientLight) + sizeof(gpu::EnvironmentLight) +
+        sizeof(gpu::DirectionalLight) + sizeof(gpu::LightEntry) + sizeof(gpu::AliasColumn) +
+        sizeof(gpu::LightNode) + sizeof(gpu::Frame) + sizeof(gpu::Dispatch) +
+        sizeof(gpu::WorkItem) + sizeof(gpu::PixelState) + sizeof(gpu::SuspendedPath) +
+        sizeof(gpu::SuspendedSplit) + sizeof(gpu::DispatchStatus);
+    EXPECT_EQ(bytes / 4, 16 + 16 + 4 + (4 + 4 + 4 + 4 + 8 + 8) + (4 + 12 + 12 + 4 + 4 + 8 + 4) +
+                             (4 + 4 + 8) + 36 + 8 + 4 + 16 + 24 + 24 + 8u);
 }
 
 } // namespace

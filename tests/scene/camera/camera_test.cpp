@@ -21,6 +21,56 @@ Camera fileCamera(const FileCamera& camera, uint32_t width, uint32_t height) {
     return makeCamera(sceneWith(camera), CameraChoice::File, width, height);
 }
 
+/// A scene with something in it: a triangle about (2, 0, 0).
+Scene withTriangle() {
+    Scene scene;
+    scene.file = "a.gltf";
+    scene.positions = {{1, -1, 0}, {3, -1, 0}, {2, 1, 0}};
+    scene.triangles.push_back({{0, 1, 2}, {}, 0, 0});
+    return scene;
+}
+
+TEST(StatedView, LooksFromWhereItIsToldAtTheMiddleOrAPoint) {
+    CameraRequest request;
+    request.from = glm::dvec3(2, 0, 5);
+    const Camera camera = makeCamera(withTriangle(), request, 200, 100);
+    EXPECT_EQ(camera.position, glm::dvec3(2, 0, 5));
+    EXPECT_EQ(camera.back, glm::dvec3(0, 0, 1));
+    EXPECT_EQ(camera.up, glm::dvec3(0, 1, 0));
+    EXPECT_DOUBLE_EQ(camera.halfWidth, 2 * camera.halfHeight);
+    request.at = glm::dvec3(7, 0, 5);
+    EXPECT_EQ(makeCamera(withTriangle(), request, 200, 100).back, glm::dvec3(-1, 0, 0));
+    request.at = request.from;
+    EXPECT_THROW(makeCamera(withTriangle(), request, 200, 100), SceneError);
+}
+
+TEST(StatedView, AnAngleIsThatOfTheHeight) {
+    CameraRequest request;
+    request.from = glm::dvec3(2, 0, 5);
+    request.fieldOfView = std::acos(0.0);
+    const Camera camera = makeCamera(withTriangle(), request, 300, 100);
+    EXPECT_DOUBLE_EQ(camera.halfHeight, 1);
+    EXPECT_DOUBLE_EQ(camera.halfWidth, 3);
+    FileCamera file;
+    file.halfWidth = 0.2;
+    CameraRequest ofFile(CameraChoice::File);
+    ofFile.fieldOfView = std::acos(0.0);
+    EXPECT_DOUBLE_EQ(makeCamera(sceneWith(file), ofFile, 300, 100).halfHeight, 1);
+}
+
+TEST(StatedView, ALensIsHalfItsDiameterAndOfNoUseToOrthographicCameras) {
+    FileCamera file;
+    CameraRequest request(CameraChoice::File);
+    request.aperture = 0.01;
+    request.focus = 3;
+    const Camera camera = makeCamera(sceneWith(file), request, 20, 10);
+    EXPECT_DOUBLE_EQ(camera.lensRadius, 0.005);
+    EXPECT_DOUBLE_EQ(camera.focusDistance, 3);
+    file.projection = Projection::Orthographic;
+    file.halfWidth = 1;
+    EXPECT_THROW(makeCamera(sceneWith(file), request, 20, 10), SceneError);
+}
+
 TEST(FileCamera, BothExtentsAreSeenAndMoreOnTheLongerSide) {
     FileCamera file;
     file.halfWidth = 0.6, file.halfHeight = 0.3;

@@ -1,0 +1,81 @@
+// What the kernel reads of an environment: radiance to 18 bits, and an alias table whose
+// probabilities are those of the weights.
+#include "host/kernel/environment_table.hpp"
+
+#include "host/core/color.hpp"
+#include "host/core/random.hpp"
+
+#include <glm/gtx/component_wise.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace stromboli::test {
+namespace {
+
+TEST(EnvironmentTable, RadianceIsKeptTo18BitsOfItsLargestComponent) {
+    Random random(1);
+    for (int i = 0; i < 100000; ++i) {
+        const glm::vec3 radiance = std::exp2(random.uniform(-100, 100)) *
+                                   glm::vec3(random.uniform(0, 1), random.uniform(0, 1), 1);
+        gpu::EnvironmentTexel texel{};
+        encodeRadiance(radiance, texel);
+        // Half a unit of the last bit; the largest mantissa may be cut by as much again.
+        const float bound = glm::compMax(radiance) * 0x1p-17f;
+        for (int c = 0; c < 3; ++c)
+            ASSERT_NEAR(decodeRadiance(texel)[c], radiance[c], bound) << radiance.z;
+    }
+}
+
+TEST(EnvironmentTable, EndsOfTheRange) {
+    gpu::EnvironmentTexel texel{};
+    for (const float value : {0.0f, 1.0f, 0x1p-110f, 3.4e38f, 0x1p127f}) {
+        encodeRadiance({value, 0, value / 2}, texel);
+        EXPECT_NEAR(decodeRadiance(texel).x, value, value * 0x1p-17f);
+        EXPECT_EQ(decodeRadiance(texel).y, 0);
+        EXPECT_NEAR(decodeRadiance(texel).z, value / 2, value * 0x1p-17f);
+    }
+    encodeRadiance(glm::vec3(1e-44f), texel); // too small to be kept, but no other value
+    EXPECT_LE(decodeRadiance(texel).x, 1e-38f);
+}
+
+Environment noise(uint32_t width, uint32_t height) {
+    Environment e;
+    e.width = width;
+    e.height = height;
+    Random random(7);
+    e.radiance.clear();
+    for (uint32_t i = 0; i < width * height; ++i)
+        e.radiance.push_back(random.uniform(0, 1) < 0.2f
+                                 ? glm::vec3(0)
+                                 : std::pow(10.0f, random.uniform(-3, 3)) * glm::vec3(1, 2, 3));
+    return e;
+}
+
+TEST(EnvironmentTable, TexelsArePickedByTheirWeight) {
+    const Environment e = noise(16, 8);
+    const EnvironmentTable table = packEnvironment(e);
+    std::vector<double> weights, probability(128);
+    double sum = 0;
+    for (uint32_t y = 0; y < 8; ++y)
+        for (uint32_t x = 0; x < 16; ++x)
+            sum += weights.emplace_back(luminance(e.radiance[y * 16 + x]) *
+                                        std::sin(3.14159265358979 * (y + 0.5) / 8));
+    for (uint32_t i = 0; i < 128; ++i) {
+        const auto texel = structureAt<gpu::EnvironmentTexel>(table.texels, i);
+        probability[i] += double(texel.threshold) / 128;
+        probability[texel.alias] += (1 - double(texel.threshold)) / 128;
+    }
+    for (uint32_t i = 0; i < 128; ++i)
+        EXPECT_NEAR(probability[i], weights[i] / sum, 1e-6) << i;
+    EXPECT_NEAR(table.luminance, sum * 2 * 3.14159265 * 3.14159265 / 128, 1e-4 * table.luminance);
+}
+
+TEST(EnvironmentTable, ABlackOneHasNoTexels) {
+    Environment e = noise(4, 2);
+    e.radiance.assign(8, glm::vec3(0));
+    EXPECT_TRUE(packEnvironment(e).texels.empty());
+}
+
+} // namespace
+} // namespace stromboli::test

@@ -1,0 +1,72 @@
+// An environment that a user asks for takes the place of what a file says of the sky.
+#include "scene/add_environment.hpp"
+
+#include "host/core/error.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace stromboli::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// A Radiance picture of 2 x 1 texels, (1, 0.5, 0.25) and (4, 4, 4), without compression: a byte
+/// b with the exponent e is b 2^(e - 136).
+std::filesystem::path smallPicture() {
+    const auto file = std::filesystem::temp_directory_path() / "stromboli_add_environment.hdr";
+    std::ofstream out(file, std::ios::binary);
+    out << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n";
+    const unsigned char texels[8] = {128, 64, 32, 129, 128, 128, 128, 131};
+    out.write(reinterpret_cast<const char*>(texels), sizeof texels);
+    return file;
+}
+
+TEST(AddEnvironment, ReadsThePicture) {
+    EnvironmentRequest request;
+    request.file = smallPicture().string();
+    request.rotationDegrees = 180;
+    request.strength = 2;
+    Scene scene;
+    addEnvironment(scene, request);
+    ASSERT_TRUE(scene.environment);
+    const Environment& e = *scene.environment;
+    EXPECT_EQ(e.width, 2u);
+    EXPECT_EQ(e.height, 1u);
+    EXPECT_THAT(e.radiance, ElementsAre(glm::vec3(1, 0.5f, 0.25f), glm::vec3(4)));
+    EXPECT_FLOAT_EQ(e.rotation, 3.14159265f);
+    EXPECT_EQ(e.strength, 2);
+    EXPECT_FALSE(e.isConstant());
+    std::filesystem::remove(request.file);
+}
+
+TEST(AddEnvironment, TakesThePlaceOfAmbientLightAndSaysSo) {
+    Scene scene;
+    scene.lights.resize(3);
+    scene.lights[0].kind = scene.lights[2].kind = LightKind::Ambient;
+    EnvironmentRequest request;
+    request.constant = glm::vec3(1, 2, 3);
+    addEnvironment(scene, request);
+    EXPECT_TRUE(scene.environment->isConstant());
+    EXPECT_EQ(scene.lights.size(), 1u);
+    EXPECT_THAT(scene.report.assumed, ElementsAre(HasSubstr("2 ambient lights")));
+}
+
+TEST(AddEnvironment, AFileThatIsNoPictureIsNamed) {
+    EnvironmentRequest request;
+    request.file = "/nowhere/sky.hdr";
+    Scene scene;
+    try {
+        addEnvironment(scene, request);
+        ADD_FAILURE();
+    } catch (const SceneError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("/nowhere/sky.hdr"));
+    }
+}
+
+} // namespace
+} // namespace stromboli::test
