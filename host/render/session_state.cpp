@@ -72,7 +72,8 @@ void pass(Archive& a, ShadingConventions& conventions) {
 template <class Archive>
 void pass(Archive& a, Estimator& e) {
     a(e.lightSamples), a(e.maxBounces), a(e.minBounce), a(e.integrator), a(e.directLight);
-    a(e.sampler), a(e.filter), a(e.lightChoice), a(e.branches), a(e.gapProposal), a(e.roulette.mode);
+    a(e.sampler), a(e.filter), a(e.lightChoice), a(e.branches), a(e.gapProposal),
+        a(e.roulette.mode);
     a(e.roulette.terminationProbability), a(e.seed);
     pass(a, e.conventions);
 }
