@@ -28,7 +28,9 @@ std::vector<BufferPlan> planSceneBuffers(const GpuScene& scene, const DeviceTuni
             {"primitive buffer", sizeOf(scene.primitives), rows},
             {"material buffer", sizeOf(scene.materials), rows},
             {"light buffer", sizeOf(scene.lights.lights), rows},
-            {"light table", sizeOf(scene.lights.table), rows}};
+            {"light table", sizeOf(scene.lights.table), rows},
+            {"texture buffer", sizeOf(scene.details), rows,
+             "--max-texture N makes textures smaller"}};
 }
 
 uint64_t largestSceneBuffer(const GpuScene& scene) {

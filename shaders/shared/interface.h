@@ -13,14 +13,15 @@ SHARED_BEGIN
 #define BINDING_MATERIALS 2
 #define BINDING_LIGHTS 3
 #define BINDING_LIGHT_TABLE 4
-#define BINDING_FRAME 5
-#define BINDING_WORK_ITEMS 6
-#define BINDING_PIXELS 7
-#define BINDING_SUSPENDED 8
-#define BINDING_STATUS 9
-#define BINDING_SPLITS 10 // of suspended paths
-#define BINDING_COUNT 11
-#define SCENE_BINDING_COUNT 5 // bindings 0 to 4 hold the scene and are read row by row
+#define BINDING_DETAIL 5 // attributes of corners and texels (texture_types.h)
+#define BINDING_FRAME 6
+#define BINDING_WORK_ITEMS 7
+#define BINDING_PIXELS 8
+#define BINDING_SUSPENDED 9
+#define BINDING_STATUS 10
+#define BINDING_SPLITS 11 // of suspended paths
+#define BINDING_COUNT 12
+#define SCENE_BINDING_COUNT 6 // bindings 0 to 5 hold the scene and are read row by row
 
 /// Numbers of rows in texel buffers are cut to these bits; no buffer has more rows (docs/kernel.md,
 /// "Fetch").
@@ -55,7 +56,19 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_LARGE_TREE 25 // the tree has more than SMALL_TREE_RECORDS records
 #define SPEC_AMBIENT_BY_BOUNCES 26 // bounces alone find the ambient light; light samples go to others
 #define SPEC_HAS_AMBIENT 27 // rays that hit nothing find ambient light
-#define SPEC_COUNT 28
+// Of the modules with RICH_MATERIALS alone:
+#define SPEC_TEXTURE_SLOTS 28 // bit n: some material has a texture in slot n (TEXTURE_)
+#define SPEC_TEXEL_KINDS 29 // TEXEL_KIND_ bits that occur
+#define SPEC_ATTRIBUTES 30 // ATTRIBUTE_ bits: what the detail buffer has of primitives' corners
+#define SPEC_ALPHA 31 // surfaces may be partly not there
+#define SPEC_TANGENT_FRAMES 32 // the frame of a BSDF follows the surface's tangent
+#define SPEC_COUNT 33
+
+SHARED_CONST uint TEXEL_KIND_NEAREST = 1u;
+SHARED_CONST uint TEXEL_KIND_BILINEAR = 2u;
+SHARED_CONST uint TEXEL_KIND_SRGB = 4u;
+SHARED_CONST uint TEXEL_KIND_BYTES = 8u;
+SHARED_CONST uint TEXEL_KIND_HALF = 16u;
 
 SHARED_CONST uint INTEGRATOR_PATH = 0u;
 SHARED_CONST uint INTEGRATOR_NORMALS = 1u;
