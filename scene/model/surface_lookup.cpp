@@ -49,14 +49,16 @@ PointAttributes attributesAt(const Scene& scene, uint32_t triangle, double b1, d
     if (scene.attributeCorners.empty()) return at;
     const auto& corners = scene.attributeCorners[triangle];
     if (corners[0] == kNoAttributes) return at;
-    at.color = glm::dvec4(0.0);
-    const double weights[] = {1 - b1 - b2, b1, b2};
-    for (int c = 0; c < 3; ++c) {
-        const VertexAttributes& a = scene.attributes[corners[c]];
-        for (int set = 0; set < 2; ++set)
-            at.uv[set] += weights[c] * glm::dvec2(a.uv[set]);
-        at.color += weights[c] * glm::dvec4(a.color);
-    }
+    const VertexAttributes &a0 = scene.attributes[corners[0]], &a1 = scene.attributes[corners[1]],
+                           &a2 = scene.attributes[corners[2]];
+    // By differences: what is the same at all corners is exactly that everywhere, which a mask
+    // whose opacity is its cutoff depends on.
+    const auto mixed = [&](auto x0, auto x1, auto x2) {
+        return x0 + b1 * (x1 - x0) + b2 * (x2 - x0);
+    };
+    for (int set = 0; set < 2; ++set)
+        at.uv[set] = mixed(glm::dvec2(a0.uv[set]), glm::dvec2(a1.uv[set]), glm::dvec2(a2.uv[set]));
+    at.color = mixed(glm::dvec4(a0.color), glm::dvec4(a1.color), glm::dvec4(a2.color));
     return at;
 }
 

@@ -28,10 +28,20 @@ struct PointAttributes {
     vec4 color;
 };
 
-vec2 interpolatedUv(uint row, vec3 b) {
+// Attributes are interpolated by their differences, so that what is the same at all corners is exactly that everywhere:
+// a mask whose opacity is its cutoff depends on it.
+
+vec2 interpolatedUv(uint row, vec2 b) {
     const vec4 first = uintBitsToFloat(ROW(detailRows, row));
     const vec2 last = uintBitsToFloat(ROW(detailRows, row + 1u).xy);
-    return b.x * first.xy + b.y * first.zw + b.z * last;
+    return first.xy + b.x * (first.zw - first.xy) + b.y * (last - first.xy);
+}
+
+vec4 interpolatedColor(uint row, vec2 b) {
+    const vec4 c0 = uintBitsToFloat(ROW(detailRows, row)),
+               c1 = uintBitsToFloat(ROW(detailRows, row + 1u)),
+               c2 = uintBitsToFloat(ROW(detailRows, row + 2u));
+    return c0 + b.x * (c1 - c0) + b.y * (c2 - c0);
 }
 
 /// The primitive at a place of the tree, in the Primitive buffer.
@@ -46,18 +56,13 @@ uint attributeRow(uint primitive, uint which) {
 
 /// b: barycentric weights of the second and third corner.
 PointAttributes attributesAt(uint primitive, vec2 b) {
-    const vec3 weights = vec3(1.0 - b.x - b.y, b);
     PointAttributes a = PointAttributes(vec2(0.0), vec2(0.0), vec4(1.0));
     if (hasAttribute(ATTRIBUTE_UV0))
-        a.uv0 = interpolatedUv(attributeRow(primitive, ATTRIBUTE_UV0), weights);
+        a.uv0 = interpolatedUv(attributeRow(primitive, ATTRIBUTE_UV0), b);
     if (hasAttribute(ATTRIBUTE_UV1))
-        a.uv1 = interpolatedUv(attributeRow(primitive, ATTRIBUTE_UV1), weights);
-    if (hasAttribute(ATTRIBUTE_COLOR)) {
-        const uint row = attributeRow(primitive, ATTRIBUTE_COLOR);
-        a.color = weights.x * uintBitsToFloat(ROW(detailRows, row)) +
-                  weights.y * uintBitsToFloat(ROW(detailRows, row + 1u)) +
-                  weights.z * uintBitsToFloat(ROW(detailRows, row + 2u));
-    }
+        a.uv1 = interpolatedUv(attributeRow(primitive, ATTRIBUTE_UV1), b);
+    if (hasAttribute(ATTRIBUTE_COLOR))
+        a.color = interpolatedColor(attributeRow(primitive, ATTRIBUTE_COLOR), b);
     return a;
 }
 
