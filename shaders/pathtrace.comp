@@ -8,6 +8,9 @@
 #include "shared/interface.h"
 #include "shared/scene_types.h"
 #include "shared/render_types.h"
+#ifdef RICH_MATERIALS
+#include "shared/texture_types.h"
+#endif
 
 #include "include/specialisation.glsl"
 #include "include/fetch.glsl"
@@ -37,6 +40,9 @@ Dispatch dispatch;
 #include "include/cs184.glsl"
 #include "include/surface.glsl"
 #include "bsdf/bsdf.glsl"
+#ifdef RICH_MATERIALS
+#include "include/material_detail.glsl"
+#endif
 #include "lights/lights.glsl"
 #include "include/mis.glsl"
 #include "include/gap_proposal.glsl"
@@ -118,15 +124,30 @@ void resumeSplit(uint lane) {
     splitPoint.bounce = s.bounce;
     splitPoint.throughput = s.throughput;
     splitPoint.surface = SurfacePoint(s.position, s.error, s.geometric, s.shading, s.wo,
-                                      s.outside != 0u, s.material, s.skipPrimitive, s.lift);
+                                      s.outside != 0u, s.material, s.skipPrimitive, s.lift
+#ifdef RICH_MATERIALS
+                                      , vec2(s.b1, s.b2), vec4(0.0)
+#endif
+    );
+#ifdef RICH_MATERIALS
+    if (TANGENT_FRAMES)
+        splitPoint.surface.tangent =
+            tangentAt(splitPoint.surface, shadingNormal(splitPoint.surface));
+#endif
     branchesLeft = s.branchesLeft;
 }
 
 void suspendSplit(uint lane) {
     const SurfacePoint p = splitPoint.surface;
-    suspendedSplits[lane] = SuspendedSplit(
-        p.position, splitPoint.bounce, p.geometric, p.material, p.shading, p.skipPrimitive, p.wo,
-        p.lift, splitPoint.throughput, p.error, p.outside ? 1u : 0u, branchesLeft, 0u, 0u);
+#ifdef RICH_MATERIALS
+    const vec2 weights = p.weights;
+#else
+    const vec2 weights = vec2(0.0);
+#endif
+    suspendedSplits[lane] =
+        SuspendedSplit(p.position, splitPoint.bounce, p.geometric, p.material, p.shading,
+                       p.skipPrimitive, p.wo, p.lift, splitPoint.throughput, p.error,
+                       p.outside ? 1u : 0u, branchesLeft, weights.x, weights.y);
 }
 
 void resume(uint lane) {
@@ -174,7 +195,11 @@ void suspend(uint lane) {
 /// put it off to the next dispatch; in any other phase too much would have to be remembered.
 void startWork(bool late) {
     if (phase == PHASE_BOUNCE || phase == PHASE_NEXT && !wantsPixel()) depart();
-    if (late && phase == PHASE_PATH && !traversing(ray)) phase = PHASE_SUSPENDED;
+    bool mayWait = true;
+#ifdef RICH_MATERIALS
+    mayWait = !hasPassedSomething();
+#endif
+    if (late && phase == PHASE_PATH && !traversing(ray) && mayWait) phase = PHASE_SUSPENDED;
     startRay();
 }
 

@@ -31,7 +31,8 @@ std::vector<std::span<const std::byte>> sceneRows(const GpuScene& scene) {
     return {std::as_bytes(std::span(scene.bvh.records)), std::as_bytes(std::span(scene.primitives)),
             std::as_bytes(std::span(scene.materials)),
             std::as_bytes(std::span(scene.lights.lights)),
-            std::as_bytes(std::span(scene.lights.table))};
+            std::as_bytes(std::span(scene.lights.table)),
+            std::as_bytes(std::span(scene.details))};
 }
 
 bool isRow(uint32_t binding) {

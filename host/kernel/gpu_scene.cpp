@@ -1,5 +1,6 @@
 #include "host/kernel/gpu_scene.hpp"
 
+#include "host/kernel/detail_rows.hpp"
 #include "host/kernel/gap_proposal.hpp"
 
 #include <glm/gtc/packing.hpp>
@@ -29,22 +30,31 @@ gpu::Primitive packTriangle(const Scene& scene, const Triangle& t, uint32_t mate
     return {materialRow | gpu::PRIMITIVE_IS_SMOOTH, normal(0), normal(1), normal(2)};
 }
 
+/// By material: whether a primitive has it.
+std::vector<bool> usedMaterials(const Scene& scene) {
+    std::vector<bool> used(scene.materials.size(), false);
+    for (const Triangle& t : scene.triangles)
+        used[t.material] = true;
+    for (const Sphere& s : scene.spheres)
+        used[s.material] = true;
+    return used;
+}
+
 void packPrimitives(const Scene& scene, const std::vector<uint32_t>& materialRow, GpuScene& g) {
     const auto triangles = uint32_t(scene.triangles.size());
     g.hasTriangles = triangles > 0;
     g.hasSpheres = !scene.spheres.empty();
-    std::vector<bool> used(scene.materials.size(), false);
     g.primitives.reserve(g.bvh.primitiveOrder.size());
     for (const uint32_t id : g.bvh.primitiveOrder) {
         const uint32_t material =
             id < triangles ? scene.triangles[id].material : scene.spheres[id - triangles].material;
-        used[material] = true;
         const uint32_t row = materialRow[material];
         g.primitives.push_back(
             id < triangles ? packTriangle(scene, scene.triangles[id], row, g.bvh.firstCorner[id])
                            : gpu::Primitive{row, 0, 0, 0});
         g.hasNormals |= (g.primitives.back().material & gpu::PRIMITIVE_IS_SMOOTH) != 0;
     }
+    const std::vector<bool> used = usedMaterials(scene);
     for (size_t i = 0; i < used.size(); ++i) {
         if (!used[i]) continue;
         g.bsdfKinds |= 1u << bsdfKind(scene.materials[i].kind);
@@ -88,8 +98,15 @@ glm::vec3 decodeNormal(uint32_t code) {
 GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lights) {
     GpuScene g;
     g.bvh = std::move(bvh);
-    MaterialRows materials = packMaterials(scene.materials);
+    const DetailPlan plan = planDetails(scene, usedMaterials(scene));
+    DetailRows details = packDetails(scene, g.bvh, plan);
+    MaterialRows materials = packMaterials(scene.materials, details.ofMaterials);
     g.materials = std::move(materials.rows);
+    g.details = std::move(details.rows);
+    g.textureSlots = plan.textureSlots, g.texelKinds = plan.texelKinds;
+    g.attributes = plan.attributes, g.hasAlpha = plan.hasAlpha;
+    g.mostTextures = plan.mostTextures;
+    g.hasTangentFrames = plan.hasTangentFrames;
     packPrimitives(scene, materials.firstRow, g);
     g.lights = packLights(scene, g.bvh.placeOf, lights);
     nameLights(g);

@@ -17,12 +17,16 @@ struct GpuScene {
     WideLayout bvh;                         ///< leaves name the lights that they are
     std::vector<gpu::Primitive> primitives; ///< in the order of the tree's leaves
     std::vector<Row> materials;
+    std::vector<Row> details; ///< attributes of corners, and texels (detail_rows.hpp)
     LightTable lights;
     uint32_t bsdfKinds = 0;   ///< bit n: a primitive has a material of BSDF_ kind n
     bool hasEmission = false; ///< a primitive emits
     float gapWidth = 0;       ///< gap_proposal.hpp
     bool hasTriangles = false, hasSpheres = false;
     bool hasNormals = false; ///< any triangle with shading normals
+    // DetailPlan:
+    uint32_t textureSlots = 0, texelKinds = 0, attributes = 0, mostTextures = 0;
+    bool hasAlpha = false, hasTangentFrames = false;
 };
 
 /// Packs the scene, whose hierarchy is `bvh`. For a render `lights` is lightSelection() of its

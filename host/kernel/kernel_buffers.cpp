@@ -29,7 +29,9 @@ std::vector<BufferPlan> planSceneBuffers(const GpuScene& scene, const DeviceTuni
             {"material buffer", sizeOf(scene.materials), rows},
             {"light buffer", sizeOf(scene.lights.lights), rows},
             {"light table", sizeOf(scene.lights.table), rows},
-            {"environment", sizeOf(scene.lights.environment), rows}};
+            {"environment", sizeOf(scene.lights.environment), rows},
+            {"texture buffer", sizeOf(scene.details), rows,
+             "--max-texture N makes textures smaller"}};
 }
 
 uint64_t largestSceneBuffer(const GpuScene& scene) {

@@ -1,6 +1,7 @@
 #include "host/kernel/kernel_features.hpp"
 
 #include "host/kernel/direct_sampling.hpp"
+#include "shaders/shared/texture_types.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -113,6 +114,27 @@ const char* ambientText(const KernelFeatures& f) {
     return f[SPEC_LIGHT_KINDS] & 1u << gpu::LIGHT_AMBIENT ? "sampled" : "left to bounces";
 }
 
+void setDetails(KernelFeatures& f, const GpuScene& scene, bool normalsOnly) {
+    f[SPEC_ALPHA] = scene.hasAlpha;
+    // Normals are those of the geometry: only what is not there has to be known.
+    const uint32_t wanted = !normalsOnly ? ~0u : scene.hasAlpha ? 1u << gpu::TEXTURE_BASE_COLOR : 0;
+    f[SPEC_TEXTURE_SLOTS] = scene.textureSlots & wanted;
+    f[SPEC_TEXEL_KINDS] = scene.texelKinds;
+    f[SPEC_ATTRIBUTES] = scene.attributes;
+    if (normalsOnly) return;
+    f[SPEC_TANGENT_FRAMES] = scene.hasTangentFrames;
+    // A map gives flat surfaces a shading normal too.
+    if (f[SPEC_TEXTURE_SLOTS] & 1u << gpu::TEXTURE_NORMAL) f[SPEC_HAS_NORMALS] = 1;
+}
+
+std::string textureText(const KernelFeatures& f) {
+    if (!f[SPEC_TEXTURE_SLOTS]) return "none";
+    return list(f[SPEC_TEXTURE_SLOTS],
+                {"base color", "metallic-roughness", "normal", "emission", "transmission",
+                 "specular", "specular color", "clearcoat", "clearcoat roughness",
+                 "clearcoat normal", "sheen color", "sheen roughness", "anisotropy"});
+}
+
 } // namespace
 
 uint32_t lightChoiceConstant(const LightTable& lights) {
@@ -178,6 +200,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_SPLITS] = settings.branches > 1;
     f[SPEC_GAP_PROPOSAL] = proposesGap(scene, settings);
     f[SPEC_COUNT_STEPS] = tuning.countSteps;
+    setDetails(f, scene, normalsOnly);
     if (tuning.everythingOn) switchOnAllTheSceneCouldHave(f, settings);
     return f;
 }
@@ -195,6 +218,9 @@ std::vector<std::string> describe(const KernelFeatures& f) {
         fmt::format("materials: {}",
                     list(f[SPEC_BSDF_KINDS], {"diffuse", "mirror", "refraction", "glass",
                                               "rough conductor", "principled"})),
+        fmt::format("textures: {}", textureText(f)),
+        fmt::format("vertex colors: {}", f[SPEC_ATTRIBUTES] & gpu::ATTRIBUTE_COLOR ? "yes" : "none"),
+        fmt::format("opacity: {}", f[SPEC_ALPHA] ? "partly transparent" : "all opaque"),
         fmt::format("emission: {}", f[SPEC_HAS_EMISSION] ? "yes" : "none"),
         fmt::format("lights: {}",
                     list(f[SPEC_LIGHT_KINDS], {"quad", "triangle", "sphere", "ambient",

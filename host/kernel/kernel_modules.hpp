@@ -12,4 +12,8 @@ namespace stromboli {
 /// (shaders/include/specialisation.glsl).
 std::span<const uint32_t> kernelModule(const KernelFeatures& features, bool texelFetch);
 
+/// Whether a kernel needs what RICH_MATERIALS adds: textures, attributes of corners, surfaces that
+/// are partly not there, the principled BSDF.
+bool needsRichModule(const KernelFeatures& features);
+
 } // namespace stromboli

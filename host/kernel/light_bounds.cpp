@@ -20,7 +20,8 @@ void encloses(LightBounds& bounds, std::initializer_list<glm::dvec3> points) {
 }
 
 /// A planar light with this normal, whose length is the light's area times a factor.
-LightBounds planar(const Material& material, const glm::dvec3& normal, double area) {
+LightBounds planar(const Material& material, const glm::dvec3& emission, const glm::dvec3& normal,
+                   double area) {
     LightBounds bounds;
     const double length = glm::length(normal);
     if (length > 0) {
@@ -28,7 +29,7 @@ LightBounds planar(const Material& material, const glm::dvec3& normal, double ar
         bounds.cosSpread = 1;
     }
     bounds.bothSides = material.emitsBothSides;
-    bounds.power = luminance(material.emission) * area;
+    bounds.power = luminance(emission) * area;
     return bounds;
 }
 
@@ -51,22 +52,23 @@ void setFalloff(LightBounds& bounds, const Light& light, double sceneRadius) {
 
 } // namespace
 
-LightBounds boundsOfTriangle(const Scene& scene, uint32_t index) {
+LightBounds boundsOfTriangle(const Scene& scene, uint32_t index, const MeanEmission& means) {
     const Triangle& t = scene.triangles[index];
     const glm::dvec3 a = scene.positions[t.corner[0]], b = scene.positions[t.corner[1]],
                      c = scene.positions[t.corner[2]];
     const glm::dvec3 normal = glm::cross(b - a, c - a);
-    LightBounds bounds = planar(scene.materials[t.material], normal, 0.5 * glm::length(normal));
+    LightBounds bounds = planar(scene.materials[t.material], means.ofTriangle(index), normal,
+                                0.5 * glm::length(normal));
     encloses(bounds, {a, b, c});
     return bounds;
 }
 
-LightBounds boundsOfEmitter(const Scene& scene, const Emitter& e) {
+LightBounds boundsOfEmitter(const Scene& scene, const Emitter& e, const MeanEmission& means) {
     const Material& material = scene.materials[e.material];
     if (e.kind == EmitterKind::Quad) {
         const glm::dvec3 a(e.edgeA), b(e.edgeB), corner(e.corner);
         const glm::dvec3 normal = glm::cross(a, b);
-        LightBounds bounds = planar(material, normal, glm::length(normal));
+        LightBounds bounds = planar(material, material.emission, normal, glm::length(normal));
         encloses(bounds, {corner, corner + a, corner + b, corner + a + b});
         return bounds;
     }
@@ -75,7 +77,7 @@ LightBounds boundsOfEmitter(const Scene& scene, const Emitter& e) {
     LightBounds bounds;
     bounds.lo = bounds.hi = glm::dvec3(sphere.center);
     bounds.reach = radius;
-    bounds.power = luminance(material.emission) * glm::pi<double>() * radius * radius;
+    bounds.power = luminance(means.ofSphere(e.sphere)) * glm::pi<double>() * radius * radius;
     return bounds;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/model/emitters.hpp"
+#include "scene/model/mean_emission.hpp"
 #include "scene/model/scene.hpp"
 #include "shaders/shared/light_types.h"
 
@@ -23,9 +24,9 @@ struct LightBounds {
     double power = 0;
 };
 
-LightBounds boundsOfTriangle(const Scene& scene, uint32_t triangle);
+LightBounds boundsOfTriangle(const Scene& scene, uint32_t triangle, const MeanEmission& means);
 /// A quad or a sphere.
-LightBounds boundsOfEmitter(const Scene& scene, const Emitter& emitter);
+LightBounds boundsOfEmitter(const Scene& scene, const Emitter& emitter, const MeanEmission& means);
 /// Not an area light. sceneRadius: how far apart, more or less, lights and surfaces are; it decides
 /// whether a point light falls off with the squared distance or hardly at all.
 LightBounds boundsOfLight(const Light& light, double sceneRadius);

@@ -50,7 +50,8 @@ double radiusOf(const Scene& scene) {
 class Packer {
   public:
     Packer(const Scene& scene, std::span<const uint32_t> placeOf, const LightSelection& selection)
-        : scene_(scene), placeOf_(placeOf), selection_(selection), sceneRadius_(radiusOf(scene)) {
+        : scene_(scene), placeOf_(placeOf), selection_(selection), sceneRadius_(radiusOf(scene)),
+          means_(scene) {
         out_.choice = selection.choice;
     }
 
@@ -193,13 +194,13 @@ class Packer {
                     addTriangle(triangle);
                 continue;
             }
-            const LightBounds bounds = boundsOfEmitter(scene_, e);
+            const LightBounds bounds = boundsOfEmitter(scene_, e, means_);
             if (!shines(bounds)) continue;
             const Material& m = scene_.materials[e.material];
             const bool isQuad = e.kind == EmitterKind::Quad;
             const uint32_t kind = isQuad ? gpu::LIGHT_QUAD : gpu::LIGHT_SPHERE;
             const uint32_t number =
-                addRows(m.emission, kind | (m.emitsBothSides ? gpu::LIGHT_BOTH_SIDES : 0));
+                addRows(isQuad ? m.emission : glm::vec3(means_.ofSphere(e.sphere)), kind | (m.emitsBothSides ? gpu::LIGHT_BOTH_SIDES : 0));
             if (isQuad) {
                 appendRows(out_.lights, quad(e.corner, e.edgeA, e.edgeB));
             } else {
@@ -215,7 +216,7 @@ class Packer {
     }
 
     void addTriangle(uint32_t triangle) {
-        const LightBounds bounds = boundsOfTriangle(scene_, triangle);
+        const LightBounds bounds = boundsOfTriangle(scene_, triangle, means_);
         if (!shines(bounds)) return;
         nameLight(triangle, addEntry(gpu::LIGHT_TRIANGLE,
                                      placeOf_[triangle] | gpu::LIGHT_IS_TRIANGLE, bounds));
@@ -294,6 +295,7 @@ class Packer {
     std::span<const uint32_t> placeOf_;
     LightSelection selection_;
     double sceneRadius_;
+    MeanEmission means_;
     uint32_t meshes_ = 0;
     LightTable out_;
     std::vector<gpu::LightEntry> entries_;

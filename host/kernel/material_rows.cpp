@@ -1,10 +1,13 @@
 #include "host/kernel/material_rows.hpp"
 
+#include "shaders/shared/texture_types.h"
+
 namespace stromboli {
 namespace {
 
 /// Rows that the kernel may read from the first row of a material on, whatever its kind.
 constexpr size_t kMostRows = 7;
+static_assert(gpu::MATERIAL_DETAIL_ROW >= kMostRows);
 
 gpu::PrincipledParameters principledRows(const PrincipledParameters& p) {
     // Beer and Lambert's law: attenuationColor = exp(-absorption attenuationDistance). A channel
@@ -67,7 +70,8 @@ uint32_t bsdfKind(MaterialKind kind) {
     return gpu::BSDF_DIFFUSE;
 }
 
-MaterialRows packMaterials(std::span<const Material> materials) {
+MaterialRows packMaterials(std::span<const Material> materials,
+                           std::span<const std::vector<Row>> details) {
     MaterialRows packed;
     for (const Material& m : materials) {
         packed.firstRow.push_back(uint32_t(packed.rows.size()));
@@ -76,6 +80,11 @@ MaterialRows packMaterials(std::span<const Material> materials) {
                        m.emission,
                        bsdfKind(m.kind) | (m.emitsBothSides ? gpu::MATERIAL_EMITS_BOTH_SIDES : 0)});
         appendParameters(packed.rows, m);
+        if (details.empty()) continue;
+        const std::vector<Row>& own = details[packed.firstRow.size() - 1];
+        packed.rows.resize(packed.firstRow.back() + gpu::MATERIAL_DETAIL_ROW);
+        for (const Row& row : own)
+            packed.rows.push_back(row);
     }
     packed.rows.resize(packed.rows.size() + kMostRows - 1);
     return packed;

@@ -15,7 +15,9 @@ struct MaterialRows {
     std::vector<uint32_t> firstRow; ///< by material of the scene
 };
 
-MaterialRows packMaterials(std::span<const Material> materials);
+/// details: of each material, the rows from gpu::MATERIAL_DETAIL_ROW on; empty: none has any.
+MaterialRows packMaterials(std::span<const Material> materials,
+                           std::span<const std::vector<Row>> details = {});
 
 /// The BSDF_ kind that stands for a material of the scene.
 uint32_t bsdfKind(MaterialKind kind);

@@ -17,7 +17,8 @@ template <class T>
 void appendRows(std::vector<Row>& rows, const T& value) {
     static_assert(sizeof(T) % sizeof(Row) == 0 && std::is_trivially_copyable_v<T>);
     const auto words = std::bit_cast<std::array<Row, sizeof(T) / sizeof(Row)>>(value);
-    rows.insert(rows.end(), words.begin(), words.end());
+    for (const Row& row : words) // GCC 12 warns of a range that is inserted
+        rows.push_back(row);
 }
 
 /// The structure that begins at a row.

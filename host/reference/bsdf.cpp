@@ -116,6 +116,13 @@ BsdfSample sampleLocally(const Material& m, const Incidence& i, const glm::dvec3
     return {};
 }
 
+/// x and y are the surface's tangent and bitangent, where it has them.
+Frame shadingFrame(const SurfacePoint& s) {
+    if (s.tangent.w == 0) return Frame(s.shading);
+    const glm::dvec3 x(s.tangent);
+    return {x, s.tangent.w * glm::cross(s.shading, x), s.shading};
+}
+
 Incidence incidenceOn(const SurfacePoint& s, const Frame& frame,
                       const ShadingConventions& conventions) {
     const glm::dvec3 wo = frame.toLocal(s.wo);
@@ -159,7 +166,7 @@ bool scattersAtRandom(uint32_t lobes) {
 
 BsdfValue evaluateBsdf(const SurfacePoint& s, const glm::dvec3& wi,
                        const ShadingConventions& conventions) {
-    const Frame frame(s.shading);
+    const Frame frame = shadingFrame(s);
     const glm::dvec3 local = frame.toLocal(wi);
     if (!isOnItsSide(s, wi, local.z < 0, conventions)) return {};
     return evaluateLocally(*s.material, incidenceOn(s, frame, conventions), local);
@@ -167,7 +174,7 @@ BsdfValue evaluateBsdf(const SurfacePoint& s, const glm::dvec3& wi,
 
 BsdfSample sampleBsdf(const SurfacePoint& s, const glm::dvec3& u,
                       const ShadingConventions& conventions) {
-    const Frame frame(s.shading);
+    const Frame frame = shadingFrame(s);
     BsdfSample sample = sampleLocally(*s.material, incidenceOn(s, frame, conventions), u);
     // Rounding errors of the direction's length would add up along a path.
     sample.direction = glm::normalize(frame.toWorld(sample.direction));

@@ -1,5 +1,7 @@
 #include "host/reference/bvh.hpp"
 
+#include <cmath>
+
 namespace stromboli::reference {
 namespace {
 
@@ -76,6 +78,31 @@ Hit Bvh::closest(const Ray& start, Skip skip) const {
             best = *hit;
             best.primitive = primitive;
             ray.tMax = hit->t;
+        }
+        return true;
+    });
+    return best;
+}
+
+Hit Bvh::closestBehind(const Ray& start, const Hit& passed, Skip skip) const {
+    // Boxes and primitives find distances with different rounding errors, of few units each: a box
+    // counts well beyond both ends, so that no primitive at an end is overlooked.
+    constexpr double kMargin = 0x1p-40;
+    const bool begun = passed.primitive != kNoPrimitive;
+    Hit best;
+    if (order_.empty()) return best;
+    Ray boxes = start;
+    if (begun) boxes.tMin = passed.t * (1 - kMargin);
+    traverse(boxes, [&](uint32_t primitive, Ray& ray) {
+        if (skip(primitive)) return true;
+        Ray probe = start;
+        if (begun) probe.tMin = primitive > passed.primitive ? std::nextafter(passed.t, 0.0) : passed.t;
+        const bool found = best.primitive != kNoPrimitive;
+        if (found) probe.tMax = primitive < best.primitive ? std::nextafter(best.t, kInfinity) : best.t;
+        if (auto hit = intersect(probe, primitive)) {
+            best = *hit;
+            best.primitive = primitive;
+            ray.tMax = hit->t * (1 + kMargin);
         }
         return true;
     });

@@ -22,6 +22,10 @@ class Bvh {
 
     /// The hit with the smallest t; `primitive` is kNoPrimitive for none.
     Hit closest(const Ray& ray, Skip skip) const;
+    /// The first hit behind one that the ray has passed; the first of all if that is none. Hits are
+    /// ordered by t, and by primitive where t is the same, so that going on from hit to hit meets
+    /// each of them once.
+    Hit closestBehind(const Ray& ray, const Hit& passed, Skip skip) const;
     /// Whether there is any hit.
     bool occluded(const Ray& ray, Skip skip) const;
 

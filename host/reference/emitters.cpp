@@ -2,6 +2,7 @@
 
 #include "host/reference/sampling.hpp"
 #include "host/reference/spherical_triangle.hpp"
+#include "scene/model/surface_lookup.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,7 @@ struct EmitterPoint {
     double error;      ///< distance to stop before the emitter
     glm::dvec3 normal; ///< unit, of the side that always emits
     uint32_t primitive;
+    glm::dvec3 emission; ///< radiance
 };
 
 LightSample toEmitterPoint(const EmitterPoint& p, const Material& material, double area,
@@ -30,18 +32,29 @@ LightSample toEmitterPoint(const EmitterPoint& p, const Material& material, doub
     sample.primitive = p.primitive;
     const double cosine = -glm::dot(sample.direction, p.normal);
     if (cosine > 0 || material.emitsBothSides)
-        sample.value = glm::dvec3(material.emission) * (area * std::abs(cosine) / distance2);
+        sample.value = p.emission * (area * std::abs(cosine) / distance2);
     return sample;
 }
 
 } // namespace
 
-EmitterTriangle::EmitterTriangle(const Scene& scene, uint32_t i) : index(i) {
-    const Triangle& t = scene.triangles[i];
-    v0 = scene.positions[t.corner[0]];
-    v1 = scene.positions[t.corner[1]];
-    v2 = scene.positions[t.corner[2]];
+EmitterTriangle::EmitterTriangle(const Scene& s, uint32_t i) : index(i), scene(&s) {
+    const Triangle& t = s.triangles[i];
+    v0 = s.positions[t.corner[0]];
+    v1 = s.positions[t.corner[1]];
+    v2 = s.positions[t.corner[2]];
     area = 0.5 * glm::length(glm::cross(v1 - v0, v2 - v0));
+}
+
+glm::dvec3 EmitterTriangle::emissionAt(const glm::dvec3& point) const {
+    const Material& m = scene->materials[scene->triangles[index].material];
+    if (m.textures.empty() && m.alphaMode == AlphaMode::Opaque) return m.emission;
+    const glm::dvec3 n = glm::cross(v1 - v0, v2 - v0);
+    const double n2 = glm::dot(n, n);
+    const double b1 = glm::dot(glm::cross(point - v0, v2 - v0), n) / n2;
+    const double b2 = glm::dot(glm::cross(v1 - v0, point - v0), n) / n2;
+    const PointAttributes at = attributesAt(*scene, index, b1, b2);
+    return stromboli::emissionAt(*scene, m, at) * opacityAt(*scene, m, at);
 }
 
 namespace {
@@ -69,8 +82,8 @@ LightSample sampleTriangle(const EmitterTriangle& t, double probability, const M
     const auto seen = asSeen(t, from);
     if (!seen || seen->solidAngle() < SphericalTriangle::kSmallest) { // uniform on the area
         const glm::dvec2 b = uniformTriangle(u, v);
-        const EmitterPoint point{(1 - b.x - b.y) * t.v0 + b.x * t.v1 + b.y * t.v2, error, n,
-                                 t.index};
+        const glm::dvec3 at = (1 - b.x - b.y) * t.v0 + b.x * t.v1 + b.y * t.v2;
+        const EmitterPoint point{at, error, n, t.index, t.emissionAt(at)};
         return toEmitterPoint(point, material, t.area / probability, from);
     }
     LightSample sample;
@@ -80,7 +93,7 @@ LightSample sampleTriangle(const EmitterTriangle& t, double probability, const M
     const glm::dvec3 point = from + z / glm::dot(sample.direction, n) * sample.direction;
     sample.target = moveOff(point, error, n, -sample.direction);
     if (z < 0 || material.emitsBothSides)
-        sample.value = glm::dvec3(material.emission) * (seen->solidAngle() / probability);
+        sample.value = t.emissionAt(point) * (seen->solidAngle() / probability);
     return sample;
 }
 
@@ -92,13 +105,15 @@ LightSample sampleSphere(const Scene& scene, const Emitter& emitter, const Surfa
     const auto primitive = uint32_t(scene.triangles.size()) + emitter.sphere;
     const glm::dvec3 center = sphere.center;
     const double radius = sphere.radius, error = errorOnSphere(center, radius);
+    const glm::dvec3 emission =
+        stromboli::emissionAt(scene, material, {}) * opacityAt(scene, material, {});
     const glm::dvec3 from = litPoint(surface), toCenter = center - from;
     const double distance2 = glm::dot(toCenter, toCenter), sine2 = radius * radius / distance2;
     const bool inside = surface.primitive == primitive ? !surface.outside : !(sine2 < 1);
     if (inside) {
         const glm::dvec3 n = uniformSphere(u, v);
-        return toEmitterPoint({center + radius * n, error, n, primitive}, material, emitter.area,
-                              from);
+        return toEmitterPoint({center + radius * n, error, n, primitive, emission}, material,
+                              emitter.area, from);
     }
     if (surface.primitive == primitive) return {}; // all of the sphere is below its own horizon
 
@@ -114,7 +129,7 @@ LightSample sampleSphere(const Scene& scene, const Emitter& emitter, const Surfa
     sample.target = center + (radius + error) * n;
     sample.infinite = false;
     sample.primitive = primitive;
-    sample.value = glm::dvec3(material.emission) * (2 * kPi * oneMinusCosMax);
+    sample.value = emission * (2 * kPi * oneMinusCosMax);
     return sample;
 }
 

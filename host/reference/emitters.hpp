@@ -9,8 +9,11 @@ struct EmitterTriangle {
     glm::dvec3 v0, v1, v2;
     double area; ///< of one side
     uint32_t index;
+    const Scene* scene;
 
     EmitterTriangle(const Scene& scene, uint32_t index);
+    /// What it sends out at a point of it, on a side that emits: its texture and its opacity count.
+    glm::dvec3 emissionAt(const glm::dvec3& point) const;
 };
 
 // Samples of one emitter each, from a surface at `from`.

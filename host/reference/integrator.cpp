@@ -2,6 +2,7 @@
 
 #include "host/reference/bsdf.hpp"
 #include "host/reference/sampling.hpp"
+#include "scene/model/surface_lookup.hpp"
 
 #include <algorithm>
 
@@ -15,7 +16,7 @@ double largest(const glm::dvec3& v) {
 } // namespace
 
 PathSample::PathSample(const World& world, const Estimator& settings, const RandomStream& random)
-    : world_(world), settings_(settings), random_(random) {}
+    : world_(world), settings_(settings), random_(random), passes_(random.apart()) {}
 
 glm::dvec3 PathSample::radiance(const Ray& cameraRay) {
     if (!arrive(cameraRay, {})) { // ambient light is not a backdrop
@@ -30,6 +31,7 @@ glm::dvec3 PathSample::radiance(const Ray& cameraRay) {
 void PathSample::follow(uint32_t bounce, bool splits) {
     for (; bounce <= settings_.maxBounces; ++bounce) {
         faceForward(surface_, world_.conventions);
+        if (world_.hasDetails) applyNormalMap(surface_, world_.scene, world_.conventions);
         if (!survivesFixed()) return;
         const uint32_t lobes = lobesOf(*surface_.material);
         if (scattersIntoManyDirections(lobes) && bounce >= settings_.minBounce) addDirectLight();
@@ -71,10 +73,43 @@ glm::dvec3 PathSample::normalColor(const Ray& cameraRay) {
 
 bool PathSample::arrive(const Ray& ray, Skip skip) {
     ++rays_;
-    const Hit hit = world_.bvh.closest(ray, skip);
+    const Hit hit = closest(ray, skip);
     if (hit.primitive == kNoPrimitive) return false;
     surface_ = surfaceAt(world_.scene, ray, hit);
+    if (world_.hasDetails) applyTextures(surface_, world_.scene);
     return true;
+}
+
+double PathSample::opacityAt(const Hit& hit) const {
+    const Scene& scene = world_.scene;
+    const size_t triangles = scene.triangles.size();
+    if (hit.primitive >= triangles) {
+        const Sphere& sphere = scene.spheres[hit.primitive - triangles];
+        return stromboli::opacityAt(scene, scene.materials[sphere.material], {});
+    }
+    const Material& material = scene.materials[scene.triangles[hit.primitive].material];
+    return stromboli::opacityAt(scene, material, attributesAt(scene, hit.primitive, hit.b1, hit.b2));
+}
+
+Hit PathSample::closest(const Ray& ray, Skip skip) {
+    if (!world_.hasAlpha) return world_.bvh.closest(ray, skip);
+    Hit hit;
+    do {
+        hit = world_.bvh.closestBehind(ray, hit, skip);
+    } while (hit.primitive != kNoPrimitive && passes_.next() >= opacityAt(hit));
+    return hit;
+}
+
+double PathSample::transmittance(const Ray& ray, Skip skip) const {
+    if (!world_.hasAlpha) return world_.bvh.occluded(ray, skip) ? 0 : 1;
+    double left = 1;
+    Hit hit;
+    while (left > 0) {
+        hit = world_.bvh.closestBehind(ray, hit, skip);
+        if (hit.primitive == kNoPrimitive) break;
+        left *= 1 - opacityAt(hit);
+    }
+    return left;
 }
 
 Ray PathSample::reflect(const glm::dvec3& direction) const {
@@ -147,8 +182,7 @@ void PathSample::addLightSample(const LightSample& light, double share) {
         if (ray.tMax > 0) ray.direction = to / ray.tMax;
     }
     ++rays_;
-    if (!world_.bvh.occluded(ray, {startOfReflected(), light.primitive}))
-        radiance_ += throughput_ * value;
+    radiance_ += throughput_ * value * transmittance(ray, {startOfReflected(), light.primitive});
 }
 
 void PathSample::addHemisphereSamples() {
@@ -165,10 +199,13 @@ void PathSample::addHemisphereSamples() {
         if (!(largest(weight) > 0)) continue;
         ++rays_;
         const Ray ray = reflect(direction);
-        const Hit hit = world_.bvh.closest(ray, {startOfReflected()});
-        const glm::dvec3 found = hit.primitive == kNoPrimitive
-                                     ? world_.lights.ambientRadiance(direction)
-                                     : emission(surfaceAt(world_.scene, ray, hit));
+        const Hit hit = closest(ray, {startOfReflected()});
+        glm::dvec3 found = world_.lights.ambientRadiance(direction);
+        if (hit.primitive != kNoPrimitive) {
+            SurfacePoint s = surfaceAt(world_.scene, ray, hit);
+            if (world_.hasDetails) applyTextures(s, world_.scene);
+            found = emission(s);
+        }
         radiance_ += throughput_ * weight * found;
     }
 }

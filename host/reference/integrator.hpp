@@ -34,6 +34,11 @@ class PathSample {
     Ray transmit(const glm::dvec3& direction) const;
     /// What a reflected ray cannot hit: the plane it starts on, but not one that it starts above.
     uint32_t startOfReflected() const;
+    /// The first hit that is there: of what is partly there, decided at random.
+    Hit closest(const Ray& ray, Skip skip);
+    double opacityAt(const Hit& hit) const;
+    /// The share of light that comes through to the end of the ray.
+    double transmittance(const Ray& ray, Skip skip) const;
     void addEmission();
     bool emissionCounts(uint32_t bounce, bool delta) const;
     bool survivesFixed();
@@ -47,6 +52,7 @@ class PathSample {
     const World& world_;
     const Estimator& settings_;
     RandomStream random_;
+    RandomStream passes_; ///< for surfaces that are partly not there
     SurfacePoint surface_;
     glm::dvec3 throughput_{1.0}, radiance_{0.0};
     uint64_t rays_ = 0;

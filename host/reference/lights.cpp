@@ -2,6 +2,7 @@
 
 #include "host/reference/emitters.hpp"
 #include "host/reference/sampling.hpp"
+#include "scene/model/mean_emission.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,12 +22,14 @@ std::vector<double> runningAreas(const Scene& scene, const Emitter& emitter) {
 }
 
 ManyTriangles asOneLight(const Scene& scene, const std::vector<Emitter>& emitters) {
+    const MeanEmission means(scene);
     ManyTriangles many;
     double sum = 0;
     for (const Emitter& emitter : emitters)
         for (const uint32_t index : emitter.triangles) {
             many.triangles.push_back(index);
-            many.powerSums.push_back(sum += trianglePower(scene, index));
+            many.powers.push_back(means.powerOfTriangle(index));
+            many.powerSums.push_back(sum += many.powers.back());
         }
     return many;
 }
@@ -58,6 +61,7 @@ Lights::Lights(const Scene& scene, const ShadingConventions& conventions)
     if (conventions.samplesEmitters) emitters_ = collectEmitters(scene);
     if (haveManyTriangles(emitters_)) {
         many_.push_back(asOneLight(scene, emitters_));
+        if (!(many_.back().powerSums.back() > 0)) many_.clear(); // black textures
         std::erase_if(emitters_, [](const Emitter& e) { return e.kind != EmitterKind::Sphere; });
     }
     for (const Emitter& emitter : emitters_)
@@ -100,8 +104,8 @@ LightSample Lights::sampleMany(const SurfacePoint& surface, RandomStream& random
     const size_t picked = pickByShare(many.powerSums, random.next());
     const EmitterTriangle triangle(scene_, many.triangles[picked]);
     const Material& material = scene_.materials[scene_.triangles[triangle.index].material];
-    const double power = trianglePower(scene_, triangle.index);
-    return sampleTriangle(triangle, power / many.powerSums.back(), material, surface, random);
+    const double probability = many.powers[picked] / many.powerSums.back();
+    return sampleTriangle(triangle, probability, material, surface, random);
 }
 
 LightSample Lights::sampleEmitter(size_t index, const SurfacePoint& surface,

@@ -23,7 +23,8 @@ struct LightSample {
 /// All emissive triangles of a scene that has many, as one light: picked by power.
 struct ManyTriangles {
     std::vector<uint32_t> triangles;
-    std::vector<double> powerSums; ///< running sums of trianglePower()
+    std::vector<double> powers;    ///< MeanEmission::powerOfTriangle()
+    std::vector<double> powerSums; ///< their running sums
 };
 
 /// All a scene has to light a surface with. The lights that are not delta functions ("broad":

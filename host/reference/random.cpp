@@ -74,6 +74,13 @@ glm::dvec3 RandomStream::threeNumbers() {
     return {x, y, z};
 }
 
+RandomStream RandomStream::apart() const {
+    constexpr uint32_t kBlocksApart = 1u << 30;
+    RandomStream stream(pixel_, sample_, seed_, Sampler::Independent);
+    stream.block_ = block_ | kBlocksApart;
+    return stream;
+}
+
 RandomStream RandomStream::branch(uint32_t number, uint32_t count) const {
     constexpr uint32_t kBranchBlocks = 1u << 31;
     RandomStream stream(pixel_, sample_ * count + number, seed_, sampler_);

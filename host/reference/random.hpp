@@ -33,6 +33,10 @@ class RandomStream {
     /// are samples, spread evenly together, in blocks that no unsplit path takes.
     RandomStream branch(uint32_t number, uint32_t count) const;
 
+    /// Independent numbers of the same sample, from blocks that neither this stream nor a branch
+    /// of it takes: for what is not always asked, so that no other number depends on it.
+    RandomStream apart() const;
+
   private:
     void fill();
 

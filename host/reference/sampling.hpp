@@ -6,12 +6,14 @@ namespace stromboli::reference {
 
 inline constexpr double kPi = 3.14159265358979323846;
 
-/// Orthonormal right-handed frame with a given z axis.
+/// Orthonormal frame with a given z axis; right-handed where that is all that is given.
 struct Frame {
     glm::dvec3 x, y, z;
 
     /// z: unit.
     explicit Frame(const glm::dvec3& z);
+    Frame(const glm::dvec3& xAxis, const glm::dvec3& yAxis, const glm::dvec3& zAxis)
+        : x(xAxis), y(yAxis), z(zAxis) {}
     glm::dvec3 toWorld(const glm::dvec3& v) const { return v.x * x + v.y * y + v.z * z; }
     glm::dvec3 toLocal(const glm::dvec3& v) const {
         return {glm::dot(v, x), glm::dot(v, y), glm::dot(v, z)};

@@ -80,6 +80,7 @@ SurfacePoint surfaceAt(const Scene& scene, const Ray& ray, const Hit& hit) {
     SurfacePoint s;
     s.wo = -ray.direction;
     s.primitive = hit.primitive;
+    s.b1 = hit.b1, s.b2 = hit.b2;
     const auto triangles = uint32_t(scene.triangles.size());
     if (hit.primitive < triangles)
         fillTriangle(s, scene, scene.triangles[hit.primitive], hit);

@@ -4,6 +4,8 @@
 #include "host/render/shading_conventions.hpp"
 #include "scene/model/scene.hpp"
 
+#include <memory>
+
 namespace stromboli::reference {
 
 /// What the path needs to know of the point it hit.
@@ -21,7 +23,13 @@ struct SurfacePoint {
     double lift = 0;
     uint32_t primitive = kNoPrimitive;
     uint32_t triangle = kNoPrimitive; ///< the primitive if it is planar: rays that leave it miss it
+    /// Its parameters at this point, with textures and the colours of corners taken in.
     const Material* material = nullptr;
+    std::shared_ptr<const Material> ownMaterial; ///< where it is not the scene's
+    /// Unit, perpendicular to the shading normal, along which u grows; w: the bitangent is
+    /// w (shading normal x tangent), 0: there is none.
+    glm::dvec4 tangent{0.0};
+    double b1 = 0, b2 = 0; ///< barycentric weights of the second and third corner
 };
 
 /// Normals as the scene states them. The hit is one of the scene's.
@@ -43,6 +51,16 @@ struct SmoothTriangle {
 /// one; where wo is then below the shading normal's horizon, the geometric one takes its place.
 /// Where conventions do not face forward, this only takes the lift away.
 void faceForward(SurfacePoint& surface, const ShadingConventions& conventions);
+
+/// Takes in textures and the colours of corners: the material's parameters, as stated before
+/// faceForward().
+void applyTextures(SurfacePoint& surface, const Scene& scene);
+/// After faceForward(): the shading normal by the normal map, and the tangent.
+void applyNormalMap(SurfacePoint& surface, const Scene& scene, const ShadingConventions& conventions);
+
+/// A shading normal n, bent towards wo so far that the mirror direction of wo is on the horizon of
+/// the geometric normal g, if it is below; wo is above (Keller et al. 2017, A.3).
+glm::dvec3 bendNormal(const glm::dvec3& n, const glm::dvec3& g, const glm::dvec3& wo);
 
 /// The point moved by its error bound along n (unit) to the side of `direction`, so that nothing
 /// that coincides with the surface lies ahead of a ray from there in that direction.

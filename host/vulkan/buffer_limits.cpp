@@ -69,8 +69,9 @@ BindingLimit bindingLimit(const DeviceDescription& device, BufferUse use) {
 
 void requireFits(const DeviceDescription& device, const BufferPlan& buffer) {
     const auto refuse = [&](const std::string& why) {
-        throw DeviceError(fmt::format("the {} needs {} bytes, but {} {}", buffer.name, buffer.bytes,
-                                      device.name(), why));
+        throw DeviceError(fmt::format("the {} needs {} bytes, but {} {}{}{}", buffer.name,
+                                      buffer.bytes, device.name(), why,
+                                      buffer.remedy.empty() ? "" : "; ", buffer.remedy));
     };
     const BindingLimit binding = bindingLimit(device, buffer.use);
     if (buffer.bytes > binding.bytes)
@@ -82,16 +83,18 @@ void requireFits(const DeviceDescription& device, const BufferPlan& buffer) {
 }
 
 void requireTogetherFit(const DeviceDescription& device, std::span<const BufferPlan> buffers) {
-    uint64_t total = 0;
-    std::string list;
+    uint64_t total = 0, most = 0;
+    std::string list, remedy;
     for (const BufferPlan& buffer : buffers) {
         total += buffer.bytes;
+        if (buffer.bytes > most) most = buffer.bytes, remedy = buffer.remedy;
         list += fmt::format("{}{} {}", list.empty() ? "" : ", ", buffer.name, buffer.bytes);
     }
     if (total > device.memory)
         throw DeviceError(
-            fmt::format("the buffers need {} bytes together, but {} has {} bytes of memory: {}",
-                        total, device.name(), device.memory, list));
+            fmt::format("the buffers need {} bytes together, but {} has {} bytes of memory: {}{}{}",
+                        total, device.name(), device.memory, list, remedy.empty() ? "" : "; ",
+                        remedy));
 }
 
 } // namespace stromboli::vulkan

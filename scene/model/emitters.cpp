@@ -1,6 +1,6 @@
 #include "scene/model/emitters.hpp"
 
-#include "host/core/color.hpp"
+#include "scene/model/surface_lookup.hpp"
 
 #include <glm/gtc/constants.hpp>
 
@@ -48,6 +48,10 @@ bool asParallelogram(const Scene& scene, Emitter& emitter) {
     return false;
 }
 
+bool emitsAlikeEverywhere(const Material& m) {
+    return m.alphaMode == AlphaMode::Opaque && !textureIn(m, TextureSlot::Emission);
+}
+
 } // namespace
 
 bool haveManyTriangles(const std::vector<Emitter>& emitters) {
@@ -55,12 +59,6 @@ bool haveManyTriangles(const std::vector<Emitter>& emitters) {
     for (const Emitter& emitter : emitters)
         triangles += emitter.triangles.size();
     return triangles >= kManyEmissiveTriangles;
-}
-
-double trianglePower(const Scene& scene, uint32_t index) {
-    const Triangle& t = scene.triangles[index];
-    const Material& m = scene.materials[t.material];
-    return luminance(m.emission) * area(scene, t) * (m.emitsBothSides ? 2 : 1);
 }
 
 std::vector<Emitter> collectEmitters(const Scene& scene) {
@@ -75,7 +73,9 @@ std::vector<Emitter> collectEmitters(const Scene& scene) {
     }
     std::vector<Emitter> emitters;
     for (auto& [key, emitter] : meshes) {
-        emitter.kind = asParallelogram(scene, emitter) ? EmitterKind::Quad : EmitterKind::Mesh;
+        const bool isQuad = emitsAlikeEverywhere(scene.materials[emitter.material]) &&
+                            asParallelogram(scene, emitter);
+        emitter.kind = isQuad ? EmitterKind::Quad : EmitterKind::Mesh;
         emitters.push_back(std::move(emitter));
     }
     for (uint32_t i = 0; i < scene.spheres.size(); ++i) {

@@ -8,7 +8,7 @@
 namespace stromboli {
 
 enum class EmitterKind : uint32_t {
-    Quad,   ///< two triangles that form a parallelogram: corner + u edgeA + v edgeB
+    Quad,   ///< two triangles that form a parallelogram, alike everywhere: corner + u edgeA + v edgeB
     Mesh,   ///< any other set of triangles
     Sphere, ///< one sphere
 };
@@ -28,10 +28,6 @@ struct Emitter {
 /// which a sample takes one triangle by its likely contribution.
 inline constexpr size_t kManyEmissiveTriangles = 64;
 bool haveManyTriangles(const std::vector<Emitter>& emitters);
-
-/// Of an emissive triangle: luminance of its emission (Rec. 709) times the area of the sides that
-/// emit.
-double trianglePower(const Scene& scene, uint32_t triangle);
 
 /// Groups the emissive geometry of a scene, in the order of instances. Deterministic.
 std::vector<Emitter> collectEmitters(const Scene& scene);

@@ -100,7 +100,7 @@ bool isOnItsSide(SurfacePoint s, vec3 wi, bool transmitted) {
 /// f |cos| and the density for the unit world direction wi, of all lobes but delta ones.
 /// s: faced forward.
 BsdfValue evaluateBsdf(Material m, SurfacePoint s, vec3 wi) {
-    const ShadingFrame frame_ = makeFrame(shadingNormal(s));
+    const ShadingFrame frame_ = shadingFrame(s);
     const vec3 local = toLocal(frame_, wi);
     const bool transmitted = local.z < 0.0;
     const bool possible =
@@ -113,7 +113,7 @@ BsdfValue evaluateBsdf(Material m, SurfacePoint s, vec3 wi) {
 /// Samples the direction in which light goes on. u, each in [0, 1): x and y for the direction within
 /// a lobe, z for the choice of one of several lobes. s: faced forward.
 BsdfSample sampleBsdf(Material m, SurfacePoint s, vec3 u) {
-    const ShadingFrame frame_ = makeFrame(shadingNormal(s));
+    const ShadingFrame frame_ = shadingFrame(s);
     BsdfSample b = sampleLocally(m, incidenceOn(s, frame_), u);
     b.direction = toWorld(frame_, b.direction);
     // Mirrored and refracted directions keep the length of wo but for rounding, which would add up

@@ -20,6 +20,7 @@ SCENE_BUFFER(BINDING_LIGHTS, lightRows)
 SCENE_BUFFER(BINDING_LIGHT_TABLE, lightTableRows)
 #ifdef RICH_MATERIALS
 SCENE_BUFFER(BINDING_ENVIRONMENT, environmentRows)
+SCENE_BUFFER(BINDING_DETAIL, detailRows)
 #endif
 
 /// A record of the BVH as it lies in memory: a NodeRecord or a LeafRecord.
@@ -85,6 +86,9 @@ uint materialOf(Primitive p) { return HAS_NORMALS ? p.material & ~PRIMITIVE_IS_S
 /// The rows of a material: its header, and two rows that its kind of BSDF reads its parameters from.
 struct Material {
     uvec4 header, row1, row2;
+#ifdef RICH_MATERIALS
+    uvec4 row3, row4, row5, row6;
+#endif
 };
 
 /// Whether the material's BSDF is of this kind: known without looking where the scene has but one kind,
@@ -97,10 +101,22 @@ bool isBsdf(Material m, uint kind) {
 /// row: the material's first. Rows that no kind of the scene has are not read.
 Material fetchMaterial(uint row) {
     const bool severalKinds = (BSDF_KINDS & (BSDF_KINDS - 1u)) != 0u;
+#ifdef RICH_MATERIALS
+    const uvec4 none = uvec4(0u);
+    Material m = Material(none, none, none, none, none, none, none);
+    if (sceneHasBsdf(BSDF_PRINCIPLED)) {
+        m.row3 = ROW(materialRows, row + 3u);
+        m.row4 = ROW(materialRows, row + 4u);
+        m.row5 = ROW(materialRows, row + 5u);
+        m.row6 = ROW(materialRows, row + 6u);
+    }
+#else
     Material m = Material(uvec4(0u), uvec4(0u), uvec4(0u));
+#endif
     if (HAS_EMISSION || severalKinds) m.header = ROW(materialRows, row);
     m.row1 = ROW(materialRows, row + 1u);
-    if (sceneHasBsdf(BSDF_GLASS) || sceneHasBsdf(BSDF_ROUGH_CONDUCTOR))
+    if (sceneHasBsdf(BSDF_GLASS) || sceneHasBsdf(BSDF_ROUGH_CONDUCTOR) ||
+        sceneHasBsdf(BSDF_PRINCIPLED))
         m.row2 = ROW(materialRows, row + 2u);
     return m;
 }

@@ -66,6 +66,13 @@ uvec4 randomWords(uint slot) {
     return randomWords(pixelId, sample_, block, frame.seed);
 }
 
+#ifdef RICH_MATERIALS
+#include "pass_through.glsl"
+#else
+/// The material of a surface; a scene of the smaller modules has no textures.
+Material materialAt(SurfacePoint s) { return fetchMaterial(s.material); }
+#endif
+
 /// Asks for a ray. Rays are prepared in one place, startRay() (docs/kernel.md, "What llvmpipe does").
 void trace(uint newPhase, vec3 origin, vec3 direction, float tMin, float tMax, uint skipPrimitive) {
     phase = newPhase;
@@ -74,6 +81,10 @@ void trace(uint newPhase, vec3 origin, vec3 direction, float tMin, float tMax, u
     ray.tMin = tMin;
     ray.tMax = tMax;
     ray.skipPrimitive = skipPrimitive;
+#ifdef RICH_MATERIALS
+    ray.passed = NO_PRIMITIVE;
+    rayEnd = tMax;
+#endif
 }
 
 bool isTracing(uint p) {
@@ -83,7 +94,7 @@ bool isTracing(uint p) {
 
 void startRay() {
     if (!isTracing(phase) || traversing(ray)) return;
-    ray.anyHit = phase == PHASE_SHADOW;
+    ray.anyHit = phase == PHASE_SHADOW && !HAS_ALPHA;
     startTraversal(ray);
     ++rayCount;
 }
@@ -111,7 +122,7 @@ void finishHemisphereRay() {
     vec3 found = BOUNCES_FIND_ALL_LIGHT ? ambientRadiance(ray.direction) : vec3(0.0);
     if (hit) {
         const SurfacePoint s = surfaceAt(ray);
-        found = emissionAt(s, fetchMaterial(s.material));
+        found = emissionAt(s, materialAt(s));
     }
     radiance += throughput * directValue * found;
     phase = PHASE_DIRECT;
@@ -133,9 +144,17 @@ void arrive() {
         radiance = 0.5 * shadingNormal(surface) + 0.5;
         return;
     }
+#ifdef RICH_MATERIALS
+    vec3 mapped;
+    material = materialAt(surface, mapped);
+#else
     material = fetchMaterial(surface.material);
+#endif
     if (countsEmission) radiance += throughput * emissionAt(surface, material) * share;
     faceForward(surface);
+#ifdef RICH_MATERIALS
+    applyNormalMap(surface, mapped);
+#endif
     ++bounce;
     if (bounce > frame.maxBounces) return;
     if (ROULETTE == ROULETTE_FIXED) {
@@ -215,7 +234,7 @@ void splitPath() {
 void nextBranch() {
     --branchesLeft;
     surface = splitPoint.surface;
-    material = fetchMaterial(surface.material);
+    material = materialAt(surface);
     throughput = splitPoint.throughput;
     bounce = splitPoint.bounce;
     phase = PHASE_BOUNCE;
@@ -294,6 +313,9 @@ void finishSample() {
 /// Takes in the finished ray. What is next: a shadow ray, which it asks for; a bounce (PHASE_BOUNCE), or
 /// another sample (PHASE_NEXT), both by depart().
 void followPath() {
+#ifdef RICH_MATERIALS
+    if (HAS_ALPHA && passesThrough()) return;
+#endif
     if (phase == PHASE_SHADOW) finishShadowRay();
     else if (DIRECT_LIGHT == DIRECT_HEMISPHERE && phase == PHASE_HEMISPHERE) finishHemisphereRay();
     else if (phase == PHASE_PATH) arrive();

@@ -56,6 +56,17 @@ const uint LIGHT_CHOICE = LIGHT_CHOICE_ONE;
 layout(constant_id = SPEC_LIGHT_CHOICE) const uint LIGHT_CHOICE = LIGHT_CHOICE_TREE;
 #endif
 
+// What materials and surfaces of a rich module can have.
+#ifdef RICH_MATERIALS
+layout(constant_id = SPEC_TEXTURE_SLOTS) const uint TEXTURE_SLOTS = 0u;
+layout(constant_id = SPEC_TEXEL_KINDS) const uint TEXEL_KINDS = 31u;
+layout(constant_id = SPEC_ATTRIBUTES) const uint ATTRIBUTES = 0u;
+layout(constant_id = SPEC_ALPHA) const bool HAS_ALPHA = false;
+layout(constant_id = SPEC_TANGENT_FRAMES) const bool TANGENT_FRAMES = false;
+#else
+const bool HAS_ALPHA = false;
+#endif
+
 bool sceneHasBsdf(uint kind) { return (BSDF_KINDS & (1u << kind)) != 0u; }
 /// Whether light samples go to lights of this kind.
 bool samplesLightKind(uint kind) { return (LIGHT_KINDS & (1u << kind)) != 0u; }

@@ -10,10 +10,25 @@ struct SurfacePoint {
     uint material;
     uint skipPrimitive; ///< planar primitives cannot be hit by rays that leave them
     float lift; ///< height of the smooth surface over `position`, along `geometric`; 0: flat
+#ifdef RICH_MATERIALS
+    vec2 weights; ///< barycentric, of the second and third corner (triangles)
+    vec4 tangent; ///< material_detail.glsl; with TANGENT_FRAMES
+#endif
 };
 
 /// Without normals of corners a second copy of the geometric one, which would be carried along.
 vec3 shadingNormal(SurfacePoint s) { return HAS_NORMALS ? s.shading : s.geometric; }
+
+/// The frame that a BSDF is evaluated in; z is the shading normal, x and y the surface's tangent and bitangent where
+/// it has them and they matter.
+ShadingFrame shadingFrame(SurfacePoint s) {
+#ifdef RICH_MATERIALS
+    const vec3 n = shadingNormal(s);
+    if (TANGENT_FRAMES && s.tangent.w != 0.0)
+        return ShadingFrame(s.tangent.xyz, s.tangent.w * cross(n, s.tangent.xyz), n);
+#endif
+    return makeFrame(shadingNormal(s));
+}
 
 /// Octahedral to unit vector (Meyer et al. 2010).
 vec3 decodeNormal(uint packed_) {
@@ -85,6 +100,10 @@ SurfacePoint surfaceAt(Traversal t) {
     }
     s.shading = s.geometric;
     s.outside = dot(s.geometric, s.wo) >= 0.0;
+#ifdef RICH_MATERIALS
+    s.weights = vec2(t.b1, t.b2);
+    s.tangent = vec4(0.0);
+#endif
     if (HAS_TRIANGLES && !place.isSphere)
         smoothShading(s, p, place, vec3(1.0 - t.b1 - t.b2, t.b1, t.b2));
     return s;

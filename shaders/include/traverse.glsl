@@ -13,7 +13,34 @@ struct Traversal {
     Group group;          ///< children still to visit; empty: the ray is done
     uint hitPrimitive; ///< 2 * record + slot; NO_PRIMITIVE: nothing hit
     float b1, b2; ///< barycentric weights of the hit (triangles)
+#ifdef RICH_MATERIALS
+    uint passed; ///< HAS_ALPHA: the primitive that the ray has passed at tMin; NO_PRIMITIVE: none
+#endif
 };
+
+// Where surfaces may be partly not there, a ray that passes one goes on from the same origin with tMin at that
+// surface. Hits are ordered by distance and, at equal ones, by primitive, so that each of several surfaces at one
+// distance is met exactly once. Distances of a ray and a primitive are the same bits in each traversal.
+
+/// Hits of the primitive count behind this distance: tMin, or, if it comes after the one that was passed there, the
+/// float before it. (A ray that has passed something has tMin > 0.)
+float nearEnd(Traversal t, uint place) {
+#ifdef RICH_MATERIALS
+    if (HAS_ALPHA && t.passed != NO_PRIMITIVE && place > t.passed)
+        return uintBitsToFloat(floatBitsToUint(t.tMin) - 1u);
+#endif
+    return t.tMin;
+}
+
+/// Hits of the primitive count before this distance: tMax, or, if it comes before the one that was hit there, the
+/// float after it.
+float farEnd(Traversal t, uint place) {
+#ifdef RICH_MATERIALS
+    if (HAS_ALPHA && t.hitPrimitive != NO_PRIMITIVE && place < t.hitPrimitive)
+        return uintBitsToFloat(floatBitsToUint(t.tMax) + 1u);
+#endif
+    return t.tMax;
+}
 
 /// Begins at the root. The ray's origin and direction, tMin, tMax, skipPrimitive and anyHit are set.
 void startTraversal(inout Traversal t) {
@@ -36,6 +63,9 @@ void startTraversal(out Traversal t, vec3 origin, vec3 direction, float tMin, fl
     t.tMax = tMax;
     t.skipPrimitive = skipPrimitive;
     t.anyHit = anyHit;
+#ifdef RICH_MATERIALS
+    t.passed = NO_PRIMITIVE;
+#endif
     startTraversal(t);
 }
 
@@ -44,8 +74,8 @@ bool traversing(Traversal t) { return !isEmpty(t.group); }
 void endTraversal(inout Traversal t) { t.group.word = 0u; }
 
 void acceptTriangle(inout Traversal t, TriangleHit hit, uint place, bool isLeaf) {
-    const bool accepted =
-        isLeaf && hit.t > t.tMin && hit.t < t.tMax && place != t.skipPrimitive;
+    const bool accepted = isLeaf && hit.t > nearEnd(t, place) && hit.t < farEnd(t, place) &&
+                          place != t.skipPrimitive;
     t.tMax = accepted ? hit.t : t.tMax;
     t.b1 = accepted ? hit.b1 : t.b1;
     t.b2 = accepted ? hit.b2 : t.b2;
@@ -61,7 +91,9 @@ void testLeaf(inout Traversal t, Ray ray, Record r, uint record, bool isLeaf) {
     }
     if (HAS_SPHERES) {
         const vec3 center = uintBitsToFloat(r.r0.xyz);
-        const float distance = hitSphere(center, leafRadius(r), ray, t.tMin, t.tMax);
+        const uint place = 2u * record;
+        const float distance =
+            hitSphere(center, leafRadius(r), ray, nearEnd(t, place), farEnd(t, place));
         const bool isSphere = isLeaf && (r.r0.w & RECORD_IS_SPHERE) != 0u;
         if (isSphere && distance < INFINITE_DISTANCE) {
             t.tMax = distance;

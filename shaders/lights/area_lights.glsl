@@ -76,7 +76,8 @@ LightSample sampleQuadLight(SurfacePoint s, LightRows rows, vec2 u) {
 
 LightSample sampleTriangleLight(SurfacePoint s, uint light, vec2 u) {
     const PlacedPrimitive t = fetchPlace(light & ~LIGHT_IS_TRIANGLE);
-    const Material m = fetchMaterial(materialOf(fetchPrimitive(t.primitive)));
+    const uint materialRow = materialOf(fetchPrimitive(t.primitive));
+    const Material m = fetchMaterial(materialRow);
     const vec3 edgeA = t.v1 - t.v0, edgeB = t.v2 - t.v0, n = planeNormal(edgeA, edgeB);
     const vec3 v0 = t.v0 - litPoint(s);
     const float z = dot(v0, n);
@@ -85,8 +86,12 @@ LightSample sampleTriangleLight(SurfacePoint s, uint light, vec2 u) {
     const float b0 = 1.0 - a.weights.x - a.weights.y;
     const vec3 b0v0 = b0 * t.v0, b1v1 = a.weights.x * t.v1, b2v2 = a.weights.y * t.v2;
     const float error = interpolationError(abs(b0v0) + abs(b1v1) + abs(b2v2));
+    vec3 radiance = emissionOf(m);
+#ifdef RICH_MATERIALS
+    radiance *= emissionFactorAt(t.primitive, materialRow, a.weights.xy);
+#endif
     return angleSample(s, b0v0 + b1v1 + b2v2, error, n, z, a.angle,
-                       Emission(emissionOf(m), emitsBothSides(m)));
+                       Emission(radiance, emitsBothSides(m)));
 }
 
 // --- Spheres --------------------------------------------------------------------------------------

@@ -14,14 +14,15 @@ SHARED_BEGIN
 #define BINDING_LIGHTS 3
 #define BINDING_LIGHT_TABLE 4
 #define BINDING_ENVIRONMENT 5
-#define BINDING_FRAME 6
-#define BINDING_WORK_ITEMS 7
-#define BINDING_PIXELS 8
-#define BINDING_SUSPENDED 9
-#define BINDING_STATUS 10
-#define BINDING_SPLITS 11 // of suspended paths
-#define BINDING_COUNT 12
-#define SCENE_BINDING_COUNT 6 // bindings 0 to 5 hold the scene and are read row by row
+#define BINDING_DETAIL 6 // attributes of corners and texels (texture_types.h)
+#define BINDING_FRAME 7
+#define BINDING_WORK_ITEMS 8
+#define BINDING_PIXELS 9
+#define BINDING_SUSPENDED 10
+#define BINDING_STATUS 11
+#define BINDING_SPLITS 12 // of suspended paths
+#define BINDING_COUNT 13
+#define SCENE_BINDING_COUNT 7 // bindings 0 to 6 hold the scene and are read row by row
 
 /// Numbers of rows in texel buffers are cut to these bits; no buffer has more rows (docs/kernel.md,
 /// "Fetch").
@@ -56,11 +57,23 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_LARGE_TREE 25 // the tree has more than SMALL_TREE_RECORDS records
 #define SPEC_AMBIENT_BY_BOUNCES 26 // bounces alone find the ambient light; light samples go to others
 #define SPEC_HAS_AMBIENT 27 // rays that hit nothing find ambient light
+// Of the modules with RICH_MATERIALS alone:
 #define SPEC_HAS_ENVIRONMENT 28 // that light is a picture
 #define SPEC_HAS_BACKDROP 29    // the camera sees it
 #define SPEC_HAS_LENS 30
 #define SPEC_PIXEL_FILTER 31 // how samples are spread about a pixel
-#define SPEC_COUNT 32
+#define SPEC_TEXTURE_SLOTS 32 // bit n: some material has a texture in slot n (TEXTURE_)
+#define SPEC_TEXEL_KINDS 33 // TEXEL_KIND_ bits that occur
+#define SPEC_ATTRIBUTES 34 // ATTRIBUTE_ bits: what the detail buffer has of primitives' corners
+#define SPEC_ALPHA 35 // surfaces may be partly not there
+#define SPEC_TANGENT_FRAMES 36 // the frame of a BSDF follows the surface's tangent
+#define SPEC_COUNT 37
+
+SHARED_CONST uint TEXEL_KIND_NEAREST = 1u;
+SHARED_CONST uint TEXEL_KIND_BILINEAR = 2u;
+SHARED_CONST uint TEXEL_KIND_SRGB = 4u;
+SHARED_CONST uint TEXEL_KIND_BYTES = 8u;
+SHARED_CONST uint TEXEL_KIND_HALF = 16u;
 
 SHARED_CONST uint INTEGRATOR_PATH = 0u;
 SHARED_CONST uint INTEGRATOR_NORMALS = 1u;

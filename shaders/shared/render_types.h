@@ -106,7 +106,7 @@ struct SuspendedSplit {
     float error;
     uint outside;
     uint branchesLeft; ///< that have not begun
-    uint unused0, unused1;
+    float b1, b2;      ///< barycentric weights, where materials have textures or colours; 0 else
 };
 SHARED_ROWS(SuspendedSplit, 6);
 SHARED_CONST float SUSPENDED_NO_EMISSION = -1.0f;

@@ -19,7 +19,7 @@ class LightTreeTest : public testing::Test {
     LightTreeTest() {
         for (const Emitter& e : collectEmitters(scene))
             for (const uint32_t triangle : e.triangles)
-                lights.push_back(boundsOfTriangle(scene, triangle));
+                lights.push_back(boundsOfTriangle(scene, triangle, MeanEmission(scene)));
         tree = buildLightTree(lights);
     }
 

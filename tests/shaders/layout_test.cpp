@@ -213,7 +213,7 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         const gpu::SuspendedSplit& q = splits_[1];
         expected_.structure("SuspendedSplit", q.position, q.bounce, q.geometric, q.material,
                             q.shading, q.skipPrimitive, q.wo, q.lift, q.throughput, q.error,
-                            q.outside, q.branchesLeft, q.unused0, q.unused1);
+                            q.outside, q.branchesLeft, q.b1, q.b2);
         const gpu::DispatchStatus status = patterns.several<gpu::DispatchStatus>()[0];
         shader.setOne(BINDING_STATUS, status);
         expected_.structure("DispatchStatus", status.unfinishedItems, status.overflowedItems,

@@ -3,6 +3,9 @@
 #include "shared/interface.h"
 #include "shared/scene_types.h"
 #include "shared/render_types.h"
+#ifdef RICH_MATERIALS
+#include "shared/texture_types.h"
+#endif
 
 #include "include/specialisation.glsl"
 #include "include/fetch.glsl"
@@ -19,6 +22,9 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "include/cs184.glsl"
 #include "include/surface.glsl"
 #include "bsdf/bsdf.glsl"
+#ifdef RICH_MATERIALS
+#include "include/material_detail.glsl"
+#endif
 #include "lights/lights.glsl"
 #include "include/accumulate.glsl"
 

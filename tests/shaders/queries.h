@@ -25,6 +25,19 @@ struct RandomAnswer {
 };
 SHARED_ROWS(RandomAnswer, 4);
 
+/// lookUp() of the texture whose rows begin at `row` of the material buffer.
+struct TextureQuery {
+    uint row;
+    float u;
+    float v;
+    uint unused;
+};
+struct TextureAnswer {
+    vec3 color;
+    float alpha;
+};
+SHARED_ROWS(TextureAnswer, 1);
+
 struct TriangleQuery {
     vec3 v0;
     uint unused0;

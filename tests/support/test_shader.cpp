@@ -75,6 +75,7 @@ void TestShader::setScene(const GpuScene& scene) {
     set(BINDING_MATERIALS, scene.materials);
     set(BINDING_LIGHTS, scene.lights.lights);
     set(BINDING_LIGHT_TABLE, scene.lights.table);
+    set(BINDING_DETAIL, scene.details);
     gpu::Frame frame{};
     frame.lightCount = scene.lights.count;
     frame.areaLights = scene.lights.areaCount;

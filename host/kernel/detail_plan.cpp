@@ -1,0 +1,134 @@
+#include "host/kernel/detail_plan.hpp"
+
+#include "shaders/shared/interface.h"
+#include "shaders/shared/texture_types.h"
+
+#include <algorithm>
+
+namespace stromboli {
+namespace {
+
+bool isBlack(const glm::vec3& color) {
+    return color == glm::vec3(0);
+}
+
+/// Whether a texture in this slot can change what the material is.
+bool hasEffect(const Material& m, TextureSlot slot) {
+    const bool isPrincipled = m.kind == MaterialKind::Principled;
+    const PrincipledParameters& p = m.principled;
+    switch (slot) {
+    case TextureSlot::BaseColor:
+        return m.alphaMode != AlphaMode::Opaque || (isPrincipled && !isBlack(p.baseColor)) ||
+               (m.kind == MaterialKind::Diffuse && !isBlack(m.albedo));
+    case TextureSlot::Emission:
+        return m.emits();
+    case TextureSlot::Normal:
+        return m.kind != MaterialKind::Diffuse || !isBlack(m.albedo);
+    case TextureSlot::MetallicRoughness:
+        return isPrincipled && (p.metallic > 0 || p.roughness > 0);
+    case TextureSlot::Transmission:
+        return isPrincipled && p.transmission > 0;
+    case TextureSlot::Specular:
+        return isPrincipled && p.specular > 0;
+    case TextureSlot::SpecularColor:
+        return isPrincipled && p.specular > 0 && !isBlack(p.specularColor);
+    case TextureSlot::Clearcoat:
+        return isPrincipled && p.clearcoat > 0;
+    case TextureSlot::ClearcoatRoughness:
+        return isPrincipled && p.clearcoat > 0 && p.clearcoatRoughness > 0;
+    case TextureSlot::ClearcoatNormal:
+        return false; // all lobes share one normal
+    case TextureSlot::SheenColor:
+        return isPrincipled && !isBlack(p.sheenColor);
+    case TextureSlot::SheenRoughness:
+        return isPrincipled && !isBlack(p.sheenColor) && p.sheenRoughness > 0;
+    case TextureSlot::Anisotropy:
+        return isPrincipled && p.anisotropy > 0;
+    }
+    return false;
+}
+
+bool isOpaque(const TextureImage& image) {
+    constexpr uint32_t kOne = 0x3C00; // as a half float
+    if (image.format == TexelFormat::Rgba8)
+        return std::ranges::all_of(image.words, [](uint32_t w) { return w >> 24 == 0xFF; });
+    for (size_t i = 1; i < image.words.size(); i += 2)
+        if (image.words[i] >> 16 != kOne) return false;
+    return true;
+}
+
+class Planner {
+  public:
+    Planner(const Scene& scene) : scene_(scene) {
+        constexpr glm::vec4 white(1);
+        for (const VertexAttributes& a : scene.attributes) {
+            hasColors_ |= a.color != white;
+            hasTransparentColors_ |= a.color.a != 1;
+        }
+    }
+
+    DetailPlan plan(const std::vector<bool>& used) {
+        plan_.materials.resize(scene_.materials.size());
+        for (size_t i = 0; i < scene_.materials.size(); ++i)
+            if (used[i]) add(scene_.materials[i], plan_.materials[i]);
+        if (scene_.attributeCorners.empty()) plan_.attributes = 0;
+        plan_.hasTangentFrames &= plan_.attributes != 0;
+        return std::move(plan_);
+    }
+
+  private:
+    void add(const Material& m, DetailPlan::MaterialPlan& material) {
+        material.isTransparent = isTransparent(m);
+        plan_.hasAlpha |= material.isTransparent;
+        for (const TextureUse& use : m.textures)
+            if (hasEffect(m, use.slot)) material.textures.push_back(use);
+        std::ranges::sort(material.textures, {}, &TextureUse::slot);
+        for (const TextureUse& use : material.textures)
+            addTexture(use);
+        plan_.mostTextures = std::max(plan_.mostTextures, uint32_t(material.textures.size()));
+        const bool hasColor = m.kind == MaterialKind::Diffuse || m.kind == MaterialKind::Principled;
+        if (hasColors_ && (hasColor || material.isTransparent))
+            plan_.attributes |= gpu::ATTRIBUTE_COLOR;
+        if (m.kind == MaterialKind::Principled && m.principled.anisotropy > 0) {
+            plan_.attributes |= gpu::ATTRIBUTE_TANGENT;
+            plan_.hasTangentFrames = true;
+        }
+    }
+
+    void addTexture(const TextureUse& use) {
+        const Texture& texture = scene_.textures[use.texture];
+        const bool isHalf = scene_.images[texture.image].format == TexelFormat::RgbaHalf;
+        plan_.textureSlots |= 1u << uint32_t(use.slot);
+        plan_.texelKinds |= texture.nearest ? gpu::TEXEL_KIND_NEAREST : gpu::TEXEL_KIND_BILINEAR;
+        plan_.texelKinds |= isHalf ? gpu::TEXEL_KIND_HALF : gpu::TEXEL_KIND_BYTES;
+        if (texture.srgb && !isHalf) plan_.texelKinds |= gpu::TEXEL_KIND_SRGB;
+        plan_.attributes |= use.uvSet == 0 ? gpu::ATTRIBUTE_UV0 : gpu::ATTRIBUTE_UV1;
+        if (use.slot == TextureSlot::Normal) plan_.attributes |= gpu::ATTRIBUTE_TANGENT;
+    }
+
+    bool isTransparent(const Material& m) const {
+        if (m.alphaMode == AlphaMode::Opaque) return false;
+        if (m.opacity != 1 || hasTransparentColors_) return true;
+        if (m.alphaMode == AlphaMode::Mask && m.alphaCutoff > 1) return true;
+        for (const TextureUse& use : m.textures)
+            if (use.slot == TextureSlot::BaseColor &&
+                !isOpaque(scene_.images[scene_.textures[use.texture].image]))
+                return true;
+        return false;
+    }
+
+    const Scene& scene_;
+    bool hasColors_ = false, hasTransparentColors_ = false;
+    DetailPlan plan_;
+};
+
+} // namespace
+
+DetailPlan planDetails(const Scene& scene, const std::vector<bool>& used) {
+    static_assert(kTextureSlotCount == gpu::TEXTURE_SLOT_COUNT);
+    static_assert(uint32_t(TextureSlot::Emission) == gpu::TEXTURE_EMISSION);
+    static_assert(uint32_t(TextureSlot::Anisotropy) == gpu::TEXTURE_ANISOTROPY);
+    return Planner(scene).plan(used);
+}
+
+} // namespace stromboli

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "scene/model/scene.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace stromboli {
+
+/// What the kernel reads of textures, opacity and corners' attributes: that which can change the
+/// picture. A texture that multiplies a parameter of 0, or an alpha mode without anything that is
+/// not opaque, costs nothing.
+struct DetailPlan {
+    struct MaterialPlan {
+        std::vector<TextureUse> textures; ///< in the order of their slots
+        bool isTransparent = false;       ///< may be partly not there
+    };
+    std::vector<MaterialPlan> materials; ///< by material of the scene
+
+    uint32_t textureSlots = 0; ///< bit n: a texture in gpu::TEXTURE_ slot n
+    uint32_t texelKinds = 0;   ///< gpu::TEXEL_KIND_ bits
+    uint32_t attributes = 0;   ///< gpu::ATTRIBUTE_ bits
+    uint32_t mostTextures = 0; ///< of a material
+    bool hasAlpha = false;
+    bool hasTangentFrames = false; ///< a BSDF depends on the direction of tangents
+
+    /// Materials have a gpu::MaterialDetail.
+    bool hasMaterialDetails() const { return textureSlots != 0 || hasAlpha; }
+};
+
+/// used: by material, whether a primitive has it.
+DetailPlan planDetails(const Scene& scene, const std::vector<bool>& used);
+
+} // namespace stromboli

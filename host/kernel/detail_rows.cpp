@@ -1,0 +1,177 @@
+#include "host/kernel/detail_rows.hpp"
+
+#include "host/kernel/gpu_scene.hpp"
+#include "scene/model/surface_lookup.hpp"
+#include "shaders/shared/texture_types.h"
+
+#include <bit>
+#include <cmath>
+
+namespace stromboli {
+namespace {
+
+Row row(float a, float b, float c, float d) {
+    return {std::bit_cast<uint32_t>(a), std::bit_cast<uint32_t>(b), std::bit_cast<uint32_t>(c),
+            std::bit_cast<uint32_t>(d)};
+}
+
+/// The attributes of all primitives, in the order of the tree's leaves.
+class AttributePacker {
+  public:
+    AttributePacker(const Scene& scene, const WideLayout& bvh, const DetailPlan& plan,
+                    std::vector<Row>& rows)
+        : scene_(scene), bvh_(bvh), plan_(plan), rows_(rows) {}
+
+    void pack() {
+        if (plan_.attributes == 0) return;
+        rows_.reserve(bvh_.primitiveOrder.size() * attributeRows(plan_.attributes));
+        for (const uint32_t id : bvh_.primitiveOrder)
+            pack(id);
+    }
+
+  private:
+    bool has(uint32_t attribute) const { return (plan_.attributes & attribute) != 0; }
+
+    void pack(uint32_t id) {
+        VertexAttributes corners[3];
+        const bool isTriangle = id < scene_.triangles.size();
+        if (isTriangle && scene_.attributeCorners[id][0] != kNoAttributes)
+            for (uint32_t c = 0; c < 3; ++c)
+                corners[c] = scene_.attributes[scene_.attributeCorners[id][cornerOf(id, c)]];
+        for (const uint32_t set : {0u, 1u})
+            if (has(set == 0 ? gpu::ATTRIBUTE_UV0 : gpu::ATTRIBUTE_UV1)) packUv(corners, set);
+        if (has(gpu::ATTRIBUTE_COLOR))
+            for (const VertexAttributes& a : corners)
+                rows_.push_back(row(a.color.x, a.color.y, a.color.z, a.color.w));
+        if (has(gpu::ATTRIBUTE_TANGENT)) rows_.push_back(isTriangle ? tangents(id) : Row{});
+    }
+
+    void packUv(const VertexAttributes (&corners)[3], uint32_t set) {
+        const glm::vec2 a = corners[0].uv[set], b = corners[1].uv[set], c = corners[2].uv[set];
+        rows_.push_back(row(a.x, a.y, b.x, b.y));
+        rows_.push_back(row(c.x, c.y, 0, 0));
+    }
+
+    Row tangents(uint32_t id) const {
+        Row r{};
+        const Material& material = scene_.materials[scene_.triangles[id].material];
+        const uint32_t set = uvSetOfTangents(material);
+        for (uint32_t c = 0; c < 3; ++c) {
+            const glm::vec4 t = tangentAtCorner(scene_, id, cornerOf(id, c), set);
+            const float length = glm::length(glm::vec3(t));
+            if (t.w == 0 || !(length > 0) || !std::isfinite(length)) continue;
+            r[c] = encodeNormal(glm::vec3(t) / length);
+            r[3] |= (t.w > 0 ? 1u : 3u) << 2 * c;
+        }
+        return r;
+    }
+
+    /// The corner of the file that the leaf has as its c-th.
+    uint32_t cornerOf(uint32_t id, uint32_t c) const { return (c + bvh_.firstCorner[id]) % 3; }
+
+    const Scene& scene_;
+    const WideLayout& bvh_;
+    const DetailPlan& plan_;
+    std::vector<Row>& rows_;
+};
+
+/// Pictures that some texture of the plan shows, each once.
+class TexelPacker {
+  public:
+    TexelPacker(const Scene& scene, std::vector<Row>& rows)
+        : scene_(scene), rows_(rows), firstRow_(scene.images.size(), kNotPacked) {}
+
+    uint32_t firstRowOf(uint32_t image) {
+        if (firstRow_[image] == kNotPacked) {
+            firstRow_[image] = uint32_t(rows_.size());
+            const std::vector<uint32_t>& words = scene_.images[image].words;
+            // Whole rows: of a part of a row, texel buffers read nothing.
+            const size_t first = rows_.size();
+            rows_.resize(first + (words.size() + 3) / 4);
+            for (size_t i = 0; i < words.size(); ++i)
+                rows_[first + i / 4][i % 4] = words[i];
+        }
+        return firstRow_[image];
+    }
+
+  private:
+    static constexpr uint32_t kNotPacked = ~0u;
+
+    const Scene& scene_;
+    std::vector<Row>& rows_;
+    std::vector<uint32_t> firstRow_;
+};
+
+uint32_t wrapBits(Wrap wrap) {
+    switch (wrap) {
+    case Wrap::Repeat:
+        return gpu::WRAP_REPEAT;
+    case Wrap::Mirror:
+        return gpu::WRAP_MIRROR;
+    case Wrap::Clamp:
+        return gpu::WRAP_CLAMP;
+    }
+    return gpu::WRAP_REPEAT;
+}
+
+gpu::TextureUse packUse(const Scene& scene, const TextureUse& use, TexelPacker& texels) {
+    const Texture& texture = scene.textures[use.texture];
+    const TextureImage& image = scene.images[texture.image];
+    const bool isHalf = image.format == TexelFormat::RgbaHalf;
+    gpu::TextureUse g{};
+    g.uRow = use.uRow;
+    g.vRow = use.vRow;
+    g.slot = uint32_t(use.slot) | (use.uvSet != 0 ? gpu::TEXTURE_SECOND_UV : 0);
+    g.scale = use.scale;
+    g.firstRow = texels.firstRowOf(texture.image);
+    g.width = image.width;
+    g.height = image.height;
+    g.flags = wrapBits(texture.wrapU) << gpu::TEXELS_WRAP_U_SHIFT |
+              wrapBits(texture.wrapV) << gpu::TEXELS_WRAP_V_SHIFT |
+              (texture.nearest ? gpu::TEXELS_NEAREST : 0) | (isHalf ? gpu::TEXELS_HALF : 0) |
+              (texture.srgb && !isHalf ? gpu::TEXELS_SRGB : 0);
+    return g;
+}
+
+std::vector<Row> materialDetail(const Scene& scene, const Material& m,
+                                const DetailPlan::MaterialPlan& plan, TexelPacker& texels) {
+    gpu::MaterialDetail detail{};
+    detail.opacity = m.opacity;
+    detail.alphaCutoff = m.alphaCutoff;
+    detail.textures = uint32_t(plan.textures.size());
+    if (plan.isTransparent)
+        detail.flags = m.alphaMode == AlphaMode::Mask ? gpu::DETAIL_MASK : gpu::DETAIL_BLEND;
+    for (uint32_t i = 0; i < plan.textures.size(); ++i) {
+        if (plan.textures[i].slot == TextureSlot::BaseColor)
+            detail.flags |= gpu::DETAIL_HAS_BASE_COLOR;
+        if (plan.textures[i].slot == TextureSlot::Emission)
+            detail.flags |= (i + 1) << gpu::DETAIL_EMISSION_SHIFT;
+    }
+    std::vector<Row> rows;
+    appendRows(rows, detail);
+    for (const TextureUse& use : plan.textures)
+        appendRows(rows, packUse(scene, use, texels));
+    return rows;
+}
+
+} // namespace
+
+uint32_t attributeRows(uint32_t attributes) {
+    return (attributes & gpu::ATTRIBUTE_UV0 ? gpu::UV_ROWS : 0) +
+           (attributes & gpu::ATTRIBUTE_UV1 ? gpu::UV_ROWS : 0) +
+           (attributes & gpu::ATTRIBUTE_COLOR ? gpu::COLOR_ROWS : 0) +
+           (attributes & gpu::ATTRIBUTE_TANGENT ? gpu::TANGENT_ROWS : 0);
+}
+
+DetailRows packDetails(const Scene& scene, const WideLayout& bvh, const DetailPlan& plan) {
+    DetailRows details;
+    AttributePacker(scene, bvh, plan, details.rows).pack();
+    if (!plan.hasMaterialDetails()) return details;
+    TexelPacker texels(scene, details.rows);
+    for (size_t i = 0; i < scene.materials.size(); ++i)
+        details.ofMaterials.push_back(
+            materialDetail(scene, scene.materials[i], plan.materials[i], texels));
+    return details;
+}
+
+} // namespace stromboli

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "host/bvh/wide_layout.hpp"
+#include "host/kernel/detail_plan.hpp"
+#include "host/kernel/rows.hpp"
+
+namespace stromboli {
+
+/// What beside parameters and normals the kernel reads (shaders/shared/texture_types.h).
+struct DetailRows {
+    std::vector<Row> rows;                     ///< the detail buffer: attributes, then texels
+    std::vector<std::vector<Row>> ofMaterials; ///< by material: MaterialDetail and TextureUse rows;
+                                               ///< empty where no material has any
+};
+
+DetailRows packDetails(const Scene& scene, const WideLayout& bvh, const DetailPlan& plan);
+
+/// Rows that one primitive's attributes take.
+uint32_t attributeRows(uint32_t attributes);
+
+} // namespace stromboli

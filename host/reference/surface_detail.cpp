@@ -1,0 +1,130 @@
+#include "host/reference/surface.hpp"
+#include "scene/model/surface_lookup.hpp"
+
+#include <cmath>
+
+namespace stromboli::reference {
+namespace {
+
+bool hasBaseColor(const Material& m) {
+    return m.kind == MaterialKind::Diffuse || m.kind == MaterialKind::Principled;
+}
+
+PointAttributes attributesOf(const SurfacePoint& s, const Scene& scene) {
+    if (s.triangle == kNoPrimitive) return {};
+    return attributesAt(scene, s.triangle, s.b1, s.b2);
+}
+
+void multiply(glm::vec3& parameter, const glm::dvec3& factor) {
+    parameter = glm::vec3(glm::dvec3(parameter) * factor);
+}
+void multiply(float& parameter, double factor) {
+    parameter = float(parameter * factor);
+}
+
+void multiplyBaseColor(Material& m, const glm::dvec3& color) {
+    if (!hasBaseColor(m)) return;
+    multiply(m.kind == MaterialKind::Diffuse ? m.albedo : m.principled.baseColor, color);
+}
+
+void apply(Material& m, TextureSlot slot, const glm::dvec4& texel) {
+    PrincipledParameters& p = m.principled;
+    const glm::dvec3 color(texel);
+    switch (slot) {
+    case TextureSlot::BaseColor:
+        return multiplyBaseColor(m, color);
+    case TextureSlot::Emission:
+        return multiply(m.emission, color);
+    case TextureSlot::MetallicRoughness:
+        multiply(p.roughness, texel.g);
+        return multiply(p.metallic, texel.b);
+    case TextureSlot::Transmission:
+        return multiply(p.transmission, texel.r);
+    case TextureSlot::Specular:
+        return multiply(p.specular, texel.a);
+    case TextureSlot::SpecularColor:
+        return multiply(p.specularColor, color);
+    case TextureSlot::Clearcoat:
+        return multiply(p.clearcoat, texel.r);
+    case TextureSlot::ClearcoatRoughness:
+        return multiply(p.clearcoatRoughness, texel.g);
+    case TextureSlot::SheenColor:
+        return multiply(p.sheenColor, color);
+    case TextureSlot::SheenRoughness:
+        return multiply(p.sheenRoughness, texel.a);
+    case TextureSlot::Anisotropy:
+        multiply(p.anisotropy, texel.b);
+        p.anisotropyRotation += float(std::atan2(2 * texel.g - 1, 2 * texel.r - 1));
+        return;
+    case TextureSlot::Normal:
+    case TextureSlot::ClearcoatNormal:
+        return; // no parameter
+    }
+}
+
+/// Of the surface as it is seen: perpendicular to the shading normal.
+glm::dvec4 tangentOf(const SurfacePoint& s, const Scene& scene, const Material& m, bool isTurned) {
+    if (s.triangle == kNoPrimitive) return glm::dvec4(0.0);
+    const uint32_t set = uvSetOfTangents(m);
+    const double weights[] = {1 - s.b1 - s.b2, s.b1, s.b2};
+    glm::dvec3 sum(0.0);
+    double side = 0;
+    for (uint32_t c = 0; c < 3; ++c) {
+        const glm::dvec4 corner(tangentAtCorner(scene, s.triangle, c, set));
+        if (corner.w == 0) return glm::dvec4(0.0);
+        sum += weights[c] * glm::normalize(glm::dvec3(corner));
+        side = corner.w;
+    }
+    sum -= glm::dot(sum, s.shading) * s.shading;
+    if (!(glm::dot(sum, sum) > 0)) return glm::dvec4(0.0);
+    // The bitangent stays where it is when the normal is turned.
+    return {glm::normalize(sum), isTurned ? -side : side};
+}
+
+} // namespace
+
+void applyTextures(SurfacePoint& s, const Scene& scene) {
+    const PointAttributes at = attributesOf(s, scene);
+    if (s.material->textures.empty() && at.color == glm::dvec4(1.0)) return;
+    const auto own = std::make_shared<Material>(*s.material);
+    multiplyBaseColor(*own, glm::dvec3(at.color));
+    for (const TextureUse& use : s.material->textures)
+        apply(*own, use.slot, lookUp(scene, use, at));
+    s.material = own.get();
+    s.ownMaterial = own;
+}
+
+void applyNormalMap(SurfacePoint& s, const Scene& scene, const ShadingConventions& conventions) {
+    const TextureUse* map = textureIn(*s.material, TextureSlot::Normal);
+    const bool isAnisotropic =
+        s.material->kind == MaterialKind::Principled && s.material->principled.anisotropy > 0;
+    if (!map && !isAnisotropic) return;
+    const bool isTurned = conventions.facesForward && !s.outside;
+    s.tangent = tangentOf(s, scene, *s.material, isTurned);
+    if (!map || s.tangent.w == 0) return;
+    const glm::dvec3 texel(lookUp(scene, *map, attributesOf(s, scene)));
+    const glm::dvec2 tilt = (2.0 * glm::dvec2(texel) - 1.0) * double(map->scale);
+    if (tilt == glm::dvec2(0.0)) return;
+    const glm::dvec3 t(s.tangent), b = s.tangent.w * glm::cross(s.shading, t);
+    // The map is that of the front; from behind, its vector is turned round as the normal is.
+    const glm::dvec3 across = tilt.x * t + tilt.y * b;
+    const glm::dvec3 n = (isTurned ? -across : across) + (2 * texel.z - 1) * s.shading;
+    if (!(glm::dot(n, n) > 0)) return;
+    s.shading = glm::normalize(n);
+    if (conventions.facesForward) s.shading = bendNormal(s.shading, s.geometric, s.wo);
+    s.tangent = tangentOf(s, scene, *s.material, isTurned);
+}
+
+glm::dvec3 bendNormal(const glm::dvec3& n, const glm::dvec3& g, const glm::dvec3& wo) {
+    const double facing = glm::dot(n, g), height = glm::dot(wo, g);
+    const glm::dvec3 mirrored = 2 * glm::dot(n, wo) * n - wo;
+    if (facing > 0 && glm::dot(mirrored, g) >= 0) return n;
+    // Pulled up along n to the horizon; from a normal below the horizon, to where that points.
+    const glm::dvec3 grazing = facing > 0 ? mirrored - glm::dot(mirrored, g) / facing * n
+                                          : height * (n - facing * g);
+    const double length = glm::length(grazing);
+    const glm::dvec3 sum = length > 0 && std::isfinite(length) ? wo + grazing / length : g;
+    return glm::dot(sum, sum) > 0 ? glm::normalize(sum) : g;
+}
+
+} // namespace stromboli::reference

@@ -1,0 +1,237 @@
+// What a material is at a point of a surface: its parameters times textures and the colours of corners, its
+// opacity, and what a normal map says. docs/estimator.md, "Textures", has the rules.
+
+#include "include/texture.glsl"
+
+/// Whether some material of the scene has a texture in this slot.
+bool sceneHasSlot(uint slot) { return (TEXTURE_SLOTS & 1u << slot) != 0u; }
+bool isSlot(uint slot, uint wanted) { return sceneHasSlot(wanted) && slot == wanted; }
+/// Whether materials have a MaterialDetail.
+bool hasDetails() { return TEXTURE_SLOTS != 0u || HAS_ALPHA; }
+bool hasAttribute(uint which) { return (ATTRIBUTES & which) != 0u; }
+bool hasNormalMaps() { return sceneHasSlot(TEXTURE_NORMAL) && hasAttribute(ATTRIBUTE_TANGENT); }
+
+// --- Attributes of corners -----------------------------------------------------------------------
+
+/// Of one primitive, up to the attribute `end`.
+uint attributeRows(uint end) {
+    return (hasAttribute(ATTRIBUTE_UV0) && end > ATTRIBUTE_UV0 ? UV_ROWS : 0u) +
+           (hasAttribute(ATTRIBUTE_UV1) && end > ATTRIBUTE_UV1 ? UV_ROWS : 0u) +
+           (hasAttribute(ATTRIBUTE_COLOR) && end > ATTRIBUTE_COLOR ? COLOR_ROWS : 0u) +
+           (hasAttribute(ATTRIBUTE_TANGENT) && end > ATTRIBUTE_TANGENT ? TANGENT_ROWS : 0u);
+}
+
+/// What a point has of its primitive's corners. Spheres have neither texture coordinates nor colours: they are
+/// (0, 0) and white.
+struct PointAttributes {
+    vec2 uv0, uv1;
+    vec4 color;
+};
+
+// Attributes are interpolated by their differences, so that what is the same at all corners is exactly that everywhere:
+// a mask whose opacity is its cutoff depends on it.
+
+vec2 interpolatedUv(uint row, vec2 b) {
+    const vec4 first = uintBitsToFloat(ROW(detailRows, row));
+    const vec2 last = uintBitsToFloat(ROW(detailRows, row + 1u).xy);
+    return first.xy + b.x * (first.zw - first.xy) + b.y * (last - first.xy);
+}
+
+vec4 interpolatedColor(uint row, vec2 b) {
+    const vec4 c0 = uintBitsToFloat(ROW(detailRows, row)),
+               c1 = uintBitsToFloat(ROW(detailRows, row + 1u)),
+               c2 = uintBitsToFloat(ROW(detailRows, row + 2u));
+    return c0 + b.x * (c1 - c0) + b.y * (c2 - c0);
+}
+
+/// The primitive at a place of the tree, in the Primitive buffer.
+uint primitiveAt(uint place) {
+    return (ROW(recordRows, RECORD_ROWS * (place >> 1u)).w & RECORD_INDEX_MASK) + (place & 1u);
+}
+
+/// Where a primitive's attributes begin in the detail buffer.
+uint attributeRow(uint primitive, uint which) {
+    return primitive * attributeRows(~0u) + attributeRows(which);
+}
+
+/// b: barycentric weights of the second and third corner.
+PointAttributes attributesAt(uint primitive, vec2 b) {
+    PointAttributes a = PointAttributes(vec2(0.0), vec2(0.0), vec4(1.0));
+    if (hasAttribute(ATTRIBUTE_UV0))
+        a.uv0 = interpolatedUv(attributeRow(primitive, ATTRIBUTE_UV0), b);
+    if (hasAttribute(ATTRIBUTE_UV1))
+        a.uv1 = interpolatedUv(attributeRow(primitive, ATTRIBUTE_UV1), b);
+    if (hasAttribute(ATTRIBUTE_COLOR))
+        a.color = interpolatedColor(attributeRow(primitive, ATTRIBUTE_COLOR), b);
+    return a;
+}
+
+vec4 lookUp(TextureUse t, PointAttributes a) {
+    vec2 uv = a.uv0;
+    if (hasAttribute(ATTRIBUTE_UV1) && (t.slot & TEXTURE_SECOND_UV) != 0u) uv = a.uv1;
+    return lookUp(t, uv);
+}
+
+// --- Opacity and emission ------------------------------------------------------------------------
+
+/// row: the material's first.
+MaterialDetail fetchDetail(uint row) {
+    const uvec4 r = ROW(materialRows, row + MATERIAL_DETAIL_ROW);
+    return MaterialDetail(uintBitsToFloat(r.x), uintBitsToFloat(r.y), r.z, r.w);
+}
+
+/// The first row of a material's texture.
+uint textureUseRow(uint materialRow, uint number) {
+    return materialRow + MATERIAL_DETAIL_ROW + 1u + TEXTURE_USE_ROWS * number;
+}
+
+/// The share of light that meets the surface at a point; 1 where the material has no alpha mode.
+float opacityAt(uint materialRow, PointAttributes a) {
+    if (!HAS_ALPHA) return 1.0;
+    const MaterialDetail detail = fetchDetail(materialRow);
+    float opacity = detail.opacity * a.color.a;
+    if (sceneHasSlot(TEXTURE_BASE_COLOR)) {
+        const bool textured = (detail.flags & DETAIL_HAS_BASE_COLOR) != 0u;
+        // A material without one reads rows behind it, and a picture of no size, to no effect.
+        TextureUse use = fetchTextureUse(textured ? textureUseRow(materialRow, 0u) : 0u);
+        if (!textured) use = TextureUse(vec3(0.0), 0u, vec3(0.0), 0.0, 0u, 1u, 1u, 0u);
+        opacity *= textured ? lookUp(use, a).a : 1.0;
+    }
+    if ((detail.flags & DETAIL_MASK) != 0u) return opacity >= detail.alphaCutoff ? 1.0 : 0.0;
+    return (detail.flags & DETAIL_BLEND) != 0u ? clamp(opacity, 0.0, 1.0) : 1.0;
+}
+
+/// The same at a hit.
+float opacityAt(uint place, vec2 b) {
+    const uint primitive = primitiveAt(place);
+    return opacityAt(materialOf(fetchPrimitive(primitive)), attributesAt(primitive, b));
+}
+
+/// By what the emission of an emissive primitive is multiplied at a point of it, for light samples: by its
+/// texture, and by the share of it that is there.
+vec3 emissionFactorAt(uint primitive, uint materialRow, vec2 b) {
+    if (!sceneHasSlot(TEXTURE_EMISSION) && !HAS_ALPHA) return vec3(1.0);
+    const PointAttributes a = attributesAt(primitive, b);
+    vec3 factor = vec3(opacityAt(materialRow, a));
+    if (sceneHasSlot(TEXTURE_EMISSION)) {
+        const uint number =
+            fetchDetail(materialRow).flags >> DETAIL_EMISSION_SHIFT & DETAIL_EMISSION_MASK;
+        TextureUse use = fetchTextureUse(number != 0u ? textureUseRow(materialRow, number - 1u) : 0u);
+        if (number == 0u) use = TextureUse(vec3(0.0), 0u, vec3(0.0), 0.0, 0u, 1u, 1u, 0u);
+        const vec3 texel = lookUp(use, a).rgb;
+        factor *= number != 0u ? texel : vec3(1.0);
+    }
+    return factor;
+}
+
+// --- All parameters --------------------------------------------------------------------------------
+
+void scale(inout uvec4 row, vec3 factor) {
+    row.xyz = floatBitsToUint(uintBitsToFloat(row.xyz) * factor);
+}
+void scale(inout uint word, float factor) {
+    word = floatBitsToUint(uintBitsToFloat(word) * factor);
+}
+
+/// Whether a material's first row of parameters is a colour that base colours multiply.
+bool hasBaseColor(Material m) { return isBsdf(m, BSDF_DIFFUSE) || isBsdf(m, BSDF_PRINCIPLED); }
+
+/// A texel's part in the parameters (PrincipledParameters; a diffuse material has the first row only). mapped: a
+/// normal map's vector in the frame of the surface's tangent.
+void applyTexel(inout Material m, inout vec3 mapped, TextureUse t, vec4 texel) {
+    const uint slot = t.slot & TEXTURE_SLOT_MASK;
+    if (isSlot(slot, TEXTURE_BASE_COLOR) && hasBaseColor(m)) scale(m.row1, texel.rgb);
+    if (isSlot(slot, TEXTURE_EMISSION)) scale(m.header, texel.rgb);
+    if (isSlot(slot, TEXTURE_NORMAL))
+        mapped = vec3((2.0 * texel.xy - 1.0) * t.scale, 2.0 * texel.z - 1.0);
+    if (!sceneHasBsdf(BSDF_PRINCIPLED)) return;
+    if (isSlot(slot, TEXTURE_METALLIC_ROUGHNESS)) {
+        scale(m.row1.w, texel.b);
+        scale(m.row2.w, texel.g);
+    }
+    if (isSlot(slot, TEXTURE_SPECULAR_COLOR)) scale(m.row2, texel.rgb);
+    if (isSlot(slot, TEXTURE_SPECULAR)) scale(m.row3.x, texel.a);
+    if (isSlot(slot, TEXTURE_TRANSMISSION)) scale(m.row3.z, texel.r);
+    if (isSlot(slot, TEXTURE_SHEEN_COLOR)) scale(m.row4, texel.rgb);
+    if (isSlot(slot, TEXTURE_SHEEN_ROUGHNESS)) scale(m.row4.w, texel.a);
+    if (isSlot(slot, TEXTURE_CLEARCOAT)) scale(m.row5.x, texel.r);
+    if (isSlot(slot, TEXTURE_CLEARCOAT_ROUGHNESS)) scale(m.row5.y, texel.g);
+    if (isSlot(slot, TEXTURE_ANISOTROPY)) {
+        scale(m.row3.w, texel.b);
+        const vec2 along = 2.0 * texel.xy - 1.0;
+        const float turn = along == vec2(0.0) ? 0.0 : atan(along.y, along.x);
+        m.row5.z = floatBitsToUint(uintBitsToFloat(m.row5.z) + turn);
+    }
+}
+
+/// The material at a point of a surface. mapped: as applyTexel() has it; (0, 0, 1) without a normal map.
+Material materialAt(SurfacePoint s, out vec3 mapped) {
+    Material m = fetchMaterial(s.material);
+    mapped = vec3(0.0, 0.0, 1.0);
+    // Spheres have no place: what is read of another primitive's attributes has no effect.
+    const bool isTriangle = s.skipPrimitive != NO_PRIMITIVE;
+    PointAttributes a = PointAttributes(vec2(0.0), vec2(0.0), vec4(1.0));
+    if (ATTRIBUTES != 0u && isTriangle) a = attributesAt(primitiveAt(s.skipPrimitive), s.weights);
+    if (hasAttribute(ATTRIBUTE_COLOR) && hasBaseColor(m)) scale(m.row1, a.color.rgb);
+    if (TEXTURE_SLOTS == 0u) return m;
+    const uint count = fetchDetail(s.material).textures;
+    for (uint i = 0u; i < count; ++i) {
+        const TextureUse t = fetchTextureUse(textureUseRow(s.material, i));
+        applyTexel(m, mapped, t, lookUp(t, a));
+    }
+    return m;
+}
+
+// --- Tangents and normal maps ----------------------------------------------------------------------
+
+/// The tangent at a point of a surface with shading normal n (faced forward), perpendicular to n; w: the bitangent is
+/// w (n x tangent), 0: there is none. Seen from behind, the normal is turned and w with it, so that the bitangent is the
+/// same.
+vec4 tangentAt(SurfacePoint s, vec3 n) {
+    if (s.skipPrimitive == NO_PRIMITIVE) return vec4(0.0);
+    const uvec4 r = ROW(detailRows, attributeRow(primitiveAt(s.skipPrimitive), ATTRIBUTE_TANGENT));
+    const uvec3 sides = uvec3(r.w) >> uvec3(0u, 2u, 4u) & 3u;
+    if (sides.x == 0u || sides.y == 0u || sides.z == 0u) return vec4(0.0);
+    const vec3 sum = (1.0 - s.weights.x - s.weights.y) * decodeNormal(r.x) +
+                     s.weights.x * decodeNormal(r.y) + s.weights.y * decodeNormal(r.z);
+    const vec3 across = sum - dot(sum, n) * n;
+    const float length2 = dot(across, across);
+    const float side = sides.x == 1u ? 1.0 : -1.0;
+    const bool isTurned = FACES_FORWARD && !s.outside;
+    return length2 > 0.0 ? vec4(across * inversesqrt(length2), isTurned ? -side : side) : vec4(0.0);
+}
+
+/// Turns n until the mirror direction of wo is not below the geometric surface: a normal beyond that would make a
+/// black rim, as light from there cannot be. Keller et al. 2017, "The Iray Light Transport Simulation and Rendering
+/// System", A.3: the mirror direction 2 (n . wo) n - wo is pulled up along n to the horizon, and the normal is halfway
+/// between what that gives and wo. It is n (g . wo) - wo (n . g), but for its length; for a normal that is below the
+/// horizon itself the limit of that, n's own direction along the horizon. g: unit geometric normal, on the side of wo.
+vec3 bentNormal(vec3 n, vec3 g, vec3 wo) {
+    const float along = dot(n, g), height = dot(wo, g);
+    if (along > 0.0 && 2.0 * dot(n, wo) * along >= height) return n;
+    const vec3 level = n - min(along, 0.0) * g;
+    const vec3 grazing = level * height - wo * max(along, 0.0);
+    const float size2 = dot(grazing, grazing);
+    const vec3 sum = size2 > 0.0 ? wo + grazing * inversesqrt(size2) : g;
+    const float length2 = dot(sum, sum);
+    return length2 > 0.0 ? sum * inversesqrt(length2) : g;
+}
+
+/// Replaces the shading normal of a surface that is faced forward by what the map says, and sets the tangent.
+void applyNormalMap(inout SurfacePoint s, vec3 mapped) {
+    if (!hasAttribute(ATTRIBUTE_TANGENT)) return;
+    vec4 t = tangentAt(s, shadingNormal(s));
+    if (hasNormalMaps()) {
+        // Seen from behind, a bump is a dent: the vector is the front's, turned round with the normal.
+        const float turned = FACES_FORWARD && !s.outside ? -1.0 : 1.0;
+        const vec3 n = shadingNormal(s), bitangent = t.w * cross(n, t.xyz);
+        const vec3 sum = mapped.x * turned * t.xyz + mapped.y * turned * bitangent + mapped.z * n;
+        const float length2 = dot(sum, sum);
+        const bool maps = t.w != 0.0 && length2 > 0.0 && (mapped.x != 0.0 || mapped.y != 0.0);
+        if (maps) {
+            s.shading = sum * inversesqrt(length2);
+            if (FACES_FORWARD) s.shading = bentNormal(s.shading, s.geometric, s.wo);
+        }
+    }
+    if (TANGENT_FRAMES) s.tangent = tangentAt(s, shadingNormal(s));
+}

@@ -1,0 +1,48 @@
+// Surfaces that are partly not there, as rays meet them. A hit is an event of its own, before anything is shaded: the ray
+// goes on from the same origin, with tMin at the hit (traverse.glsl), or is done.
+
+bool isTracing(uint p); // path.glsl
+
+float rayEnd; ///< tMax as it was asked for; the ray's own shrinks to its hits
+
+Material materialAt(SurfacePoint s) {
+    vec3 mapped;
+    return materialAt(s, mapped);
+}
+
+/// Not those of randomWords(): its words are numbered by pixel, sample, block and seed alone.
+const uint PASS_SEED = 0x9E3779B9u;
+
+/// In [0, 1), for whether the ray that has hit something passes it: of the ray's first block of random numbers and of
+/// what was hit where, so that it neither depends on what was passed before nor on how often a ray is begun.
+float passNumber() {
+    uint sample_ = sampleIndex(), block = bounce * (1u + directSamples());
+    if (DIRECT_LIGHT == DIRECT_HEMISPHERE && phase == PHASE_HEMISPHERE) block += directIndex;
+    if (SPLITS && splitPoint.bounce != 0u) {
+        sample_ = sample_ * frame.branches + frame.branches - 1u - branchesLeft;
+        block |= BRANCH_BLOCKS;
+    }
+    const uvec4 words = pcg4d(uvec4(pixelId, sample_, block, frame.seed ^ PASS_SEED));
+    const uvec4 there = uvec4(ray.hitPrimitive, floatBitsToUint(ray.tMax), 0u, 0u);
+    return unitFloats(pcg4d(words ^ there)).x;
+}
+
+/// Whether the ray that is done goes on: it has met a surface that is not there, or partly. A shadow ray goes on with
+/// the light that is left; of others, a path that finds light or scatters, the surface takes the share of its opacity.
+bool passesThrough() {
+    if (!isTracing(phase) || ray.hitPrimitive == NO_PRIMITIVE) return false;
+    const float opacity = opacityAt(ray.hitPrimitive, vec2(ray.b1, ray.b2));
+    if (phase == PHASE_SHADOW) {
+        directValue *= 1.0 - opacity;
+        if (!(dot(directValue, vec3(1.0)) > 0.0)) return false;
+    } else if (passNumber() < opacity) {
+        return false;
+    }
+    ray.tMin = ray.tMax;
+    ray.passed = ray.hitPrimitive;
+    ray.tMax = rayEnd;
+    return true;
+}
+
+/// Only a ray that has passed nothing can be put off to another dispatch, which begins it anew.
+bool hasPassedSomething() { return HAS_ALPHA && ray.passed != NO_PRIMITIVE; }

@@ -1,0 +1,91 @@
+// What materials and primitives have beside parameters and normals: textures, opacity, attributes of
+// corners. Scenes that have none of them have none of these rows.
+#ifndef STROMBOLI_SHARED_TEXTURE_TYPES_H
+#define STROMBOLI_SHARED_TEXTURE_TYPES_H
+
+#include "language.h"
+
+SHARED_BEGIN
+
+// --- In the material buffer ------------------------------------------------------------------
+
+/// Where a scene has textures or opacity, every material has this row, so many rows after its header,
+/// whatever its kind; behind it follow its textures, the slots in ascending order.
+SHARED_CONST uint MATERIAL_DETAIL_ROW = 7u;
+struct MaterialDetail {
+    float opacity;
+    float alphaCutoff;
+    uint flags; ///< DETAIL_
+    uint textures; ///< how many TextureUse follow
+};
+SHARED_ROWS(MaterialDetail, 1);
+SHARED_CONST uint DETAIL_MASK = 1u;  ///< there where opacity is at least alphaCutoff, else not
+SHARED_CONST uint DETAIL_BLEND = 2u; ///< opacity is the share of light that meets the surface
+SHARED_CONST uint DETAIL_HAS_BASE_COLOR = 4u; ///< the first texture is that of TEXTURE_BASE_COLOR
+/// The number of the texture of TEXTURE_EMISSION, plus one, in bits 8 to 15; 0: there is none.
+SHARED_CONST uint DETAIL_EMISSION_SHIFT = 8u;
+SHARED_CONST uint DETAIL_EMISSION_MASK = 0xFFu;
+
+/// A texture of a material: which slot it has, where it is looked up, and where its texels are.
+struct TextureUse {
+    vec3 uRow; ///< u' = uRow . (u, v, 1)
+    uint slot; ///< TEXTURE_ slot; | TEXTURE_SECOND_UV
+    vec3 vRow; ///< v' = vRow . (u, v, 1)
+    float scale; ///< TEXTURE_NORMAL: of the tangential part
+    uint firstRow; ///< of its texels in the detail buffer
+    uint width;
+    uint height;
+    uint flags; ///< TEXELS_
+};
+SHARED_ROWS(TextureUse, 3);
+SHARED_OFFSET(TextureUse, firstRow, 32);
+SHARED_CONST uint TEXTURE_USE_ROWS = 3u;
+SHARED_CONST uint TEXTURE_SLOT_MASK = 0xFFu;
+SHARED_CONST uint TEXTURE_SECOND_UV = 0x100u; ///< the second set of texture coordinates
+
+/// TextureSlot of scene/model/texture.hpp.
+SHARED_CONST uint TEXTURE_BASE_COLOR = 0u;
+SHARED_CONST uint TEXTURE_METALLIC_ROUGHNESS = 1u;
+SHARED_CONST uint TEXTURE_NORMAL = 2u;
+SHARED_CONST uint TEXTURE_EMISSION = 3u;
+SHARED_CONST uint TEXTURE_TRANSMISSION = 4u;
+SHARED_CONST uint TEXTURE_SPECULAR = 5u;
+SHARED_CONST uint TEXTURE_SPECULAR_COLOR = 6u;
+SHARED_CONST uint TEXTURE_CLEARCOAT = 7u;
+SHARED_CONST uint TEXTURE_CLEARCOAT_ROUGHNESS = 8u;
+SHARED_CONST uint TEXTURE_CLEARCOAT_NORMAL = 9u; ///< is not read
+SHARED_CONST uint TEXTURE_SHEEN_COLOR = 10u;
+SHARED_CONST uint TEXTURE_SHEEN_ROUGHNESS = 11u;
+SHARED_CONST uint TEXTURE_ANISOTROPY = 12u;
+SHARED_CONST uint TEXTURE_SLOT_COUNT = 13u;
+
+/// How a texture's coordinates become a texel, and what a texel is: one word (four fractions of 255)
+/// or two (four half floats). Texels lie row after row, the first word of all in word 0 of firstRow.
+SHARED_CONST uint TEXELS_WRAP_U_SHIFT = 0u; ///< two bits, WRAP_
+SHARED_CONST uint TEXELS_WRAP_V_SHIFT = 2u;
+SHARED_CONST uint TEXELS_WRAP_MASK = 3u;
+SHARED_CONST uint WRAP_REPEAT = 0u;
+SHARED_CONST uint WRAP_MIRROR = 1u;
+SHARED_CONST uint WRAP_CLAMP = 2u;
+SHARED_CONST uint TEXELS_NEAREST = 16u; ///< the nearest texel; else bilinear
+SHARED_CONST uint TEXELS_SRGB = 32u;    ///< red, green and blue are sRGB
+SHARED_CONST uint TEXELS_HALF = 64u;    ///< half floats
+
+// --- In the detail buffer ----------------------------------------------------------------------
+// First the attributes of all primitives' corners, in the order of the Primitive buffer, then texels.
+
+/// Which attributes a scene's primitives have (SPEC_ATTRIBUTES). Of each primitive those that there are follow each
+/// other in this order: texture coordinates of the three corners, one set in two rows (u and v of the first two
+/// corners, then of the third), colours in three, tangents in one: octahedral as in Primitive, and in word 3 two bits
+/// for each corner, 1 for the bitangent normal x tangent, 3 for its opposite, 0 for no tangent.
+SHARED_CONST uint ATTRIBUTE_UV0 = 1u;
+SHARED_CONST uint ATTRIBUTE_UV1 = 2u;
+SHARED_CONST uint ATTRIBUTE_COLOR = 4u;
+SHARED_CONST uint ATTRIBUTE_TANGENT = 8u;
+SHARED_CONST uint UV_ROWS = 2u;
+SHARED_CONST uint COLOR_ROWS = 3u;
+SHARED_CONST uint TANGENT_ROWS = 1u;
+
+SHARED_END
+
+#endif

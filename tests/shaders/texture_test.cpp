@@ -1,0 +1,204 @@
+// Textures as the kernel looks them up, and as the reference does, against the definition: the
+// picture goes on for ever, as its wrap modes say, and bilinear filtering is a sum over all texels
+// by tents of one texel's width.
+#include "host/bvh/wide_layout.hpp"
+#include "host/core/random.hpp"
+#include "host/kernel/gpu_scene.hpp"
+#include "scene/model/surface_lookup.hpp"
+#include "shaders/shared/texture_types.h"
+#include "tests/analytic/textured.hpp"
+#include "tests/shaders/queries.h"
+#include "tests/support/device_fixture.hpp"
+#include "tests/support/test_shader.hpp"
+
+#include "embedded/texture_storage.h"
+#include "embedded/texture_texel.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace stromboli::test {
+namespace {
+
+using gpu::TextureAnswer;
+using gpu::TextureQuery;
+
+constexpr uint32_t kWidth = 5, kHeight = 3;
+
+/// Index of a texel of the picture that goes on for ever.
+uint32_t wrappedIndex(int64_t i, Wrap wrap, int64_t n) {
+    if (wrap == Wrap::Clamp) return uint32_t(std::clamp<int64_t>(i, 0, n - 1));
+    const int64_t period = wrap == Wrap::Mirror ? 2 * n : n;
+    const int64_t within = (i % period + period) % period;
+    return uint32_t(within < n ? within : period - 1 - within);
+}
+
+class TextureLookup : public DeviceTest, public testing::WithParamInterface<bool> {
+  protected:
+    /// One triangle for each kind of texture.
+    void SetUp() override {
+        DeviceTest::SetUp();
+        Random random(7);
+        SceneMaker b;
+        TextureMaker t(b.scene);
+        std::vector<glm::vec4> texels;
+        for (uint32_t i = 0; i < kWidth * kHeight; ++i)
+            texels.emplace_back(random.uniform(), random.uniform(), random.uniform(),
+                                random.uniform());
+        const uint32_t images[] = {t.bytes(kWidth, kHeight, texels),
+                                   t.halves(kWidth, kHeight, texels)};
+        const uint32_t one = t.bytes(1, 1, {texels[0]});
+        for (const uint32_t image : {images[0], images[1], one})
+            for (const Wrap u : {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp})
+                for (const Wrap v : {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp})
+                    for (const bool nearest : {false, true})
+                        for (const bool srgb : {false, true})
+                            if (!srgb || image != images[1])
+                                t.texture({.image = image,
+                                           .wrapU = u,
+                                           .wrapV = v,
+                                           .nearest = nearest,
+                                           .srgb = srgb});
+        // A material for each, as a material has one texture of a slot.
+        for (uint32_t i = 0; i < b.scene.textures.size(); ++i) {
+            Material m;
+            m.textures = {{.slot = TextureSlot::BaseColor,
+                           .texture = i,
+                           .uRow = {0.5f, 0.25f, -0.125f},
+                           .vRow = {-0.75f, 1, 0.5f}}};
+            b.triangle({0, 0, float(i)}, {1, 0, float(i)}, {0, 1, float(i)}, b.add(m));
+            t.attributes(1, [](const glm::vec3& p) {
+                VertexAttributes a;
+                a.uv[0] = {p.x, p.y};
+                return a;
+            });
+        }
+        scene_ = b.scene;
+        packed_ = packScene(scene_, buildWideBvh(scene_));
+        for (const gpu::Primitive& p : packed_.primitives)
+            rowOf_.push_back(materialOf(p) + gpu::MATERIAL_DETAIL_ROW + 1);
+        for (size_t i = 0; i < rowOf_.size(); ++i)
+            textureOf_.push_back(
+                scene_.materials[scene_.triangles[packed_.bvh.primitiveOrder[i]].material]
+                    .textures[0]);
+    }
+
+    std::vector<TextureAnswer> ask(const std::vector<TextureQuery>& queries) const {
+        ShaderOptions options = GetParam() ? ShaderOptions::texel() : ShaderOptions();
+        options.set(SPEC_TEXEL_KINDS, packed_.texelKinds).set(SPEC_ATTRIBUTES, packed_.attributes);
+        options.set(SPEC_TEXTURE_SLOTS, packed_.textureSlots);
+        TestShader shader(GetParam() ? std::span<const uint32_t>(texture_texel)
+                                     : std::span<const uint32_t>(texture_storage),
+                          options);
+        shader.setScene(packed_);
+        return test::ask<TextureAnswer>(shader, queries);
+    }
+
+    /// The definition.
+    glm::dvec4 expected(const TextureUse& use, double u, double v) const {
+        const Texture& t = scene_.textures[use.texture];
+        const TextureImage& image = scene_.images[t.image];
+        const glm::dvec3 uv1(u, v, 1);
+        const double x = glm::dot(glm::dvec3(use.uRow), uv1) * image.width,
+                     y = glm::dot(glm::dvec3(use.vRow), uv1) * image.height;
+        const auto texel = [&](int64_t i, int64_t j) {
+            return texelAt(image, t.srgb, wrappedIndex(i, t.wrapU, image.width),
+                           wrappedIndex(j, t.wrapV, image.height));
+        };
+        if (t.nearest) return texel(int64_t(std::floor(x)), int64_t(std::floor(y)));
+        glm::dvec4 sum(0.0);
+        for (int64_t j = int64_t(std::floor(y)) - 2; j <= int64_t(std::floor(y)) + 2; ++j)
+            for (int64_t i = int64_t(std::floor(x)) - 2; i <= int64_t(std::floor(x)) + 2; ++i)
+                sum += std::max(0.0, 1 - std::abs(x - 0.5 - double(i))) *
+                       std::max(0.0, 1 - std::abs(y - 0.5 - double(j))) * texel(i, j);
+        return sum;
+    }
+
+    Scene scene_;
+    GpuScene packed_;
+    std::vector<uint32_t> rowOf_; ///< of each primitive's texture
+    std::vector<TextureUse> textureOf_;
+};
+
+/// Within the picture and up to some copies beyond. Away from the borders of nearest texels, where
+/// rounding may fall on either side.
+TEST_P(TextureLookup, IsTheDefinition) {
+    Random random(11);
+    std::vector<TextureQuery> queries;
+    std::vector<size_t> primitives;
+    for (size_t i = 0; i < rowOf_.size(); ++i)
+        for (int k = 0; k < 64; ++k) {
+            // Multiples of 1/256 that are no border: texel coordinates are multiples of 1/2048.
+            const auto coordinate = [&] {
+                return (std::floor(random.uniform() * 2048) - 1024 + 1.0 / 3) / 256;
+            };
+            queries.push_back({rowOf_[i], float(coordinate()), float(coordinate()), 0});
+            primitives.push_back(i);
+        }
+    const std::vector<TextureAnswer> found = ask(queries);
+    for (size_t q = 0; q < queries.size(); ++q) {
+        const TextureUse& use = textureOf_[primitives[q]];
+        PointAttributes at;
+        at.uv[0] = {queries[q].u, queries[q].v};
+        const glm::dvec4 kernel(found[q].color, found[q].alpha),
+            reference = lookUp(scene_, use, at), right = expected(use, queries[q].u, queries[q].v);
+        const bool isSrgb = scene_.textures[use.texture].srgb;
+        for (int c = 0; c < 4; ++c) {
+            // Coordinates up to 8 are rounded at 2^-21, times five texels; sRGB has its own error.
+            ASSERT_NEAR(kernel[c], right[c], 1e-5 + (isSrgb ? 1.2e-4 * right[c] : 0.0))
+                << "texture " << use.texture << " at " << queries[q].u << ", " << queries[q].v;
+            ASSERT_NEAR(reference[c], right[c], 1e-12);
+        }
+    }
+}
+
+/// Coordinates without a place read some texel, not beyond the picture.
+TEST_P(TextureLookup, AnyCoordinateIsHarmless) {
+    const float odd[] = {NAN, INFINITY, -INFINITY, 3e38f, -3e38f, 1e10f, 16777216.0f, -1e-30f, 0, 1};
+    std::vector<TextureQuery> queries;
+    for (size_t i = 0; i < rowOf_.size(); ++i)
+        for (const float u : odd)
+            for (const float v : odd)
+                queries.push_back({rowOf_[i], u, v, 0});
+    for (const TextureAnswer& a : ask(queries))
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_GE(a.color[c], 0);
+            EXPECT_LE(a.color[c], 1);
+            EXPECT_GT(a.alpha, 0) << "no texel is transparent: what is read beyond the picture is";
+        }
+}
+
+/// Each of the 256 values of a byte; black and white exactly.
+TEST_P(TextureLookup, SrgbIsDecoded) {
+    std::vector<glm::vec4> all;
+    for (int i = 0; i < 256; ++i)
+        all.emplace_back(glm::vec3(float(i) / 255), 1);
+    Scene scene;
+    TextureMaker t(scene);
+    Material m;
+    m.textures = {{.texture = t.texture({.image = t.bytes(256, 1, all), .nearest = true, .srgb = true})}};
+    scene.materials = {m};
+    scene.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    scene.triangles.push_back({{0, 1, 2}});
+    t.attributes(1, [](const glm::vec3&) { return VertexAttributes{}; });
+    scene_ = scene;
+    packed_ = packScene(scene_, buildWideBvh(scene_));
+    std::vector<TextureQuery> queries;
+    for (int i = 0; i < 256; ++i)
+        queries.push_back({gpu::MATERIAL_DETAIL_ROW + 1, (float(i) + 0.5f) / 256, 0.5f, 0});
+    const std::vector<TextureAnswer> found = ask(queries);
+    for (int i = 0; i < 256; ++i) {
+        const double c = i / 255.0;
+        const double linear = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+        EXPECT_NEAR(found[size_t(i)].color.x, linear, 1.1e-4 * linear) << i;
+    }
+    EXPECT_EQ(found.front().color.x, 0);
+    EXPECT_EQ(found.back().color.x, 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Fetch, TextureLookup, testing::Bool(),
+                         [](const auto& texel) { return texel.param ? "Texel" : "Storage"; });
+
+} // namespace
+} // namespace stromboli::test
