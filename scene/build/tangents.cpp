@@ -50,14 +50,15 @@ std::vector<TangentCorner> cornersOf(const Mesh& mesh, const MeshPart& part, int
     corners.reserve(part.size() * 3);
     for (const MeshTriangle& t : part) {
         const glm::dvec3& a = mesh.positions[t[0].position];
-        const glm::dvec3 face = unit(glm::cross(mesh.positions[t[1].position] - a,
-                                                mesh.positions[t[2].position] - a))
-                                    .value_or(glm::dvec3(0, 0, 1));
+        const glm::dvec3 face =
+            unit(glm::cross(mesh.positions[t[1].position] - a, mesh.positions[t[2].position] - a))
+                .value_or(glm::dvec3(0, 0, 1));
         for (const Corner& corner : t) {
             TangentCorner c;
             c.position = mesh.positions[corner.position];
-            c.normal = corner.normal == kNoNormals ? face
-                                                   : unit(mesh.normals[corner.normal]).value_or(face);
+            c.normal = corner.normal == kNoNormals
+                           ? face
+                           : unit(mesh.normals[corner.normal]).value_or(face);
             if (corner.attributes != kNoAttributes)
                 c.uv = mesh.attributes[corner.attributes].uv[uvSet];
             else
@@ -143,10 +144,9 @@ void computeTangents(Mesh& mesh, size_t part, int uvSet) {
     for (size_t i = 0; i < corners.size(); ++i) {
         Corner& corner = mesh.parts[part][i / 3][i % 3];
         const TangentCorner& c = corners[i];
-        const glm::vec4 tangent =
-            tangentOf(c, sums[c.place], pictureArea(&corners[i - i % 3]));
-        const auto [found, isNew] =
-            made.try_emplace({corner.attributes, c.place, tangent.w}, uint32_t(mesh.attributes.size()));
+        const glm::vec4 tangent = tangentOf(c, sums[c.place], pictureArea(&corners[i - i % 3]));
+        const auto [found, isNew] = made.try_emplace({corner.attributes, c.place, tangent.w},
+                                                     uint32_t(mesh.attributes.size()));
         if (isNew) {
             VertexAttributes attributes;
             if (corner.attributes != kNoAttributes) attributes = mesh.attributes[corner.attributes];

@@ -16,8 +16,8 @@ namespace stromboli::build {
 /// texture coordinates share a tangent, apart from those of triangles that the picture covers
 /// mirrored, which share another. It is the sum over their triangles of the derivative of the
 /// position by u, projected into the plane across the normal and made unit, times the corner's
-/// angle in that plane. Triangles without area in the picture have no derivative: their corners take
-/// the tangent of other triangles at the same place, or else any direction across the normal.
+/// angle in that plane. Triangles without area in the picture have no derivative: their corners
+/// take the tangent of other triangles at the same place, or else any direction across the normal.
 /// Corners without attributes get them.
 void computeTangents(Mesh& mesh, size_t part, int uvSet);
 
