@@ -5,6 +5,7 @@
 #include "scene/collada/load_collada.hpp"
 #include "scene/find_scene.hpp"
 #include "scene/generate/generated_scene.hpp"
+#include "scene/gltf/load_gltf.hpp"
 
 #include <fmt/format.h>
 
@@ -22,12 +23,15 @@ struct Format {
     std::string_view suffix; ///< of file names, in small letters
     bool (*looksLikeIt)(std::string_view beginning);
     Scene (*load)(const std::filesystem::path& file, const SceneConventions& conventions);
+    bool hasSelection = false; ///< its files hold what FileSelection::option asks for
 };
 
 constexpr Format kFormats[] = {
     {"COLLADA (.dae, or XML whose root element is <COLLADA>)", ".dae", looksLikeCollada,
      loadCollada},
     {"COLLADA archive (.zae)", ".zae", looksLikeColladaArchive, loadCollada},
+    {"glTF 2.0 (.gltf)", ".gltf", looksLikeGltf, loadGltf, true},
+    {"binary glTF 2.0 (.glb)", ".glb", looksLikeBinaryGltf, loadGltf, true},
 };
 
 /// What is looked at to tell a format. Comments may stand before the first element.
@@ -59,11 +63,16 @@ std::string formatNames() {
 } // namespace
 
 Scene readScene(const std::string& source, const SceneConventions& conventions) {
+    const std::string_view selects = conventions.selection.option();
+    const auto refuseSelection = [&](std::string_view what) {
+        throw SceneError(fmt::format("{}: {} is about glTF files; {}", source, selects, what));
+    };
     if (source.starts_with(kGeneratePrefix)) {
         if (!conventions.areDefault())
             throw SceneError(fmt::format("{}: {} is about files; a generated scene has no use "
                                          "for it",
                                          source, conventions.option));
+        if (!selects.empty()) refuseSelection("a generated scene has no use for it");
         return generatedScene(std::string_view(source).substr(kGeneratePrefix.size()));
     }
     const std::filesystem::path file = sceneFile(source);
@@ -74,6 +83,8 @@ Scene readScene(const std::string& source, const SceneConventions& conventions) 
                          fmt::format("is in no format that is read; expected {}, or {}NAME for a "
                                      "scene that is made in memory",
                                      formatNames(), kGeneratePrefix));
+    if (!selects.empty() && !format->hasSelection)
+        refuseSelection(fmt::format("this one is {}", format->name));
     return format->load(file, conventions);
 }
 

@@ -72,7 +72,7 @@ struct Light {
     bool bothSides;
     float attenuation[3];
     Vec3 axis;
-    float cosCutoff, falloffExponent;
+    float cosCutoff, falloffExponent, softness;
 };
 
 /// An emissive triangle.

@@ -132,8 +132,11 @@ inline LightSample sampleDelta(const Point& p, const Light& light) {
     if (!(distance2 > 0)) s.radiance = vec(0);
     if (light.kind == gpu::LIGHT_SPOT) {
         const float cosine = -dot(s.direction, vec(light.axis));
-        const float falloff =
+        const float edge =
+            1 - larger(1 - larger((cosine - light.cosCutoff) * light.softness, 0.0f), 0.0f);
+        const float power =
             light.falloffExponent == 0 ? 1 : std::pow(larger(cosine, 0.0f), light.falloffExponent);
+        const float falloff = light.softness > 0 ? edge * edge : power;
         s.radiance = cosine >= light.cosCutoff ? s.radiance * falloff : vec(0);
     }
     return s;

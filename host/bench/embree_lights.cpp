@@ -41,6 +41,7 @@ void decodePoint(const gpu::PointLight& p, native::Light& light) {
     light.axis = plain(p.axis);
     light.cosCutoff = p.cosCutoff;
     light.falloffExponent = p.falloffExponent;
+    light.softness = p.softness;
 }
 
 native::Light decodedLight(const std::vector<Row>& rows, size_t row) {

@@ -82,10 +82,11 @@ void add(Sum& sum, const Environment& e) {
 
 void add(Sum& sum, const Light& l) {
     const auto& [name, kind, color, position, direction, constant, linear, quadratic, angle,
-                 exponent, upperOnly, edgeX, edgeY] = l;
+                 exponent, innerAngle, upperOnly, edgeX, edgeY] = l;
     sum.add(kind), sum.add(color), sum.add(position), sum.add(direction), sum.add(constant);
     sum.add(linear), sum.add(quadratic), sum.add(angle), sum.add(exponent), sum.add(upperOnly);
     sum.add(edgeX), sum.add(edgeY);
+    if (innerAngle) sum.add(*innerAngle);
 }
 
 void add(Sum& sum, const Camera& c) {

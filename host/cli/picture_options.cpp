@@ -11,6 +11,9 @@ namespace {
 /// Larger pictures than this on a side are taken for mistakes.
 constexpr Range<uint32_t> kSide{1, 65536};
 constexpr Range<uint32_t> kPlace{0, 65535};
+constexpr Range<uint32_t> kSceneNumbers{0, 0xFFFFFFFEu};
+constexpr Range<uint32_t> kTextureSides{0, 65536};
+constexpr Range<double> kAnimationSeconds{0, 1e9};
 
 Crop readCrop(const std::string& name, const Words& words) {
     return {readNumber(name + ": left", words[0], kPlace),
@@ -52,7 +55,8 @@ void declareScene(DeclaredCommand& c) {
     c.list.group("Scene");
     c.list
         .text("SCENE", "",
-              "COLLADA file (.dae, .zae); or a bundled scene by its name (cornell_boxes, island, "
+              "COLLADA (.dae, .zae) or glTF file (.gltf, .glb); or a bundled scene by its name "
+              "(cornell_boxes, island, "
               "...); or generate:cornell_mesh:N for a scene of N triangles made in memory, "
               "generate:lamps:N for one lit by N triangles",
               c.options.scene)
@@ -90,6 +94,25 @@ void declareScene(DeclaredCommand& c) {
         .needs("--env");
     c.list.real("--env-strength", "X", "multiplies its radiance", environment.strength, {0, 1e9})
         .needs("--env");
+    FileSelection& selection = reading.selection;
+    c.list
+        .words("--scene", "N", "glTF: the scene of this number, from 0", 1,
+               [&selection](const Words& words) {
+                   selection.scene = readNumber("--scene", words[0], kSceneNumbers);
+               })
+        .usually("the file's own choice")
+        .from(inWords(kSceneNumbers));
+    c.list.text("--variant", "NAME", "glTF: the set of materials of this name", selection.variant);
+    c.list
+        .words("--at", "SECONDS", "glTF: the pose that the first animation has at this time", 1,
+               [&selection](const Words& words) {
+                   selection.seconds = readReal("--at", words[0], kAnimationSeconds);
+               })
+        .usually("the pose without animation")
+        .from(inWords(kAnimationSeconds));
+    c.list.number("--max-texture", "N",
+                  "halves pictures on surfaces until no side has more pixels; 0: never",
+                  selection.largestTexture, kTextureSides);
     c.list.flag("--strict",
                 "what breaks the rules of the scene's format is an error, also where it is clear "
                 "what is meant",

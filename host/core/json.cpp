@@ -138,4 +138,23 @@ std::optional<Json> Json::parse(std::istream& text) {
     return fromLibrary(value);
 }
 
+Json Json::parse(std::string_view text, int deepest) {
+    const auto lineOf = [&](size_t byte) {
+        return 1 + std::count(text.begin(), text.begin() + ptrdiff_t(std::min(byte, text.size())),
+                              '\n');
+    };
+    const auto checkDepth = [&](int depth, Library::parse_event_t, const Library&) {
+        if (depth > deepest)
+            throw JsonError("brackets go deeper than " + std::to_string(deepest) + " levels");
+        return true;
+    };
+    try {
+        return fromLibrary(Library::parse(text, checkDepth));
+    } catch (const Library::parse_error& error) {
+        throw JsonError("its JSON is wrong in line " + std::to_string(lineOf(error.byte)));
+    } catch (const Library::exception&) { // numbers beyond the range of double
+        throw JsonError("its JSON has a number beyond the range of double");
+    }
+}
+
 } // namespace stromboli

@@ -109,6 +109,9 @@ class Json {
     std::string dump(int indent = -1) const;
     /// What the text means; nothing if it is not JSON.
     static std::optional<Json> parse(std::istream& text);
+    /// The value that a text from elsewhere states; throws JsonError, with the line of what is
+    /// wrong, also where brackets within each other go deeper than `deepest`.
+    static Json parse(std::string_view text, int deepest);
 
   private:
     explicit Json(Array elements) : value_(std::move(elements)) {}

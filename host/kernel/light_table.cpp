@@ -36,6 +36,10 @@ gpu::PointLight pointLight(const Light& l) {
     p.attenuation = {l.constantAttenuation, l.linearAttenuation, l.quadraticAttenuation};
     p.cosCutoff = std::cos(0.5f * l.falloffAngle);
     p.falloffExponent = l.falloffExponent;
+    if (l.innerAngle) {
+        const double inner = std::cos(0.5 * double(*l.innerAngle));
+        p.softness = float(1 / (inner - std::cos(0.5 * double(l.falloffAngle))));
+    }
     return p;
 }
 

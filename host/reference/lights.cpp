@@ -49,7 +49,13 @@ double attenuation(const Light& light, double distance) {
 
 /// cosine: of the angle between the spot's axis and the way to the surface.
 double spotFalloff(const Light& light, double cosine) {
-    if (cosine < std::cos(double(light.falloffAngle) / 2)) return 0;
+    const double outer = std::cos(double(light.falloffAngle) / 2);
+    if (cosine < outer) return 0;
+    if (light.innerAngle) {
+        const double inner = std::cos(double(*light.innerAngle) / 2);
+        const double edge = std::min((cosine - outer) / (inner - outer), 1.0);
+        return edge * edge;
+    }
     if (light.falloffExponent == 0) return 1;
     return std::pow(std::max(cosine, 0.0), double(light.falloffExponent));
 }

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace stromboli {
 
@@ -47,6 +50,20 @@ enum class ShadingModels {
     PhongOnly, ///< the others become mid grey
 };
 
+/// Which of the things that a file holds are shown, where it holds several.
+struct FileSelection {
+    std::optional<uint32_t> scene; ///< number of the scene, from 0; nothing: the file's own choice
+    std::string variant;           ///< name of a set of materials; empty: the plain materials
+    std::optional<double> seconds; ///< of the animation; nothing: what stands without it
+    uint32_t largestTexture = 0;   ///< pictures are halved until no side exceeds it; 0: never
+
+    /// The option of the command line that asks for what only some formats have; empty if none
+    /// does.
+    std::string_view option() const {
+        return scene ? "--scene" : !variant.empty() ? "--variant" : seconds ? "--at" : "";
+    }
+};
+
 /// How the statements of a file become a scene, where renderers differ. The default is what the
 /// formats' standards and physics say. Loaders and the builder ask for a convention by its name
 /// and do not know whose it is.
@@ -65,6 +82,8 @@ struct SceneConventions {
     bool applyUnit = true;
     /// Sizes and depth ranges of cameras are multiplied by the scale of their nodes.
     bool scaleCameras = true;
+
+    FileSelection selection;
 
     VertexNormals vertexNormals = VertexNormals::FromFile;
     Winding winding = Winding::TowardsNormals;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scene/model/scene.hpp"
+
 #include <glm/glm.hpp>
 
 #include <array>
@@ -8,9 +10,11 @@
 
 namespace stromboli::build {
 
-/// Indices into Mesh::positions and Mesh::normals (kNoNormals where the file has no normal).
+/// Indices into Mesh::positions, Mesh::normals (kNoNormals where the file has no normal) and
+/// Mesh::attributes (kNoAttributes where it has none).
 struct Corner {
     uint32_t position = 0, normal = 0;
+    uint32_t attributes = kNoAttributes;
 };
 
 using MeshTriangle = std::array<Corner, 3>;
@@ -22,6 +26,9 @@ using MeshPart = std::vector<MeshTriangle>;
 struct Mesh {
     std::vector<glm::dvec3> positions;
     std::vector<glm::dvec3> normals; ///< of any length; may be zero or not finite
+    /// Tangents in the mesh's space, of any length; those without direction are left out. The
+    /// other numbers must be finite.
+    std::vector<VertexAttributes> attributes;
     std::vector<MeshPart> parts;
 };
 

@@ -4,6 +4,7 @@
 #include "scene/build/vertex_normals.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -52,10 +53,11 @@ constexpr uint32_t kUnused = 0xFFFFFFFFu;
 
 MeshPlacer::MeshPlacer(Scene& scene, const SceneConventions& conventions, const Mesh& mesh,
                        const glm::dmat4& toWorld, Drops& drops)
-    : scene_(scene), drops_(drops),
+    : scene_(scene), mesh_(mesh), drops_(drops), linear_(toWorld),
+      flipsBitangents_(glm::determinant(glm::dmat3(toWorld)) < 0),
       recomputed_(conventions.vertexNormals == VertexNormals::Recomputed),
       turnsToNormals_(conventions.winding == Winding::TowardsNormals),
-      mirrored_(turnsToNormals_ && glm::determinant(glm::dmat3(toWorld)) < 0) {
+      mirrored_(turnsToNormals_ && flipsBitangents_) {
     std::vector<glm::dvec3> exact;
     for (const glm::dvec3& p : mesh.positions)
         exact.push_back(glm::dvec3(toWorld * glm::dvec4(p, 1)));
@@ -71,6 +73,7 @@ MeshPlacer::MeshPlacer(Scene& scene, const SceneConventions& conventions, const 
         n = unit(n).value_or(glm::dvec3(0));
     scenePosition_.assign(points_.size(), kUnused);
     sceneNormal_.assign(normals_.size(), kUnused);
+    sceneAttributes_.assign(mesh.attributes.size(), kUnused);
 }
 
 void MeshPlacer::add(MeshTriangle corners, uint32_t material, uint32_t instance) {
@@ -98,6 +101,7 @@ void MeshPlacer::add(MeshTriangle corners, uint32_t material, uint32_t instance)
         if (useNormals) triangle.normals[i] = normalIndex(corners[i].normal);
     }
     scene_.triangles.push_back(triangle);
+    addAttributes(corners);
 }
 
 /// Turns the triangle to the side of its normals, if that is the convention. False if it needs
@@ -137,6 +141,35 @@ uint32_t MeshPlacer::normalIndex(uint32_t index) {
         place = uint32_t(scene_.normals.size());
         scene_.normals.emplace_back(normals_[index]);
     }
+    return place;
+}
+
+/// Scenes in which no triangle has attributes have no list of them.
+void MeshPlacer::addAttributes(const MeshTriangle& corners) {
+    constexpr std::array<uint32_t, 3> none = {kNoAttributes, kNoAttributes, kNoAttributes};
+    const bool hasSome = corners[0].attributes != kNoAttributes;
+    if (!hasSome && scene_.attributeCorners.empty()) return;
+    scene_.attributeCorners.resize(scene_.triangles.size(), none);
+    if (!hasSome) return;
+    for (int i = 0; i < 3; ++i)
+        scene_.attributeCorners.back()[i] = attributesIndex(corners[i].attributes);
+}
+
+uint32_t MeshPlacer::attributesIndex(uint32_t index) {
+    uint32_t& place = sceneAttributes_[index];
+    if (place != kUnused) return place;
+    place = uint32_t(scene_.attributes.size());
+    VertexAttributes attributes = mesh_.attributes[index];
+    if (attributes.tangent.w != 0) {
+        // Tangents lie in the surface and go with it; the bitangent is found by a cross product,
+        // whose sense a mirror reverses.
+        const std::optional<glm::dvec3> tangent =
+            unit(linear_ * unit(glm::dvec3(attributes.tangent)).value_or(glm::dvec3(0)));
+        const float sense = (attributes.tangent.w < 0) != flipsBitangents_ ? -1.0f : 1.0f;
+        attributes.tangent = tangent ? glm::vec4(*tangent, sense) : glm::vec4(0);
+        if (!tangent) ++drops_.badTangents;
+    }
+    scene_.attributes.push_back(attributes);
     return place;
 }
 

@@ -96,6 +96,11 @@ void SceneBuilder::reportDrops(const Shape& shape) {
         report_.warn(fmt::format("mesh '{}': {} of {} triangles have zero or non-finite normals "
                                  "and are shaded flat",
                                  shape.name, d.badNormals, d.triangles));
+    if (d.badTangents > 0)
+        report_.warn(
+            fmt::format("mesh '{}': {} corners have zero or non-finite tangents, which are "
+                        "left out",
+                        shape.name, d.badTangents));
     if (d.spheres > 0)
         report_.warn(fmt::format("sphere '{}': {} left out: radius not greater than 0, not finite "
                                  "or beyond 2^60",

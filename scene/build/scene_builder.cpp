@@ -30,6 +30,16 @@ uint32_t SceneBuilder::addMaterial(Material material) {
     return uint32_t(scene_.materials.size() - 1);
 }
 
+uint32_t SceneBuilder::addImage(TextureImage image) {
+    scene_.images.push_back(std::move(image));
+    return uint32_t(scene_.images.size() - 1);
+}
+
+uint32_t SceneBuilder::addTexture(const Texture& texture) {
+    scene_.textures.push_back(texture);
+    return uint32_t(scene_.textures.size() - 1);
+}
+
 uint32_t SceneBuilder::defaultMaterial() {
     if (!defaultMaterial_) defaultMaterial_ = addMaterial(greyMaterial());
     return *defaultMaterial_;

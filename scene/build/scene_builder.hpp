@@ -42,6 +42,9 @@ class SceneBuilder {
 
     /// Returns the number by which parts of meshes name the material.
     uint32_t addMaterial(Material material);
+    /// Return the numbers by which textures name the picture, and materials the texture.
+    uint32_t addImage(TextureImage image);
+    uint32_t addTexture(const Texture& texture);
     /// The material of surfaces that name none: mid grey.
     uint32_t defaultMaterial();
     /// A fraction of light per channel: negative ones become 0 and those above 1 become 1 (unless

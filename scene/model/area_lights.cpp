@@ -58,6 +58,8 @@ void addEmitter(Scene& scene, const Light& light) {
         t.material = materialIndex;
         t.instance = instance;
         scene.triangles.push_back(t);
+        if (!scene.attributeCorners.empty())
+            scene.attributeCorners.push_back({kNoAttributes, kNoAttributes, kNoAttributes});
     };
     add(0, 1, 3);
     add(1, 2, 3);

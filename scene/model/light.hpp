@@ -3,6 +3,7 @@
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace stromboli {
@@ -29,6 +30,11 @@ struct Light {
     /// cos(angle to the axis)^falloffExponent; outside it is 0.
     float falloffAngle = 3.14159265f;
     float falloffExponent = 0;
+    /// Spot with a soft edge: full opening angle of the cone in which the light is undiminished,
+    /// less than falloffAngle. From there outwards irradiance is multiplied by
+    /// ((cos(angle to the axis) - cosOuter) / (cosInner - cosOuter))^2, with the cosines of half the
+    /// two angles; falloffExponent has no meaning.
+    std::optional<float> innerAngle;
     bool upperHemisphereOnly = false;   ///< Ambient: only from directions with world y > 0 (CGL)
     glm::vec3 edgeX{0.0f}, edgeY{0.0f}; ///< Area: full edge vectors; area = |edgeX x edgeY|
 

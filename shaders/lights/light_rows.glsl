@@ -44,7 +44,7 @@ DirectionalLight directionalLight(LightRows l) {
 PointLight pointLight(LightRows l) {
     return PointLight(uintBitsToFloat(l.row1.xyz), uintBitsToFloat(l.row1.w),
                       uintBitsToFloat(l.row2.xyz), uintBitsToFloat(l.row2.w),
-                      uintBitsToFloat(l.row3.xyz), l.row3.w);
+                      uintBitsToFloat(l.row3.xyz), uintBitsToFloat(l.row3.w));
 }
 
 bool isTriangleLight(uint light) {

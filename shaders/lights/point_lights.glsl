@@ -18,8 +18,10 @@ LightSample samplePointLight(SurfacePoint s, LightRows rows) {
     r.radiance = distance2 > 0.0 ? colorOf(rows) / attenuation : vec3(0.0);
     if (isLight(kindOf(rows), LIGHT_SPOT)) {
         const float cosine = -dot(r.direction, l.axis);
-        const float falloff =
+        const float edge = clamp((cosine - l.cosCutoff) * l.softness, 0.0, 1.0);
+        const float power =
             l.falloffExponent == 0.0 ? 1.0 : pow(max(cosine, 0.0), l.falloffExponent);
+        const float falloff = l.softness > 0.0 ? edge * edge : power;
         r.radiance *= cosine >= l.cosCutoff ? falloff : 0.0;
     }
     return r;

@@ -94,7 +94,7 @@ struct PointLight {
     vec3 attenuation;      ///< constant, linear and quadratic
     float cosCutoff;       ///< spot: cosine of half the opening angle
     vec3 axis;             ///< spot: unit vector that the light travels along
-    uint unused;
+    float softness;        ///< spot: 1 / (cosine of half the inner angle - cosCutoff); 0: no inner cone
 };
 SHARED_ROWS(PointLight, 3);
 

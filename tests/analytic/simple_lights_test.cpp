@@ -91,6 +91,21 @@ TEST(SimpleLights, Spot) {
     expectMean(estimate(floorUnder(light), kSeesOrigin, smallPicture(1, 1)), 0);
 }
 
+/// Between the cones of KHR_lights_punctual (glTF 2.0), 36.87 degrees off the axis.
+TEST(SimpleLights, SpotWithSoftEdge) {
+    Light light = lightAbove(LightKind::Spot);
+    light.direction = {0, -1, 0};
+    light.falloffAngle = float(120 * kPi / 180);
+    light.innerAngle = float(60 * kPi / 180);
+    const double outer = 0.5, inner = std::sqrt(0.75);
+    const double edge = (0.8 - outer) / (inner - outer);
+    expectMean(estimate(floorUnder(light), kSeesOrigin, smallPicture(1, 1)),
+               kF * 0.8 * edge * edge * glm::dvec3(3, 2, 1));
+    light.innerAngle = float(74 * kPi / 180);
+    expectMean(estimate(floorUnder(light), kSeesOrigin, smallPicture(1, 1)),
+               kF * 0.8 * glm::dvec3(3, 2, 1));
+}
+
 TEST(SimpleLights, AmbientFromAllSidesInEveryMode) {
     Light light;
     light.kind = LightKind::Ambient;

@@ -64,7 +64,7 @@ void putLight(LightRows l) {
     put(quad.edgeB), put(quad.unused1);
     const PointLight point = pointLight(l);
     put(point.position), put(point.falloffExponent), put(point.attenuation);
-    put(point.cosCutoff), put(point.axis), put(point.unused);
+    put(point.cosCutoff), put(point.axis), put(point.softness);
     const SphereLight sphere = sphereLight(l);
     put(sphere.center), put(sphere.radius);
     const AmbientLight ambient = ambientLight(l);

@@ -149,7 +149,7 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
                             quad.edgeB, quad.unused1);
         const auto point = std::bit_cast<gpu::PointLight>(three);
         expected_.structure("PointLight", point.position, point.falloffExponent, point.attenuation,
-                            point.cosCutoff, point.axis, point.unused);
+                            point.cosCutoff, point.axis, point.softness);
         const auto sphere = std::bit_cast<gpu::SphereLight>(l[1]);
         expected_.structure("SphereLight", sphere.center, sphere.radius);
         const auto ambient = std::bit_cast<gpu::AmbientLight>(l[1]);

@@ -151,6 +151,7 @@ TEST_F(LightSampling, DeltaLightsAsTheReferenceHasThem) {
         light.quadraticAttenuation = 0.01f + random.uniform();
         light.falloffAngle = random.uniform(0.2f, 3);
         light.falloffExponent = k % 2 ? 0 : random.uniform(0, 20);
+        if (k % 5 == 0) light.innerAngle = light.falloffAngle * random.uniform(0, 0.8f);
         setScene(scene);
         const reference::Lights expected(scene, {});
         std::vector<LightQuery> queries;

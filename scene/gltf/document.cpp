@@ -1,0 +1,108 @@
+#include "scene/gltf/document.hpp"
+
+#include "host/core/error.hpp"
+#include "scene/build/read_file.hpp"
+#include "scene/gltf/extensions.hpp"
+#include "scene/gltf/meshopt.hpp"
+#include "scene/gltf/uri.hpp"
+
+#include <fmt/format.h>
+
+namespace stromboli::gltf {
+namespace {
+
+/// Levels of brackets within each other: files of this format have about ten, without `extras`.
+constexpr int kDeepest = 256;
+
+} // namespace
+
+Document::Document(const std::filesystem::path& file)
+    : path_(file), file_(file.string()), bytes_(build::readFile(file)),
+      container_(openContainer(file_, bytes_)) {
+    try {
+        json_ = Json::parse(container_.json, kDeepest);
+    } catch (const JsonError& error) {
+        throw SceneError(file_, 0, "", fmt::format("is no glTF: {}", error.what()));
+    }
+    root_ = std::make_unique<Element>(file_, "", json_);
+    requireVersion();
+    requireExtensions();
+}
+
+void Document::requireVersion() const {
+    const std::optional<Element> asset = root_->child("asset");
+    if (!asset) root_->fail("is no glTF 2.0: it has no 'asset'");
+    const std::string version = asset->text("version");
+    if (!version.starts_with("2."))
+        asset->fail("version", fmt::format("is '{}', expected 2.0", version));
+    const std::string least = asset->text("minVersion", "2.0");
+    if (least != "2.0") asset->fail("minVersion", fmt::format("is '{}', 2.0 is read", least));
+}
+
+void Document::requireExtensions() const {
+    for (const std::string& name : root_->texts("extensionsRequired"))
+        if (!isReadExtension(name))
+            root_->fail(
+                "extensionsRequired",
+                fmt::format("the file cannot be shown without '{}', which is not read", name));
+}
+
+std::optional<Element> Document::follow(const Element& from, std::string_view member,
+                                        std::string_view array) const {
+    const std::optional<size_t> index = from.index(member, size(array));
+    if (!index) return std::nullopt;
+    return at(array, *index);
+}
+
+std::string Document::bytesOfUri(const std::string& uri, const Element& element) const {
+    return readUri(path_.parent_path(), uri, file_, element.path());
+}
+
+std::string_view Document::bytesOfBuffer(size_t index) const {
+    const Element buffer = at("buffers", index);
+    std::string_view bytes;
+    if (!buffer.has("uri")) {
+        if (index != 0 || !container_.binary)
+            buffer.fail("has no 'uri', and no part of the file holds its bytes");
+        bytes = *container_.binary;
+    } else {
+        const auto found = buffers_.find(index);
+        bytes = found != buffers_.end()
+                    ? found->second
+                    : buffers_.emplace(index, bytesOfUri(buffer.text("uri"), buffer)).first->second;
+    }
+    const uint64_t length = buffer.count("byteLength");
+    if (length > bytes.size())
+        buffer.fail("byteLength",
+                    fmt::format("is {}, but there are {} bytes", length, bytes.size()));
+    return bytes.substr(0, length);
+}
+
+/// `buffer`, `byteOffset` and `byteLength` of a view, or of what a view is unpacked from.
+std::string_view Document::part(const Element& view) const {
+    const std::optional<size_t> buffer = view.index("buffer", size("buffers"));
+    if (!buffer) view.fail("has no 'buffer'");
+    const uint64_t offset = view.count("byteOffset", 0), length = view.count("byteLength");
+    const std::string_view bytes = bytesOfBuffer(*buffer);
+    if (offset > bytes.size() || length > bytes.size() - offset)
+        view.fail(fmt::format("{} bytes from {} on are beyond the {} bytes of buffers[{}]", length,
+                              offset, bytes.size(), *buffer));
+    return bytes.substr(offset, length);
+}
+
+std::string_view Document::bytesOfView(size_t index) const {
+    const Element view = at("bufferViews", index);
+    const std::optional<Element> packed = view.extension("EXT_meshopt_compression");
+    if (!packed) return part(view);
+    const auto found = unpackedViews_.find(index);
+    if (found != unpackedViews_.end()) return found->second;
+    return unpackedViews_.emplace(index, unpackMeshopt(*packed, part(*packed))).first->second;
+}
+
+void reportExtensions(const Document& document, build::Report& report) {
+    for (const std::string& name : document.root().texts("extensionsUsed"))
+        if (!isReadExtension(name))
+            report.ignore(fmt::format("extension '{}'", name), "it is not read");
+}
+
+} // namespace stromboli::gltf

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "host/core/json.hpp"
+#include "scene/build/scene_builder.hpp"
+#include "scene/gltf/container.hpp"
+#include "scene/gltf/element.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace stromboli::gltf {
+
+/// A glTF 2.0 file: its JSON, and the bytes that it names, which are read when they are asked for
+/// and kept.
+class Document {
+  public:
+    /// Throws SceneError if it is no glTF 2, or requires an extension that is not there.
+    explicit Document(const std::filesystem::path& file);
+
+    const std::string& file() const { return file_; }
+    const Element& root() const { return *root_; }
+    /// Element `index` of one of the file's arrays, such as "meshes".
+    Element at(std::string_view array, size_t index) const { return root_->item(array, index); }
+    size_t size(std::string_view array) const { return root_->size(array); }
+    /// The element of `array` that a member names by its number; nothing if it is not there.
+    std::optional<Element> follow(const Element& from, std::string_view member,
+                                  std::string_view array) const;
+
+    /// The bytes of a bufferView, decompressed if need be; throws SceneError unless the buffer has
+    /// all of them.
+    std::string_view bytesOfView(size_t view) const;
+    /// The bytes of a URI of the file.
+    std::string bytesOfUri(const std::string& uri, const Element& at) const;
+
+  private:
+    std::string_view bytesOfBuffer(size_t buffer) const;
+    std::string_view part(const Element& view) const;
+    void requireVersion() const;
+    void requireExtensions() const;
+
+    std::filesystem::path path_;
+    std::string file_; ///< path_, for messages
+    std::string bytes_;
+    Container container_;
+    Json json_;
+    std::unique_ptr<Element> root_;
+    mutable std::map<size_t, std::string> buffers_, unpackedViews_;
+};
+
+/// Says which of the extensions that the file uses have no effect.
+void reportExtensions(const Document& document, build::Report& report);
+
+} // namespace stromboli::gltf

@@ -1,0 +1,203 @@
+#include "scene/gltf/element.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace stromboli::gltf {
+
+Element::Element(const std::string& file, std::string path, const Json& json)
+    : file_(&file), path_(std::move(path)), json_(&json) {
+    if (!json.isObject()) fail("is no object, expected {...}");
+}
+
+void Element::fail(std::string_view member, const std::string& message) const {
+    const std::string path =
+        path_.empty() ? std::string(member) : fmt::format("{}.{}", path_, member);
+    build::FilePlace{*file_, 0, path}.fail(message);
+}
+
+const Json* Element::find(std::string_view member) const {
+    return json_->visit([&](const auto& value) -> const Json* {
+        if constexpr (std::same_as<std::decay_t<decltype(value)>, Json::Object>) {
+            for (const auto& [name, json] : value)
+                if (name == member) return &json;
+        }
+        return nullptr;
+    });
+}
+
+const Json& Element::require(std::string_view member) const {
+    const Json* json = find(member);
+    if (!json) fail(fmt::format("has no '{}'", member));
+    return *json;
+}
+
+std::optional<Element> Element::child(std::string_view member) const {
+    const Json* json = find(member);
+    if (!json) return std::nullopt;
+    return Element(
+        *file_, path_.empty() ? std::string(member) : fmt::format("{}.{}", path_, member), *json);
+}
+
+std::optional<Element> Element::extension(std::string_view name) const {
+    const std::optional<Element> extensions = child("extensions");
+    return extensions ? extensions->child(name) : std::nullopt;
+}
+
+const Json::Array* Element::array(std::string_view member) const {
+    const Json* json = find(member);
+    if (!json) return nullptr;
+    if (!json->isArray()) fail(member, "is no array, expected [...]");
+    return &json->elements();
+}
+
+size_t Element::size(std::string_view member) const {
+    const Json::Array* elements = array(member);
+    return elements ? elements->size() : 0;
+}
+
+Element Element::item(std::string_view member, size_t index) const {
+    const std::string name = fmt::format("{}[{}]", member, index);
+    return {*file_, path_.empty() ? name : fmt::format("{}.{}", path_, name),
+            array(member)->at(index)};
+}
+
+std::vector<Element> Element::items(std::string_view member) const {
+    std::vector<Element> found;
+    for (size_t i = 0; i < size(member); ++i)
+        found.push_back(item(member, i));
+    return found;
+}
+
+std::vector<std::string> Element::names() const {
+    return json_->visit([](const auto& value) {
+        std::vector<std::string> found;
+        if constexpr (std::same_as<std::decay_t<decltype(value)>, Json::Object>) {
+            for (const auto& member : value)
+                found.push_back(member.first);
+        }
+        return found;
+    });
+}
+
+double Element::numberOf(std::string_view member, const Json& json) const {
+    try {
+        const double value = json.get<double>();
+        if (std::isfinite(value)) return value;
+        fail(member, "is not finite");
+    } catch (const JsonError&) {
+        fail(member, "is no number");
+    }
+}
+
+double Element::number(std::string_view member) const {
+    return numberOf(member, require(member));
+}
+
+double Element::number(std::string_view member, double otherwise) const {
+    const Json* json = find(member);
+    return json ? numberOf(member, *json) : otherwise;
+}
+
+double Element::number(std::string_view member, double otherwise, double least, double most) const {
+    const double value = number(member, otherwise);
+    if (!(value >= least && value <= most))
+        fail(member, std::isinf(most)
+                         ? fmt::format("is {}, expected at least {}", value, least)
+                         : fmt::format("is {}, expected {} to {}", value, least, most));
+    return value;
+}
+
+bool Element::flag(std::string_view member, bool otherwise) const {
+    const Json* json = find(member);
+    if (!json) return otherwise;
+    try {
+        return json->get<bool>();
+    } catch (const JsonError&) {
+        fail(member, "is neither true nor false");
+    }
+}
+
+std::string Element::text(std::string_view member, const std::string& otherwise) const {
+    const Json* json = find(member);
+    if (!json) return otherwise;
+    if (!json->isText()) fail(member, "is no text");
+    return json->get<std::string>();
+}
+
+uint64_t Element::countOf(std::string_view member, const Json& json) const {
+    const double value = numberOf(member, json);
+    // Above 2^53 doubles skip whole numbers; nothing that a file can hold is that large.
+    if (!(value >= 0 && value <= 0x1p53 && value == std::floor(value)))
+        fail(member, fmt::format("is {}, expected a whole number of at least 0", value));
+    return uint64_t(value);
+}
+
+uint64_t Element::count(std::string_view member) const {
+    return countOf(member, require(member));
+}
+
+uint64_t Element::count(std::string_view member, uint64_t otherwise) const {
+    const Json* json = find(member);
+    return json ? countOf(member, *json) : otherwise;
+}
+
+std::optional<size_t> Element::index(std::string_view member, size_t size) const {
+    const Json* json = find(member);
+    if (!json) return std::nullopt;
+    const uint64_t value = countOf(member, *json);
+    if (value >= size)
+        fail(member, fmt::format("is {}, but there {} {}", value, size == 1 ? "is" : "are", size));
+    return size_t(value);
+}
+
+std::vector<size_t> Element::indices(std::string_view member, size_t size) const {
+    std::vector<size_t> found;
+    const Json::Array* elements = array(member);
+    for (size_t i = 0; elements && i < elements->size(); ++i) {
+        const std::string name = fmt::format("{}[{}]", member, i);
+        const uint64_t value = countOf(name, (*elements)[i]);
+        if (value >= size)
+            fail(name,
+                 fmt::format("is {}, but there {} {}", value, size == 1 ? "is" : "are", size));
+        found.push_back(size_t(value));
+    }
+    return found;
+}
+
+std::vector<std::string> Element::texts(std::string_view member) const {
+    std::vector<std::string> found;
+    const Json::Array* elements = array(member);
+    for (size_t i = 0; elements && i < elements->size(); ++i) {
+        if (!(*elements)[i].isText()) fail(fmt::format("{}[{}]", member, i), "is no text");
+        found.push_back((*elements)[i].get<std::string>());
+    }
+    return found;
+}
+
+std::vector<double> Element::numbers(std::string_view member, size_t expected) const {
+    std::vector<double> found;
+    const Json::Array* elements = array(member);
+    if (!elements) return found;
+    if (expected > 0 && elements->size() != expected)
+        fail(member, fmt::format("has {} numbers, expected {}", elements->size(), expected));
+    for (size_t i = 0; i < elements->size(); ++i)
+        found.push_back(numberOf(fmt::format("{}[{}]", member, i), (*elements)[i]));
+    return found;
+}
+
+glm::dvec3 Element::vector(std::string_view member, const glm::dvec3& otherwise) const {
+    const std::vector<double> v = numbers(member, 3);
+    return v.empty() ? otherwise : glm::dvec3(v[0], v[1], v[2]);
+}
+
+std::string Element::displayName() const {
+    const Json* name = find("name");
+    if (name && name->isText() && !name->get<std::string>().empty())
+        return name->get<std::string>();
+    return path_;
+}
+
+} // namespace stromboli::gltf

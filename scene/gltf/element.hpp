@@ -1,0 +1,77 @@
+#pragma once
+
+#include "host/core/json.hpp"
+#include "scene/build/file_place.hpp"
+
+#include <glm/glm.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stromboli::gltf {
+
+/// An object of the file, which knows its place, such as `meshes[0].primitives[2]`. Its members are
+/// read with the type that they must have; those that have another one are errors that name the
+/// member.
+class Element {
+  public:
+    /// `file` and `json` must outlive the element.
+    Element(const std::string& file, std::string path, const Json& json);
+
+    const std::string& path() const { return path_; }
+    build::FilePlace place() const { return {*file_, 0, path_}; }
+    [[noreturn]] void fail(const std::string& message) const { place().fail(message); }
+    /// About one member.
+    [[noreturn]] void fail(std::string_view member, const std::string& message) const;
+
+    bool has(std::string_view member) const { return find(member) != nullptr; }
+
+    /// An object, or nothing if it is not there.
+    std::optional<Element> child(std::string_view member) const;
+    /// `extensions.NAME`, or nothing.
+    std::optional<Element> extension(std::string_view name) const;
+    /// How many elements an array has; 0 if it is not there.
+    size_t size(std::string_view member) const;
+    /// One object of an array; `index` must be below its size.
+    Element item(std::string_view member, size_t index) const;
+    std::vector<Element> items(std::string_view member) const;
+    /// The names of all members.
+    std::vector<std::string> names() const;
+
+    double number(std::string_view member) const;
+    double number(std::string_view member, double otherwise) const;
+    /// A number in a range.
+    double number(std::string_view member, double otherwise, double least, double most) const;
+    bool flag(std::string_view member, bool otherwise) const;
+    std::string text(std::string_view member, const std::string& otherwise = "") const;
+    /// A whole number that is not negative.
+    uint64_t count(std::string_view member) const;
+    uint64_t count(std::string_view member, uint64_t otherwise) const;
+    /// The number of something there are `size` of, such as a node; nothing if it is not there.
+    std::optional<size_t> index(std::string_view member, size_t size) const;
+    std::vector<size_t> indices(std::string_view member, size_t size) const;
+    std::vector<std::string> texts(std::string_view member) const;
+    /// As many finite numbers as said (any number of them if 0); empty if not there.
+    std::vector<double> numbers(std::string_view member, size_t expected) const;
+    glm::dvec3 vector(std::string_view member, const glm::dvec3& otherwise) const;
+
+    /// Its `name`, or else its place.
+    std::string displayName() const;
+
+  private:
+    const Json* find(std::string_view member) const;
+    const Json& require(std::string_view member) const;
+    const Json::Array* array(std::string_view member) const;
+    double numberOf(std::string_view member, const Json& json) const;
+    uint64_t countOf(std::string_view member, const Json& json) const;
+
+    const std::string* file_;
+    std::string path_;
+    const Json* json_;
+};
+
+} // namespace stromboli::gltf

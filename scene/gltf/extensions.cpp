@@ -1,0 +1,32 @@
+#include "scene/gltf/extensions.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace stromboli::gltf {
+
+bool isReadExtension(std::string_view name) {
+    constexpr std::string_view names[] = {
+        "EXT_mesh_gpu_instancing",
+        "EXT_meshopt_compression",
+        "EXT_texture_webp",
+        "KHR_draco_mesh_compression",
+        "KHR_lights_punctual",
+        "KHR_materials_anisotropy",
+        "KHR_materials_clearcoat",
+        "KHR_materials_emissive_strength",
+        "KHR_materials_ior",
+        "KHR_materials_pbrSpecularGlossiness", // as far as the other model can say it
+        "KHR_materials_sheen",
+        "KHR_materials_specular",
+        "KHR_materials_transmission",
+        "KHR_materials_unlit",
+        "KHR_materials_variants",
+        "KHR_materials_volume",
+        "KHR_mesh_quantization",
+        "KHR_texture_transform",
+    };
+    return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+} // namespace stromboli::gltf

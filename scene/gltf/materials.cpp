@@ -1,0 +1,85 @@
+#include "scene/gltf/materials.hpp"
+
+#include "scene/gltf/material_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace stromboli::gltf {
+namespace {
+
+std::optional<int> tangentSetOf(const Material& material) {
+    // Where several want tangents, those that the surface's own normal map was made with count.
+    for (const TextureSlot slot :
+         {TextureSlot::Normal, TextureSlot::ClearcoatNormal, TextureSlot::Anisotropy})
+        for (const TextureUse& use : material.textures)
+            if (use.slot == slot) return int(use.uvSet);
+    if (material.principled.anisotropy > 0) return 0;
+    return std::nullopt;
+}
+
+} // namespace
+
+std::optional<size_t> chosenVariant(const Document& document, build::SceneBuilder& builder) {
+    std::vector<std::string> names;
+    if (const auto extension = document.root().extension("KHR_materials_variants"))
+        for (const Element& variant : extension->items("variants"))
+            names.push_back(variant.text("name"));
+    const std::string& wanted = builder.conventions().selection.variant;
+    const std::string list = fmt::format("{}", fmt::join(names, ", "));
+    if (wanted.empty()) {
+        if (!names.empty())
+            builder.report().assume(fmt::format(
+                "the file has the variants {}: its own materials are shown (--variant)", list));
+        return std::nullopt;
+    }
+    const auto found = std::find(names.begin(), names.end(), wanted);
+    if (found == names.end())
+        document.root().fail(names.empty()
+                                 ? fmt::format("has no variants; --variant asks for '{}'", wanted)
+                                 : fmt::format("has no variant '{}'; there are {}", wanted, list));
+    return size_t(found - names.begin());
+}
+
+std::optional<size_t> Materials::indexFor(const Element& primitive) const {
+    const size_t count = context_.document.size("materials");
+    const auto extension = primitive.extension("KHR_materials_variants");
+    if (extension && context_.variant)
+        for (const Element& mapping : extension->items("mappings"))
+            for (const size_t variant : mapping.indices("variants", size_t(-1)))
+                if (variant == *context_.variant) return mapping.index("material", count);
+    return primitive.index("material", count);
+}
+
+const BoundMaterial& Materials::of(const Element& primitive) {
+    const std::optional<size_t> index = indexFor(primitive);
+    const auto found = made_.find(index);
+    if (found != made_.end()) return found->second;
+    return made_
+        .emplace(index, index ? read(context_.document.at("materials", *index)) : standard())
+        .first->second;
+}
+
+BoundMaterial Materials::read(const Element& element) {
+    MaterialReader reader(context_, textures_, element);
+    Material material = reader.read();
+    BoundMaterial bound;
+    bound.uvSets = reader.uvSets();
+    bound.isTextured = !material.textures.empty();
+    bound.tangentSet = tangentSetOf(material);
+    bound.number = context_.builder.addMaterial(std::move(material));
+    return bound;
+}
+
+/// That of primitives that name none: all members of a material at their defaults.
+BoundMaterial Materials::standard() {
+    Material material;
+    material.name = "default";
+    material.kind = MaterialKind::Principled;
+    BoundMaterial bound;
+    bound.number = context_.builder.addMaterial(std::move(material));
+    return bound;
+}
+
+} // namespace stromboli::gltf

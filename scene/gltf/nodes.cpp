@@ -1,0 +1,215 @@
+#include "scene/gltf/nodes.hpp"
+
+#include "scene/build/vectors.hpp"
+#include "scene/gltf/cameras.hpp"
+#include "scene/gltf/lights.hpp"
+
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <numeric>
+
+namespace stromboli::gltf {
+namespace {
+
+glm::dmat4 composed(const glm::dvec3& translation, const glm::dquat& rotation,
+                    const glm::dvec3& scale) {
+    return glm::translate(glm::dmat4(1), translation) * glm::mat4_cast(rotation) *
+           glm::scale(glm::dmat4(1), scale);
+}
+
+/// Files round quaternions; they stand for unit ones.
+glm::dquat unitRotation(const Element& at, const glm::dquat& q) {
+    const double length = glm::length(q);
+    if (!(length > 0)) at.fail("rotation", "has no direction");
+    return q / length;
+}
+
+} // namespace
+
+Nodes::Nodes(Context& context)
+    : context_(context), document_(context.document), meshes_(context),
+      animated_(animatedNodes(context)) {
+    findParents();
+    findTransforms();
+}
+
+std::vector<size_t> Nodes::childrenOf(size_t node) const {
+    return document_.at("nodes", node).indices("children", document_.size("nodes"));
+}
+
+void Nodes::findParents() {
+    constexpr size_t none = size_t(-1);
+    std::vector<size_t> parents(document_.size("nodes"), none);
+    for (size_t node = 0; node < parents.size(); ++node)
+        for (const size_t child : childrenOf(node)) {
+            if (parents[child] != none)
+                document_.at("nodes", child)
+                    .fail(
+                        fmt::format("is a child of nodes[{}] and of nodes[{}], expected one parent",
+                                    parents[child], node));
+            parents[child] = node;
+        }
+    for (size_t node = 0; node < parents.size(); ++node)
+        if (parents[node] == none) roots_.push_back(node);
+}
+
+/// From the roots on, without recursion: a file can nest nodes as deep as it likes.
+void Nodes::findTransforms() {
+    toWorld_.assign(document_.size("nodes"), glm::dmat4(1));
+    std::vector<bool> reached(toWorld_.size(), false);
+    std::vector<size_t> open = roots_;
+    for (const size_t root : roots_)
+        toWorld_[root] = localTransform(root);
+    while (!open.empty()) {
+        const size_t node = open.back();
+        open.pop_back();
+        reached[node] = true;
+        for (const size_t child : childrenOf(node)) {
+            toWorld_[child] = toWorld_[node] * localTransform(child);
+            open.push_back(child);
+        }
+    }
+    // Each node has at most one parent: what no root reaches is on a circle, or hangs on one.
+    for (size_t node = 0; node < reached.size(); ++node)
+        if (!reached[node])
+            document_.at("nodes", node).fail("is on a circle of parents and children");
+}
+
+glm::dmat4 Nodes::localTransform(size_t index) const {
+    const Element node = document_.at("nodes", index);
+    const auto found = animated_.find(index);
+    const AnimatedNode pose = found == animated_.end() ? AnimatedNode{} : found->second;
+    const std::vector<double> m = node.numbers("matrix", 16);
+    const bool isPosed = pose.translation || pose.rotation || pose.scale;
+    if (!m.empty() && !isPosed) {
+        glm::dmat4 matrix;
+        for (int i = 0; i < 16; ++i)
+            matrix[i / 4][i % 4] = m[size_t(i)];
+        return matrix;
+    }
+    const std::vector<double> q = node.numbers("rotation", 4);
+    const glm::dquat stated =
+        q.empty() ? glm::dquat(1, 0, 0, 0) : glm::dquat(q[3], q[0], q[1], q[2]);
+    return composed(pose.translation.value_or(node.vector("translation", glm::dvec3(0))),
+                    unitRotation(node, pose.rotation.value_or(stated)),
+                    pose.scale.value_or(node.vector("scale", glm::dvec3(1))));
+}
+
+std::vector<size_t> Nodes::rootsOfScene() const {
+    const size_t count = document_.size("scenes");
+    const std::optional<uint32_t> asked = context_.selection().scene;
+    if (asked && *asked >= count)
+        document_.root().fail(fmt::format("has no scene {}: there are {}, from 0", *asked, count));
+    if (count == 0) {
+        context_.report().assume("the file has no scene: all of its nodes are shown");
+        return roots_;
+    }
+    const std::optional<size_t> stated = document_.root().index("scene", count);
+    if (count > 1) context_.report().ignore("scenes", "one is shown (--scene N)", count - 1);
+    const size_t scene = asked ? *asked : stated.value_or(0);
+    return document_.at("scenes", scene).indices("nodes", document_.size("nodes"));
+}
+
+void Nodes::place() {
+    std::vector<size_t> open = rootsOfScene();
+    std::vector<bool> placed(toWorld_.size(), false);
+    std::reverse(open.begin(), open.end());
+    while (!open.empty()) {
+        const size_t node = open.back();
+        open.pop_back();
+        if (placed[node]) continue; // a scene may name a node and its parent
+        placed[node] = true;
+        placeNode(node);
+        const std::vector<size_t> children = childrenOf(node);
+        open.insert(open.end(), children.rbegin(), children.rend());
+    }
+}
+
+void Nodes::placeNode(size_t index) {
+    const Element node = document_.at("nodes", index);
+    placeMesh(node, index);
+    if (const auto camera = document_.follow(node, "camera", "cameras")) {
+        const std::string name = node.has("name") ? node.displayName() : camera->displayName();
+        placeCamera(context_, *camera, name, toWorld_[index]);
+    }
+    const auto used = node.extension("KHR_lights_punctual");
+    const auto stated = document_.root().extension("KHR_lights_punctual");
+    if (!used) return;
+    const std::optional<size_t> light = used->index("light", stated ? stated->size("lights") : 0);
+    if (!light) used->fail("has no 'light'");
+    const Element at = stated->item("lights", *light);
+    placeLight(context_, at, node.has("name") ? node.displayName() : at.displayName(),
+               toWorld_[index]);
+}
+
+void Nodes::placeMesh(const Element& node, size_t index) {
+    const std::optional<size_t> mesh = node.index("mesh", document_.size("meshes"));
+    if (!mesh) return;
+    Deformation deformation;
+    const auto found = animated_.find(index);
+    deformation.weights = found != animated_.end() && !found->second.weights.empty()
+                              ? found->second.weights
+                              : node.numbers("weights", 0);
+    deformation.joints = jointsOf(node);
+    const std::optional<BuiltMesh> built = meshes_.get(*mesh, deformation);
+    if (!built) return;
+    // The joints of a skin lead to the world by themselves.
+    const glm::dmat4 toWorld = deformation.joints.empty() ? toWorld_[index] : glm::dmat4(1);
+    for (const glm::dmat4& place : placesOf(node, toWorld))
+        context_.builder.place(node.place(), built->shape, place, built->materials,
+                               node.displayName());
+}
+
+/// One place, or those of EXT_mesh_gpu_instancing.
+std::vector<glm::dmat4> Nodes::placesOf(const Element& node, const glm::dmat4& toWorld) const {
+    const auto extension = node.extension("EXT_mesh_gpu_instancing");
+    const auto attributes = extension ? extension->child("attributes") : std::nullopt;
+    if (!attributes) return {toWorld};
+    std::optional<size_t> count;
+    const auto read = [&](const char* name, size_t width) -> std::optional<Values> {
+        const auto accessor = attributes->index(name, document_.size("accessors"));
+        if (!accessor) return std::nullopt;
+        Values values = readValues(document_, *accessor, width);
+        if (count && values.count != *count)
+            attributes->fail(
+                name, fmt::format("has {} elements, another attribute {}", values.count, *count));
+        count = values.count;
+        return values;
+    };
+    const std::optional<Values> translations = read("TRANSLATION", 3),
+                                rotations = read("ROTATION", 4), scales = read("SCALE", 3);
+    std::vector<glm::dmat4> places;
+    for (size_t i = 0; i < count.value_or(0); ++i) {
+        const glm::dvec4 q = rotations ? rotations->vec4(i) : glm::dvec4(0, 0, 0, 1);
+        places.push_back(toWorld *
+                         composed(translations ? translations->vec3(i) : glm::dvec3(0),
+                                  unitRotation(*attributes, glm::dquat(q.w, q.x, q.y, q.z)),
+                                  scales ? scales->vec3(i) : glm::dvec3(1)));
+    }
+    return places;
+}
+
+/// From the mesh's space to the world, for each joint of the node's skin.
+std::vector<glm::dmat4> Nodes::jointsOf(const Element& node) const {
+    const auto skin = document_.follow(node, "skin", "skins");
+    if (!skin) return {};
+    std::vector<glm::dmat4> matrices;
+    for (const size_t joint : skin->indices("joints", document_.size("nodes")))
+        matrices.push_back(toWorld_[joint]);
+    const auto accessor = skin->index("inverseBindMatrices", document_.size("accessors"));
+    if (!accessor) return matrices;
+    const Values inverses = readValues(document_, *accessor, 16);
+    if (inverses.count < matrices.size())
+        skin->fail("inverseBindMatrices",
+                   fmt::format("has {} matrices for {} joints", inverses.count, matrices.size()));
+    for (size_t joint = 0; joint < matrices.size(); ++joint) {
+        glm::dmat4 inverse;
+        for (int i = 0; i < 16; ++i)
+            inverse[i / 4][i % 4] = inverses.at(joint)[i];
+        matrices[joint] *= inverse;
+    }
+    return matrices;
+}
+
+} // namespace stromboli::gltf

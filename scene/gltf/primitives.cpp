@@ -1,0 +1,147 @@
+#include "scene/gltf/primitives.hpp"
+
+#include "scene/gltf/draco.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+namespace stromboli::gltf {
+namespace {
+
+enum Mode : uint64_t { kTriangles = 4, kStrip = 5, kFan = 6 };
+
+/// Reads the attributes of one primitive, packed or not.
+class PrimitiveReader {
+  public:
+    PrimitiveReader(Context& context, const Element& at) : context_(context), at_(at) {
+        if (const auto packed = at.extension("KHR_draco_mesh_compression"))
+            unpacked_ = unpackDraco(context.document, at, *packed);
+    }
+
+    std::optional<Primitive> read(const std::array<uint32_t, 2>& uvSets) {
+        const std::optional<Element> attributes = at_.child("attributes");
+        if (!attributes) at_.fail("has no 'attributes'");
+        std::optional<Values> positions = values(*attributes, "POSITION", 3);
+        if (!positions) {
+            context_.report().ignore("primitives", "they have no positions");
+            return std::nullopt;
+        }
+        Primitive p;
+        p.vertexCount = positions->count;
+        p.positions = std::move(*positions);
+        vertexCount_ = p.vertexCount;
+        p.normals = values(*attributes, "NORMAL", 3);
+        p.tangents = values(*attributes, "TANGENT", 4);
+        p.colors = colors(*attributes);
+        for (size_t i = 0; i < 2; ++i)
+            p.uvs[i] = values(*attributes, fmt::format("TEXCOORD_{}", uvSets[i]), 2);
+        readSkin(*attributes, p);
+        readTargets(p);
+        p.triangles = triangles();
+        if (p.triangles.empty()) return std::nullopt;
+        return p;
+    }
+
+  private:
+    /// An attribute by its name; nothing if it is not there.
+    std::optional<Values> values(const Element& attributes, const std::string& name, size_t width) {
+        const std::optional<size_t> accessor =
+            attributes.index(name, context_.document.size("accessors"));
+        if (!accessor) return std::nullopt;
+        Values found;
+        const auto packed = unpacked_.attributes.find(name);
+        if (packed != unpacked_.attributes.end())
+            found = packed->second;
+        else
+            found = readValues(context_.document, *accessor, width);
+        if (width != 0 && found.width != width)
+            attributes.fail(name, fmt::format("has {} numbers, expected {}", found.width, width));
+        if (vertexCount_ && found.count != *vertexCount_)
+            attributes.fail(name, fmt::format("has {} elements, but there are {} positions",
+                                              found.count, *vertexCount_));
+        return found;
+    }
+
+    std::optional<Values> colors(const Element& attributes) {
+        std::optional<Values> found = values(attributes, "COLOR_0", 0);
+        if (found && found->width != 3 && found->width != 4)
+            attributes.fail("COLOR_0",
+                            fmt::format("has {} numbers, expected 3 or 4", found->width));
+        if (attributes.has("COLOR_1"))
+            context_.report().ignore("vertex colours", "only the first set has a meaning");
+        return found;
+    }
+
+    void readSkin(const Element& attributes, Primitive& p) {
+        for (int set = 0; attributes.has(fmt::format("JOINTS_{}", set)); ++set) {
+            std::optional<Values> weights = values(attributes, fmt::format("WEIGHTS_{}", set), 4);
+            if (!weights) attributes.fail(fmt::format("has JOINTS_{} and no WEIGHTS_{}", set, set));
+            p.joints.push_back(*values(attributes, fmt::format("JOINTS_{}", set), 4));
+            p.weights.push_back(std::move(*weights));
+        }
+    }
+
+    void readTargets(Primitive& p) {
+        for (const Element& target : at_.items("targets"))
+            p.targets.push_back({values(target, "POSITION", 3), values(target, "NORMAL", 3),
+                                 values(target, "TANGENT", 3)});
+    }
+
+    std::vector<uint32_t> indices() {
+        if (!unpacked_.indices.empty()) return std::move(unpacked_.indices);
+        const std::optional<size_t> accessor =
+            at_.index("indices", context_.document.size("accessors"));
+        if (accessor) {
+            std::vector<uint32_t> found = readIndices(context_.document, *accessor);
+            for (const uint32_t index : found)
+                if (index >= *vertexCount_)
+                    context_.document.at("accessors", *accessor)
+                        .fail(fmt::format("has the index {}, but there are {} vertices", index,
+                                          *vertexCount_));
+            return found;
+        }
+        std::vector<uint32_t> all(*vertexCount_);
+        std::iota(all.begin(), all.end(), 0u);
+        return all;
+    }
+
+    std::vector<std::array<uint32_t, 3>> triangles() {
+        const uint64_t mode = at_.count("mode", kTriangles);
+        if (mode > kFan) at_.fail("mode", fmt::format("is {}, expected 0 to 6", mode));
+        if (mode < kTriangles) {
+            context_.report().ignore("primitives of points or lines", "only triangles are shown");
+            return {};
+        }
+        const std::vector<uint32_t> v = indices();
+        std::vector<std::array<uint32_t, 3>> found;
+        if (mode == kTriangles) {
+            if (v.size() % 3 != 0)
+                context_.report().forgive(
+                    at_.place(), fmt::format("{} corners are no whole triangles", v.size()),
+                    "what is left over is left out");
+            for (size_t i = 0; i + 2 < v.size(); i += 3)
+                found.push_back({v[i], v[i + 1], v[i + 2]});
+        } else {
+            for (size_t i = 0; i + 2 < v.size(); ++i)
+                found.push_back(mode == kFan
+                                    ? std::array{v[i + 1], v[i + 2], v[0]}
+                                    : std::array{v[i], v[i + 1 + i % 2], v[i + 2 - i % 2]});
+        }
+        return found;
+    }
+
+    Context& context_;
+    const Element& at_;
+    UnpackedPrimitive unpacked_;
+    std::optional<size_t> vertexCount_;
+};
+
+} // namespace
+
+std::optional<Primitive> readPrimitive(Context& context, const Element& element,
+                                       const std::array<uint32_t, 2>& uvSets) {
+    return PrimitiveReader(context, element).read(uvSets);
+}
+
+} // namespace stromboli::gltf

@@ -1,0 +1,152 @@
+#include "scene/gltf/textures.hpp"
+
+#include "scene/gltf/uri.hpp"
+#include "scene/images/texture_image.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace stromboli::gltf {
+namespace {
+
+constexpr uint64_t kNearest = 9728, kClamp = 33071, kMirror = 33648, kRepeat = 10497;
+
+Wrap wrapOf(const Element& sampler, std::string_view member) {
+    switch (sampler.count(member, kRepeat)) {
+    case kClamp:
+        return Wrap::Clamp;
+    case kMirror:
+        return Wrap::Mirror;
+    case kRepeat:
+        return Wrap::Repeat;
+    default:
+        sampler.fail(member,
+                     fmt::format("is {}, expected 33071, 33648 or 10497", sampler.count(member)));
+    }
+}
+
+/// KHR_texture_transform: offset, then rotation, then scale, as products of matrices. The rotation
+/// turns coordinates counter-clockwise as the picture is seen, on which v grows downwards.
+void applyTransform(const Element& info, TextureUse& use) {
+    const std::optional<Element> transform = info.extension("KHR_texture_transform");
+    if (!transform) return;
+    const auto pair = [&](std::string_view member, const glm::dvec2& otherwise) {
+        const std::vector<double> v = transform->numbers(member, 2);
+        return v.empty() ? otherwise : glm::dvec2(v[0], v[1]);
+    };
+    const glm::dvec2 offset = pair("offset", {0, 0}), scale = pair("scale", {1, 1});
+    const double angle = transform->number("rotation", 0);
+    const double c = std::cos(angle), s = std::sin(angle);
+    use.uRow = glm::dvec3(scale.x * c, scale.y * s, offset.x);
+    use.vRow = glm::dvec3(-scale.x * s, scale.y * c, offset.y);
+}
+
+/// Which of the corners' two sets holds TEXCOORD_`set`; nothing if both hold others.
+std::optional<uint32_t> placeOf(uint64_t set, UvSets& uvSets) {
+    for (uint32_t i = 0; i < 2; ++i)
+        if (uvSets.used[i] && uvSets.sets[i] == set) return i;
+    for (const uint32_t i :
+         set == 1 ? std::array<uint32_t, 2>{1, 0} : std::array<uint32_t, 2>{0, 1})
+        if (!uvSets.used[i]) {
+            uvSets.used[i] = true;
+            uvSets.sets[i] = uint32_t(set);
+            return i;
+        }
+    return std::nullopt;
+}
+
+/// Numbers of attributes above this are no texture coordinates that any program writes.
+constexpr uint64_t kMostUvSets = 1024;
+
+} // namespace
+
+std::optional<TextureUse> Textures::use(const Element& parent, std::string_view member,
+                                        TextureSlot slot, bool srgb, UvSets& uvSets) {
+    const std::optional<Element> info = parent.child(member);
+    if (!info) return std::nullopt;
+    const std::optional<size_t> index = info->index("index", context_.document.size("textures"));
+    if (!index) info->fail("has no 'index'");
+    const std::optional<uint32_t> number = texture(*index, srgb);
+    if (!number) return std::nullopt;
+    TextureUse use;
+    use.slot = slot;
+    use.texture = *number;
+    uint64_t set = info->count("texCoord", 0);
+    if (const auto transform = info->extension("KHR_texture_transform"))
+        set = transform->count("texCoord", set);
+    if (set > kMostUvSets) info->fail("texCoord", fmt::format("is {}", set));
+    const std::optional<uint32_t> place = placeOf(set, uvSets);
+    if (!place) {
+        context_.report().ignore(
+            "textures", "a material looks up pictures by at most two sets of texture coordinates");
+        return std::nullopt;
+    }
+    use.uvSet = *place;
+    applyTransform(*info, use);
+    return use;
+}
+
+/// The picture of a texture: that of an extension that is read, or else the plain one.
+std::optional<size_t> Textures::sourceOf(const Element& texture) {
+    const size_t count = context_.document.size("images");
+    if (const auto webp = texture.extension("EXT_texture_webp"))
+        if (const std::optional<size_t> source = webp->index("source", count)) return source;
+    if (const std::optional<size_t> source = texture.index("source", count)) return source;
+    const bool basis = texture.extension("KHR_texture_basisu").has_value();
+    context_.report().ignore("textures", basis ? "pictures in KTX 2 with Basis compression "
+                                                 "(KHR_texture_basisu) are not read"
+                                               : "they name no picture");
+    return std::nullopt;
+}
+
+std::optional<uint32_t> Textures::texture(size_t index, bool srgb) {
+    const auto found = textures_.find({index, srgb});
+    if (found != textures_.end()) return found->second;
+    const Element element = context_.document.at("textures", index);
+    std::optional<uint32_t>& number = textures_[{index, srgb}];
+    const std::optional<size_t> source = sourceOf(element);
+    if (!source) return std::nullopt;
+    Texture texture;
+    texture.image = image(*source, srgb);
+    texture.srgb = srgb;
+    if (const auto sampler = context_.document.follow(element, "sampler", "samplers")) {
+        texture.wrapU = wrapOf(*sampler, "wrapS");
+        texture.wrapV = wrapOf(*sampler, "wrapT");
+        texture.nearest = sampler->count("magFilter", 0) == kNearest;
+    }
+    number = context_.builder.addTexture(texture);
+    return number;
+}
+
+uint32_t Textures::image(size_t index, bool srgb) {
+    const auto found = images_.find({index, srgb});
+    if (found != images_.end()) return found->second;
+    TextureImage picture = read(index, srgb);
+    const uint32_t largest = context_.selection().largestTexture;
+    const bool shrinks = largest > 0 && (picture.width > largest || picture.height > largest);
+    // Bytes are the same whatever they mean; what is decoded or mixed is not.
+    const auto other = images_.find({index, !srgb});
+    if (other != images_.end() && !shrinks && picture.format == TexelFormat::Rgba8)
+        return images_[{index, srgb}] = other->second;
+    if (shrinks) images::shrinkToFit(picture, largest, srgb);
+    return images_[{index, srgb}] = context_.builder.addImage(std::move(picture));
+}
+
+TextureImage Textures::read(size_t index, bool srgb) {
+    const Document& document = context_.document;
+    const Element element = document.at("images", index);
+    const std::string place = fmt::format("{}: <images[{}]>", document.file(), index);
+    if (element.has("uri")) {
+        const std::string uri = element.text("uri");
+        const std::string bytes = document.bytesOfUri(uri, element);
+        const std::string name = fmt::format("{}: {}", place, shortUri(uri));
+        return images::textureImage(images::decodePicture(bytes, name), name, srgb);
+    }
+    const std::optional<size_t> view = element.index("bufferView", document.size("bufferViews"));
+    if (!view) element.fail("has neither 'uri' nor 'bufferView'");
+    return images::textureImage(images::decodePicture(document.bytesOfView(*view), place), place,
+                                srgb);
+}
+
+} // namespace stromboli::gltf

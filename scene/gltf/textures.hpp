@@ -1,0 +1,40 @@
+#pragma once
+
+#include "scene/gltf/context.hpp"
+
+#include <array>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace stromboli::gltf {
+
+/// Two sets of texture coordinates of the file, TEXCOORD_n, that corners have for a material.
+struct UvSets {
+    std::array<uint32_t, 2> sets = {0, 1};
+    std::array<bool, 2> used = {false, false};
+};
+
+/// Textures and pictures of a file, each of which is read when a material uses it.
+class Textures {
+  public:
+    explicit Textures(Context& context) : context_(context) {}
+
+    /// The texture that a material's member (a textureInfo) names, with its transformation, for a
+    /// slot; nothing if the member is not there or the texture cannot be shown. `srgb`: its colours
+    /// are sRGB. `uvSets` are those of the material.
+    std::optional<TextureUse> use(const Element& parent, std::string_view member, TextureSlot slot,
+                                  bool srgb, UvSets& uvSets);
+
+  private:
+    std::optional<uint32_t> texture(size_t index, bool srgb);
+    std::optional<size_t> sourceOf(const Element& texture);
+    uint32_t image(size_t index, bool srgb);
+    TextureImage read(size_t index, bool srgb);
+
+    Context& context_;
+    std::map<std::pair<size_t, bool>, std::optional<uint32_t>> textures_;
+    std::map<std::pair<size_t, bool>, uint32_t> images_;
+};
+
+} // namespace stromboli::gltf
