@@ -13,6 +13,11 @@ find_package(OpenEXR REQUIRED)
 # Debian's CMake package of libzip also wants tools of other packages.
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(libzip REQUIRED IMPORTED_TARGET libzip)
+# Debian 13's asks for _FILE_OFFSET_BITS, which means nothing where addresses have 64 bits, and with
+# which a precompiled header made without it cannot be used.
+if(CMAKE_SIZEOF_VOID_P EQUAL 8)
+    set_target_properties(PkgConfig::libzip PROPERTIES INTERFACE_COMPILE_OPTIONS "")
+endif()
 find_package(VulkanHeaders REQUIRED)
 find_program(GZIP gzip REQUIRED)
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
