@@ -3,6 +3,14 @@ find_package(Threads REQUIRED)
 find_package(TBB REQUIRED)
 find_package(glm REQUIRED)
 find_package(tinyxml2 REQUIRED)
+# Debian 13's tinyxml2 asks for _FILE_OFFSET_BITS, which means nothing where addresses have 64 bits,
+# and with which a precompiled header that was made without it cannot be used.
+get_target_property(tinyxml2_definitions tinyxml2::tinyxml2 INTERFACE_COMPILE_DEFINITIONS)
+if(tinyxml2_definitions AND CMAKE_SIZEOF_VOID_P EQUAL 8)
+    list(REMOVE_ITEM tinyxml2_definitions _FILE_OFFSET_BITS=64)
+    set_target_properties(tinyxml2::tinyxml2 PROPERTIES
+                          INTERFACE_COMPILE_DEFINITIONS "${tinyxml2_definitions}")
+endif()
 find_package(fmt REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(CLI11 REQUIRED)
@@ -13,11 +21,6 @@ find_package(OpenEXR REQUIRED)
 # Debian's CMake package of libzip also wants tools of other packages.
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(libzip REQUIRED IMPORTED_TARGET libzip)
-# Debian 13's asks for _FILE_OFFSET_BITS, which means nothing where addresses have 64 bits, and with
-# which a precompiled header made without it cannot be used.
-if(CMAKE_SIZEOF_VOID_P EQUAL 8)
-    set_target_properties(PkgConfig::libzip PROPERTIES INTERFACE_COMPILE_OPTIONS "")
-endif()
 find_package(VulkanHeaders REQUIRED)
 find_program(GZIP gzip REQUIRED)
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)

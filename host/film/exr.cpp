@@ -7,14 +7,19 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace stromboli {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kBranches = "branches";
 
 /// Where OpenEXR finds a channel whose first value belongs to the corner of `window`.
 static Imf::Slice sliceOf(const std::vector<float>& values, const Imath::Box2i& window,
@@ -34,6 +39,8 @@ static std::string encode(const FloatImage& image, const PictureNotes& notes) {
     Imf::Header header(windowOf({0, 0, image.area.width, image.area.height}),
                        windowOf(image.area.rendered()));
     header.compression() = Imf::ZIP_COMPRESSION;
+    // By itself, and no note: it says what the channels mean.
+    if (image.branches > 1) header.insert(kBranches, Imf::IntAttribute(int(image.branches)));
     for (const PictureNote& note : notes)
         header.insert(note.name, Imf::StringAttribute(note.text));
     Imf::FrameBuffer frameBuffer;
@@ -69,6 +76,8 @@ static FloatImage decode(const fs::path& path) {
     Imf::InputFile file(path.c_str());
     const Imath::Box2i window = file.header().dataWindow();
     FloatImage image(areaOf(file.header().displayWindow(), window));
+    if (const auto* branches = file.header().findTypedAttribute<Imf::IntAttribute>(kBranches))
+        image.branches = uint32_t(std::max(branches->value(), 1));
     Imf::FrameBuffer frameBuffer;
     const Imf::ChannelList& channels = file.header().channels();
     for (auto channel = channels.begin(); channel != channels.end(); ++channel) {

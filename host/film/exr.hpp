@@ -8,7 +8,8 @@
 namespace stromboli {
 
 /// Writes every channel as 32-bit float (lossless ZIP), complete or not at all. The display window
-/// is the whole picture, the data window the part of it that there is. Throws OutputError.
+/// is the whole picture, the data window the part of it that there is. An attribute "branches" says
+/// how many paths a sample has, if more than one. Throws OutputError.
 void writeExr(const std::filesystem::path& path, const FloatImage& image,
               const PictureNotes& notes = {});
 

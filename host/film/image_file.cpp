@@ -103,6 +103,7 @@ FloatImage linearPicture(const Film& film, bool statistics) {
         fill(image, names[c], film, [c](const PixelStatistics& p) { return p.mean[c]; });
     if (!statistics) return image;
 
+    image.branches = film.branches;
     fill(image, "samples", film,
          [&](const PixelStatistics& p) { return p.taken() * film.branches; });
     for (int c = 0; c < 3; ++c)
@@ -127,7 +128,9 @@ void PictureFile::place(const Film& film) {
         std::copy(part.rgb.begin(), part.rgb.end(), bytes_.rgb.begin() + std::ptrdiff_t(3 * first));
         return;
     }
-    for (const auto& [name, values] : linearPicture(film, options_.statistics).channels)
+    const FloatImage part = linearPicture(film, options_.statistics);
+    floats_.branches = part.branches;
+    for (const auto& [name, values] : part.channels)
         std::copy(values.begin(), values.end(),
                   floats_.channel(name).begin() + std::ptrdiff_t(first));
 }
