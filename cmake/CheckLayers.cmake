@@ -10,7 +10,7 @@ cmake_minimum_required(VERSION 3.22)
 # Headers of libraries from elsewhere that not every file may include, and the target they belong to.
 set(outside_prefixes
     "CLI/=CLI11::CLI11" "nlohmann/=nlohmann_json::nlohmann_json" "spdlog/=spdlog::spdlog"
-    "tinyxml2.h=tinyxml2::tinyxml2" "zip.h=PkgConfig::libzip" "png.h=PNG::PNG" "Imf=OpenEXR::OpenEXR"
+    "tinyxml2.h=tinyxml2::tinyxml2" "zip.h=PkgConfig::libzip" "zstd.h=PkgConfig::libzstd" "png.h=PNG::PNG" "Imf=OpenEXR::OpenEXR"
     "OpenEXR/=OpenEXR::OpenEXR" "zlib.h=ZLIB::ZLIB" "volk.h=stromboli_volk"
     "vulkan/=Vulkan::Headers")
 # Templates that take seconds to compile: no header includes them.

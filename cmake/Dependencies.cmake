@@ -21,6 +21,7 @@ find_package(OpenEXR REQUIRED)
 # Debian's CMake package of libzip also wants tools of other packages.
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(libzip REQUIRED IMPORTED_TARGET libzip)
+pkg_check_modules(libzstd REQUIRED IMPORTED_TARGET libzstd)
 find_package(VulkanHeaders REQUIRED)
 find_program(GZIP gzip REQUIRED)
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)

@@ -158,11 +158,6 @@ TEST_F(Program, APictureInBandsHasTheSameBytes) {
         EXPECT_EQ(json["samplesTaken"], 120 * 90 * 2);
         EXPECT_TRUE(json["complete"]);
     }
-    const ProgramRun kept =
-        stromboli({"render", scene, "-o", folder.file("a.exr"), "-r", "120", "90", "-s", "2",
-                   "--film-memory", "1", "--checkpoint", folder.file("c")});
-    EXPECT_EQ(kept.exitCode, 1);
-    EXPECT_THAT(kept.err, HasSubstr("keeps no checkpoint"));
 }
 
 TEST_F(Program, SaysThatAPictureIsBlackOrTooBright) {
