@@ -10,7 +10,8 @@ cmake_minimum_required(VERSION 3.22)
 # Headers of libraries from elsewhere that not every file may include, and the target they belong to.
 set(outside_prefixes
     "CLI/=CLI11::CLI11" "nlohmann/=nlohmann_json::nlohmann_json" "spdlog/=spdlog::spdlog"
-    "tinyxml2.h=tinyxml2::tinyxml2" "zip.h=PkgConfig::libzip" "png.h=PNG::PNG" "Imf=OpenEXR::OpenEXR"
+    "tinyxml2.h=tinyxml2::tinyxml2" "zip.h=PkgConfig::libzip" "zstd.h=PkgConfig::libzstd"
+    "png.h=PNG::PNG" "Imf=OpenEXR::OpenEXR"
     "jpeglib.h=JPEG::JPEG" "webp/=PkgConfig::libwebp" "draco/=draco::draco"
     "meshoptimizer.h=meshoptimizer::meshoptimizer"
     "OpenEXR/=OpenEXR::OpenEXR" "zlib.h=ZLIB::ZLIB" "volk.h=stromboli_volk"

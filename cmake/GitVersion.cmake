@@ -1,5 +1,7 @@
-# cmake -DSOURCE=folder -DBASE=0.1.0 -DINPUT=version.cpp.in -DOUTPUT=version.cpp -P GitVersion.cmake
-# or include()d, for the function alone.
+# cmake -DSOURCE=folder -DBASE=0.1.0 -DTOOLS=words -DINPUT=version.cpp.in -DOUTPUT=version.cpp
+#       -P GitVersion.cmake
+# or include()d, for the function alone. Writes the version, and what RenderingCode.cmake says of
+# the folder and the tools.
 #
 # The version of a source folder: the project's version; in a git checkout with the commits since
 # the tag of that version (v0.1.0; where there is no such tag: all commits) and the commit, as
@@ -42,6 +44,8 @@ function(stromboli_git_version source base result)
 endfunction()
 
 if(DEFINED OUTPUT)
+    include(${CMAKE_CURRENT_LIST_DIR}/RenderingCode.cmake)
     stromboli_git_version(${SOURCE} ${BASE} version)
+    stromboli_rendering_code(${SOURCE} "${TOOLS}" rendering_code)
     configure_file(${INPUT} ${OUTPUT} @ONLY) # leaves a file alone that would not change
 endif()

@@ -1,5 +1,6 @@
 #include "host/checkpoint/checkpoint_file.hpp"
 
+#include "host/checkpoint/compression.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Changes with every change of what is written around the session's own bytes.
-constexpr std::string_view kMagic = "stromboli checkpoint 1\n";
+constexpr std::string_view kMagic = "stromboli checkpoint 2\n";
 
 void append(std::vector<std::byte>& bytes, const void* data, size_t size) {
     const auto* const first = static_cast<const std::byte*>(data);
@@ -99,12 +100,16 @@ void writeCheckpoint(const fs::path& file, const Checkpoint& checkpoint) {
     std::vector<std::byte> bytes;
     append(bytes, kMagic.data(), kMagic.size());
     append(bytes, checkpoint.identity.program);
+    append(bytes, checkpoint.identity.code);
     append(bytes, checkpoint.identity.scene);
     append(bytes, &checkpoint.identity.sceneSum, sizeof checkpoint.identity.sceneSum);
     append(bytes, checkpoint.identity.backend);
     append(bytes, checkpoint.identity.device);
     const std::vector<std::byte> state = toBytes(checkpoint.state);
-    append(bytes, state.data(), state.size());
+    const uint64_t size = state.size();
+    append(bytes, &size, sizeof size);
+    const std::vector<std::byte> small = compressed(state);
+    append(bytes, small.data(), small.size());
     const uint32_t sum = checksum(bytes);
     append(bytes, &sum, sizeof sum);
     writeFileAtomically(file, bytes);
@@ -124,12 +129,16 @@ Checkpoint readCheckpoint(const fs::path& file) {
     parts = Parts(file, std::span(bytes).first(end).subspan(kMagic.size()));
     Checkpoint c;
     c.identity.program = parts.text();
+    c.identity.code = parts.text();
     c.identity.scene = parts.text();
     c.identity.sceneSum = parts.number<uint32_t>();
     c.identity.backend = parts.text();
     c.identity.device = parts.text();
+    const auto size = parts.number<uint64_t>();
+    const std::optional<std::vector<std::byte>> state = decompressed(parts.rest(), size);
+    if (!state) throw UsageError(fmt::format("{}: the checkpoint is damaged", file.string()));
     try {
-        c.state = sessionFromBytes(parts.rest());
+        c.state = sessionFromBytes(*state);
     } catch (const UsageError& error) {
         throw UsageError(fmt::format("{}: {}", file.string(), error.what()));
     }
@@ -143,8 +152,10 @@ void requireSameRender(const fs::path& file, const Checkpoint& checkpoint,
         throw UsageError(
             fmt::format("{}: the checkpoint is of {}; {}", file.string(), what, advice));
     };
-    if (kept.program != identity.program)
-        refuse("another build of the program", "finish it with that one, or begin anew");
+    if (kept.code != identity.code)
+        refuse(fmt::format("another build of the program, {}, which takes other samples than {}",
+                           kept.program, identity.program),
+               "finish it with that one, or begin anew");
     if (kept.backend != identity.backend)
         refuse("the backend " + kept.backend, "name it with --backend");
     const PictureArea &a = checkpoint.state.settings.area, &b = settings.area;

@@ -10,7 +10,8 @@ namespace stromboli {
 
 /// What a render is of: a checkpoint of it goes on with nothing else.
 struct RenderIdentity {
-    std::string program;   ///< version and checksum of the executable
+    std::string program;   ///< its version, for messages
+    std::string code;      ///< renderingCode()
     std::string scene;     ///< its name, for messages
     uint32_t sceneSum = 0; ///< sceneIdentity()
     std::string backend;   ///< of a kind: kinds keep a pixel's sums in terms of their own

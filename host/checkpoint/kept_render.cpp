@@ -36,11 +36,11 @@ class Keeper {
         return written_ ? readCheckpoint(render_.file).state : render_.begun;
     }
 
-    void end(const RenderSession& session, bool finished) {
+    void end(const RenderSession& session, bool finished, bool hasMore) {
         if (render_.file.empty()) return;
-        if (!finished || render_.keepsAtEnd)
-            write(session);
-        else if (hasFile()) {
+        if (!finished || render_.keepsAtEnd) {
+            if (hasMore || !render_.begun) write(session); // else the file has all of it
+        } else if (hasFile()) {
             std::error_code failed; // what cannot be removed does no harm
             isRemoved_ = std::filesystem::remove(render_.file, failed);
         }
@@ -83,12 +83,13 @@ KeptOutcome renderKept(const KeptRender& render, const MakeBackend& makeBackend,
         const std::unique_ptr<Backend> backend = makeBackend(render.settings, again);
         RenderSession session =
             begun ? RenderSession(*backend, *begun) : RenderSession(*backend, render.settings);
+        const uint64_t samplesBefore = session.samplesDone();
         result.prepareSeconds += preparing.seconds();
         const Stopwatch rendering;
         try {
             result.stopped = !runPasses(session, keeper, progress);
             result.outcome = session.outcome();
-            keeper.end(session, !result.stopped);
+            keeper.end(session, !result.stopped, session.samplesDone() > samplesBefore);
         } catch (const DeviceLostError& error) {
             if (!again) {
                 result.renderSeconds += rendering.seconds();

@@ -30,7 +30,7 @@ class Sum {
 
   private:
     void addBytes(const void* bytes, size_t count) {
-        if (count == 0) return; // zlib takes a null pointer for a wish to begin anew
+        if (count == 0) return; // an empty vector may have no address, which zlib takes for a start
         value_ = uint32_t(crc32_z(value_, static_cast<const Bytef*>(bytes), count));
     }
 

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+
 namespace stromboli {
 namespace {
 
@@ -54,6 +57,37 @@ void declareMeasuring(OptionList& list, bench::BenchSettings& s) {
     list.number("--seed", "N", "another seed, another noise", s.seed, kSeeds);
 }
 
+/// What is given and no part that is measured asks for.
+void remarkOnWhatIsLeftOut(DeclaredCommand& c, const bench::BenchSettings& s) {
+    using bench::Part;
+    struct Row {
+        std::vector<std::string> options;
+        std::set<Part> parts; ///< that heed them
+        bool bySizes;         ///< --sizes does
+    };
+    const std::set<Part> paths = {Part::Paths, Part::Variants, Part::Robustness};
+    // The bounce rays choose the build quality of the Embree that paths are measured against.
+    const Row rows[] = {
+        {{"SCENE"},
+         {Part::Bvh, Part::Rays, Part::Paths, Part::Variants, Part::Robustness, Part::Startup},
+         false},
+        {{"--rays"}, {Part::Rays, Part::Paths, Part::Robustness}, true},
+        {{"-r", "--seed"}, {Part::Rays, Part::Paths, Part::Variants, Part::Robustness}, true},
+        {{"-m", "-s", "--sampler"}, paths, false},
+    };
+    std::vector<std::string> unheeded;
+    for (const Row& row : rows) {
+        const bool heeded =
+            (row.bySizes && !s.sizes.empty()) ||
+            std::ranges::any_of(row.parts, [&](Part part) { return s.parts.contains(part); });
+        if (!heeded) unheeded.insert(unheeded.end(), row.options.begin(), row.options.end());
+    }
+    const std::string ignored = c.givenOf(unheeded);
+    if (!ignored.empty())
+        c.options.remarks.push_back(
+            fmt::format("--only leaves out what asks for it: ignored: {}", ignored));
+}
+
 } // namespace
 
 void declareBench(DeclaredCommand& c) {
@@ -87,6 +121,7 @@ void declareBench(DeclaredCommand& c) {
     c.finish = [&c, &s] {
         s.threads = c.options.threads;
         s.device = c.options.device;
+        remarkOnWhatIsLeftOut(c, s);
     };
 }
 

@@ -4,7 +4,7 @@
 
 namespace stromboli {
 
-static std::string shellQuoted(const std::string& argument) {
+std::string shellQuoted(const std::string& argument) {
     constexpr const char* kPlain =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=./:,@%";
     if (!argument.empty() && argument.find_first_not_of(kPlain) == std::string::npos)

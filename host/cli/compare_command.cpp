@@ -3,6 +3,7 @@
 #include "host/compare/false_color.hpp"
 #include "host/core/error.hpp"
 #include "host/core/json.hpp"
+#include "host/core/log.hpp"
 #include "host/core/output.hpp"
 #include "host/film/exr.hpp"
 #include "host/film/png.hpp"
@@ -67,6 +68,10 @@ int compareCommand(const Options& options) {
     const Picture reference = compare::readPicture(o.reference);
     const Picture picture = compare::readPicture(o.picture);
     const Comparison comparison = compare::comparePictures(reference, picture, o.settings);
+    if (o.familyErrorGiven && !comparison.zTest)
+        logging::warn(fmt::format("{} has no variances (render --aov writes them into EXR files), "
+                                  "so there are no z-tests: ignored: --alpha",
+                                  reference.film ? o.picture : o.reference));
     const std::vector<std::string> broken = compare::violations(comparison, o.thresholds);
     writeDifference(o, reference, picture, comparison);
     nowDoing("printing", StatusLine::OfOthers);

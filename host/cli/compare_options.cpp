@@ -78,6 +78,7 @@ void declareCompare(DeclaredCommand& c) {
               kErrorRates);
     c.finish = [&c, &o] {
         checkFiles(o);
+        o.familyErrorGiven = c.has("--alpha");
         if (c.has("--show") && !namesPng(o.differenceFile))
             throw UsageError("--show says what --diff FILE.png shows: there is no such file");
     };

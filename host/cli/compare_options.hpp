@@ -24,6 +24,7 @@ struct CompareOptions {
     std::string jsonFile;       ///< empty: none; "-": standard output, instead of the text
     std::string differenceFile; ///< empty: none
     DifferenceView show = DifferenceView::Flip;
+    bool familyErrorGiven = false; ///< on the command line
 };
 
 } // namespace stromboli

@@ -20,13 +20,28 @@ void declareOutput(DeclaredCommand& c) {
         .text("-o,--output", "FILE",
               "picture to write: .png (sRGB, 8 bit) or .exr (linear); -: a PNG on standard output",
               o.output)
+        .besidePicture()
         .proposes(Proposed::Files);
     c.list.real("--exposure", "EV", "PNG: radiance times 2^EV", o.tone.exposure, kStops);
     c.list.flag("--aov", "EXR: also sample counts and variances of the mean", o.statisticsChannels);
     c.list
         .text("--stats", "FILE.json",
               "write statistics of the render as JSON; - for standard output", o.statsFile)
+        .besidePicture()
         .proposes(Proposed::Files);
+    c.list
+        .words("--notes", "WHETHER",
+               "on: the picture's file says of which scene it is, with which seed, samples, "
+               "version, device and command it was made (info shows it); off: it does not",
+               1,
+               [&o](const Words& words) {
+                   if (words[0] != "on" && words[0] != "off")
+                       refuse("--notes", words[0], "on or off");
+                   o.notes = words[0] == "on";
+               })
+        .usually("on")
+        .besidePicture()
+        .proposes({"on", "off"});
 }
 
 /// What the kind of picture has no use for.
@@ -51,7 +66,7 @@ void remarkOnWhatIsIgnored(DeclaredCommand& c) {
     };
     if (o.sampleAlone)
         remark("--pixel prints one sample and makes no picture",
-               {"-o", "--stats", "--exposure", "--aov", "--crop", "--cell"});
+               {"-o", "--stats", "--exposure", "--aov", "--notes", "--crop", "--cell"});
     if (isStandardOutput(o.output) && (o.budget.adaptive.enabled || o.budget.stop.open()))
         o.remarks.emplace_back(
             "-o - has no place for a second picture: the rate picture is left out");
@@ -65,14 +80,19 @@ void declareCheckpoints(DeclaredCommand& c) {
               "keep the state of the render there, and leave it at the end; off: nowhere",
               o.checkpointFile)
         .usually("OUTPUT.checkpoint, from the first minute to the end of the render")
+        .besidePicture()
         .proposes({"off"})
         .proposes(Proposed::Files);
-    c.list.real("--checkpoint-every", "S", "seconds from one checkpoint to the next",
-                o.checkpointSeconds, kSeconds);
-    c.list.flag("--resume",
-                "go on from the checkpoint, to the same bytes as if never interrupted; also with "
-                "another -s, --noise, --time or -a (--time counts all runs)",
-                o.resume);
+    c.list
+        .real("--checkpoint-every", "S", "seconds from one checkpoint to the next",
+              o.checkpointSeconds, kSeconds)
+        .besidePicture();
+    c.list
+        .flag("--resume",
+              "go on from the checkpoint, to the same bytes as if never interrupted; also with "
+              "another -s, --noise, --time or -a (--time counts all runs)",
+              o.resume)
+        .besidePicture();
 }
 
 void declareRender(DeclaredCommand& c) {
@@ -93,7 +113,8 @@ void declareRender(DeclaredCommand& c) {
                 "mebibytes for the film and what belongs to it; a picture that needs more is "
                 "rendered in bands",
                 o.filmMebibytes, {1, 1u << 30})
-        .usually("half of the machine's memory");
+        .usually("half of the machine's memory")
+        .besidePicture();
     c.list.choice("--backend", "WHICH", "what takes the samples", o.backend);
     declareDevice(c);
     declareHost(c);

@@ -9,6 +9,7 @@ void declareDevice(DeclaredCommand& c) {
         .text("--device", "D", "number, UUID or part of a name from 'stromboli devices', or cpu",
               c.options.device)
         .usually("the best")
+        .besidePicture()
         .proposes({"cpu"});
 }
 
@@ -17,10 +18,13 @@ void declareHost(DeclaredCommand& c) {
     c.list.group("Device");
     c.list
         .number("-t,--threads", "N", "host threads (BVH, reference); 0: all", o.threads, {0, 65536})
-        .usually("all");
+        .usually("all")
+        .besidePicture();
     c.list.group("Messages");
-    c.list.flag("-q,--quiet", "warnings and errors only", [&o] { o.verbosity = Verbosity::Quiet; });
+    c.list.flag("-q,--quiet", "warnings and errors only", [&o] { o.verbosity = Verbosity::Quiet; })
+        .besidePicture();
     c.list.flag("-v,--verbose", "more detail", [&o] { o.verbosity = Verbosity::Verbose; })
+        .besidePicture()
         .excludes("-q");
 }
 

@@ -18,6 +18,7 @@ void print(size_t index, const vulkan::DeviceDescription& d, bool chosen) {
                limits.maxTexelBufferElements >> 10);
     fmt::print("     subgroup: {} lanes; timestamps: {}\n", d.subgroupSize,
                d.timestampBits ? "yes" : "no (the host's clock is used)");
+    fmt::print("     floats: {}\n", inWords(d.floatControls));
     fmt::print("     uuid: {}\n", d.uuid);
     fmt::print("     {}\n", d.usable() ? "usable" : "not usable: lacks " + d.missing);
 }

@@ -42,6 +42,22 @@ void useCs184(DeclaredCommand& c) {
     c.asked.usuallySpread = false;
 }
 
+/// Which light a light sample takes is no question where each is sampled in turn, and without
+/// samples of emitters a question of lights that no direction meets.
+void remarkOnLightChoice(DeclaredCommand& c) {
+    const Estimator& e = c.options.estimator;
+    if (!c.has("--light-choice") || e.integrator == Integrator::Normals) return;
+    std::vector<std::string>& remarks = c.options.remarks;
+    if (e.conventions.everyLightInTurn)
+        remarks.emplace_back("--cs184 samples every light in turn: ignored: --light-choice");
+    else if (c.options.backend == BackendChoice::Reference)
+        remarks.emplace_back("the reference samples every light in turn: ignored: --light-choice");
+    else if (!samplesLights(e.directLight))
+        remarks.push_back(fmt::format("--direct {} finds what shines by directions: --light-choice "
+                                      "is heeded among point, spot and directional lights alone",
+                                      nameOf(e.directLight)));
+}
+
 } // namespace
 
 void declareEstimator(DeclaredCommand& c) {
@@ -100,6 +116,7 @@ void finishEstimator(DeclaredCommand& c) {
     if (!moot.empty())
         c.options.remarks.push_back(
             fmt::format("--integrator normals follows no light: ignored: {}", moot));
+    remarkOnLightChoice(c);
     if (c.has("--gap-proposal") && e.gapProposal && c.options.backend == BackendChoice::Reference)
         c.options.remarks.emplace_back(
             "the reference makes no gap proposal: --gap-proposal ignored");

@@ -1,10 +1,11 @@
 // Checkpoints of `render`: which file, and what it means to go on from it.
 #include "host/cli/going_on.hpp"
 
+#include "host/checkpoint/band_files.hpp"
 #include "host/checkpoint/scene_identity.hpp"
-#include "host/core/checksum.hpp"
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
+#include "host/render/bands.hpp"
 #include "host/version/version.hpp"
 
 #include <fmt/format.h>
@@ -31,15 +32,19 @@ double meanSamples(const SessionState& state) {
 } // namespace
 
 Begun takeUp(const Options& options) {
-    Begun begun{checkpointFileOf(options), {}};
+    Begun begun{checkpointFileOf(options), {}, 0};
     if (!options.resume) return begun;
     if (begun.file.empty())
         throw UsageError("--resume needs a checkpoint, and --checkpoint is off");
-    if (!fs::exists(begun.file)) {
-        logging::warn(fmt::format("there is no {}: the render begins anew", begun.file));
+    if (fs::exists(begun.file)) {
+        begun.checkpoint = readCheckpoint(begun.file);
         return begun;
     }
-    begun.checkpoint = readCheckpoint(begun.file);
+    begun.bands = bandsKept(begun.file);
+    if (begun.bands == 0)
+        logging::warn(fmt::format("there is no {}: the render begins anew", begun.file));
+    for (size_t band = 0; band < begun.bands && !begun.checkpoint; ++band)
+        begun.checkpoint = begunBand(begun, band, begun.bands).checkpoint;
     return begun;
 }
 
@@ -54,15 +59,47 @@ Options optionsToGoOn(Options options, const Begun& begun) {
     return options;
 }
 
-void sayBands(size_t bands, const Options& options, const Begun& begun) {
-    if (begun.checkpoint || (!options.checkpointFile.empty() && options.checkpointFile != "off"))
-        throw UsageError(fmt::format("the film does not fit the memory, and a picture in bands "
-                                     "({} here) keeps no checkpoint: leave out --checkpoint and "
-                                     "--resume, or give it more --film-memory",
-                                     bands));
-    logging::info(fmt::format("the film does not fit the memory: rendering {} bands, one after the "
-                              "other, without checkpoints",
-                              bands));
+std::vector<PictureArea> bandsToRender(const PictureArea& area, uint64_t mostPixels,
+                                       const Begun& begun) {
+    const std::vector<PictureArea> bands = bandsOf(area, mostPixels);
+    const auto refuse = [&](const std::string& what) {
+        throw UsageError(fmt::format("{}: {}", begun.file, what));
+    };
+    if (begun.bands == 0) {
+        if (begun.checkpoint && bands.size() > 1)
+            refuse("the checkpoint is of a picture in one piece, which does not fit the memory "
+                   "here: give it more --film-memory");
+        if (bands.size() > 1)
+            logging::info(fmt::format("the film does not fit the memory: rendering {} bands, one "
+                                      "after the other",
+                                      bands.size()));
+        return bands;
+    }
+    const Crop all = area.rendered();
+    if (begun.bands > all.height)
+        refuse(fmt::format("the checkpoints are of {} bands, and the picture has {} rows: give the "
+                           "same -r and --crop",
+                           begun.bands, all.height));
+    // A row is rendered whether it fits or not.
+    if (begun.bands < bands.size() && bands.size() < all.height)
+        refuse(fmt::format("the checkpoints are of {} bands, which do not fit the memory here: "
+                           "give them more --film-memory",
+                           begun.bands));
+    logging::info(fmt::format("rendering {} bands, one after the other, as before", begun.bands));
+    return inBands(area, begun.bands);
+}
+
+Begun begunBand(const Begun& begun, size_t band, size_t count) {
+    if (count == 1 || begun.file.empty()) return {begun.file, begun.checkpoint, 0};
+    Begun result{bandFile(begun.file, band, count).string(), {}, begun.bands};
+    if (begun.bands > 0 && fs::exists(result.file)) result.checkpoint = readCheckpoint(result.file);
+    return result;
+}
+
+void forgetEarlier(const std::string& file, size_t bands) {
+    removeBandFiles(file);
+    std::error_code failed; // what cannot be removed does no harm
+    if (bands > 1) fs::remove(file, failed);
 }
 
 KeptRender keptRender(const Job& job, const RenderSettings& settings, const Options& options,
@@ -70,8 +107,9 @@ KeptRender keptRender(const Job& job, const RenderSettings& settings, const Opti
     KeptRender render;
     const auto identity = [&job, scene = job.scene.file, backend = nameOf(options.backend),
                            device] {
-        return RenderIdentity{fmt::format("{} {:08x}", version(), checksumOfFile("/proc/self/exe")),
-                              scene, sceneIdentity(job.scene, job.camera), backend, device};
+        return RenderIdentity{version(), renderingCode(),
+                              scene,     sceneIdentity(job.scene, job.camera),
+                              backend,   device};
     };
     render.identity = identity;
     render.settings = settings;

@@ -4,8 +4,10 @@
 #include "host/cli/info_json.hpp"
 #include "host/cli/job.hpp"
 #include "host/cli/progress.hpp"
+#include "host/core/json.hpp"
 #include "host/core/output.hpp"
 #include "host/core/printable.hpp"
+#include "host/film/image_file.hpp"
 #include "host/kernel/kernel_buffers.hpp"
 #include "host/kernel/kernel_features.hpp"
 
@@ -65,9 +67,28 @@ void printBvh(const BuiltScene& built) {
                s.bytesPerPrimitive());
 }
 
+/// Of what a picture of this program says in its file.
+int infoOfPicture(const Options& options) {
+    const PictureNotes notes = readPictureNotes(options.scene);
+    nowDoing("printing", StatusLine::OfOthers);
+    if (!options.infoJsonFile.empty()) {
+        Json json = Json::object();
+        for (const PictureNote& note : notes)
+            json[note.name] = printable(note.text);
+        writeOutput(options.infoJsonFile, json.dump(2) + "\n");
+        return 0;
+    }
+    fmt::print("picture {}{}\n", printable(options.scene),
+               notes.empty() ? ": its file says nothing of how it was made" : "");
+    for (const PictureNote& note : notes)
+        fmt::print("  {}: {}\n", printable(note.name), printable(note.text));
+    return 0;
+}
+
 } // namespace
 
 int infoCommand(const Options& options) {
+    if (namesPicture(options.scene)) return infoOfPicture(options);
     const Job job = prepareJob(options);
     const BuiltScene built = buildScene(job);
     nowDoing("printing", StatusLine::OfOthers);

@@ -72,6 +72,11 @@ CommandOption& CommandOption::changesDefaults() {
     return *this;
 }
 
+CommandOption& CommandOption::besidePicture() {
+    isBesidePicture = true;
+    return *this;
+}
+
 CommandOption& CommandOption::hidden() {
     isHidden = true;
     return *this;

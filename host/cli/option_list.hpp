@@ -65,6 +65,8 @@ class CommandOption {
     CommandOption& required();
     /// Changes the defaults of other options: is stored before them, wherever it stands.
     CommandOption& changesDefaults();
+    /// Has no effect on the picture: its notes leave it out.
+    CommandOption& besidePicture();
     /// Is understood, but not listed by --help, the manual page and completion.
     CommandOption& hidden();
     /// Words that completion proposes. Others may be understood too.
@@ -84,7 +86,7 @@ class CommandOption {
     std::string range; ///< of its numbers, in words; empty: it takes none
     uint32_t wordCount = 1;
     bool anyNumber = false, separatedByCommas = false, mayRepeat = false;
-    bool isRequired = false, isHidden = false, isFirst = false;
+    bool isRequired = false, isHidden = false, isFirst = false, isBesidePicture = false;
     std::vector<Conflict> conflicts;
     std::vector<std::string> needed;
     Proposed proposed = Proposed::Nothing;

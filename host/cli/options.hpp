@@ -61,6 +61,9 @@ struct Options {
     double checkpointSeconds = 60;         ///< from one to the next
     bool resume = false;                   ///< goes on from the checkpoint
     std::optional<uint32_t> filmMebibytes; ///< for the film; empty: half of the machine's memory
+    /// The command without what leaves the picture as it is: its own name, the device, checkpoints.
+    std::string pictureCommand;
+    bool notes = true;                     ///< of the picture, in its file
     bool statisticsChannels = false;       ///< EXR: sample counts and variances
     std::optional<SampleName> sampleAlone; ///< print this sample and write nothing
     uint32_t threads = 0;                  ///< host threads; 0: all

@@ -1,4 +1,5 @@
 // The only file that knows the library that splits the command line into options.
+#include "host/cli/command_line.hpp"
 #include "host/cli/declared_command.hpp"
 #include "host/cli/nearest_name.hpp"
 #include "host/cli/program_text.hpp"
@@ -69,6 +70,20 @@ void checkTogether(const CommandOption& o, const Given& given) {
     for (const std::string& other : o.needed)
         if (!given.count(other))
             throw UsageError(fmt::format("{} requires {} (see --help)", o.name(), other));
+}
+
+/// The command as it decides on the picture, in the order of --help: however it was written, the
+/// same picture has the same words.
+std::string pictureCommandOf(const DeclaredCommand& command, const Given& given) {
+    std::string text = "stromboli " + command.name;
+    for (const CommandOption& o : command.list.all()) {
+        const auto words = given.find(o.name());
+        if (words == given.end() || o.isBesidePicture) continue;
+        if (!o.dashedNames().empty()) text += " " + o.name();
+        for (const std::string& word : words->second)
+            text += " " + shellQuoted(word);
+    }
+    return text;
 }
 
 void store(const OptionList& list, const Given& given) {
@@ -188,6 +203,7 @@ DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, const Words
     for (const auto& option : given)
         command.given.insert(option.first);
     store(command.list, given);
+    command.options.pictureCommand = pictureCommandOf(command, given);
     command.finish();
     return &command;
 }

@@ -61,23 +61,32 @@ void addTo(RenderReport& report, const KeptOutcome& kept) {
 void takeSamples(const Job& job, const Options& options, const Begun& begun,
                  const MakeBackend& makeBackend, uint64_t mostPixels, RenderOutputs& outputs,
                  RenderReport& report) {
-    const std::vector<PictureArea> bands = bandsOf(job.settings.area, mostPixels);
-    if (bands.size() > 1) sayBands(bands.size(), options, begun);
+    const std::vector<PictureArea> bands = bandsToRender(job.settings.area, mostPixels, begun);
+    bool alone = begun.checkpoint.has_value(); // no checkpoint of an earlier render is in the way
+    double secondsBefore = 0;                  // of the bands that were done in earlier runs
     Progress progress;
     progress.pixels = job.settings.area.pixelCount();
     nowDoing("taking samples", StatusLine::OfOthers);
-    for (const PictureArea& band : bands) {
+    for (size_t i = 0; i < bands.size(); ++i) {
+        const PictureArea& band = bands[i];
         if (report.interrupted || report.lost) {
             outputs.leaveOut(band);
             report.pixelsUnreached += band.pixelCount();
             continue;
         }
         progress.bandPixels = band.pixelCount();
-        const KeptRender render =
+        KeptRender render =
             keptRender(job,
-                       settingsOf(job.settings, band, report.renderSeconds,
+                       settingsOf(job.settings, band, secondsBefore + report.renderSeconds,
                                   progress.pixels - progress.pixelsDone),
-                       options, bands.size() == 1 ? begun : Begun{}, report.backend);
+                       options, begunBand(begun, i, bands.size()), report.backend);
+        if (render.begun) secondsBefore += render.begun->secondsUsed;
+        if (bands.size() > 1) render.keepsAtEnd = !render.file.empty(); // until all are done
+        render.identity = [&, identity = std::move(render.identity)] {
+            if (!alone) forgetEarlier(begun.file, bands.size());
+            alone = true;
+            return identity();
+        };
         KeptOutcome kept = renderKept(
             render, makeBackend,
             [&](const RenderProgress& state) {
@@ -94,6 +103,7 @@ void takeSamples(const Job& job, const Options& options, const Begun& begun,
         progress.pixelsDone += band.pixelCount();
         progress.samplesDone = report.samplesTaken / job.settings.estimator.branches;
     }
+    report.bands = bands.size();
 }
 
 /// As many as half of the host's memory, and the device's, have room for.
@@ -189,6 +199,8 @@ int renderCommand(const Options& asked) {
     nowDoing("writing " + options.output);
     const Stopwatch writing;
     outputs.write(report);
+    if (report.bands > 1 && !report.interrupted && !report.lost && options.checkpointFile.empty())
+        forgetEarlier(begun.file, report.bands);
     report.writeSeconds = writing.seconds();
     logReport(report, job.settings);
     logBrightness(outputs.brightness(), job, options);

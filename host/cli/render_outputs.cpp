@@ -3,8 +3,12 @@
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
 #include "host/core/output.hpp"
+#include "host/core/printable.hpp"
 #include "host/film/png.hpp"
 #include "host/film/rate_picture.hpp"
+#include "host/version/version.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -27,6 +31,19 @@ uint32_t mostSamples(const Film& film, const Budget& budget) {
     return most;
 }
 
+/// Nothing of when or where: the same command makes the same bytes. `samples`: paths a pixel, on
+/// the mean.
+PictureNotes notesOf(const Job& job, const Options& options, const std::string& device,
+                     const std::string& samples) {
+    if (!options.notes) return {};
+    return {{"Software", fmt::format("Stromboli {}", version())},
+            {"Scene", printable(options.scene)},
+            {"Seed", std::to_string(job.settings.estimator.seed)},
+            {"Samples", samples},
+            {"Device", printable(device)},
+            {"Command", printable(options.pictureCommand)}};
+}
+
 } // namespace
 
 void checkOutputs(const Options& options) {
@@ -45,11 +62,12 @@ void checkOutputs(const Options& options) {
 void checkDiskSpace(const Job& job, const Options& options) {
     if (isStandardOutput(options.output)) return;
     const Crop part = job.settings.area.rendered();
-    uint64_t bytes =
-        largestPictureFile(options.output, part.width, part.height, options.statisticsChannels);
+    const PictureNotes notes = notesOf(job, options, "", "");
+    uint64_t bytes = largestPictureFile(options.output, part.width, part.height,
+                                        options.statisticsChannels, notes);
     if (writesRates(options, job.settings.budget))
-        bytes +=
-            largestPictureFile(ratePicturePath(options.output), part.width, part.height, false);
+        bytes += largestPictureFile(ratePicturePath(options.output), part.width, part.height, false,
+                                    notes);
     checkFreeSpace(options.output, bytes);
 }
 
@@ -72,8 +90,11 @@ void RenderOutputs::leaveOut(const PictureArea& band) {
 }
 
 void RenderOutputs::write(const RenderReport& report) const {
-    picture_.write();
-    if (rates_) writePng(ratePicturePath(options_.output), *rates_, PngColorSpace::Unnamed);
+    const double samples = double(report.samplesTaken) / double(job_.settings.area.pixelCount());
+    const PictureNotes notes =
+        notesOf(job_, options_, report.backend, fmt::format("{:.6g} a pixel", samples));
+    picture_.write(notes);
+    if (rates_) writePng(ratePicturePath(options_.output), *rates_, PngColorSpace::Unnamed, notes);
     if (!options_.statsFile.empty()) writeStatistics(options_.statsFile, report, job_);
 }
 

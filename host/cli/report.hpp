@@ -23,6 +23,7 @@ struct RenderReport {
     std::optional<SampleName> firstRejected;
     PictureNoise noise;
     uint64_t pixelsUnreached = 0; ///< without samples
+    size_t bands = 1;             ///< it was rendered in, one after the other
     bool interrupted = false;
     std::optional<std::string> lost; ///< what the device said when it was lost for good
     std::string checkpoint;          ///< from which the render can go on; empty: there is none

@@ -74,6 +74,7 @@ Comparison comparePictures(const Picture& referenceIn, const Picture& pictureIn,
         CheckSettings check;
         check.familyError = settings.familyError;
         result.zTest = crossCheck(*picture.film, *reference.film, check);
+        result.branches = std::max(reference.film->branches, picture.film->branches);
         result.unevenSamples = hasUnevenSamples(*reference.film) || hasUnevenSamples(*picture.film);
     }
     return result;

@@ -35,6 +35,7 @@ struct Comparison {
     double flipStartStops = 0, flipStopStops = 0;
     int flipExposures = 1;
     std::optional<CheckResult> zTest; ///< where both have variances; A is the picture
+    uint32_t branches = 1;            ///< paths of a sample, the larger one of the two pictures
     bool unevenSamples = false;       ///< sample counts vary: adaptive sampling
 };
 

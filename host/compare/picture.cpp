@@ -34,10 +34,12 @@ bool hasAll(const FloatImage& image, const std::string& prefix) {
                        [&](const char* color) { return image.channels.contains(prefix + color); });
 }
 
-/// The sums that linearPicture() wrote the variances of. The channel "samples" counts rejected
-/// samples too; they are so few that the variance of the rest is not affected.
+/// The sums that linearPicture() wrote the variances of. The channel "samples" counts paths, of
+/// which each sample has as many as branches; and rejected samples too, which are so few that the
+/// variance of the rest is not affected.
 Film filmOf(const fs::path& path, const Picture& picture, const FloatImage& image) {
     Film film(picture.width, picture.height);
+    film.branches = image.branches;
     for (size_t i = 0; i < film.pixels.size(); ++i) {
         const auto value = [&](const std::string& channel, double most) {
             const double v = image.channels.at(channel)[i];
@@ -49,7 +51,8 @@ Film filmOf(const fs::path& path, const Picture& picture, const FloatImage& imag
             return v;
         };
         PixelStatistics& pixel = film.pixels[i];
-        pixel.count = uint32_t(value("samples", std::numeric_limits<uint32_t>::max()));
+        const auto paths = uint32_t(value("samples", std::numeric_limits<uint32_t>::max()));
+        pixel.count = paths / image.branches;
         pixel.mean = picture.rgb[i];
         const double n = pixel.count;
         for (int c = 0; c < 3; ++c)

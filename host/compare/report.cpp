@@ -54,6 +54,10 @@ std::string toText(const Comparison& c) {
                             c.notFiniteReference, c.notFinitePicture);
     if (!c.zTest) return text;
     text += "z-tests, A the picture, B the reference:\n" + formatCheck(*c.zTest);
+    if (c.branches > 1)
+        text += fmt::format("note: {} paths share each sample (--branches): variances rest on so "
+                            "many times fewer samples than -s counts\n",
+                            c.branches);
     if (c.unevenSamples)
         text += "note: sample counts vary; adaptive sampling is slightly biased, and tests with "
                 "many samples may see it\n";
@@ -82,6 +86,7 @@ Json toJson(const Comparison& c) {
               {"picture", c.notFinitePicture},
               {"pictureAlone", c.notFiniteInPictureAlone}}},
             {"zTest", c.zTest ? toJson(*c.zTest) : Json(nullptr)},
+            {"branches", c.branches},
             {"unevenSamples", c.unevenSamples}};
 }
 

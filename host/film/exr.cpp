@@ -7,13 +7,19 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStdIO.h>
+#include <OpenEXR/ImfStringAttribute.h>
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace stromboli {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kBranches = "branches";
 
 /// Where OpenEXR finds a channel whose first value belongs to the corner of `window`.
 static Imf::Slice sliceOf(const std::vector<float>& values, const Imath::Box2i& window,
@@ -29,10 +35,14 @@ static Imath::Box2i windowOf(const Crop& part) {
 }
 
 /// Encoded in memory, because OpenEXR does not notice a disk that is full when it closes a file.
-static std::string encode(const FloatImage& image) {
+static std::string encode(const FloatImage& image, const PictureNotes& notes) {
     Imf::Header header(windowOf({0, 0, image.area.width, image.area.height}),
                        windowOf(image.area.rendered()));
     header.compression() = Imf::ZIP_COMPRESSION;
+    // By itself, and no note: it says what the channels mean.
+    if (image.branches > 1) header.insert(kBranches, Imf::IntAttribute(int(image.branches)));
+    for (const PictureNote& note : notes)
+        header.insert(note.name, Imf::StringAttribute(note.text));
     Imf::FrameBuffer frameBuffer;
     for (const auto& [name, values] : image.channels) {
         header.channels().insert(name, Imf::Channel(Imf::FLOAT));
@@ -66,6 +76,8 @@ static FloatImage decode(const fs::path& path) {
     Imf::InputFile file(path.c_str());
     const Imath::Box2i window = file.header().dataWindow();
     FloatImage image(areaOf(file.header().displayWindow(), window));
+    if (const auto* branches = file.header().findTypedAttribute<Imf::IntAttribute>(kBranches))
+        image.branches = uint32_t(std::max(branches->value(), 1));
     Imf::FrameBuffer frameBuffer;
     const Imf::ChannelList& channels = file.header().channels();
     for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
@@ -78,10 +90,10 @@ static FloatImage decode(const fs::path& path) {
     return image;
 }
 
-void writeExr(const fs::path& path, const FloatImage& image) {
+void writeExr(const fs::path& path, const FloatImage& image, const PictureNotes& notes) {
     std::string bytes;
     try {
-        bytes = encode(image);
+        bytes = encode(image, notes);
     } catch (const std::exception& error) {
         throw OutputError(fmt::format("{}: cannot encode EXR: {}", path.string(), error.what()));
     }
@@ -91,6 +103,20 @@ void writeExr(const fs::path& path, const FloatImage& image) {
 FloatImage readExr(const fs::path& path) {
     try {
         return decode(path);
+    } catch (const std::exception& error) {
+        throw UsageError(fmt::format("{}: cannot read EXR: {}", path.string(), error.what()));
+    }
+}
+
+PictureNotes readExrNotes(const fs::path& path) {
+    try {
+        const Imf::InputFile file(path.c_str());
+        const Imf::Header& header = file.header();
+        PictureNotes notes;
+        for (auto i = header.begin(); i != header.end(); ++i)
+            if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&i.attribute()))
+                notes.push_back({i.name(), text->value()});
+        return notes;
     } catch (const std::exception& error) {
         throw UsageError(fmt::format("{}: cannot read EXR: {}", path.string(), error.what()));
     }

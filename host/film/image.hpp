@@ -27,6 +27,7 @@ struct FloatImage {
     uint32_t width = 0, height = 0; ///< of the part
     PictureArea area;               ///< where the part lies in the whole picture
     std::map<std::string, std::vector<float>> channels;
+    uint32_t branches = 1; ///< paths of each sample that the channel "samples" counts by paths
 
     FloatImage() = default;
     explicit FloatImage(const PictureArea& a)

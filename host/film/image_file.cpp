@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cctype>
 #include <limits>
+#include <optional>
 
 namespace stromboli {
 
@@ -19,15 +20,24 @@ namespace {
 enum class Format { Png, Exr };
 }
 
-static Format formatOf(const fs::path& path) {
-    if (isStandardOutput(path)) return Format::Png;
+static std::optional<Format> formatNamedBy(const fs::path& path) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (extension == ".png") return Format::Png;
     if (extension == ".exr") return Format::Exr;
+    return std::nullopt;
+}
+
+static Format formatOf(const fs::path& path) {
+    if (isStandardOutput(path)) return Format::Png;
+    if (const std::optional<Format> format = formatNamedBy(path)) return *format;
     throw UsageError(fmt::format("{}: unknown kind of picture; the name must end in .png or .exr",
                                  path.string()));
+}
+
+bool namesPicture(const fs::path& path) {
+    return formatNamedBy(path).has_value();
 }
 
 bool isPng(const fs::path& path) {
@@ -39,20 +49,26 @@ void checkWritable(const fs::path& path) {
     checkOutputWritable(path);
 }
 
-uint64_t largestPictureFile(const fs::path& path, uint32_t width, uint32_t height,
-                            bool statistics) {
+uint64_t largestPictureFile(const fs::path& path, uint32_t width, uint32_t height, bool statistics,
+                            const PictureNotes& notes) {
     const uint64_t pixels = uint64_t(width) * height;
-    constexpr uint64_t kHeaders = 4096; // bytes; a few hundred are used
+    uint64_t headers = 4096;              // bytes; a few hundred are used
+    for (const PictureNote& note : notes) // PNG takes at most 17 bytes around each, EXR 13
+        headers += note.name.size() + note.text.size() + 17;
     if (formatOf(path) == Format::Png) {
         const uint64_t filtered = 3 * pixels + height; // a byte before each row names its filter
         // zlib's compressBound(); libpng frames every 8192 bytes by 12 more.
         const uint64_t compressed = filtered + (filtered >> 12) + (filtered >> 14) + 13;
-        return compressed + 12 * (compressed / 8192 + 1) + kHeaders;
+        return compressed + 12 * (compressed / 8192 + 1) + headers;
     }
     // Blocks of 16 rows that ZIP does not make smaller are kept as they are; each has its place and
     // size, and an entry in the table of blocks.
     const uint64_t channels = statistics ? 7 : 3, blocks = height / 16 + 1;
-    return channels * 4 * pixels + blocks * (8 + 8) + kHeaders;
+    return channels * 4 * pixels + blocks * (8 + 8) + headers;
+}
+
+PictureNotes readPictureNotes(const fs::path& path) {
+    return isPng(path) ? readPngNotes(path) : readExrNotes(path);
 }
 
 ByteImage toneMap(const Film& film, const ToneCurve& tone) {
@@ -87,6 +103,7 @@ FloatImage linearPicture(const Film& film, bool statistics) {
         fill(image, names[c], film, [c](const PixelStatistics& p) { return p.mean[c]; });
     if (!statistics) return image;
 
+    image.branches = film.branches;
     fill(image, "samples", film,
          [&](const PixelStatistics& p) { return p.taken() * film.branches; });
     for (int c = 0; c < 3; ++c)
@@ -111,18 +128,21 @@ void PictureFile::place(const Film& film) {
         std::copy(part.rgb.begin(), part.rgb.end(), bytes_.rgb.begin() + std::ptrdiff_t(3 * first));
         return;
     }
-    for (const auto& [name, values] : linearPicture(film, options_.statistics).channels)
+    const FloatImage part = linearPicture(film, options_.statistics);
+    floats_.branches = part.branches;
+    for (const auto& [name, values] : part.channels)
         std::copy(values.begin(), values.end(),
                   floats_.channel(name).begin() + std::ptrdiff_t(first));
 }
 
-void PictureFile::write() const {
+void PictureFile::write(const PictureNotes& notes) const {
     if (isPng(path_))
         writePng(path_, bytes_,
                  options_.tone.kind == ToneCurve::Kind::Srgb ? PngColorSpace::Srgb
-                                                             : PngColorSpace::Unnamed);
+                                                             : PngColorSpace::Unnamed,
+                 notes);
     else
-        writeExr(path_, floats_);
+        writeExr(path_, floats_, notes);
 }
 
 void writePicture(const fs::path& path, const Film& film, const PictureOptions& options) {

@@ -2,6 +2,7 @@
 
 #include "host/film/film.hpp"
 #include "host/film/image.hpp"
+#include "host/film/picture_notes.hpp"
 #include "host/film/tone.hpp"
 
 #include <filesystem>
@@ -22,9 +23,15 @@ void checkWritable(const std::filesystem::path& path);
 /// Whether a picture of that name keeps 8 bits of a radiance.
 bool isPng(const std::filesystem::path& path);
 
+/// Whether a name ends as one of a picture does, in any case of letters.
+bool namesPicture(const std::filesystem::path& path);
+
 /// The most bytes that writePicture can make of so many pixels: what noise takes.
 uint64_t largestPictureFile(const std::filesystem::path& path, uint32_t width, uint32_t height,
-                            bool statistics);
+                            bool statistics, const PictureNotes& notes = {});
+
+/// What the file of a picture says in words. Throws UsageError if it cannot be read.
+PictureNotes readPictureNotes(const std::filesystem::path& path);
 
 /// The film's means as bytes.
 ByteImage toneMap(const Film& film, const ToneCurve& tone);
@@ -40,8 +47,8 @@ class PictureFile {
     /// Films of bands of whole rows of the area. What no film shows stays black.
     void place(const Film& film);
     /// As PNG or EXR, by the extension, complete or not at all. An EXR file says where in the whole
-    /// picture the area lies. Throws OutputError.
-    void write() const;
+    /// picture the area lies. `notes` are kept in it. Throws OutputError.
+    void write(const PictureNotes& notes = {}) const;
 
   private:
     std::filesystem::path path_;

@@ -6,11 +6,13 @@
 #include <fmt/format.h>
 #include <png.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <memory>
 #include <new>
+#include <span>
 #include <string>
 
 namespace stromboli {
@@ -58,13 +60,33 @@ struct Reader {
 
 } // namespace
 
+/// The notes as libpng takes them; they point into them. tEXt chunks hold Latin-1: what goes beyond
+/// ASCII becomes iTXt, which holds UTF-8.
+static std::vector<png_text> textsOf(const PictureNotes& notes) {
+    std::vector<png_text> texts;
+    for (const PictureNote& note : notes) {
+        const bool isAscii = std::all_of(note.text.begin(), note.text.end(), [](char c) {
+            return static_cast<unsigned char>(c) < 128;
+        });
+        png_text& text = texts.emplace_back();
+        text.compression = isAscii ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
+        text.key = const_cast<png_charp>(note.name.c_str());
+        text.text = const_cast<png_charp>(note.text.c_str());
+        text.text_length = isAscii ? note.text.size() : 0;
+        text.itxt_length = isAscii ? 0 : note.text.size();
+    }
+    return texts;
+}
+
 static bool encode(png_structp png, png_infop info, const ByteImage& image,
-                   PngColorSpace colorSpace, std::vector<png_byte>& bytes) {
+                   PngColorSpace colorSpace, std::span<const png_text> texts,
+                   std::vector<png_byte>& bytes) {
     if (setjmp(png_jmpbuf(png))) return false;
     png_set_write_fn(png, &bytes, append, flush);
     png_set_IHDR(png, info, image.width, image.height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     if (colorSpace == PngColorSpace::Srgb) png_set_sRGB(png, info, PNG_sRGB_INTENT_RELATIVE);
+    if (!texts.empty()) png_set_text(png, info, texts.data(), int(texts.size()));
     png_write_info(png, info);
     for (uint32_t y = 0; y < image.height; ++y)
         png_write_row(png, image.pixel(0, y));
@@ -82,23 +104,29 @@ static bool decode(png_structp png, png_infop info, std::FILE* file) {
     return true;
 }
 
-void writePng(const fs::path& path, const ByteImage& image, PngColorSpace colorSpace) {
+void writePng(const fs::path& path, const ByteImage& image, PngColorSpace colorSpace,
+              const PictureNotes& notes) {
+    const std::vector<png_text> texts = textsOf(notes);
     Writer writer;
     std::vector<png_byte> bytes;
-    if (!encode(writer.png, writer.info, image, colorSpace, bytes))
+    if (!encode(writer.png, writer.info, image, colorSpace, texts, bytes))
         throw OutputError(fmt::format("{}: cannot encode PNG: {}", path.string(), writer.error));
     writeOutput(path, std::as_bytes(std::span(bytes)));
 }
 
-ByteImage readPng(const fs::path& path) {
+/// Throws UsageError.
+static void readInto(Reader& reader, const fs::path& path) {
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                                &std::fclose);
     if (!file)
         throw UsageError(fmt::format("{}: cannot read: {}", path.string(), std::strerror(errno)));
-    Reader reader;
     if (!decode(reader.png, reader.info, file.get()))
         throw UsageError(fmt::format("{}: cannot read PNG: {}", path.string(), reader.error));
+}
 
+ByteImage readPng(const fs::path& path) {
+    Reader reader;
+    readInto(reader, path);
     ByteImage image(png_get_image_width(reader.png, reader.info),
                     png_get_image_height(reader.png, reader.info));
     png_bytepp rows = png_get_rows(reader.png, reader.info);
@@ -106,6 +134,17 @@ ByteImage readPng(const fs::path& path) {
     for (uint32_t y = 0; y < image.height; ++y)
         std::memcpy(image.pixel(0, y), rows[y], rowSize);
     return image;
+}
+
+PictureNotes readPngNotes(const fs::path& path) {
+    Reader reader;
+    readInto(reader, path);
+    png_textp texts = nullptr;
+    const png_uint_32 count = png_get_text(reader.png, reader.info, &texts, nullptr);
+    PictureNotes notes;
+    for (png_uint_32 i = 0; i < count; ++i)
+        notes.push_back({texts[i].key, texts[i].text ? texts[i].text : ""});
+    return notes;
 }
 
 } // namespace stromboli

@@ -19,7 +19,11 @@ uint64_t hostBytesPerPixel() {
 std::vector<PictureArea> bandsOf(const PictureArea& area, uint64_t pixels) {
     const Crop all = area.rendered();
     const uint64_t rowsThatFit = std::clamp<uint64_t>(pixels / all.width, 1, all.height);
-    const auto count = uint32_t((all.height + rowsThatFit - 1) / rowsThatFit);
+    return inBands(area, uint32_t((all.height + rowsThatFit - 1) / rowsThatFit));
+}
+
+std::vector<PictureArea> inBands(const PictureArea& area, uint32_t count) {
+    const Crop all = area.rendered();
     if (count == 1) return {area};
     std::vector<PictureArea> bands;
     for (uint32_t i = 0; i < count; ++i) {

@@ -14,5 +14,7 @@ uint64_t hostBytesPerPixel();
 /// The rows of what is rendered, from the top, in bands of about the same height and of at most
 /// `pixels` pixels each (at least one row). One band if all of it fits.
 std::vector<PictureArea> bandsOf(const PictureArea& area, uint64_t pixels);
+/// The same by their number, which is not larger than that of the rows.
+std::vector<PictureArea> inBands(const PictureArea& area, uint32_t count);
 
 } // namespace stromboli

@@ -56,10 +56,11 @@ Handle<VkPipelineLayout> createLayout(const Device& device, VkDescriptorSetLayou
 
 Handle<VkPipeline> createPipeline(const Device& device, std::span<const uint32_t> spirv,
                                   std::span<const uint32_t> constants, VkPipelineLayout layout) {
+    const std::vector<uint32_t> code = withFloatControls(spirv, device.description().floatControls);
     const VkShaderModuleCreateInfo moduleInfo = {.sType =
                                                      VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                                 .codeSize = spirv.size_bytes(),
-                                                 .pCode = spirv.data()};
+                                                 .codeSize = code.size() * sizeof(uint32_t),
+                                                 .pCode = code.data()};
     VkShaderModule module = VK_NULL_HANDLE;
     check(device.vk().vkCreateShaderModule(device.handle(), &moduleInfo, nullptr, &module),
           "create a shader module");

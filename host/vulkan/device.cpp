@@ -62,6 +62,7 @@ DeviceDescription describe(VkPhysicalDevice handle) {
         if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
             d.memory = std::max<uint64_t>(d.memory, memory.memoryHeaps[i].size);
     describeQueues(d);
+    d.floatControls = floatControlsOf(handle);
     constexpr VkSubgroupFeatureFlags kNeeded =
         VK_SUBGROUP_FEATURE_VOTE_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT;
     if (!(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) ||
@@ -185,9 +186,13 @@ Device::Device(const Instance&, const DeviceDescription& description,
                                            .queueFamilyIndex = uint32_t(description.queueFamily),
                                            .queueCount = 1,
                                            .pQueuePriorities = &priority};
+    const char* const extension = VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME;
     const VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                      .queueCreateInfoCount = 1,
-                                     .pQueueCreateInfos = &queue};
+                                     .pQueueCreateInfos = &queue,
+                                     .enabledExtensionCount =
+                                         description.floatControls.any() ? 1u : 0u,
+                                     .ppEnabledExtensionNames = &extension};
     check(vkCreateDevice(description.handle, &info, nullptr, &device_),
           "open device " + description.name());
     volkLoadDeviceTable(&table_, device_);

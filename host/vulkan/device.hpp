@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/vulkan/float_controls.hpp"
 #include "host/vulkan/instance.hpp"
 #include "host/vulkan/pipeline_cache.hpp"
 
@@ -22,7 +23,8 @@ struct DeviceDescription {
     uint64_t largestAllocation = 0; ///< maxMemoryAllocationSize, bytes
     int queueFamily = -1;           ///< with compute; -1: none
     uint32_t timestampBits = 0;
-    std::string missing; ///< why it cannot be used; empty: it can
+    FloatControls floatControls; ///< that kernels ask for
+    std::string missing;         ///< why it cannot be used; empty: it can
 
     bool usable() const { return missing.empty(); }
     std::string name() const { return properties.deviceName; }

@@ -56,7 +56,7 @@ KeptOutcome run(const KeptRender& render, std::vector<int> lives, Told* told = n
 
 KeptRender spreadRender(const std::filesystem::path& file) {
     KeptRender r;
-    r.identity = [] { return RenderIdentity{"program", "scene", 1, "drawn", "none"}; };
+    r.identity = [] { return RenderIdentity{"program", "code", "scene", 1, "drawn", "none"}; };
     r.settings = settingsOf(kMostSamples);
     r.settings.budget.meanSamplesPerPixel = 64;
     r.file = file;
@@ -113,7 +113,9 @@ TEST(KeptRender, IsKeptAtTheEndWhereThatIsAskedFor) {
     EXPECT_TRUE(kept.fileIsThere);
     KeptRender more = render;
     more.begun = readCheckpoint(folder / "c").state;
+    const auto before = std::filesystem::last_write_time(folder / "c");
     EXPECT_TRUE(sameFilms(run(more, {kForEver}).film, kept.film)); // nothing is left to do
+    EXPECT_EQ(std::filesystem::last_write_time(folder / "c"), before);
 }
 
 TEST(KeptRender, StoppedAnywhereItGoesOnToTheSameBytes) {

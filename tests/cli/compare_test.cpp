@@ -54,6 +54,47 @@ TEST(CompareCommand, WritesJsonAndDifferences) {
     EXPECT_EQ(nlohmann::json::parse(std::ifstream(folder.file("d.json")))["width"], 8);
 }
 
+TEST(CompareCommand, AnErrorRateOfTestsThatAreNotMadeIsSaid) {
+    const ScratchFolder folder;
+    const std::string plain = constantExr(folder, "a.exr", 1);
+    const auto aov = [&](const std::string& name) {
+        EXPECT_EQ(stromboli({"render", libraryScene("cornell_boxes.dae"), "-o", folder.file(name),
+                             "-r", "8", "6", "-s", "8", "--branches", "4", "--aov"})
+                      .exitCode,
+                  0);
+        return folder.file(name);
+    };
+    const std::string full = aov("b.exr");
+    const ProgramRun run = stromboli({"compare", full, plain, "--alpha", "0.1"});
+    EXPECT_EQ(run.exitCode, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr(plain + " has no variances"));
+    EXPECT_THAT(run.err, HasSubstr("ignored: --alpha"));
+    EXPECT_EQ(stromboli({"compare", full, full, "--alpha", "0.1"}).err, "");
+    EXPECT_EQ(stromboli({"compare", plain, plain}).err, "");
+}
+
+/// Four paths that share a camera ray are one sample, of which no variance is known.
+TEST(CompareCommand, PathsThatShareASampleAreNoSamples) {
+    const ScratchFolder folder;
+    const auto render = [&](const std::string& name, const std::string& seed,
+                            const std::string& paths) {
+        EXPECT_EQ(
+            stromboli({"render", libraryScene("cornell_boxes.dae"), "-o", folder.file(name), "-r",
+                       "16", "12", "-s", paths, "--branches", "4", "--aov", "--seed", seed})
+                .exitCode,
+            0);
+        return folder.file(name);
+    };
+    const ProgramRun one =
+        stromboli({"compare", render("a.exr", "1", "4"), render("b.exr", "2", "4")});
+    EXPECT_THAT(one.out, HasSubstr("UNDECIDED: no pixel has two samples"));
+    EXPECT_THAT(one.out, HasSubstr("4 paths share each sample (--branches)"));
+    const ProgramRun many =
+        stromboli({"compare", render("c.exr", "1", "64"), render("d.exr", "2", "64"), "--ztest"});
+    EXPECT_EQ(many.exitCode, 0) << many.out;
+    EXPECT_THAT(many.out, HasSubstr("the pictures agree"));
+}
+
 TEST(CompareCommand, BadInputIsOneLine) {
     const ScratchFolder folder;
     const std::string a = constantExr(folder, "a.exr", 1);

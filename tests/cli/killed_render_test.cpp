@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -95,6 +96,89 @@ TEST_F(KilledRender, AHundredTimesHasTheSameBytes) {
     ASSERT_EQ(runFor(kLong, arguments("a.exr")), 0) << bytesOf("log");
     EXPECT_TRUE(bytesOf("a.exr") == whole);
     EXPECT_FALSE(std::filesystem::exists(folder.file("a.exr.checkpoint")));
+}
+
+/// The bands that are done are kept, and the one under way is.
+TEST_F(KilledRender, InBandsHasTheSameBytesToo) {
+    const auto inBands = [&](const std::string& output, bool resumes) {
+        std::vector<std::string> words = {"render",
+                                          libraryScene("cornell_spheres.dae"),
+                                          "-o",
+                                          folder.file(output),
+                                          "-r",
+                                          "120",
+                                          "90",
+                                          "-s",
+                                          "96",
+                                          "--checkpoint-every",
+                                          "0.01",
+                                          "-q",
+                                          "--film-memory",
+                                          "1"};
+        if (resumes) words.push_back("--resume");
+        return words;
+    };
+    const auto checkpoints = [&] {
+        int bands = 0;
+        for (const std::string& name : folder.entries())
+            bands += name.starts_with("a.exr.checkpoint.band");
+        return bands;
+    };
+    constexpr Milliseconds kLong{600000};
+    ASSERT_EQ(runFor(kLong, inBands("whole.exr", false)), 0) << bytesOf("log");
+    const std::string whole = bytesOf("whole.exr");
+    ASSERT_FALSE(whole.empty());
+    EXPECT_EQ(folder.entries().size(), 2u); // the picture and the log
+
+    std::mt19937 random(2);
+    std::uniform_int_distribution<int> moment(200, 700);
+    int kills = 0, mostBands = 0;
+    while (kills < 200) {
+        const std::optional<int> code =
+            runFor(Milliseconds(moment(random)), inBands("a.exr", kills > 0));
+        mostBands = std::max(mostBands, checkpoints());
+        if (code) {
+            ASSERT_EQ(*code, 0) << bytesOf("log");
+            break;
+        }
+        ++kills;
+    }
+    EXPECT_TRUE(bytesOf("a.exr") == whole);
+    EXPECT_GT(kills, 2);
+    EXPECT_GT(mostBands, 1);
+    EXPECT_EQ(checkpoints(), 0);
+}
+
+TEST_F(KilledRender, BandsCanBeExtendedAndAreWhatTheyWere) {
+    const auto render = [&](const std::string& output, const std::string& samples,
+                            std::vector<std::string> extra) {
+        std::vector<std::string> words = {"render",       libraryScene("cornell_spheres.dae"),
+                                          "-o",           folder.file(output),
+                                          "-r",           "120",
+                                          "90",           "-s",
+                                          samples,        "--even",
+                                          "--checkpoint", folder.file("kept")};
+        words.insert(words.end(), extra.begin(), extra.end());
+        return stromboli(words);
+    };
+    ASSERT_EQ(render("a.exr", "4", {"--film-memory", "1"}).exitCode, 0);
+    EXPECT_FALSE(std::filesystem::exists(folder.file("kept")));
+    const ProgramRun more = render("a.exr", "8", {"--resume"}); // with all of the memory
+    EXPECT_EQ(more.exitCode, 0) << more.err;
+    EXPECT_THAT(more.err, testing::ContainsRegex("rendering [0-9]+ bands, .* as before"));
+    EXPECT_THAT(more.err, testing::HasSubstr("which has 4.0 samples a pixel"));
+    const ProgramRun small =
+        render("c.exr", "8", {"--resume", "--film-memory", "1", "--crop", "0", "0", "120", "1"});
+    EXPECT_EQ(small.exitCode, 1);
+    EXPECT_THAT(small.err, testing::HasSubstr("give the same -r and --crop"));
+    // Begun anew in one piece, it forgets the bands.
+    ASSERT_EQ(render("b.exr", "8", {}).exitCode, 0);
+    EXPECT_TRUE(bytesOf("a.exr") == bytesOf("b.exr"));
+    for (const std::string& name : folder.entries())
+        EXPECT_EQ(name.find(".band"), std::string::npos) << name;
+    const ProgramRun whole = render("c.exr", "8", {"--resume", "--film-memory", "1"});
+    EXPECT_EQ(whole.exitCode, 1);
+    EXPECT_THAT(whole.err, testing::HasSubstr("in one piece, which does not fit the memory here"));
 }
 
 TEST_F(KilledRender, AFinishedOneCanBeExtended) {

@@ -104,6 +104,41 @@ TEST(Messages, WhatHasNoEffectBesideAnotherOptionIsSaid) {
     EXPECT_THAT(remarks({"render", "a.dae", "-o", "a.png", "-s", "8", "-l", "2"}), IsEmpty());
 }
 
+TEST(Messages, WhatOnlyLeavesOutIsSaid) {
+    EXPECT_THAT(remarks({"bench", "cornell_boxes", "--only", "transfer", "-r", "9", "9", "--seed",
+                         "2", "--rays", "3", "-s", "4"}),
+                ElementsAre("--only leaves out what asks for it: ignored: SCENE, --rays, -r, "
+                            "--seed, -s"));
+    EXPECT_THAT(remarks({"bench", "cornell_boxes", "--only", "bvh,rays", "-m", "3", "--sampler",
+                         "sobol", "--rays", "2"}),
+                ElementsAre(HasSubstr("ignored: -m, --sampler")));
+    EXPECT_THAT(remarks({"bench", "--only", "bvh", "--sizes", "1k", "--rays", "2", "-r", "9", "9"}),
+                IsEmpty());
+    EXPECT_THAT(remarks({"bench", "--only", "variants", "-m", "3", "-s", "2", "-r", "9", "9"}),
+                IsEmpty());
+    EXPECT_THAT(remarks({"bench", "-m", "3", "-s", "2", "--rays", "2"}), IsEmpty());
+}
+
+TEST(Messages, AChoiceOfLightsThatIsNotMadeIsSaid) {
+    const auto choosing = [](std::vector<std::string> words) {
+        words.insert(words.begin(),
+                     {"render", "a.dae", "-o", "a.png", "-s", "1", "--light-choice", "tree"});
+        return remarks(std::move(words));
+    };
+    EXPECT_THAT(choosing({}), IsEmpty());
+    EXPECT_THAT(choosing({"--direct", "lights"}), IsEmpty());
+    for (const auto& how : {std::vector<std::string>{"-H"}, {"--direct", "hemisphere"}})
+        EXPECT_THAT(choosing(how), ElementsAre(HasSubstr("--direct hemisphere finds what shines")));
+    EXPECT_THAT(choosing({"--direct", "bsdf"}),
+                ElementsAre(HasSubstr("among point, spot and directional lights alone")));
+    EXPECT_THAT(choosing({"--cs184"}),
+                ElementsAre("--cs184 samples every light in turn: ignored: --light-choice"));
+    EXPECT_THAT(choosing({"--backend", "reference"}),
+                ElementsAre("the reference samples every light in turn: ignored: --light-choice"));
+    EXPECT_THAT(choosing({"--integrator", "normals"}),
+                ElementsAre("--integrator normals follows no light: ignored: --light-choice"));
+}
+
 TEST(Messages, WithoutArgumentsTheProgramTeaches) {
     const ProgramRun run = stromboli({});
     EXPECT_EQ(run.exitCode, 1);

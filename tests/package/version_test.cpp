@@ -95,5 +95,29 @@ TEST_F(Version, IsInStatisticsAsTheProgramSaysIt) {
                 testing::HasSubstr("\"version\": \"" + version + "\""));
 }
 
+/// What a checkpoint tells builds apart by.
+TEST_F(Version, TheRenderingCodeIsThatOfTheRenderers) {
+    const auto code = [&](const std::string& tools) {
+        return run("printf @rendering_code@ >code.in; cmake -DSOURCE=$PWD/source -DBASE=0.1.0 "
+                   "-DTOOLS='" +
+                   tools +
+                   "' -DINPUT=code.in -DOUTPUT=code -P " STROMBOLI_SOURCE_DIR
+                   "/cmake/GitVersion.cmake; printf %s $(cat code)");
+    };
+    run("mkdir -p source/shaders/lights source/host/cli source/docs; cd source; echo 1 "
+        ">shaders/lights/a.glsl; echo 1 >host/cli/b.cpp; echo 1 >docs/c.md; echo 1 >shaders/d.md");
+    const std::string first = code("g++ 12");
+    EXPECT_EQ(first.size(), 16u);
+    EXPECT_EQ(first.find_first_not_of("0123456789abcdef"), std::string::npos);
+    run("cd source; echo 2 >host/cli/b.cpp; echo 2 >docs/c.md; echo 2 >shaders/d.md");
+    EXPECT_EQ(code("g++ 12"), first) << "nothing that renders";
+    EXPECT_NE(code("g++ 13"), first);
+    run("cd source; echo 2 >shaders/lights/a.glsl");
+    const std::string second = code("g++ 12");
+    EXPECT_NE(second, first);
+    run("cd source; mv shaders/lights/a.glsl shaders/lights/b.glsl");
+    EXPECT_NE(code("g++ 12"), second);
+}
+
 } // namespace
 } // namespace stromboli::test

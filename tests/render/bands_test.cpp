@@ -35,6 +35,20 @@ TEST(Bands, APictureThatFitsIsOne) {
     EXPECT_EQ(bandsOf(area, 7699).size(), 2u);
 }
 
+/// Checkpoints of bands are named by their number alone.
+TEST(Bands, TheirNumberSaysWhereTheyAre) {
+    const PictureArea area{100, 77, {20, 30, 50, 40}};
+    for (const uint64_t pixels : {99u, 500u, 1100u}) {
+        const std::vector<PictureArea> bands = bandsOf(area, pixels);
+        const std::vector<PictureArea> again = inBands(area, uint32_t(bands.size()));
+        ASSERT_EQ(again.size(), bands.size());
+        for (size_t i = 0; i < bands.size(); ++i) {
+            EXPECT_EQ(again[i].crop.y, bands[i].crop.y);
+            EXPECT_EQ(again[i].crop.height, bands[i].crop.height);
+        }
+    }
+}
+
 TEST(Bands, NoiseIsTheMeanOfSquares) {
     using Unknown = PictureNoise::Unknown;
     const PartNoise a{{Unknown::No, 0.3, 0.1, 0.5}, 100}, b{{Unknown::No, 0.4, 0.2, 0.6}, 300};
