@@ -36,9 +36,10 @@ std::vector<Case> closedCases();       ///< rays that leave surfaces, many times
 std::vector<Case> offsetCases();       ///< where rays start and end
 std::vector<Case> scaleCases();        ///< scenes of any size, anywhere
 std::vector<Case> randomCases();
-std::vector<Case> furnaceCases();   ///< pictures that are one colour
-std::vector<Case> estimatorCases(); ///< ways to the same mean
-std::vector<Case> filmCases();      ///< sums of samples, and how the work is cut
-std::vector<Case> agreementCases(); ///< device against reference
+std::vector<Case> furnaceCases();    ///< pictures that are one colour
+std::vector<Case> estimatorCases();  ///< ways to the same mean
+std::vector<Case> filmCases();       ///< sums of samples, and how the work is cut
+std::vector<Case> agreementCases();  ///< device against reference
+std::vector<Case> arithmeticCases(); ///< what is taken for granted of floats
 
 } // namespace stromboli::stress

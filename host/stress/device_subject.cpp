@@ -4,9 +4,12 @@
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/vulkan/compute_pipeline.hpp"
 
+#include "embedded/float_facts.h"
 #include "embedded/random_words.h"
 
 #include <algorithm>
+#include <initializer_list>
+#include <list>
 
 namespace stromboli::stress {
 namespace {
@@ -43,7 +46,7 @@ class DeviceTracer final : public RayTracer {
     bench::DeviceRays rays_;
 };
 
-constexpr uint32_t kGroupSize = 64; ///< local_size_x of random_words.comp
+constexpr uint32_t kGroupSize = 64; ///< local_size_x of random_words.comp and float_facts.comp
 
 } // namespace
 
@@ -63,33 +66,62 @@ Picture DeviceSubject::render(const Scene& scene, const Camera& camera,
     return picture;
 }
 
-std::vector<RandomBlock> DeviceSubject::randomBlocks(std::span<const Words> counters) {
+namespace {
+
+/// Runs a kernel that reads `in`, of `count` elements, and writes an element of each output for
+/// each of them.
+void runOn(const vulkan::Device& device, std::span<const uint32_t> code, uint32_t count,
+           std::span<const std::byte> in, std::initializer_list<std::span<std::byte>> outs) {
     using vulkan::Buffer;
     using vulkan::BufferUse;
-    const std::vector<vulkan::Binding> bindings = {
-        {0, BufferUse::Storage}, {1, BufferUse::Storage}, {2, BufferUse::Storage}};
-    const vulkan::ComputePipeline pipeline(device_, random_words, bindings, {}, sizeof(uint32_t));
-    vulkan::Queue queue(device_);
-    const auto count = uint32_t(counters.size());
-    Buffer in(device_, "counters", counters.size_bytes(), BufferUse::Storage);
-    Buffer words(device_, "random words", counters.size_bytes(), BufferUse::Storage);
-    Buffer numbers(device_, "random numbers", counters.size_bytes(), BufferUse::Storage);
-    in.upload(queue, std::as_bytes(counters));
-    const std::vector<const Buffer*> buffers = {&in, &words, &numbers};
-    const vulkan::DescriptorSet set(device_, pipeline, buffers);
-    queue.run("run the random number kernel", [&](VkCommandBuffer commands) {
-        vulkan::recordDispatch(device_, commands, pipeline, set,
-                               std::as_bytes(std::span(&count, 1)),
+    std::vector<vulkan::Binding> bindings = {{0, BufferUse::Storage}};
+    std::list<Buffer> buffers; // which stay where they are
+    buffers.emplace_back(device, "input of a small kernel", in.size(), BufferUse::Storage);
+    for (const std::span<std::byte> out : outs) {
+        bindings.push_back({uint32_t(bindings.size()), BufferUse::Storage});
+        buffers.emplace_back(device, "output of a small kernel", out.size(), BufferUse::Storage);
+    }
+    std::vector<const Buffer*> bound;
+    for (const Buffer& buffer : buffers)
+        bound.push_back(&buffer);
+    const vulkan::ComputePipeline pipeline(device, code, bindings, {}, sizeof count);
+    const vulkan::DescriptorSet set(device, pipeline, bound);
+    vulkan::Queue queue(device);
+    buffers.front().upload(queue, in);
+    queue.run("run a small kernel", [&](VkCommandBuffer commands) {
+        vulkan::recordDispatch(device, commands, pipeline, set, std::as_bytes(std::span(&count, 1)),
                                (count + kGroupSize - 1) / kGroupSize);
     });
+    auto buffer = std::next(buffers.begin());
+    for (const std::span<std::byte> out : outs)
+        (buffer++)->download(queue, out);
+}
+
+} // namespace
+
+std::vector<RandomBlock> DeviceSubject::randomBlocks(std::span<const Words> counters) {
+    const size_t count = counters.size();
     std::vector<Words> hashed(count);
     std::vector<std::array<float, 4>> uniform(count);
-    words.download(queue, std::as_writable_bytes(std::span(hashed)));
-    numbers.download(queue, std::as_writable_bytes(std::span(uniform)));
+    runOn(device_, random_words, uint32_t(count), std::as_bytes(counters),
+          {std::as_writable_bytes(std::span(hashed)), std::as_writable_bytes(std::span(uniform))});
     std::vector<RandomBlock> blocks(count);
     for (size_t i = 0; i < count; ++i)
         blocks[i] = {hashed[i], uniform[i]};
     return blocks;
+}
+
+std::vector<FloatFacts> DeviceSubject::floatFacts(std::span<const FloatPair> pairs) {
+    const size_t count = pairs.size();
+    std::vector<std::array<float, 4>> results(count);
+    std::vector<uint32_t> comparisons(count);
+    runOn(device_, float_facts, uint32_t(count), std::as_bytes(pairs),
+          {std::as_writable_bytes(std::span(results)),
+           std::as_writable_bytes(std::span(comparisons))});
+    std::vector<FloatFacts> facts(count);
+    for (size_t i = 0; i < count; ++i)
+        facts[i] = {results[i], comparisons[i]};
+    return facts;
 }
 
 } // namespace stromboli::stress

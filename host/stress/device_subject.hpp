@@ -15,6 +15,7 @@ class DeviceSubject final : public Subject {
     Picture render(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                    const KernelTuning& tuning, const ProgressCallback& progress) override;
     std::vector<RandomBlock> randomBlocks(std::span<const Words> counters) override;
+    std::vector<FloatFacts> floatFacts(std::span<const FloatPair> pairs) override;
 
   private:
     const vulkan::Device& device_;

@@ -43,6 +43,16 @@ struct RandomBlock {
     std::array<float, 4> numbers; ///< in [0, 1)
 };
 
+/// Two floats, and what arithmetic makes of them.
+struct FloatPair {
+    float a, b;
+};
+struct FloatFacts {
+    std::array<float, 4> results{}; ///< a + b, a - b, a b, -a
+    /// A bit each, from the lowest: a < b, a <= b, a > b, a >= b, a == b, a != b, not a < b.
+    uint32_t comparisons = 0;
+};
+
 /// What the cases put to the test. The product is DeviceSubject; tests put naive code in its
 /// place, to see that a case can fail.
 class Subject {
@@ -53,6 +63,7 @@ class Subject {
     virtual Picture render(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                            const KernelTuning& tuning, const ProgressCallback& progress) = 0;
     virtual std::vector<RandomBlock> randomBlocks(std::span<const Words> counters) = 0;
+    virtual std::vector<FloatFacts> floatFacts(std::span<const FloatPair> pairs) = 0;
 };
 
 } // namespace stromboli::stress

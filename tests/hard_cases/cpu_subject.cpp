@@ -51,4 +51,14 @@ stress::Picture CpuSubject::render(const Scene& scene, const Camera& camera,
     return picture;
 }
 
+std::vector<stress::FloatFacts> CpuSubject::floatFacts(std::span<const stress::FloatPair> pairs) {
+    std::vector<stress::FloatFacts> facts;
+    for (const auto& [a, b] : pairs)
+        facts.push_back({{a + b, a - b, a * b, -a},
+                         uint32_t(a < b) | uint32_t(a <= b) << 1 | uint32_t(a > b) << 2 |
+                             uint32_t(a >= b) << 3 | uint32_t(a == b) << 4 | uint32_t(a != b) << 5 |
+                             uint32_t(!(a < b)) << 6});
+    return facts;
+}
+
 } // namespace stromboli::test

@@ -14,6 +14,7 @@ class CpuSubject final : public stress::Subject {
     std::vector<stress::RandomBlock> randomBlocks(std::span<const stress::Words>) override {
         return {};
     }
+    std::vector<stress::FloatFacts> floatFacts(std::span<const stress::FloatPair> pairs) override;
 };
 
 } // namespace stromboli::test

@@ -3,6 +3,7 @@
 #include "tests/hard_cases/naive_intersection.hpp"
 
 #include <bit>
+#include <cmath>
 
 namespace stromboli::test {
 namespace naive {
@@ -148,6 +149,25 @@ NaiveSubject::randomBlocks(std::span<const stress::Words> counters) {
         }
     }
     return blocks;
+}
+
+/// Towards zero.
+static float cutOff(double x) {
+    const auto nearest = float(x);
+    return std::abs(double(nearest)) > std::abs(x) ? std::nextafterf(nearest, 0.0f) : nearest;
+}
+
+std::vector<stress::FloatFacts> NaiveSubject::floatFacts(std::span<const stress::FloatPair> pairs) {
+    std::vector<stress::FloatFacts> facts;
+    for (const auto& [x, y] : pairs) {
+        const double a = x, b = y;
+        const bool isAbove = a > b, isBelow = a < b;
+        facts.push_back({{cutOff(a + b), cutOff(a - b), cutOff(a * b), 0.0f - x},
+                         uint32_t(isBelow) | uint32_t(!isAbove) << 1 | uint32_t(isAbove) << 2 |
+                             uint32_t(!isBelow) << 3 | uint32_t(!isAbove && !isBelow) << 4 |
+                             uint32_t(isAbove || isBelow) << 5 | uint32_t(!isBelow) << 6});
+    }
+    return facts;
 }
 
 } // namespace stromboli::test

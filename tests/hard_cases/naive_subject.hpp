@@ -16,6 +16,8 @@ namespace stromboli::test {
 /// probability;
 /// - pixels are sums in float of whatever samples there are;
 /// - random numbers by a congruential generator, seeded by numbers in sequence, that may be 1;
+/// - floats as compilers make them that are told to be fast: what is not above is below or equal,
+/// negation is subtraction from zero, and digits are cut off;
 /// - groups of 8 x 8 pixels, as many as fit; random numbers that depend on the group.
 class NaiveSubject : public stress::Subject {
   public:
@@ -23,6 +25,7 @@ class NaiveSubject : public stress::Subject {
     stress::Picture render(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                            const KernelTuning& tuning, const ProgressCallback& progress) override;
     std::vector<stress::RandomBlock> randomBlocks(std::span<const stress::Words> counters) override;
+    std::vector<stress::FloatFacts> floatFacts(std::span<const stress::FloatPair> pairs) override;
 };
 
 namespace naive {

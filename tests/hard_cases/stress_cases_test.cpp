@@ -150,6 +150,9 @@ class DimmedSubject final : public stress::Subject {
     randomBlocks(std::span<const stress::Words> counters) override {
         return subject_.randomBlocks(counters);
     }
+    std::vector<stress::FloatFacts> floatFacts(std::span<const stress::FloatPair> pairs) override {
+        return subject_.floatFacts(pairs);
+    }
 
   private:
     stress::Subject& subject_;
