@@ -113,7 +113,8 @@ void checkCommandName(const std::deque<DeclaredCommand>& commands, const Words& 
         throw UsageError(fmt::format("{} comes before the command: expected stromboli COMMAND "
                                      "OPTIONS, as stromboli render SCENE.dae -o out.png",
                                      word));
-    if (word.ends_with(".dae") || word.starts_with("generate:"))
+    if (word.ends_with(".dae") || word.ends_with(".gltf") || word.ends_with(".glb") ||
+        word.starts_with("generate:"))
         throw UsageError(fmt::format(
             "'{0}' is a scene, no command: did you mean stromboli render {0} -o out.png?", word));
     throw UsageError(

@@ -36,8 +36,10 @@ void placeLight(Context& context, const Element& at, const std::string& name,
         light.kind = LightKind::Directional;
     } else if (type == "point" || type == "spot") {
         light.kind = type == "point" ? LightKind::Point : LightKind::Spot;
-        light.constantAttenuation = 0;
-        light.quadraticAttenuation = 1;
+        if (context.builder.conventions().attenuation) {
+            light.constantAttenuation = 0;
+            light.quadraticAttenuation = 1;
+        }
         if (type == "spot") readCones(at, light);
         if (at.has("range"))
             context.report().ignore("ranges of lights", "light does not end at a distance");

@@ -1,5 +1,6 @@
 #include "scene/gltf/textures.hpp"
 
+#include "host/core/memory.hpp"
 #include "scene/gltf/uri.hpp"
 #include "scene/images/texture_image.hpp"
 
@@ -130,7 +131,19 @@ uint32_t Textures::image(size_t index, bool srgb) {
     if (other != images_.end() && !shrinks && picture.format == TexelFormat::Rgba8)
         return images_[{index, srgb}] = other->second;
     if (shrinks) images::shrinkToFit(picture, largest, srgb);
+    requireRoom(picture.words.size() * sizeof(uint32_t), index);
     return images_[{index, srgb}] = context_.builder.addImage(std::move(picture));
+}
+
+/// A picture of one colour takes a few bytes in a file, and a file names any number of them.
+void Textures::requireRoom(uint64_t bytes, size_t index) {
+    bytes_ += bytes;
+    const uint64_t most = physicalMemory() / 2;
+    if (bytes_ > most)
+        context_.document.at("images", index)
+            .fail(fmt::format("brings the pictures to {} MiB, more than half of this machine's "
+                              "memory; --max-texture N shrinks them",
+                              bytes_ >> 20));
 }
 
 TextureImage Textures::read(size_t index, bool srgb) {

@@ -31,10 +31,12 @@ class Textures {
     std::optional<size_t> sourceOf(const Element& texture);
     uint32_t image(size_t index, bool srgb);
     TextureImage read(size_t index, bool srgb);
+    void requireRoom(uint64_t bytes, size_t index);
 
     Context& context_;
     std::map<std::pair<size_t, bool>, std::optional<uint32_t>> textures_;
     std::map<std::pair<size_t, bool>, uint32_t> images_;
+    uint64_t bytes_ = 0; ///< of all pictures that are kept
 };
 
 } // namespace stromboli::gltf

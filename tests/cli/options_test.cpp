@@ -388,6 +388,21 @@ TEST(Options, HowFilesAreRead) {
     EXPECT_TRUE(reading({"--default-light", "on", "--cs184", "--strict"}).defaultLight);
 }
 
+TEST(Options, WhatOfAFileIsShown) {
+    const auto selection = [](std::vector<std::string> extra) {
+        extra.insert(extra.begin(), {"info", "a.glb"});
+        return parse(extra).reading.selection;
+    };
+    EXPECT_FALSE(selection({}).scene.has_value());
+    EXPECT_FALSE(selection({}).seconds.has_value());
+    EXPECT_EQ(selection({}).option(), "");
+    EXPECT_EQ(selection({"--scene", "0"}).scene, 0u);
+    EXPECT_EQ(selection({"--variant", "night"}).variant, "night");
+    EXPECT_EQ(selection({"--at", "1.5"}).seconds, 1.5);
+    EXPECT_EQ(selection({"--max-texture", "512"}).largestTexture, 512u);
+    EXPECT_EQ(selection({"--at", "0", "--cs184"}).seconds, 0); // wherever the option stands
+}
+
 TEST(Options, ContradictionsAreRefused) {
     for (const std::vector<std::string>& extra :
          std::vector<std::vector<std::string>>{{"-s", "0"},
@@ -415,6 +430,9 @@ TEST(Options, ContradictionsAreRefused) {
                                                {"--fov", "180"},
                                                {"--env-rotate", "90"},
                                                {"--env", "sky.hdr", "--cs184"},
+                                               {"--scene", "-1"},
+                                               {"--at", "never"},
+                                               {"--max-texture", "-8"},
                                                {"--crop", "0", "0", "0", "5"},
                                                {"-q", "-v"},
                                                {"-H", "--direct", "bsdf"},

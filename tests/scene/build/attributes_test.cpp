@@ -60,8 +60,10 @@ TEST(Attributes, ScenesWithoutHaveNone) {
 TEST(Attributes, AreThoseOfTheCorners) {
     const Scene scene = sceneOf({withoutAttributes(), withAttributes(), withoutAttributes()});
     ASSERT_EQ(scene.attributeCorners.size(), 3u);
-    EXPECT_THAT(scene.attributeCorners[0], ElementsAre(kNoAttributes, kNoAttributes, kNoAttributes));
-    EXPECT_THAT(scene.attributeCorners[2], ElementsAre(kNoAttributes, kNoAttributes, kNoAttributes));
+    EXPECT_THAT(scene.attributeCorners[0],
+                ElementsAre(kNoAttributes, kNoAttributes, kNoAttributes));
+    EXPECT_THAT(scene.attributeCorners[2],
+                ElementsAre(kNoAttributes, kNoAttributes, kNoAttributes));
     for (int i = 0; i < 3; ++i) {
         const VertexAttributes& a = scene.attributes.at(scene.attributeCorners[1][i]);
         const glm::vec3& p = scene.positions[scene.triangles[1].corner[i]];

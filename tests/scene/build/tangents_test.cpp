@@ -26,7 +26,8 @@ Mesh plane(const std::vector<glm::dvec2>& points, const std::vector<glm::vec2>& 
         attributes.uv[1] = uvs[i];
         mesh.attributes.push_back(attributes);
         if (i % 3 == 2)
-            mesh.parts[0].push_back({Corner{i - 2, 0, i - 2}, Corner{i - 1, 0, i - 1}, Corner{i, 0, i}});
+            mesh.parts[0].push_back(
+                {Corner{i - 2, 0, i - 2}, Corner{i - 1, 0, i - 1}, Corner{i, 0, i}});
     }
     return mesh;
 }

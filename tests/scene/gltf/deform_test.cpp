@@ -1,0 +1,171 @@
+// Morph targets, skins and animations.
+
+#include "tests/scene/gltf/gltf_text.hpp"
+
+#include <cmath>
+
+namespace stromboli::test {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+void expectNear(const glm::dvec3& actual, const glm::dvec3& expected, double tolerance = 1e-6) {
+    EXPECT_LT(glm::distance(actual, expected), tolerance)
+        << actual.x << ' ' << actual.y << ' ' << actual.z;
+}
+
+/// The second corner of the triangle, (1 0 0) in its mesh.
+glm::vec3 corner(const Scene& scene) {
+    return scene.positions.at(scene.triangles.at(0).corner[1]);
+}
+
+SceneConventions at(double seconds) {
+    SceneConventions conventions;
+    conventions.selection.seconds = seconds;
+    return conventions;
+}
+
+/// A triangle with two morph targets, which move it by x and by y.
+GltfText withTargets() {
+    GltfText g;
+    const size_t x = g.addAccessor<float>({1, 0, 0, 1, 0, 0, 1, 0, 0}, "VEC3");
+    const size_t y = g.addAccessor<float>({0, 1, 0, 0, 1, 0, 0, 1, 0}, "VEC3");
+    g.addTriangle(fmt::format(R"(, "targets": [{{"POSITION": {}}}, {{"POSITION": {}}}])", x, y));
+    return g;
+}
+
+TEST(GltfMorphs, TargetsHaveWeights) {
+    GltfText g = withTargets();
+    EXPECT_EQ(corner(load(g)), glm::vec3(1, 0, 0));
+    g.arrays["meshes"][0].insert(1, R"("weights": [0.5, 2], )");
+    EXPECT_EQ(corner(load(g)), glm::vec3(1.5f, 2, 0));
+    g.arrays["nodes"][0] = R"({"mesh": 0, "weights": [3, 0]})";
+    EXPECT_EQ(corner(load(g)), glm::vec3(4, 0, 0));
+}
+
+TEST(GltfMorphs, NormalsMoveToo) {
+    GltfText g;
+    const size_t normals = g.addAccessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+    const size_t moved = g.addAccessor<float>({1, 0, 0, 1, 0, 0, 1, 0, 0}, "VEC3");
+    g.addTriangle(fmt::format(R"(, "targets": [{{"NORMAL": {}}}])", moved),
+                  fmt::format(R"(, "NORMAL": {})", normals));
+    g.arrays["meshes"][0].insert(1, R"("weights": [1], )");
+    expectNear(load(g).normals.at(0), glm::normalize(glm::dvec3(1, 0, 1)));
+}
+
+/// A triangle whose second corner follows two joints, half and half (nodes 1 and 2); the others
+/// follow the first.
+GltfText withSkin() {
+    GltfText g;
+    const size_t joints = g.addAccessor<uint8_t>({0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0}, "VEC4");
+    const size_t weights = g.addAccessor<float>({1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 1, 0, 0, 0}, "VEC4");
+    const size_t normals = g.addAccessor<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+    g.addTriangle("", fmt::format(R"(, "JOINTS_0": {}, "WEIGHTS_0": {}, "NORMAL": {})", joints,
+                                  weights, normals));
+    // The inverse of the second joint's place at rest: 10 along x.
+    const size_t inverses =
+        g.addAccessor<float>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0,   0, 0, 1, //
+                              1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -10, 0, 0, 1},
+                             "MAT4");
+    g.addTo("skins", fmt::format(R"("joints": [1, 2], "inverseBindMatrices": {})", inverses));
+    g.arrays["nodes"][0] = R"({"mesh": 0, "skin": 0, "translation": [500, 0, 0]})";
+    g.addTo("nodes", "");
+    g.addTo("nodes", R"("translation": [10, 6, 0])");
+    g.arrays["scenes"][0] = R"({"nodes": [0, 1, 2]})";
+    return g;
+}
+
+TEST(GltfSkins, FollowTheirJoints) {
+    // The node's own place has no meaning; the second joint has moved by 6 along y.
+    expectNear(corner(load(withSkin())), {1, 3, 0});
+}
+
+TEST(GltfSkins, NormalsTurnWithJoints) {
+    GltfText g = withSkin();
+    // The first joint turns by a quarter about x: z becomes -y.
+    g.arrays["nodes"][1] = R"({"rotation": [0.70710678118654752, 0, 0, 0.70710678118654752]})";
+    const Scene scene = load(g);
+    // The first and the third corner lie on x = 0 and follow it wholly.
+    const Triangle& t = scene.triangles.at(0);
+    EXPECT_NEAR(scene.positions[t.corner[2]].z, 1, 1e-6);
+    ASSERT_NE(t.normals[0], kNoNormals);
+    expectNear(scene.normals[t.normals[0]], {0, -1, 0});
+}
+
+TEST(GltfSkins, JointsMustBeThere) {
+    GltfText g = withSkin();
+    g.arrays["skins"][0] = R"({"joints": [1]})";
+    EXPECT_EQ(problem(g), "<meshes[0].primitives[0]>: vertex 1 names joint 1 of 1");
+    g.arrays["skins"][0] = R"({"joints": [1, 2, 1], "inverseBindMatrices": 4})";
+    EXPECT_THAT(problem(g),
+                HasSubstr("<skins[0].inverseBindMatrices>: has 2 matrices for 3 joints"));
+}
+
+/// A triangle whose node is moved by key frames at 1 and 3 seconds.
+GltfText animated(const std::string& path, const std::string& type,
+                  const std::vector<float>& values, const std::string& interpolation = "LINEAR") {
+    GltfText g = withTargets();
+    const size_t times = g.addAccessor<float>({1, 3}, "SCALAR");
+    const size_t output = g.addAccessor<float>(values, type);
+    g.addTo("animations",
+            fmt::format(R"("samplers": [{{"input": {}, "output": {}, "interpolation": "{}"}}],
+            "channels": [{{"sampler": 0, "target": {{"node": 0, "path": "{}"}}}}])",
+                        times, output, interpolation, path));
+    return g;
+}
+
+TEST(GltfAnimations, NeedATime) {
+    const GltfText g = animated("translation", "VEC3", {0, 0, 0, 0, 8, 0});
+    EXPECT_EQ(corner(load(g)), glm::vec3(1, 0, 0));
+    EXPECT_THAT(load(g).report.ignored, Contains(HasSubstr("1 animations: what stands without")));
+    GltfText still;
+    still.addTriangle();
+    EXPECT_EQ(problem(still, at(1)), "has no animation; --at asks for one");
+}
+
+TEST(GltfAnimations, Linear) {
+    const GltfText g = animated("translation", "VEC3", {0, 0, 0, 0, 8, 0});
+    EXPECT_EQ(corner(load(g, at(0))), glm::vec3(1, 0, 0));
+    EXPECT_EQ(corner(load(g, at(1.5))), glm::vec3(1, 2, 0));
+    EXPECT_EQ(corner(load(g, at(9))), glm::vec3(1, 8, 0));
+}
+
+TEST(GltfAnimations, Step) {
+    const GltfText g = animated("scale", "VEC3", {2, 1, 1, 3, 1, 1}, "STEP");
+    EXPECT_EQ(corner(load(g, at(2.9))), glm::vec3(2, 0, 0));
+    EXPECT_EQ(corner(load(g, at(3))), glm::vec3(3, 0, 0));
+}
+
+TEST(GltfAnimations, RotationsGoAlongTheSphere) {
+    const float s = float(std::sqrt(0.5));
+    const GltfText g = animated("rotation", "VEC4", {0, 0, 0, 1, 0, 0, s, s});
+    // A quarter of the way to a quarter turn.
+    const double angle = M_PI / 8;
+    expectNear(corner(load(g, at(1.5))), {std::cos(angle), std::sin(angle), 0}, 1e-6);
+}
+
+TEST(GltfAnimations, CubicSplines) {
+    // Arriving tangent, value, leaving tangent; from 0 to 4 with the slopes 2 and -1 per second.
+    const GltfText g =
+        animated("translation", "VEC3", {0, 0, 0, 0, 0, 0, 0, 2, 0, 0, -1, 0, 0, 4, 0, 0, 0, 0},
+                 "CUBICSPLINE");
+    // Half way: (0 + 4) / 2 + 2 s (2 - -1) / 8.
+    expectNear(corner(load(g, at(2))), {1, 2.75, 0});
+    expectNear(corner(load(g, at(3))), {1, 4, 0});
+}
+
+TEST(GltfAnimations, Weights) {
+    const GltfText g = animated("weights", "SCALAR", {0, 0, 4, 8});
+    EXPECT_EQ(corner(load(g, at(2))), glm::vec3(3, 4, 0));
+}
+
+TEST(GltfAnimations, WrongOnes) {
+    EXPECT_THAT(problem(animated("translation", "VEC3", {0, 0, 0}), at(1)),
+                HasSubstr("<animations[0].samplers[0].output>: has 3 numbers for 2 key frames"));
+    EXPECT_THAT(problem(animated("scale", "VEC3", {1, 1, 1, 1, 1, 1}, "MAGIC"), at(1)),
+                HasSubstr("interpolation>: is 'MAGIC', expected LINEAR, STEP or CUBICSPLINE"));
+}
+
+} // namespace
+} // namespace stromboli::test

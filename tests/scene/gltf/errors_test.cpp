@@ -1,0 +1,195 @@
+// Wrong files give one line that names the file, the element and what was expected.
+
+#include "scene/read_scene.hpp"
+#include "tests/scene/gltf/gltf_text.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <random>
+
+namespace stromboli::test {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+GltfText triangle() {
+    GltfText g;
+    g.addTriangle();
+    return g;
+}
+
+TEST(GltfErrors, Json) {
+    EXPECT_EQ(gltfProblem("{\"asset\": {\"version\": \"2.0\"},\n\n \"nodes\": [}"),
+              "is no glTF: its JSON is wrong in line 3");
+    EXPECT_THAT(gltfProblem(""), HasSubstr("is no glTF: its JSON is wrong in line 1"));
+    EXPECT_EQ(gltfProblem("[]"), "is no object, expected {...}");
+    EXPECT_EQ(gltfProblem("{}"), "is no glTF 2.0: it has no 'asset'");
+    EXPECT_THAT(gltfProblem("{\"asset\": {\"version\": NaN}}"), HasSubstr("wrong in line 1"));
+    EXPECT_EQ(gltfProblem("{\"asset\": 1e999}"),
+              "is no glTF: its JSON has a number beyond the range of double");
+    EXPECT_EQ(gltfProblem(std::string(500000, '[')),
+              "is no glTF: brackets go deeper than 256 levels");
+}
+
+TEST(GltfErrors, Versions) {
+    GltfText g = triangle();
+    g.members["asset"] = R"({"version": "1.0"})";
+    EXPECT_EQ(problem(g), "<asset.version>: is '1.0', expected 2.0");
+    g.members["asset"] = R"({"version": "2.1", "minVersion": "2.1"})";
+    EXPECT_EQ(problem(g), "<asset.minVersion>: is '2.1', 2.0 is read");
+}
+
+TEST(GltfErrors, RequiredExtensions) {
+    GltfText g = triangle();
+    g.members["extensionsUsed"] = R"(["EXT_black_holes", "KHR_texture_transform"])";
+    EXPECT_THAT(load(g).report.ignored,
+                testing::ElementsAre("1 extension 'EXT_black_holes': it is not read"));
+    g.members["extensionsRequired"] = R"(["KHR_texture_transform", "EXT_black_holes"])";
+    EXPECT_EQ(problem(g), "<extensionsRequired>: the file cannot be shown without "
+                          "'EXT_black_holes', which is not read");
+}
+
+TEST(GltfErrors, WrongTypes) {
+    GltfText g = triangle();
+    g.arrays["nodes"][0] = R"({"mesh": "first"})";
+    EXPECT_EQ(problem(g), "<nodes[0].mesh>: is no number");
+    g.arrays["nodes"][0] = R"({"mesh": 0, "translation": [1, 2]})";
+    EXPECT_EQ(problem(g), "<nodes[0].translation>: has 2 numbers, expected 3");
+    g.arrays["nodes"][0] = R"({"mesh": 0.5})";
+    EXPECT_EQ(problem(g), "<nodes[0].mesh>: is 0.5, expected a whole number of at least 0");
+    g.arrays["nodes"][0] = R"({"mesh": 4})";
+    EXPECT_EQ(problem(g), "<nodes[0].mesh>: is 4, but there is 1");
+    g.arrays["nodes"][0] = R"({"mesh": 0, "rotation": [0, 0, 0, 0]})";
+    EXPECT_EQ(problem(g), "<nodes[0].rotation>: has no direction");
+    g.arrays["nodes"][0] = "7";
+    EXPECT_EQ(problem(g), "<nodes[0]>: is no object, expected {...}");
+}
+
+TEST(GltfErrors, Containers) {
+    const std::string whole = triangle().binary();
+    EXPECT_EQ(loadGltfBytes(whole).triangles.size(), 1u);
+    EXPECT_EQ(gltfProblem(whole.substr(0, 8)),
+              "is truncated: the header of a binary file has 12 bytes");
+    EXPECT_EQ(gltfProblem(whole.substr(0, whole.size() - 10)),
+              fmt::format("is truncated: its header states {} bytes, it has {}", whole.size(),
+                          whole.size() - 10));
+    std::string other = whole;
+    other[4] = 1;
+    EXPECT_EQ(gltfProblem(other), "is of version 1 of the binary format, expected 2");
+    other = whole;
+    other[15] = 0x7F;
+    EXPECT_THAT(gltfProblem(other), HasSubstr("chunk 0 states 21"));
+    other = whole;
+    other[16] = 'X';
+    EXPECT_EQ(gltfProblem(other), "its first chunk is no JSON");
+}
+
+TEST(GltfErrors, Buffers) {
+    GltfText g = triangle();
+    g.arrays["buffers"] = {R"({"byteLength": 36})"};
+    EXPECT_EQ(problem(g), "<buffers[0]>: has no 'uri', and no part of the file holds its bytes");
+    g.arrays["buffers"] = {R"({"byteLength": 36, "uri": "data:;base64,AAAA"})"};
+    EXPECT_EQ(problem(g), "<buffers[0].byteLength>: is 36, but there are 3 bytes");
+    g.arrays["buffers"] = {R"({"byteLength": 36, "uri": "data:;base64,A*AA"})"};
+    EXPECT_EQ(problem(g), "<buffers[0]>: the data URI is no base64");
+    g.arrays["buffers"] = {R"({"byteLength": 3, "uri": "data:;base64,AAAA"})"};
+    EXPECT_EQ(problem(g),
+              "<bufferViews[0]>: 36 bytes from 0 on are beyond the 3 bytes of buffers[0]");
+}
+
+TEST(GltfErrors, UrisStayInTheFolder) {
+    for (const char* uri : {"../a.bin", "b/../../a.bin", "%2e%2e/a.bin", "/etc/passwd",
+                            "%2Fetc/passwd", "..%5Ca.bin", "a.bin%00"}) {
+        GltfText g = triangle();
+        g.arrays["buffers"] = {fmt::format(R"({{"byteLength": 36, "uri": "{}"}})", uri)};
+        EXPECT_EQ(problem(g),
+                  fmt::format("<buffers[0]>: the URI '{}' leads out of the file's folder", uri));
+    }
+    for (const char* uri : {"file:///etc/passwd", "http://a.org/a.bin", "C:a.bin"}) {
+        GltfText g = triangle();
+        g.arrays["buffers"] = {fmt::format(R"({{"byteLength": 36, "uri": "{}"}})", uri)};
+        EXPECT_EQ(problem(g),
+                  fmt::format("<buffers[0]>: the URI '{}' is no relative path; only files are read",
+                              uri));
+    }
+}
+
+TEST(GltfErrors, LinksStayInTheFolder) {
+    const Folder inside, outside;
+    GltfText g = triangle();
+    g.arrays["buffers"] = {R"({"byteLength": 36, "uri": "my%20buffer.bin"})"};
+    const std::filesystem::path file = inside.write("scene.gltf", g.text());
+    const std::vector<float> points = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const std::string_view bytes(reinterpret_cast<const char*>(points.data()), 36);
+    outside.write("secret.bin", bytes);
+    std::filesystem::create_symlink(outside.path() / "secret.bin", inside.path() / "my buffer.bin");
+    try {
+        loadGltf(file);
+        FAIL();
+    } catch (const SceneError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("is a link out of the file's folder"));
+    }
+    std::filesystem::remove(inside.path() / "my buffer.bin");
+    inside.write("my buffer.bin", bytes);
+    EXPECT_EQ(loadGltf(file).triangles.size(), 1u);
+}
+
+TEST(GltfErrors, NumbersThatAreNone) {
+    // In accessors, where JSON's rules do not reach: the builder leaves such triangles out.
+    GltfText g = triangle();
+    const size_t bad = g.addAccessor<float>({0, 0, 0, NAN, 0, 0, 0, 1, 0}, "VEC3");
+    g.arrays["meshes"][0] =
+        fmt::format(R"({{"primitives": [{{"attributes": {{"POSITION": {}}}}}]}})", bad);
+    const Scene scene = load(g);
+    EXPECT_TRUE(scene.triangles.empty());
+    EXPECT_THAT(scene.report.warnings, Contains(HasSubstr("1 not finite or beyond 2^60")));
+}
+
+TEST(GltfErrors, AttributesOfOtherLengths) {
+    GltfText g;
+    const size_t normals = g.addAccessor<float>({0, 0, 1, 0, 0, 1}, "VEC3");
+    g.addTriangle("", fmt::format(R"(, "NORMAL": {})", normals));
+    EXPECT_EQ(problem(g), "<meshes[0].primitives[0].attributes.NORMAL>: has 2 elements, but there "
+                          "are 3 positions");
+}
+
+/// Damaged files load or say what is wrong; they neither crash nor take the machine's memory.
+TEST(GltfErrors, DamagedAnywhere) {
+    GltfText g = triangle();
+    g.addTo("materials", R"("pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 1]})");
+    g.addTo("cameras", R"("type": "perspective", "perspective": {"yfov": 1, "znear": 1})");
+    const std::string whole = g.binary();
+    std::mt19937 random(1);
+    for (int i = 0; i < 1000; ++i) {
+        std::string damaged = whole;
+        for (int k = 0; k < 3; ++k)
+            damaged[random() % damaged.size()] =
+                char(random() % 2 ? random() : '0' + random() % 10);
+        gltfProblem(damaged);
+    }
+}
+
+TEST(GltfFormat, IsToldByNameAndContent) {
+    const Folder folder;
+    const GltfText g = triangle();
+    for (const char* name : {"a.gltf", "a.GLTF", "a.unknown"})
+        EXPECT_EQ(readScene(folder.write(name, g.text()).string()).triangles.size(), 1u) << name;
+    for (const char* name : {"a.glb", "b.unknown"})
+        EXPECT_EQ(readScene(folder.write(name, g.binary()).string()).triangles.size(), 1u) << name;
+}
+
+TEST(GltfFormat, AloneHasScenesAndVariants) {
+    SceneConventions conventions;
+    conventions.selection.scene = 0;
+    try {
+        readScene("cornell_boxes", conventions);
+        FAIL();
+    } catch (const SceneError& error) {
+        EXPECT_THAT(error.what(),
+                    HasSubstr("cornell_boxes: --scene is about glTF files; this one is COLLADA"));
+    }
+}
+
+} // namespace
+} // namespace stromboli::test

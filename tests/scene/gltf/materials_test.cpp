@@ -1,0 +1,308 @@
+// Materials and textures.
+
+#include "tests/scene/gltf/gltf_text.hpp"
+#include "tests/scene/images/encoders.hpp"
+
+#include <cmath>
+
+namespace stromboli::test {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// A triangle of a material, with textures 0 (a picture of 2 x 1 texels) and 1 (16 bits).
+GltfText withMaterial(const std::string& material) {
+    GltfText g;
+    const size_t uv0 = g.addAccessor<float>({0, 1, 1, 1, 0, 0}, "VEC2");
+    const size_t uv3 = g.addAccessor<float>({5, 6, 5, 5, 6, 6}, "VEC2");
+    g.addTriangle(R"(, "material": 0)",
+                  fmt::format(R"(, "TEXCOORD_0": {}, "TEXCOORD_3": {})", uv0, uv3));
+    const size_t view = g.addView(png8(2, 1, 3, {1, 2, 3, 4, 5, 6}));
+    g.addTo("images", fmt::format(R"("bufferView": {}, "mimeType": "image/png")", view));
+    g.addTo("images", fmt::format(R"("uri": "data:image/png;base64,{}")",
+                                  toBase64(png16(1, 1, 3, {0, 32768, 65535}))));
+    g.addTo("samplers", R"("wrapS": 33071, "wrapT": 33648, "magFilter": 9728)");
+    g.addTo("textures", R"("source": 0, "sampler": 0)");
+    g.addTo("textures", R"("source": 1)");
+    g.addTo("materials", material);
+    return g;
+}
+
+Scene sceneOf(const std::string& material) {
+    return load(withMaterial(material));
+}
+
+Material materialOf(const std::string& material) {
+    const Scene scene = sceneOf(material);
+    return scene.materials.at(scene.triangles.at(0).material);
+}
+
+const TextureUse* useOf(const Material& material, TextureSlot slot) {
+    for (const TextureUse& use : material.textures)
+        if (use.slot == slot) return &use;
+    return nullptr;
+}
+
+std::string extension(const std::string& name, const std::string& members) {
+    return fmt::format(R"("extensions": {{"{}": {{{}}}}})", name, members);
+}
+
+TEST(GltfMaterials, Defaults) {
+    const Material m = materialOf("");
+    EXPECT_EQ(m.kind, MaterialKind::Principled);
+    EXPECT_EQ(m.principled.baseColor, glm::vec3(1));
+    EXPECT_EQ(m.principled.metallic, 1);
+    EXPECT_EQ(m.principled.roughness, 1);
+    EXPECT_EQ(m.principled.ior, 1.5f);
+    EXPECT_EQ(m.alphaMode, AlphaMode::Opaque);
+    EXPECT_TRUE(m.textures.empty());
+    EXPECT_FALSE(m.emits());
+}
+
+TEST(GltfMaterials, MetallicRoughness) {
+    const Material m = materialOf(R"("name": "gold", "pbrMetallicRoughness": {
+        "baseColorFactor": [0.1, 0.2, 0.3, 0.4], "metallicFactor": 0.5, "roughnessFactor": 0.6,
+        "baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 0}})");
+    EXPECT_EQ(m.name, "gold");
+    EXPECT_EQ(m.principled.baseColor, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(m.opacity, 0.4f);
+    EXPECT_EQ(m.principled.metallic, 0.5f);
+    EXPECT_EQ(m.principled.roughness, 0.6f);
+    EXPECT_NE(useOf(m, TextureSlot::BaseColor), nullptr);
+    EXPECT_NE(useOf(m, TextureSlot::MetallicRoughness), nullptr);
+}
+
+TEST(GltfMaterials, Alpha) {
+    const Material mask = materialOf(R"("alphaMode": "MASK", "alphaCutoff": 0.25)");
+    EXPECT_EQ(mask.alphaMode, AlphaMode::Mask);
+    EXPECT_EQ(mask.alphaCutoff, 0.25f);
+    EXPECT_EQ(materialOf(R"("alphaMode": "BLEND")").alphaMode, AlphaMode::Blend);
+    EXPECT_EQ(problem(withMaterial(R"("alphaMode": "GLASS")")),
+              "<materials[0].alphaMode>: is 'GLASS', expected OPAQUE, MASK or BLEND");
+}
+
+TEST(GltfMaterials, Emission) {
+    const Material m =
+        materialOf(R"("emissiveFactor": [1, 0.5, 0], "emissiveTexture": {"index": 1},)" +
+                   extension("KHR_materials_emissive_strength", R"("emissiveStrength": 6)"));
+    EXPECT_EQ(m.emission, glm::vec3(6, 3, 0));
+    EXPECT_NE(useOf(m, TextureSlot::Emission), nullptr);
+    // A texture upon nothing shows nothing.
+    EXPECT_TRUE(materialOf(R"("emissiveTexture": {"index": 1})").textures.empty());
+}
+
+TEST(GltfMaterials, TransmissionAndVolume) {
+    const Material thin =
+        materialOf(extension("KHR_materials_transmission",
+                             R"("transmissionFactor": 0.7, "transmissionTexture": {"index": 1})"));
+    EXPECT_EQ(thin.principled.transmission, 0.7f);
+    EXPECT_TRUE(thin.principled.isThin);
+    EXPECT_NE(useOf(thin, TextureSlot::Transmission), nullptr);
+    const Material thick = materialOf(extension(
+        "KHR_materials_volume",
+        R"("thicknessFactor": 1, "attenuationDistance": 2, "attenuationColor": [0.1, 0.2, 0.3])"));
+    EXPECT_FALSE(thick.principled.isThin);
+    EXPECT_EQ(thick.principled.attenuationDistance, 2);
+    EXPECT_EQ(thick.principled.attenuationColor, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_TRUE(std::isinf(materialOf("").principled.attenuationDistance));
+}
+
+TEST(GltfMaterials, SpecularAndIor) {
+    EXPECT_EQ(materialOf(extension("KHR_materials_ior", R"("ior": 1.8)")).principled.ior, 1.8f);
+    EXPECT_THAT(problem(withMaterial(extension("KHR_materials_ior", R"("ior": 0.5)"))),
+                HasSubstr("is 0.5, expected 0 or at least 1"));
+    const Material m = materialOf(extension(
+        "KHR_materials_specular",
+        R"("specularFactor": 0.5, "specularColorFactor": [2, 1, 0], "specularTexture": {"index": 0},
+           "specularColorTexture": {"index": 0})"));
+    EXPECT_EQ(m.principled.specular, 0.5f);
+    EXPECT_EQ(m.principled.specularColor, glm::vec3(2, 1, 0));
+    EXPECT_NE(useOf(m, TextureSlot::Specular), nullptr);
+    EXPECT_NE(useOf(m, TextureSlot::SpecularColor), nullptr);
+}
+
+TEST(GltfMaterials, ClearcoatSheenAnisotropy) {
+    const Material coat = materialOf(extension(
+        "KHR_materials_clearcoat",
+        R"("clearcoatFactor": 0.5, "clearcoatRoughnessFactor": 0.25, "clearcoatTexture": {"index": 0},
+           "clearcoatRoughnessTexture": {"index": 0}, "clearcoatNormalTexture": {"index": 0, "scale": 2})"));
+    EXPECT_EQ(coat.principled.clearcoat, 0.5f);
+    EXPECT_EQ(coat.principled.clearcoatRoughness, 0.25f);
+    ASSERT_NE(useOf(coat, TextureSlot::ClearcoatNormal), nullptr);
+    EXPECT_EQ(useOf(coat, TextureSlot::ClearcoatNormal)->scale, 2);
+    EXPECT_EQ(coat.textures.size(), 3u);
+    const Material sheen = materialOf(extension(
+        "KHR_materials_sheen",
+        R"("sheenColorFactor": [0.5, 0, 1], "sheenRoughnessFactor": 0.75, "sheenColorTexture": {"index": 0},
+           "sheenRoughnessTexture": {"index": 0})"));
+    EXPECT_EQ(sheen.principled.sheenColor, glm::vec3(0.5f, 0, 1));
+    EXPECT_EQ(sheen.principled.sheenRoughness, 0.75f);
+    EXPECT_EQ(sheen.textures.size(), 2u);
+    const Material brushed = materialOf(extension(
+        "KHR_materials_anisotropy",
+        R"("anisotropyStrength": 0.5, "anisotropyRotation": 1.5, "anisotropyTexture": {"index": 0})"));
+    EXPECT_EQ(brushed.principled.anisotropy, 0.5f);
+    EXPECT_EQ(brushed.principled.anisotropyRotation, 1.5f);
+    EXPECT_NE(useOf(brushed, TextureSlot::Anisotropy), nullptr);
+}
+
+TEST(GltfMaterials, UnlitOnesEmit) {
+    const Scene scene = sceneOf(R"("pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.2, 0.3, 1],
+        "baseColorTexture": {"index": 0}}, )" +
+                                extension("KHR_materials_unlit", ""));
+    const Material& m = scene.materials.at(0);
+    EXPECT_EQ(m.kind, MaterialKind::Diffuse);
+    EXPECT_EQ(m.albedo, glm::vec3(0));
+    EXPECT_EQ(m.emission, glm::vec3(0.1f, 0.2f, 0.3f));
+    ASSERT_EQ(m.textures.size(), 1u);
+    EXPECT_EQ(m.textures[0].slot, TextureSlot::Emission);
+    EXPECT_THAT(scene.report.assumed, Contains(HasSubstr("unlit materials")));
+}
+
+TEST(GltfMaterials, WhatIsIgnoredIsReported) {
+    const Scene scene = sceneOf(R"("occlusionTexture": {"index": 0}, )" +
+                                extension("KHR_materials_iridescence", ""));
+    EXPECT_THAT(scene.report.ignored,
+                Contains("1 occlusion textures: what they foretell is computed"));
+    EXPECT_THAT(scene.report.ignored,
+                Contains(HasSubstr("KHR_materials_iridescence of a material")));
+}
+
+TEST(GltfMaterials, Variants) {
+    GltfText g = withMaterial(R"("name": "plain")");
+    g.addTo("materials", R"("name": "other")");
+    g.members["extensions"] =
+        R"({"KHR_materials_variants": {"variants": [{"name": "day"}, {"name": "night"}]}})";
+    std::string& mesh = g.arrays["meshes"][0];
+    mesh.insert(mesh.size() - 3, R"(, "extensions": {"KHR_materials_variants": {"mappings":
+        [{"material": 1, "variants": [1]}]}})");
+    const auto shown = [&](const std::string& variant) {
+        SceneConventions conventions;
+        conventions.selection.variant = variant;
+        return load(g, conventions).materials.at(0).name;
+    };
+    EXPECT_EQ(shown(""), "plain");
+    EXPECT_EQ(shown("day"), "plain");
+    EXPECT_EQ(shown("night"), "other");
+    SceneConventions conventions;
+    conventions.selection.variant = "dusk";
+    EXPECT_EQ(problem(g, conventions), "has no variant 'dusk'; there are day, night");
+}
+
+TEST(GltfTextures, Samplers) {
+    const Scene scene = sceneOf(R"("pbrMetallicRoughness": {"baseColorTexture": {"index": 0},
+        "metallicRoughnessTexture": {"index": 1}})");
+    ASSERT_EQ(scene.textures.size(), 2u);
+    const Texture& color = scene.textures[0];
+    EXPECT_EQ(color.wrapU, Wrap::Clamp);
+    EXPECT_EQ(color.wrapV, Wrap::Mirror);
+    EXPECT_TRUE(color.nearest);
+    EXPECT_TRUE(color.srgb);
+    const Texture& rough = scene.textures[1];
+    EXPECT_EQ(rough.wrapU, Wrap::Repeat);
+    EXPECT_FALSE(rough.nearest);
+    EXPECT_FALSE(rough.srgb);
+    EXPECT_THAT(scene.images.at(color.image).words, ElementsAre(0xFF030201u, 0xFF060504u));
+    EXPECT_EQ(scene.images.at(rough.image).format, TexelFormat::RgbaHalf);
+}
+
+TEST(GltfTextures, BytesAreSharedBetweenMeanings) {
+    const Scene scene = sceneOf(R"("pbrMetallicRoughness": {"baseColorTexture": {"index": 0},
+        "metallicRoughnessTexture": {"index": 0}})");
+    EXPECT_EQ(scene.textures.size(), 2u);
+    EXPECT_EQ(scene.images.size(), 1u);
+    // Those of 16 bits are decoded for one of them.
+    EXPECT_EQ(sceneOf(R"("pbrMetallicRoughness": {"baseColorTexture": {"index": 1},
+        "metallicRoughnessTexture": {"index": 1}})")
+                  .images.size(),
+              2u);
+}
+
+TEST(GltfTextures, AreShrunk) {
+    SceneConventions conventions;
+    conventions.selection.largestTexture = 1;
+    const Scene scene =
+        load(withMaterial(R"("pbrMetallicRoughness": {"metallicRoughnessTexture": {"index": 0}})"),
+             conventions);
+    EXPECT_EQ(scene.images.at(0).width, 1u);
+    EXPECT_THAT(scene.images.at(0).words, ElementsAre(0xFF050403u)); // halves are rounded up
+}
+
+TEST(GltfTextures, Transforms) {
+    // The marker of Khronos' TextureTransformTest: a picture turned by 22.5 degrees shows the point
+    // (0.777, 0.778) at (0.421, 1.016).
+    const Material turned = materialOf(R"("pbrMetallicRoughness": {"baseColorTexture": {"index": 0,
+        "extensions": {"KHR_texture_transform": {"rotation": 0.39269908169872414}}}})");
+    const glm::vec3 uv(0.42095f, 1.01627f, 1);
+    EXPECT_NEAR(glm::dot(turned.textures.at(0).uRow, uv), 0.7778, 1e-3);
+    EXPECT_NEAR(glm::dot(turned.textures.at(0).vRow, uv), 0.7778, 1e-3);
+    const Material moved = materialOf(R"("pbrMetallicRoughness": {"baseColorTexture": {"index": 0,
+        "extensions": {"KHR_texture_transform": {"offset": [1, 2], "scale": [3, 4], "texCoord": 3}}}})");
+    EXPECT_EQ(moved.textures.at(0).uRow, glm::vec3(3, 0, 1));
+    EXPECT_EQ(moved.textures.at(0).vRow, glm::vec3(0, 4, 2));
+}
+
+TEST(GltfTextures, AnyTwoSetsOfCoordinates) {
+    const Scene scene =
+        sceneOf(R"("normalTexture": {"index": 0, "texCoord": 3}, "pbrMetallicRoughness":
+        {"baseColorTexture": {"index": 0}})");
+    const Material& m = scene.materials.at(0);
+    const TextureUse* normal = useOf(m, TextureSlot::Normal);
+    const TextureUse* base = useOf(m, TextureSlot::BaseColor);
+    ASSERT_TRUE(normal && base);
+    const VertexAttributes& a = scene.attributes.at(scene.attributeCorners.at(0)[0]);
+    EXPECT_EQ(a.uv[base->uvSet], glm::vec2(0, 1));
+    EXPECT_EQ(a.uv[normal->uvSet], glm::vec2(5, 6));
+}
+
+TEST(GltfTextures, NormalMapsNeedTangents) {
+    const Scene scene = sceneOf(R"("normalTexture": {"index": 0, "scale": 0.5})");
+    EXPECT_EQ(useOf(scene.materials.at(0), TextureSlot::Normal)->scale, 0.5f);
+    for (const uint32_t corner : scene.attributeCorners.at(0))
+        EXPECT_EQ(scene.attributes.at(corner).tangent, glm::vec4(1, 0, 0, 1));
+    // What nothing looks at is not kept.
+    EXPECT_EQ(sceneOf(R"("pbrMetallicRoughness": {"baseColorTexture": {"index": 0}})")
+                  .attributes.at(0)
+                  .tangent,
+              glm::vec4(0));
+    EXPECT_TRUE(sceneOf("").attributes.empty());
+}
+
+TEST(GltfTextures, StatedTangentsAreKept) {
+    GltfText g = withMaterial(R"("normalTexture": {"index": 0})");
+    const size_t tangents = g.addAccessor<float>({0, 1, 0, -1, 0, 1, 0, -1, 0, 1, 0, -1}, "VEC4");
+    std::string& mesh = g.arrays["meshes"][0];
+    mesh.insert(mesh.find("\"POSITION\""), fmt::format(R"("TANGENT": {}, )", tangents));
+    EXPECT_EQ(load(g).attributes.at(0).tangent, glm::vec4(0, 1, 0, -1));
+}
+
+TEST(GltfTextures, OfExtensions) {
+    GltfText g = withMaterial(R"("pbrMetallicRoughness": {"baseColorTexture": {"index": 0}})");
+    g.addTo("images", fmt::format(R"("uri": "data:image/webp;base64,{}")",
+                                  toBase64(webp(1, 1, {9, 8, 7, 6}))));
+    g.arrays["textures"][0] = R"({"source": 0, "extensions": {"EXT_texture_webp": {"source": 2}}})";
+    EXPECT_THAT(load(g).images.at(0).words, ElementsAre(0x06070809u));
+    g.arrays["textures"][0] = R"({"extensions": {"KHR_texture_basisu": {"source": 2}}})";
+    const Scene scene = load(g);
+    EXPECT_TRUE(scene.images.empty());
+    EXPECT_THAT(scene.report.ignored, Contains(HasSubstr("KHR_texture_basisu")));
+}
+
+TEST(GltfTextures, MissingAndDamagedPictures) {
+    GltfText g = withMaterial(R"("pbrMetallicRoughness": {"baseColorTexture": {"index": 0}})");
+    g.arrays["images"][0] = R"({"uri": "none.png"})";
+    EXPECT_THAT(problem(g), HasSubstr("<images[0]>: "));
+    EXPECT_THAT(problem(g), HasSubstr("none.png: cannot be opened for reading: No such file"));
+    g.arrays["images"][0] =
+        fmt::format(R"({{"uri": "data:image/png;base64,{}"}})",
+                    toBase64(png8(9, 9, 3, std::vector<uint8_t>(243)).substr(0, 60)));
+    EXPECT_THAT(problem(g),
+                HasSubstr("<images[0]>: data:image/png;base64,...: cannot be read as PNG: "));
+    g.arrays["images"][0] = "{}";
+    EXPECT_EQ(problem(g), "<images[0]>: has neither 'uri' nor 'bufferView'");
+}
+
+} // namespace
+} // namespace stromboli::test
