@@ -85,7 +85,8 @@ double PathSample::opacityAt(const Hit& hit) const {
         return stromboli::opacityAt(scene, scene.materials[sphere.material], {});
     }
     const Material& material = scene.materials[scene.triangles[hit.primitive].material];
-    return stromboli::opacityAt(scene, material, attributesAt(scene, hit.primitive, hit.b1, hit.b2));
+    return stromboli::opacityAt(scene, material,
+                                attributesAt(scene, hit.primitive, hit.b1, hit.b2));
 }
 
 Hit PathSample::closest(const Ray& ray, Skip skip) {

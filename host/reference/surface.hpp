@@ -56,7 +56,8 @@ void faceForward(SurfacePoint& surface, const ShadingConventions& conventions);
 /// faceForward().
 void applyTextures(SurfacePoint& surface, const Scene& scene);
 /// After faceForward(): the shading normal by the normal map, and the tangent.
-void applyNormalMap(SurfacePoint& surface, const Scene& scene, const ShadingConventions& conventions);
+void applyNormalMap(SurfacePoint& surface, const Scene& scene,
+                    const ShadingConventions& conventions);
 
 /// A shading normal n, bent towards wo so far that the mirror direction of wo is on the horizon of
 /// the geometric normal g, if it is below; wo is above (Keller et al. 2017, A.3).

@@ -35,7 +35,7 @@ struct Texture {
 /// What a texture of a material changes. All but Normal and ClearcoatNormal multiply the number of
 /// the same name in the material; glTF's channels.
 enum class TextureSlot : uint32_t {
-    BaseColor, ///< red, green, blue: baseColor (Diffuse: albedo); alpha: opacity
+    BaseColor,          ///< red, green, blue: baseColor (Diffuse: albedo); alpha: opacity
     MetallicRoughness,  ///< green: roughness, blue: metallic
     Normal,             ///< tangent space, [0, 1] for [-1, 1]
     Emission,           ///< red, green, blue

@@ -41,7 +41,15 @@ TEST_P(KernelModules, TheSmallestThatHasAllFeatures) {
     const auto all = module(f);
     EXPECT_LT(one.size(), 0.9 * double(many.size()));
     EXPECT_LT(many.size(), 0.95 * double(all.size()));
-    EXPECT_EQ(constantsOf(all).size(), size_t(SPEC_COUNT)) << "all constants are used";
+    f[SPEC_ALPHA] = 1;
+    const auto rich = module(f);
+    EXPECT_LT(all.size(), 0.95 * double(rich.size()));
+    EXPECT_EQ(constantsOf(rich).size(), size_t(SPEC_COUNT)) << "all constants are used";
+    const auto rare = constantsOf(all);
+    for (const uint32_t id :
+         {SPEC_TEXTURE_SLOTS, SPEC_TEXEL_KINDS, SPEC_ATTRIBUTES, SPEC_ALPHA, SPEC_TANGENT_FRAMES})
+        EXPECT_FALSE(rare.contains(id)) << id;
+    EXPECT_EQ(rare.size(), size_t(SPEC_COUNT) - 5);
 }
 
 /// A constant with another value than the usual one leads to a module that has the constant. With
