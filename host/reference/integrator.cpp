@@ -98,7 +98,7 @@ Hit PathSample::closest(const Ray& ray, Skip skip) {
     return hit;
 }
 
-double PathSample::transmittance(const Ray& ray, Skip skip) const {
+double PathSample::shareThatPasses(const Ray& ray, Skip skip) const {
     if (!world_.hasAlpha) return world_.bvh.occluded(ray, skip) ? 0 : 1;
     double left = 1;
     Hit hit;
@@ -180,7 +180,7 @@ void PathSample::addLightSample(const LightSample& light, double share) {
         if (ray.tMax > 0) ray.direction = to / ray.tMax;
     }
     ++rays_;
-    radiance_ += throughput_ * value * transmittance(ray, {startOfReflected(), light.primitive});
+    radiance_ += throughput_ * value * shareThatPasses(ray, {startOfReflected(), light.primitive});
 }
 
 void PathSample::addHemisphereSamples() {
