@@ -28,11 +28,10 @@ constexpr uint64_t kTotalsOffset = sizeof(uint32_t);
 
 /// The scene's buffers by binding; the traversal reads the first ones only, but all are bound.
 std::vector<std::span<const std::byte>> sceneRows(const GpuScene& scene) {
-    return {std::as_bytes(std::span(scene.bvh.records)), std::as_bytes(std::span(scene.primitives)),
-            std::as_bytes(std::span(scene.materials)),
-            std::as_bytes(std::span(scene.lights.lights)),
-            std::as_bytes(std::span(scene.lights.table)),
-            std::as_bytes(std::span(scene.details))};
+    return {
+        std::as_bytes(std::span(scene.bvh.records)),  std::as_bytes(std::span(scene.primitives)),
+        std::as_bytes(std::span(scene.materials)),    std::as_bytes(std::span(scene.lights.lights)),
+        std::as_bytes(std::span(scene.lights.table)), std::as_bytes(std::span(scene.details))};
 }
 
 bool isRow(uint32_t binding) {

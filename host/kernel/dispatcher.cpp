@@ -27,9 +27,10 @@ uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene,
     // At a hit, where a path splits again, and at the end of a ray of hemisphere sampling.
     constexpr uint32_t kTextureLoops = 3;
     // A light is picked for a light sample, and looked up once more for MIS.
-    const uint32_t perIteration = 1 + (tuning.traversalSteps + 1) + 2 +
-                                  (scene.lights.groups ? 2 * (scene.lights.levels + 1) : 0) +
-                                  (scene.mostTextures ? kTextureLoops * (scene.mostTextures + 1) : 0);
+    const uint32_t perIteration =
+        1 + (tuning.traversalSteps + 1) + 2 +
+        (scene.lights.groups ? 2 * (scene.lights.levels + 1) : 0) +
+        (scene.mostTextures ? kTextureLoops * (scene.mostTextures + 1) : 0);
     return std::max(kLlvmpipeLoopPasses / perIteration, 2u);
 }
 
@@ -114,7 +115,8 @@ bool Dispatcher::runChunk(size_t segment, std::span<const gpu::WorkItem> items,
         if (status.overflowedItems > 0)
             throw DeviceError(fmt::format(
                 "{} pixels needed more than {} loop iterations for one surface, the most that {} "
-                "runs in a dispatch: too many lights or light samples (-l) for one shading point, or "
+                "runs in a dispatch: too many lights or light samples (-l) for one shading point, "
+                "or "
                 "too many transparent layers behind each other",
                 status.overflowedItems, hardIterations_, device_.description().name()));
         goesOn = advance(status.samples) && goesOn;

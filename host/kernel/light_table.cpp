@@ -204,7 +204,8 @@ class Packer {
             const bool isQuad = e.kind == EmitterKind::Quad;
             const uint32_t kind = isQuad ? gpu::LIGHT_QUAD : gpu::LIGHT_SPHERE;
             const uint32_t number =
-                addRows(isQuad ? m.emission : glm::vec3(means_.ofSphere(e.sphere)), kind | (m.emitsBothSides ? gpu::LIGHT_BOTH_SIDES : 0));
+                addRows(isQuad ? m.emission : glm::vec3(means_.ofSphere(e.sphere)),
+                        kind | (m.emitsBothSides ? gpu::LIGHT_BOTH_SIDES : 0));
             if (isQuad) {
                 appendRows(out_.lights, quad(e.corner, e.edgeA, e.edgeB));
             } else {

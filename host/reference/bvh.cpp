@@ -96,9 +96,11 @@ Hit Bvh::closestBehind(const Ray& start, const Hit& passed, Skip skip) const {
     traverse(boxes, [&](uint32_t primitive, Ray& ray) {
         if (skip(primitive)) return true;
         Ray probe = start;
-        if (begun) probe.tMin = primitive > passed.primitive ? std::nextafter(passed.t, 0.0) : passed.t;
+        if (begun)
+            probe.tMin = primitive > passed.primitive ? std::nextafter(passed.t, 0.0) : passed.t;
         const bool found = best.primitive != kNoPrimitive;
-        if (found) probe.tMax = primitive < best.primitive ? std::nextafter(best.t, kInfinity) : best.t;
+        if (found)
+            probe.tMax = primitive < best.primitive ? std::nextafter(best.t, kInfinity) : best.t;
         if (auto hit = intersect(probe, primitive)) {
             best = *hit;
             best.primitive = primitive;

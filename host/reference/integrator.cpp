@@ -88,7 +88,8 @@ double PathSample::opacityAt(const Hit& hit) const {
         return stromboli::opacityAt(scene, scene.materials[sphere.material], {});
     }
     const Material& material = scene.materials[scene.triangles[hit.primitive].material];
-    return stromboli::opacityAt(scene, material, attributesAt(scene, hit.primitive, hit.b1, hit.b2));
+    return stromboli::opacityAt(scene, material,
+                                attributesAt(scene, hit.primitive, hit.b1, hit.b2));
 }
 
 Hit PathSample::closest(const Ray& ray, Skip skip) {
@@ -100,7 +101,7 @@ Hit PathSample::closest(const Ray& ray, Skip skip) {
     return hit;
 }
 
-double PathSample::transmittance(const Ray& ray, Skip skip) const {
+double PathSample::shareThatPasses(const Ray& ray, Skip skip) const {
     if (!world_.hasAlpha) return world_.bvh.occluded(ray, skip) ? 0 : 1;
     double left = 1;
     Hit hit;
@@ -182,7 +183,7 @@ void PathSample::addLightSample(const LightSample& light, double share) {
         if (ray.tMax > 0) ray.direction = to / ray.tMax;
     }
     ++rays_;
-    radiance_ += throughput_ * value * transmittance(ray, {startOfReflected(), light.primitive});
+    radiance_ += throughput_ * value * shareThatPasses(ray, {startOfReflected(), light.primitive});
 }
 
 void PathSample::addHemisphereSamples() {

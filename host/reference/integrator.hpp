@@ -38,7 +38,7 @@ class PathSample {
     Hit closest(const Ray& ray, Skip skip);
     double opacityAt(const Hit& hit) const;
     /// The share of light that comes through to the end of the ray.
-    double transmittance(const Ray& ray, Skip skip) const;
+    double shareThatPasses(const Ray& ray, Skip skip) const;
     void addEmission();
     bool emissionCounts(uint32_t bounce, bool delta) const;
     bool survivesFixed();

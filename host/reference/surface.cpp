@@ -32,7 +32,7 @@ void fillTriangle(SurfacePoint& s, const Scene& scene, const Triangle& t, const 
     s.outside = glm::dot(s.geometric, s.wo) >= 0;
     s.shading = s.geometric;
     s.triangle = hit.primitive;
-    s.material = &scene.materials[t.material];
+    s.material = s.stated = &scene.materials[t.material];
     if (t.normals[0] == kNoNormals) return;
     SmoothTriangle smooth{{v0, v1, v2}, {}};
     const glm::dvec3 weights(b0, hit.b1, hit.b2);
@@ -54,7 +54,7 @@ void fillSphere(SurfacePoint& s, const Scene& scene, const Sphere& sphere, const
     s.error = errorOnSphere(center, sphere.radius);
     s.outside = glm::dot(s.geometric, s.wo) >= 0;
     s.shading = s.geometric;
-    s.material = &scene.materials[sphere.material];
+    s.material = s.stated = &scene.materials[sphere.material];
 }
 
 } // namespace

@@ -25,7 +25,8 @@ struct SurfacePoint {
     uint32_t triangle = kNoPrimitive; ///< the primitive if it is planar: rays that leave it miss it
     /// Its parameters at this point, with textures and the colours of corners taken in.
     const Material* material = nullptr;
-    std::shared_ptr<const Material> ownMaterial; ///< where it is not the scene's
+    const Material* stated = nullptr;            ///< the scene's: it outlives the point
+    std::shared_ptr<const Material> ownMaterial; ///< `material`, where it is not the scene's
     /// Unit, perpendicular to the shading normal, along which u grows; w: the bitangent is
     /// w (shading normal x tangent), 0: there is none.
     glm::dvec4 tangent{0.0};
@@ -56,7 +57,8 @@ void faceForward(SurfacePoint& surface, const ShadingConventions& conventions);
 /// faceForward().
 void applyTextures(SurfacePoint& surface, const Scene& scene);
 /// After faceForward(): the shading normal by the normal map, and the tangent.
-void applyNormalMap(SurfacePoint& surface, const Scene& scene, const ShadingConventions& conventions);
+void applyNormalMap(SurfacePoint& surface, const Scene& scene,
+                    const ShadingConventions& conventions);
 
 /// A shading normal n, bent towards wo so far that the mirror direction of wo is on the horizon of
 /// the geometric normal g, if it is below; wo is above (Keller et al. 2017, A.3).

@@ -120,8 +120,8 @@ glm::dvec3 bendNormal(const glm::dvec3& n, const glm::dvec3& g, const glm::dvec3
     const glm::dvec3 mirrored = 2 * glm::dot(n, wo) * n - wo;
     if (facing > 0 && glm::dot(mirrored, g) >= 0) return n;
     // Pulled up along n to the horizon; from a normal below the horizon, to where that points.
-    const glm::dvec3 grazing = facing > 0 ? mirrored - glm::dot(mirrored, g) / facing * n
-                                          : height * (n - facing * g);
+    const glm::dvec3 grazing =
+        facing > 0 ? mirrored - glm::dot(mirrored, g) / facing * n : height * (n - facing * g);
     const double length = glm::length(grazing);
     const glm::dvec3 sum = length > 0 && std::isfinite(length) ? wo + grazing / length : g;
     return glm::dot(sum, sum) > 0 ? glm::normalize(sum) : g;

@@ -91,10 +91,9 @@ void requireTogetherFit(const DeviceDescription& device, std::span<const BufferP
         list += fmt::format("{}{} {}", list.empty() ? "" : ", ", buffer.name, buffer.bytes);
     }
     if (total > device.memory)
-        throw DeviceError(
-            fmt::format("the buffers need {} bytes together, but {} has {} bytes of memory: {}{}{}",
-                        total, device.name(), device.memory, list, remedy.empty() ? "" : "; ",
-                        remedy));
+        throw DeviceError(fmt::format(
+            "the buffers need {} bytes together, but {} has {} bytes of memory: {}{}{}", total,
+            device.name(), device.memory, list, remedy.empty() ? "" : "; ", remedy));
 }
 
 } // namespace stromboli::vulkan

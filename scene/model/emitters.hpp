@@ -8,8 +8,8 @@
 namespace stromboli {
 
 enum class EmitterKind : uint32_t {
-    Quad,   ///< two triangles that form a parallelogram, alike everywhere: corner + u edgeA + v edgeB
-    Mesh,   ///< any other set of triangles
+    Quad, ///< two triangles that form a parallelogram, alike everywhere: corner + u edgeA + v edgeB
+    Mesh, ///< any other set of triangles
     Sphere, ///< one sphere
 };
 

@@ -67,7 +67,8 @@ glm::dvec3 MeanEmission::largestOn(uint32_t triangle, const TextureUse& use) con
     for (const glm::dvec2& corner : kCorners) {
         const PointAttributes at = attributesAt(scene_, triangle, corner.x, corner.y);
         const glm::dvec3 uv1(at.uv[use.uvSet], 1.0);
-        const glm::dvec2 uv(glm::dot(glm::dvec3(use.uRow), uv1), glm::dot(glm::dvec3(use.vRow), uv1));
+        const glm::dvec2 uv(glm::dot(glm::dvec3(use.uRow), uv1),
+                            glm::dot(glm::dvec3(use.vRow), uv1));
         // What is not a number is no bound: it makes the range one that is not known.
         for (int axis = 0; axis < 2; ++axis) {
             const double u = std::isfinite(uv[axis]) ? uv[axis] : 0x1p30;

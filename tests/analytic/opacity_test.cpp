@@ -134,8 +134,8 @@ TEST(Opacity, MaskByTexture) {
     Material m = layer(1);
     m.alphaMode = AlphaMode::Mask;
     m.textures = {{.slot = TextureSlot::BaseColor,
-                   .texture = t.texture({.image = t.bytes(2, 2, {hole, cloth, cloth, hole}),
-                                         .nearest = true})}};
+                   .texture = t.texture(
+                       {.image = t.bytes(2, 2, {hole, cloth, cloth, hole}), .nearest = true})}};
     addTexturedSquare(b, b.add(m), 8, {-0.5f, -0.5f, 0.25f});
     Light sun;
     sun.kind = LightKind::Directional;

@@ -31,8 +31,8 @@ class TextureMaker {
     Scene& scene_;
 };
 
-/// A unit square from the origin in the plane z = 0, normal +z, with texture coordinates from (0, 0)
-/// at its upper left corner (0, 1, 0), u to the right and v downwards, times `scale`.
+/// A unit square from the origin in the plane z = 0, normal +z, with texture coordinates from (0,
+/// 0) at its upper left corner (0, 1, 0), u to the right and v downwards, times `scale`.
 void addTexturedSquare(SceneMaker& maker, uint32_t material, float scale = 1,
                        const glm::vec3& offset = glm::vec3(0));
 

@@ -48,9 +48,8 @@ TEST(Textures, AreMixedBetweenTexels) {
     SceneMaker b;
     TextureMaker t(b.scene);
     const uint32_t image = t.halves(2, 1, {glm::vec4(0, 4, 1, 1), glm::vec4(1, 0, 1, 1)});
-    addTexturedSquare(
-        b, b.add(textured(emissive(1), TextureSlot::Emission,
-                          t.texture({.image = image, .wrapU = Wrap::Clamp}))));
+    addTexturedSquare(b, b.add(textured(emissive(1), TextureSlot::Emission,
+                                        t.texture({.image = image, .wrapU = Wrap::Clamp}))));
     expectNear(seen(b.scene, 0.5, 0.4), {0.5, 2, 1});
     expectNear(seen(b.scene, 0.3, 0.4), {0.1, 3.6, 1});
     expectNear(seen(b.scene, 0.1, 0.4), {0, 4, 1});
@@ -98,8 +97,8 @@ TEST(Textures, HaveTheirOwnCoordinates) {
 TEST(Textures, DegenerateCoordinatesAreHarmless) {
     SceneMaker b;
     TextureMaker t(b.scene);
-    const Material m =
-        textured(emissive(1), TextureSlot::Emission, t.texture(t.bytes(2, 2, std::vector(4, kRed))));
+    const Material m = textured(emissive(1), TextureSlot::Emission,
+                                t.texture(t.bytes(2, 2, std::vector(4, kRed))));
     const uint32_t material = b.add(m);
     const float values[] = {NAN, INFINITY, -INFINITY, 3e38f, -1e-30f, 1e20f};
     for (int i = 0; i < 6; ++i) {
@@ -232,9 +231,9 @@ TEST(NormalMaps, TurnRoundOnTheOtherSide) {
     }
 }
 
-/// A normal that leans away from the camera so far that what it mirrors is below the surface is bent
-/// until that is level: halfway between the camera and the horizon (Keller et al. 2017). No rim is
-/// black, and the normal is never more turned away than that.
+/// A normal that leans away from the camera so far that what it mirrors is below the surface is
+/// bent until that is level: halfway between the camera and the horizon (Keller et al. 2017). No
+/// rim is black, and the normal is never more turned away than that.
 TEST(NormalMaps, AreBentWhereTheyWouldReflectFromBelow) {
     const glm::dvec3 mapped(-0.8, 0, 0.6);
     const Mapped square{.mapped = glm::vec3(mapped)};
@@ -312,8 +311,8 @@ class TexturedLamp : public testing::Test {
         return t.texture({.image = t.bytes(2, 1, {dark, kWhite}), .nearest = true});
     }
     static void byTexture(SceneMaker& b) {
-        addTexturedSquare(b, b.add(textured(emissive(3), TextureSlot::Emission,
-                                            halfDark(b, {0, 0, 0, 1}))));
+        addTexturedSquare(
+            b, b.add(textured(emissive(3), TextureSlot::Emission, halfDark(b, {0, 0, 0, 1}))));
     }
     static void byMask(SceneMaker& b) {
         Material m = textured(emissive(3), TextureSlot::BaseColor, halfDark(b, {1, 1, 1, 0}));

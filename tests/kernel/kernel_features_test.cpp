@@ -2,6 +2,7 @@
 #include "host/bvh/wide_layout.hpp"
 #include "host/kernel/direct_sampling.hpp"
 #include "host/kernel/kernel_features.hpp"
+#include "shaders/shared/texture_types.h"
 
 #include <gtest/gtest.h>
 
@@ -204,6 +205,52 @@ TEST(KernelFeatures, PathsSplitOnlyIfAskedTo) {
     EXPECT_FALSE(featuresOf(oneTriangle({}), s)[SPEC_SPLITS]);
     s.estimator.branches = 2;
     EXPECT_TRUE(featuresOf(oneTriangle({}), s)[SPEC_SPLITS]);
+}
+
+/// Textures that change nothing, and alpha modes of what is opaque everywhere, cost nothing.
+TEST(KernelFeatures, TexturesAndOpacityOnlyWhereTheyHaveAnEffect) {
+    Scene scene = oneTriangle({});
+    scene.images.resize(1);
+    scene.images[0].width = scene.images[0].height = 1;
+    scene.images[0].words = {0xFF804020};
+    scene.textures.resize(1);
+    scene.attributes.resize(3);
+    scene.attributeCorners = {{0, 1, 2}};
+    Material& m = scene.materials[0];
+    m.alphaMode = AlphaMode::Mask;
+    for (const TextureSlot slot : {TextureSlot::Emission, TextureSlot::MetallicRoughness,
+                                   TextureSlot::ClearcoatNormal, TextureSlot::SheenColor})
+        m.textures.push_back({.slot = slot});
+    KernelFeatures f = featuresOf(scene);
+    for (const uint32_t id : {SPEC_TEXTURE_SLOTS, SPEC_TEXEL_KINDS, SPEC_ATTRIBUTES, SPEC_ALPHA})
+        EXPECT_EQ(f[id], 0u) << id;
+    EXPECT_TRUE(packScene(scene, buildWideBvh(scene)).details.empty());
+
+    m.textures.push_back({.slot = TextureSlot::BaseColor});
+    f = featuresOf(scene);
+    EXPECT_EQ(f[SPEC_TEXTURE_SLOTS], 1u << gpu::TEXTURE_BASE_COLOR);
+    EXPECT_EQ(f[SPEC_TEXEL_KINDS], gpu::TEXEL_KIND_BILINEAR | gpu::TEXEL_KIND_BYTES);
+    EXPECT_EQ(f[SPEC_ATTRIBUTES], gpu::ATTRIBUTE_UV0);
+    EXPECT_EQ(f[SPEC_ALPHA], 0u);
+    EXPECT_EQ(packScene(scene, buildWideBvh(scene)).details.size(), 3u) << "two rows and a texel's";
+
+    scene.images[0].words = {0x7F804020};
+    EXPECT_EQ(featuresOf(scene)[SPEC_ALPHA], 1u);
+    scene.images[0].words = {0xFF804020};
+    scene.attributes[1].color.a = 0.5f;
+    f = featuresOf(scene);
+    EXPECT_EQ(f[SPEC_ALPHA], 1u);
+    EXPECT_EQ(f[SPEC_ATTRIBUTES], gpu::ATTRIBUTE_UV0 | gpu::ATTRIBUTE_COLOR);
+    m.textures.push_back({.slot = TextureSlot::Normal, .uvSet = 1});
+    f = featuresOf(scene);
+    EXPECT_EQ(f[SPEC_ATTRIBUTES], gpu::ATTRIBUTE_UV0 | gpu::ATTRIBUTE_UV1 | gpu::ATTRIBUTE_COLOR |
+                                      gpu::ATTRIBUTE_TANGENT);
+    EXPECT_EQ(f[SPEC_HAS_NORMALS], 1u) << "a flat surface with a map";
+    Material unused = m;
+    m = Material{};
+    scene.materials.push_back(unused);
+    scene.attributes[1].color.a = 1;
+    EXPECT_EQ(featuresOf(scene)[SPEC_TEXTURE_SLOTS], 0u) << "no surface has it";
 }
 
 TEST(KernelFeatures, FollowTheTuning) {

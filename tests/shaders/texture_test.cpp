@@ -155,7 +155,8 @@ TEST_P(TextureLookup, IsTheDefinition) {
 
 /// Coordinates without a place read some texel, not beyond the picture.
 TEST_P(TextureLookup, AnyCoordinateIsHarmless) {
-    const float odd[] = {NAN, INFINITY, -INFINITY, 3e38f, -3e38f, 1e10f, 16777216.0f, -1e-30f, 0, 1};
+    const float odd[] = {NAN,   INFINITY,    -INFINITY, 3e38f, -3e38f,
+                         1e10f, 16777216.0f, -1e-30f,   0,     1};
     std::vector<TextureQuery> queries;
     for (size_t i = 0; i < rowOf_.size(); ++i)
         for (const float u : odd)
@@ -177,7 +178,8 @@ TEST_P(TextureLookup, SrgbIsDecoded) {
     Scene scene;
     TextureMaker t(scene);
     Material m;
-    m.textures = {{.texture = t.texture({.image = t.bytes(256, 1, all), .nearest = true, .srgb = true})}};
+    m.textures = {
+        {.texture = t.texture({.image = t.bytes(256, 1, all), .nearest = true, .srgb = true})}};
     scene.materials = {m};
     scene.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     scene.triangles.push_back({{0, 1, 2}});
