@@ -39,6 +39,10 @@ Dispatch dispatch;
 #include "lights/lights.glsl"
 #include "include/mis.glsl"
 #include "include/gap_proposal.glsl"
+#ifdef RICH_MATERIALS
+#include "include/two_sides.glsl"
+#include "include/medium.glsl"
+#endif
 #include "include/accumulate.glsl"
 #include "include/path.glsl"
 
@@ -119,13 +123,21 @@ void resumeSplit(uint lane) {
     splitPoint.surface = SurfacePoint(s.position, s.error, s.geometric, s.shading, s.wo,
                                       s.outside != 0u, s.material, s.skipPrimitive, s.lift);
     branchesLeft = s.branchesLeft;
+#ifdef RICH_MATERIALS
+    splitPoint.medium = s.medium;
+#endif
 }
 
 void suspendSplit(uint lane) {
     const SurfacePoint p = splitPoint.surface;
+#ifdef RICH_MATERIALS
+    const uint medium = splitPoint.medium;
+#else
+    const uint medium = 0u;
+#endif
     suspendedSplits[lane] = SuspendedSplit(
         p.position, splitPoint.bounce, p.geometric, p.material, p.shading, p.skipPrimitive, p.wo,
-        p.lift, splitPoint.throughput, p.error, p.outside ? 1u : 0u, branchesLeft, 0u, 0u);
+        p.lift, splitPoint.throughput, p.error, p.outside ? 1u : 0u, branchesLeft, medium, 0u);
 }
 
 void resume(uint lane) {
@@ -148,6 +160,9 @@ void resume(uint lane) {
     bouncePdf = max(p.emission, 0.0);
     arrivalNumbers = p.arrivalNumbers;
     departureNormal = p.departureNormal;
+#ifdef RICH_MATERIALS
+    medium = p.medium;
+#endif
     if (SPLITS) resumeSplit(lane);
     trace(PHASE_PATH, p.origin, p.direction, 0.0, INFINITE_DISTANCE, p.skipPrimitive);
 }
@@ -165,6 +180,9 @@ void suspend(uint lane) {
     p.item = item;
     p.arrivalNumbers = arrivalNumbers;
     p.departureNormal = departureNormal;
+#ifdef RICH_MATERIALS
+    p.medium = medium;
+#endif
     suspendedPaths[lane] = p;
     if (SPLITS) suspendSplit(lane);
 }

@@ -2,6 +2,8 @@
 
 #include "embedded/pathtrace_one_light_storage.h"
 #include "embedded/pathtrace_one_light_texel.h"
+#include "embedded/pathtrace_rich_storage.h"
+#include "embedded/pathtrace_rich_texel.h"
 #include "embedded/pathtrace_storage.h"
 #include "embedded/pathtrace_texel.h"
 #include "embedded/pathtrace_usual_storage.h"
@@ -24,9 +26,17 @@ bool hasOneLight(const KernelFeatures& f) {
     return f[SPEC_LIGHT_CHOICE] == gpu::LIGHT_CHOICE_ONE;
 }
 
+/// What only modules with RICH_MATERIALS have.
+bool needsRichModule(const KernelFeatures& f) {
+    return (f[SPEC_BSDF_KINDS] & 1u << gpu::BSDF_PRINCIPLED) != 0 ||
+           f[SPEC_PRINCIPLED_FEATURES] != 0;
+}
+
 } // namespace
 
 std::span<const uint32_t> kernelModule(const KernelFeatures& features, bool texelFetch) {
+    if (needsRichModule(features))
+        return texelFetch ? Code(pathtrace_rich_texel) : pathtrace_rich_storage;
     if (!hasUsualModes(features)) return texelFetch ? Code(pathtrace_texel) : pathtrace_storage;
     if (hasOneLight(features))
         return texelFetch ? Code(pathtrace_one_light_texel) : pathtrace_one_light_storage;

@@ -17,6 +17,9 @@ struct MaterialRows {
 
 MaterialRows packMaterials(std::span<const Material> materials);
 
+/// PRINCIPLED_HAS_ bits of what the material has; 0 for other kinds.
+uint32_t principledFeatures(const Material& material);
+
 /// The BSDF_ kind that stands for a material of the scene.
 uint32_t bsdfKind(MaterialKind kind);
 

@@ -36,6 +36,10 @@ bool isTransmission(uint lobe) { return (lobe & TRANSMISSION_LOBES) != 0u; }
 #include "bsdf/mirror.glsl"
 #include "bsdf/dielectric.glsl"
 #include "bsdf/rough_conductor.glsl"
+#ifdef RICH_MATERIALS
+#include "bsdf/ggx.glsl"
+#include "bsdf/principled.glsl"
+#endif
 
 // --- Dispatch: one line for each kind of BSDF in each function ---------------------------------------------------
 
@@ -47,12 +51,19 @@ uint lobesOf(Material m) {
     if (isBsdf(m, BSDF_REFRACTION)) lobes = REFRACTION_BSDF_LOBES;
     if (isBsdf(m, BSDF_GLASS)) lobes = GLASS_BSDF_LOBES;
     if (isBsdf(m, BSDF_ROUGH_CONDUCTOR)) lobes = ROUGH_CONDUCTOR_BSDF_LOBES;
+#ifdef RICH_MATERIALS
+    if (isBsdf(m, BSDF_PRINCIPLED)) lobes = principledLobes(principledParameters(m));
+#endif
     return lobes;
 }
 
 /// All lobes of the scene's materials: known when the kernel is compiled.
 uint sceneLobes() {
-    return (sceneHasBsdf(BSDF_DIFFUSE) ? DIFFUSE_BSDF_LOBES : 0u) |
+    return
+#ifdef RICH_MATERIALS
+        (sceneHasBsdf(BSDF_PRINCIPLED) ? scenePrincipledLobes() : 0u) |
+#endif
+        (sceneHasBsdf(BSDF_DIFFUSE) ? DIFFUSE_BSDF_LOBES : 0u) |
            (sceneHasBsdf(BSDF_MIRROR) ? MIRROR_BSDF_LOBES : 0u) |
            (sceneHasBsdf(BSDF_REFRACTION) ? REFRACTION_BSDF_LOBES : 0u) |
            (sceneHasBsdf(BSDF_GLASS) ? GLASS_BSDF_LOBES : 0u) |
@@ -63,6 +74,9 @@ BsdfValue evaluateLocally(Material m, Incidence i, vec3 wi) {
     if (isBsdf(m, BSDF_DIFFUSE)) return evaluateDiffuse(diffuseParameters(m), i, wi);
     if (isBsdf(m, BSDF_ROUGH_CONDUCTOR))
         return evaluateRoughConductor(roughConductorParameters(m), i, wi);
+#ifdef RICH_MATERIALS
+    if (isBsdf(m, BSDF_PRINCIPLED)) return evaluatePrincipled(principledParameters(m), i, wi);
+#endif
     return NO_SCATTERING; // delta lobes only
 }
 
@@ -73,6 +87,9 @@ BsdfSample sampleLocally(Material m, Incidence i, vec3 u) {
     if (isBsdf(m, BSDF_REFRACTION)) s = sampleRefraction(refractionParameters(m), i, u);
     if (isBsdf(m, BSDF_GLASS)) s = sampleGlass(glassParameters(m), i, u);
     if (isBsdf(m, BSDF_ROUGH_CONDUCTOR)) s = sampleRoughConductor(roughConductorParameters(m), i, u);
+#ifdef RICH_MATERIALS
+    if (isBsdf(m, BSDF_PRINCIPLED)) s = samplePrincipled(principledParameters(m), i, u);
+#endif
     return s;
 }
 
@@ -85,6 +102,9 @@ bool scattersIntoManyDirections(uint lobes) { return (lobes & ~DELTA_LOBES) != 0
 bool scattersAtRandom(uint lobes) {
     return lobes != LOBE_DELTA_REFLECTION && lobes != LOBE_DELTA_TRANSMISSION;
 }
+
+/// The frame that directions are in: z along the shading normal; x is the tangent.
+ShadingFrame surfaceFrame(SurfacePoint s) { return makeFrame(shadingNormal(s)); }
 
 Incidence incidenceOn(SurfacePoint s, ShadingFrame frame_) {
     const vec3 wo = toLocal(frame_, s.wo);
@@ -100,7 +120,7 @@ bool isOnItsSide(SurfacePoint s, vec3 wi, bool transmitted) {
 /// f |cos| and the density for the unit world direction wi, of all lobes but delta ones.
 /// s: faced forward.
 BsdfValue evaluateBsdf(Material m, SurfacePoint s, vec3 wi) {
-    const ShadingFrame frame_ = makeFrame(shadingNormal(s));
+    const ShadingFrame frame_ = surfaceFrame(s);
     const vec3 local = toLocal(frame_, wi);
     const bool transmitted = local.z < 0.0;
     const bool possible =
@@ -113,7 +133,7 @@ BsdfValue evaluateBsdf(Material m, SurfacePoint s, vec3 wi) {
 /// Samples the direction in which light goes on. u, each in [0, 1): x and y for the direction within
 /// a lobe, z for the choice of one of several lobes. s: faced forward.
 BsdfSample sampleBsdf(Material m, SurfacePoint s, vec3 u) {
-    const ShadingFrame frame_ = makeFrame(shadingNormal(s));
+    const ShadingFrame frame_ = surfaceFrame(s);
     BsdfSample b = sampleLocally(m, incidenceOn(s, frame_), u);
     b.direction = toWorld(frame_, b.direction);
     // Mirrored and refracted directions keep the length of wo but for rounding, which would add up

@@ -45,6 +45,11 @@ const uint LIGHT_CHOICE = LIGHT_CHOICE_ONE;
 layout(constant_id = SPEC_LIGHT_CHOICE) const uint LIGHT_CHOICE = LIGHT_CHOICE_TREE;
 #endif
 
+// RICH_MATERIALS: modules that have materials whose code is large. Scenes without them take the others.
+#ifdef RICH_MATERIALS
+layout(constant_id = SPEC_PRINCIPLED_FEATURES) const uint PRINCIPLED_FEATURES = 63u;
+#endif
+
 bool sceneHasBsdf(uint kind) { return (BSDF_KINDS & (1u << kind)) != 0u; }
 /// Whether light samples go to lights of this kind.
 bool samplesLightKind(uint kind) { return (LIGHT_KINDS & (1u << kind)) != 0u; }

@@ -55,7 +55,8 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_LARGE_TREE 25 // the tree has more than SMALL_TREE_RECORDS records
 #define SPEC_AMBIENT_BY_BOUNCES 26 // bounces alone find the ambient light; light samples go to others
 #define SPEC_HAS_AMBIENT 27 // rays that hit nothing find ambient light
-#define SPEC_COUNT 28
+#define SPEC_PRINCIPLED_FEATURES 28 // PRINCIPLED_HAS_ bits: what the principled materials have
+#define SPEC_COUNT 29
 
 SHARED_CONST uint INTEGRATOR_PATH = 0u;
 SHARED_CONST uint INTEGRATOR_NORMALS = 1u;

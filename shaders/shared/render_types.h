@@ -84,7 +84,7 @@ struct SuspendedPath {
     vec3 radiance;
     uint item; ///< of the work list; NO_ITEM: the lane has none
     vec3 arrivalNumbers; ///< path.glsl
-    uint unused0;
+    uint medium;         ///< path.glsl; of no meaning where nothing absorbs
     vec3 departureNormal; ///< path.glsl
     uint unused1;
 };
@@ -103,7 +103,8 @@ struct SuspendedSplit {
     float error;
     uint outside;
     uint branchesLeft; ///< that have not begun
-    uint unused0, unused1;
+    uint medium;       ///< path.glsl
+    uint unused;
 };
 SHARED_ROWS(SuspendedSplit, 6);
 SHARED_CONST float SUSPENDED_NO_EMISSION = -1.0f;
