@@ -123,8 +123,13 @@ BsdfValue evaluateBsdf(Material m, SurfacePoint s, vec3 wi) {
     const ShadingFrame frame_ = surfaceFrame(s);
     const vec3 local = toLocal(frame_, wi);
     const bool transmitted = local.z < 0.0;
+#ifdef RICH_MATERIALS
+    const uint lobes = lobesOf(m);
+#else
+    const uint lobes = sceneLobes();
+#endif
     const bool possible =
-        (transmitted ? (sceneLobes() & TRANSMISSION_LOBES & ~DELTA_LOBES) != 0u : local.z > 0.0) &&
+        (transmitted ? (lobes & TRANSMISSION_LOBES & ~DELTA_LOBES) != 0u : local.z > 0.0) &&
         isOnItsSide(s, wi, transmitted);
     if (!possible) return NO_SCATTERING;
     return evaluateLocally(m, incidenceOn(s, frame_), local);
