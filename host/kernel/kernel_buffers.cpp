@@ -24,14 +24,14 @@ vulkan::BufferUse rowUse(const DeviceTuning& tuning) {
 
 std::vector<BufferPlan> planSceneBuffers(const GpuScene& scene, const DeviceTuning& tuning) {
     const BufferUse rows = rowUse(tuning);
-    return {{"BVH buffer", sizeOf(scene.bvh.records), rows},
-            {"primitive buffer", sizeOf(scene.primitives), rows},
-            {"material buffer", sizeOf(scene.materials), rows},
-            {"light buffer", sizeOf(scene.lights.lights), rows},
-            {"light table", sizeOf(scene.lights.table), rows},
-            {"environment", sizeOf(scene.lights.environment), rows},
-            {"texture buffer", sizeOf(scene.details), rows,
-             "--max-texture N makes textures smaller"}};
+    return {
+        {"BVH buffer", sizeOf(scene.bvh.records), rows},
+        {"primitive buffer", sizeOf(scene.primitives), rows},
+        {"material buffer", sizeOf(scene.materials), rows},
+        {"light buffer", sizeOf(scene.lights.lights), rows},
+        {"light table", sizeOf(scene.lights.table), rows},
+        {"environment", sizeOf(scene.lights.environment), rows},
+        {"texture buffer", sizeOf(scene.details), rows, "--max-texture N makes textures smaller"}};
 }
 
 uint64_t largestSceneBuffer(const GpuScene& scene) {

@@ -26,6 +26,12 @@ bool hasOneLight(const KernelFeatures& f) {
     return f[SPEC_LIGHT_CHOICE] == gpu::LIGHT_CHOICE_ONE;
 }
 
+/// What only modules with RICH_MATERIALS have.
+bool needsRichModule(const KernelFeatures& f) {
+    return (f[SPEC_BSDF_KINDS] & 1u << gpu::BSDF_PRINCIPLED) != 0 ||
+           f[SPEC_PRINCIPLED_FEATURES] != 0;
+}
+
 } // namespace
 
 bool needsRichModule(const KernelFeatures& f) {

@@ -1,9 +1,9 @@
-// Pictures of a room with all that textures, colours of corners, normal maps and opacity can be: the
-// kernel and the reference agree on it (z-tests with a family-wise error of 1e-4 a mode, fixed
+// Pictures of a room with all that textures, colours of corners, normal maps and opacity can be:
+// the kernel and the reference agree on it (z-tests with a family-wise error of 1e-4 a mode, fixed
 // seeds), and the kernel gives the same bytes however its work is cut.
 #include "host/check/cross_check.hpp"
-#include "host/reference/reference_backend.hpp"
 #include "host/core/random.hpp"
+#include "host/reference/reference_backend.hpp"
 #include "host/render/render.hpp"
 #include "tests/analytic/textured.hpp"
 #include "tests/render/device_render.hpp"
@@ -146,10 +146,13 @@ TEST_F(TexturedRoomBytes, AreTheSameHoweverWorkIsCut) {
     s.estimator.branches = 2;
     s.estimator.lightSamples = 2;
     const Film whole = renderOnDevice(testDevice(), scene, camera(), s);
-    for (const KernelTuning& tuning :
-         {KernelTuning{.fixedIterations = 1}, {.fixedIterations = 7},
-          {.lanes = 100, .fixedIterations = 50}, {.workgroupSize = 24, .traversalSteps = 1},
-          {.itemsPerDispatch = 7}, {.texelFetch = false}, {.registerStack = 0}}) {
+    for (const KernelTuning& tuning : {KernelTuning{.fixedIterations = 1},
+                                       {.fixedIterations = 7},
+                                       {.lanes = 100, .fixedIterations = 50},
+                                       {.workgroupSize = 24, .traversalSteps = 1},
+                                       {.itemsPerDispatch = 7},
+                                       {.texelFetch = false},
+                                       {.registerStack = 0}}) {
         const Film cut = renderOnDevice(testDevice(), scene, camera(), s, tuning);
         size_t different = 0;
         for (size_t i = 0; i < whole.pixels.size(); ++i)
