@@ -6,8 +6,8 @@ namespace stromboli {
 /// (cmake/GitVersion.cmake).
 const char* version();
 
-/// 16 hexadecimal digits, the same in builds that take the same samples of a scene in memory: of the
-/// code that does it, and of the compilers (cmake/RenderingCode.cmake).
+/// 16 hexadecimal digits, the same in builds that take the same samples of a scene in memory: of
+/// the code that does it, and of the compilers (cmake/RenderingCode.cmake).
 const char* renderingCode();
 
 } // namespace stromboli
