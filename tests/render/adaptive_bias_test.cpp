@@ -1,4 +1,5 @@
 // What adaptive sampling does to the mean, measured over seeds against a long uniform render.
+#include "host/bvh/wide_layout.hpp"
 #include "host/render/render.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
@@ -41,9 +42,12 @@ MeanAndError overSeeds(const vulkan::Device& device, const Scene& scene, RenderS
     double sum = 0, squares = 0;
     MeanAndError result;
     std::vector<double> means;
+    const GpuScene gpu = packScene(scene, buildWideBvh(scene), lightSelection(s.estimator));
+    VulkanBackend backend(device, gpu, camera, s); // compiled once for all seeds
     for (uint32_t i = 0; i < seeds; ++i) {
         s.estimator.seed = firstSeed + i;
-        const Film film = renderOnDevice(device, scene, camera, s);
+        backend.setPicture(camera, s);
+        const Film film = stromboli::render(backend, s);
         means.push_back(meanOf(film));
         for (const PixelStatistics& p : film.pixels)
             result.samples += p.taken();

@@ -52,12 +52,9 @@ class Stopping : public DeviceTest {
         return targets;
     }
 
-    /// A pass to `before` samples a pixel, then one that is stopped after a dispatch of so many
-    /// loop iterations, with a lane for each pixel.
-    Film stopped(uint32_t seed, uint32_t before, uint32_t iterations) {
-        const RenderSettings s = settings(seed);
-        VulkanBackend backend(testDevice(), packed_, camera_, s,
-                              {.lanes = kSide * kSide, .fixedIterations = iterations});
+    /// A pass to `before` samples a pixel, then one that is stopped after a dispatch.
+    Film stopped(VulkanBackend& backend, uint32_t seed, uint32_t before) {
+        backend.setPicture(camera_, settings(seed));
         Film film(kSide, kSide);
         if (before > 0) backend.sample(allPixels(before), film, {});
         const uint64_t pathsBefore = backend.counters().paths;
@@ -81,8 +78,11 @@ class Stopping : public DeviceTest {
                         double samplesMost) {
         PixelStatistics means;
         double samples = 0;
+        // Dispatches of so many loop iterations, with a lane for each pixel.
+        VulkanBackend backend(testDevice(), packed_, camera_, settings(0),
+                              {.lanes = kSide * kSide, .fixedIterations = iterations});
         for (uint32_t seed = 1; seed <= kSeeds; ++seed)
-            for (const PixelStatistics& p : stopped(seed, before, iterations).pixels) {
+            for (const PixelStatistics& p : stopped(backend, seed, before).pixels) {
                 ASSERT_GT(p.taken(), 0u) << "a pixel that was begun has no sample";
                 means.add(p.mean);
                 samples += p.taken() - before;
