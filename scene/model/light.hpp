@@ -32,8 +32,8 @@ struct Light {
     float falloffExponent = 0;
     /// Spot with a soft edge: full opening angle of the cone in which the light is undiminished,
     /// less than falloffAngle. From there outwards irradiance is multiplied by
-    /// ((cos(angle to the axis) - cosOuter) / (cosInner - cosOuter))^2, with the cosines of half the
-    /// two angles; falloffExponent has no meaning.
+    /// ((cos(angle to the axis) - cosOuter) / (cosInner - cosOuter))^2, with the cosines of half
+    /// the two angles; falloffExponent has no meaning.
     std::optional<float> innerAngle;
     bool upperHemisphereOnly = false;   ///< Ambient: only from directions with world y > 0 (CGL)
     glm::vec3 edgeX{0.0f}, edgeY{0.0f}; ///< Area: full edge vectors; area = |edgeX x edgeY|
