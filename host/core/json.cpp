@@ -143,8 +143,10 @@ Json Json::parse(std::string_view text, int deepest) {
         return 1 + std::count(text.begin(), text.begin() + ptrdiff_t(std::min(byte, text.size())),
                               '\n');
     };
-    const auto checkDepth = [&](int depth, Library::parse_event_t, const Library&) {
-        if (depth > deepest)
+    const auto checkDepth = [&](int depth, Library::parse_event_t event, const Library&) {
+        const bool opens = event == Library::parse_event_t::array_start ||
+                           event == Library::parse_event_t::object_start;
+        if (opens && depth >= deepest) // of the outermost it is 0
             throw JsonError("brackets go deeper than " + std::to_string(deepest) + " levels");
         return true;
     };

@@ -32,6 +32,7 @@ Document::Document(const std::filesystem::path& file)
 void Document::requireVersion() const {
     const std::optional<Element> asset = root_->child("asset");
     if (!asset) root_->fail("is no glTF 2.0: it has no 'asset'");
+    if (!asset->has("version")) asset->fail("has no 'version'");
     const std::string version = asset->text("version");
     if (!version.starts_with("2."))
         asset->fail("version", fmt::format("is '{}', expected 2.0", version));

@@ -38,6 +38,7 @@ TEST(SceneIdentity, EveryMemberCounts) {
         [](Scene& s, Camera&) { s.materials[1].emitsBothSides = false; },
         [](Scene& s, Camera&) { s.lights[0].color.x = 2; },
         [](Scene& s, Camera&) { s.lights[0].falloffAngle = 1; },
+        [](Scene& s, Camera&) { s.lights[0].innerAngle = 1; },
         [](Scene& s, Camera&) { s.lights.push_back({}); },
         [](Scene& s, Camera&) { s.materials[1].principled.roughness = 0.5f; },
         [](Scene& s, Camera&) { s.materials[1].alphaCutoff = 0.25f; },

@@ -42,6 +42,24 @@ TEST(JsonValue, NumbersSurviveReadingAndWriting) {
     EXPECT_EQ(Json(std::numeric_limits<double>::infinity()).dump(), "null");
 }
 
+std::string problemOf(const std::string& text, int deepest) {
+    try {
+        Json::parse(text, deepest);
+    } catch (const JsonError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(JsonValue, TextFromElsewhereHasBounds) {
+    EXPECT_EQ(Json::parse(R"({"a": [1]})", 2).at("a").elements().size(), 1u);
+    EXPECT_EQ(problemOf("[[[]]]", 3), "");
+    EXPECT_EQ(problemOf("[[[[]]]]", 3), "brackets go deeper than 3 levels");
+    EXPECT_EQ(problemOf(std::string(1000000, '['), 3), "brackets go deeper than 3 levels");
+    EXPECT_EQ(problemOf("{\n\n\"a\" 1}", 3), "its JSON is wrong in line 3");
+    EXPECT_EQ(problemOf("1e999", 3), "its JSON has a number beyond the range of double");
+}
+
 TEST(JsonValue, MembersAreFoundAddedAndRemoved) {
     Json json = {{"a", 1}};
     json["b"]["c"] = "deep";

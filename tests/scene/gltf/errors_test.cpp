@@ -36,6 +36,8 @@ TEST(GltfErrors, Versions) {
     GltfText g = triangle();
     g.members["asset"] = R"({"version": "1.0"})";
     EXPECT_EQ(problem(g), "<asset.version>: is '1.0', expected 2.0");
+    g.members["asset"] = "{}";
+    EXPECT_EQ(problem(g), "<asset>: has no 'version'");
     g.members["asset"] = R"({"version": "2.1", "minVersion": "2.1"})";
     EXPECT_EQ(problem(g), "<asset.minVersion>: is '2.1', 2.0 is read");
 }
