@@ -47,8 +47,7 @@ glm::dvec3 Ggx::sampleVisible(const glm::dvec3& wo, double u, double v) const {
     const double r = std::sqrt(u), x = r * std::cos(2 * kPi * v), s = (1 + view.z.z) / 2;
     const double chord = std::sqrt(std::max(1 - x * x, 0.0));
     const double y = (1 - s) * chord + s * r * std::sin(2 * kPi * v);
-    const glm::dvec3 n =
-        x * side + y * up + std::sqrt(std::max(1 - x * x - y * y, 0.0)) * view.z;
+    const glm::dvec3 n = x * side + y * up + std::sqrt(std::max(1 - x * x - y * y, 0.0)) * view.z;
     return glm::normalize(glm::dvec3(alphaX * n.x, alphaY * n.y, std::max(n.z, 1e-300)));
 }
 

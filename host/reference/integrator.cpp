@@ -25,8 +25,8 @@ glm::dvec3 transmittance(const Material* medium, double distance) {
     return left;
 }
 
-/// Whether bounces from there find all light that they can, and light samples go to the rest only. The
-/// kernel shares the light between both.
+/// Whether bounces from there find all light that they can, and light samples go to the rest only.
+/// The kernel shares the light between both.
 bool leavesLightsToBounces(const Material& material) {
     return material.kind == MaterialKind::Principled && isNarrow(material.principled);
 }
@@ -76,7 +76,8 @@ bool PathSample::scatter(uint32_t bounce) {
     if (!survivesThroughput(bounce)) return false;
 
     const bool left = leavesLightsToBounces(*surface_.material) &&
-                      samplesLights(settings_.directLight) && world_.conventions.bouncesFindAllLight;
+                      samplesLights(settings_.directLight) &&
+                      world_.conventions.bouncesFindAllLight;
     const bool counts = emissionCounts(bounce, next.isDelta() || left);
     if (bounce == settings_.maxBounces && !counts) return false;
     medium_ = mediumBeyond(next.transmitted());
@@ -201,8 +202,7 @@ void PathSample::addLightSample(const LightSample& light, double share) {
         light.value * evaluateBsdf(surface_, light.direction, world_.conventions).value * share;
     if (!(largest(value) > 0)) return;
     Ray ray = leaveTo(light.direction);
-    const double distance =
-        light.infinite ? kInfinite : glm::length(light.target - ray.origin);
+    const double distance = light.infinite ? kInfinite : glm::length(light.target - ray.origin);
     value *= transmittance(mediumBeyond(looksBehind()), distance);
     if (!light.infinite) {
         const glm::dvec3 to = light.target - ray.origin;
@@ -233,8 +233,8 @@ void PathSample::addHemisphereSamples() {
                                      ? world_.lights.ambientRadiance(direction)
                                      : emission(surfaceAt(world_.scene, ray, hit));
         const double distance = hit.primitive == kNoPrimitive ? kInfinite : hit.t;
-        radiance_ += throughput_ * weight * found *
-                     transmittance(mediumBeyond(looksBehind()), distance);
+        radiance_ +=
+            throughput_ * weight * found * transmittance(mediumBeyond(looksBehind()), distance);
     }
 }
 

@@ -29,8 +29,8 @@ bool refracts(const PrincipledParameters& p) {
     return transmits(p) && !p.isThin;
 }
 
-/// Index inside over index outside. glTF writes 0 for an index without bounds; light is not refracted
-/// between equal indices.
+/// Index inside over index outside. glTF writes 0 for an index without bounds; light is not
+/// refracted between equal indices.
 double usedIndex(const PrincipledParameters& p) {
     if (p.ior == 0) return 1e6;
     const double step = double(p.ior) - 1, least = gpu::LEAST_INDEX_STEP;
@@ -70,8 +70,7 @@ double sheenLambda(double cosine, double alpha) {
 
 double sheen(double alpha, const dvec3& wo, const dvec3& wi) {
     const dvec3 h = glm::normalize(wo + wi);
-    const double d =
-        (2 + 1 / alpha) * std::pow(std::hypot(h.x, h.y), 1 / alpha) / (2 * kPi);
+    const double d = (2 + 1 / alpha) * std::pow(std::hypot(h.x, h.y), 1 / alpha) / (2 * kPi);
     const double least = gpu::LEAST_SHEEN_COSINE;
     const double cosO = std::clamp(wo.z, least, 1.0), cosI = std::clamp(wi.z, least, 1.0);
     const double g = 1 / (1 + sheenLambda(cosO, alpha) + sheenLambda(cosI, alpha));
@@ -119,8 +118,8 @@ class Layers {
 
 Layers::Layers(const PrincipledParameters& p, const dvec3& wo, bool entering)
     : p_(p), wo_(wo), grainWo_(turned(wo, -double(p.anisotropyRotation))), thin_(!refracts(p)),
-      covered_(p.isThin || entering), index_(usedIndex(p)),
-      eta_(entering ? 1 / index_ : index_), baseColor_(p.baseColor), f90_(p.specular),
+      covered_(p.isThin || entering), index_(usedIndex(p)), eta_(entering ? 1 / index_ : index_),
+      baseColor_(p.baseColor), f90_(p.specular),
       opaque_((1 - double(p.metallic)) * (1 - double(p.transmission))),
       clear_((1 - double(p.metallic)) * double(p.transmission)) {
     const double r = (index_ - 1) / (index_ + 1);
@@ -141,13 +140,12 @@ Layers::Layers(const PrincipledParameters& p, const dvec3& wo, bool entering)
         coatAlbedo_ = gpu::ggxAlbedo(wo.z, coatAlpha);
         const dvec3 f0(double(gpu::CLEARCOAT_F0));
         const dvec3 fresnel = mixed(f0, 1, gpu::schlickShare(wo.z, coatAlpha));
-        coatShare_ =
-            p.clearcoat * coatAlbedo_ * fresnel.x * givenBack(f0, coatAlbedo_).x;
+        coatShare_ = p.clearcoat * coatAlbedo_ * fresnel.x * givenBack(f0, coatAlbedo_).x;
         underCoat_ = 1 - coatShare_;
     }
     if (covered_) {
-        sheenAlpha_ = std::max(double(p.sheenRoughness) * p.sheenRoughness,
-                               double(gpu::LEAST_SHEEN_ALPHA));
+        sheenAlpha_ =
+            std::max(double(p.sheenRoughness) * p.sheenRoughness, double(gpu::LEAST_SHEEN_ALPHA));
         const double sheenAlbedo =
             gpu::sheenAlbedo(std::max(wo.z, double(gpu::LEAST_SHEEN_COSINE)), sheenAlpha_);
         sheen_ = underCoat_ * dvec3(p.sheenColor);

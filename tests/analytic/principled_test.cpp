@@ -1,5 +1,5 @@
-// Principled materials in pictures: white furnaces, absorption in a slab against its closed form, and
-// light on both sides of rough glass, which every way of finding light finds alike.
+// Principled materials in pictures: white furnaces, absorption in a slab against its closed form,
+// and light on both sides of rough glass, which every way of finding light finds alike.
 #include "tests/analytic/scenes.hpp"
 
 #include <gtest/gtest.h>
@@ -64,19 +64,19 @@ TEST(Principled, ThinWhiteGlassKeepsTheLight) {
         }
 }
 
-/// A path that leaves again has met the factor eta^2 on its way in and its inverse on its way out. What
-/// rough facets would scatter again is lost.
+/// A path that leaves again has met the factor eta^2 on its way in and its inverse on its way out.
+/// What rough facets would scatter again is lost.
 TEST(Principled, WhiteGlassLosesLittleWhereItIsNearlySmooth) {
     for (const float roughness : {0.0f, 0.2f}) {
-        const Estimate found = estimate(sphereInAmbientLight(roughGlass(roughness, false)), kOutside,
-                                        smallPicture(64, 200));
+        const Estimate found = estimate(sphereInAmbientLight(roughGlass(roughness, false)),
+                                        kOutside, smallPicture(64, 200));
         EXPECT_LT(found.mean.x, 1 + 4.5 * found.error.x);
         EXPECT_GT(found.mean.x, 0.985 - 4.5 * found.error.x) << roughness;
     }
 }
 
-/// A wide slab, seen at a right angle in light 1 from everywhere: with the reflectance R of a face and
-/// the transmittance A of the inside, R + (1 - R)^2 A / (1 - R A).
+/// A wide slab, seen at a right angle in light 1 from everywhere: with the reflectance R of a face
+/// and the transmittance A of the inside, R + (1 - R)^2 A / (1 - R A).
 TEST(Principled, SlabAbsorbsByBeerAndLambert) {
     const glm::dvec3 color(0.8, 0.3, 1.0);
     const double thickness = 0.7, distance = 0.5;
@@ -108,7 +108,8 @@ TEST(Principled, SlabAbsorbsByBeerAndLambert) {
 /// Rough glass between the camera and some lights, with others on the camera's side.
 Scene litFromBothSides(const Material& material, bool inside) {
     SceneMaker b;
-    const uint32_t glass = b.add(material), light = b.add(emissive(8)), floor = b.add(diffuse(0.6f));
+    const uint32_t glass = b.add(material), light = b.add(emissive(8)),
+                   floor = b.add(diffuse(0.6f));
     b.box({-1, -1, -0.4f}, {1, 1, 0}, glass);
     b.quad({-0.5f, -0.5f, -2}, {1, 0, 0}, {0, 1, 0}, light);
     b.sphere({1.5f, 1, 1.5f}, 0.4f, light);
@@ -132,9 +133,8 @@ TEST(Principled, LightOnBothSidesIsFoundAlikeInEveryWay) {
             RenderSettings s = smallPicture(256, 4);
             s.estimator.directLight = DirectLight::Bsdf;
             const Estimate byBounces = estimate(scene, kInFront, s);
-            for (const DirectLight direct :
-                 {DirectLight::Lights, DirectLight::Mis, DirectLight::MisAll,
-                  DirectLight::Hemisphere}) {
+            for (const DirectLight direct : {DirectLight::Lights, DirectLight::Mis,
+                                             DirectLight::MisAll, DirectLight::Hemisphere}) {
                 s.estimator.directLight = direct;
                 SCOPED_TRACE(std::string(nameOf(direct)) + (thin ? " thin" : " volume"));
                 expectSameMean(estimate(scene, kInFront, s), byBounces);
@@ -168,8 +168,8 @@ TEST(Principled, PointLightShinesThroughAThinSheet) {
     light.constantAttenuation = 0, light.quadraticAttenuation = 1;
     b.add(light);
     const Camera camera = pointCamera({0, 0, 3}, {0, 0, 0});
-    // Seen and lit at right angles: f = D(n) G2 / 4 / albedo = 1 / (4 pi albedo), irradiance 1 / 4. The
-    // directional albedo of GGX of alpha 1 at a right angle is 1 - ln 2 (tests/reference).
+    // Seen and lit at right angles: f = D(n) G2 / 4 / albedo = 1 / (4 pi albedo), irradiance 1 / 4.
+    // The directional albedo of GGX of alpha 1 at a right angle is 1 - ln 2 (tests/reference).
     const double albedo = 1 - std::log(2.0);
     const Estimate found = estimate(b.scene, camera, smallPicture(16, 1));
     EXPECT_NEAR(found.mean.x, 1 / (4 * 3.14159265 * albedo) / 4, 0.005 * found.mean.x);

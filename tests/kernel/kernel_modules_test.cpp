@@ -41,7 +41,12 @@ TEST_P(KernelModules, TheSmallestThatHasAllFeatures) {
     const auto all = module(f);
     EXPECT_LT(one.size(), 0.9 * double(many.size()));
     EXPECT_LT(many.size(), 0.95 * double(all.size()));
-    EXPECT_EQ(constantsOf(all).size(), size_t(SPEC_COUNT)) << "all constants are used";
+    EXPECT_EQ(constantsOf(all).size(), size_t(SPEC_PRINCIPLED_FEATURES))
+        << "all constants are used, but that of rich materials";
+    f[SPEC_BSDF_KINDS] = 1u << gpu::BSDF_PRINCIPLED;
+    const auto rich = module(f);
+    EXPECT_EQ(constantsOf(rich).size(), size_t(SPEC_COUNT));
+    EXPECT_LT(all.size(), 0.95 * double(rich.size())) << "others do not have their code";
 }
 
 /// A constant with another value than the usual one leads to a module that has the constant. With

@@ -17,8 +17,8 @@ struct BsdfCase {
     double leastWhite;  ///< share of the light from a view near the normal that `white` keeps
     bool smooth = true; ///< densities vary little over a twentieth of the hemisphere
     double lobe = 0;    ///< tangent within which half vectors mostly are; 0: all directions
-    double error = 0;   ///< relative, of values, weights and densities, besides directions' rounding
-    double gain = 0;    ///< of fitted albedos: `white` may keep as much more than everything
+    double error = 0; ///< relative, of values, weights and densities, besides directions' rounding
+    double gain = 0;  ///< of fitted albedos: `white` may keep as much more than everything
     double leastGrazing = 0; ///< share of the light that `white` keeps from any view
     bool reciprocal = true;
 };

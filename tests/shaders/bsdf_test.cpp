@@ -47,8 +47,7 @@ glm::dvec3 halfVector(const reference::SurfacePoint& s, const glm::dvec3& wi,
     if (cosI > 0 || s.material->kind != MaterialKind::Principled) return glm::normalize(s.wo + wi);
     if (s.material->principled.isThin) return glm::normalize(s.wo + wi - 2 * cosI * s.shading);
     const glm::dvec3 h = indexRatio(s, conventions) * s.wo + wi;
-    return glm::dot(h, h) == 0 ? s.shading
-                               : glm::normalize(glm::dot(h, s.shading) < 0 ? -h : h);
+    return glm::dot(h, h) == 0 ? s.shading : glm::normalize(glm::dot(h, s.shading) < 0 ? -h : h);
 }
 
 /// The facet is about to reflect everything: its reflectance goes there like a square root, which
@@ -115,7 +114,8 @@ TEST_P(BsdfTest, ValuesAndDensitiesAreThoseOfTheReference) {
         if (isCritical(s, h, GetParam())) continue;
         const double cosH = glm::dot(h, s.shading), tan2 = 1 / (cosH * cosH) - 1;
         if (c.lobe > 0 && tan2 > 16 * c.lobe * c.lobe) continue; // far down the tail
-        const double relative = tolerance(c, std::abs(cosO), std::abs(cosI), std::abs(glm::dot(s.wo, h)));
+        const double relative =
+            tolerance(c, std::abs(cosO), std::abs(cosI), std::abs(glm::dot(s.wo, h)));
         for (int k = 0; k < 3; ++k)
             ASSERT_NEAR(found[i].value[k], expected.value[k], expected.value[k] * relative)
                 << c.name << ' ' << i;
@@ -233,13 +233,11 @@ TEST_P(BsdfCases, SamplesFallWhereTheDensitySays) {
             for (size_t j = 0; j < kSectors * perCell; ++j) {
                 const double height = (double(i) + 0.5) / double(kRings * perCell);
                 const double z = transmits ? 2 * height - 1 : height;
-                const double phi =
-                    2 * kPi * ((double(j) + 0.5) / double(kSectors * perCell) - 0.5);
+                const double phi = 2 * kPi * ((double(j) + 0.5) / double(kSectors * perCell) - 0.5);
                 const double r = std::sqrt(1 - z * z);
                 const glm::dvec3 w(r * std::cos(phi), r * std::sin(phi), z);
-                const double share = reference::evaluateBsdf(s, w, {}).pdf *
-                                     (transmits ? 4 : 2) * kPi /
-                                     double(kRings * perCell * kSectors * perCell);
+                const double share = reference::evaluateBsdf(s, w, {}).pdf * (transmits ? 4 : 2) *
+                                     kPi / double(kRings * perCell * kSectors * perCell);
                 expected[i / perCell * kSectors + j / perCell] += share * kSamples;
                 sum += share;
             }
@@ -265,7 +263,8 @@ TEST_P(BsdfCases, NoLightIsGainedAndLittleIsLost) {
             sum += a.weight.x, squares += double(a.weight.x) * a.weight.x;
         }
         const double mean = sum / kSamples, variance = squares / kSamples - mean * mean;
-        EXPECT_LE(mean, 1 + 1e-5 + case_.gain + 3.6 * std::sqrt(std::max(variance, 0.0) / kSamples)) << cosine;
+        EXPECT_LE(mean, 1 + 1e-5 + case_.gain + 3.6 * std::sqrt(std::max(variance, 0.0) / kSamples))
+            << cosine;
         if (cosine >= 0.5f) {
             EXPECT_GE(mean, case_.leastWhite) << cosine;
         }
