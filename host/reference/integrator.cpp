@@ -26,6 +26,12 @@ glm::dvec3 transmittance(const Material* medium, double distance) {
     return left;
 }
 
+/// Whether bounces from there find all light that they can, and light samples go to the rest only.
+/// The kernel shares the light between both.
+bool leavesLightsToBounces(const Material& material) {
+    return material.kind == MaterialKind::Principled && isNarrow(material.principled);
+}
+
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 } // namespace
@@ -74,7 +80,10 @@ bool PathSample::scatter(uint32_t bounce) {
     if (!(largest(throughput_) > 0)) return false;
     if (!survivesThroughput(bounce)) return false;
 
-    const bool counts = emissionCounts(bounce, next.isDelta());
+    const bool left = leavesLightsToBounces(*surface_.material) &&
+                      samplesLights(settings_.directLight) &&
+                      world_.conventions.bouncesFindAllLight;
+    const bool counts = emissionCounts(bounce, next.isDelta() || left);
     if (bounce == settings_.maxBounces && !counts) return false;
     medium_ = mediumBeyond(next.transmitted());
     const bool hit = next.transmitted() ? arrive(transmit(next.direction), {surface_.triangle})
@@ -208,7 +217,9 @@ const Material* PathSample::mediumBeyond(bool transmitted) const {
 
 void PathSample::addDirectLightOfSide() {
     if (settings_.directLight == DirectLight::Hemisphere) addHemisphereSamples();
-    if (samplesLights(settings_.directLight)) addBroadLights();
+    const bool left =
+        leavesLightsToBounces(*surface_.material) && world_.conventions.bouncesFindAllLight;
+    if (samplesLights(settings_.directLight) && !left) addBroadLights();
     if (!settings_.countsLightsForHemisphere()) addDeltaLights();
 }
 

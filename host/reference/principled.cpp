@@ -303,6 +303,11 @@ BsdfSample samplePrincipled(const PrincipledParameters& p, const dvec3& wo, bool
     return Layers(p, wo, entering).sample(u);
 }
 
+bool isNarrow(const PrincipledParameters& p) {
+    constexpr double kNarrow = 0.5; // glTF's roughness: facets within 14 degrees
+    return p.roughness < kNarrow || (p.clearcoat > 0 && p.clearcoatRoughness < kNarrow);
+}
+
 dvec3 absorption(const PrincipledParameters& p) {
     if (!refracts(p)) return dvec3(0.0);
     constexpr double kLeastTransmitted = 1e-30;

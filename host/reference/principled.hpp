@@ -18,6 +18,10 @@ BsdfValue evaluatePrincipled(const PrincipledParameters& p, const glm::dvec3& wo
 BsdfSample samplePrincipled(const PrincipledParameters& p, const glm::dvec3& wo, bool entering,
                             const glm::dvec3& u);
 
+/// Whether some lobe is too narrow for light samples to find: their noise would have no bound that
+/// samples reach.
+bool isNarrow(const PrincipledParameters& p);
+
 /// Per metre, behind a surface that light goes through into a volume; 0 where it does not.
 glm::dvec3 absorption(const PrincipledParameters& p);
 

@@ -5,6 +5,7 @@
 #include "host/check/cross_check.hpp"
 #include "host/reference/reference_backend.hpp"
 #include "host/render/render.hpp"
+#include "scene/generate/scene_maker.hpp"
 #include "scene/read_scene.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
@@ -60,6 +61,48 @@ TEST_P(Agreement, WithTheReference) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, testing::ValuesIn(allScenes()), nameOf);
+
+/// Spheres of principled materials of all kinds in a lit room.
+Scene principledRoom() {
+    scenes::SceneMaker b;
+    const auto add = [&](auto&& change) {
+        Material m;
+        m.kind = MaterialKind::Principled;
+        m.principled.baseColor = {0.9f, 0.7f, 0.4f};
+        change(m.principled);
+        return b.add(m);
+    };
+    const uint32_t materials[] = {
+        add([](auto& p) { p.roughness = 0.55f; }),
+        add([](auto& p) { p.metallic = 0, p.roughness = 0.6f; }),
+        add([](auto& p) { p.roughness = 0.6f, p.anisotropy = 0.6f, p.anisotropyRotation = 1; }),
+        add([](auto& p) { p.metallic = 0, p.clearcoat = 1, p.clearcoatRoughness = 0.5f; }),
+        add([](auto& p) {
+            p.metallic = 0, p.sheenColor = {0.5f, 0.6f, 0.9f}, p.sheenRoughness = 0.5f;
+        }),
+        add([](auto& p) { p.metallic = 0, p.transmission = 0.9f, p.roughness = 0.6f; }),
+        add([](auto& p) {
+            p.metallic = 0, p.transmission = 1, p.roughness = 0.55f, p.isThin = false;
+            p.attenuationColor = {0.3f, 0.8f, 0.5f}, p.attenuationDistance = 0.3f;
+        }),
+    };
+    b.box({-2, 0, -2}, {2, 3, 2}, b.add(scenes::diffuse(0.6f)), true);
+    b.quad({-0.6f, 2.9f, -0.6f}, {1.2f, 0, 0}, {0, 0, 1.2f}, b.add(scenes::emissive(6)));
+    for (int i = 0; i < 7; ++i)
+        b.sphere({-1.2f + 0.8f * float(i % 4), 0.4f + 0.9f * float(i / 4), 0.3f * float(i % 3)},
+                 0.35f, materials[i]);
+    Light lamp;
+    lamp.kind = LightKind::Point;
+    lamp.position = {1.5f, 1, 1.5f};
+    lamp.color = glm::vec3(1);
+    lamp.constantAttenuation = 0, lamp.quadraticAttenuation = 1;
+    b.add(lamp);
+    return b.scene;
+}
+
+TEST(PrincipledAgreement, WithTheReference) {
+    expectAgreement(testDevice(), principledRoom(), "principled", smallSettings(64));
+}
 
 /// One scene in every mode of the estimator.
 struct Mode {
