@@ -58,6 +58,7 @@ void packPrimitives(const Scene& scene, const std::vector<uint32_t>& materialRow
     for (size_t i = 0; i < used.size(); ++i) {
         if (!used[i]) continue;
         g.bsdfKinds |= 1u << bsdfKind(scene.materials[i].kind);
+        g.principledFeatures |= principledFeatures(scene.materials[i]);
         g.hasEmission |= scene.materials[i].emits();
     }
 }

@@ -23,10 +23,13 @@ constexpr std::array<uint32_t, gpu::BSDF_KIND_COUNT> kBsdfLobes = {
 /// The numbers of a path ray that a BSDF takes are either the two within a lobe or the one that
 /// chooses a lobe, which is one of the two (scatter() in shaders/include/path.glsl). A kind with
 /// several lobes, one of them no delta lobe, needs all three: then that number has to come from a
-/// block of its own.
+/// block of its own, as it does for the principled kind.
 constexpr bool someKindNeedsThreeNumbers() {
-    for (const uint32_t lobes : kBsdfLobes)
+    for (uint32_t kind = 0; kind < gpu::BSDF_KIND_COUNT; ++kind) {
+        const uint32_t lobes = kBsdfLobes[kind];
+        if (kind == gpu::BSDF_PRINCIPLED) continue;
         if ((lobes & (lobes - 1)) != 0 && (lobes & ~gpu::DELTA_LOBES) != 0) return true;
+    }
     return false;
 }
 static_assert(!someKindNeedsThreeNumbers());
@@ -83,6 +86,7 @@ void switchOnAllTheSceneCouldHave(KernelFeatures& f, const Estimator& settings) 
     if (f[SPEC_LIGHT_NUMBERS] == gpu::LIGHT_NUMBERS_SHARED)
         f[SPEC_LIGHT_NUMBERS] = gpu::LIGHT_NUMBERS_FIRST;
     f[SPEC_BSDF_KINDS] = (1u << gpu::BSDF_KIND_COUNT) - 1;
+    f[SPEC_PRINCIPLED_FEATURES] = gpu::PRINCIPLED_ALL_FEATURES;
     f[SPEC_LIGHT_KINDS] = (1u << gpu::LIGHT_KIND_COUNT) - 1;
     if (f[SPEC_LIGHT_GROUPS]) f[SPEC_LIGHT_GROUPS] = (1u << gpu::LIGHT_GROUP_COUNT) - 1;
     if (combinesBouncesAndLightSamples(settings)) f[SPEC_MIS_LOBES] |= gpu::GLOSSY_LOBES;
@@ -121,6 +125,15 @@ std::string textureText(const KernelFeatures& f) {
                  "clearcoat normal", "sheen color", "sheen roughness", "anisotropy"});
 }
 
+/// What the principled materials have besides metal and dielectric.
+std::string principledText(const KernelFeatures& f) {
+    if (f[SPEC_PRINCIPLED_FEATURES] == 0) return "";
+    return fmt::format(" (with {})",
+                       list(f[SPEC_PRINCIPLED_FEATURES],
+                            {"clear coat", "sheen", "anisotropy", "thin transmission", "refraction",
+                             "absorption"}));
+}
+
 } // namespace
 
 uint32_t lightChoiceConstant(const LightTable& lights) {
@@ -152,6 +165,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_HAS_SPHERES] = scene.hasSpheres;
     f[SPEC_HAS_NORMALS] = scene.hasNormals;
     f[SPEC_BSDF_KINDS] = normalsOnly ? 0 : scene.bsdfKinds;
+    f[SPEC_PRINCIPLED_FEATURES] = normalsOnly ? 0 : scene.principledFeatures;
     f[SPEC_HAS_EMISSION] = !normalsOnly && scene.hasEmission;
     f[SPEC_LIGHT_KINDS] = lightKinds(scene, settings);
     f[SPEC_INTEGRATOR] = normalsOnly ? gpu::INTEGRATOR_NORMALS : gpu::INTEGRATOR_PATH;
@@ -196,9 +210,10 @@ std::vector<std::string> describe(const KernelFeatures& f) {
     return {
         fmt::format("primitives: {}", primitives),
         fmt::format("shading normals: {}", f[SPEC_HAS_NORMALS] ? "interpolated" : "none"),
-        fmt::format("materials: {}",
+        fmt::format("materials: {}{}",
                     list(f[SPEC_BSDF_KINDS], {"diffuse", "mirror", "refraction", "glass",
-                                              "rough conductor", "principled"})),
+                                              "rough conductor", "principled"}),
+                    principledText(f)),
         fmt::format("textures: {}", textureText(f)),
         fmt::format("vertex colors: {}",
                     f[SPEC_ATTRIBUTES] & gpu::ATTRIBUTE_COLOR ? "yes" : "none"),

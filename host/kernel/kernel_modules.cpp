@@ -31,7 +31,7 @@ bool hasOneLight(const KernelFeatures& f) {
 bool needsRichModule(const KernelFeatures& f) {
     return (f[SPEC_BSDF_KINDS] & 1u << gpu::BSDF_PRINCIPLED) != 0 || f[SPEC_TEXTURE_SLOTS] != 0 ||
            f[SPEC_TEXEL_KINDS] != 0 || f[SPEC_ATTRIBUTES] != 0 || f[SPEC_ALPHA] != 0 ||
-           f[SPEC_TANGENT_FRAMES] != 0;
+           f[SPEC_TANGENT_FRAMES] != 0 || f[SPEC_PRINCIPLED_FEATURES] != 0;
 }
 
 std::span<const uint32_t> kernelModule(const KernelFeatures& features, bool texelFetch) {

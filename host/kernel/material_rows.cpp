@@ -2,12 +2,32 @@
 
 #include "shaders/shared/texture_types.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace stromboli {
 namespace {
 
 /// Rows that the kernel may read from the first row of a material on, whatever its kind.
 constexpr size_t kMostRows = 7;
 static_assert(gpu::MATERIAL_DETAIL_ROW >= kMostRows);
+
+bool transmits(const PrincipledParameters& p) {
+    return p.transmission > 0 && p.metallic < 1;
+}
+
+bool refracts(const PrincipledParameters& p) {
+    return transmits(p) && !p.isThin;
+}
+
+/// glTF writes 0 for an index so large that everything is reflected.
+constexpr float kLargestIndex = 1e6f;
+
+float usedIndex(const PrincipledParameters& p) {
+    if (p.ior == 0) return kLargestIndex;
+    if (!refracts(p) || std::abs(p.ior - 1) >= gpu::LEAST_INDEX_STEP) return p.ior;
+    return p.ior < 1 ? 1 - gpu::LEAST_INDEX_STEP : 1 + gpu::LEAST_INDEX_STEP;
+}
 
 gpu::PrincipledParameters principledRows(const PrincipledParameters& p) {
     // Beer and Lambert's law: attenuationColor = exp(-absorption attenuationDistance). A channel
@@ -20,7 +40,7 @@ gpu::PrincipledParameters principledRows(const PrincipledParameters& p) {
     g.specularColor = p.specularColor;
     g.roughness = p.roughness;
     g.specular = p.specular;
-    g.ior = p.ior;
+    g.ior = usedIndex(p);
     g.transmission = p.transmission;
     g.anisotropy = p.anisotropy;
     g.sheenColor = p.sheenColor;
@@ -30,6 +50,10 @@ gpu::PrincipledParameters principledRows(const PrincipledParameters& p) {
     g.anisotropyRotation = p.anisotropyRotation;
     g.flags = p.isThin ? gpu::PRINCIPLED_IS_THIN : 0;
     g.absorption = -glm::log(left) / p.attenuationDistance;
+    g.leastAlpha = gpu::LEAST_GGX_ALPHA;
+    if (refracts(p))
+        g.leastAlpha = std::max(g.leastAlpha, gpu::LEAST_REFRACTION_ALPHA * std::max(g.ior, 1.0f) /
+                                                  std::abs(g.ior - 1));
     return g;
 }
 
@@ -68,6 +92,20 @@ uint32_t bsdfKind(MaterialKind kind) {
         return gpu::BSDF_PRINCIPLED;
     }
     return gpu::BSDF_DIFFUSE;
+}
+
+uint32_t principledFeatures(const Material& material) {
+    if (material.kind != MaterialKind::Principled) return 0;
+    const PrincipledParameters& p = material.principled;
+    uint32_t features = 0;
+    if (p.clearcoat > 0) features |= gpu::PRINCIPLED_HAS_CLEARCOAT;
+    if (p.sheenColor != glm::vec3(0)) features |= gpu::PRINCIPLED_HAS_SHEEN;
+    if (p.anisotropy > 0) features |= gpu::PRINCIPLED_HAS_ANISOTROPY;
+    if (transmits(p) && p.isThin) features |= gpu::PRINCIPLED_HAS_THIN_TRANSMISSION;
+    if (refracts(p)) features |= gpu::PRINCIPLED_HAS_REFRACTION;
+    if (refracts(p) && principledRows(p).absorption != glm::vec3(0))
+        features |= gpu::PRINCIPLED_HAS_ABSORPTION;
+    return features;
 }
 
 MaterialRows packMaterials(std::span<const Material> materials,

@@ -19,6 +19,9 @@ struct MaterialRows {
 MaterialRows packMaterials(std::span<const Material> materials,
                            std::span<const std::vector<Row>> details = {});
 
+/// PRINCIPLED_HAS_ bits of what the material has; 0 for other kinds.
+uint32_t principledFeatures(const Material& material);
+
 /// The BSDF_ kind that stands for a material of the scene.
 uint32_t bsdfKind(MaterialKind kind);
 

@@ -2,6 +2,7 @@
 
 #include "host/reference/fresnel.hpp"
 #include "host/reference/microfacet.hpp"
+#include "host/reference/principled.hpp"
 #include "host/reference/sampling.hpp"
 
 #include <algorithm>
@@ -90,7 +91,7 @@ BsdfValue evaluateLocally(const Material& m, const Incidence& i, const glm::dvec
     case MaterialKind::Microfacet:
         return evaluateRoughConductor(m, i, wi);
     case MaterialKind::Principled:
-        return {};
+        return evaluatePrincipled(m.principled, i.wo, i.entering, wi);
     case MaterialKind::Mirror:
     case MaterialKind::Refraction:
     case MaterialKind::Glass:
@@ -111,16 +112,9 @@ BsdfSample sampleLocally(const Material& m, const Incidence& i, const glm::dvec3
     case MaterialKind::Microfacet:
         return sampleRoughConductor(m, i, u);
     case MaterialKind::Principled:
-        return {};
+        return samplePrincipled(m.principled, i.wo, i.entering, u);
     }
     return {};
-}
-
-/// x and y are the surface's tangent and bitangent, where it has them.
-Frame shadingFrame(const SurfacePoint& s) {
-    if (s.tangent.w == 0) return Frame(s.shading);
-    const glm::dvec3 x(s.tangent);
-    return {x, s.tangent.w * glm::cross(s.shading, x), s.shading};
 }
 
 Incidence incidenceOn(const SurfacePoint& s, const Frame& frame,
@@ -138,6 +132,26 @@ bool isOnItsSide(const SurfacePoint& s, const glm::dvec3& wi, bool transmitted,
 
 } // namespace
 
+Frame surfaceFrame(const SurfacePoint& s) {
+    if (s.tangent.w != 0) {
+        const glm::dvec3 x(s.tangent);
+        return {x, s.tangent.w * glm::cross(s.shading, x), s.shading};
+    }
+    Frame frame(s.shading);
+    if (s.material->kind != MaterialKind::Principled || s.material->principled.anisotropy == 0)
+        return frame;
+    // What has a grain needs a tangent that the kernel has too (Duff et al. 2017).
+    const glm::dvec3& n = s.shading;
+    const double sign = n.z >= 0 ? 1 : -1, a = -1 / (sign + n.z);
+    frame.x = {1 + sign * n.x * n.x * a, sign * n.x * n.y * a, -sign * n.x};
+    frame.y = glm::cross(n, frame.x);
+    return frame;
+}
+
+bool isLitFromBehind(const Material& material) {
+    return (lobesOf(material) & gpu::TRANSMISSION_LOBES & ~gpu::DELTA_LOBES) != 0;
+}
+
 uint32_t lobesOf(const Material& material) {
     switch (material.kind) {
     case MaterialKind::Diffuse:
@@ -151,7 +165,7 @@ uint32_t lobesOf(const Material& material) {
     case MaterialKind::Microfacet:
         return gpu::LOBE_GLOSSY_REFLECTION;
     case MaterialKind::Principled:
-        return gpu::PRINCIPLED_BSDF_LOBES;
+        return principledLobes(material.principled);
     }
     return 0;
 }
@@ -166,7 +180,7 @@ bool scattersAtRandom(uint32_t lobes) {
 
 BsdfValue evaluateBsdf(const SurfacePoint& s, const glm::dvec3& wi,
                        const ShadingConventions& conventions) {
-    const Frame frame = shadingFrame(s);
+    const Frame frame = surfaceFrame(s);
     const glm::dvec3 local = frame.toLocal(wi);
     if (!isOnItsSide(s, wi, local.z < 0, conventions)) return {};
     return evaluateLocally(*s.material, incidenceOn(s, frame, conventions), local);
@@ -174,7 +188,7 @@ BsdfValue evaluateBsdf(const SurfacePoint& s, const glm::dvec3& wi,
 
 BsdfSample sampleBsdf(const SurfacePoint& s, const glm::dvec3& u,
                       const ShadingConventions& conventions) {
-    const Frame frame = shadingFrame(s);
+    const Frame frame = surfaceFrame(s);
     BsdfSample sample = sampleLocally(*s.material, incidenceOn(s, frame, conventions), u);
     // Rounding errors of the direction's length would add up along a path.
     sample.direction = glm::normalize(frame.toWorld(sample.direction));

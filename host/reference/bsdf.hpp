@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/reference/sampling.hpp"
 #include "host/reference/surface.hpp"
 #include "shaders/shared/bsdf_types.h"
 
@@ -21,6 +22,11 @@ struct BsdfSample {
     bool transmitted() const { return lobe & gpu::TRANSMISSION_LOBES; } ///< to the other side
     bool isDelta() const { return lobe & gpu::DELTA_LOBES; }
 };
+
+/// The frame that materials scatter in: z along the shading normal, x the tangent.
+Frame surfaceFrame(const SurfacePoint& surface);
+/// Whether light that comes from the other side of the surface is scattered into many directions.
+bool isLitFromBehind(const Material& material);
 
 /// All lobes of a material, gpu::LOBE_ bits.
 uint32_t lobesOf(const Material& material);

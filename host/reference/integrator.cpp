@@ -1,10 +1,13 @@
 #include "host/reference/integrator.hpp"
 
 #include "host/reference/bsdf.hpp"
+#include "host/reference/principled.hpp"
 #include "host/reference/sampling.hpp"
 #include "scene/model/surface_lookup.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace stromboli::reference {
 namespace {
@@ -12,6 +15,18 @@ namespace {
 double largest(const glm::dvec3& v) {
     return std::max({v.x, v.y, v.z});
 }
+
+/// Beer and Lambert's law. The distance may be infinite.
+glm::dvec3 transmittance(const Material* medium, double distance) {
+    if (medium == nullptr) return glm::dvec3(1.0);
+    const glm::dvec3 a = absorption(medium->principled);
+    glm::dvec3 left(1.0);
+    for (int c = 0; c < 3; ++c)
+        if (a[c] > 0) left[c] = std::exp(-a[c] * distance);
+    return left;
+}
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 } // namespace
 
@@ -42,6 +57,7 @@ void PathSample::followBranches(uint32_t bounce) {
     radiance_ = {};
     for (uint32_t branch = 0; branch < settings_.branches; ++branch) {
         surface_ = before.surface_;
+        medium_ = before.medium_;
         throughput_ = before.throughput_;
         random_ = before.random_.branch(branch, settings_.branches);
         if (scatter(bounce)) follow(bounce + 1, false);
@@ -57,6 +73,7 @@ bool PathSample::scatter(uint32_t bounce) {
 
     const bool counts = emissionCounts(bounce, next.isDelta());
     if (bounce == settings_.maxBounces && !counts) return false;
+    medium_ = mediumBeyond(next.transmitted());
     const bool hit = next.transmitted() ? arrive(transmit(next.direction), {surface_.triangle})
                                         : arrive(reflect(next.direction), {startOfReflected()});
     if (counts && hit) addEmission();
@@ -71,7 +88,9 @@ glm::dvec3 PathSample::normalColor(const Ray& cameraRay) {
 bool PathSample::arrive(const Ray& ray, Skip skip) {
     ++rays_;
     const Hit hit = closest(ray, skip);
-    if (hit.primitive == kNoPrimitive) return false;
+    const bool misses = hit.primitive == kNoPrimitive;
+    throughput_ *= transmittance(medium_, misses ? kInfinite : hit.t);
+    if (misses) return false;
     surface_ = surfaceAt(world_.scene, ray, hit);
     if (world_.hasDetails) applyTextures(surface_, world_.scene);
     return true;
@@ -152,6 +171,39 @@ bool PathSample::survivesThroughput(uint32_t bounce) {
 }
 
 void PathSample::addDirectLight() {
+    lit_ = surface_;
+    addDirectLightOfSide();
+    if (!isLitFromBehind(*surface_.material)) return;
+    lit_.geometric = -surface_.geometric;
+    lit_.shading = -surface_.shading;
+    lit_.wo = -surface_.wo;
+    lit_.lift = 0; // what is transmitted leaves from the flat triangle
+    addDirectLightOfSide();
+}
+
+bool PathSample::looksBehind() const {
+    return glm::dot(lit_.shading, surface_.shading) < 0;
+}
+
+bool PathSample::isOfSide(const glm::dvec3& direction) const {
+    return !isLitFromBehind(*surface_.material) || glm::dot(lit_.shading, direction) > 0;
+}
+
+Ray PathSample::leaveTo(const glm::dvec3& direction) const {
+    return looksBehind() ? transmit(direction) : reflect(direction);
+}
+
+uint32_t PathSample::startOfLightSample() const {
+    return looksBehind() ? surface_.triangle : startOfReflected();
+}
+
+const Material* PathSample::mediumBeyond(bool transmitted) const {
+    const Material& m = *surface_.material;
+    if (!transmitted || m.kind != MaterialKind::Principled || m.principled.isThin) return medium_;
+    return surface_.outside ? surface_.stated : nullptr;
+}
+
+void PathSample::addDirectLightOfSide() {
     if (settings_.directLight == DirectLight::Hemisphere) addHemisphereSamples();
     if (samplesLights(settings_.directLight)) addBroadLights();
     if (!settings_.countsLightsForHemisphere()) addDeltaLights();
@@ -161,33 +213,37 @@ void PathSample::addBroadLights() {
     const double share = 1.0 / settings_.lightSamples;
     for (size_t light = 0; light < world_.lights.broadCount(); ++light)
         for (uint32_t i = 0; i < settings_.lightSamples; ++i)
-            addLightSample(world_.lights.sampleBroad(light, surface_, random_), share);
+            addLightSample(world_.lights.sampleBroad(light, lit_, random_), share);
 }
 
 void PathSample::addDeltaLights() {
     for (size_t light = 0; light < world_.lights.deltaCount(); ++light)
-        addLightSample(world_.lights.sampleDelta(light, surface_), 1);
+        addLightSample(world_.lights.sampleDelta(light, lit_), 1);
 }
 
 void PathSample::addLightSample(const LightSample& light, double share) {
-    const glm::dvec3 value =
+    if (!isOfSide(light.direction)) return;
+    glm::dvec3 value =
         light.value * evaluateBsdf(surface_, light.direction, world_.conventions).value * share;
     if (!(largest(value) > 0)) return;
-    Ray ray = reflect(light.direction);
+    Ray ray = leaveTo(light.direction);
+    const double distance =
+        light.infinite ? kInfinite : glm::length(light.target - ray.origin);
+    value *= transmittance(mediumBeyond(looksBehind()), distance);
     if (!light.infinite) {
         const glm::dvec3 to = light.target - ray.origin;
         ray.tMax = glm::length(to);
         if (ray.tMax > 0) ray.direction = to / ray.tMax;
     }
     ++rays_;
-    radiance_ += throughput_ * value * shareThatPasses(ray, {startOfReflected(), light.primitive});
+    radiance_ += throughput_ * value * shareThatPasses(ray, {startOfLightSample(), light.primitive});
 }
 
 void PathSample::addHemisphereSamples() {
     const size_t lights = settings_.countsLightsForHemisphere() ? world_.lights.fileCount()
                                                                 : world_.lights.broadCount();
     const size_t count = lights * settings_.lightSamples;
-    const Frame frame(surface_.shading);
+    const Frame frame(lit_.shading);
     for (size_t i = 0; i < count; ++i) {
         random_.beginBlock();
         const double u = random_.next(), v = random_.next();
@@ -196,15 +252,18 @@ void PathSample::addHemisphereSamples() {
             evaluateBsdf(surface_, direction, world_.conventions).value * (2 * kPi / double(count));
         if (!(largest(weight) > 0)) continue;
         ++rays_;
-        const Ray ray = reflect(direction);
-        const Hit hit = closest(ray, {startOfReflected()});
+        const Ray ray = leaveTo(direction);
+        const Hit hit = closest(ray, {startOfLightSample()});
         glm::dvec3 found = world_.lights.ambientRadiance(direction);
+        double distance = kInfinite;
         if (hit.primitive != kNoPrimitive) {
             SurfacePoint s = surfaceAt(world_.scene, ray, hit);
             if (world_.hasDetails) applyTextures(s, world_.scene);
             found = emission(s);
+            distance = hit.t;
         }
-        radiance_ += throughput_ * weight * found;
+        radiance_ += throughput_ * weight * found *
+                     transmittance(mediumBeyond(looksBehind()), distance);
     }
 }
 

@@ -32,6 +32,13 @@ class PathSample {
     Ray reflect(const glm::dvec3& direction) const;
     /// The same for light that goes through it.
     Ray transmit(const glm::dvec3& direction) const;
+    /// Whether a light sample in this direction is for the side that is looked at; where it starts,
+    /// what it cannot hit, and what it goes through.
+    bool isOfSide(const glm::dvec3& direction) const;
+    bool looksBehind() const;
+    Ray leaveTo(const glm::dvec3& direction) const;
+    uint32_t startOfLightSample() const;
+    const Material* mediumBeyond(bool transmitted) const;
     /// What a reflected ray cannot hit: the plane it starts on, but not one that it starts above.
     uint32_t startOfReflected() const;
     /// The first hit that is there: of what is partly there, decided at random.
@@ -44,6 +51,8 @@ class PathSample {
     bool survivesFixed();
     bool survivesThroughput(uint32_t bounce);
     void addDirectLight();
+    /// From the side that the surface faces; what is transmitted, from the other one.
+    void addDirectLightOfSide();
     void addBroadLights();
     void addDeltaLights();
     void addHemisphereSamples();
@@ -54,6 +63,10 @@ class PathSample {
     RandomStream random_;
     RandomStream passes_; ///< for surfaces that are partly not there
     SurfacePoint surface_;
+    /// Whose inside the path is in, and which absorbs; null: nothing does.
+    const Material* medium_ = nullptr;
+    /// The surface as light samples see it: of the side that they go to.
+    SurfacePoint lit_;
     glm::dvec3 throughput_{1.0}, radiance_{0.0};
     uint64_t rays_ = 0;
 };

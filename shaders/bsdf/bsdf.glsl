@@ -36,6 +36,10 @@ bool isTransmission(uint lobe) { return (lobe & TRANSMISSION_LOBES) != 0u; }
 #include "bsdf/mirror.glsl"
 #include "bsdf/dielectric.glsl"
 #include "bsdf/rough_conductor.glsl"
+#ifdef RICH_MATERIALS
+#include "bsdf/ggx.glsl"
+#include "bsdf/principled.glsl"
+#endif
 
 // --- Dispatch: one line for each kind of BSDF in each function ---------------------------------------------------
 
@@ -47,12 +51,19 @@ uint lobesOf(Material m) {
     if (isBsdf(m, BSDF_REFRACTION)) lobes = REFRACTION_BSDF_LOBES;
     if (isBsdf(m, BSDF_GLASS)) lobes = GLASS_BSDF_LOBES;
     if (isBsdf(m, BSDF_ROUGH_CONDUCTOR)) lobes = ROUGH_CONDUCTOR_BSDF_LOBES;
+#ifdef RICH_MATERIALS
+    if (isBsdf(m, BSDF_PRINCIPLED)) lobes = principledLobes(principledParameters(m));
+#endif
     return lobes;
 }
 
 /// All lobes of the scene's materials: known when the kernel is compiled.
 uint sceneLobes() {
-    return (sceneHasBsdf(BSDF_DIFFUSE) ? DIFFUSE_BSDF_LOBES : 0u) |
+    return
+#ifdef RICH_MATERIALS
+        (sceneHasBsdf(BSDF_PRINCIPLED) ? scenePrincipledLobes() : 0u) |
+#endif
+        (sceneHasBsdf(BSDF_DIFFUSE) ? DIFFUSE_BSDF_LOBES : 0u) |
            (sceneHasBsdf(BSDF_MIRROR) ? MIRROR_BSDF_LOBES : 0u) |
            (sceneHasBsdf(BSDF_REFRACTION) ? REFRACTION_BSDF_LOBES : 0u) |
            (sceneHasBsdf(BSDF_GLASS) ? GLASS_BSDF_LOBES : 0u) |
@@ -63,6 +74,9 @@ BsdfValue evaluateLocally(Material m, Incidence i, vec3 wi) {
     if (isBsdf(m, BSDF_DIFFUSE)) return evaluateDiffuse(diffuseParameters(m), i, wi);
     if (isBsdf(m, BSDF_ROUGH_CONDUCTOR))
         return evaluateRoughConductor(roughConductorParameters(m), i, wi);
+#ifdef RICH_MATERIALS
+    if (isBsdf(m, BSDF_PRINCIPLED)) return evaluatePrincipled(principledParameters(m), i, wi);
+#endif
     return NO_SCATTERING; // delta lobes only
 }
 
@@ -73,6 +87,9 @@ BsdfSample sampleLocally(Material m, Incidence i, vec3 u) {
     if (isBsdf(m, BSDF_REFRACTION)) s = sampleRefraction(refractionParameters(m), i, u);
     if (isBsdf(m, BSDF_GLASS)) s = sampleGlass(glassParameters(m), i, u);
     if (isBsdf(m, BSDF_ROUGH_CONDUCTOR)) s = sampleRoughConductor(roughConductorParameters(m), i, u);
+#ifdef RICH_MATERIALS
+    if (isBsdf(m, BSDF_PRINCIPLED)) s = samplePrincipled(principledParameters(m), i, u);
+#endif
     return s;
 }
 
@@ -103,8 +120,13 @@ BsdfValue evaluateBsdf(Material m, SurfacePoint s, vec3 wi) {
     const ShadingFrame frame_ = shadingFrame(s);
     const vec3 local = toLocal(frame_, wi);
     const bool transmitted = local.z < 0.0;
+#ifdef RICH_MATERIALS
+    const uint lobes = lobesOf(m);
+#else
+    const uint lobes = sceneLobes();
+#endif
     const bool possible =
-        (transmitted ? (sceneLobes() & TRANSMISSION_LOBES & ~DELTA_LOBES) != 0u : local.z > 0.0) &&
+        (transmitted ? (lobes & TRANSMISSION_LOBES & ~DELTA_LOBES) != 0u : local.z > 0.0) &&
         isOnItsSide(s, wi, transmitted);
     if (!possible) return NO_SCATTERING;
     return evaluateLocally(m, incidenceOn(s, frame_), local);

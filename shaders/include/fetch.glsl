@@ -86,7 +86,7 @@ uint materialOf(Primitive p) { return HAS_NORMALS ? p.material & ~PRIMITIVE_IS_S
 struct Material {
     uvec4 header, row1, row2;
 #ifdef RICH_MATERIALS
-    uvec4 row3, row4, row5, row6;
+    uvec4 row3, row4, row5, row6; ///< of those that have as many
 #endif
 };
 
@@ -101,9 +101,9 @@ bool isBsdf(Material m, uint kind) {
 Material fetchMaterial(uint row) {
     const bool severalKinds = (BSDF_KINDS & (BSDF_KINDS - 1u)) != 0u;
 #ifdef RICH_MATERIALS
-    const uvec4 none = uvec4(0u);
-    Material m = Material(none, none, none, none, none, none, none);
+    Material m = Material(uvec4(0u), uvec4(0u), uvec4(0u), uvec4(0u), uvec4(0u), uvec4(0u), uvec4(0u));
     if (sceneHasBsdf(BSDF_PRINCIPLED)) {
+        m.row2 = ROW(materialRows, row + 2u);
         m.row3 = ROW(materialRows, row + 3u);
         m.row4 = ROW(materialRows, row + 4u);
         m.row5 = ROW(materialRows, row + 5u);
@@ -146,3 +146,13 @@ RoughConductorParameters roughConductorParameters(Material m) {
     return RoughConductorParameters(uintBitsToFloat(m.row1.xyz), uintBitsToFloat(m.row1.w),
                                     uintBitsToFloat(m.row2.xyz), m.row2.w);
 }
+
+#ifdef RICH_MATERIALS
+PrincipledParameters principledParameters(Material m) {
+    const vec4 row1 = uintBitsToFloat(m.row1), row2 = uintBitsToFloat(m.row2);
+    const vec4 row3 = uintBitsToFloat(m.row3), row4 = uintBitsToFloat(m.row4);
+    const vec4 row5 = uintBitsToFloat(m.row5), row6 = uintBitsToFloat(m.row6);
+    return PrincipledParameters(row1.xyz, row1.w, row2.xyz, row2.w, row3.x, row3.y, row3.z, row3.w,
+                                row4.xyz, row4.w, row5.x, row5.y, row5.z, m.row5.w, row6.xyz, row6.w);
+}
+#endif

@@ -4,6 +4,8 @@ const float PI = 3.14159265358979;
 const float INV_PI = 0.318309886183791;
 /// Unit round-off of float: 2^-24.
 const float UNIT_ROUNDOFF = 5.9604644775390625e-8;
+/// Below this a divisor is taken for none: 2^-120.
+const float TINY = 7.52316384526264e-37;
 /// Farther than any hit: rays without an end.
 const float INFINITE_DISTANCE = 3.402823466e38;
 

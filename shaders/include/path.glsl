@@ -32,6 +32,9 @@ uint directIndex; ///< direct light samples done at this surface
 vec3 arrivalNumbers;
 vec3 directValue; ///< what the ray under way adds if it is free (or, hemisphere, per radiance)
 uint rayCount;
+#ifdef RICH_MATERIALS
+uint medium; ///< that the path ray goes through: the first row of a material, or NO_MEDIUM
+#endif
 
 /// Where a sample's path has split into branches (path splitting; docs/estimator.md, "Branches"): at
 /// the first surface that scatters at random.
@@ -39,6 +42,9 @@ struct SplitPoint {
     SurfacePoint surface;
     vec3 throughput; ///< before scattering
     uint bounce;     ///< 0: has not split
+#ifdef RICH_MATERIALS
+    uint medium;
+#endif
 };
 SplitPoint splitPoint;
 uint branchesLeft; ///< that have not begun
@@ -64,6 +70,19 @@ uvec4 randomWords(uint slot) {
 }
 
 #ifdef RICH_MATERIALS
+/// Blocks of random numbers that choices between reflection and transmission take.
+const uint CHOICE_BLOCKS = 0x40000000u;
+
+/// The third number of a bounce: of a block of its own, and not spread evenly.
+float sideNumber() {
+    uint sample_ = sampleIndex(), block = bounce | CHOICE_BLOCKS;
+    if (SPLITS && splitPoint.bounce != 0u) {
+        sample_ = sample_ * frame.branches + frame.branches - 1u - branchesLeft;
+        block |= BRANCH_BLOCKS;
+    }
+    return unitFloats(pcg4d(uvec4(pixelId, sample_, block, frame.seed))).x;
+}
+
 #include "pass_through.glsl"
 #else
 /// The material of a surface; a scene of the smaller modules has no textures.
@@ -121,6 +140,10 @@ void finishHemisphereRay() {
         const SurfacePoint s = surfaceAt(ray);
         found = emissionAt(s, materialAt(s));
     }
+#ifdef RICH_MATERIALS
+    found *= transmittance(mediumBeyond(surface, material, medium, isBehind(surface, ray.direction)),
+                           ray.tMax);
+#endif
     radiance += throughput * directValue * found;
     phase = PHASE_DIRECT;
 }
@@ -130,6 +153,9 @@ void arrive() {
     const bool hit = ray.hitPrimitive != NO_PRIMITIVE;
     phase = PHASE_ENDED;
     const float share = foundShare();
+#ifdef RICH_MATERIALS
+    throughput *= transmittance(medium, hit ? ray.tMax : INFINITE_DISTANCE);
+#endif
     if (!hit) {
         const bool counts = countsEmission || AMBIENT_BY_BOUNCES && bounce >= frame.minBounce;
         if (counts && bounce > 0u && BOUNCES_FIND_ALL_LIGHT)
@@ -168,6 +194,13 @@ void arrive() {
 
 /// A direction of hemisphere sampling as a light sample whose light is not known yet.
 LightSample hemisphereSample(vec2 u) {
+#ifdef RICH_MATERIALS
+    if (isLitFromBothSides(lobesOf(material))) {
+        const float side = takesOtherSide(u) ? -1.0 : 1.0;
+        const vec3 w = side * toWorld(makeFrame(shadingNormal(surface)), sampleUniformHemisphere(u));
+        return LightSample(w, true, w, vec3(4.0 * PI / float(frame.hemisphereSamples)), 0.0);
+    }
+#endif
     const vec3 w = toWorld(makeFrame(shadingNormal(surface)), sampleUniformHemisphere(u));
     return LightSample(w, true, w, vec3(2.0 * PI / float(frame.hemisphereSamples)), 0.0);
 }
@@ -175,8 +208,20 @@ LightSample hemisphereSample(vec2 u) {
 /// A sample of one of the lights, with the probability of its choice and its share of the direct light in
 /// its radiance and density.
 LightSample lightSample(vec2 u, uint index) {
+#ifdef RICH_MATERIALS
+    SurfacePoint lit = surface;
+    const bool bothSides = isLitFromBothSides(lobesOf(material));
+    if (bothSides && takesOtherSide(u)) lit = otherSide(surface);
+    const PickedLight picked = pickLight(litPoint(lit), shadingNormal(lit), index, u);
+    LightSample light = sampleLight(lit, picked.light, picked.u);
+    if (bothSides) {
+        light.radiance *= dot(shadingNormal(lit), light.direction) > 0.0 ? 2.0 : 0.0;
+        light.inversePdf *= 2.0;
+    }
+#else
     const PickedLight picked = pickLight(litPoint(surface), shadingNormal(surface), index, u);
     LightSample light = sampleLight(surface, picked.light, picked.u);
+#endif
     const float perProbability =
         picked.probability > 0.0 ? 1.0 / picked.probability : 0.0;
     light.radiance *= perProbability * lightSampleShare(index);
@@ -193,10 +238,22 @@ void traceDirectSample(LightSample light, bool hemisphere) {
         const float pdf = bouncePdfWithGap(surface, lobesOf(material), f.pdf, light.direction);
         directValue *= lightSampleWeight(light.inversePdf, pdf);
     }
-    const vec3 origin = leave(surface, light.direction, false);
+#ifdef RICH_MATERIALS
+    const bool transmitted = isBehind(surface, light.direction);
+#else
+    const bool transmitted = false;
+#endif
+    const vec3 origin = leave(surface, light.direction, transmitted);
+#ifdef RICH_MATERIALS
+    // What the ray of hemisphere sampling goes through is known when it has arrived.
+    if (HAS_ABSORPTION && !hemisphere)
+        directValue *=
+            transmittance(mediumBeyond(surface, material, medium, transmitted),
+                          light.infinite ? INFINITE_DISTANCE : length(light.target - origin));
+#endif
     trace(hemisphere ? PHASE_HEMISPHERE : PHASE_SHADOW, origin,
           light.infinite ? light.direction : light.target - origin, 0.0,
-          light.infinite ? INFINITE_DISTANCE : 1.0, skipOnLeaving(surface, false));
+          light.infinite ? INFINITE_DISTANCE : 1.0, skipOnLeaving(surface, transmitted));
 }
 
 /// One direct light sample.
@@ -222,7 +279,11 @@ bool emissionCounts(uint lobes) {
 
 /// All branches are of one weight. From here on `radiance` is their sum, until finishSample.
 void splitPath() {
+#ifdef RICH_MATERIALS
+    splitPoint = SplitPoint(surface, throughput, bounce, medium);
+#else
     splitPoint = SplitPoint(surface, throughput, bounce);
+#endif
     branchesLeft = frame.branches - 1u;
     radiance *= float(frame.branches);
 }
@@ -234,6 +295,9 @@ void nextBranch() {
     material = materialAt(surface);
     throughput = splitPoint.throughput;
     bounce = splitPoint.bounce;
+#ifdef RICH_MATERIALS
+    medium = splitPoint.medium;
+#endif
     phase = PHASE_BOUNCE;
 }
 
@@ -260,6 +324,13 @@ void scatter(vec3 u, float roulette) {
     countsEmission = emissionCounts(b.lobe);
     bouncePdf = combines(b.lobe) ? max(b.pdf, TINY) : 0.0;
     departureNormal = shadingNormal(surface);
+#ifdef RICH_MATERIALS
+    if (isLitFromBothSides(lobesOf(material))) { // as light samples of that side are taken
+        bouncePdf *= 2.0;
+        departureNormal = transmitted ? -departureNormal : departureNormal;
+    }
+    medium = mediumBeyond(surface, material, medium, transmitted);
+#endif
     trace(PHASE_PATH, leave(surface, b.direction, transmitted), b.direction, 0.0, INFINITE_DISTANCE,
           skipOnLeaving(surface, transmitted));
 }
@@ -270,6 +341,9 @@ void beginSample() {
     radiance = vec3(0.0);
     countsEmission = frame.minBounce == 0u;
     bouncePdf = 0.0;
+#ifdef RICH_MATERIALS
+    medium = NO_MEDIUM;
+#endif
     splitPoint.bounce = 0u;
     branchesLeft = 0u;
 }
@@ -288,9 +362,13 @@ void depart() {
     const uvec4 words = randomWords(0u);
     const vec4 u = unitFloats(words);
     arrivalNumbers = vec3(u.xy, leftOver(words));
-    // A kind of BSDF takes either the two numbers within a lobe or the one that chooses a lobe, so that
+    // Most kinds of BSDF take either the two numbers within a lobe or the one that chooses a lobe, so that
     // both may be the same (host/kernel/kernel_features.cpp asserts it).
     if (begins) startCameraRay(u.zw);
+#ifdef RICH_MATERIALS
+    else if (SCATTERS_THROUGH && INTEGRATOR == INTEGRATOR_PATH)
+        scatter(vec3(u.zw, isBsdf(material, BSDF_PRINCIPLED) ? sideNumber() : u.z), arrivalNumbers.z);
+#endif
     else if (INTEGRATOR == INTEGRATOR_PATH) scatter(u.zwz, arrivalNumbers.z);
 }
 

@@ -45,8 +45,9 @@ const uint LIGHT_CHOICE = LIGHT_CHOICE_ONE;
 layout(constant_id = SPEC_LIGHT_CHOICE) const uint LIGHT_CHOICE = LIGHT_CHOICE_TREE;
 #endif
 
-// What materials and surfaces of a rich module can have.
+// RICH_MATERIALS: modules that have materials whose code is large. Scenes without them take the others.
 #ifdef RICH_MATERIALS
+layout(constant_id = SPEC_PRINCIPLED_FEATURES) const uint PRINCIPLED_FEATURES = 63u;
 layout(constant_id = SPEC_TEXTURE_SLOTS) const uint TEXTURE_SLOTS = 0u;
 layout(constant_id = SPEC_TEXEL_KINDS) const uint TEXEL_KINDS = 31u;
 layout(constant_id = SPEC_ATTRIBUTES) const uint ATTRIBUTES = 0u;

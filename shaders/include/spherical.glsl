@@ -4,9 +4,6 @@
 // (1983), a volume, and angles between corners come from their chord. So nothing cancels,
 // whether the light is far or touched (docs/numerics.md, "Solid angles").
 
-/// Below this a divisor is taken for none: 2^-120.
-const float TINY = 7.52316384526264e-37;
-
 /// Angle in [0, pi] of the point (x, y), y >= 0: polynomial 4.4.49 of Abramowitz and Stegun, of
 /// relative error below 1e-7 on every device (docs/kernel.md, "Arithmetic").
 float angleOf(float y, float x) {

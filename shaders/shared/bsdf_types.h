@@ -42,7 +42,9 @@ SHARED_CONST uint MIRROR_BSDF_LOBES = LOBE_DELTA_REFLECTION;
 SHARED_CONST uint REFRACTION_BSDF_LOBES = LOBE_DELTA_TRANSMISSION;
 SHARED_CONST uint GLASS_BSDF_LOBES = LOBE_DELTA_REFLECTION | LOBE_DELTA_TRANSMISSION;
 SHARED_CONST uint ROUGH_CONDUCTOR_BSDF_LOBES = LOBE_GLOSSY_REFLECTION;
-SHARED_CONST uint PRINCIPLED_BSDF_LOBES = LOBE_GLOSSY_REFLECTION;
+/// Samples of all its lobes count as glossy ones: each has the density of the mixture of all. Only those
+/// materials transmit that have any transmission.
+SHARED_CONST uint PRINCIPLED_BSDF_LOBES = LOBE_GLOSSY_REFLECTION | LOBE_GLOSSY_TRANSMISSION;
 
 /// What every material has.
 struct MaterialHeader {
@@ -107,10 +109,39 @@ struct PrincipledParameters {
     float anisotropyRotation; ///< radians from the tangent towards the bitangent
     uint flags;               ///< PRINCIPLED_
     vec3 absorption; ///< per metre, inside the surface
-    uint unused;
+    float leastAlpha; ///< the GGX parameter is no less
 };
 SHARED_ROWS(PrincipledParameters, 6);
 SHARED_CONST uint PRINCIPLED_IS_THIN = 1u; ///< there is no volume behind the surface
+SHARED_CONST uint PRINCIPLED_ABSORPTION_ROW = 6u; ///< of a material, its header counted
+
+/// The least GGX parameter. Roundings of two directions turn their half vector by up to 12 * 2^-24 (three
+/// in each component of either, and as many in the sum); of a lobe this wide that is 0.7 %, which is 1.5 %
+/// of D at its flank. A mirror of this roughness blurs by 1e-4 radians, half a pixel of a picture 4000
+/// pixels and 50 degrees wide.
+SHARED_CONST float LEAST_GGX_ALPHA = 1e-4f;
+/// Refraction turns by |1 - 1 / index| of what its facet does, and the half vector has that much more
+/// error: it is known as well as reflection's where alpha * |1 - 1 / index| is no less than this (that is
+/// 0.92e-4 for glass of index 1.5, below the other bound), a third of the least alpha.
+SHARED_CONST float LEAST_REFRACTION_ALPHA = 3.0517578125e-5f;
+/// An index is at least this far from 1 where light is refracted: an interface between equal indices has
+/// no half vector.
+SHARED_CONST float LEAST_INDEX_STEP = 9.765625e-4f;
+/// Reflectance of a clear coat (index 1.5) at normal incidence.
+SHARED_CONST float CLEARCOAT_F0 = 0.04f;
+/// The sheen's parameter from which on its directional albedo is nowhere above 1 (at most 0.99, for mu
+/// above LEAST_SHEEN_COSINE); below that, more light would be reflected than arrives.
+SHARED_CONST float LEAST_SHEEN_ALPHA = 0.07f;
+SHARED_CONST float LEAST_SHEEN_COSINE = 1e-3f;
+
+/// What the principled materials of a scene have (SPEC_PRINCIPLED_FEATURES).
+SHARED_CONST uint PRINCIPLED_HAS_CLEARCOAT = 1u;
+SHARED_CONST uint PRINCIPLED_HAS_SHEEN = 2u;
+SHARED_CONST uint PRINCIPLED_HAS_ANISOTROPY = 4u;
+SHARED_CONST uint PRINCIPLED_HAS_THIN_TRANSMISSION = 8u;
+SHARED_CONST uint PRINCIPLED_HAS_REFRACTION = 16u; ///< into volumes
+SHARED_CONST uint PRINCIPLED_HAS_ABSORPTION = 32u; ///< in these volumes
+SHARED_CONST uint PRINCIPLED_ALL_FEATURES = 63u;
 
 SHARED_END
 

@@ -62,7 +62,8 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_ATTRIBUTES 30 // ATTRIBUTE_ bits: what the detail buffer has of primitives' corners
 #define SPEC_ALPHA 31 // surfaces may be partly not there
 #define SPEC_TANGENT_FRAMES 32 // the frame of a BSDF follows the surface's tangent
-#define SPEC_COUNT 33
+#define SPEC_PRINCIPLED_FEATURES 33 // PRINCIPLED_HAS_ bits: what the principled materials have
+#define SPEC_COUNT 34
 
 SHARED_CONST uint TEXEL_KIND_NEAREST = 1u;
 SHARED_CONST uint TEXEL_KIND_BILINEAR = 2u;

@@ -84,7 +84,7 @@ struct SuspendedPath {
     vec3 radiance;
     uint item; ///< of the work list; NO_ITEM: the lane has none
     vec3 arrivalNumbers; ///< path.glsl
-    uint unused0;
+    uint medium;         ///< path.glsl; of no meaning where nothing absorbs
     vec3 departureNormal; ///< path.glsl
     uint unused1;
 };
@@ -104,8 +104,10 @@ struct SuspendedSplit {
     uint outside;
     uint branchesLeft; ///< that have not begun
     float b1, b2;      ///< barycentric weights, where materials have textures or colours; 0 else
+    uint medium;       ///< path.glsl
+    uint unused0, unused1, unused2;
 };
-SHARED_ROWS(SuspendedSplit, 6);
+SHARED_ROWS(SuspendedSplit, 7);
 SHARED_CONST float SUSPENDED_NO_EMISSION = -1.0f;
 SHARED_CONST uint SUSPENDED_NONE = 0xFFFFFFFFu;
 SHARED_CONST uint NO_ITEM = 0xFFFFFFFFu;

@@ -3,6 +3,7 @@
 #include "scene/model/material.hpp"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stromboli::test {
@@ -16,7 +17,14 @@ struct BsdfCase {
     double leastWhite;  ///< share of the light from a view near the normal that `white` keeps
     bool smooth = true; ///< densities vary little over a twentieth of the hemisphere
     double lobe = 0;    ///< tangent within which half vectors mostly are; 0: all directions
+    double error = 0;   ///< relative, of values, weights and densities, besides directions' rounding
+    double gain = 0;    ///< of fitted albedos: `white` may keep as much more than everything
+    double leastGrazing = 0; ///< share of the light that `white` keeps from any view
+    bool reciprocal = true;
 };
+
+/// Those of the principled kind.
+std::vector<BsdfCase> principledCases();
 
 inline std::vector<BsdfCase> bsdfCases() {
     std::vector<BsdfCase> cases;
@@ -72,6 +80,8 @@ inline std::vector<BsdfCase> bsdfCases() {
         cases.back().smooth = alpha >= 0.25f;
         cases.back().lobe = alpha;
     }
+    for (BsdfCase& c : principledCases())
+        cases.push_back(std::move(c));
     return cases;
 }
 

@@ -55,6 +55,12 @@ void putMaterial(Material m) {
     put(glass.reflectance), put(glass.ior), put(glass.transmittance), put(glass.unused);
     const RoughConductorParameters metal = roughConductorParameters(m);
     put(metal.eta), put(metal.alpha), put(metal.k), put(metal.unused);
+    const PrincipledParameters rich = principledParameters(m);
+    put(rich.baseColor), put(rich.metallic), put(rich.specularColor), put(rich.roughness);
+    put(rich.specular), put(rich.ior), put(rich.transmission), put(rich.anisotropy);
+    put(rich.sheenColor), put(rich.sheenRoughness), put(rich.clearcoat);
+    put(rich.clearcoatRoughness), put(rich.anisotropyRotation), put(rich.flags);
+    put(rich.absorption), put(rich.leastAlpha);
 }
 
 void putLight(LightRows l) {
@@ -80,7 +86,7 @@ void putScene() {
     putPlace(fetchPlace(5u));
     const Primitive p = fetchPrimitive(1u);
     put(p.material), put(p.n0), put(p.n1), put(p.n2);
-    putMaterial(fetchMaterial(3u)); // three rows each
+    putMaterial(fetchMaterial(7u)); // seven rows each
     putLight(fetchLightRows(1u));
     const LightEntry e = fetchLightEntry(1u);
     put(e.light), put(e.trail), put(e.probability), put(e.group);
@@ -112,11 +118,12 @@ void putWork() {
     const SuspendedPath p = suspendedPaths[1];
     put(p.origin), put(p.bounce), put(p.direction), put(p.skipPrimitive), put(p.throughput);
     put(p.emission), put(p.radiance), put(p.item), put(p.arrivalNumbers);
-    put(p.unused0), put(p.departureNormal), put(p.unused1);
+    put(p.medium), put(p.departureNormal), put(p.unused1);
     const SuspendedSplit q = suspendedSplits[1];
     put(q.position), put(q.bounce), put(q.geometric), put(q.material), put(q.shading);
     put(q.skipPrimitive), put(q.wo), put(q.lift), put(q.throughput), put(q.error);
-    put(q.outside), put(q.branchesLeft), put(q.b1), put(q.b2);
+    put(q.outside), put(q.branchesLeft), put(q.b1), put(q.b2), put(q.medium);
+    put(q.unused0), put(q.unused1), put(q.unused2);
     put(status.unfinishedItems), put(status.overflowedItems), put(status.rays);
     put(status.samples), put(status.nextItem), put(status.busySteps), put(status.allSteps);
     put(status.iterations);

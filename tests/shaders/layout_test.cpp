@@ -73,7 +73,7 @@ class Patterns {
 };
 
 /// A header and the most rows of parameters that a kind has.
-using MaterialWords = std::array<Row, 3>;
+using MaterialWords = std::array<Row, 7>;
 using LightWords = std::array<Row, gpu::LIGHT_ROWS>;
 
 struct LayoutCase {
@@ -138,6 +138,13 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         const auto metal = std::bit_cast<gpu::RoughConductorParameters>(two);
         expected_.structure("RoughConductorParameters", metal.eta, metal.alpha, metal.k,
                             metal.unused);
+        const std::array<Row, 6> six = {m[1], m[2], m[3], m[4], m[5], m[6]};
+        const auto rich = std::bit_cast<gpu::PrincipledParameters>(six);
+        expected_.structure("PrincipledParameters", rich.baseColor, rich.metallic,
+                            rich.specularColor, rich.roughness, rich.specular, rich.ior,
+                            rich.transmission, rich.anisotropy, rich.sheenColor,
+                            rich.sheenRoughness, rich.clearcoat, rich.clearcoatRoughness,
+                            rich.anisotropyRotation, rich.flags, rich.absorption, rich.leastAlpha);
     }
 
     void expectLight(const LightWords& l) {
@@ -201,13 +208,14 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         const gpu::SuspendedPath& p = paths_[1];
         expected_.structure("SuspendedPath", p.origin, p.bounce, p.direction, p.skipPrimitive,
                             p.throughput, p.emission, p.radiance, p.item, p.arrivalNumbers,
-                            p.unused0, p.departureNormal, p.unused1);
+                            p.medium, p.departureNormal, p.unused1);
         splits_ = patterns.several<gpu::SuspendedSplit>();
         shader.set(BINDING_SPLITS, splits_);
         const gpu::SuspendedSplit& q = splits_[1];
         expected_.structure("SuspendedSplit", q.position, q.bounce, q.geometric, q.material,
                             q.shading, q.skipPrimitive, q.wo, q.lift, q.throughput, q.error,
-                            q.outside, q.branchesLeft, q.b1, q.b2);
+                            q.outside, q.branchesLeft, q.b1, q.b2, q.medium, q.unused0, q.unused1,
+                            q.unused2);
         const gpu::DispatchStatus status = patterns.several<gpu::DispatchStatus>()[0];
         shader.setOne(BINDING_STATUS, status);
         expected_.structure("DispatchStatus", status.unfinishedItems, status.overflowedItems,

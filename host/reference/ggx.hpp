@@ -1,0 +1,26 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace stromboli::reference {
+
+/// Microfacets with the distribution of Trowbridge and Reitz (GGX), stretched along the axes of the
+/// frame of the shading normal (z), with Smith's height-correlated masking and shadowing.
+/// Directions are unit vectors.
+struct Ggx {
+    double alphaX, alphaY; ///< > 0
+
+    /// Density of normals: its integral times cos over the hemisphere is 1. h.z > 0.
+    double density(const glm::dvec3& h) const;
+    /// Smith's Lambda; the sign of w.z has no meaning.
+    double lambda(const glm::dvec3& w) const;
+    /// 1 / (1 + Lambda(wo) + Lambda(wi)).
+    double visibleFromBoth(const glm::dvec3& wo, const glm::dvec3& wi) const;
+    /// Density, by solid angle, of the normals seen from wo, wo.z > 0.
+    double visibleDensity(const glm::dvec3& wo, const glm::dvec3& h) const;
+    /// A normal of that density (Heitz, "Sampling the GGX Distribution of Visible Normals", 2018).
+    /// u, v: uniform in [0, 1).
+    glm::dvec3 sampleVisible(const glm::dvec3& wo, double u, double v) const;
+};
+
+} // namespace stromboli::reference

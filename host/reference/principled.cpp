@@ -1,0 +1,315 @@
+#include "host/reference/principled.hpp"
+
+#include "host/reference/fresnel.hpp"
+#include "host/reference/ggx.hpp"
+#include "host/reference/sampling.hpp"
+#include "shaders/shared/albedo_fits.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stromboli::reference {
+namespace {
+
+using glm::dvec3;
+
+double largestComponent(const dvec3& v) {
+    return std::max({v.x, v.y, v.z});
+}
+
+double average(const dvec3& v) {
+    return (v.x + v.y + v.z) / 3;
+}
+
+bool transmits(const PrincipledParameters& p) {
+    return p.transmission > 0 && p.metallic < 1;
+}
+
+bool refracts(const PrincipledParameters& p) {
+    return transmits(p) && !p.isThin;
+}
+
+/// Index inside over index outside. glTF writes 0 for an index without bounds; light is not refracted
+/// between equal indices.
+double usedIndex(const PrincipledParameters& p) {
+    if (p.ior == 0) return 1e6;
+    const double step = double(p.ior) - 1, least = gpu::LEAST_INDEX_STEP;
+    if (!refracts(p) || std::abs(step) >= least) return p.ior;
+    return step < 0 ? 1 - least : 1 + least;
+}
+
+dvec3 mixed(const dvec3& f0, double f90, double weight) {
+    return f0 * (1 - weight) + f90 * weight;
+}
+
+double schlickWeight(double cosine) {
+    return std::pow(std::clamp(1 - cosine, 0.0, 1.0), 5);
+}
+
+/// The share of a lobe that reflects f0 at normal incidence which comes back to it from microfacets
+/// that light meets after the first, 1 counted (Turquin 2019).
+dvec3 givenBack(const dvec3& f0, double albedo) {
+    return 1.0 + f0 * ((1 - albedo) / albedo);
+}
+
+dvec3 turned(const dvec3& w, double angle) {
+    return {std::cos(angle) * w.x - std::sin(angle) * w.y,
+            std::sin(angle) * w.x + std::cos(angle) * w.y, w.z};
+}
+
+/// Estevez and Kulla 2017, equation 3 and table 1.
+double sheenLambda(double cosine, double alpha) {
+    const double t = (1 - alpha) * (1 - alpha);
+    const auto l = [&](double x) {
+        const double a = t * 25.3245 + (1 - t) * 21.5473, b = t * 3.32435 + (1 - t) * 3.82987;
+        const double c = t * 0.16801 + (1 - t) * 0.19823, d = t * -1.27393 + (1 - t) * -1.97760;
+        return a / (1 + b * std::pow(x, c)) + d * x + t * -4.85967 + (1 - t) * -4.32054;
+    };
+    return std::exp(cosine < 0.5 ? l(cosine) : 2 * l(0.5) - l(1 - cosine));
+}
+
+double sheen(double alpha, const dvec3& wo, const dvec3& wi) {
+    const dvec3 h = glm::normalize(wo + wi);
+    const double d =
+        (2 + 1 / alpha) * std::pow(std::hypot(h.x, h.y), 1 / alpha) / (2 * kPi);
+    const double least = gpu::LEAST_SHEEN_COSINE;
+    const double cosO = std::clamp(wo.z, least, 1.0), cosI = std::clamp(wi.z, least, 1.0);
+    const double g = 1 / (1 + sheenLambda(cosO, alpha) + sheenLambda(cosI, alpha));
+    return d * g / (4 * cosO * cosI);
+}
+
+/// A direction's value f |cos| and density by one of the lobes alone.
+struct Part {
+    dvec3 value{0.0};
+    double pdf = 0;
+};
+
+/// The material as it is seen from wo.
+class Layers {
+  public:
+    Layers(const PrincipledParameters& p, const dvec3& wo, bool entering);
+
+    BsdfValue evaluate(const dvec3& wi) const;
+    BsdfSample sample(const dvec3& u) const;
+
+  private:
+    struct Facet {
+        dvec3 reflected{0.0}, transmitted{0.0};
+        double reflects = 1; ///< share of samples
+    };
+    Facet facetAt(double cosine) const;
+    Part facets(const dvec3& wi) const;
+    dvec3 halfVector(const dvec3& wi) const;
+    Part coat(const dvec3& wi) const;
+    dvec3 interfaceReflectance(double cosine) const;
+
+    const PrincipledParameters& p_;
+    dvec3 wo_, grainWo_; ///< the latter in the frame of the facets
+    bool thin_, covered_;
+    double index_, eta_;
+    dvec3 baseColor_, f0_;
+    double f90_;
+    Ggx ggx_{1, 1}, coatGgx_{1, 1};
+    double albedo_ = 1, coatAlbedo_ = 1, sheenAlpha_ = 1;
+    double opaque_, clear_; ///< shares of dielectric over diffuse, and over transmission
+    double underCoat_ = 1, underSheen_ = 1;
+    dvec3 diffuse_{0.0}, sheen_{0.0};
+    double facetShare_ = 1, diffuseShare_ = 0, sheenShare_ = 0, coatShare_ = 0;
+};
+
+Layers::Layers(const PrincipledParameters& p, const dvec3& wo, bool entering)
+    : p_(p), wo_(wo), grainWo_(turned(wo, -double(p.anisotropyRotation))), thin_(!refracts(p)),
+      covered_(p.isThin || entering), index_(usedIndex(p)),
+      eta_(entering ? 1 / index_ : index_), baseColor_(p.baseColor), f90_(p.specular),
+      opaque_((1 - double(p.metallic)) * (1 - double(p.transmission))),
+      clear_((1 - double(p.metallic)) * double(p.transmission)) {
+    const double r = (index_ - 1) / (index_ + 1);
+    f0_ = glm::min(r * r * dvec3(p.specularColor), dvec3(1.0)) * double(p.specular);
+
+    double least = gpu::LEAST_GGX_ALPHA;
+    if (refracts(p))
+        least = std::max(least, gpu::LEAST_REFRACTION_ALPHA * std::max(index_, 1.0) /
+                                    std::abs(index_ - 1));
+    const double alpha = std::max(double(p.roughness) * p.roughness, least);
+    const double strength = p.anisotropy;
+    ggx_ = {alpha + (1 - alpha) * strength * strength, alpha};
+
+    if (covered_ && p.clearcoat > 0) {
+        const double rough = double(p.clearcoatRoughness) * p.clearcoatRoughness;
+        const double coatAlpha = std::max(rough, double(gpu::LEAST_GGX_ALPHA));
+        coatGgx_ = {coatAlpha, coatAlpha};
+        coatAlbedo_ = gpu::ggxAlbedo(wo.z, coatAlpha);
+        const dvec3 f0(double(gpu::CLEARCOAT_F0));
+        const dvec3 fresnel = mixed(f0, 1, gpu::schlickShare(wo.z, coatAlpha));
+        coatShare_ =
+            p.clearcoat * coatAlbedo_ * fresnel.x * givenBack(f0, coatAlbedo_).x;
+        underCoat_ = 1 - coatShare_;
+    }
+    if (covered_) {
+        sheenAlpha_ = std::max(double(p.sheenRoughness) * p.sheenRoughness,
+                               double(gpu::LEAST_SHEEN_ALPHA));
+        const double sheenAlbedo =
+            gpu::sheenAlbedo(std::max(wo.z, double(gpu::LEAST_SHEEN_COSINE)), sheenAlpha_);
+        sheen_ = underCoat_ * dvec3(p.sheenColor);
+        sheenShare_ = average(sheen_) * sheenAlbedo;
+        underSheen_ = std::max(underCoat_ - largestComponent(sheen_) * sheenAlbedo, 0.0);
+    } else {
+        underSheen_ = underCoat_;
+    }
+    albedo_ = gpu::ggxAlbedo(wo.z, ggx_.alphaY);
+    const double weight = gpu::schlickShare(wo.z, ggx_.alphaY);
+    const dvec3 dielectric = albedo_ * mixed(f0_, f90_, weight) * givenBack(f0_, albedo_);
+    const dvec3 metal = albedo_ * mixed(baseColor_, 1, weight) * givenBack(baseColor_, albedo_);
+    diffuse_ = underSheen_ * opaque_ * std::max(1 - largestComponent(dielectric), 0.0) * baseColor_;
+    diffuseShare_ = average(diffuse_);
+    constexpr double kLeastFacets = 1.0 / 64;
+    facetShare_ = std::max(
+        underSheen_ * (average(double(p.metallic) * metal + opaque_ * dielectric) + clear_),
+        kLeastFacets);
+    const double sum = facetShare_ + diffuseShare_ + sheenShare_ + coatShare_;
+    for (double* share : {&facetShare_, &diffuseShare_, &sheenShare_, &coatShare_})
+        *share /= sum;
+}
+
+dvec3 Layers::interfaceReflectance(double cosine) const {
+    const Interface face = dielectric(std::min(cosine, 1.0), eta_);
+    if (face.total) return dvec3(1.0);
+    const double r = (index_ - 1) / (index_ + 1), normal = r * r;
+    return mixed(f0_, f90_, std::max((face.reflectance - normal) / (1 - normal), 0.0));
+}
+
+Layers::Facet Layers::facetAt(double cosine) const {
+    const double weight = schlickWeight(cosine), metallic = p_.metallic;
+    const dvec3 dielectric = mixed(f0_, f90_, weight);
+    Facet f;
+    f.reflected = metallic * mixed(baseColor_, 1, weight) * givenBack(baseColor_, albedo_) +
+                  opaque_ * dielectric * givenBack(f0_, albedo_);
+    if (clear_ == 0) return f;
+    const dvec3 mirrored = thin_ ? dielectric : interfaceReflectance(cosine);
+    // All that a thin sheet's facets do not send on at first is given back.
+    const double scale = thin_ ? clear_ / albedo_ : clear_;
+    f.reflected += scale * mirrored;
+    f.transmitted = scale * std::max(1 - largestComponent(mirrored), 0.0) * baseColor_;
+    const double r = average(f.reflected), t = average(f.transmitted);
+    if (t > 0) f.reflects = r / (r + t);
+    if (!thin_) f.transmitted *= eta_ * eta_; // radiance over the squared index is invariant
+    return f;
+}
+
+/// The normal of the facets that send light from wi to wo, in their frame; 0 where none does.
+dvec3 Layers::halfVector(const dvec3& wi) const {
+    if (wi.z > 0) return glm::normalize(grainWo_ + wi);
+    if (thin_) return glm::normalize(grainWo_ + dvec3(wi.x, wi.y, -wi.z));
+    dvec3 h = -(eta_ * grainWo_ + wi);
+    if (h.z < 0) h = -h;
+    h = glm::normalize(h);
+    return glm::dot(grainWo_, h) > 0 && glm::dot(wi, h) < 0 ? h : dvec3(0.0);
+}
+
+Part Layers::facets(const dvec3& worldWi) const {
+    const dvec3 wi = turned(worldWi, -double(p_.anisotropyRotation));
+    const dvec3 h = halfVector(wi);
+    const double cosO = glm::dot(grainWo_, h);
+    if (!(cosO > 0)) return {};
+    const Facet facet = facetAt(cosO);
+    const double d = ggx_.density(h), g2 = ggx_.visibleFromBoth(grainWo_, wi);
+    const double pdfOfH = ggx_.visibleDensity(grainWo_, h);
+    if (wi.z > 0)
+        return {facet.reflected * (d * g2 / (4 * wo_.z)), facet.reflects * pdfOfH / (4 * cosO)};
+    if (thin_)
+        return {facet.transmitted * (d * g2 / (4 * wo_.z)),
+                (1 - facet.reflects) * pdfOfH / (4 * cosO)};
+    // Walter et al. 2007, equations 17 and 21, the far side's index taken as 1.
+    const double cosI = std::abs(glm::dot(wi, h));
+    const double jacobian = cosI / std::pow(eta_ * cosO - cosI, 2);
+    return {facet.transmitted * (d * g2 * cosO * jacobian / wo_.z),
+            (1 - facet.reflects) * pdfOfH * jacobian};
+}
+
+Part Layers::coat(const dvec3& wi) const {
+    const dvec3 h = glm::normalize(wo_ + wi);
+    const dvec3 f0(double(gpu::CLEARCOAT_F0));
+    const double f = mixed(f0, 1, schlickWeight(glm::dot(wo_, h))).x *
+                     givenBack(f0, coatAlbedo_).x * p_.clearcoat;
+    return {dvec3(f * coatGgx_.density(h) * coatGgx_.visibleFromBoth(wo_, wi) / (4 * wo_.z)),
+            coatGgx_.visibleDensity(wo_, h) / (4 * glm::dot(wo_, h))};
+}
+
+BsdfValue Layers::evaluate(const dvec3& wi) const {
+    const Part facet = facets(wi);
+    BsdfValue f{underSheen_ * facet.value, facetShare_ * facet.pdf};
+    if (!(wi.z > 0)) return f;
+    f.value += diffuse_ * (wi.z / kPi);
+    f.pdf += diffuseShare_ * (wi.z / kPi);
+    if (sheenShare_ > 0) {
+        f.value += sheen_ * (sheen(sheenAlpha_, wo_, wi) * wi.z);
+        f.pdf += sheenShare_ / (2 * kPi);
+    }
+    if (coatShare_ > 0) {
+        const Part top = coat(wi);
+        f.value += top.value;
+        f.pdf += coatShare_ * top.pdf;
+    }
+    return f;
+}
+
+BsdfSample Layers::sample(const dvec3& u) const {
+    BsdfSample s;
+    s.lobe = gpu::LOBE_GLOSSY_REFLECTION;
+    double pick = u.z;
+    if (pick < diffuseShare_) {
+        s.direction = cosineHemisphere(u.x, u.y);
+    } else if ((pick -= diffuseShare_) < sheenShare_) {
+        s.direction = uniformHemisphere(u.x, u.y);
+    } else if ((pick -= sheenShare_) < coatShare_) {
+        const dvec3 h = coatGgx_.sampleVisible(wo_, u.x, u.y);
+        s.direction = 2 * glm::dot(wo_, h) * h - wo_;
+    } else {
+        const double left = std::min((pick - coatShare_) / facetShare_, 1.0);
+        const dvec3 h = ggx_.sampleVisible(grainWo_, u.x, u.y);
+        const double cosine = glm::dot(grainWo_, h);
+        const Facet facet = facetAt(cosine);
+        dvec3 wi = 2 * cosine * h - grainWo_;
+        if (left >= facet.reflects) {
+            s.lobe = gpu::LOBE_GLOSSY_TRANSMISSION;
+            if (thin_)
+                wi.z = -wi.z;
+            else
+                wi = (eta_ * cosine - dielectric(std::min(cosine, 1.0), eta_).cosTransmitted) * h -
+                     eta_ * grainWo_;
+        }
+        s.direction = turned(wi, double(p_.anisotropyRotation));
+    }
+    if (s.transmitted() ? s.direction.z >= 0 : s.direction.z <= 0) return s;
+    const BsdfValue f = evaluate(s.direction);
+    s.pdf = f.pdf;
+    if (f.pdf > 0) s.weight = f.value / f.pdf;
+    return s;
+}
+
+} // namespace
+
+uint32_t principledLobes(const PrincipledParameters& p) {
+    return gpu::LOBE_GLOSSY_REFLECTION | (transmits(p) ? gpu::LOBE_GLOSSY_TRANSMISSION : 0);
+}
+
+BsdfValue evaluatePrincipled(const PrincipledParameters& p, const dvec3& wo, bool entering,
+                             const dvec3& wi) {
+    if (!(wo.z > 0) || wi.z == 0 || (wi.z < 0 && !transmits(p))) return {};
+    return Layers(p, wo, entering).evaluate(wi);
+}
+
+BsdfSample samplePrincipled(const PrincipledParameters& p, const dvec3& wo, bool entering,
+                            const dvec3& u) {
+    if (!(wo.z > 0)) return {};
+    return Layers(p, wo, entering).sample(u);
+}
+
+dvec3 absorption(const PrincipledParameters& p) {
+    if (!refracts(p)) return dvec3(0.0);
+    constexpr double kLeastTransmitted = 1e-30;
+    return -glm::log(glm::max(dvec3(p.attenuationColor), kLeastTransmitted)) /
+           double(p.attenuationDistance);
+}
+
+} // namespace stromboli::reference
