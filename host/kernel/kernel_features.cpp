@@ -128,10 +128,9 @@ std::string textureText(const KernelFeatures& f) {
 /// What the principled materials have besides metal and dielectric.
 std::string principledText(const KernelFeatures& f) {
     if (f[SPEC_PRINCIPLED_FEATURES] == 0) return "";
-    return fmt::format(" (with {})",
-                       list(f[SPEC_PRINCIPLED_FEATURES],
-                            {"clear coat", "sheen", "anisotropy", "thin transmission", "refraction",
-                             "absorption"}));
+    return fmt::format(" (with {})", list(f[SPEC_PRINCIPLED_FEATURES],
+                                          {"clear coat", "sheen", "anisotropy", "thin transmission",
+                                           "refraction", "absorption"}));
 }
 
 } // namespace

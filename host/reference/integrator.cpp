@@ -227,8 +227,7 @@ void PathSample::addLightSample(const LightSample& light, double share) {
         light.value * evaluateBsdf(surface_, light.direction, world_.conventions).value * share;
     if (!(largest(value) > 0)) return;
     Ray ray = leaveTo(light.direction);
-    const double distance =
-        light.infinite ? kInfinite : glm::length(light.target - ray.origin);
+    const double distance = light.infinite ? kInfinite : glm::length(light.target - ray.origin);
     value *= transmittance(mediumBeyond(looksBehind()), distance);
     if (!light.infinite) {
         const glm::dvec3 to = light.target - ray.origin;
@@ -236,7 +235,8 @@ void PathSample::addLightSample(const LightSample& light, double share) {
         if (ray.tMax > 0) ray.direction = to / ray.tMax;
     }
     ++rays_;
-    radiance_ += throughput_ * value * shareThatPasses(ray, {startOfLightSample(), light.primitive});
+    radiance_ +=
+        throughput_ * value * shareThatPasses(ray, {startOfLightSample(), light.primitive});
 }
 
 void PathSample::addHemisphereSamples() {
@@ -262,8 +262,8 @@ void PathSample::addHemisphereSamples() {
             found = emission(s);
             distance = hit.t;
         }
-        radiance_ += throughput_ * weight * found *
-                     transmittance(mediumBeyond(looksBehind()), distance);
+        radiance_ +=
+            throughput_ * weight * found * transmittance(mediumBeyond(looksBehind()), distance);
     }
 }
 

@@ -1,9 +1,9 @@
-// Pictures of a room with all that textures, colours of corners, normal maps and opacity can be: the
-// kernel and the reference agree on it (z-tests with a family-wise error of 1e-4 a mode, fixed
+// Pictures of a room with all that textures, colours of corners, normal maps and opacity can be:
+// the kernel and the reference agree on it (z-tests with a family-wise error of 1e-4 a mode, fixed
 // seeds), and the kernel gives the same bytes however its work is cut.
 #include "host/check/cross_check.hpp"
-#include "host/reference/reference_backend.hpp"
 #include "host/core/random.hpp"
+#include "host/reference/reference_backend.hpp"
 #include "host/render/render.hpp"
 #include "tests/analytic/textured.hpp"
 #include "tests/render/device_render.hpp"
@@ -79,6 +79,35 @@ Scene texturedRoom() {
         b.quad({-0.2f, -0.8f, 0.1f}, {0.8f, 0, 0.2f}, {0, 1.2f, 0}, curtains);
         t.attributes(2, projected(0, 1, 0.7f));
     }
+    Material rich;
+    rich.kind = MaterialKind::Principled;
+    rich.principled = {.metallic = 0.8f,
+                       .roughness = 0.7f,
+                       .clearcoat = 0.8f,
+                       .clearcoatRoughness = 0.5f,
+                       .sheenColor = glm::vec3(0.5f, 0.8f, 0.3f),
+                       .sheenRoughness = 0.8f,
+                       .anisotropy = 0.7f,
+                       .anisotropyRotation = 0.4f};
+    for (const TextureSlot slot :
+         {TextureSlot::Anisotropy, TextureSlot::BaseColor, TextureSlot::MetallicRoughness,
+          TextureSlot::Specular, TextureSlot::SpecularColor, TextureSlot::Clearcoat,
+          TextureSlot::ClearcoatRoughness, TextureSlot::SheenColor, TextureSlot::SheenRoughness})
+        rich.textures.push_back({.slot = slot, .texture = soft});
+    rich.textures.push_back({.slot = TextureSlot::Normal, .texture = normals, .scale = 0.5f});
+    b.quad({0.3f, -0.9f, -0.95f}, {0.6f, 0, 0}, {0, 1.6f, -0.02f}, b.add(rich));
+    t.attributes(2, [](const glm::vec3& p) {
+        VertexAttributes a = projected(0, 1, 0.6f)(p);
+        a.tangent = {0.6f, 0.8f, 0, 1};
+        return a;
+    });
+    Material sheet;
+    sheet.kind = MaterialKind::Principled;
+    sheet.principled = {.metallic = 0, .roughness = 0.6f, .transmission = 0.9f};
+    sheet.textures = {{.slot = TextureSlot::Transmission, .texture = soft},
+                      {.slot = TextureSlot::BaseColor, .texture = paper}};
+    b.quad({-0.9f, -0.2f, 0.3f}, {0.5f, 0, -0.2f}, {0, 0.7f, 0}, b.add(sheet));
+    t.attributes(2, projected(0, 1, 0.9f));
     b.sphere({0.5f, -0.5f, -0.4f}, 0.3f, b.add(glass(1.5f)));
     Material veil = diffuse(0.5f);
     veil.alphaMode = AlphaMode::Blend;
@@ -146,10 +175,13 @@ TEST_F(TexturedRoomBytes, AreTheSameHoweverWorkIsCut) {
     s.estimator.branches = 2;
     s.estimator.lightSamples = 2;
     const Film whole = renderOnDevice(testDevice(), scene, camera(), s);
-    for (const KernelTuning& tuning :
-         {KernelTuning{.fixedIterations = 1}, {.fixedIterations = 7},
-          {.lanes = 100, .fixedIterations = 50}, {.workgroupSize = 24, .traversalSteps = 1},
-          {.itemsPerDispatch = 7}, {.texelFetch = false}, {.registerStack = 0}}) {
+    for (const KernelTuning& tuning : {KernelTuning{.fixedIterations = 1},
+                                       {.fixedIterations = 7},
+                                       {.lanes = 100, .fixedIterations = 50},
+                                       {.workgroupSize = 24, .traversalSteps = 1},
+                                       {.itemsPerDispatch = 7},
+                                       {.texelFetch = false},
+                                       {.registerStack = 0}}) {
         const Film cut = renderOnDevice(testDevice(), scene, camera(), s, tuning);
         size_t different = 0;
         for (size_t i = 0; i < whole.pixels.size(); ++i)
