@@ -280,7 +280,7 @@ TEST(LayoutSizes, NoFieldIsForgotten) {
         sizeof(gpu::PixelState) + sizeof(gpu::SuspendedPath) + sizeof(gpu::SuspendedSplit) +
         sizeof(gpu::DispatchStatus);
     EXPECT_EQ(bytes / 4, 16 + 16 + 4 + (4 + 4 + 4 + 4 + 8 + 8) + (4 + 12 + 12 + 4 + 4 + 4) +
-                             (4 + 4 + 8) + 32 + 8 + 4 + 16 + 24 + 24 + 8u);
+                             (4 + 4 + 8) + 32 + 8 + 4 + 16 + 24 + 28 + 8u);
 }
 
 } // namespace
