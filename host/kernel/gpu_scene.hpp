@@ -19,10 +19,10 @@ struct GpuScene {
     std::vector<Row> materials;
     std::vector<Row> details; ///< attributes of corners, and texels (detail_rows.hpp)
     LightTable lights;
-    uint32_t bsdfKinds = 0;   ///< bit n: a primitive has a material of BSDF_ kind n
+    uint32_t bsdfKinds = 0;          ///< bit n: a primitive has a material of BSDF_ kind n
     uint32_t principledFeatures = 0; ///< PRINCIPLED_HAS_ bits: what primitives' materials have
-    bool hasEmission = false; ///< a primitive emits
-    float gapWidth = 0;       ///< gap_proposal.hpp
+    bool hasEmission = false;        ///< a primitive emits
+    float gapWidth = 0;              ///< gap_proposal.hpp
     bool hasTriangles = false, hasSpheres = false;
     bool hasNormals = false; ///< any triangle with shading normals
     // DetailPlan:

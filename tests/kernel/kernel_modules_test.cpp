@@ -46,8 +46,8 @@ TEST_P(KernelModules, TheSmallestThatHasAllFeatures) {
     EXPECT_LT(all.size(), 0.95 * double(rich.size()));
     EXPECT_EQ(constantsOf(rich).size(), size_t(SPEC_COUNT)) << "all constants are used";
     const auto rare = constantsOf(all);
-    for (const uint32_t id :
-         {SPEC_TEXTURE_SLOTS, SPEC_TEXEL_KINDS, SPEC_ATTRIBUTES, SPEC_ALPHA, SPEC_TANGENT_FRAMES, SPEC_PRINCIPLED_FEATURES})
+    for (const uint32_t id : {SPEC_TEXTURE_SLOTS, SPEC_TEXEL_KINDS, SPEC_ATTRIBUTES, SPEC_ALPHA,
+                              SPEC_TANGENT_FRAMES, SPEC_PRINCIPLED_FEATURES})
         EXPECT_FALSE(rare.contains(id)) << id;
     EXPECT_EQ(rare.size(), size_t(SPEC_COUNT) - 6);
 }
