@@ -147,16 +147,16 @@ void resumeSplit(uint lane) {
 void suspendSplit(uint lane) {
     const SurfacePoint p = splitPoint.surface;
 #ifdef RICH_MATERIALS
+    const uint medium = splitPoint.medium;
     const vec2 weights = p.weights;
-    const uint medium_ = splitPoint.medium;
 #else
+    const uint medium = 0u;
     const vec2 weights = vec2(0.0);
-    const uint medium_ = 0u;
 #endif
     suspendedSplits[lane] =
         SuspendedSplit(p.position, splitPoint.bounce, p.geometric, p.material, p.shading,
                        p.skipPrimitive, p.wo, p.lift, splitPoint.throughput, p.error,
-                       p.outside ? 1u : 0u, branchesLeft, weights.x, weights.y, medium_, 0u, 0u, 0u);
+                       p.outside ? 1u : 0u, branchesLeft, weights.x, weights.y, medium, 0u, 0u, 0u);
 }
 
 void resume(uint lane) {

@@ -212,7 +212,7 @@ uint32_t PathSample::startOfLightSample() const {
 const Material* PathSample::mediumBeyond(bool transmitted) const {
     const Material& m = *surface_.material;
     if (!transmitted || m.kind != MaterialKind::Principled || m.principled.isThin) return medium_;
-    return surface_.outside ? &m : nullptr;
+    return surface_.outside ? surface_.stated : nullptr;
 }
 
 void PathSample::addDirectLightOfSide() {
@@ -268,15 +268,16 @@ void PathSample::addHemisphereSamples() {
         ++rays_;
         const Ray ray = leaveTo(direction);
         const Hit hit = closest(ray, {startOfLightSample()});
-        const bool misses = hit.primitive == kNoPrimitive;
         glm::dvec3 found = world_.lights.ambientRadiance(direction);
-        if (!misses) {
+        double distance = kInfinite;
+        if (hit.primitive != kNoPrimitive) {
             SurfacePoint s = surfaceAt(world_.scene, ray, hit);
             if (world_.hasDetails) applyTextures(s, world_.scene);
             found = emission(s);
+            distance = hit.t;
         }
-        radiance_ += throughput_ * weight * found *
-                     transmittance(mediumBeyond(looksBehind()), misses ? kInfinite : hit.t);
+        radiance_ +=
+            throughput_ * weight * found * transmittance(mediumBeyond(looksBehind()), distance);
     }
 }
 

@@ -73,8 +73,6 @@ uvec4 randomWords(uint slot) {
 }
 
 #ifdef RICH_MATERIALS
-#include "pass_through.glsl"
-
 /// Blocks of random numbers that choices between reflection and transmission take.
 const uint CHOICE_BLOCKS = 0x40000000u;
 
@@ -87,6 +85,8 @@ float sideNumber() {
     }
     return unitFloats(pcg4d(uvec4(pixelId, sample_, block, frame.seed))).x;
 }
+
+#include "pass_through.glsl"
 #else
 /// The material of a surface; a scene of the smaller modules has no textures.
 Material materialAt(SurfacePoint s) { return fetchMaterial(s.material); }

@@ -79,6 +79,35 @@ Scene texturedRoom() {
         b.quad({-0.2f, -0.8f, 0.1f}, {0.8f, 0, 0.2f}, {0, 1.2f, 0}, curtains);
         t.attributes(2, projected(0, 1, 0.7f));
     }
+    Material rich;
+    rich.kind = MaterialKind::Principled;
+    rich.principled = {.metallic = 0.8f,
+                       .roughness = 0.7f,
+                       .clearcoat = 0.8f,
+                       .clearcoatRoughness = 0.5f,
+                       .sheenColor = glm::vec3(0.5f, 0.8f, 0.3f),
+                       .sheenRoughness = 0.8f,
+                       .anisotropy = 0.7f,
+                       .anisotropyRotation = 0.4f};
+    for (const TextureSlot slot :
+         {TextureSlot::Anisotropy, TextureSlot::BaseColor, TextureSlot::MetallicRoughness,
+          TextureSlot::Specular, TextureSlot::SpecularColor, TextureSlot::Clearcoat,
+          TextureSlot::ClearcoatRoughness, TextureSlot::SheenColor, TextureSlot::SheenRoughness})
+        rich.textures.push_back({.slot = slot, .texture = soft});
+    rich.textures.push_back({.slot = TextureSlot::Normal, .texture = normals, .scale = 0.5f});
+    b.quad({0.3f, -0.9f, -0.95f}, {0.6f, 0, 0}, {0, 1.6f, -0.02f}, b.add(rich));
+    t.attributes(2, [](const glm::vec3& p) {
+        VertexAttributes a = projected(0, 1, 0.6f)(p);
+        a.tangent = {0.6f, 0.8f, 0, 1};
+        return a;
+    });
+    Material sheet;
+    sheet.kind = MaterialKind::Principled;
+    sheet.principled = {.metallic = 0, .roughness = 0.6f, .transmission = 0.9f};
+    sheet.textures = {{.slot = TextureSlot::Transmission, .texture = soft},
+                      {.slot = TextureSlot::BaseColor, .texture = paper}};
+    b.quad({-0.9f, -0.2f, 0.3f}, {0.5f, 0, -0.2f}, {0, 0.7f, 0}, b.add(sheet));
+    t.attributes(2, projected(0, 1, 0.9f));
     b.sphere({0.5f, -0.5f, -0.4f}, 0.3f, b.add(glass(1.5f)));
     Material veil = diffuse(0.5f);
     veil.alphaMode = AlphaMode::Blend;

@@ -6,7 +6,7 @@ QUERIES_AND_ANSWERS(BsdfQuery, BsdfAnswer)
 
 BsdfAnswer answer(BsdfQuery q) {
     SurfacePoint s = SurfacePoint(vec3(0.0), 0.0, q.geometric, q.shading, q.wo,
-                                  q.outside != 0u, q.materialRow, NO_PRIMITIVE, 0.0);
+                                  q.outside != 0u, q.materialRow, NO_PRIMITIVE, 0.0 NO_DETAIL);
     faceForward(s);
     const Material m = fetchMaterial(q.materialRow);
     const BsdfValue f = evaluateBsdf(m, s, q.wi);

@@ -15,7 +15,7 @@ bool blocked(vec3 origin, vec3 direction, float tMax) {
 
 LightAnswer answer(LightQuery q) {
     const SurfacePoint s = SurfacePoint(q.position, largestComponent(q.error), q.geometric, q.shading,
-                                        q.wo, q.outside != 0u, 0u, NO_PRIMITIVE, 0.0);
+                                        q.wo, q.outside != 0u, 0u, NO_PRIMITIVE, 0.0 NO_DETAIL);
     findOnlyLight();
     const vec2 u = vec2(q.u, q.v);
     PickedLight picked;

@@ -30,6 +30,13 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 
 #include "queries.h"
 
+/// Ends the constructor of a SurfacePoint that has no texture.
+#ifdef RICH_MATERIALS
+#define NO_DETAIL , vec2(0.0), vec4(0.0)
+#else
+#define NO_DETAIL
+#endif
+
 #define BINDING_QUERIES BINDING_COUNT
 #define BINDING_ANSWERS (BINDING_COUNT + 1)
 

@@ -111,6 +111,19 @@ TEST(BufferLimits, AllAreBoundByOneAllocationAndByTheMemory) {
     }
 }
 
+/// A buffer that the user can make smaller says how, alone and as the largest of many.
+TEST(BufferLimits, MessagesNameTheRemedy) {
+    DeviceDescription d = roomyDevice();
+    d.memory = 1000;
+    const BufferPlan textures{"texture buffer", 900, BufferUse::Storage, "--max-texture N helps"};
+    BufferPlan large = textures;
+    large.bytes = 1001;
+    EXPECT_THAT(messageOf([&] { requireFits(d, large); }), HasSubstr("--max-texture N helps"));
+    const std::vector<BufferPlan> both{{"lava", 200, BufferUse::Storage, ""}, textures};
+    EXPECT_THAT(messageOf([&] { requireTogetherFit(d, both); }),
+                HasSubstr("--max-texture N helps"));
+}
+
 TEST(BufferLimits, BuffersTogetherAreBoundByTheMemory) {
     DeviceDescription d = roomyDevice();
     d.memory = 1000;
