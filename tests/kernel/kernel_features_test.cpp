@@ -278,7 +278,7 @@ TEST(KernelFeatures, EverythingOn) {
     for (const uint32_t feature :
          {SPEC_HAS_TRIANGLES, SPEC_HAS_SPHERES, SPEC_HAS_NORMALS, SPEC_HAS_EMISSION})
         EXPECT_EQ(f[feature], 1u) << feature;
-    EXPECT_EQ(f[SPEC_BSDF_KINDS], 31u);
+    EXPECT_EQ(f[SPEC_BSDF_KINDS], (1u << gpu::BSDF_KIND_COUNT) - 1);
     EXPECT_EQ(f[SPEC_LIGHT_KINDS], 127u);
     EXPECT_EQ(f[SPEC_ROULETTE], gpu::ROULETTE_NONE);
     EXPECT_EQ(f[SPEC_CS184], 0u);
