@@ -121,12 +121,12 @@ BsdfValue evaluateBsdf(Material m, SurfacePoint s, vec3 wi) {
     const vec3 local = toLocal(frame_, wi);
     const bool transmitted = local.z < 0.0;
 #ifdef RICH_MATERIALS
-    const uint lobes = lobesOf(m);
+#define LOBES_HERE lobesOf(m)
 #else
-    const uint lobes = sceneLobes();
+#define LOBES_HERE sceneLobes() // of which none transmits into many directions
 #endif
     const bool possible =
-        (transmitted ? (lobes & TRANSMISSION_LOBES & ~DELTA_LOBES) != 0u : local.z > 0.0) &&
+        (transmitted ? (LOBES_HERE & TRANSMISSION_LOBES & ~DELTA_LOBES) != 0u : local.z > 0.0) &&
         isOnItsSide(s, wi, transmitted);
     if (!possible) return NO_SCATTERING;
     return evaluateLocally(m, incidenceOn(s, frame_), local);

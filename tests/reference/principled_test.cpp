@@ -31,7 +31,7 @@ double overHemisphere(int n, F&& f) {
 TEST(Ggx, NormalsProjectToTheSurfaceAndToTheView) {
     for (const Ggx ggx : {Ggx{0.3, 0.3}, Ggx{0.8, 0.2}, Ggx{1, 1}}) {
         EXPECT_NEAR(overHemisphere(1000, [&](const glm::dvec3& h) { return ggx.density(h) * h.z; }),
-                    1, 1e-4);
+                    1, 2e-4);
         for (const double cosine : {0.2, 0.6, 1.0})
             EXPECT_NEAR(overHemisphere(1000,
                                        [&](const glm::dvec3& h) {
@@ -76,7 +76,7 @@ TEST(AlbedoFits, OfGgxAreAsGoodAsTheySay) {
                 worstShare, std::abs(gpu::schlickShare(mu, alpha) - exact.schlick / exact.whole));
         }
     EXPECT_LT(worst, 0.0042);
-    EXPECT_LT(worstShare, 0.0068);
+    EXPECT_LT(worstShare, 0.0075);
 }
 
 /// GGX of alpha 1 reflects at a right angle 1 - ln 2 at first.

@@ -11,7 +11,7 @@ namespace {
 /// many roundings of 2^-24, and albedos of .3 triple them.
 constexpr double kFitError = 2e-4, kSheenFitError = 2e-3;
 /// What the fits of the albedos miss (shaders/shared/albedo_fits.h).
-constexpr double kFitGain = 0.0062 + 0.0039, kSheenGain = 0.02;
+constexpr double kFitGain = 0.0075 + 0.0042, kSheenGain = 0.02;
 
 BsdfCase principled(std::string name, const PrincipledParameters& p) {
     BsdfCase c{std::move(name), {}, {}, 0};
