@@ -66,12 +66,22 @@ std::string embreePathsLack(const Scene& scene, const RenderSettings& settings) 
     if (!samplesLights(settings.estimator.directLight) ||
         settings.estimator.directLight == DirectLight::MisAll)
         return "direct light other than by lights";
-    const auto isMetal = [&](const auto& primitive) {
-        return scene.materials[primitive.material].kind == MaterialKind::Microfacet;
+    if (settings.estimator.filter != PixelFilter::Box) return "pixel filters";
+    if (scene.environment) return "environments";
+    if (!scene.attributes.empty()) return "textures and colours of corners";
+    const auto anyHas = [&](const auto& isSo) {
+        const auto hasIt = [&](const auto& primitive) {
+            return isSo(scene.materials[primitive.material]);
+        };
+        return std::ranges::any_of(scene.triangles, hasIt) ||
+               std::ranges::any_of(scene.spheres, hasIt);
     };
-    if (std::any_of(scene.triangles.begin(), scene.triangles.end(), isMetal) ||
-        std::any_of(scene.spheres.begin(), scene.spheres.end(), isMetal))
+    if (anyHas([](const Material& m) { return m.kind == MaterialKind::Microfacet; }))
         return "microfacet materials";
+    if (anyHas([](const Material& m) { return m.kind == MaterialKind::Principled; }))
+        return "principled materials";
+    if (anyHas([](const Material& m) { return m.alphaMode != AlphaMode::Opaque; }))
+        return "surfaces that are partly not there";
     return {};
 }
 

@@ -4,6 +4,8 @@
 #include "embedded/pathtrace_one_light_texel.h"
 #include "embedded/pathtrace_rich_storage.h"
 #include "embedded/pathtrace_rich_texel.h"
+#include "embedded/pathtrace_rich_usual_storage.h"
+#include "embedded/pathtrace_rich_usual_texel.h"
 #include "embedded/pathtrace_storage.h"
 #include "embedded/pathtrace_texel.h"
 #include "embedded/pathtrace_usual_storage.h"
@@ -37,6 +39,8 @@ bool needsRichModule(const KernelFeatures& f) {
 }
 
 std::span<const uint32_t> kernelModule(const KernelFeatures& features, bool texelFetch) {
+    if (needsRichModule(features) && hasUsualModes(features))
+        return texelFetch ? Code(pathtrace_rich_usual_texel) : pathtrace_rich_usual_storage;
     if (needsRichModule(features))
         return texelFetch ? Code(pathtrace_rich_texel) : pathtrace_rich_storage;
     if (!hasUsualModes(features)) return texelFetch ? Code(pathtrace_texel) : pathtrace_storage;

@@ -147,7 +147,9 @@ void MaterialReader::readClearcoat() {
     if (p.clearcoat == 0) return;
     use(*extension, "clearcoatTexture", TextureSlot::Clearcoat);
     use(*extension, "clearcoatRoughnessTexture", TextureSlot::ClearcoatRoughness);
-    useNormalMap(*extension, "clearcoatNormalTexture", TextureSlot::ClearcoatNormal);
+    if (extension->has("clearcoatNormalTexture"))
+        context_.report().ignore("clearcoatNormalTexture",
+                                 "all layers of a surface share the material's normals");
 }
 
 void MaterialReader::readSheen() {

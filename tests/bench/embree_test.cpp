@@ -174,6 +174,21 @@ TEST(EmbreePaths, SayWhatTheyLack) {
     p.settings.estimator.directLight = DirectLight::Hemisphere;
     EXPECT_NE(embreePathsLack(p.scene, p.settings), "");
     p.settings = {};
+    p.settings.estimator.filter = PixelFilter::Gaussian;
+    EXPECT_EQ(embreePathsLack(p.scene, p.settings), "pixel filters");
+    p.settings = {};
+    const Scene plain = p.scene;
+    p.scene.environment.emplace();
+    EXPECT_EQ(embreePathsLack(p.scene, p.settings), "environments");
+    p.scene = plain;
+    p.scene.attributes.emplace_back();
+    EXPECT_EQ(embreePathsLack(p.scene, p.settings), "textures and colours of corners");
+    p.scene = plain;
+    p.scene.materials[p.scene.triangles[0].material].alphaMode = AlphaMode::Blend;
+    EXPECT_EQ(embreePathsLack(p.scene, p.settings), "surfaces that are partly not there");
+    p.scene.materials[p.scene.triangles[0].material].kind = MaterialKind::Principled;
+    EXPECT_EQ(embreePathsLack(p.scene, p.settings), "principled materials");
+    p.scene = plain;
     p.settings.estimator.conventions = cs184Shading();
     EXPECT_EQ(embreePathsLack(p.scene, p.settings), "other shading conventions than the default");
 }

@@ -45,6 +45,8 @@ TEST_P(KernelModules, TheSmallestThatHasAllFeatures) {
     const auto rich = module(f);
     EXPECT_LT(all.size(), 0.95 * double(rich.size()));
     EXPECT_EQ(constantsOf(rich).size(), size_t(SPEC_COUNT)) << "all constants are used";
+    f[SPEC_CS184] = 0;
+    EXPECT_LT(module(f).size(), 0.95 * double(rich.size())) << "of usual modes";
     const auto rare = constantsOf(all);
     for (const uint32_t id : {SPEC_TEXTURE_SLOTS, SPEC_TEXEL_KINDS, SPEC_ATTRIBUTES, SPEC_ALPHA,
                               SPEC_TANGENT_FRAMES, SPEC_HAS_ENVIRONMENT, SPEC_HAS_BACKDROP,
