@@ -21,7 +21,7 @@ bool isSrgb(TextureUse t) {
     return (TEXEL_KINDS & TEXEL_KIND_SRGB) != 0u && (t.flags & TEXELS_SRGB) != 0u;
 }
 
-/// sRGB to linear (IEC 61966-2-1), within 1.1e-4 of the value; 0 and 1 are exact. Above the linear part
+/// sRGB to linear (IEC 61966-2-1), within 1.1e-4 of the value and 2^-23; 0 and 1 are exact. Above the linear part
 /// 1 + (c - 1) r(c), r fitted for the least relative error.
 vec3 linearOfSrgb(vec3 c) {
     const vec3 r =
