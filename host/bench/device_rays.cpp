@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 namespace stromboli::bench {
 namespace {
@@ -27,11 +28,16 @@ constexpr uint32_t kGuardIterations = 1u << 20;
 constexpr uint64_t kTotalsOffset = sizeof(uint32_t);
 
 /// The scene's buffers by binding; the traversal reads the first ones only, but all are bound.
-std::vector<std::span<const std::byte>> sceneRows(const GpuScene& scene) {
-    return {
-        std::as_bytes(std::span(scene.bvh.records)),  std::as_bytes(std::span(scene.primitives)),
-        std::as_bytes(std::span(scene.materials)),    std::as_bytes(std::span(scene.lights.lights)),
-        std::as_bytes(std::span(scene.lights.table)), std::as_bytes(std::span(scene.details))};
+auto sceneRows(const GpuScene& scene) {
+    const std::array rows = {std::as_bytes(std::span(scene.bvh.records)),
+                             std::as_bytes(std::span(scene.primitives)),
+                             std::as_bytes(std::span(scene.materials)),
+                             std::as_bytes(std::span(scene.lights.lights)),
+                             std::as_bytes(std::span(scene.lights.table)),
+                             std::as_bytes(std::span(scene.lights.environment)),
+                             std::as_bytes(std::span(scene.details))};
+    static_assert(rows.size() == SCENE_BINDING_COUNT);
+    return rows;
 }
 
 bool isRow(uint32_t binding) {
