@@ -15,6 +15,7 @@ SceneConventions cs184Conventions() {
     c.shadingModels = ShadingModels::PhongOnly;
     c.unstatedAlbedo = 0.5f;
     c.clampReflectedFractions = false;
+    c.textures = false;
     c.shadingModelsEmit = false;
     c.areaLights = AreaLights::StayLights;
     c.directionalAim = DirectionalAim::NodePoint;

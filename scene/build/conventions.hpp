@@ -94,6 +94,8 @@ struct SceneConventions {
     float unstatedAlbedo = 0;
     /// Reflected fractions above 1 become 1; otherwise they are kept.
     bool clampReflectedFractions = true;
+    /// Pictures and the colours of corners change what surfaces reflect and emit; otherwise not.
+    bool textures = true;
     /// Materials emit what their shading model says; otherwise only elements made for it count.
     bool shadingModelsEmit = true;
 

@@ -59,6 +59,7 @@ bool isCgl(const Element& technique) {
 Document::Document(const std::filesystem::path& file, build::Report& report) : report_(report) {
     SourceText source = readSourceText(file, report);
     file_ = std::move(source.name);
+    companions_ = std::move(source.companions);
     parse(source.text);
     collectIds();
 }
@@ -119,8 +120,10 @@ std::string Document::requireAttribute(const Element& at, const char* name) cons
 }
 
 const Element* Document::find(const char* kind, std::string_view reference) const {
-    if (!reference.starts_with('#')) return nullptr;
-    const std::string_view id = reference.substr(1);
+    return reference.starts_with('#') ? findId(kind, reference.substr(1)) : nullptr;
+}
+
+const Element* Document::findId(const char* kind, std::string_view id) const {
     auto found = byKindAndId_.find(key(kind, id));
     if (found == byKindAndId_.end()) found = byKindAndId_.find(key(kind, percentDecoded(id)));
     return found == byKindAndId_.end() ? nullptr : found->second;

@@ -2,6 +2,7 @@
 
 #include "scene/build/file_place.hpp"
 #include "scene/build/report.hpp"
+#include "scene/collada/companions.hpp"
 
 #include <tinyxml2.h>
 
@@ -35,6 +36,9 @@ class Document {
     /// True if any element belongs to the CS184 dialect.
     bool cglDialect() const { return cglDialect_; }
 
+    /// The files that lie with it.
+    const Companions& companions() const { return companions_; }
+
     /// Where the element stands.
     build::FilePlace place(const Element& at) const;
     /// Throws SceneError with file, line and name of the element.
@@ -49,6 +53,8 @@ class Document {
     /// The attribute's text; throws SceneError where there is none.
     std::string requireAttribute(const Element& at, const char* name) const;
 
+    /// The element named `kind` with that id; null where there is none.
+    const Element* findId(const char* kind, std::string_view id) const;
     /// The element named `kind` that the reference `#id` points to; null where there is none.
     const Element* find(const char* kind, std::string_view reference) const;
     /// What the reference `#id` in the attribute points to: an element named `kind`. Throws
@@ -66,6 +72,7 @@ class Document {
 
     build::Report& report_;
     std::string file_;
+    Companions companions_;
     tinyxml2::XMLDocument xml_;
     std::unordered_map<std::string, const Element*> byKindAndId_;
     size_t elementCount_ = 0;

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include <cstring>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace stromboli::collada {
 namespace {
@@ -15,27 +15,13 @@ namespace {
 const glm::vec3 kMidGrey(0.5f);
 constexpr const char* kNoParameter = "the parameter counts as absent";
 
-/// Where a shading model's parameter can be defined, innermost first.
-struct Scope {
-    const Element *technique, *profile, *effect;
-};
-
-const Element* findParameter(const Scope& scope, const char* sid) {
-    for (const Element* place : {scope.technique, scope.profile, scope.effect})
-        for (const Element& parameter : children(*place)) {
-            const char* own = parameter.Attribute("sid");
-            if (named(parameter, "newparam") && own && std::strcmp(own, sid) == 0)
-                return &parameter;
-        }
-    return nullptr;
-}
-
 enum class ChannelKind { Absent, Numbers, Texture };
 
 /// One parameter of a shading model, such as <diffuse>.
 struct Channel {
     ChannelKind kind = ChannelKind::Absent;
     const Element* numbers = nullptr;
+    const Element* texture = nullptr; ///< <texture>, or the <newparam> of a sampler
 };
 
 /// What a `<param ref="...">` stands for.
@@ -50,8 +36,8 @@ Channel resolveParameter(const Context& context, const Scope& scope, const Eleme
     }
     for (const char* type : {"float", "float3", "float4"})
         if (const Element* value = parameter->FirstChildElement(type))
-            return {ChannelKind::Numbers, value};
-    return {ChannelKind::Texture, nullptr};
+            return {ChannelKind::Numbers, value, nullptr};
+    return {ChannelKind::Texture, nullptr, parameter};
 }
 
 Channel readChannel(const Context& context, const Scope& scope, const Element& model,
@@ -60,10 +46,11 @@ Channel readChannel(const Context& context, const Scope& scope, const Element& m
     if (!channel) return {};
     if (const Element* param = channel->FirstChildElement("param"))
         return resolveParameter(context, scope, *param);
-    if (channel->FirstChildElement("texture")) return {ChannelKind::Texture, nullptr};
+    if (const Element* texture = channel->FirstChildElement("texture"))
+        return {ChannelKind::Texture, nullptr, texture};
     for (const char* type : {"color", "float"})
         if (const Element* numbers = channel->FirstChildElement(type))
-            return {ChannelKind::Numbers, numbers};
+            return {ChannelKind::Numbers, numbers, nullptr};
     context.document.forgive(*channel, "has neither <color> nor <float>, <param> or <texture>",
                              kNoParameter);
     return {};
@@ -114,20 +101,47 @@ void reportIgnored(Context& context, const Scope& scope, const Element& model) {
     report("transparent", !isOpaque(context, scope, model), "surfaces are rendered opaque");
 }
 
-glm::vec3 readAlbedo(Context& context, const Scope& scope, const Element& model) {
-    const Channel channel = readChannel(context, scope, model, "diffuse");
+/// Reads the textures of one effect.
+class TexturedChannels {
+  public:
+    TexturedChannels(Context& context, Textures& textures, const Scope& scope,
+                     EffectMaterial& result)
+        : context_(context), textures_(textures), scope_(scope), result_(result) {}
+
+    /// Adds the texture of a channel; false if there is none, of which `reading` says what comes of
+    /// it.
+    bool add(const Channel& channel, const char* name, TextureSlot slot, const char* reading) {
+        if (!context_.conventions.textures) {
+            context_.report.ignore(fmt::format("<texture> of <{}>", name), reading);
+            return false;
+        }
+        const std::optional<uint32_t> number = textures_.read(scope_, *channel.texture, reading);
+        if (!number) return false;
+        const char* texcoord = channel.texture->Attribute("texcoord");
+        result_.textures.push_back({slot, *number, texcoord ? texcoord : ""});
+        return true;
+    }
+
+  private:
+    Context& context_;
+    Textures& textures_;
+    const Scope& scope_;
+    EffectMaterial& result_;
+};
+
+glm::vec3 readAlbedo(Context& context, const Channel& channel, TexturedChannels& textures) {
     if (channel.kind == ChannelKind::Numbers) return readFraction(context, *channel.numbers);
     if (channel.kind == ChannelKind::Absent) return glm::vec3(context.conventions.unstatedAlbedo);
-    context.report.ignore("<texture> of <diffuse>", kGreyInstead);
-    return kMidGrey;
+    const bool found = textures.add(channel, "diffuse", TextureSlot::BaseColor, kGreyInstead);
+    return found ? glm::vec3(1) : kMidGrey;
 }
 
-glm::vec3 readEmission(Context& context, const Scope& scope, const Element& model) {
-    const Channel channel = readChannel(context, scope, model, "emission");
+glm::vec3 readEmission(Context& context, const Channel& channel, TexturedChannels& textures) {
     if (channel.kind == ChannelKind::Absent) return glm::vec3(0);
     if (channel.kind == ChannelKind::Texture) {
-        context.report.ignore("<texture> of <emission>", "the surface does not emit");
-        return glm::vec3(0);
+        const bool found =
+            textures.add(channel, "emission", TextureSlot::Emission, "the surface does not emit");
+        return glm::vec3(found ? 1.0f : 0.0f);
     }
     const glm::vec3 emission = readLightColor(context, *channel.numbers);
     if (context.conventions.shadingModelsEmit || emission == glm::vec3(0)) return emission;
@@ -142,29 +156,37 @@ const Element* shadingModel(const Element& technique) {
     return nullptr;
 }
 
-Material readCommonProfile(Context& context, const Element& effect, const Element& profile) {
+EffectMaterial readCommonProfile(Context& context, Textures& textures, const Element& effect,
+                                 const Element& profile) {
     const Element* technique = profile.FirstChildElement("technique");
     const Element* model = technique ? shadingModel(*technique) : nullptr;
-    Material material;
+    EffectMaterial result;
+    Material& material = result.material;
     material.albedo = kMidGrey;
     if (!model) {
         context.document.forgive(technique ? *technique : profile,
                                  "has none of <constant>, <lambert>, <phong>, <blinn>",
                                  kGreyInstead);
-        return material;
+        return result;
     }
     if (context.conventions.shadingModels == ShadingModels::PhongOnly && !named(*model, "phong")) {
         context.report.ignore(fmt::format("<{}>", model->Name()),
                               context.conventions.renderer +
                                   " reads <phong> only; mid grey (0.5) takes its place");
-        return material;
+        return result;
     }
     const Scope scope{technique, &profile, &effect};
     const bool constant = named(*model, "constant");
-    material.albedo = constant ? glm::vec3(0) : readAlbedo(context, scope, *model);
-    material.emission = readEmission(context, scope, *model);
+    TexturedChannels channels(context, textures, scope, result);
+    if (constant)
+        material.albedo = glm::vec3(0);
+    else
+        material.albedo =
+            readAlbedo(context, readChannel(context, scope, *model, "diffuse"), channels);
+    material.emission =
+        readEmission(context, readChannel(context, scope, *model, "emission"), channels);
     reportIgnored(context, scope, *model);
-    return material;
+    return result;
 }
 
 } // namespace
@@ -179,20 +201,19 @@ glm::vec3 readLightColor(Context& context, const Element& at) {
                                       readColor(context.document, at));
 }
 
-Material readEffect(Context& context, const Element& effect, const std::string& name) {
-    std::optional<Material> material = readCglMaterial(context, effect);
-    if (!material) {
-        const Element* profile = effect.FirstChildElement("profile_COMMON");
-        if (profile) {
-            material = readCommonProfile(context, effect, *profile);
-        } else {
-            context.report.warn(fmt::format("effect '{}' has no <profile_COMMON>: {}",
-                                            displayName(effect), kGreyInstead));
-            material.emplace().albedo = kMidGrey;
-        }
-    }
-    material->name = name;
-    return *material;
+EffectMaterial readEffect(Context& context, Textures& textures, const Element& effect,
+                          const std::string& name) {
+    EffectMaterial result;
+    result.material.albedo = kMidGrey;
+    if (std::optional<Material> dialect = readCglMaterial(context, effect))
+        result.material = std::move(*dialect);
+    else if (const Element* profile = effect.FirstChildElement("profile_COMMON"))
+        result = readCommonProfile(context, textures, effect, *profile);
+    else
+        context.report.warn(fmt::format("effect '{}' has no <profile_COMMON>: {}",
+                                        displayName(effect), kGreyInstead));
+    result.material.name = name;
+    return result;
 }
 
 } // namespace stromboli::collada

@@ -1,12 +1,49 @@
 #include "scene/collada/materials.hpp"
 
-#include "scene/collada/effects.hpp"
+#include "scene/build/scene_builder.hpp"
+#include "scene/collada/numbers.hpp"
 
 #include <fmt/format.h>
 
-namespace stromboli::collada {
+#include <charconv>
+#include <string_view>
+#include <utility>
 
-Material Materials::read(const Element& material) {
+namespace stromboli::collada {
+namespace {
+
+/// The number at the end of a name such as CHANNEL1.
+std::optional<uint32_t> numberAtEnd(std::string_view name) {
+    const size_t last = name.find_last_not_of("0123456789");
+    const std::string_view digits = name.substr(last == std::string_view::npos ? 0 : last + 1);
+    uint32_t number = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    const bool isNumber = error == std::errc() && end == digits.data() + digits.size();
+    return isNumber ? std::optional(number) : std::nullopt;
+}
+
+/// The input of that set; null where there is none.
+const Element* inputOfSet(const Document& document, const Primitive& primitive, uint32_t set) {
+    for (const Element* input : primitive.texcoords)
+        if (readCountOr(document, *input, "set", 0) == set) return input;
+    return nullptr;
+}
+
+/// The <bind_vertex_input> of that name; null where there is none.
+const Element* bindingOf(const Element& instanceMaterial, const std::string& name) {
+    for (const Element& at : children(instanceMaterial)) {
+        const char* semantic = at.Attribute("semantic");
+        const char* input = at.Attribute("input_semantic");
+        const bool isTexcoord = named(at, "bind_vertex_input") && semantic && name == semantic &&
+                                input && std::string_view(input) == "TEXCOORD";
+        if (isTexcoord) return &at;
+    }
+    return nullptr;
+}
+
+} // namespace
+
+EffectMaterial Materials::read(const Element& material) {
     const Document& document = context_.document;
     const Element* instance = material.FirstChildElement("instance_effect");
     if (!instance) document.forgive(material, "has no <instance_effect>", kGreyInstead);
@@ -16,18 +53,46 @@ Material Materials::read(const Element& material) {
                 context_.report.ignore("<setparam>", "effects are read with their own values");
     const Element* effect =
         instance ? document.resolveOr(*instance, "url", "effect", kGreyInstead) : nullptr;
-    if (effect) return readEffect(context_, *effect, displayName(material));
-    Material grey = build::greyMaterial();
-    grey.name = displayName(material);
+    if (effect) return readEffect(context_, textures_, *effect, displayName(material));
+    EffectMaterial grey{build::greyMaterial(), {}};
+    grey.material.name = displayName(material);
     return grey;
 }
 
-uint32_t Materials::indexOf(const Element& material) {
-    return table_.indexOf(&material, [&] { return read(material); });
+Materials::Entry& Materials::entry(const Element& material) {
+    const auto [found, isNew] = read_.try_emplace(&material);
+    if (isNew) found->second.effect = read(material);
+    return found->second;
+}
+
+const std::vector<EffectTexture>& Materials::texturesOf(const Element& material) {
+    return entry(material).effect.textures;
+}
+
+uint32_t Materials::indexOf(const Element& element, TexcoordUse use) {
+    Entry& entry = this->entry(element);
+    if (entry.effect.textures.empty()) use = TexcoordUse::None;
+    std::optional<uint32_t>& number = entry.numbers[size_t(use)];
+    if (number) return *number;
+    Material material = entry.effect.material;
+    for (const EffectTexture& texture : entry.effect.textures) {
+        const bool isEmission = texture.slot == TextureSlot::Emission;
+        if (use == TexcoordUse::None) {
+            (isEmission ? material.emission : material.albedo) = glm::vec3(isEmission ? 0 : 0.5f);
+            continue;
+        }
+        TextureUse shown;
+        shown.slot = texture.slot;
+        shown.texture = texture.texture;
+        shown.uvSet = isEmission && use == TexcoordUse::Separate ? 1 : 0;
+        material.textures.push_back(shown);
+    }
+    number = context_.builder.addMaterial(std::move(material));
+    return *number;
 }
 
 BoundMaterials::BoundMaterials(Context& context, Materials& materials, const Element& instance)
-    : context_(context) {
+    : context_(context), materials_(materials) {
     const Document& document = context.document;
     const Element* binding = instance.FirstChildElement("bind_material");
     if (!binding) return;
@@ -38,26 +103,75 @@ BoundMaterials::BoundMaterials(Context& context, Materials& materials, const Ele
     }
     for (const Element& at : children(*technique)) {
         if (!named(at, "instance_material")) continue;
-        const Element* material = document.resolveOr(at, "target", "material", kGreyInstead);
-        const uint32_t index =
-            material ? materials.indexOf(*material) : context.builder.defaultMaterial();
-        bySymbol_.try_emplace(document.requireAttribute(at, "symbol"), index);
-        if (!first_) first_ = index;
+        const Bound bound{document.resolveOr(at, "target", "material", kGreyInstead), &at};
+        // Those without textures are the same for whatever they cover.
+        if (!bound.material)
+            context.builder.defaultMaterial();
+        else if (materials.texturesOf(*bound.material).empty())
+            materials.indexOf(*bound.material, TexcoordUse::None);
+        bySymbol_.try_emplace(document.requireAttribute(at, "symbol"), bound);
+        if (!first_) first_ = bound;
         for (const Element& child : children(at))
-            if (!named(child, "extra"))
+            if (!named(child, "extra") &&
+                !(named(child, "bind_vertex_input") && context.conventions.textures))
                 context.report.ignore(fmt::format("<{}>", child.Name()),
-                                      "textures are not rendered");
+                                      "it has no effect on the picture");
     }
 }
 
-uint32_t BoundMaterials::indexFor(const std::string& symbol) const {
-    if (context_.conventions.materialBinding == MaterialBinding::FirstForMesh) return first();
-    const auto found = bySymbol_.find(symbol);
-    return found == bySymbol_.end() ? missing() : found->second;
+PartMaterial BoundMaterials::of(const Primitive& primitive) const {
+    if (context_.conventions.materialBinding == MaterialBinding::FirstForMesh) return {first(), {}};
+    const auto found = bySymbol_.find(primitive.symbol);
+    if (found == bySymbol_.end()) return {missing(), {}};
+    const Bound& bound = found->second;
+    if (!bound.material) return {context_.builder.defaultMaterial(), {}};
+    PartMaterial part;
+    TexcoordUse use = TexcoordUse::None;
+    for (const EffectTexture& texture : materials_.texturesOf(*bound.material)) {
+        const Element* input = texcoordFor(bound, primitive, texture.texcoord);
+        if (!input) return {withoutTexcoords(bound, "a primitive without texture coordinates"), {}};
+        const bool isSeparate = use != TexcoordUse::None && part.texcoords[0] != input;
+        part.texcoords[isSeparate ? 1 : 0] = input;
+        use = isSeparate ? TexcoordUse::Separate : TexcoordUse::Shared;
+    }
+    part.number = materials_.indexOf(*bound.material, use);
+    return part;
+}
+
+/// The coordinates that a texture names; null if the primitive has none.
+const Element* BoundMaterials::texcoordFor(const Bound& bound, const Primitive& primitive,
+                                           const std::string& name) const {
+    if (primitive.texcoords.empty()) return nullptr;
+    const Document& document = context_.document;
+    const Element* first = primitive.texcoords.front();
+    if (const Element* binding = bindingOf(*bound.instance, name)) {
+        const uint32_t set = readCountOr(document, *binding, "input_set", 0);
+        if (const Element* input = inputOfSet(document, primitive, set)) return input;
+        document.forgive(*binding, fmt::format("the primitive has no TEXCOORD of the set {}", set),
+                         "its first texture coordinates are taken");
+        return first;
+    }
+    const Element* input = nullptr;
+    if (const std::optional<uint32_t> set = numberAtEnd(name))
+        input = inputOfSet(document, primitive, *set);
+    if (primitive.texcoords.size() > 1)
+        context_.report.assume("textures that no <bind_vertex_input> binds look up the texture "
+                               "coordinates of the number in their name, or else the first ones");
+    return input ? input : first;
+}
+
+uint32_t BoundMaterials::withoutTexcoords(const Bound& bound, const std::string& shape) const {
+    if (!materials_.texturesOf(*bound.material).empty())
+        context_.report.warn(fmt::format("the textures of {} are left out: its colour is mid grey "
+                                         "(0.5)",
+                                         shape));
+    return materials_.indexOf(*bound.material, TexcoordUse::None);
 }
 
 uint32_t BoundMaterials::first() const {
-    return first_ ? *first_ : missing();
+    if (!first_) return missing();
+    return first_->material ? withoutTexcoords(*first_, "a sphere")
+                            : context_.builder.defaultMaterial();
 }
 
 uint32_t BoundMaterials::missing() const {

@@ -1,4 +1,4 @@
-// The part of MeshReader that finds where positions and normals come from.
+// The part of MeshReader that finds where positions, normals and attributes come from.
 
 #include "scene/collada/primitives.hpp"
 #include "scene/collada/sources.hpp"
@@ -9,14 +9,15 @@
 #include <string_view>
 
 namespace stromboli::collada {
-namespace {
 
-void reportUnused(build::Report& report, const std::string& semantic) {
-    report.ignore(fmt::format("<input semantic=\"{}\">", semantic),
-                  "only positions and normals are used");
+void MeshReader::reportUnused(const Element& input, const TexcoordInputs& used) const {
+    if (&input == used[0] || &input == used[1]) return;
+    const std::string semantic = context_.document.requireAttribute(input, "semantic");
+    const bool isTexcoord = semantic == "TEXCOORD";
+    context_.report.ignore(fmt::format("<input semantic=\"{}\">", semantic),
+                           isTexcoord ? "no texture looks them up"
+                                      : "it has no effect on the picture");
 }
-
-} // namespace
 
 void MeshReader::readVertices(const Element& meshElement) {
     const Document& document = context_.document;
@@ -27,12 +28,12 @@ void MeshReader::readVertices(const Element& meshElement) {
         const std::string semantic = document.requireAttribute(input, "semantic");
         if (semantic == "POSITION" && !found) {
             const Element& source = document.resolve(input, "source", "source");
-            mesh_.positions = readVectors(document, source, NonFinite::Reject);
+            mesh_.positions = readVectors<3>(document, source, NonFinite::Reject);
             found = true;
         } else if (semantic == "NORMAL" && !vertexNormals_) {
             vertexNormals_ = &input;
         } else {
-            reportUnused(context_.report, semantic);
+            vertexOthers_.push_back(&input);
         }
     }
     if (!found)
@@ -45,17 +46,18 @@ MeshReader::NormalRange MeshReader::normalsOf(const Element& input) {
     if (isNew) {
         // Exporters write NaN for the normals of degenerate faces; such normals are not used.
         const std::vector<glm::dvec3> normals =
-            readVectors(context_.document, source, NonFinite::Allow);
+            readVectors<3>(context_.document, source, NonFinite::Allow);
         found->second = {uint32_t(mesh_.normals.size()), uint32_t(normals.size())};
         mesh_.normals.insert(mesh_.normals.end(), normals.begin(), normals.end());
     }
     return found->second;
 }
 
-MeshReader::Inputs MeshReader::readInputs(const Element& primitive) {
+MeshReader::Inputs MeshReader::readInputs(const Element& primitive,
+                                          const TexcoordInputs& texcoords) {
     const Document& document = context_.document;
     Inputs inputs;
-    const Element *vertex = nullptr, *normal = nullptr;
+    const Element *vertex = nullptr, *normal = nullptr, *color = nullptr;
     uint32_t largest = 0;
     for (const Element& input : children(primitive)) {
         if (!named(input, "input")) continue;
@@ -68,10 +70,21 @@ MeshReader::Inputs MeshReader::readInputs(const Element& primitive) {
         } else if (semantic == "NORMAL" && !normal) {
             normal = &input;
             inputs.normalOffset = offset;
+        } else if (semantic == "COLOR" && !color && context_.conventions.textures) {
+            color = &input;
         } else {
-            reportUnused(context_.report, semantic);
+            reportUnused(input, texcoords);
         }
     }
+    for (const Element* input : vertexOthers_) {
+        const bool isColor = std::string_view(input->Attribute("semantic")) == "COLOR";
+        if (isColor && !color && context_.conventions.textures)
+            color = input;
+        else
+            reportUnused(*input, texcoords);
+    }
+    if (color)
+        context_.report.assume("colours of corners are linear and multiply the diffuse colour");
     if (!vertex) document.fail(primitive, "has no <input semantic=\"VERTEX\">");
     if (&document.resolve(*vertex, "source", "vertices") != vertices_)
         document.fail(*vertex, "its source is the <vertices> of another mesh");
@@ -83,6 +96,7 @@ MeshReader::Inputs MeshReader::readInputs(const Element& primitive) {
     if (normal) inputs.normals = normalsOf(*normal);
     inputs.stride = largest + 1;
     if (inputs.stride == 0) document.fail(primitive, "an <input> has an offset that is too large");
+    attributes_.begin(texcoords, color, inputs.vertexOffset);
     return inputs;
 }
 
@@ -106,6 +120,7 @@ std::vector<Corner> MeshReader::readCorners(const Element& p, const Inputs& inpu
         if (inputs.hasNormals)
             corner.normal = inputs.normals.first +
                             check(at[inputs.normalOffset], inputs.normals.count, "normal");
+        corner.attributes = attributes_.of(at, p);
         at += inputs.stride;
     }
     return corners;

@@ -8,6 +8,12 @@
 
 namespace stromboli::collada {
 
+static bool isSurface(const Element& element) {
+    for (const char* kind : {"triangles", "polylist", "polygons", "tristrips", "trifans"})
+        if (named(element, kind)) return true;
+    return false;
+}
+
 void MeshReader::readTriangles(const Element& primitive, const Inputs& inputs, MeshPart& part) {
     size_t count = 0;
     for (const Element& p : children(primitive)) {
@@ -96,9 +102,9 @@ void MeshReader::checkCount(const Element& primitive, size_t found) const {
                                fmt::format("count=\"{}\", but its contents make {}", count, found));
 }
 
-void MeshReader::readPrimitive(const Element& primitive) {
+void MeshReader::readPrimitive(const Element& primitive, const TexcoordInputs& texcoords) {
     const std::string_view kind = primitive.Name();
-    const Inputs inputs = readInputs(primitive);
+    const Inputs inputs = readInputs(primitive, texcoords);
     MeshPart part;
     if (kind == "triangles") readTriangles(primitive, inputs, part);
     if (kind == "polylist") readPolylist(primitive, inputs, part);
@@ -106,21 +112,40 @@ void MeshReader::readPrimitive(const Element& primitive) {
     if (kind == "tristrips") readStrips(primitive, inputs, part);
     if (kind == "trifans") readFans(primitive, inputs, part);
     mesh_.parts.push_back(std::move(part));
-    const char* symbol = primitive.Attribute("material");
-    symbols_.emplace_back(symbol ? symbol : "");
 }
 
-ColladaMesh MeshReader::read(const Element& meshElement) {
-    readVertices(meshElement);
+std::vector<Primitive> primitivesOf(const Element& meshElement) {
+    const auto addTexcoords = [](const Element& parent, std::vector<const Element*>& found) {
+        for (const Element& input : children(parent)) {
+            const char* semantic = input.Attribute("semantic");
+            if (named(input, "input") && semantic && std::string_view(semantic) == "TEXCOORD")
+                found.push_back(&input);
+        }
+    };
+    const Element* vertices = meshElement.FirstChildElement("vertices");
+    std::vector<Primitive> primitives;
     for (const Element& child : children(meshElement)) {
-        const std::string_view kind = child.Name();
-        if (kind == "triangles" || kind == "polylist" || kind == "polygons" ||
-            kind == "tristrips" || kind == "trifans")
-            readPrimitive(child);
-        else if (kind != "source" && kind != "vertices" && kind != "extra")
-            context_.report.ignore(fmt::format("<{}>", kind), "only surfaces are rendered");
+        if (!isSurface(child)) continue;
+        const char* symbol = child.Attribute("material");
+        Primitive& primitive = primitives.emplace_back();
+        primitive.element = &child;
+        primitive.symbol = symbol ? symbol : "";
+        addTexcoords(child, primitive.texcoords);
+        if (vertices) addTexcoords(*vertices, primitive.texcoords);
     }
-    return {std::move(mesh_), std::move(symbols_)};
+    return primitives;
+}
+
+Mesh MeshReader::read(const Element& meshElement, std::span<const TexcoordInputs> texcoords) {
+    readVertices(meshElement);
+    size_t part = 0;
+    for (const Element& child : children(meshElement)) {
+        if (isSurface(child))
+            readPrimitive(child, texcoords[part++]);
+        else if (!named(child, "source") && !named(child, "vertices") && !named(child, "extra"))
+            context_.report.ignore(fmt::format("<{}>", child.Name()), "only surfaces are rendered");
+    }
+    return std::move(mesh_);
 }
 
 } // namespace stromboli::collada

@@ -69,10 +69,14 @@ void requireMarkup(const std::string& name, std::string_view text) {
 } // namespace
 
 SourceText readSourceText(const std::filesystem::path& file, build::Report& report) {
-    SourceText source{file.string(), build::readFile(file)};
+    SourceText source{file.string(), build::readFile(file),
+                      Companions::inFolder(file.parent_path())};
     if (isArchive(source.text)) {
         PackedDocument packed = readZae(source.name, source.text, report);
-        source = {std::move(packed.name), std::move(packed.bytes)};
+        source.name = std::move(packed.name);
+        source.companions =
+            Companions::inArchive(file.string(), std::move(source.text), packed.path);
+        source.text = std::move(packed.bytes);
     }
     source.text = toUtf8(source.name, std::move(source.text), report);
     requireMarkup(source.name, source.text);

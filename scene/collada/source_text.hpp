@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/build/report.hpp"
+#include "scene/collada/companions.hpp"
 
 #include <filesystem>
 #include <string>
@@ -11,6 +12,7 @@ namespace stromboli::collada {
 struct SourceText {
     std::string name; ///< of the file, and of the document in it where it is an archive
     std::string text;
+    Companions companions; ///< the files that lie with it
 };
 
 /// Reads a file: a document in UTF-8 or UTF-16, or an archive (.zae) that holds one. Throws

@@ -9,10 +9,12 @@
 
 namespace stromboli::collada {
 
-/// The three-component vectors a <source> holds, read through its accessor (offset, stride, count;
-/// unnamed <param>s are skipped, as the standard asks). Throws SceneError if the array's count is
-/// not its length or the accessor reaches past it.
-std::vector<glm::dvec3> readVectors(const Document& document, const Element& source,
-                                    NonFinite nonFinite);
+/// The vectors of 2 or 3 components a <source> holds, read through its accessor (offset, stride,
+/// count; unnamed <param>s are skipped, as the standard asks, and so is what comes after the last
+/// component). Throws SceneError if the array's count is not its length or the accessor reaches
+/// past it.
+template <int size>
+std::vector<glm::vec<size, double>> readVectors(const Document& document, const Element& source,
+                                                NonFinite nonFinite);
 
 } // namespace stromboli::collada

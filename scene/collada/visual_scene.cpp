@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,11 +28,13 @@ constexpr size_t kDeepestNode = 1000;
 /// ...and repeat so many nodes, before a file of a few lines fills any memory.
 constexpr size_t kMostRepeatedNodes = size_t(1) << 20;
 
-/// A <geometry>, read once for all its instances.
+/// A <geometry>, read once for all its instances...
 struct Geometry {
-    build::ShapeId shape{};
-    bool isSphere = false;
-    std::vector<std::string> symbols; ///< of the materials of the mesh's parts
+    std::optional<double> sphereRadius;
+    const Element* mesh = nullptr; ///< null: it has none, or is a sphere
+    std::vector<Primitive> primitives;
+    /// ...whose textures use the same texture coordinates of each primitive.
+    std::map<std::vector<TexcoordInputs>, build::ShapeId> shapes;
 };
 
 class SceneWalk {
@@ -103,37 +106,49 @@ class SceneWalk {
     /// `instance` binds the materials.
     void placeGeometry(const Element& node, const Element& instance, const Element& element,
                        const glm::dmat4& toWorld) {
-        const Geometry& geometry = read(element);
+        Geometry& geometry = read(element);
         const BoundMaterials bound(context_, materials_, instance);
         std::vector<uint32_t> materials;
-        if (geometry.isSphere) materials.push_back(bound.first());
-        for (const std::string& symbol : geometry.symbols)
-            materials.push_back(bound.indexFor(symbol));
-        context_.builder.place(context_.document.place(instance), geometry.shape, toWorld,
-                               materials, displayName(node));
+        std::vector<TexcoordInputs> texcoords;
+        if (geometry.sphereRadius) materials.push_back(bound.first());
+        for (const Primitive& primitive : geometry.primitives) {
+            const PartMaterial part = bound.of(primitive);
+            materials.push_back(part.number);
+            texcoords.push_back(part.texcoords);
+        }
+        context_.builder.place(context_.document.place(instance),
+                               shapeOf(element, geometry, texcoords), toWorld, materials,
+                               displayName(node));
     }
 
-    const Geometry& read(const Element& element) {
+    Geometry& read(const Element& element) {
         const auto [found, isNew] = geometries_.try_emplace(&element);
-        if (!isNew) return found->second;
-        const std::optional<double> sphereRadius = readCglSphere(context_, element);
-        ColladaMesh mesh;
+        Geometry& geometry = found->second;
+        if (!isNew) return geometry;
+        geometry.sphereRadius = readCglSphere(context_, element);
         for (const Element& child : children(element)) {
             const bool isMesh = named(child, "mesh");
-            if (isMesh && !sphereRadius)
-                mesh = MeshReader(context_).read(child);
-            else if (isMesh)
+            if (isMesh && geometry.sphereRadius)
                 ignore(child, "the geometry's <sphere> takes its place");
+            else if (isMesh)
+                geometry.mesh = &child;
             else if (!isMetadata(child))
                 ignore(child, "only <mesh> and spheres are rendered");
         }
-        Geometry& geometry = found->second;
-        geometry.isSphere = sphereRadius.has_value();
-        geometry.symbols = std::move(mesh.symbols);
-        const std::string name = displayName(element);
-        geometry.shape = sphereRadius ? context_.builder.addSphere(name, *sphereRadius)
-                                      : context_.builder.addMesh(name, std::move(mesh.mesh));
+        if (geometry.mesh) geometry.primitives = primitivesOf(*geometry.mesh);
         return geometry;
+    }
+
+    build::ShapeId shapeOf(const Element& element, Geometry& geometry,
+                           const std::vector<TexcoordInputs>& texcoords) {
+        const auto [found, isNew] = geometry.shapes.try_emplace(texcoords);
+        if (!isNew) return found->second;
+        const std::string name = displayName(element);
+        if (geometry.sphereRadius)
+            return found->second = context_.builder.addSphere(name, *geometry.sphereRadius);
+        build::Mesh mesh;
+        if (geometry.mesh) mesh = MeshReader(context_).read(*geometry.mesh, texcoords);
+        return found->second = context_.builder.addMesh(name, std::move(mesh));
     }
 
     Context& context_;
@@ -160,7 +175,8 @@ void reportUnread(Context& context) {
                             kind == "library_lights" || kind == "library_effects" ||
                             kind == "library_materials" || kind == "library_geometries" ||
                             kind == "library_controllers" || kind == "library_nodes" ||
-                            kind == "library_visual_scenes";
+                            kind == "library_visual_scenes" ||
+                            (kind == "library_images" && context.conventions.textures);
         if (isRead) continue;
         for (const Element& element : children(library))
             if (!named(element, "asset") && !named(element, "extra"))

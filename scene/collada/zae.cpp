@@ -148,7 +148,14 @@ PackedDocument readZae(const std::string& file, std::string_view bytes, build::R
     const std::string name = archive.has(std::string(kManifest))
                                  ? rootOfManifest(archive)
                                  : onlyDocument(archive, file, report);
-    return {archive.nameOf(name), archive.unpack(name)};
+    return {archive.nameOf(name), name, archive.unpack(name)};
+}
+
+std::optional<std::string> readFromArchive(const std::string& file, std::string_view bytes,
+                                           const std::string& path) {
+    const Archive archive(file, bytes);
+    if (!archive.has(path)) return std::nullopt;
+    return archive.unpack(path);
 }
 
 } // namespace stromboli::collada

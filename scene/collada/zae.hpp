@@ -2,6 +2,7 @@
 
 #include "scene/build/report.hpp"
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,7 @@ bool isArchive(std::string_view bytes);
 /// A document that was packed in an archive.
 struct PackedDocument {
     std::string name; ///< of the archive and of the document in it, for messages
+    std::string path; ///< of the document in the archive
     std::string bytes;
 };
 
@@ -20,5 +22,9 @@ struct PackedDocument {
 /// without a manifest is forgiven if it has one document. Throws SceneError for archives that are
 /// damaged, encrypted, or hold more than fits in memory.
 PackedDocument readZae(const std::string& file, std::string_view bytes, build::Report& report);
+
+/// The file of that path in an archive; nothing if it holds none. Throws SceneError as readZae().
+std::optional<std::string> readFromArchive(const std::string& file, std::string_view bytes,
+                                           const std::string& path);
 
 } // namespace stromboli::collada

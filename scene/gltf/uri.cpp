@@ -1,6 +1,7 @@
 #include "scene/gltf/uri.hpp"
 
 #include "host/core/error.hpp"
+#include "scene/build/folder.hpp"
 #include "scene/build/read_file.hpp"
 
 #include <fmt/format.h>
@@ -78,17 +79,6 @@ bool leadsOut(const fs::path& path) {
     return false;
 }
 
-/// True if the file that links lead to lies in the folder.
-bool liesBelow(const fs::path& folder, const fs::path& path) {
-    std::error_code error;
-    const fs::path base = fs::canonical(folder, error);
-    if (error) return false;
-    const fs::path target = fs::weakly_canonical(path, error);
-    if (error) return false;
-    const fs::path relative = target.lexically_relative(base);
-    return !relative.empty() && *relative.begin() != "..";
-}
-
 } // namespace
 
 std::string shortUri(std::string_view uri) {
@@ -120,7 +110,7 @@ std::string readUri(const fs::path& folder, std::string_view uri, const std::str
         leadsOut(fs::path(name)))
         fail(fmt::format("the URI '{}' leads out of the file's folder", shortUri(uri)));
     const fs::path path = folder / fs::path(name);
-    if (fs::exists(path) && !liesBelow(folder.empty() ? "." : folder, path))
+    if (fs::exists(path) && !build::liesBelow(folder, path))
         fail(fmt::format("the URI '{}' is a link out of the file's folder", shortUri(uri)));
     try {
         return build::readFile(path);

@@ -37,10 +37,11 @@ Picture decodePicture(std::string_view bytes, const std::string& name) {
         return decodeWebp(bytes, name);
     if (bytes.starts_with("#?")) return decodeHdr(bytes, name);
     if (bytes.starts_with("\x76\x2f\x31\x01")) return decodeExr(bytes, name);
+    if (looksLikeTga(bytes)) return decodeTga(bytes, name);
     throw SceneError(name, 0, "",
                      bytes.empty() ? "is empty, expected a picture"
                                    : "is no picture that is read: expected PNG, JPEG, WebP, "
-                                     "Radiance HDR or OpenEXR");
+                                     "Radiance HDR, OpenEXR or TGA");
 }
 
 } // namespace stromboli::images
