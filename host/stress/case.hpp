@@ -41,5 +41,9 @@ std::vector<Case> estimatorCases();  ///< ways to the same mean
 std::vector<Case> filmCases();       ///< sums of samples, and how the work is cut
 std::vector<Case> agreementCases();  ///< device against reference
 std::vector<Case> arithmeticCases(); ///< what is taken for granted of floats
+std::vector<Case> environmentCases();
+std::vector<Case> materialCases(); ///< parameters at their ends, layers, nested volumes
+std::vector<Case> textureCases();
+std::vector<Case> tangentCases(); ///< normal maps without a frame
 
 } // namespace stromboli::stress

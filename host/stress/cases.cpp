@@ -9,7 +9,8 @@ const std::vector<Case>& allCases() {
         std::vector<Case> cases;
         for (const auto group :
              {edgeCases, intersectionCases, closedCases, offsetCases, scaleCases, randomCases,
-              furnaceCases, estimatorCases, filmCases, agreementCases, arithmeticCases})
+              furnaceCases, estimatorCases, filmCases, agreementCases, arithmeticCases,
+              environmentCases, materialCases, textureCases, tangentCases})
             std::ranges::move(group(), std::back_inserter(cases));
         // By their first number.
         std::ranges::stable_sort(cases, {}, [](const Case& c) { return std::stoi(c.numbers); });

@@ -25,6 +25,13 @@ Totals::Totals(const Film& film) {
         all.merge(p);
 }
 
+PixelStatistics columnOf(const Film& film, uint32_t x) {
+    PixelStatistics all;
+    for (uint32_t y = 0; y < film.height; ++y)
+        all.merge(film.at(x, y));
+    return all;
+}
+
 double Totals::sum() const {
     return std::max({all.mean.x, all.mean.y, all.mean.z}) * all.count;
 }

@@ -7,6 +7,7 @@ namespace stromboli::stress {
 /// All samples of a picture together.
 struct Totals {
     explicit Totals(const Film& film);
+    explicit Totals(const PixelStatistics& samples) : all(samples) {}
 
     /// Sum of the samples' values, of the channel that has most.
     double sum() const;
@@ -15,6 +16,9 @@ struct Totals {
 
     PixelStatistics all;
 };
+
+/// All samples of a picture's column, counted from the left.
+PixelStatistics columnOf(const Film& film, uint32_t x);
 
 /// Relative error that the kernel's arithmetic may put on a mean: a sample is a product and sum of
 /// some hundred float operations, each good to 2^-24 to 2^-22, over paths of up to 100 bounces.

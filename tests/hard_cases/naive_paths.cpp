@@ -1,5 +1,6 @@
 // The naive subject's path tracer.
 #include "tests/hard_cases/naive_subject.hpp"
+#include "tests/hard_cases/naive_surfaces.hpp"
 
 #include <array>
 #include <cmath>
@@ -19,12 +20,15 @@ struct Path {
     glm::vec3 position{0.0f}, normal{0.0f}, wo{0.0f}; ///< normal: the shading one, towards wo
     bool outside = true;
     const Material* material = nullptr;
+    glm::vec3 emission{0.0f};
     glm::vec3 throughput{1.0f}, radiance{0.0f};
 
     bool arrive(const glm::vec3& origin, const glm::vec3& direction, float tMin);
     bool counts(uint32_t scatterings) const { return scatterings >= settings.estimator.minBounce; }
     void addEmission(uint32_t scatterings);
     void addAmbient(uint32_t scatterings);
+    void addSky(const glm::vec3& direction);
+    void addSkySample();
     void addEmitters();
     void addEmitter(const glm::vec3& target, const glm::vec3& emitterNormal, const glm::vec3& light,
                     float area, bool bothSides);
@@ -35,25 +39,41 @@ struct Path {
 
 bool Path::arrive(const glm::vec3& origin, const glm::vec3& direction, float tMin) {
     ++rays;
-    const Hit hit = closest(scene, origin, direction, tMin, stress::kMissed);
+    Hit hit = closest(scene, origin, direction, tMin, stress::kMissed);
+    while (hit && hit.material->alphaMode == AlphaMode::Blend &&
+           random.uniform() >= hit.material->opacity)
+        hit = closest(scene, origin, direction, hit.t + kEpsilon, stress::kMissed);
     if (!hit) return false;
     position = origin + hit.t * direction;
     wo = -direction;
     material = hit.material;
+    emission = emissionAt(scene, hit);
     outside = glm::dot(hit.shading, wo) > 0;
-    normal = outside ? hit.shading : -hit.shading;
+    normal = outside ? mappedNormal(scene, hit) : -mappedNormal(scene, hit);
     return true;
 }
 
 void Path::addEmission(uint32_t scatterings) {
     if (counts(scatterings) && (outside || material->emitsBothSides))
-        radiance += throughput * material->emission;
+        radiance += throughput * emission;
 }
 
 void Path::addAmbient(uint32_t scatterings) {
     for (const Light& light : scene.lights)
         if (light.kind == LightKind::Ambient && counts(scatterings))
             radiance += throughput * light.color;
+}
+
+void Path::addSky(const glm::vec3& direction) {
+    if (scene.environment) radiance += throughput * skyAlong(*scene.environment, direction);
+}
+
+void Path::addSkySample() {
+    if (!scene.environment) return;
+    const SkySample sky = sampleSky(*scene.environment, random);
+    const float cosine = glm::dot(normal, sky.direction);
+    if (cosine > 0 && !shadowed(sky.direction, stress::kMissed))
+        radiance += throughput * material->albedo / kPi * sky.value * cosine;
 }
 
 /// Up to the emitter itself.
@@ -141,12 +161,23 @@ glm::vec3 Path::scatter() {
         throughput *= material->reflectance;
         return reflected;
     }
-    const float eta = outside ? 1 / material->ior : material->ior;
+    const PrincipledParameters& principled = material->principled;
+    const bool isPrincipled = material->kind == MaterialKind::Principled;
+    if (isPrincipled && principled.transmission == 0) {
+        const float alpha = principled.roughness * principled.roughness;
+        const glm::vec3 half = halfVector(normal, alpha, u, v);
+        const glm::vec3 wi = 2 * glm::dot(wo, half) * half - wo;
+        throughput *= principled.baseColor * metalWeight(normal, wo, wi, half, alpha);
+        return wi;
+    }
+    const float ior = isPrincipled ? principled.ior : material->ior;
+    const float eta = outside ? 1 / ior : ior;
     const float cosine = glm::dot(wo, normal), k = 1 - eta * eta * (1 - cosine * cosine);
-    const float r0 = std::pow((1 - material->ior) / (1 + material->ior), 2.0f);
+    const float r0 = std::pow((1 - ior) / (1 + ior), 2.0f);
     const float schlick = r0 + (1 - r0) * std::pow(1 - cosine, 5.0f);
     if (k < 0 || u < schlick) return reflected;
     throughput *= eta * eta;
+    if (isPrincipled) throughput *= principled.attenuationColor;
     return (eta * cosine - std::sqrt(k)) * normal - eta * wo;
 }
 
@@ -155,13 +186,19 @@ glm::vec3 Path::scatter() {
 glm::vec3 radiance(const Scene& scene, const RenderSettings& settings, glm::vec3 origin,
                    glm::vec3 direction, float tMin, Random& random, uint64_t& rays) {
     Path p{scene, settings, random, rays};
-    if (!p.arrive(origin, direction, tMin)) return p.radiance;
+    if (!p.arrive(origin, direction, tMin)) {
+        p.addSky(direction);
+        return p.radiance;
+    }
     p.addEmission(0);
     const bool byBounces = !samplesLights(settings.estimator.directLight);
     for (uint32_t k = 1; k <= settings.estimator.maxBounces; ++k) {
-        const bool delta = p.material->isDelta();
+        const bool delta = p.material->isDelta() || p.material->kind == MaterialKind::Principled;
         if (!delta && p.counts(k)) {
-            if (!byBounces) p.addEmitters();
+            if (!byBounces) {
+                p.addEmitters();
+                p.addSkySample();
+            }
             p.addDeltaLights();
         }
         const glm::vec3 next = p.scatter();
@@ -170,6 +207,7 @@ glm::vec3 radiance(const Scene& scene, const RenderSettings& settings, glm::vec3
             break;
         if (!p.arrive(p.position, next, kEpsilon)) {
             p.addAmbient(k);
+            if (byBounces || delta) p.addSky(next);
             break;
         }
         if (byBounces || delta) p.addEmission(k);

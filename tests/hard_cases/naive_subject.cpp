@@ -48,12 +48,14 @@ Hit closest(const Scene& scene, const glm::vec3& origin, const glm::vec3& direct
     if (triangle) {
         hit.geometric = scene.geometricNormal(*triangle);
         hit.shading = shadingNormal(scene, *triangle);
+        hit.triangle = triangle;
     }
     for (const Sphere& s : scene.spheres) {
         const float found = hitSphere(s.center, s.radius, origin, direction, tMin);
         if (!(found < hit.t)) continue;
         hit.t = found;
         hit.material = &scene.materials[s.material];
+        hit.triangle = nullptr;
         hit.geometric = hit.shading = (origin + found * direction - s.center) / s.radius;
     }
     if (!hit) hit.t = stress::kMissed;

@@ -18,6 +18,11 @@ namespace stromboli::test {
 /// - random numbers by a congruential generator, seeded by numbers in sequence, that may be 1;
 /// - floats as compilers make them that are told to be fast: what is not above is below or equal,
 /// negation is subtraction from zero, and digits are cut off;
+/// - rays go on 1e-4 behind what they pass; shadow rays take all that is there for opaque;
+/// - texture coordinates in half precision, and remainders that may be negative; normal maps divide
+/// by the area of texture coordinates;
+/// - texels of an environment as if all were of one size;
+/// - GGX with a least denominator; volumes that colour what passes their surface;
 /// - groups of 8 x 8 pixels, as many as fit; random numbers that depend on the group.
 class NaiveSubject : public stress::Subject {
   public:
@@ -34,6 +39,7 @@ struct Hit {
     float t = stress::kMissed;
     glm::vec3 geometric{0.0f}, shading{0.0f}; ///< unit, as the scene states them
     const Material* material = nullptr;
+    const Triangle* triangle = nullptr; ///< null: a sphere
 
     explicit operator bool() const { return material != nullptr; }
 };
