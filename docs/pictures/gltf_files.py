@@ -2,10 +2,11 @@
 """Makes docs/pictures/gltf_files.png: sample models of Khronos (and one of meshoptimizer) as
 Stromboli shows them, for docs/gltf_files.md.
 
-    docs/pictures/gltf_files.py MODELS ENVIRONMENT.hdr [--keep FOLDER] [NAME...]
+    docs/pictures/gltf_files.py MODELS ENVIRONMENT.hdr FOLDER
 
-MODELS has a folder for each model. With names, only those are rendered, 640 x 480, into the folder
-that --keep names, to be looked at. Needs the package python3-pil. Some minutes on two cores."""
+MODELS has a folder for each model. The pictures are rendered 640 x 480 into FOLDER, to be looked
+at, where they are not there yet; the sheet has them smaller. Needs the package python3-pil. Some
+minutes on two cores."""
 
 import argparse
 import math
@@ -14,12 +15,12 @@ import pathlib
 import re
 import subprocess
 import sys
-import tempfile
 
 from PIL import Image, ImageDraw
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("STROMBOLI", ROOT / "stromboli")  # another build of it
+RENDERED = (640, 480)
 WIDTH, HEIGHT, LABEL, GAP, COLUMNS = 200, 150, 14, 4, 5
 FOV = 30  # degrees of the height: little perspective, since most models are charts
 
@@ -65,15 +66,16 @@ def view(model, name):
             "--look-at", *(f"{m:.6g}" for m in middle), "--fov", FOV]
 
 
-def render(model, name, environment, picture, width, height):
-    return stromboli("render", model, "-o", picture, "-r", width, height, "-s", 32,
-                     "--env", environment, *view(model, name)).stderr
+def render(model, name, environment, picture):
+    if not picture.exists():
+        print(name, stromboli("render", model, "-o", picture, "-r", *RENDERED, "-s", 32,
+                              "--env", environment, *view(model, name.split()[0])).stderr, flush=True)
 
 
 def tile(picture, name):
     """A picture above the name of its model."""
     image = Image.new("RGB", (WIDTH, HEIGHT + LABEL), (40, 40, 40))
-    image.paste(Image.open(picture).convert("RGB"))
+    image.paste(Image.open(picture).convert("RGB").resize((WIDTH, HEIGHT), Image.LANCZOS))
     ImageDraw.Draw(image).text((3, HEIGHT + 1), name, fill=(255, 255, 255))
     return image
 
@@ -89,32 +91,22 @@ def models_of(folder):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("models", type=pathlib.Path)
-    parser.add_argument("environment", type=pathlib.Path)
-    parser.add_argument("--keep", type=pathlib.Path)
-    parser.add_argument("names", nargs="*")
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    for name in ("models", "environment", "folder"):
+        parser.add_argument(name, type=pathlib.Path)
     arguments = parser.parse_args()
     models = models_of(arguments.models)
     if not models:
         sys.exit(f"{arguments.models} has no models")
-
-    if arguments.keep:
-        arguments.keep.mkdir(parents=True, exist_ok=True)
-        for name in arguments.names or models:
-            picture = arguments.keep / f"{name}.png"
-            print(name, render(models[name], name.split()[0], arguments.environment, picture, 640, 480),
-                  flush=True)
-        return
+    arguments.folder.mkdir(parents=True, exist_ok=True)
 
     rows = -(-len(models) // COLUMNS)
     step_x, step_y = WIDTH + GAP, HEIGHT + LABEL + GAP
     sheet = Image.new("RGB", (COLUMNS * step_x - GAP, rows * step_y - GAP), (90, 90, 90))
-    with tempfile.TemporaryDirectory() as folder:
-        for i, (name, model) in enumerate(models.items()):
-            picture = pathlib.Path(folder) / "picture.png"
-            render(model, name.split()[0], arguments.environment, picture, WIDTH, HEIGHT)
-            sheet.paste(tile(picture, name), (i % COLUMNS * step_x, i // COLUMNS * step_y))
+    for i, (name, model) in enumerate(models.items()):
+        picture = arguments.folder / f"{name}.png"
+        render(model, name, arguments.environment, picture)
+        sheet.paste(tile(picture, name), (i % COLUMNS * step_x, i // COLUMNS * step_y))
     # 256 colours are enough for pictures this small.
     sheet.quantize(256).save(ROOT / "docs/pictures/gltf_files.png", optimize=True)
 
