@@ -1,5 +1,6 @@
 #include "scene/add_environment.hpp"
 
+#include "scene/find_scene.hpp"
 #include "scene/images/float_image.hpp"
 
 #include <fmt/format.h>
@@ -10,7 +11,8 @@
 namespace stromboli {
 namespace {
 
-Environment fromFile(const std::string& file) {
+Environment fromFile(const std::string& name) {
+    const std::string file = environmentFile(name);
     images::FloatImage image = images::readFloatImage(file);
     Environment environment;
     environment.name = file;

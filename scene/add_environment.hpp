@@ -9,7 +9,7 @@ namespace stromboli {
 
 /// The light around a scene that a user asks for.
 struct EnvironmentRequest {
-    std::string file;                  ///< an equirectangular picture; empty: none
+    std::string file; ///< an equirectangular picture, or a bundled one's name; empty: none
     std::optional<glm::vec3> constant; ///< in place of a file: the same radiance from everywhere
     double rotationDegrees = 0;        ///< about +y, counter-clockwise seen from above
     double strength = 1;               ///< multiplies the radiance

@@ -8,6 +8,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <initializer_list>
+#include <map>
+#include <string_view>
 
 namespace stromboli {
 namespace {
@@ -25,20 +28,31 @@ fs::path sceneLibrary() {
     return STROMBOLI_SCENE_LIBRARY;
 }
 
-bool isLibraryScene(const std::string& name) {
-    const std::vector<std::string> names = librarySceneNames();
-    return std::binary_search(names.begin(), names.end(), name);
+/// The bundled files with one of these endings, by their names without it.
+std::map<std::string, fs::path> libraryFiles(std::initializer_list<std::string_view> endings) {
+    std::map<std::string, fs::path> files;
+    std::error_code failed; // a program without its files has no library
+    for (const fs::directory_entry& entry : fs::directory_iterator(sceneLibrary(), failed))
+        if (std::ranges::find(endings, entry.path().extension().string()) != endings.end())
+            files[entry.path().stem().string()] = entry.path();
+    return files;
+}
+
+std::map<std::string, fs::path> libraryScenes() {
+    return libraryFiles({".dae", ".glb"});
+}
+
+std::vector<std::string> namesOf(const std::map<std::string, fs::path>& files) {
+    std::vector<std::string> names;
+    for (const auto& [name, file] : files)
+        names.push_back(name);
+    return names;
 }
 
 } // namespace
 
 std::vector<std::string> librarySceneNames() {
-    std::vector<std::string> names;
-    std::error_code failed; // a program without its files has no library
-    for (const fs::directory_entry& entry : fs::directory_iterator(sceneLibrary(), failed))
-        if (entry.path().extension() == ".dae") names.push_back(entry.path().stem().string());
-    std::sort(names.begin(), names.end());
-    return names;
+    return namesOf(libraryScenes());
 }
 
 std::string sceneFile(const std::string& name) {
@@ -48,12 +62,26 @@ std::string sceneFile(const std::string& name) {
     const fs::file_status status = fs::status(name, failed);
     if (status.type() != fs::file_type::directory && status.type() != fs::file_type::not_found)
         return name;
-    if (isLibraryScene(name)) return (sceneLibrary() / (name + ".dae")).string();
+    const std::map<std::string, fs::path> bundled = libraryScenes();
+    if (const auto found = bundled.find(name); found != bundled.end())
+        return found->second.string();
     if (status.type() == fs::file_type::directory) return name;
     throw SceneError(name, 0, "",
                      fmt::format("there is no such file, and no bundled scene of this name; those "
                                  "are {}",
-                                 fmt::join(librarySceneNames(), ", ")));
+                                 fmt::join(namesOf(bundled), ", ")));
+}
+
+std::string environmentFile(const std::string& name) {
+    std::error_code failed;
+    if (fs::exists(name, failed)) return name;
+    const std::map<std::string, fs::path> bundled = libraryFiles({".hdr"});
+    if (const auto found = bundled.find(name); found != bundled.end())
+        return found->second.string();
+    throw SceneError(name, 0, "",
+                     fmt::format("there is no such file, and no bundled environment of this name; "
+                                 "those are {}",
+                                 fmt::join(namesOf(bundled), ", ")));
 }
 
 } // namespace stromboli

@@ -13,4 +13,8 @@ std::vector<std::string> librarySceneNames();
 /// is none of these.
 std::string sceneFile(const std::string& name);
 
+/// The picture that an environment's name stands for: a file, else a bundled picture of the sky.
+/// Throws SceneError, with the names of the bundled ones, if it is neither.
+std::string environmentFile(const std::string& name);
+
 } // namespace stromboli

@@ -76,9 +76,9 @@ void declareScene(DeclaredCommand& c) {
     EnvironmentRequest& environment = c.options.environment;
     c.list
         .words("--env", "FILE",
-               "light from all around: an equirectangular picture (.hdr, .exr, ...), or its "
-               "radiance as a number or as R,G,B; takes the place of ambient light and is seen by "
-               "the camera",
+               "light from all around: an equirectangular picture (.hdr, .exr, ...), the bundled "
+               "evening_sky, or its radiance as a number or as R,G,B; takes the place of ambient "
+               "light and is seen by the camera",
                1,
                [&environment](const Words& words) {
                    if (words[0].empty()) throw UsageError("--env is empty: expected text");

@@ -1,5 +1,5 @@
 #include "scene/camera/camera.hpp"
-#include "scene/collada/load_collada.hpp"
+#include "scene/read_scene.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,21 +18,22 @@ std::vector<fs::path> libraryFiles() {
     std::vector<fs::path> files;
     for (const fs::directory_entry& entry :
          fs::directory_iterator(STROMBOLI_SOURCE_DIR "/scene/library"))
-        if (entry.path().extension() == ".dae") files.push_back(entry.path());
+        if (entry.path().extension() == ".dae" || entry.path().extension() == ".glb")
+            files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;
 }
 
 class Library : public testing::TestWithParam<fs::path> {
   protected:
-    Scene scene_ = loadCollada(GetParam());
+    Scene scene_ = readScene(GetParam().string());
 };
 
 INSTANTIATE_TEST_SUITE_P(Files, Library, testing::ValuesIn(libraryFiles()),
                          [](const auto& file) { return file.param.stem().string(); });
 
 TEST(LibraryFolder, HasItsScenes) {
-    EXPECT_EQ(libraryFiles().size(), 14u);
+    EXPECT_EQ(libraryFiles().size(), 16u);
 }
 
 TEST_P(Library, LoadsWithNothingIgnoredOrDropped) {
@@ -49,9 +50,13 @@ TEST_P(Library, HasSomethingThatShines) {
 }
 
 TEST_P(Library, SaysFirstWhatItShows) {
-    std::ifstream file(GetParam());
+    std::ifstream file(GetParam(), std::ios::binary);
     std::string line;
     std::getline(file, line);
+    if (GetParam().extension() == ".glb") { // its JSON is one line
+        EXPECT_THAT(line, testing::ContainsRegex("\"scenes\":.{\"name\":\"[^\"]{40,}"));
+        return;
+    }
     std::getline(file, line);
     EXPECT_THAT(line, testing::StartsWith("<!-- "));
 }

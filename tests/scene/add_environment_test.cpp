@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -54,6 +55,37 @@ TEST(AddEnvironment, TakesThePlaceOfAmbientLightAndSaysSo) {
     EXPECT_TRUE(scene.environment->isConstant());
     EXPECT_EQ(scene.lights.size(), 1u);
     EXPECT_THAT(scene.report.assumed, ElementsAre(HasSubstr("2 ambient lights")));
+}
+
+TEST(AddEnvironment, BundledPicturesGoByTheirNames) {
+    EnvironmentRequest request;
+    request.file = "evening_sky";
+    Scene scene;
+    addEnvironment(scene, request);
+    ASSERT_TRUE(scene.environment);
+    const Environment& sky = *scene.environment;
+    EXPECT_EQ(sky.width, 256u);
+    EXPECT_EQ(sky.height, 128u);
+    // A sun of some hundreds of times the sky's radiance, above the horizon, on the left of -z.
+    const auto sun =
+        std::ranges::max_element(sky.radiance, {}, [](const glm::vec3& c) { return c.x; });
+    const size_t place = size_t(sun - sky.radiance.begin());
+    EXPECT_GT(sun->x, 200);
+    EXPECT_LT(place / sky.width, sky.height / 2);
+    EXPECT_LT(place % sky.width, sky.width / 2);
+}
+
+TEST(AddEnvironment, UnknownNamesAreOneErrorThatNamesTheBundledOnes) {
+    EnvironmentRequest request;
+    request.file = "evening_ski";
+    Scene scene;
+    try {
+        addEnvironment(scene, request);
+        ADD_FAILURE();
+    } catch (const SceneError& error) {
+        EXPECT_THAT(error.what(),
+                    testing::AllOf(HasSubstr("evening_ski"), HasSubstr("evening_sky")));
+    }
 }
 
 TEST(AddEnvironment, AFileThatIsNoPictureIsNamed) {
