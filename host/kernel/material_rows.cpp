@@ -12,24 +12,32 @@ namespace {
 constexpr size_t kMostRows = 7;
 static_assert(gpu::MATERIAL_DETAIL_ROW >= kMostRows);
 
-bool transmits(const PrincipledParameters& p) {
-    return p.transmission > 0 && p.metallic < 1;
+/// Anywhere on the surface: a texture may make less of a metal of it.
+bool transmits(const Material& m) {
+    const auto isMetallic = [](const TextureUse& t) {
+        return t.slot == TextureSlot::MetallicRoughness;
+    };
+    const bool isAllMetal =
+        m.principled.metallic >= 1 && std::ranges::none_of(m.textures, isMetallic);
+    return m.principled.transmission > 0 && !isAllMetal;
 }
 
-bool refracts(const PrincipledParameters& p) {
-    return transmits(p) && !p.isThin;
+bool refracts(const Material& m) {
+    return transmits(m) && !m.principled.isThin;
 }
 
 /// glTF writes 0 for an index so large that everything is reflected.
 constexpr float kLargestIndex = 1e6f;
 
-float usedIndex(const PrincipledParameters& p) {
+float usedIndex(const Material& m) {
+    const PrincipledParameters& p = m.principled;
     if (p.ior == 0) return kLargestIndex;
-    if (!refracts(p) || std::abs(p.ior - 1) >= gpu::LEAST_INDEX_STEP) return p.ior;
+    if (!refracts(m) || std::abs(p.ior - 1) >= gpu::LEAST_INDEX_STEP) return p.ior;
     return p.ior < 1 ? 1 - gpu::LEAST_INDEX_STEP : 1 + gpu::LEAST_INDEX_STEP;
 }
 
-gpu::PrincipledParameters principledRows(const PrincipledParameters& p) {
+gpu::PrincipledParameters principledRows(const Material& m) {
+    const PrincipledParameters& p = m.principled;
     // Beer and Lambert's law: attenuationColor = exp(-absorption attenuationDistance). A channel
     // that lets nothing through gets the largest coefficient whose product with a length is finite.
     constexpr float kLeastTransmitted = 1e-30f;
@@ -40,7 +48,7 @@ gpu::PrincipledParameters principledRows(const PrincipledParameters& p) {
     g.specularColor = p.specularColor;
     g.roughness = p.roughness;
     g.specular = p.specular;
-    g.ior = usedIndex(p);
+    g.ior = usedIndex(m);
     g.transmission = p.transmission;
     g.anisotropy = p.anisotropy;
     g.sheenColor = p.sheenColor;
@@ -51,7 +59,7 @@ gpu::PrincipledParameters principledRows(const PrincipledParameters& p) {
     g.flags = p.isThin ? gpu::PRINCIPLED_IS_THIN : 0;
     g.absorption = -glm::log(left) / p.attenuationDistance;
     g.leastAlpha = gpu::LEAST_GGX_ALPHA;
-    if (refracts(p))
+    if (refracts(m))
         g.leastAlpha = std::max(g.leastAlpha, gpu::LEAST_REFRACTION_ALPHA * std::max(g.ior, 1.0f) /
                                                   std::abs(g.ior - 1));
     return g;
@@ -70,7 +78,7 @@ void appendParameters(std::vector<Row>& rows, const Material& m) {
     case MaterialKind::Microfacet:
         return appendRows(rows, gpu::RoughConductorParameters{m.eta, m.alpha, m.k, 0});
     case MaterialKind::Principled:
-        return appendRows(rows, principledRows(m.principled));
+        return appendRows(rows, principledRows(m));
     }
 }
 
@@ -101,9 +109,9 @@ uint32_t principledFeatures(const Material& material) {
     if (p.clearcoat > 0) features |= gpu::PRINCIPLED_HAS_CLEARCOAT;
     if (p.sheenColor != glm::vec3(0)) features |= gpu::PRINCIPLED_HAS_SHEEN;
     if (p.anisotropy > 0) features |= gpu::PRINCIPLED_HAS_ANISOTROPY;
-    if (transmits(p) && p.isThin) features |= gpu::PRINCIPLED_HAS_THIN_TRANSMISSION;
-    if (refracts(p)) features |= gpu::PRINCIPLED_HAS_REFRACTION;
-    if (refracts(p) && principledRows(p).absorption != glm::vec3(0))
+    if (transmits(material) && p.isThin) features |= gpu::PRINCIPLED_HAS_THIN_TRANSMISSION;
+    if (refracts(material)) features |= gpu::PRINCIPLED_HAS_REFRACTION;
+    if (refracts(material) && principledRows(material).absorption != glm::vec3(0))
         features |= gpu::PRINCIPLED_HAS_ABSORPTION;
     return features;
 }

@@ -82,7 +82,7 @@ Finding degenerateTangents(Run& run) {
         bool bad = false;
         for (uint32_t y = 0; y < film.height; ++y) {
             const PixelStatistics& p = film.at(x, y);
-            bad = bad || p.rejected > 0 || !(p.mean.x > 0 && p.mean.x <= 1 + kRounding);
+            bad = bad || p.rejected > 0 || !(p.mean.x > 0);
         }
         const Totals found(columnOf(film, x));
         const double leans = sigmasOff(found, glm::dvec3(leaning)),

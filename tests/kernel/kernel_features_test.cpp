@@ -313,6 +313,19 @@ TEST(LightSelection, FollowsTheConventions) {
 }
 
 /// The benchmark's kernel: all that scenes may hold, but of the settings only what is asked for.
+/// What a texture makes less metallic may transmit.
+TEST(KernelFeatures, MetalThatATextureMakesClearTransmits) {
+    Material m;
+    m.kind = MaterialKind::Principled;
+    m.principled.metallic = 1;
+    m.principled.transmission = 1;
+    EXPECT_EQ(principledFeatures(m), 0u);
+    m.textures = {{.slot = TextureSlot::MetallicRoughness}};
+    EXPECT_EQ(principledFeatures(m), gpu::PRINCIPLED_HAS_THIN_TRANSMISSION);
+    m.principled.isThin = false;
+    EXPECT_EQ(principledFeatures(m), gpu::PRINCIPLED_HAS_REFRACTION);
+}
+
 TEST(KernelFeatures, EverythingOn) {
     DeviceTuning tuning;
     tuning.everythingOn = true;

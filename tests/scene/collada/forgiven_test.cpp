@@ -214,16 +214,16 @@ TEST(Forgiven, MeshesWithoutNormalsAreNoFault) {
                 testing::Contains(HasSubstr("a mesh without normals is shaded flat")));
 }
 
-TEST(Forgiven, VertexColoursAreIgnoredWhichIsNoFaultEither) {
+TEST(Forgiven, OtherInputsOfCornersAreIgnoredWhichIsNoFaultEither) {
     DocumentText document;
     document.libraries = meshLibrary(
         "0 0 0 1 0 0 0 1 0", 9,
-        fmt::format("<triangles count=\"1\">{}<input semantic=\"COLOR\" source=\"#pos\" "
+        fmt::format("<triangles count=\"1\">{}<input semantic=\"TEXBINORMAL\" source=\"#pos\" "
                     "offset=\"1\"/><p>0 0 1 1 2 2</p></triangles>",
                     kVertexInput));
     document.nodes = meshNode();
     EXPECT_THAT(loadText(document.str(), strict()).report.ignored,
-                testing::Contains(HasSubstr("COLOR")));
+                testing::Contains(HasSubstr("TEXBINORMAL")));
 }
 
 } // namespace
