@@ -76,9 +76,13 @@ FloatControls floatControlsOf(VkPhysicalDevice device) {
     if (!hasExtension(device)) return {};
     VkPhysicalDeviceFloatControlsProperties floats = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FLOAT_CONTROLS_PROPERTIES};
+    VkPhysicalDeviceDriverProperties driver = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, .pNext = &floats};
     VkPhysicalDeviceProperties2 properties = {
-        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &floats};
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
     vkGetPhysicalDeviceProperties2(device, &properties);
+    // SwiftShader keeps them anyway, and asked to, takes minutes to compile a kernel.
+    if (driver.driverID == VK_DRIVER_ID_GOOGLE_SWIFTSHADER) return {};
     // Without independence all widths would have to ask, also those that the device may not have.
     const bool alone =
         floats.roundingModeIndependence != VK_SHADER_FLOAT_CONTROLS_INDEPENDENCE_NONE;
