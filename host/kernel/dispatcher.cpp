@@ -21,14 +21,13 @@ constexpr uint32_t kGuardIterations = 1u << 20;
 /// One pass of the kernel's loop counts for itself, its traversal steps, the loop around it that
 /// changes pixels and, where there are such, the walk down the light tree and the textures of a
 /// material.
-uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene,
-                   const DeviceTuning& tuning) {
+uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene, const PathKernel& kernel) {
     if (!device.description().isCpu()) return kGuardIterations;
     // At a hit, where a path splits again, and at the end of a ray of hemisphere sampling.
     constexpr uint32_t kTextureLoops = 3;
     // A light is picked for a light sample, and looked up once more for MIS.
     const uint32_t perIteration =
-        1 + (tuning.traversalSteps + 1) + 2 +
+        1 + (kernel.features()[SPEC_TRAVERSAL_STEPS] + 1) + 2 +
         (scene.lights.groups ? 2 * (scene.lights.levels + 1) : 0) +
         (scene.mostTextures ? kTextureLoops * (scene.mostTextures + 1) : 0);
     return std::max(kLlvmpipeLoopPasses / perIteration, 2u);
@@ -59,7 +58,7 @@ Dispatcher::Dispatcher(const vulkan::Device& device, const DeviceScene& scene,
                        const DeviceTuning& tuning, double targetSeconds,
                        std::optional<uint32_t> fixedIterations)
     : device_(device), kernel_(kernel), film_(film), tuning_(tuning),
-      hardIterations_(hardLimit(device, scene.scene(), tuning)),
+      hardIterations_(hardLimit(device, scene.scene(), kernel)),
       softIterations_(softLimit(hardIterations_, frame)), fixedIterations_(fixedIterations),
       pace_(targetSeconds, paceLimit(softIterations_, tuning)), queue_(device),
       frameBuffer_(device, "frame constants", sizeof(gpu::Frame), BufferUse::Uniform),

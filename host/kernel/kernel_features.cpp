@@ -1,6 +1,7 @@
 #include "host/kernel/kernel_features.hpp"
 
 #include "host/kernel/direct_sampling.hpp"
+#include "host/kernel/kernel_modules.hpp"
 #include "shaders/shared/texture_types.h"
 
 #include <algorithm>
@@ -215,6 +216,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_COUNT_STEPS] = tuning.countSteps;
     setDetails(f, scene, normalsOnly);
     if (tuning.everythingOn) switchOnAllTheSceneCouldHave(f, settings);
+    if (needsRichModule(f)) f[SPEC_TRAVERSAL_STEPS] = tuning.richTraversalSteps;
     return f;
 }
 

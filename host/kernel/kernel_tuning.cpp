@@ -28,6 +28,7 @@ DeviceTuning forCpu(uint32_t subgroupSize) {
     DeviceTuning t;
     t.workgroupSize = subgroupSize;
     t.traversalSteps = 5;
+    t.richTraversalSteps = 12;
     t.registerStack = 16;
     t.driverThreads = std::max(std::thread::hardware_concurrency(), 1u);
     t.lanes = t.workgroupSize * kGroupsPerThread * t.driverThreads;
@@ -55,6 +56,7 @@ DeviceTuning resolve(const KernelTuning& tuning, const vulkan::Device& device, u
     t.texelFetch = tuning.texelFetch.value_or(prefersTexels(device.description(), rowBytes));
     t.workgroupSize = tuning.workgroupSize.value_or(t.workgroupSize);
     t.traversalSteps = tuning.traversalSteps.value_or(t.traversalSteps);
+    t.richTraversalSteps = tuning.traversalSteps.value_or(t.richTraversalSteps);
     t.registerStack = tuning.registerStack.value_or(t.registerStack);
     t.lanes = tuning.lanes.value_or(t.lanes);
     t.driverThreads = tuning.driverThreads.value_or(t.driverThreads);

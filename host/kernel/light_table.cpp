@@ -234,14 +234,27 @@ class Packer {
     }
 
     /// docs/results.md, "Few lights", has what was measured: of two lights, both are sampled with
-    /// less noise at equal time; the few triangles of a single mesh are picked as well by their
-    /// power, which is quicker.
+    /// less noise at equal time; the few triangles of a single mesh, and lights that are faint beside
+    /// an environment, are picked as well by their power, which is quicker.
     LightChoice suitableChoice() const {
         constexpr uint32_t kFewTriangles = 64;
         const bool oneMesh = out_.sampledKinds == 1u << gpu::LIGHT_TRIANGLE && meshes_ == 1 &&
                              out_.count < kFewTriangles;
         if (oneMesh) return LightChoice::Power;
-        return out_.count == 2 ? LightChoice::Each : LightChoice::Tree;
+        if (out_.count == 2) return LightChoice::Each;
+        return isMostlyEnvironment() ? LightChoice::Power : LightChoice::Tree;
+    }
+
+    /// Whether the other lights are such as bounces can find and together bring less than a
+    /// sixteenth of what the environment brings, so that nearly all light samples go to it anyway.
+    bool isMostlyEnvironment() const {
+        constexpr double kFaint = 1.0 / 16;
+        if (out_.environment.empty() || out_.ambientNumber == gpu::NO_LIGHT) return false;
+        if (out_.areaCount < entries_.size()) return false;
+        double others = 0;
+        for (uint32_t i = 0; i < bounds_.size(); ++i)
+            if (i != out_.ambientNumber) others += weightOf(bounds_[i]);
+        return others < kFaint * weightOf(bounds_[out_.ambientNumber]);
     }
 
     void writeTable() {

@@ -22,8 +22,8 @@ float bounceWeight(float inversePdf, float bouncePdf) {
 }
 
 /// Of the light that ray t, a bounce from a surface with this normal, has found: the emissive surface it has
-/// hit, or the sky. What no light sample goes to is left to bounces.
-float foundLightWeight(Traversal t, vec3 normal, float bouncePdf) {
+/// hit, or this sky. What no light sample goes to is left to bounces.
+float foundLightWeight(Traversal t, vec3 normal, FoundSky sky, float bouncePdf) {
     const bool hit = t.hitPrimitive != NO_PRIMITIVE;
     PlacedPrimitive place;
     uint number = frame.ambientLight;
@@ -35,7 +35,6 @@ float foundLightWeight(Traversal t, vec3 normal, float bouncePdf) {
     const LightEntry entry = fetchLightEntry(number);
     const float probability = lightProbability(entry, t.origin, normal);
     if (!(probability > 0.0)) return 1.0;
-    const float inversePdf = hit ? areaLightInversePdf(t, place, entry.light)
-                                 : skyInversePdf(normal, t.direction);
+    const float inversePdf = hit ? areaLightInversePdf(t, place, entry.light) : sky.inversePdf;
     return bounceWeight(inversePdf / probability, bouncePdf);
 }

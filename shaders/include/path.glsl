@@ -126,9 +126,9 @@ vec3 emissionAt(SurfacePoint s, Material m) {
 }
 
 /// The share of the light that the path ray has found that is this ray's, and not light samples'.
-float foundShare() {
+float foundShare(FoundSky sky) {
     if (MIS_LOBES == 0u || bouncePdf == 0.0) return 1.0;
-    return foundLightWeight(ray, departureNormal, bouncePdf);
+    return foundLightWeight(ray, departureNormal, sky, bouncePdf);
 }
 
 void finishShadowRay() {
@@ -138,7 +138,7 @@ void finishShadowRay() {
 
 void finishHemisphereRay() {
     const bool hit = ray.hitPrimitive != NO_PRIMITIVE;
-    vec3 found = BOUNCES_FIND_ALL_LIGHT ? ambientRadiance(ray.direction) : vec3(0.0);
+    vec3 found = BOUNCES_FIND_ALL_LIGHT ? skyFrom(ray.direction, ray.direction).radiance : vec3(0.0);
     if (hit) {
         const SurfacePoint s = surfaceAt(ray);
         found = emissionAt(s, materialAt(s));
@@ -155,14 +155,16 @@ void finishHemisphereRay() {
 void arrive() {
     const bool hit = ray.hitPrimitive != NO_PRIMITIVE;
     phase = PHASE_ENDED;
-    const float share = foundShare();
+    FoundSky sky = NO_SKY;
+    if (!hit) sky = skyFrom(departureNormal, ray.direction);
+    const float share = foundShare(sky);
 #ifdef RICH_MATERIALS
     throughput *= transmittance(medium, hit ? ray.tMax : INFINITE_DISTANCE);
 #endif
     if (!hit) {
         const bool counts = countsEmission || AMBIENT_BY_BOUNCES && bounce >= frame.minBounce;
         if (counts && (bounce > 0u || HAS_BACKDROP) && BOUNCES_FIND_ALL_LIGHT)
-            radiance += throughput * ambientRadiance(ray.direction) * share;
+            radiance += throughput * sky.radiance * share;
         return;
     }
     surface = surfaceAt(ray);

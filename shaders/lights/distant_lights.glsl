@@ -34,23 +34,26 @@ LightSample sampleDirectionalLight(LightRows rows) {
 #include "lights/environment.glsl"
 #endif
 
-/// Radiance of the sky, the scene's ambient light or environment, from direction w. It is the first in the light
-/// buffer, if the scene has one; a kernel with everything switched on does not know without looking.
-vec3 ambientRadiance(vec3 w) {
-    if (!HAS_AMBIENT) return vec3(0.0);
-    const LightRows rows = fetchLightRows(0u);
-    vec3 radiance = vec3(0.0);
-#ifdef RICH_MATERIALS
-    if (HAS_ENVIRONMENT && kindOf(rows) == LIGHT_ENVIRONMENT) radiance = environmentFrom(rows, w).radiance;
-#endif
-    return kindOf(rows) == LIGHT_AMBIENT ? ambientRadianceOf(rows, w) : radiance;
-}
+/// What a ray finds that meets nothing: the scene's ambient light or environment. It is the first in the
+/// light buffer, if the scene has one; a kernel with everything switched on does not know without looking.
+struct FoundSky {
+    vec3 radiance;
+    float inversePdf; ///< of the density with which light samples at the surface that it left take its direction
+};
 
-/// The inverse of the density with which the sky's light samples at a surface with this normal take direction w.
-float skyInversePdf(vec3 normal, vec3 w) {
+const FoundSky NO_SKY = FoundSky(vec3(0.0), 1.0);
+
+/// w: the ray's direction; normal: of the surface that it left.
+FoundSky skyFrom(vec3 normal, vec3 w) {
+    if (!HAS_AMBIENT) return NO_SKY;
+    FoundSky found = FoundSky(vec3(0.0), 1.0 / max(ambientPdf(normal, w), TINY));
+    const LightRows rows = fetchLightRows(0u);
+    if (kindOf(rows) == LIGHT_AMBIENT) found.radiance = ambientRadianceOf(rows, w);
 #ifdef RICH_MATERIALS
-    const bool isPicture = HAS_ENVIRONMENT && kindOf(fetchLightRows(0u)) == LIGHT_ENVIRONMENT;
-    if (isPicture) return 1.0 / max(environmentFrom(fetchLightRows(0u), w).pdf, TINY);
+    if (HAS_ENVIRONMENT && kindOf(rows) == LIGHT_ENVIRONMENT) {
+        const EnvironmentValue value = environmentFrom(rows, w);
+        found = FoundSky(value.radiance, 1.0 / max(value.pdf, TINY));
+    }
 #endif
-    return 1.0 / max(ambientPdf(normal, w), TINY);
+    return found;
 }
