@@ -7,6 +7,7 @@
 #include "host/bench/ray_bench.hpp"
 #include "host/bench/robustness_bench.hpp"
 #include "host/bench/startup_bench.hpp"
+#include "host/bench/texture_bench.hpp"
 #include "host/bench/transfer_bench.hpp"
 #include "host/vulkan/open_device.hpp"
 #include "scene/find_scene.hpp"
@@ -96,6 +97,8 @@ class Benchmark {
         if (wants(Part::Rays) || wants(Part::Paths) || wants(Part::Variants) ||
             wants(Part::Robustness))
             trace(arena, report);
+        if (wants(Part::Textures) && hasTextures(scene.scene))
+            report.textures = benchTextures(arena);
         return report;
     }
 

@@ -1,58 +1,14 @@
 #include "host/bench/path_bench.hpp"
 
+#include "host/bench/painter.hpp"
 #include "host/check/cross_check.hpp"
 #include "host/kernel/vulkan_backend.hpp"
-#include "host/render/render.hpp"
 
 #include <algorithm>
 #include <numeric>
 
 namespace stromboli::bench {
 namespace {
-
-/// A renderer and the picture it goes on with from measurement to measurement.
-class Painter {
-  public:
-    Painter(std::string name, std::unique_ptr<Backend> backend, const RenderSettings& settings)
-        : name_(std::move(name)), backend_(std::move(backend)), settings_(settings),
-          film_(settings.area) {}
-
-    const std::string& name() const { return name_; }
-    const Film& film() const { return film_; }
-    const Backend& backend() const { return *backend_; }
-
-    Work goOn() {
-        samples_ += settings_.budget.mostSamplesPerPixel;
-        std::vector<PixelTarget> targets;
-        for (uint32_t pixel = 0; pixel < film_.pixels.size(); ++pixel)
-            targets.push_back({pixel, samples_});
-        const double before = deviceSeconds();
-        backend_->sample(targets, film_, {});
-        return {double(film_.pixels.size()) * settings_.budget.mostSamplesPerPixel,
-                deviceSeconds() - before};
-    }
-
-  private:
-    double deviceSeconds() const {
-        const auto* vulkan = dynamic_cast<const VulkanBackend*>(backend_.get());
-        return vulkan ? vulkan->kernelSeconds() : 0;
-    }
-
-    std::string name_;
-    std::unique_ptr<Backend> backend_;
-    RenderSettings settings_;
-    uint32_t samples_ = 0;
-    Film film_;
-};
-
-std::vector<Series> race(std::vector<Painter>& painters, AlternatePlan plan) {
-    // Each measurement is as long as it is, so that all pictures have the same samples.
-    plan.leastSeconds = 0;
-    std::vector<Contestant> contestants;
-    for (Painter& p : painters)
-        contestants.push_back({p.name(), [&p] { return p.goOn(); }});
-    return alternate(contestants, plan);
-}
 
 /// Share of the pixels whose means differ by less than a path tracer in float may put on them.
 double equalPixels(const Film& a, const Film& b) {

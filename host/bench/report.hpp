@@ -66,6 +66,12 @@ struct RobustnessReport {
     std::vector<Series> paths;
 };
 
+/// The scene against the same one with means in the place of textures, by ray.
+struct TextureReport {
+    std::vector<Series> contestants; ///< textures, their means
+    std::vector<double> raysPerPath; ///< of each
+};
+
 struct SceneReport {
     std::string name;
     uint64_t triangles = 0, spheres = 0;
@@ -76,6 +82,7 @@ struct SceneReport {
     std::optional<PathReport> paths;
     std::optional<VariantReport> variants;
     std::optional<RobustnessReport> robustness;
+    std::optional<TextureReport> textures; ///< none: the scene has none
 };
 
 /// One size of a growing scene.

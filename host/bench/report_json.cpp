@@ -83,6 +83,10 @@ Json toJson(const VariantReport& v) {
     return {{"contestants", toJson(v.contestants)}, {"samePicture", v.samePicture}};
 }
 
+Json toJson(const TextureReport& t) {
+    return {{"contestants", toJson(t.contestants)}, {"raysPerPath", t.raysPerPath}};
+}
+
 Json toJson(const RobustnessReport& r);
 Json toJson(const SceneReport& s);
 Json toJson(const GrowthPoint& g);
@@ -119,7 +123,8 @@ Json toJson(const SceneReport& s) {
             {"rays", listOf(s.rays)},
             {"paths", orNull(s.paths)},
             {"variants", orNull(s.variants)},
-            {"robustness", orNull(s.robustness)}};
+            {"robustness", orNull(s.robustness)},
+            {"textures", orNull(s.textures)}};
 }
 
 Json toJson(const GrowthPoint& g) {

@@ -120,6 +120,13 @@ std::string table(const RobustnessReport& r, bool deviceIsCpu) {
     return text + "  paths\n" + rates(r.paths, deviceIsCpu);
 }
 
+std::string table(const TextureReport& t, bool deviceIsCpu) {
+    return fmt::format("  rays of paths with textures ({:.2f} a path) and with their means "
+                       "({:.2f}): x below 1 is what textures cost\n",
+                       t.raysPerPath.at(0), t.raysPerPath.at(1)) +
+           rates(t.contestants, deviceIsCpu);
+}
+
 std::string table(const SceneReport& s, bool deviceIsCpu) {
     std::string text = fmt::format(
         "\n{}: {} triangles, {} spheres; {} x {}, {} samples, {} bounces{}\n", s.name, s.triangles,
@@ -132,6 +139,7 @@ std::string table(const SceneReport& s, bool deviceIsCpu) {
     if (s.paths) text += table(*s.paths, deviceIsCpu);
     if (s.variants) text += table(*s.variants, deviceIsCpu);
     if (s.robustness) text += table(*s.robustness, deviceIsCpu);
+    if (s.textures) text += table(*s.textures, deviceIsCpu);
     return text;
 }
 

@@ -85,6 +85,12 @@ class Planner {
         std::ranges::sort(material.textures, {}, &TextureUse::slot);
         for (const TextureUse& use : material.textures)
             addTexture(use);
+        takeOutBundle(material);
+        if (material.bundle) plan_.texelKinds |= gpu::TEXEL_KIND_BUNDLE;
+        for (const TextureUse& use : material.textures) {
+            plan_.texelKinds |= gpu::TEXEL_KIND_LOOSE;
+            plan_.looseSlots |= 1u << uint32_t(use.slot);
+        }
         plan_.mostTextures = std::max(plan_.mostTextures, uint32_t(material.textures.size()));
         const bool hasColor = m.kind == MaterialKind::Diffuse || m.kind == MaterialKind::Principled;
         if (hasColors_ && (hasColor || material.isTransparent))
@@ -106,6 +112,49 @@ class Planner {
         if (use.slot == TextureSlot::Normal) plan_.attributes |= gpu::ATTRIBUTE_TANGENT;
     }
 
+    /// Two pictures or more that are looked up alike cost as many loads as one if they are bundled,
+    /// and a quarter of a row for each slot that is empty.
+    void takeOutBundle(DetailPlan::MaterialPlan& material) {
+        const auto first = std::ranges::find_if(
+            material.textures, [&](const TextureUse& use) { return isBundled(use); });
+        if (first == material.textures.end()) return;
+        const auto isAlike = [&, like = *first](const TextureUse& use) {
+            return isBundled(use) && areLookedUpAlike(use, like);
+        };
+        if (std::ranges::count_if(material.textures, isAlike) < 2) return;
+        if (!hasRoomFor(scene_.images[scene_.textures[first->texture].image])) return;
+        material.bundle.emplace();
+        for (const TextureUse& use : material.textures)
+            if (isAlike(use)) (*material.bundle)[uint32_t(use.slot)] = use;
+        std::erase_if(material.textures, isAlike);
+    }
+
+    bool isBundled(const TextureUse& use) const {
+        if (uint32_t(use.slot) >= gpu::BUNDLE_MAPS) return false;
+        const Texture& texture = scene_.textures[use.texture];
+        const bool isColor =
+            use.slot == TextureSlot::BaseColor || use.slot == TextureSlot::Emission;
+        return texture.srgb == isColor && scene_.images[texture.image].format == TexelFormat::Rgba8;
+    }
+
+    bool areLookedUpAlike(const TextureUse& a, const TextureUse& b) const {
+        const Texture &s = scene_.textures[a.texture], &t = scene_.textures[b.texture];
+        const TextureImage &i = scene_.images[s.image], &j = scene_.images[t.image];
+        return i.width == j.width && i.height == j.height && s.wrapU == t.wrapU &&
+               s.wrapV == t.wrapV && s.nearest == t.nearest && a.uvSet == b.uvSet &&
+               a.uRow == b.uRow && a.vRow == b.vRow;
+    }
+
+    /// Bundles may take up to four times the memory of their pictures: of all materials together no
+    /// more than half of what the largest texel buffers hold (2^27 rows).
+    bool hasRoomFor(const TextureImage& image) {
+        constexpr uint64_t kMostRows = uint64_t(1) << 26;
+        const uint64_t rows = uint64_t(image.width) * image.height;
+        if (bundleRows_ + rows > kMostRows) return false;
+        bundleRows_ += rows;
+        return true;
+    }
+
     bool isTransparent(const Material& m) const {
         if (m.alphaMode == AlphaMode::Opaque) return false;
         if (m.opacity != 1 || hasTransparentColors_) return true;
@@ -119,6 +168,7 @@ class Planner {
 
     const Scene& scene_;
     bool hasColors_ = false, hasTransparentColors_ = false;
+    uint64_t bundleRows_ = 0; ///< at most: materials may share bundles
     DetailPlan plan_;
 };
 

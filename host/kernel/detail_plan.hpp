@@ -1,8 +1,11 @@
 #pragma once
 
 #include "scene/model/scene.hpp"
+#include "shaders/shared/texture_types.h"
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace stromboli {
@@ -11,16 +14,21 @@ namespace stromboli {
 /// picture. A texture that multiplies a parameter of 0, or an alpha mode without anything that is
 /// not opaque, costs nothing.
 struct DetailPlan {
+    /// By slot, of the first gpu::BUNDLE_MAPS slots; those there are look up pictures of one size
+    /// in the same way (gpu::TEXELS_BUNDLE).
+    using Bundle = std::array<std::optional<TextureUse>, gpu::BUNDLE_MAPS>;
     struct MaterialPlan {
-        std::vector<TextureUse> textures; ///< in the order of their slots
+        std::optional<Bundle> bundle;
+        std::vector<TextureUse> textures; ///< that are in no bundle, in the order of their slots
         bool isTransparent = false;       ///< may be partly not there
     };
     std::vector<MaterialPlan> materials; ///< by material of the scene
 
     uint32_t textureSlots = 0; ///< bit n: a texture in gpu::TEXTURE_ slot n
+    uint32_t looseSlots = 0;   ///< the same of textures in no bundle
     uint32_t texelKinds = 0;   ///< gpu::TEXEL_KIND_ bits
     uint32_t attributes = 0;   ///< gpu::ATTRIBUTE_ bits
-    uint32_t mostTextures = 0; ///< of a material
+    uint32_t mostTextures = 0; ///< that a material has in no bundle
     bool hasAlpha = false;
     bool hasTangentFrames = false; ///< a BSDF depends on the direction of tangents
 

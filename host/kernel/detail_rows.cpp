@@ -4,8 +4,11 @@
 #include "scene/model/surface_lookup.hpp"
 #include "shaders/shared/texture_types.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <map>
 
 namespace stromboli {
 namespace {
@@ -94,12 +97,37 @@ class TexelPacker {
         return firstRow_[image];
     }
 
+    /// A row for each texel, of the pictures that the maps have. Bundles of the same pictures share
+    /// their rows.
+    uint32_t firstRowOf(const DetailPlan::Bundle& bundle) {
+        std::array<uint32_t, gpu::BUNDLE_MAPS> images;
+        for (uint32_t i = 0; i < images.size(); ++i)
+            images[i] = bundle[i] ? scene_.textures[bundle[i]->texture].image : kNotPacked;
+        const auto [known, isNew] = firstRowOfBundle_.try_emplace(images, uint32_t(rows_.size()));
+        if (!isNew) return known->second;
+        const TextureImage* pictures[gpu::BUNDLE_MAPS] = {};
+        size_t texels = 0;
+        for (uint32_t i = 0; i < images.size(); ++i) {
+            if (images[i] == kNotPacked) continue;
+            pictures[i] = &scene_.images[images[i]];
+            texels = pictures[i]->words.size();
+        }
+        for (size_t texel = 0; texel < texels; ++texel) {
+            Row row;
+            for (uint32_t i = 0; i < images.size(); ++i)
+                row[i] = pictures[i] ? pictures[i]->words[texel] : ~0u;
+            rows_.push_back(row);
+        }
+        return known->second;
+    }
+
   private:
     static constexpr uint32_t kNotPacked = ~0u;
 
     const Scene& scene_;
     std::vector<Row>& rows_;
     std::vector<uint32_t> firstRow_;
+    std::map<std::array<uint32_t, gpu::BUNDLE_MAPS>, uint32_t> firstRowOfBundle_;
 };
 
 uint32_t wrapBits(Wrap wrap) {
@@ -114,22 +142,40 @@ uint32_t wrapBits(Wrap wrap) {
     return gpu::WRAP_REPEAT;
 }
 
-gpu::TextureUse packUse(const Scene& scene, const TextureUse& use, TexelPacker& texels) {
+/// All but where its texels are, and what they hold.
+gpu::TextureUse packLookup(const Scene& scene, const TextureUse& use) {
     const Texture& texture = scene.textures[use.texture];
     const TextureImage& image = scene.images[texture.image];
-    const bool isHalf = image.format == TexelFormat::RgbaHalf;
     gpu::TextureUse g{};
     g.uRow = use.uRow;
     g.vRow = use.vRow;
     g.slot = uint32_t(use.slot) | (use.uvSet != 0 ? gpu::TEXTURE_SECOND_UV : 0);
     g.scale = use.scale;
-    g.firstRow = texels.firstRowOf(texture.image);
     g.width = image.width;
     g.height = image.height;
     g.flags = wrapBits(texture.wrapU) << gpu::TEXELS_WRAP_U_SHIFT |
               wrapBits(texture.wrapV) << gpu::TEXELS_WRAP_V_SHIFT |
-              (texture.nearest ? gpu::TEXELS_NEAREST : 0) | (isHalf ? gpu::TEXELS_HALF : 0) |
-              (texture.srgb && !isHalf ? gpu::TEXELS_SRGB : 0);
+              (texture.nearest ? gpu::TEXELS_NEAREST : 0);
+    return g;
+}
+
+gpu::TextureUse packUse(const Scene& scene, const TextureUse& use, TexelPacker& texels) {
+    const Texture& texture = scene.textures[use.texture];
+    const bool isHalf = scene.images[texture.image].format == TexelFormat::RgbaHalf;
+    gpu::TextureUse g = packLookup(scene, use);
+    g.firstRow = texels.firstRowOf(texture.image);
+    g.flags |= (isHalf ? gpu::TEXELS_HALF : 0) | (texture.srgb && !isHalf ? gpu::TEXELS_SRGB : 0);
+    return g;
+}
+
+gpu::TextureUse packBundle(const Scene& scene, const DetailPlan::Bundle& bundle,
+                           TexelPacker& texels) {
+    const auto first =
+        std::ranges::find_if(bundle, [](const auto& map) { return map.has_value(); });
+    gpu::TextureUse g = packLookup(scene, **first);
+    if (const auto& normal = bundle[gpu::TEXTURE_NORMAL]) g.scale = normal->scale;
+    g.firstRow = texels.firstRowOf(bundle);
+    g.flags |= gpu::TEXELS_BUNDLE;
     return g;
 }
 
@@ -138,19 +184,32 @@ std::vector<Row> materialDetail(const Scene& scene, const Material& m,
     gpu::MaterialDetail detail{};
     detail.opacity = m.opacity;
     detail.alphaCutoff = m.alphaCutoff;
-    detail.textures = uint32_t(plan.textures.size());
+    detail.looseTextures = uint32_t(plan.textures.size());
     if (plan.isTransparent)
         detail.flags = m.alphaMode == AlphaMode::Mask ? gpu::DETAIL_MASK : gpu::DETAIL_BLEND;
-    for (uint32_t i = 0; i < plan.textures.size(); ++i) {
-        if (plan.textures[i].slot == TextureSlot::BaseColor)
-            detail.flags |= gpu::DETAIL_HAS_BASE_COLOR;
-        if (plan.textures[i].slot == TextureSlot::Emission)
-            detail.flags |= (i + 1) << gpu::DETAIL_EMISSION_SHIFT;
+    const auto noteUse = [&](TextureSlot slot, uint32_t number) {
+        if (slot == TextureSlot::BaseColor)
+            detail.flags |= (number + 1) << gpu::DETAIL_BASE_COLOR_SHIFT;
+        if (slot == TextureSlot::Emission)
+            detail.flags |= (number + 1) << gpu::DETAIL_EMISSION_SHIFT;
+    };
+    std::vector<Row> uses;
+    uint32_t number = 0;
+    if (plan.bundle) {
+        detail.flags |= gpu::DETAIL_HAS_BUNDLE;
+        if ((*plan.bundle)[gpu::TEXTURE_NORMAL]) detail.flags |= gpu::DETAIL_BUNDLE_MAPS_NORMALS;
+        for (const std::optional<TextureUse>& map : *plan.bundle)
+            if (map) noteUse(map->slot, number);
+        appendRows(uses, packBundle(scene, *plan.bundle, texels));
+        ++number;
+    }
+    for (const TextureUse& use : plan.textures) {
+        noteUse(use.slot, number++);
+        appendRows(uses, packUse(scene, use, texels));
     }
     std::vector<Row> rows;
     appendRows(rows, detail);
-    for (const TextureUse& use : plan.textures)
-        appendRows(rows, packUse(scene, use, texels));
+    rows.insert(rows.end(), uses.begin(), uses.end());
     return rows;
 }
 

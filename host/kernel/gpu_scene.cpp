@@ -104,7 +104,8 @@ GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lig
     MaterialRows materials = packMaterials(scene.materials, details.ofMaterials);
     g.materials = std::move(materials.rows);
     g.details = std::move(details.rows);
-    g.textureSlots = plan.textureSlots, g.texelKinds = plan.texelKinds;
+    g.textureSlots = plan.textureSlots, g.looseSlots = plan.looseSlots;
+    g.texelKinds = plan.texelKinds;
     g.attributes = plan.attributes, g.hasAlpha = plan.hasAlpha;
     g.mostTextures = plan.mostTextures;
     g.hasTangentFrames = plan.hasTangentFrames;

@@ -26,7 +26,7 @@ struct GpuScene {
     bool hasTriangles = false, hasSpheres = false;
     bool hasNormals = false; ///< any triangle with shading normals
     // DetailPlan:
-    uint32_t textureSlots = 0, texelKinds = 0, attributes = 0, mostTextures = 0;
+    uint32_t textureSlots = 0, looseSlots = 0, texelKinds = 0, attributes = 0, mostTextures = 0;
     bool hasAlpha = false, hasTangentFrames = false;
 };
 

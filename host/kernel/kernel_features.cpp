@@ -124,6 +124,7 @@ void setDetails(KernelFeatures& f, const GpuScene& scene, bool normalsOnly) {
     // Normals are those of the geometry: only what is not there has to be known.
     const uint32_t wanted = !normalsOnly ? ~0u : scene.hasAlpha ? 1u << gpu::TEXTURE_BASE_COLOR : 0;
     f[SPEC_TEXTURE_SLOTS] = scene.textureSlots & wanted;
+    f[SPEC_LOOSE_SLOTS] = scene.looseSlots & wanted;
     f[SPEC_TEXEL_KINDS] = scene.texelKinds;
     f[SPEC_ATTRIBUTES] = scene.attributes;
     if (normalsOnly) return;

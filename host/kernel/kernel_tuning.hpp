@@ -32,7 +32,7 @@ struct DeviceTuning {
     uint32_t workgroupSize = 64;
     uint32_t traversalSteps = 8;
     uint32_t richTraversalSteps = 8; ///< of the modules with RICH_MATERIALS, which serve for longer
-    uint32_t registerStack = 0; ///< entries
+    uint32_t registerStack = 0;      ///< entries
     uint32_t lanes = 1u << 20;
     uint32_t driverThreads = 0; ///< that run workgroups one after the other; 0: unknown, a GPU
     uint32_t itemsPerDispatch = 1u << 20;

@@ -234,8 +234,8 @@ class Packer {
     }
 
     /// docs/results.md, "Few lights", has what was measured: of two lights, both are sampled with
-    /// less noise at equal time; the few triangles of a single mesh, and lights that are faint beside
-    /// an environment, are picked as well by their power, which is quicker.
+    /// less noise at equal time; the few triangles of a single mesh, and lights that are faint
+    /// beside an environment, are picked as well by their power, which is quicker.
     LightChoice suitableChoice() const {
         constexpr uint32_t kFewTriangles = 64;
         const bool oneMesh = out_.sampledKinds == 1u << gpu::LIGHT_TRIANGLE && meshes_ == 1 &&

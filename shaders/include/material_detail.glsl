@@ -5,7 +5,6 @@
 
 /// Whether some material of the scene has a texture in this slot.
 bool sceneHasSlot(uint slot) { return (TEXTURE_SLOTS & 1u << slot) != 0u; }
-bool isSlot(uint slot, uint wanted) { return sceneHasSlot(wanted) && slot == wanted; }
 /// Whether materials have a MaterialDetail.
 bool hasDetails() { return TEXTURE_SLOTS != 0u || HAS_ALPHA; }
 bool hasAttribute(uint which) { return (ATTRIBUTES & which) != 0u; }
@@ -66,10 +65,9 @@ PointAttributes attributesAt(uint primitive, vec2 b) {
     return a;
 }
 
-vec4 lookUp(TextureUse t, PointAttributes a) {
-    vec2 uv = a.uv0;
-    if (hasAttribute(ATTRIBUTE_UV1) && (t.slot & TEXTURE_SECOND_UV) != 0u) uv = a.uv1;
-    return lookUp(t, uv);
+vec2 coordinatesOf(TextureUse t, PointAttributes a) {
+    const bool second = hasAttribute(ATTRIBUTE_UV1) && (t.slot & TEXTURE_SECOND_UV) != 0u;
+    return second ? a.uv1 : a.uv0;
 }
 
 // --- Opacity and emission ------------------------------------------------------------------------
@@ -85,17 +83,31 @@ uint textureUseRow(uint materialRow, uint number) {
     return materialRow + MATERIAL_DETAIL_ROW + 1u + TEXTURE_USE_ROWS * number;
 }
 
+/// The texture with this number plus one; 0, where a material has none: a picture of one texel, to no effect.
+TextureUse fetchTextureUse(uint materialRow, uint numberPlusOne) {
+    if (numberPlusOne == 0u) return TextureUse(vec3(0.0), 0u, vec3(0.0), 0.0, 0u, 1u, 1u, 0u);
+    return fetchTextureUse(textureUseRow(materialRow, numberPlusOne - 1u));
+}
+
+/// The texture in this slot, base color or emission, in a bundle or not.
+vec4 lookUpSlot(TextureUse t, uint slot, PointAttributes a) {
+    const vec2 uv = coordinatesOf(t, a);
+    vec4 texel = vec4(1.0);
+    if ((LOOSE_SLOTS & 1u << slot) != 0u) texel = lookUp(t, uv);
+    if (hasBundles() && isBundle(t)) texel = mapOf(fetchBundle(t, uv), slot);
+    return texel;
+}
+
 /// The share of light that meets the surface at a point; 1 where the material has no alpha mode.
 float opacityAt(uint materialRow, PointAttributes a) {
     if (!HAS_ALPHA) return 1.0;
     const MaterialDetail detail = fetchDetail(materialRow);
     float opacity = detail.opacity * a.color.a;
     if (sceneHasSlot(TEXTURE_BASE_COLOR)) {
-        const bool textured = (detail.flags & DETAIL_HAS_BASE_COLOR) != 0u;
-        // A material without one reads rows behind it, and a picture of no size, to no effect.
-        TextureUse use = fetchTextureUse(textured ? textureUseRow(materialRow, 0u) : 0u);
-        if (!textured) use = TextureUse(vec3(0.0), 0u, vec3(0.0), 0.0, 0u, 1u, 1u, 0u);
-        opacity *= textured ? lookUp(use, a).a : 1.0;
+        const uint number = detail.flags >> DETAIL_BASE_COLOR_SHIFT & DETAIL_NUMBER_MASK;
+        const float texel =
+            lookUpSlot(fetchTextureUse(materialRow, number), TEXTURE_BASE_COLOR, a).a;
+        opacity *= number != 0u ? texel : 1.0;
     }
     if ((detail.flags & DETAIL_MASK) != 0u) return opacity >= detail.alphaCutoff ? 1.0 : 0.0;
     return (detail.flags & DETAIL_BLEND) != 0u ? clamp(opacity, 0.0, 1.0) : 1.0;
@@ -115,10 +127,9 @@ vec3 emissionFactorAt(uint primitive, uint materialRow, vec2 b) {
     vec3 factor = vec3(opacityAt(materialRow, a));
     if (sceneHasSlot(TEXTURE_EMISSION)) {
         const uint number =
-            fetchDetail(materialRow).flags >> DETAIL_EMISSION_SHIFT & DETAIL_EMISSION_MASK;
-        TextureUse use = fetchTextureUse(number != 0u ? textureUseRow(materialRow, number - 1u) : 0u);
-        if (number == 0u) use = TextureUse(vec3(0.0), 0u, vec3(0.0), 0.0, 0u, 1u, 1u, 0u);
-        const vec3 texel = lookUp(use, a).rgb;
+            fetchDetail(materialRow).flags >> DETAIL_EMISSION_SHIFT & DETAIL_NUMBER_MASK;
+        const vec3 texel =
+            lookUpSlot(fetchTextureUse(materialRow, number), TEXTURE_EMISSION, a).rgb;
         factor *= number != 0u ? texel : vec3(1.0);
     }
     return factor;
@@ -136,32 +147,58 @@ void scale(inout uint word, float factor) {
 /// Whether a material's first row of parameters is a colour that base colours multiply.
 bool hasBaseColor(Material m) { return isBsdf(m, BSDF_DIFFUSE) || isBsdf(m, BSDF_PRINCIPLED); }
 
+vec3 mappedNormal(vec4 texel, float scale_) {
+    return vec3((2.0 * texel.xy - 1.0) * scale_, 2.0 * texel.z - 1.0);
+}
+
+void applyMetallicRoughness(inout Material m, vec4 texel) {
+    scale(m.row1.w, texel.b);
+    scale(m.row2.w, texel.g);
+}
+
+/// Whether loose textures have this slot, and whether this one does.
+bool isLoose(uint slot, uint wanted) {
+    return (LOOSE_SLOTS & 1u << wanted) != 0u && slot == wanted;
+}
+
 /// A texel's part in the parameters (PrincipledParameters; a diffuse material has the first row only). mapped: a
 /// normal map's vector in the frame of the surface's tangent.
 void applyTexel(inout Material m, inout vec3 mapped, TextureUse t, vec4 texel) {
     const uint slot = t.slot & TEXTURE_SLOT_MASK;
-    if (isSlot(slot, TEXTURE_BASE_COLOR) && hasBaseColor(m)) scale(m.row1, texel.rgb);
-    if (isSlot(slot, TEXTURE_EMISSION)) scale(m.header, texel.rgb);
-    if (isSlot(slot, TEXTURE_NORMAL))
-        mapped = vec3((2.0 * texel.xy - 1.0) * t.scale, 2.0 * texel.z - 1.0);
+    if (isLoose(slot, TEXTURE_BASE_COLOR) && hasBaseColor(m)) scale(m.row1, texel.rgb);
+    if (isLoose(slot, TEXTURE_EMISSION)) scale(m.header, texel.rgb);
+    if (isLoose(slot, TEXTURE_NORMAL)) mapped = mappedNormal(texel, t.scale);
     if (!sceneHasBsdf(BSDF_PRINCIPLED)) return;
-    if (isSlot(slot, TEXTURE_METALLIC_ROUGHNESS)) {
-        scale(m.row1.w, texel.b);
-        scale(m.row2.w, texel.g);
-    }
-    if (isSlot(slot, TEXTURE_SPECULAR_COLOR)) scale(m.row2, texel.rgb);
-    if (isSlot(slot, TEXTURE_SPECULAR)) scale(m.row3.x, texel.a);
-    if (isSlot(slot, TEXTURE_TRANSMISSION)) scale(m.row3.z, texel.r);
-    if (isSlot(slot, TEXTURE_SHEEN_COLOR)) scale(m.row4, texel.rgb);
-    if (isSlot(slot, TEXTURE_SHEEN_ROUGHNESS)) scale(m.row4.w, texel.a);
-    if (isSlot(slot, TEXTURE_CLEARCOAT)) scale(m.row5.x, texel.r);
-    if (isSlot(slot, TEXTURE_CLEARCOAT_ROUGHNESS)) scale(m.row5.y, texel.g);
-    if (isSlot(slot, TEXTURE_ANISOTROPY)) {
+    if (isLoose(slot, TEXTURE_METALLIC_ROUGHNESS)) applyMetallicRoughness(m, texel);
+    if (isLoose(slot, TEXTURE_SPECULAR_COLOR)) scale(m.row2, texel.rgb);
+    if (isLoose(slot, TEXTURE_SPECULAR)) scale(m.row3.x, texel.a);
+    if (isLoose(slot, TEXTURE_TRANSMISSION)) scale(m.row3.z, texel.r);
+    if (isLoose(slot, TEXTURE_SHEEN_COLOR)) scale(m.row4, texel.rgb);
+    if (isLoose(slot, TEXTURE_SHEEN_ROUGHNESS)) scale(m.row4.w, texel.a);
+    if (isLoose(slot, TEXTURE_CLEARCOAT)) scale(m.row5.x, texel.r);
+    if (isLoose(slot, TEXTURE_CLEARCOAT_ROUGHNESS)) scale(m.row5.y, texel.g);
+    if (isLoose(slot, TEXTURE_ANISOTROPY)) {
         scale(m.row3.w, texel.b);
         const vec2 along = 2.0 * texel.xy - 1.0;
         const float turn = along == vec2(0.0) ? 0.0 : atan(along.y, along.x);
         m.row5.z = floatBitsToUint(uintBitsToFloat(m.row5.z) + turn);
     }
+}
+
+/// The bundle's part in them.
+void applyBundle(inout Material m, inout vec3 mapped, uint materialRow, MaterialDetail detail,
+                 PointAttributes a) {
+    const bool has = (detail.flags & DETAIL_HAS_BUNDLE) != 0u;
+    const TextureUse t = fetchTextureUse(materialRow, has ? 1u : 0u);
+    const BundleTaps taps = fetchBundle(t, coordinatesOf(t, a));
+    if (!has) return;
+    if (sceneHasSlot(TEXTURE_BASE_COLOR) && hasBaseColor(m))
+        scale(m.row1, mapOf(taps, TEXTURE_BASE_COLOR).rgb);
+    if (sceneHasSlot(TEXTURE_EMISSION)) scale(m.header, mapOf(taps, TEXTURE_EMISSION).rgb);
+    if (sceneHasSlot(TEXTURE_NORMAL) && (detail.flags & DETAIL_BUNDLE_MAPS_NORMALS) != 0u)
+        mapped = mappedNormal(mapOf(taps, TEXTURE_NORMAL), t.scale);
+    if (sceneHasSlot(TEXTURE_METALLIC_ROUGHNESS) && sceneHasBsdf(BSDF_PRINCIPLED))
+        applyMetallicRoughness(m, mapOf(taps, TEXTURE_METALLIC_ROUGHNESS));
 }
 
 /// The material at a point of a surface. mapped: as applyTexel() has it; (0, 0, 1) without a normal map.
@@ -174,10 +211,13 @@ Material materialAt(SurfacePoint s, out vec3 mapped) {
     if (ATTRIBUTES != 0u && isTriangle) a = attributesAt(primitiveAt(s.skipPrimitive), s.weights);
     if (hasAttribute(ATTRIBUTE_COLOR) && hasBaseColor(m)) scale(m.row1, a.color.rgb);
     if (TEXTURE_SLOTS == 0u) return m;
-    const uint count = fetchDetail(s.material).textures;
-    for (uint i = 0u; i < count; ++i) {
-        const TextureUse t = fetchTextureUse(textureUseRow(s.material, i));
-        applyTexel(m, mapped, t, lookUp(t, a));
+    const MaterialDetail detail = fetchDetail(s.material);
+    if (hasBundles()) applyBundle(m, mapped, s.material, detail, a);
+    if (LOOSE_SLOTS == 0u) return m;
+    const uint first = (detail.flags & DETAIL_HAS_BUNDLE) != 0u ? 1u : 0u;
+    for (uint i = 0u; i < detail.looseTextures; ++i) {
+        const TextureUse t = fetchTextureUse(textureUseRow(s.material, first + i));
+        applyTexel(m, mapped, t, lookUp(t, coordinatesOf(t, a)));
     }
     return m;
 }

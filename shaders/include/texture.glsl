@@ -30,16 +30,20 @@ vec3 linearOfSrgb(vec3 c) {
     return mix(1.0 + (c - 1.0) * r, c * (1.0 / 12.92), lessThanEqual(c, vec3(0.04045)));
 }
 
-/// The texel at column x of row y, both within the picture.
-vec4 fetchTexel(TextureUse t, int x, int y) {
-    const uint index = uint(y) * t.width + uint(x);
+vec4 bytesOf(uint word, bool srgb) {
+    vec4 texel = unpackUnorm4x8(word);
+    if (srgb) texel.rgb = linearOfSrgb(texel.rgb);
+    return texel;
+}
+
+/// Texel number `index` of a texture, in the order of rows.
+vec4 fetchTexel(TextureUse t, uint index) {
     const bool half_ = isHalf(t);
     const uvec4 row = ROW(detailRows, t.firstRow + (half_ ? index >> 1u : index >> 2u));
     vec4 texel = vec4(0.0);
     if ((TEXEL_KINDS & TEXEL_KIND_BYTES) != 0u) {
         const uvec2 pair = (index & 2u) != 0u ? row.zw : row.xy;
-        texel = unpackUnorm4x8((index & 1u) != 0u ? pair.y : pair.x);
-        if (isSrgb(t)) texel.rgb = linearOfSrgb(texel.rgb);
+        texel = bytesOf((index & 1u) != 0u ? pair.y : pair.x, isSrgb(t));
     }
     if (half_) {
         const uvec2 pair = (index & 1u) != 0u ? row.zw : row.xy;
@@ -65,24 +69,70 @@ int beyond(int i, int n, uint mode) {
     return i < 0 ? (repeats ? n - 1 : 0) : (i >= n ? (repeats ? 0 : n - 1) : i);
 }
 
-vec4 lookUp(TextureUse t, vec2 uv) {
+/// The four texels about a place, upper ones first, and how much the right and the lower ones count; for the
+/// nearest texel all four are that one.
+struct Taps {
+    uvec4 texels; ///< numbers, in the order of rows
+    vec2 part;
+};
+
+Taps tapsAt(TextureUse t, vec2 uv) {
     const uint wrapU = t.flags >> TEXELS_WRAP_U_SHIFT & TEXELS_WRAP_MASK;
     const uint wrapV = t.flags >> TEXELS_WRAP_V_SHIFT & TEXELS_WRAP_MASK;
     const ivec2 size = ivec2(int(t.width), int(t.height));
     const vec2 at = vec2(wrapped(dot(t.uRow, vec3(uv, 1.0)), wrapU),
                          wrapped(dot(t.vRow, vec3(uv, 1.0)), wrapV)) * vec2(size);
-    const bool nearest = isNearest(t);
-    const vec2 corner = nearest ? at : at - 0.5;
-    const vec2 whole = floor(corner), part = corner - whole;
-    const ivec2 texel = ivec2(whole);
-    const int x0 = beyond(texel.x, size.x, wrapU), y0 = beyond(texel.y, size.y, wrapV);
     // At 1, the end of the last texel, the nearest texel is the last one whatever the mode.
-    if ((TEXEL_KINDS & TEXEL_KIND_BILINEAR) == 0u)
-        return fetchTexel(t, min(texel.x, size.x - 1), min(texel.y, size.y - 1));
-    const int x1 = beyond(texel.x + 1, size.x, wrapU), y1 = beyond(texel.y + 1, size.y, wrapV);
-    const vec4 a = fetchTexel(t, nearest ? min(texel.x, size.x - 1) : x0,
-                              nearest ? min(texel.y, size.y - 1) : y0);
-    const vec4 b = fetchTexel(t, x1, y0), c = fetchTexel(t, x0, y1), d = fetchTexel(t, x1, y1);
-    const vec4 mixed = mix(mix(a, b, part.x), mix(c, d, part.x), part.y);
-    return nearest ? a : mixed;
+    const ivec2 nearest = min(ivec2(floor(at)), size - 1);
+    const uint nearestTexel = uint(nearest.y) * t.width + uint(nearest.x);
+    const vec2 corner = at - 0.5;
+    const vec2 whole = floor(corner);
+    const ivec2 texel = ivec2(whole);
+    const uvec2 x = uvec2(beyond(texel.x, size.x, wrapU), beyond(texel.x + 1, size.x, wrapU));
+    const uvec2 y =
+        t.width * uvec2(beyond(texel.y, size.y, wrapV), beyond(texel.y + 1, size.y, wrapV));
+    const Taps taps = Taps(uvec4(y.x + x, y.y + x), corner - whole);
+    return isNearest(t) ? Taps(uvec4(nearestTexel), vec2(0.0)) : taps;
+}
+
+vec4 mixed(vec4 a, vec4 b, vec4 c, vec4 d, vec2 part) {
+    return mix(mix(a, b, part.x), mix(c, d, part.x), part.y);
+}
+
+/// Of a texture that is not in a bundle.
+vec4 lookUp(TextureUse t, vec2 uv) {
+    const Taps taps = tapsAt(t, uv);
+    const vec4 a = fetchTexel(t, taps.texels.x);
+    if ((TEXEL_KINDS & TEXEL_KIND_BILINEAR) == 0u) return a;
+    const vec4 b = fetchTexel(t, taps.texels.y), c = fetchTexel(t, taps.texels.z),
+               d = fetchTexel(t, taps.texels.w);
+    return isNearest(t) ? a : mixed(a, b, c, d, taps.part);
+}
+
+// --- Bundles -------------------------------------------------------------------------------------
+
+bool hasBundles() { return (TEXEL_KINDS & TEXEL_KIND_BUNDLE) != 0u; }
+bool isBundle(TextureUse t) {
+    return hasFlag(t, TEXELS_BUNDLE, TEXEL_KIND_BUNDLE, TEXEL_KIND_LOOSE);
+}
+
+/// The four rows about a place of a bundle.
+struct BundleTaps {
+    uvec4 a, b, c, d;
+    vec2 part;
+};
+
+BundleTaps fetchBundle(TextureUse t, vec2 uv) {
+    const Taps taps = tapsAt(t, uv);
+    return BundleTaps(ROW(detailRows, t.firstRow + taps.texels.x),
+                      ROW(detailRows, t.firstRow + taps.texels.y),
+                      ROW(detailRows, t.firstRow + taps.texels.z),
+                      ROW(detailRows, t.firstRow + taps.texels.w), taps.part);
+}
+
+/// What one of its maps says. slot: known when the kernel is compiled.
+vec4 mapOf(BundleTaps t, uint slot) {
+    const bool srgb = slot == TEXTURE_BASE_COLOR || slot == TEXTURE_EMISSION;
+    return mixed(bytesOf(t.a[slot], srgb), bytesOf(t.b[slot], srgb), bytesOf(t.c[slot], srgb),
+                 bytesOf(t.d[slot], srgb), t.part);
 }

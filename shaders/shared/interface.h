@@ -68,13 +68,16 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_ALPHA 35 // surfaces may be partly not there
 #define SPEC_TANGENT_FRAMES 36 // the frame of a BSDF follows the surface's tangent
 #define SPEC_PRINCIPLED_FEATURES 37 // PRINCIPLED_HAS_ bits: what the principled materials have
-#define SPEC_COUNT 38
+#define SPEC_LOOSE_SLOTS 38 // bit n: some material has a texture in slot n that is in no bundle
+#define SPEC_COUNT 39
 
 SHARED_CONST uint TEXEL_KIND_NEAREST = 1u;
 SHARED_CONST uint TEXEL_KIND_BILINEAR = 2u;
 SHARED_CONST uint TEXEL_KIND_SRGB = 4u;
 SHARED_CONST uint TEXEL_KIND_BYTES = 8u;
 SHARED_CONST uint TEXEL_KIND_HALF = 16u;
+SHARED_CONST uint TEXEL_KIND_BUNDLE = 32u;
+SHARED_CONST uint TEXEL_KIND_LOOSE = 64u; ///< some texture is in no bundle
 
 SHARED_CONST uint INTEGRATOR_PATH = 0u;
 SHARED_CONST uint INTEGRATOR_NORMALS = 1u;

@@ -10,26 +10,30 @@ SHARED_BEGIN
 // --- In the material buffer ------------------------------------------------------------------
 
 /// Where a scene has textures or opacity, every material has this row, so many rows after its header,
-/// whatever its kind; behind it follow its textures, the slots in ascending order.
+/// whatever its kind; behind it follow its bundle, if it has one, and its loose textures, the slots in
+/// ascending order.
 SHARED_CONST uint MATERIAL_DETAIL_ROW = 7u;
 struct MaterialDetail {
     float opacity;
     float alphaCutoff;
     uint flags; ///< DETAIL_
-    uint textures; ///< how many TextureUse follow
+    uint looseTextures; ///< how many TextureUse follow beside the bundle's
 };
 SHARED_ROWS(MaterialDetail, 1);
 SHARED_CONST uint DETAIL_MASK = 1u;  ///< there where opacity is at least alphaCutoff, else not
 SHARED_CONST uint DETAIL_BLEND = 2u; ///< opacity is the share of light that meets the surface
-SHARED_CONST uint DETAIL_HAS_BASE_COLOR = 4u; ///< the first texture is that of TEXTURE_BASE_COLOR
-/// The number of the texture of TEXTURE_EMISSION, plus one, in bits 8 to 15; 0: there is none.
+SHARED_CONST uint DETAIL_HAS_BUNDLE = 4u;    ///< the first TextureUse is a bundle
+SHARED_CONST uint DETAIL_BUNDLE_MAPS_NORMALS = 8u; ///< it has a map of TEXTURE_NORMAL
+/// The number of the TextureUse with TEXTURE_EMISSION, plus one, in bits 8 to 15; 0: there is none. The same for
+/// TEXTURE_BASE_COLOR in bits 16 to 23.
 SHARED_CONST uint DETAIL_EMISSION_SHIFT = 8u;
-SHARED_CONST uint DETAIL_EMISSION_MASK = 0xFFu;
+SHARED_CONST uint DETAIL_BASE_COLOR_SHIFT = 16u;
+SHARED_CONST uint DETAIL_NUMBER_MASK = 0xFFu;
 
-/// A texture of a material: which slot it has, where it is looked up, and where its texels are.
+/// A texture of a material, or a bundle of them: which slot it has, where it is looked up, and where its texels are.
 struct TextureUse {
     vec3 uRow; ///< u' = uRow . (u, v, 1)
-    uint slot; ///< TEXTURE_ slot; | TEXTURE_SECOND_UV
+    uint slot; ///< TEXTURE_ slot, of no meaning for bundles; | TEXTURE_SECOND_UV
     vec3 vRow; ///< v' = vRow . (u, v, 1)
     float scale; ///< TEXTURE_NORMAL: of the tangential part
     uint firstRow; ///< of its texels in the detail buffer
@@ -70,6 +74,11 @@ SHARED_CONST uint WRAP_CLAMP = 2u;
 SHARED_CONST uint TEXELS_NEAREST = 16u; ///< the nearest texel; else bilinear
 SHARED_CONST uint TEXELS_SRGB = 32u;    ///< red, green and blue are sRGB
 SHARED_CONST uint TEXELS_HALF = 64u;    ///< half floats
+/// A bundle: pictures of one size that a material looks up alike. A texel is a row, whose n-th word is that of
+/// TEXTURE_ slot n, so that four taps load all that most materials have. A word without a picture has all bits set.
+/// Base color and emission are sRGB, the others are not.
+SHARED_CONST uint TEXELS_BUNDLE = 128u;
+SHARED_CONST uint BUNDLE_MAPS = 4u;
 
 // --- In the detail buffer ----------------------------------------------------------------------
 // First the attributes of all primitives' corners, in the order of the Primitive buffer, then texels.

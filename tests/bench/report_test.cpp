@@ -123,6 +123,8 @@ TEST(BenchJson, HasEveryKey) {
                             "/scenes[]/variants/samePicture",
                             "/scenes[]/robustness/rays[]/contestants",
                             "/scenes[]/robustness/paths",
+                            "/scenes[]/textures/contestants",
+                            "/scenes[]/textures/raysPerPath[]",
                             "/growth[]/scene",
                             "/growth[]/triangles",
                             "/growth[]/buildSeconds",

@@ -222,14 +222,17 @@ TEST(KernelFeatures, TexturesAndOpacityOnlyWhereTheyHaveAnEffect) {
                                    TextureSlot::ClearcoatNormal, TextureSlot::SheenColor})
         m.textures.push_back({.slot = slot});
     KernelFeatures f = featuresOf(scene);
-    for (const uint32_t id : {SPEC_TEXTURE_SLOTS, SPEC_TEXEL_KINDS, SPEC_ATTRIBUTES, SPEC_ALPHA})
+    for (const uint32_t id :
+         {SPEC_TEXTURE_SLOTS, SPEC_LOOSE_SLOTS, SPEC_TEXEL_KINDS, SPEC_ATTRIBUTES, SPEC_ALPHA})
         EXPECT_EQ(f[id], 0u) << id;
     EXPECT_TRUE(packScene(scene, buildWideBvh(scene)).details.empty());
 
     m.textures.push_back({.slot = TextureSlot::BaseColor});
     f = featuresOf(scene);
     EXPECT_EQ(f[SPEC_TEXTURE_SLOTS], 1u << gpu::TEXTURE_BASE_COLOR);
-    EXPECT_EQ(f[SPEC_TEXEL_KINDS], gpu::TEXEL_KIND_BILINEAR | gpu::TEXEL_KIND_BYTES);
+    EXPECT_EQ(f[SPEC_TEXEL_KINDS],
+              gpu::TEXEL_KIND_BILINEAR | gpu::TEXEL_KIND_BYTES | gpu::TEXEL_KIND_LOOSE);
+    EXPECT_EQ(f[SPEC_LOOSE_SLOTS], 1u << gpu::TEXTURE_BASE_COLOR);
     EXPECT_EQ(f[SPEC_ATTRIBUTES], gpu::ATTRIBUTE_UV0);
     EXPECT_EQ(f[SPEC_ALPHA], 0u);
     EXPECT_EQ(packScene(scene, buildWideBvh(scene)).details.size(), 3u) << "two rows and a texel's";

@@ -30,7 +30,7 @@ struct TextureQuery {
     uint row;
     float u;
     float v;
-    uint unused;
+    uint mapPlusOne; ///< of a bundle: slot plus one; 0: a loose texture
 };
 struct TextureAnswer {
     vec3 color;

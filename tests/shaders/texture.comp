@@ -5,6 +5,15 @@
 QUERIES_AND_ANSWERS(TextureQuery, TextureAnswer)
 
 TextureAnswer answer(TextureQuery q) {
-    const vec4 texel = lookUp(fetchTextureUse(q.row), vec2(q.u, q.v));
+    const TextureUse t = fetchTextureUse(q.row);
+    vec4 texel = vec4(0.0);
+    if (q.mapPlusOne == 0u) texel = lookUp(t, vec2(q.u, q.v));
+    if (hasBundles() && isBundle(t)) {
+        const BundleTaps taps = fetchBundle(t, vec2(q.u, q.v));
+        if (q.mapPlusOne == 1u) texel = mapOf(taps, TEXTURE_BASE_COLOR);
+        if (q.mapPlusOne == 2u) texel = mapOf(taps, TEXTURE_METALLIC_ROUGHNESS);
+        if (q.mapPlusOne == 3u) texel = mapOf(taps, TEXTURE_NORMAL);
+        if (q.mapPlusOne == 4u) texel = mapOf(taps, TEXTURE_EMISSION);
+    }
     return TextureAnswer(texel.rgb, texel.a);
 }

@@ -88,6 +88,7 @@ class TextureLookup : public DeviceTest, public testing::WithParamInterface<bool
         ShaderOptions options = GetParam() ? ShaderOptions::texel() : ShaderOptions();
         options.set(SPEC_TEXEL_KINDS, packed_.texelKinds).set(SPEC_ATTRIBUTES, packed_.attributes);
         options.set(SPEC_TEXTURE_SLOTS, packed_.textureSlots);
+        options.set(SPEC_LOOSE_SLOTS, packed_.looseSlots);
         TestShader shader(GetParam() ? std::span<const uint32_t>(texture_texel)
                                      : std::span<const uint32_t>(texture_storage),
                           options);
@@ -198,6 +199,69 @@ TEST_P(TextureLookup, SrgbIsDecoded) {
     }
     EXPECT_EQ(found.front().color.x, 0);
     EXPECT_EQ(found.back().color.x, 1);
+}
+
+/// The maps of a bundle are, to the bit, what the same pictures are by themselves; a map that the
+/// bundle lacks is white.
+TEST_P(TextureLookup, BundlesHoldTheSameTextures) {
+    Random random(13);
+    constexpr TextureSlot kSlots[] = {TextureSlot::BaseColor, TextureSlot::MetallicRoughness,
+                                      TextureSlot::Normal, TextureSlot::Emission};
+    SceneMaker b;
+    TextureMaker t(b.scene);
+    const auto addMaterial = [&](const std::vector<TextureUse>& uses) {
+        Material m;
+        m.kind = MaterialKind::Principled;
+        m.emission = glm::vec3(1);
+        m.textures = uses;
+        const auto z = float(b.scene.materials.size());
+        b.triangle({0, 0, z}, {1, 0, z}, {0, 1, z}, b.add(m));
+        t.attributes(1, [](const glm::vec3&) { return VertexAttributes{}; });
+    };
+    for (const bool nearest : {false, true}) {
+        std::vector<TextureUse> uses;
+        for (const TextureSlot slot : kSlots) {
+            std::vector<glm::vec4> texels;
+            for (uint32_t i = 0; i < kWidth * kHeight; ++i)
+                texels.emplace_back(random.uniform(), random.uniform(), random.uniform(),
+                                    random.uniform());
+            const bool isColor = slot == TextureSlot::BaseColor || slot == TextureSlot::Emission;
+            uses.push_back({.slot = slot,
+                            .texture = t.texture({.image = t.bytes(kWidth, kHeight, texels),
+                                                  .wrapV = Wrap::Mirror,
+                                                  .nearest = nearest,
+                                                  .srgb = isColor}),
+                            .uRow = {0.5f, 0.25f, -0.125f}});
+        }
+        addMaterial(uses);
+        for (const TextureUse& use : uses)
+            addMaterial({use});
+        addMaterial({uses[0], uses[2]});
+    }
+    scene_ = b.scene;
+    packed_ = packScene(scene_, buildWideBvh(scene_));
+    std::vector<uint32_t> rowOfMaterial(scene_.materials.size());
+    for (size_t i = 0; i < packed_.primitives.size(); ++i)
+        rowOfMaterial[scene_.triangles[packed_.bvh.primitiveOrder[i]].material] =
+            materialOf(packed_.primitives[i]) + gpu::MATERIAL_DETAIL_ROW + 1;
+    std::vector<TextureQuery> bundled, loose, missing;
+    for (const uint32_t first : {0u, 6u})
+        for (uint32_t map = 0; map < 4; ++map)
+            for (int k = 0; k < 64; ++k) {
+                const auto u = float(4 * random.uniform() - 2), v = float(4 * random.uniform() - 2);
+                bundled.push_back({rowOfMaterial[first], u, v, map + 1});
+                loose.push_back({rowOfMaterial[first + 1 + map], u, v, 0});
+                if (map % 2 == 1) missing.push_back({rowOfMaterial[first + 5], u, v, map + 1});
+            }
+    const std::vector<TextureAnswer> a = ask(bundled), e = ask(loose);
+    for (size_t i = 0; i < a.size(); ++i) {
+        EXPECT_EQ(a[i].color, e[i].color) << i;
+        EXPECT_EQ(a[i].alpha, e[i].alpha) << i;
+    }
+    for (const TextureAnswer& white : ask(missing)) {
+        EXPECT_EQ(white.color, glm::vec3(1));
+        EXPECT_EQ(white.alpha, 1);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Fetch, TextureLookup, testing::Bool(),

@@ -1,0 +1,117 @@
+// Which textures of a material are packed together (gpu::TEXELS_BUNDLE), and which are left by
+// themselves.
+#include "host/kernel/detail_plan.hpp"
+#include "shaders/shared/interface.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace stromboli::test {
+namespace {
+
+constexpr uint32_t bit(TextureSlot slot) {
+    return 1u << uint32_t(slot);
+}
+
+class Bundles : public testing::Test {
+  protected:
+    Bundles() {
+        scene_.images = {{.width = 4, .height = 2, .words = std::vector<uint32_t>(8)},
+                         {.width = 2, .height = 4, .words = std::vector<uint32_t>(8)},
+                         {.width = 4,
+                          .height = 2,
+                          .format = TexelFormat::RgbaHalf,
+                          .words = std::vector<uint32_t>(16)}};
+        scene_.materials.resize(1);
+        Material& m = scene_.materials[0];
+        m.kind = MaterialKind::Principled;
+        m.emission = glm::vec3(1);
+        m.principled.clearcoat = 1;
+        add(TextureSlot::BaseColor, {.srgb = true});
+        add(TextureSlot::Normal, {});
+    }
+
+    void add(TextureSlot slot, const Texture& texture) {
+        scene_.materials[0].textures.push_back(
+            {.slot = slot, .texture = uint32_t(scene_.textures.size())});
+        scene_.textures.push_back(texture);
+    }
+
+    DetailPlan plan() const { return planDetails(scene_, {true}); }
+
+    Scene scene_;
+};
+
+TEST_F(Bundles, TakeTwoThatAreLookedUpAlike) {
+    const DetailPlan p = plan();
+    ASSERT_TRUE(p.materials[0].bundle);
+    const DetailPlan::Bundle& bundle = *p.materials[0].bundle;
+    EXPECT_TRUE(bundle[gpu::TEXTURE_BASE_COLOR] && bundle[gpu::TEXTURE_NORMAL]);
+    EXPECT_FALSE(bundle[gpu::TEXTURE_METALLIC_ROUGHNESS] || bundle[gpu::TEXTURE_EMISSION]);
+    EXPECT_TRUE(p.materials[0].textures.empty());
+    EXPECT_EQ(p.textureSlots, bit(TextureSlot::BaseColor) | bit(TextureSlot::Normal));
+    EXPECT_EQ(p.looseSlots, 0u);
+    EXPECT_EQ(p.mostTextures, 0u);
+    EXPECT_TRUE(p.texelKinds & gpu::TEXEL_KIND_BUNDLE);
+    EXPECT_FALSE(p.texelKinds & gpu::TEXEL_KIND_LOOSE);
+}
+
+TEST_F(Bundles, LeaveTheRestLoose) {
+    add(TextureSlot::Clearcoat, {});
+    add(TextureSlot::Emission, {.image = 1, .srgb = true});
+    const DetailPlan p = plan();
+    EXPECT_TRUE(p.materials[0].bundle);
+    ASSERT_EQ(p.materials[0].textures.size(), 2u);
+    EXPECT_EQ(p.materials[0].textures[0].slot, TextureSlot::Emission) << "in the order of slots";
+    EXPECT_EQ(p.looseSlots, bit(TextureSlot::Emission) | bit(TextureSlot::Clearcoat));
+    EXPECT_EQ(p.mostTextures, 2u);
+    EXPECT_TRUE(p.texelKinds & gpu::TEXEL_KIND_LOOSE);
+}
+
+/// Whatever differs between two textures keeps them apart.
+TEST_F(Bundles, AreOfOneKind) {
+    using Change = std::function<void(Texture&, TextureUse&)>;
+    const std::pair<const char*, Change> changes[] = {
+        {"size", [](Texture& t, TextureUse&) { t.image = 1; }},
+        {"format", [](Texture& t, TextureUse&) { t.image = 2; }},
+        {"wrap of columns", [](Texture& t, TextureUse&) { t.wrapU = Wrap::Clamp; }},
+        {"wrap of rows", [](Texture& t, TextureUse&) { t.wrapV = Wrap::Mirror; }},
+        {"filter", [](Texture& t, TextureUse&) { t.nearest = true; }},
+        {"decoding", [](Texture& t, TextureUse&) { t.srgb = !t.srgb; }},
+        {"set of coordinates", [](Texture&, TextureUse& u) { u.uvSet = 1; }},
+        {"columns", [](Texture&, TextureUse& u) { u.uRow.x = 2; }},
+        {"rows", [](Texture&, TextureUse& u) { u.vRow.z = 0.5f; }},
+    };
+    const Scene alike = scene_;
+    for (const size_t which : {size_t(0), size_t(1)})
+        for (const auto& [name, change] : changes) {
+            scene_ = alike;
+            TextureUse& use = scene_.materials[0].textures[which];
+            change(scene_.textures[use.texture], use);
+            EXPECT_FALSE(plan().materials[0].bundle) << name;
+            EXPECT_EQ(plan().materials[0].textures.size(), 2u) << name;
+        }
+}
+
+/// What changes nothing takes no memory either.
+TEST_F(Bundles, HaveOnlyWhatHasAnEffect) {
+    scene_.materials[0].principled.baseColor = glm::vec3(0);
+    EXPECT_FALSE(plan().materials[0].bundle);
+    EXPECT_EQ(plan().looseSlots, bit(TextureSlot::Normal));
+}
+
+/// 2^26 rows hold two of these.
+TEST_F(Bundles, StayWithinTheirShareOfTexelBuffers) {
+    for (TextureImage& image : scene_.images)
+        image.width = 8192, image.height = 4096;
+    scene_.materials[0].alphaMode = AlphaMode::Opaque;
+    scene_.materials.resize(3, scene_.materials[0]);
+    const DetailPlan p = planDetails(scene_, {true, true, true});
+    EXPECT_TRUE(p.materials[0].bundle && p.materials[1].bundle);
+    EXPECT_FALSE(p.materials[2].bundle);
+    EXPECT_EQ(p.materials[2].textures.size(), 2u);
+}
+
+} // namespace
+} // namespace stromboli::test
