@@ -68,12 +68,13 @@ TEST(BenchCommand, ReportsOnTheTerminalAndAsJson) {
 
 /// By ray, of the scenes that have some.
 TEST(BenchCommand, SaysWhatTexturesCost) {
-    const ProgramRun run = bench({"cornell_boxes", "texture_chart", "--only", "textures", "-r",
-                                  "16", "16", "-s", "1", "--repeats", "1"});
+    const ProgramRun run = bench(
+        {"cornell_boxes", "texture_chart", "--only", "textures", "-r", "16", "16", "-s", "1"});
     ASSERT_EQ(run.exitCode, 0) << run.err;
     const size_t chart = run.out.find("texture_chart: ");
     ASSERT_NE(chart, std::string::npos);
-    EXPECT_EQ(run.out.find("rays of paths with textures"), run.out.rfind("rays of paths with textures"));
+    EXPECT_EQ(run.out.find("rays of paths with textures"),
+              run.out.rfind("rays of paths with textures"));
     EXPECT_GT(run.out.find("rays of paths with textures"), chart);
     EXPECT_THAT(run.out, HasSubstr("their means"));
 }

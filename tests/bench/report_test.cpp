@@ -47,6 +47,8 @@ BenchReport fullReport() {
     scene.robustness = RobustnessReport{
         {{"bounce", 1000, 0.75, {series("robust", 1e-7), series("plain triangles", 0.9e-7)}, {3}}},
         {series("robust", 1e-6), series("plain offsets", 0.9e-6)}};
+    scene.textures =
+        TextureReport{{series("textures", 1e-7), series("their means", 0.9e-7)}, {2.5, 2.25}};
     report.growth.push_back({"generate:cornell_mesh:1000", 1006, 0.001, 0.002, scene.rays.front()});
     report.startup = StartupReport{{series("cold", 0.5), series("warm", 0.1)}, {}, {}};
     report.transfer = TransferReport{1 << 26, {series("upload", 1e-9), series("readback", 1e-9)}};
@@ -124,7 +126,7 @@ TEST(BenchJson, HasEveryKey) {
                             "/scenes[]/robustness/rays[]/contestants",
                             "/scenes[]/robustness/paths",
                             "/scenes[]/textures/contestants",
-                            "/scenes[]/textures/raysPerPath[]",
+                            "/scenes[]/textures/raysPerPath",
                             "/growth[]/scene",
                             "/growth[]/triangles",
                             "/growth[]/buildSeconds",

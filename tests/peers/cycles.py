@@ -1,0 +1,118 @@
+"""Renders a glTF file with Cycles; run by Blender (against_cycles.py says how).
+
+    blender -b -P cycles.py -- SETTINGS.json
+
+SETTINGS.json: model, environment, width, height, samples, bounces, fov (degrees, of the height), from, at,
+matte (true: principled materials scatter diffusely alone), seed, picture (EXR). Writes the picture,
+linear, and prints the seconds that the render took.
+"""
+
+import builtins
+import json
+import math
+import sys
+import time
+
+import numpy
+
+# The importer of Blender 3.4 uses names that numpy has dropped.
+for name in ("bool", "int", "float", "object"):
+    if not hasattr(numpy, name):
+        setattr(numpy, name, getattr(builtins, name))
+
+import addon_utils  # noqa: E402 (numpy first)
+import bpy  # noqa: E402
+import mathutils  # noqa: E402
+
+
+def in_blender(v):
+    """From glTF's axes, y up, to Blender's, z up."""
+    return mathutils.Vector((v[0], -v[2], v[1]))
+
+
+def import_model(settings):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    addon_utils.enable("io_scene_gltf2")
+    addon_utils.enable("cycles")
+    bpy.ops.import_scene.gltf(filepath=settings["model"])
+    for material in bpy.data.materials if settings["matte"] else []:
+        for node in material.node_tree.nodes if material.use_nodes else []:
+            if node.type != "BSDF_PRINCIPLED":
+                continue
+            for name in ("Metallic", "Specular", "Transmission", "Clearcoat", "Sheen"):
+                for link in list(node.inputs[name].links):
+                    material.node_tree.links.remove(link)
+                node.inputs[name].default_value = 0
+
+
+def place_camera(scene, settings):
+    data = bpy.data.cameras.new("camera")
+    camera = bpy.data.objects.new("camera", data)
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    camera.location = in_blender(settings["from"])
+    direction = in_blender(settings["at"]) - in_blender(settings["from"])
+    camera.rotation_euler = direction.to_track_quat("-Z", "Y").to_euler()
+    data.sensor_fit = "VERTICAL"
+    data.angle = math.radians(settings["fov"])
+    data.clip_start, data.clip_end = direction.length * 1e-3, direction.length * 1e3
+
+
+def surround(scene, settings):
+    """With the environment, whose middle Blender has in another direction than Stromboli."""
+    world = bpy.data.worlds.new("world")
+    scene.world = world
+    world.use_nodes = True
+    tree = world.node_tree
+    background = tree.nodes.get("Background") or tree.nodes.new("ShaderNodeBackground")
+    picture = tree.nodes.new("ShaderNodeTexEnvironment")
+    picture.image = bpy.data.images.load(settings["environment"])
+    picture.interpolation = "Linear"
+    coordinates = tree.nodes.new("ShaderNodeTexCoord")
+    turn = tree.nodes.new("ShaderNodeMapping")
+    turn.inputs["Rotation"].default_value = (0, 0, -math.pi / 2)
+    tree.links.new(coordinates.outputs["Generated"], turn.inputs["Vector"])
+    tree.links.new(turn.outputs["Vector"], picture.inputs["Vector"])
+    tree.links.new(picture.outputs["Color"], background.inputs["Color"])
+
+
+def render(scene, settings):
+    """Without what makes pictures biased: clamping, blurred caustics, lights left out."""
+    scene.render.engine = "CYCLES"
+    cycles = scene.cycles
+    cycles.device = "CPU"
+    cycles.seed = settings["seed"]
+    cycles.samples = settings["samples"]
+    cycles.use_adaptive_sampling = cycles.use_denoising = False
+    # Cycles does not count the first scattering.
+    bounces = settings["bounces"] - 1
+    cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = bounces
+    cycles.transmission_bounces = bounces
+    cycles.transparent_max_bounces = 64
+    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
+    cycles.blur_glossy = 0
+    cycles.light_sampling_threshold = 0
+    cycles.pixel_filter_type = "BOX"
+    cycles.filter_width = 1
+    scene.render.resolution_x, scene.render.resolution_y = settings["width"], settings["height"]
+    scene.render.resolution_percentage = 100
+    image = scene.render.image_settings
+    image.file_format, image.color_depth, image.exr_codec = "OPEN_EXR", "32", "ZIP"
+    scene.view_settings.view_transform = "Raw"
+    scene.render.filepath = settings["picture"]
+    start = time.time()
+    bpy.ops.render.render(write_still=True)
+    print("RENDER_SECONDS", time.time() - start)
+
+
+def main():
+    with open(sys.argv[sys.argv.index("--") + 1], encoding="utf-8") as file:
+        settings = json.load(file)
+    import_model(settings)
+    scene = bpy.context.scene
+    place_camera(scene, settings)
+    surround(scene, settings)
+    render(scene, settings)
+
+
+main()
