@@ -48,8 +48,8 @@ std::vector<SampleValue> samplesAlone(const Scene& scene, const Camera& camera,
 }
 
 std::vector<SeenPixel> seenBy(const Scene& scene, const Camera& camera,
-                              const RenderSettings& settings,
-                              const std::vector<uint32_t>& samples, Seeing what) {
+                              const RenderSettings& settings, const std::vector<uint32_t>& samples,
+                              Seeing what) {
     const GpuScene gpu = packScene(scene, buildWideBvh(scene), lightSelection(settings.estimator));
     return VulkanBackend(testDevice(), gpu, camera, settings).see(0, samples, what);
 }

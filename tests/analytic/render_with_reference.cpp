@@ -28,8 +28,8 @@ std::vector<SampleValue> samplesAlone(const Scene& scene, const Camera& camera,
 }
 
 std::vector<SeenPixel> seenBy(const Scene& scene, const Camera& camera,
-                              const RenderSettings& settings,
-                              const std::vector<uint32_t>& samples, Seeing what) {
+                              const RenderSettings& settings, const std::vector<uint32_t>& samples,
+                              Seeing what) {
     return ReferenceBackend(scene, camera, settings).see(0, samples, what);
 }
 

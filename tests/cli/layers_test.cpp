@@ -20,7 +20,8 @@ using testing::UnorderedElementsAre;
 
 constexpr int kUsage = 1, kScene = 2;
 
-/// A grey square of four metres that faces up, and cameras above it that see one of a metre, or six.
+/// A grey square of four metres that faces up, and cameras above it that see one of a metre, or
+/// six.
 std::string floorScene(const std::string& cameras) {
     return R"(<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
@@ -31,7 +32,8 @@ std::string floorScene(const std::string& cameras) {
 <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
 <polylist count="1"><input semantic="VERTEX" source="#v" offset="0"/><vcount>4</vcount>
 <p>0 1 2 3</p></polylist></mesh></geometry></library_geometries>
-<library_cameras>)" + cameras +
+<library_cameras>)" +
+           cameras +
            R"(</library_cameras>
 <library_visual_scenes><visual_scene id="s">
 <node name="ground"><instance_geometry url="#g"/></node>
@@ -51,8 +53,8 @@ std::string camera(const std::string& id, const std::string& name, const std::st
            "</ymag></orthographic></technique_common></optics></camera>\n";
 }
 
-const std::string kThree = floorScene(camera("a", "near", "0.5") + camera("b", "far", "3") +
-                                      camera("c", "far away", "4"));
+const std::string kThree =
+    floorScene(camera("a", "near", "0.5") + camera("b", "far", "3") + camera("c", "far away", "4"));
 
 std::string bytesOf(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
@@ -63,9 +65,10 @@ class Layers : public testing::Test {
   protected:
     ScratchFolder folder;
 
-    ProgramRun render(std::vector<std::string> words, const std::string& size = "8") {
+    ProgramRun render(std::vector<std::string> words, const std::string& size = "8",
+                      const std::string& samples = "16") {
         const std::string scene = folder.write("a.dae", kThree);
-        std::vector<std::string> all = {"render", scene, "-r", size, size, "-s", "16"};
+        std::vector<std::string> all = {"render", scene, "-r", size, size, "-s", samples};
         all.insert(all.end(), words.begin(), words.end());
         return stromboli(all);
     }
@@ -79,8 +82,8 @@ class Layers : public testing::Test {
 
 /// Pixels of a metre: the floor covers four by four of the eight.
 TEST_F(Layers, TransparentPicturesHaveAlpha) {
-    const std::vector<std::string> asked = {"--camera", "far away", "--transparent", "--env",
-                                            "1",        "--notes",  "off"};
+    const std::vector<std::string> asked = {"--camera", "far away", "--transparent", "--env", "1",
+                                            "--notes",  "off"};
     const auto with = [&](std::vector<std::string> more) {
         more.insert(more.end(), asked.begin(), asked.end());
         const ProgramRun run = render(more);
@@ -98,18 +101,17 @@ TEST_F(Layers, TransparentPicturesHaveAlpha) {
             EXPECT_EQ(floats.channels.at("A")[y * 8 + x], covered ? 1 : 0);
             EXPECT_NEAR(floats.channels.at("G")[y * 8 + x], covered ? 0.5 : 0, 0.1);
         }
-    const ProgramRun run = stromboli({"compare", folder.file("a.exr"), folder.file("a.png"),
-                                      "--max-relmse", "0.001"});
+    const ProgramRun run =
+        stromboli({"compare", folder.file("a.exr"), folder.file("a.png"), "--max-relmse", "0.001"});
     EXPECT_EQ(run.exitCode, 0) << run.out << run.err;
 }
 
 /// The colour of a pixel that is covered in part is that of what covers it: PNG is not multiplied.
 TEST_F(Layers, ThePngOfAnEdgeHasTheColorOfWhatIsThere) {
-    ASSERT_EQ(render({"-o", folder.file("a.png"), "--camera", "2", "--transparent", "--env", "1",
-                      "-s", "256", "--even"},
-                     "7") // six metres: floor's edge is within a pixel
-                  .exitCode,
-              0);
+    const ProgramRun run = render(
+        {"-o", folder.file("a.png"), "--camera", "2", "--transparent", "--env", "1", "--even"}, "7",
+        "256"); // the floor ends within a pixel
+    ASSERT_EQ(run.exitCode, 0) << run.err;
     const ByteImage bytes = readPng(folder.file("a.png"));
     const size_t edge = 3 * 7 + 1, inside = 3 * 7 + 3;
     EXPECT_EQ(bytes.alpha[inside], 255);
@@ -136,19 +138,20 @@ TEST_F(Layers, BandsMakeTheSameBytes) {
 /// A checkpoint of another kind of picture is none to go on from.
 TEST_F(Layers, GoingOnKeepsAlpha) {
     const std::string kept = folder.file("kept");
-    const auto go = [&](std::vector<std::string> more) {
-        more.insert(more.end(), {"--camera", "2", "--env", "1", "--checkpoint", kept, "--notes",
-                                 "off", "--even"});
-        return render(more);
+    const auto go = [&](const std::string& output, const std::string& samples,
+                        std::vector<std::string> more) {
+        more.insert(more.end(), {"-o", folder.file(output), "--camera", "2", "--env", "1",
+                                 "--checkpoint", kept, "--notes", "off", "--even"});
+        return render(more, "8", samples);
     };
-    EXPECT_EQ(go({"--transparent", "-o", folder.file("a.exr"), "-s", "8"}).exitCode, 0);
-    EXPECT_EQ(go({"--transparent", "-o", folder.file("a.exr"), "-s", "24", "--resume"}).exitCode,
-              0);
-    const ProgramRun other = go({"-o", folder.file("b.exr"), "-s", "24", "--resume"});
+    EXPECT_EQ(go("a.exr", "8", {"--transparent"}).exitCode, 0);
+    const ProgramRun again = go("a.exr", "24", {"--transparent", "--resume"});
+    EXPECT_THAT(again.err, HasSubstr("goes on from"));
+    const ProgramRun other = go("b.exr", "24", {"--resume"});
     EXPECT_EQ(other.exitCode, kUsage);
     EXPECT_THAT(other.err, HasSubstr("the checkpoint is of other settings"));
     std::filesystem::remove(kept);
-    EXPECT_EQ(go({"--transparent", "-o", folder.file("c.exr"), "-s", "24"}).exitCode, 0);
+    EXPECT_EQ(go("c.exr", "24", {"--transparent"}).exitCode, 0);
     EXPECT_EQ(bytesOf(folder.file("a.exr")), bytesOf(folder.file("c.exr")));
 }
 
@@ -179,8 +182,7 @@ TEST_F(Layers, AreChannelsWithALegend) {
 
 TEST_F(Layers, ThatMakeNoSenseAreRefused) {
     const std::string exr = folder.file("a.exr"), png = folder.file("a.png");
-    expectRefused({"-o", exr, "--layers", "albedo,teapot"}, kUsage,
-                  "--layers is 'teapot'");
+    expectRefused({"-o", exr, "--layers", "albedo,teapot"}, kUsage, "--layers is 'teapot'");
     expectRefused({"-o", exr, "--layers", ""}, kUsage, "--layers");
     expectRefused({"-o", exr, "--layers", "uv,albedo,uv"}, kUsage, "--layers names uv twice");
     expectRefused({"-o", png, "--layers", "albedo"}, kUsage,
@@ -196,11 +198,12 @@ TEST_F(Layers, ThatMakeNoSenseAreRefused) {
 
 TEST_F(Layers, ATransparentPictureOfNothingSaysSo) {
     const std::string empty = folder.write(
-        "empty.dae", R"(<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+        "empty.dae",
+        R"(<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
 <library_visual_scenes><visual_scene id="s"/></library_visual_scenes>
 <scene><instance_visual_scene url="#s"/></scene></COLLADA>)");
-    const ProgramRun run = stromboli({"render", empty, "-o", folder.file("a.png"), "--transparent",
-                                      "-r", "4", "3", "-s", "1"});
+    const ProgramRun run = stromboli(
+        {"render", empty, "-o", folder.file("a.png"), "--transparent", "-r", "4", "3", "-s", "1"});
     EXPECT_EQ(run.exitCode, 0) << run.err;
     EXPECT_THAT(run.err, HasSubstr("has no geometry: the picture is all transparent"));
     EXPECT_THAT(readPng(folder.file("a.png")).alpha, testing::Each(0));
@@ -217,12 +220,12 @@ TEST_F(Layers, ThereIsAPictureOfEachCamera) {
 }
 
 TEST_F(Layers, AListOfCamerasMakesThose) {
-    ASSERT_EQ(render({"-o", folder.file("o.exr"), "--camera", "3,near", "--stats",
-                      folder.file("s.json")})
-                  .exitCode,
-              0);
-    EXPECT_THAT(folder.entries(), UnorderedElementsAre("a.dae", "o.near.exr", "o.3.exr",
-                                                       "s.near.json", "s.3.json"));
+    ASSERT_EQ(
+        render({"-o", folder.file("o.exr"), "--camera", "3,near", "--stats", folder.file("s.json")})
+            .exitCode,
+        0);
+    EXPECT_THAT(folder.entries(),
+                UnorderedElementsAre("a.dae", "o.near.exr", "o.3.exr", "s.near.json", "s.3.json"));
 }
 
 } // namespace

@@ -1,8 +1,8 @@
 // Kernel and reference see the same in the bundled scenes: albedo, normals, positions, texture
 // coordinates and numbers, by z-tests of the mean difference of pixels, which are independent. 4.5
 // standard errors, 18 channels in four scenes: false alarm below 1e-3 in all, fixed seeds.
-#include "host/render/layers.hpp"
 #include "host/reference/reference_backend.hpp"
+#include "host/render/layers.hpp"
 #include "scene/read_scene.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
@@ -60,8 +60,7 @@ TEST_F(SeeingOnDevice, KernelAndReferenceAgree) {
         RenderSettings s;
         s.area = {48, 36, {}};
         const Camera camera = makeCamera(scene, {}, s.area.width, s.area.height);
-        const GpuScene gpu =
-            packScene(scene, buildWideBvh(scene), lightSelection(s.estimator));
+        const GpuScene gpu = packScene(scene, buildWideBvh(scene), lightSelection(s.estimator));
         VulkanBackend device(testDevice(), gpu, camera, s);
         ReferenceBackend host(scene, camera, s);
         const Seen a(device, scene, camera, s.area), b(host, scene, camera, s.area);
