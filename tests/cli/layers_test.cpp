@@ -140,8 +140,9 @@ TEST_F(Layers, GoingOnKeepsAlpha) {
     const std::string kept = folder.file("kept");
     const auto go = [&](const std::string& output, const std::string& samples,
                         std::vector<std::string> more) {
-        more.insert(more.end(), {"-o", folder.file(output), "--camera", "2", "--env", "1",
-                                 "--checkpoint", kept, "--notes", "off", "--even"});
+        more.insert(more.end(),
+                    {"-o", folder.file(output), "--camera", "2", "--env", "1", "--checkpoint", kept,
+                     "--notes", "off", "--even", "--branches", "1"});
         return render(more, "8", samples);
     };
     EXPECT_EQ(go("a.exr", "8", {"--transparent"}).exitCode, 0);
