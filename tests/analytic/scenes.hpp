@@ -42,8 +42,8 @@ std::vector<SampleValue> samplesAlone(const Scene& scene, const Camera& camera,
                                       uint32_t count);
 /// What its camera rays see: samples[i] of pixel i.
 std::vector<SeenPixel> seenBy(const Scene& scene, const Camera& camera,
-                              const RenderSettings& settings,
-                              const std::vector<uint32_t>& samples, Seeing what);
+                              const RenderSettings& settings, const std::vector<uint32_t>& samples,
+                              Seeing what);
 /// What the renderer's statistics make of samples, accepted ones, in this order.
 glm::dvec3 meanInOrder(std::span<const SampleValue> samples);
 /// Relative error that the renderer's arithmetic may put on a mean.

@@ -218,7 +218,7 @@ TEST(Layers, AlbedoAndNormalAreFollowedThroughMirrors) {
     square.b.quad({-4, -4, 2}, {0, 8, 0}, {8, 0, 0}, square.b.add(mirror(0.8f))); // faces down
     TextureMaker(square.b.scene).attributes(0, {}); // the mirror has none
     // Up to the mirror and down to the upper left quarter, which is red.
-    const Camera camera = pointCamera({0.25, 0.25, 1}, {0.25, 0.5, 2});
+    const Camera camera = pointCamera({0.25, 0.25, 1}, {0.25, 0.375, 2});
     expectNear(seenColor(square.b.scene, camera), {0.4, 0, 0});
     const FloatImage image =
         layersOf(square.b.scene, camera, {Layer::Normal, Layer::Position, Layer::Material});
