@@ -80,7 +80,7 @@ KeptOutcome renderKept(const KeptRender& render, const MakeBackend& makeBackend,
     std::optional<SessionState> begun = render.begun;
     for (bool again = false;; again = true) {
         const Stopwatch preparing;
-        const std::unique_ptr<Backend> backend = makeBackend(render.settings, again);
+        const std::shared_ptr<Backend> backend = makeBackend(render.settings, again);
         RenderSession session =
             begun ? RenderSession(*backend, *begun) : RenderSession(*backend, render.settings);
         const uint64_t samplesBefore = session.samplesDone();

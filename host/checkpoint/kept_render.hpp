@@ -13,8 +13,9 @@
 
 namespace stromboli {
 
-/// Makes the backend of the settings; `again`: the last one's device was lost.
-using MakeBackend = std::function<std::unique_ptr<Backend>(const RenderSettings&, bool again)>;
+/// Makes the backend of the settings, or makes one ready for them that others hold too; `again`:
+/// the last one's device was lost.
+using MakeBackend = std::function<std::shared_ptr<Backend>(const RenderSettings&, bool again)>;
 
 /// A render whose state is put into a file now and then.
 struct KeptRender {

@@ -6,12 +6,28 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace stromboli {
 namespace {
 
 constexpr Range<double> kStops{-100, 100};
 constexpr Range<double> kSeconds{0.01, 1e9};
 constexpr Range<double> kErrorRates{1e-12, 0.5};
+
+std::vector<Layer> readLayers(const std::string& list) {
+    std::vector<Layer> layers;
+    for (size_t first = 0, end = 0; end != std::string::npos; first = end + 1) {
+        end = list.find(',', first);
+        const std::string name = list.substr(first, end - first);
+        const std::optional<Layer> layer = valueNamed<Layer>(name);
+        if (!layer) refuse("--layers", name, allNames<Layer>());
+        if (std::ranges::count(layers, *layer) > 0)
+            throw UsageError(fmt::format("--layers names {} twice", name));
+        layers.push_back(*layer);
+    }
+    return layers;
+}
 
 void declareOutput(DeclaredCommand& c) {
     Options& o = c.options;
@@ -24,6 +40,16 @@ void declareOutput(DeclaredCommand& c) {
         .proposes(Proposed::Files);
     c.list.real("--exposure", "EV", "PNG: radiance times 2^EV", o.tone.exposure, kStops);
     c.list.flag("--aov", "EXR: also sample counts and variances of the mean", o.statisticsChannels);
+    c.list.flag("--transparent",
+                "the picture has alpha: what no surface covers is transparent, and the camera does "
+                "not see the environment, which lights the scene all the same",
+                o.transparent);
+    c.list
+        .words("--layers", "LIST",
+               fmt::format("EXR: also these channels, with commas between (docs/layers.md): {}",
+                           allMeanings<Layer>()),
+               1, [&o](const Words& words) { o.layers = readLayers(words[0]); })
+        .proposes(namesOf<Layer>());
     c.list
         .text("--stats", "FILE.json",
               "write statistics of the render as JSON; - for standard output", o.statsFile)
@@ -51,9 +77,22 @@ void checkOutputOptions(const DeclaredCommand& c) {
     if (o.statisticsChannels && !isExr)
         throw UsageError(
             fmt::format("--aov needs an EXR file: {} has no channels for it", o.output));
+    if (!o.layers.empty() && !isExr)
+        throw UsageError(fmt::format(
+            "--layers needs an EXR file (-o name.exr): {} has no channels for them", o.output));
     if (c.has("--exposure") && isExr)
         throw UsageError(
             fmt::format("--exposure is for PNG: {} holds radiance as it is", o.output));
+}
+
+/// Each has files of its own.
+void checkSeveralPictures(const Options& o) {
+    if (o.cameras.empty()) return;
+    if (o.sampleAlone) throw UsageError("--pixel is of one picture: --camera names several");
+    if (isStandardOutput(o.output))
+        throw UsageError("-o - has place for one picture: --camera names several");
+    if (o.statsFile == "-")
+        throw UsageError("--stats - has place for one picture's: --camera names several");
 }
 
 /// What is given and has no effect here: said, and not refused, because these options are added to
@@ -66,7 +105,7 @@ void remarkOnWhatIsIgnored(DeclaredCommand& c) {
     };
     if (o.sampleAlone)
         remark("--pixel prints one sample and makes no picture",
-               {"-o", "--stats", "--exposure", "--aov", "--notes", "--crop", "--cell"});
+               {"-o", "--stats", "--exposure", "--aov", "--layers", "--notes", "--crop", "--cell"});
     if (isStandardOutput(o.output) && (o.budget.adaptive.enabled || o.budget.stop.open()))
         o.remarks.emplace_back(
             "-o - has no place for a second picture: the rate picture is left out");
@@ -127,6 +166,8 @@ void declareRender(DeclaredCommand& c) {
         finishPicture(c);
         finishEstimator(c);
         finishBudget(c, true);
+        o.estimator.showsBackdrop = !o.transparent;
+        checkSeveralPictures(o);
         if (o.output.empty() && !o.sampleAlone)
             throw UsageError("--output is required (see --help)");
         if (o.backend == BackendChoice::Reference && c.has("--device"))

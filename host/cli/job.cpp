@@ -1,6 +1,7 @@
 #include "host/cli/job.hpp"
 
 #include "host/cli/activity.hpp"
+#include "host/cli/seen_channels.hpp"
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
 #include "host/core/memory.hpp"
@@ -37,7 +38,8 @@ void reportScene(const Scene& scene, const Options& options) {
     for (const std::string& line : scene.report.assumed)
         logging::info(line);
     if (scene.triangles.empty() && scene.spheres.empty())
-        logging::warn(fmt::format("{} has no geometry: the picture is black", options.scene));
+        logging::warn(fmt::format("{} has no geometry: the picture is {}", options.scene,
+                                  options.transparent ? "all transparent" : "black"));
     else if (!shines(scene) && options.estimator.integrator == Integrator::Path)
         logging::warn(fmt::format("{} has no light: the picture is black (--default-light on: a "
                                   "plain sky lights it)",
@@ -64,7 +66,8 @@ void reportCamera(const Job& job, const Options& options) {
         logging::info(fmt::format("framing the whole scene, as the CS184 renderer does, instead of "
                                   "taking the file's {} (--camera file)",
                                   name));
-    if (!framed && scene.cameras.size() > 1 && options.camera.name.empty())
+    const bool isNamed = !options.camera.name.empty() || options.camera.place;
+    if (!framed && scene.cameras.size() > 1 && !isNamed)
         logging::info(fmt::format("{}, the {} of {} (--camera NAME for another; info lists them)",
                                   name, options.framing.lastOfSeveral ? "last" : "first",
                                   scene.cameras.size()));
@@ -85,8 +88,8 @@ void checkCrop(const PictureArea& s) {
 
 /// Films may be made in bands; the picture that is written is in the host's memory as a whole,
 /// twice: before and after it is compressed.
-void checkPictureFits(const PictureArea& s) {
-    const uint64_t bytes = 2 * s.pixelCount() * 3 * sizeof(float);
+void checkPictureFits(const PictureArea& s, uint64_t channels) {
+    const uint64_t bytes = 2 * s.pixelCount() * channels * sizeof(float);
     if (bytes > physicalMemory())
         throw UsageError(fmt::format("a picture of {} pixels takes {} MiB to write, more than this "
                                      "machine's memory: render it in parts (--crop)",
@@ -99,12 +102,17 @@ std::future<vulkan::OpenDevice> openDeviceMeanwhile(const Options& options) {
     return std::async(std::launch::async, vulkan::openDevice, options.device);
 }
 
-Job prepareJob(const Options& options) {
+Job loadJob(const Options& options) {
     nowDoing("loading " + options.scene);
     Stopwatch watch;
-    Job job{loadScene(options), {}, {options.area, options.estimator, {}}, 0};
+    Job job{loadScene(options), {}, {}, 0};
     job.loadSeconds = watch.seconds();
     reportScene(job.scene, options);
+    return job;
+}
+
+void setPicture(Job& job, const Options& options) {
+    job.settings = {options.area, options.estimator, {}};
     if (!options.sizeGiven) {
         const PictureSize size = defaultPictureSize(job.scene, options.camera, options.framing);
         job.settings.area.width = size.width;
@@ -115,10 +123,15 @@ Job prepareJob(const Options& options) {
     job.settings.estimator.branches = branches;
     job.settings.budget = inSamples(options.budget, branches);
     checkCrop(job.settings.area);
-    checkPictureFits(job.settings.area);
+    checkPictureFits(job.settings.area, 3 + seenChannelNames(options).size());
     job.camera = makeCamera(job.scene, options.camera, job.settings.area.width,
                             job.settings.area.height, options.framing);
     reportCamera(job, options);
+}
+
+Job prepareJob(const Options& options) {
+    Job job = loadJob(options);
+    setPicture(job, options);
     return job;
 }
 

@@ -22,8 +22,13 @@ struct Job {
 /// driver's libraries, which takes as long as reading a scene. get() throws DeviceError.
 std::future<vulkan::OpenDevice> openDeviceMeanwhile(const Options& options);
 
-/// Loads or makes the scene, reports what was ignored, dropped or is missing (no light, no camera),
-/// and fixes the picture's size. Throws SceneError, UsageError (crop outside the picture).
+/// Loads or makes the scene, and reports what was ignored, dropped or is missing (no light). Throws
+/// SceneError.
+Job loadJob(const Options& options);
+/// Fixes the camera, which it reports, the picture's size and the settings. Throws SceneError,
+/// UsageError (crop outside the picture).
+void setPicture(Job& job, const Options& options);
+/// Both.
 Job prepareJob(const Options& options);
 
 /// A BVH and the kernel's arrays. Each of these functions says what it does with nowDoing().

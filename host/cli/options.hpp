@@ -7,6 +7,7 @@
 #include "host/core/log.hpp"
 #include "host/core/named_values.hpp"
 #include "host/film/tone.hpp"
+#include "host/render/layers.hpp"
 #include "host/render/settings.hpp"
 #include "scene/add_environment.hpp"
 #include "scene/build/conventions.hpp"
@@ -53,6 +54,9 @@ struct Options {
     std::optional<uint32_t> branches; ///< empty: what pays in the scene
     PathBudget budget;
     CameraRequest camera;
+    /// A picture of each of these cameras of the file (names, numbers; "all" alone: of each);
+    /// empty: one, of `camera`.
+    std::vector<std::string> cameras;
     std::string device;
     BackendChoice backend = BackendChoice::Vulkan;
     ToneCurve tone;
@@ -62,9 +66,12 @@ struct Options {
     bool resume = false;                   ///< goes on from the checkpoint
     std::optional<uint32_t> filmMebibytes; ///< for the film; empty: half of the machine's memory
     /// The command without what leaves the picture as it is: its own name, the device, checkpoints.
-    std::string pictureCommand;
+    /// Words that belong together are one of its parts.
+    std::vector<std::string> pictureCommand;
     bool notes = true;                     ///< of the picture, in its file
     bool statisticsChannels = false;       ///< EXR: sample counts and variances
+    bool transparent = false;              ///< alpha in place of the environment
+    std::vector<Layer> layers;             ///< EXR: channels beside the radiance
     std::optional<SampleName> sampleAlone; ///< print this sample and write nothing
     uint32_t threads = 0;                  ///< host threads; 0: all
     Verbosity verbosity = Verbosity::Normal;

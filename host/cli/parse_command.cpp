@@ -74,16 +74,17 @@ void checkTogether(const CommandOption& o, const Given& given) {
 
 /// The command as it decides on the picture, in the order of --help: however it was written, the
 /// same picture has the same words.
-std::string pictureCommandOf(const DeclaredCommand& command, const Given& given) {
-    std::string text = "stromboli " + command.name;
+std::vector<std::string> pictureCommandOf(const DeclaredCommand& command, const Given& given) {
+    std::vector<std::string> parts = {"stromboli " + command.name};
     for (const CommandOption& o : command.list.all()) {
         const auto words = given.find(o.name());
         if (words == given.end() || o.isBesidePicture) continue;
-        if (!o.dashedNames().empty()) text += " " + o.name();
+        std::string part = o.dashedNames().empty() ? "" : o.name();
         for (const std::string& word : words->second)
-            text += " " + shellQuoted(word);
+            part += (part.empty() ? "" : " ") + shellQuoted(word);
+        parts.push_back(part);
     }
-    return text;
+    return parts;
 }
 
 void store(const OptionList& list, const Given& given) {

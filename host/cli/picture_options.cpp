@@ -49,6 +49,25 @@ CameraRequest readCamera(const std::string& word) {
     return {CameraChoice::File, word};
 }
 
+/// The cameras that a word names if it names several: "all", or names and numbers with commas.
+Words readCameras(const std::string& word) {
+    if (word == "all") return {word};
+    Words cameras;
+    if (word.find(',') == std::string::npos) return cameras;
+    for (size_t first = 0, end = 0; end != std::string::npos; first = end + 1) {
+        end = word.find(',', first);
+        cameras.push_back(word.substr(first, end - first));
+        if (cameras.back().empty())
+            refuse("--camera", word, "names or numbers of cameras with commas between");
+    }
+    return cameras;
+}
+
+Words withAll(Words names) {
+    names.emplace_back("all");
+    return names;
+}
+
 } // namespace
 
 void declareScene(DeclaredCommand& c) {
@@ -135,16 +154,23 @@ void declarePicture(DeclaredCommand& c) {
     c.list
         .words("--camera", "WHICH",
                fmt::format("whose view ({}; NAME or N: the file's camera of that name or number, "
-                           "which info lists)",
-                           allMeanings<CameraChoice>()),
+                           "which info lists{})",
+                           allMeanings<CameraChoice>(),
+                           o.command == Command::Render
+                               ? "; all, or several with commas, 1,3: a picture of each, "
+                                 "OUT.NAME.png or, where a name is not plain (letters, digits, - "
+                                 "and _) or not the only one, OUT.N.png"
+                               : ""),
                1,
                [&o](const Words& words) {
                    const CameraRequest which = readCamera(words[0]);
                    o.camera.choice = which.choice;
                    o.camera.name = which.name;
+                   o.cameras = readCameras(words[0]);
                })
         .usually(nameOf(o.camera.choice))
-        .proposes(namesOf<CameraChoice>());
+        .proposes(o.command == Command::Render ? withAll(namesOf<CameraChoice>())
+                                               : namesOf<CameraChoice>());
     declareOptics(c);
     const std::string placeAndSize = fmt::format("{} and {}", inWords(kPlace), inWords(kSide));
     c.list
@@ -160,6 +186,10 @@ void declarePicture(DeclaredCommand& c) {
 
 void finishPicture(DeclaredCommand& c) {
     Options& o = c.options;
+    if (o.command != Command::Render && o.cameras == Words{"all"})
+        throw UsageError(fmt::format("--camera all: {} is of one picture; only render makes one of "
+                                     "each camera",
+                                     c.name));
     if (!c.asked.cell) return;
     const Crop& cell = *c.asked.cell;
     o.sizeGiven = true; // 800 x 600, unless the user gave another

@@ -5,7 +5,9 @@
 #include "host/cli/progress.hpp"
 #include "host/cli/render_outputs.hpp"
 #include "host/cli/report.hpp"
+#include "host/cli/seen_channels.hpp"
 #include "host/cli/signals.hpp"
+#include "host/cli/views.hpp"
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
 #include "host/core/memory.hpp"
@@ -57,10 +59,20 @@ void addTo(RenderReport& report, const KeptOutcome& kept) {
     report.lost = kept.lost;
 }
 
+/// Alpha and layers of a band; a device that is lost sees nothing.
+FloatImage lookAround(const KeptOutcome& kept, const Job& job, const Options& options,
+                      Viewer* viewer) {
+    if (seenChannelNames(options).empty()) return {};
+    nowDoing("tracing alpha and layers");
+    FloatImage seen = seenChannels(kept.lost ? nullptr : viewer, kept.film, job, options);
+    nowDoing("taking samples", StatusLine::OfOthers);
+    return seen;
+}
+
 /// Samples until the picture is there, with checkpoints, band by band.
 void takeSamples(const Job& job, const Options& options, const Begun& begun,
-                 const MakeBackend& makeBackend, uint64_t mostPixels, RenderOutputs& outputs,
-                 RenderReport& report) {
+                 const MakeBackend& makeBackend, const std::function<Viewer*()>& viewer,
+                 uint64_t mostPixels, RenderOutputs& outputs, RenderReport& report) {
     const std::vector<PictureArea> bands = bandsToRender(job.settings.area, mostPixels, begun);
     bool alone = begun.checkpoint.has_value(); // no checkpoint of an earlier render is in the way
     double secondsBefore = 0;                  // of the bands that were done in earlier runs
@@ -98,8 +110,9 @@ void takeSamples(const Job& job, const Options& options, const Begun& begun,
         addTo(report, kept);
         if (kept.fileIsThere) report.checkpoint = render.file.string();
         count(kept.film, render.settings, report);
+        const FloatImage more = lookAround(kept, job, options, viewer());
         showNeighbours(kept.film, NoisePlan::kCoarsest);
-        outputs.place(kept.film, kept.outcome.noise);
+        outputs.place(kept.film, kept.outcome.noise, more);
         progress.pixelsDone += band.pixelCount();
         progress.samplesDone = report.samplesTaken / job.settings.estimator.branches;
     }
@@ -110,45 +123,96 @@ void takeSamples(const Job& job, const Options& options, const Begun& begun,
 uint64_t pixelsThatFit(const Options& options, uint64_t onDevice, uint64_t deviceBytesPerPixel) {
     const uint64_t memory =
         options.filmMebibytes ? uint64_t(*options.filmMebibytes) << 20 : physicalMemory() / 2;
-    return std::min(memory / (hostBytesPerPixel() + deviceBytesPerPixel), onDevice);
+    const uint64_t beside = seenChannelNames(options).size() * sizeof(float);
+    return std::min(memory / (hostBytesPerPixel() + deviceBytesPerPixel + beside), onDevice);
 }
 
-void renderOnDevice(const Job& job, std::future<vulkan::OpenDevice> device, const Options& options,
-                    const Begun& begun, RenderOutputs& outputs, RenderReport& report) {
-    const BuiltScene built = buildScene(job);
-    report.buildSeconds = built.buildSeconds;
-    vulkan::OpenDevice open = device.get();
-    const vulkan::DeviceDescription& description = open.device->description();
-    report.backend = description.name();
-    logging::debug(
-        fmt::format("device {}: {} ({})", open.choice.index, report.backend, open.choice.reason));
+/// What takes the samples of a scene's pictures, one after the other: made once.
+class Renderer {
+  public:
+    explicit Renderer(const Options& options)
+        : isOnDevice_(options.backend == BackendChoice::Vulkan) {
+        if (isOnDevice_) device_ = openDeviceMeanwhile(options);
+    }
+
+    void render(const Job& job, const Options& options, const Begun& begun, RenderOutputs& outputs,
+                RenderReport& report) {
+        if (isOnDevice_)
+            renderOnDevice(job, options, begun, outputs, report);
+        else
+            renderOnReference(job, options, begun, outputs, report);
+    }
+
+  private:
+    void openAndBuild(const Job& job, RenderReport& report);
+    std::shared_ptr<Backend> backendFor(const Job& job, const RenderSettings& settings,
+                                        const Options& options, bool again);
+    void renderOnDevice(const Job& job, const Options& options, const Begun& begun,
+                        RenderOutputs& outputs, RenderReport& report);
+    void renderOnReference(const Job& job, const Options& options, const Begun& begun,
+                           RenderOutputs& outputs, RenderReport& report);
+
+    bool isOnDevice_;
+    std::future<vulkan::OpenDevice> device_;
+    std::optional<vulkan::OpenDevice> open_;
+    std::optional<BuiltScene> built_;
+    std::shared_ptr<VulkanBackend> backend_; ///< of the last picture, with the scene
+};
+
+void Renderer::openAndBuild(const Job& job, RenderReport& report) {
+    if (!built_) {
+        built_ = buildScene(job);
+        report.buildSeconds = built_->buildSeconds;
+    }
+    if (!open_) open_ = device_.get();
+    report.backend = open_->device->description().name();
+}
+
+std::shared_ptr<Backend> Renderer::backendFor(const Job& job, const RenderSettings& settings,
+                                              const Options& options, bool again) {
+    if (again) { // the last one is lost
+        backend_.reset();
+        open_ = vulkan::openDevice(options.device);
+    }
+    if (backend_) {
+        backend_->setPicture(job.camera, settings);
+        return backend_;
+    }
+    backend_ = std::make_shared<VulkanBackend>(*open_->device, built_->gpu, job.camera, settings);
+    for (const std::string& line : describe(backend_->features()))
+        if (!again) logging::debug(fmt::format("kernel: {}", line));
+    return backend_;
+}
+
+void Renderer::renderOnDevice(const Job& job, const Options& options, const Begun& begun,
+                              RenderOutputs& outputs, RenderReport& report) {
+    openAndBuild(job, report);
+    const vulkan::DeviceDescription& description = open_->device->description();
+    logging::debug(fmt::format("device {}: {} ({})", open_->choice.index, report.backend,
+                               open_->choice.reason));
     const uint64_t mostPixels = pixelsThatFit(
-        options, filmPixelsThatFit(description, built.gpu, job.settings.estimator.branches),
+        options, filmPixelsThatFit(description, built_->gpu, job.settings.estimator.branches),
         description.isCpu() ? sizeof(gpu::PixelState) : 0);
-    bool first = true;
-    const auto makeBackend = [&](const RenderSettings& settings, bool again) {
-        if (again) open = vulkan::openDevice(options.device); // the last one is lost
-        auto backend =
-            std::make_unique<VulkanBackend>(*open.device, built.gpu, job.camera, settings);
-        for (const std::string& line : describe(backend->features()))
-            if (first) logging::debug(fmt::format("kernel: {}", line));
-        first = false;
-        return backend;
-    };
-    takeSamples(job, options, begun, makeBackend, mostPixels, outputs, report);
-    vulkan::requireNoValidationMessages(open);
+    takeSamples(
+        job, options, begun,
+        [&](const RenderSettings& settings, bool again) {
+            return backendFor(job, settings, options, again);
+        },
+        [&] { return backend_.get(); }, mostPixels, outputs, report);
+    vulkan::requireNoValidationMessages(*open_);
 }
 
-void renderOnReference(const Job& job, const Options& options, const Begun& begun,
-                       RenderOutputs& outputs, RenderReport& report) {
+void Renderer::renderOnReference(const Job& job, const Options& options, const Begun& begun,
+                                 RenderOutputs& outputs, RenderReport& report) {
     report.backend = "CPU reference (double precision)";
+    std::shared_ptr<ReferenceBackend> backend;
     takeSamples(
         job, options, begun,
         [&](const RenderSettings& settings, bool) {
-            return std::make_unique<ReferenceBackend>(job.scene, job.camera, settings,
-                                                      options.threads);
+            return backend = std::make_shared<ReferenceBackend>(job.scene, job.camera, settings,
+                                                                options.threads);
         },
-        pixelsThatFit(options, ~uint64_t(0), 0), outputs, report);
+        [&] { return backend.get(); }, pixelsThatFit(options, ~uint64_t(0), 0), outputs, report);
 }
 
 void sayHowToGoOn(const RenderReport& report) {
@@ -176,24 +240,15 @@ int reportInterruption(const RenderReport& report, const Job& job, const Options
     return interruptedExitCode();
 }
 
-} // namespace
-
-int renderCommand(const Options& asked) {
-    checkOutputs(asked);
-    const Begun begun = takeUp(asked);
+/// Returns the exit code.
+int renderPicture(Renderer& renderer, Job& job, const Options& asked, const Begun& begun) {
     const Options options = optionsToGoOn(asked, begun);
-    const bool onDevice = options.backend == BackendChoice::Vulkan;
-    std::future<vulkan::OpenDevice> device;
-    if (onDevice) device = openDeviceMeanwhile(options);
-    const Job job = prepareJob(options);
+    setPicture(job, options);
     checkDiskSpace(job, options);
     RenderOutputs outputs(job, options);
     RenderReport report;
     report.loadSeconds = job.loadSeconds;
-    if (onDevice)
-        renderOnDevice(job, std::move(device), options, begun, outputs, report);
-    else
-        renderOnReference(job, options, begun, outputs, report);
+    renderer.render(job, options, begun, outputs, report);
     report.noise = outputs.noise();
     report.samplesAtMost = mostPathsOf(job.settings);
     nowDoing("writing " + options.output);
@@ -206,6 +261,37 @@ int renderCommand(const Options& asked) {
     logBrightness(outputs.brightness(), job, options);
     if (report.lost) return reportLoss(report, options);
     return report.interrupted ? reportInterruption(report, job, options) : 0;
+}
+
+/// One after the other, until one is not finished.
+int renderPictures(Renderer& renderer, Job& job, const std::vector<Options>& pictures) {
+    for (const Options& picture : pictures)
+        checkOutputs(picture); // before the first takes its time
+    for (size_t i = 0; i < pictures.size(); ++i) {
+        logging::info(fmt::format("{} ({} of {})", pictures[i].output, i + 1, pictures.size()));
+        const int code = renderPicture(renderer, job, pictures[i], takeUp(pictures[i]));
+        if (code != 0 && i + 1 < pictures.size())
+            logging::warn(fmt::format("the other {} of the {} pictures are left out",
+                                      pictures.size() - i - 1, pictures.size()));
+        if (code != 0) return code;
+        job.loadSeconds = 0; // was the first one's
+    }
+    return 0;
+}
+
+} // namespace
+
+int renderCommand(const Options& asked) {
+    const bool several = !asked.cameras.empty();
+    Begun begun;
+    if (!several) {
+        checkOutputs(asked);
+        begun = takeUp(asked);
+    }
+    Renderer renderer(asked);
+    Job job = loadJob(asked);
+    if (!several) return renderPicture(renderer, job, asked, begun);
+    return renderPictures(renderer, job, optionsOfPictures(asked, job.scene));
 }
 
 } // namespace stromboli

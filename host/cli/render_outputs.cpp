@@ -1,5 +1,7 @@
 #include "host/cli/render_outputs.hpp"
 
+#include "host/cli/seen_channels.hpp"
+
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
 #include "host/core/output.hpp"
@@ -41,7 +43,18 @@ PictureNotes notesOf(const Job& job, const Options& options, const std::string& 
             {"Seed", std::to_string(job.settings.estimator.seed)},
             {"Samples", samples},
             {"Device", printable(device)},
-            {"Command", printable(options.pictureCommand)}};
+            {"Command", printable(fmt::format("{}", fmt::join(options.pictureCommand, " ")))}};
+}
+
+PictureOptions pictureOptions(const Options& options) {
+    return {options.tone, options.statisticsChannels, seenChannelNames(options)};
+}
+
+/// With what says what the channels mean.
+PictureNotes withLegend(PictureNotes notes, const Job& job, const Options& options) {
+    for (PictureNote& note : legendOf(options.layers, job.scene))
+        notes.push_back({note.name, printable(note.text)});
+    return notes;
 }
 
 } // namespace
@@ -64,19 +77,19 @@ void checkDiskSpace(const Job& job, const Options& options) {
     const Crop part = job.settings.area.rendered();
     const PictureNotes notes = notesOf(job, options, "", "");
     uint64_t bytes = largestPictureFile(options.output, part.width, part.height,
-                                        options.statisticsChannels, notes);
+                                        pictureOptions(options), withLegend(notes, job, options));
     if (writesRates(options, job.settings.budget))
-        bytes += largestPictureFile(ratePicturePath(options.output), part.width, part.height, false,
-                                    notes);
+        bytes +=
+            largestPictureFile(ratePicturePath(options.output), part.width, part.height, {}, notes);
     checkFreeSpace(options.output, bytes);
 }
 
 RenderOutputs::RenderOutputs(const Job& job, const Options& options)
     : job_(job), options_(options),
-      picture_(options.output, job.settings.area, {options.tone, options.statisticsChannels}) {}
+      picture_(options.output, job.settings.area, pictureOptions(options)) {}
 
-void RenderOutputs::place(const Film& film, const PictureNoise& noise) {
-    picture_.place(film);
+void RenderOutputs::place(const Film& film, const PictureNoise& noise, const FloatImage& more) {
+    picture_.place(film, more);
     noises_.push_back({noise, film.pixels.size()});
     const ToneCurve tone = isPng(options_.output) ? options_.tone : ToneCurve{};
     brightness_.push_back({brightnessOf(film, tone), film.pixels.size()});
@@ -93,7 +106,7 @@ void RenderOutputs::write(const RenderReport& report) const {
     const double samples = double(report.samplesTaken) / double(job_.settings.area.pixelCount());
     const PictureNotes notes =
         notesOf(job_, options_, report.backend, fmt::format("{:.6g} a pixel", samples));
-    picture_.write(notes);
+    picture_.write(withLegend(notes, job_, options_));
     if (rates_) writePng(ratePicturePath(options_.output), *rates_, PngColorSpace::Unnamed, notes);
     if (!options_.statsFile.empty()) writeStatistics(options_.statsFile, report, job_);
 }

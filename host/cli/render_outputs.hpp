@@ -20,8 +20,8 @@ void checkDiskSpace(const Job& job, const Options& options);
 class RenderOutputs {
   public:
     RenderOutputs(const Job& job, const Options& options);
-    /// The band's film, and what is known of its noise.
-    void place(const Film& film, const PictureNoise& noise);
+    /// The band's film, what is known of its noise, and the channels beside its radiance.
+    void place(const Film& film, const PictureNoise& noise, const FloatImage& more);
     /// A band that was not begun.
     void leaveOut(const PictureArea& band);
     /// Throws OutputError.

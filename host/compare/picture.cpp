@@ -26,6 +26,8 @@ Picture fromBytes(const ByteImage& image) {
     for (size_t i = 0; i < picture.rgb.size(); ++i)
         for (int c = 0; c < 3; ++c)
             picture.rgb[i][c] = linearFromSrgb(image.rgb[3 * i + size_t(c)] / 255.0);
+    for (size_t i = 0; i < image.alpha.size(); ++i) // as EXR has it: over black
+        picture.rgb[i] *= image.alpha[i] / 255.0;
     return picture;
 }
 

@@ -22,7 +22,8 @@ struct Picture {
 };
 
 /// Reads PNG (as sRGB), EXR or PFM, by the extension. Channels "samples" and "variance.R", ".G",
-/// ".B" of an EXR file (`render --aov`) give the film. Throws UsageError.
+/// ".B" of an EXR file (`render --aov`) give the film. What has alpha is taken as it is over black,
+/// and alpha itself is not compared. Throws UsageError.
 Picture readPicture(const std::filesystem::path& path);
 
 /// The means of a film, with the film itself.

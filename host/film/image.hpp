@@ -14,6 +14,8 @@ namespace stromboli {
 struct ByteImage {
     uint32_t width = 0, height = 0;
     std::vector<uint8_t> rgb;
+    /// One byte per pixel, by which rgb is not multiplied; empty: all is opaque.
+    std::vector<uint8_t> alpha;
 
     ByteImage() = default;
     ByteImage(uint32_t w, uint32_t h) : width(w), height(h), rgb(size_t(w) * h * 3) {}

@@ -49,21 +49,23 @@ void checkWritable(const fs::path& path) {
     checkOutputWritable(path);
 }
 
-uint64_t largestPictureFile(const fs::path& path, uint32_t width, uint32_t height, bool statistics,
-                            const PictureNotes& notes) {
+uint64_t largestPictureFile(const fs::path& path, uint32_t width, uint32_t height,
+                            const PictureOptions& options, const PictureNotes& notes) {
     const uint64_t pixels = uint64_t(width) * height;
     uint64_t headers = 4096;              // bytes; a few hundred are used
     for (const PictureNote& note : notes) // PNG takes at most 17 bytes around each, EXR 13
         headers += note.name.size() + note.text.size() + 17;
     if (formatOf(path) == Format::Png) {
-        const uint64_t filtered = 3 * pixels + height; // a byte before each row names its filter
+        // A byte before each row names its filter.
+        const uint64_t filtered = (options.hasAlpha() ? 4 : 3) * pixels + height;
         // zlib's compressBound(); libpng frames every 8192 bytes by 12 more.
         const uint64_t compressed = filtered + (filtered >> 12) + (filtered >> 14) + 13;
         return compressed + 12 * (compressed / 8192 + 1) + headers;
     }
     // Blocks of 16 rows that ZIP does not make smaller are kept as they are; each has its place and
     // size, and an entry in the table of blocks.
-    const uint64_t channels = statistics ? 7 : 3, blocks = height / 16 + 1;
+    const uint64_t channels = (options.statistics ? 7 : 3) + options.channels.size();
+    const uint64_t blocks = height / 16 + 1;
     return channels * 4 * pixels + blocks * (8 + 8) + headers;
 }
 
@@ -71,11 +73,19 @@ PictureNotes readPictureNotes(const fs::path& path) {
     return isPng(path) ? readPngNotes(path) : readExrNotes(path);
 }
 
-ByteImage toneMap(const Film& film, const ToneCurve& tone) {
+/// The colour of the part of a pixel that is covered.
+static glm::dvec3 colorOf(const glm::dvec3& mean, double alpha) {
+    return alpha > 0 ? mean / alpha : glm::dvec3(0.0);
+}
+
+ByteImage toneMap(const Film& film, const ToneCurve& tone, std::span<const float> alpha) {
     ByteImage image(film.width, film.height);
+    for (const float a : alpha)
+        image.alpha.push_back(uint8_t(255 * a + 0.5f));
     for (uint32_t y = 0; y < film.height; ++y)
         for (uint32_t x = 0; x < film.width; ++x) {
-            const glm::dvec3& mean = film.at(x, y).mean;
+            glm::dvec3 mean = film.at(x, y).mean;
+            if (!alpha.empty()) mean = colorOf(mean, alpha[size_t(y) * film.width + x]);
             uint8_t* pixel = image.pixel(x, y);
             for (int c = 0; c < 3; ++c)
                 pixel[c] = tone.toByte(mean[c]);
@@ -115,20 +125,27 @@ FloatImage linearPicture(const Film& film, bool statistics) {
 PictureFile::PictureFile(fs::path path, const PictureArea& area, const PictureOptions& options)
     : path_(std::move(path)), options_(options), area_(area) {
     const Crop part = area.rendered();
-    if (isPng(path_))
+    if (isPng(path_)) {
         bytes_ = ByteImage(part.width, part.height);
-    else
+        if (options_.hasAlpha()) bytes_.alpha.resize(area.pixelCount());
+    } else {
         floats_ = FloatImage(area); // place() makes the channels
+    }
 }
 
-void PictureFile::place(const Film& film) {
+void PictureFile::place(const Film& film, const FloatImage& more) {
     const size_t first = size_t(film.area.rendered().y - area_.rendered().y) * film.width;
     if (isPng(path_)) {
-        const ByteImage part = toneMap(film, options_.tone);
+        std::span<const float> alpha;
+        if (options_.hasAlpha()) alpha = more.channels.at(kAlphaChannel);
+        const ByteImage part = toneMap(film, options_.tone, alpha);
         std::copy(part.rgb.begin(), part.rgb.end(), bytes_.rgb.begin() + std::ptrdiff_t(3 * first));
+        std::copy(part.alpha.begin(), part.alpha.end(),
+                  bytes_.alpha.begin() + std::ptrdiff_t(first));
         return;
     }
-    const FloatImage part = linearPicture(film, options_.statistics);
+    FloatImage part = linearPicture(film, options_.statistics);
+    part.channels.insert(more.channels.begin(), more.channels.end());
     floats_.branches = part.branches;
     for (const auto& [name, values] : part.channels)
         std::copy(values.begin(), values.end(),

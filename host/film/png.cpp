@@ -78,18 +78,43 @@ static std::vector<png_text> textsOf(const PictureNotes& notes) {
     return texts;
 }
 
-static bool encode(png_structp png, png_infop info, const ByteImage& image,
+namespace {
+
+/// The rows of a picture as PNG has them: alpha, where there is any, behind each colour.
+class Rows {
+  public:
+    explicit Rows(const ByteImage& image) : image_(image) {
+        if (!image.alpha.empty()) row_.resize(size_t(image.width) * 4);
+    }
+    png_const_bytep row(uint32_t y) {
+        if (row_.empty()) return image_.pixel(0, y);
+        for (uint32_t x = 0; x < image_.width; ++x) {
+            std::copy_n(image_.pixel(x, y), 3, &row_[size_t(x) * 4]);
+            row_[size_t(x) * 4 + 3] = image_.alpha[size_t(y) * image_.width + x];
+        }
+        return row_.data();
+    }
+
+  private:
+    const ByteImage& image_;
+    std::vector<png_byte> row_;
+};
+
+} // namespace
+
+static bool encode(png_structp png, png_infop info, const ByteImage& image, Rows& rows,
                    PngColorSpace colorSpace, std::span<const png_text> texts,
                    std::vector<png_byte>& bytes) {
     if (setjmp(png_jmpbuf(png))) return false;
     png_set_write_fn(png, &bytes, append, flush);
-    png_set_IHDR(png, info, image.width, image.height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, image.width, image.height, 8,
+                 image.alpha.empty() ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     if (colorSpace == PngColorSpace::Srgb) png_set_sRGB(png, info, PNG_sRGB_INTENT_RELATIVE);
     if (!texts.empty()) png_set_text(png, info, texts.data(), int(texts.size()));
     png_write_info(png, info);
     for (uint32_t y = 0; y < image.height; ++y)
-        png_write_row(png, image.pixel(0, y));
+        png_write_row(png, rows.row(y));
     png_write_end(png, info);
     return true;
 }
@@ -98,8 +123,7 @@ static bool decode(png_structp png, png_infop info, std::FILE* file) {
     if (setjmp(png_jmpbuf(png))) return false;
     png_init_io(png, file);
     png_read_png(png, info,
-                 PNG_TRANSFORM_EXPAND | PNG_TRANSFORM_SCALE_16 | PNG_TRANSFORM_GRAY_TO_RGB |
-                     PNG_TRANSFORM_STRIP_ALPHA,
+                 PNG_TRANSFORM_EXPAND | PNG_TRANSFORM_SCALE_16 | PNG_TRANSFORM_GRAY_TO_RGB,
                  nullptr);
     return true;
 }
@@ -108,8 +132,9 @@ void writePng(const fs::path& path, const ByteImage& image, PngColorSpace colorS
               const PictureNotes& notes) {
     const std::vector<png_text> texts = textsOf(notes);
     Writer writer;
+    Rows rows(image);
     std::vector<png_byte> bytes;
-    if (!encode(writer.png, writer.info, image, colorSpace, texts, bytes))
+    if (!encode(writer.png, writer.info, image, rows, colorSpace, texts, bytes))
         throw OutputError(fmt::format("{}: cannot encode PNG: {}", path.string(), writer.error));
     writeOutput(path, std::as_bytes(std::span(bytes)));
 }
@@ -130,9 +155,15 @@ ByteImage readPng(const fs::path& path) {
     ByteImage image(png_get_image_width(reader.png, reader.info),
                     png_get_image_height(reader.png, reader.info));
     png_bytepp rows = png_get_rows(reader.png, reader.info);
-    const size_t rowSize = size_t(image.width) * 3;
+    const bool hasAlpha = png_get_channels(reader.png, reader.info) == 4;
+    if (hasAlpha) image.alpha.resize(size_t(image.width) * image.height);
+    const size_t bytes = hasAlpha ? 4 : 3;
     for (uint32_t y = 0; y < image.height; ++y)
-        std::memcpy(image.pixel(0, y), rows[y], rowSize);
+        for (uint32_t x = 0; x < image.width; ++x) {
+            png_const_bytep pixel = rows[y] + bytes * x;
+            std::copy_n(pixel, 3, image.pixel(x, y));
+            if (hasAlpha) image.alpha[size_t(y) * image.width + x] = pixel[3];
+        }
     return image;
 }
 

@@ -11,6 +11,10 @@ namespace stromboli {
 /// passes leave samples. They still count no sample. Pixels of squares without samples stay black.
 void showNeighbours(Film& film, uint32_t coarsest);
 
+/// The place in Film::pixels of the pixel whose mean that gives one: itself where it has samples,
+/// or where none nearby has.
+size_t shownPixel(const Film& film, uint32_t x, uint32_t y, uint32_t coarsest);
+
 /// The number of pixels without samples.
 uint64_t unreachedPixels(const Film& film);
 

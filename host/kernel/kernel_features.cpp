@@ -210,7 +210,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_MIS_LOBES] = normalsOnly ? 0 : misLobes(scene, settings, f[SPEC_BSDF_KINDS]);
     f[SPEC_HAS_AMBIENT] = !normalsOnly && scene.lights.hasAmbient;
     f[SPEC_HAS_ENVIRONMENT] = !normalsOnly && !scene.lights.environment.empty();
-    f[SPEC_HAS_BACKDROP] = !normalsOnly && scene.lights.hasBackdrop;
+    f[SPEC_HAS_BACKDROP] = !normalsOnly && scene.lights.hasBackdrop && settings.showsBackdrop;
     f[SPEC_AMBIENT_BY_BOUNCES] = !normalsOnly && scene.lights.ambientLeftToBounces;
     f[SPEC_SPLITS] = settings.branches > 1;
     f[SPEC_GAP_PROPOSAL] = proposesGap(scene, settings);

@@ -34,11 +34,14 @@ void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& setti
     film_.reset();
     checkMemory(device_.description(), scene_, settings.area, estimator.branches, tuning);
     if (deviceScene_ && deviceScene_->isFetchedAsTexels() != tuning.texelFetch) {
+        seePipelines_.clear();
         kernels_.clear(); // where a picture's work list is too large for the device's texel buffers
         deviceScene_.reset();
     }
     if (!deviceScene_) deviceScene_ = std::make_unique<DeviceScene>(device_, scene_, tuning);
     area_ = settings.area;
+    camera_ = camera;
+    estimator_ = estimator;
     frame_ = makeFrame(scene_, camera, area_, estimator);
     kernel_ = &kernelFor(kernelFeatures(scene_, camera, estimator, tuning), tuning);
     film_ = std::make_unique<DeviceFilm>(device_, area_, tuning);
@@ -53,6 +56,35 @@ const PathKernel& VulkanBackend::kernelFor(const KernelFeatures& features,
     if (known != kernels_.end()) return known->second;
     return kernels_.try_emplace(features, device_, features, tuning.texelFetch, tuning_.code)
         .first->second;
+}
+
+const vulkan::ComputePipeline& VulkanBackend::seePipelineFor(Seeing what,
+                                                             const DeviceTuning& tuning) {
+    const auto constants = seeConstants(scene_, camera_, estimator_, tuning, what);
+    const auto known = seePipelines_.find(constants);
+    if (known != seePipelines_.end()) return known->second;
+    return seePipelines_.emplace(constants, makeSeePipeline(device_, constants, tuning))
+        .first->second;
+}
+
+std::vector<SeenPixel> VulkanBackend::see(uint32_t first, std::span<const uint32_t> samples,
+                                          Seeing what) {
+    std::vector<gpu::SeenPixel> pixels(samples.size());
+    for (uint32_t i = 0; i < pixels.size(); ++i) {
+        const PixelPlace place = area_.placeOf(first + i);
+        pixels[i].target = samples[i];
+        pixels[i].pixel = place.y * area_.width + place.x;
+        pixels[i].primitive = kNothingSeen;
+    }
+    const DeviceTuning tuning = tuningFor(tuning_, device_, scene_, area_);
+    SeePass(device_, *deviceScene_, seePipelineFor(what, tuning), frame_, tuning,
+            uint32_t(pixels.size()))
+        .run(pixels);
+    std::vector<SeenPixel> seen;
+    seen.reserve(pixels.size());
+    for (const gpu::SeenPixel& p : pixels)
+        seen.push_back(seenPixelOf(p, scene_));
+    return seen;
 }
 
 void VulkanBackend::sample(std::span<const PixelTarget> targets, Film& film,

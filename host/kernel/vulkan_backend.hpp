@@ -1,7 +1,9 @@
 #pragma once
 
 #include "host/kernel/dispatcher.hpp"
+#include "host/kernel/see_pass.hpp"
 #include "host/render/backend.hpp"
+#include "host/render/seeing.hpp"
 #include "host/render/settings.hpp"
 #include "scene/camera/camera.hpp"
 
@@ -12,7 +14,7 @@ namespace stromboli {
 
 /// Takes samples with the Vulkan path kernel: a scene on the device, and one picture of it after
 /// the other.
-class VulkanBackend final : public Backend {
+class VulkanBackend final : public Backend, public Viewer {
   public:
     /// The device and the scene must outlive the object. Throws DeviceError if a buffer is over a
     /// limit of the device (before any upload).
@@ -33,6 +35,9 @@ class VulkanBackend final : public Backend {
     std::vector<PixelSums> save(const Film& film) override;
     void restore(std::span<const PixelSums> sums, Film& film) override;
 
+    std::vector<SeenPixel> see(uint32_t first, std::span<const uint32_t> samples,
+                               Seeing what) override;
+
     const KernelFeatures& features() const { return kernel_->features(); }
     /// Only with KernelTuning::countSteps.
     StepCounters steps() const { return dispatcher_->steps(); }
@@ -42,12 +47,17 @@ class VulkanBackend final : public Backend {
   private:
     const PathKernel& kernelFor(const KernelFeatures& features, const DeviceTuning& tuning);
 
+    const vulkan::ComputePipeline& seePipelineFor(Seeing what, const DeviceTuning& tuning);
+
     const vulkan::Device& device_;
     const GpuScene& scene_;
     KernelTuning tuning_;
     std::unique_ptr<DeviceScene> deviceScene_;
     std::map<KernelFeatures, PathKernel> kernels_;
+    std::map<std::vector<uint32_t>, vulkan::ComputePipeline> seePipelines_; ///< by their constants
     // Of the picture:
+    Camera camera_;
+    Estimator estimator_;
     PictureArea area_;
     gpu::Frame frame_{};
     const PathKernel* kernel_ = nullptr; ///< one of kernels_

@@ -3,7 +3,7 @@
 #include "host/reference/bsdf.hpp"
 #include "host/reference/principled.hpp"
 #include "host/reference/sampling.hpp"
-#include "scene/model/surface_lookup.hpp"
+#include "host/reference/visible.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,8 @@ PathSample::PathSample(const World& world, const Estimator& settings, const Rand
 
 glm::dvec3 PathSample::radiance(const Ray& cameraRay) {
     if (!arrive(cameraRay, {})) { // ambient light is not a backdrop
-        if (settings_.minBounce == 0) radiance_ += world_.lights.backdrop(cameraRay.direction);
+        if (settings_.minBounce == 0 && settings_.showsBackdrop)
+            radiance_ += world_.lights.backdrop(cameraRay.direction);
         return radiance_;
     }
     if (settings_.minBounce == 0) addEmission();
@@ -86,8 +87,10 @@ bool PathSample::scatter(uint32_t bounce) {
     const bool counts = emissionCounts(bounce, next.isDelta() || left);
     if (bounce == settings_.maxBounces && !counts) return false;
     medium_ = mediumBeyond(next.transmitted());
-    const bool hit = next.transmitted() ? arrive(transmit(next.direction), {surface_.triangle})
-                                        : arrive(reflect(next.direction), {startOfReflected()});
+    const bool hit =
+        next.transmitted()
+            ? arrive(transmittedRay(surface_, next.direction), {surface_.triangle})
+            : arrive(reflectedRay(surface_, next.direction), {startOfReflected(surface_)});
     if (counts && hit) addEmission();
     if (counts && !hit) radiance_ += throughput_ * world_.lights.ambientRadiance(next.direction);
     return hit;
@@ -108,25 +111,8 @@ bool PathSample::arrive(const Ray& ray, Skip skip) {
     return true;
 }
 
-double PathSample::opacityAt(const Hit& hit) const {
-    const Scene& scene = world_.scene;
-    const size_t triangles = scene.triangles.size();
-    if (hit.primitive >= triangles) {
-        const Sphere& sphere = scene.spheres[hit.primitive - triangles];
-        return stromboli::opacityAt(scene, scene.materials[sphere.material], {});
-    }
-    const Material& material = scene.materials[scene.triangles[hit.primitive].material];
-    return stromboli::opacityAt(scene, material,
-                                attributesAt(scene, hit.primitive, hit.b1, hit.b2));
-}
-
 Hit PathSample::closest(const Ray& ray, Skip skip) {
-    if (!world_.hasAlpha) return world_.bvh.closest(ray, skip);
-    Hit hit;
-    do {
-        hit = world_.bvh.closestBehind(ray, hit, skip);
-    } while (hit.primitive != kNoPrimitive && passes_.next() >= opacityAt(hit));
-    return hit;
+    return closestThere(world_, ray, skip, passes_);
 }
 
 double PathSample::shareThatPasses(const Ray& ray, Skip skip) const {
@@ -136,23 +122,9 @@ double PathSample::shareThatPasses(const Ray& ray, Skip skip) const {
     while (left > 0) {
         hit = world_.bvh.closestBehind(ray, hit, skip);
         if (hit.primitive == kNoPrimitive) break;
-        left *= 1 - opacityAt(hit);
+        left *= 1 - opacityAt(world_, hit);
     }
     return left;
-}
-
-Ray PathSample::reflect(const glm::dvec3& direction) const {
-    // The side of a lifted point is known; a direction may be below the plane all the same.
-    const glm::dvec3& towards = surface_.lift > 0 ? surface_.geometric : direction;
-    return {moveOff(litPoint(surface_), surface_.error, surface_.geometric, towards), direction};
-}
-
-Ray PathSample::transmit(const glm::dvec3& direction) const {
-    return {moveOff(surface_.position, surface_.error, surface_.geometric, direction), direction};
-}
-
-uint32_t PathSample::startOfReflected() const {
-    return surface_.lift > 0 ? kNoPrimitive : surface_.triangle;
 }
 
 void PathSample::addEmission() {
@@ -202,11 +174,11 @@ bool PathSample::isOfSide(const glm::dvec3& direction) const {
 }
 
 Ray PathSample::leaveTo(const glm::dvec3& direction) const {
-    return looksBehind() ? transmit(direction) : reflect(direction);
+    return looksBehind() ? transmittedRay(surface_, direction) : reflectedRay(surface_, direction);
 }
 
 uint32_t PathSample::startOfLightSample() const {
-    return looksBehind() ? surface_.triangle : startOfReflected();
+    return looksBehind() ? surface_.triangle : startOfReflected(surface_);
 }
 
 const Material* PathSample::mediumBeyond(bool transmitted) const {

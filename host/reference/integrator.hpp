@@ -28,10 +28,6 @@ class PathSample {
     bool scatter(uint32_t bounce);
     /// Traces a path ray and, if it hits, makes that point the current surface.
     bool arrive(const Ray& ray, Skip skip);
-    /// The ray that leaves the current surface, reflected, in a unit direction.
-    Ray reflect(const glm::dvec3& direction) const;
-    /// The same for light that goes through it.
-    Ray transmit(const glm::dvec3& direction) const;
     /// Whether a light sample in this direction is for the side that is looked at; where it starts,
     /// what it cannot hit, and what it goes through.
     bool isOfSide(const glm::dvec3& direction) const;
@@ -39,11 +35,8 @@ class PathSample {
     Ray leaveTo(const glm::dvec3& direction) const;
     uint32_t startOfLightSample() const;
     const Material* mediumBeyond(bool transmitted) const;
-    /// What a reflected ray cannot hit: the plane it starts on, but not one that it starts above.
-    uint32_t startOfReflected() const;
     /// The first hit that is there: of what is partly there, decided at random.
     Hit closest(const Ray& ray, Skip skip);
-    double opacityAt(const Hit& hit) const;
     /// The share of light that comes through to the end of the ray.
     double shareThatPasses(const Ray& ray, Skip skip) const;
     void addEmission();

@@ -4,6 +4,7 @@
 #include "host/reference/integrator.hpp"
 #include "host/reference/pixel_filter.hpp"
 #include "host/reference/sampling.hpp"
+#include "host/reference/visible.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/info.h>
@@ -64,12 +65,17 @@ struct ReferenceBackend::Implementation {
           arena(std::min(threads == 0 ? INT_MAX : int(threads), tbb::info::default_concurrency())) {
     }
 
-    /// One sample; a pure function of pixel and index.
-    glm::dvec3 take(uint32_t pixel, uint32_t index, uint64_t& rayCount) const {
+    /// The numbers of a sample; a pure function of pixel and index.
+    reference::RandomStream randomOf(uint32_t pixel, uint32_t index) const {
+        const PixelPlace place = settings.area.placeOf(pixel);
+        return {place.y * settings.area.width + place.x, index, settings.estimator.seed,
+                settings.estimator.sampler};
+    }
+
+    /// Takes the sample's first numbers.
+    reference::Ray cameraRayOf(uint32_t pixel, reference::RandomStream& random) const {
         const PictureArea& area = settings.area;
         const PixelPlace place = area.placeOf(pixel);
-        reference::RandomStream random(place.y * area.width + place.x, index,
-                                       settings.estimator.seed, settings.estimator.sampler);
         const double u = random.next(), v = random.next();
         const glm::dvec2 at = reference::placeInPixel(settings.estimator.filter, u, v);
         glm::dvec2 onLens(0);
@@ -79,8 +85,14 @@ struct ReferenceBackend::Implementation {
             onLens = radius * glm::dvec2(std::cos(2 * reference::kPi * turn),
                                          std::sin(2 * reference::kPi * turn));
         }
-        const reference::Ray ray = reference::cameraRay(camera, (place.x + at.x) / area.width,
-                                                        (place.y + at.y) / area.height, onLens);
+        return reference::cameraRay(camera, (place.x + at.x) / area.width,
+                                    (place.y + at.y) / area.height, onLens);
+    }
+
+    /// One sample.
+    glm::dvec3 take(uint32_t pixel, uint32_t index, uint64_t& rayCount) const {
+        reference::RandomStream random = randomOf(pixel, index);
+        const reference::Ray ray = cameraRayOf(pixel, random);
         reference::PathSample path(world, settings.estimator, random);
         const glm::dvec3 value = settings.estimator.integrator == Integrator::Normals
                                      ? path.normalColor(ray)
@@ -142,6 +154,24 @@ SampleValue ReferenceBackend::sampleAlone(uint32_t pixel, uint32_t sample) {
     PixelStatistics statistics;
     statistics.add(radiance);
     return {radiance, statistics.rejected > 0};
+}
+
+std::vector<SeenPixel> ReferenceBackend::see(uint32_t first, std::span<const uint32_t> samples,
+                                             Seeing what) {
+    std::vector<SeenPixel> seen(samples.size());
+    const Implementation& all = *implementation_;
+    implementation_->arena.execute([&] {
+        tbb::parallel_for(tbb::blocked_range<size_t>(0, seen.size()), [&](const auto& range) {
+            for (size_t i = range.begin(); i != range.end(); ++i)
+                for (uint32_t sample = 0; sample < samples[i]; ++sample) {
+                    const auto pixel = uint32_t(first + i);
+                    reference::RandomStream random = all.randomOf(pixel, sample);
+                    const reference::Ray ray = all.cameraRayOf(pixel, random);
+                    reference::addSeen(seen[i], all.world, ray, random, what);
+                }
+        });
+    });
+    return seen;
 }
 
 RenderCounters ReferenceBackend::counters() const {

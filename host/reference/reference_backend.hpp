@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/render/backend.hpp"
+#include "host/render/seeing.hpp"
 #include "host/render/settings.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/model/scene.hpp"
@@ -13,7 +14,7 @@ namespace stromboli {
 /// docs/estimator.md, for checking the Vulkan kernel against. Random numbers depend on pixel,
 /// sample and seed only, so the film is the same to the last bit for every number of threads and
 /// every division into passes.
-class ReferenceBackend final : public Backend {
+class ReferenceBackend final : public Backend, public Viewer {
   public:
     /// The scene must outlive the backend. threads: 0 for all the machine has, which is also the
     /// most there will be. Throws std::invalid_argument for a scene with area lights that are not
@@ -29,6 +30,8 @@ class ReferenceBackend final : public Backend {
                 const PassProgress& progress) override;
     SampleValue sampleAlone(uint32_t pixel, uint32_t sample) override;
     RenderCounters counters() const override;
+    std::vector<SeenPixel> see(uint32_t first, std::span<const uint32_t> samples,
+                               Seeing what) override;
 
   private:
     struct Implementation;

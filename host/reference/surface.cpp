@@ -125,6 +125,20 @@ bool isReflected(const SurfacePoint& s, const glm::dvec3& w) {
     return s.lift > 0 || glm::dot(s.geometric, w) > 0;
 }
 
+Ray reflectedRay(const SurfacePoint& s, const glm::dvec3& direction) {
+    // The side of a lifted point is known; a direction may be below the plane all the same.
+    const glm::dvec3& towards = s.lift > 0 ? s.geometric : direction;
+    return {moveOff(litPoint(s), s.error, s.geometric, towards), direction};
+}
+
+Ray transmittedRay(const SurfacePoint& s, const glm::dvec3& direction) {
+    return {moveOff(s.position, s.error, s.geometric, direction), direction};
+}
+
+uint32_t startOfReflected(const SurfacePoint& s) {
+    return s.lift > 0 ? kNoPrimitive : s.triangle;
+}
+
 glm::dvec3 emission(const SurfacePoint& s) {
     const bool lit = s.material->emitsBothSides || s.outside;
     return lit ? glm::dvec3(s.material->emission) : glm::dvec3(0.0);

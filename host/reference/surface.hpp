@@ -76,6 +76,13 @@ glm::dvec3 litPoint(const SurfacePoint& surface);
 /// the plane of a smooth one is for rays from litPoint() to find out, which can hit that plane.
 bool isReflected(const SurfacePoint& surface, const glm::dvec3& w);
 
+/// The ray that leaves the surface, reflected, in a unit direction.
+Ray reflectedRay(const SurfacePoint& surface, const glm::dvec3& direction);
+/// The same for light that goes through it.
+Ray transmittedRay(const SurfacePoint& surface, const glm::dvec3& direction);
+/// What a reflected ray cannot hit: the plane it starts on, but not one that it starts above.
+uint32_t startOfReflected(const SurfacePoint& surface);
+
 /// Radiance the surface emits towards wo.
 glm::dvec3 emission(const SurfacePoint& surface);
 

@@ -119,6 +119,7 @@ struct Estimator {
     bool gapProposal = true; ///< bounces are sent into bright gaps too (docs/estimator.md, "Gaps")
     Roulette roulette;
     uint32_t seed = 0;
+    bool showsBackdrop = true; ///< the camera sees the environment, where the scene has one
     ShadingConventions conventions;
 
     /// Hemisphere sampling by the convention of that name: it counts the lights and samples none.

@@ -178,6 +178,7 @@ FramingConventions cs184Framing() {
 std::optional<size_t> chosenCamera(const Scene& scene, const CameraRequest& request,
                                    const FramingConventions& conventions) {
     const std::vector<FileCamera>& cameras = scene.cameras;
+    if (request.place) return request.place;
     if (request.name.empty()) {
         if (cameras.empty()) return std::nullopt;
         return conventions.lastOfSeveral ? cameras.size() - 1 : 0;

@@ -50,6 +50,7 @@ struct CameraRequest {
     CameraChoice choice = CameraChoice::Automatic;
     /// The file's camera of this name, or of this number, from 1; empty: the conventions say which.
     std::string name;
+    std::optional<size_t> place; ///< in Scene::cameras, in place of its name
     /// In place of all of these: a perspective view from this point.
     std::optional<glm::dvec3> from;
     std::optional<glm::dvec3> at; ///< with `from`: what it looks at; empty: the scene's middle

@@ -10,11 +10,8 @@ Material materialAt(SurfacePoint s) {
     return materialAt(s, mapped);
 }
 
-/// Not those of randomWords(): its words are numbered by pixel, sample, block and seed alone.
-const uint PASS_SEED = 0x9E3779B9u;
+#include "include/pass_number.glsl"
 
-/// In [0, 1), for whether the ray that has hit something passes it: of the ray's first block of random numbers and of
-/// what was hit where, so that it neither depends on what was passed before nor on how often a ray is begun.
 float passNumber() {
     uint sample_ = sampleIndex(), block = bounce * (1u + directSamples());
     if (DIRECT_LIGHT == DIRECT_HEMISPHERE && phase == PHASE_HEMISPHERE) block += directIndex;
@@ -22,9 +19,7 @@ float passNumber() {
         sample_ = sample_ * frame.branches + frame.branches - 1u - branchesLeft;
         block |= BRANCH_BLOCKS;
     }
-    const uvec4 words = pcg4d(uvec4(pixelId, sample_, block, frame.seed ^ PASS_SEED));
-    const uvec4 there = uvec4(ray.hitPrimitive, floatBitsToUint(ray.tMax), 0u, 0u);
-    return unitFloats(pcg4d(words ^ there)).x;
+    return passNumber(ray, pixelId, sample_, block);
 }
 
 /// Whether the ray that is done goes on: it has met a surface that is not there, or partly. A shadow ray goes on with
@@ -38,9 +33,7 @@ bool passesThrough() {
     } else if (passNumber() < opacity) {
         return false;
     }
-    ray.tMin = ray.tMax;
-    ray.passed = ray.hitPrimitive;
-    ray.tMax = rayEnd;
+    passOn(ray, rayEnd);
     return true;
 }
 

@@ -49,8 +49,7 @@ struct SplitPoint {
 SplitPoint splitPoint;
 uint branchesLeft; ///< that have not begun
 
-/// The block of random numbers for the camera's lens, which no bounce takes.
-const uint LENS_BLOCK = 0x40000000u;
+#include "include/camera_sample.glsl"
 
 /// Blocks of random numbers that branches take: none of those before paths split.
 const uint BRANCH_BLOCKS = 0x80000000u;
@@ -354,9 +353,7 @@ void beginSample() {
 }
 
 void startCameraRay(vec2 u) {
-    vec2 onLens = vec2(0.0);
-    if (HAS_LENS) onLens = sampleDisk(unitFloats(randomWords(LENS_BLOCK)).xy);
-    const CameraRay c = cameraRay(vec2(ivec2(pixelAt)) + placeInPixel(u), onLens);
+    const CameraRay c = cameraRayOfSample(pixelAt, pixelId, sampleIndex(), u);
     trace(PHASE_PATH, c.origin, c.direction, c.tMin, c.tMax, NO_PRIMITIVE);
 }
 

@@ -47,6 +47,13 @@ std::vector<SampleValue> samplesAlone(const Scene& scene, const Camera& camera,
     return samples;
 }
 
+std::vector<SeenPixel> seenBy(const Scene& scene, const Camera& camera,
+                              const RenderSettings& settings, const std::vector<uint32_t>& samples,
+                              Seeing what) {
+    const GpuScene gpu = packScene(scene, buildWideBvh(scene), lightSelection(settings.estimator));
+    return VulkanBackend(testDevice(), gpu, camera, settings).see(0, samples, what);
+}
+
 /// The kernel's two-float sum (shaders/include/numerics.glsl): TwoSum, then FastTwoSum.
 glm::dvec3 meanInOrder(std::span<const SampleValue> samples) {
     glm::vec3 high(0.0f), low(0.0f);

@@ -27,6 +27,12 @@ std::vector<SampleValue> samplesAlone(const Scene& scene, const Camera& camera,
     return samples;
 }
 
+std::vector<SeenPixel> seenBy(const Scene& scene, const Camera& camera,
+                              const RenderSettings& settings, const std::vector<uint32_t>& samples,
+                              Seeing what) {
+    return ReferenceBackend(scene, camera, settings).see(0, samples, what);
+}
+
 glm::dvec3 meanInOrder(std::span<const SampleValue> samples) {
     PixelStatistics statistics;
     for (const SampleValue& s : samples)

@@ -2,6 +2,7 @@
 
 #include "host/film/film.hpp"
 #include "host/render/backend.hpp"
+#include "host/render/seeing.hpp"
 #include "host/render/settings.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/generate/scene_maker.hpp"
@@ -39,6 +40,10 @@ Film renderFilm(const Scene& scene, const Camera& camera, const RenderSettings& 
 std::vector<SampleValue> samplesAlone(const Scene& scene, const Camera& camera,
                                       const RenderSettings& settings, uint32_t pixel,
                                       uint32_t count);
+/// What its camera rays see: samples[i] of pixel i.
+std::vector<SeenPixel> seenBy(const Scene& scene, const Camera& camera,
+                              const RenderSettings& settings, const std::vector<uint32_t>& samples,
+                              Seeing what);
 /// What the renderer's statistics make of samples, accepted ones, in this order.
 glm::dvec3 meanInOrder(std::span<const SampleValue> samples);
 /// Relative error that the renderer's arithmetic may put on a mean.

@@ -29,7 +29,8 @@ TEST(LargestPictureFile, IsKeptByNoiseAndNearIt) {
                 writePicture(folder / name, noise(width, height),
                              {.tone = {}, .statistics = statistics});
                 const uint64_t bytes = std::filesystem::file_size(folder / name);
-                const uint64_t most = largestPictureFile(folder / name, width, height, statistics);
+                const uint64_t most =
+                    largestPictureFile(folder / name, width, height, {{}, statistics});
                 EXPECT_LE(bytes, most) << name << " " << width << " x " << height;
                 // Sample counts and high bits compress: a bound of twice the file is no mistake.
                 EXPECT_LE(most, 2 * bytes + 4096 + 32 * height) << name << " " << width;

@@ -75,8 +75,8 @@ TEST(PictureNotes, CountAsPartOfTheLargestFile) {
     for (const char* name : {"a.png", "a.exr"}) {
         writeWith(folder / name, kNotes);
         EXPECT_LE(std::filesystem::file_size(folder / name),
-                  largestPictureFile(folder / name, 3, 2, false, kNotes));
-        EXPECT_LT(largestPictureFile(folder / name, 3, 2, false), 100'000u);
+                  largestPictureFile(folder / name, 3, 2, {}, kNotes));
+        EXPECT_LT(largestPictureFile(folder / name, 3, 2, {}), 100'000u);
     }
 }
 

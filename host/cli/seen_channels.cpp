@@ -1,0 +1,70 @@
+#include "host/cli/seen_channels.hpp"
+
+#include "host/film/image_file.hpp"
+#include "host/film/unreached.hpp"
+#include "host/render/noise_plan.hpp"
+
+#include <algorithm>
+#include <functional>
+
+namespace stromboli {
+namespace {
+
+/// Calls `take` with the first pixel of each run and what is seen in it.
+void lookAtAll(Viewer& viewer, const Film& film, Seeing what,
+               const std::function<uint32_t(const PixelStatistics&)>& samplesOf,
+               const std::function<void(size_t, std::span<const SeenPixel>)>& take) {
+    const size_t all = film.pixels.size();
+    for (size_t first = 0; first < all; first += Viewer::kMostSeenAtOnce) {
+        const size_t count = std::min<size_t>(Viewer::kMostSeenAtOnce, all - first);
+        std::vector<uint32_t> samples(count);
+        for (size_t i = 0; i < count; ++i)
+            samples[i] = samplesOf(film.pixels[first + i]);
+        take(first, viewer.see(uint32_t(first), samples, what));
+    }
+}
+
+/// Of the very samples that the radiance is the mean of.
+void addAlpha(FloatImage& image, Viewer& viewer, const Film& film) {
+    std::vector<float>& alpha = image.channel(kAlphaChannel);
+    lookAtAll(viewer, film, Seeing::Coverage, &PixelStatistics::taken,
+              [&](size_t first, std::span<const SeenPixel> seen) {
+                  for (size_t i = 0; i < seen.size(); ++i)
+                      alpha[first + i] = float(seen[i].coverage());
+              });
+    for (uint32_t y = 0; y < film.height; ++y)
+        for (uint32_t x = 0; x < film.width; ++x)
+            alpha[size_t(y) * film.width + x] = alpha[shownPixel(film, x, y, NoisePlan::kCoarsest)];
+}
+
+} // namespace
+
+std::vector<std::string> seenChannelNames(const Options& options) {
+    std::vector<std::string> names;
+    if (options.transparent) names.emplace_back(kAlphaChannel);
+    for (const Layer layer : options.layers)
+        for (std::string& name : channelsOf(layer))
+            names.push_back(std::move(name));
+    return names;
+}
+
+FloatImage seenChannels(Viewer* viewer, const Film& film, const Job& job, const Options& options) {
+    FloatImage image(film.area);
+    for (const std::string& name : seenChannelNames(options))
+        image.channel(name);
+    if (!viewer) {
+        if (options.transparent) std::ranges::fill(image.channel(kAlphaChannel), 1.0f);
+        return image;
+    }
+    if (options.transparent) addAlpha(image, *viewer, film);
+    if (options.layers.empty()) return image;
+    const uint32_t samples = std::min(kLayerSamples, options.budget.pathsPerPixel());
+    lookAtAll(
+        *viewer, film, Seeing::Surfaces, [&](const PixelStatistics&) { return samples; },
+        [&](size_t first, std::span<const SeenPixel> seen) {
+            addLayers(image, options.layers, first, seen, job.scene, job.camera);
+        });
+    return image;
+}
+
+} // namespace stromboli

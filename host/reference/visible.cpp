@@ -1,0 +1,110 @@
+#include "host/reference/visible.hpp"
+
+#include "host/reference/bsdf.hpp"
+#include "scene/model/surface_lookup.hpp"
+#include "shaders/shared/layer_types.h"
+
+#include <algorithm>
+
+namespace stromboli::reference {
+namespace {
+
+/// Whether what is seen there is another surface.
+bool isSeenThrough(const Material& m) {
+    if (m.kind == MaterialKind::Principled)
+        return m.principled.roughness == 0 &&
+               (m.principled.metallic == 1 || m.principled.transmission == 1);
+    return m.isDelta();
+}
+
+/// The colour that a mirror or glass gives to what is seen there: without what refraction does to
+/// radiance.
+glm::dvec3 tintOf(const Material& m, const BsdfSample& next) {
+    const bool isBlack = next.weight == glm::dvec3(0.0);
+    return next.lobe == gpu::LOBE_DELTA_TRANSMISSION && !isBlack ? glm::dvec3(m.transmittance)
+                                                                 : next.weight;
+}
+
+/// The colour of a surface in white light, apart from what its gloss adds.
+glm::dvec3 albedoOf(const Material& m) {
+    if (m.kind == MaterialKind::Principled) return m.principled.baseColor;
+    if (m.kind != MaterialKind::Microfacet) return m.albedo;
+    const glm::dvec3 eta(m.eta), k(m.k), less = eta - 1.0, more = eta + 1.0;
+    return (less * less + k * k) / (more * more + k * k); // at normal incidence
+}
+
+/// The surface as it is shaded.
+SurfacePoint shadedSurface(const World& world, const Ray& ray, const Hit& hit) {
+    SurfacePoint s = surfaceAt(world.scene, ray, hit);
+    if (world.hasDetails) applyTextures(s, world.scene);
+    faceForward(s, world.conventions);
+    if (world.hasDetails) applyNormalMap(s, world.scene, world.conventions);
+    return s;
+}
+
+void noteFirst(SeenPixel& pixel, const SurfacePoint& s, const Hit& hit) {
+    pixel.position += s.position;
+    if (pixel.hits > 1) return;
+    pixel.primitive = hit.primitive;
+    pixel.b1 = hit.b1;
+    pixel.b2 = hit.b2;
+}
+
+} // namespace
+
+double opacityAt(const World& world, const Hit& hit) {
+    const Scene& scene = world.scene;
+    const size_t triangles = scene.triangles.size();
+    if (hit.primitive >= triangles) {
+        const Sphere& sphere = scene.spheres[hit.primitive - triangles];
+        return stromboli::opacityAt(scene, scene.materials[sphere.material], {});
+    }
+    const Material& material = scene.materials[scene.triangles[hit.primitive].material];
+    return stromboli::opacityAt(scene, material,
+                                attributesAt(scene, hit.primitive, hit.b1, hit.b2));
+}
+
+Hit closestThere(const World& world, const Ray& ray, Skip skip, RandomStream& passes) {
+    if (!world.hasAlpha) return world.bvh.closest(ray, skip);
+    Hit hit;
+    do {
+        hit = world.bvh.closestBehind(ray, hit, skip);
+    } while (hit.primitive != kNoPrimitive && passes.next() >= opacityAt(world, hit));
+    return hit;
+}
+
+void addSeen(SeenPixel& pixel, const World& world, const Ray& cameraRay, RandomStream random,
+             Seeing what) {
+    RandomStream passes = random.apart();
+    ++pixel.samples;
+    Ray ray = cameraRay;
+    Hit hit = closestThere(world, ray, {}, passes);
+    if (hit.primitive == kNoPrimitive) return;
+    ++pixel.hits;
+    if (what == Seeing::Coverage) return;
+
+    SurfacePoint s = shadedSurface(world, ray, hit);
+    noteFirst(pixel, s, hit);
+    glm::dvec3 albedo(1.0), normal = s.shading;
+    for (uint32_t mirrors = 0;; ++mirrors) {
+        if (!isSeenThrough(*s.material)) {
+            albedo *= albedoOf(*s.material);
+            normal = s.shading;
+            break;
+        }
+        if (mirrors == gpu::MOST_SEEN_THROUGH) break;
+        const BsdfSample next = sampleBsdf(s, random.threeNumbers(), world.conventions);
+        albedo *= tintOf(*s.material, next);
+        if (!(std::max({albedo.x, albedo.y, albedo.z}) > 0)) break;
+        ray = next.transmitted() ? transmittedRay(s, next.direction)
+                                 : reflectedRay(s, next.direction);
+        hit = closestThere(world, ray, {next.transmitted() ? s.triangle : startOfReflected(s)},
+                           passes);
+        if (hit.primitive == kNoPrimitive) break;
+        s = shadedSurface(world, ray, hit);
+    }
+    pixel.albedo += glm::clamp(albedo, 0.0, 1.0);
+    pixel.normal += normal;
+}
+
+} // namespace stromboli::reference

@@ -1,0 +1,12 @@
+// The camera ray of a sample.
+
+/// The block of random numbers for the camera's lens, which no bounce takes.
+const uint LENS_BLOCK = 0x40000000u;
+
+/// at: column and row of the pixel; pixel_: its number in the whole picture; u: for the place in and about it.
+CameraRay cameraRayOfSample(uvec2 at, uint pixel_, uint sample_, vec2 u) {
+    vec2 onLens = vec2(0.0);
+    if (HAS_LENS)
+        onLens = sampleDisk(unitFloats(randomWords(pixel_, sample_, LENS_BLOCK, frame.seed)).xy);
+    return cameraRay(vec2(ivec2(at)) + placeInPixel(u), onLens);
+}
