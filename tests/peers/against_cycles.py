@@ -14,6 +14,7 @@ Stromboli takes to the relMSE that Cycles has at 64 samples.
 import argparse
 import json
 import math
+import os
 import pathlib
 import re
 import shutil
@@ -29,7 +30,10 @@ BOUNCES = 8
 
 
 def run(*command):
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, check=False)
+    # Blender takes the modules of the Python that it finds first: the system's, which has numpy.
+    environment = os.environ | {"PATH": "/usr/bin:" + os.environ["PATH"]}
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, check=False,
+                          env=environment)
     if done.returncode:
         raise SystemExit(f"{command[0]} failed:\n{done.stderr}{done.stdout[-2000:]}")
     return done.stdout + done.stderr
@@ -158,7 +162,7 @@ def main():
             for matte in (False, True):
                 used = matte_copy(model.resolve(), folder) if matte else model.resolve()
                 result = Comparison(arguments, used, folder).means(matte)
-                cells.append(", ".join(f"{100 * b:+.2f} %" for b in result["bias"]))
+                cells.append(", ".join(f"{100 * b:+.2f} %" for b in result["relativeBias"]))
                 if arguments.keep:
                     arguments.keep.mkdir(parents=True, exist_ok=True)
                     for which in ("ours", "theirs"):
