@@ -35,14 +35,42 @@ def import_model(settings):
     addon_utils.enable("io_scene_gltf2")
     addon_utils.enable("cycles")
     bpy.ops.import_scene.gltf(filepath=settings["model"])
-    for material in bpy.data.materials if settings["matte"] else []:
-        for node in material.node_tree.nodes if material.use_nodes else []:
-            if node.type != "BSDF_PRINCIPLED":
-                continue
-            for name in ("Metallic", "Specular", "Transmission", "Clearcoat", "Sheen"):
-                for link in list(node.inputs[name].links):
-                    material.node_tree.links.remove(link)
-                node.inputs[name].default_value = 0
+    for material in bpy.data.materials:
+        if not material.use_nodes:
+            continue
+        if settings["matte"]:
+            make_matte(material.node_tree)
+        for node in material.node_tree.nodes:
+            if node.type == "BSDF_PRINCIPLED":
+                node.distribution = "MULTI_GGX"  # keeps the energy of rough facets
+
+
+def make_matte(tree):
+    """Diffuse nodes in the place of principled ones, whose diffuse part is not Lambert's."""
+    for node in [n for n in tree.nodes if n.type == "BSDF_PRINCIPLED"]:
+        def hand_over(name, to):
+            source = node.inputs[name]
+            if source.is_linked:
+                tree.links.new(source.links[0].from_socket, to)
+            else:
+                to.default_value = source.default_value
+        diffuse = tree.nodes.new("ShaderNodeBsdfDiffuse")
+        hand_over("Base Color", diffuse.inputs["Color"])
+        if node.inputs["Normal"].is_linked:
+            hand_over("Normal", diffuse.inputs["Normal"])
+        emission = tree.nodes.new("ShaderNodeEmission")
+        hand_over("Emission", emission.inputs["Color"])
+        hand_over("Emission Strength", emission.inputs["Strength"])
+        both = tree.nodes.new("ShaderNodeAddShader")
+        tree.links.new(diffuse.outputs["BSDF"], both.inputs[0])
+        tree.links.new(emission.outputs["Emission"], both.inputs[1])
+        mix = tree.nodes.new("ShaderNodeMixShader")
+        hand_over("Alpha", mix.inputs["Fac"])
+        tree.links.new(tree.nodes.new("ShaderNodeBsdfTransparent").outputs["BSDF"], mix.inputs[1])
+        tree.links.new(both.outputs["Shader"], mix.inputs[2])
+        for link in list(node.outputs["BSDF"].links):
+            tree.links.new(mix.outputs["Shader"], link.to_socket)
+        tree.nodes.remove(node)
 
 
 def place_camera(scene, settings):
