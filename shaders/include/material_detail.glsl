@@ -134,9 +134,15 @@ void scale(inout uint word, float factor) {
 }
 
 /// Whether a material's first row of parameters is a colour that base colours multiply.
-bool hasBaseColor(Material m) { return isBsdf(m, BSDF_DIFFUSE) || isBsdf(m, BSDF_PRINCIPLED); }
+bool hasBaseColor(Material m) {
+#ifdef FACET_MATERIALS
+    if (isFacetMaterial(m)) return true;
+#endif
+    return isBsdf(m, BSDF_DIFFUSE) || isBsdf(m, BSDF_PRINCIPLED);
+}
 
-/// A texel's part in the parameters (PrincipledParameters; a diffuse material has the first row only). mapped: a
+/// A texel's part in the parameters (PrincipledParameters; a diffuse material has the first row only, and those of
+/// other kinds are arranged to suit). mapped: a
 /// normal map's vector in the frame of the surface's tangent.
 void applyTexel(inout Material m, inout vec3 mapped, TextureUse t, vec4 texel) {
     const uint slot = t.slot & TEXTURE_SLOT_MASK;
@@ -144,7 +150,11 @@ void applyTexel(inout Material m, inout vec3 mapped, TextureUse t, vec4 texel) {
     if (isSlot(slot, TEXTURE_EMISSION)) scale(m.header, texel.rgb);
     if (isSlot(slot, TEXTURE_NORMAL))
         mapped = vec3((2.0 * texel.xy - 1.0) * t.scale, 2.0 * texel.z - 1.0);
+#ifdef FACET_MATERIALS
+    if (!sceneHasBsdf(BSDF_PRINCIPLED) && !sceneHasFacetMaterials()) return;
+#else
     if (!sceneHasBsdf(BSDF_PRINCIPLED)) return;
+#endif
     if (isSlot(slot, TEXTURE_METALLIC_ROUGHNESS)) {
         scale(m.row1.w, texel.b);
         scale(m.row2.w, texel.g);

@@ -68,7 +68,8 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_ALPHA 35 // surfaces may be partly not there
 #define SPEC_TANGENT_FRAMES 36 // the frame of a BSDF follows the surface's tangent
 #define SPEC_PRINCIPLED_FEATURES 37 // PRINCIPLED_HAS_ bits: what the principled materials have
-#define SPEC_COUNT 38
+#define SPEC_FACET_DISTRIBUTIONS 38 // FACETS_ bits: of microfacets of conductors, dielectrics, plastic
+#define SPEC_COUNT 39
 
 SHARED_CONST uint TEXEL_KIND_NEAREST = 1u;
 SHARED_CONST uint TEXEL_KIND_BILINEAR = 2u;
