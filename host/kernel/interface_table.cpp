@@ -44,23 +44,26 @@ struct Microfacets {
     }
 };
 
+/// How many rings of normals are summed: integrals over views need fewer.
+constexpr int kCoarse = 64, kFine = 192;
+
 /// Of light seen at a cosine: what is reflected and transmitted after one scattering.
 struct Scattered {
     double reflected = 0, transmitted = 0;
 };
 
-Scattered scatteredBy(const Microfacets& facets, double eta, double cosine) {
-    constexpr int kRings = 64, kSectors = 48;
+Scattered scatteredBy(const Microfacets& facets, double eta, double cosine, int rings) {
+    constexpr int kSectors = 48;
     const double sine = std::sqrt(std::max(1 - cosine * cosine, 0.0)), area = facets.area(cosine);
     const auto lit = [&](double cosI) {
         const double c = std::abs(cosI);
         return c * area / (c * area + cosine * (facets.area(c) - c));
     };
     Scattered sum;
-    for (int i = 0; i < kRings; ++i) {
+    for (int i = 0; i < rings; ++i) {
         // A substitution that makes the tails of GGX smooth: visible normals have 1 / cos more of
         // them.
-        const double left = 1 - (i + 0.5) / kRings, ring = 2 * left / kRings;
+        const double left = 1 - (i + 0.5) / rings, ring = 2 * left / rings;
         const double z = 1 / std::sqrt(1 + facets.tangent2(1 - left * left));
         const double across = std::sqrt(1 - z * z);
         for (int j = 0; j < kSectors; ++j) { // half of them: the other half is their mirror image
@@ -114,7 +117,7 @@ double internalReflectance(double ior, double alpha, FacetDistribution distribut
         const double s = (i + 0.5) / kViews;
         for (const double end : {0.0, 1.0}) {
             const double mu = critical + (end - critical) * s * s;
-            sum += 2 * mu * scatteredBy({alpha, distribution}, ior, mu).reflected * 2 * s *
+            sum += 2 * mu * scatteredBy({alpha, distribution}, ior, mu, kCoarse).reflected * 2 * s *
                    std::abs(end - critical) / kViews;
         }
     }
@@ -128,7 +131,7 @@ transmittanceTable(double ior, double alpha, FacetDistribution distribution) {
     for (size_t i = 0; i < at.size(); ++i) {
         // Of a view along the surface the limit.
         const double mu = std::max(square(double(i) / (3 * kPieces)), 1e-9);
-        at[i] = scatteredBy({alpha, distribution}, 1 / ior, mu).transmitted;
+        at[i] = scatteredBy({alpha, distribution}, 1 / ior, mu, kFine).transmitted;
     }
     std::array<glm::vec4, kPieces> pieces;
     for (size_t i = 0; i < kPieces; ++i)

@@ -14,7 +14,7 @@ namespace stromboli {
 /// The share of diffuse light from below that a smooth interface sends back. A closed form.
 double internalReflectance(double ior);
 
-/// The same of an interface of microfacets; by quadrature, right to 3e-4.
+/// The same of an interface of microfacets; by quadrature, right to 5e-4.
 double internalReflectance(double ior, double alpha, FacetDistribution distribution);
 
 /// The share of light from above that an interface of microfacets lets through, as the kernel looks

@@ -26,7 +26,7 @@ class PlasticInterface {
     double internal() const { return internal_; }
 
   private:
-    static constexpr int kKnots = 128;
+    static constexpr int kKnots = 256;
     double eta_; ///< index above over index below
     bool smooth_;
     double internal_ = 0;
@@ -38,16 +38,16 @@ struct ScatteredOnce {
 };
 
 /// By an integral over the tangent of the facets' normals, t = alpha tan(a), a in [0, pi / 2).
-ScatteredOnce scatteredBy(const FacetModel& facets, double eta, double cosine) {
-    constexpr int kRings = 64, kSectors = 48;
+ScatteredOnce scatteredBy(const FacetModel& facets, double eta, double cosine, int rings) {
+    constexpr int kSectors = 48;
     const double alpha = facets.alphaX;
     const glm::dvec3 wo(std::sqrt(std::max(1 - cosine * cosine, 0.0)), 0, cosine);
     ScatteredOnce sum;
-    for (int i = 0; i < kRings; ++i) {
-        const double a = kPi / 2 * (i + 0.5) / kRings, t = alpha * std::tan(a);
+    for (int i = 0; i < rings; ++i) {
+        const double a = kPi / 2 * (i + 0.5) / rings, t = alpha * std::tan(a);
         const double z = 1 / std::sqrt(1 + t * t);
         // sin dtheta = t z^3 dt, dt = alpha / cos^2 a da
-        const double ring = t * z * z * z * alpha / std::pow(std::cos(a), 2) * (kPi / 2 / kRings);
+        const double ring = t * z * z * z * alpha / std::pow(std::cos(a), 2) * (kPi / 2 / rings);
         for (int j = 0; j < kSectors; ++j) {
             const double phi = kPi * (j + 0.5) / kSectors; // the other half is the same
             const glm::dvec3 h(t * z * std::cos(phi), t * z * std::sin(phi), z);
@@ -76,14 +76,14 @@ PlasticInterface::PlasticInterface(const Material& m)
     const int views = smooth_ ? 200000 : 300;
     for (int i = 0; i < views; ++i) {
         const double mu = (i + 0.5) / views;
-        const double back =
-            smooth_ ? dielectric(mu, m.ior).reflectance : scatteredBy(facets, m.ior, mu).reflected;
+        const double back = smooth_ ? dielectric(mu, m.ior).reflectance
+                                    : scatteredBy(facets, m.ior, mu, 64).reflected;
         internal_ += 2 * mu * back / views;
     }
     if (smooth_) return;
     for (int i = 0; i <= kKnots; ++i) {
         const double root = std::max(double(i) / kKnots, 1e-5);
-        table_.push_back(scatteredBy(facets, eta_, root * root).transmitted);
+        table_.push_back(scatteredBy(facets, eta_, root * root, 256).transmitted);
     }
 }
 

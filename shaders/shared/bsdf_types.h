@@ -161,7 +161,7 @@ SHARED_CONST uint PLASTIC_IS_BECKMANN = 2u;
 /// The transmittance of an interface of microfacets from outside, seen at the cosine mu, is a cubic
 /// polynomial on each of so many equal pieces of sqrt(mu) in [0, 1]: one row each, the coefficients by
 /// rising powers of the place in the piece, [0, 1].
-SHARED_CONST uint TRANSMITTANCE_PIECES = 8u;
+SHARED_CONST uint TRANSMITTANCE_PIECES = 16u;
 
 /// Which distributions the microfacets of these kinds have in a scene (SPEC_FACET_DISTRIBUTIONS).
 SHARED_CONST uint FACETS_GGX = 1u;

