@@ -71,19 +71,19 @@ TEST(InterfaceTable, InternalReflectanceIsTheMeanOfFresnels) {
     }
 }
 
-/// Facets that are nearly a plane let through what a plane does; along it, their slopes of 1e-4 let
-/// through 6e-4.
+/// Facets that are nearly a plane let through what a plane does, but along it, where their slopes
+/// matter.
 TEST(InterfaceTable, HasTheLimitOfAPlane) {
     for (const FacetDistribution d : {FacetDistribution::Ggx, FacetDistribution::Beckmann}) {
         EXPECT_NEAR(internalReflectance(1.5, 1e-4, d), internalReflectance(1.5), 5e-4);
         const auto table = transmittanceTable(1.5, 1e-4, d);
-        for (int i = 0; i <= 1000; ++i) {
+        for (int i = 32; i <= 1000; ++i) { // views of cosines above 10 alpha
             const double place = i / 1000.0 * table.size();
             const size_t piece = std::min(size_t(place), table.size() - 1);
             const double x = place - double(piece), root = i / 1000.0;
             const glm::dvec4 c(table[piece]);
             EXPECT_NEAR(c.x + x * (c.y + x * (c.z + x * c.w)), 1 - fresnel(root * root, 1 / 1.5),
-                        1.2e-3)
+                        5e-4)
                 << root;
         }
     }
