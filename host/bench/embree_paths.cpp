@@ -80,6 +80,8 @@ std::string embreePathsLack(const Scene& scene, const RenderSettings& settings) 
         return "microfacet materials";
     if (anyHas([](const Material& m) { return m.kind == MaterialKind::Principled; }))
         return "principled materials";
+    if (anyHas([](const Material& m) { return m.kind >= MaterialKind::Conductor; }))
+        return "conductors, rough and thin dielectrics, and plastic";
     if (anyHas([](const Material& m) { return m.alphaMode != AlphaMode::Opaque; }))
         return "surfaces that are partly not there";
     return {};

@@ -15,23 +15,29 @@ bool isBlack(const glm::vec3& color) {
 /// Whether a texture in this slot can change what the material is.
 bool hasEffect(const Material& m, TextureSlot slot) {
     const bool isPrincipled = m.kind == MaterialKind::Principled;
+    const bool hasFacets =
+        (m.kind == MaterialKind::Conductor || m.kind == MaterialKind::Dielectric) && !m.isSmooth();
+    const bool hasReflectance = m.kind == MaterialKind::ThinDielectric ||
+                                m.kind == MaterialKind::Plastic ||
+                                (m.kind == MaterialKind::Dielectric && hasFacets);
     const PrincipledParameters& p = m.principled;
     switch (slot) {
     case TextureSlot::BaseColor:
-        return m.alphaMode != AlphaMode::Opaque || (isPrincipled && !isBlack(p.baseColor)) ||
-               (m.kind == MaterialKind::Diffuse && !isBlack(m.albedo));
+        return m.alphaMode != AlphaMode::Opaque ||
+               (m.baseColor() != nullptr && !isBlack(*m.baseColor()));
     case TextureSlot::Emission:
         return m.emits();
     case TextureSlot::Normal:
         return m.kind != MaterialKind::Diffuse || !isBlack(m.albedo);
     case TextureSlot::MetallicRoughness:
-        return isPrincipled && (p.metallic > 0 || p.roughness > 0);
+        return hasFacets || (isPrincipled && (p.metallic > 0 || p.roughness > 0));
     case TextureSlot::Transmission:
         return isPrincipled && p.transmission > 0;
     case TextureSlot::Specular:
         return isPrincipled && p.specular > 0;
     case TextureSlot::SpecularColor:
-        return isPrincipled && p.specular > 0 && !isBlack(p.specularColor);
+        return (hasReflectance && !isBlack(m.reflectance)) ||
+               (isPrincipled && p.specular > 0 && !isBlack(p.specularColor));
     case TextureSlot::Clearcoat:
         return isPrincipled && p.clearcoat > 0;
     case TextureSlot::ClearcoatRoughness:
@@ -92,10 +98,9 @@ class Planner {
             plan_.looseSlots |= 1u << uint32_t(use.slot);
         }
         plan_.mostTextures = std::max(plan_.mostTextures, uint32_t(material.textures.size()));
-        const bool hasColor = m.kind == MaterialKind::Diffuse || m.kind == MaterialKind::Principled;
-        if (hasColors_ && (hasColor || material.isTransparent))
+        if (hasColors_ && (m.baseColor() != nullptr || material.isTransparent))
             plan_.attributes |= gpu::ATTRIBUTE_COLOR;
-        if (m.kind == MaterialKind::Principled && m.principled.anisotropy > 0) {
+        if (m.hasGrain()) {
             plan_.attributes |= gpu::ATTRIBUTE_TANGENT;
             plan_.hasTangentFrames = true;
         }

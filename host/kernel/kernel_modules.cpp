@@ -1,5 +1,7 @@
 #include "host/kernel/kernel_modules.hpp"
 
+#include "embedded/pathtrace_facets_storage.h"
+#include "embedded/pathtrace_facets_texel.h"
 #include "embedded/pathtrace_one_light_storage.h"
 #include "embedded/pathtrace_one_light_texel.h"
 #include "embedded/pathtrace_rich_storage.h"
@@ -28,17 +30,24 @@ bool hasOneLight(const KernelFeatures& f) {
     return f[SPEC_LIGHT_CHOICE] == gpu::LIGHT_CHOICE_ONE;
 }
 
+/// What modules without FACET_MATERIALS lack.
+bool hasFacetMaterials(const KernelFeatures& f) {
+    return f[SPEC_BSDF_KINDS] >> gpu::BSDF_CONDUCTOR != 0 || f[SPEC_FACET_DISTRIBUTIONS] != 0;
+}
+
 } // namespace
 
 bool needsRichModule(const KernelFeatures& f) {
-    return f[SPEC_HAS_ENVIRONMENT] != 0 || f[SPEC_HAS_BACKDROP] != 0 || f[SPEC_HAS_LENS] != 0 ||
-           f[SPEC_PIXEL_FILTER] != gpu::FILTER_BOX ||
+    return hasFacetMaterials(f) || f[SPEC_HAS_ENVIRONMENT] != 0 || f[SPEC_HAS_BACKDROP] != 0 ||
+           f[SPEC_HAS_LENS] != 0 || f[SPEC_PIXEL_FILTER] != gpu::FILTER_BOX ||
            (f[SPEC_BSDF_KINDS] & 1u << gpu::BSDF_PRINCIPLED) != 0 || f[SPEC_TEXTURE_SLOTS] != 0 ||
            f[SPEC_TEXEL_KINDS] != 0 || f[SPEC_ATTRIBUTES] != 0 || f[SPEC_ALPHA] != 0 ||
            f[SPEC_TANGENT_FRAMES] != 0 || f[SPEC_PRINCIPLED_FEATURES] != 0;
 }
 
 std::span<const uint32_t> kernelModule(const KernelFeatures& features, bool texelFetch) {
+    if (hasFacetMaterials(features))
+        return texelFetch ? Code(pathtrace_facets_texel) : pathtrace_facets_storage;
     if (needsRichModule(features) && hasUsualModes(features))
         return texelFetch ? Code(pathtrace_rich_usual_texel) : pathtrace_rich_usual_storage;
     if (needsRichModule(features))

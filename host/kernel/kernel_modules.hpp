@@ -13,7 +13,7 @@ namespace stromboli {
 std::span<const uint32_t> kernelModule(const KernelFeatures& features, bool texelFetch);
 
 /// Whether a kernel needs what RICH_MATERIALS adds: textures, attributes of corners, surfaces that
-/// are partly not there, the principled BSDF.
+/// are partly not there, the principled BSDF and those of facets.
 bool needsRichModule(const KernelFeatures& features);
 
 } // namespace stromboli

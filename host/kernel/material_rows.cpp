@@ -1,5 +1,6 @@
 #include "host/kernel/material_rows.hpp"
 
+#include "host/kernel/interface_table.hpp"
 #include "shaders/shared/texture_types.h"
 
 #include <algorithm>
@@ -65,6 +66,36 @@ gpu::PrincipledParameters principledRows(const Material& m) {
     return g;
 }
 
+static_assert(kLeastAlpha == gpu::LEAST_GGX_ALPHA);
+static_assert(kLeastRefractionAlpha == gpu::LEAST_REFRACTION_ALPHA);
+
+uint32_t isBeckmann(const Material& m) {
+    return m.facets.distribution == FacetDistribution::Beckmann;
+}
+
+gpu::ConductorParameters conductorRows(const Material& m) {
+    const glm::vec2 alpha = m.facetAlpha();
+    return {m.reflectance, alpha.y, m.eta, alpha.x, m.k, isBeckmann(m)};
+}
+
+gpu::FacetDielectricParameters facetDielectricRows(const Material& m) {
+    Material least = m;
+    least.facets.alpha = glm::vec2(0);
+    const glm::vec2 alpha = m.facetAlpha();
+    return {m.transmittance, alpha.y, m.reflectance, alpha.x, m.ior, least.facetAlpha().x,
+            isBeckmann(m),   0};
+}
+
+/// Without the place of the table.
+gpu::PlasticParameters plasticRows(const Material& m) {
+    const float alpha = m.facetAlpha().x;
+    const double inside = m.isSmooth() ? internalReflectance(m.ior)
+                                       : internalReflectance(m.ior, alpha, m.facets.distribution);
+    const uint32_t flags = (m.isNonlinear ? gpu::PLASTIC_IS_NONLINEAR : 0) |
+                           (isBeckmann(m) != 0 ? gpu::PLASTIC_IS_BECKMANN : 0);
+    return {m.albedo, float(inside), m.reflectance, m.ior, alpha, flags, 0, 0};
+}
+
 void appendParameters(std::vector<Row>& rows, const Material& m) {
     switch (m.kind) {
     case MaterialKind::Diffuse:
@@ -79,13 +110,48 @@ void appendParameters(std::vector<Row>& rows, const Material& m) {
         return appendRows(rows, gpu::RoughConductorParameters{m.eta, m.alpha, m.k, 0});
     case MaterialKind::Principled:
         return appendRows(rows, principledRows(m));
+    case MaterialKind::Conductor:
+        return appendRows(rows, conductorRows(m));
+    case MaterialKind::Dielectric:
+        if (m.isSmooth())
+            return appendRows(rows, gpu::GlassParameters{m.reflectance, m.ior, m.transmittance, 0});
+        return appendRows(rows, facetDielectricRows(m));
+    case MaterialKind::ThinDielectric:
+        return appendRows(rows,
+                          gpu::ThinDielectricParameters{m.transmittance, m.ior, m.reflectance, 0});
+    case MaterialKind::Plastic:
+        return appendRows(rows, plasticRows(m));
+    }
+}
+
+/// Puts the tables of the interfaces of plastic behind all materials.
+void appendTables(MaterialRows& packed, std::span<const Material> materials) {
+    for (size_t i = 0; i < materials.size(); ++i) {
+        const Material& m = materials[i];
+        if (bsdfKind(m) != gpu::BSDF_FACET_PLASTIC) continue;
+        constexpr size_t kRowOfTable = 3, kPlace = 2; // PlasticParameters::table
+        static_assert(offsetof(gpu::PlasticParameters, table) ==
+                      16 * (kRowOfTable - 1) + 4 * kPlace);
+        packed.rows[packed.firstRow[i] + kRowOfTable][kPlace] = uint32_t(packed.rows.size());
+        for (const glm::vec4& piece :
+             transmittanceTable(m.ior, m.facetAlpha().x, m.facets.distribution))
+            appendRows(packed.rows, piece);
     }
 }
 
 } // namespace
 
-uint32_t bsdfKind(MaterialKind kind) {
-    switch (kind) {
+uint32_t facetDistribution(const Material& material) {
+    const bool canHave = material.kind == MaterialKind::Conductor ||
+                         material.kind == MaterialKind::Dielectric ||
+                         material.kind == MaterialKind::Plastic;
+    if (!canHave || material.isSmooth()) return 0;
+    return isBeckmann(material) != 0 ? gpu::FACETS_BECKMANN : gpu::FACETS_GGX;
+}
+
+uint32_t bsdfKind(const Material& material) {
+    const bool isSmooth = material.isSmooth();
+    switch (material.kind) {
     case MaterialKind::Diffuse:
         return gpu::BSDF_DIFFUSE;
     case MaterialKind::Mirror:
@@ -98,6 +164,14 @@ uint32_t bsdfKind(MaterialKind kind) {
         return gpu::BSDF_ROUGH_CONDUCTOR;
     case MaterialKind::Principled:
         return gpu::BSDF_PRINCIPLED;
+    case MaterialKind::Conductor:
+        return isSmooth ? gpu::BSDF_CONDUCTOR : gpu::BSDF_FACET_CONDUCTOR;
+    case MaterialKind::Dielectric:
+        return isSmooth ? gpu::BSDF_GLASS : gpu::BSDF_FACET_DIELECTRIC;
+    case MaterialKind::ThinDielectric:
+        return gpu::BSDF_THIN_DIELECTRIC;
+    case MaterialKind::Plastic:
+        return isSmooth ? gpu::BSDF_PLASTIC : gpu::BSDF_FACET_PLASTIC;
     }
     return gpu::BSDF_DIFFUSE;
 }
@@ -121,10 +195,10 @@ MaterialRows packMaterials(std::span<const Material> materials,
     MaterialRows packed;
     for (const Material& m : materials) {
         packed.firstRow.push_back(uint32_t(packed.rows.size()));
-        appendRows(packed.rows,
-                   gpu::MaterialHeader{
-                       m.emission,
-                       bsdfKind(m.kind) | (m.emitsBothSides ? gpu::MATERIAL_EMITS_BOTH_SIDES : 0)});
+        appendRows(
+            packed.rows,
+            gpu::MaterialHeader{
+                m.emission, bsdfKind(m) | (m.emitsBothSides ? gpu::MATERIAL_EMITS_BOTH_SIDES : 0)});
         appendParameters(packed.rows, m);
         if (details.empty()) continue;
         const std::vector<Row>& own = details[packed.firstRow.size() - 1];
@@ -133,6 +207,7 @@ MaterialRows packMaterials(std::span<const Material> materials,
             packed.rows.push_back(row);
     }
     packed.rows.resize(packed.rows.size() + kMostRows - 1);
+    appendTables(packed, materials);
     return packed;
 }
 

@@ -22,7 +22,10 @@ MaterialRows packMaterials(std::span<const Material> materials,
 /// PRINCIPLED_HAS_ bits of what the material has; 0 for other kinds.
 uint32_t principledFeatures(const Material& material);
 
+/// The FACETS_ bit of the microfacets of a conductor, a dielectric or plastic; 0 where it has none.
+uint32_t facetDistribution(const Material& material);
+
 /// The BSDF_ kind that stands for a material of the scene.
-uint32_t bsdfKind(MaterialKind kind);
+uint32_t bsdfKind(const Material& material);
 
 } // namespace stromboli

@@ -1,7 +1,9 @@
 #include "host/reference/bsdf.hpp"
 
 #include "host/reference/fresnel.hpp"
+#include "host/reference/interfaces.hpp"
 #include "host/reference/microfacet.hpp"
+#include "host/reference/plastic.hpp"
 #include "host/reference/principled.hpp"
 #include "host/reference/sampling.hpp"
 
@@ -92,9 +94,16 @@ BsdfValue evaluateLocally(const Material& m, const Incidence& i, const glm::dvec
         return evaluateRoughConductor(m, i, wi);
     case MaterialKind::Principled:
         return evaluatePrincipled(m.principled, i.wo, i.entering, wi);
+    case MaterialKind::Conductor:
+        return m.isSmooth() ? BsdfValue{} : evaluateFacetConductor(m, i.wo, wi);
+    case MaterialKind::Dielectric:
+        return m.isSmooth() ? BsdfValue{} : evaluateFacetDielectric(m, i.wo, i.entering, wi);
+    case MaterialKind::Plastic:
+        return evaluatePlastic(m, i.wo, wi);
     case MaterialKind::Mirror:
     case MaterialKind::Refraction:
     case MaterialKind::Glass:
+    case MaterialKind::ThinDielectric:
         return {}; // delta lobes
     }
     return {};
@@ -113,6 +122,15 @@ BsdfSample sampleLocally(const Material& m, const Incidence& i, const glm::dvec3
         return sampleRoughConductor(m, i, u);
     case MaterialKind::Principled:
         return samplePrincipled(m.principled, i.wo, i.entering, u);
+    case MaterialKind::Conductor:
+        return m.isSmooth() ? sampleConductor(m, i.wo) : sampleFacetConductor(m, i.wo, u);
+    case MaterialKind::Dielectric:
+        return m.isSmooth() ? sampleInterface(m, i, u.z)
+                            : sampleFacetDielectric(m, i.wo, i.entering, u);
+    case MaterialKind::ThinDielectric:
+        return sampleThinDielectric(m, i.wo, u.z);
+    case MaterialKind::Plastic:
+        return samplePlastic(m, i.wo, u);
     }
     return {};
 }
@@ -138,8 +156,7 @@ Frame surfaceFrame(const SurfacePoint& s) {
         return {x, s.tangent.w * glm::cross(s.shading, x), s.shading};
     }
     Frame frame(s.shading);
-    if (s.material->kind != MaterialKind::Principled || s.material->principled.anisotropy == 0)
-        return frame;
+    if (!s.material->hasGrain()) return frame;
     // What has a grain needs a tangent that the kernel has too (Duff et al. 2017).
     const glm::dvec3& n = s.shading;
     const double sign = n.z >= 0 ? 1 : -1, a = -1 / (sign + n.z);
@@ -166,6 +183,14 @@ uint32_t lobesOf(const Material& material) {
         return gpu::LOBE_GLOSSY_REFLECTION;
     case MaterialKind::Principled:
         return principledLobes(material.principled);
+    case MaterialKind::Conductor:
+        return material.isSmooth() ? gpu::CONDUCTOR_BSDF_LOBES : gpu::FACET_CONDUCTOR_BSDF_LOBES;
+    case MaterialKind::Dielectric:
+        return material.isSmooth() ? gpu::GLASS_BSDF_LOBES : gpu::FACET_DIELECTRIC_BSDF_LOBES;
+    case MaterialKind::ThinDielectric:
+        return gpu::THIN_DIELECTRIC_BSDF_LOBES;
+    case MaterialKind::Plastic:
+        return material.isSmooth() ? gpu::PLASTIC_BSDF_LOBES : gpu::FACET_PLASTIC_BSDF_LOBES;
     }
     return 0;
 }

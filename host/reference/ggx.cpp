@@ -1,19 +1,12 @@
 #include "host/reference/ggx.hpp"
 
+#include "host/reference/arithmetic.hpp"
 #include "host/reference/sampling.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace stromboli::reference {
-namespace {
-
-double square(double x) {
-    return x * x;
-}
-
-} // namespace
-
 double Ggx::density(const glm::dvec3& h) const {
     if (!(h.z > 0)) return 0;
     const double cosine2 = h.z * h.z;

@@ -1,6 +1,7 @@
 #include "host/reference/integrator.hpp"
 
 #include "host/reference/bsdf.hpp"
+#include "host/reference/interfaces.hpp"
 #include "host/reference/principled.hpp"
 #include "host/reference/sampling.hpp"
 #include "host/reference/visible.hpp"
@@ -29,7 +30,8 @@ glm::dvec3 transmittance(const Material* medium, double distance) {
 /// Whether bounces from there find all light that they can, and light samples go to the rest only.
 /// The kernel shares the light between both.
 bool leavesLightsToBounces(const Material& material) {
-    return material.kind == MaterialKind::Principled && isNarrow(material.principled);
+    return (material.kind == MaterialKind::Principled && isNarrow(material.principled)) ||
+           hasNarrowFacets(material);
 }
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();

@@ -1,5 +1,6 @@
 #include "host/reference/principled.hpp"
 
+#include "host/reference/arithmetic.hpp"
 #include "host/reference/fresnel.hpp"
 #include "host/reference/ggx.hpp"
 #include "host/reference/sampling.hpp"
@@ -15,10 +16,6 @@ using glm::dvec3;
 
 double largestComponent(const dvec3& v) {
     return std::max({v.x, v.y, v.z});
-}
-
-double average(const dvec3& v) {
-    return (v.x + v.y + v.z) / 3;
 }
 
 bool transmits(const PrincipledParameters& p) {
@@ -149,7 +146,7 @@ Layers::Layers(const PrincipledParameters& p, const dvec3& wo, bool entering)
         const double sheenAlbedo =
             gpu::sheenAlbedo(std::max(wo.z, double(gpu::LEAST_SHEEN_COSINE)), sheenAlpha_);
         sheen_ = underCoat_ * dvec3(p.sheenColor);
-        sheenShare_ = average(sheen_) * sheenAlbedo;
+        sheenShare_ = mean(sheen_) * sheenAlbedo;
         underSheen_ = std::max(underCoat_ - largestComponent(sheen_) * sheenAlbedo, 0.0);
     } else {
         underSheen_ = underCoat_;
@@ -159,11 +156,11 @@ Layers::Layers(const PrincipledParameters& p, const dvec3& wo, bool entering)
     const dvec3 dielectric = albedo_ * mixed(f0_, f90_, weight) * givenBack(f0_, albedo_);
     const dvec3 metal = albedo_ * mixed(baseColor_, 1, weight) * givenBack(baseColor_, albedo_);
     diffuse_ = underSheen_ * opaque_ * std::max(1 - largestComponent(dielectric), 0.0) * baseColor_;
-    diffuseShare_ = average(diffuse_);
+    diffuseShare_ = mean(diffuse_);
     constexpr double kLeastFacets = 1.0 / 64;
-    facetShare_ = std::max(
-        underSheen_ * (average(double(p.metallic) * metal + opaque_ * dielectric) + clear_),
-        kLeastFacets);
+    facetShare_ =
+        std::max(underSheen_ * (mean(double(p.metallic) * metal + opaque_ * dielectric) + clear_),
+                 kLeastFacets);
     const double sum = facetShare_ + diffuseShare_ + sheenShare_ + coatShare_;
     for (double* share : {&facetShare_, &diffuseShare_, &sheenShare_, &coatShare_})
         *share /= sum;
@@ -188,7 +185,7 @@ Layers::Facet Layers::facetAt(double cosine) const {
     const double scale = thin_ ? clear_ / albedo_ : clear_;
     f.reflected += scale * mirrored;
     f.transmitted = scale * std::max(1 - largestComponent(mirrored), 0.0) * baseColor_;
-    const double r = average(f.reflected), t = average(f.transmitted);
+    const double r = mean(f.reflected), t = mean(f.transmitted);
     if (t > 0) f.reflects = r / (r + t);
     if (!thin_) f.transmitted *= eta_ * eta_; // radiance over the squared index is invariant
     return f;

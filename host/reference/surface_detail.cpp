@@ -6,10 +6,6 @@
 namespace stromboli::reference {
 namespace {
 
-bool hasBaseColor(const Material& m) {
-    return m.kind == MaterialKind::Diffuse || m.kind == MaterialKind::Principled;
-}
-
 PointAttributes attributesOf(const SurfacePoint& s, const Scene& scene) {
     if (s.triangle == kNoPrimitive) return {};
     return attributesAt(scene, s.triangle, s.b1, s.b2);
@@ -23,8 +19,21 @@ void multiply(float& parameter, double factor) {
 }
 
 void multiplyBaseColor(Material& m, const glm::dvec3& color) {
-    if (!hasBaseColor(m)) return;
-    multiply(m.kind == MaterialKind::Diffuse ? m.albedo : m.principled.baseColor, color);
+    if (glm::vec3* base = m.baseColor()) multiply(*base, color);
+}
+
+/// What is rough somewhere is nowhere made smooth: it stays of one kind.
+void multiplyRoughness(Material& m, double along, double across) {
+    const bool canBeRough = m.kind == MaterialKind::Conductor || m.kind == MaterialKind::Dielectric;
+    if (!canBeRough || m.isSmooth()) return;
+    multiply(m.facets.alpha.x, along);
+    multiply(m.facets.alpha.y, across);
+    m.facets.alpha = m.facetAlpha();
+}
+
+bool hasSpecularColor(const Material& m) {
+    return m.kind == MaterialKind::ThinDielectric || m.kind == MaterialKind::Plastic ||
+           (m.kind == MaterialKind::Dielectric && !m.isSmooth());
 }
 
 void apply(Material& m, TextureSlot slot, const glm::dvec4& texel) {
@@ -37,12 +46,14 @@ void apply(Material& m, TextureSlot slot, const glm::dvec4& texel) {
         return multiply(m.emission, color);
     case TextureSlot::MetallicRoughness:
         multiply(p.roughness, texel.g);
+        multiplyRoughness(m, texel.g, texel.b);
         return multiply(p.metallic, texel.b);
     case TextureSlot::Transmission:
         return multiply(p.transmission, texel.r);
     case TextureSlot::Specular:
         return multiply(p.specular, texel.a);
     case TextureSlot::SpecularColor:
+        if (hasSpecularColor(m)) multiply(m.reflectance, color);
         return multiply(p.specularColor, color);
     case TextureSlot::Clearcoat:
         return multiply(p.clearcoat, texel.r);
@@ -96,9 +107,7 @@ void applyTextures(SurfacePoint& s, const Scene& scene) {
 
 void applyNormalMap(SurfacePoint& s, const Scene& scene, const ShadingConventions& conventions) {
     const TextureUse* map = textureIn(*s.material, TextureSlot::Normal);
-    const bool isAnisotropic =
-        s.material->kind == MaterialKind::Principled && s.material->principled.anisotropy > 0;
-    if (!map && !isAnisotropic) return;
+    if (!map && !s.material->hasGrain()) return;
     const bool isTurned = conventions.facesForward && !s.outside;
     s.tangent = tangentOf(s, scene, *s.material, isTurned);
     if (!map || s.tangent.w == 0) return;

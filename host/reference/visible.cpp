@@ -27,10 +27,11 @@ glm::dvec3 tintOf(const Material& m, const BsdfSample& next) {
 
 /// The colour of a surface in white light, apart from what its gloss adds.
 glm::dvec3 albedoOf(const Material& m) {
-    if (m.kind == MaterialKind::Principled) return m.principled.baseColor;
-    if (m.kind != MaterialKind::Microfacet) return m.albedo;
+    if (m.kind != MaterialKind::Microfacet && m.kind != MaterialKind::Conductor)
+        return m.baseColor() ? *m.baseColor() : m.albedo;
     const glm::dvec3 eta(m.eta), k(m.k), less = eta - 1.0, more = eta + 1.0;
-    return (less * less + k * k) / (more * more + k * k); // at normal incidence
+    const glm::dvec3 atNormal = (less * less + k * k) / (more * more + k * k);
+    return m.kind == MaterialKind::Conductor ? glm::dvec3(m.reflectance) * atNormal : atNormal;
 }
 
 /// The surface as it is shaded.

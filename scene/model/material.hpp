@@ -12,12 +12,28 @@
 namespace stromboli {
 
 enum class MaterialKind : uint32_t {
-    Diffuse,    ///< Lambert: albedo / pi
-    Mirror,     ///< perfect reflection: reflectance
-    Refraction, ///< perfect transmission without Fresnel: transmittance, ior
-    Glass,      ///< smooth dielectric: reflectance, transmittance, ior
-    Microfacet, ///< Beckmann conductor: alpha, eta, k
-    Principled, ///< glTF's metallic-roughness model and its extensions: principled
+    Diffuse,        ///< Lambert: albedo / pi
+    Mirror,         ///< perfect reflection: reflectance
+    Refraction,     ///< perfect transmission without Fresnel: transmittance, ior
+    Glass,          ///< smooth dielectric: reflectance, transmittance, ior
+    Microfacet,     ///< Beckmann conductor: alpha, eta, k
+    Principled,     ///< glTF's metallic-roughness model and its extensions: principled
+    Conductor,      ///< reflectance, eta, k, facets
+    Dielectric,     ///< an interface: reflectance, transmittance, ior, facets
+    ThinDielectric, ///< a sheet with all reflections inside it: reflectance, transmittance, ior
+    Plastic, ///< a diffuse base under a dielectric: albedo, reflectance, ior, facets, isNonlinear
+};
+
+/// How the normals of microfacets are distributed (Walter et al. 2007).
+enum class FacetDistribution : uint32_t { Ggx, Beckmann };
+
+/// The microfacets of an interface. They are smooth, an interface that light meets as a plane,
+/// where both alphas are too small for floats to tell (Material::isSmooth).
+struct Facets {
+    FacetDistribution distribution = FacetDistribution::Ggx;
+    /// Along the surface's tangent and across it: RMS slope times sqrt(2) of Beckmann's
+    /// distribution and what corresponds to it in GGX. Plastic has the first for both.
+    glm::vec2 alpha{0.0f};
 };
 
 /// glTF 2.0's metallic-roughness material with KHR_materials_ior, specular, clearcoat, sheen,
@@ -54,14 +70,16 @@ struct Material {
     std::string name;
     MaterialKind kind = MaterialKind::Diffuse;
     glm::vec3 albedo{0.5f};        ///< Diffuse: fraction reflected, per colour channel
-    glm::vec3 reflectance{1.0f};   ///< Mirror, Glass
-    glm::vec3 transmittance{1.0f}; ///< Refraction, Glass
-    float ior = 1.5f;              ///< Refraction, Glass: index inside / index outside
+    glm::vec3 reflectance{1.0f};   ///< of mirrors, and a factor of what interfaces reflect
+    glm::vec3 transmittance{1.0f}; ///< a factor of what interfaces transmit
+    float ior = 1.5f;              ///< of dielectrics: index inside / index outside
     float alpha = 0.1f;            ///< Microfacet: Beckmann roughness (RMS slope times sqrt 2)
-    glm::vec3 eta{1.0f};           ///< Microfacet: real part of the index of refraction
-    glm::vec3 k{0.0f};             ///< Microfacet: extinction coefficient
-    glm::vec3 emission{0.0f};      ///< emitted radiance, W sr^-1 m^-2 (scene units of power)
-    bool emitsBothSides = true;    ///< false: only on the side the geometric normal points to
+    glm::vec3 eta{1.0f};           ///< of conductors: real part of the index of refraction
+    glm::vec3 k{0.0f};             ///< of conductors: extinction coefficient
+    Facets facets;
+    bool isNonlinear = false;   ///< Plastic: the base's colour deepens with reflections inside
+    glm::vec3 emission{0.0f};   ///< emitted radiance, W sr^-1 m^-2 (scene units of power)
+    bool emitsBothSides = true; ///< false: only on the side the geometric normal points to
     PrincipledParameters principled;
     AlphaMode alphaMode = AlphaMode::Opaque;
     float opacity = 1; ///< times the alpha of texture and vertex colour
@@ -70,10 +88,21 @@ struct Material {
 
     bool emits() const { return emission.x > 0 || emission.y > 0 || emission.z > 0; }
     /// True where no light sample can ever contribute: the BSDF is a delta distribution.
-    bool isDelta() const {
-        return kind == MaterialKind::Mirror || kind == MaterialKind::Refraction ||
-               kind == MaterialKind::Glass;
-    }
+    bool isDelta() const;
+    /// Of a conductor, a dielectric or plastic: the interface is a plane.
+    bool isSmooth() const;
+    /// Both alphas of the facets that light meets, where the interface is not smooth.
+    glm::vec2 facetAlpha() const;
+    /// The surface looks different along its tangent and across it.
+    bool hasGrain() const;
+    /// What textures of the base colour and the colours of corners multiply; none: nullptr.
+    glm::vec3* baseColor();
+    const glm::vec3* baseColor() const { return const_cast<Material*>(this)->baseColor(); }
 };
+
+/// Below these, floats cannot tell microfacets from a plane (shaders/shared/bsdf_types.h has the
+/// reasons): the parameter of the distribution, and that times what refraction turns of it.
+inline constexpr float kLeastAlpha = 1e-4f;
+inline constexpr float kLeastRefractionAlpha = 0x1p-15f;
 
 } // namespace stromboli

@@ -35,13 +35,14 @@ struct Texture {
 /// What a texture of a material changes. All but Normal and ClearcoatNormal multiply the number of
 /// the same name in the material; glTF's channels.
 enum class TextureSlot : uint32_t {
-    BaseColor,          ///< red, green, blue: baseColor (Diffuse: albedo); alpha: opacity
-    MetallicRoughness,  ///< green: roughness, blue: metallic
+    BaseColor,          ///< red, green, blue: Material::baseColor(); alpha: opacity
+    MetallicRoughness,  ///< green: roughness, blue: metallic; of Facets alpha along and across
     Normal,             ///< tangent space, [0, 1] for [-1, 1]
     Emission,           ///< red, green, blue
     Transmission,       ///< red
     Specular,           ///< alpha
-    SpecularColor,      ///< red, green, blue
+    SpecularColor,      ///< red, green, blue; Dielectric with facets, ThinDielectric, Plastic:
+                        ///< reflectance
     Clearcoat,          ///< red
     ClearcoatRoughness, ///< green
     ClearcoatNormal,    ///< as Normal

@@ -40,6 +40,12 @@ bool isTransmission(uint lobe) { return (lobe & TRANSMISSION_LOBES) != 0u; }
 #include "bsdf/ggx.glsl"
 #include "bsdf/principled.glsl"
 #endif
+#ifdef FACET_MATERIALS
+#include "bsdf/facets.glsl"
+#include "bsdf/conductor.glsl"
+#include "bsdf/facet_dielectric.glsl"
+#include "bsdf/plastic.glsl"
+#endif
 
 // --- Dispatch: one line for each kind of BSDF in each function ---------------------------------------------------
 
@@ -54,6 +60,14 @@ uint lobesOf(Material m) {
 #ifdef RICH_MATERIALS
     if (isBsdf(m, BSDF_PRINCIPLED)) lobes = principledLobes(principledParameters(m));
 #endif
+#ifdef FACET_MATERIALS
+    if (isBsdf(m, BSDF_CONDUCTOR)) lobes = CONDUCTOR_BSDF_LOBES;
+    if (isBsdf(m, BSDF_FACET_CONDUCTOR)) lobes = FACET_CONDUCTOR_BSDF_LOBES;
+    if (isBsdf(m, BSDF_FACET_DIELECTRIC)) lobes = FACET_DIELECTRIC_BSDF_LOBES;
+    if (isBsdf(m, BSDF_THIN_DIELECTRIC)) lobes = THIN_DIELECTRIC_BSDF_LOBES;
+    if (isBsdf(m, BSDF_PLASTIC)) lobes = PLASTIC_BSDF_LOBES;
+    if (isBsdf(m, BSDF_FACET_PLASTIC)) lobes = FACET_PLASTIC_BSDF_LOBES;
+#endif
     return lobes;
 }
 
@@ -62,6 +76,14 @@ uint sceneLobes() {
     return
 #ifdef RICH_MATERIALS
         (sceneHasBsdf(BSDF_PRINCIPLED) ? scenePrincipledLobes() : 0u) |
+#endif
+#ifdef FACET_MATERIALS
+        (sceneHasBsdf(BSDF_CONDUCTOR) ? CONDUCTOR_BSDF_LOBES : 0u) |
+        (sceneHasBsdf(BSDF_FACET_CONDUCTOR) ? FACET_CONDUCTOR_BSDF_LOBES : 0u) |
+        (sceneHasBsdf(BSDF_FACET_DIELECTRIC) ? FACET_DIELECTRIC_BSDF_LOBES : 0u) |
+        (sceneHasBsdf(BSDF_THIN_DIELECTRIC) ? THIN_DIELECTRIC_BSDF_LOBES : 0u) |
+        (sceneHasBsdf(BSDF_PLASTIC) ? PLASTIC_BSDF_LOBES : 0u) |
+        (sceneHasBsdf(BSDF_FACET_PLASTIC) ? FACET_PLASTIC_BSDF_LOBES : 0u) |
 #endif
         (sceneHasBsdf(BSDF_DIFFUSE) ? DIFFUSE_BSDF_LOBES : 0u) |
            (sceneHasBsdf(BSDF_MIRROR) ? MIRROR_BSDF_LOBES : 0u) |
@@ -77,6 +99,14 @@ BsdfValue evaluateLocally(Material m, Incidence i, vec3 wi) {
 #ifdef RICH_MATERIALS
     if (isBsdf(m, BSDF_PRINCIPLED)) return evaluatePrincipled(principledParameters(m), i, wi);
 #endif
+#ifdef FACET_MATERIALS
+    if (isBsdf(m, BSDF_FACET_CONDUCTOR))
+        return evaluateFacetConductor(conductorParameters(m), i, wi);
+    if (isBsdf(m, BSDF_FACET_DIELECTRIC))
+        return evaluateFacetDielectric(facetDielectricParameters(m), i, wi);
+    if (isBsdf(m, BSDF_PLASTIC)) return evaluatePlastic(plasticParameters(m), i, wi);
+    if (isBsdf(m, BSDF_FACET_PLASTIC)) return evaluateFacetPlastic(plasticParameters(m), i, wi);
+#endif
     return NO_SCATTERING; // delta lobes only
 }
 
@@ -90,6 +120,16 @@ BsdfSample sampleLocally(Material m, Incidence i, vec3 u) {
 #ifdef RICH_MATERIALS
     if (isBsdf(m, BSDF_PRINCIPLED)) s = samplePrincipled(principledParameters(m), i, u);
 #endif
+#ifdef FACET_MATERIALS
+    if (isBsdf(m, BSDF_CONDUCTOR)) s = sampleConductor(conductorParameters(m), i, u);
+    if (isBsdf(m, BSDF_FACET_CONDUCTOR)) s = sampleFacetConductor(conductorParameters(m), i, u);
+    if (isBsdf(m, BSDF_FACET_DIELECTRIC))
+        s = sampleFacetDielectric(facetDielectricParameters(m), i, u);
+    if (isBsdf(m, BSDF_THIN_DIELECTRIC))
+        s = sampleThinDielectric(thinDielectricParameters(m), i, u);
+    if (isBsdf(m, BSDF_PLASTIC)) s = samplePlastic(plasticParameters(m), i, u);
+    if (isBsdf(m, BSDF_FACET_PLASTIC)) s = sampleFacetPlastic(plasticParameters(m), i, u);
+#endif
     return s;
 }
 
@@ -97,6 +137,13 @@ BsdfSample sampleLocally(Material m, Incidence i, vec3 u) {
 
 /// Whether light samples can find light that the surface scatters.
 bool scattersIntoManyDirections(uint lobes) { return (lobes & ~DELTA_LOBES) != 0u; }
+
+/// Whether sampleBsdf() takes all three numbers; else either the first two or the last one.
+#ifdef FACET_MATERIALS
+#define TAKES_THREE_NUMBERS(m) (isBsdf(m, BSDF_PRINCIPLED) || isBsdf(m, BSDF_FACET_DIELECTRIC))
+#else
+#define TAKES_THREE_NUMBERS(m) isBsdf(m, BSDF_PRINCIPLED)
+#endif
 
 /// Whether two paths that arrive by the same ray may leave by different ones.
 bool scattersAtRandom(uint lobes) {

@@ -98,6 +98,15 @@ bool isBsdf(Material m, uint kind) {
            (BSDF_KINDS == 1u << kind || (m.header.w & ~MATERIAL_EMITS_BOTH_SIDES) == kind);
 }
 
+#ifdef FACET_MATERIALS
+/// Whether the material's BSDF is of a kind that only modules with FACET_MATERIALS have.
+bool isFacetMaterial(Material m) {
+    const bool allAre = (BSDF_KINDS & (1u << BSDF_CONDUCTOR) - 1u) == 0u;
+    return sceneHasFacetMaterials() &&
+           (allAre || (m.header.w & ~MATERIAL_EMITS_BOTH_SIDES) >= BSDF_CONDUCTOR);
+}
+#endif
+
 /// row: the material's first. Rows that no kind of the scene has are not read.
 Material fetchMaterial(uint row) {
     const bool severalKinds = (BSDF_KINDS & (BSDF_KINDS - 1u)) != 0u;
@@ -111,6 +120,12 @@ Material fetchMaterial(uint row) {
         m.row5 = ROW(materialRows, row + 5u);
         m.row6 = ROW(materialRows, row + 6u);
     }
+#ifdef FACET_MATERIALS
+    if (sceneHasFacetMaterials()) {
+        m.row2 = ROW(materialRows, row + 2u);
+        m.row3 = ROW(materialRows, row + 3u);
+    }
+#endif
 #else
     Material m = Material(uvec4(0u), uvec4(0u), uvec4(0u));
 #endif
@@ -156,5 +171,31 @@ PrincipledParameters principledParameters(Material m) {
     const vec4 row5 = uintBitsToFloat(m.row5), row6 = uintBitsToFloat(m.row6);
     return PrincipledParameters(row1.xyz, row1.w, row2.xyz, row2.w, row3.x, row3.y, row3.z, row3.w,
                                 row4.xyz, row4.w, row5.x, row5.y, row5.z, m.row5.w, row6.xyz, row6.w);
+}
+#endif
+
+#ifdef FACET_MATERIALS
+ConductorParameters conductorParameters(Material m) {
+    return ConductorParameters(uintBitsToFloat(m.row1.xyz), uintBitsToFloat(m.row1.w),
+                               uintBitsToFloat(m.row2.xyz), uintBitsToFloat(m.row2.w),
+                               uintBitsToFloat(m.row3.xyz), m.row3.w);
+}
+
+FacetDielectricParameters facetDielectricParameters(Material m) {
+    return FacetDielectricParameters(uintBitsToFloat(m.row1.xyz), uintBitsToFloat(m.row1.w),
+                                     uintBitsToFloat(m.row2.xyz), uintBitsToFloat(m.row2.w),
+                                     uintBitsToFloat(m.row3.x), uintBitsToFloat(m.row3.y), m.row3.z,
+                                     m.row3.w);
+}
+
+ThinDielectricParameters thinDielectricParameters(Material m) {
+    return ThinDielectricParameters(uintBitsToFloat(m.row1.xyz), uintBitsToFloat(m.row1.w),
+                                    uintBitsToFloat(m.row2.xyz), m.row2.w);
+}
+
+PlasticParameters plasticParameters(Material m) {
+    return PlasticParameters(uintBitsToFloat(m.row1.xyz), uintBitsToFloat(m.row1.w),
+                             uintBitsToFloat(m.row2.xyz), uintBitsToFloat(m.row2.w),
+                             uintBitsToFloat(m.row3.x), m.row3.y, m.row3.z, m.row3.w);
 }
 #endif

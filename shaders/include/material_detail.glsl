@@ -145,7 +145,12 @@ void scale(inout uint word, float factor) {
 }
 
 /// Whether a material's first row of parameters is a colour that base colours multiply.
-bool hasBaseColor(Material m) { return isBsdf(m, BSDF_DIFFUSE) || isBsdf(m, BSDF_PRINCIPLED); }
+bool hasBaseColor(Material m) {
+#ifdef FACET_MATERIALS
+    if (isFacetMaterial(m)) return true;
+#endif
+    return isBsdf(m, BSDF_DIFFUSE) || isBsdf(m, BSDF_PRINCIPLED);
+}
 
 vec3 mappedNormal(vec4 texel, float scale_) {
     return vec3((2.0 * texel.xy - 1.0) * scale_, 2.0 * texel.z - 1.0);
@@ -161,14 +166,22 @@ bool isLoose(uint slot, uint wanted) {
     return (LOOSE_SLOTS & 1u << wanted) != 0u && slot == wanted;
 }
 
-/// A texel's part in the parameters (PrincipledParameters; a diffuse material has the first row only). mapped: a
-/// normal map's vector in the frame of the surface's tangent.
+/// Whether textures change parameters behind the first row.
+bool hasFurtherParameters() {
+#ifdef FACET_MATERIALS
+    if (sceneHasFacetMaterials()) return true;
+#endif
+    return sceneHasBsdf(BSDF_PRINCIPLED);
+}
+
+/// A texel's part in the parameters (PrincipledParameters; a diffuse material has the first row only, and those of
+/// other kinds are arranged to suit). mapped: a normal map's vector in the frame of the surface's tangent.
 void applyTexel(inout Material m, inout vec3 mapped, TextureUse t, vec4 texel) {
     const uint slot = t.slot & TEXTURE_SLOT_MASK;
     if (isLoose(slot, TEXTURE_BASE_COLOR) && hasBaseColor(m)) scale(m.row1, texel.rgb);
     if (isLoose(slot, TEXTURE_EMISSION)) scale(m.header, texel.rgb);
     if (isLoose(slot, TEXTURE_NORMAL)) mapped = mappedNormal(texel, t.scale);
-    if (!sceneHasBsdf(BSDF_PRINCIPLED)) return;
+    if (!hasFurtherParameters()) return;
     if (isLoose(slot, TEXTURE_METALLIC_ROUGHNESS)) applyMetallicRoughness(m, texel);
     if (isLoose(slot, TEXTURE_SPECULAR_COLOR)) scale(m.row2, texel.rgb);
     if (isLoose(slot, TEXTURE_SPECULAR)) scale(m.row3.x, texel.a);
@@ -197,7 +210,7 @@ void applyBundle(inout Material m, inout vec3 mapped, uint materialRow, Material
     if (sceneHasSlot(TEXTURE_EMISSION)) scale(m.header, mapOf(taps, TEXTURE_EMISSION).rgb);
     if (sceneHasSlot(TEXTURE_NORMAL) && (detail.flags & DETAIL_BUNDLE_MAPS_NORMALS) != 0u)
         mapped = mappedNormal(mapOf(taps, TEXTURE_NORMAL), t.scale);
-    if (sceneHasSlot(TEXTURE_METALLIC_ROUGHNESS) && sceneHasBsdf(BSDF_PRINCIPLED))
+    if (sceneHasSlot(TEXTURE_METALLIC_ROUGHNESS) && hasFurtherParameters())
         applyMetallicRoughness(m, mapOf(taps, TEXTURE_METALLIC_ROUGHNESS));
 }
 

@@ -371,7 +371,7 @@ void depart() {
     if (begins) startCameraRay(u.zw);
 #ifdef RICH_MATERIALS
     else if (SCATTERS_THROUGH && INTEGRATOR == INTEGRATOR_PATH)
-        scatter(vec3(u.zw, isBsdf(material, BSDF_PRINCIPLED) ? sideNumber() : u.z), arrivalNumbers.z);
+        scatter(vec3(u.zw, TAKES_THREE_NUMBERS(material) ? sideNumber() : u.z), arrivalNumbers.z);
 #endif
     else if (INTEGRATOR == INTEGRATOR_PATH) scatter(u.zwz, arrivalNumbers.z);
 }

@@ -14,10 +14,10 @@ bool isSeenThrough(Material m) {
 /// The colour that a mirror or glass gives to what is seen there: the weight of the sample, without what refraction does
 /// to radiance by the ratio of the indices.
 vec3 tintOf(Material m, BsdfSample b) {
-    vec3 tint = b.weight;
-    if (b.lobe == LOBE_DELTA_TRANSMISSION && largestComponent(b.weight) > 0.0)
-        tint = isBsdf(m, BSDF_GLASS) ? glassParameters(m).transmittance
-                                     : refractionParameters(m).transmittance;
+    if (b.lobe != LOBE_DELTA_TRANSMISSION || !(largestComponent(b.weight) > 0.0)) return b.weight;
+    vec3 tint = refractionParameters(m).transmittance;
+    if (isBsdf(m, BSDF_GLASS)) tint = glassParameters(m).transmittance;
+    if (isBsdf(m, BSDF_THIN_DIELECTRIC)) tint = thinDielectricParameters(m).transmittance;
     return tint;
 }
 
@@ -33,6 +33,10 @@ vec3 albedoOf(Material m) {
     if (isBsdf(m, BSDF_ROUGH_CONDUCTOR)) {
         const RoughConductorParameters p = roughConductorParameters(m);
         albedo = normalReflectance(p.eta, p.k);
+    }
+    if (isBsdf(m, BSDF_CONDUCTOR) || isBsdf(m, BSDF_FACET_CONDUCTOR)) {
+        const ConductorParameters p = conductorParameters(m);
+        albedo = p.reflectance * normalReflectance(p.eta, p.k);
     }
     return albedo;
 }

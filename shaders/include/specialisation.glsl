@@ -69,7 +69,16 @@ layout(constant_id = SPEC_TANGENT_FRAMES) const bool TANGENT_FRAMES = false;
 const bool HAS_ALPHA = false;
 #endif
 
+// FACET_MATERIALS: those of these modules that have conductors, rough dielectrics, thin ones and plastic.
+#ifdef FACET_MATERIALS
+layout(constant_id = SPEC_FACET_DISTRIBUTIONS) const uint FACET_DISTRIBUTIONS = 3u;
+#endif
+
 bool sceneHasBsdf(uint kind) { return (BSDF_KINDS & (1u << kind)) != 0u; }
+#ifdef FACET_MATERIALS
+/// Kinds that only these modules have.
+bool sceneHasFacetMaterials() { return BSDF_KINDS >= 1u << BSDF_CONDUCTOR; }
+#endif
 /// Whether light samples go to lights of this kind.
 bool samplesLightKind(uint kind) { return (LIGHT_KINDS & (1u << kind)) != 0u; }
 /// kind == wanted, known without looking where there is but one, or none of that kind.

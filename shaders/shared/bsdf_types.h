@@ -34,7 +34,13 @@ SHARED_CONST uint BSDF_REFRACTION = 2u;
 SHARED_CONST uint BSDF_GLASS = 3u;
 SHARED_CONST uint BSDF_ROUGH_CONDUCTOR = 4u;
 SHARED_CONST uint BSDF_PRINCIPLED = 5u;
-SHARED_CONST uint BSDF_KIND_COUNT = 6u;
+SHARED_CONST uint BSDF_CONDUCTOR = 6u;        ///< smooth
+SHARED_CONST uint BSDF_FACET_CONDUCTOR = 7u;  ///< microfacets of either distribution
+SHARED_CONST uint BSDF_FACET_DIELECTRIC = 8u; ///< the same of a dielectric; BSDF_GLASS is smooth
+SHARED_CONST uint BSDF_THIN_DIELECTRIC = 9u;
+SHARED_CONST uint BSDF_PLASTIC = 10u; ///< a diffuse base under a smooth dielectric interface
+SHARED_CONST uint BSDF_FACET_PLASTIC = 11u;
+SHARED_CONST uint BSDF_KIND_COUNT = 12u;
 
 /// The lobes of each kind.
 SHARED_CONST uint DIFFUSE_BSDF_LOBES = LOBE_DIFFUSE_REFLECTION;
@@ -45,6 +51,13 @@ SHARED_CONST uint ROUGH_CONDUCTOR_BSDF_LOBES = LOBE_GLOSSY_REFLECTION;
 /// Samples of all its lobes count as glossy ones: each has the density of the mixture of all. Only those
 /// materials transmit that have any transmission.
 SHARED_CONST uint PRINCIPLED_BSDF_LOBES = LOBE_GLOSSY_REFLECTION | LOBE_GLOSSY_TRANSMISSION;
+SHARED_CONST uint CONDUCTOR_BSDF_LOBES = LOBE_DELTA_REFLECTION;
+SHARED_CONST uint FACET_CONDUCTOR_BSDF_LOBES = LOBE_GLOSSY_REFLECTION;
+SHARED_CONST uint FACET_DIELECTRIC_BSDF_LOBES = LOBE_GLOSSY_REFLECTION | LOBE_GLOSSY_TRANSMISSION;
+SHARED_CONST uint THIN_DIELECTRIC_BSDF_LOBES = LOBE_DELTA_REFLECTION | LOBE_DELTA_TRANSMISSION;
+SHARED_CONST uint PLASTIC_BSDF_LOBES = LOBE_DELTA_REFLECTION | LOBE_DIFFUSE_REFLECTION;
+/// Samples of its diffuse lobe count as glossy ones: they have the density of the mixture.
+SHARED_CONST uint FACET_PLASTIC_BSDF_LOBES = LOBE_GLOSSY_REFLECTION;
 
 /// What every material has.
 struct MaterialHeader {
@@ -92,6 +105,68 @@ struct RoughConductorParameters {
 };
 SHARED_ROWS(RoughConductorParameters, 2);
 
+// Of the kinds below, the first row is the colour that base colour textures multiply, the second one of
+// plastic what textures of the specular colour do, and their last numbers are what textures of roughness
+// multiply, as those of the principled material are.
+
+/// A conductor of complex index eta + i k against what is outside of it, smooth or of microfacets.
+struct ConductorParameters {
+    vec3 reflectance; ///< multiplies what Fresnel's equations reflect
+    float alphaY;     ///< of the microfacets, across the tangent
+    vec3 eta;
+    float alphaX; ///< along the tangent
+    vec3 k;
+    uint isBeckmann; ///< 1: Beckmann's distribution; 0: GGX
+};
+SHARED_ROWS(ConductorParameters, 3);
+
+/// An interface of microfacets between dielectrics.
+struct FacetDielectricParameters {
+    vec3 transmittance; ///< multiplies what Fresnel's equations let through
+    float alphaY;
+    vec3 reflectance;
+    float alphaX;
+    float ior;        ///< index inside over index outside
+    float leastAlpha; ///< either alpha is no less
+    uint isBeckmann;
+    uint unused;
+};
+SHARED_ROWS(FacetDielectricParameters, 3);
+
+/// A sheet of a dielectric, too thin to be seen as two interfaces.
+struct ThinDielectricParameters {
+    vec3 transmittance;
+    float ior; ///< index of the sheet over the index around it
+    vec3 reflectance;
+    uint unused;
+};
+SHARED_ROWS(ThinDielectricParameters, 2);
+
+/// A diffuse base under the interface of a dielectric.
+struct PlasticParameters {
+    vec3 albedo;           ///< of the base
+    float internalDiffuse; ///< share of diffuse light that the interface sends back to the base
+    vec3 reflectance;      ///< multiplies what Fresnel's equations reflect
+    float ior;             ///< index under the interface over the index above it
+    float alpha;           ///< of the interface's microfacets
+    uint flags;            ///< PLASTIC_
+    uint table;            ///< microfacets: row of the first piece of their transmittance
+    uint unused;
+};
+SHARED_ROWS(PlasticParameters, 3);
+/// The base's colour deepens with each reflection between base and interface.
+SHARED_CONST uint PLASTIC_IS_NONLINEAR = 1u;
+SHARED_CONST uint PLASTIC_IS_BECKMANN = 2u;
+
+/// The transmittance of an interface of microfacets from outside, seen at the cosine mu, is a cubic
+/// polynomial on each of so many equal pieces of sqrt(mu) in [0, 1]: one row each, the coefficients by
+/// rising powers of the place in the piece, [0, 1].
+SHARED_CONST uint TRANSMITTANCE_PIECES = 16u;
+
+/// Which distributions the microfacets of these kinds have in a scene (SPEC_FACET_DISTRIBUTIONS).
+SHARED_CONST uint FACETS_GGX = 1u;
+SHARED_CONST uint FACETS_BECKMANN = 2u;
+
 /// glTF 2.0's metallic-roughness model and its extensions (scene/model/material.hpp).
 struct PrincipledParameters {
     vec3 baseColor;
@@ -115,7 +190,7 @@ SHARED_ROWS(PrincipledParameters, 6);
 SHARED_CONST uint PRINCIPLED_IS_THIN = 1u; ///< there is no volume behind the surface
 SHARED_CONST uint PRINCIPLED_ABSORPTION_ROW = 6u; ///< of a material, its header counted
 
-/// The least GGX parameter. Roundings of two directions turn their half vector by up to 12 * 2^-24 (three
+/// The least parameter of GGX, and of the Beckmann distribution of the kinds above. Roundings of two directions turn their half vector by up to 12 * 2^-24 (three
 /// in each component of either, and as many in the sum); of a lobe this wide that is 0.7 %, which is 1.5 %
 /// of D at its flank. A mirror of this roughness blurs by 1e-4 radians, half a pixel of a picture 4000
 /// pixels and 50 degrees wide.

@@ -44,15 +44,21 @@ TEST_P(KernelModules, TheSmallestThatHasAllFeatures) {
     f[SPEC_ALPHA] = 1;
     const auto rich = module(f);
     EXPECT_LT(all.size(), 0.95 * double(rich.size()));
-    EXPECT_EQ(constantsOf(rich).size(), size_t(SPEC_COUNT)) << "all constants are used";
+    EXPECT_EQ(constantsOf(rich).size(), size_t(SPEC_COUNT) - 1);
+    f[SPEC_BSDF_KINDS] = 1u << gpu::BSDF_CONDUCTOR;
+    const auto facets = module(f);
+    EXPECT_LT(rich.size(), 0.95 * double(facets.size()));
+    EXPECT_EQ(constantsOf(facets).size(), size_t(SPEC_COUNT)) << "all constants are used";
+    f[SPEC_BSDF_KINDS] = 0;
     f[SPEC_CS184] = 0;
     EXPECT_LT(module(f).size(), 0.95 * double(rich.size())) << "of usual modes";
     const auto rare = constantsOf(all);
-    for (const uint32_t id : {SPEC_TEXTURE_SLOTS, SPEC_TEXEL_KINDS, SPEC_ATTRIBUTES, SPEC_ALPHA,
-                              SPEC_TANGENT_FRAMES, SPEC_HAS_ENVIRONMENT, SPEC_HAS_BACKDROP,
-                              SPEC_HAS_LENS, SPEC_PIXEL_FILTER, SPEC_PRINCIPLED_FEATURES})
+    for (const uint32_t id :
+         {SPEC_TEXTURE_SLOTS, SPEC_TEXEL_KINDS, SPEC_ATTRIBUTES, SPEC_ALPHA, SPEC_TANGENT_FRAMES,
+          SPEC_HAS_ENVIRONMENT, SPEC_HAS_BACKDROP, SPEC_HAS_LENS, SPEC_PIXEL_FILTER,
+          SPEC_PRINCIPLED_FEATURES, SPEC_FACET_DISTRIBUTIONS})
         EXPECT_FALSE(rare.contains(id)) << id;
-    EXPECT_EQ(rare.size(), size_t(SPEC_COUNT) - 10);
+    EXPECT_EQ(rare.size(), size_t(SPEC_COUNT) - 11);
 }
 
 /// A constant with another value than the usual one leads to a module that has the constant. With

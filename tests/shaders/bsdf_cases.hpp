@@ -25,6 +25,8 @@ struct BsdfCase {
 
 /// Those of the principled kind.
 std::vector<BsdfCase> principledCases();
+/// Conductors, rough and thin dielectrics, plastic.
+std::vector<BsdfCase> facetCases();
 
 inline std::vector<BsdfCase> bsdfCases() {
     std::vector<BsdfCase> cases;
@@ -81,6 +83,8 @@ inline std::vector<BsdfCase> bsdfCases() {
         cases.back().lobe = alpha;
     }
     for (BsdfCase& c : principledCases())
+        cases.push_back(std::move(c));
+    for (BsdfCase& c : facetCases())
         cases.push_back(std::move(c));
     return cases;
 }

@@ -43,6 +43,20 @@ void putPlace(PlacedPrimitive p) {
     put(p.light);
 }
 
+void putFacetMaterial(Material m) {
+    const ConductorParameters conductor = conductorParameters(m);
+    put(conductor.reflectance), put(conductor.alphaY), put(conductor.eta), put(conductor.alphaX);
+    put(conductor.k), put(conductor.isBeckmann);
+    const FacetDielectricParameters rough = facetDielectricParameters(m);
+    put(rough.transmittance), put(rough.alphaY), put(rough.reflectance), put(rough.alphaX);
+    put(rough.ior), put(rough.leastAlpha), put(rough.isBeckmann), put(rough.unused);
+    const ThinDielectricParameters thin = thinDielectricParameters(m);
+    put(thin.transmittance), put(thin.ior), put(thin.reflectance), put(thin.unused);
+    const PlasticParameters plastic = plasticParameters(m);
+    put(plastic.albedo), put(plastic.internalDiffuse), put(plastic.reflectance), put(plastic.ior);
+    put(plastic.alpha), put(plastic.flags), put(plastic.table), put(plastic.unused);
+}
+
 void putMaterial(Material m) {
     put(emissionOf(m)), put(m.header.w);
     const DiffuseParameters diffuse = diffuseParameters(m);
@@ -61,6 +75,7 @@ void putMaterial(Material m) {
     put(rich.sheenColor), put(rich.sheenRoughness), put(rich.clearcoat);
     put(rich.clearcoatRoughness), put(rich.anisotropyRotation), put(rich.flags);
     put(rich.absorption), put(rich.leastAlpha);
+    putFacetMaterial(m);
 }
 
 void putLight(LightRows l) {

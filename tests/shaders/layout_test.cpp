@@ -145,6 +145,26 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
                             rich.transmission, rich.anisotropy, rich.sheenColor,
                             rich.sheenRoughness, rich.clearcoat, rich.clearcoatRoughness,
                             rich.anisotropyRotation, rich.flags, rich.absorption, rich.leastAlpha);
+        expectFacetMaterial(m);
+    }
+
+    void expectFacetMaterial(const MaterialWords& m) {
+        const std::array<Row, 2> two = {m[1], m[2]};
+        const std::array<Row, 3> three = {m[1], m[2], m[3]};
+        const auto conductor = std::bit_cast<gpu::ConductorParameters>(three);
+        expected_.structure("ConductorParameters", conductor.reflectance, conductor.alphaY,
+                            conductor.eta, conductor.alphaX, conductor.k, conductor.isBeckmann);
+        const auto rough = std::bit_cast<gpu::FacetDielectricParameters>(three);
+        expected_.structure("FacetDielectricParameters", rough.transmittance, rough.alphaY,
+                            rough.reflectance, rough.alphaX, rough.ior, rough.leastAlpha,
+                            rough.isBeckmann, rough.unused);
+        const auto thin = std::bit_cast<gpu::ThinDielectricParameters>(two);
+        expected_.structure("ThinDielectricParameters", thin.transmittance, thin.ior,
+                            thin.reflectance, thin.unused);
+        const auto plastic = std::bit_cast<gpu::PlasticParameters>(three);
+        expected_.structure("PlasticParameters", plastic.albedo, plastic.internalDiffuse,
+                            plastic.reflectance, plastic.ior, plastic.alpha, plastic.flags,
+                            plastic.table, plastic.unused);
     }
 
     void expectLight(const LightWords& l) {
@@ -279,14 +299,17 @@ TEST(LayoutSizes, NoFieldIsForgotten) {
         sizeof(gpu::MaterialHeader) + sizeof(gpu::DiffuseParameters) +
         sizeof(gpu::MirrorParameters) + sizeof(gpu::RefractionParameters) +
         sizeof(gpu::GlassParameters) + sizeof(gpu::RoughConductorParameters) +
+        sizeof(gpu::ConductorParameters) + sizeof(gpu::FacetDielectricParameters) +
+        sizeof(gpu::ThinDielectricParameters) + sizeof(gpu::PlasticParameters) +
         sizeof(gpu::LightHeader) + sizeof(gpu::QuadLight) + sizeof(gpu::PointLight) +
         sizeof(gpu::SphereLight) + sizeof(gpu::AmbientLight) + sizeof(gpu::EnvironmentLight) +
         sizeof(gpu::DirectionalLight) + sizeof(gpu::LightEntry) + sizeof(gpu::AliasColumn) +
         sizeof(gpu::LightNode) + sizeof(gpu::Frame) + sizeof(gpu::Dispatch) +
         sizeof(gpu::WorkItem) + sizeof(gpu::PixelState) + sizeof(gpu::SuspendedPath) +
         sizeof(gpu::SuspendedSplit) + sizeof(gpu::DispatchStatus);
-    EXPECT_EQ(bytes / 4, 16 + 16 + 4 + (4 + 4 + 4 + 4 + 8 + 8) + (4 + 12 + 12 + 4 + 4 + 8 + 4) +
-                             (4 + 4 + 8) + 36 + 8 + 4 + 16 + 24 + 28 + 8u);
+    EXPECT_EQ(bytes / 4, 16 + 16 + 4 + (4 + 4 + 4 + 4 + 8 + 8 + 12 + 12 + 8 + 12) +
+                             (4 + 12 + 12 + 4 + 4 + 8 + 4) + (4 + 4 + 8) + 36 + 8 + 4 + 16 + 24 +
+                             28 + 8u);
 }
 
 } // namespace

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "host/reference/bsdf.hpp"
+
+namespace stromboli::reference {
+
+// Conductors, rough and thin dielectrics: docs/estimator.md, "Surfaces". All directions are unit
+// vectors in the frame of the shading normal. entering: wo is outside of what the surface bounds.
+// u: three independent numbers in [0, 1).
+
+BsdfSample sampleConductor(const Material& m, const glm::dvec3& wo);
+BsdfSample sampleThinDielectric(const Material& m, const glm::dvec3& wo, double u);
+
+BsdfValue evaluateFacetConductor(const Material& m, const glm::dvec3& wo, const glm::dvec3& wi);
+BsdfSample sampleFacetConductor(const Material& m, const glm::dvec3& wo, const glm::dvec3& u);
+
+BsdfValue evaluateFacetDielectric(const Material& m, const glm::dvec3& wo, bool entering,
+                                  const glm::dvec3& wi);
+BsdfSample sampleFacetDielectric(const Material& m, const glm::dvec3& wo, bool entering,
+                                 const glm::dvec3& u);
+
+/// Whether the lobe of facets is too narrow for light samples to find.
+bool hasNarrowFacets(const Material& m);
+
+} // namespace stromboli::reference

@@ -1,0 +1,75 @@
+#include "scene/model/material.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stromboli {
+namespace {
+
+/// The least parameter that the material's microfacets can have.
+float leastAlpha(const Material& m) {
+    if (m.kind != MaterialKind::Dielectric) return kLeastAlpha;
+    // Between equal indices it is infinite: such an interface changes nothing, rough or not.
+    const float step = std::abs(m.ior - 1);
+    return std::max(kLeastAlpha, kLeastRefractionAlpha * std::max(m.ior, 1.0f) / step);
+}
+
+glm::vec2 statedAlpha(const Material& m) {
+    return m.kind == MaterialKind::Plastic ? glm::vec2(m.facets.alpha.x) : m.facets.alpha;
+}
+
+} // namespace
+
+bool Material::isDelta() const {
+    switch (kind) {
+    case MaterialKind::Mirror:
+    case MaterialKind::Refraction:
+    case MaterialKind::Glass:
+    case MaterialKind::ThinDielectric:
+        return true;
+    case MaterialKind::Conductor:
+    case MaterialKind::Dielectric:
+        return isSmooth();
+    default:
+        return false;
+    }
+}
+
+bool Material::isSmooth() const {
+    const glm::vec2 stated = statedAlpha(*this);
+    return !(std::max(stated.x, stated.y) >= leastAlpha(*this));
+}
+
+glm::vec2 Material::facetAlpha() const {
+    return glm::max(statedAlpha(*this), glm::vec2(leastAlpha(*this)));
+}
+
+bool Material::hasGrain() const {
+    if (kind == MaterialKind::Principled) return principled.anisotropy > 0;
+    const bool canHave = kind == MaterialKind::Conductor || kind == MaterialKind::Dielectric;
+    if (!canHave || isSmooth()) return false;
+    const auto isRoughness = [](const TextureUse& t) {
+        return t.slot == TextureSlot::MetallicRoughness; // a number for either direction
+    };
+    return facets.alpha.x != facets.alpha.y || std::ranges::any_of(textures, isRoughness);
+}
+
+glm::vec3* Material::baseColor() {
+    switch (kind) {
+    case MaterialKind::Diffuse:
+    case MaterialKind::Plastic:
+        return &albedo;
+    case MaterialKind::Principled:
+        return &principled.baseColor;
+    case MaterialKind::Conductor:
+        return &reflectance;
+    case MaterialKind::ThinDielectric:
+        return &transmittance;
+    case MaterialKind::Dielectric: // smooth, it is the same as glass
+        return isSmooth() ? nullptr : &transmittance;
+    default:
+        return nullptr;
+    }
+}
+
+} // namespace stromboli

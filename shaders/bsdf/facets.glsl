@@ -1,0 +1,123 @@
+// Interfaces of microfacets (Walter et al. 2007) of either distribution, GGX or Beckmann's, stretched along
+// x and y, with Smith's height-correlated masking and shadowing (Heitz 2014). Normals are sampled as they are
+// seen from wo. Directions are unit vectors in the frame of the shading normal.
+//
+// Everything is in terms of the facets' projected area, |cos| (1 + Lambda): none of its parts is a difference
+// of nearly equal numbers, and it is above 0 at grazing views, where Lambda has no bound.
+
+/// The microfacets of a material.
+struct FacetShape {
+    vec2 alpha;
+    bool isBeckmann;
+};
+
+/// isBeckmann: of this material, which is looked at only where the scene has both distributions.
+FacetShape facetShape(vec2 alpha, bool isBeckmann) {
+    return FacetShape(alpha, FACET_DISTRIBUTIONS == FACETS_BECKMANN ||
+                                 FACET_DISTRIBUTIONS != FACETS_GGX && isBeckmann);
+}
+
+/// Beckmann's distribution per steradian; its integral times cos is 1. The slope is taken from x and y: 1 - z^2
+/// has few correct digits near the normal.
+float stretchedBeckmannD(vec3 h, vec2 alpha) {
+    const vec2 slope = h.xy / (alpha * h.z);
+    const float cos2 = h.z * h.z;
+    return exp(-dot(slope, slope)) / (PI * alpha.x * alpha.y * cos2 * cos2);
+}
+
+float facetD(FacetShape f, vec3 h) {
+    return f.isBeckmann ? stretchedBeckmannD(h, f.alpha) : ggxD(h, f.alpha);
+}
+
+/// Where a direction of Beckmann's facets of alpha 1 stands: its cosine over its sine. Beyond 10 all facets face it:
+/// exp(-100) is below what floats hold.
+float slopeLimit(float cosine, float sine) { return cosine / max(sine, 0.1 * cosine); }
+
+/// Projected area of the facets that are seen from w, over that of the surface they are on.
+float facetArea(FacetShape f, vec3 w) {
+    const float cosine = abs(w.z);
+    if (!f.isBeckmann) return 0.5 * (cosine + stretchedLength(w, f.alpha));
+    const float sine = length(f.alpha * w.xy), limit = slopeLimit(cosine, sine);
+    return 0.5 * cosine * (1.0 + erfPositive(limit)) +
+           0.282094791773878 * sine * exp(-limit * limit); // 1 / (2 sqrt(pi))
+}
+
+/// G2 / G1(wo), the share of the facets seen from wo that light from wi reaches. areaO: facetArea() of wo.
+float facetsLit(FacetShape f, vec3 wo, float areaO, vec3 wi) {
+    const float cosO = abs(wo.z), cosI = abs(wi.z);
+    return cosI * areaO / (cosI * areaO + cosO * (facetArea(f, wi) - cosI));
+}
+
+/// Inverse of erf, |x| < 1: relative error below 4e-7 (Giles 2012, "Approximating the erfinv Function").
+float erfInverse(float x) {
+    const float w = -log((1.0 - x) * (1.0 + x)), a = w - 2.5, b = sqrt(max(w, 5.0)) - 3.0;
+    const float middle =
+        1.50140941 +
+        a * (0.246640727 +
+             a * (-0.00417768164 +
+                  a * (-0.00125372503 +
+                       a * (0.00021858087 +
+                            a * (-4.39150654e-06 +
+                                 a * (-3.5233877e-06 +
+                                      a * (3.43273939e-07 + a * 2.81022636e-08)))))));
+    const float tail =
+        2.83297682 +
+        b * (1.00167406 +
+             b * (0.00943887047 +
+                  b * (-0.0076224613 +
+                       b * (0.00573950773 +
+                            b * (-0.00367342844 +
+                                 b * (0.00134934322 +
+                                      b * (0.000100950558 + b * -0.000200214257)))))));
+    return (w < 5.0 ? middle : tail) * x;
+}
+
+/// Slopes of Beckmann's facets of alpha 1 as they are seen from a direction of this cosine and sine, the first along
+/// the view. The slope across is normal. That along the view, x, has the density (cos + x sin) exp(-x^2) where it is
+/// positive, from -limit on. With t = |x| it is a sum of parts that can be inverted: below the limit 2 cos exp(-t^2)
+/// for both signs, of which x > 0 has (cos + t sin) / (2 cos); beyond it cos exp(-t^2), and t sin exp(-t^2), which is
+/// Rayleigh's. The number that chooses the sign is a hash of the others, which are used up.
+vec2 visibleBeckmannSlopes(float cosine, float sine, vec2 u) {
+    const float limit = slopeLimit(cosine, sine), below = erfPositive(limit);
+    const vec3 parts = vec3(1.7724538509 * cosine * below,                // sqrt(pi)
+                            0.88622692545 * cosine * (1.0 - below), // sqrt(pi) / 2
+                            0.5 * sine * exp(-limit * limit));
+    const float pick = u.x * (parts.x + parts.y + parts.z);
+    const bool isBelow = pick < parts.x, isNormal = !isBelow && pick < parts.x + parts.y;
+    const float from = isBelow ? 0.0 : (isNormal ? parts.x : parts.x + parts.y);
+    const float rest =
+        clamp((pick - from) / max(isBelow ? parts.x : (isNormal ? parts.y : parts.z), TINY), 0.0,
+              1.0 - UNIT_ROUNDOFF);
+    const float quantile = isBelow ? rest * below : below + rest * (1.0 - below);
+    const float normal = erfInverse(min(quantile, 1.0 - UNIT_ROUNDOFF));
+    const float rayleigh = sqrt(limit * limit - log(1.0 - rest));
+    const float t = isBelow ? min(normal, limit) : max(isNormal ? normal : rayleigh, limit);
+    const float sign_ = unitFloats(pcg4d(uvec4(floatBitsToUint(u), 1u, 0u))).x;
+    const bool isNegative = isBelow && 2.0 * cosine * sign_ >= cosine + t * sine;
+    const float across = erfInverse(clamp(2.0 * u.y - 1.0, UNIT_ROUNDOFF - 1.0, 1.0 - UNIT_ROUNDOFF));
+    return vec2(isNegative ? -t : t, across);
+}
+
+/// A normal seen from wo, wo.z > 0, with the density D(h) (wo . h) / facetArea(wo).
+vec3 sampleFacet(FacetShape f, vec3 wo, vec2 u) {
+    const bool onlyGgx = FACET_DISTRIBUTIONS == FACETS_GGX;
+    const bool onlyBeckmann = FACET_DISTRIBUTIONS == FACETS_BECKMANN;
+    vec3 ggx, beckmann;
+    if (!onlyBeckmann) ggx = sampleVisibleNormal(wo, f.alpha, u);
+    if (onlyGgx) return ggx;
+    // In the space where the facets are of alpha 1, the view turned to the x axis.
+    const vec3 v = unit(vec3(f.alpha * wo.xy, wo.z));
+    const float sine = length(v.xy);
+    const vec2 along = sine > 0.0 ? v.xy / sine : vec2(1.0, 0.0);
+    const vec2 s = visibleBeckmannSlopes(v.z, sine, u);
+    const vec2 slope = vec2(along.x * s.x - along.y * s.y, along.y * s.x + along.x * s.y);
+    beckmann = unit(vec3(f.alpha * slope, 1.0));
+    if (onlyBeckmann) return beckmann;
+    return f.isBeckmann ? beckmann : ggx;
+}
+
+/// What facets of this shape reflect if each reflects everything.
+BsdfValue reflectionByFacets(FacetShape f, vec3 wo, vec3 wi, vec3 h) {
+    const float area = facetArea(f, wo), density = facetD(f, h) / (4.0 * area);
+    return BsdfValue(vec3(density * facetsLit(f, wo, area, wi)), density);
+}

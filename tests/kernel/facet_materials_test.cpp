@@ -1,0 +1,116 @@
+// Conductors, rough and thin dielectrics and plastic as the kernel gets them: which kind of BSDF
+// they are, and the numbers that plastic is made of.
+#include "host/kernel/interface_table.hpp"
+#include "host/kernel/material_rows.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace stromboli {
+namespace {
+
+Material ofKind(MaterialKind kind, float alphaX, float alphaY, float ior = 1.5f) {
+    Material m;
+    m.kind = kind;
+    m.ior = ior;
+    m.facets.alpha = {alphaX, alphaY};
+    return m;
+}
+
+TEST(FacetMaterials, AreSmoothWhereFloatsCannotTell) {
+    using enum MaterialKind;
+    EXPECT_EQ(bsdfKind(ofKind(Conductor, 0, 0)), gpu::BSDF_CONDUCTOR);
+    EXPECT_EQ(bsdfKind(ofKind(Conductor, 0.99e-4f, 0)), gpu::BSDF_CONDUCTOR);
+    EXPECT_EQ(bsdfKind(ofKind(Conductor, 1e-4f, 0)), gpu::BSDF_FACET_CONDUCTOR);
+    EXPECT_EQ(bsdfKind(ofKind(Conductor, 0, 0.3f)), gpu::BSDF_FACET_CONDUCTOR);
+    EXPECT_EQ(ofKind(Conductor, 0, 0.3f).facetAlpha(), glm::vec2(1e-4f, 0.3f));
+    EXPECT_EQ(bsdfKind(ofKind(Dielectric, 0, 0)), gpu::BSDF_GLASS);
+    EXPECT_EQ(bsdfKind(ofKind(Dielectric, 0.1f, 0.1f)), gpu::BSDF_FACET_DIELECTRIC);
+    EXPECT_EQ(bsdfKind(ofKind(Dielectric, 0.1f, 0.1f, 1)), gpu::BSDF_GLASS) << "no interface";
+    EXPECT_EQ(bsdfKind(ofKind(Dielectric, 0.02f, 0.02f, 1 + 0x1p-10f)), gpu::BSDF_GLASS);
+    EXPECT_EQ(bsdfKind(ofKind(Dielectric, 0.04f, 0.04f, 1 + 0x1p-10f)), gpu::BSDF_FACET_DIELECTRIC);
+    EXPECT_EQ(bsdfKind(ofKind(ThinDielectric, 0.1f, 0.1f)), gpu::BSDF_THIN_DIELECTRIC);
+    EXPECT_EQ(bsdfKind(ofKind(Plastic, 0, 1)), gpu::BSDF_PLASTIC) << "the first alpha counts";
+    EXPECT_EQ(bsdfKind(ofKind(Plastic, 0.1f, 0)), gpu::BSDF_FACET_PLASTIC);
+    EXPECT_TRUE(ofKind(Dielectric, 0, 0).isDelta());
+    EXPECT_FALSE(ofKind(Plastic, 0, 0).isDelta());
+    EXPECT_EQ(facetDistribution(ofKind(Plastic, 0, 0)), 0u);
+    EXPECT_EQ(facetDistribution(ofKind(Plastic, 0.1f, 0)), gpu::FACETS_GGX);
+}
+
+TEST(FacetMaterials, HaveAGrainWhereTheirAlphasDiffer) {
+    EXPECT_FALSE(ofKind(MaterialKind::Conductor, 0.3f, 0.3f).hasGrain());
+    EXPECT_TRUE(ofKind(MaterialKind::Conductor, 0.3f, 0.2f).hasGrain());
+    EXPECT_FALSE(ofKind(MaterialKind::Conductor, 1e-5f, 2e-5f).hasGrain());
+    EXPECT_FALSE(ofKind(MaterialKind::Plastic, 0.3f, 0.2f).hasGrain());
+    Material m = ofKind(MaterialKind::Dielectric, 0.3f, 0.3f);
+    m.textures = {{.slot = TextureSlot::MetallicRoughness}};
+    EXPECT_TRUE(m.hasGrain());
+}
+
+double fresnel(double cosine, double eta) {
+    const double t2 = 1 - eta * eta * (1 - cosine * cosine), t = std::sqrt(std::max(t2, 0.0));
+    if (t2 <= 0) return 1;
+    const double s = (eta * cosine - t) / (eta * cosine + t);
+    const double p = (cosine - eta * t) / (cosine + eta * t);
+    return (s * s + p * p) / 2;
+}
+
+TEST(InterfaceTable, InternalReflectanceIsTheMeanOfFresnels) {
+    EXPECT_NEAR(internalReflectance(1.5), 0.5963, 1e-4); // Duntley 1942
+    EXPECT_EQ(internalReflectance(1), 0);
+    for (const double ior : {0.5, 0.7, 0.999, 1.001, 1.1, 1.33, 1.5, 2.4, 4.0}) {
+        constexpr int kViews = 400000;
+        double sum = 0;
+        for (int i = 0; i < kViews; ++i) {
+            const double mu = (i + 0.5) / kViews;
+            sum += 2 * mu * fresnel(mu, ior) / kViews;
+        }
+        EXPECT_NEAR(internalReflectance(ior), sum, 1e-6) << ior;
+    }
+}
+
+/// Facets that are nearly a plane let through what a plane does, but along it, where their slopes
+/// matter.
+TEST(InterfaceTable, HasTheLimitOfAPlane) {
+    for (const FacetDistribution d : {FacetDistribution::Ggx, FacetDistribution::Beckmann}) {
+        EXPECT_NEAR(internalReflectance(1.5, 1e-4, d), internalReflectance(1.5), 5e-4);
+        const auto table = transmittanceTable(1.5, 1e-4, d);
+        for (int i = 32; i <= 1000; ++i) { // views of cosines above 10 alpha
+            const double place = i / 1000.0 * table.size();
+            const size_t piece = std::min(size_t(place), table.size() - 1);
+            const double x = place - double(piece), root = i / 1000.0;
+            const glm::dvec4 c(table[piece]);
+            EXPECT_NEAR(c.x + x * (c.y + x * (c.z + x * c.w)), 1 - fresnel(root * root, 1 / 1.5),
+                        5e-4)
+                << root;
+        }
+    }
+}
+
+/// Light is scattered once alike in both directions: the share of diffuse light that gets out is
+/// that of what gets in over the squared index, and it and what comes back are no more than 1.
+TEST(InterfaceTable, IsReciprocal) {
+    for (const FacetDistribution d : {FacetDistribution::Ggx, FacetDistribution::Beckmann})
+        for (const double alpha : {1e-4, 0.1, 0.5, 1.0}) {
+            const auto table = transmittanceTable(1.5, alpha, d);
+            double in = 0;
+            for (const glm::vec4& c : table)
+                for (int i = 0; i < 200; ++i) {
+                    const double x = (i + 0.5) / 200;
+                    const double root = (double(&c - table.data()) + x) / double(table.size());
+                    // 2 mu dmu, mu = root^2
+                    in += (c.x + x * (c.y + x * (c.z + x * c.w))) * 4 * root * root * root /
+                          (200.0 * double(table.size()));
+                }
+            const double back = internalReflectance(1.5, alpha, d);
+            EXPECT_LT(in / 2.25 + back, 1 + 5e-4) << alpha;
+            if (alpha == 1e-4) {
+                EXPECT_NEAR(in / 2.25 + back, 1, 5e-4);
+            }
+        }
+}
+
+} // namespace
+} // namespace stromboli
