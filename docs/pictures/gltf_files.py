@@ -1,12 +1,11 @@
 #!/usr/bin/python3
-"""Makes docs/pictures/gltf_files.png: sample models of Khronos (and one of meshoptimizer) as
-Stromboli shows them, for docs/gltf_files.md.
+"""Makes contact sheets for docs/gltf_files.md: glTF models as Stromboli shows them.
 
-    docs/pictures/gltf_files.py MODELS ENVIRONMENT.hdr FOLDER
+    docs/pictures/gltf_files.py MODELS ENVIRONMENT.hdr FOLDER SHEET.png
 
-MODELS has a folder for each model. The pictures are rendered 640 x 480 into FOLDER, to be looked
-at, where they are not there yet; the sheet has them smaller. Needs the package python3-pil. Some
-minutes on two cores."""
+MODELS has a folder for each model, or folders of such folders. The pictures are rendered 640 x 480
+into FOLDER, to be looked at, where they are not there yet; the sheet has them smaller. A model that
+is refused has the message in its place. Needs the package python3-pil. Some minutes on two cores."""
 
 import argparse
 import math
@@ -15,6 +14,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import textwrap
 
 from PIL import Image, ImageDraw
 
@@ -32,10 +32,18 @@ VIEWS = {
 }
 
 
+# Lamps of up to 180 candela.
+OPTIONS = {"LightsPunctualLamp": ["--exposure", -5]}
+
+
+class Refused(Exception):
+    """The program's message."""
+
+
 def stromboli(*words):
     run = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True)
     if run.returncode != 0:
-        sys.exit(f"{words}: {run.stderr}")
+        raise Refused(run.stderr.strip().splitlines()[-1])
     return run
 
 
@@ -43,6 +51,8 @@ def bounds(model):
     """The least and the greatest corner."""
     corner = r"\(([^)]*)\)"
     found = re.search(f"bounds {corner} to {corner}", stromboli("info", model).stdout)
+    if not found:
+        raise Refused("nothing to see")
     return [[float(x) for x in text.split(",")] for text in found.groups()]
 
 
@@ -68,31 +78,39 @@ def view(model, name):
 
 def render(model, name, environment, picture):
     if not picture.exists():
-        print(name, stromboli("render", model, "-o", picture, "-r", *RENDERED, "-s", 32,
-                              "--env", environment, *view(model, name.split()[0])).stderr, flush=True)
+        print(name, stromboli("render", model, "-o", picture, "-r", *RENDERED, "-s", 64,
+                              "--env", environment, *view(model, name.split()[0]),
+                              *OPTIONS.get(name, [])).stderr, flush=True)
 
 
-def tile(picture, name):
-    """A picture above the name of its model."""
+def tile(picture, name, message):
+    """A picture, or a message, above the name of its model."""
     image = Image.new("RGB", (WIDTH, HEIGHT + LABEL), (40, 40, 40))
-    image.paste(Image.open(picture).convert("RGB").resize((WIDTH, HEIGHT), Image.LANCZOS))
+    if message:
+        lines = textwrap.fill(message, 32)
+        ImageDraw.Draw(image).text((3, 3), lines, fill=(255, 200, 120))
+    else:
+        image.paste(Image.open(picture).convert("RGB").resize((WIDTH, HEIGHT), Image.LANCZOS))
     ImageDraw.Draw(image).text((3, HEIGHT + 1), name, fill=(255, 255, 255))
     return image
 
 
 def models_of(folder):
-    """Path by name. The Duck is there twice, compressed by Draco and quantised."""
+    """Path by name: that of the folder, and of what else tells a file from others there."""
     files = sorted(f for f in folder.rglob("*.gl*") if f.suffix in (".glb", ".gltf"))
     found = {}
     for file in files:
         name = file.relative_to(folder).parts[0]
-        found[name if name not in found else f"{name} {file.parent.name}"] = file
+        for more in ("", f" {file.parent.name}", f" {file.stem}"):
+            if name + more not in found:
+                found[name + more] = file
+                break
     return dict(sorted(found.items()))
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    for name in ("models", "environment", "folder"):
+    for name in ("models", "environment", "folder", "sheet"):
         parser.add_argument(name, type=pathlib.Path)
     arguments = parser.parse_args()
     models = models_of(arguments.models)
@@ -105,10 +123,14 @@ def main():
     sheet = Image.new("RGB", (COLUMNS * step_x - GAP, rows * step_y - GAP), (90, 90, 90))
     for i, (name, model) in enumerate(models.items()):
         picture = arguments.folder / f"{name}.png"
-        render(model, name, arguments.environment, picture)
-        sheet.paste(tile(picture, name), (i % COLUMNS * step_x, i // COLUMNS * step_y))
+        message = ""
+        try:
+            render(model, name, arguments.environment, picture)
+        except Refused as refused:
+            message = str(refused).replace(str(model.parent) + "/", "")
+        sheet.paste(tile(picture, name, message), (i % COLUMNS * step_x, i // COLUMNS * step_y))
     # 256 colours are enough for pictures this small.
-    sheet.quantize(256).save(ROOT / "docs/pictures/gltf_files.png", optimize=True)
+    sheet.quantize(256).save(arguments.sheet, optimize=True)
 
 
 main()
