@@ -1,7 +1,7 @@
 // Surfaces that are partly not there, as rays meet them. A hit is an event of its own, before anything is shaded: the ray
 // goes on from the same origin, with tMin at the hit (traverse.glsl), or is done.
 
-bool isTracing(uint p); // path.glsl
+bool isTracing(uint p); // path_state.glsl
 
 float rayEnd; ///< tMax as it was asked for; the ray's own shrinks to its hits
 

@@ -1,0 +1,80 @@
+// Direct light at a surface: samples of lights, and directions of hemisphere sampling (docs/estimator.md, "Direct
+// light at a shading point").
+
+/// A direction of hemisphere sampling as a light sample whose light is not known yet.
+LightSample hemisphereSample(vec2 u) {
+#ifdef RICH_MATERIALS
+    if (isLitFromBothSides(lobesOf(material))) {
+        const float side = takesOtherSide(u) ? -1.0 : 1.0;
+        const vec3 w = side * toWorld(makeFrame(shadingNormal(surface)), sampleUniformHemisphere(u));
+        return LightSample(w, true, w, vec3(4.0 * PI / float(frame.hemisphereSamples)), 0.0);
+    }
+#endif
+    const vec3 w = toWorld(makeFrame(shadingNormal(surface)), sampleUniformHemisphere(u));
+    return LightSample(w, true, w, vec3(2.0 * PI / float(frame.hemisphereSamples)), 0.0);
+}
+
+/// A sample of one of the lights, with the probability of its choice and its share of the direct light in
+/// its radiance and density.
+LightSample lightSample(vec2 u, uint index) {
+#ifdef RICH_MATERIALS
+    SurfacePoint lit = surface;
+    const bool bothSides = isLitFromBothSides(lobesOf(material));
+    if (bothSides && takesOtherSide(u)) lit = otherSide(surface);
+    const PickedLight picked = pickLight(litPoint(lit), shadingNormal(lit), index, u);
+    LightSample light = sampleLight(lit, picked.light, picked.u);
+    if (bothSides) {
+        light.radiance *= dot(shadingNormal(lit), light.direction) > 0.0 ? 2.0 : 0.0;
+        light.inversePdf *= 2.0;
+    }
+#else
+    const PickedLight picked = pickLight(litPoint(surface), shadingNormal(surface), index, u);
+    LightSample light = sampleLight(surface, picked.light, picked.u);
+#endif
+    const float perProbability =
+        picked.probability > 0.0 ? 1.0 / picked.probability : 0.0;
+    light.radiance *= perProbability * lightSampleShare(index);
+    light.inversePdf *= perProbability;
+    return light;
+}
+
+/// Starts the ray of a direct light sample, if it can contribute.
+void traceDirectSample(LightSample light, bool hemisphere) {
+    const BsdfValue f = evaluateBsdf(material, surface, light.direction);
+    directValue = f.value * light.radiance;
+    if (!(dot(directValue, vec3(1.0)) > 0.0)) return;
+    if (combines(lobesOf(material))) {
+        const float pdf = bouncePdfWithGap(surface, lobesOf(material), f.pdf, light.direction);
+        directValue *= lightSampleWeight(light.inversePdf, pdf);
+    }
+#ifdef RICH_MATERIALS
+    const bool transmitted = isBehind(surface, light.direction);
+#else
+    const bool transmitted = false;
+#endif
+    const vec3 origin = leave(surface, light.direction, transmitted);
+#ifdef RICH_MATERIALS
+    // What the ray of hemisphere sampling goes through is known when it has arrived.
+    if (HAS_ABSORPTION && !hemisphere)
+        directValue *=
+            transmittance(mediumBeyond(surface, material, medium, transmitted),
+                          light.infinite ? INFINITE_DISTANCE : length(light.target - origin));
+#endif
+    trace(hemisphere ? PHASE_HEMISPHERE : PHASE_SHADOW, origin,
+          light.infinite ? light.direction : light.target - origin, 0.0,
+          light.infinite ? INFINITE_DISTANCE : 1.0, skipOnLeaving(surface, transmitted));
+}
+
+/// One direct light sample.
+void sampleDirect() {
+    const uint index = directIndex++;
+    vec2 u = arrivalNumbers.xy;
+    if (LIGHT_NUMBERS == LIGHT_NUMBERS_FIRST && index > 0u)
+        u = unitFloats(randomWords(1u + index)).xy;
+    const bool hemisphere = DIRECT_LIGHT == DIRECT_HEMISPHERE && index < frame.hemisphereSamples;
+    LightSample light;
+    if (hemisphere) light = hemisphereSample(u);
+    else light = lightSample(u, DIRECT_LIGHT == DIRECT_HEMISPHERE ? index - frame.hemisphereSamples
+                                                                  : index);
+    traceDirectSample(light, hemisphere);
+}
