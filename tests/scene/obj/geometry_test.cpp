@@ -29,7 +29,7 @@ glm::vec2 uvOf(const Scene& scene, size_t triangle, int corner) {
 
 TEST(ObjGeometry, PolygonsOfAnySizeAreCut) {
     EXPECT_EQ(loadObjText(kSquare + "f 1 2 3 4\n").triangles.size(), 2u);
-    // An arrowhead, concave at (1, 1): its area is 8 - 4.
+    // An arrowhead, concave at (1, 1), of area 4 - 1.
     const Scene arrow = loadObjText("v 0 0 0\nv 1 1 0\nv 2 0 0\nv 1 4 0\nf 1 2 3 4\n");
     EXPECT_NEAR(areaOf(arrow), 3, 1e-6);
     // 300 corners: more than libraries have room for in a byte.
