@@ -52,7 +52,7 @@ TEST(ObjErrors, OfMaterialsNameTheirFile) {
         {"Kd 1 1 1\n", "m.mtl:1: <Kd>: stands before the first 'newmtl'"},
         {"newmtl a\nKd 1 1\n", "m.mtl:2: <Kd>: ends where a number is expected"},
         {"newmtl a\nNs x\n", "m.mtl:2: <Ns>: 'x' is no finite number"},
-        {"newmtl a\nmap_Kd -s 2 2\n", "m.mtl:2: <map_Kd>: names no file"},
+        {"newmtl a\nmap_Kd -clamp on\n", "m.mtl:2: <map_Kd>: names no file"},
         {"newmtl a\nmap_Kd -clamp 1 a.png\n", "'1' stands where on or off is expected"},
         {"newmtl a\nmap_d -imfchan q a.png\n", "'q' is no channel"},
         {"newmtl a\nKe 1e39 0 0\n", "beyond the range of single precision"},

@@ -29,6 +29,8 @@ class ObjFolder {
 
     const std::filesystem::path& path() const { return path_; }
     void write(const std::string& name, const std::string& bytes) const {
+        // ext4 writes a file out at once that replaces the content of another one.
+        std::filesystem::remove(path_ / name);
         std::ofstream(path_ / name, std::ios::binary) << bytes;
     }
     Scene load(const std::string& text, const SceneConventions& conventions = {}) const {

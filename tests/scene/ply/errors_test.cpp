@@ -60,7 +60,7 @@ TEST(PlyErrors, HugeCounts) {
     EXPECT_THAT(plyErrorOf(plyHeader("ascii", "",
                                      "element face 1\nproperty list uint int vertex_indices\n") +
                            kPlySquare + "4000000000 0 1 2\n"),
-                HasSubstr("has 4000000000 numbers, but 6 bytes are left"));
+                HasSubstr("has 4000000000 numbers, but 7 bytes are left"));
 }
 
 } // namespace

@@ -18,15 +18,17 @@ namespace stromboli::test {
 
 /// Loads bytes as if they were a file, p.ply.
 inline Scene loadPlyBytes(const std::string& bytes, const SceneConventions& conventions = {}) {
-    const std::filesystem::path folder =
-        std::filesystem::path(testing::TempDir()) / fmt::format("stromboli_ply_{}", getpid());
-    struct Removal {
-        const std::filesystem::path& folder;
-        ~Removal() { std::filesystem::remove_all(folder); }
-    } removal{folder};
-    std::filesystem::create_directories(folder);
-    std::ofstream(folder / "p.ply", std::ios::binary) << bytes;
-    return loadPly(folder / "p.ply", conventions);
+    // One folder for all of them: mutations load thousands.
+    static const struct Folder {
+        std::filesystem::path path =
+            std::filesystem::path(testing::TempDir()) / fmt::format("stromboli_ply_{}", getpid());
+        Folder() { std::filesystem::create_directories(path); }
+        ~Folder() { std::filesystem::remove_all(path); }
+    } folder;
+    // ext4 writes a file out at once that replaces the content of another one.
+    std::filesystem::remove(folder.path / "p.ply");
+    std::ofstream(folder.path / "p.ply", std::ios::binary) << bytes;
+    return loadPly(folder.path / "p.ply", conventions);
 }
 
 /// The message with which a file is refused, from its name on.
