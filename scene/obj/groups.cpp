@@ -106,14 +106,14 @@ void Groups::enter(const std::string& object, const std::string& group, int line
     std::string name = object;
     if (!group.empty() && group != object) name += (object.empty() ? "" : "/") + group;
     if (name.empty()) name = "default";
-    const auto [found, isNew] = byName_.try_emplace(name, groups_.size());
-    if (isNew) groups_.push_back({name, line, {}});
-    current_ = found->second;
+    name_ = std::move(name);
+    line_ = line;
 }
 
 build::MeshPart& Groups::part(std::optional<uint32_t> materialName) {
-    if (groups_.empty()) enter("", "", 0);
-    return groups_[current_].parts[materialName];
+    const auto [found, isNew] = byName_.try_emplace(name_, groups_.size());
+    if (isNew) groups_.push_back({name_, line_, {}});
+    return groups_[found->second].parts[materialName];
 }
 
 void Groups::place(const std::string& file, const FileLists& lists, Materials& materials,

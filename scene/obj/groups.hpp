@@ -40,7 +40,9 @@ class Groups {
 
     std::vector<Group> groups_;
     std::unordered_map<std::string, size_t> byName_;
-    size_t current_ = 0;
+    /// Of the faces that follow; it becomes a group with the first of them.
+    std::string name_ = "default";
+    int line_ = 0;
 };
 
 } // namespace stromboli::obj

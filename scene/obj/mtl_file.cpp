@@ -104,6 +104,9 @@ class MtlReader {
   private:
     void readStatement(const std::string& keyword) {
         if (keyword == "newmtl") {
+            // A line of a few bytes; a material takes many.
+            build::requireMemory(statements_.place().file,
+                                 (materials_.size() + 1) * 2 * sizeof(MtlMaterial));
             materials_.push_back({});
             materials_.back().place = statements_.place();
             materials_.back().name = statements_.rest();

@@ -13,6 +13,11 @@
 namespace stromboli::ply {
 namespace {
 
+/// What a triangle takes here, in the mesh and in the scene: corners of polygons, which take a byte
+/// of the file at least, make one each.
+constexpr uint64_t kBytesOfTriangle =
+    sizeof(uint32_t) + sizeof(build::MeshTriangle) + sizeof(Triangle) + 3 * sizeof(uint32_t);
+
 /// Within a strip, where the next one begins.
 constexpr uint32_t kRestart = 0xFFFFFFFFu;
 
@@ -37,6 +42,7 @@ void PlyReader::read() {
     vertexCount_ = vertices->count;
     for (const Element& element : header_.elements)
         readElements(element);
+    build::requireMemory(name_, corners_.size() * kBytesOfTriangle);
     const std::array<uint32_t, 1> materials = {material()};
     const std::string instance = file_.stem().string();
     const build::ShapeId shape = builder_.addMesh(instance, makeMesh());

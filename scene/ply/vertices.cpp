@@ -1,5 +1,6 @@
 #include "scene/ply/vertices.hpp"
 
+#include "scene/build/read_file.hpp"
 #include "scene/images/srgb.hpp"
 
 #include <fmt/format.h>
@@ -101,6 +102,11 @@ class VertexReader {
                                          ? "colours of vertices are linear, as floats are"
                                          : "colours of vertices are sRGB, as whole numbers are");
         found_.hasColors = hasColors_;
+        // Twice: here and in the scene.
+        build::requireMemory(body_.place().file,
+                             2 * element_.count *
+                                 ((hasNormals_ ? 2 : 1) * sizeof(glm::dvec3) +
+                                  (hasUv_ || hasColors_ ? sizeof(VertexAttributes) : 0)));
         found_.positions.reserve(element_.count);
         if (hasNormals_) found_.normals.reserve(element_.count);
         if (hasUv_ || hasColors_) found_.attributes.reserve(element_.count);
