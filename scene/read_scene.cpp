@@ -6,6 +6,8 @@
 #include "scene/find_scene.hpp"
 #include "scene/generate/generated_scene.hpp"
 #include "scene/gltf/load_gltf.hpp"
+#include "scene/obj/load_obj.hpp"
+#include "scene/ply/load_ply.hpp"
 
 #include <fmt/format.h>
 
@@ -32,6 +34,9 @@ constexpr Format kFormats[] = {
     {"COLLADA archive (.zae)", ".zae", looksLikeColladaArchive, loadCollada},
     {"glTF 2.0 (.gltf)", ".gltf", looksLikeGltf, loadGltf, true},
     {"binary glTF 2.0 (.glb)", ".glb", looksLikeBinaryGltf, loadGltf, true},
+    {"PLY (.ply)", ".ply", looksLikePly, loadPly},
+    // The last one: it has no mark of its own.
+    {"Wavefront OBJ (.obj)", ".obj", looksLikeObj, loadObj},
 };
 
 /// What is looked at to tell a format. Comments may stand before the first element.

@@ -60,6 +60,20 @@ void writeFigures(const CompareOptions& o, const Comparison& comparison,
     writeOutput(o.jsonFile, json.dump(2) + "\n");
 }
 
+/// Those of each pixel of the picture that is judged.
+uint64_t samplesOf(const CompareOptions& o, const Picture& picture) {
+    if (o.samples) return *o.samples;
+    const auto fail = [&] {
+        throw UsageError(o.picture + " does not say how many samples each of its pixels has: "
+                                     "--ztest-variance needs -s N");
+    };
+    if (!picture.film) fail();
+    const uint64_t count = picture.film->pixels.front().count;
+    for (const PixelStatistics& pixel : picture.film->pixels)
+        if (pixel.count != count || count == 0) fail();
+    return count * picture.film->branches;
+}
+
 } // namespace
 
 int compareCommand(const Options& options) {
@@ -67,7 +81,10 @@ int compareCommand(const Options& options) {
     nowDoing("comparing " + o.picture);
     const Picture reference = compare::readPicture(o.reference);
     const Picture picture = compare::readPicture(o.picture);
-    const Comparison comparison = compare::comparePictures(reference, picture, o.settings);
+    Comparison comparison = compare::comparePictures(reference, picture, o.settings);
+    if (!o.varianceFile.empty())
+        comparison.acceptance = compare::judgeByVariance(
+            reference, compare::readPicture(o.varianceFile), picture, samplesOf(o, picture));
     if (o.familyErrorGiven && !comparison.zTest)
         logging::warn(fmt::format("{} has no variances (render --aov writes them into EXR files), "
                                   "so there are no z-tests: ignored: --alpha",

@@ -11,6 +11,7 @@ namespace {
 constexpr Range<double> kErrors{0, 1e300}, kDecibels{-1000, 1000}, kSimilarities{-1, 1},
     kFlip{0, 1}, kPercent{0, 1e9}, kStops{-100, 100}, kPixelsPerDegree{1, 1000},
     kErrorRates{1e-12, 0.5};
+constexpr Range<uint32_t> kSampleCounts{1, 1u << 30};
 
 void declareThresholds(OptionList& list, compare::Thresholds& t) {
     list.group("Limits (exit code 3 if one is not kept)");
@@ -59,6 +60,17 @@ void declareCompare(DeclaredCommand& c) {
         .required()
         .proposes(Proposed::Files);
     declareThresholds(list, o.thresholds);
+    list.text("--ztest-variance", "FILE",
+              "IMG must agree with REF by the variance of one sample of REF, as Mitsuba 3 judges "
+              "its render tests: in CIE XYZ, 99.75 % of all |IMG - REF| sqrt(N / max(variance, "
+              "1e-4)) "
+              "are below a limit that no pixel exceeds in 99 of 100 pictures",
+              o.varianceFile)
+        .proposes(Proposed::Files);
+    list.number("-s,--samples", "N", "samples of each pixel of IMG, for --ztest-variance",
+                o.samples, kSampleCounts)
+        .usually("those that IMG states (render --aov)")
+        .needs("--ztest-variance");
     list.group("Output");
     list.text("--diff", "FILE", "write the difference: .png in false colour, .exr as IMG - REF",
               o.differenceFile)

@@ -3,6 +3,8 @@
 #include "host/compare/comparison.hpp"
 #include "host/core/named_values.hpp"
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 namespace stromboli {
@@ -24,7 +26,9 @@ struct CompareOptions {
     std::string jsonFile;       ///< empty: none; "-": standard output, instead of the text
     std::string differenceFile; ///< empty: none
     DifferenceView show = DifferenceView::Flip;
-    bool familyErrorGiven = false; ///< on the command line
+    std::string varianceFile;        ///< of one sample of the reference; empty: none
+    std::optional<uint32_t> samples; ///< of each pixel of the picture, for varianceFile
+    bool familyErrorGiven = false;   ///< on the command line
 };
 
 } // namespace stromboli

@@ -115,7 +115,7 @@ void checkCommandName(const std::deque<DeclaredCommand>& commands, const Words& 
                                      "OPTIONS, as stromboli render SCENE.dae -o out.png",
                                      word));
     if (word.ends_with(".dae") || word.ends_with(".gltf") || word.ends_with(".glb") ||
-        word.starts_with("generate:"))
+        word.ends_with(".obj") || word.ends_with(".ply") || word.starts_with("generate:"))
         throw UsageError(fmt::format(
             "'{0}' is a scene, no command: did you mean stromboli render {0} -o out.png?", word));
     throw UsageError(

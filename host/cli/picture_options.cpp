@@ -74,7 +74,8 @@ void declareScene(DeclaredCommand& c) {
     c.list.group("Scene");
     c.list
         .text("SCENE", "",
-              "COLLADA (.dae, .zae) or glTF file (.gltf, .glb); or a bundled scene by its name "
+              "COLLADA (.dae, .zae), glTF (.gltf, .glb), OBJ or PLY file; or a bundled scene by "
+              "its name "
               "(cornell_boxes, island, "
               "...); or generate:cornell_mesh:N for a scene of N triangles made in memory, "
               "generate:lamps:N for one lit by N triangles",

@@ -13,8 +13,9 @@ std::string shortHelp() {
         text += fmt::format("  stromboli {:<39} {}\n", command.word, command.meaning);
     return text +
            "\n"
-           "SCENE is a COLLADA or glTF file (.dae, .gltf, .glb), a bundled scene by its name, as\n"
-           "cornell_mesh, or generate:cornell_mesh:100k, which is made in memory.\n"
+           "SCENE is a COLLADA, glTF, OBJ or PLY file (.dae, .gltf, .glb, .obj, .ply), a bundled "
+           "scene\n"
+           "by its name, as cornell_mesh, or generate:cornell_mesh:100k, which is made in memory.\n"
            "\n"
            "Other commands: devices, compare, study, bench, stress. 'stromboli --help' says "
            "what\n"

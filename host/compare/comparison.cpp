@@ -110,6 +110,10 @@ std::vector<std::string> violations(const Comparison& c, const Thresholds& t) {
         lines.emplace_back("the z-tests find a difference");
     if (t.zTest && c.zTest->verdict() == Verdict::Undecided)
         lines.emplace_back("the z-tests could not have found a difference: too few samples");
+    if (c.acceptance && !c.acceptance->accepted())
+        lines.push_back(fmt::format("{:.4f} % of the z-tests by the reference's variance pass, "
+                                    "fewer than {:.2f} %",
+                                    100 * c.acceptance->share(), 100 * c.acceptance->required));
     return lines;
 }
 

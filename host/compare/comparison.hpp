@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/check/cross_check.hpp"
+#include "host/compare/acceptance.hpp"
 #include "host/compare/flip.hpp"
 #include "host/compare/metrics.hpp"
 #include "host/core/json.hpp"
@@ -34,9 +35,10 @@ struct Comparison {
     bool highDynamicRange = false;
     double flipStartStops = 0, flipStopStops = 0;
     int flipExposures = 1;
-    std::optional<CheckResult> zTest; ///< where both have variances; A is the picture
-    uint32_t branches = 1;            ///< paths of a sample, the larger one of the two pictures
-    bool unevenSamples = false;       ///< sample counts vary: adaptive sampling
+    std::optional<CheckResult> zTest;     ///< where both have variances; A is the picture
+    std::optional<Acceptance> acceptance; ///< where a variance of the reference is given
+    uint32_t branches = 1;                ///< paths of a sample, the larger one of the two pictures
+    bool unevenSamples = false;           ///< sample counts vary: adaptive sampling
 };
 
 /// Throws UsageError if the sizes differ.
@@ -51,9 +53,9 @@ struct Thresholds {
     bool any() const { return mse || relMse || flip || biasPercent || psnr || ssim || zTest; }
 };
 
-/// A line for each limit that is not kept; a figure that is NaN keeps none. No limit is kept by a
-/// picture that is not finite in a pixel where the reference is, or in all of them. Throws
-/// UsageError for a z-test without variances.
+/// A line for each limit that is not kept, and one if the picture is not accepted; a figure that is
+/// NaN keeps none. No limit is kept by a picture that is not finite in a pixel where the reference
+/// is, or in all of them. Throws UsageError for a z-test without variances.
 std::vector<std::string> violations(const Comparison& comparison, const Thresholds& thresholds);
 
 std::string toText(const Comparison& comparison);

@@ -33,6 +33,20 @@ Json toJson(const CheckResult& z) {
             {"constantMismatches", z.constantMismatches}};
 }
 
+Json toJson(const Acceptance& a) {
+    return {{"accepted", a.accepted()}, {"share", a.share()},   {"required", a.required},
+            {"samples", a.samples},     {"tests", a.tests},     {"passing", a.passing},
+            {"limit", a.limit},         {"largest", a.largest}, // null: not finite
+            {"pixel", {a.x, a.y}}};
+}
+
+std::string toText(const Acceptance& a) {
+    return fmt::format("by the reference's variance, {} samples: {} of {} z-tests pass ({:.4f} %, "
+                       "{:.2f} % must), |z| < {:.2f}; largest {:.2f} at {} {}: {}\n",
+                       a.samples, a.passing, a.tests, 100 * a.share(), 100 * a.required, a.limit,
+                       a.largest, a.x, a.y, a.accepted() ? "ACCEPTED" : "NOT ACCEPTED");
+}
+
 } // namespace
 
 std::string toText(const Comparison& c) {
@@ -52,6 +66,7 @@ std::string toText(const Comparison& c) {
     if (c.notFiniteReference + c.notFinitePicture > 0)
         text += fmt::format("not finite: {} pixels of the reference, {} of the picture; left out\n",
                             c.notFiniteReference, c.notFinitePicture);
+    if (c.acceptance) text += toText(*c.acceptance);
     if (!c.zTest) return text;
     text += "z-tests, A the picture, B the reference:\n" + formatCheck(*c.zTest);
     if (c.branches > 1)
@@ -86,6 +101,7 @@ Json toJson(const Comparison& c) {
               {"picture", c.notFinitePicture},
               {"pictureAlone", c.notFiniteInPictureAlone}}},
             {"zTest", c.zTest ? toJson(*c.zTest) : Json(nullptr)},
+            {"acceptance", c.acceptance ? toJson(*c.acceptance) : Json(nullptr)},
             {"branches", c.branches},
             {"unevenSamples", c.unevenSamples}};
 }

@@ -139,8 +139,8 @@ std::string pageOf(const DeclaredCommand& c) {
 
 std::string scenes() {
     return section("SCENES") +
-           plain("A scene is a COLLADA file (.dae, or an archive .zae) or a glTF file (.gltf, "
-                 ".glb), one of the bundled scenes, "
+           plain("A scene is a COLLADA file (.dae, or an archive .zae), a glTF file (.gltf, .glb), "
+                 "a Wavefront OBJ file (.obj) or a PLY file (.ply), one of the bundled scenes, "
                  "or one that is made in memory, as generate:cornell_mesh:100k. The bundled scenes "
                  "go by these names everywhere:\n") +
            fmt::format("{}.\n", plain(fmt::format("{}", fmt::join(librarySceneNames(), ", "))));

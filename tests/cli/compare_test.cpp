@@ -95,6 +95,26 @@ TEST(CompareCommand, PathsThatShareASampleAreNoSamples) {
     EXPECT_THAT(many.out, HasSubstr("the pictures agree"));
 }
 
+/// A variance of 0.04 and 400 samples: differences of 0.01 are one standard deviation.
+TEST(CompareCommand, VarianceOfTheReferenceDecidesTheExitCode) {
+    const ScratchFolder folder;
+    const std::string a = constantExr(folder, "a.exr", 1), v = constantExr(folder, "v.exr", 0.04f);
+    const std::string near = constantExr(folder, "near.exr", 1.01f);
+    const std::string far = constantExr(folder, "far.exr", 1.1f);
+    const ProgramRun accepted =
+        stromboli({"compare", a, near, "--ztest-variance", v, "-s", "400", "--json", "-"});
+    EXPECT_EQ(accepted.exitCode, 0) << accepted.err;
+    const nlohmann::json json = nlohmann::json::parse(accepted.out)["acceptance"];
+    EXPECT_EQ(json["accepted"], true);
+    EXPECT_EQ(json["share"], 1.0);
+    const ProgramRun refused = stromboli({"compare", a, far, "--ztest-variance", v, "-s", "400"});
+    EXPECT_EQ(refused.exitCode, 3);
+    EXPECT_THAT(refused.out, HasSubstr("NOT ACCEPTED"));
+    const ProgramRun unknown = stromboli({"compare", a, far, "--ztest-variance", v});
+    EXPECT_EQ(unknown.exitCode, 1);
+    EXPECT_THAT(unknown.err, HasSubstr("needs -s N"));
+}
+
 TEST(CompareCommand, BadInputIsOneLine) {
     const ScratchFolder folder;
     const std::string a = constantExr(folder, "a.exr", 1);

@@ -69,6 +69,20 @@ TEST_F(ReadScene, ByTheEndingOfTheName) {
                 AllOf(HasSubstr("b.dae"), HasSubstr("not well-formed XML")));
 }
 
+TEST_F(ReadScene, ObjAndPly) {
+    const std::string obj = "# by hand\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
+    const std::string ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                            "property float y\nproperty float z\nelement face 1\n"
+                            "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n"
+                            "1 1 0\n3 0 1 2\n";
+    for (const char* ending : {".obj", ".OBJ", "", ".txt"})
+        EXPECT_EQ(trianglesOf(std::string("a") + ending, obj), 1u) << ending;
+    for (const char* ending : {".ply", ".PLY", "", ".txt"})
+        EXPECT_EQ(trianglesOf(std::string("b") + ending, ply), 1u) << ending;
+    EXPECT_THAT(messageOf(write("c.ply", obj)), HasSubstr("is no PLY file"));
+    EXPECT_THAT(messageOf(write("d.obj", ply)), HasSubstr("has no vertex"));
+}
+
 TEST_F(ReadScene, ByContentWhereTheNameSaysNothing) {
     for (const char* name : {"scene", "scene.xml", "scene.txt", ".dae"})
         EXPECT_EQ(trianglesOf(name, kProlog + kRoot), 1u) << name;
@@ -81,7 +95,7 @@ TEST_F(ReadScene, ByContentWhereTheNameSaysNothing) {
 TEST_F(ReadScene, OtherFilesAreOneErrorThatNamesTheFormats) {
     for (const char* content :
          {"", "glT", "{\"name\": {}}", "<?xml version=\"1.0\"?><scene version=\"3.0.0\"/>",
-          "<!-- <COLLADA> -->", "<COLLADAS/>", "v 0 0 0\n", "<?xml", "COLLADA"}) {
+          "<!-- <COLLADA> -->", "<COLLADAS/>", "v 0 0 0\nx 1\n", "<?xml", "COLLADA"}) {
         const std::string file = write("scene.xyz", content);
         EXPECT_THAT(messageOf(file), AllOf(testing::StartsWith(file), HasSubstr("COLLADA (.dae"),
                                            HasSubstr("generate:")))

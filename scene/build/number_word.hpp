@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace stromboli::build {
+
+/// Numbers in formats of plain text, which do not depend on the locale. Nothing if the whole word
+/// is no such number.
+
+/// A finite number with digits, point and exponent, and one sign at most; one too small for a
+/// double is 0.
+std::optional<double> realIn(std::string_view word);
+/// A whole number without a point, with one sign at most.
+std::optional<int64_t> integerIn(std::string_view word);
+
+} // namespace stromboli::build

@@ -1,0 +1,78 @@
+#include "scene/obj/materials.hpp"
+
+#include "scene/obj/material_rules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace stromboli::obj {
+
+Materials::Materials(const std::filesystem::path& file, build::SceneBuilder& builder)
+    : folder_(file.parent_path()), builder_(builder), pictures_(folder_, builder) {}
+
+/// The specification separates names by spaces; programs write one name, with spaces in it.
+void Materials::addLibraries(const Statements& statement) {
+    if (addLibrary(statement.rest())) return;
+    bool foundAll = true;
+    for (Words words(statement.rest()); !words.atEnd();)
+        foundAll = addLibrary(words.next()) && foundAll;
+    if (foundAll && !statement.rest().empty()) return;
+    builder_.report().forgive(
+        statement.place(),
+        fmt::format("'{}' is not in the file's folder", shortened(statement.rest())),
+        "its materials are not known");
+}
+
+bool Materials::addLibrary(std::string_view name) {
+    const std::optional<std::filesystem::path> file = companion(folder_, name).path;
+    if (!file) return false;
+    if (std::find(libraries_.begin(), libraries_.end(), file->string()) != libraries_.end())
+        return true;
+    libraries_.push_back(file->string());
+    for (MtlMaterial& material : readMtlFile(*file, builder_.report())) {
+        const std::string key = material.name;
+        const auto [found, isNew] = stated_.try_emplace(key, std::move(material));
+        if (!isNew)
+            builder_.report().forgive(material.place, "a material of this name is there already",
+                                      "the first one counts");
+    }
+    return true;
+}
+
+uint32_t Materials::nameNumber(const Statements& statement) {
+    const auto [found, isNew] =
+        useNumbers_.try_emplace(std::string(statement.rest()), uint32_t(uses_.size()));
+    if (isNew) uses_.push_back({found->first, statement.place()});
+    return found->second;
+}
+
+const BoundMaterial& Materials::of(std::optional<uint32_t> name) {
+    if (name && !stated_.contains(uses_[*name].name)) {
+        const Use& use = uses_[*name];
+        builder_.report().forgive(use.place,
+                                  fmt::format("there is no material '{}'", shortened(use.name)),
+                                  "such a surface is mid grey");
+        name.reset();
+    }
+    if (!name) {
+        if (!standard_) standard_ = BoundMaterial{builder_.defaultMaterial(), false, false};
+        return *standard_;
+    }
+    const auto found = made_.find(*name);
+    if (found != made_.end()) return found->second;
+    return made_.emplace(*name, make(stated_.at(uses_[*name].name))).first->second;
+}
+
+BoundMaterial Materials::make(const MtlMaterial& stated) {
+    Material material = materialOf(stated, builder_, pictures_);
+    BoundMaterial bound;
+    bound.isTextured = !material.textures.empty();
+    bound.wantsTangents = material.principled.anisotropy > 0;
+    for (const TextureUse& use : material.textures)
+        bound.wantsTangents = bound.wantsTangents || use.slot == TextureSlot::Normal;
+    bound.number = builder_.addMaterial(std::move(material));
+    return bound;
+}
+
+} // namespace stromboli::obj

@@ -1,0 +1,262 @@
+#include "scene/obj/mtl_file.hpp"
+
+#include "scene/build/number_word.hpp"
+#include "scene/build/read_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+namespace stromboli::obj {
+namespace {
+
+/// Keywords in small letters: programs do not agree on their capitals.
+struct ColorKeyword {
+    std::string_view name;
+    std::optional<glm::dvec3> MtlMaterial::*member;
+};
+constexpr ColorKeyword kColors[] = {{"kd", &MtlMaterial::diffuse},
+                                    {"ks", &MtlMaterial::specular},
+                                    {"ke", &MtlMaterial::emission},
+                                    {"tf", &MtlMaterial::filter}};
+
+struct NumberKeyword {
+    std::string_view name;
+    std::optional<double> MtlMaterial::*member;
+    bool isFraction = false; ///< of the range [0, 1]
+};
+constexpr NumberKeyword kNumbers[] = {{"ns", &MtlMaterial::exponent},
+                                      {"ni", &MtlMaterial::ior},
+                                      {"d", &MtlMaterial::dissolve, true},
+                                      {"tr", &MtlMaterial::transparency, true},
+                                      {"pr", &MtlMaterial::roughness, true},
+                                      {"pm", &MtlMaterial::metallic, true},
+                                      {"ps", &MtlMaterial::sheen, true},
+                                      {"pc", &MtlMaterial::clearcoat, true},
+                                      {"pcr", &MtlMaterial::clearcoatRoughness, true},
+                                      {"aniso", &MtlMaterial::anisotropy, true},
+                                      {"anisor", &MtlMaterial::anisotropyRotation},
+                                      {"illum", &MtlMaterial::illumination}};
+
+struct MapKeyword {
+    std::string_view name;
+    std::optional<Map> MtlMaterial::*member;
+};
+constexpr MapKeyword kMaps[] = {
+    {"map_kd", &MtlMaterial::diffuseMap},   {"map_ks", &MtlMaterial::specularMap},
+    {"map_ke", &MtlMaterial::emissionMap},  {"map_d", &MtlMaterial::opacityMap},
+    {"map_pr", &MtlMaterial::roughnessMap}, {"map_pm", &MtlMaterial::metallicMap},
+    {"norm", &MtlMaterial::normalMap},      {"map_kn", &MtlMaterial::normalMap}};
+
+struct IgnoredKeyword {
+    std::string_view name, why;
+};
+constexpr IgnoredKeyword kIgnored[] = {
+    {"ka", "light from everywhere is computed, not stated"},
+    {"map_ka", "light from everywhere is computed, not stated"},
+    {"bump", "there are normal maps ('norm') and no bump maps"},
+    {"map_bump", "there are normal maps ('norm') and no bump maps"},
+    {"disp", "surfaces stay where they are"},
+    {"map_disp", "surfaces stay where they are"},
+    {"decal", "there is one picture for each colour"},
+    {"refl", "what is around a surface is seen in it"},
+    {"map_refl", "what is around a surface is seen in it"},
+    {"map_ns", "the exponent is the same all over a surface"},
+    {"map_tr", "opacity is that of 'map_d'"},
+    {"map_ps", "sheen is the same all over a surface"},
+    {"map_pc", "the coat is the same all over a surface"},
+    {"map_pcr", "the coat is the same all over a surface"},
+    {"map_rma", "no two programs agree on its channels"},
+    {"map_orm", "no two programs agree on its channels"},
+    {"map_aat", "every picture is antialiased"},
+    {"sharpness", "reflections are as sharp as the surface is smooth"},
+    {"km", "it is in no specification"}};
+
+template <typename Table>
+auto find(const Table& table, std::string_view name) {
+    const auto found = std::find_if(std::begin(table), std::end(table),
+                                    [&](const auto& row) { return row.name == name; });
+    return found == std::end(table) ? nullptr : &*found;
+}
+
+std::string inSmallLetters(std::string_view text) {
+    std::string small(text);
+    std::transform(small.begin(), small.end(), small.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    return small;
+}
+
+class MtlReader {
+  public:
+    MtlReader(const std::filesystem::path& file, build::Report& report)
+        : statements_(file.string(), build::readFile(file)), report_(report) {}
+
+    std::vector<MtlMaterial> read() {
+        while (statements_.next())
+            readStatement(inSmallLetters(statements_.keyword().substr(0, 40)));
+        return std::move(materials_);
+    }
+
+  private:
+    void readStatement(const std::string& keyword) {
+        if (keyword == "newmtl") {
+            // A line of a few bytes; a material takes many.
+            build::requireMemory(statements_.place().file,
+                                 (materials_.size() + 1) * 2 * sizeof(MtlMaterial));
+            materials_.push_back({});
+            materials_.back().place = statements_.place();
+            materials_.back().name = statements_.rest();
+            return;
+        }
+        if (const auto* ignored = find(kIgnored, keyword))
+            return report_.ignore(fmt::format("'{}' of a material", statements_.keyword()),
+                                  std::string(ignored->why));
+        const auto* color = find(kColors, keyword);
+        const auto* fact = find(kNumbers, keyword);
+        const auto* map = find(kMaps, keyword);
+        if (!color && !fact && !map)
+            return report_.forgive(statements_.place(), "is no statement of MTL that is known",
+                                   "the line is skipped");
+        if (materials_.empty()) statements_.fail("stands before the first 'newmtl'");
+        MtlMaterial& material = materials_.back();
+        if (color) readColor(material.*color->member);
+        if (fact) readNumber(*fact, material.*fact->member);
+        if (map) readMap(material.*map->member);
+    }
+
+    /// r [g b]: without g and b, all are r.
+    void readColor(std::optional<glm::dvec3>& color) {
+        Words words(statements_.values());
+        if (words.rest().starts_with("spectral"))
+            return report_.ignore("colours by spectral curves", "red, green and blue are needed");
+        if (words.rest().starts_with("xyz"))
+            return report_.ignore("colours in CIE XYZ", "red, green and blue are needed");
+        glm::dvec3 value(number(words));
+        if (!words.atEnd()) {
+            value.y = number(words);
+            value.z = number(words);
+        }
+        color = value;
+    }
+
+    /// Scenes hold these numbers in single precision.
+    double number(Words& words) const {
+        const double value = statements_.number(words);
+        if (!std::isfinite(float(value)))
+            statements_.fail("has a number beyond the range of single precision");
+        return value;
+    }
+
+    void readNumber(const NumberKeyword& keyword, std::optional<double>& result) {
+        Words words(statements_.values());
+        if (words.rest().starts_with("-halo")) {
+            words.next();
+            report_.ignore("'d -halo'", "opacity does not depend on the angle");
+        }
+        double value = number(words);
+        if (keyword.isFraction && (value < 0 || value > 1)) {
+            report_.warn(
+                fmt::format("'{}' of a material: a fraction outside [0, 1] is clamped to it",
+                            statements_.keyword()));
+            value = std::clamp(value, 0.0, 1.0);
+        }
+        result = value;
+    }
+
+    void readMap(std::optional<Map>& result) {
+        Map map;
+        map.place = statements_.place();
+        Words words(statements_.rest());
+        while (words.rest().starts_with('-')) {
+            Words ahead = words;
+            if (!readOption(ahead, map)) break;
+            words = ahead;
+        }
+        map.name = words.rest();
+        if (map.name.empty()) statements_.fail("names no file");
+        result = std::move(map);
+    }
+
+    /// False if the words begin with no option: a name of a file may begin with '-' too.
+    bool readOption(Words& words, Map& map) {
+        const std::string option = inSmallLetters(words.next().substr(0, 40));
+        if (option == "-clamp") {
+            map.clamp = isOn(words);
+        } else if (option == "-s" || option == "-o") {
+            glm::dvec2& pair = option == "-s" ? map.scale : map.offset;
+            readPair(words, pair);
+        } else if (option == "-bm") {
+            map.strength = number(words);
+        } else if (option == "-imfchan") {
+            map.channel = channelOf(words.next());
+        } else if (option == "-t") {
+            glm::dvec2 turbulence;
+            readPair(words, turbulence);
+            ignoreOption(option);
+        } else if (option == "-mm") {
+            const double base = number(words), gain = number(words);
+            if (base != 0 || gain != 1) ignoreOption(option);
+        } else if (option == "-boost" || option == "-texres" || option == "-blendu" ||
+                   option == "-blendv" || option == "-cc" || option == "-type") {
+            words.next();
+            if (option == "-boost" || option == "-cc") ignoreOption(option);
+        } else {
+            return false;
+        }
+        return true;
+    }
+
+    void ignoreOption(const std::string& option) {
+        report_.ignore(fmt::format("option {} of a picture", option),
+                       "pictures are shown as they are");
+    }
+
+    bool isOn(Words& words) {
+        const std::string_view value = words.next();
+        if (value != "on" && value != "off")
+            statements_.fail(
+                fmt::format("'{}' stands where on or off is expected", shortened(value)));
+        return value == "on";
+    }
+
+    /// u [v [w]]; what comes last is the name of the file, also if it is a number.
+    void readPair(Words& words, glm::dvec2& pair) {
+        pair.x = number(words);
+        for (int i = 1; i < 3; ++i) {
+            Words ahead = words;
+            const std::optional<double> value = build::realIn(ahead.next());
+            if (!value || !std::isfinite(float(*value)) || ahead.atEnd()) return;
+            words = ahead;
+            if (i == 1) pair.y = *value;
+        }
+    }
+
+    MapChannel channelOf(std::string_view word) {
+        if (word == "r") return MapChannel::Red;
+        if (word == "g") return MapChannel::Green;
+        if (word == "b") return MapChannel::Blue;
+        if (word == "m") return MapChannel::Alpha;
+        if (word == "l") return MapChannel::Luminance;
+        if (word != "z")
+            statements_.fail(
+                fmt::format("'{}' is no channel; expected r, g, b, m, l or z", shortened(word)));
+        report_.ignore("option -imfchan z of a picture", "pictures have no depth");
+        return MapChannel::Unstated;
+    }
+
+    Statements statements_;
+    build::Report& report_;
+    std::vector<MtlMaterial> materials_;
+};
+
+} // namespace
+
+std::vector<MtlMaterial> readMtlFile(const std::filesystem::path& file, build::Report& report) {
+    return MtlReader(file, report).read();
+}
+
+} // namespace stromboli::obj

@@ -1,0 +1,203 @@
+#include "scene/obj/obj_reader.hpp"
+
+#include "scene/build/number_word.hpp"
+#include "scene/build/read_file.hpp"
+#include "scene/images/srgb.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace stromboli::obj {
+namespace {
+
+/// 32-bit numbers, of which the highest ones have a meaning of their own.
+constexpr size_t kMostElements = 0xFFFFFFF0u;
+
+/// What a triangle takes here, in its group's mesh and in the scene: corners of polygons, which
+/// take two bytes of the file each, make one each.
+constexpr uint64_t kBytesOfTriangle = 2 * sizeof(build::MeshTriangle) + sizeof(Triangle);
+
+float linearFromSrgb(double value) {
+    return float(images::srgbToLinear(std::clamp(value, 0.0, 1.0)));
+}
+
+} // namespace
+
+ObjReader::ObjReader(const std::filesystem::path& file, build::SceneBuilder& builder)
+    : file_(file), builder_(builder), statements_(file.string(), build::readFile(file)),
+      materials_(file, builder), polygons_(lists_.mesh, builder.report()) {}
+
+void ObjReader::read() {
+    while (statements_.next())
+        readStatement();
+    if (lists_.mesh.positions.empty())
+        build::FilePlace{file_.string(), 0, ""}.fail(
+            "has no vertex (a line 'v X Y Z'): it is empty, or no OBJ file");
+    groups_.place(file_.string(), lists_, materials_, builder_);
+}
+
+void ObjReader::readStatement() {
+    const std::string_view keyword = statements_.keyword();
+    build::Report& report = builder_.report();
+    if (keyword == "v") return readPosition();
+    if (keyword == "vn") return readNormal();
+    if (keyword == "vt") return readTexcoord();
+    if (keyword == "f" || keyword == "fo") return readFace();
+    if (keyword == "usemtl") return useMaterial();
+    if (keyword == "mtllib") return materials_.addLibraries(statements_);
+    if (keyword == "o" || keyword == "g") {
+        part_ = nullptr;
+        if (keyword == "o") object_ = statements_.rest();
+        group_ = keyword == "g" ? std::string(statements_.rest()) : "";
+        return groups_.enter(object_, group_, statements_.line());
+    }
+    if (keyword == "s") {
+        const std::string_view value = statements_.rest();
+        if (value != "off" && value != "0")
+            report.ignore("smoothing groups ('s')", "surfaces without normals are shaded flat");
+        return;
+    }
+    if (keyword == "l" || keyword == "p")
+        return report.ignore("lines and points ('l', 'p')", "only surfaces are shown");
+    if (isObjKeyword(keyword))
+        return report.ignore(fmt::format("'{}'", keyword),
+                             "of polygons, their groups and materials alone are read");
+    report.forgive(statements_.place(), "is no statement of the format", "the line is skipped");
+}
+
+/// v x y z [w], or v x y z r g b [a]: not in the specification, but programs for scans write it.
+void ObjReader::readPosition() {
+    Words words(statements_.values());
+    glm::dvec3 p;
+    for (int i = 0; i < 3; ++i)
+        p[i] = statements_.number(words);
+    std::array<double, 4> more{};
+    size_t count = 0;
+    while (!words.atEnd() && count < more.size())
+        more[count++] = statements_.number(words);
+    if (count == 1 && more[0] != 1)
+        builder_.report().ignore("weights of vertices (the fourth number of 'v')",
+                                 "they belong to curved surfaces");
+    if (lists_.mesh.positions.size() >= kMostElements) statements_.fail("is one vertex too many");
+    lists_.mesh.positions.push_back(p);
+    const bool hasColor = count >= 3 && builder_.conventions().textures;
+    if (!hasColor && lists_.colors.empty()) return;
+    if (lists_.colors.empty())
+        builder_.report().assume(
+            "colours of vertices are sRGB; they multiply the material's colour");
+    // Vertices before the first one with a colour, and those without, are white: nothing changes.
+    lists_.colors.resize(lists_.mesh.positions.size(), glm::vec3(1));
+    if (hasColor)
+        lists_.colors.back() = {linearFromSrgb(more[0]), linearFromSrgb(more[1]),
+                                linearFromSrgb(more[2])};
+}
+
+void ObjReader::readNormal() {
+    Words words(statements_.values());
+    glm::dvec3 n;
+    for (int i = 0; i < 3; ++i)
+        n[i] = statements_.number(words);
+    if (lists_.mesh.normals.size() >= kMostElements) statements_.fail("is one normal too many");
+    lists_.mesh.normals.push_back(n);
+}
+
+/// vt u [v [w]]
+void ObjReader::readTexcoord() {
+    Words words(statements_.values());
+    const double u = statements_.number(words);
+    const double v = words.atEnd() ? 0 : statements_.number(words);
+    if (lists_.texcoords.size() >= kMostElements)
+        statements_.fail("is one texture coordinate too many");
+    const glm::vec2 uv(u, v);
+    if (!std::isfinite(uv.x) || !std::isfinite(uv.y))
+        statements_.fail("is beyond the range of single precision");
+    lists_.texcoords.push_back(uv);
+}
+
+void ObjReader::readFace() {
+    corners_.clear();
+    for (Words words(statements_.values()); !words.atEnd();)
+        corners_.push_back(readCorner(words.next()));
+    makeUniform(corners_);
+    requireMemory();
+    if (!part_) part_ = &groups_.part(materialName_);
+    polygons_.add(corners_, *part_);
+}
+
+/// v, v/vt, v//vn or v/vt/vn.
+build::Corner ObjReader::readCorner(std::string_view word) {
+    std::array<std::string_view, 3> fields;
+    size_t count = 0;
+    for (std::string_view rest = word;; ++count) {
+        const size_t slash = rest.find('/');
+        if (count == 3)
+            statements_.fail(fmt::format("'{}' has more than three numbers", shortened(word)));
+        fields[count] = rest.substr(0, slash);
+        if (slash == std::string_view::npos) break;
+        rest.remove_prefix(slash + 1);
+    }
+    build::Corner corner;
+    corner.position = index(word, fields[0], lists_.mesh.positions.size(), "vertex");
+    corner.attributes = fields[1].empty()
+                            ? kNoAttributes
+                            : index(word, fields[1], lists_.texcoords.size(), "texture coordinate");
+    corner.normal = fields[2].empty()
+                        ? kNoNormals
+                        : index(word, fields[2], lists_.mesh.normals.size(), "normal");
+    return corner;
+}
+
+/// From 1; negative numbers count back from the last element so far.
+uint32_t ObjReader::index(std::string_view corner, std::string_view word, size_t count,
+                          const char* what) {
+    const std::optional<int64_t> number = build::integerIn(word);
+    if (!number)
+        statements_.fail(fmt::format("'{}' is no corner; expected whole numbers as in v, v/vt, "
+                                     "v//vn or v/vt/vn",
+                                     shortened(corner)));
+    const auto most = int64_t(count);
+    if (*number == 0 || *number > most || *number < -most)
+        statements_.fail(fmt::format("'{}' names {} {}, but the lines before have {}",
+                                     shortened(corner), what, *number, count));
+    return uint32_t(*number > 0 ? *number - 1 : most + *number);
+}
+
+/// A face has normals at all of its corners or at none, and texture coordinates likewise.
+void ObjReader::makeUniform(std::vector<build::Corner>& corners) {
+    size_t normals = 0, texcoords = 0;
+    for (const build::Corner& corner : corners) {
+        normals += corner.normal != kNoNormals;
+        texcoords += corner.attributes != kNoAttributes;
+    }
+    if (normals > 0 && normals < corners.size()) {
+        builder_.report().forgive(statements_.place(), "only some corners have normals",
+                                  "such a face is shaded flat");
+        for (build::Corner& corner : corners)
+            corner.normal = kNoNormals;
+    }
+    if (texcoords > 0 && texcoords < corners.size()) {
+        builder_.report().forgive(statements_.place(), "only some corners have texture coordinates",
+                                  "such a face has none");
+        for (build::Corner& corner : corners)
+            corner.attributes = kNoAttributes;
+    }
+}
+
+void ObjReader::useMaterial() {
+    materialName_ = materials_.nameNumber(statements_);
+    part_ = nullptr;
+}
+
+/// Asked once in many corners.
+void ObjReader::requireMemory() {
+    constexpr uint64_t interval = uint64_t(1) << 20;
+    const uint64_t before = cornersRead_;
+    cornersRead_ += corners_.size();
+    if (cornersRead_ / interval != before / interval)
+        build::requireMemory(file_.string(), cornersRead_ * kBytesOfTriangle);
+}
+
+} // namespace stromboli::obj

@@ -1,0 +1,106 @@
+#include "scene/obj/statements.hpp"
+
+#include "scene/build/number_word.hpp"
+#include "scene/build/unicode.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace stromboli::obj {
+namespace {
+
+constexpr std::string_view kSpace = " \t\v\f";
+
+std::string_view trimmed(std::string_view text) {
+    const size_t first = text.find_first_not_of(kSpace);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
+}
+
+std::string inUtf8(const std::string& file, std::string text) {
+    if (const auto utf16 = build::utf16Beginning(text)) {
+        std::string_view body = text;
+        if (utf16->marked) body.remove_prefix(2);
+        std::optional<std::string> converted = build::utf8FromUtf16(body, utf16->order);
+        if (!converted) build::FilePlace{file, 0, ""}.fail("begins as UTF-16, but is none");
+        return std::move(*converted);
+    }
+    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+    return text;
+}
+
+/// Those of Wavefront's specification (version 3.0).
+constexpr std::string_view kKeywords[] = {
+    "v",          "vn",        "vt",    "f",     "fo",     "g",        "o",        "s",
+    "usemtl",     "mtllib",    "l",     "p",     "vp",     "cstype",   "deg",      "bmat",
+    "step",       "curv",      "curv2", "surf",  "parm",   "trim",     "hole",     "scrv",
+    "sp",         "end",       "con",   "mg",    "bevel",  "c_interp", "d_interp", "lod",
+    "shadow_obj", "trace_obj", "ctech", "stech", "usemap", "maplib",   "call",     "csh",
+    "bsp",        "bzp",       "cdc",   "cdp",   "res"};
+
+} // namespace
+
+void Words::skipSpace() {
+    rest_ = trimmed(rest_);
+}
+
+std::string_view Words::next() {
+    const std::string_view word = rest_.substr(0, rest_.find_first_of(kSpace));
+    rest_.remove_prefix(word.size());
+    skipSpace();
+    return word;
+}
+
+Statements::Statements(std::string file, std::string text)
+    : file_(std::move(file)), text_(inUtf8(file_, std::move(text))) {}
+
+std::string_view Statements::physicalLine() {
+    const size_t end = std::min(text_.find_first_of("\r\n", at_), text_.size());
+    const std::string_view line(text_.data() + at_, end - at_);
+    at_ = end + (text_.compare(end, 2, "\r\n") == 0 ? 2 : 1);
+    ++nextLine_;
+    return line;
+}
+
+bool Statements::next() {
+    while (at_ < text_.size()) {
+        line_ = nextLine_;
+        std::string_view line = physicalLine();
+        if (line.ends_with('\\') && at_ < text_.size()) {
+            joined_ = line;
+            while (joined_.ends_with('\\') && at_ < text_.size()) {
+                joined_.back() = ' ';
+                joined_ += physicalLine();
+            }
+            line = joined_;
+        }
+        Words words(line);
+        if (words.atEnd() || words.rest().starts_with('#')) continue;
+        keyword_ = words.next();
+        rest_ = words.rest();
+        return true;
+    }
+    return false;
+}
+
+double Statements::number(Words& words) const {
+    if (words.atEnd()) fail("ends where a number is expected");
+    const std::string_view word = words.next();
+    const std::optional<double> value = build::realIn(word);
+    if (!value) fail(fmt::format("'{}' is no finite number", shortened(word)));
+    return *value;
+}
+
+bool isObjKeyword(std::string_view keyword) {
+    return std::find(std::begin(kKeywords), std::end(kKeywords), keyword) != std::end(kKeywords);
+}
+
+std::string shortened(std::string_view word) {
+    constexpr size_t longest = 60;
+    return word.size() <= longest ? std::string(word)
+                                  : std::string(word.substr(0, longest)) + "...";
+}
+
+} // namespace stromboli::obj

@@ -1,0 +1,156 @@
+#include "scene/ply/ply_reader.hpp"
+
+#include "scene/build/polygon.hpp"
+#include "scene/build/read_file.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <span>
+#include <utility>
+
+namespace stromboli::ply {
+namespace {
+
+/// What a triangle takes here, in the mesh and in the scene: corners of polygons, which take a byte
+/// of the file at least, make one each.
+constexpr uint64_t kBytesOfTriangle =
+    sizeof(uint32_t) + sizeof(build::MeshTriangle) + sizeof(Triangle) + 3 * sizeof(uint32_t);
+
+/// Within a strip, where the next one begins.
+constexpr uint32_t kRestart = 0xFFFFFFFFu;
+
+bool isCornerList(const Property& property) {
+    return property.countType &&
+           (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+} // namespace
+
+PlyReader::PlyReader(const std::filesystem::path& file, build::SceneBuilder& builder)
+    : file_(file), name_(file.string()), builder_(builder), bytes_(build::readFile(file)),
+      header_(readHeader(name_, bytes_, builder.report())),
+      body_(name_, bytes_, header_, builder.report()) {}
+
+void PlyReader::read() {
+    const Element* vertices = header_.find("vertex");
+    if (!vertices) build::FilePlace{name_, 0, ""}.fail("the header has no element 'vertex'");
+    if (vertices->count >= kRestart)
+        build::FilePlace{name_, 0, "vertex"}.fail(
+            fmt::format("there are {}, more than there is room for", vertices->count));
+    vertexCount_ = vertices->count;
+    for (const Element& element : header_.elements)
+        readElements(element);
+    build::requireMemory(name_, corners_.size() * kBytesOfTriangle);
+    const std::array<uint32_t, 1> materials = {material()};
+    const std::string instance = file_.stem().string();
+    const build::ShapeId shape = builder_.addMesh(instance, makeMesh());
+    builder_.place({name_, 0, "face"}, shape, glm::dmat4(1), materials, instance);
+}
+
+void PlyReader::readElements(const Element& element) {
+    body_.begin(element);
+    if (element.name == "vertex")
+        vertices_ = readVertices(element, body_, builder_);
+    else if (element.name == "face" || element.name == "tristrips")
+        readFaces(element);
+    else
+        skip(element);
+}
+
+void PlyReader::readFaces(const Element& element) {
+    bool hasCorners = false;
+    for (const Property& property : element.properties) {
+        if (isCornerList(property) && !hasCorners)
+            hasCorners = true;
+        else
+            builder_.report().ignore("properties of faces", "only their corners are read");
+    }
+    if (!hasCorners && element.count > 0) body_.fail("has no list 'vertex_indices'");
+    const bool areStrips = element.name == "tristrips";
+    std::vector<uint32_t> strip;
+    for (uint64_t i = 0; i < element.count; ++i) {
+        body_.beginElement(i);
+        bool isRead = false;
+        for (const Property& property : element.properties) {
+            if (!isCornerList(property) || std::exchange(isRead, true)) {
+                body_.skip(property);
+                continue;
+            }
+            const uint64_t length = body_.listLength(property);
+            strip.clear();
+            std::vector<uint32_t>& corners = areStrips ? strip : corners_;
+            for (uint64_t k = 0; k < length; ++k) {
+                const double index = body_.number(property.type);
+                corners.push_back(areStrips && index == -1 ? kRestart : vertex(index));
+            }
+            if (areStrips)
+                addStrip(strip);
+            else
+                sizes_.push_back(uint32_t(length));
+        }
+        body_.endElement();
+    }
+}
+
+/// Each corner from the third on makes a triangle with the two before it; every other one runs the
+/// other way round.
+void PlyReader::addStrip(const std::vector<uint32_t>& strip) {
+    size_t first = 0;
+    for (size_t i = 0; i < strip.size(); ++i) {
+        if (strip[i] == kRestart) first = i + 1;
+        if (i < first + 2) continue;
+        const bool isOdd = (i - first) % 2 == 1;
+        corners_.insert(corners_.end(), {strip[i - 2 + isOdd], strip[i - 1 - isOdd], strip[i]});
+        sizes_.push_back(3);
+    }
+}
+
+uint32_t PlyReader::vertex(double index) {
+    if (!(index >= 0) || index >= double(vertexCount_) || index != std::floor(index))
+        body_.fail(fmt::format("names vertex {}, but there are {}", index, vertexCount_));
+    return uint32_t(index);
+}
+
+void PlyReader::skip(const Element& element) {
+    builder_.report().ignore(fmt::format("element '{}'", element.name.substr(0, 60)),
+                             "only vertices and faces are shown", element.count);
+    if (element.properties.empty()) return; // whatever their number, they take no bytes
+    for (uint64_t i = 0; i < element.count; ++i) {
+        body_.beginElement(i);
+        for (const Property& property : element.properties)
+            body_.skip(property);
+        body_.endElement();
+    }
+}
+
+build::Mesh PlyReader::makeMesh() {
+    build::Mesh mesh;
+    mesh.positions = std::move(vertices_.positions);
+    mesh.normals = std::move(vertices_.normals);
+    mesh.attributes = std::move(vertices_.attributes);
+    build::MeshPart& part = mesh.parts.emplace_back();
+    build::PolygonCutter polygons(mesh, builder_.report());
+    std::vector<build::Corner> face;
+    size_t first = 0;
+    for (const uint32_t size : sizes_) {
+        face.clear();
+        for (const uint32_t v : std::span(corners_).subspan(first, size))
+            face.push_back({v, mesh.normals.empty() ? kNoNormals : v,
+                            mesh.attributes.empty() ? kNoAttributes : v});
+        polygons.add(face, part);
+        first += size;
+    }
+    return mesh;
+}
+
+/// The format has no materials. Where vertices have colours, those are what the surface reflects.
+uint32_t PlyReader::material() {
+    Material material = build::greyMaterial();
+    if (vertices_.hasColors) material.albedo = glm::vec3(1);
+    if (vertices_.hasAlpha) material.alphaMode = AlphaMode::Blend;
+    return builder_.addMaterial(material);
+}
+
+} // namespace stromboli::ply

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "scene/build/scene_builder.hpp"
+#include "scene/ply/body.hpp"
+#include "scene/ply/vertices.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stromboli::ply {
+
+/// Reads a PLY file and hands the builder the mesh that it is.
+class PlyReader {
+  public:
+    PlyReader(const std::filesystem::path& file, build::SceneBuilder& builder);
+    void read();
+
+  private:
+    void readElements(const Element& element);
+    void readFaces(const Element& element);
+    void skip(const Element& element);
+    void addStrip(const std::vector<uint32_t>& strip);
+    uint32_t vertex(double index);
+    build::Mesh makeMesh();
+    uint32_t material();
+
+    const std::filesystem::path& file_;
+    std::string name_; ///< for messages
+    build::SceneBuilder& builder_;
+    std::string bytes_;
+    Header header_;
+    Body body_;
+    uint64_t vertexCount_ = 0;
+    Vertices vertices_;
+    std::vector<uint32_t> corners_; ///< of all faces, one face after the other
+    std::vector<uint32_t> sizes_;   ///< how many corners each of them has
+};
+
+} // namespace stromboli::ply

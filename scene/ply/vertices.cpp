@@ -1,0 +1,177 @@
+#include "scene/ply/vertices.hpp"
+
+#include "scene/build/read_file.hpp"
+#include "scene/images/srgb.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace stromboli::ply {
+namespace {
+
+/// What a property of a vertex says.
+enum Role { X, Y, Z, Nx, Ny, Nz, U, V, Red, Green, Blue, Alpha, kRoleCount, None = kRoleCount };
+
+struct RoleName {
+    std::string_view name;
+    Role role;
+};
+constexpr RoleName kRoles[] = {{"x", X},
+                               {"y", Y},
+                               {"z", Z},
+                               {"nx", Nx},
+                               {"ny", Ny},
+                               {"nz", Nz},
+                               {"u", U},
+                               {"s", U},
+                               {"texture_u", U},
+                               {"texture_s", U},
+                               {"v", V},
+                               {"t", V},
+                               {"texture_v", V},
+                               {"texture_t", V},
+                               {"red", Red},
+                               {"green", Green},
+                               {"blue", Blue},
+                               {"alpha", Alpha},
+                               {"r", Red},
+                               {"g", Green},
+                               {"b", Blue},
+                               {"a", Alpha},
+                               {"diffuse_red", Red},
+                               {"diffuse_green", Green},
+                               {"diffuse_blue", Blue}};
+
+Role roleOf(const Property& property) {
+    if (property.countType) return None;
+    for (const RoleName& row : kRoles)
+        if (property.name == row.name) return row.role;
+    return None;
+}
+
+/// The number that stands for 1 in a colour of this type.
+double fullScale(ScalarType type) {
+    switch (type) {
+    case ScalarType::Int8:
+        return std::numeric_limits<int8_t>::max();
+    case ScalarType::UInt8:
+        return std::numeric_limits<uint8_t>::max();
+    case ScalarType::Int16:
+        return std::numeric_limits<int16_t>::max();
+    case ScalarType::UInt16:
+        return std::numeric_limits<uint16_t>::max();
+    case ScalarType::Int32:
+        return std::numeric_limits<int32_t>::max();
+    case ScalarType::UInt32:
+        return std::numeric_limits<uint32_t>::max();
+    default:
+        return 1;
+    }
+}
+
+class VertexReader {
+  public:
+    VertexReader(const Element& element, Body& body, build::SceneBuilder& builder)
+        : element_(element), body_(body), builder_(builder) {
+        for (const Property& property : element.properties) {
+            Role role = roleOf(property);
+            if (role != None && has_[role]) role = None; // another name for the same
+            if (role == None)
+                builder.report().ignore(
+                    "properties of vertices",
+                    "they are no position, normal, texture coordinate or colour");
+            else
+                has_[role] = true;
+            roles_.push_back(role);
+            if (role >= Red && role <= Blue) colorScale_ = fullScale(property.type);
+            if (role == Alpha) alphaScale_ = fullScale(property.type);
+        }
+        if (!has_[X] || !has_[Y] || !has_[Z]) body.fail("vertices have no x, y and z");
+        hasNormals_ = has_[Nx] && has_[Ny] && has_[Nz];
+        hasUv_ = has_[U] && has_[V];
+        hasColors_ = has_[Red] && has_[Green] && has_[Blue] && builder.conventions().textures;
+    }
+
+    Vertices read() {
+        if (hasColors_)
+            builder_.report().assume(colorScale_ == 1
+                                         ? "colours of vertices are linear, as floats are"
+                                         : "colours of vertices are sRGB, as whole numbers are");
+        found_.hasColors = hasColors_;
+        // Twice: here and in the scene.
+        build::requireMemory(body_.place().file,
+                             2 * element_.count *
+                                 ((hasNormals_ ? 2 : 1) * sizeof(glm::dvec3) +
+                                  (hasUv_ || hasColors_ ? sizeof(VertexAttributes) : 0)));
+        found_.positions.reserve(element_.count);
+        if (hasNormals_) found_.normals.reserve(element_.count);
+        if (hasUv_ || hasColors_) found_.attributes.reserve(element_.count);
+        for (uint64_t i = 0; i < element_.count; ++i) {
+            body_.beginElement(i);
+            for (size_t p = 0; p < roles_.size(); ++p)
+                if (roles_[p] == None)
+                    body_.skip(element_.properties[p]);
+                else
+                    values_[roles_[p]] = body_.number(element_.properties[p].type);
+            keep();
+            body_.endElement();
+        }
+        return std::move(found_);
+    }
+
+  private:
+    void keep() {
+        const glm::dvec3 position(values_[X], values_[Y], values_[Z]);
+        for (int i = 0; i < 3; ++i)
+            if (!std::isfinite(position[i])) body_.fail("the position is not finite");
+        found_.positions.push_back(position);
+        if (hasNormals_) found_.normals.emplace_back(values_[Nx], values_[Ny], values_[Nz]);
+        if (!hasUv_ && !hasColors_) return;
+        VertexAttributes& a = found_.attributes.emplace_back();
+        // On the renderer's pictures v grows downwards.
+        if (hasUv_) a.uv[0] = {finite(values_[U]), finite(1 - values_[V])};
+        if (hasColors_) a.color = colorOf();
+        found_.hasAlpha = found_.hasAlpha || a.color.w < 1;
+    }
+
+    glm::vec4 colorOf() {
+        const bool isLinear = colorScale_ == 1;
+        glm::vec4 color(1);
+        for (int i = 0; i < 3; ++i) {
+            const double value = std::max(double(finite(values_[Red + i])), 0.0) / colorScale_;
+            color[i] = float(isLinear ? value : images::srgbToLinear(std::min(value, 1.0)));
+        }
+        if (has_[Alpha])
+            color.w = float(std::clamp(finite(values_[Alpha]) / alphaScale_, 0.0, 1.0));
+        return color;
+    }
+
+    float finite(double value) {
+        const auto rounded = float(value);
+        if (std::isfinite(rounded)) return rounded;
+        builder_.report().warn("texture coordinates or colours that are not finite become 0");
+        return 0;
+    }
+
+    const Element& element_;
+    Body& body_;
+    build::SceneBuilder& builder_;
+    Vertices found_;
+    std::vector<Role> roles_; ///< one for each property
+    std::array<bool, kRoleCount> has_{};
+    std::array<double, kRoleCount> values_{};
+    double colorScale_ = 1, alphaScale_ = 1;
+    bool hasNormals_ = false, hasUv_ = false, hasColors_ = false;
+};
+
+} // namespace
+
+Vertices readVertices(const Element& element, Body& body, build::SceneBuilder& builder) {
+    return VertexReader(element, body, builder).read();
+}
+
+} // namespace stromboli::ply

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "scene/build/mesh.hpp"
+#include "scene/build/scene_builder.hpp"
+#include "scene/ply/body.hpp"
+
+namespace stromboli::ply {
+
+/// What the vertices of a file have, one of each for every vertex.
+struct Vertices {
+    std::vector<glm::dvec3> positions;
+    std::vector<glm::dvec3> normals;          ///< empty: the file states none
+    std::vector<VertexAttributes> attributes; ///< empty: neither colours nor texture coordinates
+    bool hasColors = false;
+    bool hasAlpha = false; ///< some vertices are not opaque
+};
+
+/// Reads all vertices, which `body` is at the beginning of. Throws SceneError if they have no x, y
+/// and z, or if one of these is not finite.
+Vertices readVertices(const Element& element, Body& body, build::SceneBuilder& builder);
+
+} // namespace stromboli::ply

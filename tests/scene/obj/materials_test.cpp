@@ -1,0 +1,209 @@
+// MTL: what its statements become.
+
+#include "scene/obj/material_rules.hpp"
+#include "tests/scene/images/encoders.hpp"
+#include "tests/scene/obj/obj_folder.hpp"
+
+#include <cmath>
+
+namespace stromboli::test {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A folder with pictures of 2 x 1 pixels.
+class ObjMaterials : public testing::Test {
+  protected:
+    ObjMaterials() {
+        folder_.write("red green.png", png8(2, 1, 3, {255, 0, 0, 0, 255, 0}));
+        folder_.write("mask.png", png8(2, 1, 1, {255, 51}));
+        folder_.write("alpha.png", png8(2, 1, 4, {9, 9, 9, 255, 9, 9, 9, 102}));
+    }
+    Scene load(const std::string& statements, const SceneConventions& conventions = {}) const {
+        folder_.write("m.mtl", "newmtl a\n" + statements);
+        return folder_.load("mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+                            "usemtl a\nf 1/1 2/2 3/3\n",
+                            conventions);
+    }
+    Material material(const std::string& statements) const {
+        return load(statements).materials.at(0);
+    }
+    ObjFolder folder_;
+};
+
+const TextureUse* useOf(const Material& material, TextureSlot slot) {
+    for (const TextureUse& use : material.textures)
+        if (use.slot == slot) return &use;
+    return nullptr;
+}
+
+const TextureImage& imageOf(const Scene& scene, TextureSlot slot) {
+    return scene.images.at(scene.textures.at(useOf(scene.materials.at(0), slot)->texture).image);
+}
+
+TEST_F(ObjMaterials, DiffuseAndEmission) {
+    const Material m = material("Kd 0.1 0.2 0.3\nKe 4 5 6\nKs 1 1 1\nNs 0\n");
+    EXPECT_EQ(m.kind, MaterialKind::Diffuse);
+    EXPECT_EQ(m.name, "a");
+    EXPECT_EQ(m.albedo, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_EQ(m.emission, glm::vec3(4, 5, 6));
+    EXPECT_EQ(m.alphaMode, AlphaMode::Opaque);
+    EXPECT_EQ(material("Kd 0.25\n").albedo, glm::vec3(0.25f)); // one number is a grey
+    EXPECT_EQ(material("").albedo, glm::vec3(0.5f));
+    EXPECT_EQ(material("Ke 1 1 1\n").albedo, glm::vec3(0)); // a lamp
+    EXPECT_EQ(material("illum 1\nKd 1 1 1\nKs 1 1 1\nNs 9\n").kind, MaterialKind::Diffuse);
+}
+
+/// alpha^2 = 2 / (Ns + 2): Ns = 30 has alpha 1/4 and roughness 1/2.
+TEST_F(ObjMaterials, HighlightsAreRoughDielectrics) {
+    EXPECT_DOUBLE_EQ(obj::roughnessOfExponent(30), 0.5);
+    EXPECT_DOUBLE_EQ(obj::roughnessOfExponent(0), 1);
+    const Material m = material("Kd 0.5 0.5 0.5\nKs 0.04 0.08 0.2\nNs 30\nillum 2\n");
+    EXPECT_EQ(m.kind, MaterialKind::Principled);
+    EXPECT_FLOAT_EQ(m.principled.roughness, 0.5f);
+    EXPECT_EQ(m.principled.metallic, 0);
+    // Times 0.04, what ior 1.5 reflects, it is Ks.
+    EXPECT_FLOAT_EQ(m.principled.specularColor.x, 1);
+    EXPECT_FLOAT_EQ(m.principled.specularColor.y, 2);
+    EXPECT_FLOAT_EQ(m.principled.specularColor.z, 5);
+}
+
+TEST_F(ObjMaterials, MirrorsAndGlass) {
+    for (const char* illum : {"3", "5"}) {
+        const Material mirror = material(fmt::format("Kd 0 0 0\nKs 1 1 1\nillum {}\n", illum));
+        EXPECT_EQ(mirror.principled.roughness, 0);
+        EXPECT_FLOAT_EQ(mirror.principled.specularColor.x, 25);
+    }
+    for (const char* illum : {"4", "6", "7"}) {
+        const Material glass = material(fmt::format("Ni 1.33\nTf 1 0.5 1\nillum {}\n", illum));
+        EXPECT_EQ(glass.principled.transmission, 1);
+        EXPECT_FALSE(glass.principled.isThin);
+        EXPECT_FLOAT_EQ(glass.principled.ior, 1.33f);
+        EXPECT_EQ(glass.principled.baseColor, glm::vec3(1, 0.5, 1));
+        // Exporters write this for what is no glass.
+        EXPECT_EQ(material(fmt::format("Kd 1 1 1\nNi 1\nillum {}\n", illum)).kind,
+                  MaterialKind::Diffuse);
+    }
+}
+
+TEST_F(ObjMaterials, MetallicRoughness) {
+    const Material m = material("Kd 1 0.5 0\nPr 0.3\nPm 0.7\nPs 0.2\nPc 0.4\nPcr 0.1\naniso 0.5\n"
+                                "anisor 0.25\nNi 1.4\n");
+    const PrincipledParameters& p = m.principled;
+    EXPECT_EQ(p.baseColor, glm::vec3(1, 0.5, 0));
+    EXPECT_FLOAT_EQ(p.roughness, 0.3f);
+    EXPECT_FLOAT_EQ(p.metallic, 0.7f);
+    EXPECT_EQ(p.sheenColor, glm::vec3(0.2f));
+    EXPECT_FLOAT_EQ(p.clearcoat, 0.4f);
+    EXPECT_FLOAT_EQ(p.clearcoatRoughness, 0.1f);
+    EXPECT_FLOAT_EQ(p.anisotropy, 0.5f);
+    EXPECT_NEAR(p.anisotropyRotation, 1.570796, 1e-6);
+    EXPECT_FLOAT_EQ(p.ior, 1.4f);
+    const Scene scene = load("aniso 0.5\n");
+    EXPECT_NE(scene.attributes.at(0).tangent.w, 0); // which tangents are for
+}
+
+TEST_F(ObjMaterials, Opacity) {
+    EXPECT_EQ(material("d 0.25\n").alphaMode, AlphaMode::Blend);
+    EXPECT_FLOAT_EQ(material("d 0.25\n").opacity, 0.25f);
+    EXPECT_FLOAT_EQ(material("Tr 0.25\n").opacity, 0.75f);
+    EXPECT_FLOAT_EQ(material("d 1\nTr 1\n").opacity, 1); // d counts
+    EXPECT_THAT(load("Tr 1\n").report.warnings, Contains(HasSubstr("is not seen")));
+    EXPECT_THAT(load("d 7\n").report.warnings, Contains(HasSubstr("clamped")));
+}
+
+TEST_F(ObjMaterials, PicturesMultiplyColours) {
+    const Scene scene = load("Kd 0.5 0.5 0.5\nmap_Kd -s 2 3 1 -o 0.25 0.5 red green.png\n");
+    const TextureUse* use = useOf(scene.materials[0], TextureSlot::BaseColor);
+    ASSERT_TRUE(use);
+    EXPECT_EQ(scene.materials[0].albedo, glm::vec3(0.5f));
+    EXPECT_TRUE(scene.textures[use->texture].srgb);
+    // The corner (1, 1) of the file, v upwards: at (2 + 0.25, 3 + 0.5), and v' = 1 - v.
+    const glm::vec3 corner(1, 0, 1);
+    EXPECT_FLOAT_EQ(glm::dot(use->uRow, corner), 2.25f);
+    EXPECT_FLOAT_EQ(glm::dot(use->vRow, corner), 1 - 3.5f);
+    EXPECT_EQ(imageOf(scene, TextureSlot::BaseColor).words[0] & 0xFFFFFF, 0x0000FFu);
+    // Black hides a picture, which nobody means.
+    EXPECT_EQ(material("Kd 0 0 0\nmap_Kd mask.png\n").albedo, glm::vec3(1));
+    EXPECT_EQ(material("Ke 0 0 0\nmap_Ke mask.png\n").emission, glm::vec3(1));
+    EXPECT_EQ(scene.textures[use->texture].wrapU, Wrap::Repeat);
+    EXPECT_EQ(load("map_Kd -clamp on mask.png\n").textures[0].wrapU, Wrap::Clamp);
+    SceneConventions plain;
+    plain.textures = false;
+    EXPECT_TRUE(load("map_Kd mask.png\n", plain).textures.empty());
+}
+
+TEST_F(ObjMaterials, PicturesOfOpacityBecomeAlpha) {
+    const Scene grey = load("map_Kd red green.png\nmap_d mask.png\n");
+    EXPECT_EQ(grey.materials[0].alphaMode, AlphaMode::Blend);
+    EXPECT_EQ(imageOf(grey, TextureSlot::BaseColor).words[0], 0xFF0000FFu);
+    EXPECT_EQ(imageOf(grey, TextureSlot::BaseColor).words[1], 0x3300FF00u);
+    // A picture with alpha means its alpha; -imfchan says otherwise.
+    EXPECT_EQ(imageOf(load("map_d alpha.png\n"), TextureSlot::BaseColor).words[1], 0x66FFFFFFu);
+    EXPECT_EQ(imageOf(load("map_d -imfchan r alpha.png\n"), TextureSlot::BaseColor).words[1],
+              0x09FFFFFFu);
+    // Without map_d, alpha of map_Kd means nothing.
+    EXPECT_EQ(imageOf(load("d 0.5\nmap_Kd alpha.png\n"), TextureSlot::BaseColor).words[1],
+              0xFF090909u);
+}
+
+TEST_F(ObjMaterials, PicturesOfRoughnessAndMetalShareOne) {
+    const Scene scene = load("map_Pr mask.png\nmap_Pm red green.png\n");
+    EXPECT_EQ(scene.materials[0].principled.roughness, 1);
+    EXPECT_EQ(scene.materials[0].principled.metallic, 1);
+    // Luminances of red and green: 0.2126 and 0.7152.
+    EXPECT_EQ(imageOf(scene, TextureSlot::MetallicRoughness).words[0], 0xFF36FFFFu);
+    EXPECT_EQ(imageOf(scene, TextureSlot::MetallicRoughness).words[1], 0xFFB633FFu);
+}
+
+TEST_F(ObjMaterials, NormalMapsHaveTangents) {
+    const Scene scene = load("norm -bm 0.5 mask.png\nbump mask.png\n");
+    const TextureUse* use = useOf(scene.materials[0], TextureSlot::Normal);
+    ASSERT_TRUE(use);
+    EXPECT_EQ(use->scale, 0.5f);
+    EXPECT_FALSE(scene.textures[use->texture].srgb);
+    EXPECT_NEAR(scene.attributes.at(0).tangent.x, 1, 1e-6); // u grows along x
+    EXPECT_EQ(scene.attributes.at(0).tangent.w, 1);
+    EXPECT_THAT(scene.report.ignored, Contains(HasSubstr("1 'bump' of a material")));
+}
+
+TEST_F(ObjMaterials, PicturesLieInTheFolder) {
+    EXPECT_THAT(load("map_Kd .\\mask.png\n").report.forgiven, Contains(HasSubstr("backslashes")));
+    EXPECT_THAT(load("map_Kd C:\\me\\mask.png\n").report.forgiven,
+                Contains(HasSubstr("same name beside it")));
+    for (const char* name :
+         {"none.png", "../none.png", "/etc/passwd", "/dev/zero", "..", "m.mtl"}) {
+        const Scene scene = load(fmt::format("Kd 0.3 0.3 0.3\nmap_Kd {}\n", name));
+        EXPECT_THAT(scene.report.forgiven, Contains(HasSubstr("no picture on the surface")))
+            << name;
+        EXPECT_THAT(scene.textures, IsEmpty());
+    }
+    const ObjFolder outside;
+    outside.write("secret.png", png8(1, 1, 1, {255}));
+    std::filesystem::create_symlink(outside.path() / "secret.png", folder_.path() / "link.png");
+    EXPECT_THAT(load("map_Kd link.png\n").textures, IsEmpty());
+    EXPECT_THAT(
+        load(fmt::format("map_Kd ../{}/secret.png\n", outside.path().filename().string())).textures,
+        IsEmpty());
+}
+
+TEST_F(ObjMaterials, LibrariesAndNames) {
+    folder_.write("my lib.mtl", "newmtl shiny  metal \nKd 1 0 0\nnewmtl shiny  metal\nKd 0 1 0\n");
+    folder_.write("b.mtl", "newmtl b\nKd 0 0 1\n");
+    const std::string mesh = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
+    const Scene scene = folder_.load(mesh + "mtllib my lib.mtl\nmtllib none.mtl b.mtl\n"
+                                            "usemtl shiny  metal\nf 1 2 3\nusemtl b\nf 1 2 3\n"
+                                            "usemtl c\nf 1 2 3\n");
+    ASSERT_EQ(scene.materials.size(), 3u);
+    EXPECT_EQ(scene.materials[0].albedo, glm::vec3(1, 0, 0)); // the first one of two
+    EXPECT_EQ(scene.materials[1].albedo, glm::vec3(0, 0, 1));
+    EXPECT_EQ(scene.materials[2].albedo, glm::vec3(0.5f));
+    EXPECT_THAT(scene.report.forgiven, Contains(HasSubstr("none.mtl b.mtl' is not in")));
+    EXPECT_THAT(scene.report.forgiven, Contains(HasSubstr("there is no material 'c'")));
+    EXPECT_THAT(scene.report.forgiven, Contains(HasSubstr("of this name is there already")));
+}
+
+} // namespace
+} // namespace stromboli::test

@@ -1,0 +1,126 @@
+// What PLY files may state.
+
+#include "tests/scene/ply/ply_text.hpp"
+
+namespace stromboli::test {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+TEST(Ply, Ascii) {
+    const Scene scene = loadPlyBytes(plyHeader("ascii") + kPlySquare + "4 0 1 2 3\n");
+    EXPECT_EQ(scene.triangles.size(), 2u);
+    EXPECT_THAT(scene.instances, testing::ElementsAre("p"));
+    EXPECT_EQ(scene.materials.at(0).kind, MaterialKind::Diffuse);
+    EXPECT_EQ(scene.materials.at(0).albedo, glm::vec3(0.5f));
+    EXPECT_TRUE(scene.attributeCorners.empty());
+    EXPECT_EQ(scene.lights.size(), 1u); // the default one
+}
+
+TEST(Ply, BothBinaryOrders) {
+    for (const bool big : {false, true}) {
+        std::string bytes =
+            plyHeader(big ? "binary_big_endian" : "binary_little_endian", "property short q\n",
+                      "element face 1\nproperty double quality\n"
+                      "property list ushort uint vertex_index\n");
+        const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.5f}};
+        for (const auto& corner : corners) {
+            for (const float x : corner)
+                bytes += plyBytes(x, big);
+            bytes += plyBytes(int16_t(-2), big);
+        }
+        bytes += plyBytes(1.5, big) + plyBytes(uint16_t(3), big);
+        for (const uint32_t index : {0u, 1u, 3u})
+            bytes += plyBytes(index, big);
+        const Scene scene = loadPlyBytes(bytes);
+        ASSERT_EQ(scene.triangles.size(), 1u);
+        EXPECT_EQ(scene.positions[scene.triangles[0].corner[2]], glm::vec3(0, 1, 0.5f));
+        EXPECT_THAT(scene.report.ignored, Contains(HasSubstr("properties of vertices")));
+        EXPECT_THAT(scene.report.ignored, Contains(HasSubstr("properties of faces")));
+    }
+}
+
+TEST(Ply, NormalsTextureCoordinatesAndColours) {
+    const std::string row = " 0 0.6 0.8 0.25 0.125 255 0 128 51\n";
+    for (const std::string uv : {"s t", "u v", "texture_u texture_v"}) {
+        const std::string u = uv.substr(0, uv.find(' ')), v = uv.substr(uv.find(' ') + 1);
+        const Scene scene = loadPlyBytes(
+            plyHeader("ascii", "property float nx\nproperty float ny\nproperty float nz\n"
+                               "property float " +
+                                   u + "\nproperty double " + v +
+                                   "\nproperty uchar red\nproperty uchar green\n"
+                                   "property uchar blue\nproperty uchar alpha\n") +
+            "0 0 0" + row + "1 0 0" + row + "1 1 0" + row + "0 1 0" + row + "3 0 1 2\n");
+        const VertexAttributes& a = scene.attributes.at(scene.attributeCorners.at(0)[0]);
+        EXPECT_EQ(a.uv[0], glm::vec2(0.25f, 0.875f)); // v points up in the file
+        EXPECT_EQ(a.color.x, 1);
+        EXPECT_EQ(a.color.y, 0);
+        EXPECT_NEAR(a.color.z, 0.215861, 1e-5); // ((128 / 255 + 0.055) / 1.055)^2.4
+        EXPECT_FLOAT_EQ(a.color.w, 0.2f);
+        EXPECT_EQ(scene.materials[0].albedo, glm::vec3(1));
+        EXPECT_EQ(scene.materials[0].alphaMode, AlphaMode::Blend);
+        EXPECT_NEAR(scene.normals.at(scene.triangles[0].normals[0]).z, 0.8, 1e-6);
+    }
+}
+
+TEST(Ply, ColoursAsFloatsAreLinear) {
+    const std::string row = " 0.5 2 0\n";
+    const Scene scene =
+        loadPlyBytes(plyHeader("ascii", "property float r\nproperty float g\nproperty float b\n") +
+                     "0 0 0" + row + "1 0 0" + row + "1 1 0" + row + "0 1 0" + row + "3 0 1 2\n");
+    EXPECT_EQ(scene.attributes.at(0).color, glm::vec4(0.5f, 2, 0, 1));
+    EXPECT_EQ(scene.materials[0].alphaMode, AlphaMode::Opaque);
+}
+
+TEST(Ply, StripsAlternateAndStartAgain) {
+    const Scene scene = loadPlyBytes(
+        plyHeader("ascii", "", "element tristrips 1\nproperty list int int vertex_indices\n") +
+        kPlySquare + "9 0 1 3 2 -1 2 1 0 -1\n");
+    ASSERT_EQ(scene.triangles.size(), 3u);
+    for (size_t t = 0; t < 2; ++t) // 0 1 3 and 3 1 2: both face z
+        EXPECT_GT(scene.geometricNormal(scene.triangles[t]).z, 0);
+    EXPECT_LT(scene.geometricNormal(scene.triangles[2]).z, 0);
+}
+
+TEST(Ply, OtherElementsAreSkippedWithTheirLists) {
+    const Scene scene = loadPlyBytes(
+        "ply\nformat ascii 1.0\nelement camera 2\nproperty float f\nproperty list uchar float l\n"
+        "property int n\nelement nothing 4000000000000000000\nelement face 1\n"
+        "property list uchar int vertex_indices\nelement vertex 3\nproperty int8 z\n"
+        "property int16 y\nproperty float64 x\nend_header\n1 3 1 2 3 nan\n2 0 7\n3 0 1 2\n"
+        "0 0 0\n0 0 1\n0 1 0\n");
+    EXPECT_EQ(scene.triangles.size(), 1u);
+    EXPECT_THAT(scene.report.ignored, Contains(HasSubstr("2 element 'camera'")));
+    EXPECT_EQ(scene.positions[1], glm::vec3(1, 0, 0));
+}
+
+TEST(Ply, LinesEndInAnyWay) {
+    const std::string text = plyHeader("ascii") + kPlySquare + "4 0 1 2 3\n";
+    for (const std::string newline : {"\r\n", "\r"}) {
+        std::string other;
+        for (const char c : text)
+            other += c == '\n' ? newline : std::string{c};
+        EXPECT_EQ(loadPlyBytes(other).triangles.size(), 2u);
+        EXPECT_TRUE(looksLikePly(other));
+    }
+    EXPECT_FALSE(looksLikePly("plywood\n"));
+}
+
+TEST(Ply, VerticesWithoutFacesAreAWarning) {
+    const Scene scene = loadPlyBytes(plyHeader("ascii", "", "") + kPlySquare);
+    EXPECT_TRUE(scene.triangles.empty());
+    EXPECT_THAT(scene.report.warnings, Contains(HasSubstr("has no triangles")));
+}
+
+TEST(Ply, WhatIsForgiven) {
+    const Scene scene = loadPlyBytes(plyHeader("ascii", "made by me\n") + "0 0 0 7 7\n1 0 0\n" +
+                                     "1 1 0\n0 1 0\n4 0 1 2 3\n");
+    EXPECT_EQ(scene.triangles.size(), 2u);
+    EXPECT_THAT(scene.report.forgiven, Contains(HasSubstr("p.ply:8: 'made' is no keyword")));
+    EXPECT_THAT(scene.report.forgiven,
+                Contains(HasSubstr("p.ply:12: <vertex[0]>: the line has more numbers")));
+}
+
+} // namespace
+} // namespace stromboli::test
