@@ -1,9 +1,8 @@
 #include "scene/collada/document.hpp"
 
-#include "host/core/error.hpp"
-#include "scene/collada/markup_limits.hpp"
 #include "scene/collada/percent_decoding.hpp"
 #include "scene/collada/source_text.hpp"
+#include "scene/xml/parse.hpp"
 
 #include <fmt/format.h>
 
@@ -12,38 +11,6 @@
 
 namespace stromboli::collada {
 namespace {
-
-/// In words.
-std::string describe(tinyxml2::XMLError error) {
-    switch (error) {
-    case tinyxml2::XML_ERROR_PARSING_ELEMENT:
-        return "a tag is not written as <name ...>";
-    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
-        return "an attribute is not written as name=\"value\", or is there twice";
-    case tinyxml2::XML_ERROR_PARSING_TEXT:
-        return "a text does not end";
-    case tinyxml2::XML_ERROR_PARSING_CDATA:
-        return "a <![CDATA[ does not end";
-    case tinyxml2::XML_ERROR_PARSING_COMMENT:
-        return "a comment does not end";
-    case tinyxml2::XML_ERROR_PARSING_DECLARATION:
-        return "a <? does not end, or stands behind the first element";
-    case tinyxml2::XML_ERROR_PARSING_UNKNOWN:
-        return "a <! does not end";
-    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
-        return "an element is not closed, or closed by another's tag";
-    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
-        return fmt::format("elements are nested more than {} deep", TINYXML2_MAX_ELEMENT_DEPTH);
-    default:
-        return "a '<' begins no tag";
-    }
-}
-
-/// Documents end in the last tag; where another character is the last one, the end is missing.
-bool isCutShort(std::string_view text) {
-    const size_t last = text.find_last_not_of(" \t\r\n");
-    return last != std::string_view::npos && text[last] != '>';
-}
 
 std::string key(const char* kind, std::string_view id) {
     return fmt::format("{}#{}", kind, id);
@@ -65,14 +32,7 @@ Document::Document(const std::filesystem::path& file, build::Report& report) : r
 }
 
 void Document::parse(const std::string& text) {
-    checkMarkupLimits(file_, text);
-    xml_.Parse(text.data(), text.size());
-    if (xml_.Error())
-        throw SceneError(file_, xml_.ErrorLineNum(), "",
-                         fmt::format("not well-formed XML: {}{}", describe(xml_.ErrorID()),
-                                     isCutShort(text) ? "; the file is cut short" : ""));
-    if (!xml_.RootElement())
-        throw SceneError(file_, 0, "", "has no elements, expected a COLLADA document");
+    xml::parse(xml_, file_, text);
     if (!named(root(), "COLLADA")) fail(root(), "the root element must be <COLLADA>");
 }
 

@@ -1,4 +1,4 @@
-#include "scene/collada/markup_limits.hpp"
+#include "scene/xml/markup_limits.hpp"
 
 #include "host/core/error.hpp"
 #include "scene/build/read_file.hpp"
@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace stromboli::collada {
+namespace stromboli::xml {
 namespace {
 
 /// The parser compares the name of every attribute with those of all others of its element. The
@@ -80,4 +80,4 @@ void checkMarkupLimits(const std::string& name, std::string_view text) {
     build::requireMemory(name, scanner.bytesToParse());
 }
 
-} // namespace stromboli::collada
+} // namespace stromboli::xml
