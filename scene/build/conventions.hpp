@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace stromboli {
 
@@ -50,15 +51,20 @@ enum class ShadingModels {
     PhongOnly, ///< the others become mid grey
 };
 
+/// A value for a name that a file leaves open.
+struct Definition {
+    std::string name, value;
+};
+
 /// Which of the things that a file holds are shown, where it holds several.
 struct FileSelection {
     std::optional<uint32_t> scene; ///< number of the scene, from 0; nothing: the file's own choice
     std::string variant;           ///< name of a set of materials; empty: the plain materials
     std::optional<double> seconds; ///< of the animation; nothing: what stands without it
-    uint32_t largestTexture = 0;   ///< pictures are halved until no side exceeds it; 0: never
+    std::vector<Definition> definitions; ///< in place of the file's own values of these names
+    uint32_t largestTexture = 0;         ///< pictures are halved until no side exceeds it; 0: never
 
-    /// The option of the command line that asks for what only some formats have; empty if none
-    /// does.
+    /// The option of the command line that asks for what only glTF files have; empty if none does.
     std::string_view option() const {
         return scene ? "--scene" : !variant.empty() ? "--variant" : seconds ? "--at" : "";
     }

@@ -26,6 +26,7 @@ using MeshPart = std::vector<MeshTriangle>;
 struct Mesh {
     std::vector<glm::dvec3> positions;
     std::vector<glm::dvec3> normals; ///< of any length; may be zero or not finite
+    bool isFlat = false;             ///< without normals, it is meant to be shaded flat
     /// Tangents in the mesh's space, of any length; those without direction are left out. The
     /// other numbers must be finite.
     std::vector<VertexAttributes> attributes;

@@ -25,7 +25,8 @@ size_t triangleCount(const Mesh& mesh) {
 ShapeId SceneBuilder::addMesh(std::string name, Mesh mesh) {
     if (triangleCount(mesh) == 0)
         report_.warn(fmt::format("geometry '{}' has no triangles", name));
-    else if (mesh.normals.empty() && conventions_.vertexNormals == VertexNormals::FromFile)
+    else if (mesh.normals.empty() && !mesh.isFlat &&
+             conventions_.vertexNormals == VertexNormals::FromFile)
         report_.assume("a mesh without normals is shaded flat");
     shapes_.push_back({std::move(name), std::move(mesh), {}});
     return ShapeId(shapes_.size() - 1);

@@ -14,6 +14,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -39,6 +40,11 @@ class SceneBuilder {
 
     /// The file has elements of the CS184 dialect (Scene::cglDialect).
     void markCglDialect() { scene_.cglDialect = true; }
+
+    /// Light from all around.
+    void setEnvironment(Environment environment) { scene_.environment = std::move(environment); }
+    /// How the file wants to be rendered.
+    RenderHints& hints() { return scene_.hints; }
 
     /// Returns the number by which parts of meshes name the material.
     uint32_t addMaterial(Material material);

@@ -93,6 +93,8 @@ Camera fileView(const FileCamera& file) {
     camera.right = file.right;
     camera.up = file.up;
     camera.back = file.back;
+    camera.lensRadius = file.lensRadius;
+    camera.focusDistance = file.focusDistance;
     return camera;
 }
 
@@ -149,8 +151,10 @@ void applyOptics(Camera& camera, const CameraRequest& request, double aspect,
         camera.halfHeight = std::tan(*request.fieldOfView / 2);
         camera.halfWidth = camera.halfHeight * aspect;
     }
-    camera.lensRadius = request.aperture / 2;
-    camera.focusDistance = request.focus;
+    if (request.aperture > 0) {
+        camera.lensRadius = request.aperture / 2;
+        camera.focusDistance = request.focus;
+    }
 }
 
 } // namespace
@@ -206,6 +210,7 @@ PictureSize defaultPictureSize(const Scene& scene, const CameraRequest& request,
     if (request.from) return {};
     const std::optional<size_t> chosen = chosenCamera(scene, request, conventions);
     if (!chosen || isFramed(scene, request, conventions)) return {};
+    if (scene.hints.width && scene.hints.height) return {*scene.hints.width, *scene.hints.height};
     const Frustum f = fileFrustum(scene.cameras[*chosen], aspectOf({}));
     PictureSize size;
     size.height = uint32_t(std::clamp(std::round(size.width * f.y / f.x), 1.0, 16384.0));

@@ -97,7 +97,8 @@ std::optional<size_t> chosenCamera(const Scene& scene, const CameraRequest& requ
 bool isFramed(const Scene& scene, const CameraRequest& request,
               const FramingConventions& conventions = {});
 
-/// 800 pixels wide in the file camera's aspect ratio if it states one; 800 x 600 otherwise.
+/// What the file asks for (RenderHints) for its own camera, or else 800 pixels wide in the file
+/// camera's aspect ratio if it states one; 800 x 600 otherwise.
 PictureSize defaultPictureSize(const Scene& scene, const CameraRequest& request,
                                const FramingConventions& conventions = {});
 

@@ -3,6 +3,7 @@
 #include "scene/model/environment.hpp"
 #include "scene/model/light.hpp"
 #include "scene/model/material.hpp"
+#include "scene/model/render_hints.hpp"
 #include "scene/model/texture.hpp"
 
 #include <glm/glm.hpp>
@@ -69,6 +70,8 @@ struct FileCamera {
     std::optional<double> halfWidth, halfHeight;
     double nearDistance = 0; ///< world units along the view axis
     double farDistance = 1e30;
+    /// A thin lens, in world units (scene/camera/camera.hpp); 0: a pinhole.
+    double lensRadius = 0, focusDistance = 1;
     /// On the view axis, one of the file's units in front of the position. A camera that frames the
     /// scene (docs/cs184.md) looks at it from the direction in which this lies from the origin.
     glm::dvec3 pointAhead{0, 0, -1};
@@ -105,6 +108,7 @@ struct Scene {
     /// file states, without emitters made from area lights.
     std::optional<Bounds> framing;
     bool cglDialect = false; ///< the file has elements of the CS184 dialect (profile CGL, CMU462)
+    RenderHints hints;
     LoadReport report;
 
     Bounds bounds() const; ///< of triangles and spheres; lights excluded
