@@ -6,6 +6,7 @@
 #include "scene/find_scene.hpp"
 #include "scene/generate/generated_scene.hpp"
 #include "scene/gltf/load_gltf.hpp"
+#include "scene/mitsuba/load_mitsuba.hpp"
 #include "scene/obj/load_obj.hpp"
 #include "scene/ply/load_ply.hpp"
 
@@ -22,10 +23,11 @@ namespace {
 /// One kind of scene file. Another loader is another line of kFormats.
 struct Format {
     std::string_view name;   ///< for messages
-    std::string_view suffix; ///< of file names, in small letters
+    std::string_view suffix; ///< of file names, in small letters; empty: the content decides
     bool (*looksLikeIt)(std::string_view beginning);
     Scene (*load)(const std::filesystem::path& file, const SceneConventions& conventions);
-    bool hasSelection = false; ///< its files hold what FileSelection::option asks for
+    bool hasSelection = false;   ///< its files hold what FileSelection::option asks for
+    bool hasDefinitions = false; ///< its files have values that FileSelection::definitions replace
 };
 
 constexpr Format kFormats[] = {
@@ -35,6 +37,7 @@ constexpr Format kFormats[] = {
     {"glTF 2.0 (.gltf)", ".gltf", looksLikeGltf, loadGltf, true},
     {"binary glTF 2.0 (.glb)", ".glb", looksLikeBinaryGltf, loadGltf, true},
     {"PLY (.ply)", ".ply", looksLikePly, loadPly},
+    {"Mitsuba (XML whose root element is <scene>)", "", looksLikeMitsuba, loadMitsuba, false, true},
     // The last one: it has no mark of its own.
     {"Wavefront OBJ (.obj)", ".obj", looksLikeObj, loadObj},
 };
@@ -47,7 +50,7 @@ const Format* byName(const std::filesystem::path& file) {
     std::transform(suffix.begin(), suffix.end(), suffix.begin(),
                    [](unsigned char c) { return char(std::tolower(c)); });
     for (const Format& format : kFormats)
-        if (suffix == format.suffix) return &format;
+        if (!suffix.empty() && suffix == format.suffix) return &format;
     return nullptr;
 }
 
@@ -69,6 +72,7 @@ std::string formatNames() {
 
 Scene readScene(const std::string& source, const SceneConventions& conventions) {
     const std::string_view selects = conventions.selection.option();
+    const bool defines = !conventions.selection.definitions.empty();
     const auto refuseSelection = [&](std::string_view what) {
         throw SceneError(fmt::format("{}: {} is about glTF files; {}", source, selects, what));
     };
@@ -77,6 +81,7 @@ Scene readScene(const std::string& source, const SceneConventions& conventions) 
             throw SceneError(fmt::format("{}: {} is about files; a generated scene has no use "
                                          "for it",
                                          source, conventions.option));
+        if (defines) throw SceneError(source + ": -D is about Mitsuba scenes");
         if (!selects.empty()) refuseSelection("a generated scene has no use for it");
         return generatedScene(std::string_view(source).substr(kGeneratePrefix.size()));
     }
@@ -90,6 +95,9 @@ Scene readScene(const std::string& source, const SceneConventions& conventions) 
                                      formatNames(), kGeneratePrefix));
     if (!selects.empty() && !format->hasSelection)
         refuseSelection(fmt::format("this one is {}", format->name));
+    if (defines && !format->hasDefinitions)
+        throw SceneError(
+            fmt::format("{}: -D is about Mitsuba scenes; this one is {}", source, format->name));
     return format->load(file, conventions);
 }
 

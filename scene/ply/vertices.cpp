@@ -43,6 +43,9 @@ constexpr RoleName kRoles[] = {{"x", X},
                                {"b", Blue},
                                {"a", Alpha},
                                {"diffuse_red", Red},
+                               {"color_0", Red}, // as Mitsuba names them
+                               {"color_1", Green},
+                               {"color_2", Blue},
                                {"diffuse_green", Green},
                                {"diffuse_blue", Blue}};
 

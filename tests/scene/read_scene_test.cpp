@@ -61,6 +61,16 @@ class ReadScene : public testing::Test {
     std::filesystem::path folder_;
 };
 
+/// Both formats are XML, and either may be called so.
+TEST_F(ReadScene, XmlIsToldByItsRootElement) {
+    EXPECT_EQ(trianglesOf("a.xml", kProlog + kRoot), 1u);
+    EXPECT_EQ(trianglesOf("b.xml", "<scene version=\"3.0.0\"><shape type=\"rectangle\"/></scene>"),
+              2u);
+    SceneConventions defines;
+    defines.selection.definitions = {{"spp", "4"}};
+    EXPECT_THROW(readScene(write("c.xml", kProlog + kRoot), defines), SceneError);
+}
+
 TEST_F(ReadScene, ByTheEndingOfTheName) {
     EXPECT_EQ(trianglesOf("a.dae", kProlog + kRoot), 1u);
     EXPECT_EQ(trianglesOf("a.DAE", kProlog + kRoot), 1u);

@@ -1,0 +1,158 @@
+#include "scene/mitsuba/bsdfs.hpp"
+
+#include "scene/mitsuba/media_tables.hpp"
+#include "scene/mitsuba/principled.hpp"
+#include "scene/mitsuba/surface_maker.hpp"
+
+#include <fmt/format.h>
+
+namespace stromboli::mitsuba {
+namespace {
+
+Surface readInside(SurfaceMaker& maker, Context& context, Textures& textures) {
+    const Plugin* inside = maker.plugin.onlyChildOf("bsdf");
+    if (!inside) maker.plugin.fail("has no bsdf inside, expected one");
+    return readBsdf(context, textures, *inside);
+}
+
+Surface diffuse(SurfaceMaker& maker) {
+    maker.material.kind = MaterialKind::Diffuse;
+    maker.color("reflectance", glm::dvec3(0.5), maker.material.albedo, TextureSlot::BaseColor);
+    return maker.done();
+}
+
+Surface dielectric(SurfaceMaker& maker) {
+    const std::string& type = maker.plugin.type;
+    Material& m = maker.material;
+    m.ior = float(refractiveIndex(maker.plugin, "int_ior", "bk7") /
+                  refractiveIndex(maker.plugin, "ext_ior", "air"));
+    m.kind = type == "thindielectric" ? MaterialKind::ThinDielectric : MaterialKind::Dielectric;
+    if (type == "roughdielectric") maker.facets();
+    // A picture needs facets: a smooth interface is glass without textures.
+    const bool mayHavePictures = type != "dielectric";
+    if (mayHavePictures) {
+        maker.color("specular_reflectance", glm::dvec3(1), m.reflectance,
+                    TextureSlot::SpecularColor);
+        maker.color("specular_transmittance", glm::dvec3(1), m.transmittance,
+                    TextureSlot::BaseColor);
+    } else {
+        maker.plainColor("specular_reflectance", glm::dvec3(1), m.reflectance);
+        maker.plainColor("specular_transmittance", glm::dvec3(1), m.transmittance);
+    }
+    return maker.done();
+}
+
+Surface conductor(SurfaceMaker& maker) {
+    Material& m = maker.material;
+    m.kind = MaterialKind::Conductor;
+    const MetalIndex metal = metalIndex(maker.plugin);
+    m.eta = metal.eta;
+    m.k = metal.k;
+    if (maker.plugin.type == "roughconductor") maker.facets();
+    maker.color("specular_reflectance", glm::dvec3(1), m.reflectance, TextureSlot::BaseColor);
+    return maker.done();
+}
+
+Surface plastic(SurfaceMaker& maker) {
+    Material& m = maker.material;
+    m.kind = MaterialKind::Plastic;
+    m.ior = float(refractiveIndex(maker.plugin, "int_ior", "polypropylene") /
+                  refractiveIndex(maker.plugin, "ext_ior", "air"));
+    m.isNonlinear = maker.plugin.flag("nonlinear").value_or(false);
+    if (maker.plugin.type == "roughplastic") maker.facets();
+    maker.color("diffuse_reflectance", glm::dvec3(0.5), m.albedo, TextureSlot::BaseColor);
+    maker.color("specular_reflectance", glm::dvec3(1), m.reflectance, TextureSlot::SpecularColor);
+    return maker.done();
+}
+
+/// Our surfaces are alike on both sides.
+Surface twoSided(SurfaceMaker& maker, Context& context, Textures& textures) {
+    const std::vector<const Plugin*> inside = maker.plugin.childrenOf("bsdf");
+    if (inside.empty() || inside.size() > 2)
+        maker.plugin.fail(fmt::format("has {} bsdfs inside, expected one", inside.size()));
+    if (inside.size() == 2 && inside[0] != inside[1])
+        inside[1]->fail("is another bsdf for the back, which is not supported: a surface is alike "
+                        "on both sides");
+    maker.plugin.requireAllRead();
+    Surface surface = readBsdf(context, textures, *inside.front());
+    surface.hasBlackBack = false;
+    return surface;
+}
+
+Surface mask(SurfaceMaker& maker, Context& context, Textures& textures) {
+    Surface surface = readInside(maker, context, textures);
+    Material& m = surface.material;
+    if (m.alphaMode != AlphaMode::Opaque) maker.plugin.fail("is a mask inside a mask");
+    const Shade opacity = textures.shade(maker.plugin, "opacity", ColorOf::Reflectance,
+                                         glm::dvec3(0.5), Layout::Alpha);
+    m.alphaMode = AlphaMode::Blend;
+    m.opacity =
+        float(std::clamp((opacity.color.x + opacity.color.y + opacity.color.z) / 3, 0.0, 1.0));
+    if (opacity.texture) {
+        for (const TextureUse& use : m.textures)
+            if (use.slot == TextureSlot::BaseColor)
+                maker.plugin.fail("opacity", "is a texture over a coloured texture, which is not "
+                                             "supported");
+        if (!m.baseColor())
+            maker.plugin.fail("opacity", "is a texture over a bsdf that takes none here");
+        TextureUse use = *opacity.texture;
+        use.slot = TextureSlot::BaseColor;
+        m.textures.push_back(use);
+    }
+    maker.plugin.requireAllRead();
+    return surface;
+}
+
+/// A surface that is not there.
+Surface nothing(SurfaceMaker& maker) {
+    maker.material.kind = MaterialKind::Diffuse;
+    maker.material.albedo = glm::vec3(0);
+    maker.material.alphaMode = AlphaMode::Blend;
+    maker.material.opacity = 0;
+    return maker.done();
+}
+
+Surface normalMap(SurfaceMaker& maker, Context& context, Textures& textures) {
+    Surface surface = readInside(maker, context, textures);
+    const Shade normals =
+        textures.shade(maker.plugin, "normalmap", ColorOf::Reflectance, glm::dvec3(0.5, 0.5, 1));
+    if (!normals.texture) maker.plugin.fail("has no texture 'normalmap'");
+    TextureUse use = *normals.texture;
+    use.slot = TextureSlot::Normal;
+    surface.material.textures.push_back(use);
+    for (const char* unused : {"flip_invalid_normals", "use_shadowing_function"})
+        maker.plugin.skip(unused);
+    maker.plugin.requireAllRead();
+    return surface;
+}
+
+Surface bumpMap(SurfaceMaker& maker, Context& context, Textures& textures) {
+    context.report().warn("bumpmap: heights are not supported, the surface stays smooth");
+    maker.plugin.childrenOf("texture");
+    maker.plugin.skip("scale");
+    return readInside(maker, context, textures);
+}
+
+} // namespace
+
+Surface readBsdf(Context& context, Textures& textures, const Plugin& bsdf) {
+    SurfaceMaker maker(bsdf, textures, context);
+    const std::string& type = bsdf.type;
+    if (type == "diffuse") return diffuse(maker);
+    if (type == "dielectric" || type == "roughdielectric" || type == "thindielectric")
+        return dielectric(maker);
+    if (type == "conductor" || type == "roughconductor") return conductor(maker);
+    if (type == "plastic" || type == "roughplastic") return plastic(maker);
+    if (type == "principled") return principled(maker);
+    if (type == "twosided") return twoSided(maker, context, textures);
+    if (type == "mask") return mask(maker, context, textures);
+    if (type == "null") return nothing(maker);
+    if (type == "normalmap") return normalMap(maker, context, textures);
+    if (type == "bumpmap") return bumpMap(maker, context, textures);
+    bsdf.fail(fmt::format("'{}' is no bsdf that is read, expected diffuse, dielectric, "
+                          "thindielectric, roughdielectric, conductor, roughconductor, plastic, "
+                          "roughplastic, principled, twosided, mask, null, normalmap or bumpmap",
+                          type));
+}
+
+} // namespace stromboli::mitsuba

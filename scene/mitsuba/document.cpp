@@ -1,0 +1,28 @@
+#include "scene/mitsuba/document.hpp"
+
+#include "scene/mitsuba/document_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+namespace stromboli::mitsuba {
+
+Document::Document(const std::filesystem::path& file, const std::vector<Definition>& definitions,
+                   build::Report& report) {
+    DocumentReader(*this, file, definitions, report).read();
+}
+
+std::filesystem::path Document::file(const Plugin& plugin, std::string_view parameter) const {
+    return find(plugin.place, plugin.requireText(parameter));
+}
+
+std::filesystem::path Document::find(const build::FilePlace& where, const std::string& name) const {
+    std::error_code error; // a name that cannot be looked up is not there
+    for (const std::filesystem::path& folder : folders_)
+        if (std::filesystem::exists(folder / name, error)) return folder / name;
+    where.fail(fmt::format("names the file '{}', which is not there{}", name,
+                           folders_.size() > 1 ? ", nor in the folders that <path> names" : ""));
+}
+
+} // namespace stromboli::mitsuba

@@ -1,0 +1,113 @@
+#include "scene/mitsuba/emitters.hpp"
+
+#include "scene/build/vectors.hpp"
+#include "scene/mitsuba/colors.hpp"
+#include "scene/mitsuba/environment_map.hpp"
+
+#include <fmt/format.h>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace stromboli::mitsuba {
+namespace {
+
+/// The file's lamps shine along z, the builder's along -z.
+glm::dmat4 turnedAround(const glm::dmat4& m) {
+    return m * glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 1, -1));
+}
+
+glm::vec3 lightOf(Context& context, const Plugin& emitter, const char* name) {
+    const std::optional<glm::dvec3> color = colorOf(emitter, name, ColorOf::Light);
+    if (!color && emitter.child(name)) emitter.fail(name, "is a texture, expected a colour");
+    return context.builder.lightColor(name, color.value_or(glm::dvec3(1)));
+}
+
+/// Radiant intensity: falls off with the square of the distance.
+void setIntensity(Context& context, const Plugin& emitter, Light& light) {
+    light.color = lightOf(context, emitter, "intensity");
+    light.constantAttenuation = light.linearAttenuation = 0;
+    light.quadraticAttenuation = 1;
+}
+
+glm::dmat4 pointLight(Context& context, const Plugin& emitter, Light& light) {
+    light.kind = LightKind::Point;
+    setIntensity(context, emitter, light);
+    const std::optional<glm::dvec3> position = emitter.vector("position");
+    if (position && emitter.has("to_world"))
+        emitter.fail("position", "is stated beside to_world, expected one of both");
+    return position ? glm::translate(glm::dmat4(1.0), *position) : emitter.transform("to_world");
+}
+
+glm::dmat4 spotLight(Context& context, const Plugin& emitter, Light& light) {
+    light.kind = LightKind::Spot;
+    setIntensity(context, emitter, light);
+    const double cutoff = emitter.number("cutoff_angle", 0, 90).value_or(20);
+    const double beam = emitter.number("beam_width", 0, 90).value_or(0.75 * cutoff);
+    if (!(beam <= cutoff)) emitter.fail("beam_width", "is more than cutoff_angle");
+    if (emitter.child("texture"))
+        emitter.fail("texture", "is projected by the lamp, which is not supported");
+    light.falloffAngle = float(glm::radians(2 * cutoff));
+    if (beam < cutoff) {
+        light.innerAngle = float(glm::radians(2 * beam));
+        context.report().warn("spot: between beam_width and cutoff_angle the light falls off with "
+                              "the square of the cosine's share, in Mitsuba with the angle");
+    }
+    return emitter.transform("to_world");
+}
+
+glm::dmat4 directionalLight(Context& context, const Plugin& emitter, Light& light) {
+    light.kind = LightKind::Directional;
+    light.color = lightOf(context, emitter, "irradiance");
+    const std::optional<glm::dvec3> stated = emitter.vector("direction");
+    if (!stated) return emitter.transform("to_world");
+    if (emitter.has("to_world"))
+        emitter.fail("direction", "is stated beside to_world, expected one of both");
+    const std::optional<glm::dvec3> z = build::unit(*stated);
+    if (!z) emitter.fail("direction", "has no length");
+    const glm::dvec3 other = std::abs(z->x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 x = glm::normalize(glm::cross(other, *z));
+    return {glm::dvec4(x, 0), glm::dvec4(glm::cross(*z, x), 0), glm::dvec4(*z, 0),
+            glm::dvec4(0, 0, 0, 1)};
+}
+
+void setConstant(Context& context, const Plugin& emitter) {
+    Environment environment;
+    environment.name = "constant";
+    environment.radiance = {lightOf(context, emitter, "radiance")};
+    emitter.skip("to_world");
+    context.builder.setEnvironment(std::move(environment));
+}
+
+} // namespace
+
+void placeEmitter(Context& context, const Plugin& emitter) {
+    emitter.skip("sampling_weight");
+    emitter.skip("samplingWeight");
+    Light light;
+    light.name = emitter.displayName();
+    const std::string& type = emitter.type;
+    if (type == "constant" || type == "envmap") {
+        if (type == "constant")
+            setConstant(context, emitter);
+        else
+            setEnvironmentMap(context, emitter);
+        return emitter.requireAllRead();
+    }
+    glm::dmat4 toWorld(1.0);
+    if (type == "point")
+        toWorld = pointLight(context, emitter, light);
+    else if (type == "spot")
+        toWorld = spotLight(context, emitter, light);
+    else if (type == "directional")
+        toWorld = directionalLight(context, emitter, light);
+    else if (type == "area")
+        emitter.fail("shines on a surface, expected it inside of a shape");
+    else
+        emitter.fail(fmt::format("'{}' is no emitter that is read, expected point, spot, "
+                                 "directional, constant, envmap, or area inside of a shape",
+                                 type));
+    emitter.requireAllRead();
+    context.builder.placeLight(std::move(light), context.worldFromFile * turnedAround(toWorld));
+}
+
+} // namespace stromboli::mitsuba

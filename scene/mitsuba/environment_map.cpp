@@ -1,0 +1,89 @@
+#include "scene/mitsuba/environment_map.hpp"
+
+#include "scene/build/vectors.hpp"
+#include "scene/images/float_image.hpp"
+
+#include <glm/gtc/constants.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stromboli::mitsuba {
+namespace {
+
+/// The map's axes in the world, unit; the x axis turned round where they are left-handed.
+glm::dmat3 axesOf(const Plugin& emitter, bool& isMirrored) {
+    const glm::dmat4 m = emitter.transform("to_world");
+    glm::dmat3 axes;
+    for (const int i : {0, 1, 2}) {
+        const std::optional<glm::dvec3> axis = build::unit(glm::dvec3(m[i]));
+        if (!axis) emitter.fail("to_world", "has an axis without length");
+        axes[i] = *axis;
+    }
+    constexpr double kChance = 1e-4; // matrices in files carry a few digits
+    for (const int i : {0, 1, 2})
+        if (std::abs(glm::dot(axes[i], axes[(i + 1) % 3])) > kChance)
+            emitter.fail("to_world", "shears the environment, which is not supported");
+    isMirrored = glm::determinant(axes) < 0;
+    if (isMirrored) axes[0] = -axes[0];
+    // Exactly at right angles again, y first: it is what stands upright.
+    axes[2] = glm::normalize(glm::cross(axes[0], axes[1]));
+    axes[0] = glm::cross(axes[1], axes[2]);
+    return axes;
+}
+
+/// Rows of the picture that lie between two of the file's: more where it is small, as its texels
+/// are then large in the picture.
+uint32_t rowsBetween(uint32_t height) {
+    constexpr uint32_t kEnoughRows = 2048;
+    return std::clamp(kEnoughRows / (height - 1), 2u, 8u);
+}
+
+/// Mitsuba has the first and the last row of texels at the poles, and rows between them at equal
+/// angles; here their middles are half a row away from the poles. With several rows for one the
+/// lines between texels stay, but for corners at the file's rows, half a new row to each side.
+images::FloatImage withRowsAtPoles(const images::FloatImage& image) {
+    if (image.height < 2) return image;
+    const uint32_t between = rowsBetween(image.height);
+    images::FloatImage result{image.width, between * (image.height - 1), {}};
+    result.texels.reserve(size_t(result.width) * result.height);
+    for (uint32_t row = 0; row < result.height; ++row) {
+        const uint32_t below = row / between;
+        const float share = (float(row % between) + 0.5f) / float(between);
+        for (uint32_t column = 0; column < image.width; ++column)
+            result.texels.push_back(glm::mix(image.texels[size_t(below) * image.width + column],
+                                             image.texels[size_t(below + 1) * image.width + column],
+                                             share));
+    }
+    return result;
+}
+
+} // namespace
+
+glm::dmat4 worldFromFileOf(const Plugin& emitter) {
+    bool isMirrored = false;
+    return glm::dmat4(glm::transpose(axesOf(emitter, isMirrored)));
+}
+
+void setEnvironmentMap(Context& context, const Plugin& emitter) {
+    const std::filesystem::path file = context.document.file(emitter, "filename");
+    images::FloatImage image = withRowsAtPoles(images::readFloatImage(file));
+    bool isMirrored = false;
+    axesOf(emitter, isMirrored);
+    if (isMirrored)
+        for (uint32_t row = 0; row < image.height; ++row)
+            std::reverse(image.texels.begin() + ptrdiff_t(row) * image.width,
+                         image.texels.begin() + ptrdiff_t(row + 1) * image.width);
+    Environment environment;
+    environment.name = file.string();
+    environment.width = image.width;
+    environment.height = image.height;
+    environment.radiance = std::move(image.texels);
+    environment.strength = float(emitter.number("scale", 0).value_or(1));
+    // Mitsuba's picture begins with -z at its left edge, ours has it in the middle.
+    environment.rotation = glm::pi<float>();
+    emitter.skip("mis_compensation");
+    context.builder.setEnvironment(std::move(environment));
+}
+
+} // namespace stromboli::mitsuba

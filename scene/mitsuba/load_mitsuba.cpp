@@ -1,0 +1,69 @@
+#include "scene/mitsuba/load_mitsuba.hpp"
+
+#include "host/core/error.hpp"
+#include "scene/mitsuba/emitters.hpp"
+#include "scene/mitsuba/environment_map.hpp"
+#include "scene/mitsuba/integrator.hpp"
+#include "scene/mitsuba/sensors.hpp"
+#include "scene/mitsuba/shapes.hpp"
+#include "scene/xml/root_element.hpp"
+
+#include <new>
+
+namespace stromboli {
+namespace mitsuba {
+namespace {
+
+/// The environment decides how the world is turned.
+void turnWorld(Context& context, const Plugin& scene) {
+    const Plugin* environment = nullptr;
+    for (const Plugin* emitter : scene.childrenOf("emitter")) {
+        if (emitter->type != "envmap" && emitter->type != "constant") continue;
+        if (environment) emitter->fail("is the second environment of the scene, expected one");
+        environment = emitter;
+        if (emitter->type == "envmap") context.worldFromFile = worldFromFileOf(*emitter);
+    }
+}
+
+void readScene(Context& context) {
+    const Plugin& scene = context.document.scene();
+    turnWorld(context, scene);
+    for (const Plugin* emitter : scene.childrenOf("emitter"))
+        placeEmitter(context, *emitter);
+    bool isFirst = true;
+    for (const Plugin* sensor : scene.childrenOf("sensor")) {
+        placeSensor(context, *sensor, isFirst);
+        isFirst = false;
+    }
+    if (const Plugin* integrator = scene.onlyChildOf("integrator"))
+        readIntegrator(context, *integrator);
+    Shapes shapes(context);
+    for (const Plugin* shape : scene.childrenOf("shape"))
+        shapes.place(*shape);
+    // What shapes refer to, or may.
+    for (const char* tag : {"bsdf", "texture", "spectrum", "sampler"})
+        (void)scene.childrenOf(tag);
+    for (const char* tag : {"medium", "volume", "phase", "subsurface"})
+        for (const Plugin* plugin : scene.childrenOf(tag))
+            context.report().ignore(plugin->tag, "media are not supported");
+    scene.requireAllRead();
+}
+
+} // namespace
+} // namespace mitsuba
+
+Scene loadMitsuba(const std::filesystem::path& file, const SceneConventions& conventions) try {
+    build::SceneBuilder builder(file.string(), conventions);
+    const mitsuba::Document document(file, conventions.selection.definitions, builder.report());
+    mitsuba::Context context{document, builder};
+    mitsuba::readScene(context);
+    return builder.finish();
+} catch (const std::bad_alloc&) {
+    throw SceneError(file.string(), 0, "", "does not fit in memory");
+}
+
+bool looksLikeMitsuba(std::string_view beginning) {
+    return xml::hasRootElement(beginning, "scene");
+}
+
+} // namespace stromboli

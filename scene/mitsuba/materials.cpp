@@ -1,0 +1,50 @@
+#include "scene/mitsuba/materials.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace stromboli::mitsuba {
+
+const BoundMaterial& Materials::of(const Plugin* bsdf, const Plugin* emitter) {
+    const auto key = std::pair(bsdf, emitter);
+    if (const auto found = made_.find(key); found != made_.end()) return found->second;
+    return made_.emplace(key, make(bsdf, emitter)).first->second;
+}
+
+BoundMaterial Materials::make(const Plugin* bsdf, const Plugin* emitter) {
+    Surface surface;
+    surface.material = build::greyMaterial();
+    if (bsdf) surface = readBsdf(context_, textures_, *bsdf);
+    if (emitter) addEmission(*emitter, surface.material);
+    BoundMaterial bound;
+    const Material& m = surface.material;
+    bound.isTextured = !m.textures.empty();
+    bound.usesVertexColors = surface.usesVertexColors;
+    bound.hasBlackBack = surface.hasBlackBack;
+    bound.wantsTangents = m.hasGrain() || std::ranges::any_of(m.textures, [](const auto& use) {
+                              return use.slot == TextureSlot::Normal;
+                          });
+    bound.number = context_.builder.addMaterial(std::move(surface.material));
+    return bound;
+}
+
+void Materials::addEmission(const Plugin& emitter, Material& material) {
+    if (emitter.type != "area")
+        emitter.fail(
+            fmt::format("'{}' is no emitter of a shape that is read, expected area", emitter.type));
+    const Shade radiance = textures_.shade(emitter, "radiance", ColorOf::Light, glm::dvec3(1));
+    if (radiance.isVertexColor)
+        emitter.fail("radiance", "is a mesh attribute, expected a colour or a picture");
+    material.emission = context_.builder.lightColor("radiance", radiance.color);
+    material.emitsBothSides = false;
+    if (radiance.texture) {
+        TextureUse use = *radiance.texture;
+        use.slot = TextureSlot::Emission;
+        material.textures.push_back(use);
+    }
+    emitter.skip("sampling_weight");
+    emitter.requireAllRead();
+}
+
+} // namespace stromboli::mitsuba

@@ -1,0 +1,150 @@
+#include "scene/mitsuba/sensors.hpp"
+
+#include "scene/build/vectors.hpp"
+#include "scene/mitsuba/words.hpp"
+
+#include <fmt/format.h>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <cmath>
+
+namespace stromboli::mitsuba {
+namespace {
+
+struct Film {
+    uint32_t width = 768, height = 576;
+    HintedFilter filter = HintedFilter::Gaussian;
+
+    double aspect() const { return double(width) / height; }
+};
+
+uint32_t sideOf(const Plugin& film, const char* name, uint32_t otherwise) {
+    const int64_t side = film.integer(name).value_or(otherwise);
+    if (side < 1 || side > 65536) film.fail(name, fmt::format("is {}, expected 1 to 65536", side));
+    return uint32_t(side);
+}
+
+HintedFilter filterOf(Context& context, const Plugin& film) {
+    const Plugin* filter = film.onlyChildOf("rfilter");
+    if (!filter) return HintedFilter::Gaussian;
+    if (filter->type == "box") return HintedFilter::Box;
+    const double deviation = filter->number("stddev", 0).value_or(0.5);
+    if (filter->type != "gaussian" || deviation != 0.5)
+        context.report().assume(
+            filter->type == "gaussian"
+                ? fmt::format("the gaussian filter has a deviation of 0.5 pixels, not {}",
+                              deviation)
+                : fmt::format("the filter '{}' is not there: the gaussian one is taken",
+                              filter->type));
+    return HintedFilter::Gaussian;
+}
+
+Film filmOf(Context& context, const Plugin& sensor) {
+    Film film;
+    const Plugin* plugin = sensor.onlyChildOf("film");
+    if (!plugin) return film;
+    if (plugin->type != "hdrfilm" && plugin->type != "specfilm")
+        plugin->fail(fmt::format("'{}' is no film that is read, expected hdrfilm", plugin->type));
+    film.width = sideOf(*plugin, "width", film.width);
+    film.height = sideOf(*plugin, "height", film.height);
+    film.filter = filterOf(context, *plugin);
+    for (const char* crop : {"crop_width", "crop_height", "crop_offset_x", "crop_offset_y"})
+        if (plugin->has(crop))
+            context.report().warn("film: the crop is not read, the whole picture is made (--crop)");
+    for (const char* unused :
+         {"pixel_format", "component_format", "file_format", "filename", "banner",
+          "high_quality_edges", "sample_border", "gamma", "attach_log", "compensate"})
+        plugin->skip(unused);
+    ignoreUnread(context, *plugin);
+    return film;
+}
+
+/// "50mm" or a number: the focal length for a picture of 36 x 24 mm.
+double focalLengthOf(const Plugin& sensor) {
+    std::string text = sensor.text("focal_length").value_or("50mm");
+    if (text.ends_with("mm")) text.resize(text.size() - 2);
+    const double length = numberOf(sensor.place, text);
+    if (!(length > 0)) sensor.fail("focal_length", fmt::format("is {}, expected more", length));
+    return length;
+}
+
+/// The tangent of half the angle of view across the picture.
+double halfWidthOf(const Plugin& sensor, double aspect) {
+    const double perDiagonal = aspect / std::sqrt(1 + aspect * aspect);
+    if (!sensor.has("fov")) return std::hypot(36.0, 24.0) / 2 / focalLengthOf(sensor) * perDiagonal;
+    if (sensor.has("focal_length"))
+        sensor.fail("focal_length", "is stated beside fov, expected one of both");
+    const double degrees = *sensor.number("fov", 0);
+    if (!(degrees > 0 && degrees < 180))
+        sensor.fail("fov", fmt::format("is {}, expected more than 0 and less than 180", degrees));
+    const double tangent = std::tan(glm::radians(degrees) / 2);
+    const std::string axis = sensor.text("fov_axis").value_or("x");
+    if (axis == "diagonal") return tangent * perDiagonal;
+    const bool isWide = aspect > 1;
+    if (axis == "x" || axis == (isWide ? "larger" : "smaller")) return tangent;
+    if (axis == "y" || axis == (isWide ? "smaller" : "larger")) return tangent * aspect;
+    sensor.fail("fov_axis",
+                fmt::format("is '{}', expected x, y, diagonal, smaller or larger", axis));
+}
+
+void readLens(const Plugin& sensor, FileCamera& camera) {
+    camera.lensRadius = sensor.number("aperture_radius", 0).value_or(0);
+    camera.focusDistance = sensor.number("focus_distance", 0).value_or(1);
+    if (!(camera.focusDistance > 0)) sensor.fail("focus_distance", "is 0, expected more");
+}
+
+void readPerspective(const Plugin& sensor, double aspect, FileCamera& camera) {
+    camera.halfWidth = halfWidthOf(sensor, aspect);
+    for (const char* name : {"principal_point_offset_x", "principal_point_offset_y"})
+        if (sensor.number(name).value_or(0) != 0)
+            sensor.fail(name, "moves the picture, which is not supported");
+    if (sensor.type == "thinlens") readLens(sensor, camera);
+    sensor.skip("focus_distance");
+    sensor.skip("fov_axis");
+}
+
+/// Mitsuba's camera looks along z, x to the left; a scale is the size of an orthographic view.
+glm::dmat4 poseOf(const Plugin& sensor) {
+    const glm::dmat4 m = sensor.transform("to_world");
+    if (glm::determinant(glm::dmat3(m)) < 0)
+        sensor.fail("to_world", "mirrors the picture, which is not supported");
+    return m * glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 1, -1));
+}
+
+} // namespace
+
+void placeSensor(Context& context, const Plugin& sensor, bool isFirst) {
+    const Film film = filmOf(context, sensor);
+    FileCamera camera;
+    camera.name = sensor.displayName();
+    if (sensor.type == "perspective" || sensor.type == "thinlens") {
+        readPerspective(sensor, film.aspect(), camera);
+    } else if (sensor.type == "orthographic") {
+        camera.projection = Projection::Orthographic;
+        camera.halfWidth = 1;
+    } else {
+        sensor.fail(fmt::format("'{}' is no sensor that is read, expected perspective, thinlens "
+                                "or orthographic",
+                                sensor.type));
+    }
+    camera.halfHeight = *camera.halfWidth / film.aspect();
+    for (const char* clip : {"near_clip", "far_clip"})
+        if (sensor.has(clip))
+            context.report().ignore(clip, "all that lies in front of the camera is seen");
+    sensor.childrenOf("sampler");
+    for (const char* unused : {"shutter_open", "shutter_close", "srf"})
+        sensor.skip(unused);
+    if (const Plugin* medium = sensor.child("medium"))
+        medium->fail("is a medium, which is not supported");
+    const glm::dmat4 pose = context.worldFromFile * poseOf(sensor);
+    sensor.requireAllRead();
+    context.builder.placeCamera(std::move(camera), pose);
+    if (!isFirst) return;
+    RenderHints& hints = context.builder.hints();
+    hints.width = film.width;
+    hints.height = film.height;
+    hints.filter = film.filter;
+}
+
+} // namespace stromboli::mitsuba

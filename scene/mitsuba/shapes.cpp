@@ -1,0 +1,190 @@
+#include "scene/mitsuba/shapes.hpp"
+
+#include "scene/build/tangents.hpp"
+#include "scene/build/vectors.hpp"
+#include "scene/mitsuba/solids.hpp"
+
+#include <fmt/format.h>
+#include <glm/ext/matrix_transform.hpp>
+
+#include <array>
+#include <cmath>
+
+namespace stromboli::mitsuba {
+namespace {
+
+/// It turns, moves and scales alike in all directions, so that a sphere stays one.
+bool isSimilarity(const glm::dmat4& m) {
+    const glm::dvec3 scale = build::axisLengths(m);
+    if (build::areUnequal(scale) || !(scale.x > 0)) return false;
+    const glm::dvec3 x = glm::dvec3(m[0]) / scale.x, y = glm::dvec3(m[1]) / scale.y,
+                     z = glm::dvec3(m[2]) / scale.z;
+    constexpr double kChance = 1e-6; // files carry about six digits
+    return std::abs(glm::dot(x, y)) < kChance && std::abs(glm::dot(y, z)) < kChance &&
+           std::abs(glm::dot(z, x)) < kChance;
+}
+
+/// What the plugin's parameters of its own say about a sphere of radius 1 about the origin.
+glm::dmat4 sphereMatrix(const Plugin& sphere) {
+    const glm::dvec3 center = sphere.vector("center").value_or(glm::dvec3(0));
+    const double radius = sphere.number("radius", 0).value_or(1);
+    if (!(radius > 0)) sphere.fail("radius", "is 0, expected more");
+    const glm::dmat4 identity(1.0);
+    return glm::translate(identity, center) * glm::scale(identity, glm::dvec3(radius));
+}
+
+/// Groups that name each other twice hold 2^n shapes.
+constexpr size_t kMostParts = 1'000'000;
+
+bool isFile(const Plugin& shape) {
+    return shape.type == "obj" || shape.type == "ply";
+}
+
+void dropNormals(build::Mesh& mesh) {
+    mesh.normals.clear();
+    mesh.isFlat = true;
+    for (build::MeshTriangle& triangle : mesh.parts.front())
+        for (build::Corner& corner : triangle)
+            corner.normal = kNoNormals;
+}
+
+} // namespace
+
+void Shapes::place(const Plugin& shape) {
+    if (shape.type == "shapegroup") return void(group(shape));
+    for (const Part& part : partsOf(shape))
+        context_.builder.place(shape.place, part.shape, context_.worldFromFile * part.toWorld,
+                               std::array{part.material}, part.plugin->displayName());
+}
+
+std::vector<Shapes::Part> Shapes::partsOf(const Plugin& shape) {
+    if (shape.type == "instance") return instance(shape);
+    if (shape.type == "merge") return group(shape);
+    if (shape.type == "shapegroup") shape.fail("is a shape group inside of a shape");
+    return {single(shape)};
+}
+
+const std::vector<Shapes::Part>& Shapes::group(const Plugin& plugin) {
+    const auto [found, isNew] = groups_.try_emplace(&plugin);
+    if (!isNew) return found->second;
+    std::vector<Part> parts;
+    for (const Plugin* shape : plugin.childrenOf("shape")) {
+        if (shape->type == "instance") shape->fail("is an instance inside of a shape group");
+        for (const Part& part : partsOf(*shape))
+            parts.push_back(part);
+        if (parts.size() > kMostParts) plugin.fail("has more than a million shapes");
+    }
+    plugin.requireAllRead();
+    return groups_[&plugin] = std::move(parts);
+}
+
+std::vector<Shapes::Part> Shapes::instance(const Plugin& shape) {
+    const Plugin* inside = shape.onlyChildOf("shape");
+    if (!inside || inside->type != "shapegroup") shape.fail("has no shape group to show");
+    std::vector<Part> parts = group(*inside);
+    const glm::dmat4 toWorld = shape.transform("to_world");
+    for (Part& part : parts)
+        part.toWorld = toWorld * part.toWorld;
+    shape.requireAllRead();
+    return parts;
+}
+
+Shapes::Part Shapes::single(const Plugin& shape) {
+    for (const char* medium : {"interior", "exterior"})
+        if (const Plugin* inside = shape.child(medium))
+            inside->fail("is a medium, which is not supported");
+    const BoundMaterial& material =
+        materials_.of(shape.onlyChildOf("bsdf"), shape.onlyChildOf("emitter"));
+    Part part{&shape, {}, shape.transform("to_world"), material.number};
+    const bool isSphere = shape.type == "sphere";
+    const bool showsBacks = !isSphere && shape.type != "cube";
+    if (showsBacks && material.hasBlackBack)
+        context_.report().assume("surfaces are alike on both sides; in Mitsuba the back of one "
+                                 "whose bsdf is not twosided is black");
+    if (isSphere) part.toWorld *= sphereMatrix(shape);
+    const bool flips = shape.flag("flip_normals").value_or(false);
+    const bool staysSphere =
+        isSphere && !flips && !material.wantsCoordinates() && isSimilarity(part.toWorld);
+    if (staysSphere) {
+        part.shape = context_.builder.addSphere(shape.displayName(), 1);
+    } else {
+        build::Mesh mesh = meshOf(shape, material);
+        if (flips) flip(mesh);
+        part.shape = context_.builder.addMesh(shape.displayName(), std::move(mesh));
+    }
+    shape.requireAllRead();
+    return part;
+}
+
+build::Mesh Shapes::meshOf(const Plugin& shape, const BoundMaterial& material) {
+    if (isFile(shape)) return fileMesh(shape, material);
+    if (material.usesVertexColors)
+        shape.fail("has a bsdf with a mesh attribute, expected a mesh from a file that has it");
+    build::Mesh mesh = solidOf(shape);
+    fitTo(material, mesh);
+    return mesh;
+}
+
+build::Mesh Shapes::solidOf(const Plugin& shape) {
+    if (shape.type == "sphere") return sphereMesh();
+    if (shape.type == "rectangle") return rectangleMesh();
+    if (shape.type == "cube") return cubeMesh();
+    if (shape.type == "disk") return diskMesh();
+    if (shape.type == "cylinder") {
+        const glm::dvec3 from = shape.vector("p0").value_or(glm::dvec3(0));
+        const glm::dvec3 to = shape.vector("p1").value_or(glm::dvec3(0, 0, 1));
+        const double radius = shape.number("radius", 0).value_or(1);
+        if (!build::unit(to - from) || !(radius > 0)) shape.fail("has no length or no radius");
+        return cylinderMesh(from, to, radius);
+    }
+    shape.fail(fmt::format("'{}' is no shape that is read, expected obj, ply, rectangle, cube, "
+                           "sphere, disk, cylinder, shapegroup, instance or merge",
+                           shape.type));
+}
+
+build::Mesh Shapes::fileMesh(const Plugin& shape, const BoundMaterial& material) {
+    const FileMesh& file = read(shape);
+    build::Mesh mesh = file.mesh;
+    if (material.usesVertexColors && !file.hasColors)
+        shape.fail("has a bsdf of vertex_color, and its file has no such attribute");
+    if (material.wantsCoordinates() && !file.hasCoordinates)
+        context_.report().warn(fmt::format("{}: has no texture coordinates, which its bsdf looks "
+                                           "up pictures by; (0, 0) is taken",
+                                           shape.displayName()));
+    if (!material.usesVertexColors)
+        for (VertexAttributes& a : mesh.attributes)
+            a.color = glm::vec4(1);
+    // Pictures have their first row at the coordinate 0; the readers of meshes turn v upside down,
+    // as Mitsuba does with that of OBJ files, and with that of others if asked to.
+    const bool isFlipped = shape.flag("flip_tex_coords").value_or(shape.type == "obj");
+    if (!isFlipped)
+        for (VertexAttributes& a : mesh.attributes)
+            a.uv[0].y = 1 - a.uv[0].y;
+    if (shape.flag("face_normals").value_or(false))
+        dropNormals(mesh);
+    else if (mesh.normals.empty())
+        computeNormals(mesh);
+    fitTo(material, mesh);
+    return mesh;
+}
+
+/// Corners have attributes only where something looks at them.
+void Shapes::fitTo(const BoundMaterial& material, build::Mesh& mesh) {
+    if (material.wantsTangents) build::computeTangents(mesh, 0, 0);
+    if (material.wantsCoordinates() || material.usesVertexColors) return;
+    mesh.attributes.clear();
+    for (build::MeshPart& part : mesh.parts)
+        for (build::MeshTriangle& triangle : part)
+            for (build::Corner& corner : triangle)
+                corner.attributes = kNoAttributes;
+}
+
+const FileMesh& Shapes::read(const Plugin& shape) {
+    const std::filesystem::path file = context_.document.file(shape, "filename");
+    const std::string key = file.string();
+    if (const auto found = files_.find(key); found != files_.end()) return found->second;
+    return files_[key] =
+               shape.type == "obj" ? readObjMesh(context_, file) : readPlyMesh(context_, file);
+}
+
+} // namespace stromboli::mitsuba

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "scene/mitsuba/materials.hpp"
+#include "scene/mitsuba/mesh_files.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace stromboli::mitsuba {
+
+/// Places the shapes of a scene.
+class Shapes {
+  public:
+    explicit Shapes(Context& context) : context_(context), materials_(context) {}
+
+    /// A shape of the scene: shape groups show nothing until they are instanced.
+    void place(const Plugin& shape);
+
+  private:
+    /// What one plugin shows.
+    struct Part {
+        const Plugin* plugin = nullptr;
+        build::ShapeId shape{};
+        glm::dmat4 toWorld{1.0};
+        uint32_t material = 0;
+    };
+
+    std::vector<Part> partsOf(const Plugin& shape);
+    const std::vector<Part>& group(const Plugin& group);
+    std::vector<Part> instance(const Plugin& shape);
+    Part single(const Plugin& shape);
+    build::Mesh meshOf(const Plugin& shape, const BoundMaterial& material);
+    build::Mesh solidOf(const Plugin& shape);
+    build::Mesh fileMesh(const Plugin& shape, const BoundMaterial& material);
+    static void fitTo(const BoundMaterial& material, build::Mesh& mesh);
+    const FileMesh& read(const Plugin& shape);
+
+    Context& context_;
+    Materials materials_;
+    std::map<std::string, FileMesh> files_;
+    std::map<const Plugin*, std::vector<Part>> groups_;
+};
+
+} // namespace stromboli::mitsuba

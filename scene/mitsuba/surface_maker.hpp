@@ -1,0 +1,37 @@
+#pragma once
+
+#include "scene/mitsuba/bsdfs.hpp"
+
+namespace stromboli::mitsuba {
+
+/// Fills in the material of one BSDF from its parameters.
+class SurfaceMaker {
+  public:
+    SurfaceMaker(const Plugin& bsdf, Textures& textures, Context& context)
+        : plugin(bsdf), textures_(textures), context_(context) {
+        material.name = bsdf.displayName();
+    }
+
+    const Plugin& plugin;
+    Material material;
+
+    /// A reflected or transmitted fraction, or a texture of it in that slot.
+    void color(const char* name, const glm::dvec3& otherwise, glm::vec3& where, TextureSlot slot);
+    /// The same where no texture is possible.
+    void plainColor(const char* name, const glm::dvec3& otherwise, glm::vec3& where);
+    /// A number in [0, 1], or a texture of it in that slot, where `layout` puts it.
+    float fraction(const char* name, double otherwise, TextureSlot slot, Layout layout);
+    /// The distribution and the roughness of microfacets.
+    void facets();
+    build::Report& report() { return context_.report(); }
+
+    /// Throws SceneError for parameters that were not read.
+    Surface done();
+
+  private:
+    Textures& textures_;
+    Context& context_;
+    bool usesVertexColors_ = false;
+};
+
+} // namespace stromboli::mitsuba

@@ -1,0 +1,103 @@
+// What shines.
+
+#include "tests/scene/mitsuba/mitsuba_text.hpp"
+
+#include <glm/gtc/constants.hpp>
+
+namespace stromboli::test {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(MitsubaEmitters, Points) {
+    const Scene scene = loadInside("<emitter type=\"point\"><rgb name=\"intensity\" value=\"3\"/>"
+                                   "<point name=\"position\" x=\"1\" y=\"2\" z=\"3\"/></emitter>");
+    const Light& light = scene.lights.at(0);
+    EXPECT_EQ(light.kind, LightKind::Point);
+    EXPECT_EQ(light.color, glm::vec3(3));
+    EXPECT_EQ(light.position, glm::vec3(1, 2, 3));
+    EXPECT_EQ(light.constantAttenuation, 0);
+    EXPECT_EQ(light.quadraticAttenuation, 1);
+}
+
+TEST(MitsubaEmitters, SpectraOfLightHaveThePowerAtEveryWavelength) {
+    const Scene scene = loadInside("<emitter type=\"point\"><spectrum name=\"intensity\" "
+                                   "value=\"2\"/></emitter>");
+    EXPECT_EQ(scene.lights.at(0).color, glm::vec3(2.4096f, 1.8966f, 1.8178f));
+}
+
+TEST(MitsubaEmitters, DirectionsAreThoseOfTheLight) {
+    const Scene scene = loadInside("<emitter type=\"directional\"><vector name=\"direction\" "
+                                   "value=\"0,0,-2\"/></emitter>"
+                                   "<emitter type=\"directional\"><transform name=\"to_world\">"
+                                   "<lookat origin=\"0,0,0\" target=\"1,0,0\" up=\"0,1,0\"/>"
+                                   "</transform></emitter>");
+    EXPECT_NEAR(glm::distance(scene.lights.at(0).direction, glm::vec3(0, 0, -1)), 0, 1e-6);
+    EXPECT_NEAR(glm::distance(scene.lights.at(1).direction, glm::vec3(1, 0, 0)), 0, 1e-6);
+}
+
+TEST(MitsubaEmitters, Spots) {
+    const Scene scene = loadInside("<emitter type=\"spot\"><float name=\"cutoff_angle\" "
+                                   "value=\"40\"/></emitter>");
+    EXPECT_FLOAT_EQ(scene.lights.at(0).falloffAngle, glm::radians(80.0f));
+    EXPECT_FLOAT_EQ(scene.lights.at(0).innerAngle.value(), glm::radians(60.0f));
+    EXPECT_NEAR(glm::distance(scene.lights.at(0).direction, glm::vec3(0, 0, 1)), 0, 1e-6);
+}
+
+TEST(MitsubaEmitters, SurfacesShineInFront) {
+    const Scene scene = loadInside("<shape type=\"rectangle\"><emitter type=\"area\">"
+                                   "<rgb name=\"radiance\" value=\"1 2 3\"/></emitter></shape>");
+    const Material& m = scene.materials.at(0);
+    EXPECT_EQ(m.emission, glm::vec3(1, 2, 3));
+    EXPECT_FALSE(m.emitsBothSides);
+    EXPECT_EQ(m.albedo, glm::vec3(0.5f));
+    EXPECT_THAT(problemInside("<emitter type=\"area\"/>"), HasSubstr("expected it inside of a"));
+}
+
+TEST(MitsubaEmitters, ConstantEnvironments) {
+    const Scene scene = loadInside("<emitter type=\"constant\"><rgb name=\"radiance\" value=\"2\"/>"
+                                   "</emitter>");
+    EXPECT_EQ(scene.environment.value().radiance.at(0), glm::vec3(2));
+    EXPECT_THAT(problemInside("<emitter type=\"constant\"/>\n<emitter type=\"constant\"/>"),
+                HasSubstr("3: <emitter>: is the second environment"));
+}
+
+/// A picture of two columns and three rows of which one texel is bright, in Radiance's format
+/// without compression.
+void writeEnvironment(int bright) {
+    std::string text = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 3 +X 2\n";
+    for (int i = 0; i < 6; ++i)
+        text += i == bright ? std::string("\x80\x80\x80\x81", 4) : std::string(4, '\0');
+    writeFile("sky.hdr", text);
+}
+
+TEST(MitsubaEmitters, EnvironmentRowsReachThePoles) {
+    writeEnvironment(0); // the first row is at the pole
+    const Scene scene = loadInside("<emitter type=\"envmap\"><string name=\"filename\" "
+                                   "value=\"sky.hdr\"/></emitter>");
+    const Environment& e = scene.environment.value();
+    ASSERT_EQ(e.height, 16u); // eight for each of the two intervals
+    for (const uint32_t row : {0u, 3u, 7u})
+        EXPECT_FLOAT_EQ(e.radiance[2 * row].x, 1 - (float(row) + 0.5f) / 8);
+    EXPECT_EQ(e.radiance[2 * 8].x, 0);
+    EXPECT_FLOAT_EQ(e.rotation, glm::pi<float>());
+}
+
+/// An environment that is turned turns the scene the other way: its own y stays up.
+TEST(MitsubaEmitters, TurnedEnvironmentsTurnTheScene) {
+    writeEnvironment(0);
+    const std::string turned = "<emitter type=\"envmap\"><string name=\"filename\" "
+                               "value=\"sky.hdr\"/><transform name=\"to_world\">"
+                               "<rotate x=\"1\" angle=\"90\"/></transform></emitter>";
+    const Scene scene = loadInside(turned + "<shape type=\"sphere\"><point name=\"center\" "
+                                            "value=\"0 0 5\"/></shape>");
+    EXPECT_NEAR(glm::distance(scene.spheres.at(0).center, glm::vec3(0, 5, 0)), 0, 1e-5);
+}
+
+TEST(MitsubaEmitters, UnknownOnesAreNamed) {
+    EXPECT_THAT(problemInside("<emitter type=\"sunsky\"/>"),
+                HasSubstr("2: <emitter>: 'sunsky' is no emitter that is read, expected point"));
+}
+
+} // namespace
+} // namespace stromboli::test

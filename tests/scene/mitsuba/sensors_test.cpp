@@ -1,0 +1,103 @@
+// Cameras, films and what integrators say.
+
+#include "scene/camera/camera.hpp"
+#include "tests/scene/mitsuba/mitsuba_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace stromboli::test {
+namespace {
+
+using testing::HasSubstr;
+
+Scene sceneOf(const std::string& inside, const std::string& type = "perspective") {
+    return loadInside(fmt::format("<sensor type=\"{}\">{}</sensor>", type, inside));
+}
+
+const std::string kWideFilm = "<film type=\"hdrfilm\"><integer name=\"width\" value=\"200\"/>"
+                              "<integer name=\"height\" value=\"100\"/></film>";
+
+TEST(MitsubaSensors, LookAlongZWithXToTheLeft) {
+    const FileCamera camera = sceneOf("").cameras.at(0);
+    EXPECT_EQ(camera.back, glm::dvec3(0, 0, -1));
+    EXPECT_EQ(camera.right, glm::dvec3(-1, 0, 0));
+    EXPECT_EQ(camera.up, glm::dvec3(0, 1, 0));
+}
+
+/// The diagonal of 36 x 24 mm at 50 mm: 34.02 degrees across a square.
+TEST(MitsubaSensors, TheStandardLensHas50Millimetres) {
+    const FileCamera square = sceneOf("<film type=\"hdrfilm\"><integer name=\"width\" value=\"8\"/>"
+                                      "<integer name=\"height\" value=\"8\"/></film>")
+                                  .cameras.at(0);
+    EXPECT_NEAR(2 * std::atan(*square.halfWidth) * 180 / M_PI, 34.0224, 1e-3);
+    EXPECT_EQ(square.halfWidth, square.halfHeight);
+}
+
+TEST(MitsubaSensors, AnglesBelongToAnAxis) {
+    const auto widthOf = [](const std::string& axis) {
+        const std::string stated =
+            axis.empty() ? "" : "<string name=\"fov_axis\" value=\"" + axis + "\"/>";
+        return *sceneOf("<float name=\"fov\" value=\"90\"/>" + stated + kWideFilm)
+                    .cameras.at(0)
+                    .halfWidth;
+    };
+    EXPECT_NEAR(widthOf(""), 1, 1e-12);
+    EXPECT_NEAR(widthOf("larger"), 1, 1e-12);
+    EXPECT_NEAR(widthOf("y"), 2, 1e-12);
+    EXPECT_NEAR(widthOf("smaller"), 2, 1e-12);
+    EXPECT_NEAR(widthOf("diagonal"), 2 / std::sqrt(5.0), 1e-12);
+    EXPECT_THAT(problemInside("<sensor type=\"perspective\"><float name=\"fov\" value=\"90\"/>"
+                              "<string name=\"fov_axis\" value=\"z\"/></sensor>"),
+                HasSubstr("'fov_axis' is 'z', expected x, y, diagonal, smaller or larger"));
+}
+
+TEST(MitsubaSensors, LensesAndParallelViews) {
+    const FileCamera lens = sceneOf("<float name=\"aperture_radius\" value=\"0.2\"/>"
+                                    "<float name=\"focus_distance\" value=\"7\"/>",
+                                    "thinlens")
+                                .cameras.at(0);
+    EXPECT_EQ(lens.lensRadius, 0.2);
+    EXPECT_EQ(lens.focusDistance, 7);
+    const Scene parallel =
+        sceneOf("<transform name=\"to_world\"><scale value=\"3\"/></transform>" + kWideFilm,
+                "orthographic");
+    EXPECT_EQ(*parallel.cameras.at(0).halfWidth, 3);
+    EXPECT_EQ(*parallel.cameras.at(0).halfHeight, 1.5);
+    const Camera camera =
+        makeCamera(sceneOf("<float name=\"aperture_radius\" value=\"0.2\"/>", "thinlens"),
+                   CameraChoice::File, 100, 75);
+    EXPECT_EQ(camera.lensRadius, 0.2);
+}
+
+TEST(MitsubaSensors, FilmsAreHints) {
+    const Scene scene = sceneOf("<film type=\"hdrfilm\"><integer name=\"width\" value=\"200\"/>"
+                                "<integer name=\"height\" value=\"100\"/>"
+                                "<rfilter type=\"box\"/></film>");
+    EXPECT_EQ(scene.hints.width, 200u);
+    EXPECT_EQ(scene.hints.filter, HintedFilter::Box);
+    EXPECT_EQ(defaultPictureSize(scene, {}).height, 100u);
+    EXPECT_EQ(sceneOf(kWideFilm).hints.filter, HintedFilter::Gaussian);
+    EXPECT_FALSE(loadInside("").hints.filter);
+}
+
+TEST(MitsubaSensors, DepthsCountSegments) {
+    const auto bouncesOf = [](const std::string& inside, const std::string& type = "path") {
+        return loadInside("<integrator type=\"" + type + "\">" + inside + "</integrator>")
+            .hints.maxBounces;
+    };
+    EXPECT_EQ(bouncesOf("<integer name=\"max_depth\" value=\"2\"/>"), 1u);
+    EXPECT_EQ(bouncesOf("<integer name=\"max_depth\" value=\"1\"/>"), 0u);
+    EXPECT_EQ(bouncesOf(""), 10000u);
+    EXPECT_EQ(bouncesOf("", "direct"), 1u);
+    EXPECT_EQ(bouncesOf("<integrator type=\"direct\"/>", "moment"), 1u);
+    EXPECT_THAT(problemInside("<integrator type=\"bdpt\"/>"),
+                HasSubstr("'bdpt' is no integrator that is read"));
+    const Scene scene = loadInside("<integrator type=\"path\"><integer name=\"rr_depth\" "
+                                   "value=\"5\"/></integrator>");
+    EXPECT_THAT(scene.report.ignored, testing::Contains(HasSubstr("'rr_depth' of integrator")));
+}
+
+} // namespace
+} // namespace stromboli::test

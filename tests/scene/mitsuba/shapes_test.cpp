@@ -1,0 +1,139 @@
+// Shapes where the file puts them.
+
+#include "scene/mitsuba/solids.hpp"
+#include "tests/scene/mitsuba/mitsuba_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace stromboli::test {
+namespace {
+
+using testing::HasSubstr;
+
+double areaOf(const Scene& scene) {
+    double area = 0;
+    for (const Triangle& t : scene.triangles)
+        area += 0.5 * glm::length(glm::cross(
+                          glm::dvec3(scene.positions[t.corner[1]] - scene.positions[t.corner[0]]),
+                          glm::dvec3(scene.positions[t.corner[2]] - scene.positions[t.corner[0]])));
+    return area;
+}
+
+Scene loadShape(const std::string& type, const std::string& inside = "") {
+    return loadInside(fmt::format("<shape type=\"{}\">{}</shape>", type, inside));
+}
+
+TEST(MitsubaShapes, HaveTheirAreas) {
+    constexpr double kPi = std::numbers::pi;
+    EXPECT_DOUBLE_EQ(areaOf(loadShape("rectangle")), 4);
+    EXPECT_DOUBLE_EQ(areaOf(loadShape("cube")), 24);
+    // A circle of n sides has sin(2 pi / n) / (2 pi / n) of the area.
+    EXPECT_NEAR(areaOf(loadShape("disk")), kPi, kPi * 1.1e-4);
+    EXPECT_NEAR(areaOf(loadShape("cylinder")), 2 * kPi, 2 * kPi * 1e-4);
+    const std::string stretched = "<transform name=\"to_world\"><scale x=\"2\" y=\"2\" z=\"2.01\"/>"
+                                  "</transform>";
+    EXPECT_NEAR(areaOf(loadShape("sphere", stretched)), 16 * kPi, 16 * kPi * 5e-3);
+    EXPECT_EQ(loadShape("sphere").triangles.size(), 0u);
+}
+
+TEST(MitsubaShapes, FaceOutwards) {
+    for (const char* type : {"cube", "sphere", "cylinder"}) {
+        const Scene scene = loadShape(type, "<transform name=\"to_world\">"
+                                            "<scale x=\"1\" y=\"2\" z=\"1\"/></transform>");
+        ASSERT_FALSE(scene.triangles.empty());
+        for (const Triangle& t : scene.triangles) {
+            glm::vec3 middle(0.0f);
+            for (const uint32_t corner : t.corner)
+                middle += scene.positions[corner] / 3.0f;
+            if (std::string(type) == "cylinder") middle.z = 0;
+            ASSERT_GT(glm::dot(scene.geometricNormal(t), middle), 0) << type;
+        }
+    }
+    EXPECT_EQ(loadShape("rectangle").geometricNormal(loadShape("rectangle").triangles[0]),
+              glm::vec3(0, 0, 1));
+    const Scene flipped = loadShape("rectangle", "<boolean name=\"flip_normals\" value=\"true\"/>");
+    EXPECT_EQ(flipped.geometricNormal(flipped.triangles[0]), glm::vec3(0, 0, -1));
+}
+
+TEST(MitsubaShapes, SpheresStayTrueWhereTheyCan) {
+    const Scene scene = loadShape("sphere", "<point name=\"center\" x=\"1\" y=\"2\" z=\"3\"/>"
+                                            "<float name=\"radius\" value=\"2\"/>"
+                                            "<transform name=\"to_world\"><scale value=\"3\"/>"
+                                            "</transform>");
+    EXPECT_EQ(scene.spheres.at(0).center, glm::vec3(3, 6, 9));
+    EXPECT_EQ(scene.spheres.at(0).radius, 6);
+    EXPECT_THAT(
+        problemInside("<shape type=\"sphere\"><float name=\"radius\" value=\"0\"/></shape>"),
+        HasSubstr("'radius' is 0, expected more"));
+}
+
+TEST(MitsubaShapes, GroupsShowWhereTheyAreInstanced) {
+    const std::string group = "<shape type=\"shapegroup\" id=\"g\"><shape type=\"sphere\"/>"
+                              "<shape type=\"rectangle\"/></shape>";
+    EXPECT_TRUE(loadInside(group).spheres.empty());
+    const Scene scene =
+        loadInside(group + "<shape type=\"instance\"><ref id=\"g\"/></shape>"
+                           "<shape type=\"instance\"><ref id=\"g\"/><transform name=\"to_world\">"
+                           "<translate x=\"5\"/></transform></shape>");
+    ASSERT_EQ(scene.spheres.size(), 2u);
+    EXPECT_EQ(scene.spheres[1].center.x, 5);
+    EXPECT_EQ(scene.triangles.size(), 4u);
+    EXPECT_THAT(problemInside("<shape type=\"instance\"/>"),
+                HasSubstr("has no shape group to show"));
+}
+
+TEST(MitsubaShapes, MeshesComeFromFiles) {
+    writeFile("roof.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0 1\n"
+                          "f 1 2 3 4\nf 1 5 2\n");
+    const std::string file = "<string name=\"filename\" value=\"roof.obj\"/>";
+    const Scene smooth = loadShape("obj", file);
+    EXPECT_EQ(smooth.triangles.size(), 3u);
+    EXPECT_NE(smooth.triangles[0].normals[0], kNoNormals);
+    const Scene flat = loadShape("obj", file + "<boolean name=\"face_normals\" value=\"true\"/>");
+    EXPECT_EQ(flat.triangles[0].normals[0], kNoNormals);
+    EXPECT_THAT(problemInside("<shape type=\"ply\"/>"), HasSubstr("has no string 'filename'"));
+    EXPECT_THAT(problemInside("<shape type=\"ply\"><string name=\"filename\" value=\"no.ply\"/>"
+                              "</shape>"),
+                HasSubstr("2: <shape>: names the file 'no.ply', which is not there"));
+}
+
+TEST(MitsubaShapes, VertexColorsAreAnAttribute) {
+    writeFile("painted.ply",
+              "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+              "property float z\nproperty float color_0\nproperty float color_1\n"
+              "property float color_2\nelement face 1\nproperty list uchar int vertex_indices\n"
+              "end_header\n0 0 0 1 0 0\n1 0 0 0 1 0\n0 1 0 0 0 1\n3 0 1 2\n");
+    const std::string mesh = "<string name=\"filename\" value=\"painted.ply\"/>";
+    const std::string bsdf = "<bsdf type=\"diffuse\"><texture type=\"mesh_attribute\" "
+                             "name=\"reflectance\"><string name=\"name\" value=\"vertex_color\"/>"
+                             "</texture></bsdf>";
+    const Scene painted = loadShape("ply", mesh + bsdf);
+    ASSERT_EQ(painted.attributeCorners.size(), 1u);
+    EXPECT_EQ(painted.attributes[painted.attributeCorners[0][1]].color, glm::vec4(0, 1, 0, 1));
+    EXPECT_TRUE(loadShape("ply", mesh).attributeCorners.empty()); // nothing looks at them
+    EXPECT_THAT(problemInside("<shape type=\"cube\">" + bsdf + "</shape>"),
+                HasSubstr("expected a mesh from a file"));
+}
+
+/// Corner by corner, whatever shares them: the mean of two faces at right angles.
+TEST(MitsubaShapes, NormalsAreWeighedByAngles) {
+    build::Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    mesh.parts = {{{{{0}, {1}, {2}}}, {{{0}, {2}, {3}}}}};
+    mitsuba::computeNormals(mesh);
+    const glm::dvec3 shared = glm::normalize(mesh.normals[mesh.parts[0][0][0].normal]);
+    EXPECT_NEAR(glm::distance(shared, glm::normalize(glm::dvec3(1, 0, 1))), 0, 1e-12);
+    EXPECT_EQ(mesh.parts[0][0][0].normal, mesh.parts[0][1][0].normal);
+}
+
+TEST(MitsubaShapes, MediaAreRefused) {
+    EXPECT_THAT(problemInside("<shape type=\"sphere\"><medium name=\"interior\" "
+                              "type=\"homogeneous\"/></shape>"),
+                HasSubstr("<medium>: is a medium, which is not supported"));
+}
+
+} // namespace
+} // namespace stromboli::test
