@@ -107,6 +107,8 @@ void declareEstimator(DeclaredCommand& c) {
 
 void finishEstimator(DeclaredCommand& c) {
     Estimator& e = c.options.estimator;
+    c.options.bouncesGiven = c.has("-m") || c.has("--min-bounce") || c.has("--cs184");
+    c.options.filterGiven = c.has("--filter") || c.has("--cs184");
     if (c.asked.accumulate && *c.asked.accumulate == 0) e.minBounce = e.maxBounces;
     const std::string moot =
         e.integrator == Integrator::Normals

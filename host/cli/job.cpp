@@ -77,6 +77,30 @@ void reportCamera(const Job& job, const Options& options) {
                                   name));
 }
 
+/// The estimator with what the scene file asks for and the user leaves open.
+Estimator withHints(const RenderHints& hints, const Options& options) {
+    Estimator estimator = options.estimator;
+    if (hints.maxBounces && !options.bouncesGiven) estimator.maxBounces = *hints.maxBounces;
+    if (hints.filter && !options.filterGiven)
+        estimator.filter =
+            *hints.filter == HintedFilter::Box ? PixelFilter::Box : PixelFilter::Gaussian;
+    if (hints.hidesBackdrop) estimator.showsBackdrop = false;
+    return estimator;
+}
+
+void reportHints(const Job& job, const Options& options) {
+    const RenderHints& hints = job.scene.hints;
+    std::string taken;
+    const auto add = [&](const std::string& what) { taken += (taken.empty() ? "" : ", ") + what; };
+    if (hints.maxBounces && !options.bouncesGiven)
+        add(fmt::format("-m {}", job.settings.estimator.maxBounces));
+    if (hints.filter && !options.filterGiven)
+        add(fmt::format("--filter {}", nameOf(job.settings.estimator.filter)));
+    if (hints.width && !options.sizeGiven)
+        add(fmt::format("-r {} {}", job.settings.area.width, job.settings.area.height));
+    if (!taken.empty()) logging::info(fmt::format("the scene file asks for {}", taken));
+}
+
 void checkCrop(const PictureArea& s) {
     if (s.crop.width == 0) return;
     if (uint64_t(s.crop.x) + s.crop.width > s.width ||
@@ -112,20 +136,22 @@ Job loadJob(const Options& options) {
 }
 
 void setPicture(Job& job, const Options& options) {
-    job.settings = {options.area, options.estimator, {}};
+    job.settings = {options.area, withHints(job.scene.hints, options), {}};
+    const Estimator& estimator = job.settings.estimator;
     if (!options.sizeGiven) {
         const PictureSize size = defaultPictureSize(job.scene, options.camera, options.framing);
         job.settings.area.width = size.width;
         job.settings.area.height = size.height;
     }
     const uint32_t branches =
-        options.branches.value_or(branchesThatPay(job.scene, options.estimator, options.budget));
+        options.branches.value_or(branchesThatPay(job.scene, estimator, options.budget));
     job.settings.estimator.branches = branches;
     job.settings.budget = inSamples(options.budget, branches);
     checkCrop(job.settings.area);
     checkPictureFits(job.settings.area, 3 + seenChannelNames(options).size());
     job.camera = makeCamera(job.scene, options.camera, job.settings.area.width,
                             job.settings.area.height, options.framing);
+    reportHints(job, options);
     reportCamera(job, options);
 }
 

@@ -46,8 +46,9 @@ struct Options {
     std::string scene;
     std::string output;
     PictureArea area;
-    bool sizeGiven = false;   ///< area.width, height
-    SceneConventions reading; ///< of the scene's file
+    bool sizeGiven = false;                         ///< area.width, height
+    bool bouncesGiven = false, filterGiven = false; ///< estimator.maxBounces, filter
+    SceneConventions reading;                       ///< of the scene's file
     EnvironmentRequest environment;
     FramingConventions framing;
     Estimator estimator;              ///< its branches are not yet chosen

@@ -74,8 +74,8 @@ void declareScene(DeclaredCommand& c) {
     c.list.group("Scene");
     c.list
         .text("SCENE", "",
-              "COLLADA (.dae, .zae), glTF (.gltf, .glb), OBJ or PLY file; or a bundled scene by "
-              "its name "
+              "COLLADA (.dae, .zae), glTF (.gltf, .glb), Mitsuba (.xml), OBJ or PLY file; or a "
+              "bundled scene by its name "
               "(cornell_boxes, island, "
               "...); or generate:cornell_mesh:N for a scene of N triangles made in memory, "
               "generate:lamps:N for one lit by N triangles",
@@ -130,6 +130,21 @@ void declareScene(DeclaredCommand& c) {
                })
         .usually("the pose without animation")
         .from(inWords(kAnimationSeconds));
+    c.list
+        .words(
+            "-D,--define", "NAME=VALUE",
+            "Mitsuba: the value of $NAME in the scene, in place of its <default>; may be repeated",
+            1,
+            [&selection](const Words& words) {
+                for (const std::string& word : words) {
+                    const size_t equals = word.find('=');
+                    if (equals == 0 || equals == std::string::npos)
+                        refuse("-D", word, "NAME=VALUE");
+                    selection.definitions.push_back(
+                        {word.substr(0, equals), word.substr(equals + 1)});
+                }
+            })
+        .mayRepeat = true;
     c.list.number("--max-texture", "N",
                   "halves pictures on surfaces until no side has more pixels; 0: never",
                   selection.largestTexture, kTextureSides);

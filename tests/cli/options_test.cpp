@@ -403,6 +403,22 @@ TEST(Options, WhatOfAFileIsShown) {
     EXPECT_EQ(selection({"--at", "0", "--cs184"}).seconds, 0); // wherever the option stands
 }
 
+TEST(Options, ValuesOfNamesInAScene) {
+    const Options o = parse({"info", "a.xml", "-D", "spp=4", "--define", "file=a=b"});
+    ASSERT_EQ(o.reading.selection.definitions.size(), 2u);
+    EXPECT_EQ(o.reading.selection.definitions[0].name, "spp");
+    EXPECT_EQ(o.reading.selection.definitions[1].value, "a=b");
+    EXPECT_THROW(parse({"info", "a.xml", "-D", "spp"}), UsageError);
+    EXPECT_THROW(parse({"info", "a.xml", "-D", "=4"}), UsageError);
+}
+
+TEST(Options, WhatASceneFileMayAskForIsKnownToBeGiven) {
+    const Options none = parse({"render", "a.xml", "-o", "a.png"});
+    EXPECT_FALSE(none.bouncesGiven || none.filterGiven);
+    const Options both = parse({"render", "a.xml", "-o", "a.png", "-m", "3", "--filter", "box"});
+    EXPECT_TRUE(both.bouncesGiven && both.filterGiven);
+}
+
 TEST(Options, ContradictionsAreRefused) {
     for (const std::vector<std::string>& extra :
          std::vector<std::vector<std::string>>{{"-s", "0"},

@@ -181,5 +181,28 @@ TEST_F(SceneFiles, WithoutAnEndAreRefusedAtOnce) {
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
 }
 
+/// A Mitsuba scene says how large its picture is and how far light goes; options come first.
+TEST_F(SceneFiles, HintsHoldWhereNoOptionSaysOtherwise) {
+    const std::string scene = folder.write(
+        "a.xml", "<scene version=\"3.0.0\"><default name=\"depth\" value=\"2\"/>"
+                 "<integrator type=\"path\"><integer name=\"max_depth\" value=\"$depth\"/>"
+                 "</integrator><sensor type=\"perspective\"><film type=\"hdrfilm\">"
+                 "<integer name=\"width\" value=\"6\"/><integer name=\"height\" value=\"4\"/>"
+                 "<rfilter type=\"box\"/></film></sensor><emitter type=\"constant\"/></scene>");
+    const auto said = [&](std::vector<std::string> extra) {
+        std::vector<std::string> words = {"render", scene, "-o", folder.file("a.exr"), "-s", "1"};
+        words.insert(words.end(), extra.begin(), extra.end());
+        return stromboli(words).err;
+    };
+    EXPECT_THAT(said({}), HasSubstr("the scene file asks for -m 1, --filter box, -r 6 4"));
+    EXPECT_EQ(readExr(folder.file("a.exr")).width, 6u);
+    EXPECT_THAT(said({"-D", "depth=4"}), HasSubstr("asks for -m 3"));
+    EXPECT_THAT(said({"-m", "2", "--filter", "gaussian", "-r", "3", "3"}),
+                Not(HasSubstr("the scene file asks for")));
+    const ProgramRun wrong = stromboli({"info", scene, "-D", "other=4"});
+    EXPECT_EQ(wrong.exitCode, kScene);
+    EXPECT_THAT(wrong.err, HasSubstr("nothing in the scene refers to $other"));
+}
+
 } // namespace
 } // namespace stromboli::test
