@@ -104,7 +104,7 @@ TEST_F(ReadScene, ByContentWhereTheNameSaysNothing) {
 
 TEST_F(ReadScene, OtherFilesAreOneErrorThatNamesTheFormats) {
     for (const char* content :
-         {"", "glT", "{\"name\": {}}", "<?xml version=\"1.0\"?><scene version=\"3.0.0\"/>",
+         {"", "glT", "{\"name\": {}}", "<?xml version=\"1.0\"?><scenery version=\"3.0.0\"/>",
           "<!-- <COLLADA> -->", "<COLLADAS/>", "v 0 0 0\nx 1\n", "<?xml", "COLLADA"}) {
         const std::string file = write("scene.xyz", content);
         EXPECT_THAT(messageOf(file), AllOf(testing::StartsWith(file), HasSubstr("COLLADA (.dae"),
