@@ -109,7 +109,7 @@ TEST_F(KilledRender, InBandsHasTheSameBytesToo) {
                                           "120",
                                           "90",
                                           "-s",
-                                          "96",
+                                          "480",
                                           "--checkpoint-every",
                                           "0.01",
                                           "-q",
