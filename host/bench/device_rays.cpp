@@ -3,6 +3,7 @@
 #include "host/core/error.hpp"
 #include "host/kernel/kernel_buffers.hpp"
 #include "host/kernel/kernel_features.hpp"
+#include "host/kernel/loop_limit.hpp"
 #include "host/vulkan/queue.hpp"
 
 #include "embedded/trace_rays_storage.h"
@@ -20,10 +21,6 @@ using vulkan::Buffer;
 using vulkan::BufferUse;
 
 constexpr uint32_t kBindings = BINDING_RAY_DISTANCES + 1;
-/// llvmpipe ends all loops of a group, silently, after 65,535 passes of any loop.
-constexpr uint32_t kLlvmpipeLoopPasses = 65535;
-/// On other devices only a guard against endless loops.
-constexpr uint32_t kGuardIterations = 1u << 20;
 /// Of the lanes' totals in their buffer, after the number of the next chunk of rays.
 constexpr uint64_t kTotalsOffset = sizeof(uint32_t);
 
@@ -134,11 +131,8 @@ double DeviceRays::dispatch(const vulkan::ComputePipeline& pipeline,
     constants.rayCount = rayCount_;
     constants.raysPerLane = tuning_.raysPerLane;
     constants.chunkCount = groupsTakeChunks() ? chunks_ : 0;
-    // A pass counts for itself, its traversal steps and the service loop.
-    constants.hardIterations =
-        device_.description().isCpu()
-            ? kLlvmpipeLoopPasses / (1 + (tuning_.kernel.traversalSteps + 1) + 2)
-            : kGuardIterations;
+    // An iteration counts for itself, its traversal steps and the service loop.
+    constants.hardIterations = loopLimit(device_, 1 + (tuning_.kernel.traversalSteps + 1) + 2);
     const uint32_t nextChunk = 0;
     totals_->upload(queue_, std::as_bytes(std::span(&nextChunk, 1)));
     return queue_.run("run the ray kernel", [&](VkCommandBuffer commands) {

@@ -2,6 +2,7 @@
 
 #include "host/core/error.hpp"
 #include "host/kernel/kernel_buffers.hpp"
+#include "host/kernel/loop_limit.hpp"
 
 #include <fmt/format.h>
 
@@ -13,24 +14,18 @@ namespace {
 using vulkan::Buffer;
 using vulkan::BufferUse;
 
-/// llvmpipe ends all loops of a group, silently, after 65,535 passes of any loop.
-constexpr uint32_t kLlvmpipeLoopPasses = 65535;
-/// On other devices only a guard against endless loops: a ray through 2^20 nodes is none.
-constexpr uint32_t kGuardIterations = 1u << 20;
-
-/// One pass of the kernel's loop counts for itself, its traversal steps, the loop around it that
-/// changes pixels and, where there are such, the walk down the light tree and the textures of a
-/// material.
+/// One iteration of the kernel's loop counts for itself, its traversal steps and pixel filter, the
+/// loop around it that changes pixels and, where there are such, the walk down the light tree and
+/// the loose textures of a material.
 uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene, const PathKernel& kernel) {
-    if (!device.description().isCpu()) return kGuardIterations;
     // At a hit, where a path splits again, and at the end of a ray of hemisphere sampling.
     constexpr uint32_t kTextureLoops = 3;
     // A light is picked for a light sample, and looked up once more for MIS.
     const uint32_t perIteration =
-        1 + (kernel.features()[SPEC_TRAVERSAL_STEPS] + 1) + 2 +
+        1 + passesOfCameraRays(kernel.features()) + 2 +
         (scene.lights.groups ? 2 * (scene.lights.levels + 1) : 0) +
         (scene.mostTextures ? kTextureLoops * (scene.mostTextures + 1) : 0);
-    return std::max(kLlvmpipeLoopPasses / perIteration, 2u);
+    return loopLimit(device, perIteration);
 }
 
 /// Where lanes stop taking path rays. What is left has to do for one more surface with all its

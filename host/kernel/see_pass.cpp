@@ -3,6 +3,7 @@
 #include "host/core/error.hpp"
 #include "host/kernel/dispatch_pace.hpp"
 #include "host/kernel/kernel_features.hpp"
+#include "host/kernel/loop_limit.hpp"
 
 #include "embedded/see_storage.h"
 #include "embedded/see_texel.h"
@@ -18,20 +19,13 @@ namespace {
 using vulkan::Buffer;
 using vulkan::BufferUse;
 
-/// llvmpipe ends all loops of a group, silently, after 65,535 passes of any loop.
-constexpr uint32_t kLlvmpipeLoopPasses = 65535;
-/// On other devices only a guard against endless loops: a ray through 2^20 nodes is none.
-constexpr uint32_t kGuardIterations = 1u << 20;
 constexpr double kTargetSeconds = 0.1; ///< of a dispatch, as KernelTuning has it
 
-/// One pass of the loop counts for itself, its traversal steps, the inversion of a pixel filter in
-/// two dimensions, and the textures of a material.
+/// One iteration of the loop counts for itself, its traversal steps and pixel filter, and the loose
+/// textures of a material.
 uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene,
-                   const DeviceTuning& tuning) {
-    if (!device.description().isCpu()) return kGuardIterations;
-    constexpr uint32_t kFilterLoops = 2 * (10 + 1); // sampleBlackmanHarris()
-    return kLlvmpipeLoopPasses /
-           (1 + (tuning.traversalSteps + 1) + kFilterLoops + (scene.mostTextures + 1));
+                   std::span<const uint32_t> constants) {
+    return loopLimit(device, 1 + passesOfCameraRays(constants) + (scene.mostTextures + 1));
 }
 
 std::vector<vulkan::Binding> bindings(bool texelFetch) {
@@ -81,10 +75,10 @@ vulkan::ComputePipeline makeSeePipeline(const vulkan::Device& device,
 }
 
 SeePass::SeePass(const vulkan::Device& device, const DeviceScene& scene,
-                 const vulkan::ComputePipeline& pipeline, const gpu::Frame& frame,
-                 const DeviceTuning& tuning, uint32_t pixels)
+                 const vulkan::ComputePipeline& pipeline, std::span<const uint32_t> constants,
+                 const gpu::Frame& frame, const DeviceTuning& tuning, uint32_t pixels)
     : device_(device), pipeline_(pipeline), tuning_(tuning), pixelCount_(pixels),
-      hardIterations_(hardLimit(device, scene.scene(), tuning)), queue_(device),
+      hardIterations_(hardLimit(device, scene.scene(), constants)), queue_(device),
       frame_(device, "frame constants", sizeof(gpu::Frame), BufferUse::Uniform),
       pixels_(device, "layers", pixels * sizeof(gpu::SeenPixel), BufferUse::Storage),
       status_(device, "status of the layers", sizeof(gpu::SeeStatus), BufferUse::Storage),

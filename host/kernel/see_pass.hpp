@@ -8,6 +8,7 @@
 #include "shaders/shared/layer_types.h"
 #include "shaders/shared/render_types.h"
 
+#include <span>
 #include <vector>
 
 namespace stromboli {
@@ -25,10 +26,11 @@ vulkan::ComputePipeline makeSeePipeline(const vulkan::Device& device,
 /// Traces the camera rays of a run of pixels on the device.
 class SeePass {
   public:
-    /// All must outlive the object. Throws DeviceError.
+    /// constants: those of the pipeline. Device, scene and pipeline must outlive the object. Throws
+    /// DeviceError.
     SeePass(const vulkan::Device& device, const DeviceScene& scene,
-            const vulkan::ComputePipeline& pipeline, const gpu::Frame& frame,
-            const DeviceTuning& tuning, uint32_t pixels);
+            const vulkan::ComputePipeline& pipeline, std::span<const uint32_t> constants,
+            const gpu::Frame& frame, const DeviceTuning& tuning, uint32_t pixels);
 
     /// Until each pixel has as many samples as it is to have. Throws DeviceError.
     void run(std::vector<gpu::SeenPixel>& pixels);

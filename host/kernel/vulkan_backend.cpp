@@ -58,9 +58,8 @@ const PathKernel& VulkanBackend::kernelFor(const KernelFeatures& features,
         .first->second;
 }
 
-const vulkan::ComputePipeline& VulkanBackend::seePipelineFor(Seeing what,
+const vulkan::ComputePipeline& VulkanBackend::seePipelineFor(const std::vector<uint32_t>& constants,
                                                              const DeviceTuning& tuning) {
-    const auto constants = seeConstants(scene_, camera_, estimator_, tuning, what);
     const auto known = seePipelines_.find(constants);
     if (known != seePipelines_.end()) return known->second;
     return seePipelines_.emplace(constants, makeSeePipeline(device_, constants, tuning))
@@ -77,7 +76,8 @@ std::vector<SeenPixel> VulkanBackend::see(uint32_t first, std::span<const uint32
         pixels[i].primitive = kNothingSeen;
     }
     const DeviceTuning tuning = tuningFor(tuning_, device_, scene_, area_);
-    SeePass(device_, *deviceScene_, seePipelineFor(what, tuning), frame_, tuning,
+    const auto constants = seeConstants(scene_, camera_, estimator_, tuning, what);
+    SeePass(device_, *deviceScene_, seePipelineFor(constants, tuning), constants, frame_, tuning,
             uint32_t(pixels.size()))
         .run(pixels);
     std::vector<SeenPixel> seen;

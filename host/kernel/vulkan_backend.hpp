@@ -47,7 +47,8 @@ class VulkanBackend final : public Backend, public Viewer {
   private:
     const PathKernel& kernelFor(const KernelFeatures& features, const DeviceTuning& tuning);
 
-    const vulkan::ComputePipeline& seePipelineFor(Seeing what, const DeviceTuning& tuning);
+    const vulkan::ComputePipeline& seePipelineFor(const std::vector<uint32_t>& constants,
+                                                  const DeviceTuning& tuning);
 
     const vulkan::Device& device_;
     const GpuScene& scene_;

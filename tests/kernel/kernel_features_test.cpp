@@ -2,6 +2,7 @@
 #include "host/bvh/wide_layout.hpp"
 #include "host/kernel/direct_sampling.hpp"
 #include "host/kernel/kernel_features.hpp"
+#include "host/kernel/loop_limit.hpp"
 #include "shaders/shared/texture_types.h"
 
 #include <gtest/gtest.h>
@@ -254,6 +255,27 @@ TEST(KernelFeatures, TexturesAndOpacityOnlyWhereTheyHaveAnEffect) {
     scene.materials.push_back(unused);
     scene.attributes[1].color.a = 1;
     EXPECT_EQ(featuresOf(scene)[SPEC_TEXTURE_SLOTS], 0u) << "no surface has it";
+}
+
+/// The service of rich modules is long, so that lanes wait for more steps of others; and what a
+/// dispatch may run is counted by the steps that the kernel takes.
+TEST(KernelFeatures, RichModulesTakeMoreSteps) {
+    DeviceTuning tuning;
+    tuning.traversalSteps = 5;
+    tuning.richTraversalSteps = 12;
+    const auto steps = [&](PixelFilter filter) {
+        Scene scene = oneTriangle({});
+        const Camera camera = makeCamera(scene, CameraChoice::Automatic, 4, 4);
+        Estimator settings;
+        settings.filter = filter;
+        return kernelFeatures(packScene(scene, buildWideBvh(scene)), camera, settings, tuning);
+    };
+    EXPECT_EQ(steps(PixelFilter::Box)[SPEC_TRAVERSAL_STEPS], 5u);
+    EXPECT_EQ(steps(PixelFilter::Gaussian)[SPEC_TRAVERSAL_STEPS], 12u);
+    EXPECT_EQ(passesOfCameraRays(steps(PixelFilter::Box)), 6u);
+    EXPECT_EQ(passesOfCameraRays(steps(PixelFilter::Gaussian)), 13u);
+    // Newton's ten steps and their end, for columns and rows.
+    EXPECT_EQ(passesOfCameraRays(steps(PixelFilter::BlackmanHarris)), 13u + 22u);
 }
 
 TEST(KernelFeatures, FollowTheTuning) {
