@@ -132,6 +132,9 @@ void resumeSplit(uint lane) {
 #ifdef RICH_MATERIALS
                                       , vec2(s.b1, s.b2), vec4(0.0)
 #endif
+#ifdef PLACEMENTS
+                                      , s.placement
+#endif
     );
 #ifdef RICH_MATERIALS
     if (TANGENT_FRAMES)
@@ -153,10 +156,15 @@ void suspendSplit(uint lane) {
     const uint medium = 0u;
     const vec2 weights = vec2(0.0);
 #endif
+#ifdef PLACEMENTS
+    const uint placement = p.placement;
+#else
+    const uint placement = NO_PLACEMENT;
+#endif
     suspendedSplits[lane] =
         SuspendedSplit(p.position, splitPoint.bounce, p.geometric, p.material, p.shading,
                        p.skipPrimitive, p.wo, p.lift, splitPoint.throughput, p.error,
-                       p.outside ? 1u : 0u, branchesLeft, weights.x, weights.y, medium, 0u, 0u, 0u);
+                       p.outside ? 1u : 0u, branchesLeft, weights.x, weights.y, medium, placement, 0u, 0u);
 }
 
 void resume(uint lane) {
@@ -184,6 +192,9 @@ void resume(uint lane) {
 #endif
     if (SPLITS) resumeSplit(lane);
     trace(PHASE_PATH, p.origin, p.direction, 0.0, INFINITE_DISTANCE, p.skipPrimitive);
+#ifdef PLACEMENTS
+    ray.skipPlacement = p.skipPlacement;
+#endif
 }
 
 /// Remembers the bounce ray that was to be started; a camera ray is simply begun anew.
@@ -199,8 +210,12 @@ void suspend(uint lane) {
     p.item = item;
     p.arrivalNumbers = arrivalNumbers;
     p.departureNormal = departureNormal;
+    p.skipPlacement = NO_PLACEMENT;
 #ifdef RICH_MATERIALS
     p.medium = medium;
+#endif
+#ifdef PLACEMENTS
+    p.skipPlacement = ray.skipPlacement;
 #endif
     suspendedPaths[lane] = p;
     if (SPLITS) suspendSplit(lane);
@@ -221,12 +236,14 @@ void startWork(bool late) {
 /// What follows from the ray is worked out anew in each pass, not kept beside it (docs/kernel.md,
 /// "Nothing is moved out of loops").
 void traverseSomeSteps() {
-    const Ray prepared = makeRay(ray.origin, ray.direction);
-    for (uint k = 0u; k < TRAVERSAL_STEPS; ++k) {
-        if (COUNT_STEPS) busySteps += traversing(ray) ? 1u : 0u;
-        traversalStep(ray, prepared);
+    for (uint leg = 0u; leg < TRAVERSAL_LEGS; ++leg) {
+        const Ray prepared = prepareRay(ray);
+        for (uint k = 0u; k < TRAVERSAL_STEPS; ++k) {
+            if (COUNT_STEPS) busySteps += traversing(ray) ? 1u : 0u;
+            traversalStep(ray, prepared);
+        }
+        if (COUNT_STEPS) allSteps += TRAVERSAL_STEPS;
     }
-    if (COUNT_STEPS) allSteps += TRAVERSAL_STEPS;
 }
 
 /// Iterations between two looks at the count of all lanes' iterations.

@@ -53,6 +53,7 @@ void setRay(vec3 origin, vec3 direction, float tMin, float tMax, uint skipPrimit
     ray.tMax = tMax;
     ray.skipPrimitive = skipPrimitive;
     ray.passed = NO_PRIMITIVE;
+    ray.skipPlacement = NO_PLACEMENT;
     rayEnd = tMax;
 }
 
@@ -82,6 +83,9 @@ void noteFirst(SurfacePoint s) {
         seen.primitive = primitiveAt(ray.hitPrimitive);
         seen.b1 = ray.b1;
         seen.b2 = ray.b2;
+        seen.placement = NO_SEEN_PLACEMENT;
+        if (HAS_PLACEMENTS && s.placement != NO_PLACEMENT)
+            seen.placement = fetchPlacement(s.placement).placement & ~PLACEMENT_MIRRORS;
     }
 }
 
@@ -94,6 +98,7 @@ void follow(Material m, SurfacePoint s) {
         const bool transmitted = isTransmission(b.lobe);
         setRay(leave(s, b.direction, transmitted), b.direction, 0.0, INFINITE_DISTANCE,
                skipOnLeaving(s, transmitted));
+        ray.skipPlacement = s.placement;
     } else {
         endSample(vec3(0.0), firstNormal);
     }
@@ -152,9 +157,11 @@ void main() {
             startTraversal(ray);
             ++rayCount;
         }
-        const Ray prepared = makeRay(ray.origin, ray.direction);
-        for (uint k = 0u; k < TRAVERSAL_STEPS; ++k)
-            traversalStep(ray, prepared);
+        for (uint leg = 0u; leg < TRAVERSAL_LEGS; ++leg) {
+            const Ray prepared = prepareRay(ray);
+            for (uint k = 0u; k < TRAVERSAL_STEPS; ++k)
+                traversalStep(ray, prepared);
+        }
         if (!traversing(ray)) takeResult();
         ++iteration;
     }

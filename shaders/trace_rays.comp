@@ -81,9 +81,11 @@ void main() {
     bool finished = false;
     uint iteration = 0u;
     while (!finished && iteration < dispatch.hardIterations) {
-        const Ray prepared = makeRay(ray.origin, ray.direction);
-        for (uint k = 0u; k < TRAVERSAL_STEPS; ++k)
-            traversalStep(ray, prepared);
+        for (uint leg = 0u; leg < TRAVERSAL_LEGS; ++leg) {
+            const Ray prepared = prepareRay(ray);
+            for (uint k = 0u; k < TRAVERSAL_STEPS; ++k)
+                traversalStep(ray, prepared);
+        }
         bool waiting = !traversing(ray);
         while (waiting) {
             serve();

@@ -10,15 +10,21 @@
 
 namespace stromboli::bvh {
 
-/// What one leaf record holds: two triangles that share an edge, a triangle, or a sphere. The tree
-/// is built over these.
+/// What one leaf record holds: two triangles that share an edge, a triangle, a sphere, or a
+/// placement. The tree is built over these.
 struct LeafItem {
     /// Scene primitives (triangles first, then spheres) in slots 0 and 1; NO_PRIMITIVE: none.
     std::array<uint32_t, 2> primitive{gpu::NO_PRIMITIVE, gpu::NO_PRIMITIVE};
     /// Which corner of the triangle is the slot's first.
     std::array<uint8_t, 2> firstCorner{0, 0};
+    uint32_t placement = kNoPlacement; ///< in Scene::placements, of an item without primitives
 
-    uint32_t count() const { return primitive[1] == gpu::NO_PRIMITIVE ? 1 : 2; }
+    static constexpr uint32_t kNoPlacement = 0xFFFFFFFFu;
+    bool isPlacement() const { return placement != kNoPlacement; }
+    /// Of primitives.
+    uint32_t count() const {
+        return isPlacement() ? 0 : primitive[1] == gpu::NO_PRIMITIVE ? 1 : 2;
+    }
 };
 
 /// All primitives of the scene, each in one item: first the items with triangles, then the spheres.

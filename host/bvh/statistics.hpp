@@ -8,7 +8,8 @@
 namespace stromboli {
 
 struct BvhStatistics {
-    uint32_t nodes = 0, leaves = 0;
+    uint32_t nodes = 0, leaves = 0; ///< of the tree over the world, without those of prototypes
+    uint32_t placements = 0;
     uint32_t depth = 0;                     ///< edges on the longest path from the root
     std::array<uint32_t, 9> nodesOfSize{};  ///< [n]: nodes with n children
     std::array<uint32_t, 3> leavesOfSize{}; ///< [n]: leaves with n primitives

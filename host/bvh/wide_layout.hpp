@@ -20,12 +20,22 @@ inline gpu::NodeRecord asNode(const Record& r) {
 inline gpu::LeafRecord asLeaf(const Record& r) {
     return std::bit_cast<gpu::LeafRecord>(r);
 }
+inline gpu::PlacementRecord asPlacement(const Record& r) {
+    return std::bit_cast<gpu::PlacementRecord>(r);
+}
+inline uint32_t kindOf(const Record& r) {
+    return asNode(r).firstChild & gpu::RECORD_IS_PLACEMENT;
+}
 inline bool isNode(const Record& r) {
-    return (asNode(r).firstChild & gpu::RECORD_IS_NODE) != 0;
+    return kindOf(r) == gpu::RECORD_IS_NODE;
+}
+inline bool isPlacement(const Record& r) {
+    return kindOf(r) == gpu::RECORD_IS_PLACEMENT;
 }
 
 /// The tree as the kernel reads it: 8-wide, boxes on a grid of 8 bits per axis (after Ylitie,
-/// Karras and Laine 2017).
+/// Karras and Laine 2017). Prototypes have trees of their own behind the tree over the world, whose
+/// leaves lead to them; the records of transformations come last.
 struct WideLayout {
     std::vector<Record> records;          ///< record 0: the root, always a node
     std::vector<uint32_t> primitiveOrder; ///< entry i of the Primitive buffer is order[i]
@@ -35,9 +45,10 @@ struct WideLayout {
     /// Entries the kernel's stack needs: those that can wait at once, and one that it writes
     /// beyond them without keeping it.
     uint32_t stackSize = 1;
+    std::vector<uint32_t> recordOfPlacement; ///< by placement
 };
 
-/// The tree over all primitives of the scene (triangles first, then spheres). Throws SceneError
+/// The tree over all primitives and placements of the scene (triangles first, then spheres). Throws SceneError
 /// where it has more records than gpu::MAX_RECORDS, and what buildBinaryTree throws.
 WideLayout buildWideBvh(const Scene& scene, const BuildOptions& options = {});
 

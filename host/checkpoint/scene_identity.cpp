@@ -104,6 +104,8 @@ void add(Sum& sum, const Camera& c) {
 
 static_assert(sizeof(Triangle) == 8 * sizeof(uint32_t), "has padding, or a new member");
 static_assert(sizeof(Sphere) == 6 * sizeof(uint32_t), "has padding, or a new member");
+static_assert(sizeof(Prototype) == 2 * sizeof(uint32_t), "has padding, or a new member");
+static_assert(sizeof(Placement) == 14 * sizeof(uint32_t), "has padding, or a new member");
 static_assert(sizeof(VertexAttributes) == 12 * sizeof(float), "has padding, or a new member");
 static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
 
@@ -115,6 +117,8 @@ uint32_t sceneIdentity(const Scene& scene, const Camera& camera) {
     sum.addAll(scene.normals);
     sum.addAll(scene.triangles);
     sum.addAll(scene.spheres);
+    sum.addAll(scene.prototypes);
+    sum.addAll(scene.placements);
     for (const Material& m : scene.materials)
         add(sum, m);
     for (const Light& l : scene.lights)

@@ -27,6 +27,9 @@ void printScene(const Job& job) {
     fmt::print("  triangles {}, spheres {}, materials {}, lights {}, cameras {}{}\n",
                s.triangles.size(), s.spheres.size(), s.materials.size(), s.lights.size(),
                s.cameras.size(), s.cglDialect ? ", CS184 dialect" : "");
+    if (!s.placements.empty())
+        fmt::print("  {} instances of {} meshes: {} triangles in all\n", s.placements.size(),
+                   s.prototypes.size(), s.placedTriangles());
     if (!b.empty())
         fmt::print("  bounds ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) m\n", b.lo.x, b.lo.y, b.lo.z,
                    b.hi.x, b.hi.y, b.hi.z);

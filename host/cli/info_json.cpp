@@ -19,6 +19,8 @@ Json sceneJson(const Job& job) {
         {"file", s.file},
         {"loadSeconds", job.loadSeconds},
         {"triangles", s.triangles.size()},
+        {"instances", s.placements.size()},
+        {"placedTriangles", s.placedTriangles()},
         {"spheres", s.spheres.size()},
         {"materials", s.materials.size()},
         {"lights", s.lights.size()},

@@ -44,6 +44,7 @@ void packPrimitives(const Scene& scene, const std::vector<uint32_t>& materialRow
     const auto triangles = uint32_t(scene.triangles.size());
     g.hasTriangles = triangles > 0;
     g.hasSpheres = !scene.spheres.empty();
+    g.hasPlacements = !scene.placements.empty();
     g.primitives.reserve(g.bvh.primitiveOrder.size());
     for (const uint32_t id : g.bvh.primitiveOrder) {
         const uint32_t material =

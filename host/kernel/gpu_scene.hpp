@@ -26,6 +26,7 @@ struct GpuScene {
     float gapWidth = 0;              ///< gap_proposal.hpp
     bool hasTriangles = false, hasSpheres = false;
     bool hasNormals = false; ///< any triangle with shading normals
+    bool hasPlacements = false;
     // DetailPlan:
     uint32_t textureSlots = 0, looseSlots = 0, texelKinds = 0, attributes = 0, mostTextures = 0;
     bool hasAlpha = false, hasTangentFrames = false;

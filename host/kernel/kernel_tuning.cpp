@@ -57,6 +57,8 @@ DeviceTuning resolve(const KernelTuning& tuning, const vulkan::Device& device, u
     t.workgroupSize = tuning.workgroupSize.value_or(t.workgroupSize);
     t.traversalSteps = tuning.traversalSteps.value_or(t.traversalSteps);
     t.richTraversalSteps = tuning.traversalSteps.value_or(t.richTraversalSteps);
+    t.placedTraversalSteps = tuning.traversalSteps.value_or(t.placedTraversalSteps);
+    t.traversalLegs = tuning.traversalLegs.value_or(t.traversalLegs);
     t.registerStack = tuning.registerStack.value_or(t.registerStack);
     t.lanes = tuning.lanes.value_or(t.lanes);
     t.driverThreads = tuning.driverThreads.value_or(t.driverThreads);

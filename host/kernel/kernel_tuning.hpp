@@ -12,7 +12,8 @@ namespace stromboli {
 struct KernelTuning {
     std::optional<bool> texelFetch; ///< read the scene through storage texel buffers
     std::optional<uint32_t> workgroupSize;
-    std::optional<uint32_t> traversalSteps;   ///< between two service passes
+    std::optional<uint32_t> traversalSteps;   ///< between two service passes, or in a leg
+    std::optional<uint32_t> traversalLegs;    ///< where prototypes are placed
     std::optional<uint32_t> registerStack;    ///< largest traversal stack that is in registers
     std::optional<uint32_t> lanes;            ///< invocations of a dispatch
     std::optional<uint32_t> driverThreads;    ///< 0: unknown
@@ -32,6 +33,9 @@ struct DeviceTuning {
     uint32_t workgroupSize = 64;
     uint32_t traversalSteps = 8;
     uint32_t richTraversalSteps = 8; ///< of the modules with RICH_MATERIALS, which serve for longer
+    /// Where prototypes are placed, a ray is prepared anew for each leg between two service passes,
+    /// and lanes that come to a placement or leave one wait for that.
+    uint32_t placedTraversalSteps = 4, traversalLegs = 4;
     uint32_t registerStack = 0;      ///< entries
     uint32_t lanes = 1u << 20;
     uint32_t driverThreads = 0; ///< that run workgroups one after the other; 0: unknown, a GPU

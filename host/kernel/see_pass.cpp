@@ -123,6 +123,7 @@ SeenPixel seenPixelOf(const gpu::SeenPixel& pixel, const GpuScene& scene) {
     seen.position = pixel.position;
     if (pixel.primitive == kNothingSeen) return seen;
     seen.primitive = scene.bvh.primitiveOrder[pixel.primitive];
+    seen.placement = pixel.placement;
     std::array<double, 3> weights{};
     const std::array<double, 3> ofSlot = {1 - double(pixel.b1) - pixel.b2, pixel.b1, pixel.b2};
     for (size_t c = 0; c < 3; ++c)

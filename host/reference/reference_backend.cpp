@@ -5,6 +5,7 @@
 #include "host/reference/pixel_filter.hpp"
 #include "host/reference/sampling.hpp"
 #include "host/reference/visible.hpp"
+#include "scene/model/placements.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/info.h>
@@ -16,6 +17,7 @@
 #include <climits>
 #include <cmath>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -54,14 +56,21 @@ class PassReport {
 } // namespace
 
 struct ReferenceBackend::Implementation {
+    /// The scene with copies in place of placements, which makes traversal without them the judge
+    /// of traversal with them. Empty where nothing is placed.
+    std::optional<ExpandedScene> expanded;
     reference::World world;
     Camera camera;
     RenderSettings settings;
+    const Scene& original;
     tbb::task_arena arena;
     std::atomic<uint64_t> paths{0}, rays{0};
 
     Implementation(const Scene& scene, const Camera& c, const RenderSettings& s, unsigned threads)
-        : world(scene, s.estimator.conventions), camera(c), settings(s),
+        : expanded(scene.placements.empty() ? std::nullopt
+                                            : std::optional(expandPlacements(scene))),
+          world(expanded ? expanded->scene : scene, s.estimator.conventions), camera(c), settings(s),
+          original(scene),
           arena(std::min(threads == 0 ? INT_MAX : int(threads), tbb::info::default_concurrency())) {
     }
 
@@ -99,6 +108,22 @@ struct ReferenceBackend::Implementation {
                                      : path.radiance(ray);
         rayCount += path.rays();
         return value;
+    }
+
+    /// What is seen, in terms of the scene that the backend was made for.
+    void name(SeenPixel& seen) const {
+        if (!expanded || seen.primitive == kNothingSeen) return;
+        const size_t triangles = expanded->triangleOf.size();
+        if (seen.primitive >= triangles) {
+            seen.primitive += uint32_t(original.triangles.size() - triangles);
+            return;
+        }
+        seen.placement = expanded->placementOf[seen.primitive];
+        // Where a mirror turned the triangle over, its second and third corner are the other way.
+        if (seen.placement != kInNoPlacement &&
+            matricesOf(original.placements[seen.placement]).mirrors)
+            std::swap(seen.b1, seen.b2);
+        seen.primitive = expanded->triangleOf[seen.primitive];
     }
 
     /// The samples of a pixel are taken in order by one thread: their statistics are rounded, and
@@ -162,13 +187,15 @@ std::vector<SeenPixel> ReferenceBackend::see(uint32_t first, std::span<const uin
     const Implementation& all = *implementation_;
     implementation_->arena.execute([&] {
         tbb::parallel_for(tbb::blocked_range<size_t>(0, seen.size()), [&](const auto& range) {
-            for (size_t i = range.begin(); i != range.end(); ++i)
+            for (size_t i = range.begin(); i != range.end(); ++i) {
                 for (uint32_t sample = 0; sample < samples[i]; ++sample) {
                     const auto pixel = uint32_t(first + i);
                     reference::RandomStream random = all.randomOf(pixel, sample);
                     const reference::Ray ray = all.cameraRayOf(pixel, random);
                     reference::addSeen(seen[i], all.world, ray, random, what);
                 }
+                all.name(seen[i]);
+            }
         });
     });
     return seen;

@@ -30,12 +30,19 @@ Values uvOf(const SeenPixel& s, const Scene& scene) {
 }
 
 /// From 1; 0: nothing is seen.
-Values numberOf(const SeenPixel& s, const Scene& scene, uint32_t Triangle::*ofTriangle,
-                uint32_t Sphere::*ofSphere) {
-    const size_t triangles = scene.triangles.size();
+Values objectOf(const SeenPixel& s, const Scene& scene) {
     if (s.primitive == kNothingSeen) return {};
-    return {1.0 + (s.primitive < triangles ? scene.triangles[s.primitive].*ofTriangle
-                                           : scene.spheres[s.primitive - triangles].*ofSphere)};
+    if (s.placement != kNothingSeen) return {1.0 + scene.placements[s.placement].instance};
+    const size_t triangles = scene.triangles.size();
+    return {1.0 + (s.primitive < triangles ? scene.triangles[s.primitive].instance
+                                           : scene.spheres[s.primitive - triangles].instance)};
+}
+
+Values materialOf(const SeenPixel& s, const Scene& scene) {
+    if (s.primitive == kNothingSeen) return {};
+    const size_t triangles = scene.triangles.size();
+    return {1.0 + (s.primitive < triangles ? scene.triangles[s.primitive].material
+                                           : scene.spheres[s.primitive - triangles].material)};
 }
 
 Values valuesOf(Layer layer, const SeenPixel& s, const Scene& scene, const Camera& camera) {
@@ -51,9 +58,9 @@ Values valuesOf(Layer layer, const SeenPixel& s, const Scene& scene, const Camer
     case Layer::Uv:
         return uvOf(s, scene);
     case Layer::Object:
-        return numberOf(s, scene, &Triangle::instance, &Sphere::instance);
+        return objectOf(s, scene);
     case Layer::Material:
-        return numberOf(s, scene, &Triangle::material, &Sphere::material);
+        return materialOf(s, scene);
     }
     return {};
 }

@@ -26,6 +26,7 @@ struct SeenPixel {
     /// Of the first ray that has hit something: what, in the scene's order (triangles, then
     /// spheres), and where on it: barycentric weights of the second and third corner.
     uint32_t primitive = kNothingSeen;
+    uint32_t placement = kNothingSeen; ///< that it is in, of a prototype's triangle
     double b1 = 0, b2 = 0;
 
     double coverage() const { return samples == 0 ? 0 : double(hits) / samples; }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "host/core/named_values.hpp"
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -33,6 +35,20 @@ enum class AreaLights {
     BecomeGeometry, ///< emissive triangles, or the emissive mesh in the same place: one emitter
     StayLights,     ///< rectangles that are sampled and are not seen
 };
+
+/// Whether meshes that a file shows several times share their triangles.
+enum class InstanceSharing {
+    Automatic, ///< where copies would be many: they are faster to trace, but take memory
+    On,        ///< wherever it is possible
+    Off,       ///< never: all have copies
+};
+template <>
+inline constexpr auto kNamedValues<InstanceSharing> =
+    std::to_array<NamedValue<InstanceSharing>>({
+        {InstanceSharing::Automatic, "auto", "share where copies would be more than a million triangles"},
+        {InstanceSharing::On, "on", "share"},
+        {InstanceSharing::Off, "off", "copy"},
+    });
 
 /// How a node's matrix aims a directional light.
 enum class DirectionalAim {
@@ -84,6 +100,8 @@ struct SceneConventions {
     /// A scene without any light gets one (scene/model/default_light.hpp).
     bool defaultLight = true;
 
+    InstanceSharing instances = InstanceSharing::Automatic;
+
     /// Lengths are multiplied by the file's unit; otherwise its numbers are taken as metres.
     bool applyUnit = true;
     /// Sizes and depth ranges of cameras are multiplied by the scale of their nodes.
@@ -110,6 +128,11 @@ struct SceneConventions {
     AmbientFrom ambientFrom = AmbientFrom::EveryDirection;
     bool attenuation = true; ///< point and spot lights fall off as the file says; otherwise not
     bool spotLights = true;  ///< spot lights shine; otherwise they are left out
+
+    /// Shared triangles have the normals of their own space, on whose side they are.
+    bool sharesInstances() const {
+        return vertexNormals == VertexNormals::FromFile && winding == Winding::TowardsNormals;
+    }
 
     /// True for those of the default: no other renderer is followed.
     bool areDefault() const { return renderer.empty(); }

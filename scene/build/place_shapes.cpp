@@ -2,26 +2,13 @@
 
 #include "scene/build/scene_builder.hpp"
 #include "scene/build/vectors.hpp"
+#include "scene/model/placements.hpp"
 
 #include <fmt/format.h>
 
 #include <utility>
 
 namespace stromboli::build {
-namespace {
-
-/// More triangles than this do not fit in the scene's 32-bit corner numbers with room to spare.
-constexpr size_t kMostTriangles = size_t(1) << 28;
-
-size_t triangleCount(const Mesh& mesh) {
-    size_t count = 0;
-    for (const MeshPart& part : mesh.parts)
-        count += part.size();
-    return count;
-}
-
-} // namespace
-
 ShapeId SceneBuilder::addMesh(std::string name, Mesh mesh) {
     if (triangleCount(mesh) == 0)
         report_.warn(fmt::format("geometry '{}' has no triangles", name));
@@ -41,9 +28,13 @@ void SceneBuilder::place(const FilePlace& where, ShapeId id, const glm::dmat4& t
                          std::span<const uint32_t> materials, const std::string& instanceName) {
     Shape& shape = shapes_.at(size_t(id));
     if (const double* radius = std::get_if<double>(&shape.form))
-        placeSphere(*radius, toWorld, materials.front(), instanceName, shape.drops);
-    else
-        placeMesh(where, std::get<Mesh>(shape.form), toWorld, materials, instanceName, shape.drops);
+        return placeSphere(*radius, toWorld, materials.front(), instanceName, shape.drops);
+    const Mesh& mesh = std::get<Mesh>(shape.form);
+    copiedTriangles_ += triangleCount(mesh);
+    if (copiedTriangles_ > kMostTriangles && !tooLargeAt_) tooLargeAt_ = where;
+    meshes_.push_back({size_t(id), toWorld,
+                       {materials.begin(), materials.begin() + std::ptrdiff_t(mesh.parts.size())},
+                       startInstance(instanceName)});
 }
 
 uint32_t SceneBuilder::startInstance(const std::string& name) {
@@ -51,19 +42,37 @@ uint32_t SceneBuilder::startInstance(const std::string& name) {
     return uint32_t(scene_.instances.size() - 1);
 }
 
-void SceneBuilder::placeMesh(const FilePlace& where, const Mesh& mesh, const glm::dmat4& toWorld,
-                             std::span<const uint32_t> materials, const std::string& instanceName,
-                             Drops& drops) {
-    const size_t count = scene_.triangles.size() + triangleCount(mesh);
-    if (count > kMostTriangles)
-        where.fail(fmt::format("brings the scene to {} triangles, more than the {} there is room "
-                               "for",
-                               count, kMostTriangles));
-    const uint32_t instance = startInstance(instanceName);
-    MeshPlacer placer(scene_, conventions_, mesh, toWorld, drops);
-    for (size_t i = 0; i < mesh.parts.size(); ++i)
-        for (const MeshTriangle& triangle : mesh.parts[i])
-            placer.add(triangle, materials[i], instance);
+void SceneBuilder::placeMeshes() {
+    MeshUses uses(meshes_, [&](size_t shape) -> const Mesh& {
+        return std::get<Mesh>(shapes_[shape].form);
+    });
+    const auto place = [&](const MeshUse& use, const glm::dmat4& toWorld) {
+        const Mesh& mesh = std::get<Mesh>(shapes_[use.shape].form);
+        MeshPlacer placer(scene_, conventions_, mesh, toWorld, shapes_[use.shape].drops);
+        for (size_t i = 0; i < mesh.parts.size(); ++i)
+            for (const MeshTriangle& triangle : mesh.parts[i])
+                placer.add(triangle, use.materials[i], use.instance);
+    };
+    if (conventions_.sharesInstances()) uses.share(scene_.materials, conventions_.instances);
+    for (const MeshUses::Shared& shared : uses.shared()) {
+        const auto first = uint32_t(scene_.triangles.size());
+        place(meshes_[shared.uses.front()], glm::dmat4(1));
+        const auto prototype = uint32_t(scene_.prototypes.size());
+        scene_.prototypes.push_back({first, uint32_t(scene_.triangles.size()) - first});
+        for (const size_t use : shared.uses) {
+            Placement placement = *placementOf(meshes_[use].toWorld);
+            placement.prototype = prototype;
+            placement.instance = meshes_[use].instance;
+            scene_.placements.push_back(placement);
+        }
+    }
+    if (tooLargeAt_ && uses.copiedTriangles() > kMostTriangles)
+        tooLargeAt_->fail(fmt::format("brings the scene to more than the {} triangles there is room "
+                                      "for",
+                                      kMostTriangles));
+    for (const size_t copied : uses.copied())
+        place(meshes_[copied], meshes_[copied].toWorld);
+    meshes_.clear();
 }
 
 void SceneBuilder::placeSphere(double radius, const glm::dmat4& toWorld, uint32_t material,

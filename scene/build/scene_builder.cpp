@@ -98,6 +98,7 @@ void SceneBuilder::lightTheDark() {
 }
 
 Scene SceneBuilder::finish() {
+    placeMeshes();
     for (const Shape& shape : shapes_)
         reportDrops(shape);
     lightTheDark();

@@ -4,6 +4,7 @@
 #include "scene/build/file_place.hpp"
 #include "scene/build/mesh.hpp"
 #include "scene/build/mesh_placer.hpp"
+#include "scene/build/mesh_uses.hpp"
 #include "scene/build/report.hpp"
 #include "scene/model/scene.hpp"
 
@@ -68,8 +69,8 @@ class SceneBuilder {
     /// Adds a new instance of a shape, transformed to the world. `materials` has one number per
     /// part of the mesh; a sphere has one part. Triangles are turned as Winding says; those without
     /// area or beyond the range of coordinates are left out and counted. A sphere's radius is
-    /// scaled as the matrix scales the x axis. Throws SceneError (at `where`) if the scene gets too
-    /// large.
+    /// scaled as the matrix scales the x axis. Meshes are placed by finish(), which knows how often
+    /// each is shown.
     void place(const FilePlace& where, ShapeId shape, const glm::dmat4& toWorld,
                std::span<const uint32_t> materials, const std::string& instanceName);
 
@@ -85,7 +86,8 @@ class SceneBuilder {
     void placeCamera(FileCamera camera, const glm::dmat4& toWorld);
 
     /// The scene, with its report; nothing can be added after. A scene that has something to light
-    /// and nothing that lights it gets the default light, where the conventions have one.
+    /// and nothing that lights it gets the default light, where the conventions have one. Throws
+    /// SceneError (at a mesh's place) if the scene gets too large.
     Scene finish();
 
   private:
@@ -96,9 +98,7 @@ class SceneBuilder {
     };
 
     uint32_t startInstance(const std::string& name);
-    void placeMesh(const FilePlace& where, const Mesh& mesh, const glm::dmat4& toWorld,
-                   std::span<const uint32_t> materials, const std::string& instanceName,
-                   Drops& drops);
+    void placeMeshes();
     void placeSphere(double radius, const glm::dmat4& toWorld, uint32_t material,
                      const std::string& instanceName, Drops& drops);
     void reportDrops(const Shape& shape);
@@ -108,6 +108,9 @@ class SceneBuilder {
     Scene scene_;
     Report report_;
     std::vector<Shape> shapes_;
+    std::vector<MeshUse> meshes_; ///< that finish() is to place
+    std::optional<FilePlace> tooLargeAt_;
+    uint64_t copiedTriangles_ = 0; ///< if each use of a mesh were a copy
     std::optional<uint32_t> defaultMaterial_;
 };
 

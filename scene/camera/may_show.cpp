@@ -1,4 +1,5 @@
 #include "scene/camera/camera.hpp"
+#include "scene/model/placements.hpp"
 
 #include <algorithm>
 #include <array>
@@ -50,6 +51,21 @@ bool mayMeet(const Volume& volume, const Scene& scene, const Triangle& triangle)
     return std::all_of(least.begin(), least.end(), [](double d) { return d <= 0; });
 }
 
+/// A box that has a corner on the inner side of each plane.
+bool mayMeet(const Volume& volume, const Bounds& box) {
+    Distances least;
+    least.fill(HUGE_VAL);
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 p((corner & 1) != 0 ? box.hi.x : box.lo.x,
+                          (corner & 2) != 0 ? box.hi.y : box.lo.y,
+                          (corner & 4) != 0 ? box.hi.z : box.lo.z);
+        const Distances d = volume.distances(p);
+        for (size_t i = 0; i < d.size(); ++i)
+            least[i] = std::min(least[i], d[i]);
+    }
+    return std::all_of(least.begin(), least.end(), [](double d) { return d <= 0; });
+}
+
 bool mayMeet(const Volume& volume, const Sphere& sphere) {
     const Distances d = volume.distances(sphere.center);
     return std::all_of(d.begin(), d.end(),
@@ -60,8 +76,14 @@ bool mayMeet(const Volume& volume, const Sphere& sphere) {
 
 bool mayShow(const Camera& camera, const Scene& scene) {
     const Volume volume(camera);
-    return std::any_of(scene.triangles.begin(), scene.triangles.end(),
+    const std::vector<Bounds> prototypes = prototypeBounds(scene);
+    const auto firstInWorld = scene.triangles.begin() + scene.firstInWorld();
+    return std::any_of(firstInWorld, scene.triangles.end(),
                        [&](const Triangle& t) { return mayMeet(volume, scene, t); }) ||
+           std::any_of(scene.placements.begin(), scene.placements.end(),
+                       [&](const Placement& p) {
+                           return mayMeet(volume, boundsInWorld(p, prototypes[p.prototype]));
+                       }) ||
            std::any_of(scene.spheres.begin(), scene.spheres.end(),
                        [&](const Sphere& s) { return mayMeet(volume, s); });
 }

@@ -1,5 +1,7 @@
 #include "scene/model/scene.hpp"
 
+#include "scene/model/placements.hpp"
+
 namespace stromboli {
 
 float Bounds::halfArea() const {
@@ -10,14 +12,24 @@ float Bounds::halfArea() const {
 
 Bounds Scene::bounds() const {
     Bounds b;
-    for (const Triangle& t : triangles)
-        for (uint32_t corner : t.corner)
+    for (uint32_t i = firstInWorld(); i < triangles.size(); ++i)
+        for (const uint32_t corner : triangles[i].corner)
             b.extend(positions[corner]);
+    const std::vector<Bounds> ofPrototypes = prototypeBounds(*this);
+    for (const Placement& p : placements)
+        b.extend(boundsInWorld(p, ofPrototypes[p.prototype]));
     for (const Sphere& s : spheres) {
         b.extend(s.center - glm::vec3(s.radius));
         b.extend(s.center + glm::vec3(s.radius));
     }
     return b;
+}
+
+uint64_t Scene::placedTriangles() const {
+    uint64_t count = triangles.size() - firstInWorld();
+    for (const Placement& p : placements)
+        count += prototypes[p.prototype].triangles;
+    return count;
 }
 
 glm::vec3 Scene::geometricNormal(const Triangle& t) const {

@@ -54,6 +54,22 @@ struct Sphere {
     uint32_t instance = 0;
 };
 
+/// A mesh in its own space, which is in the scene wherever a Placement puts it: a run of
+/// Scene::triangles. None of them emits.
+struct Prototype {
+    uint32_t firstTriangle = 0, triangles = 0;
+};
+
+/// A prototype in the world.
+struct Placement {
+    /// Rows of the matrix from the prototype's space to the world. It has an inverse.
+    std::array<glm::vec4, 3> toWorld{glm::vec4(1, 0, 0, 0), glm::vec4(0, 1, 0, 0),
+                                     glm::vec4(0, 0, 1, 0)};
+    uint32_t prototype = 0; ///< into Scene::prototypes
+    uint32_t instance = 0;  ///< into Scene::instances; that of the prototype's triangles counts for
+                            ///< nothing
+};
+
 enum class Projection : uint32_t { Perspective, Orthographic };
 
 /// The camera as a file states it, whatever the format; scene/camera turns it into rays for a
@@ -85,13 +101,16 @@ struct LoadReport {
     std::vector<std::string> assumed;  ///< what the file leaves open, and what was taken for it
 };
 
-/// All there is to render, flattened to world space. y is up; lengths are metres (COLLADA unit).
-/// Positions are rounded to float once, so that every backend sees the same geometry.
+/// All there is to render. y is up; lengths are metres (COLLADA unit). Everything is in world space
+/// but the triangles of prototypes. Positions are rounded to float once, so that every backend sees
+/// the same geometry.
 struct Scene {
     std::string file;
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals; ///< unit length
-    std::vector<Triangle> triangles;
+    std::vector<Triangle> triangles; ///< those of prototypes come first
+    std::vector<Prototype> prototypes; ///< one after the other, from the first triangle on
+    std::vector<Placement> placements;
     std::vector<Sphere> spheres;
     std::vector<Material> materials;
     std::vector<Light> lights;
@@ -111,7 +130,14 @@ struct Scene {
     RenderHints hints;
     LoadReport report;
 
-    Bounds bounds() const; ///< of triangles and spheres; lights excluded
+    /// The first triangle that is in world space; so are all behind it.
+    uint32_t firstInWorld() const {
+        return prototypes.empty() ? 0
+                                  : prototypes.back().firstTriangle + prototypes.back().triangles;
+    }
+    /// Triangles that a ray can meet, those of each placement counted anew.
+    uint64_t placedTriangles() const;
+    Bounds bounds() const; ///< of triangles and spheres in the world; lights excluded
     glm::vec3 geometricNormal(const Triangle& t) const; ///< unit
 };
 

@@ -60,9 +60,9 @@ void traceDirectSample(LightSample light, bool hemisphere) {
             transmittance(mediumBeyond(surface, material, medium, transmitted),
                           light.infinite ? INFINITE_DISTANCE : length(light.target - origin));
 #endif
-    trace(hemisphere ? PHASE_HEMISPHERE : PHASE_SHADOW, origin,
-          light.infinite ? light.direction : light.target - origin, 0.0,
-          light.infinite ? INFINITE_DISTANCE : 1.0, skipOnLeaving(surface, transmitted));
+    traceFrom(surface, hemisphere ? PHASE_HEMISPHERE : PHASE_SHADOW, origin,
+              light.infinite ? light.direction : light.target - origin,
+              light.infinite ? INFINITE_DISTANCE : 1.0, transmitted);
 }
 
 /// One direct light sample.

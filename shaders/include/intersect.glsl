@@ -11,7 +11,20 @@ struct Ray {
     uvec4 childBits[2]; ///< of slots 0-3 and 4-7: bit (slot ^ octant)
     bool xIsLargest, yIsLargest; ///< component of the direction (triangles); neither: z
     vec3 shear; ///< maps the direction to the z axis (triangles)
+#ifdef PLACEMENTS
+    vec3 boxOrigin; ///< of the ray in the space of the boxes, which `inverse` to `childBits` are of, too
+    vec3 slack; ///< by how much planes of boxes move, in distance along the ray (placements.glsl)
+    vec4 toWorld0, toWorld1, toWorld2; ///< rows of the matrix from that space to the triangles'
+#endif
 };
+
+#ifdef PLACEMENTS
+vec3 boxOrigin(Ray ray) { return ray.boxOrigin; }
+vec3 boxSlack(Ray ray) { return HAS_PLACEMENTS ? ray.slack : vec3(0.0); }
+#else
+vec3 boxOrigin(Ray ray) { return ray.origin; }
+vec3 boxSlack(Ray ray) { return vec3(0.0); }
+#endif
 
 /// The direction's largest component becomes z, and z takes its place: two selections fewer than Woop's cyclic
 /// permutation, and nothing here asks for the orientation of triangles.
@@ -26,27 +39,42 @@ uint octantOf(vec3 direction) {
            (direction.z < 0.0 ? 0u : 4u);
 }
 
-Ray makeRay(vec3 origin, vec3 direction) {
-    Ray ray;
-    ray.origin = origin;
-    ray.direction = direction;
+/// Fills in what box tests need.
+void prepareForBoxes(inout Ray ray, vec3 origin, vec3 direction) {
     for (uint k = 0u; k < 3u; ++k)
         ray.ascends[k] = !(direction[k] < 0.0);
     ray.octant = octantOf(direction);
     ray.childBits[0] = uvec4(1u) << (uvec4(0u, 1u, 2u, 3u) ^ ray.octant);
     ray.childBits[1] = uvec4(1u) << (uvec4(4u, 5u, 6u, 7u) ^ ray.octant);
     const vec3 a = abs(direction);
-    const float largest = largestComponent(a);
     // A component below 2^-60 of the largest is taken as that in box tests, which keeps
     // 0 * infinity and infinity - infinity away (docs/numerics.md).
     const vec3 sign = mix(vec3(1.0), vec3(-1.0), lessThan(direction, vec3(0.0)));
-    const float least = largest * 8.673617379884035e-19;
+    const float least = largestComponent(a) * 8.673617379884035e-19;
     ray.inverse = 1.0 / (sign * vec3(larger(a.x, least), larger(a.y, least), larger(a.z, least)));
+#ifdef PLACEMENTS
+    ray.boxOrigin = origin;
+    ray.slack = vec3(0.0);
+#endif
+}
+
+Ray makeRay(vec3 origin, vec3 direction) {
+    Ray ray;
+    ray.origin = origin;
+    ray.direction = direction;
+    prepareForBoxes(ray, origin, direction);
+    const vec3 a = abs(direction);
+    const float largest = largestComponent(a);
     ray.xIsLargest = a.z != largest && a.x == largest;
     ray.yIsLargest = a.z != largest && a.x != largest;
     const vec3 d = permute(direction, ray);
     const float inverseZ = permute(ray.inverse, ray).z;
     ray.shear = vec3(d.xy * inverseZ, inverseZ);
+#ifdef PLACEMENTS
+    ray.toWorld0 = vec4(1.0, 0.0, 0.0, 0.0);
+    ray.toWorld1 = vec4(0.0, 1.0, 0.0, 0.0);
+    ray.toWorld2 = vec4(0.0, 0.0, 1.0, 0.0);
+#endif
     return ray;
 }
 
@@ -70,6 +98,11 @@ GridAxis gridAxis(uint word, float rayOrigin, float inverse) {
     return GridAxis(scale * BYTE_SCALES, base);
 }
 
+GridAxis movedBy(GridAxis g, float distance) {
+    precise float base = g.base + distance;
+    return GridAxis(g.scale, base);
+}
+
 // The bytes of a word as floats, times 1, 2^8, 2^16 and 1: BYTE_SCALES undoes it, and a mask is
 // cheaper than a shift and a mask. Signed: docs/kernel.md, "Arithmetic".
 #define BYTES_AS_FLOATS(w)                                                                         \
@@ -86,12 +119,16 @@ ivec4 planeDistances(uint word, GridAxis g) {
     return floatBitsToInt(t);
 }
 
+/// The planes at which a ray enters a box, and those at which it leaves it; the same but for boxSlack().
+struct GridAxes {
+    GridAxis x, y, z;
+};
+
 /// Which of four children the ray enters within [0, tMax]: the `bits` of those.
-uint enterFour(uvec3 nearWords, uvec3 farWords, GridAxis x, GridAxis y, GridAxis z, float tMax,
-               uvec4 bits) {
-    const ivec4 nx = planeDistances(nearWords.x, x), fx = planeDistances(farWords.x, x);
-    const ivec4 ny = planeDistances(nearWords.y, y), fy = planeDistances(farWords.y, y);
-    const ivec4 nz = planeDistances(nearWords.z, z), fz = planeDistances(farWords.z, z);
+uint enterFour(uvec3 nearWords, uvec3 farWords, GridAxes near, GridAxes far, float tMax, uvec4 bits) {
+    const ivec4 nx = planeDistances(nearWords.x, near.x), fx = planeDistances(farWords.x, far.x);
+    const ivec4 ny = planeDistances(nearWords.y, near.y), fy = planeDistances(farWords.y, far.y);
+    const ivec4 nz = planeDistances(nearWords.z, near.z), fz = planeDistances(farWords.z, far.z);
     const ivec4 enter = max(max(nx, ny), max(nz, ivec4(0)));
     const ivec4 last = min(min(fx, fy), min(fz, ivec4(floatBitsToInt(tMax))));
     precise vec4 widened = intBitsToFloat(last) * BOX_SLACK;
@@ -107,16 +144,24 @@ uint enterFour(uvec3 nearWords, uvec3 farWords, GridAxis x, GridAxis y, GridAxis
 /// docs/numerics.md derives both. Planes are near or far by the direction's sign: sorting
 /// their distances would turn the inverted box of an absent child into a huge one.
 uint enterChildren(Record r, Ray ray, float tMax) {
-    const GridAxis x = gridAxis(r.r0.x, ray.origin.x, ray.inverse.x);
-    const GridAxis y = gridAxis(r.r0.y, ray.origin.y, ray.inverse.y);
-    const GridAxis z = gridAxis(r.r0.z, ray.origin.z, ray.inverse.z);
+    const vec3 origin = boxOrigin(ray), slack = boxSlack(ray);
+    const GridAxes axes = GridAxes(gridAxis(r.r0.x, origin.x, ray.inverse.x),
+                                   gridAxis(r.r0.y, origin.y, ray.inverse.y),
+                                   gridAxis(r.r0.z, origin.z, ray.inverse.z));
+    GridAxes near = axes, far = axes;
+#ifdef PLACEMENTS
+    if (HAS_PLACEMENTS) {
+        near = GridAxes(movedBy(axes.x, -slack.x), movedBy(axes.y, -slack.y), movedBy(axes.z, -slack.z));
+        far = GridAxes(movedBy(axes.x, slack.x), movedBy(axes.y, slack.y), movedBy(axes.z, slack.z));
+    }
+#endif
     // Rows hold low (xy) and high planes (zw) of the eight children.
     const uvec4 wx = ray.ascends[0] ? r.r1 : r.r1.zwxy;
     const uvec4 wy = ray.ascends[1] ? r.r2 : r.r2.zwxy;
     const uvec4 wz = ray.ascends[2] ? r.r3 : r.r3.zwxy;
-    return enterFour(uvec3(wx.x, wy.x, wz.x), uvec3(wx.z, wy.z, wz.z), x, y, z, tMax,
+    return enterFour(uvec3(wx.x, wy.x, wz.x), uvec3(wx.z, wy.z, wz.z), near, far, tMax,
                      ray.childBits[0]) |
-           enterFour(uvec3(wx.y, wy.y, wz.y), uvec3(wx.w, wy.w, wz.w), x, y, z, tMax,
+           enterFour(uvec3(wx.y, wy.y, wz.y), uvec3(wx.w, wy.w, wz.w), near, far, tMax,
                      ray.childBits[1]);
 }
 

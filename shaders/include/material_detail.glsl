@@ -245,11 +245,20 @@ vec4 tangentAt(SurfacePoint s, vec3 n) {
     const uvec4 r = ROW(detailRows, attributeRow(primitiveAt(s.skipPrimitive), ATTRIBUTE_TANGENT));
     const uvec3 sides = uvec3(r.w) >> uvec3(0u, 2u, 4u) & 3u;
     if (sides.x == 0u || sides.y == 0u || sides.z == 0u) return vec4(0.0);
-    const vec3 sum = (1.0 - s.weights.x - s.weights.y) * decodeNormal(r.x) +
-                     s.weights.x * decodeNormal(r.y) + s.weights.y * decodeNormal(r.z);
+    vec3 t0 = decodeNormal(r.x), t1 = decodeNormal(r.y), t2 = decodeNormal(r.z);
+    float side = sides.x == 1u ? 1.0 : -1.0;
+#ifdef PLACEMENTS
+    if (HAS_PLACEMENTS) {
+        const Placing placing = placingOf(s.placement);
+        t0 = tangentInWorld(placing, t0);
+        t1 = tangentInWorld(placing, t1);
+        t2 = tangentInWorld(placing, t2);
+        side = placing.mirrors ? -side : side;
+    }
+#endif
+    const vec3 sum = (1.0 - s.weights.x - s.weights.y) * t0 + s.weights.x * t1 + s.weights.y * t2;
     const vec3 across = sum - dot(sum, n) * n;
     const float length2 = dot(across, across);
-    const float side = sides.x == 1u ? 1.0 : -1.0;
     const bool isTurned = FACES_FORWARD && !s.outside;
     return length2 > 0.0 ? vec4(across * inversesqrt(length2), isTurned ? -side : side) : vec4(0.0);
 }

@@ -7,7 +7,10 @@ const uint PASS_SEED = 0x9E3779B9u;
 /// what was hit where, so that it neither depends on what was passed before nor on how often a ray is begun.
 float passNumber(Traversal t, uint pixel_, uint sample_, uint block) {
     const uvec4 words = pcg4d(uvec4(pixel_, sample_, block, frame.seed ^ PASS_SEED));
-    const uvec4 there = uvec4(t.hitPrimitive, floatBitsToUint(t.tMax), 0u, 0u);
+    uvec4 there = uvec4(t.hitPrimitive, floatBitsToUint(t.tMax), 0u, 0u);
+#ifdef PLACEMENTS
+    there.z = t.hitPlacement;
+#endif
     return unitFloats(pcg4d(words ^ there)).x;
 }
 
@@ -15,5 +18,8 @@ float passNumber(Traversal t, uint pixel_, uint sample_, uint block) {
 void passOn(inout Traversal t, float end) {
     t.tMin = t.tMax;
     t.passed = t.hitPrimitive;
+#ifdef PLACEMENTS
+    t.passedPlacement = t.hitPlacement;
+#endif
     t.tMax = end;
 }

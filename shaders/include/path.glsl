@@ -147,8 +147,8 @@ void scatter(vec3 u, float roulette) {
     }
     medium = mediumBeyond(surface, material, medium, transmitted);
 #endif
-    trace(PHASE_PATH, leave(surface, b.direction, transmitted), b.direction, 0.0, INFINITE_DISTANCE,
-          skipOnLeaving(surface, transmitted));
+    traceFrom(surface, PHASE_PATH, leave(surface, b.direction, transmitted), b.direction,
+              INFINITE_DISTANCE, transmitted);
 }
 
 void beginSample() {

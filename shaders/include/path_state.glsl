@@ -101,6 +101,17 @@ void trace(uint newPhase, vec3 origin, vec3 direction, float tMin, float tMax, u
     ray.passed = NO_PRIMITIVE;
     rayEnd = tMax;
 #endif
+#ifdef PLACEMENTS
+    ray.skipPlacement = NO_PLACEMENT;
+#endif
+}
+
+/// The same from a surface, whose own primitive is the one that is skipped.
+void traceFrom(SurfacePoint s, uint newPhase, vec3 origin, vec3 direction, float tMax, bool transmitted) {
+    trace(newPhase, origin, direction, 0.0, tMax, skipOnLeaving(s, transmitted));
+#ifdef PLACEMENTS
+    ray.skipPlacement = s.placement;
+#endif
 }
 
 bool isTracing(uint p) {

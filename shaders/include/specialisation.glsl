@@ -74,6 +74,14 @@ const bool HAS_ALPHA = false;
 layout(constant_id = SPEC_FACET_DISTRIBUTIONS) const uint FACET_DISTRIBUTIONS = 3u;
 #endif
 
+// PLACEMENTS: those of these modules in which prototypes can be placed. Trees have groups of two words there.
+#ifdef PLACEMENTS
+layout(constant_id = SPEC_HAS_PLACEMENTS) const bool HAS_PLACEMENTS = false;
+layout(constant_id = SPEC_TRAVERSAL_LEGS) const uint TRAVERSAL_LEGS = 1u;
+#else
+const uint TRAVERSAL_LEGS = 1u;
+#endif
+
 bool sceneHasBsdf(uint kind) { return (BSDF_KINDS & (1u << kind)) != 0u; }
 #ifdef FACET_MATERIALS
 /// Kinds that only these modules have.

@@ -14,6 +14,9 @@ struct SurfacePoint {
     vec2 weights; ///< barycentric, of the second and third corner (triangles)
     vec4 tangent; ///< material_detail.glsl; with TANGENT_FRAMES
 #endif
+#ifdef PLACEMENTS
+    uint placement; ///< that skipPrimitive is in; NO_PLACEMENT: none
+#endif
 };
 
 /// Without normals of corners a second copy of the geometric one, which would be carried along.
@@ -38,6 +41,44 @@ vec3 decodeNormal(uint packed_) {
     n.xy += vec2(n.x >= 0.0 ? -fold : fold, n.y >= 0.0 ? -fold : fold);
     return unit(n);
 }
+
+#ifdef PLACEMENTS
+/// What a placement does to what lies in it; nothing for NO_PLACEMENT.
+struct Placing {
+    bool isPlaced;
+    bool mirrors;
+    PlacementRecord record;
+    TransformRecord transform;
+};
+
+Placing placingOf(uint placement) {
+    Placing p;
+    p.isPlaced = HAS_PLACEMENTS && placement != NO_PLACEMENT;
+    p.record = fetchPlacement(placement);
+    p.transform = fetchTransform(p.isPlaced ? p.record.transform : 0u);
+    p.mirrors = p.isPlaced && (p.record.placement & PLACEMENT_MIRRORS) != 0u;
+    return p;
+}
+
+vec3 pointInWorld(Placing p, vec3 v) {
+    return p.isPlaced ? placed(p.transform.toWorld0, p.transform.toWorld1, p.transform.toWorld2, v) : v;
+}
+
+/// Of a normal, by the inverse transpose; unit.
+vec3 normalInWorld(Placing p, vec3 n) {
+    return p.isPlaced ? unit(n.x * p.record.toPrototype0.xyz + n.y * p.record.toPrototype1.xyz +
+                             n.z * p.record.toPrototype2.xyz)
+                      : n;
+}
+
+/// Of a tangent; unit, or zero where it has no length in the world.
+vec3 tangentInWorld(Placing p, vec3 t) {
+    if (!p.isPlaced) return t;
+    const vec3 v = turned(p.transform.toWorld0, p.transform.toWorld1, p.transform.toWorld2, t);
+    const float length2 = dot(v, v);
+    return length2 > 0.0 ? v * inversesqrt(length2) : vec3(0.0);
+}
+#endif
 
 /// Unit geometric normal.
 vec3 triangleNormal(Primitive p, PlacedPrimitive at) {
@@ -64,12 +105,13 @@ vec3 interpolatedNormal(CornerNormals n, vec3 b, vec3 geometric) {
 ///
 #include "terminator_offset.glsl"
 
+CornerNormals cornerNormals(Primitive p) {
+    return CornerNormals(decodeNormal(p.n0), decodeNormal(p.n1), decodeNormal(p.n2));
+}
+
 /// Fills in what depends on the normals of the corners. b: barycentric weights.
-void smoothShading(inout SurfacePoint s, Primitive p, PlacedPrimitive at, vec3 b) {
+void smoothShading(inout SurfacePoint s, bool given, CornerNormals n, PlacedPrimitive at, vec3 b) {
     if (!HAS_NORMALS) return;
-    const bool given = isSmooth(p);
-    const CornerNormals n =
-        CornerNormals(decodeNormal(p.n0), decodeNormal(p.n1), decodeNormal(p.n2));
     if (given) s.shading = interpolatedNormal(n, b, s.geometric);
     if (given && FACES_FORWARD) s.lift = liftAt(n, at, b, s.outside ? s.geometric : -s.geometric);
 }
@@ -78,8 +120,20 @@ void smoothShading(inout SurfacePoint s, Primitive p, PlacedPrimitive at, vec3 b
 /// faceForward.
 SurfacePoint surfaceAt(Traversal t) {
     SurfacePoint s;
-    const PlacedPrimitive place = fetchPlace(t.hitPrimitive);
+    PlacedPrimitive place = fetchPlace(t.hitPrimitive);
     const Primitive p = fetchPrimitive(place.primitive);
+    CornerNormals normals = cornerNormals(p);
+#ifdef PLACEMENTS
+    s.placement = t.hitPlacement;
+    const Placing placing = placingOf(t.hitPlacement);
+    if (HAS_PLACEMENTS) {
+        place.v0 = pointInWorld(placing, place.v0);
+        place.v1 = pointInWorld(placing, place.v1);
+        place.v2 = pointInWorld(placing, place.v2);
+        normals = CornerNormals(normalInWorld(placing, normals.n0), normalInWorld(placing, normals.n1),
+                                normalInWorld(placing, normals.n2));
+    }
+#endif
     const vec3 v0 = place.v0, v1 = place.v1, v2 = place.v2;
     s.material = materialOf(p);
     s.wo = -t.direction;
@@ -89,6 +143,11 @@ SurfacePoint surfaceAt(Traversal t) {
         s.position = b0 * v0 + t.b1 * v1 + t.b2 * v2;
         s.error = interpolationError(abs(b0 * v0) + abs(t.b1 * v1) + abs(t.b2 * v2));
         s.geometric = triangleNormal(p, place);
+#ifdef PLACEMENTS
+        // Rounded corners, not the normal of the prototype: rays start on the side of the triangle that they meet.
+        if (HAS_PLACEMENTS && placing.isPlaced)
+            s.geometric = (placing.mirrors ? -1.0 : 1.0) * planeNormal(v1 - v0, v2 - v0);
+#endif
         s.skipPrimitive = t.hitPrimitive;
     }
     if (HAS_SPHERES && place.isSphere) {
@@ -105,7 +164,7 @@ SurfacePoint surfaceAt(Traversal t) {
     s.tangent = vec4(0.0);
 #endif
     if (HAS_TRIANGLES && !place.isSphere)
-        smoothShading(s, p, place, vec3(1.0 - t.b1 - t.b2, t.b1, t.b2));
+        smoothShading(s, isSmooth(p), normals, place, vec3(1.0 - t.b1 - t.b2, t.b1, t.b2));
     return s;
 }
 

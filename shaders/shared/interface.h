@@ -70,7 +70,10 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_PRINCIPLED_FEATURES 37 // PRINCIPLED_HAS_ bits: what the principled materials have
 #define SPEC_LOOSE_SLOTS 38 // bit n: some material has a texture in slot n that is in no bundle
 #define SPEC_FACET_DISTRIBUTIONS 39 // FACETS_ bits: of microfacets of conductors, dielectrics, plastic
-#define SPEC_COUNT 40
+// Of the modules with PLACEMENTS alone:
+#define SPEC_HAS_PLACEMENTS 40 // prototypes are placed in the world (scene_types.h)
+#define SPEC_TRAVERSAL_LEGS 41 // between two service passes, each of SPEC_TRAVERSAL_STEPS
+#define SPEC_COUNT 42
 
 SHARED_CONST uint TEXEL_KIND_NEAREST = 1u;
 SHARED_CONST uint TEXEL_KIND_BILINEAR = 2u;

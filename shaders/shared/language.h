@@ -19,6 +19,7 @@ namespace stromboli::gpu {
 using uint = uint32_t;
 using glm::uvec2;
 using glm::vec3;
+using glm::vec4;
 } // namespace stromboli::gpu
 #else
 #define SHARED_BEGIN

@@ -27,9 +27,13 @@ struct SeenPixel {
     float b1, b2;   ///< its barycentric weights (triangles), of the second and third corner there
     uint target;    ///< samples it shall have
     uint pixel;     ///< row * width + column in the whole picture
+    uint placement; ///< that the primitive is in, in Scene::placements; NO_SEEN_PLACEMENT: none
+    uint unused0, unused1, unused2;
 };
-SHARED_ROWS(SeenPixel, 4);
+SHARED_ROWS(SeenPixel, 5);
 SHARED_OFFSET(SeenPixel, b1, 48);
+
+SHARED_CONST uint NO_SEEN_PLACEMENT = 0xFFFFFFFFu;
 
 /// Push constants of one dispatch.
 struct SeeDispatch {

@@ -89,7 +89,7 @@ struct SuspendedPath {
     vec3 arrivalNumbers; ///< path.glsl
     uint medium;         ///< path.glsl; of no meaning where nothing absorbs
     vec3 departureNormal; ///< path.glsl
-    uint unused1;
+    uint skipPlacement;   ///< that skipPrimitive is in; of no meaning where nothing is placed
 };
 SHARED_ROWS(SuspendedPath, 6);
 /// Where the path of a suspended lane split, if it has; the surface as in surface.glsl.
@@ -108,7 +108,8 @@ struct SuspendedSplit {
     uint branchesLeft; ///< that have not begun
     float b1, b2;      ///< barycentric weights, where materials have textures or colours; 0 else
     uint medium;       ///< path.glsl
-    uint unused0, unused1, unused2;
+    uint placement;    ///< that skipPrimitive is in; of no meaning where nothing is placed
+    uint unused0, unused1;
 };
 SHARED_ROWS(SuspendedSplit, 7);
 SHARED_CONST float SUSPENDED_NO_EMISSION = -1.0f;

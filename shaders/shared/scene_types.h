@@ -59,9 +59,35 @@ SHARED_OFFSET(LeafRecord, primitive, 12);
 SHARED_OFFSET(LeafRecord, p3, 32);
 SHARED_OFFSET(LeafRecord, radius, 60);
 
+/// A prototype in the world (scene/model/scene.hpp), a leaf of the tree over the world: it leads into
+/// the tree of the prototype, whose nodes and leaves are in the prototype's own space. That tree's
+/// root is a node and its leaves hold triangles that are no lights.
+struct PlacementRecord {
+    uint root;      ///< record of the prototype's root
+    uint transform; ///< record number of the TransformRecord
+    uint placement; ///< in Scene::placements; | PLACEMENT_MIRRORS
+    uint kind;      ///< RECORD_IS_PLACEMENT
+    vec4 toPrototype0, toPrototype1, toPrototype2; ///< rows of the matrix from the world
+};
+SHARED_ROWS(PlacementRecord, 4);
+
+/// The other half of a placement; no node or placement has it for a child.
+struct TransformRecord {
+    vec4 toWorld0, toWorld1, toWorld2; ///< rows of the matrix from the prototype's space
+    /// Rays' boxes are widened by slackPerLength * (largest coordinate of the ray's origin +
+    /// largestCoordinate) in the prototype's space (docs/numerics.md, "Instances").
+    vec3 slackPerLength;
+    float largestCoordinate; ///< in the world, of the prototype placed there
+};
+SHARED_ROWS(TransformRecord, 4);
+
 SHARED_CONST uint RECORD_ROWS = 4u;
 SHARED_CONST uint RECORD_IS_NODE = 0x80000000u;   ///< in word 3
 SHARED_CONST uint RECORD_IS_SPHERE = 0x40000000u; ///< in word 3
+SHARED_CONST uint RECORD_IS_PLACEMENT = 0xC0000000u; ///< in word 3; both bits
+SHARED_CONST uint PLACEMENT_MIRRORS = 0x80000000u;
+/// The root is never a placement.
+SHARED_CONST uint NO_PLACEMENT = 0u;
 SHARED_CONST uint RECORD_INDEX_MASK = 0x3FFFFFFFu;
 SHARED_CONST uint MAX_RECORDS = 0x40000000u; ///< 2^30: their rows are numbered in 32 bits
 /// Trees of at most so many records keep a group of children in one word (traversal_stack.glsl).
