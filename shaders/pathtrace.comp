@@ -236,11 +236,12 @@ void startWork(bool late) {
 /// What follows from the ray is worked out anew in each pass, not kept beside it (docs/kernel.md,
 /// "Nothing is moved out of loops").
 void traverseSomeSteps() {
+    const Ray prepared = makeRay(ray.origin, ray.direction);
     for (uint leg = 0u; leg < TRAVERSAL_LEGS; ++leg) {
-        const Ray prepared = prepareRay(ray);
+        const Ray aimed = prepareLeg(ray, prepared);
         for (uint k = 0u; k < TRAVERSAL_STEPS; ++k) {
             if (COUNT_STEPS) busySteps += traversing(ray) ? 1u : 0u;
-            traversalStep(ray, prepared);
+            traversalStep(ray, aimed);
         }
         if (COUNT_STEPS) allSteps += TRAVERSAL_STEPS;
     }

@@ -157,10 +157,11 @@ void main() {
             startTraversal(ray);
             ++rayCount;
         }
+        const Ray prepared = makeRay(ray.origin, ray.direction);
         for (uint leg = 0u; leg < TRAVERSAL_LEGS; ++leg) {
-            const Ray prepared = prepareRay(ray);
+            const Ray aimed = prepareLeg(ray, prepared);
             for (uint k = 0u; k < TRAVERSAL_STEPS; ++k)
-                traversalStep(ray, prepared);
+                traversalStep(ray, aimed);
         }
         if (!traversing(ray)) takeResult();
         ++iteration;

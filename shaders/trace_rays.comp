@@ -81,10 +81,11 @@ void main() {
     bool finished = false;
     uint iteration = 0u;
     while (!finished && iteration < dispatch.hardIterations) {
+        const Ray prepared = makeRay(ray.origin, ray.direction);
         for (uint leg = 0u; leg < TRAVERSAL_LEGS; ++leg) {
-            const Ray prepared = prepareRay(ray);
+            const Ray aimed = prepareLeg(ray, prepared);
             for (uint k = 0u; k < TRAVERSAL_STEPS; ++k)
-                traversalStep(ray, prepared);
+                traversalStep(ray, aimed);
         }
         bool waiting = !traversing(ray);
         while (waiting) {

@@ -111,9 +111,9 @@ bool traversing(Traversal t) { return !isEmpty(t.group); }
 
 void endTraversal(inout Traversal t) { t.group.word = 0u; }
 
-/// The ray that the next steps are for.
-Ray prepareRay(inout Traversal t) {
-    Ray ray = makeRay(t.origin, t.direction);
+/// The ray that the next steps are for: `prepared`, or that in the placement that the traversal is in.
+Ray prepareLeg(inout Traversal t, Ray prepared) {
+    Ray ray = prepared;
 #ifdef PLACEMENTS
     if (HAS_PLACEMENTS) {
         aimAtPrototype(ray, t.placement);

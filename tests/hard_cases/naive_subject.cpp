@@ -1,5 +1,6 @@
 #include "tests/hard_cases/naive_subject.hpp"
 
+#include "scene/model/placements.hpp"
 #include "tests/hard_cases/naive_intersection.hpp"
 
 #include <bit>
@@ -73,17 +74,32 @@ class NaiveTracer final : public stress::RayTracer {
     uint64_t countHits(std::span<const stress::Ray> rays, bool) override {
         uint64_t hits = 0;
         for (const stress::Ray& r : rays)
-            hits += bool(naive::closest(scene_, r.origin, r.direction, 0, r.tMax));
+            hits += distance(r) != stress::kMissed;
         return hits;
     }
     std::vector<float> distances(std::span<const stress::Ray> rays) override {
         std::vector<float> found;
         for (const stress::Ray& r : rays)
-            found.push_back(naive::closest(scene_, r.origin, r.direction, 0, r.tMax).t);
+            found.push_back(distance(r));
         return found;
     }
 
   private:
+    /// Placements are met in the space of their mesh, with rays that are rounded there.
+    float distance(const stress::Ray& r) const {
+        if (scene_.placements.empty())
+            return naive::closest(scene_, r.origin, r.direction, 0, r.tMax).t;
+        float t = r.tMax;
+        for (const Placement& p : scene_.placements) {
+            const PlacementMatrices m = matricesOf(p);
+            const glm::mat3 inverse(m.inverseLinear);
+            t = naive::closest(scene_, inverse * r.origin + glm::vec3(m.inverseOffset),
+                               inverse * r.direction, 0, t)
+                    .t;
+        }
+        return t;
+    }
+
     Scene scene_;
 };
 
@@ -109,9 +125,10 @@ std::unique_ptr<stress::RayTracer> NaiveSubject::tracer(const Scene& scene) {
     return std::make_unique<NaiveTracer>(scene);
 }
 
-stress::Picture NaiveSubject::render(const Scene& scene, const Camera& camera,
+stress::Picture NaiveSubject::render(const Scene& original, const Camera& camera,
                                      const RenderSettings& s, const KernelTuning& tuning,
                                      const ProgressCallback&) {
+    const Scene scene = expandPlacements(original).scene;
     stress::Picture picture;
     picture.film = Film(s.area.width, s.area.height);
     const uint32_t group = tuning.workgroupSize.value_or(64);

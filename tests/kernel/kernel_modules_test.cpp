@@ -56,19 +56,21 @@ TEST_P(KernelModules, TheSmallestThatHasAllFeatures) {
     for (const uint32_t id :
          {SPEC_TEXTURE_SLOTS, SPEC_LOOSE_SLOTS, SPEC_TEXEL_KINDS, SPEC_ATTRIBUTES, SPEC_ALPHA,
           SPEC_TANGENT_FRAMES, SPEC_HAS_ENVIRONMENT, SPEC_HAS_BACKDROP, SPEC_HAS_LENS,
-          SPEC_PIXEL_FILTER, SPEC_PRINCIPLED_FEATURES, SPEC_FACET_DISTRIBUTIONS})
+          SPEC_PIXEL_FILTER, SPEC_PRINCIPLED_FEATURES, SPEC_FACET_DISTRIBUTIONS,
+          SPEC_HAS_PLACEMENTS, SPEC_TRAVERSAL_LEGS})
         EXPECT_FALSE(rare.contains(id)) << id;
-    EXPECT_EQ(rare.size(), size_t(SPEC_COUNT) - 12);
+    EXPECT_EQ(rare.size(), size_t(SPEC_COUNT) - 14);
 }
 
 /// A constant with another value than the usual one leads to a module that has the constant. With
-/// one light nothing asks for the groups of a light tree.
+/// one light nothing asks for the groups of a light tree, without placements nothing for legs.
 TEST_P(KernelModules, NoneFixesAConstantThatDiffers) {
     for (uint32_t id = 0; id < SPEC_COUNT; ++id) {
         KernelFeatures f = usual();
         for (const uint32_t value : {1u, 2u, 3u}) {
             f[id] = usual()[id] + value;
-            EXPECT_EQ(constantsOf(module(f)).contains(id), id != SPEC_LIGHT_GROUPS)
+            EXPECT_EQ(constantsOf(module(f)).contains(id),
+                      id != SPEC_LIGHT_GROUPS && id != SPEC_TRAVERSAL_LEGS)
                 << id << " is " << f[id];
         }
     }

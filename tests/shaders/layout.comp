@@ -23,6 +23,11 @@ void put(vec3 v) {
     put(v.z);
 }
 
+void put(vec4 v) {
+    put(v.xyz);
+    put(v.w);
+}
+
 /// As enterChildren takes a node apart.
 void putNode(Record r) {
     put(r.r0.x), put(r.r0.y), put(r.r0.z), put(r.r0.w);
@@ -41,6 +46,15 @@ void putLeaf(Record r) {
 void putPlace(PlacedPrimitive p) {
     put(p.v0), put(p.v1), put(p.v2), put(p.radius), put(p.isSphere ? 1u : 0u), put(p.primitive);
     put(p.light);
+}
+
+void putPlacement() {
+    const PlacementRecord p = fetchPlacement(1u);
+    put(p.root), put(p.transform), put(p.placement), put(p.kind);
+    put(p.toPrototype0), put(p.toPrototype1), put(p.toPrototype2);
+    const TransformRecord t = fetchTransform(2u);
+    put(t.toWorld0), put(t.toWorld1), put(t.toWorld2), put(t.slackPerLength);
+    put(t.largestCoordinate);
 }
 
 void putFacetMaterial(Material m) {
@@ -103,6 +117,7 @@ void putScene() {
     putLeaf(fetchRecord(2u));
     putPlace(fetchPlace(4u));
     putPlace(fetchPlace(5u));
+    putPlacement();
     const Primitive p = fetchPrimitive(1u);
     put(p.material), put(p.n0), put(p.n1), put(p.n2);
     putMaterial(fetchMaterial(7u)); // seven rows each
@@ -138,12 +153,12 @@ void putWork() {
     const SuspendedPath p = suspendedPaths[1];
     put(p.origin), put(p.bounce), put(p.direction), put(p.skipPrimitive), put(p.throughput);
     put(p.emission), put(p.radiance), put(p.item), put(p.arrivalNumbers);
-    put(p.medium), put(p.departureNormal), put(p.unused1);
+    put(p.medium), put(p.departureNormal), put(p.skipPlacement);
     const SuspendedSplit q = suspendedSplits[1];
     put(q.position), put(q.bounce), put(q.geometric), put(q.material), put(q.shading);
     put(q.skipPrimitive), put(q.wo), put(q.lift), put(q.throughput), put(q.error);
     put(q.outside), put(q.branchesLeft), put(q.b1), put(q.b2);
-    put(q.medium), put(q.unused0), put(q.unused1), put(q.unused2);
+    put(q.medium), put(q.placement), put(q.unused0), put(q.unused1);
     put(status.unfinishedItems), put(status.overflowedItems), put(status.rays);
     put(status.samples), put(status.nextItem), put(status.busySteps), put(status.allSteps);
     put(status.iterations);

@@ -24,6 +24,7 @@ class Words {
     void put(uint32_t word) { words_.push_back(word); }
     void put(float x) { put(std::bit_cast<uint32_t>(x)); }
     void put(const glm::vec3& v) { put(v.x), put(v.y), put(v.z); }
+    void put(const glm::vec4& v) { put(v.x), put(v.y), put(v.z), put(v.w); }
     template <class... Fields>
     void structure(const std::string& name, const Fields&... fields) {
         const size_t first = words_.size();
@@ -96,6 +97,14 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         shader.set(BINDING_LIGHT_TABLE, table);
         expectNode(asNode(records[1]));
         expectLeaf(asLeaf(records[2]));
+        const auto placement = asPlacement(records[1]);
+        expected_.structure("PlacementRecord", placement.root, placement.transform,
+                            placement.placement, placement.kind, placement.toPrototype0,
+                            placement.toPrototype1, placement.toPrototype2);
+        const auto transform = std::bit_cast<gpu::TransformRecord>(records[2]);
+        expected_.structure("TransformRecord", transform.toWorld0, transform.toWorld1,
+                            transform.toWorld2, transform.slackPerLength,
+                            transform.largestCoordinate);
         expected_.structure("Primitive", primitives[1].material, primitives[1].n0, primitives[1].n1,
                             primitives[1].n2);
         expectMaterial(materials[1]);
@@ -234,14 +243,14 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         const gpu::SuspendedPath& p = paths_[1];
         expected_.structure("SuspendedPath", p.origin, p.bounce, p.direction, p.skipPrimitive,
                             p.throughput, p.emission, p.radiance, p.item, p.arrivalNumbers,
-                            p.medium, p.departureNormal, p.unused1);
+                            p.medium, p.departureNormal, p.skipPlacement);
         splits_ = patterns.several<gpu::SuspendedSplit>();
         shader.set(BINDING_SPLITS, splits_);
         const gpu::SuspendedSplit& q = splits_[1];
         expected_.structure("SuspendedSplit", q.position, q.bounce, q.geometric, q.material,
                             q.shading, q.skipPrimitive, q.wo, q.lift, q.throughput, q.error,
-                            q.outside, q.branchesLeft, q.b1, q.b2, q.medium, q.unused0, q.unused1,
-                            q.unused2);
+                            q.outside, q.branchesLeft, q.b1, q.b2, q.medium, q.placement, q.unused0,
+                            q.unused1);
         const gpu::DispatchStatus status = patterns.several<gpu::DispatchStatus>()[0];
         shader.setOne(BINDING_STATUS, status);
         expected_.structure("DispatchStatus", status.unfinishedItems, status.overflowedItems,
@@ -295,7 +304,8 @@ INSTANTIATE_TEST_SUITE_P(Fetch, LayoutTest,
 /// The expectation above names fields in the order of declaration; nothing may be left out.
 TEST(LayoutSizes, NoFieldIsForgotten) {
     const size_t bytes =
-        sizeof(gpu::NodeRecord) + sizeof(gpu::LeafRecord) + sizeof(gpu::Primitive) +
+        sizeof(gpu::NodeRecord) + sizeof(gpu::LeafRecord) + sizeof(gpu::PlacementRecord) +
+        sizeof(gpu::TransformRecord) + sizeof(gpu::Primitive) +
         sizeof(gpu::MaterialHeader) + sizeof(gpu::DiffuseParameters) +
         sizeof(gpu::MirrorParameters) + sizeof(gpu::RefractionParameters) +
         sizeof(gpu::GlassParameters) + sizeof(gpu::RoughConductorParameters) +
@@ -307,7 +317,7 @@ TEST(LayoutSizes, NoFieldIsForgotten) {
         sizeof(gpu::LightNode) + sizeof(gpu::Frame) + sizeof(gpu::Dispatch) +
         sizeof(gpu::WorkItem) + sizeof(gpu::PixelState) + sizeof(gpu::SuspendedPath) +
         sizeof(gpu::SuspendedSplit) + sizeof(gpu::DispatchStatus);
-    EXPECT_EQ(bytes / 4, 16 + 16 + 4 + (4 + 4 + 4 + 4 + 8 + 8 + 12 + 12 + 8 + 12) +
+    EXPECT_EQ(bytes / 4, 16 + 16 + 16 + 16 + 4 + (4 + 4 + 4 + 4 + 8 + 8 + 12 + 12 + 8 + 12) +
                              (4 + 12 + 12 + 4 + 4 + 8 + 4) + (4 + 4 + 8) + 36 + 8 + 4 + 16 + 24 +
                              28 + 8u);
 }

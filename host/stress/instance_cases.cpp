@@ -1,0 +1,201 @@
+// Meshes that are met through placements: turned, stretched, mirrored, small in a large world.
+#include "host/stress/case.hpp"
+#include "host/stress/scenes.hpp"
+#include "scene/generate/hard_meshes.hpp"
+#include "scene/model/placements.hpp"
+
+#include <fmt/format.h>
+#include <glm/gtc/quaternion.hpp>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stromboli::stress {
+namespace {
+
+constexpr uint64_t kBatch = 1u << 20; ///< rays traced at once
+constexpr uint32_t kRun = 1u << 12;   ///< rays drawn with one seed
+
+/// A turn without a zero in it, a stretch of up to ten in each direction, and every other time a
+/// mirror.
+Placement randomPlacement(const glm::vec3& at, float size, Random& random) {
+    const glm::dquat turn =
+        glm::normalize(glm::dquat(random.uniform(0.1f, 1), random.uniform(-1, 1),
+                                  random.uniform(0.1f, 1), random.uniform(-1, 1)));
+    glm::dmat3 linear = glm::mat3_cast(turn);
+    for (int axis = 0; axis < 3; ++axis)
+        linear[axis] *= double(size) * double(random.ofAnySize(0.316f, 3.16f));
+    if (random.below(2) == 1) linear[0] = -linear[0];
+    glm::dmat4 matrix(linear * glm::mat3_cast(glm::conjugate(turn)) *
+                      glm::mat3_cast(glm::angleAxis(1.0, glm::dvec3(0.6, 0, 0.8))));
+    matrix[3] = glm::dvec4(at, 1);
+    return *placementOf(matrix);
+}
+
+/// The mesh at `count` places of a cube of this half width about `middle`.
+Scene placedMany(Scene mesh, uint32_t count, float size, const glm::vec3& middle, float half,
+                 Random& random) {
+    mesh.prototypes.push_back({0, uint32_t(mesh.triangles.size())});
+    for (uint32_t i = 0; i < count; ++i)
+        mesh.placements.push_back(
+            randomPlacement(middle + random.inCube(half), size, random));
+    return mesh;
+}
+
+/// A point of an edge of some placement, or one of its ends.
+glm::vec3 edgePoint(const Scene& scene, const Placement& p, Random& random) {
+    const Triangle& t = scene.triangles[random.below(uint32_t(scene.triangles.size()))];
+    const uint32_t i = random.below(3);
+    const glm::vec3 a = stromboli::placed(p, scene.positions[t.corner[i]]);
+    const glm::vec3 b = stromboli::placed(p, scene.positions[t.corner[(i + 1) % 3]]);
+    switch (random.below(3)) {
+    case 0:
+        return a;
+    case 1:
+        return 0.5f * (a + b);
+    default:
+        return a + random.uniform() * (b - a);
+    }
+}
+
+/// From near the middles of placements to their edges.
+std::vector<Ray> raysFromWithin(const Scene& scene, uint64_t count, uint32_t seed) {
+    std::vector<Ray> rays(count);
+    tbb::parallel_for(uint64_t(0), (count + kRun - 1) / kRun, [&](uint64_t run) {
+        Random random(seed + uint32_t(run));
+        for (uint64_t i = run * kRun; i < std::min(count, (run + 1) * kRun); ++i) {
+            const Placement& p = scene.placements[random.below(uint32_t(scene.placements.size()))];
+            const glm::vec3 origin = stromboli::placed(p, random.inCube(0.1f));
+            glm::vec3 direction = edgePoint(scene, p, random) - origin;
+            if (i & 1) direction = glm::normalize(direction);
+            rays[i] = {origin, kMissed, direction, 0};
+        }
+    });
+    return rays;
+}
+
+struct World {
+    float size, half; ///< of a mesh, and half the width of the cube that they are in
+    glm::vec3 middle;
+};
+
+/// Meshes of a thousandth, of the same and of a thousand times the world's size, and far away.
+const World kWorlds[] = {{1, 20, {0, 0, 0}},
+                         {1e-3f, 1, {3, -2, 1}},
+                         {1e3f, 1, {0, 0, 0}},
+                         {1, 10, {148376, 1234, -223423}}};
+
+Finding edges(Run& run) {
+    Finding f;
+    Random random(1101);
+    const std::vector<uint32_t> levels =
+        run.quick() ? std::vector<uint32_t>{0, 2} : std::vector<uint32_t>{0, 1, 3, 5};
+    const uint64_t each =
+        run.amount<uint64_t>(400'000, 100'000'000) / (levels.size() * std::size(kWorlds));
+    for (const World& world : kWorlds)
+        for (const uint32_t level : levels) {
+            const Scene scene =
+                placedMany(starMesh(level, random), 16, world.size, world.middle, world.half, random);
+            const auto tracer = run.subject().tracer(scene);
+            for (uint64_t done = 0; done < each; done += kBatch) {
+                const uint64_t count = std::min(kBatch, each - done);
+                const auto batch = raysFromWithin(scene, count, random.word());
+                const uint64_t missed =
+                    count - tracer->countHits(batch, done / kBatch % 2 == 0);
+                if (missed > 0)
+                    f.where = fmt::format("{} triangles of size {:g}", scene.triangles.size(),
+                                          world.size);
+                f.measured += double(missed);
+                f.trials += count;
+                run.goOn();
+            }
+        }
+    return f;
+}
+
+/// From anywhere in the world, and from up to a thousand times as far, to edges of placements.
+std::vector<Ray> raysFromOutside(const Scene& scene, const World& world, uint32_t count,
+                                 Random& random) {
+    std::vector<Ray> rays;
+    for (uint32_t i = 0; i < count; ++i) {
+        const Placement& p = scene.placements[random.below(uint32_t(scene.placements.size()))];
+        const float away = random.ofAnySize(1, 1e3f);
+        const glm::vec3 origin = world.middle + random.inCube(world.half * away);
+        const glm::vec3 direction = edgePoint(scene, p, random) - origin;
+        if (direction != glm::vec3(0)) rays.push_back({origin, kMissed, direction, 0});
+    }
+    return rays;
+}
+
+/// Copies have the corners of instances to the last bit, so that the same rays hit, and distances
+/// are those of the same test. Pairs of triangles may begin at other corners, which changes how a
+/// distance is rounded: by 23 u each way (docs/numerics.md, "Boxes") of the distance and of how far
+/// a triangle reaches along the ray, 1.4 for its corners times 3.16 for the stretch, on both sides.
+Finding asCopies(Run& run) {
+    constexpr float kRounding = 46 * 0x1p-24f;
+    Finding f;
+    Random random(1102);
+    for (const World& world : kWorlds) {
+        const Scene scene =
+            placedMany(starMesh(2, random), 16, world.size, world.middle, world.half, random);
+        const auto rays = raysFromOutside(scene, world, run.amount(40'000u, 2'000'000u), random);
+        const std::vector<float> found = run.subject().tracer(scene)->distances(rays);
+        const Scene copies = expandPlacements(scene).scene;
+        const std::vector<float> expected = run.subject().tracer(copies)->distances(rays);
+        for (size_t i = 0; i < rays.size(); ++i) {
+            const float difference = std::abs(found[i] - expected[i]);
+            const float reach = 2 * 1.4f * 3.16f * world.size / glm::length(rays[i].direction);
+            const bool same =
+                found[i] == expected[i] || difference <= kRounding * (expected[i] + reach);
+            if (same) continue;
+            ++f.measured;
+            f.where = fmt::format("size {:g}: {} instead of {}", world.size, found[i], expected[i]);
+        }
+        f.trials += rays.size();
+        run.goOn();
+    }
+    return f;
+}
+
+/// The camera is inside of a closed mesh and all light outside: whatever the picture shows has come
+/// through the surface.
+Finding closed(Run& run) {
+    Finding f;
+    Random random(1103);
+    const uint32_t side = run.amount(32u, 128u);
+    // Rays start some 32 u of their coordinates beside the surface, which far away is more than a
+    // facet; and a star's surfaces meet at angles that are too sharp for any offset.
+    const World worlds[] = {kWorlds[0], kWorlds[1], kWorlds[2], {1, 0, {2000, -1000, 300}}};
+    for (const World& world : worlds) {
+        Scene scene = placedMany(tessellatedSphere(8), 1, world.size, world.middle, 0, random);
+        scene.materials[0].albedo = glm::vec3(0.9f);
+        scene.lights.push_back(ambient(1));
+        Camera camera;
+        camera.position = glm::dvec3(stromboli::placed(scene.placements[0], glm::vec3(0)));
+        const Picture picture =
+            run.render(scene, camera, stress::picture(side, run.amount(4u, 16u), 16));
+        for (const PixelStatistics& p : picture.film.pixels)
+            if (p.mean != glm::dvec3(0)) {
+                ++f.measured;
+                f.where = fmt::format("size {:g}", world.size);
+            }
+        f.trials += picture.rays;
+    }
+    return f;
+}
+
+} // namespace
+
+std::vector<Case> instanceCases() {
+    return {
+        {"instances", "75", "rays at edges and corners of closed meshes that are placed hit",
+         "missed", "rays", edges},
+        {"instances-as-copies", "76", "instances are met where copies are", "wrong", "rays",
+         asCopies},
+        {"closed-instances", "77", "no light comes through closed meshes that are placed", "lit",
+         "rays", closed},
+    };
+}
+
+} // namespace stromboli::stress

@@ -1,0 +1,249 @@
+// Pictures of meshes that share their triangles: the kernel goes through placements, the reference
+// has copies, and the two agree (z-tests with a family-wise error of 1e-4 a mode, fixed seeds). The
+// kernel with copies makes nearly the same samples, and its bytes do not depend on how work is cut.
+#include "host/check/cross_check.hpp"
+#include "host/core/random.hpp"
+#include "host/reference/reference_backend.hpp"
+#include "host/render/layers.hpp"
+#include "host/render/render.hpp"
+#include "scene/generate/hard_meshes.hpp"
+#include "scene/model/placements.hpp"
+#include "tests/analytic/textured.hpp"
+#include "tests/render/device_render.hpp"
+#include "tests/support/device_fixture.hpp"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+namespace stromboli {
+namespace {
+
+using namespace test;
+
+/// A prototype of the mesh's triangles, which the scene then has first.
+uint32_t addPrototype(Scene& scene, const Scene& mesh, uint32_t material) {
+    const auto first = uint32_t(scene.triangles.size());
+    const auto corner = uint32_t(scene.positions.size()), normal = uint32_t(scene.normals.size());
+    for (Triangle t : mesh.triangles) {
+        for (uint32_t& c : t.corner)
+            c += corner;
+        for (uint32_t& n : t.normals)
+            if (n != kNoNormals) n += normal;
+        t.material = material;
+        scene.triangles.push_back(t);
+    }
+    scene.positions.insert(scene.positions.end(), mesh.positions.begin(), mesh.positions.end());
+    scene.normals.insert(scene.normals.end(), mesh.normals.begin(), mesh.normals.end());
+    scene.prototypes.push_back({first, uint32_t(mesh.triangles.size())});
+    return uint32_t(scene.prototypes.size() - 1);
+}
+
+Scene smoothBall() {
+    Scene ball = tessellatedSphere(6);
+    ball.normals = ball.positions;
+    for (Triangle& t : ball.triangles)
+        std::copy_n(t.corner, 3, t.normals);
+    return ball;
+}
+
+void place(Scene& scene, uint32_t prototype, const glm::dvec3& at, const glm::dvec3& scale,
+           double turn) {
+    glm::dmat4 m = glm::translate(glm::dmat4(1), at);
+    m = glm::rotate(m, turn, glm::normalize(glm::dvec3(0.5, 1, 0.3)));
+    Placement placement = *placementOf(glm::scale(m, scale));
+    placement.prototype = prototype;
+    placement.instance = uint32_t(scene.instances.size());
+    scene.instances.push_back("placed");
+    scene.placements.push_back(placement);
+}
+
+/// Stretched, mirrored and turned copies of a smooth ball with pictures, a normal map and a grain,
+/// of a flat star that is partly not there, and of a glass one.
+Scene placedRoom() {
+    SceneMaker b;
+    TextureMaker t(b.scene);
+    Random random(5);
+    std::vector<glm::vec4> noise, bumps;
+    for (int i = 0; i < 64; ++i) {
+        const auto u = [&] { return float(random.uniform()); };
+        noise.emplace_back(u(), u(), u(), 0.2f + 0.8f * u());
+        bumps.emplace_back(0.2f + 0.6f * u(), 0.2f + 0.6f * u(), 1, 1);
+    }
+    const uint32_t paper = t.texture({.image = t.bytes(8, 8, noise), .srgb = true});
+    const uint32_t normals = t.texture(t.bytes(8, 8, bumps));
+    const auto projected = [](const glm::vec3& p) {
+        VertexAttributes a;
+        a.uv[0] = glm::vec2(p.x + 0.3f * p.z, p.y);
+        return a;
+    };
+
+    Material grained;
+    grained.kind = MaterialKind::Principled;
+    grained.principled = {.metallic = 0.6f, .roughness = 0.6f, .anisotropy = 0.6f};
+    grained.textures = {{.slot = TextureSlot::BaseColor, .texture = paper},
+                        {.slot = TextureSlot::Normal, .texture = normals, .scale = 0.5f}};
+    const Scene ball = smoothBall();
+    const uint32_t balls = addPrototype(b.scene, ball, b.add(grained));
+    t.attributes(ball.triangles.size(), projected);
+    Material veil = diffuse(0.7f);
+    veil.alphaMode = AlphaMode::Blend;
+    veil.textures = {{.slot = TextureSlot::BaseColor, .texture = paper}};
+    const Scene star = starMesh(1, random);
+    const uint32_t stars = addPrototype(b.scene, star, b.add(veil));
+    t.attributes(star.triangles.size(), projected);
+    const uint32_t glasses = addPrototype(b.scene, starMesh(0, random), b.add(glass(1.5f)));
+    t.attributes(0, {});
+
+    place(b.scene, balls, {-0.45, -0.5, -0.2}, {0.35, 0.2, 0.3}, 0.7);
+    place(b.scene, balls, {0.5, -0.6, -0.4}, {-0.3, 0.35, 0.25}, 2.1);
+    place(b.scene, stars, {0.1, 0.1, -0.5}, {0.3, 0.3, 0.3}, 0.3);
+    place(b.scene, stars, {0.2, 0.15, -0.4}, {0.25, -0.35, 0.3}, 1.3);
+    place(b.scene, stars, {0.2, 0.15, -0.4}, {0.25, -0.35, 0.3}, 1.3); // in one place with the last
+    place(b.scene, glasses, {-0.5, 0.3, -0.3}, {0.25, 0.25, -0.2}, 0.9);
+
+    b.box({-1, -1, -1}, {1, 1, 1}, b.add(diffuse(0.7f)), true);
+    b.quad({-0.4f, 0.95f, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f}, b.add(emissive(8, false)));
+    b.sphere({0.6f, -0.1f, 0.1f}, 0.15f, b.add(mirror(0.9f)));
+    t.attributes(0, {});
+    return b.scene;
+}
+
+RenderSettings settings(uint32_t samples) {
+    RenderSettings s;
+    s.area.width = 48, s.area.height = 40;
+    s.budget.mostSamplesPerPixel = samples;
+    s.estimator.maxBounces = 5;
+    return s;
+}
+
+Camera camera() {
+    return lookingAt({0.3, 0.2, 0.95}, {-0.1, -0.2, -0.5}, 0.7);
+}
+
+struct Mode {
+    const char* name;
+    void (*change)(RenderSettings&);
+};
+const Mode kModes[] = {
+    {"mis", [](RenderSettings&) {}},
+    {"hemisphere", [](RenderSettings& s) { s.estimator.directLight = DirectLight::Hemisphere; }},
+    {"branches", [](RenderSettings& s) { s.estimator.branches = 3; }},
+    {"normals", [](RenderSettings& s) { s.estimator.integrator = Integrator::Normals; }},
+};
+
+class InstanceModes : public DeviceTest, public testing::WithParamInterface<Mode> {};
+
+TEST_P(InstanceModes, KernelAndReferenceAgree) {
+    const Scene scene = placedRoom();
+    RenderSettings s = settings(96);
+    GetParam().change(s);
+    const Film onDevice = renderOnDevice(testDevice(), scene, camera(), s);
+    ReferenceBackend reference(scene, camera(), s);
+    const Film onHost = render(reference, s);
+    CheckSettings check;
+    check.familyError = 1e-4;
+    const CheckResult result = crossCheck(onDevice, onHost, check);
+    EXPECT_TRUE(result.agree()) << formatCheck(result);
+    EXPECT_EQ(result.rejectedA, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, InstanceModes, testing::ValuesIn(kModes),
+                         [](const auto& mode) { return mode.param.name; });
+
+class Instances : public DeviceTest {};
+
+/// Random numbers are those of pixel and sample: but for rounding, and for choices of opacity, which
+/// depend on what is hit, the samples are the same.
+TEST_F(Instances, AreAsCopies) {
+    Scene scene = placedRoom();
+    for (Material& m : scene.materials)
+        m.alphaMode = AlphaMode::Opaque;
+    const Film shared = renderOnDevice(testDevice(), scene, camera(), settings(4));
+    const Film copied =
+        renderOnDevice(testDevice(), expandPlacements(scene).scene, camera(), settings(4));
+    size_t different = 0;
+    for (size_t i = 0; i < shared.pixels.size(); ++i) {
+        const glm::dvec3 a = shared.pixels[i].mean, b = copied.pixels[i].mean;
+        different += glm::length(a - b) > 1e-3 * glm::length(a + b);
+    }
+    // A path in some hundreds is near enough to an edge to go another way.
+    EXPECT_LT(double(different), 0.02 * double(shared.pixels.size()));
+}
+
+bool sameBytes(const PixelStatistics& a, const PixelStatistics& b) {
+    return a.count == b.count && a.rejected == b.rejected &&
+           std::memcmp(&a.mean, &b.mean, sizeof a.mean) == 0 &&
+           std::memcmp(&a.m2, &b.m2, sizeof a.m2) == 0;
+}
+
+TEST_F(Instances, HaveTheSameBytesHoweverWorkIsCut) {
+    const Scene scene = placedRoom();
+    RenderSettings s = settings(6);
+    s.estimator.branches = 2;
+    s.estimator.lightSamples = 2;
+    const Film whole = renderOnDevice(testDevice(), scene, camera(), s);
+    for (const KernelTuning& tuning : {KernelTuning{.fixedIterations = 1},
+                                       {.lanes = 100, .fixedIterations = 50},
+                                       {.workgroupSize = 24, .traversalSteps = 7, .traversalLegs = 2},
+                                       {.traversalSteps = 3, .traversalLegs = 1},
+                                       {.texelFetch = false},
+                                       {.registerStack = 0}}) {
+        const Film cut = renderOnDevice(testDevice(), scene, camera(), s, tuning);
+        size_t different = 0;
+        for (size_t i = 0; i < whole.pixels.size(); ++i)
+            different += !sameBytes(whole.pixels[i], cut.pixels[i]);
+        EXPECT_EQ(different, 0u) << "of " << whole.pixels.size() << " pixels";
+    }
+}
+
+/// Layers of a picture with one camera ray a pixel.
+FloatImage layersBy(Viewer& viewer, const Scene& scene, const PictureArea& area) {
+    FloatImage image(area);
+    const std::vector<uint32_t> samples(area.pixelCount(), 1);
+    addLayers(image, {Layer::Object, Layer::Material, Layer::Uv, Layer::Normal}, 0,
+              viewer.see(0, samples, Seeing::Surfaces), scene, camera());
+    return image;
+}
+
+/// Of the numbers of a channel, how many are other ones.
+size_t differences(const std::vector<float>& a, const std::vector<float>& b) {
+    size_t different = 0;
+    for (size_t i = 0; i < a.size(); ++i)
+        different += !(std::abs(a[i] - b[i]) <= 2e-3f);
+    return different;
+}
+
+/// What layers say of them, each its own object, is what they say of copies.
+TEST_F(Instances, AreSeenAsCopiesAre) {
+    Scene scene = placedRoom();
+    for (Material& m : scene.materials)
+        m.alphaMode = AlphaMode::Opaque; // or it would be a matter of random numbers
+    scene.placements.erase(scene.placements.begin() + 4); // or which of two in one place is met
+    const Scene copies = expandPlacements(scene).scene;
+    const RenderSettings s = settings(1);
+    const GpuScene gpu = packScene(scene, buildWideBvh(scene), lightSelection(s.estimator));
+    const GpuScene gpuCopies = packScene(copies, buildWideBvh(copies), lightSelection(s.estimator));
+    VulkanBackend device(testDevice(), gpu, camera(), s);
+    VulkanBackend deviceCopies(testDevice(), gpuCopies, camera(), s);
+    ReferenceBackend host(scene, camera(), s), hostCopies(copies, camera(), s);
+    const FloatImage seen = layersBy(device, scene, s.area);
+    const FloatImage seenCopies = layersBy(deviceCopies, copies, s.area);
+    const FloatImage onHost = layersBy(host, scene, s.area);
+    const FloatImage onHostCopies = layersBy(hostCopies, copies, s.area);
+    for (const auto& [name, values] : seen.channels) {
+        // Some pixels show an edge, where rounding decides.
+        EXPECT_LT(differences(values, seenCopies.channels.at(name)), values.size() / 50) << name;
+        EXPECT_EQ(differences(onHost.channels.at(name), onHostCopies.channels.at(name)), 0u) << name;
+    }
+    // Six placements, the walls, the emitter and the mirror have names from the 1st on.
+    const std::vector<float>& objects = seen.channels.at("object.X");
+    for (float object = 1; object <= 6; ++object)
+        EXPECT_GT(std::ranges::count(objects, object), object == 5 ? -1 : 3) << object;
+    EXPECT_EQ(std::ranges::count(objects, 5.0f), 0);
+}
+
+} // namespace
+} // namespace stromboli
