@@ -105,7 +105,7 @@ class Benchmark {
     static SceneReport describe(const BenchScene& scene, const RenderSettings& settings) {
         SceneReport report;
         report.name = scene.name;
-        report.triangles = scene.scene.triangles.size();
+        report.triangles = scene.scene.placedTriangles();
         report.spheres = scene.scene.spheres.size();
         report.width = settings.area.width;
         report.height = settings.area.height;
@@ -118,11 +118,14 @@ class Benchmark {
     void trace(const Arena& arena, SceneReport& report) {
         if (progress_) progress_(arena.scene.name + ": making rays");
         const Scene& scene = arena.scene.scene;
-        const RaySets sets = makeRaySets(scene, arena.camera, arena.settings, raysPerPixel());
-        const EmbreePair embree = buildBest(arena, sets.bounce);
-        if (embree.fast) report.embreeQuality = nameOf(embree.quality);
         const GpuScene gpu =
             packScene(scene, buildWideBvh(scene), lightSelection(arena.settings.estimator));
+        const RaySets sets =
+            scene.placements.empty()
+                ? makeRaySets(scene, arena.camera, arena.settings, raysPerPixel())
+                : makePlacedRaySets(scene, gpu.bvh, arena.camera, arena.settings, raysPerPixel());
+        const EmbreePair embree = buildBest(arena, sets.bounce);
+        if (embree.fast) report.embreeQuality = nameOf(embree.quality);
         if (wants(Part::Rays)) {
             DeviceRays rays(device(), gpu, rayTuning(device(), rowBytes(gpu, sets.largest())));
             for (const RaySet* set : {&sets.camera, &sets.shadow, &sets.bounce})
@@ -130,7 +133,9 @@ class Benchmark {
         }
         if (wants(Part::Paths)) report.paths = benchPaths(arena, gpu, embree);
         if (wants(Part::Variants)) report.variants = benchVariants(arena, gpu, kernelVariants());
-        if (wants(Part::Robustness)) report.robustness = benchRobustness(arena, gpu, sets);
+        // The plain kernels that it compares with know no placements.
+        if (wants(Part::Robustness) && scene.placements.empty())
+            report.robustness = benchRobustness(arena, gpu, sets);
     }
 
     /// Of the first scene that is a file.

@@ -57,8 +57,13 @@ struct Arrays final : EmbreeGeometry {
     std::vector<glm::vec3> positions; ///< and one more: Embree reads 16 bytes of each
     std::vector<uint32_t> indices;
     std::vector<glm::vec4> spheres; ///< centre, radius
+    uint32_t firstInWorld;          ///< triangle; those of prototypes come before
+    std::vector<Prototype> prototypes;
+    std::vector<Placement> placements;
 
-    explicit Arrays(const Scene& scene) : positions(scene.positions) {
+    explicit Arrays(const Scene& scene)
+        : positions(scene.positions), firstInWorld(scene.firstInWorld()),
+          prototypes(scene.prototypes), placements(scene.placements) {
         positions.emplace_back(0.0f);
         for (const Triangle& t : scene.triangles)
             indices.insert(indices.end(), {t.corner[0], t.corner[1], t.corner[2]});
@@ -76,19 +81,25 @@ class BuiltScene final : public EmbreeScene {
         const EmbreeApi& api = embreeApi();
         const RTCBuildQuality build =
             quality == EmbreeQuality::High ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
-        api.rtcSetSceneFlags(scene_, mode == EmbreeMode::Robust ? RTC_SCENE_FLAG_ROBUST
-                                                                : RTC_SCENE_FLAG_NONE);
-        api.rtcSetSceneBuildQuality(scene_, build);
         const int64_t before = device_->bytes();
         const Stopwatch watch;
-        if (!arrays_->indices.empty()) attach(triangles(), native::kTriangleGeometry, build);
-        if (!arrays_->spheres.empty()) attach(spheres(), native::kSphereGeometry, build);
+        configure(scene_, mode, build);
+        const auto triangleCount = uint32_t(arrays_->indices.size() / 3) - arrays_->firstInWorld;
+        if (triangleCount > 0)
+            attach(scene_, triangles(arrays_->firstInWorld, triangleCount),
+                   native::kTriangleGeometry, build);
+        if (!arrays_->spheres.empty()) attach(scene_, spheres(), native::kSphereGeometry, build);
+        attachPlacements(mode, build);
         api.rtcCommitScene(scene_);
         buildSeconds = watch.seconds();
         bytes = uint64_t(std::max<int64_t>(device_->bytes() - before, 0));
         device_->check("build a scene");
     }
-    ~BuiltScene() override { embreeApi().rtcReleaseScene(scene_); }
+    ~BuiltScene() override {
+        embreeApi().rtcReleaseScene(scene_);
+        for (const RTCScene prototype : prototypes_)
+            embreeApi().rtcReleaseScene(prototype);
+    }
     BuiltScene(const BuiltScene&) = delete;
     BuiltScene& operator=(const BuiltScene&) = delete;
 
@@ -106,15 +117,41 @@ class BuiltScene final : public EmbreeScene {
     }
 
   private:
-    RTCGeometry triangles() const {
+    static void configure(RTCScene scene, EmbreeMode mode, RTCBuildQuality build) {
+        const EmbreeApi& api = embreeApi();
+        api.rtcSetSceneFlags(scene, mode == EmbreeMode::Robust ? RTC_SCENE_FLAG_ROBUST
+                                                               : RTC_SCENE_FLAG_NONE);
+        api.rtcSetSceneBuildQuality(scene, build);
+    }
+
+    void attachPlacements(EmbreeMode mode, RTCBuildQuality build) {
+        const EmbreeApi& api = embreeApi();
+        for (const Prototype& p : arrays_->prototypes) {
+            const RTCScene prototype = prototypes_.emplace_back(api.rtcNewScene(device_->handle()));
+            configure(prototype, mode, build);
+            attach(prototype, triangles(p.firstTriangle, p.triangles), native::kTriangleGeometry,
+                   build);
+            api.rtcCommitScene(prototype);
+        }
+        for (const Placement& p : arrays_->placements) {
+            RTCGeometry g = api.rtcNewGeometry(device_->handle(), RTC_GEOMETRY_TYPE_INSTANCE);
+            api.rtcSetGeometryInstancedScene(g, prototypes_[p.prototype]);
+            api.rtcSetGeometryTransform(g, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, &p.toWorld[0].x);
+            api.rtcCommitGeometry(g);
+            api.rtcAttachGeometry(scene_, g);
+            api.rtcReleaseGeometry(g);
+        }
+    }
+
+    RTCGeometry triangles(uint32_t first, uint32_t count) const {
         const EmbreeApi& api = embreeApi();
         RTCGeometry g = api.rtcNewGeometry(device_->handle(), RTC_GEOMETRY_TYPE_TRIANGLE);
         api.rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                        arrays_->positions.data(), 0, sizeof(glm::vec3),
                                        arrays_->positions.size() - 1);
         api.rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                       arrays_->indices.data(), 0, 3 * sizeof(uint32_t),
-                                       arrays_->indices.size() / 3);
+                                       arrays_->indices.data(), first * 3 * sizeof(uint32_t),
+                                       3 * sizeof(uint32_t), count);
         return g;
     }
 
@@ -127,11 +164,12 @@ class BuiltScene final : public EmbreeScene {
         return g;
     }
 
-    void attach(RTCGeometry geometry, uint32_t number, RTCBuildQuality quality) {
+    static void attach(RTCScene scene, RTCGeometry geometry, uint32_t number,
+                       RTCBuildQuality quality) {
         const EmbreeApi& api = embreeApi();
         api.rtcSetGeometryBuildQuality(geometry, quality);
         api.rtcCommitGeometry(geometry);
-        api.rtcAttachGeometryByID(scene_, geometry, number);
+        api.rtcAttachGeometryByID(scene, geometry, number);
         api.rtcReleaseGeometry(geometry); // the scene keeps it
     }
 
@@ -157,6 +195,7 @@ class BuiltScene final : public EmbreeScene {
     std::shared_ptr<const Device> device_;
     std::shared_ptr<const Arrays> arrays_;
     RTCScene scene_;
+    std::vector<RTCScene> prototypes_;
 };
 
 class LoadedEmbree final : public Embree {

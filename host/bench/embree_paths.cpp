@@ -68,6 +68,7 @@ std::string embreePathsLack(const Scene& scene, const RenderSettings& settings) 
         return "direct light other than by lights";
     if (settings.estimator.filter != PixelFilter::Box) return "pixel filters";
     if (scene.environment) return "environments";
+    if (!scene.placements.empty()) return "instances";
     if (!scene.attributes.empty()) return "textures and colours of corners";
     const auto anyHas = [&](const auto& isSo) {
         const auto hasIt = [&](const auto& primitive) {

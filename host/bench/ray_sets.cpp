@@ -1,14 +1,18 @@
 #include "host/bench/ray_sets.hpp"
 
+#include "host/bvh/cpu_traversal.hpp"
 #include "host/kernel/work_order.hpp"
 #include "host/reference/camera_ray.hpp"
 #include "host/reference/sampling.hpp"
 #include "host/reference/world.hpp"
+#include "scene/model/placements.hpp"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -66,15 +70,24 @@ gpu::TracedRay bounceRay(const SurfacePoint& s, reference::RandomStream& random)
     return leave(s, direction, kInfinite);
 }
 
+/// Jittered.
+reference::Ray cameraRay(const Camera& camera, const RenderSettings& settings, uint32_t pixel,
+                         reference::RandomStream& random) {
+    const double x = pixel % settings.area.width + random.next();
+    const double y = pixel / settings.area.width + random.next();
+    return reference::cameraRay(camera, x / settings.area.width, y / settings.area.height);
+}
+
+gpu::TracedRay rounded(const reference::Ray& ray) {
+    return {glm::vec3(ray.origin), kInfinite, glm::vec3(ray.direction), 0};
+}
+
 PathStart startPath(const reference::World& world, const Camera& camera,
                     const RenderSettings& settings, uint32_t pixel, uint32_t sample) {
     reference::RandomStream random(pixel, sample, settings.estimator.seed);
-    const double x = pixel % settings.area.width + random.next();
-    const double y = pixel / settings.area.width + random.next();
-    const reference::Ray ray =
-        reference::cameraRay(camera, x / settings.area.width, y / settings.area.height);
+    const reference::Ray ray = cameraRay(camera, settings, pixel, random);
     PathStart start;
-    start.camera = {glm::vec3(ray.origin), kInfinite, glm::vec3(ray.direction), 0};
+    start.camera = rounded(ray);
     const reference::Hit hit = world.bvh.closest(ray, {});
     if (hit.primitive == reference::kNoPrimitive) return start;
     SurfacePoint surface = reference::surfaceAt(world.scene, ray, hit);
@@ -104,16 +117,13 @@ std::vector<PixelTarget> pixelsInOrder(const RenderSettings& settings) {
     return order;
 }
 
-} // namespace
-
-RaySets makeRaySets(const Scene& scene, const Camera& camera, const RenderSettings& settings,
-                    uint32_t perPixel) {
-    const reference::World world(scene, {});
+/// startOf: what becomes of the camera ray of a pixel's sample.
+RaySets collect(const RenderSettings& settings, uint32_t perPixel,
+                const std::function<PathStart(uint32_t pixel, uint32_t sample)>& startOf) {
     const std::vector<PixelTarget> order = pixelsInOrder(settings);
     std::vector<PathStart> starts(order.size() * perPixel);
     tbb::parallel_for(size_t(0), starts.size(), [&](size_t i) {
-        starts[i] = startPath(world, camera, settings, order[i % order.size()].pixel,
-                              uint32_t(i / order.size()));
+        starts[i] = startOf(order[i % order.size()].pixel, uint32_t(i / order.size()));
     });
     RaySets sets;
     for (const PathStart& start : starts) {
@@ -122,6 +132,54 @@ RaySets makeRaySets(const Scene& scene, const Camera& camera, const RenderSettin
         if (start.bounce) sets.bounce.rays.push_back(*start.bounce);
     }
     return sets;
+}
+
+/// A triangle that was hit, in the world.
+SurfacePoint flatSurface(const Scene& scene, const WideLayout& layout, const TraversalRay& ray,
+                         const TraversalHit& hit) {
+    const gpu::LeafRecord leaf = asLeaf(layout.records[hit.primitive / 2]);
+    std::array<glm::vec3, 3> corner = {leaf.p0, leaf.p1, leaf.p2};
+    if (hit.primitive % 2 == 1) corner = {leaf.p0, leaf.p2, leaf.p3};
+    if (hit.placement != gpu::NO_PLACEMENT) {
+        const uint32_t number =
+            asPlacement(layout.records[hit.placement]).placement & ~gpu::PLACEMENT_MIRRORS;
+        for (glm::vec3& c : corner)
+            c = placed(scene.placements[number], c);
+    }
+    const glm::dvec3 a(corner[0]), b(corner[1]), c(corner[2]);
+    SurfacePoint s{};
+    s.position = a + double(hit.b1) * (b - a) + double(hit.b2) * (c - a);
+    s.geometric = glm::normalize(glm::cross(b - a, c - a));
+    if (glm::dot(s.geometric, glm::dvec3(ray.direction)) > 0) s.geometric = -s.geometric;
+    s.shading = s.geometric;
+    return s;
+}
+
+} // namespace
+
+RaySets makeRaySets(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                    uint32_t perPixel) {
+    const reference::World world(scene, {});
+    return collect(settings, perPixel, [&](uint32_t pixel, uint32_t sample) {
+        return startPath(world, camera, settings, pixel, sample);
+    });
+}
+
+RaySets makePlacedRaySets(const Scene& scene, const WideLayout& layout, const Camera& camera,
+                          const RenderSettings& settings, uint32_t perPixel) {
+    return collect(settings, perPixel, [&](uint32_t pixel, uint32_t sample) {
+        reference::RandomStream random(pixel, sample, settings.estimator.seed);
+        PathStart start;
+        start.camera = rounded(cameraRay(camera, settings, pixel, random));
+        TraversalRay ray;
+        ray.origin = start.camera.origin, ray.direction = start.camera.direction;
+        const TraversalHit hit = closestHit(layout, ray);
+        if (!hit) return start;
+        const SurfacePoint surface = flatSurface(scene, layout, ray, hit);
+        start.shadow = bounceRay(surface, random);
+        start.bounce = bounceRay(surface, random);
+        return start;
+    });
 }
 
 } // namespace stromboli::bench

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/bvh/wide_layout.hpp"
 #include "host/render/settings.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/model/scene.hpp"
@@ -36,5 +37,10 @@ struct RaySets {
 /// arguments. perPixel: camera rays a pixel.
 RaySets makeRaySets(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                     uint32_t perPixel);
+
+/// The same of a scene with placements, of which the reference has no tree, by the tree of the
+/// device; bounces go by geometric normals, and shadow rays to anywhere in the sky.
+RaySets makePlacedRaySets(const Scene& scene, const WideLayout& layout, const Camera& camera,
+                          const RenderSettings& settings, uint32_t perPixel);
 
 } // namespace stromboli::bench

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace stromboli {
@@ -23,16 +24,13 @@ bool canHit(const TraversalRay& ray) {
 class Traversal {
   public:
     Traversal(const WideLayout& layout, const TraversalRay& ray)
-        : layout_(layout), ray_(ray), prepared_(ray.origin, ray.direction),
+        : layout_(layout), ray_(ray), prepared_(ray.origin, ray.direction), boxes_(prepared_),
           stack_(layout.stackSize - 1) {}
 
     TraversalHit run(bool stopAtFirst) {
         hit_.t = ray_.tMax;
-        // The root is slot 0 of a group that begins at record 0.
-        for (uint32_t group = 1u << prepared_.octant; group != 0;) {
-            group = step(group);
-            if (stopAtFirst && hit_) break;
-        }
+        stopAtFirst_ = stopAtFirst;
+        visitTree(0);
         if (!hit_) hit_.t = kInfiniteDistance;
         return hit_;
     }
@@ -40,10 +38,54 @@ class Traversal {
     const TraversalCounts& counts() const { return counts_; }
 
   private:
+    /// The root is slot 0 of a group that begins at its record.
+    void visitTree(uint32_t root) {
+        const uint32_t below = std::exchange(bottom_, waiting_);
+        for (uint32_t group = root << 8 | 1u << boxes_.octant; group != 0;) {
+            group = step(group);
+            if (stopAtFirst_ && hit_) break;
+        }
+        waiting_ = bottom_; // where it has stopped early
+        bottom_ = below;
+    }
+
+    /// With a ray in the prototype's space for boxes, as shaders/include/placements.glsl has it.
+    void visitPlacement(const gpu::PlacementRecord& p, uint32_t record) {
+        const auto transform =
+            std::bit_cast<gpu::TransformRecord>(layout_.records.at(p.transform));
+        const glm::vec4 rows[3] = {p.toPrototype0, p.toPrototype1, p.toPrototype2};
+        glm::vec3 origin, direction;
+        for (int i = 0; i < 3; ++i) {
+            origin[i] = rowTimes(rows[i], ray_.origin);
+            direction[i] = glm::dot(glm::vec3(rows[i]), ray_.direction);
+        }
+        const glm::vec3 size = glm::abs(ray_.origin);
+        boxes_ = PreparedRay(origin, direction);
+        boxes_.slack = transform.slackPerLength *
+                       (std::max(size.x, std::max(size.y, size.z)) + transform.largestCoordinate) *
+                       glm::abs(boxes_.reciprocal);
+        transform_ = &transform;
+        placement_ = record;
+        visitTree(p.root);
+        boxes_ = prepared_;
+        transform_ = nullptr;
+        placement_ = gpu::NO_PLACEMENT;
+    }
+
+    static float rowTimes(const glm::vec4& row, const glm::vec3& p) {
+        return ((row.x * p.x + row.y * p.y) + row.z * p.z) + row.w;
+    }
+
+    glm::vec3 inWorld(const glm::vec3& p) const {
+        if (!transform_) return p;
+        return {rowTimes(transform_->toWorld0, p), rowTimes(transform_->toWorld1, p),
+                rowTimes(transform_->toWorld2, p)};
+    }
+
     /// Visits the nearest child of the group; returns the group to go on with, 0 if none is left.
     uint32_t step(uint32_t group) {
         const uint32_t next = uint32_t(std::bit_width(group & 255u)) - 1;
-        const uint32_t record = (group >> 8) + (next ^ prepared_.octant);
+        const uint32_t record = (group >> 8) + (next ^ boxes_.octant);
         uint32_t rest = group ^ (1u << next);
         if ((rest & 255u) == 0) rest = 0;
 
@@ -51,10 +93,14 @@ class Traversal {
         if (isNode(r)) {
             ++counts_.nodes;
             const gpu::NodeRecord node = asNode(r);
-            if (const uint32_t entered = enterChildren(node, prepared_, hit_.t)) {
+            if (const uint32_t entered = enterChildren(node, boxes_, hit_.t)) {
                 if (rest != 0) push(rest);
                 return node.firstChild << 8 | entered; // the record's kind is shifted out
             }
+        } else if (isPlacement(r)) {
+            if (rest != 0) push(rest);
+            visitPlacement(asPlacement(r), record);
+            return pop();
         } else {
             ++counts_.leaves;
             visitLeaf(asLeaf(r), record);
@@ -65,32 +111,38 @@ class Traversal {
     void visitLeaf(const gpu::LeafRecord& r, uint32_t record) {
         if (r.primitive & gpu::RECORD_IS_SPHERE) {
             const auto hit = hitSphere(r.p0, r.radius, prepared_, ray_.tMin, hit_.t);
-            if (hit) hit_ = {2 * record, hit->t, 0, 0};
+            if (hit) hit_ = {2 * record, hit->t, 0, 0, gpu::NO_PLACEMENT};
             return;
         }
-        visitTriangle(r.p0, r.p1, r.p2, 2 * record);
-        visitTriangle(r.p0, r.p2, r.p3, 2 * record + 1);
+        const glm::vec3 p0 = inWorld(r.p0), p2 = inWorld(r.p2);
+        visitTriangle(p0, inWorld(r.p1), p2, 2 * record);
+        visitTriangle(p0, p2, inWorld(r.p3), 2 * record + 1);
     }
 
     void visitTriangle(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2,
                        uint32_t place) {
         if (place == ray_.skipPrimitive) return;
         const auto hit = hitTriangle(v0, v1, v2, prepared_);
-        if (hit && hit->t > ray_.tMin && hit->t < hit_.t) hit_ = {place, hit->t, hit->b1, hit->b2};
+        if (hit && hit->t > ray_.tMin && hit->t < hit_.t)
+            hit_ = {place, hit->t, hit->b1, hit->b2, placement_};
     }
 
     void push(uint32_t group) {
         stack_.at(waiting_++) = group;
         counts_.mostWaiting = std::max(counts_.mostWaiting, waiting_);
     }
-    uint32_t pop() { return waiting_ == 0 ? 0 : stack_[--waiting_]; }
+    uint32_t pop() { return waiting_ == bottom_ ? 0 : stack_[--waiting_]; }
 
     const WideLayout& layout_;
     const TraversalRay& ray_;
     PreparedRay prepared_;
+    PreparedRay boxes_; ///< the same in the space of the tree that is visited
+    const gpu::TransformRecord* transform_ = nullptr; ///< from there; null: it is the world
+    uint32_t placement_ = gpu::NO_PLACEMENT;
+    bool stopAtFirst_ = false;
     TraversalHit hit_;            ///< t: the end of the interval still of interest
     std::vector<uint32_t> stack_; ///< as large as the kernel's; exceeding it throws
-    uint32_t waiting_ = 0;
+    uint32_t waiting_ = 0, bottom_ = 0; ///< entries; those below `bottom_` are the world's
     TraversalCounts counts_;
 };
 

@@ -73,8 +73,8 @@ uint32_t enterChildren(const gpu::NodeRecord& node, const PreparedRay& ray, floa
             const bool ascending = (ray.octant >> i & 1u) != 0;
             const float nearPlane = float(byteOf(ascending ? axes[i].low : axes[i].high, slot));
             const float farPlane = float(byteOf(ascending ? axes[i].high : axes[i].low, slot));
-            const float near = nearPlane * scale + base;
-            const float far = farPlane * scale + base;
+            const float near = nearPlane * scale + (base - ray.slack[i]);
+            const float far = farPlane * scale + (base + ray.slack[i]);
             enter = std::max(enter, std::bit_cast<int32_t>(near));
             last = std::min(last, std::bit_cast<int32_t>(far));
         }

@@ -24,6 +24,7 @@ struct PreparedRay {
     uint32_t octant;      ///< bit k: the direction is not negative on axis k (boxes)
     int axis;             ///< largest component of the direction (triangles)
     glm::vec3 shear;      ///< maps the permuted direction to the z axis (triangles)
+    glm::vec3 slack{0.0f}; ///< by how much planes of boxes move, in distance along the ray
 };
 
 /// Which children of a node the ray enters within [0, tMax]: bit (slot ^ octant) for each, so that

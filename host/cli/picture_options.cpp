@@ -78,7 +78,8 @@ void declareScene(DeclaredCommand& c) {
               "bundled scene by its name "
               "(cornell_boxes, island, "
               "...); or generate:cornell_mesh:N for a scene of N triangles made in memory, "
-              "generate:lamps:N for one lit by N triangles",
+              "generate:lamps:N for one lit by N triangles, generate:forest:N for N trees that "
+              "are instances",
               c.options.scene)
         .required()
         .proposes(Proposed::Scenes);

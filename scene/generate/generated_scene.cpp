@@ -4,6 +4,7 @@
 #include "host/core/number_text.hpp"
 #include "scene/generate/cornell_mesh.hpp"
 #include "scene/generate/emitters_room.hpp"
+#include "scene/generate/forest.hpp"
 
 #include <fmt/format.h>
 
@@ -16,6 +17,7 @@ namespace {
 // Fewer triangles make no knot; more leave no room in 32-bit numbers of corners.
 constexpr uint32_t kLeastTriangles = 1000, kMostTriangles = 100'000'000;
 constexpr uint32_t kLeastEmitters = 8, kMostEmitters = 8'000'000;
+constexpr uint32_t kMostTrees = 10'000'000;
 
 /// The tube's triangles keep the shape they have in the library's file: ten times as many steps
 /// along it as around it.
@@ -41,14 +43,17 @@ Scene generatedScene(std::string_view name) {
         return emittersRoom(emitters, source);
     const uint32_t points = numberAfter(kPointsRoom, name);
     if (points > 0 && points <= kMostEmitters) return pointsRoom(points, source);
+    const uint32_t trees = numberAfter(kForest, name);
+    if (trees > 0 && trees <= kMostTrees) return forest(trees, source);
     const uint32_t triangles = numberAfter(kCornellMesh, name);
     if (triangles < kLeastTriangles || triangles > kMostTriangles)
         throw SceneError(fmt::format("{}: no such scene; expected {}{}N with N from {} to {}, or "
                                      "{}{}N with N from {} to {}, a multiple of 8, or {}{}N with N "
-                                     "from 1 to {}",
+                                     "from 1 to {}, or {}{}N with N from 1 to {}",
                                      source, kGeneratePrefix, kCornellMesh, kLeastTriangles,
                                      kMostTriangles, kGeneratePrefix, kEmittersRoom, kLeastEmitters,
-                                     kMostEmitters, kGeneratePrefix, kPointsRoom, kMostEmitters));
+                                     kMostEmitters, kGeneratePrefix, kPointsRoom, kMostEmitters,
+                                     kGeneratePrefix, kForest, kMostTrees));
     return cornellMeshScene(cornellMeshOf(triangles), source);
 }
 

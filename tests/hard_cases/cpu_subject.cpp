@@ -2,15 +2,13 @@
 
 #include "host/bvh/cpu_traversal.hpp"
 #include "host/reference/reference_backend.hpp"
-#include "scene/model/placements.hpp"
 
 namespace stromboli::test {
 namespace {
 
 class CpuTracer final : public stress::RayTracer {
   public:
-    /// The traversal for tests knows no placements: it has copies.
-    explicit CpuTracer(const Scene& scene) : layout_(buildWideBvh(expandPlacements(scene).scene)) {}
+    explicit CpuTracer(const Scene& scene) : layout_(buildWideBvh(scene)) {}
 
     uint64_t countHits(std::span<const stress::Ray> rays, bool any) override {
         uint64_t hits = 0;
