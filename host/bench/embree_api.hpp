@@ -16,8 +16,8 @@ struct EmbreeApi {
                 apply(rtcCommitScene) apply(rtcNewGeometry) apply(rtcReleaseGeometry)              \
                     apply(rtcSetGeometryBuildQuality) apply(rtcSetSharedGeometryBuffer)            \
                         apply(rtcCommitGeometry) apply(rtcAttachGeometryByID) apply(rtcIntersect1) \
-                            apply(rtcOccluded1) apply(rtcSetGeometryInstancedScene)           \
-                            apply(rtcSetGeometryTransform) apply(rtcAttachGeometry)
+                            apply(rtcOccluded1) apply(rtcSetGeometryInstancedScene)                \
+                                apply(rtcSetGeometryTransform) apply(rtcAttachGeometry)
 #define STROMBOLI_EMBREE_POINTER(name) decltype(&::name) name = nullptr;
     STROMBOLI_EMBREE_FUNCTIONS(STROMBOLI_EMBREE_POINTER)
 #undef STROMBOLI_EMBREE_POINTER

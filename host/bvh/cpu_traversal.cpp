@@ -51,8 +51,7 @@ class Traversal {
 
     /// With a ray in the prototype's space for boxes, as shaders/include/placements.glsl has it.
     void visitPlacement(const gpu::PlacementRecord& p, uint32_t record) {
-        const auto transform =
-            std::bit_cast<gpu::TransformRecord>(layout_.records.at(p.transform));
+        const auto transform = std::bit_cast<gpu::TransformRecord>(layout_.records.at(p.transform));
         const glm::vec4 rows[3] = {p.toPrototype0, p.toPrototype1, p.toPrototype2};
         glm::vec3 origin, direction;
         for (int i = 0; i < 3; ++i) {
@@ -140,8 +139,8 @@ class Traversal {
     const gpu::TransformRecord* transform_ = nullptr; ///< from there; null: it is the world
     uint32_t placement_ = gpu::NO_PLACEMENT;
     bool stopAtFirst_ = false;
-    TraversalHit hit_;            ///< t: the end of the interval still of interest
-    std::vector<uint32_t> stack_; ///< as large as the kernel's; exceeding it throws
+    TraversalHit hit_;                  ///< t: the end of the interval still of interest
+    std::vector<uint32_t> stack_;       ///< as large as the kernel's; exceeding it throws
     uint32_t waiting_ = 0, bottom_ = 0; ///< entries; those below `bottom_` are the world's
     TraversalCounts counts_;
 };

@@ -22,7 +22,7 @@ struct TraversalRay {
 struct TraversalHit {
     uint32_t primitive = gpu::NO_PRIMITIVE; ///< 2 * record + slot; NO_PRIMITIVE: nothing hit
     float t = kInfiniteDistance;
-    float b1 = 0, b2 = 0; ///< triangles: barycentric weights of v1 and v2
+    float b1 = 0, b2 = 0;                   ///< triangles: barycentric weights of v1 and v2
     uint32_t placement = gpu::NO_PLACEMENT; ///< record of the placement that the triangle is in
 
     explicit operator bool() const { return primitive != gpu::NO_PRIMITIVE; }
@@ -34,10 +34,10 @@ struct TraversalCounts {
     uint32_t mostWaiting = 0;       ///< stack entries in use at once
 };
 
-/// The hit with the least t, in prototypes too; which one, where several primitives are hit at the same t, depends
-/// on the tree. A ray whose origin, direction or interval has a part that is NaN, a direction of
-/// 0 or infinite parts hits nothing. Scalar float: a double of the kernel for tests and tools
-/// (shaders/include/traverse.glsl).
+/// The hit with the least t, in prototypes too; which one, where several primitives are hit at the
+/// same t, depends on the tree. A ray whose origin, direction or interval has a part that is NaN, a
+/// direction of 0 or infinite parts hits nothing. Scalar float: a double of the kernel for tests
+/// and tools (shaders/include/traverse.glsl).
 TraversalHit closestHit(const WideLayout& layout, const TraversalRay& ray,
                         TraversalCounts* counts = nullptr);
 

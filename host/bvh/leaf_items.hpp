@@ -22,9 +22,7 @@ struct LeafItem {
     static constexpr uint32_t kNoPlacement = 0xFFFFFFFFu;
     bool isPlacement() const { return placement != kNoPlacement; }
     /// Of primitives.
-    uint32_t count() const {
-        return isPlacement() ? 0 : primitive[1] == gpu::NO_PRIMITIVE ? 1 : 2;
-    }
+    uint32_t count() const { return isPlacement() ? 0 : primitive[1] == gpu::NO_PRIMITIVE ? 1 : 2; }
 };
 
 /// All primitives of the scene, each in one item: first the items with triangles, then the spheres.

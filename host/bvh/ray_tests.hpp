@@ -20,10 +20,10 @@ struct PreparedRay {
     PreparedRay(const glm::vec3& origin, const glm::vec3& direction);
 
     glm::vec3 origin, direction;
-    glm::vec3 reciprocal; ///< of the direction; finite (boxes)
-    uint32_t octant;      ///< bit k: the direction is not negative on axis k (boxes)
-    int axis;             ///< largest component of the direction (triangles)
-    glm::vec3 shear;      ///< maps the permuted direction to the z axis (triangles)
+    glm::vec3 reciprocal;  ///< of the direction; finite (boxes)
+    uint32_t octant;       ///< bit k: the direction is not negative on axis k (boxes)
+    int axis;              ///< largest component of the direction (triangles)
+    glm::vec3 shear;       ///< maps the permuted direction to the z axis (triangles)
     glm::vec3 slack{0.0f}; ///< by how much planes of boxes move, in distance along the ray
 };
 

@@ -34,9 +34,12 @@ class Measuring {
             s_.depth = std::max(s_.depth, next.depth);
             area_ += next.area;
             const Record& r = layout_.records.at(next.record);
-            if (isNode(r)) visitNode(asNode(r), next);
-            else if (isPlacement(r)) ++s_.placements;
-            else visitLeaf(asLeaf(r));
+            if (isNode(r))
+                visitNode(asNode(r), next);
+            else if (isPlacement(r))
+                ++s_.placements;
+            else
+                visitLeaf(asLeaf(r));
         }
         s_.expectedVisits = 1 + (rootArea_ > 0 ? area_ / rootArea_ : 0);
         return s_;

@@ -50,8 +50,8 @@ void collectBoxes(const BinaryTree& tree, uint32_t node, uint32_t levels,
 
 BuiltPrototype buildPrototype(const Scene& scene, const Prototype& prototype,
                               const BuildOptions& options) {
-    const Scene part = partOf(scene, prototype.firstTriangle,
-                              prototype.firstTriangle + prototype.triangles);
+    const Scene part =
+        partOf(scene, prototype.firstTriangle, prototype.firstTriangle + prototype.triangles);
     const std::vector<LeafItem> items = makeLeafItems(part);
     const BinaryTree tree = buildBinaryTree(itemBounds(part, items), options);
     BuiltPrototype built{writeLayout(part, items, tree), {}};
@@ -122,14 +122,18 @@ class Assembly {
         const Placement& placement = scene_.placements[number];
         const PlacementMatrices m = matricesOf(placement);
         const auto record = uint32_t(layout_.records.size());
-        layout_.records.push_back(
-            std::bit_cast<Record>(transformRecord(placement, m, box)));
-        gpu::PlacementRecord p{root, record, number | (m.mirrors ? gpu::PLACEMENT_MIRRORS : 0u),
-                               gpu::RECORD_IS_PLACEMENT, {}, {}, {}};
+        layout_.records.push_back(std::bit_cast<Record>(transformRecord(placement, m, box)));
+        gpu::PlacementRecord p{root,
+                               record,
+                               number | (m.mirrors ? gpu::PLACEMENT_MIRRORS : 0u),
+                               gpu::RECORD_IS_PLACEMENT,
+                               {},
+                               {},
+                               {}};
         glm::vec4* rows[3] = {&p.toPrototype0, &p.toPrototype1, &p.toPrototype2};
         for (int row = 0; row < 3; ++row)
-            *rows[row] = {m.inverseLinear[0][row], m.inverseLinear[1][row],
-                          m.inverseLinear[2][row], m.inverseOffset[row]};
+            *rows[row] = {m.inverseLinear[0][row], m.inverseLinear[1][row], m.inverseLinear[2][row],
+                          m.inverseOffset[row]};
         layout_.records[layout_.recordOfPlacement[number]] = std::bit_cast<Record>(p);
     }
 
@@ -152,8 +156,8 @@ class Assembly {
 
     static void checkSize(size_t records) {
         if (records > gpu::MAX_RECORDS)
-            throw SceneError(fmt::format("BVH: {} records, expected at most {}", records,
-                                         gpu::MAX_RECORDS));
+            throw SceneError(
+                fmt::format("BVH: {} records, expected at most {}", records, gpu::MAX_RECORDS));
     }
 
     const Scene& scene_;
@@ -196,7 +200,8 @@ WideLayout buildTwoLevels(const Scene& scene, const BuildOptions& options) {
     const std::vector<Bounds> boxes = prototypeBounds(scene);
     for (uint32_t i = 0; i < scene.placements.size(); ++i) {
         const uint32_t prototype = scene.placements[i].prototype;
-        if (!prototypes[prototype].boxes.empty()) assembly.place(i, roots[prototype], boxes[prototype]);
+        if (!prototypes[prototype].boxes.empty())
+            assembly.place(i, roots[prototype], boxes[prototype]);
     }
     return assembly.finish();
 }

@@ -48,8 +48,8 @@ struct WideLayout {
     std::vector<uint32_t> recordOfPlacement; ///< by placement
 };
 
-/// The tree over all primitives and placements of the scene (triangles first, then spheres). Throws SceneError
-/// where it has more records than gpu::MAX_RECORDS, and what buildBinaryTree throws.
+/// The tree over all primitives and placements of the scene (triangles first, then spheres). Throws
+/// SceneError where it has more records than gpu::MAX_RECORDS, and what buildBinaryTree throws.
 WideLayout buildWideBvh(const Scene& scene, const BuildOptions& options = {});
 
 } // namespace stromboli

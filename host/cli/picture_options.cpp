@@ -149,10 +149,11 @@ void declareScene(DeclaredCommand& c) {
     c.list.number("--max-texture", "N",
                   "halves pictures on surfaces until no side has more pixels; 0: never",
                   selection.largestTexture, kTextureSides);
-    c.list.choice("--instances", "HOW",
-                 "what meshes that a file shows several times do with their triangles; sharing takes "
-                 "less memory, copies are faster",
-                 reading.instances);
+    c.list.choice(
+        "--instances", "HOW",
+        "what meshes that a file shows several times do with their triangles; sharing takes "
+        "less memory, copies are faster",
+        reading.instances);
     c.list.flag("--strict",
                 "what breaks the rules of the scene's format is an error, also where it is clear "
                 "what is meant",

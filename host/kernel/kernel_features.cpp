@@ -185,8 +185,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_STACK_IN_REGISTERS] = f[SPEC_STACK_SIZE] <= tuning.registerStack;
     f[SPEC_HAS_PLACEMENTS] = scene.hasPlacements;
     // Groups of two words have the bit that tells the world from prototypes (traverse.glsl).
-    f[SPEC_LARGE_TREE] =
-        scene.hasPlacements || scene.bvh.records.size() > gpu::SMALL_TREE_RECORDS;
+    f[SPEC_LARGE_TREE] = scene.hasPlacements || scene.bvh.records.size() > gpu::SMALL_TREE_RECORDS;
     f[SPEC_HAS_TRIANGLES] = scene.hasTriangles;
     f[SPEC_HAS_SPHERES] = scene.hasSpheres;
     f[SPEC_HAS_NORMALS] = scene.hasNormals;
@@ -247,8 +246,8 @@ std::vector<std::string> describe(const KernelFeatures& f) {
         list(f[SPEC_HAS_TRIANGLES] | (f[SPEC_HAS_SPHERES] << 1), {"triangles", "spheres"});
     return {
         fmt::format("primitives: {}", primitives),
-        fmt::format("instances: {}", f[SPEC_HAS_PLACEMENTS] ? "meshes that share their triangles"
-                                                            : "none"),
+        fmt::format("instances: {}",
+                    f[SPEC_HAS_PLACEMENTS] ? "meshes that share their triangles" : "none"),
         fmt::format("shading normals: {}", f[SPEC_HAS_NORMALS] ? "interpolated" : "none"),
         fmt::format("materials: {}{}",
                     list(f[SPEC_BSDF_KINDS], {"diffuse", "mirror", "refraction", "glass",

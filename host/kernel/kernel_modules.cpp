@@ -20,7 +20,8 @@ using Code = std::span<const uint32_t>;
 
 /// What USUAL_MODES fixes in shaders/include/specialisation.glsl. Those modules lack PLACEMENTS.
 bool hasUsualModes(const KernelFeatures& f) {
-    return f[SPEC_LARGE_TREE] == 0 && f[SPEC_HAS_PLACEMENTS] == 0 && f[SPEC_INTEGRATOR] == gpu::INTEGRATOR_PATH &&
+    return f[SPEC_LARGE_TREE] == 0 && f[SPEC_HAS_PLACEMENTS] == 0 &&
+           f[SPEC_INTEGRATOR] == gpu::INTEGRATOR_PATH &&
            f[SPEC_DIRECT_LIGHT] == gpu::DIRECT_LIGHTS && f[SPEC_CS184] == 0 &&
            f[SPEC_COUNT_STEPS] == 0;
 }

@@ -36,7 +36,7 @@ struct DeviceTuning {
     /// Where prototypes are placed, a ray is prepared anew for each leg between two service passes,
     /// and lanes that come to a placement or leave one wait for that.
     uint32_t placedTraversalSteps = 4, traversalLegs = 4;
-    uint32_t registerStack = 0;      ///< entries
+    uint32_t registerStack = 0; ///< entries
     uint32_t lanes = 1u << 20;
     uint32_t driverThreads = 0; ///< that run workgroups one after the other; 0: unknown, a GPU
     uint32_t itemsPerDispatch = 1u << 20;

@@ -69,8 +69,8 @@ struct ReferenceBackend::Implementation {
     Implementation(const Scene& scene, const Camera& c, const RenderSettings& s, unsigned threads)
         : expanded(scene.placements.empty() ? std::nullopt
                                             : std::optional(expandPlacements(scene))),
-          world(expanded ? expanded->scene : scene, s.estimator.conventions), camera(c), settings(s),
-          original(scene),
+          world(expanded ? expanded->scene : scene, s.estimator.conventions), camera(c),
+          settings(s), original(scene),
           arena(std::min(threads == 0 ? INT_MAX : int(threads), tbb::info::default_concurrency())) {
     }
 

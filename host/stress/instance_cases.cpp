@@ -38,8 +38,7 @@ Scene placedMany(Scene mesh, uint32_t count, float size, const glm::vec3& middle
                  Random& random) {
     mesh.prototypes.push_back({0, uint32_t(mesh.triangles.size())});
     for (uint32_t i = 0; i < count; ++i)
-        mesh.placements.push_back(
-            randomPlacement(middle + random.inCube(half), size, random));
+        mesh.placements.push_back(randomPlacement(middle + random.inCube(half), size, random));
     return mesh;
 }
 
@@ -95,14 +94,13 @@ Finding edges(Run& run) {
         run.amount<uint64_t>(400'000, 100'000'000) / (levels.size() * std::size(kWorlds));
     for (const World& world : kWorlds)
         for (const uint32_t level : levels) {
-            const Scene scene =
-                placedMany(starMesh(level, random), 16, world.size, world.middle, world.half, random);
+            const Scene scene = placedMany(starMesh(level, random), 16, world.size, world.middle,
+                                           world.half, random);
             const auto tracer = run.subject().tracer(scene);
             for (uint64_t done = 0; done < each; done += kBatch) {
                 const uint64_t count = std::min(kBatch, each - done);
                 const auto batch = raysFromWithin(scene, count, random.word());
-                const uint64_t missed =
-                    count - tracer->countHits(batch, done / kBatch % 2 == 0);
+                const uint64_t missed = count - tracer->countHits(batch, done / kBatch % 2 == 0);
                 if (missed > 0)
                     f.where = fmt::format("{} triangles of size {:g}", scene.triangles.size(),
                                           world.size);

@@ -43,12 +43,12 @@ enum class InstanceSharing {
     Off,       ///< never: all have copies
 };
 template <>
-inline constexpr auto kNamedValues<InstanceSharing> =
-    std::to_array<NamedValue<InstanceSharing>>({
-        {InstanceSharing::Automatic, "auto", "share where copies would be more than a million triangles"},
-        {InstanceSharing::On, "on", "share"},
-        {InstanceSharing::Off, "off", "copy"},
-    });
+inline constexpr auto kNamedValues<InstanceSharing> = std::to_array<NamedValue<InstanceSharing>>({
+    {InstanceSharing::Automatic, "auto",
+     "share where copies would be more than a million triangles"},
+    {InstanceSharing::On, "on", "share"},
+    {InstanceSharing::Off, "off", "copy"},
+});
 
 /// How a node's matrix aims a directional light.
 enum class DirectionalAim {

@@ -32,7 +32,8 @@ void SceneBuilder::place(const FilePlace& where, ShapeId id, const glm::dmat4& t
     const Mesh& mesh = std::get<Mesh>(shape.form);
     copiedTriangles_ += triangleCount(mesh);
     if (copiedTriangles_ > kMostTriangles && !tooLargeAt_) tooLargeAt_ = where;
-    meshes_.push_back({size_t(id), toWorld,
+    meshes_.push_back({size_t(id),
+                       toWorld,
                        {materials.begin(), materials.begin() + std::ptrdiff_t(mesh.parts.size())},
                        startInstance(instanceName)});
 }
@@ -43,9 +44,8 @@ uint32_t SceneBuilder::startInstance(const std::string& name) {
 }
 
 void SceneBuilder::placeMeshes() {
-    MeshUses uses(meshes_, [&](size_t shape) -> const Mesh& {
-        return std::get<Mesh>(shapes_[shape].form);
-    });
+    MeshUses uses(meshes_,
+                  [&](size_t shape) -> const Mesh& { return std::get<Mesh>(shapes_[shape].form); });
     const auto place = [&](const MeshUse& use, const glm::dmat4& toWorld) {
         const Mesh& mesh = std::get<Mesh>(shapes_[use.shape].form);
         MeshPlacer placer(scene_, conventions_, mesh, toWorld, shapes_[use.shape].drops);
@@ -67,9 +67,10 @@ void SceneBuilder::placeMeshes() {
         }
     }
     if (tooLargeAt_ && uses.copiedTriangles() > kMostTriangles)
-        tooLargeAt_->fail(fmt::format("brings the scene to more than the {} triangles there is room "
-                                      "for",
-                                      kMostTriangles));
+        tooLargeAt_->fail(
+            fmt::format("brings the scene to more than the {} triangles there is room "
+                        "for",
+                        kMostTriangles));
     for (const size_t copied : uses.copied())
         place(meshes_[copied], meshes_[copied].toWorld);
     meshes_.clear();

@@ -40,9 +40,8 @@ class Expansion {
             Triangle copy = scene_.triangles[t];
             copy.instance = placement.instance;
             for (uint32_t& corner : copy.corner)
-                corner = copied(newPosition_, corner, out_.scene.positions, [&] {
-                    return placed(placement, scene_.positions[corner]);
-                });
+                corner = copied(newPosition_, corner, out_.scene.positions,
+                                [&] { return placed(placement, scene_.positions[corner]); });
             for (uint32_t& normal : copy.normals)
                 if (normal != kNoNormals)
                     normal = copied(newNormal_, normal, out_.scene.normals, [&] {

@@ -86,8 +86,8 @@ Bounds boundsInWorld(const Placement& placement, const Bounds& box) {
         const glm::dvec3 size = glm::abs(glm::dvec3(m));
         const double at = glm::dot(glm::dvec3(m), middle) + m.w;
         // Corners are rounded four times at most; 2^-21 is 8 such roundings.
-        const double reach = glm::dot(size, half) +
-                             0x1p-21 * (glm::dot(size, largest) + std::abs(m.w));
+        const double reach =
+            glm::dot(size, half) + 0x1p-21 * (glm::dot(size, largest) + std::abs(m.w));
         const auto axis = glm::length_t(row);
         world.lo[axis] = std::nextafter(float(at - reach), -HUGE_VALF);
         world.hi[axis] = std::nextafter(float(at + reach), HUGE_VALF);

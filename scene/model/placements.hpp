@@ -9,8 +9,8 @@ namespace stromboli {
 
 // Prototypes in the world: what their placements make of points, normals and boxes.
 
-/// Where a point of the prototype is in the world: rounded in the same way wherever it is asked for,
-/// in the kernel too (shaders/include/placements.glsl), so that all see the same corners.
+/// Where a point of the prototype is in the world: rounded in the same way wherever it is asked
+/// for, in the kernel too (shaders/include/placements.glsl), so that all see the same corners.
 glm::vec3 placed(const Placement& placement, const glm::vec3& point);
 
 /// The matrix from the prototype to the world, and its inverse. In double: exact, and as good as

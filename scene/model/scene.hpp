@@ -107,8 +107,8 @@ struct LoadReport {
 struct Scene {
     std::string file;
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals; ///< unit length
-    std::vector<Triangle> triangles; ///< those of prototypes come first
+    std::vector<glm::vec3> normals;    ///< unit length
+    std::vector<Triangle> triangles;   ///< those of prototypes come first
     std::vector<Prototype> prototypes; ///< one after the other, from the first triangle on
     std::vector<Placement> placements;
     std::vector<Sphere> spheres;

@@ -1,9 +1,9 @@
 // The layout of scenes with placements: what leads where, and that all triangles are found.
 
-#include "host/bvh/wide_layout.hpp"
-#include "host/core/random.hpp"
 #include "host/bvh/node_record.hpp"
 #include "host/bvh/statistics.hpp"
+#include "host/bvh/wide_layout.hpp"
+#include "host/core/random.hpp"
 #include "scene/generate/hard_meshes.hpp"
 #include "scene/model/placements.hpp"
 
@@ -36,8 +36,7 @@ Scene someScene(uint32_t placements) {
     scene.triangles.push_back(scene.triangles[0]); // in the world
     scene.spheres.push_back({{5, 5, 5}, 1, 0, 0});
     for (uint32_t i = 0; i < placements; ++i) {
-        Placement p = *placementOf(
-            glm::translate(glm::dmat4(1), glm::dvec3(random.inCube(20.0f))));
+        Placement p = *placementOf(glm::translate(glm::dmat4(1), glm::dvec3(random.inCube(20.0f))));
         p.prototype = i % 2;
         scene.placements.push_back(p);
     }
@@ -89,8 +88,7 @@ TEST(TwoLevels, EachPlacementLeadsToItsPrototype) {
         ASSERT_EQ(numbers.size(), prototype.triangles);
         EXPECT_EQ(numbers.front(), prototype.firstTriangle);
         EXPECT_EQ(numbers.back(), prototype.firstTriangle + prototype.triangles - 1);
-        const auto transform =
-            std::bit_cast<gpu::TransformRecord>(layout.records.at(p.transform));
+        const auto transform = std::bit_cast<gpu::TransformRecord>(layout.records.at(p.transform));
         EXPECT_EQ(transform.toWorld0, scene.placements[i].toWorld[0]);
         EXPECT_EQ(p.toPrototype0.w, -scene.placements[i].toWorld[0].w);
         // 64 u of a coordinate of up to 20 and 1.4.
@@ -113,7 +111,8 @@ TEST(TwoLevels, TheWorldHasTheRest) {
     EXPECT_EQ(numbersUnder(layout, 0), (std::vector<uint32_t>{triangles - 1, triangles}));
     EXPECT_EQ(layout.placeOf.size(), triangles + 1u);
     const Record& leaf = layout.records.at(layout.placeOf[triangles - 1] / 2);
-    EXPECT_EQ(asLeaf(leaf).p0, scene.positions[scene.triangles.back().corner[layout.firstCorner[triangles - 1]]]);
+    EXPECT_EQ(asLeaf(leaf).p0,
+              scene.positions[scene.triangles.back().corner[layout.firstCorner[triangles - 1]]]);
 }
 
 TEST(TwoLevels, StacksHoldBothTrees) {
@@ -123,7 +122,8 @@ TEST(TwoLevels, StacksHoldBothTrees) {
     uint32_t world = 0, prototype = 0;
     collect(layout, 0, entries, placements, 0, world);
     for (const uint32_t record : layout.recordOfPlacement)
-        collect(layout, asPlacement(layout.records[record]).root, entries, placements, 0, prototype);
+        collect(layout, asPlacement(layout.records[record]).root, entries, placements, 0,
+                prototype);
     // A group waits at each level above a leaf, and one entry is written beyond them.
     EXPECT_GE(layout.stackSize, world + prototype);
 }

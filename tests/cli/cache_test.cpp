@@ -85,8 +85,9 @@ TEST(GeneratedScenes, WrongNameIsOneErrorLine) {
     EXPECT_EQ(run.exitCode, 2);
     EXPECT_EQ(run.err, "error: generate:cornell_mesh:many: no such scene; expected "
                        "generate:cornell_mesh:N with N from 1000 to 100000000, or "
-                       "generate:lamps:N with N from 8 to 8000000, a multiple of 8, "
-                       "or generate:points:N with N from 1 to 8000000\n");
+                       "generate:lamps:N with N from 8 to 8000000, a multiple of 8, or "
+                       "generate:points:N with N from 1 to 8000000, or generate:forest:N "
+                       "with N from 1 to 10000000\n");
     EXPECT_EQ(folder.entries().size(), 0u);
 }
 

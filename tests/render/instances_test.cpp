@@ -155,8 +155,8 @@ INSTANTIATE_TEST_SUITE_P(Modes, InstanceModes, testing::ValuesIn(kModes),
 
 class Instances : public DeviceTest {};
 
-/// Random numbers are those of pixel and sample: but for rounding, and for choices of opacity, which
-/// depend on what is hit, the samples are the same.
+/// Random numbers are those of pixel and sample: but for rounding, and for choices of opacity,
+/// which depend on what is hit, the samples are the same.
 TEST_F(Instances, AreAsCopies) {
     Scene scene = placedRoom();
     for (Material& m : scene.materials)
@@ -185,12 +185,13 @@ TEST_F(Instances, HaveTheSameBytesHoweverWorkIsCut) {
     s.estimator.branches = 2;
     s.estimator.lightSamples = 2;
     const Film whole = renderOnDevice(testDevice(), scene, camera(), s);
-    for (const KernelTuning& tuning : {KernelTuning{.fixedIterations = 1},
-                                       {.lanes = 100, .fixedIterations = 50},
-                                       {.workgroupSize = 24, .traversalSteps = 7, .traversalLegs = 2},
-                                       {.traversalSteps = 3, .traversalLegs = 1},
-                                       {.texelFetch = false},
-                                       {.registerStack = 0}}) {
+    for (const KernelTuning& tuning :
+         {KernelTuning{.fixedIterations = 1},
+          {.lanes = 100, .fixedIterations = 50},
+          {.workgroupSize = 24, .traversalSteps = 7, .traversalLegs = 2},
+          {.traversalSteps = 3, .traversalLegs = 1},
+          {.texelFetch = false},
+          {.registerStack = 0}}) {
         const Film cut = renderOnDevice(testDevice(), scene, camera(), s, tuning);
         size_t different = 0;
         for (size_t i = 0; i < whole.pixels.size(); ++i)
@@ -236,7 +237,8 @@ TEST_F(Instances, AreSeenAsCopiesAre) {
     for (const auto& [name, values] : seen.channels) {
         // Some pixels show an edge, where rounding decides.
         EXPECT_LT(differences(values, seenCopies.channels.at(name)), values.size() / 50) << name;
-        EXPECT_EQ(differences(onHost.channels.at(name), onHostCopies.channels.at(name)), 0u) << name;
+        EXPECT_EQ(differences(onHost.channels.at(name), onHostCopies.channels.at(name)), 0u)
+            << name;
     }
     // Six placements, the walls, the emitter and the mirror have names from the 1st on.
     const std::vector<float>& objects = seen.channels.at("object.X");

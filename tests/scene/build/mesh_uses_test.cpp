@@ -116,11 +116,10 @@ TEST(MeshUses, SharedIsWhereCopiesAre) {
                 // Mirrored triangles may begin at another corner.
                 float nearest = 1e30f;
                 for (int j = 0; j < 3; ++j)
-                    nearest = std::min(nearest,
-                                       glm::distance(copied.positions[c.corner[i]],
-                                                     expanded.positions[e.corner[j]]) +
-                                           glm::distance(copied.normals[c.normals[i]],
-                                                         expanded.normals[e.normals[j]]));
+                    nearest = std::min(nearest, glm::distance(copied.positions[c.corner[i]],
+                                                              expanded.positions[e.corner[j]]) +
+                                                    glm::distance(copied.normals[c.normals[i]],
+                                                                  expanded.normals[e.normals[j]]));
                 apart += nearest;
             }
             found += apart < 1e-4f;

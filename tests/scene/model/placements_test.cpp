@@ -51,8 +51,8 @@ TEST(Placements, PointsAreWhereTheMatrixPutsThem) {
 
 TEST(Placements, MatricesAreInverse) {
     for (const double size : {1e-12, 1.0, 1e12}) {
-        const PlacementMatrices m =
-            matricesOf(*placementOf(someMatrix(true) * glm::scale(glm::dmat4(1), glm::dvec3(size))));
+        const PlacementMatrices m = matricesOf(
+            *placementOf(someMatrix(true) * glm::scale(glm::dmat4(1), glm::dvec3(size))));
         const glm::dmat3 product = m.inverseLinear * m.linear;
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j)
@@ -119,9 +119,9 @@ TEST(Placements, TangentsGoWithTheSurface) {
         // The bitangent w (n x t) of the mesh, transformed, is on the side of the copy's.
         const glm::dvec3 n(scene.normals[0]), t(1, 0, 0);
         const glm::dvec3 bitangent = glm::dmat3(m) * glm::cross(n, t);
-        const glm::dvec3 copied = double(tangent.w) *
-                                  glm::cross(glm::dvec3(expanded.scene.normals.at(0)),
-                                             glm::dvec3(glm::vec3(tangent)));
+        const glm::dvec3 copied =
+            double(tangent.w) *
+            glm::cross(glm::dvec3(expanded.scene.normals.at(0)), glm::dvec3(glm::vec3(tangent)));
         EXPECT_GT(glm::dot(glm::normalize(bitangent), copied), 0.1) << mirrors;
         EXPECT_NEAR(glm::dot(glm::normalize(glm::dmat3(m) * t), glm::dvec3(glm::vec3(tangent))), 1,
                     1e-5);
