@@ -1,5 +1,6 @@
 // Options: the view and the lens, where the file's camera is not what is wanted.
 #include "host/cli/declared_command.hpp"
+#include "host/cli/sequence.hpp"
 #include "host/core/error.hpp"
 #include "host/core/number_text.hpp"
 
@@ -74,6 +75,47 @@ void declareOptics(DeclaredCommand& c) {
                "distance from the camera, along its axis, of what is sharp (2.5m)", 1,
                [&camera](const Words& words) { camera.focus = readLength("--focus", words[0]); })
         .needs("--aperture");
+}
+
+void declareSequence(DeclaredCommand& c) {
+    SequenceOptions& sequence = c.options.sequence;
+    c.list
+        .number("--turntable", "N",
+                "N pictures, from cameras all around the scene: each is turned by a further N-th of "
+                "a turn about the vertical axis through its middle",
+                sequence.turntable, {1, kFrameNumbers.most})
+        .usually("one picture");
+    c.list
+        .words("--frames", "A..B",
+               "a picture of each of these frames: of the file's first animation (glTF), or of "
+               "--turntable; OUT.0007.png, or as a pattern says: -o out%04d.png",
+               1,
+               [&sequence](const Words& words) {
+                   sequence.frames = readFrames("--frames", words[0]);
+               })
+        .usually("all of --turntable");
+    c.list
+        .real("--fps", "F", "frames of an animation in a second", sequence.framesPerSecond,
+              {1e-3, 1e6})
+        .needs("--frames");
+}
+
+/// Each picture has files of its own.
+void checkSequence(const DeclaredCommand& c) {
+    const Options& o = c.options;
+    const SequenceOptions& sequence = o.sequence;
+    if (!sequence.isGiven()) return;
+    const char* option = sequence.turntable > 0 ? "--turntable" : "--frames";
+    if (sequence.turntable > 0 && sequence.frames && sequence.frames->last >= sequence.turntable)
+        throw UsageError(fmt::format("--frames: the turntable has the frames 0 to {}",
+                                     sequence.turntable - 1));
+    if (!o.cameras.empty())
+        throw UsageError(fmt::format("{} is of one camera: --camera names several", option));
+    if (o.sampleAlone) throw UsageError(fmt::format("--pixel is of one picture, and not of {}", option));
+    if (o.output == "-" || o.statsFile == "-")
+        throw UsageError(fmt::format("- has place for one picture, and not for those of {}", option));
+    if (sequence.turntable == 0 && o.reading.selection.seconds)
+        throw UsageError("--at is one moment, --frames are many");
 }
 
 } // namespace stromboli

@@ -139,6 +139,7 @@ void declareRender(DeclaredCommand& c) {
     declareScene(c);
     declareOutput(c);
     declarePicture(c);
+    declareSequence(c);
     declareEstimator(c);
     declareSamples(c, "samples per pixel, on the mean: they go where they help most (--even: to "
                       "all alike); with -a, --noise and --time the most a pixel gets");
@@ -168,6 +169,7 @@ void declareRender(DeclaredCommand& c) {
         finishBudget(c, true);
         o.estimator.showsBackdrop = !o.transparent;
         checkSeveralPictures(o);
+        checkSequence(c);
         if (o.output.empty() && !o.sampleAlone)
             throw UsageError("--output is required (see --help)");
         if (o.backend == BackendChoice::Reference && c.has("--device"))

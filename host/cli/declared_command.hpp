@@ -53,6 +53,8 @@ void declareScene(DeclaredCommand& command);
 
 /// Views that files do not state: where from, which angle, which lens.
 void declareOptics(DeclaredCommand& command);
+void declareSequence(DeclaredCommand& command);
+void checkSequence(const DeclaredCommand& command);
 /// Size, camera, crop.
 void declarePicture(DeclaredCommand& command);
 void finishPicture(DeclaredCommand& command);

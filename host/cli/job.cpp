@@ -126,11 +126,16 @@ std::future<vulkan::OpenDevice> openDeviceMeanwhile(const Options& options) {
     return std::async(std::launch::async, vulkan::openDevice, options.device);
 }
 
-Job loadJob(const Options& options) {
+Job loadQuietly(const Options& options) {
     nowDoing("loading " + options.scene);
     Stopwatch watch;
     Job job{loadScene(options), {}, {}, 0};
     job.loadSeconds = watch.seconds();
+    return job;
+}
+
+Job loadJob(const Options& options) {
+    Job job = loadQuietly(options);
     reportScene(job.scene, options);
     return job;
 }

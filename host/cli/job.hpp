@@ -25,6 +25,8 @@ std::future<vulkan::OpenDevice> openDeviceMeanwhile(const Options& options);
 /// Loads or makes the scene, and reports what was ignored, dropped or is missing (no light). Throws
 /// SceneError.
 Job loadJob(const Options& options);
+/// The same without a report, for what differs from a scene that was reported in its moment only.
+Job loadQuietly(const Options& options);
 /// Fixes the camera, which it reports, the picture's size and the settings. Throws SceneError,
 /// UsageError (crop outside the picture).
 void setPicture(Job& job, const Options& options);

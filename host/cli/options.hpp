@@ -40,6 +40,19 @@ struct SampleName {
     uint32_t x = 0, y = 0, sample = 0;
 };
 
+struct FrameRange {
+    uint32_t first = 0, last = 0; ///< both belong to it
+};
+
+/// Pictures with numbers, which make a film.
+struct SequenceOptions {
+    uint32_t turntable = 0; ///< pictures of a whole turn about the scene; 0: of an animation
+    std::optional<FrameRange> frames;
+    double framesPerSecond = 24; ///< of an animation
+
+    bool isGiven() const { return turntable > 0 || frames; }
+};
+
 /// The command line, understood and checked; what needs the scene (picture size) is still open.
 struct Options {
     Command command = Command::Render;
@@ -58,6 +71,7 @@ struct Options {
     /// A picture of each of these cameras of the file (names, numbers; "all" alone: of each);
     /// empty: one, of `camera`.
     std::vector<std::string> cameras;
+    SequenceOptions sequence;
     std::string device;
     BackendChoice backend = BackendChoice::Vulkan;
     ToneCurve tone;

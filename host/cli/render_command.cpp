@@ -1,3 +1,4 @@
+#include "host/checkpoint/scene_identity.hpp"
 #include "host/cli/activity.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/going_on.hpp"
@@ -6,6 +7,7 @@
 #include "host/cli/render_outputs.hpp"
 #include "host/cli/report.hpp"
 #include "host/cli/seen_channels.hpp"
+#include "host/cli/sequence.hpp"
 #include "host/cli/signals.hpp"
 #include "host/cli/views.hpp"
 #include "host/core/error.hpp"
@@ -143,6 +145,12 @@ class Renderer {
             renderOnReference(job, options, begun, outputs, report);
     }
 
+    /// The next pictures are of another scene: what is kept of the last one goes.
+    void forgetScene() {
+        backend_.reset();
+        built_.reset();
+    }
+
   private:
     void openAndBuild(const Job& job, RenderReport& report);
     std::shared_ptr<Backend> backendFor(const Job& job, const RenderSettings& settings,
@@ -263,12 +271,23 @@ int renderPicture(Renderer& renderer, Job& job, const Options& asked, const Begu
     return report.interrupted ? reportInterruption(report, job, options) : 0;
 }
 
+/// At another moment of its file. Where nothing but the camera has moved, the scene is kept as it is
+/// built and uploaded.
+void moveTo(const Options& frame, Job& job, Renderer& renderer) {
+    Job next = loadQuietly(frame);
+    const bool isSame = next.scene.positions == job.scene.positions &&
+                        sceneIdentity(next.scene, {}) == sceneIdentity(job.scene, {});
+    if (!isSame) renderer.forgetScene();
+    job = std::move(next);
+}
+
 /// One after the other, until one is not finished.
 int renderPictures(Renderer& renderer, Job& job, const std::vector<Options>& pictures) {
     for (const Options& picture : pictures)
         checkOutputs(picture); // before the first takes its time
     for (size_t i = 0; i < pictures.size(); ++i) {
         logging::info(fmt::format("{} ({} of {})", pictures[i].output, i + 1, pictures.size()));
+        if (i > 0 && pictures[i].reading.selection.isFrame) moveTo(pictures[i], job, renderer);
         const int code = renderPicture(renderer, job, pictures[i], takeUp(pictures[i]));
         if (code != 0 && i + 1 < pictures.size())
             logging::warn(fmt::format("the other {} of the {} pictures are left out",
@@ -282,13 +301,18 @@ int renderPictures(Renderer& renderer, Job& job, const std::vector<Options>& pic
 } // namespace
 
 int renderCommand(const Options& asked) {
-    const bool several = !asked.cameras.empty();
+    const bool several = !asked.cameras.empty() || asked.sequence.isGiven();
     Begun begun;
     if (!several) {
         checkOutputs(asked);
         begun = takeUp(asked);
     }
     Renderer renderer(asked);
+    if (asked.sequence.isGiven()) {
+        const std::vector<Options> frames = optionsOfFrames(asked);
+        Job job = loadJob(frames.front());
+        return renderPictures(renderer, job, frames);
+    }
     Job job = loadJob(asked);
     if (!several) return renderPicture(renderer, job, asked, begun);
     return renderPictures(renderer, job, optionsOfPictures(asked, job.scene));

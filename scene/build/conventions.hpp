@@ -77,11 +77,13 @@ struct FileSelection {
     std::optional<uint32_t> scene; ///< number of the scene, from 0; nothing: the file's own choice
     std::string variant;           ///< name of a set of materials; empty: the plain materials
     std::optional<double> seconds; ///< of the animation; nothing: what stands without it
+    bool isFrame = false;          ///< the moment is one of a sequence (--frames)
     std::vector<Definition> definitions; ///< in place of the file's own values of these names
     uint32_t largestTexture = 0;         ///< pictures are halved until no side exceeds it; 0: never
 
     /// The option of the command line that asks for what only glTF files have; empty if none does.
     std::string_view option() const {
+        if (seconds && isFrame) return "--frames";
         return scene ? "--scene" : !variant.empty() ? "--variant" : seconds ? "--at" : "";
     }
 };

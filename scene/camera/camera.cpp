@@ -157,6 +157,20 @@ void applyOptics(Camera& camera, const CameraRequest& request, double aspect,
     }
 }
 
+void turnAbout(Camera& camera, const Scene& scene, double angle) {
+    if (angle == 0) return;
+    const Bounds bounds = scene.bounds();
+    const glm::dvec3 middle =
+        bounds.empty() ? glm::dvec3(0) : 0.5 * (glm::dvec3(bounds.lo) + glm::dvec3(bounds.hi));
+    const double c = std::cos(angle), s = std::sin(angle);
+    const auto turned = [&](const glm::dvec3& v) {
+        return glm::dvec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x);
+    };
+    camera.position = middle + turned(camera.position - middle);
+    for (glm::dvec3* axis : {&camera.right, &camera.up, &camera.back})
+        *axis = turned(*axis);
+}
+
 } // namespace
 
 Camera lookingAt(const glm::dvec3& from, const glm::dvec3& at, double halfWidth) {
@@ -225,6 +239,7 @@ Camera makeCamera(const Scene& scene, const CameraRequest& request, uint32_t wid
         Camera camera = statedView(scene, request);
         camera.halfWidth = camera.halfHeight * aspect;
         applyOptics(camera, request, aspect, scene.file);
+        turnAbout(camera, scene, request.turn);
         return camera;
     }
     const bool framed = isFramed(scene, request, conventions);
@@ -243,6 +258,7 @@ Camera makeCamera(const Scene& scene, const CameraRequest& request, uint32_t wid
         camera.farDistance = optics.farDistance;
     }
     applyOptics(camera, request, aspect, scene.file);
+    turnAbout(camera, scene, request.turn);
     return camera;
 }
 

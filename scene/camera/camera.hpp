@@ -58,6 +58,9 @@ struct CameraRequest {
     std::optional<double> fieldOfView;
     double aperture = 0; ///< diameter of the lens, metres; 0: a pinhole
     double focus = 1;    ///< distance of the plane that is sharp, along the view axis, metres
+    /// Radians, by which the camera is turned about the vertical axis through the scene's middle,
+    /// counter-clockwise seen from above.
+    double turn = 0;
 
     CameraRequest(CameraChoice which = CameraChoice::Automatic, std::string ofName = {})
         : choice(which), name(std::move(ofName)) {}
