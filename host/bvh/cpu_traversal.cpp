@@ -53,16 +53,18 @@ class Traversal {
     void visitPlacement(const gpu::PlacementRecord& p, uint32_t record) {
         const auto transform = std::bit_cast<gpu::TransformRecord>(layout_.records.at(p.transform));
         const glm::vec4 rows[3] = {p.toPrototype0, p.toPrototype1, p.toPrototype2};
-        glm::vec3 origin, direction;
+        const glm::vec3 away = ray_.origin - glm::vec3(transform.toWorld0.w, transform.toWorld1.w,
+                                                       transform.toWorld2.w);
+        const glm::vec3 size = glm::abs(away);
+        const float length = std::max(size.x, std::max(size.y, size.z)) + transform.reach;
+        glm::vec3 origin, direction, slack;
         for (int i = 0; i < 3; ++i) {
-            origin[i] = rowTimes(rows[i], ray_.origin);
+            origin[i] = glm::dot(glm::vec3(rows[i]), away);
             direction[i] = glm::dot(glm::vec3(rows[i]), ray_.direction);
+            slack[i] = rows[i].w * length;
         }
-        const glm::vec3 size = glm::abs(ray_.origin);
         boxes_ = PreparedRay(origin, direction);
-        boxes_.slack = transform.slackPerLength *
-                       (std::max(size.x, std::max(size.y, size.z)) + transform.largestCoordinate) *
-                       glm::abs(boxes_.reciprocal);
+        boxes_.slack = slack * glm::abs(boxes_.reciprocal);
         transform_ = &transform;
         placement_ = record;
         visitTree(p.root);

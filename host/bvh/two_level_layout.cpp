@@ -59,29 +59,32 @@ BuiltPrototype buildPrototype(const Scene& scene, const Prototype& prototype,
     return built;
 }
 
-/// By how much rays may stray in the prototype's space (docs/numerics.md, "Instances"): 64 u and a
-/// little for the rounding of this sum, of which coordinates of origin and prototype are multiplied
-/// by what the matrix does to them.
+/// By how much rays may stray in the prototype's space (docs/numerics.md, "Instances"): in units of
+/// u, the sums of |B| times 15 of the ray's origin, 35 of the prototype's reach E, and 1 of where
+/// it is, m; as 16 times the first, 36 / 16 of the second and 1 / 16 of the third. A little more
+/// covers the rounding of all this.
+constexpr double kRounding = 16 * 0x1p-24, kMore = 1 + 0x1p-20;
+
+float slackPerLength(const PlacementMatrices& m, int row) {
+    double sum = 0;
+    for (int column = 0; column < 3; ++column)
+        sum += std::abs(m.inverseLinear[column][row]);
+    return float(kRounding * sum * kMore);
+}
+
 gpu::TransformRecord transformRecord(const Placement& placement, const PlacementMatrices& m,
                                      const Bounds& box) {
-    constexpr double kRounding = 64 * 0x1p-24 * (1 + 0x1p-20);
-    gpu::TransformRecord record{};
-    record.toWorld0 = placement.toWorld[0];
-    record.toWorld1 = placement.toWorld[1];
-    record.toWorld2 = placement.toWorld[2];
     const glm::dvec3 largest = glm::max(glm::abs(glm::dvec3(box.lo)), glm::abs(glm::dvec3(box.hi)));
-    double coordinate = 0;
+    double extent = 0, place = 0;
     for (int row = 0; row < 3; ++row) {
-        double sum = 0, reach = std::abs(m.offset[row]);
-        for (int column = 0; column < 3; ++column) {
-            sum += std::abs(m.inverseLinear[column][row]);
-            reach += std::abs(m.linear[column][row]) * largest[column];
-        }
-        record.slackPerLength[row] = float(kRounding * sum);
-        coordinate = std::max(coordinate, reach);
+        double sum = 0;
+        for (int column = 0; column < 3; ++column)
+            sum += std::abs(m.linear[column][row]) * largest[column];
+        extent = std::max(extent, sum);
+        place = std::max(place, std::abs(m.offset[row]));
     }
-    record.largestCoordinate = float(coordinate * (1 + 0x1p-20));
-    return record;
+    const auto reach = float((extent * 36 / 16 + place / 16) * kMore);
+    return {placement.toWorld[0], placement.toWorld[1], placement.toWorld[2], reach, 0, 0, 0};
 }
 
 /// Adds one tree after the other to a layout that has that of the world.
@@ -133,7 +136,7 @@ class Assembly {
         glm::vec4* rows[3] = {&p.toPrototype0, &p.toPrototype1, &p.toPrototype2};
         for (int row = 0; row < 3; ++row)
             *rows[row] = {m.inverseLinear[0][row], m.inverseLinear[1][row], m.inverseLinear[2][row],
-                          m.inverseOffset[row]};
+                          slackPerLength(m, row)};
         layout_.records[layout_.recordOfPlacement[number]] = std::bit_cast<Record>(p);
     }
 

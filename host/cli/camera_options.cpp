@@ -80,19 +80,19 @@ void declareOptics(DeclaredCommand& c) {
 void declareSequence(DeclaredCommand& c) {
     SequenceOptions& sequence = c.options.sequence;
     c.list
-        .number("--turntable", "N",
-                "N pictures, from cameras all around the scene: each is turned by a further N-th of "
-                "a turn about the vertical axis through its middle",
-                sequence.turntable, {1, kFrameNumbers.most})
+        .number(
+            "--turntable", "N",
+            "N pictures, from cameras all around the scene: each is turned by a further N-th of "
+            "a turn about the vertical axis through its middle",
+            sequence.turntable, {1, kFrameNumbers.most})
         .usually("one picture");
     c.list
-        .words("--frames", "A..B",
-               "a picture of each of these frames: of the file's first animation (glTF), or of "
-               "--turntable; OUT.0007.png, or as a pattern says: -o out%04d.png",
-               1,
-               [&sequence](const Words& words) {
-                   sequence.frames = readFrames("--frames", words[0]);
-               })
+        .words(
+            "--frames", "A..B",
+            "a picture of each of these frames: of the file's first animation (glTF), or of "
+            "--turntable; OUT.0007.png, or as a pattern says: -o out%04d.png",
+            1,
+            [&sequence](const Words& words) { sequence.frames = readFrames("--frames", words[0]); })
         .usually("all of --turntable");
     c.list
         .real("--fps", "F", "frames of an animation in a second", sequence.framesPerSecond,
@@ -107,13 +107,15 @@ void checkSequence(const DeclaredCommand& c) {
     if (!sequence.isGiven()) return;
     const char* option = sequence.turntable > 0 ? "--turntable" : "--frames";
     if (sequence.turntable > 0 && sequence.frames && sequence.frames->last >= sequence.turntable)
-        throw UsageError(fmt::format("--frames: the turntable has the frames 0 to {}",
-                                     sequence.turntable - 1));
+        throw UsageError(
+            fmt::format("--frames: the turntable has the frames 0 to {}", sequence.turntable - 1));
     if (!o.cameras.empty())
         throw UsageError(fmt::format("{} is of one camera: --camera names several", option));
-    if (o.sampleAlone) throw UsageError(fmt::format("--pixel is of one picture, and not of {}", option));
+    if (o.sampleAlone)
+        throw UsageError(fmt::format("--pixel is of one picture, and not of {}", option));
     if (o.output == "-" || o.statsFile == "-")
-        throw UsageError(fmt::format("- has place for one picture, and not for those of {}", option));
+        throw UsageError(
+            fmt::format("- has place for one picture, and not for those of {}", option));
     if (sequence.turntable == 0 && o.reading.selection.seconds)
         throw UsageError("--at is one moment, --frames are many");
 }

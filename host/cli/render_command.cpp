@@ -145,11 +145,8 @@ class Renderer {
             renderOnReference(job, options, begun, outputs, report);
     }
 
-    /// The next pictures are of another scene: what is kept of the last one goes.
-    void forgetScene() {
-        backend_.reset();
-        built_.reset();
-    }
+    /// The next pictures are of another scene.
+    void changeScene() { isStale_ = true; }
 
   private:
     void openAndBuild(const Job& job, RenderReport& report);
@@ -163,13 +160,17 @@ class Renderer {
     bool isOnDevice_;
     std::future<vulkan::OpenDevice> device_;
     std::optional<vulkan::OpenDevice> open_;
-    std::optional<BuiltScene> built_;
+    std::unique_ptr<BuiltScene> built_;
+    bool isStale_ = false;                   ///< `built_` is of an earlier scene
     std::shared_ptr<VulkanBackend> backend_; ///< of the last picture, with the scene
 };
 
 void Renderer::openAndBuild(const Job& job, RenderReport& report) {
-    if (!built_) {
-        built_ = buildScene(job);
+    if (!built_ || isStale_) {
+        auto built = std::make_unique<BuiltScene>(buildScene(job));
+        if (backend_) backend_->setScene(built->gpu);
+        built_ = std::move(built);
+        isStale_ = false;
         report.buildSeconds = built_->buildSeconds;
     }
     if (!open_) open_ = device_.get();
@@ -271,13 +272,13 @@ int renderPicture(Renderer& renderer, Job& job, const Options& asked, const Begu
     return report.interrupted ? reportInterruption(report, job, options) : 0;
 }
 
-/// At another moment of its file. Where nothing but the camera has moved, the scene is kept as it is
-/// built and uploaded.
+/// At another moment of its file. Where nothing but the camera has moved, the scene is kept as it
+/// is built and uploaded.
 void moveTo(const Options& frame, Job& job, Renderer& renderer) {
     Job next = loadQuietly(frame);
     const bool isSame = next.scene.positions == job.scene.positions &&
                         sceneIdentity(next.scene, {}) == sceneIdentity(job.scene, {});
-    if (!isSame) renderer.forgetScene();
+    if (!isSame) renderer.changeScene();
     job = std::move(next);
 }
 

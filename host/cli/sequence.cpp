@@ -13,7 +13,8 @@ namespace fs = std::filesystem;
 
 /// The frame alone, as the picture's notes have it.
 void nameFrame(Options& o, uint32_t frame) {
-    std::erase_if(o.pictureCommand, [](const std::string& p) { return p.starts_with("--frames "); });
+    std::erase_if(o.pictureCommand,
+                  [](const std::string& p) { return p.starts_with("--frames "); });
     o.pictureCommand.push_back(fmt::format("--frames {0}..{0}", frame));
 }
 
@@ -58,8 +59,7 @@ FrameRange readFrames(const std::string& option, const std::string& word) {
     const size_t dots = word.find("..");
     if (dots == std::string::npos) return {number(word), number(word)};
     const FrameRange range{number(word.substr(0, dots)), number(word.substr(dots + 2))};
-    if (range.first > range.last)
-        refuse(option, word, "the first frame and the last, as 0..59");
+    if (range.first > range.last) refuse(option, word, "the first frame and the last, as 0..59");
     return range;
 }
 

@@ -23,27 +23,35 @@ DeviceTuning tuningFor(const KernelTuning& tuning, const vulkan::Device& device,
 VulkanBackend::VulkanBackend(const vulkan::Device& device, const GpuScene& scene,
                              const Camera& camera, const RenderSettings& settings,
                              const KernelTuning& tuning)
-    : device_(device), scene_(scene), tuning_(tuning) {
+    : device_(device), scene_(&scene), tuning_(tuning) {
     setPicture(camera, settings);
+}
+
+void VulkanBackend::setScene(const GpuScene& scene) {
+    dispatcher_.reset(); // before the memory of the next is asked for
+    film_.reset();
+    deviceScene_.reset();
+    scene_ = &scene;
 }
 
 void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& settings) {
     const Estimator& estimator = settings.estimator;
-    const DeviceTuning tuning = tuningFor(tuning_, device_, scene_, settings.area);
+    const DeviceTuning tuning = tuningFor(tuning_, device_, *scene_, settings.area);
     dispatcher_.reset(); // before the memory of the next is asked for
     film_.reset();
-    checkMemory(device_.description(), scene_, settings.area, estimator.branches, tuning);
-    if (deviceScene_ && deviceScene_->isFetchedAsTexels() != tuning.texelFetch) {
+    checkMemory(device_.description(), *scene_, settings.area, estimator.branches, tuning);
+    if (kernelsFetchTexels_ != tuning.texelFetch) {
         seePipelines_.clear();
         kernels_.clear(); // where a picture's work list is too large for the device's texel buffers
         deviceScene_.reset();
     }
-    if (!deviceScene_) deviceScene_ = std::make_unique<DeviceScene>(device_, scene_, tuning);
+    kernelsFetchTexels_ = tuning.texelFetch;
+    if (!deviceScene_) deviceScene_ = std::make_unique<DeviceScene>(device_, *scene_, tuning);
     area_ = settings.area;
     camera_ = camera;
     estimator_ = estimator;
-    frame_ = makeFrame(scene_, camera, area_, estimator);
-    kernel_ = &kernelFor(kernelFeatures(scene_, camera, estimator, tuning), tuning);
+    frame_ = makeFrame(*scene_, camera, area_, estimator);
+    kernel_ = &kernelFor(kernelFeatures(*scene_, camera, estimator, tuning), tuning);
     film_ = std::make_unique<DeviceFilm>(device_, area_, tuning);
     dispatcher_ =
         std::make_unique<Dispatcher>(device_, *deviceScene_, *kernel_, *film_, frame_, tuning,
@@ -75,15 +83,15 @@ std::vector<SeenPixel> VulkanBackend::see(uint32_t first, std::span<const uint32
         pixels[i].pixel = place.y * area_.width + place.x;
         pixels[i].primitive = kNothingSeen;
     }
-    const DeviceTuning tuning = tuningFor(tuning_, device_, scene_, area_);
-    const auto constants = seeConstants(scene_, camera_, estimator_, tuning, what);
+    const DeviceTuning tuning = tuningFor(tuning_, device_, *scene_, area_);
+    const auto constants = seeConstants(*scene_, camera_, estimator_, tuning, what);
     SeePass(device_, *deviceScene_, seePipelineFor(constants, tuning), constants, frame_, tuning,
             uint32_t(pixels.size()))
         .run(pixels);
     std::vector<SeenPixel> seen;
     seen.reserve(pixels.size());
     for (const gpu::SeenPixel& p : pixels)
-        seen.push_back(seenPixelOf(p, scene_));
+        seen.push_back(seenPixelOf(p, *scene_));
     return seen;
 }
 

@@ -28,6 +28,10 @@ class VulkanBackend final : public Backend, public Viewer {
     /// (directSampling()).
     void setPicture(const Camera& camera, const RenderSettings& settings);
 
+    /// The pictures to come are of another scene, which must outlive the object from now on; the
+    /// next call is setPicture(). Kernels that were compiled for the same features are used again.
+    void setScene(const GpuScene& scene);
+
     void sample(std::span<const PixelTarget> targets, Film& film,
                 const PassProgress& progress) override;
     SampleValue sampleAlone(uint32_t pixel, uint32_t sample) override;
@@ -51,10 +55,11 @@ class VulkanBackend final : public Backend, public Viewer {
                                                   const DeviceTuning& tuning);
 
     const vulkan::Device& device_;
-    const GpuScene& scene_;
+    const GpuScene* scene_;
     KernelTuning tuning_;
     std::unique_ptr<DeviceScene> deviceScene_;
     std::map<KernelFeatures, PathKernel> kernels_;
+    bool kernelsFetchTexels_ = false; ///< all of them, and of seePipelines_
     std::map<std::vector<uint32_t>, vulkan::ComputePipeline> seePipelines_; ///< by their constants
     // Of the picture:
     Camera camera_;

@@ -24,9 +24,8 @@ PlacementRecord fetchPlacement(uint record) {
 
 TransformRecord fetchTransform(uint record) {
     const Record r = fetchRecord(record);
-    const vec4 last = uintBitsToFloat(r.r3);
     return TransformRecord(uintBitsToFloat(r.r0), uintBitsToFloat(r.r1), uintBitsToFloat(r.r2),
-                           last.xyz, last.w);
+                           uintBitsToFloat(r.r3.x), r.r3.y, r.r3.z, r.r3.w);
 }
 
 /// Turns a ray of the world into one that meets the boxes of a placement's prototype.
@@ -34,10 +33,11 @@ void aimAtPrototype(inout Ray ray, uint placement) {
     const bool isInside = placement != NO_PLACEMENT;
     const PlacementRecord p = fetchPlacement(placement);
     const TransformRecord t = fetchTransform(isInside ? p.transform : 0u);
-    const vec3 origin = placed(p.toPrototype0, p.toPrototype1, p.toPrototype2, ray.origin);
+    const vec3 away = ray.origin - vec3(t.toWorld0.w, t.toWorld1.w, t.toWorld2.w);
+    const vec3 origin = turned(p.toPrototype0, p.toPrototype1, p.toPrototype2, away);
     const vec3 direction = turned(p.toPrototype0, p.toPrototype1, p.toPrototype2, ray.direction);
-    const vec3 slack =
-        t.slackPerLength * (largestComponent(abs(ray.origin)) + t.largestCoordinate);
+    const vec3 slack = vec3(p.toPrototype0.w, p.toPrototype1.w, p.toPrototype2.w) *
+                       (largestComponent(abs(away)) + t.reach);
     prepareForBoxes(ray, isInside ? origin : ray.origin, isInside ? direction : ray.direction);
     ray.slack = isInside ? slack * abs(ray.inverse) : vec3(0.0);
     ray.toWorld0 = isInside ? t.toWorld0 : ray.toWorld0;

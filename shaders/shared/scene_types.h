@@ -67,17 +67,18 @@ struct PlacementRecord {
     uint transform; ///< record number of the TransformRecord
     uint placement; ///< in Scene::placements; | PLACEMENT_MIRRORS
     uint kind;      ///< RECORD_IS_PLACEMENT
-    vec4 toPrototype0, toPrototype1, toPrototype2; ///< rows of the matrix from the world
+    /// Rows of the matrix from the world, without an offset: what it turns is the difference to the
+    /// prototype's origin in the world. In w, by how much planes of boxes move across that axis for
+    /// each unit of length in the world (docs/numerics.md, "Instances").
+    vec4 toPrototype0, toPrototype1, toPrototype2;
 };
 SHARED_ROWS(PlacementRecord, 4);
 
 /// The other half of a placement; no node or placement has it for a child.
 struct TransformRecord {
     vec4 toWorld0, toWorld1, toWorld2; ///< rows of the matrix from the prototype's space
-    /// Rays' boxes are widened by slackPerLength * (largest coordinate of the ray's origin +
-    /// largestCoordinate) in the prototype's space (docs/numerics.md, "Instances").
-    vec3 slackPerLength;
-    float largestCoordinate; ///< in the world, of the prototype placed there
+    float reach; ///< that length is this much more than from the ray's to the prototype's origin
+    uint unused0, unused1, unused2;
 };
 SHARED_ROWS(TransformRecord, 4);
 

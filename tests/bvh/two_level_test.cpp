@@ -90,10 +90,13 @@ TEST(TwoLevels, EachPlacementLeadsToItsPrototype) {
         EXPECT_EQ(numbers.back(), prototype.firstTriangle + prototype.triangles - 1);
         const auto transform = std::bit_cast<gpu::TransformRecord>(layout.records.at(p.transform));
         EXPECT_EQ(transform.toWorld0, scene.placements[i].toWorld[0]);
-        EXPECT_EQ(p.toPrototype0.w, -scene.placements[i].toWorld[0].w);
-        // 64 u of a coordinate of up to 20 and 1.4.
-        EXPECT_NEAR(transform.slackPerLength.x, 0x1p-18, 0x1p-36);
-        EXPECT_GE(transform.largestCoordinate, std::abs(transform.toWorld0.w));
+        EXPECT_EQ(glm::vec3(p.toPrototype1), glm::vec3(0, 1, 0));
+        // 16 u, of a reach of 1.4 and a place of up to 20.
+        EXPECT_NEAR(p.toPrototype1.w, 0x1p-20, 0x1p-39);
+        const double place =
+            std::max({std::abs(transform.toWorld0.w), std::abs(transform.toWorld1.w),
+                      std::abs(transform.toWorld2.w)});
+        EXPECT_NEAR(transform.reach, 2.25 * 1.3 + place / 16, 0.25);
     }
 }
 

@@ -53,8 +53,8 @@ void putPlacement() {
     put(p.root), put(p.transform), put(p.placement), put(p.kind);
     put(p.toPrototype0), put(p.toPrototype1), put(p.toPrototype2);
     const TransformRecord t = fetchTransform(2u);
-    put(t.toWorld0), put(t.toWorld1), put(t.toWorld2), put(t.slackPerLength);
-    put(t.largestCoordinate);
+    put(t.toWorld0), put(t.toWorld1), put(t.toWorld2), put(t.reach);
+    put(t.unused0), put(t.unused1), put(t.unused2);
 }
 
 void putFacetMaterial(Material m) {

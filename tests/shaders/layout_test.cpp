@@ -103,8 +103,8 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
                             placement.toPrototype1, placement.toPrototype2);
         const auto transform = std::bit_cast<gpu::TransformRecord>(records[2]);
         expected_.structure("TransformRecord", transform.toWorld0, transform.toWorld1,
-                            transform.toWorld2, transform.slackPerLength,
-                            transform.largestCoordinate);
+                            transform.toWorld2, transform.reach, transform.unused0,
+                            transform.unused1, transform.unused2);
         expected_.structure("Primitive", primitives[1].material, primitives[1].n0, primitives[1].n1,
                             primitives[1].n2);
         expectMaterial(materials[1]);

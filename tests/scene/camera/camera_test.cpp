@@ -30,6 +30,22 @@ Scene withTriangle() {
     return scene;
 }
 
+TEST(Turntable, TurnsTheCameraAboutTheMiddle) {
+    CameraRequest request;
+    request.from = glm::dvec3(2, 3, 5);
+    const Camera before = makeCamera(withTriangle(), request, 200, 100);
+    request.turn = 1.5707963267948966;
+    const Camera camera = makeCamera(withTriangle(), request, 200, 100);
+    // From (2, 0, 0) the camera is at (0, 3, 5); a quarter of a turn to the left leads +z to +x.
+    EXPECT_LT(glm::distance(camera.position, glm::dvec3(7, 3, 0)), 1e-12);
+    const glm::dvec3 toMiddle = glm::dvec3(2, 0, 0) - camera.position;
+    EXPECT_LT(glm::distance(-camera.back, glm::normalize(toMiddle)), 1e-12);
+    EXPECT_LT(glm::distance(glm::cross(camera.right, camera.up), camera.back), 1e-12);
+    EXPECT_EQ(camera.halfWidth, before.halfWidth);
+    request.turn = 0;
+    EXPECT_EQ(makeCamera(withTriangle(), request, 200, 100).position, before.position);
+}
+
 TEST(StatedView, LooksFromWhereItIsToldAtTheMiddleOrAPoint) {
     CameraRequest request;
     request.from = glm::dvec3(2, 0, 5);

@@ -1,0 +1,140 @@
+// Sequences: pictures with numbers, of a turntable and of an animation, made in one process.
+#include "host/cli/sequence.hpp"
+
+#include "host/core/error.hpp"
+#include "tests/cli/program.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace stromboli::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr int kUsage = 1, kScene = 2;
+
+std::string bytesOf(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// A triangle that goes from x = 0 to x = 4 in a second.
+const std::string kMoving = R"({"asset": {"version": "2.0"}, "scene": 0,
+"scenes": [{"nodes": [0, 1]}],
+"nodes": [{"mesh": 0}, {"camera": 0, "translation": [2, 0, 6]}],
+"cameras": [{"type": "perspective", "perspective": {"yfov": 0.9, "znear": 0.1}}],
+"meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+"animations": [{"channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
+ "samplers": [{"input": 1, "output": 2}]}],
+"accessors": [
+ {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [-1, -1, 0], "max": [1, 1, 0]},
+ {"bufferView": 1, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
+ {"bufferView": 2, "componentType": 5126, "count": 2, "type": "VEC3"}],
+"bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 8},
+ {"buffer": 0, "byteOffset": 44, "byteLength": 24}],
+"buffers": [{"byteLength": 68, "uri": "data:application/octet-stream;base64,)"
+                            "AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA"
+                            "AAAAAAAAgD8AAAAAAAAAAAAAAAAAAIBAAAAAAAAAAAA="
+                            R"("}]})";
+
+class Sequence : public testing::Test {
+  protected:
+    ScratchFolder folder;
+
+    ProgramRun render(std::vector<std::string> words) {
+        words.insert(words.begin(), "render");
+        for (const char* word : {"-r", "24", "16", "-s", "4", "--even", "-q"})
+            words.emplace_back(word);
+        return stromboli(words);
+    }
+
+    /// The file in the folder.
+    std::string picture(const std::string& name) { return bytesOf(folder.file(name)); }
+};
+
+TEST(FrameFiles, HaveNumbersAsFfmpegWantsThem) {
+    EXPECT_EQ(fileOfFrame("a.png", 7), "a.0007.png");
+    EXPECT_EQ(fileOfFrame("b/a.exr", 123456), "b/a.123456.exr");
+    EXPECT_EQ(fileOfFrame("b/a%04d.png", 7), "b/a0007.png");
+    EXPECT_EQ(fileOfFrame("a_%02d_x.png", 123), "a_123_x.png");
+    EXPECT_EQ(fileOfFrame("%d.png", 12), "12.png");
+}
+
+TEST(FrameNumbers, AreARangeOrOne) {
+    EXPECT_EQ(readFrames("--frames", "3..17").first, 3u);
+    EXPECT_EQ(readFrames("--frames", "3..17").last, 17u);
+    EXPECT_EQ(readFrames("--frames", "5").last, 5u);
+    for (const char* wrong : {"", "..", "3..", "..4", "4..3", "1-3", "-1..2", "1..1e9"})
+        EXPECT_THROW(readFrames("--frames", wrong), UsageError) << wrong;
+}
+
+TEST_F(Sequence, TurntableHasTheBytesOfItsFramesAlone) {
+    const std::string scene = libraryScene("cornell_boxes.dae");
+    const ProgramRun all =
+        render({scene, "--camera", "frame", "--turntable", "5", "-o", folder.file("a%02d.png")});
+    ASSERT_EQ(all.exitCode, 0) << all.err;
+    EXPECT_THAT(folder.entries(), testing::UnorderedElementsAre("a00.png", "a01.png", "a02.png",
+                                                                "a03.png", "a04.png"));
+    const ProgramRun one = render({scene, "--camera", "frame", "--turntable", "5", "--frames",
+                                   "3..3", "-o", folder.file("b.png")});
+    ASSERT_EQ(one.exitCode, 0) << one.err;
+    EXPECT_NE(picture("a03.png"), "");
+    EXPECT_EQ(picture("a03.png"), picture("b.0003.png"));
+    EXPECT_NE(picture("a03.png"), picture("a02.png"));
+}
+
+TEST_F(Sequence, AnimationHasTheBytesOfItsFramesAlone) {
+    const std::string scene = folder.write("a.gltf", kMoving);
+    const ProgramRun all =
+        render({scene, "--frames", "0..3", "--fps", "4", "-o", folder.file("a.png")});
+    ASSERT_EQ(all.exitCode, 0) << all.err;
+    const ProgramRun one =
+        render({scene, "--frames", "2", "--fps", "4", "-o", folder.file("b.png")});
+    ASSERT_EQ(one.exitCode, 0) << one.err;
+    EXPECT_NE(picture("a.0002.png"), "");
+    EXPECT_EQ(picture("a.0002.png"), picture("b.0002.png"));
+    EXPECT_NE(picture("a.0002.png"), picture("a.0001.png")) << "it moves";
+}
+
+/// But for the words of how they were made.
+TEST_F(Sequence, FramesAreMomentsOfTheAnimation) {
+    const std::string scene = folder.write("a.gltf", kMoving);
+    render({scene, "--frames", "3", "--fps", "4", "--notes", "off", "-o", folder.file("a.png")});
+    render({scene, "--at", "0.75", "--notes", "off", "-o", folder.file("b.png")});
+    EXPECT_NE(picture("b.png"), "");
+    EXPECT_EQ(picture("a.0003.png"), picture("b.png"));
+}
+
+TEST_F(Sequence, WhatDoesNotGoTogetherIsRefused) {
+    const std::string scene = libraryScene("cornell_boxes.dae"), out = folder.file("a.png");
+    const auto refused = [&](const std::vector<std::string>& words, const std::string& message) {
+        std::vector<std::string> all = {scene};
+        all.insert(all.end(), words.begin(), words.end());
+        const ProgramRun run = render(all);
+        EXPECT_EQ(run.exitCode, kUsage) << message;
+        EXPECT_THAT(run.err, HasSubstr(message));
+    };
+    refused({"-o", out, "--turntable", "0"}, "--turntable");
+    refused({"-o", out, "--turntable", "4", "--frames", "2..4"}, "0 to 3");
+    refused({"-o", out, "--turntable", "4", "--camera", "all"}, "--camera names several");
+    refused({"-o", "-", "--turntable", "4"}, "place for one picture");
+    refused({"-o", out, "--frames", "4..2"}, "--frames");
+    refused({"-o", out, "--fps", "4"}, "--frames");
+    refused({"-o", out, "--frames", "2", "--at", "1"}, "--at");
+    EXPECT_THAT(folder.entries(), ElementsAre());
+}
+
+TEST_F(Sequence, FramesOfAFileWithoutAnimationAreRefused) {
+    const ProgramRun run =
+        render({libraryScene("cornell_boxes.dae"), "--frames", "2", "-o", folder.file("a.png")});
+    EXPECT_EQ(run.exitCode, kScene) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("--frames"));
+}
+
+} // namespace
+} // namespace stromboli::test
