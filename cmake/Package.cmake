@@ -17,6 +17,8 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libvulkan1, mesa-vulkan-drivers | vulkan-icd")
 # What `stromboli bench` measures against, and STROMBOLI_VALIDATION=1.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libembree3-3, vulkan-validationlayers")
+# Opened when a file needs it: STL, FBX, 3DS and others.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libassimp5")
 set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_CURRENT_LIST_DIR}/PackageVersion.cmake)
 set(CPACK_STROMBOLI_PROGRAM ${CMAKE_BINARY_DIR}/bin/stromboli)
 include(CPack)

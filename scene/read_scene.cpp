@@ -1,6 +1,7 @@
 #include "scene/read_scene.hpp"
 
 #include "host/core/error.hpp"
+#include "scene/assimp/load_assimp.hpp"
 #include "scene/build/read_file.hpp"
 #include "scene/collada/load_collada.hpp"
 #include "scene/find_scene.hpp"
@@ -42,16 +43,25 @@ constexpr Format kFormats[] = {
     {"Wavefront OBJ (.obj)", ".obj", looksLikeObj, loadObj},
 };
 
+/// Told by its ending alone.
+constexpr Format kByAssimp = {"of a format that Assimp reads (.stl, .fbx, .3ds, ...)", "", nullptr,
+                              loadWithAssimp};
+
 /// What is looked at to tell a format. Comments may stand before the first element.
 constexpr size_t kBeginning = 65536;
 
-const Format* byName(const std::filesystem::path& file) {
+std::string suffixOf(const std::filesystem::path& file) {
     std::string suffix = file.extension().string();
     std::transform(suffix.begin(), suffix.end(), suffix.begin(),
                    [](unsigned char c) { return char(std::tolower(c)); });
+    return suffix;
+}
+
+const Format* byName(const std::filesystem::path& file) {
+    const std::string suffix = suffixOf(file);
     for (const Format& format : kFormats)
         if (!suffix.empty() && suffix == format.suffix) return &format;
-    return nullptr;
+    return isAssimpFormat(suffix) ? &kByAssimp : nullptr;
 }
 
 const Format* byContent(const std::filesystem::path& file) {
@@ -65,7 +75,7 @@ std::string formatNames() {
     std::string names;
     for (const Format& format : kFormats)
         names += fmt::format("{}{}", names.empty() ? "" : ", ", format.name);
-    return names;
+    return names + ", or a file " + std::string(kByAssimp.name);
 }
 
 } // namespace

@@ -73,14 +73,16 @@ Words withAll(Words names) {
 void declareScene(DeclaredCommand& c) {
     c.list.group("Scene");
     c.list
-        .text("SCENE", "",
-              "COLLADA (.dae, .zae), glTF (.gltf, .glb), Mitsuba (.xml), OBJ or PLY file; or a "
-              "bundled scene by its name "
-              "(cornell_boxes, island, "
-              "...); or generate:cornell_mesh:N for a scene of N triangles made in memory, "
-              "generate:lamps:N for one lit by N triangles, generate:forest:N for N trees that "
-              "are instances",
-              c.options.scene)
+        .text(
+            "SCENE", "",
+            "COLLADA (.dae, .zae), glTF (.gltf, .glb), Mitsuba (.xml), OBJ, PLY, or by Assimp STL, "
+            "FBX, 3DS, ... file; or a "
+            "bundled scene by its name "
+            "(cornell_boxes, island, "
+            "...); or generate:cornell_mesh:N for a scene of N triangles made in memory, "
+            "generate:lamps:N for one lit by N triangles, generate:forest:N for N trees that "
+            "are instances",
+            c.options.scene)
         .required()
         .proposes(Proposed::Scenes);
     SceneConventions& reading = c.options.reading;

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace stromboli::obj {
@@ -19,7 +20,8 @@ enum class MapChannel { Unstated, Red, Green, Blue, Alpha, Luminance };
 /// A picture that a material names, with its options.
 struct Map {
     build::FilePlace place;
-    std::string name; ///< of the file, as written
+    std::string name;         ///< of the file, as written
+    std::string_view content; ///< of a picture that is no file of its own; else empty
     /// Texture coordinates times scale plus offset, v upwards.
     glm::dvec2 scale{1, 1}, offset{0, 0};
     bool clamp = false;

@@ -67,8 +67,9 @@ Companion companion(const fs::path& folder, std::string_view written) {
 
 std::optional<TextureImage> Pictures::read(const Map& map, bool srgb) {
     build::Report& report = builder_.report();
-    const Companion file = companion(folder_, map.name);
-    if (!file.path) {
+    const bool isFile = map.content.empty();
+    const Companion file = isFile ? companion(folder_, map.name) : Companion{};
+    if (isFile && !file.path) {
         report.forgive(map.place,
                        fmt::format("'{}' is not in the file's folder", shortened(map.name)),
                        kReading);
@@ -78,8 +79,10 @@ std::optional<TextureImage> Pictures::read(const Map& map, bool srgb) {
     std::string problem;
     try {
         const std::string name = map.place.describe(shortened(map.name));
+        const std::string read = isFile ? build::readFile(*file.path) : "";
+        const std::string_view content = isFile ? std::string_view(read) : map.content;
         image = images::textureImage(
-            images::decodePicture(build::readFile(*file.path), file.path->string()), name, srgb);
+            images::decodePicture(content, isFile ? file.path->string() : name), name, srgb);
     } catch (const SceneError& error) {
         problem = error.what();
     }

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <assimp/cimport.h>
+#include <assimp/material.h>
+#include <assimp/scene.h>
+
+#include <string>
+
+namespace stromboli::assimp {
+
+/// Assimp's functions, found in its shared library when they are first wanted: linked with the
+/// program, the library would be loaded at every start of it.
+struct AssimpApi {
+    decltype(&::aiImportFile) importFile = nullptr;
+    decltype(&::aiReleaseImport) releaseImport = nullptr;
+    decltype(&::aiGetErrorString) errorString = nullptr;
+    decltype(&::aiGetMaterialColor) materialColor = nullptr;
+    decltype(&::aiGetMaterialFloatArray) materialFloats = nullptr;
+    decltype(&::aiGetMaterialString) materialString = nullptr;
+
+    std::string missing; ///< why Assimp cannot be used; empty: it can
+};
+
+/// Loaded at the first call and never unloaded.
+const AssimpApi& assimpApi();
+
+} // namespace stromboli::assimp

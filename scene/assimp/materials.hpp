@@ -1,0 +1,43 @@
+#pragma once
+
+#include "scene/build/scene_builder.hpp"
+#include "scene/obj/mtl_file.hpp"
+#include "scene/obj/pictures.hpp"
+
+#include <assimp/scene.h>
+
+#include <filesystem>
+#include <map>
+
+namespace stromboli::assimp {
+
+/// The materials of a file, each made when a mesh first has it, by the rules that those of OBJ
+/// files have (scene/obj/material_rules.hpp).
+class Materials {
+  public:
+    Materials(const std::filesystem::path& file, const aiScene& scene,
+              build::SceneBuilder& builder);
+
+    uint32_t numberOf(unsigned material);
+    /// Its surface has a direction: a normal map, or a grain.
+    bool wantsTangents(unsigned material);
+
+  private:
+    struct Made {
+        uint32_t number = 0;
+        bool wantsTangents = false;
+    };
+
+    const Made& made(unsigned material);
+    obj::MtlMaterial stated(const aiMaterial& material);
+    const aiTexture* embedded(const std::string& name) const;
+    std::optional<obj::Map> map(const aiMaterial& material, aiTextureType type);
+
+    std::string file_;
+    const aiScene& scene_;
+    build::SceneBuilder& builder_;
+    obj::Pictures pictures_;
+    std::map<unsigned, Made> made_;
+};
+
+} // namespace stromboli::assimp

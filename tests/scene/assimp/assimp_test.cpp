@@ -1,0 +1,172 @@
+// Files of formats that Assimp reads. Without its library the program says how to install it, which
+// is all that is asked for then.
+
+#include "scene/assimp/load_assimp.hpp"
+
+#include "host/core/error.hpp"
+#include "scene/read_scene.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+
+namespace stromboli {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class AssimpFiles : public testing::Test {
+  protected:
+    void SetUp() override {
+        folder = fs::temp_directory_path() /
+                 ("stromboli_assimp_" +
+                  std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+        fs::create_directories(folder);
+    }
+    void TearDown() override { fs::remove_all(folder); }
+
+    std::string write(const std::string& name, const std::string& text) {
+        std::ofstream(folder / name) << text;
+        return (folder / name).string();
+    }
+
+    /// The scene, or nothing where Assimp is not there; other errors are the test's.
+    std::optional<Scene> read(const std::string& file, const SceneConventions& conventions = {}) {
+        try {
+            return readScene(file, conventions);
+        } catch (const SceneError& error) {
+            if (!(std::string(error.what()).find("apt install libassimp") != std::string::npos))
+                throw;
+            return std::nullopt;
+        }
+    }
+
+    fs::path folder;
+};
+
+/// Two triangles that share an edge.
+const char* const kStl = R"(solid two
+facet normal 0 0 1
+ outer loop
+  vertex 0 0 0
+  vertex 2 0 0
+  vertex 0 3 0
+ endloop
+endfacet
+facet normal 0 0 1
+ outer loop
+  vertex 2 0 0
+  vertex 2 3 0
+  vertex 0 3 0
+ endloop
+endfacet
+endsolid two
+)";
+
+TEST_F(AssimpFiles, StlHasItsTriangles) {
+    const std::optional<Scene> scene = read(write("a.STL", kStl));
+    if (!scene) GTEST_SKIP() << "Assimp is not installed";
+    EXPECT_EQ(scene->triangles.size(), 2u);
+    EXPECT_EQ(scene->bounds().hi, glm::vec3(2, 3, 0));
+    for (const Triangle& t : scene->triangles)
+        EXPECT_NEAR(scene->geometricNormal(t).z, 1, 1e-6);
+    EXPECT_EQ(scene->lights.size(), 1u) << "the default light";
+    EXPECT_TRUE(scene->cameras.empty());
+}
+
+TEST_F(AssimpFiles, PolygonsAreTriangles) {
+    const std::optional<Scene> scene =
+        read(write("a.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"));
+    if (!scene) GTEST_SKIP() << "Assimp is not installed";
+    EXPECT_EQ(scene->triangles.size(), 2u);
+    EXPECT_EQ(scene->bounds().hi, glm::vec3(1, 1, 0));
+}
+
+TEST_F(AssimpFiles, WhatAssimpCannotReadIsOneErrorWithItsWords) {
+    const std::string file = write("a.stl", "solid broken\nfacet normal 0 0\n");
+    try {
+        const std::optional<Scene> scene = read(file);
+        if (!scene) GTEST_SKIP() << "Assimp is not installed";
+        ADD_FAILURE() << "was read";
+    } catch (const SceneError& error) {
+        EXPECT_THAT(error.what(), HasSubstr(file + ": Assimp: "));
+    }
+}
+
+TEST_F(AssimpFiles, FilesThatAreNotThereAreSaidToBe) {
+    EXPECT_THROW(readScene((folder / "none.fbx").string()), SceneError);
+}
+
+TEST_F(AssimpFiles, AnUnknownEndingIsStillAnError) {
+    const std::string file = write("a.nosuch", "nothing");
+    try {
+        readScene(file);
+        ADD_FAILURE() << "was read";
+    } catch (const SceneError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("in no format that is read"));
+        EXPECT_THAT(error.what(), HasSubstr(".stl"));
+    }
+}
+
+TEST(AssimpFormats, AreToldByTheirEndings) {
+    EXPECT_TRUE(isAssimpFormat(".fbx"));
+    EXPECT_TRUE(isAssimpFormat(".3ds"));
+    EXPECT_FALSE(isAssimpFormat(".obj")) << "read by the program itself";
+    EXPECT_FALSE(isAssimpFormat(""));
+}
+
+struct Sample {
+    const char* file;
+    size_t triangles;
+};
+
+/// Of files that other programs wrote: their triangles, and that what they name is found.
+TEST(AssimpSamples, AreRead) {
+    const fs::path models = "/usr/share/assimp/models";
+    if (!fs::exists(models)) GTEST_SKIP() << "the package assimp-testmodels is not installed";
+    const Sample samples[] = {{"STL/Spider_binary.stl", 1368},
+                              {"FBX/box.fbx", 12},
+                              {"3DS/cube_with_diffuse_texture.3DS", 12},
+                              {"X/test.x", 12},
+                              {"LWO/LWO2/boxuv.lwo", 12},
+                              {"MS3D/jeep1.ms3d", 2368}};
+    for (const Sample& sample : samples) {
+        SCOPED_TRACE(sample.file);
+        if (!fs::exists(models / sample.file)) continue;
+        try {
+            const Scene scene = readScene((models / sample.file).string());
+            EXPECT_LE(scene.triangles.size(), sample.triangles);
+            EXPECT_GE(scene.triangles.size(), sample.triangles * 8 / 10)
+                << "but those without area";
+            EXPECT_FALSE(scene.bounds().empty());
+        } catch (const SceneError& error) {
+            if (!(std::string(error.what()).find("apt install libassimp") != std::string::npos))
+                throw;
+            GTEST_SKIP() << "Assimp is not installed";
+        }
+    }
+}
+
+/// Lengths of FBX files are centimetres, and those in which lights fall off as well.
+TEST(AssimpSamples, UnitsAreMetres) {
+    const fs::path file = "/usr/share/assimp/models/FBX/spider.fbx";
+    if (!fs::exists(file)) GTEST_SKIP() << "the package assimp-testmodels is not installed";
+    try {
+        SceneConventions inUnits;
+        inUnits.applyUnit = false;
+        const float metres = readScene(file.string()).bounds().extent().x;
+        const float units = readScene(file.string(), inUnits).bounds().extent().x;
+        EXPECT_NEAR(metres, units / 100, 1e-4f * units);
+    } catch (const SceneError& error) {
+        if (!(std::string(error.what()).find("apt install libassimp") != std::string::npos)) throw;
+        GTEST_SKIP() << "Assimp is not installed";
+    }
+}
+
+} // namespace
+} // namespace stromboli
