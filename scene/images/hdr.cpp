@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -68,7 +69,8 @@ class HdrReader {
             if (text.starts_with("EXPOSURE=")) {
                 // Pixels were multiplied by it; several multiply.
                 double exposure = 0;
-                const std::string_view number = text.substr(text.find_first_not_of(" ", 9));
+                const size_t first = std::min(text.find_first_not_of(' ', 9), text.size());
+                const std::string_view number = text.substr(first);
                 std::from_chars(number.data(), number.data() + number.size(), exposure);
                 if (!(exposure > 0 && std::isfinite(exposure)))
                     fail(fmt::format("its exposure is '{}', expected more than 0", number));

@@ -1,3 +1,4 @@
+#include "scene/images/exr_attributes.hpp"
 #include "scene/images/picture.hpp"
 
 #include "host/core/error.hpp"
@@ -52,6 +53,7 @@ std::vector<const char*> channelsOf(const Imf::ChannelList& channels) {
 /// The size that the header states, checked before the library allocates tables by it.
 Imath::Box2i checkedWindow(std::string_view bytes, const std::string& name) {
     constexpr uint64_t magicAndVersion = 8;
+    checkExrAttributes(bytes);
     ExrSource source(bytes, name);
     source.seekg(magicAndVersion);
     int version = Imf::EXR_VERSION;

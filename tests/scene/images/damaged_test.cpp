@@ -41,6 +41,43 @@ TEST(DamagedPictures, SayWhatTheyAreNot) {
                                    "Radiance HDR, OpenEXR or TGA");
 }
 
+/// Found by tests/fuzz.
+TEST(DamagedPictures, ExposureWithoutANumber) {
+    EXPECT_THAT(messageOf("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=\n\n-Y 1 +X 1\n"),
+                HasSubstr("its exposure is ''"));
+    EXPECT_THAT(messageOf("#?RADIANCE\nEXPOSURE=   \n\n-Y 1 +X 1\n"), HasSubstr("exposure is ''"));
+}
+
+/// Of an OpenEXR file: its magic, version 2 without flags, and what follows.
+std::string exrOf(const std::string& rest) {
+    return std::string("\x76\x2f\x31\x01\x02\0\0\0", 8) + rest;
+}
+
+std::string attribute(const std::string& name, const std::string& type, uint32_t size,
+                      const std::string& value) {
+    std::string text = name + '\0' + type + '\0';
+    for (int i = 0; i < 4; ++i)
+        text += char(size >> 8 * i & 255u);
+    return text + value;
+}
+
+/// The library would allocate what an attribute claims to have. Found by tests/fuzz.
+TEST(DamagedPictures, AttributesOfExrFilesFitTheFile) {
+    const std::string end(1, '\0');
+    EXPECT_THAT(messageOf(exrOf(attribute("a", "own", 0x49424242, "x"))), HasSubstr("truncated"));
+    EXPECT_THAT(messageOf(exrOf(attribute("a", "box2i", 15, std::string(15, 'x')) + end)),
+                HasSubstr("another length than its type"));
+    EXPECT_THAT(messageOf(exrOf(attribute("channels", "chlist", 3, std::string("R\0x", 3)) + end)),
+                HasSubstr("truncated"));
+    EXPECT_THAT(messageOf(exrOf(attribute("channels", "chlist", 3, std::string("\0xx", 3)) + end)),
+                HasSubstr("another length than it says"));
+    EXPECT_THAT(messageOf(exrOf(attribute("a", "stringvector", 5, "\x01\x01\x01\x01x") + end)),
+                HasSubstr("truncated"));
+    EXPECT_THAT(messageOf(exrOf(
+                    attribute("p", "preview", 8, std::string("\xff\xff\xff\x7f\x01\0\0\0", 8)))),
+                HasSubstr("preview"));
+}
+
 TEST(DamagedPictures, TruncatedAnywhere) {
     for (const std::string& file : someFiles())
         for (const double part : {0.1, 0.5, 0.9}) {
