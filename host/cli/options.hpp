@@ -6,6 +6,7 @@
 #include "host/cli/study_options.hpp"
 #include "host/core/log.hpp"
 #include "host/core/named_values.hpp"
+#include "host/farm/film_header.hpp"
 #include "host/film/tone.hpp"
 #include "host/render/layers.hpp"
 #include "host/render/settings.hpp"
@@ -20,7 +21,7 @@
 
 namespace stromboli {
 
-enum class Command { Render, Check, Info, Devices, Bench, Stress, Compare, Study };
+enum class Command { Render, Check, Info, Devices, Bench, Stress, Compare, Study, Merge };
 enum class BackendChoice { Vulkan, Reference };
 template <>
 inline constexpr auto kNamedValues<BackendChoice> = std::to_array<NamedValue<BackendChoice>>({
@@ -69,10 +70,13 @@ struct Options {
     /// The command without what leaves the picture as it is: its own name, the device, checkpoints.
     /// Words that belong together are one of its parts.
     std::vector<std::string> pictureCommand;
-    bool notes = true;                     ///< of the picture, in its file
-    bool statisticsChannels = false;       ///< EXR: sample counts and variances
-    bool transparent = false;              ///< alpha in place of the environment
-    std::vector<Layer> layers;             ///< EXR: channels beside the radiance
+    bool notes = true;               ///< of the picture, in its file
+    bool statisticsChannels = false; ///< EXR: sample counts and variances
+    bool transparent = false;        ///< alpha in place of the environment
+    std::vector<Layer> layers;       ///< EXR: channels beside the radiance
+    std::optional<ShareName> share;  ///< take only these samples, into a film
+    /// The fingerprint that scene and program must have (host/cli/share_render.hpp); empty: any.
+    std::string expected;
     std::optional<SampleName> sampleAlone; ///< print this sample and write nothing
     uint32_t threads = 0;                  ///< host threads; 0: all
     Verbosity verbosity = Verbosity::Normal;
@@ -82,7 +86,9 @@ struct Options {
     CompareOptions compare;
     StudyOptions study;
     StressOptions stress;
-    std::string infoJsonFile; ///< info; empty: text
+    std::string infoJsonFile;       ///< info; empty: text
+    std::vector<std::string> films; ///< merge
+    bool wantsAllShares = false;    ///< merge: without all of them there is no picture
 };
 
 /// Parses the arguments (without the program's name). Empty: help or version was printed and the

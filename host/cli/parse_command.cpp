@@ -72,6 +72,15 @@ void checkTogether(const CommandOption& o, const Given& given) {
             throw UsageError(fmt::format("{} requires {} (see --help)", o.name(), other));
 }
 
+void addImplied(const OptionList& list, Given& given) {
+    for (const CommandOption& o : list.all())
+        if (given.count(o.name()))
+            for (const std::string& flag : o.implied) {
+                checkTogether(o, given); // before the flag is said to be in the way of another
+                given.try_emplace(flag);
+            }
+}
+
 /// The command as it decides on the picture, in the order of --help: however it was written, the
 /// same picture has the same words.
 std::vector<std::string> pictureCommandOf(const DeclaredCommand& command, const Given& given) {
@@ -202,6 +211,7 @@ DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, const Words
     const auto chosen =
         std::find_if(apps.begin(), apps.end(), [](const CLI::App* one) { return one->parsed(); });
     DeclaredCommand& command = commands[size_t(chosen - apps.begin())];
+    addImplied(command.list, given);
     for (const auto& option : given)
         command.given.insert(option.first);
     store(command.list, given);

@@ -59,6 +59,11 @@ void declareSpreading(DeclaredCommand& c) {
               "the same number of samples for every pixel, so that a --crop has the bytes it has "
               "in the whole picture",
               c.asked.even);
+    list.number("--block", "N",
+                "with --even: paths of a pixel that are added up by themselves; shares consist of "
+                "whole blocks, and renders of other blocks differ in the last bits (docs/farm.md)",
+                c.asked.pathsPerBlock, kSamples)
+        .needs("--even");
     list.words("-a,--adaptive", "BATCH TOLERANCE",
                "adaptive sampling: test a pixel every BATCH samples, stop at 1.96 sigma <= "
                "TOLERANCE * mean",
@@ -100,6 +105,7 @@ void finishBudget(DeclaredCommand& c, bool maySpread) {
         b.adaptive.enabled = false;
     if (c.asked.adaptive) b.adaptive.enabled = true;
     if (b.stop.open() && !c.asked.paths) b.mostPathsPerPixel.reset();
+    if (c.asked.even) b.pathsPerBlock = c.asked.pathsPerBlock;
     if (!o.branches && !maySpread && o.command != Command::Info) o.branches = 1;
     if (o.branches) checkBranches(c);
 

@@ -58,6 +58,7 @@ struct ReferenceBackend::Implementation {
     Camera camera;
     RenderSettings settings;
     tbb::task_arena arena;
+    uint32_t firstSample = 0; ///< of the block under way
     std::atomic<uint64_t> paths{0}, rays{0};
 
     Implementation(const Scene& scene, const Camera& c, const RenderSettings& s, unsigned threads)
@@ -110,7 +111,7 @@ struct ReferenceBackend::Implementation {
             const uint32_t count = std::min(kSamplesPerReport, target.samples - first);
             uint64_t rayCount = 0;
             for (uint32_t i = first; i < first + count; ++i)
-                pixel.add(take(target.pixel, i, rayCount));
+                pixel.add(take(target.pixel, firstSample + i, rayCount));
             paths += count;
             rays += rayCount;
             report.add(count);
@@ -144,6 +145,10 @@ void ReferenceBackend::sample(std::span<const PixelTarget> targets, Film& film,
         });
     });
     report.finish();
+}
+
+void ReferenceBackend::beginAt(uint32_t firstSample) {
+    implementation_->firstSample = firstSample;
 }
 
 SampleValue ReferenceBackend::sampleAlone(uint32_t pixel, uint32_t sample) {
