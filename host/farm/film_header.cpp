@@ -52,6 +52,13 @@ std::vector<BlockRange> gapsOf(const std::vector<BlockRange>& blocks, uint32_t c
     return gaps;
 }
 
+/// What blocks hold of each pixel, as -s counts it.
+BlockRange pathsOf(const FilmHeader& film, const BlockRange& range) {
+    const uint32_t branches = film.settings.estimator.branches;
+    return {film.allBlocks().firstOf(range.first) * branches,
+            film.allBlocks().firstOf(range.end) * branches};
+}
+
 } // namespace
 
 std::string inWords(const ShareName& share) {
@@ -122,8 +129,8 @@ void add(FilmHeader& sum, const FilmHeader& other, const std::filesystem::path& 
         for (const BlockRange& b : sum.blocks) {
             const uint32_t first = std::max(a.first, b.first), end = std::min(a.end, b.end);
             if (first < end)
-                refuse(fmt::format("samples {} to {}", sum.allBlocks().firstOf(first),
-                                   sum.allBlocks().firstOf(end) - 1));
+                refuse(
+                    fmt::format("samples {} of each pixel", inWords({pathsOf(sum, {first, end})})));
         }
     sum.shares.insert(sum.shares.end(), other.shares.begin(), other.shares.end());
     std::ranges::sort(sum.shares);
@@ -156,7 +163,7 @@ std::string missingFrom(const FilmHeader& film) {
     }
     std::vector<BlockRange> samples;
     for (const BlockRange& gap : gapsOf(film.blocks, film.allBlocks().count()))
-        samples.push_back({film.allBlocks().firstOf(gap.first), film.allBlocks().firstOf(gap.end)});
+        samples.push_back(pathsOf(film, gap));
     return fmt::format("samples {} of each pixel are missing", inWords(samples));
 }
 

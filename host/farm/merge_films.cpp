@@ -51,8 +51,8 @@ FilmsToMerge::FilmsToMerge(const std::vector<std::filesystem::path>& files) {
 void FilmsToMerge::addUp(
     const std::function<void(const PictureArea&, std::span<const ExactStatistics>)>& take) {
     const PictureArea& area = header_.settings.area;
-    const size_t atOnce =
-        std::clamp<size_t>(films_.size(), 1, size_t(std::max(tbb::info::default_concurrency(), 1)));
+    const size_t atOnce = std::clamp<size_t>(
+        films_.size(), 1, size_t(std::clamp(tbb::info::default_concurrency(), 1, 16)));
     std::vector<std::vector<ExactStatistics>> runs(atOnce);
     std::vector<ExactStatistics> sum;
     const uint32_t rows = area.rendered().height;
