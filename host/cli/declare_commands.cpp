@@ -135,14 +135,7 @@ void declareRender(DeclaredCommand& c) {
     declareSampleAlone(c);
     declareShare(c);
     declareCheckpoints(c);
-    c.list.group("Device");
-    c.list
-        .number("--film-memory", "MIB",
-                "mebibytes for the film and what belongs to it; a picture that needs more is "
-                "rendered in bands",
-                o.filmMebibytes, {1, 1u << 30})
-        .usually("half of the machine's memory")
-        .besidePicture();
+    declareFilmMemory(c);
     c.list.choice("--backend", "WHICH", "what takes the samples", o.backend);
     declareDevice(c);
     declareHost(c);
@@ -255,6 +248,8 @@ std::deque<DeclaredCommand> declareCommands() {
         {Command::Merge, "merge",
          "Put films of shares (render --share) together: to a picture, or to a film again",
          declareMerge},
+        {Command::Submit, "submit",
+         "Have a cluster render a picture: shares on its nodes, and their merge", declareSubmit},
         {Command::Study, "study",
          "Error against time and samples of several configurations; a report to look at",
          declareStudy},

@@ -67,6 +67,8 @@ void declareSampler(DeclaredCommand& command, Sampler& where);
 void declareSamples(DeclaredCommand& command, const std::string& samplesHelp);
 /// usually: the default, in words.
 void declareBranches(DeclaredCommand& command, const std::string& usually);
+/// --block.
+CommandOption& declareBlock(DeclaredCommand& command);
 /// Where samples go and when it is enough: --even, -a, --noise, --time.
 void declareSpreading(DeclaredCommand& command);
 /// Throws UsageError if the kind of the picture has no use for --exposure, --aov or --layers.
@@ -79,6 +81,8 @@ void finishBudget(DeclaredCommand& command, bool maySpread);
 /// --pixel and --sample.
 void declareSampleAlone(DeclaredCommand& command);
 
+/// --film-memory.
+void declareFilmMemory(DeclaredCommand& command);
 void declareDevice(DeclaredCommand& command);
 /// Threads and how much is said.
 void declareHost(DeclaredCommand& command);
@@ -89,5 +93,6 @@ void declareCompare(DeclaredCommand& command);
 void declareMerge(DeclaredCommand& command);
 void declareStress(DeclaredCommand& command);
 void declareStudy(DeclaredCommand& command);
+void declareSubmit(DeclaredCommand& command);
 
 } // namespace stromboli

@@ -21,7 +21,16 @@
 
 namespace stromboli {
 
-enum class Command { Render, Check, Info, Devices, Bench, Stress, Compare, Study, Merge };
+enum class Command { Render, Check, Info, Devices, Bench, Stress, Compare, Study, Merge, Submit };
+/// Rather than look at one, or measure.
+inline bool rendersPictures(Command command) {
+    return command == Command::Render || command == Command::Submit;
+}
+enum class Scheduler { Slurm };
+template <>
+inline constexpr auto kNamedValues<Scheduler> = std::to_array<NamedValue<Scheduler>>({
+    {Scheduler::Slurm, "slurm", "a job array, and a job that merges"},
+});
 enum class BackendChoice { Vulkan, Reference };
 template <>
 inline constexpr auto kNamedValues<BackendChoice> = std::to_array<NamedValue<BackendChoice>>({
@@ -39,6 +48,18 @@ inline constexpr auto kNamedValues<CameraChoice> = std::to_array<NamedValue<Came
 /// Names one sample of a picture: column, row from the top, number.
 struct SampleName {
     uint32_t x = 0, y = 0, sample = 0;
+};
+
+/// `submit`, beside the picture.
+struct SubmitOptions {
+    Scheduler scheduler = Scheduler::Slurm;
+    uint32_t shares = 0;
+    /// Of the commands that the nodes run, quoted for a shell.
+    std::vector<std::string> render, merge;
+    std::string program; ///< as the nodes find it; empty: where this one is
+    std::string jobTime;
+    std::vector<std::string> sbatch; ///< options of it
+    bool dryRun = false;
 };
 
 /// The command line, understood and checked; what needs the scene (picture size) is still open.
@@ -86,7 +107,8 @@ struct Options {
     CompareOptions compare;
     StudyOptions study;
     StressOptions stress;
-    std::string infoJsonFile;       ///< info; empty: text
+    std::string infoJsonFile; ///< info; empty: text
+    SubmitOptions submit;
     std::vector<std::string> films; ///< merge
     bool wantsAllShares = false;    ///< merge: without all of them there is no picture
 };

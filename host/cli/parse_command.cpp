@@ -88,9 +88,12 @@ std::vector<std::string> pictureCommandOf(const DeclaredCommand& command, const 
     for (const CommandOption& o : command.list.all()) {
         const auto words = given.find(o.name());
         if (words == given.end() || o.isBesidePicture) continue;
-        std::string part = o.dashedNames().empty() ? "" : o.name();
-        for (const std::string& word : words->second)
-            part += (part.empty() ? "" : " ") + shellQuoted(word);
+        const std::string name = o.dashedNames().empty() ? "" : o.name();
+        std::string part = name;
+        for (size_t i = 0; i < words->second.size(); ++i) {
+            if (i > 0 && o.mayRepeat) part += " " + name;
+            part += (part.empty() ? "" : " ") + shellQuoted(words->second[i]);
+        }
         parts.push_back(part);
     }
     return parts;

@@ -34,7 +34,7 @@ void declareSamples(DeclaredCommand& c, const std::string& samplesHelp) {
     c.list.group("Sampling");
     c.list.number("-s,--samples", "N", samplesHelp, c.asked.paths, kSamples)
         .usually(fmt::format("{}{}", c.asked.usualPaths,
-                             c.options.command == Command::Render ? "; --cs184: 1" : ""));
+                             rendersPictures(c.options.command) ? "; --cs184: 1" : ""));
     declareSampler(c, c.options.estimator.sampler);
     c.list.choice("--filter", "WHICH", "how much places about a pixel count for it",
                   c.options.estimator.filter);
@@ -51,6 +51,15 @@ void declareBranches(DeclaredCommand& c, const std::string& usually) {
         .usually(usually);
 }
 
+CommandOption& declareBlock(DeclaredCommand& c) {
+    return c.list.number(
+        "--block", "N",
+        "paths of a pixel that are added up by themselves, where all pixels get as many; shares "
+        "consist of whole blocks, and renders of other blocks differ in the last bits "
+        "(docs/farm.md)",
+        c.asked.pathsPerBlock, kSamples);
+}
+
 void declareSpreading(DeclaredCommand& c) {
     OptionList& list = c.list;
     Adaptive& a = c.options.budget.adaptive;
@@ -59,11 +68,7 @@ void declareSpreading(DeclaredCommand& c) {
               "the same number of samples for every pixel, so that a --crop has the bytes it has "
               "in the whole picture",
               c.asked.even);
-    list.number("--block", "N",
-                "with --even: paths of a pixel that are added up by themselves; shares consist of "
-                "whole blocks, and renders of other blocks differ in the last bits (docs/farm.md)",
-                c.asked.pathsPerBlock, kSamples)
-        .needs("--even");
+    declareBlock(c).needs("--even");
     list.words("-a,--adaptive", "BATCH TOLERANCE",
                "adaptive sampling: test a pixel every BATCH samples, stop at 1.96 sigma <= "
                "TOLERANCE * mean",

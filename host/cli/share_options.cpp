@@ -1,4 +1,5 @@
 // Options: shares of a picture's samples, and putting them together.
+#include "host/cli/command_line.hpp"
 #include "host/cli/declared_command.hpp"
 #include "host/core/error.hpp"
 #include "host/farm/film_file.hpp"
@@ -19,6 +20,24 @@ ShareName readShare(const std::string& word) {
     share.count = readNumber("--share: N", word.substr(slash + 1), kShares);
     share.index = readNumber("--share: I", word.substr(0, slash), {1, share.count});
     return share;
+}
+
+/// What a share leaves open, and merge is asked for.
+void declareMergedPicture(DeclaredCommand& c) {
+    Options& o = c.options;
+    c.list.real("--exposure", "EV", "PNG: radiance times 2^EV", o.tone.exposure, kStops);
+    c.list.flag("--aov", "EXR: also sample counts and variances of the mean", o.statisticsChannels);
+    c.list
+        .words("--notes", "WHETHER",
+               "on: the picture's file says how it was made; off: it does not", 1,
+               [&o](const Words& words) {
+                   if (words[0] != "on" && words[0] != "off")
+                       refuse("--notes", words[0], "on or off");
+                   o.notes = words[0] == "on";
+               })
+        .usually("on")
+        .besidePicture()
+        .proposes({"on", "off"});
 }
 
 } // namespace
@@ -77,18 +96,7 @@ void declareMerge(DeclaredCommand& c) {
         .required()
         .proposes(Proposed::Files);
     c.list.flag("--complete", "write nothing, and fail, if shares are missing", o.wantsAllShares);
-    c.list.real("--exposure", "EV", "PNG: radiance times 2^EV", o.tone.exposure, kStops);
-    c.list.flag("--aov", "EXR: also sample counts and variances of the mean", o.statisticsChannels);
-    c.list
-        .words("--notes", "WHETHER",
-               "on: the picture's file says how it was made; off: it does not", 1,
-               [&o](const Words& words) {
-                   if (words[0] != "on" && words[0] != "off")
-                       refuse("--notes", words[0], "on or off");
-                   o.notes = words[0] == "on";
-               })
-        .usually("on")
-        .proposes({"on", "off"});
+    declareMergedPicture(c);
     declareHost(c);
     c.finish = [&c, &o] {
         if (!namesFilm(o.output)) return checkOutputOptions(c);
@@ -96,6 +104,77 @@ void declareMerge(DeclaredCommand& c) {
         if (!ofPictures.empty())
             throw UsageError(fmt::format("{}: a film has no {}: say it when the picture is made",
                                          o.output, ofPictures));
+    };
+}
+
+void declareSubmit(DeclaredCommand& c) {
+    Options& o = c.options;
+    SubmitOptions& submit = o.submit;
+    c.asked.even = true;
+    c.list.group("Scheduler");
+    c.list.choice("SCHEDULER", "", "who gives the work to machines", submit.scheduler)
+        .usually("")
+        .required()
+        .besidePicture();
+    c.list
+        .number("--shares", "N", "tasks: parts of every pixel's samples", submit.shares, {1, 1000})
+        .required()
+        .usually("")
+        .besidePicture();
+    c.list
+        .text("--job-time", "LIMIT", "most time of a task, as sbatch --time has it: 90, 2:00:00",
+              submit.jobTime)
+        .usually("the cluster's own")
+        .besidePicture();
+    c.list
+        .words("--sbatch", "OPTION",
+               "another option of sbatch, as --sbatch=--partition=gpu; may be repeated", 1,
+               [&submit](const Words& words) { submit.sbatch = words; })
+        .besidePicture()
+        .mayRepeat = true;
+    c.list.text("--program", "FILE", "the program, as the nodes find it", submit.program)
+        .usually("the file of this one")
+        .besidePicture()
+        .proposes(Proposed::Files);
+    c.list.flag("--dry-run", "print the scripts and submit nothing", submit.dryRun).besidePicture();
+    declareScene(c);
+    c.list.group("Output");
+    c.list
+        .text(
+            "-o,--output", "FILE",
+            "picture to write, in a folder that all nodes share: .png or .exr; films, scripts and "
+            "logs are put into FILE.shares",
+            o.output)
+        .required()
+        .besidePicture()
+        .proposes(Proposed::Files);
+    declareMergedPicture(c);
+    declarePicture(c);
+    declareEstimator(c);
+    declareSamples(c, "samples per pixel, the same number for all");
+    declareBranches(c, "4 where bounces make most of the noise, else 1 (docs/estimator.md)");
+    declareBlock(c);
+    declareFilmMemory(c);
+    c.list.choice("--backend", "WHICH", "what takes the samples", o.backend);
+    declareDevice(c);
+    declareHost(c);
+    c.finish = [&c, &o, &submit] {
+        finishPicture(c);
+        finishEstimator(c);
+        finishBudget(c, true);
+        if (!o.cameras.empty())
+            throw UsageError("submit is of one picture: --camera names several");
+        checkOutputOptions(c);
+        for (size_t i = 1; i < o.pictureCommand.size(); ++i) { // the first is the command's name
+            const std::string& part = o.pictureCommand[i];
+            const bool isOfMerge = part.starts_with("--exposure") || part == "--aov";
+            (isOfMerge ? submit.merge : submit.render).push_back(part);
+        }
+        if (!o.notes) submit.merge.emplace_back("--notes off");
+        if (c.has("--device")) submit.render.push_back("--device " + shellQuoted(o.device));
+        if (c.has("-t")) submit.render.push_back(fmt::format("-t {}", o.threads));
+        if (o.filmMebibytes)
+            submit.render.push_back(fmt::format("--film-memory {}", *o.filmMebibytes));
     };
 }
 

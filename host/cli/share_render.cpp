@@ -92,7 +92,7 @@ void requireExpected(const Job& job, const Options& options) {
                        version()));
 }
 
-FilmHeader headerOfShare(const Job& job, const Options& options, const std::string& device) {
+FilmHeader headerOfPicture(const Job& job, const Options& options, const std::string& device) {
     FilmHeader picture;
     picture.identity = {version(),
                         renderingCode(),
@@ -103,6 +103,11 @@ FilmHeader headerOfShare(const Job& job, const Options& options, const std::stri
     picture.settings = job.settings;
     picture.scene = options.scene;
     picture.command = options.pictureCommand;
+    return picture;
+}
+
+FilmHeader headerOfShare(const Job& job, const Options& options, const std::string& device) {
+    FilmHeader picture = headerOfPicture(job, options, device);
     const uint32_t blocks = picture.allBlocks().count();
     if (blocks < options.share->count)
         logging::warn(

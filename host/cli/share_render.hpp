@@ -14,6 +14,8 @@ std::string fingerprintOf(const Job& job);
 /// Throws SceneError, or UsageError for the program, if --expect names another one.
 void requireExpected(const Job& job, const Options& options);
 
+/// A film of the whole picture, before it has samples.
+FilmHeader headerOfPicture(const Job& job, const Options& options, const std::string& device);
 /// The film of the share that is asked for, before it has samples. Says so if it has none.
 FilmHeader headerOfShare(const Job& job, const Options& options, const std::string& device);
 

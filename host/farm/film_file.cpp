@@ -30,45 +30,103 @@ constexpr std::string_view kMagic = "stromboli film 1\n";
 /// Not there in what is cut short.
 constexpr std::string_view kEnd = "end of film\n";
 
-/// Numbers of the same kind side by side: neighbouring pixels have nearly the same high digits, and
-/// counts are all alike.
+/// Calls visit(kind, numberOf) for all kinds of numbers that a pixel has.
 template <class Visit>
-void forEachNumber(const Visit& visit) {
-    visit([](auto& p) -> auto& { return p.count; });
-    visit([](auto& p) -> auto& { return p.rejected; });
-    visit([](auto& p) -> auto& { return p.firstRejected; });
+void forEachKind(const Visit& visit) {
+    uint32_t kind = 0;
+    visit(
+        kind++, [](auto& p) -> auto& { return p.count; });
+    visit(
+        kind++, [](auto& p) -> auto& { return p.rejected; });
+    visit(
+        kind++, [](auto& p) -> auto& { return p.firstRejected; });
     for (size_t c = 0; c < 3; ++c) {
         for (size_t i = 0; i < ExactStatistics().sum[c].words.size(); ++i)
-            visit([=](auto& p) -> auto& { return p.sum[c].words[i]; });
+            visit(
+                kind++, [=](auto& p) -> auto& { return p.sum[c].words[i]; });
         for (size_t i = 0; i < ExactStatistics().squares[c].words.size(); ++i)
-            visit([=](auto& p) -> auto& { return p.squares[c].words[i]; });
+            visit(
+                kind++, [=](auto& p) -> auto& { return p.squares[c].words[i]; });
     }
 }
 
-constexpr size_t kBytesPerPixel = 3 * sizeof(uint32_t) + 3 * (4 + 5) * sizeof(uint64_t);
+/// A set of kinds.
+using Kinds = uint32_t;
+static_assert(3 + 3 * (4 + 5) <= 32);
 
-std::vector<std::byte> bytesOf(std::span<const ExactStatistics> run) {
-    std::vector<std::byte> bytes(run.size() * kBytesPerPixel);
-    std::byte* at = bytes.data();
-    forEachNumber([&](const auto& numberOf) {
-        for (const ExactStatistics& p : run) {
-            const auto value = numberOf(p);
-            std::memcpy(at, &value, sizeof value);
-            at += sizeof value;
-        }
+template <class NumberOf>
+constexpr size_t sizeOf = sizeof(std::declval<NumberOf>()(std::declval<ExactStatistics&>()));
+
+/// Pixels that are turned from rows of pixels to rows of numbers, or back, at a time: 64 KiB of
+/// sums stay in a core's own cache for all of their numbers.
+constexpr size_t kTile = 256;
+
+/// Calls visit(numberOf, pixel, place) for all numbers of these kinds of `count` pixels and their
+/// place in the run's bytes, where numbers of a kind are side by side: neighbouring pixels have
+/// nearly the same high digits, and counts are all alike.
+template <class Visit>
+void forEachPlace(size_t count, Kinds kinds, const Visit& visit) {
+    for (size_t tile = 0; tile < count; tile += kTile) {
+        size_t row = 0; // the place of the numbers of a kind
+        const size_t end = std::min(tile + kTile, count);
+        forEachKind([&](uint32_t kind, const auto& numberOf) {
+            if ((kinds >> kind & 1) == 0) return;
+            constexpr size_t size = sizeOf<decltype(numberOf)>;
+            for (size_t i = tile; i < end; ++i)
+                visit(numberOf, i, row + i * size);
+            row += count * size;
+        });
+    }
+}
+
+/// Those that are not 0 everywhere, which is more than half: sums have room for any picture.
+Kinds kindsIn(std::span<const ExactStatistics> run) {
+    Kinds kinds = 0;
+    for (const ExactStatistics& p : run)
+        forEachKind([&](uint32_t kind, const auto& numberOf) {
+            kinds |= uint32_t(numberOf(p) != 0) << kind;
+        });
+    return kinds;
+}
+
+size_t bytesOf(Kinds kinds) {
+    size_t bytes = 0;
+    forEachKind([&](uint32_t kind, const auto& numberOf) {
+        if (kinds >> kind & 1) bytes += sizeOf<decltype(numberOf)>;
     });
     return bytes;
 }
 
-void fromBytes(std::span<const std::byte> bytes, std::vector<ExactStatistics>& run) {
-    const std::byte* at = bytes.data();
-    forEachNumber([&](const auto& numberOf) {
-        for (ExactStatistics& p : run) {
-            auto& value = numberOf(p);
-            std::memcpy(&value, at, sizeof value);
-            at += sizeof value;
-        }
+/// The kinds of numbers that follow, then they, compressed.
+std::vector<std::byte> bytesOf(std::span<const ExactStatistics> run) {
+    const Kinds kinds = kindsIn(run);
+    std::vector<std::byte> numbers(run.size() * bytesOf(kinds));
+    forEachPlace(run.size(), kinds, [&](const auto& numberOf, size_t i, size_t place) {
+        const auto number = numberOf(run[i]);
+        std::memcpy(numbers.data() + place, &number, sizeof number);
     });
+    std::vector<std::byte> bytes;
+    append(bytes, kinds);
+    const std::vector<std::byte> small = compressed(numbers);
+    append(bytes, small.data(), small.size());
+    return bytes;
+}
+
+/// False if the bytes were others. The run's numbers are 0.
+bool fromBytes(std::span<const std::byte> bytes, std::vector<ExactStatistics>& run) {
+    Kinds kinds = 0;
+    if (bytes.size() < sizeof kinds) return false;
+    std::memcpy(&kinds, bytes.data(), sizeof kinds);
+    const std::optional<std::vector<std::byte>> numbers =
+        decompressed(bytes.subspan(sizeof kinds), run.size() * bytesOf(kinds));
+    if (!numbers) return false;
+    for (ExactStatistics& p : run)
+        p.firstRejected = 0;
+    forEachPlace(run.size(), kinds, [&](const auto& numberOf, size_t i, size_t place) {
+        auto& number = numberOf(run[i]);
+        std::memcpy(&number, numbers->data() + place, sizeof number);
+    });
+    return true;
 }
 
 /// Size and checksum, then the bytes.
@@ -114,7 +172,7 @@ void FilmWriter::add(std::span<const ExactStatistics> pixels) {
 }
 
 void FilmWriter::writeRun() {
-    writePart(file_, compressed(bytesOf(run_)));
+    writePart(file_, bytesOf(run_));
     pixelsLeft_ -= run_.size();
     run_.clear();
 }
@@ -196,10 +254,7 @@ void FilmReader::next(std::vector<ExactStatistics>& run) {
     const auto sum = parts.number<uint32_t>();
     const std::vector<std::byte> bytes = read(size);
     if (checksumOf(bytes) != sum) refuse("the film is damaged");
-    const std::optional<std::vector<std::byte>> numbers =
-        decompressed(bytes, run.size() * kBytesPerPixel);
-    if (!numbers) refuse("the film is damaged");
-    fromBytes(*numbers, run);
+    if (!fromBytes(bytes, run)) refuse("the film is damaged");
 }
 
 } // namespace stromboli
