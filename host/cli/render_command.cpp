@@ -290,6 +290,7 @@ int renderShare(Renderer& renderer, Job& job, const Options& options) {
     requireExpected(job, options);
     RenderReport report;
     report.loadSeconds = job.loadSeconds;
+    report.isShare = true;
     bool isThere = false;
     renderer.render(
         job, options,

@@ -129,7 +129,12 @@ void declareSubmit(DeclaredCommand& c) {
     c.list
         .words("--sbatch", "OPTION",
                "another option of sbatch, as --sbatch=--partition=gpu; may be repeated", 1,
-               [&submit](const Words& words) { submit.sbatch = words; })
+               [&submit](const Words& words) {
+                   for (const std::string& word : words)
+                       if (!word.starts_with("-"))
+                           refuse("--sbatch", word, "an option of sbatch, with its dashes");
+                   submit.sbatch = words;
+               })
         .besidePicture()
         .mayRepeat = true;
     c.list.text("--program", "FILE", "the program, as the nodes find it", submit.program)
