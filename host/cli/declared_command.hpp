@@ -18,8 +18,8 @@ struct Asked {
     bool usuallySpread = true; ///< samples go where they help most
     std::optional<uint32_t> paths;
     bool adaptive = false, even = false;
-    uint32_t pathsPerBlock = 64; ///< of an even render
-    std::optional<Crop> cell;    ///< y counts from the bottom of the picture
+    uint32_t pathsPerBlock = 128; ///< of an even render
+    std::optional<Crop> cell;     ///< y counts from the bottom of the picture
     std::optional<uint32_t> accumulate;
     SampleName sample;
     bool sampleAlone = false; ///< `sample` and nothing else

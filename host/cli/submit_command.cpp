@@ -111,7 +111,7 @@ int submitCommand(const Options& options) {
     slurm.fingerprint = fingerprintOf(job);
     slurm.picture = shellQuoted(options.output);
     slurm.files = shellQuoted(folder);
-    slurm.runsIn = fs::current_path().string();
+    slurm.runsIn = shellQuoted(fs::current_path());
     slurm.shares = options.submit.shares;
     slurm.toTake = sharesToTake(job, options, folder);
     slurm.timeLimit = options.submit.jobTime;

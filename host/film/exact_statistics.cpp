@@ -18,24 +18,14 @@ constexpr double kLargestRadiance = 281474976710656.0;
 static_assert(Sum::kLimit > 72 && Squares::kLimit > 121);
 
 /// The square of the first 64 digits of a sum, over the number of samples, to 2^-102 of it at
-/// least; exactly where it has no more digits, as that of equal samples.
+/// least: 128 digits less those of the largest count, and of the square's own leading one. Exactly
+/// where it has no more digits, as that of equal samples.
 Squares squareOver(const Sum& sum, uint32_t count) {
     const Sum::Top t = sum.top();
     const uint128 square = uint128(t.digits) * t.digits;
     Squares result;
-    if (std::has_single_bit(count)) {
-        result.add(square, 2 * t.exponent - std::countr_zero(count));
-        return result;
-    }
-    // Long division, with a word of digits behind the point.
-    uint64_t remainder = 0;
-    int exponent = 2 * t.exponent + 64;
-    for (const uint64_t word : {uint64_t(square >> 64), uint64_t(square), uint64_t(0)}) {
-        const uint128 part = uint128(remainder) << 64 | word;
-        result.add(uint64_t(part / count), exponent);
-        remainder = uint64_t(part % count);
-        exponent -= 64;
-    }
+    result.add(std::has_single_bit(count) ? square >> std::countr_zero(count) : square / count,
+               2 * t.exponent);
     return result;
 }
 

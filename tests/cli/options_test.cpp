@@ -273,13 +273,13 @@ TEST(Options, AShareIsEvenAndSaysSoInItsCommand) {
     EXPECT_EQ(*share.share, (ShareName{3, 16}));
     EXPECT_FALSE(share.budget.spreads());
     EXPECT_EQ(share.budget.mostPathsPerPixel, 96u);
-    EXPECT_EQ(share.budget.pathsPerBlock, 64u);
+    EXPECT_EQ(share.budget.pathsPerBlock, 128u);
     EXPECT_EQ(share.pictureCommand, whole.pictureCommand);
-    EXPECT_EQ(whole.budget.pathsPerBlock, 64u);
+    EXPECT_EQ(whole.budget.pathsPerBlock, 128u);
     EXPECT_EQ(parse({"render", "a.dae", "-o", "a.exr", "-s", "96"}).budget.pathsPerBlock, 0u);
-    EXPECT_EQ(inSamples(share.budget, 4).samplesPerBlock, 16u);
-    EXPECT_EQ(inSamples(share.budget, 3).samplesPerBlock, 21u);
-    EXPECT_EQ(inSamples(share.budget, 96).samplesPerBlock, 1u);
+    EXPECT_EQ(inSamples(share.budget, 4).samplesPerBlock, 32u);
+    EXPECT_EQ(inSamples(share.budget, 3).samplesPerBlock, 42u);
+    EXPECT_EQ(inSamples(share.budget, 200).samplesPerBlock, 1u);
 }
 
 TEST(Options, SubmitTellsSharesAndMergeWhatIsTheirs) {

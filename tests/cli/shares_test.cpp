@@ -210,14 +210,14 @@ TEST_F(Shares, BeginOnlyWithTheSceneThatIsExpected) {
 
 /// At random moments: there is no film or the whole one, and once it may end it is the whole one.
 TEST_F(Shares, ThatAreKilledLeaveNoHalfOfAFilm) {
-    const Strings words = render("a.film", {"--share", "1/2"}, "480");
+    const Strings words = render("a.film", {"--share", "1/2"}, "4k");
     run(words);
     const std::string whole = bytesOf("a.film");
     ASSERT_FALSE(whole.empty());
     std::mt19937 random(1);
     std::uniform_int_distribution<int> moment(1, 900); // milliseconds; about what it takes
     int kills = 0;
-    for (int i = 0; i < 30; ++i) {
+    for (int attempts = 0; kills < 12 && attempts < 60; ++attempts) {
         RunningProgram program(words);
         std::this_thread::sleep_for(std::chrono::milliseconds(moment(random)));
         program.send(SIGKILL);
@@ -226,7 +226,7 @@ TEST_F(Shares, ThatAreKilledLeaveNoHalfOfAFilm) {
         EXPECT_TRUE(left.empty() || left == whole);
         std::filesystem::remove(folder.file("a.film"));
     }
-    EXPECT_GT(kills, 5);
+    EXPECT_EQ(kills, 12);
     run(words);
     EXPECT_TRUE(bytesOf("a.film") == whole);
     EXPECT_EQ(folder.entries().size(), 1u) << "temporary files are left";
