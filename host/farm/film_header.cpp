@@ -59,6 +59,21 @@ BlockRange pathsOf(const FilmHeader& film, const BlockRange& range) {
             film.allBlocks().firstOf(range.end) * branches};
 }
 
+/// What no film says that this program wrote, and what others would not survive.
+bool isPossible(const FilmHeader& header) {
+    if (header.settings.area.pixelCount() == 0 || !header.settings.budget.isInBlocks())
+        return false;
+    uint32_t next = 0;
+    for (const BlockRange& range : header.blocks) {
+        if (range.first < next || range.end <= range.first) return false;
+        next = range.end;
+    }
+    return next <= header.allBlocks().count() &&
+           std::ranges::all_of(header.shares, [](const ShareName& share) {
+               return share.index >= 1 && share.index <= share.count;
+           });
+}
+
 } // namespace
 
 std::string inWords(const ShareName& share) {
@@ -220,6 +235,8 @@ FilmHeader filmHeaderFromBytes(std::span<const std::byte> bytes,
     } catch (const UsageError& error) {
         throw UsageError(fmt::format("{}: {}", file.string(), error.what()));
     }
+    if (!isPossible(header))
+        throw UsageError(fmt::format("{}: the film makes no sense", file.string()));
     return header;
 }
 

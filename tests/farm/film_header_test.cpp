@@ -39,6 +39,21 @@ TEST(FilmHeader, ComesBackAsItWas) {
     EXPECT_EQ(back.samples(), 32u);
 }
 
+TEST(FilmHeader, RefusesWhatMakesNoSense) {
+    const auto refusal = [](const std::function<void(FilmHeader&)>& change) {
+        FilmHeader h = sumOf({{1, 4}, {3, 4}});
+        change(h);
+        return refusalOf([&] { filmHeaderFromBytes(toBytes(h), "a.film"); });
+    };
+    EXPECT_EQ(refusal([](FilmHeader&) {}), "");
+    const char* const kNonsense = "a.film: the film makes no sense";
+    EXPECT_EQ(refusal([](FilmHeader& h) { h.settings.budget.samplesPerBlock = 0; }), kNonsense);
+    EXPECT_EQ(refusal([](FilmHeader& h) { h.settings.area.width = 0; }), kNonsense);
+    EXPECT_EQ(refusal([](FilmHeader& h) { h.blocks[1].end = 65; }), kNonsense);
+    EXPECT_EQ(refusal([](FilmHeader& h) { h.blocks[1].first = 15; }), kNonsense);
+    EXPECT_EQ(refusal([](FilmHeader& h) { h.shares[0].index = 5; }), kNonsense);
+}
+
 TEST(FilmHeader, OfManySharesInAnyOrderAreTheSame) {
     const FilmHeader a = sumOf({{1, 4}, {2, 4}, {3, 4}, {4, 4}});
     const FilmHeader b = sumOf({{3, 4}, {1, 4}, {4, 4}, {2, 4}});
