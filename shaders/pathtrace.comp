@@ -103,7 +103,7 @@ void changePixel(bool mayGoOn) {
     const uint taken = atomicAdd(status.nextItem, 1u);
     if (taken >= dispatch.itemCount) return;
     takeUp(taken);
-    pixelState.samplesBefore = samplesTaken();
+    pixelState.samplesBefore = frame.firstSample + samplesTaken();
     phase = PHASE_NEXT;
 }
 
@@ -117,7 +117,7 @@ const uint STOPPING_BLOCK = 0x7FFFFFFFu;
 /// dropping cancel, to the first order, where it is ended with the share of those in all (docs/estimator.md,
 /// "A render that is stopped"). The choice knows nothing of the samples' values.
 bool endsSampleUnderWay() {
-    const uint taken = samplesTaken();
+    const uint taken = frame.firstSample + samplesTaken();
     if (taken == 0u) return true;
     const uint word = pcg4d(uvec4(pixelId, taken, STOPPING_BLOCK, frame.seed)).x;
     return float(word >> 8u) * (1.0 / 16777216.0) * float(taken) < float(pixelState.samplesBefore);

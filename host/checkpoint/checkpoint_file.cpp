@@ -1,11 +1,11 @@
 #include "host/checkpoint/checkpoint_file.hpp"
 
+#include "host/checkpoint/byte_parts.hpp"
 #include "host/checkpoint/compression.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cstring>
@@ -18,46 +18,6 @@ namespace fs = std::filesystem;
 
 /// Changes with every change of what is written around the session's own bytes.
 constexpr std::string_view kMagic = "stromboli checkpoint 2\n";
-
-void append(std::vector<std::byte>& bytes, const void* data, size_t size) {
-    const auto* const first = static_cast<const std::byte*>(data);
-    bytes.insert(bytes.end(), first, first + size);
-}
-
-void append(std::vector<std::byte>& bytes, const std::string& text) {
-    const uint64_t size = text.size();
-    append(bytes, &size, sizeof size);
-    append(bytes, text.data(), text.size());
-}
-
-/// Takes parts of a file from its beginning.
-class Parts {
-  public:
-    Parts(const fs::path& file, std::span<const std::byte> bytes) : file_(&file), bytes_(bytes) {}
-
-    std::span<const std::byte> take(uint64_t size) {
-        if (size > bytes_.size())
-            throw UsageError(fmt::format("{}: the checkpoint is cut short", file_->string()));
-        const auto part = bytes_.first(size);
-        bytes_ = bytes_.subspan(size);
-        return part;
-    }
-    template <class T>
-    T number() {
-        T value{};
-        std::memcpy(&value, take(sizeof value).data(), sizeof value);
-        return value;
-    }
-    std::string text() {
-        const auto part = take(number<uint64_t>());
-        return {reinterpret_cast<const char*>(part.data()), part.size()};
-    }
-    std::span<const std::byte> rest() const { return bytes_; }
-
-  private:
-    const fs::path* file_;
-    std::span<const std::byte> bytes_;
-};
 
 std::vector<std::byte> contentOf(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary | std::ios::ate);
@@ -72,24 +32,6 @@ std::vector<std::byte> contentOf(const fs::path& file) {
     return bytes;
 }
 
-uint32_t checksum(std::span<const std::byte> bytes) {
-    return uint32_t(
-        crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), z_size_t(bytes.size())));
-}
-
-bool sameArea(const PictureArea& a, const PictureArea& b) {
-    const Crop x = a.rendered(), y = b.rendered();
-    return a.width == b.width && a.height == b.height && x.x == y.x && x.y == y.y &&
-           x.width == y.width && x.height == y.height;
-}
-
-/// The bytes of a session in which only the estimator may differ.
-std::vector<std::byte> bytesOf(const Estimator& estimator) {
-    SessionState state;
-    state.settings.estimator = estimator;
-    return toBytes(state);
-}
-
 } // namespace
 
 fs::path usualCheckpointPath(const fs::path& picture) {
@@ -102,31 +44,29 @@ void writeCheckpoint(const fs::path& file, const Checkpoint& checkpoint) {
     append(bytes, checkpoint.identity.program);
     append(bytes, checkpoint.identity.code);
     append(bytes, checkpoint.identity.scene);
-    append(bytes, &checkpoint.identity.sceneSum, sizeof checkpoint.identity.sceneSum);
+    append(bytes, checkpoint.identity.sceneSum);
     append(bytes, checkpoint.identity.backend);
     append(bytes, checkpoint.identity.device);
     const std::vector<std::byte> state = toBytes(checkpoint.state);
-    const uint64_t size = state.size();
-    append(bytes, &size, sizeof size);
+    append(bytes, uint64_t(state.size()));
     const std::vector<std::byte> small = compressed(state);
     append(bytes, small.data(), small.size());
-    const uint32_t sum = checksum(bytes);
-    append(bytes, &sum, sizeof sum);
+    append(bytes, checksumOf(bytes));
     writeFileAtomically(file, bytes);
 }
 
 Checkpoint readCheckpoint(const fs::path& file) {
     const std::vector<std::byte> bytes = contentOf(file);
-    Parts parts(file, bytes);
+    ByteParts parts(file, "checkpoint", bytes);
     if (bytes.size() < kMagic.size() ||
         std::memcmp(parts.take(kMagic.size()).data(), kMagic.data(), kMagic.size()) != 0)
         throw UsageError(
             fmt::format("{}: not a checkpoint of this version of the program", file.string()));
     const size_t end = bytes.size() - std::min(bytes.size(), sizeof(uint32_t));
-    Parts sum(file, std::span(bytes).subspan(end));
-    if (sum.number<uint32_t>() != checksum(std::span(bytes).first(end)))
+    ByteParts sum(file, "checkpoint", std::span(bytes).subspan(end));
+    if (sum.number<uint32_t>() != checksumOf(std::span(bytes).first(end)))
         throw UsageError(fmt::format("{}: the checkpoint is damaged or cut short", file.string()));
-    parts = Parts(file, std::span(bytes).first(end).subspan(kMagic.size()));
+    parts = ByteParts(file, "checkpoint", std::span(bytes).first(end).subspan(kMagic.size()));
     Checkpoint c;
     c.identity.program = parts.text();
     c.identity.code = parts.text();
@@ -168,8 +108,14 @@ void requireSameRender(const fs::path& file, const Checkpoint& checkpoint,
                                                 ? std::string(": the file has changed")
                                                 : " (" + kept.scene + ")"),
                "begin anew");
-    if (bytesOf(checkpoint.state.settings.estimator) != bytesOf(settings.estimator))
+    if (!sameEstimator(checkpoint.state.settings.estimator, settings.estimator))
         refuse("other settings", "only -s, --noise, --time and -a may change when it goes on");
+    const uint32_t block = checkpoint.state.settings.budget.samplesPerBlock;
+    if (block != settings.budget.samplesPerBlock)
+        refuse(block == 0 ? std::string("a picture that was not begun with --even")
+                          : fmt::format("a picture whose samples are added up in blocks of {}",
+                                        block * settings.estimator.branches),
+               "give the same --even and --block");
 }
 
 SessionState withBudget(SessionState state, const Budget& budget) {

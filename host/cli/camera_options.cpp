@@ -111,6 +111,7 @@ void checkSequence(const DeclaredCommand& c) {
             fmt::format("--frames: the turntable has the frames 0 to {}", sequence.turntable - 1));
     if (!o.cameras.empty())
         throw UsageError(fmt::format("{} is of one camera: --camera names several", option));
+    if (o.share) throw UsageError(fmt::format("--share is of one picture, and not of {}", option));
     if (o.sampleAlone)
         throw UsageError(fmt::format("--pixel is of one picture, and not of {}", option));
     if (o.output == "-" || o.statsFile == "-")

@@ -34,7 +34,9 @@ void declareOutput(DeclaredCommand& c) {
     c.list.group("Output");
     c.list
         .text("-o,--output", "FILE",
-              "picture to write: .png (sRGB, 8 bit) or .exr (linear); -: a PNG on standard output",
+              "picture to write: .png (sRGB, 8 bit) or .exr (linear); -: a PNG on standard output; "
+              "with "
+              "--share a .film",
               o.output)
         .besidePicture()
         .proposes(Proposed::Files);
@@ -68,21 +70,6 @@ void declareOutput(DeclaredCommand& c) {
         .usually("on")
         .besidePicture()
         .proposes({"on", "off"});
-}
-
-/// What the kind of picture has no use for.
-void checkOutputOptions(const DeclaredCommand& c) {
-    const Options& o = c.options;
-    const bool isExr = !isPng(o.output);
-    if (o.statisticsChannels && !isExr)
-        throw UsageError(
-            fmt::format("--aov needs an EXR file: {} has no channels for it", o.output));
-    if (!o.layers.empty() && !isExr)
-        throw UsageError(fmt::format(
-            "--layers needs an EXR file (-o name.exr): {} has no channels for them", o.output));
-    if (c.has("--exposure") && isExr)
-        throw UsageError(
-            fmt::format("--exposure is for PNG: {} holds radiance as it is", o.output));
 }
 
 /// Each has files of its own.
@@ -129,7 +116,8 @@ void declareCheckpoints(DeclaredCommand& c) {
     c.list
         .flag("--resume",
               "go on from the checkpoint, to the same bytes as if never interrupted; also with "
-              "another -s, --noise, --time or -a (--time counts all runs)",
+              "another -s, --noise, --time or -a (--time counts all runs); with --share: the film "
+              "of this share is kept if it is there",
               o.resume)
         .besidePicture();
 }
@@ -146,15 +134,9 @@ void declareRender(DeclaredCommand& c) {
     declareBranches(c, "4 where bounces make most of the noise, else 1 (docs/estimator.md)");
     declareSpreading(c);
     declareSampleAlone(c);
+    declareShare(c);
     declareCheckpoints(c);
-    c.list.group("Device");
-    c.list
-        .number("--film-memory", "MIB",
-                "mebibytes for the film and what belongs to it; a picture that needs more is "
-                "rendered in bands",
-                o.filmMebibytes, {1, 1u << 30})
-        .usually("half of the machine's memory")
-        .besidePicture();
+    declareFilmMemory(c);
     c.list.choice("--backend", "WHICH", "what takes the samples", o.backend);
     declareDevice(c);
     declareHost(c);
@@ -175,7 +157,10 @@ void declareRender(DeclaredCommand& c) {
         if (o.backend == BackendChoice::Reference && c.has("--device"))
             throw UsageError("--device and --backend reference exclude each other: the reference "
                              "runs on the CPU, without Vulkan");
-        if (!o.sampleAlone) checkOutputOptions(c);
+        if (o.share)
+            finishShare(c);
+        else if (!o.sampleAlone)
+            checkOutputOptions(c);
         remarkOnWhatIsIgnored(c);
     };
 }
@@ -226,6 +211,20 @@ void declareDevices(DeclaredCommand& c) {
 
 } // namespace
 
+void checkOutputOptions(const DeclaredCommand& c) {
+    const Options& o = c.options;
+    const bool isExr = !isPng(o.output);
+    if (o.statisticsChannels && !isExr)
+        throw UsageError(
+            fmt::format("--aov needs an EXR file: {} has no channels for it", o.output));
+    if (!o.layers.empty() && !isExr)
+        throw UsageError(fmt::format(
+            "--layers needs an EXR file (-o name.exr): {} has no channels for them", o.output));
+    if (c.has("--exposure") && isExr)
+        throw UsageError(
+            fmt::format("--exposure is for PNG: {} holds radiance as it is", o.output));
+}
+
 std::deque<DeclaredCommand> declareCommands() {
     struct Row {
         Command command;
@@ -248,6 +247,11 @@ std::deque<DeclaredCommand> declareCommands() {
         {Command::Compare, "compare",
          "How far a picture is from a reference: relMSE, PSNR, SSIM, FLIP, bias; limits",
          declareCompare},
+        {Command::Merge, "merge",
+         "Put films of shares (render --share) together: to a picture, or to a film again",
+         declareMerge},
+        {Command::Submit, "submit",
+         "Have a cluster render a picture: shares on its nodes, and their merge", declareSubmit},
         {Command::Study, "study",
          "Error against time and samples of several configurations; a report to look at",
          declareStudy},

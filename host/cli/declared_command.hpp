@@ -18,7 +18,8 @@ struct Asked {
     bool usuallySpread = true; ///< samples go where they help most
     std::optional<uint32_t> paths;
     bool adaptive = false, even = false;
-    std::optional<Crop> cell; ///< y counts from the bottom of the picture
+    uint32_t pathsPerBlock = 128; ///< of an even render
+    std::optional<Crop> cell;     ///< y counts from the bottom of the picture
     std::optional<uint32_t> accumulate;
     SampleName sample;
     bool sampleAlone = false; ///< `sample` and nothing else
@@ -68,13 +69,22 @@ void declareSampler(DeclaredCommand& command, Sampler& where);
 void declareSamples(DeclaredCommand& command, const std::string& samplesHelp);
 /// usually: the default, in words.
 void declareBranches(DeclaredCommand& command, const std::string& usually);
+/// --block.
+CommandOption& declareBlock(DeclaredCommand& command);
 /// Where samples go and when it is enough: --even, -a, --noise, --time.
 void declareSpreading(DeclaredCommand& command);
+/// Throws UsageError if the kind of the picture has no use for --exposure, --aov or --layers.
+void checkOutputOptions(const DeclaredCommand& command);
+/// --share, and what belongs to it.
+void declareShare(DeclaredCommand& command);
+void finishShare(DeclaredCommand& command);
 /// Works out the budget of a command whose samples may be spread, or not.
 void finishBudget(DeclaredCommand& command, bool maySpread);
 /// --pixel and --sample.
 void declareSampleAlone(DeclaredCommand& command);
 
+/// --film-memory.
+void declareFilmMemory(DeclaredCommand& command);
 void declareDevice(DeclaredCommand& command);
 /// Threads and how much is said.
 void declareHost(DeclaredCommand& command);
@@ -82,7 +92,9 @@ void declareHost(DeclaredCommand& command);
 // Commands with options of their own.
 void declareBench(DeclaredCommand& command);
 void declareCompare(DeclaredCommand& command);
+void declareMerge(DeclaredCommand& command);
 void declareStress(DeclaredCommand& command);
 void declareStudy(DeclaredCommand& command);
+void declareSubmit(DeclaredCommand& command);
 
 } // namespace stromboli

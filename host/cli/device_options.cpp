@@ -3,6 +3,17 @@
 
 namespace stromboli {
 
+void declareFilmMemory(DeclaredCommand& c) {
+    c.list.group("Device");
+    c.list
+        .number("--film-memory", "MIB",
+                "mebibytes for the film and what belongs to it; a picture that needs more is "
+                "rendered in bands",
+                c.options.filmMebibytes, {1, 1u << 30})
+        .usually("half of the machine's memory")
+        .besidePicture();
+}
+
 void declareDevice(DeclaredCommand& c) {
     c.list.group("Device");
     c.list

@@ -38,7 +38,7 @@ void useCs184(DeclaredCommand& c) {
     o.estimator.roulette.mode = Roulette::Mode::None;
     o.branches = 1;
     o.budget.adaptive.enabled = true;
-    if (o.command == Command::Render) c.asked.usualPaths = 1; // one sample checks nothing
+    if (rendersPictures(o.command)) c.asked.usualPaths = 1; // one sample checks nothing
     c.asked.usuallySpread = false;
 }
 

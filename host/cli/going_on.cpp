@@ -25,6 +25,8 @@ double meanSamples(const SessionState& state) {
     double sum = 0;
     for (const PixelSums& s : state.sums)
         sum += s.count + s.rejected;
+    for (const ExactStatistics& s : state.blocks)
+        sum += s.taken();
     return state.sums.empty() ? 0
                               : sum * state.settings.estimator.branches / double(state.sums.size());
 }

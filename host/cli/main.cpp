@@ -45,6 +45,10 @@ int run(const stromboli::Options& options) {
         return stromboli::benchCommand(options);
     case Command::Compare:
         return stromboli::compareCommand(options);
+    case Command::Merge:
+        return stromboli::mergeCommand(options);
+    case Command::Submit:
+        return stromboli::submitCommand(options);
     case Command::Study:
         return stromboli::studyCommand(options);
     case Command::Stress:

@@ -62,6 +62,11 @@ CommandOption& CommandOption::needs(std::string option) {
     return *this;
 }
 
+CommandOption& CommandOption::implies(std::string option) {
+    implied.push_back(std::move(option));
+    return *this;
+}
+
 CommandOption& CommandOption::required() {
     isRequired = true;
     return *this;

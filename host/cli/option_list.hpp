@@ -62,6 +62,8 @@ class CommandOption {
     CommandOption& excludes(std::string option, std::string reason = "");
     /// Cannot be given without the other.
     CommandOption& needs(std::string option);
+    /// Says this flag too.
+    CommandOption& implies(std::string option);
     CommandOption& required();
     /// Changes the defaults of other options: is stored before them, wherever it stands.
     CommandOption& changesDefaults();
@@ -88,7 +90,7 @@ class CommandOption {
     bool anyNumber = false, separatedByCommas = false, mayRepeat = false;
     bool isRequired = false, isHidden = false, isFirst = false, isBesidePicture = false;
     std::vector<Conflict> conflicts;
-    std::vector<std::string> needed;
+    std::vector<std::string> needed, implied;
     Proposed proposed = Proposed::Nothing;
     Words proposals;
     /// Understands the words and keeps what they say. Throws UsageError.

@@ -6,6 +6,7 @@
 #include "host/cli/study_options.hpp"
 #include "host/core/log.hpp"
 #include "host/core/named_values.hpp"
+#include "host/farm/film_header.hpp"
 #include "host/film/tone.hpp"
 #include "host/render/layers.hpp"
 #include "host/render/settings.hpp"
@@ -20,7 +21,16 @@
 
 namespace stromboli {
 
-enum class Command { Render, Check, Info, Devices, Bench, Stress, Compare, Study };
+enum class Command { Render, Check, Info, Devices, Bench, Stress, Compare, Study, Merge, Submit };
+/// Rather than look at one, or measure.
+inline bool rendersPictures(Command command) {
+    return command == Command::Render || command == Command::Submit;
+}
+enum class Scheduler { Slurm };
+template <>
+inline constexpr auto kNamedValues<Scheduler> = std::to_array<NamedValue<Scheduler>>({
+    {Scheduler::Slurm, "slurm", "a job array, and a job that merges"},
+});
 enum class BackendChoice { Vulkan, Reference };
 template <>
 inline constexpr auto kNamedValues<BackendChoice> = std::to_array<NamedValue<BackendChoice>>({
@@ -53,6 +63,18 @@ struct SequenceOptions {
     bool isGiven() const { return turntable > 0 || frames; }
 };
 
+/// `submit`, beside the picture.
+struct SubmitOptions {
+    Scheduler scheduler = Scheduler::Slurm;
+    uint32_t shares = 0;
+    /// Of the commands that the nodes run, quoted for a shell.
+    std::vector<std::string> render, merge;
+    std::string program; ///< as the nodes find it; empty: where this one is
+    std::string jobTime;
+    std::vector<std::string> sbatch; ///< options of it
+    bool dryRun = false;
+};
+
 /// The command line, understood and checked; what needs the scene (picture size) is still open.
 struct Options {
     Command command = Command::Render;
@@ -83,10 +105,13 @@ struct Options {
     /// The command without what leaves the picture as it is: its own name, the device, checkpoints.
     /// Words that belong together are one of its parts.
     std::vector<std::string> pictureCommand;
-    bool notes = true;                     ///< of the picture, in its file
-    bool statisticsChannels = false;       ///< EXR: sample counts and variances
-    bool transparent = false;              ///< alpha in place of the environment
-    std::vector<Layer> layers;             ///< EXR: channels beside the radiance
+    bool notes = true;               ///< of the picture, in its file
+    bool statisticsChannels = false; ///< EXR: sample counts and variances
+    bool transparent = false;        ///< alpha in place of the environment
+    std::vector<Layer> layers;       ///< EXR: channels beside the radiance
+    std::optional<ShareName> share;  ///< take only these samples, into a film
+    /// The fingerprint that scene and program must have (host/cli/share_render.hpp); empty: any.
+    std::string expected;
     std::optional<SampleName> sampleAlone; ///< print this sample and write nothing
     uint32_t threads = 0;                  ///< host threads; 0: all
     Verbosity verbosity = Verbosity::Normal;
@@ -97,6 +122,9 @@ struct Options {
     StudyOptions study;
     StressOptions stress;
     std::string infoJsonFile; ///< info; empty: text
+    SubmitOptions submit;
+    std::vector<std::string> films; ///< merge
+    bool wantsAllShares = false;    ///< merge: without all of them there is no picture
 };
 
 /// Parses the arguments (without the program's name). Empty: help or version was printed and the

@@ -72,6 +72,15 @@ void checkTogether(const CommandOption& o, const Given& given) {
             throw UsageError(fmt::format("{} requires {} (see --help)", o.name(), other));
 }
 
+void addImplied(const OptionList& list, Given& given) {
+    for (const CommandOption& o : list.all())
+        if (given.count(o.name()))
+            for (const std::string& flag : o.implied) {
+                checkTogether(o, given); // before the flag is said to be in the way of another
+                given.try_emplace(flag);
+            }
+}
+
 /// The command as it decides on the picture, in the order of --help: however it was written, the
 /// same picture has the same words.
 std::vector<std::string> pictureCommandOf(const DeclaredCommand& command, const Given& given) {
@@ -79,9 +88,12 @@ std::vector<std::string> pictureCommandOf(const DeclaredCommand& command, const 
     for (const CommandOption& o : command.list.all()) {
         const auto words = given.find(o.name());
         if (words == given.end() || o.isBesidePicture) continue;
-        std::string part = o.dashedNames().empty() ? "" : o.name();
-        for (const std::string& word : words->second)
-            part += (part.empty() ? "" : " ") + shellQuoted(word);
+        const std::string name = o.dashedNames().empty() ? "" : o.name();
+        std::string part = name;
+        for (size_t i = 0; i < words->second.size(); ++i) {
+            if (i > 0 && o.mayRepeat) part += " " + name;
+            part += (part.empty() ? "" : " ") + shellQuoted(words->second[i]);
+        }
         parts.push_back(part);
     }
     return parts;
@@ -202,6 +214,7 @@ DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, const Words
     const auto chosen =
         std::find_if(apps.begin(), apps.end(), [](const CLI::App* one) { return one->parsed(); });
     DeclaredCommand& command = commands[size_t(chosen - apps.begin())];
+    addImplied(command.list, given);
     for (const auto& option : given)
         command.given.insert(option.first);
     store(command.list, given);

@@ -8,6 +8,7 @@
 #include "host/cli/report.hpp"
 #include "host/cli/seen_channels.hpp"
 #include "host/cli/sequence.hpp"
+#include "host/cli/share_render.hpp"
 #include "host/cli/signals.hpp"
 #include "host/cli/views.hpp"
 #include "host/core/error.hpp"
@@ -19,6 +20,7 @@
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/reference/reference_backend.hpp"
 #include "host/render/bands.hpp"
+#include "host/render/block_backend.hpp"
 #include "host/render/noise_plan.hpp"
 
 #include <fmt/format.h>
@@ -71,6 +73,16 @@ FloatImage lookAround(const KeptOutcome& kept, const Job& job, const Options& op
     return seen;
 }
 
+/// The backend, adding up blocks where the settings ask for it.
+MakeBackend inBlocks(const MakeBackend& makeBackend) {
+    return [&makeBackend](const RenderSettings& settings, bool again) -> std::shared_ptr<Backend> {
+        std::shared_ptr<Backend> backend = makeBackend(settings, again);
+        if (!settings.budget.isInBlocks()) return backend;
+        return std::make_shared<BlockBackend>(std::move(backend), settings.area,
+                                              settings.budget.samplesPerBlock);
+    };
+}
+
 /// Samples until the picture is there, with checkpoints, band by band.
 void takeSamples(const Job& job, const Options& options, const Begun& begun,
                  const MakeBackend& makeBackend, const std::function<Viewer*()>& viewer,
@@ -102,7 +114,7 @@ void takeSamples(const Job& job, const Options& options, const Begun& begun,
             return identity();
         };
         KeptOutcome kept = renderKept(
-            render, makeBackend,
+            render, inBlocks(makeBackend),
             [&](const RenderProgress& state) {
                 if (state.samplesDone > 0) onSignal(OnSignal::AskToKeep);
                 progress.show(state);
@@ -122,12 +134,19 @@ void takeSamples(const Job& job, const Options& options, const Begun& begun,
 }
 
 /// As many as half of the host's memory, and the device's, have room for.
-uint64_t pixelsThatFit(const Options& options, uint64_t onDevice, uint64_t deviceBytesPerPixel) {
+uint64_t pixelsThatFit(const Job& job, const Options& options, uint64_t onDevice,
+                       uint64_t deviceBytesPerPixel) {
     const uint64_t memory =
         options.filmMebibytes ? uint64_t(*options.filmMebibytes) << 20 : physicalMemory() / 2;
     const uint64_t beside = seenChannelNames(options).size() * sizeof(float);
-    return std::min(memory / (hostBytesPerPixel() + deviceBytesPerPixel + beside), onDevice);
+    const uint64_t host = hostBytesPerPixel(job.settings.budget.isInBlocks());
+    return std::min(memory / (host + deviceBytesPerPixel + beside), onDevice);
 }
+
+/// Takes the samples of a job with backends that are made for it, in bands of at most so many
+/// pixels.
+using TakeSamples = std::function<void(const MakeBackend&, const std::function<Viewer*()>&,
+                                       uint64_t mostPixels, RenderReport&)>;
 
 /// What takes the samples of a scene's pictures, one after the other: made once.
 class Renderer {
@@ -137,12 +156,12 @@ class Renderer {
         if (isOnDevice_) device_ = openDeviceMeanwhile(options);
     }
 
-    void render(const Job& job, const Options& options, const Begun& begun, RenderOutputs& outputs,
+    void render(const Job& job, const Options& options, const TakeSamples& take,
                 RenderReport& report) {
         if (isOnDevice_)
-            renderOnDevice(job, options, begun, outputs, report);
+            renderOnDevice(job, options, take, report);
         else
-            renderOnReference(job, options, begun, outputs, report);
+            renderOnReference(job, options, take, report);
     }
 
     /// The next pictures are of another scene.
@@ -152,10 +171,10 @@ class Renderer {
     void openAndBuild(const Job& job, RenderReport& report);
     std::shared_ptr<Backend> backendFor(const Job& job, const RenderSettings& settings,
                                         const Options& options, bool again);
-    void renderOnDevice(const Job& job, const Options& options, const Begun& begun,
-                        RenderOutputs& outputs, RenderReport& report);
-    void renderOnReference(const Job& job, const Options& options, const Begun& begun,
-                           RenderOutputs& outputs, RenderReport& report);
+    void renderOnDevice(const Job& job, const Options& options, const TakeSamples& take,
+                        RenderReport& report);
+    void renderOnReference(const Job& job, const Options& options, const TakeSamples& take,
+                           RenderReport& report);
 
     bool isOnDevice_;
     std::future<vulkan::OpenDevice> device_;
@@ -193,35 +212,31 @@ std::shared_ptr<Backend> Renderer::backendFor(const Job& job, const RenderSettin
     return backend_;
 }
 
-void Renderer::renderOnDevice(const Job& job, const Options& options, const Begun& begun,
-                              RenderOutputs& outputs, RenderReport& report) {
+void Renderer::renderOnDevice(const Job& job, const Options& options, const TakeSamples& take,
+                              RenderReport& report) {
     openAndBuild(job, report);
     const vulkan::DeviceDescription& description = open_->device->description();
     logging::debug(fmt::format("device {}: {} ({})", open_->choice.index, report.backend,
                                open_->choice.reason));
     const uint64_t mostPixels = pixelsThatFit(
-        options, filmPixelsThatFit(description, built_->gpu, job.settings.estimator.branches),
+        job, options, filmPixelsThatFit(description, built_->gpu, job.settings.estimator.branches),
         description.isCpu() ? sizeof(gpu::PixelState) : 0);
-    takeSamples(
-        job, options, begun,
-        [&](const RenderSettings& settings, bool again) {
-            return backendFor(job, settings, options, again);
-        },
-        [&] { return backend_.get(); }, mostPixels, outputs, report);
+    take([&](const RenderSettings& settings,
+             bool again) { return backendFor(job, settings, options, again); },
+         [&] { return backend_.get(); }, mostPixels, report);
     vulkan::requireNoValidationMessages(*open_);
 }
 
-void Renderer::renderOnReference(const Job& job, const Options& options, const Begun& begun,
-                                 RenderOutputs& outputs, RenderReport& report) {
+void Renderer::renderOnReference(const Job& job, const Options& options, const TakeSamples& take,
+                                 RenderReport& report) {
     report.backend = "CPU reference (double precision)";
     std::shared_ptr<ReferenceBackend> backend;
-    takeSamples(
-        job, options, begun,
+    take(
         [&](const RenderSettings& settings, bool) {
             return backend = std::make_shared<ReferenceBackend>(job.scene, job.camera, settings,
                                                                 options.threads);
         },
-        [&] { return backend.get(); }, pixelsThatFit(options, ~uint64_t(0), 0), outputs, report);
+        [&] { return backend.get(); }, pixelsThatFit(job, options, ~uint64_t(0), 0), report);
 }
 
 void sayHowToGoOn(const RenderReport& report) {
@@ -257,7 +272,13 @@ int renderPicture(Renderer& renderer, Job& job, const Options& asked, const Begu
     RenderOutputs outputs(job, options);
     RenderReport report;
     report.loadSeconds = job.loadSeconds;
-    renderer.render(job, options, begun, outputs, report);
+    renderer.render(
+        job, options,
+        [&](const MakeBackend& makeBackend, const std::function<Viewer*()>& viewer,
+            uint64_t mostPixels, RenderReport& r) {
+            takeSamples(job, options, begun, makeBackend, viewer, mostPixels, outputs, r);
+        },
+        report);
     report.noise = outputs.noise();
     report.samplesAtMost = mostPathsOf(job.settings);
     nowDoing("writing " + options.output);
@@ -282,6 +303,33 @@ void moveTo(const Options& frame, Job& job, Renderer& renderer) {
     job = std::move(next);
 }
 
+/// Part of the samples of all pixels, as a film. Returns the exit code.
+int renderShare(Renderer& renderer, Job& job, const Options& options) {
+    setPicture(job, options);
+    requireExpected(job, options);
+    RenderReport report;
+    report.loadSeconds = job.loadSeconds;
+    report.isShare = true;
+    bool isThere = false;
+    renderer.render(
+        job, options,
+        [&](const MakeBackend& makeBackend, const std::function<Viewer*()>&, uint64_t mostPixels,
+            RenderReport& r) {
+            const FilmHeader header = headerOfShare(job, options, r.backend);
+            isThere = isThereAlready(header, options);
+            if (!isThere) takeShare(job, options, header, makeBackend, mostPixels, r);
+        },
+        report);
+    if (isThere) return 0;
+    if (report.interrupted) {
+        logging::warn(fmt::format("interrupted: {} is not written", options.output));
+        return interruptedExitCode();
+    }
+    logReport(report, job.settings);
+    if (!options.statsFile.empty()) writeStatistics(options.statsFile, report, job);
+    return 0;
+}
+
 /// One after the other, until one is not finished.
 int renderPictures(Renderer& renderer, Job& job, const std::vector<Options>& pictures) {
     for (const Options& picture : pictures)
@@ -304,10 +352,8 @@ int renderPictures(Renderer& renderer, Job& job, const std::vector<Options>& pic
 int renderCommand(const Options& asked) {
     const bool several = !asked.cameras.empty() || asked.sequence.isGiven();
     Begun begun;
-    if (!several) {
-        checkOutputs(asked);
-        begun = takeUp(asked);
-    }
+    if (!several) checkOutputs(asked);
+    if (!several && !asked.share) begun = takeUp(asked);
     Renderer renderer(asked);
     if (asked.sequence.isGiven()) {
         const std::vector<Options> frames = optionsOfFrames(asked);
@@ -315,6 +361,7 @@ int renderCommand(const Options& asked) {
         return renderPictures(renderer, job, frames);
     }
     Job job = loadJob(asked);
+    if (asked.share) return renderShare(renderer, job, asked);
     if (!several) return renderPicture(renderer, job, asked, begun);
     return renderPictures(renderer, job, optionsOfPictures(asked, job.scene));
 }

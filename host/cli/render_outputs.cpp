@@ -33,17 +33,12 @@ uint32_t mostSamples(const Film& film, const Budget& budget) {
     return most;
 }
 
-/// Nothing of when or where: the same command makes the same bytes. `samples`: paths a pixel, on
-/// the mean.
+/// samples: paths a pixel, on the mean.
 PictureNotes notesOf(const Job& job, const Options& options, const std::string& device,
                      const std::string& samples) {
     if (!options.notes) return {};
-    return {{"Software", fmt::format("Stromboli {}", version())},
-            {"Scene", printable(options.scene)},
-            {"Seed", std::to_string(job.settings.estimator.seed)},
-            {"Samples", samples},
-            {"Device", printable(device)},
-            {"Command", printable(fmt::format("{}", fmt::join(options.pictureCommand, " ")))}};
+    return pictureNotes(
+        {options.scene, job.settings.estimator.seed, samples, device, options.pictureCommand});
 }
 
 PictureOptions pictureOptions(const Options& options) {
@@ -59,8 +54,20 @@ PictureNotes withLegend(PictureNotes notes, const Job& job, const Options& optio
 
 } // namespace
 
+PictureNotes pictureNotes(const PictureOrigin& origin) {
+    return {{"Software", fmt::format("Stromboli {}", version())},
+            {"Scene", printable(origin.scene)},
+            {"Seed", std::to_string(origin.seed)},
+            {"Samples", origin.samples},
+            {"Device", printable(origin.device)},
+            {"Command", printable(fmt::format("{}", fmt::join(origin.command, " ")))}};
+}
+
 void checkOutputs(const Options& options) {
-    checkWritable(options.output);
+    if (options.share)
+        checkFileWritable(options.output);
+    else
+        checkWritable(options.output);
     if (writesRates(options, options.budget)) checkOutputWritable(ratePicturePath(options.output));
     if (options.statsFile.empty()) return;
     if (options.statsFile == options.output)

@@ -10,6 +10,16 @@
 
 namespace stromboli {
 
+/// Of what a picture's notes tell.
+struct PictureOrigin {
+    std::string scene;
+    uint32_t seed = 0;
+    std::string samples, device;
+    std::vector<std::string> command; ///< as Options::pictureCommand
+};
+/// Nothing of when or where: the same command makes the same bytes.
+PictureNotes pictureNotes(const PictureOrigin& origin);
+
 /// What can be found out of the files of a render before it: names, folders, permissions. Throws
 /// UsageError, OutputError.
 void checkOutputs(const Options& options);

@@ -91,7 +91,8 @@ void logReport(const RenderReport& r, const RenderSettings& settings) {
                                   "has, or black",
                                   r.pixelsUnreached, settings.area.pixelCount(),
                                   r.interrupted ? "interrupted" : "--time is too short for more"));
-    if (settings.estimator.integrator == Integrator::Path) logNoise(r, settings.budget.stop);
+    if (settings.estimator.integrator == Integrator::Path && !r.isShare)
+        logNoise(r, settings.budget.stop);
     if (!r.firstRejected) return;
     logging::warn(fmt::format(
         "{} samples were not finite, negative or too large and were left out; to see the "

@@ -25,6 +25,7 @@ struct RenderReport {
     uint64_t pixelsUnreached = 0; ///< without samples
     size_t bands = 1;             ///< it was rendered in, one after the other
     bool interrupted = false;
+    bool isShare = false;            ///< of a picture whose noise shows in all shares together
     std::optional<std::string> lost; ///< what the device said when it was lost for good
     std::string checkpoint;          ///< from which the render can go on; empty: there is none
     /// Nothing that was asked for is missing.

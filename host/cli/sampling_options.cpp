@@ -34,7 +34,7 @@ void declareSamples(DeclaredCommand& c, const std::string& samplesHelp) {
     c.list.group("Sampling");
     c.list.number("-s,--samples", "N", samplesHelp, c.asked.paths, kSamples)
         .usually(fmt::format("{}{}", c.asked.usualPaths,
-                             c.options.command == Command::Render ? "; --cs184: 1" : ""));
+                             rendersPictures(c.options.command) ? "; --cs184: 1" : ""));
     declareSampler(c, c.options.estimator.sampler);
     c.list.choice("--filter", "WHICH", "how much places about a pixel count for it",
                   c.options.estimator.filter);
@@ -51,6 +51,15 @@ void declareBranches(DeclaredCommand& c, const std::string& usually) {
         .usually(usually);
 }
 
+CommandOption& declareBlock(DeclaredCommand& c) {
+    return c.list.number(
+        "--block", "N",
+        "paths of a pixel that are added up by themselves, where all pixels get as many; shares "
+        "consist of whole blocks, and renders of other blocks differ in the last bits "
+        "(docs/farm.md)",
+        c.asked.pathsPerBlock, kSamples);
+}
+
 void declareSpreading(DeclaredCommand& c) {
     OptionList& list = c.list;
     Adaptive& a = c.options.budget.adaptive;
@@ -59,6 +68,7 @@ void declareSpreading(DeclaredCommand& c) {
               "the same number of samples for every pixel, so that a --crop has the bytes it has "
               "in the whole picture",
               c.asked.even);
+    declareBlock(c).needs("--even");
     list.words("-a,--adaptive", "BATCH TOLERANCE",
                "adaptive sampling: test a pixel every BATCH samples, stop at 1.96 sigma <= "
                "TOLERANCE * mean",
@@ -100,6 +110,7 @@ void finishBudget(DeclaredCommand& c, bool maySpread) {
         b.adaptive.enabled = false;
     if (c.asked.adaptive) b.adaptive.enabled = true;
     if (b.stop.open() && !c.asked.paths) b.mostPathsPerPixel.reset();
+    if (c.asked.even) b.pathsPerBlock = c.asked.pathsPerBlock;
     if (!o.branches && !maySpread && o.command != Command::Info) o.branches = 1;
     if (o.branches) checkBranches(c);
 

@@ -34,4 +34,11 @@ struct PictureArea {
     }
 };
 
+/// Whether the same pixels of a picture of the same size are rendered.
+inline bool sameArea(const PictureArea& a, const PictureArea& b) {
+    const Crop x = a.rendered(), y = b.rendered();
+    return a.width == b.width && a.height == b.height && x.x == y.x && x.y == y.y &&
+           x.width == y.width && x.height == y.height;
+}
+
 } // namespace stromboli

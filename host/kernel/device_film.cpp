@@ -111,6 +111,11 @@ void DeviceFilm::readBack(size_t index, std::span<const gpu::WorkItem> items, Fi
     });
 }
 
+void DeviceFilm::clear() {
+    for (Segment& segment : segments_)
+        segment.pixels.clear(queue_);
+}
+
 std::vector<PixelSums> DeviceFilm::save() {
     std::vector<PixelSums> sums;
     sums.reserve(area_.pixelCount());

@@ -38,6 +38,9 @@ class DeviceFilm {
     /// Statistics of all pixels of a segment that are in `items`, into `film`.
     void readBack(size_t segment, std::span<const gpu::WorkItem> items, Film& film);
 
+    /// Forgets all samples.
+    void clear();
+
     /// All pixels that are rendered, row by row, to the last bit.
     std::vector<PixelSums> save();
     /// What was saved of a film of the same area; also into `film`.

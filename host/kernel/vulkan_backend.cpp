@@ -129,6 +129,12 @@ SampleValue VulkanBackend::sampleAlone(uint32_t pixel, uint32_t sample) {
     return {state.sum, state.rejected > 0};
 }
 
+void VulkanBackend::beginAt(uint32_t firstSample) {
+    film_->clear();
+    frame_.firstSample = firstSample;
+    dispatcher_->setFrame(frame_);
+}
+
 std::vector<PixelSums> VulkanBackend::save(const Film&) {
     return film_->save();
 }

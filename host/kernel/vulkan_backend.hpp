@@ -36,6 +36,7 @@ class VulkanBackend final : public Backend, public Viewer {
                 const PassProgress& progress) override;
     SampleValue sampleAlone(uint32_t pixel, uint32_t sample) override;
     RenderCounters counters() const override { return dispatcher_->counters(); }
+    void beginAt(uint32_t firstSample) override;
     std::vector<PixelSums> save(const Film& film) override;
     void restore(std::span<const PixelSums> sums, Film& film) override;
 

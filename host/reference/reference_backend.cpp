@@ -64,6 +64,7 @@ struct ReferenceBackend::Implementation {
     RenderSettings settings;
     const Scene& original;
     tbb::task_arena arena;
+    uint32_t firstSample = 0; ///< of the block under way
     std::atomic<uint64_t> paths{0}, rays{0};
 
     Implementation(const Scene& scene, const Camera& c, const RenderSettings& s, unsigned threads)
@@ -135,7 +136,7 @@ struct ReferenceBackend::Implementation {
             const uint32_t count = std::min(kSamplesPerReport, target.samples - first);
             uint64_t rayCount = 0;
             for (uint32_t i = first; i < first + count; ++i)
-                pixel.add(take(target.pixel, i, rayCount));
+                pixel.add(take(target.pixel, firstSample + i, rayCount));
             paths += count;
             rays += rayCount;
             report.add(count);
@@ -169,6 +170,10 @@ void ReferenceBackend::sample(std::span<const PixelTarget> targets, Film& film,
         });
     });
     report.finish();
+}
+
+void ReferenceBackend::beginAt(uint32_t firstSample) {
+    implementation_->firstSample = firstSample;
 }
 
 SampleValue ReferenceBackend::sampleAlone(uint32_t pixel, uint32_t sample) {

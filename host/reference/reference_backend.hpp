@@ -30,6 +30,7 @@ class ReferenceBackend final : public Backend, public Viewer {
                 const PassProgress& progress) override;
     SampleValue sampleAlone(uint32_t pixel, uint32_t sample) override;
     RenderCounters counters() const override;
+    void beginAt(uint32_t firstSample) override;
     std::vector<SeenPixel> see(uint32_t first, std::span<const uint32_t> samples,
                                Seeing what) override;
 

@@ -4,6 +4,14 @@
 
 namespace stromboli {
 
+void Backend::beginAt(uint32_t) {
+    throw std::logic_error("this backend takes samples from the first on only");
+}
+
+void Backend::restoreBlocks(std::span<const ExactStatistics> blocks) {
+    if (!blocks.empty()) throw std::invalid_argument("the saved film is one of blocks");
+}
+
 std::vector<PixelSums> Backend::save(const Film& film) {
     std::vector<PixelSums> sums;
     sums.reserve(film.pixels.size());

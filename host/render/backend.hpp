@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/film/exact_statistics.hpp"
 #include "host/film/film.hpp"
 #include "host/render/pixel_sums.hpp"
 
@@ -45,12 +46,22 @@ class Backend {
     /// Sample number `sample` of a pixel, to the last bit as sample() takes it.
     virtual SampleValue sampleAlone(uint32_t pixel, uint32_t sample) = 0;
     virtual RenderCounters counters() const = 0;
+    /// Forgets all samples, whose film the caller empties; those to come are numbered from here on:
+    /// the first is the pixel's sample `firstSample`. Throws std::logic_error where a backend
+    /// cannot.
+    virtual void beginAt(uint32_t firstSample);
     /// The statistics of the picture's pixels to the last bit; `film` is the one that sample() has
     /// filled. Here: of a backend that keeps nothing of its own beside the film.
     virtual std::vector<PixelSums> save(const Film& film);
     /// Goes on from there: in a backend of the same kind, made for the same picture. Fills in the
     /// film. Throws std::invalid_argument if the number of pixels is another.
     virtual void restore(std::span<const PixelSums> sums, Film& film);
+    /// What a backend that adds up blocks (BlockBackend) keeps of those that are done; else
+    /// nothing.
+    virtual std::vector<ExactStatistics> saveBlocks() const { return {}; }
+    /// To be called before restore(). Throws std::invalid_argument if there are blocks and the
+    /// backend has no use for them.
+    virtual void restoreBlocks(std::span<const ExactStatistics> blocks);
 };
 
 } // namespace stromboli

@@ -7,13 +7,14 @@
 
 namespace stromboli {
 
-uint64_t hostBytesPerPixel() {
+uint64_t hostBytesPerPixel(bool inBlocks) {
     constexpr uint64_t kFilm = sizeof(PixelStatistics);
     // NoiseEstimate: count, mean, squared error; variances of one sample, as sums and relative.
     constexpr uint64_t kEstimate = sizeof(uint32_t) + 4 * sizeof(glm::dvec3) + sizeof(double);
     // The pass, as planned, in the order of work, and as the device's items of 16 bytes.
     constexpr uint64_t kWork = 2 * sizeof(PixelTarget) + 16;
-    return kFilm + kEstimate + kWork + NoisePlan::kBytesPerPixel;
+    const uint64_t blocks = inBlocks ? kFilm + sizeof(ExactStatistics) : 0;
+    return kFilm + kEstimate + kWork + NoisePlan::kBytesPerPixel + blocks;
 }
 
 std::vector<PictureArea> bandsOf(const PictureArea& area, uint64_t pixels) {

@@ -8,8 +8,8 @@
 namespace stromboli {
 
 /// Bytes of the host's memory that a render takes for each pixel, at most: film, noise estimate,
-/// lists of work, steps of the plan.
-uint64_t hostBytesPerPixel();
+/// lists of work, steps of the plan; in blocks: that of the block, and exact sums.
+uint64_t hostBytesPerPixel(bool inBlocks = false);
 
 /// The rows of what is rendered, from the top, in bands of about the same height and of at most
 /// `pixels` pixels each (at least one row). One band if all of it fits.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -40,8 +41,12 @@ struct Budget {
     uint32_t meanSamplesPerPixel = 0;
     Adaptive adaptive;
     StopRule stop; ///< excludes adaptive
+    /// Samples that are added up by themselves (block_backend.hpp); 0: all, one after the other.
+    /// Only where every pixel gets as many.
+    uint32_t samplesPerBlock = 0;
 
     bool spreads() const { return stop.open() || meanSamplesPerPixel > 0; }
+    bool isInBlocks() const { return samplesPerBlock > 0; }
     bool operator==(const Budget&) const = default;
 };
 
@@ -51,6 +56,7 @@ struct PathBudget {
     uint32_t meanPathsPerPixel = 0;                 ///< 0: no limit
     Adaptive adaptive;
     StopRule stop;
+    uint32_t pathsPerBlock = 0; ///< 0: not in blocks
 
     bool spreads() const { return stop.open() || meanPathsPerPixel > 0; }
     /// What was asked for a pixel, on the mean or at most.
@@ -59,10 +65,12 @@ struct PathBudget {
     }
 };
 
-/// The one place where paths become samples: of `branches` paths, which divides the counts.
+/// The one place where paths become samples: of `branches` paths, which divides the counts. A block
+/// is rounded down, to a sample at least.
 inline Budget inSamples(const PathBudget& paths, uint32_t branches) {
     return {paths.mostPathsPerPixel ? *paths.mostPathsPerPixel / branches : kMostSamples,
-            paths.meanPathsPerPixel / branches, paths.adaptive, paths.stop};
+            paths.meanPathsPerPixel / branches, paths.adaptive, paths.stop,
+            paths.pathsPerBlock > 0 ? std::max(paths.pathsPerBlock / branches, 1u) : 0};
 }
 
 } // namespace stromboli

@@ -13,7 +13,7 @@ namespace stromboli {
 namespace {
 
 /// Changes with every change of what is written.
-constexpr std::string_view kVersion = "stromboli session 4";
+constexpr std::string_view kVersion = "stromboli session 5";
 
 template <class T>
 concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::same_as<T, glm::dvec3>;
@@ -83,12 +83,24 @@ void pass(Archive& a, Budget& b) {
     a(b.mostSamplesPerPixel), a(b.meanSamplesPerPixel);
     a(b.adaptive.enabled), a(b.adaptive.rule), a(b.adaptive.batch), a(b.adaptive.tolerance);
     a(b.stop.noise), a(b.stop.seconds);
+    a(b.samplesPerBlock);
 }
 
 template <class Archive>
 void pass(Archive& a, PixelSums& s) {
     a(s.count), a(s.rejected), a(s.firstRejected);
     a(s.first), a(s.firstError), a(s.second), a(s.secondError);
+}
+
+template <class Archive>
+void pass(Archive& a, ExactStatistics& s) {
+    a(s.count), a(s.rejected), a(s.firstRejected);
+    for (ExactStatistics::Sum& sum : s.sum)
+        for (uint64_t& word : sum.words)
+            a(word);
+    for (ExactStatistics::Squares& squares : s.squares)
+        for (uint64_t& word : squares.words)
+            a(word);
 }
 
 template <class Archive>
@@ -115,6 +127,7 @@ void pass(Archive& a, SessionState& s) {
     pass(a, s.settings.estimator);
     pass(a, s.settings.budget);
     passList(a, s.sums);
+    passList(a, s.blocks);
     passList(a, s.estimate.counts);
     passList(a, s.estimate.means);
     passList(a, s.estimate.squaredErrors);
@@ -128,6 +141,15 @@ uint32_t checksum(std::span<const std::byte> bytes) {
 }
 
 } // namespace
+
+bool sameEstimator(const Estimator& a, const Estimator& b) {
+    const auto bytesOf = [](Estimator estimator) {
+        Writer writer;
+        pass(writer, estimator);
+        return std::move(writer.bytes);
+    };
+    return bytesOf(a) == bytesOf(b);
+}
 
 std::vector<std::byte> toBytes(const SessionState& state) {
     Writer writer;

@@ -15,11 +15,15 @@ namespace stromboli {
 /// the scene, the camera and the device.
 struct SessionState {
     RenderSettings settings;
-    std::vector<PixelSums> sums;      ///< as Backend::save gives them
-    NoiseEstimate::Memory estimate;   ///< of the passes that are done
+    std::vector<PixelSums> sums;         ///< as Backend::save gives them
+    std::vector<ExactStatistics> blocks; ///< as Backend::saveBlocks gives them
+    NoiseEstimate::Memory estimate;      ///< of the passes that are done
     std::vector<PixelTarget> pending; ///< of the pass that was stopped; empty: between two passes
     double secondsUsed = 0;           ///< of StopRule::seconds
 };
+
+/// Whether they take the same samples.
+bool sameEstimator(const Estimator& a, const Estimator& b);
 
 /// For a file. Of this version and byte order of the program.
 std::vector<std::byte> toBytes(const SessionState& state);

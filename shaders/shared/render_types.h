@@ -13,7 +13,7 @@ struct Frame {
     vec3 cameraRight; ///< times halfWidth
     uint height;
     vec3 cameraUp; ///< times halfHeight
-    uint firstSample; ///< number of the first sample of each pixel: 0, or that of a sample on its own
+    uint firstSample; ///< number of the first sample of each pixel: 0, that of a block, or of a sample on its own
     vec3 cameraBack;
     uint keepsValue; ///< 1: leave the last sample's value in PixelState::sum, rejected or not
     float nearDistance;
@@ -71,7 +71,7 @@ struct PixelState {
     vec3 m2;            ///< sum of squared deviations from the running mean (Welford 1962)
     uint firstRejected; ///< sample index; means nothing while none is
     vec3 m2Error;
-    uint samplesBefore; ///< that it had when the pass under way took it up
+    uint samplesBefore; ///< that the pixel had when the pass under way took it up, of all blocks
 };
 SHARED_ROWS(PixelState, 4);
 SHARED_OFFSET(PixelState, rejected, 28);

@@ -208,6 +208,14 @@ TEST(Options, RangesAreNamed) {
               "--alpha is 'nan': expected a number from 1e-12 to 0.5");
 }
 
+/// Words that the option understands, where another one needs it.
+std::vector<std::string> someValueOf(const CommandOption& o) {
+    if (o.name() == "--share") return {"1/2"};
+    if (o.isRequired && !o.proposals.empty()) return {o.proposals.front()};
+    if (o.isRequired && o.range.empty()) return {"a.exr"};
+    return std::vector<std::string>(o.wordCount, "1");
+}
+
 /// A complete line of the command in which `option` has these words.
 std::vector<std::string> lineWith(const DeclaredCommand& c, const CommandOption& option,
                                   const std::vector<std::string>& words) {
@@ -221,9 +229,9 @@ std::vector<std::string> lineWith(const DeclaredCommand& c, const CommandOption&
             std::find(option.needed.begin(), option.needed.end(), o.name()) != option.needed.end();
         if (o.name() == option.name())
             add(o, words);
-        else if (isNeeded)
-            add(o, std::vector<std::string>(o.wordCount, "1"));
-        else if (o.isRequired || (o.name() == "-o" && c.name == "render"))
+        else if (isNeeded || o.isRequired)
+            add(o, someValueOf(o));
+        else if (o.name() == "-o" && c.name == "render")
             add(o, {"a.exr"});
     }
     return line;
@@ -257,6 +265,29 @@ void expectRefusal(const DeclaredCommand& c, const CommandOption& o, const std::
         << c.name << " " << o.name() << " '" << bad << "' in place " << place << ": "
         << (message.empty() ? "accepted" : message);
     EXPECT_NE(message.find("expected"), std::string::npos) << message;
+}
+
+TEST(Options, AShareIsEvenAndSaysSoInItsCommand) {
+    const Options share = parse({"render", "a.dae", "-o", "a.film", "--share", "3/16", "-s", "96"});
+    const Options whole = parse({"render", "a.dae", "-o", "a.exr", "-s", "96", "--even"});
+    EXPECT_EQ(*share.share, (ShareName{3, 16}));
+    EXPECT_FALSE(share.budget.spreads());
+    EXPECT_EQ(share.budget.mostPathsPerPixel, 96u);
+    EXPECT_EQ(share.budget.pathsPerBlock, 128u);
+    EXPECT_EQ(share.pictureCommand, whole.pictureCommand);
+    EXPECT_EQ(whole.budget.pathsPerBlock, 128u);
+    EXPECT_EQ(parse({"render", "a.dae", "-o", "a.exr", "-s", "96"}).budget.pathsPerBlock, 0u);
+    EXPECT_EQ(inSamples(share.budget, 4).samplesPerBlock, 32u);
+    EXPECT_EQ(inSamples(share.budget, 3).samplesPerBlock, 42u);
+    EXPECT_EQ(inSamples(share.budget, 200).samplesPerBlock, 1u);
+}
+
+TEST(Options, SubmitTellsSharesAndMergeWhatIsTheirs) {
+    const Options o = parse({"submit", "slurm", "a b.xml", "-o", "a.exr", "--shares", "4", "-D",
+                             "x=1", "-D", "y=2", "--aov", "--notes", "off", "--device", "cpu"});
+    EXPECT_EQ(o.submit.render, (Words{"'a b.xml'", "-D x=1 -D y=2", "--device cpu"}));
+    EXPECT_EQ(o.submit.merge, (Words{"--aov", "--notes off"}));
+    EXPECT_FALSE(o.budget.spreads());
 }
 
 TEST(Options, EveryOptionOfEveryCommandRefusesWhatIsNoValue) {

@@ -43,7 +43,7 @@ class DrawnBackend : public Backend {
         for (const PixelTarget& t : targets)
             while (film.pixels[t.pixel].taken() < t.samples) {
                 film.pixels[t.pixel].add(
-                    sampleAlone(t.pixel, film.pixels[t.pixel].taken()).radiance);
+                    sampleAlone(t.pixel, first_ + film.pixels[t.pixel].taken()).radiance);
                 if (++done % 4096 == 0 && !progress(done)) return;
             }
         progress(done);
@@ -54,8 +54,10 @@ class DrawnBackend : public Backend {
         return {glm::dvec3(draw_(pixel, random))};
     }
     RenderCounters counters() const override { return {}; }
+    void beginAt(uint32_t firstSample) override { first_ = firstSample; }
 
   private:
+    uint32_t first_ = 0;
     Draw draw_;
     uint32_t seed_;
 };

@@ -2,6 +2,7 @@
 #include "host/bvh/wide_layout.hpp"
 #include "host/core/error.hpp"
 #include "host/reference/reference_backend.hpp"
+#include "host/render/block_backend.hpp"
 #include "host/render/render_session.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
@@ -34,6 +35,7 @@ size_t differences(const Film& a, const Film& b) {
 /// Ways to spread samples.
 std::vector<std::pair<const char*, Budget>> budgets() {
     return {{"even", {.mostSamplesPerPixel = 40}},
+            {"in blocks", {.mostSamplesPerPixel = 40, .samplesPerBlock = 7}},
             {"by noise", {.mostSamplesPerPixel = kMostSamples, .meanSamplesPerPixel = 24}},
             {"adaptive",
              {.mostSamplesPerPixel = 200,
@@ -56,13 +58,20 @@ class Session : public DeviceTest {
     Camera camera(const RenderSettings& s) const {
         return makeCamera(scene_, CameraChoice::Automatic, s.area.width, s.area.height);
     }
+    static std::unique_ptr<Backend> inBlocks(std::unique_ptr<Backend> backend,
+                                             const RenderSettings& s) {
+        if (!s.budget.isInBlocks()) return backend;
+        return std::make_unique<BlockBackend>(std::move(backend), s.area, s.budget.samplesPerBlock);
+    }
     std::unique_ptr<Backend> device(const RenderSettings& s) const {
         // Short dispatches: many places to stop at.
-        return std::make_unique<VulkanBackend>(testDevice(), packed_, camera(s), s,
-                                               KernelTuning{.lanes = 64, .fixedIterations = 30});
+        return inBlocks(
+            std::make_unique<VulkanBackend>(testDevice(), packed_, camera(s), s,
+                                            KernelTuning{.lanes = 64, .fixedIterations = 30}),
+            s);
     }
     std::unique_ptr<Backend> reference(const RenderSettings& s) const {
-        return std::make_unique<ReferenceBackend>(scene_, camera(s), s, 1);
+        return inBlocks(std::make_unique<ReferenceBackend>(scene_, camera(s), s, 1), s);
     }
 
     using MakeBackend = std::unique_ptr<Backend> (Session::*)(const RenderSettings&) const;
@@ -115,6 +124,63 @@ TEST_F(Session, TheReferenceGoesOnAsWell) {
         const Film cut = inPieces(&Session::reference, s, 1, pieces);
         EXPECT_GT(pieces, 1) << name;
         EXPECT_EQ(differences(whole, cut), 0u) << name;
+    }
+}
+
+/// Samples of blocks are those of a render without blocks, and so are their sums but for rounding:
+/// the sum and the sums of squares of a float each, compensated, to 2^-40 or so.
+TEST_F(Session, BlocksHoldTheSameSamples) {
+    for (const MakeBackend make : {&Session::device, &Session::reference}) {
+        const Film plain = uninterrupted(make, settings({.mostSamplesPerPixel = 40}, 12, 9));
+        const Film blocks =
+            uninterrupted(make, settings({.mostSamplesPerPixel = 40, .samplesPerBlock = 7}, 12, 9));
+        for (size_t i = 0; i < plain.pixels.size(); ++i) {
+            const PixelStatistics &p = plain.pixels[i], &q = blocks.pixels[i];
+            EXPECT_EQ(p.taken(), q.taken());
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_NEAR(p.mean[c], q.mean[c], 1e-11 * p.mean[c]);
+                EXPECT_NEAR(p.m2[c], q.m2[c], 1e-6 * p.m2[c]);
+            }
+        }
+    }
+}
+
+/// As long as there is only one block, nothing is added up.
+TEST_F(Session, ASingleBlockHasTheBytesOfNone) {
+    const Film plain = uninterrupted(&Session::device, settings({.mostSamplesPerPixel = 32}));
+    const Film block = uninterrupted(&Session::device,
+                                     settings({.mostSamplesPerPixel = 32, .samplesPerBlock = 64}));
+    EXPECT_EQ(differences(plain, block), 0u);
+}
+
+/// Each block by a backend of its own, in any order, whatever the device's work is cut into.
+TEST_F(Session, BlocksOfSeveralBackendsAddUpToOneRender) {
+    const RenderSettings s = settings({.mostSamplesPerPixel = 40, .samplesPerBlock = 16}, 12, 9);
+    const SampleBlocks blocks{40, 16};
+    for (const bool onDevice : {true, false}) {
+        std::vector<ExactStatistics> sum(s.area.pixelCount());
+        for (const uint32_t block : {2u, 0u, 1u}) {
+            std::unique_ptr<Backend> backend;
+            if (onDevice)
+                backend = std::make_unique<VulkanBackend>(testDevice(), packed_, camera(s), s,
+                                                          KernelTuning{.lanes = 30 + 50 * block});
+            else
+                backend = std::make_unique<ReferenceBackend>(scene_, camera(s), s, 2);
+            const uint32_t first = blocks.firstOf(block);
+            std::vector<PixelTarget> targets;
+            for (uint32_t i = 0; i < sum.size(); ++i)
+                targets.push_back({i, blocks.firstOf(block + 1) - first});
+            Film film(s.area);
+            backend->beginAt(first);
+            backend->sample(targets, film, {});
+            BlockSums one;
+            one.add(film, first);
+            for (size_t i = 0; i < sum.size(); ++i)
+                sum[i].add(one.pixels()[i]);
+        }
+        const Film whole = uninterrupted(onDevice ? &Session::device : &Session::reference, s);
+        for (size_t i = 0; i < sum.size(); ++i)
+            EXPECT_TRUE(sameBytes(sum[i].statistics(), whole.pixels[i])) << i;
     }
 }
 

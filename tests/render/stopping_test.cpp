@@ -52,11 +52,19 @@ class Stopping : public DeviceTest {
         return targets;
     }
 
+    /// Whether the samples of the first pass are a block of their own.
+    enum class First { InTheSameBlock, InAnother };
+
     /// A pass to `before` samples a pixel, then one that is stopped after a dispatch.
-    Film stopped(VulkanBackend& backend, uint32_t seed, uint32_t before) {
+    Film stopped(VulkanBackend& backend, uint32_t seed, uint32_t before, First first) {
         backend.setPicture(camera_, settings(seed));
         Film film(kSide, kSide);
         if (before > 0) backend.sample(allPixels(before), film, {});
+        Film earlier(kSide, kSide);
+        if (first == First::InAnother) {
+            std::swap(film, earlier);
+            backend.beginAt(before);
+        }
         const uint64_t pathsBefore = backend.counters().paths;
         uint64_t reported = 0;
         backend.sample(allPixels(10000), film, [&](uint64_t done) {
@@ -66,7 +74,13 @@ class Stopping : public DeviceTest {
         uint64_t taken = 0;
         for (const PixelStatistics& p : film.pixels)
             taken += p.taken();
-        EXPECT_EQ(reported, taken - uint64_t(before) * film.pixels.size());
+        if (first == First::InAnother) {
+            EXPECT_EQ(reported, taken);
+            for (size_t i = 0; i < film.pixels.size(); ++i)
+                film.pixels[i].merge(earlier.pixels[i]);
+        } else {
+            EXPECT_EQ(reported, taken - uint64_t(before) * film.pixels.size());
+        }
         EXPECT_EQ(backend.counters().paths - pathsBefore, reported);
         return film;
     }
@@ -75,14 +89,14 @@ class Stopping : public DeviceTest {
     /// below 1e-5) of a tenth of a percent, which is also an upper bound of what remains of the
     /// bias in the second order of 1 / samples.
     void expectUnbiased(uint32_t before, uint32_t iterations, double samplesLeast,
-                        double samplesMost) {
+                        double samplesMost, First first = First::InTheSameBlock) {
         PixelStatistics means;
         double samples = 0;
         // Dispatches of so many loop iterations, with a lane for each pixel.
         VulkanBackend backend(testDevice(), packed_, camera_, settings(0),
                               {.lanes = kSide * kSide, .fixedIterations = iterations});
         for (uint32_t seed = 1; seed <= kSeeds; ++seed)
-            for (const PixelStatistics& p : stopped(backend, seed, before).pixels) {
+            for (const PixelStatistics& p : stopped(backend, seed, before, first).pixels) {
                 ASSERT_GT(p.taken(), 0u) << "a pixel that was begun has no sample";
                 means.add(p.mean);
                 samples += p.taken() - before;
@@ -111,6 +125,15 @@ TEST_F(Stopping, AboutFiveSamplesOnTopOfAsMany) {
 
 TEST_F(Stopping, FewSamplesOnTopOfMany) {
     expectUnbiased(16, 8, 1, 3);
+}
+
+/// What was sampled before is not in the kernel's sums any more, but counts as it did.
+TEST_F(Stopping, AboutFiveSamplesOnTopOfAnEarlierBlock) {
+    expectUnbiased(5, 20, 4, 6.5, First::InAnother);
+}
+
+TEST_F(Stopping, FewSamplesOnTopOfAnEarlierBlock) {
+    expectUnbiased(16, 8, 1, 3, First::InAnother);
 }
 
 /// Nothing of the stopped pass is left in the lanes' hands: the next one goes on with whole

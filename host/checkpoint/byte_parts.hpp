@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace stromboli {
+
+/// CRC-32.
+uint32_t checksumOf(std::span<const std::byte> bytes);
+
+// What files of saved renders are made of, in this machine's byte order.
+
+void append(std::vector<std::byte>& bytes, const void* data, size_t size);
+/// Its length, then its bytes.
+void append(std::vector<std::byte>& bytes, const std::string& text);
+template <class T>
+requires std::is_arithmetic_v<T>
+void append(std::vector<std::byte>& bytes, T value) {
+    append(bytes, &value, sizeof value);
+}
+
+/// Takes parts of a file from its beginning. Throws UsageError that names the file, and what it is
+/// ("checkpoint"), if it has no more.
+class ByteParts {
+  public:
+    ByteParts(const std::filesystem::path& file, std::string kind, std::span<const std::byte> bytes)
+        : file_(&file), kind_(std::move(kind)), bytes_(bytes) {}
+
+    std::span<const std::byte> take(uint64_t size);
+    template <class T>
+    T number() {
+        T value{};
+        std::memcpy(&value, take(sizeof value).data(), sizeof value);
+        return value;
+    }
+    std::string text();
+    std::span<const std::byte> rest() const { return bytes_; }
+
+  private:
+    const std::filesystem::path* file_;
+    std::string kind_;
+    std::span<const std::byte> bytes_;
+};
+
+} // namespace stromboli

@@ -1,0 +1,260 @@
+#include "host/farm/film_file.hpp"
+
+#include "host/checkpoint/byte_parts.hpp"
+#include "host/checkpoint/compression.hpp"
+#include "host/core/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <stdexcept>
+#include <string_view>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+// A film: kMagic, the size and checksum of the header, the header; then each run of pixels: its
+// size, its checksum, and its numbers, compressed; then kEnd.
+
+namespace stromboli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Changes with every change of what is written.
+constexpr std::string_view kMagic = "stromboli film 1\n";
+/// Not there in what is cut short.
+constexpr std::string_view kEnd = "end of film\n";
+
+/// Calls visit(kind, numberOf) for all kinds of numbers that a pixel has.
+template <class Visit>
+void forEachKind(const Visit& visit) {
+    uint32_t kind = 0;
+    visit(
+        kind++, [](auto& p) -> auto& { return p.count; });
+    visit(
+        kind++, [](auto& p) -> auto& { return p.rejected; });
+    visit(
+        kind++, [](auto& p) -> auto& { return p.firstRejected; });
+    for (size_t c = 0; c < 3; ++c) {
+        for (size_t i = 0; i < ExactStatistics().sum[c].words.size(); ++i)
+            visit(
+                kind++, [=](auto& p) -> auto& { return p.sum[c].words[i]; });
+        for (size_t i = 0; i < ExactStatistics().squares[c].words.size(); ++i)
+            visit(
+                kind++, [=](auto& p) -> auto& { return p.squares[c].words[i]; });
+    }
+}
+
+/// A set of kinds.
+using Kinds = uint32_t;
+static_assert(3 + 3 * (4 + 5) <= 32);
+
+template <class NumberOf>
+constexpr size_t sizeOf = sizeof(std::declval<NumberOf>()(std::declval<ExactStatistics&>()));
+
+/// Pixels that are turned from rows of pixels to rows of numbers, or back, at a time: 64 KiB of
+/// sums stay in a core's own cache for all of their numbers.
+constexpr size_t kTile = 256;
+
+/// Calls visit(numberOf, pixel, place) for all numbers of these kinds of `count` pixels and their
+/// place in the run's bytes, where numbers of a kind are side by side: neighbouring pixels have
+/// nearly the same high digits, and counts are all alike.
+template <class Visit>
+void forEachPlace(size_t count, Kinds kinds, const Visit& visit) {
+    for (size_t tile = 0; tile < count; tile += kTile) {
+        size_t row = 0; // the place of the numbers of a kind
+        const size_t end = std::min(tile + kTile, count);
+        forEachKind([&](uint32_t kind, const auto& numberOf) {
+            if ((kinds >> kind & 1) == 0) return;
+            constexpr size_t size = sizeOf<decltype(numberOf)>;
+            for (size_t i = tile; i < end; ++i)
+                visit(numberOf, i, row + i * size);
+            row += count * size;
+        });
+    }
+}
+
+/// Those that are not 0 everywhere, which is more than half: sums have room for any picture.
+Kinds kindsIn(std::span<const ExactStatistics> run) {
+    Kinds kinds = 0;
+    for (const ExactStatistics& p : run)
+        forEachKind([&](uint32_t kind, const auto& numberOf) {
+            kinds |= uint32_t(numberOf(p) != 0) << kind;
+        });
+    return kinds;
+}
+
+size_t bytesOf(Kinds kinds) {
+    size_t bytes = 0;
+    forEachKind([&](uint32_t kind, const auto& numberOf) {
+        if (kinds >> kind & 1) bytes += sizeOf<decltype(numberOf)>;
+    });
+    return bytes;
+}
+
+/// The kinds of numbers that follow, then they, compressed.
+std::vector<std::byte> bytesOf(std::span<const ExactStatistics> run) {
+    const Kinds kinds = kindsIn(run);
+    std::vector<std::byte> numbers(run.size() * bytesOf(kinds));
+    forEachPlace(run.size(), kinds, [&](const auto& numberOf, size_t i, size_t place) {
+        const auto number = numberOf(run[i]);
+        std::memcpy(numbers.data() + place, &number, sizeof number);
+    });
+    std::vector<std::byte> bytes;
+    append(bytes, kinds);
+    const std::vector<std::byte> small = compressed(numbers);
+    append(bytes, small.data(), small.size());
+    return bytes;
+}
+
+/// False if the bytes were others. The run's numbers are 0.
+bool fromBytes(std::span<const std::byte> bytes, std::vector<ExactStatistics>& run) {
+    Kinds kinds = 0;
+    if (bytes.size() < sizeof kinds) return false;
+    std::memcpy(&kinds, bytes.data(), sizeof kinds);
+    const std::optional<std::vector<std::byte>> numbers =
+        decompressed(bytes.subspan(sizeof kinds), run.size() * bytesOf(kinds));
+    if (!numbers) return false;
+    for (ExactStatistics& p : run)
+        p.firstRejected = 0;
+    forEachPlace(run.size(), kinds, [&](const auto& numberOf, size_t i, size_t place) {
+        auto& number = numberOf(run[i]);
+        std::memcpy(&number, numbers->data() + place, sizeof number);
+    });
+    return true;
+}
+
+/// Size and checksum, then the bytes.
+void writePart(TemporaryFile& file, std::span<const std::byte> bytes) {
+    std::vector<std::byte> front;
+    append(front, uint64_t(bytes.size()));
+    append(front, checksumOf(bytes));
+    file.write(front);
+    file.write(bytes);
+}
+constexpr uint64_t kFront = sizeof(uint64_t) + sizeof(uint32_t);
+
+uint64_t pixelsOf(const FilmHeader& header) {
+    return header.blocks.empty() ? 0 : header.settings.area.pixelCount();
+}
+
+size_t pixelsPerRun(const PictureArea& area) {
+    return size_t(rowsPerRun(area)) * area.rendered().width;
+}
+
+} // namespace
+
+bool namesFilm(const fs::path& path) {
+    return path.extension() == ".film";
+}
+
+FilmWriter::FilmWriter(const fs::path& path, const FilmHeader& header)
+    : file_(path), pixelsPerRun_(pixelsPerRun(header.settings.area)),
+      pixelsLeft_(pixelsOf(header)) {
+    file_.write(std::as_bytes(std::span(kMagic)));
+    writePart(file_, toBytes(header));
+}
+
+void FilmWriter::add(std::span<const ExactStatistics> pixels) {
+    if (pixels.size() > pixelsLeft_ - run_.size())
+        throw std::logic_error("more pixels than the film has");
+    while (!pixels.empty()) {
+        const size_t count = std::min(pixels.size(), pixelsPerRun_ - run_.size());
+        run_.insert(run_.end(), pixels.begin(), pixels.begin() + std::ptrdiff_t(count));
+        pixels = pixels.subspan(count);
+        if (run_.size() == pixelsPerRun_ || run_.size() == pixelsLeft_) writeRun();
+    }
+}
+
+void FilmWriter::writeRun() {
+    writePart(file_, bytesOf(run_));
+    pixelsLeft_ -= run_.size();
+    run_.clear();
+}
+
+void FilmWriter::finish() {
+    if (pixelsLeft_ > 0) throw std::logic_error("the film lacks pixels");
+    file_.write(std::as_bytes(std::span(kEnd)));
+    file_.rename(Sync::Now);
+}
+
+FilmReader::FilmReader(const fs::path& path) : path_(path) {
+    descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    struct stat status = {};
+    if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
+        const int error = errno;
+        if (descriptor_ >= 0) ::close(descriptor_);
+        refuse("cannot read the film: " + std::generic_category().message(error));
+    }
+    size_ = uint64_t(status.st_size);
+    try {
+        if (!S_ISREG(status.st_mode)) refuse("it is no film");
+        if (size_ < kMagic.size() ||
+            std::memcmp(read(kMagic.size()).data(), kMagic.data(), kMagic.size()) != 0)
+            refuse("not a film of this version of the program");
+        char end[kEnd.size()] = {};
+        const auto place = off_t(size_ - std::min<uint64_t>(size_, kEnd.size()));
+        if (::pread(descriptor_, end, sizeof end, place) != ssize_t(sizeof end) ||
+            std::string_view(end, sizeof end) != kEnd)
+            refuse("the film is cut short");
+        std::vector<std::byte> front = read(kFront);
+        ByteParts parts(path_, "film", front);
+        const auto size = parts.number<uint64_t>();
+        const auto sum = parts.number<uint32_t>();
+        const std::vector<std::byte> bytes = read(size);
+        if (checksumOf(bytes) != sum) refuse("the film is damaged");
+        header_ = filmHeaderFromBytes(bytes, path_);
+    } catch (...) {
+        ::close(descriptor_);
+        throw;
+    }
+    pixelsPerRun_ = pixelsPerRun(header_.settings.area);
+    pixelsLeft_ = header_.settings.area.pixelCount();
+}
+
+FilmReader::FilmReader(FilmReader&& other) noexcept
+    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)),
+      size_(other.size_), position_(other.position_), header_(std::move(other.header_)),
+      pixelsPerRun_(other.pixelsPerRun_), pixelsLeft_(other.pixelsLeft_) {}
+
+FilmReader::~FilmReader() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void FilmReader::refuse(const std::string& why) const {
+    throw UsageError(fmt::format("{}: {}", path_.string(), why));
+}
+
+std::vector<std::byte> FilmReader::read(uint64_t size) {
+    if (size > size_ - position_) refuse("the film is damaged or cut short");
+    std::vector<std::byte> bytes(size);
+    for (uint64_t done = 0; done < size;) {
+        const ssize_t n =
+            ::pread(descriptor_, bytes.data() + done, size - done, off_t(position_ + done));
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) refuse("cannot read the film: " + std::generic_category().message(errno));
+        done += uint64_t(n);
+    }
+    position_ += size;
+    return bytes;
+}
+
+void FilmReader::next(std::vector<ExactStatistics>& run) {
+    run.assign(std::min<uint64_t>(pixelsPerRun_, pixelsLeft_), {});
+    pixelsLeft_ -= run.size();
+    if (header_.blocks.empty()) return;
+    const std::vector<std::byte> front = read(kFront);
+    ByteParts parts(path_, "film", front);
+    const auto size = parts.number<uint64_t>();
+    const auto sum = parts.number<uint32_t>();
+    const std::vector<std::byte> bytes = read(size);
+    if (checksumOf(bytes) != sum) refuse("the film is damaged");
+    if (!fromBytes(bytes, run)) refuse("the film is damaged");
+}
+
+} // namespace stromboli

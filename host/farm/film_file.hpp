@@ -1,0 +1,64 @@
+#pragma once
+
+#include "host/core/temporary_file.hpp"
+#include "host/farm/film_header.hpp"
+#include "host/film/exact_statistics.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace stromboli {
+
+/// Whether a name ends as that of a film does: .film.
+bool namesFilm(const std::filesystem::path& path);
+
+/// Writes a film, run by run, to a file that gets its name when it is complete.
+class FilmWriter {
+  public:
+    /// Throws OutputError.
+    FilmWriter(const std::filesystem::path& path, const FilmHeader& header);
+    /// The next pixels, row by row. None are wanted where the film has no blocks.
+    void add(std::span<const ExactStatistics> pixels);
+    /// Throws OutputError, std::logic_error if pixels are missing.
+    void finish();
+
+  private:
+    void writeRun();
+
+    TemporaryFile file_;
+    size_t pixelsPerRun_;
+    uint64_t pixelsLeft_;
+    std::vector<ExactStatistics> run_; ///< not yet written
+};
+
+/// Reads a film, run by run: of a film of any size, no more than a run is in memory.
+class FilmReader {
+  public:
+    /// Reads the header. Throws UsageError that names the file if it is none, of another version,
+    /// damaged or cut short.
+    explicit FilmReader(const std::filesystem::path& path);
+    ~FilmReader();
+    FilmReader(FilmReader&& other) noexcept;
+    FilmReader& operator=(FilmReader&&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+    const FilmHeader& header() const { return header_; }
+    /// The next run of pixels; all of them without samples where the film has no blocks. Throws
+    /// UsageError as above.
+    void next(std::vector<ExactStatistics>& run);
+
+  private:
+    std::vector<std::byte> read(uint64_t size);
+    [[noreturn]] void refuse(const std::string& why) const;
+
+    std::filesystem::path path_;
+    int descriptor_ = -1;
+    uint64_t size_ = 0, position_ = 0;
+    FilmHeader header_;
+    size_t pixelsPerRun_ = 0;
+    uint64_t pixelsLeft_ = 0;
+};
+
+} // namespace stromboli

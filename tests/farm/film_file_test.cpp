@@ -1,0 +1,117 @@
+// Films as files: what comes back, damage, and files that are not finished.
+#include "host/core/error.hpp"
+#include "tests/farm/films.hpp"
+#include "tests/film/temporary_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace stromboli {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+
+std::string contentOf(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<ExactStatistics> readAll(const std::filesystem::path& file) {
+    FilmReader reader(file);
+    std::vector<ExactStatistics> all, run;
+    const uint64_t pixels = reader.header().settings.area.pixelCount();
+    while (all.size() < pixels) {
+        reader.next(run);
+        all.insert(all.end(), run.begin(), run.end());
+    }
+    return all;
+}
+
+std::string refusalOf(const std::filesystem::path& file) {
+    try {
+        readAll(file);
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(FilmFile, ComesBackAsItWas) {
+    const TemporaryFolder folder;
+    const FilmHeader header = ofShare(pictureOf(16, 4), {2, 4});
+    const std::vector<ExactStatistics> pixels = drawBlocks(header, uneven, 1);
+    writeFilm(folder / "a.film", header, pixels);
+    EXPECT_EQ(toBytes(FilmReader(folder / "a.film").header()), toBytes(header));
+    EXPECT_EQ(readAll(folder / "a.film"), pixels);
+    EXPECT_EQ(folder.size(), 1u);
+}
+
+/// In several runs of pixels, the last one shorter, and whatever parts the pixels come in.
+TEST(FilmFile, OfManyRunsComesBackAsItWas) {
+    const TemporaryFolder folder;
+    FilmHeader header = ofShare(pictureOf(16, 16), {1, 1});
+    header.settings.area = {1000, 150, {}};
+    std::vector<ExactStatistics> pixels(1000 * 150);
+    for (uint32_t i = 0; i < pixels.size(); ++i)
+        pixels[i].count = i, pixels[i].sum[1].words[2] = 3 * i;
+    FilmWriter writer(folder / "a.film", header);
+    writer.add(std::span(pixels).first(1));
+    writer.add(std::span(pixels).subspan(1, 100'000));
+    EXPECT_THROW(writer.finish(), std::logic_error); // not yet
+    writer.add(std::span(pixels).subspan(100'001));
+    EXPECT_THROW(writer.add(pixels), std::logic_error);
+    writer.finish();
+    EXPECT_EQ(readAll(folder / "a.film"), pixels);
+}
+
+TEST(FilmFile, AShareWithoutSamplesIsSmall) {
+    const TemporaryFolder folder;
+    const FilmHeader header = ofShare(pictureOf(4, 4), {1, 1000});
+    EXPECT_TRUE(header.blocks.empty());
+    writeFilm(folder / "a.film", header, {});
+    EXPECT_LT(std::filesystem::file_size(folder / "a.film"), 1000u);
+    EXPECT_EQ(readAll(folder / "a.film"), std::vector<ExactStatistics>(kSide * kSide));
+}
+
+TEST(FilmFile, WithoutItsEndThereIsNoFile) {
+    const TemporaryFolder folder;
+    {
+        const FilmHeader header = ofShare(pictureOf(4, 4), {1, 1});
+        FilmWriter writer(folder / "a.film", header);
+        writer.add(std::vector<ExactStatistics>(kSide * kSide));
+        EXPECT_FALSE(std::filesystem::exists(folder / "a.film"));
+    }
+    EXPECT_EQ(folder.size(), 0u);
+}
+
+TEST(FilmFile, DamageIsSeen) {
+    const TemporaryFolder folder;
+    const FilmHeader header = ofShare(pictureOf(4, 4), {1, 1});
+    writeFilm(folder / "a.film", header, drawBlocks(header, uneven, 1));
+    const std::string whole = contentOf(folder / "a.film");
+    for (size_t i = 0; i < whole.size(); i += i < 700 ? 1 : 97) {
+        std::string damaged = whole;
+        damaged[i] = char(damaged[i] ^ 0x10);
+        std::ofstream(folder / "b.film", std::ios::binary) << damaged;
+        ASSERT_THAT(refusalOf(folder / "b.film"), HasSubstr("/b.film: ")) << "byte " << i;
+    }
+    for (size_t size = 0; size < whole.size(); size += 131) {
+        std::ofstream(folder / "b.film", std::ios::binary) << whole.substr(0, size);
+        ASSERT_THAT(refusalOf(folder / "b.film"), HasSubstr("/b.film: ")) << size;
+    }
+}
+
+TEST(FilmFile, SaysWhatIsNoFilm) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "a.film") << "not a film at all";
+    EXPECT_THAT(refusalOf(folder / "a.film"), HasSubstr("not a film of this version"));
+    EXPECT_THAT(refusalOf(folder / "none.film"), HasSubstr("No such file"));
+    EXPECT_THAT(refusalOf(folder.path()), HasSubstr("it is no film"));
+}
+
+} // namespace
+} // namespace stromboli
