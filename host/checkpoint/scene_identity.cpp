@@ -56,14 +56,16 @@ void add(Sum& sum, const TextureUse& t) {
 
 void add(Sum& sum, const Material& m) {
     const auto& [name, kind, albedo, reflectance, transmittance, ior, alpha, eta, k, facets,
-                 isNonlinear, emission, bothSides, principled, alphaMode, opacity, alphaCutoff,
-                 textures] = m;
-    const auto& [distribution, facetAlpha] = facets;
+                 isNonlinear, internalViews, emission, bothSides, principled, alphaMode, opacity,
+                 alphaCutoff, textures] = m;
+    const auto& [distribution, facetAlpha, masking] = facets;
     sum.add(kind), sum.add(albedo), sum.add(reflectance), sum.add(transmittance), sum.add(ior);
     sum.add(alpha), sum.add(eta), sum.add(k), sum.add(emission), sum.add(bothSides);
     // A state saved before materials had these stays that of its scene.
     if (kind >= MaterialKind::Conductor)
         sum.add(distribution), sum.add(facetAlpha), sum.add(isNonlinear);
+    if (masking != FacetMasking::Correlated) sum.add(masking);
+    if (internalViews > 0) sum.add(internalViews);
     add(sum, principled);
     sum.add(alphaMode), sum.add(opacity), sum.add(alphaCutoff);
     for (const TextureUse& t : textures)

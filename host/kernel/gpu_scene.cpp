@@ -59,7 +59,7 @@ void packPrimitives(const Scene& scene, const std::vector<uint32_t>& materialRow
         if (!used[i]) continue;
         g.bsdfKinds |= 1u << bsdfKind(scene.materials[i]);
         g.principledFeatures |= principledFeatures(scene.materials[i]);
-        g.facetDistributions |= facetDistribution(scene.materials[i]);
+        g.facets |= facetBits(scene.materials[i]);
         g.hasEmission |= scene.materials[i].emits();
     }
 }

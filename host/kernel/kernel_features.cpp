@@ -108,7 +108,8 @@ void switchOnAllTheSceneCouldHave(KernelFeatures& f, const Estimator& settings) 
         f[SPEC_LIGHT_NUMBERS] = gpu::LIGHT_NUMBERS_FIRST;
     f[SPEC_BSDF_KINDS] = (1u << gpu::BSDF_KIND_COUNT) - 1;
     f[SPEC_PRINCIPLED_FEATURES] = gpu::PRINCIPLED_ALL_FEATURES;
-    f[SPEC_FACET_DISTRIBUTIONS] = gpu::FACETS_GGX | gpu::FACETS_BECKMANN;
+    f[SPEC_FACETS] =
+        gpu::FACETS_GGX | gpu::FACETS_BECKMANN | gpu::FACETS_CORRELATED | gpu::FACETS_SEPARABLE;
     f[SPEC_LIGHT_KINDS] = (1u << gpu::LIGHT_KIND_COUNT) - 1;
     if (f[SPEC_LIGHT_GROUPS]) f[SPEC_LIGHT_GROUPS] = (1u << gpu::LIGHT_GROUP_COUNT) - 1;
     if (combinesBouncesAndLightSamples(settings)) f[SPEC_MIS_LOBES] |= gpu::GLOSSY_LOBES;
@@ -189,7 +190,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_HAS_NORMALS] = scene.hasNormals;
     f[SPEC_BSDF_KINDS] = normalsOnly ? 0 : scene.bsdfKinds;
     f[SPEC_PRINCIPLED_FEATURES] = normalsOnly ? 0 : scene.principledFeatures;
-    f[SPEC_FACET_DISTRIBUTIONS] = normalsOnly ? 0 : scene.facetDistributions;
+    f[SPEC_FACETS] = normalsOnly ? 0 : scene.facets;
     f[SPEC_HAS_EMISSION] = !normalsOnly && scene.hasEmission;
     f[SPEC_LIGHT_KINDS] = lightKinds(scene, settings);
     f[SPEC_INTEGRATOR] = normalsOnly ? gpu::INTEGRATOR_NORMALS : gpu::INTEGRATOR_PATH;

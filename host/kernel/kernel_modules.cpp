@@ -32,7 +32,7 @@ bool hasOneLight(const KernelFeatures& f) {
 
 /// What modules without FACET_MATERIALS lack.
 bool hasFacetMaterials(const KernelFeatures& f) {
-    return f[SPEC_BSDF_KINDS] >> gpu::BSDF_CONDUCTOR != 0 || f[SPEC_FACET_DISTRIBUTIONS] != 0;
+    return f[SPEC_BSDF_KINDS] >> gpu::BSDF_CONDUCTOR != 0 || f[SPEC_FACETS] != 0;
 }
 
 } // namespace

@@ -69,30 +69,34 @@ gpu::PrincipledParameters principledRows(const Material& m) {
 static_assert(kLeastAlpha == gpu::LEAST_GGX_ALPHA);
 static_assert(kLeastRefractionAlpha == gpu::LEAST_REFRACTION_ALPHA);
 
-uint32_t isBeckmann(const Material& m) {
-    return m.facets.distribution == FacetDistribution::Beckmann;
+/// FACETS_ bits.
+uint32_t bitsOf(const Facets& facets) {
+    const bool isBeckmann = facets.distribution == FacetDistribution::Beckmann;
+    const bool isSeparable = facets.masking == FacetMasking::Separable;
+    return (isBeckmann ? gpu::FACETS_BECKMANN : gpu::FACETS_GGX) |
+           (isSeparable ? gpu::FACETS_SEPARABLE : gpu::FACETS_CORRELATED);
 }
 
 gpu::ConductorParameters conductorRows(const Material& m) {
     const glm::vec2 alpha = m.facetAlpha();
-    return {m.reflectance, alpha.y, m.eta, alpha.x, m.k, isBeckmann(m)};
+    return {m.reflectance, alpha.y, m.eta, alpha.x, m.k, bitsOf(m.facets)};
 }
 
 gpu::FacetDielectricParameters facetDielectricRows(const Material& m) {
     Material least = m;
     least.facets.alpha = glm::vec2(0);
     const glm::vec2 alpha = m.facetAlpha();
-    return {m.transmittance, alpha.y, m.reflectance, alpha.x, m.ior, least.facetAlpha().x,
-            isBeckmann(m),   0};
+    return {m.transmittance,  alpha.y, m.reflectance, alpha.x, m.ior, least.facetAlpha().x,
+            bitsOf(m.facets), 0};
 }
 
 /// Without the place of the table.
 gpu::PlasticParameters plasticRows(const Material& m) {
     const float alpha = m.facetAlpha().x;
-    const double inside = m.isSmooth() ? internalReflectance(m.ior)
-                                       : internalReflectance(m.ior, alpha, m.facets.distribution);
-    const uint32_t flags = (m.isNonlinear ? gpu::PLASTIC_IS_NONLINEAR : 0) |
-                           (isBeckmann(m) != 0 ? gpu::PLASTIC_IS_BECKMANN : 0);
+    const double inside = m.isSmooth()
+                              ? internalReflectance(m.ior)
+                              : internalReflectance(m.ior, alpha, m.facets, m.internalViews);
+    const uint32_t flags = (m.isNonlinear ? gpu::PLASTIC_IS_NONLINEAR : 0) | bitsOf(m.facets);
     return {m.albedo, float(inside), m.reflectance, m.ior, alpha, flags, 0, 0};
 }
 
@@ -133,20 +137,19 @@ void appendTables(MaterialRows& packed, std::span<const Material> materials) {
         static_assert(offsetof(gpu::PlasticParameters, table) ==
                       16 * (kRowOfTable - 1) + 4 * kPlace);
         packed.rows[packed.firstRow[i] + kRowOfTable][kPlace] = uint32_t(packed.rows.size());
-        for (const glm::vec4& piece :
-             transmittanceTable(m.ior, m.facetAlpha().x, m.facets.distribution))
+        for (const glm::vec4& piece : transmittanceTable(m.ior, m.facetAlpha().x, m.facets))
             appendRows(packed.rows, piece);
     }
 }
 
 } // namespace
 
-uint32_t facetDistribution(const Material& material) {
+uint32_t facetBits(const Material& material) {
     const bool canHave = material.kind == MaterialKind::Conductor ||
                          material.kind == MaterialKind::Dielectric ||
                          material.kind == MaterialKind::Plastic;
     if (!canHave || material.isSmooth()) return 0;
-    return isBeckmann(material) != 0 ? gpu::FACETS_BECKMANN : gpu::FACETS_GGX;
+    return bitsOf(material.facets);
 }
 
 uint32_t bsdfKind(const Material& material) {

@@ -60,6 +60,7 @@ Surface plastic(SurfaceMaker& maker) {
                   refractiveIndex(maker.plugin, "ext_ior", "air"));
     m.isNonlinear = maker.plugin.flag("nonlinear").value_or(false);
     if (maker.plugin.type == "roughplastic") maker.facets();
+    m.internalViews = 64;
     maker.color("diffuse_reflectance", glm::dvec3(0.5), m.albedo, TextureSlot::BaseColor);
     maker.color("specular_reflectance", glm::dvec3(1), m.reflectance, TextureSlot::SpecularColor);
     return maker.done();

@@ -46,6 +46,7 @@ void SurfaceMaker::facets() {
         plugin.fail("distribution", fmt::format("is '{}', expected beckmann or ggx", name));
     material.facets.distribution =
         name == "ggx" ? FacetDistribution::Ggx : FacetDistribution::Beckmann;
+    material.facets.masking = FacetMasking::Separable;
     for (const char* parameter : {"alpha", "alpha_u", "alpha_v"})
         if (plugin.child(parameter)) plugin.fail(parameter, "is a texture, expected a float");
     const double alpha = plugin.number("alpha", 0, 1e3).value_or(0.1);

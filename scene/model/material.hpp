@@ -27,6 +27,13 @@ enum class MaterialKind : uint32_t {
 /// How the normals of microfacets are distributed (Walter et al. 2007).
 enum class FacetDistribution : uint32_t { Ggx, Beckmann };
 
+/// How much of a microfacet is seen from one direction and lit from another, by what Smith's model
+/// says of each direction alone.
+enum class FacetMasking : uint32_t {
+    Correlated, ///< what is low is hidden from both (Heitz 2014): 1 / (1 + Lambda(wo) + Lambda(wi))
+    Separable,  ///< as if heights were independent (Walter et al. 2007): the product of both
+};
+
 /// The microfacets of an interface. They are smooth, an interface that light meets as a plane,
 /// where both alphas are too small for floats to tell (Material::isSmooth).
 struct Facets {
@@ -34,6 +41,7 @@ struct Facets {
     /// Along the surface's tangent and across it: RMS slope times sqrt(2) of Beckmann's
     /// distribution and what corresponds to it in GGX. Plastic has the first for both.
     glm::vec2 alpha{0.0f};
+    FacetMasking masking = FacetMasking::Correlated;
 };
 
 /// glTF 2.0's metallic-roughness material with KHR_materials_ior, specular, clearcoat, sheen,
@@ -77,7 +85,11 @@ struct Material {
     glm::vec3 eta{1.0f};           ///< of conductors: real part of the index of refraction
     glm::vec3 k{0.0f};             ///< of conductors: extinction coefficient
     Facets facets;
-    bool isNonlinear = false;   ///< Plastic: the base's colour deepens with reflections inside
+    bool isNonlinear = false; ///< Plastic: the base's colour deepens with reflections inside
+    /// Plastic with facets: the share of diffuse light that the interface sends back to the base is
+    /// the mean over so many equidistant cosines, both ends included, as Mitsuba takes it: 1.6 %
+    /// less than the integral with 64 of them. 0: the integral.
+    uint32_t internalViews = 0;
     glm::vec3 emission{0.0f};   ///< emitted radiance, W sr^-1 m^-2 (scene units of power)
     bool emitsBothSides = true; ///< false: only on the side the geometric normal points to
     PrincipledParameters principled;

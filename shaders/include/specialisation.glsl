@@ -71,7 +71,7 @@ const bool HAS_ALPHA = false;
 
 // FACET_MATERIALS: those of these modules that have conductors, rough dielectrics, thin ones and plastic.
 #ifdef FACET_MATERIALS
-layout(constant_id = SPEC_FACET_DISTRIBUTIONS) const uint FACET_DISTRIBUTIONS = 3u;
+layout(constant_id = SPEC_FACETS) const uint FACETS = 15u;
 #endif
 
 bool sceneHasBsdf(uint kind) { return (BSDF_KINDS & (1u << kind)) != 0u; }

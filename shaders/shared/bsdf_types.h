@@ -116,7 +116,7 @@ struct ConductorParameters {
     vec3 eta;
     float alphaX; ///< along the tangent
     vec3 k;
-    uint isBeckmann; ///< 1: Beckmann's distribution; 0: GGX
+    uint facets; ///< FACETS_ bits: its distribution and its masking
 };
 SHARED_ROWS(ConductorParameters, 3);
 
@@ -128,7 +128,7 @@ struct FacetDielectricParameters {
     float alphaX;
     float ior;        ///< index inside over index outside
     float leastAlpha; ///< either alpha is no less
-    uint isBeckmann;
+    uint facets;
     uint unused;
 };
 SHARED_ROWS(FacetDielectricParameters, 3);
@@ -149,23 +149,25 @@ struct PlasticParameters {
     vec3 reflectance;      ///< multiplies what Fresnel's equations reflect
     float ior;             ///< index under the interface over the index above it
     float alpha;           ///< of the interface's microfacets
-    uint flags;            ///< PLASTIC_
+    uint flags;            ///< PLASTIC_, and FACETS_ bits
     uint table;            ///< microfacets: row of the first piece of their transmittance
     uint unused;
 };
 SHARED_ROWS(PlasticParameters, 3);
 /// The base's colour deepens with each reflection between base and interface.
-SHARED_CONST uint PLASTIC_IS_NONLINEAR = 1u;
-SHARED_CONST uint PLASTIC_IS_BECKMANN = 2u;
+SHARED_CONST uint PLASTIC_IS_NONLINEAR = 256u;
 
 /// The transmittance of an interface of microfacets from outside, seen at the cosine mu, is a cubic
 /// polynomial on each of so many equal pieces of sqrt(mu) in [0, 1]: one row each, the coefficients by
 /// rising powers of the place in the piece, [0, 1].
 SHARED_CONST uint TRANSMITTANCE_PIECES = 16u;
 
-/// Which distributions the microfacets of these kinds have in a scene (SPEC_FACET_DISTRIBUTIONS).
+/// The microfacets of these kinds: one of two distributions, one of two ways of masking. Those that a scene has
+/// are a constant of its kernel (SPEC_FACETS).
 SHARED_CONST uint FACETS_GGX = 1u;
 SHARED_CONST uint FACETS_BECKMANN = 2u;
+SHARED_CONST uint FACETS_CORRELATED = 4u;
+SHARED_CONST uint FACETS_SEPARABLE = 8u;
 
 /// glTF 2.0's metallic-roughness model and its extensions (scene/model/material.hpp).
 struct PrincipledParameters {

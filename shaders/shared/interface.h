@@ -69,7 +69,7 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_TANGENT_FRAMES 36 // the frame of a BSDF follows the surface's tangent
 #define SPEC_PRINCIPLED_FEATURES 37 // PRINCIPLED_HAS_ bits: what the principled materials have
 #define SPEC_LOOSE_SLOTS 38 // bit n: some material has a texture in slot n that is in no bundle
-#define SPEC_FACET_DISTRIBUTIONS 39 // FACETS_ bits: of microfacets of conductors, dielectrics, plastic
+#define SPEC_FACETS 39 // FACETS_ bits: of microfacets of conductors, dielectrics, plastic
 #define SPEC_COUNT 40
 
 SHARED_CONST uint TEXEL_KIND_NEAREST = 1u;

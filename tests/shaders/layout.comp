@@ -46,10 +46,10 @@ void putPlace(PlacedPrimitive p) {
 void putFacetMaterial(Material m) {
     const ConductorParameters conductor = conductorParameters(m);
     put(conductor.reflectance), put(conductor.alphaY), put(conductor.eta), put(conductor.alphaX);
-    put(conductor.k), put(conductor.isBeckmann);
+    put(conductor.k), put(conductor.facets);
     const FacetDielectricParameters rough = facetDielectricParameters(m);
     put(rough.transmittance), put(rough.alphaY), put(rough.reflectance), put(rough.alphaX);
-    put(rough.ior), put(rough.leastAlpha), put(rough.isBeckmann), put(rough.unused);
+    put(rough.ior), put(rough.leastAlpha), put(rough.facets), put(rough.unused);
     const ThinDielectricParameters thin = thinDielectricParameters(m);
     put(thin.transmittance), put(thin.ior), put(thin.reflectance), put(thin.unused);
     const PlasticParameters plastic = plasticParameters(m);

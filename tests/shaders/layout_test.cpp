@@ -153,11 +153,11 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         const std::array<Row, 3> three = {m[1], m[2], m[3]};
         const auto conductor = std::bit_cast<gpu::ConductorParameters>(three);
         expected_.structure("ConductorParameters", conductor.reflectance, conductor.alphaY,
-                            conductor.eta, conductor.alphaX, conductor.k, conductor.isBeckmann);
+                            conductor.eta, conductor.alphaX, conductor.k, conductor.facets);
         const auto rough = std::bit_cast<gpu::FacetDielectricParameters>(three);
         expected_.structure("FacetDielectricParameters", rough.transmittance, rough.alphaY,
                             rough.reflectance, rough.alphaX, rough.ior, rough.leastAlpha,
-                            rough.isBeckmann, rough.unused);
+                            rough.facets, rough.unused);
         const auto thin = std::bit_cast<gpu::ThinDielectricParameters>(two);
         expected_.structure("ThinDielectricParameters", thin.transmittance, thin.ior,
                             thin.reflectance, thin.unused);
