@@ -101,10 +101,10 @@ void follow(Material m, SurfacePoint s) {
 
 void arrive() {
     SurfacePoint s = surfaceAt(ray);
-    vec3 mapped;
-    const Material m = materialAt(s, mapped);
+    Relief relief;
+    const Material m = materialAt(s, relief);
     faceForward(s);
-    applyNormalMap(s, mapped);
+    applyRelief(s, relief, !isBsdf(m, BSDF_DIFFUSE));
     if (bounce == 0u) noteFirst(s);
     const bool isFollowed = isSeenThrough(m);
     ++bounce;

@@ -28,6 +28,7 @@ bool hasEffect(const Material& m, TextureSlot slot) {
     case TextureSlot::Emission:
         return m.emits();
     case TextureSlot::Normal:
+    case TextureSlot::Height:
         return m.kind != MaterialKind::Diffuse || !isBlack(m.albedo);
     case TextureSlot::MetallicRoughness:
         return hasFacets || (isPrincipled && (p.metallic > 0 || p.roughness > 0));
@@ -183,6 +184,7 @@ DetailPlan planDetails(const Scene& scene, const std::vector<bool>& used) {
     static_assert(kTextureSlotCount == gpu::TEXTURE_SLOT_COUNT);
     static_assert(uint32_t(TextureSlot::Emission) == gpu::TEXTURE_EMISSION);
     static_assert(uint32_t(TextureSlot::Anisotropy) == gpu::TEXTURE_ANISOTROPY);
+    static_assert(uint32_t(TextureSlot::Height) == gpu::TEXTURE_HEIGHT);
     return Planner(scene).plan(used);
 }
 

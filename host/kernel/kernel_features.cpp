@@ -139,7 +139,8 @@ void setDetails(KernelFeatures& f, const GpuScene& scene, bool normalsOnly) {
     if (normalsOnly) return;
     f[SPEC_TANGENT_FRAMES] = scene.hasTangentFrames;
     // A map gives flat surfaces a shading normal too.
-    if (f[SPEC_TEXTURE_SLOTS] & 1u << gpu::TEXTURE_NORMAL) f[SPEC_HAS_NORMALS] = 1;
+    constexpr uint32_t kMaps = 1u << gpu::TEXTURE_NORMAL | 1u << gpu::TEXTURE_HEIGHT;
+    if (f[SPEC_TEXTURE_SLOTS] & kMaps) f[SPEC_HAS_NORMALS] = 1;
 }
 
 std::string textureText(const KernelFeatures& f) {
@@ -147,7 +148,7 @@ std::string textureText(const KernelFeatures& f) {
     return list(f[SPEC_TEXTURE_SLOTS],
                 {"base color", "metallic-roughness", "normal", "emission", "transmission",
                  "specular", "specular color", "clearcoat", "clearcoat roughness",
-                 "clearcoat normal", "sheen color", "sheen roughness", "anisotropy"});
+                 "clearcoat normal", "sheen color", "sheen roughness", "anisotropy", "height"});
 }
 
 /// What the principled materials have besides metal and dielectric.

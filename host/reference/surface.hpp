@@ -56,7 +56,7 @@ void faceForward(SurfacePoint& surface, const ShadingConventions& conventions);
 /// Takes in textures and the colours of corners: the material's parameters, as stated before
 /// faceForward().
 void applyTextures(SurfacePoint& surface, const Scene& scene);
-/// After faceForward(): the shading normal by the normal map, and the tangent.
+/// After faceForward(): the shading normal by heights or the normal map, and the tangent.
 void applyNormalMap(SurfacePoint& surface, const Scene& scene,
                     const ShadingConventions& conventions);
 

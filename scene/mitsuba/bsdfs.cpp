@@ -128,10 +128,20 @@ Surface normalMap(SurfaceMaker& maker, Context& context, Textures& textures) {
 }
 
 Surface bumpMap(SurfaceMaker& maker, Context& context, Textures& textures) {
-    context.report().warn("bumpmap: heights are not supported, the surface stays smooth");
-    maker.plugin.childrenOf("texture");
-    maker.plugin.skip("scale");
-    return readInside(maker, context, textures);
+    Surface surface = readInside(maker, context, textures);
+    for (const TextureUse& use : surface.material.textures)
+        if (use.slot == TextureSlot::Normal || use.slot == TextureSlot::Height)
+            maker.plugin.fail("is a bump map over another map of normals, which is not supported");
+    const Plugin* heights = maker.plugin.onlyChildOf("texture");
+    if (!heights) maker.plugin.fail("has no texture inside, expected one of heights");
+    const Shade shade = textures.texture(*heights, ColorOf::Reflectance, Layout::Grey);
+    if (!shade.texture) heights->fail("is no picture, expected one of heights");
+    TextureUse use = *shade.texture;
+    use.slot = TextureSlot::Height;
+    use.scale = float(maker.plugin.number("scale").value_or(1));
+    surface.material.textures.push_back(use);
+    maker.plugin.requireAllRead();
+    return surface;
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/packing.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace stromboli::mitsuba {
@@ -27,6 +28,7 @@ glm::dvec4 arranged(const glm::dvec3& value, Layout layout) {
         texel.w = luminance(value);
         break;
     case Layout::Red:
+    case Layout::Grey:
         texel.x = luminance(value);
         break;
     case Layout::Green:
@@ -64,6 +66,13 @@ TextureImage rearranged(const TextureImage& image, bool srgb, Layout layout) {
     for (size_t i = 0; i < count; ++i)
         append(result.words, arranged(colorAt(image, i, srgb), layout));
     return result;
+}
+
+bool isGrey(const TextureImage& image) {
+    return image.format == TexelFormat::Rgba8 &&
+           std::ranges::all_of(image.words, [](uint32_t word) {
+               return (word & 0xFF) == (word >> 8 & 0xFF) && (word & 0xFF) == (word >> 16 & 0xFF);
+           });
 }
 
 /// Without the alpha that Mitsuba drops.
@@ -143,7 +152,7 @@ Shade Textures::bitmap(const Plugin& plugin, Layout layout) {
     texture.image = image(plugin, raw, layout);
     texture.wrapU = texture.wrapV = wrapOf(plugin);
     texture.nearest = isNearest(plugin);
-    texture.srgb = !raw && layout == Layout::Color;
+    texture.srgb = !raw && (layout == Layout::Color || layout == Layout::Grey);
     TextureUse use;
     applyTransform(plugin, use);
     for (const char* unused : {"format", "accel", "max_anisotropy"})
@@ -164,7 +173,7 @@ uint32_t Textures::image(const Plugin& plugin, bool raw, Layout layout) {
     if (largest > 0) images::shrinkToFit(image, largest, !raw);
     if (layout == Layout::Color)
         makeOpaque(image);
-    else
+    else if (layout != Layout::Grey || !isGrey(image))
         image = rearranged(image, !raw && image.format == TexelFormat::Rgba8, layout);
     bytes_ += image.words.size() * sizeof(uint32_t);
     if (bytes_ > physicalMemory() / 2)

@@ -10,8 +10,9 @@
 
 namespace stromboli::mitsuba {
 
-/// Which numbers of a texel a picture's value becomes; the others are 1.
-enum class Layout { Color, Alpha, Red, Green, Blue };
+/// Which numbers of a texel a picture's value becomes; the others are 1. Grey: red, in the
+/// precision of the file where that has no colours.
+enum class Layout { Color, Alpha, Red, Green, Blue, Grey };
 
 /// A colour that is alike everywhere, or a texture of it.
 struct Shade {

@@ -6,8 +6,8 @@ bool isTracing(uint p); // path_state.glsl
 float rayEnd; ///< tMax as it was asked for; the ray's own shrinks to its hits
 
 Material materialAt(SurfacePoint s) {
-    vec3 mapped;
-    return materialAt(s, mapped);
+    Relief relief;
+    return materialAt(s, relief);
 }
 
 #include "include/pass_number.glsl"

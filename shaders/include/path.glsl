@@ -60,15 +60,15 @@ void arrive() {
         return;
     }
 #ifdef RICH_MATERIALS
-    vec3 mapped;
-    material = materialAt(surface, mapped);
+    Relief relief;
+    material = materialAt(surface, relief);
 #else
     material = fetchMaterial(surface.material);
 #endif
     if (countsEmission) radiance += throughput * emissionAt(surface, material) * share;
     faceForward(surface);
 #ifdef RICH_MATERIALS
-    applyNormalMap(surface, mapped);
+    applyRelief(surface, relief, !isBsdf(material, BSDF_DIFFUSE));
 #endif
     ++bounce;
     if (bounce > frame.maxBounces) return;

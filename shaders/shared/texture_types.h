@@ -35,7 +35,7 @@ struct TextureUse {
     vec3 uRow; ///< u' = uRow . (u, v, 1)
     uint slot; ///< TEXTURE_ slot, of no meaning for bundles; | TEXTURE_SECOND_UV
     vec3 vRow; ///< v' = vRow . (u, v, 1)
-    float scale; ///< TEXTURE_NORMAL: of the tangential part
+    float scale; ///< TEXTURE_NORMAL: of the tangential part; TEXTURE_HEIGHT: of all
     uint firstRow; ///< of its texels in the detail buffer
     uint width;
     uint height;
@@ -61,7 +61,8 @@ SHARED_CONST uint TEXTURE_CLEARCOAT_NORMAL = 9u; ///< is not read
 SHARED_CONST uint TEXTURE_SHEEN_COLOR = 10u;
 SHARED_CONST uint TEXTURE_SHEEN_ROUGHNESS = 11u;
 SHARED_CONST uint TEXTURE_ANISOTROPY = 12u;
-SHARED_CONST uint TEXTURE_SLOT_COUNT = 13u;
+SHARED_CONST uint TEXTURE_HEIGHT = 13u;
+SHARED_CONST uint TEXTURE_SLOT_COUNT = 14u;
 
 /// How a texture's coordinates become a texel, and what a texel is: one word (four fractions of 255)
 /// or two (four half floats). Texels lie row after row, the first word of all in word 0 of firstRow.

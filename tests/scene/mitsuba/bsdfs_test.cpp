@@ -92,6 +92,24 @@ TEST(MitsubaBsdfs, Plastics) {
     EXPECT_EQ(plastic.facets.alpha.x, 0.1f);
 }
 
+TEST(MitsubaBsdfs, BumpsAreHeights) {
+    const std::string board = "<texture type=\"checkerboard\" name=\"any\"/>";
+    const Material m = materialOf("<bsdf type=\"bumpmap\"><float name=\"scale\" value=\"0.25\"/>" +
+                                  board + "<bsdf type=\"diffuse\"/></bsdf>");
+    ASSERT_EQ(m.textures.size(), 1u);
+    EXPECT_EQ(m.textures[0].slot, TextureSlot::Height);
+    EXPECT_EQ(m.textures[0].scale, 0.25f);
+    const auto problem = [](const std::string& inside) {
+        return problemInside(rectangleOf("<bsdf type=\"bumpmap\">" + inside + "</bsdf>"));
+    };
+    EXPECT_THAT(problem("<bsdf type=\"diffuse\"/>"), HasSubstr("has no texture inside"));
+    EXPECT_THAT(problem(board + board + "<bsdf type=\"diffuse\"/>"),
+                HasSubstr("is the second texture of this bsdf"));
+    EXPECT_THAT(
+        problem(board + "<bsdf type=\"bumpmap\">" + board + "<bsdf type=\"diffuse\"/></bsdf>"),
+        HasSubstr("is a bump map over another map of normals"));
+}
+
 /// Burley's index of a specular of 0.5 has 4 % at normal incidence: 1.5.
 TEST(MitsubaBsdfs, PrincipledAndWhatItLacks) {
     const Scene scene = sceneOf("<bsdf type=\"principled\"><float name=\"metallic\" value=\"1\"/>"
