@@ -49,6 +49,15 @@ void add(Sum& sum, const PrincipledParameters& p) {
     sum.add(isThin), sum.add(attenuationColor), sum.add(attenuationDistance);
 }
 
+void add(Sum& sum, const BurleyParameters& b) {
+    const auto& [baseColor, metallic, roughness, anisotropy, ior, specularTint, transmission, sheen,
+                 sheenTint, flatness, clearcoat, clearcoatGloss, isThin, diffuseTransmission] = b;
+    sum.add(baseColor), sum.add(metallic), sum.add(roughness), sum.add(anisotropy), sum.add(ior);
+    sum.add(specularTint), sum.add(transmission), sum.add(sheen), sum.add(sheenTint);
+    sum.add(flatness), sum.add(clearcoat), sum.add(clearcoatGloss), sum.add(isThin);
+    sum.add(diffuseTransmission);
+}
+
 void add(Sum& sum, const TextureUse& t) {
     const auto& [slot, texture, uvSet, uRow, vRow, scale] = t;
     sum.add(slot), sum.add(texture), sum.add(uvSet), sum.add(uRow), sum.add(vRow), sum.add(scale);
@@ -56,8 +65,8 @@ void add(Sum& sum, const TextureUse& t) {
 
 void add(Sum& sum, const Material& m) {
     const auto& [name, kind, albedo, reflectance, transmittance, ior, alpha, eta, k, facets,
-                 isNonlinear, internalViews, emission, bothSides, principled, alphaMode, opacity,
-                 alphaCutoff, textures] = m;
+                 isNonlinear, internalViews, emission, bothSides, principled, burley, alphaMode,
+                 opacity, alphaCutoff, isBlackBehind, textures] = m;
     const auto& [distribution, facetAlpha, masking] = facets;
     sum.add(kind), sum.add(albedo), sum.add(reflectance), sum.add(transmittance), sum.add(ior);
     sum.add(alpha), sum.add(eta), sum.add(k), sum.add(emission), sum.add(bothSides);
@@ -67,6 +76,8 @@ void add(Sum& sum, const Material& m) {
     if (masking != FacetMasking::Correlated) sum.add(masking);
     if (internalViews > 0) sum.add(internalViews);
     add(sum, principled);
+    if (kind == MaterialKind::Burley) add(sum, burley);
+    if (isBlackBehind) sum.add(isBlackBehind);
     sum.add(alphaMode), sum.add(opacity), sum.add(alphaCutoff);
     for (const TextureUse& t : textures)
         add(sum, t);

@@ -20,6 +20,7 @@ bool hasEffect(const Material& m, TextureSlot slot) {
     const bool hasReflectance = m.kind == MaterialKind::ThinDielectric ||
                                 m.kind == MaterialKind::Plastic ||
                                 (m.kind == MaterialKind::Dielectric && hasFacets);
+    if (m.kind == MaterialKind::Burley) return slot != TextureSlot::ClearcoatNormal;
     const PrincipledParameters& p = m.principled;
     switch (slot) {
     case TextureSlot::BaseColor:

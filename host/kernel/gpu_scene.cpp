@@ -61,6 +61,7 @@ void packPrimitives(const Scene& scene, const std::vector<uint32_t>& materialRow
         g.principledFeatures |= principledFeatures(scene.materials[i]);
         g.facets |= facetBits(scene.materials[i]);
         g.hasEmission |= scene.materials[i].emits();
+        g.hasBlackBacks |= scene.materials[i].isBlackBehind;
     }
 }
 

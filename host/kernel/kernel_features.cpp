@@ -17,25 +17,31 @@ static_assert(float(Roulette::kMaxContinue) == gpu::ROULETTE_MAX_CONTINUE);
 static_assert(float(Roulette::kBoldness) == gpu::ROULETTE_BOLDNESS);
 
 /// By BSDF_ kind.
-constexpr std::array<uint32_t, gpu::BSDF_KIND_COUNT> kBsdfLobes = {
-    gpu::DIFFUSE_BSDF_LOBES,          gpu::MIRROR_BSDF_LOBES,
-    gpu::REFRACTION_BSDF_LOBES,       gpu::GLASS_BSDF_LOBES,
-    gpu::ROUGH_CONDUCTOR_BSDF_LOBES,  gpu::PRINCIPLED_BSDF_LOBES,
-    gpu::CONDUCTOR_BSDF_LOBES,        gpu::FACET_CONDUCTOR_BSDF_LOBES,
-    gpu::FACET_DIELECTRIC_BSDF_LOBES, gpu::THIN_DIELECTRIC_BSDF_LOBES,
-    gpu::PLASTIC_BSDF_LOBES,          gpu::FACET_PLASTIC_BSDF_LOBES};
+constexpr std::array<uint32_t, gpu::BSDF_KIND_COUNT> kBsdfLobes = {gpu::DIFFUSE_BSDF_LOBES,
+                                                                   gpu::MIRROR_BSDF_LOBES,
+                                                                   gpu::REFRACTION_BSDF_LOBES,
+                                                                   gpu::GLASS_BSDF_LOBES,
+                                                                   gpu::ROUGH_CONDUCTOR_BSDF_LOBES,
+                                                                   gpu::PRINCIPLED_BSDF_LOBES,
+                                                                   gpu::CONDUCTOR_BSDF_LOBES,
+                                                                   gpu::FACET_CONDUCTOR_BSDF_LOBES,
+                                                                   gpu::FACET_DIELECTRIC_BSDF_LOBES,
+                                                                   gpu::THIN_DIELECTRIC_BSDF_LOBES,
+                                                                   gpu::PLASTIC_BSDF_LOBES,
+                                                                   gpu::FACET_PLASTIC_BSDF_LOBES,
+                                                                   gpu::BURLEY_BSDF_LOBES};
 
 /// The numbers of a path ray that a BSDF takes are either the two within a lobe or the one that
 /// chooses a lobe, which is one of the two (scatter() in shaders/include/path.glsl). A kind with
 /// several lobes, one of them no delta lobe, needs all three: then that number has to come from a
-/// block of its own, as it does for the principled kind and for rough dielectrics
+/// block of its own, as it does for the principled kinds and for rough dielectrics
 /// (TAKES_THREE_NUMBERS in shaders/bsdf/bsdf.glsl), or the choice has to leave a number for what
 /// follows, as that of plastic does.
 constexpr bool someKindNeedsThreeNumbers() {
     for (uint32_t kind = 0; kind < gpu::BSDF_KIND_COUNT; ++kind) {
         const uint32_t lobes = kBsdfLobes[kind];
         if (kind == gpu::BSDF_PRINCIPLED || kind == gpu::BSDF_FACET_DIELECTRIC) continue;
-        if (kind == gpu::BSDF_PLASTIC) continue;
+        if (kind == gpu::BSDF_PLASTIC || kind == gpu::BSDF_BURLEY) continue;
         if ((lobes & (lobes - 1)) != 0 && (lobes & ~gpu::DELTA_LOBES) != 0) return true;
     }
     return false;
@@ -108,8 +114,8 @@ void switchOnAllTheSceneCouldHave(KernelFeatures& f, const Estimator& settings) 
         f[SPEC_LIGHT_NUMBERS] = gpu::LIGHT_NUMBERS_FIRST;
     f[SPEC_BSDF_KINDS] = (1u << gpu::BSDF_KIND_COUNT) - 1;
     f[SPEC_PRINCIPLED_FEATURES] = gpu::PRINCIPLED_ALL_FEATURES;
-    f[SPEC_FACETS] =
-        gpu::FACETS_GGX | gpu::FACETS_BECKMANN | gpu::FACETS_CORRELATED | gpu::FACETS_SEPARABLE;
+    f[SPEC_FACETS] = gpu::FACETS_GGX | gpu::FACETS_BECKMANN | gpu::FACETS_CORRELATED |
+                     gpu::FACETS_SEPARABLE | gpu::BURLEY_HAS_TRANSMISSION | gpu::BURLEY_HAS_THIN;
     f[SPEC_LIGHT_KINDS] = (1u << gpu::LIGHT_KIND_COUNT) - 1;
     if (f[SPEC_LIGHT_GROUPS]) f[SPEC_LIGHT_GROUPS] = (1u << gpu::LIGHT_GROUP_COUNT) - 1;
     if (combinesBouncesAndLightSamples(settings)) f[SPEC_MIS_LOBES] |= gpu::GLOSSY_LOBES;
@@ -193,6 +199,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_PRINCIPLED_FEATURES] = normalsOnly ? 0 : scene.principledFeatures;
     f[SPEC_FACETS] = normalsOnly ? 0 : scene.facets;
     f[SPEC_HAS_EMISSION] = !normalsOnly && scene.hasEmission;
+    f[SPEC_BLACK_BACKS] = !normalsOnly && scene.hasBlackBacks;
     f[SPEC_LIGHT_KINDS] = lightKinds(scene, settings);
     f[SPEC_INTEGRATOR] = normalsOnly ? gpu::INTEGRATOR_NORMALS : gpu::INTEGRATOR_PATH;
     f[SPEC_DIRECT_LIGHT] = samplesLights(settings.directLight) ? gpu::DIRECT_LIGHTS
@@ -242,12 +249,13 @@ std::vector<std::string> describe(const KernelFeatures& f) {
     return {
         fmt::format("primitives: {}", primitives),
         fmt::format("shading normals: {}", f[SPEC_HAS_NORMALS] ? "interpolated" : "none"),
-        fmt::format("materials: {}{}",
-                    list(f[SPEC_BSDF_KINDS], {"diffuse", "mirror", "refraction", "glass",
-                                              "rough conductor", "principled", "smooth conductor",
-                                              "conductor of facets", "dielectric of facets",
-                                              "thin dielectric", "plastic", "plastic of facets"}),
-                    principledText(f)),
+        fmt::format(
+            "materials: {}{}",
+            list(f[SPEC_BSDF_KINDS],
+                 {"diffuse", "mirror", "refraction", "glass", "rough conductor", "principled",
+                  "smooth conductor", "conductor of facets", "dielectric of facets",
+                  "thin dielectric", "plastic", "plastic of facets", "Burley's principled"}),
+            principledText(f)),
         fmt::format("textures: {}", textureText(f)),
         fmt::format("vertex colors: {}",
                     f[SPEC_ATTRIBUTES] & gpu::ATTRIBUTE_COLOR ? "yes" : "none"),

@@ -100,6 +100,26 @@ gpu::PlasticParameters plasticRows(const Material& m) {
     return {m.albedo, float(inside), m.reflectance, m.ior, alpha, flags, 0, 0};
 }
 
+gpu::BurleyParameters burleyRows(const BurleyParameters& p) {
+    gpu::BurleyParameters g{};
+    g.baseColor = p.baseColor;
+    g.metallic = p.isThin ? 0 : p.metallic;
+    g.flatness = p.flatness;
+    g.diffuseTransmission = p.diffuseTransmission;
+    g.leastAlpha = p.leastAlpha();
+    g.roughness = p.roughness;
+    g.specularTint = p.specularTint;
+    g.ior = p.usedIor();
+    g.transmission = p.transmission;
+    g.anisotropy = p.anisotropy;
+    g.sheen = glm::vec3(p.sheen);
+    g.sheenTint = p.sheenTint;
+    g.clearcoat = p.isThin ? 0 : p.clearcoat;
+    g.clearcoatGloss = p.clearcoatGloss;
+    g.flags = p.isThin ? gpu::BURLEY_IS_THIN : 0;
+    return g;
+}
+
 void appendParameters(std::vector<Row>& rows, const Material& m) {
     switch (m.kind) {
     case MaterialKind::Diffuse:
@@ -125,6 +145,8 @@ void appendParameters(std::vector<Row>& rows, const Material& m) {
                           gpu::ThinDielectricParameters{m.transmittance, m.ior, m.reflectance, 0});
     case MaterialKind::Plastic:
         return appendRows(rows, plasticRows(m));
+    case MaterialKind::Burley:
+        return appendRows(rows, burleyRows(m.burley));
     }
 }
 
@@ -145,6 +167,10 @@ void appendTables(MaterialRows& packed, std::span<const Material> materials) {
 } // namespace
 
 uint32_t facetBits(const Material& material) {
+    if (const BurleyParameters& b = material.burley; material.kind == MaterialKind::Burley)
+        return gpu::FACETS_GGX | gpu::FACETS_SEPARABLE |
+               (b.transmits() ? gpu::BURLEY_HAS_TRANSMISSION : 0) |
+               (b.isThin ? gpu::BURLEY_HAS_THIN : 0);
     const bool canHave = material.kind == MaterialKind::Conductor ||
                          material.kind == MaterialKind::Dielectric ||
                          material.kind == MaterialKind::Plastic;
@@ -175,6 +201,8 @@ uint32_t bsdfKind(const Material& material) {
         return gpu::BSDF_THIN_DIELECTRIC;
     case MaterialKind::Plastic:
         return isSmooth ? gpu::BSDF_PLASTIC : gpu::BSDF_FACET_PLASTIC;
+    case MaterialKind::Burley:
+        return gpu::BSDF_BURLEY;
     }
     return gpu::BSDF_DIFFUSE;
 }
@@ -198,10 +226,11 @@ MaterialRows packMaterials(std::span<const Material> materials,
     MaterialRows packed;
     for (const Material& m : materials) {
         packed.firstRow.push_back(uint32_t(packed.rows.size()));
-        appendRows(
-            packed.rows,
-            gpu::MaterialHeader{
-                m.emission, bsdfKind(m) | (m.emitsBothSides ? gpu::MATERIAL_EMITS_BOTH_SIDES : 0)});
+        appendRows(packed.rows,
+                   gpu::MaterialHeader{m.emission,
+                                       bsdfKind(m) |
+                                           (m.emitsBothSides ? gpu::MATERIAL_EMITS_BOTH_SIDES : 0) |
+                                           (m.isBlackBehind ? gpu::MATERIAL_IS_BLACK_BEHIND : 0)});
         appendParameters(packed.rows, m);
         if (details.empty()) continue;
         const std::vector<Row>& own = details[packed.firstRow.size() - 1];

@@ -36,7 +36,36 @@ bool hasSpecularColor(const Material& m) {
            (m.kind == MaterialKind::Dielectric && !m.isSmooth());
 }
 
+/// Numbers have slots of the principled material's numbers.
+void apply(BurleyParameters& p, TextureSlot slot, const glm::dvec4& texel) {
+    switch (slot) {
+    case TextureSlot::MetallicRoughness:
+        multiply(p.roughness, texel.g);
+        return multiply(p.metallic, texel.b);
+    case TextureSlot::Transmission:
+        return multiply(p.transmission, texel.r);
+    case TextureSlot::Specular:
+        return multiply(p.specularTint, texel.a);
+    case TextureSlot::SpecularColor:
+        multiply(p.flatness, texel.r);
+        return multiply(p.diffuseTransmission, texel.g);
+    case TextureSlot::Clearcoat:
+        return multiply(p.clearcoat, texel.r);
+    case TextureSlot::ClearcoatRoughness:
+        return multiply(p.clearcoatGloss, texel.g);
+    case TextureSlot::SheenColor:
+        return multiply(p.sheen, texel.r);
+    case TextureSlot::SheenRoughness:
+        return multiply(p.sheenTint, texel.a);
+    case TextureSlot::Anisotropy:
+        return multiply(p.anisotropy, texel.b);
+    default:
+        return;
+    }
+}
+
 void apply(Material& m, TextureSlot slot, const glm::dvec4& texel) {
+    if (m.kind == MaterialKind::Burley) apply(m.burley, slot, texel);
     PrincipledParameters& p = m.principled;
     const glm::dvec3 color(texel);
     switch (slot) {

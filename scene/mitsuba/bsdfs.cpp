@@ -66,17 +66,16 @@ Surface plastic(SurfaceMaker& maker) {
     return maker.done();
 }
 
-/// Our surfaces are alike on both sides.
+/// The back is the front's mirror image.
 Surface twoSided(SurfaceMaker& maker, Context& context, Textures& textures) {
     const std::vector<const Plugin*> inside = maker.plugin.childrenOf("bsdf");
     if (inside.empty() || inside.size() > 2)
         maker.plugin.fail(fmt::format("has {} bsdfs inside, expected one", inside.size()));
     if (inside.size() == 2 && inside[0] != inside[1])
-        inside[1]->fail("is another bsdf for the back, which is not supported: a surface is alike "
-                        "on both sides");
+        inside[1]->fail("is another bsdf for the back, which is not supported");
     maker.plugin.requireAllRead();
     Surface surface = readBsdf(context, textures, *inside.front());
-    surface.hasBlackBack = false;
+    surface.material.isBlackBehind = false;
     return surface;
 }
 
@@ -155,15 +154,17 @@ Surface readBsdf(Context& context, Textures& textures, const Plugin& bsdf) {
     if (type == "conductor" || type == "roughconductor") return conductor(maker);
     if (type == "plastic" || type == "roughplastic") return plastic(maker);
     if (type == "principled") return principled(maker);
+    if (type == "principledthin") return principledThin(maker);
     if (type == "twosided") return twoSided(maker, context, textures);
     if (type == "mask") return mask(maker, context, textures);
     if (type == "null") return nothing(maker);
     if (type == "normalmap") return normalMap(maker, context, textures);
     if (type == "bumpmap") return bumpMap(maker, context, textures);
-    bsdf.fail(fmt::format("'{}' is no bsdf that is read, expected diffuse, dielectric, "
-                          "thindielectric, roughdielectric, conductor, roughconductor, plastic, "
-                          "roughplastic, principled, twosided, mask, null, normalmap or bumpmap",
-                          type));
+    bsdf.fail(fmt::format(
+        "'{}' is no bsdf that is read, expected diffuse, dielectric, "
+        "thindielectric, roughdielectric, conductor, roughconductor, plastic, "
+        "roughplastic, principled, principledthin, twosided, mask, null, normalmap or bumpmap",
+        type));
 }
 
 } // namespace stromboli::mitsuba

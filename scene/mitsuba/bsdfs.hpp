@@ -9,7 +9,6 @@ namespace stromboli::mitsuba {
 struct Surface {
     Material material;
     bool usesVertexColors = false; ///< of the mesh that it is on
-    bool hasBlackBack = false;     ///< in Mitsuba; here, surfaces are alike on both sides
 };
 
 /// Throws SceneError for what cannot be represented.

@@ -1,11 +1,11 @@
 #include "scene/mitsuba/media_tables.hpp"
 
 #include "scene/mitsuba/colors.hpp"
+#include "scene/mitsuba/upgrade.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <iterator>
 #include <string>
 
@@ -49,12 +49,6 @@ std::string namesOf(const Table& table) {
     for (const auto& row : table)
         names += fmt::format("{}{}", names.empty() ? "" : ", ", row.name);
     return names;
-}
-
-std::string inSmallLetters(std::string text) {
-    std::ranges::transform(text, text.begin(),
-                           [](unsigned char c) { return char(std::tolower(c)); });
-    return text;
 }
 
 double indexOfName(const Plugin& plugin, std::string_view parameter, const std::string& name) {

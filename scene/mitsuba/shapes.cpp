@@ -93,14 +93,9 @@ Shapes::Part Shapes::single(const Plugin& shape) {
     for (const char* medium : {"interior", "exterior"})
         if (const Plugin* inside = shape.child(medium))
             inside->fail("is a medium, which is not supported");
-    const BoundMaterial& material =
-        materials_.of(shape.onlyChildOf("bsdf"), shape.onlyChildOf("emitter"));
+    const BoundMaterial& material = materials_.of(shape);
     Part part{&shape, {}, shape.transform("to_world"), material.number};
     const bool isSphere = shape.type == "sphere";
-    const bool showsBacks = !isSphere && shape.type != "cube";
-    if (showsBacks && material.hasBlackBack)
-        context_.report().assume("surfaces are alike on both sides; in Mitsuba the back of one "
-                                 "whose bsdf is not twosided is black");
     if (isSphere) part.toWorld *= sphereMatrix(shape);
     const bool flips = shape.flag("flip_normals").value_or(false);
     const bool staysSphere =

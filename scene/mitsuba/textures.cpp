@@ -183,7 +183,8 @@ uint32_t Textures::image(const Plugin& plugin, bool raw, Layout layout) {
     return images_[key] = context_.builder.addImage(std::move(image));
 }
 
-/// Two by two texels, of which the first and the last are color0.
+/// Two by two texels. As colours, the first and the last are color0; as numbers, for which Mitsuba
+/// has another function, the two others are.
 Shade Textures::checkerboard(const Plugin& plugin, ColorOf what, Layout layout) {
     const auto colorNamed = [&](const char* name, double otherwise) {
         const std::optional<glm::dvec3> color = colorOf(plugin, name, what);
@@ -192,7 +193,8 @@ Shade Textures::checkerboard(const Plugin& plugin, ColorOf what, Layout layout) 
     };
     const glm::dvec3 colors[2] = {colorNamed("color0", 0.4), colorNamed("color1", 0.2)};
     TextureImage image{"checkerboard", 2, 2, TexelFormat::RgbaHalf, {}};
-    for (const int which : {0, 1, 1, 0})
+    const int first = layout == Layout::Color ? 0 : 1;
+    for (const int which : {first, 1 - first, 1 - first, first})
         append(image.words, arranged(colors[which], layout));
     Texture texture;
     texture.image = context_.builder.addImage(std::move(image));

@@ -22,6 +22,7 @@ enum class MaterialKind : uint32_t {
     Dielectric,     ///< an interface: reflectance, transmittance, ior, facets
     ThinDielectric, ///< a sheet with all reflections inside it: reflectance, transmittance, ior
     Plastic, ///< a diffuse base under a dielectric: albedo, reflectance, ior, facets, isNonlinear
+    Burley,  ///< the principled materials of Burley 2012 and 2015, as Mitsuba has them: burley
 };
 
 /// How the normals of microfacets are distributed (Walter et al. 2007).
@@ -65,6 +66,29 @@ struct PrincipledParameters {
     float attenuationDistance = std::numeric_limits<float>::infinity();
 };
 
+/// Burley's principled BSDF of 2012 and 2015 as Mitsuba 3 has it: a sum of lobes, all parameters in
+/// [0, 1] but the index.
+struct BurleyParameters {
+    glm::vec3 baseColor{0.5f};
+    float metallic = 0;
+    float roughness = 0.5f;
+    float anisotropy = 0;
+    float ior = 1.5f; ///< index inside / index outside
+    float specularTint = 0;
+    float transmission = 0;
+    float sheen = 0, sheenTint = 0;
+    float flatness = 0; ///< of diffuse reflection, towards scattering under the surface
+    float clearcoat = 0, clearcoatGloss = 0;
+    bool isThin = false;           ///< without metal and coat; light goes straight through
+    float diffuseTransmission = 0; ///< thin: the share of what is diffuse
+
+    bool transmits() const;
+    /// An index of 1 has no facets that refract.
+    float usedIor() const;
+    /// Neither alpha of the facets is less.
+    float leastAlpha() const;
+};
+
 /// Where a surface is not there, so that light passes through it unchanged.
 enum class AlphaMode : uint32_t {
     Opaque, ///< opacity has no meaning
@@ -93,10 +117,14 @@ struct Material {
     glm::vec3 emission{0.0f};   ///< emitted radiance, W sr^-1 m^-2 (scene units of power)
     bool emitsBothSides = true; ///< false: only on the side the geometric normal points to
     PrincipledParameters principled;
+    BurleyParameters burley;
     AlphaMode alphaMode = AlphaMode::Opaque;
     float opacity = 1; ///< times the alpha of texture and vertex colour
     float alphaCutoff = 0.5f;
-    std::vector<TextureUse> textures; ///< at most one for each slot
+    bool isBlackBehind = false; ///< nothing is scattered to where the normals do not point
+    /// At most one for each slot, but of MetallicRoughness and SpecularColor, whose numbers
+    /// multiply.
+    std::vector<TextureUse> textures;
 
     bool emits() const { return emission.x > 0 || emission.y > 0 || emission.z > 0; }
     /// True where no light sample can ever contribute: the BSDF is a delta distribution.

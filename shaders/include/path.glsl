@@ -66,6 +66,7 @@ void arrive() {
     material = fetchMaterial(surface.material);
 #endif
     if (countsEmission) radiance += throughput * emissionAt(surface, material) * share;
+    if (isBlackBehind(material) && isSeenFromBehind(surface)) return;
     faceForward(surface);
 #ifdef RICH_MATERIALS
     applyRelief(surface, relief, !isBsdf(material, BSDF_DIFFUSE));

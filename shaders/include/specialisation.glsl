@@ -21,6 +21,7 @@ layout(constant_id = SPEC_MIS_LOBES) const uint MIS_LOBES = 0u;
 layout(constant_id = SPEC_HAS_AMBIENT) const bool HAS_AMBIENT = true;
 layout(constant_id = SPEC_AMBIENT_BY_BOUNCES) const bool AMBIENT_BY_BOUNCES = false;
 layout(constant_id = SPEC_SPLITS) const bool SPLITS = false;
+layout(constant_id = SPEC_BLACK_BACKS) const bool BLACK_BACKS = false;
 layout(constant_id = SPEC_GAP_PROPOSAL) const bool GAP_PROPOSAL = false;
 
 // The kernel is compiled into several modules, of which the host takes the smallest that has all a picture needs
@@ -71,7 +72,7 @@ const bool HAS_ALPHA = false;
 
 // FACET_MATERIALS: those of these modules that have conductors, rough dielectrics, thin ones and plastic.
 #ifdef FACET_MATERIALS
-layout(constant_id = SPEC_FACETS) const uint FACETS = 15u;
+layout(constant_id = SPEC_FACETS) const uint FACETS = 63u;
 #endif
 
 bool sceneHasBsdf(uint kind) { return (BSDF_KINDS & (1u << kind)) != 0u; }

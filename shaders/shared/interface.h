@@ -70,7 +70,8 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_PRINCIPLED_FEATURES 37 // PRINCIPLED_HAS_ bits: what the principled materials have
 #define SPEC_LOOSE_SLOTS 38 // bit n: some material has a texture in slot n that is in no bundle
 #define SPEC_FACETS 39 // FACETS_ bits: of microfacets of conductors, dielectrics, plastic
-#define SPEC_COUNT 40
+#define SPEC_BLACK_BACKS 40 // materials are black where normals do not point
+#define SPEC_COUNT 41
 
 SHARED_CONST uint TEXEL_KIND_NEAREST = 1u;
 SHARED_CONST uint TEXEL_KIND_BILINEAR = 2u;

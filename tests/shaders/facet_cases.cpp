@@ -136,6 +136,54 @@ void addPlastic(std::vector<BsdfCase>& cases) {
         }
 }
 
+void addBurley(std::vector<BsdfCase>& cases) {
+    const auto add = [&](const std::string& name, auto&& change) {
+        Material m;
+        m.kind = MaterialKind::Burley;
+        m.burley.baseColor = {0.9f, 0.6f, 0.3f};
+        change(m.burley);
+        BsdfCase c{name, m, m, 0};
+        c.white.burley.baseColor = glm::vec3(1);
+        const BurleyParameters& b = m.burley;
+        const float alpha = b.roughness * b.roughness * std::sqrt(1 - 0.9f * b.anisotropy);
+        const float coat = b.clearcoat > 0 ? 0.1f + (0.001f - 0.1f) * b.clearcoatGloss : 1.0f;
+        c.lobe = std::min(std::max(alpha, b.leastAlpha()), coat);
+        c.smooth = c.lobe >= 0.2;
+        // The logarithm of the coat's distribution and powers of five, some tens of roundings.
+        c.error = 5e-5;
+        c.gain = 0.65; // lobes are added: retro-reflection and the interface at grazing views
+        c.gain += 0.4 * b.sheen + 0.25 * b.clearcoat;
+        cases.push_back(c);
+    };
+    for (const float roughness : {0.03f, 0.15f, 0.5f, 1.0f}) {
+        const std::string suffix = digits(roughness);
+        add("burley" + suffix, [&](BurleyParameters& b) { b.roughness = roughness; });
+        add("burleyMetal" + suffix, [&](BurleyParameters& b) {
+            b.roughness = roughness, b.metallic = 0.8f, b.anisotropy = 0.7f, b.specularTint = 0.6f;
+        });
+        add("burleyGlass" + suffix, [&](BurleyParameters& b) {
+            b.roughness = roughness, b.transmission = 0.9f, b.anisotropy = 0.4f;
+        });
+        add("burleyThin" + suffix, [&](BurleyParameters& b) {
+            b.roughness = roughness, b.transmission = 0.6f, b.isThin = true, b.ior = 1.33f;
+            b.diffuseTransmission = 0.3f, b.sheen = 0.5f, b.specularTint = 0.5f;
+        });
+    }
+    add("burleyCloth", [](BurleyParameters& b) {
+        b.roughness = 0.9f, b.sheen = 0.9f, b.sheenTint = 0.6f, b.flatness = 0.7f;
+    });
+    add("burleyCoated", [](BurleyParameters& b) {
+        b.roughness = 0.6f, b.clearcoat = 0.9f, b.clearcoatGloss = 0.2f;
+    });
+    add("burleyThinDiffuse", [](BurleyParameters& b) {
+        b.isThin = true, b.diffuseTransmission = 0.7f, b.flatness = 0.5f;
+    });
+    add("burleyMixture", [](BurleyParameters& b) {
+        b.roughness = 0.4f, b.metallic = 0.3f, b.transmission = 0.5f, b.clearcoat = 0.5f;
+        b.sheen = 0.4f, b.specularTint = 0.3f, b.ior = 1.8f, b.anisotropy = 0.5f;
+    });
+}
+
 } // namespace
 
 std::vector<BsdfCase> facetCases() {
@@ -143,6 +191,7 @@ std::vector<BsdfCase> facetCases() {
     addConductors(cases);
     addDielectrics(cases);
     addPlastic(cases);
+    addBurley(cases);
     return cases;
 }
 

@@ -55,6 +55,11 @@ void putFacetMaterial(Material m) {
     const PlasticParameters plastic = plasticParameters(m);
     put(plastic.albedo), put(plastic.internalDiffuse), put(plastic.reflectance), put(plastic.ior);
     put(plastic.alpha), put(plastic.flags), put(plastic.table), put(plastic.unused);
+    const BurleyParameters burley = burleyParameters(m);
+    put(burley.baseColor), put(burley.metallic), put(burley.flatness), put(burley.diffuseTransmission);
+    put(burley.leastAlpha), put(burley.roughness), put(burley.specularTint), put(burley.ior);
+    put(burley.transmission), put(burley.anisotropy), put(burley.sheen), put(burley.sheenTint);
+    put(burley.clearcoat), put(burley.clearcoatGloss), put(burley.unused), put(burley.flags);
 }
 
 void putMaterial(Material m) {

@@ -165,6 +165,13 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         expected_.structure("PlasticParameters", plastic.albedo, plastic.internalDiffuse,
                             plastic.reflectance, plastic.ior, plastic.alpha, plastic.flags,
                             plastic.table, plastic.unused);
+        const std::array<Row, 5> five = {m[1], m[2], m[3], m[4], m[5]};
+        const auto burley = std::bit_cast<gpu::BurleyParameters>(five);
+        expected_.structure("BurleyParameters", burley.baseColor, burley.metallic, burley.flatness,
+                            burley.diffuseTransmission, burley.leastAlpha, burley.roughness,
+                            burley.specularTint, burley.ior, burley.transmission, burley.anisotropy,
+                            burley.sheen, burley.sheenTint, burley.clearcoat, burley.clearcoatGloss,
+                            burley.unused, burley.flags);
     }
 
     void expectLight(const LightWords& l) {
@@ -301,13 +308,13 @@ TEST(LayoutSizes, NoFieldIsForgotten) {
         sizeof(gpu::GlassParameters) + sizeof(gpu::RoughConductorParameters) +
         sizeof(gpu::ConductorParameters) + sizeof(gpu::FacetDielectricParameters) +
         sizeof(gpu::ThinDielectricParameters) + sizeof(gpu::PlasticParameters) +
-        sizeof(gpu::LightHeader) + sizeof(gpu::QuadLight) + sizeof(gpu::PointLight) +
-        sizeof(gpu::SphereLight) + sizeof(gpu::AmbientLight) + sizeof(gpu::EnvironmentLight) +
-        sizeof(gpu::DirectionalLight) + sizeof(gpu::LightEntry) + sizeof(gpu::AliasColumn) +
-        sizeof(gpu::LightNode) + sizeof(gpu::Frame) + sizeof(gpu::Dispatch) +
-        sizeof(gpu::WorkItem) + sizeof(gpu::PixelState) + sizeof(gpu::SuspendedPath) +
-        sizeof(gpu::SuspendedSplit) + sizeof(gpu::DispatchStatus);
-    EXPECT_EQ(bytes / 4, 16 + 16 + 4 + (4 + 4 + 4 + 4 + 8 + 8 + 12 + 12 + 8 + 12) +
+        sizeof(gpu::BurleyParameters) + sizeof(gpu::LightHeader) + sizeof(gpu::QuadLight) +
+        sizeof(gpu::PointLight) + sizeof(gpu::SphereLight) + sizeof(gpu::AmbientLight) +
+        sizeof(gpu::EnvironmentLight) + sizeof(gpu::DirectionalLight) + sizeof(gpu::LightEntry) +
+        sizeof(gpu::AliasColumn) + sizeof(gpu::LightNode) + sizeof(gpu::Frame) +
+        sizeof(gpu::Dispatch) + sizeof(gpu::WorkItem) + sizeof(gpu::PixelState) +
+        sizeof(gpu::SuspendedPath) + sizeof(gpu::SuspendedSplit) + sizeof(gpu::DispatchStatus);
+    EXPECT_EQ(bytes / 4, 16 + 16 + 4 + (4 + 4 + 4 + 4 + 8 + 8 + 12 + 12 + 8 + 12 + 20) +
                              (4 + 12 + 12 + 4 + 4 + 8 + 4) + (4 + 4 + 8) + 36 + 8 + 4 + 16 + 24 +
                              28 + 8u);
 }

@@ -1,5 +1,6 @@
 // What surfaces are made of.
 
+#include "scene/model/surface_lookup.hpp"
 #include "tests/scene/mitsuba/mitsuba_text.hpp"
 
 #include <fmt/format.h>
@@ -37,13 +38,22 @@ TEST(MitsubaBsdfs, Diffuse) {
               glm::vec3(0.5f));
 }
 
-TEST(MitsubaBsdfs, BlackBacksAreSaidNotToBe) {
-    const auto said = [](const std::string& bsdf) { return sceneOf(bsdf).report.assumed; };
-    const auto aboutBacks = testing::Contains(HasSubstr("alike on both sides"));
-    EXPECT_THAT(said("<bsdf type=\"diffuse\"/>"), aboutBacks);
-    EXPECT_THAT(said("<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf>"),
-                testing::Not(aboutBacks));
-    EXPECT_THAT(said("<bsdf type=\"dielectric\"/>"), testing::Not(aboutBacks));
+TEST(MitsubaBsdfs, BacksAreBlackUnlessTheyAreTwoSided) {
+    for (const char* type : {"diffuse", "conductor", "roughconductor", "plastic", "principled"}) {
+        const std::string bsdf = fmt::format("<bsdf type=\"{}\"/>", type);
+        EXPECT_TRUE(materialOf(bsdf).isBlackBehind) << type;
+        EXPECT_FALSE(materialOf("<bsdf type=\"twosided\">" + bsdf + "</bsdf>").isBlackBehind)
+            << type;
+    }
+    EXPECT_TRUE(materialOf("").isBlackBehind);
+    EXPECT_FALSE(loadText(sceneText(rectangleOf("<bsdf type=\"diffuse\"/>"), "0.5.0"))
+                     .materials.at(0)
+                     .isBlackBehind);
+    for (const char* type : {"dielectric", "thindielectric", "roughdielectric", "principledthin"})
+        EXPECT_FALSE(materialOf(fmt::format("<bsdf type=\"{}\"/>", type)).isBlackBehind) << type;
+    EXPECT_FALSE(
+        materialOf("<bsdf type=\"principled\"><float name=\"spec_trans\" value=\"0.5\"/></bsdf>")
+            .isBlackBehind);
 }
 
 TEST(MitsubaBsdfs, Dielectrics) {
@@ -90,6 +100,8 @@ TEST(MitsubaBsdfs, Plastics) {
     EXPECT_TRUE(plastic.isNonlinear);
     EXPECT_FLOAT_EQ(plastic.ior, 1.49f / 1.000277f);
     EXPECT_EQ(plastic.facets.alpha.x, 0.1f);
+    EXPECT_EQ(plastic.facets.masking, FacetMasking::Separable);
+    EXPECT_EQ(plastic.internalViews, 64u);
 }
 
 TEST(MitsubaBsdfs, BumpsAreHeights) {
@@ -103,7 +115,7 @@ TEST(MitsubaBsdfs, BumpsAreHeights) {
         return problemInside(rectangleOf("<bsdf type=\"bumpmap\">" + inside + "</bsdf>"));
     };
     EXPECT_THAT(problem("<bsdf type=\"diffuse\"/>"), HasSubstr("has no texture inside"));
-    EXPECT_THAT(problem(board + board + "<bsdf type=\"diffuse\"/>"),
+    EXPECT_THAT(problem(board + "<texture type=\"checkerboard\"/><bsdf type=\"diffuse\"/>"),
                 HasSubstr("is the second texture of this bsdf"));
     EXPECT_THAT(
         problem(board + "<bsdf type=\"bumpmap\">" + board + "<bsdf type=\"diffuse\"/></bsdf>"),
@@ -111,14 +123,44 @@ TEST(MitsubaBsdfs, BumpsAreHeights) {
 }
 
 /// Burley's index of a specular of 0.5 has 4 % at normal incidence: 1.5.
-TEST(MitsubaBsdfs, PrincipledAndWhatItLacks) {
-    const Scene scene = sceneOf("<bsdf type=\"principled\"><float name=\"metallic\" value=\"1\"/>"
-                                "<float name=\"sheen\" value=\"1\"/></bsdf>");
-    const PrincipledParameters& p = scene.materials.at(0).principled;
-    EXPECT_EQ(p.metallic, 1);
-    EXPECT_FLOAT_EQ(p.ior, 1.5f);
-    EXPECT_THAT(scene.report.warnings,
-                testing::Contains(HasSubstr("'sheen' has no counterpart here")));
+TEST(MitsubaBsdfs, PrincipledIsBurleys) {
+    const Material m = materialOf("<bsdf type=\"principled\"><float name=\"metallic\" value=\"1\"/>"
+                                  "<float name=\"sheen\" value=\"0.75\"/></bsdf>");
+    EXPECT_EQ(m.kind, MaterialKind::Burley);
+    EXPECT_EQ(m.burley.metallic, 1);
+    EXPECT_EQ(m.burley.sheen, 0.75f);
+    EXPECT_FLOAT_EQ(m.burley.ior, 1.5f);
+    EXPECT_FALSE(m.burley.isThin);
+}
+
+/// Numbers of one slot may come from two pictures, each of which is 1 where the other one has its
+/// number.
+TEST(MitsubaBsdfs, PrincipledTakesPicturesOfAnyNumber) {
+    const auto board = [](const char* name) {
+        return fmt::format("<texture type=\"checkerboard\" name=\"{}\"><float name=\"color1\" "
+                           "value=\"0.25\"/></texture>",
+                           name);
+    };
+    const Scene scene =
+        sceneOf("<bsdf type=\"principled\">" + board("roughness") + board("metallic") + "</bsdf>");
+    const Material& m = scene.materials.at(scene.triangles.at(0).material);
+    ASSERT_EQ(m.textures.size(), 2u);
+    EXPECT_EQ(m.burley.roughness, 1);
+    for (const TextureUse& use : m.textures) {
+        EXPECT_EQ(use.slot, TextureSlot::MetallicRoughness);
+        const glm::dvec4 texel =
+            texelAt(scene.images[scene.textures[use.texture].image], false, 0, 0);
+        EXPECT_EQ(texel.x, 1);
+        EXPECT_EQ(texel.y * texel.z, 0.25); // of numbers, color1 is the first
+    }
+}
+
+TEST(MitsubaBsdfs, PrincipledThinTransmitsDiffuselyFromZeroToTwo) {
+    const Material m = materialOf("<bsdf type=\"principledthin\"><float name=\"diff_trans\" "
+                                  "value=\"1.5\"/></bsdf>");
+    EXPECT_TRUE(m.burley.isThin);
+    EXPECT_EQ(m.burley.diffuseTransmission, 0.75f);
+    EXPECT_EQ(m.burley.ior, 1.5f);
 }
 
 TEST(MitsubaBsdfs, MasksAreOpacity) {
@@ -132,8 +174,8 @@ TEST(MitsubaBsdfs, MasksAreOpacity) {
                                  "<bsdf type=\"diffuse\"/></bsdf>");
     const TextureImage& image = masked.images.at(0);
     const auto alpha = [&](size_t i) { return glm::unpackHalf2x16(image.words[2 * i + 1]).y; };
-    EXPECT_NEAR(alpha(0), 1, 1e-3);
-    EXPECT_EQ(alpha(1), 0);
+    EXPECT_NEAR(alpha(1), 1, 1e-3); // of numbers, color1 is the first
+    EXPECT_EQ(alpha(0), 0);
     EXPECT_EQ(glm::unpackHalf2x16(image.words[2]).x, 1); // colours stay
 }
 
