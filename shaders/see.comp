@@ -118,7 +118,7 @@ void takeResult() {
     const bool hit = ray.hitPrimitive != NO_PRIMITIVE;
     bool passes = false;
     if (HAS_ALPHA && hit)
-        passes = passNumber(ray, seen.pixel, seen.samples, bounce) >=
+        passes = passNumber(ray, seen.pixel, seen.samples, bounce, 0u) >=
                  opacityAt(ray.hitPrimitive, vec2(ray.b1, ray.b2));
     if (passes) {
         passOn(ray, rayEnd);

@@ -66,7 +66,7 @@ void add(Sum& sum, const TextureUse& t) {
 void add(Sum& sum, const Material& m) {
     const auto& [name, kind, albedo, reflectance, transmittance, ior, alpha, eta, k, facets,
                  isNonlinear, internalViews, emission, bothSides, principled, burley, alphaMode,
-                 opacity, alphaCutoff, isBlackBehind, textures] = m;
+                 opacity, alphaCutoff, other, otherShare, isBlackBehind, textures] = m;
     const auto& [distribution, facetAlpha, masking] = facets;
     sum.add(kind), sum.add(albedo), sum.add(reflectance), sum.add(transmittance), sum.add(ior);
     sum.add(alpha), sum.add(eta), sum.add(k), sum.add(emission), sum.add(bothSides);
@@ -78,6 +78,7 @@ void add(Sum& sum, const Material& m) {
     add(sum, principled);
     if (kind == MaterialKind::Burley) add(sum, burley);
     if (isBlackBehind) sum.add(isBlackBehind);
+    if (other != kNoMaterial) sum.add(other), sum.add(otherShare);
     sum.add(alphaMode), sum.add(opacity), sum.add(alphaCutoff);
     for (const TextureUse& t : textures)
         add(sum, t);
@@ -100,11 +101,13 @@ void add(Sum& sum, const Environment& e) {
 
 void add(Sum& sum, const Light& l) {
     const auto& [name, kind, color, position, direction, constant, linear, quadratic, angle,
-                 exponent, innerAngle, upperOnly, edgeX, edgeY] = l;
+                 exponent, innerAngle, upperOnly, edgeX, edgeY, picture, isFramed] = l;
     sum.add(kind), sum.add(color), sum.add(position), sum.add(direction), sum.add(constant);
     sum.add(linear), sum.add(quadratic), sum.add(angle), sum.add(exponent), sum.add(upperOnly);
     sum.add(edgeX), sum.add(edgeY);
     if (innerAngle) sum.add(*innerAngle);
+    if (picture) add(sum, *picture);
+    if (isFramed) sum.add(isFramed);
 }
 
 void add(Sum& sum, const Camera& c) {

@@ -101,6 +101,8 @@ uint32_t filterConstant(PixelFilter filter) {
         return gpu::FILTER_BOX;
     case PixelFilter::Gaussian:
         return gpu::FILTER_GAUSSIAN;
+    case PixelFilter::Tent:
+        return gpu::FILTER_TENT;
     case PixelFilter::BlackmanHarris:
         return gpu::FILTER_BLACKMAN_HARRIS;
     }
@@ -144,6 +146,7 @@ void setDetails(KernelFeatures& f, const GpuScene& scene, bool normalsOnly) {
     f[SPEC_ATTRIBUTES] = scene.attributes;
     if (normalsOnly) return;
     f[SPEC_TANGENT_FRAMES] = scene.hasTangentFrames;
+    f[SPEC_BLENDS] = scene.hasBlends;
     // A map gives flat surfaces a shading normal too.
     constexpr uint32_t kMaps = 1u << gpu::TEXTURE_NORMAL | 1u << gpu::TEXTURE_HEIGHT;
     if (f[SPEC_TEXTURE_SLOTS] & kMaps) f[SPEC_HAS_NORMALS] = 1;
@@ -154,7 +157,8 @@ std::string textureText(const KernelFeatures& f) {
     return list(f[SPEC_TEXTURE_SLOTS],
                 {"base color", "metallic-roughness", "normal", "emission", "transmission",
                  "specular", "specular color", "clearcoat", "clearcoat roughness",
-                 "clearcoat normal", "sheen color", "sheen roughness", "anisotropy", "height"});
+                 "clearcoat normal", "sheen color", "sheen roughness", "anisotropy", "height",
+                 "share of a mixture", "of a projector"});
 }
 
 /// What the principled materials have besides metal and dielectric.
@@ -242,7 +246,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
 std::vector<std::string> describe(const KernelFeatures& f) {
     static const char* const kDirect[] = {"light sampling", "uniform hemisphere",
                                           "left to bounces (delta lights sampled)"};
-    static const char* const kFilters[] = {"box", "Gaussian", "Blackman-Harris"};
+    static const char* const kFilters[] = {"box", "Gaussian", "Blackman-Harris", "tent"};
     static const char* const kRoulette[] = {"none", "by throughput", "fixed probability"};
     const std::string primitives =
         list(f[SPEC_HAS_TRIANGLES] | (f[SPEC_HAS_SPHERES] << 1), {"triangles", "spheres"});
@@ -261,9 +265,9 @@ std::vector<std::string> describe(const KernelFeatures& f) {
                     f[SPEC_ATTRIBUTES] & gpu::ATTRIBUTE_COLOR ? "yes" : "none"),
         fmt::format("opacity: {}", f[SPEC_ALPHA] ? "partly transparent" : "all opaque"),
         fmt::format("emission: {}", f[SPEC_HAS_EMISSION] ? "yes" : "none"),
-        fmt::format("lights: {}",
-                    list(f[SPEC_LIGHT_KINDS], {"quad", "triangle", "sphere", "ambient",
-                                               "directional", "point", "spot", "environment"})),
+        fmt::format("lights: {}", list(f[SPEC_LIGHT_KINDS],
+                                       {"quad", "triangle", "sphere", "ambient", "directional",
+                                        "point", "spot", "environment", "projector"})),
         fmt::format("ambient light: {}{}", ambientText(f),
                     f[SPEC_HAS_BACKDROP] ? ", seen by the camera" : ""),
         fmt::format("integrator: {}",

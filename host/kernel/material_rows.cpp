@@ -4,6 +4,7 @@
 #include "shaders/shared/texture_types.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace stromboli {
@@ -164,6 +165,17 @@ void appendTables(MaterialRows& packed, std::span<const Material> materials) {
     }
 }
 
+/// A blend is the last row of a material's details, and names another material by its number.
+void nameOthers(MaterialRows& packed, std::span<const Material> materials,
+                std::span<const std::vector<Row>> details) {
+    for (size_t i = 0; i < details.size(); ++i) {
+        const auto detail = std::bit_cast<gpu::MaterialDetail>(details[i].front());
+        if ((detail.flags & gpu::DETAIL_IS_BLEND) == 0) continue;
+        const size_t row = packed.firstRow[i] + gpu::MATERIAL_DETAIL_ROW + details[i].size() - 1;
+        packed.rows[row][0] = packed.firstRow.at(materials[i].other);
+    }
+}
+
 } // namespace
 
 uint32_t facetBits(const Material& material) {
@@ -240,6 +252,7 @@ MaterialRows packMaterials(std::span<const Material> materials,
     }
     packed.rows.resize(packed.rows.size() + kMostRows - 1);
     appendTables(packed, materials);
+    nameOthers(packed, materials, details);
     return packed;
 }
 

@@ -119,6 +119,7 @@ bool PathSample::arrive(const Ray& ray, Skip skip) {
     throughput_ *= transmittance(medium_, misses ? kInfinite : hit.t);
     if (misses) return false;
     surface_ = surfaceAt(world_.scene, ray, hit);
+    drawMaterial(surface_, world_.scene, passes_);
     if (world_.hasDetails) applyTextures(surface_, world_.scene);
     return true;
 }

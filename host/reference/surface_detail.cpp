@@ -1,3 +1,4 @@
+#include "host/reference/random.hpp"
 #include "host/reference/surface.hpp"
 #include "scene/model/surface_lookup.hpp"
 
@@ -99,6 +100,8 @@ void apply(Material& m, TextureSlot slot, const glm::dvec4& texel) {
     case TextureSlot::Normal:
     case TextureSlot::ClearcoatNormal:
     case TextureSlot::Height:
+    case TextureSlot::BlendShare:
+    case TextureSlot::Projection:
         return; // no parameter
     }
 }
@@ -155,6 +158,12 @@ void applyHeights(SurfacePoint& s, const Scene& scene, const TextureUse& map,
 }
 
 } // namespace
+
+void drawMaterial(SurfacePoint& s, const Scene& scene, RandomStream& random) {
+    const PointAttributes at = attributesOf(s, scene);
+    while (s.material->other != kNoMaterial && random.next() < otherShareAt(scene, *s.material, at))
+        s.material = s.stated = &scene.materials[s.material->other];
+}
 
 void applyTextures(SurfacePoint& s, const Scene& scene) {
     const PointAttributes at = attributesOf(s, scene);

@@ -35,6 +35,10 @@ uint32_t SceneBuilder::addImage(TextureImage image) {
     return uint32_t(scene_.images.size() - 1);
 }
 
+const TextureImage& SceneBuilder::imageOf(uint32_t texture) const {
+    return scene_.images.at(scene_.textures.at(texture).image);
+}
+
 uint32_t SceneBuilder::addTexture(const Texture& texture) {
     scene_.textures.push_back(texture);
     return uint32_t(scene_.textures.size() - 1);

@@ -51,6 +51,8 @@ class SceneBuilder {
     /// Return the numbers by which textures name the picture, and materials the texture.
     uint32_t addImage(TextureImage image);
     uint32_t addTexture(const Texture& texture);
+    /// The picture of a texture that was added.
+    const TextureImage& imageOf(uint32_t texture) const;
     /// The material of surfaces that name none: mid grey.
     uint32_t defaultMaterial();
     /// A fraction of light per channel: negative ones become 0 and those above 1 become 1 (unless

@@ -15,6 +15,12 @@ Surface readInside(SurfaceMaker& maker, Context& context, Textures& textures) {
     return readBsdf(context, textures, *inside);
 }
 
+/// A texture of all materials that a mixture is of.
+void addTexture(Surface& surface, const TextureUse& use) {
+    for (Surface* each = &surface; each; each = each->other.get())
+        each->material.textures.push_back(use);
+}
+
 Surface diffuse(SurfaceMaker& maker) {
     maker.material.kind = MaterialKind::Diffuse;
     maker.color("reflectance", glm::dvec3(0.5), maker.material.albedo, TextureSlot::BaseColor);
@@ -75,7 +81,8 @@ Surface twoSided(SurfaceMaker& maker, Context& context, Textures& textures) {
         inside[1]->fail("is another bsdf for the back, which is not supported");
     maker.plugin.requireAllRead();
     Surface surface = readBsdf(context, textures, *inside.front());
-    surface.material.isBlackBehind = false;
+    for (Surface* each = &surface; each; each = each->other.get())
+        each->material.isBlackBehind = false;
     return surface;
 }
 
@@ -119,7 +126,7 @@ Surface normalMap(SurfaceMaker& maker, Context& context, Textures& textures) {
     if (!normals.texture) maker.plugin.fail("has no texture 'normalmap'");
     TextureUse use = *normals.texture;
     use.slot = TextureSlot::Normal;
-    surface.material.textures.push_back(use);
+    addTexture(surface, use);
     for (const char* unused : {"flip_invalid_normals", "use_shadowing_function"})
         maker.plugin.skip(unused);
     maker.plugin.requireAllRead();
@@ -128,9 +135,11 @@ Surface normalMap(SurfaceMaker& maker, Context& context, Textures& textures) {
 
 Surface bumpMap(SurfaceMaker& maker, Context& context, Textures& textures) {
     Surface surface = readInside(maker, context, textures);
-    for (const TextureUse& use : surface.material.textures)
-        if (use.slot == TextureSlot::Normal || use.slot == TextureSlot::Height)
-            maker.plugin.fail("is a bump map over another map of normals, which is not supported");
+    for (const Surface* each = &surface; each; each = each->other.get())
+        for (const TextureUse& use : each->material.textures)
+            if (use.slot == TextureSlot::Normal || use.slot == TextureSlot::Height)
+                maker.plugin.fail(
+                    "is a bump map over another map of normals, which is not supported");
     const Plugin* heights = maker.plugin.onlyChildOf("texture");
     if (!heights) maker.plugin.fail("has no texture inside, expected one of heights");
     const Shade shade = textures.texture(*heights, ColorOf::Reflectance, Layout::Grey);
@@ -138,9 +147,43 @@ Surface bumpMap(SurfaceMaker& maker, Context& context, Textures& textures) {
     TextureUse use = *shade.texture;
     use.slot = TextureSlot::Height;
     use.scale = float(maker.plugin.number("scale").value_or(1));
-    surface.material.textures.push_back(use);
+    addTexture(surface, use);
     maker.plugin.requireAllRead();
     return surface;
+}
+
+/// One of two bsdfs, the second one in the share of cases that `weight` says.
+Surface blend(SurfaceMaker& maker, Context& context, Textures& textures) {
+    const Plugin& plugin = maker.plugin;
+    const std::vector<const Plugin*> inside = plugin.childrenOf("bsdf");
+    if (inside.size() != 2)
+        plugin.fail(fmt::format("has {} bsdfs inside, expected two", inside.size()));
+    Surface first = readBsdf(context, textures, *inside[0]);
+    auto second = std::make_shared<Surface>(readBsdf(context, textures, *inside[1]));
+    const Shade share =
+        textures.shade(plugin, "weight", ColorOf::Reflectance, glm::dvec3(0.5), Layout::Red);
+    if (share.isVertexColor)
+        plugin.fail("weight", "is a mesh attribute, expected a number or picture");
+    double weight = std::clamp((share.color.x + share.color.y + share.color.z) / 3, 0.0, 1.0);
+    for (const Surface* each : {&first, std::as_const(second).get()})
+        if (each->material.alphaMode != AlphaMode::Opaque)
+            plugin.fail("has a mask inside, expected it around the blend");
+    if (first.other) { // only what takes the place may be a mixture in turn
+        if (second->other || share.texture)
+            plugin.fail("has a first bsdf that is a blend, which is not supported here");
+        std::swap(first, *second);
+        weight = 1 - weight;
+    }
+    if (share.texture) {
+        TextureUse use = *share.texture;
+        use.slot = TextureSlot::BlendShare;
+        first.material.textures.push_back(use);
+    }
+    first.material.otherShare = float(weight);
+    first.usesVertexColors |= second->usesVertexColors;
+    first.other = std::move(second);
+    plugin.requireAllRead();
+    return first;
 }
 
 } // namespace
@@ -160,11 +203,12 @@ Surface readBsdf(Context& context, Textures& textures, const Plugin& bsdf) {
     if (type == "null") return nothing(maker);
     if (type == "normalmap") return normalMap(maker, context, textures);
     if (type == "bumpmap") return bumpMap(maker, context, textures);
-    bsdf.fail(fmt::format(
-        "'{}' is no bsdf that is read, expected diffuse, dielectric, "
-        "thindielectric, roughdielectric, conductor, roughconductor, plastic, "
-        "roughplastic, principled, principledthin, twosided, mask, null, normalmap or bumpmap",
-        type));
+    if (type == "blendbsdf") return blend(maker, context, textures);
+    bsdf.fail(fmt::format("'{}' is no bsdf that is read, expected diffuse, dielectric, "
+                          "thindielectric, roughdielectric, conductor, roughconductor, plastic, "
+                          "roughplastic, principled, principledthin, twosided, mask, null, "
+                          "normalmap, bumpmap or blendbsdf",
+                          type));
 }
 
 } // namespace stromboli::mitsuba

@@ -19,6 +19,10 @@ BoundMaterial Materials::make(const Plugin* bsdf, const Plugin* emitter, bool is
     surface.material = build::greyMaterial();
     surface.material.isBlackBehind = !isOld;
     if (bsdf) surface = readBsdf(context_, textures_, *bsdf);
+    return bind(std::move(surface), emitter);
+}
+
+BoundMaterial Materials::bind(Surface&& surface, const Plugin* emitter) {
     if (emitter) addEmission(*emitter, surface.material);
     BoundMaterial bound;
     const Material& m = surface.material;
@@ -27,6 +31,12 @@ BoundMaterial Materials::make(const Plugin* bsdf, const Plugin* emitter, bool is
     bound.wantsTangents = m.hasGrain() || std::ranges::any_of(m.textures, [](const auto& use) {
                               return use.slot == TextureSlot::Normal;
                           });
+    if (surface.other) {
+        const BoundMaterial other = bind(std::move(*surface.other), emitter);
+        surface.material.other = other.number;
+        bound.isTextured |= other.isTextured;
+        bound.wantsTangents |= other.wantsTangents;
+    }
     bound.number = context_.builder.addMaterial(std::move(surface.material));
     return bound;
 }

@@ -25,6 +25,7 @@ class Materials {
 
   private:
     BoundMaterial make(const Plugin* bsdf, const Plugin* emitter, bool isOld);
+    BoundMaterial bind(Surface&& surface, const Plugin* emitter);
     void addEmission(const Plugin& emitter, Material& material);
 
     Context& context_;

@@ -60,7 +60,7 @@ Surface SurfaceMaker::done() {
                          (isBurleys && (material.burley.transmits() || material.burley.isThin));
     // Walls of old scenes are turned either way, as renderers that read them show both sides.
     material.isBlackBehind = !hasBack && !plugin.isOld;
-    return {std::move(material), usesVertexColors_};
+    return {std::move(material), usesVertexColors_, nullptr};
 }
 
 } // namespace stromboli::mitsuba

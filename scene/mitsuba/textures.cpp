@@ -130,6 +130,11 @@ Shade Textures::shade(const Plugin& plugin, std::string_view name, ColorOf what,
     return texture(*object, what, layout);
 }
 
+glm::uvec2 Textures::sizeOf(const TextureUse& use) const {
+    const TextureImage& image = context_.builder.imageOf(use.texture);
+    return {image.width, image.height};
+}
+
 Shade Textures::texture(const Plugin& texture, ColorOf what, Layout layout) {
     if (texture.type == "bitmap") return bitmap(texture, layout);
     if (texture.type == "checkerboard") return checkerboard(texture, what, layout);

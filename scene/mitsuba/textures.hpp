@@ -32,6 +32,9 @@ class Textures {
     /// The texture that a plugin of the tag texture is.
     Shade texture(const Plugin& texture, ColorOf what, Layout layout);
 
+    /// Width and height in texels.
+    glm::uvec2 sizeOf(const TextureUse& use) const;
+
   private:
     Shade bitmap(const Plugin& texture, Layout layout);
     Shade checkerboard(const Plugin& texture, ColorOf what, Layout layout);

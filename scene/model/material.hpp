@@ -96,6 +96,9 @@ enum class AlphaMode : uint32_t {
     Blend,  ///< opacity is the share of light that meets the surface
 };
 
+/// No material of the scene.
+inline constexpr uint32_t kNoMaterial = 0xFFFFFFFFu;
+
 /// What a surface does with light. Only the members its kind names are meaningful; emission is
 /// meaningful for all (an emitter is a diffuse material of albedo 0 that emits).
 struct Material {
@@ -121,6 +124,11 @@ struct Material {
     AlphaMode alphaMode = AlphaMode::Opaque;
     float opacity = 1; ///< times the alpha of texture and vertex colour
     float alphaCutoff = 0.5f;
+    /// A mixture: light that meets the surface finds, in that share of cases, the other material of
+    /// the scene in this one's place, which may be a mixture too. Opacity and emission are this
+    /// one's; the other one has the same emission.
+    uint32_t other = kNoMaterial;
+    float otherShare = 0;
     bool isBlackBehind = false; ///< nothing is scattered to where the normals do not point
     /// At most one for each slot, but of MetallicRoughness and SpecularColor, whose numbers
     /// multiply.

@@ -126,6 +126,14 @@ double opacityAt(const Scene& scene, const Material& material, const PointAttrib
     return std::clamp(opacity, 0.0, 1.0);
 }
 
+double otherShareAt(const Scene& scene, const Material& material, const PointAttributes& at) {
+    if (material.other == kNoMaterial) return 0;
+    double share = material.otherShare;
+    if (const TextureUse* use = textureIn(material, TextureSlot::BlendShare))
+        share *= lookUp(scene, *use, at).r;
+    return share;
+}
+
 glm::dvec3 emissionAt(const Scene& scene, const Material& material, const PointAttributes& at) {
     glm::dvec3 emission = material.emission;
     if (const TextureUse* use = textureIn(material, TextureSlot::Emission))

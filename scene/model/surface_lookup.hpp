@@ -33,6 +33,9 @@ glm::dvec2 slopeOf(const Scene& scene, const TextureUse& use, const PointAttribu
 /// The share of light that meets the surface there: its opacity, as its alpha mode takes it.
 double opacityAt(const Scene& scene, const Material& material, const PointAttributes& at);
 
+/// How often the material's other one takes its place there.
+double otherShareAt(const Scene& scene, const Material& material, const PointAttributes& at);
+
 /// Radiance that the surface emits there where it is there.
 glm::dvec3 emissionAt(const Scene& scene, const Material& material, const PointAttributes& at);
 

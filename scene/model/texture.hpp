@@ -50,8 +50,10 @@ enum class TextureSlot : uint32_t {
     SheenRoughness,     ///< alpha
     Anisotropy,         ///< red, green: direction, [0, 1] for [-1, 1]; blue: strength
     Height,             ///< red: above the surface, along its shading normal; uvSet is 0
+    BlendShare,         ///< red: Material::otherShare
+    Projection,         ///< of lights: red, green, blue
 };
-inline constexpr uint32_t kTextureSlotCount = 14;
+inline constexpr uint32_t kTextureSlotCount = 16;
 
 /// A texture in one of a material's slots.
 struct TextureUse {

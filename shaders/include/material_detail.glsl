@@ -6,7 +6,7 @@
 /// Whether some material of the scene has a texture in this slot.
 bool sceneHasSlot(uint slot) { return (TEXTURE_SLOTS & 1u << slot) != 0u; }
 /// Whether materials have a MaterialDetail.
-bool hasDetails() { return TEXTURE_SLOTS != 0u || HAS_ALPHA; }
+bool hasDetails() { return TEXTURE_SLOTS != 0u || HAS_ALPHA || HAS_BLENDS; }
 bool hasAttribute(uint which) { return (ATTRIBUTES & which) != 0u; }
 bool hasNormalMaps() { return sceneHasSlot(TEXTURE_NORMAL) && hasAttribute(ATTRIBUTE_TANGENT); }
 bool hasHeights() { return sceneHasSlot(TEXTURE_HEIGHT) && hasAttribute(ATTRIBUTE_UV0); }
@@ -221,14 +221,37 @@ void applyBundle(inout Material m, inout Relief relief, uint materialRow, Materi
         applyMetallicRoughness(m, mapOf(taps, TEXTURE_METALLIC_ROUGHNESS));
 }
 
+/// Of a surface's triangle at the point. Spheres have no place: what is read of another primitive's attributes has no
+/// effect.
+PointAttributes attributesOf(SurfacePoint s) {
+    const bool isTriangle = s.skipPrimitive != NO_PRIMITIVE;
+    PointAttributes a = PointAttributes(vec2(0.0), vec2(0.0), vec4(1.0));
+    if (ATTRIBUTES != 0u && isTriangle) a = attributesAt(primitiveAt(s.skipPrimitive), s.weights);
+    return a;
+}
+
+/// How often another material takes the place of the one with this first row, and the first row of that.
+float blendShare(uint materialRow, PointAttributes a, out uint other) {
+    const MaterialDetail detail = fetchDetail(materialRow);
+    const uint bundles = (detail.flags & DETAIL_HAS_BUNDLE) != 0u ? 1u : 0u;
+    const uvec4 r = ROW(materialRows, textureUseRow(materialRow, bundles + detail.looseTextures));
+    const bool isBlend = (detail.flags & DETAIL_IS_BLEND) != 0u;
+    const BlendRow blend = BlendRow(r.x, uintBitsToFloat(r.y), isBlend ? r.z : 0u, r.w);
+    other = blend.other;
+    float share = isBlend ? blend.share : 0.0;
+    if (sceneHasSlot(TEXTURE_BLEND_SHARE)) {
+        const TextureUse t = fetchTextureUse(materialRow, blend.texture);
+        const float texel = lookUp(t, coordinatesOf(t, a)).r;
+        share *= blend.texture != 0u ? texel : 1.0;
+    }
+    return share;
+}
+
 /// The material at a point of a surface.
 Material materialAt(SurfacePoint s, out Relief relief) {
     Material m = fetchMaterial(s.material);
     relief = Relief(vec3(0.0, 0.0, 1.0), vec2(0.0));
-    // Spheres have no place: what is read of another primitive's attributes has no effect.
-    const bool isTriangle = s.skipPrimitive != NO_PRIMITIVE;
-    PointAttributes a = PointAttributes(vec2(0.0), vec2(0.0), vec4(1.0));
-    if (ATTRIBUTES != 0u && isTriangle) a = attributesAt(primitiveAt(s.skipPrimitive), s.weights);
+    const PointAttributes a = attributesOf(s);
     if (hasAttribute(ATTRIBUTE_COLOR) && hasBaseColor(m)) scale(m.row1, a.color.rgb);
     if (TEXTURE_SLOTS == 0u) return m;
     const MaterialDetail detail = fetchDetail(s.material);

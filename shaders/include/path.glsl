@@ -60,6 +60,7 @@ void arrive() {
         return;
     }
 #ifdef RICH_MATERIALS
+    if (HAS_BLENDS) surface.material = drawnMaterial(surface);
     Relief relief;
     material = materialAt(surface, relief);
 #else

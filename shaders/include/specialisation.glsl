@@ -66,6 +66,7 @@ layout(constant_id = SPEC_TEXEL_KINDS) const uint TEXEL_KINDS = 127u;
 layout(constant_id = SPEC_ATTRIBUTES) const uint ATTRIBUTES = 0u;
 layout(constant_id = SPEC_ALPHA) const bool HAS_ALPHA = false;
 layout(constant_id = SPEC_TANGENT_FRAMES) const bool TANGENT_FRAMES = false;
+layout(constant_id = SPEC_BLENDS) const bool HAS_BLENDS = false;
 #else
 const bool HAS_ALPHA = false;
 #endif

@@ -71,7 +71,8 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_LOOSE_SLOTS 38 // bit n: some material has a texture in slot n that is in no bundle
 #define SPEC_FACETS 39 // FACETS_ bits: of microfacets of conductors, dielectrics, plastic
 #define SPEC_BLACK_BACKS 40 // materials are black where normals do not point
-#define SPEC_COUNT 41
+#define SPEC_BLENDS 41 // materials are mixtures of others
+#define SPEC_COUNT 42
 
 SHARED_CONST uint TEXEL_KIND_NEAREST = 1u;
 SHARED_CONST uint TEXEL_KIND_BILINEAR = 2u;
@@ -91,6 +92,7 @@ SHARED_CONST uint DIRECT_BSDF = 2u;
 SHARED_CONST uint FILTER_BOX = 0u;
 SHARED_CONST uint FILTER_GAUSSIAN = 1u;
 SHARED_CONST uint FILTER_BLACKMAN_HARRIS = 2u;
+SHARED_CONST uint FILTER_TENT = 3u; ///< of radius 1
 /// In pixels; of the Gaussian, what lies beyond four standard deviations is left out.
 SHARED_CONST float GAUSSIAN_DEVIATION = 0.5f;
 SHARED_CONST float GAUSSIAN_RADIUS = 2.0f;

@@ -88,6 +88,9 @@ void putLight(LightRows l) {
     const QuadLight quad = quadLight(l);
     put(quad.corner), put(quad.area), put(quad.edgeA), put(quad.unused0);
     put(quad.edgeB), put(quad.unused1);
+    const ProjectorLight projector = projectorLight(l);
+    put(projector.position), put(projector.cosCutoff), put(projector.acrossU), put(projector.softness);
+    put(projector.acrossV), put(projector.picture);
     const PointLight point = pointLight(l);
     put(point.position), put(point.falloffExponent), put(point.attenuation);
     put(point.cosCutoff), put(point.axis), put(point.softness);

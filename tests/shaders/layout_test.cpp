@@ -181,6 +181,10 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         const auto quad = std::bit_cast<gpu::QuadLight>(three);
         expected_.structure("QuadLight", quad.corner, quad.area, quad.edgeA, quad.unused0,
                             quad.edgeB, quad.unused1);
+        const auto projector = std::bit_cast<gpu::ProjectorLight>(three);
+        expected_.structure("ProjectorLight", projector.position, projector.cosCutoff,
+                            projector.acrossU, projector.softness, projector.acrossV,
+                            projector.picture);
         const auto point = std::bit_cast<gpu::PointLight>(three);
         expected_.structure("PointLight", point.position, point.falloffExponent, point.attenuation,
                             point.cosCutoff, point.axis, point.softness);
@@ -308,13 +312,14 @@ TEST(LayoutSizes, NoFieldIsForgotten) {
         sizeof(gpu::GlassParameters) + sizeof(gpu::RoughConductorParameters) +
         sizeof(gpu::ConductorParameters) + sizeof(gpu::FacetDielectricParameters) +
         sizeof(gpu::ThinDielectricParameters) + sizeof(gpu::PlasticParameters) +
-        sizeof(gpu::BurleyParameters) + sizeof(gpu::LightHeader) + sizeof(gpu::QuadLight) +
-        sizeof(gpu::PointLight) + sizeof(gpu::SphereLight) + sizeof(gpu::AmbientLight) +
-        sizeof(gpu::EnvironmentLight) + sizeof(gpu::DirectionalLight) + sizeof(gpu::LightEntry) +
-        sizeof(gpu::AliasColumn) + sizeof(gpu::LightNode) + sizeof(gpu::Frame) +
-        sizeof(gpu::Dispatch) + sizeof(gpu::WorkItem) + sizeof(gpu::PixelState) +
-        sizeof(gpu::SuspendedPath) + sizeof(gpu::SuspendedSplit) + sizeof(gpu::DispatchStatus);
-    EXPECT_EQ(bytes / 4, 16 + 16 + 4 + (4 + 4 + 4 + 4 + 8 + 8 + 12 + 12 + 8 + 12 + 20) +
+        sizeof(gpu::BurleyParameters) + sizeof(gpu::ProjectorLight) + sizeof(gpu::LightHeader) +
+        sizeof(gpu::QuadLight) + sizeof(gpu::PointLight) + sizeof(gpu::SphereLight) +
+        sizeof(gpu::AmbientLight) + sizeof(gpu::EnvironmentLight) + sizeof(gpu::DirectionalLight) +
+        sizeof(gpu::LightEntry) + sizeof(gpu::AliasColumn) + sizeof(gpu::LightNode) +
+        sizeof(gpu::Frame) + sizeof(gpu::Dispatch) + sizeof(gpu::WorkItem) +
+        sizeof(gpu::PixelState) + sizeof(gpu::SuspendedPath) + sizeof(gpu::SuspendedSplit) +
+        sizeof(gpu::DispatchStatus);
+    EXPECT_EQ(bytes / 4, 16 + 16 + 4 + (4 + 4 + 4 + 4 + 8 + 8 + 12 + 12 + 8 + 12 + 20 + 12) +
                              (4 + 12 + 12 + 4 + 4 + 8 + 4) + (4 + 4 + 8) + 36 + 8 + 4 + 16 + 24 +
                              28 + 8u);
 }

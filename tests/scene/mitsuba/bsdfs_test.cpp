@@ -8,6 +8,7 @@
 namespace stromboli::test {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 std::string rectangleOf(const std::string& bsdf) {
@@ -90,7 +91,8 @@ TEST(MitsubaBsdfs, Conductors) {
               glm::vec3(6.15f));
     EXPECT_THAT(problemInside(rectangleOf("<bsdf type=\"conductor\"><string name=\"material\" "
                                           "value=\"Xy\"/></bsdf>")),
-                HasSubstr("is 'Xy', expected one of none, Ag, Al, Au, Cu, or eta and k"));
+                AllOf(HasSubstr("is 'Xy', expected one of none, Ag, Al, Au, Cu, a-C"),
+                      HasSubstr("W, or eta and k")));
 }
 
 TEST(MitsubaBsdfs, Plastics) {
@@ -131,6 +133,39 @@ TEST(MitsubaBsdfs, PrincipledIsBurleys) {
     EXPECT_EQ(m.burley.sheen, 0.75f);
     EXPECT_FLOAT_EQ(m.burley.ior, 1.5f);
     EXPECT_FALSE(m.burley.isThin);
+}
+
+TEST(MitsubaBsdfs, BlendsAreMixtures) {
+    const std::string two = "<bsdf type=\"diffuse\"/><bsdf type=\"conductor\"/>";
+    const Scene scene = sceneOf("<bsdf type=\"blendbsdf\"><float name=\"weight\" value=\"0.25\"/>" +
+                                two + "</bsdf>");
+    const Material& m = scene.materials.at(scene.triangles.at(0).material);
+    EXPECT_EQ(m.kind, MaterialKind::Diffuse);
+    EXPECT_EQ(m.otherShare, 0.25f);
+    EXPECT_EQ(scene.materials.at(m.other).kind, MaterialKind::Conductor);
+    EXPECT_TRUE(scene.materials.at(m.other).isBlackBehind);
+    const Scene both =
+        sceneOf("<bsdf type=\"twosided\"><bsdf type=\"blendbsdf\">" + two + "</bsdf></bsdf>");
+    const Material& n = both.materials.at(both.triangles.at(0).material);
+    EXPECT_EQ(n.otherShare, 0.5f);
+    EXPECT_FALSE(n.isBlackBehind || both.materials.at(n.other).isBlackBehind);
+    EXPECT_THAT(
+        problemInside(rectangleOf("<bsdf type=\"blendbsdf\"><bsdf type=\"diffuse\"/></bsdf>")),
+        HasSubstr("has 1 bsdfs inside, expected two"));
+}
+
+/// What takes the place may be a mixture; a first one that is is what takes the place.
+TEST(MitsubaBsdfs, BlendsMayBeOfBlends) {
+    const std::string blend =
+        "<bsdf type=\"blendbsdf\"><bsdf type=\"diffuse\"/><bsdf type=\"conductor\"/></bsdf>";
+    const Scene scene = sceneOf("<bsdf type=\"blendbsdf\"><float name=\"weight\" value=\"0.25\"/>" +
+                                blend + "<bsdf type=\"plastic\"/></bsdf>");
+    const Material& m = scene.materials.at(scene.triangles.at(0).material);
+    EXPECT_EQ(m.kind, MaterialKind::Plastic);
+    EXPECT_EQ(m.otherShare, 0.75f);
+    const Material& other = scene.materials.at(m.other);
+    EXPECT_EQ(other.kind, MaterialKind::Diffuse);
+    EXPECT_EQ(scene.materials.at(other.other).kind, MaterialKind::Conductor);
 }
 
 /// Numbers of one slot may come from two pictures, each of which is 1 where the other one has its

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 
 namespace stromboli::test {
 namespace {
@@ -185,6 +186,63 @@ TEST(RainbowReferences, MeansAgree) {
     if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not there";
     const Scene scene = loadMitsuba(folder / "scene.xml");
     expectSameMean(filmOf(scene, {64, 64, {}}, 128), folder / "TungstenRender.exr", 0.01);
+}
+
+/// The t-tests of the course renderer Nori, restated as Mitsuba scenes: the mean of one pixel that
+/// looks at one point, 4 standard errors. Theirs is at the significance 0.01, with the same
+/// samples.
+double noriMean(const std::string& inside, double reference) {
+    const fs::path file = fs::path(testing::TempDir()) / "nori_restated.xml";
+    std::ofstream(file)
+        << "<scene version=\"3.0.0\"><path value=\"" << (kPeers / "nori/pa5/tests").string()
+        << "\"/><integrator type=\"path\"><integer name=\"max_depth\" value=\"65\"/></integrator>"
+        << inside << "</scene>";
+    const Film film = filmOf(loadMitsuba(file), {1, 1, {}}, 20'000);
+    const PixelStatistics& pixel = film.pixels.at(0);
+    EXPECT_NEAR(pixel.mean.y, reference, 4 * std::sqrt(pixel.varianceOfMean().y) + 1e-6);
+    return pixel.mean.y;
+}
+
+std::string noriSensor(const std::string& place, const std::string& fov) {
+    return "<sensor type=\"perspective\"><transform name=\"to_world\">" + place +
+           "</transform><float name=\"fov\" value=\"" + fov +
+           "\"/><film type=\"hdrfilm\"><rfilter type=\"box\"/><integer name=\"width\" value=\"1\"/>"
+           "<integer name=\"height\" value=\"1\"/></film></sensor>";
+}
+
+std::string noriMesh(const std::string& file, double albedo, bool shines) {
+    const std::string light =
+        "<emitter type=\"area\"><rgb name=\"radiance\" value=\"1\"/></emitter>";
+    return "<shape type=\"obj\"><string name=\"filename\" value=\"" + file +
+           "\"/><bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"" +
+           std::to_string(albedo) + "\"/></bsdf>" + (shines ? light : "") + "</shape>";
+}
+
+TEST(NoriReferences, DirectLightOfPolygons) {
+    if (!fs::exists(kPeers / "nori"))
+        GTEST_SKIP() << kPeers / "nori"
+                     << " is not there";
+    const double references[] = {0.0898394, 0.02292, 0.0534198, 0.0205314, 0.26174};
+    for (int i = 0; i < 5; ++i) {
+        SCOPED_TRACE(i + 1);
+        noriMean(noriSensor("<lookat origin=\"0, 0.01, 0\" target=\"0, 0, 0\" up=\"0, 0, 1\"/>",
+                            "0.000001") +
+                     noriMesh("floor.obj", 0.5, false) +
+                     noriMesh("polylum" + std::to_string(i + 1) + ".obj", 0, true),
+                 references[i]);
+    }
+}
+
+/// Inside of a box of radiance 1 and albedo a: 1 / (1 - a).
+TEST(NoriReferences, Furnaces) {
+    if (!fs::exists(kPeers / "nori"))
+        GTEST_SKIP() << kPeers / "nori"
+                     << " is not there";
+    for (const double albedo : {0.5, 0.8}) {
+        SCOPED_TRACE(albedo);
+        noriMean(noriSensor("<scale value=\"1\"/>", "10") + noriMesh("furnace.obj", albedo, true),
+                 1 / (1 - albedo));
+    }
 }
 
 } // namespace

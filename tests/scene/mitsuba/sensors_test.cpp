@@ -99,5 +99,31 @@ TEST(MitsubaSensors, DepthsCountSegments) {
     EXPECT_THAT(scene.report.ignored, testing::Contains(HasSubstr("'rr_depth' of integrator")));
 }
 
+TEST(MitsubaSensors, FilmsMayBeCropped) {
+    const auto film = [](const std::string& inside) {
+        return "<sensor type=\"perspective\"><film type=\"hdrfilm\"><integer name=\"width\" "
+               "value=\"40\"/><integer name=\"height\" value=\"30\"/>" +
+               inside + "</film></sensor>";
+    };
+    EXPECT_FALSE(loadInside(film("")).hints.crop.has_value());
+    const Scene scene = loadInside(film("<integer name=\"crop_offset_x\" value=\"5\"/>"
+                                        "<integer name=\"crop_width\" value=\"10\"/>"));
+    EXPECT_EQ(scene.hints.crop.value(), (std::array<uint32_t, 4>{5, 0, 10, 30}));
+    EXPECT_THAT(problemInside(film("<integer name=\"crop_offset_x\" value=\"35\"/>"
+                                   "<integer name=\"crop_width\" value=\"10\"/>")),
+                HasSubstr("is 10, expected 1 to 5"));
+}
+
+TEST(MitsubaSensors, ClipsAreTheCameras) {
+    const Scene scene =
+        loadInside("<sensor type=\"perspective\"><float name=\"near_clip\" value=\"2\"/>"
+                   "<float name=\"far_clip\" value=\"50\"/></sensor>");
+    EXPECT_EQ(scene.cameras.at(0).nearDistance, 2);
+    EXPECT_EQ(scene.cameras.at(0).farDistance, 50);
+    EXPECT_THAT(problemInside("<sensor type=\"perspective\"><float name=\"near_clip\" value=\"2\"/>"
+                              "<float name=\"far_clip\" value=\"1\"/></sensor>"),
+                HasSubstr("is not more than near_clip"));
+}
+
 } // namespace
 } // namespace stromboli::test
