@@ -214,7 +214,8 @@ std::string noriMesh(const std::string& file, double albedo, bool shines) {
     const std::string light =
         "<emitter type=\"area\"><rgb name=\"radiance\" value=\"1\"/></emitter>";
     return "<shape type=\"obj\"><string name=\"filename\" value=\"" + file +
-           "\"/><boolean name=\"face_normals\" value=\"true\"/><bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"" +
+           "\"/><boolean name=\"face_normals\" value=\"true\"/><bsdf type=\"diffuse\"><rgb "
+           "name=\"reflectance\" value=\"" +
            std::to_string(albedo) + "\"/></bsdf>" + (shines ? light : "") + "</shape>";
 }
 
