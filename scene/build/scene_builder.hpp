@@ -84,7 +84,8 @@ class SceneBuilder {
     /// Adds a camera with name, projection, extents and depth range set, in lengths of its own
     /// space; the matrix gives its pose (it looks along its own -z axis, +y up) and scales its
     /// lengths. A camera whose matrix is singular is left out with a warning.
-    void placeCamera(FileCamera camera, const glm::dmat4& toWorld);
+    /// isMirrored: its picture is a mirror image, x pointing to the left.
+    void placeCamera(FileCamera camera, const glm::dmat4& toWorld, bool isMirrored = false);
 
     /// The scene, with its report; nothing can be added after. A scene that has something to light
     /// and nothing that lights it gets the default light, where the conventions have one.

@@ -107,8 +107,6 @@ void readPerspective(const Plugin& sensor, double aspect, FileCamera& camera) {
 /// Mitsuba's camera looks along z, x to the left; a scale is the size of an orthographic view.
 glm::dmat4 poseOf(const Plugin& sensor) {
     const glm::dmat4 m = sensor.transform("to_world");
-    if (glm::determinant(glm::dmat3(m)) < 0)
-        sensor.fail("to_world", "mirrors the picture, which is not supported");
     return m * glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 1, -1));
 }
 
@@ -158,7 +156,8 @@ void placeSensor(Context& context, const Plugin& sensor, bool isFirst) {
         medium->fail("is a medium, which is not supported");
     const glm::dmat4 pose = context.worldFromFile * poseOf(sensor);
     sensor.requireAllRead();
-    context.builder.placeCamera(std::move(camera), pose);
+    const bool isMirrored = glm::determinant(glm::dmat3(pose)) < 0;
+    context.builder.placeCamera(std::move(camera), pose, isMirrored);
     if (!isFirst) return;
     RenderHints& hints = context.builder.hints();
     hints.width = film.width;

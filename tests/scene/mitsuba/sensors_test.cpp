@@ -26,6 +26,15 @@ TEST(MitsubaSensors, LookAlongZWithXToTheLeft) {
     EXPECT_EQ(camera.up, glm::dvec3(0, 1, 0));
 }
 
+/// A scale of -1 along x turns left and right round.
+TEST(MitsubaSensors, MayShowMirrorImages) {
+    const FileCamera camera =
+        sceneOf("<transform name=\"to_world\"><scale x=\"-1\"/></transform>").cameras.at(0);
+    EXPECT_EQ(camera.back, glm::dvec3(0, 0, -1));
+    EXPECT_EQ(camera.right, glm::dvec3(1, 0, 0));
+    EXPECT_EQ(camera.up, glm::dvec3(0, 1, 0));
+}
+
 /// The diagonal of 36 x 24 mm at 50 mm: 34.02 degrees across a square.
 TEST(MitsubaSensors, TheStandardLensHas50Millimetres) {
     const FileCamera square = sceneOf("<film type=\"hdrfilm\"><integer name=\"width\" value=\"8\"/>"
