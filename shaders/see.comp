@@ -106,10 +106,10 @@ void follow(Material m, SurfacePoint s) {
 
 void arrive() {
     SurfacePoint s = surfaceAt(ray);
-    vec3 mapped;
-    const Material m = materialAt(s, mapped);
+    Relief relief;
+    const Material m = materialAt(s, relief);
     faceForward(s);
-    applyNormalMap(s, mapped);
+    applyRelief(s, relief, !isBsdf(m, BSDF_DIFFUSE));
     if (bounce == 0u) noteFirst(s);
     const bool isFollowed = isSeenThrough(m);
     ++bounce;
@@ -123,7 +123,7 @@ void takeResult() {
     const bool hit = ray.hitPrimitive != NO_PRIMITIVE;
     bool passes = false;
     if (HAS_ALPHA && hit)
-        passes = passNumber(ray, seen.pixel, seen.samples, bounce) >=
+        passes = passNumber(ray, seen.pixel, seen.samples, bounce, 0u) >=
                  opacityAt(ray.hitPrimitive, vec2(ray.b1, ray.b2));
     if (passes) {
         passOn(ray, rayEnd);

@@ -85,6 +85,11 @@ std::string embreePathsLack(const Scene& scene, const RenderSettings& settings) 
         return "conductors, rough and thin dielectrics, and plastic";
     if (anyHas([](const Material& m) { return m.alphaMode != AlphaMode::Opaque; }))
         return "surfaces that are partly not there";
+    if (anyHas([](const Material& m) { return m.other != kNoMaterial || m.isBlackBehind; }))
+        return "mixtures of materials, and surfaces that are black behind";
+    if (std::ranges::any_of(scene.lights,
+                            [](const Light& l) { return l.kind == LightKind::Projector; }))
+        return "projectors";
     return {};
 }
 

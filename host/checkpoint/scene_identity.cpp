@@ -49,6 +49,15 @@ void add(Sum& sum, const PrincipledParameters& p) {
     sum.add(isThin), sum.add(attenuationColor), sum.add(attenuationDistance);
 }
 
+void add(Sum& sum, const BurleyParameters& b) {
+    const auto& [baseColor, metallic, roughness, anisotropy, ior, specularTint, transmission, sheen,
+                 sheenTint, flatness, clearcoat, clearcoatGloss, isThin, diffuseTransmission] = b;
+    sum.add(baseColor), sum.add(metallic), sum.add(roughness), sum.add(anisotropy), sum.add(ior);
+    sum.add(specularTint), sum.add(transmission), sum.add(sheen), sum.add(sheenTint);
+    sum.add(flatness), sum.add(clearcoat), sum.add(clearcoatGloss), sum.add(isThin);
+    sum.add(diffuseTransmission);
+}
+
 void add(Sum& sum, const TextureUse& t) {
     const auto& [slot, texture, uvSet, uRow, vRow, scale] = t;
     sum.add(slot), sum.add(texture), sum.add(uvSet), sum.add(uRow), sum.add(vRow), sum.add(scale);
@@ -56,15 +65,20 @@ void add(Sum& sum, const TextureUse& t) {
 
 void add(Sum& sum, const Material& m) {
     const auto& [name, kind, albedo, reflectance, transmittance, ior, alpha, eta, k, facets,
-                 isNonlinear, emission, bothSides, principled, alphaMode, opacity, alphaCutoff,
-                 textures] = m;
-    const auto& [distribution, facetAlpha] = facets;
+                 isNonlinear, internalViews, emission, bothSides, principled, burley, alphaMode,
+                 opacity, alphaCutoff, other, otherShare, isBlackBehind, textures] = m;
+    const auto& [distribution, facetAlpha, masking] = facets;
     sum.add(kind), sum.add(albedo), sum.add(reflectance), sum.add(transmittance), sum.add(ior);
     sum.add(alpha), sum.add(eta), sum.add(k), sum.add(emission), sum.add(bothSides);
     // A state saved before materials had these stays that of its scene.
     if (kind >= MaterialKind::Conductor)
         sum.add(distribution), sum.add(facetAlpha), sum.add(isNonlinear);
+    if (masking != FacetMasking::Correlated) sum.add(masking);
+    if (internalViews > 0) sum.add(internalViews);
     add(sum, principled);
+    if (kind == MaterialKind::Burley) add(sum, burley);
+    if (isBlackBehind) sum.add(isBlackBehind);
+    if (other != kNoMaterial) sum.add(other), sum.add(otherShare);
     sum.add(alphaMode), sum.add(opacity), sum.add(alphaCutoff);
     for (const TextureUse& t : textures)
         add(sum, t);
@@ -87,11 +101,13 @@ void add(Sum& sum, const Environment& e) {
 
 void add(Sum& sum, const Light& l) {
     const auto& [name, kind, color, position, direction, constant, linear, quadratic, angle,
-                 exponent, innerAngle, upperOnly, edgeX, edgeY] = l;
+                 exponent, innerAngle, upperOnly, edgeX, edgeY, picture, isFramed] = l;
     sum.add(kind), sum.add(color), sum.add(position), sum.add(direction), sum.add(constant);
     sum.add(linear), sum.add(quadratic), sum.add(angle), sum.add(exponent), sum.add(upperOnly);
     sum.add(edgeX), sum.add(edgeY);
     if (innerAngle) sum.add(*innerAngle);
+    if (picture) add(sum, *picture);
+    if (isFramed) sum.add(isFramed);
 }
 
 void add(Sum& sum, const Camera& c) {

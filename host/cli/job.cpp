@@ -82,8 +82,9 @@ Estimator withHints(const RenderHints& hints, const Options& options) {
     Estimator estimator = options.estimator;
     if (hints.maxBounces && !options.bouncesGiven) estimator.maxBounces = *hints.maxBounces;
     if (hints.filter && !options.filterGiven)
-        estimator.filter =
-            *hints.filter == HintedFilter::Box ? PixelFilter::Box : PixelFilter::Gaussian;
+        estimator.filter = *hints.filter == HintedFilter::Box    ? PixelFilter::Box
+                           : *hints.filter == HintedFilter::Tent ? PixelFilter::Tent
+                                                                 : PixelFilter::Gaussian;
     if (hints.hidesBackdrop) estimator.showsBackdrop = false;
     return estimator;
 }
@@ -98,6 +99,9 @@ void reportHints(const Job& job, const Options& options) {
         add(fmt::format("--filter {}", nameOf(job.settings.estimator.filter)));
     if (hints.width && !options.sizeGiven)
         add(fmt::format("-r {} {}", job.settings.area.width, job.settings.area.height));
+    if (const Crop& crop = job.settings.area.crop;
+        hints.crop && options.area.crop.width == 0 && crop.width != 0)
+        add(fmt::format("--crop {} {} {} {}", crop.x, crop.y, crop.width, crop.height));
     if (!taken.empty()) logging::info(fmt::format("the scene file asks for {}", taken));
 }
 
@@ -147,6 +151,10 @@ void setPicture(Job& job, const Options& options) {
         const PictureSize size = defaultPictureSize(job.scene, options.camera, options.framing);
         job.settings.area.width = size.width;
         job.settings.area.height = size.height;
+        const RenderHints& hints = job.scene.hints;
+        if (hints.crop && hints.width == size.width && options.area.crop.width == 0)
+            job.settings.area.crop = {(*hints.crop)[0], (*hints.crop)[1], (*hints.crop)[2],
+                                      (*hints.crop)[3]};
     }
     const uint32_t branches =
         options.branches.value_or(branchesThatPay(job.scene, estimator, options.budget));

@@ -20,6 +20,8 @@ bool hasEffect(const Material& m, TextureSlot slot) {
     const bool hasReflectance = m.kind == MaterialKind::ThinDielectric ||
                                 m.kind == MaterialKind::Plastic ||
                                 (m.kind == MaterialKind::Dielectric && hasFacets);
+    if (slot == TextureSlot::BlendShare) return m.other != kNoMaterial && m.otherShare > 0;
+    if (m.kind == MaterialKind::Burley) return slot != TextureSlot::ClearcoatNormal;
     const PrincipledParameters& p = m.principled;
     switch (slot) {
     case TextureSlot::BaseColor:
@@ -28,6 +30,7 @@ bool hasEffect(const Material& m, TextureSlot slot) {
     case TextureSlot::Emission:
         return m.emits();
     case TextureSlot::Normal:
+    case TextureSlot::Height:
         return m.kind != MaterialKind::Diffuse || !isBlack(m.albedo);
     case TextureSlot::MetallicRoughness:
         return hasFacets || (isPrincipled && (p.metallic > 0 || p.roughness > 0));
@@ -50,6 +53,9 @@ bool hasEffect(const Material& m, TextureSlot slot) {
         return isPrincipled && !isBlack(p.sheenColor) && p.sheenRoughness > 0;
     case TextureSlot::Anisotropy:
         return isPrincipled && p.anisotropy > 0;
+    case TextureSlot::BlendShare: // above
+    case TextureSlot::Projection: // of lights
+        return false;
     }
     return false;
 }
@@ -77,6 +83,8 @@ class Planner {
         plan_.materials.resize(scene_.materials.size());
         for (size_t i = 0; i < scene_.materials.size(); ++i)
             if (used[i]) add(scene_.materials[i], plan_.materials[i]);
+        for (const Light& light : scene_.lights)
+            if (light.picture) addPicture(*light.picture);
         if (scene_.attributeCorners.empty()) plan_.attributes = 0;
         plan_.hasTangentFrames &= plan_.attributes != 0;
         return std::move(plan_);
@@ -86,6 +94,8 @@ class Planner {
     void add(const Material& m, DetailPlan::MaterialPlan& material) {
         material.isTransparent = isTransparent(m);
         plan_.hasAlpha |= material.isTransparent;
+        material.isBlend = m.other != kNoMaterial && m.otherShare > 0;
+        plan_.hasBlends |= material.isBlend;
         for (const TextureUse& use : m.textures)
             if (hasEffect(m, use.slot)) material.textures.push_back(use);
         std::ranges::sort(material.textures, {}, &TextureUse::slot);
@@ -104,6 +114,14 @@ class Planner {
             plan_.attributes |= gpu::ATTRIBUTE_TANGENT;
             plan_.hasTangentFrames = true;
         }
+    }
+
+    /// Of a light: it has coordinates of its own.
+    void addPicture(const TextureUse& use) {
+        const uint32_t before = plan_.attributes;
+        addTexture(use);
+        plan_.attributes = before;
+        plan_.texelKinds |= gpu::TEXEL_KIND_LOOSE;
     }
 
     void addTexture(const TextureUse& use) {
@@ -183,6 +201,9 @@ DetailPlan planDetails(const Scene& scene, const std::vector<bool>& used) {
     static_assert(kTextureSlotCount == gpu::TEXTURE_SLOT_COUNT);
     static_assert(uint32_t(TextureSlot::Emission) == gpu::TEXTURE_EMISSION);
     static_assert(uint32_t(TextureSlot::Anisotropy) == gpu::TEXTURE_ANISOTROPY);
+    static_assert(uint32_t(TextureSlot::Height) == gpu::TEXTURE_HEIGHT);
+    static_assert(uint32_t(TextureSlot::BlendShare) == gpu::TEXTURE_BLEND_SHARE);
+    static_assert(uint32_t(TextureSlot::Projection) == gpu::TEXTURE_PROJECTION);
     return Planner(scene).plan(used);
 }
 

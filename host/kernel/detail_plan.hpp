@@ -21,6 +21,7 @@ struct DetailPlan {
         std::optional<Bundle> bundle;
         std::vector<TextureUse> textures; ///< that are in no bundle, in the order of their slots
         bool isTransparent = false;       ///< may be partly not there
+        bool isBlend = false;             ///< another material may take its place
     };
     std::vector<MaterialPlan> materials; ///< by material of the scene
 
@@ -30,10 +31,11 @@ struct DetailPlan {
     uint32_t attributes = 0;   ///< gpu::ATTRIBUTE_ bits
     uint32_t mostTextures = 0; ///< that a material has in no bundle
     bool hasAlpha = false;
+    bool hasBlends = false;
     bool hasTangentFrames = false; ///< a BSDF depends on the direction of tangents
 
     /// Materials have a gpu::MaterialDetail.
-    bool hasMaterialDetails() const { return textureSlots != 0 || hasAlpha; }
+    bool hasMaterialDetails() const { return textureSlots != 0 || hasAlpha || hasBlends; }
 };
 
 /// used: by material, whether a primitive has it.

@@ -194,7 +194,7 @@ std::vector<Row> materialDetail(const Scene& scene, const Material& m,
             detail.flags |= (number + 1) << gpu::DETAIL_EMISSION_SHIFT;
     };
     std::vector<Row> uses;
-    uint32_t number = 0;
+    uint32_t number = 0, shareTexture = 0;
     if (plan.bundle) {
         detail.flags |= gpu::DETAIL_HAS_BUNDLE;
         if ((*plan.bundle)[gpu::TEXTURE_NORMAL]) detail.flags |= gpu::DETAIL_BUNDLE_MAPS_NORMALS;
@@ -204,8 +204,14 @@ std::vector<Row> materialDetail(const Scene& scene, const Material& m,
         ++number;
     }
     for (const TextureUse& use : plan.textures) {
+        if (use.slot == TextureSlot::BlendShare) shareTexture = number + 1;
         noteUse(use.slot, number++);
         appendRows(uses, packUse(scene, use, texels));
+    }
+    if (plan.isBlend) {
+        detail.flags |= gpu::DETAIL_IS_BLEND;
+        // packMaterials() knows the other material's row.
+        appendRows(uses, gpu::BlendRow{m.other, m.otherShare, shareTexture, 0});
     }
     std::vector<Row> rows;
     appendRows(rows, detail);
@@ -230,6 +236,10 @@ DetailRows packDetails(const Scene& scene, const WideLayout& bvh, const DetailPl
     for (size_t i = 0; i < scene.materials.size(); ++i)
         details.ofMaterials.push_back(
             materialDetail(scene, scene.materials[i], plan.materials[i], texels));
+    for (const Light& light : scene.lights) {
+        std::vector<Row>& rows = details.ofLights.emplace_back();
+        if (light.picture) appendRows(rows, packUse(scene, *light.picture, texels));
+    }
     return details;
 }
 

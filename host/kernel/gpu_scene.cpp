@@ -2,6 +2,7 @@
 
 #include "host/kernel/detail_rows.hpp"
 #include "host/kernel/gap_proposal.hpp"
+#include "shaders/shared/texture_types.h"
 
 #include <glm/gtc/packing.hpp>
 
@@ -30,14 +31,30 @@ gpu::Primitive packTriangle(const Scene& scene, const Triangle& t, uint32_t mate
     return {materialRow | gpu::PRIMITIVE_IS_SMOOTH, normal(0), normal(1), normal(2)};
 }
 
-/// By material: whether a primitive has it.
+/// By material: whether a primitive has it, or one that it may take the place of.
 std::vector<bool> usedMaterials(const Scene& scene) {
     std::vector<bool> used(scene.materials.size(), false);
     for (const Triangle& t : scene.triangles)
         used[t.material] = true;
     for (const Sphere& s : scene.spheres)
         used[s.material] = true;
+    // Others may have others in turn.
+    for (size_t round = 0; round < gpu::MOST_BLENDS; ++round)
+        for (size_t i = 0; i < used.size(); ++i)
+            if (const uint32_t other = scene.materials[i].other; used[i] && other != kNoMaterial)
+                used[other] = true;
     return used;
+}
+
+/// Appends the pictures of lights to the rows of materials; by light, the first row of its picture.
+std::vector<uint32_t> appendPictures(std::vector<Row>& materials,
+                                     const std::vector<std::vector<Row>>& pictures) {
+    std::vector<uint32_t> firstRow;
+    for (const std::vector<Row>& rows : pictures) {
+        firstRow.push_back(rows.empty() ? 0 : uint32_t(materials.size()));
+        materials.insert(materials.end(), rows.begin(), rows.end());
+    }
+    return firstRow;
 }
 
 void packPrimitives(const Scene& scene, const std::vector<uint32_t>& materialRow, GpuScene& g) {
@@ -60,8 +77,9 @@ void packPrimitives(const Scene& scene, const std::vector<uint32_t>& materialRow
         if (!used[i]) continue;
         g.bsdfKinds |= 1u << bsdfKind(scene.materials[i]);
         g.principledFeatures |= principledFeatures(scene.materials[i]);
-        g.facetDistributions |= facetDistribution(scene.materials[i]);
+        g.facets |= facetBits(scene.materials[i]);
         g.hasEmission |= scene.materials[i].emits();
+        g.hasBlackBacks |= scene.materials[i].isBlackBehind;
     }
 }
 
@@ -110,9 +128,11 @@ GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lig
     g.texelKinds = plan.texelKinds;
     g.attributes = plan.attributes, g.hasAlpha = plan.hasAlpha;
     g.mostTextures = plan.mostTextures;
+    g.hasBlends = plan.hasBlends;
     g.hasTangentFrames = plan.hasTangentFrames;
     packPrimitives(scene, materials.firstRow, g);
-    g.lights = packLights(scene, g.bvh.placeOf, lights);
+    g.lights =
+        packLights(scene, g.bvh.placeOf, lights, appendPictures(g.materials, details.ofLights));
     nameLights(g);
     // Beside lights that are geometry: a rectangle that is none has its own mesh close by.
     if (lights.emitters) g.gapWidth = gapWidth(g);

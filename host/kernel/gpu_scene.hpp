@@ -21,8 +21,10 @@ struct GpuScene {
     LightTable lights;
     uint32_t bsdfKinds = 0;          ///< bit n: a primitive has a material of BSDF_ kind n
     uint32_t principledFeatures = 0; ///< PRINCIPLED_HAS_ bits: what primitives' materials have
-    uint32_t facetDistributions = 0; ///< FACETS_ bits, likewise
+    uint32_t facets = 0;             ///< FACETS_ bits, likewise
     bool hasEmission = false;        ///< a primitive emits
+    bool hasBlends = false;          ///< a primitive's material is a mixture
+    bool hasBlackBacks = false;      ///< a primitive's material is black behind
     float gapWidth = 0;              ///< gap_proposal.hpp
     bool hasTriangles = false, hasSpheres = false;
     bool hasNormals = false; ///< any triangle with shading normals

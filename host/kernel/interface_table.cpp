@@ -28,6 +28,7 @@ double fresnel(double cosine, double eta, double& cosTransmitted) {
 struct Microfacets {
     double alpha;
     FacetDistribution distribution;
+    FacetMasking masking;
 
     double area(double cosine) const {
         const double c = std::abs(cosine), sine = std::sqrt(std::max(1 - c * c, 0.0)) * alpha;
@@ -42,6 +43,12 @@ struct Microfacets {
             distribution == FacetDistribution::Ggx ? u / (1 - u) : -std::log1p(-u);
         return alpha * alpha * quantile;
     }
+    /// The share of the facets seen from one direction, of that area, that the other one meets.
+    double lit(double seen, double cosine, double otherCosine) const {
+        const double other = std::abs(otherCosine), otherArea = area(otherCosine);
+        if (masking == FacetMasking::Separable) return other / otherArea;
+        return other * seen / (other * seen + cosine * (otherArea - other));
+    }
 };
 
 /// How many rings of normals are summed: integrals over views need fewer.
@@ -55,10 +62,6 @@ struct Scattered {
 Scattered scatteredBy(const Microfacets& facets, double eta, double cosine, int rings) {
     constexpr int kSectors = 48;
     const double sine = std::sqrt(std::max(1 - cosine * cosine, 0.0)), area = facets.area(cosine);
-    const auto lit = [&](double cosI) {
-        const double c = std::abs(cosI);
-        return c * area / (c * area + cosine * (facets.area(c) - c));
-    };
     Scattered sum;
     for (int i = 0; i < rings; ++i) {
         // A substitution that makes the tails of GGX smooth: visible normals have 1 / cos more of
@@ -74,9 +77,10 @@ Scattered scatteredBy(const Microfacets& facets, double eta, double cosine, int 
             const double f = fresnel(std::min(cosO, 1.0), eta, cosTransmitted);
             const double seen = ring / kSectors * cosO / (z * area);
             const double reflectedZ = 2 * cosO * z - cosine;
-            if (reflectedZ > 0) sum.reflected += seen * f * lit(reflectedZ);
+            if (reflectedZ > 0) sum.reflected += seen * f * facets.lit(area, cosine, reflectedZ);
             const double transmittedZ = (eta * cosO - cosTransmitted) * z - eta * cosine;
-            if (f < 1 && transmittedZ < 0) sum.transmitted += seen * (1 - f) * lit(transmittedZ);
+            if (f < 1 && transmittedZ < 0)
+                sum.transmitted += seen * (1 - f) * facets.lit(area, cosine, transmittedZ);
         }
     }
     return sum;
@@ -107,7 +111,16 @@ double internalReflectance(double ior) {
     return ior > 1 ? 1 - (1 - fromOutside) / n2 : fromOutside;
 }
 
-double internalReflectance(double ior, double alpha, FacetDistribution distribution) {
+double internalReflectance(double ior, double alpha, const Facets& facets, uint32_t views) {
+    const Microfacets shape{alpha, facets.distribution, facets.masking};
+    if (views > 1) {
+        double sum = 0;
+        for (uint32_t i = 0; i < views; ++i) {
+            const double mu = std::max(double(i) / (views - 1), 1e-6);
+            sum += 2 * mu * scatteredBy(shape, ior, mu, kCoarse).reflected;
+        }
+        return sum / views;
+    }
     // Up to the critical angle and from there on: what narrow facets reflect ends there like a
     // square root.
     const double critical = std::sqrt(std::max(1 - 1 / square(ior), 0.0));
@@ -117,21 +130,22 @@ double internalReflectance(double ior, double alpha, FacetDistribution distribut
         const double s = (i + 0.5) / kViews;
         for (const double end : {0.0, 1.0}) {
             const double mu = critical + (end - critical) * s * s;
-            sum += 2 * mu * scatteredBy({alpha, distribution}, ior, mu, kCoarse).reflected * 2 * s *
+            sum += 2 * mu * scatteredBy(shape, ior, mu, kCoarse).reflected * 2 * s *
                    std::abs(end - critical) / kViews;
         }
     }
     return sum;
 }
 
-std::array<glm::vec4, gpu::TRANSMITTANCE_PIECES>
-transmittanceTable(double ior, double alpha, FacetDistribution distribution) {
+std::array<glm::vec4, gpu::TRANSMITTANCE_PIECES> transmittanceTable(double ior, double alpha,
+                                                                    const Facets& facets) {
+    const Microfacets shape{alpha, facets.distribution, facets.masking};
     constexpr uint32_t kPieces = gpu::TRANSMITTANCE_PIECES;
     std::array<double, 3 * kPieces + 1> at{};
     for (size_t i = 0; i < at.size(); ++i) {
         // Of a view along the surface the limit.
         const double mu = std::max(square(double(i) / (3 * kPieces)), 1e-9);
-        at[i] = scatteredBy({alpha, distribution}, 1 / ior, mu, kFine).transmitted;
+        at[i] = scatteredBy(shape, 1 / ior, mu, kFine).transmitted;
     }
     std::array<glm::vec4, kPieces> pieces;
     for (size_t i = 0; i < kPieces; ++i)

@@ -17,25 +17,31 @@ static_assert(float(Roulette::kMaxContinue) == gpu::ROULETTE_MAX_CONTINUE);
 static_assert(float(Roulette::kBoldness) == gpu::ROULETTE_BOLDNESS);
 
 /// By BSDF_ kind.
-constexpr std::array<uint32_t, gpu::BSDF_KIND_COUNT> kBsdfLobes = {
-    gpu::DIFFUSE_BSDF_LOBES,          gpu::MIRROR_BSDF_LOBES,
-    gpu::REFRACTION_BSDF_LOBES,       gpu::GLASS_BSDF_LOBES,
-    gpu::ROUGH_CONDUCTOR_BSDF_LOBES,  gpu::PRINCIPLED_BSDF_LOBES,
-    gpu::CONDUCTOR_BSDF_LOBES,        gpu::FACET_CONDUCTOR_BSDF_LOBES,
-    gpu::FACET_DIELECTRIC_BSDF_LOBES, gpu::THIN_DIELECTRIC_BSDF_LOBES,
-    gpu::PLASTIC_BSDF_LOBES,          gpu::FACET_PLASTIC_BSDF_LOBES};
+constexpr std::array<uint32_t, gpu::BSDF_KIND_COUNT> kBsdfLobes = {gpu::DIFFUSE_BSDF_LOBES,
+                                                                   gpu::MIRROR_BSDF_LOBES,
+                                                                   gpu::REFRACTION_BSDF_LOBES,
+                                                                   gpu::GLASS_BSDF_LOBES,
+                                                                   gpu::ROUGH_CONDUCTOR_BSDF_LOBES,
+                                                                   gpu::PRINCIPLED_BSDF_LOBES,
+                                                                   gpu::CONDUCTOR_BSDF_LOBES,
+                                                                   gpu::FACET_CONDUCTOR_BSDF_LOBES,
+                                                                   gpu::FACET_DIELECTRIC_BSDF_LOBES,
+                                                                   gpu::THIN_DIELECTRIC_BSDF_LOBES,
+                                                                   gpu::PLASTIC_BSDF_LOBES,
+                                                                   gpu::FACET_PLASTIC_BSDF_LOBES,
+                                                                   gpu::BURLEY_BSDF_LOBES};
 
 /// The numbers of a path ray that a BSDF takes are either the two within a lobe or the one that
 /// chooses a lobe, which is one of the two (scatter() in shaders/include/path.glsl). A kind with
 /// several lobes, one of them no delta lobe, needs all three: then that number has to come from a
-/// block of its own, as it does for the principled kind and for rough dielectrics
+/// block of its own, as it does for the principled kinds and for rough dielectrics
 /// (TAKES_THREE_NUMBERS in shaders/bsdf/bsdf.glsl), or the choice has to leave a number for what
 /// follows, as that of plastic does.
 constexpr bool someKindNeedsThreeNumbers() {
     for (uint32_t kind = 0; kind < gpu::BSDF_KIND_COUNT; ++kind) {
         const uint32_t lobes = kBsdfLobes[kind];
         if (kind == gpu::BSDF_PRINCIPLED || kind == gpu::BSDF_FACET_DIELECTRIC) continue;
-        if (kind == gpu::BSDF_PLASTIC) continue;
+        if (kind == gpu::BSDF_PLASTIC || kind == gpu::BSDF_BURLEY) continue;
         if ((lobes & (lobes - 1)) != 0 && (lobes & ~gpu::DELTA_LOBES) != 0) return true;
     }
     return false;
@@ -95,6 +101,8 @@ uint32_t filterConstant(PixelFilter filter) {
         return gpu::FILTER_BOX;
     case PixelFilter::Gaussian:
         return gpu::FILTER_GAUSSIAN;
+    case PixelFilter::Tent:
+        return gpu::FILTER_TENT;
     case PixelFilter::BlackmanHarris:
         return gpu::FILTER_BLACKMAN_HARRIS;
     }
@@ -108,7 +116,8 @@ void switchOnAllTheSceneCouldHave(KernelFeatures& f, const Estimator& settings) 
         f[SPEC_LIGHT_NUMBERS] = gpu::LIGHT_NUMBERS_FIRST;
     f[SPEC_BSDF_KINDS] = (1u << gpu::BSDF_KIND_COUNT) - 1;
     f[SPEC_PRINCIPLED_FEATURES] = gpu::PRINCIPLED_ALL_FEATURES;
-    f[SPEC_FACET_DISTRIBUTIONS] = gpu::FACETS_GGX | gpu::FACETS_BECKMANN;
+    f[SPEC_FACETS] = gpu::FACETS_GGX | gpu::FACETS_BECKMANN | gpu::FACETS_CORRELATED |
+                     gpu::FACETS_SEPARABLE | gpu::BURLEY_HAS_TRANSMISSION | gpu::BURLEY_HAS_THIN;
     f[SPEC_LIGHT_KINDS] = (1u << gpu::LIGHT_KIND_COUNT) - 1;
     if (f[SPEC_LIGHT_GROUPS]) f[SPEC_LIGHT_GROUPS] = (1u << gpu::LIGHT_GROUP_COUNT) - 1;
     if (combinesBouncesAndLightSamples(settings)) f[SPEC_MIS_LOBES] |= gpu::GLOSSY_LOBES;
@@ -137,8 +146,10 @@ void setDetails(KernelFeatures& f, const GpuScene& scene, bool normalsOnly) {
     f[SPEC_ATTRIBUTES] = scene.attributes;
     if (normalsOnly) return;
     f[SPEC_TANGENT_FRAMES] = scene.hasTangentFrames;
+    f[SPEC_BLENDS] = scene.hasBlends;
     // A map gives flat surfaces a shading normal too.
-    if (f[SPEC_TEXTURE_SLOTS] & 1u << gpu::TEXTURE_NORMAL) f[SPEC_HAS_NORMALS] = 1;
+    constexpr uint32_t kMaps = 1u << gpu::TEXTURE_NORMAL | 1u << gpu::TEXTURE_HEIGHT;
+    if (f[SPEC_TEXTURE_SLOTS] & kMaps) f[SPEC_HAS_NORMALS] = 1;
 }
 
 std::string textureText(const KernelFeatures& f) {
@@ -146,7 +157,8 @@ std::string textureText(const KernelFeatures& f) {
     return list(f[SPEC_TEXTURE_SLOTS],
                 {"base color", "metallic-roughness", "normal", "emission", "transmission",
                  "specular", "specular color", "clearcoat", "clearcoat roughness",
-                 "clearcoat normal", "sheen color", "sheen roughness", "anisotropy"});
+                 "clearcoat normal", "sheen color", "sheen roughness", "anisotropy", "height",
+                 "share of a mixture", "of a projector"});
 }
 
 /// What the principled materials have besides metal and dielectric.
@@ -191,8 +203,9 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_HAS_NORMALS] = scene.hasNormals;
     f[SPEC_BSDF_KINDS] = normalsOnly ? 0 : scene.bsdfKinds;
     f[SPEC_PRINCIPLED_FEATURES] = normalsOnly ? 0 : scene.principledFeatures;
-    f[SPEC_FACET_DISTRIBUTIONS] = normalsOnly ? 0 : scene.facetDistributions;
+    f[SPEC_FACETS] = normalsOnly ? 0 : scene.facets;
     f[SPEC_HAS_EMISSION] = !normalsOnly && scene.hasEmission;
+    f[SPEC_BLACK_BACKS] = !normalsOnly && scene.hasBlackBacks;
     f[SPEC_LIGHT_KINDS] = lightKinds(scene, settings);
     f[SPEC_INTEGRATOR] = normalsOnly ? gpu::INTEGRATOR_NORMALS : gpu::INTEGRATOR_PATH;
     f[SPEC_DIRECT_LIGHT] = samplesLights(settings.directLight) ? gpu::DIRECT_LIGHTS
@@ -240,7 +253,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
 std::vector<std::string> describe(const KernelFeatures& f) {
     static const char* const kDirect[] = {"light sampling", "uniform hemisphere",
                                           "left to bounces (delta lights sampled)"};
-    static const char* const kFilters[] = {"box", "Gaussian", "Blackman-Harris"};
+    static const char* const kFilters[] = {"box", "Gaussian", "Blackman-Harris", "tent"};
     static const char* const kRoulette[] = {"none", "by throughput", "fixed probability"};
     const std::string primitives =
         list(f[SPEC_HAS_TRIANGLES] | (f[SPEC_HAS_SPHERES] << 1), {"triangles", "spheres"});
@@ -249,20 +262,21 @@ std::vector<std::string> describe(const KernelFeatures& f) {
         fmt::format("instances: {}",
                     f[SPEC_HAS_PLACEMENTS] ? "meshes that share their triangles" : "none"),
         fmt::format("shading normals: {}", f[SPEC_HAS_NORMALS] ? "interpolated" : "none"),
-        fmt::format("materials: {}{}",
-                    list(f[SPEC_BSDF_KINDS], {"diffuse", "mirror", "refraction", "glass",
-                                              "rough conductor", "principled", "smooth conductor",
-                                              "conductor of facets", "dielectric of facets",
-                                              "thin dielectric", "plastic", "plastic of facets"}),
-                    principledText(f)),
+        fmt::format(
+            "materials: {}{}",
+            list(f[SPEC_BSDF_KINDS],
+                 {"diffuse", "mirror", "refraction", "glass", "rough conductor", "principled",
+                  "smooth conductor", "conductor of facets", "dielectric of facets",
+                  "thin dielectric", "plastic", "plastic of facets", "Burley's principled"}),
+            principledText(f)),
         fmt::format("textures: {}", textureText(f)),
         fmt::format("vertex colors: {}",
                     f[SPEC_ATTRIBUTES] & gpu::ATTRIBUTE_COLOR ? "yes" : "none"),
         fmt::format("opacity: {}", f[SPEC_ALPHA] ? "partly transparent" : "all opaque"),
         fmt::format("emission: {}", f[SPEC_HAS_EMISSION] ? "yes" : "none"),
-        fmt::format("lights: {}",
-                    list(f[SPEC_LIGHT_KINDS], {"quad", "triangle", "sphere", "ambient",
-                                               "directional", "point", "spot", "environment"})),
+        fmt::format("lights: {}", list(f[SPEC_LIGHT_KINDS],
+                                       {"quad", "triangle", "sphere", "ambient", "directional",
+                                        "point", "spot", "environment", "projector"})),
         fmt::format("ambient light: {}{}", ambientText(f),
                     f[SPEC_HAS_BACKDROP] ? ", seen by the camera" : ""),
         fmt::format("integrator: {}",

@@ -108,6 +108,7 @@ LightBounds boundsOfLight(const Light& light, double sceneRadius) {
         break;
     case LightKind::Point:
     case LightKind::Spot:
+    case LightKind::Projector:
         bounds.lo = bounds.hi = glm::dvec3(light.position);
         setFalloff(bounds, light, sceneRadius);
         if (light.kind == LightKind::Point) break;

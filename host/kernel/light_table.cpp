@@ -43,6 +43,23 @@ gpu::PointLight pointLight(const Light& l) {
     return p;
 }
 
+gpu::ProjectorLight projectorLight(const Light& l, uint32_t picture) {
+    gpu::ProjectorLight p{};
+    p.position = l.position;
+    p.cosCutoff = std::cos(0.5f * l.falloffAngle);
+    p.acrossU = l.edgeX;
+    p.acrossV = l.edgeY;
+    if (l.innerAngle) p.softness = 2 / (l.falloffAngle - *l.innerAngle);
+    p.picture = picture;
+    return p;
+}
+
+uint32_t flagsOf(const Light& l) {
+    if (l.kind != LightKind::Projector) return 0;
+    const bool isMirrored = glm::dot(glm::cross(l.edgeX, l.edgeY), l.direction) < 0;
+    return (isMirrored ? gpu::LIGHT_IS_MIRRORED : 0) | (l.isFramed ? gpu::LIGHT_IS_FRAMED : 0);
+}
+
 /// How far apart surfaces and lights are, more or less: half the diagonal of the scene.
 double radiusOf(const Scene& scene) {
     const Bounds bounds = scene.bounds();
@@ -53,9 +70,10 @@ double radiusOf(const Scene& scene) {
 /// Collects the lights that are sampled, with what one is picked by.
 class Packer {
   public:
-    Packer(const Scene& scene, std::span<const uint32_t> placeOf, const LightSelection& selection)
-        : scene_(scene), placeOf_(placeOf), selection_(selection), sceneRadius_(radiusOf(scene)),
-          means_(scene) {
+    Packer(const Scene& scene, std::span<const uint32_t> placeOf, const LightSelection& selection,
+           std::span<const uint32_t> pictures)
+        : scene_(scene), placeOf_(placeOf), selection_(selection), pictures_(pictures),
+          sceneRadius_(radiusOf(scene)), means_(scene) {
         out_.choice = selection.choice;
     }
 
@@ -172,6 +190,8 @@ class Packer {
             return gpu::LIGHT_POINT;
         case LightKind::Spot:
             return gpu::LIGHT_SPOT;
+        case LightKind::Projector:
+            return gpu::LIGHT_PROJECTOR;
         }
         return gpu::LIGHT_POINT;
     }
@@ -180,12 +200,17 @@ class Packer {
         const LightBounds bounds = boundsOfLight(l, sceneRadius_);
         if (!shines(bounds) && !selection_.everyLightOfTheFile) return;
         const uint32_t kind = kindOf(l.kind);
-        const uint32_t number = addRows(l.color, kind);
+        const uint32_t number = addRows(l.color, kind | flagsOf(l));
         if (l.kind == LightKind::Area) appendRows(out_.lights, rectangle(l));
         if (l.kind == LightKind::Directional)
             appendRows(out_.lights, gpu::DirectionalLight{-l.direction, 0});
         if (l.kind == LightKind::Point || l.kind == LightKind::Spot)
             appendRows(out_.lights, pointLight(l));
+        if (l.kind == LightKind::Projector) {
+            const size_t index = size_t(&l - scene_.lights.data());
+            const uint32_t picture = index < pictures_.size() ? pictures_[index] : 0;
+            appendRows(out_.lights, projectorLight(l, picture));
+        }
         fillRows();
         addEntry(kind, number, bounds);
     }
@@ -312,6 +337,7 @@ class Packer {
     const Scene& scene_;
     std::span<const uint32_t> placeOf_;
     LightSelection selection_;
+    std::span<const uint32_t> pictures_; ///< by light of the scene, the row of its picture
     double sceneRadius_;
     MeanEmission means_;
     uint32_t meshes_ = 0;
@@ -336,8 +362,8 @@ LightSelection lightSelection(const Estimator& settings) {
 }
 
 LightTable packLights(const Scene& scene, std::span<const uint32_t> placeOf,
-                      const LightSelection& selection) {
-    return Packer(scene, placeOf, selection).pack();
+                      const LightSelection& selection, std::span<const uint32_t> pictures) {
+    return Packer(scene, placeOf, selection, pictures).pack();
 }
 
 } // namespace stromboli

@@ -50,7 +50,8 @@ struct LightTable {
 };
 
 /// placeOf: by primitive of the scene, what a LightEntry is to name an emissive triangle by.
+/// pictures: by light of the scene, the first row of its picture's TextureUse; empty: none has one.
 LightTable packLights(const Scene& scene, std::span<const uint32_t> placeOf,
-                      const LightSelection& selection);
+                      const LightSelection& selection, std::span<const uint32_t> pictures = {});
 
 } // namespace stromboli

@@ -4,6 +4,7 @@
 #include "shaders/shared/texture_types.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace stromboli {
@@ -69,31 +70,55 @@ gpu::PrincipledParameters principledRows(const Material& m) {
 static_assert(kLeastAlpha == gpu::LEAST_GGX_ALPHA);
 static_assert(kLeastRefractionAlpha == gpu::LEAST_REFRACTION_ALPHA);
 
-uint32_t isBeckmann(const Material& m) {
-    return m.facets.distribution == FacetDistribution::Beckmann;
+/// FACETS_ bits.
+uint32_t bitsOf(const Facets& facets) {
+    const bool isBeckmann = facets.distribution == FacetDistribution::Beckmann;
+    const bool isSeparable = facets.masking == FacetMasking::Separable;
+    return (isBeckmann ? gpu::FACETS_BECKMANN : gpu::FACETS_GGX) |
+           (isSeparable ? gpu::FACETS_SEPARABLE : gpu::FACETS_CORRELATED);
 }
 
 gpu::ConductorParameters conductorRows(const Material& m) {
     const glm::vec2 alpha = m.facetAlpha();
-    return {m.reflectance, alpha.y, m.eta, alpha.x, m.k, isBeckmann(m)};
+    return {m.reflectance, alpha.y, m.eta, alpha.x, m.k, bitsOf(m.facets)};
 }
 
 gpu::FacetDielectricParameters facetDielectricRows(const Material& m) {
     Material least = m;
     least.facets.alpha = glm::vec2(0);
     const glm::vec2 alpha = m.facetAlpha();
-    return {m.transmittance, alpha.y, m.reflectance, alpha.x, m.ior, least.facetAlpha().x,
-            isBeckmann(m),   0};
+    return {m.transmittance,  alpha.y, m.reflectance, alpha.x, m.ior, least.facetAlpha().x,
+            bitsOf(m.facets), 0};
 }
 
 /// Without the place of the table.
 gpu::PlasticParameters plasticRows(const Material& m) {
     const float alpha = m.facetAlpha().x;
-    const double inside = m.isSmooth() ? internalReflectance(m.ior)
-                                       : internalReflectance(m.ior, alpha, m.facets.distribution);
-    const uint32_t flags = (m.isNonlinear ? gpu::PLASTIC_IS_NONLINEAR : 0) |
-                           (isBeckmann(m) != 0 ? gpu::PLASTIC_IS_BECKMANN : 0);
+    const double inside = m.isSmooth()
+                              ? internalReflectance(m.ior)
+                              : internalReflectance(m.ior, alpha, m.facets, m.internalViews);
+    const uint32_t flags = (m.isNonlinear ? gpu::PLASTIC_IS_NONLINEAR : 0) | bitsOf(m.facets);
     return {m.albedo, float(inside), m.reflectance, m.ior, alpha, flags, 0, 0};
+}
+
+gpu::BurleyParameters burleyRows(const BurleyParameters& p) {
+    gpu::BurleyParameters g{};
+    g.baseColor = p.baseColor;
+    g.metallic = p.isThin ? 0 : p.metallic;
+    g.flatness = p.flatness;
+    g.diffuseTransmission = p.diffuseTransmission;
+    g.leastAlpha = p.leastAlpha();
+    g.roughness = p.roughness;
+    g.specularTint = p.specularTint;
+    g.ior = p.usedIor();
+    g.transmission = p.transmission;
+    g.anisotropy = p.anisotropy;
+    g.sheen = glm::vec3(p.sheen);
+    g.sheenTint = p.sheenTint;
+    g.clearcoat = p.isThin ? 0 : p.clearcoat;
+    g.clearcoatGloss = p.clearcoatGloss;
+    g.flags = p.isThin ? gpu::BURLEY_IS_THIN : 0;
+    return g;
 }
 
 void appendParameters(std::vector<Row>& rows, const Material& m) {
@@ -121,6 +146,8 @@ void appendParameters(std::vector<Row>& rows, const Material& m) {
                           gpu::ThinDielectricParameters{m.transmittance, m.ior, m.reflectance, 0});
     case MaterialKind::Plastic:
         return appendRows(rows, plasticRows(m));
+    case MaterialKind::Burley:
+        return appendRows(rows, burleyRows(m.burley));
     }
 }
 
@@ -133,20 +160,34 @@ void appendTables(MaterialRows& packed, std::span<const Material> materials) {
         static_assert(offsetof(gpu::PlasticParameters, table) ==
                       16 * (kRowOfTable - 1) + 4 * kPlace);
         packed.rows[packed.firstRow[i] + kRowOfTable][kPlace] = uint32_t(packed.rows.size());
-        for (const glm::vec4& piece :
-             transmittanceTable(m.ior, m.facetAlpha().x, m.facets.distribution))
+        for (const glm::vec4& piece : transmittanceTable(m.ior, m.facetAlpha().x, m.facets))
             appendRows(packed.rows, piece);
+    }
+}
+
+/// A blend is the last row of a material's details, and names another material by its number.
+void nameOthers(MaterialRows& packed, std::span<const Material> materials,
+                std::span<const std::vector<Row>> details) {
+    for (size_t i = 0; i < details.size(); ++i) {
+        const auto detail = std::bit_cast<gpu::MaterialDetail>(details[i].front());
+        if ((detail.flags & gpu::DETAIL_IS_BLEND) == 0) continue;
+        const size_t row = packed.firstRow[i] + gpu::MATERIAL_DETAIL_ROW + details[i].size() - 1;
+        packed.rows[row][0] = packed.firstRow.at(materials[i].other);
     }
 }
 
 } // namespace
 
-uint32_t facetDistribution(const Material& material) {
+uint32_t facetBits(const Material& material) {
+    if (const BurleyParameters& b = material.burley; material.kind == MaterialKind::Burley)
+        return gpu::FACETS_GGX | gpu::FACETS_SEPARABLE |
+               (b.transmits() ? gpu::BURLEY_HAS_TRANSMISSION : 0) |
+               (b.isThin ? gpu::BURLEY_HAS_THIN : 0);
     const bool canHave = material.kind == MaterialKind::Conductor ||
                          material.kind == MaterialKind::Dielectric ||
                          material.kind == MaterialKind::Plastic;
     if (!canHave || material.isSmooth()) return 0;
-    return isBeckmann(material) != 0 ? gpu::FACETS_BECKMANN : gpu::FACETS_GGX;
+    return bitsOf(material.facets);
 }
 
 uint32_t bsdfKind(const Material& material) {
@@ -172,6 +213,8 @@ uint32_t bsdfKind(const Material& material) {
         return gpu::BSDF_THIN_DIELECTRIC;
     case MaterialKind::Plastic:
         return isSmooth ? gpu::BSDF_PLASTIC : gpu::BSDF_FACET_PLASTIC;
+    case MaterialKind::Burley:
+        return gpu::BSDF_BURLEY;
     }
     return gpu::BSDF_DIFFUSE;
 }
@@ -195,10 +238,11 @@ MaterialRows packMaterials(std::span<const Material> materials,
     MaterialRows packed;
     for (const Material& m : materials) {
         packed.firstRow.push_back(uint32_t(packed.rows.size()));
-        appendRows(
-            packed.rows,
-            gpu::MaterialHeader{
-                m.emission, bsdfKind(m) | (m.emitsBothSides ? gpu::MATERIAL_EMITS_BOTH_SIDES : 0)});
+        appendRows(packed.rows,
+                   gpu::MaterialHeader{m.emission,
+                                       bsdfKind(m) |
+                                           (m.emitsBothSides ? gpu::MATERIAL_EMITS_BOTH_SIDES : 0) |
+                                           (m.isBlackBehind ? gpu::MATERIAL_IS_BLACK_BEHIND : 0)});
         appendParameters(packed.rows, m);
         if (details.empty()) continue;
         const std::vector<Row>& own = details[packed.firstRow.size() - 1];
@@ -208,6 +252,7 @@ MaterialRows packMaterials(std::span<const Material> materials,
     }
     packed.rows.resize(packed.rows.size() + kMostRows - 1);
     appendTables(packed, materials);
+    nameOthers(packed, materials, details);
     return packed;
 }
 

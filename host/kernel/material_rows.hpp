@@ -22,8 +22,9 @@ MaterialRows packMaterials(std::span<const Material> materials,
 /// PRINCIPLED_HAS_ bits of what the material has; 0 for other kinds.
 uint32_t principledFeatures(const Material& material);
 
-/// The FACETS_ bit of the microfacets of a conductor, a dielectric or plastic; 0 where it has none.
-uint32_t facetDistribution(const Material& material);
+/// The FACETS_ and BURLEY_HAS_ bits of the microfacets of a conductor, a dielectric or plastic; 0
+/// where it has none.
+uint32_t facetBits(const Material& material);
 
 /// The BSDF_ kind that stands for a material of the scene.
 uint32_t bsdfKind(const Material& material);

@@ -1,5 +1,6 @@
 #include "host/reference/bsdf.hpp"
 
+#include "host/reference/burley.hpp"
 #include "host/reference/fresnel.hpp"
 #include "host/reference/interfaces.hpp"
 #include "host/reference/microfacet.hpp"
@@ -100,6 +101,8 @@ BsdfValue evaluateLocally(const Material& m, const Incidence& i, const glm::dvec
         return m.isSmooth() ? BsdfValue{} : evaluateFacetDielectric(m, i.wo, i.entering, wi);
     case MaterialKind::Plastic:
         return evaluatePlastic(m, i.wo, wi);
+    case MaterialKind::Burley:
+        return evaluateBurley(m.burley, i.wo, i.entering, wi);
     case MaterialKind::Mirror:
     case MaterialKind::Refraction:
     case MaterialKind::Glass:
@@ -131,6 +134,8 @@ BsdfSample sampleLocally(const Material& m, const Incidence& i, const glm::dvec3
         return sampleThinDielectric(m, i.wo, u.z);
     case MaterialKind::Plastic:
         return samplePlastic(m, i.wo, u);
+    case MaterialKind::Burley:
+        return sampleBurley(m.burley, i.wo, i.entering, u);
     }
     return {};
 }
@@ -191,6 +196,8 @@ uint32_t lobesOf(const Material& material) {
         return gpu::THIN_DIELECTRIC_BSDF_LOBES;
     case MaterialKind::Plastic:
         return material.isSmooth() ? gpu::PLASTIC_BSDF_LOBES : gpu::FACET_PLASTIC_BSDF_LOBES;
+    case MaterialKind::Burley:
+        return burleyLobes(material.burley);
     }
     return 0;
 }

@@ -26,8 +26,8 @@ constexpr double kSteepest = 6;
 } // namespace
 
 FacetModel::FacetModel(const Material& material)
-    : distribution(material.facets.distribution), alphaX(material.facetAlpha().x),
-      alphaY(material.facetAlpha().y) {}
+    : distribution(material.facets.distribution), masking(material.facets.masking),
+      alphaX(material.facetAlpha().x), alphaY(material.facetAlpha().y) {}
 
 double FacetModel::density(const glm::dvec3& h) const {
     if (distribution == FacetDistribution::Ggx) return Ggx{alphaX, alphaY}.density(h);
@@ -45,6 +45,7 @@ double FacetModel::lambda(const glm::dvec3& w) const {
 }
 
 double FacetModel::visibleFromBoth(const glm::dvec3& wo, const glm::dvec3& wi) const {
+    if (masking == FacetMasking::Separable) return 1 / ((1 + lambda(wo)) * (1 + lambda(wi)));
     return 1 / (1 + lambda(wo) + lambda(wi));
 }
 

@@ -7,9 +7,10 @@
 namespace stromboli::reference {
 
 /// Microfacets of either distribution, stretched along the axes of the frame of the shading normal
-/// (z), with Smith's height-correlated masking and shadowing. Directions are unit vectors.
+/// (z), with Smith's masking and shadowing. Directions are unit vectors.
 struct FacetModel {
     FacetDistribution distribution;
+    FacetMasking masking;
     double alphaX, alphaY; ///< > 0
 
     explicit FacetModel(const Material& material);
@@ -18,7 +19,7 @@ struct FacetModel {
     double density(const glm::dvec3& h) const;
     /// Smith's Lambda; the sign of w.z has no meaning.
     double lambda(const glm::dvec3& w) const;
-    /// 1 / (1 + Lambda(wo) + Lambda(wi)).
+    /// The share of facets seen from wo and lit from wi, as `masking` says.
     double visibleFromBoth(const glm::dvec3& wo, const glm::dvec3& wi) const;
     /// Density, by solid angle, of the normals seen from wo, wo.z > 0.
     double visibleDensity(const glm::dvec3& wo, const glm::dvec3& h) const;

@@ -1,6 +1,7 @@
 #include "host/reference/integrator.hpp"
 
 #include "host/reference/bsdf.hpp"
+#include "host/reference/burley.hpp"
 #include "host/reference/interfaces.hpp"
 #include "host/reference/principled.hpp"
 #include "host/reference/sampling.hpp"
@@ -31,7 +32,15 @@ glm::dvec3 transmittance(const Material* medium, double distance) {
 /// The kernel shares the light between both.
 bool leavesLightsToBounces(const Material& material) {
     return (material.kind == MaterialKind::Principled && isNarrow(material.principled)) ||
+           (material.kind == MaterialKind::Burley && isNarrow(material.burley)) ||
            hasNarrowFacets(material);
+}
+
+/// Whether the surface, its normals as stated, is seen from where its material is black. Its front
+/// is where its shading normals point.
+bool isBlackFromThere(const SurfacePoint& s) {
+    if (!s.material->isBlackBehind) return false;
+    return (glm::dot(s.geometric, s.wo) < 0) != (glm::dot(s.geometric, s.shading) < 0);
 }
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -54,6 +63,7 @@ glm::dvec3 PathSample::radiance(const Ray& cameraRay) {
 
 void PathSample::follow(uint32_t bounce, bool splits) {
     for (; bounce <= settings_.maxBounces; ++bounce) {
+        if (isBlackFromThere(surface_)) return;
         faceForward(surface_, world_.conventions);
         if (world_.hasDetails) applyNormalMap(surface_, world_.scene, world_.conventions);
         if (!survivesFixed()) return;
@@ -109,6 +119,7 @@ bool PathSample::arrive(const Ray& ray, Skip skip) {
     throughput_ *= transmittance(medium_, misses ? kInfinite : hit.t);
     if (misses) return false;
     surface_ = surfaceAt(world_.scene, ray, hit);
+    drawMaterial(surface_, world_.scene, passes_);
     if (world_.hasDetails) applyTextures(surface_, world_.scene);
     return true;
 }

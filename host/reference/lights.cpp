@@ -60,6 +60,27 @@ double spotFalloff(const Light& light, double cosine) {
     return std::pow(std::max(cosine, 0.0), double(light.falloffExponent));
 }
 
+/// d: unit, the way the light travels.
+glm::dvec3 projected(const Scene& scene, const Light& light, const glm::dvec3& axis,
+                     const glm::dvec3& d) {
+    const double cosine = glm::dot(axis, d), outer = double(light.falloffAngle) / 2;
+    const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
+    if (!(cosine > 0 && angle < outer)) return glm::dvec3(0.0);
+    double factor = 1;
+    if (light.innerAngle)
+        factor = std::min((outer - angle) / (outer - double(*light.innerAngle) / 2), 1.0);
+    PointAttributes at;
+    at.uv[0] = 0.5 + glm::dvec2(glm::dot(glm::dvec3(light.edgeX), d),
+                                glm::dot(glm::dvec3(light.edgeY), d)) /
+                         cosine;
+    if (light.isFramed) {
+        if (at.uv[0] != glm::clamp(at.uv[0], 0.0, 1.0)) return glm::dvec3(0.0);
+        factor /= cosine * cosine * cosine;
+    }
+    return light.picture ? factor * glm::dvec3(lookUp(scene, *light.picture, at))
+                         : glm::dvec3(factor);
+}
+
 } // namespace
 
 Lights::Lights(const Scene& scene, const ShadingConventions& conventions)
@@ -161,6 +182,8 @@ LightSample Lights::sampleDelta(size_t index, const SurfacePoint& surface) const
     if (distance == 0) return LightSample{};
     sample.direction = to / distance;
     sample.value /= attenuation(light, distance);
+    if (light.kind == LightKind::Projector)
+        sample.value *= projected(scene_, light, axis, -sample.direction);
     if (light.kind == LightKind::Spot)
         sample.value *= spotFalloff(light, -glm::dot(sample.direction, axis));
     return sample;

@@ -33,6 +33,11 @@ glm::dvec2 sampleGaussian(double u, double v) {
     return {radius * std::cos(2 * kPi * v), radius * std::sin(2 * kPi * v)};
 }
 
+/// Of the density 1 - |x|.
+double sampleTent(double u) {
+    return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 * (1 - u));
+}
+
 } // namespace
 
 glm::dvec2 placeInPixel(PixelFilter filter, double u, double v) {
@@ -42,6 +47,8 @@ glm::dvec2 placeInPixel(PixelFilter filter, double u, double v) {
         break;
     case PixelFilter::Gaussian:
         return 0.5 + sampleGaussian(u, v);
+    case PixelFilter::Tent:
+        return {0.5 + sampleTent(u), 0.5 + sampleTent(v)};
     case PixelFilter::BlackmanHarris:
         return 0.5 + width * (glm::dvec2(sampleBlackmanHarris(u), sampleBlackmanHarris(v)) - 0.5);
     }

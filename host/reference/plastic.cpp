@@ -81,6 +81,13 @@ PlasticInterface::PlasticInterface(const Material& m)
         internal_ += 2 * mu * back / views;
     }
     if (smooth_) return;
+    if (const uint32_t few = m.internalViews; few > 1) {
+        internal_ = 0;
+        for (uint32_t i = 0; i < few; ++i) {
+            const double mu = std::max(double(i) / (few - 1), 1e-6);
+            internal_ += 2 * mu * scatteredBy(facets, m.ior, mu, 64).reflected / few;
+        }
+    }
     for (int i = 0; i <= kKnots; ++i) {
         const double root = std::max(double(i) / kKnots, 1e-5);
         table_.push_back(scatteredBy(facets, eta_, root * root, 256).transmitted);
@@ -98,12 +105,12 @@ double PlasticInterface::transmittance(double cosine) const {
 
 /// Made once for all materials that have the same.
 const PlasticInterface& interfaceOf(const Material& m) {
-    using Key = std::tuple<float, float, FacetDistribution>;
+    using Key = std::tuple<float, float, FacetDistribution, FacetMasking, uint32_t>;
     static std::mutex mutex;
     static std::map<Key, std::unique_ptr<PlasticInterface>> known;
     const float alpha = m.isSmooth() ? 0 : m.facetAlpha().x;
     const std::lock_guard lock(mutex);
-    auto& own = known[{m.ior, alpha, m.facets.distribution}];
+    auto& own = known[{m.ior, alpha, m.facets.distribution, m.facets.masking, m.internalViews}];
     if (!own) own = std::make_unique<PlasticInterface>(m);
     return *own;
 }

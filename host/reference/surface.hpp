@@ -53,10 +53,14 @@ struct SmoothTriangle {
 /// Where conventions do not face forward, this only takes the lift away.
 void faceForward(SurfacePoint& surface, const ShadingConventions& conventions);
 
+class RandomStream;
+
+/// Of a mixture: the material that light meets there, drawn.
+void drawMaterial(SurfacePoint& surface, const Scene& scene, RandomStream& random);
 /// Takes in textures and the colours of corners: the material's parameters, as stated before
 /// faceForward().
 void applyTextures(SurfacePoint& surface, const Scene& scene);
-/// After faceForward(): the shading normal by the normal map, and the tangent.
+/// After faceForward(): the shading normal by heights or the normal map, and the tangent.
 void applyNormalMap(SurfacePoint& surface, const Scene& scene,
                     const ShadingConventions& conventions);
 

@@ -1,3 +1,4 @@
+#include "host/reference/random.hpp"
 #include "host/reference/surface.hpp"
 #include "scene/model/surface_lookup.hpp"
 
@@ -36,7 +37,36 @@ bool hasSpecularColor(const Material& m) {
            (m.kind == MaterialKind::Dielectric && !m.isSmooth());
 }
 
+/// Numbers have slots of the principled material's numbers.
+void apply(BurleyParameters& p, TextureSlot slot, const glm::dvec4& texel) {
+    switch (slot) {
+    case TextureSlot::MetallicRoughness:
+        multiply(p.roughness, texel.g);
+        return multiply(p.metallic, texel.b);
+    case TextureSlot::Transmission:
+        return multiply(p.transmission, texel.r);
+    case TextureSlot::Specular:
+        return multiply(p.specularTint, texel.a);
+    case TextureSlot::SpecularColor:
+        multiply(p.flatness, texel.r);
+        return multiply(p.diffuseTransmission, texel.g);
+    case TextureSlot::Clearcoat:
+        return multiply(p.clearcoat, texel.r);
+    case TextureSlot::ClearcoatRoughness:
+        return multiply(p.clearcoatGloss, texel.g);
+    case TextureSlot::SheenColor:
+        return multiply(p.sheen, texel.r);
+    case TextureSlot::SheenRoughness:
+        return multiply(p.sheenTint, texel.a);
+    case TextureSlot::Anisotropy:
+        return multiply(p.anisotropy, texel.b);
+    default:
+        return;
+    }
+}
+
 void apply(Material& m, TextureSlot slot, const glm::dvec4& texel) {
+    if (m.kind == MaterialKind::Burley) apply(m.burley, slot, texel);
     PrincipledParameters& p = m.principled;
     const glm::dvec3 color(texel);
     switch (slot) {
@@ -69,6 +99,9 @@ void apply(Material& m, TextureSlot slot, const glm::dvec4& texel) {
         return;
     case TextureSlot::Normal:
     case TextureSlot::ClearcoatNormal:
+    case TextureSlot::Height:
+    case TextureSlot::BlendShare:
+    case TextureSlot::Projection:
         return; // no parameter
     }
 }
@@ -92,7 +125,45 @@ glm::dvec4 tangentOf(const SurfacePoint& s, const Scene& scene, const Material& 
     return {glm::normalize(sum), isTurned ? -side : side};
 }
 
+/// Raises the surface by heights over the texture coordinates u and v (Blinn 1978): its derivatives
+/// along them, made perpendicular to the shading normal n, get n times the height's. How n itself
+/// changes along them is left out, as usual.
+void applyHeights(SurfacePoint& s, const Scene& scene, const TextureUse& map,
+                  const ShadingConventions& conventions) {
+    const auto& corners = scene.attributeCorners[s.triangle];
+    if (corners[0] == kNoAttributes) return;
+    const Triangle& t = scene.triangles[s.triangle];
+    const auto position = [&](int c) { return glm::dvec3(scene.positions[t.corner[c]]); };
+    const auto uv = [&](int c) { return glm::dvec2(scene.attributes[corners[c]].uv[0]); };
+    const glm::dmat2 uvEdges(uv(1) - uv(0), uv(2) - uv(0));
+    const double determinant = glm::determinant(uvEdges);
+    if (!(std::abs(determinant) > 0)) return; // no derivatives
+    const glm::dmat2x3 edges(position(1) - position(0), position(2) - position(0));
+    const glm::dmat2x3 byUv = edges * glm::inverse(uvEdges);
+    // Seen from behind, a bump is a dent.
+    const bool isTurned = conventions.facesForward && !s.outside;
+    const glm::dvec2 slope =
+        (isTurned ? -1.0 : 1.0) * double(map.scale) * slopeOf(scene, map, attributesOf(s, scene));
+    if (slope == glm::dvec2(0.0)) return;
+    const glm::dvec3& n = s.shading;
+    const glm::dvec3 alongU = byUv[0] + (slope.x - glm::dot(n, byUv[0])) * n;
+    const glm::dvec3 alongV = byUv[1] + (slope.y - glm::dot(n, byUv[1])) * n;
+    const glm::dvec3 raised = glm::cross(alongU, alongV);
+    const double length = glm::length(raised), side = glm::dot(raised, n);
+    if (!(length > 0 && std::isfinite(length) && side != 0)) return;
+    s.shading = raised / (side > 0 ? length : -length);
+    // Light of what mirrors goes where the view decides, and would be lost below the surface.
+    const bool mirrors = s.material->kind != MaterialKind::Diffuse;
+    if (conventions.facesForward && mirrors) s.shading = bendNormal(s.shading, s.geometric, s.wo);
+}
+
 } // namespace
+
+void drawMaterial(SurfacePoint& s, const Scene& scene, RandomStream& random) {
+    const PointAttributes at = attributesOf(s, scene);
+    while (s.material->other != kNoMaterial && random.next() < otherShareAt(scene, *s.material, at))
+        s.material = s.stated = &scene.materials[s.material->other];
+}
 
 void applyTextures(SurfacePoint& s, const Scene& scene) {
     const PointAttributes at = attributesOf(s, scene);
@@ -106,6 +177,8 @@ void applyTextures(SurfacePoint& s, const Scene& scene) {
 }
 
 void applyNormalMap(SurfacePoint& s, const Scene& scene, const ShadingConventions& conventions) {
+    if (const TextureUse* heights = textureIn(*s.material, TextureSlot::Height))
+        if (s.triangle != kNoPrimitive) applyHeights(s, scene, *heights, conventions);
     const TextureUse* map = textureIn(*s.material, TextureSlot::Normal);
     if (!map && !s.material->hasGrain()) return;
     const bool isTurned = conventions.facesForward && !s.outside;

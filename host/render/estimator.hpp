@@ -59,12 +59,14 @@ enum class PixelFilter {
     Box,
     Gaussian,       ///< standard deviation 0.5 pixels
     BlackmanHarris, ///< the four-term window (Harris 1978), 3 pixels wide
+    Tent,           ///< a pyramid, 2 pixels wide
 };
 template <>
 inline constexpr auto kNamedValues<PixelFilter> = std::to_array<NamedValue<PixelFilter>>({
     {PixelFilter::Box, "box", "the pixel's own square"},
     {PixelFilter::Gaussian, "gaussian", "standard deviation 0.5 pixels"},
     {PixelFilter::BlackmanHarris, "blackman-harris", "a bell 3 pixels wide"},
+    {PixelFilter::Tent, "tent", "a pyramid 2 pixels wide"},
 });
 
 /// How a light sample picks one of the lights (docs/estimator.md, "Which light").

@@ -35,6 +35,10 @@ uint32_t SceneBuilder::addImage(TextureImage image) {
     return uint32_t(scene_.images.size() - 1);
 }
 
+const TextureImage& SceneBuilder::imageOf(uint32_t texture) const {
+    return scene_.images.at(scene_.textures.at(texture).image);
+}
+
 uint32_t SceneBuilder::addTexture(const Texture& texture) {
     scene_.textures.push_back(texture);
     return uint32_t(scene_.textures.size() - 1);
@@ -75,7 +79,7 @@ void SceneBuilder::placeLight(Light light, const glm::dmat4& toWorld) {
     }
 }
 
-void SceneBuilder::placeCamera(FileCamera camera, const glm::dmat4& toWorld) {
+void SceneBuilder::placeCamera(FileCamera camera, const glm::dmat4& toWorld, bool isMirrored) {
     const glm::dvec3 scale = axisLengths(toWorld);
     if (!poseCamera(camera, toWorld))
         return report_.warn(fmt::format(
@@ -84,6 +88,7 @@ void SceneBuilder::placeCamera(FileCamera camera, const glm::dmat4& toWorld) {
         report_.warn(fmt::format("camera '{}': its node scales the axes unequally, which its "
                                  "picture does not show",
                                  camera.name));
+    if (isMirrored) camera.right = -camera.right;
     if (conventions_.scaleCameras) scaleCamera(camera, scale);
     scene_.cameras.push_back(std::move(camera));
 }

@@ -52,6 +52,8 @@ class SceneBuilder {
     /// Return the numbers by which textures name the picture, and materials the texture.
     uint32_t addImage(TextureImage image);
     uint32_t addTexture(const Texture& texture);
+    /// The picture of a texture that was added.
+    const TextureImage& imageOf(uint32_t texture) const;
     /// The material of surfaces that name none: mid grey.
     uint32_t defaultMaterial();
     /// A fraction of light per channel: negative ones become 0 and those above 1 become 1 (unless
@@ -83,7 +85,8 @@ class SceneBuilder {
     /// Adds a camera with name, projection, extents and depth range set, in lengths of its own
     /// space; the matrix gives its pose (it looks along its own -z axis, +y up) and scales its
     /// lengths. A camera whose matrix is singular is left out with a warning.
-    void placeCamera(FileCamera camera, const glm::dmat4& toWorld);
+    /// isMirrored: its picture is a mirror image, x pointing to the left.
+    void placeCamera(FileCamera camera, const glm::dmat4& toWorld, bool isMirrored = false);
 
     /// The scene, with its report; nothing can be added after. A scene that has something to light
     /// and nothing that lights it gets the default light, where the conventions have one. Throws

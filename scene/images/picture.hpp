@@ -22,7 +22,7 @@ struct Picture {
     size_t texelCount() const { return size_t(width) * height; }
 };
 
-/// Decodes the bytes of a PNG, JPEG, WebP, Radiance HDR, OpenEXR or TGA file, told by their
+/// Decodes the bytes of a PNG, JPEG, WebP, BMP, Radiance HDR, OpenEXR or TGA file, told by their
 /// beginning. `name` is what messages call it. Throws SceneError if the bytes are none of these,
 /// truncated or damaged, if a side exceeds kLargestSide, if they are too few for the size that they
 /// claim, or if the pixels would not fit in the machine's memory.
@@ -34,6 +34,7 @@ Picture decodeJpeg(std::string_view bytes, const std::string& name);
 Picture decodeWebp(std::string_view bytes, const std::string& name);
 Picture decodeHdr(std::string_view bytes, const std::string& name);
 Picture decodeExr(std::string_view bytes, const std::string& name);
+Picture decodeBmp(std::string_view bytes, const std::string& name);
 Picture decodeTga(std::string_view bytes, const std::string& name);
 
 /// True if a file that begins like this can be a TGA: the format has no mark of its own, but few

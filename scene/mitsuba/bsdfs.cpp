@@ -15,6 +15,12 @@ Surface readInside(SurfaceMaker& maker, Context& context, Textures& textures) {
     return readBsdf(context, textures, *inside);
 }
 
+/// A texture of all materials that a mixture is of.
+void addTexture(Surface& surface, const TextureUse& use) {
+    for (Surface* each = &surface; each; each = each->other.get())
+        each->material.textures.push_back(use);
+}
+
 Surface diffuse(SurfaceMaker& maker) {
     maker.material.kind = MaterialKind::Diffuse;
     maker.color("reflectance", glm::dvec3(0.5), maker.material.albedo, TextureSlot::BaseColor);
@@ -60,22 +66,23 @@ Surface plastic(SurfaceMaker& maker) {
                   refractiveIndex(maker.plugin, "ext_ior", "air"));
     m.isNonlinear = maker.plugin.flag("nonlinear").value_or(false);
     if (maker.plugin.type == "roughplastic") maker.facets();
+    m.internalViews = 64;
     maker.color("diffuse_reflectance", glm::dvec3(0.5), m.albedo, TextureSlot::BaseColor);
     maker.color("specular_reflectance", glm::dvec3(1), m.reflectance, TextureSlot::SpecularColor);
     return maker.done();
 }
 
-/// Our surfaces are alike on both sides.
+/// The back is the front's mirror image.
 Surface twoSided(SurfaceMaker& maker, Context& context, Textures& textures) {
     const std::vector<const Plugin*> inside = maker.plugin.childrenOf("bsdf");
     if (inside.empty() || inside.size() > 2)
         maker.plugin.fail(fmt::format("has {} bsdfs inside, expected one", inside.size()));
     if (inside.size() == 2 && inside[0] != inside[1])
-        inside[1]->fail("is another bsdf for the back, which is not supported: a surface is alike "
-                        "on both sides");
+        inside[1]->fail("is another bsdf for the back, which is not supported");
     maker.plugin.requireAllRead();
     Surface surface = readBsdf(context, textures, *inside.front());
-    surface.hasBlackBack = false;
+    for (Surface* each = &surface; each; each = each->other.get())
+        each->material.isBlackBehind = false;
     return surface;
 }
 
@@ -119,7 +126,7 @@ Surface normalMap(SurfaceMaker& maker, Context& context, Textures& textures) {
     if (!normals.texture) maker.plugin.fail("has no texture 'normalmap'");
     TextureUse use = *normals.texture;
     use.slot = TextureSlot::Normal;
-    surface.material.textures.push_back(use);
+    addTexture(surface, use);
     for (const char* unused : {"flip_invalid_normals", "use_shadowing_function"})
         maker.plugin.skip(unused);
     maker.plugin.requireAllRead();
@@ -127,10 +134,56 @@ Surface normalMap(SurfaceMaker& maker, Context& context, Textures& textures) {
 }
 
 Surface bumpMap(SurfaceMaker& maker, Context& context, Textures& textures) {
-    context.report().warn("bumpmap: heights are not supported, the surface stays smooth");
-    maker.plugin.childrenOf("texture");
-    maker.plugin.skip("scale");
-    return readInside(maker, context, textures);
+    Surface surface = readInside(maker, context, textures);
+    for (const Surface* each = &surface; each; each = each->other.get())
+        for (const TextureUse& use : each->material.textures)
+            if (use.slot == TextureSlot::Normal || use.slot == TextureSlot::Height)
+                maker.plugin.fail(
+                    "is a bump map over another map of normals, which is not supported");
+    const Plugin* heights = maker.plugin.onlyChildOf("texture");
+    if (!heights) maker.plugin.fail("has no texture inside, expected one of heights");
+    const Shade shade = textures.texture(*heights, ColorOf::Reflectance, Layout::Grey);
+    if (!shade.texture) heights->fail("is no picture, expected one of heights");
+    TextureUse use = *shade.texture;
+    use.slot = TextureSlot::Height;
+    use.scale = float(maker.plugin.number("scale").value_or(1));
+    addTexture(surface, use);
+    maker.plugin.requireAllRead();
+    return surface;
+}
+
+/// One of two bsdfs, the second one in the share of cases that `weight` says.
+Surface blend(SurfaceMaker& maker, Context& context, Textures& textures) {
+    const Plugin& plugin = maker.plugin;
+    const std::vector<const Plugin*> inside = plugin.childrenOf("bsdf");
+    if (inside.size() != 2)
+        plugin.fail(fmt::format("has {} bsdfs inside, expected two", inside.size()));
+    Surface first = readBsdf(context, textures, *inside[0]);
+    auto second = std::make_shared<Surface>(readBsdf(context, textures, *inside[1]));
+    const Shade share =
+        textures.shade(plugin, "weight", ColorOf::Reflectance, glm::dvec3(0.5), Layout::Red);
+    if (share.isVertexColor)
+        plugin.fail("weight", "is a mesh attribute, expected a number or picture");
+    double weight = std::clamp((share.color.x + share.color.y + share.color.z) / 3, 0.0, 1.0);
+    for (const Surface* each : {&first, std::as_const(second).get()})
+        if (each->material.alphaMode != AlphaMode::Opaque)
+            plugin.fail("has a mask inside, expected it around the blend");
+    if (first.other) { // only what takes the place may be a mixture in turn
+        if (second->other || share.texture)
+            plugin.fail("has a first bsdf that is a blend, which is not supported here");
+        std::swap(first, *second);
+        weight = 1 - weight;
+    }
+    if (share.texture) {
+        TextureUse use = *share.texture;
+        use.slot = TextureSlot::BlendShare;
+        first.material.textures.push_back(use);
+    }
+    first.material.otherShare = float(weight);
+    first.usesVertexColors |= second->usesVertexColors;
+    first.other = std::move(second);
+    plugin.requireAllRead();
+    return first;
 }
 
 } // namespace
@@ -144,14 +197,17 @@ Surface readBsdf(Context& context, Textures& textures, const Plugin& bsdf) {
     if (type == "conductor" || type == "roughconductor") return conductor(maker);
     if (type == "plastic" || type == "roughplastic") return plastic(maker);
     if (type == "principled") return principled(maker);
+    if (type == "principledthin") return principledThin(maker);
     if (type == "twosided") return twoSided(maker, context, textures);
     if (type == "mask") return mask(maker, context, textures);
     if (type == "null") return nothing(maker);
     if (type == "normalmap") return normalMap(maker, context, textures);
     if (type == "bumpmap") return bumpMap(maker, context, textures);
+    if (type == "blendbsdf") return blend(maker, context, textures);
     bsdf.fail(fmt::format("'{}' is no bsdf that is read, expected diffuse, dielectric, "
                           "thindielectric, roughdielectric, conductor, roughconductor, plastic, "
-                          "roughplastic, principled, twosided, mask, null, normalmap or bumpmap",
+                          "roughplastic, principled, principledthin, twosided, mask, null, "
+                          "normalmap, bumpmap or blendbsdf",
                           type));
 }
 

@@ -3,13 +3,15 @@
 #include "scene/mitsuba/context.hpp"
 #include "scene/mitsuba/textures.hpp"
 
+#include <memory>
+
 namespace stromboli::mitsuba {
 
 /// What a BSDF of the file makes of a surface.
 struct Surface {
     Material material;
-    bool usesVertexColors = false; ///< of the mesh that it is on
-    bool hasBlackBack = false;     ///< in Mitsuba; here, surfaces are alike on both sides
+    bool usesVertexColors = false;  ///< of the mesh that it is on
+    std::shared_ptr<Surface> other; ///< Material::other of its material
 };
 
 /// Throws SceneError for what cannot be represented.

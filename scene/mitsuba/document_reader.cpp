@@ -117,6 +117,8 @@ Plugin& DocumentReader::readPlugin(const Element& element, const Source& source,
     plugin.place = placeOf(element, source);
     plugin.tag = tagOf(element, source);
     plugin.type = requireAttribute(element, source, "type");
+    plugin.type = inSmallLetters(plugin.type);
+    plugin.isOld = source.isOld;
     if (source.isOld) plugin.type = upgradedType(plugin.tag, plugin.type);
     plugin.id = attribute(element, source, "id").value_or("");
     if (!plugin.id.empty()) name(plugin.id, plugin, plugin.place);

@@ -3,10 +3,15 @@
 #include "scene/build/vectors.hpp"
 #include "scene/mitsuba/colors.hpp"
 #include "scene/mitsuba/environment_map.hpp"
+#include "scene/mitsuba/sensors.hpp"
+#include "scene/mitsuba/textures.hpp"
 
 #include <fmt/format.h>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
+
+#include <cmath>
+#include <numbers>
 
 namespace stromboli::mitsuba {
 namespace {
@@ -38,21 +43,69 @@ glm::dmat4 pointLight(Context& context, const Plugin& emitter, Light& light) {
     return position ? glm::translate(glm::dmat4(1.0), *position) : emitter.transform("to_world");
 }
 
+void setPicture(const Plugin& emitter, const char* name, const Shade& shade, Light& light) {
+    if (shade.isVertexColor) emitter.fail(name, "is a mesh attribute, expected a picture");
+    light.picture = shade.texture;
+    if (light.picture) light.picture->slot = TextureSlot::Projection;
+}
+
+/// The picture's coordinates grow along x and y of the lamp, so much for a tangent of 1.
+void setAcross(const Context& context, const glm::dmat4& toWorld, const glm::dvec2& perTangent,
+               Light& light) {
+    const glm::dmat4 world = context.worldFromFile * toWorld;
+    const auto axis = [&](int i) {
+        return build::unit(glm::dvec3(world[i])).value_or(glm::dvec3(0));
+    };
+    light.edgeX = axis(0) * perTangent.x;
+    light.edgeY = axis(1) * perTangent.y;
+}
+
+/// A perspective camera that is a lamp: on a plane across, its picture is as it is seen.
+glm::dmat4 projector(Context& context, const Plugin& emitter, Light& light) {
+    light.kind = LightKind::Projector;
+    light.isFramed = true;
+    light.falloffAngle = std::numbers::pi_v<float>;
+    Textures textures(context);
+    if (!emitter.has("irradiance") && !emitter.child("irradiance"))
+        emitter.fail("has no 'irradiance'");
+    const Shade shade = textures.shade(emitter, "irradiance", ColorOf::Light, glm::dvec3(1));
+    setPicture(emitter, "irradiance", shade, light);
+    const double scale = emitter.number("scale", 0).value_or(1);
+    light.color =
+        context.builder.lightColor("irradiance", glm::vec3(shade.color * scale * std::numbers::pi));
+    light.constantAttenuation = light.linearAttenuation = 0;
+    light.quadraticAttenuation = 1;
+    double aspect = 1;
+    if (light.picture) {
+        const glm::uvec2 size = textures.sizeOf(*light.picture);
+        aspect = double(size.x) / size.y;
+    }
+    const double tangent = halfWidthOf(emitter, aspect);
+    for (const char* unused : {"fov", "fov_axis", "focal_length"})
+        emitter.skip(unused);
+    const glm::dmat4 toWorld = emitter.transform("to_world");
+    setAcross(context, toWorld, glm::dvec2(-0.5, -0.5 * aspect) / tangent, light);
+    return toWorld;
+}
+
 glm::dmat4 spotLight(Context& context, const Plugin& emitter, Light& light) {
-    light.kind = LightKind::Spot;
+    light.kind = LightKind::Projector;
     setIntensity(context, emitter, light);
     const double cutoff = emitter.number("cutoff_angle", 0, 90).value_or(20);
     const double beam = emitter.number("beam_width", 0, 90).value_or(0.75 * cutoff);
     if (!(beam <= cutoff)) emitter.fail("beam_width", "is more than cutoff_angle");
-    if (emitter.child("texture"))
-        emitter.fail("texture", "is projected by the lamp, which is not supported");
     light.falloffAngle = float(glm::radians(2 * cutoff));
-    if (beam < cutoff) {
-        light.innerAngle = float(glm::radians(2 * beam));
-        context.report().warn("spot: between beam_width and cutoff_angle the light falls off with "
-                              "the square of the cosine's share, in Mitsuba with the angle");
+    if (beam < cutoff) light.innerAngle = float(glm::radians(2 * beam));
+    if (emitter.has("texture") || emitter.child("texture")) {
+        Textures textures(context);
+        setPicture(emitter, "texture",
+                   textures.shade(emitter, "texture", ColorOf::Light, glm::dvec3(1)), light);
+        if (!light.picture) emitter.fail("texture", "is no picture, expected one");
     }
-    return emitter.transform("to_world");
+    const glm::dmat4 toWorld = emitter.transform("to_world");
+    const double across = 0.5 / std::tan(glm::radians(cutoff));
+    setAcross(context, toWorld, glm::dvec2(across), light);
+    return toWorld;
 }
 
 glm::dmat4 directionalLight(Context& context, const Plugin& emitter, Light& light) {
@@ -98,14 +151,17 @@ void placeEmitter(Context& context, const Plugin& emitter) {
         toWorld = pointLight(context, emitter, light);
     else if (type == "spot")
         toWorld = spotLight(context, emitter, light);
+    else if (type == "projector")
+        toWorld = projector(context, emitter, light);
     else if (type == "directional")
         toWorld = directionalLight(context, emitter, light);
     else if (type == "area")
         emitter.fail("shines on a surface, expected it inside of a shape");
     else
-        emitter.fail(fmt::format("'{}' is no emitter that is read, expected point, spot, "
-                                 "directional, constant, envmap, or area inside of a shape",
-                                 type));
+        emitter.fail(
+            fmt::format("'{}' is no emitter that is read, expected point, spot, "
+                        "projector, directional, constant, envmap, or area inside of a shape",
+                        type));
     emitter.requireAllRead();
     context.builder.placeLight(std::move(light), context.worldFromFile * turnedAround(toWorld));
 }

@@ -6,25 +6,37 @@
 
 namespace stromboli::mitsuba {
 
-const BoundMaterial& Materials::of(const Plugin* bsdf, const Plugin* emitter) {
-    const auto key = std::pair(bsdf, emitter);
+const BoundMaterial& Materials::of(const Plugin& shape) {
+    const Plugin* bsdf = shape.onlyChildOf("bsdf");
+    const Plugin* emitter = shape.onlyChildOf("emitter");
+    const auto key = std::tuple(bsdf, emitter, shape.isOld);
     if (const auto found = made_.find(key); found != made_.end()) return found->second;
-    return made_.emplace(key, make(bsdf, emitter)).first->second;
+    return made_.emplace(key, make(bsdf, emitter, shape.isOld)).first->second;
 }
 
-BoundMaterial Materials::make(const Plugin* bsdf, const Plugin* emitter) {
+BoundMaterial Materials::make(const Plugin* bsdf, const Plugin* emitter, bool isOld) {
     Surface surface;
     surface.material = build::greyMaterial();
+    surface.material.isBlackBehind = !isOld;
     if (bsdf) surface = readBsdf(context_, textures_, *bsdf);
+    return bind(std::move(surface), emitter);
+}
+
+BoundMaterial Materials::bind(Surface&& surface, const Plugin* emitter) {
     if (emitter) addEmission(*emitter, surface.material);
     BoundMaterial bound;
     const Material& m = surface.material;
     bound.isTextured = !m.textures.empty();
     bound.usesVertexColors = surface.usesVertexColors;
-    bound.hasBlackBack = surface.hasBlackBack;
     bound.wantsTangents = m.hasGrain() || std::ranges::any_of(m.textures, [](const auto& use) {
                               return use.slot == TextureSlot::Normal;
                           });
+    if (surface.other) {
+        const BoundMaterial other = bind(std::move(*surface.other), emitter);
+        surface.material.other = other.number;
+        bound.isTextured |= other.isTextured;
+        bound.wantsTangents |= other.wantsTangents;
+    }
     bound.number = context_.builder.addMaterial(std::move(surface.material));
     return bound;
 }

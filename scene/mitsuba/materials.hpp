@@ -3,7 +3,7 @@
 #include "scene/mitsuba/bsdfs.hpp"
 
 #include <map>
-#include <utility>
+#include <tuple>
 
 namespace stromboli::mitsuba {
 
@@ -11,7 +11,6 @@ namespace stromboli::mitsuba {
 struct BoundMaterial {
     uint32_t number = 0;
     bool isTextured = false, wantsTangents = false, usesVertexColors = false;
-    bool hasBlackBack = false; ///< in Mitsuba (Surface::hasBlackBack)
 
     bool wantsCoordinates() const { return isTextured || wantsTangents; }
 };
@@ -21,16 +20,17 @@ class Materials {
   public:
     explicit Materials(Context& context) : context_(context), textures_(context) {}
 
-    /// Of a shape with that BSDF and that emitter, either of which may be missing.
-    const BoundMaterial& of(const Plugin* bsdf, const Plugin* emitter);
+    /// Of a shape, which may have neither a BSDF nor an emitter.
+    const BoundMaterial& of(const Plugin& shape);
 
   private:
-    BoundMaterial make(const Plugin* bsdf, const Plugin* emitter);
+    BoundMaterial make(const Plugin* bsdf, const Plugin* emitter, bool isOld);
+    BoundMaterial bind(Surface&& surface, const Plugin* emitter);
     void addEmission(const Plugin& emitter, Material& material);
 
     Context& context_;
     Textures textures_;
-    std::map<std::pair<const Plugin*, const Plugin*>, BoundMaterial> made_;
+    std::map<std::tuple<const Plugin*, const Plugin*, bool>, BoundMaterial> made_;
 };
 
 } // namespace stromboli::mitsuba

@@ -21,9 +21,10 @@ namespace stromboli::mitsuba {
 class Plugin {
   public:
     build::FilePlace place;
-    std::string tag;  ///< the element's name: shape, bsdf, ...
-    std::string type; ///< which of its kind: sphere, diffuse, ...
-    std::string id;   ///< empty: it has none
+    std::string tag;    ///< the element's name: shape, bsdf, ...
+    std::string type;   ///< which of its kind: sphere, diffuse, ...
+    std::string id;     ///< empty: it has none
+    bool isOld = false; ///< of a file of Mitsuba 0.x
 
     struct Child {
         std::string name; ///< empty: it has none

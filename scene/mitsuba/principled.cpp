@@ -19,33 +19,51 @@ double indexOf(const Plugin& plugin) {
     return indexOfSpecular(plugin.number("specular", 0, 1).value_or(0.5));
 }
 
+/// What both plugins have. Numbers are in the slots where the renderers multiply them.
+void readCommon(SurfaceMaker& maker, BurleyParameters& p) {
+    maker.material.kind = MaterialKind::Burley;
+    maker.color("base_color", glm::dvec3(0.5), p.baseColor, TextureSlot::BaseColor);
+    p.roughness = maker.fraction("roughness", 0.5, TextureSlot::MetallicRoughness, Layout::Green);
+    p.anisotropy = maker.fraction("anisotropic", 0, TextureSlot::Anisotropy, Layout::Blue);
+    p.transmission = maker.fraction("spec_trans", 0, TextureSlot::Transmission, Layout::Red);
+    p.specularTint = maker.fraction("spec_tint", 0, TextureSlot::Specular, Layout::Alpha);
+    p.sheen = maker.fraction("sheen", 0, TextureSlot::SheenColor, Layout::Red);
+    p.sheenTint = maker.fraction("sheen_tint", 0, TextureSlot::SheenRoughness, Layout::Alpha);
+    p.flatness = maker.fraction("flatness", 0, TextureSlot::SpecularColor, Layout::Red);
+}
+
+void skipRates(const Plugin& plugin, std::initializer_list<const char*> names) {
+    for (const char* name : names)
+        plugin.skip(name);
+}
+
 } // namespace
 
 Surface principled(SurfaceMaker& maker) {
-    const Plugin& plugin = maker.plugin;
-    maker.material.kind = MaterialKind::Principled;
-    PrincipledParameters& p = maker.material.principled;
-    maker.color("base_color", glm::dvec3(0.5), p.baseColor, TextureSlot::BaseColor);
-    p.roughness = maker.fraction("roughness", 0.5, TextureSlot::MetallicRoughness, Layout::Green);
+    BurleyParameters& p = maker.material.burley;
+    readCommon(maker, p);
     p.metallic = maker.fraction("metallic", 0, TextureSlot::MetallicRoughness, Layout::Blue);
-    p.transmission = maker.fraction("spec_trans", 0, TextureSlot::Transmission, Layout::Red);
-    p.isThin = false;
-    p.ior = float(indexOf(plugin));
-    // Its layer has a quarter of the weight, and alpha from 0.1 to 0.001.
-    p.clearcoat = 0.25f * maker.fraction("clearcoat", 0, TextureSlot::Clearcoat, Layout::Red);
-    const double gloss = plugin.number("clearcoat_gloss", 0, 1).value_or(0);
-    p.clearcoatRoughness = float(std::sqrt(std::lerp(0.1, 0.001, gloss)));
+    p.ior = float(indexOf(maker.plugin));
+    p.clearcoat = maker.fraction("clearcoat", 0, TextureSlot::Clearcoat, Layout::Red);
+    p.clearcoatGloss =
+        maker.fraction("clearcoat_gloss", 0, TextureSlot::ClearcoatRoughness, Layout::Green);
+    skipRates(maker.plugin, {"main_specular_sampling_rate", "clearcoat_sampling_rate",
+                             "diffuse_reflectance_sampling_rate"});
+    return maker.done();
+}
 
-    for (const char* name : {"anisotropic", "sheen", "sheen_tint", "spec_tint", "flatness"}) {
-        const bool isObject = plugin.child(name) != nullptr;
-        if (isObject || plugin.number(name).value_or(0) != 0)
-            maker.report().warn(fmt::format("principled: '{}' has no counterpart here and is left "
-                                            "out",
-                                            name));
-    }
-    for (const char* name : {"main_specular_sampling_rate", "clearcoat_sampling_rate",
-                             "diffuse_reflectance_sampling_rate"})
-        plugin.skip(name);
+Surface principledThin(SurfaceMaker& maker) {
+    BurleyParameters& p = maker.material.burley;
+    readCommon(maker, p);
+    p.isThin = true;
+    p.ior = float(maker.plugin.number("eta", 1, 100).value_or(1.5));
+    // From 0 to 2: at 1 as much is transmitted as reflected.
+    p.diffuseTransmission =
+        0.5f * maker.fraction("diff_trans", 0, TextureSlot::SpecularColor, Layout::Green, 2);
+    skipRates(maker.plugin,
+              {"spec_reflect_sampling_rate", "spec_trans_sampling_rate", "diff_trans_sampling_rate",
+               "diffuse_reflectance_sampling_rate", "diffuse_transmittance_sampling_rate",
+               "specular_reflectance_sampling_rate", "specular_transmittance_sampling_rate"});
     return maker.done();
 }
 

@@ -4,8 +4,9 @@
 
 namespace stromboli::mitsuba {
 
-/// Mitsuba's principled BSDF (Burley 2012 and 2015) as glTF's: docs/mitsuba.md says what becomes of
-/// its parameters.
+/// Mitsuba's principled BSDF (Burley 2012 and 2015).
 Surface principled(SurfaceMaker& maker);
+/// The same of a thin sheet.
+Surface principledThin(SurfaceMaker& maker);
 
 } // namespace stromboli::mitsuba

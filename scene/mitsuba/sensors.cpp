@@ -7,13 +7,16 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 
+#include <array>
 #include <cmath>
+#include <optional>
 
 namespace stromboli::mitsuba {
 namespace {
 
 struct Film {
     uint32_t width = 768, height = 576;
+    std::optional<std::array<uint32_t, 4>> crop;
     HintedFilter filter = HintedFilter::Gaussian;
 
     double aspect() const { return double(width) / height; }
@@ -25,10 +28,28 @@ uint32_t sideOf(const Plugin& film, const char* name, uint32_t otherwise) {
     return uint32_t(side);
 }
 
+/// The window of the film that is rendered; none where it is all of it.
+std::optional<std::array<uint32_t, 4>> cropOf(const Plugin& film, uint32_t width, uint32_t height) {
+    const auto stated = [&](const char* name, uint32_t otherwise, uint32_t least, uint32_t most) {
+        const int64_t value = film.integer(name).value_or(otherwise);
+        if (value < least || value > most)
+            film.fail(name, fmt::format("is {}, expected {} to {}", value, least, most));
+        return uint32_t(value);
+    };
+    const uint32_t x = stated("crop_offset_x", 0, 0, width - 1);
+    const uint32_t y = stated("crop_offset_y", 0, 0, height - 1);
+    const uint32_t w = stated("crop_width", width - x, 1, width - x);
+    const uint32_t h = stated("crop_height", height - y, 1, height - y);
+    if (w == width && h == height) return std::nullopt;
+    return std::array{x, y, w, h};
+}
+
 HintedFilter filterOf(Context& context, const Plugin& film) {
     const Plugin* filter = film.onlyChildOf("rfilter");
     if (!filter) return HintedFilter::Gaussian;
     if (filter->type == "box") return HintedFilter::Box;
+    if (filter->type == "tent" && filter->number("radius", 0).value_or(1) == 1)
+        return HintedFilter::Tent;
     const double deviation = filter->number("stddev", 0).value_or(0.5);
     if (filter->type != "gaussian" || deviation != 0.5)
         context.report().assume(
@@ -49,9 +70,7 @@ Film filmOf(Context& context, const Plugin& sensor) {
     film.width = sideOf(*plugin, "width", film.width);
     film.height = sideOf(*plugin, "height", film.height);
     film.filter = filterOf(context, *plugin);
-    for (const char* crop : {"crop_width", "crop_height", "crop_offset_x", "crop_offset_y"})
-        if (plugin->has(crop))
-            context.report().warn("film: the crop is not read, the whole picture is made (--crop)");
+    film.crop = cropOf(*plugin, film.width, film.height);
     for (const char* unused :
          {"pixel_format", "component_format", "file_format", "filename", "banner",
           "high_quality_edges", "sample_border", "gamma", "attach_log", "compensate"})
@@ -67,25 +86,6 @@ double focalLengthOf(const Plugin& sensor) {
     const double length = numberOf(sensor.place, text);
     if (!(length > 0)) sensor.fail("focal_length", fmt::format("is {}, expected more", length));
     return length;
-}
-
-/// The tangent of half the angle of view across the picture.
-double halfWidthOf(const Plugin& sensor, double aspect) {
-    const double perDiagonal = aspect / std::sqrt(1 + aspect * aspect);
-    if (!sensor.has("fov")) return std::hypot(36.0, 24.0) / 2 / focalLengthOf(sensor) * perDiagonal;
-    if (sensor.has("focal_length"))
-        sensor.fail("focal_length", "is stated beside fov, expected one of both");
-    const double degrees = *sensor.number("fov", 0);
-    if (!(degrees > 0 && degrees < 180))
-        sensor.fail("fov", fmt::format("is {}, expected more than 0 and less than 180", degrees));
-    const double tangent = std::tan(glm::radians(degrees) / 2);
-    const std::string axis = sensor.text("fov_axis").value_or("x");
-    if (axis == "diagonal") return tangent * perDiagonal;
-    const bool isWide = aspect > 1;
-    if (axis == "x" || axis == (isWide ? "larger" : "smaller")) return tangent;
-    if (axis == "y" || axis == (isWide ? "smaller" : "larger")) return tangent * aspect;
-    sensor.fail("fov_axis",
-                fmt::format("is '{}', expected x, y, diagonal, smaller or larger", axis));
 }
 
 void readLens(const Plugin& sensor, FileCamera& camera) {
@@ -107,12 +107,28 @@ void readPerspective(const Plugin& sensor, double aspect, FileCamera& camera) {
 /// Mitsuba's camera looks along z, x to the left; a scale is the size of an orthographic view.
 glm::dmat4 poseOf(const Plugin& sensor) {
     const glm::dmat4 m = sensor.transform("to_world");
-    if (glm::determinant(glm::dmat3(m)) < 0)
-        sensor.fail("to_world", "mirrors the picture, which is not supported");
     return m * glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 1, -1));
 }
 
 } // namespace
+
+double halfWidthOf(const Plugin& sensor, double aspect) {
+    const double perDiagonal = aspect / std::sqrt(1 + aspect * aspect);
+    if (!sensor.has("fov")) return std::hypot(36.0, 24.0) / 2 / focalLengthOf(sensor) * perDiagonal;
+    if (sensor.has("focal_length"))
+        sensor.fail("focal_length", "is stated beside fov, expected one of both");
+    const double degrees = *sensor.number("fov", 0);
+    if (!(degrees > 0 && degrees < 180))
+        sensor.fail("fov", fmt::format("is {}, expected more than 0 and less than 180", degrees));
+    const double tangent = std::tan(glm::radians(degrees) / 2);
+    const std::string axis = sensor.text("fov_axis").value_or("x");
+    if (axis == "diagonal") return tangent * perDiagonal;
+    const bool isWide = aspect > 1;
+    if (axis == "x" || axis == (isWide ? "larger" : "smaller")) return tangent;
+    if (axis == "y" || axis == (isWide ? "smaller" : "larger")) return tangent * aspect;
+    sensor.fail("fov_axis",
+                fmt::format("is '{}', expected x, y, diagonal, smaller or larger", axis));
+}
 
 void placeSensor(Context& context, const Plugin& sensor, bool isFirst) {
     const Film film = filmOf(context, sensor);
@@ -129,9 +145,10 @@ void placeSensor(Context& context, const Plugin& sensor, bool isFirst) {
                                 sensor.type));
     }
     camera.halfHeight = *camera.halfWidth / film.aspect();
-    for (const char* clip : {"near_clip", "far_clip"})
-        if (sensor.has(clip))
-            context.report().ignore(clip, "all that lies in front of the camera is seen");
+    camera.nearDistance = sensor.number("near_clip", 0).value_or(camera.nearDistance);
+    camera.farDistance = sensor.number("far_clip", 0).value_or(camera.farDistance);
+    if (!(camera.farDistance > camera.nearDistance))
+        sensor.fail("far_clip", "is not more than near_clip");
     sensor.childrenOf("sampler");
     for (const char* unused : {"shutter_open", "shutter_close", "srf"})
         sensor.skip(unused);
@@ -139,11 +156,13 @@ void placeSensor(Context& context, const Plugin& sensor, bool isFirst) {
         medium->fail("is a medium, which is not supported");
     const glm::dmat4 pose = context.worldFromFile * poseOf(sensor);
     sensor.requireAllRead();
-    context.builder.placeCamera(std::move(camera), pose);
+    const bool isMirrored = glm::determinant(glm::dmat3(pose)) < 0;
+    context.builder.placeCamera(std::move(camera), pose, isMirrored);
     if (!isFirst) return;
     RenderHints& hints = context.builder.hints();
     hints.width = film.width;
     hints.height = film.height;
+    hints.crop = film.crop;
     hints.filter = film.filter;
 }
 

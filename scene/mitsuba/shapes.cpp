@@ -1,7 +1,9 @@
 #include "scene/mitsuba/shapes.hpp"
 
+#include "scene/build/read_file.hpp"
 #include "scene/build/tangents.hpp"
 #include "scene/build/vectors.hpp"
+#include "scene/mitsuba/serialized.hpp"
 #include "scene/mitsuba/solids.hpp"
 
 #include <fmt/format.h>
@@ -37,7 +39,7 @@ glm::dmat4 sphereMatrix(const Plugin& sphere) {
 constexpr size_t kMostParts = 1'000'000;
 
 bool isFile(const Plugin& shape) {
-    return shape.type == "obj" || shape.type == "ply";
+    return shape.type == "obj" || shape.type == "ply" || shape.type == "serialized";
 }
 
 void dropNormals(build::Mesh& mesh) {
@@ -93,14 +95,9 @@ Shapes::Part Shapes::single(const Plugin& shape) {
     for (const char* medium : {"interior", "exterior"})
         if (const Plugin* inside = shape.child(medium))
             inside->fail("is a medium, which is not supported");
-    const BoundMaterial& material =
-        materials_.of(shape.onlyChildOf("bsdf"), shape.onlyChildOf("emitter"));
+    const BoundMaterial& material = materials_.of(shape);
     Part part{&shape, {}, shape.transform("to_world"), material.number};
     const bool isSphere = shape.type == "sphere";
-    const bool showsBacks = !isSphere && shape.type != "cube";
-    if (showsBacks && material.hasBlackBack)
-        context_.report().assume("surfaces are alike on both sides; in Mitsuba the back of one "
-                                 "whose bsdf is not twosided is black");
     if (isSphere) part.toWorld *= sphereMatrix(shape);
     const bool flips = shape.flag("flip_normals").value_or(false);
     const bool staysSphere =
@@ -137,9 +134,10 @@ build::Mesh Shapes::solidOf(const Plugin& shape) {
         if (!build::unit(to - from) || !(radius > 0)) shape.fail("has no length or no radius");
         return cylinderMesh(from, to, radius);
     }
-    shape.fail(fmt::format("'{}' is no shape that is read, expected obj, ply, rectangle, cube, "
-                           "sphere, disk, cylinder, shapegroup, instance or merge",
-                           shape.type));
+    shape.fail(fmt::format(
+        "'{}' is no shape that is read, expected obj, ply, serialized, rectangle, cube, "
+        "sphere, disk, cylinder, shapegroup, instance or merge",
+        shape.type));
 }
 
 build::Mesh Shapes::fileMesh(const Plugin& shape, const BoundMaterial& material) {
@@ -160,7 +158,7 @@ build::Mesh Shapes::fileMesh(const Plugin& shape, const BoundMaterial& material)
     if (!isFlipped)
         for (VertexAttributes& a : mesh.attributes)
             a.uv[0].y = 1 - a.uv[0].y;
-    if (shape.flag("face_normals").value_or(false))
+    if (shape.flag("face_normals").value_or(mesh.isFlat))
         dropNormals(mesh);
     else if (mesh.normals.empty())
         computeNormals(mesh);
@@ -170,7 +168,12 @@ build::Mesh Shapes::fileMesh(const Plugin& shape, const BoundMaterial& material)
 
 /// Corners have attributes only where something looks at them.
 void Shapes::fitTo(const BoundMaterial& material, build::Mesh& mesh) {
-    if (material.wantsTangents) build::computeTangents(mesh, 0, 0);
+    if (material.wantsTangents) {
+        build::computeTangents(mesh, 0, 0);
+        // Mitsuba's frames are right-handed, whichever way v grows.
+        for (VertexAttributes& a : mesh.attributes)
+            if (a.tangent.w != 0) a.tangent.w = 1;
+    }
     if (material.wantsCoordinates() || material.usesVertexColors) return;
     mesh.attributes.clear();
     for (build::MeshPart& part : mesh.parts)
@@ -181,8 +184,13 @@ void Shapes::fitTo(const BoundMaterial& material, build::Mesh& mesh) {
 
 const FileMesh& Shapes::read(const Plugin& shape) {
     const std::filesystem::path file = context_.document.file(shape, "filename");
-    const std::string key = file.string();
+    const bool isSerialized = shape.type == "serialized";
+    const int64_t index = isSerialized ? shape.integer("shape_index").value_or(0) : 0;
+    if (index < 0) shape.fail("shape_index", "is less than 0");
+    const auto key = std::pair(file.string(), index);
     if (const auto found = files_.find(key); found != files_.end()) return found->second;
+    if (isSerialized)
+        return files_[key] = serializedMesh(build::readFile(file), file.string(), uint64_t(index));
     return files_[key] =
                shape.type == "obj" ? readObjMesh(context_, file) : readPlyMesh(context_, file);
 }

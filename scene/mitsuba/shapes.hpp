@@ -38,7 +38,7 @@ class Shapes {
 
     Context& context_;
     Materials materials_;
-    std::map<std::string, FileMesh> files_;
+    std::map<std::pair<std::string, int64_t>, FileMesh> files_;
     std::map<const Plugin*, std::vector<Part>> groups_;
 };
 

@@ -23,18 +23,15 @@ void SurfaceMaker::plainColor(const char* name, const glm::dvec3& otherwise, glm
     where = context_.builder.reflectedFraction(name, stated.value_or(otherwise));
 }
 
-float SurfaceMaker::fraction(const char* name, double otherwise, TextureSlot slot, Layout layout) {
+float SurfaceMaker::fraction(const char* name, double otherwise, TextureSlot slot, Layout layout,
+                             double most) {
     const Plugin* object = plugin.child(name);
-    if (!object) return float(plugin.number(name, 0, 1).value_or(otherwise));
+    if (!object) return float(plugin.number(name, 0, most).value_or(otherwise));
     const Shade shade =
         textures_.shade(plugin, name, ColorOf::Reflectance, glm::dvec3(otherwise), layout);
     if (shade.texture) {
         TextureUse use = *shade.texture;
         use.slot = slot;
-        for (const TextureUse& other : material.textures)
-            if (other.slot == slot)
-                plugin.fail(name, "is a second texture of numbers that lie in one picture here, "
-                                  "which is not supported");
         material.textures.push_back(use);
     }
     return float(shade.color.x);
@@ -46,6 +43,7 @@ void SurfaceMaker::facets() {
         plugin.fail("distribution", fmt::format("is '{}', expected beckmann or ggx", name));
     material.facets.distribution =
         name == "ggx" ? FacetDistribution::Ggx : FacetDistribution::Beckmann;
+    material.facets.masking = FacetMasking::Separable;
     for (const char* parameter : {"alpha", "alpha_u", "alpha_v"})
         if (plugin.child(parameter)) plugin.fail(parameter, "is a texture, expected a float");
     const double alpha = plugin.number("alpha", 0, 1e3).value_or(0.1);
@@ -56,10 +54,13 @@ void SurfaceMaker::facets() {
 
 Surface SurfaceMaker::done() {
     plugin.requireAllRead();
-    const bool transmits = material.kind == MaterialKind::Dielectric ||
-                           material.kind == MaterialKind::ThinDielectric ||
-                           material.principled.transmission > 0 || plugin.type == "null";
-    return {std::move(material), usesVertexColors_, !transmits};
+    const bool isBurleys = material.kind == MaterialKind::Burley;
+    const bool hasBack = material.kind == MaterialKind::Dielectric ||
+                         material.kind == MaterialKind::ThinDielectric ||
+                         (isBurleys && (material.burley.transmits() || material.burley.isThin));
+    // Walls of old scenes are turned either way, as renderers that read them show both sides.
+    material.isBlackBehind = !hasBack && !plugin.isOld;
+    return {std::move(material), usesVertexColors_, nullptr};
 }
 
 } // namespace stromboli::mitsuba

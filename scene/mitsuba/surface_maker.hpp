@@ -19,8 +19,9 @@ class SurfaceMaker {
     void color(const char* name, const glm::dvec3& otherwise, glm::vec3& where, TextureSlot slot);
     /// The same where no texture is possible.
     void plainColor(const char* name, const glm::dvec3& otherwise, glm::vec3& where);
-    /// A number in [0, 1], or a texture of it in that slot, where `layout` puts it.
-    float fraction(const char* name, double otherwise, TextureSlot slot, Layout layout);
+    /// A number in [0, most], or a texture of it in that slot, where `layout` puts it.
+    float fraction(const char* name, double otherwise, TextureSlot slot, Layout layout,
+                   double most = 1);
     /// The distribution and the roughness of microfacets.
     void facets();
     build::Report& report() { return context_.report(); }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/packing.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace stromboli::mitsuba {
@@ -27,6 +28,7 @@ glm::dvec4 arranged(const glm::dvec3& value, Layout layout) {
         texel.w = luminance(value);
         break;
     case Layout::Red:
+    case Layout::Grey:
         texel.x = luminance(value);
         break;
     case Layout::Green:
@@ -64,6 +66,13 @@ TextureImage rearranged(const TextureImage& image, bool srgb, Layout layout) {
     for (size_t i = 0; i < count; ++i)
         append(result.words, arranged(colorAt(image, i, srgb), layout));
     return result;
+}
+
+bool isGrey(const TextureImage& image) {
+    return image.format == TexelFormat::Rgba8 &&
+           std::ranges::all_of(image.words, [](uint32_t word) {
+               return (word & 0xFF) == (word >> 8 & 0xFF) && (word & 0xFF) == (word >> 16 & 0xFF);
+           });
 }
 
 /// Without the alpha that Mitsuba drops.
@@ -121,6 +130,11 @@ Shade Textures::shade(const Plugin& plugin, std::string_view name, ColorOf what,
     return texture(*object, what, layout);
 }
 
+glm::uvec2 Textures::sizeOf(const TextureUse& use) const {
+    const TextureImage& image = context_.builder.imageOf(use.texture);
+    return {image.width, image.height};
+}
+
 Shade Textures::texture(const Plugin& texture, ColorOf what, Layout layout) {
     if (texture.type == "bitmap") return bitmap(texture, layout);
     if (texture.type == "checkerboard") return checkerboard(texture, what, layout);
@@ -143,7 +157,7 @@ Shade Textures::bitmap(const Plugin& plugin, Layout layout) {
     texture.image = image(plugin, raw, layout);
     texture.wrapU = texture.wrapV = wrapOf(plugin);
     texture.nearest = isNearest(plugin);
-    texture.srgb = !raw && layout == Layout::Color;
+    texture.srgb = !raw && (layout == Layout::Color || layout == Layout::Grey);
     TextureUse use;
     applyTransform(plugin, use);
     for (const char* unused : {"format", "accel", "max_anisotropy"})
@@ -164,7 +178,7 @@ uint32_t Textures::image(const Plugin& plugin, bool raw, Layout layout) {
     if (largest > 0) images::shrinkToFit(image, largest, !raw);
     if (layout == Layout::Color)
         makeOpaque(image);
-    else
+    else if (layout != Layout::Grey || !isGrey(image))
         image = rearranged(image, !raw && image.format == TexelFormat::Rgba8, layout);
     bytes_ += image.words.size() * sizeof(uint32_t);
     if (bytes_ > physicalMemory() / 2)
@@ -174,7 +188,8 @@ uint32_t Textures::image(const Plugin& plugin, bool raw, Layout layout) {
     return images_[key] = context_.builder.addImage(std::move(image));
 }
 
-/// Two by two texels, of which the first and the last are color0.
+/// Two by two texels. As colours, the first and the last are color0; as numbers, for which Mitsuba
+/// has another function, the two others are.
 Shade Textures::checkerboard(const Plugin& plugin, ColorOf what, Layout layout) {
     const auto colorNamed = [&](const char* name, double otherwise) {
         const std::optional<glm::dvec3> color = colorOf(plugin, name, what);
@@ -183,7 +198,8 @@ Shade Textures::checkerboard(const Plugin& plugin, ColorOf what, Layout layout) 
     };
     const glm::dvec3 colors[2] = {colorNamed("color0", 0.4), colorNamed("color1", 0.2)};
     TextureImage image{"checkerboard", 2, 2, TexelFormat::RgbaHalf, {}};
-    for (const int which : {0, 1, 1, 0})
+    const int first = layout == Layout::Color ? 0 : 1;
+    for (const int which : {first, 1 - first, 1 - first, first})
         append(image.words, arranged(colors[which], layout));
     Texture texture;
     texture.image = context_.builder.addImage(std::move(image));

@@ -10,8 +10,9 @@
 
 namespace stromboli::mitsuba {
 
-/// Which numbers of a texel a picture's value becomes; the others are 1.
-enum class Layout { Color, Alpha, Red, Green, Blue };
+/// Which numbers of a texel a picture's value becomes; the others are 1. Grey: red, in the
+/// precision of the file where that has no colours.
+enum class Layout { Color, Alpha, Red, Green, Blue, Grey };
 
 /// A colour that is alike everywhere, or a texture of it.
 struct Shade {
@@ -30,6 +31,9 @@ class Textures {
                 const glm::dvec3& otherwise, Layout layout = Layout::Color);
     /// The texture that a plugin of the tag texture is.
     Shade texture(const Plugin& texture, ColorOf what, Layout layout);
+
+    /// Width and height in texels.
+    glm::uvec2 sizeOf(const TextureUse& use) const;
 
   private:
     Shade bitmap(const Plugin& texture, Layout layout);

@@ -1,5 +1,6 @@
 #include "scene/mitsuba/upgrade.hpp"
 
+#include <algorithm>
 #include <cctype>
 
 namespace stromboli::mitsuba {
@@ -14,6 +15,13 @@ std::string upgradedName(std::string_view name) {
         afterSmall = std::islower(static_cast<unsigned char>(c)) != 0;
     }
     return upgraded;
+}
+
+std::string inSmallLetters(std::string_view type) {
+    std::string name(type);
+    std::ranges::transform(name, name.begin(),
+                           [](unsigned char c) { return char(std::tolower(c)); });
+    return name;
 }
 
 std::string upgradedType(std::string_view tag, std::string_view type) {

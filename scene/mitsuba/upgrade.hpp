@@ -12,4 +12,7 @@ std::string upgradedName(std::string_view name);
 /// A type of plugin of Mitsuba 0.x by its later name.
 std::string upgradedType(std::string_view tag, std::string_view type);
 
+/// By which plugins are known.
+std::string inSmallLetters(std::string_view type);
+
 } // namespace stromboli::mitsuba

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scene/model/texture.hpp"
+
 #include <glm/glm.hpp>
 
 #include <cstdint>
@@ -13,6 +15,7 @@ enum class LightKind : uint32_t {
     Point,       ///< delta: irradiance color / attenuation(d) on a surface facing it at distance d
     Spot,        ///< delta: Point times a cone falloff
     Ambient,     ///< constant radiance `color` from infinity; not seen by camera rays
+    Projector,   ///< delta: intensity `color`, times a picture and an edge
     Area,        ///< rectangle of radiance `color`, on the side its normal points to
 };
 
@@ -21,7 +24,7 @@ struct Light {
     std::string name;
     LightKind kind = LightKind::Point;
     glm::vec3 color{1.0f};
-    glm::vec3 position{0.0f};      ///< Point, Spot; Area: centre of the rectangle
+    glm::vec3 position{0.0f};      ///< Point, Spot, Projector; Area: centre of the rectangle
     glm::vec3 direction{0, 0, -1}; ///< unit, the way the light travels: Directional, Spot; Area:
                                    ///< the normal of the emitting side
     /// Point, Spot: attenuation(d) = constant + linear d + quadratic d^2, d in world units.
@@ -38,9 +41,18 @@ struct Light {
     bool upperHemisphereOnly = false;   ///< Ambient: only from directions with world y > 0 (CGL)
     glm::vec3 edgeX{0.0f}, edgeY{0.0f}; ///< Area: full edge vectors; area = |edgeX x edgeY|
 
+    /// Projector: a direction d of the light has the texture coordinates 0.5 + (edgeX . d, edgeY .
+    /// d) / (direction . d) of the picture, if there is one; edges are across the direction. Half
+    /// of falloffAngle is where it ends, half of innerAngle where it begins to, linearly in the
+    /// angle.
+    std::optional<TextureUse> picture;
+    /// Projector: what has no coordinates in [0, 1] is dark, and `color` is that along the
+    /// direction: it grows with the cube of the secant, so that a plane across is lit evenly.
+    bool isFramed = false;
+
     bool isDelta() const {
         return kind == LightKind::Directional || kind == LightKind::Point ||
-               kind == LightKind::Spot;
+               kind == LightKind::Spot || kind == LightKind::Projector;
     }
 };
 

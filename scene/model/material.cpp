@@ -20,6 +20,24 @@ glm::vec2 statedAlpha(const Material& m) {
 
 } // namespace
 
+bool BurleyParameters::transmits() const {
+    if (isThin) return transmission > 0 || diffuseTransmission > 0;
+    return transmission > 0 && metallic < 1;
+}
+
+float BurleyParameters::usedIor() const {
+    constexpr float kLeastStep = 0x1p-10f; // LEAST_INDEX_STEP
+    if (isThin || transmission == 0 || std::abs(ior - 1) >= kLeastStep) return ior;
+    return ior < 1 ? 1 - kLeastStep : 1 + kLeastStep;
+}
+
+float BurleyParameters::leastAlpha() const {
+    constexpr float kMitsubas = 1e-3f;
+    if (isThin || transmission == 0) return kMitsubas;
+    const float used = usedIor();
+    return std::max(kMitsubas, kLeastRefractionAlpha * std::max(used, 1.0f) / std::abs(used - 1));
+}
+
 bool Material::isDelta() const {
     switch (kind) {
     case MaterialKind::Mirror:
@@ -46,6 +64,7 @@ glm::vec2 Material::facetAlpha() const {
 
 bool Material::hasGrain() const {
     if (kind == MaterialKind::Principled) return principled.anisotropy > 0;
+    if (kind == MaterialKind::Burley) return burley.anisotropy > 0;
     const bool canHave = kind == MaterialKind::Conductor || kind == MaterialKind::Dielectric;
     if (!canHave || isSmooth()) return false;
     const auto isRoughness = [](const TextureUse& t) {
@@ -61,6 +80,8 @@ glm::vec3* Material::baseColor() {
         return &albedo;
     case MaterialKind::Principled:
         return &principled.baseColor;
+    case MaterialKind::Burley:
+        return &burley.baseColor;
     case MaterialKind::Conductor:
         return &reflectance;
     case MaterialKind::ThinDielectric:

@@ -78,7 +78,7 @@ struct FileCamera {
     std::string name;
     Projection projection = Projection::Perspective;
     glm::dvec3 position{0.0};
-    glm::dvec3 right{1, 0, 0}, up{0, 1, 0}, back{0, 0, 1}; ///< orthonormal, right-handed
+    glm::dvec3 right{1, 0, 0}, up{0, 1, 0}, back{0, 0, 1}; ///< orthonormal; x left: mirrored
     /// Half the extents of the view: tangents of half the fields of view (perspective) or lengths
     /// in world units (orthographic). Where the file states both, a picture of another shape shows
     /// all of them and more on its longer side. Where it states one, the picture's shape gives the

@@ -22,6 +22,10 @@ double inTexels(double u, Wrap wrap, uint32_t n) {
     return part * n;
 }
 
+bool isMirroredAt(double u, Wrap wrap) {
+    return wrap == Wrap::Mirror && std::abs(u) < 0x1p24 && std::remainder(u, 2.0) < 0;
+}
+
 uint32_t texelIndex(int64_t i, Wrap wrap, uint32_t n) {
     if (wrap == Wrap::Repeat) return uint32_t((i + n) % n);
     return uint32_t(std::clamp<int64_t>(i, 0, int64_t(n) - 1)); // mirrored, the edge meets itself
@@ -90,6 +94,29 @@ glm::dvec4 lookUp(const Scene& scene, const TextureUse& use, const PointAttribut
     return sum;
 }
 
+glm::dvec2 slopeOf(const Scene& scene, const TextureUse& use, const PointAttributes& at) {
+    const Texture& texture = scene.textures[use.texture];
+    if (texture.nearest) return glm::dvec2(0.0);
+    const TextureImage& image = scene.images[texture.image];
+    const glm::dvec3 uv1(at.uv[use.uvSet], 1.0), uRow(use.uRow), vRow(use.vRow);
+    const double u = glm::dot(uRow, uv1), v = glm::dot(vRow, uv1);
+    const double x = inTexels(u, texture.wrapU, image.width) - 0.5;
+    const double y = inTexels(v, texture.wrapV, image.height) - 0.5;
+    const auto left = int64_t(std::floor(x)), top = int64_t(std::floor(y));
+    const auto red = [&](int64_t i, int64_t j) {
+        return texelAt(image, texture.srgb, texelIndex(left + i, texture.wrapU, image.width),
+                       texelIndex(top + j, texture.wrapV, image.height))
+            .x;
+    };
+    const double fx = x - double(left), fy = y - double(top);
+    double alongX = (1 - fy) * (red(1, 0) - red(0, 0)) + fy * (red(1, 1) - red(0, 1));
+    double alongY = (1 - fx) * (red(0, 1) - red(0, 0)) + fx * (red(1, 1) - red(1, 0));
+    // Where a picture is mirrored, it is read backwards.
+    if (isMirroredAt(u, texture.wrapU)) alongX = -alongX;
+    if (isMirroredAt(v, texture.wrapV)) alongY = -alongY;
+    return alongX * image.width * glm::dvec2(uRow) + alongY * image.height * glm::dvec2(vRow);
+}
+
 double opacityAt(const Scene& scene, const Material& material, const PointAttributes& at) {
     if (material.alphaMode == AlphaMode::Opaque) return 1;
     double opacity = double(material.opacity) * at.color.a;
@@ -97,6 +124,14 @@ double opacityAt(const Scene& scene, const Material& material, const PointAttrib
         opacity *= lookUp(scene, *use, at).a;
     if (material.alphaMode == AlphaMode::Mask) return opacity >= material.alphaCutoff ? 1 : 0;
     return std::clamp(opacity, 0.0, 1.0);
+}
+
+double otherShareAt(const Scene& scene, const Material& material, const PointAttributes& at) {
+    if (material.other == kNoMaterial) return 0;
+    double share = material.otherShare;
+    if (const TextureUse* use = textureIn(material, TextureSlot::BlendShare))
+        share *= lookUp(scene, *use, at).r;
+    return share;
 }
 
 glm::dvec3 emissionAt(const Scene& scene, const Material& material, const PointAttributes& at) {

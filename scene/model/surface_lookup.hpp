@@ -26,8 +26,15 @@ glm::dvec4 texelAt(const TextureImage& image, bool srgb, uint32_t x, uint32_t y)
 /// fractions), count as 0 where they are not clamped.
 glm::dvec4 lookUp(const Scene& scene, const TextureUse& use, const PointAttributes& at);
 
+/// How red grows along the texture coordinates: the derivative of what lookUp() gives, 0 of the
+/// nearest texel. Between two texels; at one of them, where there is none, of one side.
+glm::dvec2 slopeOf(const Scene& scene, const TextureUse& use, const PointAttributes& at);
+
 /// The share of light that meets the surface there: its opacity, as its alpha mode takes it.
 double opacityAt(const Scene& scene, const Material& material, const PointAttributes& at);
+
+/// How often the material's other one takes its place there.
+double otherShareAt(const Scene& scene, const Material& material, const PointAttributes& at);
 
 /// Radiance that the surface emits there where it is there.
 glm::dvec3 emissionAt(const Scene& scene, const Material& material, const PointAttributes& at);

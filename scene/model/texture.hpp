@@ -32,8 +32,8 @@ struct Texture {
     bool srgb = false;    ///< Rgba8: red, green and blue are sRGB; decoded before they are mixed
 };
 
-/// What a texture of a material changes. All but Normal and ClearcoatNormal multiply the number of
-/// the same name in the material; glTF's channels.
+/// What a texture of a material changes. All but Normal, ClearcoatNormal and Height multiply the
+/// number of the same name in the material; glTF's channels.
 enum class TextureSlot : uint32_t {
     BaseColor,          ///< red, green, blue: Material::baseColor(); alpha: opacity
     MetallicRoughness,  ///< green: roughness, blue: metallic; of Facets alpha along and across
@@ -49,8 +49,11 @@ enum class TextureSlot : uint32_t {
     SheenColor,         ///< red, green, blue
     SheenRoughness,     ///< alpha
     Anisotropy,         ///< red, green: direction, [0, 1] for [-1, 1]; blue: strength
+    Height,             ///< red: above the surface, along its shading normal; uvSet is 0
+    BlendShare,         ///< red: Material::otherShare
+    Projection,         ///< of lights: red, green, blue
 };
-inline constexpr uint32_t kTextureSlotCount = 13;
+inline constexpr uint32_t kTextureSlotCount = 16;
 
 /// A texture in one of a material's slots.
 struct TextureUse {
@@ -59,7 +62,8 @@ struct TextureUse {
     uint32_t uvSet = 0;   ///< 0 or 1: which of the corners' texture coordinates
     /// From texture coordinates to the picture: u' = uRow . (u, v, 1), v' = vRow . (u, v, 1).
     glm::vec3 uRow{1, 0, 0}, vRow{0, 1, 0};
-    float scale = 1; ///< Normal, ClearcoatNormal: of the tangential part
+    /// Normal, ClearcoatNormal: of the tangential part. Height: what 1 stands for, in metres.
+    float scale = 1;
 };
 
 /// What the corners of triangles have beside position and normal.

@@ -45,6 +45,7 @@ bool isTransmission(uint lobe) { return (lobe & TRANSMISSION_LOBES) != 0u; }
 #include "bsdf/conductor.glsl"
 #include "bsdf/facet_dielectric.glsl"
 #include "bsdf/plastic.glsl"
+#include "bsdf/burley.glsl"
 #endif
 
 // --- Dispatch: one line for each kind of BSDF in each function ---------------------------------------------------
@@ -67,6 +68,7 @@ uint lobesOf(Material m) {
     if (isBsdf(m, BSDF_THIN_DIELECTRIC)) lobes = THIN_DIELECTRIC_BSDF_LOBES;
     if (isBsdf(m, BSDF_PLASTIC)) lobes = PLASTIC_BSDF_LOBES;
     if (isBsdf(m, BSDF_FACET_PLASTIC)) lobes = FACET_PLASTIC_BSDF_LOBES;
+    if (isBsdf(m, BSDF_BURLEY)) lobes = burleyLobes(burleyParameters(m));
 #endif
     return lobes;
 }
@@ -84,6 +86,7 @@ uint sceneLobes() {
         (sceneHasBsdf(BSDF_THIN_DIELECTRIC) ? THIN_DIELECTRIC_BSDF_LOBES : 0u) |
         (sceneHasBsdf(BSDF_PLASTIC) ? PLASTIC_BSDF_LOBES : 0u) |
         (sceneHasBsdf(BSDF_FACET_PLASTIC) ? FACET_PLASTIC_BSDF_LOBES : 0u) |
+        (sceneHasBsdf(BSDF_BURLEY) ? sceneBurleyLobes() : 0u) |
 #endif
         (sceneHasBsdf(BSDF_DIFFUSE) ? DIFFUSE_BSDF_LOBES : 0u) |
            (sceneHasBsdf(BSDF_MIRROR) ? MIRROR_BSDF_LOBES : 0u) |
@@ -106,6 +109,7 @@ BsdfValue evaluateLocally(Material m, Incidence i, vec3 wi) {
         return evaluateFacetDielectric(facetDielectricParameters(m), i, wi);
     if (isBsdf(m, BSDF_PLASTIC)) return evaluatePlastic(plasticParameters(m), i, wi);
     if (isBsdf(m, BSDF_FACET_PLASTIC)) return evaluateFacetPlastic(plasticParameters(m), i, wi);
+    if (isBsdf(m, BSDF_BURLEY)) return evaluateBurley(burleyParameters(m), i, wi);
 #endif
     return NO_SCATTERING; // delta lobes only
 }
@@ -129,6 +133,7 @@ BsdfSample sampleLocally(Material m, Incidence i, vec3 u) {
         s = sampleThinDielectric(thinDielectricParameters(m), i, u);
     if (isBsdf(m, BSDF_PLASTIC)) s = samplePlastic(plasticParameters(m), i, u);
     if (isBsdf(m, BSDF_FACET_PLASTIC)) s = sampleFacetPlastic(plasticParameters(m), i, u);
+    if (isBsdf(m, BSDF_BURLEY)) s = sampleBurley(burleyParameters(m), i, u);
 #endif
     return s;
 }
@@ -140,7 +145,8 @@ bool scattersIntoManyDirections(uint lobes) { return (lobes & ~DELTA_LOBES) != 0
 
 /// Whether sampleBsdf() takes all three numbers; else either the first two or the last one.
 #ifdef FACET_MATERIALS
-#define TAKES_THREE_NUMBERS(m) (isBsdf(m, BSDF_PRINCIPLED) || isBsdf(m, BSDF_FACET_DIELECTRIC))
+#define TAKES_THREE_NUMBERS(m)                                                                     \
+    (isBsdf(m, BSDF_PRINCIPLED) || isBsdf(m, BSDF_FACET_DIELECTRIC) || isBsdf(m, BSDF_BURLEY))
 #else
 #define TAKES_THREE_NUMBERS(m) isBsdf(m, BSDF_PRINCIPLED)
 #endif

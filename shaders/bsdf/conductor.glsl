@@ -7,7 +7,7 @@ BsdfSample sampleConductor(ConductorParameters p, Incidence i, vec3 u) {
 }
 
 FacetShape facetsOf(ConductorParameters p) {
-    return facetShape(max(vec2(p.alphaX, p.alphaY), vec2(LEAST_GGX_ALPHA)), p.isBeckmann != 0u);
+    return facetShape(max(vec2(p.alphaX, p.alphaY), vec2(LEAST_GGX_ALPHA)), p.facets);
 }
 
 BsdfValue evaluateFacetConductor(ConductorParameters p, Incidence i, vec3 wi) {

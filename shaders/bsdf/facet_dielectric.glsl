@@ -1,7 +1,7 @@
 // Interfaces of microfacets between dielectrics (Walter et al. 2007), and thin sheets.
 
 FacetShape facetsOf(FacetDielectricParameters p) {
-    return facetShape(max(vec2(p.alphaX, p.alphaY), vec2(p.leastAlpha)), p.isBeckmann != 0u);
+    return facetShape(max(vec2(p.alphaX, p.alphaY), vec2(p.leastAlpha)), p.facets);
 }
 
 /// What one facet does with light, seen at a cosine > 0.

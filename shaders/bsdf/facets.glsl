@@ -1,5 +1,5 @@
 // Interfaces of microfacets (Walter et al. 2007) of either distribution, GGX or Beckmann's, stretched along
-// x and y, with Smith's height-correlated masking and shadowing (Heitz 2014). Normals are sampled as they are
+// x and y, with Smith's masking and shadowing, height-correlated (Heitz 2014) or separable (Walter). Normals are sampled as they are
 // seen from wo. Directions are unit vectors in the frame of the shading normal.
 //
 // Everything is in terms of the facets' projected area, |cos| (1 + Lambda): none of its parts is a difference
@@ -8,13 +8,18 @@
 /// The microfacets of a material.
 struct FacetShape {
     vec2 alpha;
-    bool isBeckmann;
+    bool isBeckmann, isSeparable;
 };
 
-/// isBeckmann: of this material, which is looked at only where the scene has both distributions.
-FacetShape facetShape(vec2 alpha, bool isBeckmann) {
-    return FacetShape(alpha, FACET_DISTRIBUTIONS == FACETS_BECKMANN ||
-                                 FACET_DISTRIBUTIONS != FACETS_GGX && isBeckmann);
+const bool HAS_GGX = (FACETS & FACETS_GGX) != 0u;
+const bool HAS_BECKMANN = (FACETS & FACETS_BECKMANN) != 0u;
+const bool HAS_CORRELATED = (FACETS & FACETS_CORRELATED) != 0u;
+const bool HAS_SEPARABLE = (FACETS & FACETS_SEPARABLE) != 0u;
+
+/// facets: FACETS_ bits of this material, which are looked at only where the scene has both of two.
+FacetShape facetShape(vec2 alpha, uint facets) {
+    return FacetShape(alpha, HAS_BECKMANN && (!HAS_GGX || (facets & FACETS_BECKMANN) != 0u),
+                      HAS_SEPARABLE && (!HAS_CORRELATED || (facets & FACETS_SEPARABLE) != 0u));
 }
 
 /// Beckmann's distribution per steradian; its integral times cos is 1. The slope is taken from x and y: 1 - z^2
@@ -44,8 +49,9 @@ float facetArea(FacetShape f, vec3 w) {
 
 /// G2 / G1(wo), the share of the facets seen from wo that light from wi reaches. areaO: facetArea() of wo.
 float facetsLit(FacetShape f, vec3 wo, float areaO, vec3 wi) {
-    const float cosO = abs(wo.z), cosI = abs(wi.z);
-    return cosI * areaO / (cosI * areaO + cosO * (facetArea(f, wi) - cosI));
+    const float cosO = abs(wo.z), cosI = abs(wi.z), areaI = facetArea(f, wi);
+    if (f.isSeparable) return cosI / areaI; // G1(wi)
+    return cosI * areaO / (cosI * areaO + cosO * (areaI - cosI));
 }
 
 /// Inverse of erf, |x| < 1: relative error below 4e-7 (Giles 2012, "Approximating the erfinv Function").
@@ -100,11 +106,9 @@ vec2 visibleBeckmannSlopes(float cosine, float sine, vec2 u) {
 
 /// A normal seen from wo, wo.z > 0, with the density D(h) (wo . h) / facetArea(wo).
 vec3 sampleFacet(FacetShape f, vec3 wo, vec2 u) {
-    const bool onlyGgx = FACET_DISTRIBUTIONS == FACETS_GGX;
-    const bool onlyBeckmann = FACET_DISTRIBUTIONS == FACETS_BECKMANN;
     vec3 ggx, beckmann;
-    if (!onlyBeckmann) ggx = sampleVisibleNormal(wo, f.alpha, u);
-    if (onlyGgx) return ggx;
+    if (HAS_GGX) ggx = sampleVisibleNormal(wo, f.alpha, u);
+    if (!HAS_BECKMANN) return ggx;
     // In the space where the facets are of alpha 1, the view turned to the x axis.
     const vec3 v = unit(vec3(f.alpha * wo.xy, wo.z));
     const float sine = length(v.xy);
@@ -112,7 +116,7 @@ vec3 sampleFacet(FacetShape f, vec3 wo, vec2 u) {
     const vec2 s = visibleBeckmannSlopes(v.z, sine, u);
     const vec2 slope = vec2(along.x * s.x - along.y * s.y, along.y * s.x + along.x * s.y);
     beckmann = unit(vec3(f.alpha * slope, 1.0));
-    if (onlyBeckmann) return beckmann;
+    if (!HAS_GGX) return beckmann;
     return f.isBeckmann ? beckmann : ggx;
 }
 

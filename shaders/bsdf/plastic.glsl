@@ -52,7 +52,7 @@ BsdfSample samplePlastic(PlasticParameters p, Incidence i, vec3 u) {
 // --- Of microfacets ------------------------------------------------------------------------------
 
 FacetShape facetsOf(PlasticParameters p) {
-    return facetShape(vec2(p.alpha), (p.flags & PLASTIC_IS_BECKMANN) != 0u);
+    return facetShape(vec2(p.alpha), p.flags);
 }
 
 /// The share of light along w that the interface lets through (host/kernel/interface_table.hpp).

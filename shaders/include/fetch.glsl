@@ -95,7 +95,7 @@ struct Material {
 /// or none of this one.
 bool isBsdf(Material m, uint kind) {
     return sceneHasBsdf(kind) &&
-           (BSDF_KINDS == 1u << kind || (m.header.w & ~MATERIAL_EMITS_BOTH_SIDES) == kind);
+           (BSDF_KINDS == 1u << kind || (m.header.w & MATERIAL_KIND_MASK) == kind);
 }
 
 #ifdef FACET_MATERIALS
@@ -103,7 +103,7 @@ bool isBsdf(Material m, uint kind) {
 bool isFacetMaterial(Material m) {
     const bool allAre = (BSDF_KINDS & (1u << BSDF_CONDUCTOR) - 1u) == 0u;
     return sceneHasFacetMaterials() &&
-           (allAre || (m.header.w & ~MATERIAL_EMITS_BOTH_SIDES) >= BSDF_CONDUCTOR);
+           (allAre || (m.header.w & MATERIAL_KIND_MASK) >= BSDF_CONDUCTOR);
 }
 #endif
 
@@ -125,11 +125,15 @@ Material fetchMaterial(uint row) {
         m.row2 = ROW(materialRows, row + 2u);
         m.row3 = ROW(materialRows, row + 3u);
     }
+    if (sceneHasBsdf(BSDF_BURLEY)) {
+        m.row4 = ROW(materialRows, row + 4u);
+        m.row5 = ROW(materialRows, row + 5u);
+    }
 #endif
 #else
     Material m = Material(uvec4(0u), uvec4(0u), uvec4(0u));
 #endif
-    if (HAS_EMISSION || severalKinds) m.header = ROW(materialRows, row);
+    if (HAS_EMISSION || severalKinds || BLACK_BACKS) m.header = ROW(materialRows, row);
     m.row1 = ROW(materialRows, row + 1u);
     if (sceneHasBsdf(BSDF_GLASS) || sceneHasBsdf(BSDF_ROUGH_CONDUCTOR) ||
         sceneHasBsdf(BSDF_PRINCIPLED))
@@ -138,6 +142,7 @@ Material fetchMaterial(uint row) {
 }
 
 vec3 emissionOf(Material m) { return uintBitsToFloat(m.header.xyz); }
+bool isBlackBehind(Material m) { return BLACK_BACKS && (m.header.w & MATERIAL_IS_BLACK_BEHIND) != 0u; }
 bool emitsBothSides(Material m) { return (m.header.w & MATERIAL_EMITS_BOTH_SIDES) != 0u; }
 
 // The parameters of each kind of BSDF; of a material of that kind.
@@ -197,5 +202,13 @@ PlasticParameters plasticParameters(Material m) {
     return PlasticParameters(uintBitsToFloat(m.row1.xyz), uintBitsToFloat(m.row1.w),
                              uintBitsToFloat(m.row2.xyz), uintBitsToFloat(m.row2.w),
                              uintBitsToFloat(m.row3.x), m.row3.y, m.row3.z, m.row3.w);
+}
+
+BurleyParameters burleyParameters(Material m) {
+    const vec4 row1 = uintBitsToFloat(m.row1), row2 = uintBitsToFloat(m.row2);
+    const vec4 row3 = uintBitsToFloat(m.row3), row4 = uintBitsToFloat(m.row4);
+    const vec4 row5 = uintBitsToFloat(m.row5);
+    return BurleyParameters(row1.xyz, row1.w, row2.x, row2.y, row2.z, row2.w, row3.x, row3.y, row3.z, row3.w,
+                            row4.xyz, row4.w, row5.x, row5.y, row5.z, m.row5.w);
 }
 #endif

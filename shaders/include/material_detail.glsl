@@ -6,9 +6,10 @@
 /// Whether some material of the scene has a texture in this slot.
 bool sceneHasSlot(uint slot) { return (TEXTURE_SLOTS & 1u << slot) != 0u; }
 /// Whether materials have a MaterialDetail.
-bool hasDetails() { return TEXTURE_SLOTS != 0u || HAS_ALPHA; }
+bool hasDetails() { return TEXTURE_SLOTS != 0u || HAS_ALPHA || HAS_BLENDS; }
 bool hasAttribute(uint which) { return (ATTRIBUTES & which) != 0u; }
 bool hasNormalMaps() { return sceneHasSlot(TEXTURE_NORMAL) && hasAttribute(ATTRIBUTE_TANGENT); }
+bool hasHeights() { return sceneHasSlot(TEXTURE_HEIGHT) && hasAttribute(ATTRIBUTE_UV0); }
 
 // --- Attributes of corners -----------------------------------------------------------------------
 
@@ -152,6 +153,12 @@ bool hasBaseColor(Material m) {
     return isBsdf(m, BSDF_DIFFUSE) || isBsdf(m, BSDF_PRINCIPLED);
 }
 
+/// What maps say of the normal at a point.
+struct Relief {
+    vec3 mapped; ///< a normal map's vector in the frame of the surface's tangent; (0, 0, 1) without one
+    vec2 slope;  ///< of heights, along the texture coordinates
+};
+
 vec3 mappedNormal(vec4 texel, float scale_) {
     return vec3((2.0 * texel.xy - 1.0) * scale_, 2.0 * texel.z - 1.0);
 }
@@ -175,12 +182,12 @@ bool hasFurtherParameters() {
 }
 
 /// A texel's part in the parameters (PrincipledParameters; a diffuse material has the first row only, and those of
-/// other kinds are arranged to suit). mapped: a normal map's vector in the frame of the surface's tangent.
-void applyTexel(inout Material m, inout vec3 mapped, TextureUse t, vec4 texel) {
+/// other kinds are arranged to suit), and in what maps say.
+void applyTexel(inout Material m, inout Relief relief, TextureUse t, vec4 texel) {
     const uint slot = t.slot & TEXTURE_SLOT_MASK;
     if (isLoose(slot, TEXTURE_BASE_COLOR) && hasBaseColor(m)) scale(m.row1, texel.rgb);
     if (isLoose(slot, TEXTURE_EMISSION)) scale(m.header, texel.rgb);
-    if (isLoose(slot, TEXTURE_NORMAL)) mapped = mappedNormal(texel, t.scale);
+    if (isLoose(slot, TEXTURE_NORMAL)) relief.mapped = mappedNormal(texel, t.scale);
     if (!hasFurtherParameters()) return;
     if (isLoose(slot, TEXTURE_METALLIC_ROUGHNESS)) applyMetallicRoughness(m, texel);
     if (isLoose(slot, TEXTURE_SPECULAR_COLOR)) scale(m.row2, texel.rgb);
@@ -199,7 +206,7 @@ void applyTexel(inout Material m, inout vec3 mapped, TextureUse t, vec4 texel) {
 }
 
 /// The bundle's part in them.
-void applyBundle(inout Material m, inout vec3 mapped, uint materialRow, MaterialDetail detail,
+void applyBundle(inout Material m, inout Relief relief, uint materialRow, MaterialDetail detail,
                  PointAttributes a) {
     const bool has = (detail.flags & DETAIL_HAS_BUNDLE) != 0u;
     const TextureUse t = fetchTextureUse(materialRow, has ? 1u : 0u);
@@ -209,28 +216,53 @@ void applyBundle(inout Material m, inout vec3 mapped, uint materialRow, Material
         scale(m.row1, mapOf(taps, TEXTURE_BASE_COLOR).rgb);
     if (sceneHasSlot(TEXTURE_EMISSION)) scale(m.header, mapOf(taps, TEXTURE_EMISSION).rgb);
     if (sceneHasSlot(TEXTURE_NORMAL) && (detail.flags & DETAIL_BUNDLE_MAPS_NORMALS) != 0u)
-        mapped = mappedNormal(mapOf(taps, TEXTURE_NORMAL), t.scale);
+        relief.mapped = mappedNormal(mapOf(taps, TEXTURE_NORMAL), t.scale);
     if (sceneHasSlot(TEXTURE_METALLIC_ROUGHNESS) && hasFurtherParameters())
         applyMetallicRoughness(m, mapOf(taps, TEXTURE_METALLIC_ROUGHNESS));
 }
 
-/// The material at a point of a surface. mapped: as applyTexel() has it; (0, 0, 1) without a normal map.
-Material materialAt(SurfacePoint s, out vec3 mapped) {
-    Material m = fetchMaterial(s.material);
-    mapped = vec3(0.0, 0.0, 1.0);
-    // Spheres have no place: what is read of another primitive's attributes has no effect.
+/// Of a surface's triangle at the point. Spheres have no place: what is read of another primitive's attributes has no
+/// effect.
+PointAttributes attributesOf(SurfacePoint s) {
     const bool isTriangle = s.skipPrimitive != NO_PRIMITIVE;
     PointAttributes a = PointAttributes(vec2(0.0), vec2(0.0), vec4(1.0));
     if (ATTRIBUTES != 0u && isTriangle) a = attributesAt(primitiveAt(s.skipPrimitive), s.weights);
+    return a;
+}
+
+/// How often another material takes the place of the one with this first row, and the first row of that.
+float blendShare(uint materialRow, PointAttributes a, out uint other) {
+    const MaterialDetail detail = fetchDetail(materialRow);
+    const uint bundles = (detail.flags & DETAIL_HAS_BUNDLE) != 0u ? 1u : 0u;
+    const uvec4 r = ROW(materialRows, textureUseRow(materialRow, bundles + detail.looseTextures));
+    const bool isBlend = (detail.flags & DETAIL_IS_BLEND) != 0u;
+    const BlendRow blend = BlendRow(r.x, uintBitsToFloat(r.y), isBlend ? r.z : 0u, r.w);
+    other = blend.other;
+    float share = isBlend ? blend.share : 0.0;
+    if (sceneHasSlot(TEXTURE_BLEND_SHARE)) {
+        const TextureUse t = fetchTextureUse(materialRow, blend.texture);
+        const float texel = lookUp(t, coordinatesOf(t, a)).r;
+        share *= blend.texture != 0u ? texel : 1.0;
+    }
+    return share;
+}
+
+/// The material at a point of a surface.
+Material materialAt(SurfacePoint s, out Relief relief) {
+    Material m = fetchMaterial(s.material);
+    relief = Relief(vec3(0.0, 0.0, 1.0), vec2(0.0));
+    const PointAttributes a = attributesOf(s);
     if (hasAttribute(ATTRIBUTE_COLOR) && hasBaseColor(m)) scale(m.row1, a.color.rgb);
     if (TEXTURE_SLOTS == 0u) return m;
     const MaterialDetail detail = fetchDetail(s.material);
-    if (hasBundles()) applyBundle(m, mapped, s.material, detail, a);
+    if (hasBundles()) applyBundle(m, relief, s.material, detail, a);
     if (LOOSE_SLOTS == 0u) return m;
     const uint first = (detail.flags & DETAIL_HAS_BUNDLE) != 0u ? 1u : 0u;
     for (uint i = 0u; i < detail.looseTextures; ++i) {
         const TextureUse t = fetchTextureUse(textureUseRow(s.material, first + i));
-        applyTexel(m, mapped, t, lookUp(t, coordinatesOf(t, a)));
+        applyTexel(m, relief, t, lookUp(t, coordinatesOf(t, a)));
+        if (hasHeights() && (t.slot & TEXTURE_SLOT_MASK) == TEXTURE_HEIGHT)
+            relief.slope = t.scale * slopeOf(t, coordinatesOf(t, a));
     }
     return m;
 }
@@ -279,9 +311,45 @@ vec3 bentNormal(vec3 n, vec3 g, vec3 wo) {
     return length2 > 0.0 ? sum * inversesqrt(length2) : g;
 }
 
-/// Replaces the shading normal of a surface that is faced forward by what the map says, and sets the tangent.
-void applyNormalMap(inout SurfacePoint s, vec3 mapped) {
+/// Raises a surface that is faced forward by heights over it (Blinn 1978). Its derivatives p_u and p_v along the texture
+/// coordinates, with their parts along the normal n replaced by n times those of the height, span the raised surface; its
+/// normal is n (n . p_u x p_v) + h_v (p_u x n) + h_u (n x p_v). How n changes is left out, as usual. All is times the
+/// determinant of the texture's edges, which would divide p_u and p_v. mirrors: light goes where the view decides, and would
+/// be lost below the surface; Lambert's law needs no view.
+void applyHeights(inout SurfacePoint s, vec2 slope, bool mirrors) {
+    PlacedPrimitive p = fetchPlace(s.skipPrimitive);
+#ifdef PLACEMENTS
+    if (HAS_PLACEMENTS) {
+        const Placing placing = placingOf(s.placement);
+        p.v0 = pointInWorld(placing, p.v0);
+        p.v1 = pointInWorld(placing, p.v1);
+        p.v2 = pointInWorld(placing, p.v2);
+    }
+#endif
+    const uint row = attributeRow(primitiveAt(s.skipPrimitive), ATTRIBUTE_UV0);
+    const vec4 first = uintBitsToFloat(ROW(detailRows, row));
+    const vec2 d1 = first.zw - first.xy, d2 = uintBitsToFloat(ROW(detailRows, row + 1u).xy) - first.xy;
+    const vec3 e1 = p.v1 - p.v0, e2 = p.v2 - p.v0, n = shadingNormal(s);
+    const float facing = dot(n, cross(e1, e2));
+    // Seen from behind, a bump is a dent.
+    const vec2 h = FACES_FORWARD && !s.outside ? -slope : slope;
+    vec3 raised = facing * n + h.y * cross(d2.y * e1 - d1.y * e2, n) + h.x * cross(n, d1.x * e2 - d2.x * e1);
+    raised *= facing < 0.0 ? -1.0 : 1.0;
+    // Small triangles have squares that floats do not.
+    const float size = max(max(abs(raised.x), abs(raised.y)), abs(raised.z));
+    const bool hasNormal = d1.x * d2.y != d1.y * d2.x && facing != 0.0 && size > 0.0 && size < INFINITE_DISTANCE;
+    if (!hasNormal) return;
+    s.shading = unit(raised / size);
+    if (FACES_FORWARD && mirrors) s.shading = bentNormal(s.shading, s.geometric, s.wo);
+}
+
+/// Replaces the shading normal of a surface that is faced forward by what maps say, and sets the tangent. mirrors: as
+/// applyHeights() has it.
+void applyRelief(inout SurfacePoint s, Relief relief, bool mirrors) {
+    if (hasHeights() && relief.slope != vec2(0.0) && s.skipPrimitive != NO_PRIMITIVE)
+        applyHeights(s, relief.slope, mirrors);
     if (!hasAttribute(ATTRIBUTE_TANGENT)) return;
+    const vec3 mapped = relief.mapped;
     vec4 t = tangentAt(s, shadingNormal(s));
     if (hasNormalMaps()) {
         // Seen from behind, a bump is a dent: the vector is the front's, turned round with the normal.

@@ -5,11 +5,12 @@ const uint PASS_SEED = 0x9E3779B9u;
 
 /// In [0, 1), for whether the ray that has hit something passes it: of the ray's first block of random numbers and of
 /// what was hit where, so that it neither depends on what was passed before nor on how often a ray is begun.
-float passNumber(Traversal t, uint pixel_, uint sample_, uint block) {
+/// purpose: 0; of a mixture at the same hit, the number of the choice, from 1.
+float passNumber(Traversal t, uint pixel_, uint sample_, uint block, uint purpose) {
     const uvec4 words = pcg4d(uvec4(pixel_, sample_, block, frame.seed ^ PASS_SEED));
-    uvec4 there = uvec4(t.hitPrimitive, floatBitsToUint(t.tMax), 0u, 0u);
+    uvec4 there = uvec4(t.hitPrimitive, floatBitsToUint(t.tMax), purpose, 0u);
 #ifdef PLACEMENTS
-    there.z = t.hitPlacement;
+    there.w = t.hitPlacement;
 #endif
     return unitFloats(pcg4d(words ^ there)).x;
 }

@@ -6,20 +6,35 @@ bool isTracing(uint p); // path_state.glsl
 float rayEnd; ///< tMax as it was asked for; the ray's own shrinks to its hits
 
 Material materialAt(SurfacePoint s) {
-    vec3 mapped;
-    return materialAt(s, mapped);
+    Relief relief;
+    return materialAt(s, relief);
 }
 
 #include "include/pass_number.glsl"
 
-float passNumber() {
+float passNumber(uint purpose) {
     uint sample_ = sampleIndex(), block = bounce * (1u + directSamples());
     if (DIRECT_LIGHT == DIRECT_HEMISPHERE && phase == PHASE_HEMISPHERE) block += directIndex;
     if (SPLITS && splitPoint.bounce != 0u) {
         sample_ = sample_ * frame.branches + frame.branches - 1u - branchesLeft;
         block |= BRANCH_BLOCKS;
     }
-    return passNumber(ray, pixelId, sample_, block);
+    return passNumber(ray, pixelId, sample_, block, purpose);
+}
+
+/// Of a mixture, the first row of the material that the path meets: drawn once at each hit, for light samples and the
+/// bounce alike.
+uint drawnMaterial(SurfacePoint s) {
+    uint row = s.material;
+    const PointAttributes a = attributesOf(s);
+    bool goesOn = true;
+    for (uint i = 0u; i < MOST_BLENDS && goesOn; ++i) {
+        uint other;
+        const float share = blendShare(row, a, other);
+        goesOn = goesOn && passNumber(i + 1u) < share;
+        row = goesOn ? other : row;
+    }
+    return row;
 }
 
 /// Whether the ray that is done goes on: it has met a surface that is not there, or partly. A shadow ray goes on with
@@ -30,7 +45,7 @@ bool passesThrough() {
     if (phase == PHASE_SHADOW) {
         directValue *= 1.0 - opacity;
         if (!(dot(directValue, vec3(1.0)) > 0.0)) return false;
-    } else if (passNumber() < opacity) {
+    } else if (passNumber(0u) < opacity) {
         return false;
     }
     passOn(ray, rayEnd);

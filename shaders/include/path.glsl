@@ -60,15 +60,17 @@ void arrive() {
         return;
     }
 #ifdef RICH_MATERIALS
-    vec3 mapped;
-    material = materialAt(surface, mapped);
+    if (HAS_BLENDS) surface.material = drawnMaterial(surface);
+    Relief relief;
+    material = materialAt(surface, relief);
 #else
     material = fetchMaterial(surface.material);
 #endif
     if (countsEmission) radiance += throughput * emissionAt(surface, material) * share;
+    if (isBlackBehind(material) && isSeenFromBehind(surface)) return;
     faceForward(surface);
 #ifdef RICH_MATERIALS
-    applyNormalMap(surface, mapped);
+    applyRelief(surface, relief, !isBsdf(material, BSDF_DIFFUSE));
 #endif
     ++bounce;
     if (bounce > frame.maxBounces) return;

@@ -31,9 +31,16 @@ vec2 sampleGaussian(vec2 u) {
     return GAUSSIAN_DEVIATION * sqrt(max(-2.0 * log(1.0 - u.x * within), 0.0)) * cosSin(4.0 * u.y);
 }
 
+/// The sum of two uniform numbers is distributed like a tent; of one the integral is inverted. In [-1, 1].
+vec2 sampleTent(vec2 u) {
+    const vec2 below = sqrt(2.0 * u) - 1.0, above = 1.0 - sqrt(2.0 - 2.0 * u);
+    return mix(above, below, lessThan(u, vec2(0.5)));
+}
+
 /// From the pixel's upper left corner, in pixels.
 vec2 placeInPixel(vec2 u) {
     if (PIXEL_FILTER == FILTER_GAUSSIAN) return 0.5 + sampleGaussian(u);
+    if (PIXEL_FILTER == FILTER_TENT) return 0.5 + sampleTent(u);
     if (PIXEL_FILTER == FILTER_BLACKMAN_HARRIS)
         return 0.5 + BLACKMAN_HARRIS_RADIUS * (2.0 * vec2(sampleBlackmanHarris(u.x), sampleBlackmanHarris(u.y)) - 1.0);
     return u;

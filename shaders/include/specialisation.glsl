@@ -21,6 +21,7 @@ layout(constant_id = SPEC_MIS_LOBES) const uint MIS_LOBES = 0u;
 layout(constant_id = SPEC_HAS_AMBIENT) const bool HAS_AMBIENT = true;
 layout(constant_id = SPEC_AMBIENT_BY_BOUNCES) const bool AMBIENT_BY_BOUNCES = false;
 layout(constant_id = SPEC_SPLITS) const bool SPLITS = false;
+layout(constant_id = SPEC_BLACK_BACKS) const bool BLACK_BACKS = false;
 layout(constant_id = SPEC_GAP_PROPOSAL) const bool GAP_PROPOSAL = false;
 
 // The kernel is compiled into several modules, of which the host takes the smallest that has all a picture needs
@@ -65,13 +66,14 @@ layout(constant_id = SPEC_TEXEL_KINDS) const uint TEXEL_KINDS = 127u;
 layout(constant_id = SPEC_ATTRIBUTES) const uint ATTRIBUTES = 0u;
 layout(constant_id = SPEC_ALPHA) const bool HAS_ALPHA = false;
 layout(constant_id = SPEC_TANGENT_FRAMES) const bool TANGENT_FRAMES = false;
+layout(constant_id = SPEC_BLENDS) const bool HAS_BLENDS = false;
 #else
 const bool HAS_ALPHA = false;
 #endif
 
 // FACET_MATERIALS: those of these modules that have conductors, rough dielectrics, thin ones and plastic.
 #ifdef FACET_MATERIALS
-layout(constant_id = SPEC_FACET_DISTRIBUTIONS) const uint FACET_DISTRIBUTIONS = 3u;
+layout(constant_id = SPEC_FACETS) const uint FACETS = 63u;
 #endif
 
 // PLACEMENTS: those of these modules in which prototypes can be placed. Trees have groups of two words there.

@@ -168,6 +168,9 @@ SurfacePoint surfaceAt(Traversal t) {
     return s;
 }
 
+/// Whether a surface, its normals as stored, is seen from where its shading normals do not point.
+bool isSeenFromBehind(SurfacePoint s) { return s.outside == (dot(s.geometric, shadingNormal(s)) < 0.0); }
+
 /// Two-sided shading: both normals on the side of wo. The CS184 renderer never flips one.
 void faceForward(inout SurfacePoint s) {
     if (!FACES_FORWARD) return;

@@ -109,6 +109,27 @@ vec4 lookUp(TextureUse t, vec2 uv) {
     return isNearest(t) ? a : mixed(a, b, c, d, taps.part);
 }
 
+/// Whether a picture is read backwards there.
+bool isMirroredAt(float u, uint mode) {
+    const float turns = 0.5 * u;
+    return mode == WRAP_MIRROR && abs(u) < 16777216.0 && turns - floor(turns) >= 0.5;
+}
+
+/// How red grows along the texture coordinates of a texture that is not in a bundle: the derivative of lookUp(), 0 of
+/// the nearest texel.
+vec2 slopeOf(TextureUse t, vec2 uv) {
+    const Taps taps = tapsAt(t, uv);
+    const float a = fetchTexel(t, taps.texels.x).r, b = fetchTexel(t, taps.texels.y).r,
+                c = fetchTexel(t, taps.texels.z).r, d = fetchTexel(t, taps.texels.w).r;
+    vec2 slope = vec2(float(int(t.width)), float(int(t.height))) *
+                 mix(vec2(b - a, c - a), vec2(d - c, d - b), taps.part.yx);
+    if (isMirroredAt(dot(t.uRow, vec3(uv, 1.0)), t.flags >> TEXELS_WRAP_U_SHIFT & TEXELS_WRAP_MASK))
+        slope.x = -slope.x;
+    if (isMirroredAt(dot(t.vRow, vec3(uv, 1.0)), t.flags >> TEXELS_WRAP_V_SHIFT & TEXELS_WRAP_MASK))
+        slope.y = -slope.y;
+    return slope.x * t.uRow.xy + slope.y * t.vRow.xy;
+}
+
 // --- Bundles -------------------------------------------------------------------------------------
 
 bool hasBundles() { return (TEXEL_KINDS & TEXEL_KIND_BUNDLE) != 0u; }

@@ -9,11 +9,12 @@ struct LightRows {
 LightRows fetchLightRows(uint light) {
     const uint row = LIGHT_ROWS * light;
     const bool two = samplesLightKind(LIGHT_QUAD) || samplesLightKind(LIGHT_POINT) ||
-                     samplesLightKind(LIGHT_SPOT) || HAS_ENVIRONMENT;
+                     samplesLightKind(LIGHT_SPOT) || samplesLightKind(LIGHT_PROJECTOR) || HAS_ENVIRONMENT;
     LightRows l = LightRows(ROW(lightRows, row), uvec4(0u), uvec4(0u), uvec4(0u));
     l.row1 = ROW(lightRows, row + 1u);
     if (two) l.row2 = ROW(lightRows, row + 2u);
-    if (samplesLightKind(LIGHT_QUAD) || samplesLightKind(LIGHT_SPOT)) l.row3 = ROW(lightRows, row + 3u);
+    if (samplesLightKind(LIGHT_QUAD) || samplesLightKind(LIGHT_SPOT) || samplesLightKind(LIGHT_PROJECTOR))
+        l.row3 = ROW(lightRows, row + 3u);
     return l;
 }
 
@@ -45,6 +46,12 @@ PointLight pointLight(LightRows l) {
     return PointLight(uintBitsToFloat(l.row1.xyz), uintBitsToFloat(l.row1.w),
                       uintBitsToFloat(l.row2.xyz), uintBitsToFloat(l.row2.w),
                       uintBitsToFloat(l.row3.xyz), uintBitsToFloat(l.row3.w));
+}
+
+ProjectorLight projectorLight(LightRows l) {
+    return ProjectorLight(uintBitsToFloat(l.row1.xyz), uintBitsToFloat(l.row1.w),
+                          uintBitsToFloat(l.row2.xyz), uintBitsToFloat(l.row2.w),
+                          uintBitsToFloat(l.row3.xyz), l.row3.w);
 }
 
 bool isTriangleLight(uint light) {

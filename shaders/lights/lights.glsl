@@ -60,6 +60,7 @@ LightSample sampleLight(SurfacePoint s, uint light, vec2 u) {
     if (isLight(kind, LIGHT_DIRECTIONAL)) return sampleDirectionalLight(rows);
 #ifdef RICH_MATERIALS
     if (isLight(kind, LIGHT_ENVIRONMENT)) return sampleEnvironment(rows, u);
+    if (isLight(kind, LIGHT_PROJECTOR)) return sampleProjector(s, rows);
 #endif
     if (samplesLightKind(LIGHT_POINT) || samplesLightKind(LIGHT_SPOT)) return samplePointLight(s, rows);
     return NO_LIGHT_SAMPLE;

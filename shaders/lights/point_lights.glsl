@@ -1,4 +1,4 @@
-// Point and spot lights.
+// Point and spot lights, and projectors.
 
 /// The share of the way to a point light, at its end, where nothing shades: 2^-16, 256 roundings.
 /// A light placed in the very plane of a surface (lights often are) would else be shaded by chance.
@@ -26,3 +26,38 @@ LightSample samplePointLight(SurfacePoint s, LightRows rows) {
     }
     return r;
 }
+
+#ifdef RICH_MATERIALS
+/// Of a cosine >= 0; acos has few correct digits.
+float angleOf(float cosine) { return 2.0 * atan(sqrt(max(1.0 - cosine, 0.0) / (1.0 + cosine))); }
+
+LightSample sampleProjector(SurfacePoint s, LightRows rows) {
+    const ProjectorLight l = projectorLight(rows);
+    LightSample r;
+    const vec3 d = l.position - litPoint(s);
+    const float distance2 = dot(d, d);
+    r.inversePdf = 0.0;
+    r.direction = d * inversesqrt(max(distance2, TINY));
+    r.infinite = false;
+    r.target = l.position - POINT_LIGHT_GAP * d;
+    const vec3 normal = unit(cross(l.acrossU, l.acrossV)), axis = hasFlag(rows, LIGHT_IS_MIRRORED) ? -normal : normal;
+    const float cosine = -dot(r.direction, axis);
+    const vec2 uv = 0.5 - vec2(dot(l.acrossU, r.direction), dot(l.acrossV, r.direction)) / max(cosine, TINY);
+    bool shines = distance2 > 0.0 && cosine > l.cosCutoff;
+    r.radiance = colorOf(rows) / max(distance2, TINY);
+    if (l.softness > 0.0)
+        r.radiance *= clamp((angleOf(l.cosCutoff) - angleOf(clamp(cosine, 0.0, 1.0))) * l.softness, 0.0, 1.0);
+    if (hasFlag(rows, LIGHT_IS_FRAMED)) {
+        shines = shines && uv == clamp(uv, 0.0, 1.0);
+        r.radiance /= max(cosine * cosine * cosine, TINY);
+    }
+    if (sceneHasSlot(TEXTURE_PROJECTION)) {
+        TextureUse t = fetchTextureUse(l.picture);
+        if (l.picture == 0u) t = fetchTextureUse(0u, 0u); // none
+        const vec3 texel = lookUp(t, uv).rgb;
+        r.radiance *= l.picture != 0u ? texel : vec3(1.0);
+    }
+    r.radiance = shines ? r.radiance : vec3(0.0);
+    return r;
+}
+#endif

@@ -40,7 +40,8 @@ SHARED_CONST uint BSDF_FACET_DIELECTRIC = 8u; ///< the same of a dielectric; BSD
 SHARED_CONST uint BSDF_THIN_DIELECTRIC = 9u;
 SHARED_CONST uint BSDF_PLASTIC = 10u; ///< a diffuse base under a smooth dielectric interface
 SHARED_CONST uint BSDF_FACET_PLASTIC = 11u;
-SHARED_CONST uint BSDF_KIND_COUNT = 12u;
+SHARED_CONST uint BSDF_BURLEY = 12u;
+SHARED_CONST uint BSDF_KIND_COUNT = 13u;
 
 /// The lobes of each kind.
 SHARED_CONST uint DIFFUSE_BSDF_LOBES = LOBE_DIFFUSE_REFLECTION;
@@ -59,14 +60,20 @@ SHARED_CONST uint PLASTIC_BSDF_LOBES = LOBE_DELTA_REFLECTION | LOBE_DIFFUSE_REFL
 /// Samples of its diffuse lobe count as glossy ones: they have the density of the mixture.
 SHARED_CONST uint FACET_PLASTIC_BSDF_LOBES = LOBE_GLOSSY_REFLECTION;
 
+/// As of the principled kind.
+SHARED_CONST uint BURLEY_BSDF_LOBES = LOBE_GLOSSY_REFLECTION | LOBE_GLOSSY_TRANSMISSION;
+
 /// What every material has.
 struct MaterialHeader {
     vec3 emission; ///< radiance, W sr^-1 m^-2
-    uint kind;     ///< BSDF_ kind; | MATERIAL_EMITS_BOTH_SIDES
+    uint kind;     ///< BSDF_ kind; | MATERIAL_EMITS_BOTH_SIDES, MATERIAL_IS_BLACK_BEHIND
 };
 SHARED_ROWS(MaterialHeader, 1);
 /// Else a surface emits only on the side that its geometric normal, as stored, points to.
 SHARED_CONST uint MATERIAL_EMITS_BOTH_SIDES = 0x80000000u;
+/// Nothing is scattered to the side that the normals, as stored, do not point to.
+SHARED_CONST uint MATERIAL_IS_BLACK_BEHIND = 0x40000000u;
+SHARED_CONST uint MATERIAL_KIND_MASK = 0xFFu;
 
 struct DiffuseParameters {
     vec3 albedo;
@@ -116,7 +123,7 @@ struct ConductorParameters {
     vec3 eta;
     float alphaX; ///< along the tangent
     vec3 k;
-    uint isBeckmann; ///< 1: Beckmann's distribution; 0: GGX
+    uint facets; ///< FACETS_ bits: its distribution and its masking
 };
 SHARED_ROWS(ConductorParameters, 3);
 
@@ -128,7 +135,7 @@ struct FacetDielectricParameters {
     float alphaX;
     float ior;        ///< index inside over index outside
     float leastAlpha; ///< either alpha is no less
-    uint isBeckmann;
+    uint facets;
     uint unused;
 };
 SHARED_ROWS(FacetDielectricParameters, 3);
@@ -149,23 +156,51 @@ struct PlasticParameters {
     vec3 reflectance;      ///< multiplies what Fresnel's equations reflect
     float ior;             ///< index under the interface over the index above it
     float alpha;           ///< of the interface's microfacets
-    uint flags;            ///< PLASTIC_
+    uint flags;            ///< PLASTIC_, and FACETS_ bits
     uint table;            ///< microfacets: row of the first piece of their transmittance
     uint unused;
 };
 SHARED_ROWS(PlasticParameters, 3);
 /// The base's colour deepens with each reflection between base and interface.
-SHARED_CONST uint PLASTIC_IS_NONLINEAR = 1u;
-SHARED_CONST uint PLASTIC_IS_BECKMANN = 2u;
+SHARED_CONST uint PLASTIC_IS_NONLINEAR = 256u;
 
 /// The transmittance of an interface of microfacets from outside, seen at the cosine mu, is a cubic
 /// polynomial on each of so many equal pieces of sqrt(mu) in [0, 1]: one row each, the coefficients by
 /// rising powers of the place in the piece, [0, 1].
 SHARED_CONST uint TRANSMITTANCE_PIECES = 16u;
 
-/// Which distributions the microfacets of these kinds have in a scene (SPEC_FACET_DISTRIBUTIONS).
+/// The microfacets of these kinds: one of two distributions, one of two ways of masking. Those that a scene has
+/// are a constant of its kernel (SPEC_FACETS).
 SHARED_CONST uint FACETS_GGX = 1u;
 SHARED_CONST uint FACETS_BECKMANN = 2u;
+SHARED_CONST uint FACETS_CORRELATED = 4u;
+SHARED_CONST uint FACETS_SEPARABLE = 8u;
+/// What the materials of Burley's kind have in a scene, in the same constant.
+SHARED_CONST uint BURLEY_HAS_TRANSMISSION = 16u;
+SHARED_CONST uint BURLEY_HAS_THIN = 32u;
+
+/// Burley's principled BSDF (scene/model/material.hpp). Its numbers are where textures of the principled kind's slots
+/// multiply them.
+struct BurleyParameters {
+    vec3 baseColor;
+    float metallic;
+    float flatness;
+    float diffuseTransmission;
+    float leastAlpha;
+    float roughness;
+    float specularTint;
+    float ior; ///< index inside over index outside
+    float transmission;
+    float anisotropy;
+    vec3 sheen; ///< three times the same number
+    float sheenTint;
+    float clearcoat;
+    float clearcoatGloss;
+    float unused; ///< textures of anisotropy turn it
+    uint flags;   ///< BURLEY_
+};
+SHARED_ROWS(BurleyParameters, 5);
+SHARED_CONST uint BURLEY_IS_THIN = 1u;
 
 /// glTF 2.0's metallic-roughness model and its extensions (scene/model/material.hpp).
 struct PrincipledParameters {

@@ -69,11 +69,13 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_TANGENT_FRAMES 36 // the frame of a BSDF follows the surface's tangent
 #define SPEC_PRINCIPLED_FEATURES 37 // PRINCIPLED_HAS_ bits: what the principled materials have
 #define SPEC_LOOSE_SLOTS 38 // bit n: some material has a texture in slot n that is in no bundle
-#define SPEC_FACET_DISTRIBUTIONS 39 // FACETS_ bits: of microfacets of conductors, dielectrics, plastic
+#define SPEC_FACETS 39 // FACETS_ bits: of microfacets of conductors, dielectrics, plastic
+#define SPEC_BLACK_BACKS 40 // materials are black where normals do not point
+#define SPEC_BLENDS 41 // materials are mixtures of others
 // Of the modules with PLACEMENTS alone:
-#define SPEC_HAS_PLACEMENTS 40 // prototypes are placed in the world (scene_types.h)
-#define SPEC_TRAVERSAL_LEGS 41 // between two service passes, each of SPEC_TRAVERSAL_STEPS
-#define SPEC_COUNT 42
+#define SPEC_HAS_PLACEMENTS 42 // prototypes are placed in the world (scene_types.h)
+#define SPEC_TRAVERSAL_LEGS 43 // between two service passes, each of SPEC_TRAVERSAL_STEPS
+#define SPEC_COUNT 44
 
 SHARED_CONST uint TEXEL_KIND_NEAREST = 1u;
 SHARED_CONST uint TEXEL_KIND_BILINEAR = 2u;
@@ -93,6 +95,7 @@ SHARED_CONST uint DIRECT_BSDF = 2u;
 SHARED_CONST uint FILTER_BOX = 0u;
 SHARED_CONST uint FILTER_GAUSSIAN = 1u;
 SHARED_CONST uint FILTER_BLACKMAN_HARRIS = 2u;
+SHARED_CONST uint FILTER_TENT = 3u; ///< of radius 1
 /// In pixels; of the Gaussian, what lies beyond four standard deviations is left out.
 SHARED_CONST float GAUSSIAN_DEVIATION = 0.5f;
 SHARED_CONST float GAUSSIAN_RADIUS = 2.0f;

@@ -20,18 +20,22 @@ SHARED_CONST uint LIGHT_DIRECTIONAL = 4u;
 SHARED_CONST uint LIGHT_POINT = 5u;
 SHARED_CONST uint LIGHT_SPOT = 6u;
 SHARED_CONST uint LIGHT_ENVIRONMENT = 7u;
-SHARED_CONST uint LIGHT_KIND_COUNT = 8u;
+SHARED_CONST uint LIGHT_PROJECTOR = 8u;
+SHARED_CONST uint LIGHT_KIND_COUNT = 9u;
 /// Kinds that no ray can meet, bit by bit.
-SHARED_CONST uint DELTA_LIGHTS = 1u << 4u | 1u << 5u | 1u << 6u;
+SHARED_CONST uint DELTA_LIGHTS = 1u << 4u | 1u << 5u | 1u << 6u | 1u << 8u;
 
 SHARED_CONST uint LIGHT_ROWS = 4u;
 
 struct LightHeader {
     vec3 color; ///< radiance (quad, sphere, ambient), or as scene/model/light.hpp says
-    uint kind;  ///< LIGHT_ kind; | LIGHT_BOTH_SIDES
+    uint kind;  ///< LIGHT_ kind; | LIGHT_BOTH_SIDES, LIGHT_IS_MIRRORED, LIGHT_IS_FRAMED
 };
 SHARED_ROWS(LightHeader, 1);
 SHARED_CONST uint LIGHT_KIND_MASK = 0xFFu;
+/// Projector: acrossV x acrossU points along its axis, not acrossU x acrossV; it has a frame.
+SHARED_CONST uint LIGHT_IS_MIRRORED = 0x40000000u;
+SHARED_CONST uint LIGHT_IS_FRAMED = 0x20000000u;
 SHARED_CONST uint LIGHT_BOTH_SIDES = 0x80000000u; ///< quad, sphere: emits on both sides
 
 /// A parallelogram. Its normal is edgeA x edgeB.
@@ -97,6 +101,17 @@ struct PointLight {
     float softness;        ///< spot: 1 / (cosine of half the inner angle - cosCutoff); 0: no inner cone
 };
 SHARED_ROWS(PointLight, 3);
+
+/// A light that throws a picture (scene/model/light.hpp).
+struct ProjectorLight {
+    vec3 position;
+    float cosCutoff; ///< of the angle to the axis where it ends
+    vec3 acrossU;    ///< u is 0.5 + acrossU . d / axis . d
+    float softness;  ///< 1 / the angle over which it ends; 0: at once
+    vec3 acrossV;
+    uint picture; ///< first row of its TextureUse in the material buffer; 0: none
+};
+SHARED_ROWS(ProjectorLight, 3);
 
 // --- Picking one light --------------------------------------------------------------------------
 // The table of lights holds all LightEntry rows, and behind them either AliasColumn rows, one for each

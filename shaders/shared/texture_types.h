@@ -24,18 +24,31 @@ SHARED_CONST uint DETAIL_MASK = 1u;  ///< there where opacity is at least alphaC
 SHARED_CONST uint DETAIL_BLEND = 2u; ///< opacity is the share of light that meets the surface
 SHARED_CONST uint DETAIL_HAS_BUNDLE = 4u;    ///< the first TextureUse is a bundle
 SHARED_CONST uint DETAIL_BUNDLE_MAPS_NORMALS = 8u; ///< it has a map of TEXTURE_NORMAL
+/// It is a mixture: the row behind its textures is a BlendRow.
+SHARED_CONST uint DETAIL_IS_BLEND = 16u;
 /// The number of the TextureUse with TEXTURE_EMISSION, plus one, in bits 8 to 15; 0: there is none. The same for
 /// TEXTURE_BASE_COLOR in bits 16 to 23.
 SHARED_CONST uint DETAIL_EMISSION_SHIFT = 8u;
 SHARED_CONST uint DETAIL_BASE_COLOR_SHIFT = 16u;
 SHARED_CONST uint DETAIL_NUMBER_MASK = 0xFFu;
 
+/// What takes a material's place, and how often.
+struct BlendRow {
+    uint other;   ///< the first row of that material
+    float share;  ///< of cases
+    uint texture; ///< the number of the TextureUse that multiplies it, plus one; 0: none
+    uint unused;
+};
+SHARED_ROWS(BlendRow, 1);
+/// No mixture is deeper.
+SHARED_CONST uint MOST_BLENDS = 8u;
+
 /// A texture of a material, or a bundle of them: which slot it has, where it is looked up, and where its texels are.
 struct TextureUse {
     vec3 uRow; ///< u' = uRow . (u, v, 1)
     uint slot; ///< TEXTURE_ slot, of no meaning for bundles; | TEXTURE_SECOND_UV
     vec3 vRow; ///< v' = vRow . (u, v, 1)
-    float scale; ///< TEXTURE_NORMAL: of the tangential part
+    float scale; ///< TEXTURE_NORMAL: of the tangential part; TEXTURE_HEIGHT: of all
     uint firstRow; ///< of its texels in the detail buffer
     uint width;
     uint height;
@@ -61,7 +74,10 @@ SHARED_CONST uint TEXTURE_CLEARCOAT_NORMAL = 9u; ///< is not read
 SHARED_CONST uint TEXTURE_SHEEN_COLOR = 10u;
 SHARED_CONST uint TEXTURE_SHEEN_ROUGHNESS = 11u;
 SHARED_CONST uint TEXTURE_ANISOTROPY = 12u;
-SHARED_CONST uint TEXTURE_SLOT_COUNT = 13u;
+SHARED_CONST uint TEXTURE_HEIGHT = 13u;
+SHARED_CONST uint TEXTURE_BLEND_SHARE = 14u;
+SHARED_CONST uint TEXTURE_PROJECTION = 15u;
+SHARED_CONST uint TEXTURE_SLOT_COUNT = 16u;
 
 /// How a texture's coordinates become a texel, and what a texel is: one word (four fractions of 255)
 /// or two (four half floats). Texels lie row after row, the first word of all in word 0 of firstRow.

@@ -38,9 +38,14 @@ double blackmanHarrisBelow(double x) {
                    (0.35875 * turn);
 }
 
+double tentBelow(double x) {
+    const double rest = std::max(1 - std::abs(x), 0.0);
+    return x < 0 ? rest * rest / 2 : 1 - rest * rest / 2;
+}
+
 TEST(PixelFilters, BlurAnEdgeAsTheirIntegralSays) {
-    for (const PixelFilter filter :
-         {PixelFilter::Box, PixelFilter::Gaussian, PixelFilter::BlackmanHarris}) {
+    for (const PixelFilter filter : {PixelFilter::Box, PixelFilter::Gaussian,
+                                     PixelFilter::BlackmanHarris, PixelFilter::Tent}) {
         SCOPED_TRACE(nameOf(filter));
         RenderSettings s = smallPicture(20000, 0);
         s.area = {4, 1, {}};
@@ -51,6 +56,7 @@ TEST(PixelFilters, BlurAnEdgeAsTheirIntegralSays) {
             const double toEdge = 2 - (pixel + 0.5); // from the pixel's middle to x = 0
             const double expected = filter == PixelFilter::Box        ? double(pixel < 2)
                                     : filter == PixelFilter::Gaussian ? gaussianBelow(toEdge)
+                                    : filter == PixelFilter::Tent     ? tentBelow(toEdge)
                                                                       : blackmanHarrisBelow(toEdge);
             // 4.5 standard errors; what the Gaussian's cut takes away is 3.4e-4 of its weight.
             const double error = std::sqrt(std::max(expected * (1 - expected), 1e-12) / 20000);

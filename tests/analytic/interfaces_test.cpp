@@ -23,7 +23,7 @@ Material ofKind(MaterialKind kind, float alpha = 0,
                 FacetDistribution distribution = FacetDistribution::Ggx) {
     Material m;
     m.kind = kind;
-    m.facets = {distribution, glm::vec2(alpha)};
+    m.facets = {.distribution = distribution, .alpha = glm::vec2(alpha)};
     return m;
 }
 

@@ -268,6 +268,105 @@ TEST(NormalMaps, GainNoEnergy) {
 }
 
 /// A closed room in which all that could be constant is a texture.
+/// A square of side `size` whose heights are 0, 0.4, 0.2 and 0.6 at the middles of four texels
+/// (from the upper left), times `scale`: around its middle they grow by 0.8 along u and 0.4 along
+/// v.
+struct Raised {
+    float size = 1, scale = 1;
+    glm::vec3 uRow{1, 0, 0}, vRow{0, 1, 0};
+    glm::vec2 uOfX{1, 0}, uOfY{0, -1}; ///< of texture coordinates by place over size
+    Wrap wrap = Wrap::Clamp;
+    bool nearest = false;
+    glm::vec3 normal{0, 0, 1}; ///< of the corners
+
+    double cosine(const glm::vec3& light, double cameraHeight = 2) const {
+        SceneMaker b;
+        TextureMaker t(b.scene);
+        Material m = diffuse(0.5f);
+        const auto grey = [](float x) { return glm::vec4(glm::vec3(x), 1); };
+        const uint32_t image = t.bytes(2, 2, {grey(0), grey(0.4f), grey(0.2f), grey(0.6f)});
+        m.textures.push_back(
+            {.slot = TextureSlot::Height,
+             .texture =
+                 t.texture({.image = image, .wrapU = wrap, .wrapV = wrap, .nearest = nearest}),
+             .uRow = uRow,
+             .vRow = vRow,
+             .scale = scale});
+        b.quad({0, 0, 0}, {size, 0, 0}, {0, size, 0}, b.add(m));
+        t.attributes(2, [&](const glm::vec3& p) {
+            VertexAttributes a;
+            const glm::vec2 fromMiddle = glm::vec2(p) / size - 0.5f;
+            a.uv[0] = 0.5f + uOfX * fromMiddle.x + uOfY * fromMiddle.y;
+            return a;
+        });
+        if (normal != glm::vec3(0, 0, 1)) {
+            b.scene.normals = {glm::normalize(normal)};
+            for (Triangle& triangle : b.scene.triangles)
+                for (uint32_t& n : triangle.normals)
+                    n = 0;
+        }
+        Light l;
+        l.kind = LightKind::Directional;
+        l.direction = -light;
+        b.add(l);
+        const double middle = size / 2;
+        const Camera camera =
+            pointCamera({middle + 0.1, middle - 0.1, cameraHeight}, {middle, middle, 0});
+        return estimate(b.scene, camera, smallPicture(1, 1)).mean.x * kPi / 0.5;
+    }
+};
+
+/// Of a surface z = f(x, y) the normal is (-f_x, -f_y, 1); v grows downwards.
+double leaning(double x, double y) {
+    return glm::dot(glm::dvec3(kLeaning), glm::normalize(glm::dvec3(-x, -y, 1)));
+}
+
+constexpr double kHeightError = 1e-5;
+
+TEST(Heights, TurnTheNormalDownTheSlope) {
+    EXPECT_NEAR((Raised{}.cosine(kLeaning)), leaning(0.8, -0.4), kHeightError);
+    EXPECT_NEAR((Raised{.scale = -0.5f}.cosine(kLeaning)), leaning(-0.4, 0.2), kHeightError);
+    EXPECT_NEAR((Raised{.nearest = true}.cosine(kLeaning)), leaning(0, 0), kHeightError);
+}
+
+/// Heights are lengths: the same picture on a larger square is less steep.
+TEST(Heights, AreInMetres) {
+    EXPECT_NEAR((Raised{.size = 4}.cosine(kLeaning)), leaning(0.2, -0.1), kHeightError);
+    EXPECT_NEAR((Raised{.size = 1e-4f, .scale = 1e-4f}.cosine(kLeaning)), leaning(0.8, -0.4), 1e-3);
+}
+
+/// By the chain rule: of coordinates that are skewed, mirrored, transformed by the texture.
+TEST(Heights, FollowTheCoordinates) {
+    const Raised skewed{.uOfX = {1, 0.25f}, .uOfY = {0.5f, -1}};
+    EXPECT_NEAR(skewed.cosine(kLeaning), leaning(0.8 + 0.25 * 0.4, 0.5 * 0.8 - 0.4), kHeightError);
+    const Raised mirrored{.uOfX = {-1, 0}};
+    EXPECT_NEAR(mirrored.cosine(kLeaning), leaning(-0.8, -0.4), kHeightError);
+    const Raised transformed{.uRow = {0.5f, 0, 0.25f}, .vRow = {0.25f, 1, -0.125f}};
+    EXPECT_NEAR(transformed.cosine(kLeaning), leaning(0.5 * 0.8 + 0.25 * 0.4, -0.4), kHeightError);
+    const Raised backwards{.uRow = {1, 0, 1}, .wrap = Wrap::Mirror};
+    EXPECT_NEAR(backwards.cosine(kLeaning), leaning(-0.8, -0.4), kHeightError);
+    const Raised again{.vRow = {0, 1, 3}, .wrap = Wrap::Repeat};
+    EXPECT_NEAR(again.cosine(kLeaning), leaning(0.8, -0.4), 1e-4);
+}
+
+/// From behind, a bump is a dent.
+TEST(Heights, TurnRoundOnTheOtherSide) {
+    const glm::dvec3 below(kLeaning.x, kLeaning.y, -kLeaning.z);
+    EXPECT_NEAR((Raised{}.cosine(glm::vec3(below), -2)),
+                glm::dot(below, -glm::normalize(glm::dvec3(-0.8, 0.4, 1))), kHeightError);
+}
+
+/// Along normals that are not the plane's: the plane's derivatives, made perpendicular to the
+/// normal, are what is raised.
+TEST(Heights, AreAlongTheShadingNormal) {
+    const glm::dvec3 n = glm::normalize(glm::dvec3(0.3, -0.2, 1));
+    const glm::dvec3 x(1, 0, 0), y(0, 1, 0);
+    const glm::dvec3 alongX = x - glm::dot(x, n) * n + 0.8 * n,
+                     alongY = y - glm::dot(y, n) * n - 0.4 * n;
+    EXPECT_NEAR((Raised{.normal = {0.3f, -0.2f, 1}}.cosine(kLeaning)),
+                glm::dot(glm::dvec3(kLeaning), glm::normalize(glm::cross(alongX, alongY))), 1e-4);
+}
+
 TEST(Textures, FurnaceOfConstantTextures) {
     SceneMaker b;
     TextureMaker t(b.scene);

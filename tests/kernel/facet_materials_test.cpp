@@ -35,8 +35,8 @@ TEST(FacetMaterials, AreSmoothWhereFloatsCannotTell) {
     EXPECT_EQ(bsdfKind(ofKind(Plastic, 0.1f, 0)), gpu::BSDF_FACET_PLASTIC);
     EXPECT_TRUE(ofKind(Dielectric, 0, 0).isDelta());
     EXPECT_FALSE(ofKind(Plastic, 0, 0).isDelta());
-    EXPECT_EQ(facetDistribution(ofKind(Plastic, 0, 0)), 0u);
-    EXPECT_EQ(facetDistribution(ofKind(Plastic, 0.1f, 0)), gpu::FACETS_GGX);
+    EXPECT_EQ(facetBits(ofKind(Plastic, 0, 0)), 0u);
+    EXPECT_EQ(facetBits(ofKind(Plastic, 0.1f, 0)), gpu::FACETS_GGX | gpu::FACETS_CORRELATED);
 }
 
 TEST(FacetMaterials, HaveAGrainWhereTheirAlphasDiffer) {
@@ -75,8 +75,9 @@ TEST(InterfaceTable, InternalReflectanceIsTheMeanOfFresnels) {
 /// matter.
 TEST(InterfaceTable, HasTheLimitOfAPlane) {
     for (const FacetDistribution d : {FacetDistribution::Ggx, FacetDistribution::Beckmann}) {
-        EXPECT_NEAR(internalReflectance(1.5, 1e-4, d), internalReflectance(1.5), 5e-4);
-        const auto table = transmittanceTable(1.5, 1e-4, d);
+        EXPECT_NEAR(internalReflectance(1.5, 1e-4, {.distribution = d}), internalReflectance(1.5),
+                    5e-4);
+        const auto table = transmittanceTable(1.5, 1e-4, {.distribution = d});
         for (int i = 32; i <= 1000; ++i) { // views of cosines above 10 alpha
             const double place = i / 1000.0 * table.size();
             const size_t piece = std::min(size_t(place), table.size() - 1);
@@ -89,12 +90,32 @@ TEST(InterfaceTable, HasTheLimitOfAPlane) {
     }
 }
 
+/// The mean over few cosines that Mitsuba takes: 64 of them, of which both ends count in full, are
+/// a trapezoidal sum of 63 pieces and half of what the normal view has too much, over 64.
+TEST(InterfaceTable, InternalReflectanceIsAMeanOfFewViewsWhereThatIsAsked) {
+    const Facets separable{.masking = FacetMasking::Separable};
+    const double integral = internalReflectance(1.5, 0.01, separable);
+    const double expected = (63 * integral + 0.04) / 64; // 2 mu F at mu = 1 is 0.08
+    EXPECT_NEAR(internalReflectance(1.5, 0.01, separable, 64), expected, 1e-3);
+    EXPECT_LT(internalReflectance(1.5, 0.01, separable, 64), 0.985 * integral + 1e-3);
+}
+
+/// What is low is hidden from both: independent heights let through less, on either side.
+TEST(InterfaceTable, SeparableMaskingLetsThroughLess) {
+    for (const FacetDistribution d : {FacetDistribution::Ggx, FacetDistribution::Beckmann}) {
+        const Facets correlated{.distribution = d};
+        const Facets separable{.distribution = d, .masking = FacetMasking::Separable};
+        EXPECT_LT(internalReflectance(1.5, 0.5, separable),
+                  internalReflectance(1.5, 0.5, correlated) - 1e-3);
+    }
+}
+
 /// Light is scattered once alike in both directions: the share of diffuse light that gets out is
 /// that of what gets in over the squared index, and it and what comes back are no more than 1.
 TEST(InterfaceTable, IsReciprocal) {
     for (const FacetDistribution d : {FacetDistribution::Ggx, FacetDistribution::Beckmann})
         for (const double alpha : {1e-4, 0.1, 0.5, 1.0}) {
-            const auto table = transmittanceTable(1.5, alpha, d);
+            const auto table = transmittanceTable(1.5, alpha, {.distribution = d});
             double in = 0;
             for (const glm::vec4& c : table)
                 for (int i = 0; i < 200; ++i) {
@@ -104,7 +125,7 @@ TEST(InterfaceTable, IsReciprocal) {
                     in += (c.x + x * (c.y + x * (c.z + x * c.w))) * 4 * root * root * root /
                           (200.0 * double(table.size()));
                 }
-            const double back = internalReflectance(1.5, alpha, d);
+            const double back = internalReflectance(1.5, alpha, {.distribution = d});
             EXPECT_LT(in / 2.25 + back, 1 + 5e-4) << alpha;
             if (alpha == 1e-4) {
                 EXPECT_NEAR(in / 2.25 + back, 1, 5e-4);

@@ -90,7 +90,8 @@ Scene placedRoom() {
     t.attributes(ball.triangles.size(), projected);
     Material veil = diffuse(0.7f);
     veil.alphaMode = AlphaMode::Blend;
-    veil.textures = {{.slot = TextureSlot::BaseColor, .texture = paper}};
+    veil.textures = {{.slot = TextureSlot::BaseColor, .texture = paper},
+                     {.slot = TextureSlot::Height, .texture = normals, .scale = 0.1f}};
     const Scene star = starMesh(1, random);
     const uint32_t stars = addPrototype(b.scene, star, b.add(veil));
     t.attributes(star.triangles.size(), projected);

@@ -16,8 +16,16 @@ constexpr double kConductorFresnel = 3e-5;
 /// divided between the lobes: of what the interface reflects, 0.04 at least, that is 1 %.
 constexpr double kTables = 1e-2;
 
-const std::pair<const char*, FacetDistribution> kDistributions[] = {
-    {"Ggx", FacetDistribution::Ggx}, {"Beckmann", FacetDistribution::Beckmann}};
+struct NamedFacets {
+    const char* name;
+    FacetDistribution distribution;
+    FacetMasking masking;
+};
+constexpr NamedFacets kFacets[] = {
+    {"Ggx", FacetDistribution::Ggx, FacetMasking::Correlated},
+    {"Beckmann", FacetDistribution::Beckmann, FacetMasking::Correlated},
+    {"SeparableGgx", FacetDistribution::Ggx, FacetMasking::Separable},
+    {"SeparableBeckmann", FacetDistribution::Beckmann, FacetMasking::Separable}};
 
 BsdfCase caseOf(std::string name, const Material& m, double leastWhite) {
     BsdfCase c{std::move(name), m, m, leastWhite};
@@ -42,8 +50,9 @@ void addConductors(std::vector<BsdfCase>& cases) {
     m.eta = {0.143f, 0.375f, 1.442f};
     m.k = {3.983f, 2.386f, 1.603f};
     cases.push_back(caseOf("conductor", m, 1 - 1e-5));
-    for (const auto& [name, distribution] : kDistributions) {
+    for (const auto& [name, distribution, masking] : kFacets) {
         m.facets.distribution = distribution;
+        m.facets.masking = masking;
         for (const glm::vec2 alpha :
              {glm::vec2(1e-4f), glm::vec2(0.01f), glm::vec2(0.1f), glm::vec2(0.5f), glm::vec2(1),
               glm::vec2(0.4f, 0.05f), glm::vec2(0.3f, 0.9f)}) {
@@ -74,15 +83,17 @@ void addDielectrics(std::vector<BsdfCase>& cases) {
         m.facets = {};
         cases.push_back(caseOf("dielectric" + suffix, m, 0.44));
         cases.back().gain = stretched;
-        for (const auto& [name, distribution] : kDistributions) {
+        for (const auto& [name, distribution, masking] : kFacets) {
             m.facets.distribution = distribution;
+            m.facets.masking = masking;
             for (const glm::vec2 alpha : {glm::vec2(1.2e-4f), glm::vec2(0.03f), glm::vec2(0.3f),
                                           glm::vec2(1), glm::vec2(0.6f, 0.25f)}) {
                 m.facets.alpha = alpha;
                 cases.push_back(
                     caseOf("dielectric" + suffix + name + digits(alpha.x) + "_" + digits(alpha.y),
                            m, 0.3));
-                cases.back().error = kFresnel;
+                // The areas of both directions are in separable masking as they are.
+                cases.back().error = masking == FacetMasking::Separable ? 2 * kFresnel : kFresnel;
                 cases.back().gain = stretched;
             }
         }
@@ -107,12 +118,14 @@ void addPlastic(std::vector<BsdfCase>& cases) {
             cases.back().gain = 1e-4; // of the noise of a view that reflects nearly all
             // Where the denser side is above, diffuse samples that meet total reflection are lost.
             cases.back().smooth = ior > 1;
-            for (const auto& [name, distribution] : kDistributions) {
+            for (const auto& [name, distribution, masking] : kFacets) {
                 m.facets.distribution = distribution;
+                m.facets.masking = masking;
                 for (const float alpha : {1e-4f, 0.1f, 0.3f, 1.0f}) {
                     if (isNonlinear && alpha != 0.3f) continue;
                     // What facets let through beyond a critical angle is less than the tables know.
                     if (ior < 1) continue;
+                    m.internalViews = masking == FacetMasking::Separable ? 64 : 0;
                     m.facets.alpha = glm::vec2(alpha);
                     cases.push_back(caseOf("plastic" + suffix + name + digits(alpha), m,
                                            alpha > 0.5f ? 0.25 : 0.65));
@@ -123,6 +136,54 @@ void addPlastic(std::vector<BsdfCase>& cases) {
         }
 }
 
+void addBurley(std::vector<BsdfCase>& cases) {
+    const auto add = [&](const std::string& name, auto&& change) {
+        Material m;
+        m.kind = MaterialKind::Burley;
+        m.burley.baseColor = {0.9f, 0.6f, 0.3f};
+        change(m.burley);
+        BsdfCase c{name, m, m, 0};
+        c.white.burley.baseColor = glm::vec3(1);
+        const BurleyParameters& b = m.burley;
+        const float alpha = b.roughness * b.roughness * std::sqrt(1 - 0.9f * b.anisotropy);
+        const float coat = b.clearcoat > 0 ? 0.1f + (0.001f - 0.1f) * b.clearcoatGloss : 1.0f;
+        c.lobe = std::min(std::max(alpha, b.leastAlpha()), coat);
+        c.smooth = c.lobe >= 0.2;
+        // The logarithm of the coat's distribution and powers of five, some tens of roundings.
+        c.error = 5e-5;
+        c.gain = 0.65; // lobes are added: retro-reflection and the interface at grazing views
+        c.gain += 0.4 * b.sheen + 0.25 * b.clearcoat;
+        cases.push_back(c);
+    };
+    for (const float roughness : {0.03f, 0.15f, 0.5f, 1.0f}) {
+        const std::string suffix = digits(roughness);
+        add("burley" + suffix, [&](BurleyParameters& b) { b.roughness = roughness; });
+        add("burleyMetal" + suffix, [&](BurleyParameters& b) {
+            b.roughness = roughness, b.metallic = 0.8f, b.anisotropy = 0.7f, b.specularTint = 0.6f;
+        });
+        add("burleyGlass" + suffix, [&](BurleyParameters& b) {
+            b.roughness = roughness, b.transmission = 0.9f, b.anisotropy = 0.4f;
+        });
+        add("burleyThin" + suffix, [&](BurleyParameters& b) {
+            b.roughness = roughness, b.transmission = 0.6f, b.isThin = true, b.ior = 1.33f;
+            b.diffuseTransmission = 0.3f, b.sheen = 0.5f, b.specularTint = 0.5f;
+        });
+    }
+    add("burleyCloth", [](BurleyParameters& b) {
+        b.roughness = 0.9f, b.sheen = 0.9f, b.sheenTint = 0.6f, b.flatness = 0.7f;
+    });
+    add("burleyCoated", [](BurleyParameters& b) {
+        b.roughness = 0.6f, b.clearcoat = 0.9f, b.clearcoatGloss = 0.2f;
+    });
+    add("burleyThinDiffuse", [](BurleyParameters& b) {
+        b.isThin = true, b.diffuseTransmission = 0.7f, b.flatness = 0.5f;
+    });
+    add("burleyMixture", [](BurleyParameters& b) {
+        b.roughness = 0.4f, b.metallic = 0.3f, b.transmission = 0.5f, b.clearcoat = 0.5f;
+        b.sheen = 0.4f, b.specularTint = 0.3f, b.ior = 1.8f, b.anisotropy = 0.5f;
+    });
+}
+
 } // namespace
 
 std::vector<BsdfCase> facetCases() {
@@ -130,6 +191,7 @@ std::vector<BsdfCase> facetCases() {
     addConductors(cases);
     addDielectrics(cases);
     addPlastic(cases);
+    addBurley(cases);
     return cases;
 }
 

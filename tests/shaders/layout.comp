@@ -60,15 +60,20 @@ void putPlacement() {
 void putFacetMaterial(Material m) {
     const ConductorParameters conductor = conductorParameters(m);
     put(conductor.reflectance), put(conductor.alphaY), put(conductor.eta), put(conductor.alphaX);
-    put(conductor.k), put(conductor.isBeckmann);
+    put(conductor.k), put(conductor.facets);
     const FacetDielectricParameters rough = facetDielectricParameters(m);
     put(rough.transmittance), put(rough.alphaY), put(rough.reflectance), put(rough.alphaX);
-    put(rough.ior), put(rough.leastAlpha), put(rough.isBeckmann), put(rough.unused);
+    put(rough.ior), put(rough.leastAlpha), put(rough.facets), put(rough.unused);
     const ThinDielectricParameters thin = thinDielectricParameters(m);
     put(thin.transmittance), put(thin.ior), put(thin.reflectance), put(thin.unused);
     const PlasticParameters plastic = plasticParameters(m);
     put(plastic.albedo), put(plastic.internalDiffuse), put(plastic.reflectance), put(plastic.ior);
     put(plastic.alpha), put(plastic.flags), put(plastic.table), put(plastic.unused);
+    const BurleyParameters burley = burleyParameters(m);
+    put(burley.baseColor), put(burley.metallic), put(burley.flatness), put(burley.diffuseTransmission);
+    put(burley.leastAlpha), put(burley.roughness), put(burley.specularTint), put(burley.ior);
+    put(burley.transmission), put(burley.anisotropy), put(burley.sheen), put(burley.sheenTint);
+    put(burley.clearcoat), put(burley.clearcoatGloss), put(burley.unused), put(burley.flags);
 }
 
 void putMaterial(Material m) {
@@ -97,6 +102,9 @@ void putLight(LightRows l) {
     const QuadLight quad = quadLight(l);
     put(quad.corner), put(quad.area), put(quad.edgeA), put(quad.unused0);
     put(quad.edgeB), put(quad.unused1);
+    const ProjectorLight projector = projectorLight(l);
+    put(projector.position), put(projector.cosCutoff), put(projector.acrossU), put(projector.softness);
+    put(projector.acrossV), put(projector.picture);
     const PointLight point = pointLight(l);
     put(point.position), put(point.falloffExponent), put(point.attenuation);
     put(point.cosCutoff), put(point.axis), put(point.softness);

@@ -162,11 +162,11 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         const std::array<Row, 3> three = {m[1], m[2], m[3]};
         const auto conductor = std::bit_cast<gpu::ConductorParameters>(three);
         expected_.structure("ConductorParameters", conductor.reflectance, conductor.alphaY,
-                            conductor.eta, conductor.alphaX, conductor.k, conductor.isBeckmann);
+                            conductor.eta, conductor.alphaX, conductor.k, conductor.facets);
         const auto rough = std::bit_cast<gpu::FacetDielectricParameters>(three);
         expected_.structure("FacetDielectricParameters", rough.transmittance, rough.alphaY,
                             rough.reflectance, rough.alphaX, rough.ior, rough.leastAlpha,
-                            rough.isBeckmann, rough.unused);
+                            rough.facets, rough.unused);
         const auto thin = std::bit_cast<gpu::ThinDielectricParameters>(two);
         expected_.structure("ThinDielectricParameters", thin.transmittance, thin.ior,
                             thin.reflectance, thin.unused);
@@ -174,6 +174,13 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         expected_.structure("PlasticParameters", plastic.albedo, plastic.internalDiffuse,
                             plastic.reflectance, plastic.ior, plastic.alpha, plastic.flags,
                             plastic.table, plastic.unused);
+        const std::array<Row, 5> five = {m[1], m[2], m[3], m[4], m[5]};
+        const auto burley = std::bit_cast<gpu::BurleyParameters>(five);
+        expected_.structure("BurleyParameters", burley.baseColor, burley.metallic, burley.flatness,
+                            burley.diffuseTransmission, burley.leastAlpha, burley.roughness,
+                            burley.specularTint, burley.ior, burley.transmission, burley.anisotropy,
+                            burley.sheen, burley.sheenTint, burley.clearcoat, burley.clearcoatGloss,
+                            burley.unused, burley.flags);
     }
 
     void expectLight(const LightWords& l) {
@@ -183,6 +190,10 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         const auto quad = std::bit_cast<gpu::QuadLight>(three);
         expected_.structure("QuadLight", quad.corner, quad.area, quad.edgeA, quad.unused0,
                             quad.edgeB, quad.unused1);
+        const auto projector = std::bit_cast<gpu::ProjectorLight>(three);
+        expected_.structure("ProjectorLight", projector.position, projector.cosCutoff,
+                            projector.acrossU, projector.softness, projector.acrossV,
+                            projector.picture);
         const auto point = std::bit_cast<gpu::PointLight>(three);
         expected_.structure("PointLight", point.position, point.falloffExponent, point.attenuation,
                             point.cosCutoff, point.axis, point.softness);
@@ -305,18 +316,20 @@ INSTANTIATE_TEST_SUITE_P(Fetch, LayoutTest,
 TEST(LayoutSizes, NoFieldIsForgotten) {
     const size_t bytes =
         sizeof(gpu::NodeRecord) + sizeof(gpu::LeafRecord) + sizeof(gpu::PlacementRecord) +
-        sizeof(gpu::TransformRecord) + sizeof(gpu::Primitive) + sizeof(gpu::MaterialHeader) +
-        sizeof(gpu::DiffuseParameters) + sizeof(gpu::MirrorParameters) +
-        sizeof(gpu::RefractionParameters) + sizeof(gpu::GlassParameters) +
-        sizeof(gpu::RoughConductorParameters) + sizeof(gpu::ConductorParameters) +
-        sizeof(gpu::FacetDielectricParameters) + sizeof(gpu::ThinDielectricParameters) +
-        sizeof(gpu::PlasticParameters) + sizeof(gpu::LightHeader) + sizeof(gpu::QuadLight) +
-        sizeof(gpu::PointLight) + sizeof(gpu::SphereLight) + sizeof(gpu::AmbientLight) +
-        sizeof(gpu::EnvironmentLight) + sizeof(gpu::DirectionalLight) + sizeof(gpu::LightEntry) +
-        sizeof(gpu::AliasColumn) + sizeof(gpu::LightNode) + sizeof(gpu::Frame) +
-        sizeof(gpu::Dispatch) + sizeof(gpu::WorkItem) + sizeof(gpu::PixelState) +
-        sizeof(gpu::SuspendedPath) + sizeof(gpu::SuspendedSplit) + sizeof(gpu::DispatchStatus);
-    EXPECT_EQ(bytes / 4, 16 + 16 + 16 + 16 + 4 + (4 + 4 + 4 + 4 + 8 + 8 + 12 + 12 + 8 + 12) +
+        sizeof(gpu::TransformRecord) + sizeof(gpu::Primitive) +
+        sizeof(gpu::MaterialHeader) + sizeof(gpu::DiffuseParameters) +
+        sizeof(gpu::MirrorParameters) + sizeof(gpu::RefractionParameters) +
+        sizeof(gpu::GlassParameters) + sizeof(gpu::RoughConductorParameters) +
+        sizeof(gpu::ConductorParameters) + sizeof(gpu::FacetDielectricParameters) +
+        sizeof(gpu::ThinDielectricParameters) + sizeof(gpu::PlasticParameters) +
+        sizeof(gpu::BurleyParameters) + sizeof(gpu::ProjectorLight) + sizeof(gpu::LightHeader) +
+        sizeof(gpu::QuadLight) + sizeof(gpu::PointLight) + sizeof(gpu::SphereLight) +
+        sizeof(gpu::AmbientLight) + sizeof(gpu::EnvironmentLight) + sizeof(gpu::DirectionalLight) +
+        sizeof(gpu::LightEntry) + sizeof(gpu::AliasColumn) + sizeof(gpu::LightNode) +
+        sizeof(gpu::Frame) + sizeof(gpu::Dispatch) + sizeof(gpu::WorkItem) +
+        sizeof(gpu::PixelState) + sizeof(gpu::SuspendedPath) + sizeof(gpu::SuspendedSplit) +
+        sizeof(gpu::DispatchStatus);
+    EXPECT_EQ(bytes / 4, 16 + 16 + 16 + 16 + 4 + (4 + 4 + 4 + 4 + 8 + 8 + 12 + 12 + 8 + 12 + 20 + 12) +
                              (4 + 12 + 12 + 4 + 4 + 8 + 4) + (4 + 4 + 8) + 36 + 8 + 4 + 16 + 24 +
                              28 + 8u);
 }

@@ -30,8 +30,10 @@ struct TextureQuery {
     uint row;
     float u;
     float v;
-    uint mapPlusOne; ///< of a bundle: slot plus one; 0: a loose texture
+    uint mapPlusOne; ///< of a bundle: slot plus one; 0: a loose texture; SLOPE_OF_TEXTURE: its
+                     ///< slopeOf()
 };
+SHARED_CONST uint SLOPE_OF_TEXTURE = 100u;
 struct TextureAnswer {
     vec3 color;
     float alpha;

@@ -8,6 +8,7 @@ TextureAnswer answer(TextureQuery q) {
     const TextureUse t = fetchTextureUse(q.row);
     vec4 texel = vec4(0.0);
     if (q.mapPlusOne == 0u) texel = lookUp(t, vec2(q.u, q.v));
+    if (q.mapPlusOne == SLOPE_OF_TEXTURE) texel.xy = slopeOf(t, vec2(q.u, q.v));
     if (hasBundles() && isBundle(t)) {
         const BundleTaps taps = fetchBundle(t, vec2(q.u, q.v));
         if (q.mapPlusOne == 1u) texel = mapOf(taps, TEXTURE_BASE_COLOR);

@@ -154,6 +154,52 @@ TEST_P(TextureLookup, IsTheDefinition) {
     }
 }
 
+/// Slopes are the differences of what is looked up nearby, which is bilinear between the middles of
+/// texels.
+TEST_P(TextureLookup, SlopesAreDerivatives) {
+    Random random(13);
+    std::vector<TextureQuery> queries;
+    std::vector<size_t> primitives;
+    for (size_t i = 0; i < rowOf_.size(); ++i)
+        for (int k = 0; k < 64; ++k) {
+            queries.push_back({rowOf_[i], 4 * random.uniform() - 2, 4 * random.uniform() - 2,
+                               gpu::SLOPE_OF_TEXTURE});
+            primitives.push_back(i);
+        }
+    const std::vector<TextureAnswer> found = ask(queries);
+    int compared = 0;
+    for (size_t q = 0; q < queries.size(); ++q) {
+        const TextureUse& use = textureOf_[primitives[q]];
+        const glm::dvec2 uv(queries[q].u, queries[q].v);
+        PointAttributes at;
+        at.uv[0] = uv;
+        const glm::dvec2 reference = slopeOf(scene_, use, at);
+        glm::dvec2 right(0.0);
+        bool isSmooth = true; // no middle of a texel is near
+        for (int axis = 0; axis < 2; ++axis) {
+            constexpr double kStep = 1e-5;
+            glm::dvec2 step(0.0);
+            step[axis] = kStep;
+            const auto red = [&](double steps) {
+                const glm::dvec2 there = uv + steps * step;
+                return expected(use, there.x, there.y).x;
+            };
+            right[axis] = (red(1) - red(-1)) / (2 * kStep);
+            isSmooth &= std::abs(red(1) + red(-1) - 2 * red(0)) < 1e-12;
+        }
+        if (!isSmooth) continue;
+        ++compared;
+        const bool isSrgb = scene_.textures[use.texture].srgb;
+        for (int axis = 0; axis < 2; ++axis) {
+            ASSERT_NEAR(reference[axis], right[axis], 1e-7);
+            // Sums of differences of 1 at most, times five texels; sRGB has its own error.
+            ASSERT_NEAR(found[q].color[axis], right[axis], 1e-4 + (isSrgb ? 2e-3 : 0.0))
+                << "texture " << use.texture << " at " << uv.x << ", " << uv.y;
+        }
+    }
+    EXPECT_GT(compared, int(queries.size()) / 2);
+}
+
 /// Coordinates without a place read some texel, not beyond the picture.
 TEST_P(TextureLookup, AnyCoordinateIsHarmless) {
     const float odd[] = {NAN,   INFINITY,    -INFINITY, 3e38f, -3e38f,

@@ -38,7 +38,7 @@ std::vector<std::string> someFiles() {
 TEST(DamagedPictures, SayWhatTheyAreNot) {
     EXPECT_EQ(messageOf(""), "a.png: is empty, expected a picture");
     EXPECT_EQ(messageOf("GIF89a"), "a.png: is no picture that is read: expected PNG, JPEG, WebP, "
-                                   "Radiance HDR, OpenEXR or TGA");
+                                   "BMP, Radiance HDR, OpenEXR or TGA");
 }
 
 /// Found by tests/fuzz.

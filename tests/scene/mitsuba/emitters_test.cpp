@@ -44,6 +44,36 @@ TEST(MitsubaEmitters, Spots) {
     EXPECT_NEAR(glm::distance(scene.lights.at(0).direction, glm::vec3(0, 0, 1)), 0, 1e-6);
 }
 
+TEST(MitsubaEmitters, SpotsThrowPictures) {
+    const Scene scene = loadInside("<emitter type=\"spot\"><float name=\"cutoff_angle\" "
+                                   "value=\"45\"/><texture name=\"texture\" "
+                                   "type=\"checkerboard\"/></emitter>");
+    const Light& spot = scene.lights.at(0);
+    EXPECT_EQ(spot.kind, LightKind::Projector);
+    ASSERT_TRUE(spot.picture.has_value());
+    EXPECT_EQ(spot.picture->slot, TextureSlot::Projection);
+    EXPECT_FALSE(spot.isFramed);
+    EXPECT_NEAR(glm::distance(spot.edgeX, glm::vec3(0.5f, 0, 0)), 0, 1e-6);
+    EXPECT_NEAR(glm::distance(spot.edgeY, glm::vec3(0, 0.5f, 0)), 0, 1e-6);
+    EXPECT_THAT(
+        problemInside("<emitter type=\"spot\"><rgb name=\"texture\" value=\"1\"/></emitter>"),
+        HasSubstr("is no picture, expected one"));
+}
+
+/// A camera's coordinates: u against x, v against y, from 0 to 1 over the angle of view.
+TEST(MitsubaEmitters, ProjectorsAreCamerasTurnedRound) {
+    const Scene scene = loadInside("<emitter type=\"projector\"><float name=\"fov\" value=\"90\"/>"
+                                   "<rgb name=\"irradiance\" value=\"1 2 3\"/>"
+                                   "<float name=\"scale\" value=\"2\"/></emitter>");
+    const Light& light = scene.lights.at(0);
+    EXPECT_EQ(light.kind, LightKind::Projector);
+    EXPECT_TRUE(light.isFramed);
+    EXPECT_NEAR(light.color.y, 4 * 3.14159265f, 1e-5f);
+    EXPECT_NEAR(glm::distance(light.edgeX, glm::vec3(-0.5f, 0, 0)), 0, 1e-6);
+    EXPECT_NEAR(glm::distance(light.edgeY, glm::vec3(0, -0.5f, 0)), 0, 1e-6);
+    EXPECT_THAT(problemInside("<emitter type=\"projector\"/>"), HasSubstr("has no 'irradiance'"));
+}
+
 TEST(MitsubaEmitters, SurfacesShineInFront) {
     const Scene scene = loadInside("<shape type=\"rectangle\"><emitter type=\"area\">"
                                    "<rgb name=\"radiance\" value=\"1 2 3\"/></emitter></shape>");

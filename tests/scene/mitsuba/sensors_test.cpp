@@ -26,6 +26,15 @@ TEST(MitsubaSensors, LookAlongZWithXToTheLeft) {
     EXPECT_EQ(camera.up, glm::dvec3(0, 1, 0));
 }
 
+/// A scale of -1 along x turns left and right round.
+TEST(MitsubaSensors, MayShowMirrorImages) {
+    const FileCamera camera =
+        sceneOf("<transform name=\"to_world\"><scale x=\"-1\"/></transform>").cameras.at(0);
+    EXPECT_EQ(camera.back, glm::dvec3(0, 0, -1));
+    EXPECT_EQ(camera.right, glm::dvec3(1, 0, 0));
+    EXPECT_EQ(camera.up, glm::dvec3(0, 1, 0));
+}
+
 /// The diagonal of 36 x 24 mm at 50 mm: 34.02 degrees across a square.
 TEST(MitsubaSensors, TheStandardLensHas50Millimetres) {
     const FileCamera square = sceneOf("<film type=\"hdrfilm\"><integer name=\"width\" value=\"8\"/>"
@@ -97,6 +106,32 @@ TEST(MitsubaSensors, DepthsCountSegments) {
     const Scene scene = loadInside("<integrator type=\"path\"><integer name=\"rr_depth\" "
                                    "value=\"5\"/></integrator>");
     EXPECT_THAT(scene.report.ignored, testing::Contains(HasSubstr("'rr_depth' of integrator")));
+}
+
+TEST(MitsubaSensors, FilmsMayBeCropped) {
+    const auto film = [](const std::string& inside) {
+        return "<sensor type=\"perspective\"><film type=\"hdrfilm\"><integer name=\"width\" "
+               "value=\"40\"/><integer name=\"height\" value=\"30\"/>" +
+               inside + "</film></sensor>";
+    };
+    EXPECT_FALSE(loadInside(film("")).hints.crop.has_value());
+    const Scene scene = loadInside(film("<integer name=\"crop_offset_x\" value=\"5\"/>"
+                                        "<integer name=\"crop_width\" value=\"10\"/>"));
+    EXPECT_EQ(scene.hints.crop.value(), (std::array<uint32_t, 4>{5, 0, 10, 30}));
+    EXPECT_THAT(problemInside(film("<integer name=\"crop_offset_x\" value=\"35\"/>"
+                                   "<integer name=\"crop_width\" value=\"10\"/>")),
+                HasSubstr("is 10, expected 1 to 5"));
+}
+
+TEST(MitsubaSensors, ClipsAreTheCameras) {
+    const Scene scene =
+        loadInside("<sensor type=\"perspective\"><float name=\"near_clip\" value=\"2\"/>"
+                   "<float name=\"far_clip\" value=\"50\"/></sensor>");
+    EXPECT_EQ(scene.cameras.at(0).nearDistance, 2);
+    EXPECT_EQ(scene.cameras.at(0).farDistance, 50);
+    EXPECT_THAT(problemInside("<sensor type=\"perspective\"><float name=\"near_clip\" value=\"2\"/>"
+                              "<float name=\"far_clip\" value=\"1\"/></sensor>"),
+                HasSubstr("is not more than near_clip"));
 }
 
 } // namespace
