@@ -316,22 +316,21 @@ INSTANTIATE_TEST_SUITE_P(Fetch, LayoutTest,
 TEST(LayoutSizes, NoFieldIsForgotten) {
     const size_t bytes =
         sizeof(gpu::NodeRecord) + sizeof(gpu::LeafRecord) + sizeof(gpu::PlacementRecord) +
-        sizeof(gpu::TransformRecord) + sizeof(gpu::Primitive) +
-        sizeof(gpu::MaterialHeader) + sizeof(gpu::DiffuseParameters) +
-        sizeof(gpu::MirrorParameters) + sizeof(gpu::RefractionParameters) +
-        sizeof(gpu::GlassParameters) + sizeof(gpu::RoughConductorParameters) +
-        sizeof(gpu::ConductorParameters) + sizeof(gpu::FacetDielectricParameters) +
-        sizeof(gpu::ThinDielectricParameters) + sizeof(gpu::PlasticParameters) +
-        sizeof(gpu::BurleyParameters) + sizeof(gpu::ProjectorLight) + sizeof(gpu::LightHeader) +
-        sizeof(gpu::QuadLight) + sizeof(gpu::PointLight) + sizeof(gpu::SphereLight) +
-        sizeof(gpu::AmbientLight) + sizeof(gpu::EnvironmentLight) + sizeof(gpu::DirectionalLight) +
-        sizeof(gpu::LightEntry) + sizeof(gpu::AliasColumn) + sizeof(gpu::LightNode) +
-        sizeof(gpu::Frame) + sizeof(gpu::Dispatch) + sizeof(gpu::WorkItem) +
-        sizeof(gpu::PixelState) + sizeof(gpu::SuspendedPath) + sizeof(gpu::SuspendedSplit) +
-        sizeof(gpu::DispatchStatus);
-    EXPECT_EQ(bytes / 4, 16 + 16 + 16 + 16 + 4 + (4 + 4 + 4 + 4 + 8 + 8 + 12 + 12 + 8 + 12 + 20 + 12) +
-                             (4 + 12 + 12 + 4 + 4 + 8 + 4) + (4 + 4 + 8) + 36 + 8 + 4 + 16 + 24 +
-                             28 + 8u);
+        sizeof(gpu::TransformRecord) + sizeof(gpu::Primitive) + sizeof(gpu::MaterialHeader) +
+        sizeof(gpu::DiffuseParameters) + sizeof(gpu::MirrorParameters) +
+        sizeof(gpu::RefractionParameters) + sizeof(gpu::GlassParameters) +
+        sizeof(gpu::RoughConductorParameters) + sizeof(gpu::ConductorParameters) +
+        sizeof(gpu::FacetDielectricParameters) + sizeof(gpu::ThinDielectricParameters) +
+        sizeof(gpu::PlasticParameters) + sizeof(gpu::BurleyParameters) +
+        sizeof(gpu::ProjectorLight) + sizeof(gpu::LightHeader) + sizeof(gpu::QuadLight) +
+        sizeof(gpu::PointLight) + sizeof(gpu::SphereLight) + sizeof(gpu::AmbientLight) +
+        sizeof(gpu::EnvironmentLight) + sizeof(gpu::DirectionalLight) + sizeof(gpu::LightEntry) +
+        sizeof(gpu::AliasColumn) + sizeof(gpu::LightNode) + sizeof(gpu::Frame) +
+        sizeof(gpu::Dispatch) + sizeof(gpu::WorkItem) + sizeof(gpu::PixelState) +
+        sizeof(gpu::SuspendedPath) + sizeof(gpu::SuspendedSplit) + sizeof(gpu::DispatchStatus);
+    EXPECT_EQ(bytes / 4,
+              16 + 16 + 16 + 16 + 4 + (4 + 4 + 4 + 4 + 8 + 8 + 12 + 12 + 8 + 12 + 20 + 12) +
+                  (4 + 12 + 12 + 4 + 4 + 8 + 4) + (4 + 4 + 8) + 36 + 8 + 4 + 16 + 24 + 28 + 8u);
 }
 
 } // namespace

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "host/checkpoint/kept_render.hpp"
+#include "host/cli/job.hpp"
+#include "host/cli/report.hpp"
+#include "host/kernel/vulkan_backend.hpp"
+
+#include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+
+namespace stromboli {
+
+/// Takes the samples of a job with backends that are made for it, in bands of at most so many
+/// pixels.
+using TakeSamples = std::function<void(const MakeBackend&, const std::function<Viewer*()>&,
+                                       uint64_t mostPixels, RenderReport&)>;
+
+/// What takes the samples of a scene's pictures, one after the other: made once.
+class Renderer {
+  public:
+    explicit Renderer(const Options& options);
+
+    void render(const Job& job, const Options& options, const TakeSamples& take,
+                RenderReport& report);
+
+    /// The next pictures are of another scene.
+    void changeScene() { isStale_ = true; }
+
+  private:
+    void openAndBuild(const Job& job, RenderReport& report);
+    std::shared_ptr<Backend> backendFor(const Job& job, const RenderSettings& settings,
+                                        const Options& options, bool again);
+    void renderOnDevice(const Job& job, const Options& options, const TakeSamples& take,
+                        RenderReport& report);
+    void renderOnReference(const Job& job, const Options& options, const TakeSamples& take,
+                           RenderReport& report);
+
+    bool isOnDevice_;
+    std::future<vulkan::OpenDevice> device_;
+    std::optional<vulkan::OpenDevice> open_;
+    std::unique_ptr<BuiltScene> built_;
+    bool isStale_ = false;                   ///< `built_` is of an earlier scene
+    std::shared_ptr<VulkanBackend> backend_; ///< of the last picture, with the scene
+};
+
+} // namespace stromboli
