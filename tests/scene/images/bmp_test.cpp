@@ -13,9 +13,10 @@ using images::Picture;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
+/// The lowest byte first.
 void put(std::string& bytes, uint32_t value, int count) {
-    for (int i = 0; i < count; ++i)
-        bytes += char(value >> 8 * i & 0xFF);
+    for (int i = 0; i < count; ++i, value >>= 8)
+        bytes += char(value & 0xFF);
 }
 
 /// pixels: as the file has them, behind a table of colours.
