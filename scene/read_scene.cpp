@@ -8,6 +8,7 @@
 #include "scene/generate/generated_scene.hpp"
 #include "scene/gltf/load_gltf.hpp"
 #include "scene/mitsuba/load_mitsuba.hpp"
+#include "scene/model/placements.hpp"
 #include "scene/obj/load_obj.hpp"
 #include "scene/ply/load_ply.hpp"
 
@@ -17,6 +18,7 @@
 #include <cctype>
 #include <filesystem>
 #include <string_view>
+#include <utility>
 
 namespace stromboli {
 namespace {
@@ -93,7 +95,9 @@ Scene readScene(const std::string& source, const SceneConventions& conventions) 
                                          source, conventions.option));
         if (defines) throw SceneError(source + ": -D is about Mitsuba scenes");
         if (!selects.empty()) refuseSelection("a generated scene has no use for it");
-        return generatedScene(std::string_view(source).substr(kGeneratePrefix.size()));
+        Scene scene = generatedScene(std::string_view(source).substr(kGeneratePrefix.size()));
+        return conventions.instances == InstanceSharing::Off ? expandPlacements(scene).scene
+                                                             : std::move(scene);
     }
     const std::filesystem::path file = sceneFile(source);
     const Format* format = byName(file);

@@ -132,7 +132,7 @@ class Benchmark {
                 report.rays.push_back(benchRays(arena, rays, embree, *set));
         }
         if (wants(Part::Paths)) report.paths = benchPaths(arena, gpu, embree);
-        if (wants(Part::Variants)) report.variants = benchVariants(arena, gpu, kernelVariants());
+        if (wants(Part::Variants)) report.variants = benchVariants(arena, gpu, kernelVariants(gpu));
         // The plain kernels that it compares with know no placements.
         if (wants(Part::Robustness) && scene.placements.empty())
             report.robustness = benchRobustness(arena, gpu, sets);

@@ -1,28 +1,17 @@
 #include "host/bench/embree_api.hpp"
 
-#include <dlfcn.h>
+#include "host/core/shared_library.hpp"
 
 namespace stromboli::bench {
 namespace {
 
-constexpr const char* kLibrary = "libembree3.so.3";
-
 EmbreeApi load() {
     EmbreeApi api;
-    void* library = dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);
-    if (!library) {
-        api.missing = std::string(kLibrary) + " is not installed; on Debian: apt install "
-                                              "libembree3-3";
-        return api;
-    }
-    const auto find = [&](const char* name) {
-        void* function = dlsym(library, name);
-        if (!function) api.missing = std::string(kLibrary) + " has no " + name;
-        return function;
-    };
-#define STROMBOLI_EMBREE_FIND(name) api.name = reinterpret_cast<decltype(api.name)>(find(#name));
+    SharedLibrary library("libembree3.so.3", "libembree3-3");
+#define STROMBOLI_EMBREE_FIND(name) library.find(api.name, #name);
     STROMBOLI_EMBREE_FUNCTIONS(STROMBOLI_EMBREE_FIND)
 #undef STROMBOLI_EMBREE_FIND
+    api.missing = library.missing();
     return api;
 }
 

@@ -4,6 +4,8 @@
 #include "host/check/cross_check.hpp"
 #include "host/kernel/vulkan_backend.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -83,10 +85,18 @@ PathReport benchPaths(const Arena& arena, const GpuScene& gpu, const EmbreePair&
     return report;
 }
 
-std::vector<KernelVariant> kernelVariants() {
+std::vector<KernelVariant> kernelVariants(const GpuScene& scene) {
     KernelTuning everything;
     everything.everythingOn = true;
-    return {{"everything on", everything}};
+    std::vector<KernelVariant> variants = {{"everything on", everything}};
+    if (scene.hasPlacements)
+        for (const uint32_t steps : {1u, 2u, 4u}) {
+            KernelTuning legs;
+            legs.traversalSteps = steps;
+            legs.traversalLegs = 20 / steps;
+            variants.push_back({fmt::format("legs of {}", steps), legs});
+        }
+    return variants;
 }
 
 VariantReport benchVariants(const Arena& arena, const GpuScene& gpu,

@@ -19,7 +19,7 @@ struct KernelVariant {
 };
 
 /// The forms that are of interest: with all features left in.
-std::vector<KernelVariant> kernelVariants();
+std::vector<KernelVariant> kernelVariants(const GpuScene& scene);
 
 /// ourName: of the kernel that renders use.
 VariantReport benchVariants(const Arena& arena, const GpuScene& gpu,

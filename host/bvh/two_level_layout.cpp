@@ -198,8 +198,10 @@ WideLayout buildTwoLevels(const Scene& scene, const BuildOptions& options) {
 
     Assembly assembly(scene, writeLayout(world, items, buildBinaryTree(bounds, options)));
     std::vector<uint32_t> roots;
-    for (size_t i = 0; i < prototypes.size(); ++i)
+    for (size_t i = 0; i < prototypes.size(); ++i) {
         roots.push_back(assembly.append(prototypes[i].layout, scene.prototypes[i].firstTriangle));
+        prototypes[i].layout = {}; // its memory is of use to the next
+    }
     const std::vector<Bounds> boxes = prototypeBounds(scene);
     for (uint32_t i = 0; i < scene.placements.size(); ++i) {
         const uint32_t prototype = scene.placements[i].prototype;

@@ -11,7 +11,6 @@
 namespace stromboli {
 namespace {
 
-constexpr Range<double> kStops{-100, 100};
 constexpr Range<double> kSeconds{0.01, 1e9};
 constexpr Range<double> kErrorRates{1e-12, 0.5};
 
@@ -40,8 +39,7 @@ void declareOutput(DeclaredCommand& c) {
               o.output)
         .besidePicture()
         .proposes(Proposed::Files);
-    c.list.real("--exposure", "EV", "PNG: radiance times 2^EV", o.tone.exposure, kStops);
-    c.list.flag("--aov", "EXR: also sample counts and variances of the mean", o.statisticsChannels);
+    declarePictureFile(c);
     c.list.flag("--transparent",
                 "the picture has alpha: what no surface covers is transparent, and the camera does "
                 "not see the environment, which lights the scene all the same",
@@ -57,19 +55,6 @@ void declareOutput(DeclaredCommand& c) {
               "write statistics of the render as JSON; - for standard output", o.statsFile)
         .besidePicture()
         .proposes(Proposed::Files);
-    c.list
-        .words("--notes", "WHETHER",
-               "on: the picture's file says of which scene it is, with which seed, samples, "
-               "version, device and command it was made (info shows it); off: it does not",
-               1,
-               [&o](const Words& words) {
-                   if (words[0] != "on" && words[0] != "off")
-                       refuse("--notes", words[0], "on or off");
-                   o.notes = words[0] == "on";
-               })
-        .usually("on")
-        .besidePicture()
-        .proposes({"on", "off"});
 }
 
 /// Each has files of its own.

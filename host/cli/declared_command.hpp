@@ -53,6 +53,8 @@ DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, const Words
 void declareScene(DeclaredCommand& command);
 
 /// Views that files do not state: where from, which angle, which lens.
+/// What is said of the file that a picture is written to.
+void declarePictureFile(DeclaredCommand& command);
 void declareOptics(DeclaredCommand& command);
 void declareSequence(DeclaredCommand& command);
 void checkSequence(const DeclaredCommand& command);

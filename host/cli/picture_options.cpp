@@ -9,6 +9,7 @@ namespace stromboli {
 namespace {
 
 /// Larger pictures than this on a side are taken for mistakes.
+constexpr Range<double> kStops{-100, 100};
 constexpr Range<uint32_t> kSide{1, 65536};
 constexpr Range<uint32_t> kPlace{0, 65535};
 constexpr Range<uint32_t> kSceneNumbers{0, 0xFFFFFFFEu};
@@ -160,6 +161,25 @@ void declareScene(DeclaredCommand& c) {
                 "what breaks the rules of the scene's format is an error, also where it is clear "
                 "what is meant",
                 reading.strict);
+}
+
+void declarePictureFile(DeclaredCommand& c) {
+    Options& o = c.options;
+    c.list.real("--exposure", "EV", "PNG: radiance times 2^EV", o.tone.exposure, kStops);
+    c.list.flag("--aov", "EXR: also sample counts and variances of the mean", o.statisticsChannels);
+    c.list
+        .words("--notes", "WHETHER",
+               "on: the picture's file says of which scene it is, with which seed, samples, "
+               "version, device and command it was made (info shows it); off: it does not",
+               1,
+               [&o](const Words& words) {
+                   if (words[0] != "on" && words[0] != "off")
+                       refuse("--notes", words[0], "on or off");
+                   o.notes = words[0] == "on";
+               })
+        .usually("on")
+        .besidePicture()
+        .proposes({"on", "off"});
 }
 
 void declarePicture(DeclaredCommand& c) {

@@ -10,7 +10,6 @@ namespace stromboli {
 namespace {
 
 constexpr Range<uint32_t> kShares{1, 1'000'000};
-constexpr Range<double> kStops{-100, 100};
 const char* const kAllAlike = "a share has as many samples of every pixel as of all others";
 
 ShareName readShare(const std::string& word) {
@@ -20,24 +19,6 @@ ShareName readShare(const std::string& word) {
     share.count = readNumber("--share: N", word.substr(slash + 1), kShares);
     share.index = readNumber("--share: I", word.substr(0, slash), {1, share.count});
     return share;
-}
-
-/// What a share leaves open, and merge is asked for.
-void declareMergedPicture(DeclaredCommand& c) {
-    Options& o = c.options;
-    c.list.real("--exposure", "EV", "PNG: radiance times 2^EV", o.tone.exposure, kStops);
-    c.list.flag("--aov", "EXR: also sample counts and variances of the mean", o.statisticsChannels);
-    c.list
-        .words("--notes", "WHETHER",
-               "on: the picture's file says how it was made; off: it does not", 1,
-               [&o](const Words& words) {
-                   if (words[0] != "on" && words[0] != "off")
-                       refuse("--notes", words[0], "on or off");
-                   o.notes = words[0] == "on";
-               })
-        .usually("on")
-        .besidePicture()
-        .proposes({"on", "off"});
 }
 
 } // namespace
@@ -96,7 +77,7 @@ void declareMerge(DeclaredCommand& c) {
         .required()
         .proposes(Proposed::Files);
     c.list.flag("--complete", "write nothing, and fail, if shares are missing", o.wantsAllShares);
-    declareMergedPicture(c);
+    declarePictureFile(c);
     declareHost(c);
     c.finish = [&c, &o] {
         if (!namesFilm(o.output)) return checkOutputOptions(c);
@@ -153,7 +134,7 @@ void declareSubmit(DeclaredCommand& c) {
         .required()
         .besidePicture()
         .proposes(Proposed::Files);
-    declareMergedPicture(c);
+    declarePictureFile(c);
     declarePicture(c);
     declareEstimator(c);
     declareSamples(c, "samples per pixel, the same number for all");

@@ -8,8 +8,7 @@
 
 namespace stromboli::assimp {
 
-/// Assimp's functions, found in its shared library when they are first wanted: linked with the
-/// program, the library would be loaded at every start of it.
+/// Assimp's functions, found in its library when they are first wanted.
 struct AssimpApi {
     decltype(&::aiImportFile) importFile = nullptr;
     decltype(&::aiReleaseImport) releaseImport = nullptr;

@@ -132,7 +132,10 @@ std::map<size_t, AnimatedNode> animatedNodes(Context& context) {
                                 animations.size());
         return nodes;
     }
-    if (animations.empty()) context.document.root().fail("has no animation; --at asks for one");
+    if (animations.empty())
+        context.document.root().fail(
+            fmt::format("has no animation; {} asks for one",
+                        context.selection().isFrame ? "--frames" : "--at"));
     context.report().ignore("animations", "the first one is shown", animations.size() - 1);
     for (const Element& channel : animations.front().items("channels"))
         animate(context, animations.front(), channel, *seconds, nodes);

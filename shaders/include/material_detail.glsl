@@ -319,12 +319,7 @@ vec3 bentNormal(vec3 n, vec3 g, vec3 wo) {
 void applyHeights(inout SurfacePoint s, vec2 slope, bool mirrors) {
     PlacedPrimitive p = fetchPlace(s.skipPrimitive);
 #ifdef PLACEMENTS
-    if (HAS_PLACEMENTS) {
-        const Placing placing = placingOf(s.placement);
-        p.v0 = pointInWorld(placing, p.v0);
-        p.v1 = pointInWorld(placing, p.v1);
-        p.v2 = pointInWorld(placing, p.v2);
-    }
+    if (HAS_PLACEMENTS) p = inWorld(placingOf(s.placement), p);
 #endif
     const uint row = attributeRow(primitiveAt(s.skipPrimitive), ATTRIBUTE_UV0);
     const vec4 first = uintBitsToFloat(ROW(detailRows, row));

@@ -64,6 +64,14 @@ vec3 pointInWorld(Placing p, vec3 v) {
     return p.isPlaced ? placed(p.transform.toWorld0, p.transform.toWorld1, p.transform.toWorld2, v) : v;
 }
 
+/// With corners in the world.
+PlacedPrimitive inWorld(Placing p, PlacedPrimitive at) {
+    at.v0 = pointInWorld(p, at.v0);
+    at.v1 = pointInWorld(p, at.v1);
+    at.v2 = pointInWorld(p, at.v2);
+    return at;
+}
+
 /// Of a normal, by the inverse transpose; unit.
 vec3 normalInWorld(Placing p, vec3 n) {
     return p.isPlaced ? unit(n.x * p.record.toPrototype0.xyz + n.y * p.record.toPrototype1.xyz +
@@ -127,9 +135,7 @@ SurfacePoint surfaceAt(Traversal t) {
     s.placement = t.hitPlacement;
     const Placing placing = placingOf(t.hitPlacement);
     if (HAS_PLACEMENTS) {
-        place.v0 = pointInWorld(placing, place.v0);
-        place.v1 = pointInWorld(placing, place.v1);
-        place.v2 = pointInWorld(placing, place.v2);
+        place = inWorld(placing, place);
         normals = CornerNormals(normalInWorld(placing, normals.n0), normalInWorld(placing, normals.n1),
                                 normalInWorld(placing, normals.n2));
     }

@@ -82,7 +82,8 @@ TEST_F(DeviceTest, PathContestantsFindTheSkyInTheSameWay) {
 
 TEST_F(DeviceTest, VariantsMakeTheSamePictureToTheBit) {
     const Bench bench("cornell_boxes");
-    const VariantReport report = benchVariants(bench.arena, bench.gpu(), kernelVariants());
+    const VariantReport report =
+        benchVariants(bench.arena, bench.gpu(), kernelVariants(bench.gpu()));
     ASSERT_EQ(report.samePicture.size() + 1, report.contestants.size());
     for (const bool same : report.samePicture)
         EXPECT_TRUE(same);

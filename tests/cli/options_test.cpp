@@ -3,6 +3,7 @@
 #include "host/cli/declared_command.hpp"
 #include "host/cli/options.hpp"
 #include "host/core/error.hpp"
+#include "tests/cli/parse.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,11 +13,7 @@
 namespace stromboli {
 namespace {
 
-Options parse(std::vector<std::string> arguments) {
-    const std::optional<Options> options = parseOptions(std::move(arguments));
-    if (!options) throw std::runtime_error("nothing to run");
-    return *options;
-}
+using test::parse;
 
 TEST(Options, Defaults) {
     const Options o = parse({"render", "a.dae", "-o", "a.png"});
@@ -361,93 +358,6 @@ TEST(Options, EveryNameOfATableIsUnderstood) {
                                 [](const Options& o) { return o.estimator.integrator; });
     expectEveryName<CameraChoice>("--camera", [](const Options& o) { return o.camera.choice; });
     expectEveryName<BackendChoice>("--backend", [](const Options& o) { return o.backend; });
-}
-
-TEST(Options, OtherWordsNameACameraOfTheFile) {
-    const auto camera = [](const char* word) {
-        return parse({"info", "a.dae", "--camera", word}).camera;
-    };
-    EXPECT_EQ(camera("2").choice, CameraChoice::File);
-    EXPECT_EQ(camera("2").name, "2");
-    EXPECT_EQ(camera("left eye").name, "left eye");
-    EXPECT_EQ(camera("file").name, "");
-}
-
-TEST(Options, TheLightAroundTheScene) {
-    const auto environment = [](std::vector<std::string> words) {
-        words.insert(words.begin(), {"info", "a.dae"});
-        return parse(words).environment;
-    };
-    EXPECT_FALSE(environment({}).isGiven());
-    EXPECT_EQ(environment({"--env", "sky.hdr"}).file, "sky.hdr");
-    EXPECT_EQ(environment({"--env", "0.5"}).constant, glm::vec3(0.5f));
-    EXPECT_EQ(environment({"--env", "1,0.5,2e1"}).constant, glm::vec3(1, 0.5f, 20));
-    EXPECT_EQ(environment({"--env", "1,2"}).file, "1,2"); // no radiance: a name
-    EXPECT_EQ(environment({"--env", "-1"}).file, "-1");
-    const EnvironmentRequest turned =
-        environment({"--env", "sky.hdr", "--env-rotate", "90", "--env-strength", "2"});
-    EXPECT_EQ(turned.rotationDegrees, 90);
-    EXPECT_EQ(turned.strength, 2);
-}
-
-TEST(Options, ViewsAndLenses) {
-    const CameraRequest camera =
-        parse({"info", "a.dae", "--look-from", "1", "-2", "3e1", "--look-at", "0", "0.5", "0",
-               "--fov", "90", "--aperture", "5mm", "--focus", "2.5"})
-            .camera;
-    EXPECT_EQ(camera.from, glm::dvec3(1, -2, 30));
-    EXPECT_EQ(camera.at, glm::dvec3(0, 0.5, 0));
-    EXPECT_DOUBLE_EQ(camera.fieldOfView.value(), std::acos(0.0));
-    EXPECT_DOUBLE_EQ(camera.aperture, 0.005);
-    EXPECT_DOUBLE_EQ(camera.focus, 2.5);
-    EXPECT_DOUBLE_EQ(parse({"info", "a.dae", "--aperture", "1cm", "--focus", "0.1km"}).camera.focus,
-                     100);
-}
-
-TEST(Options, HowFilesAreRead) {
-    const auto reading = [](std::vector<std::string> extra) {
-        extra.insert(extra.begin(), {"check", "a.dae"});
-        return parse(extra).reading;
-    };
-    EXPECT_TRUE(reading({}).defaultLight);
-    EXPECT_FALSE(reading({}).strict);
-    EXPECT_FALSE(reading({"--default-light", "off"}).defaultLight);
-    EXPECT_TRUE(reading({"--strict"}).strict);
-    // That renderer has no such light, unless it is asked for, wherever the option stands.
-    EXPECT_FALSE(reading({"--cs184"}).defaultLight);
-    EXPECT_TRUE(reading({"--cs184", "--default-light", "on"}).defaultLight);
-    EXPECT_TRUE(reading({"--default-light", "on", "--cs184", "--strict"}).defaultLight);
-}
-
-TEST(Options, WhatOfAFileIsShown) {
-    const auto selection = [](std::vector<std::string> extra) {
-        extra.insert(extra.begin(), {"info", "a.glb"});
-        return parse(extra).reading.selection;
-    };
-    EXPECT_FALSE(selection({}).scene.has_value());
-    EXPECT_FALSE(selection({}).seconds.has_value());
-    EXPECT_EQ(selection({}).option(), "");
-    EXPECT_EQ(selection({"--scene", "0"}).scene, 0u);
-    EXPECT_EQ(selection({"--variant", "night"}).variant, "night");
-    EXPECT_EQ(selection({"--at", "1.5"}).seconds, 1.5);
-    EXPECT_EQ(selection({"--max-texture", "512"}).largestTexture, 512u);
-    EXPECT_EQ(selection({"--at", "0", "--cs184"}).seconds, 0); // wherever the option stands
-}
-
-TEST(Options, ValuesOfNamesInAScene) {
-    const Options o = parse({"info", "a.xml", "-D", "spp=4", "--define", "file=a=b"});
-    ASSERT_EQ(o.reading.selection.definitions.size(), 2u);
-    EXPECT_EQ(o.reading.selection.definitions[0].name, "spp");
-    EXPECT_EQ(o.reading.selection.definitions[1].value, "a=b");
-    EXPECT_THROW(parse({"info", "a.xml", "-D", "spp"}), UsageError);
-    EXPECT_THROW(parse({"info", "a.xml", "-D", "=4"}), UsageError);
-}
-
-TEST(Options, WhatASceneFileMayAskForIsKnownToBeGiven) {
-    const Options none = parse({"render", "a.xml", "-o", "a.png"});
-    EXPECT_FALSE(none.bouncesGiven || none.filterGiven);
-    const Options both = parse({"render", "a.xml", "-o", "a.png", "-m", "3", "--filter", "box"});
-    EXPECT_TRUE(both.bouncesGiven && both.filterGiven);
 }
 
 TEST(Options, ContradictionsAreRefused) {
