@@ -1,18 +1,15 @@
 // Rays at the edges and corners that triangles share: where a test that is not watertight lets
 // them through.
 #include "host/stress/case.hpp"
+#include "host/stress/drawn_rays.hpp"
 #include "scene/generate/hard_meshes.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 
 namespace stromboli::stress {
 namespace {
-
-constexpr uint64_t kBatch = 1u << 20; ///< rays traced at once
-constexpr uint32_t kRun = 1u << 12;   ///< rays drawn with one seed
 
 enum class Aim { Edges, Corners };
 
@@ -27,22 +24,15 @@ glm::vec3 target(const Scene& mesh, Aim aim, Random& random) {
 /// From within 0.1 of `middle`, directions of any length.
 std::vector<Ray> raysAt(const Scene& mesh, const glm::vec3& middle, Aim aim, uint64_t count,
                         uint32_t seed) {
-    std::vector<Ray> rays(count);
-    tbb::parallel_for(uint64_t(0), (count + kRun - 1) / kRun, [&](uint64_t run) {
-        Random random(seed + uint32_t(run));
-        for (uint64_t i = run * kRun; i < std::min(count, (run + 1) * kRun); ++i) {
-            const glm::vec3 origin = middle + random.inCube(0.1f);
-            glm::vec3 direction = target(mesh, aim, random) - origin;
-            if (i & 1) direction = glm::normalize(direction);
-            rays[i] = {origin, kMissed, direction, 0};
-        }
+    return drawnRays(count, seed, [&](Random& random, uint64_t i) {
+        const glm::vec3 origin = middle + random.inCube(0.1f);
+        return rayTowards(origin, target(mesh, aim, random), i);
     });
-    return rays;
 }
 
 /// Rays from inside closed meshes that leave them unnoticed.
-Finding countMisses(Run& run, const std::vector<uint32_t>& levels, const glm::vec3& middle,
-                    const std::vector<Aim>& aims, uint64_t rays, uint32_t seed) {
+Finding missesFromWithin(Run& run, const std::vector<uint32_t>& levels, const glm::vec3& middle,
+                         const std::vector<Aim>& aims, uint64_t rays, uint32_t seed) {
     Finding f;
     Random random(seed);
     const uint64_t each = rays / (levels.size() * aims.size());
@@ -51,16 +41,10 @@ Finding countMisses(Run& run, const std::vector<uint32_t>& levels, const glm::ve
         translate(mesh, middle);
         const auto tracer = run.subject().tracer(mesh);
         for (const Aim aim : aims)
-            for (uint64_t done = 0; done < each; done += kBatch) {
-                const uint64_t count = std::min(kBatch, each - done);
-                const auto batch = raysAt(mesh, middle, aim, count, random.word());
-                const bool anyHit = done / kBatch % 2 == 0;
-                const uint64_t missed = count - tracer->countHits(batch, anyHit);
-                if (missed > 0) f.where = fmt::format("{} triangles", mesh.triangles.size());
-                f.measured += double(missed);
-                f.trials += count;
-                run.goOn();
-            }
+            countMisses(
+                run, *tracer, each,
+                [&](uint64_t count) { return raysAt(mesh, middle, aim, count, random.word()); },
+                fmt::format("{} triangles", mesh.triangles.size()), f);
     }
     return f;
 }
@@ -71,20 +55,20 @@ std::vector<uint32_t> levels(const Run& run) {
 }
 
 Finding edges(Run& run) {
-    return countMisses(run, levels(run), {0, 0, 0}, {Aim::Edges},
-                       run.amount<uint64_t>(300'000, 50'000'000), 1001);
+    return missesFromWithin(run, levels(run), {0, 0, 0}, {Aim::Edges},
+                            run.amount<uint64_t>(300'000, 50'000'000), 1001);
 }
 
 Finding corners(Run& run) {
-    return countMisses(run, levels(run), {0, 0, 0}, {Aim::Corners},
-                       run.amount<uint64_t>(300'000, 50'000'000), 1002);
+    return missesFromWithin(run, levels(run), {0, 0, 0}, {Aim::Corners},
+                            run.amount<uint64_t>(300'000, 50'000'000), 1002);
 }
 
 /// Where Embree's watertight_pos has them: 1e5 of their size from the origin. Coordinates are
 /// multiples of 1/64 there; the meshes are not so fine that corners would coincide.
 Finding moved(Run& run) {
-    return countMisses(run, {0, 1, 2, 3}, {148376, 1234, -223423}, {Aim::Edges, Aim::Corners},
-                       run.amount<uint64_t>(800'000, 100'000'000), 1003);
+    return missesFromWithin(run, {0, 1, 2, 3}, {148376, 1234, -223423}, {Aim::Edges, Aim::Corners},
+                            run.amount<uint64_t>(800'000, 100'000'000), 1003);
 }
 
 /// All coordinates are whole numbers, so that heights must come out to the last bit. Two

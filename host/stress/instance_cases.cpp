@@ -1,21 +1,18 @@
 // Meshes that are met through placements: turned, stretched, mirrored, small in a large world.
 #include "host/stress/case.hpp"
+#include "host/stress/drawn_rays.hpp"
 #include "host/stress/scenes.hpp"
 #include "scene/generate/hard_meshes.hpp"
 #include "scene/model/placements.hpp"
 
 #include <fmt/format.h>
 #include <glm/gtc/quaternion.hpp>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace stromboli::stress {
 namespace {
-
-constexpr uint64_t kBatch = 1u << 20; ///< rays traced at once
-constexpr uint32_t kRun = 1u << 12;   ///< rays drawn with one seed
 
 /// A turn without a zero in it, a stretch of up to ten in each direction, and every other time a
 /// mirror.
@@ -60,18 +57,11 @@ glm::vec3 edgePoint(const Scene& scene, const Placement& p, Random& random) {
 
 /// From near the middles of placements to their edges.
 std::vector<Ray> raysFromWithin(const Scene& scene, uint64_t count, uint32_t seed) {
-    std::vector<Ray> rays(count);
-    tbb::parallel_for(uint64_t(0), (count + kRun - 1) / kRun, [&](uint64_t run) {
-        Random random(seed + uint32_t(run));
-        for (uint64_t i = run * kRun; i < std::min(count, (run + 1) * kRun); ++i) {
-            const Placement& p = scene.placements[random.below(uint32_t(scene.placements.size()))];
-            const glm::vec3 origin = stromboli::placed(p, random.inCube(0.1f));
-            glm::vec3 direction = edgePoint(scene, p, random) - origin;
-            if (i & 1) direction = glm::normalize(direction);
-            rays[i] = {origin, kMissed, direction, 0};
-        }
+    return drawnRays(count, seed, [&](Random& random, uint64_t i) {
+        const Placement& p = scene.placements[random.below(uint32_t(scene.placements.size()))];
+        const glm::vec3 origin = stromboli::placed(p, random.inCube(0.1f));
+        return rayTowards(origin, edgePoint(scene, p, random), i);
     });
-    return rays;
 }
 
 struct World {
@@ -85,7 +75,7 @@ const World kWorlds[] = {{1, 20, {0, 0, 0}},
                          {1e3f, 1, {0, 0, 0}},
                          {1, 10, {148376, 1234, -223423}}};
 
-Finding edges(Run& run) {
+Finding edgesOfInstances(Run& run) {
     Finding f;
     Random random(1101);
     const std::vector<uint32_t> levels =
@@ -97,17 +87,10 @@ Finding edges(Run& run) {
             const Scene scene = placedMany(starMesh(level, random), 16, world.size, world.middle,
                                            world.half, random);
             const auto tracer = run.subject().tracer(scene);
-            for (uint64_t done = 0; done < each; done += kBatch) {
-                const uint64_t count = std::min(kBatch, each - done);
-                const auto batch = raysFromWithin(scene, count, random.word());
-                const uint64_t missed = count - tracer->countHits(batch, done / kBatch % 2 == 0);
-                if (missed > 0)
-                    f.where = fmt::format("{} triangles of size {:g}", scene.triangles.size(),
-                                          world.size);
-                f.measured += double(missed);
-                f.trials += count;
-                run.goOn();
-            }
+            countMisses(
+                run, *tracer, each,
+                [&](uint64_t count) { return raysFromWithin(scene, count, random.word()); },
+                fmt::format("{} triangles of size {:g}", scene.triangles.size(), world.size), f);
         }
     return f;
 }
@@ -188,7 +171,7 @@ Finding closed(Run& run) {
 std::vector<Case> instanceCases() {
     return {
         {"instances", "75", "rays at edges and corners of closed meshes that are placed hit",
-         "missed", "rays", edges},
+         "missed", "rays", edgesOfInstances},
         {"instances-as-copies", "76", "instances are met where copies are", "wrong", "rays",
          asCopies},
         {"closed-instances", "77", "no light comes through closed meshes that are placed", "lit",

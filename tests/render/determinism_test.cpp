@@ -1,10 +1,9 @@
 // The same scene, settings and device give the same bytes, however the work is cut.
 #include "tests/render/device_render.hpp"
+#include "tests/render/film_checks.hpp"
 #include "tests/support/device_fixture.hpp"
 
 #include <gtest/gtest.h>
-
-#include <cstring>
 
 namespace stromboli {
 namespace {
@@ -33,20 +32,6 @@ class Determinism : public DeviceTest {
         return renderOnDevice(testDevice(), scene, camera, s, tuning);
     }
 };
-
-bool sameBytes(const PixelStatistics& a, const PixelStatistics& b) {
-    return a.count == b.count && a.rejected == b.rejected &&
-           std::memcmp(&a.mean, &b.mean, sizeof a.mean) == 0 &&
-           std::memcmp(&a.m2, &b.m2, sizeof a.m2) == 0;
-}
-
-void expectSameBytes(const Film& a, const Film& b) {
-    ASSERT_EQ(a.pixels.size(), b.pixels.size());
-    size_t different = 0;
-    for (size_t i = 0; i < a.pixels.size(); ++i)
-        if (!sameBytes(a.pixels[i], b.pixels[i])) ++different;
-    EXPECT_EQ(different, 0u) << "of " << a.pixels.size() << " pixels";
-}
 
 TEST_F(Determinism, TwoRuns) {
     expectSameBytes(renderWith(settings()), renderWith(settings()));

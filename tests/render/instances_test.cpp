@@ -1,22 +1,20 @@
 // Pictures of meshes that share their triangles: the kernel goes through placements, the reference
 // has copies, and the two agree (z-tests with a family-wise error of 1e-4 a mode, fixed seeds). The
 // kernel with copies makes nearly the same samples, and its bytes do not depend on how work is cut.
-#include "host/check/cross_check.hpp"
 #include "host/core/random.hpp"
 #include "host/reference/reference_backend.hpp"
 #include "host/render/layers.hpp"
-#include "host/render/render.hpp"
 #include "scene/generate/hard_meshes.hpp"
 #include "scene/model/placements.hpp"
 #include "tests/analytic/textured.hpp"
 #include "tests/render/device_render.hpp"
+#include "tests/render/film_checks.hpp"
 #include "tests/support/device_fixture.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 
 namespace stromboli {
 namespace {
@@ -141,14 +139,7 @@ TEST_P(InstanceModes, KernelAndReferenceAgree) {
     const Scene scene = placedRoom();
     RenderSettings s = settings(96);
     GetParam().change(s);
-    const Film onDevice = renderOnDevice(testDevice(), scene, camera(), s);
-    ReferenceBackend reference(scene, camera(), s);
-    const Film onHost = render(reference, s);
-    CheckSettings check;
-    check.familyError = 1e-4;
-    const CheckResult result = crossCheck(onDevice, onHost, check);
-    EXPECT_TRUE(result.agree()) << formatCheck(result);
-    EXPECT_EQ(result.rejectedA, 0u);
+    expectKernelAndReferenceAgree(testDevice(), scene, camera(), s);
 }
 
 INSTANTIATE_TEST_SUITE_P(Modes, InstanceModes, testing::ValuesIn(kModes),
@@ -174,12 +165,6 @@ TEST_F(Instances, AreAsCopies) {
     EXPECT_LT(double(different), 0.02 * double(shared.pixels.size()));
 }
 
-bool sameBytes(const PixelStatistics& a, const PixelStatistics& b) {
-    return a.count == b.count && a.rejected == b.rejected &&
-           std::memcmp(&a.mean, &b.mean, sizeof a.mean) == 0 &&
-           std::memcmp(&a.m2, &b.m2, sizeof a.m2) == 0;
-}
-
 TEST_F(Instances, HaveTheSameBytesHoweverWorkIsCut) {
     const Scene scene = placedRoom();
     RenderSettings s = settings(6);
@@ -194,10 +179,7 @@ TEST_F(Instances, HaveTheSameBytesHoweverWorkIsCut) {
           {.texelFetch = false},
           {.registerStack = 0}}) {
         const Film cut = renderOnDevice(testDevice(), scene, camera(), s, tuning);
-        size_t different = 0;
-        for (size_t i = 0; i < whole.pixels.size(); ++i)
-            different += !sameBytes(whole.pixels[i], cut.pixels[i]);
-        EXPECT_EQ(different, 0u) << "of " << whole.pixels.size() << " pixels";
+        expectSameBytes(whole, cut);
     }
 }
 

@@ -8,6 +8,7 @@
 #include "scene/generate/generated_scene.hpp"
 #include "scene/read_scene.hpp"
 #include "tests/render/device_render.hpp"
+#include "tests/render/film_checks.hpp"
 #include "tests/support/device_fixture.hpp"
 #include "tests/support/test_shader.hpp"
 
@@ -15,7 +16,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <string>
 #include <string_view>
 
@@ -178,11 +178,8 @@ class NestedKernel : public DeviceTest {
     }
 
     static void expectSame(const Result& a, const Result& b, const std::string& what) {
-        ASSERT_EQ(a.film.pixels.size(), b.film.pixels.size());
-        size_t different = 0;
-        for (size_t i = 0; i < a.film.pixels.size(); ++i)
-            different += !sameBytes(a.film.pixels[i], b.film.pixels[i]);
-        EXPECT_EQ(different, 0u) << what << ": of " << a.film.pixels.size() << " pixels";
+        EXPECT_EQ(differingPixels(a.film, b.film), 0u)
+            << what << ": of " << a.film.pixels.size() << " pixels";
         EXPECT_EQ(a.rays, b.rays) << what;
     }
 
@@ -203,13 +200,6 @@ class NestedKernel : public DeviceTest {
             p.m2 = glm::dvec3(s.m2) + glm::dvec3(s.m2Error);
         }
         return film;
-    }
-
-    static bool sameBytes(const PixelStatistics& a, const PixelStatistics& b) {
-        return a.count == b.count && a.rejected == b.rejected &&
-               a.firstRejected == b.firstRejected &&
-               std::memcmp(&a.mean, &b.mean, sizeof a.mean) == 0 &&
-               std::memcmp(&a.m2, &b.m2, sizeof a.m2) == 0;
     }
 
     GpuScene scene_;

@@ -5,11 +5,10 @@
 #include "host/render/block_backend.hpp"
 #include "host/render/render_session.hpp"
 #include "tests/render/device_render.hpp"
+#include "tests/render/film_checks.hpp"
 #include "tests/support/device_fixture.hpp"
 
 #include <gtest/gtest.h>
-
-#include <cstring>
 
 namespace stromboli {
 namespace {
@@ -18,19 +17,6 @@ using namespace test;
 
 const std::filesystem::path kScene =
     std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene" / "library" / "cornell_mirror_glass.dae";
-
-bool sameBytes(const PixelStatistics& a, const PixelStatistics& b) {
-    return a.count == b.count && a.rejected == b.rejected && a.firstRejected == b.firstRejected &&
-           std::memcmp(&a.mean, &b.mean, sizeof a.mean) == 0 &&
-           std::memcmp(&a.m2, &b.m2, sizeof a.m2) == 0;
-}
-
-size_t differences(const Film& a, const Film& b) {
-    size_t different = 0;
-    for (size_t i = 0; i < a.pixels.size(); ++i)
-        different += !sameBytes(a.pixels[i], b.pixels[i]);
-    return different;
-}
 
 /// Ways to spread samples.
 std::vector<std::pair<const char*, Budget>> budgets() {
@@ -111,7 +97,7 @@ TEST_F(Session, SavedAndRestoredInTheMiddleOfPassesMakesTheSameBytes) {
             int pieces = 0;
             const Film cut = inPieces(&Session::device, s, reports, pieces);
             EXPECT_GT(pieces, reports == 40 ? 1 : 0) << name;
-            EXPECT_EQ(differences(whole, cut), 0u) << name << ", " << pieces << " pieces";
+            EXPECT_EQ(differingPixels(whole, cut), 0u) << name << ", " << pieces << " pieces";
         }
     }
 }
@@ -123,7 +109,7 @@ TEST_F(Session, TheReferenceGoesOnAsWell) {
         int pieces = 0;
         const Film cut = inPieces(&Session::reference, s, 1, pieces);
         EXPECT_GT(pieces, 1) << name;
-        EXPECT_EQ(differences(whole, cut), 0u) << name;
+        EXPECT_EQ(differingPixels(whole, cut), 0u) << name;
     }
 }
 
@@ -150,7 +136,7 @@ TEST_F(Session, ASingleBlockHasTheBytesOfNone) {
     const Film plain = uninterrupted(&Session::device, settings({.mostSamplesPerPixel = 32}));
     const Film block = uninterrupted(&Session::device,
                                      settings({.mostSamplesPerPixel = 32, .samplesPerBlock = 64}));
-    EXPECT_EQ(differences(plain, block), 0u);
+    EXPECT_EQ(differingPixels(plain, block), 0u);
 }
 
 /// Each block by a backend of its own, in any order, whatever the device's work is cut into.
@@ -231,7 +217,7 @@ TEST_F(Session, AnotherPictureOfTheSceneNeitherCompilesNorUploadsIt) {
     RenderSession again(fresh, other);
     while (again.pass()) {
     }
-    EXPECT_EQ(differences(session.film(), again.film()), 0u);
+    EXPECT_EQ(differingPixels(session.film(), again.film()), 0u);
 }
 
 /// Where it needs other features of the kernel, it is compiled, and only then.
@@ -247,7 +233,8 @@ TEST_F(Session, AnotherEstimatorIsCompiledOnce) {
             RenderSession session(backend, picture);
             while (session.pass()) {
             }
-            EXPECT_EQ(differences(session.film(), uninterrupted(&Session::device, picture)), 0u);
+            EXPECT_EQ(differingPixels(session.film(), uninterrupted(&Session::device, picture)),
+                      0u);
         }
     // One for the other sampler; and one for each of the four sessions to compare with.
     EXPECT_EQ(testDevice().pipelinesMade(), pipelines + 1 + 4);

@@ -1,17 +1,13 @@
 // Pictures of a room with all that textures, colours of corners, normal maps and opacity can be:
 // the kernel and the reference agree on it (z-tests with a family-wise error of 1e-4 a mode, fixed
 // seeds), and the kernel gives the same bytes however its work is cut.
-#include "host/check/cross_check.hpp"
 #include "host/core/random.hpp"
-#include "host/reference/reference_backend.hpp"
-#include "host/render/render.hpp"
 #include "tests/analytic/textured.hpp"
 #include "tests/render/device_render.hpp"
+#include "tests/render/film_checks.hpp"
 #include "tests/support/device_fixture.hpp"
 
 #include <gtest/gtest.h>
-
-#include <cstring>
 
 namespace stromboli {
 namespace {
@@ -148,24 +144,11 @@ TEST_P(TexturedRoom, KernelAndReferenceAgree) {
     const Scene scene = texturedRoom();
     RenderSettings s = settings(96);
     GetParam().change(s);
-    const Film onDevice = renderOnDevice(testDevice(), scene, camera(), s);
-    ReferenceBackend reference(scene, camera(), s);
-    const Film onHost = render(reference, s);
-    CheckSettings check;
-    check.familyError = 1e-4;
-    const CheckResult result = crossCheck(onDevice, onHost, check);
-    EXPECT_TRUE(result.agree()) << formatCheck(result);
-    EXPECT_EQ(result.rejectedA, 0u);
+    expectKernelAndReferenceAgree(testDevice(), scene, camera(), s);
 }
 
 INSTANTIATE_TEST_SUITE_P(Modes, TexturedRoom, testing::ValuesIn(kModes),
                          [](const auto& mode) { return mode.param.name; });
-
-bool sameBytes(const PixelStatistics& a, const PixelStatistics& b) {
-    return a.count == b.count && a.rejected == b.rejected &&
-           std::memcmp(&a.mean, &b.mean, sizeof a.mean) == 0 &&
-           std::memcmp(&a.m2, &b.m2, sizeof a.m2) == 0;
-}
 
 class TexturedRoomBytes : public DeviceTest {};
 
@@ -183,10 +166,7 @@ TEST_F(TexturedRoomBytes, AreTheSameHoweverWorkIsCut) {
                                        {.texelFetch = false},
                                        {.registerStack = 0}}) {
         const Film cut = renderOnDevice(testDevice(), scene, camera(), s, tuning);
-        size_t different = 0;
-        for (size_t i = 0; i < whole.pixels.size(); ++i)
-            different += !sameBytes(whole.pixels[i], cut.pixels[i]);
-        EXPECT_EQ(different, 0u) << "of " << whole.pixels.size() << " pixels";
+        expectSameBytes(whole, cut);
     }
 }
 
