@@ -17,11 +17,13 @@ void declareFilmMemory(DeclaredCommand& c) {
 void declareDevice(DeclaredCommand& c) {
     c.list.group("Device");
     c.list
-        .text("--device", "D", "number, UUID or part of a name from 'stromboli devices', or cpu",
+        .text("--device", "D",
+              "number, UUID or part of a name from 'stromboli devices', or cpu; of 'render' also "
+              "several, with commas between them, or all",
               c.options.device)
         .usually("the best")
         .besidePicture()
-        .proposes({"cpu"});
+        .proposes({"cpu", "all"});
 }
 
 void declareHost(DeclaredCommand& c) {

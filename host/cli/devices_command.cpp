@@ -1,8 +1,10 @@
 #include "host/cli/commands.hpp"
 #include "host/core/error.hpp"
-#include "host/vulkan/device.hpp"
+#include "host/vulkan/choose_device.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace stromboli {
 namespace {
@@ -28,10 +30,14 @@ void print(size_t index, const vulkan::DeviceDescription& d, bool chosen) {
 int devicesCommand(const Options& options) {
     const vulkan::Instance instance(vulkan::validationRequested());
     const std::vector<vulkan::DeviceDescription> devices = vulkan::listDevices(instance);
-    const vulkan::DeviceChoice choice = vulkan::chooseDevice(devices, options.device);
+    const std::vector<vulkan::DeviceChoice> choices =
+        vulkan::chooseDevices(devices, options.device);
+    const auto isChosen = [&](size_t i) {
+        return std::ranges::find(choices, i, &vulkan::DeviceChoice::index) != choices.end();
+    };
     for (size_t i = 0; i < devices.size(); ++i)
-        print(i, devices[i], i == choice.index);
-    fmt::print("* chosen: {}\n", choice.reason);
+        print(i, devices[i], isChosen(i));
+    fmt::print("* chosen: {}\n", choices.front().reason);
     return 0;
 }
 

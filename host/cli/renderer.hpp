@@ -2,11 +2,10 @@
 
 #include "host/checkpoint/kept_render.hpp"
 #include "host/cli/job.hpp"
+#include "host/cli/render_devices.hpp"
 #include "host/cli/report.hpp"
-#include "host/kernel/vulkan_backend.hpp"
 
 #include <functional>
-#include <future>
 #include <memory>
 #include <optional>
 
@@ -30,19 +29,14 @@ class Renderer {
 
   private:
     void openAndBuild(const Job& job, RenderReport& report);
-    std::shared_ptr<Backend> backendFor(const Job& job, const RenderSettings& settings,
-                                        const Options& options, bool again);
     void renderOnDevice(const Job& job, const Options& options, const TakeSamples& take,
                         RenderReport& report);
     void renderOnReference(const Job& job, const Options& options, const TakeSamples& take,
                            RenderReport& report);
 
-    bool isOnDevice_;
-    std::future<vulkan::OpenDevice> device_;
-    std::optional<vulkan::OpenDevice> open_;
     std::unique_ptr<BuiltScene> built_;
-    bool isStale_ = false;                   ///< `built_` is of an earlier scene
-    std::shared_ptr<VulkanBackend> backend_; ///< of the last picture, with the scene
+    bool isStale_ = false;                 ///< `built_` is of an earlier scene
+    std::optional<RenderDevices> devices_; ///< none: the reference renders
 };
 
 } // namespace stromboli

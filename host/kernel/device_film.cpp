@@ -48,6 +48,14 @@ gpu::PixelState stateOf(const PixelSums& s) {
     return state;
 }
 
+/// What of a run lies in a segment, counted in it.
+PixelRun partOf(const DeviceFilm::Segment& segment, PixelRun run) {
+    const uint32_t first = std::max(run.first, segment.firstPixel);
+    const uint32_t end = std::min(run.first + run.count, segment.firstPixel + segment.pixelCount);
+    if (end <= first) return {};
+    return {first - segment.firstPixel, end - first};
+}
+
 } // namespace
 
 DeviceFilm::DeviceFilm(const vulkan::Device& device, const PictureArea& area,
@@ -93,21 +101,25 @@ void DeviceFilm::write(size_t segment, uint32_t pixel, const gpu::PixelState& st
                                      uint64_t(pixel) * sizeof(gpu::PixelState));
 }
 
-std::span<const gpu::PixelState> DeviceFilm::statesOf(const Segment& segment) {
+std::span<const gpu::PixelState> DeviceFilm::statesOf(const Segment& segment, PixelRun run) {
     if (const std::byte* view = segment.pixels.hostView())
-        return {reinterpret_cast<const gpu::PixelState*>(view), segment.pixelCount};
-    copy_.resize(segment.pixelCount);
-    segment.pixels.download(queue_, std::as_writable_bytes(std::span(copy_)));
+        return {reinterpret_cast<const gpu::PixelState*>(view) + run.first, run.count};
+    copy_.resize(run.count);
+    segment.pixels.download(queue_, std::as_writable_bytes(std::span(copy_)),
+                            uint64_t(run.first) * sizeof(gpu::PixelState));
     return copy_;
 }
 
 void DeviceFilm::readBack(size_t index, std::span<const gpu::WorkItem> items, Film& film) {
     if (items.empty()) return;
     const Segment& segment = segments_[index];
-    const std::span<const gpu::PixelState> states = statesOf(segment);
+    const auto [least, most] = std::ranges::minmax(items, {}, &gpu::WorkItem::pixel);
+    const PixelRun run = {least.pixel, most.pixel - least.pixel + 1};
+    const std::span<const gpu::PixelState> states = statesOf(segment, run);
     tbb::parallel_for(tbb::blocked_range<size_t>(0, items.size(), 4096), [&](const auto& range) {
         for (size_t i = range.begin(); i != range.end(); ++i)
-            film.pixels[segment.firstPixel + items[i].pixel] = statisticsOf(states[items[i].pixel]);
+            film.pixels[segment.firstPixel + items[i].pixel] =
+                statisticsOf(states[items[i].pixel - run.first]);
     });
 }
 
@@ -116,25 +128,32 @@ void DeviceFilm::clear() {
         segment.pixels.clear(queue_);
 }
 
-std::vector<PixelSums> DeviceFilm::save() {
+std::vector<PixelSums> DeviceFilm::save(PixelRun run) {
     std::vector<PixelSums> sums;
-    sums.reserve(area_.pixelCount());
-    for (const Segment& segment : segments_)
-        for (const gpu::PixelState& state : statesOf(segment))
+    sums.reserve(run.count);
+    for (const Segment& segment : segments_) {
+        const PixelRun part = partOf(segment, run);
+        if (part.count == 0) continue;
+        for (const gpu::PixelState& state : statesOf(segment, part))
             sums.push_back(sumsOf(state));
+    }
     return sums;
 }
 
-void DeviceFilm::restore(std::span<const PixelSums> sums, Film& film) {
-    if (sums.size() != area_.pixelCount())
+void DeviceFilm::restore(PixelRun run, std::span<const PixelSums> sums, Film& film) {
+    if (sums.size() != run.count || uint64_t(run.first) + run.count > area_.pixelCount())
         throw std::invalid_argument("the saved film is not of this area");
     for (Segment& segment : segments_) {
+        const PixelRun part = partOf(segment, run);
+        if (part.count == 0) continue;
+        const uint32_t first = segment.firstPixel + part.first;
         std::vector<gpu::PixelState> states;
-        for (const PixelSums& s : sums.subspan(segment.firstPixel, segment.pixelCount))
+        for (const PixelSums& s : sums.subspan(first - run.first, part.count))
             states.push_back(stateOf(s));
-        segment.pixels.upload(queue_, bytesOf(states));
-        for (uint32_t i = 0; i < segment.pixelCount; ++i)
-            film.pixels[segment.firstPixel + i] = statisticsOf(states[i]);
+        segment.pixels.upload(queue_, bytesOf(states),
+                              uint64_t(part.first) * sizeof(gpu::PixelState));
+        for (uint32_t i = 0; i < part.count; ++i)
+            film.pixels[first + i] = statisticsOf(states[i]);
     }
 }
 

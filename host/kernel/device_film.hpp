@@ -41,19 +41,21 @@ class DeviceFilm {
     /// Forgets all samples.
     void clear();
 
-    /// All pixels that are rendered, row by row, to the last bit.
-    std::vector<PixelSums> save();
-    /// What was saved of a film of the same area; also into `film`.
-    void restore(std::span<const PixelSums> sums, Film& film);
+    /// Pixels to the last bit.
+    std::vector<PixelSums> save(PixelRun run);
+    /// What was saved of these pixels; also into `film`. Throws std::invalid_argument if they are
+    /// not of the area, or if their number is another.
+    void restore(PixelRun run, std::span<const PixelSums> sums, Film& film);
 
   private:
-    /// All pixels of a segment, until the next dispatch or call.
-    std::span<const gpu::PixelState> statesOf(const Segment& segment);
+    /// Pixels of a segment, counted in it; until the next dispatch or call.
+    std::span<const gpu::PixelState> statesOf(const Segment& segment, PixelRun run);
 
     PictureArea area_;
     vulkan::Queue queue_;
     std::vector<Segment> segments_;
-    std::vector<gpu::PixelState> copy_; ///< of a segment, where it is not the host's memory
+    std::vector<gpu::PixelState>
+        copy_; ///< of a part of a segment, where it is not the host's memory
 };
 
 } // namespace stromboli

@@ -135,12 +135,12 @@ void VulkanBackend::beginAt(uint32_t firstSample) {
     dispatcher_->setFrame(frame_);
 }
 
-std::vector<PixelSums> VulkanBackend::save(const Film&) {
-    return film_->save();
+std::vector<PixelSums> VulkanBackend::save(const Film&, PixelRun run) {
+    return film_->save(run);
 }
 
-void VulkanBackend::restore(std::span<const PixelSums> sums, Film& film) {
-    film_->restore(sums, film);
+void VulkanBackend::restore(PixelRun run, std::span<const PixelSums> sums, Film& film) {
+    film_->restore(run, sums, film);
 }
 
 } // namespace stromboli

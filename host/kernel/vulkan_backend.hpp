@@ -37,8 +37,8 @@ class VulkanBackend final : public Backend, public Viewer {
     SampleValue sampleAlone(uint32_t pixel, uint32_t sample) override;
     RenderCounters counters() const override { return dispatcher_->counters(); }
     void beginAt(uint32_t firstSample) override;
-    std::vector<PixelSums> save(const Film& film) override;
-    void restore(std::span<const PixelSums> sums, Film& film) override;
+    std::vector<PixelSums> save(const Film& film, PixelRun run) override;
+    void restore(PixelRun run, std::span<const PixelSums> sums, Film& film) override;
 
     std::vector<SeenPixel> see(uint32_t first, std::span<const uint32_t> samples,
                                Seeing what) override;

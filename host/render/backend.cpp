@@ -12,10 +12,10 @@ void Backend::restoreBlocks(std::span<const ExactStatistics> blocks) {
     if (!blocks.empty()) throw std::invalid_argument("the saved film is one of blocks");
 }
 
-std::vector<PixelSums> Backend::save(const Film& film) {
+std::vector<PixelSums> Backend::save(const Film& film, PixelRun run) {
     std::vector<PixelSums> sums;
-    sums.reserve(film.pixels.size());
-    for (const PixelStatistics& p : film.pixels)
+    sums.reserve(run.count);
+    for (const PixelStatistics& p : std::span(film.pixels).subspan(run.first, run.count))
         sums.push_back({.count = p.count,
                         .rejected = p.rejected,
                         .firstRejected = p.firstRejected,
@@ -24,12 +24,20 @@ std::vector<PixelSums> Backend::save(const Film& film) {
     return sums;
 }
 
-void Backend::restore(std::span<const PixelSums> sums, Film& film) {
-    if (sums.size() != film.pixels.size())
+void Backend::restore(PixelRun run, std::span<const PixelSums> sums, Film& film) {
+    if (sums.size() != run.count || uint64_t(run.first) + run.count > film.pixels.size())
         throw std::invalid_argument("the saved film is not of this picture");
     for (size_t i = 0; i < sums.size(); ++i)
-        film.pixels[i] = {sums[i].count, sums[i].rejected, sums[i].firstRejected, sums[i].first,
-                          sums[i].second};
+        film.pixels[run.first + i] = {sums[i].count, sums[i].rejected, sums[i].firstRejected,
+                                      sums[i].first, sums[i].second};
+}
+
+std::vector<PixelSums> Backend::saveAll(const Film& film) {
+    return save(film, {0, uint32_t(film.pixels.size())});
+}
+
+void Backend::restoreAll(std::span<const PixelSums> sums, Film& film) {
+    restore({0, uint32_t(film.pixels.size())}, sums, film);
 }
 
 } // namespace stromboli

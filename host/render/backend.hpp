@@ -17,6 +17,11 @@ struct PixelTarget {
     uint32_t samples = 0;
 };
 
+/// Pixels one after the other, row by row.
+struct PixelRun {
+    uint32_t first = 0, count = 0; ///< counted as PixelTarget::pixel
+};
+
 /// What a backend counted since it was made.
 struct RenderCounters {
     uint64_t paths = 0;
@@ -50,12 +55,16 @@ class Backend {
     /// the first is the pixel's sample `firstSample`. Throws std::logic_error where a backend
     /// cannot.
     virtual void beginAt(uint32_t firstSample);
-    /// The statistics of the picture's pixels to the last bit; `film` is the one that sample() has
-    /// filled. Here: of a backend that keeps nothing of its own beside the film.
-    virtual std::vector<PixelSums> save(const Film& film);
+    /// The statistics of pixels to the last bit; `film` is the one that sample() has filled. Here:
+    /// of a backend that keeps nothing of its own beside the film.
+    virtual std::vector<PixelSums> save(const Film& film, PixelRun run);
     /// Goes on from there: in a backend of the same kind, made for the same picture. Fills in the
-    /// film. Throws std::invalid_argument if the number of pixels is another.
-    virtual void restore(std::span<const PixelSums> sums, Film& film);
+    /// film's pixels. Throws std::invalid_argument if their number is another, or if they are not
+    /// of the picture.
+    virtual void restore(PixelRun run, std::span<const PixelSums> sums, Film& film);
+    /// All pixels.
+    std::vector<PixelSums> saveAll(const Film& film);
+    void restoreAll(std::span<const PixelSums> sums, Film& film);
     /// What a backend that adds up blocks (BlockBackend) keeps of those that are done; else
     /// nothing.
     virtual std::vector<ExactStatistics> saveBlocks() const { return {}; }

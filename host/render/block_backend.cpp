@@ -89,8 +89,8 @@ SampleValue BlockBackend::sampleAlone(uint32_t pixel, uint32_t sample) {
     return inner_->sampleAlone(pixel, sample);
 }
 
-std::vector<PixelSums> BlockBackend::save(const Film&) {
-    return inner_->save(block_);
+std::vector<PixelSums> BlockBackend::save(const Film&, PixelRun run) {
+    return inner_->save(block_, run);
 }
 
 void BlockBackend::restoreBlocks(std::span<const ExactStatistics> blocks) {
@@ -101,9 +101,9 @@ void BlockBackend::restoreBlocks(std::span<const ExactStatistics> blocks) {
     inner_->beginAt(firstSample());
 }
 
-void BlockBackend::restore(std::span<const PixelSums> sums, Film& film) {
-    inner_->restore(sums, block_);
-    for (uint32_t i = 0; i < film.pixels.size(); ++i)
+void BlockBackend::restore(PixelRun run, std::span<const PixelSums> sums, Film& film) {
+    inner_->restore(run, sums, block_);
+    for (uint32_t i = run.first; i < run.first + run.count; ++i)
         film.pixels[i] = statisticsOf(i);
 }
 

@@ -37,10 +37,10 @@ class BlockBackend final : public Backend {
     SampleValue sampleAlone(uint32_t pixel, uint32_t sample) override;
     RenderCounters counters() const override { return inner_->counters(); }
     /// Of the block under way.
-    std::vector<PixelSums> save(const Film& film) override;
+    std::vector<PixelSums> save(const Film& film, PixelRun run) override;
     std::vector<ExactStatistics> saveBlocks() const override { return sums_.pixels(); }
     void restoreBlocks(std::span<const ExactStatistics> blocks) override;
-    void restore(std::span<const PixelSums> sums, Film& film) override;
+    void restore(PixelRun run, std::span<const PixelSums> sums, Film& film) override;
 
   private:
     uint32_t firstSample() const { return blocksDone_ * samplesPerBlock_; }

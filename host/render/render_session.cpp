@@ -19,7 +19,7 @@ RenderSession::RenderSession(Backend& backend, const RenderSettings& settings)
 RenderSession::RenderSession(Backend& backend, const SessionState& saved)
     : RenderSession(backend, saved.settings) {
     backend_.restoreBlocks(saved.blocks);
-    backend_.restore(saved.sums, film_);
+    backend_.restoreAll(saved.sums, film_);
     estimate_.remember(saved.estimate);
     pending_ = saved.pending;
     secondsBefore_ = saved.secondsUsed;
@@ -110,8 +110,9 @@ RenderOutcome RenderSession::outcome() const {
 }
 
 SessionState RenderSession::save() const {
-    return {settings_, backend_.save(film_), backend_.saveBlocks(), estimate_.memory(),
-            pending_,  secondsUsed()};
+    return {
+        settings_,    backend_.saveAll(film_), backend_.saveBlocks(), estimate_.memory(), pending_,
+        secondsUsed()};
 }
 
 } // namespace stromboli

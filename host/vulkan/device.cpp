@@ -6,17 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 
 namespace stromboli::vulkan {
 namespace {
-
-std::string lower(std::string s) {
-    std::transform(s.begin(), s.end(), s.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
-    return s;
-}
 
 void describeQueues(DeviceDescription& d) {
     uint32_t count = 0;
@@ -76,48 +68,6 @@ DeviceDescription describe(VkPhysicalDevice handle) {
     return d;
 }
 
-int rank(VkPhysicalDeviceType type) {
-    switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
-        return 0;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
-        return 1;
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
-        return 2;
-    case VK_PHYSICAL_DEVICE_TYPE_CPU:
-        return 3;
-    default:
-        return 4;
-    }
-}
-
-DeviceChoice usable(const std::vector<DeviceDescription>& devices, size_t index,
-                    std::string reason) {
-    if (!devices[index].usable())
-        throw DeviceError(fmt::format("device {} ({}) cannot be used: it lacks {}", index,
-                                      devices[index].name(), devices[index].missing));
-    return {index, std::move(reason)};
-}
-
-DeviceChoice chooseBest(const std::vector<DeviceDescription>& devices) {
-    size_t best = devices.size();
-    for (size_t i = 0; i < devices.size(); ++i)
-        if (devices[i].usable() &&
-            (best == devices.size() ||
-             rank(devices[i].properties.deviceType) < rank(devices[best].properties.deviceType)))
-            best = i;
-    if (best == devices.size())
-        throw DeviceError(fmt::format("device 0 ({}) cannot be used: it lacks {}",
-                                      devices[0].name(), devices[0].missing));
-    return {best, fmt::format("first {} among {} device{}", devices[best].type(), devices.size(),
-                              devices.size() == 1 ? "" : "s")};
-}
-
-bool matches(const DeviceDescription& d, const std::string& wanted) {
-    if (wanted == "cpu") return d.isCpu();
-    return lower(d.name()).find(wanted) != std::string::npos || lower(d.uuid) == wanted;
-}
-
 } // namespace
 
 std::string DeviceDescription::type() const {
@@ -148,34 +98,6 @@ std::vector<DeviceDescription> listDevices(const Instance& instance) {
     for (VkPhysicalDevice handle : handles)
         devices.push_back(describe(handle));
     return devices;
-}
-
-DeviceChoice chooseDevice(const std::vector<DeviceDescription>& devices,
-                          const std::string& wanted) {
-    if (devices.empty())
-        throw DeviceError("no Vulkan device: no driver is installed; on Debian, for a machine "
-                          "without a GPU: apt install mesa-vulkan-drivers");
-    if (wanted.empty()) return chooseBest(devices);
-    size_t index = 0;
-    const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
-    if (error == std::errc() && end == wanted.data() + wanted.size()) {
-        if (index >= devices.size())
-            throw DeviceError(
-                fmt::format("there is no device {}: 'stromboli devices' lists 0 to {}", index,
-                            devices.size() - 1));
-        return usable(devices, index, "asked for by number");
-    }
-    std::vector<size_t> found;
-    for (size_t i = 0; i < devices.size(); ++i)
-        if (matches(devices[i], lower(wanted))) found.push_back(i);
-    if (found.empty())
-        throw DeviceError(
-            fmt::format("no device matches '{}': 'stromboli devices' lists them", wanted));
-    if (found.size() > 1)
-        throw DeviceError(fmt::format("{} devices match '{}': give a number or a UUID of "
-                                      "'stromboli devices'",
-                                      found.size(), wanted));
-    return usable(devices, found[0], fmt::format("matches '{}'", wanted));
 }
 
 Device::Device(const Instance&, const DeviceDescription& description,

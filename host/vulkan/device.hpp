@@ -37,16 +37,6 @@ struct DeviceDescription {
 /// All devices in the loader's order.
 std::vector<DeviceDescription> listDevices(const Instance& instance);
 
-struct DeviceChoice {
-    size_t index = 0;
-    std::string reason;
-};
-
-/// Picks by `wanted`: empty (the best usable one: discrete, integrated, virtual, CPU, other), a
-/// number in the list, "cpu", a UUID or part of a name (case-insensitive, must be unique).
-/// Throws DeviceError if nothing fits or the device lacks something, saying what.
-DeviceChoice chooseDevice(const std::vector<DeviceDescription>& devices, const std::string& wanted);
-
 /// A logical device with one compute queue.
 class Device {
   public:

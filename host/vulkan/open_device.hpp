@@ -1,9 +1,11 @@
 #pragma once
 
+#include "host/vulkan/choose_device.hpp"
 #include "host/vulkan/device.hpp"
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace stromboli::vulkan {
 
@@ -18,6 +20,10 @@ struct OpenDevice {
 /// asks for it, and with the pipelines that earlier runs kept in the user's cache folder. Throws
 /// DeviceError.
 OpenDevice openDevice(const std::string& wanted);
+
+/// The devices that `wanted` names (chooseDevices), each with an instance of its own; a device that
+/// is named twice is opened twice. Throws DeviceError.
+std::vector<OpenDevice> openDevices(const std::string& wanted);
 
 /// Throws DeviceError if the validation layer had anything to say.
 void requireNoValidationMessages(const OpenDevice& open);

@@ -1,6 +1,6 @@
 // Which device is taken, on machines that tests do not have: descriptions made by hand.
 #include "host/core/error.hpp"
-#include "host/vulkan/device.hpp"
+#include "host/vulkan/choose_device.hpp"
 
 #include <gtest/gtest.h>
 
@@ -46,6 +46,30 @@ TEST(DeviceChoice, ByNumberNameUuidOrCpu) {
     EXPECT_EQ(chosen(kMachine, "TWIN"), 5u);
     EXPECT_EQ(chosen(kMachine, "cpu"), 0u);
     EXPECT_EQ(chosen(kMachine, "uuid of Big Card"), 4u);
+}
+
+std::vector<size_t> several(const std::string& wanted) {
+    std::vector<size_t> indices;
+    for (const DeviceChoice& choice : chooseDevices(kMachine, wanted))
+        indices.push_back(choice.index);
+    return indices;
+}
+
+TEST(DeviceChoice, OfSeveral) {
+    using Indices = std::vector<size_t>;
+    EXPECT_EQ(several("all"), (Indices{0, 1, 2, 4, 5})); // one cannot be used
+    EXPECT_EQ(several("0,2"), (Indices{0, 2}));
+    EXPECT_EQ(several("twin,cpu,4"), (Indices{5, 0, 4}));
+    EXPECT_EQ(several("4,4"), (Indices{4, 4}));
+    EXPECT_EQ(several(""), Indices{4});
+    EXPECT_THROW(several("0,"), DeviceError);
+    EXPECT_THROW(several("0,,2"), DeviceError);
+    EXPECT_THROW(several("0,voodoo"), DeviceError);
+    EXPECT_THROW(chosen(kMachine, "all"), DeviceError);
+    // Names may have commas of their own.
+    const std::vector<DeviceDescription> one = {
+        device("llvmpipe (LLVM 15.0.6, 512 bits)", VK_PHYSICAL_DEVICE_TYPE_CPU)};
+    EXPECT_EQ(chooseDevices(one, "LLVM 15.0.6, 512").size(), 1u);
 }
 
 TEST(DeviceChoice, SaysWhyItCannot) {
