@@ -109,7 +109,7 @@ void arrive() {
     Relief relief;
     const Material m = materialAt(s, relief);
     faceForward(s);
-    applyRelief(s, relief, !isBsdf(m, BSDF_DIFFUSE));
+    applyRelief(s, relief, !isBsdf(m, BSDF_DIFFUSE), reliefRules(m));
     if (bounce == 0u) noteFirst(s);
     const bool isFollowed = isSeenThrough(m);
     ++bounce;

@@ -74,6 +74,16 @@ uint64_t samplesOf(const CompareOptions& o, const Picture& picture) {
     return count * picture.film->branches;
 }
 
+/// By the variance of one sample of the reference.
+void judgeByVariance(const CompareOptions& o, const Picture& reference, const Picture& picture,
+                     Comparison& comparison) {
+    const Picture variance = compare::readPicture(o.varianceFile);
+    const uint64_t samples = samplesOf(o, picture);
+    comparison.acceptance = compare::judgeByVariance(reference, variance, picture, samples);
+    comparison.blockAcceptance = compare::judgeBlocks(reference, variance, picture, samples,
+                                                      o.referenceSamples, o.settings.familyError);
+}
+
 } // namespace
 
 int compareCommand(const Options& options) {
@@ -82,10 +92,8 @@ int compareCommand(const Options& options) {
     const Picture reference = compare::readPicture(o.reference);
     const Picture picture = compare::readPicture(o.picture);
     Comparison comparison = compare::comparePictures(reference, picture, o.settings);
-    if (!o.varianceFile.empty())
-        comparison.acceptance = compare::judgeByVariance(
-            reference, compare::readPicture(o.varianceFile), picture, samplesOf(o, picture));
-    if (o.familyErrorGiven && !comparison.zTest)
+    if (!o.varianceFile.empty()) judgeByVariance(o, reference, picture, comparison);
+    if (o.familyErrorGiven && !comparison.zTest && !comparison.blockAcceptance)
         logging::warn(fmt::format("{} has no variances (render --aov writes them into EXR files), "
                                   "so there are no z-tests: ignored: --alpha",
                                   reference.film ? o.picture : o.reference));

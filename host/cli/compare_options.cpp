@@ -71,6 +71,15 @@ void declareCompare(DeclaredCommand& c) {
                 o.samples, kSampleCounts)
         .usually("those that IMG states (render --aov)")
         .needs("--ztest-variance");
+    list.flag(
+            "--ztest-blocks",
+            "beside --ztest-variance: the means of the picture and of blocks of 8 x 8 pixels must "
+            "agree as well, within the variances of both (render --aov; else REF's for both)",
+            o.thresholds.blocks)
+        .needs("--ztest-variance");
+    list.real("--reference-samples", "N", "samples of each pixel of REF, for --ztest-blocks",
+              o.referenceSamples, {1, 1e18})
+        .needs("--ztest-variance");
     list.group("Output");
     list.text("--diff", "FILE", "write the difference: .png in false colour, .exr as IMG - REF",
               o.differenceFile)

@@ -28,7 +28,8 @@ struct CompareOptions {
     DifferenceView show = DifferenceView::Flip;
     std::string varianceFile;        ///< of one sample of the reference; empty: none
     std::optional<uint32_t> samples; ///< of each pixel of the picture, for varianceFile
-    bool familyErrorGiven = false;   ///< on the command line
+    double referenceSamples = compare::kReferenceSamples; ///< of each pixel, for varianceFile
+    bool familyErrorGiven = false;                        ///< on the command line
 };
 
 } // namespace stromboli

@@ -29,6 +29,13 @@ struct Acceptance {
 Acceptance judgeByVariance(const Picture& reference, const Picture& variance,
                            const Picture& picture, uint64_t samples);
 
+/// Variances of a sample below this are noise of their own estimate, or those of pixels that hardly
+/// vary.
+inline constexpr double kLeastSampleVariance = 1e-4;
+
+/// Throws UsageError, which calls `other` by the name `what`, unless it has the reference's size.
+void requireSameSize(const Picture& reference, const Picture& other, const char* what);
+
 inline constexpr uint64_t kIgnoredBelow = 4096;
 /// What Mitsuba's references are about as good as.
 inline constexpr double kReferenceSamples = 32000;

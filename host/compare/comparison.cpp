@@ -114,6 +114,12 @@ std::vector<std::string> violations(const Comparison& c, const Thresholds& t) {
         lines.push_back(fmt::format("{:.4f} % of the z-tests by the reference's variance pass, "
                                     "fewer than {:.2f} %",
                                     100 * c.acceptance->share(), 100 * c.acceptance->required));
+    if (t.blocks && !c.blockAcceptance)
+        throw UsageError("--ztest-blocks needs the variance of the reference: --ztest-variance");
+    if (t.blocks && !c.blockAcceptance->accepted())
+        lines.push_back(
+            fmt::format("the means of the picture or of blocks differ: |z| up to {:.2f}",
+                        c.blockAcceptance->worst()));
     return lines;
 }
 

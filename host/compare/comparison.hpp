@@ -2,6 +2,7 @@
 
 #include "host/check/cross_check.hpp"
 #include "host/compare/acceptance.hpp"
+#include "host/compare/block_acceptance.hpp"
 #include "host/compare/flip.hpp"
 #include "host/compare/metrics.hpp"
 #include "host/core/json.hpp"
@@ -35,10 +36,11 @@ struct Comparison {
     bool highDynamicRange = false;
     double flipStartStops = 0, flipStopStops = 0;
     int flipExposures = 1;
-    std::optional<CheckResult> zTest;     ///< where both have variances; A is the picture
-    std::optional<Acceptance> acceptance; ///< where a variance of the reference is given
-    uint32_t branches = 1;                ///< paths of a sample, the larger one of the two pictures
-    bool unevenSamples = false;           ///< sample counts vary: adaptive sampling
+    std::optional<CheckResult> zTest;               ///< where both have variances; A is the picture
+    std::optional<Acceptance> acceptance;           ///< where a variance of the reference is given
+    std::optional<BlockAcceptance> blockAcceptance; ///< likewise
+    uint32_t branches = 1;      ///< paths of a sample, the larger one of the two pictures
+    bool unevenSamples = false; ///< sample counts vary: adaptive sampling
 };
 
 /// Throws UsageError if the sizes differ.
@@ -50,7 +52,10 @@ struct Thresholds {
     std::optional<double> mse, relMse, flip, biasPercent; ///< at most
     std::optional<double> psnr, ssim;                     ///< at least
     bool zTest = false;                                   ///< must agree
-    bool any() const { return mse || relMse || flip || biasPercent || psnr || ssim || zTest; }
+    bool blocks = false;                                  ///< BlockAcceptance must accept
+    bool any() const {
+        return mse || relMse || flip || biasPercent || psnr || ssim || zTest || blocks;
+    }
 };
 
 /// A line for each limit that is not kept, and one if the picture is not accepted; a figure that is

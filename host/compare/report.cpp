@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 namespace stromboli::compare {
@@ -47,6 +48,30 @@ std::string toText(const Acceptance& a) {
                        a.largest, a.x, a.y, a.accepted() ? "ACCEPTED" : "NOT ACCEPTED");
 }
 
+Json toJson(const BlockAcceptance& a) {
+    const auto numbers = [](const glm::dvec3& v) { return std::array{v.x, v.y, v.z}; };
+    return {{"accepted", a.accepted()},
+            {"means", numbers(a.means)},
+            {"relativeErrors", numbers(a.errors)},
+            {"relativeNoise", numbers(a.noise)},
+            {"largestBlock", a.largest},
+            {"block", {a.x, a.y}},
+            {"limit", a.limit},
+            {"tests", a.tests},
+            {"familyError", a.familyError},
+            {"ownNoise", a.hasOwnNoise}};
+}
+
+std::string toText(const BlockAcceptance& a) {
+    return fmt::format(
+        "by means and blocks, {}: |z| of X {:.2f}, Y {:.2f}, Z {:.2f} (one standard "
+        "deviation of Y is {:.3f} %); largest of a block of 8 x 8 {:.2f} at {} {}; "
+        "|z| < {:.2f}: {}\n",
+        a.hasOwnNoise ? "with the variances of both" : "with the reference's variance for both",
+        std::abs(a.means.x), std::abs(a.means.y), std::abs(a.means.z), 100 * a.noise.y, a.largest,
+        a.x, a.y, a.limit, a.accepted() ? "ACCEPTED" : "NOT ACCEPTED");
+}
+
 } // namespace
 
 std::string toText(const Comparison& c) {
@@ -67,6 +92,7 @@ std::string toText(const Comparison& c) {
         text += fmt::format("not finite: {} pixels of the reference, {} of the picture; left out\n",
                             c.notFiniteReference, c.notFinitePicture);
     if (c.acceptance) text += toText(*c.acceptance);
+    if (c.blockAcceptance) text += toText(*c.blockAcceptance);
     if (!c.zTest) return text;
     text += "z-tests, A the picture, B the reference:\n" + formatCheck(*c.zTest);
     if (c.branches > 1)
@@ -102,6 +128,7 @@ Json toJson(const Comparison& c) {
               {"pictureAlone", c.notFiniteInPictureAlone}}},
             {"zTest", c.zTest ? toJson(*c.zTest) : Json(nullptr)},
             {"acceptance", c.acceptance ? toJson(*c.acceptance) : Json(nullptr)},
+            {"blockAcceptance", c.blockAcceptance ? toJson(*c.blockAcceptance) : Json(nullptr)},
             {"branches", c.branches},
             {"unevenSamples", c.unevenSamples}};
 }

@@ -80,6 +80,7 @@ void packPrimitives(const Scene& scene, const std::vector<uint32_t>& materialRow
         g.facets |= facetBits(scene.materials[i]);
         g.hasEmission |= scene.materials[i].emits();
         g.hasBlackBacks |= scene.materials[i].isBlackBehind;
+        g.hasReliefRules |= reliefBits(scene.materials[i]) != 0;
     }
 }
 

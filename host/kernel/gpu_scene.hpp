@@ -25,6 +25,7 @@ struct GpuScene {
     bool hasEmission = false;        ///< a primitive emits
     bool hasBlends = false;          ///< a primitive's material is a mixture
     bool hasBlackBacks = false;      ///< a primitive's material is black behind
+    bool hasReliefRules = false;     ///< a primitive's material has MATERIAL_RELIEF_ bits
     float gapWidth = 0;              ///< gap_proposal.hpp
     bool hasTriangles = false, hasSpheres = false;
     bool hasNormals = false; ///< any triangle with shading normals
@@ -46,7 +47,7 @@ inline gpu::MaterialHeader materialHeader(const GpuScene& scene, const gpu::Prim
     return structureAt<gpu::MaterialHeader>(scene.materials, materialOf(p));
 }
 inline uint32_t bsdfKind(const gpu::MaterialHeader& header) {
-    return header.kind & ~gpu::MATERIAL_EMITS_BOTH_SIDES;
+    return header.kind & gpu::MATERIAL_KIND_MASK;
 }
 
 /// Octahedral encoding of a unit vector (Meyer et al. 2010), two 16-bit signed fractions.

@@ -147,6 +147,7 @@ void setDetails(KernelFeatures& f, const GpuScene& scene, bool normalsOnly) {
     if (normalsOnly) return;
     f[SPEC_TANGENT_FRAMES] = scene.hasTangentFrames;
     f[SPEC_BLENDS] = scene.hasBlends;
+    f[SPEC_RELIEF_RULES] = scene.hasReliefRules;
     // A map gives flat surfaces a shading normal too.
     constexpr uint32_t kMaps = 1u << gpu::TEXTURE_NORMAL | 1u << gpu::TEXTURE_HEIGHT;
     if (f[SPEC_TEXTURE_SLOTS] & kMaps) f[SPEC_HAS_NORMALS] = 1;

@@ -45,7 +45,8 @@ bool needsRichModule(const KernelFeatures& f) {
            (f[SPEC_BSDF_KINDS] & 1u << gpu::BSDF_PRINCIPLED) != 0 || f[SPEC_TEXTURE_SLOTS] != 0 ||
            f[SPEC_LOOSE_SLOTS] != 0 || f[SPEC_TEXEL_KINDS] != 0 || f[SPEC_ATTRIBUTES] != 0 ||
            f[SPEC_ALPHA] != 0 || f[SPEC_TANGENT_FRAMES] != 0 || f[SPEC_BLENDS] != 0 ||
-           f[SPEC_PRINCIPLED_FEATURES] != 0 || f[SPEC_HAS_PLACEMENTS] != 0;
+           f[SPEC_RELIEF_RULES] != 0 || f[SPEC_PRINCIPLED_FEATURES] != 0 ||
+           f[SPEC_HAS_PLACEMENTS] != 0;
 }
 
 std::span<const uint32_t> kernelModule(const KernelFeatures& features, bool texelFetch) {

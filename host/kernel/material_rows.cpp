@@ -233,16 +233,21 @@ uint32_t principledFeatures(const Material& material) {
     return features;
 }
 
+uint32_t reliefBits(const Material& m) {
+    constexpr uint32_t kRules[] = {0, gpu::MATERIAL_RELIEF_FLIPS, gpu::MATERIAL_RELIEF_BLACKENS};
+    return kRules[size_t(m.reliefRule)] | (m.reliefShadows ? gpu::MATERIAL_RELIEF_SHADOWS : 0);
+}
+
 MaterialRows packMaterials(std::span<const Material> materials,
                            std::span<const std::vector<Row>> details) {
     MaterialRows packed;
     for (const Material& m : materials) {
         packed.firstRow.push_back(uint32_t(packed.rows.size()));
         appendRows(packed.rows,
-                   gpu::MaterialHeader{m.emission,
-                                       bsdfKind(m) |
-                                           (m.emitsBothSides ? gpu::MATERIAL_EMITS_BOTH_SIDES : 0) |
-                                           (m.isBlackBehind ? gpu::MATERIAL_IS_BLACK_BEHIND : 0)});
+                   gpu::MaterialHeader{
+                       m.emission,
+                       bsdfKind(m) | (m.emitsBothSides ? gpu::MATERIAL_EMITS_BOTH_SIDES : 0) |
+                           (m.isBlackBehind ? gpu::MATERIAL_IS_BLACK_BEHIND : 0) | reliefBits(m)});
         appendParameters(packed.rows, m);
         if (details.empty()) continue;
         const std::vector<Row>& own = details[packed.firstRow.size() - 1];

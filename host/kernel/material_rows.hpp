@@ -19,6 +19,9 @@ struct MaterialRows {
 MaterialRows packMaterials(std::span<const Material> materials,
                            std::span<const std::vector<Row>> details = {});
 
+/// MATERIAL_RELIEF_ bits.
+uint32_t reliefBits(const Material& material);
+
 /// PRINCIPLED_HAS_ bits of what the material has; 0 for other kinds.
 uint32_t principledFeatures(const Material& material);
 

@@ -153,6 +153,20 @@ bool isOnItsSide(const SurfacePoint& s, const glm::dvec3& wi, bool transmitted,
     return transmitted ? glm::dot(s.geometric, wi) < 0 : isReflected(s, wi);
 }
 
+/// What is left of light from wi after the bumps of a surface, each as a wall of microfacets (Conty
+/// Estevez, Lecocq and Stein 2019); none that comes from below one horizon and above the other.
+double reliefShadow(const SurfacePoint& s, const glm::dvec3& wi) {
+    if (!s.material->hasReliefRules()) return 1;
+    const double cosine = glm::dot(s.unmapped, wi);
+    if (cosine * glm::dot(s.shading, wi) <= 0) return 0;
+    if (!s.material->reliefShadows) return 1;
+    const auto squaredTangent = [](double c) { return std::max(1 / (c * c) - 1, 0.0); };
+    const double tilt = glm::dot(s.unmapped, s.shading);
+    const double alpha2 = std::min(squaredTangent(tilt) / 8, 1.0);
+    if (alpha2 == 0) return 1;
+    return 2 / (1 + std::sqrt(1 + alpha2 * squaredTangent(cosine)));
+}
+
 } // namespace
 
 Frame surfaceFrame(const SurfacePoint& s) {
@@ -215,7 +229,9 @@ BsdfValue evaluateBsdf(const SurfacePoint& s, const glm::dvec3& wi,
     const Frame frame = surfaceFrame(s);
     const glm::dvec3 local = frame.toLocal(wi);
     if (!isOnItsSide(s, wi, local.z < 0, conventions)) return {};
-    return evaluateLocally(*s.material, incidenceOn(s, frame, conventions), local);
+    BsdfValue f = evaluateLocally(*s.material, incidenceOn(s, frame, conventions), local);
+    f.value *= reliefShadow(s, wi);
+    return f;
 }
 
 BsdfSample sampleBsdf(const SurfacePoint& s, const glm::dvec3& u,
@@ -226,6 +242,7 @@ BsdfSample sampleBsdf(const SurfacePoint& s, const glm::dvec3& u,
     sample.direction = glm::normalize(frame.toWorld(sample.direction));
     if (!isOnItsSide(s, sample.direction, sample.transmitted(), conventions))
         sample.weight = glm::dvec3(0.0);
+    sample.weight *= reliefShadow(s, sample.direction);
     return sample;
 }
 

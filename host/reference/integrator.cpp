@@ -66,6 +66,8 @@ void PathSample::follow(uint32_t bounce, bool splits) {
         if (isBlackFromThere(surface_)) return;
         faceForward(surface_, world_.conventions);
         if (world_.hasDetails) applyNormalMap(surface_, world_.scene, world_.conventions);
+        if (surface_.material->hasReliefRules() && glm::dot(surface_.shading, surface_.wo) <= 0)
+            return;
         if (!survivesFixed()) return;
         const uint32_t lobes = lobesOf(*surface_.material);
         if (scattersIntoManyDirections(lobes) && bounce >= settings_.minBounce) addDirectLight();

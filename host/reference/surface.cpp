@@ -105,11 +105,13 @@ double SmoothTriangle::height(const glm::dvec3& weights, const glm::dvec3& front
 void faceForward(SurfacePoint& s, const ShadingConventions& conventions) {
     if (!conventions.facesForward) {
         s.lift = 0;
+        s.unmapped = s.shading;
         return;
     }
     if (!s.outside) s.geometric = -s.geometric;
     if (glm::dot(s.shading, s.geometric) < 0) s.shading = -s.shading;
     if (glm::dot(s.shading, s.wo) <= 0) s.shading = s.geometric;
+    s.unmapped = s.shading;
 }
 
 glm::dvec3 moveOff(const glm::dvec3& position, double error, const glm::dvec3& n,

@@ -30,6 +30,7 @@ struct SurfacePoint {
     /// Unit, perpendicular to the shading normal, along which u grows; w: the bitangent is
     /// w (shading normal x tangent), 0: there is none.
     glm::dvec4 tangent{0.0};
+    glm::dvec3 unmapped{0, 0, 1}; ///< shading normal before a map turned it, where one may have
     double b1 = 0, b2 = 0; ///< barycentric weights of the second and third corner
 };
 

@@ -125,6 +125,26 @@ glm::dvec4 tangentOf(const SurfacePoint& s, const Scene& scene, const Material& 
     return {glm::normalize(sum), isTurned ? -side : side};
 }
 
+/// Takes what a map has made of the shading normal, as the material has it.
+void settleNormal(SurfacePoint& s, const glm::dvec3& mapped, bool bends,
+                  const ShadingConventions& conventions) {
+    const glm::dvec3 n = s.shading;
+    s.shading = mapped;
+    if (!conventions.facesForward) return;
+    switch (s.material->reliefRule) {
+    case ReliefRule::Bend:
+        if (bends) s.shading = bendNormal(mapped, s.geometric, s.wo);
+        return;
+    case ReliefRule::Flip: { // the part along n stays
+        const glm::dvec3 along = glm::dot(mapped, n) * n;
+        if (glm::dot(mapped, s.wo) <= 0) s.shading = along - (mapped - along);
+        return;
+    }
+    case ReliefRule::Blacken:
+        return;
+    }
+}
+
 /// Raises the surface by heights over the texture coordinates u and v (Blinn 1978): its derivatives
 /// along them, made perpendicular to the shading normal n, get n times the height's. How n itself
 /// changes along them is left out, as usual.
@@ -151,10 +171,9 @@ void applyHeights(SurfacePoint& s, const Scene& scene, const TextureUse& map,
     const glm::dvec3 raised = glm::cross(alongU, alongV);
     const double length = glm::length(raised), side = glm::dot(raised, n);
     if (!(length > 0 && std::isfinite(length) && side != 0)) return;
-    s.shading = raised / (side > 0 ? length : -length);
     // Light of what mirrors goes where the view decides, and would be lost below the surface.
     const bool mirrors = s.material->kind != MaterialKind::Diffuse;
-    if (conventions.facesForward && mirrors) s.shading = bendNormal(s.shading, s.geometric, s.wo);
+    settleNormal(s, raised / (side > 0 ? length : -length), mirrors, conventions);
 }
 
 } // namespace
@@ -192,8 +211,7 @@ void applyNormalMap(SurfacePoint& s, const Scene& scene, const ShadingConvention
     const glm::dvec3 across = tilt.x * t + tilt.y * b;
     const glm::dvec3 n = (isTurned ? -across : across) + (2 * texel.z - 1) * s.shading;
     if (!(glm::dot(n, n) > 0)) return;
-    s.shading = glm::normalize(n);
-    if (conventions.facesForward) s.shading = bendNormal(s.shading, s.geometric, s.wo);
+    settleNormal(s, glm::normalize(n), true, conventions);
     s.tangent = tangentOf(s, scene, *s.material, isTurned);
 }
 

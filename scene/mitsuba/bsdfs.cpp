@@ -119,6 +119,16 @@ Surface nothing(SurfaceMaker& maker) {
     return maker.done();
 }
 
+/// How Mitsuba shades what a map has turned.
+void setReliefRules(Surface& surface, const Plugin& plugin) {
+    const bool flips = plugin.flag("flip_invalid_normals").value_or(true);
+    const bool shadows = plugin.flag("use_shadowing_function").value_or(true);
+    for (Surface* each = &surface; each; each = each->other.get()) {
+        each->material.reliefRule = flips ? ReliefRule::Flip : ReliefRule::Blacken;
+        each->material.reliefShadows = shadows;
+    }
+}
+
 Surface normalMap(SurfaceMaker& maker, Context& context, Textures& textures) {
     Surface surface = readInside(maker, context, textures);
     const Shade normals =
@@ -127,8 +137,7 @@ Surface normalMap(SurfaceMaker& maker, Context& context, Textures& textures) {
     TextureUse use = *normals.texture;
     use.slot = TextureSlot::Normal;
     addTexture(surface, use);
-    for (const char* unused : {"flip_invalid_normals", "use_shadowing_function"})
-        maker.plugin.skip(unused);
+    setReliefRules(surface, maker.plugin);
     maker.plugin.requireAllRead();
     return surface;
 }
@@ -148,6 +157,7 @@ Surface bumpMap(SurfaceMaker& maker, Context& context, Textures& textures) {
     use.slot = TextureSlot::Height;
     use.scale = float(maker.plugin.number("scale").value_or(1));
     addTexture(surface, use);
+    setReliefRules(surface, maker.plugin);
     maker.plugin.requireAllRead();
     return surface;
 }

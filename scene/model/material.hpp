@@ -99,6 +99,13 @@ enum class AlphaMode : uint32_t {
 /// No material of the scene.
 inline constexpr uint32_t kNoMaterial = 0xFFFFFFFFu;
 
+/// What becomes of a normal that heights or a map of normals turn away from the viewer.
+enum class ReliefRule : uint8_t {
+    Bend,   ///< bent until what it mirrors is there (Keller et al. 2017); diffuse: stays
+    Flip,   ///< tilted as much to the other side (Schuessler et al. 2017)
+    Blacken ///< the surface is black there
+};
+
 /// What a surface does with light. Only the members its kind names are meaningful; emission is
 /// meaningful for all (an emitter is a diffuse material of albedo 0 that emits).
 struct Material {
@@ -130,6 +137,10 @@ struct Material {
     uint32_t other = kNoMaterial;
     float otherShare = 0;
     bool isBlackBehind = false; ///< nothing is scattered to where the normals do not point
+    ReliefRule reliefRule = ReliefRule::Bend;
+    /// Bumps dim light that comes at grazing angles, as facets would (Conty Estevez, Lecocq and
+    /// Stein 2019).
+    bool reliefShadows = false;
     /// At most one for each slot, but of MetallicRoughness and SpecularColor, whose numbers
     /// multiply.
     std::vector<TextureUse> textures;
@@ -139,6 +150,7 @@ struct Material {
     bool isDelta() const;
     /// Of a conductor, a dielectric or plastic: the interface is a plane.
     bool isSmooth() const;
+    bool hasReliefRules() const { return reliefRule != ReliefRule::Bend || reliefShadows; }
     /// Both alphas of the facets that light meets, where the interface is not smooth.
     glm::vec2 facetAlpha() const;
     /// The surface looks different along its tangent and across it.

@@ -167,6 +167,25 @@ bool isOnItsSide(SurfacePoint s, vec3 wi, bool transmitted) {
     return transmitted ? dot(s.geometric, wi) < 0.0 : isReflected(s, wi);
 }
 
+#ifdef RICH_MATERIALS
+/// What the bumps of a surface let through of light from wi, or none where wi is over the surface but below the horizon
+/// of its mapped normal, or the other way round: as a surface of facets whose roughness alpha^2 is an eighth of the
+/// squared tangent of the normal's tilt, 1 at most, would mask it (Conty Estevez, Lecocq and Stein 2019, "A
+/// Microfacet-Based Shadowing Function to Solve the Bump Terminator Problem"): 2 / (1 + sqrt(1 + alpha^2 tan^2)), times
+/// |cos| above and below, as light may graze.
+float reliefShadow(Material m, SurfacePoint s, vec3 wi) {
+    const uint rules = reliefRules(m);
+    if (rules == 0u) return 1.0;
+    const vec3 n = unmappedNormal(s), mapped = shadingNormal(s);
+    const float c = dot(n, wi), tilt = dot(n, mapped);
+    if (c * dot(mapped, wi) <= 0.0) return 0.0;
+    if ((rules & MATERIAL_RELIEF_SHADOWS) == 0u) return 1.0;
+    const float c2 = c * c, tilt2 = tilt * tilt;
+    const float alpha2 = min(0.125 * max(1.0 - tilt2, 0.0) / max(tilt2, TINY), 1.0);
+    return 2.0 * abs(c) / (abs(c) + sqrt(c2 + alpha2 * max(1.0 - c2, 0.0)));
+}
+#endif
+
 /// f |cos| and the density for the unit world direction wi, of all lobes but delta ones.
 /// s: faced forward.
 BsdfValue evaluateBsdf(Material m, SurfacePoint s, vec3 wi) {
@@ -182,7 +201,13 @@ BsdfValue evaluateBsdf(Material m, SurfacePoint s, vec3 wi) {
         (transmitted ? (LOBES_HERE & TRANSMISSION_LOBES & ~DELTA_LOBES) != 0u : local.z > 0.0) &&
         isOnItsSide(s, wi, transmitted);
     if (!possible) return NO_SCATTERING;
+#ifdef RICH_MATERIALS
+    BsdfValue f = evaluateLocally(m, incidenceOn(s, frame_), local);
+    if (RELIEF_RULES) f.value *= reliefShadow(m, s, wi);
+    return f;
+#else
     return evaluateLocally(m, incidenceOn(s, frame_), local);
+#endif
 }
 
 /// Samples the direction in which light goes on. u, each in [0, 1): x and y for the direction within
@@ -195,5 +220,8 @@ BsdfSample sampleBsdf(Material m, SurfacePoint s, vec3 u) {
     // along a path.
     if ((b.lobe & DIFFUSE_LOBES) == 0u) b.direction = unit(b.direction);
     if (!isOnItsSide(s, b.direction, isTransmission(b.lobe))) b.weight = vec3(0.0);
+#ifdef RICH_MATERIALS
+    if (RELIEF_RULES) b.weight *= reliefShadow(m, s, b.direction);
+#endif
     return b;
 }

@@ -133,7 +133,7 @@ Material fetchMaterial(uint row) {
 #else
     Material m = Material(uvec4(0u), uvec4(0u), uvec4(0u));
 #endif
-    if (HAS_EMISSION || severalKinds || BLACK_BACKS) m.header = ROW(materialRows, row);
+    if (HAS_EMISSION || severalKinds || BLACK_BACKS || RELIEF_RULES) m.header = ROW(materialRows, row);
     m.row1 = ROW(materialRows, row + 1u);
     if (sceneHasBsdf(BSDF_GLASS) || sceneHasBsdf(BSDF_ROUGH_CONDUCTOR) ||
         sceneHasBsdf(BSDF_PRINCIPLED))
@@ -143,6 +143,8 @@ Material fetchMaterial(uint row) {
 
 vec3 emissionOf(Material m) { return uintBitsToFloat(m.header.xyz); }
 bool isBlackBehind(Material m) { return BLACK_BACKS && (m.header.w & MATERIAL_IS_BLACK_BEHIND) != 0u; }
+/// MATERIAL_RELIEF_ bits.
+uint reliefRules(Material m) { return RELIEF_RULES ? m.header.w & MATERIAL_RELIEF_RULES : 0u; }
 bool emitsBothSides(Material m) { return (m.header.w & MATERIAL_EMITS_BOTH_SIDES) != 0u; }
 
 // The parameters of each kind of BSDF; of a material of that kind.

@@ -311,12 +311,23 @@ vec3 bentNormal(vec3 n, vec3 g, vec3 wo) {
     return length2 > 0.0 ? sum * inversesqrt(length2) : g;
 }
 
+/// A normal that a map has made of n, as the material's MATERIAL_RELIEF_ bits have it: where it faces away from the
+/// viewer its tilt against n is turned round (Schuessler et al. 2017, "Microfacet-based Normal Mapping for Robust Monte
+/// Carlo Path Tracing", 4.1), it stays, or it is bent.
+vec3 settledNormal(vec3 mapped, vec3 n, SurfacePoint s, bool bends, uint rules) {
+    if (!FACES_FORWARD) return mapped;
+    if (RELIEF_RULES && (rules & MATERIAL_RELIEF_FLIPS) != 0u)
+        return dot(mapped, s.wo) > 0.0 ? mapped : 2.0 * dot(mapped, n) * n - mapped;
+    if (RELIEF_RULES && (rules & MATERIAL_RELIEF_BLACKENS) != 0u) return mapped;
+    return bends ? bentNormal(mapped, s.geometric, s.wo) : mapped;
+}
+
 /// Raises a surface that is faced forward by heights over it (Blinn 1978). Its derivatives p_u and p_v along the texture
 /// coordinates, with their parts along the normal n replaced by n times those of the height, span the raised surface; its
 /// normal is n (n . p_u x p_v) + h_v (p_u x n) + h_u (n x p_v). How n changes is left out, as usual. All is times the
 /// determinant of the texture's edges, which would divide p_u and p_v. mirrors: light goes where the view decides, and would
-/// be lost below the surface; Lambert's law needs no view.
-void applyHeights(inout SurfacePoint s, vec2 slope, bool mirrors) {
+/// be lost below the surface; Lambert's law needs no view. rules: the material's MATERIAL_RELIEF_ bits.
+void applyHeights(inout SurfacePoint s, vec2 slope, bool mirrors, uint rules) {
     PlacedPrimitive p = fetchPlace(s.skipPrimitive);
 #ifdef PLACEMENTS
     if (HAS_PLACEMENTS) p = inWorld(placingOf(s.placement), p);
@@ -334,15 +345,14 @@ void applyHeights(inout SurfacePoint s, vec2 slope, bool mirrors) {
     const float size = max(max(abs(raised.x), abs(raised.y)), abs(raised.z));
     const bool hasNormal = d1.x * d2.y != d1.y * d2.x && facing != 0.0 && size > 0.0 && size < INFINITE_DISTANCE;
     if (!hasNormal) return;
-    s.shading = unit(raised / size);
-    if (FACES_FORWARD && mirrors) s.shading = bentNormal(s.shading, s.geometric, s.wo);
+    s.shading = settledNormal(unit(raised / size), n, s, mirrors, rules);
 }
 
-/// Replaces the shading normal of a surface that is faced forward by what maps say, and sets the tangent. mirrors: as
-/// applyHeights() has it.
-void applyRelief(inout SurfacePoint s, Relief relief, bool mirrors) {
+/// Replaces the shading normal of a surface that is faced forward by what maps say, and sets the tangent. mirrors, rules: as
+/// applyHeights() has them.
+void applyRelief(inout SurfacePoint s, Relief relief, bool mirrors, uint rules) {
     if (hasHeights() && relief.slope != vec2(0.0) && s.skipPrimitive != NO_PRIMITIVE)
-        applyHeights(s, relief.slope, mirrors);
+        applyHeights(s, relief.slope, mirrors, rules);
     if (!hasAttribute(ATTRIBUTE_TANGENT)) return;
     const vec3 mapped = relief.mapped;
     vec4 t = tangentAt(s, shadingNormal(s));
@@ -353,10 +363,7 @@ void applyRelief(inout SurfacePoint s, Relief relief, bool mirrors) {
         const vec3 sum = mapped.x * turned * t.xyz + mapped.y * turned * bitangent + mapped.z * n;
         const float length2 = dot(sum, sum);
         const bool maps = t.w != 0.0 && length2 > 0.0 && (mapped.x != 0.0 || mapped.y != 0.0);
-        if (maps) {
-            s.shading = sum * inversesqrt(length2);
-            if (FACES_FORWARD) s.shading = bentNormal(s.shading, s.geometric, s.wo);
-        }
+        if (maps) s.shading = settledNormal(sum * inversesqrt(length2), n, s, true, rules);
     }
     if (TANGENT_FRAMES) s.tangent = tangentAt(s, shadingNormal(s));
 }

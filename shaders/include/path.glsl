@@ -70,7 +70,8 @@ void arrive() {
     if (isBlackBehind(material) && isSeenFromBehind(surface)) return;
     faceForward(surface);
 #ifdef RICH_MATERIALS
-    applyRelief(surface, relief, !isBsdf(material, BSDF_DIFFUSE));
+    applyRelief(surface, relief, !isBsdf(material, BSDF_DIFFUSE), reliefRules(material));
+    if (reliefRules(material) != 0u && dot(shadingNormal(surface), surface.wo) <= 0.0) return;
 #endif
     ++bounce;
     if (bounce > frame.maxBounces) return;

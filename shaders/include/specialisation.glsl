@@ -67,8 +67,10 @@ layout(constant_id = SPEC_ATTRIBUTES) const uint ATTRIBUTES = 0u;
 layout(constant_id = SPEC_ALPHA) const bool HAS_ALPHA = false;
 layout(constant_id = SPEC_TANGENT_FRAMES) const bool TANGENT_FRAMES = false;
 layout(constant_id = SPEC_BLENDS) const bool HAS_BLENDS = false;
+layout(constant_id = SPEC_RELIEF_RULES) const bool RELIEF_RULES = false;
 #else
 const bool HAS_ALPHA = false;
+const bool RELIEF_RULES = false;
 #endif
 
 // FACET_MATERIALS: those of these modules that have conductors, rough dielectrics, thin ones and plastic.

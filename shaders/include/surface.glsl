@@ -99,6 +99,12 @@ struct CornerNormals {
     vec3 n0, n1, n2;
 };
 
+#ifdef PLACEMENTS
+CornerNormals inWorld(Placing p, CornerNormals n) {
+    return CornerNormals(normalInWorld(p, n.n0), normalInWorld(p, n.n1), normalInWorld(p, n.n2));
+}
+#endif
+
 /// The interpolated normal, or the geometric one where opposite normals cancel and there is no better
 /// direction.
 vec3 interpolatedNormal(CornerNormals n, vec3 b, vec3 geometric) {
@@ -136,8 +142,7 @@ SurfacePoint surfaceAt(Traversal t) {
     const Placing placing = placingOf(t.hitPlacement);
     if (HAS_PLACEMENTS) {
         place = inWorld(placing, place);
-        normals = CornerNormals(normalInWorld(placing, normals.n0), normalInWorld(placing, normals.n1),
-                                normalInWorld(placing, normals.n2));
+        normals = inWorld(placing, normals);
     }
 #endif
     const vec3 v0 = place.v0, v1 = place.v1, v2 = place.v2;
@@ -185,6 +190,23 @@ void faceForward(inout SurfacePoint s) {
     if (dot(s.shading, s.geometric) < 0.0) s.shading = -s.shading;
     if (dot(s.shading, s.wo) <= 0.0) s.shading = s.geometric;
 }
+
+#ifdef RICH_MATERIALS
+/// The shading normal that a surface, faced forward, had before maps turned it.
+vec3 unmappedNormal(SurfacePoint s) {
+    if (s.skipPrimitive == NO_PRIMITIVE) return s.geometric;
+    const Primitive p = fetchPrimitive(fetchPlace(s.skipPrimitive).primitive);
+    if (!isSmooth(p)) return s.geometric;
+    CornerNormals n = cornerNormals(p);
+#ifdef PLACEMENTS
+    if (HAS_PLACEMENTS) n = inWorld(placingOf(s.placement), n);
+#endif
+    const vec3 b = vec3(1.0 - s.weights.x - s.weights.y, s.weights);
+    const vec3 stated = interpolatedNormal(n, b, s.geometric);
+    const vec3 facing = dot(stated, s.geometric) < 0.0 ? -stated : stated;
+    return dot(facing, s.wo) <= 0.0 ? s.geometric : facing;
+}
+#endif
 
 /// Whether light can be reflected towards w. A smooth surface ends at the horizon of its shading
 /// normal; the triangle under it is then but one of the things that may be in the way.

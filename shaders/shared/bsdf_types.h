@@ -66,13 +66,21 @@ SHARED_CONST uint BURLEY_BSDF_LOBES = LOBE_GLOSSY_REFLECTION | LOBE_GLOSSY_TRANS
 /// What every material has.
 struct MaterialHeader {
     vec3 emission; ///< radiance, W sr^-1 m^-2
-    uint kind;     ///< BSDF_ kind; | MATERIAL_EMITS_BOTH_SIDES, MATERIAL_IS_BLACK_BEHIND
+    uint kind;     ///< BSDF_ kind; | MATERIAL_EMITS_BOTH_SIDES ... MATERIAL_RELIEF_SHADOWS
 };
 SHARED_ROWS(MaterialHeader, 1);
 /// Else a surface emits only on the side that its geometric normal, as stored, points to.
 SHARED_CONST uint MATERIAL_EMITS_BOTH_SIDES = 0x80000000u;
 /// Nothing is scattered to the side that the normals, as stored, do not point to.
 SHARED_CONST uint MATERIAL_IS_BLACK_BEHIND = 0x40000000u;
+/// Normals that maps turn away from the viewer are tilted to the other side, or stay and are black; else they
+/// are bent (material_detail.glsl).
+SHARED_CONST uint MATERIAL_RELIEF_FLIPS = 0x20000000u;
+SHARED_CONST uint MATERIAL_RELIEF_BLACKENS = 0x10000000u;
+/// Bumps dim light that comes at grazing angles.
+SHARED_CONST uint MATERIAL_RELIEF_SHADOWS = 0x08000000u;
+SHARED_CONST uint MATERIAL_RELIEF_RULES =
+    MATERIAL_RELIEF_FLIPS | MATERIAL_RELIEF_BLACKENS | MATERIAL_RELIEF_SHADOWS;
 SHARED_CONST uint MATERIAL_KIND_MASK = 0xFFu;
 
 struct DiffuseParameters {

@@ -75,7 +75,8 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 // Of the modules with PLACEMENTS alone:
 #define SPEC_HAS_PLACEMENTS 42 // prototypes are placed in the world (scene_types.h)
 #define SPEC_TRAVERSAL_LEGS 43 // between two service passes, each of SPEC_TRAVERSAL_STEPS
-#define SPEC_COUNT 44
+#define SPEC_RELIEF_RULES 44 // some material has MATERIAL_RELIEF_ bits
+#define SPEC_COUNT 45
 
 SHARED_CONST uint TEXEL_KIND_NEAREST = 1u;
 SHARED_CONST uint TEXEL_KIND_BILINEAR = 2u;

@@ -150,6 +150,43 @@ TEST_P(TexturedRoom, KernelAndReferenceAgree) {
 INSTANTIATE_TEST_SUITE_P(Modes, TexturedRoom, testing::ValuesIn(kModes),
                          [](const auto& mode) { return mode.param.name; });
 
+struct Rule {
+    const char* name;
+    ReliefRule rule;
+    bool shadows;
+};
+const Rule kRules[] = {{"flip", ReliefRule::Flip, true}, {"blacken", ReliefRule::Blacken, false}};
+
+class ReliefRules : public DeviceTest, public testing::WithParamInterface<Rule> {};
+
+Scene reliefRoom(const Rule& rule) {
+    Scene scene = texturedRoom();
+    for (Material& m : scene.materials) {
+        m.reliefRule = rule.rule, m.reliefShadows = rule.shadows;
+        for (TextureUse& use : m.textures)
+            if (use.slot == TextureSlot::Normal) use.scale *= 2; // some face away
+    }
+    return scene;
+}
+
+TEST_P(ReliefRules, KernelAndReferenceAgree) {
+    RenderSettings s = settings(96);
+    expectKernelAndReferenceAgree(testDevice(), reliefRoom(GetParam()), camera(), s);
+}
+
+TEST_P(ReliefRules, BytesAreTheSameHoweverWorkIsCut) {
+    const Scene scene = reliefRoom(GetParam());
+    RenderSettings s = settings(6);
+    s.estimator.branches = 2;
+    const Film whole = renderOnDevice(testDevice(), scene, camera(), s);
+    for (const KernelTuning& tuning :
+         {KernelTuning{.fixedIterations = 1}, {.lanes = 100, .fixedIterations = 50}})
+        expectSameBytes(whole, renderOnDevice(testDevice(), scene, camera(), s, tuning));
+}
+
+INSTANTIATE_TEST_SUITE_P(Rules, ReliefRules, testing::ValuesIn(kRules),
+                         [](const auto& rule) { return rule.param.name; });
+
 class TexturedRoomBytes : public DeviceTest {};
 
 TEST_F(TexturedRoomBytes, AreTheSameHoweverWorkIsCut) {
