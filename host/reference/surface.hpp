@@ -31,7 +31,7 @@ struct SurfacePoint {
     /// w (shading normal x tangent), 0: there is none.
     glm::dvec4 tangent{0.0};
     glm::dvec3 unmapped{0, 0, 1}; ///< shading normal before a map turned it, where one may have
-    double b1 = 0, b2 = 0; ///< barycentric weights of the second and third corner
+    double b1 = 0, b2 = 0;        ///< barycentric weights of the second and third corner
 };
 
 /// Normals as the scene states them. The hit is one of the scene's.
