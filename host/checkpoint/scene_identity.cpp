@@ -111,10 +111,11 @@ void add(Sum& sum, const Light& l) {
 }
 
 void add(Sum& sum, const Camera& c) {
-    const auto& [orthographic, position, right, up, back, halfWidth, halfHeight, nearDistance,
-                 farDistance, clipAlongRay, lensRadius, focusDistance] = c;
+    const auto& [orthographic, position, right, up, back, halfWidth, halfHeight, shift,
+                 nearDistance, farDistance, clipAlongRay, lensRadius, focusDistance] = c;
     sum.add(orthographic), sum.add(position), sum.add(right), sum.add(up), sum.add(back);
-    sum.add(halfWidth), sum.add(halfHeight), sum.add(nearDistance), sum.add(farDistance);
+    sum.add(halfWidth), sum.add(halfHeight), sum.add(shift), sum.add(nearDistance);
+    sum.add(farDistance);
     sum.add(clipAlongRay), sum.add(lensRadius), sum.add(focusDistance);
 }
 

@@ -94,12 +94,20 @@ void readLens(const Plugin& sensor, FileCamera& camera) {
     if (!(camera.focusDistance > 0)) sensor.fail("focus_distance", "is 0, expected more");
 }
 
+/// Shares of the picture's width and height, by which its middle moves to the right and down.
+void readPrincipalPoint(const Plugin& sensor, FileCamera& camera) {
+    camera.shift.x = 2 * sensor.number("principal_point_offset_x").value_or(0) * *camera.halfWidth;
+    camera.shift.y =
+        -2 * sensor.number("principal_point_offset_y").value_or(0) * *camera.halfHeight;
+}
+
 void readPerspective(const Plugin& sensor, double aspect, FileCamera& camera) {
     camera.halfWidth = halfWidthOf(sensor, aspect);
-    for (const char* name : {"principal_point_offset_x", "principal_point_offset_y"})
-        if (sensor.number(name).value_or(0) != 0)
-            sensor.fail(name, "moves the picture, which is not supported");
-    if (sensor.type == "thinlens") readLens(sensor, camera);
+    camera.halfHeight = *camera.halfWidth / aspect;
+    if (sensor.type == "thinlens")
+        readLens(sensor, camera);
+    else
+        readPrincipalPoint(sensor, camera);
     sensor.skip("focus_distance");
     sensor.skip("fov_axis");
 }
@@ -139,12 +147,12 @@ void placeSensor(Context& context, const Plugin& sensor, bool isFirst) {
     } else if (sensor.type == "orthographic") {
         camera.projection = Projection::Orthographic;
         camera.halfWidth = 1;
+        camera.halfHeight = 1 / film.aspect();
     } else {
         sensor.fail(fmt::format("'{}' is no sensor that is read, expected perspective, thinlens "
                                 "or orthographic",
                                 sensor.type));
     }
-    camera.halfHeight = *camera.halfWidth / film.aspect();
     camera.nearDistance = sensor.number("near_clip", 0).value_or(camera.nearDistance);
     camera.farDistance = sensor.number("far_clip", 0).value_or(camera.farDistance);
     if (!(camera.farDistance > camera.nearDistance))

@@ -65,6 +65,30 @@ TEST(PixelFilters, BlurAnEdgeAsTheirIntegralSays) {
     }
 }
 
+/// A middle beside the axis moves the picture as a whole: an edge by as much, and with a lens the
+/// same points are sharp, in the same range of depths along the axis.
+TEST(Shift, MovesThePictureAcrossTheAxis) {
+    Camera camera = facing(10, 4);
+    camera.shift.x = 1.75 * (camera.halfWidth / 2);
+    RenderSettings s = smallPicture(40000, 0);
+    s.area = {4, 1, {}};
+    for (const double lensRadius : {0.0, 0.3}) {
+        SCOPED_TRACE(lensRadius);
+        camera.lensRadius = lensRadius;
+        camera.focusDistance = 10;
+        for (const double farDistance : {9.999, 10.001}) {
+            camera.farDistance = farDistance;
+            camera.nearDistance = farDistance - 0.5;
+            const Film film = renderFilm(edge(), camera, s);
+            for (size_t pixel = 0; pixel < 4; ++pixel) {
+                const double expected = farDistance < 10 || pixel > 0 ? 0 : 0.25;
+                EXPECT_NEAR(film.pixels[pixel].mean.x, expected, 4.5 * std::sqrt(0.19 / 40000))
+                    << pixel;
+            }
+        }
+    }
+}
+
 /// A point at another depth than the focus is blurred to a disk of radius
 /// lens radius x |depth - focus| / focus on its own plane; an edge through it to the disk's
 /// segment.

@@ -56,6 +56,8 @@ TEST(SceneIdentity, EveryMemberCounts) {
         [](Scene&, Camera& c) { c.position.x = 1e-9; },
         [](Scene&, Camera& c) { c.lensRadius = 1e-9; },
         [](Scene&, Camera& c) { c.focusDistance = 2; },
+        [](Scene&, Camera& c) { c.shift.x = 1e-9; },
+        [](Scene&, Camera& c) { c.shift.y = 1e-9; },
         [](Scene&, Camera& c) { c.clipAlongRay = true; },
     };
     std::set<uint32_t> sums;

@@ -62,6 +62,19 @@ TEST(MitsubaSensors, AnglesBelongToAnAxis) {
                 HasSubstr("'fov_axis' is 'z', expected x, y, diagonal, smaller or larger"));
 }
 
+/// A fifth of the picture's width to the right, a tenth of its height down, as Mitsuba 3.9's
+/// sample_ray has it; its lenses have no such offsets.
+TEST(MitsubaSensors, PrincipalPointsMove) {
+    const std::string offsets = "<float name=\"principal_point_offset_x\" value=\"0.2\"/>"
+                                "<float name=\"principal_point_offset_y\" value=\"0.1\"/>";
+    const Scene scene = sceneOf("<float name=\"fov\" value=\"60\"/>" + offsets + kWideFilm);
+    const Camera camera = makeCamera(scene, CameraChoice::File, 200, 100);
+    EXPECT_NEAR(camera.shift.x, 0.2309401, 1e-6);
+    EXPECT_NEAR(camera.shift.y, -0.0577350, 1e-6);
+    EXPECT_THAT(problemInside("<sensor type=\"thinlens\">" + offsets + "</sensor>"),
+                HasSubstr("'principal_point_offset_x' is not read in sensor 'thinlens'"));
+}
+
 TEST(MitsubaSensors, LensesAndParallelViews) {
     const FileCamera lens = sceneOf("<float name=\"aperture_radius\" value=\"0.2\"/>"
                                     "<float name=\"focus_distance\" value=\"7\"/>",
