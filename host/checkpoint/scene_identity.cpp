@@ -66,7 +66,8 @@ void add(Sum& sum, const TextureUse& t) {
 void add(Sum& sum, const Material& m) {
     const auto& [name, kind, albedo, reflectance, transmittance, ior, alpha, eta, k, facets,
                  isNonlinear, internalViews, emission, bothSides, principled, burley, alphaMode,
-                 opacity, alphaCutoff, other, otherShare, isBlackBehind, textures] = m;
+                 opacity, alphaCutoff, other, otherShare, isHiddenFromCamera, isBlackBehind,
+                 textures] = m;
     const auto& [distribution, facetAlpha, masking] = facets;
     sum.add(kind), sum.add(albedo), sum.add(reflectance), sum.add(transmittance), sum.add(ior);
     sum.add(alpha), sum.add(eta), sum.add(k), sum.add(emission), sum.add(bothSides);
@@ -78,6 +79,7 @@ void add(Sum& sum, const Material& m) {
     add(sum, principled);
     if (kind == MaterialKind::Burley) add(sum, burley);
     if (isBlackBehind) sum.add(isBlackBehind);
+    if (isHiddenFromCamera) sum.add(2);
     if (other != kNoMaterial) sum.add(other), sum.add(otherShare);
     sum.add(alphaMode), sum.add(opacity), sum.add(alphaCutoff);
     for (const TextureUse& t : textures)

@@ -73,7 +73,7 @@ void Renderer::renderOnDevice(const Job& job, const Options& options, const Take
     logging::debug(fmt::format("device {}: {} ({})", open_->choice.index, report.backend,
                                open_->choice.reason));
     const uint64_t mostPixels = pixelsThatFit(
-        job, options, filmPixelsThatFit(description, built_->gpu, job.settings.estimator.branches),
+        job, options, filmPixelsThatFit(description, built_->gpu, job.settings.estimator),
         description.isCpu() ? sizeof(gpu::PixelState) : 0);
     take([&](const RenderSettings& settings,
              bool again) { return backendFor(job, settings, options, again); },

@@ -50,6 +50,7 @@ void Materials::addEmission(const Plugin& emitter, Material& material) {
         emitter.fail("radiance", "is a mesh attribute, expected a colour or a picture");
     material.emission = context_.builder.lightColor("radiance", radiance.color);
     material.emitsBothSides = false;
+    material.isHiddenFromCamera = context_.builder.hints().hidesBackdrop;
     if (radiance.texture) {
         TextureUse use = *radiance.texture;
         use.slot = TextureSlot::Emission;

@@ -129,6 +129,8 @@ struct Material {
     /// one's; the other one has the same emission.
     uint32_t other = kNoMaterial;
     float otherShare = 0;
+    /// Camera rays pass it, up to the first surface that they meet; all others meet it.
+    bool isHiddenFromCamera = false;
     bool isBlackBehind = false; ///< nothing is scattered to where the normals do not point
     /// At most one for each slot, but of MetallicRoughness and SpecularColor, whose numbers
     /// multiply.
