@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace stromboli::mitsuba {
 namespace {
 
@@ -86,15 +88,23 @@ Surface twoSided(SurfaceMaker& maker, Context& context, Textures& textures) {
     return surface;
 }
 
+bool hasTexturedOpacity(const Material& m) {
+    return m.alphaMode != AlphaMode::Opaque &&
+           std::ranges::any_of(m.textures, [](const TextureUse& use) {
+               return use.slot == TextureSlot::BaseColor;
+           });
+}
+
 Surface mask(SurfaceMaker& maker, Context& context, Textures& textures) {
     Surface surface = readInside(maker, context, textures);
     Material& m = surface.material;
-    if (m.alphaMode != AlphaMode::Opaque) maker.plugin.fail("is a mask inside a mask");
+    const double inside = m.alphaMode == AlphaMode::Opaque ? 1.0 : double(m.opacity);
+    if (hasTexturedOpacity(m)) maker.plugin.fail("is a mask over one whose opacity is a texture");
     const Shade opacity = textures.shade(maker.plugin, "opacity", ColorOf::Reflectance,
                                          glm::dvec3(0.5), Layout::Alpha);
     m.alphaMode = AlphaMode::Blend;
-    m.opacity =
-        float(std::clamp((opacity.color.x + opacity.color.y + opacity.color.z) / 3, 0.0, 1.0));
+    m.opacity = float(
+        inside * std::clamp((opacity.color.x + opacity.color.y + opacity.color.z) / 3, 0.0, 1.0));
     if (opacity.texture) {
         for (const TextureUse& use : m.textures)
             if (use.slot == TextureSlot::BaseColor)
@@ -152,6 +162,26 @@ Surface bumpMap(SurfaceMaker& maker, Context& context, Textures& textures) {
     return surface;
 }
 
+/// Of two surfaces, either of which may be there in a share of cases only, the mixture is there in
+/// the mean of both shares, and then the second one as often as it is one of those.
+void takeMasksOut(const Plugin& plugin, Material& first, Material& second, bool hasTexture,
+                  double& weight) {
+    const auto opacityOf = [](const Material& m) {
+        return m.alphaMode == AlphaMode::Opaque ? 1.0 : double(m.opacity);
+    };
+    const double a = opacityOf(first), b = opacityOf(second);
+    if (a == 1 && b == 1 && !hasTexturedOpacity(first) && !hasTexturedOpacity(second)) return;
+    if (hasTexture || hasTexturedOpacity(first) || hasTexturedOpacity(second))
+        plugin.fail("has a mask inside, and a weight or an opacity that is a texture, expected the "
+                    "mask around the blend");
+    const double opacity = (1 - weight) * a + weight * b;
+    weight = opacity > 0 ? weight * b / opacity : 0;
+    first.alphaMode = AlphaMode::Blend;
+    first.opacity = float(opacity);
+    second.alphaMode = AlphaMode::Opaque;
+    second.opacity = 1;
+}
+
 /// One of two bsdfs, the second one in the share of cases that `weight` says.
 Surface blend(SurfaceMaker& maker, Context& context, Textures& textures) {
     const Plugin& plugin = maker.plugin;
@@ -162,16 +192,16 @@ Surface blend(SurfaceMaker& maker, Context& context, Textures& textures) {
     auto second = std::make_shared<Surface>(readBsdf(context, textures, *inside[1]));
     const Shade share =
         textures.shade(plugin, "weight", ColorOf::Reflectance, glm::dvec3(0.5), Layout::Red);
-    if (share.isVertexColor)
+    if (share.mesh != MeshColors::None)
         plugin.fail("weight", "is a mesh attribute, expected a number or picture");
     double weight = std::clamp((share.color.x + share.color.y + share.color.z) / 3, 0.0, 1.0);
-    for (const Surface* each : {&first, std::as_const(second).get()})
-        if (each->material.alphaMode != AlphaMode::Opaque)
-            plugin.fail("has a mask inside, expected it around the blend");
+    takeMasksOut(plugin, first.material, second->material, share.texture.has_value(), weight);
     if (first.other) { // only what takes the place may be a mixture in turn
         if (second->other || share.texture)
             plugin.fail("has a first bsdf that is a blend, which is not supported here");
         std::swap(first, *second);
+        std::swap(first.material.alphaMode, second->material.alphaMode);
+        std::swap(first.material.opacity, second->material.opacity);
         weight = 1 - weight;
     }
     if (share.texture) {
@@ -180,7 +210,10 @@ Surface blend(SurfaceMaker& maker, Context& context, Textures& textures) {
         first.material.textures.push_back(use);
     }
     first.material.otherShare = float(weight);
-    first.usesVertexColors |= second->usesVertexColors;
+    if (first.meshColors == MeshColors::None)
+        first.meshColors = second->meshColors;
+    else if (second->meshColors != MeshColors::None && second->meshColors != first.meshColors)
+        plugin.fail("has colours of vertices and of faces, expected one of both");
     first.other = std::move(second);
     plugin.requireAllRead();
     return first;

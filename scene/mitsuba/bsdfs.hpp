@@ -10,8 +10,8 @@ namespace stromboli::mitsuba {
 /// What a BSDF of the file makes of a surface.
 struct Surface {
     Material material;
-    bool usesVertexColors = false;  ///< of the mesh that it is on
-    std::shared_ptr<Surface> other; ///< Material::other of its material
+    MeshColors meshColors = MeshColors::None; ///< of the mesh that it is on
+    std::shared_ptr<Surface> other;           ///< Material::other of its material
 };
 
 /// Throws SceneError for what cannot be represented.

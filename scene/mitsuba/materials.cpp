@@ -18,6 +18,7 @@ BoundMaterial Materials::make(const Plugin* bsdf, const Plugin* emitter, bool is
     Surface surface;
     surface.material = build::greyMaterial();
     surface.material.isBlackBehind = !isOld;
+    if (emitter) surface.material.albedo = glm::vec3(0); // what shines reflects by its bsdf alone
     if (bsdf) surface = readBsdf(context_, textures_, *bsdf);
     return bind(std::move(surface), emitter);
 }
@@ -27,7 +28,7 @@ BoundMaterial Materials::bind(Surface&& surface, const Plugin* emitter) {
     BoundMaterial bound;
     const Material& m = surface.material;
     bound.isTextured = !m.textures.empty();
-    bound.usesVertexColors = surface.usesVertexColors;
+    bound.meshColors = surface.meshColors;
     bound.wantsTangents = m.hasGrain() || std::ranges::any_of(m.textures, [](const auto& use) {
                               return use.slot == TextureSlot::Normal;
                           });
@@ -41,12 +42,24 @@ BoundMaterial Materials::bind(Surface&& surface, const Plugin* emitter) {
     return bound;
 }
 
+/// A beam along the normals has no width: no path comes upon it, in Mitsuba either.
+void Materials::ignoreBeam(const Plugin& emitter, Material& material) {
+    context_.report().warn("emitter 'directionalarea' shines along its normals alone, which paths "
+                           "from the camera never meet: it gives no light, as in Mitsuba's path");
+    material.isHiddenFromCamera = context_.builder.hints().hidesBackdrop;
+    for (const char* unused : {"radiance", "sampling_weight"})
+        emitter.skip(unused);
+    emitter.requireAllRead();
+}
+
 void Materials::addEmission(const Plugin& emitter, Material& material) {
+    if (emitter.type == "directionalarea") return ignoreBeam(emitter, material);
     if (emitter.type != "area")
-        emitter.fail(
-            fmt::format("'{}' is no emitter of a shape that is read, expected area", emitter.type));
+        emitter.fail(fmt::format("'{}' is no emitter of a shape that is read, expected area or "
+                                 "directionalarea",
+                                 emitter.type));
     const Shade radiance = textures_.shade(emitter, "radiance", ColorOf::Light, glm::dvec3(1));
-    if (radiance.isVertexColor)
+    if (radiance.mesh != MeshColors::None)
         emitter.fail("radiance", "is a mesh attribute, expected a colour or a picture");
     material.emission = context_.builder.lightColor("radiance", radiance.color);
     material.emitsBothSides = false;

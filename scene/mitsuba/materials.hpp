@@ -10,7 +10,8 @@ namespace stromboli::mitsuba {
 /// A material of the scene, and what it wants from the corners of its triangles.
 struct BoundMaterial {
     uint32_t number = 0;
-    bool isTextured = false, wantsTangents = false, usesVertexColors = false;
+    bool isTextured = false, wantsTangents = false;
+    MeshColors meshColors = MeshColors::None;
 
     bool wantsCoordinates() const { return isTextured || wantsTangents; }
 };
@@ -26,6 +27,7 @@ class Materials {
   private:
     BoundMaterial make(const Plugin* bsdf, const Plugin* emitter, bool isOld);
     BoundMaterial bind(Surface&& surface, const Plugin* emitter);
+    void ignoreBeam(const Plugin& emitter, Material& material);
     void addEmission(const Plugin& emitter, Material& material);
 
     Context& context_;

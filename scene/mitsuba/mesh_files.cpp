@@ -44,8 +44,9 @@ FileMesh readObjMesh(Context& context, const std::filesystem::path& file) {
     return meshOf(context, loadObj(file, conventionsOf(context)));
 }
 
-FileMesh readPlyMesh(Context& context, const std::filesystem::path& file) {
-    return meshOf(context, loadPly(file, conventionsOf(context)));
+FileMesh readPlyMesh(Context& context, const std::filesystem::path& file, bool takesFaceColors) {
+    const PlyColors colors = takesFaceColors ? PlyColors::OfFaces : PlyColors::OfVertices;
+    return meshOf(context, loadPlyWith(colors, file, conventionsOf(context)));
 }
 
 } // namespace stromboli::mitsuba

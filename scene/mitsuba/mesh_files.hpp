@@ -15,6 +15,7 @@ struct FileMesh {
 };
 
 FileMesh readObjMesh(Context& context, const std::filesystem::path& file);
-FileMesh readPlyMesh(Context& context, const std::filesystem::path& file);
+/// takesFaceColors: the colours of corners are those of faces, not of vertices.
+FileMesh readPlyMesh(Context& context, const std::filesystem::path& file, bool takesFaceColors);
 
 } // namespace stromboli::mitsuba

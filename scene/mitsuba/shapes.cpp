@@ -115,7 +115,7 @@ Shapes::Part Shapes::single(const Plugin& shape) {
 
 build::Mesh Shapes::meshOf(const Plugin& shape, const BoundMaterial& material) {
     if (isFile(shape)) return fileMesh(shape, material);
-    if (material.usesVertexColors)
+    if (material.meshColors != MeshColors::None)
         shape.fail("has a bsdf with a mesh attribute, expected a mesh from a file that has it");
     build::Mesh mesh = solidOf(shape);
     fitTo(material, mesh);
@@ -141,15 +141,17 @@ build::Mesh Shapes::solidOf(const Plugin& shape) {
 }
 
 build::Mesh Shapes::fileMesh(const Plugin& shape, const BoundMaterial& material) {
-    const FileMesh& file = read(shape);
+    const FileMesh& file = read(shape, material.meshColors);
     build::Mesh mesh = file.mesh;
-    if (material.usesVertexColors && !file.hasColors)
-        shape.fail("has a bsdf of vertex_color, and its file has no such attribute");
+    if (material.meshColors != MeshColors::None && !file.hasColors)
+        shape.fail(fmt::format("has a bsdf of {}, and its file has no such attribute",
+                               material.meshColors == MeshColors::OfFaces ? "face_color"
+                                                                          : "vertex_color"));
     if (material.wantsCoordinates() && !file.hasCoordinates)
         context_.report().warn(fmt::format("{}: has no texture coordinates, which its bsdf looks "
                                            "up pictures by; (0, 0) is taken",
                                            shape.displayName()));
-    if (!material.usesVertexColors)
+    if (material.meshColors == MeshColors::None)
         for (VertexAttributes& a : mesh.attributes)
             a.color = glm::vec4(1);
     // Pictures have their first row at the coordinate 0; the readers of meshes turn v upside down,
@@ -174,7 +176,7 @@ void Shapes::fitTo(const BoundMaterial& material, build::Mesh& mesh) {
         for (VertexAttributes& a : mesh.attributes)
             if (a.tangent.w != 0) a.tangent.w = 1;
     }
-    if (material.wantsCoordinates() || material.usesVertexColors) return;
+    if (material.wantsCoordinates() || material.meshColors != MeshColors::None) return;
     mesh.attributes.clear();
     for (build::MeshPart& part : mesh.parts)
         for (build::MeshTriangle& triangle : part)
@@ -182,17 +184,20 @@ void Shapes::fitTo(const BoundMaterial& material, build::Mesh& mesh) {
                 corner.attributes = kNoAttributes;
 }
 
-const FileMesh& Shapes::read(const Plugin& shape) {
+const FileMesh& Shapes::read(const Plugin& shape, MeshColors colors) {
     const std::filesystem::path file = context_.document.file(shape, "filename");
     const bool isSerialized = shape.type == "serialized";
     const int64_t index = isSerialized ? shape.integer("shape_index").value_or(0) : 0;
     if (index < 0) shape.fail("shape_index", "is less than 0");
-    const auto key = std::pair(file.string(), index);
+    const bool hasFaceColors = colors == MeshColors::OfFaces && shape.type == "ply";
+    if (colors == MeshColors::OfFaces && !hasFaceColors)
+        shape.fail("has a bsdf of face_color, expected a mesh from a PLY file");
+    const auto key = std::tuple(file.string(), index, hasFaceColors);
     if (const auto found = files_.find(key); found != files_.end()) return found->second;
     if (isSerialized)
         return files_[key] = serializedMesh(build::readFile(file), file.string(), uint64_t(index));
-    return files_[key] =
-               shape.type == "obj" ? readObjMesh(context_, file) : readPlyMesh(context_, file);
+    if (shape.type == "obj") return files_[key] = readObjMesh(context_, file);
+    return files_[key] = readPlyMesh(context_, file, hasFaceColors);
 }
 
 } // namespace stromboli::mitsuba

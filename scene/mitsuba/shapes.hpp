@@ -5,6 +5,7 @@
 
 #include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace stromboli::mitsuba {
@@ -34,11 +35,11 @@ class Shapes {
     build::Mesh solidOf(const Plugin& shape);
     build::Mesh fileMesh(const Plugin& shape, const BoundMaterial& material);
     static void fitTo(const BoundMaterial& material, build::Mesh& mesh);
-    const FileMesh& read(const Plugin& shape);
+    const FileMesh& read(const Plugin& shape, MeshColors colors);
 
     Context& context_;
     Materials materials_;
-    std::map<std::pair<std::string, int64_t>, FileMesh> files_;
+    std::map<std::tuple<std::string, int64_t, bool>, FileMesh> files_; ///< true: of face colours
     std::map<const Plugin*, std::vector<Part>> groups_;
 };
 

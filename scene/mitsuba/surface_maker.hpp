@@ -32,7 +32,7 @@ class SurfaceMaker {
   private:
     Textures& textures_;
     Context& context_;
-    bool usesVertexColors_ = false;
+    MeshColors meshColors_ = MeshColors::None;
 };
 
 } // namespace stromboli::mitsuba

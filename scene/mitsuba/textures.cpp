@@ -123,9 +123,9 @@ void applyTransform(const Plugin& texture, TextureUse& use) {
 Shade Textures::shade(const Plugin& plugin, std::string_view name, ColorOf what,
                       const glm::dvec3& otherwise, Layout layout) {
     if (const std::optional<glm::dvec3> color = colorOf(plugin, name, what))
-        return {*color, {}, false};
+        return {*color, {}, MeshColors::None};
     const Plugin* object = plugin.child(name);
-    if (!object) return {otherwise, {}, false};
+    if (!object) return {otherwise, {}, MeshColors::None};
     if (object->tag != "texture") object->fail("is no texture, expected a colour or a texture");
     return texture(*object, what, layout);
 }
@@ -140,11 +140,14 @@ Shade Textures::texture(const Plugin& texture, ColorOf what, Layout layout) {
     if (texture.type == "checkerboard") return checkerboard(texture, what, layout);
     if (texture.type == "mesh_attribute") {
         const std::string name = texture.requireText("name");
-        if (name != "vertex_color" || layout != Layout::Color)
-            texture.fail("name", fmt::format("is '{}', expected vertex_color, for a colour", name));
+        const bool isOfFaces = name == "face_color";
+        if ((name != "vertex_color" && !isOfFaces) || layout != Layout::Color)
+            texture.fail(
+                "name",
+                fmt::format("is '{}', expected vertex_color or face_color, for a colour", name));
         const double scale = texture.number("scale").value_or(1);
         texture.requireAllRead();
-        return {glm::dvec3(scale), {}, true};
+        return {glm::dvec3(scale), {}, isOfFaces ? MeshColors::OfFaces : MeshColors::OfVertices};
     }
     texture.fail(fmt::format("'{}' is no texture that is read, expected bitmap, checkerboard, "
                              "mesh_attribute or uniform",
@@ -164,7 +167,7 @@ Shade Textures::bitmap(const Plugin& plugin, Layout layout) {
         plugin.skip(unused);
     plugin.requireAllRead();
     use.texture = context_.builder.addTexture(texture);
-    return {glm::dvec3(1), use, false};
+    return {glm::dvec3(1), use, MeshColors::None};
 }
 
 uint32_t Textures::image(const Plugin& plugin, bool raw, Layout layout) {
@@ -208,7 +211,7 @@ Shade Textures::checkerboard(const Plugin& plugin, ColorOf what, Layout layout) 
     applyTransform(plugin, use);
     plugin.requireAllRead();
     use.texture = context_.builder.addTexture(texture);
-    return {glm::dvec3(1), use, false};
+    return {glm::dvec3(1), use, MeshColors::None};
 }
 
 } // namespace stromboli::mitsuba

@@ -14,11 +14,14 @@ namespace stromboli::mitsuba {
 /// precision of the file where that has no colours.
 enum class Layout { Color, Alpha, Red, Green, Blue, Grey };
 
+/// What of a mesh the colours of its corners are.
+enum class MeshColors { None, OfVertices, OfFaces };
+
 /// A colour that is alike everywhere, or a texture of it.
 struct Shade {
     glm::dvec3 color{1.0};
-    std::optional<TextureUse> texture; ///< times `color`; its slot is to be set
-    bool isVertexColor = false;        ///< in place of a texture: the colours of corners
+    std::optional<TextureUse> texture;  ///< times `color`; its slot is to be set
+    MeshColors mesh = MeshColors::None; ///< in place of a texture: the colours of corners
 };
 
 /// The textures of a scene.

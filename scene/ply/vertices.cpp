@@ -56,26 +56,6 @@ Role roleOf(const Property& property) {
     return None;
 }
 
-/// The number that stands for 1 in a colour of this type.
-double fullScale(ScalarType type) {
-    switch (type) {
-    case ScalarType::Int8:
-        return std::numeric_limits<int8_t>::max();
-    case ScalarType::UInt8:
-        return std::numeric_limits<uint8_t>::max();
-    case ScalarType::Int16:
-        return std::numeric_limits<int16_t>::max();
-    case ScalarType::UInt16:
-        return std::numeric_limits<uint16_t>::max();
-    case ScalarType::Int32:
-        return std::numeric_limits<int32_t>::max();
-    case ScalarType::UInt32:
-        return std::numeric_limits<uint32_t>::max();
-    default:
-        return 1;
-    }
-}
-
 class VertexReader {
   public:
     VertexReader(const Element& element, Body& body, build::SceneBuilder& builder)
@@ -172,6 +152,31 @@ class VertexReader {
 };
 
 } // namespace
+
+std::optional<int> colorChannelOf(const Property& property) {
+    const Role role = roleOf(property);
+    if (role < Red || role > Blue) return std::nullopt;
+    return role - Red;
+}
+
+double fullScale(ScalarType type) {
+    switch (type) {
+    case ScalarType::Int8:
+        return std::numeric_limits<int8_t>::max();
+    case ScalarType::UInt8:
+        return std::numeric_limits<uint8_t>::max();
+    case ScalarType::Int16:
+        return std::numeric_limits<int16_t>::max();
+    case ScalarType::UInt16:
+        return std::numeric_limits<uint16_t>::max();
+    case ScalarType::Int32:
+        return std::numeric_limits<int32_t>::max();
+    case ScalarType::UInt32:
+        return std::numeric_limits<uint32_t>::max();
+    default:
+        return 1;
+    }
+}
 
 Vertices readVertices(const Element& element, Body& body, build::SceneBuilder& builder) {
     return VertexReader(element, body, builder).read();

@@ -4,6 +4,8 @@
 #include "scene/build/scene_builder.hpp"
 #include "scene/ply/body.hpp"
 
+#include <optional>
+
 namespace stromboli::ply {
 
 /// What the vertices of a file have, one of each for every vertex.
@@ -14,6 +16,11 @@ struct Vertices {
     bool hasColors = false;
     bool hasAlpha = false; ///< some vertices are not opaque
 };
+
+/// 0, 1 and 2 for red, green and blue by one of their names.
+std::optional<int> colorChannelOf(const Property& property);
+/// The number that stands for 1 in a colour of this type. Whole numbers are sRGB, floats linear.
+double fullScale(ScalarType type);
 
 /// Reads all vertices, which `body` is at the beginning of. Throws SceneError if they have no x, y
 /// and z, or if one of these is not finite.

@@ -118,6 +118,37 @@ TEST(MitsubaShapes, VertexColorsAreAnAttribute) {
                 HasSubstr("expected a mesh from a file"));
 }
 
+/// Of a quad, which is cut in two, and a triangle that shares corners with it.
+TEST(MitsubaShapes, FaceColorsAreAnAttributeOfPlyFiles) {
+    writeFile("tiles.ply",
+              "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+              "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
+              "property float r\nproperty float g\nproperty float b\n"
+              "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n"
+              "4 0 1 2 3 0.25 0.5 0.75\n3 1 4 2 1 0 0\n");
+    const std::string mesh = "<string name=\"filename\" value=\"tiles.ply\"/>";
+    const auto bsdf = [](const std::string& name) {
+        return "<bsdf type=\"diffuse\"><texture type=\"mesh_attribute\" name=\"reflectance\">"
+               "<string name=\"name\" value=\"" +
+               name + "\"/></texture></bsdf>";
+    };
+    const Scene tiles = loadShape("ply", mesh + bsdf("face_color"));
+    ASSERT_EQ(tiles.attributeCorners.size(), 3u);
+    for (size_t i = 0; i < 3; ++i)
+        for (const uint32_t corner : tiles.attributeCorners[i])
+            EXPECT_EQ(tiles.attributes[corner].color,
+                      i < 2 ? glm::vec4(0.25, 0.5, 0.75, 1) : glm::vec4(1, 0, 0, 1))
+                << i;
+    const auto problemOf = [&](const std::string& type, const std::string& inside) {
+        return problemInside("<shape type=\"" + type + "\">" + inside + "</shape>");
+    };
+    EXPECT_THAT(problemOf("ply", mesh + bsdf("vertex_color")),
+                HasSubstr("has a bsdf of vertex_color, and its file has no such attribute"));
+    EXPECT_THAT(problemOf("ply", mesh + bsdf("face_density")),
+                HasSubstr("'name' is 'face_density', expected vertex_color or face_color"));
+    EXPECT_THAT(problemOf("cube", bsdf("face_color")), HasSubstr("expected a mesh from a file"));
+}
+
 /// Corner by corner, whatever shares them: the mean of two faces at right angles.
 TEST(MitsubaShapes, NormalsAreWeighedByAngles) {
     build::Mesh mesh;
