@@ -133,7 +133,8 @@ Surface normalMap(SurfaceMaker& maker, Context& context, Textures& textures) {
     Surface surface = readInside(maker, context, textures);
     const Shade normals =
         textures.shade(maker.plugin, "normalmap", ColorOf::Reflectance, glm::dvec3(0.5, 0.5, 1));
-    if (!normals.texture) maker.plugin.fail("has no texture 'normalmap'");
+    if (!normals.texture || !normals.attribute.empty())
+        maker.plugin.fail("has no texture 'normalmap'");
     TextureUse use = *normals.texture;
     use.slot = TextureSlot::Normal;
     addTexture(surface, use);
@@ -153,7 +154,8 @@ Surface bumpMap(SurfaceMaker& maker, Context& context, Textures& textures) {
     const Plugin* heights = maker.plugin.onlyChildOf("texture");
     if (!heights) maker.plugin.fail("has no texture inside, expected one of heights");
     const Shade shade = textures.texture(*heights, ColorOf::Reflectance, Layout::Grey);
-    if (!shade.texture) heights->fail("is no picture, expected one of heights");
+    if (!shade.texture || !shade.attribute.empty())
+        heights->fail("is no picture, expected one of heights");
     TextureUse use = *shade.texture;
     use.slot = TextureSlot::Height;
     use.scale = float(maker.plugin.number("scale").value_or(1));
@@ -192,8 +194,6 @@ Surface blend(SurfaceMaker& maker, Context& context, Textures& textures) {
     auto second = std::make_shared<Surface>(readBsdf(context, textures, *inside[1]));
     const Shade share =
         textures.shade(plugin, "weight", ColorOf::Reflectance, glm::dvec3(0.5), Layout::Red);
-    if (share.mesh != MeshColors::None)
-        plugin.fail("weight", "is a mesh attribute, expected a number or picture");
     double weight = std::clamp((share.color.x + share.color.y + share.color.z) / 3, 0.0, 1.0);
     takeMasksOut(plugin, first.material, second->material, share.texture.has_value(), weight);
     if (first.other) { // only what takes the place may be a mixture in turn
@@ -210,10 +210,6 @@ Surface blend(SurfaceMaker& maker, Context& context, Textures& textures) {
         first.material.textures.push_back(use);
     }
     first.material.otherShare = float(weight);
-    if (first.meshColors == MeshColors::None)
-        first.meshColors = second->meshColors;
-    else if (second->meshColors != MeshColors::None && second->meshColors != first.meshColors)
-        plugin.fail("has colours of vertices and of faces, expected one of both");
     first.other = std::move(second);
     plugin.requireAllRead();
     return first;

@@ -45,8 +45,7 @@ glm::dmat4 pointLight(Context& context, const Plugin& emitter, Light& light) {
 }
 
 void setPicture(const Plugin& emitter, const char* name, const Shade& shade, Light& light) {
-    if (shade.mesh != MeshColors::None)
-        emitter.fail(name, "is a mesh attribute, expected a picture");
+    if (!shade.attribute.empty()) emitter.fail(name, "is a mesh attribute, expected a picture");
     light.picture = shade.texture;
     if (light.picture) light.picture->slot = TextureSlot::Projection;
 }

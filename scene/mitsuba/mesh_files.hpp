@@ -4,6 +4,7 @@
 #include "scene/mitsuba/context.hpp"
 
 #include <filesystem>
+#include <string_view>
 
 namespace stromboli::mitsuba {
 
@@ -15,7 +16,9 @@ struct FileMesh {
 };
 
 FileMesh readObjMesh(Context& context, const std::filesystem::path& file);
-/// takesFaceColors: the colours of corners are those of faces, not of vertices.
-FileMesh readPlyMesh(Context& context, const std::filesystem::path& file, bool takesFaceColors);
+/// attribute: what the colours of corners are, as Mitsuba names it: vertex_color, face_color, ...;
+/// empty: vertex_color.
+FileMesh readPlyMesh(Context& context, const std::filesystem::path& file,
+                     std::string_view attribute);
 
 } // namespace stromboli::mitsuba

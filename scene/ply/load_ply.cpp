@@ -8,10 +8,10 @@
 namespace stromboli {
 
 Scene loadPly(const std::filesystem::path& file, const SceneConventions& conventions) {
-    return loadPlyWith(PlyColors::OfVertices, file, conventions);
+    return loadPlyWith({}, file, conventions);
 }
 
-Scene loadPlyWith(PlyColors colors, const std::filesystem::path& file,
+Scene loadPlyWith(const PlyAttribute& colors, const std::filesystem::path& file,
                   const SceneConventions& conventions) try {
     build::SceneBuilder builder(file.string(), conventions);
     ply::PlyReader(file, builder, colors).read();

@@ -4,17 +4,23 @@
 #include "scene/model/scene.hpp"
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace stromboli {
 
-/// Whose colours those of the corners are. A face that has none is white.
-enum class PlyColors { OfVertices, OfFaces };
+/// What of a file the colours of corners are: `color` by any of its usual names, or another
+/// attribute as Mitsuba names them: `name_r`, `name_g` and `name_b` are name_color, properties like
+/// `name_x`, `name_0` are name, whose first number is taken for all three. A face without is white.
+struct PlyAttribute {
+    std::string name = "color";
+    bool isOfFaces = false;
+};
 
 /// Reads a PLY file, ASCII or binary; docs/obj_ply_files.md says what of it. Throws SceneError with
 /// file and line, or in binary files element and number, for anything it cannot make sense of.
 Scene loadPly(const std::filesystem::path& file, const SceneConventions& conventions = {});
-Scene loadPlyWith(PlyColors colors, const std::filesystem::path& file,
+Scene loadPlyWith(const PlyAttribute& colors, const std::filesystem::path& file,
                   const SceneConventions& conventions);
 
 /// True if a file begins with the line "ply".

@@ -29,7 +29,7 @@ bool isCornerList(const Property& property) {
 } // namespace
 
 PlyReader::PlyReader(const std::filesystem::path& file, build::SceneBuilder& builder,
-                     PlyColors colors)
+                     const PlyAttribute& colors)
     : file_(file), name_(file.string()), builder_(builder), colors_(colors),
       bytes_(build::readFile(file)), header_(readHeader(name_, bytes_, builder.report())),
       body_(name_, bytes_, header_, builder.report()) {}
@@ -54,7 +54,8 @@ void PlyReader::read() {
 void PlyReader::readElements(const Element& element) {
     body_.begin(element);
     if (element.name == "vertex")
-        vertices_ = readVertices(element, body_, builder_);
+        vertices_ =
+            readVertices(element, body_, builder_, colors_.isOfFaces ? "color" : colors_.name);
     else if (element.name == "face" || element.name == "tristrips")
         readFaces(element);
     else
@@ -63,8 +64,8 @@ void PlyReader::readElements(const Element& element) {
 
 void PlyReader::readFaces(const Element& element) {
     bool hasCorners = false;
-    FaceColors colors(element);
-    const bool readsColors = colors_ == PlyColors::OfFaces && colors.areThere();
+    FaceColors colors(element, colors_.name);
+    const bool readsColors = colors_.isOfFaces && colors.areThere();
     for (const Property& property : element.properties) {
         if (isCornerList(property) && !hasCorners)
             hasCorners = true;
@@ -138,7 +139,7 @@ build::Mesh PlyReader::makeMesh() {
     build::Mesh mesh;
     mesh.positions = std::move(vertices_.positions);
     mesh.normals = std::move(vertices_.normals);
-    if (colors_ == PlyColors::OfFaces)
+    if (colors_.isOfFaces)
         for (VertexAttributes& a : vertices_.attributes)
             a.color = glm::vec4(1);
     mesh.attributes = std::move(vertices_.attributes);
@@ -170,8 +171,7 @@ build::Mesh PlyReader::makeMesh() {
 uint32_t PlyReader::material() {
     Material material = build::greyMaterial();
     if (vertices_.hasColors || !faceColors_.empty()) material.albedo = glm::vec3(1);
-    if (vertices_.hasAlpha && colors_ == PlyColors::OfVertices)
-        material.alphaMode = AlphaMode::Blend;
+    if (vertices_.hasAlpha && !colors_.isOfFaces) material.alphaMode = AlphaMode::Blend;
     return builder_.addMaterial(material);
 }
 

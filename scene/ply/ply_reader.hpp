@@ -15,7 +15,8 @@ namespace stromboli::ply {
 /// Reads a PLY file and hands the builder the mesh that it is.
 class PlyReader {
   public:
-    PlyReader(const std::filesystem::path& file, build::SceneBuilder& builder, PlyColors colors);
+    PlyReader(const std::filesystem::path& file, build::SceneBuilder& builder,
+              const PlyAttribute& colors);
     void read();
 
   private:
@@ -30,7 +31,7 @@ class PlyReader {
     const std::filesystem::path& file_;
     std::string name_; ///< for messages
     build::SceneBuilder& builder_;
-    PlyColors colors_;
+    PlyAttribute colors_;
     std::string bytes_;
     Header header_;
     Body body_;

@@ -17,13 +17,16 @@ struct Vertices {
     bool hasAlpha = false; ///< some vertices are not opaque
 };
 
-/// 0, 1 and 2 for red, green and blue by one of their names.
-std::optional<int> colorChannelOf(const Property& property);
+/// Which number of the attribute of that name (PlyAttribute) it is: 0, 1 or 2, red, green and blue
+/// of colours.
+std::optional<int> channelOfAttribute(const Property& property, const std::string& name);
 /// The number that stands for 1 in a colour of this type. Whole numbers are sRGB, floats linear.
 double fullScale(ScalarType type);
 
 /// Reads all vertices, which `body` is at the beginning of. Throws SceneError if they have no x, y
 /// and z, or if one of these is not finite.
-Vertices readVertices(const Element& element, Body& body, build::SceneBuilder& builder);
+/// colors: the name of the attribute that their colours are.
+Vertices readVertices(const Element& element, Body& body, build::SceneBuilder& builder,
+                      const std::string& colors);
 
 } // namespace stromboli::ply
