@@ -117,8 +117,10 @@ TEST_F(Determinism, WorkgroupSizeAndTraversalSteps) {
 }
 
 TEST_F(Determinism, SceneFetch) {
-    expectSameBytes(renderWith(settings(), {.texelFetch = true}),
-                    renderWith(settings(), {.texelFetch = false}));
+    RenderSettings weighted = settings();
+    weighted.estimator.filter = PixelFilter::Mitchell;
+    for (const RenderSettings& s : {settings(), weighted})
+        expectSameBytes(renderWith(s, {.texelFetch = true}), renderWith(s, {.texelFetch = false}));
 }
 
 TEST_F(Determinism, CropIsThePartOfTheWhole) {
