@@ -190,6 +190,7 @@ void resume(uint lane) {
 #ifdef RICH_MATERIALS
     medium = p.medium;
 #endif
+    if (samplesHaveWeights()) restoreFilterWeight();
     if (SPLITS) resumeSplit(lane);
     trace(PHASE_PATH, p.origin, p.direction, 0.0, INFINITE_DISTANCE, p.skipPrimitive);
 #ifdef PLACEMENTS

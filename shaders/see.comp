@@ -43,6 +43,7 @@ float rayEnd; ///< tMax as the ray began; its own shrinks to its hits
 bool isUnderWay; ///< a camera ray, or what follows from it
 uint bounce;     ///< mirrors and glass that it has met
 vec3 throughput; ///< the colour that these give to what is seen in them
+float filterWeight; ///< of the sample under way
 vec3 firstNormal; ///< of the surface that the camera sees
 uint rayCount;
 
@@ -65,7 +66,7 @@ void beginSample() {
     throughput = vec3(1.0);
     isUnderWay = true;
     const uvec2 at = uvec2(seen.pixel % frame.width, seen.pixel / frame.width);
-    const CameraRay c = cameraRayOfSample(at, seen.pixel, seen.samples, unitFloats(randomWords()).zw);
+    const CameraRay c = cameraRayOfSample(at, seen.pixel, seen.samples, unitFloats(randomWords()).zw, filterWeight);
     setRay(c.origin, c.direction, c.tMin, c.tMax, NO_PRIMITIVE);
 }
 
@@ -122,14 +123,20 @@ void arrive() {
 void takeResult() {
     const bool hit = ray.hitPrimitive != NO_PRIMITIVE;
     bool passes = false;
-    if (HAS_ALPHA && hit)
+    if (HAS_ALPHA && hit) {
+        const vec2 b = vec2(ray.b1, ray.b2);
         passes = passNumber(ray, seen.pixel, seen.samples, bounce, 0u) >=
-                 opacityAt(ray.hitPrimitive, vec2(ray.b1, ray.b2));
+                 (HIDES_SURFACES && bounce == 0u ? opacityForCamera(ray.hitPrimitive, b)
+                                                 : opacityAt(ray.hitPrimitive, b));
+    }
     if (passes) {
         passOn(ray, rayEnd);
         return;
     }
-    if (hit && bounce == 0u) ++seen.hits;
+    if (hit && bounce == 0u) {
+        ++seen.hits;
+        seen.covered += filterWeight;
+    }
     if (SEES_SURFACES && hit) arrive();
     else if (bounce > 0u) endSample(throughput, firstNormal); // a mirror that shows the sky
     else endSample(vec3(0.0), vec3(0.0));

@@ -62,7 +62,9 @@ SampleValue EmbreePaths::sampleAlone(uint32_t pixel, uint32_t sample) {
 std::string embreePathsLack(const Scene& scene, const RenderSettings& settings) {
     if (settings.estimator.conventions != ShadingConventions{})
         return "other shading conventions than the default";
-    if (settings.estimator.integrator != Integrator::Path) return "normals integrator";
+    if (settings.estimator.integrator != Integrator::Path) return "normals and depth integrators";
+    if (settings.estimator.roulette.throughputStart != Roulette::kThroughputStart)
+        return "roulette that begins elsewhere";
     if (!samplesLights(settings.estimator.directLight) ||
         settings.estimator.directLight == DirectLight::MisAll)
         return "direct light other than by lights";
@@ -83,7 +85,9 @@ std::string embreePathsLack(const Scene& scene, const RenderSettings& settings) 
         return "principled materials";
     if (anyHas([](const Material& m) { return m.kind >= MaterialKind::Conductor; }))
         return "conductors, rough and thin dielectrics, and plastic";
-    if (anyHas([](const Material& m) { return m.alphaMode != AlphaMode::Opaque; }))
+    if (anyHas([](const Material& m) {
+            return m.alphaMode != AlphaMode::Opaque || m.isHiddenFromCamera;
+        }))
         return "surfaces that are partly not there";
     if (anyHas([](const Material& m) { return m.other != kNoMaterial || m.isBlackBehind; }))
         return "mixtures of materials, and surfaces that are black behind";

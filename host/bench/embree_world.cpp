@@ -128,7 +128,7 @@ void EmbreeWorld::setView(const Camera& camera) {
     v.position = plain(glm::vec3(camera.position));
     v.right = plain(glm::vec3(camera.halfWidth * camera.right));
     v.up = plain(glm::vec3(camera.halfHeight * camera.up));
-    v.back = plain(glm::vec3(camera.back));
+    v.back = plain(glm::vec3(camera.backOfMiddle()));
     v.nearDistance = float(camera.nearDistance);
     v.farDistance = float(std::min(camera.farDistance, double(std::numeric_limits<float>::max())));
 }

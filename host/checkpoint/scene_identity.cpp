@@ -66,8 +66,8 @@ void add(Sum& sum, const TextureUse& t) {
 void add(Sum& sum, const Material& m) {
     const auto& [name, kind, albedo, reflectance, transmittance, ior, alpha, eta, k, facets,
                  isNonlinear, internalViews, emission, bothSides, principled, burley, alphaMode,
-                 opacity, alphaCutoff, other, otherShare, isBlackBehind, reliefRule, reliefShadows,
-                 textures] = m;
+                 opacity, alphaCutoff, other, otherShare, isHiddenFromCamera, isBlackBehind,
+                 reliefRule, reliefShadows, textures] = m;
     const auto& [distribution, facetAlpha, masking] = facets;
     sum.add(kind), sum.add(albedo), sum.add(reflectance), sum.add(transmittance), sum.add(ior);
     sum.add(alpha), sum.add(eta), sum.add(k), sum.add(emission), sum.add(bothSides);
@@ -81,6 +81,7 @@ void add(Sum& sum, const Material& m) {
     if (isBlackBehind) sum.add(isBlackBehind);
     if (reliefRule != ReliefRule::Bend || reliefShadows)
         sum.add(reliefRule), sum.add(reliefShadows);
+    if (isHiddenFromCamera) sum.add(2);
     if (other != kNoMaterial) sum.add(other), sum.add(otherShare);
     sum.add(alphaMode), sum.add(opacity), sum.add(alphaCutoff);
     for (const TextureUse& t : textures)
@@ -114,10 +115,11 @@ void add(Sum& sum, const Light& l) {
 }
 
 void add(Sum& sum, const Camera& c) {
-    const auto& [orthographic, position, right, up, back, halfWidth, halfHeight, nearDistance,
-                 farDistance, clipAlongRay, lensRadius, focusDistance] = c;
+    const auto& [orthographic, position, right, up, back, halfWidth, halfHeight, shift,
+                 nearDistance, farDistance, clipAlongRay, lensRadius, focusDistance] = c;
     sum.add(orthographic), sum.add(position), sum.add(right), sum.add(up), sum.add(back);
-    sum.add(halfWidth), sum.add(halfHeight), sum.add(nearDistance), sum.add(farDistance);
+    sum.add(halfWidth), sum.add(halfHeight), sum.add(shift), sum.add(nearDistance);
+    sum.add(farDistance);
     sum.add(clipAlongRay), sum.add(lensRadius), sum.add(focusDistance);
 }
 

@@ -46,7 +46,7 @@ void useCs184(DeclaredCommand& c) {
 /// samples of emitters a question of lights that no direction meets.
 void remarkOnLightChoice(DeclaredCommand& c) {
     const Estimator& e = c.options.estimator;
-    if (!c.has("--light-choice") || e.integrator == Integrator::Normals) return;
+    if (!c.has("--light-choice") || e.integrator != Integrator::Path) return;
     std::vector<std::string>& remarks = c.options.remarks;
     if (e.conventions.everyLightInTurn)
         remarks.emplace_back("--cs184 samples every light in turn: ignored: --light-choice");
@@ -109,15 +109,16 @@ void finishEstimator(DeclaredCommand& c) {
     Estimator& e = c.options.estimator;
     c.options.bouncesGiven = c.has("-m") || c.has("--min-bounce") || c.has("--cs184");
     c.options.filterGiven = c.has("--filter") || c.has("--cs184");
+    c.options.integratorGiven = c.has("--integrator");
     if (c.asked.accumulate && *c.asked.accumulate == 0) e.minBounce = e.maxBounces;
     const std::string moot =
-        e.integrator == Integrator::Normals
+        e.integrator != Integrator::Path
             ? c.givenOf({"-m", "--min-bounce", "-l", "--direct", "-H", "--light-choice",
                          "--roulette", "--gap-proposal", "--branches", "-a"})
             : "";
     if (!moot.empty())
-        c.options.remarks.push_back(
-            fmt::format("--integrator normals follows no light: ignored: {}", moot));
+        c.options.remarks.push_back(fmt::format("--integrator {} follows no light: ignored: {}",
+                                                nameOf(e.integrator), moot));
     remarkOnLightChoice(c);
     if (c.has("--gap-proposal") && e.gapProposal && c.options.backend == BackendChoice::Reference)
         c.options.remarks.emplace_back(

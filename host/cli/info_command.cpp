@@ -110,7 +110,7 @@ int infoCommand(const Options& options) {
     fmt::print("buffers on the device\n");
     uint64_t total = 0;
     for (const vulkan::BufferPlan& b :
-         planBuffers(built.gpu, job.settings.area, job.settings.estimator.branches, {})) {
+         planBuffers(built.gpu, job.settings.area, job.settings.estimator, {})) {
         fmt::print("  {:<26} {:>12} bytes\n", b.name, b.bytes);
         total += b.bytes;
     }

@@ -52,7 +52,7 @@ Json bvhJson(const BuiltScene& built) {
 Json buffersJson(const Job& job, const BuiltScene& built) {
     Json buffers = Json::array();
     for (const vulkan::BufferPlan& b :
-         planBuffers(built.gpu, job.settings.area, job.settings.estimator.branches, {}))
+         planBuffers(built.gpu, job.settings.area, job.settings.estimator, {}))
         buffers.push_back({{"name", b.name}, {"bytes", b.bytes}});
     return buffers;
 }

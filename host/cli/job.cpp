@@ -77,14 +77,55 @@ void reportCamera(const Job& job, const Options& options) {
                                   name));
 }
 
+PixelFilter filterOf(HintedFilter hinted) {
+    switch (hinted) {
+    case HintedFilter::Box:
+        return PixelFilter::Box;
+    case HintedFilter::Gaussian:
+        return PixelFilter::Gaussian;
+    case HintedFilter::Tent:
+        return PixelFilter::Tent;
+    case HintedFilter::Mitchell:
+        return PixelFilter::Mitchell;
+    case HintedFilter::CatmullRom:
+        return PixelFilter::CatmullRom;
+    case HintedFilter::Lanczos:
+        return PixelFilter::Lanczos;
+    }
+    return PixelFilter::Box;
+}
+
+void useFilter(const RenderHints& hints, Estimator& estimator) {
+    const HintedFilterShape& shape = hints.filterShape;
+    const HintedFilterShape usual;
+    estimator.filter = filterOf(*hints.filter);
+    estimator.filterShape.b = shape.b;
+    estimator.filterShape.c = shape.c;
+    estimator.filterShape.lobes = shape.lobes;
+    if (*hints.filter == HintedFilter::Gaussian)
+        estimator.filterShape.width = shape.deviation / usual.deviation;
+    if (*hints.filter == HintedFilter::Tent)
+        estimator.filterShape.width = shape.radius / usual.radius;
+}
+
+/// The numbers of the filter, where they are not the usual ones.
+std::string shapeText(const Estimator& estimator) {
+    const FilterShape& shape = estimator.filterShape;
+    if (shape == FilterShape{}) return "";
+    if (estimator.filter == PixelFilter::Mitchell)
+        return fmt::format(" (B {:g}, C {:g})", shape.b, shape.c);
+    if (estimator.filter == PixelFilter::Lanczos) return fmt::format(" ({} lobes)", shape.lobes);
+    if (shape.width != 1) return fmt::format(" ({:g} times as wide)", shape.width);
+    return "";
+}
+
 /// The estimator with what the scene file asks for and the user leaves open.
 Estimator withHints(const RenderHints& hints, const Options& options) {
     Estimator estimator = options.estimator;
     if (hints.maxBounces && !options.bouncesGiven) estimator.maxBounces = *hints.maxBounces;
-    if (hints.filter && !options.filterGiven)
-        estimator.filter = *hints.filter == HintedFilter::Box    ? PixelFilter::Box
-                           : *hints.filter == HintedFilter::Tent ? PixelFilter::Tent
-                                                                 : PixelFilter::Gaussian;
+    if (hints.filter && !options.filterGiven) useFilter(hints, estimator);
+    if (hints.rouletteStart) estimator.roulette.throughputStart = *hints.rouletteStart;
+    if (hints.showsDepth && !options.integratorGiven) estimator.integrator = Integrator::Depth;
     if (hints.hidesBackdrop) estimator.showsBackdrop = false;
     return estimator;
 }
@@ -93,10 +134,15 @@ void reportHints(const Job& job, const Options& options) {
     const RenderHints& hints = job.scene.hints;
     std::string taken;
     const auto add = [&](const std::string& what) { taken += (taken.empty() ? "" : ", ") + what; };
+    if (hints.showsDepth && !options.integratorGiven) add("--integrator depth");
     if (hints.maxBounces && !options.bouncesGiven)
         add(fmt::format("-m {}", job.settings.estimator.maxBounces));
+    if (hints.rouletteStart)
+        add(fmt::format("roulette from bounce {} on",
+                        job.settings.estimator.roulette.throughputStart));
     if (hints.filter && !options.filterGiven)
-        add(fmt::format("--filter {}", nameOf(job.settings.estimator.filter)));
+        add(fmt::format("--filter {}{}", nameOf(job.settings.estimator.filter),
+                        shapeText(job.settings.estimator)));
     if (hints.width && !options.sizeGiven)
         add(fmt::format("-r {} {}", job.settings.area.width, job.settings.area.height));
     if (const Crop& crop = job.settings.area.crop;

@@ -83,6 +83,7 @@ struct Options {
     PictureArea area;
     bool sizeGiven = false;                         ///< area.width, height
     bool bouncesGiven = false, filterGiven = false; ///< estimator.maxBounces, filter
+    bool integratorGiven = false;                   ///< estimator.integrator
     SceneConventions reading;                       ///< of the scene's file
     EnvironmentRequest environment;
     FramingConventions framing;

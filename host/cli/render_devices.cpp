@@ -53,12 +53,12 @@ std::string RenderDevices::name() const {
     return fmt::format("{}", fmt::join(names, " and "));
 }
 
-uint64_t RenderDevices::pixelsThatFit(const GpuScene& scene, uint32_t branches, uint64_t hostBytes,
-                                      uint64_t hostBytesPerPixel) const {
+uint64_t RenderDevices::pixelsThatFit(const GpuScene& scene, const Estimator& estimator,
+                                      uint64_t hostBytes, uint64_t hostBytesPerPixel) const {
     uint64_t onDevice = ~uint64_t(0), perPixel = hostBytesPerPixel;
     for (const Seat& seat : seats_) {
         const vulkan::DeviceDescription& description = seat.open.device->description();
-        onDevice = std::min(onDevice, filmPixelsThatFit(description, scene, branches));
+        onDevice = std::min(onDevice, filmPixelsThatFit(description, scene, estimator));
         if (description.isCpu()) perPixel += sizeof(gpu::PixelState);
     }
     if (seats_.size() > 1) perPixel += sizeof(PixelSums);

@@ -24,7 +24,7 @@ class RenderDevices {
     /// Of their kind: names, each once.
     std::string name() const;
     /// Pixels of a picture that all of them, and so many bytes of the host's memory, have room for.
-    uint64_t pixelsThatFit(const GpuScene& scene, uint32_t branches, uint64_t hostBytes,
+    uint64_t pixelsThatFit(const GpuScene& scene, const Estimator& estimator, uint64_t hostBytes,
                            uint64_t hostBytesPerPixel) const;
 
     /// The pictures to come are of this scene.

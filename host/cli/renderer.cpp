@@ -58,7 +58,7 @@ void Renderer::renderOnDevice(const Job& job, const Options& options, const Take
             return devices_->backendFor(job.camera, settings);
         },
         [&] { return devices_->viewer(); },
-        devices_->pixelsThatFit(built_->gpu, job.settings.estimator.branches,
+        devices_->pixelsThatFit(built_->gpu, job.settings.estimator,
                                 memoryForFilms(options), bytesPerPixel(job, options)),
         report);
     devices_->requireNoValidationMessages();

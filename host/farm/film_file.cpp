@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Changes with every change of what is written.
-constexpr std::string_view kMagic = "stromboli film 1\n";
+constexpr std::string_view kMagic = "stromboli film 2\n";
 /// Not there in what is cut short.
 constexpr std::string_view kEnd = "end of film\n";
 

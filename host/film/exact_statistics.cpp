@@ -13,7 +13,8 @@ using Sum = ExactStatistics::Sum;
 using Squares = ExactStatistics::Squares;
 
 /// 2^48, as the kernel has it (shaders/include/accumulate.glsl). With 2^24 samples, sums are at
-/// most 2^72 and sums of squares 2^120, of squared deviations as well.
+/// most 2^72 and sums of squares 2^120, of squared deviations as well. Pixel filters may weigh and
+/// negate samples: a block beyond these bounds is refused.
 constexpr double kLargestRadiance = 281474976710656.0;
 static_assert(Sum::kLimit > 72 && Squares::kLimit > 121);
 
@@ -21,7 +22,7 @@ static_assert(Sum::kLimit > 72 && Squares::kLimit > 121);
 /// least: 128 digits less those of the largest count, and of the square's own leading one. Exactly
 /// where it has no more digits, as that of equal samples.
 Squares squareOver(const Sum& sum, uint32_t count) {
-    const Sum::Top t = sum.top();
+    const Sum::Top t = sum.magnitude().top();
     const uint128 square = uint128(t.digits) * t.digits;
     Squares result;
     result.add(std::has_single_bit(count) ? square >> std::countr_zero(count) : square / count,
@@ -40,7 +41,7 @@ void ExactStatistics::add(const PixelStatistics& block, uint32_t firstSample) {
     count += block.count;
     for (int c = 0; c < 3; ++c) {
         const double total = block.mean[c] * block.count;
-        if (!(block.mean[c] <= kLargestRadiance &&
+        if (!(std::abs(block.mean[c]) <= kLargestRadiance &&
               block.m2[c] <= kLargestRadiance * kLargestRadiance * block.count))
             throw SceneError("a pixel is brighter than 2^48, the most that films of shares hold");
         Sum ofBlock;

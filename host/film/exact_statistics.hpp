@@ -13,7 +13,8 @@ namespace stromboli {
 /// sums are exact, and mean and variance are worked out once, when they are asked for
 /// (docs/farm.md, "What a film adds up").
 struct ExactStatistics {
-    /// Of radiance. A film's samples are at most 2^48 each, and at most 2^24.
+    /// Of radiance. A film's samples are at most 2^48 each, negative where a pixel filter is, and
+    /// at most 2^24.
     using Sum = FixedSum<4, -180>;
     /// Of squared radiance.
     using Squares = FixedSum<5, -192>;

@@ -19,16 +19,17 @@ glm::dvec3 PixelStatistics::varianceOfMean() const {
     return variance() / double(count);
 }
 
-void PixelStatistics::add(const glm::dvec3& radiance) {
+void PixelStatistics::add(const glm::dvec3& radiance, double weight) {
     if (!isRadiance(radiance.x) || !isRadiance(radiance.y) || !isRadiance(radiance.z)) {
         if (rejected == 0) firstRejected = taken();
         ++rejected;
         return;
     }
     ++count;
-    const glm::dvec3 delta = radiance - mean;
+    const glm::dvec3 value = weight * radiance;
+    const glm::dvec3 delta = value - mean;
     mean += delta / double(count);
-    m2 += delta * (radiance - mean);
+    m2 += delta * (value - mean);
 }
 
 void PixelStatistics::merge(const PixelStatistics& other) {

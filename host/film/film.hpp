@@ -12,7 +12,7 @@ namespace stromboli {
 /// Running statistics of one pixel's samples (linear RGB radiance).
 struct PixelStatistics {
     uint32_t count = 0;                   ///< samples in the mean; rejected ones are not
-    uint32_t rejected = 0;                ///< samples that were not finite or negative
+    uint32_t rejected = 0;                ///< samples whose radiance was not finite or negative
     uint32_t firstRejected = 0xFFFFFFFFu; ///< index of the first rejected sample
     glm::dvec3 mean{0.0};
     glm::dvec3 m2{0.0}; ///< sum of squared deviations from the mean (Welford 1962)
@@ -22,8 +22,9 @@ struct PixelStatistics {
     glm::dvec3 variance() const;
     /// Variance of the mean.
     glm::dvec3 varianceOfMean() const;
-    /// Adds one sample; rejects it if a channel is not finite or is negative.
-    void add(const glm::dvec3& radiance);
+    /// Adds one sample; rejects it if a channel is not finite or is negative. weight: that of its
+    /// place by a pixel filter, which may be negative.
+    void add(const glm::dvec3& radiance, double weight = 1);
     /// Chan, Golub and LeVeque 1979: statistics of the union of two sets of samples. The other's
     /// samples follow these: its firstRejected counts from its own first sample.
     void merge(const PixelStatistics& other);

@@ -10,18 +10,24 @@ namespace stromboli {
 
 __extension__ using uint128 = unsigned __int128;
 
-/// A number that is not negative, as a multiple of 2^lowest below 2^(lowest + 64 * wordCount). Sums
-/// of such numbers are exact, so that they depend neither on their order nor on their grouping.
-/// What does not fit wraps around: callers keep to the range.
+/// A multiple of 2^lowest, in two's complement: of absolute value below half of
+/// 2^(lowest + 64 * wordCount). Sums of such numbers are exact, so that they depend neither on
+/// their order nor on their grouping. What does not fit wraps around: callers keep to the range.
 template <size_t wordCount, int lowest>
 class FixedSum {
   public:
     static constexpr int kLowest = lowest;
     /// The least power of two that is too large is 2^kLimit.
-    static constexpr int kLimit = lowest + 64 * int(wordCount);
+    static constexpr int kLimit = lowest + 64 * int(wordCount) - 1;
 
-    /// Adds a finite number that is not negative; what it has below 2^lowest is left out.
+    /// Adds a finite number; what its absolute value has below 2^lowest is left out.
     void add(double value) {
+        if (std::signbit(value)) {
+            FixedSum positive;
+            positive.add(-value);
+            add(positive.negated());
+            return;
+        }
         constexpr int kBias = 1075; // of the exponent of a double's 53 digits as a whole number
         const auto bits = std::bit_cast<uint64_t>(value);
         const int exponent = int(bits >> 52);
@@ -51,7 +57,18 @@ class FixedSum {
             carry >>= 64;
         }
     }
-    /// What is left when `other` is taken away; 0 if that is more.
+    bool isNegative() const { return words[wordCount - 1] >> 63 != 0; }
+    FixedSum negated() const {
+        FixedSum result;
+        uint64_t carry = 1;
+        for (size_t i = 0; i < wordCount; ++i) {
+            result.words[i] = ~words[i] + carry;
+            carry = carry != 0 && result.words[i] == 0 ? 1 : 0;
+        }
+        return result;
+    }
+    FixedSum magnitude() const { return isNegative() ? negated() : *this; }
+    /// What is left when `other` is taken away, both not negative; 0 if that is more.
     FixedSum less(const FixedSum& other) const {
         FixedSum result;
         uint64_t borrow = 0;
@@ -65,11 +82,13 @@ class FixedSum {
 
     /// The nearest double.
     double value() const {
+        if (isNegative()) return -negated().value();
         const Top t = top();
         // A last bit for all that follows: 64 bits are more than the rounding to 53 looks at.
         return std::ldexp(double(t.digits | (t.isExact ? 0 : 1)), t.exponent);
     }
-    /// The first 64 binary digits: digits * 2^exponent is the number, or just below it.
+    /// The first 64 binary digits of a number that is not negative: digits * 2^exponent is it, or
+    /// just below it.
     struct Top {
         uint64_t digits = 0;
         int exponent = 0;

@@ -93,7 +93,9 @@ class Planner {
   private:
     void add(const Material& m, DetailPlan::MaterialPlan& material) {
         material.isTransparent = isTransparent(m);
-        plan_.hasAlpha |= material.isTransparent;
+        material.isHidden = m.isHiddenFromCamera;
+        plan_.hasAlpha |= material.isTransparent || material.isHidden;
+        plan_.hasHidden |= material.isHidden;
         material.isBlend = m.other != kNoMaterial && m.otherShare > 0;
         plan_.hasBlends |= material.isBlend;
         for (const TextureUse& use : m.textures)

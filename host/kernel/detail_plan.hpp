@@ -21,6 +21,7 @@ struct DetailPlan {
         std::optional<Bundle> bundle;
         std::vector<TextureUse> textures; ///< that are in no bundle, in the order of their slots
         bool isTransparent = false;       ///< may be partly not there
+        bool isHidden = false;            ///< camera rays pass it
         bool isBlend = false;             ///< another material may take its place
     };
     std::vector<MaterialPlan> materials; ///< by material of the scene
@@ -30,7 +31,8 @@ struct DetailPlan {
     uint32_t texelKinds = 0;   ///< gpu::TEXEL_KIND_ bits
     uint32_t attributes = 0;   ///< gpu::ATTRIBUTE_ bits
     uint32_t mostTextures = 0; ///< that a material has in no bundle
-    bool hasAlpha = false;
+    bool hasAlpha = false;     ///< some surface may be passed
+    bool hasHidden = false;
     bool hasBlends = false;
     bool hasTangentFrames = false; ///< a BSDF depends on the direction of tangents
 

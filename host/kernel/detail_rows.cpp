@@ -187,6 +187,7 @@ std::vector<Row> materialDetail(const Scene& scene, const Material& m,
     detail.looseTextures = uint32_t(plan.textures.size());
     if (plan.isTransparent)
         detail.flags = m.alphaMode == AlphaMode::Mask ? gpu::DETAIL_MASK : gpu::DETAIL_BLEND;
+    if (plan.isHidden) detail.flags |= gpu::DETAIL_IS_HIDDEN;
     const auto noteUse = [&](TextureSlot slot, uint32_t number) {
         if (slot == TextureSlot::BaseColor)
             detail.flags |= (number + 1) << gpu::DETAIL_BASE_COLOR_SHIFT;

@@ -49,8 +49,8 @@ std::span<const std::byte> bytesOf(const T& value) {
 } // namespace
 
 Dispatcher::Dispatcher(const vulkan::Device& device, const DeviceScene& scene,
-                       const PathKernel& kernel, DeviceFilm& film, const gpu::Frame& frame,
-                       const DeviceTuning& tuning, double targetSeconds,
+                       const PathKernel& kernel, DeviceFilm& film, const vulkan::Buffer& filter,
+                       const gpu::Frame& frame, const DeviceTuning& tuning, double targetSeconds,
                        std::optional<uint32_t> fixedIterations)
     : device_(device), kernel_(kernel), film_(film), tuning_(tuning),
       hardIterations_(hardLimit(device, scene.scene(), kernel)),
@@ -75,8 +75,8 @@ Dispatcher::Dispatcher(const vulkan::Device& device, const DeviceScene& scene,
         std::vector<const Buffer*> buffers;
         for (const Buffer& b : scene.buffers())
             buffers.push_back(&b);
-        buffers.insert(buffers.end(),
-                       {&frameBuffer_, &workItems_, &s.pixels, &suspended_, &status_, &splits_});
+        buffers.insert(buffers.end(), {&frameBuffer_, &workItems_, &s.pixels, &suspended_, &status_,
+                                       &splits_, &filter});
         sets_.push_back(
             std::make_unique<vulkan::DescriptorSet>(device, kernel.pipeline(), buffers));
     }

@@ -22,11 +22,12 @@ struct StepCounters {
 /// what lanes have in hand between them.
 class Dispatcher {
   public:
-    /// All but `tuning` and `frame` must outlive the object. fixedIterations: of each dispatch,
-    /// instead of pacing by time (tests).
+    /// All but `tuning` and `frame` must outlive the object. filter: the picture's table
+    /// (filter_table.hpp). fixedIterations: of each dispatch, instead of pacing by time (tests).
     Dispatcher(const vulkan::Device& device, const DeviceScene& scene, const PathKernel& kernel,
-               DeviceFilm& film, const gpu::Frame& frame, const DeviceTuning& tuning,
-               double targetSeconds, std::optional<uint32_t> fixedIterations);
+               DeviceFilm& film, const vulkan::Buffer& filter, const gpu::Frame& frame,
+               const DeviceTuning& tuning, double targetSeconds,
+               std::optional<uint32_t> fixedIterations);
 
     /// Dispatches until every item of the work list has its samples. `advance` is told how many
     /// samples each dispatch took; if it returns false, no further sample is begun, those under way

@@ -12,7 +12,7 @@ gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const PictureA
     f.cameraPosition = camera.position;
     f.cameraRight = camera.halfWidth * camera.right;
     f.cameraUp = camera.halfHeight * camera.up;
-    f.cameraBack = camera.back;
+    f.cameraBack = camera.backOfMiddle();
     f.lensRadius = float(camera.lensRadius);
     f.focusDistance = float(camera.focusDistance);
     f.nearDistance = float(camera.nearDistance);

@@ -127,7 +127,7 @@ GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lig
     g.details = std::move(details.rows);
     g.textureSlots = plan.textureSlots, g.looseSlots = plan.looseSlots;
     g.texelKinds = plan.texelKinds;
-    g.attributes = plan.attributes, g.hasAlpha = plan.hasAlpha;
+    g.attributes = plan.attributes, g.hasAlpha = plan.hasAlpha, g.hasHidden = plan.hasHidden;
     g.mostTextures = plan.mostTextures;
     g.hasBlends = plan.hasBlends;
     g.hasTangentFrames = plan.hasTangentFrames;

@@ -32,7 +32,7 @@ struct GpuScene {
     bool hasPlacements = false;
     // DetailPlan:
     uint32_t textureSlots = 0, looseSlots = 0, texelKinds = 0, attributes = 0, mostTextures = 0;
-    bool hasAlpha = false, hasTangentFrames = false;
+    bool hasAlpha = false, hasHidden = false, hasTangentFrames = false;
 };
 
 /// Packs the scene, whose hierarchy is `bvh`. For a render `lights` is lightSelection() of its

@@ -1,5 +1,6 @@
 #include "host/kernel/kernel_buffers.hpp"
 
+#include "host/kernel/filter_table.hpp"
 #include "shaders/shared/render_types.h"
 
 #include <algorithm>
@@ -51,7 +52,7 @@ uint64_t splitCount(uint32_t branches, uint64_t lanes) {
 }
 
 std::vector<BufferPlan> planBuffers(const GpuScene& scene, const PictureArea& area,
-                                    uint32_t branches, const DeviceTuning& tuning) {
+                                    const Estimator& estimator, const DeviceTuning& tuning) {
     const uint64_t pixels = area.pixelCount();
     const uint64_t items = std::min<uint64_t>(tuning.itemsPerDispatch, pixels);
     const uint64_t lanes = std::min<uint64_t>(tuning.lanes, pixels);
@@ -61,8 +62,9 @@ std::vector<BufferPlan> planBuffers(const GpuScene& scene, const PictureArea& ar
     plans.push_back({"work list", items * sizeof(gpu::WorkItem), rows});
     plans.push_back({"suspended paths", lanes * sizeof(gpu::SuspendedPath), BufferUse::Storage});
     plans.push_back({"splits of suspended paths",
-                     splitCount(branches, lanes) * sizeof(gpu::SuspendedSplit),
+                     splitCount(estimator.branches, lanes) * sizeof(gpu::SuspendedSplit),
                      BufferUse::Storage});
+    plans.push_back({"pixel filter", filterRows(estimator.filter) * sizeof(Row), rows});
     plans.push_back({"frame constants", sizeof(gpu::Frame), BufferUse::Uniform});
     plans.push_back({"dispatch status", sizeof(gpu::DispatchStatus), BufferUse::Storage});
     return plans;
@@ -76,18 +78,18 @@ uint64_t pixelsPerSegment(const vulkan::DeviceDescription& device, const DeviceT
 }
 
 uint64_t filmPixelsThatFit(const vulkan::DeviceDescription& device, const GpuScene& scene,
-                           uint32_t branches) {
+                           const Estimator& estimator) {
     // A picture of many pixels has the largest of the buffers that do not grow with it.
     constexpr uint32_t kMany = 1u << 24;
     uint64_t others = 0;
-    for (const BufferPlan& plan : planBuffers(scene, {kMany, 1, {}}, branches, {}))
+    for (const BufferPlan& plan : planBuffers(scene, {kMany, 1, {}}, estimator, {}))
         if (plan.name != "film") others += plan.bytes;
     return others < device.memory ? (device.memory - others) / sizeof(gpu::PixelState) : 0;
 }
 
 void checkMemory(const vulkan::DeviceDescription& device, const GpuScene& scene,
-                 const PictureArea& area, uint32_t branches, const DeviceTuning& tuning) {
-    const std::vector<BufferPlan> plans = planBuffers(scene, area, branches, tuning);
+                 const PictureArea& area, const Estimator& estimator, const DeviceTuning& tuning) {
+    const std::vector<BufferPlan> plans = planBuffers(scene, area, estimator, tuning);
     for (BufferPlan plan : plans) {
         if (plan.name == "film")
             plan.bytes =

@@ -3,6 +3,7 @@
 #include "host/film/picture_area.hpp"
 #include "host/kernel/gpu_scene.hpp"
 #include "host/kernel/kernel_tuning.hpp"
+#include "host/render/estimator.hpp"
 #include "host/vulkan/buffer_limits.hpp"
 
 #include <cstdint>
@@ -22,22 +23,21 @@ uint64_t largestSceneBuffer(const GpuScene& scene);
 /// parts: of the scene, or the work list of a picture of so many pixels.
 uint64_t largestRowBuffer(const GpuScene& scene, uint64_t pixels);
 
-/// All device buffers of a scene and a picture, with samples of `branches` paths, known before
-/// anything is allocated: the driver adds no more than its alignment to each. The film may be
-/// several buffers (pixelsPerSegment).
+/// All device buffers of a scene and a picture, known before anything is allocated: the driver adds
+/// no more than its alignment to each. The film may be several buffers (pixelsPerSegment).
 std::vector<vulkan::BufferPlan> planBuffers(const GpuScene& scene, const PictureArea& area,
-                                            uint32_t branches, const DeviceTuning& tuning);
+                                            const Estimator& estimator, const DeviceTuning& tuning);
 
 /// Pixels of the film that fit one buffer and one binding.
 uint64_t pixelsPerSegment(const vulkan::DeviceDescription& device, const DeviceTuning& tuning);
 
 /// Pixels of the film for which the device has memory beside the scene.
 uint64_t filmPixelsThatFit(const vulkan::DeviceDescription& device, const GpuScene& scene,
-                           uint32_t branches);
+                           const Estimator& estimator);
 
 /// Throws DeviceError that names what does not fit, before anything is allocated or uploaded.
 void checkMemory(const vulkan::DeviceDescription& device, const GpuScene& scene,
-                 const PictureArea& area, uint32_t branches, const DeviceTuning& tuning);
+                 const PictureArea& area, const Estimator& estimator, const DeviceTuning& tuning);
 
 /// Entries of the buffer of SuspendedSplit; one, for the binding, where paths do not split.
 uint64_t splitCount(uint32_t branches, uint64_t lanes);

@@ -5,6 +5,7 @@
 #include "shaders/shared/texture_types.h"
 
 #include <algorithm>
+#include <bit>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -12,7 +13,6 @@
 namespace stromboli {
 namespace {
 
-static_assert(Roulette::kThroughputStart == gpu::ROULETTE_THROUGHPUT_START);
 static_assert(float(Roulette::kMaxContinue) == gpu::ROULETTE_MAX_CONTINUE);
 static_assert(float(Roulette::kBoldness) == gpu::ROULETTE_BOLDNESS);
 
@@ -95,6 +95,18 @@ uint32_t conventionsConstant(const ShadingConventions& conventions) {
     throw std::invalid_argument("the kernel has no mixture of two sets of shading conventions");
 }
 
+uint32_t integratorConstant(Integrator integrator) {
+    switch (integrator) {
+    case Integrator::Path:
+        return gpu::INTEGRATOR_PATH;
+    case Integrator::Normals:
+        return gpu::INTEGRATOR_NORMALS;
+    case Integrator::Depth:
+        return gpu::INTEGRATOR_DEPTH;
+    }
+    return gpu::INTEGRATOR_PATH;
+}
+
 uint32_t filterConstant(PixelFilter filter) {
     switch (filter) {
     case PixelFilter::Box:
@@ -105,6 +117,10 @@ uint32_t filterConstant(PixelFilter filter) {
         return gpu::FILTER_TENT;
     case PixelFilter::BlackmanHarris:
         return gpu::FILTER_BLACKMAN_HARRIS;
+    case PixelFilter::Mitchell:
+    case PixelFilter::CatmullRom:
+    case PixelFilter::Lanczos:
+        return gpu::FILTER_TABLE;
     }
     return gpu::FILTER_BOX;
 }
@@ -138,6 +154,7 @@ const char* ambientText(const KernelFeatures& f) {
 
 void setDetails(KernelFeatures& f, const GpuScene& scene, bool normalsOnly) {
     f[SPEC_ALPHA] = scene.hasAlpha;
+    f[SPEC_HIDES_SURFACES] = scene.hasHidden;
     // Normals are those of the geometry: only what is not there has to be known.
     const uint32_t wanted = !normalsOnly ? ~0u : scene.hasAlpha ? 1u << gpu::TEXTURE_BASE_COLOR : 0;
     f[SPEC_TEXTURE_SLOTS] = scene.textureSlots & wanted;
@@ -190,7 +207,7 @@ uint32_t lightChoiceConstant(const LightTable& lights) {
 
 KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
                               const Estimator& settings, const DeviceTuning& tuning) {
-    const bool normalsOnly = settings.integrator == Integrator::Normals;
+    const bool normalsOnly = settings.integrator != Integrator::Path; // or distances
     KernelFeatures f{};
     f[SPEC_WORKGROUP_SIZE] = tuning.workgroupSize;
     f[SPEC_TRAVERSAL_STEPS] = tuning.traversalSteps;
@@ -208,7 +225,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_HAS_EMISSION] = !normalsOnly && scene.hasEmission;
     f[SPEC_BLACK_BACKS] = !normalsOnly && scene.hasBlackBacks;
     f[SPEC_LIGHT_KINDS] = lightKinds(scene, settings);
-    f[SPEC_INTEGRATOR] = normalsOnly ? gpu::INTEGRATOR_NORMALS : gpu::INTEGRATOR_PATH;
+    f[SPEC_INTEGRATOR] = integratorConstant(settings.integrator);
     f[SPEC_DIRECT_LIGHT] = samplesLights(settings.directLight) ? gpu::DIRECT_LIGHTS
                            : settings.directLight == DirectLight::Hemisphere
                                ? gpu::DIRECT_HEMISPHERE
@@ -219,11 +236,13 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
                            : gpu::ROULETTE_FIXED;
     // Roulette by throughput never acts on paths shorter than where it starts.
     if (settings.roulette.mode == Roulette::Mode::Throughput &&
-        settings.maxBounces < gpu::ROULETTE_THROUGHPUT_START)
+        settings.maxBounces < settings.roulette.throughputStart)
         f[SPEC_ROULETTE] = gpu::ROULETTE_NONE;
+    f[SPEC_ROULETTE_START] = settings.roulette.throughputStart;
     f[SPEC_ORTHOGRAPHIC] = camera.orthographic;
     f[SPEC_HAS_LENS] = camera.lensRadius > 0;
     f[SPEC_PIXEL_FILTER] = filterConstant(settings.filter);
+    f[SPEC_FILTER_EXTRA] = std::bit_cast<uint32_t>(float(settings.filterShape.width - 1));
     f[SPEC_CLIP_ALONG_RAY] = camera.clipAlongRay;
     f[SPEC_CS184] = conventionsConstant(settings.conventions);
     f[SPEC_LIGHT_SAMPLES] = directSampling(scene.lights, settings).perLight;
@@ -254,7 +273,9 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
 std::vector<std::string> describe(const KernelFeatures& f) {
     static const char* const kDirect[] = {"light sampling", "uniform hemisphere",
                                           "left to bounces (delta lights sampled)"};
-    static const char* const kFilters[] = {"box", "Gaussian", "Blackman-Harris", "tent"};
+    static const char* const kFilters[] = {"box", "Gaussian", "Blackman-Harris", "tent",
+                                           "negative in places, samples have weights"};
+    static const char* const kIntegrators[] = {"path", "normals", "depth"};
     static const char* const kRoulette[] = {"none", "by throughput", "fixed probability"};
     const std::string primitives =
         list(f[SPEC_HAS_TRIANGLES] | (f[SPEC_HAS_SPHERES] << 1), {"triangles", "spheres"});
@@ -280,9 +301,7 @@ std::vector<std::string> describe(const KernelFeatures& f) {
                                         "point", "spot", "environment", "projector"})),
         fmt::format("ambient light: {}{}", ambientText(f),
                     f[SPEC_HAS_BACKDROP] ? ", seen by the camera" : ""),
-        fmt::format("integrator: {}",
-                    nameOf(f[SPEC_INTEGRATOR] == gpu::INTEGRATOR_PATH ? Integrator::Path
-                                                                      : Integrator::Normals)),
+        fmt::format("integrator: {}", kIntegrators[f[SPEC_INTEGRATOR]]),
         fmt::format("direct light: {}{}", kDirect[f[SPEC_DIRECT_LIGHT]],
                     f[SPEC_MIS_LOBES] ? ", shared with bounces (MIS)" : ""),
         fmt::format(

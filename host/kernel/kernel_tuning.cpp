@@ -14,9 +14,9 @@ namespace {
 /// loop passes (hardLimit): 32 groups of 1800 iterations of 1.2 us (a Zen 3 core).
 constexpr uint32_t kGroupsPerThread = 32;
 
-/// Texel buffers of the path kernel: the scene's, the work list and the film; other kernels have
-/// fewer.
-constexpr size_t kTexelBuffers = SCENE_BINDING_COUNT + 2;
+/// Texel buffers of the path kernel: the scene's, the work list, the film and the table of the
+/// pixel filter; other kernels have fewer.
+constexpr size_t kTexelBuffers = SCENE_BINDING_COUNT + 3;
 
 /// A CPU device (lavapipe) runs a subgroup as one SIMD register per thread. A subgroup per
 /// workgroup, so that none waits for another's lanes; all other pixels come to these lanes

@@ -13,7 +13,8 @@ std::vector<vulkan::Binding> kernelBindings(bool texelFetch) {
     std::vector<vulkan::Binding> bindings;
     for (uint32_t i = 0; i < BINDING_COUNT; ++i) {
         // The film and the work list are read and written row by row as well.
-        const bool rows = i < SCENE_BINDING_COUNT || i == BINDING_WORK_ITEMS || i == BINDING_PIXELS;
+        const bool rows = i < SCENE_BINDING_COUNT || i == BINDING_WORK_ITEMS ||
+                          i == BINDING_PIXELS || i == BINDING_FILTER;
         bindings.push_back({i, rows && texelFetch   ? BufferUse::Texel
                                : i == BINDING_FRAME ? BufferUse::Uniform
                                                     : BufferUse::Storage});

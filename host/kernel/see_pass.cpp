@@ -33,6 +33,7 @@ std::vector<vulkan::Binding> bindings(bool texelFetch) {
     for (uint32_t i = 0; i < SCENE_BINDING_COUNT; ++i)
         all.push_back({i, texelFetch ? BufferUse::Texel : BufferUse::Storage});
     all.push_back({BINDING_FRAME, BufferUse::Uniform});
+    all.push_back({BINDING_FILTER, texelFetch ? BufferUse::Texel : BufferUse::Storage});
     all.push_back({BINDING_SEEN_PIXELS, BufferUse::Storage});
     all.push_back({BINDING_SEEN_STATUS, BufferUse::Storage});
     return all;
@@ -76,13 +77,14 @@ vulkan::ComputePipeline makeSeePipeline(const vulkan::Device& device,
 
 SeePass::SeePass(const vulkan::Device& device, const DeviceScene& scene,
                  const vulkan::ComputePipeline& pipeline, std::span<const uint32_t> constants,
-                 const gpu::Frame& frame, const DeviceTuning& tuning, uint32_t pixels)
+                 const vulkan::Buffer& filter, const gpu::Frame& frame, const DeviceTuning& tuning,
+                 uint32_t pixels)
     : device_(device), pipeline_(pipeline), tuning_(tuning), pixelCount_(pixels),
       hardIterations_(hardLimit(device, scene.scene(), constants)), queue_(device),
       frame_(device, "frame constants", sizeof(gpu::Frame), BufferUse::Uniform),
       pixels_(device, "layers", pixels * sizeof(gpu::SeenPixel), BufferUse::Storage),
       status_(device, "status of the layers", sizeof(gpu::SeeStatus), BufferUse::Storage),
-      set_(device, pipeline, buffersOf(scene, {&frame_, &pixels_, &status_})) {
+      set_(device, pipeline, buffersOf(scene, {&frame_, &filter, &pixels_, &status_})) {
     frame_.upload(queue_, bytesOf(frame));
 }
 
@@ -118,6 +120,7 @@ SeenPixel seenPixelOf(const gpu::SeenPixel& pixel, const GpuScene& scene) {
     SeenPixel seen;
     seen.samples = pixel.samples;
     seen.hits = pixel.hits;
+    seen.covered = pixel.covered;
     seen.albedo = pixel.albedo;
     seen.normal = pixel.normal;
     seen.position = pixel.position;

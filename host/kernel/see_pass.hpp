@@ -26,11 +26,12 @@ vulkan::ComputePipeline makeSeePipeline(const vulkan::Device& device,
 /// Traces the camera rays of a run of pixels on the device.
 class SeePass {
   public:
-    /// constants: those of the pipeline. Device, scene and pipeline must outlive the object. Throws
-    /// DeviceError.
+    /// constants: those of the pipeline; filter: the picture's table (filter_table.hpp). Device,
+    /// scene, pipeline and filter must outlive the object. Throws DeviceError.
     SeePass(const vulkan::Device& device, const DeviceScene& scene,
             const vulkan::ComputePipeline& pipeline, std::span<const uint32_t> constants,
-            const gpu::Frame& frame, const DeviceTuning& tuning, uint32_t pixels);
+            const vulkan::Buffer& filter, const gpu::Frame& frame, const DeviceTuning& tuning,
+            uint32_t pixels);
 
     /// Until each pixel has as many samples as it is to have. Throws DeviceError.
     void run(std::vector<gpu::SeenPixel>& pixels);

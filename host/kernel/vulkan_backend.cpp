@@ -1,5 +1,6 @@
 #include "host/kernel/vulkan_backend.hpp"
 
+#include "host/kernel/filter_table.hpp"
 #include "host/kernel/frame.hpp"
 #include "host/kernel/kernel_buffers.hpp"
 #include "host/kernel/work_order.hpp"
@@ -39,7 +40,7 @@ void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& setti
     const DeviceTuning tuning = tuningFor(tuning_, device_, *scene_, settings.area);
     dispatcher_.reset(); // before the memory of the next is asked for
     film_.reset();
-    checkMemory(device_.description(), *scene_, settings.area, estimator.branches, tuning);
+    checkMemory(device_.description(), *scene_, settings.area, estimator, tuning);
     if (kernelsFetchTexels_ != tuning.texelFetch) {
         seePipelines_.clear();
         kernels_.clear(); // where a picture's work list is too large for the device's texel buffers
@@ -53,9 +54,18 @@ void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& setti
     frame_ = makeFrame(*scene_, camera, area_, estimator);
     kernel_ = &kernelFor(kernelFeatures(*scene_, camera, estimator, tuning), tuning);
     film_ = std::make_unique<DeviceFilm>(device_, area_, tuning);
+    setFilter(filterTable(estimator.filter, estimator.filterShape), tuning);
     dispatcher_ =
-        std::make_unique<Dispatcher>(device_, *deviceScene_, *kernel_, *film_, frame_, tuning,
-                                     tuning_.targetSeconds, tuning_.fixedIterations);
+        std::make_unique<Dispatcher>(device_, *deviceScene_, *kernel_, *film_, *filter_, frame_,
+                                     tuning, tuning_.targetSeconds, tuning_.fixedIterations);
+}
+
+void VulkanBackend::setFilter(const std::vector<Row>& table, const DeviceTuning& tuning) {
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(table));
+    filter_ =
+        std::make_unique<vulkan::Buffer>(device_, "pixel filter", bytes.size(), rowUse(tuning));
+    vulkan::Queue queue(device_);
+    filter_->upload(queue, bytes);
 }
 
 const PathKernel& VulkanBackend::kernelFor(const KernelFeatures& features,
@@ -85,8 +95,8 @@ std::vector<SeenPixel> VulkanBackend::see(uint32_t first, std::span<const uint32
     }
     const DeviceTuning tuning = tuningFor(tuning_, device_, *scene_, area_);
     const auto constants = seeConstants(*scene_, camera_, estimator_, tuning, what);
-    SeePass(device_, *deviceScene_, seePipelineFor(constants, tuning), constants, frame_, tuning,
-            uint32_t(pixels.size()))
+    SeePass(device_, *deviceScene_, seePipelineFor(constants, tuning), constants, *filter_, frame_,
+            tuning, uint32_t(pixels.size()))
         .run(pixels);
     std::vector<SeenPixel> seen;
     seen.reserve(pixels.size());

@@ -54,6 +54,7 @@ class VulkanBackend final : public Backend, public Viewer {
 
     const vulkan::ComputePipeline& seePipelineFor(const std::vector<uint32_t>& constants,
                                                   const DeviceTuning& tuning);
+    void setFilter(const std::vector<Row>& table, const DeviceTuning& tuning);
 
     const vulkan::Device& device_;
     const GpuScene* scene_;
@@ -69,7 +70,8 @@ class VulkanBackend final : public Backend, public Viewer {
     gpu::Frame frame_{};
     const PathKernel* kernel_ = nullptr; ///< one of kernels_
     std::unique_ptr<DeviceFilm> film_;
-    std::unique_ptr<Dispatcher> dispatcher_; ///< refers to the film and the kernel
+    std::unique_ptr<vulkan::Buffer> filter_; ///< the table of its pixel filter
+    std::unique_ptr<Dispatcher> dispatcher_; ///< refers to film, filter and kernel
 };
 
 } // namespace stromboli

@@ -3,8 +3,8 @@
 namespace stromboli::reference {
 
 Ray cameraRay(const Camera& camera, double s, double t, const glm::dvec2& onLens) {
-    const glm::dvec3 offset =
-        (2 * s - 1) * camera.halfWidth * camera.right + (1 - 2 * t) * camera.halfHeight * camera.up;
+    const glm::dvec3 offset = ((2 * s - 1) * camera.halfWidth + camera.shift.x) * camera.right +
+                              ((1 - 2 * t) * camera.halfHeight + camera.shift.y) * camera.up;
     Ray ray;
     if (camera.orthographic) {
         ray.origin = camera.position + offset;

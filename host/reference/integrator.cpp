@@ -51,7 +51,7 @@ PathSample::PathSample(const World& world, const Estimator& settings, const Rand
     : world_(world), settings_(settings), random_(random), passes_(random.apart()) {}
 
 glm::dvec3 PathSample::radiance(const Ray& cameraRay) {
-    if (!arrive(cameraRay, {})) { // ambient light is not a backdrop
+    if (!arriveFromCamera(cameraRay)) { // ambient light is not a backdrop
         if (settings_.minBounce == 0 && settings_.showsBackdrop)
             radiance_ += world_.lights.backdrop(cameraRay.direction);
         return radiance_;
@@ -111,12 +111,25 @@ bool PathSample::scatter(uint32_t bounce) {
 }
 
 glm::dvec3 PathSample::normalColor(const Ray& cameraRay) {
-    return arrive(cameraRay, {}) ? 0.5 * surface_.shading + 0.5 : glm::dvec3(0.0);
+    return arriveFromCamera(cameraRay) ? 0.5 * surface_.shading + 0.5 : glm::dvec3(0.0);
+}
+
+glm::dvec3 PathSample::depth(const Ray& cameraRay) {
+    if (!arriveFromCamera(cameraRay)) return glm::dvec3(0.0);
+    return glm::dvec3(glm::length(surface_.position - cameraRay.origin));
+}
+
+bool PathSample::arriveFromCamera(const Ray& ray) {
+    ++rays_;
+    return arriveAt(ray, closestForCamera(world_, ray, passes_));
 }
 
 bool PathSample::arrive(const Ray& ray, Skip skip) {
     ++rays_;
-    const Hit hit = closest(ray, skip);
+    return arriveAt(ray, closest(ray, skip));
+}
+
+bool PathSample::arriveAt(const Ray& ray, const Hit& hit) {
     const bool misses = hit.primitive == kNoPrimitive;
     throughput_ *= transmittance(medium_, misses ? kInfinite : hit.t);
     if (misses) return false;
@@ -163,7 +176,7 @@ bool PathSample::survivesFixed() {
 
 bool PathSample::survivesThroughput(uint32_t bounce) {
     if (settings_.roulette.mode != Roulette::Mode::Throughput) return true;
-    if (bounce < Roulette::kThroughputStart) return true;
+    if (bounce < settings_.roulette.throughputStart) return true;
     const double q = std::min(Roulette::kMaxContinue, Roulette::kBoldness * largest(throughput_));
     throughput_ /= q;
     return random_.next() < q;

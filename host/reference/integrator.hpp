@@ -15,6 +15,8 @@ class PathSample {
     glm::dvec3 radiance(const Ray& cameraRay);
     /// 0.5 n + 0.5 of the shading normal at the first hit; 0 for a miss.
     glm::dvec3 normalColor(const Ray& cameraRay);
+    /// The distance of the first hit; 0 for a miss.
+    glm::dvec3 depth(const Ray& cameraRay);
     /// Rays traced so far.
     uint64_t rays() const { return rays_; }
 
@@ -28,6 +30,8 @@ class PathSample {
     bool scatter(uint32_t bounce);
     /// Traces a path ray and, if it hits, makes that point the current surface.
     bool arrive(const Ray& ray, Skip skip);
+    bool arriveFromCamera(const Ray& ray);
+    bool arriveAt(const Ray& ray, const Hit& hit);
     /// Whether a light sample in this direction is for the side that is looked at; where it starts,
     /// what it cannot hit, and what it goes through.
     bool isOfSide(const glm::dvec3& direction) const;

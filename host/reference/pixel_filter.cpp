@@ -3,7 +3,11 @@
 #include "host/reference/sampling.hpp"
 #include "shaders/shared/interface.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <tuple>
 
 namespace stromboli::reference {
 namespace {
@@ -38,21 +42,111 @@ double sampleTent(double u) {
     return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 * (1 - u));
 }
 
+/// Mitchell and Netravali's filter as a spline, by powers of the distance (their equation 8).
+double cubic(double x, double b, double c) {
+    const std::array<double, 4> inner = {6 - 2 * b, 0, -18 + 12 * b + 6 * c, 12 - 9 * b - 6 * c};
+    const std::array<double, 4> outer = {8 * b + 24 * c, -12 * b - 48 * c, 6 * b + 30 * c,
+                                         -b - 6 * c};
+    const std::array<double, 4>& p = x < 1 ? inner : outer;
+    return (p[0] + x * (p[1] + x * (p[2] + x * p[3]))) / 6;
+}
+
+/// The spectrum of a box.
+double sinc(double x) {
+    return x == 0 ? 1 : std::sin(kPi * x) / (kPi * x);
+}
+
+/// Stretches on each pixel, of which changes of sign cut some in two.
+constexpr int kStretches = 64;
+
 } // namespace
 
-glm::dvec2 placeInPixel(PixelFilter filter, double u, double v) {
+FilterSampler::FilterSampler(PixelFilter filter, const FilterShape& shape)
+    : filter_(filter), shape_(shape) {
+    if (filter == PixelFilter::CatmullRom) shape_.b = 0, shape_.c = 0.5;
+    if (!hasNegativeLobes(filter)) return;
+    radius_ = filter == PixelFilter::Lanczos ? shape.lobes : 2;
+    integrate();
+}
+
+double FilterSampler::at(double x) const {
+    x = std::abs(x);
+    if (filter_ == PixelFilter::Lanczos) return sinc(x) * sinc(x / radius_);
+    return cubic(x, shape_.b, shape_.c);
+}
+
+/// Gauss and Legendre's rule of three points: exact for the cubics, and on such short stretches of
+/// a sinc as good as doubles.
+double FilterSampler::integral(double from, double to) const {
+    const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
+    const double aside = half * std::sqrt(0.6);
+    return half / 9 * (5 * at(middle - aside) + 8 * at(middle) + 5 * at(middle + aside));
+}
+
+void FilterSampler::integrate() {
+    double filter = 0, absolute = 0;
+    const auto add = [&](double from, double to) {
+        const double piece = integral(from, to);
+        filter += 2 * piece, absolute += 2 * std::abs(piece);
+        const double sign = piece < 0 ? -1 : 1;
+        stretches_.push_back({from, to, sign, 0});
+        stretches_.push_back({-to, -from, sign, 0});
+    };
+    const int count = int(radius_) * kStretches;
+    for (int i = 0; i < count; ++i) {
+        const double from = radius_ * i / count, to = radius_ * (i + 1) / count;
+        double low = from, high = to;
+        if (at(from) * at(to) < 0)
+            while (0.5 * (low + high) > low && 0.5 * (low + high) < high) {
+                const double middle = 0.5 * (low + high);
+                ((at(middle) < 0) == (at(from) < 0) ? low : high) = middle;
+            }
+        if (low > from) add(from, low);
+        add(low, to);
+    }
+    ratio_ = absolute / filter;
+    std::ranges::sort(stretches_, [](const Stretch& a, const Stretch& b) {
+        return std::tuple(-a.sign, a.from) < std::tuple(-b.sign, b.from);
+    });
+    double sum = 0;
+    for (Stretch& stretch : stretches_)
+        stretch.sum = sum += std::abs(integral(stretch.from, stretch.to));
+}
+
+FilterSampler::Weighted FilterSampler::sampleSigned(double u) const {
+    const double wanted = u * stretches_.back().sum;
+    const auto found =
+        std::upper_bound(stretches_.begin(), stretches_.end() - 1, wanted,
+                         [](double value, const Stretch& stretch) { return value < stretch.sum; });
+    const double rest = wanted - (found == stretches_.begin() ? 0 : std::prev(found)->sum);
+    double low = found->from, high = found->to;
+    for (int i = 0; i < 52; ++i) {
+        const double middle = 0.5 * (low + high);
+        (std::abs(integral(found->from, middle)) < rest ? low : high) = middle;
+    }
+    return {low, found->sign};
+}
+
+FilterSample FilterSampler::sample(double u, double v) const {
     const double width = 2 * double(gpu::BLACKMAN_HARRIS_RADIUS);
-    switch (filter) {
+    switch (filter_) {
     case PixelFilter::Box:
         break;
     case PixelFilter::Gaussian:
-        return 0.5 + sampleGaussian(u, v);
+        return {0.5 + shape_.width * sampleGaussian(u, v)};
     case PixelFilter::Tent:
-        return {0.5 + sampleTent(u), 0.5 + sampleTent(v)};
+        return {0.5 + shape_.width * glm::dvec2(sampleTent(u), sampleTent(v))};
     case PixelFilter::BlackmanHarris:
-        return 0.5 + width * (glm::dvec2(sampleBlackmanHarris(u), sampleBlackmanHarris(v)) - 0.5);
+        return {0.5 + width * (glm::dvec2(sampleBlackmanHarris(u), sampleBlackmanHarris(v)) - 0.5)};
+    case PixelFilter::Mitchell:
+    case PixelFilter::CatmullRom:
+    case PixelFilter::Lanczos: {
+        const auto [x, signX] = sampleSigned(u);
+        const auto [y, signY] = sampleSigned(v);
+        return {{0.5 + x, 0.5 + y}, signX * signY * ratio_ * ratio_};
     }
-    return {u, v};
+    }
+    return {{u, v}};
 }
 
 } // namespace stromboli::reference

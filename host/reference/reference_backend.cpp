@@ -62,6 +62,7 @@ struct ReferenceBackend::Implementation {
     reference::World world;
     Camera camera;
     RenderSettings settings;
+    reference::FilterSampler filter;
     const Scene& original;
     tbb::task_arena arena;
     uint32_t firstSample = 0; ///< of the block under way
@@ -71,7 +72,7 @@ struct ReferenceBackend::Implementation {
         : expanded(scene.placements.empty() ? std::nullopt
                                             : std::optional(expandPlacements(scene))),
           world(expanded ? expanded->scene : scene, s.estimator.conventions), camera(c),
-          settings(s), original(scene),
+          settings(s), filter(s.estimator.filter, s.estimator.filterShape), original(scene),
           arena(std::min(threads == 0 ? INT_MAX : int(threads), tbb::info::default_concurrency())) {
     }
 
@@ -82,12 +83,16 @@ struct ReferenceBackend::Implementation {
                 settings.estimator.sampler};
     }
 
+    struct CameraSample {
+        reference::Ray ray;
+        double weight; ///< by the pixel filter
+    };
     /// Takes the sample's first numbers.
-    reference::Ray cameraRayOf(uint32_t pixel, reference::RandomStream& random) const {
+    CameraSample cameraRayOf(uint32_t pixel, reference::RandomStream& random) const {
         const PictureArea& area = settings.area;
         const PixelPlace place = area.placeOf(pixel);
         const double u = random.next(), v = random.next();
-        const glm::dvec2 at = reference::placeInPixel(settings.estimator.filter, u, v);
+        const reference::FilterSample at = filter.sample(u, v);
         glm::dvec2 onLens(0);
         if (camera.lensRadius > 0) {
             random.beginBlock();
@@ -95,20 +100,25 @@ struct ReferenceBackend::Implementation {
             onLens = radius * glm::dvec2(std::cos(2 * reference::kPi * turn),
                                          std::sin(2 * reference::kPi * turn));
         }
-        return reference::cameraRay(camera, (place.x + at.x) / area.width,
-                                    (place.y + at.y) / area.height, onLens);
+        return {reference::cameraRay(camera, (place.x + at.place.x) / area.width,
+                                     (place.y + at.place.y) / area.height, onLens),
+                at.weight};
     }
 
-    /// One sample.
-    glm::dvec3 take(uint32_t pixel, uint32_t index, uint64_t& rayCount) const {
+    struct Sample {
+        glm::dvec3 radiance;
+        double weight;
+    };
+    Sample take(uint32_t pixel, uint32_t index, uint64_t& rayCount) const {
         reference::RandomStream random = randomOf(pixel, index);
-        const reference::Ray ray = cameraRayOf(pixel, random);
+        const auto [ray, weight] = cameraRayOf(pixel, random);
         reference::PathSample path(world, settings.estimator, random);
-        const glm::dvec3 value = settings.estimator.integrator == Integrator::Normals
-                                     ? path.normalColor(ray)
-                                     : path.radiance(ray);
+        const Integrator integrator = settings.estimator.integrator;
+        const glm::dvec3 value = integrator == Integrator::Normals ? path.normalColor(ray)
+                                 : integrator == Integrator::Depth ? path.depth(ray)
+                                                                   : path.radiance(ray);
         rayCount += path.rays();
-        return value;
+        return {value, weight};
     }
 
     /// What is seen, in terms of the scene that the backend was made for.
@@ -135,8 +145,10 @@ struct ReferenceBackend::Implementation {
             const uint32_t first = pixel.taken();
             const uint32_t count = std::min(kSamplesPerReport, target.samples - first);
             uint64_t rayCount = 0;
-            for (uint32_t i = first; i < first + count; ++i)
-                pixel.add(take(target.pixel, firstSample + i, rayCount));
+            for (uint32_t i = first; i < first + count; ++i) {
+                const Sample sample = take(target.pixel, firstSample + i, rayCount);
+                pixel.add(sample.radiance, sample.weight);
+            }
             paths += count;
             rays += rayCount;
             report.add(count);
@@ -178,12 +190,12 @@ void ReferenceBackend::beginAt(uint32_t firstSample) {
 
 SampleValue ReferenceBackend::sampleAlone(uint32_t pixel, uint32_t sample) {
     uint64_t rays = 0;
-    const glm::dvec3 radiance = implementation_->take(pixel, sample, rays);
+    const auto [radiance, weight] = implementation_->take(pixel, sample, rays);
     implementation_->paths += 1;
     implementation_->rays += rays;
     PixelStatistics statistics;
     statistics.add(radiance);
-    return {radiance, statistics.rejected > 0};
+    return {weight * radiance, statistics.rejected > 0};
 }
 
 std::vector<SeenPixel> ReferenceBackend::see(uint32_t first, std::span<const uint32_t> samples,
@@ -196,8 +208,8 @@ std::vector<SeenPixel> ReferenceBackend::see(uint32_t first, std::span<const uin
                 for (uint32_t sample = 0; sample < samples[i]; ++sample) {
                     const auto pixel = uint32_t(first + i);
                     reference::RandomStream random = all.randomOf(pixel, sample);
-                    const reference::Ray ray = all.cameraRayOf(pixel, random);
-                    reference::addSeen(seen[i], all.world, ray, random, what);
+                    const auto [ray, weight] = all.cameraRayOf(pixel, random);
+                    reference::addSeen(seen[i], all.world, ray, weight, random, what);
                 }
                 all.name(seen[i]);
             }

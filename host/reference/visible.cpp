@@ -51,6 +51,25 @@ void noteFirst(SeenPixel& pixel, const SurfacePoint& s, const Hit& hit) {
     pixel.b2 = hit.b2;
 }
 
+/// Calls pass(hit) for one hit after the other, until it is false of one; that one, or none.
+template <class Pass>
+Hit firstNotPassed(const World& world, const Ray& ray, Skip skip, const Pass& pass) {
+    if (!world.hasAlpha) return world.bvh.closest(ray, skip);
+    Hit hit;
+    do {
+        hit = world.bvh.closestBehind(ray, hit, skip);
+    } while (hit.primitive != kNoPrimitive && pass(hit));
+    return hit;
+}
+
+bool isHiddenFromCamera(const Scene& scene, const Hit& hit) {
+    const size_t triangles = scene.triangles.size();
+    const uint32_t material = hit.primitive < triangles
+                                  ? scene.triangles[hit.primitive].material
+                                  : scene.spheres[hit.primitive - triangles].material;
+    return scene.materials[material].isHiddenFromCamera;
+}
+
 } // namespace
 
 double opacityAt(const World& world, const Hit& hit) {
@@ -66,22 +85,25 @@ double opacityAt(const World& world, const Hit& hit) {
 }
 
 Hit closestThere(const World& world, const Ray& ray, Skip skip, RandomStream& passes) {
-    if (!world.hasAlpha) return world.bvh.closest(ray, skip);
-    Hit hit;
-    do {
-        hit = world.bvh.closestBehind(ray, hit, skip);
-    } while (hit.primitive != kNoPrimitive && passes.next() >= opacityAt(world, hit));
-    return hit;
+    return firstNotPassed(world, ray, skip,
+                          [&](const Hit& hit) { return passes.next() >= opacityAt(world, hit); });
 }
 
-void addSeen(SeenPixel& pixel, const World& world, const Ray& cameraRay, RandomStream random,
-             Seeing what) {
+Hit closestForCamera(const World& world, const Ray& ray, RandomStream& passes) {
+    return firstNotPassed(world, ray, {}, [&](const Hit& hit) {
+        return isHiddenFromCamera(world.scene, hit) || passes.next() >= opacityAt(world, hit);
+    });
+}
+
+void addSeen(SeenPixel& pixel, const World& world, const Ray& cameraRay, double weight,
+             RandomStream random, Seeing what) {
     RandomStream passes = random.apart();
     ++pixel.samples;
     Ray ray = cameraRay;
-    Hit hit = closestThere(world, ray, {}, passes);
+    Hit hit = closestForCamera(world, ray, passes);
     if (hit.primitive == kNoPrimitive) return;
     ++pixel.hits;
+    pixel.covered += weight;
     if (what == Seeing::Coverage) return;
 
     SurfacePoint s = shadedSurface(world, ray, hit);

@@ -17,7 +17,7 @@ constexpr double k95 = 1.96;
 bool everyChannelIsDone(const PixelStatistics& p, double tolerance) {
     const glm::dvec3 variance = p.varianceOfMean();
     for (int c = 0; c < 3; ++c)
-        if (k95 * std::sqrt(variance[c]) > tolerance * p.mean[c]) return false;
+        if (k95 * std::sqrt(variance[c]) > tolerance * std::abs(p.mean[c])) return false;
     return true;
 }
 

@@ -31,6 +31,8 @@ uint32_t branchesThatPay(const Scene& scene, const Estimator& estimator, const P
     const bool bounces = estimator.integrator == Integrator::Path && estimator.maxBounces > 1;
     // It counts samples for what it decides, and means paths.
     const bool countsPaths = budget.adaptive.enabled;
+    // The weights of samples, which branches share, would be most of the noise.
+    if (hasNegativeLobes(estimator.filter)) return 1;
     if (!bounces || countsPaths || !directLightIsSmooth(scene, estimator)) return 1;
     const uint32_t paths = budget.pathsPerPixel();
     uint32_t branches = kBranches;

@@ -10,11 +10,13 @@ namespace stromboli {
 enum class Integrator {
     Path,    ///< path tracing
     Normals, ///< 0.5 n + 0.5 of the interpolated shading normal at the first hit
+    Depth,   ///< how far the first hit is along the camera ray
 };
 template <>
 inline constexpr auto kNamedValues<Integrator> = std::to_array<NamedValue<Integrator>>({
     {Integrator::Path, "path", "path tracing"},
     {Integrator::Normals, "normals", "the shading normal at the first hit, as a colour"},
+    {Integrator::Depth, "depth", "how far the first hit is, in metres"},
 });
 
 /// How the light that reaches a surface straight from a light is estimated (docs/estimator.md).
@@ -53,13 +55,16 @@ inline constexpr auto kNamedValues<Sampler> = std::to_array<NamedValue<Sampler>>
 });
 
 /// How much a place in the picture counts for the pixels about it. Samples are spread as the filter
-/// weighs them (filter importance sampling, Ernst et al. 2006), so that all weigh the same and
-/// pixels stay independent of each other.
+/// weighs them (filter importance sampling, Ernst et al. 2006), so that all weigh the same, but for
+/// the sign of the filter there, and pixels stay independent of each other.
 enum class PixelFilter {
     Box,
     Gaussian,       ///< standard deviation 0.5 pixels
     BlackmanHarris, ///< the four-term window (Harris 1978), 3 pixels wide
     Tent,           ///< a pyramid, 2 pixels wide
+    Mitchell,       ///< cubic pieces, 4 pixels wide (Mitchell and Netravali 1988)
+    CatmullRom,     ///< that of B = 0, C = 1/2: through the pixels' own values
+    Lanczos,        ///< sinc, windowed by its own main lobe (Duchon 1979)
 };
 template <>
 inline constexpr auto kNamedValues<PixelFilter> = std::to_array<NamedValue<PixelFilter>>({
@@ -67,7 +72,24 @@ inline constexpr auto kNamedValues<PixelFilter> = std::to_array<NamedValue<Pixel
     {PixelFilter::Gaussian, "gaussian", "standard deviation 0.5 pixels"},
     {PixelFilter::BlackmanHarris, "blackman-harris", "a bell 3 pixels wide"},
     {PixelFilter::Tent, "tent", "a pyramid 2 pixels wide"},
+    {PixelFilter::Mitchell, "mitchell", "Mitchell and Netravali's, slightly negative beside"},
+    {PixelFilter::CatmullRom, "catmull-rom", "sharper, more negative"},
+    {PixelFilter::Lanczos, "lanczos", "of three lobes, the sharpest"},
 });
+/// Samples of these filters have weights, some of them negative (docs/estimator.md, "Camera").
+inline bool hasNegativeLobes(PixelFilter filter) {
+    return filter == PixelFilter::Mitchell || filter == PixelFilter::CatmullRom ||
+           filter == PixelFilter::Lanczos;
+}
+
+/// The numbers of a pixel filter, where a scene file states others.
+struct FilterShape {
+    double width = 1;                ///< Gaussian, Tent: this times the usual one
+    double b = 1.0 / 3, c = 1.0 / 3; ///< Mitchell: B and C of the paper
+    uint32_t lobes = 3;              ///< Lanczos: on each side, the main one among them
+
+    bool operator==(const FilterShape&) const = default;
+};
 
 /// How a light sample picks one of the lights (docs/estimator.md, "Which light").
 enum class LightChoice {
@@ -89,11 +111,10 @@ inline constexpr auto kNamedValues<LightChoice> = std::to_array<NamedValue<Light
 struct Roulette {
     enum class Mode {
         None,
-        Throughput, ///< after bounce kThroughputStart continue with probability
+        Throughput, ///< after bounce throughputStart continue with probability
                     ///< min(kMaxContinue, kBoldness * largest component of the throughput)
         Fixed,      ///< terminate with terminationProbability at every hit, before direct light
     };
-    /// Paths are at least this many bounces long under Throughput.
     static constexpr uint32_t kThroughputStart = 3;
     static constexpr double kMaxContinue = 0.95;
     /// A path is worth going on with as long as what it may still bring is not small beside the
@@ -104,6 +125,8 @@ struct Roulette {
 
     Mode mode = Mode::Throughput;
     double terminationProbability = 0; ///< Fixed: in [0, 1)
+    /// Paths are at least this many bounces long under Throughput.
+    uint32_t throughputStart = kThroughputStart;
 };
 
 /// What is estimated, and how: what a sample is (docs/estimator.md). The same estimator, scene,
@@ -116,6 +139,7 @@ struct Estimator {
     DirectLight directLight = DirectLight::Mis;
     Sampler sampler = Sampler::Sobol;
     PixelFilter filter = PixelFilter::Box;
+    FilterShape filterShape;
     LightChoice lightChoice = LightChoice::Automatic;
     uint32_t branches = 1; ///< paths of a sample, from the first surface that scatters at random on
     bool gapProposal = true; ///< bounces are sent into bright gaps too (docs/estimator.md, "Gaps")

@@ -20,6 +20,7 @@ inline constexpr uint32_t kNothingSeen = 0xFFFFFFFFu;
 struct SeenPixel {
     uint32_t samples = 0;     ///< camera rays
     uint32_t hits = 0;        ///< those of them that end on a surface
+    double covered = 0;       ///< the sum of the weights that these have by the pixel filter
     glm::dvec3 albedo{0.0};   ///< of what is seen, also in mirrors and through glass
     glm::dvec3 normal{0.0};   ///< likewise; unit vectors of the world
     glm::dvec3 position{0.0}; ///< of the hits
@@ -29,7 +30,7 @@ struct SeenPixel {
     uint32_t placement = kNothingSeen; ///< that it is in, of a prototype's triangle
     double b1 = 0, b2 = 0;
 
-    double coverage() const { return samples == 0 ? 0 : double(hits) / samples; }
+    double coverage() const { return samples == 0 ? 0 : covered / samples; }
 };
 
 /// Traces camera rays without light: a backend, for the picture that it was made for.

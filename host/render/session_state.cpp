@@ -13,7 +13,7 @@ namespace stromboli {
 namespace {
 
 /// Changes with every change of what is written.
-constexpr std::string_view kVersion = "stromboli session 5";
+constexpr std::string_view kVersion = "stromboli session 6";
 
 template <class T>
 concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::same_as<T, glm::dvec3>;
@@ -70,11 +70,19 @@ void pass(Archive& a, ShadingConventions& conventions) {
 }
 
 template <class Archive>
+void pass(Archive& a, FilterShape& shape) {
+    auto& [width, b, c, lobes] = shape;
+    a(width), a(b), a(c), a(lobes);
+}
+
+template <class Archive>
 void pass(Archive& a, Estimator& e) {
     a(e.lightSamples), a(e.maxBounces), a(e.minBounce), a(e.integrator), a(e.directLight);
     a(e.sampler), a(e.filter), a(e.lightChoice), a(e.branches), a(e.gapProposal),
         a(e.roulette.mode);
-    a(e.roulette.terminationProbability), a(e.seed), a(e.showsBackdrop);
+    a(e.roulette.terminationProbability), a(e.roulette.throughputStart), a(e.seed),
+        a(e.showsBackdrop);
+    pass(a, e.filterShape);
     pass(a, e.conventions);
 }
 

@@ -93,6 +93,7 @@ Camera fileView(const FileCamera& file) {
     camera.right = file.right;
     camera.up = file.up;
     camera.back = file.back;
+    camera.shift = file.shift;
     camera.lensRadius = file.lensRadius;
     camera.focusDistance = file.focusDistance;
     return camera;
@@ -148,7 +149,9 @@ void applyOptics(Camera& camera, const CameraRequest& request, double aspect,
                         "(--fov, --aperture)",
                         file));
     if (request.fieldOfView) {
-        camera.halfHeight = std::tan(*request.fieldOfView / 2);
+        const double halfHeight = std::tan(*request.fieldOfView / 2);
+        camera.shift *= halfHeight / camera.halfHeight; // so much of the picture's height as before
+        camera.halfHeight = halfHeight;
         camera.halfWidth = camera.halfHeight * aspect;
     }
     if (request.aperture > 0) {

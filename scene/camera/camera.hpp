@@ -15,7 +15,7 @@ namespace stromboli {
 /// Makes camera rays for one picture. The picture plane is at distance 1 (perspective) or 0
 /// (orthographic) in front of `position`. For picture coordinates s, t in [0, 1], from the left
 /// and from the top:
-///   offset = (2 s - 1) halfWidth right + (1 - 2 t) halfHeight up
+///   offset = ((2 s - 1) halfWidth + shift.x) right + ((1 - 2 t) halfHeight + shift.y) up
 /// - perspective:  origin = position,          direction = normalize(offset - back)
 /// - orthographic: origin = position + offset, direction = -back
 struct Camera {
@@ -24,6 +24,8 @@ struct Camera {
     glm::dvec3 right{1, 0, 0}, up{0, 1, 0}, back{0, 0, 1}; ///< orthonormal, right-handed
     double halfWidth = 1; ///< perspective: tangent of half the field of view; orthographic: length
     double halfHeight = 1;
+    /// Where the middle of the picture lies beside the view axis; perspective cameras alone.
+    glm::dvec2 shift{0.0};
     /// Hits count from nearDistance to farDistance: measured along the view axis, or, if
     /// clipAlongRay, along the ray.
     double nearDistance = 0, farDistance = 1e30;
@@ -33,6 +35,9 @@ struct Camera {
     /// 0: a pinhole.
     double lensRadius = 0;
     double focusDistance = 1; ///< > 0
+
+    /// From the middle of the picture, on its plane, to the position; perspective cameras.
+    glm::dvec3 backOfMiddle() const { return back - shift.x * right - shift.y * up; }
 };
 
 /// Sees `at` from `from`; halfWidth: the tangent of half the angle of view, or half the width of an

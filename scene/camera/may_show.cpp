@@ -20,22 +20,34 @@ class Volume {
           slopeX_(camera.orthographic ? 0 : camera.halfWidth),
           slopeY_(camera.orthographic ? 0 : camera.halfHeight) {
         // A ray is at most so much longer than its depth: in the corners of the picture.
-        const double stretch = std::sqrt(1 + slopeX_ * slopeX_ + slopeY_ * slopeY_);
+        const double cornerX = slopeX_ + std::abs(camera.shift.x);
+        const double cornerY = slopeY_ + std::abs(camera.shift.y);
+        const double stretch = std::sqrt(1 + cornerX * cornerX + cornerY * cornerY);
         nearDepth_ = camera.clipAlongRay ? camera.nearDistance / stretch : camera.nearDistance;
     }
 
     Distances distances(const glm::dvec3& point) const {
         const glm::dvec3 v = point - camera_.position;
-        const double x = glm::dot(v, camera_.right), y = glm::dot(v, camera_.up);
         const double depth = -glm::dot(v, camera_.back);
-        const double sideX = (camera_.orthographic ? camera_.halfWidth : 0) + slopeX_ * depth;
-        const double sideY = (camera_.orthographic ? camera_.halfHeight : 0) + slopeY_ * depth;
-        const double lengthX = std::hypot(1, slopeX_), lengthY = std::hypot(1, slopeY_);
-        return {(-x - sideX) / lengthX, (x - sideX) / lengthX, (-y - sideY) / lengthY,
-                (y - sideY) / lengthY,  nearDepth_ - depth,    depth - camera_.farDistance};
+        const Side x =
+            side(glm::dot(v, camera_.right), depth, camera_.halfWidth, slopeX_, camera_.shift.x);
+        const Side y =
+            side(glm::dot(v, camera_.up), depth, camera_.halfHeight, slopeY_, camera_.shift.y);
+        return {x.low, x.high, y.low, y.high, nearDepth_ - depth, depth - camera_.farDistance};
     }
 
   private:
+    struct Side {
+        double low, high;
+    };
+    /// A point that is so far along one of the picture's axes, outside of the planes on both sides.
+    Side side(double at, double depth, double halfExtent, double slope, double shift) const {
+        const double extent = camera_.orthographic ? halfExtent : slope * depth;
+        const double fromMiddle = at - shift * depth;
+        return {(-fromMiddle - extent) / std::hypot(1, slope - shift),
+                (fromMiddle - extent) / std::hypot(1, slope + shift)};
+    }
+
     const Camera& camera_;
     double slopeX_, slopeY_, nearDepth_ = 0;
 };

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace stromboli::mitsuba {
 namespace {
 
@@ -86,15 +88,23 @@ Surface twoSided(SurfaceMaker& maker, Context& context, Textures& textures) {
     return surface;
 }
 
+bool hasTexturedOpacity(const Material& m) {
+    return m.alphaMode != AlphaMode::Opaque &&
+           std::ranges::any_of(m.textures, [](const TextureUse& use) {
+               return use.slot == TextureSlot::BaseColor;
+           });
+}
+
 Surface mask(SurfaceMaker& maker, Context& context, Textures& textures) {
     Surface surface = readInside(maker, context, textures);
     Material& m = surface.material;
-    if (m.alphaMode != AlphaMode::Opaque) maker.plugin.fail("is a mask inside a mask");
+    const double inside = m.alphaMode == AlphaMode::Opaque ? 1.0 : double(m.opacity);
+    if (hasTexturedOpacity(m)) maker.plugin.fail("is a mask over one whose opacity is a texture");
     const Shade opacity = textures.shade(maker.plugin, "opacity", ColorOf::Reflectance,
                                          glm::dvec3(0.5), Layout::Alpha);
     m.alphaMode = AlphaMode::Blend;
-    m.opacity =
-        float(std::clamp((opacity.color.x + opacity.color.y + opacity.color.z) / 3, 0.0, 1.0));
+    m.opacity = float(
+        inside * std::clamp((opacity.color.x + opacity.color.y + opacity.color.z) / 3, 0.0, 1.0));
     if (opacity.texture) {
         for (const TextureUse& use : m.textures)
             if (use.slot == TextureSlot::BaseColor)
@@ -133,7 +143,8 @@ Surface normalMap(SurfaceMaker& maker, Context& context, Textures& textures) {
     Surface surface = readInside(maker, context, textures);
     const Shade normals =
         textures.shade(maker.plugin, "normalmap", ColorOf::Reflectance, glm::dvec3(0.5, 0.5, 1));
-    if (!normals.texture) maker.plugin.fail("has no texture 'normalmap'");
+    if (!normals.texture || !normals.attribute.empty())
+        maker.plugin.fail("has no texture 'normalmap'");
     TextureUse use = *normals.texture;
     use.slot = TextureSlot::Normal;
     addTexture(surface, use);
@@ -152,7 +163,8 @@ Surface bumpMap(SurfaceMaker& maker, Context& context, Textures& textures) {
     const Plugin* heights = maker.plugin.onlyChildOf("texture");
     if (!heights) maker.plugin.fail("has no texture inside, expected one of heights");
     const Shade shade = textures.texture(*heights, ColorOf::Reflectance, Layout::Grey);
-    if (!shade.texture) heights->fail("is no picture, expected one of heights");
+    if (!shade.texture || !shade.attribute.empty())
+        heights->fail("is no picture, expected one of heights");
     TextureUse use = *shade.texture;
     use.slot = TextureSlot::Height;
     use.scale = float(maker.plugin.number("scale").value_or(1));
@@ -160,6 +172,26 @@ Surface bumpMap(SurfaceMaker& maker, Context& context, Textures& textures) {
     setReliefRules(surface, maker.plugin);
     maker.plugin.requireAllRead();
     return surface;
+}
+
+/// Of two surfaces, either of which may be there in a share of cases only, the mixture is there in
+/// the mean of both shares, and then the second one as often as it is one of those.
+void takeMasksOut(const Plugin& plugin, Material& first, Material& second, bool hasTexture,
+                  double& weight) {
+    const auto opacityOf = [](const Material& m) {
+        return m.alphaMode == AlphaMode::Opaque ? 1.0 : double(m.opacity);
+    };
+    const double a = opacityOf(first), b = opacityOf(second);
+    if (a == 1 && b == 1 && !hasTexturedOpacity(first) && !hasTexturedOpacity(second)) return;
+    if (hasTexture || hasTexturedOpacity(first) || hasTexturedOpacity(second))
+        plugin.fail("has a mask inside, and a weight or an opacity that is a texture, expected the "
+                    "mask around the blend");
+    const double opacity = (1 - weight) * a + weight * b;
+    weight = opacity > 0 ? weight * b / opacity : 0;
+    first.alphaMode = AlphaMode::Blend;
+    first.opacity = float(opacity);
+    second.alphaMode = AlphaMode::Opaque;
+    second.opacity = 1;
 }
 
 /// One of two bsdfs, the second one in the share of cases that `weight` says.
@@ -172,16 +204,14 @@ Surface blend(SurfaceMaker& maker, Context& context, Textures& textures) {
     auto second = std::make_shared<Surface>(readBsdf(context, textures, *inside[1]));
     const Shade share =
         textures.shade(plugin, "weight", ColorOf::Reflectance, glm::dvec3(0.5), Layout::Red);
-    if (share.isVertexColor)
-        plugin.fail("weight", "is a mesh attribute, expected a number or picture");
     double weight = std::clamp((share.color.x + share.color.y + share.color.z) / 3, 0.0, 1.0);
-    for (const Surface* each : {&first, std::as_const(second).get()})
-        if (each->material.alphaMode != AlphaMode::Opaque)
-            plugin.fail("has a mask inside, expected it around the blend");
+    takeMasksOut(plugin, first.material, second->material, share.texture.has_value(), weight);
     if (first.other) { // only what takes the place may be a mixture in turn
         if (second->other || share.texture)
             plugin.fail("has a first bsdf that is a blend, which is not supported here");
         std::swap(first, *second);
+        std::swap(first.material.alphaMode, second->material.alphaMode);
+        std::swap(first.material.opacity, second->material.opacity);
         weight = 1 - weight;
     }
     if (share.texture) {
@@ -190,7 +220,6 @@ Surface blend(SurfaceMaker& maker, Context& context, Textures& textures) {
         first.material.textures.push_back(use);
     }
     first.material.otherShare = float(weight);
-    first.usesVertexColors |= second->usesVertexColors;
     first.other = std::move(second);
     plugin.requireAllRead();
     return first;

@@ -10,7 +10,8 @@ namespace stromboli::mitsuba {
 /// What a BSDF of the file makes of a surface.
 struct Surface {
     Material material;
-    bool usesVertexColors = false;  ///< of the mesh that it is on
+    std::string cornerColors;       ///< the mesh attribute that its base colour is; empty: none
+    TextureUse cornerPaint;         ///< the same as a texture (Textures::paintOf)
     std::shared_ptr<Surface> other; ///< Material::other of its material
 };
 

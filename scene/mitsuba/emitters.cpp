@@ -4,6 +4,7 @@
 #include "scene/mitsuba/colors.hpp"
 #include "scene/mitsuba/environment_map.hpp"
 #include "scene/mitsuba/sensors.hpp"
+#include "scene/mitsuba/sunsky.hpp"
 #include "scene/mitsuba/textures.hpp"
 
 #include <fmt/format.h>
@@ -44,7 +45,7 @@ glm::dmat4 pointLight(Context& context, const Plugin& emitter, Light& light) {
 }
 
 void setPicture(const Plugin& emitter, const char* name, const Shade& shade, Light& light) {
-    if (shade.isVertexColor) emitter.fail(name, "is a mesh attribute, expected a picture");
+    if (!shade.attribute.empty()) emitter.fail(name, "is a mesh attribute, expected a picture");
     light.picture = shade.texture;
     if (light.picture) light.picture->slot = TextureSlot::Projection;
 }
@@ -139,11 +140,13 @@ void placeEmitter(Context& context, const Plugin& emitter) {
     Light light;
     light.name = emitter.displayName();
     const std::string& type = emitter.type;
-    if (type == "constant" || type == "envmap") {
+    if (type == "constant" || type == "envmap" || type == "sunsky") {
         if (type == "constant")
             setConstant(context, emitter);
-        else
+        else if (type == "envmap")
             setEnvironmentMap(context, emitter);
+        else
+            setSunSky(context, emitter);
         return emitter.requireAllRead();
     }
     glm::dmat4 toWorld(1.0);
@@ -155,13 +158,13 @@ void placeEmitter(Context& context, const Plugin& emitter) {
         toWorld = projector(context, emitter, light);
     else if (type == "directional")
         toWorld = directionalLight(context, emitter, light);
-    else if (type == "area")
+    else if (type == "area" || type == "directionalarea")
         emitter.fail("shines on a surface, expected it inside of a shape");
     else
-        emitter.fail(
-            fmt::format("'{}' is no emitter that is read, expected point, spot, "
-                        "projector, directional, constant, envmap, or area inside of a shape",
-                        type));
+        emitter.fail(fmt::format(
+            "'{}' is no emitter that is read, expected point, spot, "
+            "projector, directional, constant, envmap, sunsky, or area inside of a shape",
+            type));
     emitter.requireAllRead();
     context.builder.placeLight(std::move(light), context.worldFromFile * turnedAround(toWorld));
 }

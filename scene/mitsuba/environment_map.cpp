@@ -62,7 +62,11 @@ images::FloatImage withRowsAtPoles(const images::FloatImage& image) {
 
 glm::dmat4 worldFromFileOf(const Plugin& emitter) {
     bool isMirrored = false;
-    return glm::dmat4(glm::transpose(axesOf(emitter, isMirrored)));
+    const glm::dmat3 mapFromFile = glm::transpose(axesOf(emitter, isMirrored));
+    if (emitter.type == "envmap") return glm::dmat4(mapFromFile);
+    // Skies have their zenith at z.
+    const glm::dmat3 upright(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, -1), glm::dvec3(0, 1, 0));
+    return glm::dmat4(upright * mapFromFile);
 }
 
 void setEnvironmentMap(Context& context, const Plugin& emitter) {

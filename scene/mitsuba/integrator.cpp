@@ -18,6 +18,15 @@ uint32_t bouncesOf(const Plugin& integrator) {
     return uint32_t(std::clamp<int64_t>(depth - 1, 0, kMostBounces));
 }
 
+/// Mitsuba's depth after the first scattering is 1, and roulette sets in from this depth on.
+std::optional<int64_t> rouletteStartOf(const Plugin& integrator) {
+    const std::optional<int64_t> depth = integrator.integer("rr_depth");
+    if (depth && *depth < 1)
+        integrator.fail("rr_depth", fmt::format("is {}, expected 1 or more", *depth));
+    if (depth) return std::min<int64_t>(*depth, kMostBounces);
+    return std::nullopt;
+}
+
 } // namespace
 
 void readIntegrator(Context& context, const Plugin& integrator) {
@@ -31,6 +40,8 @@ void readIntegrator(Context& context, const Plugin& integrator) {
         return;
     }
     RenderHints& hints = context.builder.hints();
+    if (const std::optional<int64_t> start = rouletteStartOf(integrator))
+        hints.rouletteStart = uint32_t(*start);
     if (type == "path" || type == "volpath" || type == "volpathmis") {
         hints.maxBounces = bouncesOf(integrator);
     } else if (type == "direct") {
@@ -38,17 +49,15 @@ void readIntegrator(Context& context, const Plugin& integrator) {
         for (const char* unused : {"shading_samples", "emitter_samples", "bsdf_samples"})
             integrator.skip(unused);
     } else if (type == "depth") {
-        context.report().warn("integrator 'depth': light is followed; --layers writes depths");
+        hints.showsDepth = true;
+        context.report().assume("integrator 'depth': distances are from the camera, of the first "
+                                "surface; Mitsuba's begin at near_clip");
     } else {
         integrator.fail(fmt::format("'{}' is no integrator that is read, expected path, volpath, "
                                     "direct, depth, moment or aov",
                                     type));
     }
-    if (integrator.flag("hide_emitters").value_or(false)) {
-        hints.hidesBackdrop = true;
-        context.report().assume(
-            "hide_emitters hides the environment; surfaces that shine are seen");
-    }
+    hints.hidesBackdrop = integrator.flag("hide_emitters").value_or(false);
     ignoreUnread(context, integrator);
 }
 

@@ -18,10 +18,11 @@ namespace {
 void turnWorld(Context& context, const Plugin& scene) {
     const Plugin* environment = nullptr;
     for (const Plugin* emitter : scene.childrenOf("emitter")) {
-        if (emitter->type != "envmap" && emitter->type != "constant") continue;
+        const bool hasPicture = emitter->type == "envmap" || emitter->type == "sunsky";
+        if (!hasPicture && emitter->type != "constant") continue;
         if (environment) emitter->fail("is the second environment of the scene, expected one");
         environment = emitter;
-        if (emitter->type == "envmap") context.worldFromFile = worldFromFileOf(*emitter);
+        if (hasPicture) context.worldFromFile = worldFromFileOf(*emitter);
     }
 }
 

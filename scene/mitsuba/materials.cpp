@@ -6,50 +6,105 @@
 
 namespace stromboli::mitsuba {
 
-const BoundMaterial& Materials::of(const Plugin& shape) {
+BoundMaterial Materials::of(const Plugin& shape, const Painter& painter) {
     const Plugin* bsdf = shape.onlyChildOf("bsdf");
     const Plugin* emitter = shape.onlyChildOf("emitter");
     const auto key = std::tuple(bsdf, emitter, shape.isOld);
     if (const auto found = made_.find(key); found != made_.end()) return found->second;
-    return made_.emplace(key, make(bsdf, emitter, shape.isOld)).first->second;
+    Surface surface = make(bsdf, emitter, shape.isOld);
+    if (!wantsPaint(surface)) return made_.emplace(key, bind(std::move(surface))).first->second;
+    paint(surface, shape, painter); // another material for each mesh
+    return bind(std::move(surface));
 }
 
-BoundMaterial Materials::make(const Plugin* bsdf, const Plugin* emitter, bool isOld) {
+Surface Materials::make(const Plugin* bsdf, const Plugin* emitter, bool isOld) {
     Surface surface;
     surface.material = build::greyMaterial();
     surface.material.isBlackBehind = !isOld;
+    if (emitter) surface.material.albedo = glm::vec3(0); // what shines reflects by its bsdf alone
     if (bsdf) surface = readBsdf(context_, textures_, *bsdf);
-    return bind(std::move(surface), emitter);
+    settleColors(surface, bsdf);
+    if (emitter)
+        for (Surface* each = &surface; each; each = each->other.get())
+            addEmission(*emitter, each->material);
+    return surface;
 }
 
-BoundMaterial Materials::bind(Surface&& surface, const Plugin* emitter) {
-    if (emitter) addEmission(*emitter, surface.material);
+/// Colours of corners multiply those of all materials of a mixture. Where not all are meant to have
+/// the same ones, those that are have them as textures.
+void Materials::settleColors(Surface& surface, const Plugin* bsdf) {
+    bool areAlike = true;
+    for (const Surface* each = &surface; each; each = each->other.get())
+        areAlike = areAlike && each->cornerColors == surface.cornerColors;
+    if (areAlike) return;
+    for (Surface* each = &surface; each; each = each->other.get()) {
+        if (each->cornerColors.empty()) continue;
+        std::vector<TextureUse>& textures = each->material.textures;
+        if (std::ranges::find(textures, TextureSlot::BaseColor, &TextureUse::slot) !=
+            textures.end())
+            bsdf->fail("has a mesh attribute under a mask in a blend, which is not supported");
+        each->cornerPaint.slot = TextureSlot::BaseColor;
+        textures.push_back(each->cornerPaint);
+        each->cornerColors.clear();
+    }
+}
+
+bool Materials::wantsPaint(const Surface& surface) const {
+    return std::ranges::any_of(
+               surface.material.textures,
+               [&](const TextureUse& use) { return textures_.paintOf(use.texture); }) ||
+           (surface.other && wantsPaint(*surface.other));
+}
+
+void Materials::paint(Surface& surface, const Plugin& shape, const Painter& painter) {
+    for (Surface* each = &surface; each; each = each->other.get())
+        for (TextureUse& use : each->material.textures)
+            if (const Paint* paint = textures_.paintOf(use.texture))
+                use.texture = textures_.add(painter(*paint), shape);
+}
+
+BoundMaterial Materials::bind(Surface&& surface) {
     BoundMaterial bound;
     const Material& m = surface.material;
-    bound.isTextured = !m.textures.empty();
-    bound.usesVertexColors = surface.usesVertexColors;
+    // Paints alone have the second coordinates.
+    const auto isPaint = [](const TextureUse& use) { return use.uvSet == 1; };
+    bound.isTextured = !std::ranges::all_of(m.textures, isPaint);
+    bound.isPainted = std::ranges::any_of(m.textures, isPaint);
+    bound.cornerColors = surface.cornerColors;
     bound.wantsTangents = m.hasGrain() || std::ranges::any_of(m.textures, [](const auto& use) {
                               return use.slot == TextureSlot::Normal;
                           });
     if (surface.other) {
-        const BoundMaterial other = bind(std::move(*surface.other), emitter);
+        const BoundMaterial other = bind(std::move(*surface.other));
         surface.material.other = other.number;
         bound.isTextured |= other.isTextured;
+        bound.isPainted |= other.isPainted;
         bound.wantsTangents |= other.wantsTangents;
     }
     bound.number = context_.builder.addMaterial(std::move(surface.material));
     return bound;
 }
 
+/// A beam along the normals has no width: no path comes upon it, in Mitsuba either.
+void Materials::ignoreBeam(const Plugin& emitter, Material& material) {
+    context_.report().warn("emitter 'directionalarea' shines along its normals alone, which paths "
+                           "from the camera never meet: it gives no light, as in Mitsuba's path");
+    material.isHiddenFromCamera = context_.builder.hints().hidesBackdrop;
+    for (const char* unused : {"radiance", "sampling_weight"})
+        emitter.skip(unused);
+    emitter.requireAllRead();
+}
+
 void Materials::addEmission(const Plugin& emitter, Material& material) {
+    if (emitter.type == "directionalarea") return ignoreBeam(emitter, material);
     if (emitter.type != "area")
-        emitter.fail(
-            fmt::format("'{}' is no emitter of a shape that is read, expected area", emitter.type));
+        emitter.fail(fmt::format("'{}' is no emitter of a shape that is read, expected area or "
+                                 "directionalarea",
+                                 emitter.type));
     const Shade radiance = textures_.shade(emitter, "radiance", ColorOf::Light, glm::dvec3(1));
-    if (radiance.isVertexColor)
-        emitter.fail("radiance", "is a mesh attribute, expected a colour or a picture");
     material.emission = context_.builder.lightColor("radiance", radiance.color);
     material.emitsBothSides = false;
+    material.isHiddenFromCamera = context_.builder.hints().hidesBackdrop;
     if (radiance.texture) {
         TextureUse use = *radiance.texture;
         use.slot = TextureSlot::Emission;

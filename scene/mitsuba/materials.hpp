@@ -2,7 +2,9 @@
 
 #include "scene/mitsuba/bsdfs.hpp"
 
+#include <functional>
 #include <map>
+#include <string>
 #include <tuple>
 
 namespace stromboli::mitsuba {
@@ -10,7 +12,9 @@ namespace stromboli::mitsuba {
 /// A material of the scene, and what it wants from the corners of its triangles.
 struct BoundMaterial {
     uint32_t number = 0;
-    bool isTextured = false, wantsTangents = false, usesVertexColors = false;
+    bool isTextured = false, wantsTangents = false;
+    bool isPainted = false;   ///< with textures by the second coordinates (mesh_paint.hpp)
+    std::string cornerColors; ///< the mesh attribute that corners have colours by; empty: none
 
     bool wantsCoordinates() const { return isTextured || wantsTangents; }
 };
@@ -20,12 +24,19 @@ class Materials {
   public:
     explicit Materials(Context& context) : context_(context), textures_(context) {}
 
+    /// The picture that a shape's mesh is painted with.
+    using Painter = std::function<TextureImage(const Paint&)>;
+
     /// Of a shape, which may have neither a BSDF nor an emitter.
-    const BoundMaterial& of(const Plugin& shape);
+    BoundMaterial of(const Plugin& shape, const Painter& painter);
 
   private:
-    BoundMaterial make(const Plugin* bsdf, const Plugin* emitter, bool isOld);
-    BoundMaterial bind(Surface&& surface, const Plugin* emitter);
+    Surface make(const Plugin* bsdf, const Plugin* emitter, bool isOld);
+    BoundMaterial bind(Surface&& surface);
+    static void settleColors(Surface& surface, const Plugin* bsdf);
+    bool wantsPaint(const Surface& surface) const;
+    void paint(Surface& surface, const Plugin& shape, const Painter& painter);
+    void ignoreBeam(const Plugin& emitter, Material& material);
     void addEmission(const Plugin& emitter, Material& material);
 
     Context& context_;

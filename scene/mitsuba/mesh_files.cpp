@@ -44,8 +44,14 @@ FileMesh readObjMesh(Context& context, const std::filesystem::path& file) {
     return meshOf(context, loadObj(file, conventionsOf(context)));
 }
 
-FileMesh readPlyMesh(Context& context, const std::filesystem::path& file) {
-    return meshOf(context, loadPly(file, conventionsOf(context)));
+FileMesh readPlyMesh(Context& context, const std::filesystem::path& file,
+                     std::string_view attribute) {
+    PlyAttribute colors;
+    constexpr std::string_view kOfFaces = "face_", kOfVertices = "vertex_";
+    colors.isOfFaces = attribute.starts_with(kOfFaces);
+    if (colors.isOfFaces) colors.name = attribute.substr(kOfFaces.size());
+    if (attribute.starts_with(kOfVertices)) colors.name = attribute.substr(kOfVertices.size());
+    return meshOf(context, loadPlyWith(colors, file, conventionsOf(context)));
 }
 
 } // namespace stromboli::mitsuba

@@ -4,6 +4,7 @@
 #include "scene/mitsuba/context.hpp"
 
 #include <filesystem>
+#include <string_view>
 
 namespace stromboli::mitsuba {
 
@@ -15,6 +16,9 @@ struct FileMesh {
 };
 
 FileMesh readObjMesh(Context& context, const std::filesystem::path& file);
-FileMesh readPlyMesh(Context& context, const std::filesystem::path& file);
+/// attribute: what the colours of corners are, as Mitsuba names it: vertex_color, face_color, ...;
+/// empty: vertex_color.
+FileMesh readPlyMesh(Context& context, const std::filesystem::path& file,
+                     std::string_view attribute);
 
 } // namespace stromboli::mitsuba

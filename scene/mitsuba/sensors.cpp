@@ -18,6 +18,7 @@ struct Film {
     uint32_t width = 768, height = 576;
     std::optional<std::array<uint32_t, 4>> crop;
     HintedFilter filter = HintedFilter::Gaussian;
+    HintedFilterShape shape;
 
     double aspect() const { return double(width) / height; }
 };
@@ -44,21 +45,46 @@ std::optional<std::array<uint32_t, 4>> cropOf(const Plugin& film, uint32_t width
     return std::array{x, y, w, h};
 }
 
-HintedFilter filterOf(Context& context, const Plugin& film) {
+double positive(const Plugin& filter, const char* name, double otherwise) {
+    const double value = filter.number(name, 0).value_or(otherwise);
+    if (!(value > 0)) filter.fail(name, "is 0, expected more");
+    return value;
+}
+
+uint32_t lobesOf(const Plugin& filter) {
+    constexpr int64_t kMost = 64; // each as wide as a pixel
+    const int64_t lobes = filter.integer("lobes").value_or(3);
+    if (lobes < 1 || lobes > kMost)
+        filter.fail("lobes", fmt::format("is {}, expected 1 to {}", lobes, kMost));
+    return uint32_t(lobes);
+}
+
+void readFilter(const Plugin& film, Film& read) {
     const Plugin* filter = film.onlyChildOf("rfilter");
-    if (!filter) return HintedFilter::Gaussian;
-    if (filter->type == "box") return HintedFilter::Box;
-    if (filter->type == "tent" && filter->number("radius", 0).value_or(1) == 1)
-        return HintedFilter::Tent;
-    const double deviation = filter->number("stddev", 0).value_or(0.5);
-    if (filter->type != "gaussian" || deviation != 0.5)
-        context.report().assume(
-            filter->type == "gaussian"
-                ? fmt::format("the gaussian filter has a deviation of 0.5 pixels, not {}",
-                              deviation)
-                : fmt::format("the filter '{}' is not there: the gaussian one is taken",
-                              filter->type));
-    return HintedFilter::Gaussian;
+    if (!filter) return;
+    const std::string& type = filter->type;
+    if (type == "box") {
+        read.filter = HintedFilter::Box;
+    } else if (type == "tent") {
+        read.filter = HintedFilter::Tent;
+        read.shape.radius = positive(*filter, "radius", 1);
+    } else if (type == "gaussian") {
+        read.shape.deviation = positive(*filter, "stddev", 0.5);
+    } else if (type == "mitchell") {
+        read.filter = HintedFilter::Mitchell;
+        read.shape.b = filter->number("B").value_or(1.0 / 3);
+        read.shape.c = filter->number("C").value_or(1.0 / 3);
+    } else if (type == "catmullrom") {
+        read.filter = HintedFilter::CatmullRom;
+    } else if (type == "lanczos") {
+        read.filter = HintedFilter::Lanczos;
+        read.shape.lobes = lobesOf(*filter);
+    } else {
+        filter->fail(fmt::format("'{}' is no filter that is read, expected box, tent, gaussian, "
+                                 "mitchell, catmullrom or lanczos",
+                                 type));
+    }
+    filter->requireAllRead();
 }
 
 Film filmOf(Context& context, const Plugin& sensor) {
@@ -69,7 +95,7 @@ Film filmOf(Context& context, const Plugin& sensor) {
         plugin->fail(fmt::format("'{}' is no film that is read, expected hdrfilm", plugin->type));
     film.width = sideOf(*plugin, "width", film.width);
     film.height = sideOf(*plugin, "height", film.height);
-    film.filter = filterOf(context, *plugin);
+    readFilter(*plugin, film);
     film.crop = cropOf(*plugin, film.width, film.height);
     for (const char* unused :
          {"pixel_format", "component_format", "file_format", "filename", "banner",
@@ -94,12 +120,20 @@ void readLens(const Plugin& sensor, FileCamera& camera) {
     if (!(camera.focusDistance > 0)) sensor.fail("focus_distance", "is 0, expected more");
 }
 
+/// Shares of the picture's width and height, by which its middle moves to the right and down.
+void readPrincipalPoint(const Plugin& sensor, FileCamera& camera) {
+    camera.shift.x = 2 * sensor.number("principal_point_offset_x").value_or(0) * *camera.halfWidth;
+    camera.shift.y =
+        -2 * sensor.number("principal_point_offset_y").value_or(0) * *camera.halfHeight;
+}
+
 void readPerspective(const Plugin& sensor, double aspect, FileCamera& camera) {
     camera.halfWidth = halfWidthOf(sensor, aspect);
-    for (const char* name : {"principal_point_offset_x", "principal_point_offset_y"})
-        if (sensor.number(name).value_or(0) != 0)
-            sensor.fail(name, "moves the picture, which is not supported");
-    if (sensor.type == "thinlens") readLens(sensor, camera);
+    camera.halfHeight = *camera.halfWidth / aspect;
+    if (sensor.type == "thinlens")
+        readLens(sensor, camera);
+    else
+        readPrincipalPoint(sensor, camera);
     sensor.skip("focus_distance");
     sensor.skip("fov_axis");
 }
@@ -139,12 +173,12 @@ void placeSensor(Context& context, const Plugin& sensor, bool isFirst) {
     } else if (sensor.type == "orthographic") {
         camera.projection = Projection::Orthographic;
         camera.halfWidth = 1;
+        camera.halfHeight = 1 / film.aspect();
     } else {
         sensor.fail(fmt::format("'{}' is no sensor that is read, expected perspective, thinlens "
                                 "or orthographic",
                                 sensor.type));
     }
-    camera.halfHeight = *camera.halfWidth / film.aspect();
     camera.nearDistance = sensor.number("near_clip", 0).value_or(camera.nearDistance);
     camera.farDistance = sensor.number("far_clip", 0).value_or(camera.farDistance);
     if (!(camera.farDistance > camera.nearDistance))
@@ -164,6 +198,7 @@ void placeSensor(Context& context, const Plugin& sensor, bool isFirst) {
     hints.height = film.height;
     hints.crop = film.crop;
     hints.filter = film.filter;
+    hints.filterShape = film.shape;
 }
 
 } // namespace stromboli::mitsuba

@@ -3,6 +3,7 @@
 #include "scene/build/read_file.hpp"
 #include "scene/build/tangents.hpp"
 #include "scene/build/vectors.hpp"
+#include "scene/mitsuba/mesh_paint.hpp"
 #include "scene/mitsuba/serialized.hpp"
 #include "scene/mitsuba/solids.hpp"
 
@@ -40,6 +41,11 @@ constexpr size_t kMostParts = 1'000'000;
 
 bool isFile(const Plugin& shape) {
     return shape.type == "obj" || shape.type == "ply" || shape.type == "serialized";
+}
+
+void requireFile(const Plugin& shape) {
+    if (!isFile(shape))
+        shape.fail("has a bsdf with a mesh attribute, expected a mesh from a file that has it");
 }
 
 void dropNormals(build::Mesh& mesh) {
@@ -95,7 +101,10 @@ Shapes::Part Shapes::single(const Plugin& shape) {
     for (const char* medium : {"interior", "exterior"})
         if (const Plugin* inside = shape.child(medium))
             inside->fail("is a medium, which is not supported");
-    const BoundMaterial& material = materials_.of(shape);
+    const BoundMaterial material = materials_.of(shape, [&](const Paint& paint) {
+        requireFile(shape);
+        return paintOfCorners(read(shape, paint.attribute).mesh, paint.layout);
+    });
     Part part{&shape, {}, shape.transform("to_world"), material.number};
     const bool isSphere = shape.type == "sphere";
     if (isSphere) part.toWorld *= sphereMatrix(shape);
@@ -115,8 +124,7 @@ Shapes::Part Shapes::single(const Plugin& shape) {
 
 build::Mesh Shapes::meshOf(const Plugin& shape, const BoundMaterial& material) {
     if (isFile(shape)) return fileMesh(shape, material);
-    if (material.usesVertexColors)
-        shape.fail("has a bsdf with a mesh attribute, expected a mesh from a file that has it");
+    if (!material.cornerColors.empty()) requireFile(shape);
     build::Mesh mesh = solidOf(shape);
     fitTo(material, mesh);
     return mesh;
@@ -141,15 +149,14 @@ build::Mesh Shapes::solidOf(const Plugin& shape) {
 }
 
 build::Mesh Shapes::fileMesh(const Plugin& shape, const BoundMaterial& material) {
-    const FileMesh& file = read(shape);
+    const FileMesh& file = read(shape, material.cornerColors);
     build::Mesh mesh = file.mesh;
-    if (material.usesVertexColors && !file.hasColors)
-        shape.fail("has a bsdf of vertex_color, and its file has no such attribute");
+    if (material.isPainted) spreadCorners(mesh);
     if (material.wantsCoordinates() && !file.hasCoordinates)
         context_.report().warn(fmt::format("{}: has no texture coordinates, which its bsdf looks "
                                            "up pictures by; (0, 0) is taken",
                                            shape.displayName()));
-    if (!material.usesVertexColors)
+    if (material.cornerColors.empty())
         for (VertexAttributes& a : mesh.attributes)
             a.color = glm::vec4(1);
     // Pictures have their first row at the coordinate 0; the readers of meshes turn v upside down,
@@ -174,7 +181,7 @@ void Shapes::fitTo(const BoundMaterial& material, build::Mesh& mesh) {
         for (VertexAttributes& a : mesh.attributes)
             if (a.tangent.w != 0) a.tangent.w = 1;
     }
-    if (material.wantsCoordinates() || material.usesVertexColors) return;
+    if (material.wantsCoordinates() || material.isPainted || !material.cornerColors.empty()) return;
     mesh.attributes.clear();
     for (build::MeshPart& part : mesh.parts)
         for (build::MeshTriangle& triangle : part)
@@ -182,17 +189,24 @@ void Shapes::fitTo(const BoundMaterial& material, build::Mesh& mesh) {
                 corner.attributes = kNoAttributes;
 }
 
-const FileMesh& Shapes::read(const Plugin& shape) {
+const FileMesh& Shapes::read(const Plugin& shape, const std::string& attribute) {
     const std::filesystem::path file = context_.document.file(shape, "filename");
     const bool isSerialized = shape.type == "serialized";
     const int64_t index = isSerialized ? shape.integer("shape_index").value_or(0) : 0;
     if (index < 0) shape.fail("shape_index", "is less than 0");
-    const auto key = std::pair(file.string(), index);
-    if (const auto found = files_.find(key); found != files_.end()) return found->second;
-    if (isSerialized)
-        return files_[key] = serializedMesh(build::readFile(file), file.string(), uint64_t(index));
-    return files_[key] =
-               shape.type == "obj" ? readObjMesh(context_, file) : readPlyMesh(context_, file);
+    if (!attribute.empty() && attribute != "vertex_color" && shape.type != "ply")
+        shape.fail(fmt::format("has a bsdf of {}, expected a mesh from a PLY file", attribute));
+    const auto [found, isNew] = files_.try_emplace(std::tuple(file.string(), index, attribute));
+    FileMesh& mesh = found->second;
+    if (isNew && isSerialized)
+        mesh = serializedMesh(build::readFile(file), file.string(), uint64_t(index));
+    else if (isNew && shape.type == "obj")
+        mesh = readObjMesh(context_, file);
+    else if (isNew)
+        mesh = readPlyMesh(context_, file, attribute);
+    if (!attribute.empty() && !mesh.hasColors)
+        shape.fail(fmt::format("has a bsdf of {}, and its file has no such attribute", attribute));
+    return mesh;
 }
 
 } // namespace stromboli::mitsuba

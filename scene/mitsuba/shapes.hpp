@@ -5,6 +5,7 @@
 
 #include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace stromboli::mitsuba {
@@ -34,11 +35,13 @@ class Shapes {
     build::Mesh solidOf(const Plugin& shape);
     build::Mesh fileMesh(const Plugin& shape, const BoundMaterial& material);
     static void fitTo(const BoundMaterial& material, build::Mesh& mesh);
-    const FileMesh& read(const Plugin& shape);
+    /// The shape's file, whose corners have colours by that attribute; empty: they may have none.
+    const FileMesh& read(const Plugin& shape, const std::string& attribute);
 
     Context& context_;
     Materials materials_;
-    std::map<std::pair<std::string, int64_t>, FileMesh> files_;
+    /// By file, index and mesh attribute.
+    std::map<std::tuple<std::string, int64_t, std::string>, FileMesh> files_;
     std::map<const Plugin*, std::vector<Part>> groups_;
 };
 

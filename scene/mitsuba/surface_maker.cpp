@@ -8,9 +8,11 @@ void SurfaceMaker::color(const char* name, const glm::dvec3& otherwise, glm::vec
                          TextureSlot slot) {
     const Shade shade = textures_.shade(plugin, name, ColorOf::Reflectance, otherwise);
     where = context_.builder.reflectedFraction(name, shade.color);
-    if (shade.isVertexColor && slot != TextureSlot::BaseColor)
-        plugin.fail(name, "is a mesh attribute, expected a colour or a picture");
-    usesVertexColors_ = usesVertexColors_ || shade.isVertexColor;
+    if (!shade.attribute.empty() && slot == TextureSlot::BaseColor) { // as the colours of corners
+        cornerColors_ = shade.attribute;
+        cornerPaint_ = *shade.texture;
+        return;
+    }
     if (!shade.texture) return;
     TextureUse use = *shade.texture;
     use.slot = slot;
@@ -60,7 +62,7 @@ Surface SurfaceMaker::done() {
                          (isBurleys && (material.burley.transmits() || material.burley.isThin));
     // Walls of old scenes are turned either way, as renderers that read them show both sides.
     material.isBlackBehind = !hasBack && !plugin.isOld;
-    return {std::move(material), usesVertexColors_, nullptr};
+    return {std::move(material), cornerColors_, cornerPaint_, nullptr};
 }
 
 } // namespace stromboli::mitsuba

@@ -32,7 +32,8 @@ class SurfaceMaker {
   private:
     Textures& textures_;
     Context& context_;
-    bool usesVertexColors_ = false;
+    std::string cornerColors_; ///< a mesh attribute
+    TextureUse cornerPaint_;
 };
 
 } // namespace stromboli::mitsuba

@@ -120,12 +120,16 @@ void applyTransform(const Plugin& texture, TextureUse& use) {
 
 } // namespace
 
+void appendTexel(std::vector<uint32_t>& words, const glm::dvec3& value, Layout layout) {
+    append(words, arranged(value, layout));
+}
+
 Shade Textures::shade(const Plugin& plugin, std::string_view name, ColorOf what,
                       const glm::dvec3& otherwise, Layout layout) {
     if (const std::optional<glm::dvec3> color = colorOf(plugin, name, what))
-        return {*color, {}, false};
+        return {*color, {}, {}};
     const Plugin* object = plugin.child(name);
-    if (!object) return {otherwise, {}, false};
+    if (!object) return {otherwise, {}, {}};
     if (object->tag != "texture") object->fail("is no texture, expected a colour or a texture");
     return texture(*object, what, layout);
 }
@@ -138,17 +142,43 @@ glm::uvec2 Textures::sizeOf(const TextureUse& use) const {
 Shade Textures::texture(const Plugin& texture, ColorOf what, Layout layout) {
     if (texture.type == "bitmap") return bitmap(texture, layout);
     if (texture.type == "checkerboard") return checkerboard(texture, what, layout);
-    if (texture.type == "mesh_attribute") {
-        const std::string name = texture.requireText("name");
-        if (name != "vertex_color" || layout != Layout::Color)
-            texture.fail("name", fmt::format("is '{}', expected vertex_color, for a colour", name));
-        const double scale = texture.number("scale").value_or(1);
-        texture.requireAllRead();
-        return {glm::dvec3(scale), {}, true};
-    }
+    if (texture.type == "mesh_attribute") return meshAttribute(texture, layout);
     texture.fail(fmt::format("'{}' is no texture that is read, expected bitmap, checkerboard, "
                              "mesh_attribute or uniform",
                              texture.type));
+}
+
+Shade Textures::meshAttribute(const Plugin& texture, Layout layout) {
+    const std::string name = texture.requireText("name");
+    if (!name.starts_with("vertex_") && !name.starts_with("face_"))
+        texture.fail("name", fmt::format("is '{}', expected vertex_... or face_...", name));
+    const double scale = texture.number("scale").value_or(1);
+    texture.requireAllRead();
+    TextureUse use;
+    use.texture = kFirstPaint + uint32_t(paints_.size());
+    use.uvSet = 1;
+    paints_.push_back({name, layout});
+    return {glm::dvec3(scale), use, name};
+}
+
+const Paint* Textures::paintOf(uint32_t texture) const {
+    return texture < kFirstPaint ? nullptr : &paints_.at(texture - kFirstPaint);
+}
+
+uint32_t Textures::add(TextureImage image, const Plugin& shape) {
+    countBytes(image, shape);
+    Texture texture;
+    texture.image = context_.builder.addImage(std::move(image));
+    texture.wrapU = texture.wrapV = Wrap::Clamp;
+    return context_.builder.addTexture(texture);
+}
+
+void Textures::countBytes(const TextureImage& image, const Plugin& plugin) {
+    bytes_ += image.words.size() * sizeof(uint32_t);
+    if (bytes_ > physicalMemory() / 2)
+        plugin.fail(fmt::format("brings the pictures to {} MiB, more than half of this machine's "
+                                "memory; --max-texture N shrinks them",
+                                bytes_ >> 20));
 }
 
 Shade Textures::bitmap(const Plugin& plugin, Layout layout) {
@@ -164,7 +194,7 @@ Shade Textures::bitmap(const Plugin& plugin, Layout layout) {
         plugin.skip(unused);
     plugin.requireAllRead();
     use.texture = context_.builder.addTexture(texture);
-    return {glm::dvec3(1), use, false};
+    return {glm::dvec3(1), use, {}};
 }
 
 uint32_t Textures::image(const Plugin& plugin, bool raw, Layout layout) {
@@ -180,11 +210,7 @@ uint32_t Textures::image(const Plugin& plugin, bool raw, Layout layout) {
         makeOpaque(image);
     else if (layout != Layout::Grey || !isGrey(image))
         image = rearranged(image, !raw && image.format == TexelFormat::Rgba8, layout);
-    bytes_ += image.words.size() * sizeof(uint32_t);
-    if (bytes_ > physicalMemory() / 2)
-        plugin.fail(fmt::format("brings the pictures to {} MiB, more than half of this machine's "
-                                "memory; --max-texture N shrinks them",
-                                bytes_ >> 20));
+    countBytes(image, plugin);
     return images_[key] = context_.builder.addImage(std::move(image));
 }
 
@@ -208,7 +234,7 @@ Shade Textures::checkerboard(const Plugin& plugin, ColorOf what, Layout layout) 
     applyTransform(plugin, use);
     plugin.requireAllRead();
     use.texture = context_.builder.addTexture(texture);
-    return {glm::dvec3(1), use, false};
+    return {glm::dvec3(1), use, {}};
 }
 
 } // namespace stromboli::mitsuba

@@ -136,6 +136,8 @@ struct Material {
     /// one's; the other one has the same emission.
     uint32_t other = kNoMaterial;
     float otherShare = 0;
+    /// Camera rays pass it, up to the first surface that they meet; all others meet it.
+    bool isHiddenFromCamera = false;
     bool isBlackBehind = false; ///< nothing is scattered to where the normals do not point
     ReliefRule reliefRule = ReliefRule::Bend;
     /// Bumps dim light that comes at grazing angles, as facets would (Conty Estevez, Lecocq and

@@ -84,6 +84,8 @@ struct FileCamera {
     /// all of them and more on its longer side. Where it states one, the picture's shape gives the
     /// other. Where it states none, scene/camera has a default.
     std::optional<double> halfWidth, halfHeight;
+    /// Where the middle of a perspective picture lies beside the axis, right and up, as tangents.
+    glm::dvec2 shift{0.0};
     double nearDistance = 0; ///< world units along the view axis
     double farDistance = 1e30;
     /// A thin lens, in world units (scene/camera/camera.hpp); 0: a pinhole.

@@ -7,9 +7,14 @@
 
 namespace stromboli {
 
-Scene loadPly(const std::filesystem::path& file, const SceneConventions& conventions) try {
+Scene loadPly(const std::filesystem::path& file, const SceneConventions& conventions) {
+    return loadPlyWith({}, file, conventions);
+}
+
+Scene loadPlyWith(const PlyAttribute& colors, const std::filesystem::path& file,
+                  const SceneConventions& conventions) try {
     build::SceneBuilder builder(file.string(), conventions);
-    ply::PlyReader(file, builder).read();
+    ply::PlyReader(file, builder, colors).read();
     return builder.finish();
 } catch (const std::bad_alloc&) {
     throw SceneError(file.string(), 0, "", "does not fit in memory");

@@ -4,13 +4,24 @@
 #include "scene/model/scene.hpp"
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace stromboli {
 
+/// What of a file the colours of corners are: `color` by any of its usual names, or another
+/// attribute as Mitsuba names them: `name_r`, `name_g` and `name_b` are name_color, properties like
+/// `name_x`, `name_0` are name, whose first number is taken for all three. A face without is white.
+struct PlyAttribute {
+    std::string name = "color";
+    bool isOfFaces = false;
+};
+
 /// Reads a PLY file, ASCII or binary; docs/obj_ply_files.md says what of it. Throws SceneError with
 /// file and line, or in binary files element and number, for anything it cannot make sense of.
 Scene loadPly(const std::filesystem::path& file, const SceneConventions& conventions = {});
+Scene loadPlyWith(const PlyAttribute& colors, const std::filesystem::path& file,
+                  const SceneConventions& conventions);
 
 /// True if a file begins with the line "ply".
 bool looksLikePly(std::string_view beginning);

@@ -28,9 +28,10 @@ bool isCornerList(const Property& property) {
 
 } // namespace
 
-PlyReader::PlyReader(const std::filesystem::path& file, build::SceneBuilder& builder)
-    : file_(file), name_(file.string()), builder_(builder), bytes_(build::readFile(file)),
-      header_(readHeader(name_, bytes_, builder.report())),
+PlyReader::PlyReader(const std::filesystem::path& file, build::SceneBuilder& builder,
+                     const PlyAttribute& colors)
+    : file_(file), name_(file.string()), builder_(builder), colors_(colors),
+      bytes_(build::readFile(file)), header_(readHeader(name_, bytes_, builder.report())),
       body_(name_, bytes_, header_, builder.report()) {}
 
 void PlyReader::read() {
@@ -42,7 +43,8 @@ void PlyReader::read() {
     vertexCount_ = vertices->count;
     for (const Element& element : header_.elements)
         readElements(element);
-    build::requireMemory(name_, corners_.size() * kBytesOfTriangle);
+    const uint64_t ofColors = faceColors_.empty() ? 0 : 2 * sizeof(VertexAttributes); // there too
+    build::requireMemory(name_, corners_.size() * (kBytesOfTriangle + ofColors));
     const std::array<uint32_t, 1> materials = {material()};
     const std::string instance = file_.stem().string();
     const build::ShapeId shape = builder_.addMesh(instance, makeMesh());
@@ -52,7 +54,8 @@ void PlyReader::read() {
 void PlyReader::readElements(const Element& element) {
     body_.begin(element);
     if (element.name == "vertex")
-        vertices_ = readVertices(element, body_, builder_);
+        vertices_ =
+            readVertices(element, body_, builder_, colors_.isOfFaces ? "color" : colors_.name);
     else if (element.name == "face" || element.name == "tristrips")
         readFaces(element);
     else
@@ -61,10 +64,12 @@ void PlyReader::readElements(const Element& element) {
 
 void PlyReader::readFaces(const Element& element) {
     bool hasCorners = false;
+    FaceColors colors(element, colors_.name);
+    const bool readsColors = colors_.isOfFaces && colors.areThere();
     for (const Property& property : element.properties) {
         if (isCornerList(property) && !hasCorners)
             hasCorners = true;
-        else
+        else if (!readsColors || !colors.isColor(property))
             builder_.report().ignore("properties of faces", "only their corners are read");
     }
     if (!hasCorners && element.count > 0) body_.fail("has no list 'vertex_indices'");
@@ -74,6 +79,10 @@ void PlyReader::readFaces(const Element& element) {
         body_.beginElement(i);
         bool isRead = false;
         for (const Property& property : element.properties) {
+            if (readsColors && colors.isColor(property)) {
+                colors.set(property, body_.number(property.type));
+                continue;
+            }
             if (!isCornerList(property) || std::exchange(isRead, true)) {
                 body_.skip(property);
                 continue;
@@ -90,6 +99,7 @@ void PlyReader::readFaces(const Element& element) {
             else
                 sizes_.push_back(uint32_t(length));
         }
+        if (readsColors) faceColors_.resize(sizes_.size(), glm::vec4(colors.color(), 1));
         body_.endElement();
     }
 }
@@ -129,18 +139,30 @@ build::Mesh PlyReader::makeMesh() {
     build::Mesh mesh;
     mesh.positions = std::move(vertices_.positions);
     mesh.normals = std::move(vertices_.normals);
+    if (colors_.isOfFaces)
+        for (VertexAttributes& a : vertices_.attributes)
+            a.color = glm::vec4(1);
     mesh.attributes = std::move(vertices_.attributes);
     build::MeshPart& part = mesh.parts.emplace_back();
     build::PolygonCutter polygons(mesh, builder_.report());
     std::vector<build::Corner> face;
     size_t first = 0;
-    for (const uint32_t size : sizes_) {
+    const bool hasAttributes = !mesh.attributes.empty();
+    faceColors_.resize(faceColors_.empty() ? 0 : sizes_.size(), glm::vec4(1));
+    for (size_t i = 0; i < sizes_.size(); ++i) {
         face.clear();
-        for (const uint32_t v : std::span(corners_).subspan(first, size))
-            face.push_back({v, mesh.normals.empty() ? kNoNormals : v,
-                            mesh.attributes.empty() ? kNoAttributes : v});
+        for (const uint32_t v : std::span(corners_).subspan(first, sizes_[i])) {
+            uint32_t attributes = hasAttributes ? v : kNoAttributes;
+            if (!faceColors_.empty()) { // no two faces share a corner
+                VertexAttributes a = hasAttributes ? mesh.attributes[v] : VertexAttributes{};
+                a.color = faceColors_[i];
+                attributes = uint32_t(mesh.attributes.size());
+                mesh.attributes.push_back(a);
+            }
+            face.push_back({v, mesh.normals.empty() ? kNoNormals : v, attributes});
+        }
         polygons.add(face, part);
-        first += size;
+        first += sizes_[i];
     }
     return mesh;
 }
@@ -148,8 +170,8 @@ build::Mesh PlyReader::makeMesh() {
 /// The format has no materials. Where vertices have colours, those are what the surface reflects.
 uint32_t PlyReader::material() {
     Material material = build::greyMaterial();
-    if (vertices_.hasColors) material.albedo = glm::vec3(1);
-    if (vertices_.hasAlpha) material.alphaMode = AlphaMode::Blend;
+    if (vertices_.hasColors || !faceColors_.empty()) material.albedo = glm::vec3(1);
+    if (vertices_.hasAlpha && !colors_.isOfFaces) material.alphaMode = AlphaMode::Blend;
     return builder_.addMaterial(material);
 }
 

@@ -2,6 +2,8 @@
 
 #include "scene/build/scene_builder.hpp"
 #include "scene/ply/body.hpp"
+#include "scene/ply/face_colors.hpp"
+#include "scene/ply/load_ply.hpp"
 #include "scene/ply/vertices.hpp"
 
 #include <filesystem>
@@ -13,7 +15,8 @@ namespace stromboli::ply {
 /// Reads a PLY file and hands the builder the mesh that it is.
 class PlyReader {
   public:
-    PlyReader(const std::filesystem::path& file, build::SceneBuilder& builder);
+    PlyReader(const std::filesystem::path& file, build::SceneBuilder& builder,
+              const PlyAttribute& colors);
     void read();
 
   private:
@@ -28,13 +31,15 @@ class PlyReader {
     const std::filesystem::path& file_;
     std::string name_; ///< for messages
     build::SceneBuilder& builder_;
+    PlyAttribute colors_;
     std::string bytes_;
     Header header_;
     Body body_;
     uint64_t vertexCount_ = 0;
     Vertices vertices_;
-    std::vector<uint32_t> corners_; ///< of all faces, one face after the other
-    std::vector<uint32_t> sizes_;   ///< how many corners each of them has
+    std::vector<uint32_t> corners_;     ///< of all faces, one face after the other
+    std::vector<uint32_t> sizes_;       ///< how many corners each of them has
+    std::vector<glm::vec4> faceColors_; ///< of each of them; empty: none are wanted, or there
 };
 
 } // namespace stromboli::ply

@@ -56,32 +56,35 @@ Role roleOf(const Property& property) {
     return None;
 }
 
-/// The number that stands for 1 in a colour of this type.
-double fullScale(ScalarType type) {
-    switch (type) {
-    case ScalarType::Int8:
-        return std::numeric_limits<int8_t>::max();
-    case ScalarType::UInt8:
-        return std::numeric_limits<uint8_t>::max();
-    case ScalarType::Int16:
-        return std::numeric_limits<int16_t>::max();
-    case ScalarType::UInt16:
-        return std::numeric_limits<uint16_t>::max();
-    case ScalarType::Int32:
-        return std::numeric_limits<int32_t>::max();
-    case ScalarType::UInt32:
-        return std::numeric_limits<uint32_t>::max();
-    default:
-        return 1;
+std::optional<int> channelNamed(const Property& property, const std::string& name) {
+    if (property.countType) return std::nullopt;
+    if (name == "color") {
+        const Role role = roleOf(property);
+        return role >= Red && role <= Blue ? std::optional(role - Red) : std::nullopt;
     }
+    const std::string_view text = property.name;
+    if (text.size() < 3 || text[text.size() - 2] != '_') return std::nullopt;
+    const std::string_view stem = text.substr(0, text.size() - 2);
+    const size_t color = std::string_view("rgb").find(text.back());
+    if (color != std::string_view::npos)
+        return std::string(stem) + "_color" == name ? std::optional(int(color)) : std::nullopt;
+    const size_t number = std::string_view("012").find(text.back());
+    const size_t axis = std::string_view("xyz").find(text.back());
+    const size_t channel = std::min(number, axis);
+    if (stem != name || channel == std::string_view::npos) return std::nullopt;
+    return int(channel);
 }
 
 class VertexReader {
   public:
-    VertexReader(const Element& element, Body& body, build::SceneBuilder& builder)
-        : element_(element), body_(body), builder_(builder) {
+    VertexReader(const Element& element, Body& body, build::SceneBuilder& builder,
+                 const std::string& colors)
+        : element_(element), body_(body), builder_(builder), isColor_(colors == "color") {
         for (const Property& property : element.properties) {
             Role role = roleOf(property);
+            if (!isColor_ && role >= Red && role <= Alpha) role = None;
+            if (const std::optional<int> channel = channelNamed(property, colors))
+                role = Role(Red + *channel);
             if (role != None && has_[role]) role = None; // another name for the same
             if (role == None)
                 builder.report().ignore(
@@ -96,11 +99,12 @@ class VertexReader {
         if (!has_[X] || !has_[Y] || !has_[Z]) body.fail("vertices have no x, y and z");
         hasNormals_ = has_[Nx] && has_[Ny] && has_[Nz];
         hasUv_ = has_[U] && has_[V];
-        hasColors_ = has_[Red] && has_[Green] && has_[Blue] && builder.conventions().textures;
+        hasColors_ = has_[Red] && (!isColor_ || (has_[Green] && has_[Blue])) &&
+                     builder.conventions().textures;
     }
 
     Vertices read() {
-        if (hasColors_)
+        if (hasColors_ && isColor_)
             builder_.report().assume(colorScale_ == 1
                                          ? "colours of vertices are linear, as floats are"
                                          : "colours of vertices are sRGB, as whole numbers are");
@@ -144,6 +148,11 @@ class VertexReader {
     glm::vec4 colorOf() {
         const bool isLinear = colorScale_ == 1;
         glm::vec4 color(1);
+        if (!isColor_) {
+            for (int i = 0; i < 3; ++i)
+                color[i] = finite(values_[has_[Blue] ? Red + i : Red]);
+            return color;
+        }
         for (int i = 0; i < 3; ++i) {
             const double value = std::max(double(finite(values_[Red + i])), 0.0) / colorScale_;
             color[i] = float(isLinear ? value : images::srgbToLinear(std::min(value, 1.0)));
@@ -167,14 +176,39 @@ class VertexReader {
     std::vector<Role> roles_; ///< one for each property
     std::array<bool, kRoleCount> has_{};
     std::array<double, kRoleCount> values_{};
+    bool isColor_; ///< what colours are read from, and no other attribute
     double colorScale_ = 1, alphaScale_ = 1;
     bool hasNormals_ = false, hasUv_ = false, hasColors_ = false;
 };
 
 } // namespace
 
-Vertices readVertices(const Element& element, Body& body, build::SceneBuilder& builder) {
-    return VertexReader(element, body, builder).read();
+std::optional<int> channelOfAttribute(const Property& property, const std::string& name) {
+    return channelNamed(property, name);
+}
+
+double fullScale(ScalarType type) {
+    switch (type) {
+    case ScalarType::Int8:
+        return std::numeric_limits<int8_t>::max();
+    case ScalarType::UInt8:
+        return std::numeric_limits<uint8_t>::max();
+    case ScalarType::Int16:
+        return std::numeric_limits<int16_t>::max();
+    case ScalarType::UInt16:
+        return std::numeric_limits<uint16_t>::max();
+    case ScalarType::Int32:
+        return std::numeric_limits<int32_t>::max();
+    case ScalarType::UInt32:
+        return std::numeric_limits<uint32_t>::max();
+    default:
+        return 1;
+    }
+}
+
+Vertices readVertices(const Element& element, Body& body, build::SceneBuilder& builder,
+                      const std::string& colors) {
+    return VertexReader(element, body, builder, colors).read();
 }
 
 } // namespace stromboli::ply

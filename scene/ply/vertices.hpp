@@ -4,6 +4,8 @@
 #include "scene/build/scene_builder.hpp"
 #include "scene/ply/body.hpp"
 
+#include <optional>
+
 namespace stromboli::ply {
 
 /// What the vertices of a file have, one of each for every vertex.
@@ -15,8 +17,16 @@ struct Vertices {
     bool hasAlpha = false; ///< some vertices are not opaque
 };
 
+/// Which number of the attribute of that name (PlyAttribute) it is: 0, 1 or 2, red, green and blue
+/// of colours.
+std::optional<int> channelOfAttribute(const Property& property, const std::string& name);
+/// The number that stands for 1 in a colour of this type. Whole numbers are sRGB, floats linear.
+double fullScale(ScalarType type);
+
 /// Reads all vertices, which `body` is at the beginning of. Throws SceneError if they have no x, y
 /// and z, or if one of these is not finite.
-Vertices readVertices(const Element& element, Body& body, build::SceneBuilder& builder);
+/// colors: the name of the attribute that their colours are.
+Vertices readVertices(const Element& element, Body& body, build::SceneBuilder& builder,
+                      const std::string& colors);
 
 } // namespace stromboli::ply

@@ -14,6 +14,7 @@ struct PictureGrid {
 PictureGrid pictureGrid;
 
 void findPictureGrid() {
+    // A middle beside the view axis is in cameraBack, whose part along the axis stays 1.
     pictureGrid.corner = frame.cameraUp - frame.cameraRight;
     if (!ORTHOGRAPHIC) pictureGrid.corner -= frame.cameraBack;
     pictureGrid.right = frame.cameraRight * (2.0 / float(frame.width));

@@ -120,6 +120,13 @@ float opacityAt(uint place, vec2 b) {
     return opacityAt(materialOf(fetchPrimitive(primitive)), attributesAt(primitive, b));
 }
 
+/// For rays that come straight from the camera: they pass what is hidden from it.
+float opacityForCamera(uint place, vec2 b) {
+    if (!HIDES_SURFACES) return opacityAt(place, b);
+    const uint row = materialOf(fetchPrimitive(primitiveAt(place)));
+    return (fetchDetail(row).flags & DETAIL_IS_HIDDEN) != 0u ? 0.0 : opacityAt(place, b);
+}
+
 /// By what the emission of an emissive primitive is multiplied at a point of it, for light samples: by its
 /// texture, and by the share of it that is there.
 vec3 emissionFactorAt(uint primitive, uint materialRow, vec2 b) {

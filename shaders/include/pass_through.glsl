@@ -41,7 +41,10 @@ uint drawnMaterial(SurfacePoint s) {
 /// the light that is left; of others, a path that finds light or scatters, the surface takes the share of its opacity.
 bool passesThrough() {
     if (!isTracing(phase) || ray.hitPrimitive == NO_PRIMITIVE) return false;
-    const float opacity = opacityAt(ray.hitPrimitive, vec2(ray.b1, ray.b2));
+    const vec2 b = vec2(ray.b1, ray.b2);
+    const bool isStraight = HIDES_SURFACES && phase == PHASE_PATH && bounce == 0u;
+    const float opacity =
+        isStraight ? opacityForCamera(ray.hitPrimitive, b) : opacityAt(ray.hitPrimitive, b);
     if (phase == PHASE_SHADOW) {
         directValue *= 1.0 - opacity;
         if (!(dot(directValue, vec3(1.0)) > 0.0)) return false;

@@ -59,6 +59,10 @@ void arrive() {
         radiance = 0.5 * shadingNormal(surface) + 0.5;
         return;
     }
+    if (INTEGRATOR == INTEGRATOR_DEPTH) {
+        radiance = vec3(ray.tMax);
+        return;
+    }
 #ifdef RICH_MATERIALS
     if (HAS_BLENDS) surface.material = drawnMaterial(surface);
     Relief relief;
@@ -133,7 +137,7 @@ void scatter(vec3 u, float roulette) {
     throughput *= b.weight;
     const float largest = largestComponent(throughput);
     if (!(largest > 0.0)) return;
-    if (ROULETTE == ROULETTE_THROUGHPUT && bounce >= ROULETTE_THROUGHPUT_START) {
+    if (ROULETTE == ROULETTE_THROUGHPUT && bounce >= ROULETTE_START) {
         const float q = min(ROULETTE_MAX_CONTINUE, ROULETTE_BOLDNESS * largest);
         if (roulette >= q) return;
         throughput *= 1.0 / q;
@@ -168,7 +172,7 @@ void beginSample() {
 }
 
 void startCameraRay(vec2 u) {
-    const CameraRay c = cameraRayOfSample(pixelAt, pixelId, sampleIndex(), u);
+    const CameraRay c = cameraRayOfSample(pixelAt, pixelId, sampleIndex(), u, filterWeight);
     trace(PHASE_PATH, c.origin, c.direction, c.tMin, c.tMax, NO_PRIMITIVE);
 }
 
@@ -196,7 +200,8 @@ bool branchIsOver() { return SPLITS && phase == PHASE_ENDED && branchesLeft > 0u
 
 void finishSample() {
     if (SPLITS && splitPoint.bounce != 0u) radiance /= float(frame.branches);
-    addSample(pixelState, radiance);
+    addSample(pixelState, radiance, filterWeight);
+    if (samplesHaveWeights()) radiance *= filterWeight; // as frame.keepsValue shows it
     phase = PHASE_NEXT;
 }
 

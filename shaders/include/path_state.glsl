@@ -20,6 +20,7 @@ uvec2 pixelAt;  ///< column, row (from the top) in the whole picture
 uint bounce;    ///< scatterings so far
 vec3 throughput;
 vec3 radiance;
+float filterWeight; ///< of the sample (pixel_filter.glsl)
 bool countsEmission; ///< light that the ray finds adds to the picture ...
 float bouncePdf; ///< ... weighted (mis.glsl), by this density of the ray's direction; 0: not weighted
 vec3 departureNormal; ///< shading normal of the surface that the ray has left, for that weight
@@ -67,6 +68,12 @@ uvec4 randomWords(uint slot) {
         block |= BRANCH_BLOCKS;
     }
     return randomWords(pixelId, sample_, block, frame.seed);
+}
+
+/// That of the sample under way, when its path is taken up again: samples have few numbers to remember.
+void restoreFilterWeight() {
+    const vec4 u = unitFloats(randomWords(pixelId, sampleIndex(), 0u, frame.seed));
+    placeInPixel(u.zw, filterWeight);
 }
 
 #ifdef RICH_MATERIALS

@@ -1,5 +1,6 @@
 // Where in and about its pixel a sample falls: in proportion to the pixel's filter, so that all samples weigh the
-// same (filter importance sampling; Ernst, Stamminger and Greiner 2006).
+// same (filter importance sampling; Ernst, Stamminger and Greiner 2006). Of a filter that is negative in places, in
+// proportion to its absolute value: there samples have weights, whose mean is 1.
 
 /// Integral of the four-term Blackman-Harris window (Harris 1978) from its left end to t in [0, 1], over the whole
 /// integral, and its derivative.
@@ -37,10 +38,26 @@ vec2 sampleTent(vec2 u) {
     return mix(above, below, lessThan(u, vec2(0.5)));
 }
 
-/// From the pixel's upper left corner, in pixels.
-vec2 placeInPixel(vec2 u) {
-    if (PIXEL_FILTER == FILTER_GAUSSIAN) return 0.5 + sampleGaussian(u);
-    if (PIXEL_FILTER == FILTER_TENT) return 0.5 + sampleTent(u);
+#ifdef RICH_MATERIALS
+/// From the pixel's middle, along columns or rows. weight: the other direction's is multiplied by it.
+float sampleFilterTable(float u, inout float weight) {
+    const float at = u * float(FILTER_CELLS);
+    const int cell = min(int(at), int(FILTER_CELLS) - 1);
+    const vec4 row = uintBitsToFloat(ROW(filterRows, uint(cell)));
+    weight *= row.z;
+    return row.x + (at - float(cell)) * row.y;
+}
+#endif
+
+/// From the pixel's upper left corner, in pixels. weight: that of the sample.
+vec2 placeInPixel(vec2 u, out float weight) {
+    weight = 1.0;
+    if (PIXEL_FILTER == FILTER_GAUSSIAN) return 0.5 + (1.0 + FILTER_EXTRA) * sampleGaussian(u);
+    if (PIXEL_FILTER == FILTER_TENT) return 0.5 + (1.0 + FILTER_EXTRA) * sampleTent(u);
+#ifdef RICH_MATERIALS
+    if (PIXEL_FILTER == FILTER_TABLE)
+        return 0.5 + vec2(sampleFilterTable(u.x, weight), sampleFilterTable(u.y, weight));
+#endif
     if (PIXEL_FILTER == FILTER_BLACKMAN_HARRIS)
         return 0.5 + BLACKMAN_HARRIS_RADIUS * (2.0 * vec2(sampleBlackmanHarris(u.x), sampleBlackmanHarris(u.y)) - 1.0);
     return u;

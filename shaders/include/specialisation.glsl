@@ -11,6 +11,7 @@ layout(constant_id = SPEC_BSDF_KINDS) const uint BSDF_KINDS = 31u;
 layout(constant_id = SPEC_HAS_EMISSION) const bool HAS_EMISSION = true;
 layout(constant_id = SPEC_LIGHT_KINDS) const uint LIGHT_KINDS = 255u;
 layout(constant_id = SPEC_ROULETTE) const uint ROULETTE = ROULETTE_THROUGHPUT;
+layout(constant_id = SPEC_ROULETTE_START) const uint ROULETTE_START = 3u;
 layout(constant_id = SPEC_ORTHOGRAPHIC) const bool ORTHOGRAPHIC = false;
 layout(constant_id = SPEC_CLIP_ALONG_RAY) const bool CLIP_ALONG_RAY = false;
 layout(constant_id = SPEC_LIGHT_GROUPS) const uint LIGHT_GROUPS = 7u;
@@ -45,11 +46,13 @@ layout(constant_id = SPEC_HAS_ENVIRONMENT) const bool HAS_ENVIRONMENT = true;
 layout(constant_id = SPEC_HAS_BACKDROP) const bool HAS_BACKDROP = true;
 layout(constant_id = SPEC_HAS_LENS) const bool HAS_LENS = false;
 layout(constant_id = SPEC_PIXEL_FILTER) const uint PIXEL_FILTER = FILTER_BOX;
+layout(constant_id = SPEC_FILTER_EXTRA) const float FILTER_EXTRA = 0.0;
 #else
 const bool HAS_ENVIRONMENT = false;
 const bool HAS_BACKDROP = false;
 const bool HAS_LENS = false;
 const uint PIXEL_FILTER = FILTER_BOX;
+const float FILTER_EXTRA = 0.0;
 #endif
 #ifdef ONE_LIGHT
 const uint LIGHT_CHOICE = LIGHT_CHOICE_ONE;
@@ -68,6 +71,7 @@ layout(constant_id = SPEC_ALPHA) const bool HAS_ALPHA = false;
 layout(constant_id = SPEC_TANGENT_FRAMES) const bool TANGENT_FRAMES = false;
 layout(constant_id = SPEC_BLENDS) const bool HAS_BLENDS = false;
 layout(constant_id = SPEC_RELIEF_RULES) const bool RELIEF_RULES = false;
+layout(constant_id = SPEC_HIDES_SURFACES) const bool HIDES_SURFACES = false;
 #else
 const bool HAS_ALPHA = false;
 const bool RELIEF_RULES = false;
@@ -86,6 +90,8 @@ layout(constant_id = SPEC_TRAVERSAL_LEGS) const uint TRAVERSAL_LEGS = 1u;
 const uint TRAVERSAL_LEGS = 1u;
 #endif
 
+/// Whether samples have weights by their place about the pixel, some of them negative.
+bool samplesHaveWeights() { return PIXEL_FILTER == FILTER_TABLE; }
 bool sceneHasBsdf(uint kind) { return (BSDF_KINDS & (1u << kind)) != 0u; }
 #ifdef FACET_MATERIALS
 /// Kinds that only these modules have.

@@ -21,7 +21,8 @@ SHARED_BEGIN
 #define BINDING_SUSPENDED 10
 #define BINDING_STATUS 11
 #define BINDING_SPLITS 12 // of suspended paths
-#define BINDING_COUNT 13
+#define BINDING_FILTER 13 // the table of a pixel filter; read row by row as well
+#define BINDING_COUNT 14
 #define SCENE_BINDING_COUNT 7 // bindings 0 to 6 hold the scene and are read row by row
 
 /// Numbers of rows in texel buffers are cut to these bits; no buffer has more rows (docs/kernel.md,
@@ -72,11 +73,15 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_FACETS 39 // FACETS_ bits: of microfacets of conductors, dielectrics, plastic
 #define SPEC_BLACK_BACKS 40 // materials are black where normals do not point
 #define SPEC_BLENDS 41 // materials are mixtures of others
+#define SPEC_FILTER_EXTRA 42 // a float: Gaussian and tent are wider by this share
+#define SPEC_HIDES_SURFACES 43 // camera rays pass some materials (DETAIL_IS_HIDDEN)
 // Of the modules with PLACEMENTS alone:
-#define SPEC_HAS_PLACEMENTS 42 // prototypes are placed in the world (scene_types.h)
-#define SPEC_TRAVERSAL_LEGS 43 // between two service passes, each of SPEC_TRAVERSAL_STEPS
-#define SPEC_RELIEF_RULES 44 // some material has MATERIAL_RELIEF_ bits
-#define SPEC_COUNT 45
+#define SPEC_HAS_PLACEMENTS 44 // prototypes are placed in the world (scene_types.h)
+#define SPEC_TRAVERSAL_LEGS 45 // between two service passes, each of SPEC_TRAVERSAL_STEPS
+#define SPEC_RELIEF_RULES 47 // some material has MATERIAL_RELIEF_ bits (those with RICH_MATERIALS)
+// Of all modules:
+#define SPEC_ROULETTE_START 46 // bounces before roulette by throughput
+#define SPEC_COUNT 48
 
 SHARED_CONST uint TEXEL_KIND_NEAREST = 1u;
 SHARED_CONST uint TEXEL_KIND_BILINEAR = 2u;
@@ -88,6 +93,7 @@ SHARED_CONST uint TEXEL_KIND_LOOSE = 64u; ///< some texture is in no bundle
 
 SHARED_CONST uint INTEGRATOR_PATH = 0u;
 SHARED_CONST uint INTEGRATOR_NORMALS = 1u;
+SHARED_CONST uint INTEGRATOR_DEPTH = 2u;
 
 SHARED_CONST uint DIRECT_LIGHTS = 0u;
 SHARED_CONST uint DIRECT_HEMISPHERE = 1u;
@@ -97,6 +103,8 @@ SHARED_CONST uint FILTER_BOX = 0u;
 SHARED_CONST uint FILTER_GAUSSIAN = 1u;
 SHARED_CONST uint FILTER_BLACKMAN_HARRIS = 2u;
 SHARED_CONST uint FILTER_TENT = 3u; ///< of radius 1
+SHARED_CONST uint FILTER_TABLE = 4u; ///< of cells that FilterCell describes; samples have weights
+SHARED_CONST uint FILTER_CELLS = 4096u;
 /// In pixels; of the Gaussian, what lies beyond four standard deviations is left out.
 SHARED_CONST float GAUSSIAN_DEVIATION = 0.5f;
 SHARED_CONST float GAUSSIAN_RADIUS = 2.0f;
@@ -117,9 +125,17 @@ SHARED_CONST uint LIGHT_CHOICE_EACH = 4u; ///< all of them in turn
 SHARED_CONST uint ROULETTE_NONE = 0u;
 SHARED_CONST uint ROULETTE_THROUGHPUT = 1u;
 SHARED_CONST uint ROULETTE_FIXED = 2u;
-SHARED_CONST uint ROULETTE_THROUGHPUT_START = 3u; // bounces before roulette by throughput
 SHARED_CONST float ROULETTE_MAX_CONTINUE = 0.95f;
 SHARED_CONST float ROULETTE_BOLDNESS = 3.0f; // probability to go on, over throughput
+
+/// A stretch of a pixel filter along columns or rows, one of FILTER_CELLS that are met equally often.
+struct FilterCell {
+    float begin; ///< from the pixel's middle, pixels
+    float width;
+    float weight; ///< of samples in it: the filter's integral over it, of FILTER_CELLS times the mean
+    uint unused;
+};
+SHARED_ROWS(FilterCell, 1);
 
 SHARED_END
 

@@ -28,7 +28,8 @@ struct SeenPixel {
     uint target;    ///< samples it shall have
     uint pixel;     ///< row * width + column in the whole picture
     uint placement; ///< that the primitive is in, in Scene::placements; NO_SEEN_PLACEMENT: none
-    uint unused0, unused1, unused2;
+    float covered;  ///< the sum of the hits' weights by the pixel filter
+    uint unused0, unused1;
 };
 SHARED_ROWS(SeenPixel, 5);
 SHARED_OFFSET(SeenPixel, b1, 48);

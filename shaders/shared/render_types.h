@@ -14,7 +14,7 @@ struct Frame {
     uint height;
     vec3 cameraUp; ///< times halfHeight
     uint firstSample; ///< number of the first sample of each pixel: 0, that of a block, or of a sample on its own
-    vec3 cameraBack;
+    vec3 cameraBack; ///< of perspective cameras: from the middle of the picture
     uint keepsValue; ///< 1: leave the last sample's value in PixelState::sum, rejected or not
     float nearDistance;
     float farDistance;

@@ -24,6 +24,7 @@ SHARED_CONST uint DETAIL_MASK = 1u;  ///< there where opacity is at least alphaC
 SHARED_CONST uint DETAIL_BLEND = 2u; ///< opacity is the share of light that meets the surface
 SHARED_CONST uint DETAIL_HAS_BUNDLE = 4u;    ///< the first TextureUse is a bundle
 SHARED_CONST uint DETAIL_BUNDLE_MAPS_NORMALS = 8u; ///< it has a map of TEXTURE_NORMAL
+SHARED_CONST uint DETAIL_IS_HIDDEN = 32u; ///< camera rays pass it
 /// It is a mixture: the row behind its textures is a BlendRow.
 SHARED_CONST uint DETAIL_IS_BLEND = 16u;
 /// The number of the TextureUse with TEXTURE_EMISSION, plus one, in bits 8 to 15; 0: there is none. The same for

@@ -147,5 +147,66 @@ TEST(Opacity, MaskByTexture) {
     expectMean(estimate(b.scene, below, s), 0.5 / kPi * 0.5);
 }
 
+// Surfaces that are hidden from the camera: it sees what is behind them, and all else meets them.
+
+Material hiddenLamp() {
+    Material m = emissive(3);
+    m.isHiddenFromCamera = true;
+    return m;
+}
+
+/// A lamp above the place (0.1, 0.2, 0) of a floor, a square or a ball, lit from between both.
+SceneMaker hiddenAbove(Material floor, bool isBall) {
+    SceneMaker b;
+    b.quad({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, b.add(std::move(floor)));
+    const uint32_t lamp = b.add(hiddenLamp());
+    if (isBall)
+        b.sphere({0.1f, 0.2f, 1.5f}, 0.5f, lamp);
+    else
+        b.quad({-1, -1, 1}, {2, 0, 0}, {0, 2, 0}, lamp);
+    return b;
+}
+
+const Camera kStraightDown = pointCamera({0.1, 0.2, 8}, {0.1, 0.2, 0});
+
+/// A ball of radius 1/2 whose middle is 1.5 away lights by pi (1/3)^2; a point by 4.
+TEST(Hidden, TheCameraSeesWhatIsBehindLitByTheLamp) {
+    SceneMaker b = hiddenAbove(diffuse(0.5f), true);
+    expectMean(estimate(b.scene, kStraightDown, smallPicture(4000, 1)), 0.5 * 3 / 9.0);
+    SceneMaker square = hiddenAbove(diffuse(0), false);
+    expectMean(estimate(square.scene, kStraightDown, smallPicture(16, 1)), 0);
+    expectMean(estimate(square.scene, kStraightDown, smallPicture(16, 0)), 0);
+}
+
+TEST(Hidden, MirrorsShowTheLamp) {
+    for (const bool isBall : {false, true}) {
+        SceneMaker b = hiddenAbove(mirror(0.5f), isBall);
+        expectMean(estimate(b.scene, kStraightDown, smallPicture(16, 2)), 1.5);
+    }
+}
+
+TEST(Hidden, PartlyTransparentSurfacesBeforeItChangeNothing) {
+    SceneMaker b = hiddenAbove(emissive(1), false);
+    b.quad({-1, -1, 4}, {2, 0, 0}, {0, 2, 0}, b.add(layer(0.25f)));
+    expectMean(estimate(b.scene, kStraightDown, smallPicture(4000, 1)), 0.75);
+}
+
+TEST(Hidden, AlphaAndDepthAreThoseOfWhatIsBehind) {
+    SceneMaker b;
+    b.quad({-1, -1, 1}, {2, 0, 0}, {0, 2, 0}, b.add(hiddenLamp()));
+    const RenderSettings s = smallPicture(16, 0);
+    const std::vector<uint32_t> samples(s.area.pixelCount(), 16);
+    for (const SeenPixel& p : seenBy(b.scene, kStraightDown, s, samples, Seeing::Coverage))
+        EXPECT_EQ(p.hits, 0u);
+    b.quad({-2, -2, -3}, {4, 0, 0}, {0, 4, 0}, b.add(diffuse(0.5f)));
+    for (const SeenPixel& p : seenBy(b.scene, kStraightDown, s, samples, Seeing::Surfaces)) {
+        EXPECT_EQ(p.hits, 16u);
+        EXPECT_NEAR(p.position.z / p.hits, -3, 1e-5);
+    }
+    RenderSettings depths = s;
+    depths.estimator.integrator = Integrator::Depth;
+    expectMean(estimate(b.scene, kStraightDown, depths), 11);
+}
+
 } // namespace
 } // namespace stromboli

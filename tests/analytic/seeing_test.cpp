@@ -77,6 +77,7 @@ TEST(Alpha, IsThatOfTheSamplesOfTheRadiance) {
         {PixelFilter::Box, straightDown()},
         {PixelFilter::Gaussian, straightDown(false)},
         {PixelFilter::BlackmanHarris, lens},
+        {PixelFilter::Mitchell, straightDown(false)},
     };
     for (const auto& [filter, camera] : views) {
         const RenderSettings s = seenPicture(filter);

@@ -42,6 +42,8 @@ TEST(SceneIdentity, EveryMemberCounts) {
         [](Scene& s, Camera&) { s.lights.push_back({}); },
         [](Scene& s, Camera&) { s.materials[1].principled.roughness = 0.5f; },
         [](Scene& s, Camera&) { s.materials[1].alphaCutoff = 0.25f; },
+        [](Scene& s, Camera&) { s.materials[1].isBlackBehind = true; },
+        [](Scene& s, Camera&) { s.materials[1].isHiddenFromCamera = true; },
         [](Scene& s, Camera&) { s.materials[1].textures.push_back({}); },
         [](Scene& s, Camera&) {
             s.images.push_back({"a", 1, 1, TexelFormat::Rgba8, {7}});
@@ -56,6 +58,8 @@ TEST(SceneIdentity, EveryMemberCounts) {
         [](Scene&, Camera& c) { c.position.x = 1e-9; },
         [](Scene&, Camera& c) { c.lensRadius = 1e-9; },
         [](Scene&, Camera& c) { c.focusDistance = 2; },
+        [](Scene&, Camera& c) { c.shift.x = 1e-9; },
+        [](Scene&, Camera& c) { c.shift.y = 1e-9; },
         [](Scene&, Camera& c) { c.clipAlongRay = true; },
     };
     std::set<uint32_t> sums;

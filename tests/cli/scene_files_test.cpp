@@ -204,5 +204,31 @@ TEST_F(SceneFiles, HintsHoldWhereNoOptionSaysOtherwise) {
     EXPECT_THAT(wrong.err, HasSubstr("nothing in the scene refers to $other"));
 }
 
+/// Numbers of a filter belong to the file's own; so does what a sample is.
+TEST_F(SceneFiles, HintsOfFiltersAndIntegrators) {
+    const auto said = [&](const std::string& integrator, const std::string& filter,
+                          std::vector<std::string> extra = {}) {
+        const std::string scene = folder.write(
+            "a.xml", "<scene version=\"3.0.0\"><integrator type=\"" + integrator +
+                         "</integrator><sensor type=\"perspective\"><film type=\"hdrfilm\">"
+                         "<integer name=\"width\" value=\"6\"/>"
+                         "<integer name=\"height\" value=\"4\"/><rfilter type=\"" +
+                         filter + "</rfilter></film></sensor><emitter type=\"constant\"/></scene>");
+        std::vector<std::string> words = {"render", scene, "-o", folder.file("a.exr"), "-s", "1"};
+        words.insert(words.end(), extra.begin(), extra.end());
+        return stromboli(words).err;
+    };
+    EXPECT_THAT(said("path\"><integer name=\"rr_depth\" value=\"7\"/>",
+                     "mitchell\"><float name=\"C\" value=\"0.5\"/>"),
+                HasSubstr("roulette from bounce 7 on, --filter mitchell (B 0.333333, C 0.5), -r"));
+    EXPECT_THAT(said("path\">", "gaussian\"><float name=\"stddev\" value=\"1\"/>"),
+                HasSubstr("--filter gaussian (2 times as wide)"));
+    EXPECT_THAT(said("path\">", "lanczos\"><integer name=\"lobes\" value=\"2\"/>"),
+                HasSubstr("--filter lanczos (2 lobes)"));
+    EXPECT_THAT(said("depth\">", "box\">"), HasSubstr("asks for --integrator depth"));
+    EXPECT_THAT(said("depth\">", "box\">", {"--integrator", "path"}),
+                Not(HasSubstr("--integrator depth")));
+}
+
 } // namespace
 } // namespace stromboli::test

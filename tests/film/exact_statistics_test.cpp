@@ -123,10 +123,35 @@ TEST(FixedSum, Differences) {
     }
 }
 
-PixelStatistics blockOf(std::mt19937& random, uint32_t count) {
+TEST(FixedSum, OfNumbersOfBothSigns) {
+    std::mt19937 random(9);
+    for (int trial = 0; trial < 200; ++trial) {
+        Sum sum, positive, negative;
+        for (int i = 0; i < 20; ++i) {
+            const double value = anyRadiance(random);
+            const bool isNegative = random() % 2 == 0;
+            sum.add(isNegative ? -value : value);
+            (isNegative ? negative : positive).add(value);
+        }
+        const bool isNegative = positive.less(negative) == Sum();
+        EXPECT_EQ(sum.isNegative(), isNegative);
+        const Sum size = isNegative ? negative.less(positive) : positive.less(negative);
+        EXPECT_EQ(sum.magnitude(), size);
+        EXPECT_EQ(sum.value(), isNegative ? -size.value() : size.value());
+        sum.add(isNegative ? size.value() : -size.value());
+        EXPECT_LE(std::abs(sum.value()), size.value() * 0x1p-53) << "of what was rounded";
+    }
+    Sum zero;
+    zero.add(-0.0);
+    EXPECT_EQ(zero, Sum());
+}
+
+/// hasSigns: some samples are negative, as pixel filters make them.
+PixelStatistics blockOf(std::mt19937& random, uint32_t count, bool hasSigns = false) {
     PixelStatistics p;
     for (uint32_t i = 0; i < count; ++i)
-        p.add(glm::dvec3(anyRadiance(random), anyRadiance(random), anyRadiance(random)));
+        p.add(glm::dvec3(anyRadiance(random), anyRadiance(random), anyRadiance(random)),
+              hasSigns && random() % 3 == 0 ? -1.25 : 1);
     return p;
 }
 
@@ -134,7 +159,7 @@ TEST(ExactStatistics, DoNotDependOnOrderAndGrouping) {
     std::mt19937 random(5);
     std::vector<ExactStatistics> blocks(37);
     for (uint32_t i = 0; i < blocks.size(); ++i)
-        blocks[i].add(blockOf(random, 1 + i % 5), 10 * i);
+        blocks[i].add(blockOf(random, 1 + i % 5, i % 2 == 0), 10 * i);
     ExactStatistics inOrder;
     for (const ExactStatistics& block : blocks)
         inOrder.add(block);
@@ -163,6 +188,29 @@ TEST(ExactStatistics, OfOneBlockAreItsOwn) {
             EXPECT_EQ(back.mean, block.mean);
             EXPECT_EQ(back.m2, block.m2);
         }
+}
+
+/// Against Welford's update, which rounds some 2^-53 of the sum of the absolute values each time.
+TEST(ExactStatistics, OfSamplesOfBothSigns) {
+    std::mt19937 random(10);
+    std::uniform_real_distribution<double> radiance(0, 100);
+    PixelStatistics all;
+    ExactStatistics exact;
+    for (uint32_t first = 0; first < 1000; first += 50) {
+        PixelStatistics block;
+        for (int i = 0; i < 50; ++i) {
+            const glm::dvec3 value(radiance(random), 1, radiance(random));
+            const double weight = random() % 2 == 0 ? 1.8 : -1.8;
+            block.add(value, weight);
+            all.add(value, weight);
+        }
+        exact.add(block, first);
+    }
+    const PixelStatistics together = exact.statistics();
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(together.mean[c], all.mean[c], 1000 * 0x1p-53 * 180);
+        EXPECT_NEAR(together.m2[c], all.m2[c], 1000 * 0x1p-53 * all.m2[c]);
+    }
 }
 
 TEST(ExactStatistics, EqualSamplesHaveNoDeviation) {

@@ -57,9 +57,10 @@ TEST_P(KernelModules, TheSmallestThatHasAllFeatures) {
          {SPEC_TEXTURE_SLOTS, SPEC_LOOSE_SLOTS, SPEC_TEXEL_KINDS, SPEC_ATTRIBUTES, SPEC_ALPHA,
           SPEC_TANGENT_FRAMES, SPEC_BLENDS, SPEC_RELIEF_RULES, SPEC_HAS_ENVIRONMENT,
           SPEC_HAS_BACKDROP, SPEC_HAS_LENS, SPEC_PIXEL_FILTER, SPEC_PRINCIPLED_FEATURES,
-          SPEC_FACETS, SPEC_HAS_PLACEMENTS, SPEC_TRAVERSAL_LEGS})
+          SPEC_FACETS, SPEC_HAS_PLACEMENTS, SPEC_TRAVERSAL_LEGS, SPEC_FILTER_EXTRA,
+          SPEC_HIDES_SURFACES})
         EXPECT_FALSE(rare.contains(id)) << id;
-    EXPECT_EQ(rare.size(), size_t(SPEC_COUNT) - 15);
+    EXPECT_EQ(rare.size(), size_t(SPEC_COUNT) - 18);
 }
 
 /// A constant with another value than the usual one leads to a module that has the constant. With

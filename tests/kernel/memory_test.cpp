@@ -32,7 +32,7 @@ class Memory : public DeviceTest {
         uint64_t planned = 0, rounding = 0;
         const DeviceTuning resolved = resolve(tuning, device);
         for (const vulkan::BufferPlan& plan :
-             planBuffers(scene_, settings.area, settings.estimator.branches, resolved)) {
+             planBuffers(scene_, settings.area, settings.estimator, resolved)) {
             planned += plan.bytes;
             const uint64_t count = plan.name == "film" ? segments : 1;
             rounding += count * alignmentOf(plan.use);
@@ -67,6 +67,9 @@ TEST_F(Memory, WhatIsPlannedIsAllocated) {
     RenderSettings branches = pictureOf(320, 240);
     branches.estimator.branches = 4;
     expectPlanned(branches, {}, 1);
+    RenderSettings filtered = pictureOf(61, 37);
+    filtered.estimator.filter = PixelFilter::Mitchell;
+    expectPlanned(filtered, {}, 1);
     RenderSettings crop = pictureOf(4000, 3000);
     crop.area.crop = {10, 20, 30, 40};
     expectPlanned(crop, {}, 1);
@@ -94,7 +97,7 @@ vulkan::DeviceDescription roomyDevice() {
 std::string messageOf(const vulkan::DeviceDescription& device, const GpuScene& scene,
                       const RenderSettings& settings, const DeviceTuning& tuning) {
     try {
-        checkMemory(device, scene, settings.area, settings.estimator.branches, tuning);
+        checkMemory(device, scene, settings.area, settings.estimator, tuning);
     } catch (const DeviceError& error) {
         return error.what();
     }

@@ -106,6 +106,7 @@ TEST(BranchesThatPay, OnlyWhereSomethingBouncesAfterDirectLight) {
     EXPECT_EQ(with([](Estimator& e) { e.maxBounces = 1; }), 1u);
     EXPECT_EQ(with([](Estimator& e) { e.maxBounces = 2; }), 4u);
     EXPECT_EQ(with([](Estimator& e) { e.integrator = Integrator::Normals; }), 1u);
+    EXPECT_EQ(with([](Estimator& e) { e.filter = PixelFilter::Lanczos; }), 1u);
     EXPECT_EQ(with([](Estimator& e) { e.directLight = DirectLight::Hemisphere; }), 1u);
     EXPECT_EQ(with([](Estimator& e) { e.directLight = DirectLight::Bsdf; }), 1u);
     EXPECT_EQ(with([](Estimator&) {}, {.adaptive = {.enabled = true}}), 1u);

@@ -84,6 +84,15 @@ TEST_F(Determinism, LengthOfDispatches) {
         expectSameBytes(whole, renderWith(settings(), {.fixedIterations = iterations}));
 }
 
+/// What a sample weighs is found again when its path is taken up.
+TEST_F(Determinism, LengthOfDispatchesWithWeightsOfSamples) {
+    RenderSettings s = settings();
+    s.estimator.filter = PixelFilter::Lanczos;
+    const Film whole = renderWith(s);
+    for (uint32_t iterations : {1u, 7u})
+        expectSameBytes(whole, renderWith(s, {.fixedIterations = iterations}));
+}
+
 TEST_F(Determinism, WorkgroupSizeAndTraversalSteps) {
     const Film whole = renderWith(settings());
     for (uint32_t size : {8u, 64u, 100u})
@@ -93,8 +102,10 @@ TEST_F(Determinism, WorkgroupSizeAndTraversalSteps) {
 }
 
 TEST_F(Determinism, SceneFetch) {
-    expectSameBytes(renderWith(settings(), {.texelFetch = true}),
-                    renderWith(settings(), {.texelFetch = false}));
+    RenderSettings weighted = settings();
+    weighted.estimator.filter = PixelFilter::Mitchell;
+    for (const RenderSettings& s : {settings(), weighted})
+        expectSameBytes(renderWith(s, {.texelFetch = true}), renderWith(s, {.texelFetch = false}));
 }
 
 TEST_F(Determinism, CropIsThePartOfTheWhole) {

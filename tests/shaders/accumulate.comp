@@ -12,7 +12,7 @@ AccumulateAnswer answer(AccumulateQuery q) {
         if (q.random != 0u) // a heavy tail: most of the sum is in few samples
             x = q.even / (1.0 - randomBlock(q.random, a.state.count, 0u, 0u).xyz);
         if (i == q.injectAt) x = q.injected;
-        addSample(a.state, x);
+        addSample(a.state, x, 1.0);
         a.naiveSum += x;
     }
     return a;

@@ -101,6 +101,24 @@ TEST(FileCamera, BothExtentsAreSeenAndMoreOnTheLongerSide) {
     EXPECT_DOUBLE_EQ(high.halfHeight, 0.6);
 }
 
+/// Where the middle of the picture lies is the file's, in pictures of any shape; another angle of
+/// view scales all of the picture.
+TEST(FileCamera, MiddlesBesideTheAxisStay) {
+    Scene scene;
+    scene.cameras.push_back({});
+    scene.cameras[0].halfWidth = 2, scene.cameras[0].halfHeight = 1;
+    scene.cameras[0].shift = {0.5, -0.25};
+    EXPECT_EQ(makeCamera(scene, CameraChoice::File, 200, 100).shift, glm::dvec2(0.5, -0.25));
+    EXPECT_EQ(makeCamera(scene, CameraChoice::File, 100, 100).shift, glm::dvec2(0.5, -0.25));
+    EXPECT_EQ(makeCamera(scene, CameraChoice::Frame, 100, 100).shift, glm::dvec2(0));
+    CameraRequest narrow = CameraChoice::File;
+    narrow.fieldOfView = 2 * std::atan(0.5);
+    const Camera camera = makeCamera(scene, narrow, 200, 100);
+    EXPECT_NEAR(camera.shift.x, 0.25, 1e-12);
+    EXPECT_NEAR(camera.shift.y, -0.125, 1e-12);
+    EXPECT_NEAR(camera.halfWidth, 1, 1e-12);
+}
+
 TEST(FileCamera, OneExtentIsKeptInPicturesOfAnyShape) {
     FileCamera file;
     file.halfWidth = 0.5;

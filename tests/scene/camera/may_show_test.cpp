@@ -58,6 +58,19 @@ TEST(MayShow, OrthographicViewsDoNotWiden) {
     EXPECT_FALSE(mayShow(c, speck({0, -1.1f, -9})));
 }
 
+TEST(MayShow, AShiftedPictureHasOtherSides) {
+    Camera c = camera();
+    c.shift = {0.5, -2};
+    EXPECT_TRUE(mayShow(c, speck({7.4f, -5.1f, -5})));
+    EXPECT_TRUE(mayShow(c, speck({-2.4f, -14.9f, -5})));
+    for (const glm::vec3& out : {glm::vec3(7.6f, -10, -5), glm::vec3(-2.6f, -10, -5),
+                                 glm::vec3(0, -4.9f, -5), glm::vec3(0, -15.1f, -5)})
+        EXPECT_FALSE(mayShow(c, speck(out))) << out.x << ' ' << out.y;
+    // The plane on the left is x = -z / 2 there, 0.447 of 1 away for one unit across.
+    EXPECT_TRUE(mayShow(c, withSphere({-3.5f, -10, -5}, 0.90f)));
+    EXPECT_FALSE(mayShow(c, withSphere({-3.5f, -10, -5}, 0.89f)));
+}
+
 TEST(MayShow, SpheresHaveTheirRadius) {
     // The plane at 45 degrees is sqrt(1/2) of the way away.
     EXPECT_TRUE(mayShow(camera(), withSphere({6, 0, -5}, 0.71f)));
@@ -87,10 +100,11 @@ TEST(MayShow, IsTrueOfWhateverARayMeets) {
         c.halfHeight = c.halfWidth * std::exp(one(random));
         c.orthographic = i % 2 == 0;
         c.clipAlongRay = i % 3 == 0;
+        if (!c.orthographic && i % 4 == 1) c.shift = {one(random) * 2, one(random) * 2};
         c.nearDistance = unit(random), c.farDistance = 5 + unit(random);
         // A point on a ray within the range of depths, and a triangle that has it inside.
-        const glm::dvec3 offset =
-            one(random) * c.halfWidth * c.right + one(random) * c.halfHeight * c.up;
+        const glm::dvec3 offset = (one(random) * c.halfWidth + c.shift.x) * c.right +
+                                  (one(random) * c.halfHeight + c.shift.y) * c.up;
         const glm::dvec3 direction = c.orthographic ? -c.back : offset - c.back;
         const double depth = (c.nearDistance + (c.farDistance - c.nearDistance) * unit(random)) /
                              (c.clipAlongRay ? glm::length(direction) : 1);

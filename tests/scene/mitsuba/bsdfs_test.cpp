@@ -237,5 +237,45 @@ TEST(MitsubaBsdfs, UnknownOnesAreNamed) {
                 HasSubstr("'color' is not read in bsdf 'diffuse'; expected one of reflectance"));
 }
 
+/// Of A, there in half of all cases, and B in the other place of a quarter: 7/8 of 3/4 is there.
+TEST(MitsubaBsdfs, MasksInBlendsAreTakenOut) {
+    const std::string weight = "<float name=\"weight\" value=\"0.25\"/>";
+    const std::string masked = "<bsdf type=\"mask\"><float name=\"opacity\" value=\"0.5\"/>"
+                               "<bsdf type=\"diffuse\"/></bsdf>";
+    const std::string metal = "<bsdf type=\"conductor\"/>";
+    const auto firstOf = [](const std::string& inside) {
+        const Scene scene = sceneOf("<bsdf type=\"blendbsdf\">" + inside + "</bsdf>");
+        return scene.materials.at(scene.triangles.at(0).material);
+    };
+    const Material first = firstOf(weight + masked + metal);
+    EXPECT_EQ(first.alphaMode, AlphaMode::Blend);
+    EXPECT_NEAR(first.opacity, 0.75 * 0.5 + 0.25, 1e-6);
+    EXPECT_NEAR(first.otherShare, 0.25 / 0.625, 1e-6);
+    const Material second = firstOf(weight + metal + masked);
+    EXPECT_NEAR(second.opacity, 0.75 + 0.25 * 0.5, 1e-6);
+    EXPECT_NEAR(second.otherShare, 0.125 / 0.875, 1e-6);
+    // As a sheet with holes: what is not there is a bsdf like any other.
+    const Material holes = firstOf(weight + metal + "<bsdf type=\"null\"/>");
+    EXPECT_NEAR(holes.opacity, 0.75, 1e-6);
+    EXPECT_EQ(holes.otherShare, 0);
+    // The first one a blend: both change places.
+    const Material nested = firstOf(weight + "<bsdf type=\"blendbsdf\">" + metal +
+                                    "<bsdf type=\"plastic\"/></bsdf>" + masked);
+    EXPECT_NEAR(nested.opacity, 0.75 + 0.25 * 0.5, 1e-6);
+    EXPECT_NEAR(nested.otherShare, 0.75 / 0.875, 1e-6);
+    EXPECT_THAT(problemInside(rectangleOf(
+                    "<bsdf type=\"blendbsdf\"><texture name=\"weight\" type=\"checkerboard\"/>" +
+                    metal + masked + "</bsdf>")),
+                HasSubstr("has a mask inside, and a weight or an opacity that is a texture"));
+}
+
+TEST(MitsubaBsdfs, MasksInMasksMultiply) {
+    const Material m =
+        materialOf("<bsdf type=\"mask\"><float name=\"opacity\" value=\"0.5\"/><bsdf "
+                   "type=\"mask\"><float name=\"opacity\" value=\"0.25\"/><bsdf "
+                   "type=\"diffuse\"/></bsdf></bsdf>");
+    EXPECT_EQ(m.opacity, 0.125f);
+}
+
 } // namespace
 } // namespace stromboli::test

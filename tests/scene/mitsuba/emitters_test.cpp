@@ -80,8 +80,30 @@ TEST(MitsubaEmitters, SurfacesShineInFront) {
     const Material& m = scene.materials.at(0);
     EXPECT_EQ(m.emission, glm::vec3(1, 2, 3));
     EXPECT_FALSE(m.emitsBothSides);
-    EXPECT_EQ(m.albedo, glm::vec3(0.5f));
+    EXPECT_EQ(m.albedo, glm::vec3(0));
     EXPECT_THAT(problemInside("<emitter type=\"area\"/>"), HasSubstr("expected it inside of a"));
+}
+
+/// As Mitsuba has it: a lamp without a bsdf is black, other shapes are grey.
+TEST(MitsubaEmitters, LampsReflectByTheirBsdfAlone) {
+    const auto albedoOf = [](const std::string& inside) {
+        const Scene scene = loadInside("<shape type=\"rectangle\">" + inside + "</shape>");
+        return scene.materials.at(scene.triangles.at(0).material).albedo;
+    };
+    const std::string area = "<emitter type=\"area\"/>";
+    EXPECT_EQ(albedoOf(area), glm::vec3(0));
+    EXPECT_EQ(albedoOf(area + "<bsdf type=\"diffuse\"/>"), glm::vec3(0.5));
+    EXPECT_EQ(albedoOf(""), glm::vec3(0.5));
+}
+
+TEST(MitsubaEmitters, BeamsAlongNormalsGiveNoLight) {
+    const Scene scene = loadInside("<shape type=\"rectangle\"><emitter type=\"directionalarea\">"
+                                   "<rgb name=\"radiance\" value=\"1, 2, 3\"/></emitter></shape>");
+    EXPECT_FALSE(scene.materials.at(scene.triangles.at(0).material).emits());
+    EXPECT_THAT(scene.report.warnings,
+                testing::Contains(HasSubstr("'directionalarea' shines along its normals alone")));
+    EXPECT_THAT(problemInside("<emitter type=\"directionalarea\"/>"),
+                HasSubstr("expected it inside of a shape"));
 }
 
 TEST(MitsubaEmitters, ConstantEnvironments) {
@@ -125,8 +147,9 @@ TEST(MitsubaEmitters, TurnedEnvironmentsTurnTheScene) {
 }
 
 TEST(MitsubaEmitters, UnknownOnesAreNamed) {
-    EXPECT_THAT(problemInside("<emitter type=\"sunsky\"/>"),
-                HasSubstr("2: <emitter>: 'sunsky' is no emitter that is read, expected point"));
+    EXPECT_THAT(
+        problemInside("<emitter type=\"timed_sunsky\"/>"),
+        HasSubstr("2: <emitter>: 'timed_sunsky' is no emitter that is read, expected point"));
 }
 
 } // namespace

@@ -62,6 +62,19 @@ TEST(MitsubaSensors, AnglesBelongToAnAxis) {
                 HasSubstr("'fov_axis' is 'z', expected x, y, diagonal, smaller or larger"));
 }
 
+/// A fifth of the picture's width to the right, a tenth of its height down, as Mitsuba 3.9's
+/// sample_ray has it; its lenses have no such offsets.
+TEST(MitsubaSensors, PrincipalPointsMove) {
+    const std::string offsets = "<float name=\"principal_point_offset_x\" value=\"0.2\"/>"
+                                "<float name=\"principal_point_offset_y\" value=\"0.1\"/>";
+    const Scene scene = sceneOf("<float name=\"fov\" value=\"60\"/>" + offsets + kWideFilm);
+    const Camera camera = makeCamera(scene, CameraChoice::File, 200, 100);
+    EXPECT_NEAR(camera.shift.x, 0.2309401, 1e-6);
+    EXPECT_NEAR(camera.shift.y, -0.0577350, 1e-6);
+    EXPECT_THAT(problemInside("<sensor type=\"thinlens\">" + offsets + "</sensor>"),
+                HasSubstr("'principal_point_offset_x' is not read in sensor 'thinlens'"));
+}
+
 TEST(MitsubaSensors, LensesAndParallelViews) {
     const FileCamera lens = sceneOf("<float name=\"aperture_radius\" value=\"0.2\"/>"
                                     "<float name=\"focus_distance\" value=\"7\"/>",
@@ -91,6 +104,39 @@ TEST(MitsubaSensors, FilmsAreHints) {
     EXPECT_FALSE(loadInside("").hints.filter);
 }
 
+TEST(MitsubaSensors, FiltersHaveTheirNumbers) {
+    const auto hintsOf = [](const std::string& filter) {
+        return sceneOf("<film type=\"hdrfilm\"><rfilter " + filter + "</rfilter></film>").hints;
+    };
+    const RenderHints tent = hintsOf("type=\"tent\"><float name=\"radius\" value=\"1.5\"/>");
+    EXPECT_EQ(tent.filter, HintedFilter::Tent);
+    EXPECT_EQ(tent.filterShape.radius, 1.5);
+    const RenderHints gaussian =
+        hintsOf("type=\"gaussian\"><float name=\"stddev\" value=\"0.7\"/>");
+    EXPECT_EQ(gaussian.filter, HintedFilter::Gaussian);
+    EXPECT_EQ(gaussian.filterShape.deviation, 0.7);
+    const RenderHints mitchell = hintsOf("type=\"mitchell\"><float name=\"B\" value=\"0.2\"/>"
+                                         "<float name=\"C\" value=\"0.4\"/>");
+    EXPECT_EQ(mitchell.filter, HintedFilter::Mitchell);
+    EXPECT_EQ(mitchell.filterShape.b, 0.2);
+    EXPECT_EQ(mitchell.filterShape.c, 0.4);
+    EXPECT_EQ(hintsOf("type=\"catmullrom\">").filter, HintedFilter::CatmullRom);
+    const RenderHints lanczos = hintsOf("type=\"lanczos\"><integer name=\"lobes\" value=\"2\"/>");
+    EXPECT_EQ(lanczos.filter, HintedFilter::Lanczos);
+    EXPECT_EQ(lanczos.filterShape.lobes, 2u);
+    const auto problemOf = [](const std::string& filter) {
+        return problemInside("<sensor type=\"perspective\"><film type=\"hdrfilm\"><rfilter " +
+                             filter + "</rfilter></film></sensor>");
+    };
+    EXPECT_THAT(problemOf("type=\"lanczos\"><integer name=\"lobes\" value=\"0\"/>"),
+                HasSubstr("'lobes' is 0, expected 1 to 64"));
+    EXPECT_THAT(problemOf("type=\"tent\"><float name=\"radius\" value=\"0\"/>"),
+                HasSubstr("'radius' is 0, expected more"));
+    EXPECT_THAT(problemOf("type=\"sinc\">"), HasSubstr("'sinc' is no filter that is read"));
+    EXPECT_THAT(problemOf("type=\"box\"><float name=\"radius\" value=\"2\"/>"),
+                HasSubstr("'radius' is not read in rfilter 'box'"));
+}
+
 TEST(MitsubaSensors, DepthsCountSegments) {
     const auto bouncesOf = [](const std::string& inside, const std::string& type = "path") {
         return loadInside("<integrator type=\"" + type + "\">" + inside + "</integrator>")
@@ -103,9 +149,45 @@ TEST(MitsubaSensors, DepthsCountSegments) {
     EXPECT_EQ(bouncesOf("<integrator type=\"direct\"/>", "moment"), 1u);
     EXPECT_THAT(problemInside("<integrator type=\"bdpt\"/>"),
                 HasSubstr("'bdpt' is no integrator that is read"));
-    const Scene scene = loadInside("<integrator type=\"path\"><integer name=\"rr_depth\" "
-                                   "value=\"5\"/></integrator>");
-    EXPECT_THAT(scene.report.ignored, testing::Contains(HasSubstr("'rr_depth' of integrator")));
+}
+
+TEST(MitsubaSensors, RouletteBeginsWhereTheFileSays) {
+    const auto startOf = [](const std::string& inside) {
+        return loadInside("<integrator type=\"path\">" + inside + "</integrator>")
+            .hints.rouletteStart;
+    };
+    EXPECT_FALSE(startOf(""));
+    EXPECT_EQ(startOf("<integer name=\"rr_depth\" value=\"7\"/>"), 7u);
+    EXPECT_THAT(problemInside("<integrator type=\"path\"><integer name=\"rr_depth\" "
+                              "value=\"0\"/></integrator>"),
+                HasSubstr("'rr_depth' is 0, expected 1 or more"));
+}
+
+TEST(MitsubaSensors, DepthsArePicturesOfDistances) {
+    EXPECT_TRUE(loadInside("<integrator type=\"depth\"/>").hints.showsDepth);
+    EXPECT_FALSE(loadInside("<integrator type=\"path\"/>").hints.showsDepth);
+}
+
+TEST(MitsubaSensors, EmittersMayBeHidden) {
+    const auto load = [](const std::string& value) {
+        return loadInside("<integrator type=\"path\"><boolean name=\"hide_emitters\" value=\"" +
+                          value +
+                          "\"/></integrator><shape type=\"rectangle\"><emitter type=\"area\"/>"
+                          "</shape><shape type=\"sphere\"/>");
+    };
+    const Scene hidden = load("true"), shown = load("false");
+    EXPECT_TRUE(hidden.hints.hidesBackdrop);
+    EXPECT_FALSE(shown.hints.hidesBackdrop);
+    const auto hiddenMaterials = [](const Scene& scene) {
+        std::vector<bool> all;
+        for (const Triangle& t : scene.triangles)
+            all.push_back(scene.materials[t.material].isHiddenFromCamera);
+        for (const Sphere& s : scene.spheres)
+            all.push_back(scene.materials[s.material].isHiddenFromCamera);
+        return all;
+    };
+    EXPECT_EQ(hiddenMaterials(hidden), (std::vector<bool>{true, true, false}));
+    EXPECT_EQ(hiddenMaterials(shown), (std::vector<bool>{false, false, false}));
 }
 
 TEST(MitsubaSensors, FilmsMayBeCropped) {

@@ -1,6 +1,7 @@
 // Shapes where the file puts them.
 
 #include "scene/mitsuba/solids.hpp"
+#include "scene/model/surface_lookup.hpp"
 #include "tests/scene/mitsuba/mitsuba_text.hpp"
 
 #include <fmt/format.h>
@@ -116,6 +117,94 @@ TEST(MitsubaShapes, VertexColorsAreAnAttribute) {
     EXPECT_TRUE(loadShape("ply", mesh).attributeCorners.empty()); // nothing looks at them
     EXPECT_THAT(problemInside("<shape type=\"cube\">" + bsdf + "</shape>"),
                 HasSubstr("expected a mesh from a file"));
+}
+
+/// Of a quad, which is cut in two, and a triangle that shares corners with it.
+TEST(MitsubaShapes, FaceColorsAreAnAttributeOfPlyFiles) {
+    writeFile("tiles.ply",
+              "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+              "property float z\nelement face 2\nproperty list uchar int vertex_indices\n"
+              "property float r\nproperty float g\nproperty float b\n"
+              "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n"
+              "4 0 1 2 3 0.25 0.5 0.75\n3 1 4 2 1 0 0\n");
+    const std::string mesh = "<string name=\"filename\" value=\"tiles.ply\"/>";
+    const auto bsdf = [](const std::string& name) {
+        return "<bsdf type=\"diffuse\"><texture type=\"mesh_attribute\" name=\"reflectance\">"
+               "<string name=\"name\" value=\"" +
+               name + "\"/></texture></bsdf>";
+    };
+    const Scene tiles = loadShape("ply", mesh + bsdf("face_color"));
+    ASSERT_EQ(tiles.attributeCorners.size(), 3u);
+    for (size_t i = 0; i < 3; ++i)
+        for (const uint32_t corner : tiles.attributeCorners[i])
+            EXPECT_EQ(tiles.attributes[corner].color,
+                      i < 2 ? glm::vec4(0.25, 0.5, 0.75, 1) : glm::vec4(1, 0, 0, 1))
+                << i;
+    const auto problemOf = [&](const std::string& type, const std::string& inside) {
+        return problemInside("<shape type=\"" + type + "\">" + inside + "</shape>");
+    };
+    EXPECT_THAT(problemOf("ply", mesh + bsdf("vertex_color")),
+                HasSubstr("has a bsdf of vertex_color, and its file has no such attribute"));
+    EXPECT_THAT(problemOf("ply", mesh + bsdf("face_density")),
+                HasSubstr("has a bsdf of face_density, and its file has no such attribute"));
+    EXPECT_THAT(problemOf("ply", mesh + bsdf("density")),
+                HasSubstr("'name' is 'density', expected vertex_... or face_..."));
+    EXPECT_THAT(problemOf("cube", bsdf("face_color")), HasSubstr("expected a mesh from a file"));
+}
+
+/// A texture that is linear between corners: of two triangles, in a parameter that has no colours
+/// of corners, by numbers of vertices and of faces.
+TEST(MitsubaShapes, MeshAttributesPaintAnyTexture) {
+    writeFile("worn.ply",
+              "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+              "property float z\nproperty float rough_x\nproperty float tint_r\n"
+              "property float tint_g\nproperty float tint_b\nelement face 2\n"
+              "property list uchar int vertex_indices\nproperty float share_0\nend_header\n"
+              "0 0 0 0.25 1 0 0\n1 0 0 0.5 0 1 0\n1 1 0 1 0 0 1\n0 1 0 0.125 1 1 1\n"
+              "3 0 1 2 0.75\n3 0 2 3 0.5\n");
+    const std::string mesh = "<string name=\"filename\" value=\"worn.ply\"/>";
+    const auto painted = [](const std::string& parameter, const std::string& name) {
+        return "<texture type=\"mesh_attribute\" name=\"" + parameter +
+               "\"><string name=\"name\" value=\"" + name + "\"/></texture>";
+    };
+    const Scene scene =
+        loadShape("ply", mesh + "<bsdf type=\"blendbsdf\">" + painted("weight", "face_share") +
+                             "<bsdf type=\"principled\">" + painted("roughness", "vertex_rough") +
+                             painted("base_color", "vertex_tint_color") +
+                             "</bsdf><bsdf type=\"plastic\"/></bsdf><emitter type=\"area\">" +
+                             painted("radiance", "vertex_tint_color") + "</emitter>");
+    const double rough[2][3] = {{0.25, 0.5, 1}, {0.25, 1, 0.125}};
+    const glm::dvec3 tint[2][3] = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                                   {{1, 0, 0}, {0, 0, 1}, {1, 1, 1}}};
+    const double share[2] = {0.75, 0.5};
+    const double bs[][2] = {{0, 0}, {1, 0}, {0, 1}, {0.5, 0.5}, {0.25, 0.5}, {0.1, 0.2}};
+    for (uint32_t t = 0; t < 2; ++t) {
+        const Material& m = scene.materials.at(scene.triangles.at(t).material);
+        for (const auto& [b1, b2] : bs) {
+            const PointAttributes at = attributesAt(scene, t, b1, b2);
+            const double weights[3] = {1 - b1 - b2, b1, b2};
+            double expected = 0;
+            glm::dvec3 color(0);
+            for (int k = 0; k < 3; ++k)
+                expected += weights[k] * rough[t][k], color += weights[k] * tint[t][k];
+            const auto found = [&](TextureSlot slot) {
+                return lookUp(scene, *textureIn(m, slot), at);
+            };
+            // Half floats, and where floats have the coordinates.
+            EXPECT_NEAR(found(TextureSlot::MetallicRoughness).y, expected, 1e-3);
+            EXPECT_NEAR(otherShareAt(scene, m, at), share[t], 1e-3);
+            EXPECT_LT(glm::distance(glm::dvec3(found(TextureSlot::BaseColor)), color), 1e-3);
+            EXPECT_EQ(at.color, glm::dvec4(1)) << "which plastic would have too";
+            EXPECT_LT(glm::distance(glm::dvec3(found(TextureSlot::Emission)), color), 1e-3);
+        }
+    }
+    EXPECT_THAT(problemInside("<shape type=\"cube\"><bsdf type=\"principled\">" +
+                              painted("roughness", "vertex_rough") + "</bsdf></shape>"),
+                HasSubstr("expected a mesh from a file that has it"));
+    EXPECT_THAT(problemInside("<shape type=\"ply\">" + mesh + "<bsdf type=\"bumpmap\">" +
+                              painted("", "vertex_rough") +
+                              "<bsdf type=\"diffuse\"/></bsdf></shape>"),
+                HasSubstr("is no picture, expected one of heights"));
 }
 
 /// Corner by corner, whatever shares them: the mean of two faces at right angles.
