@@ -235,6 +235,8 @@ std::deque<DeclaredCommand> declareCommands() {
         {Command::Merge, "merge",
          "Put films of shares (render --share) together: to a picture, or to a film again",
          declareMerge},
+        {Command::Plan, "plan",
+         "Spread the samples of the next round of shares to where films are noisy", declarePlan},
         {Command::Submit, "submit",
          "Have a cluster render a picture: shares on its nodes, and their merge", declareSubmit},
         {Command::Study, "study",

@@ -21,7 +21,19 @@
 
 namespace stromboli {
 
-enum class Command { Render, Check, Info, Devices, Bench, Stress, Compare, Study, Merge, Submit };
+enum class Command {
+    Render,
+    Check,
+    Info,
+    Devices,
+    Bench,
+    Stress,
+    Compare,
+    Study,
+    Merge,
+    Plan,
+    Submit
+};
 /// Rather than look at one, or measure.
 inline bool rendersPictures(Command command) {
     return command == Command::Render || command == Command::Submit;
@@ -67,6 +79,7 @@ struct SequenceOptions {
 struct SubmitOptions {
     Scheduler scheduler = Scheduler::Slurm;
     uint32_t shares = 0;
+    uint32_t rounds = 8; ///< at most; they are of a render until a noise
     /// Of the commands that the nodes run, quoted for a shell.
     std::vector<std::string> render, merge;
     std::string program; ///< as the nodes find it; empty: where this one is
@@ -110,6 +123,7 @@ struct Options {
     bool transparent = false;        ///< alpha in place of the environment
     std::vector<Layer> layers;       ///< EXR: channels beside the radiance
     std::optional<ShareName> share;  ///< take only these samples, into a film
+    std::string planFile;            ///< render: of this round; empty: of the first
     /// The fingerprint that scene and program must have (host/cli/share_render.hpp); empty: any.
     std::string expected;
     std::optional<SampleName> sampleAlone; ///< print this sample and write nothing
@@ -123,7 +137,7 @@ struct Options {
     StressOptions stress;
     std::string infoJsonFile; ///< info; empty: text
     SubmitOptions submit;
-    std::vector<std::string> films; ///< merge
+    std::vector<std::string> films; ///< merge, plan
     bool wantsAllShares = false;    ///< merge: without all of them there is no picture
 };
 

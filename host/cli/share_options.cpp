@@ -3,6 +3,7 @@
 #include "host/cli/declared_command.hpp"
 #include "host/core/error.hpp"
 #include "host/farm/film_file.hpp"
+#include "host/farm/plan_file.hpp"
 
 #include <fmt/format.h>
 
@@ -33,7 +34,8 @@ void declareShare(DeclaredCommand& c) {
                1, [&o](const Words& words) { o.share = readShare(words[0]); })
         .implies("--even")
         .excludes("-a", kAllAlike)
-        .excludes("--noise", kAllAlike)
+        .excludes("--noise", "a share has as many samples of every pixel as of all others; "
+                             "stromboli plan spreads those of further rounds")
         .excludes("--time", kAllAlike)
         .excludes("--checkpoint", "a share is what is kept: take more of them")
         .excludes("--checkpoint-every", "a share is what is kept: take more of them")
@@ -45,6 +47,14 @@ void declareShare(DeclaredCommand& c) {
         .excludes("--notes", "merge has it")
         .excludes("--pixel")
         .besidePicture();
+    c.list
+        .text("--plan", "FILE.plan",
+              "with --share: a part of the samples of this round, which stromboli plan wrote; all "
+              "other options are those of the first round",
+              o.planFile)
+        .needs("--share")
+        .besidePicture()
+        .proposes(Proposed::Files);
     c.list
         .text("--expect", "FINGERPRINT",
               "with --share: begin only if scene, camera and program are those of this "
@@ -85,6 +95,39 @@ void declareMerge(DeclaredCommand& c) {
         if (!ofPictures.empty())
             throw UsageError(fmt::format("{}: a film has no {}: say it when the picture is made",
                                          o.output, ofPictures));
+    };
+}
+
+void declarePlan(DeclaredCommand& c) {
+    Options& o = c.options;
+    c.list.group("Films");
+    c.list
+        .list("FILM", "",
+              "all films of the rounds until now, of render --share or merge, in any "
+              "order",
+              o.films)
+        .required()
+        .proposes(Proposed::Files);
+    c.list.group("Output");
+    c.list
+        .text("-o,--output", "FILE.plan",
+              "the plan of the next round, for render --plan; nothing is written, and the exit "
+              "code is 7, if nothing is left to do",
+              o.output)
+        .required()
+        .proposes(Proposed::Files);
+    c.list.group("Sampling");
+    declareNoise(c, "the noise to reach, as of render: the square root of the picture's relMSE is "
+                    "at most T (0.02: 2 %) in 95 of 100 renders")
+        .required();
+    c.list.number("-s,--samples", "N", "the most samples of a pixel, over all rounds",
+                  c.asked.paths, {1, kMostSamples});
+    declareHost(c);
+    c.finish = [&c, &o] {
+        if (!namesPlan(o.output))
+            throw UsageError(
+                fmt::format("{}: plan writes a plan, whose name must end in .plan", o.output));
+        o.budget.mostPathsPerPixel = c.asked.paths;
     };
 }
 

@@ -26,36 +26,49 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Changes with every change of what is written.
-constexpr std::string_view kMagic = "stromboli film 1\n";
+constexpr std::string_view kMagic = "stromboli film 2\n";
 /// Not there in what is cut short.
 constexpr std::string_view kEnd = "end of film\n";
 
-/// Calls visit(kind, numberOf) for all kinds of numbers that a pixel has.
+/// A set of kinds.
+using Kinds = uint64_t;
+/// Not a kind: all samples of every pixel are of its last pass, of which nothing else is said. So
+/// it is in the film of a share, mostly.
+constexpr Kinds kOfOnePass = Kinds(1) << 63;
+
+/// Calls visit(kind, numberOf) for all kinds of numbers that a pixel has: those of all samples,
+/// then, from kLastKinds on, those of the last pass.
 template <class Visit>
 void forEachKind(const Visit& visit) {
     uint32_t kind = 0;
     visit(
-        kind++, [](auto& p) -> auto& { return p.count; });
+        kind++, [](auto& p) -> auto& { return p.all.count; });
     visit(
-        kind++, [](auto& p) -> auto& { return p.rejected; });
+        kind++, [](auto& p) -> auto& { return p.all.rejected; });
     visit(
-        kind++, [](auto& p) -> auto& { return p.firstRejected; });
+        kind++, [](auto& p) -> auto& { return p.all.firstRejected; });
+    visit(
+        kind++, [](auto& p) -> auto& { return p.lastPass; });
     for (size_t c = 0; c < 3; ++c) {
         for (size_t i = 0; i < ExactStatistics().sum[c].words.size(); ++i)
             visit(
-                kind++, [=](auto& p) -> auto& { return p.sum[c].words[i]; });
+                kind++, [=](auto& p) -> auto& { return p.all.sum[c].words[i]; });
         for (size_t i = 0; i < ExactStatistics().squares[c].words.size(); ++i)
             visit(
-                kind++, [=](auto& p) -> auto& { return p.squares[c].words[i]; });
+                kind++, [=](auto& p) -> auto& { return p.all.squares[c].words[i]; });
     }
+    visit(
+        kind++, [](auto& p) -> auto& { return p.lastCount; });
+    for (size_t c = 0; c < 3; ++c)
+        for (size_t i = 0; i < SharedPixel().lastSum[c].words.size(); ++i)
+            visit(
+                kind++, [=](auto& p) -> auto& { return p.lastSum[c].words[i]; });
 }
-
-/// A set of kinds.
-using Kinds = uint32_t;
-static_assert(3 + 3 * (4 + 5) <= 32);
+constexpr uint32_t kLastKinds = 4 + 3 * (4 + 5);
+static_assert(kLastKinds + 1 + 3 * 4 < 63);
 
 template <class NumberOf>
-constexpr size_t sizeOf = sizeof(std::declval<NumberOf>()(std::declval<ExactStatistics&>()));
+constexpr size_t sizeOf = sizeof(std::declval<NumberOf>()(std::declval<SharedPixel&>()));
 
 /// Pixels that are turned from rows of pixels to rows of numbers, or back, at a time: 64 KiB of
 /// sums stay in a core's own cache for all of their numbers.
@@ -80,12 +93,13 @@ void forEachPlace(size_t count, Kinds kinds, const Visit& visit) {
 }
 
 /// Those that are not 0 everywhere, which is more than half: sums have room for any picture.
-Kinds kindsIn(std::span<const ExactStatistics> run) {
+Kinds kindsIn(std::span<const SharedPixel> run) {
     Kinds kinds = 0;
-    for (const ExactStatistics& p : run)
-        forEachKind([&](uint32_t kind, const auto& numberOf) {
-            kinds |= uint32_t(numberOf(p) != 0) << kind;
-        });
+    for (const SharedPixel& p : run)
+        forEachKind(
+            [&](uint32_t kind, const auto& numberOf) { kinds |= Kinds(numberOf(p) != 0) << kind; });
+    if (std::ranges::all_of(run, &SharedPixel::isOfOnePass))
+        kinds = (kinds & ((Kinds(1) << kLastKinds) - 1)) | kOfOnePass;
     return kinds;
 }
 
@@ -98,7 +112,7 @@ size_t bytesOf(Kinds kinds) {
 }
 
 /// The kinds of numbers that follow, then they, compressed.
-std::vector<std::byte> bytesOf(std::span<const ExactStatistics> run) {
+std::vector<std::byte> bytesOf(std::span<const SharedPixel> run) {
     const Kinds kinds = kindsIn(run);
     std::vector<std::byte> numbers(run.size() * bytesOf(kinds));
     forEachPlace(run.size(), kinds, [&](const auto& numberOf, size_t i, size_t place) {
@@ -113,19 +127,22 @@ std::vector<std::byte> bytesOf(std::span<const ExactStatistics> run) {
 }
 
 /// False if the bytes were others. The run's numbers are 0.
-bool fromBytes(std::span<const std::byte> bytes, std::vector<ExactStatistics>& run) {
+bool fromBytes(std::span<const std::byte> bytes, std::vector<SharedPixel>& run) {
     Kinds kinds = 0;
     if (bytes.size() < sizeof kinds) return false;
     std::memcpy(&kinds, bytes.data(), sizeof kinds);
     const std::optional<std::vector<std::byte>> numbers =
         decompressed(bytes.subspan(sizeof kinds), run.size() * bytesOf(kinds));
     if (!numbers) return false;
-    for (ExactStatistics& p : run)
-        p.firstRejected = 0;
+    for (SharedPixel& p : run)
+        p.all.firstRejected = 0;
     forEachPlace(run.size(), kinds, [&](const auto& numberOf, size_t i, size_t place) {
         auto& number = numberOf(run[i]);
         std::memcpy(&number, numbers->data() + place, sizeof number);
     });
+    if (kinds & kOfOnePass)
+        for (SharedPixel& p : run)
+            p.lastCount = p.all.count, p.lastSum = p.all.sum;
     return true;
 }
 
@@ -140,7 +157,7 @@ void writePart(TemporaryFile& file, std::span<const std::byte> bytes) {
 constexpr uint64_t kFront = sizeof(uint64_t) + sizeof(uint32_t);
 
 uint64_t pixelsOf(const FilmHeader& header) {
-    return header.blocks.empty() ? 0 : header.settings.area.pixelCount();
+    return header.isEmpty() ? 0 : header.settings.area.pixelCount();
 }
 
 size_t pixelsPerRun(const PictureArea& area) {
@@ -160,7 +177,7 @@ FilmWriter::FilmWriter(const fs::path& path, const FilmHeader& header)
     writePart(file_, toBytes(header));
 }
 
-void FilmWriter::add(std::span<const ExactStatistics> pixels) {
+void FilmWriter::add(std::span<const SharedPixel> pixels) {
     if (pixels.size() > pixelsLeft_ - run_.size())
         throw std::logic_error("more pixels than the film has");
     while (!pixels.empty()) {
@@ -244,10 +261,10 @@ std::vector<std::byte> FilmReader::read(uint64_t size) {
     return bytes;
 }
 
-void FilmReader::next(std::vector<ExactStatistics>& run) {
+void FilmReader::next(std::vector<SharedPixel>& run) {
     run.assign(std::min<uint64_t>(pixelsPerRun_, pixelsLeft_), {});
     pixelsLeft_ -= run.size();
-    if (header_.blocks.empty()) return;
+    if (header_.isEmpty()) return;
     const std::vector<std::byte> front = read(kFront);
     ByteParts parts(path_, "film", front);
     const auto size = parts.number<uint64_t>();

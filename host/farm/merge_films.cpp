@@ -44,17 +44,17 @@ FilmsToMerge::FilmsToMerge(const std::vector<std::filesystem::path>& files) {
                                              files.front().string()));
             add(header_, film.header(), file);
         }
-        if (!film.header().blocks.empty()) films_.push_back(std::move(film));
+        if (!film.header().isEmpty()) films_.push_back(std::move(film));
     }
 }
 
 void FilmsToMerge::addUp(
-    const std::function<void(const PictureArea&, std::span<const ExactStatistics>)>& take) {
+    const std::function<void(const PictureArea&, std::span<const SharedPixel>)>& take) {
     const PictureArea& area = header_.settings.area;
     const size_t atOnce = std::clamp<size_t>(
         films_.size(), 1, size_t(std::clamp(tbb::info::default_concurrency(), 1, 16)));
-    std::vector<std::vector<ExactStatistics>> runs(atOnce);
-    std::vector<ExactStatistics> sum;
+    std::vector<std::vector<SharedPixel>> runs(atOnce);
+    std::vector<SharedPixel> sum;
     const uint32_t rows = area.rendered().height;
     for (uint32_t row = 0; row < rows; row += rowsPerRun(area)) {
         sum.assign(size_t(std::min(rowsPerRun(area), rows - row)) * area.rendered().width, {});
@@ -65,7 +65,7 @@ void FilmsToMerge::addUp(
                               [&](const auto& range) {
                                   for (size_t k = 0; k < count; ++k)
                                       for (size_t i = range.begin(); i != range.end(); ++i)
-                                          sum[i].add(runs[k][i]);
+                                          if (runs[k][i].all.taken() > 0) sum[i].add(runs[k][i]);
                               });
         }
         take(rowsOf(area, row, sum.size()), sum);

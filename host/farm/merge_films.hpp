@@ -18,8 +18,8 @@ class FilmsToMerge {
 
     /// Calls `take` with the sum of each run of pixels, from the top of the picture, and the part
     /// of the picture that it is. To be called once. Throws UsageError if a film is damaged.
-    void addUp(const std::function<void(const PictureArea& part,
-                                        std::span<const ExactStatistics> run)>& take);
+    void addUp(
+        const std::function<void(const PictureArea& part, std::span<const SharedPixel> run)>& take);
 
   private:
     std::vector<FilmReader> films_;

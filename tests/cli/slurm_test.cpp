@@ -91,7 +91,7 @@ TEST_F(Submit, RefusesWhatWouldFailOnTheNodes) {
               0);
     const ProgramRun other = submit({"--shares", "1", "--dry-run", "-s", "8", "-r", "8", "6"});
     EXPECT_EQ(other.exitCode, 1);
-    EXPECT_THAT(other.err, HasSubstr("is a share of 4 samples a pixel, not of 8; remove "));
+    EXPECT_THAT(other.err, HasSubstr("is of 4 samples a pixel, not of 8; remove "));
 }
 
 TEST_F(Submit, SaysThatThereIsNoSlurm) {
