@@ -74,7 +74,7 @@ void declareBranches(DeclaredCommand& command, const std::string& usually);
 /// --block.
 CommandOption& declareBlock(DeclaredCommand& command);
 /// --noise.
-CommandOption& declareNoise(DeclaredCommand& command, const std::string& help);
+CommandOption& declareNoise(DeclaredCommand& command, const std::string& help, double& where);
 /// Where samples go and when it is enough: --even, -a, --noise, --time.
 void declareSpreading(DeclaredCommand& command);
 /// Throws UsageError if the kind of the picture has no use for --exposure, --aov or --layers.

@@ -41,7 +41,7 @@ inline bool rendersPictures(Command command) {
 enum class Scheduler { Slurm };
 template <>
 inline constexpr auto kNamedValues<Scheduler> = std::to_array<NamedValue<Scheduler>>({
-    {Scheduler::Slurm, "slurm", "a job array, and a job that merges"},
+    {Scheduler::Slurm, "slurm", "job arrays, and a job that merges"},
 });
 enum class BackendChoice { Vulkan, Reference };
 template <>
@@ -79,7 +79,8 @@ struct SequenceOptions {
 struct SubmitOptions {
     Scheduler scheduler = Scheduler::Slurm;
     uint32_t shares = 0;
-    uint32_t rounds = 8; ///< at most; they are of a render until a noise
+    double noise = 0;    ///< to be reached in rounds; 0: one round
+    uint32_t rounds = 8; ///< at most
     /// Of the commands that the nodes run, quoted for a shell.
     std::vector<std::string> render, merge;
     std::string program; ///< as the nodes find it; empty: where this one is

@@ -117,8 +117,10 @@ void declarePlan(DeclaredCommand& c) {
         .required()
         .proposes(Proposed::Files);
     c.list.group("Sampling");
-    declareNoise(c, "the noise to reach, as of render: the square root of the picture's relMSE is "
-                    "at most T (0.02: 2 %) in 95 of 100 renders")
+    declareNoise(c,
+                 "the noise to reach, as of render: the square root of the picture's relMSE is at "
+                 "most T (0.02: 2 %) in 95 of 100 renders",
+                 o.budget.stop.noise)
         .required();
     c.list.number("-s,--samples", "N", "the most samples of a pixel, over all rounds",
                   c.asked.paths, {1, kMostSamples});
@@ -144,6 +146,17 @@ void declareSubmit(DeclaredCommand& c) {
         .number("--shares", "N", "tasks: parts of every pixel's samples", submit.shares, {1, 1000})
         .required()
         .usually("")
+        .besidePicture();
+    declareNoise(c,
+                 "sample in rounds, each where the films until then are noisy, until the picture's "
+                 "noise is at most T, as of render; -s is the number of samples of the first one",
+                 submit.noise)
+        .besidePicture();
+    c.list
+        .number("--rounds", "K",
+                "with --noise: at most so many rounds, of which each at most doubles the samples",
+                submit.rounds, {2, 100})
+        .needs("--noise")
         .besidePicture();
     c.list
         .text("--job-time", "LIMIT", "most time of a task, as sbatch --time has it: 90, 2:00:00",
@@ -180,7 +193,8 @@ void declareSubmit(DeclaredCommand& c) {
     declarePictureFile(c);
     declarePicture(c);
     declareEstimator(c);
-    declareSamples(c, "samples per pixel, the same number for all");
+    declareSamples(c,
+                   "samples per pixel, the same number for all; with --noise in the first round");
     declareBranches(c, "4 where bounces make most of the noise, else 1 (docs/estimator.md)");
     declareBlock(c);
     declareFilmMemory(c);

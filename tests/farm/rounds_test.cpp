@@ -293,30 +293,31 @@ TEST_F(Rounds, SharesWithoutSamplesDoNoHarm) {
 /// The case in which samples that decide about their own number do harm (noise_plan_test.cpp): half
 /// the picture has rare light, one sample in 50. Over 400 seeds the picture's mean after three
 /// rounds is 1 within a thousandth and three standard errors, as that of a render of one machine.
-TEST_F(Rounds, DoNotDarken) {
+TEST(RoundPlan, DoesNotDarken) {
     const Draw caustic = [](uint32_t pixel, Random& random) {
         if (pixel % kSide < kSide / 2) return gamma(0.5, random);
         return std::bernoulli_distribution(0.02)(random) ? 50.0 : 0.0;
     };
-    constexpr int kSeeds = 400;
-    const FilmHeader picture = pictureOf(16, 4);
+    constexpr uint32_t kSeeds = 400;
     double sum = 0, squares = 0, samples = 0;
-    for (int seed = 0; seed < kSeeds; ++seed) {
-        seed_ = uint32_t(seed);
-        fs::path film = first(picture, 1, caustic).front();
+    for (uint32_t seed = 0; seed < kSeeds; ++seed) {
+        FilmHeader header = ofShare(pictureOf(16, 4), {1, 1});
+        std::vector<SharedPixel> pixels = drawBlocks(header, caustic, seed);
         for (int round = 2; round <= 3; ++round) {
-            const RoundPlan plan = next({film}, 0.01).plan.value();
-            film = merged({film, planned(plan, {1, 1}, caustic)});
+            NextRoundPlanner planner(header, 0.01, kMostSamples);
+            planner.add(pixels);
+            const PlannedShare share = ofShare(planner.finish().plan.value(), {1, 1});
+            const std::vector<SharedPixel> more = drawPlanned(share, caustic, seed);
+            for (size_t i = 0; i < pixels.size(); ++i)
+                pixels[i].add(more[i]);
+            add(header, share.header, "");
         }
         double mean = 0;
-        for (const SharedPixel& p : sumOf({film})) {
+        for (const SharedPixel& p : pixels) {
             mean += p.all.statistics().mean.x / (kSide * kSide);
             samples += p.all.taken() / double(kSide * kSide * kSeeds);
         }
         sum += mean, squares += mean * mean;
-        for (int i = 1; i <= files_; ++i)
-            fs::remove(folder_ / (std::to_string(i) + ".film"));
-        files_ = 0;
     }
     const double mean = sum / kSeeds;
     const double sigma = std::sqrt((squares / kSeeds - mean * mean) / (kSeeds - 1));
