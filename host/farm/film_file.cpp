@@ -65,7 +65,8 @@ void forEachKind(const Visit& visit) {
                 kind++, [=](auto& p) -> auto& { return p.lastSum[c].words[i]; });
 }
 constexpr uint32_t kLastKinds = 4 + 3 * (4 + 5);
-static_assert(kLastKinds + 1 + 3 * 4 < 63);
+constexpr uint32_t kKinds = kLastKinds + 1 + 3 * 4;
+static_assert(kKinds < 63);
 
 template <class NumberOf>
 constexpr size_t sizeOf = sizeof(std::declval<NumberOf>()(std::declval<SharedPixel&>()));
@@ -126,24 +127,26 @@ std::vector<std::byte> bytesOf(std::span<const SharedPixel> run) {
     return bytes;
 }
 
-/// False if the bytes were others. The run's numbers are 0.
-bool fromBytes(std::span<const std::byte> bytes, std::vector<SharedPixel>& run) {
+enum class Passes { Several, One };
+
+/// Fills the run in; nothing if the bytes were others. Where there is one pass, nothing is said of
+/// it beside its number.
+std::optional<Passes> fromBytes(std::span<const std::byte> bytes, std::vector<SharedPixel>& run) {
     Kinds kinds = 0;
-    if (bytes.size() < sizeof kinds) return false;
+    if (bytes.size() < sizeof kinds) return std::nullopt;
     std::memcpy(&kinds, bytes.data(), sizeof kinds);
     const std::optional<std::vector<std::byte>> numbers =
         decompressed(bytes.subspan(sizeof kinds), run.size() * bytesOf(kinds));
-    if (!numbers) return false;
-    for (SharedPixel& p : run)
-        p.all.firstRejected = 0;
+    if (!numbers) return std::nullopt;
+    const Passes passes = kinds & kOfOnePass ? Passes::One : Passes::Several;
+    const Kinds all = (Kinds(1) << (passes == Passes::One ? kLastKinds : kKinds)) - 1;
     forEachPlace(run.size(), kinds, [&](const auto& numberOf, size_t i, size_t place) {
         auto& number = numberOf(run[i]);
         std::memcpy(&number, numbers->data() + place, sizeof number);
     });
-    if (kinds & kOfOnePass)
-        for (SharedPixel& p : run)
-            p.lastCount = p.all.count, p.lastSum = p.all.sum;
-    return true;
+    forEachPlace(run.size(), all & ~kinds,
+                 [&](const auto& numberOf, size_t i, size_t) { numberOf(run[i]) = 0; });
+    return passes;
 }
 
 /// Size and checksum, then the bytes.
@@ -262,16 +265,27 @@ std::vector<std::byte> FilmReader::read(uint64_t size) {
 }
 
 void FilmReader::next(std::vector<SharedPixel>& run) {
-    run.assign(std::min<uint64_t>(pixelsPerRun_, pixelsLeft_), {});
+    if (!nextInBrief(run)) return;
+    for (SharedPixel& p : run)
+        p.lastCount = p.all.count, p.lastSum = p.all.sum;
+}
+
+bool FilmReader::nextInBrief(std::vector<SharedPixel>& run) {
+    run.resize(std::min<uint64_t>(pixelsPerRun_, pixelsLeft_));
     pixelsLeft_ -= run.size();
-    if (header_.isEmpty()) return;
+    if (header_.isEmpty()) {
+        std::ranges::fill(run, SharedPixel{});
+        return true;
+    }
     const std::vector<std::byte> front = read(kFront);
     ByteParts parts(path_, "film", front);
     const auto size = parts.number<uint64_t>();
     const auto sum = parts.number<uint32_t>();
     const std::vector<std::byte> bytes = read(size);
     if (checksumOf(bytes) != sum) refuse("the film is damaged");
-    if (!fromBytes(bytes, run)) refuse("the film is damaged");
+    const std::optional<Passes> passes = fromBytes(bytes, run);
+    if (!passes) refuse("the film is damaged");
+    return *passes == Passes::One;
 }
 
 } // namespace stromboli

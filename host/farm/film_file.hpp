@@ -48,6 +48,9 @@ class FilmReader {
     /// The next run of pixels; all of them without samples where the film is empty. Throws
     /// UsageError as above.
     void next(std::vector<SharedPixel>& run);
+    /// The same, but where the samples of each pixel are of one pass, as in most films of shares,
+    /// nothing is said of the last one beside its number: true.
+    bool nextInBrief(std::vector<SharedPixel>& run);
 
   private:
     std::vector<std::byte> read(uint64_t size);

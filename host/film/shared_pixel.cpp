@@ -5,8 +5,12 @@ namespace stromboli {
 void SharedPixel::add(const PixelStatistics& samples, uint32_t firstSample, uint32_t pass) {
     ExactStatistics exact;
     exact.add(samples, firstSample);
-    all.add(exact);
-    addToLast(pass, exact.count, exact.sum);
+    addOfOnePass(exact, pass);
+}
+
+void SharedPixel::addOfOnePass(const ExactStatistics& other, uint32_t pass) {
+    all.add(other);
+    addToLast(pass, other.count, other.sum);
 }
 
 void SharedPixel::add(const SharedPixel& other) {

@@ -20,6 +20,8 @@ struct SharedPixel {
     /// `firstSample`. Throws SceneError if their radiance is out of range.
     void add(const PixelStatistics& samples, uint32_t firstSample, uint32_t pass);
     void add(const SharedPixel& other);
+    /// The same of another one whose samples are all of one pass.
+    void addOfOnePass(const ExactStatistics& other, uint32_t pass);
     /// Whether no pass was before the last one.
     bool isOfOnePass() const { return lastCount == all.count && lastSum == all.sum; }
     /// An estimate of the squared error of the mean: from what the last pass changed or, where it

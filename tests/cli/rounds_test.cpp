@@ -1,4 +1,5 @@
 // Pictures whose shares are taken in rounds, each where the films until then are noisy.
+#include "host/film/exr.hpp"
 #include "host/film/image_file.hpp"
 #include "tests/cli/running_program.hpp"
 
@@ -109,6 +110,30 @@ TEST_F(Rounds, HaveTheSameBytesWhateverTheShares) {
     }
     EXPECT_THAT(note("sum.exr", "Samples"), HasSubstr("a pixel, in 3 rounds"));
     EXPECT_THAT(note("sum.exr", "Noise"), HasSubstr("about "));
+}
+
+/// Where rounds go on until all pixels have 48 samples, these are the first 48, each once: but for
+/// roundings, the picture is that of one render.
+TEST_F(Rounds, GoOnWithTheNextSamples) {
+    Strings films = shares(1, 2);
+    for (int round = 2;; ++round) {
+        const std::string name = std::to_string(round) + ".plan";
+        const int code = plan(name, films, "0.0001", {"-s", "48"}).exitCode;
+        if (code == kNothingLeft) break;
+        ASSERT_EQ(code, 0);
+        films = films + shares(round, 3, folder.file(name));
+    }
+    EXPECT_GT(films.size(), 2u);
+    EXPECT_EQ(merge("sum.exr", films, {"--aov"}).exitCode, 0);
+    run({"render", scene, "-o", folder.file("whole.exr"), "-r", "24", "18", "-s", "48", "--block",
+         "4", "--even", "--aov", "-q"});
+    const FloatImage sum = readExr(folder.path() / "sum.exr");
+    const FloatImage whole = readExr(folder.path() / "whole.exr");
+    for (const char* name : {"R", "G", "B", "samples", "variance.R"}) {
+        const std::vector<float>&a = sum.channels.at(name), &b = whole.channels.at(name);
+        for (size_t i = 0; i < a.size(); ++i)
+            ASSERT_NEAR(a[i], b[i], 1e-5 * b[i] + 1e-9) << name << " of pixel " << i;
+    }
 }
 
 TEST_F(Rounds, OfTheReferenceToo) {
