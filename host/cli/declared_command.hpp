@@ -55,6 +55,8 @@ void declareScene(DeclaredCommand& command);
 /// Views that files do not state: where from, which angle, which lens.
 /// What is said of the file that a picture is written to.
 void declarePictureFile(DeclaredCommand& command);
+/// --transparent, --layers.
+void declareSeen(DeclaredCommand& command);
 void declareOptics(DeclaredCommand& command);
 void declareSequence(DeclaredCommand& command);
 void checkSequence(const DeclaredCommand& command);

@@ -53,9 +53,10 @@ std::string samplesNote(const FilmHeader& film) {
 
 void writeFilm(FilmsToMerge& films, const Options& options) {
     FilmWriter writer(options.output, films.header());
-    films.addUp([&](const PictureArea&, std::span<const SharedPixel> run) {
-        if (!films.header().isEmpty()) writer.add(run);
-    });
+    films.addUp(
+        [&](const PictureArea&, std::span<const SharedPixel> run, std::span<const float> layers) {
+            if (!films.header().isEmpty()) writer.add(run, layers);
+        });
     writer.finish();
 }
 
@@ -64,17 +65,40 @@ std::string noteOf(const PictureNoise& noise) {
     return inWords(noise).substr(std::string_view("noise ").size());
 }
 
+/// Channels that the picture has beside its radiance.
+std::vector<std::string> channelsBeside(const FilmHeader& header, const Options& options) {
+    std::vector<std::string> names;
+    if (header.hasAlpha()) names.emplace_back(kAlphaChannel);
+    if (header.layers.empty()) return names;
+    if (isPng(options.output)) {
+        logging::warn(
+            fmt::format("{} has no channels for the layers of the films", options.output));
+        return names;
+    }
+    if (!header.holdsLayers)
+        logging::warn("the layers are missing: they are in the film of the first samples");
+    for (const Layer layer : header.layers)
+        for (std::string& name : channelsOf(layer))
+            names.push_back(std::move(name));
+    return names;
+}
+
 /// Returns what is known of the picture's noise.
 PictureNoise writeMergedPicture(FilmsToMerge& films, const Options& options) {
     const FilmHeader& header = films.header();
-    const PictureOptions pictureOptions{options.tone, options.statisticsChannels, {}};
+    const PictureOptions pictureOptions{options.tone, options.statisticsChannels,
+                                        channelsBeside(header, options)};
     const auto notesOf = [&](const PictureNoise& noise) {
-        if (!options.notes) return PictureNotes{};
+        const PictureNotes legend = isPng(options.output) ? PictureNotes{} : header.legend;
+        if (!options.notes) return legend;
         // A picture in one round has the bytes of one render, whose notes cannot tell: the noise of
         // a render in bands or in two goes is found out in another way.
-        return pictureNotes({header.scene, header.settings.estimator.seed, samplesNote(header),
-                             header.identity.device, wholeCommand(header.command, options),
-                             header.rounds() > 1 ? noteOf(noise) : ""});
+        PictureNotes notes =
+            pictureNotes({header.scene, header.settings.estimator.seed, samplesNote(header),
+                          header.identity.device, wholeCommand(header.command, options),
+                          header.rounds() > 1 ? noteOf(noise) : ""});
+        notes.insert(notes.end(), legend.begin(), legend.end());
+        return notes;
     };
     const Crop part = header.settings.area.rendered();
     if (!isStandardOutput(options.output))
@@ -82,11 +106,13 @@ PictureNoise writeMergedPicture(FilmsToMerge& films, const Options& options) {
                                                           pictureOptions, notesOf({})));
     PictureFile picture(options.output, header.settings.area, pictureOptions);
     std::vector<PartNoise> noises;
-    PictureParts parts(header, [&](const Film& film, const NoiseEstimate& estimate) {
-        picture.place(film);
-        noises.push_back({estimate.picture(film), film.pixels.size()});
-    });
-    films.addUp([&](const PictureArea&, std::span<const SharedPixel> run) { parts.add(run); });
+    PictureParts parts(
+        header, [&](const Film& film, const NoiseEstimate& estimate, const FloatImage& more) {
+            picture.place(film, more);
+            noises.push_back({estimate.picture(film), film.pixels.size()});
+        });
+    films.addUp([&](const PictureArea&, std::span<const SharedPixel> run,
+                    std::span<const float> layers) { parts.add(run, layers); });
     nowDoing("writing " + options.output);
     const PictureNoise noise = togetherOf(noises);
     picture.write(notesOf(noise));

@@ -207,11 +207,11 @@ int renderShare(Renderer& renderer, Job& job, const Options& options) {
     bool isThere = false;
     renderer.render(
         job, options,
-        [&](const MakeBackend& makeBackend, const std::function<Viewer*()>&, uint64_t mostPixels,
-            RenderReport& r) {
+        [&](const MakeBackend& makeBackend, const std::function<Viewer*()>& viewer,
+            uint64_t mostPixels, RenderReport& r) {
             const PlannedShare share = shareToTake(job, options, plan, r.backend);
             isThere = isThereAlready(share.header, options);
-            if (!isThere) takeShare(job, options, share, makeBackend, mostPixels, r);
+            if (!isThere) takeShare(job, options, share, makeBackend, viewer, mostPixels, r);
         },
         report);
     if (isThere) return 0;

@@ -39,9 +39,6 @@ void declareShare(DeclaredCommand& c) {
         .excludes("--time", kAllAlike)
         .excludes("--checkpoint", "a share is what is kept: take more of them")
         .excludes("--checkpoint-every", "a share is what is kept: take more of them")
-        .excludes("--transparent", "films of shares hold radiance alone")
-        .excludes("--layers", "films of shares hold radiance alone; render the layers by "
-                              "themselves, with -s 1")
         .excludes("--exposure", "merge has it")
         .excludes("--aov", "merge has it")
         .excludes("--notes", "merge has it")
@@ -191,6 +188,7 @@ void declareSubmit(DeclaredCommand& c) {
         .besidePicture()
         .proposes(Proposed::Files);
     declarePictureFile(c);
+    declareSeen(c);
     declarePicture(c);
     declareEstimator(c);
     declareSamples(c,
@@ -207,6 +205,7 @@ void declareSubmit(DeclaredCommand& c) {
         finishBudget(c, true);
         if (!o.cameras.empty())
             throw UsageError("submit is of one picture: --camera names several");
+        o.estimator.showsBackdrop = !o.transparent;
         checkOutputOptions(c);
         for (size_t i = 1; i < o.pictureCommand.size(); ++i) { // the first is the command's name
             const std::string& part = o.pictureCommand[i];

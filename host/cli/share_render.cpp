@@ -4,9 +4,11 @@
 #include "host/checkpoint/scene_identity.hpp"
 #include "host/cli/activity.hpp"
 #include "host/cli/progress.hpp"
+#include "host/cli/seen_channels.hpp"
 #include "host/cli/signals.hpp"
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
+#include "host/core/printable.hpp"
 #include "host/farm/film_file.hpp"
 #include "host/render/bands.hpp"
 #include "host/version/version.hpp"
@@ -50,6 +52,9 @@ class SharedBand {
     SharedBand(Backend& backend, const PictureArea& band, ShareProgress& progress)
         : backend_(backend), band_(band), progress_(progress), sums_(band.pixelCount()) {}
 
+    /// For pictures with alpha: the samples whose camera rays end on a surface are counted.
+    void countCovered(Viewer& viewer) { viewer_ = &viewer; }
+
     /// The targets' samples from number `first` on. False if it was interrupted.
     bool take(uint32_t first, std::span<const PixelTarget> targets, uint32_t pass) {
         Film film(band_);
@@ -63,6 +68,7 @@ class SharedBand {
             sums_[t.pixel].add(film.pixels[t.pixel], first, pass);
             progress_.done += t.samples;
         }
+        if (viewer_) addCovered(first, targets);
         return true;
     }
     /// The blocks of a share of the first round.
@@ -96,9 +102,25 @@ class SharedBand {
     }
 
   private:
+    /// By the camera rays of the very samples.
+    void addCovered(uint32_t firstSample, std::span<const PixelTarget> targets) {
+        std::vector<uint32_t> samples(sums_.size(), 0);
+        for (const PixelTarget& t : targets)
+            samples[t.pixel] = t.samples;
+        for (size_t begin = 0; begin < samples.size(); begin += Viewer::kMostSeenAtOnce) {
+            const std::span<const uint32_t> run = std::span(samples).subspan(
+                begin, std::min<size_t>(Viewer::kMostSeenAtOnce, samples.size() - begin));
+            if (std::ranges::count(run, 0u) == std::ssize(run)) continue;
+            const auto seen = viewer_->see(uint32_t(begin), run, Seeing::Coverage, firstSample);
+            for (size_t i = 0; i < seen.size(); ++i)
+                sums_[begin + i].covered += seen[i].hits;
+        }
+    }
+
     Backend& backend_;
     PictureArea band_;
     ShareProgress& progress_;
+    Viewer* viewer_ = nullptr;
     std::vector<SharedPixel> sums_;
 };
 
@@ -142,6 +164,9 @@ FilmHeader headerOfPicture(const Job& job, const Options& options, const std::st
     picture.settings = job.settings;
     picture.scene = options.scene;
     picture.command = options.pictureCommand;
+    picture.layers = options.layers;
+    for (const PictureNote& note : legendOf(options.layers, job.scene))
+        picture.legend.push_back({note.name, printable(note.text)});
     return picture;
 }
 
@@ -195,7 +220,8 @@ bool isThereAlready(const FilmHeader& header, const Options& options) {
 }
 
 void takeShare(const Job& job, const Options& options, const PlannedShare& share,
-               const MakeBackend& makeBackend, uint64_t mostPixels, RenderReport& report) {
+               const MakeBackend& makeBackend, const std::function<Viewer*()>& viewer,
+               uint64_t mostPixels, RenderReport& report) {
     const FilmHeader& header = share.header;
     const bool isPlanned = !header.planned.empty();
     FilmWriter writer(options.output, header);
@@ -221,6 +247,7 @@ void takeShare(const Job& job, const Options& options, const PlannedShare& share
         nowDoing("taking samples", StatusLine::OfOthers);
         const Stopwatch rendering;
         SharedBand taken(*backend, band, progress);
+        if (header.hasAlpha()) taken.countCovered(*viewer());
         report.interrupted = !(isPlanned ? taken.takePlanned(pixels, firstPixel, header.rounds())
                                          : taken.takeBlocks(header));
         report.renderSeconds += rendering.seconds();
@@ -228,8 +255,10 @@ void takeShare(const Job& job, const Options& options, const PlannedShare& share
         report.counters.paths += counters.paths;
         report.counters.rays += counters.rays;
         if (report.interrupted) return;
-        count(taken.film(), settings, report);
-        writer.add(taken.sums());
+        const Film film = taken.film();
+        count(film, settings, report);
+        writer.add(taken.sums(), header.holdsLayers ? layersByPixel(*viewer(), film, job, options)
+                                                    : std::vector<float>{});
         firstPixel += uint32_t(band.pixelCount());
     }
     if (isPlanned) report.pixelsUnreached = 0; // by this share: others have samples of them

@@ -5,6 +5,7 @@
 #include "host/cli/report.hpp"
 #include "host/farm/round_plan.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -29,6 +30,7 @@ bool isThereAlready(const FilmHeader& header, const Options& options);
 /// Takes the samples of the share, band by band of at most so many pixels, and writes its film: all
 /// of it or, where it is interrupted, none. Throws DeviceError, OutputError.
 void takeShare(const Job& job, const Options& options, const PlannedShare& share,
-               const MakeBackend& makeBackend, uint64_t mostPixels, RenderReport& report);
+               const MakeBackend& makeBackend, const std::function<Viewer*()>& viewer,
+               uint64_t mostPixels, RenderReport& report);
 
 } // namespace stromboli

@@ -48,6 +48,8 @@ void forEachKind(const Visit& visit) {
     visit(
         kind++, [](auto& p) -> auto& { return p.all.firstRejected; });
     visit(
+        kind++, [](auto& p) -> auto& { return p.covered; });
+    visit(
         kind++, [](auto& p) -> auto& { return p.lastPass; });
     for (size_t c = 0; c < 3; ++c) {
         for (size_t i = 0; i < ExactStatistics().sum[c].words.size(); ++i)
@@ -64,7 +66,7 @@ void forEachKind(const Visit& visit) {
             visit(
                 kind++, [=](auto& p) -> auto& { return p.lastSum[c].words[i]; });
 }
-constexpr uint32_t kLastKinds = 4 + 3 * (4 + 5);
+constexpr uint32_t kLastKinds = 5 + 3 * (4 + 5);
 constexpr uint32_t kKinds = kLastKinds + 1 + 3 * 4;
 static_assert(kKinds < 63);
 
@@ -149,6 +151,15 @@ std::optional<Passes> fromBytes(std::span<const std::byte> bytes, std::vector<Sh
     return passes;
 }
 
+/// Rows become columns.
+std::vector<float> transposed(std::span<const float> values, size_t rows, size_t columns) {
+    std::vector<float> result(values.size());
+    for (size_t row = 0; row < rows; ++row)
+        for (size_t column = 0; column < columns; ++column)
+            result[column * rows + row] = values[row * columns + column];
+    return result;
+}
+
 /// Size and checksum, then the bytes.
 void writePart(TemporaryFile& file, std::span<const std::byte> bytes) {
     std::vector<std::byte> front;
@@ -174,27 +185,37 @@ bool namesFilm(const fs::path& path) {
 }
 
 FilmWriter::FilmWriter(const fs::path& path, const FilmHeader& header)
-    : file_(path), pixelsPerRun_(pixelsPerRun(header.settings.area)),
-      pixelsLeft_(pixelsOf(header)) {
+    : file_(path), pixelsPerRun_(pixelsPerRun(header.settings.area)), pixelsLeft_(pixelsOf(header)),
+      channels_(header.layerChannels()) {
     file_.write(std::as_bytes(std::span(kMagic)));
     writePart(file_, toBytes(header));
 }
 
-void FilmWriter::add(std::span<const SharedPixel> pixels) {
+void FilmWriter::add(std::span<const SharedPixel> pixels, std::span<const float> layers) {
     if (pixels.size() > pixelsLeft_ - run_.size())
         throw std::logic_error("more pixels than the film has");
+    if (layers.size() != pixels.size() * channels_)
+        throw std::logic_error("pixels have more or fewer layers than the film");
     while (!pixels.empty()) {
         const size_t count = std::min(pixels.size(), pixelsPerRun_ - run_.size());
         run_.insert(run_.end(), pixels.begin(), pixels.begin() + std::ptrdiff_t(count));
         pixels = pixels.subspan(count);
+        const auto ofThese = layers.first(count * channels_);
+        layers_.insert(layers_.end(), ofThese.begin(), ofThese.end());
+        layers = layers.subspan(ofThese.size());
         if (run_.size() == pixelsPerRun_ || run_.size() == pixelsLeft_) writeRun();
     }
 }
 
 void FilmWriter::writeRun() {
     writePart(file_, bytesOf(run_));
+    if (channels_ > 0) {
+        const std::vector<float> byChannel = transposed(layers_, run_.size(), channels_);
+        writePart(file_, compressed(std::as_bytes(std::span(byChannel))));
+    }
     pixelsLeft_ -= run_.size();
     run_.clear();
+    layers_.clear();
 }
 
 void FilmWriter::finish() {
@@ -222,12 +243,7 @@ FilmReader::FilmReader(const fs::path& path) : path_(path) {
         if (::pread(descriptor_, end, sizeof end, place) != ssize_t(sizeof end) ||
             std::string_view(end, sizeof end) != kEnd)
             refuse("the film is cut short");
-        std::vector<std::byte> front = read(kFront);
-        ByteParts parts(path_, "film", front);
-        const auto size = parts.number<uint64_t>();
-        const auto sum = parts.number<uint32_t>();
-        const std::vector<std::byte> bytes = read(size);
-        if (checksumOf(bytes) != sum) refuse("the film is damaged");
+        const std::vector<std::byte> bytes = readPart();
         header_ = filmHeaderFromBytes(bytes, path_);
     } catch (...) {
         ::close(descriptor_);
@@ -277,15 +293,32 @@ bool FilmReader::nextInBrief(std::vector<SharedPixel>& run) {
         std::ranges::fill(run, SharedPixel{});
         return true;
     }
+    const std::optional<Passes> passes = fromBytes(readPart(), run);
+    if (!passes) refuse("the film is damaged");
+    return *passes == Passes::One;
+}
+
+void FilmReader::nextLayers(std::vector<float>& layers) {
+    const size_t channels = header_.layerChannels();
+    layers.clear();
+    if (channels == 0) return;
+    const uint64_t done = header_.settings.area.pixelCount() - pixelsLeft_;
+    const size_t pixels = (done - 1) % pixelsPerRun_ + 1;
+    const auto bytes = decompressed(readPart(), pixels * channels * sizeof(float));
+    if (!bytes) refuse("the film is damaged");
+    std::vector<float> byChannel(pixels * channels);
+    std::memcpy(byChannel.data(), bytes->data(), bytes->size());
+    layers = transposed(byChannel, channels, pixels);
+}
+
+std::vector<std::byte> FilmReader::readPart() {
     const std::vector<std::byte> front = read(kFront);
     ByteParts parts(path_, "film", front);
     const auto size = parts.number<uint64_t>();
     const auto sum = parts.number<uint32_t>();
-    const std::vector<std::byte> bytes = read(size);
+    std::vector<std::byte> bytes = read(size);
     if (checksumOf(bytes) != sum) refuse("the film is damaged");
-    const std::optional<Passes> passes = fromBytes(bytes, run);
-    if (!passes) refuse("the film is damaged");
-    return *passes == Passes::One;
+    return bytes;
 }
 
 } // namespace stromboli

@@ -126,6 +126,13 @@ std::string inWords(const ShareName& share) {
     return fmt::format("{}/{}", share.index, share.count);
 }
 
+size_t FilmHeader::layerChannels() const {
+    size_t count = 0;
+    for (const Layer layer : layers)
+        count += holdsLayers ? channelsOf(layer).size() : 0;
+    return count;
+}
+
 uint32_t FilmHeader::samples() const {
     uint32_t sum = 0;
     for (const BlockRange& range : blocks)
@@ -170,7 +177,8 @@ FilmHeader ofShare(FilmHeader picture, const ShareName& share) {
     picture.planned.clear();
     picture.shares = {share};
     picture.blocks = {picture.allBlocks().ofShare(share.index, share.count)};
-    if (picture.blocks.front().empty()) picture.blocks.clear();
+    picture.holdsLayers = !picture.layers.empty() && picture.blocks.front().first == 0;
+    if (picture.blocks.front().empty()) picture.blocks.clear(), picture.holdsLayers = false;
     return picture;
 }
 
@@ -207,6 +215,7 @@ std::string differenceOf(const FilmHeader& one, const FilmHeader& other) {
                            x.samplesPerBlock);
     if (!sameEstimator(one.settings.estimator, other.settings.estimator))
         return "is of other settings: " + fmt::format("{}", fmt::join(other.command, " "));
+    if (one.layers != other.layers) return "has other --layers";
     for (size_t i = 0; i < std::min(one.planned.size(), other.planned.size()); ++i)
         if (one.planned[i].plan != other.planned[i].plan)
             return fmt::format("follows another plan of round {} ({:08x}, not {:08x})", i + 2,
@@ -232,6 +241,7 @@ void add(FilmHeader& sum, const FilmHeader& other, const std::filesystem::path& 
                   });
         round.held += added.held;
     }
+    sum.holdsLayers = sum.holdsLayers || other.holdsLayers;
     // Shares may have been given the scene by several names: the first of all, whatever the order.
     if (std::tie(other.command, other.scene) < std::tie(sum.command, sum.scene))
         std::tie(sum.command, sum.scene) = std::tie(other.command, other.scene);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/checkpoint/checkpoint_file.hpp"
+#include "host/render/layers.hpp"
 #include "host/render/sample_blocks.hpp"
 #include "host/render/settings.hpp"
 
@@ -40,11 +41,20 @@ struct FilmHeader {
     /// As the picture's notes say it: the scene's name, and the command that renders it in one go.
     std::string scene;
     std::vector<std::string> command;
+    /// Channels beside the radiance, of which the film of a pixel's first samples has those of its
+    /// first camera rays (docs/layers.md), and what their numbers stand for.
+    std::vector<Layer> layers;
+    PictureNotes legend;
+    bool holdsLayers = false;
     // Of the first round, in which all pixels have as many samples:
     std::vector<ShareName> shares;  ///< in rising order
     std::vector<BlockRange> blocks; ///< in rising order, with gaps between them
     /// The rounds after it, up to the last one that is known here, whether it is held or not.
     std::vector<PlannedRound> planned;
+
+    /// Whether the picture has alpha: then films count the samples that a surface covers.
+    bool hasAlpha() const { return !settings.estimator.showsBackdrop; }
+    size_t layerChannels() const; ///< that it holds
 
     SampleBlocks allBlocks() const {
         return {settings.budget.mostSamplesPerPixel, settings.budget.samplesPerBlock};

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace stromboli {
 namespace {
@@ -28,6 +29,11 @@ bool arePossible(const std::vector<ShareName>& shares, const std::vector<BlockRa
 bool isPossible(const FilmHeader& header) {
     const uint64_t pixels = header.settings.area.pixelCount();
     if (pixels == 0 || !header.settings.budget.isInBlocks()) return false;
+    if (!std::ranges::all_of(header.layers, [](Layer layer) {
+            return std::ranges::count(kNamedValues<Layer>, layer, &NamedValue<Layer>::value) == 1;
+        }))
+        return false;
+    if (header.holdsLayers && (header.layers.empty() || header.blocks.empty())) return false;
     return arePossible(header.shares, header.blocks, header.allBlocks().count()) &&
            std::ranges::all_of(header.planned, [&](const PlannedRound& round) {
                return round.samples > 0 && round.samples / kMostSamples <= pixels &&
@@ -72,6 +78,13 @@ std::vector<std::byte> toBytes(const FilmHeader& header) {
     append(bytes, uint64_t(header.command.size()));
     for (const std::string& part : header.command)
         append(bytes, part);
+    append(bytes, uint64_t(header.layers.size()));
+    for (const Layer layer : header.layers)
+        append(bytes, uint32_t(layer));
+    append(bytes, uint64_t(header.legend.size()));
+    for (const PictureNote& note : header.legend)
+        append(bytes, note.name), append(bytes, note.text);
+    append(bytes, uint32_t(header.holdsLayers));
     appendShares(bytes, header.shares, header.blocks);
     append(bytes, uint64_t(header.planned.size()));
     for (const PlannedRound& round : header.planned) {
@@ -99,6 +112,13 @@ FilmHeader filmHeaderFromBytes(std::span<const std::byte> bytes,
     header.scene = parts.text();
     for (auto left = parts.number<uint64_t>(); left > 0; --left)
         header.command.push_back(parts.text());
+    for (auto left = parts.number<uint64_t>(); left > 0; --left)
+        header.layers.push_back(Layer(parts.number<uint32_t>()));
+    for (auto left = parts.number<uint64_t>(); left > 0; --left) {
+        std::string name = parts.text();
+        header.legend.push_back({std::move(name), parts.text()});
+    }
+    header.holdsLayers = parts.number<uint32_t>() != 0;
     readShares(parts, header.shares, header.blocks);
     for (auto left = parts.number<uint64_t>(); left > 0; --left) {
         PlannedRound& round = header.planned.emplace_back();

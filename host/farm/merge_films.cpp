@@ -34,7 +34,7 @@ PictureArea rowsOf(const PictureArea& area, uint32_t first, size_t pixels) {
 void addTo(SharedPixel& sum, const SharedPixel& pixel, bool isOfOnePass) {
     if (pixel.all.taken() == 0) return; // a planned share has few pixels
     if (isOfOnePass)
-        sum.addOfOnePass(pixel.all, pixel.lastPass);
+        sum.addOfOnePass(pixel);
     else
         sum.add(pixel);
 }
@@ -74,21 +74,24 @@ FilmsToMerge::FilmsToMerge(const std::vector<std::filesystem::path>& files) {
         films_.push_back(std::move(films[i]));
 }
 
-void FilmsToMerge::addUp(
-    const std::function<void(const PictureArea&, std::span<const SharedPixel>)>& take) {
+void FilmsToMerge::addUp(const std::function<void(const PictureArea&, std::span<const SharedPixel>,
+                                                  std::span<const float>)>& take) {
     const PictureArea& area = header_.settings.area;
     const size_t atOnce = std::clamp<size_t>(
         films_.size(), 1, size_t(std::clamp(tbb::info::default_concurrency(), 1, 16)));
     std::vector<std::vector<SharedPixel>> runs(atOnce);
     std::vector<char> isOfOnePass(atOnce); // each set by a thread of its own
     std::vector<SharedPixel> sum;
+    std::vector<float> layers;
     const uint32_t rows = area.rendered().height;
     for (uint32_t row = 0; row < rows; row += rowsPerRun(area)) {
         sum.assign(size_t(std::min(rowsPerRun(area), rows - row)) * area.rendered().width, {});
         for (size_t first = 0; first < films_.size(); first += atOnce) {
             const size_t count = std::min(atOnce, films_.size() - first);
             tbb::parallel_for(size_t(0), count, [&](size_t i) {
-                isOfOnePass[i] = films_[first + i].nextInBrief(runs[i]);
+                FilmReader& film = films_[first + i];
+                isOfOnePass[i] = film.nextInBrief(runs[i]);
+                if (film.header().holdsLayers) film.nextLayers(layers); // one film at most
             });
             tbb::parallel_for(tbb::blocked_range<size_t>(0, sum.size(), 1024),
                               [&](const auto& range) {
@@ -97,7 +100,7 @@ void FilmsToMerge::addUp(
                                           addTo(sum[i], runs[k][i], isOfOnePass[k]);
                               });
         }
-        take(rowsOf(area, row, sum.size()), sum);
+        take(rowsOf(area, row, sum.size()), sum, layers);
     }
 }
 

@@ -12,13 +12,15 @@ namespace stromboli {
 
 NextRoundPlanner::NextRoundPlanner(const FilmHeader& header, double noise, uint32_t mostSamples)
     : noise_(noise), mostSamples_(mostSamples),
-      parts_(header,
-             [this](const Film& part, const NoiseEstimate& estimate) { plan(part, estimate); }) {
+      parts_(header, [this](const Film& part, const NoiseEstimate& estimate, const FloatImage&) {
+          plan(part, estimate);
+      }) {
     if (!header.isComplete())
         throw UsageError(fmt::format("the next round cannot be planned: {}", missingFrom(header)));
     plan_.picture = header;
     plan_.picture.shares.clear();
     plan_.picture.blocks.clear();
+    plan_.picture.holdsLayers = false;
     for (PlannedRound& round : plan_.picture.planned)
         round = {round.plan, round.samples, 0, {}, {}};
 }
@@ -44,7 +46,9 @@ NextRound NextRoundPlanner::finish() {
 
 NextRound planNextRound(FilmsToMerge& films, double noise, uint32_t mostSamples) {
     NextRoundPlanner planner(films.header(), noise, mostSamples);
-    films.addUp([&](const PictureArea&, std::span<const SharedPixel> run) { planner.add(run); });
+    films.addUp([&](const PictureArea&, std::span<const SharedPixel> run, std::span<const float>) {
+        planner.add(run);
+    });
     return planner.finish();
 }
 

@@ -80,6 +80,7 @@ PlannedShare ofShare(const RoundPlan& plan, const ShareName& share) {
     FilmHeader& header = result.header;
     header.shares.clear();
     header.blocks.clear();
+    header.holdsLayers = false;
     for (PlannedRound& round : header.planned)
         round = {round.plan, round.samples, 0, {}, {}};
     PlannedRound& round = header.planned.emplace_back();

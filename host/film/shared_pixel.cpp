@@ -3,18 +3,21 @@
 namespace stromboli {
 
 void SharedPixel::add(const PixelStatistics& samples, uint32_t firstSample, uint32_t pass) {
-    ExactStatistics exact;
-    exact.add(samples, firstSample);
-    addOfOnePass(exact, pass);
+    SharedPixel other;
+    other.all.add(samples, firstSample);
+    other.lastPass = pass;
+    addOfOnePass(other);
 }
 
-void SharedPixel::addOfOnePass(const ExactStatistics& other, uint32_t pass) {
-    all.add(other);
-    addToLast(pass, other.count, other.sum);
+void SharedPixel::addOfOnePass(const SharedPixel& other) {
+    all.add(other.all);
+    covered += other.covered;
+    addToLast(other.lastPass, other.all.count, other.all.sum);
 }
 
 void SharedPixel::add(const SharedPixel& other) {
     all.add(other.all);
+    covered += other.covered;
     addToLast(other.lastPass, other.lastCount, other.lastSum);
 }
 

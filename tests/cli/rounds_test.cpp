@@ -115,6 +115,7 @@ TEST_F(Rounds, HaveTheSameBytesWhateverTheShares) {
 /// Where rounds go on until all pixels have 48 samples, these are the first 48, each once: but for
 /// roundings, the picture is that of one render.
 TEST_F(Rounds, GoOnWithTheNextSamples) {
+    settings = settings + Strings{"--transparent", "--look-from", "0", "1", "9"};
     Strings films = shares(1, 2);
     for (int round = 2;; ++round) {
         const std::string name = std::to_string(round) + ".plan";
@@ -124,12 +125,12 @@ TEST_F(Rounds, GoOnWithTheNextSamples) {
         films = films + shares(round, 3, folder.file(name));
     }
     EXPECT_GT(films.size(), 2u);
+    settings[4] = "48"; // -s
     EXPECT_EQ(merge("sum.exr", films, {"--aov"}).exitCode, 0);
-    run({"render", scene, "-o", folder.file("whole.exr"), "-r", "24", "18", "-s", "48", "--block",
-         "4", "--even", "--aov", "-q"});
+    run(render("whole.exr", {"--even", "--aov"}));
     const FloatImage sum = readExr(folder.path() / "sum.exr");
     const FloatImage whole = readExr(folder.path() / "whole.exr");
-    for (const char* name : {"R", "G", "B", "samples", "variance.R"}) {
+    for (const char* name : {"R", "G", "B", "A", "samples", "variance.R"}) {
         const std::vector<float>&a = sum.channels.at(name), &b = whole.channels.at(name);
         for (size_t i = 0; i < a.size(); ++i)
             ASSERT_NEAR(a[i], b[i], 1e-5 * b[i] + 1e-9) << name << " of pixel " << i;

@@ -68,6 +68,41 @@ TEST(FilmFile, OfManyRunsComesBackAsItWas) {
     EXPECT_EQ(readAll(folder / "a.film"), pixels);
 }
 
+/// Several runs, and layers of seven channels, which are in the film of the first share only.
+TEST(FilmFile, LayersComeBackAsTheyWere) {
+    const TemporaryFolder folder;
+    FilmHeader picture = pictureOf(16, 4);
+    picture.settings.area = {1000, 150, {}};
+    picture.layers = {Layer::Normal, Layer::Depth, Layer::Position};
+    picture.legend = {{"Objects", "[\"ball\"]"}};
+    EXPECT_FALSE(ofShare(picture, {2, 4}).holdsLayers);
+    const FilmHeader header = ofShare(picture, {1, 4});
+    EXPECT_TRUE(header.holdsLayers);
+    const size_t channels = header.layerChannels();
+    EXPECT_EQ(channels, 7u);
+    const std::vector<SharedPixel> pixels(1000 * 150);
+    std::vector<float> layers(pixels.size() * channels);
+    for (size_t i = 0; i < layers.size(); ++i)
+        layers[i] = float(i) * 0.5f;
+    FilmWriter writer(folder / "a.film", header);
+    EXPECT_THROW(writer.add(pixels), std::logic_error); // without layers
+    writer.add(std::span(pixels).first(77), std::span(layers).first(77 * channels));
+    writer.add(std::span(pixels).subspan(77), std::span(layers).subspan(77 * channels));
+    writer.finish();
+    FilmReader reader(folder / "a.film");
+    EXPECT_EQ(reader.header().layers, header.layers);
+    EXPECT_EQ(reader.header().legend, header.legend);
+    std::vector<float> all, some;
+    std::vector<SharedPixel> run;
+    while (all.size() < layers.size()) {
+        reader.next(run);
+        reader.nextLayers(some);
+        EXPECT_EQ(some.size(), run.size() * channels);
+        all.insert(all.end(), some.begin(), some.end());
+    }
+    EXPECT_EQ(all, layers);
+}
+
 TEST(FilmFile, AShareWithoutSamplesIsSmall) {
     const TemporaryFolder folder;
     const FilmHeader header = ofShare(pictureOf(4, 4), {1, 1000});

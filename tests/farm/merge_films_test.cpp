@@ -44,17 +44,17 @@ class MergeFilms : public testing::Test {
     static std::vector<SharedPixel> sumOf(const std::vector<fs::path>& files) {
         FilmsToMerge films(files);
         std::vector<SharedPixel> sum;
-        films.addUp([&](const PictureArea&, std::span<const SharedPixel> run) {
-            sum.insert(sum.end(), run.begin(), run.end());
-        });
+        films.addUp([&](const PictureArea&, std::span<const SharedPixel> run,
+                        std::span<const float>) { sum.insert(sum.end(), run.begin(), run.end()); });
         return sum;
     }
     fs::path merged(const std::vector<fs::path>& files, const std::string& name) {
         FilmsToMerge films(files);
         FilmWriter writer(folder_ / name, films.header());
-        films.addUp([&](const PictureArea&, std::span<const SharedPixel> run) {
-            if (!films.header().isEmpty()) writer.add(run);
-        });
+        films.addUp(
+            [&](const PictureArea&, std::span<const SharedPixel> run, std::span<const float>) {
+                if (!films.header().isEmpty()) writer.add(run);
+            });
         writer.finish();
         return folder_ / name;
     }
@@ -141,15 +141,16 @@ TEST_F(MergeFilms, SaysWhichRowsARunIs) {
     writeFilm(folder_ / "a.film", header, pixels);
     FilmsToMerge films({folder_ / "a.film"});
     uint32_t row = 50;
-    films.addUp([&](const PictureArea& part, std::span<const SharedPixel> run) {
-        const Crop rows = part.rendered();
-        EXPECT_EQ(part.width, 900u);
-        EXPECT_EQ(rows.x, 100u);
-        EXPECT_EQ(rows.y, row);
-        EXPECT_EQ(rows.width, 700u);
-        EXPECT_EQ(run.size(), 700u * rows.height);
-        row += rows.height;
-    });
+    films.addUp(
+        [&](const PictureArea& part, std::span<const SharedPixel> run, std::span<const float>) {
+            const Crop rows = part.rendered();
+            EXPECT_EQ(part.width, 900u);
+            EXPECT_EQ(rows.x, 100u);
+            EXPECT_EQ(rows.y, row);
+            EXPECT_EQ(rows.width, 700u);
+            EXPECT_EQ(run.size(), 700u * rows.height);
+            row += rows.height;
+        });
     EXPECT_EQ(row, 350u);
 }
 

@@ -38,7 +38,7 @@ std::string refusalOf(const std::function<void()>& action) {
 std::vector<SharedPixel> sumOf(const Files& files) {
     FilmsToMerge films(files);
     std::vector<SharedPixel> sum;
-    films.addUp([&](const PictureArea&, std::span<const SharedPixel> run) {
+    films.addUp([&](const PictureArea&, std::span<const SharedPixel> run, std::span<const float>) {
         sum.insert(sum.end(), run.begin(), run.end());
     });
     return sum;
@@ -81,9 +81,10 @@ class Rounds : public testing::Test {
         FilmsToMerge films(files);
         const fs::path file = newFile();
         FilmWriter writer(file, films.header());
-        films.addUp([&](const PictureArea&, std::span<const SharedPixel> run) {
-            if (!films.header().isEmpty()) writer.add(run);
-        });
+        films.addUp(
+            [&](const PictureArea&, std::span<const SharedPixel> run, std::span<const float>) {
+                if (!films.header().isEmpty()) writer.add(run);
+            });
         writer.finish();
         return file;
     }
