@@ -9,6 +9,7 @@
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
 #include "host/core/printable.hpp"
+#include "host/farm/add_samples.hpp"
 #include "host/farm/film_file.hpp"
 #include "host/render/bands.hpp"
 #include "host/version/version.hpp"
@@ -64,10 +65,9 @@ class SharedBand {
             return goesOn = progress_.show(backend_, done) && goesOn;
         });
         if (!goesOn) return false;
-        for (const PixelTarget& t : targets) {
-            sums_[t.pixel].add(film.pixels[t.pixel], first, pass);
+        addSamples(sums_, targets, film, first, pass);
+        for (const PixelTarget& t : targets)
             progress_.done += t.samples;
-        }
         if (viewer_) addCovered(first, targets);
         return true;
     }

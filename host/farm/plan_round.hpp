@@ -24,6 +24,7 @@ class NextRoundPlanner {
   public:
     /// header: of all films together. Throws UsageError if they are incomplete.
     NextRoundPlanner(const FilmHeader& header, double noise, uint32_t mostSamples);
+    NextRoundPlanner(const NextRoundPlanner&) = delete; // parts_ knows where it is
     /// The next run of rows, from the top.
     void add(std::span<const SharedPixel> run) { parts_.add(run); }
     /// To be called once, after the last run.
