@@ -59,14 +59,15 @@ void setRay(vec3 origin, vec3 direction, float tMin, float tMax, uint skipPrimit
 }
 
 /// Of the sample under way: block 0 as in the path kernel, and one for each mirror.
-uvec4 randomWords() { return randomWords(seen.pixel, seen.samples, bounce, frame.seed); }
+uint sampleIndex() { return frame.firstSample + seen.samples; }
+uvec4 randomWords() { return randomWords(seen.pixel, sampleIndex(), bounce, frame.seed); }
 
 void beginSample() {
     bounce = 0u;
     throughput = vec3(1.0);
     isUnderWay = true;
     const uvec2 at = uvec2(seen.pixel % frame.width, seen.pixel / frame.width);
-    const CameraRay c = cameraRayOfSample(at, seen.pixel, seen.samples, unitFloats(randomWords()).zw, filterWeight);
+    const CameraRay c = cameraRayOfSample(at, seen.pixel, sampleIndex(), unitFloats(randomWords()).zw, filterWeight);
     setRay(c.origin, c.direction, c.tMin, c.tMax, NO_PRIMITIVE);
 }
 
@@ -125,7 +126,7 @@ void takeResult() {
     bool passes = false;
     if (HAS_ALPHA && hit) {
         const vec2 b = vec2(ray.b1, ray.b2);
-        passes = passNumber(ray, seen.pixel, seen.samples, bounce, 0u) >=
+        passes = passNumber(ray, seen.pixel, sampleIndex(), bounce, 0u) >=
                  (HIDES_SURFACES && bounce == 0u ? opacityForCamera(ray.hitPrimitive, b)
                                                  : opacityAt(ray.hitPrimitive, b));
     }

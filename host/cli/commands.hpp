@@ -14,6 +14,7 @@ int devicesCommand(const Options& options);
 int benchCommand(const Options& options);
 int compareCommand(const Options& options);
 int mergeCommand(const Options& options);
+int planCommand(const Options& options);
 int submitCommand(const Options& options);
 int studyCommand(const Options& options);
 int stressCommand(const Options& options);

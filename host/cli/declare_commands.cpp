@@ -40,16 +40,7 @@ void declareOutput(DeclaredCommand& c) {
         .besidePicture()
         .proposes(Proposed::Files);
     declarePictureFile(c);
-    c.list.flag("--transparent",
-                "the picture has alpha: what no surface covers is transparent, and the camera does "
-                "not see the environment, which lights the scene all the same",
-                o.transparent);
-    c.list
-        .words("--layers", "LIST",
-               fmt::format("EXR: also these channels, with commas between (docs/layers.md): {}",
-                           allMeanings<Layer>()),
-               1, [&o](const Words& words) { o.layers = readLayers(words[0]); })
-        .proposes(namesOf<Layer>());
+    declareSeen(c);
     c.list
         .text("--stats", "FILE.json",
               "write statistics of the render as JSON; - for standard output", o.statsFile)
@@ -196,6 +187,21 @@ void declareDevices(DeclaredCommand& c) {
 
 } // namespace
 
+void declareSeen(DeclaredCommand& c) {
+    Options& o = c.options;
+    c.list.group("Output");
+    c.list.flag("--transparent",
+                "the picture has alpha: what no surface covers is transparent, and the camera does "
+                "not see the environment, which lights the scene all the same",
+                o.transparent);
+    c.list
+        .words("--layers", "LIST",
+               fmt::format("EXR: also these channels, with commas between (docs/layers.md): {}",
+                           allMeanings<Layer>()),
+               1, [&o](const Words& words) { o.layers = readLayers(words[0]); })
+        .proposes(namesOf<Layer>());
+}
+
 void checkOutputOptions(const DeclaredCommand& c) {
     const Options& o = c.options;
     const bool isExr = !isPng(o.output);
@@ -235,6 +241,8 @@ std::deque<DeclaredCommand> declareCommands() {
         {Command::Merge, "merge",
          "Put films of shares (render --share) together: to a picture, or to a film again",
          declareMerge},
+        {Command::Plan, "plan",
+         "Spread the samples of the next round of shares to where films are noisy", declarePlan},
         {Command::Submit, "submit",
          "Have a cluster render a picture: shares on its nodes, and their merge", declareSubmit},
         {Command::Study, "study",

@@ -55,6 +55,8 @@ void declareScene(DeclaredCommand& command);
 /// Views that files do not state: where from, which angle, which lens.
 /// What is said of the file that a picture is written to.
 void declarePictureFile(DeclaredCommand& command);
+/// --transparent, --layers.
+void declareSeen(DeclaredCommand& command);
 void declareOptics(DeclaredCommand& command);
 void declareSequence(DeclaredCommand& command);
 void checkSequence(const DeclaredCommand& command);
@@ -73,6 +75,8 @@ void declareSamples(DeclaredCommand& command, const std::string& samplesHelp);
 void declareBranches(DeclaredCommand& command, const std::string& usually);
 /// --block.
 CommandOption& declareBlock(DeclaredCommand& command);
+/// --noise.
+CommandOption& declareNoise(DeclaredCommand& command, const std::string& help, double& where);
 /// Where samples go and when it is enough: --even, -a, --noise, --time.
 void declareSpreading(DeclaredCommand& command);
 /// Throws UsageError if the kind of the picture has no use for --exposure, --aov or --layers.
@@ -95,6 +99,7 @@ void declareHost(DeclaredCommand& command);
 void declareBench(DeclaredCommand& command);
 void declareCompare(DeclaredCommand& command);
 void declareMerge(DeclaredCommand& command);
+void declarePlan(DeclaredCommand& command);
 void declareStress(DeclaredCommand& command);
 void declareStudy(DeclaredCommand& command);
 void declareSubmit(DeclaredCommand& command);

@@ -47,6 +47,8 @@ int run(const stromboli::Options& options) {
         return stromboli::compareCommand(options);
     case Command::Merge:
         return stromboli::mergeCommand(options);
+    case Command::Plan:
+        return stromboli::planCommand(options);
     case Command::Submit:
         return stromboli::submitCommand(options);
     case Command::Study:

@@ -3,16 +3,18 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/declared_command.hpp"
 #include "host/cli/render_outputs.hpp"
+#include "host/cli/report.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
 #include "host/core/output.hpp"
 #include "host/farm/merge_films.hpp"
+#include "host/farm/picture_parts.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
+#include <optional>
 
 namespace stromboli {
 namespace {
@@ -39,42 +41,82 @@ std::vector<std::string> wholeCommand(std::vector<std::string> command, const Op
 
 /// "64 a pixel", as of a render in one go; of less: "48 a pixel of 64; share 2 of 4 is missing".
 std::string samplesNote(const FilmHeader& film) {
-    const uint64_t branches = film.settings.estimator.branches;
-    const std::string held = fmt::format("{:.6g} a pixel", double(film.samples() * branches));
-    if (film.isComplete()) return held;
-    return fmt::format("{} of {}; {}", held, film.allBlocks().samples * branches,
-                       missingFrom(film));
+    const auto paths = [&](uint64_t samples) {
+        return double(samples * film.settings.estimator.branches) /
+               double(film.settings.area.pixelCount());
+    };
+    std::string text = fmt::format("{:.6g} a pixel", paths(film.samplesHeld()));
+    if (!film.isComplete()) text += fmt::format(" of {:.6g}", paths(film.samplesInAll()));
+    if (film.rounds() > 1) text += fmt::format(", in {} rounds", film.rounds());
+    return film.isComplete() ? text : fmt::format("{}; {}", text, missingFrom(film));
 }
 
 void writeFilm(FilmsToMerge& films, const Options& options) {
     FilmWriter writer(options.output, films.header());
-    films.addUp([&](const PictureArea&, std::span<const ExactStatistics> run) {
-        if (!films.header().blocks.empty()) writer.add(run);
-    });
+    films.addUp(
+        [&](const PictureArea&, std::span<const SharedPixel> run, std::span<const float> layers) {
+            if (!films.header().isEmpty()) writer.add(run, layers);
+        });
     writer.finish();
 }
 
-void writeMergedPicture(FilmsToMerge& films, const Options& options) {
+/// "about 2 % (95 % range: 1.5 to 2.6 %)".
+std::string noteOf(const PictureNoise& noise) {
+    return inWords(noise).substr(std::string_view("noise ").size());
+}
+
+/// Channels that the picture has beside its radiance.
+std::vector<std::string> channelsBeside(const FilmHeader& header, const Options& options) {
+    std::vector<std::string> names;
+    if (header.hasAlpha()) names.emplace_back(kAlphaChannel);
+    if (header.layers.empty()) return names;
+    if (isPng(options.output)) {
+        logging::warn(
+            fmt::format("{} has no channels for the layers of the films", options.output));
+        return names;
+    }
+    if (!header.holdsLayers)
+        logging::warn("the layers are missing: they are in the film of the first samples");
+    for (const Layer layer : header.layers)
+        for (std::string& name : channelsOf(layer))
+            names.push_back(std::move(name));
+    return names;
+}
+
+/// Returns what is known of the picture's noise.
+PictureNoise writeMergedPicture(FilmsToMerge& films, const Options& options) {
     const FilmHeader& header = films.header();
-    const PictureOptions pictureOptions{options.tone, options.statisticsChannels, {}};
-    PictureNotes notes;
-    if (options.notes)
-        notes = pictureNotes({header.scene, header.settings.estimator.seed, samplesNote(header),
-                              header.identity.device, wholeCommand(header.command, options)});
+    const PictureOptions pictureOptions{options.tone, options.statisticsChannels,
+                                        channelsBeside(header, options)};
+    const auto notesOf = [&](const PictureNoise& noise) {
+        const PictureNotes legend = isPng(options.output) ? PictureNotes{} : header.legend;
+        if (!options.notes) return legend;
+        // A picture in one round has the bytes of one render, whose notes cannot tell: the noise of
+        // a render in bands or in two goes is found out in another way.
+        PictureNotes notes =
+            pictureNotes({header.scene, header.settings.estimator.seed, samplesNote(header),
+                          header.identity.device, wholeCommand(header.command, options),
+                          header.rounds() > 1 ? noteOf(noise) : ""});
+        notes.insert(notes.end(), legend.begin(), legend.end());
+        return notes;
+    };
     const Crop part = header.settings.area.rendered();
     if (!isStandardOutput(options.output))
         checkFreeSpace(options.output, largestPictureFile(options.output, part.width, part.height,
-                                                          pictureOptions, notes));
+                                                          pictureOptions, notesOf({})));
     PictureFile picture(options.output, header.settings.area, pictureOptions);
-    films.addUp([&](const PictureArea& rows, std::span<const ExactStatistics> run) {
-        Film film(rows);
-        film.branches = header.settings.estimator.branches;
-        for (size_t i = 0; i < run.size(); ++i)
-            film.pixels[i] = run[i].statistics();
-        picture.place(film);
-    });
+    std::vector<PartNoise> noises;
+    PictureParts parts(
+        header, [&](const Film& film, const NoiseEstimate& estimate, const FloatImage& more) {
+            picture.place(film, more);
+            noises.push_back({estimate.picture(film), film.pixels.size()});
+        });
+    films.addUp([&](const PictureArea&, std::span<const SharedPixel> run,
+                    std::span<const float> layers) { parts.add(run, layers); });
     nowDoing("writing " + options.output);
-    picture.write(notes);
+    const PictureNoise noise = togetherOf(noises);
+    picture.write(notesOf(noise));
+    return noise;
 }
 
 } // namespace
@@ -92,15 +134,22 @@ int mergeCommand(const Options& options) {
         if (options.wantsAllShares)
             throw UsageError(fmt::format("{} is not written: {}", options.output, missing));
         if (header.blocks.empty() && !namesFilm(options.output))
-            throw UsageError(fmt::format("{} is not written: the films have no samples; {}",
-                                         options.output, missing));
+            throw UsageError(fmt::format("{} is not written: the films have no samples{}; {}",
+                                         options.output,
+                                         header.isEmpty() ? ""
+                                                          : " of the first round, which all "
+                                                            "pixels have",
+                                         missing));
         logging::warn(fmt::format("{}: {}", options.output, samplesNote(header)));
     }
+    std::optional<PictureNoise> noise;
     if (namesFilm(options.output))
         writeFilm(films, options);
     else
-        writeMergedPicture(films, options);
+        noise = writeMergedPicture(films, options);
     logging::info(fmt::format("{} films, {}", options.films.size(), samplesNote(header)));
+    if (noise && header.settings.estimator.integrator == Integrator::Path)
+        logging::info(inWords(*noise));
     return 0;
 }
 

@@ -21,7 +21,19 @@
 
 namespace stromboli {
 
-enum class Command { Render, Check, Info, Devices, Bench, Stress, Compare, Study, Merge, Submit };
+enum class Command {
+    Render,
+    Check,
+    Info,
+    Devices,
+    Bench,
+    Stress,
+    Compare,
+    Study,
+    Merge,
+    Plan,
+    Submit
+};
 /// Rather than look at one, or measure.
 inline bool rendersPictures(Command command) {
     return command == Command::Render || command == Command::Submit;
@@ -29,7 +41,7 @@ inline bool rendersPictures(Command command) {
 enum class Scheduler { Slurm };
 template <>
 inline constexpr auto kNamedValues<Scheduler> = std::to_array<NamedValue<Scheduler>>({
-    {Scheduler::Slurm, "slurm", "a job array, and a job that merges"},
+    {Scheduler::Slurm, "slurm", "job arrays, and a job that merges"},
 });
 enum class BackendChoice { Vulkan, Reference };
 template <>
@@ -67,6 +79,8 @@ struct SequenceOptions {
 struct SubmitOptions {
     Scheduler scheduler = Scheduler::Slurm;
     uint32_t shares = 0;
+    double noise = 0;    ///< to be reached in rounds; 0: one round
+    uint32_t rounds = 8; ///< at most
     /// Of the commands that the nodes run, quoted for a shell.
     std::vector<std::string> render, merge;
     std::string program; ///< as the nodes find it; empty: where this one is
@@ -111,6 +125,7 @@ struct Options {
     bool transparent = false;        ///< alpha in place of the environment
     std::vector<Layer> layers;       ///< EXR: channels beside the radiance
     std::optional<ShareName> share;  ///< take only these samples, into a film
+    std::string planFile;            ///< render: of this round; empty: of the first
     /// The fingerprint that scene and program must have (host/cli/share_render.hpp); empty: any.
     std::string expected;
     std::optional<SampleName> sampleAlone; ///< print this sample and write nothing
@@ -124,7 +139,7 @@ struct Options {
     StressOptions stress;
     std::string infoJsonFile; ///< info; empty: text
     SubmitOptions submit;
-    std::vector<std::string> films; ///< merge
+    std::vector<std::string> films; ///< merge, plan
     bool wantsAllShares = false;    ///< merge: without all of them there is no picture
 };
 

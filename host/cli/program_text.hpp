@@ -21,9 +21,13 @@ struct Explained {
 
 /// The program's own; the script `stromboli` has 5 besides (host/core/error.hpp).
 inline constexpr std::array kExitCodes = {
-    Explained{"0", "done"},   Explained{"1", "usage"},
-    Explained{"2", "scene"},  Explained{"3", "device (or a difference found)"},
-    Explained{"4", "output"}, Explained{"6", "too few samples for check to tell"},
+    Explained{"0", "done"},
+    Explained{"1", "usage"},
+    Explained{"2", "scene"},
+    Explained{"3", "device (or a difference found)"},
+    Explained{"4", "output"},
+    Explained{"6", "too few samples for check to tell"},
+    Explained{"7", "nothing left to plan"},
 };
 
 /// Commands to begin with, without the program's name.

@@ -15,6 +15,7 @@
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
 #include "host/core/stopwatch.hpp"
+#include "host/farm/plan_file.hpp"
 #include "host/film/unreached.hpp"
 #include "host/render/bands.hpp"
 #include "host/render/block_backend.hpp"
@@ -194,21 +195,23 @@ void moveTo(const Options& frame, Job& job, Renderer& renderer) {
     job = std::move(next);
 }
 
-/// Part of the samples of all pixels, as a film. Returns the exit code.
+/// Part of the samples of all pixels, or of a plan, as a film. Returns the exit code.
 int renderShare(Renderer& renderer, Job& job, const Options& options) {
     setPicture(job, options);
     requireExpected(job, options);
+    std::optional<RoundPlan> plan;
+    if (!options.planFile.empty()) plan = readPlan(options.planFile);
     RenderReport report;
     report.loadSeconds = job.loadSeconds;
     report.isShare = true;
     bool isThere = false;
     renderer.render(
         job, options,
-        [&](const MakeBackend& makeBackend, const std::function<Viewer*()>&, uint64_t mostPixels,
-            RenderReport& r) {
-            const FilmHeader header = headerOfShare(job, options, r.backend);
-            isThere = isThereAlready(header, options);
-            if (!isThere) takeShare(job, options, header, makeBackend, mostPixels, r);
+        [&](const MakeBackend& makeBackend, const std::function<Viewer*()>& viewer,
+            uint64_t mostPixels, RenderReport& r) {
+            const PlannedShare share = shareToTake(job, options, plan, r.backend);
+            isThere = isThereAlready(share.header, options);
+            if (!isThere) takeShare(job, options, share, makeBackend, viewer, mostPixels, r);
         },
         report);
     if (isThere) return 0;

@@ -38,7 +38,7 @@ PictureNotes notesOf(const Job& job, const Options& options, const std::string& 
                      const std::string& samples) {
     if (!options.notes) return {};
     return pictureNotes(
-        {options.scene, job.settings.estimator.seed, samples, device, options.pictureCommand});
+        {options.scene, job.settings.estimator.seed, samples, device, options.pictureCommand, ""});
 }
 
 PictureOptions pictureOptions(const Options& options) {
@@ -55,12 +55,14 @@ PictureNotes withLegend(PictureNotes notes, const Job& job, const Options& optio
 } // namespace
 
 PictureNotes pictureNotes(const PictureOrigin& origin) {
-    return {{"Software", fmt::format("Stromboli {}", version())},
-            {"Scene", printable(origin.scene)},
-            {"Seed", std::to_string(origin.seed)},
-            {"Samples", origin.samples},
-            {"Device", printable(origin.device)},
-            {"Command", printable(fmt::format("{}", fmt::join(origin.command, " ")))}};
+    PictureNotes notes = {{"Software", fmt::format("Stromboli {}", version())},
+                          {"Scene", printable(origin.scene)},
+                          {"Seed", std::to_string(origin.seed)},
+                          {"Samples", origin.samples}};
+    if (!origin.noise.empty()) notes.push_back({"Noise", origin.noise});
+    notes.push_back({"Device", printable(origin.device)});
+    notes.push_back({"Command", printable(fmt::format("{}", fmt::join(origin.command, " ")))});
+    return notes;
 }
 
 void checkOutputs(const Options& options) {

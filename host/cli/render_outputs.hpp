@@ -16,6 +16,7 @@ struct PictureOrigin {
     uint32_t seed = 0;
     std::string samples, device;
     std::vector<std::string> command; ///< as Options::pictureCommand
+    std::string noise;                ///< of a picture in rounds; else empty: not said
 };
 /// Nothing of when or where: the same command makes the same bytes.
 PictureNotes pictureNotes(const PictureOrigin& origin);

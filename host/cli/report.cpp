@@ -34,9 +34,6 @@ uint64_t mostPathsOf(const RenderSettings& settings) {
     return samplesAtMost(settings.area, settings.budget) * settings.estimator.branches;
 }
 
-namespace {
-
-/// With two digits that say something.
 std::string percent(double share) {
     const double p = 100 * share;
     return fmt::format("{:.{}f}", p, p >= 10 ? 0 : p >= 1 ? 1 : p >= 0.1 ? 2 : 3);
@@ -56,6 +53,8 @@ std::string inWords(const PictureNoise& noise) {
     }
     return {};
 }
+
+namespace {
 
 void logNoise(const RenderReport& r, const StopRule& stop) {
     const std::string reached = inWords(r.noise);

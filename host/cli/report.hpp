@@ -36,6 +36,10 @@ struct RenderReport {
 void count(const Film& film, const RenderSettings& settings, RenderReport& report);
 /// The most paths that settings allow.
 uint64_t mostPathsOf(const RenderSettings& settings);
+/// "noise about 2 % (95 % range: 1.5 to 2.6 %)", or why it is unknown.
+std::string inWords(const PictureNoise& noise);
+/// With two digits that say something: 0.0234 is 2.3.
+std::string percent(double share);
 /// Logs time, paths, rays, Mrays/s, samples, noise, and the first rejected sample if there is one.
 void logReport(const RenderReport& report, const RenderSettings& settings);
 /// Says so if hardly anything can be seen in the picture, and what would help.

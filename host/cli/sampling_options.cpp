@@ -60,6 +60,10 @@ CommandOption& declareBlock(DeclaredCommand& c) {
         c.asked.pathsPerBlock, kSamples);
 }
 
+CommandOption& declareNoise(DeclaredCommand& c, const std::string& help, double& where) {
+    return c.list.real("--noise", "T", help, where, kNoise).usually("");
+}
+
 void declareSpreading(DeclaredCommand& c) {
     OptionList& list = c.list;
     Adaptive& a = c.options.budget.adaptive;
@@ -81,12 +85,11 @@ void declareSpreading(DeclaredCommand& c) {
         .from(fmt::format("{} and {}", inWords(kSamples), inWords(kTolerance)))
         .usually(fmt::format("off; --cs184: {} {}", a.batch, a.tolerance))
         .excludes("--even", kBothSpread);
-    list.real("--noise", "T",
-              "go on until the picture's noise, the square root of its relMSE, is at most T (0.02: "
-              "2 %) in 95 of 100 renders; samples go where they help most; -s is the most per "
-              "pixel",
-              c.options.budget.stop.noise, kNoise)
-        .usually("")
+    declareNoise(c,
+                 "go on until the picture's noise, the square root of its relMSE, is at most T "
+                 "(0.02: 2 %) in 95 of 100 renders; samples go where they help most; -s is the "
+                 "most per pixel",
+                 c.options.budget.stop.noise)
         .excludes("-a", kBothSpread)
         .excludes("--even", kBothSpread);
     list.real(

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 
 namespace stromboli {
 namespace {
@@ -37,6 +38,17 @@ void addAlpha(FloatImage& image, Viewer& viewer, const Film& film) {
             alpha[size_t(y) * film.width + x] = alpha[shownPixel(film, x, y, NoisePlan::kCoarsest)];
 }
 
+/// Of the same camera rays however far the render came.
+void addLayerChannels(FloatImage& image, Viewer& viewer, const Film& film, const Job& job,
+                      const Options& options) {
+    const uint32_t samples = std::min(kLayerSamples, options.budget.pathsPerPixel());
+    lookAtAll(
+        viewer, film, Seeing::Surfaces, [&](const PixelStatistics&) { return samples; },
+        [&](size_t first, std::span<const SeenPixel> seen) {
+            addLayers(image, options.layers, first, seen, job.scene, job.camera);
+        });
+}
+
 } // namespace
 
 std::vector<std::string> seenChannelNames(const Options& options) {
@@ -58,13 +70,24 @@ FloatImage seenChannels(Viewer* viewer, const Film& film, const Job& job, const 
     }
     if (options.transparent) addAlpha(image, *viewer, film);
     if (options.layers.empty()) return image;
-    const uint32_t samples = std::min(kLayerSamples, options.budget.pathsPerPixel());
-    lookAtAll(
-        *viewer, film, Seeing::Surfaces, [&](const PixelStatistics&) { return samples; },
-        [&](size_t first, std::span<const SeenPixel> seen) {
-            addLayers(image, options.layers, first, seen, job.scene, job.camera);
-        });
+    addLayerChannels(image, *viewer, film, job, options);
     return image;
+}
+
+std::vector<float> layersByPixel(Viewer& viewer, const Film& film, const Job& job,
+                                 const Options& options) {
+    FloatImage image(film.area);
+    addLayerChannels(image, viewer, film, job, options);
+    std::vector<std::string> names;
+    for (const Layer layer : options.layers)
+        std::ranges::copy(channelsOf(layer), std::back_inserter(names));
+    std::vector<float> values(film.pixels.size() * names.size());
+    for (size_t c = 0; c < names.size(); ++c) {
+        const std::vector<float>& channel = image.channel(names[c]);
+        for (size_t i = 0; i < channel.size(); ++i)
+            values[i * names.size() + c] = channel[i];
+    }
+    return values;
 }
 
 } // namespace stromboli

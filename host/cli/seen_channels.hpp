@@ -18,4 +18,8 @@ std::vector<std::string> seenChannelNames(const Options& options);
 /// alpha of the ones that showNeighbours() shows.
 FloatImage seenChannels(Viewer* viewer, const Film& film, const Job& job, const Options& options);
 
+/// The channels of the layers, pixel by pixel, as films of shares have them.
+std::vector<float> layersByPixel(Viewer& viewer, const Film& film, const Job& job,
+                                 const Options& options);
+
 } // namespace stromboli

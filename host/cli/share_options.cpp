@@ -3,6 +3,7 @@
 #include "host/cli/declared_command.hpp"
 #include "host/core/error.hpp"
 #include "host/farm/film_file.hpp"
+#include "host/farm/plan_file.hpp"
 
 #include <fmt/format.h>
 
@@ -33,18 +34,24 @@ void declareShare(DeclaredCommand& c) {
                1, [&o](const Words& words) { o.share = readShare(words[0]); })
         .implies("--even")
         .excludes("-a", kAllAlike)
-        .excludes("--noise", kAllAlike)
+        .excludes("--noise", "a share has as many samples of every pixel as of all others; "
+                             "stromboli plan spreads those of further rounds")
         .excludes("--time", kAllAlike)
         .excludes("--checkpoint", "a share is what is kept: take more of them")
         .excludes("--checkpoint-every", "a share is what is kept: take more of them")
-        .excludes("--transparent", "films of shares hold radiance alone")
-        .excludes("--layers", "films of shares hold radiance alone; render the layers by "
-                              "themselves, with -s 1")
         .excludes("--exposure", "merge has it")
         .excludes("--aov", "merge has it")
         .excludes("--notes", "merge has it")
         .excludes("--pixel")
         .besidePicture();
+    c.list
+        .text("--plan", "FILE.plan",
+              "with --share: a part of the samples of this round, which stromboli plan wrote; all "
+              "other options are those of the first round",
+              o.planFile)
+        .needs("--share")
+        .besidePicture()
+        .proposes(Proposed::Files);
     c.list
         .text("--expect", "FINGERPRINT",
               "with --share: begin only if scene, camera and program are those of this "
@@ -88,6 +95,41 @@ void declareMerge(DeclaredCommand& c) {
     };
 }
 
+void declarePlan(DeclaredCommand& c) {
+    Options& o = c.options;
+    c.list.group("Films");
+    c.list
+        .list("FILM", "",
+              "all films of the rounds until now, of render --share or merge, in any "
+              "order",
+              o.films)
+        .required()
+        .proposes(Proposed::Files);
+    c.list.group("Output");
+    c.list
+        .text("-o,--output", "FILE.plan",
+              "the plan of the next round, for render --plan; nothing is written, and the exit "
+              "code is 7, if nothing is left to do",
+              o.output)
+        .required()
+        .proposes(Proposed::Files);
+    c.list.group("Sampling");
+    declareNoise(c,
+                 "the noise to reach, as of render: the square root of the picture's relMSE is at "
+                 "most T (0.02: 2 %) in 95 of 100 renders",
+                 o.budget.stop.noise)
+        .required();
+    c.list.number("-s,--samples", "N", "the most samples of a pixel, over all rounds",
+                  c.asked.paths, {1, kMostSamples});
+    declareHost(c);
+    c.finish = [&c, &o] {
+        if (!namesPlan(o.output))
+            throw UsageError(
+                fmt::format("{}: plan writes a plan, whose name must end in .plan", o.output));
+        o.budget.mostPathsPerPixel = c.asked.paths;
+    };
+}
+
 void declareSubmit(DeclaredCommand& c) {
     Options& o = c.options;
     SubmitOptions& submit = o.submit;
@@ -101,6 +143,17 @@ void declareSubmit(DeclaredCommand& c) {
         .number("--shares", "N", "tasks: parts of every pixel's samples", submit.shares, {1, 1000})
         .required()
         .usually("")
+        .besidePicture();
+    declareNoise(c,
+                 "sample in rounds, each where the films until then are noisy, until the picture's "
+                 "noise is at most T, as of render; -s is the number of samples of the first one",
+                 submit.noise)
+        .besidePicture();
+    c.list
+        .number("--rounds", "K",
+                "with --noise: at most so many rounds, of which each at most doubles the samples",
+                submit.rounds, {2, 100})
+        .needs("--noise")
         .besidePicture();
     c.list
         .text("--job-time", "LIMIT", "most time of a task, as sbatch --time has it: 90, 2:00:00",
@@ -135,9 +188,11 @@ void declareSubmit(DeclaredCommand& c) {
         .besidePicture()
         .proposes(Proposed::Files);
     declarePictureFile(c);
+    declareSeen(c);
     declarePicture(c);
     declareEstimator(c);
-    declareSamples(c, "samples per pixel, the same number for all");
+    declareSamples(c,
+                   "samples per pixel, the same number for all; with --noise in the first round");
     declareBranches(c, "4 where bounces make most of the noise, else 1 (docs/estimator.md)");
     declareBlock(c);
     declareFilmMemory(c);
@@ -150,6 +205,7 @@ void declareSubmit(DeclaredCommand& c) {
         finishBudget(c, true);
         if (!o.cameras.empty())
             throw UsageError("submit is of one picture: --camera names several");
+        o.estimator.showsBackdrop = !o.transparent;
         checkOutputOptions(c);
         for (size_t i = 1; i < o.pictureCommand.size(); ++i) { // the first is the command's name
             const std::string& part = o.pictureCommand[i];

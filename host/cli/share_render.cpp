@@ -1,21 +1,25 @@
-// `render` with --share: part of the samples of all pixels, as a film.
+// `render` with --share: part of the samples of all pixels, or of a plan, as a film.
 #include "host/cli/share_render.hpp"
 
 #include "host/checkpoint/scene_identity.hpp"
 #include "host/cli/activity.hpp"
 #include "host/cli/progress.hpp"
+#include "host/cli/seen_channels.hpp"
 #include "host/cli/signals.hpp"
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
+#include "host/core/printable.hpp"
+#include "host/farm/add_samples.hpp"
 #include "host/farm/film_file.hpp"
 #include "host/render/bands.hpp"
-#include "host/render/block_backend.hpp"
 #include "host/version/version.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
-#include <optional>
+#include <map>
+#include <span>
 
 namespace stromboli {
 namespace {
@@ -29,13 +33,13 @@ std::vector<PixelTarget> allPixels(const PictureArea& area, uint32_t samples) {
 
 /// How far the samples of all bands are.
 struct ShareProgress {
-    uint64_t samples = 0, done = 0; ///< of all bands; before the block under way
+    uint64_t samples = 0, done = 0; ///< of all bands; before those under way
     ProgressBar bar;
 
-    bool show(const Backend& backend, uint64_t doneOfBlock) {
+    bool show(const Backend& backend, uint64_t underWay) {
         RenderProgress state;
         state.samplesAtMost = samples;
-        state.samplesDone = done + doneOfBlock;
+        state.samplesDone = done + underWay;
         state.counters = backend.counters();
         state.share = double(state.samplesDone) / double(samples);
         bar.show(state);
@@ -43,32 +47,89 @@ struct ShareProgress {
     }
 };
 
-/// The blocks of a band of the picture; nothing if it was interrupted.
-std::optional<BlockSums> takeBlocks(Backend& backend, const PictureArea& band,
-                                    const FilmHeader& header, ShareProgress& progress) {
-    BlockSums sums;
-    const SampleBlocks all = header.allBlocks();
-    for (const BlockRange& range : header.blocks)
-        for (uint32_t block = range.first; block < range.end; ++block) {
-            const uint32_t first = all.firstOf(block), samples = all.firstOf(block + 1) - first;
-            Film film(band);
-            bool goesOn = true;
-            backend.beginAt(first);
-            backend.sample(allPixels(band, samples), film, [&](uint64_t done) {
-                return goesOn = progress.show(backend, done) && goesOn;
-            });
-            if (!goesOn) return std::nullopt;
-            sums.add(film, first);
-            progress.done += band.pixelCount() * samples;
-        }
-    return sums;
-}
+/// Part of a picture, and what the films of shares have of it.
+class SharedBand {
+  public:
+    SharedBand(Backend& backend, const PictureArea& band, ShareProgress& progress)
+        : backend_(backend), band_(band), progress_(progress), sums_(band.pixelCount()) {}
 
-Film filmOf(const PictureArea& band, const BlockSums& sums) {
-    Film film(band);
-    for (size_t i = 0; i < film.pixels.size(); ++i)
-        film.pixels[i] = sums.pixels()[i].statistics();
-    return film;
+    /// For pictures with alpha: the samples whose camera rays end on a surface are counted.
+    void countCovered(Viewer& viewer) { viewer_ = &viewer; }
+
+    /// The targets' samples from number `first` on. False if it was interrupted.
+    bool take(uint32_t first, std::span<const PixelTarget> targets, uint32_t pass) {
+        Film film(band_);
+        bool goesOn = true;
+        backend_.beginAt(first);
+        backend_.sample(targets, film, [&](uint64_t done) {
+            return goesOn = progress_.show(backend_, done) && goesOn;
+        });
+        if (!goesOn) return false;
+        addSamples(sums_, targets, film, first, pass);
+        for (const PixelTarget& t : targets)
+            progress_.done += t.samples;
+        if (viewer_) addCovered(first, targets);
+        return true;
+    }
+    /// The blocks of a share of the first round.
+    bool takeBlocks(const FilmHeader& header) {
+        const SampleBlocks all = header.allBlocks();
+        for (const BlockRange& range : header.blocks)
+            for (uint32_t block = range.first; block < range.end; ++block) {
+                const uint32_t first = all.firstOf(block);
+                const uint32_t samples = all.firstOf(block + 1) - first;
+                if (!take(first, allPixels(band_, samples), header.passOf(block))) return false;
+            }
+        return true;
+    }
+    /// What a share of a planned round has here; `firstPixel`: of the band, in the picture. Pixels
+    /// that have as many samples until now go together: there are few such numbers.
+    bool takePlanned(std::span<const PlannedPixel> pixels, uint32_t firstPixel, uint32_t pass) {
+        std::map<uint32_t, std::vector<PixelTarget>> alike;
+        for (const PlannedPixel& p : pixels)
+            alike[p.from].push_back({p.pixel - firstPixel, p.to - p.from});
+        for (const auto& [first, targets] : alike)
+            if (!take(first, targets, pass)) return false;
+        return true;
+    }
+
+    const std::vector<SharedPixel>& sums() const { return sums_; }
+    Film film() const {
+        Film film(band_);
+        for (size_t i = 0; i < sums_.size(); ++i)
+            film.pixels[i] = sums_[i].all.statistics();
+        return film;
+    }
+
+  private:
+    /// By the camera rays of the very samples.
+    void addCovered(uint32_t firstSample, std::span<const PixelTarget> targets) {
+        std::vector<uint32_t> samples(sums_.size(), 0);
+        for (const PixelTarget& t : targets)
+            samples[t.pixel] = t.samples;
+        for (size_t begin = 0; begin < samples.size(); begin += Viewer::kMostSeenAtOnce) {
+            const std::span<const uint32_t> run = std::span(samples).subspan(
+                begin, std::min<size_t>(Viewer::kMostSeenAtOnce, samples.size() - begin));
+            if (std::ranges::count(run, 0u) == std::ssize(run)) continue;
+            const auto seen = viewer_->see(uint32_t(begin), run, Seeing::Coverage, firstSample);
+            for (size_t i = 0; i < seen.size(); ++i)
+                sums_[begin + i].covered += seen[i].hits;
+        }
+    }
+
+    Backend& backend_;
+    PictureArea band_;
+    ShareProgress& progress_;
+    Viewer* viewer_ = nullptr;
+    std::vector<SharedPixel> sums_;
+};
+
+/// Those of the pixels that lie in a band of so many pixels.
+std::span<const PlannedPixel> inBand(std::span<const PlannedPixel> pixels, uint32_t firstPixel,
+                                     uint64_t count) {
+    const auto begin = std::ranges::lower_bound(pixels, firstPixel, {}, &PlannedPixel::pixel);
+    const auto end = std::ranges::lower_bound(pixels, firstPixel + count, {}, &PlannedPixel::pixel);
+    return {begin, end};
 }
 
 } // namespace
@@ -93,6 +154,11 @@ void requireExpected(const Job& job, const Options& options) {
 }
 
 FilmHeader headerOfPicture(const Job& job, const Options& options, const std::string& device) {
+    // Films count the samples that a surface covers; those of such filters have weights.
+    if (options.transparent && hasNegativeLobes(job.settings.estimator.filter))
+        throw UsageError(fmt::format("shares have no --transparent with the pixel filter {}, which "
+                                     "is negative in places: --filter box has it",
+                                     nameOf(job.settings.estimator.filter)));
     FilmHeader picture;
     picture.identity = {version(),
                         renderingCode(),
@@ -103,11 +169,26 @@ FilmHeader headerOfPicture(const Job& job, const Options& options, const std::st
     picture.settings = job.settings;
     picture.scene = options.scene;
     picture.command = options.pictureCommand;
+    picture.layers = options.layers;
+    for (const PictureNote& note : legendOf(options.layers, job.scene))
+        picture.legend.push_back({note.name, printable(note.text)});
     return picture;
 }
 
-FilmHeader headerOfShare(const Job& job, const Options& options, const std::string& device) {
+PlannedShare shareToTake(const Job& job, const Options& options,
+                         const std::optional<RoundPlan>& plan, const std::string& device) {
     FilmHeader picture = headerOfPicture(job, options, device);
+    if (plan) {
+        const std::string difference = differenceOf(picture, plan->picture);
+        if (!difference.empty())
+            throw UsageError(fmt::format("{} {}", options.planFile, difference));
+        picture.planned = plan->picture.planned;
+        PlannedShare share = ofShare({std::move(picture), plan->from, plan->to}, *options.share);
+        if (share.pixels.empty())
+            logging::warn(fmt::format("{} has no samples for share {}", options.planFile,
+                                      inWords(*options.share)));
+        return share;
+    }
     const uint32_t blocks = picture.allBlocks().count();
     if (blocks < options.share->count)
         logging::warn(
@@ -118,7 +199,7 @@ FilmHeader headerOfShare(const Job& job, const Options& options, const std::stri
                         blocks == 1 ? "a block" : fmt::format("{} blocks", blocks),
                         job.settings.budget.samplesPerBlock * job.settings.estimator.branches,
                         blocks, options.share->count));
-    return ofShare(std::move(picture), *options.share);
+    return {ofShare(std::move(picture), *options.share), {}};
 }
 
 bool isThereAlready(const FilmHeader& header, const Options& options) {
@@ -131,7 +212,10 @@ bool isThereAlready(const FilmHeader& header, const Options& options) {
         return false;
     }
     std::string difference = differenceOf(header, film->header());
-    if (difference.empty() && film->header().shares != header.shares)
+    if (difference.empty() && film->header().rounds() != header.rounds())
+        difference =
+            fmt::format("is of round {}, not of {}", film->header().rounds(), header.rounds());
+    else if (difference.empty() && !holdTheSame(header, film->header()))
         difference = "is of other shares";
     if (!difference.empty())
         throw UsageError(fmt::format("{} {}; --resume keeps films of this share only",
@@ -140,16 +224,26 @@ bool isThereAlready(const FilmHeader& header, const Options& options) {
     return true;
 }
 
-void takeShare(const Job& job, const Options& options, const FilmHeader& header,
-               const MakeBackend& makeBackend, uint64_t mostPixels, RenderReport& report) {
+void takeShare(const Job& job, const Options& options, const PlannedShare& share,
+               const MakeBackend& makeBackend, const std::function<Viewer*()>& viewer,
+               uint64_t mostPixels, RenderReport& report) {
+    const FilmHeader& header = share.header;
+    const bool isPlanned = !header.planned.empty();
     FilmWriter writer(options.output, header);
     ShareProgress progress;
-    progress.samples = job.settings.area.pixelCount() * header.samples();
+    progress.samples = header.samplesHeld();
     report.samplesAtMost = progress.samples * job.settings.estimator.branches;
     onSignal(OnSignal::Ask);
     std::vector<PictureArea> bands = bandsOf(job.settings.area, mostPixels);
-    if (header.blocks.empty()) bands.clear();
+    if (header.isEmpty()) bands.clear();
+    uint32_t firstPixel = 0; // of the band
     for (const PictureArea& band : bands) {
+        const auto pixels = inBand(share.pixels, firstPixel, band.pixelCount());
+        if (isPlanned && pixels.empty()) {
+            writer.add(std::vector<SharedPixel>(band.pixelCount()));
+            firstPixel += uint32_t(band.pixelCount());
+            continue;
+        }
         RenderSettings settings = job.settings;
         settings.area = band;
         const Stopwatch preparing;
@@ -157,16 +251,22 @@ void takeShare(const Job& job, const Options& options, const FilmHeader& header,
         report.prepareSeconds += preparing.seconds();
         nowDoing("taking samples", StatusLine::OfOthers);
         const Stopwatch rendering;
-        const std::optional<BlockSums> sums = takeBlocks(*backend, band, header, progress);
+        SharedBand taken(*backend, band, progress);
+        if (header.hasAlpha()) taken.countCovered(*viewer());
+        report.interrupted = !(isPlanned ? taken.takePlanned(pixels, firstPixel, header.rounds())
+                                         : taken.takeBlocks(header));
         report.renderSeconds += rendering.seconds();
         const RenderCounters counters = backend->counters();
         report.counters.paths += counters.paths;
         report.counters.rays += counters.rays;
-        report.interrupted = !sums;
-        if (!sums) return;
-        count(filmOf(band, *sums), settings, report);
-        writer.add(sums->pixels());
+        if (report.interrupted) return;
+        const Film film = taken.film();
+        count(film, settings, report);
+        writer.add(taken.sums(), header.holdsLayers ? layersByPixel(*viewer(), film, job, options)
+                                                    : std::vector<float>{});
+        firstPixel += uint32_t(band.pixelCount());
     }
+    if (isPlanned) report.pixelsUnreached = 0; // by this share: others have samples of them
     report.bands = bands.size();
     nowDoing("writing " + options.output);
     const Stopwatch writing;

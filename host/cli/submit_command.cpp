@@ -24,13 +24,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The shares whose films are not there. Films of another picture in their place are an error now,
-/// rather than one of each task.
-std::vector<uint32_t> sharesToTake(const Job& job, const Options& options, const fs::path& folder) {
+/// The shares of a round whose films are not there. Films of another picture in their place are an
+/// error now, rather than one of each task.
+std::vector<uint32_t> sharesToTake(const Job& job, const Options& options, const fs::path& folder,
+                                   uint32_t round = 1) {
     FilmHeader picture = headerOfPicture(job, options, "");
     std::vector<uint32_t> missing;
     for (uint32_t share = 1; share <= options.submit.shares; ++share) {
-        const fs::path file = folder / filmOfShare(share, options.submit.shares);
+        const fs::path file = folder / filmOfShare(share, options.submit.shares, round);
         if (!fs::exists(file)) {
             missing.push_back(share);
             continue;
@@ -44,6 +45,25 @@ std::vector<uint32_t> sharesToTake(const Job& job, const Options& options, const
                                          difference, folder.string()));
     }
     return missing;
+}
+
+/// A round after the first, as far as it is still to be done.
+struct RoundToSubmit {
+    uint32_t number = 2;
+    bool isPlanned = false; ///< its plan is there
+    std::vector<uint32_t> toTake;
+};
+
+/// Those that are still to be done: of a round whose plan is there, the missing shares.
+std::vector<RoundToSubmit> roundsToSubmit(const Job& job, const Options& options,
+                                          const fs::path& folder) {
+    std::vector<RoundToSubmit> rounds;
+    for (uint32_t round = 2; options.submit.noise > 0 && round <= options.submit.rounds; ++round) {
+        RoundToSubmit next{round, fs::exists(folder / planOfRound(round)),
+                           sharesToTake(job, options, folder, round)};
+        if (!next.isPlanned || !next.toTake.empty()) rounds.push_back(std::move(next));
+    }
+    return rounds;
 }
 
 void requireSamples(const Job& job, uint32_t shares) {
@@ -78,21 +98,74 @@ void writeScript(const fs::path& file, const std::string& text) {
     writeFileAtomically(file, std::as_bytes(std::span(text)));
 }
 
-void submitToSlurm(const SlurmJob& job, const fs::path& folder) {
+/// Jobs that follow each other.
+class JobChain {
+  public:
+    explicit JobChain(fs::path folder) : folder_(std::move(folder)) {}
+
+    /// Submits a script of the folder, to be run when the job before has succeeded. `options` are
+    /// of sbatch, `argument` of the script.
+    void add(const std::string& script, const std::string& what, const std::string& options = "",
+             const std::string& argument = "") {
+        const std::string dependency =
+            last_.empty()
+                ? ""
+                : fmt::format("--dependency=afterok:{} --kill-on-invalid-dep=yes ", last_);
+        last_ = sbatch(dependency + options + shellQuoted(folder_ / script) + argument);
+        logging::info(fmt::format("job {}: {}", last_, what));
+    }
+
+  private:
+    fs::path folder_;
+    std::string last_;
+};
+
+void writeScripts(const SlurmJob& job, const fs::path& folder) {
     std::error_code failed;
     fs::create_directory(folder, failed);
     if (failed) failToWrite(folder, failed.message());
-    writeScript(folder / "merge.sh", mergeScript(job));
-    std::string dependency;
-    if (!job.toTake.empty()) {
-        writeScript(folder / "shares.sh", shareScript(job));
-        const std::string shares = sbatch(shellQuoted(folder / "shares.sh"));
-        logging::info(
-            fmt::format("job {}: {} of {} shares", shares, job.toTake.size(), job.shares));
-        dependency = fmt::format("--dependency=afterok:{} --kill-on-invalid-dep=yes ", shares);
+    if (!job.toTake.empty()) writeScript(folder / "shares.sh", shareScript(job));
+    if (job.isInRounds()) {
+        writeScript(folder / "plan.sh", planScript(job));
+        writeScript(folder / "round.sh", roundScript(job));
     }
-    const std::string merge = sbatch(dependency + shellQuoted(folder / "merge.sh"));
-    logging::info(fmt::format("job {}: merges them to {}", merge, job.picture));
+    if (job.isMergedInGroups()) writeScript(folder / "groups.sh", groupScript(job));
+    writeScript(folder / "merge.sh", mergeScript(job));
+}
+
+void submitToSlurm(const SlurmJob& job, const std::vector<RoundToSubmit>& rounds,
+                   const fs::path& folder) {
+    writeScripts(job, folder);
+    JobChain jobs(folder);
+    const auto ofShares = [&](const std::vector<uint32_t>& toTake) {
+        return fmt::format("{} of {} shares", toTake.size(), job.shares);
+    };
+    if (!job.toTake.empty()) jobs.add("shares.sh", ofShares(job.toTake));
+    for (const RoundToSubmit& round : rounds) {
+        const std::string argument = fmt::format(" {}", round.number);
+        if (!round.isPlanned)
+            jobs.add("plan.sh", fmt::format("plans round {}", round.number), "", argument);
+        jobs.add("round.sh", fmt::format("{} of round {}", ofShares(round.toTake), round.number),
+                 fmt::format("--array={} ", arrayOf(round.toTake)), argument);
+    }
+    if (job.isMergedInGroups())
+        jobs.add("groups.sh", fmt::format("merges them in {} groups", job.groups()));
+    jobs.add("merge.sh", fmt::format("merges them to {}", job.picture));
+}
+
+void printScripts(const SlurmJob& job, const std::vector<RoundToSubmit>& rounds) {
+    fmt::print("{}\n", job.toTake.empty() ? "" : shareScript(job));
+    if (job.isInRounds()) fmt::print("{}\n{}\n", planScript(job), roundScript(job));
+    if (job.isMergedInGroups()) fmt::print("{}\n", groupScript(job));
+    fmt::print("{}", mergeScript(job));
+    if (!job.isInRounds()) return;
+    fmt::print("\n# Each after the one before:\n");
+    if (!job.toTake.empty()) fmt::print("# sbatch shares.sh\n");
+    for (const RoundToSubmit& round : rounds) {
+        if (!round.isPlanned) fmt::print("# sbatch plan.sh {}\n", round.number);
+        fmt::print("# sbatch --array={} round.sh {}\n", arrayOf(round.toTake), round.number);
+    }
+    fmt::print("{}# sbatch merge.sh\n", job.isMergedInGroups() ? "# sbatch groups.sh\n" : "");
 }
 
 } // namespace
@@ -114,15 +187,17 @@ int submitCommand(const Options& options) {
     slurm.runsIn = shellQuoted(fs::current_path());
     slurm.shares = options.submit.shares;
     slurm.toTake = sharesToTake(job, options, folder);
+    slurm.noise = options.submit.noise;
     slurm.timeLimit = options.submit.jobTime;
     slurm.sbatch = options.submit.sbatch;
+    const std::vector<RoundToSubmit> rounds = roundsToSubmit(job, options, folder);
     nowDoing("submitting");
     if (options.submit.dryRun) {
-        fmt::print("{}\n{}", slurm.toTake.empty() ? "" : shareScript(slurm), mergeScript(slurm));
+        printScripts(slurm, rounds);
         return 0;
     }
     checkFileWritable(options.output);
-    submitToSlurm(slurm, folder);
+    submitToSlurm(slurm, rounds, folder);
     return 0;
 }
 

@@ -13,7 +13,8 @@ enum class ExitCode : int {
     Scene = 2,
     Device = 3,
     Output = 4,
-    Undecided = 6
+    Undecided = 6,
+    NothingLeft = 7
 };
 
 /// Base of every error a user can cause. Caught once, in main, which prints what() and exits

@@ -3,6 +3,7 @@
 #include "host/checkpoint/byte_parts.hpp"
 #include "host/checkpoint/compression.hpp"
 #include "host/core/error.hpp"
+#include "host/farm/film_run.hpp"
 
 #include <fmt/format.h>
 
@@ -18,7 +19,8 @@
 #include <utility>
 
 // A film: kMagic, the size and checksum of the header, the header; then each run of pixels: its
-// size, its checksum, and its numbers, compressed; then kEnd.
+// size, its checksum, and its numbers, compressed, and the same of its layers, if it holds them;
+// then kEnd.
 
 namespace stromboli {
 namespace {
@@ -30,103 +32,13 @@ constexpr std::string_view kMagic = "stromboli film 2\n";
 /// Not there in what is cut short.
 constexpr std::string_view kEnd = "end of film\n";
 
-/// Calls visit(kind, numberOf) for all kinds of numbers that a pixel has.
-template <class Visit>
-void forEachKind(const Visit& visit) {
-    uint32_t kind = 0;
-    visit(
-        kind++, [](auto& p) -> auto& { return p.count; });
-    visit(
-        kind++, [](auto& p) -> auto& { return p.rejected; });
-    visit(
-        kind++, [](auto& p) -> auto& { return p.firstRejected; });
-    for (size_t c = 0; c < 3; ++c) {
-        for (size_t i = 0; i < ExactStatistics().sum[c].words.size(); ++i)
-            visit(
-                kind++, [=](auto& p) -> auto& { return p.sum[c].words[i]; });
-        for (size_t i = 0; i < ExactStatistics().squares[c].words.size(); ++i)
-            visit(
-                kind++, [=](auto& p) -> auto& { return p.squares[c].words[i]; });
-    }
-}
-
-/// A set of kinds.
-using Kinds = uint32_t;
-static_assert(3 + 3 * (4 + 5) <= 32);
-
-template <class NumberOf>
-constexpr size_t sizeOf = sizeof(std::declval<NumberOf>()(std::declval<ExactStatistics&>()));
-
-/// Pixels that are turned from rows of pixels to rows of numbers, or back, at a time: 64 KiB of
-/// sums stay in a core's own cache for all of their numbers.
-constexpr size_t kTile = 256;
-
-/// Calls visit(numberOf, pixel, place) for all numbers of these kinds of `count` pixels and their
-/// place in the run's bytes, where numbers of a kind are side by side: neighbouring pixels have
-/// nearly the same high digits, and counts are all alike.
-template <class Visit>
-void forEachPlace(size_t count, Kinds kinds, const Visit& visit) {
-    for (size_t tile = 0; tile < count; tile += kTile) {
-        size_t row = 0; // the place of the numbers of a kind
-        const size_t end = std::min(tile + kTile, count);
-        forEachKind([&](uint32_t kind, const auto& numberOf) {
-            if ((kinds >> kind & 1) == 0) return;
-            constexpr size_t size = sizeOf<decltype(numberOf)>;
-            for (size_t i = tile; i < end; ++i)
-                visit(numberOf, i, row + i * size);
-            row += count * size;
-        });
-    }
-}
-
-/// Those that are not 0 everywhere, which is more than half: sums have room for any picture.
-Kinds kindsIn(std::span<const ExactStatistics> run) {
-    Kinds kinds = 0;
-    for (const ExactStatistics& p : run)
-        forEachKind([&](uint32_t kind, const auto& numberOf) {
-            kinds |= uint32_t(numberOf(p) != 0) << kind;
-        });
-    return kinds;
-}
-
-size_t bytesOf(Kinds kinds) {
-    size_t bytes = 0;
-    forEachKind([&](uint32_t kind, const auto& numberOf) {
-        if (kinds >> kind & 1) bytes += sizeOf<decltype(numberOf)>;
-    });
-    return bytes;
-}
-
-/// The kinds of numbers that follow, then they, compressed.
-std::vector<std::byte> bytesOf(std::span<const ExactStatistics> run) {
-    const Kinds kinds = kindsIn(run);
-    std::vector<std::byte> numbers(run.size() * bytesOf(kinds));
-    forEachPlace(run.size(), kinds, [&](const auto& numberOf, size_t i, size_t place) {
-        const auto number = numberOf(run[i]);
-        std::memcpy(numbers.data() + place, &number, sizeof number);
-    });
-    std::vector<std::byte> bytes;
-    append(bytes, kinds);
-    const std::vector<std::byte> small = compressed(numbers);
-    append(bytes, small.data(), small.size());
-    return bytes;
-}
-
-/// False if the bytes were others. The run's numbers are 0.
-bool fromBytes(std::span<const std::byte> bytes, std::vector<ExactStatistics>& run) {
-    Kinds kinds = 0;
-    if (bytes.size() < sizeof kinds) return false;
-    std::memcpy(&kinds, bytes.data(), sizeof kinds);
-    const std::optional<std::vector<std::byte>> numbers =
-        decompressed(bytes.subspan(sizeof kinds), run.size() * bytesOf(kinds));
-    if (!numbers) return false;
-    for (ExactStatistics& p : run)
-        p.firstRejected = 0;
-    forEachPlace(run.size(), kinds, [&](const auto& numberOf, size_t i, size_t place) {
-        auto& number = numberOf(run[i]);
-        std::memcpy(&number, numbers->data() + place, sizeof number);
-    });
-    return true;
+/// Rows become columns.
+std::vector<float> transposed(std::span<const float> values, size_t rows, size_t columns) {
+    std::vector<float> result(values.size());
+    for (size_t row = 0; row < rows; ++row)
+        for (size_t column = 0; column < columns; ++column)
+            result[column * rows + row] = values[row * columns + column];
+    return result;
 }
 
 /// Size and checksum, then the bytes.
@@ -140,7 +52,7 @@ void writePart(TemporaryFile& file, std::span<const std::byte> bytes) {
 constexpr uint64_t kFront = sizeof(uint64_t) + sizeof(uint32_t);
 
 uint64_t pixelsOf(const FilmHeader& header) {
-    return header.blocks.empty() ? 0 : header.settings.area.pixelCount();
+    return header.isEmpty() ? 0 : header.settings.area.pixelCount();
 }
 
 size_t pixelsPerRun(const PictureArea& area) {
@@ -154,27 +66,37 @@ bool namesFilm(const fs::path& path) {
 }
 
 FilmWriter::FilmWriter(const fs::path& path, const FilmHeader& header)
-    : file_(path), pixelsPerRun_(pixelsPerRun(header.settings.area)),
-      pixelsLeft_(pixelsOf(header)) {
+    : file_(path), pixelsPerRun_(pixelsPerRun(header.settings.area)), pixelsLeft_(pixelsOf(header)),
+      channels_(header.layerChannels()) {
     file_.write(std::as_bytes(std::span(kMagic)));
     writePart(file_, toBytes(header));
 }
 
-void FilmWriter::add(std::span<const ExactStatistics> pixels) {
+void FilmWriter::add(std::span<const SharedPixel> pixels, std::span<const float> layers) {
     if (pixels.size() > pixelsLeft_ - run_.size())
         throw std::logic_error("more pixels than the film has");
+    if (layers.size() != pixels.size() * channels_)
+        throw std::logic_error("pixels have more or fewer layers than the film");
     while (!pixels.empty()) {
         const size_t count = std::min(pixels.size(), pixelsPerRun_ - run_.size());
         run_.insert(run_.end(), pixels.begin(), pixels.begin() + std::ptrdiff_t(count));
         pixels = pixels.subspan(count);
+        const auto ofThese = layers.first(count * channels_);
+        layers_.insert(layers_.end(), ofThese.begin(), ofThese.end());
+        layers = layers.subspan(ofThese.size());
         if (run_.size() == pixelsPerRun_ || run_.size() == pixelsLeft_) writeRun();
     }
 }
 
 void FilmWriter::writeRun() {
-    writePart(file_, bytesOf(run_));
+    writePart(file_, toBytes(run_));
+    if (channels_ > 0) {
+        const std::vector<float> byChannel = transposed(layers_, run_.size(), channels_);
+        writePart(file_, compressed(std::as_bytes(std::span(byChannel))));
+    }
     pixelsLeft_ -= run_.size();
     run_.clear();
+    layers_.clear();
 }
 
 void FilmWriter::finish() {
@@ -202,12 +124,7 @@ FilmReader::FilmReader(const fs::path& path) : path_(path) {
         if (::pread(descriptor_, end, sizeof end, place) != ssize_t(sizeof end) ||
             std::string_view(end, sizeof end) != kEnd)
             refuse("the film is cut short");
-        std::vector<std::byte> front = read(kFront);
-        ByteParts parts(path_, "film", front);
-        const auto size = parts.number<uint64_t>();
-        const auto sum = parts.number<uint32_t>();
-        const std::vector<std::byte> bytes = read(size);
-        if (checksumOf(bytes) != sum) refuse("the film is damaged");
+        const std::vector<std::byte> bytes = readPart();
         header_ = filmHeaderFromBytes(bytes, path_);
     } catch (...) {
         ::close(descriptor_);
@@ -244,17 +161,45 @@ std::vector<std::byte> FilmReader::read(uint64_t size) {
     return bytes;
 }
 
-void FilmReader::next(std::vector<ExactStatistics>& run) {
-    run.assign(std::min<uint64_t>(pixelsPerRun_, pixelsLeft_), {});
+void FilmReader::next(std::vector<SharedPixel>& run) {
+    if (!nextInBrief(run)) return;
+    for (SharedPixel& p : run)
+        p.lastCount = p.all.count, p.lastSum = p.all.sum;
+}
+
+bool FilmReader::nextInBrief(std::vector<SharedPixel>& run) {
+    run.resize(std::min<uint64_t>(pixelsPerRun_, pixelsLeft_));
     pixelsLeft_ -= run.size();
-    if (header_.blocks.empty()) return;
+    if (header_.isEmpty()) {
+        std::ranges::fill(run, SharedPixel{});
+        return true;
+    }
+    const std::optional<Passes> passes = fromBytes(readPart(), run);
+    if (!passes) refuse("the film is damaged");
+    return *passes == Passes::One;
+}
+
+void FilmReader::nextLayers(std::vector<float>& layers) {
+    const size_t channels = header_.layerChannels();
+    layers.clear();
+    if (channels == 0) return;
+    const uint64_t done = header_.settings.area.pixelCount() - pixelsLeft_;
+    const size_t pixels = (done - 1) % pixelsPerRun_ + 1;
+    const auto bytes = decompressed(readPart(), pixels * channels * sizeof(float));
+    if (!bytes) refuse("the film is damaged");
+    std::vector<float> byChannel(pixels * channels);
+    std::memcpy(byChannel.data(), bytes->data(), bytes->size());
+    layers = transposed(byChannel, channels, pixels);
+}
+
+std::vector<std::byte> FilmReader::readPart() {
     const std::vector<std::byte> front = read(kFront);
     ByteParts parts(path_, "film", front);
     const auto size = parts.number<uint64_t>();
     const auto sum = parts.number<uint32_t>();
-    const std::vector<std::byte> bytes = read(size);
+    std::vector<std::byte> bytes = read(size);
     if (checksumOf(bytes) != sum) refuse("the film is damaged");
-    if (!fromBytes(bytes, run)) refuse("the film is damaged");
+    return bytes;
 }
 
 } // namespace stromboli

@@ -2,7 +2,7 @@
 
 #include "host/core/temporary_file.hpp"
 #include "host/farm/film_header.hpp"
-#include "host/film/exact_statistics.hpp"
+#include "host/film/shared_pixel.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -19,8 +19,9 @@ class FilmWriter {
   public:
     /// Throws OutputError.
     FilmWriter(const std::filesystem::path& path, const FilmHeader& header);
-    /// The next pixels, row by row. None are wanted where the film has no blocks.
-    void add(std::span<const ExactStatistics> pixels);
+    /// The next pixels, row by row, and of each the channels of its layers, if the film holds them.
+    /// None are wanted where the film is empty.
+    void add(std::span<const SharedPixel> pixels, std::span<const float> layers = {});
     /// Throws OutputError, std::logic_error if pixels are missing.
     void finish();
 
@@ -30,7 +31,9 @@ class FilmWriter {
     TemporaryFile file_;
     size_t pixelsPerRun_;
     uint64_t pixelsLeft_;
-    std::vector<ExactStatistics> run_; ///< not yet written
+    std::vector<SharedPixel> run_; ///< not yet written
+    std::vector<float> layers_;    ///< of the run
+    size_t channels_;
 };
 
 /// Reads a film, run by run: of a film of any size, no more than a run is in memory.
@@ -45,12 +48,18 @@ class FilmReader {
 
     const std::filesystem::path& path() const { return path_; }
     const FilmHeader& header() const { return header_; }
-    /// The next run of pixels; all of them without samples where the film has no blocks. Throws
+    /// The next run of pixels; all of them without samples where the film is empty. Throws
     /// UsageError as above.
-    void next(std::vector<ExactStatistics>& run);
+    void next(std::vector<SharedPixel>& run);
+    /// The same, but where the samples of each pixel are of one pass, as in most films of shares,
+    /// nothing is said of the last one beside its number: true.
+    bool nextInBrief(std::vector<SharedPixel>& run);
+    /// The channels of the layers of each pixel of that run, if the film holds them.
+    void nextLayers(std::vector<float>& layers);
 
   private:
     std::vector<std::byte> read(uint64_t size);
+    std::vector<std::byte> readPart();
     [[noreturn]] void refuse(const std::string& why) const;
 
     std::filesystem::path path_;

@@ -1,12 +1,14 @@
 #include "host/farm/film_header.hpp"
 
-#include "host/checkpoint/byte_parts.hpp"
 #include "host/core/error.hpp"
+#include "host/render/adaptive.hpp"
 #include "host/render/session_state.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
+#include <optional>
 #include <tuple>
 
 namespace stromboli {
@@ -59,25 +61,76 @@ BlockRange pathsOf(const FilmHeader& film, const BlockRange& range) {
             film.allBlocks().firstOf(range.end) * branches};
 }
 
-/// What no film says that this program wrote, and what others would not survive.
-bool isPossible(const FilmHeader& header) {
-    if (header.settings.area.pixelCount() == 0 || !header.settings.budget.isInBlocks())
-        return false;
-    uint32_t next = 0;
-    for (const BlockRange& range : header.blocks) {
-        if (range.first < next || range.end <= range.first) return false;
-        next = range.end;
-    }
-    return next <= header.allBlocks().count() &&
-           std::ranges::all_of(header.shares, [](const ShareName& share) {
-               return share.index >= 1 && share.index <= share.count;
-           });
+/// Throws the UsageError that the other's file holds what is held already.
+[[noreturn]] void refuseTwice(const std::filesystem::path& file, const std::string& what) {
+    throw UsageError(fmt::format("{}: {} would be counted twice", file.string(), what));
+}
+
+/// Adds shares of something, and the parts of it that they are. `ofRound`: behind the share's name;
+/// `inWords`: what a range of parts is called.
+template <class InWords>
+void addShares(std::vector<ShareName>& shares, std::vector<BlockRange>& parts,
+               const std::vector<ShareName>& otherShares, const std::vector<BlockRange>& otherParts,
+               const std::filesystem::path& file, const std::string& ofRound,
+               const InWords& partsInWords) {
+    for (const ShareName& share : otherShares)
+        if (std::ranges::binary_search(shares, share))
+            refuseTwice(file, fmt::format("share {}{}", inWords(share), ofRound));
+    for (const BlockRange& a : otherParts)
+        for (const BlockRange& b : parts) {
+            const uint32_t first = std::max(a.first, b.first), end = std::min(a.end, b.end);
+            if (first < end) refuseTwice(file, partsInWords(BlockRange{first, end}));
+        }
+    shares.insert(shares.end(), otherShares.begin(), otherShares.end());
+    std::ranges::sort(shares);
+    parts.insert(parts.end(), otherParts.begin(), otherParts.end());
+    join(parts);
+}
+
+/// "share 3 of 16 is missing"; nothing if the shares are of several divisions.
+std::optional<std::string> missingShares(const std::vector<ShareName>& shares) {
+    const uint32_t count = shares.empty() ? 0 : shares.front().count;
+    if (count == 0 ||
+        !std::ranges::all_of(shares, [&](const ShareName& share) { return share.count == count; }))
+        return std::nullopt;
+    std::vector<BlockRange> held;
+    for (const ShareName& share : shares)
+        held.push_back({share.index, share.index + 1});
+    join(held);
+    std::vector<BlockRange> missing = gapsOf(held, count + 1);
+    if (!missing.empty() && missing.front().first == 0 &&
+        ++missing.front().first == missing.front().end)
+        missing.erase(missing.begin()); // shares count from 1
+    const bool isOne = missing.size() == 1 && missing[0].end - missing[0].first == 1;
+    return fmt::format("share{} {} of {} {} missing", isOne ? "" : "s", inWords(missing), count,
+                       isOne ? "is" : "are");
+}
+
+std::string missingFromFirst(const FilmHeader& film) {
+    if (const std::optional<std::string> shares = missingShares(film.shares)) return *shares;
+    std::vector<BlockRange> samples;
+    for (const BlockRange& gap : gapsOf(film.blocks, film.allBlocks().count()))
+        samples.push_back(pathsOf(film, gap));
+    return fmt::format("samples {} of each pixel are missing", inWords(samples));
+}
+
+std::string missingFrom(const PlannedRound& round) {
+    if (round.held == 0) return "all samples are missing";
+    if (const std::optional<std::string> shares = missingShares(round.shares)) return *shares;
+    return fmt::format("{} of {} samples are missing", round.samples - round.held, round.samples);
 }
 
 } // namespace
 
 std::string inWords(const ShareName& share) {
     return fmt::format("{}/{}", share.index, share.count);
+}
+
+size_t FilmHeader::layerChannels() const {
+    size_t count = 0;
+    for (const Layer layer : layers)
+        count += holdsLayers ? channelsOf(layer).size() : 0;
+    return count;
 }
 
 uint32_t FilmHeader::samples() const {
@@ -87,14 +140,45 @@ uint32_t FilmHeader::samples() const {
     return sum;
 }
 
+uint64_t FilmHeader::samplesHeld() const {
+    uint64_t sum = samples() * settings.area.pixelCount();
+    for (const PlannedRound& round : planned)
+        sum += round.held;
+    return sum;
+}
+
+uint64_t FilmHeader::samplesInAll() const {
+    uint64_t sum = allBlocks().samples * settings.area.pixelCount();
+    for (const PlannedRound& round : planned)
+        sum += round.samples;
+    return sum;
+}
+
 bool FilmHeader::isComplete() const {
-    return samples() == allBlocks().samples;
+    return samples() == allBlocks().samples &&
+           std::ranges::all_of(planned, &PlannedRound::isComplete);
+}
+
+uint32_t FilmHeader::passOf(uint32_t block) const {
+    const SampleBlocks all = allBlocks();
+    if (all.samples < SamplingPlan::kFirstPass) return 0;
+    return block < std::max(std::bit_floor(all.samples - 1) / all.perBlock, 1u) ? 0 : 1;
+}
+
+bool holdTheSame(const FilmHeader& one, const FilmHeader& other) {
+    return one.shares == other.shares &&
+           std::ranges::equal(one.planned, other.planned,
+                              [](const PlannedRound& a, const PlannedRound& b) {
+                                  return a.plan == b.plan && a.shares == b.shares;
+                              });
 }
 
 FilmHeader ofShare(FilmHeader picture, const ShareName& share) {
+    picture.planned.clear();
     picture.shares = {share};
     picture.blocks = {picture.allBlocks().ofShare(share.index, share.count)};
-    if (picture.blocks.front().empty()) picture.blocks.clear();
+    picture.holdsLayers = !picture.layers.empty() && picture.blocks.front().first == 0;
+    if (picture.blocks.front().empty()) picture.blocks.clear(), picture.holdsLayers = false;
     return picture;
 }
 
@@ -123,7 +207,7 @@ std::string differenceOf(const FilmHeader& one, const FilmHeader& other) {
                            other.settings.area.rendered().width,
                            other.settings.area.rendered().height);
     if (x.mostSamplesPerPixel != y.mostSamplesPerPixel)
-        return fmt::format("is a share of {} samples a pixel, not of {}",
+        return fmt::format("is of {} samples a pixel, not of {}",
                            uint64_t(y.mostSamplesPerPixel) * other.settings.estimator.branches,
                            uint64_t(x.mostSamplesPerPixel) * one.settings.estimator.branches);
     if (x.samplesPerBlock != y.samplesPerBlock)
@@ -131,26 +215,33 @@ std::string differenceOf(const FilmHeader& one, const FilmHeader& other) {
                            x.samplesPerBlock);
     if (!sameEstimator(one.settings.estimator, other.settings.estimator))
         return "is of other settings: " + fmt::format("{}", fmt::join(other.command, " "));
+    if (one.layers != other.layers) return "has other --layers";
+    for (size_t i = 0; i < std::min(one.planned.size(), other.planned.size()); ++i)
+        if (one.planned[i].plan != other.planned[i].plan)
+            return fmt::format("follows another plan of round {} ({:08x}, not {:08x})", i + 2,
+                               other.planned[i].plan, one.planned[i].plan);
     return "";
 }
 
 void add(FilmHeader& sum, const FilmHeader& other, const std::filesystem::path& file) {
-    const auto refuse = [&](const std::string& what) {
-        throw UsageError(fmt::format("{}: {} would be counted twice", file.string(), what));
-    };
-    for (const ShareName& share : other.shares)
-        if (std::ranges::binary_search(sum.shares, share)) refuse("share " + inWords(share));
-    for (const BlockRange& a : other.blocks)
-        for (const BlockRange& b : sum.blocks) {
-            const uint32_t first = std::max(a.first, b.first), end = std::min(a.end, b.end);
-            if (first < end)
-                refuse(
-                    fmt::format("samples {} of each pixel", inWords({pathsOf(sum, {first, end})})));
+    addShares(sum.shares, sum.blocks, other.shares, other.blocks, file, "",
+              [&](const BlockRange& blocks) {
+                  return fmt::format("samples {} of each pixel", inWords({pathsOf(sum, blocks)}));
+              });
+    for (size_t i = 0; i < other.planned.size(); ++i) {
+        const PlannedRound& added = other.planned[i];
+        if (i == sum.planned.size()) {
+            sum.planned.push_back(added);
+            continue;
         }
-    sum.shares.insert(sum.shares.end(), other.shares.begin(), other.shares.end());
-    std::ranges::sort(sum.shares);
-    sum.blocks.insert(sum.blocks.end(), other.blocks.begin(), other.blocks.end());
-    join(sum.blocks);
+        PlannedRound& round = sum.planned[i];
+        addShares(round.shares, round.places, added.shares, added.places, file,
+                  fmt::format(" of round {}", i + 2), [&](const BlockRange& places) {
+                      return fmt::format("round {} of {} pixels", i + 2, places.end - places.first);
+                  });
+        round.held += added.held;
+    }
+    sum.holdsLayers = sum.holdsLayers || other.holdsLayers;
     // Shares may have been given the scene by several names: the first of all, whatever the order.
     if (std::tie(other.command, other.scene) < std::tie(sum.command, sum.scene))
         std::tie(sum.command, sum.scene) = std::tie(other.command, other.scene);
@@ -159,85 +250,15 @@ void add(FilmHeader& sum, const FilmHeader& other, const std::filesystem::path& 
 }
 
 std::string missingFrom(const FilmHeader& film) {
-    const uint32_t count = film.shares.empty() ? 0 : film.shares.front().count;
-    const bool isOneDivision =
-        count > 0 && std::ranges::all_of(
-                         film.shares, [&](const ShareName& share) { return share.count == count; });
-    if (isOneDivision) {
-        std::vector<BlockRange> held;
-        for (const ShareName& share : film.shares)
-            held.push_back({share.index, share.index + 1});
-        join(held);
-        std::vector<BlockRange> missing = gapsOf(held, count + 1);
-        if (!missing.empty() && missing.front().first == 0 &&
-            ++missing.front().first == missing.front().end)
-            missing.erase(missing.begin()); // shares count from 1
-        const bool isOne = missing.size() == 1 && missing[0].end - missing[0].first == 1;
-        return fmt::format("share{} {} of {} {} missing", isOne ? "" : "s", inWords(missing), count,
-                           isOne ? "is" : "are");
-    }
-    std::vector<BlockRange> samples;
-    for (const BlockRange& gap : gapsOf(film.blocks, film.allBlocks().count()))
-        samples.push_back(pathsOf(film, gap));
-    return fmt::format("samples {} of each pixel are missing", inWords(samples));
-}
-
-std::vector<std::byte> toBytes(const FilmHeader& header) {
-    std::vector<std::byte> bytes;
-    const RenderIdentity& identity = header.identity;
-    append(bytes, identity.program);
-    append(bytes, identity.code);
-    append(bytes, identity.scene);
-    append(bytes, identity.sceneSum);
-    append(bytes, identity.backend);
-    append(bytes, identity.device);
-    append(bytes, header.scene);
-    append(bytes, uint64_t(header.command.size()));
-    for (const std::string& part : header.command)
-        append(bytes, part);
-    append(bytes, uint64_t(header.shares.size()));
-    for (const ShareName& share : header.shares)
-        append(bytes, share.index), append(bytes, share.count);
-    append(bytes, uint64_t(header.blocks.size()));
-    for (const BlockRange& range : header.blocks)
-        append(bytes, range.first), append(bytes, range.end);
-    SessionState settings;
-    settings.settings = header.settings;
-    const std::vector<std::byte> rest = toBytes(settings);
-    append(bytes, rest.data(), rest.size());
-    return bytes;
-}
-
-FilmHeader filmHeaderFromBytes(std::span<const std::byte> bytes,
-                               const std::filesystem::path& file) {
-    ByteParts parts(file, "film", bytes);
-    FilmHeader header;
-    RenderIdentity& identity = header.identity;
-    identity.program = parts.text();
-    identity.code = parts.text();
-    identity.scene = parts.text();
-    identity.sceneSum = parts.number<uint32_t>();
-    identity.backend = parts.text();
-    identity.device = parts.text();
-    header.scene = parts.text();
-    for (auto left = parts.number<uint64_t>(); left > 0; --left)
-        header.command.push_back(parts.text());
-    for (auto left = parts.number<uint64_t>(); left > 0; --left) {
-        const auto index = parts.number<uint32_t>();
-        header.shares.push_back({index, parts.number<uint32_t>()});
-    }
-    for (auto left = parts.number<uint64_t>(); left > 0; --left) {
-        const auto first = parts.number<uint32_t>();
-        header.blocks.push_back({first, parts.number<uint32_t>()});
-    }
-    try {
-        header.settings = sessionFromBytes(parts.rest()).settings;
-    } catch (const UsageError& error) {
-        throw UsageError(fmt::format("{}: {}", file.string(), error.what()));
-    }
-    if (!isPossible(header))
-        throw UsageError(fmt::format("{}: the film makes no sense", file.string()));
-    return header;
+    if (film.planned.empty()) return missingFromFirst(film);
+    std::string text;
+    const auto say = [&](size_t round, const std::string& what) {
+        text += fmt::format("{}of round {} {}", text.empty() ? "" : "; ", round, what);
+    };
+    if (film.samples() < film.allBlocks().samples) say(1, missingFromFirst(film));
+    for (size_t i = 0; i < film.planned.size(); ++i)
+        if (!film.planned[i].isComplete()) say(i + 2, missingFrom(film.planned[i]));
+    return text;
 }
 
 } // namespace stromboli

@@ -17,9 +17,10 @@ class FilmsToMerge {
     const FilmHeader& header() const { return header_; }
 
     /// Calls `take` with the sum of each run of pixels, from the top of the picture, and the part
-    /// of the picture that it is. To be called once. Throws UsageError if a film is damaged.
-    void addUp(const std::function<void(const PictureArea& part,
-                                        std::span<const ExactStatistics> run)>& take);
+    /// of the picture that it is; and with the channels of its layers, if a film holds them. To be
+    /// called once. Throws UsageError if a film is damaged.
+    void addUp(const std::function<void(const PictureArea& part, std::span<const SharedPixel> run,
+                                        std::span<const float> layers)>& take);
 
   private:
     std::vector<FilmReader> films_;

@@ -5,21 +5,6 @@
 namespace stromboli {
 namespace {
 
-/// "1-16", "3,7-9": as sbatch's --array has it.
-std::string arrayOf(const std::vector<uint32_t>& shares) {
-    std::string text;
-    for (size_t i = 0; i < shares.size();) {
-        size_t end = i + 1;
-        while (end < shares.size() && shares[end] == shares[end - 1] + 1)
-            ++end;
-        if (!text.empty()) text += ",";
-        text += end - i == 1 ? std::to_string(shares[i])
-                             : fmt::format("{}-{}", shares[i], shares[end - 1]);
-        i = end;
-    }
-    return text;
-}
-
 /// The lines at the top that sbatch reads. Slurm starts the tasks of a dead node anew, and what
 /// they said before is kept.
 std::string directives(const SlurmJob& job, const std::string& name, const std::string& log) {
@@ -36,52 +21,138 @@ std::string directives(const SlurmJob& job, const std::string& name, const std::
     return text;
 }
 
-} // namespace
-
-std::string filmOfShare(uint32_t share, uint32_t shares) {
-    return fmt::format("part.{}of{}.film", share, shares);
+/// The first lines: what the script does, and for whom.
+std::string beginning(const SlurmJob& job, const std::string& what, const std::string& name,
+                      const std::string& log) {
+    return fmt::format("#!/bin/sh\n# {} Written by stromboli submit {}.\n{}", what, job.version,
+                       directives(job, name, log));
 }
 
-std::string shareScript(const SlurmJob& job) {
-    return fmt::format("#!/bin/sh\n"
-                       "# Takes shares of {picture}. Written by stromboli submit {version}.\n"
-                       "{directives}"
-                       "#SBATCH --array={array}\n"
-                       "\n"
-                       "# A film that is there already is kept; one that appears is complete.\n"
-                       "share=$SLURM_ARRAY_TASK_ID\n"
+/// Renders a share to a film, or goes back into the queue. `plan`: its option, if it has one;
+/// `film`: the beginning of the film's name.
+std::string takesShare(const SlurmJob& job, const std::string& plan, const std::string& film) {
+    return fmt::format("share=$SLURM_ARRAY_TASK_ID\n"
                        "{program} render {render} \\\n"
-                       "    --share \"$share/{shares}\" --expect {fingerprint} --resume \\\n"
-                       "    -o {files}/part.\"$share\"of{shares}.film && exit 0\n"
+                       "    {plan}--share \"$share/{shares}\" --expect {fingerprint} --resume \\\n"
+                       "    -o {files}/{film}.\"$share\"of{shares}.film && exit 0\n"
                        "code=$?\n"
                        "\n"
                        "# A node may be to blame: once more, a few times, where Slurm likes.\n"
                        "test \"${{SLURM_RESTART_COUNT:-0}}\" -lt {retries} &&\n"
                        "    scontrol requeue \"$SLURM_JOB_ID\" && exit 0\n"
                        "exit $code\n",
-                       fmt::arg("picture", job.picture), fmt::arg("version", job.version),
-                       fmt::arg("directives", directives(job, "stromboli-shares", "share.%a")),
-                       fmt::arg("array", arrayOf(job.toTake)), fmt::arg("program", job.program),
-                       fmt::arg("render", fmt::join(job.render, " ")),
+                       fmt::arg("program", job.program),
+                       fmt::arg("render", fmt::join(job.render, " ")), fmt::arg("plan", plan),
                        fmt::arg("shares", job.shares), fmt::arg("fingerprint", job.fingerprint),
-                       fmt::arg("files", job.files), fmt::arg("retries", kShareRetries));
+                       fmt::arg("files", job.files), fmt::arg("film", film),
+                       fmt::arg("retries", kShareRetries));
+}
+
+/// A pattern of a shell for the films of a share, or of all ("*"), in all rounds.
+std::string filmsOf(const SlurmJob& job, const std::string& share) {
+    return fmt::format("{}/{}part.{}of{}.film", job.files, job.isInRounds() ? "*" : "", share,
+                       job.shares);
+}
+
+} // namespace
+
+std::string arrayOf(const std::vector<uint32_t>& shares) {
+    std::string text;
+    for (size_t i = 0; i < shares.size();) {
+        size_t end = i + 1;
+        while (end < shares.size() && shares[end] == shares[end - 1] + 1)
+            ++end;
+        if (!text.empty()) text += ",";
+        text += end - i == 1 ? std::to_string(shares[i])
+                             : fmt::format("{}-{}", shares[i], shares[end - 1]);
+        i = end;
+    }
+    return text;
+}
+
+std::string filmOfShare(uint32_t share, uint32_t shares, uint32_t round) {
+    return fmt::format("{}part.{}of{}.film", round > 1 ? fmt::format("round{}.", round) : "", share,
+                       shares);
+}
+
+std::string planOfRound(uint32_t round) {
+    return fmt::format("round{}.plan", round);
+}
+
+std::string shareScript(const SlurmJob& job) {
+    return beginning(job, fmt::format("Takes shares of {}.", job.picture), "stromboli-shares",
+                     "share.%a") +
+           fmt::format("#SBATCH --array={}\n"
+                       "\n"
+                       "# A film that is there already is kept; one that appears is complete.\n",
+                       arrayOf(job.toTake)) +
+           takesShare(job, "", "part");
+}
+
+std::string planScript(const SlurmJob& job) {
+    return beginning(job,
+                     fmt::format("Plans a round of {}: plan.sh ROUND, from 2 on.", job.picture),
+                     "stromboli-plan", "plan") +
+           fmt::format(
+               "\n"
+               "# A plan that is there already is kept, because films follow it. Where there is\n"
+               "# none of the round before, nothing was left to do.\n"
+               "round=$1\n"
+               "test -e {files}/round\"$round\".plan && exit 0\n"
+               "test \"$round\" -eq 2 || test -e {files}/round$((round - 1)).plan || exit 0\n"
+               "{program} plan --noise {noise} {films} \\\n"
+               "    -o {files}/round\"$round\".plan\n"
+               "code=$?\n"
+               "\n"
+               "test $code -eq 7 && exit 0 # nothing is left to do\n"
+               "exit $code\n",
+               fmt::arg("files", job.files), fmt::arg("program", job.program),
+               fmt::arg("noise", job.noise), fmt::arg("films", filmsOf(job, "*")));
+}
+
+std::string roundScript(const SlurmJob& job) {
+    return beginning(job,
+                     fmt::format("Takes shares of a round of {}: round.sh ROUND, from 2 on.",
+                                 job.picture),
+                     "stromboli-round", "share.%a") +
+           fmt::format("\n"
+                       "# Without a plan nothing was left to do.\n"
+                       "plan={}/round\"$1\".plan\n"
+                       "test -e \"$plan\" || exit 0\n",
+                       job.files) +
+           takesShare(job, "--plan \"$plan\" ", "round\"$1\".part");
+}
+
+std::string groupScript(const SlurmJob& job) {
+    return beginning(job, fmt::format("Puts groups of shares of {} together.", job.picture),
+                     "stromboli-groups", "group.%a") +
+           fmt::format("#SBATCH --array=1-{groups}\n"
+                       "\n"
+                       "group=$SLURM_ARRAY_TASK_ID\n"
+                       "share=$(((group - 1) * {size}))\n"
+                       "set --\n"
+                       "while test $share -lt {shares} && test $share -lt $((group * {size})); do\n"
+                       "    share=$((share + 1))\n"
+                       "    set -- \"$@\" {films}\n"
+                       "done\n"
+                       "{program} merge \"$@\" -o {files}/group.\"$group\"of{groups}.film\n",
+                       fmt::arg("groups", job.groups()), fmt::arg("size", SlurmJob::kGroup),
+                       fmt::arg("shares", job.shares),
+                       fmt::arg("films", filmsOf(job, "\"$share\"")),
+                       fmt::arg("program", job.program), fmt::arg("files", job.files));
 }
 
 std::string mergeScript(const SlurmJob& job) {
     std::string options;
     for (const std::string& option : job.merge)
         options += " " + option;
-    return fmt::format("#!/bin/sh\n"
-                       "# Puts the shares of {picture} together. Written by stromboli submit "
-                       "{version}.\n"
-                       "{directives}"
-                       "\n"
-                       "{program} merge --complete {files}/part.*of{shares}.film{options} \\\n"
-                       "    -o {picture}\n",
-                       fmt::arg("picture", job.picture), fmt::arg("version", job.version),
-                       fmt::arg("directives", directives(job, "stromboli-merge", "merge")),
-                       fmt::arg("program", job.program), fmt::arg("files", job.files),
-                       fmt::arg("shares", job.shares), fmt::arg("options", options));
+    const std::string films = job.isMergedInGroups()
+                                  ? fmt::format("{}/group.*of{}.film", job.files, job.groups())
+                                  : filmsOf(job, "*");
+    return beginning(job, fmt::format("Puts the shares of {} together.", job.picture),
+                     "stromboli-merge", "merge") +
+           fmt::format("\n{} merge --complete {}{} \\\n    -o {}\n", job.program, films, options,
+                       job.picture);
 }
 
 } // namespace stromboli

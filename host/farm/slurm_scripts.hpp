@@ -16,23 +16,43 @@ struct SlurmJob {
     std::vector<std::string> merge; ///< the options of `merge`, without output
     std::string fingerprint;        ///< for --expect
     std::string picture;
-    std::string files;  ///< the folder of the films, scripts and logs
+    std::string files;  ///< the folder of the films, plans, scripts and logs
     std::string runsIn; ///< a folder that all nodes share
     uint32_t shares = 1;
-    std::vector<uint32_t> toTake;    ///< the shares whose films are not there yet
+    std::vector<uint32_t> toTake;    ///< the shares of the first round whose films are not there
+    double noise = 0;                ///< to be reached in rounds; 0: there is one round
     std::string timeLimit;           ///< of each job; empty: the cluster's own
     std::vector<std::string> sbatch; ///< more options of sbatch
+
+    bool isInRounds() const { return noise > 0; }
+    /// Films are merged in groups of this many shares first, and then the groups, where one machine
+    /// would read for long.
+    bool isMergedInGroups() const { return shares > kMergedAtOnce; }
+    uint32_t groups() const { return (shares + kGroup - 1) / kGroup; }
+    static constexpr uint32_t kMergedAtOnce = 64, kGroup = 32;
 };
 
 /// A failing share is tried so many times more, on whatever node Slurm chooses.
 inline constexpr uint32_t kShareRetries = 3;
 
-/// As the script names the film of a share: it is in the folder of the job's files.
-std::string filmOfShare(uint32_t share, uint32_t shares);
+/// As the scripts name the film of a share of a round, and the plan of a round from the second on:
+/// they are in the folder of the job's files.
+std::string filmOfShare(uint32_t share, uint32_t shares, uint32_t round = 1);
+std::string planOfRound(uint32_t round);
 
-/// A batch script that takes all shares that are to be taken, as a job array.
+/// "1-16", "3,7-9": as sbatch's --array has it.
+std::string arrayOf(const std::vector<uint32_t>& shares);
+
+/// A batch script that takes all shares of the first round that are to be taken, as a job array.
 std::string shareScript(const SlurmJob& job);
-/// A batch script that puts the films together, once all are there.
+/// One that plans a round, whose number is its argument, once all films of those before are there.
+std::string planScript(const SlurmJob& job);
+/// One that takes shares of a round, whose number is its argument; sbatch is told which. Where
+/// there is no plan, nothing is left to do.
+std::string roundScript(const SlurmJob& job);
+/// One that puts the films of a group of shares together, as a job array.
+std::string groupScript(const SlurmJob& job);
+/// One that puts the films, or those of groups, together, once all are there.
 std::string mergeScript(const SlurmJob& job);
 
 } // namespace stromboli

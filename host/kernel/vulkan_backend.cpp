@@ -85,7 +85,9 @@ const vulkan::ComputePipeline& VulkanBackend::seePipelineFor(const std::vector<u
 }
 
 std::vector<SeenPixel> VulkanBackend::see(uint32_t first, std::span<const uint32_t> samples,
-                                          Seeing what) {
+                                          Seeing what, uint32_t firstSample) {
+    gpu::Frame frame = frame_;
+    frame.firstSample = firstSample;
     std::vector<gpu::SeenPixel> pixels(samples.size());
     for (uint32_t i = 0; i < pixels.size(); ++i) {
         const PixelPlace place = area_.placeOf(first + i);
@@ -95,7 +97,7 @@ std::vector<SeenPixel> VulkanBackend::see(uint32_t first, std::span<const uint32
     }
     const DeviceTuning tuning = tuningFor(tuning_, device_, *scene_, area_);
     const auto constants = seeConstants(*scene_, camera_, estimator_, tuning, what);
-    SeePass(device_, *deviceScene_, seePipelineFor(constants, tuning), constants, *filter_, frame_,
+    SeePass(device_, *deviceScene_, seePipelineFor(constants, tuning), constants, *filter_, frame,
             tuning, uint32_t(pixels.size()))
         .run(pixels);
     std::vector<SeenPixel> seen;

@@ -40,8 +40,8 @@ class VulkanBackend final : public Backend, public Viewer {
     std::vector<PixelSums> save(const Film& film, PixelRun run) override;
     void restore(PixelRun run, std::span<const PixelSums> sums, Film& film) override;
 
-    std::vector<SeenPixel> see(uint32_t first, std::span<const uint32_t> samples,
-                               Seeing what) override;
+    std::vector<SeenPixel> see(uint32_t first, std::span<const uint32_t> samples, Seeing what,
+                               uint32_t firstSample = 0) override;
 
     const KernelFeatures& features() const { return kernel_->features(); }
     /// Only with KernelTuning::countSteps.

@@ -199,7 +199,7 @@ SampleValue ReferenceBackend::sampleAlone(uint32_t pixel, uint32_t sample) {
 }
 
 std::vector<SeenPixel> ReferenceBackend::see(uint32_t first, std::span<const uint32_t> samples,
-                                             Seeing what) {
+                                             Seeing what, uint32_t firstSample) {
     std::vector<SeenPixel> seen(samples.size());
     const Implementation& all = *implementation_;
     implementation_->arena.execute([&] {
@@ -207,7 +207,7 @@ std::vector<SeenPixel> ReferenceBackend::see(uint32_t first, std::span<const uin
             for (size_t i = range.begin(); i != range.end(); ++i) {
                 for (uint32_t sample = 0; sample < samples[i]; ++sample) {
                     const auto pixel = uint32_t(first + i);
-                    reference::RandomStream random = all.randomOf(pixel, sample);
+                    reference::RandomStream random = all.randomOf(pixel, firstSample + sample);
                     const auto [ray, weight] = all.cameraRayOf(pixel, random);
                     reference::addSeen(seen[i], all.world, ray, weight, random, what);
                 }

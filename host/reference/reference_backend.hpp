@@ -31,8 +31,8 @@ class ReferenceBackend final : public Backend, public Viewer {
     SampleValue sampleAlone(uint32_t pixel, uint32_t sample) override;
     RenderCounters counters() const override;
     void beginAt(uint32_t firstSample) override;
-    std::vector<SeenPixel> see(uint32_t first, std::span<const uint32_t> samples,
-                               Seeing what) override;
+    std::vector<SeenPixel> see(uint32_t first, std::span<const uint32_t> samples, Seeing what,
+                               uint32_t firstSample = 0) override;
 
   private:
     struct Implementation;

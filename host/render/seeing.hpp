@@ -37,11 +37,11 @@ struct SeenPixel {
 class Viewer {
   public:
     virtual ~Viewer() = default;
-    /// Of pixels that follow each other, from `first` on (Film::pixels): the first samples[i]
-    /// camera rays of each, to the last bit those that Backend::sample() takes. No more than
-    /// kMostSeenAtOnce pixels.
+    /// Of pixels that follow each other, from `first` on (Film::pixels): samples[i] camera rays of
+    /// each, from that of sample `firstSample` on, to the last bit those that Backend::sample()
+    /// takes. No more than kMostSeenAtOnce pixels.
     virtual std::vector<SeenPixel> see(uint32_t first, std::span<const uint32_t> samples,
-                                       Seeing what) = 0;
+                                       Seeing what, uint32_t firstSample = 0) = 0;
 
     static constexpr uint32_t kMostSeenAtOnce = 1u << 16; ///< 4 MiB on the device
 };

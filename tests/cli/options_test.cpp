@@ -280,10 +280,16 @@ TEST(Options, AShareIsEvenAndSaysSoInItsCommand) {
 }
 
 TEST(Options, SubmitTellsSharesAndMergeWhatIsTheirs) {
-    const Options o = parse({"submit", "slurm", "a b.xml", "-o", "a.exr", "--shares", "4", "-D",
-                             "x=1", "-D", "y=2", "--aov", "--notes", "off", "--device", "cpu"});
-    EXPECT_EQ(o.submit.render, (Words{"'a b.xml'", "-D x=1 -D y=2", "--device cpu"}));
+    const Options o = parse({"submit",  "slurm",    "a b.xml",  "-o",  "a.exr",         "--shares",
+                             "4",       "-D",       "x=1",      "-D",  "y=2",           "--aov",
+                             "--notes", "off",      "--device", "cpu", "--transparent", "--noise",
+                             "0.02",    "--rounds", "3"});
+    EXPECT_EQ(o.submit.render,
+              (Words{"'a b.xml'", "-D x=1 -D y=2", "--transparent", "--device cpu"}));
     EXPECT_EQ(o.submit.merge, (Words{"--aov", "--notes off"}));
+    EXPECT_EQ(o.submit.noise, 0.02);
+    EXPECT_EQ(o.submit.rounds, 3u);
+    EXPECT_FALSE(o.estimator.showsBackdrop);
     EXPECT_FALSE(o.budget.spreads());
 }
 

@@ -119,6 +119,46 @@ TEST_F(Shares, InBandsAndOnTwoLevels) {
     EXPECT_TRUE(bytesOf("sum.exr") == bytesOf("whole.exr"));
 }
 
+/// Samples that a surface covers are counted; layers are in the film of the first samples.
+TEST_F(Shares, HaveAlphaAndLayers) {
+    const Strings seen = {"--transparent", "--layers",
+                          "albedo,normal,depth,position,uv,object,material"};
+    const auto with = [](Strings words, const Strings& more) {
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    };
+    run(render("whole.exr", with(seen, {"--even"})));
+    run(render("whole.png", {"--even", "--transparent"}));
+    for (uint32_t count : {1u, 3u, 7u}) {
+        const Strings films = shares(count, seen);
+        EXPECT_EQ(merge("sum.exr", films).exitCode, 0);
+        EXPECT_TRUE(bytesOf("sum.exr") == bytesOf("whole.exr")) << count;
+    }
+    Strings films = shares(7, with(seen, {"--film-memory", "1"}));
+    EXPECT_EQ(merge("a.film", {films[3], films[0], films[6]}).exitCode, 0);
+    EXPECT_EQ(merge("b.film", {films[5], films[1], films[2], films[4]}).exitCode, 0);
+    EXPECT_EQ(merge("sum.exr", {folder.file("b.film"), folder.file("a.film")}).exitCode, 0);
+    EXPECT_TRUE(bytesOf("sum.exr") == bytesOf("whole.exr"));
+
+    const ProgramRun png = merge("sum.png", films);
+    EXPECT_THAT(png.err, HasSubstr("sum.png has no channels for the layers of the films"));
+    EXPECT_EQ(merge("sum.png", shares(3, {"--transparent"})).exitCode, 0);
+    EXPECT_TRUE(bytesOf("sum.png") == bytesOf("whole.png"));
+
+    const ProgramRun without = merge("part.exr", {films[1], films[2]});
+    EXPECT_THAT(without.err,
+                HasSubstr("the layers are missing: they are in the film of the first"));
+    const ProgramRun weighted =
+        stromboli(render("w.film", {"--share", "1/2", "--transparent", "--filter", "lanczos"}));
+    EXPECT_EQ(weighted.exitCode, 1);
+    EXPECT_THAT(weighted.err, HasSubstr("--filter box"));
+    const ProgramRun mixed = merge("x.exr", {films[1], share(3, 7, {"--transparent"})});
+    EXPECT_EQ(mixed.exitCode, 1);
+    EXPECT_THAT(mixed.err, HasSubstr("part3of7.film has other --layers"));
+    const ProgramRun opaque = merge("x.exr", {films[1], share(4, 7)});
+    EXPECT_THAT(opaque.err, HasSubstr("part4of7.film is of other settings"));
+}
+
 TEST_F(Shares, ThatAreMissingAreNamed) {
     const Strings films = {share(1, 4), share(4, 4)};
     const ProgramRun run = merge("part.exr", films);
@@ -159,7 +199,6 @@ TEST_F(Shares, SayWhichOptionsHaveNoPlace) {
     EXPECT_THAT(refusal("a.film", {"--noise", "0.1"}),
                 HasSubstr("--share and --noise exclude each other: a share has as many samples"));
     EXPECT_THAT(refusal("a.film", {"-a", "8", "0.1"}), HasSubstr("--share and -a exclude"));
-    EXPECT_THAT(refusal("a.film", {"--layers", "depth"}), HasSubstr("radiance alone"));
     EXPECT_THAT(refusal("a.film", {"--exposure", "1"}), HasSubstr("merge has it"));
     const ProgramRun share = stromboli({"render", scene, "-o", "a.film", "--share", "3/2"});
     EXPECT_THAT(share.err, HasSubstr("--share: I"));

@@ -1,7 +1,8 @@
 #!/bin/bash
 # A cluster on this machine: a controller and three nodes of Slurm, started here and ended with this
 # script. It renders a picture in 16 shares while one node dies with all its processes, one is
-# declared dead though its task lives on, and one share fails once.
+# declared dead though its task lives on, and one share fails once; then another one in rounds, with
+# what is left of the cluster, of which a share fails once as well.
 #
 #   slurm_cluster.sh STROMBOLI SCENE FOLDER
 #
@@ -135,6 +136,13 @@ words="\$*"
 [[ \$words == *--share* ]] || exec "$stromboli" "\$@"
 share=\${words#*--share }
 share=\${share%%/*}
+if [[ \$words == *--plan* ]]; then
+    if [[ \$share == 2 && ! -e $folder/work/failed_round ]]; then
+        touch "$folder/work/failed_round"
+        exit 3
+    fi
+    exec "$stromboli" "\$@"
+fi
 echo "start \$share \$SLURMD_NODENAME" >>"$folder/work/starts"
 if [[ \$share == 5 && ! -e $folder/work/failed ]]; then
     touch "$folder/work/failed"
@@ -211,3 +219,28 @@ again() {
 rm out.exr.shares/part.{3,8,9}of16.film
 [[ $(again) == 3,8-9 ]] || die "submit would take $(again), not 3,8-9"
 echo "only what is missing is submitted again"
+
+# Rounds until the noise is what is asked for: it takes two, and the third ends at once.
+picture="$scene -r 24 18 -s 16 --block 8"
+noise=0.24
+"$stromboli" submit slurm $picture -o rounds.exr --shares 2 --noise $noise --rounds 3 \
+    --job-time 5 --program "$folder/stromboli" || die "submit of rounds failed"
+by_hand() {
+    local round=2 films="$folder/hand1.film"
+    "$stromboli" render $picture --share 1/1 -o "$folder/hand1.film" -q || return 1
+    while "$stromboli" plan $films --noise $noise -o "$folder/hand$round.plan"; do
+        "$stromboli" render $picture --plan "$folder/hand$round.plan" --share 1/1 \
+            -o "$folder/hand$round.film" -q || return 1
+        films+=" $folder/hand$round.film"
+        round=$((round + 1))
+    done
+    "$stromboli" merge $films -o "$folder/hand.exr" -q
+}
+by_hand || die "the rounds by hand failed"
+until_true 90 test -e rounds.exr || die "there is no picture of rounds"
+until_true 20 merged || die "jobs of rounds are left"
+cmp "$folder/hand.exr" rounds.exr || die "the picture of rounds has other bytes than by hand"
+[[ -e failed_round ]] || die "no share of a round has failed"
+[[ -e rounds.exr.shares/round2.plan && ! -e rounds.exr.shares/round3.plan ]] ||
+    die "there were not two rounds"
+echo "rounds have the bytes of rounds by hand, and end when the noise is reached"

@@ -76,6 +76,116 @@ TEST_F(Submit, ScriptsRenderThePicture) {
     EXPECT_EQ(same.exitCode, 0) << same.output;
 }
 
+/// The scripts by name, as --dry-run prints them, and what follows the last one.
+std::vector<std::string> scriptsIn(const std::string& text) {
+    std::vector<std::string> scripts;
+    for (size_t begin = text.find("#!/bin/sh"); begin != std::string::npos;) {
+        const size_t end = text.find("#!/bin/sh", begin + 1);
+        scripts.push_back(text.substr(begin, end == std::string::npos ? end : end - begin));
+        begin = end;
+    }
+    return scripts;
+}
+
+/// Rounds as the jobs run them, until a plan says that nothing is left: the picture has the bytes
+/// of the same rounds by hand, in other shares.
+TEST_F(Submit, ScriptsRenderRounds) {
+    const Strings picture = {"-s", "16", "--block", "4", "-r", "16", "12", "-q"};
+    Strings words = picture;
+    words.insert(words.end(), {"--shares", "3", "--noise", "0.3", "--rounds", "4", "--dry-run"});
+    const ProgramRun dry = submit(words);
+    ASSERT_EQ(dry.exitCode, 0) << dry.err;
+    const std::vector<std::string> scripts = scriptsIn(dry.out);
+    ASSERT_EQ(scripts.size(), 4u);
+    EXPECT_THAT(scripts[3], HasSubstr("# sbatch shares.sh\n"
+                                      "# sbatch plan.sh 2\n# sbatch --array=1-3 round.sh 2\n"
+                                      "# sbatch plan.sh 3\n# sbatch --array=1-3 round.sh 3\n"
+                                      "# sbatch plan.sh 4\n# sbatch --array=1-3 round.sh 4\n"
+                                      "# sbatch merge.sh\n"));
+    const char* const names[] = {"shares.sh", "plan.sh", "round.sh", "merge.sh"};
+    for (size_t i = 0; i < 4; ++i)
+        folder.write(names[i], scripts[i]);
+    const std::string films = folder.file("out.exr.shares");
+    std::filesystem::create_directory(films);
+    const auto job = [&](const std::string& script, const std::string& task = "1") {
+        const ShellRun run =
+            shell("export SLURM_ARRAY_TASK_ID=" + task + "; sh " + folder.file(script));
+        EXPECT_EQ(run.exitCode, 0) << run.output;
+    };
+    for (const char* share : {"1", "2", "3"})
+        job("shares.sh", share);
+    const auto jobsOf = [&](const std::string& round) {
+        job("plan.sh " + round);
+        for (const char* share : {"3", "1", "2", "1"}) // the last is there already
+            job("round.sh " + round, share);
+    };
+    jobsOf("2");
+    EXPECT_TRUE(std::filesystem::exists(films + "/round2.part.3of3.film"));
+    // What is there is not submitted again.
+    std::filesystem::remove(films + "/round2.part.2of3.film");
+    const std::string again = submit(words).out;
+    EXPECT_THAT(again, Not(HasSubstr("shares.sh")));
+    EXPECT_THAT(again, HasSubstr("# Each after the one before:\n# sbatch --array=2 round.sh 2\n"
+                                 "# sbatch plan.sh 3\n"));
+    job("round.sh 2", "2");
+    jobsOf("3");
+    jobsOf("4");
+    const bool isOver = !std::filesystem::exists(films + "/round4.plan");
+    EXPECT_EQ(isOver, !std::filesystem::exists(films + "/round4.part.1of3.film"));
+    EXPECT_TRUE(isOver) << "the noise should be reached in three rounds";
+    job("merge.sh");
+
+    // The same by hand.
+    const auto stage = [&](const Strings& extra) {
+        Strings all = {"render", scene};
+        all.insert(all.end(), picture.begin(), picture.end());
+        all.insert(all.end(), extra.begin(), extra.end());
+        EXPECT_EQ(stromboli(all).exitCode, 0);
+    };
+    Strings hand = {folder.file("1.film")};
+    stage({"--share", "1/1", "-o", hand[0]});
+    for (int round = 2;; ++round) {
+        const std::string plan = folder.file(std::to_string(round) + ".plan");
+        Strings all = {"plan", "--noise", "0.3", "-o", plan};
+        all.insert(all.end(), hand.begin(), hand.end());
+        const int code = stromboli(all).exitCode;
+        if (code == 7) break;
+        ASSERT_EQ(code, 0);
+        hand.push_back(folder.file(std::to_string(round) + ".film"));
+        stage({"--share", "1/1", "--plan", plan, "-o", hand.back()});
+    }
+    Strings all = {"merge", "-o", folder.file("whole.exr")};
+    all.insert(all.end(), hand.begin(), hand.end());
+    EXPECT_EQ(stromboli(all).exitCode, 0);
+    const ShellRun same = shell("cmp " + folder.file("whole.exr") + " " + folder.file("out.exr"));
+    EXPECT_EQ(same.exitCode, 0) << same.output;
+}
+
+/// Of many shares groups are merged first, each by a job; the folder has a space in its name.
+TEST_F(Submit, ManySharesAreMergedInGroups) {
+    const std::string output = folder.file("a b.exr");
+    const Strings picture = {"-s", "70", "--block", "1", "--branches", "1", "-r", "8", "6", "-q"};
+    Strings words = {"submit", "slurm", scene, "-o", output, "--shares", "70", "--dry-run"};
+    words.insert(words.end(), picture.begin(), picture.end());
+    const std::vector<std::string> scripts = scriptsIn(stromboli(words).out);
+    ASSERT_EQ(scripts.size(), 3u);
+    EXPECT_THAT(scripts[1], HasSubstr("#SBATCH --array=1-3\n"));
+    const char* const names[] = {"shares.sh", "groups.sh", "merge.sh"};
+    for (size_t i = 0; i < 3; ++i)
+        folder.write(names[i], scripts[i]);
+    std::filesystem::create_directory(output + ".shares");
+    const ShellRun run = shell("cd " + folder.path().string() +
+                               "; set -e; for i in $(seq 70); do SLURM_ARRAY_TASK_ID=$i sh "
+                               "shares.sh; done; for i in 1 2 3; do SLURM_ARRAY_TASK_ID=$i sh "
+                               "groups.sh; done; sh merge.sh");
+    EXPECT_EQ(run.exitCode, 0) << run.output;
+    words = {"render", scene, "-o", folder.file("whole.exr"), "--even"};
+    words.insert(words.end(), picture.begin(), picture.end());
+    EXPECT_EQ(stromboli(words).exitCode, 0);
+    const ShellRun same = shell("cmp " + folder.file("whole.exr") + " '" + output + "'");
+    EXPECT_EQ(same.exitCode, 0) << same.output;
+}
+
 TEST_F(Submit, RefusesWhatWouldFailOnTheNodes) {
     EXPECT_THAT(submit({"--shares", "5", "--dry-run", "-s", "64", "--block", "32"}).err,
                 HasSubstr("3 of the 5 shares would have no samples: -s makes 2 blocks of 32"));
@@ -91,7 +201,7 @@ TEST_F(Submit, RefusesWhatWouldFailOnTheNodes) {
               0);
     const ProgramRun other = submit({"--shares", "1", "--dry-run", "-s", "8", "-r", "8", "6"});
     EXPECT_EQ(other.exitCode, 1);
-    EXPECT_THAT(other.err, HasSubstr("is a share of 4 samples a pixel, not of 8; remove "));
+    EXPECT_THAT(other.err, HasSubstr("is of 4 samples a pixel, not of 8; remove "));
 }
 
 TEST_F(Submit, SaysThatThereIsNoSlurm) {
@@ -103,6 +213,7 @@ TEST_F(Submit, SaysThatThereIsNoSlurm) {
 
 /// One node dies, one is believed dead and its task lives on, and one share fails once
 /// (slurm_cluster.sh): the picture has the bytes of one render, and no other share is taken twice.
+/// Another one in rounds has the bytes of the same rounds without a cluster.
 TEST_F(Submit, AClusterThatLosesNodesRendersThePicture) {
     for (const char* program : {"munged", "slurmctld", "slurmd", "sbatch"})
         if (shell(std::string("PATH=$PATH:/usr/sbin; command -v ") + program).exitCode != 0)
@@ -114,6 +225,7 @@ TEST_F(Submit, AClusterThatLosesNodesRendersThePicture) {
     EXPECT_THAT(run.output, HasSubstr("same bytes"));
     EXPECT_THAT(run.output, HasSubstr("each share was taken once, but for"));
     EXPECT_THAT(run.output, HasSubstr("only what is missing is submitted again"));
+    EXPECT_THAT(run.output, HasSubstr("rounds have the bytes of rounds by hand"));
     EXPECT_THAT(run.output, Not(HasSubstr("FAILED")));
     EXPECT_NE(shell("grep -lzxF SLURM_CONF=" + folder.file("slurm.conf") + " /proc/[0-9]*/environ")
                   .exitCode,

@@ -1,5 +1,6 @@
 // Renders in blocks, with samples that need no renderer.
 #include "host/core/error.hpp"
+#include "host/render/block_backend.hpp"
 #include "host/render/render_session.hpp"
 #include "tests/farm/films.hpp"
 
@@ -92,10 +93,9 @@ TEST(BlockBackend, AnyShareIsUnbiased) {
     for (const ShareName share : {ShareName{1, 4}, {3, 4}, {64, 64}}) {
         PixelStatistics means;
         for (uint32_t seed = 0; seed < 8; ++seed)
-            for (const ExactStatistics& p :
-                 drawBlocks(ofShare(pictureOf(64, 1), share), even, seed)) {
-                EXPECT_EQ(p.taken(), 64 / share.count);
-                means.add(p.statistics().mean);
+            for (const SharedPixel& p : drawBlocks(ofShare(pictureOf(64, 1), share), even, seed)) {
+                EXPECT_EQ(p.all.taken(), 64 / share.count);
+                means.add(p.all.statistics().mean);
             }
         EXPECT_NEAR(means.mean.x, 1, 4.5 * std::sqrt(means.varianceOfMean().x));
     }

@@ -20,9 +20,9 @@ std::string contentOf(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-std::vector<ExactStatistics> readAll(const std::filesystem::path& file) {
+std::vector<SharedPixel> readAll(const std::filesystem::path& file) {
     FilmReader reader(file);
-    std::vector<ExactStatistics> all, run;
+    std::vector<SharedPixel> all, run;
     const uint64_t pixels = reader.header().settings.area.pixelCount();
     while (all.size() < pixels) {
         reader.next(run);
@@ -43,7 +43,7 @@ std::string refusalOf(const std::filesystem::path& file) {
 TEST(FilmFile, ComesBackAsItWas) {
     const TemporaryFolder folder;
     const FilmHeader header = ofShare(pictureOf(16, 4), {2, 4});
-    const std::vector<ExactStatistics> pixels = drawBlocks(header, uneven, 1);
+    const std::vector<SharedPixel> pixels = drawBlocks(header, uneven, 1);
     writeFilm(folder / "a.film", header, pixels);
     EXPECT_EQ(toBytes(FilmReader(folder / "a.film").header()), toBytes(header));
     EXPECT_EQ(readAll(folder / "a.film"), pixels);
@@ -55,9 +55,9 @@ TEST(FilmFile, OfManyRunsComesBackAsItWas) {
     const TemporaryFolder folder;
     FilmHeader header = ofShare(pictureOf(16, 16), {1, 1});
     header.settings.area = {1000, 150, {}};
-    std::vector<ExactStatistics> pixels(1000 * 150);
+    std::vector<SharedPixel> pixels(1000 * 150);
     for (uint32_t i = 0; i < pixels.size(); ++i)
-        pixels[i].count = i, pixels[i].sum[1].words[2] = 3 * i;
+        pixels[i].all.count = i, pixels[i].all.sum[1].words[2] = 3 * i;
     FilmWriter writer(folder / "a.film", header);
     writer.add(std::span(pixels).first(1));
     writer.add(std::span(pixels).subspan(1, 100'000));
@@ -68,13 +68,48 @@ TEST(FilmFile, OfManyRunsComesBackAsItWas) {
     EXPECT_EQ(readAll(folder / "a.film"), pixels);
 }
 
+/// Several runs, and layers of seven channels, which are in the film of the first share only.
+TEST(FilmFile, LayersComeBackAsTheyWere) {
+    const TemporaryFolder folder;
+    FilmHeader picture = pictureOf(16, 4);
+    picture.settings.area = {1000, 150, {}};
+    picture.layers = {Layer::Normal, Layer::Depth, Layer::Position};
+    picture.legend = {{"Objects", "[\"ball\"]"}};
+    EXPECT_FALSE(ofShare(picture, {2, 4}).holdsLayers);
+    const FilmHeader header = ofShare(picture, {1, 4});
+    EXPECT_TRUE(header.holdsLayers);
+    const size_t channels = header.layerChannels();
+    EXPECT_EQ(channels, 7u);
+    const std::vector<SharedPixel> pixels(1000 * 150);
+    std::vector<float> layers(pixels.size() * channels);
+    for (size_t i = 0; i < layers.size(); ++i)
+        layers[i] = float(i) * 0.5f;
+    FilmWriter writer(folder / "a.film", header);
+    EXPECT_THROW(writer.add(pixels), std::logic_error); // without layers
+    writer.add(std::span(pixels).first(77), std::span(layers).first(77 * channels));
+    writer.add(std::span(pixels).subspan(77), std::span(layers).subspan(77 * channels));
+    writer.finish();
+    FilmReader reader(folder / "a.film");
+    EXPECT_EQ(reader.header().layers, header.layers);
+    EXPECT_EQ(reader.header().legend, header.legend);
+    std::vector<float> all, some;
+    std::vector<SharedPixel> run;
+    while (all.size() < layers.size()) {
+        reader.next(run);
+        reader.nextLayers(some);
+        EXPECT_EQ(some.size(), run.size() * channels);
+        all.insert(all.end(), some.begin(), some.end());
+    }
+    EXPECT_EQ(all, layers);
+}
+
 TEST(FilmFile, AShareWithoutSamplesIsSmall) {
     const TemporaryFolder folder;
     const FilmHeader header = ofShare(pictureOf(4, 4), {1, 1000});
     EXPECT_TRUE(header.blocks.empty());
     writeFilm(folder / "a.film", header, {});
     EXPECT_LT(std::filesystem::file_size(folder / "a.film"), 1000u);
-    EXPECT_EQ(readAll(folder / "a.film"), std::vector<ExactStatistics>(kSide * kSide));
+    EXPECT_EQ(readAll(folder / "a.film"), std::vector<SharedPixel>(kSide * kSide));
 }
 
 TEST(FilmFile, WithoutItsEndThereIsNoFile) {
@@ -82,7 +117,7 @@ TEST(FilmFile, WithoutItsEndThereIsNoFile) {
     {
         const FilmHeader header = ofShare(pictureOf(4, 4), {1, 1});
         FilmWriter writer(folder / "a.film", header);
-        writer.add(std::vector<ExactStatistics>(kSide * kSide));
+        writer.add(std::vector<SharedPixel>(kSide * kSide));
         EXPECT_FALSE(std::filesystem::exists(folder / "a.film"));
     }
     EXPECT_EQ(folder.size(), 0u);

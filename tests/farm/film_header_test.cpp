@@ -54,6 +54,28 @@ TEST(FilmHeader, RefusesWhatMakesNoSense) {
     EXPECT_EQ(refusal([](FilmHeader& h) { h.shares[0].index = 5; }), kNonsense);
 }
 
+/// Of planned rounds and layers, too.
+TEST(FilmHeader, RefusesRoundsAndLayersThatMakeNoSense) {
+    const auto refusal = [](const std::function<void(FilmHeader&)>& change) {
+        FilmHeader h = sumOf({{1, 4}});
+        h.layers = {Layer::Depth};
+        h.holdsLayers = true;
+        h.planned = {{42, 1000, 400, {{1, 3}, {2, 3}}, {{0, 7}, {9, 12}}}};
+        change(h);
+        return refusalOf([&] { filmHeaderFromBytes(toBytes(h), "a.film"); });
+    };
+    EXPECT_EQ(refusal([](FilmHeader&) {}), "");
+    const char* const kNonsense = "a.film: the film makes no sense";
+    EXPECT_EQ(refusal([](FilmHeader& h) { h.planned[0].held = 1001; }), kNonsense);
+    EXPECT_EQ(refusal([](FilmHeader& h) { h.planned[0].samples = uint64_t(1) << 50; }), kNonsense);
+    EXPECT_EQ(refusal([](FilmHeader& h) { h.planned[0].shares[1].index = 4; }), kNonsense);
+    EXPECT_EQ(refusal([](FilmHeader& h) { h.planned[0].places[1].first = 6; }), kNonsense);
+    EXPECT_EQ(refusal([](FilmHeader& h) { h.planned[0].places[1].end = kSide * kSide + 1; }),
+              kNonsense);
+    EXPECT_EQ(refusal([](FilmHeader& h) { h.layers = {Layer(77)}; }), kNonsense);
+    EXPECT_EQ(refusal([](FilmHeader& h) { h.layers.clear(); }), kNonsense);
+}
+
 TEST(FilmHeader, OfManySharesInAnyOrderAreTheSame) {
     const FilmHeader a = sumOf({{1, 4}, {2, 4}, {3, 4}, {4, 4}});
     const FilmHeader b = sumOf({{3, 4}, {1, 4}, {4, 4}, {2, 4}});

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/farm/film_file.hpp"
-#include "host/render/block_backend.hpp"
+#include "host/farm/round_plan.hpp"
 #include "tests/render/drawn_samples.hpp"
 
 #include <filesystem>
@@ -28,12 +28,13 @@ inline std::vector<PixelTarget> allPixels(const PictureArea& area, uint32_t samp
     return targets;
 }
 
-/// The sums of a film's blocks, drawn.
-inline std::vector<ExactStatistics> drawBlocks(const FilmHeader& header, const Draw& draw,
-                                               uint32_t seed) {
+/// The sums of a film of the first round, drawn.
+inline std::vector<SharedPixel> drawBlocks(const FilmHeader& header, const Draw& draw,
+                                           uint32_t seed) {
+    if (header.isEmpty()) return {};
     const PictureArea& area = header.settings.area;
     const SampleBlocks all = header.allBlocks();
-    BlockSums sums;
+    std::vector<SharedPixel> sums(area.pixelCount());
     DrawnBackend backend(draw, seed);
     for (const BlockRange& range : header.blocks)
         for (uint32_t block = range.first; block < range.end; ++block) {
@@ -42,13 +43,30 @@ inline std::vector<ExactStatistics> drawBlocks(const FilmHeader& header, const D
             backend.beginAt(first);
             backend.sample(allPixels(area, all.firstOf(block + 1) - first), film,
                            [](uint64_t) { return true; });
-            sums.add(film, first);
+            for (size_t i = 0; i < sums.size(); ++i)
+                sums[i].add(film.pixels[i], first, header.passOf(block));
         }
-    return sums.pixels();
+    return sums;
+}
+
+/// The sums of a share of a planned round, drawn: the samples' numbers go on from those before.
+inline std::vector<SharedPixel> drawPlanned(const PlannedShare& share, const Draw& draw,
+                                            uint32_t seed) {
+    if (share.header.isEmpty()) return {};
+    const PictureArea& area = share.header.settings.area;
+    std::vector<SharedPixel> sums(area.pixelCount());
+    DrawnBackend backend(draw, seed);
+    for (const PlannedPixel& p : share.pixels) {
+        PixelStatistics samples;
+        for (uint32_t i = p.from; i < p.to; ++i)
+            samples.add(backend.sampleAlone(p.pixel, i).radiance);
+        sums[p.pixel].add(samples, p.from, share.header.rounds());
+    }
+    return sums;
 }
 
 inline void writeFilm(const std::filesystem::path& file, const FilmHeader& header,
-                      std::span<const ExactStatistics> pixels) {
+                      std::span<const SharedPixel> pixels) {
     FilmWriter writer(file, header);
     writer.add(pixels);
     writer.finish();

@@ -41,20 +41,20 @@ class MergeFilms : public testing::Test {
         }
         return files;
     }
-    static std::vector<ExactStatistics> sumOf(const std::vector<fs::path>& files) {
+    static std::vector<SharedPixel> sumOf(const std::vector<fs::path>& files) {
         FilmsToMerge films(files);
-        std::vector<ExactStatistics> sum;
-        films.addUp([&](const PictureArea&, std::span<const ExactStatistics> run) {
-            sum.insert(sum.end(), run.begin(), run.end());
-        });
+        std::vector<SharedPixel> sum;
+        films.addUp([&](const PictureArea&, std::span<const SharedPixel> run,
+                        std::span<const float>) { sum.insert(sum.end(), run.begin(), run.end()); });
         return sum;
     }
     fs::path merged(const std::vector<fs::path>& files, const std::string& name) {
         FilmsToMerge films(files);
         FilmWriter writer(folder_ / name, films.header());
-        films.addUp([&](const PictureArea&, std::span<const ExactStatistics> run) {
-            if (!films.header().blocks.empty()) writer.add(run);
-        });
+        films.addUp(
+            [&](const PictureArea&, std::span<const SharedPixel> run, std::span<const float>) {
+                if (!films.header().isEmpty()) writer.add(run);
+            });
         writer.finish();
         return folder_ / name;
     }
@@ -73,8 +73,7 @@ class MergeFilms : public testing::Test {
 };
 
 TEST_F(MergeFilms, AnyNumberInAnyOrder) {
-    const std::vector<ExactStatistics> whole =
-        drawBlocks(ofShare(smallPicture(), {1, 1}), uneven, 1);
+    const std::vector<SharedPixel> whole = drawBlocks(ofShare(smallPicture(), {1, 1}), uneven, 1);
     std::mt19937 random(1);
     for (uint32_t count : {1u, 2u, 7u, 64u, 1000u}) {
         std::vector<fs::path> files = shares(smallPicture(), count);
@@ -114,8 +113,8 @@ TEST_F(MergeFilms, WhatIsMissingIsTheRest) {
     const FilmsToMerge some({files[0], files[2], files[7]});
     EXPECT_EQ(some.header().samples(), 375u);
     EXPECT_EQ(missingFrom(some.header()), "shares 2 and 4 to 7 of 8 are missing");
-    for (const ExactStatistics& p : sumOf({files[0], files[2], files[7]}))
-        EXPECT_EQ(p.taken(), 375u);
+    for (const SharedPixel& p : sumOf({files[0], files[2], files[7]}))
+        EXPECT_EQ(p.all.taken(), 375u);
 }
 
 TEST_F(MergeFilms, RefusesForeignAndDoubledOnes) {
@@ -138,19 +137,20 @@ TEST_F(MergeFilms, SaysWhichRowsARunIs) {
     FilmHeader picture = pictureOf(1, 1);
     picture.settings.area = {900, 400, {100, 50, 700, 300}};
     const FilmHeader header = ofShare(picture, {1, 1});
-    std::vector<ExactStatistics> pixels(700 * 300);
+    std::vector<SharedPixel> pixels(700 * 300);
     writeFilm(folder_ / "a.film", header, pixels);
     FilmsToMerge films({folder_ / "a.film"});
     uint32_t row = 50;
-    films.addUp([&](const PictureArea& part, std::span<const ExactStatistics> run) {
-        const Crop rows = part.rendered();
-        EXPECT_EQ(part.width, 900u);
-        EXPECT_EQ(rows.x, 100u);
-        EXPECT_EQ(rows.y, row);
-        EXPECT_EQ(rows.width, 700u);
-        EXPECT_EQ(run.size(), 700u * rows.height);
-        row += rows.height;
-    });
+    films.addUp(
+        [&](const PictureArea& part, std::span<const SharedPixel> run, std::span<const float>) {
+            const Crop rows = part.rendered();
+            EXPECT_EQ(part.width, 900u);
+            EXPECT_EQ(rows.x, 100u);
+            EXPECT_EQ(rows.y, row);
+            EXPECT_EQ(rows.width, 700u);
+            EXPECT_EQ(run.size(), 700u * rows.height);
+            row += rows.height;
+        });
     EXPECT_EQ(row, 350u);
 }
 
@@ -159,7 +159,7 @@ TEST_F(MergeFilms, SaysWhichRowsARunIs) {
 TEST_F(MergeFilms, TakesBoundedMemory) {
     FilmHeader picture = pictureOf(64, 1);
     picture.settings.area = {125, 120, {}};
-    const std::vector<ExactStatistics> pixels(125 * 120);
+    const std::vector<SharedPixel> pixels(125 * 120);
     std::vector<fs::path> files;
     for (uint32_t i = 1; i <= 64; ++i) {
         files.push_back(folder_ / (std::to_string(i) + ".film"));
@@ -172,7 +172,7 @@ TEST_F(MergeFilms, TakesBoundedMemory) {
     };
     const uint64_t before = peak();
     EXPECT_EQ(sumOf(files).size(), pixels.size());
-    EXPECT_LT(peak() - before, 64 * pixels.size() * sizeof(ExactStatistics) / 2);
+    EXPECT_LT(peak() - before, 64 * pixels.size() * sizeof(SharedPixel) / 2);
 }
 
 } // namespace

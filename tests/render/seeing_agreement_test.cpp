@@ -70,6 +70,34 @@ TEST_F(SeeingOnDevice, KernelAndReferenceAgree) {
     }
 }
 
+/// What shares count of alpha: rays from any sample on, of which those in a row add up.
+TEST_F(SeeingOnDevice, RaysFromAnySampleOnAddUp) {
+    const Scene scene = readScene("still_life");
+    RenderSettings s;
+    s.area = {24, 18, {}};
+    const Camera camera = makeCamera(scene, {}, s.area.width, s.area.height);
+    const GpuScene gpu = packScene(scene, buildWideBvh(scene), lightSelection(s.estimator));
+    VulkanBackend device(testDevice(), gpu, camera, s);
+    ReferenceBackend host(scene, camera, s);
+    device.beginAt(1000); // where samples are taken is another matter
+    const std::vector<uint32_t> five(s.area.pixelCount(), 5), eleven(five.size(), 11),
+        all(five.size(), 16);
+    for (Viewer* viewer : {static_cast<Viewer*>(&device), static_cast<Viewer*>(&host)}) {
+        const auto first = viewer->see(0, five, Seeing::Coverage);
+        const auto rest = viewer->see(0, eleven, Seeing::Coverage, 5);
+        const auto again = viewer->see(0, five, Seeing::Coverage, 5);
+        const auto whole = viewer->see(0, all, Seeing::Coverage);
+        size_t different = 0, partly = 0;
+        for (size_t i = 0; i < all.size(); ++i) {
+            ASSERT_EQ(first[i].hits + rest[i].hits, whole[i].hits) << i;
+            different += first[i].hits != again[i].hits;
+            partly += whole[i].hits > 0 && whole[i].hits < 16;
+        }
+        EXPECT_GT(partly, 0u);
+        EXPECT_GT(different, 0u);
+    }
+}
+
 /// However they are fetched, and whatever the features that the scene lacks.
 TEST_F(SeeingOnDevice, DoesNotDependOnTheWayItIsRun) {
     const Scene scene = readScene("still_life");

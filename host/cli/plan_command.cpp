@@ -1,0 +1,71 @@
+// `plan`: films of the rounds until now say where the samples of the next one go.
+#include "host/cli/activity.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/report.hpp"
+#include "host/core/atomic_file.hpp"
+#include "host/core/error.hpp"
+#include "host/core/log.hpp"
+#include "host/farm/plan_file.hpp"
+#include "host/farm/plan_round.hpp"
+
+#include <fmt/format.h>
+
+namespace stromboli {
+namespace {
+
+/// Of a pixel, in samples: -s counts paths.
+uint32_t mostSamplesOf(const FilmHeader& header, const Options& options) {
+    if (!options.budget.mostPathsPerPixel) return kMostSamples;
+    const uint32_t paths = *options.budget.mostPathsPerPixel;
+    const uint32_t branches = header.settings.estimator.branches;
+    if (paths % branches != 0)
+        throw UsageError(fmt::format("-s {} is not a multiple of the {} --branches of the films",
+                                     paths, branches));
+    return paths / branches;
+}
+
+void sayWhyNothingIsLeft(const PictureNoise& reached, double noise) {
+    const std::string words = inWords(reached);
+    if (reached.known() && reached.most <= noise)
+        logging::info(fmt::format("nothing is left to do: {}; at most {} % is asked for", words,
+                                  percent(noise)));
+    else if (reached.unknown == PictureNoise::Unknown::Black)
+        logging::info(fmt::format("nothing is left to do: {}", words));
+    else
+        logging::warn(fmt::format("nothing is left to do: all pixels have the samples of -s; {}, "
+                                  "and at most {} % is asked for",
+                                  words, percent(noise)));
+}
+
+void sayWhatIsPlanned(const NextRound& next, double noise) {
+    const RoundPlan& plan = *next.plan;
+    const double pixels = double(plan.from.size());
+    const double paths = plan.picture.settings.estimator.branches;
+    logging::info(fmt::format(
+        "round {}: {} samples more, for {} of {} pixels: from {:.6g} to {:.6g} a pixel on the mean",
+        plan.round(), plan.samples() * uint64_t(paths), plan.pixels(), plan.from.size(),
+        paths * double(plan.picture.samplesInAll()) / pixels,
+        paths * double(plan.picture.samplesInAll() + plan.samples()) / pixels));
+    logging::info(
+        fmt::format("{}; at most {} % is asked for", inWords(next.reached), percent(noise)));
+}
+
+} // namespace
+
+int planCommand(const Options& options) {
+    nowDoing(fmt::format("adding up {} films", options.films.size()));
+    checkFileWritable(options.output);
+    FilmsToMerge films({options.films.begin(), options.films.end()});
+    const double noise = options.budget.stop.noise;
+    const NextRound next = planNextRound(films, noise, mostSamplesOf(films.header(), options));
+    if (!next.plan) {
+        sayWhyNothingIsLeft(next.reached, noise);
+        return int(ExitCode::NothingLeft);
+    }
+    nowDoing("writing " + options.output);
+    writePlan(options.output, *next.plan);
+    sayWhatIsPlanned(next, noise);
+    return 0;
+}
+
+} // namespace stromboli
