@@ -151,7 +151,8 @@ void declareSubmit(DeclaredCommand& c) {
         .besidePicture();
     c.list
         .number("--rounds", "K",
-                "with --noise: at most so many rounds, of which each at most doubles the samples",
+                "with --noise: at most so many rounds; each at most doubles the samples, once "
+                "pixels have 8 of them",
                 submit.rounds, {2, 100})
         .needs("--noise")
         .besidePicture();

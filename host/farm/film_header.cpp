@@ -206,13 +206,15 @@ std::string differenceOf(const FilmHeader& one, const FilmHeader& other) {
         return fmt::format("is of another size or part of the picture, {} x {} pixels",
                            other.settings.area.rendered().width,
                            other.settings.area.rendered().height);
-    if (x.mostSamplesPerPixel != y.mostSamplesPerPixel)
-        return fmt::format("is of {} samples a pixel, not of {}",
-                           uint64_t(y.mostSamplesPerPixel) * other.settings.estimator.branches,
-                           uint64_t(x.mostSamplesPerPixel) * one.settings.estimator.branches);
+    // Branches are chosen by -s unless they are given, so that -s is compared first: in paths.
+    const uint64_t m = one.settings.estimator.branches, n = other.settings.estimator.branches;
+    if (x.mostSamplesPerPixel * m != y.mostSamplesPerPixel * n)
+        return fmt::format("is of {} samples a pixel, not of {} (-s)", y.mostSamplesPerPixel * n,
+                           x.mostSamplesPerPixel * m);
+    if (m != n) return fmt::format("has {} branches a sample, not {} (--branches)", n, m);
     if (x.samplesPerBlock != y.samplesPerBlock)
-        return fmt::format("is of blocks of {} samples, not of {} (--block)", y.samplesPerBlock,
-                           x.samplesPerBlock);
+        return fmt::format("is of blocks of {} samples, not of {} (--block)", y.samplesPerBlock * n,
+                           x.samplesPerBlock * m);
     if (!sameEstimator(one.settings.estimator, other.settings.estimator))
         return "is of other settings: " + fmt::format("{}", fmt::join(other.command, " "));
     if (one.layers != other.layers) return "has other --layers";

@@ -28,6 +28,16 @@ std::string beginning(const SlurmJob& job, const std::string& what, const std::s
                        directives(job, name, log));
 }
 
+/// What a script does once its work has failed with $code: back into the queue with the job or, of
+/// an array, with this task.
+std::string triesAgain() {
+    return fmt::format("# A node may be to blame: once more, a few times, where Slurm likes.\n"
+                       "test \"${{SLURM_RESTART_COUNT:-0}}\" -lt {} &&\n"
+                       "    scontrol requeue \"$SLURM_JOB_ID\" && exit 0\n"
+                       "exit $code\n",
+                       kJobRetries);
+}
+
 /// Renders a share to a film, or goes back into the queue. `plan`: its option, if it has one;
 /// `film`: the beginning of the film's name.
 std::string takesShare(const SlurmJob& job, const std::string& plan, const std::string& film) {
@@ -36,16 +46,12 @@ std::string takesShare(const SlurmJob& job, const std::string& plan, const std::
                        "    {plan}--share \"$share/{shares}\" --expect {fingerprint} --resume \\\n"
                        "    -o {files}/{film}.\"$share\"of{shares}.film && exit 0\n"
                        "code=$?\n"
-                       "\n"
-                       "# A node may be to blame: once more, a few times, where Slurm likes.\n"
-                       "test \"${{SLURM_RESTART_COUNT:-0}}\" -lt {retries} &&\n"
-                       "    scontrol requeue \"$SLURM_JOB_ID\" && exit 0\n"
-                       "exit $code\n",
+                       "\n",
                        fmt::arg("program", job.program),
                        fmt::arg("render", fmt::join(job.render, " ")), fmt::arg("plan", plan),
                        fmt::arg("shares", job.shares), fmt::arg("fingerprint", job.fingerprint),
-                       fmt::arg("files", job.files), fmt::arg("film", film),
-                       fmt::arg("retries", kShareRetries));
+                       fmt::arg("files", job.files), fmt::arg("film", film)) +
+           triesAgain();
 }
 
 /// A pattern of a shell for the films of a share, or of all ("*"), in all rounds.
@@ -103,11 +109,11 @@ std::string planScript(const SlurmJob& job) {
                "{program} plan --noise {noise} {films} \\\n"
                "    -o {files}/round\"$round\".plan\n"
                "code=$?\n"
-               "\n"
-               "test $code -eq 7 && exit 0 # nothing is left to do\n"
-               "exit $code\n",
+               "test $code -eq 0 || test $code -eq 7 && exit 0 # 7: nothing is left to do\n"
+               "\n",
                fmt::arg("files", job.files), fmt::arg("program", job.program),
-               fmt::arg("noise", job.noise), fmt::arg("films", filmsOf(job, "*")));
+               fmt::arg("noise", job.noise), fmt::arg("films", filmsOf(job, "*"))) +
+           triesAgain();
 }
 
 std::string roundScript(const SlurmJob& job) {
@@ -135,11 +141,15 @@ std::string groupScript(const SlurmJob& job) {
                        "    share=$((share + 1))\n"
                        "    set -- \"$@\" {films}\n"
                        "done\n"
-                       "{program} merge \"$@\" -o {files}/group.\"$group\"of{groups}.film\n",
+                       "{program} merge \"$@\" \\\n"
+                       "    -o {files}/group.\"$group\"of{groups}.film && exit 0\n"
+                       "code=$?\n"
+                       "\n",
                        fmt::arg("groups", job.groups()), fmt::arg("size", SlurmJob::kGroup),
                        fmt::arg("shares", job.shares),
                        fmt::arg("films", filmsOf(job, "\"$share\"")),
-                       fmt::arg("program", job.program), fmt::arg("files", job.files));
+                       fmt::arg("program", job.program), fmt::arg("files", job.files)) +
+           triesAgain();
 }
 
 std::string mergeScript(const SlurmJob& job) {
@@ -151,8 +161,9 @@ std::string mergeScript(const SlurmJob& job) {
                                   : filmsOf(job, "*");
     return beginning(job, fmt::format("Puts the shares of {} together.", job.picture),
                      "stromboli-merge", "merge") +
-           fmt::format("\n{} merge --complete {}{} \\\n    -o {}\n", job.program, films, options,
-                       job.picture);
+           fmt::format("\n{} merge --complete {}{} \\\n    -o {} && exit 0\ncode=$?\n\n",
+                       job.program, films, options, job.picture) +
+           triesAgain();
 }
 
 } // namespace stromboli

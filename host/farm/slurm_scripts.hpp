@@ -32,8 +32,8 @@ struct SlurmJob {
     static constexpr uint32_t kMergedAtOnce = 64, kGroup = 32;
 };
 
-/// A failing share is tried so many times more, on whatever node Slurm chooses.
-inline constexpr uint32_t kShareRetries = 3;
+/// A failing job is tried so many times more, on whatever node Slurm chooses.
+inline constexpr uint32_t kJobRetries = 3;
 
 /// As the scripts name the film of a share of a round, and the plan of a round from the second on:
 /// they are in the folder of the job's files.

@@ -68,7 +68,8 @@ class FixedSum {
         return result;
     }
     FixedSum magnitude() const { return isNegative() ? negated() : *this; }
-    /// What is left when `other` is taken away, both not negative; 0 if that is more.
+    /// What is left when `other` is taken away; 0 if that is more. Both are not negative, as sums
+    /// of squares are: of other numbers, add what is negated.
     FixedSum less(const FixedSum& other) const {
         FixedSum result;
         uint64_t borrow = 0;

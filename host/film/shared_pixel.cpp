@@ -36,8 +36,11 @@ glm::dvec3 SharedPixel::squaredError() const {
     const uint32_t before = all.count - lastCount;
     if (before == 0 || lastCount == 0) return now.varianceOfMean();
     glm::dvec3 moved;
-    for (size_t c = 0; c < 3; ++c)
-        moved[int(c)] = now.mean[int(c)] - all.sum[c].less(lastSum[c]).value() / double(before);
+    for (size_t c = 0; c < 3; ++c) {
+        ExactStatistics::Sum first = all.sum[c]; // of either sign, as the last ones are
+        first.add(lastSum[c].negated());
+        moved[int(c)] = now.mean[int(c)] - first.value() / double(before);
+    }
     return moved * moved * double(before) / double(lastCount);
 }
 

@@ -99,8 +99,8 @@ std::vector<PixelTarget> NoisePlan::raiseAll(const Film& film, uint64_t budget) 
     uint64_t least = goal;
     for (const PixelStatistics& p : film.pixels)
         least = std::min<uint64_t>(least, p.taken());
-    const uint64_t affordable = least + budget / film.pixels.size();
-    const uint64_t samples = affordable >= goal ? goal : std::bit_floor(affordable);
+    const uint64_t more = budget / film.pixels.size(); // any number: budgets need have no end
+    const uint64_t samples = more >= goal - least ? goal : std::bit_floor(least + more);
     std::vector<PixelTarget> pass;
     for (uint32_t pixel = 0; pixel < film.pixels.size(); ++pixel)
         if (film.pixels[pixel].taken() < samples) pass.push_back({pixel, uint32_t(samples)});

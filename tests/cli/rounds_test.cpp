@@ -161,19 +161,23 @@ TEST_F(Rounds, InBands) {
     EXPECT_THAT(odd.err, HasSubstr("-s 67 is not a multiple of the 4 --branches of the films"));
 }
 
-/// The noise that merge states is that of one render.
+/// The noise that merge states is that of one render, also where a pixel filter is negative in
+/// places, and pixels with it.
 TEST_F(Rounds, TheNoiseOfTheFirstOneIsThatOfOneRender) {
     const auto noiseLine = [](const std::string& said) {
         const size_t begin = said.find("noise about ");
         return said.substr(begin, said.find('\n', begin) - begin);
     };
     settings.pop_back(); // -q
-    const ProgramRun whole = stromboli(render("whole.exr", {"--even"}));
-    const ProgramRun sum = merge("sum.exr", shares(1, 3));
-    EXPECT_THAT(whole.err, HasSubstr("noise about "));
-    EXPECT_EQ(noiseLine(sum.err), noiseLine(whole.err));
-    EXPECT_TRUE(bytesOf("sum.exr") == bytesOf("whole.exr"));
-    EXPECT_EQ(note("sum.exr", "Noise"), "none"); // as there is none in the notes of a render
+    for (const char* filter : {"box", "lanczos"}) {
+        const Strings extra = {"--filter", filter};
+        const ProgramRun whole = stromboli(render("whole.exr", Strings{"--even"} + extra));
+        const ProgramRun sum = merge("sum.exr", shares(1, 3, extra));
+        EXPECT_THAT(whole.err, HasSubstr("noise about "));
+        EXPECT_EQ(noiseLine(sum.err), noiseLine(whole.err)) << filter;
+        EXPECT_TRUE(bytesOf("sum.exr") == bytesOf("whole.exr")) << filter;
+        EXPECT_EQ(note("sum.exr", "Noise"), "none"); // as there is none in the notes of a render
+    }
 }
 
 TEST_F(Rounds, EndWithAnExitCodeOfTheirOwn) {

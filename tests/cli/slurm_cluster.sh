@@ -1,8 +1,8 @@
 #!/bin/bash
 # A cluster on this machine: a controller and three nodes of Slurm, started here and ended with this
 # script. It renders a picture in 16 shares while one node dies with all its processes, one is
-# declared dead though its task lives on, and one share fails once; then another one in rounds, with
-# what is left of the cluster, of which a share fails once as well.
+# declared dead though its task lives on, and one share and the merge fail once; then another one in
+# rounds, with what is left of the cluster, of which a share and a plan fail once as well.
 #
 #   slurm_cluster.sh STROMBOLI SCENE FOLDER
 #
@@ -128,11 +128,16 @@ done
 all_idle() { [[ $(timeout 5 sinfo -h -N -t idle -o %N | wc -l) == 3 ]]; }
 until_true 20 all_idle || die "the nodes are not there"
 
-# The program as the nodes have it: each start and end is counted; share 5 fails the first time; on
-# the first start of share 7 the controller loses sight of the node, whose task takes its time.
+# The program as the nodes have it: each start and end is counted; share 5, a merge
+# and a plan fail the first time; on the first start of share 7 the controller loses sight of the
+# node, whose task takes its time.
 cat >"$folder/stromboli" <<END
 #!/bin/bash
 words="\$*"
+if [[ \$1 == @(plan|merge) && ! -e $folder/work/failed_\$1 ]]; then
+    touch "$folder/work/failed_\$1"
+    exit 3
+fi
 [[ \$words == *--share* ]] || exec "$stromboli" "\$@"
 share=\${words#*--share }
 share=\${share%%/*}
@@ -240,7 +245,8 @@ by_hand || die "the rounds by hand failed"
 until_true 90 test -e rounds.exr || die "there is no picture of rounds"
 until_true 20 merged || die "jobs of rounds are left"
 cmp "$folder/hand.exr" rounds.exr || die "the picture of rounds has other bytes than by hand"
-[[ -e failed_round ]] || die "no share of a round has failed"
+[[ -e failed_round && -e failed_plan && -e failed_merge ]] ||
+    die "no share of a round, no plan or no merge has failed"
 [[ -e rounds.exr.shares/round2.plan && ! -e rounds.exr.shares/round3.plan ]] ||
     die "there were not two rounds"
 echo "rounds have the bytes of rounds by hand, and end when the noise is reached"

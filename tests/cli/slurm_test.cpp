@@ -102,6 +102,9 @@ TEST_F(Submit, ScriptsRenderRounds) {
                                       "# sbatch plan.sh 3\n# sbatch --array=1-3 round.sh 3\n"
                                       "# sbatch plan.sh 4\n# sbatch --array=1-3 round.sh 4\n"
                                       "# sbatch merge.sh\n"));
+    for (const std::string& script : scripts)
+        EXPECT_THAT(script,
+                    HasSubstr("scontrol requeue \"$SLURM_JOB_ID\" && exit 0\nexit $code\n"));
     const char* const names[] = {"shares.sh", "plan.sh", "round.sh", "merge.sh"};
     for (size_t i = 0; i < 4; ++i)
         folder.write(names[i], scripts[i]);
@@ -161,6 +164,35 @@ TEST_F(Submit, ScriptsRenderRounds) {
     EXPECT_EQ(same.exitCode, 0) << same.output;
 }
 
+/// A job whose program fails goes back into the queue and is no failure, so that the jobs after it
+/// are not cancelled, but for the last time.
+TEST_F(Submit, JobsThatFailAreTriedAgain) {
+    const std::vector<std::string> scripts =
+        scriptsIn(submit({"--shares", "2", "--noise", "0.3", "--rounds", "2", "--dry-run", "-s",
+                          "8", "--block", "4", "--program", "/bin/false"})
+                      .out);
+    ASSERT_EQ(scripts.size(), 4u);
+    const std::string films = folder.file("out.exr.shares");
+    std::filesystem::create_directory(films);
+    folder.write("scontrol", "#!/bin/sh\necho \"$@\" >>" + folder.file("said"));
+    std::filesystem::permissions(folder.file("scontrol"), std::filesystem::perms::owner_all);
+    const auto codeAfter = [&](int restarts) {
+        return shell("cd " + folder.path().string() +
+                     "; PATH=.:$PATH SLURM_RESTART_COUNT=" + std::to_string(restarts) +
+                     " SLURM_JOB_ID=42 SLURM_ARRAY_TASK_ID=1 sh job.sh 2")
+            .exitCode;
+    };
+    for (size_t i = 0; i < scripts.size(); ++i) {
+        folder.write("job.sh", scripts[i]);
+        if (i == 2) folder.write("out.exr.shares/round2.plan", "");
+        std::filesystem::remove(folder.file("said"));
+        EXPECT_EQ(codeAfter(0), 0) << scripts[i];
+        EXPECT_EQ(codeAfter(2), 0) << scripts[i];
+        EXPECT_EQ(shell("cat " + folder.file("said")).output, "requeue 42\nrequeue 42\n");
+        EXPECT_EQ(codeAfter(3), 1) << scripts[i];
+    }
+}
+
 /// Of many shares groups are merged first, each by a job; the folder has a space in its name.
 TEST_F(Submit, ManySharesAreMergedInGroups) {
     const std::string output = folder.file("a b.exr");
@@ -170,6 +202,7 @@ TEST_F(Submit, ManySharesAreMergedInGroups) {
     const std::vector<std::string> scripts = scriptsIn(stromboli(words).out);
     ASSERT_EQ(scripts.size(), 3u);
     EXPECT_THAT(scripts[1], HasSubstr("#SBATCH --array=1-3\n"));
+    EXPECT_THAT(scripts[1], HasSubstr("scontrol requeue"));
     const char* const names[] = {"shares.sh", "groups.sh", "merge.sh"};
     for (size_t i = 0; i < 3; ++i)
         folder.write(names[i], scripts[i]);
@@ -201,7 +234,7 @@ TEST_F(Submit, RefusesWhatWouldFailOnTheNodes) {
               0);
     const ProgramRun other = submit({"--shares", "1", "--dry-run", "-s", "8", "-r", "8", "6"});
     EXPECT_EQ(other.exitCode, 1);
-    EXPECT_THAT(other.err, HasSubstr("is of 4 samples a pixel, not of 8; remove "));
+    EXPECT_THAT(other.err, HasSubstr("is of 4 samples a pixel, not of 8 (-s); remove "));
 }
 
 TEST_F(Submit, SaysThatThereIsNoSlurm) {

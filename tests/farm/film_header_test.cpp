@@ -133,9 +133,20 @@ TEST(FilmHeader, SaysWhatDiffers) {
                 }),
                 HasSubstr("another size or part of the picture, 3 x 4 pixels"));
     EXPECT_THAT(difference([](FilmHeader& h) { h.settings.budget.mostSamplesPerPixel = 128; }),
-                HasSubstr("of 128 samples a pixel, not of 64"));
+                HasSubstr("of 128 samples a pixel, not of 64 (-s)"));
     EXPECT_THAT(difference([](FilmHeader& h) { h.settings.budget.samplesPerBlock = 8; }),
-                HasSubstr("blocks of 8 samples, not of 16"));
+                HasSubstr("blocks of 8 samples, not of 16 (--block)"));
+    EXPECT_THAT(difference([](FilmHeader& h) { // as --branches 4 has it
+                    h.settings.estimator.branches = 4;
+                    h.settings.budget.mostSamplesPerPixel /= 4;
+                    h.settings.budget.samplesPerBlock /= 4;
+                }),
+                HasSubstr("has 4 branches a sample, not 1 (--branches)"));
+    EXPECT_THAT(difference([](FilmHeader& h) { // as another -s has it, of which branches follow
+                    h.settings.estimator.branches = 2;
+                    h.settings.budget.samplesPerBlock /= 2;
+                }),
+                HasSubstr("of 128 samples a pixel, not of 64 (-s)"));
     EXPECT_THAT(difference([](FilmHeader& h) { h.settings.estimator.seed = 1; }),
                 HasSubstr("is of other settings: stromboli render room.dae --even"));
 }

@@ -199,6 +199,27 @@ TEST(SharedPixel, KnowsTheLastPassInAnyOrder) {
     }
 }
 
+/// Samples that a pixel filter weighs are of either sign, and so are their sums, those of the last
+/// pass, and what is left of all when that is taken away.
+TEST(SharedPixel, KnowsTheErrorOfSamplesOfBothSigns) {
+    for (const glm::dvec3 weights : {glm::dvec3(1, -1, -1), glm::dvec3(-1, -1, 1),
+                                     glm::dvec3(-1, 1, 1), glm::dvec3(1, 1, -1)}) {
+        SharedPixel pixel;
+        for (uint32_t i = 0; i < 3; ++i) { // the last two are of the last pass
+            PixelStatistics block;
+            const double weight = weights[int(i)];
+            block.add(glm::dvec3(8, 1, 0), weight);
+            block.add(glm::dvec3(2, 5, 1), weight / 2);
+            pixel.add(block, 2 * i, i == 0 ? 0 : 1);
+        }
+        const glm::dvec3 before = weights[0] * glm::dvec3(9, 3.5, 0.5) / 2.0;
+        const glm::dvec3 now = (weights.x + weights.y + weights.z) * glm::dvec3(9, 3.5, 0.5) / 6.0;
+        const glm::dvec3 expected = (now - before) * (now - before) * 2.0 / 4.0;
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(pixel.squaredError()[c], expected[c], 1e-12) << weights.x << weights.y;
+    }
+}
+
 TEST_F(Rounds, GoOnUntilTheNoiseIsWhatWasAskedFor) {
     Files films = first(pictureOf(16, 4), 2);
     int rounds = 1;
@@ -230,6 +251,18 @@ TEST_F(Rounds, EndWhenAllPixelsHaveTheMostSamples) {
         films = films + planned(*plan, 1);
     for (const SharedPixel& p : sumOf(films))
         ASSERT_EQ(p.all.taken(), 40u);
+}
+
+/// After a first round that is too small to tell noise by, pixels are brought to eight samples at
+/// once, in a picture of a single pixel as in larger ones.
+TEST_F(Rounds, BeginWithEightSamplesInPicturesOfAnySize) {
+    for (const uint32_t side : {1u, 2u, 7u}) {
+        FilmHeader picture = pictureOf(2, 1);
+        picture.settings.area = {side, side, {}};
+        const NextRound round = next(first(picture, 2), 0.01);
+        ASSERT_TRUE(round.plan) << side;
+        EXPECT_EQ(round.plan->to, std::vector<uint32_t>(side * side, 8)) << side;
+    }
 }
 
 TEST_F(Rounds, WhatIsMissingIsNamedAndNothingIsPlanned) {
