@@ -42,6 +42,7 @@ Dispatch dispatch;
 #include "bsdf/bsdf.glsl"
 #ifdef RICH_MATERIALS
 #include "include/material_detail.glsl"
+#include "include/relief.glsl"
 #endif
 #include "lights/lights.glsl"
 #include "include/mis.glsl"

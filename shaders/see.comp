@@ -33,6 +33,7 @@ Frame frame; // read once, before all loops (docs/kernel.md, "Nothing is moved o
 #include "include/surface.glsl"
 #include "bsdf/bsdf.glsl"
 #include "include/material_detail.glsl"
+#include "include/relief.glsl"
 #include "include/pass_number.glsl"
 #include "include/camera_sample.glsl"
 #include "include/seen_surface.glsl"

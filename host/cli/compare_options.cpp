@@ -77,7 +77,7 @@ void declareCompare(DeclaredCommand& c) {
             "agree as well, within the variances of both (render --aov; else REF's for both)",
             o.thresholds.blocks)
         .needs("--ztest-variance");
-    list.real("--reference-samples", "N", "samples of each pixel of REF, for --ztest-blocks",
+    list.real("--reference-samples", "N", "samples of each pixel of REF, for the means and blocks",
               o.referenceSamples, {1, 1e18})
         .needs("--ztest-variance");
     list.group("Output");

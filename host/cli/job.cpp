@@ -137,9 +137,9 @@ void reportHints(const Job& job, const Options& options) {
     if (hints.showsDepth && !options.integratorGiven) add("--integrator depth");
     if (hints.maxBounces && !options.bouncesGiven)
         add(fmt::format("-m {}", job.settings.estimator.maxBounces));
-    if (hints.rouletteStart)
-        add(fmt::format("roulette from bounce {} on",
-                        job.settings.estimator.roulette.throughputStart));
+    const Roulette& roulette = job.settings.estimator.roulette;
+    if (hints.rouletteStart && roulette.mode == Roulette::Mode::Throughput)
+        add(fmt::format("roulette from bounce {} on", roulette.throughputStart));
     if (hints.filter && !options.filterGiven)
         add(fmt::format("--filter {}{}", nameOf(job.settings.estimator.filter),
                         shapeText(job.settings.estimator)));

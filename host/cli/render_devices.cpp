@@ -115,6 +115,7 @@ void RenderDevices::prepareAll(const Camera& camera, const RenderSettings& setti
 std::shared_ptr<Backend> RenderDevices::backendFor(const Camera& camera,
                                                    const RenderSettings& settings) {
     leaveOutWhoDroppedOut();
+    if (seats_.empty()) throw DeviceLostError("no device is left");
     if (seats_.size() == 1)
         prepare(seats_.front(), camera, settings);
     else
@@ -130,6 +131,7 @@ std::shared_ptr<Backend> RenderDevices::backendFor(const Camera& camera,
 }
 
 Viewer* RenderDevices::viewer() {
+    if (seats_.empty()) return nullptr;
     if (!team_) return seats_.front().backend.get();
     const std::vector<size_t> present = team_->present();
     return present.empty() ? nullptr : seats_[present.front()].backend.get();

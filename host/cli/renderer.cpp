@@ -58,8 +58,8 @@ void Renderer::renderOnDevice(const Job& job, const Options& options, const Take
             return devices_->backendFor(job.camera, settings);
         },
         [&] { return devices_->viewer(); },
-        devices_->pixelsThatFit(built_->gpu, job.settings.estimator,
-                                memoryForFilms(options), bytesPerPixel(job, options)),
+        devices_->pixelsThatFit(built_->gpu, job.settings.estimator, memoryForFilms(options),
+                                bytesPerPixel(job, options)),
         report);
     devices_->requireNoValidationMessages();
 }

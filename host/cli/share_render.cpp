@@ -53,8 +53,9 @@ class SharedBand {
     SharedBand(Backend& backend, const PictureArea& band, ShareProgress& progress)
         : backend_(backend), band_(band), progress_(progress), sums_(band.pixelCount()) {}
 
-    /// For pictures with alpha: the samples whose camera rays end on a surface are counted.
-    void countCovered(Viewer& viewer) { viewer_ = &viewer; }
+    /// For pictures with alpha: the samples whose camera rays end on a surface are counted, by the
+    /// viewer that there is then (of several devices, one may have dropped out).
+    void countCovered(const std::function<Viewer*()>& viewer) { viewer_ = viewer; }
 
     /// The targets' samples from number `first` on. False if it was interrupted.
     bool take(uint32_t first, std::span<const PixelTarget> targets, uint32_t pass) {
@@ -111,7 +112,7 @@ class SharedBand {
             const std::span<const uint32_t> run = std::span(samples).subspan(
                 begin, std::min<size_t>(Viewer::kMostSeenAtOnce, samples.size() - begin));
             if (std::ranges::count(run, 0u) == std::ssize(run)) continue;
-            const auto seen = viewer_->see(uint32_t(begin), run, Seeing::Coverage, firstSample);
+            const auto seen = viewer_()->see(uint32_t(begin), run, Seeing::Coverage, firstSample);
             for (size_t i = 0; i < seen.size(); ++i)
                 sums_[begin + i].covered += seen[i].hits;
         }
@@ -120,7 +121,7 @@ class SharedBand {
     Backend& backend_;
     PictureArea band_;
     ShareProgress& progress_;
-    Viewer* viewer_ = nullptr;
+    std::function<Viewer*()> viewer_; ///< none: no alpha
     std::vector<SharedPixel> sums_;
 };
 
@@ -252,7 +253,7 @@ void takeShare(const Job& job, const Options& options, const PlannedShare& share
         nowDoing("taking samples", StatusLine::OfOthers);
         const Stopwatch rendering;
         SharedBand taken(*backend, band, progress);
-        if (header.hasAlpha()) taken.countCovered(*viewer());
+        if (header.hasAlpha()) taken.countCovered(viewer);
         report.interrupted = !(isPlanned ? taken.takePlanned(pixels, firstPixel, header.rounds())
                                          : taken.takeBlocks(header));
         report.renderSeconds += rendering.seconds();

@@ -69,7 +69,7 @@ std::string toText(const BlockAcceptance& a) {
         "|z| < {:.2f}: {}\n",
         a.hasOwnNoise ? "with the variances of both" : "with the reference's variance for both",
         std::abs(a.means.x), std::abs(a.means.y), std::abs(a.means.z), 100 * a.noise.y, a.largest,
-        a.x, a.y, a.limit, a.accepted() ? "ACCEPTED" : "NOT ACCEPTED");
+        a.x, a.y, a.limit, a.accepted() ? "AGREE" : "DIFFER");
 }
 
 } // namespace

@@ -73,6 +73,11 @@ PictureNotes readPictureNotes(const fs::path& path) {
     return isPng(path) ? readPngNotes(path) : readExrNotes(path);
 }
 
+/// Pixel filters that are negative in places overshoot at edges.
+static float clampedAlpha(float alpha) {
+    return std::clamp(alpha, 0.0f, 1.0f);
+}
+
 /// The colour of the part of a pixel that is covered.
 static glm::dvec3 colorOf(const glm::dvec3& mean, double alpha) {
     return alpha > 0 ? mean / alpha : glm::dvec3(0.0);
@@ -81,11 +86,12 @@ static glm::dvec3 colorOf(const glm::dvec3& mean, double alpha) {
 ByteImage toneMap(const Film& film, const ToneCurve& tone, std::span<const float> alpha) {
     ByteImage image(film.width, film.height);
     for (const float a : alpha)
-        image.alpha.push_back(uint8_t(255 * a + 0.5f));
+        image.alpha.push_back(uint8_t(255 * clampedAlpha(a) + 0.5f));
     for (uint32_t y = 0; y < film.height; ++y)
         for (uint32_t x = 0; x < film.width; ++x) {
             glm::dvec3 mean = film.at(x, y).mean;
-            if (!alpha.empty()) mean = colorOf(mean, alpha[size_t(y) * film.width + x]);
+            if (!alpha.empty())
+                mean = colorOf(mean, clampedAlpha(alpha[size_t(y) * film.width + x]));
             uint8_t* pixel = image.pixel(x, y);
             for (int c = 0; c < 3; ++c)
                 pixel[c] = tone.toByte(mean[c]);

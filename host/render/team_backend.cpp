@@ -10,7 +10,7 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
-#include <optional>
+#include <stdexcept>
 #include <thread>
 
 namespace stromboli {
@@ -49,7 +49,12 @@ struct TeamBackend::Player {
 class TeamBackend::Pass {
   public:
     Pass(Piece targets, const Film& film, PiecePlan& plan, size_t players)
-        : plan_(plan), film_(film), ahead_(targets), playing_(players) {
+        : plan_(plan), film_(film), ahead_(targets), playing_(players), present_(players) {
+        const auto isBefore = [](const PixelTarget& a, const PixelTarget& b) {
+            return a.pixel < b.pixel;
+        };
+        if (!std::is_sorted(targets.begin(), targets.end(), isBefore))
+            throw std::logic_error("targets of several devices are not in the order of pixels");
         for (const PixelTarget& t : targets)
             left_ += samplesFor(t);
     }
@@ -99,6 +104,8 @@ class TeamBackend::Pass {
         changed_.notify_all();
     }
 
+    void dropOut() { --present_; }
+
     void left() {
         const std::lock_guard lock(mutex_);
         --playing_;
@@ -111,6 +118,8 @@ class TeamBackend::Pass {
         changed_.notify_all();
     }
     bool stops() const { return stops_; }
+    /// Whether a device is left.
+    bool isPlayed() const { return present_ > 0; }
 
     void wake() {
         const std::lock_guard lock(mutex_); // or the one who waits might not wait yet
@@ -160,6 +169,7 @@ class TeamBackend::Pass {
     uint64_t left_ = 0;           ///< samples of `ahead_`
     std::atomic<uint64_t> done_{0};
     size_t underWay_ = 0, playing_;
+    std::atomic<size_t> present_; ///< players that have not dropped out
     std::atomic<bool> stops_{false};
     std::vector<std::string> messages_;
     std::exception_ptr error_, deviceError_;
@@ -219,11 +229,12 @@ void TeamBackend::play(Player& player, Pass& pass, Film& film) {
             takePiece(player, pass, piece, film);
         } catch (const DeviceError& error) {
             player.isOut = true;
+            pass.dropOut();
             player.samplesOfPiece = 0;
             pass.giveBack(player.number, piece,
-                          fmt::format("{} takes no more samples: {}; what it had in hand is done "
-                                      "again",
-                                      player.member.name, error.what()));
+                          fmt::format("{} takes no more samples: {}{}", player.member.name,
+                                      error.what(),
+                                      pass.isPlayed() ? "; the others do its work again" : ""));
         } catch (...) {
             pass.fail();
             break;

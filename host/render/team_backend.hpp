@@ -31,7 +31,8 @@ class TeamBackend final : public Backend {
                 std::function<void(const std::string&)> say);
     ~TeamBackend() override;
 
-    /// Throws the DeviceError of the last member if all of them have dropped out.
+    /// The targets are in the order of their pixels. Throws the DeviceError of the last member if
+    /// all of them have dropped out.
     void sample(std::span<const PixelTarget> targets, Film& film,
                 const PassProgress& progress) override;
     SampleValue sampleAlone(uint32_t pixel, uint32_t sample) override;

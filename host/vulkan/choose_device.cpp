@@ -62,10 +62,14 @@ bool matches(const DeviceDescription& d, const std::string& wanted) {
     return lower(d.name()).find(wanted) != std::string::npos || lower(d.uuid) == wanted;
 }
 
+/// Beside a GPU, drivers of the host's processor would take little work, round in other ways, and
+/// take time from the host.
 std::vector<DeviceChoice> allUsable(const std::vector<DeviceDescription>& devices) {
+    const bool hasGpu = std::ranges::any_of(
+        devices, [](const DeviceDescription& d) { return d.usable() && !d.isCpu(); });
     std::vector<DeviceChoice> choices;
     for (size_t i = 0; i < devices.size(); ++i)
-        if (devices[i].usable())
+        if (devices[i].usable() && !(hasGpu && devices[i].isCpu()))
             choices.push_back({i, fmt::format("one of {} devices", devices.size())});
     if (choices.empty()) choices.push_back(chooseDevice(devices, "")); // which says what is missing
     return choices;
@@ -74,6 +78,20 @@ std::vector<DeviceChoice> allUsable(const std::vector<DeviceDescription>& device
 bool isPartOfAName(const std::vector<DeviceDescription>& devices, const std::string& wanted) {
     return std::ranges::any_of(
         devices, [&](const DeviceDescription& d) { return matches(d, lower(wanted)); });
+}
+
+/// "all", or a list. Names may have commas of their own.
+bool namesSeveral(const std::vector<DeviceDescription>& devices, const std::string& wanted) {
+    if (lower(wanted) == kAll) return true;
+    return wanted.find(',') != std::string::npos && !isPartOfAName(devices, wanted);
+}
+
+std::string withoutSpaces(std::string text) {
+    while (!text.empty() && text.front() == ' ')
+        text.erase(text.begin());
+    while (!text.empty() && text.back() == ' ')
+        text.pop_back();
+    return text;
 }
 
 } // namespace
@@ -93,8 +111,10 @@ DeviceChoice chooseDevice(const std::vector<DeviceDescription>& devices,
                             devices.size() - 1));
         return usable(devices, index, "asked for by number");
     }
-    if (wanted == kAll)
-        throw DeviceError("this command works on one device; 'render' alone knows 'all'");
+    if (namesSeveral(devices, wanted))
+        throw DeviceError(fmt::format("'{}' names several devices: they make pictures and shares "
+                                      "of 'render' together, and nothing else",
+                                      wanted));
     std::vector<size_t> found;
     for (size_t i = 0; i < devices.size(); ++i)
         if (matches(devices[i], lower(wanted))) found.push_back(i);
@@ -110,12 +130,12 @@ DeviceChoice chooseDevice(const std::vector<DeviceDescription>& devices,
 
 std::vector<DeviceChoice> chooseDevices(const std::vector<DeviceDescription>& devices,
                                         const std::string& wanted) {
-    if (wanted == kAll) return allUsable(devices);
-    if (wanted.find(',') == std::string::npos || isPartOfAName(devices, wanted))
-        return {chooseDevice(devices, wanted)};
+    if (!namesSeveral(devices, wanted)) return {chooseDevice(devices, wanted)};
+    if (lower(wanted) == kAll) return allUsable(devices);
     std::vector<DeviceChoice> choices;
     std::istringstream list(wanted + (wanted.back() == ',' ? "," : ""));
     for (std::string one; std::getline(list, one, ',');) {
+        one = withoutSpaces(std::move(one));
         if (one.empty()) throw DeviceError(fmt::format("'{}' has an empty place", wanted));
         choices.push_back(chooseDevice(devices, one));
     }

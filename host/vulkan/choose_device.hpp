@@ -17,8 +17,9 @@ struct DeviceChoice {
 /// Throws DeviceError if nothing fits or the device lacks something, saying what.
 DeviceChoice chooseDevice(const std::vector<DeviceDescription>& devices, const std::string& wanted);
 
-/// One or several: "all" (every usable one), or what chooseDevice understands, with commas between
-/// (a name with a comma in it is taken for a name). Throws DeviceError as chooseDevice does.
+/// One or several: "all" (every usable one; those that are the host's own processor only where
+/// there is no other), or what chooseDevice understands, with commas between (a name with a comma
+/// in it is taken for a name). Throws DeviceError as chooseDevice does.
 std::vector<DeviceChoice> chooseDevices(const std::vector<DeviceDescription>& devices,
                                         const std::string& wanted);
 

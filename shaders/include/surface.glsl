@@ -12,7 +12,7 @@ struct SurfacePoint {
     float lift; ///< height of the smooth surface over `position`, along `geometric`; 0: flat
 #ifdef RICH_MATERIALS
     vec2 weights; ///< barycentric, of the second and third corner (triangles)
-    vec4 tangent; ///< material_detail.glsl; with TANGENT_FRAMES
+    vec4 tangent; ///< relief.glsl; with TANGENT_FRAMES
 #endif
 #ifdef PLACEMENTS
     uint placement; ///< that skipPrimitive is in; NO_PLACEMENT: none
@@ -203,6 +203,7 @@ vec3 unmappedNormal(SurfacePoint s) {
 #endif
     const vec3 b = vec3(1.0 - s.weights.x - s.weights.y, s.weights);
     const vec3 stated = interpolatedNormal(n, b, s.geometric);
+    if (!FACES_FORWARD) return stated;
     const vec3 facing = dot(stated, s.geometric) < 0.0 ? -stated : stated;
     return dot(facing, s.wo) <= 0.0 ? s.geometric : facing;
 }

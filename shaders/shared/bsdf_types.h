@@ -74,7 +74,7 @@ SHARED_CONST uint MATERIAL_EMITS_BOTH_SIDES = 0x80000000u;
 /// Nothing is scattered to the side that the normals, as stored, do not point to.
 SHARED_CONST uint MATERIAL_IS_BLACK_BEHIND = 0x40000000u;
 /// Normals that maps turn away from the viewer are tilted to the other side, or stay and are black; else they
-/// are bent (material_detail.glsl).
+/// are bent (relief.glsl).
 SHARED_CONST uint MATERIAL_RELIEF_FLIPS = 0x20000000u;
 SHARED_CONST uint MATERIAL_RELIEF_BLACKENS = 0x10000000u;
 /// Bumps dim light that comes at grazing angles.

@@ -75,12 +75,12 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_BLENDS 41 // materials are mixtures of others
 #define SPEC_FILTER_EXTRA 42 // a float: Gaussian and tent are wider by this share
 #define SPEC_HIDES_SURFACES 43 // camera rays pass some materials (DETAIL_IS_HIDDEN)
+#define SPEC_RELIEF_RULES 44   // some material has MATERIAL_RELIEF_ bits
 // Of the modules with PLACEMENTS alone:
-#define SPEC_HAS_PLACEMENTS 44 // prototypes are placed in the world (scene_types.h)
-#define SPEC_TRAVERSAL_LEGS 45 // between two service passes, each of SPEC_TRAVERSAL_STEPS
-#define SPEC_RELIEF_RULES 47 // some material has MATERIAL_RELIEF_ bits (those with RICH_MATERIALS)
+#define SPEC_HAS_PLACEMENTS 45 // prototypes are placed in the world (scene_types.h)
+#define SPEC_TRAVERSAL_LEGS 46 // between two service passes, each of SPEC_TRAVERSAL_STEPS
 // Of all modules:
-#define SPEC_ROULETTE_START 46 // bounces before roulette by throughput
+#define SPEC_ROULETTE_START 47 // bounces before roulette by throughput
 #define SPEC_COUNT 48
 
 SHARED_CONST uint TEXEL_KIND_NEAREST = 1u;

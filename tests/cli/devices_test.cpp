@@ -71,7 +71,7 @@ TEST_F(Devices, WhatIsNotThereIsNamed) {
     const ProgramRun check =
         stromboli({"check", libraryScene("cornell_boxes.dae"), "--device", "all"});
     EXPECT_EQ(check.exitCode, kDevice);
-    EXPECT_THAT(check.err, HasSubstr("works on one device"));
+    EXPECT_THAT(check.err, HasSubstr("'all' names several devices"));
     EXPECT_EQ(folder.entries().size(), 0u);
 }
 

@@ -1,7 +1,10 @@
 #include "host/film/tone.hpp"
 
+#include "host/film/image_file.hpp"
+
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -86,6 +89,19 @@ TEST(ToneCurves, ClampWhatIsNotInRange) {
         EXPECT_EQ(curve.toByte(-std::numeric_limits<double>::infinity()), 0);
         EXPECT_EQ(curve.toByte(std::numeric_limits<double>::quiet_NaN()), 0);
     }
+}
+
+/// Pixel filters that are negative in places make an alpha below 0 and above 1.
+TEST(ToneMap, AlphaIsClampedToBytes) {
+    Film film(3, 1);
+    for (PixelStatistics& p : film.pixels)
+        p.mean = glm::dvec3(0.5);
+    const ByteImage image = toneMap(film, {}, std::array{-0.2f, 1.2f, 0.5f});
+    EXPECT_EQ(image.alpha, (std::vector<uint8_t>{0, 255, 128}));
+    const ToneCurve curve;
+    EXPECT_EQ(image.pixel(0, 0)[0], 0);
+    EXPECT_EQ(image.pixel(1, 0)[0], curve.toByte(0.5));
+    EXPECT_EQ(image.pixel(2, 0)[0], curve.toByte(1));
 }
 
 } // namespace

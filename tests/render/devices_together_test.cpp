@@ -10,19 +10,26 @@
 
 #include <gtest/gtest.h>
 
+#include <latch>
+#include <memory>
+#include <optional>
+
 namespace stromboli {
 namespace {
 
 using namespace test;
 
-/// The kernel of a device that is lost in the middle of its third piece.
-class LostDevice final : public Backend {
+/// A device's kernel. Waits before its first piece until both devices have one, and may be lost in
+/// the middle of its second.
+class Shared final : public Backend {
   public:
-    explicit LostDevice(std::shared_ptr<VulkanBackend> inner) : inner_(std::move(inner)) {}
+    Shared(std::shared_ptr<VulkanBackend> inner, bool isFragile, std::shared_ptr<std::latch> both)
+        : inner_(std::move(inner)), isFragile_(isFragile), both_(std::move(both)) {}
 
     void sample(std::span<const PixelTarget> targets, Film& film,
                 const PassProgress& progress) override {
-        const bool isLost = ++pieces_ == 3;
+        if (++pieces_ == 1) both_->arrive_and_wait();
+        const bool isLost = isFragile_ && pieces_ == 2;
         inner_->sample(isLost ? targets.first((targets.size() + 1) / 2) : targets, film, progress);
         if (isLost) throw DeviceLostError("lost");
     }
@@ -39,6 +46,8 @@ class LostDevice final : public Backend {
 
   private:
     std::shared_ptr<VulkanBackend> inner_;
+    bool isFragile_;
+    std::shared_ptr<std::latch> both_;
     int pieces_ = 0;
 };
 
@@ -59,31 +68,35 @@ class DevicesTogether : public DeviceTest {
         return std::make_shared<VulkanBackend>(device, packed_, camera, settings());
     }
 
-    /// The film of one device, and that of two.
-    void expectSameBytesWith(bool secondIsLost) {
+    /// The film of one device, and that of two, of which one may be lost.
+    void expectSameBytes(std::optional<size_t> lost) {
         const RenderSettings s = settings();
         const Camera camera =
             makeCamera(scene_, CameraChoice::Automatic, s.area.width, s.area.height);
-        const auto first = kernelOn(testDevice(), camera);
-        const Film alone = render(*first, s);
+        const auto single = kernelOn(testDevice(), camera);
+        const Film alone = render(*single, s);
 
-        const auto a = kernelOn(testDevice(), camera);
-        std::shared_ptr<Backend> b = kernelOn(*second_.device, camera);
-        if (secondIsLost)
-            b = std::make_shared<LostDevice>(std::static_pointer_cast<VulkanBackend>(b));
-        TeamBackend team({{"first", a}, {"second", b}}, s.area, [](const std::string&) {});
-        expectSameBytes(alone, render(team, s));
-        EXPECT_EQ(team.present().size(), secondIsLost ? 1u : 2u);
-        EXPECT_GT(b->counters().paths, 0u) << "the second took nothing";
+        const auto both = std::make_shared<std::latch>(2);
+        const auto member = [&](const vulkan::Device& device, size_t number) {
+            return std::make_shared<Shared>(kernelOn(device, camera), lost == number, both);
+        };
+        const std::shared_ptr<Backend> first = member(testDevice(), 0),
+                                       second = member(*second_.device, 1);
+        TeamBackend team({{"first", first}, {"second", second}}, s.area, [](const std::string&) {});
+        test::expectSameBytes(alone, render(team, s));
+        EXPECT_EQ(team.present().size(), lost ? 1u : 2u);
+        for (const auto& backend : {first, second})
+            EXPECT_GT(backend->counters().paths, 0u) << "one took nothing";
     }
 };
 
 TEST_F(DevicesTogether, MakeTheBytesOfOne) {
-    expectSameBytesWith(false);
+    expectSameBytes({});
 }
 
 TEST_F(DevicesTogether, MakeTheBytesOfOneWhereOneIsLost) {
-    expectSameBytesWith(true);
+    for (const size_t lost : {0, 1})
+        expectSameBytes(lost);
 }
 
 } // namespace

@@ -24,6 +24,7 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "bsdf/bsdf.glsl"
 #ifdef RICH_MATERIALS
 #include "include/material_detail.glsl"
+#include "include/relief.glsl"
 #endif
 #include "lights/lights.glsl"
 #include "include/accumulate.glsl"

@@ -57,15 +57,21 @@ std::vector<size_t> several(const std::string& wanted) {
 
 TEST(DeviceChoice, OfSeveral) {
     using Indices = std::vector<size_t>;
-    EXPECT_EQ(several("all"), (Indices{0, 1, 2, 4, 5})); // one cannot be used
-    EXPECT_EQ(several("0,2"), (Indices{0, 2}));
+    EXPECT_EQ(several("all"), (Indices{1, 2, 4, 5})); // one cannot be used, one is the processor
+    EXPECT_EQ(several("ALL"), several("all"));
+    const std::vector<DeviceDescription> processors = {
+        device("llvmpipe", VK_PHYSICAL_DEVICE_TYPE_CPU),
+        device("SwiftShader", VK_PHYSICAL_DEVICE_TYPE_CPU)};
+    EXPECT_EQ(chooseDevices(processors, "all").size(), 2u);
+    EXPECT_EQ(several("0, 2"), (Indices{0, 2}));
     EXPECT_EQ(several("twin,cpu,4"), (Indices{5, 0, 4}));
     EXPECT_EQ(several("4,4"), (Indices{4, 4}));
     EXPECT_EQ(several(""), Indices{4});
     EXPECT_THROW(several("0,"), DeviceError);
     EXPECT_THROW(several("0,,2"), DeviceError);
     EXPECT_THROW(several("0,voodoo"), DeviceError);
-    EXPECT_THROW(chosen(kMachine, "all"), DeviceError);
+    for (const char* wanted : {"all", "0,0"})
+        EXPECT_THROW(chosen(kMachine, wanted), DeviceError);
     // Names may have commas of their own.
     const std::vector<DeviceDescription> one = {
         device("llvmpipe (LLVM 15.0.6, 512 bits)", VK_PHYSICAL_DEVICE_TYPE_CPU)};
