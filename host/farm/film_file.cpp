@@ -3,7 +3,6 @@
 #include "host/checkpoint/byte_parts.hpp"
 #include "host/checkpoint/compression.hpp"
 #include "host/core/error.hpp"
-#include "host/farm/film_run.hpp"
 
 #include <fmt/format.h>
 
@@ -161,22 +160,13 @@ std::vector<std::byte> FilmReader::read(uint64_t size) {
     return bytes;
 }
 
-void FilmReader::next(std::vector<SharedPixel>& run) {
-    if (!nextInBrief(run)) return;
-    for (SharedPixel& p : run)
-        p.lastCount = p.all.count, p.lastSum = p.all.sum;
-}
-
-bool FilmReader::nextInBrief(std::vector<SharedPixel>& run) {
-    run.resize(std::min<uint64_t>(pixelsPerRun_, pixelsLeft_));
-    pixelsLeft_ -= run.size();
-    if (header_.isEmpty()) {
-        std::ranges::fill(run, SharedPixel{});
-        return true;
-    }
-    const std::optional<Passes> passes = fromBytes(readPart(), run);
-    if (!passes) refuse("the film is damaged");
-    return *passes == Passes::One;
+PackedRun FilmReader::next() {
+    const auto pixels = size_t(std::min<uint64_t>(pixelsPerRun_, pixelsLeft_));
+    pixelsLeft_ -= pixels;
+    if (header_.isEmpty()) return PackedRun(pixels);
+    std::optional<PackedRun> run = PackedRun::fromBytes(readPart(), pixels);
+    if (!run) refuse("the film is damaged");
+    return std::move(*run);
 }
 
 void FilmReader::nextLayers(std::vector<float>& layers) {

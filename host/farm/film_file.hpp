@@ -2,6 +2,7 @@
 
 #include "host/core/temporary_file.hpp"
 #include "host/farm/film_header.hpp"
+#include "host/farm/film_run.hpp"
 #include "host/film/shared_pixel.hpp"
 
 #include <cstdint>
@@ -50,10 +51,7 @@ class FilmReader {
     const FilmHeader& header() const { return header_; }
     /// The next run of pixels; all of them without samples where the film is empty. Throws
     /// UsageError as above.
-    void next(std::vector<SharedPixel>& run);
-    /// The same, but where the samples of each pixel are of one pass, as in most films of shares,
-    /// nothing is said of the last one beside its number: true.
-    bool nextInBrief(std::vector<SharedPixel>& run);
+    PackedRun next();
     /// The channels of the layers of each pixel of that run, if the film holds them.
     void nextLayers(std::vector<float>& layers);
 

@@ -4,6 +4,7 @@
 #include "host/checkpoint/compression.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <utility>
@@ -13,8 +14,8 @@ namespace {
 
 /// A set of kinds.
 using Kinds = uint64_t;
-/// Not a kind: all samples of every pixel are of its last pass, of which nothing else is said. So
-/// it is in the film of a share, mostly.
+/// Not a kind: all samples of every pixel are of its last pass, of which nothing is said beside its
+/// number. So it is in the film of a share, mostly.
 constexpr Kinds kOfOnePass = Kinds(1) << 63;
 
 /// Calls visit(kind, numberOf) for all kinds of numbers that a pixel has: those of all samples,
@@ -95,6 +96,39 @@ size_t bytesOf(Kinds kinds) {
     return bytes;
 }
 
+/// Where the numbers of each kind begin, and how far apart those of neighbours are: kinds that are
+/// 0 everywhere have but one of them.
+class Columns {
+  public:
+    Columns(Kinds kinds, std::span<const std::byte> numbers, size_t pixels) {
+        static constexpr uint64_t kZero = 0;
+        const std::byte* next = numbers.data();
+        forEachKind([&](uint32_t kind, const auto& numberOf) {
+            columns_[kind] = {reinterpret_cast<const std::byte*>(&kZero), 0};
+            if ((kinds >> kind & 1) == 0) return;
+            constexpr size_t size = sizeOf<decltype(numberOf)>;
+            columns_[kind] = {next, size};
+            next += pixels * size;
+        });
+    }
+    /// The first `count` kinds of numbers of a pixel.
+    template <uint32_t count>
+    void read(size_t i, SharedPixel& pixel) const {
+        forEachKind([&](uint32_t kind, const auto& numberOf) {
+            if (kind >= count) return;
+            auto& number = numberOf(pixel);
+            std::memcpy(&number, columns_[kind].first + i * columns_[kind].distance, sizeof number);
+        });
+    }
+
+  private:
+    struct Column {
+        const std::byte* first;
+        size_t distance;
+    };
+    std::array<Column, kKinds> columns_;
+};
+
 } // namespace
 
 std::vector<std::byte> toBytes(std::span<const SharedPixel> run) {
@@ -111,22 +145,32 @@ std::vector<std::byte> toBytes(std::span<const SharedPixel> run) {
     return bytes;
 }
 
-std::optional<Passes> fromBytes(std::span<const std::byte> bytes, std::vector<SharedPixel>& run) {
-    Kinds kinds = 0;
-    if (bytes.size() < sizeof kinds) return std::nullopt;
-    std::memcpy(&kinds, bytes.data(), sizeof kinds);
-    const std::optional<std::vector<std::byte>> numbers =
-        decompressed(bytes.subspan(sizeof kinds), run.size() * bytesOf(kinds));
+std::optional<PackedRun> PackedRun::fromBytes(std::span<const std::byte> bytes, size_t pixels) {
+    PackedRun run(pixels);
+    if (bytes.size() < sizeof run.kinds_) return std::nullopt;
+    std::memcpy(&run.kinds_, bytes.data(), sizeof run.kinds_);
+    auto numbers = decompressed(bytes.subspan(sizeof run.kinds_), pixels * bytesOf(run.kinds_));
     if (!numbers) return std::nullopt;
-    const Passes passes = kinds & kOfOnePass ? Passes::One : Passes::Several;
-    const Kinds all = (Kinds(1) << (passes == Passes::One ? kLastKinds : kKinds)) - 1;
-    forEachPlace(run.size(), kinds, [&](const auto& numberOf, size_t i, size_t place) {
-        auto& number = numberOf(run[i]);
-        std::memcpy(&number, numbers->data() + place, sizeof number);
-    });
-    forEachPlace(run.size(), all & ~kinds,
-                 [&](const auto& numberOf, size_t i, size_t) { numberOf(run[i]) = 0; });
-    return passes;
+    run.numbers_ = std::move(*numbers);
+    return run;
+}
+
+void PackedRun::addTo(std::span<SharedPixel> sums, size_t first) const {
+    if (kinds_ == 0) return;
+    const Columns columns(kinds_, numbers_, pixels_);
+    SharedPixel pixel; // whose numbers are those of one pixel after the other
+    const bool isOfOnePass = (kinds_ & kOfOnePass) != 0;
+    for (size_t i = 0; i < sums.size(); ++i) {
+        if (isOfOnePass)
+            columns.read<kLastKinds>(first + i, pixel);
+        else
+            columns.read<kKinds>(first + i, pixel);
+        if (pixel.all.taken() == 0) continue; // a planned share has few pixels
+        if (isOfOnePass)
+            sums[i].addOfOnePass(pixel);
+        else
+            sums[i].add(pixel);
+    }
 }
 
 } // namespace stromboli

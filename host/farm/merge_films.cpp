@@ -31,14 +31,6 @@ PictureArea rowsOf(const PictureArea& area, uint32_t first, size_t pixels) {
         area.width, area.height, {all.x, all.y + first, all.width, uint32_t(pixels / all.width)}};
 }
 
-void addTo(SharedPixel& sum, const SharedPixel& pixel, bool isOfOnePass) {
-    if (pixel.all.taken() == 0) return; // a planned share has few pixels
-    if (isOfOnePass)
-        sum.addOfOnePass(pixel);
-    else
-        sum.add(pixel);
-}
-
 /// Whether a film has later passes than another. They are added first: those of earlier ones then
 /// change nothing of what is known of the last pass, which saves its sums.
 bool isLater(const FilmReader& a, const FilmReader& b) {
@@ -79,8 +71,7 @@ void FilmsToMerge::addUp(const std::function<void(const PictureArea&, std::span<
     const PictureArea& area = header_.settings.area;
     const size_t atOnce = std::clamp<size_t>(
         films_.size(), 1, size_t(std::clamp(tbb::info::default_concurrency(), 1, 16)));
-    std::vector<std::vector<SharedPixel>> runs(atOnce);
-    std::vector<char> isOfOnePass(atOnce); // each set by a thread of its own
+    std::vector<PackedRun> runs(atOnce, PackedRun(0));
     std::vector<SharedPixel> sum;
     std::vector<float> layers;
     const uint32_t rows = area.rendered().height;
@@ -90,15 +81,15 @@ void FilmsToMerge::addUp(const std::function<void(const PictureArea&, std::span<
             const size_t count = std::min(atOnce, films_.size() - first);
             tbb::parallel_for(size_t(0), count, [&](size_t i) {
                 FilmReader& film = films_[first + i];
-                isOfOnePass[i] = film.nextInBrief(runs[i]);
+                runs[i] = film.next();
                 if (film.header().holdsLayers) film.nextLayers(layers); // one film at most
             });
-            tbb::parallel_for(tbb::blocked_range<size_t>(0, sum.size(), 1024),
-                              [&](const auto& range) {
-                                  for (size_t k = 0; k < count; ++k)
-                                      for (size_t i = range.begin(); i != range.end(); ++i)
-                                          addTo(sum[i], runs[k][i], isOfOnePass[k]);
-                              });
+            tbb::parallel_for(
+                tbb::blocked_range<size_t>(0, sum.size(), 1024), [&](const auto& range) {
+                    for (size_t k = 0; k < count; ++k)
+                        runs[k].addTo(std::span(sum).subspan(range.begin(), range.size()),
+                                      range.begin());
+                });
         }
         take(rowsOf(area, row, sum.size()), sum, layers);
     }

@@ -22,11 +22,13 @@ std::string contentOf(const std::filesystem::path& file) {
 
 std::vector<SharedPixel> readAll(const std::filesystem::path& file) {
     FilmReader reader(file);
-    std::vector<SharedPixel> all, run;
+    std::vector<SharedPixel> all;
     const uint64_t pixels = reader.header().settings.area.pixelCount();
     while (all.size() < pixels) {
-        reader.next(run);
-        all.insert(all.end(), run.begin(), run.end());
+        const PackedRun run = reader.next();
+        const size_t first = all.size();
+        all.resize(first + run.size());
+        run.addTo(std::span(all).subspan(first), 0);
     }
     return all;
 }
@@ -93,9 +95,8 @@ TEST(FilmFile, LayersComeBackAsTheyWere) {
     EXPECT_EQ(reader.header().layers, header.layers);
     EXPECT_EQ(reader.header().legend, header.legend);
     std::vector<float> all, some;
-    std::vector<SharedPixel> run;
     while (all.size() < layers.size()) {
-        reader.next(run);
+        const PackedRun run = reader.next();
         reader.nextLayers(some);
         EXPECT_EQ(some.size(), run.size() * channels);
         all.insert(all.end(), some.begin(), some.end());
