@@ -9,8 +9,8 @@
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
 #include "host/core/printable.hpp"
-#include "host/farm/add_samples.hpp"
 #include "host/farm/film_file.hpp"
+#include "host/farm/shared_band.hpp"
 #include "host/render/bands.hpp"
 #include "host/version/version.hpp"
 
@@ -18,111 +18,27 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <span>
 
 namespace stromboli {
 namespace {
 
-std::vector<PixelTarget> allPixels(const PictureArea& area, uint32_t samples) {
-    std::vector<PixelTarget> targets(area.pixelCount());
-    for (uint32_t i = 0; i < targets.size(); ++i)
-        targets[i] = {i, samples};
-    return targets;
-}
-
 /// How far the samples of all bands are.
 struct ShareProgress {
-    uint64_t samples = 0, done = 0; ///< of all bands; before those under way
+    uint64_t samples = 0, done = 0; ///< of all bands
     ProgressBar bar;
 
-    bool show(const Backend& backend, uint64_t underWay) {
+    /// So many more samples are done.
+    bool show(const Backend& backend, uint64_t more) {
+        done += more;
         RenderProgress state;
         state.samplesAtMost = samples;
-        state.samplesDone = done + underWay;
+        state.samplesDone = done;
         state.counters = backend.counters();
         state.share = double(state.samplesDone) / double(samples);
         bar.show(state);
         return !interrupted();
     }
-};
-
-/// Part of a picture, and what the films of shares have of it.
-class SharedBand {
-  public:
-    SharedBand(Backend& backend, const PictureArea& band, ShareProgress& progress)
-        : backend_(backend), band_(band), progress_(progress), sums_(band.pixelCount()) {}
-
-    /// For pictures with alpha: the samples whose camera rays end on a surface are counted, by the
-    /// viewer that there is then (of several devices, one may have dropped out).
-    void countCovered(const std::function<Viewer*()>& viewer) { viewer_ = viewer; }
-
-    /// The targets' samples from number `first` on. False if it was interrupted.
-    bool take(uint32_t first, std::span<const PixelTarget> targets, uint32_t pass) {
-        Film film(band_);
-        bool goesOn = true;
-        backend_.beginAt(first);
-        backend_.sample(targets, film, [&](uint64_t done) {
-            return goesOn = progress_.show(backend_, done) && goesOn;
-        });
-        if (!goesOn) return false;
-        addSamples(sums_, targets, film, first, pass);
-        for (const PixelTarget& t : targets)
-            progress_.done += t.samples;
-        if (viewer_) addCovered(first, targets);
-        return true;
-    }
-    /// The blocks of a share of the first round.
-    bool takeBlocks(const FilmHeader& header) {
-        const SampleBlocks all = header.allBlocks();
-        for (const BlockRange& range : header.blocks)
-            for (uint32_t block = range.first; block < range.end; ++block) {
-                const uint32_t first = all.firstOf(block);
-                const uint32_t samples = all.firstOf(block + 1) - first;
-                if (!take(first, allPixels(band_, samples), header.passOf(block))) return false;
-            }
-        return true;
-    }
-    /// What a share of a planned round has here; `firstPixel`: of the band, in the picture. Pixels
-    /// that have as many samples until now go together: there are few such numbers.
-    bool takePlanned(std::span<const PlannedPixel> pixels, uint32_t firstPixel, uint32_t pass) {
-        std::map<uint32_t, std::vector<PixelTarget>> alike;
-        for (const PlannedPixel& p : pixels)
-            alike[p.from].push_back({p.pixel - firstPixel, p.to - p.from});
-        for (const auto& [first, targets] : alike)
-            if (!take(first, targets, pass)) return false;
-        return true;
-    }
-
-    const std::vector<SharedPixel>& sums() const { return sums_; }
-    Film film() const {
-        Film film(band_);
-        for (size_t i = 0; i < sums_.size(); ++i)
-            film.pixels[i] = sums_[i].all.statistics();
-        return film;
-    }
-
-  private:
-    /// By the camera rays of the very samples.
-    void addCovered(uint32_t firstSample, std::span<const PixelTarget> targets) {
-        std::vector<uint32_t> samples(sums_.size(), 0);
-        for (const PixelTarget& t : targets)
-            samples[t.pixel] = t.samples;
-        for (size_t begin = 0; begin < samples.size(); begin += Viewer::kMostSeenAtOnce) {
-            const std::span<const uint32_t> run = std::span(samples).subspan(
-                begin, std::min<size_t>(Viewer::kMostSeenAtOnce, samples.size() - begin));
-            if (std::ranges::count(run, 0u) == std::ssize(run)) continue;
-            const auto seen = viewer_()->see(uint32_t(begin), run, Seeing::Coverage, firstSample);
-            for (size_t i = 0; i < seen.size(); ++i)
-                sums_[begin + i].covered += seen[i].hits;
-        }
-    }
-
-    Backend& backend_;
-    PictureArea band_;
-    ShareProgress& progress_;
-    std::function<Viewer*()> viewer_; ///< none: no alpha
-    std::vector<SharedPixel> sums_;
 };
 
 /// Those of the pixels that lie in a band of so many pixels.
@@ -252,7 +168,8 @@ void takeShare(const Job& job, const Options& options, const PlannedShare& share
         report.prepareSeconds += preparing.seconds();
         nowDoing("taking samples", StatusLine::OfOthers);
         const Stopwatch rendering;
-        SharedBand taken(*backend, band, progress);
+        SharedBand taken(*backend, band,
+                         [&](uint64_t more) { return progress.show(*backend, more); });
         if (header.hasAlpha()) taken.countCovered(viewer);
         report.interrupted = !(isPlanned ? taken.takePlanned(pixels, firstPixel, header.rounds())
                                          : taken.takeBlocks(header));

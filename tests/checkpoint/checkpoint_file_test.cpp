@@ -2,6 +2,7 @@
 #include "host/checkpoint/checkpoint_file.hpp"
 #include "host/core/error.hpp"
 #include "tests/film/temporary_folder.hpp"
+#include "tests/support/refusal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,6 +14,8 @@
 
 namespace stromboli {
 namespace {
+
+using test::refusalOf;
 
 using testing::HasSubstr;
 
@@ -32,15 +35,6 @@ Checkpoint example() {
 std::string contentOf(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-std::string refusalOf(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const UsageError& error) {
-        return error.what();
-    }
-    return "";
 }
 
 TEST(CheckpointFile, ComesBackAsItWas) {

@@ -1,6 +1,7 @@
 // Pictures whose shares are taken in rounds, each where the films until then are noisy.
 #include "host/film/exr.hpp"
 #include "host/film/image_file.hpp"
+#include "tests/cli/film_folder.hpp"
 #include "tests/cli/running_program.hpp"
 
 #include <gmock/gmock.h>
@@ -9,8 +10,6 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <fstream>
-#include <iterator>
 #include <random>
 #include <thread>
 
@@ -19,25 +18,14 @@ namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-using Strings = std::vector<std::string>;
-
-Strings operator+(Strings a, const Strings& b) {
-    a.insert(a.end(), b.begin(), b.end());
-    return a;
-}
 
 constexpr int kNothingLeft = 7;
 
-class Rounds : public testing::Test {
+class Rounds : public FilmFolder {
   protected:
-    ScratchFolder folder;
     std::string scene = libraryScene("cornell_spheres.dae");
     Strings settings = {"-r", "24", "18", "-s", "32", "--block", "4", "-q"};
 
-    void run(const Strings& words) const {
-        const ProgramRun program = stromboli(words);
-        EXPECT_EQ(program.exitCode, 0) << program.err;
-    }
     Strings render(const std::string& output, const Strings& extra) const {
         return Strings{"render", scene, "-o", folder.file(output)} + settings + extra;
     }
@@ -64,19 +52,6 @@ class Rounds : public testing::Test {
                     const std::string& noise = "0.05", const Strings& extra = {}) const {
         return stromboli(Strings{"plan", "--noise", noise, "-o", folder.file(output)} + extra +
                          films);
-    }
-    ProgramRun merge(const std::string& output, const Strings& films,
-                     const Strings& extra = {}) const {
-        return stromboli(Strings{"merge", "-o", folder.file(output)} + extra + films);
-    }
-    std::string bytesOf(const std::string& name) const {
-        std::ifstream file(folder.path() / name, std::ios::binary);
-        return {std::istreambuf_iterator<char>(file), {}};
-    }
-    std::string note(const std::string& picture, const std::string& name) const {
-        for (const PictureNote& note : readPictureNotes(folder.path() / picture))
-            if (note.name == name) return note.text;
-        return "none";
     }
 };
 

@@ -1,5 +1,6 @@
 // Pictures that several runs of the program render together.
 #include "host/film/image_file.hpp"
+#include "tests/cli/film_folder.hpp"
 #include "tests/cli/running_program.hpp"
 #include "tests/support/shell.hpp"
 
@@ -9,8 +10,6 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <fstream>
-#include <iterator>
 #include <random>
 #include <thread>
 
@@ -18,11 +17,9 @@ namespace stromboli::test {
 namespace {
 
 using testing::HasSubstr;
-using Strings = std::vector<std::string>;
 
-class Shares : public testing::Test {
+class Shares : public FilmFolder {
   protected:
-    ScratchFolder folder;
     std::string scene = libraryScene("cornell_spheres.dae");
 
     /// 60 samples a pixel, in blocks of 8: the last one has 4.
@@ -32,10 +29,6 @@ class Shares : public testing::Test {
                          "18",     "-s",  samples, "--block",           "8",  "-q"};
         words.insert(words.end(), extra.begin(), extra.end());
         return words;
-    }
-    void run(const Strings& words) const {
-        const ProgramRun program = stromboli(words);
-        EXPECT_EQ(program.exitCode, 0) << program.err;
     }
     std::string share(uint32_t index, uint32_t count, const Strings& extra = {}) const {
         const std::string name =
@@ -50,22 +43,6 @@ class Shares : public testing::Test {
         for (uint32_t i = 1; i <= count; ++i)
             files.push_back(share(i, count, extra));
         return files;
-    }
-    ProgramRun merge(const std::string& output, const Strings& films,
-                     const Strings& extra = {}) const {
-        Strings words = {"merge", "-o", folder.file(output)};
-        words.insert(words.end(), extra.begin(), extra.end());
-        words.insert(words.end(), films.begin(), films.end());
-        return stromboli(words);
-    }
-    std::string bytesOf(const std::string& name) const {
-        std::ifstream file(folder.path() / name, std::ios::binary);
-        return {std::istreambuf_iterator<char>(file), {}};
-    }
-    std::string note(const std::string& picture, const std::string& name) const {
-        for (const PictureNote& note : readPictureNotes(folder.path() / picture))
-            if (note.name == name) return note.text;
-        return "none";
     }
 };
 

@@ -1,6 +1,7 @@
 // What films say of themselves, why they are refused, and what they lack.
 #include "host/core/error.hpp"
 #include "tests/farm/films.hpp"
+#include "tests/support/refusal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,15 +19,6 @@ FilmHeader sumOf(std::vector<ShareName> shares, const FilmHeader& picture = pict
     for (size_t i = 1; i < shares.size(); ++i)
         add(sum, ofShare(picture, shares[i]), "part.film");
     return sum;
-}
-
-std::string refusalOf(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const UsageError& error) {
-        return error.what();
-    }
-    return "";
 }
 
 TEST(FilmHeader, ComesBackAsItWas) {

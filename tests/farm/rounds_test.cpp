@@ -6,6 +6,7 @@
 #include "host/render/render_session.hpp"
 #include "tests/farm/films.hpp"
 #include "tests/film/temporary_folder.hpp"
+#include "tests/support/refusal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,15 +26,6 @@ using testing::HasSubstr;
 
 namespace fs = std::filesystem;
 using Files = std::vector<fs::path>;
-
-std::string refusalOf(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const UsageError& error) {
-        return error.what();
-    }
-    return "";
-}
 
 std::vector<SharedPixel> sumOf(const Files& files) {
     FilmsToMerge films(files);

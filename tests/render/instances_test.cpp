@@ -183,6 +183,28 @@ TEST_F(Instances, HaveTheSameBytesHoweverWorkIsCut) {
     }
 }
 
+/// A ray passes by the triangle that it starts on, but not by the same triangle placed elsewhere:
+/// here a roof, right above the floor of which it is the copy.
+TEST_F(Instances, ShadeThemselves) {
+    SceneMaker b;
+    SceneMaker mesh;
+    mesh.quad({-1, 0, -1}, {0, 0, 2}, {2, 0, 0}, 0);
+    const uint32_t quads = addPrototype(b.scene, mesh.scene, b.add(diffuse(0.5f)));
+    place(b.scene, quads, {0, 0, 0}, {1, 1, 1}, 0);
+    place(b.scene, quads, {0, 0.5, 0}, {1, 1, 1}, 0);
+    b.add(Light{.kind = LightKind::Directional, .color = {1, 1, 1}, .direction = {0, -1, 0}});
+    RenderSettings s = settings(4);
+    s.estimator.maxBounces = 1;
+    const Camera underTheRoof = lookingAt({0.1, 0.25, 0.9}, {0, 0, 0}, 0.1);
+    for (const PixelStatistics& pixel :
+         renderOnDevice(testDevice(), b.scene, underTheRoof, s).pixels)
+        ASSERT_EQ(pixel.mean, glm::dvec3(0));
+    b.scene.placements.pop_back(), b.scene.instances.pop_back();
+    for (const PixelStatistics& pixel :
+         renderOnDevice(testDevice(), b.scene, underTheRoof, s).pixels)
+        ASSERT_GT(pixel.mean.x, 0.1);
+}
+
 /// Layers of a picture with one camera ray a pixel.
 FloatImage layersBy(Viewer& viewer, const Scene& scene, const PictureArea& area) {
     FloatImage image(area);
