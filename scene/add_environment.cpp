@@ -32,8 +32,11 @@ void addEnvironment(Scene& scene, const EnvironmentRequest& request) {
         environment = fromFile(request.file);
     environment.strength = float(request.strength);
     environment.rotation = float(request.rotationDegrees * glm::pi<double>() / 180);
-    scene.environment = std::move(environment);
+    addEnvironment(scene, std::move(environment));
+}
 
+void addEnvironment(Scene& scene, Environment environment) {
+    scene.environment = std::move(environment);
     const size_t ambient = std::erase_if(
         scene.lights, [](const Light& light) { return light.kind == LightKind::Ambient; });
     if (ambient > 0)

@@ -28,13 +28,11 @@ constexpr uint64_t kTotalsOffset = sizeof(uint32_t);
 
 /// The scene's buffers by binding; the traversal reads the first ones only, but all are bound.
 auto sceneRows(const GpuScene& scene) {
-    const std::array rows = {std::as_bytes(std::span(scene.bvh.records)),
-                             std::as_bytes(std::span(scene.primitives)),
-                             std::as_bytes(std::span(scene.materials)),
-                             std::as_bytes(std::span(scene.lights.lights)),
-                             std::as_bytes(std::span(scene.lights.table)),
-                             std::as_bytes(std::span(scene.lights.environment)),
-                             std::as_bytes(std::span(scene.details))};
+    const std::array rows = {
+        std::as_bytes(std::span(scene.bvh.records)),  std::as_bytes(std::span(scene.primitives)),
+        std::as_bytes(std::span(scene.materials)),    std::as_bytes(std::span(scene.lights.lights)),
+        std::as_bytes(std::span(scene.lights.table)), std::as_bytes(scene.lights.environmentRows()),
+        std::as_bytes(std::span(scene.details))};
     static_assert(rows.size() == SCENE_BINDING_COUNT);
     return rows;
 }

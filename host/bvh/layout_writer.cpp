@@ -16,8 +16,9 @@ namespace {
 /// Writes nodes and leaves where the packing says.
 class LayoutWriter {
   public:
-    LayoutWriter(const Scene& scene, std::span<const LeafItem> items, const BinaryTree& tree)
-        : scene_(scene), items_(items), tree_(tree), nodes_(collapse(tree)) {}
+    LayoutWriter(const Scene& scene, std::span<const LeafItem> items, const BinaryTree& tree,
+                 double padding)
+        : scene_(scene), items_(items), tree_(tree), padding_(padding), nodes_(collapse(tree)) {}
 
     WideLayout write() {
         const RecordPacking packing = packRecords(nodes_);
@@ -34,12 +35,11 @@ class LayoutWriter {
         // its children's groups wait while deeper nodes are visited, so never more than
         // packing.depth at once.
         layout_.stackSize = packing.depth + 1;
-        const double padding = tree_.nodes.empty() ? 0 : boxPadding(tree_.nodes.front().bounds);
         const std::vector<uint32_t> firstEntry = firstEntries();
         tbb::parallel_for(tbb::blocked_range<size_t>(0, nodes_.size(), 256),
                           [&](const auto& range) {
                               for (size_t i = range.begin(); i != range.end(); ++i)
-                                  writeNode(nodes_[i], packing.places[i], padding, firstEntry[i]);
+                                  writeNode(nodes_[i], packing.places[i], firstEntry[i]);
                           });
         return std::move(layout_);
     }
@@ -61,7 +61,7 @@ class LayoutWriter {
         return items_[tree_.nodes[node.child[slot]].left];
     }
 
-    void writeNode(const WideNode& node, const NodePlace& place, double padding, uint32_t entry) {
+    void writeNode(const WideNode& node, const NodePlace& place, uint32_t entry) {
         ChildBoxes boxes;
         for (uint32_t slot = 0; slot < gpu::WIDE_CHILDREN; ++slot) {
             if (node.has(slot)) boxes[slot] = tree_.nodes[node.child[slot]].bounds;
@@ -71,7 +71,7 @@ class LayoutWriter {
             entry += item.count();
         }
         layout_.records[place.record] =
-            std::bit_cast<Record>(packNode(boxes, place.firstChild, padding));
+            std::bit_cast<Record>(packNode(boxes, place.firstChild, padding_));
     }
 
     void writeLeaf(const LeafItem& item, uint32_t record, uint32_t entry) {
@@ -115,15 +115,17 @@ class LayoutWriter {
     const Scene& scene_;
     std::span<const LeafItem> items_;
     const BinaryTree& tree_;
+    double padding_;
     std::vector<WideNode> nodes_;
     WideLayout layout_;
 };
 
 } // namespace
 
-WideLayout writeLayout(const Scene& scene, std::span<const LeafItem> items,
-                       const BinaryTree& tree) {
-    return LayoutWriter(scene, items, tree).write();
+WideLayout writeLayout(const Scene& scene, std::span<const LeafItem> items, const BinaryTree& tree,
+                       std::optional<double> padding) {
+    const double ownPadding = tree.nodes.empty() ? 0 : boxPadding(tree.nodes.front().bounds);
+    return LayoutWriter(scene, items, tree, padding.value_or(ownPadding)).write();
 }
 
 } // namespace stromboli::bvh

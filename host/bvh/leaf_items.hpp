@@ -17,7 +17,8 @@ struct LeafItem {
     std::array<uint32_t, 2> primitive{gpu::NO_PRIMITIVE, gpu::NO_PRIMITIVE};
     /// Which corner of the triangle is the slot's first.
     std::array<uint8_t, 2> firstCorner{0, 0};
-    uint32_t placement = kNoPlacement; ///< in Scene::placements, of an item without primitives
+    /// Of an item without primitives: in Scene::placements.
+    uint32_t placement = kNoPlacement;
 
     static constexpr uint32_t kNoPlacement = 0xFFFFFFFFu;
     bool isPlacement() const { return placement != kNoPlacement; }

@@ -6,8 +6,9 @@
 
 namespace stromboli {
 
-WideLayout buildWideBvh(const Scene& scene, const BuildOptions& options) {
-    if (!scene.placements.empty()) return bvh::buildTwoLevels(scene, options);
+WideLayout buildWideBvh(const Scene& scene, const BuildOptions& options, KeptTrees* kept) {
+    if (!scene.placements.empty() || scene.isMoment())
+        return bvh::buildTwoLevels(scene, options, kept);
     const std::vector<bvh::LeafItem> items = bvh::makeLeafItems(scene);
     const BinaryTree tree = buildBinaryTree(bvh::itemBounds(scene, items), options);
     return bvh::writeLayout(scene, items, tree);

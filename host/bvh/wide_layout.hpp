@@ -35,7 +35,8 @@ inline bool isPlacement(const Record& r) {
 
 /// The tree as the kernel reads it: 8-wide, boxes on a grid of 8 bits per axis (after Ylitie,
 /// Karras and Laine 2017). Prototypes have trees of their own behind the tree over the world, whose
-/// leaves lead to them; the records of transformations come last.
+/// leaves lead to them; the records of transformations come last. Where an animation moves things,
+/// the tree over the world has that over what stands still as one of its subtrees.
 struct WideLayout {
     std::vector<Record> records;          ///< record 0: the root, always a node
     std::vector<uint32_t> primitiveOrder; ///< entry i of the Primitive buffer is order[i]
@@ -48,8 +49,13 @@ struct WideLayout {
     std::vector<uint32_t> recordOfPlacement; ///< by placement
 };
 
+class KeptTrees;
+
 /// The tree over all primitives and placements of the scene (triangles first, then spheres). Throws
 /// SceneError where it has more records than gpu::MAX_RECORDS, and what buildBinaryTree throws.
-WideLayout buildWideBvh(const Scene& scene, const BuildOptions& options = {});
+/// kept: trees of other moments of the same animation, to which those of this one are added; the
+/// layout is the same with and without them.
+WideLayout buildWideBvh(const Scene& scene, const BuildOptions& options = {},
+                        KeptTrees* kept = nullptr);
 
 } // namespace stromboli

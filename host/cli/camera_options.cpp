@@ -83,7 +83,7 @@ void declareSequence(DeclaredCommand& c) {
         .number(
             "--turntable", "N",
             "N pictures, from cameras all around the scene: each is turned by a further N-th of "
-            "a turn about the vertical axis through its middle",
+            "a turn, counter-clockwise seen from above, about the vertical axis through its middle",
             sequence.turntable, {1, kFrameNumbers.most})
         .usually("one picture");
     c.list

@@ -16,16 +16,19 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace stromboli {
 namespace {
 
-Scene loadScene(const Options& options) {
+Job readFile(const Options& options) {
+    nowDoing("loading " + options.scene);
+    Stopwatch watch;
     SceneConventions reading = options.reading;
     if (options.environment.isGiven()) reading.defaultLight = false;
-    Scene scene = readScene(options.scene, reading);
-    if (options.environment.isGiven()) addEnvironment(scene, options.environment);
-    return scene;
+    Job job{readScene(options.scene, reading), {}, {}, 0};
+    job.loadSeconds = watch.seconds();
+    return job;
 }
 
 void reportScene(const Scene& scene, const Options& options) {
@@ -176,17 +179,19 @@ std::future<vulkan::OpenDevice> openDeviceMeanwhile(const Options& options) {
     return std::async(std::launch::async, vulkan::openDevice, options.device);
 }
 
-Job loadQuietly(const Options& options) {
-    nowDoing("loading " + options.scene);
+Job loadJob(const Options& options) {
+    Job job = readFile(options);
     Stopwatch watch;
-    Job job{loadScene(options), {}, {}, 0};
-    job.loadSeconds = watch.seconds();
+    if (options.environment.isGiven()) addEnvironment(job.scene, options.environment);
+    job.loadSeconds += watch.seconds();
+    reportScene(job.scene, options);
     return job;
 }
 
-Job loadJob(const Options& options) {
-    Job job = loadQuietly(options);
-    reportScene(job.scene, options);
+Job loadMoment(const Options& options, Job& before) {
+    Job job = readFile(options);
+    if (options.environment.isGiven())
+        addEnvironment(job.scene, std::move(*std::exchange(before.scene.environment, {})));
     return job;
 }
 
@@ -220,12 +225,14 @@ Job prepareJob(const Options& options) {
     return job;
 }
 
-BuiltScene buildScene(const Job& job) {
+BuiltScene buildScene(const Job& job, KeptParts* kept) {
     nowDoing(fmt::format("building the BVH of {} triangles", job.scene.triangles.size()));
     Stopwatch watch;
     BuiltScene built;
     built.gpu =
-        packScene(job.scene, buildWideBvh(job.scene), lightSelection(job.settings.estimator));
+        packScene(job.scene, buildWideBvh(job.scene, {}, kept ? &kept->trees : nullptr),
+                  lightSelection(job.settings.estimator), kept ? kept->environment : nullptr);
+    if (kept) kept->environment = built.gpu.lights.environment;
     built.buildSeconds = watch.seconds();
     nowDoing("opening the device and compiling the kernel"); // what follows a scene that is built
     return built;

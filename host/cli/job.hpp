@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/bvh/kept_trees.hpp"
 #include "host/cli/options.hpp"
 #include "host/kernel/gpu_scene.hpp"
 #include "host/vulkan/open_device.hpp"
@@ -25,8 +26,9 @@ std::future<vulkan::OpenDevice> openDeviceMeanwhile(const Options& options);
 /// Loads or makes the scene, and reports what was ignored, dropped or is missing (no light). Throws
 /// SceneError.
 Job loadJob(const Options& options);
-/// The same without a report, for what differs from a scene that was reported in its moment only.
-Job loadQuietly(const Options& options);
+/// Another moment of the file that `before` was loaded from, without a report. What no moment
+/// changes is taken from there.
+Job loadMoment(const Options& options, Job& before);
 /// Fixes the camera, which it reports, the picture's size and the settings. Throws SceneError,
 /// UsageError (crop outside the picture).
 void setPicture(Job& job, const Options& options);
@@ -38,6 +40,12 @@ struct BuiltScene {
     GpuScene gpu;
     double buildSeconds = 0;
 };
-BuiltScene buildScene(const Job& job);
+/// What one moment of an animation keeps for the next.
+struct KeptParts {
+    KeptTrees trees;
+    std::shared_ptr<const EnvironmentTable> environment;
+};
+/// kept: where the scene is a moment of a sequence.
+BuiltScene buildScene(const Job& job, KeptParts* kept = nullptr);
 
 } // namespace stromboli

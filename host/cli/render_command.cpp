@@ -1,4 +1,3 @@
-#include "host/checkpoint/scene_identity.hpp"
 #include "host/cli/activity.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/going_on.hpp"
@@ -188,11 +187,8 @@ int renderPicture(Renderer& renderer, Job& job, const Options& asked, const Begu
 /// At another moment of its file. Where nothing but the camera has moved, the scene is kept as it
 /// is built and uploaded.
 void moveTo(const Options& frame, Job& job, Renderer& renderer) {
-    Job next = loadQuietly(frame);
-    const bool isSame = next.scene.positions == job.scene.positions &&
-                        sceneIdentity(next.scene, {}) == sceneIdentity(job.scene, {});
-    if (!isSame) renderer.changeScene();
-    job = std::move(next);
+    job = loadMoment(frame, job);
+    if (job.scene.isMoment() || job.scene.lightsMove) renderer.changeScene();
 }
 
 /// Part of the samples of all pixels, or of a plan, as a film. Returns the exit code.

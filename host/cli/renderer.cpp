@@ -37,9 +37,10 @@ void Renderer::render(const Job& job, const Options& options, const TakeSamples&
         renderOnReference(job, options, take, report);
 }
 
-void Renderer::openAndBuild(const Job& job, RenderReport& report) {
+void Renderer::openAndBuild(const Job& job, const Options& options, RenderReport& report) {
     if (!built_ || isStale_) {
-        auto built = std::make_unique<BuiltScene>(buildScene(job));
+        auto built = std::make_unique<BuiltScene>(
+            buildScene(job, options.reading.selection.isFrame ? &kept_ : nullptr));
         devices_->setScene(built->gpu);
         built_ = std::move(built);
         isStale_ = false;
@@ -51,7 +52,7 @@ void Renderer::openAndBuild(const Job& job, RenderReport& report) {
 
 void Renderer::renderOnDevice(const Job& job, const Options& options, const TakeSamples& take,
                               RenderReport& report) {
-    openAndBuild(job, report);
+    openAndBuild(job, options, report);
     take(
         [&](const RenderSettings& settings, bool again) {
             if (again) devices_->reopen(); // those of the last try are lost

@@ -28,7 +28,7 @@ class Renderer {
     void changeScene() { isStale_ = true; }
 
   private:
-    void openAndBuild(const Job& job, RenderReport& report);
+    void openAndBuild(const Job& job, const Options& options, RenderReport& report);
     void renderOnDevice(const Job& job, const Options& options, const TakeSamples& take,
                         RenderReport& report);
     void renderOnReference(const Job& job, const Options& options, const TakeSamples& take,
@@ -36,6 +36,7 @@ class Renderer {
 
     std::unique_ptr<BuiltScene> built_;
     bool isStale_ = false;                 ///< `built_` is of an earlier scene
+    KeptParts kept_;                       ///< of the moments of an animation
     std::optional<RenderDevices> devices_; ///< none: the reference renders
 };
 

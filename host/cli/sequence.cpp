@@ -1,5 +1,7 @@
 #include "host/cli/sequence.hpp"
 
+#include "scene/build/picture_store.hpp"
+
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 
@@ -68,8 +70,9 @@ std::vector<Options> optionsOfFrames(const Options& asked) {
     const FrameRange all{0, sequence.turntable > 0 ? sequence.turntable - 1 : 0};
     const FrameRange frames = sequence.frames.value_or(all);
     std::vector<Options> pictures;
+    const auto decoded = std::make_shared<build::PictureStore>();
     for (uint32_t frame = frames.first; frame <= frames.last; ++frame)
-        pictures.push_back(optionsOf(asked, frame));
+        pictures.push_back(optionsOf(asked, frame)), pictures.back().reading.pictures = decoded;
     return pictures;
 }
 

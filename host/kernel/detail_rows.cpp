@@ -112,12 +112,11 @@ class TexelPacker {
             pictures[i] = &scene_.images[images[i]];
             texels = pictures[i]->words.size();
         }
-        for (size_t texel = 0; texel < texels; ++texel) {
-            Row row;
-            for (uint32_t i = 0; i < images.size(); ++i)
-                row[i] = pictures[i] ? pictures[i]->words[texel] : ~0u;
-            rows_.push_back(row);
-        }
+        const size_t first = rows_.size();
+        rows_.resize(first + texels);
+        for (uint32_t i = 0; i < images.size(); ++i)
+            for (size_t texel = 0; texel < texels; ++texel)
+                rows_[first + texel][i] = pictures[i] ? pictures[i]->words[texel] : ~0u;
         return known->second;
     }
 

@@ -26,7 +26,7 @@ DeviceScene::DeviceScene(const vulkan::Device& device, const GpuScene& scene,
     buffers_[BINDING_MATERIALS].upload(queue, bytesOf(scene.materials));
     buffers_[BINDING_LIGHTS].upload(queue, bytesOf(scene.lights.lights));
     buffers_[BINDING_LIGHT_TABLE].upload(queue, bytesOf(scene.lights.table));
-    buffers_[BINDING_ENVIRONMENT].upload(queue, bytesOf(scene.lights.environment));
+    buffers_[BINDING_ENVIRONMENT].upload(queue, std::as_bytes(scene.lights.environmentRows()));
     buffers_[BINDING_DETAIL].upload(queue, bytesOf(scene.details));
 }
 

@@ -117,7 +117,8 @@ glm::vec3 decodeNormal(uint32_t code) {
     return glm::normalize(n);
 }
 
-GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lights) {
+GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lights,
+                   std::shared_ptr<const EnvironmentTable> environment) {
     GpuScene g;
     g.bvh = std::move(bvh);
     const DetailPlan plan = planDetails(scene, usedMaterials(scene));
@@ -132,8 +133,8 @@ GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lig
     g.hasBlends = plan.hasBlends;
     g.hasTangentFrames = plan.hasTangentFrames;
     packPrimitives(scene, materials.firstRow, g);
-    g.lights =
-        packLights(scene, g.bvh.placeOf, lights, appendPictures(g.materials, details.ofLights));
+    g.lights = packLights(scene, g.bvh.placeOf, lights,
+                          appendPictures(g.materials, details.ofLights), std::move(environment));
     nameLights(g);
     // Beside lights that are geometry: a rectangle that is none has its own mesh close by.
     if (lights.emitters) g.gapWidth = gapWidth(g);

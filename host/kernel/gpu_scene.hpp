@@ -36,8 +36,10 @@ struct GpuScene {
 };
 
 /// Packs the scene, whose hierarchy is `bvh`. For a render `lights` is lightSelection() of its
-/// settings; by default all lights are sampled.
-GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lights = {});
+/// settings; by default all lights are sampled. environment: of the scene's environment, where it
+/// was packed before (LightTable::environment).
+GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lights = {},
+                   std::shared_ptr<const EnvironmentTable> environment = {});
 
 /// First row of the primitive's material.
 inline uint32_t materialOf(const gpu::Primitive& p) {

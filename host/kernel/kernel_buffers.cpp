@@ -31,7 +31,7 @@ std::vector<BufferPlan> planSceneBuffers(const GpuScene& scene, const DeviceTuni
         {"material buffer", sizeOf(scene.materials), rows},
         {"light buffer", sizeOf(scene.lights.lights), rows},
         {"light table", sizeOf(scene.lights.table), rows},
-        {"environment", sizeOf(scene.lights.environment), rows},
+        {"environment", scene.lights.environmentRows().size_bytes(), rows},
         {"texture buffer", sizeOf(scene.details), rows, "--max-texture N makes textures smaller"}};
 }
 

@@ -77,7 +77,7 @@ bool combinesBouncesAndLightSamples(const Estimator& settings) {
 uint32_t misLobes(const GpuScene& scene, const Estimator& settings, uint32_t bsdfKinds) {
     if (!combinesBouncesAndLightSamples(settings) || scene.lights.areaCount == 0) return 0;
     const bool skyAlone = scene.lights.sampledKinds == 1u << gpu::LIGHT_AMBIENT;
-    const bool isPicture = !scene.lights.environment.empty();
+    const bool isPicture = scene.lights.environment != nullptr;
     const bool everywhere = skyAlone || isPicture || settings.directLight == DirectLight::MisAll;
     const uint32_t helped = everywhere ? ~gpu::DELTA_LOBES : gpu::GLOSSY_LOBES;
     return lobesOf(bsdfKinds) & helped;
@@ -253,7 +253,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_LIGHT_NUMBERS] = lightNumbers(scene, settings);
     f[SPEC_MIS_LOBES] = normalsOnly ? 0 : misLobes(scene, settings, f[SPEC_BSDF_KINDS]);
     f[SPEC_HAS_AMBIENT] = !normalsOnly && scene.lights.hasAmbient;
-    f[SPEC_HAS_ENVIRONMENT] = !normalsOnly && !scene.lights.environment.empty();
+    f[SPEC_HAS_ENVIRONMENT] = !normalsOnly && scene.lights.environment != nullptr;
     f[SPEC_HAS_BACKDROP] = !normalsOnly && scene.lights.hasBackdrop && settings.showsBackdrop;
     f[SPEC_AMBIENT_BY_BOUNCES] = !normalsOnly && scene.lights.ambientLeftToBounces;
     f[SPEC_SPLITS] = settings.branches > 1;

@@ -1,7 +1,6 @@
 #include "host/kernel/light_table.hpp"
 
 #include "host/kernel/alias_table.hpp"
-#include "host/kernel/environment_table.hpp"
 #include "host/kernel/light_bounds.hpp"
 #include "host/kernel/light_tree.hpp"
 #include "scene/model/emitters.hpp"
@@ -71,9 +70,9 @@ double radiusOf(const Scene& scene) {
 class Packer {
   public:
     Packer(const Scene& scene, std::span<const uint32_t> placeOf, const LightSelection& selection,
-           std::span<const uint32_t> pictures)
+           std::span<const uint32_t> pictures, std::shared_ptr<const EnvironmentTable> environment)
         : scene_(scene), placeOf_(placeOf), selection_(selection), pictures_(pictures),
-          sceneRadius_(radiusOf(scene)), means_(scene) {
+          known_(std::move(environment)), sceneRadius_(radiusOf(scene)), means_(scene) {
         out_.choice = selection.choice;
     }
 
@@ -92,7 +91,7 @@ class Packer {
         addLights([](const Light& l) { return l.isDelta(); });
         // Not a picture, in which a sun may stand.
         if (out_.ambientNumber != gpu::NO_LIGHT && selection_.ambientToBounces &&
-            out_.environment.empty() && entries_.size() > 1)
+            !out_.environment && entries_.size() > 1)
             leaveAmbientToBounces();
         out_.count = uint32_t(entries_.size());
         writeTable();
@@ -154,13 +153,13 @@ class Packer {
     }
 
     void addEnvironment(const Environment& environment) {
-        EnvironmentTable packed = packEnvironment(environment);
-        const LightBounds bounds = boundsOfEnvironment(packed.luminance);
+        if (!known_) known_ = std::make_shared<EnvironmentTable>(packEnvironment(environment));
+        const LightBounds bounds = boundsOfEnvironment(known_->luminance);
         if (!shines(bounds)) return;
         out_.hasAmbient = true;
-        out_.environment = std::move(packed.texels);
+        out_.environment = known_;
         const uint32_t number = addRows(glm::vec3(environment.strength), gpu::LIGHT_ENVIRONMENT);
-        appendRows(out_.lights, packed.light);
+        appendRows(out_.lights, known_->light);
         fillRows();
         if (!selection_.deltaLightsOnly)
             out_.ambientNumber = addEntry(gpu::LIGHT_ENVIRONMENT, number, bounds);
@@ -274,7 +273,7 @@ class Packer {
     /// sixteenth of what the environment brings, so that nearly all light samples go to it anyway.
     bool isMostlyEnvironment() const {
         constexpr double kFaint = 1.0 / 16;
-        if (out_.environment.empty() || out_.ambientNumber == gpu::NO_LIGHT) return false;
+        if (!out_.environment || out_.ambientNumber == gpu::NO_LIGHT) return false;
         if (out_.areaCount < entries_.size()) return false;
         double others = 0;
         for (uint32_t i = 0; i < bounds_.size(); ++i)
@@ -338,6 +337,7 @@ class Packer {
     std::span<const uint32_t> placeOf_;
     LightSelection selection_;
     std::span<const uint32_t> pictures_; ///< by light of the scene, the row of its picture
+    std::shared_ptr<const EnvironmentTable> known_; ///< of the environment, once it is packed
     double sceneRadius_;
     MeanEmission means_;
     uint32_t meshes_ = 0;
@@ -362,8 +362,9 @@ LightSelection lightSelection(const Estimator& settings) {
 }
 
 LightTable packLights(const Scene& scene, std::span<const uint32_t> placeOf,
-                      const LightSelection& selection, std::span<const uint32_t> pictures) {
-    return Packer(scene, placeOf, selection, pictures).pack();
+                      const LightSelection& selection, std::span<const uint32_t> pictures,
+                      std::shared_ptr<const EnvironmentTable> environment) {
+    return Packer(scene, placeOf, selection, pictures, std::move(environment)).pack();
 }
 
 } // namespace stromboli

@@ -1,11 +1,13 @@
 #pragma once
 
+#include "host/kernel/environment_table.hpp"
 #include "host/kernel/rows.hpp"
 #include "host/render/estimator.hpp"
 #include "scene/model/scene.hpp"
 #include "shaders/shared/light_types.h"
 
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -29,10 +31,11 @@ LightSelection lightSelection(const Estimator& settings);
 
 /// The lights of a scene in the arrays that the kernel reads (shaders/shared/light_types.h).
 struct LightTable {
-    std::vector<Row> lights;      ///< the parameters: ambient lights first
-    std::vector<Row> table;       ///< LightEntry rows, then AliasColumn or LightNode rows
-    std::vector<Row> environment; ///< EnvironmentTexel rows; empty: there is no picture
-    uint32_t count = 0;           ///< lights that are sampled
+    std::vector<Row> lights; ///< the parameters: ambient lights first
+    std::vector<Row> table;  ///< LightEntry rows, then AliasColumn or LightNode rows
+    /// Of the environment's picture; none where there is none, or a black one.
+    std::shared_ptr<const EnvironmentTable> environment;
+    uint32_t count = 0;     ///< lights that are sampled
     uint32_t areaCount = 0; ///< those of them that rays can meet; LightChoice::Each: the first
     /// The scene has a sky, sampled or not: ambient light or an environment.
     bool hasAmbient = false;
@@ -47,11 +50,18 @@ struct LightTable {
     /// By primitive of the scene (triangles, then spheres): its light's number, or NO_LIGHT; empty
     /// where no primitive is a sampled light.
     std::vector<uint32_t> numberOf;
+
+    /// EnvironmentTexel rows; empty: there is no picture.
+    std::span<const Row> environmentRows() const {
+        return environment ? std::span<const Row>(environment->texels) : std::span<const Row>();
+    }
 };
 
 /// placeOf: by primitive of the scene, what a LightEntry is to name an emissive triangle by.
 /// pictures: by light of the scene, the first row of its picture's TextureUse; empty: none has one.
+/// environment: of the scene's environment, where it was packed before.
 LightTable packLights(const Scene& scene, std::span<const uint32_t> placeOf,
-                      const LightSelection& selection, std::span<const uint32_t> pictures = {});
+                      const LightSelection& selection, std::span<const uint32_t> pictures = {},
+                      std::shared_ptr<const EnvironmentTable> environment = {});
 
 } // namespace stromboli

@@ -3,12 +3,17 @@
 #include "host/core/named_values.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace stromboli {
+
+namespace build {
+class PictureStore;
+}
 
 /// Which normals meshes are shaded with.
 enum class VertexNormals {
@@ -110,6 +115,8 @@ struct SceneConventions {
     bool scaleCameras = true;
 
     FileSelection selection;
+    /// Where pictures are kept for the next reading of the file; none: nowhere.
+    std::shared_ptr<build::PictureStore> pictures;
 
     VertexNormals vertexNormals = VertexNormals::FromFile;
     Winding winding = Winding::TowardsNormals;

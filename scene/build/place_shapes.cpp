@@ -38,6 +38,11 @@ void SceneBuilder::place(const FilePlace& where, ShapeId id, const glm::dmat4& t
                        startInstance(instanceName)});
 }
 
+void SceneBuilder::markMoving() {
+    scene_.movingInstances.resize(scene_.instances.size());
+    scene_.movingInstances.back() = true;
+}
+
 uint32_t SceneBuilder::startInstance(const std::string& name) {
     scene_.instances.push_back(name);
     return uint32_t(scene_.instances.size() - 1);

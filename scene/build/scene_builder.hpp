@@ -75,6 +75,10 @@ class SceneBuilder {
     /// each is shown.
     void place(const FilePlace& where, ShapeId shape, const glm::dmat4& toWorld,
                std::span<const uint32_t> materials, const std::string& instanceName);
+    /// The instance that was placed last is moved by an animation.
+    void markMoving();
+    /// So are lights.
+    void markMovingLights() { scene_.lightsMove = true; }
 
     /// Adds a light with name, kind, colour and falloff set; the matrix gives its place and aim:
     /// it shines along its own -z axis, and a rectangle spans its x and y axes from -1/2 to 1/2.

@@ -16,6 +16,8 @@ struct AnimatedNode {
     std::optional<glm::dvec3> translation, scale;
     std::optional<glm::dquat> rotation;
     std::vector<double> weights;
+
+    bool isPosed() const { return translation || rotation || scale; }
 };
 
 /// The file's first animation at the time that `--at` asks for; empty without it.

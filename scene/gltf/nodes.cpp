@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <numeric>
 
 namespace stromboli::gltf {
@@ -57,6 +58,7 @@ void Nodes::findParents() {
 /// From the roots on, without recursion: a file can nest nodes as deep as it likes.
 void Nodes::findTransforms() {
     toWorld_.assign(document_.size("nodes"), glm::dmat4(1));
+    moves_.assign(toWorld_.size(), false);
     std::vector<bool> reached(toWorld_.size(), false);
     std::vector<size_t> open = roots_;
     for (const size_t root : roots_)
@@ -65,8 +67,11 @@ void Nodes::findTransforms() {
         const size_t node = open.back();
         open.pop_back();
         reached[node] = true;
+        if (const auto found = animated_.find(node); found != animated_.end())
+            moves_[node] = moves_[node] || found->second.isPosed();
         for (const size_t child : childrenOf(node)) {
             toWorld_[child] = toWorld_[node] * localTransform(child);
+            moves_[child] = moves_[node];
             open.push_back(child);
         }
     }
@@ -81,8 +86,7 @@ glm::dmat4 Nodes::localTransform(size_t index) const {
     const auto found = animated_.find(index);
     const AnimatedNode pose = found == animated_.end() ? AnimatedNode{} : found->second;
     const std::vector<double> m = node.numbers("matrix", 16);
-    const bool isPosed = pose.translation || pose.rotation || pose.scale;
-    if (!m.empty() && !isPosed) {
+    if (!m.empty() && !pose.isPosed()) {
         glm::dmat4 matrix;
         for (int i = 0; i < 16; ++i)
             matrix[i / 4][i % 4] = m[size_t(i)];
@@ -141,6 +145,7 @@ void Nodes::placeNode(size_t index) {
     const Element at = stated->item("lights", *light);
     placeLight(context_, at, node.has("name") ? node.displayName() : at.displayName(),
                toWorld_[index]);
+    if (moves_[index]) context_.builder.markMovingLights();
 }
 
 void Nodes::placeMesh(const Element& node, size_t index) {
@@ -156,9 +161,22 @@ void Nodes::placeMesh(const Element& node, size_t index) {
     if (!built) return;
     // The joints of a skin lead to the world by themselves.
     const glm::dmat4 toWorld = deformation.joints.empty() ? toWorld_[index] : glm::dmat4(1);
-    for (const glm::dmat4& place : placesOf(node, toWorld))
+    const bool moves = isMoved(node, index);
+    for (const glm::dmat4& place : placesOf(node, toWorld)) {
         context_.builder.place(node.place(), built->shape, place, built->materials,
                                node.displayName());
+        if (moves) context_.builder.markMoving();
+    }
+}
+
+/// The joints of a skin lead to the world whatever its node does.
+bool Nodes::isMoved(const Element& node, size_t index) const {
+    const auto found = animated_.find(index);
+    if (found != animated_.end() && !found->second.weights.empty()) return true;
+    const auto skin = document_.follow(node, "skin", "skins");
+    if (!skin) return moves_[index];
+    const std::vector<size_t> joints = skin->indices("joints", document_.size("nodes"));
+    return std::ranges::any_of(joints, [&](size_t joint) { return moves_[joint]; });
 }
 
 /// One place, or those of EXT_mesh_gpu_instancing.

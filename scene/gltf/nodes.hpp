@@ -29,13 +29,17 @@ class Nodes {
     void placeMesh(const Element& node, size_t index);
     std::vector<glm::dmat4> placesOf(const Element& node, const glm::dmat4& toWorld) const;
     std::vector<glm::dmat4> jointsOf(const Element& node) const;
+    /// Whether the animation moves or deforms the node's mesh.
+    bool isMoved(const Element& node, size_t index) const;
 
     Context& context_;
     const Document& document_;
     Meshes meshes_;
     std::map<size_t, AnimatedNode> animated_;
-    std::vector<size_t> roots_;       ///< nodes without a parent
-    std::vector<glm::dmat4> toWorld_; ///< for each node
+    std::vector<size_t> roots_; ///< nodes without a parent
+    // For each node:
+    std::vector<glm::dmat4> toWorld_;
+    std::vector<bool> moves_; ///< the animation moves it or an ancestor
 };
 
 } // namespace stromboli::gltf

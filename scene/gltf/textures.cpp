@@ -1,6 +1,7 @@
 #include "scene/gltf/textures.hpp"
 
 #include "host/core/memory.hpp"
+#include "scene/build/picture_store.hpp"
 #include "scene/gltf/uri.hpp"
 #include "scene/images/texture_image.hpp"
 
@@ -123,7 +124,7 @@ std::optional<uint32_t> Textures::texture(size_t index, bool srgb) {
 uint32_t Textures::image(size_t index, bool srgb) {
     const auto found = images_.find({index, srgb});
     if (found != images_.end()) return found->second;
-    TextureImage picture = read(index, srgb);
+    TextureImage picture = readOnce(index, srgb);
     const uint32_t largest = context_.selection().largestTexture;
     const bool shrinks = largest > 0 && (picture.width > largest || picture.height > largest);
     // Bytes are the same whatever they mean; what is decoded or mixed is not.
@@ -144,6 +145,12 @@ void Textures::requireRoom(uint64_t bytes, size_t index) {
             .fail(fmt::format("brings the pictures to {} MiB, more than half of this machine's "
                               "memory; --max-texture N shrinks them",
                               bytes_ >> 20));
+}
+
+TextureImage Textures::readOnce(size_t index, bool srgb) {
+    build::PictureStore* store = context_.builder.conventions().pictures.get();
+    if (!store) return read(index, srgb);
+    return store->get(fmt::format("{} {}", index, srgb), [&] { return read(index, srgb); });
 }
 
 TextureImage Textures::read(size_t index, bool srgb) {

@@ -30,6 +30,8 @@ class Textures {
     std::optional<uint32_t> texture(size_t index, bool srgb);
     std::optional<size_t> sourceOf(const Element& texture);
     uint32_t image(size_t index, bool srgb);
+    /// From where the conventions keep it, if it is there.
+    TextureImage readOnce(size_t index, bool srgb);
     TextureImage read(size_t index, bool srgb);
     void requireRoom(uint64_t bytes, size_t index);
 

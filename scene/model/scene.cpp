@@ -2,6 +2,8 @@
 
 #include "scene/model/placements.hpp"
 
+#include <algorithm>
+
 namespace stromboli {
 
 float Bounds::halfArea() const {
@@ -23,6 +25,10 @@ Bounds Scene::bounds() const {
         b.extend(s.center + glm::vec3(s.radius));
     }
     return b;
+}
+
+bool Scene::isMoment() const {
+    return std::ranges::find(movingInstances, true) != movingInstances.end();
 }
 
 uint64_t Scene::placedTriangles() const {

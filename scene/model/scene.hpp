@@ -125,6 +125,10 @@ struct Scene {
     std::optional<Environment> environment;
     std::vector<FileCamera> cameras;    ///< in document order
     std::vector<std::string> instances; ///< names of the placed meshes and spheres
+    /// By instance: whether the animation moves it that the scene is a moment of; empty: no
+    /// animation is shown.
+    std::vector<bool> movingInstances;
+    bool lightsMove = false; ///< likewise, some of the lights
     /// What a camera that frames the scene frames, where that is not bounds(): the geometry the
     /// file states, without emitters made from area lights.
     std::optional<Bounds> framing;
@@ -136,6 +140,11 @@ struct Scene {
     uint32_t firstInWorld() const {
         return prototypes.empty() ? 0
                                   : prototypes.back().firstTriangle + prototypes.back().triangles;
+    }
+    /// Whether anything moves.
+    bool isMoment() const;
+    bool moves(uint32_t instance) const {
+        return instance < movingInstances.size() && movingInstances[instance];
     }
     /// Triangles that a ray can meet, those of each placement counted anew.
     uint64_t placedTriangles() const;

@@ -73,6 +73,15 @@ TEST(FrameNumbers, AreARangeOrOne) {
         EXPECT_THROW(readFrames("--frames", wrong), UsageError) << wrong;
 }
 
+TEST(Turntable, TurnsCounterClockwise) {
+    Options asked;
+    asked.sequence.turntable = 4;
+    const std::vector<Options> frames = optionsOfFrames(asked);
+    ASSERT_EQ(frames.size(), 4u);
+    for (size_t i = 0; i < 4; ++i)
+        EXPECT_NEAR(frames[i].camera.turn, 1.5707963267948966 * double(i), 1e-12);
+}
+
 TEST_F(Sequence, TurntableHasTheBytesOfItsFramesAlone) {
     const std::string scene = libraryScene("cornell_boxes.dae");
     const ProgramRun all =
@@ -99,6 +108,42 @@ TEST_F(Sequence, AnimationHasTheBytesOfItsFramesAlone) {
     EXPECT_NE(picture("a.0002.png"), "");
     EXPECT_EQ(picture("a.0002.png"), picture("b.0002.png"));
     EXPECT_NE(picture("a.0002.png"), picture("a.0001.png")) << "it moves";
+}
+
+/// What stands still, here a floor of another mesh and the picture on it, is built and read once.
+TEST_F(Sequence, MovingAmongWhatStandsStillHasTheBytesOfItsFramesAlone) {
+    std::string text = kMoving;
+    const auto replace = [&](const std::string& what, const std::string& by) {
+        text.replace(text.find(what), what.size(), by);
+    };
+    replace(R"("scenes": [{"nodes": [0, 1]}])", R"("scenes": [{"nodes": [0, 1, 2]}])");
+    replace(R"({"camera": 0, "translation": [2, 0, 6]}])",
+            R"({"camera": 0, "translation": [2, 0, 6]},
+  {"mesh": 1, "translation": [2, -1, 0], "scale": [3, 1, 1]}])");
+    replace(R"("meshes": [)", R"("images": [{"uri": "a.png"}], "textures": [{"source": 0}],
+"materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+"meshes": [)");
+    replace(R"("POSITION": 0}}]}])", R"("POSITION": 0}}]},
+ {"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}])");
+    const std::string scene = folder.write("a.gltf", text);
+    ASSERT_EQ(stromboli({"render", libraryScene("cornell_boxes.dae"), "-r", "8", "8", "-s", "1",
+                         "-q", "-o", folder.file("a.png")})
+                  .exitCode,
+              0);
+    const std::vector<std::string> sky = {"--env", "evening_sky", "--fps", "4"};
+    const auto frames = [&](const std::string& numbers, const std::string& output) {
+        std::vector<std::string> words = {scene, "--frames", numbers, "-o", folder.file(output)};
+        words.insert(words.end(), sky.begin(), sky.end());
+        const ProgramRun run = render(words);
+        EXPECT_EQ(run.exitCode, 0) << run.err;
+    };
+    frames("0..3", "all.png");
+    for (const std::string number : {"0", "2", "3"}) {
+        frames(number, "one.png");
+        EXPECT_NE(picture("all.000" + number + ".png"), "");
+        EXPECT_EQ(picture("all.000" + number + ".png"), picture("one.000" + number + ".png"));
+    }
+    EXPECT_NE(picture("all.0002.png"), picture("all.0001.png")) << "it moves";
 }
 
 /// But for the words of how they were made.

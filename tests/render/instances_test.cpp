@@ -205,6 +205,27 @@ TEST_F(Instances, ShadeThemselves) {
         ASSERT_GT(pixel.mean.x, 0.1);
 }
 
+/// Surfaces at one distance are each met once, also where the same triangle is placed twice in one
+/// place. False alarm below 1e-6 (5 standard errors of 7680 samples).
+TEST_F(Instances, InOnePlaceAreEachPassed) {
+    SceneMaker b;
+    SceneMaker mesh;
+    mesh.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 0);
+    Material veil = diffuse(0);
+    veil.alphaMode = AlphaMode::Blend;
+    veil.opacity = 0.5f;
+    const uint32_t quads = addPrototype(b.scene, mesh.scene, b.add(veil));
+    place(b.scene, quads, {0, 0, 0}, {1, 1, 1}, 0);
+    place(b.scene, quads, {0, 0, 0}, {1, 1, 1}, 0);
+    b.quad({-4, -4, -1}, {8, 0, 0}, {0, 8, 0}, b.add(emissive(1)));
+    const Camera ahead = lookingAt({0.1, 0.2, 2}, {0, 0, 0}, 0.1);
+    double sum = 0;
+    const Film film = renderOnDevice(testDevice(), b.scene, ahead, settings(4));
+    for (const PixelStatistics& pixel : film.pixels)
+        sum += pixel.mean.x;
+    EXPECT_NEAR(sum / double(film.pixels.size()), 0.25, 0.025);
+}
+
 /// Layers of a picture with one camera ray a pixel.
 FloatImage layersBy(Viewer& viewer, const Scene& scene, const PictureArea& area) {
     FloatImage image(area);

@@ -160,6 +160,50 @@ TEST(GltfAnimations, Weights) {
     EXPECT_EQ(corner(load(g, at(2))), glm::vec3(3, 4, 0));
 }
 
+using Marks = std::vector<bool>;
+
+TEST(GltfAnimations, MarkWhatTheyMove) {
+    GltfText g = animated("translation", "VEC3", {0, 0, 0, 0, 8, 0});
+    g.arrays["nodes"][0] = R"({"mesh": 0, "children": [2]})";
+    g.addTo("nodes", R"("mesh": 0, "name": "still")");
+    g.addTo("nodes", R"("mesh": 0, "name": "child of one that moves")");
+    g.arrays["scenes"][0] = R"({"nodes": [0, 1]})";
+    EXPECT_FALSE(load(g).isMoment());
+    const Scene scene = load(g, at(2));
+    EXPECT_TRUE(scene.isMoment());
+    ASSERT_EQ(scene.instances.size(), 3u);
+    for (size_t i = 0; i < 3; ++i)
+        EXPECT_EQ(scene.moves(uint32_t(i)), scene.instances[i] != "still") << scene.instances[i];
+    EXPECT_FALSE(scene.lightsMove);
+    EXPECT_EQ(load(animated("weights", "SCALAR", {0, 0, 4, 8}), at(2)).movingInstances,
+              Marks{true});
+}
+
+/// A skin moves with its joints, whatever its node does.
+TEST(GltfAnimations, MarkSkinsWhoseJointsTheyMove) {
+    for (const int node : {0, 1, 2}) {
+        GltfText g = withSkin();
+        const size_t times = g.addAccessor<float>({1, 3}, "SCALAR");
+        const size_t places = g.addAccessor<float>({0, 0, 0, 0, 8, 0}, "VEC3");
+        g.addTo("animations", fmt::format(R"("samplers": [{{"input": {}, "output": {}}}],
+                "channels": [{{"sampler": 0, "target": {{"node": {}, "path": "translation"}}}}])",
+                                          times, places, node));
+        EXPECT_EQ(load(g, at(2)).isMoment(), node != 0) << node;
+    }
+}
+
+TEST(GltfAnimations, MarkLightsThatTheyMove) {
+    GltfText g = animated("translation", "VEC3", {0, 0, 0, 0, 8, 0});
+    g.members["extensions"] = R"({"KHR_lights_punctual": {"lights": [{"type": "point"}]}})";
+    g.arrays["nodes"][0] = R"({"extensions": {"KHR_lights_punctual": {"light": 0}}})";
+    g.addTo("nodes", R"("mesh": 0)");
+    g.arrays["scenes"][0] = R"({"nodes": [0, 1]})";
+    const Scene scene = load(g, at(2));
+    EXPECT_TRUE(scene.lightsMove);
+    EXPECT_FALSE(scene.isMoment());
+    EXPECT_FALSE(load(g).lightsMove);
+}
+
 TEST(GltfAnimations, WrongOnes) {
     EXPECT_THAT(problem(animated("translation", "VEC3", {0, 0, 0}), at(1)),
                 HasSubstr("<animations[0].samplers[0].output>: has 3 numbers for 2 key frames"));
