@@ -85,18 +85,14 @@ void declareEstimator(DeclaredCommand& c) {
         .usually("throughput; --cs184: none")
         .proposes({"none", "throughput"})
         .from("0 to 1, without 1");
-    list.words("--gap-proposal", "WHETHER",
+    list.onOff("--gap-proposal",
                "on: some bounces go into the bright gap between a light and a surface close to it; "
                "off: all as the materials scatter",
-               1,
-               [&e](const Words& words) {
-                   if (words[0] != "on" && words[0] != "off")
-                       throw UsageError(
-                           fmt::format("--gap-proposal is '{}': expected on or off", words[0]));
-                   e.gapProposal = words[0] == "on";
-               })
-        .usually(e.gapProposal ? "on" : "off")
-        .proposes({"on", "off"});
+               e.gapProposal);
+    list.onOff("--terminator-offset",
+               "on: meshes with normals of their own reflect light from the smooth surface that "
+               "these describe; off: from their flat triangles, as most renderers have it",
+               e.conventions.offsetsTerminator);
     list.choice("--integrator", "KIND", "what a sample is", e.integrator);
     list.flag("--cs184",
               "the CS184 renderer's conventions: framing and crop, normals, lights, tone curve, "

@@ -135,6 +135,18 @@ CommandOption& OptionList::flag(std::string names, std::string help, bool& where
     return flag(std::move(names), std::move(help), [&where] { where = true; });
 }
 
+CommandOption& OptionList::onOff(std::string names, std::string help, bool& where) {
+    CommandOption& o = words(std::move(names), "WHETHER", std::move(help), 1, {});
+    o.usual = where ? "on" : "off";
+    o.proposals = {"on", "off"};
+    o.store = [&where, name = o.name()](const Words& given) {
+        if (given.front() != "on" && given.front() != "off")
+            refuse(name, given.front(), "on or off");
+        where = given.front() == "on";
+    };
+    return o;
+}
+
 CommandOption& OptionList::text(std::string names, std::string valueName, std::string help,
                                 std::string& where) {
     CommandOption& o = words(std::move(names), std::move(valueName), std::move(help), 1, {});

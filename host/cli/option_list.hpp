@@ -105,6 +105,8 @@ class OptionList {
 
     CommandOption& flag(std::string names, std::string help, bool& where);
     CommandOption& flag(std::string names, std::string help, std::function<void()> store);
+    /// With the word on or off.
+    CommandOption& onOff(std::string names, std::string help, bool& where);
     CommandOption& text(std::string names, std::string valueName, std::string help,
                         std::string& where);
     CommandOption& number(std::string names, std::string valueName, std::string help,

@@ -88,15 +88,10 @@ void declareScene(DeclaredCommand& c) {
         .proposes(Proposed::Scenes);
     SceneConventions& reading = c.options.reading;
     c.list
-        .words("--default-light", "WHETHER",
-               "on: a plain sky lights a file without any light; off: it stays black", 1,
-               [&reading](const Words& words) {
-                   if (words[0] != "on" && words[0] != "off")
-                       refuse("--default-light", words[0], "on or off");
-                   reading.defaultLight = words[0] == "on";
-               })
-        .usually("on; --cs184: off")
-        .proposes({"on", "off"});
+        .onOff("--default-light",
+               "on: a plain sky lights a file without any light; off: it stays black",
+               reading.defaultLight)
+        .usually("on; --cs184: off");
     EnvironmentRequest& environment = c.options.environment;
     c.list
         .words("--env", "FILE",
@@ -168,18 +163,11 @@ void declarePictureFile(DeclaredCommand& c) {
     c.list.real("--exposure", "EV", "PNG: radiance times 2^EV", o.tone.exposure, kStops);
     c.list.flag("--aov", "EXR: also sample counts and variances of the mean", o.statisticsChannels);
     c.list
-        .words("--notes", "WHETHER",
+        .onOff("--notes",
                "on: the picture's file says of which scene it is, with which seed, samples, "
                "version, device and command it was made (info shows it); off: it does not",
-               1,
-               [&o](const Words& words) {
-                   if (words[0] != "on" && words[0] != "off")
-                       refuse("--notes", words[0], "on or off");
-                   o.notes = words[0] == "on";
-               })
-        .usually("on")
-        .besidePicture()
-        .proposes({"on", "off"});
+               o.notes)
+        .besidePicture();
 }
 
 void declarePicture(DeclaredCommand& c) {

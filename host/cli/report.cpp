@@ -122,7 +122,7 @@ void logBrightness(const Brightness& b, const Job& job, const Options& options) 
 
 void writeStatistics(const std::string& file, const RenderReport& r, const Job& job) {
     const RenderSettings& s = job.settings;
-    const Json json = {
+    Json json = {
         {"version", version()},
         {"scene", job.scene.file},
         {"backend", r.backend},
@@ -155,6 +155,7 @@ void writeStatistics(const std::string& file, const RenderReport& r, const Job& 
         {"noise", r.noise.known() ? Json(r.noise.estimate) : Json()},
         {"noiseRange", r.noise.known() ? Json(std::array{r.noise.least, r.noise.most}) : Json()},
     };
+    if (r.isShare) json["seconds"]["write"] = r.writeSeconds; // of pictures it is still to come
     writeOutput(file, json.dump(4) + "\n");
 }
 

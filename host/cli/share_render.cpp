@@ -180,8 +180,12 @@ void takeShare(const Job& job, const Options& options, const PlannedShare& share
         if (report.interrupted) return;
         const Film film = taken.film();
         count(film, settings, report);
-        writer.add(taken.sums(), header.holdsLayers ? layersByPixel(*viewer(), film, job, options)
-                                                    : std::vector<float>{});
+        const std::vector<float> layers = header.holdsLayers
+                                              ? layersByPixel(*viewer(), film, job, options)
+                                              : std::vector<float>{};
+        const Stopwatch writing;
+        writer.add(taken.sums(), layers);
+        report.writeSeconds += writing.seconds();
         firstPixel += uint32_t(band.pixelCount());
     }
     if (isPlanned) report.pixelsUnreached = 0; // by this share: others have samples of them
@@ -189,7 +193,7 @@ void takeShare(const Job& job, const Options& options, const PlannedShare& share
     nowDoing("writing " + options.output);
     const Stopwatch writing;
     writer.finish();
-    report.writeSeconds = writing.seconds();
+    report.writeSeconds += writing.seconds();
 }
 
 } // namespace stromboli

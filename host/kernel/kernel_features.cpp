@@ -89,9 +89,15 @@ bool proposesGap(const GpuScene& scene, const Estimator& settings) {
 }
 
 /// The shaders have two sets of conventions, told apart by one constant (include/cs184.glsl).
-uint32_t conventionsConstant(const ShadingConventions& conventions) {
-    if (conventions == ShadingConventions{}) return 0;
+bool hasTerminatorOffset(const KernelFeatures& f) {
+    return f[SPEC_HAS_NORMALS] && !f[SPEC_CS184] && !f[SPEC_FLAT_TERMINATOR];
+}
+
+/// The terminator offset is a constant by itself.
+uint32_t conventionsConstant(ShadingConventions conventions) {
     if (conventions == cs184Shading()) return 1;
+    conventions.offsetsTerminator = true;
+    if (conventions == ShadingConventions{}) return 0;
     throw std::invalid_argument("the kernel has no mixture of two sets of shading conventions");
 }
 
@@ -245,6 +251,8 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_FILTER_EXTRA] = std::bit_cast<uint32_t>(float(settings.filterShape.width - 1));
     f[SPEC_CLIP_ALONG_RAY] = camera.clipAlongRay;
     f[SPEC_CS184] = conventionsConstant(settings.conventions);
+    f[SPEC_FLAT_TERMINATOR] = scene.hasNormals && settings.conventions.facesForward &&
+                              !settings.conventions.offsetsTerminator;
     f[SPEC_LIGHT_SAMPLES] = directSampling(scene.lights, settings).perLight;
     f[SPEC_LIGHT_CHOICE] = lightChoiceConstant(scene.lights);
     f[SPEC_LIGHT_GROUPS] = scene.lights.groups;
@@ -315,6 +323,7 @@ std::vector<std::string> describe(const KernelFeatures& f) {
                     f[SPEC_HAS_LENS] ? ", through a lens" : ""),
         fmt::format("pixel filter: {}", kFilters[f[SPEC_PIXEL_FILTER]]),
         fmt::format("CS184 conventions: {}", f[SPEC_CS184] ? "yes" : "no"),
+        fmt::format("terminator offset: {}", hasTerminatorOffset(f) ? "yes" : "none"),
         fmt::format("traversal stack: {} entries{}", f[SPEC_STACK_SIZE],
                     f[SPEC_LARGE_TREE] ? " of two words" : ""),
     };

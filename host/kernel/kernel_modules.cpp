@@ -42,10 +42,11 @@ bool needsRichModule(const KernelFeatures& f) {
     return hasFacetMaterials(f) || (f[SPEC_LIGHT_KINDS] & 1u << gpu::LIGHT_PROJECTOR) != 0 ||
            f[SPEC_HAS_ENVIRONMENT] != 0 || f[SPEC_HAS_BACKDROP] != 0 || f[SPEC_HAS_LENS] != 0 ||
            f[SPEC_PIXEL_FILTER] != gpu::FILTER_BOX || f[SPEC_FILTER_EXTRA] != 0 ||
-           f[SPEC_HIDES_SURFACES] != 0 || (f[SPEC_BSDF_KINDS] & 1u << gpu::BSDF_PRINCIPLED) != 0 ||
-           f[SPEC_TEXTURE_SLOTS] != 0 || f[SPEC_LOOSE_SLOTS] != 0 || f[SPEC_TEXEL_KINDS] != 0 ||
-           f[SPEC_ATTRIBUTES] != 0 || f[SPEC_ALPHA] != 0 || f[SPEC_TANGENT_FRAMES] != 0 ||
-           f[SPEC_BLENDS] != 0 || f[SPEC_RELIEF_RULES] != 0 || f[SPEC_PRINCIPLED_FEATURES] != 0 ||
+           f[SPEC_HIDES_SURFACES] != 0 || f[SPEC_FLAT_TERMINATOR] != 0 ||
+           (f[SPEC_BSDF_KINDS] & 1u << gpu::BSDF_PRINCIPLED) != 0 || f[SPEC_TEXTURE_SLOTS] != 0 ||
+           f[SPEC_LOOSE_SLOTS] != 0 || f[SPEC_TEXEL_KINDS] != 0 || f[SPEC_ATTRIBUTES] != 0 ||
+           f[SPEC_ALPHA] != 0 || f[SPEC_TANGENT_FRAMES] != 0 || f[SPEC_BLENDS] != 0 ||
+           f[SPEC_RELIEF_RULES] != 0 || f[SPEC_PRINCIPLED_FEATURES] != 0 ||
            f[SPEC_HAS_PLACEMENTS] != 0;
 }
 

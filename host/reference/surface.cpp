@@ -108,6 +108,7 @@ void faceForward(SurfacePoint& s, const ShadingConventions& conventions) {
         s.unmapped = s.shading;
         return;
     }
+    if (!conventions.offsetsTerminator) s.lift = 0;
     if (!s.outside) s.geometric = -s.geometric;
     if (glm::dot(s.shading, s.geometric) < 0) s.shading = -s.shading;
     if (glm::dot(s.shading, s.wo) <= 0) s.shading = s.geometric;

@@ -13,7 +13,7 @@ namespace stromboli {
 namespace {
 
 /// Changes with every change of what is written.
-constexpr std::string_view kVersion = "stromboli session 6";
+constexpr std::string_view kVersion = "stromboli session 7";
 
 template <class T>
 concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::same_as<T, glm::dvec3>;
@@ -63,10 +63,10 @@ void pass(Archive& a, Crop& c) {
 template <class Archive>
 void pass(Archive& a, ShadingConventions& conventions) {
     // Names all members: one more is an error here.
-    auto& [forward, side, fresnel, lambda, compresses, find, square, ambient, emitters, every,
-           hemisphere] = conventions;
+    auto& [forward, offset, side, fresnel, lambda, compresses, find, square, ambient, emitters,
+           every, hemisphere] = conventions;
     a(forward), a(side), a(fresnel), a(lambda), a(compresses), a(find), a(square), a(ambient);
-    a(emitters), a(every), a(hemisphere);
+    a(emitters), a(every), a(hemisphere), a(offset);
 }
 
 template <class Archive>

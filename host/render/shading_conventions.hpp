@@ -5,15 +5,18 @@ namespace stromboli {
 /// Rules of shading by which renderers differ (docs/estimator.md, "CS184 mode", has the formulas).
 /// The default is what physics says. Code asks for a convention by its name and does not know whose
 /// it is. The names are those of shaders/include/cs184.glsl, which has those of surfaces and light;
-/// the kernel knows two sets only, the default and cs184Shading()
+/// the kernel knows two sets only, the default and cs184Shading(), but for the terminator offset
 /// (host/kernel/kernel_features.hpp).
 struct ShadingConventions {
     // Surfaces.
 
-    /// Normals are turned to the side of wo, and light is reflected from the smooth surface that
-    /// the normals describe. Otherwise normals stay as they are stored, the flat surface reflects,
-    /// and the side of the shading normal tells whether a path enters what the surface bounds.
+    /// Normals are turned to the side of wo. Otherwise they stay as they are stored, the flat
+    /// surface reflects, and the side of the shading normal tells whether a path enters what the
+    /// surface bounds.
     bool facesForward = true;
+    /// With facesForward: light is reflected from the smooth surface that the normals describe
+    /// (docs/numerics.md, "Shading normals and the terminator"); otherwise from the flat triangle.
+    bool offsetsTerminator = true;
     /// Light stays on the side of the geometric surface that its lobe sends it to.
     bool testsGeometricSide = true;
     /// Fresnel's equations; otherwise Schlick's approximation for glass, and one for conductors.
@@ -54,6 +57,7 @@ struct ShadingConventions {
 /// Those of the CS184 renderer (docs/cs184.md).
 constexpr ShadingConventions cs184Shading() {
     return {.facesForward = false,
+            .offsetsTerminator = false,
             .testsGeometricSide = false,
             .exactFresnel = false,
             .exactLambda = false,

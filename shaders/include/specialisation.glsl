@@ -72,7 +72,9 @@ layout(constant_id = SPEC_TANGENT_FRAMES) const bool TANGENT_FRAMES = false;
 layout(constant_id = SPEC_BLENDS) const bool HAS_BLENDS = false;
 layout(constant_id = SPEC_RELIEF_RULES) const bool RELIEF_RULES = false;
 layout(constant_id = SPEC_HIDES_SURFACES) const bool HIDES_SURFACES = false;
+layout(constant_id = SPEC_FLAT_TERMINATOR) const bool FLAT_TERMINATOR = false;
 #else
+const bool FLAT_TERMINATOR = false;
 const bool HAS_ALPHA = false;
 const bool RELIEF_RULES = false;
 #endif

@@ -127,7 +127,8 @@ CornerNormals cornerNormals(Primitive p) {
 void smoothShading(inout SurfacePoint s, bool given, CornerNormals n, PlacedPrimitive at, vec3 b) {
     if (!HAS_NORMALS) return;
     if (given) s.shading = interpolatedNormal(n, b, s.geometric);
-    if (given && FACES_FORWARD) s.lift = liftAt(n, at, b, s.outside ? s.geometric : -s.geometric);
+    if (given && FACES_FORWARD && !FLAT_TERMINATOR)
+        s.lift = liftAt(n, at, b, s.outside ? s.geometric : -s.geometric);
 }
 
 /// Fills in the point of the hit that `t` found. `shading` is left as the scene states it; see

@@ -76,12 +76,13 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_FILTER_EXTRA 42 // a float: Gaussian and tent are wider by this share
 #define SPEC_HIDES_SURFACES 43 // camera rays pass some materials (DETAIL_IS_HIDDEN)
 #define SPEC_RELIEF_RULES 44   // some material has MATERIAL_RELIEF_ bits
+#define SPEC_FLAT_TERMINATOR 48 // light is reflected from flat triangles (no terminator offset)
 // Of the modules with PLACEMENTS alone:
 #define SPEC_HAS_PLACEMENTS 45 // prototypes are placed in the world (scene_types.h)
 #define SPEC_TRAVERSAL_LEGS 46 // between two service passes, each of SPEC_TRAVERSAL_STEPS
 // Of all modules:
 #define SPEC_ROULETTE_START 47 // bounces before roulette by throughput
-#define SPEC_COUNT 48
+#define SPEC_COUNT 49
 
 SHARED_CONST uint TEXEL_KIND_NEAREST = 1u;
 SHARED_CONST uint TEXEL_KIND_BILINEAR = 2u;

@@ -298,6 +298,7 @@ TEST(KernelFeatures, ConventionsAreOneSetOrTheOther) {
     };
     EXPECT_EQ(constant({}), 0u);
     EXPECT_EQ(constant(cs184Shading()), 1u);
+    EXPECT_EQ(constant({.offsetsTerminator = false}), 0u) << "a constant of its own";
     using C = ShadingConventions;
     for (bool C::*member : {&C::facesForward, &C::testsGeometricSide, &C::exactFresnel,
                             &C::exactLambda, &C::compressesRadiance, &C::bouncesFindAllLight,

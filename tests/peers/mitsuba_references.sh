@@ -16,7 +16,7 @@ for reference in "$scenes"/*/refs/*_ref_rgb.exr; do
     name=$(basename "$reference" _ref_rgb.exr)
     scene=$(ls "$(dirname "$(dirname "$reference")")/${name}"_{path,direct}.xml 2>/dev/null | head -1 || true)
     [[ -n $scene ]] || continue
-    "$program" render "$scene" -s "$samples" --even --aov -q -o "$folder/$name.exr"
+    "$program" render "$scene" -s "$samples" --terminator-offset off --even --aov -q -o "$folder/$name.exr"
     echo "$name:"
     "$program" compare "$reference" "$folder/$name.exr" -s "$samples" \
         --ztest-variance "${reference%.exr}_var.exr" 2>/dev/null | grep '^by \|^bias' || true

@@ -138,6 +138,8 @@ const Mode kModes[] = {
      [](RenderSettings& s) { s.estimator.roulette.throughputStart = 6; }},
     {"lanczos", "cornell_boxes.dae",
      [](RenderSettings& s) { s.estimator.filter = PixelFilter::Lanczos; }},
+    {"flatTerminator", "cornell_mesh.dae",
+     [](RenderSettings& s) { s.estimator.conventions.offsetsTerminator = false; }},
     {"cs184", "cornell_metal.dae",
      [](RenderSettings& s) { s.estimator.conventions = cs184Shading(); }},
     {"cs184Glass", "cornell_mirror_glass.dae",

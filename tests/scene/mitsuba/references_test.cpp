@@ -46,6 +46,7 @@ Film filmOf(const Scene& scene, const PictureArea& area, uint32_t samples) {
     settings.estimator.filter =
         hints.filter == HintedFilter::Box ? PixelFilter::Box : PixelFilter::Gaussian;
     settings.estimator.sampler = Sampler::Independent;
+    settings.estimator.conventions.offsetsTerminator = false; // Mitsuba has none
     settings.estimator.directLight = DirectLight::MisAll; // its noise is Mitsuba's, by which z goes
     settings.estimator.roulette.mode = Roulette::Mode::None;
     settings.budget.mostSamplesPerPixel = samples;
@@ -79,12 +80,12 @@ Agreement agreement(const std::string& scene, const std::string& reference) {
 }
 
 /// shareByBounces: that of the tests of pixels which pass if light is found by bounces alone.
-/// seesTheFiltersTable: Mitsuba's gaussian filter is a table of 31 steps, which is a tenth wider at
-/// a pixel's distance: where pictures have little noise, blocks of 8 x 8 with edges see it.
+/// referenceIsOff: so little noise is in it that blocks of 8 x 8 see by how much it is off: Mitsuba
+/// 3.9.1 fails by them as well (docs/mitsuba.md).
 struct Case {
     const char *scene, *reference;
     double shareByBounces = 0.9975;
-    bool seesTheFiltersTable = false;
+    bool referenceIsOff = false;
 };
 
 class MitsubaReferences : public testing::TestWithParam<Case> {};
@@ -100,14 +101,14 @@ TEST_P(MitsubaReferences, Agree) {
               kCombinesLightSamplesWithBounces ? pixels.required : expected.shareByBounces);
     for (const int c : {0, 1, 2})
         EXPECT_LT(std::abs(blocks.means[c]), blocks.limit) << "X, Y, Z: " << c;
-    if (!expected.seesTheFiltersTable) {
+    if (!expected.referenceIsOff) {
         EXPECT_LT(blocks.largest, blocks.limit) << "block at " << blocks.x << " " << blocks.y;
     }
 }
 
 constexpr Case kCases[] = {
     {"floating_sphere/test_directional_direct.xml", "test_directional"},
-    {"instancing/test_instancing_path.xml", "test_instancing", 0.9975, true},
+    {"instancing/test_instancing_path.xml", "test_instancing"},
     {"texture_interp/test_texture_interp_direct.xml", "test_texture_interp", 0.9975, true},
     {"infinite_mirrors/scene_path.xml", "scene"},
     {"mesh_attributes/test_mesh_attributes_3_vertex_direct.xml", "test_mesh_attributes_3_vertex"},

@@ -96,6 +96,31 @@ TEST(Placements, BoxesHoldAllCorners) {
     }
 }
 
+/// Far from the prototype's origin, and near the world's: there corners have the rounding of
+/// numbers that are much larger than they are.
+TEST(Placements, BoxesHoldCornersWhoseTermsCancel) {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    for (int i = 0; i < 10000; ++i) {
+        const glm::vec3 point = 1000.0f * glm::vec3(unit(random), unit(random), unit(random));
+        glm::dmat4 m(1);
+        for (int column = 0; column < 3; ++column)
+            for (int row = 0; row < 3; ++row)
+                m[column][row] = unit(random);
+        m[3] = glm::dvec4(-glm::dvec3(m * glm::dvec4(point, 0)), 1);
+        const std::optional<Placement> placement = placementOf(m);
+        if (!placement) continue;
+        Bounds box;
+        box.extend(point);
+        const Bounds world = boundsInWorld(*placement, box);
+        const glm::vec3 at = placed(*placement, point);
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_LE(world.lo[axis], at[axis]);
+            EXPECT_GE(world.hi[axis], at[axis]);
+        }
+    }
+}
+
 TEST(Placements, CopiesKeepTheSideOfTheirNormals) {
     for (const bool mirrors : {false, true}) {
         const Scene scene = oneTriangle(someMatrix(mirrors));
