@@ -66,8 +66,8 @@ void add(Sum& sum, const TextureUse& t) {
 void add(Sum& sum, const Material& m) {
     const auto& [name, kind, albedo, reflectance, transmittance, ior, alpha, eta, k, facets,
                  isNonlinear, internalViews, emission, bothSides, principled, burley, alphaMode,
-                 opacity, alphaCutoff, other, otherShare, isHiddenFromCamera, isBlackBehind,
-                 reliefRule, reliefShadows, textures] = m;
+                 opacity, alphaCutoff, other, otherShare, otherPlace, isHiddenFromCamera,
+                 isBlackBehind, reliefRule, reliefShadows, textures] = m;
     const auto& [distribution, facetAlpha, masking] = facets;
     sum.add(kind), sum.add(albedo), sum.add(reflectance), sum.add(transmittance), sum.add(ior);
     sum.add(alpha), sum.add(eta), sum.add(k), sum.add(emission), sum.add(bothSides);
@@ -83,6 +83,7 @@ void add(Sum& sum, const Material& m) {
         sum.add(reliefRule), sum.add(reliefShadows);
     if (isHiddenFromCamera) sum.add(2);
     if (other != kNoMaterial) sum.add(other), sum.add(otherShare);
+    if (otherPlace != OtherPlace::ByShare) sum.add(otherPlace);
     sum.add(alphaMode), sum.add(opacity), sum.add(alphaCutoff);
     for (const TextureUse& t : textures)
         add(sum, t);

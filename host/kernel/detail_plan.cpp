@@ -20,6 +20,7 @@ bool hasEffect(const Material& m, TextureSlot slot) {
     const bool hasReflectance = m.kind == MaterialKind::ThinDielectric ||
                                 m.kind == MaterialKind::Plastic ||
                                 (m.kind == MaterialKind::Dielectric && hasFacets);
+    if (slot == TextureSlot::Opacity) return m.alphaMode != AlphaMode::Opaque;
     if (slot == TextureSlot::BlendShare) return m.other != kNoMaterial && m.otherShare > 0;
     if (m.kind == MaterialKind::Burley) return slot != TextureSlot::ClearcoatNormal;
     const PrincipledParameters& p = m.principled;
@@ -54,6 +55,7 @@ bool hasEffect(const Material& m, TextureSlot slot) {
     case TextureSlot::Anisotropy:
         return isPrincipled && p.anisotropy > 0;
     case TextureSlot::BlendShare: // above
+    case TextureSlot::Opacity:    // likewise
     case TextureSlot::Projection: // of lights
         return false;
     }
@@ -185,8 +187,10 @@ class Planner {
         if (m.opacity != 1 || hasTransparentColors_) return true;
         if (m.alphaMode == AlphaMode::Mask && m.alphaCutoff > 1) return true;
         for (const TextureUse& use : m.textures)
-            if (use.slot == TextureSlot::BaseColor &&
-                !isOpaque(scene_.images[scene_.textures[use.texture].image]))
+            if (use.slot == TextureSlot::Opacity)
+                return true;
+            else if (use.slot == TextureSlot::BaseColor &&
+                     !isOpaque(scene_.images[scene_.textures[use.texture].image]))
                 return true;
         return false;
     }
@@ -205,7 +209,10 @@ DetailPlan planDetails(const Scene& scene, const std::vector<bool>& used) {
     static_assert(uint32_t(TextureSlot::Anisotropy) == gpu::TEXTURE_ANISOTROPY);
     static_assert(uint32_t(TextureSlot::Height) == gpu::TEXTURE_HEIGHT);
     static_assert(uint32_t(TextureSlot::BlendShare) == gpu::TEXTURE_BLEND_SHARE);
+    static_assert(uint32_t(OtherPlace::Behind) == gpu::OTHER_BEHIND);
+    static_assert(uint32_t(OtherPlace::InFront) == gpu::OTHER_IN_FRONT);
     static_assert(uint32_t(TextureSlot::Projection) == gpu::TEXTURE_PROJECTION);
+    static_assert(uint32_t(TextureSlot::Opacity) == gpu::TEXTURE_OPACITY);
     return Planner(scene).plan(used);
 }
 

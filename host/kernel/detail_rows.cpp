@@ -192,6 +192,7 @@ std::vector<Row> materialDetail(const Scene& scene, const Material& m,
             detail.flags |= (number + 1) << gpu::DETAIL_BASE_COLOR_SHIFT;
         if (slot == TextureSlot::Emission)
             detail.flags |= (number + 1) << gpu::DETAIL_EMISSION_SHIFT;
+        if (slot == TextureSlot::Opacity) detail.flags |= (number + 1) << gpu::DETAIL_OPACITY_SHIFT;
     };
     std::vector<Row> uses;
     uint32_t number = 0, shareTexture = 0;
@@ -211,7 +212,8 @@ std::vector<Row> materialDetail(const Scene& scene, const Material& m,
     if (plan.isBlend) {
         detail.flags |= gpu::DETAIL_IS_BLEND;
         // packMaterials() knows the other material's row.
-        appendRows(uses, gpu::BlendRow{m.other, m.otherShare, shareTexture, 0});
+        appendRows(uses,
+                   gpu::BlendRow{m.other, m.otherShare, shareTexture, uint32_t(m.otherPlace)});
     }
     std::vector<Row> rows;
     appendRows(rows, detail);

@@ -36,13 +36,6 @@ bool leavesLightsToBounces(const Material& material) {
            hasNarrowFacets(material);
 }
 
-/// Whether the surface, its normals as stated, is seen from where its material is black. Its front
-/// is where its shading normals point.
-bool isBlackFromThere(const SurfacePoint& s) {
-    if (!s.material->isBlackBehind) return false;
-    return (glm::dot(s.geometric, s.wo) < 0) != (glm::dot(s.geometric, s.shading) < 0);
-}
-
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 } // namespace
@@ -63,7 +56,7 @@ glm::dvec3 PathSample::radiance(const Ray& cameraRay) {
 
 void PathSample::follow(uint32_t bounce, bool splits) {
     for (; bounce <= settings_.maxBounces; ++bounce) {
-        if (isBlackFromThere(surface_)) return;
+        if (surface_.material->isBlackBehind && isSeenFromBehind(surface_)) return;
         faceForward(surface_, world_.conventions);
         if (world_.hasDetails) applyNormalMap(surface_, world_.scene, world_.conventions);
         if (surface_.material->hasReliefRules() && glm::dot(surface_.shading, surface_.wo) <= 0)

@@ -102,6 +102,10 @@ double SmoothTriangle::height(const glm::dvec3& weights, const glm::dvec3& front
     return std::max(sum, 0.0);
 }
 
+bool isSeenFromBehind(const SurfacePoint& s) {
+    return (glm::dot(s.geometric, s.wo) < 0) != (glm::dot(s.geometric, s.shading) < 0);
+}
+
 void faceForward(SurfacePoint& s, const ShadingConventions& conventions) {
     if (!conventions.facesForward) {
         s.lift = 0;

@@ -54,6 +54,9 @@ struct SmoothTriangle {
 /// Where conventions do not face forward, this only takes the lift away.
 void faceForward(SurfacePoint& surface, const ShadingConventions& conventions);
 
+/// Whether the surface, its normals as stated, is seen from where its shading normals do not point.
+bool isSeenFromBehind(const SurfacePoint& surface);
+
 class RandomStream;
 
 /// Of a mixture: the material that light meets there, drawn.

@@ -102,6 +102,7 @@ void apply(Material& m, TextureSlot slot, const glm::dvec4& texel) {
     case TextureSlot::Height:
     case TextureSlot::BlendShare:
     case TextureSlot::Projection:
+    case TextureSlot::Opacity:
         return; // no parameter
     }
 }
@@ -180,7 +181,9 @@ void applyHeights(SurfacePoint& s, const Scene& scene, const TextureUse& map,
 
 void drawMaterial(SurfacePoint& s, const Scene& scene, RandomStream& random) {
     const PointAttributes at = attributesOf(s, scene);
-    while (s.material->other != kNoMaterial && random.next() < otherShareAt(scene, *s.material, at))
+    const OtherPlace notThere = isSeenFromBehind(s) ? OtherPlace::InFront : OtherPlace::Behind;
+    while (s.material->other != kNoMaterial && s.material->otherPlace != notThere &&
+           random.next() < otherShareAt(scene, *s.material, at))
         s.material = s.stated = &scene.materials[s.material->other];
 }
 

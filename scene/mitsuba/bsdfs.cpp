@@ -74,48 +74,68 @@ Surface plastic(SurfaceMaker& maker) {
     return maker.done();
 }
 
-/// The back is the front's mirror image.
+const TextureUse* opacityTexture(const Material& m) {
+    const auto found = std::ranges::find(m.textures, TextureSlot::Opacity, &TextureUse::slot);
+    return found == m.textures.end() ? nullptr : &*found;
+}
+
+/// Of a mixture, which is there as often as its first material.
+double opacityOf(const Material& m) {
+    return m.alphaMode == AlphaMode::Opaque ? 1.0 : double(m.opacity);
+}
+
+/// A surface with another one behind. What is a mixture takes the place of what is none.
+Surface withBack(const Plugin& plugin, Surface front, Surface back) {
+    if (front.other && back.other)
+        plugin.fail("has two bsdfs that are blends, expected one at most");
+    if (opacityOf(front.material) != opacityOf(back.material) || opacityTexture(front.material) ||
+        opacityTexture(back.material))
+        plugin.fail("has masks inside, expected the mask around the two-sided bsdf");
+    OtherPlace place = OtherPlace::Behind;
+    if (front.other) {
+        std::swap(front, back);
+        place = OtherPlace::InFront;
+    }
+    front.material.otherPlace = place;
+    front.material.otherShare = 1;
+    front.other = std::make_shared<Surface>(std::move(back));
+    return front;
+}
+
+/// The back is the front's mirror image, or a bsdf of its own.
 Surface twoSided(SurfaceMaker& maker, Context& context, Textures& textures) {
     const std::vector<const Plugin*> inside = maker.plugin.childrenOf("bsdf");
     if (inside.empty() || inside.size() > 2)
-        maker.plugin.fail(fmt::format("has {} bsdfs inside, expected one", inside.size()));
-    if (inside.size() == 2 && inside[0] != inside[1])
-        inside[1]->fail("is another bsdf for the back, which is not supported");
+        maker.plugin.fail(fmt::format("has {} bsdfs inside, expected one or two", inside.size()));
     maker.plugin.requireAllRead();
     Surface surface = readBsdf(context, textures, *inside.front());
+    if (inside.back() != inside.front())
+        surface =
+            withBack(maker.plugin, std::move(surface), readBsdf(context, textures, *inside.back()));
     for (Surface* each = &surface; each; each = each->other.get())
         each->material.isBlackBehind = false;
     return surface;
 }
 
-bool hasTexturedOpacity(const Material& m) {
-    return m.alphaMode != AlphaMode::Opaque &&
-           std::ranges::any_of(m.textures, [](const TextureUse& use) {
-               return use.slot == TextureSlot::BaseColor;
-           });
+/// Lets a surface be there as often as a picture says, or its negative.
+void addOpacity(const Plugin& plugin, Material& m, TextureUse picture, bool isNegative) {
+    if (opacityTexture(m)) plugin.fail("is a mask over one whose opacity is a texture");
+    picture.slot = TextureSlot::Opacity;
+    picture.scale = isNegative ? -1 : 1;
+    m.alphaMode = AlphaMode::Blend;
+    m.textures.push_back(picture);
 }
 
 Surface mask(SurfaceMaker& maker, Context& context, Textures& textures) {
     Surface surface = readInside(maker, context, textures);
     Material& m = surface.material;
-    const double inside = m.alphaMode == AlphaMode::Opaque ? 1.0 : double(m.opacity);
-    if (hasTexturedOpacity(m)) maker.plugin.fail("is a mask over one whose opacity is a texture");
-    const Shade opacity = textures.shade(maker.plugin, "opacity", ColorOf::Reflectance,
-                                         glm::dvec3(0.5), Layout::Alpha);
+    const Shade opacity =
+        textures.shade(maker.plugin, "opacity", ColorOf::Reflectance, glm::dvec3(0.5), Layout::Red);
+    m.opacity =
+        float(opacityOf(m) *
+              std::clamp((opacity.color.x + opacity.color.y + opacity.color.z) / 3, 0.0, 1.0));
     m.alphaMode = AlphaMode::Blend;
-    m.opacity = float(
-        inside * std::clamp((opacity.color.x + opacity.color.y + opacity.color.z) / 3, 0.0, 1.0));
-    if (opacity.texture) {
-        for (const TextureUse& use : m.textures)
-            if (use.slot == TextureSlot::BaseColor)
-                maker.plugin.fail("opacity", "is a texture over a coloured texture, which is not "
-                                             "supported");
-        if (!m.baseColor())
-            maker.plugin.fail("opacity", "is a texture over a bsdf that takes none here");
-        TextureUse use = *opacity.texture;
-        use.slot = TextureSlot::BaseColor;
-        m.textures.push_back(use);
-    }
+    if (opacity.texture) addOpacity(maker.plugin, m, *opacity.texture, false);
     maker.plugin.requireAllRead();
     return surface;
 }
@@ -178,12 +198,10 @@ Surface bumpMap(SurfaceMaker& maker, Context& context, Textures& textures) {
 /// the mean of both shares, and then the second one as often as it is one of those.
 void takeMasksOut(const Plugin& plugin, Material& first, Material& second, bool hasTexture,
                   double& weight) {
-    const auto opacityOf = [](const Material& m) {
-        return m.alphaMode == AlphaMode::Opaque ? 1.0 : double(m.opacity);
-    };
+    const bool haveTextures = opacityTexture(first) || opacityTexture(second);
     const double a = opacityOf(first), b = opacityOf(second);
-    if (a == 1 && b == 1 && !hasTexturedOpacity(first) && !hasTexturedOpacity(second)) return;
-    if (hasTexture || hasTexturedOpacity(first) || hasTexturedOpacity(second))
+    if (a == 1 && b == 1 && !haveTextures) return;
+    if (hasTexture || haveTextures)
         plugin.fail("has a mask inside, and a weight or an opacity that is a texture, expected the "
                     "mask around the blend");
     const double opacity = (1 - weight) * a + weight * b;
@@ -192,6 +210,21 @@ void takeMasksOut(const Plugin& plugin, Material& first, Material& second, bool 
     first.opacity = float(opacity);
     second.alphaMode = AlphaMode::Opaque;
     second.opacity = 1;
+}
+
+bool isNothing(const Surface& surface) {
+    return !surface.other && opacityOf(surface.material) == 0;
+}
+
+/// A blend with nothing is a mask: it is there where it is not nothing.
+Surface blendWithNothing(const Plugin& plugin, Surface surface, const Shade& share, double weight,
+                         bool isSecond) {
+    Material& m = surface.material;
+    m.opacity = float(opacityOf(m) * (share.texture ? 1 : isSecond ? weight : 1 - weight));
+    m.alphaMode = AlphaMode::Blend;
+    if (share.texture) addOpacity(plugin, m, *share.texture, !isSecond);
+    plugin.requireAllRead();
+    return surface;
 }
 
 /// One of two bsdfs, the second one in the share of cases that `weight` says.
@@ -205,6 +238,8 @@ Surface blend(SurfaceMaker& maker, Context& context, Textures& textures) {
     const Shade share =
         textures.shade(plugin, "weight", ColorOf::Reflectance, glm::dvec3(0.5), Layout::Red);
     double weight = std::clamp((share.color.x + share.color.y + share.color.z) / 3, 0.0, 1.0);
+    if (isNothing(first)) return blendWithNothing(plugin, std::move(*second), share, weight, true);
+    if (isNothing(*second)) return blendWithNothing(plugin, std::move(first), share, weight, false);
     takeMasksOut(plugin, first.material, second->material, share.texture.has_value(), weight);
     if (first.other) { // only what takes the place may be a mixture in turn
         if (second->other || share.texture)

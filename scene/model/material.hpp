@@ -106,6 +106,13 @@ enum class ReliefRule : uint8_t {
     Blacken ///< the surface is black there
 };
 
+/// When another material takes the place of the one that a surface has.
+enum class OtherPlace : uint8_t {
+    ByShare, ///< in a share of cases, by chance
+    Behind,  ///< seen from where the shading normals do not point
+    InFront, ///< seen from where they do
+};
+
 /// What a surface does with light. Only the members its kind names are meaningful; emission is
 /// meaningful for all (an emitter is a diffuse material of albedo 0 that emits).
 struct Material {
@@ -133,9 +140,10 @@ struct Material {
     float alphaCutoff = 0.5f;
     /// A mixture: light that meets the surface finds, in that share of cases, the other material of
     /// the scene in this one's place, which may be a mixture too. Opacity and emission are this
-    /// one's; the other one has the same emission.
+    /// one's; the other one has the same emission. On one side only: otherShare is 1.
     uint32_t other = kNoMaterial;
     float otherShare = 0;
+    OtherPlace otherPlace = OtherPlace::ByShare;
     /// Camera rays pass it, up to the first surface that they meet; all others meet it.
     bool isHiddenFromCamera = false;
     bool isBlackBehind = false; ///< nothing is scattered to where the normals do not point

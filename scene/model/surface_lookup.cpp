@@ -122,6 +122,10 @@ double opacityAt(const Scene& scene, const Material& material, const PointAttrib
     double opacity = double(material.opacity) * at.color.a;
     if (const TextureUse* use = textureIn(material, TextureSlot::BaseColor))
         opacity *= lookUp(scene, *use, at).a;
+    if (const TextureUse* use = textureIn(material, TextureSlot::Opacity)) {
+        const double texel = lookUp(scene, *use, at).r;
+        opacity *= use->scale < 0 ? 1 - texel : texel;
+    }
     if (material.alphaMode == AlphaMode::Mask) return opacity >= material.alphaCutoff ? 1 : 0;
     return std::clamp(opacity, 0.0, 1.0);
 }

@@ -52,8 +52,9 @@ enum class TextureSlot : uint32_t {
     Height,             ///< red: above the surface, along its shading normal; uvSet is 0
     BlendShare,         ///< red: Material::otherShare
     Projection,         ///< of lights: red, green, blue
+    Opacity,            ///< red: opacity; with a scale below 0 what is left of 1
 };
-inline constexpr uint32_t kTextureSlotCount = 16;
+inline constexpr uint32_t kTextureSlotCount = 17;
 
 /// A texture in one of a material's slots.
 struct TextureUse {
@@ -63,6 +64,7 @@ struct TextureUse {
     /// From texture coordinates to the picture: u' = uRow . (u, v, 1), v' = vRow . (u, v, 1).
     glm::vec3 uRow{1, 0, 0}, vRow{0, 1, 0};
     /// Normal, ClearcoatNormal: of the tangential part. Height: what 1 stands for, in metres.
+    /// Opacity: its sign alone counts.
     float scale = 1;
 };
 

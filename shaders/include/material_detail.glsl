@@ -110,6 +110,12 @@ float opacityAt(uint materialRow, PointAttributes a) {
             lookUpSlot(fetchTextureUse(materialRow, number), TEXTURE_BASE_COLOR, a).a;
         opacity *= number != 0u ? texel : 1.0;
     }
+    if (sceneHasSlot(TEXTURE_OPACITY)) {
+        const uint number = detail.flags >> DETAIL_OPACITY_SHIFT & DETAIL_NUMBER_MASK;
+        const TextureUse t = fetchTextureUse(materialRow, number);
+        const float texel = lookUp(t, coordinatesOf(t, a)).r;
+        opacity *= number != 0u ? (t.scale < 0.0 ? 1.0 - texel : texel) : 1.0;
+    }
     if ((detail.flags & DETAIL_MASK) != 0u) return opacity >= detail.alphaCutoff ? 1.0 : 0.0;
     return (detail.flags & DETAIL_BLEND) != 0u ? clamp(opacity, 0.0, 1.0) : 1.0;
 }
@@ -237,15 +243,16 @@ PointAttributes attributesOf(SurfacePoint s) {
     return a;
 }
 
-/// How often another material takes the place of the one with this first row, and the first row of that.
-float blendShare(uint materialRow, PointAttributes a, out uint other) {
+/// How often another material takes the place of the one with this first row, and the first row of that. notThere:
+/// OTHER_ of the side that the surface is not seen from.
+float blendShare(uint materialRow, PointAttributes a, uint notThere, out uint other) {
     const MaterialDetail detail = fetchDetail(materialRow);
     const uint bundles = (detail.flags & DETAIL_HAS_BUNDLE) != 0u ? 1u : 0u;
     const uvec4 r = ROW(materialRows, textureUseRow(materialRow, bundles + detail.looseTextures));
     const bool isBlend = (detail.flags & DETAIL_IS_BLEND) != 0u;
     const BlendRow blend = BlendRow(r.x, uintBitsToFloat(r.y), isBlend ? r.z : 0u, r.w);
     other = blend.other;
-    float share = isBlend ? blend.share : 0.0;
+    float share = isBlend && blend.place != notThere ? blend.share : 0.0;
     if (sceneHasSlot(TEXTURE_BLEND_SHARE)) {
         const TextureUse t = fetchTextureUse(materialRow, blend.texture);
         const float texel = lookUp(t, coordinatesOf(t, a)).r;

@@ -27,10 +27,11 @@ float passNumber(uint purpose) {
 uint drawnMaterial(SurfacePoint s) {
     uint row = s.material;
     const PointAttributes a = attributesOf(s);
+    const uint notThere = isSeenFromBehind(s) ? OTHER_IN_FRONT : OTHER_BEHIND;
     bool goesOn = true;
     for (uint i = 0u; i < MOST_BLENDS && goesOn; ++i) {
         uint other;
-        const float share = blendShare(row, a, other);
+        const float share = blendShare(row, a, notThere, other);
         goesOn = goesOn && passNumber(i + 1u) < share;
         row = goesOn ? other : row;
     }

@@ -28,9 +28,10 @@ SHARED_CONST uint DETAIL_IS_HIDDEN = 32u; ///< camera rays pass it
 /// It is a mixture: the row behind its textures is a BlendRow.
 SHARED_CONST uint DETAIL_IS_BLEND = 16u;
 /// The number of the TextureUse with TEXTURE_EMISSION, plus one, in bits 8 to 15; 0: there is none. The same for
-/// TEXTURE_BASE_COLOR in bits 16 to 23.
+/// TEXTURE_BASE_COLOR in bits 16 to 23, and with TEXTURE_OPACITY in bits 24 to 31.
 SHARED_CONST uint DETAIL_EMISSION_SHIFT = 8u;
 SHARED_CONST uint DETAIL_BASE_COLOR_SHIFT = 16u;
+SHARED_CONST uint DETAIL_OPACITY_SHIFT = 24u;
 SHARED_CONST uint DETAIL_NUMBER_MASK = 0xFFu;
 
 /// What takes a material's place, and how often.
@@ -38,9 +39,13 @@ struct BlendRow {
     uint other;   ///< the first row of that material
     float share;  ///< of cases
     uint texture; ///< the number of the TextureUse that multiplies it, plus one; 0: none
-    uint unused;
+    uint place;   ///< OTHER_
 };
 SHARED_ROWS(BlendRow, 1);
+/// OtherPlace of scene/model/material.hpp: in all cases, or on one side of the surface.
+SHARED_CONST uint OTHER_BY_SHARE = 0u;
+SHARED_CONST uint OTHER_BEHIND = 1u;
+SHARED_CONST uint OTHER_IN_FRONT = 2u;
 /// No mixture is deeper.
 SHARED_CONST uint MOST_BLENDS = 8u;
 
@@ -78,7 +83,8 @@ SHARED_CONST uint TEXTURE_ANISOTROPY = 12u;
 SHARED_CONST uint TEXTURE_HEIGHT = 13u;
 SHARED_CONST uint TEXTURE_BLEND_SHARE = 14u;
 SHARED_CONST uint TEXTURE_PROJECTION = 15u;
-SHARED_CONST uint TEXTURE_SLOT_COUNT = 16u;
+SHARED_CONST uint TEXTURE_OPACITY = 16u;
+SHARED_CONST uint TEXTURE_SLOT_COUNT = 17u;
 
 /// How a texture's coordinates become a texel, and what a texel is: one word (four fractions of 255)
 /// or two (four half floats). Texels lie row after row, the first word of all in word 0 of firstRow.

@@ -38,6 +38,43 @@ TEST(Mixtures, AreMetInTheirShares) {
     expectMean(seenInAmbientLight(b, material), glm::dvec3(0.75 * 0.8 + 0.25 * 0.2));
 }
 
+/// Another material on one side: the front is where the normals point.
+TEST(Mixtures, MayBeOfTwoSides) {
+    for (const OtherPlace place : {OtherPlace::Behind, OtherPlace::InFront})
+        for (const double z : {2.0, -2.0}) {
+            SceneMaker b;
+            Material m = diffuse(0.8f);
+            m.other = b.add(diffuse(0.2f));
+            m.otherShare = 1;
+            m.otherPlace = place;
+            addTexturedSquare(b, b.add(m));
+            b.add(ambient(1));
+            RenderSettings settings = smallPicture(4, 1);
+            const Camera camera = pointCamera({0.4, 0.3, z}, {0.4, 0.3, 0});
+            const bool isOther = (z < 0) == (place == OtherPlace::Behind);
+            expectMean(estimate(b.scene, camera, settings), isOther ? 0.2 : 0.8);
+        }
+}
+
+/// The picture of a material's opacity, or its negative, beside one of its colour.
+TEST(Mixtures, OpacityHasAPictureOfItsOwn) {
+    for (const float scale : {1.0f, -1.0f}) {
+        SceneMaker b;
+        TextureMaker t(b.scene);
+        Material m = diffuse(0.8f);
+        m.alphaMode = AlphaMode::Blend;
+        m.opacity = 0.9f;
+        m.textures = {
+            {.slot = TextureSlot::BaseColor, .texture = t.constant(glm::vec4(0.5f, 0.5f, 0.5f, 1))},
+            {.slot = TextureSlot::Opacity,
+             .texture = t.constant(glm::vec4(0.25f, 1, 1, 1)),
+             .scale = scale}};
+        const double opacity = 0.9 * (scale < 0 ? 0.75 : 0.25);
+        const uint32_t material = b.add(m);
+        expectMean(seenInAmbientLight(b, material, 16384), opacity * 0.4); // behind it is nothing
+    }
+}
+
 TEST(Mixtures, MayBeOfMixtures) {
     SceneMaker b;
     const uint32_t last = b.add(diffuse(0.1f));

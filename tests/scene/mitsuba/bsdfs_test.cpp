@@ -208,10 +208,80 @@ TEST(MitsubaBsdfs, MasksAreOpacity) {
                                  "<float name=\"color1\" value=\"0\"/></texture>"
                                  "<bsdf type=\"diffuse\"/></bsdf>");
     const TextureImage& image = masked.images.at(0);
-    const auto alpha = [&](size_t i) { return glm::unpackHalf2x16(image.words[2 * i + 1]).y; };
-    EXPECT_NEAR(alpha(1), 1, 1e-3); // of numbers, color1 is the first
-    EXPECT_EQ(alpha(0), 0);
-    EXPECT_EQ(glm::unpackHalf2x16(image.words[2]).x, 1); // colours stay
+    const auto opacity = [&](size_t i) { return glm::unpackHalf2x16(image.words[2 * i]).x; };
+    EXPECT_NEAR(opacity(1), 1, 1e-3); // of numbers, color1 is the first
+    EXPECT_EQ(opacity(0), 0);
+}
+
+const std::string kPicture = "<texture name=\"@\" type=\"checkerboard\"/>";
+
+std::string pictureOf(const std::string& name) {
+    std::string text = kPicture;
+    return text.replace(text.find('@'), 1, name);
+}
+
+/// Leaves: a coloured picture, and another one of where they are.
+TEST(MitsubaBsdfs, MasksMayBeOverPictures) {
+    const Scene scene =
+        sceneOf("<bsdf type=\"mask\">" + pictureOf("opacity") + "<bsdf type=\"diffuse\">" +
+                pictureOf("reflectance") + "</bsdf></bsdf>");
+    const Material& m = scene.materials.at(0);
+    EXPECT_EQ(m.alphaMode, AlphaMode::Blend);
+    EXPECT_EQ(m.opacity, 1);
+    ASSERT_EQ(m.textures.size(), 2u);
+    EXPECT_EQ(m.textures[0].slot, TextureSlot::BaseColor);
+    EXPECT_EQ(m.textures[1].slot, TextureSlot::Opacity);
+    EXPECT_GT(m.textures[1].scale, 0);
+}
+
+/// A blend with nothing is a mask, of the weight or of what it leaves.
+TEST(MitsubaBsdfs, BlendsWithNothingAreMasks) {
+    const std::string nothing = "<bsdf type=\"null\"/>", paint = "<bsdf type=\"diffuse\"/>";
+    const auto blend = [](const std::string& inside) {
+        return materialOf("<bsdf type=\"blendbsdf\">" + inside + "</bsdf>");
+    };
+    const Material second = blend(pictureOf("weight") + nothing + paint);
+    EXPECT_EQ(second.other, kNoMaterial);
+    ASSERT_EQ(second.textures.size(), 1u);
+    EXPECT_EQ(second.textures[0].slot, TextureSlot::Opacity);
+    EXPECT_GT(second.textures[0].scale, 0);
+    const Material first = blend(pictureOf("weight") + paint + nothing);
+    EXPECT_LT(first.textures.at(0).scale, 0);
+    EXPECT_EQ(first.alphaMode, AlphaMode::Blend);
+    const std::string weight = "<float name=\"weight\" value=\"0.25\"/>";
+    EXPECT_EQ(blend(weight + nothing + paint).opacity, 0.25f);
+    EXPECT_EQ(blend(weight + paint + nothing).opacity, 0.75f);
+}
+
+TEST(MitsubaBsdfs, BacksMayDiffer) {
+    const std::string paint = "<bsdf type=\"diffuse\"/>", metal = "<bsdf type=\"conductor\"/>";
+    const auto twoSided = [](const std::string& inside) {
+        return sceneOf("<bsdf type=\"twosided\">" + inside + "</bsdf>");
+    };
+    const auto first = [](const Scene& scene) {
+        return scene.materials.at(scene.triangles.at(0).material);
+    };
+    const Scene scene = twoSided(paint + metal);
+    const Material front = first(scene), back = scene.materials.at(front.other);
+    EXPECT_EQ(front.kind, MaterialKind::Diffuse);
+    EXPECT_EQ(front.otherPlace, OtherPlace::Behind);
+    EXPECT_EQ(front.otherShare, 1);
+    EXPECT_EQ(back.kind, MaterialKind::Conductor);
+    EXPECT_FALSE(front.isBlackBehind || back.isBlackBehind);
+
+    const std::string blend = "<bsdf type=\"blendbsdf\">" + paint + metal + "</bsdf>";
+    const Scene mixed = twoSided(blend + "<bsdf type=\"plastic\"/>");
+    EXPECT_EQ(first(mixed).kind, MaterialKind::Plastic);
+    EXPECT_EQ(first(mixed).otherPlace, OtherPlace::InFront);
+    EXPECT_EQ(mixed.materials.at(first(mixed).other).otherShare, 0.5f);
+
+    const auto problem = [](const std::string& inside) {
+        return problemInside(rectangleOf("<bsdf type=\"twosided\">" + inside + "</bsdf>"));
+    };
+    EXPECT_THAT(problem(blend + blend), HasSubstr("has two bsdfs that are blends"));
+    EXPECT_THAT(problem("<bsdf type=\"mask\">" + paint + "</bsdf>" + metal),
+                HasSubstr("expected the mask around the two-sided bsdf"));
+    EXPECT_THAT(problem(paint + metal + paint), HasSubstr("has 3 bsdfs inside"));
 }
 
 TEST(MitsubaBsdfs, TexturesAreTransformed) {
