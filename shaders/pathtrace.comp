@@ -131,7 +131,7 @@ void resumeSplit(uint lane) {
     splitPoint.surface = SurfacePoint(s.position, s.error, s.geometric, s.shading, s.wo,
                                       s.outside != 0u, s.material, s.skipPrimitive, s.lift
 #ifdef RICH_MATERIALS
-                                      , vec2(s.b1, s.b2), vec4(0.0)
+                                      , vec2(s.b1, s.b2), vec4(0.0), vec3(0.0)
 #endif
 #ifdef PLACEMENTS
                                       , s.placement
@@ -141,6 +141,7 @@ void resumeSplit(uint lane) {
     if (TANGENT_FRAMES)
         splitPoint.surface.tangent =
             tangentAt(splitPoint.surface, shadingNormal(splitPoint.surface));
+    if (sceneHasCoatNormals()) splitPoint.surface.coat = coatNormal(splitPoint.surface);
 #endif
     branchesLeft = s.branchesLeft;
 #ifdef RICH_MATERIALS

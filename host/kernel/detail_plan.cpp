@@ -47,7 +47,7 @@ bool hasEffect(const Material& m, TextureSlot slot) {
     case TextureSlot::ClearcoatRoughness:
         return isPrincipled && p.clearcoat > 0 && p.clearcoatRoughness > 0;
     case TextureSlot::ClearcoatNormal:
-        return false; // all lobes share one normal
+        return isPrincipled && p.clearcoat > 0;
     case TextureSlot::SheenColor:
         return isPrincipled && !isBlack(p.sheenColor);
     case TextureSlot::SheenRoughness:
@@ -103,8 +103,12 @@ class Planner {
         for (const TextureUse& use : m.textures)
             if (hasEffect(m, use.slot)) material.textures.push_back(use);
         std::ranges::sort(material.textures, {}, &TextureUse::slot);
-        for (const TextureUse& use : material.textures)
+        for (const TextureUse& use : material.textures) {
             addTexture(use);
+            material.coatHasNormal |= use.slot == TextureSlot::Normal;
+            material.coatHasNormal |= use.slot == TextureSlot::ClearcoatNormal;
+        }
+        material.coatHasNormal &= m.kind == MaterialKind::Principled && m.principled.clearcoat > 0;
         takeOutBundle(material);
         if (material.bundle) plan_.texelKinds |= gpu::TEXEL_KIND_BUNDLE;
         for (const TextureUse& use : material.textures) {
@@ -136,7 +140,8 @@ class Planner {
         plan_.texelKinds |= isHalf ? gpu::TEXEL_KIND_HALF : gpu::TEXEL_KIND_BYTES;
         if (texture.srgb && !isHalf) plan_.texelKinds |= gpu::TEXEL_KIND_SRGB;
         plan_.attributes |= use.uvSet == 0 ? gpu::ATTRIBUTE_UV0 : gpu::ATTRIBUTE_UV1;
-        if (use.slot == TextureSlot::Normal) plan_.attributes |= gpu::ATTRIBUTE_TANGENT;
+        if (use.slot == TextureSlot::Normal || use.slot == TextureSlot::ClearcoatNormal)
+            plan_.attributes |= gpu::ATTRIBUTE_TANGENT;
     }
 
     /// Two pictures or more that are looked up alike cost as many loads as one if they are bundled,

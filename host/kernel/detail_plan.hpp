@@ -23,6 +23,7 @@ struct DetailPlan {
         bool isTransparent = false;       ///< may be partly not there
         bool isHidden = false;            ///< camera rays pass it
         bool isBlend = false;             ///< another material may take its place
+        bool coatHasNormal = false;       ///< gpu::DETAIL_COAT_HAS_NORMAL
     };
     std::vector<MaterialPlan> materials; ///< by material of the scene
 

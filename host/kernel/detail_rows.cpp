@@ -192,9 +192,12 @@ std::vector<Row> materialDetail(const Scene& scene, const Material& m,
             detail.flags |= (number + 1) << gpu::DETAIL_BASE_COLOR_SHIFT;
         if (slot == TextureSlot::Emission)
             detail.flags |= (number + 1) << gpu::DETAIL_EMISSION_SHIFT;
+        if (slot == TextureSlot::ClearcoatNormal)
+            detail.looseTextures |= (number + 1) << gpu::DETAIL_COAT_NORMAL_SHIFT;
         if (slot == TextureSlot::Opacity) detail.flags |= (number + 1) << gpu::DETAIL_OPACITY_SHIFT;
     };
     std::vector<Row> uses;
+    if (plan.coatHasNormal) detail.flags |= gpu::DETAIL_COAT_HAS_NORMAL;
     uint32_t number = 0, shareTexture = 0;
     if (plan.bundle) {
         detail.flags |= gpu::DETAIL_HAS_BUNDLE;

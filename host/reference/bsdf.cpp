@@ -20,6 +20,7 @@ struct Incidence {
     glm::dvec3 wo;
     bool entering;
     const ShadingConventions& conventions;
+    glm::dvec3 coat; ///< unit; the clear coat's normal
 };
 
 // Samples are in the frame of the shading normal, too.
@@ -94,7 +95,7 @@ BsdfValue evaluateLocally(const Material& m, const Incidence& i, const glm::dvec
     case MaterialKind::Microfacet:
         return evaluateRoughConductor(m, i, wi);
     case MaterialKind::Principled:
-        return evaluatePrincipled(m.principled, i.wo, i.entering, wi);
+        return evaluatePrincipled(m.principled, i.wo, i.entering, wi, i.coat);
     case MaterialKind::Conductor:
         return m.isSmooth() ? BsdfValue{} : evaluateFacetConductor(m, i.wo, wi);
     case MaterialKind::Dielectric:
@@ -124,7 +125,7 @@ BsdfSample sampleLocally(const Material& m, const Incidence& i, const glm::dvec3
     case MaterialKind::Microfacet:
         return sampleRoughConductor(m, i, u);
     case MaterialKind::Principled:
-        return samplePrincipled(m.principled, i.wo, i.entering, u);
+        return samplePrincipled(m.principled, i.wo, i.entering, u, i.coat);
     case MaterialKind::Conductor:
         return m.isSmooth() ? sampleConductor(m, i.wo) : sampleFacetConductor(m, i.wo, u);
     case MaterialKind::Dielectric:
@@ -143,7 +144,8 @@ BsdfSample sampleLocally(const Material& m, const Incidence& i, const glm::dvec3
 Incidence incidenceOn(const SurfacePoint& s, const Frame& frame,
                       const ShadingConventions& conventions) {
     const glm::dvec3 wo = frame.toLocal(s.wo);
-    return {wo, conventions.facesForward ? s.outside : wo.z >= 0, conventions};
+    const glm::dvec3 coat = s.coat ? frame.toLocal(*s.coat) : glm::dvec3(0, 0, 1);
+    return {wo, conventions.facesForward ? s.outside : wo.z >= 0, conventions, coat};
 }
 
 /// Light stays on the side of the true surface that its lobe sends it to.

@@ -83,7 +83,7 @@ struct Part {
 /// The material as it is seen from wo.
 class Layers {
   public:
-    Layers(const PrincipledParameters& p, const dvec3& wo, bool entering);
+    Layers(const PrincipledParameters& p, const dvec3& wo, bool entering, const dvec3& coat);
 
     BsdfValue evaluate(const dvec3& wi) const;
     BsdfSample sample(const dvec3& u) const;
@@ -101,6 +101,8 @@ class Layers {
 
     const PrincipledParameters& p_;
     dvec3 wo_, grainWo_; ///< the latter in the frame of the facets
+    Frame coatFrame_;
+    dvec3 coatWo_;
     bool thin_, covered_;
     double index_, eta_;
     dvec3 baseColor_, f0_;
@@ -113,11 +115,11 @@ class Layers {
     double facetShare_ = 1, diffuseShare_ = 0, sheenShare_ = 0, coatShare_ = 0;
 };
 
-Layers::Layers(const PrincipledParameters& p, const dvec3& wo, bool entering)
-    : p_(p), wo_(wo), grainWo_(turned(wo, -double(p.anisotropyRotation))), thin_(!refracts(p)),
-      covered_(p.isThin || entering), index_(usedIndex(p)), eta_(entering ? 1 / index_ : index_),
-      baseColor_(p.baseColor), f90_(p.specular),
-      opaque_((1 - double(p.metallic)) * (1 - double(p.transmission))),
+Layers::Layers(const PrincipledParameters& p, const dvec3& wo, bool entering, const dvec3& coat)
+    : p_(p), wo_(wo), grainWo_(turned(wo, -double(p.anisotropyRotation))), coatFrame_(coat),
+      coatWo_(coatFrame_.toLocal(wo)), thin_(!refracts(p)), covered_(p.isThin || entering),
+      index_(usedIndex(p)), eta_(entering ? 1 / index_ : index_), baseColor_(p.baseColor),
+      f90_(p.specular), opaque_((1 - double(p.metallic)) * (1 - double(p.transmission))),
       clear_((1 - double(p.metallic)) * double(p.transmission)) {
     const double r = (index_ - 1) / (index_ + 1);
     f0_ = glm::min(r * r * dvec3(p.specularColor), dvec3(1.0)) * double(p.specular);
@@ -130,13 +132,13 @@ Layers::Layers(const PrincipledParameters& p, const dvec3& wo, bool entering)
     const double strength = p.anisotropy;
     ggx_ = {alpha + (1 - alpha) * strength * strength, alpha};
 
-    if (covered_ && p.clearcoat > 0) {
+    if (covered_ && p.clearcoat > 0 && coatWo_.z > 0) {
         const double rough = double(p.clearcoatRoughness) * p.clearcoatRoughness;
         const double coatAlpha = std::max(rough, double(gpu::LEAST_GGX_ALPHA));
         coatGgx_ = {coatAlpha, coatAlpha};
-        coatAlbedo_ = gpu::ggxAlbedo(wo.z, coatAlpha);
+        coatAlbedo_ = gpu::ggxAlbedo(coatWo_.z, coatAlpha);
         const dvec3 f0(double(gpu::CLEARCOAT_F0));
-        const dvec3 fresnel = mixed(f0, 1, gpu::schlickShare(wo.z, coatAlpha));
+        const dvec3 fresnel = mixed(f0, 1, gpu::schlickShare(coatWo_.z, coatAlpha));
         coatShare_ = p.clearcoat * coatAlbedo_ * fresnel.x * givenBack(f0, coatAlbedo_).x;
         underCoat_ = 1 - coatShare_;
     }
@@ -221,13 +223,16 @@ Part Layers::facets(const dvec3& worldWi) const {
             (1 - facet.reflects) * pdfOfH * jacobian};
 }
 
-Part Layers::coat(const dvec3& wi) const {
-    const dvec3 h = glm::normalize(wo_ + wi);
+Part Layers::coat(const dvec3& baseWi) const {
+    const dvec3 wi = coatFrame_.toLocal(baseWi);
+    if (!(wi.z > 0)) return {};
+    const dvec3 h = glm::normalize(coatWo_ + wi);
     const dvec3 f0(double(gpu::CLEARCOAT_F0));
-    const double f = mixed(f0, 1, schlickWeight(glm::dot(wo_, h))).x *
+    const double f = mixed(f0, 1, schlickWeight(glm::dot(coatWo_, h))).x *
                      givenBack(f0, coatAlbedo_).x * p_.clearcoat;
-    return {dvec3(f * coatGgx_.density(h) * coatGgx_.visibleFromBoth(wo_, wi) / (4 * wo_.z)),
-            coatGgx_.visibleDensity(wo_, h) / (4 * glm::dot(wo_, h))};
+    return {
+        dvec3(f * coatGgx_.density(h) * coatGgx_.visibleFromBoth(coatWo_, wi) / (4 * coatWo_.z)),
+        coatGgx_.visibleDensity(coatWo_, h) / (4 * glm::dot(coatWo_, h))};
 }
 
 BsdfValue Layers::evaluate(const dvec3& wi) const {
@@ -257,8 +262,8 @@ BsdfSample Layers::sample(const dvec3& u) const {
     } else if ((pick -= diffuseShare_) < sheenShare_) {
         s.direction = uniformHemisphere(u.x, u.y);
     } else if ((pick -= sheenShare_) < coatShare_) {
-        const dvec3 h = coatGgx_.sampleVisible(wo_, u.x, u.y);
-        s.direction = 2 * glm::dot(wo_, h) * h - wo_;
+        const dvec3 h = coatGgx_.sampleVisible(coatWo_, u.x, u.y);
+        s.direction = coatFrame_.toWorld(2 * glm::dot(coatWo_, h) * h - coatWo_);
     } else {
         const double left = std::min((pick - coatShare_) / facetShare_, 1.0);
         const dvec3 h = ggx_.sampleVisible(grainWo_, u.x, u.y);
@@ -289,15 +294,15 @@ uint32_t principledLobes(const PrincipledParameters& p) {
 }
 
 BsdfValue evaluatePrincipled(const PrincipledParameters& p, const dvec3& wo, bool entering,
-                             const dvec3& wi) {
+                             const dvec3& wi, const dvec3& coat) {
     if (!(wo.z > 0) || wi.z == 0 || (wi.z < 0 && !transmits(p))) return {};
-    return Layers(p, wo, entering).evaluate(wi);
+    return Layers(p, wo, entering, coat).evaluate(wi);
 }
 
 BsdfSample samplePrincipled(const PrincipledParameters& p, const dvec3& wo, bool entering,
-                            const dvec3& u) {
+                            const dvec3& u, const dvec3& coat) {
     if (!(wo.z > 0)) return {};
-    return Layers(p, wo, entering).sample(u);
+    return Layers(p, wo, entering, coat).sample(u);
 }
 
 bool isNarrow(const PrincipledParameters& p) {

@@ -11,12 +11,13 @@ namespace stromboli::reference {
 /// gpu::LOBE_ bits.
 uint32_t principledLobes(const PrincipledParameters& p);
 
+/// coat: unit normal of the clear coat.
 BsdfValue evaluatePrincipled(const PrincipledParameters& p, const glm::dvec3& wo, bool entering,
-                             const glm::dvec3& wi);
+                             const glm::dvec3& wi, const glm::dvec3& coat = {0, 0, 1});
 
 /// u: three independent numbers in [0, 1).
 BsdfSample samplePrincipled(const PrincipledParameters& p, const glm::dvec3& wo, bool entering,
-                            const glm::dvec3& u);
+                            const glm::dvec3& u, const glm::dvec3& coat = {0, 0, 1});
 
 /// Whether some lobe is too narrow for light samples to find: their noise would have no bound that
 /// samples reach.

@@ -5,6 +5,7 @@
 #include "scene/model/scene.hpp"
 
 #include <memory>
+#include <optional>
 
 namespace stromboli::reference {
 
@@ -30,8 +31,9 @@ struct SurfacePoint {
     /// Unit, perpendicular to the shading normal, along which u grows; w: the bitangent is
     /// w (shading normal x tangent), 0: there is none.
     glm::dvec4 tangent{0.0};
-    glm::dvec3 unmapped{0, 0, 1}; ///< shading normal before a map turned it, where one may have
-    double b1 = 0, b2 = 0;        ///< barycentric weights of the second and third corner
+    glm::dvec3 unmapped{0, 0, 1};   ///< shading normal before a map turned it, where one may have
+    std::optional<glm::dvec3> coat; ///< unit; the clear coat's normal, where it has one of its own
+    double b1 = 0, b2 = 0;          ///< barycentric weights of the second and third corner
 };
 
 /// Normals as the scene states them. The hit is one of the scene's.

@@ -177,6 +177,21 @@ void applyHeights(SurfacePoint& s, const Scene& scene, const TextureUse& map,
     settleNormal(s, raised / (side > 0 ? length : -length), mirrors, conventions);
 }
 
+/// What a map makes of the shading normal, unit; nothing where it leaves it alone.
+std::optional<glm::dvec3> mappedNormal(const SurfacePoint& s, const Scene& scene,
+                                       const TextureUse& map, const glm::dvec4& tangent,
+                                       bool isTurned) {
+    const glm::dvec3 texel(lookUp(scene, map, attributesOf(s, scene)));
+    const glm::dvec2 tilt = (2.0 * glm::dvec2(texel) - 1.0) * double(map.scale);
+    if (tilt == glm::dvec2(0.0)) return std::nullopt;
+    const glm::dvec3 t(tangent), b = tangent.w * glm::cross(s.shading, t);
+    // The map is that of the front; from behind, its vector is turned round as the normal is.
+    const glm::dvec3 across = tilt.x * t + tilt.y * b;
+    const glm::dvec3 n = (isTurned ? -across : across) + (2 * texel.z - 1) * s.shading;
+    if (!(glm::dot(n, n) > 0)) return std::nullopt;
+    return glm::normalize(n);
+}
+
 } // namespace
 
 void drawMaterial(SurfacePoint& s, const Scene& scene, RandomStream& random) {
@@ -198,7 +213,25 @@ void applyTextures(SurfacePoint& s, const Scene& scene) {
     s.ownMaterial = own;
 }
 
+/// glTF's clear coat is not turned by the base's map, but by its own.
+void findCoatNormal(SurfacePoint& s, const Scene& scene, const ShadingConventions& conventions) {
+    const TextureUse* map = textureIn(*s.material, TextureSlot::ClearcoatNormal);
+    const bool hasCoat =
+        s.material->kind == MaterialKind::Principled && s.material->principled.clearcoat > 0;
+    if (!hasCoat || (!map && !textureIn(*s.material, TextureSlot::Normal))) return;
+    s.coat = s.unmapped;
+    if (!map) return;
+    const bool isTurned = conventions.facesForward && !s.outside;
+    SurfacePoint unmapped = s;
+    unmapped.shading = s.unmapped;
+    const glm::dvec4 tangent = tangentOf(unmapped, scene, *s.material, isTurned);
+    if (tangent.w == 0) return;
+    const std::optional<glm::dvec3> n = mappedNormal(unmapped, scene, *map, tangent, isTurned);
+    if (n) s.coat = bendNormal(*n, s.geometric, s.wo);
+}
+
 void applyNormalMap(SurfacePoint& s, const Scene& scene, const ShadingConventions& conventions) {
+    findCoatNormal(s, scene, conventions);
     if (const TextureUse* heights = textureIn(*s.material, TextureSlot::Height))
         if (s.triangle != kNoPrimitive) applyHeights(s, scene, *heights, conventions);
     const TextureUse* map = textureIn(*s.material, TextureSlot::Normal);
@@ -206,15 +239,9 @@ void applyNormalMap(SurfacePoint& s, const Scene& scene, const ShadingConvention
     const bool isTurned = conventions.facesForward && !s.outside;
     s.tangent = tangentOf(s, scene, *s.material, isTurned);
     if (!map || s.tangent.w == 0) return;
-    const glm::dvec3 texel(lookUp(scene, *map, attributesOf(s, scene)));
-    const glm::dvec2 tilt = (2.0 * glm::dvec2(texel) - 1.0) * double(map->scale);
-    if (tilt == glm::dvec2(0.0)) return;
-    const glm::dvec3 t(s.tangent), b = s.tangent.w * glm::cross(s.shading, t);
-    // The map is that of the front; from behind, its vector is turned round as the normal is.
-    const glm::dvec3 across = tilt.x * t + tilt.y * b;
-    const glm::dvec3 n = (isTurned ? -across : across) + (2 * texel.z - 1) * s.shading;
-    if (!(glm::dot(n, n) > 0)) return;
-    settleNormal(s, glm::normalize(n), true, conventions);
+    const std::optional<glm::dvec3> n = mappedNormal(s, scene, *map, s.tangent, isTurned);
+    if (!n) return;
+    settleNormal(s, *n, true, conventions);
     s.tangent = tangentOf(s, scene, *s.material, isTurned);
 }
 

@@ -147,9 +147,7 @@ void MaterialReader::readClearcoat() {
     if (p.clearcoat == 0) return;
     use(*extension, "clearcoatTexture", TextureSlot::Clearcoat);
     use(*extension, "clearcoatRoughnessTexture", TextureSlot::ClearcoatRoughness);
-    if (extension->has("clearcoatNormalTexture"))
-        context_.report().ignore("clearcoatNormalTexture",
-                                 "all layers of a surface share the material's normals");
+    useNormalMap(*extension, "clearcoatNormalTexture", TextureSlot::ClearcoatNormal);
 }
 
 void MaterialReader::readSheen() {

@@ -146,7 +146,8 @@ glm::dvec3 emissionAt(const Scene& scene, const Material& material, const PointA
 }
 
 uint32_t uvSetOfTangents(const Material& material) {
-    for (const TextureSlot slot : {TextureSlot::Normal, TextureSlot::Anisotropy})
+    for (const TextureSlot slot :
+         {TextureSlot::Normal, TextureSlot::ClearcoatNormal, TextureSlot::Anisotropy})
         if (const TextureUse* use = textureIn(material, slot)) return use->uvSet;
     return 0;
 }

@@ -27,6 +27,9 @@ const BsdfSample ABSORBED = BsdfSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0, LOBE
 struct Incidence {
     vec3 wo;
     bool entering;
+#ifdef RICH_MATERIALS
+    vec3 coat; ///< unit; the clear coat's normal, in the same frame
+#endif
 };
 
 bool isDelta(uint lobe) { return (lobe & DELTA_LOBES) != 0u; }
@@ -158,7 +161,12 @@ bool scattersAtRandom(uint lobes) {
 
 Incidence incidenceOn(SurfacePoint s, ShadingFrame frame_) {
     const vec3 wo = toLocal(frame_, s.wo);
+#ifdef RICH_MATERIALS
+    const vec3 coat = sceneHasCoatNormals() ? toLocal(frame_, s.coat) : vec3(0.0, 0.0, 1.0);
+    return Incidence(wo, entersWhatItBounds(s.outside, wo), coat);
+#else
     return Incidence(wo, entersWhatItBounds(s.outside, wo));
+#endif
 }
 
 /// Light stays on the side of the true surface that its lobe sends it to.

@@ -6,6 +6,11 @@
 #include "shared/albedo_fits.h"
 
 const bool HAS_CLEARCOAT = (PRINCIPLED_FEATURES & PRINCIPLED_HAS_CLEARCOAT) != 0u;
+/// Whether coats of some materials have normals of their own: DETAIL_COAT_HAS_NORMAL.
+bool sceneHasCoatNormals() {
+    const uint maps = 1u << TEXTURE_NORMAL | 1u << TEXTURE_CLEARCOAT_NORMAL;
+    return HAS_CLEARCOAT && (TEXTURE_SLOTS & maps) != 0u;
+}
 const bool HAS_SHEEN = (PRINCIPLED_FEATURES & PRINCIPLED_HAS_SHEEN) != 0u;
 const bool HAS_ANISOTROPY = (PRINCIPLED_FEATURES & PRINCIPLED_HAS_ANISOTROPY) != 0u;
 const bool HAS_THIN_TRANSMISSION = (PRINCIPLED_FEATURES & PRINCIPLED_HAS_THIN_TRANSMISSION) != 0u;
@@ -47,12 +52,17 @@ struct PrincipledLayers {
     float base;       ///< what the coat and the sheen leave
     float albedo;     ///< ggxAlbedo() of the microfacets
     vec3 diffuse;     ///< albedo of the diffuse lobe
+    vec3 coatNormal;  ///< with sceneHasCoatNormals()
     float coat;       ///< strength, with what is given back
     float coatAlpha;
     vec3 sheen;       ///< colour, under the coat
     float sheenAlpha;
     float coatShare, sheenShare, diffuseShare; ///< probabilities; the rest is the facets'
 };
+
+/// To the frame of the coat's normal, and back.
+vec3 toCoat(PrincipledLayers l, vec3 w) { return sceneHasCoatNormals() ? toLocal(makeFrame(l.coatNormal), w) : w; }
+vec3 fromCoat(PrincipledLayers l, vec3 w) { return sceneHasCoatNormals() ? toWorld(makeFrame(l.coatNormal), w) : w; }
 
 /// What is given back to a lobe whose facets reflect f0 at normal incidence.
 vec3 givenBack(vec3 f0, float albedo) { return 1.0 + f0 * (1.0 / albedo - 1.0); }
@@ -84,9 +94,11 @@ PrincipledLayers layersOf(PrincipledParameters p, Incidence i) {
     l.coatShare = 0.0;
     if (HAS_CLEARCOAT) {
         l.coatAlpha = max(p.clearcoatRoughness * p.clearcoatRoughness, LEAST_GGX_ALPHA);
-        const float albedo = ggxAlbedo(mu, l.coatAlpha);
-        l.coat = fromOutside ? p.clearcoat * (1.0 + CLEARCOAT_F0 * (1.0 / albedo - 1.0)) : 0.0;
-        l.coatShare = l.coat * albedo * mix(CLEARCOAT_F0, 1.0, schlickShare(mu, l.coatAlpha));
+        l.coatNormal = i.coat;
+        const float coatMu = sceneHasCoatNormals() ? dot(i.wo, i.coat) : mu;
+        const float albedo = ggxAlbedo(coatMu, l.coatAlpha);
+        l.coat = fromOutside && coatMu > 0.0 ? p.clearcoat * (1.0 + CLEARCOAT_F0 * (1.0 / albedo - 1.0)) : 0.0;
+        l.coatShare = l.coat * albedo * mix(CLEARCOAT_F0, 1.0, schlickShare(coatMu, l.coatAlpha));
         left -= l.coatShare;
     }
     // Sheen.
@@ -260,11 +272,13 @@ BsdfValue evaluateLayers(PrincipledParameters p, PrincipledLayers l, vec3 wo, ve
     }
     if (HAS_CLEARCOAT) {
         const vec2 alpha = vec2(l.coatAlpha);
-        const vec3 h = unit(wo + wi);
-        const float density = visibleNormals(wo, h, alpha) * 0.25;
-        const float fresnel = mix(CLEARCOAT_F0, 1.0, schlickWeight(dot(wo, h)));
-        f.value += vec3(l.coat * fresnel * density * 2.0 * ggxVisibility(wo, wi, alpha) * wi.z *
-                        (wo.z + stretchedLength(wo, alpha)));
+        const vec3 coatWo = toCoat(l, wo), coatWi = toCoat(l, wi), h = unit(coatWo + coatWi);
+        const bool isMet = sceneHasCoatNormals() ? coatWo.z > 0.0 && coatWi.z > 0.0 : true;
+        const float density = isMet ? visibleNormals(coatWo, h, alpha) * 0.25 : 0.0;
+        const float fresnel = mix(CLEARCOAT_F0, 1.0, schlickWeight(dot(coatWo, h)));
+        const float visibility = isMet ? ggxVisibility(coatWo, coatWi, alpha) : 0.0;
+        f.value += vec3(l.coat * fresnel * density * 2.0 * visibility * coatWi.z *
+                        (coatWo.z + stretchedLength(coatWo, alpha)));
         f.pdf += l.coatShare * density;
     }
     return f;
@@ -290,13 +304,13 @@ BsdfSample samplePrincipled(PrincipledParameters p, Incidence i, vec3 u) {
     const float to = diffuse ? diffuseEnd : (sheen ? sheenEnd : (coat ? coatEnd : 1.0));
     const vec2 rest = vec2(clamp((u.x - from) / (to - from), 0.0, 1.0 - UNIT_ROUNDOFF), u.y);
 
-    const vec3 wo = coat ? i.wo : alongGrain(p, i.wo);
+    const vec3 wo = coat ? toCoat(l, i.wo) : alongGrain(p, i.wo);
     const vec3 h = sampleVisibleNormal(wo, coat ? vec2(l.coatAlpha) : l.alpha, rest);
     const float cosO = dot(wo, h);
     const bool transmits =
         !(diffuse || sheen || coat) && cosO > 0.0 && u.z >= facetAt(l, cosO).reflects;
     vec3 wi = leaveFacet(l, wo, h, !transmits);
-    if (!coat) wi = acrossGrain(p, wi);
+    wi = coat ? fromCoat(l, wi) : acrossGrain(p, wi);
     if (diffuse) wi = sampleCosineHemisphere(rest);
     if (HAS_SHEEN && sheen) wi = sampleUniformHemisphere(rest);
     s.direction = wi;

@@ -84,6 +84,8 @@ uint textureUseRow(uint materialRow, uint number) {
     return materialRow + MATERIAL_DETAIL_ROW + 1u + TEXTURE_USE_ROWS * number;
 }
 
+uint looseTexturesOf(MaterialDetail detail) { return detail.looseTextures & DETAIL_LOOSE_MASK; }
+
 /// The texture with this number plus one; 0, where a material has none: a picture of one texel, to no effect.
 TextureUse fetchTextureUse(uint materialRow, uint numberPlusOne) {
     if (numberPlusOne == 0u) return TextureUse(vec3(0.0), 0u, vec3(0.0), 0.0, 0u, 1u, 1u, 0u);
@@ -248,7 +250,7 @@ PointAttributes attributesOf(SurfacePoint s) {
 float blendShare(uint materialRow, PointAttributes a, uint notThere, out uint other) {
     const MaterialDetail detail = fetchDetail(materialRow);
     const uint bundles = (detail.flags & DETAIL_HAS_BUNDLE) != 0u ? 1u : 0u;
-    const uvec4 r = ROW(materialRows, textureUseRow(materialRow, bundles + detail.looseTextures));
+    const uvec4 r = ROW(materialRows, textureUseRow(materialRow, bundles + looseTexturesOf(detail)));
     const bool isBlend = (detail.flags & DETAIL_IS_BLEND) != 0u;
     const BlendRow blend = BlendRow(r.x, uintBitsToFloat(r.y), isBlend ? r.z : 0u, r.w);
     other = blend.other;
@@ -272,7 +274,7 @@ Material materialAt(SurfacePoint s, out Relief relief) {
     if (hasBundles()) applyBundle(m, relief, s.material, detail, a);
     if (LOOSE_SLOTS == 0u) return m;
     const uint first = (detail.flags & DETAIL_HAS_BUNDLE) != 0u ? 1u : 0u;
-    for (uint i = 0u; i < detail.looseTextures; ++i) {
+    for (uint i = 0u; i < looseTexturesOf(detail); ++i) {
         const TextureUse t = fetchTextureUse(textureUseRow(s.material, first + i));
         applyTexel(m, relief, t, lookUp(t, coordinatesOf(t, a)));
         if (hasHeights() && (t.slot & TEXTURE_SLOT_MASK) == TEXTURE_HEIGHT)

@@ -79,6 +79,31 @@ void applyHeights(inout SurfacePoint s, vec2 slope, bool mirrors, uint rules) {
     s.shading = settledNormal(unit(raised / size), n, s, mirrors, rules);
 }
 
+/// A map's vector in the frame of a surface, faced forward, with normal n and tangent t: not unit. Seen from behind, a
+/// bump is a dent: the vector is the front's, turned round with the normal.
+vec3 turnedByMap(SurfacePoint s, vec3 n, vec4 t, vec3 mapped) {
+    const float turned = FACES_FORWARD && !s.outside ? -1.0 : 1.0;
+    const vec3 bitangent = t.w * cross(n, t.xyz);
+    return mapped.x * turned * t.xyz + mapped.y * turned * bitangent + mapped.z * n;
+}
+
+/// The normal of the clear coat of a surface that is faced forward and has its shading normal: glTF's is not turned by
+/// the base's map, but by its own.
+vec3 coatNormal(SurfacePoint s) {
+    const MaterialDetail detail = fetchDetail(s.material);
+    if ((detail.flags & DETAIL_COAT_HAS_NORMAL) == 0u) return shadingNormal(s);
+    const vec3 n = unmappedNormal(s);
+    if (!sceneHasSlot(TEXTURE_CLEARCOAT_NORMAL)) return n;
+    const uint number = detail.looseTextures >> DETAIL_COAT_NORMAL_SHIFT;
+    const TextureUse use = fetchTextureUse(s.material, number);
+    const vec3 mapped = mappedNormal(lookUp(use, coordinatesOf(use, attributesOf(s))), use.scale);
+    const vec4 t = tangentAt(s, n);
+    const vec3 sum = turnedByMap(s, n, t, mapped);
+    const float length2 = dot(sum, sum);
+    const bool maps = number != 0u && t.w != 0.0 && length2 > 0.0;
+    return maps ? bentNormal(sum * inversesqrt(length2), s.geometric, s.wo) : n;
+}
+
 /// Replaces the shading normal of a surface that is faced forward by what maps say, and sets the tangent. mirrors, rules: as
 /// applyHeights() has them.
 void applyRelief(inout SurfacePoint s, Relief relief, bool mirrors, uint rules) {
@@ -88,13 +113,11 @@ void applyRelief(inout SurfacePoint s, Relief relief, bool mirrors, uint rules) 
     const vec3 mapped = relief.mapped;
     vec4 t = tangentAt(s, shadingNormal(s));
     if (hasNormalMaps()) {
-        // Seen from behind, a bump is a dent: the vector is the front's, turned round with the normal.
-        const float turned = FACES_FORWARD && !s.outside ? -1.0 : 1.0;
-        const vec3 n = shadingNormal(s), bitangent = t.w * cross(n, t.xyz);
-        const vec3 sum = mapped.x * turned * t.xyz + mapped.y * turned * bitangent + mapped.z * n;
+        const vec3 n = shadingNormal(s), sum = turnedByMap(s, n, t, mapped);
         const float length2 = dot(sum, sum);
         const bool maps = t.w != 0.0 && length2 > 0.0 && (mapped.x != 0.0 || mapped.y != 0.0);
         if (maps) s.shading = settledNormal(sum * inversesqrt(length2), n, s, true, rules);
     }
     if (TANGENT_FRAMES) s.tangent = tangentAt(s, shadingNormal(s));
+    if (sceneHasCoatNormals()) s.coat = coatNormal(s);
 }

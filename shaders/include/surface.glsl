@@ -13,6 +13,7 @@ struct SurfacePoint {
 #ifdef RICH_MATERIALS
     vec2 weights; ///< barycentric, of the second and third corner (triangles)
     vec4 tangent; ///< relief.glsl; with TANGENT_FRAMES
+    vec3 coat;    ///< unit; the clear coat's normal, with sceneHasCoatNormals() (relief.glsl)
 #endif
 #ifdef PLACEMENTS
     uint placement; ///< that skipPrimitive is in; NO_PLACEMENT: none

@@ -17,7 +17,9 @@ struct MaterialDetail {
     float opacity;
     float alphaCutoff;
     uint flags; ///< DETAIL_
-    uint looseTextures; ///< how many TextureUse follow beside the bundle's
+    /// How many TextureUse follow beside the bundle's, in bits 0 to 7; in bits 8 to 15 the number of the one
+    /// with TEXTURE_CLEARCOAT_NORMAL, plus one; 0: there is none.
+    uint looseTextures;
 };
 SHARED_ROWS(MaterialDetail, 1);
 SHARED_CONST uint DETAIL_MASK = 1u;  ///< there where opacity is at least alphaCutoff, else not
@@ -25,6 +27,11 @@ SHARED_CONST uint DETAIL_BLEND = 2u; ///< opacity is the share of light that mee
 SHARED_CONST uint DETAIL_HAS_BUNDLE = 4u;    ///< the first TextureUse is a bundle
 SHARED_CONST uint DETAIL_BUNDLE_MAPS_NORMALS = 8u; ///< it has a map of TEXTURE_NORMAL
 SHARED_CONST uint DETAIL_IS_HIDDEN = 32u; ///< camera rays pass it
+/// The clear coat has a normal of its own: the surface's before TEXTURE_NORMAL turned it, or what
+/// TEXTURE_CLEARCOAT_NORMAL makes of that.
+SHARED_CONST uint DETAIL_COAT_HAS_NORMAL = 64u;
+SHARED_CONST uint DETAIL_LOOSE_MASK = 0xFFu;
+SHARED_CONST uint DETAIL_COAT_NORMAL_SHIFT = 8u; ///< in looseTextures
 /// It is a mixture: the row behind its textures is a BlendRow.
 SHARED_CONST uint DETAIL_IS_BLEND = 16u;
 /// The number of the TextureUse with TEXTURE_EMISSION, plus one, in bits 8 to 15; 0: there is none. The same for
@@ -76,7 +83,7 @@ SHARED_CONST uint TEXTURE_SPECULAR = 5u;
 SHARED_CONST uint TEXTURE_SPECULAR_COLOR = 6u;
 SHARED_CONST uint TEXTURE_CLEARCOAT = 7u;
 SHARED_CONST uint TEXTURE_CLEARCOAT_ROUGHNESS = 8u;
-SHARED_CONST uint TEXTURE_CLEARCOAT_NORMAL = 9u; ///< is not read
+SHARED_CONST uint TEXTURE_CLEARCOAT_NORMAL = 9u;
 SHARED_CONST uint TEXTURE_SHEEN_COLOR = 10u;
 SHARED_CONST uint TEXTURE_SHEEN_ROUGHNESS = 11u;
 SHARED_CONST uint TEXTURE_ANISOTROPY = 12u;

@@ -130,8 +130,9 @@ TEST(GltfMaterials, ClearcoatSheenAnisotropy) {
            "clearcoatRoughnessTexture": {"index": 0}, "clearcoatNormalTexture": {"index": 0, "scale": 2})"));
     EXPECT_EQ(coat.principled.clearcoat, 0.5f);
     EXPECT_EQ(coat.principled.clearcoatRoughness, 0.25f);
-    EXPECT_EQ(useOf(coat, TextureSlot::ClearcoatNormal), nullptr) << "all layers share one normal";
-    EXPECT_EQ(coat.textures.size(), 2u);
+    ASSERT_NE(useOf(coat, TextureSlot::ClearcoatNormal), nullptr);
+    EXPECT_EQ(useOf(coat, TextureSlot::ClearcoatNormal)->scale, 2);
+    EXPECT_EQ(coat.textures.size(), 3u);
     const Material sheen = materialOf(extension(
         "KHR_materials_sheen",
         R"("sheenColorFactor": [0.5, 0, 1], "sheenRoughnessFactor": 0.75, "sheenColorTexture": {"index": 0},
