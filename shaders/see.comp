@@ -109,6 +109,7 @@ void follow(Material m, SurfacePoint s) {
 
 void arrive() {
     SurfacePoint s = surfaceAt(ray);
+    if (HAS_BLENDS) s.material = materialOfSide(s);
     Relief relief;
     const Material m = materialAt(s, relief);
     faceForward(s);

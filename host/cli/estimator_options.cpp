@@ -92,7 +92,8 @@ void declareEstimator(DeclaredCommand& c) {
     list.onOff("--terminator-offset",
                "on: meshes with normals of their own reflect light from the smooth surface that "
                "these describe; off: from their flat triangles, as most renderers have it",
-               e.conventions.offsetsTerminator);
+               e.conventions.offsetsTerminator)
+        .usually("on; --cs184: off");
     list.choice("--integrator", "KIND", "what a sample is", e.integrator);
     list.flag("--cs184",
               "the CS184 renderer's conventions: framing and crop, normals, lights, tone curve, "
@@ -110,7 +111,7 @@ void finishEstimator(DeclaredCommand& c) {
     const std::string moot =
         e.integrator != Integrator::Path
             ? c.givenOf({"-m", "--min-bounce", "-l", "--direct", "-H", "--light-choice",
-                         "--roulette", "--gap-proposal", "--branches", "-a"})
+                         "--roulette", "--gap-proposal", "--terminator-offset", "--branches", "-a"})
             : "";
     if (!moot.empty())
         c.options.remarks.push_back(fmt::format("--integrator {} follows no light: ignored: {}",
@@ -123,6 +124,9 @@ void finishEstimator(DeclaredCommand& c) {
         throw UsageError(
             fmt::format("--gap-proposal on needs lights that are sampled: not --direct {}",
                         nameOf(e.directLight)));
+    if (e.conventions.offsetsTerminator && !e.conventions.facesForward)
+        throw UsageError(
+            "--terminator-offset on does not go with --cs184, whose surfaces are flat");
     if (e.minBounce > e.maxBounces)
         throw UsageError(fmt::format("--min-bounce {} is more than -m {}: no light is left",
                                      e.minBounce, e.maxBounces));

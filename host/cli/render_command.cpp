@@ -188,7 +188,7 @@ int renderPicture(Renderer& renderer, Job& job, const Options& asked, const Begu
 /// is built and uploaded.
 void moveTo(const Options& frame, Job& job, Renderer& renderer) {
     job = loadMoment(frame, job);
-    if (job.scene.isMoment() || job.scene.lightsMove) renderer.changeScene();
+    if (job.scene.isMoment()) renderer.changeScene();
 }
 
 /// Part of the samples of all pixels, or of a plan, as a film. Returns the exit code.

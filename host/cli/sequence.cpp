@@ -70,7 +70,9 @@ std::vector<Options> optionsOfFrames(const Options& asked) {
     const FrameRange all{0, sequence.turntable > 0 ? sequence.turntable - 1 : 0};
     const FrameRange frames = sequence.frames.value_or(all);
     std::vector<Options> pictures;
-    const auto decoded = std::make_shared<build::PictureStore>();
+    // The file is read again for each moment of its animation.
+    const bool isReadAgain = sequence.turntable == 0 && frames.last > frames.first;
+    const auto decoded = isReadAgain ? std::make_shared<build::PictureStore>() : nullptr;
     for (uint32_t frame = frames.first; frame <= frames.last; ++frame)
         pictures.push_back(optionsOf(asked, frame)), pictures.back().reading.pictures = decoded;
     return pictures;

@@ -263,7 +263,9 @@ BsdfSample Layers::sample(const dvec3& u) const {
         s.direction = uniformHemisphere(u.x, u.y);
     } else if ((pick -= sheenShare_) < coatShare_) {
         const dvec3 h = coatGgx_.sampleVisible(coatWo_, u.x, u.y);
-        s.direction = coatFrame_.toWorld(2 * glm::dot(coatWo_, h) * h - coatWo_);
+        const dvec3 wi = 2 * glm::dot(coatWo_, h) * h - coatWo_;
+        if (!(wi.z > 0)) return s; // below the coat's own horizon, where it has no density
+        s.direction = coatFrame_.toWorld(wi);
     } else {
         const double left = std::min((pick - coatShare_) / facetShare_, 1.0);
         const dvec3 h = ggx_.sampleVisible(grainWo_, u.x, u.y);

@@ -63,6 +63,8 @@ class RandomStream;
 
 /// Of a mixture: the material that light meets there, drawn.
 void drawMaterial(SurfacePoint& surface, const Scene& scene, RandomStream& random);
+/// The material of the side that the surface is seen from, for those who draw none of a mixture.
+void takeMaterialOfSide(SurfacePoint& surface, const Scene& scene);
 /// Takes in textures and the colours of corners: the material's parameters, as stated before
 /// faceForward().
 void applyTextures(SurfacePoint& surface, const Scene& scene);

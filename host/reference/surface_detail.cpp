@@ -202,6 +202,12 @@ void drawMaterial(SurfacePoint& s, const Scene& scene, RandomStream& random) {
         s.material = s.stated = &scene.materials[s.material->other];
 }
 
+void takeMaterialOfSide(SurfacePoint& s, const Scene& scene) {
+    const OtherPlace there = isSeenFromBehind(s) ? OtherPlace::Behind : OtherPlace::InFront;
+    if (s.material->other != kNoMaterial && s.material->otherPlace == there)
+        s.material = s.stated = &scene.materials[s.material->other];
+}
+
 void applyTextures(SurfacePoint& s, const Scene& scene) {
     const PointAttributes at = attributesOf(s, scene);
     if (s.material->textures.empty() && at.color == glm::dvec4(1.0)) return;

@@ -37,6 +37,7 @@ glm::dvec3 albedoOf(const Material& m) {
 /// The surface as it is shaded.
 SurfacePoint shadedSurface(const World& world, const Ray& ray, const Hit& hit) {
     SurfacePoint s = surfaceAt(world.scene, ray, hit);
+    takeMaterialOfSide(s, world.scene);
     if (world.hasDetails) applyTextures(s, world.scene);
     faceForward(s, world.conventions);
     if (world.hasDetails) applyNormalMap(s, world.scene, world.conventions);

@@ -174,8 +174,9 @@ bool Nodes::isMoved(const Element& node, size_t index) const {
     const auto found = animated_.find(index);
     if (found != animated_.end() && !found->second.weights.empty()) return true;
     const auto skin = document_.follow(node, "skin", "skins");
-    if (!skin) return moves_[index];
-    const std::vector<size_t> joints = skin->indices("joints", document_.size("nodes"));
+    const std::vector<size_t> joints =
+        skin ? skin->indices("joints", document_.size("nodes")) : std::vector<size_t>{};
+    if (joints.empty()) return moves_[index];
     return std::ranges::any_of(joints, [&](size_t joint) { return moves_[joint]; });
 }
 

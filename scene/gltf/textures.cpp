@@ -125,14 +125,13 @@ uint32_t Textures::image(size_t index, bool srgb) {
     const auto found = images_.find({index, srgb});
     if (found != images_.end()) return found->second;
     TextureImage picture = readOnce(index, srgb);
-    const uint32_t largest = context_.selection().largestTexture;
-    const bool shrinks = largest > 0 && (picture.width > largest || picture.height > largest);
     // Bytes are the same whatever they mean; what is decoded or mixed is not.
     const auto other = images_.find({index, !srgb});
-    if (other != images_.end() && !shrinks && picture.format == TexelFormat::Rgba8)
+    const bool mayBeMixed = context_.selection().largestTexture > 0;
+    if (other != images_.end() && !mayBeMixed && picture.format == TexelFormat::Rgba8)
         return images_[{index, srgb}] = other->second;
-    if (shrinks) images::shrinkToFit(picture, largest, srgb);
-    requireRoom(picture.words.size() * sizeof(uint32_t), index);
+    const uint64_t copies = context_.builder.conventions().pictures ? 2 : 1;
+    requireRoom(copies * picture.words.size() * sizeof(uint32_t), index);
     return images_[{index, srgb}] = context_.builder.addImage(std::move(picture));
 }
 
@@ -149,8 +148,15 @@ void Textures::requireRoom(uint64_t bytes, size_t index) {
 
 TextureImage Textures::readOnce(size_t index, bool srgb) {
     build::PictureStore* store = context_.builder.conventions().pictures.get();
-    if (!store) return read(index, srgb);
-    return store->get(fmt::format("{} {}", index, srgb), [&] { return read(index, srgb); });
+    if (!store) return readToFit(index, srgb);
+    return store->get(fmt::format("{} {}", index, srgb), [&] { return readToFit(index, srgb); });
+}
+
+TextureImage Textures::readToFit(size_t index, bool srgb) {
+    TextureImage picture = read(index, srgb);
+    const uint32_t largest = context_.selection().largestTexture;
+    if (largest > 0) images::shrinkToFit(picture, largest, srgb);
+    return picture;
 }
 
 TextureImage Textures::read(size_t index, bool srgb) {

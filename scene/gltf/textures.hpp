@@ -32,6 +32,8 @@ class Textures {
     uint32_t image(size_t index, bool srgb);
     /// From where the conventions keep it, if it is there.
     TextureImage readOnce(size_t index, bool srgb);
+    /// Shrunk to the largest size that is wanted.
+    TextureImage readToFit(size_t index, bool srgb);
     TextureImage read(size_t index, bool srgb);
     void requireRoom(uint64_t bytes, size_t index);
 

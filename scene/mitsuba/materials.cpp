@@ -23,7 +23,7 @@ Surface Materials::make(const Plugin* bsdf, const Plugin* emitter, bool isOld) {
     surface.material.isBlackBehind = !isOld;
     if (emitter) surface.material.albedo = glm::vec3(0); // what shines reflects by its bsdf alone
     if (bsdf) surface = readBsdf(context_, textures_, *bsdf);
-    settleColors(surface, bsdf);
+    settleColors(surface);
     if (emitter)
         for (Surface* each = &surface; each; each = each->other.get())
             addEmission(*emitter, each->material);
@@ -32,7 +32,7 @@ Surface Materials::make(const Plugin* bsdf, const Plugin* emitter, bool isOld) {
 
 /// Colours of corners multiply those of all materials of a mixture. Where not all are meant to have
 /// the same ones, those that are have them as textures.
-void Materials::settleColors(Surface& surface, const Plugin* bsdf) {
+void Materials::settleColors(Surface& surface) {
     bool areAlike = true;
     for (const Surface* each = &surface; each; each = each->other.get())
         areAlike = areAlike && each->cornerColors == surface.cornerColors;
@@ -40,9 +40,6 @@ void Materials::settleColors(Surface& surface, const Plugin* bsdf) {
     for (Surface* each = &surface; each; each = each->other.get()) {
         if (each->cornerColors.empty()) continue;
         std::vector<TextureUse>& textures = each->material.textures;
-        if (std::ranges::find(textures, TextureSlot::BaseColor, &TextureUse::slot) !=
-            textures.end())
-            bsdf->fail("has a mesh attribute under a mask in a blend, which is not supported");
         each->cornerPaint.slot = TextureSlot::BaseColor;
         textures.push_back(each->cornerPaint);
         each->cornerColors.clear();

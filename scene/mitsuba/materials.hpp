@@ -33,7 +33,7 @@ class Materials {
   private:
     Surface make(const Plugin* bsdf, const Plugin* emitter, bool isOld);
     BoundMaterial bind(Surface&& surface);
-    static void settleColors(Surface& surface, const Plugin* bsdf);
+    static void settleColors(Surface& surface);
     bool wantsPaint(const Surface& surface) const;
     void paint(Surface& surface, const Plugin& shape, const Painter& painter);
     void ignoreBeam(const Plugin& emitter, Material& material);

@@ -28,7 +28,7 @@ Bounds Scene::bounds() const {
 }
 
 bool Scene::isMoment() const {
-    return std::ranges::find(movingInstances, true) != movingInstances.end();
+    return lightsMove || std::ranges::find(movingInstances, true) != movingInstances.end();
 }
 
 uint64_t Scene::placedTriangles() const {

@@ -141,7 +141,7 @@ struct Scene {
         return prototypes.empty() ? 0
                                   : prototypes.back().firstTriangle + prototypes.back().triangles;
     }
-    /// Whether anything moves.
+    /// Whether an animation moves anything, lights too.
     bool isMoment() const;
     bool moves(uint32_t instance) const {
         return instance < movingInstances.size() && movingInstances[instance];

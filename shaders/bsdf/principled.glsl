@@ -310,13 +310,14 @@ BsdfSample samplePrincipled(PrincipledParameters p, Incidence i, vec3 u) {
     const bool transmits =
         !(diffuse || sheen || coat) && cosO > 0.0 && u.z >= facetAt(l, cosO).reflects;
     vec3 wi = leaveFacet(l, wo, h, !transmits);
+    const bool isLost = coat && !(wi.z > 0.0); // below the coat's own horizon, where it has no density
     wi = coat ? fromCoat(l, wi) : acrossGrain(p, wi);
     if (diffuse) wi = sampleCosineHemisphere(rest);
     if (HAS_SHEEN && sheen) wi = sampleUniformHemisphere(rest);
     s.direction = wi;
     s.lobe = transmits ? LOBE_GLOSSY_TRANSMISSION : LOBE_GLOSSY_REFLECTION;
     // Below the surface that it should be above, or the other way round.
-    if (transmits ? !(wi.z < 0.0) : !(wi.z > 0.0)) return s;
+    if (isLost || (transmits ? !(wi.z < 0.0) : !(wi.z > 0.0))) return s;
     const BsdfValue f = evaluateLayers(p, l, i.wo, wi);
     s.pdf = f.pdf;
     s.weight = f.value / max(f.pdf, TINY);

@@ -3,7 +3,8 @@
 // specialisation constant CS184 is read here only, for two sets of conventions. They have the names that
 // they have on the host (host/render/shading_conventions.hpp).
 
-/// Normals are turned to the side of wo, and the lit point is lifted onto the smooth surface.
+/// Normals are turned to the side of wo; with that the lit point may be lifted onto the smooth surface
+/// (FLAT_TERMINATOR).
 const bool FACES_FORWARD = !CS184;
 /// Light stays on the side of the geometric surface that its lobe sends it to.
 const bool TESTS_GEOMETRIC_SIDE = !CS184;

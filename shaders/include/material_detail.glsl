@@ -220,6 +220,13 @@ void applyTexel(inout Material m, inout Relief relief, TextureUse t, vec4 texel)
     }
 }
 
+/// Whether a texture is no part of parameters: opacity, what takes the material's place, the coat's normal.
+bool isReadElsewhere(uint slot) {
+    return sceneHasSlot(TEXTURE_OPACITY) && slot == TEXTURE_OPACITY ||
+           sceneHasSlot(TEXTURE_BLEND_SHARE) && slot == TEXTURE_BLEND_SHARE ||
+           sceneHasSlot(TEXTURE_CLEARCOAT_NORMAL) && slot == TEXTURE_CLEARCOAT_NORMAL;
+}
+
 /// The bundle's part in them.
 void applyBundle(inout Material m, inout Relief relief, uint materialRow, MaterialDetail detail,
                  PointAttributes a) {
@@ -263,6 +270,16 @@ float blendShare(uint materialRow, PointAttributes a, uint notThere, out uint ot
     return share;
 }
 
+/// The material of the side that a surface is seen from, for those who draw none of a mixture.
+uint materialOfSide(SurfacePoint s) {
+    const uint notThere = isSeenFromBehind(s) ? OTHER_IN_FRONT : OTHER_BEHIND;
+    const MaterialDetail detail = fetchDetail(s.material);
+    const uint bundles = (detail.flags & DETAIL_HAS_BUNDLE) != 0u ? 1u : 0u;
+    const uvec4 r = ROW(materialRows, textureUseRow(s.material, bundles + looseTexturesOf(detail)));
+    const bool hasOther = (detail.flags & DETAIL_IS_BLEND) != 0u && r.w != OTHER_BY_SHARE && r.w != notThere;
+    return hasOther ? r.x : s.material;
+}
+
 /// The material at a point of a surface.
 Material materialAt(SurfacePoint s, out Relief relief) {
     Material m = fetchMaterial(s.material);
@@ -276,6 +293,7 @@ Material materialAt(SurfacePoint s, out Relief relief) {
     const uint first = (detail.flags & DETAIL_HAS_BUNDLE) != 0u ? 1u : 0u;
     for (uint i = 0u; i < looseTexturesOf(detail); ++i) {
         const TextureUse t = fetchTextureUse(textureUseRow(s.material, first + i));
+        if (isReadElsewhere(t.slot & TEXTURE_SLOT_MASK)) continue;
         applyTexel(m, relief, t, lookUp(t, coordinatesOf(t, a)));
         if (hasHeights() && (t.slot & TEXTURE_SLOT_MASK) == TEXTURE_HEIGHT)
             relief.slope = t.scale * slopeOf(t, coordinatesOf(t, a));

@@ -100,7 +100,8 @@ vec3 coatNormal(SurfacePoint s) {
     const vec4 t = tangentAt(s, n);
     const vec3 sum = turnedByMap(s, n, t, mapped);
     const float length2 = dot(sum, sum);
-    const bool maps = number != 0u && t.w != 0.0 && length2 > 0.0;
+    const bool maps =
+        number != 0u && t.w != 0.0 && length2 > 0.0 && (mapped.x != 0.0 || mapped.y != 0.0);
     return maps ? bentNormal(sum * inversesqrt(length2), s.geometric, s.wo) : n;
 }
 
@@ -109,7 +110,10 @@ vec3 coatNormal(SurfacePoint s) {
 void applyRelief(inout SurfacePoint s, Relief relief, bool mirrors, uint rules) {
     if (hasHeights() && relief.slope != vec2(0.0) && s.skipPrimitive != NO_PRIMITIVE)
         applyHeights(s, relief.slope, mirrors, rules);
-    if (!hasAttribute(ATTRIBUTE_TANGENT)) return;
+    if (!hasAttribute(ATTRIBUTE_TANGENT)) {
+        if (sceneHasCoatNormals()) s.coat = shadingNormal(s); // no map can be read
+        return;
+    }
     const vec3 mapped = relief.mapped;
     vec4 t = tangentAt(s, shadingNormal(s));
     if (hasNormalMaps()) {

@@ -61,7 +61,7 @@ struct TextureUse {
     vec3 uRow; ///< u' = uRow . (u, v, 1)
     uint slot; ///< TEXTURE_ slot, of no meaning for bundles; | TEXTURE_SECOND_UV
     vec3 vRow; ///< v' = vRow . (u, v, 1)
-    float scale; ///< TEXTURE_NORMAL: of the tangential part; TEXTURE_HEIGHT: of all
+    float scale; ///< TEXTURE_NORMAL, _CLEARCOAT_NORMAL: of the tangential part; _HEIGHT: of all; _OPACITY: below 0, its negative
     uint firstRow; ///< of its texels in the detail buffer
     uint width;
     uint height;

@@ -53,6 +53,9 @@ TEST(Mixtures, MayBeOfTwoSides) {
             const Camera camera = pointCamera({0.4, 0.3, z}, {0.4, 0.3, 0});
             const bool isOther = (z < 0) == (place == OtherPlace::Behind);
             expectMean(estimate(b.scene, camera, settings), isOther ? 0.2 : 0.8);
+            const std::vector<uint32_t> samples(settings.area.pixelCount(), 1);
+            for (const SeenPixel& p : seenBy(b.scene, camera, settings, samples, Seeing::Surfaces))
+                EXPECT_NEAR(p.albedo.x, isOther ? 0.2 : 0.8, 1e-6) << "layers show that side";
         }
 }
 

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <optional>
 
 namespace stromboli {
 namespace {
@@ -305,87 +304,6 @@ TEST(Heights, AreAlongTheShadingNormal) {
                      alongY = y - glm::dot(y, n) * n - 0.4 * n;
     EXPECT_NEAR((Raised{.normal = {0.3f, -0.2f, 1}}.cosine(kLeaning)),
                 glm::dot(glm::dvec3(kLeaning), glm::normalize(glm::cross(alongX, alongY))), 1e-4);
-}
-
-// --- Clear coats
-// -----------------------------------------------------------------------------------
-
-/// A coat over black, on a square that lies flat or leans towards +x.
-struct Coated {
-    bool leans = false;                  ///< its normal is (0.6, 0, 0.8)
-    std::optional<TextureSlot> map = {}; ///< which leans in the same way
-    Light light = ambient(1);
-    DirectLight mode = DirectLight::Mis;
-    float roughness = 0.5f;
-
-    Estimate seen(uint32_t samples) const {
-        SceneMaker b;
-        TextureMaker t(b.scene);
-        Material m;
-        m.kind = MaterialKind::Principled;
-        m.principled = {.baseColor = glm::vec3(0),
-                        .metallic = 0,
-                        .specular = 0,
-                        .clearcoat = 1,
-                        .clearcoatRoughness = roughness};
-        if (map)
-            m.textures.push_back(
-                {.slot = *map, .texture = t.constant(glm::vec4(0.8f, 0.5f, 0.9f, 1))});
-        const glm::vec3 along = leans ? glm::vec3(0.8f, 0, -0.6f) : glm::vec3(1, 0, 0);
-        b.quad(-0.5f * along - glm::vec3(0, 0.5f, 0), along, {0, 1, 0}, b.add(m));
-        t.attributes(2, [&](const glm::vec3& p) {
-            VertexAttributes a;
-            a.uv[0] = {p.x, 1 - p.y};
-            a.tangent = glm::vec4(along, 1);
-            return a;
-        });
-        b.add(light);
-        RenderSettings s = smallPicture(samples, 1);
-        s.estimator.directLight = mode;
-        return estimate(b.scene, pointCamera({0.5, -0.3, 2}, {0, 0, 0}), s);
-    }
-};
-
-Light sunAlong(const glm::vec3& direction) {
-    Light l;
-    l.kind = LightKind::Directional;
-    l.direction = -glm::normalize(direction);
-    return l;
-}
-
-/// A coat with a map reflects as one that leans itself: base and coat are black otherwise.
-TEST(ClearcoatNormals, LeanByTheirOwnMap) {
-    for (const glm::vec3& to : {glm::vec3(0.9f, 0.1f, 0.8f), glm::vec3(0.3f, 0.5f, 1)}) {
-        const Light sun = sunAlong(to);
-        const double leaning = Coated{.leans = true, .light = sun}.seen(1).mean.x;
-        const double mapped =
-            Coated{.map = TextureSlot::ClearcoatNormal, .light = sun}.seen(1).mean.x;
-        const double flat = Coated{.light = sun}.seen(1).mean.x;
-        EXPECT_NEAR(mapped / leaning, 1, 0.01); // half floats lean by 1e-3
-        EXPECT_GT(std::abs(flat / leaning - 1), 0.2) << "negative control";
-    }
-}
-
-/// glTF: without a map of its own the coat is as the mesh says, whatever the base has.
-TEST(ClearcoatNormals, AreNotTurnedByTheMapOfTheBase) {
-    const Light sun = sunAlong({0.3f, 0.5f, 1});
-    const double flat = Coated{.light = sun}.seen(1).mean.x;
-    EXPECT_NEAR((Coated{.map = TextureSlot::Normal, .light = sun}.seen(1).mean.x) / flat, 1, 1e-3);
-}
-
-/// Light samples and bounces find the same light: the density is that of the samples.
-TEST(ClearcoatNormals, AreSampledAsTheyAreEvaluated) {
-    for (const TextureSlot map : {TextureSlot::ClearcoatNormal, TextureSlot::Normal})
-        for (const float roughness : {0.5f, 0.9f}) {
-            const auto seen = [&](DirectLight mode) {
-                return Coated{.map = map, .mode = mode, .roughness = roughness}.seen(256);
-            };
-            const Estimate hemisphere = seen(DirectLight::Hemisphere);
-            EXPECT_GT(hemisphere.mean.x, 0.01);
-            EXPECT_LT(hemisphere.mean.x, 0.5);
-            for (const DirectLight mode : {DirectLight::Mis, DirectLight::Bsdf})
-                expectSameMean(hemisphere, seen(mode));
-        }
 }
 
 } // namespace

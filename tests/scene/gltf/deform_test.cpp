@@ -200,7 +200,8 @@ TEST(GltfAnimations, MarkLightsThatTheyMove) {
     g.arrays["scenes"][0] = R"({"nodes": [0, 1]})";
     const Scene scene = load(g, at(2));
     EXPECT_TRUE(scene.lightsMove);
-    EXPECT_FALSE(scene.isMoment());
+    EXPECT_TRUE(scene.isMoment());
+    EXPECT_FALSE(scene.moves(0));
     EXPECT_FALSE(load(g).lightsMove);
 }
 

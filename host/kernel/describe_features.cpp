@@ -1,0 +1,96 @@
+#include "host/kernel/kernel_features.hpp"
+#include "shaders/shared/texture_types.h"
+
+#include <fmt/format.h>
+
+namespace stromboli {
+namespace {
+
+bool hasTerminatorOffset(const KernelFeatures& f) {
+    return f[SPEC_HAS_NORMALS] && !f[SPEC_CS184] && !f[SPEC_FLAT_TERMINATOR];
+}
+
+std::string list(uint32_t bits, const std::vector<const char*>& names) {
+    std::string text;
+    for (uint32_t i = 0; i < names.size(); ++i)
+        if (bits & (1u << i)) text += (text.empty() ? "" : ", ") + std::string(names[i]);
+    return text.empty() ? "none" : text;
+}
+
+const char* ambientText(const KernelFeatures& f) {
+    if (!f[SPEC_HAS_AMBIENT]) return "none";
+    if (f[SPEC_HAS_ENVIRONMENT]) return "an environment, sampled by its radiance";
+    return f[SPEC_LIGHT_KINDS] & 1u << gpu::LIGHT_AMBIENT ? "sampled" : "left to bounces";
+}
+
+std::string textureText(const KernelFeatures& f) {
+    if (!f[SPEC_TEXTURE_SLOTS]) return "none";
+    return list(f[SPEC_TEXTURE_SLOTS],
+                {"base color", "metallic-roughness", "normal", "emission", "transmission",
+                 "specular", "specular color", "clearcoat", "clearcoat roughness",
+                 "clearcoat normal", "sheen color", "sheen roughness", "anisotropy", "height",
+                 "share of a mixture", "of a projector", "opacity"});
+}
+
+/// What the principled materials have besides metal and dielectric.
+std::string principledText(const KernelFeatures& f) {
+    if (f[SPEC_PRINCIPLED_FEATURES] == 0) return "";
+    return fmt::format(" (with {})", list(f[SPEC_PRINCIPLED_FEATURES],
+                                          {"clear coat", "sheen", "anisotropy", "thin transmission",
+                                           "refraction", "absorption"}));
+}
+
+} // namespace
+
+std::vector<std::string> describe(const KernelFeatures& f) {
+    static const char* const kDirect[] = {"light sampling", "uniform hemisphere",
+                                          "left to bounces (delta lights sampled)"};
+    static const char* const kFilters[] = {"box", "Gaussian", "Blackman-Harris", "tent",
+                                           "negative in places, samples have weights"};
+    static const char* const kIntegrators[] = {"path", "normals", "depth"};
+    static const char* const kRoulette[] = {"none", "by throughput", "fixed probability"};
+    const std::string primitives =
+        list(f[SPEC_HAS_TRIANGLES] | (f[SPEC_HAS_SPHERES] << 1), {"triangles", "spheres"});
+    return {
+        fmt::format("primitives: {}", primitives),
+        fmt::format("instances: {}",
+                    f[SPEC_HAS_PLACEMENTS] ? "meshes that share their triangles" : "none"),
+        fmt::format("shading normals: {}", f[SPEC_HAS_NORMALS] ? "interpolated" : "none"),
+        fmt::format(
+            "materials: {}{}",
+            list(f[SPEC_BSDF_KINDS],
+                 {"diffuse", "mirror", "refraction", "glass", "rough conductor", "principled",
+                  "smooth conductor", "conductor of facets", "dielectric of facets",
+                  "thin dielectric", "plastic", "plastic of facets", "Burley's principled"}),
+            principledText(f)),
+        fmt::format("textures: {}", textureText(f)),
+        fmt::format("vertex colors: {}",
+                    f[SPEC_ATTRIBUTES] & gpu::ATTRIBUTE_COLOR ? "yes" : "none"),
+        fmt::format("opacity: {}", f[SPEC_ALPHA] ? "partly transparent" : "all opaque"),
+        fmt::format("emission: {}", f[SPEC_HAS_EMISSION] ? "yes" : "none"),
+        fmt::format("lights: {}", list(f[SPEC_LIGHT_KINDS],
+                                       {"quad", "triangle", "sphere", "ambient", "directional",
+                                        "point", "spot", "environment", "projector"})),
+        fmt::format("ambient light: {}{}", ambientText(f),
+                    f[SPEC_HAS_BACKDROP] ? ", seen by the camera" : ""),
+        fmt::format("integrator: {}", kIntegrators[f[SPEC_INTEGRATOR]]),
+        fmt::format("direct light: {}{}", kDirect[f[SPEC_DIRECT_LIGHT]],
+                    f[SPEC_MIS_LOBES] ? ", shared with bounces (MIS)" : ""),
+        fmt::format(
+            "sampler: {}",
+            nameOf(f[SPEC_SAMPLER] == gpu::SAMPLER_SOBOL ? Sampler::Sobol : Sampler::Independent)),
+        fmt::format("roulette: {}", kRoulette[f[SPEC_ROULETTE]]),
+        fmt::format("paths: {}", f[SPEC_SPLITS] ? "with branches" : "each by itself"),
+        fmt::format("bounces: {}", f[SPEC_GAP_PROPOSAL] ? "some into the gap behind the light"
+                                                        : "by the materials"),
+        fmt::format("camera: {}{}", f[SPEC_ORTHOGRAPHIC] ? "orthographic" : "perspective",
+                    f[SPEC_HAS_LENS] ? ", through a lens" : ""),
+        fmt::format("pixel filter: {}", kFilters[f[SPEC_PIXEL_FILTER]]),
+        fmt::format("CS184 conventions: {}", f[SPEC_CS184] ? "yes" : "no"),
+        fmt::format("terminator offset: {}", hasTerminatorOffset(f) ? "yes" : "none"),
+        fmt::format("traversal stack: {} entries{}", f[SPEC_STACK_SIZE],
+                    f[SPEC_LARGE_TREE] ? " of two words" : ""),
+    };
+}
+
+} // namespace stromboli
