@@ -7,7 +7,7 @@
 namespace stromboli {
 
 std::shared_ptr<const PartTree>
-KeptTrees::treeOf(uint32_t number, Scene part, double padding,
+KeptTrees::treeOf(uint32_t number, Scene part, std::optional<double> padding,
                   const std::function<PartTree(const Scene&)>& build) {
     Kept& kept = kept_[number];
     if (kept.tree && kept.padding == padding && bvh::haveSameShape(kept.part, part))

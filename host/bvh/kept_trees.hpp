@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace stromboli {
@@ -21,9 +22,10 @@ struct PartTree {
 class KeptTrees {
   public:
     /// number: tells the parts of a scene apart. part: its geometry. padding: of the tree's boxes
-    /// (bvh::boxPadding), where it is not that of its own. The tree is built anew where either is
-    /// not as it was the last time.
-    std::shared_ptr<const PartTree> treeOf(uint32_t number, Scene part, double padding,
+    /// (bvh::boxPadding), where it is not that of its own box. The tree is built anew where either
+    /// is not as it was the last time.
+    std::shared_ptr<const PartTree> treeOf(uint32_t number, Scene part,
+                                           std::optional<double> padding,
                                            const std::function<PartTree(const Scene&)>& build);
 
     /// Trees that were built so far.
@@ -32,7 +34,7 @@ class KeptTrees {
   private:
     struct Kept {
         Scene part;
-        double padding = 0;
+        std::optional<double> padding;
         std::shared_ptr<const PartTree> tree;
     };
     std::map<uint32_t, Kept> kept_; ///< by number

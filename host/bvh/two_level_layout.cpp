@@ -71,7 +71,7 @@ class TwoLevels {
             return buildPart(p, padding, boxLevels, options_);
         };
         if (!kept_) return std::make_shared<const PartTree>(build(part));
-        return kept_->treeOf(number, std::move(part), padding.value_or(-1), build);
+        return kept_->treeOf(number, std::move(part), padding, build);
     }
 
     void buildPrototypes() {

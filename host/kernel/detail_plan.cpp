@@ -192,10 +192,9 @@ class Planner {
         if (m.opacity != 1 || hasTransparentColors_) return true;
         if (m.alphaMode == AlphaMode::Mask && m.alphaCutoff > 1) return true;
         for (const TextureUse& use : m.textures)
-            if (use.slot == TextureSlot::Opacity)
-                return true;
-            else if (use.slot == TextureSlot::BaseColor &&
-                     !isOpaque(scene_.images[scene_.textures[use.texture].image]))
+            if (use.slot == TextureSlot::Opacity ||
+                (use.slot == TextureSlot::BaseColor &&
+                 !isOpaque(scene_.images[scene_.textures[use.texture].image])))
                 return true;
         return false;
     }

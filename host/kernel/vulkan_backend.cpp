@@ -6,6 +6,7 @@
 #include "host/kernel/work_order.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace stromboli {
 namespace {
@@ -31,6 +32,8 @@ VulkanBackend::VulkanBackend(const vulkan::Device& device, const GpuScene& scene
 void VulkanBackend::setScene(const GpuScene& scene) {
     dispatcher_.reset(); // before the memory of the next is asked for
     film_.reset();
+    filled_.clear();
+    if (deviceScene_) filled_ = deviceScene_->releaseWhatIsAlsoIn(scene);
     deviceScene_.reset();
     scene_ = &scene;
 }
@@ -47,7 +50,9 @@ void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& setti
         deviceScene_.reset();
     }
     kernelsFetchTexels_ = tuning.texelFetch;
-    if (!deviceScene_) deviceScene_ = std::make_unique<DeviceScene>(device_, *scene_, tuning);
+    if (!deviceScene_)
+        deviceScene_ =
+            std::make_unique<DeviceScene>(device_, *scene_, tuning, std::exchange(filled_, {}));
     area_ = settings.area;
     camera_ = camera;
     estimator_ = estimator;

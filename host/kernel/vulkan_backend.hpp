@@ -28,8 +28,9 @@ class VulkanBackend final : public Backend, public Viewer {
     /// (directSampling()).
     void setPicture(const Camera& camera, const RenderSettings& settings);
 
-    /// The pictures to come are of another scene, which must outlive the object from now on; the
-    /// next call is setPicture(). Kernels that were compiled for the same features are used again.
+    /// The pictures to come are of another scene, which must outlive the object from now on; that
+    /// until now is still there. The next call is setPicture(). Kernels that were compiled for the
+    /// same features are used again, and so are buffers in which both scenes have the same bytes.
     void setScene(const GpuScene& scene);
 
     void sample(std::span<const PixelTarget> targets, Film& film,
@@ -60,6 +61,7 @@ class VulkanBackend final : public Backend, public Viewer {
     const GpuScene* scene_;
     KernelTuning tuning_;
     std::unique_ptr<DeviceScene> deviceScene_;
+    SceneBuffers filled_; ///< of the scene to come
     std::map<KernelFeatures, PathKernel> kernels_;
     bool kernelsFetchTexels_ = false; ///< all of them, and of seePipelines_
     std::map<std::vector<uint32_t>, vulkan::ComputePipeline> seePipelines_; ///< by their constants

@@ -3,6 +3,7 @@
 #include "host/cli/options.hpp"
 #include "host/core/error.hpp"
 #include "tests/cli/program.hpp"
+#include "tests/support/refusal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,12 +18,7 @@ using testing::IsEmpty;
 using testing::Not;
 
 std::string refusal(const std::vector<std::string>& words) {
-    try {
-        parseOptions(words);
-    } catch (const UsageError& error) {
-        return error.what();
-    }
-    return "accepted";
+    return refusalOf([&] { parseOptions(words); });
 }
 
 std::string renderRefusal(std::vector<std::string> words, const std::string& output = "a.png") {
@@ -73,15 +69,15 @@ TEST(Messages, AnUnknownOptionIsNamedWithOneLikeIt) {
 TEST(Messages, WhatCannotHaveAnEffectIsRefused) {
     EXPECT_THAT(renderRefusal({"--aov"}), HasSubstr("--aov needs an EXR file: a.png"));
     EXPECT_THAT(renderRefusal({"--aov"}, "-"), HasSubstr("--aov needs an EXR file"));
-    EXPECT_EQ(renderRefusal({"--aov"}, "a.EXR"), "accepted");
+    EXPECT_EQ(renderRefusal({"--aov"}, "a.EXR"), "");
     EXPECT_THAT(renderRefusal({"--exposure", "1"}, "a.exr"), HasSubstr("--exposure is for PNG"));
-    EXPECT_EQ(renderRefusal({"--exposure", "1"}), "accepted");
+    EXPECT_EQ(renderRefusal({"--exposure", "1"}), "");
     EXPECT_THAT(renderRefusal({"-H", "--direct", "lights"}), HasSubstr("exclude each other"));
     EXPECT_THAT(renderRefusal({"--backend", "reference", "--device", "0"}),
                 HasSubstr("--device and --backend reference exclude each other"));
     EXPECT_THAT(renderRefusal({"--gap-proposal", "on", "-H"}),
                 HasSubstr("--gap-proposal on needs lights that are sampled"));
-    EXPECT_EQ(renderRefusal({"--gap-proposal", "off", "-H"}), "accepted");
+    EXPECT_EQ(renderRefusal({"--gap-proposal", "off", "-H"}), "");
     EXPECT_THAT(refusal({"render", "a.dae", "-f", "a.png", "-o", "0", "--min-bounce", "2"}),
                 HasSubstr("--accumulate and --min-bounce exclude each other"));
     EXPECT_THAT(refusal({"compare", "a.exr", "b.exr", "--show", "signed"}), HasSubstr("--show"));

@@ -3,6 +3,7 @@
 #include "host/cli/options.hpp"
 #include "host/core/error.hpp"
 #include "tests/cli/parse.hpp"
+#include "tests/support/refusal.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,13 +18,8 @@ using test::parse;
 /// What is not in the range of an option is refused by a message that names the option and the
 /// range.
 TEST(RefusedOptions, RangesAreNamed) {
-    const auto refusal = [](std::vector<std::string> words) -> std::string {
-        try {
-            parse(std::move(words));
-        } catch (const UsageError& error) {
-            return error.what();
-        }
-        return "accepted";
+    const auto refusal = [](const std::vector<std::string>& words) {
+        return test::refusalOf([&] { parse(words); });
     };
     const std::vector<std::pair<std::vector<std::string>, std::string>> renders = {
         {{"-s", "0"}, "-s is '0': expected a whole number from 1 to 16777216"},
@@ -97,21 +93,11 @@ std::vector<std::string> badNumbers(const CommandOption& o) {
     return words;
 }
 
-/// The message of the refusal; empty if there is none.
-std::string refusalOf(const std::vector<std::string>& line) {
-    try {
-        parse(line);
-    } catch (const UsageError& error) {
-        return error.what();
-    }
-    return "";
-}
-
 void expectRefusal(const DeclaredCommand& c, const CommandOption& o, const std::string& bad,
                    uint32_t place) {
     std::vector<std::string> words(o.wordCount, "1");
     words[place] = bad;
-    const std::string message = refusalOf(lineWith(c, o, words));
+    const std::string message = test::refusalOf([&] { parse(lineWith(c, o, words)); });
     EXPECT_EQ(message.rfind(o.name(), 0), 0u)
         << c.name << " " << o.name() << " '" << bad << "' in place " << place << ": "
         << (message.empty() ? "accepted" : message);
@@ -143,6 +129,7 @@ TEST(RefusedOptions, ContradictionsAreRefused) {
                                                {"-r", "10"},
                                                {"-r", "100000", "10"},
                                                {"--min-bounce", "9"},
+                                               {"--cs184", "--terminator-offset", "on"},
                                                {"-a", "0", "0.05"},
                                                {"-a", "1.5", "0.05"},
                                                {"-a", "32", "-1"},
