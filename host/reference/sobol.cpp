@@ -1,5 +1,7 @@
 #include "host/reference/sobol.hpp"
 
+#include <algorithm>
+
 namespace stromboli::reference {
 namespace {
 
@@ -52,12 +54,22 @@ uint64_t hashOfDigits(uint32_t digits, uint32_t count, uint64_t key) {
     return mixed(key + (uint64_t(digits) << 6 | count) * 0x9E3779B97F4A7C15u);
 }
 
-/// Flips digit k of a number, its bit 31 - k, by the hash of digits 0 to k - 1.
+/// So many digits share a hash: of the 63 bits that they take, each belongs to one of the nodes of
+/// the binary tree that their digits descend.
+constexpr uint32_t kDigitsOfAHash = 6;
+
+/// Flips digit k of a number, its bit 31 - k, by a bit that the digits 0 to k - 1 choose: the hash
+/// of those before its group has one bit for each way in which the group can begin.
 uint32_t flipped(uint32_t digits, uint32_t count, uint64_t key) {
     uint32_t result = digits;
-    for (uint32_t k = 0; k < count; ++k) {
-        const uint32_t before = k == 0 ? 0 : digits >> (32 - k) << (32 - k);
-        if (hashOfDigits(before, k, key) & 1) result ^= 0x80000000u >> k;
+    for (uint32_t first = 0; first < count; first += kDigitsOfAHash) {
+        const uint32_t before = first == 0 ? 0 : digits >> (32 - first) << (32 - first);
+        const uint64_t flips = hashOfDigits(before, first, key);
+        uint32_t node = 1; // the root; its children are 2 node and 2 node + 1
+        for (uint32_t k = first; k < std::min(first + kDigitsOfAHash, count); ++k) {
+            result ^= uint32_t(flips >> node & 1) << (31 - k);
+            node = 2 * node + (digits >> (31 - k) & 1);
+        }
     }
     return result;
 }
@@ -70,10 +82,9 @@ const SobolColumns& sobolColumns(size_t dimension) {
 
 std::array<uint32_t, kSobolDimensions> sobolPoint(uint32_t index) {
     std::array<uint32_t, kSobolDimensions> point{};
-    for (uint32_t k = 0; k < 32; ++k)
-        if (index >> k & 1)
-            for (size_t d = 0; d < kSobolDimensions; ++d)
-                point[d] ^= kColumns[d][k];
+    for (uint32_t k = 0; k < 32 && index >> k; ++k)
+        for (size_t d = 0; d < kSobolDimensions; ++d)
+            point[d] ^= kColumns[d][k] & (0u - (index >> k & 1)); // no branch: it would be a coin
     return point;
 }
 

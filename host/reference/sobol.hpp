@@ -18,8 +18,9 @@ const SobolColumns& sobolColumns(size_t dimension);
 std::array<uint32_t, kSobolDimensions> sobolPoint(uint32_t index);
 
 /// Owen's nested uniform scrambling (1995) of a 32-bit fraction, from its definition: each digit is
-/// flipped or not by a hash of the digits before it and of the key. In [0, 1), a multiple of
-/// 2^-53: what follows the 32 digits is the hash of all of them.
+/// flipped or not by a bit of its own for each value of the digits before it, from hashes of them
+/// and the key. In [0, 1), a multiple of 2^-53: what follows the 32 digits is the hash of all of
+/// them.
 double owenScrambled(uint32_t digits, uint64_t key);
 
 /// The same permutation of the numbers below 2^24 by their digits: 2^k of them that begin at a
