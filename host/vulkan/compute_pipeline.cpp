@@ -3,6 +3,9 @@
 #include "host/vulkan/buffer_limits.hpp"
 #include "host/vulkan/result.hpp"
 
+#include <functional>
+#include <string_view>
+
 namespace stromboli::vulkan {
 namespace {
 
@@ -87,16 +90,32 @@ Handle<VkPipeline> createPipeline(const Device& device, std::span<const uint32_t
     return {device.handle(), pipeline, device.vk().vkDestroyPipeline};
 }
 
+KeptPipelines::Key keyOf(std::span<const uint32_t> spirv, std::span<const Binding> bindings,
+                         std::span<const uint32_t> constants, uint32_t pushConstantBytes) {
+    const auto code = std::as_bytes(spirv);
+    KeptPipelines::Key key = {
+        std::hash<std::string_view>()({reinterpret_cast<const char*>(code.data()), code.size()}),
+        code.size(), pushConstantBytes, bindings.size()};
+    for (const Binding& b : bindings)
+        key.insert(key.end(), {b.number, uint64_t(b.use)});
+    key.insert(key.end(), constants.begin(), constants.end());
+    return key;
+}
+
 } // namespace
 
 ComputePipeline::ComputePipeline(const Device& device, std::span<const uint32_t> spirv,
                                  std::span<const Binding> bindings,
                                  std::span<const uint32_t> constants, uint32_t pushConstantBytes)
-    : bindings_(bindings.begin(), bindings.end()), setLayout_(createSetLayout(device, bindings)),
-      layout_(createLayout(device, setLayout_.get(), pushConstantBytes)),
-      pipeline_(createPipeline(device, spirv, constants, layout_.get())) {
-    device.countPipeline();
-}
+    : compiled_(
+          device.keptPipelines().get(keyOf(spirv, bindings, constants, pushConstantBytes), [&] {
+              CompiledPipeline made{.bindings = {bindings.begin(), bindings.end()}};
+              made.setLayout = createSetLayout(device, bindings);
+              made.layout = createLayout(device, made.setLayout.get(), pushConstantBytes);
+              made.pipeline = createPipeline(device, spirv, constants, made.layout.get());
+              device.countPipeline();
+              return std::make_shared<const CompiledPipeline>(std::move(made));
+          })) {}
 
 DescriptorSet::DescriptorSet(const Device& device, const ComputePipeline& pipeline,
                              std::span<const Buffer* const> buffers) {

@@ -14,7 +14,15 @@ struct Binding {
     BufferUse use = BufferUse::Storage;
 };
 
-/// A compute shader specialised and ready to run, with the layout of its one descriptor set.
+struct CompiledPipeline {
+    std::vector<Binding> bindings;
+    Handle<VkDescriptorSetLayout> setLayout;
+    Handle<VkPipelineLayout> layout;
+    Handle<VkPipeline> pipeline;
+};
+
+/// A compute shader specialised and ready to run, with the layout of its one descriptor set. Those
+/// that are made alike on one device are one and the same (KeptPipelines).
 class ComputePipeline {
   public:
     /// Throws DeviceError if the device does not allow that many buffers of a kind.
@@ -23,16 +31,13 @@ class ComputePipeline {
                     std::span<const Binding> bindings, std::span<const uint32_t> constants,
                     uint32_t pushConstantBytes);
 
-    VkPipeline handle() const { return pipeline_.get(); }
-    VkPipelineLayout layout() const { return layout_.get(); }
-    VkDescriptorSetLayout setLayout() const { return setLayout_.get(); }
-    std::span<const Binding> bindings() const { return bindings_; }
+    VkPipeline handle() const { return compiled_->pipeline.get(); }
+    VkPipelineLayout layout() const { return compiled_->layout.get(); }
+    VkDescriptorSetLayout setLayout() const { return compiled_->setLayout.get(); }
+    std::span<const Binding> bindings() const { return compiled_->bindings; }
 
   private:
-    std::vector<Binding> bindings_;
-    Handle<VkDescriptorSetLayout> setLayout_;
-    Handle<VkPipelineLayout> layout_;
-    Handle<VkPipeline> pipeline_;
+    std::shared_ptr<const CompiledPipeline> compiled_;
 };
 
 /// Buffers bound to a pipeline's set, in the order of its bindings.

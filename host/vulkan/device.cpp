@@ -127,6 +127,7 @@ Device::Device(const Instance&, const DeviceDescription& description,
 Device::~Device() {
     if (!device_) return;
     table_.vkDeviceWaitIdle(device_);
+    kept_.clear();
     pipelines_.reset();
     table_.vkDestroyDevice(device_, nullptr);
 }

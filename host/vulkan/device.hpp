@@ -2,6 +2,7 @@
 
 #include "host/vulkan/float_controls.hpp"
 #include "host/vulkan/instance.hpp"
+#include "host/vulkan/kept_pipelines.hpp"
 #include "host/vulkan/pipeline_cache.hpp"
 
 #include <atomic>
@@ -56,11 +57,13 @@ class Device {
     const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
     /// Pass it to the creation of pipelines; may be VK_NULL_HANDLE.
     VkPipelineCache pipelineCache() const { return pipelines_->handle(); }
+    /// Compute pipelines that are made already.
+    KeptPipelines& keptPipelines() const { return kept_; }
     /// Device memory that the buffers of this device take now, bytes.
     uint64_t allocatedBytes() const { return allocated_.load(); }
     /// What a buffer tells the device it is made on.
     void countAllocation(int64_t bytes) const { allocated_ += uint64_t(bytes); }
-    /// Compute pipelines that were made on this device so far.
+    /// Compute pipelines that were compiled on this device so far.
     uint64_t pipelinesMade() const { return pipelinesMade_.load(); }
     /// What a pipeline tells the device it is made on.
     void countPipeline() const { ++pipelinesMade_; }
@@ -75,6 +78,7 @@ class Device {
     VkQueue queue_ = VK_NULL_HANDLE;
     VolkDeviceTable table_{};
     std::unique_ptr<PipelineCache> pipelines_;
+    mutable KeptPipelines kept_;
     mutable std::atomic<uint64_t> allocated_ = 0, pipelinesMade_ = 0, uploaded_ = 0;
 };
 
