@@ -134,11 +134,17 @@ function(stromboli_check_layers)
     endforeach()
 endfunction()
 
-# stromboli_test(NAME SOURCES a.cpp ... DEPENDS lib ... [LABELS l ...] [TIMEOUT seconds]):
+# stromboli_test(NAME SOURCES a.cpp ... DEPENDS lib ... [LABELS l] [TIMEOUT seconds] [MANY_KERNELS]
+#                [TOGETHER suite ...]):
 # one GoogleTest executable; each of its tests becomes a ctest entry. Tests that use a Vulkan device
 # (label device) are left out under sanitizers: drivers leak, and software ones are slow already.
+# MANY_KERNELS: leaves out the core checks of the Vulkan validation layer, which optimise and validate
+# each specialised kernel anew and take up to three quarters of a test that compiles one. For tests
+# that ask of the device what others ask that keep the checks.
+# TOGETHER: suites of many short tests whose device and shader take longer to prepare than to run; one
+# ctest entry each, in one process.
 function(stromboli_test name)
-    cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;DEPENDS;LABELS" ${ARGN})
+    cmake_parse_arguments(ARG "MANY_KERNELS" "TIMEOUT;LABELS" "SOURCES;DEPENDS;TOGETHER" ${ARGN})
     set(left_out FALSE)
     if(STROMBOLI_SANITIZE AND "device" IN_LIST ARG_LABELS)
         set(left_out TRUE)
@@ -157,7 +163,22 @@ function(stromboli_test name)
         set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL TRUE)
         return()
     endif()
+    set(checks)
+    if(ARG_MANY_KERNELS)
+        set(checks ENVIRONMENT_MODIFICATION
+            VK_LAYER_DISABLES=set:VK_VALIDATION_FEATURE_DISABLE_CORE_CHECKS_EXT)
+    endif()
     # Tests leave nothing in the user's cache folder, and find nothing there.
-    gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES
-        PROPERTIES TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT STROMBOLI_CACHE_DIR= LABELS "${ARG_LABELS}")
+    set(properties TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT STROMBOLI_CACHE_DIR= ${checks})
+    if(ARG_LABELS)
+        list(APPEND properties LABELS ${ARG_LABELS})
+    endif()
+    set(others *)
+    foreach(suite IN LISTS ARG_TOGETHER)
+        add_test(NAME ${suite} COMMAND ${name} --gtest_filter=${suite}.*)
+        set_tests_properties(${suite} PROPERTIES ${properties})
+        string(APPEND others -${suite}.*)
+    endforeach()
+    gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES TEST_FILTER ${others}
+        PROPERTIES ${properties})
 endfunction()
