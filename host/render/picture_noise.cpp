@@ -67,11 +67,20 @@ double relative(const glm::dvec3& squaredError, const glm::dvec3& radiance, doub
     return (r.x + r.y + r.z) / 3;
 }
 
+/// How many standard errors a pixel's radiance may lie below what its samples say, beside darker
+/// ones. A pixel of which the part f is a lamp, that one of n samples has met, has a mean of 1 / n
+/// of the lamp and the same standard error; before anything is known of f, its density is then n^2
+/// f exp(-n f), so that of ten such pixels one has f < 0.1 / n in five pictures of a hundred.
+constexpr double kDarkest = 0.9;
+
 /// Sums over pixels of their relative squared errors x: compared with what the others say, without
 /// the pixel itself (`apart`) and with it. An error that is one bright sample is too large in the
 /// former, where its neighbours have met none, and too small in the latter, which it brightens.
+/// Beside an edge both believe that a pixel which has met the bright side is bright. `likeAny`
+/// takes it to be like any of its neighbours: where a lamp reaches into a pixel by a little, few
+/// samples meet it, and one that does makes the largest error of the picture.
 struct Errors {
-    double apart = 0, apartSquared = 0, together = 0;
+    double apart = 0, apartSquared = 0, together = 0, likeAny = 0;
     double samples = 0;
     uint64_t pixels = 0;
 };
@@ -81,7 +90,8 @@ class Picture {
     Picture(const Film& film, std::span<const glm::dvec3> squaredErrors)
         : film_(film), squaredErrors_(squaredErrors),
           tilesAcross_((film.width + kTile - 1) / kTile),
-          tiles_(size_t(tilesAcross_) * ((film.height + kTile - 1) / kTile)) {
+          tiles_(size_t(tilesAcross_) * ((film.height + kTile - 1) / kTile)),
+          weights_(film.pixels.size(), glm::vec3(0.0f)) {
         for (uint32_t y = 0; y < film.height; ++y)
             for (uint32_t x = 0; x < film.width; ++x) {
                 const size_t i = size_t(y) * film.width + x;
@@ -96,15 +106,20 @@ class Picture {
         return all_.pixels > 0 ? (all_.mean.x + all_.mean.y + all_.mean.z) / (3 * all_.pixels) : 0;
     }
 
-    Errors errors() const {
+    Errors errors() {
         std::vector<Errors> bands((film_.height + kBand - 1) / kBand);
-        tbb::parallel_for(size_t(0), bands.size(), [&](size_t band) {
-            const auto first = uint32_t(band) * kBand;
-            bands[band] = errorsOfRows(first, std::min(first + kBand, film_.height));
-        });
+        const auto inBands = [&](auto&& add) {
+            tbb::parallel_for(size_t(0), bands.size(), [&](size_t band) {
+                const auto first = uint32_t(band) * kBand;
+                add(bands[band], first, std::min(first + kBand, film_.height));
+            });
+        };
+        inBands([&](Errors& e, uint32_t first, uint32_t end) { addRows(e, first, end); });
+        inBands([&](Errors& e, uint32_t first, uint32_t end) { addLikeAny(e, first, end); });
         Errors sum;
         for (const Errors& e : bands) {
             sum.apart += e.apart, sum.apartSquared += e.apartSquared, sum.together += e.together;
+            sum.likeAny += e.likeAny;
             sum.samples += e.samples, sum.pixels += e.pixels;
         }
         return sum;
@@ -115,10 +130,9 @@ class Picture {
         return size_t(y / kTile) * tilesAcross_ + x / kTile;
     }
 
-    Errors errorsOfRows(uint32_t first, uint32_t end) const {
+    void addRows(Errors& sum, uint32_t first, uint32_t end) {
         const double floor = kRelativeFloor * meanRadiance();
         PixelWindows windows(film_, squaredErrors_, first);
-        Errors sum;
         for (uint32_t y = first; y < end; ++y) {
             const std::vector<PixelGroup> row = windows.of(y);
             for (uint32_t x = 0; x < film_.width; ++x) {
@@ -126,7 +140,6 @@ class Picture {
                 if (own.pixels == 0) continue;
                 sum.samples += film_.at(x, y).count;
                 ++sum.pixels;
-                if (own.value == glm::dvec3(0.0)) continue; // no error adds none
                 const PixelGroup& tile = tiles_[tileOf(x, y)];
                 PixelGroup window = row[x];
                 // What the last pass changed is the error's size on the mean over pixels; in one
@@ -138,11 +151,41 @@ class Picture {
                     own.value, believed({without(all_, own), without(tile, own), window}, careful),
                     floor);
                 window += own;
+                const glm::dvec3 radiance = believed({all_, tile, window}, own);
+                weights_[size_t(y) * film_.width + x] =
+                    glm::vec3(1.0 / (radiance * radiance + floor * floor));
                 sum.apart += apart, sum.apartSquared += apart * apart;
-                sum.together += relative(own.value, believed({all_, tile, window}, own), floor);
+                sum.together += relative(own.value, radiance, floor);
             }
         }
-        return sum;
+    }
+
+    void addLikeAny(Errors& sum, uint32_t first, uint32_t end) const {
+        const double floor = kRelativeFloor * meanRadiance();
+        for (uint32_t y = first; y < end; ++y)
+            for (uint32_t x = 0; x < film_.width; ++x) {
+                const size_t i = size_t(y) * film_.width + x;
+                const PixelStatistics& own = film_.pixels[i];
+                if (own.count < 2 || squaredErrors_[i] == glm::dvec3(0.0)) continue;
+                const glm::dvec3 darkest =
+                    glm::max(own.mean - kDarkest * glm::sqrt(own.varianceOfMean()), 0.0);
+                const glm::vec3 most(1.0 / (darkest * darkest + floor * floor));
+                const glm::dvec3 r = squaredErrors_[i] * glm::dvec3(weightAround(x, y, most));
+                sum.likeAny += (r.x + r.y + r.z) / 3;
+            }
+    }
+
+    /// Mean weight of the pixel and its neighbours, each `most` at most.
+    glm::vec3 weightAround(uint32_t x, uint32_t y, const glm::vec3& most) const {
+        glm::vec3 sum(0.0f);
+        float pixels = 0;
+        for (uint32_t v = y > 0 ? y - 1 : 0; v < std::min(y + 2, film_.height); ++v)
+            for (uint32_t u = x > 0 ? x - 1 : 0; u < std::min(x + 2, film_.width); ++u) {
+                const glm::vec3& weight = weights_[size_t(v) * film_.width + u];
+                sum += glm::min(weight, most);
+                pixels += weight.x > 0;
+            }
+        return sum / pixels;
     }
 
     const Film& film_;
@@ -150,6 +193,9 @@ class Picture {
     uint32_t tilesAcross_;
     std::vector<PixelGroup> tiles_;
     PixelGroup all_;
+    /// What squared errors are multiplied by for the radiance that is believed, by pixel; 0: no
+    /// samples.
+    std::vector<glm::vec3> weights_;
 };
 
 /// A chi-square variable's quantile at the normal quantile z, for 3 degrees of freedom or more
@@ -183,7 +229,7 @@ PictureNoise pictureNoise(const Film& film, std::span<const glm::dvec3> squaredE
     const bool sampled = std::all_of(film.pixels.begin(), film.pixels.end(),
                                      [](const PixelStatistics& p) { return p.taken() >= 2; });
     if (!sampled) return {Unknown::TooFewSamples};
-    const Picture picture(film, squaredErrors);
+    Picture picture(film, squaredErrors);
     if (!(picture.meanRadiance() > 0)) return {Unknown::Black};
     const Errors errors = picture.errors();
     if (errors.apart == 0) return {Unknown::No}; // every sample of a pixel is the same
@@ -193,11 +239,12 @@ PictureNoise pictureNoise(const Film& film, std::span<const glm::dvec3> squaredE
     if (pixels < kLeastPixels) return {Unknown::TooFewPixels};
     const double apart = errors.apart / double(errors.pixels);
     const double together = errors.together / double(errors.pixels);
+    const double likeAny = errors.likeAny / double(errors.pixels);
     PictureNoise noise{Unknown::No};
     noise.estimate = std::sqrt(std::sqrt(apart * together));
     noise.least =
         std::sqrt(std::min(apart, together) * pixels / (chiSquareQuantile(pixels, kZ) * kTooLarge));
-    noise.most = std::sqrt(std::max(apart, together) * pixels *
+    noise.most = std::sqrt(std::max({apart, together, likeAny}) * pixels *
                            tooSmall(errors.samples / double(errors.pixels)) /
                            chiSquareQuantile(pixels, -kZ));
     return noise;
