@@ -134,17 +134,35 @@ function(stromboli_check_layers)
     endforeach()
 endfunction()
 
+# Makes a ctest entry of each suite of a GoogleTest program, which is asked for them once it is linked.
+function(stromboli_suites name)
+    set(list ${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake)
+    add_custom_command(TARGET ${name} POST_BUILD
+        COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:${name}> -DLIST=${list} "-DPROPERTIES=${ARGN}"
+                -P ${PROJECT_SOURCE_DIR}/cmake/ListSuites.cmake
+        BYPRODUCTS ${list}
+        VERBATIM)
+    set(entries ${CMAKE_CURRENT_BINARY_DIR}/${name}_entries.cmake)
+    file(WRITE ${entries} "if(EXISTS \"${list}\")
+  include(\"${list}\")
+else()
+  add_test(${name}_NOT_BUILT ${name}_NOT_BUILT)
+endif()
+")
+    set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${entries})
+endfunction()
+
 # stromboli_test(NAME SOURCES a.cpp ... DEPENDS lib ... [LABELS l] [TIMEOUT seconds] [MANY_KERNELS]
-#                [TOGETHER suite ...]):
+#                [BY_SUITES]):
 # one GoogleTest executable; each of its tests becomes a ctest entry. Tests that use a Vulkan device
 # (label device) are left out under sanitizers: drivers leak, and software ones are slow already.
 # MANY_KERNELS: leaves out the core checks of the Vulkan validation layer, which optimise and validate
 # each specialised kernel anew and take up to three quarters of a test that compiles one. For tests
 # that ask of the device what others ask that keep the checks.
-# TOGETHER: suites of many short tests whose device and shader take longer to prepare than to run; one
-# ctest entry each, in one process.
+# BY_SUITES: the ctest entries are the program's test suites, not its tests: where the device takes longer
+# to open, and kernels that tests share longer to compile, than the tests take to run.
 function(stromboli_test name)
-    cmake_parse_arguments(ARG "MANY_KERNELS" "TIMEOUT;LABELS" "SOURCES;DEPENDS;TOGETHER" ${ARGN})
+    cmake_parse_arguments(ARG "MANY_KERNELS;BY_SUITES" "TIMEOUT;LABELS" "SOURCES;DEPENDS" ${ARGN})
     set(left_out FALSE)
     if(STROMBOLI_SANITIZE AND "device" IN_LIST ARG_LABELS)
         set(left_out TRUE)
@@ -173,12 +191,9 @@ function(stromboli_test name)
     if(ARG_LABELS)
         list(APPEND properties LABELS ${ARG_LABELS})
     endif()
-    set(others *)
-    foreach(suite IN LISTS ARG_TOGETHER)
-        add_test(NAME ${suite} COMMAND ${name} --gtest_filter=${suite}.*)
-        set_tests_properties(${suite} PROPERTIES ${properties})
-        string(APPEND others -${suite}.*)
-    endforeach()
-    gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES TEST_FILTER ${others}
-        PROPERTIES ${properties})
+    if(ARG_BY_SUITES)
+        stromboli_suites(${name} ${properties})
+    else()
+        gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES PROPERTIES ${properties})
+    endif()
 endfunction()

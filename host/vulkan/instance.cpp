@@ -81,14 +81,16 @@ Instance::Instance(bool validation) {
                           "mesa-vulkan-drivers");
     check(result, "create the instance");
     volkLoadInstanceOnly(instance_);
-    if (validation)
-        check(vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_),
-              "listen to the validation layer");
+    destroy_ = vkDestroyInstance;
+    if (!validation) return;
+    destroyMessenger_ = vkDestroyDebugUtilsMessengerEXT;
+    check(vkCreateDebugUtilsMessengerEXT(instance_, &messenger, nullptr, &messenger_),
+          "listen to the validation layer");
 }
 
 Instance::~Instance() {
-    if (messenger_) vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
-    if (instance_) vkDestroyInstance(instance_, nullptr);
+    if (messenger_) destroyMessenger_(instance_, messenger_, nullptr);
+    if (instance_) destroy_(instance_, nullptr);
 }
 
 } // namespace stromboli::vulkan

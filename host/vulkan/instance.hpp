@@ -26,6 +26,9 @@ class Instance {
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     std::atomic<uint32_t> messages_ = 0;
+    // volk's are those of the instance that was made last, which may have no validation layer.
+    PFN_vkDestroyInstance destroy_ = nullptr;
+    PFN_vkDestroyDebugUtilsMessengerEXT destroyMessenger_ = nullptr;
 };
 
 /// True if the environment asks for validation: STROMBOLI_VALIDATION set and not 0.

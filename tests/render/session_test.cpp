@@ -223,6 +223,7 @@ TEST_F(Session, AnotherPictureOfTheSceneNeitherCompilesNorUploadsIt) {
 /// Where it needs other features of the kernel, it is compiled, and only then.
 TEST_F(Session, AnotherEstimatorIsCompiledOnce) {
     const RenderSettings s = settings({.mostSamplesPerPixel = 4});
+    testDevice().keptPipelines().clear(); // of other tests
     VulkanBackend backend(testDevice(), packed_, camera(s), s);
     const uint64_t pipelines = testDevice().pipelinesMade();
     RenderSettings independent = s;
