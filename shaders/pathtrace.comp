@@ -131,7 +131,7 @@ void resumeSplit(uint lane) {
     splitPoint.surface = SurfacePoint(s.position, s.error, s.geometric, s.shading, s.wo,
                                       s.outside != 0u, s.material, s.skipPrimitive, s.lift
 #ifdef RICH_MATERIALS
-                                      , vec2(s.b1, s.b2), vec4(0.0), vec3(0.0)
+                                      , s.primitive, vec2(s.b1, s.b2), vec4(0.0), vec3(0.0)
 #endif
 #ifdef PLACEMENTS
                                       , s.placement
@@ -152,10 +152,10 @@ void resumeSplit(uint lane) {
 void suspendSplit(uint lane) {
     const SurfacePoint p = splitPoint.surface;
 #ifdef RICH_MATERIALS
-    const uint medium = splitPoint.medium;
+    const uint medium = splitPoint.medium, primitive = p.primitive;
     const vec2 weights = p.weights;
 #else
-    const uint medium = 0u;
+    const uint medium = 0u, primitive = 0u;
     const vec2 weights = vec2(0.0);
 #endif
 #ifdef PLACEMENTS
@@ -166,7 +166,7 @@ void suspendSplit(uint lane) {
     suspendedSplits[lane] =
         SuspendedSplit(p.position, splitPoint.bounce, p.geometric, p.material, p.shading,
                        p.skipPrimitive, p.wo, p.lift, splitPoint.throughput, p.error,
-                       p.outside ? 1u : 0u, branchesLeft, weights.x, weights.y, medium, placement, 0u, 0u);
+                       p.outside ? 1u : 0u, branchesLeft, weights.x, weights.y, medium, placement, primitive, 0u);
 }
 
 void resume(uint lane) {

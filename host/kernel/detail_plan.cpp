@@ -71,6 +71,18 @@ bool isOpaque(const TextureImage& image) {
     return true;
 }
 
+uint32_t kindOf(Wrap wrap) {
+    switch (wrap) {
+    case Wrap::Repeat:
+        return gpu::TEXEL_KIND_REPEAT;
+    case Wrap::Mirror:
+        return gpu::TEXEL_KIND_MIRROR;
+    case Wrap::Clamp:
+        return gpu::TEXEL_KIND_CLAMP;
+    }
+    return gpu::TEXEL_KIND_REPEAT;
+}
+
 class Planner {
   public:
     Planner(const Scene& scene) : scene_(scene) {
@@ -138,6 +150,10 @@ class Planner {
         plan_.textureSlots |= 1u << uint32_t(use.slot);
         plan_.texelKinds |= texture.nearest ? gpu::TEXEL_KIND_NEAREST : gpu::TEXEL_KIND_BILINEAR;
         plan_.texelKinds |= isHalf ? gpu::TEXEL_KIND_HALF : gpu::TEXEL_KIND_BYTES;
+        for (const Wrap wrap : {texture.wrapU, texture.wrapV})
+            plan_.texelKinds |= kindOf(wrap);
+        const bool isMoved = use.uRow != glm::vec3(1, 0, 0) || use.vRow != glm::vec3(0, 1, 0);
+        if (isMoved || use.scale != 1) plan_.texelKinds |= gpu::TEXEL_KIND_ADJUSTED;
         if (texture.srgb && !isHalf) plan_.texelKinds |= gpu::TEXEL_KIND_SRGB;
         plan_.attributes |= use.uvSet == 0 ? gpu::ATTRIBUTE_UV0 : gpu::ATTRIBUTE_UV1;
         if (use.slot == TextureSlot::Normal || use.slot == TextureSlot::ClearcoatNormal)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/model/scene.hpp"
+#include "shaders/shared/interface.h"
 #include "shaders/shared/texture_types.h"
 
 #include <array>
@@ -37,6 +38,7 @@ struct DetailPlan {
     bool hasBlends = false;
     bool hasTangentFrames = false; ///< a BSDF depends on the direction of tangents
 
+    bool hasBundles() const { return (texelKinds & gpu::TEXEL_KIND_BUNDLE) != 0; }
     /// Materials have a gpu::MaterialDetail.
     bool hasMaterialDetails() const { return textureSlots != 0 || hasAlpha || hasBlends; }
 };

@@ -97,8 +97,8 @@ class TexelPacker {
         return firstRow_[image];
     }
 
-    /// A row for each texel, of the pictures that the maps have. Bundles of the same pictures share
-    /// their rows.
+    /// A row for each texel, of the pictures that the maps have; of none a single white one.
+    /// Bundles of the same pictures share their rows.
     uint32_t firstRowOf(const DetailPlan::Bundle& bundle) {
         std::array<uint32_t, gpu::BUNDLE_MAPS> images;
         for (uint32_t i = 0; i < images.size(); ++i)
@@ -106,7 +106,7 @@ class TexelPacker {
         const auto [known, isNew] = firstRowOfBundle_.try_emplace(images, uint32_t(rows_.size()));
         if (!isNew) return known->second;
         const TextureImage* pictures[gpu::BUNDLE_MAPS] = {};
-        size_t texels = 0;
+        size_t texels = 1;
         for (uint32_t i = 0; i < images.size(); ++i) {
             if (images[i] == kNotPacked) continue;
             pictures[i] = &scene_.images[images[i]];
@@ -148,11 +148,11 @@ gpu::TextureUse packLookup(const Scene& scene, const TextureUse& use) {
     gpu::TextureUse g{};
     g.uRow = use.uRow;
     g.vRow = use.vRow;
-    g.slot = uint32_t(use.slot) | (use.uvSet != 0 ? gpu::TEXTURE_SECOND_UV : 0);
     g.scale = use.scale;
     g.width = image.width;
     g.height = image.height;
-    g.flags = wrapBits(texture.wrapU) << gpu::TEXELS_WRAP_U_SHIFT |
+    g.flags = uint32_t(use.slot) | (use.uvSet != 0 ? gpu::TEXTURE_SECOND_UV : 0) |
+              wrapBits(texture.wrapU) << gpu::TEXELS_WRAP_U_SHIFT |
               wrapBits(texture.wrapV) << gpu::TEXELS_WRAP_V_SHIFT |
               (texture.nearest ? gpu::TEXELS_NEAREST : 0);
     return g;
@@ -172,14 +172,27 @@ gpu::TextureUse packBundle(const Scene& scene, const DetailPlan::Bundle& bundle,
     const auto first =
         std::ranges::find_if(bundle, [](const auto& map) { return map.has_value(); });
     gpu::TextureUse g = packLookup(scene, **first);
-    if (const auto& normal = bundle[gpu::TEXTURE_NORMAL]) g.scale = normal->scale;
+    if (const auto& normal = bundle[gpu::TEXTURE_NORMAL]) {
+        g.scale = normal->scale;
+        g.flags |= gpu::TEXELS_MAP_NORMALS;
+    }
     g.firstRow = texels.firstRowOf(bundle);
     g.flags |= gpu::TEXELS_BUNDLE;
     return g;
 }
 
+/// Of a material that has no maps in a bundle, in a scene where others have.
+gpu::TextureUse emptyBundle(TexelPacker& texels) {
+    gpu::TextureUse g{};
+    g.firstRow = texels.firstRowOf(DetailPlan::Bundle{});
+    g.width = g.height = 1;
+    g.flags = gpu::TEXELS_BUNDLE;
+    return g;
+}
+
 std::vector<Row> materialDetail(const Scene& scene, const Material& m,
-                                const DetailPlan::MaterialPlan& plan, TexelPacker& texels) {
+                                const DetailPlan::MaterialPlan& plan, bool sceneHasBundles,
+                                TexelPacker& texels) {
     gpu::MaterialDetail detail{};
     detail.opacity = m.opacity;
     detail.alphaCutoff = m.alphaCutoff;
@@ -200,13 +213,13 @@ std::vector<Row> materialDetail(const Scene& scene, const Material& m,
     if (plan.coatHasNormal) detail.flags |= gpu::DETAIL_COAT_HAS_NORMAL;
     uint32_t number = 0, shareTexture = 0;
     if (plan.bundle) {
-        detail.flags |= gpu::DETAIL_HAS_BUNDLE;
-        if ((*plan.bundle)[gpu::TEXTURE_NORMAL]) detail.flags |= gpu::DETAIL_BUNDLE_MAPS_NORMALS;
         for (const std::optional<TextureUse>& map : *plan.bundle)
             if (map) noteUse(map->slot, number);
         appendRows(uses, packBundle(scene, *plan.bundle, texels));
-        ++number;
+    } else if (sceneHasBundles) {
+        appendRows(uses, emptyBundle(texels));
     }
+    if (sceneHasBundles) ++number;
     for (const TextureUse& use : plan.textures) {
         if (use.slot == TextureSlot::BlendShare) shareTexture = number + 1;
         noteUse(use.slot, number++);
@@ -239,8 +252,8 @@ DetailRows packDetails(const Scene& scene, const WideLayout& bvh, const DetailPl
     if (!plan.hasMaterialDetails()) return details;
     TexelPacker texels(scene, details.rows);
     for (size_t i = 0; i < scene.materials.size(); ++i)
-        details.ofMaterials.push_back(
-            materialDetail(scene, scene.materials[i], plan.materials[i], texels));
+        details.ofMaterials.push_back(materialDetail(scene, scene.materials[i], plan.materials[i],
+                                                     plan.hasBundles(), texels));
     for (const Light& light : scene.lights) {
         std::vector<Row>& rows = details.ofLights.emplace_back();
         if (light.picture) appendRows(rows, packUse(scene, *light.picture, texels));

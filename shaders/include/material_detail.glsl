@@ -67,7 +67,7 @@ PointAttributes attributesAt(uint primitive, vec2 b) {
 }
 
 vec2 coordinatesOf(TextureUse t, PointAttributes a) {
-    const bool second = hasAttribute(ATTRIBUTE_UV1) && (t.slot & TEXTURE_SECOND_UV) != 0u;
+    const bool second = hasAttribute(ATTRIBUTE_UV1) && (t.flags & TEXTURE_SECOND_UV) != 0u;
     return second ? a.uv1 : a.uv0;
 }
 
@@ -84,11 +84,14 @@ uint textureUseRow(uint materialRow, uint number) {
     return materialRow + MATERIAL_DETAIL_ROW + 1u + TEXTURE_USE_ROWS * number;
 }
 
+/// Of each material.
+uint bundles() { return hasBundles() ? 1u : 0u; }
+
 uint looseTexturesOf(MaterialDetail detail) { return detail.looseTextures & DETAIL_LOOSE_MASK; }
 
 /// The texture with this number plus one; 0, where a material has none: a picture of one texel, to no effect.
 TextureUse fetchTextureUse(uint materialRow, uint numberPlusOne) {
-    if (numberPlusOne == 0u) return TextureUse(vec3(0.0), 0u, vec3(0.0), 0.0, 0u, 1u, 1u, 0u);
+    if (numberPlusOne == 0u) return noTexture();
     return fetchTextureUse(textureUseRow(materialRow, numberPlusOne - 1u));
 }
 
@@ -199,7 +202,7 @@ bool hasFurtherParameters() {
 /// A texel's part in the parameters (PrincipledParameters; a diffuse material has the first row only, and those of
 /// other kinds are arranged to suit), and in what maps say.
 void applyTexel(inout Material m, inout Relief relief, TextureUse t, vec4 texel) {
-    const uint slot = t.slot & TEXTURE_SLOT_MASK;
+    const uint slot = t.flags & TEXTURE_SLOT_MASK;
     if (isLoose(slot, TEXTURE_BASE_COLOR) && hasBaseColor(m)) scale(m.row1, texel.rgb);
     if (isLoose(slot, TEXTURE_EMISSION)) scale(m.header, texel.rgb);
     if (isLoose(slot, TEXTURE_NORMAL)) relief.mapped = mappedNormal(texel, t.scale);
@@ -228,16 +231,13 @@ bool isReadElsewhere(uint slot) {
 }
 
 /// The bundle's part in them.
-void applyBundle(inout Material m, inout Relief relief, uint materialRow, MaterialDetail detail,
-                 PointAttributes a) {
-    const bool has = (detail.flags & DETAIL_HAS_BUNDLE) != 0u;
-    const TextureUse t = fetchTextureUse(materialRow, has ? 1u : 0u);
+void applyBundle(inout Material m, inout Relief relief, uint materialRow, PointAttributes a) {
+    const TextureUse t = fetchTextureUse(textureUseRow(materialRow, 0u));
     const BundleTaps taps = fetchBundle(t, coordinatesOf(t, a));
-    if (!has) return;
     if (sceneHasSlot(TEXTURE_BASE_COLOR) && hasBaseColor(m))
         scale(m.row1, mapOf(taps, TEXTURE_BASE_COLOR).rgb);
     if (sceneHasSlot(TEXTURE_EMISSION)) scale(m.header, mapOf(taps, TEXTURE_EMISSION).rgb);
-    if (sceneHasSlot(TEXTURE_NORMAL) && (detail.flags & DETAIL_BUNDLE_MAPS_NORMALS) != 0u)
+    if (sceneHasSlot(TEXTURE_NORMAL) && (t.flags & TEXELS_MAP_NORMALS) != 0u)
         relief.mapped = mappedNormal(mapOf(taps, TEXTURE_NORMAL), t.scale);
     if (sceneHasSlot(TEXTURE_METALLIC_ROUGHNESS) && hasFurtherParameters())
         applyMetallicRoughness(m, mapOf(taps, TEXTURE_METALLIC_ROUGHNESS));
@@ -248,7 +248,7 @@ void applyBundle(inout Material m, inout Relief relief, uint materialRow, Materi
 PointAttributes attributesOf(SurfacePoint s) {
     const bool isTriangle = s.skipPrimitive != NO_PRIMITIVE;
     PointAttributes a = PointAttributes(vec2(0.0), vec2(0.0), vec4(1.0));
-    if (ATTRIBUTES != 0u && isTriangle) a = attributesAt(primitiveAt(s.skipPrimitive), s.weights);
+    if (ATTRIBUTES != 0u && isTriangle) a = attributesAt(s.primitive, s.weights);
     return a;
 }
 
@@ -256,8 +256,7 @@ PointAttributes attributesOf(SurfacePoint s) {
 /// OTHER_ of the side that the surface is not seen from.
 float blendShare(uint materialRow, PointAttributes a, uint notThere, out uint other) {
     const MaterialDetail detail = fetchDetail(materialRow);
-    const uint bundles = (detail.flags & DETAIL_HAS_BUNDLE) != 0u ? 1u : 0u;
-    const uvec4 r = ROW(materialRows, textureUseRow(materialRow, bundles + looseTexturesOf(detail)));
+    const uvec4 r = ROW(materialRows, textureUseRow(materialRow, bundles() + looseTexturesOf(detail)));
     const bool isBlend = (detail.flags & DETAIL_IS_BLEND) != 0u;
     const BlendRow blend = BlendRow(r.x, uintBitsToFloat(r.y), isBlend ? r.z : 0u, r.w);
     other = blend.other;
@@ -274,8 +273,7 @@ float blendShare(uint materialRow, PointAttributes a, uint notThere, out uint ot
 uint materialOfSide(SurfacePoint s) {
     const uint notThere = isSeenFromBehind(s) ? OTHER_IN_FRONT : OTHER_BEHIND;
     const MaterialDetail detail = fetchDetail(s.material);
-    const uint bundles = (detail.flags & DETAIL_HAS_BUNDLE) != 0u ? 1u : 0u;
-    const uvec4 r = ROW(materialRows, textureUseRow(s.material, bundles + looseTexturesOf(detail)));
+    const uvec4 r = ROW(materialRows, textureUseRow(s.material, bundles() + looseTexturesOf(detail)));
     const bool hasOther = (detail.flags & DETAIL_IS_BLEND) != 0u && r.w != OTHER_BY_SHARE && r.w != notThere;
     return hasOther ? r.x : s.material;
 }
@@ -287,15 +285,14 @@ Material materialAt(SurfacePoint s, out Relief relief) {
     const PointAttributes a = attributesOf(s);
     if (hasAttribute(ATTRIBUTE_COLOR) && hasBaseColor(m)) scale(m.row1, a.color.rgb);
     if (TEXTURE_SLOTS == 0u) return m;
-    const MaterialDetail detail = fetchDetail(s.material);
-    if (hasBundles()) applyBundle(m, relief, s.material, detail, a);
+    if (hasBundles()) applyBundle(m, relief, s.material, a);
     if (LOOSE_SLOTS == 0u) return m;
-    const uint first = (detail.flags & DETAIL_HAS_BUNDLE) != 0u ? 1u : 0u;
+    const MaterialDetail detail = fetchDetail(s.material);
     for (uint i = 0u; i < looseTexturesOf(detail); ++i) {
-        const TextureUse t = fetchTextureUse(textureUseRow(s.material, first + i));
-        if (isReadElsewhere(t.slot & TEXTURE_SLOT_MASK)) continue;
+        const TextureUse t = fetchTextureUse(textureUseRow(s.material, bundles() + i));
+        if (isReadElsewhere(t.flags & TEXTURE_SLOT_MASK)) continue;
         applyTexel(m, relief, t, lookUp(t, coordinatesOf(t, a)));
-        if (hasHeights() && (t.slot & TEXTURE_SLOT_MASK) == TEXTURE_HEIGHT)
+        if (hasHeights() && (t.flags & TEXTURE_SLOT_MASK) == TEXTURE_HEIGHT)
             relief.slope = t.scale * slopeOf(t, coordinatesOf(t, a));
     }
     return m;

@@ -5,7 +5,7 @@
 /// same.
 vec4 tangentAt(SurfacePoint s, vec3 n) {
     if (s.skipPrimitive == NO_PRIMITIVE) return vec4(0.0);
-    const uvec4 r = ROW(detailRows, attributeRow(primitiveAt(s.skipPrimitive), ATTRIBUTE_TANGENT));
+    const uvec4 r = ROW(detailRows, attributeRow(s.primitive, ATTRIBUTE_TANGENT));
     const uvec3 sides = uvec3(r.w) >> uvec3(0u, 2u, 4u) & 3u;
     if (sides.x == 0u || sides.y == 0u || sides.z == 0u) return vec4(0.0);
     vec3 t0 = decodeNormal(r.x), t1 = decodeNormal(r.y), t2 = decodeNormal(r.z);
@@ -63,7 +63,7 @@ void applyHeights(inout SurfacePoint s, vec2 slope, bool mirrors, uint rules) {
 #ifdef PLACEMENTS
     if (HAS_PLACEMENTS) p = inWorld(placingOf(s.placement), p);
 #endif
-    const uint row = attributeRow(primitiveAt(s.skipPrimitive), ATTRIBUTE_UV0);
+    const uint row = attributeRow(s.primitive, ATTRIBUTE_UV0);
     const vec4 first = uintBitsToFloat(ROW(detailRows, row));
     const vec2 d1 = first.zw - first.xy, d2 = uintBitsToFloat(ROW(detailRows, row + 1u).xy) - first.xy;
     const vec3 e1 = p.v1 - p.v0, e2 = p.v2 - p.v0, n = shadingNormal(s);

@@ -11,6 +11,7 @@ struct SurfacePoint {
     uint skipPrimitive; ///< planar primitives cannot be hit by rays that leave them
     float lift; ///< height of the smooth surface over `position`, along `geometric`; 0: flat
 #ifdef RICH_MATERIALS
+    uint primitive; ///< in the Primitive buffer, as its corners' attributes are numbered
     vec2 weights; ///< barycentric, of the second and third corner (triangles)
     vec4 tangent; ///< relief.glsl; with TANGENT_FRAMES
     vec3 coat;    ///< unit; the clear coat's normal, with sceneHasCoatNormals() (relief.glsl)
@@ -173,6 +174,7 @@ SurfacePoint surfaceAt(Traversal t) {
     s.shading = s.geometric;
     s.outside = dot(s.geometric, s.wo) >= 0.0;
 #ifdef RICH_MATERIALS
+    s.primitive = place.primitive;
     s.weights = vec2(t.b1, t.b2);
     s.tangent = vec4(0.0);
 #endif

@@ -1,11 +1,30 @@
 // Looks textures up: four taps, decoded before they are mixed, so that what is not linear in a texel
 // (roughness, normals) gets the filtered value. Texels are words of the detail buffer's rows.
 
+/// Whether some texture of the scene has coordinates that are transformed, or a scale.
+bool texturesAreAdjusted() { return (TEXEL_KINDS & TEXEL_KIND_ADJUSTED) != 0u; }
+
 TextureUse fetchTextureUse(uint row) {
-    const uvec4 u = ROW(materialRows, row), v = ROW(materialRows, row + 1u),
-                texels = ROW(materialRows, row + 2u);
-    return TextureUse(uintBitsToFloat(u.xyz), u.w, uintBitsToFloat(v.xyz), uintBitsToFloat(v.w),
-                      texels.x, texels.y, texels.z, texels.w);
+    const uvec4 texels = ROW(materialRows, row);
+    TextureUse t = TextureUse(texels.x, texels.y, texels.z, texels.w, vec3(1.0, 0.0, 0.0), 1.0,
+                              vec3(0.0, 1.0, 0.0), 0u);
+    if (texturesAreAdjusted()) {
+        const vec4 u = uintBitsToFloat(ROW(materialRows, row + 1u)),
+                   v = uintBitsToFloat(ROW(materialRows, row + 2u));
+        t.uRow = u.xyz;
+        t.vRow = v.xyz;
+        t.scale = u.w;
+    }
+    return t;
+}
+
+/// One white texel, whatever the coordinates: of no effect where parameters are multiplied by it.
+TextureUse noTexture() {
+    return TextureUse(0u, 1u, 1u, 0u, vec3(0.0), 0.0, vec3(0.0), 0u);
+}
+
+vec2 adjusted(TextureUse t, vec2 uv) {
+    return texturesAreAdjusted() ? vec2(dot(t.uRow, vec3(uv, 1.0)), dot(t.vRow, vec3(uv, 1.0))) : uv;
 }
 
 /// Of any texture of the scene: known without looking where all or none are of the kind.
@@ -17,6 +36,14 @@ bool isNearest(TextureUse t) {
     return hasFlag(t, TEXELS_NEAREST, TEXEL_KIND_NEAREST, TEXEL_KIND_BILINEAR);
 }
 bool isHalf(TextureUse t) { return hasFlag(t, TEXELS_HALF, TEXEL_KIND_HALF, TEXEL_KIND_BYTES); }
+/// WRAP_ of a direction: TEXELS_WRAP_U_SHIFT or TEXELS_WRAP_V_SHIFT.
+uint wrapMode(TextureUse t, uint shift) {
+    const uint kinds = TEXEL_KINDS & (TEXEL_KIND_REPEAT | TEXEL_KIND_MIRROR | TEXEL_KIND_CLAMP);
+    if (kinds == TEXEL_KIND_REPEAT) return WRAP_REPEAT;
+    if (kinds == TEXEL_KIND_MIRROR) return WRAP_MIRROR;
+    if (kinds == TEXEL_KIND_CLAMP) return WRAP_CLAMP;
+    return t.flags >> shift & TEXELS_WRAP_MASK;
+}
 bool isSrgb(TextureUse t) {
     return (TEXEL_KINDS & TEXEL_KIND_SRGB) != 0u && (t.flags & TEXELS_SRGB) != 0u;
 }
@@ -31,7 +58,8 @@ vec3 linearOfSrgb(vec3 c) {
 }
 
 vec4 bytesOf(uint word, bool srgb) {
-    vec4 texel = unpackUnorm4x8(word);
+    // Signed conversions, which all processors have (docs/kernel.md, "Arithmetic").
+    vec4 texel = vec4(ivec4(uvec4(word, word >> 8u, word >> 16u, word >> 24u) & 0xFFu)) * (1.0 / 255.0);
     if (srgb) texel.rgb = linearOfSrgb(texel.rgb);
     return texel;
 }
@@ -77,11 +105,10 @@ struct Taps {
 };
 
 Taps tapsAt(TextureUse t, vec2 uv) {
-    const uint wrapU = t.flags >> TEXELS_WRAP_U_SHIFT & TEXELS_WRAP_MASK;
-    const uint wrapV = t.flags >> TEXELS_WRAP_V_SHIFT & TEXELS_WRAP_MASK;
+    const uint wrapU = wrapMode(t, TEXELS_WRAP_U_SHIFT), wrapV = wrapMode(t, TEXELS_WRAP_V_SHIFT);
+    const vec2 place = adjusted(t, uv);
     const ivec2 size = ivec2(int(t.width), int(t.height));
-    const vec2 at = vec2(wrapped(dot(t.uRow, vec3(uv, 1.0)), wrapU),
-                         wrapped(dot(t.vRow, vec3(uv, 1.0)), wrapV)) * vec2(size);
+    const vec2 at = vec2(wrapped(place.x, wrapU), wrapped(place.y, wrapV)) * vec2(size);
     // At 1, the end of the last texel, the nearest texel is the last one whatever the mode.
     const ivec2 nearest = min(ivec2(floor(at)), size - 1);
     const uint nearestTexel = uint(nearest.y) * t.width + uint(nearest.x);
@@ -95,8 +122,10 @@ Taps tapsAt(TextureUse t, vec2 uv) {
     return isNearest(t) ? Taps(uvec4(nearestTexel), vec2(0.0)) : taps;
 }
 
+/// What is the same in all is exactly that between them.
 vec4 mixed(vec4 a, vec4 b, vec4 c, vec4 d, vec2 part) {
-    return mix(mix(a, b, part.x), mix(c, d, part.x), part.y);
+    const vec4 upper = a + part.x * (b - a), lower = c + part.x * (d - c);
+    return upper + part.y * (lower - upper);
 }
 
 /// Of a texture that is not in a bundle.
@@ -123,10 +152,9 @@ vec2 slopeOf(TextureUse t, vec2 uv) {
                 c = fetchTexel(t, taps.texels.z).r, d = fetchTexel(t, taps.texels.w).r;
     vec2 slope = vec2(float(int(t.width)), float(int(t.height))) *
                  mix(vec2(b - a, c - a), vec2(d - c, d - b), taps.part.yx);
-    if (isMirroredAt(dot(t.uRow, vec3(uv, 1.0)), t.flags >> TEXELS_WRAP_U_SHIFT & TEXELS_WRAP_MASK))
-        slope.x = -slope.x;
-    if (isMirroredAt(dot(t.vRow, vec3(uv, 1.0)), t.flags >> TEXELS_WRAP_V_SHIFT & TEXELS_WRAP_MASK))
-        slope.y = -slope.y;
+    const vec2 place = adjusted(t, uv);
+    if (isMirroredAt(place.x, wrapMode(t, TEXELS_WRAP_U_SHIFT))) slope.x = -slope.x;
+    if (isMirroredAt(place.y, wrapMode(t, TEXELS_WRAP_V_SHIFT))) slope.y = -slope.y;
     return slope.x * t.uRow.xy + slope.y * t.vRow.xy;
 }
 

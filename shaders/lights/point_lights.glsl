@@ -53,7 +53,7 @@ LightSample sampleProjector(SurfacePoint s, LightRows rows) {
     }
     if (sceneHasSlot(TEXTURE_PROJECTION)) {
         TextureUse t = fetchTextureUse(l.picture);
-        if (l.picture == 0u) t = fetchTextureUse(0u, 0u); // none
+        if (l.picture == 0u) t = noTexture();
         const vec3 texel = lookUp(t, uv).rgb;
         r.radiance *= l.picture != 0u ? texel : vec3(1.0);
     }

@@ -91,6 +91,10 @@ SHARED_CONST uint TEXEL_KIND_BYTES = 8u;
 SHARED_CONST uint TEXEL_KIND_HALF = 16u;
 SHARED_CONST uint TEXEL_KIND_BUNDLE = 32u;
 SHARED_CONST uint TEXEL_KIND_LOOSE = 64u; ///< some texture is in no bundle
+SHARED_CONST uint TEXEL_KIND_REPEAT = 128u; ///< a wrap mode of some texture, in one direction or both
+SHARED_CONST uint TEXEL_KIND_MIRROR = 256u;
+SHARED_CONST uint TEXEL_KIND_CLAMP = 512u;
+SHARED_CONST uint TEXEL_KIND_ADJUSTED = 1024u; ///< some texture's coordinates are transformed, or its scale is not 1
 
 SHARED_CONST uint INTEGRATOR_PATH = 0u;
 SHARED_CONST uint INTEGRATOR_NORMALS = 1u;

@@ -109,7 +109,8 @@ struct SuspendedSplit {
     float b1, b2;      ///< barycentric weights, where materials have textures or colours; 0 else
     uint medium;       ///< path.glsl
     uint placement;    ///< that skipPrimitive is in; of no meaning where nothing is placed
-    uint unused0, unused1;
+    uint primitive;    ///< as skipPrimitive, in the Primitive buffer; where there are b1 and b2
+    uint unused;
 };
 SHARED_ROWS(SuspendedSplit, 7);
 SHARED_CONST float SUSPENDED_NO_EMISSION = -1.0f;

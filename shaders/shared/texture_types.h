@@ -10,8 +10,9 @@ SHARED_BEGIN
 // --- In the material buffer ------------------------------------------------------------------
 
 /// Where a scene has textures or opacity, every material has this row, so many rows after its header,
-/// whatever its kind; behind it follow its bundle, if it has one, and its loose textures, the slots in
-/// ascending order.
+/// whatever its kind; behind it follow its bundle, where some material of the scene has one, and its loose
+/// textures, the slots in ascending order. A material without maps in a bundle has one of a single texel without
+/// pictures then, so that no lane has to ask.
 SHARED_CONST uint MATERIAL_DETAIL_ROW = 7u;
 struct MaterialDetail {
     float opacity;
@@ -24,8 +25,6 @@ struct MaterialDetail {
 SHARED_ROWS(MaterialDetail, 1);
 SHARED_CONST uint DETAIL_MASK = 1u;  ///< there where opacity is at least alphaCutoff, else not
 SHARED_CONST uint DETAIL_BLEND = 2u; ///< opacity is the share of light that meets the surface
-SHARED_CONST uint DETAIL_HAS_BUNDLE = 4u;    ///< the first TextureUse is a bundle
-SHARED_CONST uint DETAIL_BUNDLE_MAPS_NORMALS = 8u; ///< it has a map of TEXTURE_NORMAL
 SHARED_CONST uint DETAIL_IS_HIDDEN = 32u; ///< camera rays pass it
 /// The clear coat has a normal of its own: the surface's before TEXTURE_NORMAL turned it, or what
 /// TEXTURE_CLEARCOAT_NORMAL makes of that.
@@ -58,17 +57,19 @@ SHARED_CONST uint MOST_BLENDS = 8u;
 
 /// A texture of a material, or a bundle of them: which slot it has, where it is looked up, and where its texels are.
 struct TextureUse {
-    vec3 uRow; ///< u' = uRow . (u, v, 1)
-    uint slot; ///< TEXTURE_ slot, of no meaning for bundles; | TEXTURE_SECOND_UV
-    vec3 vRow; ///< v' = vRow . (u, v, 1)
-    float scale; ///< TEXTURE_NORMAL, _CLEARCOAT_NORMAL: of the tangential part; _HEIGHT: of all; _OPACITY: below 0, its negative
     uint firstRow; ///< of its texels in the detail buffer
     uint width;
     uint height;
-    uint flags; ///< TEXELS_
+    uint flags; ///< TEXTURE_ slot, of no meaning for bundles; | TEXTURE_SECOND_UV | TEXELS_
+    // Read only where this changes some texture of the scene (TEXEL_KIND_ADJUSTED).
+    vec3 uRow; ///< u' = uRow . (u, v, 1)
+    float scale; ///< TEXTURE_NORMAL, _CLEARCOAT_NORMAL: of the tangential part; _HEIGHT: of all; _OPACITY: below 0, its negative
+    vec3 vRow; ///< v' = vRow . (u, v, 1)
+    uint unused;
 };
 SHARED_ROWS(TextureUse, 3);
-SHARED_OFFSET(TextureUse, firstRow, 32);
+SHARED_OFFSET(TextureUse, uRow, 16);
+SHARED_OFFSET(TextureUse, vRow, 32);
 SHARED_CONST uint TEXTURE_USE_ROWS = 3u;
 SHARED_CONST uint TEXTURE_SLOT_MASK = 0xFFu;
 SHARED_CONST uint TEXTURE_SECOND_UV = 0x100u; ///< the second set of texture coordinates
@@ -95,19 +96,20 @@ SHARED_CONST uint TEXTURE_SLOT_COUNT = 17u;
 
 /// How a texture's coordinates become a texel, and what a texel is: one word (four fractions of 255)
 /// or two (four half floats). Texels lie row after row, the first word of all in word 0 of firstRow.
-SHARED_CONST uint TEXELS_WRAP_U_SHIFT = 0u; ///< two bits, WRAP_
-SHARED_CONST uint TEXELS_WRAP_V_SHIFT = 2u;
+SHARED_CONST uint TEXELS_WRAP_U_SHIFT = 16u; ///< two bits, WRAP_
+SHARED_CONST uint TEXELS_WRAP_V_SHIFT = 18u;
 SHARED_CONST uint TEXELS_WRAP_MASK = 3u;
 SHARED_CONST uint WRAP_REPEAT = 0u;
 SHARED_CONST uint WRAP_MIRROR = 1u;
 SHARED_CONST uint WRAP_CLAMP = 2u;
-SHARED_CONST uint TEXELS_NEAREST = 16u; ///< the nearest texel; else bilinear
-SHARED_CONST uint TEXELS_SRGB = 32u;    ///< red, green and blue are sRGB
-SHARED_CONST uint TEXELS_HALF = 64u;    ///< half floats
+SHARED_CONST uint TEXELS_NEAREST = 0x100000u; ///< the nearest texel; else bilinear
+SHARED_CONST uint TEXELS_SRGB = 0x200000u; ///< red, green and blue are sRGB
+SHARED_CONST uint TEXELS_HALF = 0x400000u; ///< half floats
 /// A bundle: pictures of one size that a material looks up alike. A texel is a row, whose n-th word is that of
 /// TEXTURE_ slot n, so that four taps load all that most materials have. A word without a picture has all bits set.
 /// Base color and emission are sRGB, the others are not.
-SHARED_CONST uint TEXELS_BUNDLE = 128u;
+SHARED_CONST uint TEXELS_BUNDLE = 0x800000u;
+SHARED_CONST uint TEXELS_MAP_NORMALS = 0x1000000u; ///< of a bundle: it has a map of TEXTURE_NORMAL
 SHARED_CONST uint BUNDLE_MAPS = 4u;
 
 // --- In the detail buffer ----------------------------------------------------------------------

@@ -94,6 +94,28 @@ TEST_F(Bundles, AreOfOneKind) {
         }
 }
 
+/// The kernel knows wrap modes that no texture has, and reads neither transforms nor scales where
+/// none changes anything.
+TEST_F(Bundles, TellWhatLookupsNeed) {
+    const uint32_t asked = gpu::TEXEL_KIND_REPEAT | gpu::TEXEL_KIND_MIRROR | gpu::TEXEL_KIND_CLAMP |
+                           gpu::TEXEL_KIND_ADJUSTED;
+    EXPECT_EQ(plan().texelKinds & asked, gpu::TEXEL_KIND_REPEAT);
+    scene_.textures[0].wrapV = Wrap::Mirror;
+    EXPECT_EQ(plan().texelKinds & asked, gpu::TEXEL_KIND_REPEAT | gpu::TEXEL_KIND_MIRROR);
+    for (Texture& t : scene_.textures)
+        t.wrapU = t.wrapV = Wrap::Clamp;
+    EXPECT_EQ(plan().texelKinds & asked, gpu::TEXEL_KIND_CLAMP);
+    TextureUse& use = scene_.materials[0].textures[1];
+    const TextureUse usual = use;
+    for (const auto& change :
+         {+[](TextureUse& u) { u.uRow.y = 0.5f; }, +[](TextureUse& u) { u.vRow.z = 0.5f; },
+          +[](TextureUse& u) { u.scale = 0.5f; }}) {
+        use = usual;
+        change(use);
+        EXPECT_EQ(plan().texelKinds & asked, gpu::TEXEL_KIND_CLAMP | gpu::TEXEL_KIND_ADJUSTED);
+    }
+}
+
 /// What changes nothing takes no memory either.
 TEST_F(Bundles, HaveOnlyWhatHasAnEffect) {
     scene_.materials[0].principled.baseColor = glm::vec3(0);

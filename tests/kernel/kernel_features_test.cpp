@@ -231,8 +231,8 @@ TEST(KernelFeatures, TexturesAndOpacityOnlyWhereTheyHaveAnEffect) {
     m.textures.push_back({.slot = TextureSlot::BaseColor});
     f = featuresOf(scene);
     EXPECT_EQ(f[SPEC_TEXTURE_SLOTS], 1u << gpu::TEXTURE_BASE_COLOR);
-    EXPECT_EQ(f[SPEC_TEXEL_KINDS],
-              gpu::TEXEL_KIND_BILINEAR | gpu::TEXEL_KIND_BYTES | gpu::TEXEL_KIND_LOOSE);
+    EXPECT_EQ(f[SPEC_TEXEL_KINDS], gpu::TEXEL_KIND_BILINEAR | gpu::TEXEL_KIND_BYTES |
+                                       gpu::TEXEL_KIND_LOOSE | gpu::TEXEL_KIND_REPEAT);
     EXPECT_EQ(f[SPEC_LOOSE_SLOTS], 1u << gpu::TEXTURE_BASE_COLOR);
     EXPECT_EQ(f[SPEC_ATTRIBUTES], gpu::ATTRIBUTE_UV0);
     EXPECT_EQ(f[SPEC_ALPHA], 0u);

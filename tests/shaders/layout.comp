@@ -166,7 +166,7 @@ void putWork() {
     put(q.position), put(q.bounce), put(q.geometric), put(q.material), put(q.shading);
     put(q.skipPrimitive), put(q.wo), put(q.lift), put(q.throughput), put(q.error);
     put(q.outside), put(q.branchesLeft), put(q.b1), put(q.b2);
-    put(q.medium), put(q.placement), put(q.unused0), put(q.unused1);
+    put(q.medium), put(q.placement), put(q.primitive), put(q.unused);
     put(status.unfinishedItems), put(status.overflowedItems), put(status.rays);
     put(status.samples), put(status.nextItem), put(status.busySteps), put(status.allSteps);
     put(status.iterations);

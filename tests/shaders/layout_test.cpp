@@ -210,15 +210,15 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         expected_.structure("DirectionalLight", sun.toLight, sun.unused);
     }
 
-    /// Row 1 as an entry; the frame's count of lights is 0 there, so that rows 0 to 2 are columns
-    /// and nodes.
+    /// Row 1 as an entry; the frame's count of lights is 0 there, so that row 1 is a column too,
+    /// and both rows of node 0 are row 0.
     void expectTable(const std::vector<Row>& table) {
         const auto entry = std::bit_cast<gpu::LightEntry>(table[1]);
         expected_.structure("LightEntry", entry.light, entry.trail, entry.probability, entry.group);
         const auto column = std::bit_cast<gpu::AliasColumn>(table[1]);
         expected_.structure("AliasColumn", column.threshold, column.alias, column.unused0,
                             column.unused1);
-        const std::array<Row, 2> two = {table[0], table[1]};
+        const std::array<Row, 2> two = {table[0], table[0]};
         const auto node = std::bit_cast<gpu::LightNode>(two);
         expected_.structure("LightNode", node.center, node.radiusAndPower, node.axis,
                             node.cosSpread, node.flags, node.unused);
@@ -260,8 +260,8 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         const gpu::SuspendedSplit& q = splits_[1];
         expected_.structure("SuspendedSplit", q.position, q.bounce, q.geometric, q.material,
                             q.shading, q.skipPrimitive, q.wo, q.lift, q.throughput, q.error,
-                            q.outside, q.branchesLeft, q.b1, q.b2, q.medium, q.placement, q.unused0,
-                            q.unused1);
+                            q.outside, q.branchesLeft, q.b1, q.b2, q.medium, q.placement,
+                            q.primitive, q.unused);
         const gpu::DispatchStatus status = patterns.several<gpu::DispatchStatus>()[0];
         shader.setOne(BINDING_STATUS, status);
         expected_.structure("DispatchStatus", status.unfinishedItems, status.overflowedItems,

@@ -33,7 +33,7 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 
 /// Ends the constructor of a SurfacePoint that has no texture.
 #ifdef RICH_MATERIALS
-#define NO_DETAIL , vec2(0.0), vec4(0.0), vec3(0.0, 0.0, 1.0)
+#define NO_DETAIL , 0u, vec2(0.0), vec4(0.0), vec3(0.0, 0.0, 1.0)
 #else
 #define NO_DETAIL
 #endif
