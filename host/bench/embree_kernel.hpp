@@ -134,7 +134,8 @@ struct World {
     uint32_t lightChoice;      ///< gpu::LIGHT_CHOICE_
     uint32_t lightsInGroup[3]; ///< of the light tree, by gpu::LIGHT_GROUP_
     uint32_t lightCount, areaLights;
-    bool hasAmbient; ///< then it is lights[0]
+    bool onlyNearWithoutCones; ///< the tree's lights: likelyLightWithoutCone() weighs them
+    bool hasAmbient;           ///< then it is lights[0]
     /// What a bounce from a diffuse surface has of the ambient light that it finds, and light
     /// samples the rest of: 0 where light samples find it all, 1 where there are none of it.
     float ambientOfBounces;

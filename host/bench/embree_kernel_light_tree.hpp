@@ -19,7 +19,17 @@ inline SineCosine angleOfCosine(float c) {
     return {std::sqrt(larger(1 - c * c, 0.0f)), c};
 }
 
-inline float likelyLight(const LightNode& node, uint32_t group, const Point& p) {
+inline float likelyLightWithoutCone(const LightNode& node, const Point& p) {
+    const Vec d = vec(node.center) - p.position;
+    const float distance2 = dot(d, d), reach = dot(p.shading, d) + node.radius;
+    if (!(reach > 0)) return 0;
+    const float cosine = reach / (std::sqrt(distance2) + node.radius);
+    return node.power * cosine / larger(larger(distance2, node.radius * node.radius), kTiny);
+}
+
+inline float likelyLight(const LightNode& node, uint32_t group, const Point& p,
+                         bool nearWithoutCones) {
+    if (nearWithoutCones) return likelyLightWithoutCone(node, p);
     const Vec axis = vec(node.axis);
     const SineCosine spread{node.sinSpread, node.cosSpread};
     if (group == gpu::LIGHT_GROUP_INFINITE)
@@ -84,7 +94,6 @@ inline float shareOf(uint32_t values) {
 
 inline bool choosesFirst(ChoiceNumber& c, uint32_t ofFirst) {
     const bool first = c.value < ofFirst;
-    if (ofFirst == 0 || ofFirst == 0x80000000u) return first;
     const uint32_t width = first ? ofFirst : 0x80000000u - ofFirst;
     const uint32_t offset = first ? c.value : c.value - ofFirst;
     const uint32_t digits = newDigits(c);
@@ -116,15 +125,17 @@ inline uint32_t walkLightTree(const World& w, const Point& p, ChoiceNumber& c, f
     if (group == 3) { // lights of several groups
         float light[3] = {0, 0, 0};
         for (uint32_t i = 0; i < 3; ++i)
-            if (lights[i] > 0) light[i] = likelyLight(w.lightNodes[2 * firstLight[i] + 1], i, p);
+            if (lights[i] > 0)
+                light[i] =
+                    likelyLight(w.lightNodes[2 * firstLight[i] + 1], i, p, w.onlyNearWithoutCones);
         group = pickGroup(light, c, probability);
     }
     const LightNode* nodes = w.lightNodes + 2 * firstLight[group];
     uint32_t node = 1;
     while (node < lights[group]) {
         node *= 2;
-        const float ofA = likelyLight(nodes[node], group, p),
-                    ofB = likelyLight(nodes[node + 1], group, p);
+        const float ofA = likelyLight(nodes[node], group, p, w.onlyNearWithoutCones),
+                    ofB = likelyLight(nodes[node + 1], group, p, w.onlyNearWithoutCones);
         const uint32_t ofFirst = valuesOfFirst(ofA, ofB);
         const bool first = choosesFirst(c, ofFirst);
         node += first ? 0 : 1;

@@ -5,6 +5,8 @@
 #include "host/kernel/light_table.hpp"
 #include "host/kernel/rows.hpp"
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -89,6 +91,12 @@ native::LightNode decodedNode(const gpu::LightNode& n) {
     return node;
 }
 
+gpu::LightNode nodeAt(const LightTable& table, size_t index) {
+    const std::array<Row, 2> rows = {table.table[table.count + index],
+                                     table.table[3 * size_t(table.count) + index]};
+    return std::bit_cast<gpu::LightNode>(rows);
+}
+
 /// Both techniques have the density cos / pi by solid angle where the sky is alone: their MIS
 /// weights by the power heuristic are the same everywhere.
 float ambientOfBounces(const LightTable& table, const Estimator& settings) {
@@ -114,6 +122,9 @@ EmbreeLights embreeLights(const Scene& scene, const RenderSettings& settings) {
     all.oneQuad =
         table.count == 1 && table.sampledKinds == 1u << gpu::LIGHT_QUAD && !table.hasAmbient;
     all.ambientOfBounces = ambientOfBounces(table, settings.estimator);
+    constexpr uint32_t kWithoutCones = 1u << gpu::LIGHT_POINT | 1u << gpu::LIGHT_SPHERE;
+    all.onlyNearWithoutCones =
+        table.groups == 1u << gpu::LIGHT_GROUP_NEAR && (table.sampledKinds & ~kWithoutCones) == 0;
     for (size_t row = 0; row < table.lights.size(); row += gpu::LIGHT_ROWS)
         all.lights.push_back(decodedLight(table.lights, row));
     for (uint32_t i = 0; i < table.count; ++i) {
@@ -125,8 +136,8 @@ EmbreeLights embreeLights(const Scene& scene, const RenderSettings& settings) {
         all.entries.push_back({isTriangle, index, entry.probability});
     }
     if (table.groups)
-        for (size_t row = table.count; row < table.table.size(); row += 2)
-            all.nodes.push_back(decodedNode(structureAt<gpu::LightNode>(table.table, row)));
+        for (size_t i = 0; i < 2 * size_t(table.count); ++i)
+            all.nodes.push_back(decodedNode(nodeAt(table, i)));
     else
         for (size_t row = table.count; row < table.table.size(); ++row) {
             const auto column = structureAt<gpu::AliasColumn>(table.table, row);

@@ -21,7 +21,8 @@ struct EmbreeLights {
     std::array<uint32_t, gpu::LIGHT_GROUP_COUNT> lightsInGroup{};
     DirectSampling direct;
     bool oneQuad = false, hasAmbient = false;
-    float ambientOfBounces = 0; ///< native::World::ambientOfBounces
+    bool onlyNearWithoutCones = false; ///< native::World::onlyNearWithoutCones
+    float ambientOfBounces = 0;        ///< native::World::ambientOfBounces
 };
 
 EmbreeLights embreeLights(const Scene& scene, const RenderSettings& settings);

@@ -114,6 +114,7 @@ void EmbreeWorld::addLights(const Scene& scene, const RenderSettings& settings) 
     std::ranges::copy(lights_.lightsInGroup, world_.lightsInGroup);
     world_.lightCount = uint32_t(lights_.entries.size());
     world_.areaLights = lights_.areaLights;
+    world_.onlyNearWithoutCones = lights_.onlyNearWithoutCones;
     world_.hasAmbient = lights_.hasAmbient;
     world_.ambientOfBounces = lights_.ambientOfBounces;
     world_.lightSamples = lights_.direct.lights;

@@ -6,6 +6,8 @@
 #include "scene/model/emitters.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 namespace stromboli {
@@ -300,8 +302,10 @@ class Packer {
             if (byTable) entries_[i].probability = float(weights[i] / sum);
             appendRows(out_.table, entries_[i]);
         }
-        for (const gpu::LightNode& node : tree.nodes)
-            appendRows(out_.table, node);
+        // All first rows, then all second ones, which few scenes read.
+        for (const size_t part : {0, 1})
+            for (const gpu::LightNode& node : tree.nodes)
+                out_.table.push_back(std::bit_cast<std::array<Row, 2>>(node)[part]);
         if (byTable)
             for (const AliasColumn& column : buildAliasTable(weights))
                 appendRows(out_.table,

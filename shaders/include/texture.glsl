@@ -23,8 +23,12 @@ TextureUse noTexture() {
     return TextureUse(0u, 1u, 1u, 0u, vec3(0.0), 0.0, vec3(0.0), 0u);
 }
 
+/// Texture coordinates as a texture's transform makes them. What is not finite in one makes both none, so that they
+/// count as 0 (wrapped()), whether other textures of the scene have transforms or not: the products with 0 have it so.
 vec2 adjusted(TextureUse t, vec2 uv) {
-    return texturesAreAdjusted() ? vec2(dot(t.uRow, vec3(uv, 1.0)), dot(t.vRow, vec3(uv, 1.0))) : uv;
+    if (texturesAreAdjusted()) return vec2(dot(t.uRow, vec3(uv, 1.0)), dot(t.vRow, vec3(uv, 1.0)));
+    const bool isFinite = larger(abs(uv.x), abs(uv.y)) < uintBitsToFloat(0x7F800000u);
+    return isFinite ? uv : vec2(0.0);
 }
 
 /// Of any texture of the scene: known without looking where all or none are of the kind.

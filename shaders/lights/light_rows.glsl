@@ -71,10 +71,9 @@ AliasColumn fetchAliasColumn(uint number) {
 
 /// index: of all groups' nodes. Without a cone: row 1 is left out.
 LightNode fetchLightNode(uint index, bool withCone) {
-    const uint row = frame.lightCount + 2u * index;
-    const uvec4 r0 = ROW(lightTableRows, row);
+    const uvec4 r0 = ROW(lightTableRows, frame.lightCount + index);
     uvec4 r1 = uvec4(0u);
-    if (withCone) r1 = ROW(lightTableRows, row + 1u);
+    if (withCone) r1 = ROW(lightTableRows, 3u * frame.lightCount + index);
     return LightNode(uintBitsToFloat(r0.xyz), r0.w, r1.x, uintBitsToFloat(r1.y), r1.z, r1.w);
 }
 

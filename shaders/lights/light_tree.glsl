@@ -28,6 +28,16 @@ float turnedTowards(LightNode node, vec3 axis, vec2 spread, vec3 w, vec2 bound) 
     return outside ? 0.0 : max(angle.x, 0.0);
 }
 
+/// Of near lights that send the same to all sides, d away: the power over the squared distance, times
+/// (n . d + r) / (|d| + r). Of a single point that is the cosine itself, of others one between the cosines in the node's
+/// sphere, and 0 where all of the sphere is behind the surface; likelyLight()'s bound takes another square root.
+float likelyLightWithoutCone(vec3 d, vec3 n, float power, float radius) {
+    const float distance2 = dot(d, d), reach = dot(n, d) + radius;
+    const float cosine = reach / (sqrt(distance2) + radius);
+    const float square = larger(larger(distance2, radius * radius), TINY);
+    return reach > 0.0 ? power * cosine / square : 0.0;
+}
+
 /// A bound of the irradiance (luminance) that the node's lights bring to a point with unit normal n. Of
 /// near lights: the power over the squared distance, times the largest cosines that light and surface can
 /// have anywhere in the node's sphere; within the sphere the distance is its radius, and cosines are 1.
@@ -38,6 +48,8 @@ float likelyLight(LightNode node, uint group, vec3 p, vec3 n) {
     const vec2 spread = angleOfCosine(node.cosSpread);
     if (LIGHT_GROUPS == 1u << LIGHT_GROUP_INFINITE)
         return power * max(lessAngle(angleOfCosine(-dot(n, axis)), spread).x, 0.0);
+    if (LIGHT_GROUPS == 1u << LIGHT_GROUP_NEAR && !lightsHaveCones())
+        return likelyLightWithoutCone(node.center - p, n, power, radius);
     const bool infinite = isGroup(group, LIGHT_GROUP_INFINITE);
     const vec3 d = infinite ? -axis : node.center - p;
     const float distance2 = infinite ? 1.0 : dot(d, d), radius2 = radius * radius;
@@ -64,22 +76,19 @@ float likelyLight(LightNode node, uint group, vec3 p, vec3 n) {
 /// How many of the 2^31 values choose the first of two, whose weights are not negative; 0 and 2^31 only
 /// where one of them has no weight.
 uint valuesOfFirst(float first, float second) {
-    if (!(first > 0.0)) return 0u;
-    if (!(second > 0.0)) return 0x80000000u;
     // By the lesser of the two, of which a float has more digits.
-    const float least = 2147483648.0 * (min(first, second) / (first + second));
-    const uint values = uint(int(max(least, 1.0)));
+    const float lesser = smaller(first, second);
+    const float least = larger(2147483648.0 * (lesser / (first + second)), 1.0);
+    const uint values = lesser > 0.0 ? uint(int(least)) : 0u;
     return first < second ? values : 0x80000000u - values;
 }
 
 /// values of 2^31 as a probability.
 float shareOf(uint values) { return float(values) * (1.0 / 2147483648.0); }
 
-/// Chooses, and leaves a number that is uniform again. ofFirst: as valuesOfFirst() gives it; where that leaves
-/// no choice, no digit is used up.
+/// Chooses, and leaves a number that is uniform again. ofFirst: as valuesOfFirst() gives it.
 bool choosesFirst(inout ChoiceNumber c, uint ofFirst) {
     const bool first = c.value < ofFirst;
-    if (ofFirst == 0u || ofFirst == 0x80000000u) return first;
     const uint width = first ? ofFirst : 0x80000000u - ofFirst;
     const uint offset = first ? c.value : c.value - ofFirst;
     const uint digits = newDigits(c);

@@ -149,7 +149,8 @@ SHARED_CONST uint LIGHT_GROUP_COUNT = 3u;
 /// of its own, complete but for its deepest level: node 1 is the root, the children of node i are 2 i and 2 i + 1,
 /// and of n lights the leaves are the nodes n to 2 n - 1, in the order of the lights' numbers. Groups follow each
 /// other; each has 2 n nodes, of which the first, number 0, is of no use.
-/// Row 1 is read only where some light has a cone.
+/// The first rows of all groups' nodes follow each other, then the second ones, which are read only where some light
+/// has a cone.
 struct LightNode {
     vec3 center;         ///< of a sphere that holds the lights; infinite lights: of no meaning
     uint radiusAndPower; ///< the upper halves of two floats, the radius in the upper half. The power is the luminance

@@ -296,7 +296,9 @@ TEST_P(TextureLookup, BundlesHoldTheSameTextures) {
             for (int k = 0; k < 64; ++k) {
                 const auto u = float(4 * random.uniform() - 2), v = float(4 * random.uniform() - 2);
                 bundled.push_back({rowOfMaterial[first], u, v, map + 1});
-                loose.push_back({rowOfMaterial[first + 1 + map], u, v, 0});
+                const uint32_t withoutMaps = rowOfMaterial[first + 1 + map];
+                loose.push_back({withoutMaps + gpu::TEXTURE_USE_ROWS, u, v, 0});
+                missing.push_back({withoutMaps, u, v, map + 1});
                 if (map % 2 == 1) missing.push_back({rowOfMaterial[first + 5], u, v, map + 1});
             }
     const std::vector<TextureAnswer> a = ask(bundled), e = ask(loose);
