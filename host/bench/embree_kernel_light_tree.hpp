@@ -19,6 +19,7 @@ inline SineCosine angleOfCosine(float c) {
     return {std::sqrt(larger(1 - c * c, 0.0f)), c};
 }
 
+/// As the function of this name in shaders/lights/light_tree.glsl.
 inline float likelyLightWithoutCone(const LightNode& node, const Point& p) {
     const Vec d = vec(node.center) - p.position;
     const float distance2 = dot(d, d), reach = dot(p.shading, d) + node.radius;

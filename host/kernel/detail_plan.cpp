@@ -71,18 +71,6 @@ bool isOpaque(const TextureImage& image) {
     return true;
 }
 
-uint32_t kindOf(Wrap wrap) {
-    switch (wrap) {
-    case Wrap::Repeat:
-        return gpu::TEXEL_KIND_REPEAT;
-    case Wrap::Mirror:
-        return gpu::TEXEL_KIND_MIRROR;
-    case Wrap::Clamp:
-        return gpu::TEXEL_KIND_CLAMP;
-    }
-    return gpu::TEXEL_KIND_REPEAT;
-}
-
 class Planner {
   public:
     Planner(const Scene& scene) : scene_(scene) {
@@ -151,7 +139,7 @@ class Planner {
         plan_.texelKinds |= texture.nearest ? gpu::TEXEL_KIND_NEAREST : gpu::TEXEL_KIND_BILINEAR;
         plan_.texelKinds |= isHalf ? gpu::TEXEL_KIND_HALF : gpu::TEXEL_KIND_BYTES;
         for (const Wrap wrap : {texture.wrapU, texture.wrapV})
-            plan_.texelKinds |= kindOf(wrap);
+            plan_.texelKinds |= gpu::TEXEL_KIND_REPEAT << uint32_t(wrap);
         const bool isMoved = use.uRow != glm::vec3(1, 0, 0) || use.vRow != glm::vec3(0, 1, 0);
         if (isMoved || use.scale != 1) plan_.texelKinds |= gpu::TEXEL_KIND_ADJUSTED;
         if (texture.srgb && !isHalf) plan_.texelKinds |= gpu::TEXEL_KIND_SRGB;
@@ -229,6 +217,11 @@ DetailPlan planDetails(const Scene& scene, const std::vector<bool>& used) {
     static_assert(uint32_t(TextureSlot::Anisotropy) == gpu::TEXTURE_ANISOTROPY);
     static_assert(uint32_t(TextureSlot::Height) == gpu::TEXTURE_HEIGHT);
     static_assert(uint32_t(TextureSlot::BlendShare) == gpu::TEXTURE_BLEND_SHARE);
+    static_assert(uint32_t(Wrap::Repeat) == gpu::WRAP_REPEAT);
+    static_assert(uint32_t(Wrap::Mirror) == gpu::WRAP_MIRROR);
+    static_assert(uint32_t(Wrap::Clamp) == gpu::WRAP_CLAMP);
+    static_assert(gpu::TEXEL_KIND_MIRROR == gpu::TEXEL_KIND_REPEAT << gpu::WRAP_MIRROR);
+    static_assert(gpu::TEXEL_KIND_CLAMP == gpu::TEXEL_KIND_REPEAT << gpu::WRAP_CLAMP);
     static_assert(uint32_t(OtherPlace::Behind) == gpu::OTHER_BEHIND);
     static_assert(uint32_t(OtherPlace::InFront) == gpu::OTHER_IN_FRONT);
     static_assert(uint32_t(TextureSlot::Projection) == gpu::TEXTURE_PROJECTION);

@@ -129,18 +129,6 @@ class TexelPacker {
     std::map<std::array<uint32_t, gpu::BUNDLE_MAPS>, uint32_t> firstRowOfBundle_;
 };
 
-uint32_t wrapBits(Wrap wrap) {
-    switch (wrap) {
-    case Wrap::Repeat:
-        return gpu::WRAP_REPEAT;
-    case Wrap::Mirror:
-        return gpu::WRAP_MIRROR;
-    case Wrap::Clamp:
-        return gpu::WRAP_CLAMP;
-    }
-    return gpu::WRAP_REPEAT;
-}
-
 /// All but where its texels are, and what they hold.
 gpu::TextureUse packLookup(const Scene& scene, const TextureUse& use) {
     const Texture& texture = scene.textures[use.texture];
@@ -152,8 +140,8 @@ gpu::TextureUse packLookup(const Scene& scene, const TextureUse& use) {
     g.width = image.width;
     g.height = image.height;
     g.flags = uint32_t(use.slot) | (use.uvSet != 0 ? gpu::TEXTURE_SECOND_UV : 0) |
-              wrapBits(texture.wrapU) << gpu::TEXELS_WRAP_U_SHIFT |
-              wrapBits(texture.wrapV) << gpu::TEXELS_WRAP_V_SHIFT |
+              uint32_t(texture.wrapU) << gpu::TEXELS_WRAP_U_SHIFT |
+              uint32_t(texture.wrapV) << gpu::TEXELS_WRAP_V_SHIFT |
               (texture.nearest ? gpu::TEXELS_NEAREST : 0);
     return g;
 }

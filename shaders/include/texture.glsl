@@ -18,7 +18,7 @@ TextureUse fetchTextureUse(uint row) {
     return t;
 }
 
-/// One white texel, whatever the coordinates: of no effect where parameters are multiplied by it.
+/// A picture of one texel, whichever that is, for lanes that do not use what they look up.
 TextureUse noTexture() {
     return TextureUse(0u, 1u, 1u, 0u, vec3(0.0), 0.0, vec3(0.0), 0u);
 }

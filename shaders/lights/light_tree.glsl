@@ -78,8 +78,9 @@ float likelyLight(LightNode node, uint group, vec3 p, vec3 n) {
 uint valuesOfFirst(float first, float second) {
     // By the lesser of the two, of which a float has more digits.
     const float lesser = smaller(first, second);
-    const float least = larger(2147483648.0 * (lesser / (first + second)), 1.0);
-    const uint values = lesser > 0.0 ? uint(int(least)) : 0u;
+    // At most a half, also where both overflow.
+    const int share = clamp(int(2147483648.0 * (lesser / (first + second))), 1, 0x40000000);
+    const uint values = lesser > 0.0 ? uint(share) : 0u;
     return first < second ? values : 0x80000000u - values;
 }
 

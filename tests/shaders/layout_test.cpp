@@ -89,7 +89,8 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         const auto primitives = patterns.several<gpu::Primitive>();
         const auto materials = patterns.several<MaterialWords>();
         const auto lights = patterns.several<LightWords>();
-        const auto table = patterns.several<Row>();
+        auto table = patterns.several<Row>();
+        table.push_back(patterns.several<Row>()[0]); // the second row of node 0: expectTable()
         shader.set(BINDING_RECORDS, records);
         shader.set(BINDING_PRIMITIVES, primitives);
         shader.set(BINDING_MATERIALS, materials);
@@ -210,15 +211,15 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         expected_.structure("DirectionalLight", sun.toLight, sun.unused);
     }
 
-    /// Row 1 as an entry; the frame's count of lights is 0 there, so that row 1 is a column too,
-    /// and both rows of node 0 are row 0.
+    /// Row 1 as an entry; the frame's count of lights is 1 there, so that column 0 is row 1 too,
+    /// and the rows of node 0 are 1 and 3.
     void expectTable(const std::vector<Row>& table) {
         const auto entry = std::bit_cast<gpu::LightEntry>(table[1]);
         expected_.structure("LightEntry", entry.light, entry.trail, entry.probability, entry.group);
         const auto column = std::bit_cast<gpu::AliasColumn>(table[1]);
         expected_.structure("AliasColumn", column.threshold, column.alias, column.unused0,
                             column.unused1);
-        const std::array<Row, 2> two = {table[0], table[0]};
+        const std::array<Row, 2> two = {table[1], table[3]};
         const auto node = std::bit_cast<gpu::LightNode>(two);
         expected_.structure("LightNode", node.center, node.radiusAndPower, node.axis,
                             node.cosSpread, node.flags, node.unused);
@@ -226,7 +227,7 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
 
     void fillFrame(TestShader& shader, Patterns& patterns) {
         gpu::Frame f = patterns.several<gpu::Frame>()[1];
-        f.lightCount = 0; // where the table's nodes and columns begin: expectTable()
+        f.lightCount = 1; // where the table's nodes and columns begin: expectTable()
         shader.setOne(BINDING_FRAME, f);
         expected_.structure("Frame", f.cameraPosition, f.width, f.cameraRight, f.height, f.cameraUp,
                             f.firstSample, f.cameraBack, f.keepsValue, f.nearDistance,
