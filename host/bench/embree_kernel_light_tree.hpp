@@ -24,8 +24,9 @@ inline float likelyLightWithoutCone(const LightNode& node, const Point& p) {
     const Vec d = vec(node.center) - p.position;
     const float distance2 = dot(d, d), reach = dot(p.shading, d) + node.radius;
     if (!(reach > 0)) return 0;
-    const float cosine = reach / (std::sqrt(distance2) + node.radius);
-    return node.power * cosine / larger(larger(distance2, node.radius * node.radius), kTiny);
+    const float cube =
+        (std::sqrt(distance2) + node.radius) * larger(distance2, node.radius * node.radius);
+    return node.power * reach / smaller(larger(cube, kTiny), std::numeric_limits<float>::max());
 }
 
 inline float likelyLight(const LightNode& node, uint32_t group, const Point& p,

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 // Only for the files of embree_kernel.cpp: everything is internal to them, see there.
 namespace stromboli::bench::native {

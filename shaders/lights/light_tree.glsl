@@ -33,9 +33,10 @@ float turnedTowards(LightNode node, vec3 axis, vec2 spread, vec3 w, vec2 bound) 
 /// sphere, and 0 where all of the sphere is behind the surface; likelyLight()'s bound takes another square root.
 float likelyLightWithoutCone(vec3 d, vec3 n, float power, float radius) {
     const float distance2 = dot(d, d), reach = dot(n, d) + radius;
-    const float cosine = reach / (sqrt(distance2) + radius);
-    const float square = larger(larger(distance2, radius * radius), TINY);
-    return reach > 0.0 ? power * cosine / square : 0.0;
+    const float square = larger(distance2, radius * radius);
+    // Beyond the cube root of what floats hold weights are no longer those, but not 0.
+    const float cube = smaller(larger((sqrt(distance2) + radius) * square, TINY), INFINITE_DISTANCE);
+    return reach > 0.0 ? power * reach / cube : 0.0;
 }
 
 /// A bound of the irradiance (luminance) that the node's lights bring to a point with unit normal n. Of

@@ -59,7 +59,7 @@ Scene allKinds(int count, uint32_t seed) {
     return scene;
 }
 
-Scene manyPoints(Random& random) {
+Scene manyPoints(Random& random, float scale = 1) {
     Scene scene = sceneWithEmitter(glm::vec3(0), true);
     for (int i = 0; i < 40; ++i) {
         Light& light = scene.lights.emplace_back();
@@ -67,7 +67,7 @@ Scene manyPoints(Random& random) {
         light.color = glm::vec3(std::pow(10.0f, random.uniform(-3, 3)));
         light.constantAttenuation = 0;
         light.quadraticAttenuation = 1;
-        light.position = random.inCube(2);
+        light.position = scale * random.inCube(2);
     }
     return scene;
 }
@@ -236,6 +236,27 @@ TEST_P(LightSampler, LeavesOutNoLightThatArrives) {
         EXPECT_GT(arrive, queries.size() / 10);
         EXPECT_EQ(leftOut, 0u) << "of " << arrive;
     }
+}
+
+/// Lights are chosen as where all lengths are multiplied by a power of two, up to those whose cubes
+/// floats no longer hold; beyond, no light is left out.
+TEST_P(LightSampler, ChoosesAlikeAtAnyScale) {
+    const auto chosen = [&](float scale) {
+        Random random(137);
+        load(manyPoints(random, scale));
+        std::map<uint32_t, double> byLight;
+        for (int i = 0; i < 20; ++i) {
+            const glm::vec3 at = random.inCube(2);
+            for (const auto& [light, p] : probabilities(surface(scale * at, random.inCube(1))))
+                byLight[uint32_t(i) * packed_.lights.count + light] = p;
+        }
+        return byLight;
+    };
+    const std::map<uint32_t, double> usual = chosen(1);
+    EXPECT_EQ(chosen(0x1p-36f), usual);
+    EXPECT_EQ(chosen(0x1p40f), usual);
+    for (const auto& [light, p] : chosen(0x1p62f))
+        EXPECT_TRUE(p > 0 || usual.at(light) == 0) << light;
 }
 
 TEST_P(LightSampler, StatesTheProbabilityOfRareLights) {
