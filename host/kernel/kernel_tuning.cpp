@@ -28,7 +28,7 @@ DeviceTuning forCpu(uint32_t subgroupSize) {
     DeviceTuning t;
     t.workgroupSize = subgroupSize;
     t.traversalSteps = 5;
-    t.richTraversalSteps = 12;
+    t.richTraversalSteps = 8;
     // Of sixteen lanes one comes to a placement, or leaves one, in nearly every step.
     t.placedTraversalSteps = 1;
     t.traversalLegs = 20;
