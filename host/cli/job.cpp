@@ -225,13 +225,13 @@ Job prepareJob(const Options& options) {
     return job;
 }
 
-BuiltScene buildScene(const Job& job, KeptParts* kept) {
+BuiltScene buildScene(const Job& job, KeptParts* kept, uint64_t gatheredRows) {
     nowDoing(fmt::format("building the BVH of {} triangles", job.scene.triangles.size()));
     Stopwatch watch;
     BuiltScene built;
-    built.gpu =
-        packScene(job.scene, buildWideBvh(job.scene, {}, kept ? &kept->trees : nullptr),
-                  lightSelection(job.settings.estimator), kept ? kept->environment : nullptr);
+    built.gpu = packScene(job.scene, buildWideBvh(job.scene, {}, kept ? &kept->trees : nullptr),
+                          lightSelection(job.settings.estimator),
+                          kept ? kept->environment : nullptr, gatheredRows);
     if (kept) kept->environment = built.gpu.lights.environment;
     built.buildSeconds = watch.seconds();
     nowDoing("opening the device and compiling the kernel"); // what follows a scene that is built

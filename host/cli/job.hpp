@@ -45,7 +45,8 @@ struct KeptParts {
     KeptTrees trees;
     std::shared_ptr<const EnvironmentTable> environment;
 };
-/// kept: where the scene is a moment of a sequence.
-BuiltScene buildScene(const Job& job, KeptParts* kept = nullptr);
+/// kept: where the scene is a moment of a sequence. gatheredRows: of planDetails().
+BuiltScene buildScene(const Job& job, KeptParts* kept = nullptr,
+                      uint64_t gatheredRows = kUsualGatheredRows);
 
 } // namespace stromboli

@@ -65,6 +65,12 @@ uint64_t RenderDevices::pixelsThatFit(const GpuScene& scene, const Estimator& es
     return std::min(hostBytes / perPixel, onDevice);
 }
 
+bool RenderDevices::haveRoomForTextures(const GpuScene& scene) const {
+    return std::ranges::all_of(seats_, [&](const Seat& seat) {
+        return stromboli::haveRoomForTextures(seat.open.device->description(), scene);
+    });
+}
+
 void RenderDevices::setScene(const GpuScene& scene) {
     leaveOutWhoDroppedOut();
     scene_ = &scene;

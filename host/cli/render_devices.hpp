@@ -27,6 +27,9 @@ class RenderDevices {
     uint64_t pixelsThatFit(const GpuScene& scene, const Estimator& estimator, uint64_t hostBytes,
                            uint64_t hostBytesPerPixel) const;
 
+    /// Whether all of them have room for the scene's textures, as they were packed.
+    bool haveRoomForTextures(const GpuScene& scene) const;
+
     /// The pictures to come are of this scene.
     void setScene(const GpuScene& scene);
     /// Ready for a picture of the scene that was set: of one device its own backend, of several

@@ -38,15 +38,17 @@ void Renderer::render(const Job& job, const Options& options, const TakeSamples&
 }
 
 void Renderer::openAndBuild(const Job& job, const Options& options, RenderReport& report) {
-    if (!built_ || isStale_) {
+    const auto build = [&](uint64_t gatheredRows) {
         auto built = std::make_unique<BuiltScene>(
-            buildScene(job, options.reading.selection.isFrame ? &kept_ : nullptr));
+            buildScene(job, options.reading.selection.isFrame ? &kept_ : nullptr, gatheredRows));
         devices_->setScene(built->gpu);
         built_ = std::move(built);
         isStale_ = false;
         report.buildSeconds = built_->buildSeconds;
-    }
-    devices_->open();
+    };
+    if (!built_ || isStale_) build(kUsualGatheredRows);
+    devices_->open(); // began while the scene was built
+    if (!devices_->haveRoomForTextures(built_->gpu)) build(0);
     report.backend = devices_->name();
 }
 

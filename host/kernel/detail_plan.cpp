@@ -4,6 +4,7 @@
 #include "shaders/shared/texture_types.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace stromboli {
 namespace {
@@ -71,9 +72,12 @@ bool isOpaque(const TextureImage& image) {
     return true;
 }
 
+/// Pictures of the maps, wraps of u and v, whether it is wide: what the rows of a bundle depend on.
+using BundleKey = std::tuple<std::array<uint32_t, gpu::BUNDLE_MAPS>, Wrap, Wrap, bool>;
+
 class Planner {
   public:
-    Planner(const Scene& scene) : scene_(scene) {
+    Planner(const Scene& scene, uint64_t gatheredRows) : scene_(scene), rowsLeft_(gatheredRows) {
         constexpr glm::vec4 white(1);
         for (const VertexAttributes& a : scene.attributes) {
             hasColors_ |= a.color != white;
@@ -111,8 +115,9 @@ class Planner {
         material.coatHasNormal &= m.kind == MaterialKind::Principled && m.principled.clearcoat > 0;
         takeOutBundle(material);
         if (material.bundle) plan_.texelKinds |= gpu::TEXEL_KIND_BUNDLE;
+        if (material.bundleIsWide) plan_.texelKinds |= gpu::TEXEL_KIND_WIDE;
         for (const TextureUse& use : material.textures) {
-            plan_.texelKinds |= gpu::TEXEL_KIND_LOOSE;
+            addLoose(use);
             plan_.looseSlots |= 1u << uint32_t(use.slot);
         }
         plan_.mostTextures = std::max(plan_.mostTextures, uint32_t(material.textures.size()));
@@ -129,7 +134,20 @@ class Planner {
         const uint32_t before = plan_.attributes;
         addTexture(use);
         plan_.attributes = before;
+        addLoose(use);
+    }
+
+    /// Of a texture in no bundle.
+    void addLoose(const TextureUse& use) {
+        const Texture& texture = scene_.textures[use.texture];
+        const DetailPlan::EdgedImage edged{texture.image, texture.wrapU, texture.wrapV};
+        const bool isHalf = scene_.images[texture.image].format == TexelFormat::RgbaHalf;
+        if (!gathered_.contains(edged) && !plan_.plainImages.contains(edged))
+            (takeRows(gatheredTexels(texture, isHalf ? 2 : 1)) ? gathered_ : plan_.plainImages)
+                .insert(edged);
         plan_.texelKinds |= gpu::TEXEL_KIND_LOOSE;
+        plan_.texelKinds |=
+            plan_.plainImages.contains(edged) ? gpu::TEXEL_KIND_PLAIN : gpu::TEXEL_KIND_GATHERED;
     }
 
     void addTexture(const TextureUse& use) {
@@ -149,7 +167,7 @@ class Planner {
     }
 
     /// Two pictures or more that are looked up alike cost as many loads as one if they are bundled,
-    /// and a quarter of a row for each slot that is empty.
+    /// or fewer.
     void takeOutBundle(DetailPlan::MaterialPlan& material) {
         const auto first = std::ranges::find_if(
             material.textures, [&](const TextureUse& use) { return isBundled(use); });
@@ -158,10 +176,15 @@ class Planner {
             return isBundled(use) && areLookedUpAlike(use, like);
         };
         if (std::ranges::count_if(material.textures, isAlike) < 2) return;
-        if (!hasRoomFor(scene_.images[scene_.textures[first->texture].image])) return;
-        material.bundle.emplace();
+        DetailPlan::Bundle bundle;
         for (const TextureUse& use : material.textures)
-            if (isAlike(use)) (*material.bundle)[uint32_t(use.slot)] = use;
+            if (isAlike(use)) bundle[uint32_t(use.slot)] = use;
+        const auto& color = bundle[gpu::TEXTURE_BASE_COLOR];
+        const bool isWide = bundle[gpu::TEXTURE_EMISSION] ||
+                            (color && material.isTransparent && !isOpaque(imageOf(*color)));
+        if (!hasRoomFor(bundle, isWide)) return;
+        material.bundle = bundle;
+        material.bundleIsWide = isWide;
         std::erase_if(material.textures, isAlike);
     }
 
@@ -181,13 +204,34 @@ class Planner {
                a.uRow == b.uRow && a.vRow == b.vRow;
     }
 
-    /// Bundles may take up to four times the memory of their pictures: of all materials together no
-    /// more than half of what the largest texel buffers hold (2^27 rows).
-    bool hasRoomFor(const TextureImage& image) {
-        constexpr uint64_t kMostRows = uint64_t(1) << 26;
-        const uint64_t rows = uint64_t(image.width) * image.height;
-        if (bundleRows_ + rows > kMostRows) return false;
-        bundleRows_ += rows;
+    const TextureImage& imageOf(const TextureUse& use) const {
+        return scene_.images[scene_.textures[use.texture].image];
+    }
+
+    /// Materials may share a bundle.
+    bool hasRoomFor(const DetailPlan::Bundle& bundle, bool isWide) {
+        std::array<uint32_t, gpu::BUNDLE_MAPS> images;
+        const Texture* texture = nullptr;
+        for (uint32_t i = 0; i < images.size(); ++i) {
+            images[i] = bundle[i] ? scene_.textures[bundle[i]->texture].image : ~0u;
+            if (bundle[i]) texture = &scene_.textures[bundle[i]->texture];
+        }
+        const BundleKey key{images, texture->wrapU, texture->wrapV, isWide};
+        if (bundles_.contains(key)) return true;
+        if (!takeRows(gatheredTexels(*texture, 2) * (isWide ? 2 : 1))) return false;
+        bundles_.insert(key);
+        return true;
+    }
+
+    /// With those beyond the edges: so many columns (gpu::TextureUse).
+    uint64_t gatheredTexels(const Texture& texture, uint64_t columnsBeyond) const {
+        const TextureImage& image = scene_.images[texture.image];
+        return (image.width + columnsBeyond) * (uint64_t(image.height) + 1);
+    }
+
+    bool takeRows(uint64_t rows) {
+        if (rows > rowsLeft_) return false;
+        rowsLeft_ -= rows;
         return true;
     }
 
@@ -205,13 +249,15 @@ class Planner {
 
     const Scene& scene_;
     bool hasColors_ = false, hasTransparentColors_ = false;
-    uint64_t bundleRows_ = 0; ///< at most: materials may share bundles
+    uint64_t rowsLeft_; ///< for textures that are not stored plainly
+    std::set<DetailPlan::EdgedImage> gathered_;
+    std::set<BundleKey> bundles_;
     DetailPlan plan_;
 };
 
 } // namespace
 
-DetailPlan planDetails(const Scene& scene, const std::vector<bool>& used) {
+DetailPlan planDetails(const Scene& scene, const std::vector<bool>& used, uint64_t gatheredRows) {
     static_assert(kTextureSlotCount == gpu::TEXTURE_SLOT_COUNT);
     static_assert(uint32_t(TextureSlot::Emission) == gpu::TEXTURE_EMISSION);
     static_assert(uint32_t(TextureSlot::Anisotropy) == gpu::TEXTURE_ANISOTROPY);
@@ -226,7 +272,7 @@ DetailPlan planDetails(const Scene& scene, const std::vector<bool>& used) {
     static_assert(uint32_t(OtherPlace::InFront) == gpu::OTHER_IN_FRONT);
     static_assert(uint32_t(TextureSlot::Projection) == gpu::TEXTURE_PROJECTION);
     static_assert(uint32_t(TextureSlot::Opacity) == gpu::TEXTURE_OPACITY);
-    return Planner(scene).plan(used);
+    return Planner(scene, gatheredRows).plan(used);
 }
 
 } // namespace stromboli

@@ -5,8 +5,10 @@
 #include "shaders/shared/texture_types.h"
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <vector>
 
 namespace stromboli {
@@ -15,11 +17,18 @@ namespace stromboli {
 /// picture. A texture that multiplies a parameter of 0, or an alpha mode without anything that is
 /// not opaque, costs nothing.
 struct DetailPlan {
+    /// A picture and what is seen beyond its edges: what the rows of a texture depend on.
+    struct EdgedImage {
+        uint32_t image = 0; ///< into Scene::images
+        Wrap wrapU = Wrap::Repeat, wrapV = Wrap::Repeat;
+        auto operator<=>(const EdgedImage&) const = default;
+    };
     /// By slot, of the first gpu::BUNDLE_MAPS slots; those there are look up pictures of one size
     /// in the same way (gpu::TEXELS_BUNDLE).
     using Bundle = std::array<std::optional<TextureUse>, gpu::BUNDLE_MAPS>;
     struct MaterialPlan {
         std::optional<Bundle> bundle;
+        bool bundleIsWide = false;        ///< gpu::TEXELS_WIDE
         std::vector<TextureUse> textures; ///< that are in no bundle, in the order of their slots
         bool isTransparent = false;       ///< may be partly not there
         bool isHidden = false;            ///< camera rays pass it
@@ -27,6 +36,7 @@ struct DetailPlan {
         bool coatHasNormal = false;       ///< gpu::DETAIL_COAT_HAS_NORMAL
     };
     std::vector<MaterialPlan> materials; ///< by material of the scene
+    std::set<EdgedImage> plainImages;    ///< of textures in no bundle: gpu::TEXELS_PLAIN
 
     uint32_t textureSlots = 0; ///< bit n: a texture in gpu::TEXTURE_ slot n
     uint32_t looseSlots = 0;   ///< the same of textures in no bundle
@@ -43,7 +53,13 @@ struct DetailPlan {
     bool hasMaterialDetails() const { return textureSlots != 0 || hasAlpha || hasBlends; }
 };
 
-/// used: by material, whether a primitive has it.
-DetailPlan planDetails(const Scene& scene, const std::vector<bool>& used);
+/// Half of the rows that the largest texel buffers have (gpu::TEXEL_ROW_MASK), one GiB.
+inline constexpr uint64_t kUsualGatheredRows = uint64_t(1) << 26;
+
+/// used: by material, whether a primitive has it. gatheredRows: how many rows there may be of
+/// textures that are stored so that a row holds texels that are looked up together, which takes
+/// four times the memory of their pictures; textures that would take more are stored plainly.
+DetailPlan planDetails(const Scene& scene, const std::vector<bool>& used,
+                       uint64_t gatheredRows = kUsualGatheredRows);
 
 } // namespace stromboli

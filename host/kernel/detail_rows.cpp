@@ -1,14 +1,13 @@
 #include "host/kernel/detail_rows.hpp"
 
 #include "host/kernel/gpu_scene.hpp"
+#include "host/kernel/texel_rows.hpp"
 #include "scene/model/surface_lookup.hpp"
 #include "shaders/shared/texture_types.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <map>
 
 namespace stromboli {
 namespace {
@@ -78,57 +77,6 @@ class AttributePacker {
     std::vector<Row>& rows_;
 };
 
-/// Pictures that some texture of the plan shows, each once.
-class TexelPacker {
-  public:
-    TexelPacker(const Scene& scene, std::vector<Row>& rows)
-        : scene_(scene), rows_(rows), firstRow_(scene.images.size(), kNotPacked) {}
-
-    uint32_t firstRowOf(uint32_t image) {
-        if (firstRow_[image] == kNotPacked) {
-            firstRow_[image] = uint32_t(rows_.size());
-            const std::vector<uint32_t>& words = scene_.images[image].words;
-            // Whole rows: of a part of a row, texel buffers read nothing.
-            const size_t first = rows_.size();
-            rows_.resize(first + (words.size() + 3) / 4);
-            for (size_t i = 0; i < words.size(); ++i)
-                rows_[first + i / 4][i % 4] = words[i];
-        }
-        return firstRow_[image];
-    }
-
-    /// A row for each texel, of the pictures that the maps have; of none a single white one.
-    /// Bundles of the same pictures share their rows.
-    uint32_t firstRowOf(const DetailPlan::Bundle& bundle) {
-        std::array<uint32_t, gpu::BUNDLE_MAPS> images;
-        for (uint32_t i = 0; i < images.size(); ++i)
-            images[i] = bundle[i] ? scene_.textures[bundle[i]->texture].image : kNotPacked;
-        const auto [known, isNew] = firstRowOfBundle_.try_emplace(images, uint32_t(rows_.size()));
-        if (!isNew) return known->second;
-        const TextureImage* pictures[gpu::BUNDLE_MAPS] = {};
-        size_t texels = 1;
-        for (uint32_t i = 0; i < images.size(); ++i) {
-            if (images[i] == kNotPacked) continue;
-            pictures[i] = &scene_.images[images[i]];
-            texels = pictures[i]->words.size();
-        }
-        const size_t first = rows_.size();
-        rows_.resize(first + texels);
-        for (uint32_t i = 0; i < images.size(); ++i)
-            for (size_t texel = 0; texel < texels; ++texel)
-                rows_[first + texel][i] = pictures[i] ? pictures[i]->words[texel] : ~0u;
-        return known->second;
-    }
-
-  private:
-    static constexpr uint32_t kNotPacked = ~0u;
-
-    const Scene& scene_;
-    std::vector<Row>& rows_;
-    std::vector<uint32_t> firstRow_;
-    std::map<std::array<uint32_t, gpu::BUNDLE_MAPS>, uint32_t> firstRowOfBundle_;
-};
-
 /// All but where its texels are, and what they hold.
 gpu::TextureUse packLookup(const Scene& scene, const TextureUse& use) {
     const Texture& texture = scene.textures[use.texture];
@@ -150,12 +98,13 @@ gpu::TextureUse packUse(const Scene& scene, const TextureUse& use, TexelPacker& 
     const Texture& texture = scene.textures[use.texture];
     const bool isHalf = scene.images[texture.image].format == TexelFormat::RgbaHalf;
     gpu::TextureUse g = packLookup(scene, use);
-    g.firstRow = texels.firstRowOf(texture.image);
+    g.firstRow = texels.firstRowOf(texture);
+    if (texels.isPlain(texture)) g.flags |= gpu::TEXELS_PLAIN;
     g.flags |= (isHalf ? gpu::TEXELS_HALF : 0) | (texture.srgb && !isHalf ? gpu::TEXELS_SRGB : 0);
     return g;
 }
 
-gpu::TextureUse packBundle(const Scene& scene, const DetailPlan::Bundle& bundle,
+gpu::TextureUse packBundle(const Scene& scene, const DetailPlan::Bundle& bundle, bool isWide,
                            TexelPacker& texels) {
     const auto first =
         std::ranges::find_if(bundle, [](const auto& map) { return map.has_value(); });
@@ -164,15 +113,15 @@ gpu::TextureUse packBundle(const Scene& scene, const DetailPlan::Bundle& bundle,
         g.scale = normal->scale;
         g.flags |= gpu::TEXELS_MAP_NORMALS;
     }
-    g.firstRow = texels.firstRowOf(bundle);
-    g.flags |= gpu::TEXELS_BUNDLE;
+    g.firstRow = texels.firstRowOf(bundle, isWide);
+    g.flags |= gpu::TEXELS_BUNDLE | (isWide ? gpu::TEXELS_WIDE : 0);
     return g;
 }
 
 /// Of a material that has no maps in a bundle, in a scene where others have.
 gpu::TextureUse emptyBundle(TexelPacker& texels) {
     gpu::TextureUse g{};
-    g.firstRow = texels.firstRowOf(DetailPlan::Bundle{});
+    g.firstRow = texels.firstRowOf(DetailPlan::Bundle{}, false);
     g.width = g.height = 1;
     g.flags = gpu::TEXELS_BUNDLE;
     return g;
@@ -203,7 +152,7 @@ std::vector<Row> materialDetail(const Scene& scene, const Material& m,
     if (plan.bundle) {
         for (const std::optional<TextureUse>& map : *plan.bundle)
             if (map) noteUse(map->slot, number);
-        appendRows(uses, packBundle(scene, *plan.bundle, texels));
+        appendRows(uses, packBundle(scene, *plan.bundle, plan.bundleIsWide, texels));
     } else if (sceneHasBundles) {
         appendRows(uses, emptyBundle(texels));
     }
@@ -238,7 +187,7 @@ DetailRows packDetails(const Scene& scene, const WideLayout& bvh, const DetailPl
     DetailRows details;
     AttributePacker(scene, bvh, plan, details.rows).pack();
     if (!plan.hasMaterialDetails()) return details;
-    TexelPacker texels(scene, details.rows);
+    TexelPacker texels(scene, plan, details.rows);
     for (size_t i = 0; i < scene.materials.size(); ++i)
         details.ofMaterials.push_back(materialDetail(scene, scene.materials[i], plan.materials[i],
                                                      plan.hasBundles(), texels));

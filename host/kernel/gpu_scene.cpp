@@ -118,10 +118,10 @@ glm::vec3 decodeNormal(uint32_t code) {
 }
 
 GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lights,
-                   std::shared_ptr<const EnvironmentTable> environment) {
+                   std::shared_ptr<const EnvironmentTable> environment, uint64_t gatheredRows) {
     GpuScene g;
     g.bvh = std::move(bvh);
-    const DetailPlan plan = planDetails(scene, usedMaterials(scene));
+    const DetailPlan plan = planDetails(scene, usedMaterials(scene), gatheredRows);
     DetailRows details = packDetails(scene, g.bvh, plan);
     MaterialRows materials = packMaterials(scene.materials, details.ofMaterials);
     g.materials = std::move(materials.rows);

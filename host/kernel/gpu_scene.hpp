@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/bvh/wide_layout.hpp"
+#include "host/kernel/detail_plan.hpp"
 #include "host/kernel/light_table.hpp"
 #include "host/kernel/material_rows.hpp"
 #include "host/kernel/rows.hpp"
@@ -37,9 +38,10 @@ struct GpuScene {
 
 /// Packs the scene, whose hierarchy is `bvh`. For a render `lights` is lightSelection() of its
 /// settings; by default all lights are sampled. environment: of the scene's environment, where it
-/// was packed before (LightTable::environment).
+/// was packed before (LightTable::environment). gatheredRows: of planDetails().
 GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lights = {},
-                   std::shared_ptr<const EnvironmentTable> environment = {});
+                   std::shared_ptr<const EnvironmentTable> environment = {},
+                   uint64_t gatheredRows = kUsualGatheredRows);
 
 /// First row of the primitive's material.
 inline uint32_t materialOf(const gpu::Primitive& p) {

@@ -87,6 +87,17 @@ uint64_t filmPixelsThatFit(const vulkan::DeviceDescription& device, const GpuSce
     return others < device.memory ? (device.memory - others) / sizeof(gpu::PixelState) : 0;
 }
 
+bool haveRoomForTextures(const vulkan::DeviceDescription& device, const GpuScene& scene) {
+    // Where texel buffers are too small, rows are in storage buffers.
+    const uint64_t limit = std::min(std::max(bindingLimit(device, BufferUse::Storage).bytes,
+                                             bindingLimit(device, BufferUse::Texel).bytes),
+                                    device.largestAllocation);
+    uint64_t all = 0;
+    for (const BufferPlan& plan : planSceneBuffers(scene, {}))
+        all += plan.bytes;
+    return sizeOf(scene.details) <= limit && all <= device.memory;
+}
+
 void checkMemory(const vulkan::DeviceDescription& device, const GpuScene& scene,
                  const PictureArea& area, const Estimator& estimator, const DeviceTuning& tuning) {
     const std::vector<BufferPlan> plans = planBuffers(scene, area, estimator, tuning);

@@ -35,6 +35,10 @@ uint64_t pixelsPerSegment(const vulkan::DeviceDescription& device, const DeviceT
 uint64_t filmPixelsThatFit(const vulkan::DeviceDescription& device, const GpuScene& scene,
                            const Estimator& estimator);
 
+/// Whether the device has room for the scene's textures, as they were packed. Where it has not,
+/// packing them plainly (gatheredRows 0) takes a quarter of the memory.
+bool haveRoomForTextures(const vulkan::DeviceDescription& device, const GpuScene& scene);
+
 /// Throws DeviceError that names what does not fit, before anything is allocated or uploaded.
 void checkMemory(const vulkan::DeviceDescription& device, const GpuScene& scene,
                  const PictureArea& area, const Estimator& estimator, const DeviceTuning& tuning);

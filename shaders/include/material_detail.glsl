@@ -233,14 +233,14 @@ bool isReadElsewhere(uint slot) {
 /// The bundle's part in them.
 void applyBundle(inout Material m, inout Relief relief, uint materialRow, PointAttributes a) {
     const TextureUse t = fetchTextureUse(textureUseRow(materialRow, 0u));
-    const BundleTaps taps = fetchBundle(t, coordinatesOf(t, a));
+    const BundleTexels texels = fetchBundle(t, coordinatesOf(t, a));
     if (sceneHasSlot(TEXTURE_BASE_COLOR) && hasBaseColor(m))
-        scale(m.row1, mapOf(taps, TEXTURE_BASE_COLOR).rgb);
-    if (sceneHasSlot(TEXTURE_EMISSION)) scale(m.header, mapOf(taps, TEXTURE_EMISSION).rgb);
+        scale(m.row1, mapOf(texels, TEXTURE_BASE_COLOR).rgb);
+    if (sceneHasSlot(TEXTURE_EMISSION)) scale(m.header, mapOf(texels, TEXTURE_EMISSION).rgb);
     if (sceneHasSlot(TEXTURE_NORMAL) && (t.flags & TEXELS_MAP_NORMALS) != 0u)
-        relief.mapped = mappedNormal(mapOf(taps, TEXTURE_NORMAL), t.scale);
+        relief.mapped = mappedNormal(mapOf(texels, TEXTURE_NORMAL), t.scale);
     if (sceneHasSlot(TEXTURE_METALLIC_ROUGHNESS) && hasFurtherParameters())
-        applyMetallicRoughness(m, mapOf(taps, TEXTURE_METALLIC_ROUGHNESS));
+        applyMetallicRoughness(m, mapOf(texels, TEXTURE_METALLIC_ROUGHNESS));
 }
 
 /// Of a surface's triangle at the point. Spheres have no place: what is read of another primitive's attributes has no

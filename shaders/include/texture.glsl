@@ -1,5 +1,6 @@
-// Looks textures up: four taps, decoded before they are mixed, so that what is not linear in a texel
-// (roughness, normals) gets the filtered value. Texels are words of the detail buffer's rows.
+// Looks textures up: four texels, decoded before they are mixed, so that what is not linear in a texel
+// (roughness, normals) gets the filtered value. Texels are words of the detail buffer's rows
+// (shared/texture_types.h).
 
 /// Whether some texture of the scene has coordinates that are transformed, or a scale.
 bool texturesAreAdjusted() { return (TEXEL_KINDS & TEXEL_KIND_ADJUSTED) != 0u; }
@@ -39,6 +40,9 @@ bool hasFlag(TextureUse t, uint flag, uint kind, uint otherKind) {
 bool isNearest(TextureUse t) {
     return hasFlag(t, TEXELS_NEAREST, TEXEL_KIND_NEAREST, TEXEL_KIND_BILINEAR);
 }
+bool isPlain(TextureUse t) {
+    return hasFlag(t, TEXELS_PLAIN, TEXEL_KIND_PLAIN, TEXEL_KIND_GATHERED);
+}
 bool isHalf(TextureUse t) { return hasFlag(t, TEXELS_HALF, TEXEL_KIND_HALF, TEXEL_KIND_BYTES); }
 /// WRAP_ of a direction: TEXELS_WRAP_U_SHIFT or TEXELS_WRAP_V_SHIFT.
 uint wrapMode(TextureUse t, uint shift) {
@@ -68,22 +72,6 @@ vec4 bytesOf(uint word, bool srgb) {
     return texel;
 }
 
-/// Texel number `index` of a texture, in the order of rows.
-vec4 fetchTexel(TextureUse t, uint index) {
-    const bool half_ = isHalf(t);
-    const uvec4 row = ROW(detailRows, t.firstRow + (half_ ? index >> 1u : index >> 2u));
-    vec4 texel = vec4(0.0);
-    if ((TEXEL_KINDS & TEXEL_KIND_BYTES) != 0u) {
-        const uvec2 pair = (index & 2u) != 0u ? row.zw : row.xy;
-        texel = bytesOf((index & 1u) != 0u ? pair.y : pair.x, isSrgb(t));
-    }
-    if (half_) {
-        const uvec2 pair = (index & 1u) != 0u ? row.zw : row.xy;
-        texel = vec4(unpackHalf2x16(pair.x), unpackHalf2x16(pair.y));
-    }
-    return texel;
-}
-
 /// A coordinate as a place within the picture, [0, 1]. Beyond 2^24 floats have no fractions; they and what is not
 /// a number count as 0, where the coordinate is not clamped.
 float wrapped(float u, uint mode) {
@@ -95,35 +83,86 @@ float wrapped(float u, uint mode) {
     return mode == WRAP_CLAMP ? clamped : (mode == WRAP_MIRROR ? mirrored : part);
 }
 
+/// The upper left of the four texels about a place, from -1, and how much those to the right and below count; of the
+/// nearest texel that one, and 0.
+struct PicturePlace {
+    ivec2 texel;
+    vec2 part;
+};
+
+PicturePlace placeIn(TextureUse t, vec2 uv) {
+    const vec2 place = adjusted(t, uv);
+    const ivec2 size = ivec2(int(t.width), int(t.height));
+    const vec2 at = vec2(wrapped(place.x, wrapMode(t, TEXELS_WRAP_U_SHIFT)),
+                         wrapped(place.y, wrapMode(t, TEXELS_WRAP_V_SHIFT))) * vec2(size);
+    const vec2 corner = at - 0.5;
+    const vec2 whole = floor(corner);
+    // At 1, the end of the last texel, the nearest texel is the last one whatever the mode.
+    const ivec2 nearest = min(ivec2(floor(at)), size - 1);
+    return isNearest(t) ? PicturePlace(nearest, vec2(0.0)) : PicturePlace(ivec2(whole), corner - whole);
+}
+
+/// Number of a place's texel among those that a texture has rows for, so many to a line.
+uint gatheredRow(PicturePlace p, uint columns) {
+    return uint(p.texel.y + 1) * columns + uint(p.texel.x + 1);
+}
+
+/// The four texels of a place: upper left, upper right, lower left, lower right.
+struct FourTexels {
+    vec4 a, b, c, d;
+};
+
+vec4 halvesOf(uvec2 words) { return vec4(unpackHalf2x16(words.x), unpackHalf2x16(words.y)); }
+
+FourTexels fetchGathered(TextureUse t, PicturePlace p) {
+    const bool half_ = isHalf(t);
+    const uint row = t.firstRow + gatheredRow(p, t.width + (half_ ? 2u : 1u));
+    const uvec4 first = ROW(detailRows, row);
+    FourTexels texels;
+    if ((TEXEL_KINDS & TEXEL_KIND_BYTES) != 0u) {
+        const bool srgb = isSrgb(t);
+        texels = FourTexels(bytesOf(first.x, srgb), bytesOf(first.y, srgb), bytesOf(first.z, srgb),
+                            bytesOf(first.w, srgb));
+    }
+    if (half_) {
+        const uvec4 second = ROW(detailRows, row + 1u);
+        texels = FourTexels(halvesOf(first.xy), halvesOf(second.xy), halvesOf(first.zw),
+                            halvesOf(second.zw));
+    }
+    return texels;
+}
+
 /// The texel before the first or behind the last of n.
 int beyond(int i, int n, uint mode) {
     const bool repeats = mode == WRAP_REPEAT;
     return i < 0 ? (repeats ? n - 1 : 0) : (i >= n ? (repeats ? 0 : n - 1) : i);
 }
 
-/// The four texels about a place, upper ones first, and how much the right and the lower ones count; for the
-/// nearest texel all four are that one.
-struct Taps {
-    uvec4 texels; ///< numbers, in the order of rows
-    vec2 part;
-};
+/// Texel number `index` of a texture whose texels lie one after the other.
+vec4 fetchTexel(TextureUse t, uint index) {
+    const bool half_ = isHalf(t);
+    const uvec4 row = ROW(detailRows, t.firstRow + (half_ ? index >> 1u : index >> 2u));
+    vec4 texel = vec4(0.0);
+    if ((TEXEL_KINDS & TEXEL_KIND_BYTES) != 0u) {
+        const uvec2 pair = (index & 2u) != 0u ? row.zw : row.xy;
+        texel = bytesOf((index & 1u) != 0u ? pair.y : pair.x, isSrgb(t));
+    }
+    if (half_) texel = halvesOf((index & 1u) != 0u ? row.zw : row.xy);
+    return texel;
+}
 
-Taps tapsAt(TextureUse t, vec2 uv) {
+FourTexels fetchPlain(TextureUse t, PicturePlace p) {
     const uint wrapU = wrapMode(t, TEXELS_WRAP_U_SHIFT), wrapV = wrapMode(t, TEXELS_WRAP_V_SHIFT);
-    const vec2 place = adjusted(t, uv);
-    const ivec2 size = ivec2(int(t.width), int(t.height));
-    const vec2 at = vec2(wrapped(place.x, wrapU), wrapped(place.y, wrapV)) * vec2(size);
-    // At 1, the end of the last texel, the nearest texel is the last one whatever the mode.
-    const ivec2 nearest = min(ivec2(floor(at)), size - 1);
-    const uint nearestTexel = uint(nearest.y) * t.width + uint(nearest.x);
-    const vec2 corner = at - 0.5;
-    const vec2 whole = floor(corner);
-    const ivec2 texel = ivec2(whole);
-    const uvec2 x = uvec2(beyond(texel.x, size.x, wrapU), beyond(texel.x + 1, size.x, wrapU));
+    const uvec2 x = uvec2(beyond(p.texel.x, int(t.width), wrapU), beyond(p.texel.x + 1, int(t.width), wrapU));
     const uvec2 y =
-        t.width * uvec2(beyond(texel.y, size.y, wrapV), beyond(texel.y + 1, size.y, wrapV));
-    const Taps taps = Taps(uvec4(y.x + x, y.y + x), corner - whole);
-    return isNearest(t) ? Taps(uvec4(nearestTexel), vec2(0.0)) : taps;
+        t.width * uvec2(beyond(p.texel.y, int(t.height), wrapV), beyond(p.texel.y + 1, int(t.height), wrapV));
+    return FourTexels(fetchTexel(t, y.x + x.x), fetchTexel(t, y.x + x.y), fetchTexel(t, y.y + x.x),
+                      fetchTexel(t, y.y + x.y));
+}
+
+FourTexels fetchTexels(TextureUse t, PicturePlace p) {
+    if (isPlain(t)) return fetchPlain(t, p);
+    return fetchGathered(t, p);
 }
 
 /// What is the same in all is exactly that between them.
@@ -134,12 +173,10 @@ vec4 mixed(vec4 a, vec4 b, vec4 c, vec4 d, vec2 part) {
 
 /// Of a texture that is not in a bundle.
 vec4 lookUp(TextureUse t, vec2 uv) {
-    const Taps taps = tapsAt(t, uv);
-    const vec4 a = fetchTexel(t, taps.texels.x);
-    if ((TEXEL_KINDS & TEXEL_KIND_BILINEAR) == 0u) return a;
-    const vec4 b = fetchTexel(t, taps.texels.y), c = fetchTexel(t, taps.texels.z),
-               d = fetchTexel(t, taps.texels.w);
-    return isNearest(t) ? a : mixed(a, b, c, d, taps.part);
+    const PicturePlace p = placeIn(t, uv);
+    const FourTexels texels = fetchTexels(t, p);
+    if ((TEXEL_KINDS & TEXEL_KIND_BILINEAR) == 0u) return texels.a;
+    return mixed(texels.a, texels.b, texels.c, texels.d, p.part);
 }
 
 /// Whether a picture is read backwards there.
@@ -151,11 +188,12 @@ bool isMirroredAt(float u, uint mode) {
 /// How red grows along the texture coordinates of a texture that is not in a bundle: the derivative of lookUp(), 0 of
 /// the nearest texel.
 vec2 slopeOf(TextureUse t, vec2 uv) {
-    const Taps taps = tapsAt(t, uv);
-    const float a = fetchTexel(t, taps.texels.x).r, b = fetchTexel(t, taps.texels.y).r,
-                c = fetchTexel(t, taps.texels.z).r, d = fetchTexel(t, taps.texels.w).r;
-    vec2 slope = vec2(float(int(t.width)), float(int(t.height))) *
-                 mix(vec2(b - a, c - a), vec2(d - c, d - b), taps.part.yx);
+    const PicturePlace p = placeIn(t, uv);
+    const FourTexels texels = fetchTexels(t, p);
+    const float a = texels.a.r, b = texels.b.r, c = texels.c.r, d = texels.d.r;
+    vec2 slope = isNearest(t) ? vec2(0.0)
+                              : vec2(float(int(t.width)), float(int(t.height))) *
+                                    mix(vec2(b - a, c - a), vec2(d - c, d - b), p.part.yx);
     const vec2 place = adjusted(t, uv);
     if (isMirroredAt(place.x, wrapMode(t, TEXELS_WRAP_U_SHIFT))) slope.x = -slope.x;
     if (isMirroredAt(place.y, wrapMode(t, TEXELS_WRAP_V_SHIFT))) slope.y = -slope.y;
@@ -169,23 +207,53 @@ bool isBundle(TextureUse t) {
     return hasFlag(t, TEXELS_BUNDLE, TEXEL_KIND_BUNDLE, TEXEL_KIND_LOOSE);
 }
 
-/// The four rows about a place of a bundle.
-struct BundleTaps {
-    uvec4 a, b, c, d;
-    vec2 part;
-};
-
-BundleTaps fetchBundle(TextureUse t, vec2 uv) {
-    const Taps taps = tapsAt(t, uv);
-    return BundleTaps(ROW(detailRows, t.firstRow + taps.texels.x),
-                      ROW(detailRows, t.firstRow + taps.texels.y),
-                      ROW(detailRows, t.firstRow + taps.texels.z),
-                      ROW(detailRows, t.firstRow + taps.texels.w), taps.part);
+bool isWide(TextureUse t) {
+    return (TEXEL_KINDS & TEXEL_KIND_WIDE) != 0u && (t.flags & TEXELS_WIDE) != 0u;
 }
 
-/// What one of its maps says. slot: known when the kernel is compiled.
-vec4 mapOf(BundleTaps t, uint slot) {
-    const bool srgb = slot == TEXTURE_BASE_COLOR || slot == TEXTURE_EMISSION;
-    return mixed(bytesOf(t.a[slot], srgb), bytesOf(t.b[slot], srgb), bytesOf(t.c[slot], srgb),
-                 bytesOf(t.d[slot], srgb), t.part);
+/// The texels of a bundle about a place: the words of the upper and of the lower one, in the columns to the left and
+/// to the right. more: those of bundles that are wide.
+struct BundleTexels {
+    uvec4 left, right, moreLeft, moreRight;
+    vec2 part;
+    bool isWide;
+};
+
+BundleTexels fetchBundle(TextureUse t, vec2 uv) {
+    const PicturePlace p = placeIn(t, uv);
+    const bool wide = isWide(t);
+    const uint rows = wide ? 2u : 1u;
+    const uint row = t.firstRow + rows * gatheredRow(p, t.width + 2u);
+    BundleTexels texels;
+    texels.left = ROW(detailRows, row);
+    texels.right = ROW(detailRows, row + rows);
+    if ((TEXEL_KINDS & TEXEL_KIND_WIDE) != 0u) {
+        texels.moreLeft = ROW(detailRows, row + rows - 1u);
+        texels.moreRight = ROW(detailRows, row + 2u * rows - 1u);
+    }
+    texels.part = p.part;
+    texels.isWide = wide;
+    return texels;
+}
+
+/// Of words of the four texels: upper left, upper right, lower left, lower right.
+vec4 mixedBytes(uvec4 words, bool srgb, vec2 part) {
+    return mixed(bytesOf(words.x, srgb), bytesOf(words.y, srgb), bytesOf(words.z, srgb),
+                 bytesOf(words.w, srgb), part);
+}
+
+/// What one of its maps says, in the channels that its slot has. slot: known when the kernel is compiled.
+vec4 mapOf(BundleTexels t, uint slot) {
+    const uvec4 color = uvec4(t.left.x, t.right.x, t.left.z, t.right.z),
+                normal = uvec4(t.left.y, t.right.y, t.left.w, t.right.w);
+    if (slot == TEXTURE_METALLIC_ROUGHNESS)
+        return vec4(1.0, mixedBytes(color, false, t.part).a, mixedBytes(normal, false, t.part).a, 1.0);
+    if (slot == TEXTURE_NORMAL) return vec4(mixedBytes(normal, false, t.part).rgb, 1.0);
+    vec4 emission = vec4(1.0);
+    if (t.isWide) {
+        const uvec4 words = uvec4(t.moreLeft.x, t.moreRight.x, t.moreLeft.z, t.moreRight.z);
+        emission = mixedBytes(words, true, t.part);
+    }
+    if (slot == TEXTURE_EMISSION) return vec4(emission.rgb, 1.0);
+    return vec4(mixedBytes(color, true, t.part).rgb, emission.a);
 }

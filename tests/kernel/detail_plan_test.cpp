@@ -123,16 +123,55 @@ TEST_F(Bundles, HaveOnlyWhatHasAnEffect) {
     EXPECT_EQ(plan().looseSlots, bit(TextureSlot::Normal));
 }
 
-/// 2^26 rows hold two of these.
-TEST_F(Bundles, StayWithinTheirShareOfTexelBuffers) {
-    for (TextureImage& image : scene_.images)
-        image.width = 8192, image.height = 4096;
-    scene_.materials[0].alphaMode = AlphaMode::Opaque;
-    scene_.materials.resize(3, scene_.materials[0]);
-    const DetailPlan p = planDetails(scene_, {true, true, true});
+/// Emission makes them wide, and alpha of the base color that counts.
+TEST_F(Bundles, AreAsWideAsTheyMust) {
+    EXPECT_FALSE(plan().materials[0].bundleIsWide);
+    EXPECT_FALSE(plan().texelKinds & gpu::TEXEL_KIND_WIDE);
+    Material& m = scene_.materials[0];
+    m.alphaMode = AlphaMode::Blend;
+    EXPECT_TRUE(plan().materials[0].bundleIsWide) << "texels are 0";
+    EXPECT_TRUE(plan().texelKinds & gpu::TEXEL_KIND_WIDE);
+    for (uint32_t& word : scene_.images[0].words)
+        word = 0xFF000000;
+    EXPECT_FALSE(plan().materials[0].bundleIsWide);
+    m.alphaMode = AlphaMode::Opaque;
+    add(TextureSlot::Emission, {.srgb = true});
+    EXPECT_TRUE(plan().materials[0].bundleIsWide);
+    EXPECT_TRUE(plan().materials[0].textures.empty());
+}
+
+/// Textures for which there is no room are in no bundle, and what has none then is stored plainly.
+/// What is shared counts once.
+TEST_F(Bundles, StayWithinTheirRoom) {
+    scene_.materials.resize(2, scene_.materials[0]); // share a bundle
+    scene_.materials.push_back(scene_.materials[0]);
+    const std::vector<bool> used(3, true);
+    for (TextureUse& use : scene_.materials[2].textures) {
+        Texture other = scene_.textures[use.texture];
+        other.image = use.slot == TextureSlot::BaseColor ? 1 : 3;
+        use.texture = uint32_t(scene_.textures.size());
+        scene_.textures.push_back(other);
+    }
+    scene_.images.push_back(scene_.images[1]); // 2 x 4
+    constexpr uint64_t kFirst = 6 * 3, kSecond = 4 * 5, kLoose = 3 * 5;
+    const auto kinds = [](const DetailPlan& p) {
+        return p.texelKinds & (gpu::TEXEL_KIND_PLAIN | gpu::TEXEL_KIND_GATHERED);
+    };
+    DetailPlan p = planDetails(scene_, used, kFirst + kSecond);
+    EXPECT_TRUE(p.materials[0].bundle && p.materials[1].bundle && p.materials[2].bundle);
+    EXPECT_EQ(kinds(p), 0u);
+    p = planDetails(scene_, used, kFirst + kSecond - 1);
     EXPECT_TRUE(p.materials[0].bundle && p.materials[1].bundle);
     EXPECT_FALSE(p.materials[2].bundle);
     EXPECT_EQ(p.materials[2].textures.size(), 2u);
+    EXPECT_EQ(p.plainImages.size(), 1u) << "there is room for one of the two";
+    EXPECT_EQ(kinds(p), gpu::TEXEL_KIND_PLAIN | gpu::TEXEL_KIND_GATHERED);
+    p = planDetails(scene_, used, kFirst + kLoose - 1);
+    EXPECT_EQ(p.plainImages.size(), 2u);
+    EXPECT_EQ(kinds(p), uint32_t(gpu::TEXEL_KIND_PLAIN));
+    p = planDetails(scene_, used, 0);
+    EXPECT_FALSE(p.hasBundles());
+    EXPECT_EQ(p.plainImages.size(), 3u);
 }
 
 } // namespace

@@ -232,11 +232,13 @@ TEST(KernelFeatures, TexturesAndOpacityOnlyWhereTheyHaveAnEffect) {
     f = featuresOf(scene);
     EXPECT_EQ(f[SPEC_TEXTURE_SLOTS], 1u << gpu::TEXTURE_BASE_COLOR);
     EXPECT_EQ(f[SPEC_TEXEL_KINDS], gpu::TEXEL_KIND_BILINEAR | gpu::TEXEL_KIND_BYTES |
-                                       gpu::TEXEL_KIND_LOOSE | gpu::TEXEL_KIND_REPEAT);
+                                       gpu::TEXEL_KIND_LOOSE | gpu::TEXEL_KIND_REPEAT |
+                                       gpu::TEXEL_KIND_GATHERED);
     EXPECT_EQ(f[SPEC_LOOSE_SLOTS], 1u << gpu::TEXTURE_BASE_COLOR);
     EXPECT_EQ(f[SPEC_ATTRIBUTES], gpu::ATTRIBUTE_UV0);
     EXPECT_EQ(f[SPEC_ALPHA], 0u);
-    EXPECT_EQ(packScene(scene, buildWideBvh(scene)).details.size(), 3u) << "two rows and a texel's";
+    EXPECT_EQ(packScene(scene, buildWideBvh(scene)).details.size(), 6u)
+        << "two rows, and of the texel one for each way of lying across its edges";
 
     scene.images[0].words = {0x7F804020};
     EXPECT_EQ(featuresOf(scene)[SPEC_ALPHA], 1u);

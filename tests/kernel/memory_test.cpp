@@ -136,6 +136,36 @@ TEST_F(Memory, WhatDoesNotFitIsNamed) {
                       HasSubstr("film " + std::to_string(256 * sizeof(gpu::PixelState)))));
 }
 
+/// Textures that are packed for speed take four times the memory of those that are packed plainly.
+TEST_F(Memory, TexturesThatHaveNoRoomArePackedPlainly) {
+    Scene scene = loaded_;
+    scene.images = {
+        {.width = 64, .height = 64, .words = std::vector<uint32_t>(64 * 64, 0xFF804020)}};
+    scene.textures.resize(1);
+    for (Material& m : scene.materials)
+        m.textures = {{.slot = TextureSlot::BaseColor}};
+    const GpuScene fast = packScene(scene, buildWideBvh(scene)),
+                   plain = packScene(scene, buildWideBvh(scene), {}, {}, 0);
+    EXPECT_TRUE(fast.texelKinds & gpu::TEXEL_KIND_GATHERED);
+    EXPECT_FALSE(fast.texelKinds & gpu::TEXEL_KIND_PLAIN);
+    EXPECT_FALSE(plain.texelKinds & (gpu::TEXEL_KIND_GATHERED | gpu::TEXEL_KIND_BUNDLE));
+    EXPECT_LT(plain.details.size(), fast.details.size() / 2);
+    vulkan::DeviceDescription d = roomyDevice();
+    EXPECT_TRUE(haveRoomForTextures(d, fast));
+    const uint64_t bytes = fast.details.size() * sizeof(Row);
+    d.largestAllocation = bytes - 1;
+    EXPECT_FALSE(haveRoomForTextures(d, fast));
+    EXPECT_TRUE(haveRoomForTextures(d, plain));
+    d = roomyDevice();
+    d.properties.limits.maxTexelBufferElements = uint32_t(fast.details.size() - 1);
+    d.properties.limits.maxStorageBufferRange = uint32_t(bytes - 1);
+    EXPECT_FALSE(haveRoomForTextures(d, fast));
+    EXPECT_TRUE(haveRoomForTextures(d, plain));
+    d = roomyDevice();
+    d.memory = bytes;
+    EXPECT_FALSE(haveRoomForTextures(d, fast)) << "the tree has no room beside them";
+}
+
 /// The film is no scene buffer: a large one is cut into segments, not refused.
 TEST_F(Memory, FilmIsCutToWhatFits) {
     vulkan::DeviceDescription d = roomyDevice();

@@ -10,11 +10,11 @@ TextureAnswer answer(TextureQuery q) {
     if (q.mapPlusOne == 0u) texel = lookUp(t, vec2(q.u, q.v));
     if (q.mapPlusOne == SLOPE_OF_TEXTURE) texel.xy = slopeOf(t, vec2(q.u, q.v));
     if (hasBundles() && isBundle(t)) {
-        const BundleTaps taps = fetchBundle(t, vec2(q.u, q.v));
-        if (q.mapPlusOne == 1u) texel = mapOf(taps, TEXTURE_BASE_COLOR);
-        if (q.mapPlusOne == 2u) texel = mapOf(taps, TEXTURE_METALLIC_ROUGHNESS);
-        if (q.mapPlusOne == 3u) texel = mapOf(taps, TEXTURE_NORMAL);
-        if (q.mapPlusOne == 4u) texel = mapOf(taps, TEXTURE_EMISSION);
+        const BundleTexels texels = fetchBundle(t, vec2(q.u, q.v));
+        if (q.mapPlusOne == 1u) texel = mapOf(texels, TEXTURE_BASE_COLOR);
+        if (q.mapPlusOne == 2u) texel = mapOf(texels, TEXTURE_METALLIC_ROUGHNESS);
+        if (q.mapPlusOne == 3u) texel = mapOf(texels, TEXTURE_NORMAL);
+        if (q.mapPlusOne == 4u) texel = mapOf(texels, TEXTURE_EMISSION);
     }
     return TextureAnswer(texel.rgb, texel.a);
 }

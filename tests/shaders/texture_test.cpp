@@ -34,7 +34,21 @@ uint32_t wrappedIndex(int64_t i, Wrap wrap, int64_t n) {
     return uint32_t(within < n ? within : period - 1 - within);
 }
 
-class TextureLookup : public DeviceTest, public testing::WithParamInterface<bool> {
+/// How many textures are stored so that a row holds what is looked up together.
+enum class Gathered { All, Some, None };
+
+uint64_t gatheredRows(Gathered gathered) {
+    // Some: the first two pictures of the fixture, with three wraps of each direction.
+    constexpr uint64_t kRows = uint64_t(kHeight + 1) * (kWidth + 1) * 9;
+    return gathered == Gathered::All ? kUsualGatheredRows : gathered == Gathered::Some ? kRows : 0;
+}
+
+struct Storage {
+    bool texelBuffers;
+    Gathered gathered;
+};
+
+class TextureLookup : public DeviceTest, public testing::WithParamInterface<Storage> {
   protected:
     /// One triangle for each kind of texture.
     void SetUp() override {
@@ -75,7 +89,12 @@ class TextureLookup : public DeviceTest, public testing::WithParamInterface<bool
             });
         }
         scene_ = b.scene;
-        packed_ = packScene(scene_, buildWideBvh(scene_));
+        pack();
+        const uint32_t kinds = gpu::TEXEL_KIND_PLAIN | gpu::TEXEL_KIND_GATHERED;
+        ASSERT_EQ(packed_.texelKinds & kinds,
+                  GetParam().gathered == Gathered::All    ? gpu::TEXEL_KIND_GATHERED
+                  : GetParam().gathered == Gathered::None ? gpu::TEXEL_KIND_PLAIN
+                                                          : kinds);
         for (const gpu::Primitive& p : packed_.primitives)
             rowOf_.push_back(materialOf(p) + gpu::MATERIAL_DETAIL_ROW + 1);
         for (size_t i = 0; i < rowOf_.size(); ++i)
@@ -84,13 +103,18 @@ class TextureLookup : public DeviceTest, public testing::WithParamInterface<bool
                     .textures[0]);
     }
 
+    void pack() {
+        packed_ =
+            packScene(scene_, buildWideBvh(scene_), {}, {}, gatheredRows(GetParam().gathered));
+    }
+
     std::vector<TextureAnswer> ask(const std::vector<TextureQuery>& queries) const {
-        ShaderOptions options = GetParam() ? ShaderOptions::texel() : ShaderOptions();
+        ShaderOptions options = GetParam().texelBuffers ? ShaderOptions::texel() : ShaderOptions();
         options.set(SPEC_TEXEL_KINDS, packed_.texelKinds).set(SPEC_ATTRIBUTES, packed_.attributes);
         options.set(SPEC_TEXTURE_SLOTS, packed_.textureSlots);
         options.set(SPEC_LOOSE_SLOTS, packed_.looseSlots);
-        TestShader shader(GetParam() ? std::span<const uint32_t>(texture_texel)
-                                     : std::span<const uint32_t>(texture_storage),
+        TestShader shader(GetParam().texelBuffers ? std::span<const uint32_t>(texture_texel)
+                                                  : std::span<const uint32_t>(texture_storage),
                           options);
         shader.setScene(packed_);
         return test::ask<TextureAnswer>(shader, queries);
@@ -232,7 +256,7 @@ TEST_P(TextureLookup, SrgbIsDecoded) {
     scene.triangles.push_back({{0, 1, 2}});
     t.attributes(1, [](const glm::vec3&) { return VertexAttributes{}; });
     scene_ = scene;
-    packed_ = packScene(scene_, buildWideBvh(scene_));
+    pack();
     std::vector<TextureQuery> queries;
     for (int i = 0; i < 256; ++i)
         queries.push_back({gpu::MATERIAL_DETAIL_ROW + 1, (float(i) + 0.5f) / 256, 0.5f, 0});
@@ -247,26 +271,49 @@ TEST_P(TextureLookup, SrgbIsDecoded) {
     EXPECT_EQ(found.back().color.x, 1);
 }
 
+/// The channels that a map of a bundle has, of the four that a texture has.
+std::vector<int> channelsOf(TextureSlot slot, bool hasAlpha) {
+    if (slot == TextureSlot::MetallicRoughness) return {1, 2};
+    if (slot == TextureSlot::BaseColor && hasAlpha) return {0, 1, 2, 3};
+    return {0, 1, 2};
+}
+
+float channel(const TextureAnswer& a, int c) {
+    return c < 3 ? a.color[c] : a.alpha;
+}
+
+constexpr TextureSlot kBundled[] = {TextureSlot::BaseColor, TextureSlot::MetallicRoughness,
+                                    TextureSlot::Normal, TextureSlot::Emission};
+
 /// The maps of a bundle are, to the bit, what the same pictures are by themselves; a map that the
-/// bundle lacks is white.
+/// bundle lacks is white. Bundles with emission, with base colors whose alpha counts, with both and
+/// with neither; those of one scene are of both widths.
 TEST_P(TextureLookup, BundlesHoldTheSameTextures) {
+    if (GetParam().gathered != Gathered::All) GTEST_SKIP() << "there is no room for bundles";
     Random random(13);
-    constexpr TextureSlot kSlots[] = {TextureSlot::BaseColor, TextureSlot::MetallicRoughness,
-                                      TextureSlot::Normal, TextureSlot::Emission};
     SceneMaker b;
     TextureMaker t(b.scene);
-    const auto addMaterial = [&](const std::vector<TextureUse>& uses) {
+    const auto addMaterial = [&](const std::vector<TextureUse>& uses, bool isBlended) {
         Material m;
         m.kind = MaterialKind::Principled;
         m.emission = glm::vec3(1);
+        m.alphaMode = isBlended ? AlphaMode::Blend : AlphaMode::Opaque;
         m.textures = uses;
         const auto z = float(b.scene.materials.size());
         b.triangle({0, 0, z}, {1, 0, z}, {0, 1, z}, b.add(m));
         t.attributes(1, [](const glm::vec3&) { return VertexAttributes{}; });
+        return uint32_t(b.scene.materials.size() - 1);
     };
+    struct Pair {
+        uint32_t bundle, alone; ///< materials
+        TextureSlot slot;
+        bool hasAlpha;
+    };
+    std::vector<Pair> pairs;
+    std::vector<Pair> lacking; ///< alone: without meaning
     for (const bool nearest : {false, true}) {
         std::vector<TextureUse> uses;
-        for (const TextureSlot slot : kSlots) {
+        for (const TextureSlot slot : kBundled) {
             std::vector<glm::vec4> texels;
             for (uint32_t i = 0; i < kWidth * kHeight; ++i)
                 texels.emplace_back(random.uniform(), random.uniform(), random.uniform(),
@@ -279,41 +326,76 @@ TEST_P(TextureLookup, BundlesHoldTheSameTextures) {
                                                   .srgb = isColor}),
                             .uRow = {0.5f, 0.25f, -0.125f}});
         }
-        addMaterial(uses);
-        for (const TextureUse& use : uses)
-            addMaterial({use});
-        addMaterial({uses[0], uses[2]});
+        std::vector<uint32_t> alone;
+        for (const TextureUse& use : uses) {
+            alone.push_back(addMaterial({use}, false));
+            for (const TextureSlot slot : kBundled)
+                lacking.push_back({alone.back(), 0, slot, true});
+        }
+        for (const bool hasEmission : {false, true})
+            for (const bool hasAlpha : {false, true}) {
+                std::vector<TextureUse> maps(uses.begin(), uses.end() - (hasEmission ? 0 : 1));
+                const uint32_t bundle = addMaterial(maps, hasAlpha);
+                for (size_t i = 0; i < maps.size(); ++i)
+                    pairs.push_back({bundle, alone[i], maps[i].slot, hasAlpha});
+                if (!hasEmission) lacking.push_back({bundle, 0, TextureSlot::Emission, hasAlpha});
+            }
+        const uint32_t two = addMaterial({uses[0], uses[2]}, false);
+        pairs.push_back({two, alone[0], TextureSlot::BaseColor, false});
+        pairs.push_back({two, alone[2], TextureSlot::Normal, false});
+        lacking.push_back({two, 0, TextureSlot::MetallicRoughness, false});
+        const uint32_t dark = addMaterial({uses[1], uses[3]}, false);
+        pairs.push_back({dark, alone[3], TextureSlot::Emission, false});
+        lacking.push_back({dark, 0, TextureSlot::BaseColor, false});
+        lacking.push_back({dark, 0, TextureSlot::Normal, false});
     }
     scene_ = b.scene;
-    packed_ = packScene(scene_, buildWideBvh(scene_));
+    pack();
+    ASSERT_TRUE(packed_.texelKinds & gpu::TEXEL_KIND_WIDE);
     std::vector<uint32_t> rowOfMaterial(scene_.materials.size());
     for (size_t i = 0; i < packed_.primitives.size(); ++i)
         rowOfMaterial[scene_.triangles[packed_.bvh.primitiveOrder[i]].material] =
             materialOf(packed_.primitives[i]) + gpu::MATERIAL_DETAIL_ROW + 1;
+    constexpr size_t kPlaces = 64;
     std::vector<TextureQuery> bundled, loose, missing;
-    for (const uint32_t first : {0u, 6u})
-        for (uint32_t map = 0; map < 4; ++map)
-            for (int k = 0; k < 64; ++k) {
-                const auto u = float(4 * random.uniform() - 2), v = float(4 * random.uniform() - 2);
-                bundled.push_back({rowOfMaterial[first], u, v, map + 1});
-                const uint32_t withoutMaps = rowOfMaterial[first + 1 + map];
-                loose.push_back({withoutMaps + gpu::TEXTURE_USE_ROWS, u, v, 0});
-                missing.push_back({withoutMaps, u, v, map + 1});
-                if (map % 2 == 1) missing.push_back({rowOfMaterial[first + 5], u, v, map + 1});
-            }
-    const std::vector<TextureAnswer> a = ask(bundled), e = ask(loose);
+    const auto queryOf = [&](const Pair& p) {
+        const auto u = float(4 * random.uniform() - 2), v = float(4 * random.uniform() - 2);
+        return TextureQuery{rowOfMaterial[p.bundle], u, v, uint32_t(p.slot) + 1};
+    };
+    for (const Pair& p : pairs)
+        for (size_t k = 0; k < kPlaces; ++k) {
+            bundled.push_back(queryOf(p));
+            loose.push_back({rowOfMaterial[p.alone] + gpu::TEXTURE_USE_ROWS, bundled.back().u,
+                             bundled.back().v, 0});
+        }
+    for (const Pair& p : lacking)
+        for (size_t k = 0; k < kPlaces; ++k)
+            missing.push_back(queryOf(p));
+    const std::vector<TextureAnswer> a = ask(bundled), e = ask(loose), white = ask(missing);
     for (size_t i = 0; i < a.size(); ++i) {
-        EXPECT_EQ(a[i].color, e[i].color) << i;
-        EXPECT_EQ(a[i].alpha, e[i].alpha) << i;
+        const Pair& p = pairs[i / kPlaces];
+        for (const int c : channelsOf(p.slot, p.hasAlpha))
+            EXPECT_EQ(channel(a[i], c), channel(e[i], c))
+                << "slot " << uint32_t(p.slot) << ", channel " << c << ", material " << p.bundle;
     }
-    for (const TextureAnswer& white : ask(missing)) {
-        EXPECT_EQ(white.color, glm::vec3(1));
-        EXPECT_EQ(white.alpha, 1);
-    }
+    for (size_t i = 0; i < white.size(); ++i)
+        for (int c = 0; c < 4; ++c)
+            EXPECT_EQ(channel(white[i], c), 1) << "slot " << uint32_t(lacking[i / kPlaces].slot);
 }
 
-INSTANTIATE_TEST_SUITE_P(Fetch, TextureLookup, testing::Bool(),
-                         [](const auto& texel) { return texel.param ? "Texel" : "Storage"; });
+INSTANTIATE_TEST_SUITE_P(Fetch, TextureLookup,
+                         testing::Values(Storage{true, Gathered::All},
+                                         Storage{false, Gathered::All},
+                                         Storage{true, Gathered::Some},
+                                         Storage{true, Gathered::None},
+                                         Storage{false, Gathered::None}),
+                         [](const auto& p) {
+                             const std::string gathered = p.param.gathered == Gathered::All ? ""
+                                                          : p.param.gathered == Gathered::Some
+                                                              ? "PartlyPlain"
+                                                              : "Plain";
+                             return (p.param.texelBuffers ? "Texel" : "Storage") + gathered;
+                         });
 
 } // namespace
 } // namespace stromboli::test

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "host/kernel/detail_plan.hpp"
+#include "host/kernel/rows.hpp"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <tuple>
+#include <vector>
+
+namespace stromboli {
+
+/// Pictures that some texture of the plan shows, each once, as gpu::TextureUse has them.
+class TexelPacker {
+  public:
+    /// rows: the detail buffer, which grows by each picture.
+    TexelPacker(const Scene& scene, const DetailPlan& plan, std::vector<Row>& rows)
+        : scene_(scene), plan_(plan), rows_(rows) {}
+
+    /// gpu::TEXELS_PLAIN
+    bool isPlain(const Texture& texture) const;
+
+    uint32_t firstRowOf(const Texture& texture);
+
+    /// Bundles of the same pictures share their rows. Of no pictures: of one white texel.
+    uint32_t firstRowOf(const DetailPlan::Bundle& bundle, bool isWide);
+
+  private:
+    class EdgedTexels;
+    static constexpr uint32_t kNone = ~0u;
+    using BundleImages = std::array<uint32_t, gpu::BUNDLE_MAPS>; ///< kNone: it has no such map
+    using BundleTexel = std::array<uint32_t, 3>; ///< words as gpu::TEXELS_BUNDLE and WIDE say
+
+    Row* append(uint64_t rows);
+    void packPlain(const std::vector<uint32_t>& words);
+    void packWords(const TextureImage& image, const EdgedTexels& at);
+    void packHalves(const TextureImage& image, const EdgedTexels& at);
+    void packBundle(const BundleImages& images, const TextureImage& size, const EdgedTexels& at,
+                    bool isWide);
+    BundleTexel bundleTexel(const BundleImages& images, size_t texel) const;
+
+    const Scene& scene_;
+    const DetailPlan& plan_;
+    std::vector<Row>& rows_;
+    std::map<std::tuple<uint32_t, Wrap, Wrap, bool>, uint32_t> firstRowOfImage_;
+    std::map<std::tuple<BundleImages, Wrap, Wrap, bool>, uint32_t> firstRowOfBundle_;
+};
+
+} // namespace stromboli
