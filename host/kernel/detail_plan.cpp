@@ -72,8 +72,8 @@ bool isOpaque(const TextureImage& image) {
     return true;
 }
 
-/// Pictures of the maps, wraps of u and v, whether it is wide: what the rows of a bundle depend on.
-using BundleKey = std::tuple<std::array<uint32_t, gpu::BUNDLE_MAPS>, Wrap, Wrap, bool>;
+/// Pictures of the maps, wraps of u and v: what the rows of a bundle depend on.
+using BundleKey = std::tuple<std::array<uint32_t, gpu::BUNDLE_MAPS>, Wrap, Wrap>;
 
 class Planner {
   public:
@@ -115,7 +115,6 @@ class Planner {
         material.coatHasNormal &= m.kind == MaterialKind::Principled && m.principled.clearcoat > 0;
         takeOutBundle(material);
         if (material.bundle) plan_.texelKinds |= gpu::TEXEL_KIND_BUNDLE;
-        if (material.bundleIsWide) plan_.texelKinds |= gpu::TEXEL_KIND_WIDE;
         for (const TextureUse& use : material.textures) {
             addLoose(use);
             plan_.looseSlots |= 1u << uint32_t(use.slot);
@@ -140,27 +139,25 @@ class Planner {
     /// Of a texture in no bundle.
     void addLoose(const TextureUse& use) {
         const Texture& texture = scene_.textures[use.texture];
-        const DetailPlan::EdgedImage edged{texture.image, texture.wrapU, texture.wrapV};
-        const bool isHalf = scene_.images[texture.image].format == TexelFormat::RgbaHalf;
+        const DetailPlan::EdgedImage edged(scene_, texture);
+        const bool isHalf = imageOf(use).format == TexelFormat::RgbaHalf;
         if (!gathered_.contains(edged) && !plan_.plainImages.contains(edged))
-            (takeRows(gatheredTexels(texture, isHalf ? 2 : 1)) ? gathered_ : plan_.plainImages)
-                .insert(edged);
+            (takeRows(edgedTexels(texture, 1)) ? gathered_ : plan_.plainImages).insert(edged);
+        const bool isPlain = plan_.plainImages.contains(edged);
         plan_.texelKinds |= gpu::TEXEL_KIND_LOOSE;
-        plan_.texelKinds |=
-            plan_.plainImages.contains(edged) ? gpu::TEXEL_KIND_PLAIN : gpu::TEXEL_KIND_GATHERED;
+        plan_.texelKinds |= isHalf ? gpu::TEXEL_KIND_HALF : gpu::TEXEL_KIND_BYTES;
+        plan_.texelKinds |= isPlain ? gpu::TEXEL_KIND_PLAIN : gpu::TEXEL_KIND_GATHERED;
+        if (isPlain && edged.srgb) plan_.texelKinds |= gpu::TEXEL_KIND_SRGB;
     }
 
     void addTexture(const TextureUse& use) {
         const Texture& texture = scene_.textures[use.texture];
-        const bool isHalf = scene_.images[texture.image].format == TexelFormat::RgbaHalf;
         plan_.textureSlots |= 1u << uint32_t(use.slot);
         plan_.texelKinds |= texture.nearest ? gpu::TEXEL_KIND_NEAREST : gpu::TEXEL_KIND_BILINEAR;
-        plan_.texelKinds |= isHalf ? gpu::TEXEL_KIND_HALF : gpu::TEXEL_KIND_BYTES;
         for (const Wrap wrap : {texture.wrapU, texture.wrapV})
             plan_.texelKinds |= gpu::TEXEL_KIND_REPEAT << uint32_t(wrap);
         const bool isMoved = use.uRow != glm::vec3(1, 0, 0) || use.vRow != glm::vec3(0, 1, 0);
         if (isMoved || use.scale != 1) plan_.texelKinds |= gpu::TEXEL_KIND_ADJUSTED;
-        if (texture.srgb && !isHalf) plan_.texelKinds |= gpu::TEXEL_KIND_SRGB;
         plan_.attributes |= use.uvSet == 0 ? gpu::ATTRIBUTE_UV0 : gpu::ATTRIBUTE_UV1;
         if (use.slot == TextureSlot::Normal || use.slot == TextureSlot::ClearcoatNormal)
             plan_.attributes |= gpu::ATTRIBUTE_TANGENT;
@@ -179,12 +176,8 @@ class Planner {
         DetailPlan::Bundle bundle;
         for (const TextureUse& use : material.textures)
             if (isAlike(use)) bundle[uint32_t(use.slot)] = use;
-        const auto& color = bundle[gpu::TEXTURE_BASE_COLOR];
-        const bool isWide = bundle[gpu::TEXTURE_EMISSION] ||
-                            (color && material.isTransparent && !isOpaque(imageOf(*color)));
-        if (!hasRoomFor(bundle, isWide)) return;
+        if (!hasRoomFor(bundle)) return;
         material.bundle = bundle;
-        material.bundleIsWide = isWide;
         std::erase_if(material.textures, isAlike);
     }
 
@@ -209,24 +202,24 @@ class Planner {
     }
 
     /// Materials may share a bundle.
-    bool hasRoomFor(const DetailPlan::Bundle& bundle, bool isWide) {
+    bool hasRoomFor(const DetailPlan::Bundle& bundle) {
         std::array<uint32_t, gpu::BUNDLE_MAPS> images;
         const Texture* texture = nullptr;
         for (uint32_t i = 0; i < images.size(); ++i) {
             images[i] = bundle[i] ? scene_.textures[bundle[i]->texture].image : ~0u;
             if (bundle[i]) texture = &scene_.textures[bundle[i]->texture];
         }
-        const BundleKey key{images, texture->wrapU, texture->wrapV, isWide};
+        const BundleKey key{images, texture->wrapU, texture->wrapV};
         if (bundles_.contains(key)) return true;
-        if (!takeRows(gatheredTexels(*texture, 2) * (isWide ? 2 : 1))) return false;
+        if (!takeRows(edgedTexels(*texture, 2))) return false;
         bundles_.insert(key);
         return true;
     }
 
-    /// With those beyond the edges: so many columns (gpu::TextureUse).
-    uint64_t gatheredTexels(const Texture& texture, uint64_t columnsBeyond) const {
+    /// With those beyond the edges, of two columns and so many lines (gpu::TextureUse).
+    uint64_t edgedTexels(const Texture& texture, uint64_t linesBeyond) const {
         const TextureImage& image = scene_.images[texture.image];
-        return (image.width + columnsBeyond) * (uint64_t(image.height) + 1);
+        return (uint64_t(image.width) + 2) * (image.height + linesBeyond);
     }
 
     bool takeRows(uint64_t rows) {

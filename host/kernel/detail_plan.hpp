@@ -17,10 +17,15 @@ namespace stromboli {
 /// picture. A texture that multiplies a parameter of 0, or an alpha mode without anything that is
 /// not opaque, costs nothing.
 struct DetailPlan {
-    /// A picture and what is seen beyond its edges: what the rows of a texture depend on.
+    /// A picture, what is seen beyond its edges, and how it is decoded: what the rows of a texture
+    /// depend on.
     struct EdgedImage {
         uint32_t image = 0; ///< into Scene::images
         Wrap wrapU = Wrap::Repeat, wrapV = Wrap::Repeat;
+        bool srgb = false;
+        EdgedImage(const Scene& scene, const Texture& t)
+            : image(t.image), wrapU(t.wrapU), wrapV(t.wrapV),
+              srgb(t.srgb && scene.images[t.image].format == TexelFormat::Rgba8) {}
         auto operator<=>(const EdgedImage&) const = default;
     };
     /// By slot, of the first gpu::BUNDLE_MAPS slots; those there are look up pictures of one size
@@ -28,7 +33,6 @@ struct DetailPlan {
     using Bundle = std::array<std::optional<TextureUse>, gpu::BUNDLE_MAPS>;
     struct MaterialPlan {
         std::optional<Bundle> bundle;
-        bool bundleIsWide = false;        ///< gpu::TEXELS_WIDE
         std::vector<TextureUse> textures; ///< that are in no bundle, in the order of their slots
         bool isTransparent = false;       ///< may be partly not there
         bool isHidden = false;            ///< camera rays pass it

@@ -104,7 +104,7 @@ gpu::TextureUse packUse(const Scene& scene, const TextureUse& use, TexelPacker& 
     return g;
 }
 
-gpu::TextureUse packBundle(const Scene& scene, const DetailPlan::Bundle& bundle, bool isWide,
+gpu::TextureUse packBundle(const Scene& scene, const DetailPlan::Bundle& bundle,
                            TexelPacker& texels) {
     const auto first =
         std::ranges::find_if(bundle, [](const auto& map) { return map.has_value(); });
@@ -113,15 +113,15 @@ gpu::TextureUse packBundle(const Scene& scene, const DetailPlan::Bundle& bundle,
         g.scale = normal->scale;
         g.flags |= gpu::TEXELS_MAP_NORMALS;
     }
-    g.firstRow = texels.firstRowOf(bundle, isWide);
-    g.flags |= gpu::TEXELS_BUNDLE | (isWide ? gpu::TEXELS_WIDE : 0);
+    g.firstRow = texels.firstRowOf(bundle);
+    g.flags |= gpu::TEXELS_BUNDLE;
     return g;
 }
 
 /// Of a material that has no maps in a bundle, in a scene where others have.
 gpu::TextureUse emptyBundle(TexelPacker& texels) {
     gpu::TextureUse g{};
-    g.firstRow = texels.firstRowOf(DetailPlan::Bundle{}, false);
+    g.firstRow = texels.firstRowOf(DetailPlan::Bundle{});
     g.width = g.height = 1;
     g.flags = gpu::TEXELS_BUNDLE;
     return g;
@@ -152,7 +152,7 @@ std::vector<Row> materialDetail(const Scene& scene, const Material& m,
     if (plan.bundle) {
         for (const std::optional<TextureUse>& map : *plan.bundle)
             if (map) noteUse(map->slot, number);
-        appendRows(uses, packBundle(scene, *plan.bundle, plan.bundleIsWide, texels));
+        appendRows(uses, packBundle(scene, *plan.bundle, texels));
     } else if (sceneHasBundles) {
         appendRows(uses, emptyBundle(texels));
     }

@@ -1,9 +1,34 @@
 #include "host/kernel/texel_rows.hpp"
 
+#include "scene/model/surface_lookup.hpp"
 #include "shaders/shared/texture_types.h"
+
+#include <cmath>
 
 namespace stromboli {
 namespace {
+
+/// Numbers of gpu::TextureUse for each byte.
+struct ByteTable {
+    std::array<uint32_t, 256> fractions, linearFractions, roots;
+    ByteTable() {
+        for (uint32_t byte = 0; byte < 256; ++byte) {
+            const double linear = linearOfSrgb(byte / 255.0);
+            fractions[byte] = 257 * byte;
+            linearFractions[byte] = uint32_t(std::lround(65535 * linear));
+            roots[byte] = uint32_t(std::lround(4095 * std::sqrt(linear)));
+        }
+    }
+};
+
+const ByteTable& byteTable() {
+    static const ByteTable table;
+    return table;
+}
+
+uint32_t byteOf(uint32_t word, uint32_t channel) {
+    return word >> 8 * channel & 0xFF;
+}
 
 /// The texel of a picture of n texels that stands for the i-th, i from -1 to n.
 uint32_t edged(int64_t i, uint32_t n, Wrap wrap) {
@@ -34,31 +59,29 @@ class TexelPacker::EdgedTexels {
 };
 
 bool TexelPacker::isPlain(const Texture& texture) const {
-    return plan_.plainImages.contains({texture.image, texture.wrapU, texture.wrapV});
+    return plan_.plainImages.contains(DetailPlan::EdgedImage(scene_, texture));
 }
 
 uint32_t TexelPacker::firstRowOf(const Texture& texture) {
     const TextureImage& image = scene_.images[texture.image];
+    DetailPlan::EdgedImage key(scene_, texture);
+    // Plain texels neither have edges nor are decoded.
     const bool plain = isPlain(texture);
-    const Wrap wrapU = plain ? Wrap::Repeat : texture.wrapU,
-               wrapV = plain ? Wrap::Repeat : texture.wrapV;
-    const auto [known, isNew] =
-        firstRowOfImage_.try_emplace({texture.image, wrapU, wrapV, plain}, uint32_t(rows_.size()));
-    if (!isNew) return known->second;
+    if (plain) key.wrapU = key.wrapV = Wrap::Repeat, key.srgb = false;
+    auto& known = plain ? firstRowOfPlainImage_ : firstRowOfImage_;
+    const auto [place, isNew] = known.try_emplace(key, uint32_t(rows_.size()));
+    if (!isNew) return place->second;
     if (plain)
         packPlain(image.words);
-    else if (image.format == TexelFormat::RgbaHalf)
-        packHalves(image, EdgedTexels(image, wrapU, wrapV));
     else
-        packWords(image, EdgedTexels(image, wrapU, wrapV));
-    return known->second;
+        packGathered(image, texture.srgb, EdgedTexels(image, texture.wrapU, texture.wrapV));
+    return place->second;
 }
 
-uint32_t TexelPacker::firstRowOf(const DetailPlan::Bundle& bundle, bool isWide) {
+uint32_t TexelPacker::firstRowOf(const DetailPlan::Bundle& bundle) {
     BundleImages images;
     TextureImage white;
     white.width = white.height = 1;
-    white.words = {~0u};
     const TextureImage* size = &white;
     Wrap wrapU = Wrap::Repeat, wrapV = Wrap::Repeat;
     for (uint32_t i = 0; i < images.size(); ++i) {
@@ -70,9 +93,8 @@ uint32_t TexelPacker::firstRowOf(const DetailPlan::Bundle& bundle, bool isWide) 
         wrapU = texture.wrapU, wrapV = texture.wrapV;
     }
     const auto [known, isNew] =
-        firstRowOfBundle_.try_emplace({images, wrapU, wrapV, isWide}, uint32_t(rows_.size()));
-    if (!isNew) return known->second;
-    packBundle(images, *size, EdgedTexels(*size, wrapU, wrapV), isWide);
+        firstRowOfBundle_.try_emplace({images, wrapU, wrapV}, uint32_t(rows_.size()));
+    if (isNew) packBundle(images, *size, EdgedTexels(*size, wrapU, wrapV));
     return known->second;
 }
 
@@ -89,51 +111,49 @@ void TexelPacker::packPlain(const std::vector<uint32_t>& words) {
         rows[i / 4][i % 4] = words[i];
 }
 
-void TexelPacker::packWords(const TextureImage& image, const EdgedTexels& at) {
-    const std::vector<uint32_t>& w = image.words;
-    Row* row = append(uint64_t(image.width + 1) * (image.height + 1));
-    for (int64_t y = -1; y < int64_t(image.height); ++y) {
-        const size_t upper = at.line(y), lower = at.line(y + 1);
-        for (int64_t x = -1; x < int64_t(image.width); ++x) {
-            const uint32_t left = at.column(x), right = at.column(x + 1);
-            *row++ = {w[upper + left], w[upper + right], w[lower + left], w[lower + right]};
-        }
-    }
-}
-
-void TexelPacker::packHalves(const TextureImage& image, const EdgedTexels& at) {
-    const std::vector<uint32_t>& w = image.words;
-    Row* row = append(uint64_t(image.width + 2) * (image.height + 1));
+void TexelPacker::packGathered(const TextureImage& image, bool srgb, const EdgedTexels& at) {
+    const auto& color = srgb ? byteTable().linearFractions : byteTable().fractions;
+    const auto texel = [&](size_t index) -> TexelWords {
+        if (image.format == TexelFormat::RgbaHalf)
+            return {image.words[2 * index], image.words[2 * index + 1]};
+        const uint32_t w = image.words[index];
+        return {color[byteOf(w, 0)] | color[byteOf(w, 1)] << 16,
+                color[byteOf(w, 2)] | byteTable().fractions[byteOf(w, 3)] << 16};
+    };
+    Row* row = append((uint64_t(image.width) + 2) * (uint64_t(image.height) + 1));
     for (int64_t y = -1; y < int64_t(image.height); ++y)
         for (int64_t x = -1; x <= int64_t(image.width); ++x) {
-            const size_t upper = 2 * (at.line(y) + at.column(x)),
-                         lower = 2 * (at.line(y + 1) + at.column(x));
-            *row++ = {w[upper], w[upper + 1], w[lower], w[lower + 1]};
+            const TexelWords upper = texel(at.line(y) + at.column(x)),
+                             lower = texel(at.line(y + 1) + at.column(x));
+            *row++ = {upper[0], upper[1], lower[0], lower[1]};
         }
 }
 
 void TexelPacker::packBundle(const BundleImages& images, const TextureImage& size,
-                             const EdgedTexels& at, bool isWide) {
-    Row* row = append(uint64_t(size.width + 2) * (size.height + 1) * (isWide ? 2 : 1));
-    for (int64_t y = -1; y < int64_t(size.height); ++y)
-        for (int64_t x = -1; x <= int64_t(size.width); ++x) {
-            const BundleTexel upper = bundleTexel(images, at.line(y) + at.column(x)),
-                              lower = bundleTexel(images, at.line(y + 1) + at.column(x));
-            *row++ = {upper[0], upper[1], lower[0], lower[1]};
-            if (isWide) *row++ = {upper[2], ~0u, lower[2], ~0u};
-        }
+                             const EdgedTexels& at) {
+    Row* row = append((uint64_t(size.width) + 2) * (uint64_t(size.height) + 2));
+    for (int64_t y = -1; y <= int64_t(size.height); ++y)
+        for (int64_t x = -1; x <= int64_t(size.width); ++x)
+            *row++ = bundleTexel(images, at.line(y) + at.column(x));
 }
 
-TexelPacker::BundleTexel TexelPacker::bundleTexel(const BundleImages& images, size_t texel) const {
+Row TexelPacker::bundleTexel(const BundleImages& images, size_t texel) const {
     const auto wordOf = [&](uint32_t slot) {
         return images[slot] == kNone ? ~0u : scene_.images[images[slot]].words[texel];
     };
-    constexpr uint32_t kColor = 0xFFFFFF, kAlpha = ~kColor;
     const uint32_t color = wordOf(gpu::TEXTURE_BASE_COLOR),
+                   emission = wordOf(gpu::TEXTURE_EMISSION),
                    metallicRoughness = wordOf(gpu::TEXTURE_METALLIC_ROUGHNESS);
-    return {(color & kColor) | (metallicRoughness << 16 & kAlpha),
-            (wordOf(gpu::TEXTURE_NORMAL) & kColor) | (metallicRoughness << 8 & kAlpha),
-            (wordOf(gpu::TEXTURE_EMISSION) & kColor) | (color & kAlpha)};
+    const auto rootOf = [](uint32_t word, uint32_t channel) {
+        return byteTable().roots[byteOf(word, channel)];
+    };
+    const auto packed = [](uint32_t root, uint32_t nextRoot, uint32_t fraction) {
+        return root | nextRoot << 12 | fraction << 24;
+    };
+    return {packed(rootOf(color, 0), rootOf(color, 1), byteOf(metallicRoughness, 1)),
+            packed(rootOf(color, 2), rootOf(emission, 0), byteOf(metallicRoughness, 2)),
+            packed(rootOf(emission, 1), rootOf(emission, 2), byteOf(color, 3)),
+            wordOf(gpu::TEXTURE_NORMAL)};
 }
 
 } // namespace stromboli

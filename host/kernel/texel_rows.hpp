@@ -24,27 +24,26 @@ class TexelPacker {
     uint32_t firstRowOf(const Texture& texture);
 
     /// Bundles of the same pictures share their rows. Of no pictures: of one white texel.
-    uint32_t firstRowOf(const DetailPlan::Bundle& bundle, bool isWide);
+    uint32_t firstRowOf(const DetailPlan::Bundle& bundle);
 
   private:
     class EdgedTexels;
     static constexpr uint32_t kNone = ~0u;
     using BundleImages = std::array<uint32_t, gpu::BUNDLE_MAPS>; ///< kNone: it has no such map
-    using BundleTexel = std::array<uint32_t, 3>; ///< words as gpu::TEXELS_BUNDLE and WIDE say
+    using TexelWords = std::array<uint32_t, 2>;                  ///< of a gathered texture
 
     Row* append(uint64_t rows);
     void packPlain(const std::vector<uint32_t>& words);
-    void packWords(const TextureImage& image, const EdgedTexels& at);
-    void packHalves(const TextureImage& image, const EdgedTexels& at);
-    void packBundle(const BundleImages& images, const TextureImage& size, const EdgedTexels& at,
-                    bool isWide);
-    BundleTexel bundleTexel(const BundleImages& images, size_t texel) const;
+    void packGathered(const TextureImage& image, bool srgb, const EdgedTexels& at);
+    void packBundle(const BundleImages& images, const TextureImage& size, const EdgedTexels& at);
+    /// As gpu::TEXELS_BUNDLE says.
+    Row bundleTexel(const BundleImages& images, size_t texel) const;
 
     const Scene& scene_;
     const DetailPlan& plan_;
     std::vector<Row>& rows_;
-    std::map<std::tuple<uint32_t, Wrap, Wrap, bool>, uint32_t> firstRowOfImage_;
-    std::map<std::tuple<BundleImages, Wrap, Wrap, bool>, uint32_t> firstRowOfBundle_;
+    std::map<DetailPlan::EdgedImage, uint32_t> firstRowOfImage_, firstRowOfPlainImage_;
+    std::map<std::tuple<BundleImages, Wrap, Wrap>, uint32_t> firstRowOfBundle_;
 };
 
 } // namespace stromboli

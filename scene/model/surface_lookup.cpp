@@ -8,11 +8,6 @@
 namespace stromboli {
 namespace {
 
-/// IEC 61966-2-1.
-double linearOfSrgb(double c) {
-    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
-
 /// Where a coordinate lies between the edges of a picture of n texels, in texels.
 double inTexels(double u, Wrap wrap, uint32_t n) {
     if (wrap == Wrap::Clamp) return u > 0 ? std::min(u, 1.0) * n : 0;
@@ -32,6 +27,10 @@ uint32_t texelIndex(int64_t i, Wrap wrap, uint32_t n) {
 }
 
 } // namespace
+
+double linearOfSrgb(double c) {
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
 
 glm::dvec4 texelAt(const TextureImage& image, bool srgb, uint32_t x, uint32_t y) {
     const size_t index = size_t(y) * image.width + x;

@@ -65,7 +65,7 @@ layout(constant_id = SPEC_LIGHT_CHOICE) const uint LIGHT_CHOICE = LIGHT_CHOICE_T
 layout(constant_id = SPEC_PRINCIPLED_FEATURES) const uint PRINCIPLED_FEATURES = 63u;
 layout(constant_id = SPEC_TEXTURE_SLOTS) const uint TEXTURE_SLOTS = 0u;
 layout(constant_id = SPEC_LOOSE_SLOTS) const uint LOOSE_SLOTS = 0u;
-layout(constant_id = SPEC_TEXEL_KINDS) const uint TEXEL_KINDS = 2047u;
+layout(constant_id = SPEC_TEXEL_KINDS) const uint TEXEL_KINDS = 8191u;
 layout(constant_id = SPEC_ATTRIBUTES) const uint ATTRIBUTES = 0u;
 layout(constant_id = SPEC_ALPHA) const bool HAS_ALPHA = false;
 layout(constant_id = SPEC_TANGENT_FRAMES) const bool TANGENT_FRAMES = false;

@@ -52,6 +52,7 @@ uint wrapMode(TextureUse t, uint shift) {
     if (kinds == TEXEL_KIND_CLAMP) return WRAP_CLAMP;
     return t.flags >> shift & TEXELS_WRAP_MASK;
 }
+/// Of a plain one.
 bool isSrgb(TextureUse t) {
     return (TEXEL_KINDS & TEXEL_KIND_SRGB) != 0u && (t.flags & TEXELS_SRGB) != 0u;
 }
@@ -102,33 +103,33 @@ PicturePlace placeIn(TextureUse t, vec2 uv) {
     return isNearest(t) ? PicturePlace(nearest, vec2(0.0)) : PicturePlace(ivec2(whole), corner - whole);
 }
 
-/// Number of a place's texel among those that a texture has rows for, so many to a line.
-uint gatheredRow(PicturePlace p, uint columns) {
-    return uint(p.texel.y + 1) * columns + uint(p.texel.x + 1);
+/// Number of a place's texel among those that a texture has rows for, those beyond the edges included.
+uint gatheredRow(TextureUse t, PicturePlace p) {
+    return uint(p.texel.y + 1) * (t.width + 2u) + uint(p.texel.x + 1);
 }
 
-/// The four texels of a place: upper left, upper right, lower left, lower right.
+/// The four texels of a place, in units of `unit`: upper left, upper right, lower left, lower right.
 struct FourTexels {
     vec4 a, b, c, d;
+    float unit;
 };
+
+// Signed conversions, which all processors have (docs/kernel.md, "Arithmetic").
+vec4 fractionsOf(uvec2 words) {
+    return vec4(ivec4(uvec4(words.x & 0xFFFFu, words.x >> 16u, words.y & 0xFFFFu, words.y >> 16u)));
+}
 
 vec4 halvesOf(uvec2 words) { return vec4(unpackHalf2x16(words.x), unpackHalf2x16(words.y)); }
 
 FourTexels fetchGathered(TextureUse t, PicturePlace p) {
-    const bool half_ = isHalf(t);
-    const uint row = t.firstRow + gatheredRow(p, t.width + (half_ ? 2u : 1u));
-    const uvec4 first = ROW(detailRows, row);
+    const uint row = t.firstRow + gatheredRow(t, p);
+    const uvec4 left = ROW(detailRows, row), right = ROW(detailRows, row + 1u);
     FourTexels texels;
-    if ((TEXEL_KINDS & TEXEL_KIND_BYTES) != 0u) {
-        const bool srgb = isSrgb(t);
-        texels = FourTexels(bytesOf(first.x, srgb), bytesOf(first.y, srgb), bytesOf(first.z, srgb),
-                            bytesOf(first.w, srgb));
-    }
-    if (half_) {
-        const uvec4 second = ROW(detailRows, row + 1u);
-        texels = FourTexels(halvesOf(first.xy), halvesOf(second.xy), halvesOf(first.zw),
-                            halvesOf(second.zw));
-    }
+    if ((TEXEL_KINDS & TEXEL_KIND_BYTES) != 0u)
+        texels = FourTexels(fractionsOf(left.xy), fractionsOf(right.xy), fractionsOf(left.zw),
+                            fractionsOf(right.zw), 1.0 / 65535.0);
+    if (isHalf(t))
+        texels = FourTexels(halvesOf(left.xy), halvesOf(right.xy), halvesOf(left.zw), halvesOf(right.zw), 1.0);
     return texels;
 }
 
@@ -157,7 +158,7 @@ FourTexels fetchPlain(TextureUse t, PicturePlace p) {
     const uvec2 y =
         t.width * uvec2(beyond(p.texel.y, int(t.height), wrapV), beyond(p.texel.y + 1, int(t.height), wrapV));
     return FourTexels(fetchTexel(t, y.x + x.x), fetchTexel(t, y.x + x.y), fetchTexel(t, y.y + x.x),
-                      fetchTexel(t, y.y + x.y));
+                      fetchTexel(t, y.y + x.y), 1.0);
 }
 
 FourTexels fetchTexels(TextureUse t, PicturePlace p) {
@@ -166,17 +167,17 @@ FourTexels fetchTexels(TextureUse t, PicturePlace p) {
 }
 
 /// What is the same in all is exactly that between them.
-vec4 mixed(vec4 a, vec4 b, vec4 c, vec4 d, vec2 part) {
-    const vec4 upper = a + part.x * (b - a), lower = c + part.x * (d - c);
-    return upper + part.y * (lower - upper);
+vec4 mixed(FourTexels t, vec2 part) {
+    const vec4 upper = t.a + part.x * (t.b - t.a), lower = t.c + part.x * (t.d - t.c);
+    return (upper + part.y * (lower - upper)) * t.unit;
 }
 
 /// Of a texture that is not in a bundle.
 vec4 lookUp(TextureUse t, vec2 uv) {
     const PicturePlace p = placeIn(t, uv);
     const FourTexels texels = fetchTexels(t, p);
-    if ((TEXEL_KINDS & TEXEL_KIND_BILINEAR) == 0u) return texels.a;
-    return mixed(texels.a, texels.b, texels.c, texels.d, p.part);
+    if ((TEXEL_KINDS & TEXEL_KIND_BILINEAR) == 0u) return texels.a * texels.unit;
+    return mixed(texels, p.part);
 }
 
 /// Whether a picture is read backwards there.
@@ -192,7 +193,7 @@ vec2 slopeOf(TextureUse t, vec2 uv) {
     const FourTexels texels = fetchTexels(t, p);
     const float a = texels.a.r, b = texels.b.r, c = texels.c.r, d = texels.d.r;
     vec2 slope = isNearest(t) ? vec2(0.0)
-                              : vec2(float(int(t.width)), float(int(t.height))) *
+                              : texels.unit * vec2(float(int(t.width)), float(int(t.height))) *
                                     mix(vec2(b - a, c - a), vec2(d - c, d - b), p.part.yx);
     const vec2 place = adjusted(t, uv);
     if (isMirroredAt(place.x, wrapMode(t, TEXELS_WRAP_U_SHIFT))) slope.x = -slope.x;
@@ -207,53 +208,44 @@ bool isBundle(TextureUse t) {
     return hasFlag(t, TEXELS_BUNDLE, TEXEL_KIND_BUNDLE, TEXEL_KIND_LOOSE);
 }
 
-bool isWide(TextureUse t) {
-    return (TEXEL_KINDS & TEXEL_KIND_WIDE) != 0u && (t.flags & TEXELS_WIDE) != 0u;
-}
-
-/// The texels of a bundle about a place: the words of the upper and of the lower one, in the columns to the left and
-/// to the right. more: those of bundles that are wide.
+/// The texels of a bundle about a place: upper left, upper right, lower left, lower right.
 struct BundleTexels {
-    uvec4 left, right, moreLeft, moreRight;
+    uvec4 a, b, c, d;
     vec2 part;
-    bool isWide;
 };
 
 BundleTexels fetchBundle(TextureUse t, vec2 uv) {
     const PicturePlace p = placeIn(t, uv);
-    const bool wide = isWide(t);
-    const uint rows = wide ? 2u : 1u;
-    const uint row = t.firstRow + rows * gatheredRow(p, t.width + 2u);
-    BundleTexels texels;
-    texels.left = ROW(detailRows, row);
-    texels.right = ROW(detailRows, row + rows);
-    if ((TEXEL_KINDS & TEXEL_KIND_WIDE) != 0u) {
-        texels.moreLeft = ROW(detailRows, row + rows - 1u);
-        texels.moreRight = ROW(detailRows, row + 2u * rows - 1u);
-    }
-    texels.part = p.part;
-    texels.isWide = wide;
-    return texels;
+    const uint upper = t.firstRow + gatheredRow(t, p), lower = upper + t.width + 2u;
+    return BundleTexels(ROW(detailRows, upper), ROW(detailRows, upper + 1u), ROW(detailRows, lower),
+                        ROW(detailRows, lower + 1u), p.part);
 }
 
-/// Of words of the four texels: upper left, upper right, lower left, lower right.
-vec4 mixedBytes(uvec4 words, bool srgb, vec2 part) {
-    return mixed(bytesOf(words.x, srgb), bytesOf(words.y, srgb), bytesOf(words.z, srgb),
-                 bytesOf(words.w, srgb), part);
+/// x, y, z, w: of the four texels, as BundleTexels has them.
+float mixed(vec4 texels, vec2 part) {
+    const vec2 lines = texels.xz + part.x * (texels.yw - texels.xz);
+    return lines.x + part.y * (lines.y - lines.x);
+}
+
+/// Of words of the four texels.
+float mixedFraction(uvec4 words, uint shift, vec2 part) {
+    return mixed(vec4(ivec4(words >> shift & 0xFFu)), part) * (1.0 / 255.0);
+}
+float mixedRoot(uvec4 words, uint shift, vec2 part) {
+    const vec4 roots = vec4(ivec4(words >> shift & 0xFFFu));
+    return mixed(roots * roots, part) * (1.0 / (4095.0 * 4095.0));
 }
 
 /// What one of its maps says, in the channels that its slot has. slot: known when the kernel is compiled.
 vec4 mapOf(BundleTexels t, uint slot) {
-    const uvec4 color = uvec4(t.left.x, t.right.x, t.left.z, t.right.z),
-                normal = uvec4(t.left.y, t.right.y, t.left.w, t.right.w);
+    const uvec4 w0 = uvec4(t.a.x, t.b.x, t.c.x, t.d.x), w1 = uvec4(t.a.y, t.b.y, t.c.y, t.d.y),
+                w2 = uvec4(t.a.z, t.b.z, t.c.z, t.d.z), w3 = uvec4(t.a.w, t.b.w, t.c.w, t.d.w);
     if (slot == TEXTURE_METALLIC_ROUGHNESS)
-        return vec4(1.0, mixedBytes(color, false, t.part).a, mixedBytes(normal, false, t.part).a, 1.0);
-    if (slot == TEXTURE_NORMAL) return vec4(mixedBytes(normal, false, t.part).rgb, 1.0);
-    vec4 emission = vec4(1.0);
-    if (t.isWide) {
-        const uvec4 words = uvec4(t.moreLeft.x, t.moreRight.x, t.moreLeft.z, t.moreRight.z);
-        emission = mixedBytes(words, true, t.part);
-    }
-    if (slot == TEXTURE_EMISSION) return vec4(emission.rgb, 1.0);
-    return vec4(mixedBytes(color, true, t.part).rgb, emission.a);
+        return vec4(1.0, mixedFraction(w0, 24u, t.part), mixedFraction(w1, 24u, t.part), 1.0);
+    if (slot == TEXTURE_NORMAL)
+        return vec4(mixedFraction(w3, 0u, t.part), mixedFraction(w3, 8u, t.part), mixedFraction(w3, 16u, t.part), 1.0);
+    if (slot == TEXTURE_EMISSION)
+        return vec4(mixedRoot(w1, 12u, t.part), mixedRoot(w2, 0u, t.part), mixedRoot(w2, 12u, t.part), 1.0);
+    return vec4(mixedRoot(w0, 0u, t.part), mixedRoot(w0, 12u, t.part), mixedRoot(w1, 0u, t.part),
+                mixedFraction(w2, 24u, t.part));
 }

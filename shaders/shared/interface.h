@@ -97,7 +97,6 @@ SHARED_CONST uint TEXEL_KIND_CLAMP = 512u;
 SHARED_CONST uint TEXEL_KIND_ADJUSTED = 1024u; ///< some texture's coordinates are transformed, or its scale is not 1
 SHARED_CONST uint TEXEL_KIND_PLAIN = 2048u; ///< some texture's texels lie one after the other (TEXELS_PLAIN)
 SHARED_CONST uint TEXEL_KIND_GATHERED = 4096u; ///< some texture's do not
-SHARED_CONST uint TEXEL_KIND_WIDE = 8192u; ///< some bundle has four words a texel (TEXELS_WIDE)
 
 SHARED_CONST uint INTEGRATOR_PATH = 0u;
 SHARED_CONST uint INTEGRATOR_NORMALS = 1u;

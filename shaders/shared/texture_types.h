@@ -94,15 +94,15 @@ SHARED_CONST uint TEXTURE_PROJECTION = 15u;
 SHARED_CONST uint TEXTURE_OPACITY = 16u;
 SHARED_CONST uint TEXTURE_SLOT_COUNT = 17u;
 
-/// How a texture's coordinates become a texel, and what a texel is: one word (four fractions of 255)
-/// or two (four half floats).
+/// How a texture's coordinates become a texel, and what a texel is.
 ///
 /// Where there is room for it (host/kernel/detail_plan) a row holds texels that are looked up together, those beyond the
-/// edges included, so that a lookup loads one row, or two that follow each other, and minds no edge. Of a picture of
-/// w x h texels, with x from -1 and y from -1 to h - 1:
-/// - of words: row (y + 1) (w + 1) + x + 1 has the texels (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1), x to w - 1;
-/// - of half floats: row (y + 1) (w + 2) + x + 1 has the texels (x, y), (x, y + 1), x to w.
-/// Else (TEXELS_PLAIN) they lie one after the other, the first word of all in word 0 of firstRow.
+/// edges included, so that a lookup loads two rows that follow each other and minds no edge: of a picture of w x h
+/// texels row (y + 1) (w + 2) + x + 1 has the texels (x, y) and (x, y + 1), x from -1 to w, y from -1 to h - 1. A texel
+/// is two words: four half floats, or four fractions of 65,535, linear, so that nothing is left to decode.
+///
+/// Else (TEXELS_PLAIN) they lie one after the other, the first word of all in word 0 of firstRow: two words of half
+/// floats, or one of four fractions of 255, sRGB where TEXELS_SRGB is set.
 SHARED_CONST uint TEXELS_WRAP_U_SHIFT = 16u; ///< two bits, WRAP_
 SHARED_CONST uint TEXELS_WRAP_V_SHIFT = 18u;
 SHARED_CONST uint TEXELS_WRAP_MASK = 3u;
@@ -110,18 +110,18 @@ SHARED_CONST uint WRAP_REPEAT = 0u;
 SHARED_CONST uint WRAP_MIRROR = 1u;
 SHARED_CONST uint WRAP_CLAMP = 2u;
 SHARED_CONST uint TEXELS_NEAREST = 0x100000u; ///< the nearest texel; else bilinear
-SHARED_CONST uint TEXELS_SRGB = 0x200000u; ///< red, green and blue are sRGB
+SHARED_CONST uint TEXELS_SRGB = 0x200000u; ///< red, green and blue are sRGB; of plain texels
 SHARED_CONST uint TEXELS_HALF = 0x400000u; ///< half floats
 SHARED_CONST uint TEXELS_PLAIN = 0x2000000u;
-/// A bundle: pictures of one size that a material looks up alike, so that two rows hold all that a lookup needs of base
-/// color, metallic-roughness and normal. A texel is two words, red, green and blue of the base color with the roughness
-/// above, and those of the normal with the metallic factor above. They lie as half floats do. What has no picture
-/// has all bits set. Base color and emission are sRGB, the others are not.
+/// A bundle: pictures of one size that a material looks up alike, so that one row holds a texel of all: row
+/// (y + 1) (w + 2) + x + 1 is the texel (x, y), x from -1 to w, y from -1 to h. From the lowest bit, words 0 to 2 have
+/// two roots and a fraction each: base color red, green, and roughness; base color blue, emission red, and the metallic
+/// factor; emission green, blue, and the base color's alpha. Word 3 has the normal's three fractions. A root (12 bits)
+/// is the square root of a linear value times 4095: that is within a 4095th of the value's own root, 0.04 of the
+/// distance between the sRGB bytes that it was made of. A fraction (8 bits) is of 255. What has no picture has all
+/// bits set.
 SHARED_CONST uint TEXELS_BUNDLE = 0x800000u;
 SHARED_CONST uint TEXELS_MAP_NORMALS = 0x1000000u; ///< of a bundle: it has a map of TEXTURE_NORMAL
-/// Of a bundle: it has the emission, too, or its base color has alpha that counts. A texel is four words, the third
-/// emission with that alpha above, the fourth of no meaning; each row is followed by one for the third and fourth words.
-SHARED_CONST uint TEXELS_WIDE = 0x4000000u;
 /// Slots that bundles may have: those from 0.
 SHARED_CONST uint BUNDLE_MAPS = 4u;
 

@@ -237,8 +237,8 @@ TEST(KernelFeatures, TexturesAndOpacityOnlyWhereTheyHaveAnEffect) {
     EXPECT_EQ(f[SPEC_LOOSE_SLOTS], 1u << gpu::TEXTURE_BASE_COLOR);
     EXPECT_EQ(f[SPEC_ATTRIBUTES], gpu::ATTRIBUTE_UV0);
     EXPECT_EQ(f[SPEC_ALPHA], 0u);
-    EXPECT_EQ(packScene(scene, buildWideBvh(scene)).details.size(), 6u)
-        << "two rows, and of the texel one for each way of lying across its edges";
+    EXPECT_EQ(packScene(scene, buildWideBvh(scene)).details.size(), 8u)
+        << "two rows of coordinates, and the texel at three columns and two lines";
 
     scene.images[0].words = {0x7F804020};
     EXPECT_EQ(featuresOf(scene)[SPEC_ALPHA], 1u);
