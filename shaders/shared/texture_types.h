@@ -117,9 +117,8 @@ SHARED_CONST uint TEXELS_PLAIN = 0x2000000u;
 /// (y + 1) (w + 2) + x + 1 is the texel (x, y), x from -1 to w, y from -1 to h. From the lowest bit, words 0 to 2 have
 /// two roots and a fraction each: base color red, green, and roughness; base color blue, emission red, and the metallic
 /// factor; emission green, blue, and the base color's alpha. Word 3 has the normal's three fractions. A root (12 bits)
-/// is the square root of a linear value times 4095: that is within a 4095th of the value's own root, 0.04 of the
-/// distance between the sRGB bytes that it was made of. A fraction (8 bits) is of 255. What has no picture has all
-/// bits set.
+/// is the square root of a linear value, times 4095 and rounded: its square is within 0.05 of the distance between two
+/// sRGB bytes' values. A fraction (8 bits) is of 255. What has no picture has all bits set.
 SHARED_CONST uint TEXELS_BUNDLE = 0x800000u;
 SHARED_CONST uint TEXELS_MAP_NORMALS = 0x1000000u; ///< of a bundle: it has a map of TEXTURE_NORMAL
 /// Slots that bundles may have: those from 0.
