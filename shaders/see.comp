@@ -36,7 +36,7 @@ Frame frame; // read once, before all loops (docs/kernel.md, "Nothing is moved o
 #include "include/relief.glsl"
 #include "include/pass_number.glsl"
 #include "include/camera_sample.glsl"
-#include "include/seen_surface.glsl"
+#include "bsdf/seen_surface.glsl"
 
 SeenPixel seen;
 Traversal ray;
@@ -113,7 +113,7 @@ void arrive() {
     Relief relief;
     const Material m = materialAt(s, relief);
     faceForward(s);
-    applyRelief(s, relief, !isBsdf(m, BSDF_DIFFUSE), reliefRules(m));
+    applyRelief(s, relief, dependsOnView(m), reliefRules(m));
     if (bounce == 0u) noteFirst(s);
     const bool isFollowed = isSeenThrough(m);
     ++bounce;

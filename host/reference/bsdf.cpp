@@ -190,6 +190,20 @@ bool isLitFromBehind(const Material& material) {
     return (lobesOf(material) & gpu::TRANSMISSION_LOBES & ~gpu::DELTA_LOBES) != 0;
 }
 
+bool leavesLightsToBounces(const Material& material) {
+    return (material.kind == MaterialKind::Principled && isNarrow(material.principled)) ||
+           (material.kind == MaterialKind::Burley && isNarrow(material.burley)) ||
+           hasNarrowFacets(material);
+}
+
+bool boundsVolume(const Material& material) {
+    return material.kind == MaterialKind::Principled && !material.principled.isThin;
+}
+
+glm::dvec3 absorptionInside(const Material& material) {
+    return absorption(material.principled);
+}
+
 uint32_t lobesOf(const Material& material) {
     switch (material.kind) {
     case MaterialKind::Diffuse:

@@ -29,6 +29,14 @@ Frame surfaceFrame(const SurfacePoint& surface);
 /// Whether light that comes from the other side of the surface is scattered into many directions.
 bool isLitFromBehind(const Material& material);
 
+/// Whether bounces from there find all light that they can, and light samples go to the rest only.
+/// The kernel shares the light between both.
+bool leavesLightsToBounces(const Material& material);
+/// Whether its surface bounds an inside, which may absorb.
+bool boundsVolume(const Material& material);
+/// Of that inside, by metre.
+glm::dvec3 absorptionInside(const Material& material);
+
 /// All lobes of a material, gpu::LOBE_ bits.
 uint32_t lobesOf(const Material& material);
 /// Whether light samples can find light that these lobes scatter.

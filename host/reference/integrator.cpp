@@ -1,9 +1,6 @@
 #include "host/reference/integrator.hpp"
 
 #include "host/reference/bsdf.hpp"
-#include "host/reference/burley.hpp"
-#include "host/reference/interfaces.hpp"
-#include "host/reference/principled.hpp"
 #include "host/reference/sampling.hpp"
 #include "host/reference/visible.hpp"
 
@@ -21,19 +18,11 @@ double largest(const glm::dvec3& v) {
 /// Beer and Lambert's law. The distance may be infinite.
 glm::dvec3 transmittance(const Material* medium, double distance) {
     if (medium == nullptr) return glm::dvec3(1.0);
-    const glm::dvec3 a = absorption(medium->principled);
+    const glm::dvec3 a = absorptionInside(*medium);
     glm::dvec3 left(1.0);
     for (int c = 0; c < 3; ++c)
         if (a[c] > 0) left[c] = std::exp(-a[c] * distance);
     return left;
-}
-
-/// Whether bounces from there find all light that they can, and light samples go to the rest only.
-/// The kernel shares the light between both.
-bool leavesLightsToBounces(const Material& material) {
-    return (material.kind == MaterialKind::Principled && isNarrow(material.principled)) ||
-           (material.kind == MaterialKind::Burley && isNarrow(material.burley)) ||
-           hasNarrowFacets(material);
 }
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -204,7 +193,7 @@ uint32_t PathSample::startOfLightSample() const {
 
 const Material* PathSample::mediumBeyond(bool transmitted) const {
     const Material& m = *surface_.material;
-    if (!transmitted || m.kind != MaterialKind::Principled || m.principled.isThin) return medium_;
+    if (!transmitted || !boundsVolume(m)) return medium_;
     return surface_.outside ? surface_.stated : nullptr;
 }
 

@@ -98,6 +98,32 @@ uint sceneLobes() {
            (sceneHasBsdf(BSDF_ROUGH_CONDUCTOR) ? ROUGH_CONDUCTOR_BSDF_LOBES : 0u);
 }
 
+#ifdef RICH_MATERIALS
+/// Whether the view decides where light goes, as everywhere but under Lambert's law.
+bool dependsOnView(Material m) { return !isBsdf(m, BSDF_DIFFUSE); }
+
+/// Whether the surface bounds an inside, which may absorb (include/medium.glsl).
+bool boundsVolume(Material m) {
+    return isBsdf(m, BSDF_PRINCIPLED) && (principledParameters(m).flags & PRINCIPLED_IS_THIN) == 0u;
+}
+
+/// Whether a material's first row of parameters is a colour that base colours multiply.
+bool hasBaseColor(Material m) {
+#ifdef FACET_MATERIALS
+    if (isFacetMaterial(m)) return true;
+#endif
+    return isBsdf(m, BSDF_DIFFUSE) || isBsdf(m, BSDF_PRINCIPLED);
+}
+
+/// Whether textures change parameters behind the first row, of some material of the scene.
+bool hasFurtherParameters() {
+#ifdef FACET_MATERIALS
+    if (sceneHasFacetMaterials()) return true;
+#endif
+    return sceneHasBsdf(BSDF_PRINCIPLED);
+}
+#endif
+
 BsdfValue evaluateLocally(Material m, Incidence i, vec3 wi) {
     if (isBsdf(m, BSDF_DIFFUSE)) return evaluateDiffuse(diffuseParameters(m), i, wi);
     if (isBsdf(m, BSDF_ROUGH_CONDUCTOR))

@@ -163,14 +163,6 @@ void scale(inout uint word, float factor) {
     word = floatBitsToUint(uintBitsToFloat(word) * factor);
 }
 
-/// Whether a material's first row of parameters is a colour that base colours multiply.
-bool hasBaseColor(Material m) {
-#ifdef FACET_MATERIALS
-    if (isFacetMaterial(m)) return true;
-#endif
-    return isBsdf(m, BSDF_DIFFUSE) || isBsdf(m, BSDF_PRINCIPLED);
-}
-
 /// What maps say of the normal at a point.
 struct Relief {
     vec3 mapped; ///< a normal map's vector in the frame of the surface's tangent; (0, 0, 1) without one
@@ -189,14 +181,6 @@ void applyMetallicRoughness(inout Material m, vec4 texel) {
 /// Whether loose textures have this slot, and whether this one does.
 bool isLoose(uint slot, uint wanted) {
     return (LOOSE_SLOTS & 1u << wanted) != 0u && slot == wanted;
-}
-
-/// Whether textures change parameters behind the first row.
-bool hasFurtherParameters() {
-#ifdef FACET_MATERIALS
-    if (sceneHasFacetMaterials()) return true;
-#endif
-    return sceneHasBsdf(BSDF_PRINCIPLED);
 }
 
 /// A texel's part in the parameters (PrincipledParameters; a diffuse material has the first row only, and those of

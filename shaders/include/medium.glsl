@@ -8,8 +8,7 @@ const uint NO_MEDIUM = 0xFFFFFFFFu;
 
 /// Where light comes from that leaves s: `here`, or what is beyond s.
 uint mediumBeyond(SurfacePoint s, Material m, uint here, bool transmitted) {
-    if (!HAS_ABSORPTION || !transmitted || !isBsdf(m, BSDF_PRINCIPLED)) return here;
-    if ((principledParameters(m).flags & PRINCIPLED_IS_THIN) != 0u) return here;
+    if (!HAS_ABSORPTION || !transmitted || !boundsVolume(m)) return here;
     return s.outside ? s.material : NO_MEDIUM;
 }
 

@@ -74,7 +74,7 @@ void arrive() {
     if (isBlackBehind(material) && isSeenFromBehind(surface)) return;
     faceForward(surface);
 #ifdef RICH_MATERIALS
-    applyRelief(surface, relief, !isBsdf(material, BSDF_DIFFUSE), reliefRules(material));
+    applyRelief(surface, relief, dependsOnView(material), reliefRules(material));
     if (reliefRules(material) != 0u && dot(shadingNormal(surface), surface.wo) <= 0.0) return;
 #endif
     ++bounce;
