@@ -110,10 +110,10 @@ void follow(Material m, SurfacePoint s) {
 void arrive() {
     SurfacePoint s = surfaceAt(ray);
     if (HAS_BLENDS) s.material = materialOfSide(s);
-    Relief relief;
-    const Material m = materialAt(s, relief);
+    const MaterialAtPoint at = lookUpMaterial(materialPoint(s));
+    const Material m = at.parameters;
     faceForward(s);
-    applyRelief(s, relief, dependsOnView(m), reliefRules(m));
+    applyRelief(s, at.relief, dependsOnView(m), reliefRules(m));
     if (bounce == 0u) noteFirst(s);
     const bool isFollowed = isSeenThrough(m);
     ++bounce;
@@ -127,10 +127,10 @@ void takeResult() {
     const bool hit = ray.hitPrimitive != NO_PRIMITIVE;
     bool passes = false;
     if (HAS_ALPHA && hit) {
-        const vec2 b = vec2(ray.b1, ray.b2);
+        const MaterialPoint point = materialPoint(ray.hitPrimitive, vec2(ray.b1, ray.b2));
+        const float opacity = lookUpMaterial(point).opacity;
         passes = passNumber(ray, seen.pixel, sampleIndex(), bounce, 0u) >=
-                 (HIDES_SURFACES && bounce == 0u ? opacityForCamera(ray.hitPrimitive, b)
-                                                 : opacityAt(ray.hitPrimitive, b));
+                 (bounce == 0u ? opacityForCamera(point, opacity) : opacity);
     }
     if (passes) {
         passOn(ray, rayEnd);

@@ -71,7 +71,7 @@ vec2 coordinatesOf(TextureUse t, PointAttributes a) {
     return second ? a.uv1 : a.uv0;
 }
 
-// --- Opacity and emission ------------------------------------------------------------------------
+// --- Textures of a material -----------------------------------------------------------------------
 
 /// row: the material's first.
 MaterialDetail fetchDetail(uint row) {
@@ -95,66 +95,14 @@ TextureUse fetchTextureUse(uint materialRow, uint numberPlusOne) {
     return fetchTextureUse(textureUseRow(materialRow, numberPlusOne - 1u));
 }
 
-/// The texture in this slot, base color or emission, in a bundle or not.
-vec4 lookUpSlot(TextureUse t, uint slot, PointAttributes a) {
-    const vec2 uv = coordinatesOf(t, a);
-    vec4 texel = vec4(1.0);
-    if ((LOOSE_SLOTS & 1u << slot) != 0u) texel = lookUp(t, uv);
-    if (hasBundles() && isBundle(t)) texel = mapOf(fetchBundle(t, uv), slot);
-    return texel;
-}
+// --- What a material is at a point ------------------------------------------------------------------
 
-/// The share of light that meets the surface at a point; 1 where the material has no alpha mode.
-float opacityAt(uint materialRow, PointAttributes a) {
-    if (!HAS_ALPHA) return 1.0;
-    const MaterialDetail detail = fetchDetail(materialRow);
-    float opacity = detail.opacity * a.color.a;
-    if (sceneHasSlot(TEXTURE_BASE_COLOR)) {
-        const uint number = detail.flags >> DETAIL_BASE_COLOR_SHIFT & DETAIL_NUMBER_MASK;
-        const float texel =
-            lookUpSlot(fetchTextureUse(materialRow, number), TEXTURE_BASE_COLOR, a).a;
-        opacity *= number != 0u ? texel : 1.0;
-    }
-    if (sceneHasSlot(TEXTURE_OPACITY)) {
-        const uint number = detail.flags >> DETAIL_OPACITY_SHIFT & DETAIL_NUMBER_MASK;
-        const TextureUse t = fetchTextureUse(materialRow, number);
-        const float texel = lookUp(t, coordinatesOf(t, a)).r;
-        opacity *= number != 0u ? (t.scale < 0.0 ? 1.0 - texel : texel) : 1.0;
-    }
-    if ((detail.flags & DETAIL_MASK) != 0u) return opacity >= detail.alphaCutoff ? 1.0 : 0.0;
-    return (detail.flags & DETAIL_BLEND) != 0u ? clamp(opacity, 0.0, 1.0) : 1.0;
-}
-
-/// The same at a hit.
-float opacityAt(uint place, vec2 b) {
-    const uint primitive = primitiveAt(place);
-    return opacityAt(materialOf(fetchPrimitive(primitive)), attributesAt(primitive, b));
-}
-
-/// For rays that come straight from the camera: they pass what is hidden from it.
-float opacityForCamera(uint place, vec2 b) {
-    if (!HIDES_SURFACES) return opacityAt(place, b);
-    const uint row = materialOf(fetchPrimitive(primitiveAt(place)));
-    return (fetchDetail(row).flags & DETAIL_IS_HIDDEN) != 0u ? 0.0 : opacityAt(place, b);
-}
-
-/// By what the emission of an emissive primitive is multiplied at a point of it, for light samples: by its
-/// texture, and by the share of it that is there.
-vec3 emissionFactorAt(uint primitive, uint materialRow, vec2 b) {
-    if (!sceneHasSlot(TEXTURE_EMISSION) && !HAS_ALPHA) return vec3(1.0);
-    const PointAttributes a = attributesAt(primitive, b);
-    vec3 factor = vec3(opacityAt(materialRow, a));
-    if (sceneHasSlot(TEXTURE_EMISSION)) {
-        const uint number =
-            fetchDetail(materialRow).flags >> DETAIL_EMISSION_SHIFT & DETAIL_NUMBER_MASK;
-        const vec3 texel =
-            lookUpSlot(fetchTextureUse(materialRow, number), TEXTURE_EMISSION, a).rgb;
-        factor *= number != 0u ? texel : vec3(1.0);
-    }
-    return factor;
-}
-
-// --- All parameters --------------------------------------------------------------------------------
+/// A point of a primitive.
+struct MaterialPoint {
+    uint material;  ///< its first row
+    uint primitive; ///< NO_PRIMITIVE: a sphere, which has no attributes
+    vec2 weights;   ///< barycentric, of the second and third corner
+};
 
 void scale(inout uvec4 row, vec3 factor) {
     row.xyz = floatBitsToUint(uintBitsToFloat(row.xyz) * factor);
@@ -167,6 +115,14 @@ void scale(inout uint word, float factor) {
 struct Relief {
     vec3 mapped; ///< a normal map's vector in the frame of the surface's tangent; (0, 0, 1) without one
     vec2 slope;  ///< of heights, along the texture coordinates
+};
+
+/// What a material is at a point.
+struct MaterialAtPoint {
+    Material parameters;
+    Relief relief;
+    vec3 emissionFactor; ///< by which textures have multiplied the emission
+    float opacity;       ///< the share of light that meets the surface; 1 where the material has no alpha mode
 };
 
 vec3 mappedNormal(vec4 texel, float scale_) {
@@ -183,14 +139,8 @@ bool isLoose(uint slot, uint wanted) {
     return (LOOSE_SLOTS & 1u << wanted) != 0u && slot == wanted;
 }
 
-/// A texel's part in the parameters (PrincipledParameters; a diffuse material has the first row only, and those of
-/// other kinds are arranged to suit), and in what maps say.
-void applyTexel(inout Material m, inout Relief relief, TextureUse t, vec4 texel) {
-    const uint slot = t.flags & TEXTURE_SLOT_MASK;
-    if (isLoose(slot, TEXTURE_BASE_COLOR) && hasBaseColor(m)) scale(m.row1, texel.rgb);
-    if (isLoose(slot, TEXTURE_EMISSION)) scale(m.header, texel.rgb);
-    if (isLoose(slot, TEXTURE_NORMAL)) relief.mapped = mappedNormal(texel, t.scale);
-    if (!hasFurtherParameters()) return;
+/// Of parameters behind the first row.
+void applyToFurtherParameters(inout Material m, uint slot, vec4 texel) {
     if (isLoose(slot, TEXTURE_METALLIC_ROUGHNESS)) applyMetallicRoughness(m, texel);
     if (isLoose(slot, TEXTURE_SPECULAR_COLOR)) scale(m.row2, texel.rgb);
     if (isLoose(slot, TEXTURE_SPECULAR)) scale(m.row3.x, texel.a);
@@ -207,33 +157,107 @@ void applyTexel(inout Material m, inout Relief relief, TextureUse t, vec4 texel)
     }
 }
 
-/// Whether a texture is no part of parameters: opacity, what takes the material's place, the coat's normal.
+/// Whether a texture is no part of these: what takes the material's place, the coat's normal.
 bool isReadElsewhere(uint slot) {
-    return sceneHasSlot(TEXTURE_OPACITY) && slot == TEXTURE_OPACITY ||
-           sceneHasSlot(TEXTURE_BLEND_SHARE) && slot == TEXTURE_BLEND_SHARE ||
+    return sceneHasSlot(TEXTURE_BLEND_SHARE) && slot == TEXTURE_BLEND_SHARE ||
            sceneHasSlot(TEXTURE_CLEARCOAT_NORMAL) && slot == TEXTURE_CLEARCOAT_NORMAL;
 }
 
-/// The bundle's part in them.
-void applyBundle(inout Material m, inout Relief relief, uint materialRow, PointAttributes a) {
-    const TextureUse t = fetchTextureUse(textureUseRow(materialRow, 0u));
-    const BundleTexels texels = fetchBundle(t, coordinatesOf(t, a));
-    if (sceneHasSlot(TEXTURE_BASE_COLOR) && hasBaseColor(m))
-        scale(m.row1, mapOf(texels, TEXTURE_BASE_COLOR).rgb);
-    if (sceneHasSlot(TEXTURE_EMISSION)) scale(m.header, mapOf(texels, TEXTURE_EMISSION).rgb);
-    if (sceneHasSlot(TEXTURE_NORMAL) && (t.flags & TEXELS_MAP_NORMALS) != 0u)
-        relief.mapped = mappedNormal(mapOf(texels, TEXTURE_NORMAL), t.scale);
-    if (sceneHasSlot(TEXTURE_METALLIC_ROUGHNESS) && hasFurtherParameters())
-        applyMetallicRoughness(m, mapOf(texels, TEXTURE_METALLIC_ROUGHNESS));
+/// A texel's part in the parameters (PrincipledParameters; a diffuse material has the first row only, and those of
+/// other kinds are arranged to suit), and in what maps say.
+void applyTexel(inout MaterialAtPoint at, TextureUse t, vec4 texel) {
+    const uint slot = t.flags & TEXTURE_SLOT_MASK;
+    if (isLoose(slot, TEXTURE_BASE_COLOR)) {
+        if (hasBaseColor(at.parameters)) scale(at.parameters.row1, texel.rgb);
+        at.opacity *= texel.a;
+    }
+    if (isLoose(slot, TEXTURE_OPACITY)) at.opacity *= t.scale < 0.0 ? 1.0 - texel.r : texel.r;
+    if (isLoose(slot, TEXTURE_EMISSION)) {
+        scale(at.parameters.header, texel.rgb);
+        at.emissionFactor *= texel.rgb;
+    }
+    if (isLoose(slot, TEXTURE_NORMAL)) at.relief.mapped = mappedNormal(texel, t.scale);
+    if (hasFurtherParameters()) applyToFurtherParameters(at.parameters, slot, texel);
 }
 
-/// Of a surface's triangle at the point. Spheres have no place: what is read of another primitive's attributes has no
-/// effect.
-PointAttributes attributesOf(SurfacePoint s) {
-    const bool isTriangle = s.skipPrimitive != NO_PRIMITIVE;
+/// The bundle's part in them.
+void applyBundle(inout MaterialAtPoint at, uint materialRow, PointAttributes a) {
+    const TextureUse t = fetchTextureUse(textureUseRow(materialRow, 0u));
+    const BundleTexels texels = fetchBundle(t, coordinatesOf(t, a));
+    if (sceneHasSlot(TEXTURE_BASE_COLOR)) {
+        const vec4 texel = mapOf(texels, TEXTURE_BASE_COLOR);
+        if (hasBaseColor(at.parameters)) scale(at.parameters.row1, texel.rgb);
+        at.opacity *= texel.a;
+    }
+    if (sceneHasSlot(TEXTURE_EMISSION)) {
+        const vec3 texel = mapOf(texels, TEXTURE_EMISSION).rgb;
+        scale(at.parameters.header, texel);
+        at.emissionFactor *= texel;
+    }
+    if (sceneHasSlot(TEXTURE_NORMAL) && (t.flags & TEXELS_MAP_NORMALS) != 0u)
+        at.relief.mapped = mappedNormal(mapOf(texels, TEXTURE_NORMAL), t.scale);
+    if (sceneHasSlot(TEXTURE_METALLIC_ROUGHNESS) && hasFurtherParameters())
+        applyMetallicRoughness(at.parameters, mapOf(texels, TEXTURE_METALLIC_ROUGHNESS));
+}
+
+PointAttributes attributesOf(MaterialPoint p) {
     PointAttributes a = PointAttributes(vec2(0.0), vec2(0.0), vec4(1.0));
-    if (ATTRIBUTES != 0u && isTriangle) a = attributesAt(s.primitive, s.weights);
+    if (ATTRIBUTES != 0u && p.primitive != NO_PRIMITIVE) a = attributesAt(p.primitive, p.weights);
     return a;
+}
+
+/// The point of a surface. Spheres have no place in the tree that is to be skipped.
+MaterialPoint materialPoint(SurfacePoint s) {
+    const bool isTriangle = s.skipPrimitive != NO_PRIMITIVE;
+    return MaterialPoint(s.material, isTriangle ? s.primitive : NO_PRIMITIVE, s.weights);
+}
+PointAttributes attributesOf(SurfacePoint s) { return attributesOf(materialPoint(s)); }
+
+/// The same at a hit. place: of the primitive in the tree; b: barycentric weights.
+MaterialPoint materialPoint(uint place, vec2 b) {
+    const PlacedPrimitive p = fetchPlace(place);
+    return MaterialPoint(materialOf(fetchPrimitive(p.primitive)), p.isSphere ? NO_PRIMITIVE : p.primitive, b);
+}
+
+/// product: of all that multiplies opacity.
+float countedOpacity(MaterialDetail detail, float product) {
+    if (!HAS_ALPHA) return 1.0;
+    if ((detail.flags & DETAIL_MASK) != 0u) return product >= detail.alphaCutoff ? 1.0 : 0.0;
+    return (detail.flags & DETAIL_BLEND) != 0u ? clamp(product, 0.0, 1.0) : 1.0;
+}
+
+MaterialAtPoint lookUpMaterial(MaterialPoint p) {
+    MaterialAtPoint at =
+        MaterialAtPoint(fetchMaterial(p.material), Relief(vec3(0.0, 0.0, 1.0), vec2(0.0)), vec3(1.0), 1.0);
+    const PointAttributes a = attributesOf(p);
+    if (hasAttribute(ATTRIBUTE_COLOR) && hasBaseColor(at.parameters)) scale(at.parameters.row1, a.color.rgb);
+    if (!hasDetails()) return at;
+    const MaterialDetail detail = fetchDetail(p.material);
+    at.opacity = detail.opacity * a.color.a;
+    if (hasBundles()) applyBundle(at, p.material, a);
+    for (uint i = 0u; LOOSE_SLOTS != 0u && i < looseTexturesOf(detail); ++i) {
+        const TextureUse t = fetchTextureUse(textureUseRow(p.material, bundles() + i));
+        if (isReadElsewhere(t.flags & TEXTURE_SLOT_MASK)) continue;
+        applyTexel(at, t, lookUp(t, coordinatesOf(t, a)));
+        if (hasHeights() && (t.flags & TEXTURE_SLOT_MASK) == TEXTURE_HEIGHT)
+            at.relief.slope = t.scale * slopeOf(t, coordinatesOf(t, a));
+    }
+    at.opacity = countedOpacity(detail, at.opacity);
+    return at;
+}
+
+/// By what the emission of an emissive primitive is multiplied at a point of it, for light samples: by its texture, and
+/// by the share of it that is there.
+vec3 emissionFactorAt(MaterialPoint p) {
+    const MaterialAtPoint at = lookUpMaterial(p);
+    return at.emissionFactor * at.opacity;
+}
+/// Whether that is not 1 everywhere in the scene.
+bool emissionHasFactors() { return sceneHasSlot(TEXTURE_EMISSION) || HAS_ALPHA; }
+
+/// For rays that come straight from the camera: they pass what is hidden from it.
+float opacityForCamera(MaterialPoint p, float opacity) {
+    return HIDES_SURFACES && (fetchDetail(p.material).flags & DETAIL_IS_HIDDEN) != 0u ? 0.0 : opacity;
 }
 
 /// How often another material takes the place of the one with this first row, and the first row of that. notThere:
@@ -260,24 +284,4 @@ uint materialOfSide(SurfacePoint s) {
     const uvec4 r = ROW(materialRows, textureUseRow(s.material, bundles() + looseTexturesOf(detail)));
     const bool hasOther = (detail.flags & DETAIL_IS_BLEND) != 0u && r.w != OTHER_BY_SHARE && r.w != notThere;
     return hasOther ? r.x : s.material;
-}
-
-/// The material at a point of a surface.
-Material materialAt(SurfacePoint s, out Relief relief) {
-    Material m = fetchMaterial(s.material);
-    relief = Relief(vec3(0.0, 0.0, 1.0), vec2(0.0));
-    const PointAttributes a = attributesOf(s);
-    if (hasAttribute(ATTRIBUTE_COLOR) && hasBaseColor(m)) scale(m.row1, a.color.rgb);
-    if (TEXTURE_SLOTS == 0u) return m;
-    if (hasBundles()) applyBundle(m, relief, s.material, a);
-    if (LOOSE_SLOTS == 0u) return m;
-    const MaterialDetail detail = fetchDetail(s.material);
-    for (uint i = 0u; i < looseTexturesOf(detail); ++i) {
-        const TextureUse t = fetchTextureUse(textureUseRow(s.material, bundles() + i));
-        if (isReadElsewhere(t.flags & TEXTURE_SLOT_MASK)) continue;
-        applyTexel(m, relief, t, lookUp(t, coordinatesOf(t, a)));
-        if (hasHeights() && (t.flags & TEXTURE_SLOT_MASK) == TEXTURE_HEIGHT)
-            relief.slope = t.scale * slopeOf(t, coordinatesOf(t, a));
-    }
-    return m;
 }

@@ -5,10 +5,7 @@ bool isTracing(uint p); // path_state.glsl
 
 float rayEnd; ///< tMax as it was asked for; the ray's own shrinks to its hits
 
-Material materialAt(SurfacePoint s) {
-    Relief relief;
-    return materialAt(s, relief);
-}
+Material materialAt(SurfacePoint s) { return lookUpMaterial(materialPoint(s)).parameters; }
 
 #include "include/pass_number.glsl"
 
@@ -40,12 +37,11 @@ uint drawnMaterial(SurfacePoint s) {
 
 /// Whether the ray that is done goes on: it has met a surface that is not there, or partly. A shadow ray goes on with
 /// the light that is left; of others, a path that finds light or scatters, the surface takes the share of its opacity.
-bool passesThrough() {
+/// hit: the surface's point, with that opacity.
+bool passesThrough(MaterialPoint hit, float stated) {
     if (!isTracing(phase) || ray.hitPrimitive == NO_PRIMITIVE) return false;
-    const vec2 b = vec2(ray.b1, ray.b2);
     const bool isStraight = HIDES_SURFACES && phase == PHASE_PATH && bounce == 0u;
-    const float opacity =
-        isStraight ? opacityForCamera(ray.hitPrimitive, b) : opacityAt(ray.hitPrimitive, b);
+    const float opacity = isStraight ? opacityForCamera(hit, stated) : stated;
     if (phase == PHASE_SHADOW) {
         directValue *= 1.0 - opacity;
         if (!(dot(directValue, vec3(1.0)) > 0.0)) return false;

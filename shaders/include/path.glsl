@@ -18,7 +18,23 @@ float foundShare(FoundSky sky) {
     return foundLightWeight(ray, departureNormal, sky, bouncePdf);
 }
 
+#ifdef RICH_MATERIALS
+/// What a material is at the point that the finished ray asks for: where it has met a surface, or, a shadow ray that has
+/// met none, where the light sample has gone. One lookup for all, since every lane takes part in each (docs/kernel.md).
+MaterialAtPoint found;
+
+MaterialPoint askedPoint() {
+    if (ray.hitPrimitive != NO_PRIMITIVE) return materialPoint(ray.hitPrimitive, vec2(ray.b1, ray.b2));
+    if (emissionHasFactors() && phase == PHASE_SHADOW) return sampledEmitter;
+    return MaterialPoint(0u, NO_PRIMITIVE, vec2(0.0));
+}
+#endif
+
 void finishShadowRay() {
+#ifdef RICH_MATERIALS
+    if (emissionHasFactors() && sampledEmitter.primitive != NO_PRIMITIVE)
+        directValue *= found.emissionFactor * found.opacity;
+#endif
     if (ray.hitPrimitive == NO_PRIMITIVE) radiance += throughput * directValue;
     phase = PHASE_DIRECT;
 }
@@ -64,9 +80,11 @@ void arrive() {
         return;
     }
 #ifdef RICH_MATERIALS
-    if (HAS_BLENDS) surface.material = drawnMaterial(surface);
-    Relief relief;
-    material = materialAt(surface, relief);
+    if (HAS_BLENDS) {
+        surface.material = drawnMaterial(surface);
+        found = lookUpMaterial(materialPoint(surface));
+    }
+    material = found.parameters;
 #else
     material = fetchMaterial(surface.material);
 #endif
@@ -74,7 +92,7 @@ void arrive() {
     if (isBlackBehind(material) && isSeenFromBehind(surface)) return;
     faceForward(surface);
 #ifdef RICH_MATERIALS
-    applyRelief(surface, relief, dependsOnView(material), reliefRules(material));
+    applyRelief(surface, found.relief, dependsOnView(material), reliefRules(material));
     if (reliefRules(material) != 0u && dot(shadingNormal(surface), surface.wo) <= 0.0) return;
 #endif
     ++bounce;
@@ -211,7 +229,9 @@ void finishSample() {
 /// another sample (PHASE_NEXT), both by depart().
 void followPath() {
 #ifdef RICH_MATERIALS
-    if (HAS_ALPHA && passesThrough()) return;
+    const MaterialPoint asked = askedPoint();
+    found = lookUpMaterial(asked);
+    if (HAS_ALPHA && passesThrough(asked, found.opacity)) return;
 #endif
     if (phase == PHASE_SHADOW) finishShadowRay();
     else if (DIRECT_LIGHT == DIRECT_HEMISPHERE && phase == PHASE_HEMISPHERE) finishHemisphereRay();

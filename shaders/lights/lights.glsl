@@ -51,6 +51,9 @@ void findOnlyLight() {
 
 /// s: faced forward; light: as LightEntry::light; u: where on the light.
 LightSample sampleLight(SurfacePoint s, uint light, vec2 u) {
+#ifdef RICH_MATERIALS
+    sampledEmitter = MaterialPoint(0u, NO_PRIMITIVE, vec2(0.0));
+#endif
     if (isTriangleLight(light)) return sampleTriangleLight(s, light, u);
     const LightRows rows = fetchLight(light);
     const uint kind = kindOf(rows);
