@@ -4,7 +4,6 @@
 #include "shaders/shared/texture_types.h"
 
 #include <algorithm>
-#include <tuple>
 
 namespace stromboli {
 namespace {
@@ -71,9 +70,6 @@ bool isOpaque(const TextureImage& image) {
         if (image.words[i] >> 16 != kOne) return false;
     return true;
 }
-
-/// Pictures of the maps, wraps of u and v: what the rows of a bundle depend on.
-using BundleKey = std::tuple<std::array<uint32_t, gpu::BUNDLE_MAPS>, Wrap, Wrap>;
 
 class Planner {
   public:
@@ -203,15 +199,11 @@ class Planner {
 
     /// Materials may share a bundle.
     bool hasRoomFor(const DetailPlan::Bundle& bundle) {
-        std::array<uint32_t, gpu::BUNDLE_MAPS> images;
-        const Texture* texture = nullptr;
-        for (uint32_t i = 0; i < images.size(); ++i) {
-            images[i] = bundle[i] ? scene_.textures[bundle[i]->texture].image : ~0u;
-            if (bundle[i]) texture = &scene_.textures[bundle[i]->texture];
-        }
-        const BundleKey key{images, texture->wrapU, texture->wrapV};
+        const DetailPlan::EdgedBundle key(scene_, bundle);
         if (bundles_.contains(key)) return true;
-        if (!takeRows(edgedTexels(*texture, 2))) return false;
+        const auto some =
+            std::ranges::find_if(bundle, [](const auto& map) { return map.has_value(); });
+        if (!takeRows(edgedTexels(scene_.textures[(*some)->texture], 2))) return false;
         bundles_.insert(key);
         return true;
     }
@@ -244,11 +236,21 @@ class Planner {
     bool hasColors_ = false, hasTransparentColors_ = false;
     uint64_t rowsLeft_; ///< for textures that are not stored plainly
     std::set<DetailPlan::EdgedImage> gathered_;
-    std::set<BundleKey> bundles_;
+    std::set<DetailPlan::EdgedBundle> bundles_;
     DetailPlan plan_;
 };
 
 } // namespace
+
+DetailPlan::EdgedBundle::EdgedBundle(const Scene& scene, const Bundle& bundle) {
+    images.fill(kNone);
+    for (uint32_t i = 0; i < images.size(); ++i) {
+        if (!bundle[i]) continue;
+        const Texture& texture = scene.textures[bundle[i]->texture];
+        images[i] = texture.image;
+        wrapU = texture.wrapU, wrapV = texture.wrapV;
+    }
+}
 
 DetailPlan planDetails(const Scene& scene, const std::vector<bool>& used, uint64_t gatheredRows) {
     static_assert(kTextureSlotCount == gpu::TEXTURE_SLOT_COUNT);

@@ -31,6 +31,14 @@ struct DetailPlan {
     /// By slot, of the first gpu::BUNDLE_MAPS slots; those there are look up pictures of one size
     /// in the same way (gpu::TEXELS_BUNDLE).
     using Bundle = std::array<std::optional<TextureUse>, gpu::BUNDLE_MAPS>;
+    /// The same of a bundle.
+    struct EdgedBundle {
+        static constexpr uint32_t kNone = ~0u; ///< it has no such map
+        std::array<uint32_t, gpu::BUNDLE_MAPS> images;
+        Wrap wrapU = Wrap::Repeat, wrapV = Wrap::Repeat;
+        EdgedBundle(const Scene& scene, const Bundle& bundle);
+        auto operator<=>(const EdgedBundle&) const = default;
+    };
     struct MaterialPlan {
         std::optional<Bundle> bundle;
         std::vector<TextureUse> textures; ///< that are in no bundle, in the order of their slots

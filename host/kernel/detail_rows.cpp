@@ -137,29 +137,19 @@ std::vector<Row> materialDetail(const Scene& scene, const Material& m,
     if (plan.isTransparent)
         detail.flags = m.alphaMode == AlphaMode::Mask ? gpu::DETAIL_MASK : gpu::DETAIL_BLEND;
     if (plan.isHidden) detail.flags |= gpu::DETAIL_IS_HIDDEN;
-    const auto noteUse = [&](TextureSlot slot, uint32_t number) {
-        if (slot == TextureSlot::BaseColor)
-            detail.flags |= (number + 1) << gpu::DETAIL_BASE_COLOR_SHIFT;
-        if (slot == TextureSlot::Emission)
-            detail.flags |= (number + 1) << gpu::DETAIL_EMISSION_SHIFT;
-        if (slot == TextureSlot::ClearcoatNormal)
-            detail.looseTextures |= (number + 1) << gpu::DETAIL_COAT_NORMAL_SHIFT;
-        if (slot == TextureSlot::Opacity) detail.flags |= (number + 1) << gpu::DETAIL_OPACITY_SHIFT;
-    };
     std::vector<Row> uses;
     if (plan.coatHasNormal) detail.flags |= gpu::DETAIL_COAT_HAS_NORMAL;
     uint32_t number = 0, shareTexture = 0;
-    if (plan.bundle) {
-        for (const std::optional<TextureUse>& map : *plan.bundle)
-            if (map) noteUse(map->slot, number);
+    if (plan.bundle)
         appendRows(uses, packBundle(scene, *plan.bundle, texels));
-    } else if (sceneHasBundles) {
+    else if (sceneHasBundles)
         appendRows(uses, emptyBundle(texels));
-    }
     if (sceneHasBundles) ++number;
     for (const TextureUse& use : plan.textures) {
         if (use.slot == TextureSlot::BlendShare) shareTexture = number + 1;
-        noteUse(use.slot, number++);
+        if (use.slot == TextureSlot::ClearcoatNormal)
+            detail.looseTextures |= (number + 1) << gpu::DETAIL_COAT_NORMAL_SHIFT;
+        ++number;
         appendRows(uses, packUse(scene, use, texels));
     }
     if (plan.isBlend) {

@@ -1,6 +1,6 @@
 #include "host/kernel/texel_rows.hpp"
 
-#include "scene/model/surface_lookup.hpp"
+#include "scene/model/srgb.hpp"
 #include "shaders/shared/texture_types.h"
 
 #include <cmath>
@@ -13,7 +13,7 @@ struct ByteTable {
     std::array<uint32_t, 256> fractions, linearFractions, roots;
     ByteTable() {
         for (uint32_t byte = 0; byte < 256; ++byte) {
-            const double linear = linearOfSrgb(byte / 255.0);
+            const double linear = srgbToLinear(byte / 255.0);
             fractions[byte] = 257 * byte;
             linearFractions[byte] = uint32_t(std::lround(65535 * linear));
             roots[byte] = uint32_t(std::lround(4095 * std::sqrt(linear)));
@@ -79,22 +79,15 @@ uint32_t TexelPacker::firstRowOf(const Texture& texture) {
 }
 
 uint32_t TexelPacker::firstRowOf(const DetailPlan::Bundle& bundle) {
-    BundleImages images;
+    const DetailPlan::EdgedBundle edged(scene_, bundle);
+    const auto [known, isNew] = firstRowOfBundle_.try_emplace(edged, uint32_t(rows_.size()));
+    if (!isNew) return known->second;
     TextureImage white;
     white.width = white.height = 1;
     const TextureImage* size = &white;
-    Wrap wrapU = Wrap::Repeat, wrapV = Wrap::Repeat;
-    for (uint32_t i = 0; i < images.size(); ++i) {
-        images[i] = kNone;
-        if (!bundle[i]) continue;
-        const Texture& texture = scene_.textures[bundle[i]->texture];
-        images[i] = texture.image;
-        size = &scene_.images[texture.image];
-        wrapU = texture.wrapU, wrapV = texture.wrapV;
-    }
-    const auto [known, isNew] =
-        firstRowOfBundle_.try_emplace({images, wrapU, wrapV}, uint32_t(rows_.size()));
-    if (isNew) packBundle(images, *size, EdgedTexels(*size, wrapU, wrapV));
+    for (const uint32_t image : edged.images)
+        if (image != edged.kNone) size = &scene_.images[image];
+    packBundle(edged, EdgedTexels(*size, edged.wrapU, edged.wrapV), size->width, size->height);
     return known->second;
 }
 
@@ -129,17 +122,18 @@ void TexelPacker::packGathered(const TextureImage& image, bool srgb, const Edged
         }
 }
 
-void TexelPacker::packBundle(const BundleImages& images, const TextureImage& size,
-                             const EdgedTexels& at) {
-    Row* row = append((uint64_t(size.width) + 2) * (uint64_t(size.height) + 2));
-    for (int64_t y = -1; y <= int64_t(size.height); ++y)
-        for (int64_t x = -1; x <= int64_t(size.width); ++x)
-            *row++ = bundleTexel(images, at.line(y) + at.column(x));
+void TexelPacker::packBundle(const DetailPlan::EdgedBundle& bundle, const EdgedTexels& at,
+                             uint32_t width, uint32_t height) {
+    Row* row = append((uint64_t(width) + 2) * (uint64_t(height) + 2));
+    for (int64_t y = -1; y <= int64_t(height); ++y)
+        for (int64_t x = -1; x <= int64_t(width); ++x)
+            *row++ = bundleTexel(bundle, at.line(y) + at.column(x));
 }
 
-Row TexelPacker::bundleTexel(const BundleImages& images, size_t texel) const {
+Row TexelPacker::bundleTexel(const DetailPlan::EdgedBundle& bundle, size_t texel) const {
     const auto wordOf = [&](uint32_t slot) {
-        return images[slot] == kNone ? ~0u : scene_.images[images[slot]].words[texel];
+        const uint32_t image = bundle.images[slot];
+        return image == bundle.kNone ? ~0u : scene_.images[image].words[texel];
     };
     const uint32_t color = wordOf(gpu::TEXTURE_BASE_COLOR),
                    emission = wordOf(gpu::TEXTURE_EMISSION),

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <tuple>
 #include <vector>
 
 namespace stromboli {
@@ -28,22 +27,21 @@ class TexelPacker {
 
   private:
     class EdgedTexels;
-    static constexpr uint32_t kNone = ~0u;
-    using BundleImages = std::array<uint32_t, gpu::BUNDLE_MAPS>; ///< kNone: it has no such map
-    using TexelWords = std::array<uint32_t, 2>;                  ///< of a gathered texture
+    using TexelWords = std::array<uint32_t, 2>; ///< of a gathered texture
 
     Row* append(uint64_t rows);
     void packPlain(const std::vector<uint32_t>& words);
     void packGathered(const TextureImage& image, bool srgb, const EdgedTexels& at);
-    void packBundle(const BundleImages& images, const TextureImage& size, const EdgedTexels& at);
+    void packBundle(const DetailPlan::EdgedBundle& bundle, const EdgedTexels& at, uint32_t width,
+                    uint32_t height);
     /// As gpu::TEXELS_BUNDLE says.
-    Row bundleTexel(const BundleImages& images, size_t texel) const;
+    Row bundleTexel(const DetailPlan::EdgedBundle& bundle, size_t texel) const;
 
     const Scene& scene_;
     const DetailPlan& plan_;
     std::vector<Row>& rows_;
     std::map<DetailPlan::EdgedImage, uint32_t> firstRowOfImage_, firstRowOfPlainImage_;
-    std::map<std::tuple<BundleImages, Wrap, Wrap>, uint32_t> firstRowOfBundle_;
+    std::map<DetailPlan::EdgedBundle, uint32_t> firstRowOfBundle_;
 };
 
 } // namespace stromboli

@@ -3,7 +3,7 @@
 #include "host/core/error.hpp"
 #include "scene/build/read_file.hpp"
 #include "scene/images/picture.hpp"
-#include "scene/images/srgb.hpp"
+#include "scene/model/srgb.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "scene/images/texture_image.hpp"
 
 #include "host/core/error.hpp"
-#include "scene/images/srgb.hpp"
+#include "scene/model/srgb.hpp"
 
 #include <fmt/format.h>
 #include <glm/gtc/packing.hpp>

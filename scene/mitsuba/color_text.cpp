@@ -1,7 +1,7 @@
 #include "scene/mitsuba/color_text.hpp"
 
-#include "scene/images/srgb.hpp"
 #include "scene/mitsuba/words.hpp"
+#include "scene/model/srgb.hpp"
 
 #include <fmt/format.h>
 
@@ -31,7 +31,7 @@ RgbValue srgbOf(const build::FilePlace& where, std::string_view text) {
     for (const int channel : {0, 1, 2}) {
         if (!(color.rgb[channel] >= 0 && color.rgb[channel] <= 1))
             where.fail(fmt::format("has the channel {}, expected 0 to 1", color.rgb[channel]));
-        color.rgb[channel] = images::srgbToLinear(color.rgb[channel]);
+        color.rgb[channel] = srgbToLinear(color.rgb[channel]);
     }
     return color;
 }

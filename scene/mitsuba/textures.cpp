@@ -2,8 +2,8 @@
 
 #include "host/core/memory.hpp"
 #include "scene/build/read_file.hpp"
-#include "scene/images/srgb.hpp"
 #include "scene/images/texture_image.hpp"
+#include "scene/model/srgb.hpp"
 
 #include <fmt/format.h>
 #include <glm/gtc/packing.hpp>
@@ -54,7 +54,7 @@ glm::dvec3 colorAt(const TextureImage& image, size_t i, bool srgb) {
     glm::dvec3 color;
     for (const int channel : {0, 1, 2}) {
         const double value = double(image.words[i] >> (8 * channel) & 0xFF) / 255;
-        color[channel] = srgb ? images::srgbToLinear(value) : value;
+        color[channel] = srgb ? srgbToLinear(value) : value;
     }
     return color;
 }

@@ -1,5 +1,7 @@
 #include "scene/model/surface_lookup.hpp"
 
+#include "scene/model/srgb.hpp"
+
 #include <glm/gtc/packing.hpp>
 
 #include <algorithm>
@@ -28,10 +30,6 @@ uint32_t texelIndex(int64_t i, Wrap wrap, uint32_t n) {
 
 } // namespace
 
-double linearOfSrgb(double c) {
-    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
-
 glm::dvec4 texelAt(const TextureImage& image, bool srgb, uint32_t x, uint32_t y) {
     const size_t index = size_t(y) * image.width + x;
     if (image.format == TexelFormat::RgbaHalf) {
@@ -42,7 +40,7 @@ glm::dvec4 texelAt(const TextureImage& image, bool srgb, uint32_t x, uint32_t y)
     glm::dvec4 texel(0.0);
     for (int c = 0; c < 4; ++c) {
         const double fraction = double(image.words[index] >> 8 * c & 0xFF) / 255;
-        texel[c] = srgb && c < 3 ? linearOfSrgb(fraction) : fraction;
+        texel[c] = srgb && c < 3 ? srgbToLinear(fraction) : fraction;
     }
     return texel;
 }

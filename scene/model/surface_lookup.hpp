@@ -19,9 +19,6 @@ PointAttributes attributesAt(const Scene& scene, uint32_t triangle, double b1, d
 /// The texture that a material has in a slot, or null.
 const TextureUse* textureIn(const Material& material, TextureSlot slot);
 
-/// Linear light of an sRGB value, both in [0, 1] (IEC 61966-2-1).
-double linearOfSrgb(double c);
-
 /// Decoded: linear. x and y lie within the picture.
 glm::dvec4 texelAt(const TextureImage& image, bool srgb, uint32_t x, uint32_t y);
 

@@ -2,7 +2,7 @@
 
 #include "scene/build/number_word.hpp"
 #include "scene/build/read_file.hpp"
-#include "scene/images/srgb.hpp"
+#include "scene/model/srgb.hpp"
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ constexpr size_t kMostElements = 0xFFFFFFF0u;
 constexpr uint64_t kBytesOfTriangle = 2 * sizeof(build::MeshTriangle) + sizeof(Triangle);
 
 float linearFromSrgb(double value) {
-    return float(images::srgbToLinear(std::clamp(value, 0.0, 1.0)));
+    return float(srgbToLinear(std::clamp(value, 0.0, 1.0)));
 }
 
 } // namespace

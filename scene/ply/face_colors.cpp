@@ -1,6 +1,6 @@
 #include "scene/ply/face_colors.hpp"
 
-#include "scene/images/srgb.hpp"
+#include "scene/model/srgb.hpp"
 #include "scene/ply/vertices.hpp"
 
 #include <algorithm>
@@ -29,8 +29,7 @@ void FaceColors::set(const Property& property, double value) {
     }
     const double scale = fullScale(property.type);
     const double part = std::isfinite(value) ? std::max(value, 0.0) / scale : 0;
-    color_[*channelOf(property)] =
-        float(scale == 1 ? part : images::srgbToLinear(std::min(part, 1.0)));
+    color_[*channelOf(property)] = float(scale == 1 ? part : srgbToLinear(std::min(part, 1.0)));
 }
 
 } // namespace stromboli::ply

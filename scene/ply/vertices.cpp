@@ -1,7 +1,7 @@
 #include "scene/ply/vertices.hpp"
 
 #include "scene/build/read_file.hpp"
-#include "scene/images/srgb.hpp"
+#include "scene/model/srgb.hpp"
 
 #include <fmt/format.h>
 
@@ -155,7 +155,7 @@ class VertexReader {
         }
         for (int i = 0; i < 3; ++i) {
             const double value = std::max(double(finite(values_[Red + i])), 0.0) / colorScale_;
-            color[i] = float(isLinear ? value : images::srgbToLinear(std::min(value, 1.0)));
+            color[i] = float(isLinear ? value : srgbToLinear(std::min(value, 1.0)));
         }
         if (has_[Alpha])
             color.w = float(std::clamp(finite(values_[Alpha]) / alphaScale_, 0.0, 1.0));

@@ -248,10 +248,7 @@ MaterialAtPoint lookUpMaterial(MaterialPoint p) {
 
 /// By what the emission of an emissive primitive is multiplied at a point of it, for light samples: by its texture, and
 /// by the share of it that is there.
-vec3 emissionFactorAt(MaterialPoint p) {
-    const MaterialAtPoint at = lookUpMaterial(p);
-    return at.emissionFactor * at.opacity;
-}
+vec3 emissionFactorOf(MaterialAtPoint at) { return at.emissionFactor * at.opacity; }
 /// Whether that is not 1 everywhere in the scene.
 bool emissionHasFactors() { return sceneHasSlot(TEXTURE_EMISSION) || HAS_ALPHA; }
 

@@ -33,7 +33,7 @@ MaterialPoint askedPoint() {
 void finishShadowRay() {
 #ifdef RICH_MATERIALS
     if (emissionHasFactors() && sampledEmitter.primitive != NO_PRIMITIVE)
-        directValue *= found.emissionFactor * found.opacity;
+        directValue *= emissionFactorOf(found);
 #endif
     if (ray.hitPrimitive == NO_PRIMITIVE) radiance += throughput * directValue;
     phase = PHASE_DIRECT;

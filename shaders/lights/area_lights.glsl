@@ -76,7 +76,7 @@ LightSample sampleQuadLight(SurfacePoint s, LightRows rows, vec2 u) {
 
 #ifdef RICH_MATERIALS
 /// Where sampleLight() has gone, if to a triangle; else its primitive is NO_PRIMITIVE. The sample's radiance lacks
-/// emissionFactorAt() that point: it is looked up when the sample's ray arrives (path.glsl).
+/// emissionFactorOf() that point: it is looked up when the sample's ray arrives (path.glsl).
 MaterialPoint sampledEmitter;
 #endif
 

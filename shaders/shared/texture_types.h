@@ -33,12 +33,6 @@ SHARED_CONST uint DETAIL_LOOSE_MASK = 0xFFu;
 SHARED_CONST uint DETAIL_COAT_NORMAL_SHIFT = 8u; ///< in looseTextures
 /// It is a mixture: the row behind its textures is a BlendRow.
 SHARED_CONST uint DETAIL_IS_BLEND = 16u;
-/// The number of the TextureUse with TEXTURE_EMISSION, plus one, in bits 8 to 15; 0: there is none. The same for
-/// TEXTURE_BASE_COLOR in bits 16 to 23, and with TEXTURE_OPACITY in bits 24 to 31.
-SHARED_CONST uint DETAIL_EMISSION_SHIFT = 8u;
-SHARED_CONST uint DETAIL_BASE_COLOR_SHIFT = 16u;
-SHARED_CONST uint DETAIL_OPACITY_SHIFT = 24u;
-SHARED_CONST uint DETAIL_NUMBER_MASK = 0xFFu;
 
 /// What takes a material's place, and how often.
 struct BlendRow {

@@ -30,7 +30,7 @@ LightAnswer answer(LightQuery q) {
     LightSample l = sampleLight(s, picked.light, picked.u);
 #ifdef RICH_MATERIALS
     if (emissionHasFactors() && sampledEmitter.primitive != NO_PRIMITIVE)
-        l.radiance *= emissionFactorAt(sampledEmitter);
+        l.radiance *= emissionFactorOf(lookUpMaterial(sampledEmitter));
 #endif
     const bool below = dot(s.geometric, l.direction) < 0.0;
     const vec3 origin = leave(s, l.direction, below); // as traceDirectSample() in path.glsl

@@ -1,6 +1,6 @@
 #include "host/core/error.hpp"
-#include "scene/images/srgb.hpp"
 #include "scene/images/texture_image.hpp"
+#include "scene/model/srgb.hpp"
 
 #include <glm/gtc/packing.hpp>
 #include <gmock/gmock.h>

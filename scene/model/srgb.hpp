@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace stromboli::images {
+namespace stromboli {
 
 /// Linear light of an sRGB value, both in [0, 1] (IEC 61966-2-1).
 inline double srgbToLinear(double value) {
@@ -15,4 +15,4 @@ inline double linearToSrgb(double light) {
     return light <= 0.0031308 ? light * 12.92 : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
 }
 
-} // namespace stromboli::images
+} // namespace stromboli
