@@ -17,6 +17,11 @@ Row row(float a, float b, float c, float d) {
             std::bit_cast<uint32_t>(d)};
 }
 
+/// The lowest bits of a number in two's complement.
+uint32_t bits(int32_t number, uint32_t count) {
+    return uint32_t(number) & ((1u << count) - 1);
+}
+
 /// The attributes of all primitives, in the order of the tree's leaves.
 class AttributePacker {
   public:
@@ -61,9 +66,11 @@ class AttributePacker {
         for (uint32_t c = 0; c < 3; ++c) {
             const glm::vec4 t = tangentAtCorner(scene_, id, cornerOf(id, c), set);
             const float length = glm::length(glm::vec3(t));
-            if (t.w == 0 || !(length > 0) || !std::isfinite(length)) continue;
-            r[c] = encodeNormal(glm::vec3(t) / length);
-            r[3] |= (t.w > 0 ? 1u : 3u) << 2 * c;
+            if (t.w == 0 || !(length > 0) || !std::isfinite(length)) return Row{};
+            const glm::ivec3 v = glm::round(glm::vec3(t) * (8191 / length));
+            r[c] = bits(v.x, 14) | bits(v.y, 14) << 14 | bits(v.z, 4) << 28;
+            r[3] |= bits(v.z >> 4, 10) << 10 * c;
+            if (c == 0) r[3] |= (t.w > 0 ? 1u : 3u) << 30;
         }
         return r;
     }

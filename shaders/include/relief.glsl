@@ -1,15 +1,21 @@
 // Tangents, and what normal maps and heights make of the shading normal (docs/estimator.md, "Textures").
 
-/// The tangent at a point of a surface with shading normal n (faced forward), perpendicular to n; w: the bitangent is
-/// w (n x tangent), 0: there is none. Seen from behind, the normal is turned and w with it, so that the bitangent is the
-/// same.
-vec4 tangentAt(SurfacePoint s, vec3 n) {
+/// Tangent of corner 0, 1 or 2, times 8191.
+vec3 cornerTangent(uvec4 row, uint corner) {
+    const uint xy = corner == 0u ? row.x : (corner == 1u ? row.y : row.z);
+    const int x = int(xy << 18u) >> 18, y = int(xy << 4u) >> 18;
+    const int upperZ = int(row.w << (22u - 10u * corner)) >> 22;
+    return vec3(ivec3(x, y, upperZ << 4 | int(xy >> 28u)));
+}
+
+/// Along the tangent at a point of a surface with shading normal n (faced forward), perpendicular to n, of no certain
+/// length; w: the bitangent is along w (n x tangent), 0: there is none. Seen from behind, the normal is turned and w with
+/// it, so that the bitangent is the same.
+vec4 alongTangent(SurfacePoint s, vec3 n) {
     if (s.skipPrimitive == NO_PRIMITIVE) return vec4(0.0);
     const uvec4 r = ROW(detailRows, attributeRow(s.primitive, ATTRIBUTE_TANGENT));
-    const uvec3 sides = uvec3(r.w) >> uvec3(0u, 2u, 4u) & 3u;
-    if (sides.x == 0u || sides.y == 0u || sides.z == 0u) return vec4(0.0);
-    vec3 t0 = decodeNormal(r.x), t1 = decodeNormal(r.y), t2 = decodeNormal(r.z);
-    float side = sides.x == 1u ? 1.0 : -1.0;
+    vec3 t0 = cornerTangent(r, 0u), t1 = cornerTangent(r, 1u), t2 = cornerTangent(r, 2u);
+    float side = float(int(r.w) >> 30); // 0, 1 or -1
 #ifdef PLACEMENTS
     if (HAS_PLACEMENTS) {
         const Placing placing = placingOf(s.placement);
@@ -20,37 +26,46 @@ vec4 tangentAt(SurfacePoint s, vec3 n) {
     }
 #endif
     const vec3 sum = (1.0 - s.weights.x - s.weights.y) * t0 + s.weights.x * t1 + s.weights.y * t2;
-    const vec3 across = sum - dot(sum, n) * n;
-    const float length2 = dot(across, across);
     const bool isTurned = FACES_FORWARD && !s.outside;
-    return length2 > 0.0 ? vec4(across * inversesqrt(length2), isTurned ? -side : side) : vec4(0.0);
+    return vec4(sum - dot(sum, n) * n, isTurned ? -side : side);
 }
 
-/// Turns n until the mirror direction of wo is not below the geometric surface: a normal beyond that would make a
-/// black rim, as light from there cannot be. Keller et al. 2017, "The Iray Light Transport Simulation and Rendering
+/// The same, unit.
+vec4 tangentAt(SurfacePoint s, vec3 n) {
+    const vec4 t = alongTangent(s, n);
+    const float length2 = dot(t.xyz, t.xyz);
+    return length2 > TINY ? vec4(t.xyz * inversesqrt(length2), t.w) : vec4(0.0);
+}
+
+/// Unit, or instead of a vector without a direction this one.
+vec3 unitOr(vec3 v, vec3 instead) {
+    const float length2 = dot(v, v);
+    return length2 > TINY ? v * inversesqrt(length2) : instead;
+}
+
+/// Turns n, of any length, until the mirror direction of wo is not below the geometric surface: a normal beyond that would
+/// make a black rim, as light from there cannot be. Keller et al. 2017, "The Iray Light Transport Simulation and Rendering
 /// System", A.3: the mirror direction 2 (n . wo) n - wo is pulled up along n to the horizon, and the normal is halfway
 /// between what that gives and wo. It is n (g . wo) - wo (n . g), but for its length; for a normal that is below the
 /// horizon itself the limit of that, n's own direction along the horizon. g: unit geometric normal, on the side of wo.
 vec3 bentNormal(vec3 n, vec3 g, vec3 wo) {
     const float along = dot(n, g), height = dot(wo, g);
-    if (along > 0.0 && 2.0 * dot(n, wo) * along >= height) return n;
+    if (along > 0.0 && 2.0 * dot(n, wo) * along >= height * dot(n, n)) return n;
     const vec3 level = n - min(along, 0.0) * g;
     const vec3 grazing = level * height - wo * max(along, 0.0);
-    const float size2 = dot(grazing, grazing);
-    const vec3 sum = size2 > 0.0 ? wo + grazing * inversesqrt(size2) : g;
-    const float length2 = dot(sum, sum);
-    return length2 > 0.0 ? sum * inversesqrt(length2) : g;
+    return wo * length(grazing) + grazing;
 }
 
-/// A normal that a map has made of n, as the material's MATERIAL_RELIEF_ bits have it: where it faces away from the
-/// viewer its tilt against n is turned round (Schuessler et al. 2017, "Microfacet-based Normal Mapping for Robust Monte
-/// Carlo Path Tracing", 4.1), it stays, or it is bent.
+/// A normal, of any length, that a map has made of n, as the material's MATERIAL_RELIEF_ bits have it: where it faces away
+/// from the viewer its tilt against n is turned round (Schuessler et al. 2017, "Microfacet-based Normal Mapping for Robust
+/// Monte Carlo Path Tracing", 4.1), it stays, or it is bent. Unit.
 vec3 settledNormal(vec3 mapped, vec3 n, SurfacePoint s, bool bends, uint rules) {
-    if (!FACES_FORWARD) return mapped;
-    if (RELIEF_RULES && (rules & MATERIAL_RELIEF_FLIPS) != 0u)
-        return dot(mapped, s.wo) > 0.0 ? mapped : 2.0 * dot(mapped, n) * n - mapped;
-    if (RELIEF_RULES && (rules & MATERIAL_RELIEF_BLACKENS) != 0u) return mapped;
-    return bends ? bentNormal(mapped, s.geometric, s.wo) : mapped;
+    vec3 settled = mapped;
+    const bool flips = RELIEF_RULES && (rules & MATERIAL_RELIEF_FLIPS) != 0u;
+    const bool blackens = RELIEF_RULES && (rules & MATERIAL_RELIEF_BLACKENS) != 0u;
+    if (FACES_FORWARD && bends && !flips && !blackens) settled = bentNormal(mapped, s.geometric, s.wo);
+    if (FACES_FORWARD && flips && !(dot(mapped, s.wo) > 0.0)) settled = 2.0 * dot(mapped, n) * n - mapped;
+    return unitOr(settled, s.geometric);
 }
 
 /// Raises a surface that is faced forward by heights over it (Blinn 1978). Its derivatives p_u and p_v along the texture
@@ -76,15 +91,20 @@ void applyHeights(inout SurfacePoint s, vec2 slope, bool mirrors, uint rules) {
     const float size = max(max(abs(raised.x), abs(raised.y)), abs(raised.z));
     const bool hasNormal = d1.x * d2.y != d1.y * d2.x && facing != 0.0 && size > 0.0 && size < INFINITE_DISTANCE;
     if (!hasNormal) return;
-    s.shading = settledNormal(unit(raised / size), n, s, mirrors, rules);
+    s.shading = settledNormal(raised / size, n, s, mirrors, rules);
 }
 
-/// A map's vector in the frame of a surface, faced forward, with normal n and tangent t: not unit. Seen from behind, a
-/// bump is a dent: the vector is the front's, turned round with the normal.
+/// Along a map's vector in the frame of a surface, faced forward, with normal n: times the length of t, which is along the
+/// tangent. Seen from behind, a bump is a dent: the vector is the front's, turned round with the normal.
 vec3 turnedByMap(SurfacePoint s, vec3 n, vec4 t, vec3 mapped) {
     const float turned = FACES_FORWARD && !s.outside ? -1.0 : 1.0;
     const vec3 bitangent = t.w * cross(n, t.xyz);
-    return mapped.x * turned * t.xyz + mapped.y * turned * bitangent + mapped.z * n;
+    return turned * (mapped.x * t.xyz + mapped.y * bitangent) + mapped.z * length(t.xyz) * n;
+}
+
+/// Whether that has a direction other than n's. t: as above; sum: what turnedByMap() has made of them.
+bool turnsNormal(vec4 t, vec3 mapped, vec3 sum) {
+    return t.w != 0.0 && dot(sum, sum) > TINY && (mapped.x != 0.0 || mapped.y != 0.0);
 }
 
 /// The normal of the clear coat of a surface that is faced forward and has its shading normal: glTF's is not turned by
@@ -97,12 +117,10 @@ vec3 coatNormal(SurfacePoint s) {
     const uint number = detail.looseTextures >> DETAIL_COAT_NORMAL_SHIFT;
     const TextureUse use = fetchTextureUse(s.material, number);
     const vec3 mapped = mappedNormal(lookUp(use, coordinatesOf(use, attributesOf(s))), use.scale);
-    const vec4 t = tangentAt(s, n);
+    const vec4 t = alongTangent(s, n);
     const vec3 sum = turnedByMap(s, n, t, mapped);
-    const float length2 = dot(sum, sum);
-    const bool maps =
-        number != 0u && t.w != 0.0 && length2 > 0.0 && (mapped.x != 0.0 || mapped.y != 0.0);
-    return maps ? bentNormal(sum * inversesqrt(length2), s.geometric, s.wo) : n;
+    const bool maps = number != 0u && turnsNormal(t, mapped, sum);
+    return maps ? unitOr(bentNormal(sum, s.geometric, s.wo), s.geometric) : n;
 }
 
 /// Replaces the shading normal of a surface that is faced forward by what maps say, and sets the tangent. mirrors, rules: as
@@ -114,13 +132,11 @@ void applyRelief(inout SurfacePoint s, Relief relief, bool mirrors, uint rules) 
         if (sceneHasCoatNormals()) s.coat = shadingNormal(s); // no map can be read
         return;
     }
-    const vec3 mapped = relief.mapped;
-    vec4 t = tangentAt(s, shadingNormal(s));
     if (hasNormalMaps()) {
-        const vec3 n = shadingNormal(s), sum = turnedByMap(s, n, t, mapped);
-        const float length2 = dot(sum, sum);
-        const bool maps = t.w != 0.0 && length2 > 0.0 && (mapped.x != 0.0 || mapped.y != 0.0);
-        if (maps) s.shading = settledNormal(sum * inversesqrt(length2), n, s, true, rules);
+        const vec3 n = shadingNormal(s), mapped = relief.mapped;
+        const vec4 t = alongTangent(s, n);
+        const vec3 sum = turnedByMap(s, n, t, mapped);
+        if (turnsNormal(t, mapped, sum)) s.shading = settledNormal(sum, n, s, true, rules);
     }
     if (TANGENT_FRAMES) s.tangent = tangentAt(s, shadingNormal(s));
     if (sceneHasCoatNormals()) s.coat = coatNormal(s);

@@ -123,8 +123,9 @@ SHARED_CONST uint BUNDLE_MAPS = 4u;
 
 /// Which attributes a scene's primitives have (SPEC_ATTRIBUTES). Of each primitive those that there are follow each
 /// other in this order: texture coordinates of the three corners, one set in two rows (u and v of the first two
-/// corners, then of the third), colours in three, tangents in one: octahedral as in Primitive, and in word 3 two bits
-/// for each corner, 1 for the bitangent normal x tangent, 3 for its opposite, 0 for no tangent.
+/// corners, then of the third), colours in three, tangents in one: their components are numbers of 14 bits with a sign,
+/// of 8191. Word n has x and y of corner n, and the lower four bits of z; word 3 the upper ten bits of the three z, and
+/// in its last two bits 1 for the bitangent normal x tangent, 3 for its opposite, 0 for no tangent.
 SHARED_CONST uint ATTRIBUTE_UV0 = 1u;
 SHARED_CONST uint ATTRIBUTE_UV1 = 2u;
 SHARED_CONST uint ATTRIBUTE_COLOR = 4u;
