@@ -54,6 +54,19 @@ uint attributeRow(uint primitive, uint which) {
     return primitive * attributeRows(~0u) + attributeRows(which);
 }
 
+uvec4 tangentRow(uint primitive) { return ROW(detailRows, attributeRow(primitive, ATTRIBUTE_TANGENT)); }
+
+/// Of corner 0, 1 or 2, times 8191.
+vec3 cornerTangent(uvec4 tangents, uint corner) {
+    const uint word = corner == 0u ? tangents.x : (corner == 1u ? tangents.y : tangents.z);
+    const int x = int(word << 18u) >> 18, y = int(word << 4u) >> 18;
+    const int upperZ = int(tangents.w << (22u - 10u * corner)) >> 22;
+    return vec3(ivec3(x, y, upperZ << 4 | int(word >> 28u)));
+}
+
+/// 1 or -1: the bitangent is normal x tangent times that; 0: there is no tangent.
+float bitangentSide(uvec4 tangents) { return float(int(tangents.w) >> 30); }
+
 /// b: barycentric weights of the second and third corner.
 PointAttributes attributesAt(uint primitive, vec2 b) {
     PointAttributes a = PointAttributes(vec2(0.0), vec2(0.0), vec4(1.0));

@@ -1,21 +1,13 @@
 // Tangents, and what normal maps and heights make of the shading normal (docs/estimator.md, "Textures").
 
-/// Tangent of corner 0, 1 or 2, times 8191.
-vec3 cornerTangent(uvec4 row, uint corner) {
-    const uint xy = corner == 0u ? row.x : (corner == 1u ? row.y : row.z);
-    const int x = int(xy << 18u) >> 18, y = int(xy << 4u) >> 18;
-    const int upperZ = int(row.w << (22u - 10u * corner)) >> 22;
-    return vec3(ivec3(x, y, upperZ << 4 | int(xy >> 28u)));
-}
-
 /// Along the tangent at a point of a surface with shading normal n (faced forward), perpendicular to n, of no certain
 /// length; w: the bitangent is along w (n x tangent), 0: there is none. Seen from behind, the normal is turned and w with
 /// it, so that the bitangent is the same.
 vec4 alongTangent(SurfacePoint s, vec3 n) {
     if (s.skipPrimitive == NO_PRIMITIVE) return vec4(0.0);
-    const uvec4 r = ROW(detailRows, attributeRow(s.primitive, ATTRIBUTE_TANGENT));
-    vec3 t0 = cornerTangent(r, 0u), t1 = cornerTangent(r, 1u), t2 = cornerTangent(r, 2u);
-    float side = float(int(r.w) >> 30); // 0, 1 or -1
+    const uvec4 row = tangentRow(s.primitive);
+    vec3 t0 = cornerTangent(row, 0u), t1 = cornerTangent(row, 1u), t2 = cornerTangent(row, 2u);
+    float side = bitangentSide(row);
 #ifdef PLACEMENTS
     if (HAS_PLACEMENTS) {
         const Placing placing = placingOf(s.placement);

@@ -31,9 +31,11 @@ struct TextureQuery {
     float u;
     float v;
     uint mapPlusOne; ///< of a bundle: slot plus one; 0: a loose texture; SLOPE_OF_TEXTURE: its
-                     ///< slopeOf()
+                     ///< slopeOf(); TANGENT_OF_CORNER plus 0, 1 or 2: of primitive `row` the
+                     ///< cornerTangent() and, as alpha, bitangentSide()
 };
 SHARED_CONST uint SLOPE_OF_TEXTURE = 100u;
+SHARED_CONST uint TANGENT_OF_CORNER = 101u;
 struct TextureAnswer {
     vec3 color;
     float alpha;

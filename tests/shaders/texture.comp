@@ -9,6 +9,10 @@ TextureAnswer answer(TextureQuery q) {
     vec4 texel = vec4(0.0);
     if (q.mapPlusOne == 0u) texel = lookUp(t, vec2(q.u, q.v));
     if (q.mapPlusOne == SLOPE_OF_TEXTURE) texel.xy = slopeOf(t, vec2(q.u, q.v));
+    if (q.mapPlusOne >= TANGENT_OF_CORNER) {
+        const uvec4 row = tangentRow(q.row);
+        texel = vec4(cornerTangent(row, q.mapPlusOne - TANGENT_OF_CORNER), bitangentSide(row));
+    }
     if (hasBundles() && isBundle(t)) {
         const BundleTexels texels = fetchBundle(t, vec2(q.u, q.v));
         if (q.mapPlusOne == 1u) texel = mapOf(texels, TEXTURE_BASE_COLOR);
