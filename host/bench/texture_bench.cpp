@@ -24,6 +24,27 @@ glm::dvec4 meanOf(const Scene& scene, const TextureUse& use) {
     return sum / double(uint64_t(image.width) * image.height);
 }
 
+/// The share of light that meets the surface, in the mean over its texture.
+float meanOpacity(const Scene& scene, const TextureUse& use, const Material& m) {
+    const Texture& texture = scene.textures[use.texture];
+    const TextureImage& image = scene.images[texture.image];
+    double sum = 0;
+    for (uint32_t y = 0; y < image.height; ++y)
+        for (uint32_t x = 0; x < image.width; ++x) {
+            const double opacity = m.opacity * texelAt(image, texture.srgb, x, y).a;
+            sum += m.alphaMode == AlphaMode::Mask ? double(opacity >= m.alphaCutoff) : opacity;
+        }
+    return float(sum / double(uint64_t(image.width) * image.height));
+}
+
+/// A mask with the mean of its texture would be there everywhere or nowhere, and the scene another one; so as much of
+/// it blends as is there.
+void takeMeanOpacity(const Scene& scene, const TextureUse& use, Material& m) {
+    if (use.slot != TextureSlot::BaseColor || m.alphaMode == AlphaMode::Opaque) return;
+    m.opacity = meanOpacity(scene, use, m);
+    m.alphaMode = AlphaMode::Blend;
+}
+
 /// The textures that most materials have; the mean of others is taken for 1.
 void multiplyByMean(const Scene& scene, const TextureUse& use, Material& m) {
     const glm::vec4 mean(meanOf(scene, use));
@@ -50,8 +71,10 @@ Scene underTheSky(Scene scene) {
 
 Scene withMeans(Scene scene) {
     for (Material& m : scene.materials) {
-        for (const TextureUse& use : m.textures)
+        for (const TextureUse& use : m.textures) {
             multiplyByMean(scene, use, m);
+            takeMeanOpacity(scene, use, m);
+        }
         m.textures.clear();
     }
     return scene;
