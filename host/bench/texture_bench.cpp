@@ -37,8 +37,8 @@ float meanOpacity(const Scene& scene, const TextureUse& use, const Material& m) 
     return float(sum / double(uint64_t(image.width) * image.height));
 }
 
-/// A mask with the mean of its texture would be there everywhere or nowhere, and the scene another one; so as much of
-/// it blends as is there.
+/// A mask with the mean of its texture would be there everywhere or nowhere, and the scene another
+/// one; so as much of it blends as is there.
 void takeMeanOpacity(const Scene& scene, const TextureUse& use, Material& m) {
     if (use.slot != TextureSlot::BaseColor || m.alphaMode == AlphaMode::Opaque) return;
     m.opacity = meanOpacity(scene, use, m);
