@@ -1,6 +1,7 @@
 #include "host/bench/texture_bench.hpp"
 
 #include "host/bench/painter.hpp"
+#include "host/bench/texture_means.hpp"
 #include "host/bvh/wide_layout.hpp"
 #include "host/kernel/light_table.hpp"
 #include "host/kernel/vulkan_backend.hpp"
@@ -14,50 +15,6 @@ namespace {
 
 constexpr const char* kSky = "evening_sky";
 
-glm::dvec4 meanOf(const Scene& scene, const TextureUse& use) {
-    const Texture& texture = scene.textures[use.texture];
-    const TextureImage& image = scene.images[texture.image];
-    glm::dvec4 sum(0);
-    for (uint32_t y = 0; y < image.height; ++y)
-        for (uint32_t x = 0; x < image.width; ++x)
-            sum += texelAt(image, texture.srgb, x, y);
-    return sum / double(uint64_t(image.width) * image.height);
-}
-
-/// The share of light that meets the surface, in the mean over its texture.
-float meanOpacity(const Scene& scene, const TextureUse& use, const Material& m) {
-    const Texture& texture = scene.textures[use.texture];
-    const TextureImage& image = scene.images[texture.image];
-    double sum = 0;
-    for (uint32_t y = 0; y < image.height; ++y)
-        for (uint32_t x = 0; x < image.width; ++x) {
-            const double opacity = m.opacity * texelAt(image, texture.srgb, x, y).a;
-            sum += m.alphaMode == AlphaMode::Mask ? double(opacity >= m.alphaCutoff) : opacity;
-        }
-    return float(sum / double(uint64_t(image.width) * image.height));
-}
-
-/// A mask with the mean of its texture would be there everywhere or nowhere, and the scene another
-/// one; so as much of it blends as is there.
-void takeMeanOpacity(const Scene& scene, const TextureUse& use, Material& m) {
-    if (use.slot != TextureSlot::BaseColor || m.alphaMode == AlphaMode::Opaque) return;
-    m.opacity = meanOpacity(scene, use, m);
-    m.alphaMode = AlphaMode::Blend;
-}
-
-/// The textures that most materials have; the mean of others is taken for 1.
-void multiplyByMean(const Scene& scene, const TextureUse& use, Material& m) {
-    const glm::vec4 mean(meanOf(scene, use));
-    if (use.slot == TextureSlot::BaseColor) {
-        m.albedo *= glm::vec3(mean);
-        m.principled.baseColor *= glm::vec3(mean);
-    }
-    if (use.slot == TextureSlot::MetallicRoughness) {
-        m.principled.roughness *= mean.g;
-        m.principled.metallic *= mean.b;
-    }
-}
-
 Scene underTheSky(Scene scene) {
     for (Material& m : scene.materials)
         if (textureIn(m, TextureSlot::Emission)) {
@@ -66,17 +23,6 @@ Scene underTheSky(Scene scene) {
                           [](const TextureUse& use) { return use.slot == TextureSlot::Emission; });
         }
     addEnvironment(scene, {.file = kSky});
-    return scene;
-}
-
-Scene withMeans(Scene scene) {
-    for (Material& m : scene.materials) {
-        for (const TextureUse& use : m.textures) {
-            multiplyByMean(scene, use, m);
-            takeMeanOpacity(scene, use, m);
-        }
-        m.textures.clear();
-    }
     return scene;
 }
 
