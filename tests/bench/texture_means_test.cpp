@@ -74,6 +74,14 @@ TEST(TextureMeans, BlendByTheMeanOfAllThatMultipliesOpacity) {
     EXPECT_FLOAT_EQ(withMeans(scene).materials[0].opacity, 0.04f);
 }
 
+TEST(TextureMeans, BlendByATextureOfOpacityAlone) {
+    Material m = principled();
+    m.alphaMode = AlphaMode::Mask;
+    const Scene scene =
+        painted(m, {{TextureSlot::Opacity, {rgba(255, 0, 0, 0), rgba(0, 0, 0, 0)}}});
+    EXPECT_FLOAT_EQ(withMeans(scene).materials[0].opacity, 0.5f);
+}
+
 TEST(TextureMeans, LeaveOpaqueWhatHasNoOpacityByATexture) {
     Material opaque = principled();
     const auto halfClear = std::vector<uint32_t>{rgba(0, 0, 0, 0), rgba(0, 0, 0, 255)};
