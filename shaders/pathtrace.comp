@@ -86,6 +86,12 @@ bool pixelsAreWanted() {
     return 8u * wanting >= subgroupBallotBitCount(subgroupBallot(atWork()));
 }
 
+/// Whether as many of the subgroup's lanes wait at surfaces as are waited for.
+bool enoughSurfacesWait() {
+    const uint waiting = subgroupBallotBitCount(subgroupBallot(waits));
+    return WAITING_PART * waiting >= subgroupBallotBitCount(subgroupBallot(atWork()));
+}
+
 void putDown() {
     if (item == NO_ITEM) return;
     if (frame.keepsValue != 0u && samplesTaken() >= target) pixelState.sum = radiance;
@@ -232,6 +238,7 @@ void startWork(bool late) {
 #ifdef RICH_MATERIALS
     mayWait = !hasPassedSomething();
 #endif
+    if (SURFACES_WAIT && waits) mayWait = false;
     if (late && phase == PHASE_PATH && !traversing(ray) && mayWait) phase = PHASE_SUSPENDED;
     startRay();
 }
@@ -291,6 +298,7 @@ void main() {
     if (lane >= dispatch.laneCount) return;
     rayCount = 0u;
     busySteps = 0u;
+    waits = false;
     allSteps = 0u;
     resume(lane);
 
@@ -306,11 +314,20 @@ void main() {
         changePixel(!late && dispatch.beginsNoSample == 0u);
         bool pixelsWanted = false;
         while (!pixelsWanted && atWork() && iteration < pause) {
-            startWork(late);
-            traverseSomeSteps();
-            if (!traversing(ray)) followPath();
-            ++iteration;
-            pixelsWanted = pixelsAreWanted();
+            bool staysFree;
+            do {
+                startWork(late);
+                traverseSomeSteps();
+#ifdef RICH_MATERIALS
+                if (SURFACES_WAIT && !traversing(ray)) followFreePath();
+#endif
+                if (!SURFACES_WAIT && !traversing(ray)) followPath();
+                ++iteration;
+                pixelsWanted = pixelsAreWanted();
+                staysFree = SURFACES_WAIT && !pixelsWanted && iteration < pause && !enoughSurfacesWait();
+            } while (staysFree);
+            if (SURFACES_WAIT && waits) followPath();
+            waits = false;
         }
     }
     suspendedPaths[lane].bounce = SUSPENDED_NONE;

@@ -7,7 +7,7 @@ namespace stromboli {
 namespace {
 
 bool hasTerminatorOffset(const KernelFeatures& f) {
-    return f[SPEC_HAS_NORMALS] && !f[SPEC_CS184] && !f[SPEC_FLAT_TERMINATOR];
+    return f[SPEC_CORNER_NORMALS] && !f[SPEC_CS184] && !f[SPEC_FLAT_TERMINATOR];
 }
 
 std::string list(uint32_t bits, const std::vector<const char*>& names) {
@@ -55,7 +55,9 @@ std::vector<std::string> describe(const KernelFeatures& f) {
         fmt::format("primitives: {}", primitives),
         fmt::format("instances: {}",
                     f[SPEC_HAS_PLACEMENTS] ? "meshes that share their triangles" : "none"),
-        fmt::format("shading normals: {}", f[SPEC_HAS_NORMALS] ? "interpolated" : "none"),
+        fmt::format("shading normals: {}", f[SPEC_CORNER_NORMALS] ? "interpolated"
+                                           : f[SPEC_HAS_NORMALS]  ? "of maps"
+                                                                  : "none"),
         fmt::format(
             "materials: {}{}",
             list(f[SPEC_BSDF_KINDS],

@@ -73,7 +73,9 @@ bool isOpaque(const TextureImage& image) {
 
 class Planner {
   public:
-    Planner(const Scene& scene, uint64_t gatheredRows) : scene_(scene), rowsLeft_(gatheredRows) {
+    /// fewestMaps: that a bundle has.
+    Planner(const Scene& scene, uint64_t gatheredRows, uint32_t fewestMaps)
+        : scene_(scene), fewestMaps_(fewestMaps), rowsLeft_(gatheredRows) {
         constexpr glm::vec4 white(1);
         for (const VertexAttributes& a : scene.attributes) {
             hasColors_ |= a.color != white;
@@ -160,21 +162,26 @@ class Planner {
     }
 
     /// Two pictures or more that are looked up alike cost as many loads as one if they are bundled,
-    /// or fewer.
+    /// or fewer. Of several such groups, the largest.
     void takeOutBundle(DetailPlan::MaterialPlan& material) {
-        const auto first = std::ranges::find_if(
-            material.textures, [&](const TextureUse& use) { return isBundled(use); });
-        if (first == material.textures.end()) return;
-        const auto isAlike = [&, like = *first](const TextureUse& use) {
-            return isBundled(use) && areLookedUpAlike(use, like);
-        };
-        if (std::ranges::count_if(material.textures, isAlike) < 2) return;
         DetailPlan::Bundle bundle;
-        for (const TextureUse& use : material.textures)
-            if (isAlike(use)) bundle[uint32_t(use.slot)] = use;
-        if (!hasRoomFor(bundle)) return;
+        ptrdiff_t maps = 0;
+        for (const TextureUse& like : material.textures) {
+            const auto isAlike = [&](const TextureUse& use) {
+                return isBundled(like) && isBundled(use) && areLookedUpAlike(use, like);
+            };
+            const ptrdiff_t alike = std::ranges::count_if(material.textures, isAlike);
+            if (alike <= maps) continue;
+            bundle = {}, maps = alike;
+            for (const TextureUse& use : material.textures)
+                if (isAlike(use)) bundle[uint32_t(use.slot)] = use;
+        }
+        if (maps < ptrdiff_t(fewestMaps_) || !hasRoomFor(bundle)) return;
         material.bundle = bundle;
-        std::erase_if(material.textures, isAlike);
+        std::erase_if(material.textures, [&](const TextureUse& use) {
+            const uint32_t slot = uint32_t(use.slot);
+            return slot < bundle.size() && bundle[slot];
+        });
     }
 
     bool isBundled(const TextureUse& use) const {
@@ -233,6 +240,7 @@ class Planner {
     }
 
     const Scene& scene_;
+    uint32_t fewestMaps_;
     bool hasColors_ = false, hasTransparentColors_ = false;
     uint64_t rowsLeft_; ///< for textures that are not stored plainly
     std::set<DetailPlan::EdgedImage> gathered_;
@@ -267,7 +275,12 @@ DetailPlan planDetails(const Scene& scene, const std::vector<bool>& used, uint64
     static_assert(uint32_t(OtherPlace::InFront) == gpu::OTHER_IN_FRONT);
     static_assert(uint32_t(TextureSlot::Projection) == gpu::TEXTURE_PROJECTION);
     static_assert(uint32_t(TextureSlot::Opacity) == gpu::TEXTURE_OPACITY);
-    return Planner(scene, gatheredRows).plan(used);
+    DetailPlan plan = Planner(scene, gatheredRows, 2).plan(used);
+    // Where all lanes look up a bundle anyway, a picture by itself costs less in one than as a loose
+    // texture: nothing, or four loads for a lookup's two and all of its code.
+    if (plan.hasBundles() && plan.looseSlots != 0)
+        plan = Planner(scene, gatheredRows, 1).plan(used);
+    return plan;
 }
 
 } // namespace stromboli

@@ -2,6 +2,7 @@
 
 #include "host/kernel/direct_sampling.hpp"
 #include "host/kernel/kernel_modules.hpp"
+#include "host/kernel/open_view.hpp"
 #include "shaders/shared/texture_types.h"
 
 #include <algorithm>
@@ -128,7 +129,8 @@ uint32_t filterConstant(PixelFilter filter) {
 }
 
 void switchOnAllTheSceneCouldHave(KernelFeatures& f, const Estimator& settings) {
-    f[SPEC_HAS_TRIANGLES] = f[SPEC_HAS_SPHERES] = f[SPEC_HAS_NORMALS] = f[SPEC_HAS_EMISSION] = 1;
+    f[SPEC_HAS_TRIANGLES] = f[SPEC_HAS_SPHERES] = f[SPEC_HAS_EMISSION] = 1;
+    f[SPEC_HAS_NORMALS] = f[SPEC_CORNER_NORMALS] = 1;
     f[SPEC_LARGE_TREE] = f[SPEC_HAS_AMBIENT] = f[SPEC_HAS_ENVIRONMENT] = 1;
     if (f[SPEC_LIGHT_NUMBERS] == gpu::LIGHT_NUMBERS_SHARED)
         f[SPEC_LIGHT_NUMBERS] = gpu::LIGHT_NUMBERS_FIRST;
@@ -149,6 +151,7 @@ void setDetails(KernelFeatures& f, const GpuScene& scene, bool normalsOnly) {
     const uint32_t wanted = !normalsOnly ? ~0u : scene.hasAlpha ? kOpacityMaps : 0;
     f[SPEC_TEXTURE_SLOTS] = scene.textureSlots & wanted;
     f[SPEC_LOOSE_SLOTS] = scene.looseSlots & wanted;
+    f[SPEC_LOOSE_TEXTURES] = f[SPEC_LOOSE_SLOTS] ? scene.mostTextures : 0;
     f[SPEC_TEXEL_KINDS] = scene.texelKinds;
     f[SPEC_ATTRIBUTES] = scene.attributes;
     if (normalsOnly) return;
@@ -191,7 +194,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_LARGE_TREE] = scene.hasPlacements || scene.bvh.records.size() > gpu::SMALL_TREE_RECORDS;
     f[SPEC_HAS_TRIANGLES] = scene.hasTriangles;
     f[SPEC_HAS_SPHERES] = scene.hasSpheres;
-    f[SPEC_HAS_NORMALS] = scene.hasNormals;
+    f[SPEC_HAS_NORMALS] = f[SPEC_CORNER_NORMALS] = scene.hasNormals;
     f[SPEC_BSDF_KINDS] = normalsOnly ? 0 : scene.bsdfKinds;
     f[SPEC_PRINCIPLED_FEATURES] = normalsOnly ? 0 : scene.principledFeatures;
     f[SPEC_FACETS] = normalsOnly ? 0 : scene.facets;
@@ -242,6 +245,9 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
         f[SPEC_TRAVERSAL_STEPS] = tuning.placedTraversalSteps;
         f[SPEC_TRAVERSAL_LEGS] = tuning.traversalLegs;
     }
+    if (tuning.waitingPart && needsRichModule(f) && !normalsOnly &&
+        shareOfSurfacesInView(scene.bvh, camera) < tuning.mostInView)
+        f[SPEC_WAITING_PART] = tuning.waitingPart;
     return f;
 }
 

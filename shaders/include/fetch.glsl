@@ -78,9 +78,9 @@ Primitive fetchPrimitive(uint index) {
     return Primitive(r.x, r.y, r.z, r.w);
 }
 
-bool isSmooth(Primitive p) { return HAS_NORMALS && (p.material & PRIMITIVE_IS_SMOOTH) != 0u; }
+bool isSmooth(Primitive p) { return HAS_CORNER_NORMALS && (p.material & PRIMITIVE_IS_SMOOTH) != 0u; }
 
-uint materialOf(Primitive p) { return HAS_NORMALS ? p.material & ~PRIMITIVE_IS_SMOOTH : p.material; }
+uint materialOf(Primitive p) { return HAS_CORNER_NORMALS ? p.material & ~PRIMITIVE_IS_SMOOTH : p.material; }
 
 // --- Materials (shaders/shared/bsdf_types.h) --------------------------------------------------
 

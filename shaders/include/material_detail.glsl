@@ -239,6 +239,25 @@ float countedOpacity(MaterialDetail detail, float product) {
     return (detail.flags & DETAIL_BLEND) != 0u ? clamp(product, 0.0, 1.0) : 1.0;
 }
 
+/// The loose texture with this number, its part in them.
+void applyLooseTexture(inout MaterialAtPoint at, uint materialRow, uint number, PointAttributes a) {
+    const TextureUse t = fetchTextureUse(textureUseRow(materialRow, bundles() + number));
+    if (isReadElsewhere(t.flags & TEXTURE_SLOT_MASK)) return;
+    applyTexel(at, t, lookUp(t, coordinatesOf(t, a)));
+    if (hasHeights() && (t.flags & TEXTURE_SLOT_MASK) == TEXTURE_HEIGHT)
+        at.relief.slope = t.scale * slopeOf(t, coordinatesOf(t, a));
+}
+
+/// One after the other. Without a loop where no material of the scene has two; else with the exit at its end, as
+/// llvmpipe runs a body once more, for no lane, after an exit in the header (docs/kernel.md, "Exits of loops").
+void applyLooseTextures(inout MaterialAtPoint at, uint materialRow, uint count, PointAttributes a) {
+    uint i = 0u;
+    do {
+        if (i < count) applyLooseTexture(at, materialRow, i, a);
+        ++i;
+    } while (LOOSE_TEXTURES > 1u && i < count);
+}
+
 MaterialAtPoint lookUpMaterial(MaterialPoint p) {
     MaterialAtPoint at =
         MaterialAtPoint(fetchMaterial(p.material), Relief(vec3(0.0, 0.0, 1.0), vec2(0.0)), vec3(1.0), 1.0);
@@ -248,13 +267,7 @@ MaterialAtPoint lookUpMaterial(MaterialPoint p) {
     const MaterialDetail detail = fetchDetail(p.material);
     at.opacity = detail.opacity * a.color.a;
     if (hasBundles()) applyBundle(at, p.material, a);
-    for (uint i = 0u; LOOSE_SLOTS != 0u && i < looseTexturesOf(detail); ++i) {
-        const TextureUse t = fetchTextureUse(textureUseRow(p.material, bundles() + i));
-        if (isReadElsewhere(t.flags & TEXTURE_SLOT_MASK)) continue;
-        applyTexel(at, t, lookUp(t, coordinatesOf(t, a)));
-        if (hasHeights() && (t.flags & TEXTURE_SLOT_MASK) == TEXTURE_HEIGHT)
-            at.relief.slope = t.scale * slopeOf(t, coordinatesOf(t, a));
-    }
+    if (LOOSE_SLOTS != 0u) applyLooseTextures(at, p.material, looseTexturesOf(detail), a);
     at.opacity = countedOpacity(detail, at.opacity);
     return at;
 }

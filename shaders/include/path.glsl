@@ -55,8 +55,7 @@ void finishHemisphereRay() {
 }
 
 /// A path ray is done: takes in the light that it has found and sets up the surface for scattering.
-void arrive() {
-    const bool hit = ray.hitPrimitive != NO_PRIMITIVE;
+void arrive(bool hit) {
     phase = PHASE_ENDED;
     FoundSky sky = NO_SKY;
     if (!hit) sky = skyFrom(departureNormal, ray.direction);
@@ -225,6 +224,28 @@ void finishSample() {
 
 // --- Service -------------------------------------------------------------------------------------
 
+#ifdef RICH_MATERIALS
+/// Whether the finished ray asks for a material (askedPoint()), or is one of hemisphere sampling.
+bool asksForMaterial() {
+    const bool hit = ray.hitPrimitive != NO_PRIMITIVE;
+    if (DIRECT_LIGHT == DIRECT_HEMISPHERE && phase == PHASE_HEMISPHERE) return true;
+    if (phase == PHASE_PATH) return hit;
+    return hit ? HAS_ALPHA : emissionHasFactors() && sampledEmitter.primitive != NO_PRIMITIVE;
+}
+
+/// With SURFACES_WAIT: takes in the finished ray as followPath() does, as far as no material is asked for.
+void followFreePath() {
+    if (waits) return;
+    waits = isTracing(phase) && asksForMaterial();
+    if (waits) return;
+    if (phase == PHASE_PATH) arrive(false);
+    else if (phase == PHASE_SHADOW) finishShadowRay();
+    if (phase == PHASE_DIRECT && directIndex >= directSamples()) phase = endsHere() ? PHASE_ENDED : PHASE_BOUNCE;
+    waits = phase == PHASE_DIRECT || branchIsOver();
+    if (phase == PHASE_ENDED && !waits) finishSample();
+}
+#endif
+
 /// Takes in the finished ray. What is next: a shadow ray, which it asks for; a bounce (PHASE_BOUNCE), or
 /// another sample (PHASE_NEXT), both by depart().
 void followPath() {
@@ -235,7 +256,7 @@ void followPath() {
 #endif
     if (phase == PHASE_SHADOW) finishShadowRay();
     else if (DIRECT_LIGHT == DIRECT_HEMISPHERE && phase == PHASE_HEMISPHERE) finishHemisphereRay();
-    else if (phase == PHASE_PATH) arrive();
+    else if (phase == PHASE_PATH) arrive(SURFACES_WAIT || ray.hitPrimitive != NO_PRIMITIVE);
 
     if (INTEGRATOR == INTEGRATOR_PATH) {
         if (phase == PHASE_DIRECT && directIndex < directSamples()) sampleDirect();

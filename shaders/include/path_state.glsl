@@ -34,6 +34,7 @@ uint rayCount;
 #ifdef RICH_MATERIALS
 uint medium; ///< that the path ray goes through: the first row of a material, or NO_MEDIUM
 #endif
+bool waits; ///< with SURFACES_WAIT: what comes next needs a material, and other lanes are waited for
 
 /// Where a sample's path has split into branches (path splitting; docs/estimator.md, "Branches"): at
 /// the first surface that scatters at random.
@@ -127,7 +128,7 @@ bool isTracing(uint p) {
 }
 
 void startRay() {
-    if (!isTracing(phase) || traversing(ray)) return;
+    if (!isTracing(phase) || traversing(ray) || SURFACES_WAIT && waits) return;
     ray.anyHit = phase == PHASE_SHADOW && !HAS_ALPHA;
     startTraversal(ray);
     ++rayCount;

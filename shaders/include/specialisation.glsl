@@ -65,6 +65,9 @@ layout(constant_id = SPEC_LIGHT_CHOICE) const uint LIGHT_CHOICE = LIGHT_CHOICE_T
 layout(constant_id = SPEC_PRINCIPLED_FEATURES) const uint PRINCIPLED_FEATURES = 63u;
 layout(constant_id = SPEC_TEXTURE_SLOTS) const uint TEXTURE_SLOTS = 0u;
 layout(constant_id = SPEC_LOOSE_SLOTS) const uint LOOSE_SLOTS = 0u;
+layout(constant_id = SPEC_LOOSE_TEXTURES) const uint LOOSE_TEXTURES = 255u;
+layout(constant_id = SPEC_CORNER_NORMALS) const bool CORNER_NORMALS = true;
+layout(constant_id = SPEC_WAITING_PART) const uint WAITING_PART = 0u;
 layout(constant_id = SPEC_TEXEL_KINDS) const uint TEXEL_KINDS = 8191u;
 layout(constant_id = SPEC_ATTRIBUTES) const uint ATTRIBUTES = 0u;
 layout(constant_id = SPEC_ALPHA) const bool HAS_ALPHA = false;
@@ -77,6 +80,8 @@ layout(constant_id = SPEC_FLAT_TERMINATOR) const bool FLAT_TERMINATOR = false;
 const bool FLAT_TERMINATOR = false;
 const bool HAS_ALPHA = false;
 const bool RELIEF_RULES = false;
+const uint WAITING_PART = 0u;
+const bool CORNER_NORMALS = true;
 #endif
 
 // FACET_MATERIALS: those of these modules that have conductors, rough dielectrics, thin ones and plastic.
@@ -92,6 +97,11 @@ layout(constant_id = SPEC_TRAVERSAL_LEGS) const uint TRAVERSAL_LEGS = 1u;
 const uint TRAVERSAL_LEGS = 1u;
 #endif
 
+/// Whether triangles have normals of their corners. Without these and without maps there is no shading normal
+/// beside the geometric one (HAS_NORMALS).
+const bool HAS_CORNER_NORMALS = HAS_NORMALS && CORNER_NORMALS;
+/// Whether lanes at surfaces wait for each other (docs/kernel.md, "Surfaces that wait").
+const bool SURFACES_WAIT = WAITING_PART != 0u;
 /// Whether samples have weights by their place about the pixel, some of them negative.
 bool samplesHaveWeights() { return PIXEL_FILTER == FILTER_TABLE; }
 bool sceneHasBsdf(uint kind) { return (BSDF_KINDS & (1u << kind)) != 0u; }

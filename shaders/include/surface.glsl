@@ -127,7 +127,7 @@ CornerNormals cornerNormals(Primitive p) {
 
 /// Fills in what depends on the normals of the corners. b: barycentric weights.
 void smoothShading(inout SurfacePoint s, bool given, CornerNormals n, PlacedPrimitive at, vec3 b) {
-    if (!HAS_NORMALS) return;
+    if (!HAS_CORNER_NORMALS) return;
     if (given) s.shading = interpolatedNormal(n, b, s.geometric);
     if (given && FACES_FORWARD && !FLAT_TERMINATOR)
         s.lift = liftAt(n, at, b, s.outside ? s.geometric : -s.geometric);
@@ -190,7 +190,10 @@ bool isSeenFromBehind(SurfacePoint s) { return s.outside == (dot(s.geometric, sh
 void faceForward(inout SurfacePoint s) {
     if (!FACES_FORWARD) return;
     if (!s.outside) s.geometric = -s.geometric;
-    if (!HAS_NORMALS) return;
+    if (!HAS_CORNER_NORMALS) {
+        s.shading = s.geometric;
+        return;
+    }
     if (dot(s.shading, s.geometric) < 0.0) s.shading = -s.shading;
     if (dot(s.shading, s.wo) <= 0.0) s.shading = s.geometric;
 }
@@ -215,11 +218,11 @@ vec3 unmappedNormal(SurfacePoint s) {
 
 /// Whether light can be reflected towards w. A smooth surface ends at the horizon of its shading
 /// normal; the triangle under it is then but one of the things that may be in the way.
-bool isReflected(SurfacePoint s, vec3 w) { return s.lift > 0.0 || dot(s.geometric, w) > 0.0; }
+bool isReflected(SurfacePoint s, vec3 w) { return HAS_CORNER_NORMALS && s.lift > 0.0 || dot(s.geometric, w) > 0.0; }
 
 /// The point that light is reflected from.
 vec3 litPoint(SurfacePoint s) {
-    return HAS_NORMALS && FACES_FORWARD ? s.position + s.lift * s.geometric : s.position;
+    return HAS_CORNER_NORMALS && FACES_FORWARD ? s.position + s.lift * s.geometric : s.position;
 }
 
 /// Where a ray starts that leaves s towards w: on the side of wo, or, transmitted, on the other one.
@@ -234,5 +237,5 @@ vec3 leave(SurfacePoint s, vec3 w, bool transmitted) {
 
 /// What that ray cannot hit: the plane it starts on. From above it can.
 uint skipOnLeaving(SurfacePoint s, bool transmitted) {
-    return HAS_NORMALS && !transmitted && s.lift > 0.0 ? NO_PRIMITIVE : s.skipPrimitive;
+    return HAS_CORNER_NORMALS && !transmitted && s.lift > 0.0 ? NO_PRIMITIVE : s.skipPrimitive;
 }

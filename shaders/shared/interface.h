@@ -82,7 +82,11 @@ SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 #define SPEC_TRAVERSAL_LEGS 46 // between two service passes, each of SPEC_TRAVERSAL_STEPS
 // Of all modules:
 #define SPEC_ROULETTE_START 47 // bounces before roulette by throughput
-#define SPEC_COUNT 49
+// Of the modules with RICH_MATERIALS:
+#define SPEC_LOOSE_TEXTURES 49 // the most textures that a material has in no bundle
+#define SPEC_WAITING_PART 50 // lanes at surfaces wait until they are this part of those at work; 0: for none
+#define SPEC_CORNER_NORMALS 51 // some triangle has normals of its corners; else maps alone make shading normals
+#define SPEC_COUNT 52
 
 SHARED_CONST uint TEXEL_KIND_NEAREST = 1u;
 SHARED_CONST uint TEXEL_KIND_BILINEAR = 2u;

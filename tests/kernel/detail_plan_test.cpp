@@ -69,6 +69,28 @@ TEST_F(Bundles, LeaveTheRestLoose) {
     EXPECT_TRUE(p.texelKinds & gpu::TEXEL_KIND_LOOSE);
 }
 
+/// Where a material has a bundle all look one up, so that a picture by itself is best in one too. Of several
+/// groups that are alike the largest is taken.
+TEST_F(Bundles, TakePicturesByThemselvesWhereOthersHaveOne) {
+    scene_.materials.push_back(scene_.materials[0]);
+    scene_.materials[1].textures.resize(1);
+    const DetailPlan p = planDetails(scene_, {true, true});
+    ASSERT_TRUE(p.materials[0].bundle && p.materials[1].bundle);
+    EXPECT_TRUE((*p.materials[1].bundle)[gpu::TEXTURE_BASE_COLOR]);
+    EXPECT_FALSE((*p.materials[1].bundle)[gpu::TEXTURE_NORMAL]);
+    EXPECT_EQ(p.looseSlots, 0u);
+    EXPECT_EQ(p.mostTextures, 0u);
+    EXPECT_FALSE(planDetails(scene_, {false, true}).materials[1].bundle) << "no other has one";
+
+    scene_.textures[0].image = 1;
+    add(TextureSlot::MetallicRoughness, {});
+    const DetailPlan largest = plan();
+    ASSERT_TRUE(largest.materials[0].bundle);
+    EXPECT_TRUE((*largest.materials[0].bundle)[gpu::TEXTURE_NORMAL]);
+    EXPECT_TRUE((*largest.materials[0].bundle)[gpu::TEXTURE_METALLIC_ROUGHNESS]);
+    EXPECT_EQ(largest.looseSlots, bit(TextureSlot::BaseColor));
+}
+
 /// Whatever differs between two textures keeps them apart.
 TEST_F(Bundles, AreOfOneKind) {
     using Change = std::function<void(Texture&, TextureUse&)>;

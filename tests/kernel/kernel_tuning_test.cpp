@@ -58,6 +58,30 @@ TEST_F(KernelTuningTest, TheDeviceDecidesWhatIsLeftOpen) {
     EXPECT_GE(t.itemsPerDispatch, t.lanes);
     EXPECT_FALSE(t.countSteps);
     EXPECT_FALSE(t.everythingOn);
+    EXPECT_EQ(t.waitingPart > 0, cpu) << "measured there alone";
+}
+
+/// Who waits at a surface for other lanes scatters as it would have: with textures and opacity, branches, several
+/// light samples, directions of hemisphere sampling.
+TEST_F(KernelTuningTest, WaitingAtSurfacesIsTheSamePicture) {
+    const Scene loaded =
+        loadScene(std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene/library/texture_chart.glb");
+    const GpuScene scene = packScene(loaded, buildWideBvh(loaded));
+    const Camera camera = makeCamera(loaded, CameraChoice::Automatic, 61, 37);
+    const auto pictureOf = [&](uint32_t part) {
+        VulkanBackend b(testDevice(), scene, camera, settings_, {.waitingPart = part});
+        EXPECT_EQ(b.features()[SPEC_WAITING_PART], part);
+        return render(b, settings_);
+    };
+    for (const uint32_t branches : {1u, 2u})
+        for (const DirectLight direct : {DirectLight::Mis, DirectLight::Hemisphere}) {
+            settings_.estimator.branches = branches;
+            settings_.estimator.directLight = direct;
+            settings_.estimator.lightSamples = 1 + branches;
+            const Film atOnce = pictureOf(0);
+            EXPECT_TRUE(sameStatistics(atOnce, pictureOf(3))) << branches;
+            EXPECT_TRUE(sameStatistics(atOnce, pictureOf(1))) << "all lanes wait for all others";
+        }
 }
 
 TEST_F(KernelTuningTest, WhatIsGivenIsTaken) {

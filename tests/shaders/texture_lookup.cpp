@@ -90,6 +90,7 @@ std::vector<TextureAnswer> TextureLookup::ask(const std::vector<TextureQuery>& q
     options.set(SPEC_TEXEL_KINDS, packed_.texelKinds).set(SPEC_ATTRIBUTES, packed_.attributes);
     options.set(SPEC_TEXTURE_SLOTS, packed_.textureSlots);
     options.set(SPEC_LOOSE_SLOTS, packed_.looseSlots);
+    options.set(SPEC_LOOSE_TEXTURES, packed_.mostTextures);
     TestShader shader(GetParam().texelBuffers ? std::span<const uint32_t>(texture_texel)
                                               : std::span<const uint32_t>(texture_storage),
                       options);
