@@ -86,7 +86,8 @@ bool pixelsAreWanted() {
     return 8u * wanting >= subgroupBallotBitCount(subgroupBallot(atWork()));
 }
 
-/// Whether as many of the subgroup's lanes wait at surfaces as are waited for.
+/// Whether as many of the subgroup's lanes wait at surfaces as are waited for. A dispatch that is to end has a
+/// limit for its iterations, which is why nothing is waited for then: with many light samples each would wait anew.
 bool enoughSurfacesWait() {
     const uint waiting = subgroupBallotBitCount(subgroupBallot(waits));
     return WAITING_PART * waiting >= subgroupBallotBitCount(subgroupBallot(atWork()));
@@ -303,7 +304,7 @@ void main() {
     resume(lane);
 
     // The lanes of a subgroup leave the inner loop together, when enough of them want another pixel;
-    // every exit is in a loop's header; and hardIterations keeps a dispatch finite on any device
+    // every exit is in a loop's header or at its end; and hardIterations keeps a dispatch finite on any device
     // (docs/kernel.md, "Leaving the inner loop together", "Exits of loops", "The loop limit").
     uint iteration = 0u;
     uint lastLook = 0u;
@@ -324,7 +325,7 @@ void main() {
                 if (!SURFACES_WAIT && !traversing(ray)) followPath();
                 ++iteration;
                 pixelsWanted = pixelsAreWanted();
-                staysFree = SURFACES_WAIT && !pixelsWanted && iteration < pause && !enoughSurfacesWait();
+                staysFree = SURFACES_WAIT && !late && !pixelsWanted && iteration < pause && !enoughSurfacesWait();
             } while (staysFree);
             if (SURFACES_WAIT && waits) followPath();
             waits = false;

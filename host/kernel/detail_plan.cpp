@@ -276,8 +276,8 @@ DetailPlan planDetails(const Scene& scene, const std::vector<bool>& used, uint64
     static_assert(uint32_t(TextureSlot::Projection) == gpu::TEXTURE_PROJECTION);
     static_assert(uint32_t(TextureSlot::Opacity) == gpu::TEXTURE_OPACITY);
     DetailPlan plan = Planner(scene, gatheredRows, 2).plan(used);
-    // Where all lanes look up a bundle anyway, a picture by itself costs less in one than as a loose
-    // texture: nothing, or four loads for a lookup's two and all of its code.
+    // Where all lanes look up a bundle anyway, a picture by itself costs less in one than as a
+    // loose texture: nothing, or four loads for a lookup's two and all of its code.
     if (plan.hasBundles() && plan.looseSlots != 0)
         plan = Planner(scene, gatheredRows, 1).plan(used);
     return plan;

@@ -34,8 +34,8 @@ DeviceTuning forCpu(uint32_t subgroupSize) {
     t.traversalLegs = 20;
     t.registerStack = 16;
     // Lanes that wait are idle, and all lanes run the code of surfaces whenever one is at any.
-    // Where most rays leave the scene that code is run in vain in most lanes, where few do it is not
-    // (docs/results.md, "Surfaces that wait").
+    // Where most rays leave the scene that code is run in vain in most lanes, where few do it is
+    // not (docs/results.md, "Surfaces that wait").
     t.waitingPart = 3;
     t.mostInView = 0.4;
     t.driverThreads = std::max(std::thread::hardware_concurrency(), 1u);

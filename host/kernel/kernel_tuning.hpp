@@ -12,11 +12,11 @@ namespace stromboli {
 struct KernelTuning {
     std::optional<bool> texelFetch; ///< read the scene through storage texel buffers
     std::optional<uint32_t> workgroupSize;
-    std::optional<uint32_t> traversalSteps;   ///< between two service passes, or in a leg
-    std::optional<uint32_t> traversalLegs;    ///< where prototypes are placed
-    std::optional<uint32_t> registerStack;    ///< largest traversal stack that is in registers
+    std::optional<uint32_t> traversalSteps; ///< between two service passes, or in a leg
+    std::optional<uint32_t> traversalLegs;  ///< where prototypes are placed
+    std::optional<uint32_t> registerStack;  ///< largest traversal stack that is in registers
     std::optional<uint32_t> waitingPart; ///< see DeviceTuning; where given, in any view of surfaces
-    std::optional<uint32_t> lanes;            ///< invocations of a dispatch
+    std::optional<uint32_t> lanes;       ///< invocations of a dispatch
     std::optional<uint32_t> driverThreads;    ///< 0: unknown
     std::optional<uint32_t> itemsPerDispatch; ///< pixels in a work list
     double targetSeconds = 0.1;               ///< of a dispatch

@@ -7,8 +7,8 @@
 namespace stromboli {
 namespace {
 
-/// Along each side of the picture. The share of 1024 rays is within 0.05 of the picture's in 99.9 of
-/// 100 cases even if they fell at random, and they take a millisecond.
+/// Along each side of the picture. The share of 1024 rays is within 0.05 of the picture's in 99.9
+/// of 100 cases even if they fell at random, and they take a millisecond.
 constexpr int kRaysAlongSide = 32;
 
 /// x, y: in [-1, 1], to the right and up.
@@ -31,7 +31,8 @@ double shareOfSurfacesInView(const WideLayout& bvh, const Camera& camera) {
     int hits = 0;
     for (int j = 0; j < kRaysAlongSide; ++j)
         for (int i = 0; i < kRaysAlongSide; ++i) {
-            const double x = (2 * i + 1.0) / kRaysAlongSide - 1, y = (2 * j + 1.0) / kRaysAlongSide - 1;
+            const double x = (2 * i + 1.0) / kRaysAlongSide - 1,
+                         y = (2 * j + 1.0) / kRaysAlongSide - 1;
             hits += anyHit(bvh, centralRay(camera, x, y));
         }
     return double(hits) / (kRaysAlongSide * kRaysAlongSide);

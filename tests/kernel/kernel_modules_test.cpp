@@ -53,13 +53,28 @@ TEST_P(KernelModules, TheSmallestThatHasAllFeatures) {
     f[SPEC_CS184] = 0;
     EXPECT_LT(module(f).size(), 0.95 * double(rich.size())) << "of usual modes";
     const auto rare = constantsOf(all);
-    for (const uint32_t id :
-         {SPEC_TEXTURE_SLOTS, SPEC_LOOSE_SLOTS, SPEC_TEXEL_KINDS, SPEC_ATTRIBUTES, SPEC_ALPHA,
-          SPEC_TANGENT_FRAMES, SPEC_BLENDS, SPEC_RELIEF_RULES, SPEC_HAS_ENVIRONMENT,
-          SPEC_HAS_BACKDROP, SPEC_HAS_LENS, SPEC_PIXEL_FILTER, SPEC_PRINCIPLED_FEATURES,
-          SPEC_FACETS, SPEC_HAS_PLACEMENTS, SPEC_TRAVERSAL_LEGS, SPEC_FILTER_EXTRA,
-          SPEC_HIDES_SURFACES, SPEC_FLAT_TERMINATOR, SPEC_LOOSE_TEXTURES, SPEC_WAITING_PART,
-          SPEC_CORNER_NORMALS})
+    for (const uint32_t id : {SPEC_TEXTURE_SLOTS,
+                              SPEC_LOOSE_SLOTS,
+                              SPEC_TEXEL_KINDS,
+                              SPEC_ATTRIBUTES,
+                              SPEC_ALPHA,
+                              SPEC_TANGENT_FRAMES,
+                              SPEC_BLENDS,
+                              SPEC_RELIEF_RULES,
+                              SPEC_HAS_ENVIRONMENT,
+                              SPEC_HAS_BACKDROP,
+                              SPEC_HAS_LENS,
+                              SPEC_PIXEL_FILTER,
+                              SPEC_PRINCIPLED_FEATURES,
+                              SPEC_FACETS,
+                              SPEC_HAS_PLACEMENTS,
+                              SPEC_TRAVERSAL_LEGS,
+                              SPEC_FILTER_EXTRA,
+                              SPEC_HIDES_SURFACES,
+                              SPEC_FLAT_TERMINATOR,
+                              SPEC_LOOSE_TEXTURES,
+                              SPEC_WAITING_PART,
+                              SPEC_CORNER_NORMALS})
         EXPECT_FALSE(rare.contains(id)) << id;
     EXPECT_EQ(rare.size(), size_t(SPEC_COUNT) - 22);
 }

@@ -66,7 +66,7 @@ void bounceOn() {
 void followToTheEnd() {
     while (phase == PHASE_PATH) {
         traceToTheEnd();
-        arrive();
+        arrive(ray.hitPrimitive != NO_PRIMITIVE);
         if (INTEGRATOR == INTEGRATOR_PATH && phase == PHASE_DIRECT) {
             gatherDirectLight();
             bounceOn();
@@ -100,6 +100,7 @@ void main() {
     if (GAP_PROPOSAL) findGap();
     endTraversal(ray);
     rayCount = 0u;
+    waits = false;
     loopPasses = 0u;
     for (uint i = 0u; i < dispatch.segmentBase; ++i)
         takeSample();
