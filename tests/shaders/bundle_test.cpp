@@ -29,7 +29,7 @@ constexpr TextureSlot kBundled[] = {TextureSlot::BaseColor, TextureSlot::Metalli
 
 /// The maps of a bundle are what the same pictures are by themselves, but for the rounding of
 /// stored numbers; a map that the bundle lacks is white. Bundles with emission, with base colors
-/// whose alpha counts, with both and with neither.
+/// whose alpha counts, with both and with neither, and of one map.
 TEST_P(BundleLookup, HoldsTheSameTextures) {
     Random random(13);
     SceneMaker b;
@@ -70,9 +70,15 @@ TEST_P(BundleLookup, HoldsTheSameTextures) {
         }
         std::vector<uint32_t> alone;
         for (const TextureUse& use : uses) {
-            alone.push_back(addMaterial({use}, false));
-            for (const TextureSlot slot : kBundled)
+            TextureUse inAnother = use;
+            inAnother.slot = TextureSlot::Specular; // which no bundle has
+            alone.push_back(addMaterial({inAnother}, false));
+            const uint32_t one = addMaterial({use}, false);
+            pairs.push_back({one, alone.back(), use.slot, false});
+            for (const TextureSlot slot : kBundled) {
                 lacking.push_back({alone.back(), 0, slot, true});
+                if (slot != use.slot) lacking.push_back({one, 0, slot, true});
+            }
         }
         for (const bool hasEmission : {false, true})
             for (const bool hasAlpha : {false, true}) {

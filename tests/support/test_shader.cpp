@@ -29,8 +29,8 @@ std::vector<vulkan::Binding> allBindings(bool texelFetch) {
 
 ShaderOptions::ShaderOptions() {
     set(SPEC_WORKGROUP_SIZE, 64).set(SPEC_TRAVERSAL_STEPS, 8).set(SPEC_STACK_SIZE, 64);
-    for (const uint32_t feature :
-         {SPEC_HAS_TRIANGLES, SPEC_HAS_SPHERES, SPEC_HAS_NORMALS, SPEC_HAS_EMISSION})
+    for (const uint32_t feature : {SPEC_HAS_TRIANGLES, SPEC_HAS_SPHERES, SPEC_HAS_NORMALS,
+                                   SPEC_CORNER_NORMALS, SPEC_HAS_EMISSION})
         set(feature, 1);
     set(SPEC_BSDF_KINDS, ~0u).set(SPEC_LIGHT_KINDS, ~0u).set(SPEC_LIGHT_SAMPLES, 1);
     set(SPEC_PRINCIPLED_FEATURES, gpu::PRINCIPLED_ALL_FEATURES).set(SPEC_FACETS, ~0u);
