@@ -322,13 +322,12 @@ void main() {
 #ifdef RICH_MATERIALS
                 if (SURFACES_WAIT && !traversing(ray)) followFreePath();
 #endif
-                if (!SURFACES_WAIT && !traversing(ray)) followPath();
                 ++iteration;
-                pixelsWanted = pixelsAreWanted();
-                staysFree = SURFACES_WAIT && !late && !pixelsWanted && iteration < pause && !enoughSurfacesWait();
+                staysFree = SURFACES_WAIT && !late && iteration < pause && !pixelsAreWanted() && !enoughSurfacesWait();
             } while (staysFree);
-            if (SURFACES_WAIT && waits) followPath();
+            if (SURFACES_WAIT ? waits : !traversing(ray)) followPath();
             waits = false;
+            pixelsWanted = pixelsAreWanted();
         }
     }
     suspendedPaths[lane].bounce = SUSPENDED_NONE;

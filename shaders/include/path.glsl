@@ -54,8 +54,17 @@ void finishHemisphereRay() {
     phase = PHASE_DIRECT;
 }
 
-/// A path ray is done: takes in the light that it has found and sets up the surface for scattering.
-void arrive(bool hit) {
+/// share: as foundShare() gives it.
+void takeInSky(FoundSky sky, float share) {
+    const bool counts = countsEmission || AMBIENT_BY_BOUNCES && bounce >= frame.minBounce;
+    if (counts && (bounce > 0u || HAS_BACKDROP) && BOUNCES_FIND_ALL_LIGHT)
+        radiance += throughput * sky.radiance * share;
+}
+
+/// A path ray is done: takes in the light that it has found and sets up the surface for scattering. With
+/// SURFACES_WAIT it has met one, and arriveAtSky() is for the others.
+void arrive() {
+    const bool hit = SURFACES_WAIT || ray.hitPrimitive != NO_PRIMITIVE;
     phase = PHASE_ENDED;
     FoundSky sky = NO_SKY;
     if (!hit) sky = skyFrom(departureNormal, ray.direction);
@@ -64,9 +73,7 @@ void arrive(bool hit) {
     throughput *= transmittance(medium, hit ? ray.tMax : INFINITE_DISTANCE);
 #endif
     if (!hit) {
-        const bool counts = countsEmission || AMBIENT_BY_BOUNCES && bounce >= frame.minBounce;
-        if (counts && (bounce > 0u || HAS_BACKDROP) && BOUNCES_FIND_ALL_LIGHT)
-            radiance += throughput * sky.radiance * share;
+        takeInSky(sky, share);
         return;
     }
     surface = surfaceAt(ray);
@@ -233,12 +240,19 @@ bool asksForMaterial() {
     return hit ? HAS_ALPHA : emissionHasFactors() && sampledEmitter.primitive != NO_PRIMITIVE;
 }
 
+void arriveAtSky() {
+    phase = PHASE_ENDED;
+    const FoundSky sky = skyFrom(departureNormal, ray.direction);
+    throughput *= transmittance(medium, INFINITE_DISTANCE);
+    takeInSky(sky, foundShare(sky));
+}
+
 /// With SURFACES_WAIT: takes in the finished ray as followPath() does, as far as no material is asked for.
 void followFreePath() {
     if (waits) return;
     waits = isTracing(phase) && asksForMaterial();
     if (waits) return;
-    if (phase == PHASE_PATH) arrive(false);
+    if (phase == PHASE_PATH) arriveAtSky();
     else if (phase == PHASE_SHADOW) finishShadowRay();
     if (phase == PHASE_DIRECT && directIndex >= directSamples()) phase = endsHere() ? PHASE_ENDED : PHASE_BOUNCE;
     waits = phase == PHASE_DIRECT || branchIsOver();
@@ -256,7 +270,7 @@ void followPath() {
 #endif
     if (phase == PHASE_SHADOW) finishShadowRay();
     else if (DIRECT_LIGHT == DIRECT_HEMISPHERE && phase == PHASE_HEMISPHERE) finishHemisphereRay();
-    else if (phase == PHASE_PATH) arrive(SURFACES_WAIT || ray.hitPrimitive != NO_PRIMITIVE);
+    else if (phase == PHASE_PATH) arrive();
 
     if (INTEGRATOR == INTEGRATOR_PATH) {
         if (phase == PHASE_DIRECT && directIndex < directSamples()) sampleDirect();

@@ -66,7 +66,7 @@ void bounceOn() {
 void followToTheEnd() {
     while (phase == PHASE_PATH) {
         traceToTheEnd();
-        arrive(ray.hitPrimitive != NO_PRIMITIVE);
+        arrive();
         if (INTEGRATOR == INTEGRATOR_PATH && phase == PHASE_DIRECT) {
             gatherDirectLight();
             bounceOn();
