@@ -239,7 +239,6 @@ void startWork(bool late) {
 #ifdef RICH_MATERIALS
     mayWait = !hasPassedSomething();
 #endif
-    if (SURFACES_WAIT && waits) mayWait = false;
     if (late && phase == PHASE_PATH && !traversing(ray) && mayWait) phase = PHASE_SUSPENDED;
     startRay();
 }
