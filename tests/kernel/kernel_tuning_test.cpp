@@ -1,6 +1,7 @@
 // How the kernel runs on a device: what is chosen, and that no choice changes the picture.
 #include "host/bvh/wide_layout.hpp"
 #include "host/render/render.hpp"
+#include "scene/generate/scene_maker.hpp"
 #include "scene/read_scene.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
@@ -62,8 +63,27 @@ TEST_F(KernelTuningTest, TheDeviceDecidesWhatIsLeftOpen) {
     EXPECT_EQ(t.waitingPart > 0, cpu) << "measured there alone";
 }
 
+/// Of two sheets, one faces whoever looks. Rays that have come through it meet nothing, in a medium
+/// that absorbs all light but blue.
+Scene sheetsBeforeTheSky() {
+    scenes::SceneMaker b;
+    Material m;
+    m.kind = MaterialKind::Principled;
+    m.principled.metallic = 0;
+    m.principled.transmission = 1;
+    m.principled.isThin = false;
+    m.principled.roughness = 0.3f;
+    m.principled.attenuationColor = {0.5f, 0.1f, 1};
+    m.principled.attenuationDistance = 0.3f;
+    const uint32_t glass = b.add(m);
+    b.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, glass);
+    b.quad({1, -1, 0}, {0, 2, 0}, {2, 0, 0}, glass);
+    b.add(scenes::ambient(1));
+    return b.scene;
+}
+
 /// Who waits at a surface for other lanes scatters as it would have: with textures and opacity,
-/// branches, placements, several light samples, directions of hemisphere sampling, and where
+/// branches, placements, media, several light samples, directions of hemisphere sampling, and where
 /// dispatches end soon.
 TEST_F(KernelTuningTest, WaitingAtSurfacesIsTheSamePicture) {
     const auto pictureOf = [&](const Scene& loaded, uint32_t part, double targetSeconds = 1) {
@@ -83,6 +103,9 @@ TEST_F(KernelTuningTest, WaitingAtSurfacesIsTheSamePicture) {
 
     const Scene forest = readScene("generate:forest:8");
     EXPECT_TRUE(sameStatistics(pictureOf(forest, 0), pictureOf(forest, 3)));
+
+    const Scene sheets = sheetsBeforeTheSky();
+    EXPECT_TRUE(sameStatistics(pictureOf(sheets, 0), pictureOf(sheets, 3)));
 
     const Scene stillLife = readScene("still_life");
     settings_.estimator.lightSamples = 3;
