@@ -235,11 +235,11 @@ void suspend(uint lane) {
 /// put it off to the next dispatch; in any other phase too much would have to be remembered.
 void startWork(bool late) {
     if (phase == PHASE_BOUNCE || phase == PHASE_NEXT && !wantsPixel()) depart();
-    bool mayWait = true;
+    bool mayBePutOff = true;
 #ifdef RICH_MATERIALS
-    mayWait = !hasPassedSomething();
+    mayBePutOff = !hasPassedSomething();
 #endif
-    if (late && phase == PHASE_PATH && !traversing(ray) && mayWait) phase = PHASE_SUSPENDED;
+    if (late && phase == PHASE_PATH && !traversing(ray) && mayBePutOff) phase = PHASE_SUSPENDED;
     startRay();
 }
 

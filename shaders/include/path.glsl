@@ -54,7 +54,7 @@ void finishHemisphereRay() {
     phase = PHASE_DIRECT;
 }
 
-/// share: as foundShare() gives it.
+/// Adds the light of the sky that the path ray has found. share: of it that is this ray's (foundShare()).
 void takeInSky(FoundSky sky, float share) {
     const bool counts = countsEmission || AMBIENT_BY_BOUNCES && bounce >= frame.minBounce;
     if (counts && (bounce > 0u || HAS_BACKDROP) && BOUNCES_FIND_ALL_LIGHT)
@@ -240,6 +240,7 @@ bool asksForMaterial() {
     return hit ? HAS_ALPHA : emissionHasFactors() && sampledEmitter.primitive != NO_PRIMITIVE;
 }
 
+/// A path ray has met nothing: what arrive() does of that with no surface to set up.
 void arriveAtSky() {
     phase = PHASE_ENDED;
     const FoundSky sky = skyFrom(departureNormal, ray.direction);

@@ -1,10 +1,11 @@
-// What of the scene and the settings a kernel contains, and how primitives are packed.
+// What of the scene and the settings a kernel contains.
 #include "host/bvh/wide_layout.hpp"
 #include "host/kernel/direct_sampling.hpp"
 #include "host/kernel/kernel_features.hpp"
 #include "host/kernel/loop_limit.hpp"
 #include "shaders/shared/texture_types.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace stromboli {
@@ -23,34 +24,6 @@ KernelFeatures featuresOf(const Scene& scene, const RenderSettings& settings = {
                           const DeviceTuning& tuning = {}) {
     return kernelFeatures(packScene(scene, buildWideBvh(scene), lightSelection(settings.estimator)),
                           Camera{}, settings.estimator, tuning);
-}
-
-/// A flat triangle brings its normal, a smooth one those of its corners; a light's leaf names it.
-TEST(PackedPrimitives, HaveTheirNormalsAndNameTheirLights) {
-    Material metal, emitter;
-    metal.kind = MaterialKind::Microfacet;
-    emitter.emission = glm::vec3(1);
-    Scene scene = oneTriangle(metal);
-    scene.materials.push_back(emitter);
-    scene.positions.insert(scene.positions.end(), {{0, 0, 4}, {4, 0, 4}, {0, 4, 7}});
-    const glm::vec3 smooth = glm::normalize(glm::vec3(1, 2, 3));
-    scene.normals = {smooth};
-    scene.triangles.push_back({{3, 4, 5}, {0, 0, 0}, 1});
-    const GpuScene packed = packScene(scene, buildWideBvh(scene));
-    EXPECT_TRUE(packed.hasNormals);
-    for (size_t i = 0; i < 2; ++i) {
-        const gpu::Primitive& p = packed.primitives[i];
-        const uint32_t id = packed.bvh.primitiveOrder[i], place = packed.bvh.placeOf[id];
-        const bool isEmitter = id == 1;
-        const gpu::LeafRecord leaf = asLeaf(packed.bvh.records[place / 2]);
-        EXPECT_EQ(place % 2 == 0 ? leaf.light0 : leaf.light1, isEmitter ? 0 : gpu::NO_LIGHT);
-        EXPECT_EQ(materialHeader(packed, p).emission, glm::vec3(isEmitter));
-        EXPECT_EQ((p.material & gpu::PRIMITIVE_IS_SMOOTH) != 0, isEmitter);
-        if (isEmitter)
-            EXPECT_LT(glm::distance(decodeNormal(p.n2), smooth), 1e-4f);
-        else
-            EXPECT_EQ(glm::uintBitsToFloat(glm::uvec3(p.n0, p.n1, p.n2)), glm::vec3(0, 0, 1));
-    }
 }
 
 TEST(KernelFeatures, HoldOnlyWhatTheSceneNeeds) {
@@ -278,6 +251,16 @@ TEST(KernelFeatures, RichModulesTakeMoreSteps) {
     EXPECT_EQ(passesOfCameraRays(steps(PixelFilter::Gaussian)), 13u);
     // Newton's ten steps and their end, for columns and rows.
     EXPECT_EQ(passesOfCameraRays(steps(PixelFilter::BlackmanHarris)), 13u + 22u);
+}
+
+/// Maps make shading normals of flat triangles, too, which then have none of their corners.
+TEST(KernelFeatures, SayWhereShadingNormalsComeFrom) {
+    KernelFeatures f = featuresOf(oneTriangle({}));
+    EXPECT_THAT(describe(f), testing::Contains("shading normals: none"));
+    f[SPEC_HAS_NORMALS] = 1;
+    EXPECT_THAT(describe(f), testing::Contains("shading normals: of maps"));
+    f[SPEC_CORNER_NORMALS] = 1;
+    EXPECT_THAT(describe(f), testing::Contains("shading normals: interpolated"));
 }
 
 /// Lanes wait at surfaces where most of the picture is beside them, on devices that gain by it.
