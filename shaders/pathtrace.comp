@@ -8,9 +8,7 @@
 #include "shared/interface.h"
 #include "shared/scene_types.h"
 #include "shared/render_types.h"
-#ifdef RICH_MATERIALS
 #include "shared/texture_types.h"
-#endif
 
 #include "include/specialisation.glsl"
 #include "include/fetch.glsl"
@@ -40,17 +38,13 @@ Dispatch dispatch;
 #include "include/cs184.glsl"
 #include "include/surface.glsl"
 #include "bsdf/bsdf.glsl"
-#ifdef RICH_MATERIALS
 #include "include/material_detail.glsl"
 #include "include/relief.glsl"
-#endif
 #include "lights/lights.glsl"
 #include "include/mis.glsl"
 #include "include/gap_proposal.glsl"
-#ifdef RICH_MATERIALS
 #include "include/two_sides.glsl"
 #include "include/medium.glsl"
-#endif
 #include "include/accumulate.glsl"
 #include "include/path.glsl"
 
@@ -137,39 +131,22 @@ void resumeSplit(uint lane) {
     splitPoint.throughput = s.throughput;
     splitPoint.surface = SurfacePoint(s.position, s.error, s.geometric, s.shading, s.wo,
                                       s.outside != 0u, s.material, s.skipPrimitive, s.lift
-#ifdef RICH_MATERIALS
                                       , s.primitive, vec2(s.b1, s.b2), vec4(0.0), vec3(0.0)
-#endif
-#ifdef PLACEMENTS
                                       , s.placement
-#endif
     );
-#ifdef RICH_MATERIALS
     if (TANGENT_FRAMES)
         splitPoint.surface.tangent =
             tangentAt(splitPoint.surface, shadingNormal(splitPoint.surface));
     if (sceneHasCoatNormals()) splitPoint.surface.coat = coatNormal(splitPoint.surface);
-#endif
     branchesLeft = s.branchesLeft;
-#ifdef RICH_MATERIALS
     splitPoint.medium = s.medium;
-#endif
 }
 
 void suspendSplit(uint lane) {
     const SurfacePoint p = splitPoint.surface;
-#ifdef RICH_MATERIALS
     const uint medium = splitPoint.medium, primitive = p.primitive;
     const vec2 weights = p.weights;
-#else
-    const uint medium = 0u, primitive = 0u;
-    const vec2 weights = vec2(0.0);
-#endif
-#ifdef PLACEMENTS
     const uint placement = p.placement;
-#else
-    const uint placement = NO_PLACEMENT;
-#endif
     suspendedSplits[lane] =
         SuspendedSplit(p.position, splitPoint.bounce, p.geometric, p.material, p.shading,
                        p.skipPrimitive, p.wo, p.lift, splitPoint.throughput, p.error,
@@ -196,15 +173,11 @@ void resume(uint lane) {
     bouncePdf = max(p.emission, 0.0);
     arrivalNumbers = p.arrivalNumbers;
     departureNormal = p.departureNormal;
-#ifdef RICH_MATERIALS
     medium = p.medium;
-#endif
     if (samplesHaveWeights()) restoreFilterWeight();
     if (SPLITS) resumeSplit(lane);
     trace(PHASE_PATH, p.origin, p.direction, 0.0, INFINITE_DISTANCE, p.skipPrimitive);
-#ifdef PLACEMENTS
     ray.skipPlacement = p.skipPlacement;
-#endif
 }
 
 /// Remembers the bounce ray that was to be started; a camera ray is simply begun anew.
@@ -221,12 +194,8 @@ void suspend(uint lane) {
     p.arrivalNumbers = arrivalNumbers;
     p.departureNormal = departureNormal;
     p.skipPlacement = NO_PLACEMENT;
-#ifdef RICH_MATERIALS
     p.medium = medium;
-#endif
-#ifdef PLACEMENTS
     p.skipPlacement = ray.skipPlacement;
-#endif
     suspendedPaths[lane] = p;
     if (SPLITS) suspendSplit(lane);
 }
@@ -236,9 +205,7 @@ void suspend(uint lane) {
 void startWork(bool late) {
     if (phase == PHASE_BOUNCE || phase == PHASE_NEXT && !wantsPixel()) depart();
     bool mayBePutOff = true;
-#ifdef RICH_MATERIALS
     mayBePutOff = !hasPassedSomething();
-#endif
     if (late && phase == PHASE_PATH && !traversing(ray) && mayBePutOff) phase = PHASE_SUSPENDED;
     startRay();
 }
@@ -318,9 +285,7 @@ void main() {
             do {
                 startWork(late);
                 traverseSomeSteps();
-#ifdef RICH_MATERIALS
                 if (SURFACES_WAIT && !traversing(ray)) followFreePath();
-#endif
                 ++iteration;
                 staysFree = SURFACES_WAIT && !late && iteration < pause && !pixelsAreWanted() && !enoughSurfacesWait();
             } while (staysFree);

@@ -6,8 +6,6 @@
 #include "host/kernel/loop_limit.hpp"
 #include "host/vulkan/queue.hpp"
 
-#include "embedded/trace_rays_placed_storage.h"
-#include "embedded/trace_rays_placed_texel.h"
 #include "embedded/trace_rays_storage.h"
 #include "embedded/trace_rays_texel.h"
 
@@ -37,12 +35,9 @@ auto sceneRows(const GpuScene& scene) {
     return rows;
 }
 
-/// The product's.
-std::span<const uint32_t> rayKernel(const GpuScene& scene, bool texelFetch) {
-    using Code = std::span<const uint32_t>;
-    if (scene.hasPlacements)
-        return texelFetch ? Code(trace_rays_placed_texel) : trace_rays_placed_storage;
-    return texelFetch ? Code(trace_rays_texel) : trace_rays_storage;
+std::span<const uint32_t> rayKernel(bool texelFetch) {
+    if (texelFetch) return trace_rays_texel;
+    return trace_rays_storage;
 }
 
 bool isRow(uint32_t binding) {
@@ -77,7 +72,7 @@ RayTuning rayTuning(const vulkan::Device& device, uint64_t rowBytes) {
 DeviceRays::DeviceRays(const vulkan::Device& device, const GpuScene& scene, const RayTuning& tuning,
                        std::span<const uint32_t> code)
     : device_(device), tuning_(tuning), code_(code), queue_(device) {
-    if (code_.empty()) code_ = rayKernel(scene, tuning_.kernel.texelFetch);
+    if (code_.empty()) code_ = rayKernel(tuning_.kernel.texelFetch);
     const KernelFeatures features = kernelFeatures(scene, {}, {}, tuning_.kernel);
     constants_.assign(features.begin(), features.end());
     for (const std::span<const std::byte> rows : sceneRows(scene)) {

@@ -1,7 +1,6 @@
 #include "host/kernel/kernel_features.hpp"
 
 #include "host/kernel/direct_sampling.hpp"
-#include "host/kernel/kernel_modules.hpp"
 #include "host/kernel/open_view.hpp"
 #include "shaders/shared/texture_types.h"
 
@@ -13,6 +12,23 @@
 
 namespace stromboli {
 namespace {
+
+/// Whether a service pass has more to do than the plainest scenes ask for: textures, layered materials,
+/// environments, filters. Such kernels trace longer between two services (DeviceTuning).
+bool servesForLong(const KernelFeatures& f) {
+    return f[SPEC_BSDF_KINDS] >> gpu::BSDF_CONDUCTOR != 0 || f[SPEC_FACETS] != 0 ||
+           (f[SPEC_LIGHT_KINDS] & 1u << gpu::LIGHT_PROJECTOR) != 0 ||
+           f[SPEC_HAS_ENVIRONMENT] != 0 || f[SPEC_HAS_BACKDROP] != 0 || f[SPEC_HAS_LENS] != 0 ||
+           f[SPEC_PIXEL_FILTER] != gpu::FILTER_BOX || f[SPEC_FILTER_EXTRA] != 0 ||
+           f[SPEC_HIDES_SURFACES] != 0 || f[SPEC_FLAT_TERMINATOR] != 0 ||
+           (f[SPEC_BSDF_KINDS] & 1u << gpu::BSDF_PRINCIPLED) != 0 || f[SPEC_TEXTURE_SLOTS] != 0 ||
+           f[SPEC_LOOSE_SLOTS] != 0 || f[SPEC_LOOSE_TEXTURES] != 0 || f[SPEC_TEXEL_KINDS] != 0 ||
+           f[SPEC_ATTRIBUTES] != 0 || f[SPEC_ALPHA] != 0 || f[SPEC_TANGENT_FRAMES] != 0 ||
+           f[SPEC_BLENDS] != 0 || f[SPEC_RELIEF_RULES] != 0 || f[SPEC_PRINCIPLED_FEATURES] != 0 ||
+           f[SPEC_HAS_PLACEMENTS] != 0 || f[SPEC_WAITING_PART] != 0 ||
+           f[SPEC_CORNER_NORMALS] != f[SPEC_HAS_NORMALS];
+}
+
 
 static_assert(float(Roulette::kMaxContinue) == gpu::ROULETTE_MAX_CONTINUE);
 static_assert(float(Roulette::kBoldness) == gpu::ROULETTE_BOLDNESS);
@@ -240,12 +256,12 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     setDetails(f, scene, normalsOnly);
     if (tuning.everythingOn) switchOnAllTheSceneCouldHave(f, settings);
     f[SPEC_TRAVERSAL_LEGS] = 1;
-    if (needsRichModule(f)) f[SPEC_TRAVERSAL_STEPS] = tuning.richTraversalSteps;
+    if (servesForLong(f)) f[SPEC_TRAVERSAL_STEPS] = tuning.richTraversalSteps;
     if (scene.hasPlacements) {
         f[SPEC_TRAVERSAL_STEPS] = tuning.placedTraversalSteps;
         f[SPEC_TRAVERSAL_LEGS] = tuning.traversalLegs;
     }
-    if (tuning.waitingPart && needsRichModule(f) && !normalsOnly &&
+    if (tuning.waitingPart && servesForLong(f) && !normalsOnly &&
         shareOfSurfacesInView(scene.bvh, camera) < tuning.mostInView)
         f[SPEC_WAITING_PART] = tuning.waitingPart;
     return f;

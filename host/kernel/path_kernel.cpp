@@ -1,6 +1,7 @@
 #include "host/kernel/path_kernel.hpp"
 
-#include "host/kernel/kernel_modules.hpp"
+#include "embedded/pathtrace_storage.h"
+#include "embedded/pathtrace_texel.h"
 #include "shaders/shared/interface.h"
 #include "shaders/shared/render_types.h"
 
@@ -22,12 +23,17 @@ std::vector<vulkan::Binding> kernelBindings(bool texelFetch) {
     return bindings;
 }
 
+std::span<const uint32_t> moduleFor(bool texelFetch) {
+    if (texelFetch) return pathtrace_texel;
+    return pathtrace_storage;
+}
+
 } // namespace
 
 PathKernel::PathKernel(const vulkan::Device& device, const KernelFeatures& features,
                        bool texelFetch, std::span<const uint32_t> code)
     : features_(features),
-      pipeline_(device, code.empty() ? kernelModule(features, texelFetch) : code,
+      pipeline_(device, code.empty() ? moduleFor(texelFetch) : code,
                 kernelBindings(texelFetch), features, sizeof(gpu::Dispatch)) {}
 
 } // namespace stromboli

@@ -1,9 +1,11 @@
 #include "host/vulkan/compute_pipeline.hpp"
 
+#include "host/spirv/specialise.hpp"
 #include "host/vulkan/buffer_limits.hpp"
 #include "host/vulkan/result.hpp"
 
 #include <functional>
+#include <optional>
 #include <string_view>
 
 namespace stromboli::vulkan {
@@ -57,9 +59,16 @@ Handle<VkPipelineLayout> createLayout(const Device& device, VkDescriptorSetLayou
     return {device.handle(), layout, device.vk().vkDestroyPipelineLayout};
 }
 
-Handle<VkPipeline> createPipeline(const Device& device, std::span<const uint32_t> spirv,
-                                  std::span<const uint32_t> constants, VkPipelineLayout layout) {
-    const std::vector<uint32_t> code = withFloatControls(spirv, device.description().floatControls);
+Handle<VkPipeline> createPipeline(const Device& device, std::span<const uint32_t> words,
+                                  std::span<const uint32_t> constants, VkPipelineLayout layout,
+                                  Specialiser specialiser) {
+    std::optional<std::vector<uint32_t>> specialised;
+    if (specialiser == Specialiser::Ours) specialised = spirv::specialise(words, constants);
+    if (specialised) {
+        words = *specialised;
+        constants = {};
+    }
+    const std::vector<uint32_t> code = withFloatControls(words, device.description().floatControls);
     const VkShaderModuleCreateInfo moduleInfo = {.sType =
                                                      VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
                                                  .codeSize = code.size() * sizeof(uint32_t),
@@ -91,11 +100,11 @@ Handle<VkPipeline> createPipeline(const Device& device, std::span<const uint32_t
 }
 
 KeptPipelines::Key keyOf(std::span<const uint32_t> spirv, std::span<const Binding> bindings,
-                         std::span<const uint32_t> constants, uint32_t pushConstantBytes) {
+                         std::span<const uint32_t> constants, uint32_t pushConstantBytes, Specialiser specialiser) {
     const auto code = std::as_bytes(spirv);
     KeptPipelines::Key key = {
         std::hash<std::string_view>()({reinterpret_cast<const char*>(code.data()), code.size()}),
-        code.size(), pushConstantBytes, bindings.size()};
+        code.size(), pushConstantBytes, uint64_t(specialiser), bindings.size()};
     for (const Binding& b : bindings)
         key.insert(key.end(), {b.number, uint64_t(b.use)});
     key.insert(key.end(), constants.begin(), constants.end());
@@ -106,13 +115,14 @@ KeptPipelines::Key keyOf(std::span<const uint32_t> spirv, std::span<const Bindin
 
 ComputePipeline::ComputePipeline(const Device& device, std::span<const uint32_t> spirv,
                                  std::span<const Binding> bindings,
-                                 std::span<const uint32_t> constants, uint32_t pushConstantBytes)
+                                 std::span<const uint32_t> constants, uint32_t pushConstantBytes,
+                                 Specialiser specialiser)
     : compiled_(
-          device.keptPipelines().get(keyOf(spirv, bindings, constants, pushConstantBytes), [&] {
+          device.keptPipelines().get(keyOf(spirv, bindings, constants, pushConstantBytes, specialiser), [&] {
               CompiledPipeline made{.bindings = {bindings.begin(), bindings.end()}};
               made.setLayout = createSetLayout(device, bindings);
               made.layout = createLayout(device, made.setLayout.get(), pushConstantBytes);
-              made.pipeline = createPipeline(device, spirv, constants, made.layout.get());
+              made.pipeline = createPipeline(device, spirv, constants, made.layout.get(), specialiser);
               device.countPipeline();
               return std::make_shared<const CompiledPipeline>(std::move(made));
           })) {}

@@ -21,6 +21,10 @@ struct CompiledPipeline {
     Handle<VkPipeline> pipeline;
 };
 
+/// Who puts the constants into a module: this program, before the driver reads it (host/spirv), or the
+/// driver, which reads the whole module first. The kernel computes the same either way.
+enum class Specialiser { Ours, Drivers };
+
 /// A compute shader specialised and ready to run, with the layout of its one descriptor set. Those
 /// that are made alike on one device are one and the same (KeptPipelines).
 class ComputePipeline {
@@ -29,7 +33,7 @@ class ComputePipeline {
     /// `constants[i]` is specialisation constant i (32-bit words; bool as 0 or 1).
     ComputePipeline(const Device& device, std::span<const uint32_t> spirv,
                     std::span<const Binding> bindings, std::span<const uint32_t> constants,
-                    uint32_t pushConstantBytes);
+                    uint32_t pushConstantBytes, Specialiser specialiser = Specialiser::Ours);
 
     VkPipeline handle() const { return compiled_->pipeline.get(); }
     VkPipelineLayout layout() const { return compiled_->layout.get(); }

@@ -27,9 +27,7 @@ const BsdfSample ABSORBED = BsdfSample(vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0, LOBE
 struct Incidence {
     vec3 wo;
     bool entering;
-#ifdef RICH_MATERIALS
     vec3 coat; ///< unit; the clear coat's normal, in the same frame
-#endif
 };
 
 bool isDelta(uint lobe) { return (lobe & DELTA_LOBES) != 0u; }
@@ -39,17 +37,13 @@ bool isTransmission(uint lobe) { return (lobe & TRANSMISSION_LOBES) != 0u; }
 #include "bsdf/mirror.glsl"
 #include "bsdf/dielectric.glsl"
 #include "bsdf/rough_conductor.glsl"
-#ifdef RICH_MATERIALS
 #include "bsdf/ggx.glsl"
 #include "bsdf/principled.glsl"
-#endif
-#ifdef FACET_MATERIALS
 #include "bsdf/facets.glsl"
 #include "bsdf/conductor.glsl"
 #include "bsdf/facet_dielectric.glsl"
 #include "bsdf/plastic.glsl"
 #include "bsdf/burley.glsl"
-#endif
 
 // --- Dispatch: one line for each kind of BSDF in each function ---------------------------------------------------
 
@@ -61,10 +55,7 @@ uint lobesOf(Material m) {
     if (isBsdf(m, BSDF_REFRACTION)) lobes = REFRACTION_BSDF_LOBES;
     if (isBsdf(m, BSDF_GLASS)) lobes = GLASS_BSDF_LOBES;
     if (isBsdf(m, BSDF_ROUGH_CONDUCTOR)) lobes = ROUGH_CONDUCTOR_BSDF_LOBES;
-#ifdef RICH_MATERIALS
     if (isBsdf(m, BSDF_PRINCIPLED)) lobes = principledLobes(principledParameters(m));
-#endif
-#ifdef FACET_MATERIALS
     if (isBsdf(m, BSDF_CONDUCTOR)) lobes = CONDUCTOR_BSDF_LOBES;
     if (isBsdf(m, BSDF_FACET_CONDUCTOR)) lobes = FACET_CONDUCTOR_BSDF_LOBES;
     if (isBsdf(m, BSDF_FACET_DIELECTRIC)) lobes = FACET_DIELECTRIC_BSDF_LOBES;
@@ -72,17 +63,13 @@ uint lobesOf(Material m) {
     if (isBsdf(m, BSDF_PLASTIC)) lobes = PLASTIC_BSDF_LOBES;
     if (isBsdf(m, BSDF_FACET_PLASTIC)) lobes = FACET_PLASTIC_BSDF_LOBES;
     if (isBsdf(m, BSDF_BURLEY)) lobes = burleyLobes(burleyParameters(m));
-#endif
     return lobes;
 }
 
 /// All lobes of the scene's materials: known when the kernel is compiled.
 uint sceneLobes() {
     return
-#ifdef RICH_MATERIALS
         (sceneHasBsdf(BSDF_PRINCIPLED) ? scenePrincipledLobes() : 0u) |
-#endif
-#ifdef FACET_MATERIALS
         (sceneHasBsdf(BSDF_CONDUCTOR) ? CONDUCTOR_BSDF_LOBES : 0u) |
         (sceneHasBsdf(BSDF_FACET_CONDUCTOR) ? FACET_CONDUCTOR_BSDF_LOBES : 0u) |
         (sceneHasBsdf(BSDF_FACET_DIELECTRIC) ? FACET_DIELECTRIC_BSDF_LOBES : 0u) |
@@ -90,7 +77,6 @@ uint sceneLobes() {
         (sceneHasBsdf(BSDF_PLASTIC) ? PLASTIC_BSDF_LOBES : 0u) |
         (sceneHasBsdf(BSDF_FACET_PLASTIC) ? FACET_PLASTIC_BSDF_LOBES : 0u) |
         (sceneHasBsdf(BSDF_BURLEY) ? sceneBurleyLobes() : 0u) |
-#endif
         (sceneHasBsdf(BSDF_DIFFUSE) ? DIFFUSE_BSDF_LOBES : 0u) |
            (sceneHasBsdf(BSDF_MIRROR) ? MIRROR_BSDF_LOBES : 0u) |
            (sceneHasBsdf(BSDF_REFRACTION) ? REFRACTION_BSDF_LOBES : 0u) |
@@ -98,7 +84,6 @@ uint sceneLobes() {
            (sceneHasBsdf(BSDF_ROUGH_CONDUCTOR) ? ROUGH_CONDUCTOR_BSDF_LOBES : 0u);
 }
 
-#ifdef RICH_MATERIALS
 /// Whether the view decides where light goes, as everywhere but under Lambert's law.
 bool dependsOnView(Material m) { return !isBsdf(m, BSDF_DIFFUSE); }
 
@@ -109,29 +94,21 @@ bool boundsVolume(Material m) {
 
 /// Whether a material's first row of parameters is a colour that base colours multiply.
 bool hasBaseColor(Material m) {
-#ifdef FACET_MATERIALS
     if (isFacetMaterial(m)) return true;
-#endif
     return isBsdf(m, BSDF_DIFFUSE) || isBsdf(m, BSDF_PRINCIPLED);
 }
 
 /// Whether textures change parameters behind the first row, of some material of the scene.
 bool hasFurtherParameters() {
-#ifdef FACET_MATERIALS
     if (sceneHasFacetMaterials()) return true;
-#endif
     return sceneHasBsdf(BSDF_PRINCIPLED);
 }
-#endif
 
 BsdfValue evaluateLocally(Material m, Incidence i, vec3 wi) {
     if (isBsdf(m, BSDF_DIFFUSE)) return evaluateDiffuse(diffuseParameters(m), i, wi);
     if (isBsdf(m, BSDF_ROUGH_CONDUCTOR))
         return evaluateRoughConductor(roughConductorParameters(m), i, wi);
-#ifdef RICH_MATERIALS
     if (isBsdf(m, BSDF_PRINCIPLED)) return evaluatePrincipled(principledParameters(m), i, wi);
-#endif
-#ifdef FACET_MATERIALS
     if (isBsdf(m, BSDF_FACET_CONDUCTOR))
         return evaluateFacetConductor(conductorParameters(m), i, wi);
     if (isBsdf(m, BSDF_FACET_DIELECTRIC))
@@ -139,7 +116,6 @@ BsdfValue evaluateLocally(Material m, Incidence i, vec3 wi) {
     if (isBsdf(m, BSDF_PLASTIC)) return evaluatePlastic(plasticParameters(m), i, wi);
     if (isBsdf(m, BSDF_FACET_PLASTIC)) return evaluateFacetPlastic(plasticParameters(m), i, wi);
     if (isBsdf(m, BSDF_BURLEY)) return evaluateBurley(burleyParameters(m), i, wi);
-#endif
     return NO_SCATTERING; // delta lobes only
 }
 
@@ -150,10 +126,7 @@ BsdfSample sampleLocally(Material m, Incidence i, vec3 u) {
     if (isBsdf(m, BSDF_REFRACTION)) s = sampleRefraction(refractionParameters(m), i, u);
     if (isBsdf(m, BSDF_GLASS)) s = sampleGlass(glassParameters(m), i, u);
     if (isBsdf(m, BSDF_ROUGH_CONDUCTOR)) s = sampleRoughConductor(roughConductorParameters(m), i, u);
-#ifdef RICH_MATERIALS
     if (isBsdf(m, BSDF_PRINCIPLED)) s = samplePrincipled(principledParameters(m), i, u);
-#endif
-#ifdef FACET_MATERIALS
     if (isBsdf(m, BSDF_CONDUCTOR)) s = sampleConductor(conductorParameters(m), i, u);
     if (isBsdf(m, BSDF_FACET_CONDUCTOR)) s = sampleFacetConductor(conductorParameters(m), i, u);
     if (isBsdf(m, BSDF_FACET_DIELECTRIC))
@@ -163,7 +136,6 @@ BsdfSample sampleLocally(Material m, Incidence i, vec3 u) {
     if (isBsdf(m, BSDF_PLASTIC)) s = samplePlastic(plasticParameters(m), i, u);
     if (isBsdf(m, BSDF_FACET_PLASTIC)) s = sampleFacetPlastic(plasticParameters(m), i, u);
     if (isBsdf(m, BSDF_BURLEY)) s = sampleBurley(burleyParameters(m), i, u);
-#endif
     return s;
 }
 
@@ -173,12 +145,8 @@ BsdfSample sampleLocally(Material m, Incidence i, vec3 u) {
 bool scattersIntoManyDirections(uint lobes) { return (lobes & ~DELTA_LOBES) != 0u; }
 
 /// Whether sampleBsdf() takes all three numbers; else either the first two or the last one.
-#ifdef FACET_MATERIALS
 #define TAKES_THREE_NUMBERS(m)                                                                     \
     (isBsdf(m, BSDF_PRINCIPLED) || isBsdf(m, BSDF_FACET_DIELECTRIC) || isBsdf(m, BSDF_BURLEY))
-#else
-#define TAKES_THREE_NUMBERS(m) isBsdf(m, BSDF_PRINCIPLED)
-#endif
 
 /// Whether two paths that arrive by the same ray may leave by different ones.
 bool scattersAtRandom(uint lobes) {
@@ -187,12 +155,8 @@ bool scattersAtRandom(uint lobes) {
 
 Incidence incidenceOn(SurfacePoint s, ShadingFrame frame_) {
     const vec3 wo = toLocal(frame_, s.wo);
-#ifdef RICH_MATERIALS
     const vec3 coat = sceneHasCoatNormals() ? toLocal(frame_, s.coat) : vec3(0.0, 0.0, 1.0);
     return Incidence(wo, entersWhatItBounds(s.outside, wo), coat);
-#else
-    return Incidence(wo, entersWhatItBounds(s.outside, wo));
-#endif
 }
 
 /// Light stays on the side of the true surface that its lobe sends it to.
@@ -201,7 +165,6 @@ bool isOnItsSide(SurfacePoint s, vec3 wi, bool transmitted) {
     return transmitted ? dot(s.geometric, wi) < 0.0 : isReflected(s, wi);
 }
 
-#ifdef RICH_MATERIALS
 /// What the bumps of a surface let through of light from wi, or none where wi is over the surface but below the horizon
 /// of its mapped normal, or the other way round: as a surface of facets whose roughness alpha^2 is an eighth of the
 /// squared tangent of the normal's tilt, 1 at most, would mask it (Conty Estevez, Lecocq and Stein 2019, "A
@@ -218,7 +181,6 @@ float reliefShadow(Material m, SurfacePoint s, vec3 wi) {
     const float alpha2 = min(0.125 * max(1.0 - tilt2, 0.0) / max(tilt2, TINY), 1.0);
     return 2.0 * abs(c) / (abs(c) + sqrt(c2 + alpha2 * max(1.0 - c2, 0.0)));
 }
-#endif
 
 /// f |cos| and the density for the unit world direction wi, of all lobes but delta ones.
 /// s: faced forward.
@@ -226,22 +188,14 @@ BsdfValue evaluateBsdf(Material m, SurfacePoint s, vec3 wi) {
     const ShadingFrame frame_ = shadingFrame(s);
     const vec3 local = toLocal(frame_, wi);
     const bool transmitted = local.z < 0.0;
-#ifdef RICH_MATERIALS
 #define LOBES_HERE lobesOf(m)
-#else
-#define LOBES_HERE sceneLobes() // of which none transmits into many directions
-#endif
     const bool possible =
         (transmitted ? (LOBES_HERE & TRANSMISSION_LOBES & ~DELTA_LOBES) != 0u : local.z > 0.0) &&
         isOnItsSide(s, wi, transmitted);
     if (!possible) return NO_SCATTERING;
-#ifdef RICH_MATERIALS
     BsdfValue f = evaluateLocally(m, incidenceOn(s, frame_), local);
     if (RELIEF_RULES) f.value *= reliefShadow(m, s, wi);
     return f;
-#else
-    return evaluateLocally(m, incidenceOn(s, frame_), local);
-#endif
 }
 
 /// Samples the direction in which light goes on. u, each in [0, 1): x and y for the direction within
@@ -254,8 +208,6 @@ BsdfSample sampleBsdf(Material m, SurfacePoint s, vec3 u) {
     // along a path.
     if ((b.lobe & DIFFUSE_LOBES) == 0u) b.direction = unit(b.direction);
     if (!isOnItsSide(s, b.direction, isTransmission(b.lobe))) b.weight = vec3(0.0);
-#ifdef RICH_MATERIALS
     if (RELIEF_RULES) b.weight *= reliefShadow(m, s, b.direction);
-#endif
     return b;
 }

@@ -3,13 +3,11 @@
 
 /// A direction of hemisphere sampling as a light sample whose light is not known yet.
 LightSample hemisphereSample(vec2 u) {
-#ifdef RICH_MATERIALS
     if (isLitFromBothSides(lobesOf(material))) {
         const float side = takesOtherSide(u) ? -1.0 : 1.0;
         const vec3 w = side * toWorld(makeFrame(shadingNormal(surface)), sampleUniformHemisphere(u));
         return LightSample(w, true, w, vec3(4.0 * PI / float(frame.hemisphereSamples)), 0.0);
     }
-#endif
     const vec3 w = toWorld(makeFrame(shadingNormal(surface)), sampleUniformHemisphere(u));
     return LightSample(w, true, w, vec3(2.0 * PI / float(frame.hemisphereSamples)), 0.0);
 }
@@ -17,7 +15,6 @@ LightSample hemisphereSample(vec2 u) {
 /// A sample of one of the lights, with the probability of its choice and its share of the direct light in
 /// its radiance and density.
 LightSample lightSample(vec2 u, uint index) {
-#ifdef RICH_MATERIALS
     SurfacePoint lit = surface;
     const bool bothSides = isLitFromBothSides(lobesOf(material));
     if (bothSides && takesOtherSide(u)) lit = otherSide(surface);
@@ -27,10 +24,6 @@ LightSample lightSample(vec2 u, uint index) {
         light.radiance *= dot(shadingNormal(lit), light.direction) > 0.0 ? 2.0 : 0.0;
         light.inversePdf *= 2.0;
     }
-#else
-    const PickedLight picked = pickLight(litPoint(surface), shadingNormal(surface), index, u);
-    LightSample light = sampleLight(surface, picked.light, picked.u);
-#endif
     const float perProbability =
         picked.probability > 0.0 ? 1.0 / picked.probability : 0.0;
     light.radiance *= perProbability * lightSampleShare(index);
@@ -47,19 +40,13 @@ void traceDirectSample(LightSample light, bool hemisphere) {
         const float pdf = bouncePdfWithGap(surface, lobesOf(material), f.pdf, light.direction);
         directValue *= lightSampleWeight(light.inversePdf, pdf);
     }
-#ifdef RICH_MATERIALS
     const bool transmitted = isBehind(surface, light.direction);
-#else
-    const bool transmitted = false;
-#endif
     const vec3 origin = leave(surface, light.direction, transmitted);
-#ifdef RICH_MATERIALS
     // What the ray of hemisphere sampling goes through is known when it has arrived.
     if (HAS_ABSORPTION && !hemisphere)
         directValue *=
             transmittance(mediumBeyond(surface, material, medium, transmitted),
                           light.infinite ? INFINITE_DISTANCE : length(light.target - origin));
-#endif
     traceFrom(surface, hemisphere ? PHASE_HEMISPHERE : PHASE_SHADOW, origin,
               light.infinite ? light.direction : light.target - origin,
               light.infinite ? INFINITE_DISTANCE : 1.0, transmitted);

@@ -18,11 +18,9 @@ SCENE_BUFFER(BINDING_PRIMITIVES, primitiveRows)
 SCENE_BUFFER(BINDING_MATERIALS, materialRows)
 SCENE_BUFFER(BINDING_LIGHTS, lightRows)
 SCENE_BUFFER(BINDING_LIGHT_TABLE, lightTableRows)
-#ifdef RICH_MATERIALS
 SCENE_BUFFER(BINDING_ENVIRONMENT, environmentRows)
 SCENE_BUFFER(BINDING_DETAIL, detailRows)
 SCENE_BUFFER(BINDING_FILTER, filterRows)
-#endif
 
 /// A record of the BVH as it lies in memory: a NodeRecord or a LeafRecord.
 struct Record {
@@ -87,9 +85,7 @@ uint materialOf(Primitive p) { return HAS_CORNER_NORMALS ? p.material & ~PRIMITI
 /// The rows of a material: its header, and two rows that its kind of BSDF reads its parameters from.
 struct Material {
     uvec4 header, row1, row2;
-#ifdef RICH_MATERIALS
     uvec4 row3, row4, row5, row6; ///< of those that have as many
-#endif
 };
 
 /// Whether the material's BSDF is of this kind: known without looking where the scene has but one kind,
@@ -99,19 +95,16 @@ bool isBsdf(Material m, uint kind) {
            (BSDF_KINDS == 1u << kind || (m.header.w & MATERIAL_KIND_MASK) == kind);
 }
 
-#ifdef FACET_MATERIALS
 /// Whether the material's BSDF is of a kind that only modules with FACET_MATERIALS have.
 bool isFacetMaterial(Material m) {
     const bool allAre = (BSDF_KINDS & (1u << BSDF_CONDUCTOR) - 1u) == 0u;
     return sceneHasFacetMaterials() &&
            (allAre || (m.header.w & MATERIAL_KIND_MASK) >= BSDF_CONDUCTOR);
 }
-#endif
 
 /// row: the material's first. Rows that no kind of the scene has are not read.
 Material fetchMaterial(uint row) {
     const bool severalKinds = (BSDF_KINDS & (BSDF_KINDS - 1u)) != 0u;
-#ifdef RICH_MATERIALS
     const uvec4 none = uvec4(0u);
     Material m = Material(none, none, none, none, none, none, none);
     if (sceneHasBsdf(BSDF_PRINCIPLED)) {
@@ -121,7 +114,6 @@ Material fetchMaterial(uint row) {
         m.row5 = ROW(materialRows, row + 5u);
         m.row6 = ROW(materialRows, row + 6u);
     }
-#ifdef FACET_MATERIALS
     if (sceneHasFacetMaterials()) {
         m.row2 = ROW(materialRows, row + 2u);
         m.row3 = ROW(materialRows, row + 3u);
@@ -130,10 +122,6 @@ Material fetchMaterial(uint row) {
         m.row4 = ROW(materialRows, row + 4u);
         m.row5 = ROW(materialRows, row + 5u);
     }
-#endif
-#else
-    Material m = Material(uvec4(0u), uvec4(0u), uvec4(0u));
-#endif
     if (HAS_EMISSION || severalKinds || BLACK_BACKS || RELIEF_RULES) m.header = ROW(materialRows, row);
     m.row1 = ROW(materialRows, row + 1u);
     if (sceneHasBsdf(BSDF_GLASS) || sceneHasBsdf(BSDF_ROUGH_CONDUCTOR) ||
@@ -172,7 +160,6 @@ RoughConductorParameters roughConductorParameters(Material m) {
                                     uintBitsToFloat(m.row2.xyz), m.row2.w);
 }
 
-#ifdef RICH_MATERIALS
 PrincipledParameters principledParameters(Material m) {
     const vec4 row1 = uintBitsToFloat(m.row1), row2 = uintBitsToFloat(m.row2);
     const vec4 row3 = uintBitsToFloat(m.row3), row4 = uintBitsToFloat(m.row4);
@@ -180,9 +167,7 @@ PrincipledParameters principledParameters(Material m) {
     return PrincipledParameters(row1.xyz, row1.w, row2.xyz, row2.w, row3.x, row3.y, row3.z, row3.w,
                                 row4.xyz, row4.w, row5.x, row5.y, row5.z, m.row5.w, row6.xyz, row6.w);
 }
-#endif
 
-#ifdef FACET_MATERIALS
 ConductorParameters conductorParameters(Material m) {
     return ConductorParameters(uintBitsToFloat(m.row1.xyz), uintBitsToFloat(m.row1.w),
                                uintBitsToFloat(m.row2.xyz), uintBitsToFloat(m.row2.w),
@@ -214,4 +199,3 @@ BurleyParameters burleyParameters(Material m) {
     return BurleyParameters(row1.xyz, row1.w, row2.x, row2.y, row2.z, row2.w, row3.x, row3.y, row3.z, row3.w,
                             row4.xyz, row4.w, row5.x, row5.y, row5.z, m.row5.w);
 }
-#endif

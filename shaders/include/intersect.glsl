@@ -11,20 +11,13 @@ struct Ray {
     uvec4 childBits[2]; ///< of slots 0-3 and 4-7: bit (slot ^ octant)
     bool xIsLargest, yIsLargest; ///< component of the direction (triangles); neither: z
     vec3 shear; ///< maps the direction to the z axis (triangles)
-#ifdef PLACEMENTS
     vec3 boxOrigin; ///< of the ray in the space of the boxes, which `inverse` to `childBits` are of, too
     vec3 slack; ///< by how much planes of boxes move, in distance along the ray (placements.glsl)
     vec4 toWorld0, toWorld1, toWorld2; ///< rows of the matrix from that space to the triangles'
-#endif
 };
 
-#ifdef PLACEMENTS
 vec3 boxOrigin(Ray ray) { return ray.boxOrigin; }
 vec3 boxSlack(Ray ray) { return HAS_PLACEMENTS ? ray.slack : vec3(0.0); }
-#else
-vec3 boxOrigin(Ray ray) { return ray.origin; }
-vec3 boxSlack(Ray ray) { return vec3(0.0); }
-#endif
 
 /// The direction's largest component becomes z, and z takes its place: two selections fewer than Woop's cyclic
 /// permutation, and nothing here asks for the orientation of triangles.
@@ -52,10 +45,8 @@ void prepareForBoxes(inout Ray ray, vec3 origin, vec3 direction) {
     const vec3 sign = mix(vec3(1.0), vec3(-1.0), lessThan(direction, vec3(0.0)));
     const float least = largestComponent(a) * 8.673617379884035e-19;
     ray.inverse = 1.0 / (sign * vec3(larger(a.x, least), larger(a.y, least), larger(a.z, least)));
-#ifdef PLACEMENTS
     ray.boxOrigin = origin;
     ray.slack = vec3(0.0);
-#endif
 }
 
 Ray makeRay(vec3 origin, vec3 direction) {
@@ -70,11 +61,9 @@ Ray makeRay(vec3 origin, vec3 direction) {
     const vec3 d = permute(direction, ray);
     const float inverseZ = permute(ray.inverse, ray).z;
     ray.shear = vec3(d.xy * inverseZ, inverseZ);
-#ifdef PLACEMENTS
     ray.toWorld0 = vec4(1.0, 0.0, 0.0, 0.0);
     ray.toWorld1 = vec4(0.0, 1.0, 0.0, 0.0);
     ray.toWorld2 = vec4(0.0, 0.0, 1.0, 0.0);
-#endif
     return ray;
 }
 
@@ -149,12 +138,10 @@ uint enterChildren(Record r, Ray ray, float tMax) {
                                    gridAxis(r.r0.y, origin.y, ray.inverse.y),
                                    gridAxis(r.r0.z, origin.z, ray.inverse.z));
     GridAxes near = axes, far = axes;
-#ifdef PLACEMENTS
     if (HAS_PLACEMENTS) {
         near = GridAxes(movedBy(axes.x, -slack.x), movedBy(axes.y, -slack.y), movedBy(axes.z, -slack.z));
         far = GridAxes(movedBy(axes.x, slack.x), movedBy(axes.y, slack.y), movedBy(axes.z, slack.z));
     }
-#endif
     // Rows hold low (xy) and high planes (zw) of the eight children.
     const uvec4 wx = ray.ascends[0] ? r.r1 : r.r1.zwxy;
     const uvec4 wy = ray.ascends[1] ? r.r2 : r.r2.zwxy;

@@ -9,9 +9,7 @@ const uint PASS_SEED = 0x9E3779B9u;
 float passNumber(Traversal t, uint pixel_, uint sample_, uint block, uint purpose) {
     const uvec4 words = pcg4d(uvec4(pixel_, sample_, block, frame.seed ^ PASS_SEED));
     uvec4 there = uvec4(t.hitPrimitive, floatBitsToUint(t.tMax), purpose, 0u);
-#ifdef PLACEMENTS
     there.w = t.hitPlacement;
-#endif
     return unitFloats(pcg4d(words ^ there)).x;
 }
 
@@ -19,8 +17,6 @@ float passNumber(Traversal t, uint pixel_, uint sample_, uint block, uint purpos
 void passOn(inout Traversal t, float end) {
     t.tMin = t.tMax;
     t.passed = t.hitPrimitive;
-#ifdef PLACEMENTS
     t.passedPlacement = t.hitPlacement;
-#endif
     t.tMax = end;
 }

@@ -18,7 +18,6 @@ float foundShare(FoundSky sky) {
     return foundLightWeight(ray, departureNormal, sky, bouncePdf);
 }
 
-#ifdef RICH_MATERIALS
 /// What a material is at the point that the finished ray asks for: where it has met a surface, or, a shadow ray that has
 /// met none, where the light sample has gone. One lookup for all, since every lane takes part in each (docs/kernel.md).
 MaterialAtPoint found;
@@ -28,13 +27,10 @@ MaterialPoint askedPoint() {
     if (emissionHasFactors() && phase == PHASE_SHADOW) return sampledEmitter;
     return MaterialPoint(0u, NO_PRIMITIVE, vec2(0.0));
 }
-#endif
 
 void finishShadowRay() {
-#ifdef RICH_MATERIALS
     if (emissionHasFactors() && sampledEmitter.primitive != NO_PRIMITIVE)
         directValue *= emissionFactorOf(found);
-#endif
     if (ray.hitPrimitive == NO_PRIMITIVE) radiance += throughput * directValue;
     phase = PHASE_DIRECT;
 }
@@ -46,10 +42,8 @@ void finishHemisphereRay() {
         const SurfacePoint s = surfaceAt(ray);
         found = emissionAt(s, materialAt(s));
     }
-#ifdef RICH_MATERIALS
     found *= transmittance(mediumBeyond(surface, material, medium, isBehind(surface, ray.direction)),
                            ray.tMax);
-#endif
     radiance += throughput * directValue * found;
     phase = PHASE_DIRECT;
 }
@@ -69,9 +63,7 @@ void arrive() {
     FoundSky sky = NO_SKY;
     if (!hit) sky = skyFrom(departureNormal, ray.direction);
     const float share = foundShare(sky);
-#ifdef RICH_MATERIALS
     throughput *= transmittance(medium, hit ? ray.tMax : INFINITE_DISTANCE);
-#endif
     if (!hit) {
         takeInSky(sky, share);
         return;
@@ -85,22 +77,16 @@ void arrive() {
         radiance = vec3(ray.tMax);
         return;
     }
-#ifdef RICH_MATERIALS
     if (HAS_BLENDS) {
         surface.material = drawnMaterial(surface);
         found = lookUpMaterial(materialPoint(surface));
     }
     material = found.parameters;
-#else
-    material = fetchMaterial(surface.material);
-#endif
     if (countsEmission) radiance += throughput * emissionAt(surface, material) * share;
     if (isBlackBehind(material) && isSeenFromBehind(surface)) return;
     faceForward(surface);
-#ifdef RICH_MATERIALS
     applyRelief(surface, found.relief, dependsOnView(material), reliefRules(material));
     if (reliefRules(material) != 0u && dot(shadingNormal(surface), surface.wo) <= 0.0) return;
-#endif
     ++bounce;
     if (bounce > frame.maxBounces) return;
     if (ROULETTE == ROULETTE_FIXED) {
@@ -126,11 +112,7 @@ bool emissionCounts(uint lobes) {
 
 /// All branches are of one weight. From here on `radiance` is their sum, until finishSample.
 void splitPath() {
-#ifdef RICH_MATERIALS
     splitPoint = SplitPoint(surface, throughput, bounce, medium);
-#else
-    splitPoint = SplitPoint(surface, throughput, bounce);
-#endif
     branchesLeft = frame.branches - 1u;
     radiance *= float(frame.branches);
 }
@@ -142,9 +124,7 @@ void nextBranch() {
     material = materialAt(surface);
     throughput = splitPoint.throughput;
     bounce = splitPoint.bounce;
-#ifdef RICH_MATERIALS
     medium = splitPoint.medium;
-#endif
     phase = PHASE_BOUNCE;
 }
 
@@ -171,13 +151,11 @@ void scatter(vec3 u, float roulette) {
     countsEmission = emissionCounts(b.lobe);
     bouncePdf = combines(b.lobe) ? max(b.pdf, TINY) : 0.0;
     departureNormal = shadingNormal(surface);
-#ifdef RICH_MATERIALS
     if (isLitFromBothSides(lobesOf(material))) { // as light samples of that side are taken
         bouncePdf *= 2.0;
         departureNormal = transmitted ? -departureNormal : departureNormal;
     }
     medium = mediumBeyond(surface, material, medium, transmitted);
-#endif
     traceFrom(surface, PHASE_PATH, leave(surface, b.direction, transmitted), b.direction,
               INFINITE_DISTANCE, transmitted);
 }
@@ -188,9 +166,7 @@ void beginSample() {
     radiance = vec3(0.0);
     countsEmission = frame.minBounce == 0u;
     bouncePdf = 0.0;
-#ifdef RICH_MATERIALS
     medium = NO_MEDIUM;
-#endif
     splitPoint.bounce = 0u;
     branchesLeft = 0u;
 }
@@ -212,10 +188,8 @@ void depart() {
     // Most kinds of BSDF take either the two numbers within a lobe or the one that chooses a lobe, so that
     // both may be the same (host/kernel/kernel_features.cpp asserts it).
     if (begins) startCameraRay(u.zw);
-#ifdef RICH_MATERIALS
     else if (SCATTERS_THROUGH && INTEGRATOR == INTEGRATOR_PATH)
         scatter(vec3(u.zw, TAKES_THREE_NUMBERS(material) ? sideNumber() : u.z), arrivalNumbers.z);
-#endif
     else if (INTEGRATOR == INTEGRATOR_PATH) scatter(u.zwz, arrivalNumbers.z);
 }
 
@@ -231,7 +205,6 @@ void finishSample() {
 
 // --- Service -------------------------------------------------------------------------------------
 
-#ifdef RICH_MATERIALS
 /// Whether the finished ray asks for a material (askedPoint()), or is one of hemisphere sampling.
 bool asksForMaterial() {
     const bool hit = ray.hitPrimitive != NO_PRIMITIVE;
@@ -259,16 +232,13 @@ void followFreePath() {
     waits = phase == PHASE_DIRECT || branchIsOver();
     if (phase == PHASE_ENDED && !waits) finishSample();
 }
-#endif
 
 /// Takes in the finished ray. What is next: a shadow ray, which it asks for; a bounce (PHASE_BOUNCE), or
 /// another sample (PHASE_NEXT), both by depart().
 void followPath() {
-#ifdef RICH_MATERIALS
     const MaterialPoint asked = askedPoint();
     found = lookUpMaterial(asked);
     if (HAS_ALPHA && passesThrough(asked, found.opacity)) return;
-#endif
     if (phase == PHASE_SHADOW) finishShadowRay();
     else if (DIRECT_LIGHT == DIRECT_HEMISPHERE && phase == PHASE_HEMISPHERE) finishHemisphereRay();
     else if (phase == PHASE_PATH) arrive();

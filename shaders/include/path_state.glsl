@@ -31,9 +31,7 @@ uint directIndex; ///< direct light samples done at this surface
 vec3 arrivalNumbers;
 vec3 directValue; ///< what the ray under way adds if it is free (or, hemisphere, per radiance)
 uint rayCount;
-#ifdef RICH_MATERIALS
 uint medium; ///< that the path ray goes through: the first row of a material, or NO_MEDIUM
-#endif
 bool waits; ///< with SURFACES_WAIT: what comes next needs a material, and other lanes are waited for
 
 /// Where a sample's path has split into branches (path splitting; docs/estimator.md, "Branches"): at
@@ -42,9 +40,7 @@ struct SplitPoint {
     SurfacePoint surface;
     vec3 throughput; ///< before scattering
     uint bounce;     ///< 0: has not split
-#ifdef RICH_MATERIALS
     uint medium;
-#endif
 };
 SplitPoint splitPoint;
 uint branchesLeft; ///< that have not begun
@@ -77,7 +73,6 @@ void restoreFilterWeight() {
     placeInPixel(u.zw, filterWeight);
 }
 
-#ifdef RICH_MATERIALS
 /// Blocks of random numbers that choices between reflection and transmission take.
 const uint CHOICE_BLOCKS = 0x40000000u;
 
@@ -92,10 +87,6 @@ float sideNumber() {
 }
 
 #include "pass_through.glsl"
-#else
-/// The material of a surface; a scene of the smaller modules has no textures.
-Material materialAt(SurfacePoint s) { return fetchMaterial(s.material); }
-#endif
 
 /// Asks for a ray. Rays are prepared in one place, startRay() (docs/kernel.md, "What llvmpipe does").
 void trace(uint newPhase, vec3 origin, vec3 direction, float tMin, float tMax, uint skipPrimitive) {
@@ -105,21 +96,15 @@ void trace(uint newPhase, vec3 origin, vec3 direction, float tMin, float tMax, u
     ray.tMin = tMin;
     ray.tMax = tMax;
     ray.skipPrimitive = skipPrimitive;
-#ifdef RICH_MATERIALS
     ray.passed = NO_PRIMITIVE;
     rayEnd = tMax;
-#endif
-#ifdef PLACEMENTS
     ray.skipPlacement = NO_PLACEMENT;
-#endif
 }
 
 /// The same from a surface, whose own primitive is the one that is skipped.
 void traceFrom(SurfacePoint s, uint newPhase, vec3 origin, vec3 direction, float tMax, bool transmitted) {
     trace(newPhase, origin, direction, 0.0, tMax, skipOnLeaving(s, transmitted));
-#ifdef PLACEMENTS
     ray.skipPlacement = s.placement;
-#endif
 }
 
 bool isTracing(uint p) {

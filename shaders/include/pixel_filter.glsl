@@ -38,7 +38,6 @@ vec2 sampleTent(vec2 u) {
     return mix(above, below, lessThan(u, vec2(0.5)));
 }
 
-#ifdef RICH_MATERIALS
 /// From the pixel's middle, along columns or rows. weight: the other direction's is multiplied by it.
 float sampleFilterTable(float u, inout float weight) {
     const float at = u * float(FILTER_CELLS);
@@ -47,17 +46,14 @@ float sampleFilterTable(float u, inout float weight) {
     weight *= row.z;
     return row.x + (at - float(cell)) * row.y;
 }
-#endif
 
 /// From the pixel's upper left corner, in pixels. weight: that of the sample.
 vec2 placeInPixel(vec2 u, out float weight) {
     weight = 1.0;
     if (PIXEL_FILTER == FILTER_GAUSSIAN) return 0.5 + (1.0 + FILTER_EXTRA) * sampleGaussian(u);
     if (PIXEL_FILTER == FILTER_TENT) return 0.5 + (1.0 + FILTER_EXTRA) * sampleTent(u);
-#ifdef RICH_MATERIALS
     if (PIXEL_FILTER == FILTER_TABLE)
         return 0.5 + vec2(sampleFilterTable(u.x, weight), sampleFilterTable(u.y, weight));
-#endif
     if (PIXEL_FILTER == FILTER_BLACKMAN_HARRIS)
         return 0.5 + BLACKMAN_HARRIS_RADIUS * (2.0 * vec2(sampleBlackmanHarris(u.x), sampleBlackmanHarris(u.y)) - 1.0);
     return u;

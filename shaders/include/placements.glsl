@@ -1,7 +1,6 @@
 // Prototypes in the world (scene_types.h): boxes of their trees are met in the prototype's space, triangles in the
 // world, where their corners are the same bits for every ray (docs/numerics.md, "Instances").
 
-#ifdef PLACEMENTS
 
 /// Of each of a vector's components the place that the rows of a matrix give it. Always in this order, and not
 /// contracted: scene/model/placements.cpp and the tests find the same bits.
@@ -54,6 +53,3 @@ LeafPoints pointsInWorld(LeafPoints p, Ray ray) {
                       placed(ray.toWorld0, ray.toWorld1, ray.toWorld2, p.p3));
 }
 
-#else
-LeafPoints pointsInWorld(LeafPoints p, Ray ray) { return p; }
-#endif

@@ -8,7 +8,6 @@ vec4 alongTangent(SurfacePoint s, vec3 n) {
     const uvec4 row = tangentRow(s.primitive);
     vec3 t0 = cornerTangent(row, 0u), t1 = cornerTangent(row, 1u), t2 = cornerTangent(row, 2u);
     float side = bitangentSide(row);
-#ifdef PLACEMENTS
     if (HAS_PLACEMENTS) {
         const Placing placing = placingOf(s.placement);
         t0 = tangentInWorld(placing, t0);
@@ -16,7 +15,6 @@ vec4 alongTangent(SurfacePoint s, vec3 n) {
         t2 = tangentInWorld(placing, t2);
         side = placing.mirrors ? -side : side;
     }
-#endif
     const vec3 sum = (1.0 - s.weights.x - s.weights.y) * t0 + s.weights.x * t1 + s.weights.y * t2;
     const bool isTurned = FACES_FORWARD && !s.outside;
     return vec4(sum - dot(sum, n) * n, isTurned ? -side : side);
@@ -67,9 +65,7 @@ vec3 settledNormal(vec3 mapped, vec3 n, SurfacePoint s, bool bends, uint rules) 
 /// be lost below the surface; Lambert's law needs no view. rules: the material's MATERIAL_RELIEF_ bits.
 void applyHeights(inout SurfacePoint s, vec2 slope, bool mirrors, uint rules) {
     PlacedPrimitive p = fetchPlace(s.skipPrimitive);
-#ifdef PLACEMENTS
     if (HAS_PLACEMENTS) p = inWorld(placingOf(s.placement), p);
-#endif
     const uint row = attributeRow(s.primitive, ATTRIBUTE_UV0);
     const vec4 first = uintBitsToFloat(ROW(detailRows, row));
     const vec2 d1 = first.zw - first.xy, d2 = uintBitsToFloat(ROW(detailRows, row + 1u).xy) - first.xy;

@@ -28,40 +28,19 @@ layout(constant_id = SPEC_GAP_PROPOSAL) const bool GAP_PROPOSAL = false;
 // The kernel is compiled into several modules, of which the host takes the smallest that has all a picture needs
 // (host/kernel/kernel_modules.cpp): a driver reads the whole module before it knows what the constants switch off,
 // and that is most of a start.
-#ifdef USUAL_MODES
-const bool LARGE_TREE = false;
-const uint INTEGRATOR = INTEGRATOR_PATH;
-const uint DIRECT_LIGHT = DIRECT_LIGHTS;
-const bool CS184 = false;
-const bool COUNT_STEPS = false;
-#else
 layout(constant_id = SPEC_LARGE_TREE) const bool LARGE_TREE = false;
 layout(constant_id = SPEC_INTEGRATOR) const uint INTEGRATOR = INTEGRATOR_PATH;
 layout(constant_id = SPEC_DIRECT_LIGHT) const uint DIRECT_LIGHT = DIRECT_LIGHTS;
 layout(constant_id = SPEC_CS184) const bool CS184 = false;
 layout(constant_id = SPEC_COUNT_STEPS) const bool COUNT_STEPS = false;
-#endif
-#ifdef RICH_MATERIALS
 layout(constant_id = SPEC_HAS_ENVIRONMENT) const bool HAS_ENVIRONMENT = true;
 layout(constant_id = SPEC_HAS_BACKDROP) const bool HAS_BACKDROP = true;
 layout(constant_id = SPEC_HAS_LENS) const bool HAS_LENS = false;
 layout(constant_id = SPEC_PIXEL_FILTER) const uint PIXEL_FILTER = FILTER_BOX;
 layout(constant_id = SPEC_FILTER_EXTRA) const float FILTER_EXTRA = 0.0;
-#else
-const bool HAS_ENVIRONMENT = false;
-const bool HAS_BACKDROP = false;
-const bool HAS_LENS = false;
-const uint PIXEL_FILTER = FILTER_BOX;
-const float FILTER_EXTRA = 0.0;
-#endif
-#ifdef ONE_LIGHT
-const uint LIGHT_CHOICE = LIGHT_CHOICE_ONE;
-#else
 layout(constant_id = SPEC_LIGHT_CHOICE) const uint LIGHT_CHOICE = LIGHT_CHOICE_TREE;
-#endif
 
 // RICH_MATERIALS: modules that have what few scenes have and whose code is large. Scenes without it take the others.
-#ifdef RICH_MATERIALS
 layout(constant_id = SPEC_PRINCIPLED_FEATURES) const uint PRINCIPLED_FEATURES = 63u;
 layout(constant_id = SPEC_TEXTURE_SLOTS) const uint TEXTURE_SLOTS = 0u;
 layout(constant_id = SPEC_LOOSE_SLOTS) const uint LOOSE_SLOTS = 0u;
@@ -76,26 +55,13 @@ layout(constant_id = SPEC_BLENDS) const bool HAS_BLENDS = false;
 layout(constant_id = SPEC_RELIEF_RULES) const bool RELIEF_RULES = false;
 layout(constant_id = SPEC_HIDES_SURFACES) const bool HIDES_SURFACES = false;
 layout(constant_id = SPEC_FLAT_TERMINATOR) const bool FLAT_TERMINATOR = false;
-#else
-const bool FLAT_TERMINATOR = false;
-const bool HAS_ALPHA = false;
-const bool RELIEF_RULES = false;
-const uint WAITING_PART = 0u;
-const bool CORNER_NORMALS = true;
-#endif
 
 // FACET_MATERIALS: those of these modules that have conductors, rough dielectrics, thin ones and plastic.
-#ifdef FACET_MATERIALS
 layout(constant_id = SPEC_FACETS) const uint FACETS = 63u;
-#endif
 
 // PLACEMENTS: those of these modules in which prototypes can be placed. Trees have groups of two words there.
-#ifdef PLACEMENTS
 layout(constant_id = SPEC_HAS_PLACEMENTS) const bool HAS_PLACEMENTS = false;
 layout(constant_id = SPEC_TRAVERSAL_LEGS) const uint TRAVERSAL_LEGS = 1u;
-#else
-const uint TRAVERSAL_LEGS = 1u;
-#endif
 
 /// Whether triangles have normals of their corners. Without these and without maps there is no shading normal
 /// beside the geometric one (HAS_NORMALS).
@@ -105,10 +71,8 @@ const bool SURFACES_WAIT = WAITING_PART != 0u;
 /// Whether samples have weights by their place about the pixel, some of them negative.
 bool samplesHaveWeights() { return PIXEL_FILTER == FILTER_TABLE; }
 bool sceneHasBsdf(uint kind) { return (BSDF_KINDS & (1u << kind)) != 0u; }
-#ifdef FACET_MATERIALS
 /// Kinds that only these modules have.
 bool sceneHasFacetMaterials() { return BSDF_KINDS >= 1u << BSDF_CONDUCTOR; }
-#endif
 /// Whether light samples go to lights of this kind.
 bool samplesLightKind(uint kind) { return (LIGHT_KINDS & (1u << kind)) != 0u; }
 /// kind == wanted, known without looking where there is but one, or none of that kind.

@@ -10,15 +10,11 @@ struct SurfacePoint {
     uint material;
     uint skipPrimitive; ///< planar primitives cannot be hit by rays that leave them
     float lift; ///< height of the smooth surface over `position`, along `geometric`; 0: flat
-#ifdef RICH_MATERIALS
     uint primitive; ///< in the Primitive buffer, as its corners' attributes are numbered
     vec2 weights; ///< barycentric, of the second and third corner (triangles)
     vec4 tangent; ///< relief.glsl; with TANGENT_FRAMES
     vec3 coat;    ///< unit; the clear coat's normal, with sceneHasCoatNormals() (relief.glsl)
-#endif
-#ifdef PLACEMENTS
     uint placement; ///< that skipPrimitive is in; NO_PLACEMENT: none
-#endif
 };
 
 /// Without normals of corners a second copy of the geometric one, which would be carried along.
@@ -27,11 +23,9 @@ vec3 shadingNormal(SurfacePoint s) { return HAS_NORMALS ? s.shading : s.geometri
 /// The frame that a BSDF is evaluated in; z is the shading normal, x and y the surface's tangent and bitangent where
 /// it has them and they matter.
 ShadingFrame shadingFrame(SurfacePoint s) {
-#ifdef RICH_MATERIALS
     const vec3 n = shadingNormal(s);
     if (TANGENT_FRAMES && s.tangent.w != 0.0)
         return ShadingFrame(s.tangent.xyz, s.tangent.w * cross(n, s.tangent.xyz), n);
-#endif
     return makeFrame(shadingNormal(s));
 }
 
@@ -44,7 +38,6 @@ vec3 decodeNormal(uint packed_) {
     return unit(n);
 }
 
-#ifdef PLACEMENTS
 /// What a placement does to what lies in it; nothing for NO_PLACEMENT.
 struct Placing {
     bool isPlaced;
@@ -88,7 +81,6 @@ vec3 tangentInWorld(Placing p, vec3 t) {
     const float length2 = dot(v, v);
     return length2 > 0.0 ? v * inversesqrt(length2) : vec3(0.0);
 }
-#endif
 
 /// Unit geometric normal.
 vec3 triangleNormal(Primitive p, PlacedPrimitive at) {
@@ -101,11 +93,9 @@ struct CornerNormals {
     vec3 n0, n1, n2;
 };
 
-#ifdef PLACEMENTS
 CornerNormals inWorld(Placing p, CornerNormals n) {
     return CornerNormals(normalInWorld(p, n.n0), normalInWorld(p, n.n1), normalInWorld(p, n.n2));
 }
-#endif
 
 /// The interpolated normal, or the geometric one where opposite normals cancel and there is no better
 /// direction.
@@ -140,14 +130,12 @@ SurfacePoint surfaceAt(Traversal t) {
     PlacedPrimitive place = fetchPlace(t.hitPrimitive);
     const Primitive p = fetchPrimitive(place.primitive);
     CornerNormals normals = cornerNormals(p);
-#ifdef PLACEMENTS
     s.placement = t.hitPlacement;
     const Placing placing = placingOf(t.hitPlacement);
     if (HAS_PLACEMENTS) {
         place = inWorld(placing, place);
         normals = inWorld(placing, normals);
     }
-#endif
     const vec3 v0 = place.v0, v1 = place.v1, v2 = place.v2;
     s.material = materialOf(p);
     s.wo = -t.direction;
@@ -157,11 +145,9 @@ SurfacePoint surfaceAt(Traversal t) {
         s.position = b0 * v0 + t.b1 * v1 + t.b2 * v2;
         s.error = interpolationError(abs(b0 * v0) + abs(t.b1 * v1) + abs(t.b2 * v2));
         s.geometric = triangleNormal(p, place);
-#ifdef PLACEMENTS
         // Rounded corners, not the normal of the prototype: rays start on the side of the triangle that they meet.
         if (HAS_PLACEMENTS && placing.isPlaced)
             s.geometric = (placing.mirrors ? -1.0 : 1.0) * planeNormal(v1 - v0, v2 - v0);
-#endif
         s.skipPrimitive = t.hitPrimitive;
     }
     if (HAS_SPHERES && place.isSphere) {
@@ -173,11 +159,9 @@ SurfacePoint surfaceAt(Traversal t) {
     }
     s.shading = s.geometric;
     s.outside = dot(s.geometric, s.wo) >= 0.0;
-#ifdef RICH_MATERIALS
     s.primitive = place.primitive;
     s.weights = vec2(t.b1, t.b2);
     s.tangent = vec4(0.0);
-#endif
     if (HAS_TRIANGLES && !place.isSphere)
         smoothShading(s, isSmooth(p), normals, place, vec3(1.0 - t.b1 - t.b2, t.b1, t.b2));
     return s;
@@ -198,23 +182,19 @@ void faceForward(inout SurfacePoint s) {
     if (dot(s.shading, s.wo) <= 0.0) s.shading = s.geometric;
 }
 
-#ifdef RICH_MATERIALS
 /// The shading normal that a surface, faced forward, had before maps turned it.
 vec3 unmappedNormal(SurfacePoint s) {
     if (s.skipPrimitive == NO_PRIMITIVE) return s.geometric;
     const Primitive p = fetchPrimitive(fetchPlace(s.skipPrimitive).primitive);
     if (!isSmooth(p)) return s.geometric;
     CornerNormals n = cornerNormals(p);
-#ifdef PLACEMENTS
     if (HAS_PLACEMENTS) n = inWorld(placingOf(s.placement), n);
-#endif
     const vec3 b = vec3(1.0 - s.weights.x - s.weights.y, s.weights);
     const vec3 stated = interpolatedNormal(n, b, s.geometric);
     if (!FACES_FORWARD) return stated;
     const vec3 facing = dot(stated, s.geometric) < 0.0 ? -stated : stated;
     return dot(facing, s.wo) <= 0.0 ? s.geometric : facing;
 }
-#endif
 
 /// Whether light can be reflected towards w. A smooth surface ends at the horizon of its shading
 /// normal; the triangle under it is then but one of the things that may be in the way.

@@ -14,27 +14,19 @@ struct Traversal {
     Group group;          ///< children still to visit; empty: the ray is done
     uint hitPrimitive; ///< 2 * record + slot; NO_PRIMITIVE: nothing hit
     float b1, b2; ///< barycentric weights of the hit (triangles)
-#ifdef RICH_MATERIALS
     uint passed; ///< HAS_ALPHA: the primitive that the ray has passed at tMin; NO_PRIMITIVE: none
-#endif
-#ifdef PLACEMENTS
     uint placement; ///< in whose prototype the traversal is; NO_PLACEMENT: in none
     bool waits; ///< for a ray that is prepared for another placement, or for the world
     uint hitPlacement, skipPlacement, passedPlacement; ///< of hitPrimitive, skipPrimitive and passed
-#endif
 };
 
-#ifdef PLACEMENTS
 /// Bit of Group::word, free in groups of two words: the group is one of the tree over the world.
 const uint IN_WORLD = 0x100u;
-#endif
 
 // Where surfaces may be partly not there, a ray that passes one goes on from the same origin with tMin at that
 // surface. Hits are ordered by distance and, at equal ones, by primitive, so that each of several surfaces at one
 // distance is met exactly once. Distances of a ray and a primitive are the same bits in each traversal.
 
-#ifdef RICH_MATERIALS
-#ifdef PLACEMENTS
 bool comesBefore(uint placement, uint place, uint otherPlacement, uint other) {
     if (HAS_PLACEMENTS && placement != otherPlacement) return placement < otherPlacement;
     return place < other;
@@ -45,29 +37,20 @@ bool comesAfterPassed(Traversal t, uint place) {
 bool comesBeforeHit(Traversal t, uint place) {
     return comesBefore(t.placement, place, t.hitPlacement, t.hitPrimitive);
 }
-#else
-bool comesAfterPassed(Traversal t, uint place) { return place > t.passed; }
-bool comesBeforeHit(Traversal t, uint place) { return place < t.hitPrimitive; }
-#endif
-#endif
 
 /// Hits of the primitive count behind this distance: tMin, or, if it comes after the one that was passed there, the
 /// float before it. (A ray that has passed something has tMin > 0.)
 float nearEnd(Traversal t, uint place) {
-#ifdef RICH_MATERIALS
     if (HAS_ALPHA && t.passed != NO_PRIMITIVE && comesAfterPassed(t, place))
         return uintBitsToFloat(floatBitsToUint(t.tMin) - 1u);
-#endif
     return t.tMin;
 }
 
 /// Hits of the primitive count before this distance: tMax, or, if it comes before the one that was hit there, the
 /// float after it.
 float farEnd(Traversal t, uint place) {
-#ifdef RICH_MATERIALS
     if (HAS_ALPHA && t.hitPrimitive != NO_PRIMITIVE && comesBeforeHit(t, place))
         return uintBitsToFloat(floatBitsToUint(t.tMax) + 1u);
-#endif
     return t.tMax;
 }
 
@@ -82,12 +65,10 @@ void startTraversal(inout Traversal t) {
     const bool finite = size > 0.0 && size + dot(abs(t.origin), vec3(1.0)) < INFINITE_DISTANCE;
     // The root is slot 0 of a group that begins at record 0.
     t.group = finite ? makeGroup(0u, 1u << octantOf(t.direction)) : noGroup();
-#ifdef PLACEMENTS
     if (HAS_PLACEMENTS && finite) t.group.word |= IN_WORLD;
     t.placement = NO_PLACEMENT;
     t.hitPlacement = NO_PLACEMENT;
     t.waits = false;
-#endif
 }
 
 void startTraversal(out Traversal t, vec3 origin, vec3 direction, float tMin, float tMax,
@@ -98,12 +79,8 @@ void startTraversal(out Traversal t, vec3 origin, vec3 direction, float tMin, fl
     t.tMax = tMax;
     t.skipPrimitive = skipPrimitive;
     t.anyHit = anyHit;
-#ifdef RICH_MATERIALS
     t.passed = NO_PRIMITIVE;
-#endif
-#ifdef PLACEMENTS
     t.skipPlacement = NO_PLACEMENT;
-#endif
     startTraversal(t);
 }
 
@@ -114,22 +91,18 @@ void endTraversal(inout Traversal t) { t.group.word = 0u; }
 /// The ray that the next steps are for: `prepared`, or that in the placement that the traversal is in.
 Ray prepareLeg(inout Traversal t, Ray prepared) {
     Ray ray = prepared;
-#ifdef PLACEMENTS
     if (HAS_PLACEMENTS) {
         aimAtPrototype(ray, t.placement);
         // What waits in a placement is its root, which is slot 0 of a group.
         if (t.waits && t.placement != NO_PLACEMENT) t.group.word = 1u << ray.octant;
         t.waits = false;
     }
-#endif
     return ray;
 }
 
 /// Whether the primitive is the one that the ray starts on.
 bool isSkipped(Traversal t, uint place) {
-#ifdef PLACEMENTS
     if (HAS_PLACEMENTS && t.placement != t.skipPlacement) return false;
-#endif
     return place == t.skipPrimitive;
 }
 
@@ -140,9 +113,7 @@ void acceptTriangle(inout Traversal t, TriangleHit hit, uint place, bool isLeaf)
     t.b1 = accepted ? hit.b1 : t.b1;
     t.b2 = accepted ? hit.b2 : t.b2;
     t.hitPrimitive = accepted ? place : t.hitPrimitive;
-#ifdef PLACEMENTS
     t.hitPlacement = accepted ? t.placement : t.hitPlacement;
-#endif
 }
 
 /// Tests the one or two triangles of a leaf, or its sphere.
@@ -161,9 +132,7 @@ void testLeaf(inout Traversal t, Ray ray, Record r, uint record, bool isLeaf) {
         if (isSphere && distance < INFINITE_DISTANCE) {
             t.tMax = distance;
             t.hitPrimitive = 2u * record;
-#ifdef PLACEMENTS
             t.hitPlacement = NO_PLACEMENT;
-#endif
         }
     }
 }
@@ -174,14 +143,11 @@ struct RecordKind {
 };
 
 RecordKind kindOf(Record r) {
-#ifdef PLACEMENTS
     const uint kind = r.r0.w & RECORD_IS_PLACEMENT;
     if (HAS_PLACEMENTS) return RecordKind(kind == RECORD_IS_NODE, kind == RECORD_IS_PLACEMENT);
-#endif
     return RecordKind((r.r0.w & RECORD_IS_NODE) != 0u, false);
 }
 
-#ifdef PLACEMENTS
 /// Goes into a prototype, or back to the world, for which another ray has to be prepared.
 void changeSpace(inout Traversal t, bool enters, uint record, Record r) {
     if (enters) {
@@ -192,15 +158,12 @@ void changeSpace(inout Traversal t, bool enters, uint record, Record r) {
     if (leaves) t.placement = NO_PLACEMENT;
     t.waits = t.waits || enters || leaves;
 }
-#endif
 
 /// Visits the next record. A ray that is done visits the root to no effect, which costs less than an `if`
 /// around all this (docs/kernel.md, "What llvmpipe does").
 void traversalStep(inout Traversal t, Ray ray) {
     bool working = traversing(t);
-#ifdef PLACEMENTS
     if (HAS_PLACEMENTS) working = working && !t.waits;
-#endif
     const uint next = nearestSlot(t.group);
     const uint record = working ? firstRecord(t.group) + (next ^ ray.octant) : 0u;
     const Group rest = without(t.group, next);
@@ -216,15 +179,9 @@ void traversalStep(inout Traversal t, Ray ray) {
     const bool pop = working && !goesDown && isEmpty(rest);
     const Group newest = moveStack(push, pop, rest);
     Group children = makeGroup(r.r0.w, entered);
-#ifdef PLACEMENTS
     if (HAS_PLACEMENTS) children.word |= t.group.word & IN_WORLD;
-#endif
     const Group after = select(descend, children, select(pop, newest, rest));
-#ifdef PLACEMENTS
     t.group = select(working || !HAS_PLACEMENTS, after, t.group); // what waits stays
     if (HAS_PLACEMENTS) changeSpace(t, working && kind.isPlacement, record, r);
-#else
-    t.group = after;
-#endif
     if (t.anyHit && t.hitPrimitive != NO_PRIMITIVE) endTraversal(t);
 }

@@ -3,12 +3,8 @@
 // side: its density is half of what it would be. Scenes without such surfaces have nothing of this.
 
 const bool SCATTERS_THROUGH =
-#ifdef FACET_MATERIALS
     ((BSDF_KINDS & 1u << BSDF_FACET_DIELECTRIC) | (FACETS & BURLEY_HAS_TRANSMISSION) |
      (PRINCIPLED_FEATURES & (PRINCIPLED_HAS_THIN_TRANSMISSION | PRINCIPLED_HAS_REFRACTION))) != 0u;
-#else
-    (PRINCIPLED_FEATURES & (PRINCIPLED_HAS_THIN_TRANSMISSION | PRINCIPLED_HAS_REFRACTION)) != 0u;
-#endif
 
 bool isLitFromBothSides(uint lobes) {
     return SCATTERS_THROUGH && (lobes & TRANSMISSION_LOBES & ~DELTA_LOBES) != 0u;

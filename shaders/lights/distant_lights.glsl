@@ -30,9 +30,7 @@ LightSample sampleDirectionalLight(LightRows rows) {
     return LightSample(w, true, w, colorOf(rows), 0.0);
 }
 
-#ifdef RICH_MATERIALS
 #include "lights/environment.glsl"
-#endif
 
 /// What a ray finds that meets nothing: the scene's ambient light or environment. It is the first in the
 /// light buffer, if the scene has one; a kernel with everything switched on does not know without looking.
@@ -49,11 +47,9 @@ FoundSky skyFrom(vec3 normal, vec3 w) {
     FoundSky found = FoundSky(vec3(0.0), 1.0 / max(ambientPdf(normal, w), TINY));
     const LightRows rows = fetchLightRows(0u);
     if (kindOf(rows) == LIGHT_AMBIENT) found.radiance = ambientRadianceOf(rows, w);
-#ifdef RICH_MATERIALS
     if (HAS_ENVIRONMENT && kindOf(rows) == LIGHT_ENVIRONMENT) {
         const EnvironmentValue value = environmentFrom(rows, w);
         found = FoundSky(value.radiance, 1.0 / max(value.pdf, TINY));
     }
-#endif
     return found;
 }

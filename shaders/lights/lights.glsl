@@ -51,9 +51,7 @@ void findOnlyLight() {
 
 /// s: faced forward; light: as LightEntry::light; u: where on the light.
 LightSample sampleLight(SurfacePoint s, uint light, vec2 u) {
-#ifdef RICH_MATERIALS
     sampledEmitter = MaterialPoint(0u, NO_PRIMITIVE, vec2(0.0));
-#endif
     if (isTriangleLight(light)) return sampleTriangleLight(s, light, u);
     const LightRows rows = fetchLight(light);
     const uint kind = kindOf(rows);
@@ -61,10 +59,8 @@ LightSample sampleLight(SurfacePoint s, uint light, vec2 u) {
     if (isLight(kind, LIGHT_SPHERE)) return sampleSphereLight(s, rows, u);
     if (isLight(kind, LIGHT_AMBIENT)) return sampleAmbientLight(s, rows, u);
     if (isLight(kind, LIGHT_DIRECTIONAL)) return sampleDirectionalLight(rows);
-#ifdef RICH_MATERIALS
     if (isLight(kind, LIGHT_ENVIRONMENT)) return sampleEnvironment(rows, u);
     if (isLight(kind, LIGHT_PROJECTOR)) return sampleProjector(s, rows);
-#endif
     if (samplesLightKind(LIGHT_POINT) || samplesLightKind(LIGHT_SPOT)) return samplePointLight(s, rows);
     return NO_LIGHT_SAMPLE;
 }

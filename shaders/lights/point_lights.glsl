@@ -27,7 +27,6 @@ LightSample samplePointLight(SurfacePoint s, LightRows rows) {
     return r;
 }
 
-#ifdef RICH_MATERIALS
 /// Of a cosine >= 0; acos has few correct digits.
 float angleOf(float cosine) { return 2.0 * atan(sqrt(max(1.0 - cosine, 0.0) / (1.0 + cosine))); }
 
@@ -60,4 +59,3 @@ LightSample sampleProjector(SurfacePoint s, LightRows rows) {
     r.radiance = shines ? r.radiance : vec3(0.0);
     return r;
 }
-#endif

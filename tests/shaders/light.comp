@@ -28,10 +28,8 @@ LightAnswer answer(LightQuery q) {
         picked = PickedLight(entry.light, 1.0, u);
     }
     LightSample l = sampleLight(s, picked.light, picked.u);
-#ifdef RICH_MATERIALS
     if (emissionHasFactors() && sampledEmitter.primitive != NO_PRIMITIVE)
         l.radiance *= emissionFactorOf(lookUpMaterial(sampledEmitter));
-#endif
     const bool below = dot(s.geometric, l.direction) < 0.0;
     const vec3 origin = leave(s, l.direction, below); // as traceDirectSample() in path.glsl
     const bool isBlocked = l.infinite ? blocked(origin, l.direction, INFINITE_DISTANCE)

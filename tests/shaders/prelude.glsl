@@ -3,9 +3,7 @@
 #include "shared/interface.h"
 #include "shared/scene_types.h"
 #include "shared/render_types.h"
-#ifdef RICH_MATERIALS
 #include "shared/texture_types.h"
-#endif
 
 #include "include/specialisation.glsl"
 #include "include/fetch.glsl"
@@ -22,21 +20,15 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "include/cs184.glsl"
 #include "include/surface.glsl"
 #include "bsdf/bsdf.glsl"
-#ifdef RICH_MATERIALS
 #include "include/material_detail.glsl"
 #include "include/relief.glsl"
-#endif
 #include "lights/lights.glsl"
 #include "include/accumulate.glsl"
 
 #include "queries.h"
 
 /// Ends the constructor of a SurfacePoint that has no texture.
-#ifdef RICH_MATERIALS
 #define NO_DETAIL , 0u, vec2(0.0), vec4(0.0), vec3(0.0, 0.0, 1.0)
-#else
-#define NO_DETAIL
-#endif
 
 #define BINDING_QUERIES BINDING_COUNT
 #define BINDING_ANSWERS (BINDING_COUNT + 1)
