@@ -5,7 +5,6 @@
 #include "host/bench/growth_bench.hpp"
 #include "host/bench/path_bench.hpp"
 #include "host/bench/ray_bench.hpp"
-#include "host/bench/robustness_bench.hpp"
 #include "host/bench/startup_bench.hpp"
 #include "host/bench/texture_bench.hpp"
 #include "host/bench/transfer_bench.hpp"
@@ -94,8 +93,7 @@ class Benchmark {
                              scene,    cameraOf(scene, settings), settings};
         SceneReport report = describe(scene, settings);
         if (wants(Part::Bvh)) report.bvh = benchBvh(arena);
-        if (wants(Part::Rays) || wants(Part::Paths) || wants(Part::Variants) ||
-            wants(Part::Robustness))
+        if (wants(Part::Rays) || wants(Part::Paths) || wants(Part::Variants))
             trace(arena, report);
         if (wants(Part::Textures) && hasTextures(scene.scene))
             report.textures = benchTextures(arena);
@@ -133,9 +131,6 @@ class Benchmark {
         }
         if (wants(Part::Paths)) report.paths = benchPaths(arena, gpu, embree);
         if (wants(Part::Variants)) report.variants = benchVariants(arena, gpu, kernelVariants(gpu));
-        // The plain kernels that it compares with know no placements.
-        if (wants(Part::Robustness) && scene.placements.empty())
-            report.robustness = benchRobustness(arena, gpu, sets);
     }
 
     /// Of the first scene that is a file.

@@ -13,7 +13,7 @@ namespace stromboli {
 namespace bench {
 
 /// Parts of a benchmark.
-enum class Part { Bvh, Rays, Paths, Variants, Robustness, Textures, Startup, Transfer };
+enum class Part { Bvh, Rays, Paths, Variants, Textures, Startup, Transfer };
 } // namespace bench
 
 template <>
@@ -22,7 +22,6 @@ inline constexpr auto kNamedValues<bench::Part> = std::to_array<NamedValue<bench
     {bench::Part::Rays, "rays", "rays alone"},
     {bench::Part::Paths, "paths", "whole paths"},
     {bench::Part::Variants, "variants", "kernels with everything on, or other tunings"},
-    {bench::Part::Robustness, "robustness", "what exactness costs"},
     {bench::Part::Textures, "textures", "what they cost, where the scene has some"},
     {bench::Part::Startup, "startup", "a small render, the whole process"},
     {bench::Part::Transfer, "transfer", "to and from the device"},

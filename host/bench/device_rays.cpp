@@ -69,10 +69,8 @@ RayTuning rayTuning(const vulkan::Device& device, uint64_t rowBytes) {
     return t;
 }
 
-DeviceRays::DeviceRays(const vulkan::Device& device, const GpuScene& scene, const RayTuning& tuning,
-                       std::span<const uint32_t> code)
-    : device_(device), tuning_(tuning), code_(code), queue_(device) {
-    if (code_.empty()) code_ = rayKernel(tuning_.kernel.texelFetch);
+DeviceRays::DeviceRays(const vulkan::Device& device, const GpuScene& scene, const RayTuning& tuning)
+    : device_(device), tuning_(tuning), code_(rayKernel(tuning.kernel.texelFetch)), queue_(device) {
     const KernelFeatures features = kernelFeatures(scene, {}, {}, tuning_.kernel);
     constants_.assign(features.begin(), features.end());
     for (const std::span<const std::byte> rows : sceneRows(scene)) {

@@ -36,10 +36,8 @@ RayTuning rayTuning(const vulkan::Device& device, uint64_t rowBytes = 0);
 /// Traces ray sets on the device with the kernel's own traversal (shaders/trace_rays.comp).
 class DeviceRays {
   public:
-    /// Uploads the scene. code: another ray kernel, for the same way to fetch; empty: the
-    /// product's. Throws DeviceError.
-    DeviceRays(const vulkan::Device& device, const GpuScene& scene, const RayTuning& tuning,
-               std::span<const uint32_t> code = {});
+    /// Uploads the scene. Throws DeviceError.
+    DeviceRays(const vulkan::Device& device, const GpuScene& scene, const RayTuning& tuning);
 
     /// Uploads the rays (at least one); not part of the time of trace().
     void load(const RaySet& set);

@@ -59,13 +59,6 @@ struct VariantReport {
     std::vector<bool> samePicture;   ///< of each variant: to the bit
 };
 
-/// The kernels that renders use against the same ones with plain code; the slower ours, the more
-/// robustness costs.
-struct RobustnessReport {
-    std::vector<RayReport> rays; ///< of camera, shadow and bounce rays
-    std::vector<Series> paths;
-};
-
 /// The scene against the same one with means in the place of textures, by ray.
 struct TextureReport {
     std::vector<Series> contestants; ///< textures, their means
@@ -81,7 +74,6 @@ struct SceneReport {
     std::vector<RayReport> rays;
     std::optional<PathReport> paths;
     std::optional<VariantReport> variants;
-    std::optional<RobustnessReport> robustness;
     std::optional<TextureReport> textures; ///< none: the scene has none
 };
 

@@ -87,7 +87,6 @@ Json toJson(const TextureReport& t) {
     return {{"contestants", toJson(t.contestants)}, {"raysPerPath", t.raysPerPath}};
 }
 
-Json toJson(const RobustnessReport& r);
 Json toJson(const SceneReport& s);
 Json toJson(const GrowthPoint& g);
 Json toJson(const StartupReport& s);
@@ -106,10 +105,6 @@ Json listOf(const std::vector<T>& values) {
     return json;
 }
 
-Json toJson(const RobustnessReport& r) {
-    return {{"rays", listOf(r.rays)}, {"paths", toJson(r.paths)}};
-}
-
 Json toJson(const SceneReport& s) {
     return {{"name", s.name},
             {"triangles", s.triangles},
@@ -123,7 +118,6 @@ Json toJson(const SceneReport& s) {
             {"rays", listOf(s.rays)},
             {"paths", orNull(s.paths)},
             {"variants", orNull(s.variants)},
-            {"robustness", orNull(s.robustness)},
             {"textures", orNull(s.textures)}};
 }
 

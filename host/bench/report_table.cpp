@@ -113,13 +113,6 @@ std::string table(const VariantReport& v, bool deviceIsCpu) {
     return text;
 }
 
-std::string table(const RobustnessReport& r, bool deviceIsCpu) {
-    std::string text = "  what robustness costs: x below 1\n";
-    for (const RayReport& rays : r.rays)
-        text += table(rays, deviceIsCpu);
-    return text + "  paths\n" + rates(r.paths, deviceIsCpu);
-}
-
 std::string table(const TextureReport& t, bool deviceIsCpu) {
     return fmt::format("  rays of paths with textures ({:.2f} a path) and with their means "
                        "({:.2f}): x below 1 is what textures cost\n",
@@ -138,7 +131,6 @@ std::string table(const SceneReport& s, bool deviceIsCpu) {
         text += table(r, deviceIsCpu);
     if (s.paths) text += table(*s.paths, deviceIsCpu);
     if (s.variants) text += table(*s.variants, deviceIsCpu);
-    if (s.robustness) text += table(*s.robustness, deviceIsCpu);
     if (s.textures) text += table(*s.textures, deviceIsCpu);
     return text;
 }

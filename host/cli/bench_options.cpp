@@ -65,16 +65,16 @@ void remarkOnWhatIsLeftOut(DeclaredCommand& c, const bench::BenchSettings& s) {
         std::set<Part> parts; ///< that heed them
         bool bySizes;         ///< --sizes does
     };
-    const std::set<Part> paths = {Part::Paths, Part::Variants, Part::Robustness, Part::Textures};
+    const std::set<Part> paths = {Part::Paths, Part::Variants, Part::Textures};
     // The bounce rays choose the build quality of the Embree that paths are measured against.
     const Row rows[] = {
         {{"SCENE"},
-         {Part::Bvh, Part::Rays, Part::Paths, Part::Variants, Part::Robustness, Part::Textures,
+         {Part::Bvh, Part::Rays, Part::Paths, Part::Variants, Part::Textures,
           Part::Startup},
          false},
-        {{"--rays"}, {Part::Rays, Part::Paths, Part::Robustness}, true},
+        {{"--rays"}, {Part::Rays, Part::Paths}, true},
         {{"-r", "--seed"},
-         {Part::Rays, Part::Paths, Part::Variants, Part::Robustness, Part::Textures},
+         {Part::Rays, Part::Paths, Part::Variants, Part::Textures},
          true},
         {{"-m", "-s", "--sampler"}, paths, false},
     };

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "host/vulkan/compute_pipeline.hpp"
 #include "host/vulkan/device.hpp"
 
 #include <cstdint>
 #include <optional>
-#include <span>
 
 namespace stromboli {
 
@@ -23,9 +23,8 @@ struct KernelTuning {
     std::optional<uint32_t> fixedIterations;  ///< instead of pacing by time (tests)
     bool countSteps = false;                  ///< count how many lanes are at work in each step
     bool everythingOn = false; ///< leave in all features, also those the scene lacks (benchmark)
-    /// Another kernel with the interface of shaders/pathtrace.comp, compiled for the same way to
-    /// fetch, in its place; it may make other pictures (benchmark). Empty: none.
-    std::span<const uint32_t> code;
+    /// Who puts the constants into the kernel's module (tests compare the two).
+    vulkan::Specialiser specialiser = vulkan::Specialiser::Ours;
 };
 
 /// The same with nothing left open.

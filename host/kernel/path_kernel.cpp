@@ -31,9 +31,9 @@ std::span<const uint32_t> moduleFor(bool texelFetch) {
 } // namespace
 
 PathKernel::PathKernel(const vulkan::Device& device, const KernelFeatures& features,
-                       bool texelFetch, std::span<const uint32_t> code)
+                       bool texelFetch, vulkan::Specialiser specialiser)
     : features_(features),
-      pipeline_(device, code.empty() ? moduleFor(texelFetch) : code,
-                kernelBindings(texelFetch), features, sizeof(gpu::Dispatch)) {}
+      pipeline_(device, moduleFor(texelFetch),
+                kernelBindings(texelFetch), features, sizeof(gpu::Dispatch), specialiser) {}
 
 } // namespace stromboli

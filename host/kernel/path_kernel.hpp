@@ -9,9 +9,8 @@ namespace stromboli {
 /// The path kernel, compiled with the features that a picture needs.
 class PathKernel {
   public:
-    /// `code`: another kernel in its place (KernelTuning::code); empty: none.
     PathKernel(const vulkan::Device& device, const KernelFeatures& features, bool texelFetch,
-               std::span<const uint32_t> code);
+               vulkan::Specialiser specialiser);
 
     const KernelFeatures& features() const { return features_; }
     const vulkan::ComputePipeline& pipeline() const { return pipeline_; }

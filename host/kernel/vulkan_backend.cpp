@@ -77,7 +77,7 @@ const PathKernel& VulkanBackend::kernelFor(const KernelFeatures& features,
                                            const DeviceTuning& tuning) {
     const auto known = kernels_.find(features);
     if (known != kernels_.end()) return known->second;
-    return kernels_.try_emplace(features, device_, features, tuning.texelFetch, tuning_.code)
+    return kernels_.try_emplace(features, device_, features, tuning.texelFetch, tuning_.specialiser)
         .first->second;
 }
 

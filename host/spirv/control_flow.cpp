@@ -9,12 +9,12 @@ namespace {
 /// A function's blocks by label, and who goes to each.
 class Graph {
   public:
-    Graph(Module& module, Function& function) : module_(module), function_(function) {
+    Graph(Module& module, Function& function) : module_(module), function_(function), indexOf_(module.bound) {
         for (size_t b = 0; b < function.blocks.size(); ++b)
             indexOf_[function.blocks[b].label] = b;
     }
 
-    size_t indexOf(uint32_t label) const { return indexOf_.at(label); }
+    size_t indexOf(uint32_t label) const { return indexOf_[label]; }
     Block& block(uint32_t label) { return function_.blocks[indexOf(label)]; }
 
     /// The labels that a block goes on to, each once.
@@ -43,7 +43,7 @@ class Graph {
   private:
     Module& module_;
     Function& function_;
-    std::unordered_map<uint32_t, size_t> indexOf_;
+    std::vector<size_t> indexOf_; ///< by label
 };
 
 const Instruction* mergeOf(const Block& block) {

@@ -253,6 +253,21 @@ class Folder {
     std::unordered_map<uint32_t, bool> structures_;
 };
 
+/// Marks the blocks that a block may go on to, but for ways that a constant rules out.
+void markReached(const Module& module, const Values& values, const Block& block, std::vector<bool>& isReached) {
+    const Instruction& end = block.body.back();
+    const auto operands = module.operands(end);
+    if (end.op == OpBranch) isReached[operands[0]] = true;
+    if (end.op == OpBranchConditional) {
+        const auto condition = values.valueOf(operands[0]);
+        if (condition.value_or(1) != 0) isReached[operands[1]] = true;
+        if (condition.value_or(0) == 0) isReached[operands[2]] = true;
+    }
+    if (end.op == OpSwitch)
+        for (size_t k = 1; k < operands.size(); k += 2)
+            isReached[operands[k]] = true;
+}
+
 void replaceOperands(Module& module, const Values& values, const Instruction& i) {
     forEachNumber(i, module.operands(i), [&](uint32_t& number) { number = values.resolve(number); });
 }
@@ -309,7 +324,11 @@ bool fold(Module& module) {
         replaceOperands(module, values, i);
     for (Function& f : module.functions) {
         // Values of a block that comes later, as phis of loops have, are replaced in a second round.
+        // Nor is a block looked at that nothing before it goes on to: most are unreachable in the first round.
+        std::vector<bool> isReached(module.bound);
+        if (!f.blocks.empty()) isReached[f.blocks[0].label] = true;
         for (Block& b : f.blocks) {
+            if (!isReached[b.label]) continue;
             std::vector<Instruction> kept;
             kept.reserve(b.body.size());
             for (Instruction i : b.body) {
@@ -323,10 +342,12 @@ bool fold(Module& module) {
                 }
             }
             b.body = std::move(kept);
+            markReached(module, values, b, isReached);
         }
         for (const Block& b : f.blocks)
-            for (const Instruction& i : b.body)
-                replaceOperands(module, values, i);
+            if (isReached[b.label])
+                for (const Instruction& i : b.body)
+                    replaceOperands(module, values, i);
     }
     return changed;
 }

@@ -44,9 +44,6 @@ BenchReport fullReport() {
     scene.paths = paths;
     scene.variants =
         VariantReport{{series("specialised", 1e-6), series("everything on", 1.5e-6)}, {true}};
-    scene.robustness = RobustnessReport{
-        {{"bounce", 1000, 0.75, {series("robust", 1e-7), series("plain triangles", 0.9e-7)}, {3}}},
-        {series("robust", 1e-6), series("plain offsets", 0.9e-6)}};
     scene.textures =
         TextureReport{{series("textures", 1e-7), series("their means", 0.9e-7)}, {2.5, 2.25}};
     report.growth.push_back({"generate:cornell_mesh:1000", 1006, 0.001, 0.002, scene.rays.front()});
@@ -123,8 +120,6 @@ TEST(BenchJson, HasEveryKey) {
                             "/scenes[]/paths/equalPixels",
                             "/scenes[]/variants/contestants",
                             "/scenes[]/variants/samePicture",
-                            "/scenes[]/robustness/rays[]/contestants",
-                            "/scenes[]/robustness/paths",
                             "/scenes[]/textures/contestants",
                             "/scenes[]/textures/raysPerPath",
                             "/growth[]/scene",
