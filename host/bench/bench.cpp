@@ -93,8 +93,7 @@ class Benchmark {
                              scene,    cameraOf(scene, settings), settings};
         SceneReport report = describe(scene, settings);
         if (wants(Part::Bvh)) report.bvh = benchBvh(arena);
-        if (wants(Part::Rays) || wants(Part::Paths) || wants(Part::Variants))
-            trace(arena, report);
+        if (wants(Part::Rays) || wants(Part::Paths) || wants(Part::Variants)) trace(arena, report);
         if (wants(Part::Textures) && hasTextures(scene.scene))
             report.textures = benchTextures(arena);
         return report;

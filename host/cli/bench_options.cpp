@@ -69,13 +69,10 @@ void remarkOnWhatIsLeftOut(DeclaredCommand& c, const bench::BenchSettings& s) {
     // The bounce rays choose the build quality of the Embree that paths are measured against.
     const Row rows[] = {
         {{"SCENE"},
-         {Part::Bvh, Part::Rays, Part::Paths, Part::Variants, Part::Textures,
-          Part::Startup},
+         {Part::Bvh, Part::Rays, Part::Paths, Part::Variants, Part::Textures, Part::Startup},
          false},
         {{"--rays"}, {Part::Rays, Part::Paths}, true},
-        {{"-r", "--seed"},
-         {Part::Rays, Part::Paths, Part::Variants, Part::Textures},
-         true},
+        {{"-r", "--seed"}, {Part::Rays, Part::Paths, Part::Variants, Part::Textures}, true},
         {{"-m", "-s", "--sampler"}, paths, false},
     };
     std::vector<std::string> unheeded;

@@ -13,8 +13,8 @@
 namespace stromboli {
 namespace {
 
-/// Whether a service pass has more to do than the plainest scenes ask for: textures, layered materials,
-/// environments, filters. Such kernels trace longer between two services (DeviceTuning).
+/// Whether a service pass has more to do than the plainest scenes ask for: textures, layered
+/// materials, environments, filters. Such kernels trace longer between two services (DeviceTuning).
 bool servesForLong(const KernelFeatures& f) {
     return f[SPEC_BSDF_KINDS] >> gpu::BSDF_CONDUCTOR != 0 || f[SPEC_FACETS] != 0 ||
            (f[SPEC_LIGHT_KINDS] & 1u << gpu::LIGHT_PROJECTOR) != 0 ||
@@ -28,7 +28,6 @@ bool servesForLong(const KernelFeatures& f) {
            f[SPEC_HAS_PLACEMENTS] != 0 || f[SPEC_WAITING_PART] != 0 ||
            f[SPEC_CORNER_NORMALS] != f[SPEC_HAS_NORMALS];
 }
-
 
 static_assert(float(Roulette::kMaxContinue) == gpu::ROULETTE_MAX_CONTINUE);
 static_assert(float(Roulette::kBoldness) == gpu::ROULETTE_BOLDNESS);

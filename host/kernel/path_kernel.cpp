@@ -32,8 +32,7 @@ std::span<const uint32_t> moduleFor(bool texelFetch) {
 
 PathKernel::PathKernel(const vulkan::Device& device, const KernelFeatures& features,
                        bool texelFetch, vulkan::Specialiser specialiser)
-    : features_(features),
-      pipeline_(device, moduleFor(texelFetch),
-                kernelBindings(texelFetch), features, sizeof(gpu::Dispatch), specialiser) {}
+    : features_(features), pipeline_(device, moduleFor(texelFetch), kernelBindings(texelFetch),
+                                     features, sizeof(gpu::Dispatch), specialiser) {}
 
 } // namespace stromboli

@@ -9,7 +9,8 @@ namespace {
 /// A function's blocks by label, and who goes to each.
 class Graph {
   public:
-    Graph(Module& module, Function& function) : module_(module), function_(function), indexOf_(module.bound) {
+    Graph(Module& module, Function& function)
+        : module_(module), function_(function), indexOf_(module.bound) {
         for (size_t b = 0; b < function.blocks.size(); ++b)
             indexOf_[function.blocks[b].label] = b;
     }
@@ -79,16 +80,18 @@ class Decisions {
     std::unordered_map<uint32_t, uint32_t> values_;
 };
 
-/// Whether a jump back is all that keeps a loop, and the loop can do without being one: nothing leaves it or
-/// goes on from within other constructs.
-bool isLastOfLoop(Module& module, const Graph& graph, const std::vector<std::vector<uint32_t>>& predecessors,
-                  const Block& header) {
+/// Whether a jump back is all that keeps a loop, and the loop can do without being one: nothing
+/// leaves it or goes on from within other constructs.
+bool isLastOfLoop(Module& module, const Graph& graph,
+                  const std::vector<std::vector<uint32_t>>& predecessors, const Block& header) {
     const auto operands = module.operands(*mergeOf(header));
-    return predecessors[graph.indexOf(operands[0])].size() <= 1 && predecessors[graph.indexOf(operands[1])].size() <= 1;
+    return predecessors[graph.indexOf(operands[0])].size() <= 1 &&
+           predecessors[graph.indexOf(operands[1])].size() <= 1;
 }
 
-/// A decided `if` becomes a jump. A jump back that is never taken stays where the loop must stay one. A decided `switch` keeps its merge block, because blocks deep inside it
-/// may leave it by a jump there, which only a switch or a loop allows; it loses the other cases.
+/// A decided `if` becomes a jump. A jump back that is never taken stays where the loop must stay
+/// one. A decided `switch` keeps its merge block, because blocks deep inside it may leave it by a
+/// jump there, which only a switch or a loop allows; it loses the other cases.
 bool decideBranch(Module& module, const Decisions& decisions, Graph& graph,
                   const std::vector<std::vector<uint32_t>>& predecessors, Block& block) {
     const Instruction end = block.body.back();
@@ -123,8 +126,8 @@ bool decideBranch(Module& module, const Decisions& decisions, Graph& graph,
     return false;
 }
 
-/// Keeps what can be reached. Merge blocks and continue targets that cannot be stay as stubs, since their
-/// headers name them.
+/// Keeps what can be reached. Merge blocks and continue targets that cannot be stay as stubs, since
+/// their headers name them.
 bool dropUnreachable(Module& module, Function& function) {
     Graph graph(module, function);
     std::vector<bool> isReached(function.blocks.size());
@@ -151,7 +154,8 @@ bool dropUnreachable(Module& module, Function& function) {
         const auto operands = module.operands(*merge);
         const bool isLoop = merge->op == OpLoopMerge;
         if (isLoop && !isReachedLabel(operands[1])) {
-            // A loop that is never repeated is none, unless it is left from within other constructs.
+            // A loop that is never repeated is none, unless it is left from within other
+            // constructs.
             size_t exits = 0;
             for (const uint32_t from : predecessors[graph.indexOf(operands[0])])
                 exits += isReachedLabel(from);
@@ -203,7 +207,8 @@ void repairPhis(Module& module, Function& function) {
                                     operands[k + 1] != function.blocks[0].label;
                 kept.insert(kept.end(), {isStub ? i.result : operands[k], operands[k + 1]});
             }
-            if (kept.size() != operands.size() || !std::equal(kept.begin(), kept.end(), operands.begin()))
+            if (kept.size() != operands.size() ||
+                !std::equal(kept.begin(), kept.end(), operands.begin()))
                 i = module.make(OpPhi, i.type, i.result, kept);
         }
     }
@@ -220,13 +225,16 @@ bool dropEmptySelections(Module& module, Function& function) {
     bool changed = false;
     for (Block& block : function.blocks) {
         const Instruction* merge = mergeOf(block);
-        if (merge == nullptr || merge->op != OpSelectionMerge || block.body.back().op != OpBranchConditional) continue;
+        if (merge == nullptr || merge->op != OpSelectionMerge ||
+            block.body.back().op != OpBranchConditional)
+            continue;
         const uint32_t target = module.operands(*merge)[0];
         if (beginsWithPhi(graph.block(target))) continue;
         const auto isEmptyWay = [&](uint32_t label) {
             if (label == target) return true;
             const Block& way = graph.block(label);
-            return way.body.size() == 1 && way.body[0].op == OpBranch && module.operands(way.body[0])[0] == target &&
+            return way.body.size() == 1 && way.body[0].op == OpBranch &&
+                   module.operands(way.body[0])[0] == target &&
                    predecessors[graph.indexOf(label)].size() == 1;
         };
         const auto operands = module.operands(block.body.back());
@@ -238,7 +246,8 @@ bool dropEmptySelections(Module& module, Function& function) {
     return changed;
 }
 
-/// Appends a block to its only predecessor where that goes nowhere else and no header names the block.
+/// Appends a block to its only predecessor where that goes nowhere else and no header names the
+/// block.
 bool joinBlocks(Module& module, Function& function) {
     Graph graph(module, function);
     const auto predecessors = graph.predecessors();
@@ -261,8 +270,9 @@ bool joinBlocks(Module& module, Function& function) {
             const size_t next = graph.indexOf(label);
             Block& follower = function.blocks[next];
             const Instruction* merge = mergeOf(follower);
-            if (next == b || isGone[next] || named.contains(label) || predecessors[next].size() != 1 ||
-                beginsWithPhi(follower) || (merge != nullptr && merge->op == OpLoopMerge) || next < b)
+            if (next == b || isGone[next] || named.contains(label) ||
+                predecessors[next].size() != 1 || beginsWithPhi(follower) ||
+                (merge != nullptr && merge->op == OpLoopMerge) || next < b)
                 break;
             block.body.pop_back();
             block.body.insert(block.body.end(), follower.body.begin(), follower.body.end());

@@ -7,12 +7,13 @@ bool isOwnMemory(uint32_t storage) {
     return storage == kStorageFunction || storage == kStoragePrivate;
 }
 
-/// Marks what is read, from the instructions with effects on. A store to a variable of the invocation's own
-/// is read once the variable is.
+/// Marks what is read, from the instructions with effects on. A store to a variable of the
+/// invocation's own is read once the variable is.
 class Marker {
   public:
     explicit Marker(Module& module)
-        : module_(module), isLive_(module.bound), defined_(module.bound), root_(module.bound), isRead_(module.bound) {
+        : module_(module), isLive_(module.bound), defined_(module.bound), root_(module.bound),
+          isRead_(module.bound) {
         for (const Instruction& i : module_.globals)
             define(i);
         for (const Function& f : module_.functions)
@@ -29,7 +30,9 @@ class Marker {
                 mark(p.type);
             for (const Block& b : f.blocks)
                 for (const Instruction& i : b.body)
-                    if (hasEffect(i.op) || (i.op == OpStore && isAlwaysRead(module_.operands(i)[0]))) use(i);
+                    if (hasEffect(i.op) ||
+                        (i.op == OpStore && isAlwaysRead(module_.operands(i)[0])))
+                        use(i);
         }
         for (const Instruction& d : module_.decorations) {
             const auto operands = module_.operands(d);
@@ -72,7 +75,8 @@ class Marker {
         if (defined_[number].op != 0) open_.push_back(defined_[number]);
     }
 
-    /// What the instruction needs is live; a variable that it names, otherwise than to store there, is read.
+    /// What the instruction needs is live; a variable that it names, otherwise than to store there,
+    /// is read.
     void use(const Instruction& i) {
         mark(i.type);
         const bool isStore = i.op == OpStore, isChain = root_[i.result] != 0;
@@ -96,7 +100,8 @@ class Marker {
     Module& module_;
     std::vector<bool> isLive_;
     std::vector<Instruction> defined_; ///< by number
-    std::vector<uint32_t> root_;       ///< of a pointer: the variable of the invocation's own that it leads into
+    std::vector<uint32_t>
+        root_; ///< of a pointer: the variable of the invocation's own that it leads into
     std::vector<bool> isRead_;
     std::unordered_map<uint32_t, std::vector<Instruction>> stores_;
     std::vector<Instruction> open_;

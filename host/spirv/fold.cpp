@@ -11,7 +11,8 @@ enum class Kind : uint8_t { Other, Bool, Int32 };
 /// Values of 32-bit integers and booleans by number, and what each number has been replaced by.
 class Values {
   public:
-    explicit Values(Module& module) : module_(module), replacedBy_(module.bound), known_(module.bound) {
+    explicit Values(Module& module)
+        : module_(module), replacedBy_(module.bound), known_(module.bound) {
         for (Instruction& i : module_.globals)
             enter(i);
     }
@@ -20,7 +21,8 @@ class Values {
     void enter(const Instruction& i) {
         if (i.op == OpTypeBool) kinds_[i.result] = Kind::Bool;
         if (i.op == OpTypeInt && module_.operands(i)[0] == 32) kinds_[i.result] = Kind::Int32;
-        if (i.op == OpConstantTrue || i.op == OpConstantFalse) enter(i, i.op == OpConstantTrue ? 1u : 0u);
+        if (i.op == OpConstantTrue || i.op == OpConstantFalse)
+            enter(i, i.op == OpConstantTrue ? 1u : 0u);
         if (i.op == OpConstant && kindOf(i.type) == Kind::Int32) enter(i, module_.operands(i)[0]);
     }
 
@@ -47,11 +49,13 @@ class Values {
 
     /// The number of a constant, which is made where there is none.
     uint32_t constant(uint32_t type, uint32_t value) {
-        if (const auto found = constants_.find({type, value}); found != constants_.end()) return found->second;
+        if (const auto found = constants_.find({type, value}); found != constants_.end())
+            return found->second;
         const uint32_t number = module_.newNumber();
-        Instruction i = kindOf(type) == Kind::Bool
-                            ? module_.make(value != 0 ? OpConstantTrue : OpConstantFalse, type, number, {})
-                            : module_.make(OpConstant, type, number, {&value, 1});
+        Instruction i =
+            kindOf(type) == Kind::Bool
+                ? module_.make(value != 0 ? OpConstantTrue : OpConstantFalse, type, number, {})
+                : module_.make(OpConstant, type, number, {&value, 1});
         module_.globals.push_back(i);
         enter(i, value);
         return number;
@@ -84,52 +88,86 @@ class Values {
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> constants_;
 };
 
-/// The result of an operation on integers or booleans; nothing if it is undefined or not computed here.
+/// The result of an operation on integers or booleans; nothing if it is undefined or not computed
+/// here.
 std::optional<uint32_t> evaluate(uint16_t op, std::span<const uint32_t> v) {
     const auto asSigned = [](uint32_t x) { return int32_t(x); };
     if (v.size() == 1) {
         switch (op) {
-        case OpNot: return ~v[0];
-        case OpSNegate: return 0u - v[0];
-        case OpLogicalNot: return v[0] == 0 ? 1u : 0u;
-        case OpBitcast: case OpCopyObject: return v[0];
-        default: return {};
+        case OpNot:
+            return ~v[0];
+        case OpSNegate:
+            return 0u - v[0];
+        case OpLogicalNot:
+            return v[0] == 0 ? 1u : 0u;
+        case OpBitcast:
+        case OpCopyObject:
+            return v[0];
+        default:
+            return {};
         }
     }
-    if (v.size() == 3) return op == OpSelect ? std::optional(v[0] != 0 ? v[1] : v[2]) : std::nullopt;
+    if (v.size() == 3)
+        return op == OpSelect ? std::optional(v[0] != 0 ? v[1] : v[2]) : std::nullopt;
     if (v.size() != 2) return {};
     const uint32_t a = v[0], b = v[1];
     switch (op) {
-    case OpIAdd: return a + b;
-    case OpISub: return a - b;
-    case OpIMul: return a * b;
-    case OpUDiv: return b != 0 ? std::optional(a / b) : std::nullopt;
-    case OpUMod: return b != 0 ? std::optional(a % b) : std::nullopt;
-    case OpShiftRightLogical: return b < 32 ? std::optional(a >> b) : std::nullopt;
-    case OpShiftRightArithmetic: return b < 32 ? std::optional(uint32_t(asSigned(a) >> b)) : std::nullopt;
-    case OpShiftLeftLogical: return b < 32 ? std::optional(a << b) : std::nullopt;
-    case OpBitwiseOr: return a | b;
-    case OpBitwiseXor: return a ^ b;
-    case OpBitwiseAnd: return a & b;
-    case OpLogicalEqual: case OpIEqual: return a == b;
-    case OpLogicalNotEqual: case OpINotEqual: return a != b;
-    case OpLogicalOr: return a | b;
-    case OpLogicalAnd: return a & b;
-    case OpUGreaterThan: return a > b;
-    case OpUGreaterThanEqual: return a >= b;
-    case OpULessThan: return a < b;
-    case OpULessThanEqual: return a <= b;
-    case OpSGreaterThan: return asSigned(a) > asSigned(b);
-    case OpSGreaterThanEqual: return asSigned(a) >= asSigned(b);
-    case OpSLessThan: return asSigned(a) < asSigned(b);
-    case OpSLessThanEqual: return asSigned(a) <= asSigned(b);
-    default: return {};
+    case OpIAdd:
+        return a + b;
+    case OpISub:
+        return a - b;
+    case OpIMul:
+        return a * b;
+    case OpUDiv:
+        return b != 0 ? std::optional(a / b) : std::nullopt;
+    case OpUMod:
+        return b != 0 ? std::optional(a % b) : std::nullopt;
+    case OpShiftRightLogical:
+        return b < 32 ? std::optional(a >> b) : std::nullopt;
+    case OpShiftRightArithmetic:
+        return b < 32 ? std::optional(uint32_t(asSigned(a) >> b)) : std::nullopt;
+    case OpShiftLeftLogical:
+        return b < 32 ? std::optional(a << b) : std::nullopt;
+    case OpBitwiseOr:
+        return a | b;
+    case OpBitwiseXor:
+        return a ^ b;
+    case OpBitwiseAnd:
+        return a & b;
+    case OpLogicalEqual:
+    case OpIEqual:
+        return a == b;
+    case OpLogicalNotEqual:
+    case OpINotEqual:
+        return a != b;
+    case OpLogicalOr:
+        return a | b;
+    case OpLogicalAnd:
+        return a & b;
+    case OpUGreaterThan:
+        return a > b;
+    case OpUGreaterThanEqual:
+        return a >= b;
+    case OpULessThan:
+        return a < b;
+    case OpULessThanEqual:
+        return a <= b;
+    case OpSGreaterThan:
+        return asSigned(a) > asSigned(b);
+    case OpSGreaterThanEqual:
+        return asSigned(a) >= asSigned(b);
+    case OpSLessThan:
+        return asSigned(a) < asSigned(b);
+    case OpSLessThanEqual:
+        return asSigned(a) <= asSigned(b);
+    default:
+        return {};
     }
 }
 
 bool isComputed(uint16_t op) {
-    return op == OpBitcast || op == OpCopyObject || op == OpSNegate || op == OpNot || (OpIAdd <= op && op <= OpUMod) ||
-           (OpLogicalEqual <= op && op <= OpSLessThanEqual) ||
+    return op == OpBitcast || op == OpCopyObject || op == OpSNegate || op == OpNot ||
+           (OpIAdd <= op && op <= OpUMod) || (OpLogicalEqual <= op && op <= OpSLessThanEqual) ||
            (OpShiftRightLogical <= op && op <= OpBitwiseAnd);
 }
 
@@ -149,7 +187,8 @@ std::optional<uint32_t> computed(const Values& values, uint16_t op, uint32_t typ
 /// Folds the operations of one function's blocks into constants and equal values.
 class Folder {
   public:
-    Folder(Module& module, Values& values) : module_(module), values_(values), typeOf_(module.bound) {
+    Folder(Module& module, Values& values)
+        : module_(module), values_(values), typeOf_(module.bound) {
         for (const Instruction& i : module_.globals)
             if (i.type != 0) typeOf_[i.result] = i.type;
         for (const Function& f : module_.functions)
@@ -158,16 +197,19 @@ class Folder {
                     if (i.type != 0) typeOf_[i.result] = i.type;
     }
 
-    /// What an instruction's result is always equal to, or 0. Its operands have been replaced already.
+    /// What an instruction's result is always equal to, or 0. Its operands have been replaced
+    /// already.
     uint32_t equalTo(const Instruction& i) {
         const auto operands = module_.operands(i);
         if (i.op == OpPhi) return onlyValueOf(i);
         if (i.op == OpCopyObject) return operands[0];
         if (i.op == OpCompositeExtract) return partOf(i);
-        if (const auto value = computed(values_, i.op, i.type, operands)) return values_.constant(i.type, *value);
+        if (const auto value = computed(values_, i.op, i.type, operands))
+            return values_.constant(i.type, *value);
         if (i.op == OpSelect) {
             if (operands[1] == operands[2]) return operands[1];
-            if (const auto condition = values_.valueOf(operands[0])) return *condition != 0 ? operands[1] : operands[2];
+            if (const auto condition = values_.valueOf(operands[0]))
+                return *condition != 0 ? operands[1] : operands[2];
             return 0;
         }
         if (operands.size() != 2 || values_.kindOf(i.type) == Kind::Other) return 0;
@@ -175,8 +217,8 @@ class Folder {
         return byOneOperand(i, operands[1], operands[0], true);
     }
 
-    /// Notes what later instructions are simplified by, and goes past structures that were made in one piece
-    /// where a part of a member is asked for.
+    /// Notes what later instructions are simplified by, and goes past structures that were made in
+    /// one piece where a part of a member is asked for.
     void prepare(Instruction& i) {
         if (i.op == OpCompositeConstruct && isStructure(i.type)) constructs_[i.result] = i;
         while (i.op == OpCompositeExtract && i.count > 2) {
@@ -229,20 +271,25 @@ class Folder {
             return *value == 0 ? values_.constant(i.type, 0) : other;
         case OpLogicalOr:
             return *value != 0 ? values_.constant(i.type, 1) : other;
-        case OpLogicalEqual: return *value != 0 ? other : 0;
-        case OpLogicalNotEqual: return *value == 0 ? other : 0;
+        case OpLogicalEqual:
+            return *value != 0 ? other : 0;
+        case OpLogicalNotEqual:
+            return *value == 0 ? other : 0;
         case OpBitwiseAnd:
         case OpIMul:
             if (*value == 0) return values_.constant(i.type, 0);
             return i.op == OpIMul && *value == 1 && keeps ? other : 0;
         case OpIAdd:
         case OpBitwiseOr:
-        case OpBitwiseXor: return *value == 0 && keeps ? other : 0;
+        case OpBitwiseXor:
+            return *value == 0 && keeps ? other : 0;
         case OpISub:
         case OpShiftLeftLogical:
         case OpShiftRightLogical:
-        case OpShiftRightArithmetic: return isSecond && *value == 0 && keeps ? other : 0;
-        default: return 0;
+        case OpShiftRightArithmetic:
+            return isSecond && *value == 0 && keeps ? other : 0;
+        default:
+            return 0;
         }
     }
 
@@ -254,7 +301,8 @@ class Folder {
 };
 
 /// Marks the blocks that a block may go on to, but for ways that a constant rules out.
-void markReached(const Module& module, const Values& values, const Block& block, std::vector<bool>& isReached) {
+void markReached(const Module& module, const Values& values, const Block& block,
+                 std::vector<bool>& isReached) {
     const Instruction& end = block.body.back();
     const auto operands = module.operands(end);
     if (end.op == OpBranch) isReached[operands[0]] = true;
@@ -269,7 +317,8 @@ void markReached(const Module& module, const Values& values, const Block& block,
 }
 
 void replaceOperands(Module& module, const Values& values, const Instruction& i) {
-    forEachNumber(i, module.operands(i), [&](uint32_t& number) { number = values.resolve(number); });
+    forEachNumber(i, module.operands(i),
+                  [&](uint32_t& number) { number = values.resolve(number); });
 }
 
 } // namespace
@@ -292,7 +341,8 @@ void setConstants(Module& module, std::span<const uint32_t> constants) {
             const bool value = given(i.result).value_or(i.op == OpSpecConstantTrue ? 1u : 0u) != 0;
             i.op = value ? OpConstantTrue : OpConstantFalse;
         } else if (i.op == OpSpecConstant) {
-            if (const auto value = given(i.result); value && i.count == 1) module.operands(i)[0] = *value;
+            if (const auto value = given(i.result); value && i.count == 1)
+                module.operands(i)[0] = *value;
             i.op = OpConstant;
         } else if (i.op == OpSpecConstantComposite) {
             i.op = OpConstantComposite;
@@ -304,10 +354,12 @@ void setConstants(Module& module, std::span<const uint32_t> constants) {
     for (Instruction i : before) {
         if (i.op == OpSpecConstantOp) {
             const auto operands = module.operands(i);
-            if (const auto value = computed(values, uint16_t(operands[0]), i.type, operands.subspan(1))) {
+            if (const auto value =
+                    computed(values, uint16_t(operands[0]), i.type, operands.subspan(1))) {
                 const bool isBool = values.kindOf(i.type) == Kind::Bool;
                 const uint32_t word = *value;
-                i = isBool ? module.make(word != 0 ? OpConstantTrue : OpConstantFalse, i.type, i.result, {})
+                i = isBool ? module.make(word != 0 ? OpConstantTrue : OpConstantFalse, i.type,
+                                         i.result, {})
                            : module.make(OpConstant, i.type, i.result, {&word, 1});
             }
         }
@@ -323,8 +375,9 @@ bool fold(Module& module) {
     for (const Instruction& i : module.globals)
         replaceOperands(module, values, i);
     for (Function& f : module.functions) {
-        // Values of a block that comes later, as phis of loops have, are replaced in a second round.
-        // Nor is a block looked at that nothing before it goes on to: most are unreachable in the first round.
+        // Values of a block that comes later, as phis of loops have, are replaced in a second
+        // round. Nor is a block looked at that nothing before it goes on to: most are unreachable
+        // in the first round.
         std::vector<bool> isReached(module.bound);
         if (!f.blocks.empty()) isReached[f.blocks[0].label] = true;
         for (Block& b : f.blocks) {

@@ -10,8 +10,8 @@ bool isForDebuggers(uint16_t op) {
 }
 
 bool isPreamble(uint16_t op) {
-    return op == OpCapability || op == OpExtension || op == OpExtInstImport || op == OpMemoryModel ||
-           op == OpEntryPoint || op == OpExecutionMode;
+    return op == OpCapability || op == OpExtension || op == OpExtInstImport ||
+           op == OpMemoryModel || op == OpEntryPoint || op == OpExecutionMode;
 }
 
 /// Puts an instruction into the part of the module that it belongs to; false: it cannot stand here.
@@ -25,10 +25,14 @@ bool place(Module& module, const Instruction& i, bool& inFunction) {
         inFunction = false;
     } else if (inFunction) {
         Function& f = module.functions.back();
-        if (i.op == OpLabel) f.blocks.push_back({.label = i.result});
-        else if (i.op == OpFunctionParameter) f.parameters.push_back(i);
-        else if (f.blocks.empty()) return false;
-        else f.blocks.back().body.push_back(i);
+        if (i.op == OpLabel)
+            f.blocks.push_back({.label = i.result});
+        else if (i.op == OpFunctionParameter)
+            f.parameters.push_back(i);
+        else if (f.blocks.empty())
+            return false;
+        else
+            f.blocks.back().body.push_back(i);
     } else if (isPreamble(i.op)) {
         module.preamble.push_back(i);
     } else if (i.op == OpDecorate || i.op == OpMemberDecorate) {
@@ -41,7 +45,8 @@ bool place(Module& module, const Instruction& i, bool& inFunction) {
 
 } // namespace
 
-Instruction Module::make(uint16_t op, uint32_t type, uint32_t result, std::span<const uint32_t> operands) {
+Instruction Module::make(uint16_t op, uint32_t type, uint32_t result,
+                         std::span<const uint32_t> operands) {
     const Instruction i = {op, uint16_t(operands.size()), uint32_t(words.size()), type, result};
     words.insert(words.end(), operands.begin(), operands.end());
     return i;

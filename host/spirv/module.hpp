@@ -19,7 +19,8 @@ struct Instruction {
     uint32_t result = 0;
 };
 
-/// Instructions that run one after the other; the last one says where it goes on. OpLabel is `label`.
+/// Instructions that run one after the other; the last one says where it goes on. OpLabel is
+/// `label`.
 struct Block {
     uint32_t label = 0;
     std::vector<Instruction> body;
@@ -42,8 +43,11 @@ struct Module {
     std::vector<Function> functions;
 
     std::span<uint32_t> operands(const Instruction& i) { return {words.data() + i.at, i.count}; }
-    std::span<const uint32_t> operands(const Instruction& i) const { return {words.data() + i.at, i.count}; }
-    Instruction make(uint16_t op, uint32_t type, uint32_t result, std::span<const uint32_t> operands);
+    std::span<const uint32_t> operands(const Instruction& i) const {
+        return {words.data() + i.at, i.count};
+    }
+    Instruction make(uint16_t op, uint32_t type, uint32_t result,
+                     std::span<const uint32_t> operands);
     uint32_t newNumber() { return bound++; }
 };
 
@@ -65,14 +69,22 @@ void forEachNumber(const Instruction& i, Words operands, Visit visit) {
             visit(operands[k]);
             ++letter;
             break;
-        case 'l': ++letter; break;
-        case 'I': visit(operands[k]); break;
-        case 'L': return;
+        case 'l':
+            ++letter;
+            break;
+        case 'I':
+            visit(operands[k]);
+            break;
+        case 'L':
+            return;
         case 'W':
             if (++k < operands.size()) visit(operands[k]);
             break;
-        case 'M': letter = "I"; break;
-        default: return;
+        case 'M':
+            letter = "I";
+            break;
+        default:
+            return;
         }
     }
 }

@@ -55,7 +55,8 @@ class Splitter {
         if (structure != structures_.end()) splits_[i.result] = {storage, structure->second, {}};
     }
 
-    /// Only loads and stores of the whole and constant members leave a variable among those to be split.
+    /// Only loads and stores of the whole and constant members leave a variable among those to be
+    /// split.
     void checkUse(const Instruction& i) {
         if (i.op == OpVariable) return;
         const auto operands = module_.operands(i);
@@ -64,8 +65,10 @@ class Splitter {
         forEachNumber(i, operands, [&](uint32_t number) {
             const bool isPointer = position++ == 0;
             if (!splits_.contains(number)) return;
-            const bool isMember = isChain && operands.size() > 1 && constants_.contains(operands[1]);
-            if (!isPointer || !(i.op == OpLoad || i.op == OpStore || isMember)) splits_.erase(number);
+            const bool isMember =
+                isChain && operands.size() > 1 && constants_.contains(operands[1]);
+            if (!isPointer || !(i.op == OpLoad || i.op == OpStore || isMember))
+                splits_.erase(number);
         });
     }
 
@@ -89,8 +92,8 @@ class Splitter {
 
     void declareMembers(const Split& split, std::vector<Instruction>& into) {
         for (size_t m = 0; m < split.members.size(); ++m)
-            into.push_back(module_.make(OpVariable, pointerTo(split.storage, split.memberTypes[m]), split.members[m],
-                                        {&split.storage, 1}));
+            into.push_back(module_.make(OpVariable, pointerTo(split.storage, split.memberTypes[m]),
+                                        split.members[m], {&split.storage, 1}));
     }
 
     void splitGlobals() {
@@ -98,8 +101,10 @@ class Splitter {
         std::vector<Instruction> kept;
         for (const Instruction& i : module_.globals) {
             const auto split = i.op == OpVariable ? splits_.find(i.result) : splits_.end();
-            if (split == splits_.end()) kept.push_back(i);
-            else declareMembers(split->second, kept);
+            if (split == splits_.end())
+                kept.push_back(i);
+            else
+                declareMembers(split->second, kept);
         }
         module_.globals = std::move(kept);
     }
@@ -115,7 +120,8 @@ class Splitter {
         for (Block& b : function.blocks)
             for (const Instruction& i : b.body)
                 forEachNumber(i, module_.operands(i), [&](uint32_t& number) {
-                    if (const auto by = replaced_.find(number); by != replaced_.end()) number = by->second;
+                    if (const auto by = replaced_.find(number); by != replaced_.end())
+                        number = by->second;
                 });
     }
 
@@ -124,8 +130,8 @@ class Splitter {
         const auto split = i.op == OpVariable ? splits_.find(i.result)
                            : operands.empty() ? splits_.end()
                                               : splits_.find(operands[0]);
-        const bool isAccess = i.op == OpVariable || i.op == OpLoad || i.op == OpStore || i.op == OpAccessChain ||
-                              i.op == OpInBoundsAccessChain;
+        const bool isAccess = i.op == OpVariable || i.op == OpLoad || i.op == OpStore ||
+                              i.op == OpAccessChain || i.op == OpInBoundsAccessChain;
         if (split == splits_.end() || !isAccess) {
             kept.push_back(i);
             return;
@@ -137,7 +143,8 @@ class Splitter {
             std::vector<uint32_t> parts;
             for (size_t m = 0; m < s.members.size(); ++m) {
                 parts.push_back(module_.newNumber());
-                kept.push_back(module_.make(OpLoad, s.memberTypes[m], parts.back(), {&s.members[m], 1}));
+                kept.push_back(
+                    module_.make(OpLoad, s.memberTypes[m], parts.back(), {&s.members[m], 1}));
             }
             kept.push_back(module_.make(OpCompositeConstruct, i.type, i.result, parts));
         } else if (i.op == OpStore) {

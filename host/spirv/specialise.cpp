@@ -6,7 +6,8 @@ namespace stromboli::spirv {
 namespace {
 
 void simplify(Module& module) {
-    // Each round may decide more branches; a few are enough for all modules, and none has to be the last.
+    // Each round may decide more branches; a few are enough for all modules, and none has to be the
+    // last.
     constexpr int kMostRounds = 12;
     for (int round = 0; round < kMostRounds; ++round) {
         const bool folded = fold(module);
@@ -28,6 +29,13 @@ std::optional<std::vector<uint32_t>> specialise(std::span<const uint32_t> code,
     std::optional<Module> module = readModule(code);
     if (!module || !hasOneEntryPoint(*module)) return {};
     setConstants(*module, constants);
+    fold(*module);
+    simplifyControlFlow(*module);
+    dropDeadCode(*module);
+    // Most of a kernel is gone now. Written and read once more, the rest has small numbers, and all
+    // that follows takes a time in proportion to the rest.
+    module = readModule(writeModule(*module));
+    if (!module) return {};
     simplify(*module);
     dropDeadCode(*module);
     while (splitStructures(*module)) {

@@ -9,7 +9,8 @@ constexpr uint32_t kMagic = 0x07230203, kHeaderWords = 5;
 
 class Writer {
   public:
-    explicit Writer(const Module& module) : module_(module), newNumber_(module.bound), global_(module.bound) {
+    explicit Writer(const Module& module)
+        : module_(module), newNumber_(module.bound), global_(module.bound) {
         for (const Instruction& i : module_.globals)
             global_[i.result] = &i;
     }
@@ -18,8 +19,10 @@ class Writer {
         orderGlobals();
         code_ = {kMagic, module_.version, 0, 0, 0};
         for (const Instruction& i : module_.preamble)
-            if (i.op == OpEntryPoint) writeEntryPoint(i);
-            else writeInstruction(i);
+            if (i.op == OpEntryPoint)
+                writeEntryPoint(i);
+            else
+                writeInstruction(i);
         writeDecorations();
         for (const Instruction* i : ordered_)
             writeInstruction(*i);
@@ -89,7 +92,8 @@ class Writer {
         const size_t first = code_.size();
         const auto operands = module_.operands(i);
         code_.insert(code_.end(), operands.begin(), operands.end());
-        forEachNumber(i, std::span(code_).subspan(first), [&](uint32_t& number) { number = renamed(number); });
+        forEachNumber(i, std::span(code_).subspan(first),
+                      [&](uint32_t& number) { number = renamed(number); });
         end();
     }
 

@@ -100,7 +100,8 @@ Handle<VkPipeline> createPipeline(const Device& device, std::span<const uint32_t
 }
 
 KeptPipelines::Key keyOf(std::span<const uint32_t> spirv, std::span<const Binding> bindings,
-                         std::span<const uint32_t> constants, uint32_t pushConstantBytes, Specialiser specialiser) {
+                         std::span<const uint32_t> constants, uint32_t pushConstantBytes,
+                         Specialiser specialiser) {
     const auto code = std::as_bytes(spirv);
     KeptPipelines::Key key = {
         std::hash<std::string_view>()({reinterpret_cast<const char*>(code.data()), code.size()}),
@@ -117,12 +118,13 @@ ComputePipeline::ComputePipeline(const Device& device, std::span<const uint32_t>
                                  std::span<const Binding> bindings,
                                  std::span<const uint32_t> constants, uint32_t pushConstantBytes,
                                  Specialiser specialiser)
-    : compiled_(
-          device.keptPipelines().get(keyOf(spirv, bindings, constants, pushConstantBytes, specialiser), [&] {
+    : compiled_(device.keptPipelines().get(
+          keyOf(spirv, bindings, constants, pushConstantBytes, specialiser), [&] {
               CompiledPipeline made{.bindings = {bindings.begin(), bindings.end()}};
               made.setLayout = createSetLayout(device, bindings);
               made.layout = createLayout(device, made.setLayout.get(), pushConstantBytes);
-              made.pipeline = createPipeline(device, spirv, constants, made.layout.get(), specialiser);
+              made.pipeline =
+                  createPipeline(device, spirv, constants, made.layout.get(), specialiser);
               device.countPipeline();
               return std::make_shared<const CompiledPipeline>(std::move(made));
           })) {}

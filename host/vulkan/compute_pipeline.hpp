@@ -21,8 +21,8 @@ struct CompiledPipeline {
     Handle<VkPipeline> pipeline;
 };
 
-/// Who puts the constants into a module: this program, before the driver reads it (host/spirv), or the
-/// driver, which reads the whole module first. The kernel computes the same either way.
+/// Who puts the constants into a module: this program, before the driver reads it (host/spirv), or
+/// the driver, which reads the whole module first. The kernel computes the same either way.
 enum class Specialiser { Ours, Drivers };
 
 /// A compute shader specialised and ready to run, with the layout of its one descriptor set. Those

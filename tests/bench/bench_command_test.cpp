@@ -54,10 +54,9 @@ TEST(BenchCommand, ReportsOnTheTerminalAndAsJson) {
                                   "--json", folder.file("bench.json")});
     ASSERT_EQ(run.exitCode, 0) << run.err;
     EXPECT_EQ(run.err, "");
-    for (const char* text :
-         {"cornell_boxes: 36 triangles", "BVH build", "camera rays: 256", "bounce rays", "paths of",
-          "kernel variants", "start-up", "transfer",
-          "time for a bounce ray", "stromboli bench --quick"})
+    for (const char* text : {"cornell_boxes: 36 triangles", "BVH build", "camera rays: 256",
+                             "bounce rays", "paths of", "kernel variants", "start-up", "transfer",
+                             "time for a bounce ray", "stromboli bench --quick"})
         EXPECT_THAT(run.out, HasSubstr(text));
     const nlohmann::json json = nlohmann::json::parse(std::ifstream(folder.file("bench.json")));
     EXPECT_EQ(json["scenes"][0]["rays"].size(), 3u);
