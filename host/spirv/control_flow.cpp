@@ -18,26 +18,30 @@ class Graph {
     size_t indexOf(uint32_t label) const { return indexOf_[label]; }
     Block& block(uint32_t label) { return function_.blocks[indexOf(label)]; }
 
-    /// The labels that a block goes on to, each once.
-    std::vector<uint32_t> successors(const Block& block) const {
+    /// Calls `visit` with each label that a block goes on to; a label that is named twice comes
+    /// twice.
+    template <class Visit>
+    void forEachSuccessor(const Block& block, Visit visit) const {
         const Instruction& end = block.body.back();
         const auto operands = module_.operands(end);
-        std::vector<uint32_t> labels;
-        if (end.op == OpBranch) labels = {operands[0]};
-        if (end.op == OpBranchConditional) labels = {operands[1], operands[2]};
+        if (end.op == OpBranch) visit(operands[0]);
+        if (end.op == OpBranchConditional) {
+            visit(operands[1]);
+            visit(operands[2]);
+        }
         if (end.op == OpSwitch)
             for (size_t k = 1; k < operands.size(); k += 2)
-                labels.push_back(operands[k]);
-        std::sort(labels.begin(), labels.end());
-        labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
-        return labels;
+                visit(operands[k]);
     }
 
+    /// By index of a block, the labels of those that go on to it, each once.
     std::vector<std::vector<uint32_t>> predecessors() const {
         std::vector<std::vector<uint32_t>> from(function_.blocks.size());
         for (const Block& b : function_.blocks)
-            for (const uint32_t label : successors(b))
-                from[indexOf(label)].push_back(b.label);
+            forEachSuccessor(b, [&](uint32_t label) {
+                std::vector<uint32_t>& labels = from[indexOf(label)];
+                if (labels.empty() || labels.back() != b.label) labels.push_back(b.label);
+            });
         return from;
     }
 
@@ -136,12 +140,11 @@ bool dropUnreachable(Module& module, Function& function) {
     while (!open.empty()) {
         const size_t b = open.back();
         open.pop_back();
-        for (const uint32_t label : graph.successors(function.blocks[b])) {
+        graph.forEachSuccessor(function.blocks[b], [&](uint32_t label) {
             const size_t next = graph.indexOf(label);
-            if (isReached[next]) continue;
+            if (!isReached[next]) open.push_back(next);
             isReached[next] = true;
-            open.push_back(next);
-        }
+        });
     }
     const auto predecessors = graph.predecessors();
     const auto isReachedLabel = [&](uint32_t label) { return isReached[graph.indexOf(label)]; };

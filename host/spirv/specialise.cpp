@@ -5,13 +5,33 @@
 namespace stromboli::spirv {
 namespace {
 
+/// Folds and goes straight on until nothing changes. No pass has to be the last one for the module
+/// to be right, so the number of rounds is limited, whatever a module holds.
+constexpr int kMostRounds = 12;
+
 void simplify(Module& module) {
-    // Each round may decide more branches; a few are enough for all modules, and none has to be the
-    // last.
-    constexpr int kMostRounds = 12;
     for (int round = 0; round < kMostRounds; ++round) {
         const bool folded = fold(module);
         if (!simplifyControlFlow(module) && !folded) return;
+    }
+}
+
+size_t instructionsOf(const Module& module) {
+    size_t count = module.globals.size();
+    for (const Function& f : module.functions)
+        for (const Block& b : f.blocks)
+            count += 1 + b.body.size();
+    return count;
+}
+
+/// Selections may be empty once what they held is dropped, and their conditions are then read by
+/// nobody.
+void settle(Module& module) {
+    size_t before = 0;
+    for (int round = 0; round < kMostRounds && before != instructionsOf(module); ++round) {
+        before = instructionsOf(module);
+        simplify(module);
+        dropDeadCode(module);
     }
 }
 
@@ -36,13 +56,9 @@ std::optional<std::vector<uint32_t>> specialise(std::span<const uint32_t> code,
     // that follows takes a time in proportion to the rest.
     module = readModule(writeModule(*module));
     if (!module) return {};
-    simplify(*module);
-    dropDeadCode(*module);
-    while (splitStructures(*module)) {
-        simplify(*module);
-        dropDeadCode(*module);
-    }
-    simplify(*module);
+    do
+        settle(*module);
+    while (splitStructures(*module));
     return writeModule(*module);
 }
 

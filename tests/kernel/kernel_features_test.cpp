@@ -232,9 +232,9 @@ TEST(KernelFeatures, TexturesAndOpacityOnlyWhereTheyHaveAnEffect) {
     EXPECT_EQ(featuresOf(scene)[SPEC_TEXTURE_SLOTS], 0u) << "no surface has it";
 }
 
-/// The service of rich modules is long, so that lanes wait for more steps of others; and what a
-/// dispatch may run is counted by the steps that the kernel takes.
-TEST(KernelFeatures, RichModulesTakeMoreSteps) {
+/// The service of textured and layered scenes is long, so that lanes wait for more steps of others;
+/// and what a dispatch may run is counted by the steps that the kernel takes.
+TEST(KernelFeatures, LongServicesTakeMoreSteps) {
     DeviceTuning tuning;
     tuning.traversalSteps = 5;
     tuning.richTraversalSteps = 12;
@@ -282,7 +282,7 @@ TEST(KernelFeatures, SurfacesWaitInOpenViews) {
     };
     EXPECT_EQ(part(1e-3, PixelFilter::Gaussian), 0u) << "the triangle fills the picture";
     EXPECT_EQ(part(10, PixelFilter::Gaussian), 3u);
-    EXPECT_EQ(part(10, PixelFilter::Box), 0u) << "not a module with RICH_MATERIALS";
+    EXPECT_EQ(part(10, PixelFilter::Box), 0u) << "a service that is short";
     tuning.waitingPart = 0;
     EXPECT_EQ(part(10, PixelFilter::Gaussian), 0u);
 }

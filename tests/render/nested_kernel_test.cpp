@@ -123,6 +123,7 @@ const KernelTuning kTunings[] = {
     {.workgroupSize = 24, .traversalSteps = 3, .lanes = 100, .fixedIterations = 1},
     {.texelFetch = false, .traversalSteps = 16},
     {.countSteps = true, .everythingOn = true},
+    {.specialiser = vulkan::Specialiser::Drivers},
 };
 
 struct Result {

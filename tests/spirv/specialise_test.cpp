@@ -1,0 +1,143 @@
+// Modules with their constants in place: valid, smaller, and the same whatever else the source
+// holds.
+#include "host/bvh/wide_layout.hpp"
+#include "host/kernel/kernel_features.hpp"
+#include "host/spirv/specialise.hpp"
+#include "scene/read_scene.hpp"
+#include "tests/film/temporary_folder.hpp"
+#include "tests/support/shell.hpp"
+
+#include "embedded/decided_shader.h"
+#include "embedded/pathtrace_storage.h"
+#include "embedded/pathtrace_texel.h"
+#include "embedded/pathtrace_with_feature.h"
+#include "embedded/see_storage.h"
+#include "embedded/see_texel.h"
+#include "embedded/trace_rays_storage.h"
+#include "embedded/trace_rays_texel.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace stromboli {
+namespace {
+
+using Words = std::vector<uint32_t>;
+using Code = std::span<const uint32_t>;
+
+struct Module {
+    const char* name;
+    Code code;
+};
+const Module kModules[] = {{"pathtrace_storage", pathtrace_storage},
+                           {"pathtrace_texel", pathtrace_texel},
+                           {"see_storage", see_storage},
+                           {"see_texel", see_texel},
+                           {"trace_rays_storage", trace_rays_storage},
+                           {"trace_rays_texel", trace_rays_texel}};
+
+/// What spirv-val says of the module; empty: it is valid.
+std::string complaint(const Words& code) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "a.spv", std::ios::binary)
+        .write(reinterpret_cast<const char*>(code.data()),
+               std::streamsize(code.size() * sizeof(uint32_t)));
+    const test::ShellRun run =
+        test::shell(STROMBOLI_SPIRV_VAL " --target-env vulkan1.1 " + (folder / "a.spv").string());
+    return run.exitCode == 0 ? "" : run.output;
+}
+
+size_t countOf(const Words& code, uint32_t opcode) {
+    size_t count = 0;
+    for (size_t i = 5; i < code.size(); i += code[i] >> 16)
+        count += (code[i] & 0xFFFF) == opcode;
+    return count;
+}
+
+Words featuresOf(const std::string& name, bool everythingOn = false) {
+    const Scene scene = readScene(name);
+    DeviceTuning tuning;
+    tuning.workgroupSize = 8;
+    tuning.everythingOn = everythingOn;
+    const RenderSettings settings;
+    const KernelFeatures f = kernelFeatures(
+        packScene(scene, buildWideBvh(scene), lightSelection(settings.estimator)),
+        makeCamera(scene, CameraChoice::Automatic, 64, 48), settings.estimator, tuning);
+    return {f.begin(), f.end()};
+}
+
+class SpecialisedKernel : public testing::TestWithParam<const char*> {};
+
+TEST_P(SpecialisedKernel, IsValidAndHasNoConstantsLeft) {
+    for (const bool everythingOn : {false, true})
+        for (const Module& m : kModules) {
+            const auto made = spirv::specialise(m.code, featuresOf(GetParam(), everythingOn));
+            ASSERT_TRUE(made) << m.name;
+            EXPECT_EQ(complaint(*made), "") << m.name << (everythingOn ? ", everything on" : "");
+            for (const uint32_t opcode : {48u, 49u, 50u, 51u}) // specialisation constants
+                EXPECT_EQ(countOf(*made, opcode), 0u) << m.name;
+            EXPECT_EQ(made, spirv::specialise(*made, {})) << m.name << ": a second time changes it";
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SpecialisedKernel,
+                         testing::Values("cornell_boxes", "cornell_mesh", "still_life", "island",
+                                         "generate:points:100", "generate:forest:3"),
+                         [](const auto& scene) {
+                             std::string name = scene.param;
+                             std::erase_if(name, [](char c) { return !std::isalnum(uint8_t(c)); });
+                             return name;
+                         });
+
+TEST(Specialise, TheCornellBoxHasATenthOfTheKernel) {
+    const auto made = spirv::specialise(pathtrace_texel, featuresOf("cornell_boxes"));
+    ASSERT_TRUE(made);
+    EXPECT_LT(10 * made->size(), std::size(pathtrace_texel));
+}
+
+/// A feature that a scene does not have costs it nothing, neither code nor a word of state.
+TEST(Specialise, AFeatureThatIsSwitchedOffLeavesNoTrace) {
+    Words constants = featuresOf("cornell_boxes");
+    constants.push_back(0);
+    const auto without = spirv::specialise(pathtrace_storage, constants),
+               with = spirv::specialise(pathtrace_with_feature, constants);
+    ASSERT_TRUE(without && with);
+    EXPECT_GT(std::size(pathtrace_with_feature), std::size(pathtrace_storage));
+    EXPECT_TRUE(*without == *with) << without->size() << " and " << with->size() << " words";
+    constants.back() = 1;
+    const auto switchedOn = spirv::specialise(pathtrace_with_feature, constants);
+    ASSERT_TRUE(switchedOn);
+    EXPECT_GT(switchedOn->size(), without->size());
+    EXPECT_EQ(complaint(*switchedOn), "");
+}
+
+TEST(Specialise, ConstantsThatAreNotGivenKeepTheirDefaults) {
+    const Words defaults = {1, 3, uint32_t(-7), 0, 2, 0x3FC00000u};
+    EXPECT_EQ(spirv::specialise(decided_shader, {}), spirv::specialise(decided_shader, defaults));
+    EXPECT_EQ(spirv::specialise(decided_shader, Code(defaults).first(3)),
+              spirv::specialise(decided_shader, {}));
+    Words other = defaults;
+    other[1] = 4;
+    EXPECT_NE(spirv::specialise(decided_shader, {}), spirv::specialise(decided_shader, other));
+}
+
+/// The driver gets such modules as they are.
+TEST(Specialise, WhatIsNotUnderstoodIsLeftAlone) {
+    EXPECT_FALSE(spirv::specialise({}, {}));
+    EXPECT_FALSE(spirv::specialise(Code(decided_shader).first(5), {}));
+    Words broken(std::begin(decided_shader), std::end(decided_shader));
+    broken[0] ^= 1;
+    EXPECT_FALSE(spirv::specialise(broken, {})) << "another magic number";
+    broken[0] ^= 1;
+    Words cut = broken;
+    cut.resize(cut.size() - 2);
+    EXPECT_FALSE(spirv::specialise(cut, {})) << "the function has no end";
+    constexpr uint32_t kOpGroupAll = 261;
+    broken.insert(broken.end() - 1, {4u << 16 | kOpGroupAll, 1, 1, 1});
+    EXPECT_FALSE(spirv::specialise(broken, {})) << "an instruction that the grammar does not know";
+}
+
+} // namespace
+} // namespace stromboli
