@@ -68,7 +68,7 @@ std::vector<std::string> describe(const KernelFeatures& f) {
         fmt::format("textures: {}", textureText(f)),
         fmt::format("vertex colors: {}",
                     f[SPEC_ATTRIBUTES] & gpu::ATTRIBUTE_COLOR ? "yes" : "none"),
-        fmt::format("opacity: {}", f[SPEC_ALPHA] ? "partly transparent" : "all opaque"),
+        fmt::format("opacity: {}", f[SPEC_HAS_ALPHA] ? "partly transparent" : "all opaque"),
         fmt::format("emission: {}", f[SPEC_HAS_EMISSION] ? "yes" : "none"),
         fmt::format("lights: {}", list(f[SPEC_LIGHT_KINDS],
                                        {"quad", "triangle", "sphere", "ambient", "directional",

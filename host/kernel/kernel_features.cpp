@@ -23,8 +23,8 @@ bool servesForLong(const KernelFeatures& f) {
            f[SPEC_HIDES_SURFACES] != 0 || f[SPEC_FLAT_TERMINATOR] != 0 ||
            (f[SPEC_BSDF_KINDS] & 1u << gpu::BSDF_PRINCIPLED) != 0 || f[SPEC_TEXTURE_SLOTS] != 0 ||
            f[SPEC_LOOSE_SLOTS] != 0 || f[SPEC_LOOSE_TEXTURES] != 0 || f[SPEC_TEXEL_KINDS] != 0 ||
-           f[SPEC_ATTRIBUTES] != 0 || f[SPEC_ALPHA] != 0 || f[SPEC_TANGENT_FRAMES] != 0 ||
-           f[SPEC_BLENDS] != 0 || f[SPEC_RELIEF_RULES] != 0 || f[SPEC_PRINCIPLED_FEATURES] != 0 ||
+           f[SPEC_ATTRIBUTES] != 0 || f[SPEC_HAS_ALPHA] != 0 || f[SPEC_TANGENT_FRAMES] != 0 ||
+           f[SPEC_HAS_BLENDS] != 0 || f[SPEC_RELIEF_RULES] != 0 || f[SPEC_PRINCIPLED_FEATURES] != 0 ||
            f[SPEC_HAS_PLACEMENTS] != 0 || f[SPEC_WAITING_PART] != 0 ||
            f[SPEC_CORNER_NORMALS] != f[SPEC_HAS_NORMALS];
 }
@@ -159,7 +159,7 @@ void switchOnAllTheSceneCouldHave(KernelFeatures& f, const Estimator& settings) 
 }
 
 void setDetails(KernelFeatures& f, const GpuScene& scene, bool normalsOnly) {
-    f[SPEC_ALPHA] = scene.hasAlpha;
+    f[SPEC_HAS_ALPHA] = scene.hasAlpha;
     f[SPEC_HIDES_SURFACES] = scene.hasHidden;
     // Normals are those of the geometry: only what is not there has to be known.
     constexpr uint32_t kOpacityMaps = 1u << gpu::TEXTURE_BASE_COLOR | 1u << gpu::TEXTURE_OPACITY;
@@ -171,7 +171,7 @@ void setDetails(KernelFeatures& f, const GpuScene& scene, bool normalsOnly) {
     f[SPEC_ATTRIBUTES] = scene.attributes;
     if (normalsOnly) return;
     f[SPEC_TANGENT_FRAMES] = scene.hasTangentFrames;
-    f[SPEC_BLENDS] = scene.hasBlends;
+    f[SPEC_HAS_BLENDS] = scene.hasBlends;
     f[SPEC_RELIEF_RULES] = scene.hasReliefRules;
     // A map gives flat surfaces a shading normal too.
     constexpr uint32_t kMaps = 1u << gpu::TEXTURE_NORMAL | 1u << gpu::TEXTURE_HEIGHT;

@@ -95,7 +95,7 @@ bool isBsdf(Material m, uint kind) {
            (BSDF_KINDS == 1u << kind || (m.header.w & MATERIAL_KIND_MASK) == kind);
 }
 
-/// Whether the material's BSDF is of a kind that only modules with FACET_MATERIALS have.
+/// Whether the material's BSDF is of a kind made of microfacets.
 bool isFacetMaterial(Material m) {
     const bool allAre = (BSDF_KINDS & (1u << BSDF_CONDUCTOR) - 1u) == 0u;
     return sceneHasFacetMaterials() &&

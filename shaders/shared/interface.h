@@ -1,7 +1,8 @@
-// Numbers the host and the shaders agree on: bindings and specialisation constants.
+// Numbers the host and the shaders agree on: bindings, and values of specialisation constants.
 #ifndef STROMBOLI_SHARED_INTERFACE_H
 #define STROMBOLI_SHARED_INTERFACE_H
 
+#include "features.h"
 #include "language.h"
 
 SHARED_BEGIN
@@ -29,65 +30,7 @@ SHARED_BEGIN
 /// "Fetch").
 SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 
-// --- Specialisation constants: only what a scene needs ---------------------------------------
-#define SPEC_WORKGROUP_SIZE 0
-#define SPEC_TRAVERSAL_STEPS 1 // traversal steps between two service passes
-#define SPEC_STACK_SIZE 2      // proven sufficient by the BVH builder
-#define SPEC_HAS_TRIANGLES 3
-#define SPEC_HAS_SPHERES 4
-#define SPEC_HAS_NORMALS 5
-#define SPEC_BSDF_KINDS 6 // bit n: BSDF_ kind n occurs
-#define SPEC_HAS_EMISSION 7
-#define SPEC_LIGHT_KINDS 8 // bit n: lights of LIGHT_ kind n are sampled
-#define SPEC_INTEGRATOR 9
-#define SPEC_DIRECT_LIGHT 10
-#define SPEC_ROULETTE 11
-#define SPEC_ORTHOGRAPHIC 12
-#define SPEC_CLIP_ALONG_RAY 13
-#define SPEC_CS184 14
-#define SPEC_LIGHT_GROUPS 15 // bit n: the light tree has lights of LIGHT_GROUP_ n
-#define SPEC_LIGHT_SAMPLES 16 // per shading point (LIGHT_CHOICE_EACH: and light)
-#define SPEC_COUNT_STEPS 17   // count how many lanes are at work in each step
-#define SPEC_SAMPLER 18
-#define SPEC_LIGHT_NUMBERS 19      // which random numbers light samples take
-#define SPEC_LIGHT_CHOICE 20       // how one of the lights is picked
-#define SPEC_MIS_LOBES 21 // LOBE_ bits: of these bounces find lights too, weighted
-#define SPEC_SPLITS 22 // paths may split into branches
-#define SPEC_GAP_PROPOSAL 23 // the gap proposal: some bounces go into the gap (gap_proposal.glsl)
-#define SPEC_STACK_IN_REGISTERS 24 // else in a memory that each lane indexes
-#define SPEC_LARGE_TREE 25 // the tree has more than SMALL_TREE_RECORDS records
-#define SPEC_AMBIENT_BY_BOUNCES 26 // bounces alone find the ambient light; light samples go to others
-#define SPEC_HAS_AMBIENT 27 // rays that hit nothing find ambient light
-// Of the modules with RICH_MATERIALS alone:
-#define SPEC_HAS_ENVIRONMENT 28 // that light is a picture
-#define SPEC_HAS_BACKDROP 29    // the camera sees it
-#define SPEC_HAS_LENS 30
-#define SPEC_PIXEL_FILTER 31 // how samples are spread about a pixel
-#define SPEC_TEXTURE_SLOTS 32 // bit n: some material has a texture in slot n (TEXTURE_)
-#define SPEC_TEXEL_KINDS 33 // TEXEL_KIND_ bits that occur
-#define SPEC_ATTRIBUTES 34 // ATTRIBUTE_ bits: what the detail buffer has of primitives' corners
-#define SPEC_ALPHA 35 // surfaces may be partly not there
-#define SPEC_TANGENT_FRAMES 36 // the frame of a BSDF follows the surface's tangent
-#define SPEC_PRINCIPLED_FEATURES 37 // PRINCIPLED_HAS_ bits: what the principled materials have
-#define SPEC_LOOSE_SLOTS 38 // bit n: some material has a texture in slot n that is in no bundle
-#define SPEC_FACETS 39 // FACETS_ bits: of microfacets of conductors, dielectrics, plastic
-#define SPEC_BLACK_BACKS 40 // materials are black where normals do not point
-#define SPEC_BLENDS 41 // materials are mixtures of others
-#define SPEC_FILTER_EXTRA 42 // a float: Gaussian and tent are wider by this share
-#define SPEC_HIDES_SURFACES 43 // camera rays pass some materials (DETAIL_IS_HIDDEN)
-#define SPEC_RELIEF_RULES 44   // some material has MATERIAL_RELIEF_ bits
-#define SPEC_FLAT_TERMINATOR 48 // light is reflected from flat triangles (no terminator offset)
-// Of the modules with PLACEMENTS alone:
-#define SPEC_HAS_PLACEMENTS 45 // prototypes are placed in the world (scene_types.h)
-#define SPEC_TRAVERSAL_LEGS 46 // between two service passes, each of SPEC_TRAVERSAL_STEPS
-// Of all modules:
-#define SPEC_ROULETTE_START 47 // bounces before roulette by throughput
-// Of the modules with RICH_MATERIALS:
-#define SPEC_LOOSE_TEXTURES 49 // the most textures that a material has in no bundle
-#define SPEC_WAITING_PART 50 // lanes at surfaces wait until they are this part of those at work; 0: for none
-#define SPEC_CORNER_NORMALS 51 // some triangle has normals of its corners; else maps alone make shading normals
-#define SPEC_COUNT 52
-
+// --- Values of specialisation constants (features.h) -----------------------------------------
 SHARED_CONST uint TEXEL_KIND_NEAREST = 1u;
 SHARED_CONST uint TEXEL_KIND_BILINEAR = 2u;
 SHARED_CONST uint TEXEL_KIND_SRGB = 4u;

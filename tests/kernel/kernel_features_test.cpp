@@ -197,7 +197,7 @@ TEST(KernelFeatures, TexturesAndOpacityOnlyWhereTheyHaveAnEffect) {
         m.textures.push_back({.slot = slot});
     KernelFeatures f = featuresOf(scene);
     for (const uint32_t id :
-         {SPEC_TEXTURE_SLOTS, SPEC_LOOSE_SLOTS, SPEC_TEXEL_KINDS, SPEC_ATTRIBUTES, SPEC_ALPHA})
+         {SPEC_TEXTURE_SLOTS, SPEC_LOOSE_SLOTS, SPEC_TEXEL_KINDS, SPEC_ATTRIBUTES, SPEC_HAS_ALPHA})
         EXPECT_EQ(f[id], 0u) << id;
     EXPECT_TRUE(packScene(scene, buildWideBvh(scene)).details.empty());
 
@@ -209,16 +209,16 @@ TEST(KernelFeatures, TexturesAndOpacityOnlyWhereTheyHaveAnEffect) {
                                        gpu::TEXEL_KIND_GATHERED);
     EXPECT_EQ(f[SPEC_LOOSE_SLOTS], 1u << gpu::TEXTURE_BASE_COLOR);
     EXPECT_EQ(f[SPEC_ATTRIBUTES], gpu::ATTRIBUTE_UV0);
-    EXPECT_EQ(f[SPEC_ALPHA], 0u);
+    EXPECT_EQ(f[SPEC_HAS_ALPHA], 0u);
     EXPECT_EQ(packScene(scene, buildWideBvh(scene)).details.size(), 8u)
         << "two rows of coordinates, and the texel at three columns and two lines";
 
     scene.images[0].words = {0x7F804020};
-    EXPECT_EQ(featuresOf(scene)[SPEC_ALPHA], 1u);
+    EXPECT_EQ(featuresOf(scene)[SPEC_HAS_ALPHA], 1u);
     scene.images[0].words = {0xFF804020};
     scene.attributes[1].color.a = 0.5f;
     f = featuresOf(scene);
-    EXPECT_EQ(f[SPEC_ALPHA], 1u);
+    EXPECT_EQ(f[SPEC_HAS_ALPHA], 1u);
     EXPECT_EQ(f[SPEC_ATTRIBUTES], gpu::ATTRIBUTE_UV0 | gpu::ATTRIBUTE_COLOR);
     m.textures.push_back({.slot = TextureSlot::Normal, .uvSet = 1});
     f = featuresOf(scene);
