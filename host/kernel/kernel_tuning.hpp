@@ -32,12 +32,12 @@ struct DeviceTuning {
     bool texelFetch = false;
     uint32_t workgroupSize = 64;
     uint32_t traversalSteps = 8;
-    uint32_t richTraversalSteps = 8; ///< of the modules with RICH_MATERIALS, which serve for longer
+    uint32_t richTraversalSteps = 8; ///< of kernels whose service is long (textures, layers)
     /// Where prototypes are placed, a ray is prepared anew for each leg between two service passes,
     /// and lanes that come to a placement or leave one wait for that.
     uint32_t placedTraversalSteps = 4, traversalLegs = 4;
     uint32_t registerStack = 0; ///< entries
-    /// Of the modules with RICH_MATERIALS: lanes at surfaces wait until they are the n-th part of
+    /// Of kernels whose service is long: lanes at surfaces wait until they are the n-th part of
     /// those at work (SPEC_WAITING_PART); 0: they do not wait. Only where surfaces fill less than
     /// this share of the picture.
     uint32_t waitingPart = 0;
