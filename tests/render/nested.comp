@@ -6,6 +6,7 @@
 #include "shared/interface.h"
 #include "shared/scene_types.h"
 #include "shared/render_types.h"
+#include "shared/texture_types.h"
 
 #include "include/specialisation.glsl"
 #include "include/fetch.glsl"
@@ -25,19 +26,31 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "include/cs184.glsl"
 #include "include/surface.glsl"
 #include "bsdf/bsdf.glsl"
+#include "include/material_detail.glsl"
+#include "include/relief.glsl"
 #include "lights/lights.glsl"
 #include "include/mis.glsl"
 #include "include/gap_proposal.glsl"
+#include "include/two_sides.glsl"
+#include "include/medium.glsl"
 #include "include/accumulate.glsl"
 #include "include/path.glsl"
 
 uint loopPasses; ///< of this invocation: llvmpipe ends all loops of a group at 65,535
 
+/// Also looks up the material where the ray asks for one. A ray that passes a surface which is partly there is traced on.
 void traceToTheEnd() {
-    startRay();
-    const Ray prepared = makeRay(ray.origin, ray.direction);
-    while (traversing(ray)) {
-        traversalStep(ray, prepared);
+    bool goesOn = true;
+    while (goesOn) {
+        startRay();
+        const Ray prepared = makeRay(ray.origin, ray.direction);
+        while (traversing(ray)) {
+            traversalStep(ray, prepared);
+            ++loopPasses;
+        }
+        const MaterialPoint asked = askedPoint();
+        found = lookUpMaterial(asked);
+        goesOn = HAS_ALPHA && passesThrough(asked, found.opacity);
         ++loopPasses;
     }
 }

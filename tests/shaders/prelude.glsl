@@ -27,8 +27,8 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 
 #include "queries.h"
 
-/// Ends the constructor of a SurfacePoint that has no texture.
-#define NO_DETAIL , 0u, vec2(0.0), vec4(0.0), vec3(0.0, 0.0, 1.0)
+/// Ends the constructor of a SurfacePoint that has no texture and is not placed.
+#define NO_DETAIL , 0u, vec2(0.0), vec4(0.0), vec3(0.0, 0.0, 1.0), NO_PLACEMENT
 
 #define BINDING_QUERIES BINDING_COUNT
 #define BINDING_ANSWERS (BINDING_COUNT + 1)
