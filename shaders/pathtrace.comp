@@ -48,65 +48,68 @@ Dispatch dispatch;
 #include "include/accumulate.glsl"
 #include "include/path.glsl"
 
-uint item; ///< of the work list, in this lane's hands; NO_ITEM: none
-uint pixel; ///< of the item, in the film segment
-uint target; ///< samples it shall have
-uint sampleCount; ///< taken in this dispatch
-uint busySteps, allSteps;
+/// What a lane has in hands of the work list, and what it counts.
+struct Job {
+    uint item;        ///< of the work list; NO_ITEM: none
+    uint pixel;       ///< of the item, in the film segment
+    uint target;      ///< samples it shall have
+    uint sampleCount; ///< taken in this dispatch
+    uint busySteps, allSteps;
+};
 
-uint samplesTaken() { return pixelState.count + pixelState.rejected; }
+uint samplesTaken(PathState path) { return path.pixelState.count + path.pixelState.rejected; }
 
 /// Is ready for a new sample, but this pixel has all of its own.
-bool wantsPixel() { return phase == PHASE_NEXT && (item == NO_ITEM || samplesTaken() >= target); }
+bool wantsPixel(PathState path, Job job) { return path.phase == PHASE_NEXT && (job.item == NO_ITEM || samplesTaken(path) >= job.target); }
 
-void takeUp(uint newItem) {
-    item = newItem;
-    if (item == NO_ITEM) return;
-    const WorkItem work = fetchWorkItem(item);
-    pixel = work.pixel;
-    target = work.target;
-    pixelState = fetchPixel(pixel);
-    sampleCount -= samplesTaken();
-    pixelAt = uvec2(work.column, work.row);
-    pixelId = pixelAt.y * frame.width + pixelAt.x;
+void takeUp(inout PathState path, inout Job job, uint newItem) {
+    job.item = newItem;
+    if (job.item == NO_ITEM) return;
+    const WorkItem work = fetchWorkItem(job.item);
+    job.pixel = work.pixel;
+    job.target = work.target;
+    path.pixelState = fetchPixel(job.pixel);
+    job.sampleCount -= samplesTaken(path);
+    path.pixelAt = uvec2(work.column, work.row);
+    path.pixelId = path.pixelAt.y * frame.width + path.pixelAt.x;
 }
 
-bool atWork() { return phase != PHASE_FINISHED && phase != PHASE_SUSPENDED; }
+bool atWork(PathState path) { return path.phase != PHASE_FINISHED && path.phase != PHASE_SUSPENDED; }
 
 /// Whether an eighth of the subgroup's lanes at work want another pixel (docs/kernel.md,
 /// "Leaving the inner loop together").
-bool pixelsAreWanted() {
-    const uint wanting = subgroupBallotBitCount(subgroupBallot(wantsPixel()));
-    return 8u * wanting >= subgroupBallotBitCount(subgroupBallot(atWork()));
+bool pixelsAreWanted(PathState path, Job job) {
+    const uint wanting = subgroupBallotBitCount(subgroupBallot(wantsPixel(path, job)));
+    return 8u * wanting >= subgroupBallotBitCount(subgroupBallot(atWork(path)));
 }
 
 /// Whether as many of the subgroup's lanes wait at surfaces as are waited for. A dispatch that is to end has a
 /// limit for its iterations, which is why nothing is waited for then: with many light samples each would wait anew.
-bool enoughSurfacesWait() {
-    const uint waiting = subgroupBallotBitCount(subgroupBallot(waits));
-    return WAITING_PART * waiting >= subgroupBallotBitCount(subgroupBallot(atWork()));
+bool enoughSurfacesWait(PathState path) {
+    const uint waiting = subgroupBallotBitCount(subgroupBallot(path.waits));
+    return WAITING_PART * waiting >= subgroupBallotBitCount(subgroupBallot(atWork(path)));
 }
 
-void putDown() {
-    if (item == NO_ITEM) return;
-    if (frame.keepsValue != 0u && samplesTaken() >= target) pixelState.sum = radiance;
-    storePixel(pixel, pixelState);
-    sampleCount += samplesTaken();
-    item = NO_ITEM;
+void putDown(inout PathState path, inout Job job) {
+    if (job.item == NO_ITEM) return;
+    if (frame.keepsValue != 0u && samplesTaken(path) >= job.target) path.pixelState.sum = path.radiance;
+    storePixel(job.pixel, path.pixelState);
+    job.sampleCount += samplesTaken(path);
+    job.item = NO_ITEM;
 }
 
 /// When the pixel has all its samples, goes on with the next one that no lane has taken. No pixel
 /// depends on which lane it falls to.
-void changePixel(bool mayGoOn) {
-    if (!wantsPixel()) return;
-    putDown();
-    phase = PHASE_FINISHED;
+void changePixel(inout PathState path, inout Job job, bool mayGoOn) {
+    if (!wantsPixel(path, job)) return;
+    putDown(path, job);
+    path.phase = PHASE_FINISHED;
     if (!mayGoOn) return;
     const uint taken = atomicAdd(status.nextItem, 1u);
     if (taken >= dispatch.itemCount) return;
-    takeUp(taken);
-    pixelState.samplesBefore = frame.firstSample + samplesTaken();
-    phase = PHASE_NEXT;
+    takeUp(path, job, taken);
+    path.pixelState.samplesBefore = frame.firstSample + samplesTaken(path);
+    path.phase = PHASE_NEXT;
 }
 
 /// Of random numbers (randomWords); no sample uses it.
@@ -118,109 +121,107 @@ const uint STOPPING_BLOCK = 0x7FFFFFFFu;
 /// without bias (Glynn and Heidelberger 1990); with samples of earlier passes the errors of ending and
 /// dropping cancel, to the first order, where it is ended with the share of those in all (docs/estimator.md,
 /// "A render that is stopped"). The choice knows nothing of the samples' values.
-bool endsSampleUnderWay() {
-    const uint taken = frame.firstSample + samplesTaken();
+bool endsSampleUnderWay(PathState path) {
+    const uint taken = frame.firstSample + samplesTaken(path);
     if (taken == 0u) return true;
-    const uint word = pcg4d(uvec4(pixelId, taken, STOPPING_BLOCK, frame.seed)).x;
-    return float(word >> 8u) * (1.0 / 16777216.0) * float(taken) < float(pixelState.samplesBefore);
+    const uint word = pcg4d(uvec4(path.pixelId, taken, STOPPING_BLOCK, frame.seed)).x;
+    return float(word >> 8u) * (1.0 / 16777216.0) * float(taken) < float(path.pixelState.samplesBefore);
 }
 
-void resumeSplit(uint lane) {
+void resumeSplit(inout PathState path, uint lane) {
     const SuspendedSplit s = suspendedSplits[lane];
-    splitPoint.bounce = s.bounce;
-    splitPoint.throughput = s.throughput;
-    splitPoint.surface = SurfacePoint(s.position, s.error, s.geometric, s.shading, s.wo,
+    path.splitPoint.bounce = s.bounce;
+    path.splitPoint.throughput = s.throughput;
+    path.splitPoint.surface = SurfacePoint(s.position, s.error, s.geometric, s.shading, s.wo,
                                       s.outside != 0u, s.material, s.skipPrimitive, s.lift
                                       , s.primitive, vec2(s.b1, s.b2), vec4(0.0), vec3(0.0)
                                       , s.placement
     );
     if (TANGENT_FRAMES)
-        splitPoint.surface.tangent =
-            tangentAt(splitPoint.surface, shadingNormal(splitPoint.surface));
-    if (sceneHasCoatNormals()) splitPoint.surface.coat = coatNormal(splitPoint.surface);
-    branchesLeft = s.branchesLeft;
-    splitPoint.medium = s.medium;
+        path.splitPoint.surface.tangent =
+            tangentAt(path.splitPoint.surface, shadingNormal(path.splitPoint.surface));
+    if (sceneHasCoatNormals()) path.splitPoint.surface.coat = coatNormal(path.splitPoint.surface);
+    path.branchesLeft = s.branchesLeft;
+    path.splitPoint.medium = s.medium;
 }
 
-void suspendSplit(uint lane) {
-    const SurfacePoint p = splitPoint.surface;
-    const uint medium = splitPoint.medium, primitive = p.primitive;
-    const vec2 weights = p.weights;
-    const uint placement = p.placement;
+void suspendSplit(PathState path, uint lane) {
+    const SurfacePoint p = path.splitPoint.surface;
     suspendedSplits[lane] =
-        SuspendedSplit(p.position, splitPoint.bounce, p.geometric, p.material, p.shading,
-                       p.skipPrimitive, p.wo, p.lift, splitPoint.throughput, p.error,
-                       p.outside ? 1u : 0u, branchesLeft, weights.x, weights.y, medium, placement, primitive, 0u);
+        SuspendedSplit(p.position, path.splitPoint.bounce, p.geometric, p.material, p.shading,
+                       p.skipPrimitive, p.wo, p.lift, path.splitPoint.throughput, p.error,
+                       p.outside ? 1u : 0u, path.branchesLeft, p.weights.x, p.weights.y, path.splitPoint.medium,
+                       p.placement, p.primitive, 0u);
 }
 
-void resume(uint lane) {
+void resume(inout PathState path, inout Job job, uint lane) {
     const SuspendedPath p = suspendedPaths[lane];
-    sampleCount = 0u;
-    takeUp(p.item);
-    phase = PHASE_NEXT;
-    endTraversal(ray);
+    job.sampleCount = 0u;
+    takeUp(path, job, p.item);
+    path.phase = PHASE_NEXT;
+    endTraversal(path.ray);
     clearStack();
     bool isDropped = false;
-    if (dispatch.beginsNoSample != 0u && item != NO_ITEM) {
-        isDropped = !endsSampleUnderWay();
-        target = samplesTaken() + (isDropped ? 0u : 1u);
+    if (dispatch.beginsNoSample != 0u && job.item != NO_ITEM) {
+        isDropped = !endsSampleUnderWay(path);
+        job.target = samplesTaken(path) + (isDropped ? 0u : 1u);
     }
     if (isDropped || p.bounce == SUSPENDED_NONE) return;
-    bounce = p.bounce;
-    throughput = p.throughput;
-    radiance = p.radiance;
-    countsEmission = p.emission != SUSPENDED_NO_EMISSION;
-    bouncePdf = max(p.emission, 0.0);
-    arrivalNumbers = p.arrivalNumbers;
-    departureNormal = p.departureNormal;
-    medium = p.medium;
-    if (samplesHaveWeights()) restoreFilterWeight();
-    if (SPLITS) resumeSplit(lane);
-    trace(PHASE_PATH, p.origin, p.direction, 0.0, INFINITE_DISTANCE, p.skipPrimitive);
-    ray.skipPlacement = p.skipPlacement;
+    path.bounce = p.bounce;
+    path.throughput = p.throughput;
+    path.radiance = p.radiance;
+    path.countsEmission = p.emission != SUSPENDED_NO_EMISSION;
+    path.bouncePdf = max(p.emission, 0.0);
+    path.arrivalNumbers = p.arrivalNumbers;
+    path.departureNormal = p.departureNormal;
+    path.medium = p.medium;
+    if (samplesHaveWeights()) restoreFilterWeight(path);
+    if (SPLITS) resumeSplit(path, lane);
+    trace(path, PHASE_PATH, p.origin, p.direction, 0.0, INFINITE_DISTANCE, p.skipPrimitive);
+    path.ray.skipPlacement = p.skipPlacement;
 }
 
 /// Remembers the bounce ray that was to be started; a camera ray is simply begun anew.
-void suspend(uint lane) {
+void suspend(PathState path, Job job, uint lane) {
     SuspendedPath p;
-    p.origin = ray.origin;
-    p.bounce = bounce == 0u ? SUSPENDED_NONE : bounce;
-    p.direction = ray.direction;
-    p.skipPrimitive = ray.skipPrimitive;
-    p.throughput = throughput;
-    p.emission = countsEmission ? bouncePdf : SUSPENDED_NO_EMISSION;
-    p.radiance = radiance;
-    p.item = item;
-    p.arrivalNumbers = arrivalNumbers;
-    p.departureNormal = departureNormal;
+    p.origin = path.ray.origin;
+    p.bounce = path.bounce == 0u ? SUSPENDED_NONE : path.bounce;
+    p.direction = path.ray.direction;
+    p.skipPrimitive = path.ray.skipPrimitive;
+    p.throughput = path.throughput;
+    p.emission = path.countsEmission ? path.bouncePdf : SUSPENDED_NO_EMISSION;
+    p.radiance = path.radiance;
+    p.item = job.item;
+    p.arrivalNumbers = path.arrivalNumbers;
+    p.departureNormal = path.departureNormal;
     p.skipPlacement = NO_PLACEMENT;
-    p.medium = medium;
-    p.skipPlacement = ray.skipPlacement;
+    p.medium = path.medium;
+    p.skipPlacement = path.ray.skipPlacement;
     suspendedPaths[lane] = p;
-    if (SPLITS) suspendSplit(lane);
+    if (SPLITS) suspendSplit(path, lane);
 }
 
 /// Starts the ray that a lane has asked for, or its next sample. A lane about to trace a path ray may
 /// put it off to the next dispatch; in any other phase too much would have to be remembered.
-void startWork(bool late) {
-    if (phase == PHASE_BOUNCE || phase == PHASE_NEXT && !wantsPixel()) depart();
+void startWork(inout PathState path, Job job, bool late) {
+    if (path.phase == PHASE_BOUNCE || path.phase == PHASE_NEXT && !wantsPixel(path, job)) depart(path);
     bool mayBePutOff = true;
-    mayBePutOff = !hasPassedSomething();
-    if (late && phase == PHASE_PATH && !traversing(ray) && mayBePutOff) phase = PHASE_SUSPENDED;
-    startRay();
+    mayBePutOff = !hasPassedSomething(path);
+    if (late && path.phase == PHASE_PATH && !traversing(path.ray) && mayBePutOff) path.phase = PHASE_SUSPENDED;
+    startRay(path);
 }
 
 /// What follows from the ray is worked out anew in each pass, not kept beside it (docs/kernel.md,
 /// "Nothing is moved out of loops").
-void traverseSomeSteps() {
-    const Ray prepared = makeRay(ray.origin, ray.direction);
+void traverseSomeSteps(inout PathState path, inout Job job) {
+    const Ray prepared = makeRay(path.ray.origin, path.ray.direction);
     for (uint leg = 0u; leg < TRAVERSAL_LEGS; ++leg) {
-        const Ray aimed = prepareLeg(ray, prepared);
+        const Ray aimed = prepareLeg(path.ray, prepared);
         for (uint k = 0u; k < TRAVERSAL_STEPS; ++k) {
-            if (COUNT_STEPS) busySteps += traversing(ray) ? 1u : 0u;
-            traversalStep(ray, aimed);
+            if (COUNT_STEPS) job.busySteps += traversing(path.ray) ? 1u : 0u;
+            traversalStep(path.ray, aimed);
         }
-        if (COUNT_STEPS) allSteps += TRAVERSAL_STEPS;
+        if (COUNT_STEPS) job.allSteps += TRAVERSAL_STEPS;
     }
 }
 
@@ -244,18 +245,20 @@ uint nextLook(uint iteration, bool late) {
     return min(dispatch.softIterations, iteration + LOOK_INTERVAL);
 }
 
-void report() {
-    if (phase == PHASE_SUSPENDED) atomicAdd(status.unfinishedItems, 1u);
-    if (atWork()) atomicAdd(status.overflowedItems, 1u);
-    atomicAdd(status.rays, rayCount);
-    atomicAdd(status.samples, sampleCount);
+void report(PathState path, Job job) {
+    if (path.phase == PHASE_SUSPENDED) atomicAdd(status.unfinishedItems, 1u);
+    if (atWork(path)) atomicAdd(status.overflowedItems, 1u);
+    atomicAdd(status.rays, path.rayCount);
+    atomicAdd(status.samples, job.sampleCount);
     if (COUNT_STEPS) {
-        atomicAdd(status.busySteps, busySteps);
-        atomicAdd(status.allSteps, allSteps);
+        atomicAdd(status.busySteps, job.busySteps);
+        atomicAdd(status.allSteps, job.allSteps);
     }
 }
 
 void main() {
+    PathState path;
+    Job job;
     frame = frameBuffer;
     dispatch = dispatchConstants;
     findPictureGrid();
@@ -263,40 +266,40 @@ void main() {
     if (GAP_PROPOSAL) findGap();
     const uint lane = gl_GlobalInvocationID.x;
     if (lane >= dispatch.laneCount) return;
-    rayCount = 0u;
-    busySteps = 0u;
-    waits = false;
-    allSteps = 0u;
-    resume(lane);
+    path.rayCount = 0u;
+    job.busySteps = 0u;
+    path.waits = false;
+    job.allSteps = 0u;
+    resume(path, job, lane);
 
     // The lanes of a subgroup leave the inner loop together, when enough of them want another pixel;
     // every exit is in a loop's header or at its end; and hardIterations keeps a dispatch finite on any device
     // (docs/kernel.md, "Leaving the inner loop together", "Exits of loops", "The loop limit").
     uint iteration = 0u;
     uint lastLook = 0u;
-    while (atWork() && iteration < dispatch.hardIterations) {
+    while (atWork(path) && iteration < dispatch.hardIterations) {
         const bool late = subgroupAny(isLate(iteration, iteration - lastLook));
         lastLook = iteration;
         const uint pause = nextLook(iteration, late);
-        changePixel(!late && dispatch.beginsNoSample == 0u);
+        changePixel(path, job, !late && dispatch.beginsNoSample == 0u);
         bool pixelsWanted = false;
-        while (!pixelsWanted && atWork() && iteration < pause) {
+        while (!pixelsWanted && atWork(path) && iteration < pause) {
             bool staysFree;
             do {
-                startWork(late);
-                traverseSomeSteps();
-                if (SURFACES_WAIT && !traversing(ray)) followFreePath();
+                startWork(path, job, late);
+                traverseSomeSteps(path, job);
+                if (SURFACES_WAIT && !traversing(path.ray)) followFreePath(path);
                 ++iteration;
-                staysFree = SURFACES_WAIT && !late && iteration < pause && !pixelsAreWanted() && !enoughSurfacesWait();
+                staysFree = SURFACES_WAIT && !late && iteration < pause && !pixelsAreWanted(path, job) && !enoughSurfacesWait(path);
             } while (staysFree);
-            if (SURFACES_WAIT ? waits : !traversing(ray)) followPath();
-            waits = false;
-            pixelsWanted = pixelsAreWanted();
+            if (SURFACES_WAIT ? path.waits : !traversing(path.ray)) followPath(path);
+            path.waits = false;
+            pixelsWanted = pixelsAreWanted(path, job);
         }
     }
     suspendedPaths[lane].bounce = SUSPENDED_NONE;
     suspendedPaths[lane].item = NO_ITEM;
-    if (phase == PHASE_SUSPENDED) suspend(lane);
-    putDown();
-    report();
+    if (path.phase == PHASE_SUSPENDED) suspend(path, job, lane);
+    putDown(path, job);
+    report(path, job);
 }

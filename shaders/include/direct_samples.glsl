@@ -2,24 +2,24 @@
 // light at a shading point").
 
 /// A direction of hemisphere sampling as a light sample whose light is not known yet.
-LightSample hemisphereSample(vec2 u) {
-    if (isLitFromBothSides(lobesOf(material))) {
+LightSample hemisphereSample(PathState path, vec2 u) {
+    if (isLitFromBothSides(lobesOf(path.material))) {
         const float side = takesOtherSide(u) ? -1.0 : 1.0;
-        const vec3 w = side * toWorld(makeFrame(shadingNormal(surface)), sampleUniformHemisphere(u));
+        const vec3 w = side * toWorld(makeFrame(shadingNormal(path.surface)), sampleUniformHemisphere(u));
         return LightSample(w, true, w, vec3(4.0 * PI / float(frame.hemisphereSamples)), 0.0);
     }
-    const vec3 w = toWorld(makeFrame(shadingNormal(surface)), sampleUniformHemisphere(u));
+    const vec3 w = toWorld(makeFrame(shadingNormal(path.surface)), sampleUniformHemisphere(u));
     return LightSample(w, true, w, vec3(2.0 * PI / float(frame.hemisphereSamples)), 0.0);
 }
 
 /// A sample of one of the lights, with the probability of its choice and its share of the direct light in
 /// its radiance and density.
-LightSample lightSample(vec2 u, uint index) {
-    SurfacePoint lit = surface;
-    const bool bothSides = isLitFromBothSides(lobesOf(material));
-    if (bothSides && takesOtherSide(u)) lit = otherSide(surface);
+LightSample lightSample(inout PathState path, vec2 u, uint index) {
+    SurfacePoint lit = path.surface;
+    const bool bothSides = isLitFromBothSides(lobesOf(path.material));
+    if (bothSides && takesOtherSide(u)) lit = otherSide(path.surface);
     const PickedLight picked = pickLight(litPoint(lit), shadingNormal(lit), index, u);
-    LightSample light = sampleLight(lit, picked.light, picked.u);
+    LightSample light = sampleLight(lit, picked.light, picked.u, path.sampledEmitter);
     if (bothSides) {
         light.radiance *= dot(shadingNormal(lit), light.direction) > 0.0 ? 2.0 : 0.0;
         light.inversePdf *= 2.0;
@@ -32,36 +32,36 @@ LightSample lightSample(vec2 u, uint index) {
 }
 
 /// Starts the ray of a direct light sample, if it can contribute.
-void traceDirectSample(LightSample light, bool hemisphere) {
-    const BsdfValue f = evaluateBsdf(material, surface, light.direction);
-    directValue = f.value * light.radiance;
-    if (!(dot(directValue, vec3(1.0)) > 0.0)) return;
-    if (combines(lobesOf(material))) {
-        const float pdf = bouncePdfWithGap(surface, lobesOf(material), f.pdf, light.direction);
-        directValue *= lightSampleWeight(light.inversePdf, pdf);
+void traceDirectSample(inout PathState path, LightSample light, bool hemisphere) {
+    const BsdfValue f = evaluateBsdf(path.material, path.surface, light.direction);
+    path.directValue = f.value * light.radiance;
+    if (!(dot(path.directValue, vec3(1.0)) > 0.0)) return;
+    if (combines(lobesOf(path.material))) {
+        const float pdf = bouncePdfWithGap(path.surface, lobesOf(path.material), f.pdf, light.direction);
+        path.directValue *= lightSampleWeight(light.inversePdf, pdf);
     }
-    const bool transmitted = isBehind(surface, light.direction);
-    const vec3 origin = leave(surface, light.direction, transmitted);
+    const bool transmitted = isBehind(path.surface, light.direction);
+    const vec3 origin = leave(path.surface, light.direction, transmitted);
     // What the ray of hemisphere sampling goes through is known when it has arrived.
     if (HAS_ABSORPTION && !hemisphere)
-        directValue *=
-            transmittance(mediumBeyond(surface, material, medium, transmitted),
+        path.directValue *=
+            transmittance(mediumBeyond(path.surface, path.material, path.medium, transmitted),
                           light.infinite ? INFINITE_DISTANCE : length(light.target - origin));
-    traceFrom(surface, hemisphere ? PHASE_HEMISPHERE : PHASE_SHADOW, origin,
+    traceFrom(path, path.surface, hemisphere ? PHASE_HEMISPHERE : PHASE_SHADOW, origin,
               light.infinite ? light.direction : light.target - origin,
               light.infinite ? INFINITE_DISTANCE : 1.0, transmitted);
 }
 
 /// One direct light sample.
-void sampleDirect() {
-    const uint index = directIndex++;
-    vec2 u = arrivalNumbers.xy;
+void sampleDirect(inout PathState path) {
+    const uint index = path.directIndex++;
+    vec2 u = path.arrivalNumbers.xy;
     if (LIGHT_NUMBERS == LIGHT_NUMBERS_FIRST && index > 0u)
-        u = unitFloats(randomWords(1u + index)).xy;
+        u = unitFloats(pathWords(path, 1u + index)).xy;
     const bool hemisphere = DIRECT_LIGHT == DIRECT_HEMISPHERE && index < frame.hemisphereSamples;
     LightSample light;
-    if (hemisphere) light = hemisphereSample(u);
-    else light = lightSample(u, DIRECT_LIGHT == DIRECT_HEMISPHERE ? index - frame.hemisphereSamples
+    if (hemisphere) light = hemisphereSample(path, u);
+    else light = lightSample(path, u, DIRECT_LIGHT == DIRECT_HEMISPHERE ? index - frame.hemisphereSamples
                                                                   : index);
-    traceDirectSample(light, hemisphere);
+    traceDirectSample(path, light, hemisphere);
 }

@@ -3,25 +3,23 @@
 
 bool isTracing(uint p); // path_state.glsl
 
-float rayEnd; ///< tMax as it was asked for; the ray's own shrinks to its hits
-
 Material materialAt(SurfacePoint s) { return lookUpMaterial(materialPoint(s)).parameters; }
 
 #include "include/pass_number.glsl"
 
-float passNumber(uint purpose) {
-    uint sample_ = sampleIndex(), block = bounce * (1u + directSamples());
-    if (DIRECT_LIGHT == DIRECT_HEMISPHERE && phase == PHASE_HEMISPHERE) block += directIndex;
-    if (SPLITS && splitPoint.bounce != 0u) {
-        sample_ = sample_ * frame.branches + frame.branches - 1u - branchesLeft;
+float passNumberOfPath(PathState path, uint purpose) {
+    uint sample_ = sampleIndex(path), block = path.bounce * (1u + directSamples());
+    if (DIRECT_LIGHT == DIRECT_HEMISPHERE && path.phase == PHASE_HEMISPHERE) block += path.directIndex;
+    if (SPLITS && path.splitPoint.bounce != 0u) {
+        sample_ = sample_ * frame.branches + frame.branches - 1u - path.branchesLeft;
         block |= BRANCH_BLOCKS;
     }
-    return passNumber(ray, pixelId, sample_, block, purpose);
+    return passNumber(path.ray, path.pixelId, sample_, block, purpose);
 }
 
 /// Of a mixture, the first row of the material that the path meets: drawn once at each hit, for light samples and the
 /// bounce alike.
-uint drawnMaterial(SurfacePoint s) {
+uint drawnMaterial(PathState path, SurfacePoint s) {
     uint row = s.material;
     const PointAttributes a = attributesOf(s);
     const uint notThere = isSeenFromBehind(s) ? OTHER_IN_FRONT : OTHER_BEHIND;
@@ -29,7 +27,7 @@ uint drawnMaterial(SurfacePoint s) {
     for (uint i = 0u; i < MOST_BLENDS && goesOn; ++i) {
         uint other;
         const float share = blendShare(row, a, notThere, other);
-        goesOn = goesOn && passNumber(i + 1u) < share;
+        goesOn = goesOn && passNumberOfPath(path, i + 1u) < share;
         row = goesOn ? other : row;
     }
     return row;
@@ -38,19 +36,19 @@ uint drawnMaterial(SurfacePoint s) {
 /// Whether the ray that is done goes on: it has met a surface that is not there, or partly. A shadow ray goes on with
 /// the light that is left; of others, a path that finds light or scatters, the surface takes the share of its opacity.
 /// hit: the surface's point, with that opacity.
-bool passesThrough(MaterialPoint hit, float stated) {
-    if (!isTracing(phase) || ray.hitPrimitive == NO_PRIMITIVE) return false;
-    const bool isStraight = HIDES_SURFACES && phase == PHASE_PATH && bounce == 0u;
+bool passesThrough(inout PathState path, MaterialPoint hit, float stated) {
+    if (!isTracing(path.phase) || path.ray.hitPrimitive == NO_PRIMITIVE) return false;
+    const bool isStraight = HIDES_SURFACES && path.phase == PHASE_PATH && path.bounce == 0u;
     const float opacity = isStraight ? opacityForCamera(hit, stated) : stated;
-    if (phase == PHASE_SHADOW) {
-        directValue *= 1.0 - opacity;
-        if (!(dot(directValue, vec3(1.0)) > 0.0)) return false;
-    } else if (passNumber(0u) < opacity) {
+    if (path.phase == PHASE_SHADOW) {
+        path.directValue *= 1.0 - opacity;
+        if (!(dot(path.directValue, vec3(1.0)) > 0.0)) return false;
+    } else if (passNumberOfPath(path, 0u) < opacity) {
         return false;
     }
-    passOn(ray, rayEnd);
+    passOn(path.ray, path.rayEnd);
     return true;
 }
 
 /// Only a ray that has passed nothing can be put off to another dispatch, which begins it anew.
-bool hasPassedSomething() { return HAS_ALPHA && ray.passed != NO_PRIMITIVE; }
+bool hasPassedSomething(PathState path) { return HAS_ALPHA && path.ray.passed != NO_PRIMITIVE; }

@@ -13,90 +13,86 @@ vec3 emissionAt(SurfacePoint s, Material m) {
 }
 
 /// The share of the light that the path ray has found that is this ray's, and not light samples'.
-float foundShare(FoundSky sky) {
-    if (MIS_LOBES == 0u || bouncePdf == 0.0) return 1.0;
-    return foundLightWeight(ray, departureNormal, sky, bouncePdf);
+float foundShare(PathState path, FoundSky sky) {
+    if (MIS_LOBES == 0u || path.bouncePdf == 0.0) return 1.0;
+    return foundLightWeight(path.ray, path.departureNormal, sky, path.bouncePdf);
 }
 
-/// What a material is at the point that the finished ray asks for: where it has met a surface, or, a shadow ray that has
-/// met none, where the light sample has gone. One lookup for all, since every lane takes part in each (docs/kernel.md).
-MaterialAtPoint found;
-
-MaterialPoint askedPoint() {
-    if (ray.hitPrimitive != NO_PRIMITIVE) return materialPoint(ray.hitPrimitive, vec2(ray.b1, ray.b2));
-    if (emissionHasFactors() && phase == PHASE_SHADOW) return sampledEmitter;
+MaterialPoint askedPoint(PathState path) {
+    if (path.ray.hitPrimitive != NO_PRIMITIVE) return materialPoint(path.ray.hitPrimitive, vec2(path.ray.b1, path.ray.b2));
+    if (emissionHasFactors() && path.phase == PHASE_SHADOW) return path.sampledEmitter;
     return MaterialPoint(0u, NO_PRIMITIVE, vec2(0.0));
 }
 
-void finishShadowRay() {
-    if (emissionHasFactors() && sampledEmitter.primitive != NO_PRIMITIVE)
-        directValue *= emissionFactorOf(found);
-    if (ray.hitPrimitive == NO_PRIMITIVE) radiance += throughput * directValue;
-    phase = PHASE_DIRECT;
+void finishShadowRay(inout PathState path) {
+    if (emissionHasFactors() && path.sampledEmitter.primitive != NO_PRIMITIVE)
+        path.directValue *= emissionFactorOf(path.found);
+    if (path.ray.hitPrimitive == NO_PRIMITIVE) path.radiance += path.throughput * path.directValue;
+    path.phase = PHASE_DIRECT;
 }
 
-void finishHemisphereRay() {
-    const bool hit = ray.hitPrimitive != NO_PRIMITIVE;
-    vec3 found = BOUNCES_FIND_ALL_LIGHT ? skyFrom(ray.direction, ray.direction).radiance : vec3(0.0);
+void finishHemisphereRay(inout PathState path) {
+    const bool hit = path.ray.hitPrimitive != NO_PRIMITIVE;
+    vec3 arriving = BOUNCES_FIND_ALL_LIGHT ? skyFrom(path.ray.direction, path.ray.direction).radiance : vec3(0.0);
     if (hit) {
-        const SurfacePoint s = surfaceAt(ray);
-        found = emissionAt(s, materialAt(s));
+        const SurfacePoint s = surfaceAt(path.ray);
+        arriving = emissionAt(s, materialAt(s));
     }
-    found *= transmittance(mediumBeyond(surface, material, medium, isBehind(surface, ray.direction)),
-                           ray.tMax);
-    radiance += throughput * directValue * found;
-    phase = PHASE_DIRECT;
+    arriving *= transmittance(mediumBeyond(path.surface, path.material, path.medium, isBehind(path.surface, path.ray.direction)),
+                           path.ray.tMax);
+    path.radiance += path.throughput * path.directValue * arriving;
+    path.phase = PHASE_DIRECT;
 }
 
 /// Adds the light of the sky that the path ray has found. share: of it that is this ray's (foundShare()).
-void takeInSky(FoundSky sky, float share) {
-    const bool counts = countsEmission || AMBIENT_BY_BOUNCES && bounce >= frame.minBounce;
-    if (counts && (bounce > 0u || HAS_BACKDROP) && BOUNCES_FIND_ALL_LIGHT)
-        radiance += throughput * sky.radiance * share;
+void takeInSky(inout PathState path, FoundSky sky, float share) {
+    const bool counts = path.countsEmission || AMBIENT_BY_BOUNCES && path.bounce >= frame.minBounce;
+    if (counts && (path.bounce > 0u || HAS_BACKDROP) && BOUNCES_FIND_ALL_LIGHT)
+        path.radiance += path.throughput * sky.radiance * share;
 }
 
 /// A path ray is done: takes in the light that it has found and sets up the surface for scattering. With
 /// SURFACES_WAIT it has met one, and arriveAtSky() is for the others.
-void arrive() {
-    const bool hit = SURFACES_WAIT || ray.hitPrimitive != NO_PRIMITIVE;
-    phase = PHASE_ENDED;
+void arrive(inout PathState path) {
+    const bool hit = SURFACES_WAIT || path.ray.hitPrimitive != NO_PRIMITIVE;
+    path.phase = PHASE_ENDED;
     FoundSky sky = NO_SKY;
-    if (!hit) sky = skyFrom(departureNormal, ray.direction);
-    const float share = foundShare(sky);
-    throughput *= transmittance(medium, hit ? ray.tMax : INFINITE_DISTANCE);
+    if (!hit) sky = skyFrom(path.departureNormal, path.ray.direction);
+    const float share = foundShare(path, sky);
+    path.throughput *= transmittance(path.medium, hit ? path.ray.tMax : INFINITE_DISTANCE);
     if (!hit) {
-        takeInSky(sky, share);
+        takeInSky(path, sky, share);
         return;
     }
-    surface = surfaceAt(ray);
+    path.surface = surfaceAt(path.ray);
     if (INTEGRATOR == INTEGRATOR_NORMALS) {
-        radiance = 0.5 * shadingNormal(surface) + 0.5;
+        path.radiance = 0.5 * shadingNormal(path.surface) + 0.5;
         return;
     }
     if (INTEGRATOR == INTEGRATOR_DEPTH) {
-        radiance = vec3(ray.tMax);
+        path.radiance = vec3(path.ray.tMax);
         return;
     }
     if (HAS_BLENDS) {
-        surface.material = drawnMaterial(surface);
-        found = lookUpMaterial(materialPoint(surface));
+        path.surface.material = drawnMaterial(path, path.surface);
+        path.found = lookUpMaterial(materialPoint(path.surface));
     }
-    material = found.parameters;
-    if (countsEmission) radiance += throughput * emissionAt(surface, material) * share;
-    if (isBlackBehind(material) && isSeenFromBehind(surface)) return;
-    faceForward(surface);
-    applyRelief(surface, found.relief, dependsOnView(material), reliefRules(material));
-    if (reliefRules(material) != 0u && dot(shadingNormal(surface), surface.wo) <= 0.0) return;
-    ++bounce;
-    if (bounce > frame.maxBounces) return;
+    path.material = path.found.parameters;
+    if (path.countsEmission) path.radiance += path.throughput * emissionAt(path.surface, path.material) * share;
+    if (isBlackBehind(path.material) && isSeenFromBehind(path.surface)) return;
+    faceForward(path.surface);
+    applyRelief(path.surface, path.found.relief, dependsOnView(path.material), reliefRules(path.material));
+    if (reliefRules(path.material) != 0u && dot(shadingNormal(path.surface), path.surface.wo) <= 0.0) return;
+    ++path.bounce;
+    if (path.bounce > frame.maxBounces) return;
     if (ROULETTE == ROULETTE_FIXED) {
-        if (arrivalNumbers.z < frame.terminationProbability) return;
-        throughput /= 1.0 - frame.terminationProbability;
+        if (path.arrivalNumbers.z < frame.terminationProbability) return;
+        path.throughput /= 1.0 - frame.terminationProbability;
     }
     const bool direct =
-        scattersIntoManyDirections(lobesOf(material)) && bounce >= frame.minBounce;
-    directIndex = direct ? 0u : directSamples();
-    phase = PHASE_DIRECT;
+        scattersIntoManyDirections(lobesOf(path.material)) && path.bounce >= frame.minBounce;
+    path.directIndex = direct ? 0u : directSamples();
+    path.phase = PHASE_DIRECT;
 }
 
 // --- Departures --------------------------------------------------------------------------------
@@ -104,150 +100,150 @@ void arrive() {
 #include "include/direct_samples.glsl"
 
 /// Whether light found by the bounce from here, from one of these lobes, adds to the picture.
-bool emissionCounts(uint lobes) {
-    return bounce >= frame.minBounce &&
+bool emissionCounts(PathState path, uint lobes) {
+    return path.bounce >= frame.minBounce &&
            (isDelta(lobes) || combines(lobes) ||
             DIRECT_LIGHT == DIRECT_BSDF && BOUNCES_FIND_ALL_LIGHT);
 }
 
 /// All branches are of one weight. From here on `radiance` is their sum, until finishSample.
-void splitPath() {
-    splitPoint = SplitPoint(surface, throughput, bounce, medium);
-    branchesLeft = frame.branches - 1u;
-    radiance *= float(frame.branches);
+void splitPath(inout PathState path) {
+    path.splitPoint = SplitPoint(path.surface, path.throughput, path.bounce, path.medium);
+    path.branchesLeft = frame.branches - 1u;
+    path.radiance *= float(frame.branches);
 }
 
 /// Goes back to where the path split, with the next branch.
-void nextBranch() {
-    --branchesLeft;
-    surface = splitPoint.surface;
-    material = materialAt(surface);
-    throughput = splitPoint.throughput;
-    bounce = splitPoint.bounce;
-    medium = splitPoint.medium;
-    phase = PHASE_BOUNCE;
+void nextBranch(inout PathState path) {
+    --path.branchesLeft;
+    path.surface = path.splitPoint.surface;
+    path.material = materialAt(path.surface);
+    path.throughput = path.splitPoint.throughput;
+    path.bounce = path.splitPoint.bounce;
+    path.medium = path.splitPoint.medium;
+    path.phase = PHASE_BOUNCE;
 }
 
 /// No bounce from here would be traced.
-bool endsHere() {
-    return bounce == frame.maxBounces && !AMBIENT_BY_BOUNCES && !emissionCounts(lobesOf(material));
+bool endsHere(PathState path) {
+    return path.bounce == frame.maxBounces && !AMBIENT_BY_BOUNCES && !emissionCounts(path, lobesOf(path.material));
 }
 
 /// u: as sampleBsdf() takes it; roulette: for the path's end.
-void scatter(vec3 u, float roulette) {
-    phase = PHASE_ENDED;
+void scatter(inout PathState path, vec3 u, float roulette) {
+    path.phase = PHASE_ENDED;
     float mixtureWeight;
-    const BsdfSample b = sampleBsdfOrGap(material, surface, u, mixtureWeight);
-    throughput *= b.weight;
-    const float largest = largestComponent(throughput);
+    const BsdfSample b = sampleBsdfOrGap(path.material, path.surface, u, mixtureWeight);
+    path.throughput *= b.weight;
+    const float largest = largestComponent(path.throughput);
     if (!(largest > 0.0)) return;
-    if (ROULETTE == ROULETTE_THROUGHPUT && bounce >= ROULETTE_START) {
+    if (ROULETTE == ROULETTE_THROUGHPUT && path.bounce >= ROULETTE_START) {
         const float q = min(ROULETTE_MAX_CONTINUE, ROULETTE_BOLDNESS * largest);
         if (roulette >= q) return;
-        throughput *= 1.0 / q;
+        path.throughput *= 1.0 / q;
     }
-    if (GAP_PROPOSAL) throughput *= mixtureWeight;
+    if (GAP_PROPOSAL) path.throughput *= mixtureWeight;
     const bool transmitted = isTransmission(b.lobe);
-    countsEmission = emissionCounts(b.lobe);
-    bouncePdf = combines(b.lobe) ? max(b.pdf, TINY) : 0.0;
-    departureNormal = shadingNormal(surface);
-    if (isLitFromBothSides(lobesOf(material))) { // as light samples of that side are taken
-        bouncePdf *= 2.0;
-        departureNormal = transmitted ? -departureNormal : departureNormal;
+    path.countsEmission = emissionCounts(path, b.lobe);
+    path.bouncePdf = combines(b.lobe) ? max(b.pdf, TINY) : 0.0;
+    path.departureNormal = shadingNormal(path.surface);
+    if (isLitFromBothSides(lobesOf(path.material))) { // as light samples of that side are taken
+        path.bouncePdf *= 2.0;
+        path.departureNormal = transmitted ? -path.departureNormal : path.departureNormal;
     }
-    medium = mediumBeyond(surface, material, medium, transmitted);
-    traceFrom(surface, PHASE_PATH, leave(surface, b.direction, transmitted), b.direction,
+    path.medium = mediumBeyond(path.surface, path.material, path.medium, transmitted);
+    traceFrom(path, path.surface, PHASE_PATH, leave(path.surface, b.direction, transmitted), b.direction,
               INFINITE_DISTANCE, transmitted);
 }
 
-void beginSample() {
-    bounce = 0u;
-    throughput = vec3(1.0);
-    radiance = vec3(0.0);
-    countsEmission = frame.minBounce == 0u;
-    bouncePdf = 0.0;
-    medium = NO_MEDIUM;
-    splitPoint.bounce = 0u;
-    branchesLeft = 0u;
+void beginSample(inout PathState path) {
+    path.bounce = 0u;
+    path.throughput = vec3(1.0);
+    path.radiance = vec3(0.0);
+    path.countsEmission = frame.minBounce == 0u;
+    path.bouncePdf = 0.0;
+    path.medium = NO_MEDIUM;
+    path.splitPoint.bounce = 0u;
+    path.branchesLeft = 0u;
 }
 
-void startCameraRay(vec2 u) {
-    const CameraRay c = cameraRayOfSample(pixelAt, pixelId, sampleIndex(), u, filterWeight);
-    trace(PHASE_PATH, c.origin, c.direction, c.tMin, c.tMax, NO_PRIMITIVE);
+void startCameraRay(inout PathState path, vec2 u) {
+    const CameraRay c = cameraRayOfSample(path.pixelAt, path.pixelId, sampleIndex(path), u, path.filterWeight);
+    trace(path, PHASE_PATH, c.origin, c.direction, c.tMin, c.tMax, NO_PRIMITIVE);
 }
 
 /// Starts the next path ray: of a new sample (PHASE_NEXT), or the bounce (PHASE_BOUNCE). Both draw
 /// their numbers in one place (docs/kernel.md, "What llvmpipe does"). A bounce may end the path.
-void depart() {
-    const bool begins = phase == PHASE_NEXT;
-    if (begins) beginSample();
-    else if (SPLITS && splitPoint.bounce == 0u && scattersAtRandom(lobesOf(material))) splitPath();
-    const uvec4 words = randomWords(0u);
+void depart(inout PathState path) {
+    const bool begins = path.phase == PHASE_NEXT;
+    if (begins) beginSample(path);
+    else if (SPLITS && path.splitPoint.bounce == 0u && scattersAtRandom(lobesOf(path.material))) splitPath(path);
+    const uvec4 words = pathWords(path, 0u);
     const vec4 u = unitFloats(words);
-    arrivalNumbers = vec3(u.xy, leftOver(words));
+    path.arrivalNumbers = vec3(u.xy, leftOver(words));
     // Most kinds of BSDF take either the two numbers within a lobe or the one that chooses a lobe, so that
     // both may be the same (host/kernel/kernel_features.cpp asserts it).
-    if (begins) startCameraRay(u.zw);
+    if (begins) startCameraRay(path, u.zw);
     else if (SCATTERS_THROUGH && INTEGRATOR == INTEGRATOR_PATH)
-        scatter(vec3(u.zw, TAKES_THREE_NUMBERS(material) ? sideNumber() : u.z), arrivalNumbers.z);
-    else if (INTEGRATOR == INTEGRATOR_PATH) scatter(u.zwz, arrivalNumbers.z);
+        scatter(path, vec3(u.zw, TAKES_THREE_NUMBERS(path.material) ? sideNumber(path) : u.z), path.arrivalNumbers.z);
+    else if (INTEGRATOR == INTEGRATOR_PATH) scatter(path, u.zwz, path.arrivalNumbers.z);
 }
 
 /// The path is over, but not the sample.
-bool branchIsOver() { return SPLITS && phase == PHASE_ENDED && branchesLeft > 0u; }
+bool branchIsOver(PathState path) { return SPLITS && path.phase == PHASE_ENDED && path.branchesLeft > 0u; }
 
-void finishSample() {
-    if (SPLITS && splitPoint.bounce != 0u) radiance /= float(frame.branches);
-    addSample(pixelState, radiance, filterWeight);
-    if (samplesHaveWeights()) radiance *= filterWeight; // as frame.keepsValue shows it
-    phase = PHASE_NEXT;
+void finishSample(inout PathState path) {
+    if (SPLITS && path.splitPoint.bounce != 0u) path.radiance /= float(frame.branches);
+    addSample(path.pixelState, path.radiance, path.filterWeight);
+    if (samplesHaveWeights()) path.radiance *= path.filterWeight; // as frame.keepsValue shows it
+    path.phase = PHASE_NEXT;
 }
 
 // --- Service -------------------------------------------------------------------------------------
 
 /// Whether the finished ray asks for a material (askedPoint()), or is one of hemisphere sampling.
-bool asksForMaterial() {
-    const bool hit = ray.hitPrimitive != NO_PRIMITIVE;
-    if (DIRECT_LIGHT == DIRECT_HEMISPHERE && phase == PHASE_HEMISPHERE) return true;
-    if (phase == PHASE_PATH) return hit;
-    return hit ? HAS_ALPHA : emissionHasFactors() && sampledEmitter.primitive != NO_PRIMITIVE;
+bool asksForMaterial(PathState path) {
+    const bool hit = path.ray.hitPrimitive != NO_PRIMITIVE;
+    if (DIRECT_LIGHT == DIRECT_HEMISPHERE && path.phase == PHASE_HEMISPHERE) return true;
+    if (path.phase == PHASE_PATH) return hit;
+    return hit ? HAS_ALPHA : emissionHasFactors() && path.sampledEmitter.primitive != NO_PRIMITIVE;
 }
 
 /// A path ray has met nothing: what arrive() does of that with no surface to set up.
-void arriveAtSky() {
-    phase = PHASE_ENDED;
-    const FoundSky sky = skyFrom(departureNormal, ray.direction);
-    throughput *= transmittance(medium, INFINITE_DISTANCE);
-    takeInSky(sky, foundShare(sky));
+void arriveAtSky(inout PathState path) {
+    path.phase = PHASE_ENDED;
+    const FoundSky sky = skyFrom(path.departureNormal, path.ray.direction);
+    path.throughput *= transmittance(path.medium, INFINITE_DISTANCE);
+    takeInSky(path, sky, foundShare(path, sky));
 }
 
 /// With SURFACES_WAIT: takes in the finished ray as followPath() does, as far as no material is asked for.
-void followFreePath() {
-    if (waits) return;
-    waits = isTracing(phase) && asksForMaterial();
-    if (waits) return;
-    if (phase == PHASE_PATH) arriveAtSky();
-    else if (phase == PHASE_SHADOW) finishShadowRay();
-    if (phase == PHASE_DIRECT && directIndex >= directSamples()) phase = endsHere() ? PHASE_ENDED : PHASE_BOUNCE;
-    waits = phase == PHASE_DIRECT || branchIsOver();
-    if (phase == PHASE_ENDED && !waits) finishSample();
+void followFreePath(inout PathState path) {
+    if (path.waits) return;
+    path.waits = isTracing(path.phase) && asksForMaterial(path);
+    if (path.waits) return;
+    if (path.phase == PHASE_PATH) arriveAtSky(path);
+    else if (path.phase == PHASE_SHADOW) finishShadowRay(path);
+    if (path.phase == PHASE_DIRECT && path.directIndex >= directSamples()) path.phase = endsHere(path) ? PHASE_ENDED : PHASE_BOUNCE;
+    path.waits = path.phase == PHASE_DIRECT || branchIsOver(path);
+    if (path.phase == PHASE_ENDED && !path.waits) finishSample(path);
 }
 
 /// Takes in the finished ray. What is next: a shadow ray, which it asks for; a bounce (PHASE_BOUNCE), or
 /// another sample (PHASE_NEXT), both by depart().
-void followPath() {
-    const MaterialPoint asked = askedPoint();
-    found = lookUpMaterial(asked);
-    if (HAS_ALPHA && passesThrough(asked, found.opacity)) return;
-    if (phase == PHASE_SHADOW) finishShadowRay();
-    else if (DIRECT_LIGHT == DIRECT_HEMISPHERE && phase == PHASE_HEMISPHERE) finishHemisphereRay();
-    else if (phase == PHASE_PATH) arrive();
+void followPath(inout PathState path) {
+    const MaterialPoint asked = askedPoint(path);
+    path.found = lookUpMaterial(asked);
+    if (HAS_ALPHA && passesThrough(path, asked, path.found.opacity)) return;
+    if (path.phase == PHASE_SHADOW) finishShadowRay(path);
+    else if (DIRECT_LIGHT == DIRECT_HEMISPHERE && path.phase == PHASE_HEMISPHERE) finishHemisphereRay(path);
+    else if (path.phase == PHASE_PATH) arrive(path);
 
     if (INTEGRATOR == INTEGRATOR_PATH) {
-        if (phase == PHASE_DIRECT && directIndex < directSamples()) sampleDirect();
-        if (phase == PHASE_DIRECT && directIndex >= directSamples())
-            phase = endsHere() ? PHASE_ENDED : PHASE_BOUNCE;
-        if (branchIsOver()) nextBranch();
+        if (path.phase == PHASE_DIRECT && path.directIndex < directSamples()) sampleDirect(path);
+        if (path.phase == PHASE_DIRECT && path.directIndex >= directSamples())
+            path.phase = endsHere(path) ? PHASE_ENDED : PHASE_BOUNCE;
+        if (branchIsOver(path)) nextBranch(path);
     }
-    if (phase == PHASE_ENDED && !branchIsOver()) finishSample();
+    if (path.phase == PHASE_ENDED && !branchIsOver(path)) finishSample(path);
 }

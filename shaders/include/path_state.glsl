@@ -11,29 +11,6 @@ const uint PHASE_ENDED = 6u;      ///< the path is over
 const uint PHASE_NEXT = 7u;       ///< ready for a new sample
 const uint PHASE_SUSPENDED = 8u;  ///< a path ray has been put off to the next dispatch
 
-/// All a lane knows. `ray` is what PHASE_PATH, _SHADOW and _HEMISPHERE trace.
-uint phase;
-Traversal ray;
-PixelState pixelState;
-uint pixelId;   ///< in the whole picture: names the random numbers
-uvec2 pixelAt;  ///< column, row (from the top) in the whole picture
-uint bounce;    ///< scatterings so far
-vec3 throughput;
-vec3 radiance;
-float filterWeight; ///< of the sample (pixel_filter.glsl)
-bool countsEmission; ///< light that the ray finds adds to the picture ...
-float bouncePdf; ///< ... weighted (mis.glsl), by this density of the ray's direction; 0: not weighted
-vec3 departureNormal; ///< shading normal of the surface that the ray has left, for that weight
-SurfacePoint surface;
-Material material;
-uint directIndex; ///< direct light samples done at this surface
-/// Drawn with the path ray for where it ends. x, y: for the first light sample there; z: for roulette.
-vec3 arrivalNumbers;
-vec3 directValue; ///< what the ray under way adds if it is free (or, hemisphere, per radiance)
-uint rayCount;
-uint medium; ///< that the path ray goes through: the first row of a material, or NO_MEDIUM
-bool waits; ///< with SURFACES_WAIT: what comes next needs a material, and other lanes are waited for
-
 /// Where a sample's path has split into branches (path splitting; docs/estimator.md, "Branches"): at
 /// the first surface that scatters at random.
 struct SplitPoint {
@@ -42,8 +19,44 @@ struct SplitPoint {
     uint bounce;     ///< 0: has not split
     uint medium;
 };
-SplitPoint splitPoint;
-uint branchesLeft; ///< that have not begun
+
+/// All that a lane knows of the path it follows and of the pixel that the path belongs to. Functions say in
+/// their signatures whether they read it (a copy) or change it (inout); the specialiser makes a variable of
+/// each member and drops those that a scene does not need (host/spirv).
+struct PathState {
+    uint phase;
+    Traversal ray; ///< what PHASE_PATH, _SHADOW and _HEMISPHERE trace
+    float rayEnd;  ///< tMax as it was asked for; the ray's own shrinks to its hits
+    uint rayCount; ///< rays begun so far
+    bool waits;    ///< with SURFACES_WAIT: what comes next needs a material, and other lanes are waited for
+
+    PixelState pixelState;
+    uint pixelId;       ///< in the whole picture: names the random numbers
+    uvec2 pixelAt;      ///< column, row (from the top) in the whole picture
+    float filterWeight; ///< of the sample (pixel_filter.glsl)
+
+    uint bounce; ///< scatterings so far
+    vec3 throughput;
+    vec3 radiance;
+    uint medium;          ///< that the path ray goes through: the first row of a material, or NO_MEDIUM
+    bool countsEmission;  ///< light that the ray finds adds to the picture ...
+    float bouncePdf;      ///< ... weighted (mis.glsl), by this density of the ray's direction; 0: not weighted
+    vec3 departureNormal; ///< shading normal of the surface that the ray has left, for that weight
+
+    /// What a material is at the point that the finished ray asks for (askedPoint()). One lookup for all, since
+    /// every lane takes part in each (docs/kernel.md, "Textures").
+    MaterialAtPoint found;
+    SurfacePoint surface; ///< where the path scatters next, and light samples are taken
+    Material material;    ///< of that surface
+    uint directIndex;     ///< direct light samples done there
+    /// Drawn with the path ray for where it ends. x, y: for the first light sample there; z: for roulette.
+    vec3 arrivalNumbers;
+    vec3 directValue; ///< what the ray under way adds if it is free (or, hemisphere, per radiance)
+    MaterialPoint sampledEmitter; ///< where the light sample under way has gone (sampleLight())
+
+    SplitPoint splitPoint;
+    uint branchesLeft; ///< that have not begun
+};
 
 #include "include/camera_sample.glsl"
 
@@ -54,57 +67,57 @@ const uint BRANCH_BLOCKS = 0x80000000u;
 uint directSamples() { return frame.hemisphereSamples + frame.lightSamples; }
 
 /// The number of the sample under way, or the next one, of this pixel.
-uint sampleIndex() { return frame.firstSample + pixelState.count + pixelState.rejected; }
+uint sampleIndex(PathState path) { return frame.firstSample + path.pixelState.count + path.pixelState.rejected; }
 
 /// Block 0 of a path ray, `bounce` of its path, is for the ray itself and for what happens where it ends;
 /// further light samples there take the blocks after it.
-uvec4 randomWords(uint slot) {
-    uint sample_ = sampleIndex(), block = bounce * (1u + directSamples()) + slot;
-    if (SPLITS && splitPoint.bounce != 0u) {
-        sample_ = sample_ * frame.branches + frame.branches - 1u - branchesLeft;
+uvec4 pathWords(PathState path, uint slot) {
+    uint sample_ = sampleIndex(path), block = path.bounce * (1u + directSamples()) + slot;
+    if (SPLITS && path.splitPoint.bounce != 0u) {
+        sample_ = sample_ * frame.branches + frame.branches - 1u - path.branchesLeft;
         block |= BRANCH_BLOCKS;
     }
-    return randomWords(pixelId, sample_, block, frame.seed);
+    return randomWords(path.pixelId, sample_, block, frame.seed);
 }
 
 /// That of the sample under way, when its path is taken up again: samples have few numbers to remember.
-void restoreFilterWeight() {
-    const vec4 u = unitFloats(randomWords(pixelId, sampleIndex(), 0u, frame.seed));
-    placeInPixel(u.zw, filterWeight);
+void restoreFilterWeight(inout PathState path) {
+    const vec4 u = unitFloats(randomWords(path.pixelId, sampleIndex(path), 0u, frame.seed));
+    placeInPixel(u.zw, path.filterWeight);
 }
 
 /// Blocks of random numbers that choices between reflection and transmission take.
 const uint CHOICE_BLOCKS = 0x40000000u;
 
 /// The third number of a bounce: of a block of its own, and not spread evenly.
-float sideNumber() {
-    uint sample_ = sampleIndex(), block = bounce | CHOICE_BLOCKS;
-    if (SPLITS && splitPoint.bounce != 0u) {
-        sample_ = sample_ * frame.branches + frame.branches - 1u - branchesLeft;
+float sideNumber(PathState path) {
+    uint sample_ = sampleIndex(path), block = path.bounce | CHOICE_BLOCKS;
+    if (SPLITS && path.splitPoint.bounce != 0u) {
+        sample_ = sample_ * frame.branches + frame.branches - 1u - path.branchesLeft;
         block |= BRANCH_BLOCKS;
     }
-    return unitFloats(pcg4d(uvec4(pixelId, sample_, block, frame.seed))).x;
+    return unitFloats(pcg4d(uvec4(path.pixelId, sample_, block, frame.seed))).x;
 }
 
 #include "pass_through.glsl"
 
 /// Asks for a ray. Rays are prepared in one place, startRay() (docs/kernel.md, "What llvmpipe does").
-void trace(uint newPhase, vec3 origin, vec3 direction, float tMin, float tMax, uint skipPrimitive) {
-    phase = newPhase;
-    ray.origin = origin;
-    ray.direction = direction;
-    ray.tMin = tMin;
-    ray.tMax = tMax;
-    ray.skipPrimitive = skipPrimitive;
-    ray.passed = NO_PRIMITIVE;
-    rayEnd = tMax;
-    ray.skipPlacement = NO_PLACEMENT;
+void trace(inout PathState path, uint newPhase, vec3 origin, vec3 direction, float tMin, float tMax, uint skipPrimitive) {
+    path.phase = newPhase;
+    path.ray.origin = origin;
+    path.ray.direction = direction;
+    path.ray.tMin = tMin;
+    path.ray.tMax = tMax;
+    path.ray.skipPrimitive = skipPrimitive;
+    path.ray.passed = NO_PRIMITIVE;
+    path.rayEnd = tMax;
+    path.ray.skipPlacement = NO_PLACEMENT;
 }
 
 /// The same from a surface, whose own primitive is the one that is skipped.
-void traceFrom(SurfacePoint s, uint newPhase, vec3 origin, vec3 direction, float tMax, bool transmitted) {
-    trace(newPhase, origin, direction, 0.0, tMax, skipOnLeaving(s, transmitted));
-    ray.skipPlacement = s.placement;
+void traceFrom(inout PathState path, SurfacePoint s, uint newPhase, vec3 origin, vec3 direction, float tMax, bool transmitted) {
+    trace(path, newPhase, origin, direction, 0.0, tMax, skipOnLeaving(s, transmitted));
+    path.ray.skipPlacement = s.placement;
 }
 
 bool isTracing(uint p) {
@@ -112,9 +125,9 @@ bool isTracing(uint p) {
            (DIRECT_LIGHT == DIRECT_HEMISPHERE && p == PHASE_HEMISPHERE);
 }
 
-void startRay() {
-    if (!isTracing(phase) || traversing(ray) || SURFACES_WAIT && waits) return;
-    ray.anyHit = phase == PHASE_SHADOW && !HAS_ALPHA;
-    startTraversal(ray);
-    ++rayCount;
+void startRay(inout PathState path) {
+    if (!isTracing(path.phase) || traversing(path.ray) || SURFACES_WAIT && path.waits) return;
+    path.ray.anyHit = path.phase == PHASE_SHADOW && !HAS_ALPHA;
+    startTraversal(path.ray);
+    ++path.rayCount;
 }

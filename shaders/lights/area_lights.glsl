@@ -74,11 +74,8 @@ LightSample sampleQuadLight(SurfacePoint s, LightRows rows, vec2 u) {
 
 // --- Triangles ----------------------------------------------------------------------------------
 
-/// Where sampleLight() has gone, if to a triangle; else its primitive is NO_PRIMITIVE. The sample's radiance lacks
-/// emissionFactorOf() that point: it is looked up when the sample's ray arrives (path.glsl).
-MaterialPoint sampledEmitter;
-
-LightSample sampleTriangleLight(SurfacePoint s, uint light, vec2 u) {
+/// emitter: see sampleLight().
+LightSample sampleTriangleLight(SurfacePoint s, uint light, vec2 u, out MaterialPoint emitter) {
     const PlacedPrimitive t = fetchPlace(light & ~LIGHT_IS_TRIANGLE);
     const uint materialRow = materialOf(fetchPrimitive(t.primitive));
     const Material m = fetchMaterial(materialRow);
@@ -90,7 +87,7 @@ LightSample sampleTriangleLight(SurfacePoint s, uint light, vec2 u) {
     const float b0 = 1.0 - a.weights.x - a.weights.y;
     const vec3 b0v0 = b0 * t.v0, b1v1 = a.weights.x * t.v1, b2v2 = a.weights.y * t.v2;
     const float error = interpolationError(abs(b0v0) + abs(b1v1) + abs(b2v2));
-    sampledEmitter = MaterialPoint(materialRow, t.primitive, a.weights.xy);
+    emitter = MaterialPoint(materialRow, t.primitive, a.weights.xy);
     return angleSample(s, b0v0 + b1v1 + b2v2, error, n, z, a.angle,
                        Emission(emissionOf(m), emitsBothSides(m)));
 }

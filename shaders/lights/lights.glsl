@@ -49,10 +49,12 @@ void findOnlyLight() {
     }
 }
 
-/// s: faced forward; light: as LightEntry::light; u: where on the light.
-LightSample sampleLight(SurfacePoint s, uint light, vec2 u) {
-    sampledEmitter = MaterialPoint(0u, NO_PRIMITIVE, vec2(0.0));
-    if (isTriangleLight(light)) return sampleTriangleLight(s, light, u);
+/// s: faced forward; light: as LightEntry::light; u: where on the light. emitter: where that is, if on a triangle;
+/// else its primitive is NO_PRIMITIVE. The sample's radiance lacks emissionFactorOf() that point: it is looked up
+/// when the sample's ray arrives (path.glsl).
+LightSample sampleLight(SurfacePoint s, uint light, vec2 u, out MaterialPoint emitter) {
+    emitter = MaterialPoint(0u, NO_PRIMITIVE, vec2(0.0));
+    if (isTriangleLight(light)) return sampleTriangleLight(s, light, u, emitter);
     const LightRows rows = fetchLight(light);
     const uint kind = kindOf(rows);
     if (isLight(kind, LIGHT_QUAD)) return sampleQuadLight(s, rows, u);

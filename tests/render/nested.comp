@@ -39,85 +39,86 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 uint loopPasses; ///< of this invocation: llvmpipe ends all loops of a group at 65,535
 
 /// Also looks up the material where the ray asks for one. A ray that passes a surface which is partly there is traced on.
-void traceToTheEnd() {
+void traceToTheEnd(inout PathState path) {
     bool goesOn = true;
     while (goesOn) {
-        startRay();
-        const Ray prepared = makeRay(ray.origin, ray.direction);
-        while (traversing(ray)) {
-            traversalStep(ray, prepared);
+        startRay(path);
+        const Ray prepared = makeRay(path.ray.origin, path.ray.direction);
+        while (traversing(path.ray)) {
+            traversalStep(path.ray, prepared);
             ++loopPasses;
         }
-        const MaterialPoint asked = askedPoint();
-        found = lookUpMaterial(asked);
-        goesOn = HAS_ALPHA && passesThrough(asked, found.opacity);
+        const MaterialPoint asked = askedPoint(path);
+        path.found = lookUpMaterial(asked);
+        goesOn = HAS_ALPHA && passesThrough(path, asked, path.found.opacity);
         ++loopPasses;
     }
 }
 
-void gatherDirectLight() {
+void gatherDirectLight(inout PathState path) {
     const uint samples = directSamples();
-    while (directIndex < samples) {
-        sampleDirect();
-        if (phase == PHASE_SHADOW) {
-            traceToTheEnd();
-            finishShadowRay();
+    while (path.directIndex < samples) {
+        sampleDirect(path);
+        if (path.phase == PHASE_SHADOW) {
+            traceToTheEnd(path);
+            finishShadowRay(path);
         }
-        if (phase == PHASE_HEMISPHERE) {
-            traceToTheEnd();
-            finishHemisphereRay();
-        }
-        ++loopPasses;
-    }
-}
-
-void bounceOn() {
-    phase = endsHere() ? PHASE_ENDED : PHASE_BOUNCE;
-    if (phase == PHASE_BOUNCE) depart();
-}
-
-void followToTheEnd() {
-    while (phase == PHASE_PATH) {
-        traceToTheEnd();
-        arrive();
-        if (INTEGRATOR == INTEGRATOR_PATH && phase == PHASE_DIRECT) {
-            gatherDirectLight();
-            bounceOn();
+        if (path.phase == PHASE_HEMISPHERE) {
+            traceToTheEnd(path);
+            finishHemisphereRay(path);
         }
         ++loopPasses;
     }
 }
 
-void takeSample() {
-    phase = PHASE_NEXT;
-    depart();
-    followToTheEnd();
-    while (branchIsOver()) {
-        nextBranch();
-        bounceOn();
-        followToTheEnd();
+void bounceOn(inout PathState path) {
+    path.phase = endsHere(path) ? PHASE_ENDED : PHASE_BOUNCE;
+    if (path.phase == PHASE_BOUNCE) depart(path);
+}
+
+void followToTheEnd(inout PathState path) {
+    while (path.phase == PHASE_PATH) {
+        traceToTheEnd(path);
+        arrive(path);
+        if (INTEGRATOR == INTEGRATOR_PATH && path.phase == PHASE_DIRECT) {
+            gatherDirectLight(path);
+            bounceOn(path);
+        }
         ++loopPasses;
     }
-    finishSample();
+}
+
+void takeSample(inout PathState path) {
+    path.phase = PHASE_NEXT;
+    depart(path);
+    followToTheEnd(path);
+    while (branchIsOver(path)) {
+        nextBranch(path);
+        bounceOn(path);
+        followToTheEnd(path);
+        ++loopPasses;
+    }
+    finishSample(path);
 }
 
 /// segmentBase: the samples that each pixel gets.
 void main() {
+    PathState path;
     const uint pixel = gl_GlobalInvocationID.x;
     if (pixel >= dispatch.itemCount) return;
-    pixelState = fetchPixel(pixel);
-    pixelAt = uvec2(pixel % frame.width, pixel / frame.width);
-    pixelId = pixel;
+    path.pixelState = fetchPixel(pixel);
+    path.pixelAt = uvec2(pixel % frame.width, pixel / frame.width);
+    path.pixelId = pixel;
     findPictureGrid();
     findOnlyLight();
     if (GAP_PROPOSAL) findGap();
-    endTraversal(ray);
-    rayCount = 0u;
-    waits = false;
+    endTraversal(path.ray);
+    path.rayCount = 0u;
+    path.waits = false;
     loopPasses = 0u;
     for (uint i = 0u; i < dispatch.segmentBase; ++i)
-        takeSample();
-    storePixel(pixel, pixelState);
-    atomicAdd(status.rays, rayCount);
+        takeSample(path);
+    storePixel(pixel, path.pixelState);
+    atomicAdd(status.rays, path.rayCount);
     atomicMax(status.allSteps, loopPasses);
 }

@@ -27,9 +27,10 @@ LightAnswer answer(LightQuery q) {
         again = lightProbability(entry, litPoint(s), shadingNormal(s));
         picked = PickedLight(entry.light, 1.0, u);
     }
-    LightSample l = sampleLight(s, picked.light, picked.u);
-    if (emissionHasFactors() && sampledEmitter.primitive != NO_PRIMITIVE)
-        l.radiance *= emissionFactorOf(lookUpMaterial(sampledEmitter));
+    MaterialPoint emitter;
+    LightSample l = sampleLight(s, picked.light, picked.u, emitter);
+    if (emissionHasFactors() && emitter.primitive != NO_PRIMITIVE)
+        l.radiance *= emissionFactorOf(lookUpMaterial(emitter));
     const bool below = dot(s.geometric, l.direction) < 0.0;
     const vec3 origin = leave(s, l.direction, below); // as traceDirectSample() in path.glsl
     const bool isBlocked = l.infinite ? blocked(origin, l.direction, INFINITE_DISTANCE)
