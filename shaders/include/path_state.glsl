@@ -99,7 +99,7 @@ float sideNumber(PathState path) {
     return unitFloats(pcg4d(uvec4(path.pixelId, sample_, block, frame.seed))).x;
 }
 
-#include "pass_through.glsl"
+#include "include/pass_through.glsl"
 
 /// Asks for a ray. Rays are prepared in one place, startRay() (docs/kernel.md, "What llvmpipe does").
 void trace(inout PathState path, uint newPhase, vec3 origin, vec3 direction, float tMin, float tMax, uint skipPrimitive) {
