@@ -24,9 +24,9 @@ bool servesForLong(const KernelFeatures& f) {
            (f[SPEC_BSDF_KINDS] & 1u << gpu::BSDF_PRINCIPLED) != 0 || f[SPEC_TEXTURE_SLOTS] != 0 ||
            f[SPEC_LOOSE_SLOTS] != 0 || f[SPEC_LOOSE_TEXTURES] != 0 || f[SPEC_TEXEL_KINDS] != 0 ||
            f[SPEC_ATTRIBUTES] != 0 || f[SPEC_HAS_ALPHA] != 0 || f[SPEC_TANGENT_FRAMES] != 0 ||
-           f[SPEC_HAS_BLENDS] != 0 || f[SPEC_RELIEF_RULES] != 0 || f[SPEC_PRINCIPLED_FEATURES] != 0 ||
-           f[SPEC_HAS_PLACEMENTS] != 0 || f[SPEC_WAITING_PART] != 0 ||
-           f[SPEC_CORNER_NORMALS] != f[SPEC_HAS_NORMALS];
+           f[SPEC_HAS_BLENDS] != 0 || f[SPEC_RELIEF_RULES] != 0 ||
+           f[SPEC_PRINCIPLED_FEATURES] != 0 || f[SPEC_HAS_PLACEMENTS] != 0 ||
+           f[SPEC_WAITING_PART] != 0 || f[SPEC_CORNER_NORMALS] != f[SPEC_HAS_NORMALS];
 }
 
 static_assert(float(Roulette::kMaxContinue) == gpu::ROULETTE_MAX_CONTINUE);
