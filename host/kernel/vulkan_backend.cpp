@@ -6,6 +6,7 @@
 #include "host/kernel/work_order.hpp"
 
 #include <algorithm>
+#include <future>
 #include <utility>
 
 namespace stromboli {
@@ -50,6 +51,10 @@ void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& setti
         deviceScene_.reset();
     }
     kernelsFetchTexels_ = tuning.texelFetch;
+    // The driver compiles on one thread, and the scene goes to the device meanwhile.
+    const KernelFeatures features = kernelFeatures(*scene_, camera, estimator, tuning);
+    std::future<const PathKernel*> kernel =
+        std::async(std::launch::async, [&] { return &kernelFor(features, tuning); });
     if (!deviceScene_)
         deviceScene_ =
             std::make_unique<DeviceScene>(device_, *scene_, tuning, std::exchange(filled_, {}));
@@ -57,7 +62,7 @@ void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& setti
     camera_ = camera;
     estimator_ = estimator;
     frame_ = makeFrame(*scene_, camera, area_, estimator);
-    kernel_ = &kernelFor(kernelFeatures(*scene_, camera, estimator, tuning), tuning);
+    kernel_ = kernel.get();
     film_ = std::make_unique<DeviceFilm>(device_, area_, tuning);
     setFilter(filterTable(estimator.filter, estimator.filterShape), tuning);
     dispatcher_ =
