@@ -83,13 +83,6 @@ bool pixelsAreWanted(PathState path, Job job) {
     return 8u * wanting >= subgroupBallotBitCount(subgroupBallot(atWork(path)));
 }
 
-/// Whether as many of the subgroup's lanes wait at surfaces as are waited for. A dispatch that is to end has a
-/// limit for its iterations, which is why nothing is waited for then: with many light samples each would wait anew.
-bool enoughSurfacesWait(PathState path) {
-    const uint waiting = subgroupBallotBitCount(subgroupBallot(path.waits));
-    return WAITING_PART * waiting >= subgroupBallotBitCount(subgroupBallot(atWork(path)));
-}
-
 void putDown(inout PathState path, inout Job job) {
     if (job.item == NO_ITEM) return;
     if (frame.keepsValue != 0u && samplesTaken(path) >= job.target) path.pixelState.sum = path.radiance;
@@ -268,7 +261,6 @@ void main() {
     if (lane >= dispatch.laneCount) return;
     path.rayCount = 0u;
     job.busySteps = 0u;
-    path.waits = false;
     job.allSteps = 0u;
     resume(path, job, lane);
 
@@ -284,16 +276,10 @@ void main() {
         changePixel(path, job, !late && dispatch.beginsNoSample == 0u);
         bool pixelsWanted = false;
         while (!pixelsWanted && atWork(path) && iteration < pause) {
-            bool staysFree;
-            do {
-                startWork(path, job, late);
-                traverseSomeSteps(path, job);
-                if (SURFACES_WAIT && !traversing(path.ray)) followFreePath(path);
-                ++iteration;
-                staysFree = SURFACES_WAIT && !late && iteration < pause && !pixelsAreWanted(path, job) && !enoughSurfacesWait(path);
-            } while (staysFree);
-            if (SURFACES_WAIT ? path.waits : !traversing(path.ray)) followPath(path);
-            path.waits = false;
+            startWork(path, job, late);
+            traverseSomeSteps(path, job);
+            ++iteration;
+            if (!traversing(path.ray)) followPath(path);
             pixelsWanted = pixelsAreWanted(path, job);
         }
     }

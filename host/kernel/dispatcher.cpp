@@ -15,15 +15,14 @@ using vulkan::Buffer;
 using vulkan::BufferUse;
 
 /// One iteration of the kernel's loop counts for itself, its traversal steps and pixel filter, the
-/// loop around it that changes pixels and, where there are such, the loop in which surfaces wait,
-/// the walk down the light tree and the loose textures of a material.
+/// loop around it that changes pixels and, where there are such, the walk down the light tree and
+/// the loose textures of a material.
 uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene, const PathKernel& kernel) {
     // At a hit, where a path splits again, and at the end of a ray of hemisphere sampling.
     constexpr uint32_t kTextureLoops = 3;
     // A light is picked for a light sample, and looked up once more for MIS.
     const uint32_t perIteration =
         1 + passesOfCameraRays(kernel.features()) + 2 +
-        (kernel.features()[SPEC_WAITING_PART] ? 1 : 0) +
         (scene.lights.groups ? 2 * (scene.lights.levels + 1) : 0) +
         (scene.mostTextures ? kTextureLoops * (scene.mostTextures + 1) : 0);
     return loopLimit(device, perIteration);

@@ -1,7 +1,6 @@
 #include "host/kernel/kernel_features.hpp"
 
 #include "host/kernel/direct_sampling.hpp"
-#include "host/kernel/open_view.hpp"
 #include "shaders/shared/texture_types.h"
 
 #include <algorithm>
@@ -26,7 +25,7 @@ bool servesForLong(const KernelFeatures& f) {
            f[SPEC_ATTRIBUTES] != 0 || f[SPEC_HAS_ALPHA] != 0 || f[SPEC_TANGENT_FRAMES] != 0 ||
            f[SPEC_HAS_BLENDS] != 0 || f[SPEC_RELIEF_RULES] != 0 ||
            f[SPEC_PRINCIPLED_FEATURES] != 0 || f[SPEC_HAS_PLACEMENTS] != 0 ||
-           f[SPEC_WAITING_PART] != 0 || f[SPEC_CORNER_NORMALS] != f[SPEC_HAS_NORMALS];
+           f[SPEC_CORNER_NORMALS] != f[SPEC_HAS_NORMALS];
 }
 
 static_assert(float(Roulette::kMaxContinue) == gpu::ROULETTE_MAX_CONTINUE);
@@ -260,9 +259,6 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
         f[SPEC_TRAVERSAL_STEPS] = tuning.placedTraversalSteps;
         f[SPEC_TRAVERSAL_LEGS] = tuning.traversalLegs;
     }
-    if (tuning.waitingPart && servesForLong(f) && !normalsOnly &&
-        shareOfSurfacesInView(scene.bvh, camera) < tuning.mostInView)
-        f[SPEC_WAITING_PART] = tuning.waitingPart;
     return f;
 }
 

@@ -33,11 +33,6 @@ DeviceTuning forCpu(uint32_t subgroupSize) {
     t.placedTraversalSteps = 1;
     t.traversalLegs = 20;
     t.registerStack = 16;
-    // Lanes that wait are idle, and all lanes run the code of surfaces whenever one is at any.
-    // Where most rays leave the scene that code is run in vain in most lanes, where few do it is
-    // not (docs/results.md, "Surfaces that wait").
-    t.waitingPart = 3;
-    t.mostInView = 0.4;
     t.driverThreads = std::max(std::thread::hardware_concurrency(), 1u);
     t.lanes = t.workgroupSize * kGroupsPerThread * t.driverThreads;
     return t;
@@ -68,7 +63,6 @@ DeviceTuning resolve(const KernelTuning& tuning, const vulkan::Device& device, u
     t.placedTraversalSteps = tuning.traversalSteps.value_or(t.placedTraversalSteps);
     t.traversalLegs = tuning.traversalLegs.value_or(t.traversalLegs);
     t.registerStack = tuning.registerStack.value_or(t.registerStack);
-    if (tuning.waitingPart) t.waitingPart = *tuning.waitingPart, t.mostInView = 2;
     t.lanes = tuning.lanes.value_or(t.lanes);
     t.driverThreads = tuning.driverThreads.value_or(t.driverThreads);
     t.itemsPerDispatch = tuning.itemsPerDispatch.value_or(t.itemsPerDispatch);

@@ -12,11 +12,10 @@ namespace stromboli {
 struct KernelTuning {
     std::optional<bool> texelFetch; ///< read the scene through storage texel buffers
     std::optional<uint32_t> workgroupSize;
-    std::optional<uint32_t> traversalSteps; ///< between two service passes, or in a leg
-    std::optional<uint32_t> traversalLegs;  ///< where prototypes are placed
-    std::optional<uint32_t> registerStack;  ///< largest traversal stack that is in registers
-    std::optional<uint32_t> waitingPart; ///< see DeviceTuning; where given, in any view of surfaces
-    std::optional<uint32_t> lanes;       ///< invocations of a dispatch
+    std::optional<uint32_t> traversalSteps;   ///< between two service passes, or in a leg
+    std::optional<uint32_t> traversalLegs;    ///< where prototypes are placed
+    std::optional<uint32_t> registerStack;    ///< largest traversal stack that is in registers
+    std::optional<uint32_t> lanes;            ///< invocations of a dispatch
     std::optional<uint32_t> driverThreads;    ///< 0: unknown
     std::optional<uint32_t> itemsPerDispatch; ///< pixels in a work list
     double targetSeconds = 0.1;               ///< of a dispatch
@@ -37,11 +36,6 @@ struct DeviceTuning {
     /// and lanes that come to a placement or leave one wait for that.
     uint32_t placedTraversalSteps = 4, traversalLegs = 4;
     uint32_t registerStack = 0; ///< entries
-    /// Of kernels whose service is long: lanes at surfaces wait until they are the n-th part of
-    /// those at work (SPEC_WAITING_PART); 0: they do not wait. Only where surfaces fill less than
-    /// this share of the picture.
-    uint32_t waitingPart = 0;
-    double mostInView = 0;
     uint32_t lanes = 1u << 20;
     uint32_t driverThreads = 0; ///< that run workgroups one after the other; 0: unknown, a GPU
     uint32_t itemsPerDispatch = 1u << 20;

@@ -51,10 +51,9 @@ void takeInSky(inout PathState path, FoundSky sky, float share) {
         path.radiance += path.throughput * sky.radiance * share;
 }
 
-/// A path ray is done: takes in the light that it has found and sets up the surface for scattering. With
-/// SURFACES_WAIT it has met one, and arriveAtSky() is for the others.
+/// A path ray is done: takes in the light that it has found and sets up the surface for scattering.
 void arrive(inout PathState path) {
-    const bool hit = SURFACES_WAIT || path.ray.hitPrimitive != NO_PRIMITIVE;
+    const bool hit = path.ray.hitPrimitive != NO_PRIMITIVE;
     path.phase = PHASE_ENDED;
     FoundSky sky = NO_SKY;
     if (!hit) sky = skyFrom(path.departureNormal, path.ray.direction);
@@ -200,34 +199,6 @@ void finishSample(inout PathState path) {
 }
 
 // --- Service -------------------------------------------------------------------------------------
-
-/// Whether the finished ray asks for a material (askedPoint()), or is one of hemisphere sampling.
-bool asksForMaterial(PathState path) {
-    const bool hit = path.ray.hitPrimitive != NO_PRIMITIVE;
-    if (DIRECT_LIGHT == DIRECT_HEMISPHERE && path.phase == PHASE_HEMISPHERE) return true;
-    if (path.phase == PHASE_PATH) return hit;
-    return hit ? HAS_ALPHA : emissionHasFactors() && path.sampledEmitter.primitive != NO_PRIMITIVE;
-}
-
-/// A path ray has met nothing: what arrive() does of that with no surface to set up.
-void arriveAtSky(inout PathState path) {
-    path.phase = PHASE_ENDED;
-    const FoundSky sky = skyFrom(path.departureNormal, path.ray.direction);
-    path.throughput *= transmittance(path.medium, INFINITE_DISTANCE);
-    takeInSky(path, sky, foundShare(path, sky));
-}
-
-/// With SURFACES_WAIT: takes in the finished ray as followPath() does, as far as no material is asked for.
-void followFreePath(inout PathState path) {
-    if (path.waits) return;
-    path.waits = isTracing(path.phase) && asksForMaterial(path);
-    if (path.waits) return;
-    if (path.phase == PHASE_PATH) arriveAtSky(path);
-    else if (path.phase == PHASE_SHADOW) finishShadowRay(path);
-    if (path.phase == PHASE_DIRECT && path.directIndex >= directSamples()) path.phase = endsHere(path) ? PHASE_ENDED : PHASE_BOUNCE;
-    path.waits = path.phase == PHASE_DIRECT || branchIsOver(path);
-    if (path.phase == PHASE_ENDED && !path.waits) finishSample(path);
-}
 
 /// Takes in the finished ray. What is next: a shadow ray, which it asks for; a bounce (PHASE_BOUNCE), or
 /// another sample (PHASE_NEXT), both by depart().

@@ -28,7 +28,6 @@ struct PathState {
     Traversal ray; ///< what PHASE_PATH, _SHADOW and _HEMISPHERE trace
     float rayEnd;  ///< tMax as it was asked for; the ray's own shrinks to its hits
     uint rayCount; ///< rays begun so far
-    bool waits;    ///< with SURFACES_WAIT: what comes next needs a material, and other lanes are waited for
 
     PixelState pixelState;
     uint pixelId;       ///< in the whole picture: names the random numbers
@@ -126,7 +125,7 @@ bool isTracing(uint p) {
 }
 
 void startRay(inout PathState path) {
-    if (!isTracing(path.phase) || traversing(path.ray) || SURFACES_WAIT && path.waits) return;
+    if (!isTracing(path.phase) || traversing(path.ray)) return;
     path.ray.anyHit = path.phase == PHASE_SHADOW && !HAS_ALPHA;
     startTraversal(path.ray);
     ++path.rayCount;

@@ -6,8 +6,6 @@ KERNEL_CONSTANTS(DECLARE_CONSTANT)
 /// Whether triangles have normals of their corners. Without these and without maps there is no shading normal
 /// beside the geometric one (HAS_NORMALS).
 const bool HAS_CORNER_NORMALS = HAS_NORMALS && CORNER_NORMALS;
-/// Whether lanes at surfaces wait for each other (docs/kernel.md, "Surfaces that wait").
-const bool SURFACES_WAIT = WAITING_PART != 0u;
 /// Whether samples have weights by their place about the pixel, some of them negative.
 bool samplesHaveWeights() { return PIXEL_FILTER == FILTER_TABLE; }
 bool sceneHasBsdf(uint kind) { return (BSDF_KINDS & (1u << kind)) != 0u; }

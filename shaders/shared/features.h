@@ -60,10 +60,9 @@
     C(47, uint, ROULETTE_START, 3u) /* bounces before roulette by throughput */ \
     C(48, bool, FLAT_TERMINATOR, false) /* light is reflected from flat triangles (no terminator offset) */ \
     C(49, uint, LOOSE_TEXTURES, 255u) /* the most textures that a material has in no bundle */ \
-    C(50, uint, WAITING_PART, 0u) /* lanes at surfaces wait until they are this part of those at work; 0: for none */ \
-    C(51, bool, CORNER_NORMALS, true) /* some triangle has normals of its corners; else maps alone make shading normals */
+    C(50, bool, CORNER_NORMALS, true) /* some triangle has normals of its corners; else maps alone make shading normals */
 
-#define SPEC_COUNT 52
+#define SPEC_COUNT 51
 
 #ifdef __cplusplus
 namespace stromboli {

@@ -263,30 +263,6 @@ TEST(KernelFeatures, SayWhereShadingNormalsComeFrom) {
     EXPECT_THAT(describe(f), testing::Contains("shading normals: interpolated"));
 }
 
-/// Lanes wait at surfaces where most of the picture is beside them, on devices that gain by it.
-TEST(KernelFeatures, SurfacesWaitInOpenViews) {
-    DeviceTuning tuning;
-    tuning.waitingPart = 3;
-    tuning.mostInView = 0.4;
-    const auto part = [&](double halfWidth, PixelFilter filter) {
-        Scene scene = oneTriangle({});
-        Estimator settings;
-        settings.filter = filter;
-        const glm::dvec3 middle =
-            glm::dvec3(scene.positions[0] + scene.positions[1] + scene.positions[2]) / 3.0;
-        const glm::dvec3 normal = glm::cross(glm::dvec3(scene.positions[1] - scene.positions[0]),
-                                             glm::dvec3(scene.positions[2] - scene.positions[0]));
-        const Camera camera = lookingAt(middle + 10.0 * glm::normalize(normal), middle, halfWidth);
-        return kernelFeatures(packScene(scene, buildWideBvh(scene)), camera, settings,
-                              tuning)[SPEC_WAITING_PART];
-    };
-    EXPECT_EQ(part(1e-3, PixelFilter::Gaussian), 0u) << "the triangle fills the picture";
-    EXPECT_EQ(part(10, PixelFilter::Gaussian), 3u);
-    EXPECT_EQ(part(10, PixelFilter::Box), 0u) << "a service that is short";
-    tuning.waitingPart = 0;
-    EXPECT_EQ(part(10, PixelFilter::Gaussian), 0u);
-}
-
 TEST(KernelFeatures, FollowTheTuning) {
     DeviceTuning tuning;
     tuning.workgroupSize = 24, tuning.traversalSteps = 5, tuning.countSteps = true;
