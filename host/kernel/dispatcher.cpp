@@ -28,17 +28,8 @@ uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene, const Pa
     return loopLimit(device, perIteration);
 }
 
-/// Where lanes stop taking path rays. What is left has to do for one more surface with all its
-/// direct light samples: a pass or more for each.
-uint32_t softLimit(uint32_t hard, const gpu::Frame& frame) {
-    const uint32_t directSamples = frame.hemisphereSamples + frame.lightSamples;
-    return directSamples < hard / 32 ? hard / 2 : 1;
-}
-
-/// Iterations a dispatch may be given. Where threads share them, a fast one runs more of them in a
-/// group than the others: up to twice as many.
-uint32_t paceLimit(uint32_t soft, const DeviceTuning& tuning) {
-    return tuning.driverThreads > 0 ? std::max(soft / 2, 1u) : soft;
+Buffer bufferOf(const vulkan::Device& device, const vulkan::BufferPlan& plan) {
+    return {device, plan.name, plan.bytes, plan.use};
 }
 
 template <class T>
@@ -50,33 +41,24 @@ std::span<const std::byte> bytesOf(const T& value) {
 
 Dispatcher::Dispatcher(const vulkan::Device& device, const DeviceScene& scene,
                        const PathKernel& kernel, DeviceFilm& film, const vulkan::Buffer& filter,
-                       const gpu::Frame& frame, const DeviceTuning& tuning, double targetSeconds,
+                       const gpu::Frame& frame, const DeviceTuning& tuning,
                        std::optional<uint32_t> fixedIterations)
-    : device_(device), kernel_(kernel), film_(film), tuning_(tuning),
-      hardIterations_(hardLimit(device, scene.scene(), kernel)),
-      softIterations_(softLimit(hardIterations_, frame)), fixedIterations_(fixedIterations),
-      pace_(targetSeconds, paceLimit(softIterations_, tuning)), queue_(device),
+    : device_(device), tuning_(tuning), hardIterations_(hardLimit(device, scene.scene(), kernel)),
+      queue_(device),
+      paths_(bufferOf(device, pathBuffers(frame.branches, tuning.lanes, tuning.scheduler).paths)),
+      more_(bufferOf(device, pathBuffers(frame.branches, tuning.lanes, tuning.scheduler).more)),
+      film_(film), fixedIterations_(fixedIterations),
       frameBuffer_(device, "frame constants", sizeof(gpu::Frame), BufferUse::Uniform),
       workItems_(device, "work list", tuning.itemsPerDispatch * sizeof(gpu::WorkItem),
                  rowUse(tuning)),
-      suspended_(device, "suspended paths", tuning.lanes * sizeof(gpu::SuspendedPath),
-                 BufferUse::Storage),
-      splits_(device, "splits of suspended paths",
-              splitCount(frame.branches, tuning.lanes) * sizeof(gpu::SuspendedSplit),
-              BufferUse::Storage),
       status_(device, "dispatch status", sizeof(gpu::DispatchStatus), BufferUse::Storage) {
     setFrame(frame);
-    gpu::SuspendedPath none{};
-    none.bounce = gpu::SUSPENDED_NONE;
-    none.item = gpu::NO_ITEM;
-    const std::vector<gpu::SuspendedPath> idle(tuning.lanes, none);
-    suspended_.upload(queue_, std::as_bytes(std::span(idle)));
     for (const DeviceFilm::Segment& s : film.segments()) {
         std::vector<const Buffer*> buffers;
         for (const Buffer& b : scene.buffers())
             buffers.push_back(&b);
-        buffers.insert(buffers.end(), {&frameBuffer_, &workItems_, &s.pixels, &suspended_, &status_,
-                                       &splits_, &filter});
+        buffers.insert(buffers.end(),
+                       {&frameBuffer_, &workItems_, &s.pixels, &paths_, &status_, &more_, &filter});
         sets_.push_back(
             std::make_unique<vulkan::DescriptorSet>(device, kernel.pipeline(), buffers));
     }
@@ -103,8 +85,12 @@ bool Dispatcher::runChunk(size_t segment, std::span<const gpu::WorkItem> items,
     const auto somethingIsLeft = [&] {
         return status.unfinishedItems > 0 || (goesOn && status.nextItem < items.size());
     };
+    Share share{.segment = segment, .itemCount = uint32_t(items.size()), .isFirst = true};
     do {
-        dispatch(segment, uint32_t(items.size()), !goesOn, status);
+        share.isEnding = !goesOn && !share.ends;
+        share.ends = !goesOn;
+        dispatch(share, status);
+        share.isFirst = false;
         count(status);
         if (status.overflowedItems > 0)
             throw DeviceError(fmt::format(
@@ -118,39 +104,26 @@ bool Dispatcher::runChunk(size_t segment, std::span<const gpu::WorkItem> items,
     return goesOn;
 }
 
-gpu::Dispatch Dispatcher::constants(size_t segment, uint32_t itemCount, uint32_t groups,
-                                    bool ends) const {
+gpu::Dispatch Dispatcher::constants(const Share& share) const {
     gpu::Dispatch d{};
-    d.itemCount = itemCount;
-    d.segmentBase = film_.segments()[segment].firstPixel;
-    d.softIterations = softIterations_;
+    d.itemCount = share.itemCount;
+    d.segmentBase = film_.segments()[share.segment].firstPixel;
     d.hardIterations = hardIterations_;
     d.laneCount = tuning_.lanes;
-    d.beginsNoSample = ends;
-    if (tuning_.driverThreads == 0 || fixedIterations_) {
-        d.softIterations = fixedIterations_.value_or(pace_.iterations());
-        return d;
-    }
-    d.groupsPerThread = std::max(groups / tuning_.driverThreads, 1u);
-    d.sharedIterations = pace_.iterations() * tuning_.workgroupSize * tuning_.driverThreads;
+    d.beginsNoSample = share.ends;
     return d;
 }
 
-/// `status`: what the dispatch before this one left; then what this one leaves.
-void Dispatcher::dispatch(size_t segment, uint32_t itemCount, bool ends,
-                          gpu::DispatchStatus& status) {
-    const uint32_t groups = (tuning_.lanes + tuning_.workgroupSize - 1) / tuning_.workgroupSize;
-    const gpu::Dispatch dispatchConstants = constants(segment, itemCount, groups, ends);
+/// `status`: what the submission before this one left; then what this one leaves.
+void Dispatcher::dispatch(const Share& share, gpu::DispatchStatus& status) {
     // Lanes that find the list empty count on; started anew, the count cannot wrap around.
-    status = {.nextItem = std::min(status.nextItem, itemCount)};
+    status = {.nextItem = std::min(status.nextItem, share.itemCount)};
     status_.upload(queue_, bytesOf(status));
-    const double seconds = queue_.run("run the path kernel", [&](VkCommandBuffer commands) {
-        vulkan::recordDispatch(device_, commands, kernel_.pipeline(), *sets_[segment],
-                               bytesOf(dispatchConstants), groups);
-    });
-    pace_.took(seconds);
+    const double seconds = queue_.run("run the path kernel",
+                                      [&](VkCommandBuffer commands) { record(commands, share); });
     kernelSeconds_ += seconds;
     status_.download(queue_, std::as_writable_bytes(std::span(&status, 1)));
+    hasRun(seconds, status);
 }
 
 void Dispatcher::count(const gpu::DispatchStatus& status) {

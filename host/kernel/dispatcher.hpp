@@ -2,7 +2,6 @@
 
 #include "host/kernel/device_film.hpp"
 #include "host/kernel/device_scene.hpp"
-#include "host/kernel/dispatch_pace.hpp"
 #include "host/kernel/path_kernel.hpp"
 
 #include <functional>
@@ -18,16 +17,19 @@ struct StepCounters {
     uint64_t all = 0;  ///< ... out of these
 };
 
-/// Runs the kernel over work lists in dispatches that are neither too long nor too short, and keeps
-/// what lanes have in hand between them.
+/// Runs the path kernel over work lists in submissions that are neither too long nor too short, and
+/// keeps what lanes have in hand between them. Each scheduler is a class of its own.
 class Dispatcher {
   public:
-    /// All but `tuning` and `frame` must outlive the object. filter: the picture's table
-    /// (filter_table.hpp). fixedIterations: of each dispatch, instead of pacing by time (tests).
+    /// All but `tuning` and `frame` must outlive the object. kernel: any of the scheduler's, for
+    /// its features and the layout of its bindings. filter: the picture's table (filter_table.hpp).
+    /// fixedIterations: of each submission, instead of pacing by time (tests).
     Dispatcher(const vulkan::Device& device, const DeviceScene& scene, const PathKernel& kernel,
                DeviceFilm& film, const vulkan::Buffer& filter, const gpu::Frame& frame,
-               const DeviceTuning& tuning, double targetSeconds,
-               std::optional<uint32_t> fixedIterations);
+               const DeviceTuning& tuning, std::optional<uint32_t> fixedIterations);
+    virtual ~Dispatcher() = default;
+    Dispatcher(const Dispatcher&) = delete;
+    Dispatcher& operator=(const Dispatcher&) = delete;
 
     /// Dispatches until every item of the work list has its samples. `advance` is told how many
     /// samples each dispatch took; if it returns false, no further sample is begun, those under way
@@ -43,23 +45,39 @@ class Dispatcher {
     /// Seconds by the device's clock in all dispatches so far.
     double kernelSeconds() const { return kernelSeconds_; }
 
+  protected:
+    /// A submission's part of a work list.
+    struct Share {
+        size_t segment = 0;
+        uint32_t itemCount = 0;
+        bool isFirst = false;  ///< of this list
+        bool ends = false;     ///< no sample is to be begun
+        bool isEnding = false; ///< ends, and the submission before it did not
+    };
+    /// Records one submission.
+    virtual void record(VkCommandBuffer commands, const Share& share) = 0;
+    /// After it: `status` as the kernel left it. Sets its unfinishedItems, if the kernel does not.
+    virtual void hasRun(double seconds, gpu::DispatchStatus& status) = 0;
+
+    gpu::Dispatch constants(const Share& share) const;
+    std::optional<uint32_t> fixedIterations() const { return fixedIterations_; }
+
+    const vulkan::Device& device_;
+    DeviceTuning tuning_;
+    uint32_t hardIterations_;
+    vulkan::Queue queue_;
+    vulkan::Buffer paths_, more_;                              ///< PathBuffers
+    std::vector<std::unique_ptr<vulkan::DescriptorSet>> sets_; ///< of each segment
+
   private:
     bool runChunk(size_t segment, std::span<const gpu::WorkItem> items,
                   const std::function<bool(uint64_t)>& advance);
-    gpu::Dispatch constants(size_t segment, uint32_t itemCount, uint32_t groups, bool ends) const;
-    void dispatch(size_t segment, uint32_t itemCount, bool ends, gpu::DispatchStatus& status);
+    void dispatch(const Share& share, gpu::DispatchStatus& status);
     void count(const gpu::DispatchStatus& status);
 
-    const vulkan::Device& device_;
-    const PathKernel& kernel_;
     DeviceFilm& film_;
-    DeviceTuning tuning_;
-    uint32_t hardIterations_, softIterations_;
     std::optional<uint32_t> fixedIterations_;
-    DispatchPace pace_;
-    vulkan::Queue queue_;
-    vulkan::Buffer frameBuffer_, workItems_, suspended_, splits_, status_;
-    std::vector<std::unique_ptr<vulkan::DescriptorSet>> sets_; ///< of each segment
+    vulkan::Buffer frameBuffer_, workItems_, status_;
     RenderCounters counters_;
     StepCounters steps_;
     double kernelSeconds_ = 0;

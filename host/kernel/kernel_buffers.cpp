@@ -2,6 +2,7 @@
 
 #include "host/kernel/filter_table.hpp"
 #include "shaders/shared/render_types.h"
+#include "shaders/shared/wavefront_types.h"
 
 #include <algorithm>
 
@@ -47,8 +48,18 @@ uint64_t largestRowBuffer(const GpuScene& scene, uint64_t pixels) {
     return std::max(largestSceneBuffer(scene), items * sizeof(gpu::WorkItem));
 }
 
-uint64_t splitCount(uint32_t branches, uint64_t lanes) {
-    return branches > 1 ? lanes : 1;
+PathBuffers pathBuffers(uint32_t branches, uint64_t lanes, PathScheduler scheduler) {
+    if (scheduler == PathScheduler::Wavefront) {
+        const uint64_t words = pathWords(branches > 1);
+        return {{"states of paths", lanes * words * sizeof(uint32_t), BufferUse::Storage},
+                {"queues of paths",
+                 gpu::QUEUE_COUNT * (sizeof(gpu::QueueHead) + lanes * sizeof(uint32_t)),
+                 BufferUse::Storage}};
+    }
+    const uint64_t splits = branches > 1 ? lanes : 1; // one for the binding
+    return {
+        {"suspended paths", lanes * sizeof(gpu::SuspendedPath), BufferUse::Storage},
+        {"splits of suspended paths", splits * sizeof(gpu::SuspendedSplit), BufferUse::Storage}};
 }
 
 std::vector<BufferPlan> planBuffers(const GpuScene& scene, const PictureArea& area,
@@ -60,10 +71,8 @@ std::vector<BufferPlan> planBuffers(const GpuScene& scene, const PictureArea& ar
     std::vector<BufferPlan> plans = planSceneBuffers(scene, tuning);
     plans.push_back({"film", pixels * sizeof(gpu::PixelState), rows});
     plans.push_back({"work list", items * sizeof(gpu::WorkItem), rows});
-    plans.push_back({"suspended paths", lanes * sizeof(gpu::SuspendedPath), BufferUse::Storage});
-    plans.push_back({"splits of suspended paths",
-                     splitCount(estimator.branches, lanes) * sizeof(gpu::SuspendedSplit),
-                     BufferUse::Storage});
+    const PathBuffers paths = pathBuffers(estimator.branches, lanes, tuning.scheduler);
+    plans.insert(plans.end(), {paths.paths, paths.more});
     plans.push_back({"pixel filter", filterRows(estimator.filter) * sizeof(Row), rows});
     plans.push_back({"frame constants", sizeof(gpu::Frame), BufferUse::Uniform});
     plans.push_back({"dispatch status", sizeof(gpu::DispatchStatus), BufferUse::Storage});

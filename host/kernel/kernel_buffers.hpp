@@ -43,7 +43,10 @@ bool haveRoomForTextures(const vulkan::DeviceDescription& device, const GpuScene
 void checkMemory(const vulkan::DeviceDescription& device, const GpuScene& scene,
                  const PictureArea& area, const Estimator& estimator, const DeviceTuning& tuning);
 
-/// Entries of the buffer of SuspendedSplit; one, for the binding, where paths do not split.
-uint64_t splitCount(uint32_t branches, uint64_t lanes);
+/// What a scheduler keeps of paths between two dispatches (BINDING_SUSPENDED, BINDING_SPLITS).
+struct PathBuffers {
+    vulkan::BufferPlan paths, more;
+};
+PathBuffers pathBuffers(uint32_t branches, uint64_t lanes, PathScheduler scheduler);
 
 } // namespace stromboli

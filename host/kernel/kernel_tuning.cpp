@@ -14,6 +14,10 @@ namespace {
 /// loop passes (hardLimit): 32 groups of 1800 iterations of 1.2 us (a Zen 3 core).
 constexpr uint32_t kGroupsPerThread = 32;
 
+/// Paths that the wavefront scheduler has under way: enough to fill a large GPU some times over,
+/// and some 130 MB of memory.
+constexpr uint32_t kWavefrontPaths = 1u << 18;
+
 /// Texel buffers of the path kernel: the scene's, the work list, the film and the table of the
 /// pixel filter; other kernels have fewer.
 constexpr size_t kTexelBuffers = SCENE_BINDING_COUNT + 3;
@@ -63,6 +67,8 @@ DeviceTuning resolve(const KernelTuning& tuning, const vulkan::Device& device, u
     t.placedTraversalSteps = tuning.traversalSteps.value_or(t.placedTraversalSteps);
     t.traversalLegs = tuning.traversalLegs.value_or(t.traversalLegs);
     t.registerStack = tuning.registerStack.value_or(t.registerStack);
+    t.scheduler = tuning.scheduler.value_or(t.scheduler);
+    if (t.scheduler == PathScheduler::Wavefront) t.lanes = kWavefrontPaths;
     t.lanes = tuning.lanes.value_or(t.lanes);
     t.driverThreads = tuning.driverThreads.value_or(t.driverThreads);
     t.itemsPerDispatch = tuning.itemsPerDispatch.value_or(t.itemsPerDispatch);

@@ -8,6 +8,12 @@
 
 namespace stromboli {
 
+/// Who decides what each lane does next (docs/kernel.md, "Two schedulers").
+enum class PathScheduler {
+    Persistent, ///< one kernel, whose lanes follow paths from ray to ray
+    Wavefront,  ///< kernels that draw, trace and follow, with queues of paths between them
+};
+
 /// How the kernel runs; what is not given suits the device (resolve). None of it changes a picture.
 struct KernelTuning {
     std::optional<bool> texelFetch; ///< read the scene through storage texel buffers
@@ -15,7 +21,8 @@ struct KernelTuning {
     std::optional<uint32_t> traversalSteps;   ///< between two service passes, or in a leg
     std::optional<uint32_t> traversalLegs;    ///< where prototypes are placed
     std::optional<uint32_t> registerStack;    ///< largest traversal stack that is in registers
-    std::optional<uint32_t> lanes;            ///< invocations of a dispatch
+    std::optional<PathScheduler> scheduler;
+    std::optional<uint32_t> lanes; ///< invocations of a dispatch; wavefront: paths under way
     std::optional<uint32_t> driverThreads;    ///< 0: unknown
     std::optional<uint32_t> itemsPerDispatch; ///< pixels in a work list
     double targetSeconds = 0.1;               ///< of a dispatch
@@ -36,6 +43,7 @@ struct DeviceTuning {
     /// and lanes that come to a placement or leave one wait for that.
     uint32_t placedTraversalSteps = 4, traversalLegs = 4;
     uint32_t registerStack = 0; ///< entries
+    PathScheduler scheduler = PathScheduler::Persistent;
     uint32_t lanes = 1u << 20;
     uint32_t driverThreads = 0; ///< that run workgroups one after the other; 0: unknown, a GPU
     uint32_t itemsPerDispatch = 1u << 20;

@@ -2,8 +2,11 @@
 
 #include "embedded/pathtrace_storage.h"
 #include "embedded/pathtrace_texel.h"
+#include "embedded/wavefront_storage.h"
+#include "embedded/wavefront_texel.h"
 #include "shaders/shared/interface.h"
 #include "shaders/shared/render_types.h"
+#include "shaders/shared/wavefront_types.h"
 
 namespace stromboli {
 namespace {
@@ -23,16 +26,29 @@ std::vector<vulkan::Binding> kernelBindings(bool texelFetch) {
     return bindings;
 }
 
-std::span<const uint32_t> moduleFor(bool texelFetch) {
+std::span<const uint32_t> moduleFor(bool texelFetch, bool isStage) {
+    if (isStage) {
+        if (texelFetch) return wavefront_texel;
+        return wavefront_storage;
+    }
     if (texelFetch) return pathtrace_texel;
     return pathtrace_storage;
+}
+
+std::vector<uint32_t> constantsOf(const KernelFeatures& features, std::optional<uint32_t> stage) {
+    std::vector<uint32_t> constants(features.begin(), features.end());
+    static_assert(SPEC_STAGE == SPEC_COUNT);
+    if (stage) constants.push_back(*stage);
+    return constants;
 }
 
 } // namespace
 
 PathKernel::PathKernel(const vulkan::Device& device, const KernelFeatures& features,
-                       bool texelFetch, vulkan::Specialiser specialiser)
-    : features_(features), pipeline_(device, moduleFor(texelFetch), kernelBindings(texelFetch),
-                                     features, sizeof(gpu::Dispatch), specialiser) {}
+                       bool texelFetch, vulkan::Specialiser specialiser,
+                       std::optional<uint32_t> stage)
+    : features_(features),
+      pipeline_(device, moduleFor(texelFetch, stage.has_value()), kernelBindings(texelFetch),
+                constantsOf(features, stage), sizeof(gpu::Dispatch), specialiser) {}
 
 } // namespace stromboli

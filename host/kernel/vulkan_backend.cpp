@@ -3,6 +3,7 @@
 #include "host/kernel/filter_table.hpp"
 #include "host/kernel/frame.hpp"
 #include "host/kernel/kernel_buffers.hpp"
+#include "host/kernel/persistent_dispatcher.hpp"
 #include "host/kernel/work_order.hpp"
 
 #include <algorithm>
@@ -53,8 +54,8 @@ void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& setti
     kernelsFetchTexels_ = tuning.texelFetch;
     // The driver compiles on one thread, and the scene goes to the device meanwhile.
     const KernelFeatures features = kernelFeatures(*scene_, camera, estimator, tuning);
-    std::future<const PathKernel*> kernel =
-        std::async(std::launch::async, [&] { return &kernelFor(features, tuning); });
+    std::future<StageKernels> compiled =
+        std::async(std::launch::async, [&] { return kernelsFor(features, tuning); });
     if (!deviceScene_)
         deviceScene_ =
             std::make_unique<DeviceScene>(device_, *scene_, tuning, std::exchange(filled_, {}));
@@ -62,12 +63,22 @@ void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& setti
     camera_ = camera;
     estimator_ = estimator;
     frame_ = makeFrame(*scene_, camera, area_, estimator);
-    kernel_ = kernel.get();
+    const StageKernels kernels = compiled.get();
+    kernel_ = kernels.front();
     film_ = std::make_unique<DeviceFilm>(device_, area_, tuning);
     setFilter(filterTable(estimator.filter, estimator.filterShape), tuning);
-    dispatcher_ =
-        std::make_unique<Dispatcher>(device_, *deviceScene_, *kernel_, *film_, *filter_, frame_,
-                                     tuning, tuning_.targetSeconds, tuning_.fixedIterations);
+    dispatcher_ = makeDispatcher(kernels, tuning);
+}
+
+std::unique_ptr<Dispatcher> VulkanBackend::makeDispatcher(const StageKernels& kernels,
+                                                          const DeviceTuning& tuning) const {
+    if (tuning.scheduler == PathScheduler::Wavefront)
+        return std::make_unique<WavefrontDispatcher>(
+            device_, *deviceScene_, kernels, *film_, *filter_, frame_, tuning,
+            tuning_.targetSeconds, tuning_.fixedIterations);
+    return std::make_unique<PersistentDispatcher>(device_, *deviceScene_, *kernels.front(), *film_,
+                                                  *filter_, frame_, tuning, tuning_.targetSeconds,
+                                                  tuning_.fixedIterations);
 }
 
 void VulkanBackend::setFilter(const std::vector<Row>& table, const DeviceTuning& tuning) {
@@ -78,11 +89,24 @@ void VulkanBackend::setFilter(const std::vector<Row>& table, const DeviceTuning&
     filter_->upload(queue, bytes);
 }
 
+StageKernels VulkanBackend::kernelsFor(const KernelFeatures& features, const DeviceTuning& tuning) {
+    StageKernels kernels{};
+    if (tuning.scheduler == PathScheduler::Persistent)
+        kernels.front() = &kernelFor(features, tuning, {});
+    else
+        for (uint32_t stage = 0; stage < kernels.size(); ++stage)
+            kernels[stage] = &kernelFor(features, tuning, stage);
+    return kernels;
+}
+
 const PathKernel& VulkanBackend::kernelFor(const KernelFeatures& features,
-                                           const DeviceTuning& tuning) {
-    const auto known = kernels_.find(features);
+                                           const DeviceTuning& tuning,
+                                           std::optional<uint32_t> stage) {
+    const std::pair key(features, stage);
+    const auto known = kernels_.find(key);
     if (known != kernels_.end()) return known->second;
-    return kernels_.try_emplace(features, device_, features, tuning.texelFetch, tuning_.specialiser)
+    return kernels_
+        .try_emplace(key, device_, features, tuning.texelFetch, tuning_.specialiser, stage)
         .first->second;
 }
 

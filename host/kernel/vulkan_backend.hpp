@@ -2,6 +2,7 @@
 
 #include "host/kernel/dispatcher.hpp"
 #include "host/kernel/see_pass.hpp"
+#include "host/kernel/wavefront_dispatcher.hpp"
 #include "host/render/backend.hpp"
 #include "host/render/seeing.hpp"
 #include "host/render/settings.hpp"
@@ -51,7 +52,12 @@ class VulkanBackend final : public Backend, public Viewer {
     double kernelSeconds() const { return dispatcher_->kernelSeconds(); }
 
   private:
-    const PathKernel& kernelFor(const KernelFeatures& features, const DeviceTuning& tuning);
+    /// Those of the scheduler; of the persistent one the first alone.
+    StageKernels kernelsFor(const KernelFeatures& features, const DeviceTuning& tuning);
+    const PathKernel& kernelFor(const KernelFeatures& features, const DeviceTuning& tuning,
+                                std::optional<uint32_t> stage);
+    std::unique_ptr<Dispatcher> makeDispatcher(const StageKernels& kernels,
+                                               const DeviceTuning& tuning) const;
 
     const vulkan::ComputePipeline& seePipelineFor(const std::vector<uint32_t>& constants,
                                                   const DeviceTuning& tuning);
@@ -62,7 +68,8 @@ class VulkanBackend final : public Backend, public Viewer {
     KernelTuning tuning_;
     std::unique_ptr<DeviceScene> deviceScene_;
     SceneBuffers filled_; ///< of the scene to come
-    std::map<KernelFeatures, PathKernel> kernels_;
+    std::map<std::pair<KernelFeatures, std::optional<uint32_t>>, PathKernel>
+        kernels_;                     ///< and stage
     bool kernelsFetchTexels_ = false; ///< all of them, and of seePipelines_
     std::map<std::vector<uint32_t>, vulkan::ComputePipeline> seePipelines_; ///< by their constants
     // Of the picture:
@@ -73,7 +80,7 @@ class VulkanBackend final : public Backend, public Viewer {
     const PathKernel* kernel_ = nullptr; ///< one of kernels_
     std::unique_ptr<DeviceFilm> film_;
     std::unique_ptr<vulkan::Buffer> filter_; ///< the table of its pixel filter
-    std::unique_ptr<Dispatcher> dispatcher_; ///< refers to film, filter and kernel
+    std::unique_ptr<Dispatcher> dispatcher_; ///< refers to film, filter and kernels
 };
 
 } // namespace stromboli

@@ -25,8 +25,8 @@ VkBufferUsageFlags usageOf(BufferUse use) {
         return kCopies | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
     case BufferUse::Uniform:
         return kCopies | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
-    default:
-        return kCopies | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    default: // the queues of the wavefront scheduler are read by indirect dispatches as well
+        return kCopies | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
     }
 }
 

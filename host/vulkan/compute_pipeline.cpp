@@ -171,9 +171,10 @@ DescriptorSet::DescriptorSet(const Device& device, const ComputePipeline& pipeli
                                        nullptr);
 }
 
-void recordDispatch(const Device& device, VkCommandBuffer commands, const ComputePipeline& pipeline,
-                    const DescriptorSet& set, std::span<const std::byte> pushConstants,
-                    uint32_t groups) {
+namespace {
+
+void bind(const Device& device, VkCommandBuffer commands, const ComputePipeline& pipeline,
+          const DescriptorSet& set, std::span<const std::byte> pushConstants) {
     const VolkDeviceTable& vk = device.vk();
     const VkDescriptorSet handle = set.handle();
     vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle());
@@ -182,7 +183,24 @@ void recordDispatch(const Device& device, VkCommandBuffer commands, const Comput
     if (!pushConstants.empty())
         vk.vkCmdPushConstants(commands, pipeline.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                               uint32_t(pushConstants.size()), pushConstants.data());
-    vk.vkCmdDispatch(commands, groups, 1, 1);
+}
+
+} // namespace
+
+void recordDispatch(const Device& device, VkCommandBuffer commands, const ComputePipeline& pipeline,
+                    const DescriptorSet& set, std::span<const std::byte> pushConstants,
+                    uint32_t groups) {
+    bind(device, commands, pipeline, set, pushConstants);
+    device.vk().vkCmdDispatch(commands, groups, 1, 1);
+    fullBarrier(device, commands);
+}
+
+void recordIndirectDispatch(const Device& device, VkCommandBuffer commands,
+                            const ComputePipeline& pipeline, const DescriptorSet& set,
+                            std::span<const std::byte> pushConstants, const Buffer& counts,
+                            uint64_t offset) {
+    bind(device, commands, pipeline, set, pushConstants);
+    device.vk().vkCmdDispatchIndirect(commands, counts.handle(), offset);
     fullBarrier(device, commands);
 }
 

@@ -60,5 +60,10 @@ class DescriptorSet {
 void recordDispatch(const Device& device, VkCommandBuffer commands, const ComputePipeline& pipeline,
                     const DescriptorSet& set, std::span<const std::byte> pushConstants,
                     uint32_t groups);
+/// The same with as many groups as `counts` says (VkDispatchIndirectCommand), `offset` bytes in.
+void recordIndirectDispatch(const Device& device, VkCommandBuffer commands,
+                            const ComputePipeline& pipeline, const DescriptorSet& set,
+                            std::span<const std::byte> pushConstants, const Buffer& counts,
+                            uint64_t offset);
 
 } // namespace stromboli::vulkan

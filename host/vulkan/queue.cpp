@@ -103,11 +103,14 @@ void fullBarrier(const Device& device, VkCommandBuffer commands) {
         .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
         .dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
                          VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT |
-                         VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_HOST_READ_BIT};
+                         VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_HOST_READ_BIT |
+                         VK_ACCESS_INDIRECT_COMMAND_READ_BIT};
     const VkPipelineStageFlags device_ =
         VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
-    device.vk().vkCmdPipelineBarrier(commands, device_, device_ | VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
-                                     &barrier, 0, nullptr, 0, nullptr);
+    device.vk().vkCmdPipelineBarrier(commands, device_,
+                                     device_ | VK_PIPELINE_STAGE_HOST_BIT |
+                                         VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+                                     0, 1, &barrier, 0, nullptr, 0, nullptr);
 }
 
 } // namespace stromboli::vulkan

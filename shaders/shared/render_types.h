@@ -48,8 +48,10 @@ struct Dispatch {
     uint groupsPerThread;  ///< that a thread of the driver runs in turn; 0: not known
     uint sharedIterations; ///< of all lanes together until each thread shall have ended one group
     uint beginsNoSample;   ///< 1: the render was stopped; only what is under way may be ended
+    uint rayQueue; ///< wavefront scheduler: QUEUE_ number of the rays of this round
+    uint unused0, unused1, unused2;
 };
-SHARED_ROWS(Dispatch, 2);
+SHARED_ROWS(Dispatch, 3);
 
 /// One pixel's work in a pass.
 struct WorkItem {

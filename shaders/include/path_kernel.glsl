@@ -1,0 +1,122 @@
+// What both schedulers of the path kernel have in common (pathtrace.comp, wavefront.comp): what is bound, the
+// functions of a path, and the pixels of the work list.
+
+#include "shared/interface.h"
+#include "shared/scene_types.h"
+#include "shared/render_types.h"
+#include "shared/texture_types.h"
+
+#include "include/specialisation.glsl"
+#include "include/fetch.glsl"
+#include "include/film.glsl"
+
+layout(set = 0, binding = BINDING_FRAME, std140) uniform FrameBuffer { Frame frameBuffer; };
+layout(set = 0, binding = BINDING_STATUS, std430) buffer StatusBuffer { DispatchStatus status; };
+layout(push_constant) uniform DispatchConstants { Dispatch dispatchConstants; };
+
+// Uniforms are read once, before all loops (docs/kernel.md, "Nothing is moved out of loops").
+Frame frame;
+Dispatch dispatch;
+
+#include "include/numerics.glsl"
+#include "include/random.glsl"
+#include "include/intersect.glsl"
+#include "include/traverse.glsl"
+#include "include/camera.glsl"
+#include "include/warps.glsl"
+#include "include/pixel_filter.glsl"
+#include "include/cs184.glsl"
+#include "include/surface.glsl"
+#include "bsdf/bsdf.glsl"
+#include "include/material_detail.glsl"
+#include "include/relief.glsl"
+#include "lights/lights.glsl"
+#include "include/mis.glsl"
+#include "include/gap_proposal.glsl"
+#include "include/two_sides.glsl"
+#include "include/medium.glsl"
+#include "include/accumulate.glsl"
+#include "include/path.glsl"
+
+/// What a lane has in hand of the work list, and what it counts.
+struct Job {
+    uint item;        ///< of the work list; NO_ITEM: none
+    uint pixel;       ///< of the item, in the film segment
+    uint target;      ///< samples it shall have
+    uint sampleCount; ///< taken in this dispatch
+    uint busySteps, allSteps;
+};
+
+uint samplesTaken(PathState path) { return path.pixelState.count + path.pixelState.rejected; }
+
+/// Is ready for a new sample, but this pixel has all of its own.
+bool wantsPixel(PathState path, Job job) { return path.phase == PHASE_NEXT && (job.item == NO_ITEM || samplesTaken(path) >= job.target); }
+
+/// Fetches the pixel of job.item. Returns how many samples the work list wants of it.
+uint fetchPixelInHand(inout PathState path, inout Job job) {
+    const WorkItem work = fetchWorkItem(job.item);
+    job.pixel = work.pixel;
+    path.pixelState = fetchPixel(job.pixel);
+    path.pixelAt = uvec2(work.column, work.row);
+    path.pixelId = path.pixelAt.y * frame.width + path.pixelAt.x;
+    return work.target;
+}
+
+void takeUp(inout PathState path, inout Job job, uint newItem) {
+    job.item = newItem;
+    if (job.item == NO_ITEM) return;
+    job.target = fetchPixelInHand(path, job);
+    job.sampleCount -= samplesTaken(path);
+}
+
+void putDown(inout PathState path, inout Job job) {
+    if (job.item == NO_ITEM) return;
+    if (frame.keepsValue != 0u && samplesTaken(path) >= job.target) path.pixelState.sum = path.radiance;
+    storePixel(job.pixel, path.pixelState);
+    job.sampleCount += samplesTaken(path);
+    job.item = NO_ITEM;
+}
+
+/// When the pixel has all its samples, goes on with the next one that no lane has taken. No pixel
+/// depends on which lane it falls to.
+void changePixel(inout PathState path, inout Job job, bool mayGoOn) {
+    if (!wantsPixel(path, job)) return;
+    putDown(path, job);
+    path.phase = PHASE_FINISHED;
+    if (!mayGoOn) return;
+    const uint taken = atomicAdd(status.nextItem, 1u);
+    if (taken >= dispatch.itemCount) return;
+    takeUp(path, job, taken);
+    path.pixelState.samplesBefore = frame.firstSample + samplesTaken(path);
+    path.phase = PHASE_NEXT;
+}
+
+/// Of random numbers (randomWords); no sample uses it.
+const uint STOPPING_BLOCK = 0x7FFFFFFFu;
+
+/// The render was stopped while this lane had a pixel in hand: is its sample under way to be ended, or
+/// dropped? Samples that take long are under way more often than others, and are often brighter. A pixel
+/// that has no other sample ends it and one that began in this pass drops it, which leaves its mean
+/// without bias (Glynn and Heidelberger 1990); with samples of earlier passes the errors of ending and
+/// dropping cancel, to the first order, where it is ended with the share of those in all (docs/estimator.md,
+/// "A render that is stopped"). The choice knows nothing of the samples' values.
+bool endsSampleUnderWay(PathState path) {
+    const uint taken = frame.firstSample + samplesTaken(path);
+    if (taken == 0u) return true;
+    const uint word = pcg4d(uvec4(path.pixelId, taken, STOPPING_BLOCK, frame.seed)).x;
+    return float(word >> 8u) * (1.0 / 16777216.0) * float(taken) < float(path.pixelState.samplesBefore);
+}
+
+/// What follows from the ray is worked out anew in each pass, not kept beside it (docs/kernel.md,
+/// "Nothing is moved out of loops").
+void traverseSomeSteps(inout PathState path, inout Job job) {
+    const Ray prepared = makeRay(path.ray.origin, path.ray.direction);
+    for (uint leg = 0u; leg < TRAVERSAL_LEGS; ++leg) {
+        const Ray aimed = prepareLeg(path.ray, prepared);
+        for (uint k = 0u; k < TRAVERSAL_STEPS; ++k) {
+            if (COUNT_STEPS) job.busySteps += traversing(path.ray) ? 1u : 0u;
+            traversalStep(path.ray, aimed);
+        }
+        if (COUNT_STEPS) job.allSteps += TRAVERSAL_STEPS;
+    }
+}

@@ -1,0 +1,156 @@
+#version 460
+// The path kernel with the wavefront scheduler: the same functions as in pathtrace.comp, in stages that are kernels
+// of their own. Paths lie in memory; each stage serves those in its queue and puts them into the queue of the next
+// one (docs/kernel.md, "Two schedulers"). A kernel that traces needs few registers, and its lanes all trace.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_shader_subgroup_vote : require
+#extension GL_KHR_shader_subgroup_ballot : require
+
+#include "include/path_kernel.glsl"
+#include "shared/wavefront_types.h"
+
+layout(constant_id = SPEC_STAGE) const uint STAGE = STAGE_TRACE;
+
+layout(set = 0, binding = BINDING_SUSPENDED, std430) buffer PathBuffer { uint pathWords[]; };
+layout(set = 0, binding = BINDING_SPLITS, std430) buffer QueueBuffer {
+    QueueHead heads[QUEUE_COUNT];
+    uint queued[]; ///< numbers of paths, laneCount for each queue
+};
+
+#include "include/path_memory.glsl"
+
+/// Puts this lane's path into a queue, if `wanted`. One atomic operation for a subgroup.
+void enqueue(uint queue, bool wanted, uint slot) {
+    const uvec4 those = subgroupBallot(wanted);
+    const uint count = subgroupBallotBitCount(those);
+    uint first = 0u;
+    if (subgroupElect() && count > 0u) {
+        first = atomicAdd(heads[queue].count, count);
+        atomicMax(heads[queue].groups, (first + count + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x);
+    }
+    first = subgroupBroadcastFirst(first);
+    if (wanted) queued[queue * dispatch.laneCount + first + subgroupBallotExclusiveBitCount(those)] = slot;
+}
+
+uint countOf(bool those) { return subgroupBallotBitCount(subgroupBallot(those)); }
+
+/// Sends a path on, by what it asks for. One without a ray passes through STAGE_TRACE untouched.
+void sendOn(bool isThere, uint slot, uint phase, uint rayQueue) {
+    const bool departs = phase == PHASE_BOUNCE || phase == PHASE_NEXT;
+    enqueue(QUEUE_DEPARTING, isThere && departs, slot);
+    enqueue(rayQueue, isThere && !departs && phase != PHASE_FINISHED, slot);
+}
+
+void beginPath(bool isThere, uint slot) {
+    PathState path;
+    Job job;
+    if (isThere) {
+        loadPath(slot, path, job);
+        path.phase = PHASE_NEXT;
+        job.item = NO_ITEM;
+        job.target = 0u;
+        storePath(slot, path, job, BY_DEPART);
+    }
+    sendOn(isThere, slot, PHASE_NEXT, QUEUE_RAYS);
+}
+
+void stopPath(bool isThere, uint slot) {
+    PathState path;
+    Job job;
+    job.item = NO_ITEM;
+    path.phase = PHASE_FINISHED;
+    if (isThere) loadPath(slot, path, job);
+    const bool hasPixel = isThere && job.item != NO_ITEM;
+    if (hasPixel) fetchPixelInHand(path, job);
+    if (hasPixel && !wantsPixel(path, job)) {
+        const bool ends = endsSampleUnderWay(path);
+        job.target = samplesTaken(path) + (ends ? 1u : 0u);
+        if (!ends) path.phase = PHASE_NEXT;
+        storePath(slot, path, job, BY_DEPART);
+    }
+    sendOn(hasPixel, slot, path.phase, QUEUE_RAYS);
+}
+
+void departPath(bool isThere, uint slot) {
+    PathState path;
+    Job job;
+    path.phase = PHASE_FINISHED;
+    job.sampleCount = 0u;
+    if (isThere) {
+        loadPath(slot, path, job);
+        if (job.item != NO_ITEM) fetchPixelInHand(path, job);
+        changePixel(path, job, dispatch.beginsNoSample == 0u);
+        if (path.phase == PHASE_NEXT && job.item != NO_ITEM) storePixel(job.pixel, path.pixelState); // samplesBefore
+        if (path.phase == PHASE_BOUNCE || path.phase == PHASE_NEXT && !wantsPixel(path, job)) depart(path);
+        storePath(slot, path, job, BY_DEPART);
+    }
+    // One whose next pixel has all its samples already comes back in the next round.
+    enqueue(dispatch.rayQueue, isThere && path.phase != PHASE_FINISHED, slot);
+}
+
+void tracePath(bool isThere, uint slot) {
+    PathState path;
+    Job job;
+    job.busySteps = 0u;
+    job.allSteps = 0u;
+    path.phase = PHASE_FINISHED;
+    endTraversal(path.ray);
+    if (isThere) loadPath(slot, path, job);
+    const bool traces = isTracing(path.phase);
+    if (traces) startRay(path);
+    uint iteration = 0u;
+    while (traversing(path.ray) && iteration < dispatch.hardIterations) {
+        traverseSomeSteps(path, job);
+        ++iteration;
+    }
+    if (traversing(path.ray)) atomicAdd(status.overflowedItems, 1u);
+    if (traces) storePath(slot, path, job, BY_TRACE);
+    const uint rays = countOf(traces);
+    if (subgroupElect()) atomicAdd(status.rays, rays);
+    if (COUNT_STEPS) {
+        atomicAdd(status.busySteps, job.busySteps);
+        atomicAdd(status.allSteps, job.allSteps);
+    }
+}
+
+void followStoredPath(bool isThere, uint slot) {
+    PathState path;
+    Job job;
+    path.phase = PHASE_FINISHED;
+    bool endsSample = false;
+    if (isThere) {
+        loadPath(slot, path, job);
+        fetchPixelInHand(path, job);
+        endsSample = path.phase != PHASE_NEXT;
+        if (endsSample) followPath(path);
+        endsSample = endsSample && path.phase == PHASE_NEXT;
+        if (endsSample) storePixel(job.pixel, path.pixelState);
+        storePath(slot, path, job, BY_FOLLOW);
+    }
+    sendOn(isThere, slot, path.phase, QUEUE_RAYS + QUEUE_RAYS + 1u - dispatch.rayQueue);
+    const uint samples = countOf(endsSample);
+    if (subgroupElect()) atomicAdd(status.samples, samples);
+}
+
+void main() {
+    frame = frameBuffer;
+    dispatch = dispatchConstants;
+    findPictureGrid();
+    findOnlyLight();
+    if (GAP_PROPOSAL) findGap();
+    const uint lane = gl_GlobalInvocationID.x;
+    if (STAGE == STAGE_BEGIN) {
+        beginPath(lane < dispatch.laneCount, lane);
+        return;
+    }
+    if (STAGE == STAGE_STOP) {
+        stopPath(lane < dispatch.laneCount, lane);
+        return;
+    }
+    const uint queue = STAGE == STAGE_DEPART ? QUEUE_DEPARTING : dispatch.rayQueue;
+    const bool isThere = lane < heads[queue].count;
+    const uint slot = isThere ? queued[queue * dispatch.laneCount + lane] : 0u;
+    if (STAGE == STAGE_DEPART) departPath(isThere, slot);
+    if (STAGE == STAGE_TRACE) tracePath(isThere, slot);
+    if (STAGE == STAGE_FOLLOW) followStoredPath(isThere, slot);
+}

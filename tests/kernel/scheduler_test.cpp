@@ -1,0 +1,162 @@
+// The two schedulers run the same functions of a path, so that they make the same picture to the
+// last bit; and each ends a render that is stopped.
+#include "host/bvh/wide_layout.hpp"
+#include "host/kernel/direct_sampling.hpp"
+#include "host/render/render.hpp"
+#include "scene/generate/scene_maker.hpp"
+#include "scene/read_scene.hpp"
+#include "tests/render/device_render.hpp"
+#include "tests/support/device_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+namespace stromboli {
+namespace {
+
+using namespace test;
+
+bool sameStatistics(const Film& a, const Film& b) {
+    for (size_t i = 0; i < a.pixels.size(); ++i)
+        if (a.pixels[i].count != b.pixels[i].count || a.pixels[i].mean != b.pixels[i].mean ||
+            a.pixels[i].m2 != b.pixels[i].m2)
+            return false;
+    return a.pixels.size() == b.pixels.size();
+}
+
+class SchedulerTest : public DeviceTest {
+  protected:
+    SchedulerTest() {
+        settings_.area.width = 61, settings_.area.height = 37;
+        settings_.budget.mostSamplesPerPixel = 4;
+    }
+
+    Film pictureOf(const Scene& loaded, const KernelTuning& tuning) const {
+        const GpuScene scene =
+            packScene(loaded, buildWideBvh(loaded), lightSelection(settings_.estimator));
+        const Camera camera = makeCamera(loaded, CameraChoice::Automatic, settings_.area.width,
+                                         settings_.area.height);
+        VulkanBackend backend(testDevice(), scene, camera, settings_, tuning);
+        Film film = render(backend, settings_);
+        rays_ = backend.counters().rays;
+        paths_ = backend.counters().paths;
+        return film;
+    }
+
+    /// With few and many paths under way, and with submissions of a single round.
+    void expectSamePictures(const Scene& scene) const {
+        const Film persistent = pictureOf(scene, {.scheduler = PathScheduler::Persistent});
+        const uint64_t rays = rays_, paths = paths_;
+        for (const uint32_t lanes : {100u, 4096u}) {
+            const Film wavefront =
+                pictureOf(scene, {.scheduler = PathScheduler::Wavefront, .lanes = lanes});
+            EXPECT_TRUE(sameStatistics(persistent, wavefront)) << lanes << " paths under way";
+            EXPECT_EQ(rays_, rays);
+            EXPECT_EQ(paths_, paths);
+        }
+        EXPECT_TRUE(sameStatistics(
+            persistent,
+            pictureOf(scene, {.scheduler = PathScheduler::Wavefront, .fixedIterations = 1})));
+    }
+
+    RenderSettings settings_;
+    mutable uint64_t rays_ = 0, paths_ = 0; ///< of the last picture
+};
+
+/// Of two sheets, one faces whoever looks. Rays that have come through it meet nothing, in a medium
+/// that absorbs all light but blue.
+Scene sheetsBeforeTheSky() {
+    scenes::SceneMaker b;
+    Material m;
+    m.kind = MaterialKind::Principled;
+    m.principled.metallic = 0;
+    m.principled.transmission = 1;
+    m.principled.isThin = false;
+    m.principled.roughness = 0.3f;
+    m.principled.attenuationColor = {0.5f, 0.1f, 1};
+    m.principled.attenuationDistance = 0.3f;
+    const uint32_t glass = b.add(m);
+    b.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, glass);
+    b.quad({1, -1, 0}, {0, 2, 0}, {2, 0, 0}, glass);
+    b.add(scenes::ambient(1));
+    return b.scene;
+}
+
+TEST_F(SchedulerTest, BoxesAndSpheresAreTheSame) {
+    expectSamePictures(readScene("cornell_boxes"));
+    expectSamePictures(readScene("cornell_mirror_glass"));
+}
+
+TEST_F(SchedulerTest, TexturesAndOpacityAreTheSame) {
+    expectSamePictures(readScene("texture_chart"));
+}
+
+TEST_F(SchedulerTest, PlacementsAreTheSame) {
+    expectSamePictures(readScene("generate:forest:8"));
+}
+
+TEST_F(SchedulerTest, MediaAreTheSame) {
+    expectSamePictures(sheetsBeforeTheSky());
+}
+
+TEST_F(SchedulerTest, EveryWayToFindLightIsTheSame) {
+    const Scene stillLife = readScene("still_life");
+    expectSamePictures(stillLife);
+    settings_.estimator.lightSamples = 3;
+    settings_.estimator.directLight = DirectLight::Hemisphere;
+    expectSamePictures(stillLife);
+    settings_.estimator.directLight = DirectLight::Mis;
+    settings_.estimator.branches = 3;
+    expectSamePictures(stillLife);
+    settings_.estimator.filter = PixelFilter::Mitchell;
+    expectSamePictures(stillLife);
+}
+
+TEST_F(SchedulerTest, OtherIntegratorsAreTheSame) {
+    for (const Integrator integrator : {Integrator::Normals, Integrator::Depth}) {
+        settings_.estimator.integrator = integrator;
+        expectSamePictures(readScene("cornell_mesh"));
+    }
+}
+
+/// A work list in parts, and samples in several passes over it.
+TEST_F(SchedulerTest, PartsOfTheWorkAreTheSame) {
+    const Scene scene = readScene("cornell_mesh");
+    const Film persistent = pictureOf(scene, {.scheduler = PathScheduler::Persistent});
+    EXPECT_TRUE(sameStatistics(persistent, pictureOf(scene, {.scheduler = PathScheduler::Wavefront,
+                                                             .lanes = 64,
+                                                             .itemsPerDispatch = 100})));
+}
+
+/// Where a render is stopped, each pixel that was begun has whole samples, all others have none,
+/// and the work list is left.
+TEST_F(SchedulerTest, AStoppedRenderEndsItsSamples) {
+    const Scene loaded = readScene("cornell_boxes");
+    const GpuScene scene =
+        packScene(loaded, buildWideBvh(loaded), lightSelection(settings_.estimator));
+    const Camera camera = makeCamera(loaded, CameraChoice::Automatic, 61, 37);
+    VulkanBackend backend(
+        testDevice(), scene, camera, settings_,
+        {.scheduler = PathScheduler::Wavefront, .lanes = 64, .fixedIterations = 3});
+    Film film(settings_.area);
+    std::vector<PixelTarget> targets;
+    for (uint32_t i = 0; i < 61 * 37; ++i)
+        targets.push_back({i, 4});
+    int calls = 0;
+    backend.sample(targets, film, [&](uint64_t) { return ++calls < 10; });
+    uint64_t samples = 0, begun = 0;
+    for (uint32_t i = 0; i < 61 * 37; ++i) {
+        samples += film.pixels[i].count;
+        begun += film.pixels[i].count > 0;
+        EXPECT_LE(film.pixels[i].count, 4u);
+    }
+    EXPECT_EQ(samples, backend.counters().paths);
+    EXPECT_GT(begun, 0u);
+    EXPECT_LT(begun, 61u * 37u);
+    // What is missing is rendered as if nothing had happened.
+    backend.sample(targets, film, {});
+    for (uint32_t i = 0; i < 61 * 37; ++i)
+        EXPECT_EQ(film.pixels[i].count, 4u);
+}
+
+} // namespace
+} // namespace stromboli
