@@ -10,6 +10,7 @@ int renderCommand(const Options& options);
 int sampleCommand(const Options& options);
 int checkCommand(const Options& options);
 int infoCommand(const Options& options);
+int kernelsCommand(const Options& options);
 int devicesCommand(const Options& options);
 int benchCommand(const Options& options);
 int compareCommand(const Options& options);

@@ -115,6 +115,11 @@ void declareRender(DeclaredCommand& c) {
     declareFilmMemory(c);
     c.list.choice("--backend", "WHICH", "what takes the samples", o.backend);
     declareDevice(c);
+    c.list
+        .choice("--scheduler", "WHICH",
+                "what a device's lanes do next; the picture is the same (docs/kernel.md)",
+                o.scheduler)
+        .besidePicture();
     declareHost(c);
     c.list
         .number("--accumulate", "N", "CS184's -o: 0 is --min-bounce equal to -m",
@@ -181,6 +186,27 @@ void declareInfo(DeclaredCommand& c) {
     };
 }
 
+void declareKernels(DeclaredCommand& c) {
+    declareScene(c);
+    declarePicture(c);
+    declareEstimator(c);
+    declareSampler(c, c.options.estimator.sampler);
+    declareDevice(c);
+    c.list
+        .text(
+            "--device-family", "F",
+            "compile for this family of AMD GPUs, which need not be there: navi21, gfx1100, vega10",
+            c.options.deviceFamily)
+        .usually("the device itself")
+        .proposes({"navi21", "gfx1100", "vega10"});
+    declareHost(c);
+    c.finish = [&c] {
+        finishPicture(c);
+        finishEstimator(c);
+        finishBudget(c, false);
+    };
+}
+
 void declareDevices(DeclaredCommand& c) {
     declareDevice(c);
 }
@@ -230,6 +256,9 @@ std::deque<DeclaredCommand> declareCommands() {
         {Command::Info, "info",
          "What a scene holds, what its kernel contains, sizes of all buffers, its BVH",
          declareInfo},
+        {Command::Kernels, "kernels",
+         "What a GPU's driver makes of a scene's kernels: registers, spills, waves",
+         declareKernels},
         {Command::Devices, "devices", "List Vulkan devices and which one is chosen, and why",
          declareDevices},
         {Command::Bench, "bench",

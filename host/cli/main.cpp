@@ -39,6 +39,8 @@ int run(const stromboli::Options& options) {
         return stromboli::checkCommand(options);
     case Command::Info:
         return stromboli::infoCommand(options);
+    case Command::Kernels:
+        return stromboli::kernelsCommand(options);
     case Command::Devices:
         return stromboli::devicesCommand(options);
     case Command::Bench:

@@ -8,6 +8,7 @@
 #include "host/core/named_values.hpp"
 #include "host/farm/film_header.hpp"
 #include "host/film/tone.hpp"
+#include "host/kernel/kernel_tuning.hpp"
 #include "host/render/layers.hpp"
 #include "host/render/settings.hpp"
 #include "scene/add_environment.hpp"
@@ -25,6 +26,7 @@ enum class Command {
     Render,
     Check,
     Info,
+    Kernels,
     Devices,
     Bench,
     Stress,
@@ -48,6 +50,12 @@ template <>
 inline constexpr auto kNamedValues<BackendChoice> = std::to_array<NamedValue<BackendChoice>>({
     {BackendChoice::Vulkan, "vulkan", "the kernel, on a Vulkan device"},
     {BackendChoice::Reference, "reference", "the slow double-precision path tracer on the CPU"},
+});
+
+template <>
+inline constexpr auto kNamedValues<PathScheduler> = std::to_array<NamedValue<PathScheduler>>({
+    {PathScheduler::Persistent, "persistent", "one kernel, whose lanes follow paths"},
+    {PathScheduler::Wavefront, "wavefront", "kernels that draw, trace and follow, with queues"},
 });
 template <>
 inline constexpr auto kNamedValues<CameraChoice> = std::to_array<NamedValue<CameraChoice>>({
@@ -110,6 +118,8 @@ struct Options {
     std::vector<std::string> cameras;
     SequenceOptions sequence;
     std::string device;
+    PathScheduler scheduler = PathScheduler::Persistent;
+    std::string deviceFamily; ///< of AMD GPUs, of `kernels`: compile for it; empty: for the device
     BackendChoice backend = BackendChoice::Vulkan;
     ToneCurve tone;
     std::string statsFile;

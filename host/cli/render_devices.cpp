@@ -13,8 +13,9 @@
 
 namespace stromboli {
 
-RenderDevices::RenderDevices(const std::string& wanted)
-    : wanted_(wanted), opening_(std::async(std::launch::async, vulkan::openDevices, wanted)) {}
+RenderDevices::RenderDevices(const std::string& wanted, PathScheduler scheduler)
+    : wanted_(wanted), scheduler_(scheduler),
+      opening_(std::async(std::launch::async, vulkan::openDevices, wanted)) {}
 
 void RenderDevices::open() {
     if (!opening_.valid()) return;
@@ -94,7 +95,8 @@ void RenderDevices::prepare(Seat& seat, const Camera& camera,
         seat.backend->setPicture(camera, settings);
         return;
     }
-    seat.backend = std::make_shared<VulkanBackend>(*seat.open.device, *scene_, camera, settings);
+    seat.backend = std::make_shared<VulkanBackend>(*seat.open.device, *scene_, camera, settings,
+                                                   KernelTuning{.scheduler = scheduler_});
 }
 
 /// At the same time on all of them: compiling the kernel takes seconds on some.

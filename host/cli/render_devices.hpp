@@ -16,7 +16,7 @@ namespace stromboli {
 class RenderDevices {
   public:
     /// Begins to open them, on another thread.
-    explicit RenderDevices(const std::string& wanted);
+    RenderDevices(const std::string& wanted, PathScheduler scheduler);
 
     /// Waits until they are open. Throws DeviceError.
     void open();
@@ -58,6 +58,7 @@ class RenderDevices {
     void prepareAll(const Camera& camera, const RenderSettings& settings);
 
     std::string wanted_;
+    PathScheduler scheduler_;
     std::future<std::vector<vulkan::OpenDevice>> opening_;
     std::vector<Seat> seats_;
     const GpuScene* scene_ = nullptr;

@@ -26,7 +26,8 @@ uint64_t bytesPerPixel(const Job& job, const Options& options) {
 } // namespace
 
 Renderer::Renderer(const Options& options) {
-    if (options.backend == BackendChoice::Vulkan) devices_.emplace(options.device);
+    if (options.backend == BackendChoice::Vulkan)
+        devices_.emplace(options.device, options.scheduler);
 }
 
 void Renderer::render(const Job& job, const Options& options, const TakeSamples& take,

@@ -18,9 +18,9 @@ enum class PathScheduler {
 struct KernelTuning {
     std::optional<bool> texelFetch; ///< read the scene through storage texel buffers
     std::optional<uint32_t> workgroupSize;
-    std::optional<uint32_t> traversalSteps;   ///< between two service passes, or in a leg
-    std::optional<uint32_t> traversalLegs;    ///< where prototypes are placed
-    std::optional<uint32_t> registerStack;    ///< largest traversal stack that is in registers
+    std::optional<uint32_t> traversalSteps; ///< between two service passes, or in a leg
+    std::optional<uint32_t> traversalLegs;  ///< where prototypes are placed
+    std::optional<uint32_t> registerStack;  ///< largest traversal stack that is in registers
     std::optional<PathScheduler> scheduler;
     std::optional<uint32_t> lanes; ///< invocations of a dispatch; wavefront: paths under way
     std::optional<uint32_t> driverThreads;    ///< 0: unknown

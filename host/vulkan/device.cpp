@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 namespace stromboli::vulkan {
 namespace {
@@ -61,11 +62,22 @@ DeviceDescription describe(VkPhysicalDevice handle) {
         (subgroup.supportedOperations & kNeeded) != kNeeded)
         d.missing = "subgroup votes and ballots in compute shaders";
     if (d.queueFamily < 0) d.missing = "a queue with compute";
+    if (d.memory == 0)
+        d.missing = "memory: it is a driver that compiles for hardware that is not there";
     // llvmpipe takes any width; above 16 lanes it was seen to leave out the others.
     if (d.isCpu() && d.subgroupSize > 16)
         d.missing =
             "a right way to run more than 16 lanes; set LP_NATIVE_VECTOR_WIDTH to 512 at most";
     return d;
+}
+
+bool hasExtension(VkPhysicalDevice handle, std::string_view name) {
+    uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(handle, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateDeviceExtensionProperties(handle, nullptr, &count, extensions.data());
+    return std::ranges::any_of(
+        extensions, [&](const VkExtensionProperties& e) { return name == e.extensionName; });
 }
 
 } // namespace
@@ -101,20 +113,32 @@ std::vector<DeviceDescription> listDevices(const Instance& instance) {
 }
 
 Device::Device(const Instance&, const DeviceDescription& description,
-               std::optional<BlobCache> cache)
-    : description_(description) {
+               std::optional<BlobCache> cache, DeviceUse use)
+    : description_(description), use_(use) {
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                            .queueFamilyIndex = uint32_t(description.queueFamily),
                                            .queueCount = 1,
                                            .pQueuePriorities = &priority};
-    const char* const extension = VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME;
+    std::vector<const char*> extensions;
+    if (description.floatControls.any())
+        extensions.push_back(VK_KHR_SHADER_FLOAT_CONTROLS_EXTENSION_NAME);
+    VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR,
+        .pipelineExecutableInfo = VK_TRUE};
+    if (use == DeviceUse::Compiling) {
+        if (!hasExtension(description.handle, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME))
+            throw DeviceError(description.name() +
+                              ": its driver does not say what it makes of kernels "
+                              "(VK_KHR_pipeline_executable_properties)");
+        extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
+    }
     const VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                     .pNext = use == DeviceUse::Compiling ? &statistics : nullptr,
                                      .queueCreateInfoCount = 1,
                                      .pQueueCreateInfos = &queue,
-                                     .enabledExtensionCount =
-                                         description.floatControls.any() ? 1u : 0u,
-                                     .ppEnabledExtensionNames = &extension};
+                                     .enabledExtensionCount = uint32_t(extensions.size()),
+                                     .ppEnabledExtensionNames = extensions.data()};
     check(vkCreateDevice(description.handle, &info, nullptr, &device_),
           "open device " + description.name());
     volkLoadDeviceTable(&table_, device_);
@@ -125,7 +149,7 @@ Device::Device(const Instance&, const DeviceDescription& description,
 }
 
 Device::~Device() {
-    if (!device_) return;
+    if (!device_ || use_ == DeviceUse::Compiling) return;
     table_.vkDeviceWaitIdle(device_);
     kept_.clear();
     pipelines_.reset();

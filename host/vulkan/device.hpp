@@ -20,7 +20,7 @@ struct DeviceDescription {
     std::string uuid;   ///< tells twin devices apart
     std::string driver; ///< name and version, as the driver states them
     uint32_t subgroupSize = 0;
-    uint64_t memory = 0;            ///< largest device-local heap, bytes
+    uint64_t memory = 0; ///< largest device-local heap, bytes; 0: a driver without hardware
     uint64_t largestAllocation = 0; ///< maxMemoryAllocationSize, bytes
     int queueFamily = -1;           ///< with compute; -1: none
     uint32_t timestampBits = 0;
@@ -38,17 +38,29 @@ struct DeviceDescription {
 /// All devices in the loader's order.
 std::vector<DeviceDescription> listDevices(const Instance& instance);
 
+/// What a device is opened for.
+enum class DeviceUse {
+    Rendering,
+    /// Its driver is to say what it makes of kernels (pipeline_statistics.hpp). It may be a driver
+    /// without hardware, such as RADV with RADV_FORCE_FAMILY, which crashes when a device is
+    /// destroyed (Mesa 22.3): the device is left to the end of the process.
+    Compiling,
+};
+
 /// A logical device with one compute queue.
 class Device {
   public:
-    /// `cache`: where compiled pipelines are kept between runs; none: they are not.
+    /// `cache`: where compiled pipelines are kept between runs; none: they are not. Throws
+    /// DeviceError if the device cannot be opened, or cannot do what it is opened for.
     Device(const Instance& instance, const DeviceDescription& description,
-           std::optional<BlobCache> cache = std::nullopt);
+           std::optional<BlobCache> cache = std::nullopt, DeviceUse use = DeviceUse::Rendering);
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
     VkDevice handle() const { return device_; }
+    /// Whether pipelines are made so that their statistics can be asked for.
+    bool keepsStatistics() const { return use_ == DeviceUse::Compiling; }
     VkQueue queue() const { return queue_; }
     const DeviceDescription& description() const { return description_; }
     const VkPhysicalDeviceLimits& limits() const { return description_.properties.limits; }
@@ -73,6 +85,7 @@ class Device {
 
   private:
     DeviceDescription description_;
+    DeviceUse use_;
     VkPhysicalDeviceMemoryProperties memory_{};
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;

@@ -153,6 +153,7 @@ void putWork() {
     put(dispatch.itemCount), put(dispatch.segmentBase), put(dispatch.softIterations);
     put(dispatch.hardIterations), put(dispatch.laneCount);
     put(dispatch.groupsPerThread), put(dispatch.sharedIterations), put(dispatch.beginsNoSample);
+    put(dispatch.rayQueue), put(dispatch.unused0), put(dispatch.unused1), put(dispatch.unused2);
     const WorkItem w = fetchWorkItem(1u);
     put(w.pixel), put(w.target), put(w.column), put(w.row);
     const PixelState s = fetchPixel(1u);

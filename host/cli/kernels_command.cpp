@@ -1,0 +1,101 @@
+#include "host/cli/activity.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/job.hpp"
+#include "host/core/error.hpp"
+#include "host/core/printable.hpp"
+#include "host/kernel/kernel_report.hpp"
+#include "host/vulkan/choose_device.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stromboli {
+namespace {
+
+/// What Mesa's driver for AMD GPUs is to the Vulkan loader.
+std::string radeonManifest() {
+    for (const char* folder :
+         {"/usr/share/vulkan/icd.d", "/usr/local/share/vulkan/icd.d", "/etc/vulkan/icd.d"}) {
+        std::error_code error;
+        for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+            if (entry.path().filename().string().starts_with("radeon_icd")) return entry.path();
+    }
+    throw DeviceError(
+        "--device-family needs Mesa's driver for AMD GPUs (Debian's "
+        "mesa-vulkan-drivers): no radeon_icd*.json is in the Vulkan loader's folders");
+}
+
+/// Has the Vulkan loader find that driver alone, for a GPU of that family, whether there is one or
+/// not. Both variables are read when the instance is made.
+void compileFor(const std::string& family) {
+    setenv("RADV_FORCE_FAMILY", family.c_str(), 1);
+    setenv("VK_ICD_FILENAMES", radeonManifest().c_str(), 1);
+    setenv("VK_DRIVER_FILES", radeonManifest().c_str(), 1);
+}
+
+const vulkan::DeviceDescription& chosen(const std::vector<vulkan::DeviceDescription>& devices,
+                                        const Options& options) {
+    if (options.deviceFamily.empty())
+        return devices[vulkan::chooseDevice(devices, options.device).index];
+    if (devices.empty())
+        throw DeviceError("the driver has no device of family " + options.deviceFamily +
+                          "; families are, for example, navi21, gfx1100, vega10");
+    return devices.front();
+}
+
+/// The columns: statistics that decide how many kernels are at work at a time, by the names that
+/// drivers give them.
+struct Column {
+    const char* title;
+    std::vector<const char*> names;
+};
+const std::vector<Column>& columns() {
+    static const std::vector<Column> all = {
+        {"registers", {"VGPRs", "Register Count", "GRF registers"}},
+        {"spilled", {"Spilled VGPRs", "Spill count"}},
+        {"scratch", {"Scratch size", "Local Memory Size", "Scratch Memory Size"}},
+        {"shared", {"LDS size", "Shared Memory Size"}},
+        {"instructions", {"Instructions", "Instruction Count"}},
+        {"waves", {"Subgroups per SIMD", "Max Waves"}},
+    };
+    return all;
+}
+
+std::string cell(const KernelReport& report, const Column& column) {
+    for (const char* name : column.names)
+        for (const vulkan::PipelineStatistic& s : report.statistics)
+            if (s.name == name) return fmt::format("{:g}", s.value);
+    return "-";
+}
+
+} // namespace
+
+int kernelsCommand(const Options& options) {
+    if (!options.deviceFamily.empty()) compileFor(options.deviceFamily);
+    const Job job = prepareJob(options);
+    const BuiltScene built = buildScene(job);
+    const vulkan::Instance instance(vulkan::validationRequested());
+    const std::vector<vulkan::DeviceDescription> devices = vulkan::listDevices(instance);
+    const vulkan::DeviceDescription& description = chosen(devices, options);
+    const vulkan::Device device(instance, description, std::nullopt, vulkan::DeviceUse::Compiling);
+    nowDoing("compiling", StatusLine::OfOthers);
+    const std::vector<KernelReport> reports =
+        reportKernels(device, built.gpu, job.camera, job.settings.estimator);
+    fmt::print("{}\n{:<12}", printable(description.name()), "kernel");
+    for (const Column& column : columns())
+        fmt::print(" {:>12}", column.title);
+    fmt::print("\n");
+    for (const KernelReport& report : reports) {
+        fmt::print("{:<12}", report.kernel);
+        for (const Column& column : columns())
+            fmt::print(" {:>12}", cell(report, column));
+        fmt::print("\n");
+    }
+    return 0;
+}
+
+} // namespace stromboli
