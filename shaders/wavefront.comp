@@ -41,6 +41,9 @@ void sendOn(bool isThere, uint slot, uint phase, uint rayQueue) {
     enqueue(rayQueue, isThere && !departs && phase != PHASE_FINISHED, slot);
 }
 
+/// That of the next round.
+uint otherRayQueue() { return QUEUE_RAYS + QUEUE_RAYS + 1u - dispatch.rayQueue; }
+
 void beginPath(bool isThere, uint slot) {
     PathState path;
     Job job;
@@ -117,19 +120,34 @@ void followStoredPath(bool isThere, uint slot) {
     PathState path;
     Job job;
     path.phase = PHASE_FINISHED;
-    bool endsSample = false;
+    bool endsSample = false, isLit = false;
     if (isThere) {
         loadPath(slot, path, job);
         fetchPixelInHand(path, job);
-        endsSample = path.phase != PHASE_NEXT;
-        if (endsSample) followPath(path);
-        endsSample = endsSample && path.phase == PHASE_NEXT;
+        const bool goesOn = path.phase != PHASE_NEXT && takeInRay(path);
+        isLit = goesOn && wantsDirectSample(path);
+        if (goesOn && !isLit) leaveSurface(path);
+        endsSample = goesOn && path.phase == PHASE_NEXT;
         if (endsSample) storePixel(job.pixel, path.pixelState);
         storePath(slot, path, job, BY_FOLLOW);
     }
-    sendOn(isThere, slot, path.phase, QUEUE_RAYS + QUEUE_RAYS + 1u - dispatch.rayQueue);
+    enqueue(QUEUE_LIT, isLit, slot);
+    sendOn(isThere && !isLit, slot, path.phase, otherRayQueue());
     const uint samples = countOf(endsSample);
     if (subgroupElect()) atomicAdd(status.samples, samples);
+}
+
+/// A light sample that brings nothing asks for no ray; the path goes on in the next round all the same.
+void lightPath(bool isThere, uint slot) {
+    PathState path;
+    Job job;
+    if (isThere) {
+        loadPath(slot, path, job);
+        fetchPixelInHand(path, job);
+        sampleDirect(path);
+        storePath(slot, path, job, BY_LIGHT);
+    }
+    enqueue(otherRayQueue(), isThere, slot);
 }
 
 void main() {
@@ -147,10 +165,11 @@ void main() {
         stopPath(lane < dispatch.laneCount, lane);
         return;
     }
-    const uint queue = STAGE == STAGE_DEPART ? QUEUE_DEPARTING : dispatch.rayQueue;
+    const uint queue = STAGE == STAGE_DEPART ? QUEUE_DEPARTING : STAGE == STAGE_LIGHT ? QUEUE_LIT : dispatch.rayQueue;
     const bool isThere = lane < heads[queue].count;
     const uint slot = isThere ? queued[queue * dispatch.laneCount + lane] : 0u;
     if (STAGE == STAGE_DEPART) departPath(isThere, slot);
     if (STAGE == STAGE_TRACE) tracePath(isThere, slot);
     if (STAGE == STAGE_FOLLOW) followStoredPath(isThere, slot);
+    if (STAGE == STAGE_LIGHT) lightPath(isThere, slot);
 }

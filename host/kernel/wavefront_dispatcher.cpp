@@ -62,6 +62,8 @@ void WavefrontDispatcher::record(VkCommandBuffer commands, const Share& share) {
         empty(commands, gpu::QUEUE_DEPARTING);
         serve(commands, share, gpu::STAGE_TRACE, rayQueue_);
         serve(commands, share, gpu::STAGE_FOLLOW, rayQueue_);
+        serve(commands, share, gpu::STAGE_LIGHT, gpu::QUEUE_LIT);
+        empty(commands, gpu::QUEUE_LIT);
         empty(commands, rayQueue_);
         rayQueue_ = 2 * gpu::QUEUE_RAYS + 1 - rayQueue_;
     }

@@ -200,21 +200,37 @@ void finishSample(inout PathState path) {
 
 // --- Service -------------------------------------------------------------------------------------
 
-/// Takes in the finished ray. What is next: a shadow ray, which it asks for; a bounce (PHASE_BOUNCE), or
-/// another sample (PHASE_NEXT), both by depart().
-void followPath(inout PathState path) {
+/// Takes in the finished ray: its light, and where the path is now (PHASE_DIRECT, PHASE_ENDED). False: the ray goes
+/// on, as it has met something that is not there.
+bool takeInRay(inout PathState path) {
     const MaterialPoint asked = askedPoint(path);
     path.found = lookUpMaterial(asked);
-    if (HAS_ALPHA && passesThrough(path, asked, path.found.opacity)) return;
+    if (HAS_ALPHA && passesThrough(path, asked, path.found.opacity)) return false;
     if (path.phase == PHASE_SHADOW) finishShadowRay(path);
     else if (DIRECT_LIGHT == DIRECT_HEMISPHERE && path.phase == PHASE_HEMISPHERE) finishHemisphereRay(path);
     else if (path.phase == PHASE_PATH) arrive(path);
+    return true;
+}
 
+bool wantsDirectSample(PathState path) {
+    return INTEGRATOR == INTEGRATOR_PATH && path.phase == PHASE_DIRECT && path.directIndex < directSamples();
+}
+
+/// What follows when all direct light samples are done, or the path is over: the bounce (PHASE_BOUNCE), another
+/// branch, or another sample (PHASE_NEXT); depart() starts them.
+void leaveSurface(inout PathState path) {
     if (INTEGRATOR == INTEGRATOR_PATH) {
-        if (path.phase == PHASE_DIRECT && path.directIndex < directSamples()) sampleDirect(path);
         if (path.phase == PHASE_DIRECT && path.directIndex >= directSamples())
             path.phase = endsHere(path) ? PHASE_ENDED : PHASE_BOUNCE;
         if (branchIsOver(path)) nextBranch(path);
     }
     if (path.phase == PHASE_ENDED && !branchIsOver(path)) finishSample(path);
+}
+
+/// Takes in the finished ray. What is next: a shadow ray, which it asks for; a bounce (PHASE_BOUNCE), or
+/// another sample (PHASE_NEXT), both by depart().
+void followPath(inout PathState path) {
+    if (!takeInRay(path)) return;
+    if (wantsDirectSample(path)) sampleDirect(path);
+    leaveSurface(path);
 }

@@ -14,12 +14,14 @@ SHARED_CONST uint STAGE_BEGIN = 0u;  ///< each path wants a pixel of a new work 
 SHARED_CONST uint STAGE_STOP = 1u;   ///< the render was stopped: samples under way are to be ended, or dropped
 SHARED_CONST uint STAGE_DEPART = 2u; ///< changes pixels, draws camera rays and bounces
 SHARED_CONST uint STAGE_TRACE = 3u;  ///< traces rays to their ends
-SHARED_CONST uint STAGE_FOLLOW = 4u; ///< takes in what rays have met; light samples
-SHARED_CONST uint STAGE_COUNT = 5u;
+SHARED_CONST uint STAGE_FOLLOW = 4u; ///< takes in what rays have met
+SHARED_CONST uint STAGE_LIGHT = 5u;  ///< takes a light sample, which asks for a shadow ray
+SHARED_CONST uint STAGE_COUNT = 6u;
 
 SHARED_CONST uint QUEUE_DEPARTING = 0u; ///< paths that STAGE_DEPART is to serve
 SHARED_CONST uint QUEUE_RAYS = 1u;      ///< and the one after it, in turn: paths with a ray to be traced
-SHARED_CONST uint QUEUE_COUNT = 3u;
+SHARED_CONST uint QUEUE_LIT = 3u;       ///< paths that STAGE_LIGHT is to serve
+SHARED_CONST uint QUEUE_COUNT = 4u;
 
 /// A queue's length, as the indirect dispatch over it reads it (VkDispatchIndirectCommand).
 struct QueueHead {
@@ -35,6 +37,7 @@ SHARED_END
 #define BY_DEPART 1u
 #define BY_TRACE 2u
 #define BY_FOLLOW 4u
+#define BY_LIGHT 8u
 #define BY_SERVICE (BY_DEPART | BY_FOLLOW)
 
 /// A point where a path scatters (surface.glsl). exists: whether a path may have such a point.
@@ -59,16 +62,16 @@ SHARED_END
 #define PATH_FIELDS(F) \
     F(uint, job.item, true, BY_DEPART) \
     F(uint, job.target, true, BY_DEPART) \
-    F(uint, path.phase, true, BY_SERVICE) \
+    F(uint, path.phase, true, BY_SERVICE | BY_LIGHT) \
     F(uint, path.bounce, true, BY_SERVICE) \
-    F(vec3, path.ray.origin, true, BY_SERVICE) \
-    F(vec3, path.ray.direction, true, BY_SERVICE) \
-    F(float, path.ray.tMin, true, BY_SERVICE) \
-    F(float, path.ray.tMax, true, BY_SERVICE | BY_TRACE) \
-    F(float, path.rayEnd, true, BY_SERVICE) \
-    F(uint, path.ray.skipPrimitive, true, BY_SERVICE) \
-    F(uint, path.ray.skipPlacement, HAS_PLACEMENTS, BY_SERVICE) \
-    F(uint, path.ray.passed, HAS_ALPHA, BY_SERVICE) \
+    F(vec3, path.ray.origin, true, BY_SERVICE | BY_LIGHT) \
+    F(vec3, path.ray.direction, true, BY_SERVICE | BY_LIGHT) \
+    F(float, path.ray.tMin, true, BY_SERVICE | BY_LIGHT) \
+    F(float, path.ray.tMax, true, BY_SERVICE | BY_LIGHT | BY_TRACE) \
+    F(float, path.rayEnd, true, BY_SERVICE | BY_LIGHT) \
+    F(uint, path.ray.skipPrimitive, true, BY_SERVICE | BY_LIGHT) \
+    F(uint, path.ray.skipPlacement, HAS_PLACEMENTS, BY_SERVICE | BY_LIGHT) \
+    F(uint, path.ray.passed, HAS_ALPHA, BY_SERVICE | BY_LIGHT) \
     F(uint, path.ray.passedPlacement, HAS_ALPHA && HAS_PLACEMENTS, BY_SERVICE) \
     F(uint, path.ray.hitPrimitive, true, BY_TRACE) \
     F(float, path.ray.b1, true, BY_TRACE) \
@@ -82,11 +85,11 @@ SHARED_END
     F(vec3, path.departureNormal, true, BY_DEPART) \
     F(vec3, path.arrivalNumbers, true, BY_DEPART) \
     F(float, path.filterWeight, samplesHaveWeights(), BY_DEPART) \
-    F(uint, path.directIndex, true, BY_FOLLOW) \
-    F(vec3, path.directValue, true, BY_FOLLOW) \
-    F(uint, path.sampledEmitter.material, emissionHasFactors(), BY_FOLLOW) \
-    F(uint, path.sampledEmitter.primitive, emissionHasFactors(), BY_FOLLOW) \
-    F(vec2, path.sampledEmitter.weights, emissionHasFactors(), BY_FOLLOW) \
+    F(uint, path.directIndex, true, BY_FOLLOW | BY_LIGHT) \
+    F(vec3, path.directValue, true, BY_FOLLOW | BY_LIGHT) \
+    F(uint, path.sampledEmitter.material, emissionHasFactors(), BY_LIGHT) \
+    F(uint, path.sampledEmitter.primitive, emissionHasFactors(), BY_LIGHT) \
+    F(vec2, path.sampledEmitter.weights, emissionHasFactors(), BY_LIGHT) \
     SURFACE_FIELDS(F, path.surface, true, BY_FOLLOW) \
     F(uvec4, path.material.header, true, BY_FOLLOW) \
     F(uvec4, path.material.row1, true, BY_FOLLOW) \
