@@ -48,7 +48,7 @@ void beginPath(bool isThere, uint slot) {
     PathState path;
     Job job;
     if (isThere) {
-        loadPath(slot, path, job);
+        loadPath(slot, path, job, BY_DEPART);
         path.phase = PHASE_NEXT;
         job.item = NO_ITEM;
         job.target = 0u;
@@ -62,7 +62,7 @@ void stopPath(bool isThere, uint slot) {
     Job job;
     job.item = NO_ITEM;
     path.phase = PHASE_FINISHED;
-    if (isThere) loadPath(slot, path, job);
+    if (isThere) loadPath(slot, path, job, BY_DEPART);
     const bool hasPixel = isThere && job.item != NO_ITEM;
     if (hasPixel) fetchPixelInHand(path, job);
     if (hasPixel && !wantsPixel(path, job)) {
@@ -80,12 +80,14 @@ void departPath(bool isThere, uint slot) {
     path.phase = PHASE_FINISHED;
     job.sampleCount = 0u;
     if (isThere) {
-        loadPath(slot, path, job);
+        loadPath(slot, path, job, BY_DEPART);
         if (job.item != NO_ITEM) fetchPixelInHand(path, job);
         changePixel(path, job, dispatch.beginsNoSample == 0u);
         if (path.phase == PHASE_NEXT && job.item != NO_ITEM) storePixel(job.pixel, path.pixelState); // samplesBefore
+        const bool hadSplit = !SPLITS || path.splitPoint.bounce != 0u;
         if (path.phase == PHASE_BOUNCE || path.phase == PHASE_NEXT && !wantsPixel(path, job)) depart(path);
         storePath(slot, path, job, BY_DEPART);
+        if (path.phase != PHASE_FINISHED && !hadSplit && path.splitPoint.bounce != 0u) storePath(slot, path, job, AT_SPLIT);
     }
     // One whose next pixel has all its samples already comes back in the next round.
     enqueue(dispatch.rayQueue, isThere && path.phase != PHASE_FINISHED, slot);
@@ -98,7 +100,7 @@ void tracePath(bool isThere, uint slot) {
     job.allSteps = 0u;
     path.phase = PHASE_FINISHED;
     endTraversal(path.ray);
-    if (isThere) loadPath(slot, path, job);
+    if (isThere) loadPath(slot, path, job, BY_TRACE);
     const bool traces = isTracing(path.phase);
     if (traces) startRay(path);
     uint iteration = 0u;
@@ -116,20 +118,33 @@ void tracePath(bool isThere, uint slot) {
     }
 }
 
+/// A path that has ended where it had split comes back here, and the surface of the next branch is looked up as one
+/// that a ray has met.
 void followStoredPath(bool isThere, uint slot) {
     PathState path;
     Job job;
     path.phase = PHASE_FINISHED;
     bool endsSample = false, isLit = false;
     if (isThere) {
-        loadPath(slot, path, job);
+        loadPath(slot, path, job, BY_FOLLOW);
         fetchPixelInHand(path, job);
-        const bool goesOn = path.phase != PHASE_NEXT && takeInRay(path);
+        const bool returns = branchIsOver(path);
+        const bool arrives = path.phase == PHASE_PATH || returns;
+        if (returns) loadPath(slot, path, job, AT_RETURN);
+        MaterialPoint asked = askedPoint(path);
+        if (returns) asked = materialPoint(path.splitPoint.surface);
+        const bool goesOn = path.phase != PHASE_NEXT && takeInRay(path, asked);
+        if (returns) nextBranch(path, path.found.parameters);
         isLit = goesOn && wantsDirectSample(path);
-        if (goesOn && !isLit) leaveSurface(path);
-        endsSample = goesOn && path.phase == PHASE_NEXT;
-        if (endsSample) storePixel(job.pixel, path.pixelState);
+        if (goesOn && !isLit) leaveDirectLight(path);
+        endsSample = goesOn && path.phase == PHASE_ENDED && !branchIsOver(path);
+        if (endsSample) {
+            path.pixelState = fetchPixel(job.pixel);
+            finishSample(path);
+            storePixel(job.pixel, path.pixelState);
+        }
         storePath(slot, path, job, BY_FOLLOW);
+        if (arrives) storePath(slot, path, job, AT_ARRIVAL);
     }
     enqueue(QUEUE_LIT, isLit, slot);
     sendOn(isThere && !isLit, slot, path.phase, otherRayQueue());
@@ -142,7 +157,7 @@ void lightPath(bool isThere, uint slot) {
     PathState path;
     Job job;
     if (isThere) {
-        loadPath(slot, path, job);
+        loadPath(slot, path, job, BY_LIGHT);
         fetchPixelInHand(path, job);
         sampleDirect(path);
         storePath(slot, path, job, BY_LIGHT);

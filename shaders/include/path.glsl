@@ -112,11 +112,11 @@ void splitPath(inout PathState path) {
     path.radiance *= float(frame.branches);
 }
 
-/// Goes back to where the path split, with the next branch.
-void nextBranch(inout PathState path) {
+/// Goes back to where the path split, with the next branch. material: of that surface.
+void nextBranch(inout PathState path, Material material) {
     --path.branchesLeft;
     path.surface = path.splitPoint.surface;
-    path.material = materialAt(path.surface);
+    path.material = material;
     path.throughput = path.splitPoint.throughput;
     path.bounce = path.splitPoint.bounce;
     path.medium = path.splitPoint.medium;
@@ -200,10 +200,9 @@ void finishSample(inout PathState path) {
 
 // --- Service -------------------------------------------------------------------------------------
 
-/// Takes in the finished ray: its light, and where the path is now (PHASE_DIRECT, PHASE_ENDED). False: the ray goes
-/// on, as it has met something that is not there.
-bool takeInRay(inout PathState path) {
-    const MaterialPoint asked = askedPoint(path);
+/// Takes in the finished ray: its light, and where the path is now (PHASE_DIRECT, PHASE_ENDED). asked: the point whose
+/// material is looked up. False: the ray goes on, as it has met something that is not there.
+bool takeInRay(inout PathState path, MaterialPoint asked) {
     path.found = lookUpMaterial(asked);
     if (HAS_ALPHA && passesThrough(path, asked, path.found.opacity)) return false;
     if (path.phase == PHASE_SHADOW) finishShadowRay(path);
@@ -216,21 +215,18 @@ bool wantsDirectSample(PathState path) {
     return INTEGRATOR == INTEGRATOR_PATH && path.phase == PHASE_DIRECT && path.directIndex < directSamples();
 }
 
-/// What follows when all direct light samples are done, or the path is over: the bounce (PHASE_BOUNCE), another
-/// branch, or another sample (PHASE_NEXT); depart() starts them.
-void leaveSurface(inout PathState path) {
-    if (INTEGRATOR == INTEGRATOR_PATH) {
-        if (path.phase == PHASE_DIRECT && path.directIndex >= directSamples())
-            path.phase = endsHere(path) ? PHASE_ENDED : PHASE_BOUNCE;
-        if (branchIsOver(path)) nextBranch(path);
-    }
-    if (path.phase == PHASE_ENDED && !branchIsOver(path)) finishSample(path);
+/// When all direct light samples are done, what follows is a bounce, if one would be traced.
+void leaveDirectLight(inout PathState path) {
+    if (INTEGRATOR == INTEGRATOR_PATH && path.phase == PHASE_DIRECT && path.directIndex >= directSamples())
+        path.phase = endsHere(path) ? PHASE_ENDED : PHASE_BOUNCE;
 }
 
 /// Takes in the finished ray. What is next: a shadow ray, which it asks for; a bounce (PHASE_BOUNCE), or
 /// another sample (PHASE_NEXT), both by depart().
 void followPath(inout PathState path) {
-    if (!takeInRay(path)) return;
+    if (!takeInRay(path, askedPoint(path))) return;
     if (wantsDirectSample(path)) sampleDirect(path);
-    leaveSurface(path);
+    leaveDirectLight(path);
+    if (INTEGRATOR == INTEGRATOR_PATH && branchIsOver(path)) nextBranch(path, materialAt(path.splitPoint.surface));
+    if (path.phase == PHASE_ENDED && !branchIsOver(path)) finishSample(path);
 }

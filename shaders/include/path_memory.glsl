@@ -53,20 +53,21 @@ void store(uint slot, uint word, uvec4 v) {
 }
 void store(uint slot, uint word, vec4 v) { store(slot, word, floatBitsToUint(v)); }
 
-void loadPath(uint slot, inout PathState path, inout Job job) {
+/// Loads the fields that a stage reads. reader: its BY_ bit, or an AT_ bit.
+void loadPath(uint slot, inout PathState path, inout Job job, uint reader) {
     path.ray.hitPlacement = NO_PLACEMENT; // passNumber() reads it in all scenes
     uint word = 0u;
-#define LOAD_FIELD(type, member, exists, writers)                                                  \
-    if (exists) load(slot, word, member);                                                          \
+#define LOAD_FIELD(type, member, exists, readers, writers)                                         \
+    if ((exists) && ((readers) & reader) != 0u) load(slot, word, member);                          \
     word += (exists) ? WORDS_##type : 0u;
     PATH_FIELDS(LOAD_FIELD)
 #undef LOAD_FIELD
 }
 
-/// Stores the fields that a stage changes. writer: its BY_ bit.
+/// Stores the fields that a stage changes. writer: its BY_ bit, or an AT_ bit.
 void storePath(uint slot, PathState path, Job job, uint writer) {
     uint word = 0u;
-#define STORE_FIELD(type, member, exists, writers)                                                 \
+#define STORE_FIELD(type, member, exists, readers, writers)                                        \
     if ((exists) && ((writers) & writer) != 0u) store(slot, word, member);                         \
     word += (exists) ? WORDS_##type : 0u;
     PATH_FIELDS(STORE_FIELD)
