@@ -1,19 +1,30 @@
 #include "scene/add_environment.hpp"
 
+#include "scene/build/report.hpp"
 #include "scene/find_scene.hpp"
 #include "scene/images/float_image.hpp"
 
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace stromboli {
 namespace {
 
-Environment fromFile(const std::string& name) {
-    const std::string file = environmentFile(name);
-    images::FloatImage image = images::readFloatImage(file);
+Environment fromFile(const EnvironmentRequest& request, LoadReport& lines) {
+    const std::string file = environmentFile(request.file);
+    uint32_t largest = images::kLargestSide;
+    if (request.largestSide > 0) largest = std::min(largest, request.largestSide);
+    images::FloatImage image = images::readFloatImage(file, largest);
+    build::Report report(request.strict);
+    for (const images::PictureFault& fault : image.faults)
+        report.replace({file, 0, ""}, fault.kind, fault.problem);
+    if (image.isEightBit)
+        report.assume("the environment has 8 bits a channel: its light is that of sRGB colours, at "
+                      "most 1 (a .hdr or .exr file has a sun that shines)");
+    report.writeTo(lines);
     Environment environment;
     environment.name = file;
     environment.width = image.width;
@@ -29,7 +40,7 @@ void addEnvironment(Scene& scene, const EnvironmentRequest& request) {
     if (request.constant)
         environment.radiance = {*request.constant};
     else
-        environment = fromFile(request.file);
+        environment = fromFile(request, scene.report);
     environment.strength = float(request.strength);
     environment.rotation = float(request.rotationDegrees * glm::pi<double>() / 180);
     addEnvironment(scene, std::move(environment));

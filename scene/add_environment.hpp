@@ -2,6 +2,7 @@
 
 #include "scene/model/scene.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -13,6 +14,8 @@ struct EnvironmentRequest {
     std::optional<glm::vec3> constant; ///< in place of a file: the same radiance from everywhere
     double rotationDegrees = 0;        ///< about +y, counter-clockwise seen from above
     double strength = 1;               ///< multiplies the radiance
+    uint32_t largestSide = 0;          ///< a larger picture is shrunk; 0: as large as may be
+    bool strict = false;               ///< what is wrong with the picture is an error
 
     bool isGiven() const { return !file.empty() || constant; }
 };

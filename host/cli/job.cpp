@@ -182,7 +182,12 @@ std::future<vulkan::OpenDevice> openDeviceMeanwhile(const Options& options) {
 Job loadJob(const Options& options) {
     Job job = readFile(options);
     Stopwatch watch;
-    if (options.environment.isGiven()) addEnvironment(job.scene, options.environment);
+    if (options.environment.isGiven()) {
+        EnvironmentRequest environment = options.environment;
+        environment.largestSide = options.reading.selection.largestTexture;
+        environment.strict = options.reading.strict;
+        addEnvironment(job.scene, environment);
+    }
     job.loadSeconds += watch.seconds();
     reportScene(job.scene, options);
     return job;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 
 namespace stromboli::assimp {
 namespace {
@@ -49,7 +50,14 @@ bool clamps(const aiMaterial& m, aiTextureType type) {
 Materials::Materials(const std::filesystem::path& file, const aiScene& scene,
                      build::SceneBuilder& builder)
     : file_(file.string()), scene_(scene), builder_(builder),
-      pictures_(file.parent_path(), builder) {}
+      pictures_(file.parent_path(), builder) {
+    std::string suffix = file.extension().string();
+    std::ranges::transform(suffix, suffix.begin(),
+                           [](unsigned char c) { return char(std::tolower(c)); });
+    isWithoutMaterials_ = suffix == ".stl";
+    for (unsigned i = 0; i < scene.mNumMeshes; ++i)
+        hasColors_ = hasColors_ || scene.mMeshes[i]->HasVertexColors(0);
+}
 
 uint32_t Materials::numberOf(unsigned material) {
     return made(material).number;
@@ -63,7 +71,12 @@ const Materials::Made& Materials::made(unsigned material) {
     const auto found = made_.find(material);
     if (found != made_.end()) return found->second;
     Made made;
-    if (material >= scene_.mNumMaterials) {
+    if (isWithoutMaterials_) {
+        // Assimp makes one up, in white.
+        Material grey = build::greyMaterial();
+        if (hasColors_) grey.albedo = glm::vec3(1);
+        made.number = builder_.addMaterial(std::move(grey));
+    } else if (material >= scene_.mNumMaterials) {
         made.number = builder_.defaultMaterial();
     } else {
         Material m = obj::materialOf(stated(*scene_.mMaterials[material]), builder_, pictures_);

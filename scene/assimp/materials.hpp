@@ -38,6 +38,8 @@ class Materials {
     build::SceneBuilder& builder_;
     obj::Pictures pictures_;
     std::map<unsigned, Made> made_;
+    bool isWithoutMaterials_ = false; ///< the format (STL) has none
+    bool hasColors_ = false;          ///< some corners
 };
 
 } // namespace stromboli::assimp

@@ -1,7 +1,11 @@
 #include "scene/build/number_word.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <limits>
+#include <string>
 
 namespace stromboli::build {
 namespace {
@@ -25,6 +29,18 @@ std::optional<double> realIn(std::string_view word) {
     if (isTiny) return 0.0;
     if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
     return value;
+}
+
+std::optional<double> realOrNanIn(std::string_view word) {
+    if (const std::optional<double> value = realIn(word)) return value;
+    std::string small(word.substr(0, 16));
+    std::transform(small.begin(), small.end(), small.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    std::string_view rest = small;
+    if (rest.starts_with('-') || rest.starts_with('+')) rest.remove_prefix(1);
+    for (const std::string_view name : {"nan", "inf", "1.#ind", "1.#qnan", "1.#snan", "1.#inf"})
+        if (rest.starts_with(name)) return std::numeric_limits<double>::quiet_NaN();
+    return std::nullopt;
 }
 
 std::optional<int64_t> integerIn(std::string_view word) {

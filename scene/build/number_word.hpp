@@ -12,6 +12,9 @@ namespace stromboli::build {
 /// A finite number with digits, point and exponent, and one sign at most; one too small for a
 /// double is 0.
 std::optional<double> realIn(std::string_view word);
+/// The same, or NaN for the words by which programs write what is no number or not finite: nan,
+/// -nan(ind), inf, 1.#QNAN and the like.
+std::optional<double> realOrNanIn(std::string_view word);
 /// A whole number without a point, with one sign at most.
 std::optional<int64_t> integerIn(std::string_view word);
 

@@ -29,6 +29,18 @@ void Report::forgive(const FilePlace& where, const std::string& problem,
     forgiven_.add(reading, 1);
 }
 
+void Report::replace(const FilePlace& where, Shortfall kind, const std::string& problem) {
+    forgive(where, problem, std::string(insteadOf(kind)));
+}
+
+void Report::replace(const Error& error, Shortfall kind) {
+    const std::string reading(insteadOf(kind));
+    if (strict_) throw SceneError(fmt::format("{} (an error because of --strict)", error.what()));
+    if (!firstError_) firstError_ = error.what();
+    firstForgiven_.try_emplace(reading, fmt::format("{}: {}", error.what(), reading));
+    forgiven_.add(reading, 1);
+}
+
 void Report::assume(const std::string& what) {
     assumed_.add(what, 1);
 }

@@ -1,9 +1,12 @@
 #pragma once
 
+#include "host/core/error.hpp"
 #include "scene/build/file_place.hpp"
+#include "scene/build/shortfall.hpp"
 #include "scene/model/scene.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -25,6 +28,14 @@ class Report {
     /// `problem` says what is wrong, `reading` what is made of it. There is one line for each
     /// reading, with the first place and its problem, and a count. Throws SceneError if strict.
     void forgive(const FilePlace& where, const std::string& problem, const std::string& reading);
+    /// The one rule about what cannot be read: a picture is made of the rest, and the table of
+    /// kinds (shortfall.hpp) says what takes its place. Forgives, as above.
+    void replace(const FilePlace& where, Shortfall kind, const std::string& problem);
+    /// The same of an error that was thrown, whose words have their place: it is thrown again where
+    /// the reading is strict, and at the end where the scene has nothing to show without it.
+    void replace(const Error& error, Shortfall kind);
+    /// The first error that was replaced; null if there is none.
+    const std::string* firstError() const { return firstError_ ? &*firstError_ : nullptr; }
     /// The file may leave something open, and does: `what`, and what is taken for it.
     void assume(const std::string& what);
 
@@ -46,6 +57,7 @@ class Report {
     bool strict_;
     Counts ignored_, warnings_, forgiven_, assumed_;
     std::unordered_map<std::string, std::string> firstForgiven_; ///< the line about the first one
+    std::optional<std::string> firstError_;
 };
 
 } // namespace stromboli::build

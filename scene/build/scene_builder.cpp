@@ -1,6 +1,8 @@
 #include "scene/build/scene_builder.hpp"
 
+#include "host/core/error.hpp"
 #include "scene/build/camera_pose.hpp"
+#include "scene/build/clamp_reflectance.hpp"
 #include "scene/build/light_pose.hpp"
 #include "scene/build/vectors.hpp"
 #include "scene/model/area_lights.hpp"
@@ -8,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -49,19 +53,40 @@ uint32_t SceneBuilder::defaultMaterial() {
     return *defaultMaterial_;
 }
 
+/// The picture is not what the numbers of the file would make of it, so that it is said in a
+/// warning; with --strict it is an error.
+void SceneBuilder::sayClamped(const std::string& line) {
+    if (conventions_.strict)
+        throw SceneError(scene_.file, 0, "", line + " (an error because of --strict)");
+    report_.warn(line);
+}
+
 glm::vec3 SceneBuilder::reflectedFraction(std::string_view what, const glm::vec3& color) {
     if (!conventions_.clampReflectedFractions) return lightColor(what, color);
-    const glm::vec3 inside = glm::clamp(color, glm::vec3(0), glm::vec3(1));
+    glm::vec3 inside;
+    for (int i = 0; i < 3; ++i)
+        inside[i] = color[i] >= 0 ? std::min(color[i], 1.0f) : 0.0f; // NaN: 0
     if (inside != color)
-        report_.warn(fmt::format("{}: a reflected fraction outside [0, 1] is clamped to it", what));
+        sayClamped(fmt::format("{}: a reflected fraction outside [0, 1] is clamped to it", what));
     return inside;
 }
 
 glm::vec3 SceneBuilder::lightColor(std::string_view what, const glm::vec3& color) {
-    const glm::vec3 inside =
-        glm::clamp(color, glm::vec3(0), glm::vec3(std::numeric_limits<float>::max()));
-    if (inside != color)
-        report_.warn(fmt::format("{}: negative channels of a colour become 0", what));
+    constexpr float most = std::numeric_limits<float>::max();
+    glm::vec3 inside;
+    bool isNumber = true;
+    for (int i = 0; i < 3; ++i) {
+        isNumber = isNumber && std::isfinite(color[i]);
+        inside[i] = color[i] >= 0 ? std::min(color[i], most) : 0.0f;
+    }
+    if (!isNumber) {
+        for (int i = 0; i < 3; ++i)
+            if (!std::isfinite(color[i])) inside[i] = 0;
+        sayClamped(
+            fmt::format("{}: channels of a colour that are no finite numbers become 0", what));
+    } else if (inside != color) {
+        sayClamped(fmt::format("{}: negative channels of a colour become 0", what));
+    }
     return inside;
 }
 
@@ -102,8 +127,30 @@ void SceneBuilder::lightTheDark() {
         "off: nothing does)");
 }
 
+/// One function for the colours of all formats.
+void SceneBuilder::clampReflectance() {
+    if (!conventions_.clampReflectedFractions) return;
+    size_t colors = 0;
+    for (Shape& shape : shapes_)
+        if (Mesh* mesh = std::get_if<Mesh>(&shape.form)) colors += clampColors(mesh->attributes);
+    if (colors > 0)
+        sayClamped(fmt::format("colours of vertices: {} reflected fractions outside [0, 1] are "
+                               "clamped to it",
+                               colors));
+    if (const size_t texels = clampBaseColors(scene_))
+        sayClamped(fmt::format("pictures: {} texels would reflect more than all light, or less "
+                               "than none; they are clamped",
+                               texels));
+}
+
 Scene SceneBuilder::finish() {
+    clampReflectance();
     placeMeshes();
+    // What was left out may be all there was.
+    const bool hasGeometry =
+        !scene_.triangles.empty() || !scene_.spheres.empty() || !scene_.placements.empty();
+    if (const std::string* first = report_.firstError(); first && !hasGeometry)
+        throw SceneError(*first);
     for (const Shape& shape : shapes_)
         reportDrops(shape);
     lightTheDark();

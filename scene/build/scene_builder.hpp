@@ -56,11 +56,12 @@ class SceneBuilder {
     const TextureImage& imageOf(uint32_t texture) const;
     /// The material of surfaces that name none: mid grey.
     uint32_t defaultMaterial();
-    /// A fraction of light per channel: negative ones become 0 and those above 1 become 1 (unless
+    /// A fraction of light per channel: negative ones and NaN become 0 and those above 1 become 1 (unless
     /// the conventions keep them), with a warning, since a surface that reflects more than it
     /// receives has no picture. `what` is the name the file gives it.
     glm::vec3 reflectedFraction(std::string_view what, const glm::vec3& color);
-    /// A radiance or other amount of light: negative channels become 0, with a warning.
+    /// A radiance or other amount of light: channels that are negative or not
+    /// finite become 0, with a warning.
     glm::vec3 lightColor(std::string_view what, const glm::vec3& color);
 
     /// `name`: of the shape in the file, for messages.
@@ -110,6 +111,8 @@ class SceneBuilder {
                      const std::string& instanceName, Drops& drops);
     void reportDrops(const Shape& shape);
     void lightTheDark();
+    void sayClamped(const std::string& line);
+    void clampReflectance();
 
     SceneConventions conventions_;
     Scene scene_;

@@ -5,8 +5,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace stromboli::collada {
@@ -63,24 +66,51 @@ double readFactor(const Context& context, const Scope& scope, const Element& mod
     return channel.numbers ? readNumber(context.document, *channel.numbers) : otherwise;
 }
 
-/// Opacity per channel as <transparent> and <transparency> define it together: true if all are 1.
-bool isOpaque(const Context& context, const Scope& scope, const Element& model) {
-    const double factor = readFactor(context, scope, model, "transparency", 1);
-    const Channel channel = readChannel(context, scope, model, "transparent");
-    if (channel.kind == ChannelKind::Texture) return false;
+/// Of opacity per channel, of which a surface here has one for all.
+double luminanceOf(const glm::dvec3& color) {
+    return glm::dot(color, glm::dvec3(0.212671, 0.715160, 0.072169)); // those of the standard
+}
+
+/// Opacity as <transparent> and <transparency> define it together.
+struct Opacity {
+    Channel channel;         ///< of <transparent>
+    std::string mode;        ///< its `opaque`
+    double factor = 1;       ///< <transparency>
+    double value = 1;        ///< where there is no picture
+    bool isInAlpha() const { return mode == "A_ONE" || mode == "A_ZERO"; }
+    bool isTransparency() const { return mode == "A_ZERO" || mode == "RGB_ZERO"; }
+};
+
+Opacity readOpacity(const Context& context, const Scope& scope, const Element& model) {
+    Opacity opacity;
+    opacity.factor = readFactor(context, scope, model, "transparency", 1);
+    opacity.channel = readChannel(context, scope, model, "transparent");
+    const Element* element = model.FirstChildElement("transparent");
+    const char* attribute = element ? element->Attribute("opaque") : nullptr;
+    opacity.mode = attribute ? attribute : "A_ONE";
+    const bool isKnown =
+        opacity.isInAlpha() || opacity.mode == "RGB_ZERO" || opacity.mode == "RGB_ONE";
+    if (!isKnown) {
+        context.document.forgive(*element, fmt::format("opaque=\"{}\"", opacity.mode),
+                                 "A_ONE is taken");
+        opacity.mode = "A_ONE";
+    }
     glm::dvec4 color(1);
-    if (channel.numbers) {
-        const std::vector<double> numbers = readNumbers(context.document, *channel.numbers);
+    if (opacity.channel.numbers) {
+        const std::vector<double> numbers = readNumbers(context.document, *opacity.channel.numbers);
         for (size_t i = 0; i < numbers.size() && i < 4; ++i)
             color[int(i)] = numbers[i];
     }
-    const Element* element = model.FirstChildElement("transparent");
-    const char* attribute = element ? element->Attribute("opaque") : nullptr;
-    const std::string mode = attribute ? attribute : "A_ONE";
-    if (mode == "A_ZERO") return color.a * factor == 0;
-    if (mode == "RGB_ZERO") return glm::dvec3(color) * factor == glm::dvec3(0);
-    if (mode == "RGB_ONE") return glm::dvec3(color) * factor == glm::dvec3(1);
-    return color.a * factor == 1;
+    const double stated =
+        (opacity.isInAlpha() ? color.a : luminanceOf(glm::dvec3(color))) * opacity.factor;
+    // Without <transparent> only what <transparency> says counts, as opacity.
+    opacity.value = opacity.isTransparency() ? 1 - stated : stated;
+    const double inside = std::clamp(opacity.value, 0.0, 1.0);
+    if (std::abs(inside - opacity.value) > 1e-6)
+        context.report.warn("<transparency>: an opacity outside [0, 1] is clamped to it");
+    // A luminance of white differs from 1 by rounding.
+    opacity.value = inside > 1 - 1e-6 ? 1 : inside < 1e-6 ? 0 : inside;
+    return opacity;
 }
 
 /// Reports the parts of the model that are not rendered.
@@ -93,12 +123,7 @@ void reportIgnored(Context& context, const Scope& scope, const Element& model) {
         if (channel.kind != ChannelKind::Numbers) return channel.kind == ChannelKind::Texture;
         return readColor(context.document, *channel.numbers) != glm::vec3(0);
     };
-    report("specular", isLit("specular"), "only diffuse reflection and emission are rendered");
-    report("reflective",
-           isLit("reflective") && readFactor(context, scope, model, "reflectivity", 1) != 0,
-           "only diffuse reflection and emission are rendered");
     report("ambient", isLit("ambient"), "light is computed, not added");
-    report("transparent", !isOpaque(context, scope, model), "surfaces are rendered opaque");
 }
 
 /// Reads the textures of one effect.
@@ -110,7 +135,8 @@ class TexturedChannels {
 
     /// Adds the texture of a channel; false if there is none, of which `reading` says what comes of
     /// it.
-    bool add(const Channel& channel, const char* name, TextureSlot slot, const char* reading) {
+    bool add(const Channel& channel, const char* name, TextureSlot slot, const char* reading,
+             float scale = 1) {
         if (!context_.conventions.textures) {
             context_.report.ignore(fmt::format("<texture> of <{}>", name), reading);
             return false;
@@ -118,7 +144,7 @@ class TexturedChannels {
         const std::optional<uint32_t> number = textures_.read(scope_, *channel.texture, reading);
         if (!number) return false;
         const char* texcoord = channel.texture->Attribute("texcoord");
-        result_.textures.push_back({slot, *number, texcoord ? texcoord : ""});
+        result_.textures.push_back({slot, *number, texcoord ? texcoord : "", scale});
         return true;
     }
 
@@ -150,6 +176,94 @@ glm::vec3 readEmission(Context& context, const Channel& channel, TexturedChannel
     return glm::vec3(0);
 }
 
+/// A picture's texture coordinates go by the same name as those of the colours' one, mostly.
+void useOpacity(Context& context, const Scope& scope, const Element& model, Material& material,
+                const Channel& diffuse, TexturedChannels& textures) {
+    if (!context.conventions.areDefault()) {
+        if (model.FirstChildElement("transparent"))
+            context.report.ignore("<transparent>", "surfaces are rendered opaque");
+        return;
+    }
+    const Opacity opacity = readOpacity(context, scope, model);
+    if (opacity.channel.kind != ChannelKind::Texture) {
+        if (opacity.value == 1) return;
+        material.alphaMode = AlphaMode::Blend;
+        material.opacity = float(opacity.value);
+        if (opacity.value == 0)
+            context.report.warn(
+                "a material is not seen: its opacity (<transparent>, <transparency>) is 0");
+        return;
+    }
+    const bool isSamePicture =
+        diffuse.kind == ChannelKind::Texture && diffuse.texture && opacity.channel.texture &&
+        diffuse.texture->Attribute("texture") && opacity.channel.texture->Attribute("texture") &&
+        std::string_view(diffuse.texture->Attribute("texture")) ==
+            opacity.channel.texture->Attribute("texture");
+    if (opacity.mode == "A_ONE" && isSamePicture) {
+        // Of a picture of the base colour alpha is the opacity.
+        material.alphaMode = AlphaMode::Blend;
+        material.opacity = float(std::clamp(opacity.factor, 0.0, 1.0));
+        return;
+    }
+    if (opacity.isInAlpha()) {
+        context.report.ignore("<transparent> with the alpha of another picture than <diffuse>",
+                              "the surface is opaque");
+        return;
+    }
+    if (textures.add(opacity.channel, "transparent", TextureSlot::Opacity,
+                     "the surface is opaque", opacity.isTransparency() ? -1.0f : 1.0f))
+        material.alphaMode = AlphaMode::Blend;
+}
+
+/// Highlights as a rough dielectric coat that reflects <specular> at right angles, as of OBJ files
+/// (docs/obj_ply_files.md); <reflective> as a smooth one.
+void useReflection(Context& context, const Scope& scope, const Element& model, Material& material) {
+    const auto lit = [&](const char* name) {
+        const Channel channel = readChannel(context, scope, model, name);
+        if (channel.kind == ChannelKind::Texture) {
+            context.report.ignore(fmt::format("<texture> of <{}>", name),
+                                  "the surface has no such reflection");
+            return glm::vec3(0);
+        }
+        return channel.numbers ? readFraction(context, *channel.numbers) : glm::vec3(0);
+    };
+    const glm::vec3 specular = lit("specular");
+    // Exporters write a <reflective> of white for all they have, and mean <reflectivity>.
+    const glm::vec3 reflective = lit("reflective");
+    const double reflectivity = readFactor(context, scope, model, "reflectivity", 0);
+    if (reflective != glm::vec3(0) && !model.FirstChildElement("reflectivity"))
+        context.report.ignore("<reflective>", "there is no <reflectivity> to it");
+    const glm::vec3 mirror = reflective * float(std::clamp(reflectivity, 0.0, 1.0));
+    const double shininess = readFactor(context, scope, model, "shininess", 0);
+    const bool isMirror = mirror != glm::vec3(0);
+    const bool hasHighlight = specular != glm::vec3(0) && shininess > 0;
+    if (!context.conventions.areDefault() || (!isMirror && !hasHighlight)) {
+        if (specular != glm::vec3(0))
+            context.report.ignore("<specular>", "there is no <shininess> above 0 to it");
+        if (isMirror)
+            context.report.ignore("<reflective>",
+                                  context.conventions.renderer + " does not read it");
+        return;
+    }
+    if (isMirror && hasHighlight)
+        context.report.ignore("<specular>", "the surface has a <reflective> coat in its place");
+    constexpr float reflectance = 0.04f; // of an index of 1.5 at right angles
+    // Of phong the angle is that to the mirrored ray: about twice that to the normal, so that the
+    // exponent is a quarter of Blinn's. Exporters write some for blinn too; a fraction there is the
+    // standard's own roughness.
+    const bool isPhong = named(model, "phong");
+    const double exponent = isPhong ? 4 * shininess : shininess;
+    PrincipledParameters& p = material.principled;
+    p.baseColor = material.albedo;
+    p.metallic = 0;
+    p.roughness = isMirror ? 0.0f
+                  : !isPhong && shininess <= 1
+                      ? float(std::sqrt(std::clamp(shininess, 0.0, 1.0)))
+                      : float(std::pow(2 / (exponent + 2), 0.25));
+    p.specularColor = (isMirror ? mirror : specular) / reflectance;
+    material.kind = MaterialKind::Principled;
+}
+
 const Element* shadingModel(const Element& technique) {
     for (const char* name : {"constant", "lambert", "phong", "blinn"})
         if (const Element* model = technique.FirstChildElement(name)) return model;
@@ -178,13 +292,13 @@ EffectMaterial readCommonProfile(Context& context, Textures& textures, const Ele
     const Scope scope{technique, &profile, &effect};
     const bool constant = named(*model, "constant");
     TexturedChannels channels(context, textures, scope, result);
-    if (constant)
-        material.albedo = glm::vec3(0);
-    else
-        material.albedo =
-            readAlbedo(context, readChannel(context, scope, *model, "diffuse"), channels);
+    const Channel diffuse =
+        constant ? Channel{} : readChannel(context, scope, *model, "diffuse");
+    material.albedo = constant ? glm::vec3(0) : readAlbedo(context, diffuse, channels);
     material.emission =
         readEmission(context, readChannel(context, scope, *model, "emission"), channels);
+    useOpacity(context, scope, *model, material, diffuse, channels);
+    if (!constant) useReflection(context, scope, *model, material);
     reportIgnored(context, scope, *model);
     return result;
 }

@@ -15,7 +15,8 @@ inline constexpr const char* kGreyInstead = "mid grey (0.5) takes its place";
 struct EffectTexture {
     TextureSlot slot = TextureSlot::BaseColor;
     uint32_t texture = 0;
-    std::string texcoord; ///< the name by which an instance binds them
+    std::string texcoord{}; ///< the name by which an instance binds them
+    float scale = 1;        ///< as TextureUse::scale
 };
 
 /// A material whose textures are not bound to coordinates yet.
@@ -25,8 +26,8 @@ struct EffectMaterial {
 };
 
 /// The material an <effect> describes: its CS184 dialect if it has one, else its profile_COMMON
-/// (constant, lambert, phong, blinn: diffuse reflection and emission; everything else those models
-/// have is reported). Throws SceneError for values that make no sense.
+/// (constant, lambert, phong, blinn: diffuse reflection, emission, opacity and a coat; what else those
+/// models have is reported). Throws SceneError for values that make no sense.
 EffectMaterial readEffect(Context& context, Textures& textures, const Element& effect,
                           const std::string& name);
 

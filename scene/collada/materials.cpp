@@ -78,12 +78,15 @@ uint32_t Materials::indexOf(const Element& element, TexcoordUse use) {
     for (const EffectTexture& texture : entry.effect.textures) {
         const bool isEmission = texture.slot == TextureSlot::Emission;
         if (use == TexcoordUse::None) {
-            (isEmission ? material.emission : material.albedo) = glm::vec3(isEmission ? 0 : 0.5f);
+            if (isEmission) material.emission = glm::vec3(0);
+            if (texture.slot == TextureSlot::BaseColor) *material.baseColor() = glm::vec3(0.5f);
+            if (texture.slot == TextureSlot::Opacity) material.alphaMode = AlphaMode::Opaque;
             continue;
         }
         TextureUse shown;
         shown.slot = texture.slot;
         shown.texture = texture.texture;
+        shown.scale = texture.scale;
         shown.uvSet = isEmission && use == TexcoordUse::Separate ? 1 : 0;
         material.textures.push_back(shown);
     }

@@ -1,21 +1,38 @@
 #include "scene/gltf/element.hpp"
 
+#include "host/core/error.hpp"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace stromboli::gltf {
 
-Element::Element(const std::string& file, std::string path, const Json& json)
-    : file_(&file), path_(std::move(path)), json_(&json) {
+Element::Element(const std::string& file, std::string path, const Json& json,
+                 build::Report* report)
+    : file_(&file), path_(std::move(path)), json_(&json), report_(report) {
     if (!json.isObject()) fail("is no object, expected {...}");
 }
 
 void Element::fail(std::string_view member, const std::string& message) const {
-    const std::string path =
-        path_.empty() ? std::string(member) : fmt::format("{}.{}", path_, member);
-    build::FilePlace{*file_, 0, path}.fail(message);
+    build::FilePlace{*file_, 0, pathOf(member)}.fail(message);
+}
+
+std::string Element::pathOf(std::string_view member) const {
+    return path_.empty() ? std::string(member) : fmt::format("{}.{}", path_, member);
+}
+
+template <class Value, class Read>
+Value Element::readOr(const Value& otherwise, build::Shortfall kind, Read&& read) const {
+    if (!report_) return read();
+    try {
+        return read();
+    } catch (const SceneError& error) {
+        report_->replace(error, kind);
+    }
+    return otherwise;
 }
 
 const Json* Element::find(std::string_view member) const {
@@ -37,8 +54,9 @@ const Json& Element::require(std::string_view member) const {
 std::optional<Element> Element::child(std::string_view member) const {
     const Json* json = find(member);
     if (!json) return std::nullopt;
-    return Element(
-        *file_, path_.empty() ? std::string(member) : fmt::format("{}.{}", path_, member), *json);
+    return readOr<std::optional<Element>>(std::nullopt, build::Shortfall::Word, [&] {
+        return std::optional(Element(*file_, pathOf(member), *json, report_));
+    });
 }
 
 std::optional<Element> Element::extension(std::string_view name) const {
@@ -61,7 +79,7 @@ size_t Element::size(std::string_view member) const {
 Element Element::item(std::string_view member, size_t index) const {
     const std::string name = fmt::format("{}[{}]", member, index);
     return {*file_, path_.empty() ? name : fmt::format("{}.{}", path_, name),
-            array(member)->at(index)};
+            array(member)->at(index), report_};
 }
 
 std::vector<Element> Element::items(std::string_view member) const {
@@ -98,33 +116,41 @@ double Element::number(std::string_view member) const {
 
 double Element::number(std::string_view member, double otherwise) const {
     const Json* json = find(member);
-    return json ? numberOf(member, *json) : otherwise;
+    if (!json) return otherwise;
+    return readOr(otherwise, build::Shortfall::Word, [&] { return numberOf(member, *json); });
 }
 
 double Element::number(std::string_view member, double otherwise, double least, double most) const {
     const double value = number(member, otherwise);
-    if (!(value >= least && value <= most))
+    const double inside = std::clamp(value, least, most);
+    // Programs hold these numbers in single precision, also the limits of what is legal.
+    if (std::abs(value - inside) <= 0x1p-23 * std::abs(inside)) return inside;
+    return readOr(inside, build::Shortfall::Number, [&]() -> double {
         fail(member, std::isinf(most)
                          ? fmt::format("is {}, expected at least {}", value, least)
                          : fmt::format("is {}, expected {} to {}", value, least, most));
-    return value;
+    });
 }
 
 bool Element::flag(std::string_view member, bool otherwise) const {
     const Json* json = find(member);
     if (!json) return otherwise;
-    try {
-        return json->get<bool>();
-    } catch (const JsonError&) {
-        fail(member, "is neither true nor false");
-    }
+    return readOr(otherwise, build::Shortfall::Word, [&] {
+        try {
+            return json->get<bool>();
+        } catch (const JsonError&) {
+            fail(member, "is neither true nor false");
+        }
+    });
 }
 
 std::string Element::text(std::string_view member, const std::string& otherwise) const {
     const Json* json = find(member);
     if (!json) return otherwise;
-    if (!json->isText()) fail(member, "is no text");
-    return json->get<std::string>();
+    return readOr(otherwise, build::Shortfall::Word, [&] {
+        if (!json->isText()) fail(member, "is no text");
+        return json->get<std::string>();
+    });
 }
 
 uint64_t Element::countOf(std::string_view member, const Json& json) const {
@@ -141,16 +167,20 @@ uint64_t Element::count(std::string_view member) const {
 
 uint64_t Element::count(std::string_view member, uint64_t otherwise) const {
     const Json* json = find(member);
-    return json ? countOf(member, *json) : otherwise;
+    if (!json) return otherwise;
+    return readOr(otherwise, build::Shortfall::Word, [&] { return countOf(member, *json); });
 }
 
 std::optional<size_t> Element::index(std::string_view member, size_t size) const {
     const Json* json = find(member);
     if (!json) return std::nullopt;
-    const uint64_t value = countOf(member, *json);
-    if (value >= size)
-        fail(member, fmt::format("is {}, but there {} {}", value, size == 1 ? "is" : "are", size));
-    return size_t(value);
+    return readOr<std::optional<size_t>>(std::nullopt, build::Shortfall::Reference, [&] {
+        const uint64_t value = countOf(member, *json);
+        if (value >= size)
+            fail(member,
+                 fmt::format("is {}, but there {} {}", value, size == 1 ? "is" : "are", size));
+        return std::optional(size_t(value));
+    });
 }
 
 std::vector<size_t> Element::indices(std::string_view member, size_t size) const {
@@ -188,8 +218,13 @@ std::vector<double> Element::numbers(std::string_view member, size_t expected) c
     return found;
 }
 
+std::vector<double> Element::numbersOr(std::string_view member, size_t expected) const {
+    return readOr(std::vector<double>(), build::Shortfall::Word,
+                  [&] { return numbers(member, expected); });
+}
+
 glm::dvec3 Element::vector(std::string_view member, const glm::dvec3& otherwise) const {
-    const std::vector<double> v = numbers(member, 3);
+    const std::vector<double> v = numbersOr(member, 3);
     return v.empty() ? otherwise : glm::dvec3(v[0], v[1], v[2]);
 }
 

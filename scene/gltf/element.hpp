@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/core/json.hpp"
-#include "scene/build/file_place.hpp"
+#include "scene/build/report.hpp"
 
 #include <glm/glm.hpp>
 
@@ -16,11 +16,13 @@ namespace stromboli::gltf {
 
 /// An object of the file, which knows its place, such as `meshes[0].primitives[2]`. Its members are
 /// read with the type that they must have; those that have another one are errors that name the
-/// member.
+/// member where nothing can be shown without it. Where the member may be missing, it counts as that,
+/// and the report says so.
 class Element {
   public:
-    /// `file` and `json` must outlive the element.
-    Element(const std::string& file, std::string path, const Json& json);
+    /// `file`, `json` and `report` must outlive the element. No report: all is an error.
+    Element(const std::string& file, std::string path, const Json& json,
+            build::Report* report = nullptr);
 
     const std::string& path() const { return path_; }
     build::FilePlace place() const { return {*file_, 0, path_}; }
@@ -57,12 +59,18 @@ class Element {
     std::vector<std::string> texts(std::string_view member) const;
     /// As many finite numbers as said (any number of them if 0); empty if not there.
     std::vector<double> numbers(std::string_view member, size_t expected) const;
+    /// The same; numbers that are none, or another count of them, count as not there.
+    std::vector<double> numbersOr(std::string_view member, size_t expected) const;
     glm::dvec3 vector(std::string_view member, const glm::dvec3& otherwise) const;
 
     /// Its `name`, or else its place.
     std::string displayName() const;
 
   private:
+    /// Reads a member that may be missing; where that fails, `otherwise` is taken.
+    template <class Value, class Read>
+    Value readOr(const Value& otherwise, build::Shortfall kind, Read&& read) const;
+    std::string pathOf(std::string_view member) const;
     const Json* find(std::string_view member) const;
     const Json& require(std::string_view member) const;
     const Json::Array* array(std::string_view member) const;
@@ -72,6 +80,7 @@ class Element {
     const std::string* file_;
     std::string path_;
     const Json* json_;
+    build::Report* report_;
 };
 
 } // namespace stromboli::gltf

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scene/images/picture.hpp"
+
 #include <glm/glm.hpp>
 
 #include <cstdint>
@@ -12,11 +14,14 @@ namespace stromboli::images {
 struct FloatImage {
     uint32_t width = 0, height = 0;
     std::vector<glm::vec3> texels;
+    std::vector<PictureFault> faults{};
+    bool isEightBit = false; ///< of 8 bits a channel, which hold no light above 1
 };
 
 /// Reads a picture of any format of decodePicture as linear light, for environments. Pictures of 8
-/// or 16 bits a channel are taken as sRGB; alpha is dropped. Throws SceneError, also for values
-/// that are negative, infinite or NaN, with the pixel that has one.
-FloatImage readFloatImage(const std::filesystem::path& file);
+/// or 16 bits a channel are taken as sRGB; alpha is dropped. Numbers that are negative, infinite or
+/// NaN become 0, which is a fault of the result; a picture of more than `largestSide` texels a side
+/// is shrunk to means of its light, which is one too. Throws SceneError.
+FloatImage readFloatImage(const std::filesystem::path& file, uint32_t largestSide = kLargestSide);
 
 } // namespace stromboli::images

@@ -1,4 +1,6 @@
 #include "scene/images/exr_attributes.hpp"
+#include "scene/images/exr_channels.hpp"
+#include "scene/images/exr_colors.hpp"
 #include "scene/images/picture.hpp"
 
 #include "host/core/error.hpp"
@@ -7,13 +9,21 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
-#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfVersion.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <exception>
+#include <optional>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace stromboli::images {
 namespace {
@@ -41,17 +51,15 @@ class ExrSource : public Imf::IStream {
     size_t next_ = 0;
 };
 
-/// Which of the file's channels are red, green, blue and alpha; a lone Y is grey. Empty: none.
-std::vector<const char*> channelsOf(const Imf::ChannelList& channels) {
-    const bool coloured =
-        channels.findChannel("R") || channels.findChannel("G") || channels.findChannel("B");
-    if (coloured) return {"R", "G", "B", "A"};
-    if (channels.findChannel("Y")) return {"Y", "Y", "Y", "A"};
-    return {};
+int64_t widthOf(const Imath::Box2i& window) {
+    return int64_t(window.max.x) - window.min.x + 1;
+}
+int64_t heightOf(const Imath::Box2i& window) {
+    return int64_t(window.max.y) - window.min.y + 1;
 }
 
-/// The size that the header states, checked before the library allocates tables by it.
-Imath::Box2i checkedWindow(std::string_view bytes, const std::string& name) {
+/// The sizes that the first header states, checked before the library allocates tables by them.
+void checkWindows(std::string_view bytes, const std::string& name) {
     constexpr uint64_t magicAndVersion = 8;
     checkExrAttributes(bytes);
     ExrSource source(bytes, name);
@@ -60,43 +68,148 @@ Imath::Box2i checkedWindow(std::string_view bytes, const std::string& name) {
     Imf::Header header;
     header.readFrom(source, version);
     const Imath::Box2i window = header.dataWindow();
-    const int64_t width = int64_t(window.max.x) - window.min.x + 1;
-    const int64_t height = int64_t(window.max.y) - window.min.y + 1;
     // The table of offsets has eight bytes for each block of at most 256 rows.
-    requireSize(name, uint64_t(width), uint64_t(height), 16, bytes.size(),
-                uint64_t(height) / 256 * 8);
-    return window;
+    requireSize(name, uint64_t(widthOf(window)), uint64_t(heightOf(window)), 16, bytes.size(),
+                uint64_t(heightOf(window)) / 256 * 8);
+}
+
+/// The part that is shown: the first one with a layer of colours, of those that have one without a
+/// name or the likeliest name.
+struct ShownPart {
+    int number = 0;
+    ExrChannels channels;
+};
+
+std::vector<std::string> namesOf(const Imf::ChannelList& channels) {
+    std::vector<std::string> names;
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel)
+        names.emplace_back(channel.name());
+    return names;
+}
+
+ExrMeaning meaningOf(const Imf::Header& header) {
+    ExrMeaning meaning;
+    if (Imf::hasChromaticities(header)) {
+        const Imf::Chromaticities& c = Imf::chromaticities(header);
+        meaning.chromaticities = {c.red.x,  c.red.y,  c.green.x, c.green.y,
+                                  c.blue.x, c.blue.y, c.white.x, c.white.y};
+    }
+    if (Imf::hasEnvmap(header)) {
+        meaning.isLatLong = Imf::envmap(header) == Imf::ENVMAP_LATLONG;
+        meaning.isCube = Imf::envmap(header) == Imf::ENVMAP_CUBE;
+    }
+    return meaning;
+}
+
+ShownPart shownPart(const Imf::MultiPartInputFile& file) {
+    std::optional<ShownPart> shown;
+    for (int part = 0; part < file.parts(); ++part) {
+        const Imf::Header& header = file.header(part);
+        // Deep pictures have any number of samples in a pixel.
+        if (header.hasType() && Imf::isDeepData(header.type())) continue;
+        const std::optional<ExrChannels> channels = exrChannels(namesOf(header.channels()));
+        if (!channels) continue;
+        const bool isBetter = !shown || (shown->channels.isGrey && !channels->isGrey);
+        if (isBetter) shown = ShownPart{part, *channels};
+    }
+    if (shown) return *shown;
+    std::string names;
+    for (int part = 0; part < file.parts(); ++part)
+        for (const std::string& name : namesOf(file.header(part).channels()))
+            if (names.size() < 200) names += (names.empty() ? "" : ", ") + name;
+    throw std::runtime_error(
+        fmt::format("it has neither R, G, B nor Y channels, but {}", names));
+}
+
+/// The numbers of a channel for each pixel of the data window. One that is there for every other
+/// column or row only is interpolated between them.
+std::vector<float> readChannel(Imf::InputPart& part, const std::string& channel) {
+    const Imath::Box2i window = part.header().dataWindow();
+    const auto width = size_t(widthOf(window)), height = size_t(heightOf(window));
+    const Imf::Channel* stated = part.header().channels().findChannel(channel);
+    const int xs = stated->xSampling, ys = stated->ySampling;
+    const size_t columns = (width - 1) / size_t(xs) + 1, rows = (height - 1) / size_t(ys) + 1;
+    std::vector<float> sampled(columns * rows);
+    Imf::FrameBuffer buffer;
+    buffer.insert(channel, Imf::Slice::Make(Imf::FLOAT, sampled.data(), window, sizeof(float),
+                                            sizeof(float) * columns, xs, ys));
+    part.setFrameBuffer(buffer);
+    part.readPixels(window.min.y, window.max.y);
+    if (xs == 1 && ys == 1) return sampled;
+    std::vector<float> values(width * height);
+    for (size_t y = 0; y < height; ++y)
+        for (size_t x = 0; x < width; ++x) {
+            const double u = double(x) / xs, v = double(y) / ys;
+            const size_t left = size_t(u), top = size_t(v);
+            const size_t right = std::min(left + 1, columns - 1);
+            const size_t lower = std::min(top + 1, rows - 1);
+            const double a = u - double(left), b = v - double(top);
+            values[y * width + x] =
+                float((1 - b) * ((1 - a) * sampled[top * columns + left] +
+                                 a * sampled[top * columns + right]) +
+                      b * ((1 - a) * sampled[lower * columns + left] +
+                           a * sampled[lower * columns + right]));
+        }
+    return values;
+}
+
+/// Red, green, blue and alpha of the data window.
+std::vector<float> readColors(Imf::InputPart& part, const ExrChannels& channels) {
+    const Imath::Box2i window = part.header().dataWindow();
+    const size_t count = size_t(widthOf(window)) * size_t(heightOf(window));
+    std::vector<float> rgba(count * 4, 0.0f);
+    const auto read = [&](const std::string& channel, size_t place, float otherwise) {
+        const std::vector<float> values =
+            channel.empty() ? std::vector<float>(count, otherwise) : readChannel(part, channel);
+        for (size_t i = 0; i < count; ++i)
+            rgba[i * 4 + place] = values[i];
+    };
+    for (size_t i = 0; i < 3; ++i)
+        if (i == 0 || !channels.isGrey) read(channels.color[i], i, 0);
+    read(channels.alpha, 3, 1);
+    for (size_t i = 0; channels.isGrey && i < rgba.size(); i += 4)
+        rgba[i + 1] = rgba[i + 2] = rgba[i];
+    if (channels.isLuminance) colorsOfLuminance(meaningOf(part.header()), rgba);
+    if (!channels.isGrey) toRec709(meaningOf(part.header()), rgba);
+    return rgba;
+}
+
+/// The picture is the display window; what lies beyond the data in it is black and not there.
+Picture inDisplayWindow(const std::string& name, const Imf::Header& header,
+                        std::vector<float> rgba) {
+    const Imath::Box2i data = header.dataWindow(), display = header.displayWindow();
+    Picture picture{uint32_t(widthOf(data)), uint32_t(heightOf(data)), {}};
+    const bool isSame = data == display || widthOf(display) < 1 || heightOf(display) < 1;
+    if (isSame) {
+        picture.values = std::move(rgba);
+        return picture;
+    }
+    requireSize(name, uint64_t(widthOf(display)), uint64_t(heightOf(display)), 32, 0, 0);
+    picture = Picture{uint32_t(widthOf(display)), uint32_t(heightOf(display)), {}};
+    std::vector<float> values(picture.texelCount() * 4, 0.0f);
+    for (int64_t y = std::max(data.min.y, display.min.y); y <= std::min(data.max.y, display.max.y);
+         ++y)
+        for (int64_t x = std::max(data.min.x, display.min.x);
+             x <= std::min(data.max.x, display.max.x); ++x) {
+            const auto from = size_t((y - data.min.y) * widthOf(data) + x - data.min.x) * 4;
+            const auto to = size_t((y - display.min.y) * widthOf(display) + x - display.min.x) * 4;
+            std::copy_n(rgba.begin() + ptrdiff_t(from), 4, values.begin() + ptrdiff_t(to));
+        }
+    picture.values = std::move(values);
+    return picture;
 }
 
 Picture readExrPixels(std::string_view bytes, const std::string& name) {
-    const Imath::Box2i window = checkedWindow(bytes, name);
-    const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
+    checkWindows(bytes, name);
     ExrSource source(bytes, name);
-    Imf::InputFile file(source);
-    if (file.header().dataWindow() != window) throw std::runtime_error("it has several sizes");
-    Picture picture{uint32_t(width), uint32_t(height), {}};
-    const Imf::ChannelList& channels = file.header().channels();
-    const std::vector<const char*> names = channelsOf(channels);
-    if (names.empty()) throw std::runtime_error("it has neither R, G, B nor Y channels");
-    if (channels.findChannel("RY") || channels.findChannel("BY"))
-        throw std::runtime_error("it stores luminance and chroma, expected R, G, B");
-    std::vector<float> values(picture.texelCount() * 4);
-    // A channel has one place in OpenEXR's buffer: grey goes to red and is copied.
-    Imf::FrameBuffer buffer;
-    const bool grey = std::strcmp(names[0], "Y") == 0;
-    for (int i = 0; i < 4; ++i)
-        if (i == 0 || i == 3 || !grey)
-            buffer.insert(names[i],
-                          Imf::Slice::Make(Imf::FLOAT, values.data() + i, window, 4 * sizeof(float),
-                                           4 * sizeof(float) * size_t(width), 1, 1,
-                                           i == 3 ? 1.0 : 0.0));
-    file.setFrameBuffer(buffer);
-    file.readPixels(window.min.y, window.max.y);
-    if (grey)
-        for (size_t i = 0; i < values.size(); i += 4)
-            values[i + 1] = values[i + 2] = values[i];
-    picture.values = std::move(values);
-    return picture;
+    Imf::MultiPartInputFile file(source);
+    const ShownPart shown = shownPart(file);
+    Imf::InputPart part(file, shown.number);
+    const Imath::Box2i window = part.header().dataWindow();
+    requireSize(name, uint64_t(widthOf(window)), uint64_t(heightOf(window)), 24, bytes.size(),
+                uint64_t(heightOf(window)) / 256 * 8);
+    Picture picture = inDisplayWindow(name, part.header(), readColors(part, shown.channels));
+    return asEnvironment(meaningOf(part.header()), std::move(picture));
 }
 
 } // namespace

@@ -16,27 +16,37 @@ void failToDecode(const std::string& name, std::string_view format, std::string_
     throw SceneError(name, 0, "", fmt::format("cannot be read as {}: {}", format, line));
 }
 
+void requireSides(const std::string& name, uint64_t width, uint64_t height, uint64_t largest) {
+    if (width == 0 || height == 0 || width > largest || height > largest)
+        throw SceneError(name, 0, "",
+                         fmt::format("the picture has {} x {} pixels, expected at least 1 and at "
+                                     "most {} of each",
+                                     width, height, largest));
+}
+
+void requireBytes(const std::string& name, uint64_t width, uint64_t height, uint64_t fileBytes,
+                  uint64_t leastBytes) {
+    if (fileBytes < leastBytes)
+        throw SceneError(name, 0, "",
+                         fmt::format("claims {} x {} pixels, which {} bytes cannot hold; the file "
+                                     "is truncated or damaged",
+                                     width, height, fileBytes));
+}
+
 void requireSize(const std::string& name, uint64_t width, uint64_t height, uint64_t bytesPerTexel,
                  uint64_t fileBytes, uint64_t leastBytes) {
-    const auto fail = [&](const std::string& problem) { throw SceneError(name, 0, "", problem); };
-    if (width == 0 || height == 0 || width > kLargestSide || height > kLargestSide)
-        fail(fmt::format("the picture has {} x {} pixels, expected at least 1 and at most {} of "
-                         "each",
-                         width, height, kLargestSide));
-    if (fileBytes < leastBytes)
-        fail(fmt::format("claims {} x {} pixels, which {} bytes cannot hold; the file is "
-                         "truncated or damaged",
-                         width, height, fileBytes));
+    requireSides(name, width, height, kLargestSide);
+    requireBytes(name, width, height, fileBytes, leastBytes);
     build::requireMemory(name, width * height * bytesPerTexel);
 }
 
-Picture decodePicture(std::string_view bytes, const std::string& name) {
+Picture decodePicture(std::string_view bytes, const std::string& name, uint32_t largestSide) {
     if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return decodePng(bytes, name);
     if (bytes.starts_with("\xFF\xD8\xFF")) return decodeJpeg(bytes, name);
     if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP"))
         return decodeWebp(bytes, name);
     if (bytes.starts_with("BM")) return decodeBmp(bytes, name);
-    if (bytes.starts_with("#?")) return decodeHdr(bytes, name);
+    if (bytes.starts_with("#?")) return decodeHdr(bytes, name, largestSide);
     if (bytes.starts_with("\x76\x2f\x31\x01")) return decodeExr(bytes, name);
     if (looksLikeTga(bytes)) return decodeTga(bytes, name);
     throw SceneError(name, 0, "",

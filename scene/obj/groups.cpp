@@ -40,7 +40,7 @@ class MeshMaker {
   public:
     explicit MeshMaker(const FileLists& lists)
         : lists_(lists), positions_(lists.mesh.positions.size()),
-          normals_(lists.mesh.normals.size()) {}
+          normals_(lists.mesh.normals.size() + lists.smoothNormals.size()) {}
 
     build::Mesh make(const std::map<std::optional<uint32_t>, build::MeshPart>& parts) {
         build::Mesh mesh;
@@ -56,7 +56,9 @@ class MeshMaker {
         for (const uint32_t p : positions_.used())
             mesh.positions.push_back(lists_.mesh.positions[p]);
         for (const uint32_t n : normals_.used())
-            mesh.normals.push_back(lists_.mesh.normals[n]);
+            mesh.normals.push_back(n < lists_.mesh.normals.size()
+                                       ? lists_.mesh.normals[n]
+                                       : lists_.smoothNormals[n - lists_.mesh.normals.size()]);
         positions_.clear();
         normals_.clear();
         attributes_.clear();
@@ -66,8 +68,15 @@ class MeshMaker {
   private:
     build::Corner cornerOf(const build::Corner& corner, build::Mesh& mesh) {
         return {positions_.of(corner.position),
-                corner.normal == kNoNormals ? kNoNormals : normals_.of(corner.normal),
+                corner.normal == kNoNormals ? kNoNormals : normals_.of(placeOf(corner.normal)),
                 attributesOf(corner, mesh)};
+    }
+
+    /// Those of smoothing groups come after those of the file.
+    uint32_t placeOf(uint32_t normal) const {
+        return normal < kFirstSmooth
+                   ? normal
+                   : uint32_t(lists_.mesh.normals.size()) + (normal - kFirstSmooth);
     }
 
     /// Corners have attributes where they have texture coordinates or colours.

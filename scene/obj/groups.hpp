@@ -10,12 +10,17 @@
 
 namespace stromboli::obj {
 
+/// Normals that the file does not state have numbers of their own.
+inline constexpr uint32_t kFirstSmooth = 0x80000000u;
+
 /// What corners of faces refer to: lists of the whole file, whatever group a face is in. Corners
 /// name positions, normals, and as their attributes texture coordinates.
 struct FileLists {
     build::Mesh mesh;                 ///< positions and normals
     std::vector<glm::vec2> texcoords; ///< v grows upwards
     std::vector<glm::vec3> colors;    ///< linear, one for each position; empty if none has any
+    /// Those of smoothing groups, of any length; corners name them from kFirstSmooth on.
+    std::vector<glm::dvec3> smoothNormals;
 };
 
 /// The faces of a file, by object, group and material.

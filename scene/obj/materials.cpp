@@ -25,8 +25,11 @@ void Materials::addLibraries(const Statements& statement) {
 }
 
 bool Materials::addLibrary(std::string_view name) {
-    const std::optional<std::filesystem::path> file = companion(folder_, name).path;
+    const build::Companion library = build::companion(folder_, name);
+    const std::optional<std::filesystem::path>& file = library.path;
     if (!file) return false;
+    if (!library.problem.empty())
+        builder_.report().forgive({folder_.string(), 0, "mtllib"}, library.problem, library.reading);
     if (std::find(libraries_.begin(), libraries_.end(), file->string()) != libraries_.end())
         return true;
     libraries_.push_back(file->string());

@@ -1,5 +1,6 @@
 #include "scene/obj/mtl_file.hpp"
 
+#include "host/core/error.hpp"
 #include "scene/build/number_word.hpp"
 #include "scene/build/read_file.hpp"
 
@@ -121,8 +122,21 @@ class MtlReader {
         if (!color && !fact && !map)
             return report_.forgive(statements_.place(), "is no statement of MTL that is known",
                                    "the line is skipped");
-        if (materials_.empty()) statements_.fail("stands before the first 'newmtl'");
+        if (materials_.empty())
+            return report_.forgive(statements_.place(), "stands before the first 'newmtl'",
+                                   "the line is skipped");
         MtlMaterial& material = materials_.back();
+        try {
+            readParameter(color, fact, map, material);
+        } catch (const SceneError& error) {
+            // One parameter never costs the material.
+            report_.replace(error, build::Shortfall::Word);
+        }
+    }
+
+    template <class Color, class Number, class Picture>
+    void readParameter(const Color* color, const Number* fact, const Picture* map,
+                       MtlMaterial& material) {
         if (color) readColor(material.*color->member);
         if (fact) readNumber(*fact, material.*fact->member);
         if (map) readMap(material.*map->member);
@@ -177,8 +191,41 @@ class MtlReader {
             words = ahead;
         }
         map.name = words.rest();
-        if (map.name.empty()) statements_.fail("names no file");
+        takeOptionsBehind(map);
+        if (map.name.size() > 2 && map.name.starts_with('"') && map.name.ends_with('"')) {
+            map.name = map.name.substr(1, map.name.size() - 2);
+            report_.forgive(statements_.place(), "a name stands in quotation marks",
+                            "they are no part of it");
+        }
+        if (map.name.empty())
+            return report_.replace(statements_.place(), build::Shortfall::Picture,
+                                   "names no file");
         result = std::move(map);
+    }
+
+    /// Options belong before the name; some programs write them behind it.
+    void takeOptionsBehind(Map& map) {
+        const std::string text = map.name;
+        for (size_t at = text.find(" -"); at != std::string::npos; at = text.find(" -", at + 1)) {
+            Map changed = map;
+            Words words(std::string_view(text).substr(at));
+            // With a name behind them, options read no word of it as a number of theirs.
+            const std::string options = std::string(words.rest()) + " .";
+            Words ahead(options);
+            try {
+                while (ahead.rest().starts_with('-'))
+                    if (!readOption(ahead, changed)) break;
+            } catch (const SceneError&) {
+                continue; // of a file whose name looks like this
+            }
+            if (ahead.rest() != ".") continue;
+            map = changed;
+            map.name = Words(std::string_view(text).substr(0, at)).rest();
+            while (map.name.ends_with(' ') || map.name.ends_with('\t'))
+                map.name.pop_back();
+            return report_.forgive(statements_.place(), "options stand behind the name",
+                                   "they are read as if they stood before it");
+        }
     }
 
     /// False if the words begin with no option: a name of a file may begin with '-' too.
@@ -218,8 +265,9 @@ class MtlReader {
     bool isOn(Words& words) {
         const std::string_view value = words.next();
         if (value != "on" && value != "off")
-            statements_.fail(
-                fmt::format("'{}' stands where on or off is expected", shortened(value)));
+            report_.replace(statements_.place(), build::Shortfall::Word,
+                            fmt::format("'{}' stands where on or off is expected",
+                                        shortened(value)));
         return value == "on";
     }
 
@@ -241,10 +289,12 @@ class MtlReader {
         if (word == "b") return MapChannel::Blue;
         if (word == "m") return MapChannel::Alpha;
         if (word == "l") return MapChannel::Luminance;
-        if (word != "z")
-            statements_.fail(
+        if (word == "z")
+            report_.ignore("option -imfchan z of a picture", "pictures have no depth");
+        else
+            report_.replace(
+                statements_.place(), build::Shortfall::Word,
                 fmt::format("'{}' is no channel; expected r, g, b, m, l or z", shortened(word)));
-        report_.ignore("option -imfchan z of a picture", "pictures have no depth");
         return MapChannel::Unstated;
     }
 

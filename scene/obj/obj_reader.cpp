@@ -36,6 +36,7 @@ void ObjReader::read() {
     if (lists_.mesh.positions.empty())
         build::FilePlace{file_.string(), 0, ""}.fail(
             "has no vertex (a line 'v X Y Z'): it is empty, or no OBJ file");
+    finishColors();
     groups_.place(file_.string(), lists_, materials_, builder_);
 }
 
@@ -54,12 +55,7 @@ void ObjReader::readStatement() {
         group_ = keyword == "g" ? std::string(statements_.rest()) : "";
         return groups_.enter(object_, group_, statements_.line());
     }
-    if (keyword == "s") {
-        const std::string_view value = statements_.rest();
-        if (value != "off" && value != "0")
-            report.ignore("smoothing groups ('s')", "surfaces without normals are shaded flat");
-        return;
-    }
+    if (keyword == "s") return smoothing_.enter(Words(statements_.values()).next());
     if (keyword == "l" || keyword == "p")
         return report.ignore("lines and points ('l', 'p')", "only surfaces are shown");
     if (isObjKeyword(keyword))
@@ -73,7 +69,10 @@ void ObjReader::readPosition() {
     Words words(statements_.values());
     glm::dvec3 p;
     for (int i = 0; i < 3; ++i)
-        p[i] = statements_.number(words);
+        p[i] = statements_.numberOrNan(words);
+    if (std::isnan(p.x + p.y + p.z))
+        builder_.report().forgive(statements_.place(), "a coordinate is no number",
+                                  "triangles with such a vertex are left out");
     std::array<double, 4> more{};
     size_t count = 0;
     while (!words.atEnd() && count < more.size())
@@ -91,15 +90,45 @@ void ObjReader::readPosition() {
     // Vertices before the first one with a colour, and those without, are white: nothing changes.
     lists_.colors.resize(lists_.mesh.positions.size(), glm::vec3(1));
     if (hasColor)
-        lists_.colors.back() = {linearFromSrgb(more[0]), linearFromSrgb(more[1]),
-                                linearFromSrgb(more[2])};
+        lists_.colors.back() = glm::vec3(more[0], more[1], more[2]);
+    if (!firstColor_) firstColor_ = statements_.place();
+}
+
+/// Programs for scans write fractions or bytes: bytes where all are whole numbers and some are
+/// above 1.
+void ObjReader::finishColors() {
+    bool areWhole = true;
+    float most = 0, least = 0;
+    for (const glm::vec3& color : lists_.colors)
+        for (int i = 0; i < 3; ++i) {
+            areWhole = areWhole && color[i] == std::floor(color[i]);
+            most = std::max(most, color[i]);
+            least = std::min(least, color[i]);
+        }
+    const bool areBytes = areWhole && most > 1;
+    const double scale = areBytes ? 255 : 1;
+    if (areBytes)
+        builder_.report().replace(*firstColor_, build::Shortfall::ByteColor,
+                                  fmt::format("colours of vertices go up to {}", most));
+    else if (most > 1 || least < 0)
+        builder_.report().replace(*firstColor_, build::Shortfall::ReflectedFraction,
+                                  fmt::format("colours of vertices go from {} to {}", least, most));
+    for (glm::vec3& color : lists_.colors) {
+        // Vertices without a colour are white.
+        const bool isStated = !areBytes || color != glm::vec3(1);
+        for (int i = 0; i < 3; ++i)
+            color[i] = linearFromSrgb(double(color[i]) / (isStated ? scale : 1));
+    }
 }
 
 void ObjReader::readNormal() {
     Words words(statements_.values());
     glm::dvec3 n;
     for (int i = 0; i < 3; ++i)
-        n[i] = statements_.number(words);
+        n[i] = statements_.numberOrNan(words);
+    if (std::isnan(n.x + n.y + n.z))
+        builder_.report().replace(statements_.place(), build::Shortfall::Normal,
+                                  "a normal is no number");
     if (lists_.mesh.normals.size() >= kMostElements) statements_.fail("is one normal too many");
     lists_.mesh.normals.push_back(n);
 }
@@ -107,8 +136,13 @@ void ObjReader::readNormal() {
 /// vt u [v [w]]
 void ObjReader::readTexcoord() {
     Words words(statements_.values());
-    const double u = statements_.number(words);
-    const double v = words.atEnd() ? 0 : statements_.number(words);
+    double u = statements_.numberOrNan(words);
+    double v = words.atEnd() ? 0 : statements_.numberOrNan(words);
+    if (std::isnan(u + v)) {
+        builder_.report().replace(statements_.place(), build::Shortfall::Texel,
+                                  "a texture coordinate is no number");
+        u = v = 0;
+    }
     if (lists_.texcoords.size() >= kMostElements)
         statements_.fail("is one texture coordinate too many");
     const glm::vec2 uv(u, v);
@@ -122,6 +156,9 @@ void ObjReader::readFace() {
     for (Words words(statements_.values()); !words.atEnd();)
         corners_.push_back(readCorner(words.next()));
     makeUniform(corners_);
+    if (smoothing_.isOn() && corners_.size() > 2 && corners_.front().normal == kNoNormals &&
+        lists_.mesh.normals.size() + lists_.smoothNormals.size() < kFirstSmooth - 1)
+        smoothing_.apply(corners_, lists_.mesh.positions, kFirstSmooth, lists_.smoothNormals);
     requireMemory();
     if (!part_) part_ = &groups_.part(materialName_);
     polygons_.add(corners_, *part_);

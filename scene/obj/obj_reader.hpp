@@ -2,6 +2,7 @@
 
 #include "scene/build/polygon.hpp"
 #include "scene/obj/groups.hpp"
+#include "scene/obj/smoothing.hpp"
 #include "scene/obj/statements.hpp"
 
 #include <cstdint>
@@ -30,6 +31,7 @@ class ObjReader {
     uint32_t index(std::string_view corner, std::string_view word, size_t count, const char* what);
     void makeUniform(std::vector<build::Corner>& corners);
     void useMaterial();
+    void finishColors();
     void requireMemory();
 
     const std::filesystem::path& file_;
@@ -39,6 +41,8 @@ class ObjReader {
     Groups groups_;
     Materials materials_;
     build::PolygonCutter polygons_;
+    Smoothing smoothing_;
+    std::optional<build::FilePlace> firstColor_;
     std::string object_, group_;
     std::vector<build::Corner> corners_; ///< of the present face
     build::MeshPart* part_ = nullptr;    ///< null: to be looked up

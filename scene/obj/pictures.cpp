@@ -1,39 +1,20 @@
 #include "scene/obj/pictures.hpp"
 
-#include "host/core/error.hpp"
 #include "host/core/memory.hpp"
-#include "scene/build/folder.hpp"
 #include "scene/build/read_file.hpp"
+#include "scene/images/load_texture.hpp"
 #include "scene/images/texture_image.hpp"
 #include "scene/obj/texel_mix.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
 namespace stromboli::obj {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kReading = "there is no picture on the surface";
-
-bool isThere(const fs::path& folder, const fs::path& relative) {
-    if (relative.empty() || relative.is_absolute()) return false;
-    std::error_code error;
-    const fs::path path = folder / relative;
-    return fs::is_regular_file(path, error) && build::liesBelow(folder, path);
-}
-
-bool hasDrive(std::string_view path) {
-    return path.size() >= 2 && path[1] == ':' && std::isalpha(static_cast<unsigned char>(path[0]));
-}
-
-bool leadsOut(const fs::path& normal) {
-    return normal.is_absolute() || (!normal.empty() && *normal.begin() == "..");
-}
 
 /// What makes two uses of a picture differ in the texture that is made for them.
 std::string keyOf(const Map& map) {
@@ -46,51 +27,41 @@ std::string keyOf(const std::optional<Map>& map) {
 
 } // namespace
 
-Companion companion(const fs::path& folder, std::string_view written) {
-    // A zero byte would end the name for the system and not for the checks.
-    if (written.empty() || written.find('\0') != std::string_view::npos) return {};
-    std::string text(written);
-    const bool hasBackslashes = text.find('\\') != std::string::npos;
-    std::replace(text.begin(), text.end(), '\\', '/');
-    const fs::path path = fs::path(text).lexically_normal();
-    if (!hasDrive(text) && !leadsOut(path) && isThere(folder, path)) {
-        if (!hasBackslashes) return {folder / path, "", ""};
-        return {folder / path, fmt::format("'{}' has backslashes", shortened(written)),
-                "they are read as slashes"};
+/// Names count from the file that states the material, or else from the scene's.
+build::Companion Pictures::fileOf(const Map& map) const {
+    const fs::path own = fs::path(map.place.file).parent_path().lexically_relative(folder_);
+    build::Companion beside;
+    if (!own.empty() && own != ".") {
+        std::string name = map.name;
+        std::replace(name.begin(), name.end(), '\\', '/');
+        beside = build::companion(folder_, (own / name).generic_string());
+        if (beside.path && beside.problem.empty()) return beside;
     }
-    const fs::path name = path.filename();
-    if (name == "." || name == ".." || !isThere(folder, name)) return {};
-    return {folder / name,
-            fmt::format("'{}' leads to no file in the file's folder", shortened(written)),
-            "the file of the same name beside it is taken"};
+    build::Companion file = build::companion(folder_, map.name);
+    const bool isBetter = file.path && (file.problem.empty() || !beside.path);
+    return isBetter ? file : beside;
 }
 
 std::optional<TextureImage> Pictures::read(const Map& map, bool srgb) {
     build::Report& report = builder_.report();
     const bool isFile = map.content.empty();
-    const Companion file = isFile ? companion(folder_, map.name) : Companion{};
+    const build::Companion file = isFile ? fileOf(map) : build::Companion{};
     if (isFile && !file.path) {
-        report.forgive(map.place,
-                       fmt::format("'{}' is not in the file's folder", shortened(map.name)),
-                       kReading);
+        report.replace(map.place, build::Shortfall::Picture,
+                       fmt::format("'{}' is not in the file's folder", shortened(map.name)));
         return std::nullopt;
     }
-    std::optional<TextureImage> image;
-    std::string problem;
-    try {
-        const std::string name = map.place.describe(shortened(map.name));
-        const std::string read = isFile ? build::readFile(*file.path) : "";
-        const std::string_view content = isFile ? std::string_view(read) : map.content;
-        image = images::textureImage(
-            images::decodePicture(content, isFile ? file.path->string() : name), name, srgb);
-    } catch (const SceneError& error) {
-        problem = error.what();
-    }
-    if (!image) {
-        report.forgive(map.place, problem, kReading);
-        return std::nullopt;
-    }
-    if (!file.problem.empty()) report.forgive(map.place, file.problem, file.reading);
+    std::string bytes;
+    const auto bytesOf = [&]() -> std::string_view {
+        if (!isFile) return map.content;
+        bytes = build::readFile(*file.path);
+        return bytes;
+    };
+    const std::string name =
+        isFile ? file.path->string() : map.place.describe(shortened(map.name));
+    std::optional<TextureImage> image =
+        images::loadTexture(bytesOf, name, srgb, map.place, report);
+    if (image && !file.problem.empty()) report.forgive(map.place, file.problem, file.reading);
     return image;
 }
 

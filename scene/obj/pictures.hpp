@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/build/companion.hpp"
 #include "scene/build/scene_builder.hpp"
 #include "scene/obj/mtl_file.hpp"
 
@@ -11,16 +12,6 @@
 #include <string_view>
 
 namespace stromboli::obj {
-
-/// A file that another one names.
-struct Companion {
-    std::optional<std::filesystem::path> path; ///< nothing: there is none in the folder or below
-    std::string problem, reading;              ///< where the name had to be read otherwise
-};
-
-/// The file that a name in a file of `folder` stands for, in the folder or below; no other file is
-/// ever named. A path of another machine stands for the file of the same name in the folder.
-Companion companion(const std::filesystem::path& folder, std::string_view name);
 
 /// The pictures of materials as textures of the scene. A picture that is not there or cannot be
 /// read is forgiven: there is no texture.
@@ -41,6 +32,7 @@ class Pictures {
     std::optional<uint32_t> normals(const Map& map);
 
   private:
+    build::Companion fileOf(const Map& map) const;
     std::optional<TextureImage> read(const Map& map, bool srgb);
     std::optional<TextureImage> read(const std::optional<Map>& map, bool srgb);
     uint32_t keep(TextureImage image, const Map& map, bool srgb);

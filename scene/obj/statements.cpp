@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace stromboli::obj {
@@ -83,6 +84,20 @@ bool Statements::next() {
         return true;
     }
     return false;
+}
+
+std::string_view Statements::values() const {
+    for (size_t at = rest_.find('#'); at != std::string_view::npos; at = rest_.find('#', at + 1))
+        if (at == 0 || rest_[at - 1] != '.') return rest_.substr(0, at);
+    return rest_;
+}
+
+double Statements::numberOrNan(Words& words) const {
+    Words ahead = words;
+    const std::optional<double> value = build::realOrNanIn(ahead.next());
+    if (!value || !std::isnan(*value)) return number(words);
+    words = ahead;
+    return *value;
 }
 
 double Statements::number(Words& words) const {

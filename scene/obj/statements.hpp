@@ -38,13 +38,16 @@ class Statements {
     /// The whole rest of the line: names may contain spaces and '#'.
     std::string_view rest() const { return rest_; }
     /// The rest of the line up to a comment, for statements of numbers.
-    std::string_view values() const { return rest_.substr(0, rest_.find('#')); }
+    /// A '#' within a word is none: programs write 1.#IND for what is no number.
+    std::string_view values() const;
     int line() const { return line_; }
     build::FilePlace place() const { return {file_, line_, std::string(keyword_.substr(0, 40))}; }
     [[noreturn]] void fail(const std::string& message) const { place().fail(message); }
 
     /// The next word as a finite number; throws SceneError if it is none.
     double number(Words& words) const;
+    /// The same, or NaN for a word that says so.
+    double numberOrNan(Words& words) const;
 
   private:
     std::string_view physicalLine();

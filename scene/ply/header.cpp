@@ -78,11 +78,21 @@ class HeaderReader {
             readElement();
         else if (keyword == "property")
             readProperty();
-        else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty())
+        else if (keyword == "comment")
+            readComment();
+        else if (keyword != "obj_info" && !keyword.empty())
             report_.forgive(place(),
                             fmt::format("'{}' is no keyword of a header", shortened(keyword)),
                             "the line is skipped");
         return true;
+    }
+
+    void readComment() {
+        if (takeWord() != "TextureFile") return;
+        const size_t first = rest_.find_first_not_of(" \t");
+        if (first == std::string_view::npos) return;
+        header_.pictures.emplace_back(
+            rest_.substr(first, rest_.find_last_not_of(" \t") - first + 1));
     }
 
     void readFormat() {

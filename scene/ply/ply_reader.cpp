@@ -1,13 +1,15 @@
 #include "scene/ply/ply_reader.hpp"
 
+#include "scene/build/companion.hpp"
 #include "scene/build/polygon.hpp"
 #include "scene/build/read_file.hpp"
+#include "scene/images/load_texture.hpp"
+#include "scene/images/texture_image.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
-#include <span>
 #include <utility>
 
 namespace stromboli::ply {
@@ -62,18 +64,44 @@ void PlyReader::readElements(const Element& element) {
         skip(element);
 }
 
+/// Where vertices have colours, those of faces would be other ones.
+bool PlyReader::readsFaceColors(const FaceColors& colors) const {
+    if (!colors.areThere()) return false;
+    return colors_.isOfFaces || (colors_.name == "color" && !vertices_.hasColors &&
+                                 builder_.conventions().textures);
+}
+
+/// Two numbers for each corner that was read last.
+void PlyReader::readCornerUvs(const Property& property, size_t corners) {
+    const uint64_t length = body_.listLength(property);
+    const bool fits = length == 2 * corners && corners > 0;
+    if (!fits && length > 0)
+        builder_.report().replace(body_.place(), build::Shortfall::Attribute,
+                                  fmt::format("there are {} texture coordinates for {} corners",
+                                              length, corners));
+    std::array<double, 2> uv{};
+    for (uint64_t i = 0; i < length; ++i) {
+        const double value = body_.number(property.type);
+        uv[i % 2] = std::isfinite(float(value)) ? value : 0;
+        if (fits && i % 2 == 1) cornerUvs_.emplace_back(uv[0], uv[1]);
+    }
+}
+
 void PlyReader::readFaces(const Element& element) {
     bool hasCorners = false;
     FaceColors colors(element, colors_.name);
-    const bool readsColors = colors_.isOfFaces && colors.areThere();
+    const bool readsColors = readsFaceColors(colors);
+    const bool areStrips = element.name == "tristrips";
+    const auto isUvList = [&](const Property& property) {
+        return property.countType && property.name == "texcoord" && !areStrips;
+    };
     for (const Property& property : element.properties) {
         if (isCornerList(property) && !hasCorners)
             hasCorners = true;
-        else if (!readsColors || !colors.isColor(property))
-            builder_.report().ignore("properties of faces", "only their corners are read");
+        else if ((!readsColors || !colors.isColor(property)) && !isUvList(property))
+            builder_.report().ignore("properties of faces", "only their corners, texture coordinates and colours are read");
     }
     if (!hasCorners && element.count > 0) body_.fail("has no list 'vertex_indices'");
-    const bool areStrips = element.name == "tristrips";
     std::vector<uint32_t> strip;
     for (uint64_t i = 0; i < element.count; ++i) {
         body_.beginElement(i);
@@ -81,6 +109,11 @@ void PlyReader::readFaces(const Element& element) {
         for (const Property& property : element.properties) {
             if (readsColors && colors.isColor(property)) {
                 colors.set(property, body_.number(property.type));
+                continue;
+            }
+            if (isUvList(property) && isRead) {
+                cornerUvs_.resize(corners_.size() - sizes_.back());
+                readCornerUvs(property, sizes_.back());
                 continue;
             }
             if (!isCornerList(property) || std::exchange(isRead, true)) {
@@ -135,6 +168,21 @@ void PlyReader::skip(const Element& element) {
     }
 }
 
+/// Faces with colours or texture coordinates of their own share no corner's attributes.
+build::Corner PlyReader::cornerOf(size_t face, size_t corner, bool hasAttributes,
+                                  build::Mesh& mesh) const {
+    const uint32_t v = corners_[corner];
+    const uint32_t normal = mesh.normals.empty() ? kNoNormals : v;
+    if (faceColors_.empty() && cornerUvs_.empty())
+        return {v, normal, hasAttributes ? v : kNoAttributes};
+    VertexAttributes a = hasAttributes ? mesh.attributes[v] : VertexAttributes{};
+    if (!faceColors_.empty()) a.color = faceColors_[face];
+    // On the renderer's pictures v grows downwards.
+    if (!cornerUvs_.empty()) a.uv[0] = {cornerUvs_[corner].x, 1 - cornerUvs_[corner].y};
+    mesh.attributes.push_back(a);
+    return {v, normal, uint32_t(mesh.attributes.size() - 1)};
+}
+
 build::Mesh PlyReader::makeMesh() {
     build::Mesh mesh;
     mesh.positions = std::move(vertices_.positions);
@@ -149,22 +197,50 @@ build::Mesh PlyReader::makeMesh() {
     size_t first = 0;
     const bool hasAttributes = !mesh.attributes.empty();
     faceColors_.resize(faceColors_.empty() ? 0 : sizes_.size(), glm::vec4(1));
+    cornerUvs_.resize(cornerUvs_.empty() ? 0 : corners_.size(), glm::vec2(0));
     for (size_t i = 0; i < sizes_.size(); ++i) {
         face.clear();
-        for (const uint32_t v : std::span(corners_).subspan(first, sizes_[i])) {
-            uint32_t attributes = hasAttributes ? v : kNoAttributes;
-            if (!faceColors_.empty()) { // no two faces share a corner
-                VertexAttributes a = hasAttributes ? mesh.attributes[v] : VertexAttributes{};
-                a.color = faceColors_[i];
-                attributes = uint32_t(mesh.attributes.size());
-                mesh.attributes.push_back(a);
-            }
-            face.push_back({v, mesh.normals.empty() ? kNoNormals : v, attributes});
-        }
+        for (size_t k = 0; k < sizes_[i]; ++k)
+            face.push_back(cornerOf(i, first + k, hasAttributes, mesh));
         polygons.add(face, part);
         first += sizes_[i];
     }
     return mesh;
+}
+
+/// The picture that a comment of the header names, if the surface has coordinates for it.
+std::optional<uint32_t> PlyReader::picture() {
+    if (header_.pictures.empty() || !builder_.conventions().textures) return std::nullopt;
+    const build::FilePlace place{name_, 0, "TextureFile"};
+    const std::string& written = header_.pictures.front();
+    if (!vertices_.hasUv && cornerUvs_.empty()) {
+        builder_.report().ignore("TextureFile", "there are no texture coordinates");
+        return std::nullopt;
+    }
+    if (header_.pictures.size() > 1)
+        builder_.report().forgive(place, fmt::format("there are {}", header_.pictures.size()),
+                                  "the first picture is on all faces");
+    const build::Companion file = build::companion(file_.parent_path(), written);
+    if (!file.path) {
+        builder_.report().replace(place, build::Shortfall::Picture,
+                                  fmt::format("'{}' is not in the file's folder", written));
+        return std::nullopt;
+    }
+    std::string bytes;
+    const auto bytesOf = [&]() -> std::string_view {
+        bytes = build::readFile(*file.path);
+        return bytes;
+    };
+    std::optional<TextureImage> image =
+        images::loadTexture(bytesOf, file.path->string(), true, place, builder_.report());
+    if (!image) return std::nullopt;
+    if (!file.problem.empty()) builder_.report().forgive(place, file.problem, file.reading);
+    const uint32_t largest = builder_.conventions().selection.largestTexture;
+    if (largest > 0) images::shrinkToFit(*image, largest, true);
+    Texture texture;
+    texture.image = builder_.addImage(std::move(*image));
+    texture.srgb = true;
+    return builder_.addTexture(texture);
 }
 
 /// The format has no materials. Where vertices have colours, those are what the surface reflects.
@@ -172,6 +248,12 @@ uint32_t PlyReader::material() {
     Material material = build::greyMaterial();
     if (vertices_.hasColors || !faceColors_.empty()) material.albedo = glm::vec3(1);
     if (vertices_.hasAlpha && !colors_.isOfFaces) material.alphaMode = AlphaMode::Blend;
+    if (const std::optional<uint32_t> texture = picture()) {
+        TextureUse use;
+        use.texture = *texture;
+        material.albedo = glm::vec3(1);
+        material.textures.push_back(use);
+    }
     return builder_.addMaterial(material);
 }
 

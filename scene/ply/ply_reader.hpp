@@ -7,6 +7,7 @@
 #include "scene/ply/vertices.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,11 @@ class PlyReader {
     void skip(const Element& element);
     void addStrip(const std::vector<uint32_t>& strip);
     uint32_t vertex(double index);
+    bool readsFaceColors(const FaceColors& colors) const;
+    void readCornerUvs(const Property& property, size_t corners);
+    build::Corner cornerOf(size_t face, size_t corner, bool hasAttributes, build::Mesh& mesh) const;
     build::Mesh makeMesh();
+    std::optional<uint32_t> picture();
     uint32_t material();
 
     const std::filesystem::path& file_;
@@ -39,6 +44,7 @@ class PlyReader {
     Vertices vertices_;
     std::vector<uint32_t> corners_;     ///< of all faces, one face after the other
     std::vector<uint32_t> sizes_;       ///< how many corners each of them has
+    std::vector<glm::vec2> cornerUvs_; ///< of each corner, v upwards; empty: the vertices' count
     std::vector<glm::vec4> faceColors_; ///< of each of them; empty: none are wanted, or there
 };
 

@@ -109,6 +109,7 @@ class VertexReader {
                                          ? "colours of vertices are linear, as floats are"
                                          : "colours of vertices are sRGB, as whole numbers are");
         found_.hasColors = hasColors_;
+        found_.hasUv = hasUv_;
         // Twice: here and in the scene.
         build::requireMemory(body_.place().file,
                              2 * element_.count *
@@ -133,8 +134,6 @@ class VertexReader {
   private:
     void keep() {
         const glm::dvec3 position(values_[X], values_[Y], values_[Z]);
-        for (int i = 0; i < 3; ++i)
-            if (!std::isfinite(position[i])) body_.fail("the position is not finite");
         found_.positions.push_back(position);
         if (hasNormals_) found_.normals.emplace_back(values_[Nx], values_[Ny], values_[Nz]);
         if (!hasUv_ && !hasColors_) return;

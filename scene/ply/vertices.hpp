@@ -13,7 +13,7 @@ struct Vertices {
     std::vector<glm::dvec3> positions;
     std::vector<glm::dvec3> normals;          ///< empty: the file states none
     std::vector<VertexAttributes> attributes; ///< empty: neither colours nor texture coordinates
-    bool hasColors = false;
+    bool hasColors = false, hasUv = false;
     bool hasAlpha = false; ///< some vertices are not opaque
 };
 
@@ -24,7 +24,7 @@ std::optional<int> channelOfAttribute(const Property& property, const std::strin
 double fullScale(ScalarType type);
 
 /// Reads all vertices, which `body` is at the beginning of. Throws SceneError if they have no x, y
-/// and z, or if one of these is not finite.
+/// and z. Those that are not finite are kept: many files have vertices that no face uses.
 /// colors: the name of the attribute that their colours are.
 Vertices readVertices(const Element& element, Body& body, build::SceneBuilder& builder,
                       const std::string& colors);

@@ -1,0 +1,102 @@
+#include "scene/build/companion.hpp"
+
+#include "scene/build/folder.hpp"
+#include "scene/build/shortfall.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <system_error>
+
+namespace stromboli::build {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of more files than this is not searched for a name with other capitals.
+constexpr int kMostEntries = 100000;
+
+bool isThere(const fs::path& folder, const fs::path& relative) {
+    if (relative.empty() || relative.is_absolute()) return false;
+    std::error_code error;
+    const fs::path path = folder / relative;
+    return fs::is_regular_file(path, error) && liesBelow(folder, path);
+}
+
+bool hasDrive(std::string_view path) {
+    return path.size() >= 2 && path[1] == ':' && std::isalpha(static_cast<unsigned char>(path[0]));
+}
+
+bool leadsOut(const fs::path& normal) {
+    return normal.is_absolute() || (!normal.empty() && *normal.begin() == "..");
+}
+
+std::string inSmallLetters(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    return text;
+}
+
+/// The relative path whose parts differ by capitals alone; nothing if there is no such file. Where
+/// there are several, the first one of the alphabet.
+std::optional<fs::path> withOtherCapitals(const fs::path& folder, const fs::path& relative) {
+    fs::path found;
+    for (const fs::path& part : relative) {
+        const std::string wanted = inSmallLetters(part.string());
+        std::optional<fs::path> match;
+        std::error_code error;
+        int entries = 0;
+        fs::directory_iterator entry(folder.empty() ? "." : folder / found, error);
+        for (; !error && entry != fs::directory_iterator() && ++entries < kMostEntries;
+             entry.increment(error)) {
+            const fs::path name = entry->path().filename();
+            const bool isSame = inSmallLetters(name.string()) == wanted;
+            if (isSame && (!match || name < *match)) match = name;
+        }
+        if (!match) return std::nullopt;
+        found /= *match;
+    }
+    if (!isThere(folder, found)) return std::nullopt;
+    return found;
+}
+
+std::string quoted(std::string_view name) {
+    constexpr size_t longest = 60;
+    return fmt::format("'{}{}'", name.substr(0, longest), name.size() > longest ? "..." : "");
+}
+
+} // namespace
+
+Companion companion(const fs::path& folder, std::string_view written) {
+    // A zero byte would end the name for the system and not for the checks.
+    if (written.empty() || written.find('\0') != std::string_view::npos) return {};
+    const auto otherCapitals = [&](const fs::path& path) {
+        return Companion{folder / path, fmt::format("{} has other capitals", quoted(written)),
+                         std::string(insteadOf(Shortfall::OtherCapitals))};
+    };
+    std::string text(written);
+    const bool hasBackslashes = text.find('\\') != std::string::npos;
+    std::replace(text.begin(), text.end(), '\\', '/');
+    const fs::path path = fs::path(text).lexically_normal();
+    if (!hasDrive(text) && !leadsOut(path)) {
+        if (isThere(folder, path)) {
+            if (!hasBackslashes) return {folder / path, "", ""};
+            return {folder / path, fmt::format("{} has backslashes", quoted(written)),
+                    "they are read as slashes"};
+        }
+        if (const std::optional<fs::path> other = withOtherCapitals(folder, path))
+            return otherCapitals(*other);
+    }
+    const fs::path name = path.filename();
+    if (name.empty() || name == "." || name == "..") return {};
+    if (isThere(folder, name))
+        return {folder / name,
+                fmt::format("{} leads to no file in the file's folder", quoted(written)),
+                "the file of the same name beside it is taken"};
+    if (const std::optional<fs::path> other = withOtherCapitals(folder, name))
+        return otherCapitals(*other);
+    return {};
+}
+
+} // namespace stromboli::build
