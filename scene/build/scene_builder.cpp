@@ -120,11 +120,14 @@ void SceneBuilder::placeCamera(FileCamera camera, const glm::dmat4& toWorld, boo
 
 void SceneBuilder::lightTheDark() {
     const bool hasGeometry = !scene_.triangles.empty() || !scene_.spheres.empty();
-    if (!conventions_.defaultLight || !hasGeometry || shines(scene_)) return;
+    if (!conventions_.defaultLight || !hasGeometry || lightsItsSurfaces(scene_)) return;
+    // Before the light is there.
+    const char* why = shines(scene_) ? "the pictures of emission are too weak to light the surfaces"
+                                     : "the file has no light";
     scene_.lights.push_back(defaultLight());
-    report_.assume(
-        "the file has no light: a plain sky of radiance 1 lights the scene (--default-light "
-        "off: nothing does)");
+    report_.assume(fmt::format("{}: a plain sky of radiance 1 lights the scene (--default-light "
+                               "off: nothing does)",
+                               why));
 }
 
 /// One function for the colours of all formats.

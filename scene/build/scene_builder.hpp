@@ -56,9 +56,9 @@ class SceneBuilder {
     const TextureImage& imageOf(uint32_t texture) const;
     /// The material of surfaces that name none: mid grey.
     uint32_t defaultMaterial();
-    /// A fraction of light per channel: negative ones and NaN become 0 and those above 1 become 1 (unless
-    /// the conventions keep them), with a warning, since a surface that reflects more than it
-    /// receives has no picture. `what` is the name the file gives it.
+    /// A fraction of light per channel: negative ones and NaN become 0 and those above 1 become 1
+    /// (unless the conventions keep them), with a warning, since a surface that reflects more than
+    /// it receives has no picture. `what` is the name the file gives it.
     glm::vec3 reflectedFraction(std::string_view what, const glm::vec3& color);
     /// A radiance or other amount of light: channels that are negative or not
     /// finite become 0, with a warning.

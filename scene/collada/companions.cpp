@@ -1,5 +1,6 @@
 #include "scene/collada/companions.hpp"
 
+#include "scene/build/companion.hpp"
 #include "scene/build/folder.hpp"
 #include "scene/build/read_file.hpp"
 #include "scene/collada/percent_decoding.hpp"
@@ -123,6 +124,11 @@ std::optional<Companion> Companions::read(std::string_view reference) const {
     const fs::path name = path.filename();
     if (name.empty() || name == "." || name == "..") return std::nullopt;
     std::optional<std::string> bytes = bytesOf(name);
+    if (!bytes && !archive_) {
+        const build::Companion other = build::companion(folder_, path.generic_string());
+        if (!other.path) return std::nullopt;
+        return Companion{build::readFile(*other.path), other.problem, other.reading};
+    }
     if (!bytes) return std::nullopt;
     return say(std::move(*bytes), "leads to no file in the document's folder",
                "the file of the same name beside the document is taken");

@@ -73,10 +73,10 @@ double luminanceOf(const glm::dvec3& color) {
 
 /// Opacity as <transparent> and <transparency> define it together.
 struct Opacity {
-    Channel channel;         ///< of <transparent>
-    std::string mode;        ///< its `opaque`
-    double factor = 1;       ///< <transparency>
-    double value = 1;        ///< where there is no picture
+    Channel channel;   ///< of <transparent>
+    std::string mode;  ///< its `opaque`
+    double factor = 1; ///< <transparency>
+    double value = 1;  ///< where there is no picture
     bool isInAlpha() const { return mode == "A_ONE" || mode == "A_ZERO"; }
     bool isTransparency() const { return mode == "A_ZERO" || mode == "RGB_ZERO"; }
 };
@@ -194,11 +194,11 @@ void useOpacity(Context& context, const Scope& scope, const Element& model, Mate
                 "a material is not seen: its opacity (<transparent>, <transparency>) is 0");
         return;
     }
-    const bool isSamePicture =
-        diffuse.kind == ChannelKind::Texture && diffuse.texture && opacity.channel.texture &&
-        diffuse.texture->Attribute("texture") && opacity.channel.texture->Attribute("texture") &&
-        std::string_view(diffuse.texture->Attribute("texture")) ==
-            opacity.channel.texture->Attribute("texture");
+    const bool isSamePicture = diffuse.kind == ChannelKind::Texture && diffuse.texture &&
+                               opacity.channel.texture && diffuse.texture->Attribute("texture") &&
+                               opacity.channel.texture->Attribute("texture") &&
+                               std::string_view(diffuse.texture->Attribute("texture")) ==
+                                   opacity.channel.texture->Attribute("texture");
     if (opacity.mode == "A_ONE" && isSamePicture) {
         // Of a picture of the base colour alpha is the opacity.
         material.alphaMode = AlphaMode::Blend;
@@ -210,8 +210,8 @@ void useOpacity(Context& context, const Scope& scope, const Element& model, Mate
                               "the surface is opaque");
         return;
     }
-    if (textures.add(opacity.channel, "transparent", TextureSlot::Opacity,
-                     "the surface is opaque", opacity.isTransparency() ? -1.0f : 1.0f))
+    if (textures.add(opacity.channel, "transparent", TextureSlot::Opacity, "the surface is opaque",
+                     opacity.isTransparency() ? -1.0f : 1.0f))
         material.alphaMode = AlphaMode::Blend;
 }
 
@@ -256,10 +256,9 @@ void useReflection(Context& context, const Scope& scope, const Element& model, M
     PrincipledParameters& p = material.principled;
     p.baseColor = material.albedo;
     p.metallic = 0;
-    p.roughness = isMirror ? 0.0f
-                  : !isPhong && shininess <= 1
-                      ? float(std::sqrt(std::clamp(shininess, 0.0, 1.0)))
-                      : float(std::pow(2 / (exponent + 2), 0.25));
+    p.roughness = isMirror                     ? 0.0f
+                  : !isPhong && shininess <= 1 ? float(std::sqrt(std::clamp(shininess, 0.0, 1.0)))
+                                               : float(std::pow(2 / (exponent + 2), 0.25));
     p.specularColor = (isMirror ? mirror : specular) / reflectance;
     material.kind = MaterialKind::Principled;
 }
@@ -292,8 +291,7 @@ EffectMaterial readCommonProfile(Context& context, Textures& textures, const Ele
     const Scope scope{technique, &profile, &effect};
     const bool constant = named(*model, "constant");
     TexturedChannels channels(context, textures, scope, result);
-    const Channel diffuse =
-        constant ? Channel{} : readChannel(context, scope, *model, "diffuse");
+    const Channel diffuse = constant ? Channel{} : readChannel(context, scope, *model, "diffuse");
     material.albedo = constant ? glm::vec3(0) : readAlbedo(context, diffuse, channels);
     material.emission =
         readEmission(context, readChannel(context, scope, *model, "emission"), channels);

@@ -16,7 +16,7 @@ constexpr int kDeepest = 256;
 
 } // namespace
 
-Document::Document(const std::filesystem::path& file)
+Document::Document(const std::filesystem::path& file, build::Report& report)
     : path_(file), file_(file.string()), bytes_(build::readFile(file)),
       container_(openContainer(file_, bytes_)) {
     try {
@@ -26,7 +26,7 @@ Document::Document(const std::filesystem::path& file)
     }
     root_ = std::make_unique<Element>(file_, "", json_);
     requireVersion();
-    requireExtensions();
+    checkExtensions(report);
 }
 
 void Document::requireVersion() const {
@@ -40,12 +40,11 @@ void Document::requireVersion() const {
     if (least != "2.0") asset->fail("minVersion", fmt::format("is '{}', 2.0 is read", least));
 }
 
-void Document::requireExtensions() const {
+void Document::checkExtensions(build::Report& report) const {
     for (const std::string& name : root_->texts("extensionsRequired"))
         if (!isReadExtension(name))
-            root_->fail(
-                "extensionsRequired",
-                fmt::format("the file cannot be shown without '{}', which is not read", name));
+            report.replace({file_, 0, "extensionsRequired"}, build::Shortfall::Extension,
+                           fmt::format("the file requires '{}', which is not read", name));
 }
 
 std::optional<Element> Document::follow(const Element& from, std::string_view member,

@@ -18,8 +18,9 @@ namespace stromboli::gltf {
 /// and kept.
 class Document {
   public:
-    /// Throws SceneError if it is no glTF 2, or requires an extension that is not there.
-    explicit Document(const std::filesystem::path& file);
+    /// Throws SceneError if it is no glTF 2. What is missing of it is said in the report, which
+    /// must outlive the document.
+    Document(const std::filesystem::path& file, build::Report& report);
 
     const std::string& file() const { return file_; }
     const Element& root() const { return *root_; }
@@ -40,7 +41,7 @@ class Document {
     std::string_view bytesOfBuffer(size_t buffer) const;
     std::string_view part(const Element& view) const;
     void requireVersion() const;
-    void requireExtensions() const;
+    void checkExtensions(build::Report& report) const;
 
     std::filesystem::path path_;
     std::string file_; ///< path_, for messages

@@ -10,8 +10,7 @@
 
 namespace stromboli::gltf {
 
-Element::Element(const std::string& file, std::string path, const Json& json,
-                 build::Report* report)
+Element::Element(const std::string& file, std::string path, const Json& json, build::Report* report)
     : file_(&file), path_(std::move(path)), json_(&json), report_(report) {
     if (!json.isObject()) fail("is no object, expected {...}");
 }

@@ -16,8 +16,8 @@ namespace stromboli::gltf {
 
 /// An object of the file, which knows its place, such as `meshes[0].primitives[2]`. Its members are
 /// read with the type that they must have; those that have another one are errors that name the
-/// member where nothing can be shown without it. Where the member may be missing, it counts as that,
-/// and the report says so.
+/// member where nothing can be shown without it. Where the member may be missing, it counts as
+/// that, and the report says so.
 class Element {
   public:
     /// `file`, `json` and `report` must outlive the element. No report: all is an error.

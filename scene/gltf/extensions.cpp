@@ -24,6 +24,7 @@ bool isReadExtension(std::string_view name) {
         "KHR_materials_variants",
         "KHR_materials_volume",
         "KHR_mesh_quantization",
+        "KHR_node_visibility",
         "KHR_texture_transform",
     };
     return std::find(std::begin(names), std::end(names), name) != std::end(names);

@@ -1,5 +1,6 @@
 #include "scene/gltf/nodes.hpp"
 
+#include "host/core/error.hpp"
 #include "scene/build/vectors.hpp"
 #include "scene/gltf/cameras.hpp"
 #include "scene/gltf/lights.hpp"
@@ -24,6 +25,12 @@ glm::dquat unitRotation(const Element& at, const glm::dquat& q) {
     const double length = glm::length(q);
     if (!(length > 0)) at.fail("rotation", "has no direction");
     return q / length;
+}
+
+/// KHR_node_visibility.
+bool isHidden(const Element& node) {
+    const std::optional<Element> visibility = node.extension("KHR_node_visibility");
+    return visibility && !visibility->flag("visible", true);
 }
 
 } // namespace
@@ -124,6 +131,7 @@ void Nodes::place() {
         open.pop_back();
         if (placed[node]) continue; // a scene may name a node and its parent
         placed[node] = true;
+        if (isHidden(document_.at("nodes", node))) continue; // and so is what hangs on it
         placeNode(node);
         const std::vector<size_t> children = childrenOf(node);
         open.insert(open.end(), children.rbegin(), children.rend());
@@ -157,7 +165,13 @@ void Nodes::placeMesh(const Element& node, size_t index) {
                               ? found->second.weights
                               : node.numbers("weights", 0);
     deformation.joints = jointsOf(node);
-    const std::optional<BuiltMesh> built = meshes_.get(*mesh, deformation);
+    std::optional<BuiltMesh> built;
+    try {
+        built = meshes_.get(*mesh, deformation);
+    } catch (const SceneError& error) {
+        // One mesh never costs the scene.
+        context_.report().replace(error, build::Shortfall::Geometry);
+    }
     if (!built) return;
     // The joints of a skin lead to the world by themselves.
     const glm::dmat4 toWorld = deformation.joints.empty() ? toWorld_[index] : glm::dmat4(1);

@@ -1,5 +1,6 @@
 #include "scene/gltf/textures.hpp"
 
+#include "host/core/error.hpp"
 #include "host/core/memory.hpp"
 #include "scene/build/picture_store.hpp"
 #include "scene/gltf/uri.hpp"
@@ -110,7 +111,9 @@ std::optional<uint32_t> Textures::texture(size_t index, bool srgb) {
     const std::optional<size_t> source = sourceOf(element);
     if (!source) return std::nullopt;
     Texture texture;
-    texture.image = image(*source, srgb);
+    const std::optional<uint32_t> picture = image(*source, srgb);
+    if (!picture) return std::nullopt;
+    texture.image = *picture;
     texture.srgb = srgb;
     if (const auto sampler = context_.document.follow(element, "sampler", "samplers")) {
         texture.wrapU = wrapOf(*sampler, "wrapS");
@@ -121,10 +124,17 @@ std::optional<uint32_t> Textures::texture(size_t index, bool srgb) {
     return number;
 }
 
-uint32_t Textures::image(size_t index, bool srgb) {
+/// Nothing if the picture is not there or cannot be read.
+std::optional<uint32_t> Textures::image(size_t index, bool srgb) {
     const auto found = images_.find({index, srgb});
     if (found != images_.end()) return found->second;
-    TextureImage picture = readOnce(index, srgb);
+    TextureImage picture;
+    try {
+        picture = readOnce(index, srgb);
+    } catch (const SceneError& error) {
+        context_.report().replace(error, build::Shortfall::Picture);
+        return std::nullopt;
+    }
     // Bytes are the same whatever they mean; what is decoded or mixed is not.
     const auto other = images_.find({index, !srgb});
     const bool mayBeMixed = context_.selection().largestTexture > 0;
@@ -167,12 +177,19 @@ TextureImage Textures::read(size_t index, bool srgb) {
         const std::string uri = element.text("uri");
         const std::string bytes = document.bytesOfUri(uri, element);
         const std::string name = fmt::format("{}: {}", place, shortUri(uri));
-        return images::textureImage(images::decodePicture(bytes, name), name, srgb);
+        return decoded(bytes, name, srgb, element);
     }
     const std::optional<size_t> view = element.index("bufferView", document.size("bufferViews"));
     if (!view) element.fail("has neither 'uri' nor 'bufferView'");
-    return images::textureImage(images::decodePicture(document.bytesOfView(*view), place), place,
-                                srgb);
+    return decoded(document.bytesOfView(*view), place, srgb, element);
+}
+
+TextureImage Textures::decoded(std::string_view bytes, const std::string& name, bool srgb,
+                               const Element& at) {
+    images::Picture picture = images::decodePicture(bytes, name);
+    for (const images::PictureFault& fault : picture.faults)
+        context_.report().replace(at.place(), fault.kind, fault.problem);
+    return images::textureImage(picture, name, srgb);
 }
 
 } // namespace stromboli::gltf

@@ -29,12 +29,14 @@ class Textures {
   private:
     std::optional<uint32_t> texture(size_t index, bool srgb);
     std::optional<size_t> sourceOf(const Element& texture);
-    uint32_t image(size_t index, bool srgb);
+    std::optional<uint32_t> image(size_t index, bool srgb);
     /// From where the conventions keep it, if it is there.
     TextureImage readOnce(size_t index, bool srgb);
     /// Shrunk to the largest size that is wanted.
     TextureImage readToFit(size_t index, bool srgb);
     TextureImage read(size_t index, bool srgb);
+    TextureImage decoded(std::string_view bytes, const std::string& name, bool srgb,
+                         const Element& at);
     void requireRoom(uint64_t bytes, size_t index);
 
     Context& context_;

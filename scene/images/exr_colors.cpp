@@ -62,16 +62,17 @@ glm::vec4 onCube(const Imath::Box2i& window, const Picture& picture, const glm::
     Imf::CubeMap::faceAndPixelPosition({float(direction.x), float(direction.y), float(direction.z)},
                                        window, face, place);
     const int last = Imf::CubeMap::sizeOfFace(window) - 1;
-    const glm::vec2 inside = glm::clamp(glm::vec2(place.x, place.y), glm::vec2(0), glm::vec2(float(last)));
+    const glm::vec2 inside =
+        glm::clamp(glm::vec2(place.x, place.y), glm::vec2(0), glm::vec2(float(last)));
     const glm::ivec2 first(inside);
     const glm::vec2 part = inside - glm::vec2(first);
     glm::vec4 sum(0);
     for (int k = 0; k < 4; ++k) {
         const glm::ivec2 at = glm::min(first + glm::ivec2(k & 1, k >> 1), glm::ivec2(last));
-        const float weight = ((k & 1) != 0 ? part.x : 1 - part.x) *
-                             ((k >> 1) != 0 ? part.y : 1 - part.y);
-        const Imath::V2f pixel = Imf::CubeMap::pixelPosition(
-            face, window, {float(at.x), float(at.y)});
+        const float weight =
+            ((k & 1) != 0 ? part.x : 1 - part.x) * ((k >> 1) != 0 ? part.y : 1 - part.y);
+        const Imath::V2f pixel =
+            Imf::CubeMap::pixelPosition(face, window, {float(at.x), float(at.y)});
         const auto x = uint32_t(std::lround(pixel.x)) - uint32_t(window.min.x);
         const auto y = uint32_t(std::lround(pixel.y)) - uint32_t(window.min.y);
         const size_t texel = (size_t(std::min(y, picture.height - 1)) * picture.width +

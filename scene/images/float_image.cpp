@@ -81,9 +81,9 @@ void shrink(FloatImage& image, uint32_t largestSide) {
             small.texels[size_t(y) * small.width + x] =
                 sum / (double(right - x * size) * double(lower - y * size));
         }
-    image.faults.push_back({build::Shortfall::EnvironmentSize,
-                            fmt::format("has {} x {} texels, more than {} a side", image.width,
-                                        image.height, largestSide)});
+    image.faults.push_back(
+        {build::Shortfall::EnvironmentSize, fmt::format("has {} x {} texels, more than {} a side",
+                                                        image.width, image.height, largestSide)});
     image.width = small.width;
     image.height = small.height;
     image.texels = std::move(small.texels);

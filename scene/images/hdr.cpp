@@ -32,6 +32,8 @@ const glm::dmat3 kRgbFromXyz = [] {
 /// Rows of these lengths may be packed channel by channel; all others are packed pixel by pixel.
 constexpr uint32_t kShortestPackedRow = 8, kLongestPackedRow = 32767;
 
+constexpr uint64_t kMostPixels = uint64_t(2) * kLargestSide * kLargestSide;
+
 /// How the rows of a file lie in the picture: "-Y 2 +X 4" are two rows of four pixels from the top,
 /// each from the left. All eight orders are legal.
 struct Order {
@@ -88,7 +90,10 @@ class HdrReader {
         const uint32_t width = order.rowsAreColumns ? order.rows : order.pixels;
         const uint32_t height = order.rowsAreColumns ? order.pixels : order.rows;
         const bool packs = order.pixels >= kShortestPackedRow && order.pixels <= kLongestPackedRow;
-        requireSides(name_, width, height, 4 * largestSide_);
+        requireSides(name_, width, height, 4 * kLargestSide);
+        // Repeated pixels cost a file nothing and a reader time.
+        if (uint64_t(width) * height > kMostPixels)
+            fail(fmt::format("{} x {} are more than {} pixels", width, height, kMostPixels));
         Blocks blocks(width, height, largestSide_);
         // Four bytes a row at least where it is packed; a repeated pixel stands for up to 2^24
         // others, so that a file of few bytes is bounded by its sides alone.
@@ -109,10 +114,9 @@ class HdrReader {
         }
         Picture read = blocks.finish();
         if (blocks.size() > 1)
-            read.faults.push_back(
-                {build::Shortfall::EnvironmentSize,
-                 fmt::format("has {} x {} texels, more than {} a side", width, height,
-                             largestSide_)});
+            read.faults.push_back({build::Shortfall::EnvironmentSize,
+                                   fmt::format("has {} x {} texels, more than {} a side", width,
+                                               height, largestSide_)});
         return read;
     }
 

@@ -91,8 +91,8 @@ Picture decodeJpeg(std::string_view bytes, const std::string& name) {
     Picture picture{reader.jpeg.image_width, reader.jpeg.image_height, {}};
     // Of a few bytes that claim many pixels next to nothing could be shown, slowly.
     constexpr uint64_t manyTexels = uint64_t(1) << 22, texelsOfByte = 256;
-    reader.errors.forgives = picture.texelCount() < manyTexels ||
-                             picture.texelCount() / texelsOfByte < bytes.size();
+    reader.errors.forgives =
+        picture.texelCount() < manyTexels || picture.texelCount() / texelsOfByte < bytes.size();
     std::vector<uint8_t> values(picture.texelCount() * 4);
     const bool hasEnd = readJpegRows(reader, values.data());
     // What comes before an error is as good as what comes before a warning.

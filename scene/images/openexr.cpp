@@ -117,8 +117,7 @@ ShownPart shownPart(const Imf::MultiPartInputFile& file) {
     for (int part = 0; part < file.parts(); ++part)
         for (const std::string& name : namesOf(file.header(part).channels()))
             if (names.size() < 200) names += (names.empty() ? "" : ", ") + name;
-    throw std::runtime_error(
-        fmt::format("it has neither R, G, B nor Y channels, but {}", names));
+    throw std::runtime_error(fmt::format("it has neither R, G, B nor Y channels, but {}", names));
 }
 
 /// The numbers of a channel for each pixel of the data window. One that is there for every other
@@ -144,11 +143,10 @@ std::vector<float> readChannel(Imf::InputPart& part, const std::string& channel)
             const size_t right = std::min(left + 1, columns - 1);
             const size_t lower = std::min(top + 1, rows - 1);
             const double a = u - double(left), b = v - double(top);
-            values[y * width + x] =
-                float((1 - b) * ((1 - a) * sampled[top * columns + left] +
-                                 a * sampled[top * columns + right]) +
-                      b * ((1 - a) * sampled[lower * columns + left] +
-                           a * sampled[lower * columns + right]));
+            values[y * width + x] = float((1 - b) * ((1 - a) * sampled[top * columns + left] +
+                                                     a * sampled[top * columns + right]) +
+                                          b * ((1 - a) * sampled[lower * columns + left] +
+                                               a * sampled[lower * columns + right]));
         }
     return values;
 }

@@ -10,8 +10,8 @@
 
 namespace stromboli::images {
 
-/// More columns or rows than this are refused: a file of a few bytes can claim any size. Of Radiance
-/// pictures four times as many become means of blocks, as they are read.
+/// More columns or rows than this are refused: a file of a few bytes can claim any size. Of
+/// Radiance pictures four times as many become means of blocks, as they are read.
 inline constexpr uint32_t kLargestSide = 16384;
 
 /// What is wrong with a picture that is shown all the same.

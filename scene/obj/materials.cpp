@@ -13,10 +13,10 @@ Materials::Materials(const std::filesystem::path& file, build::SceneBuilder& bui
 
 /// The specification separates names by spaces; programs write one name, with spaces in it.
 void Materials::addLibraries(const Statements& statement) {
-    if (addLibrary(statement.rest())) return;
+    if (addLibrary(statement.rest(), statement.place())) return;
     bool foundAll = true;
     for (Words words(statement.rest()); !words.atEnd();)
-        foundAll = addLibrary(words.next()) && foundAll;
+        foundAll = addLibrary(words.next(), statement.place()) && foundAll;
     if (foundAll && !statement.rest().empty()) return;
     builder_.report().forgive(
         statement.place(),
@@ -24,12 +24,12 @@ void Materials::addLibraries(const Statements& statement) {
         "its materials are not known");
 }
 
-bool Materials::addLibrary(std::string_view name) {
+bool Materials::addLibrary(std::string_view name, const build::FilePlace& where) {
     const build::Companion library = build::companion(folder_, name);
     const std::optional<std::filesystem::path>& file = library.path;
     if (!file) return false;
     if (!library.problem.empty())
-        builder_.report().forgive({folder_.string(), 0, "mtllib"}, library.problem, library.reading);
+        builder_.report().forgive(where, library.problem, library.reading);
     if (std::find(libraries_.begin(), libraries_.end(), file->string()) != libraries_.end())
         return true;
     libraries_.push_back(file->string());

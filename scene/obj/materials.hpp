@@ -33,7 +33,7 @@ class Materials {
     const BoundMaterial& of(std::optional<uint32_t> name);
 
   private:
-    bool addLibrary(std::string_view name);
+    bool addLibrary(std::string_view name, const build::FilePlace& where);
     BoundMaterial make(const MtlMaterial& stated);
 
     std::filesystem::path folder_;

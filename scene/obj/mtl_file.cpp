@@ -198,8 +198,7 @@ class MtlReader {
                             "they are no part of it");
         }
         if (map.name.empty())
-            return report_.replace(statements_.place(), build::Shortfall::Picture,
-                                   "names no file");
+            return report_.replace(statements_.place(), build::Shortfall::Picture, "names no file");
         result = std::move(map);
     }
 
@@ -265,9 +264,9 @@ class MtlReader {
     bool isOn(Words& words) {
         const std::string_view value = words.next();
         if (value != "on" && value != "off")
-            report_.replace(statements_.place(), build::Shortfall::Word,
-                            fmt::format("'{}' stands where on or off is expected",
-                                        shortened(value)));
+            report_.replace(
+                statements_.place(), build::Shortfall::Word,
+                fmt::format("'{}' stands where on or off is expected", shortened(value)));
         return value == "on";
     }
 

@@ -89,8 +89,7 @@ void ObjReader::readPosition() {
             "colours of vertices are sRGB; they multiply the material's colour");
     // Vertices before the first one with a colour, and those without, are white: nothing changes.
     lists_.colors.resize(lists_.mesh.positions.size(), glm::vec3(1));
-    if (hasColor)
-        lists_.colors.back() = glm::vec3(more[0], more[1], more[2]);
+    if (hasColor) lists_.colors.back() = glm::vec3(more[0], more[1], more[2]);
     if (!firstColor_) firstColor_ = statements_.place();
 }
 

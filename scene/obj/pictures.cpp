@@ -57,10 +57,8 @@ std::optional<TextureImage> Pictures::read(const Map& map, bool srgb) {
         bytes = build::readFile(*file.path);
         return bytes;
     };
-    const std::string name =
-        isFile ? file.path->string() : map.place.describe(shortened(map.name));
-    std::optional<TextureImage> image =
-        images::loadTexture(bytesOf, name, srgb, map.place, report);
+    const std::string name = isFile ? file.path->string() : map.place.describe(shortened(map.name));
+    std::optional<TextureImage> image = images::loadTexture(bytesOf, name, srgb, map.place, report);
     if (image && !file.problem.empty()) report.forgive(map.place, file.problem, file.reading);
     return image;
 }

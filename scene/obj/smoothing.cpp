@@ -31,8 +31,10 @@ void Smoothing::apply(std::span<build::Corner> polygon, const std::vector<glm::d
     for (size_t i = 0; i < count; ++i) {
         const glm::dvec3 before = at(i + count - 1) - at(i), after = at(i + 1) - at(i);
         const double lengths = glm::length(before) * glm::length(after);
-        if (!(lengths > 0)) continue;
-        const double angle = std::acos(std::clamp(glm::dot(before, after) / lengths, -1.0, 1.0));
+        // A corner twice in a row has no angle; it has a normal all the same, since a face has them
+        // at all of its corners or at none.
+        const double cosine = lengths > 0 ? glm::dot(before, after) / lengths : 1;
+        const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
         const uint64_t key = uint64_t(group_) << 32 | polygon[i].position;
         const auto [found, isNew] = normals_.try_emplace(key, uint32_t(normals.size()));
         if (isNew) normals.emplace_back(0);

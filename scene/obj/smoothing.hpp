@@ -24,7 +24,7 @@ class Smoothing {
                uint32_t first, std::vector<glm::dvec3>& normals);
 
   private:
-    uint32_t group_ = 0; ///< 0: none
+    uint32_t group_ = 0;                             ///< 0: none
     std::unordered_map<uint64_t, uint32_t> normals_; ///< by group and position
 };
 

@@ -33,9 +33,10 @@ struct Element {
 struct Header {
     Encoding encoding = Encoding::Ascii;
     std::vector<Element> elements; ///< in the order in which the file has them
-    std::vector<std::string> pictures; ///< of comments `TextureFile NAME`, as scanning programs write
-    size_t end = 0;                ///< where the elements begin, in bytes
-    int lines = 0;                 ///< how many lines it takes
+    std::vector<std::string>
+        pictures;   ///< of comments `TextureFile NAME`, as scanning programs write
+    size_t end = 0; ///< where the elements begin, in bytes
+    int lines = 0;  ///< how many lines it takes
 
     /// Nothing if there are none of this kind.
     const Element* find(std::string_view name) const;

@@ -67,8 +67,8 @@ void PlyReader::readElements(const Element& element) {
 /// Where vertices have colours, those of faces would be other ones.
 bool PlyReader::readsFaceColors(const FaceColors& colors) const {
     if (!colors.areThere()) return false;
-    return colors_.isOfFaces || (colors_.name == "color" && !vertices_.hasColors &&
-                                 builder_.conventions().textures);
+    return colors_.isOfFaces ||
+           (colors_.name == "color" && !vertices_.hasColors && builder_.conventions().textures);
 }
 
 /// Two numbers for each corner that was read last.
@@ -76,9 +76,9 @@ void PlyReader::readCornerUvs(const Property& property, size_t corners) {
     const uint64_t length = body_.listLength(property);
     const bool fits = length == 2 * corners && corners > 0;
     if (!fits && length > 0)
-        builder_.report().replace(body_.place(), build::Shortfall::Attribute,
-                                  fmt::format("there are {} texture coordinates for {} corners",
-                                              length, corners));
+        builder_.report().replace(
+            body_.place(), build::Shortfall::Attribute,
+            fmt::format("there are {} texture coordinates for {} corners", length, corners));
     std::array<double, 2> uv{};
     for (uint64_t i = 0; i < length; ++i) {
         const double value = body_.number(property.type);
@@ -99,7 +99,9 @@ void PlyReader::readFaces(const Element& element) {
         if (isCornerList(property) && !hasCorners)
             hasCorners = true;
         else if ((!readsColors || !colors.isColor(property)) && !isUvList(property))
-            builder_.report().ignore("properties of faces", "only their corners, texture coordinates and colours are read");
+            builder_.report().ignore(
+                "properties of faces",
+                "only their corners, texture coordinates and colours are read");
     }
     if (!hasCorners && element.count > 0) body_.fail("has no list 'vertex_indices'");
     std::vector<uint32_t> strip;

@@ -44,7 +44,7 @@ class PlyReader {
     Vertices vertices_;
     std::vector<uint32_t> corners_;     ///< of all faces, one face after the other
     std::vector<uint32_t> sizes_;       ///< how many corners each of them has
-    std::vector<glm::vec2> cornerUvs_; ///< of each corner, v upwards; empty: the vertices' count
+    std::vector<glm::vec2> cornerUvs_;  ///< of each corner, v upwards; empty: the vertices' count
     std::vector<glm::vec4> faceColors_; ///< of each of them; empty: none are wanted, or there
 };
 

@@ -47,6 +47,41 @@ TEST(DefaultLight, IsASkyForScenesWhereNothingShines) {
     EXPECT_EQ(black.lights[1].color, glm::vec3(1));
 }
 
+/// A square of which a picture emits, a texel in four white.
+Scene withPictureOfEmission(float emission) {
+    SceneBuilder builder("scene.xyz", {});
+    TextureImage image;
+    image.width = image.height = 2;
+    image.words = {0xFFFFFFFFu, 0xFF000000u, 0xFF000000u, 0xFF000000u};
+    Texture texture;
+    texture.image = builder.addImage(image);
+    Material material;
+    material.emission = glm::vec3(emission);
+    TextureUse use;
+    use.slot = TextureSlot::Emission;
+    use.texture = builder.addTexture(texture);
+    material.textures.push_back(use);
+    const std::vector<uint32_t> materials{builder.addMaterial(material)};
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    for (const glm::dvec3& p : mesh.positions) {
+        mesh.attributes.emplace_back();
+        mesh.attributes.back().uv[0] = glm::vec2(p.x, p.y);
+    }
+    const auto corner = [](uint32_t i) { return Corner{i, kNoNormals, i}; };
+    mesh.parts = {{{corner(0), corner(1), corner(2)}, {corner(0), corner(2), corner(3)}}};
+    builder.place({"scene.xyz", 1, "square"}, builder.addMesh("square", mesh), glm::dmat4(1),
+                  materials, "square");
+    return builder.finish();
+}
+
+TEST(DefaultLight, IsForScenesWhosePicturesOfEmissionLightNothing) {
+    const Scene weak = withPictureOfEmission(0.01f); // a mean of 0.01 / 4 on all surfaces
+    EXPECT_EQ(weak.lights.size(), 1u);
+    EXPECT_THAT(weak.report.assumed, Contains(HasSubstr("too weak to light the surfaces")));
+    EXPECT_TRUE(withPictureOfEmission(10).lights.empty());
+}
+
 TEST(DefaultLight, IsNotForScenesThatHaveLight) {
     for (const Content& content : {Content{.emission = {0, 0, 1e-6f}},
                                    Content{.lights = {{0, 1, 0}}}, Content{.sphere = false}}) {

@@ -2,8 +2,13 @@
 
 #include "host/core/error.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+#include <vector>
 
 namespace stromboli::build {
 namespace {
@@ -44,6 +49,33 @@ TEST(ReportTest, StrictForgivesNothing) {
     EXPECT_THAT(lines.forgiven, IsEmpty());
     EXPECT_THAT(lines.assumed, ElementsAre("a mesh is grey"));
     EXPECT_EQ(lines.ignored.size() + lines.warnings.size(), 2u);
+}
+
+TEST(Shortfalls, AreTheTableForUsers) {
+    std::ifstream file(std::string(STROMBOLI_SOURCE_DIR) + "/docs/forgiving.md");
+    std::vector<std::string> rows;
+    for (std::string line; std::getline(file, line);)
+        if (line.starts_with("| a") || line.starts_with("| c")) rows.push_back(line);
+    ASSERT_EQ(rows.size(), kShortfalls.size());
+    for (size_t i = 0; i < rows.size(); ++i)
+        EXPECT_EQ(rows[i], fmt::format("| {} | {} |", kShortfalls[i].what, kShortfalls[i].instead));
+}
+
+TEST(Shortfalls, AreForgivenOrErrorsByStrictness) {
+    const FilePlace place{"a.xyz", 3, "picture"};
+    Report forgiving, strict(true);
+    forgiving.replace(place, Shortfall::Picture, "is not there");
+    forgiving.replace(place, Shortfall::Picture, "is damaged");
+    EXPECT_THAT(linesOf(forgiving).forgiven,
+                ElementsAre("a.xyz:3: <picture>: is not there: there is no picture on the surface "
+                            "(2 times)"));
+    EXPECT_EQ(forgiving.firstError(), nullptr);
+    EXPECT_THROW(strict.replace(place, Shortfall::Picture, "is not there"), SceneError);
+    const SceneError error("a.xyz", 3, "mesh", "is wrong");
+    forgiving.replace(error, Shortfall::Geometry);
+    ASSERT_NE(forgiving.firstError(), nullptr);
+    EXPECT_EQ(*forgiving.firstError(), error.what());
+    EXPECT_THROW(strict.replace(error, Shortfall::Geometry), SceneError);
 }
 
 } // namespace

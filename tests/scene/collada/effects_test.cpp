@@ -96,23 +96,25 @@ TEST(Effects, WhatIsNotRenderedIsReported) {
                 ElementsAre(HasSubstr("1 <ambient>")));
 }
 
-TEST(Effects, TransparencyIsReportedInAllItsModes) {
-    const auto isReported = [](const char* mode, const char* color, const char* factor) {
+TEST(Effects, TransparencyIsReadInAllItsModes) {
+    const auto opacity = [](const char* mode, const char* color, const char* factor) {
         const std::string content =
             fmt::format("<phong><transparent{}><color>{}</color></transparent><transparency><float>"
                         "{}</float></transparency></phong>",
                         *mode ? fmt::format(" opaque=\"{}\"", mode) : "", color, factor);
-        return !loadEffect(profile(content)).report.ignored.empty();
+        const Material material = loadEffect(profile(content)).materials.at(0);
+        return material.alphaMode == AlphaMode::Opaque ? 1.0f : material.opacity;
     };
-    EXPECT_FALSE(isReported("", "1 1 1 1", "1"));
-    EXPECT_TRUE(isReported("", "1 1 1 1", "0.5"));
-    EXPECT_TRUE(isReported("A_ONE", "1 1 1 0", "1"));
-    EXPECT_FALSE(isReported("A_ZERO", "1 1 1 1", "0"));
-    EXPECT_TRUE(isReported("A_ZERO", "1 1 1 1", "1"));
-    EXPECT_FALSE(isReported("RGB_ZERO", "0 0 0 1", "1"));
-    EXPECT_TRUE(isReported("RGB_ZERO", "0 1 0 1", "1"));
-    EXPECT_FALSE(isReported("RGB_ONE", "1 1 1 0", "1"));
-    EXPECT_TRUE(isReported("RGB_ONE", "1 1 0 1", "1"));
+    EXPECT_EQ(opacity("", "1 1 1 1", "1"), 1);
+    EXPECT_EQ(opacity("", "1 1 1 1", "0.5"), 0.5f);
+    EXPECT_EQ(opacity("A_ONE", "1 1 1 0", "1"), 0);
+    EXPECT_EQ(opacity("A_ZERO", "1 1 1 1", "0"), 1);
+    EXPECT_EQ(opacity("A_ZERO", "1 1 1 1", "0.25"), 0.75f);
+    EXPECT_EQ(opacity("RGB_ZERO", "0 0 0 1", "1"), 1);
+    // The standard's luminance of green, and of all but blue.
+    EXPECT_FLOAT_EQ(opacity("RGB_ZERO", "0 1 0 1", "1"), 1 - 0.715160f);
+    EXPECT_EQ(opacity("RGB_ONE", "1 1 1 0", "1"), 1);
+    EXPECT_FLOAT_EQ(opacity("RGB_ONE", "1 1 0 1", "1"), 1 - 0.072169f);
 }
 
 TEST(Effects, AlbedoIsClamped) {

@@ -235,7 +235,7 @@ TEST_F(ColladaTextures, ColoursOfCorners) {
     text.model = "<diffuse><color>0.5 0.5 0.5 1</color></diffuse>";
     const Scene scene = load(text);
     EXPECT_EQ(colorOf(scene, 0), glm::vec4(1, 0.5f, 0, 1));
-    EXPECT_EQ(colorOf(scene, 1), glm::vec4(0, 2, 0, 1)) << "negative ones become 0";
+    EXPECT_EQ(colorOf(scene, 1), glm::vec4(0, 1, 0, 1)) << "clamped to [0, 1]";
     EXPECT_THAT(scene.report.assumed, Contains(HasSubstr("multiply the diffuse colour")));
 }
 

@@ -19,6 +19,39 @@ GltfText triangle() {
     return g;
 }
 
+SceneConventions strictly() {
+    SceneConventions conventions;
+    conventions.strict = true;
+    return conventions;
+}
+
+TEST(GltfErrors, OnePictureCostsNoScene) {
+    GltfText g;
+    g.arrays["images"] = {R"({"uri": "none.png"})"};
+    g.arrays["textures"] = {R"({"source": 0})"};
+    g.addTo("materials", R"("pbrMetallicRoughness": {"baseColorFactor": [0.5, 1, 1, 1],
+        "baseColorTexture": {"index": 0}})");
+    g.addTriangle(R"(, "material": 0)");
+    const Scene scene = load(g);
+    EXPECT_EQ(scene.triangles.size(), 1u);
+    EXPECT_TRUE(scene.textures.empty());
+    ASSERT_EQ(scene.report.forgiven.size(), 1u);
+    EXPECT_THAT(scene.report.forgiven[0], HasSubstr("<images[0]>"));
+    EXPECT_THAT(scene.report.forgiven[0], HasSubstr("there is no picture on the surface"));
+    EXPECT_THROW(load(g, strictly()), SceneError);
+}
+
+TEST(GltfErrors, OneMeshCostsNoScene) {
+    GltfText g = triangle();
+    g.addTriangle();
+    g.arrays["scenes"] = {R"({"nodes": [0, 1]})"};
+    g.arrays["meshes"].at(1) = R"({"primitives": [{"attributes": {"POSITION": 99}}]})";
+    const Scene scene = load(g);
+    EXPECT_EQ(scene.triangles.size(), 1u);
+    EXPECT_THAT(scene.report.forgiven, Contains(HasSubstr("it is left out")));
+    EXPECT_THROW(load(g, strictly()), SceneError);
+}
+
 TEST(GltfErrors, Json) {
     EXPECT_EQ(gltfProblem("{\"asset\": {\"version\": \"2.0\"},\n\n \"nodes\": [}"),
               "is no glTF: its JSON is wrong in line 3");
@@ -48,8 +81,11 @@ TEST(GltfErrors, RequiredExtensions) {
     EXPECT_THAT(load(g).report.ignored,
                 testing::ElementsAre("1 extension 'EXT_black_holes': it is not read"));
     g.members["extensionsRequired"] = R"(["KHR_texture_transform", "EXT_black_holes"])";
-    EXPECT_EQ(problem(g), "<extensionsRequired>: the file cannot be shown without "
-                          "'EXT_black_holes', which is not read");
+    const Scene scene = load(g);
+    EXPECT_EQ(scene.triangles.size(), 1u);
+    EXPECT_THAT(scene.report.forgiven,
+                Contains(HasSubstr("<extensionsRequired>: the file requires 'EXT_black_holes'")));
+    EXPECT_THROW(load(g, strictly()), SceneError);
 }
 
 TEST(GltfErrors, WrongTypes) {

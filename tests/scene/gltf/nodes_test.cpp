@@ -31,6 +31,25 @@ TEST(GltfNodes, TranslationRotationScale) {
     expectNear(corner(load(g)), {1, 6, 3});
 }
 
+TEST(GltfNodes, HiddenOnesAreNotShownNorWhatHangsOnThem) {
+    GltfText g;
+    g.addTriangle();
+    g.addTriangle();
+    g.arrays["scenes"] = {R"({"nodes": [0, 1]})"};
+    EXPECT_EQ(load(g).triangles.size(), 2u);
+    g.arrays["nodes"].at(0) =
+        R"({"mesh": 0, "extensions": {"KHR_node_visibility": {"visible": false}}})";
+    EXPECT_EQ(load(g).triangles.size(), 1u);
+    EXPECT_TRUE(load(g).report.ignored.empty());
+    g.arrays["nodes"].at(0) =
+        R"({"mesh": 0, "extensions": {"KHR_node_visibility": {"visible": true}}})";
+    EXPECT_EQ(load(g).triangles.size(), 2u);
+    g.arrays["scenes"] = {R"({"nodes": [0]})"};
+    g.arrays["nodes"].at(0) =
+        R"({"children": [1], "extensions": {"KHR_node_visibility": {"visible": false}}})";
+    EXPECT_TRUE(load(g).triangles.empty());
+}
+
 TEST(GltfNodes, Matrices) {
     GltfText g;
     g.addTriangle();

@@ -83,7 +83,10 @@ TEST(DamagedPictures, TruncatedAnywhere) {
         for (const double part : {0.1, 0.5, 0.9}) {
             const std::string message =
                 messageOf(file.substr(0, size_t(double(file.size()) * part)));
-            EXPECT_THAT(message, HasSubstr("a.png: ")) << part;
+            // Of a JPEG picture what there is of it is shown; formats_test.cpp sees that it is
+            // said.
+            const bool isShown = file.starts_with("\xFF\xD8") && part > 0.2;
+            EXPECT_THAT(message, HasSubstr(isShown ? "" : "a.png: ")) << part;
             EXPECT_THAT(message, testing::Not(HasSubstr("\n")));
         }
 }
@@ -103,7 +106,7 @@ TEST(DamagedPictures, AbsurdSizes) {
     EXPECT_THAT(messageOf("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 16384 +X 16384\nabcd"),
                 HasSubstr("claims 16384 x 16384 pixels, which 4 bytes cannot hold"));
     EXPECT_THAT(messageOf("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 4000000\nabcd"),
-                HasSubstr("4000000 x 1 pixels, expected at least 1 and at most 16384"));
+                HasSubstr("4000000 x 1 pixels, expected at least 1 and at most 65536"));
     std::string exr = test::exr(1, 1, "Y", {1}, false);
     const std::string key = "dataWindow";
     const size_t window = exr.find(key) + key.size() + 1 + 6 + 4; // name, type and size of it

@@ -8,8 +8,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 namespace stromboli::images {
 namespace {
@@ -128,13 +130,56 @@ TEST(FloatImages, AreLinear) {
     EXPECT_EQ(deep.texels.at(1), glm::vec3(4, 5, 6));
 }
 
-TEST(FloatImages, RefuseWhatIsNoLight) {
-    const File file(test::exr(2, 1, "RGB", {1, 2, 3, 4, -5, 6}, false));
-    try {
-        readFloatImage(file.path);
-        FAIL();
-    } catch (const std::exception& error) {
-        EXPECT_THAT(error.what(), HasSubstr("pixel (1, 0) is (4, -5, 6), expected finite"));
+TEST(FloatImages, WhatIsNoLightCountsAsNone) {
+    constexpr float inf = std::numeric_limits<float>::infinity();
+    const File file(test::exr(2, 1, "RGB", {1, 2, inf, 4, -5, 6}, false));
+    const FloatImage image = readFloatImage(file.path);
+    EXPECT_EQ(image.texels.at(0), glm::vec3(1, 2, 0));
+    EXPECT_EQ(image.texels.at(1), glm::vec3(4, 0, 6));
+    ASSERT_EQ(image.faults.size(), 1u);
+    EXPECT_EQ(image.faults[0].kind, build::Shortfall::EnvironmentTexel);
+    EXPECT_EQ(image.faults[0].problem, "2 texels are no light, the first at (0, 0), (1, 2, inf)");
+}
+
+TEST(FloatImages, BecomeMeansOfBlocksWhereTheyAreTooLarge) {
+    const File file(test::exr(3, 2, "Y", {1, 2, 5, 3, 6, 7}, false));
+    const FloatImage image = readFloatImage(file.path, 2);
+    ASSERT_EQ(image.width, 2u);
+    ASSERT_EQ(image.height, 1u);
+    EXPECT_EQ(image.texels.at(0), glm::vec3(3)); // (1 + 2 + 3 + 6) / 4
+    EXPECT_EQ(image.texels.at(1), glm::vec3(6)); // (5 + 7) / 2, of the rest of the row
+    ASSERT_EQ(image.faults.size(), 1u);
+    EXPECT_EQ(image.faults[0].kind, build::Shortfall::EnvironmentSize);
+}
+
+/// Two pixels a row of two rows, each as four bytes.
+std::string hdrOf(const std::string& header, const std::string& size) {
+    return "#?RADIANCE\n" + header + "\n" + size + "\n" + "\x80\x40\x20\x81" + "\x40\x40\x40\x81" +
+           "\x20\x20\x20\x81" + "\x10\x10\x10\x81";
+}
+
+TEST(FloatImages, OfRadianceHaveAnyOrder) {
+    // The first number of the four pixels, by the order in which they are in the file: 1, .5, .25
+    // and .125; the picture's own order is from the left, then down.
+    const std::pair<const char*, std::array<float, 4>> orders[] = {
+        {"-Y 2 +X 2", {1, 0.5f, 0.25f, 0.125f}}, {"-Y 2 -X 2", {0.5f, 1, 0.125f, 0.25f}},
+        {"+Y 2 +X 2", {0.25f, 0.125f, 1, 0.5f}}, {"+Y 2 -X 2", {0.125f, 0.25f, 0.5f, 1}},
+        {"+X 2 -Y 2", {1, 0.25f, 0.5f, 0.125f}}, {"-X 2 -Y 2", {0.25f, 1, 0.125f, 0.5f}},
+        {"+X 2 +Y 2", {0.5f, 0.125f, 1, 0.25f}}, {"-X 2 +Y 2", {0.125f, 0.5f, 0.25f, 1}}};
+    for (const auto& [size, expected] : orders) {
+        const FloatImage image = readFloatImage(File(hdrOf("", size)).path);
+        for (size_t i = 0; i < 4; ++i)
+            EXPECT_NEAR(image.texels.at(i).x, expected[i], 0.01f) << size << " " << i;
+    }
+}
+
+TEST(FloatImages, OfRadianceAreDividedByExposureAndColourCorrection) {
+    const FloatImage plain = readFloatImage(File(hdrOf("", "-Y 2 +X 2")).path);
+    const FloatImage corrected = readFloatImage(
+        File(hdrOf("EXPOSURE=2\nEXPOSURE= 2\nCOLORCORR=2 1 0.5\n", "-Y 2 +X 2")).path);
+    for (size_t i = 0; i < 4; ++i) {
+        const glm::vec3 expected = plain.texels[i] / glm::vec3(8, 4, 2);
+        EXPECT_EQ(corrected.texels.at(i), expected) << i;
     }
 }
 

@@ -96,9 +96,36 @@ TEST(ObjGeometry, LinesGoOnAfterABackslashAndEndInAnyWay) {
     EXPECT_EQ(loadObjText(utf16).triangles.size(), 1u);
 }
 
+/// Two faces at a right angle, which share the edge of vertices 1 and 2.
+const std::string kFold = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 -1\n";
+
+TEST(ObjGeometry, FacesOfASmoothingGroupShareNormals) {
+    const Scene scene = loadObjText(kFold + "s 1\nf 1 2 3\nf 2 1 4\n");
+    ASSERT_EQ(scene.triangles.size(), 2u);
+    const Triangle& t = scene.triangles[0];
+    for (int k = 0; k < 3; ++k) {
+        const bool isOnEdge = scene.positions[t.corner[k]].y == 0;
+        const glm::vec3 n = scene.normals.at(t.normals[k]);
+        // By the angles of the corners, 90 and 90 or 45 and 45 degrees, both faces count the same.
+        EXPECT_NEAR(n.z, isOnEdge ? std::sqrt(0.5) : 1.0, 1e-3);
+        EXPECT_NEAR(std::abs(n.y), isOnEdge ? std::sqrt(0.5) : 0.0, 1e-3);
+    }
+}
+
+TEST(ObjGeometry, ACornerTwiceInARowOfASmoothFaceIsNoFault) {
+    EXPECT_EQ(loadObjText(kFold + "s 1\nf 1 1 2 3\n").triangles.size(), 1u);
+}
+
+TEST(ObjGeometry, BetweenSmoothingGroupsIsACrease) {
+    const Scene scene = loadObjText(kFold + "s 1\nf 1 2 3\ns 2\nf 2 1 4\n");
+    for (const Triangle& t : scene.triangles)
+        EXPECT_EQ(t.normals[0], kNoNormals); // that of the triangle, which needs none
+    const Scene flat = loadObjText(kFold + "s off\nf 1 2 3\nf 2 1 4\n");
+    EXPECT_EQ(flat.triangles.at(0).normals[0], kNoNormals);
+}
+
 TEST(ObjGeometry, WhatIsNotReadIsReported) {
     const Scene scene = loadObjText(kSquare + "s 1\ns off\nl 1 2\np 1\nvp 0 0\nf 1 2 3\nhello\n");
-    EXPECT_THAT(scene.report.ignored, Contains(HasSubstr("1 smoothing groups")));
     EXPECT_THAT(scene.report.ignored, Contains(HasSubstr("2 lines and points")));
     EXPECT_THAT(scene.report.ignored, Contains(HasSubstr("1 'vp'")));
     EXPECT_THAT(scene.report.forgiven, Contains(HasSubstr("a.obj:11: <hello>: is no statement")));

@@ -65,11 +65,12 @@ TEST(Ply, NormalsTextureCoordinatesAndColours) {
 }
 
 TEST(Ply, ColoursAsFloatsAreLinear) {
-    const std::string row = " 0.5 2 0\n";
+    const std::string row = " 0.5 2 0\n"; // what is above 1 would reflect more than there is
     const Scene scene =
         loadPlyBytes(plyHeader("ascii", "property float r\nproperty float g\nproperty float b\n") +
                      "0 0 0" + row + "1 0 0" + row + "1 1 0" + row + "0 1 0" + row + "3 0 1 2\n");
-    EXPECT_EQ(scene.attributes.at(0).color, glm::vec4(0.5f, 2, 0, 1));
+    EXPECT_EQ(scene.attributes.at(0).color, glm::vec4(0.5f, 1, 0, 1));
+    EXPECT_THAT(scene.report.warnings, testing::Contains(testing::HasSubstr("clamped")));
     EXPECT_EQ(scene.materials[0].alphaMode, AlphaMode::Opaque);
 }
 
