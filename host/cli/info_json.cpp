@@ -28,6 +28,7 @@ Json sceneJson(const Job& job) {
         {"cs184Dialect", s.cglDialect},
         {"bounds", b.empty() ? Json(nullptr) : Json{{"low", vector(b.lo)}, {"high", vector(b.hi)}}},
         {"ignored", s.report.ignored},
+        {"forgiven", s.report.forgiven},
         {"warnings", s.report.warnings}};
 }
 

@@ -65,23 +65,17 @@ TEST(Primitives, ShortOnesMakeNoTriangles) {
 
 TEST(Primitives, WrongCountsAndIndicesAreErrors) {
     for (const std::string& bad : {
-             primitive("triangles", 1, "<p>0 1 2 3 2 1</p>"),
              primitive("triangles", 1, "<p>0 1</p>"),
-             primitive("triangles", 1, ""),
              primitive("triangles", 1, "<p>0 1 6</p>"),
              primitive("triangles", 1, "<p>0 1 -1</p>"),
              primitive("triangles", 1, "<p>0 1 4294967297</p>"),
              primitive("triangles", 1, "<p>0 1 2.0</p>"),
              primitive("polylist", 1, "<vcount>4</vcount><p>0 1 2</p>"),
              primitive("polylist", 1, "<vcount>2</vcount><p>0 1 2</p>"),
-             primitive("polylist", 2, "<vcount>3</vcount><p>0 1 2</p>"),
              primitive("polylist", 2, "<vcount>4294967295 4</vcount><p>0 1 2</p>"),
              primitive("polylist", 1, "<p>0 1 2</p>"),
              primitive("polylist", 1, "<vcount>3</vcount>"),
-             primitive("polygons", 2, "<p>0 1 2</p>"),
              primitive("polygons", 1, "<ph><h>0 1 2</h></ph>"),
-             primitive("tristrips", 2, "<p>0 1 2</p>"),
-             primitive("trifans", 2, "<p>0 1 2</p>"),
              std::string("<triangles count=\"1\"><p>0 1 2</p></triangles>"),
              std::string("<triangles count=\"1\"><input semantic=\"VERTEX\" source=\"#v\"/>"
                          "<p>0 1 2</p></triangles>"),
@@ -89,6 +83,14 @@ TEST(Primitives, WrongCountsAndIndicesAreErrors) {
                          "offset=\"4294967295\"/><p>0 1 2</p></triangles>"),
          })
         EXPECT_THROW(triangles(bad), SceneError) << bad;
+}
+
+TEST(Primitives, WrongCountsCostNothingThatIsThere) {
+    EXPECT_EQ(triangles(primitive("triangles", 1, "<p>0 1 2 3 2 1</p>")).size(), 2u);
+    EXPECT_EQ(triangles(primitive("polylist", 2, "<vcount>3</vcount><p>0 1 2</p>")).size(), 1u);
+    EXPECT_EQ(triangles(primitive("polygons", 2, "<p>0 1 2</p>")).size(), 1u);
+    EXPECT_EQ(triangles(primitive("tristrips", 2, "<p>0 1 2</p>")).size(), 1u);
+    EXPECT_EQ(triangles(primitive("trifans", 2, "<p>0 1 2</p>")).size(), 1u);
 }
 
 TEST(Primitives, GroupsHaveTheirOwnMaterials) {

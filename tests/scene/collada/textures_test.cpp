@@ -196,6 +196,17 @@ TEST_F(ColladaTextures, PathsOfOtherMachines) {
     }
 }
 
+TEST_F(ColladaTextures, OtherCapitalsAreForgiven) {
+    TexturedText text;
+    text.path = "A.PNG";
+    const Scene scene = load(text);
+    EXPECT_EQ(scene.images.size(), 1u);
+    EXPECT_THAT(scene.report.forgiven, ElementsAre(HasSubstr("has other capitals")));
+    SceneConventions strict;
+    strict.strict = true;
+    EXPECT_THROW(load(text, strict), SceneError);
+}
+
 TEST_F(ColladaTextures, NothingOutsideTheFolderIsRead) {
     write("secret.png", picture());
     fs::create_symlink(folder_ / "secret.png", folder_ / "in" / "link.png");
