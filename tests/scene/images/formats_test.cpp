@@ -1,5 +1,6 @@
 // Pictures that libraries encode, and ones written byte by byte, have the pixels they were given.
 
+#include "scene/images/exr_channels.hpp"
 #include "scene/images/float_image.hpp"
 #include "scene/images/picture.hpp"
 #include "tests/scene/images/encoders.hpp"
@@ -139,6 +140,22 @@ TEST(FloatImages, WhatIsNoLightCountsAsNone) {
     ASSERT_EQ(image.faults.size(), 1u);
     EXPECT_EQ(image.faults[0].kind, build::Shortfall::EnvironmentTexel);
     EXPECT_EQ(image.faults[0].problem, "2 texels are no light, the first at (0, 0), (1, 2, inf)");
+}
+
+TEST(ExrChannelNames, ALayerOfColoursIsShown) {
+    const auto blender =
+        exrChannels({"ViewLayer.Combined.A", "ViewLayer.Combined.B", "ViewLayer.Combined.G",
+                     "ViewLayer.Combined.R", "ViewLayer.Depth.Z"});
+    ASSERT_TRUE(blender);
+    EXPECT_EQ(blender->color[0], "ViewLayer.Combined.R");
+    EXPECT_EQ(blender->alpha, "ViewLayer.Combined.A");
+    const auto both = exrChannels({"B", "G", "R", "other.B", "other.G", "other.R"});
+    ASSERT_TRUE(both);
+    EXPECT_EQ(both->color[2], "B");
+    const auto chroma = exrChannels({"BY", "RY", "Y"});
+    ASSERT_TRUE(chroma);
+    EXPECT_TRUE(chroma->isLuminance);
+    EXPECT_FALSE(exrChannels({"Z", "U", "V"}));
 }
 
 TEST(FloatImages, BecomeMeansOfBlocksWhereTheyAreTooLarge) {

@@ -124,6 +124,24 @@ TEST(ObjGeometry, BetweenSmoothingGroupsIsACrease) {
     EXPECT_EQ(flat.triangles.at(0).normals[0], kNoNormals);
 }
 
+TEST(ObjGeometry, ColoursAboveOneAreFractionsOf255) {
+    const Scene scene =
+        loadObjText("v 0 0 0 255 0 51\nv 1 0 0 255 0 51\nv 1 1 0 255 0 51\nf 1 2 3\n");
+    const glm::vec4 color = scene.attributes.at(0).color;
+    EXPECT_EQ(color.x, 1);
+    EXPECT_EQ(color.y, 0);
+    EXPECT_NEAR(color.z, 0.0331, 1e-4); // IEC 61966-2-1 of 0.2
+    EXPECT_THAT(scene.report.forgiven, Contains(HasSubstr("fractions of 255")));
+}
+
+TEST(ObjGeometry, NormalsThatAreNoNumbersShadeFlat) {
+    for (const char* normal : {"nan nan nan", "-1.#IND 0 0", "1.#QNAN 0 0"}) {
+        const Scene scene = loadObjText(kSquare + "vn " + normal + "\nf 1//1 2//1 3//1\n");
+        EXPECT_EQ(scene.triangles.at(0).normals[0], kNoNormals) << normal;
+        EXPECT_THAT(scene.report.forgiven, Contains(HasSubstr("shaded flat"))) << normal;
+    }
+}
+
 TEST(ObjGeometry, WhatIsNotReadIsReported) {
     const Scene scene = loadObjText(kSquare + "s 1\ns off\nl 1 2\np 1\nvp 0 0\nf 1 2 3\nhello\n");
     EXPECT_THAT(scene.report.ignored, Contains(HasSubstr("2 lines and points")));

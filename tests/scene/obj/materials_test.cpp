@@ -135,6 +135,29 @@ TEST_F(ObjMaterials, PicturesMultiplyColours) {
     EXPECT_TRUE(load("map_Kd mask.png\n", plain).textures.empty());
 }
 
+TEST_F(ObjMaterials, OptionsBehindNamesQuotesAndCapitalsAreForgiven) {
+    for (const char* map : {"mask.png -clamp on", "\"mask.png\"", "MASK.PNG", "x\\mask.png"}) {
+        const std::string statement = std::string("map_Kd ") + map + "\n";
+        const Scene scene = load(statement);
+        EXPECT_EQ(scene.textures.size(), 1u) << map;
+        EXPECT_EQ(scene.report.forgiven.size(), 1u) << map;
+        SceneConventions strict;
+        strict.strict = true;
+        EXPECT_THROW(load(statement, strict), SceneError) << map;
+    }
+    EXPECT_EQ(load("map_Kd mask.png -clamp on\n").textures.at(0).wrapU, Wrap::Clamp);
+}
+
+TEST_F(ObjMaterials, PicturesLieBesideTheFileThatStatesTheMaterial) {
+    std::filesystem::create_directories(folder_.path() / "lib");
+    folder_.write("lib/m.mtl", "newmtl a\nmap_Kd own.png\n");
+    folder_.write("lib/own.png", png8(1, 1, 1, {255}));
+    const Scene scene = folder_.load("mtllib lib/m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl a\n"
+                                     "vt 0 0\nf 1/1 2/1 3/1\n");
+    EXPECT_EQ(scene.textures.size(), 1u);
+    EXPECT_THAT(scene.report.forgiven, IsEmpty());
+}
+
 TEST_F(ObjMaterials, PicturesOfOpacityBecomeAlpha) {
     const Scene grey = load("map_Kd red green.png\nmap_d mask.png\n");
     EXPECT_EQ(grey.materials[0].alphaMode, AlphaMode::Blend);

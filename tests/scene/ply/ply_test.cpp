@@ -64,6 +64,30 @@ TEST(Ply, NormalsTextureCoordinatesAndColours) {
     }
 }
 
+TEST(Ply, ColoursOfFaces) {
+    const Scene scene = loadPlyBytes(
+        plyHeader("ascii", "",
+                  "element face 2\nproperty list uchar int vertex_indices\nproperty uchar red\n"
+                  "property uchar green\nproperty uchar blue\n") +
+        kPlySquare + "3 0 1 2 255 0 0\n3 0 2 3 0 255 0\n");
+    ASSERT_EQ(scene.attributeCorners.size(), 2u);
+    for (size_t k = 0; k < 3; ++k) {
+        EXPECT_EQ(scene.attributes.at(scene.attributeCorners[0][k]).color, glm::vec4(1, 0, 0, 1));
+        EXPECT_EQ(scene.attributes.at(scene.attributeCorners[1][k]).color, glm::vec4(0, 1, 0, 1));
+    }
+    EXPECT_EQ(scene.materials.at(0).albedo, glm::vec3(1));
+}
+
+TEST(Ply, APictureThatIsNotThereIsSaid) {
+    std::string text = plyHeader("ascii", "property float s\nproperty float t\n") +
+                       "0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n4 0 1 2 3\n";
+    text.replace(text.find("made by hand"), 12, "TextureFile none.png");
+    const Scene scene = loadPlyBytes(text);
+    EXPECT_EQ(scene.triangles.size(), 2u);
+    EXPECT_THAT(scene.report.forgiven,
+                testing::Contains(testing::HasSubstr("'none.png' is not in the file's folder")));
+}
+
 TEST(Ply, ColoursAsFloatsAreLinear) {
     const std::string row = " 0.5 2 0\n"; // what is above 1 would reflect more than there is
     const Scene scene =
