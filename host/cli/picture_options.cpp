@@ -153,7 +153,8 @@ void declareScene(DeclaredCommand& c) {
         "less memory, copies are faster",
         reading.instances);
     c.list.flag("--strict",
-                "what breaks the rules of the scene's format is an error, also where it is clear "
+                "what breaks the rules of the scene's format or cannot be read is an error, also "
+                "where it is clear "
                 "what is meant",
                 reading.strict);
 }
