@@ -22,9 +22,15 @@ void Report::warn(const std::string& what) {
     warnings_.add(what, 1);
 }
 
+/// Once, however often what is strict is asked.
+static std::string asStrict(const std::string& problem) {
+    constexpr std::string_view kReason = " (an error because of --strict)";
+    return problem.ends_with(kReason) ? problem : problem + std::string(kReason);
+}
+
 void Report::forgive(const FilePlace& where, const std::string& problem,
                      const std::string& reading) {
-    if (strict_) where.fail(problem + " (an error because of --strict)");
+    if (strict_) where.fail(asStrict(problem));
     firstForgiven_.try_emplace(reading, where.describe(problem + ": " + reading));
     forgiven_.add(reading, 1);
 }
@@ -33,12 +39,29 @@ void Report::replace(const FilePlace& where, Shortfall kind, const std::string& 
     forgive(where, problem, std::string(insteadOf(kind)));
 }
 
+void Report::replace(const FilePlace& where, Shortfall kind, const std::string& problem,
+                     const std::string& instead) {
+    forgive(where, problem, fmt::format("{}: {}", insteadOf(kind), instead));
+}
+
 void Report::replace(const Error& error, Shortfall kind) {
     const std::string reading(insteadOf(kind));
-    if (strict_) throw SceneError(fmt::format("{} (an error because of --strict)", error.what()));
+    if (strict_) throw SceneError(asStrict(error.what()));
     if (!firstError_) firstError_ = error.what();
     firstForgiven_.try_emplace(reading, fmt::format("{}: {}", error.what(), reading));
     forgiven_.add(reading, 1);
+}
+
+void Report::adopt(const LoadReport& other,
+                   const std::function<bool(const std::string&)>& isLeftOut) {
+    for (const std::string& line : other.warnings)
+        if (!isLeftOut(line)) warn(line);
+    for (const std::string& line : other.forgiven) {
+        if (isLeftOut(line)) continue;
+        if (strict_) throw SceneError(asStrict(line));
+        firstForgiven_.try_emplace(line, line);
+        forgiven_.add(line, 1);
+    }
 }
 
 void Report::assume(const std::string& what) {

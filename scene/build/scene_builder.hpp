@@ -54,6 +54,7 @@ class SceneBuilder {
     uint32_t addTexture(const Texture& texture);
     /// The picture of a texture that was added.
     const TextureImage& imageOf(uint32_t texture) const;
+    const Texture& textureOf(uint32_t texture) const { return scene_.textures.at(texture); }
     /// The material of surfaces that name none: mid grey.
     uint32_t defaultMaterial();
     /// A fraction of light per channel: negative ones and NaN become 0 and those above 1 become 1

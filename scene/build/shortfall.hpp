@@ -28,6 +28,9 @@ enum class Shortfall : size_t {
     EnvironmentSize,
     OtherCapitals,
     ByteColor,
+    Parameter,
+    Model,
+    Medium,
 };
 
 struct ShortfallKind {
@@ -63,6 +66,12 @@ inline constexpr auto kShortfalls = std::to_array<ShortfallKind>({
     {Shortfall::OtherCapitals, "a file whose name is written with other capitals",
      "the file with other capitals is taken"},
     {Shortfall::ByteColor, "colours of vertices above 1", "they count as fractions of 255"},
+    {Shortfall::Parameter, "a parameter that cannot be read, or that nothing reads",
+     "it has no effect"},
+    {Shortfall::Model, "a material, texture, light, camera or shape that does not exist here",
+     "the nearest one takes its place"},
+    {Shortfall::Medium, "a medium or what scatters under a surface",
+     "the scene is shown without it"},
 });
 
 constexpr std::string_view insteadOf(Shortfall kind) {

@@ -15,7 +15,7 @@ struct Surface {
     std::shared_ptr<Surface> other; ///< Material::other of its material
 };
 
-/// Throws SceneError for what cannot be represented.
+/// Mid grey where there is nothing that comes near, which is said.
 Surface readBsdf(Context& context, Textures& textures, const Plugin& bsdf);
 
 } // namespace stromboli::mitsuba

@@ -5,29 +5,47 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 
 namespace stromboli::mitsuba {
+namespace {
+
+/// In the order of wavelengths; of two values at one wavelength the first one counts.
+SpectrumValue sorted(const build::FilePlace& where, SpectrumValue spectrum) {
+    auto& samples = spectrum.samples;
+    if (samples.size() < 2)
+        where.fail(fmt::format("has {} wavelengths, expected two or more", samples.size()));
+    std::ranges::stable_sort(samples, {}, [](const auto& sample) { return sample.first; });
+    const auto rest =
+        std::ranges::unique(samples, {}, [](const auto& sample) { return sample.first; });
+    samples.erase(rest.begin(), rest.end());
+    return spectrum;
+}
+
+} // namespace
 
 RgbValue rgbOf(const build::FilePlace& where, std::string_view text) {
-    if (text.find('#') != std::string_view::npos)
-        where.fail(fmt::format("is '{}', expected one number or three; <srgb> takes #rrggbb",
-                               text.substr(0, 40)));
     return {vectorOf(where, text)};
+}
+
+RgbValue hexOf(const build::FilePlace& where, std::string_view text) {
+    uint32_t bits = 0;
+    const char* end = text.data() + text.size();
+    const char* first = text.data() + std::min<size_t>(text.size(), 1);
+    const auto [rest, error] = std::from_chars(first, end, bits, 16);
+    if (error != std::errc() || rest != end || text.size() != 7)
+        where.fail(fmt::format("is '{}', expected #rrggbb", text.substr(0, 40)));
+    return {glm::dvec3(bits >> 16, bits >> 8 & 0xFF, bits & 0xFF) / 255.0};
 }
 
 RgbValue srgbOf(const build::FilePlace& where, std::string_view text) {
     RgbValue color;
-    if (text.starts_with('#')) {
-        uint32_t bits = 0;
-        const char* end = text.data() + text.size();
-        const auto [rest, error] = std::from_chars(text.data() + 1, end, bits, 16);
-        if (error != std::errc() || rest != end || text.size() != 7)
-            where.fail(fmt::format("is '{}', expected #rrggbb", text.substr(0, 40)));
-        color.rgb = glm::dvec3(bits >> 16, bits >> 8 & 0xFF, bits & 0xFF) / 255.0;
-    } else {
+    if (text.starts_with('#'))
+        color = hexOf(where, text);
+    else
         color.rgb = vectorOf(where, text);
-    }
     for (const int channel : {0, 1, 2}) {
         if (!(color.rgb[channel] >= 0 && color.rgb[channel] <= 1))
             where.fail(fmt::format("has the channel {}, expected 0 to 1", color.rgb[channel]));
@@ -36,23 +54,58 @@ RgbValue srgbOf(const build::FilePlace& where, std::string_view text) {
     return color;
 }
 
-SpectrumValue spectrumOf(const build::FilePlace& where, std::string_view text) {
+Value spectrumOf(const build::FilePlace& where, std::string_view text) {
     SpectrumValue spectrum;
+    const std::vector<std::string_view> words = wordsOf(text);
     if (text.find(':') == std::string_view::npos) {
+        if (words.size() == 3) return rgbOf(where, text);
         spectrum.everywhere = numberOf(where, text);
         return spectrum;
     }
-    for (const std::string_view word : wordsOf(text)) {
+    for (const std::string_view word : words) {
         const size_t colon = word.find(':');
         if (colon == std::string_view::npos)
             where.fail(fmt::format("'{}' is no pair wavelength:value", word.substr(0, 40)));
-        const double wavelength = numberOf(where, word.substr(0, colon));
-        if (!spectrum.samples.empty() && !(wavelength > spectrum.samples.back().first))
-            where.fail(fmt::format("has the wavelength {} after {}, expected more", wavelength,
-                                   spectrum.samples.back().first));
-        spectrum.samples.emplace_back(wavelength, numberOf(where, word.substr(colon + 1)));
+        spectrum.samples.emplace_back(numberOf(where, word.substr(0, colon)),
+                                      numberOf(where, word.substr(colon + 1)));
     }
-    if (spectrum.samples.size() < 2) where.fail("has one wavelength, expected two or more");
+    return sorted(where, std::move(spectrum));
+}
+
+SpectrumValue spectrumOfFile(const build::FilePlace& where, std::string_view text) {
+    SpectrumValue spectrum;
+    while (!text.empty()) {
+        const size_t end = std::min(text.find('\n'), text.size());
+        const std::vector<std::string_view> words = wordsOf(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+        if (words.empty() || words[0].starts_with('#')) continue;
+        if (words.size() < 2)
+            where.fail(fmt::format("names a file with the line '{}', expected a wavelength and a "
+                                   "value in each",
+                                   words[0].substr(0, 40)));
+        spectrum.samples.emplace_back(numberOf(where, words[0]), numberOf(where, words[1]));
+    }
+    return sorted(where, std::move(spectrum));
+}
+
+SpectrumValue blackbodyOf(const build::FilePlace& where, std::string_view temperature,
+                          std::string_view scale) {
+    while (!temperature.empty() && (temperature.back() == 'K' || temperature.back() == ' '))
+        temperature.remove_suffix(1);
+    const double kelvins = numberOf(where, temperature);
+    if (!(kelvins > 0)) where.fail(fmt::format("has the temperature {}, expected more", kelvins));
+    return blackbodyOf(kelvins, numberOf(where, scale));
+}
+
+SpectrumValue blackbodyOf(double temperature, double scale) {
+    constexpr double kLight = 299792458, kPlanck = 6.62607015e-34, kBoltzmann = 1.380649e-23;
+    SpectrumValue spectrum;
+    for (double nanometres = 360; nanometres <= 830; nanometres += 5) {
+        const double l = nanometres * 1e-9;
+        const double perMetre = 2 * kPlanck * kLight * kLight / std::pow(l, 5) /
+                                std::expm1(kPlanck * kLight / (l * kBoltzmann * temperature));
+        spectrum.samples.emplace_back(nanometres, scale * perMetre * 1e-9);
+    }
     return spectrum;
 }
 

@@ -11,6 +11,8 @@ struct Context {
     build::SceneBuilder& builder;
     /// The file's world is turned so that its environment map stands upright, y up.
     glm::dmat4 worldFromFile{1.0};
+    /// The emitter that is all around; null: there is none.
+    const Plugin* environment = nullptr;
 
     build::Report& report() const { return builder.report(); }
 };

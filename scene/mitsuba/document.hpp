@@ -32,6 +32,7 @@ class Document {
     std::deque<Plugin> plugins_;
     Plugin* scene_ = nullptr;
     std::vector<std::filesystem::path> folders_; ///< in the order in which they are searched
+    build::Report& report_;
 };
 
 } // namespace stromboli::mitsuba

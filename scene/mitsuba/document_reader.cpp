@@ -3,6 +3,7 @@
 #include "host/core/error.hpp"
 #include "scene/build/read_file.hpp"
 #include "scene/mitsuba/color_text.hpp"
+#include "scene/mitsuba/tolerate.hpp"
 #include "scene/mitsuba/transforms.hpp"
 #include "scene/mitsuba/upgrade.hpp"
 #include "scene/mitsuba/words.hpp"
@@ -26,8 +27,9 @@ constexpr size_t kMostIncludes = 1000;
 constexpr std::array<std::string_view, 14> kPluginTags = {
     "scene",   "shape", "sampler", "film",   "emitter", "sensor",     "bsdf",
     "texture", "phase", "volume",  "medium", "rfilter", "integrator", "subsurface"};
-constexpr std::array<std::string_view, 9> kParameterTags = {
-    "integer", "float", "boolean", "string", "vector", "point", "rgb", "srgb", "spectrum"};
+constexpr std::array<std::string_view, 10> kParameterTags = {
+    "integer", "float", "boolean", "string",   "vector",
+    "point",   "rgb",   "srgb",    "spectrum", "blackbody"};
 
 template <size_t N>
 bool isOneOf(const std::array<std::string_view, N>& words, std::string_view word) {
@@ -46,19 +48,24 @@ DocumentReader::DocumentReader(Document& document, const std::filesystem::path& 
 }
 
 void DocumentReader::read() {
-    Source source{file_.string(), file_.parent_path(), false, 0};
+    Source source{file_.string(), file_.parent_path(), false, false, 0};
     document_.folders_ = {source.folder};
     tinyxml2::XMLDocument xml;
     xml::parse(xml, source.name, build::readFile(file_));
     const Element& root = *xml.RootElement();
     if (std::string_view(root.Name()) != "scene")
         placeOf(root, source).fail("the root element must be <scene>");
-    if (!root.Attribute("version"))
-        placeOf(root, source).fail("has no attribute 'version', such as 3.0.0");
+    if (!root.Attribute("version")) {
+        report_.forgive(placeOf(root, source), "has no attribute 'version', such as 3.0.0",
+                        "the scene is read as one of Mitsuba 0.x");
+        source.isOld = true;
+        source.isAncient = root.FirstChildElement("camera") || root.FirstChildElement("luminaire");
+    }
     readVersion(root, source);
     document_.scene_ = &document_.plugins_.emplace_back();
     document_.scene_->tag = document_.scene_->type = "scene";
     document_.scene_->place = placeOf(root, source);
+    document_.scene_->report = &report_;
     readChildren(root, source, *document_.scene_, 0);
     resolveReferences();
     for (const std::string& name : defined_)
@@ -71,9 +78,11 @@ void DocumentReader::readVersion(const Element& root, Source& source) {
     const char* version = root.Attribute("version");
     if (!version) return;
     const std::string_view text(version);
-    const int64_t major =
-        integerOf(placeOf(root, source), text.substr(0, std::min(text.find('.'), text.size())));
+    const size_t dot = std::min(text.find('.'), text.size());
+    const int64_t major = integerOf(placeOf(root, source), text.substr(0, dot));
     source.isOld = major < 2;
+    source.isAncient = major == 0 && (text.starts_with("0.1") || text.starts_with("0.2") ||
+                                      text.starts_with("0.3"));
     if (major > 3) report_.assume(fmt::format("version {} of the file is read as version 3", text));
 }
 
@@ -82,8 +91,12 @@ void DocumentReader::readChildren(const Element& element, const Source& source, 
     if (depth > kMostLevels)
         placeOf(element, source).fail(fmt::format("lies more than {} levels deep", kMostLevels));
     for (const Element* child = element.FirstChildElement(); child;
-         child = child->NextSiblingElement())
-        readChild(*child, source, into, depth + 1);
+         child = child->NextSiblingElement()) {
+        const bool isParameter =
+            isOneOf(kParameterTags, tagOf(*child, source)) || tagOf(*child, source) == "transform";
+        tolerate(report_, isParameter ? build::Shortfall::Parameter : build::Shortfall::Node,
+                 [&] { readChild(*child, source, into, depth + 1); });
+    }
 }
 
 void DocumentReader::readChild(const Element& element, const Source& source, Plugin& into,
@@ -92,9 +105,11 @@ void DocumentReader::readChild(const Element& element, const Source& source, Plu
     const bool isSpectrumPlugin = tag == "spectrum" && element.Attribute("type");
     if (isOneOf(kPluginTags, tag) || isSpectrumPlugin) {
         Plugin& plugin = readPlugin(element, source, depth);
-        into.add({attribute(element, source, "name").value_or(""), &plugin, plugin.place, ""});
+        into.add({nameOf(element, source, into), &plugin, plugin.place, ""});
     } else if (isOneOf(kParameterTags, tag) || tag == "transform") {
         readParameter(element, source, into);
+    } else if (tag == "animation") {
+        readAnimation(element, source, into);
     } else if (tag == "ref") {
         readReference(element, source, into);
     } else if (tag == "default") {
@@ -118,10 +133,14 @@ Plugin& DocumentReader::readPlugin(const Element& element, const Source& source,
     plugin.tag = tagOf(element, source);
     plugin.type = requireAttribute(element, source, "type");
     plugin.type = inSmallLetters(plugin.type);
+    plugin.report = &report_;
     plugin.isOld = source.isOld;
+    plugin.isAncient = source.isAncient;
     if (source.isOld) plugin.type = upgradedType(plugin.tag, plugin.type);
     plugin.id = attribute(element, source, "id").value_or("");
-    if (!plugin.id.empty()) name(plugin.id, plugin, plugin.place);
+    if (!plugin.id.empty())
+        tolerate(report_, build::Shortfall::Reference,
+                 [&] { name(plugin.id, plugin, plugin.place); });
     readChildren(element, source, plugin, depth);
     return plugin;
 }
@@ -129,8 +148,8 @@ Plugin& DocumentReader::readPlugin(const Element& element, const Source& source,
 void DocumentReader::readParameter(const Element& element, const Source& source, Plugin& into) {
     const std::string tag = tagOf(element, source);
     const build::FilePlace where = placeOf(element, source);
-    std::string name = requireAttribute(element, source, "name");
-    if (source.isOld) name = upgradedName(name);
+    (void)requireAttribute(element, source, "name");
+    const std::string name = nameOf(element, source, into);
     if (tag == "transform") {
         checkAttributes(element, source, {"name"});
         return into.add(name, readTransform(element, source), where);
@@ -144,30 +163,75 @@ void DocumentReader::readParameter(const Element& element, const Source& source,
         };
         return into.add(name, vectorOfAttributes(where, named, 0), where);
     }
-    checkAttributes(element, source, {"name", "value", "filename"});
-    if (element.Attribute("filename"))
-        where.fail("names a file of a spectrum, which is not supported: write it as value=\"...\"");
+    if (tag == "blackbody") return into.add(name, colorOf(element, source, tag), where);
+    checkAttributes(element, source, {"name", "value", "filename", "intent", "unit"});
+    if (tag == "spectrum" || tag == "rgb" || tag == "srgb")
+        return into.add(name, colorOf(element, source, tag), where);
     const std::string text = requireAttribute(element, source, "value");
     const auto valueOf = [&]() -> Value {
         if (tag == "integer") return integerOf(where, text);
         if (tag == "float") return numberOf(where, text);
         if (tag == "boolean") return flagOf(where, text);
-        if (tag == "string") return text;
-        if (tag == "spectrum") return spectrumOf(where, text);
-        return tag == "srgb" ? srgbOf(where, text) : rgbOf(where, text);
+        return text;
     };
     into.add(name, valueOf(), where);
+}
+
+Value DocumentReader::colorOf(const Element& element, const Source& source,
+                              const std::string& tag) {
+    const build::FilePlace where = placeOf(element, source);
+    if (tag == "blackbody") {
+        checkAttributes(element, source, {"name", "temperature", "scale", "multiplier"});
+        const std::string temperature = requireAttribute(element, source, "temperature");
+        const char* scale = source.isAncient ? "multiplier" : "scale";
+        return blackbodyOf(where, temperature, attribute(element, source, scale).value_or("1"));
+    }
+    if (const std::optional<std::string> file = attribute(element, source, "filename"))
+        return spectrumOfFile(where, build::readFile(document_.find(where, *file)));
+    const std::string text = requireAttribute(element, source, "value");
+    if (tag == "spectrum") return spectrumOf(where, text);
+    if (tag == "srgb") return srgbOf(where, text);
+    if (!text.starts_with('#')) return rgbOf(where, text);
+    if (source.isOld) return hexOf(where, text);
+    report_.forgive(
+        where,
+        fmt::format("is '{}', expected three numbers; <srgb> takes #rrggbb", text.substr(0, 40)),
+        "it is taken for sRGB");
+    return srgbOf(where, text);
+}
+
+/// Nothing moves here: what it begins with is where the object is.
+void DocumentReader::readAnimation(const Element& element, const Source& source, Plugin& into) {
+    const build::FilePlace where = placeOf(element, source);
+    const Element* first = element.FirstChildElement("transform");
+    if (!first) where.fail("has no <transform> inside, expected one");
+    report_.replace(where, build::Shortfall::Model, "is a movement",
+                    "its first transform is taken");
+    into.add(nameOf(element, source, into), readTransform(*first, source), where);
+}
+
+std::string DocumentReader::nameOf(const Element& element, const Source& source,
+                                   const Plugin& into) {
+    std::string name = attribute(element, source, "name").value_or("");
+    if (!source.isOld) return name;
+    if (source.isAncient) name = ancientName(into.tag, into.type, name);
+    return upgradedName(name);
 }
 
 glm::dmat4 DocumentReader::readTransform(const Element& element, const Source& source) {
     glm::dmat4 transform(1.0);
     for (const Element* step = element.FirstChildElement(); step;
          step = step->NextSiblingElement()) {
-        checkAttributes(*step, source, {"x", "y", "z", "value", "angle", "origin", "target", "up"});
+        checkAttributes(*step, source,
+                        {"x", "y", "z", "value", "angle", "origin", "target", "up", "ox", "oy",
+                         "oz", "tx", "ty", "tz", "ux", "uy", "uz"});
         const auto named = [&](std::string_view name) {
             return attribute(*step, source, std::string(name).c_str());
         };
-        transform = transformStep(placeOf(*step, source), tagOf(*step, source), named) * transform;
+        tolerate(report_, build::Shortfall::Parameter, [&] {
+            transform =
+                transformStep(placeOf(*step, source), tagOf(*step, source), named) * transform;
+        });
     }
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
@@ -178,9 +242,8 @@ glm::dmat4 DocumentReader::readTransform(const Element& element, const Source& s
 
 void DocumentReader::readReference(const Element& element, const Source& source, Plugin& into) {
     checkAttributes(element, source, {"name", "id"});
-    std::string name = attribute(element, source, "name").value_or("");
-    if (source.isOld) name = upgradedName(name);
-    into.add({name, nullptr, placeOf(element, source), requireAttribute(element, source, "id")});
+    into.add({nameOf(element, source, into), nullptr, placeOf(element, source),
+              requireAttribute(element, source, "id")});
 }
 
 void DocumentReader::readDefault(const Element& element, const Source& source) {
@@ -214,7 +277,8 @@ void DocumentReader::include(const Element& element, const Source& source, Plugi
     const build::FilePlace where = placeOf(element, source);
     const std::filesystem::path file =
         document_.find(where, requireAttribute(element, source, "filename"));
-    Source inner{file.string(), file.parent_path(), source.isOld, source.depth + 1};
+    Source inner{file.string(), file.parent_path(), source.isOld, source.isAncient,
+                 source.depth + 1};
     if (inner.depth > kMostIncludeLevels)
         where.fail(
             fmt::format("files include each other more than {} levels deep", kMostIncludeLevels));
@@ -230,9 +294,12 @@ void DocumentReader::include(const Element& element, const Source& source, Plugi
         readChild(root, inner, into, depth);
 }
 
-std::string DocumentReader::tagOf(const Element& element, const Source& source) const {
-    return source.isOld ? (std::string_view(element.Name()) == "lookAt" ? "lookat" : element.Name())
-                        : element.Name();
+std::string DocumentReader::tagOf(const Element& element, const Source& source) {
+    const std::string_view name = element.Name();
+    if (!source.isOld) return std::string(name);
+    if (name == "lookAt") return "lookat";
+    if (name == "luminaire") return "emitter";
+    return name == "camera" ? "sensor" : std::string(name);
 }
 
 build::FilePlace DocumentReader::placeOf(const Element& element, const Source& source) const {
@@ -257,9 +324,9 @@ void DocumentReader::checkAttributes(const Element& element, const Source& sourc
                                      std::initializer_list<std::string_view> known) const {
     for (const auto* a = element.FirstAttribute(); a; a = a->Next())
         if (std::ranges::find(known, std::string_view(a->Name())) == known.end())
-            placeOf(element, source)
-                .fail(fmt::format("has the attribute '{}', expected one of {}", a->Name(),
-                                  fmt::join(known, ", ")));
+            report_.replace(placeOf(element, source), build::Shortfall::Parameter,
+                            fmt::format("has the attribute '{}', expected one of {}", a->Name(),
+                                        fmt::join(known, ", ")));
 }
 
 /// Puts values in the place of $names: where several names fit, that of the longest.
@@ -277,9 +344,11 @@ std::string DocumentReader::replaced(const build::FilePlace& where, std::string_
                 (!longest || value.first.size() > longest->first.size()))
                 longest = &value;
         if (!longest)
-            where.fail(fmt::format("refers to '${}', which has no value: expected a <default> "
-                                   "before it, or -D NAME=VALUE",
-                                   rest.substr(0, 40)));
+            throw UnusableScene(SceneError(
+                where.file, where.line, where.element,
+                fmt::format("refers to '${}', which has no value: expected a <default> before it, "
+                            "or -D NAME=VALUE",
+                            rest.substr(0, 40))));
         used_.insert(longest->first);
         result += longest->second;
         at += 1 + longest->first.size();
@@ -296,29 +365,40 @@ void DocumentReader::name(const std::string& id, Plugin& plugin, const build::Fi
 
 void DocumentReader::resolveReferences() {
     for (Plugin& plugin : document_.plugins_)
-        for (Plugin::Child& child : plugin.children()) {
-            if (child.plugin) continue;
+        std::erase_if(plugin.children(), [&](Plugin::Child& child) {
+            if (child.plugin) return false;
             const auto found = ids_.find(child.reference);
-            if (found == ids_.end())
-                child.place.fail(
+            if (found == ids_.end()) {
+                report_.replace(
+                    child.place, build::Shortfall::Reference,
                     fmt::format("there is no object with the id '{}'", child.reference));
+                return true;
+            }
             child.plugin = found->second.plugin;
-        }
+            return false;
+        });
     heightOf(*document_.scene_, 0);
 }
 
-/// How many objects lie inside each other, references followed; throws SceneError where an object
-/// lies inside itself.
-size_t DocumentReader::heightOf(const Plugin& plugin, size_t depth) {
-    const auto [known, isNew] = heights_.try_emplace(&plugin, 0);
-    if (!isNew && known->second == 0) plugin.fail("lies inside itself, by references");
-    if (!isNew) return known->second;
-    size_t height = 0;
+/// How many objects lie inside each other, references followed. What would make an object lie
+/// inside itself, or too many inside each other, is taken out.
+size_t DocumentReader::heightOf(Plugin& plugin, size_t depth) {
+    const auto known = heights_.find(&plugin);
+    if (known != heights_.end() && known->second == 0)
+        plugin.fail("lies inside itself, by references");
+    if (known != heights_.end()) return known->second;
     if (depth > kMostLevels) plugin.fail(fmt::format("lies more than {} levels deep", kMostLevels));
-    for (const Plugin::Child& child : plugin.children())
-        height = std::max(height, heightOf(*child.plugin, depth + 1));
-    if (height >= kMostLevels)
-        plugin.fail(fmt::format("has more than {} levels of objects in it", kMostLevels));
+    heights_[&plugin] = 0;
+    size_t height = 0;
+    std::erase_if(plugin.children(), [&](const Plugin::Child& child) {
+        return !tolerate(report_, build::Shortfall::Reference, [&] {
+            const size_t inner = heightOf(*child.plugin, depth + 1);
+            if (inner >= kMostLevels)
+                child.plugin->fail(
+                    fmt::format("has more than {} levels of objects in it", kMostLevels));
+            height = std::max(height, inner);
+        });
+    });
     return heights_[&plugin] = height + 1;
 }
 

@@ -27,8 +27,9 @@ class DocumentReader {
     struct Source {
         std::string name;
         std::filesystem::path folder;
-        bool isOld = false; ///< of Mitsuba 0.x, with other names
-        size_t depth = 0;   ///< how many files include it
+        bool isOld = false;     ///< of Mitsuba 0.x, with other names
+        bool isAncient = false; ///< of Mitsuba 0.3 or earlier
+        size_t depth = 0;       ///< how many files include it
     };
     struct Named {
         Plugin* plugin = nullptr;
@@ -36,6 +37,10 @@ class DocumentReader {
     };
 
     void readVersion(const Element& root, Source& source);
+    /// Of a parameter or an object inside of another one, as later versions write it.
+    std::string nameOf(const Element& element, const Source& source, const Plugin& into);
+    Value colorOf(const Element& element, const Source& source, const std::string& tag);
+    void readAnimation(const Element& element, const Source& source, Plugin& into);
     void readChildren(const Element& element, const Source& source, Plugin& into, size_t depth);
     void readChild(const Element& element, const Source& source, Plugin& into, size_t depth);
     Plugin& readPlugin(const Element& element, const Source& source, size_t depth);
@@ -47,7 +52,7 @@ class DocumentReader {
     void readPath(const Element& element, const Source& source);
     void include(const Element& element, const Source& source, Plugin& into, size_t depth);
 
-    std::string tagOf(const Element& element, const Source& source) const;
+    static std::string tagOf(const Element& element, const Source& source);
     build::FilePlace placeOf(const Element& element, const Source& source) const;
     std::optional<std::string> attribute(const Element& element, const Source& source,
                                          const char* name);
@@ -57,7 +62,7 @@ class DocumentReader {
     std::string replaced(const build::FilePlace& where, std::string_view text);
     void name(const std::string& id, Plugin& plugin, const build::FilePlace& where);
     void resolveReferences();
-    size_t heightOf(const Plugin& plugin, size_t depth);
+    size_t heightOf(Plugin& plugin, size_t depth);
 
     Document& document_;
     std::filesystem::path file_;

@@ -24,7 +24,8 @@ glm::dmat4 turnedAround(const glm::dmat4& m) {
 
 glm::vec3 lightOf(Context& context, const Plugin& emitter, const char* name) {
     const std::optional<glm::dvec3> color = colorOf(emitter, name, ColorOf::Light);
-    if (!color && emitter.child(name)) emitter.fail(name, "is a texture, expected a colour");
+    if (!color && emitter.child(name))
+        emitter.replaceParameter(name, build::Shortfall::Word, "is a texture, expected a colour");
     return context.builder.lightColor(name, color.value_or(glm::dvec3(1)));
 }
 
@@ -40,12 +41,15 @@ glm::dmat4 pointLight(Context& context, const Plugin& emitter, Light& light) {
     setIntensity(context, emitter, light);
     const std::optional<glm::dvec3> position = emitter.vector("position");
     if (position && emitter.has("to_world"))
-        emitter.fail("position", "is stated beside to_world, expected one of both");
+        emitter.replaceParameter("to_world", build::Shortfall::Parameter,
+                                 "is stated beside position, expected one of both");
     return position ? glm::translate(glm::dmat4(1.0), *position) : emitter.transform("to_world");
 }
 
 void setPicture(const Plugin& emitter, const char* name, const Shade& shade, Light& light) {
-    if (!shade.attribute.empty()) emitter.fail(name, "is a mesh attribute, expected a picture");
+    if (!shade.attribute.empty())
+        return emitter.replaceParameter(name, build::Shortfall::Picture,
+                                        "is a mesh attribute, expected a picture");
     light.picture = shade.texture;
     if (light.picture) light.picture->slot = TextureSlot::Projection;
 }
@@ -68,7 +72,7 @@ glm::dmat4 projector(Context& context, const Plugin& emitter, Light& light) {
     light.falloffAngle = std::numbers::pi_v<float>;
     Textures textures(context);
     if (!emitter.has("irradiance") && !emitter.child("irradiance"))
-        emitter.fail("has no 'irradiance'");
+        emitter.replace(build::Shortfall::Word, "has no 'irradiance'");
     const Shade shade = textures.shade(emitter, "irradiance", ColorOf::Light, glm::dvec3(1));
     setPicture(emitter, "irradiance", shade, light);
     const double scale = emitter.number("scale", 0).value_or(1);
@@ -93,15 +97,21 @@ glm::dmat4 spotLight(Context& context, const Plugin& emitter, Light& light) {
     light.kind = LightKind::Projector;
     setIntensity(context, emitter, light);
     const double cutoff = emitter.number("cutoff_angle", 0, 90).value_or(20);
-    const double beam = emitter.number("beam_width", 0, 90).value_or(0.75 * cutoff);
-    if (!(beam <= cutoff)) emitter.fail("beam_width", "is more than cutoff_angle");
+    double beam = emitter.number("beam_width", 0, 90).value_or(0.75 * cutoff);
+    if (!(beam <= cutoff)) {
+        emitter.replaceParameter("beam_width", build::Shortfall::Number,
+                                 "is more than cutoff_angle");
+        beam = cutoff;
+    }
     light.falloffAngle = float(glm::radians(2 * cutoff));
     if (beam < cutoff) light.innerAngle = float(glm::radians(2 * beam));
     if (emitter.has("texture") || emitter.child("texture")) {
         Textures textures(context);
         setPicture(emitter, "texture",
                    textures.shade(emitter, "texture", ColorOf::Light, glm::dvec3(1)), light);
-        if (!light.picture) emitter.fail("texture", "is no picture, expected one");
+        if (!light.picture)
+            emitter.replaceParameter("texture", build::Shortfall::Picture,
+                                     "is no picture, expected one");
     }
     const glm::dmat4 toWorld = emitter.transform("to_world");
     const double across = 0.5 / std::tan(glm::radians(cutoff));
@@ -115,7 +125,8 @@ glm::dmat4 directionalLight(Context& context, const Plugin& emitter, Light& ligh
     const std::optional<glm::dvec3> stated = emitter.vector("direction");
     if (!stated) return emitter.transform("to_world");
     if (emitter.has("to_world"))
-        emitter.fail("direction", "is stated beside to_world, expected one of both");
+        emitter.replaceParameter("to_world", build::Shortfall::Parameter,
+                                 "is stated beside direction, expected one of both");
     const std::optional<glm::dvec3> z = build::unit(*stated);
     if (!z) emitter.fail("direction", "has no length");
     const glm::dvec3 other = std::abs(z->x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
@@ -135,12 +146,13 @@ void setConstant(Context& context, const Plugin& emitter) {
 } // namespace
 
 void placeEmitter(Context& context, const Plugin& emitter) {
+    if (isEnvironment(emitter) && context.environment != &emitter) return;
     emitter.skip("sampling_weight");
     emitter.skip("samplingWeight");
     Light light;
     light.name = emitter.displayName();
     const std::string& type = emitter.type;
-    if (type == "constant" || type == "envmap" || type == "sunsky") {
+    if (isEnvironment(emitter)) {
         if (type == "constant")
             setConstant(context, emitter);
         else if (type == "envmap")
@@ -158,12 +170,15 @@ void placeEmitter(Context& context, const Plugin& emitter) {
         toWorld = projector(context, emitter, light);
     else if (type == "directional")
         toWorld = directionalLight(context, emitter, light);
+    else if (type == "collimated")
+        emitter.fail("is a beam without a width, which lights nothing that a path can meet");
     else if (type == "area" || type == "directionalarea")
         emitter.fail("shines on a surface, expected it inside of a shape");
     else
         emitter.fail(fmt::format(
             "'{}' is no emitter that is read, expected point, spot, "
-            "projector, directional, constant, envmap, sunsky, or area inside of a shape",
+            "projector, directional, constant, envmap, sky, sun, sunsky, or area inside of a "
+            "shape",
             type));
     emitter.requireAllRead();
     context.builder.placeLight(std::move(light), context.worldFromFile * turnedAround(toWorld));

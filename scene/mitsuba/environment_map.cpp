@@ -3,9 +3,11 @@
 #include "scene/build/vectors.hpp"
 #include "scene/images/float_image.hpp"
 
+#include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace stromboli::mitsuba {
@@ -23,7 +25,8 @@ glm::dmat3 axesOf(const Plugin& emitter, bool& isMirrored) {
     constexpr double kChance = 1e-4; // matrices in files carry a few digits
     for (const int i : {0, 1, 2})
         if (std::abs(glm::dot(axes[i], axes[(i + 1) % 3])) > kChance)
-            emitter.fail("to_world", "shears the environment, which is not supported");
+            emitter.replaceParameter("to_world", build::Shortfall::Parameter,
+                                     "shears the environment, which only turns here");
     isMirrored = glm::determinant(axes) < 0;
     if (isMirrored) axes[0] = -axes[0];
     // Exactly at right angles again, y first: it is what stands upright.
@@ -39,7 +42,7 @@ uint32_t rowsBetween(uint32_t height) {
     return std::clamp(kEnoughRows / (height - 1), 2u, 8u);
 }
 
-/// Mitsuba has the first and the last row of texels at the poles, and rows between them at equal
+/// Mitsuba 3 has the first and the last row of texels at the poles, and rows between them at equal
 /// angles; here their middles are half a row away from the poles. With several rows for one the
 /// lines between texels stay, but for corners at the file's rows, half a new row to each side.
 images::FloatImage withRowsAtPoles(const images::FloatImage& image) {
@@ -60,10 +63,16 @@ images::FloatImage withRowsAtPoles(const images::FloatImage& image) {
 
 } // namespace
 
+bool isEnvironment(const Plugin& emitter) {
+    constexpr std::array<std::string_view, 5> kTypes = {"constant", "envmap", "sky", "sun",
+                                                        "sunsky"};
+    return std::ranges::find(kTypes, emitter.type) != kTypes.end();
+}
+
 glm::dmat4 worldFromFileOf(const Plugin& emitter) {
     bool isMirrored = false;
     const glm::dmat3 mapFromFile = glm::transpose(axesOf(emitter, isMirrored));
-    if (emitter.type == "envmap") return glm::dmat4(mapFromFile);
+    if (emitter.type == "envmap" || emitter.isOld) return glm::dmat4(mapFromFile);
     // Skies have their zenith at z.
     const glm::dmat3 upright(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, -1), glm::dvec3(0, 1, 0));
     return glm::dmat4(upright * mapFromFile);
@@ -71,7 +80,11 @@ glm::dmat4 worldFromFileOf(const Plugin& emitter) {
 
 void setEnvironmentMap(Context& context, const Plugin& emitter) {
     const std::filesystem::path file = context.document.file(emitter, "filename");
-    images::FloatImage image = withRowsAtPoles(images::readFloatImage(file));
+    images::FloatImage image = images::readFloatImage(file);
+    for (const images::PictureFault& fault : image.faults)
+        emitter.replace(fault.kind, fmt::format("{}: {}", file.string(), fault.problem));
+    // In Mitsuba 0.x the rows are where they are here.
+    if (!emitter.isOld) image = withRowsAtPoles(image);
     bool isMirrored = false;
     axesOf(emitter, isMirrored);
     if (isMirrored)
@@ -86,7 +99,8 @@ void setEnvironmentMap(Context& context, const Plugin& emitter) {
     environment.strength = float(emitter.number("scale", 0).value_or(1));
     // Mitsuba's picture begins with -z at its left edge, ours has it in the middle.
     environment.rotation = glm::pi<float>();
-    emitter.skip("mis_compensation");
+    for (const char* unused : {"mis_compensation", "gamma", "cache"})
+        emitter.skip(unused);
     context.builder.setEnvironment(std::move(environment));
 }
 

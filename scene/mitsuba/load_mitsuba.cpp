@@ -6,6 +6,7 @@
 #include "scene/mitsuba/integrator.hpp"
 #include "scene/mitsuba/sensors.hpp"
 #include "scene/mitsuba/shapes.hpp"
+#include "scene/mitsuba/tolerate.hpp"
 #include "scene/xml/root_element.hpp"
 
 #include <new>
@@ -16,13 +17,17 @@ namespace {
 
 /// The environment decides how the world is turned.
 void turnWorld(Context& context, const Plugin& scene) {
-    const Plugin* environment = nullptr;
     for (const Plugin* emitter : scene.childrenOf("emitter")) {
-        const bool hasPicture = emitter->type == "envmap" || emitter->type == "sunsky";
-        if (!hasPicture && emitter->type != "constant") continue;
-        if (environment) emitter->fail("is the second environment of the scene, expected one");
-        environment = emitter;
-        if (hasPicture) context.worldFromFile = worldFromFileOf(*emitter);
+        if (!isEnvironment(*emitter)) continue;
+        if (context.environment) {
+            emitter->replace(build::Shortfall::Node,
+                             "is the second environment of the scene, expected one");
+            continue;
+        }
+        context.environment = emitter;
+        if (emitter->type != "constant")
+            tolerate(context.report(), build::Shortfall::Parameter,
+                     [&] { context.worldFromFile = worldFromFileOf(*emitter); });
     }
 }
 
@@ -30,19 +35,21 @@ void readScene(Context& context) {
     const Plugin& scene = context.document.scene();
     turnWorld(context, scene);
     for (const Plugin* emitter : scene.childrenOf("emitter"))
-        placeEmitter(context, *emitter);
+        tolerate(context.report(), build::Shortfall::Node,
+                 [&] { placeEmitter(context, *emitter); });
     bool isFirst = true;
-    for (const Plugin* sensor : scene.childrenOf("sensor")) {
-        placeSensor(context, *sensor, isFirst);
-        isFirst = false;
-    }
+    for (const Plugin* sensor : scene.childrenOf("sensor"))
+        if (tolerate(context.report(), build::Shortfall::Node,
+                     [&] { placeSensor(context, *sensor, isFirst); }))
+            isFirst = false;
     if (const Plugin* integrator = scene.onlyChildOf("integrator"))
-        readIntegrator(context, *integrator);
+        tolerate(context.report(), build::Shortfall::Node,
+                 [&] { readIntegrator(context, *integrator); });
     Shapes shapes(context);
     for (const Plugin* shape : scene.childrenOf("shape"))
-        shapes.place(*shape);
+        tolerate(context.report(), build::Shortfall::Geometry, [&] { shapes.place(*shape); });
     // What shapes refer to, or may.
-    for (const char* tag : {"bsdf", "texture", "spectrum", "sampler"})
+    for (const char* tag : {"bsdf", "texture", "spectrum", "sampler", "film", "rfilter"})
         (void)scene.childrenOf(tag);
     for (const char* tag : {"medium", "volume", "phase", "subsurface"})
         for (const Plugin* plugin : scene.childrenOf(tag))

@@ -1,32 +1,62 @@
 #include "scene/mitsuba/materials.hpp"
 
+#include "scene/mitsuba/tolerate.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 namespace stromboli::mitsuba {
 
+namespace {
+
+/// In Mitsuba 0.4 and later a surface between two media is nothing else where it has no BSDF.
+bool isBorderAlone(const Plugin& shape) {
+    return shape.isOld && !shape.isAncient && !shape.childrenOf("medium").empty();
+}
+
+/// White, which the mesh of a part is not painted with: see Materials::of.
+TextureImage unpainted(const Paint&) {
+    return {"unpainted", 1, 1, TexelFormat::Rgba8, {0xFFFFFFFFu}};
+}
+
+} // namespace
+
 BoundMaterial Materials::of(const Plugin& shape, const Painter& painter) {
     const Plugin* bsdf = shape.onlyChildOf("bsdf");
     const Plugin* emitter = shape.onlyChildOf("emitter");
-    const auto key = std::tuple(bsdf, emitter, shape.isOld);
+    const auto key = std::tuple(bsdf, emitter, isBorderAlone(shape));
     if (const auto found = made_.find(key); found != made_.end()) return found->second;
-    Surface surface = make(bsdf, emitter, shape.isOld);
+    Surface surface = make(shape, bsdf, emitter);
     if (!wantsPaint(surface)) return made_.emplace(key, bind(std::move(surface))).first->second;
     paint(surface, shape, painter); // another material for each mesh
     return bind(std::move(surface));
 }
 
-Surface Materials::make(const Plugin* bsdf, const Plugin* emitter, bool isOld) {
+BoundMaterial Materials::of(const Plugin& shape, const Plugin& bsdf) {
+    const auto key = std::tuple(&bsdf, static_cast<const Plugin*>(nullptr), false);
+    if (const auto found = made_.find(key); found != made_.end()) return found->second;
+    Surface surface = make(shape, &bsdf, nullptr);
+    paint(surface, shape, unpainted);
+    surface.cornerColors.clear();
+    return made_.emplace(key, bind(std::move(surface))).first->second;
+}
+
+Surface Materials::make(const Plugin& shape, const Plugin* bsdf, const Plugin* emitter) {
     Surface surface;
     surface.material = build::greyMaterial();
-    surface.material.isBlackBehind = !isOld;
+    surface.material.isBlackBehind = true;
     if (emitter) surface.material.albedo = glm::vec3(0); // what shines reflects by its bsdf alone
+    if (!emitter && isBorderAlone(shape)) {
+        surface.material.alphaMode = AlphaMode::Blend;
+        surface.material.opacity = 0;
+    }
     if (bsdf) surface = readBsdf(context_, textures_, *bsdf);
     settleColors(surface);
     if (emitter)
         for (Surface* each = &surface; each; each = each->other.get())
-            addEmission(*emitter, each->material);
+            tolerate(context_.report(), build::Shortfall::Node,
+                     [&] { addEmission(*emitter, each->material); });
     return surface;
 }
 

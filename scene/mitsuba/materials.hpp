@@ -29,9 +29,11 @@ class Materials {
 
     /// Of a shape, which may have neither a BSDF nor an emitter.
     BoundMaterial of(const Plugin& shape, const Painter& painter);
+    /// Of a part of a shape that has that BSDF, and no mesh attributes.
+    BoundMaterial of(const Plugin& shape, const Plugin& bsdf);
 
   private:
-    Surface make(const Plugin* bsdf, const Plugin* emitter, bool isOld);
+    Surface make(const Plugin& shape, const Plugin* bsdf, const Plugin* emitter);
     BoundMaterial bind(Surface&& surface);
     static void settleColors(Surface& surface);
     bool wantsPaint(const Surface& surface) const;
@@ -41,6 +43,7 @@ class Materials {
 
     Context& context_;
     Textures textures_;
+    /// By BSDF, emitter, and whether the surface is not there without a BSDF.
     std::map<std::tuple<const Plugin*, const Plugin*, bool>, BoundMaterial> made_;
 };
 

@@ -90,24 +90,34 @@ std::string namesOf(const Table& table) {
 double indexOfName(const Plugin& plugin, std::string_view parameter, const std::string& name) {
     for (const NamedIndex& row : kIndices)
         if (row.name == inSmallLetters(name)) return row.value;
-    plugin.fail(parameter,
-                fmt::format("is '{}', expected a number or one of {}", name, namesOf(kIndices)));
+    plugin.replaceParameter(
+        parameter, build::Shortfall::Word,
+        fmt::format("is '{}', expected a number or one of {}", name, namesOf(kIndices)));
+    return 0;
 }
 
 MetalIndex metalNamed(const Plugin& plugin, const std::string& name) {
     for (const NamedMetal& row : kMetals)
         if (row.name == name) return row.index;
-    plugin.fail("material",
-                fmt::format("is '{}', expected one of {}, or eta and k", name, namesOf(kMetals)));
+    for (const NamedMetal& row : kMetals)
+        if (inSmallLetters(row.name) == inSmallLetters(name)) return row.index;
+    plugin.replace(
+        build::Shortfall::Model,
+        fmt::format("'material' is '{}', expected one of {}, or eta and k", name, namesOf(kMetals)),
+        "Cu");
+    return metalNamed(plugin, "Cu");
 }
 
 } // namespace
 
 double refractiveIndex(const Plugin& plugin, std::string_view name, std::string_view otherwise) {
     const Value* value = plugin.find(name);
-    if (!value || std::holds_alternative<std::string>(*value))
-        return indexOfName(plugin, name, value ? *plugin.text(name) : std::string(otherwise));
-    return *plugin.number(name, 1e-3, 1e3);
+    double index = 0;
+    if (value && std::holds_alternative<std::string>(*value))
+        index = indexOfName(plugin, name, *plugin.text(name));
+    else if (value)
+        index = plugin.number(name, 1e-3, 1e3).value_or(0);
+    return index > 0 ? index : indexOfName(plugin, name, std::string(otherwise));
 }
 
 MetalIndex metalIndex(const Plugin& plugin) {
@@ -116,14 +126,21 @@ MetalIndex metalIndex(const Plugin& plugin) {
     const std::optional<glm::dvec3> k = colorOf(plugin, "k", ColorOf::Index);
     for (const char* parameter : {"eta", "k"})
         if (plugin.child(parameter) && !(eta && k))
-            plugin.fail(parameter, "is a texture, expected a colour");
-    MetalIndex metal = name ? metalNamed(plugin, *name) : MetalIndex{};
+            plugin.replaceParameter(parameter, build::Shortfall::Word,
+                                    "is a texture, expected a colour");
     if (name && *name != "none" && (eta || k))
-        plugin.fail("material", "is stated beside eta or k, expected one of both");
+        plugin.replaceParameter("material", build::Shortfall::Parameter,
+                                "is stated beside eta or k, expected one of both");
+    // A conductor that says nothing is copper in Mitsuba 0.x.
+    const bool isCopper = plugin.isOld && !name && !eta && !k;
+    const bool isNamed = name && !eta && !k;
+    MetalIndex metal = isCopper  ? metalNamed(plugin, "Cu")
+                       : isNamed ? metalNamed(plugin, *name)
+                                 : MetalIndex{};
     if (eta) metal.eta = *eta;
     if (k) metal.k = *k;
     // Relative to what is outside, as the indices of dielectrics are.
-    const double outside = refractiveIndex(plugin, "ext_eta", "vacuum");
+    const double outside = refractiveIndex(plugin, "ext_eta", plugin.isOld ? "air" : "vacuum");
     return {metal.eta / outside, metal.k / outside};
 }
 

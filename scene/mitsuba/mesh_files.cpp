@@ -6,10 +6,17 @@
 namespace stromboli::mitsuba {
 namespace {
 
+/// A line about materials, which the scene's file has others for.
+bool isAboutLook(const std::string& line) {
+    for (const char* sign : {"<mtllib>", "<usemtl>", ".mtl:", "map_", "picture"})
+        if (line.find(sign) != std::string::npos) return true;
+    return false;
+}
+
 /// All triangles of a scene.
-FileMesh meshOf(Context& context, const Scene& scene) {
-    for (const std::string& line : scene.report.warnings)
-        context.report().warn(line);
+FileMesh meshOf(Context& context, const Scene& scene, bool wantsLook) {
+    context.report().adopt(
+        scene.report, [&](const std::string& line) { return !wantsLook && isAboutLook(line); });
     FileMesh found;
     build::Mesh& mesh = found.mesh;
     mesh.positions.assign(scene.positions.begin(), scene.positions.end());
@@ -23,6 +30,7 @@ FileMesh meshOf(Context& context, const Scene& scene) {
     for (size_t i = 0; i < scene.triangles.size(); ++i) {
         const Triangle& t = scene.triangles[i];
         build::MeshTriangle& triangle = part.emplace_back();
+        if (wantsLook) found.materials.push_back(t.material);
         for (size_t k = 0; k < 3; ++k)
             triangle[k] = {t.corner[k], t.normals[k],
                            scene.attributeCorners.empty() ? kNoAttributes
@@ -35,13 +43,19 @@ FileMesh meshOf(Context& context, const Scene& scene) {
 SceneConventions conventionsOf(const Context& context) {
     SceneConventions conventions = context.builder.conventions();
     conventions.defaultLight = false;
+    conventions.strict = false; // Report::adopt is strict with what has a meaning
     return conventions;
 }
 
 } // namespace
 
-FileMesh readObjMesh(Context& context, const std::filesystem::path& file) {
-    return meshOf(context, loadObj(file, conventionsOf(context)));
+FileMesh readObjMesh(Context& context, const std::filesystem::path& file, bool wantsLook) {
+    Scene scene = loadObj(file, conventionsOf(context));
+    FileMesh found = meshOf(context, scene, wantsLook);
+    if (wantsLook)
+        found.look = {std::move(scene.materials), std::move(scene.textures),
+                      std::move(scene.images)};
+    return found;
 }
 
 FileMesh readPlyMesh(Context& context, const std::filesystem::path& file,
@@ -51,7 +65,7 @@ FileMesh readPlyMesh(Context& context, const std::filesystem::path& file,
     colors.isOfFaces = attribute.starts_with(kOfFaces);
     if (colors.isOfFaces) colors.name = attribute.substr(kOfFaces.size());
     if (attribute.starts_with(kOfVertices)) colors.name = attribute.substr(kOfVertices.size());
-    return meshOf(context, loadPlyWith(colors, file, conventionsOf(context)));
+    return meshOf(context, loadPlyWith(colors, file, conventionsOf(context)), false);
 }
 
 } // namespace stromboli::mitsuba

@@ -8,14 +8,23 @@
 
 namespace stromboli::mitsuba {
 
+/// What an OBJ file and its libraries say of materials.
+struct FileLook {
+    std::vector<Material> materials;
+    std::vector<Texture> textures;
+    std::vector<TextureImage> images;
+};
+
 /// A mesh of one part from a file of its own. Textures have v growing downwards, as everywhere in
-/// the scene; what the file says of materials has no meaning.
+/// the scene. What the file says of materials has a meaning where its look was asked for.
 struct FileMesh {
     build::Mesh mesh;
     bool hasCoordinates = false, hasColors = false;
+    FileLook look;
+    std::vector<uint32_t> materials; ///< of each triangle, into those of the look
 };
 
-FileMesh readObjMesh(Context& context, const std::filesystem::path& file);
+FileMesh readObjMesh(Context& context, const std::filesystem::path& file, bool wantsLook);
 /// attribute: what the colours of corners are, as Mitsuba names it: vertex_color, face_color, ...;
 /// empty: vertex_color.
 FileMesh readPlyMesh(Context& context, const std::filesystem::path& file,

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace stromboli::mitsuba {
@@ -30,10 +32,27 @@ void Plugin::add(Child child) {
     children_.push_back(std::move(child));
 }
 
-void Plugin::fail(std::string_view parameter, const std::string& message) const {
+build::FilePlace Plugin::placeOf(std::string_view parameter) const {
     const auto found = parameters_.find(parameter);
-    const build::FilePlace& where = found == parameters_.end() ? place : found->second.place;
-    where.fail(fmt::format("'{}' {}", parameter, message));
+    return found == parameters_.end() ? place : found->second.place;
+}
+
+void Plugin::fail(std::string_view parameter, const std::string& message) const {
+    placeOf(parameter).fail(fmt::format("'{}' {}", parameter, message));
+}
+
+void Plugin::replace(build::Shortfall kind, const std::string& message) const {
+    report->replace(place, kind, message);
+}
+
+void Plugin::replace(build::Shortfall kind, const std::string& message,
+                     const std::string& instead) const {
+    report->replace(place, kind, message, instead);
+}
+
+void Plugin::replaceParameter(std::string_view parameter, build::Shortfall kind,
+                              const std::string& message) const {
+    report->replace(placeOf(parameter), kind, fmt::format("'{}' {}", parameter, message));
 }
 
 const Plugin::Parameter* Plugin::ask(std::string_view name) const {
@@ -46,11 +65,15 @@ template <class T>
 const T* Plugin::askFor(std::string_view name, const char* expected) const {
     const Parameter* found = ask(name);
     if (!found) {
-        if (child(name)) fail(name, fmt::format("is an object, expected {}", expected));
+        if (child(name))
+            replaceParameter(name, build::Shortfall::Word,
+                             fmt::format("is an object, expected {}", expected));
         return nullptr;
     }
     const T* value = std::get_if<T>(&found->value);
-    if (!value) fail(name, fmt::format("is {}, expected {}", typeOf(found->value), expected));
+    if (!value)
+        replaceParameter(name, build::Shortfall::Word,
+                         fmt::format("is {}, expected {}", typeOf(found->value), expected));
     return value;
 }
 
@@ -79,6 +102,10 @@ std::optional<glm::dvec3> Plugin::vector(std::string_view name) const {
 }
 
 std::optional<int64_t> Plugin::integer(std::string_view name) const {
+    const Parameter* found = ask(name);
+    const double* real = found ? std::get_if<double>(&found->value) : nullptr;
+    constexpr double kMost = 0x1p53; // up to which doubles hold all whole numbers
+    if (real && std::abs(*real) < kMost && std::trunc(*real) == *real) return int64_t(*real);
     const int64_t* value = askFor<int64_t>(name, "an integer");
     return value ? std::optional(*value) : std::nullopt;
 }
@@ -91,8 +118,10 @@ std::optional<double> Plugin::number(std::string_view name, double least, double
     const double value = whole ? double(*whole) : *real;
     if (value >= least && value <= most) return value;
     const bool isOpen = most == std::numeric_limits<double>::max();
-    fail(name, isOpen ? fmt::format("is {}, expected {} or more", value, least)
-                      : fmt::format("is {}, expected {} to {}", value, least, most));
+    replaceParameter(name, build::Shortfall::Number,
+                     isOpen ? fmt::format("is {}, expected {} or more", value, least)
+                            : fmt::format("is {}, expected {} to {}", value, least, most));
+    return std::clamp(value, least, most);
 }
 
 glm::dmat4 Plugin::transform(std::string_view name) const {
@@ -124,7 +153,8 @@ std::vector<const Plugin*> Plugin::childrenOf(std::string_view wanted) const {
 const Plugin* Plugin::onlyChildOf(std::string_view wanted) const {
     const std::vector<const Plugin*> found = childrenOf(wanted);
     if (found.size() > 1)
-        found[1]->fail(fmt::format("is the second {} of this {}, expected one", wanted, tag));
+        found[1]->replace(build::Shortfall::Node,
+                          fmt::format("is the second {} of this {}, expected one", wanted, tag));
     return found.empty() ? nullptr : found.front();
 }
 
@@ -148,8 +178,10 @@ void Plugin::requireAllRead() const {
     std::string known;
     for (const std::string& name : asked_)
         known += (known.empty() ? "" : ", ") + name;
-    fail(names.front(), fmt::format("is not read in {} '{}'{}{}", tag, type,
-                                    known.empty() ? "" : "; expected one of ", known));
+    for (const std::string& name : names)
+        replaceParameter(name, build::Shortfall::Parameter,
+                         fmt::format("is not read in {} '{}'{}{}", tag, type,
+                                     known.empty() ? "" : "; expected one of ", known));
 }
 
 } // namespace stromboli::mitsuba

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/build/file_place.hpp"
+#include "scene/build/report.hpp"
 #include "scene/mitsuba/value.hpp"
 
 #include <glm/glm.hpp>
@@ -21,14 +22,17 @@ namespace stromboli::mitsuba {
 class Plugin {
   public:
     build::FilePlace place;
-    std::string tag;    ///< the element's name: shape, bsdf, ...
-    std::string type;   ///< which of its kind: sphere, diffuse, ...
-    std::string id;     ///< empty: it has none
-    bool isOld = false; ///< of a file of Mitsuba 0.x
+    std::string tag;        ///< the element's name: shape, bsdf, ...
+    std::string type;       ///< which of its kind: sphere, diffuse, ...
+    std::string id;         ///< empty: it has none
+    bool isOld = false;     ///< of a file of Mitsuba 0.x
+    bool isAncient = false; ///< of Mitsuba 0.3 or earlier
+    /// Where it says what of it cannot be read; the document sets it.
+    build::Report* report = nullptr;
 
     struct Child {
         std::string name; ///< empty: it has none
-        const Plugin* plugin = nullptr;
+        Plugin* plugin = nullptr;
         build::FilePlace place; ///< of the reference, where it is one
         std::string reference;  ///< to be resolved, while the file is read
     };
@@ -45,10 +49,19 @@ class Plugin {
     /// Throws SceneError about the object, or about one of its parameters.
     [[noreturn]] void fail(const std::string& message) const { place.fail(message); }
     [[noreturn]] void fail(std::string_view parameter, const std::string& message) const;
+    /// Says what is wrong with the object or with a parameter where something else can be taken
+    /// instead, as the table of kinds says or, where it is stated, as `instead` does.
+    void replace(build::Shortfall kind, const std::string& message) const;
+    void replace(build::Shortfall kind, const std::string& message,
+                 const std::string& instead) const;
+    void replaceParameter(std::string_view parameter, build::Shortfall kind,
+                          const std::string& message) const;
 
-    // Parameters. Each throws SceneError if the parameter is of another type.
+    // Parameters. One of another type than expected is said, and counts as absent.
 
     bool has(std::string_view name) const;
+    /// Of all parameters, in the order of the file.
+    const std::vector<std::string>& names() const { return order_; }
     /// The value itself, whatever it is; null if there is none.
     const Value* find(std::string_view name) const;
     std::optional<bool> flag(std::string_view name) const;
@@ -56,7 +69,8 @@ class Plugin {
     std::optional<glm::dvec3> vector(std::string_view name) const;
     /// A whole number.
     std::optional<int64_t> integer(std::string_view name) const;
-    /// A finite number in [least, most]; whole ones count.
+    /// A finite number; whole ones count. One outside of [least, most] is said, and the nearest one
+    /// in it is taken.
     std::optional<double> number(std::string_view name,
                                  double least = std::numeric_limits<double>::lowest(),
                                  double most = std::numeric_limits<double>::max()) const;
@@ -68,17 +82,18 @@ class Plugin {
     const Plugin* child(std::string_view name) const;
     /// The objects inside it with that tag, with or without a name.
     std::vector<const Plugin*> childrenOf(std::string_view tag) const;
-    /// The same, where there can be one at most; throws SceneError if there are more.
+    /// The same, where there can be one at most: the first one; others are said.
     const Plugin* onlyChildOf(std::string_view tag) const;
     /// Counts a parameter or object as read.
     void skip(std::string_view name) const { asked_.insert(std::string(name)); }
 
     /// The names of parameters and the names or tags of objects that nothing asked for.
     std::vector<std::string> unread() const;
-    /// Throws SceneError for the first one, with what was asked for.
+    /// Says each of them, with what was asked for.
     void requireAllRead() const;
 
   private:
+    build::FilePlace placeOf(std::string_view parameter) const;
     struct Parameter {
         Value value;
         build::FilePlace place;

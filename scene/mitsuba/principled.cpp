@@ -14,8 +14,9 @@ double indexOfSpecular(double specular) {
 
 double indexOf(const Plugin& plugin) {
     if (plugin.has("eta") && plugin.has("specular"))
-        plugin.fail("eta", "is stated beside specular, expected one of both");
-    if (plugin.has("eta")) return *plugin.number("eta", 1, 100);
+        plugin.replaceParameter("specular", build::Shortfall::Parameter,
+                                "is stated beside eta, expected one of both");
+    if (const std::optional<double> eta = plugin.number("eta", 1, 100)) return *eta;
     return indexOfSpecular(plugin.number("specular", 0, 1).value_or(0.5));
 }
 

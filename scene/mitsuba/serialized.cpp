@@ -12,6 +12,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <span>
 
 namespace stromboli::mitsuba {
@@ -147,9 +148,8 @@ FileMesh readMesh(Unpacker& unpacker, const build::FilePlace& place, uint16_t ve
     const auto vertices = unpacker.number<uint64_t>(), triangles = unpacker.number<uint64_t>();
     if (vertices >= kNoNormals)
         place.fail(fmt::format("has {} vertices, more than there is room for", vertices));
+    // Programs leave both flags out: Mitsuba looks at this one alone.
     const bool isDouble = (flags & IsDouble) != 0;
-    if (isDouble == ((flags & IsSingle) != 0))
-        place.fail("says neither that its numbers are single nor that they are double precision");
     const bool hasUv = (flags & HasCoordinates) != 0, hasColors = (flags & HasColors) != 0;
     unpacker.requireRoomFor(vertices, isDouble ? 24 : 12);
     build::requireMemory(
@@ -190,7 +190,21 @@ FileMesh readMesh(Unpacker& unpacker, const build::FilePlace& place, uint16_t ve
 
 } // namespace
 
-FileMesh serializedMesh(const std::string& bytes, const std::string& name, uint64_t number) {
+/// Where a mesh begins, by the table at the end of the file; nothing where that does not say so.
+static std::optional<size_t> beginOf(const std::string& bytes, uint16_t version, uint64_t number) {
+    const uint64_t count = numberAt<uint32_t>(bytes, bytes.size() - 4);
+    const uint64_t entry = version == 4 ? 8 : 4;
+    if (count * entry + 8 > bytes.size() || number >= count) return std::nullopt;
+    const size_t table = bytes.size() - 4 - count * entry, at = table + number * entry;
+    const uint64_t begin =
+        version == 4 ? numberAt<uint64_t>(bytes, at) : numberAt<uint32_t>(bytes, at);
+    if (begin > table || table - begin < 4 || numberAt<uint16_t>(bytes, begin) != kMagic)
+        return std::nullopt;
+    return begin;
+}
+
+FileMesh serializedMesh(const std::string& bytes, const std::string& name, uint64_t number,
+                        build::Report& report) {
     const build::FilePlace place{name, 0, "mesh"};
     if (bytes.size() < 8) place.fail("is too short to be a serialized mesh");
     if (const auto magic = numberAt<uint16_t>(bytes, 0); magic != kMagic)
@@ -198,19 +212,15 @@ FileMesh serializedMesh(const std::string& bytes, const std::string& name, uint6
     const auto version = numberAt<uint16_t>(bytes, 2);
     if (version != 3 && version != 4)
         place.fail(fmt::format("is of version {}, expected 3 or 4", version));
-    const uint64_t count = numberAt<uint32_t>(bytes, bytes.size() - 4);
-    const uint64_t entry = version == 4 ? 8 : 4;
-    if (count * entry + 8 > bytes.size())
-        place.fail(fmt::format("has no table of its {} meshes", count));
-    if (number >= count)
-        place.fail(fmt::format("has {} meshes, expected more than {}", count, number));
-    const size_t table = bytes.size() - 4 - count * entry, at = table + number * entry;
-    const uint64_t begin =
-        version == 4 ? numberAt<uint64_t>(bytes, at) : numberAt<uint32_t>(bytes, at);
-    if (begin > table || table - begin < 4 || numberAt<uint16_t>(bytes, begin) != kMagic)
-        place.fail(
-            fmt::format("mesh {} does not begin at {}, where the table has it", number, begin));
-    Unpacker unpacker(std::string_view(bytes).substr(begin + 4, table - begin - 4), place);
+    std::optional<size_t> begin = beginOf(bytes, version, number);
+    if (!begin && number == 0) {
+        report.forgive(place, "has no table of its meshes at its end",
+                       "the first mesh is read from the file's beginning");
+        begin = 0;
+    }
+    if (!begin)
+        place.fail(fmt::format("has no mesh with the number {}, by the table at its end", number));
+    Unpacker unpacker(std::string_view(bytes).substr(*begin + 4), place);
     return readMesh(unpacker, place, version);
 }
 

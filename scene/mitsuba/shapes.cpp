@@ -3,9 +3,14 @@
 #include "scene/build/read_file.hpp"
 #include "scene/build/tangents.hpp"
 #include "scene/build/vectors.hpp"
+#include "scene/mitsuba/hair.hpp"
+#include "scene/mitsuba/heightfield.hpp"
 #include "scene/mitsuba/mesh_paint.hpp"
+#include "scene/mitsuba/obj_materials.hpp"
 #include "scene/mitsuba/serialized.hpp"
+#include "scene/mitsuba/smooth_normals.hpp"
 #include "scene/mitsuba/solids.hpp"
+#include "scene/mitsuba/tolerate.hpp"
 
 #include <fmt/format.h>
 #include <glm/ext/matrix_transform.hpp>
@@ -39,21 +44,25 @@ glm::dmat4 sphereMatrix(const Plugin& sphere) {
 /// Groups that name each other twice hold 2^n shapes.
 constexpr size_t kMostParts = 1'000'000;
 
+/// A mesh that is in a file as such.
 bool isFile(const Plugin& shape) {
     return shape.type == "obj" || shape.type == "ply" || shape.type == "serialized";
-}
-
-void requireFile(const Plugin& shape) {
-    if (!isFile(shape))
-        shape.fail("has a bsdf with a mesh attribute, expected a mesh from a file that has it");
 }
 
 void dropNormals(build::Mesh& mesh) {
     mesh.normals.clear();
     mesh.isFlat = true;
-    for (build::MeshTriangle& triangle : mesh.parts.front())
-        for (build::Corner& corner : triangle)
-            corner.normal = kNoNormals;
+    for (build::MeshPart& part : mesh.parts)
+        for (build::MeshTriangle& triangle : part)
+            for (build::Corner& corner : triangle)
+                corner.normal = kNoNormals;
+}
+
+/// What shapes have in common with media is said, once for each.
+void sayMedia(const Plugin& shape) {
+    for (const char* tag : {"medium", "subsurface"})
+        for (const Plugin* inside : shape.childrenOf(tag))
+            inside->replace(build::Shortfall::Medium, "is not supported");
 }
 
 } // namespace
@@ -62,11 +71,11 @@ void Shapes::place(const Plugin& shape) {
     if (shape.type == "shapegroup") return void(group(shape));
     for (const Part& part : partsOf(shape))
         context_.builder.place(shape.place, part.shape, context_.worldFromFile * part.toWorld,
-                               std::array{part.material}, part.plugin->displayName());
+                               part.materials, part.plugin->displayName());
 }
 
 std::vector<Shapes::Part> Shapes::partsOf(const Plugin& shape) {
-    if (shape.type == "instance") return instance(shape);
+    if (shape.type == "instance" || shape.type == "animatedinstance") return instance(shape);
     if (shape.type == "merge") return group(shape);
     if (shape.type == "shapegroup") shape.fail("is a shape group inside of a shape");
     return {single(shape)};
@@ -77,9 +86,11 @@ const std::vector<Shapes::Part>& Shapes::group(const Plugin& plugin) {
     if (!isNew) return found->second;
     std::vector<Part> parts;
     for (const Plugin* shape : plugin.childrenOf("shape")) {
-        if (shape->type == "instance") shape->fail("is an instance inside of a shape group");
-        for (const Part& part : partsOf(*shape))
-            parts.push_back(part);
+        tolerate(context_.report(), build::Shortfall::Geometry, [&] {
+            if (shape->type == "instance") shape->fail("is an instance inside of a shape group");
+            for (const Part& part : partsOf(*shape))
+                parts.push_back(part);
+        });
         if (parts.size() > kMostParts) plugin.fail("has more than a million shapes");
     }
     plugin.requireAllRead();
@@ -98,14 +109,16 @@ std::vector<Shapes::Part> Shapes::instance(const Plugin& shape) {
 }
 
 Shapes::Part Shapes::single(const Plugin& shape) {
-    for (const char* medium : {"interior", "exterior"})
-        if (const Plugin* inside = shape.child(medium))
-            inside->fail("is a medium, which is not supported");
+    sayMedia(shape);
+    if (usesOwnMaterials(shape)) return withOwnMaterials(shape);
+    for (const char* unused : {"load_materials", "collapse", "srgb"})
+        shape.skip(unused);
     const BoundMaterial material = materials_.of(shape, [&](const Paint& paint) {
-        requireFile(shape);
-        return paintOfCorners(read(shape, paint.attribute).mesh, paint.layout);
+        const std::string& attribute = usableAttribute(shape, paint.attribute);
+        return paintOfCorners(attribute.empty() ? meshOf(shape, {}) : read(shape, attribute).mesh,
+                              paint.layout);
     });
-    Part part{&shape, {}, shape.transform("to_world"), material.number};
+    Part part{&shape, {}, shape.transform("to_world"), {material.number}};
     const bool isSphere = shape.type == "sphere";
     if (isSphere) part.toWorld *= sphereMatrix(shape);
     const bool flips = shape.flag("flip_normals").value_or(false);
@@ -122,12 +135,50 @@ Shapes::Part Shapes::single(const Plugin& shape) {
     return part;
 }
 
+/// One part for each material.
+Shapes::Part Shapes::withOwnMaterials(const Plugin& shape) {
+    const FileMesh& file = read(shape, "");
+    build::Mesh mesh = file.mesh;
+    const std::vector<BoundMaterial> bound =
+        bindOwnMaterials(context_, materials_, shape, file, mesh);
+    Part part{&shape, {}, shape.transform("to_world"), {}};
+    BoundMaterial all;
+    for (const BoundMaterial& material : bound) {
+        part.materials.push_back(material.number);
+        all.isTextured |= material.isTextured;
+        all.wantsTangents |= material.wantsTangents;
+    }
+    shape.skip("collapse");
+    finish(shape, file, all, mesh);
+    if (shape.flag("flip_normals").value_or(false)) flip(mesh);
+    part.shape = context_.builder.addMesh(shape.displayName(), std::move(mesh));
+    shape.requireAllRead();
+    return part;
+}
+
 build::Mesh Shapes::meshOf(const Plugin& shape, const BoundMaterial& material) {
     if (isFile(shape)) return fileMesh(shape, material);
-    if (!material.cornerColors.empty()) requireFile(shape);
+    usableAttribute(shape, material.cornerColors);
     build::Mesh mesh = solidOf(shape);
+    if (material.isPainted) spreadCorners(mesh);
     fitTo(material, mesh);
     return mesh;
+}
+
+/// Not each mesh has the attribute that its bsdf asks for; empty: it is white, which is said.
+const std::string& Shapes::usableAttribute(const Plugin& shape, const std::string& attribute) {
+    static const std::string kNone;
+    if (attribute.empty()) return kNone;
+    std::string problem;
+    if (!isFile(shape))
+        problem = "has a bsdf with a mesh attribute, expected a mesh from a file that has it";
+    else if (attribute != "vertex_color" && shape.type != "ply")
+        problem = fmt::format("has a bsdf of {}, expected a mesh from a PLY file", attribute);
+    else if (!read(shape, attribute).hasColors)
+        problem = fmt::format("has a bsdf of {}, and its file has no such attribute", attribute);
+    if (problem.empty()) return attribute;
+    shape.replace(build::Shortfall::Attribute, problem);
+    return kNone;
 }
 
 build::Mesh Shapes::solidOf(const Plugin& shape) {
@@ -135,6 +186,8 @@ build::Mesh Shapes::solidOf(const Plugin& shape) {
     if (shape.type == "rectangle") return rectangleMesh();
     if (shape.type == "cube") return cubeMesh();
     if (shape.type == "disk") return diskMesh();
+    if (isHair(shape)) return hairMesh(context_, shape);
+    if (shape.type == "heightfield") return heightfieldMesh(context_, shape);
     if (shape.type == "cylinder") {
         const glm::dvec3 from = shape.vector("p0").value_or(glm::dvec3(0));
         const glm::dvec3 to = shape.vector("p1").value_or(glm::dvec3(0, 0, 1));
@@ -144,33 +197,46 @@ build::Mesh Shapes::solidOf(const Plugin& shape) {
     }
     shape.fail(fmt::format(
         "'{}' is no shape that is read, expected obj, ply, serialized, rectangle, cube, "
-        "sphere, disk, cylinder, shapegroup, instance or merge",
+        "sphere, disk, cylinder, hair, linearcurve, bsplinecurve, heightfield, shapegroup, "
+        "instance or merge",
         shape.type));
 }
 
 build::Mesh Shapes::fileMesh(const Plugin& shape, const BoundMaterial& material) {
-    const FileMesh& file = read(shape, material.cornerColors);
+    const std::string& attribute = usableAttribute(shape, material.cornerColors);
+    const FileMesh& file = read(shape, attribute);
     build::Mesh mesh = file.mesh;
+    if (attribute.empty())
+        for (VertexAttributes& a : mesh.attributes)
+            a.color = glm::vec4(1);
+    finish(shape, file, material, mesh);
+    return mesh;
+}
+
+/// Makes of a file's mesh what the shape says.
+void Shapes::finish(const Plugin& shape, const FileMesh& file, const BoundMaterial& material,
+                    build::Mesh& mesh) {
     if (material.isPainted) spreadCorners(mesh);
     if (material.wantsCoordinates() && !file.hasCoordinates)
         context_.report().warn(fmt::format("{}: has no texture coordinates, which its bsdf looks "
                                            "up pictures by; (0, 0) is taken",
                                            shape.displayName()));
-    if (material.cornerColors.empty())
-        for (VertexAttributes& a : mesh.attributes)
-            a.color = glm::vec4(1);
     // Pictures have their first row at the coordinate 0; the readers of meshes turn v upside down,
     // as Mitsuba does with that of OBJ files, and with that of others if asked to.
-    const bool isFlipped = shape.flag("flip_tex_coords").value_or(shape.type == "obj");
+    const bool isFlipped =
+        shape.flag("flip_tex_coords").value_or(shape.type == "obj" && !shape.isAncient);
     if (!isFlipped)
         for (VertexAttributes& a : mesh.attributes)
             a.uv[0].y = 1 - a.uv[0].y;
-    if (shape.flag("face_normals").value_or(mesh.isFlat))
+    const std::optional<double> angle = shape.number("max_smooth_angle", 0, 180);
+    const bool isFlat = shape.flag("face_normals").value_or(mesh.isFlat && !angle);
+    if (isFlat)
         dropNormals(mesh);
+    else if (angle)
+        smoothUpTo(mesh, *angle);
     else if (mesh.normals.empty())
         computeNormals(mesh);
     fitTo(material, mesh);
-    return mesh;
 }
 
 /// Corners have attributes only where something looks at them.
@@ -194,19 +260,19 @@ const FileMesh& Shapes::read(const Plugin& shape, const std::string& attribute) 
     const bool isSerialized = shape.type == "serialized";
     const int64_t index = isSerialized ? shape.integer("shape_index").value_or(0) : 0;
     if (index < 0) shape.fail("shape_index", "is less than 0");
-    if (!attribute.empty() && attribute != "vertex_color" && shape.type != "ply")
-        shape.fail(fmt::format("has a bsdf of {}, expected a mesh from a PLY file", attribute));
-    const auto [found, isNew] = files_.try_emplace(std::tuple(file.string(), index, attribute));
-    FileMesh& mesh = found->second;
+    const bool wantsLook = shape.type == "obj" && usesOwnMaterials(shape);
+    const auto [found, isNew] =
+        files_.try_emplace(std::tuple(file.string(), index, attribute, wantsLook));
+    std::optional<FileMesh>& mesh = found->second;
+    if (!isNew && !mesh) shape.fail("names a file that cannot be read, as was said before");
     if (isNew && isSerialized)
-        mesh = serializedMesh(build::readFile(file), file.string(), uint64_t(index));
+        mesh = serializedMesh(build::readFile(file), file.string(), uint64_t(index),
+                              context_.report());
     else if (isNew && shape.type == "obj")
-        mesh = readObjMesh(context_, file);
+        mesh = readObjMesh(context_, file, wantsLook);
     else if (isNew)
         mesh = readPlyMesh(context_, file, attribute);
-    if (!attribute.empty() && !mesh.hasColors)
-        shape.fail(fmt::format("has a bsdf of {}, and its file has no such attribute", attribute));
-    return mesh;
+    return *mesh;
 }
 
 } // namespace stromboli::mitsuba

@@ -4,6 +4,7 @@
 #include "scene/mitsuba/mesh_files.hpp"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -24,24 +25,29 @@ class Shapes {
         const Plugin* plugin = nullptr;
         build::ShapeId shape{};
         glm::dmat4 toWorld{1.0};
-        uint32_t material = 0;
+        std::vector<uint32_t> materials; ///< of the parts of its mesh
     };
 
     std::vector<Part> partsOf(const Plugin& shape);
     const std::vector<Part>& group(const Plugin& group);
     std::vector<Part> instance(const Plugin& shape);
     Part single(const Plugin& shape);
+    Part withOwnMaterials(const Plugin& shape);
     build::Mesh meshOf(const Plugin& shape, const BoundMaterial& material);
     build::Mesh solidOf(const Plugin& shape);
     build::Mesh fileMesh(const Plugin& shape, const BoundMaterial& material);
+    void finish(const Plugin& shape, const FileMesh& file, const BoundMaterial& material,
+                build::Mesh& mesh);
+    const std::string& usableAttribute(const Plugin& shape, const std::string& attribute);
     static void fitTo(const BoundMaterial& material, build::Mesh& mesh);
     /// The shape's file, whose corners have colours by that attribute; empty: they may have none.
     const FileMesh& read(const Plugin& shape, const std::string& attribute);
 
     Context& context_;
     Materials materials_;
-    /// By file, index and mesh attribute.
-    std::map<std::tuple<std::string, int64_t, std::string>, FileMesh> files_;
+    /// By file, index, mesh attribute and whether materials are wanted; nothing: the file cannot be
+    /// read.
+    std::map<std::tuple<std::string, int64_t, std::string, bool>, std::optional<FileMesh>> files_;
     std::map<const Plugin*, std::vector<Part>> groups_;
 };
 

@@ -27,8 +27,9 @@ int64_t wholeIn(const Plugin& emitter, const char* name, int64_t otherwise, int6
                 int64_t most) {
     const int64_t value = emitter.integer(name).value_or(otherwise);
     if (value < least || value > most)
-        emitter.fail(name, fmt::format("is {}, expected {} to {}", value, least, most));
-    return value;
+        emitter.replaceParameter(name, build::Shortfall::Number,
+                                 fmt::format("is {}, expected {} to {}", value, least, most));
+    return std::clamp(value, least, most);
 }
 
 } // namespace

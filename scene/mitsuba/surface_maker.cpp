@@ -1,12 +1,19 @@
 #include "scene/mitsuba/surface_maker.hpp"
 
+#include "scene/mitsuba/upgrade.hpp"
+
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace stromboli::mitsuba {
 
 void SurfaceMaker::color(const char* name, const glm::dvec3& otherwise, glm::vec3& where,
                          TextureSlot slot) {
-    const Shade shade = textures_.shade(plugin, name, ColorOf::Reflectance, otherwise);
+    put(name, textures_.shade(plugin, name, ColorOf::Reflectance, otherwise), where, slot);
+}
+
+void SurfaceMaker::put(const char* name, const Shade& shade, glm::vec3& where, TextureSlot slot) {
     where = context_.builder.reflectedFraction(name, shade.color);
     if (!shade.attribute.empty() && slot == TextureSlot::BaseColor) { // as the colours of corners
         cornerColors_ = shade.attribute;
@@ -20,9 +27,23 @@ void SurfaceMaker::color(const char* name, const glm::dvec3& otherwise, glm::vec
 }
 
 void SurfaceMaker::plainColor(const char* name, const glm::dvec3& otherwise, glm::vec3& where) {
-    const std::optional<glm::dvec3> stated = colorOf(plugin, name, ColorOf::Reflectance);
-    if (!stated && plugin.child(name)) plugin.fail(name, "is a texture, expected a colour");
-    where = context_.builder.reflectedFraction(name, stated.value_or(otherwise));
+    const Shade shade = textures_.shade(plugin, name, ColorOf::Reflectance, otherwise);
+    if (shade.texture) sayMean(name);
+    where = context_.builder.reflectedFraction(name, textures_.meanOf(shade));
+}
+
+void SurfaceMaker::sayMean(const char* name) {
+    plugin.replace(build::Shortfall::Model,
+                   fmt::format("'{}' is a texture, expected one number or colour", name),
+                   "its mean");
+}
+
+double SurfaceMaker::alpha(const char* name, double otherwise) {
+    constexpr double kMost = 1e3;
+    if (!plugin.child(name)) return plugin.number(name, 0, kMost).value_or(otherwise);
+    const Shade shade = textures_.shade(plugin, name, ColorOf::Reflectance, glm::dvec3(otherwise));
+    if (shade.texture) sayMean(name);
+    return std::clamp(textures_.meanOf(shade).x, 0.0, kMost);
 }
 
 float SurfaceMaker::fraction(const char* name, double otherwise, TextureSlot slot, Layout layout,
@@ -40,17 +61,16 @@ float SurfaceMaker::fraction(const char* name, double otherwise, TextureSlot slo
 }
 
 void SurfaceMaker::facets() {
-    const std::string name = plugin.text("distribution").value_or("beckmann");
+    const std::string name = inSmallLetters(plugin.text("distribution").value_or("beckmann"));
     if (name != "beckmann" && name != "ggx")
-        plugin.fail("distribution", fmt::format("is '{}', expected beckmann or ggx", name));
+        plugin.replace(build::Shortfall::Model,
+                       fmt::format("'distribution' is '{}', expected beckmann or ggx", name),
+                       "beckmann");
     material.facets.distribution =
         name == "ggx" ? FacetDistribution::Ggx : FacetDistribution::Beckmann;
     material.facets.masking = FacetMasking::Separable;
-    for (const char* parameter : {"alpha", "alpha_u", "alpha_v"})
-        if (plugin.child(parameter)) plugin.fail(parameter, "is a texture, expected a float");
-    const double alpha = plugin.number("alpha", 0, 1e3).value_or(0.1);
-    material.facets.alpha = {float(plugin.number("alpha_u", 0, 1e3).value_or(alpha)),
-                             float(plugin.number("alpha_v", 0, 1e3).value_or(alpha))};
+    const double both = alpha("alpha", 0.1);
+    material.facets.alpha = {float(alpha("alpha_u", both)), float(alpha("alpha_v", both))};
     plugin.skip("sample_visible");
 }
 
@@ -60,8 +80,7 @@ Surface SurfaceMaker::done() {
     const bool hasBack = material.kind == MaterialKind::Dielectric ||
                          material.kind == MaterialKind::ThinDielectric ||
                          (isBurleys && (material.burley.transmits() || material.burley.isThin));
-    // Walls of old scenes are turned either way, as renderers that read them show both sides.
-    material.isBlackBehind = !hasBack && !plugin.isOld;
+    material.isBlackBehind = !hasBack;
     return {std::move(material), cornerColors_, cornerPaint_, nullptr};
 }
 

@@ -17,7 +17,9 @@ class SurfaceMaker {
 
     /// A reflected or transmitted fraction, or a texture of it in that slot.
     void color(const char* name, const glm::dvec3& otherwise, glm::vec3& where, TextureSlot slot);
-    /// The same where no texture is possible.
+    /// The same of what has been read.
+    void put(const char* name, const Shade& shade, glm::vec3& where, TextureSlot slot);
+    /// The same where no texture is possible: the mean of one is taken.
     void plainColor(const char* name, const glm::dvec3& otherwise, glm::vec3& where);
     /// A number in [0, most], or a texture of it in that slot, where `layout` puts it.
     float fraction(const char* name, double otherwise, TextureSlot slot, Layout layout,
@@ -26,10 +28,14 @@ class SurfaceMaker {
     void facets();
     build::Report& report() { return context_.report(); }
 
-    /// Throws SceneError for parameters that were not read.
+    /// Says which parameters were not read.
     Surface done();
 
   private:
+    /// Of facets, a number or the mean of a texture.
+    double alpha(const char* name, double otherwise);
+    void sayMean(const char* name);
+
     Textures& textures_;
     Context& context_;
     std::string cornerColors_; ///< a mesh attribute

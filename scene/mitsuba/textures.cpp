@@ -2,11 +2,13 @@
 
 #include "host/core/memory.hpp"
 #include "scene/build/read_file.hpp"
+#include "scene/images/load_texture.hpp"
 #include "scene/images/texture_image.hpp"
-#include "scene/model/srgb.hpp"
+#include "scene/mitsuba/texels.hpp"
+#include "scene/mitsuba/tolerate.hpp"
+#include "scene/mitsuba/upgrade.hpp"
 
 #include <fmt/format.h>
-#include <glm/gtc/packing.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,124 +16,105 @@
 namespace stromboli::mitsuba {
 namespace {
 
-double luminance(const glm::dvec3& rgb) {
-    return glm::dot(rgb, glm::dvec3(0.212671, 0.715160, 0.072169)); // Rec. 709
-}
-
-/// A texel that holds a value where the layout says.
-glm::dvec4 arranged(const glm::dvec3& value, Layout layout) {
-    glm::dvec4 texel(1.0);
-    switch (layout) {
-    case Layout::Color:
-        return {value, 1};
-    case Layout::Alpha:
-        texel.w = luminance(value);
-        break;
-    case Layout::Red:
-    case Layout::Grey:
-        texel.x = luminance(value);
-        break;
-    case Layout::Green:
-        texel.y = luminance(value);
-        break;
-    case Layout::Blue:
-        texel.z = luminance(value);
-        break;
-    }
-    return texel;
-}
-
-void append(std::vector<uint32_t>& words, const glm::dvec4& texel) {
-    words.push_back(glm::packHalf2x16(glm::vec2(texel.x, texel.y)));
-    words.push_back(glm::packHalf2x16(glm::vec2(texel.z, texel.w)));
-}
-
-glm::dvec3 colorAt(const TextureImage& image, size_t i, bool srgb) {
-    if (image.format == TexelFormat::RgbaHalf) {
-        const glm::vec2 low = glm::unpackHalf2x16(image.words[2 * i]);
-        return {low.x, low.y, glm::unpackHalf2x16(image.words[2 * i + 1]).x};
-    }
-    glm::dvec3 color;
-    for (const int channel : {0, 1, 2}) {
-        const double value = double(image.words[i] >> (8 * channel) & 0xFF) / 255;
-        color[channel] = srgb ? srgbToLinear(value) : value;
-    }
-    return color;
-}
-
-TextureImage rearranged(const TextureImage& image, bool srgb, Layout layout) {
-    TextureImage result{image.name, image.width, image.height, TexelFormat::RgbaHalf, {}};
-    const size_t count = size_t(image.width) * image.height;
-    result.words.reserve(2 * count);
-    for (size_t i = 0; i < count; ++i)
-        append(result.words, arranged(colorAt(image, i, srgb), layout));
-    return result;
-}
-
-bool isGrey(const TextureImage& image) {
-    return image.format == TexelFormat::Rgba8 &&
-           std::ranges::all_of(image.words, [](uint32_t word) {
-               return (word & 0xFF) == (word >> 8 & 0xFF) && (word & 0xFF) == (word >> 16 & 0xFF);
-           });
-}
-
-/// Without the alpha that Mitsuba drops.
-void makeOpaque(TextureImage& image) {
-    if (image.format == TexelFormat::Rgba8)
-        for (uint32_t& word : image.words)
-            word |= 0xFF000000u;
-    else
-        for (size_t i = 1; i < image.words.size(); i += 2)
-            image.words[i] = glm::packHalf2x16({glm::unpackHalf2x16(image.words[i]).x, 1.0f});
-}
-
-Wrap wrapOf(const Plugin& texture) {
-    const std::string mode = texture.text("wrap_mode").value_or("repeat");
-    if (mode == "repeat") return Wrap::Repeat;
-    if (mode == "mirror") return Wrap::Mirror;
-    if (mode == "clamp") return Wrap::Clamp;
-    texture.fail("wrap_mode", fmt::format("is '{}', expected repeat, mirror or clamp", mode));
+Wrap wrapOf(const Plugin& texture, const char* parameter, Wrap otherwise) {
+    const std::optional<std::string> mode = texture.text(parameter);
+    if (!mode) return otherwise;
+    if (*mode == "repeat") return Wrap::Repeat;
+    if (*mode == "mirror") return Wrap::Mirror;
+    if (*mode == "clamp") return Wrap::Clamp;
+    texture.replace(build::Shortfall::Model,
+                    fmt::format("'{}' is '{}', expected repeat, mirror or clamp", parameter, *mode),
+                    "clamp");
+    return Wrap::Clamp;
 }
 
 bool isNearest(const Plugin& texture) {
-    const std::string filter = texture.text("filter_type").value_or("bilinear");
+    const std::string filter = inSmallLetters(texture.text("filter_type").value_or("bilinear"));
     // Those of Mitsuba 0.x look between texels in the same way, and at smaller pictures from afar.
     if (filter == "bilinear" || filter == "ewa" || filter == "trilinear") return false;
-    if (filter == "nearest") return true;
-    texture.fail("filter_type", fmt::format("is '{}', expected bilinear or nearest", filter));
+    if (filter == "nearest" || filter == "none") return true;
+    texture.replaceParameter("filter_type", build::Shortfall::Word,
+                             fmt::format("is '{}', expected bilinear or nearest", filter));
+    return false;
 }
 
-/// Looks up by `to_uv` times the surface's coordinates; those of Mitsuba 0.x are scaled and moved
-/// by numbers of their own.
+/// Whether the picture's numbers are linear as they are.
+bool isRaw(const Plugin& texture) {
+    const bool raw = texture.flag("raw").value_or(false);
+    const double gamma = texture.number("gamma").value_or(0);
+    if (gamma == 1) return true;
+    const bool isUsual = gamma <= 0 || (gamma > 2.15 && gamma < 2.45);
+    if (!isUsual)
+        texture.replace(build::Shortfall::Model,
+                        fmt::format("'gamma' is {}, expected 1 or 2.2", gamma),
+                        "sRGB, where the picture has 8 bits");
+    return raw;
+}
+
+/// Looks up by `to_uv` times the surface's coordinates; those of Mitsuba 0.x are scaled and then
+/// moved by numbers of their own.
 void applyTransform(const Plugin& texture, TextureUse& use) {
     glm::dmat4 m = texture.transform("to_uv");
-    const glm::dvec2 scale(texture.number("uscale").value_or(1),
-                           texture.number("vscale").value_or(1));
+    const double both = texture.number("uvscale").value_or(1);
+    const glm::dvec2 scale(texture.number("uscale").value_or(both),
+                           texture.number("vscale").value_or(both));
     const glm::dvec2 offset(texture.number("uoffset").value_or(0),
                             texture.number("voffset").value_or(0));
     for (int column = 0; column < 4; ++column)
         for (const int row : {0, 1}) {
-            if (column == 3) m[column][row] += offset[row];
             m[column][row] *= scale[row];
+            if (column == 3) m[column][row] += offset[row];
         }
     use.uRow = glm::dvec3(m[0][0], m[1][0], m[3][0]);
     use.vRow = glm::dvec3(m[0][1], m[1][1], m[3][1]);
 }
 
+/// Which of a texel's numbers a channel is; nothing: there is none of that name.
+std::optional<int> placeOfChannel(char channel) {
+    const size_t place = std::string_view("rgbaxyzw").find(channel);
+    if (place == std::string_view::npos) return std::nullopt;
+    return int(place % 4);
+}
+
+/// Of a number of channels that are alike, or of colours.
+template <class Combine>
+glm::dvec3 combined(const TextureImage& image, bool srgb, const glm::dvec3& first,
+                    Combine combine) {
+    glm::dvec3 result = first;
+    const size_t count = size_t(image.width) * image.height;
+    for (size_t i = 0; i < count; ++i)
+        combine(result, colorAt(image, i, srgb));
+    return result;
+}
+
 } // namespace
 
-void appendTexel(std::vector<uint32_t>& words, const glm::dvec3& value, Layout layout) {
-    append(words, arranged(value, layout));
+std::optional<glm::dvec3> firstColorOf(const Plugin& plugin, ColorOf what) {
+    for (const std::string& name : plugin.names()) {
+        const Value* value = plugin.find(name);
+        if (value && (std::holds_alternative<RgbValue>(*value) ||
+                      std::holds_alternative<SpectrumValue>(*value)))
+            return colorOf(plugin, name, what);
+    }
+    return std::nullopt;
 }
 
 Shade Textures::shade(const Plugin& plugin, std::string_view name, ColorOf what,
                       const glm::dvec3& otherwise, Layout layout) {
-    if (const std::optional<glm::dvec3> color = colorOf(plugin, name, what))
-        return {*color, {}, {}};
+    std::optional<glm::dvec3> color;
+    tolerate(context_.report(), build::Shortfall::Word,
+             [&] { color = colorOf(plugin, name, what); });
+    if (color) return {*color, {}, {}};
     const Plugin* object = plugin.child(name);
-    if (!object) return {otherwise, {}, {}};
-    if (object->tag != "texture") object->fail("is no texture, expected a colour or a texture");
-    return texture(*object, what, layout);
+    if (!object || object->tag == "spectrum") return {otherwise, {}, {}};
+    if (object->tag != "texture") {
+        object->replace(build::Shortfall::Word, "is no texture, expected a colour or a texture");
+        return {otherwise, {}, {}};
+    }
+    std::optional<Shade> found;
+    tolerate(context_.report(), build::Shortfall::Picture,
+             [&] { found = texture(*object, what, layout); });
+    return found.value_or(Shade{otherwise, {}, {}});
 }
 
 glm::uvec2 Textures::sizeOf(const TextureUse& use) const {
@@ -139,17 +122,70 @@ glm::uvec2 Textures::sizeOf(const TextureUse& use) const {
     return {image.width, image.height};
 }
 
-Shade Textures::texture(const Plugin& texture, ColorOf what, Layout layout) {
-    if (texture.type == "bitmap") return bitmap(texture, layout);
-    if (texture.type == "checkerboard") return checkerboard(texture, what, layout);
-    if (texture.type == "mesh_attribute") return meshAttribute(texture, layout);
-    texture.fail(fmt::format("'{}' is no texture that is read, expected bitmap, checkerboard, "
-                             "mesh_attribute or uniform",
-                             texture.type));
+glm::dvec3 Textures::meanOf(const Shade& shade) const {
+    if (!shade.texture || paintOf(shade.texture->texture)) return shade.color;
+    const TextureImage& image = context_.builder.imageOf(shade.texture->texture);
+    const glm::dvec3 sum =
+        combined(image, context_.builder.textureOf(shade.texture->texture).srgb, glm::dvec3(0),
+                 [](glm::dvec3& all, const glm::dvec3& one) { all += one; });
+    return shade.color * sum / std::max(1.0, double(image.width) * image.height);
 }
 
-Shade Textures::meshAttribute(const Plugin& texture, Layout layout) {
-    const std::string name = texture.requireText("name");
+glm::dvec3 Textures::mostOf(const Shade& shade) const {
+    if (!shade.texture || paintOf(shade.texture->texture)) return shade.color;
+    const TextureImage& image = context_.builder.imageOf(shade.texture->texture);
+    return shade.color *
+           combined(image, context_.builder.textureOf(shade.texture->texture).srgb, glm::dvec3(0),
+                    [](glm::dvec3& all, const glm::dvec3& one) { all = glm::max(all, one); });
+}
+
+std::optional<Shade> Textures::texture(const Plugin& texture, ColorOf what, Layout layout) {
+    const std::string& type = texture.type;
+    if (type == "bitmap") return bitmap(texture, layout);
+    if (type == "checkerboard") return checkerboard(texture, what, layout);
+    if (type == "gridtexture") return grid(texture, what, layout);
+    if (type == "scale") return scaled(texture, what, layout);
+    if (type == "mesh_attribute")
+        return meshAttribute(texture, texture.requireText("name"), layout);
+    if (type == "vertexcolors") return meshAttribute(texture, "vertex_color", layout);
+    return unknown(texture, what, layout);
+}
+
+/// A texture without a counterpart: that inside of it, or a colour of it, is shown.
+std::optional<Shade> Textures::unknown(const Plugin& plugin, ColorOf what, Layout layout) {
+    const std::string problem =
+        fmt::format("'{}' is no texture that is read, expected bitmap, checkerboard, gridtexture, "
+                    "scale, mesh_attribute, vertexcolors or uniform",
+                    plugin.type);
+    const std::vector<const Plugin*> inside = plugin.childrenOf("texture");
+    if (!inside.empty()) {
+        plugin.replace(build::Shortfall::Model, problem, "the texture inside of it");
+        return texture(*inside.front(), what, layout);
+    }
+    std::optional<glm::dvec3> color = firstColorOf(plugin, what);
+    if (plugin.type == "wireframe" && !color) color = glm::dvec3(0.5);
+    if (!color) plugin.fail(problem);
+    plugin.replace(build::Shortfall::Model, problem, "its first colour");
+    return Shade{*color, {}, {}};
+}
+
+/// Another texture, or a colour, times a factor.
+std::optional<Shade> Textures::scaled(const Plugin& plugin, ColorOf what, Layout layout) {
+    const glm::dvec3 factor = colorOf(plugin, "scale", what).value_or(glm::dvec3(1));
+    const std::vector<const Plugin*> inside = plugin.childrenOf("texture");
+    std::optional<Shade> shade;
+    if (!inside.empty())
+        shade = texture(*inside.front(), what, layout);
+    else if (const std::optional<glm::dvec3> color = colorOf(plugin, "value", what))
+        shade = Shade{*color, {}, {}};
+    else
+        plugin.fail("has no texture inside, expected one");
+    plugin.requireAllRead();
+    if (shade) shade->color *= factor;
+    return shade;
+}
+
+Shade Textures::meshAttribute(const Plugin& texture, const std::string& name, Layout layout) {
     if (!name.starts_with("vertex_") && !name.starts_with("face_"))
         texture.fail("name", fmt::format("is '{}', expected vertex_... or face_...", name));
     const double scale = texture.number("scale").value_or(1);
@@ -181,60 +217,107 @@ void Textures::countBytes(const TextureImage& image, const Plugin& plugin) {
                                 bytes_ >> 20));
 }
 
-Shade Textures::bitmap(const Plugin& plugin, Layout layout) {
-    const bool raw = plugin.flag("raw").value_or(false) || plugin.number("gamma") == 1.0;
+std::optional<Shade> Textures::bitmap(const Plugin& plugin, Layout layout) {
+    const std::string channel = plugin.text("channel").value_or("");
+    std::optional<int> place;
+    if (!channel.empty()) place = placeOfChannel(channel.front());
+    if (!channel.empty() && !place)
+        plugin.replaceParameter("channel", build::Shortfall::Word,
+                                fmt::format("is '{}', expected r, g, b or a", channel));
+    const bool raw = isRaw(plugin) || place == 3; // alpha is linear
     Texture texture;
-    texture.image = image(plugin, raw, layout);
-    texture.wrapU = texture.wrapV = wrapOf(plugin);
+    const std::optional<uint32_t> shownImage =
+        image(plugin, raw, layout, place ? channel.front() : '\0');
+    const Wrap wrap = wrapOf(plugin, "wrap_mode", Wrap::Repeat);
+    texture.wrapU = wrapOf(plugin, "wrap_mode_u", wrap);
+    texture.wrapV = wrapOf(plugin, "wrap_mode_v", wrap);
     texture.nearest = isNearest(plugin);
     texture.srgb = !raw && (layout == Layout::Color || layout == Layout::Grey);
     TextureUse use;
     applyTransform(plugin, use);
-    for (const char* unused : {"format", "accel", "max_anisotropy"})
+    for (const char* unused : {"format", "accel", "max_anisotropy", "cache"})
         plugin.skip(unused);
     plugin.requireAllRead();
+    if (!shownImage) return std::nullopt;
+    texture.image = *shownImage;
     use.texture = context_.builder.addTexture(texture);
-    return {glm::dvec3(1), use, {}};
+    return Shade{glm::dvec3(1), use, {}};
 }
 
-uint32_t Textures::image(const Plugin& plugin, bool raw, Layout layout) {
+std::optional<uint32_t> Textures::image(const Plugin& plugin, bool raw, Layout layout,
+                                        char channel) {
     const std::filesystem::path file = context_.document.file(plugin, "filename");
-    const auto key = std::tuple(file.string(), raw, layout);
+    const auto key = std::tuple(file.string(), raw, layout, channel);
     if (const auto found = images_.find(key); found != images_.end()) return found->second;
     const std::string name = file.string();
-    TextureImage image =
-        images::textureImage(images::decodePicture(build::readFile(file), name), name, !raw);
+    const std::string bytes = build::readFile(file);
+    std::optional<TextureImage> image = images::loadTexture(
+        [&] { return std::string_view(bytes); }, name, !raw, plugin.place, context_.report());
+    if (!image) return images_[key] = std::nullopt;
+    if (channel != '\0') spreadChannel(*image, *placeOfChannel(channel));
     const uint32_t largest = context_.builder.conventions().selection.largestTexture;
-    if (largest > 0) images::shrinkToFit(image, largest, !raw);
+    if (largest > 0) images::shrinkToFit(*image, largest, !raw);
     if (layout == Layout::Color)
-        makeOpaque(image);
-    else if (layout != Layout::Grey || !isGrey(image))
-        image = rearranged(image, !raw && image.format == TexelFormat::Rgba8, layout);
-    countBytes(image, plugin);
-    return images_[key] = context_.builder.addImage(std::move(image));
+        makeOpaque(*image);
+    else if (layout != Layout::Grey || !isGrey(*image))
+        *image = rearranged(*image, !raw && image->format == TexelFormat::Rgba8, layout);
+    countBytes(*image, plugin);
+    return images_[key] = context_.builder.addImage(*std::move(image));
 }
 
-/// Two by two texels. As colours, the first and the last are color0; as numbers, for which Mitsuba
-/// has another function, the two others are.
-Shade Textures::checkerboard(const Plugin& plugin, ColorOf what, Layout layout) {
-    const auto colorNamed = [&](const char* name, double otherwise) {
-        const std::optional<glm::dvec3> color = colorOf(plugin, name, what);
-        if (!color && plugin.child(name)) plugin.fail(name, "is a texture, expected a colour");
-        return color.value_or(glm::dvec3(otherwise));
-    };
-    const glm::dvec3 colors[2] = {colorNamed("color0", 0.4), colorNamed("color1", 0.2)};
-    TextureImage image{"checkerboard", 2, 2, TexelFormat::RgbaHalf, {}};
-    const int first = layout == Layout::Color ? 0 : 1;
-    for (const int which : {first, 1 - first, 1 - first, first})
-        append(image.words, arranged(colors[which], layout));
+/// A colour of a pattern.
+static glm::dvec3 colorNamed(const Plugin& pattern, const char* name, ColorOf what,
+                             double otherwise) {
+    const std::optional<glm::dvec3> color = colorOf(pattern, name, what);
+    if (!color && pattern.child(name))
+        pattern.replaceParameter(name, build::Shortfall::Word, "is a texture, expected a colour");
+    return color.value_or(glm::dvec3(otherwise));
+}
+
+/// A pattern as a picture that repeats.
+Shade Textures::shown(const Plugin& plugin, TextureImage image, bool isNearest) {
     Texture texture;
+    countBytes(image, plugin);
     texture.image = context_.builder.addImage(std::move(image));
-    texture.nearest = true;
+    texture.nearest = isNearest;
     TextureUse use;
     applyTransform(plugin, use);
     plugin.requireAllRead();
     use.texture = context_.builder.addTexture(texture);
     return {glm::dvec3(1), use, {}};
+}
+
+/// Two by two texels. As colours, the first and the last are color0; as numbers, for which Mitsuba
+/// 3 has another function, the two others are.
+Shade Textures::checkerboard(const Plugin& plugin, ColorOf what, Layout layout) {
+    const glm::dvec3 colors[2] = {colorNamed(plugin, "color0", what, 0.4),
+                                  colorNamed(plugin, "color1", what, 0.2)};
+    TextureImage image{"checkerboard", 2, 2, TexelFormat::RgbaHalf, {}};
+    const int first = layout == Layout::Color || plugin.isOld ? 0 : 1;
+    for (const int which : {first, 1 - first, 1 - first, first})
+        appendTexel(image.words, colors[which], layout);
+    return shown(plugin, std::move(image), true);
+}
+
+/// Lines of color1 around whole coordinates, as wide to each side as line_width says. Texels that a
+/// line covers in part are mixtures, so that lines have their width in the mean.
+Shade Textures::grid(const Plugin& plugin, ColorOf what, Layout layout) {
+    const glm::dvec3 ground = colorNamed(plugin, "color0", what, 0.2);
+    const glm::dvec3 line = colorNamed(plugin, "color1", what, 0.4);
+    const double width = plugin.number("line_width", 0, 0.5).value_or(0.01);
+    constexpr int kSide = 512;
+    const auto covered = [&](int texel) { // by lines across this axis
+        const auto below = [&](double x) { return std::clamp(width * kSide - x, 0.0, 1.0); };
+        return std::max(below(texel), below(kSide - 1 - texel));
+    };
+    TextureImage image{"gridtexture", kSide, kSide, TexelFormat::RgbaHalf, {}};
+    image.words.reserve(size_t(2 * kSide) * kSide);
+    for (int row = 0; row < kSide; ++row)
+        for (int column = 0; column < kSide; ++column) {
+            const double share = 1 - (1 - covered(row)) * (1 - covered(column));
+            appendTexel(image.words, glm::mix(ground, line, share), layout);
+        }
+    return shown(plugin, std::move(image), false);
 }
 
 } // namespace stromboli::mitsuba

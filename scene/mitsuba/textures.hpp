@@ -2,6 +2,7 @@
 
 #include "scene/mitsuba/colors.hpp"
 #include "scene/mitsuba/context.hpp"
+#include "scene/mitsuba/texels.hpp"
 
 #include <map>
 #include <optional>
@@ -10,10 +11,6 @@
 #include <vector>
 
 namespace stromboli::mitsuba {
-
-/// Which numbers of a texel a picture's value becomes; the others are 1. Grey: red, in the
-/// precision of the file where that has no colours.
-enum class Layout { Color, Alpha, Red, Green, Blue, Grey };
 
 /// A colour that is alike everywhere, or a texture of it.
 struct Shade {
@@ -28,19 +25,25 @@ struct Paint {
     Layout layout = Layout::Color;
 };
 
-/// Adds a texel that holds a value where the layout says, of RgbaHalf.
-void appendTexel(std::vector<uint32_t>& words, const glm::dvec3& value, Layout layout);
+/// The first colour that an object states, whatever its name.
+std::optional<glm::dvec3> firstColorOf(const Plugin& plugin, ColorOf what);
 
 /// The textures of a scene.
 class Textures {
   public:
     explicit Textures(Context& context) : context_(context) {}
 
-    /// A parameter that may be a colour or a texture.
+    /// A parameter that may be a colour or a texture. One that is neither, or cannot be read, is
+    /// said, and `otherwise` is taken.
     Shade shade(const Plugin& plugin, std::string_view name, ColorOf what,
                 const glm::dvec3& otherwise, Layout layout = Layout::Color);
-    /// The texture that a plugin of the tag texture is.
-    Shade texture(const Plugin& texture, ColorOf what, Layout layout);
+    /// The texture that a plugin of the tag texture is; nothing where its picture cannot be shown,
+    /// which is said. Throws SceneError for what is no texture.
+    std::optional<Shade> texture(const Plugin& texture, ColorOf what, Layout layout);
+    /// The mean of a texture and its largest value in each channel, of linear light; of mesh
+    /// attributes, which no one knows yet, 1.
+    glm::dvec3 meanOf(const Shade& shade) const;
+    glm::dvec3 mostOf(const Shade& shade) const;
 
     /// What TextureUse::texture stands for, where that is no texture yet; null where it is one.
     const Paint* paintOf(uint32_t texture) const;
@@ -51,16 +54,21 @@ class Textures {
     glm::uvec2 sizeOf(const TextureUse& use) const;
 
   private:
-    Shade bitmap(const Plugin& texture, Layout layout);
+    std::optional<Shade> bitmap(const Plugin& texture, Layout layout);
     Shade checkerboard(const Plugin& texture, ColorOf what, Layout layout);
-    uint32_t image(const Plugin& texture, bool raw, Layout layout);
-    Shade meshAttribute(const Plugin& texture, Layout layout);
+    Shade grid(const Plugin& texture, ColorOf what, Layout layout);
+    std::optional<Shade> scaled(const Plugin& texture, ColorOf what, Layout layout);
+    std::optional<Shade> unknown(const Plugin& texture, ColorOf what, Layout layout);
+    std::optional<uint32_t> image(const Plugin& texture, bool raw, Layout layout, char channel);
+    Shade meshAttribute(const Plugin& texture, const std::string& name, Layout layout);
+    Shade shown(const Plugin& texture, TextureImage image, bool isNearest);
     void countBytes(const TextureImage& image, const Plugin& plugin);
 
     static constexpr uint32_t kFirstPaint = 0x80000000u;
 
     Context& context_;
-    std::map<std::tuple<std::string, bool, Layout>, uint32_t> images_;
+    /// By file, whether it is raw, layout and channel; nothing: it cannot be shown.
+    std::map<std::tuple<std::string, bool, Layout, char>, std::optional<uint32_t>> images_;
     std::vector<Paint> paints_; ///< of numbers of textures from kFirstPaint on
     uint64_t bytes_ = 0;        ///< of all pictures
 };

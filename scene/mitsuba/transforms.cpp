@@ -11,11 +11,25 @@
 namespace stromboli::mitsuba {
 namespace {
 
+/// By one attribute, or by three whose names begin with the same letter, as before Mitsuba 0.3.
+std::optional<glm::dvec3> vectorNamed(const build::FilePlace& where, const Attributes& attributes,
+                                      std::string_view name) {
+    if (const std::optional<std::string> text = attributes(name)) return vectorOf(where, *text);
+    glm::dvec3 v(0.0);
+    bool isThere = false;
+    for (const int axis : {0, 1, 2})
+        if (const std::optional<std::string> text = attributes(std::string{name[0], "xyz"[axis]})) {
+            v[axis] = numberOf(where, *text);
+            isThere = true;
+        }
+    return isThere ? std::optional(v) : std::nullopt;
+}
+
 glm::dvec3 requireVector(const build::FilePlace& where, const Attributes& attributes,
                          const char* name) {
-    const std::optional<std::string> text = attributes(name);
-    if (!text) where.fail(fmt::format("has no attribute '{}'", name));
-    return vectorOf(where, *text);
+    const std::optional<glm::dvec3> v = vectorNamed(where, attributes, name);
+    if (!v) where.fail(fmt::format("has no attribute '{}'", name));
+    return *v;
 }
 
 /// The frame of a camera or lamp at `origin` that looks along its z axis at `target`, y up and x to
@@ -26,13 +40,14 @@ glm::dmat4 lookAt(const build::FilePlace& where, const Attributes& attributes) {
     const std::optional<glm::dvec3> ahead = build::unit(target - origin);
     if (!ahead) where.fail("looks from a point at itself");
     // Without `up` any direction across the view is as good.
-    const glm::dvec3 up = attributes("up")           ? requireVector(where, attributes, "up")
-                          : std::abs(ahead->x) < 0.9 ? glm::dvec3(1, 0, 0)
-                                                     : glm::dvec3(0, 1, 0);
+    const glm::dvec3 across = std::abs(ahead->x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 up = vectorNamed(where, attributes, "up").value_or(across);
     const std::optional<glm::dvec3> left = build::unit(glm::cross(up, *ahead));
     if (!left) where.fail("looks along 'up', expected a direction across it");
-    return {glm::dvec4(*left, 0), glm::dvec4(glm::cross(*ahead, *left), 0), glm::dvec4(*ahead, 0),
-            glm::dvec4(origin, 1)};
+    // Cameras of those times had x to the right.
+    const double side = attributes("ox") ? -1 : 1;
+    return {glm::dvec4(side * *left, 0), glm::dvec4(glm::cross(*ahead, *left), 0),
+            glm::dvec4(*ahead, 0), glm::dvec4(origin, 1)};
 }
 
 glm::dmat4 rotation(const build::FilePlace& where, const Attributes& attributes) {

@@ -29,11 +29,20 @@ Scene loadInside(std::string_view inside) {
     return loadText(sceneText(inside));
 }
 
+Scene loadOld(std::string_view inside) {
+    return loadText(sceneText(inside, "0.6.0"));
+}
+
 std::string problemOf(const std::string& text, const std::vector<Definition>& definitions) {
     try {
-        loadText(text, definitions);
+        SceneConventions conventions;
+        conventions.strict = true;
+        conventions.selection.definitions = definitions;
+        loadMitsuba(writeFile("scene.xml", text), conventions);
     } catch (const SceneError& error) {
-        const std::string message = error.what();
+        std::string message = error.what();
+        constexpr std::string_view kReason = " (an error because of --strict)";
+        if (message.ends_with(kReason)) message.resize(message.size() - kReason.size());
         const std::string file = writeFile("scene.xml", text).string();
         return message.starts_with(file + ":") ? message.substr(file.size() + 1) : message;
     }
@@ -42,6 +51,10 @@ std::string problemOf(const std::string& text, const std::vector<Definition>& de
 
 std::string problemInside(std::string_view inside) {
     return problemOf(sceneText(inside));
+}
+
+std::string problemInOld(std::string_view inside) {
+    return problemOf(sceneText(inside, "0.6.0"));
 }
 
 } // namespace stromboli::test

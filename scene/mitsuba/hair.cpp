@@ -1,0 +1,177 @@
+#include "scene/mitsuba/hair.hpp"
+
+#include "scene/build/read_file.hpp"
+#include "scene/build/vectors.hpp"
+#include "scene/mitsuba/words.hpp"
+
+#include <fmt/format.h>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <string_view>
+#include <vector>
+
+namespace stromboli::mitsuba {
+namespace {
+
+constexpr uint32_t kTubeSides = 6;
+
+struct Knot {
+    glm::dvec3 place{0.0};
+    double radius = 0;
+};
+using Strand = std::vector<Knot>;
+
+/// After a head and the number of knots, three floats each; before the first one of a strand there
+/// is an infinite one.
+std::vector<Strand> binaryStrands(std::string_view bytes, double radius) {
+    std::vector<Strand> strands(1);
+    const auto next = [&](float& value) {
+        if (bytes.size() < sizeof value) return false;
+        std::memcpy(&value, bytes.data(), sizeof value);
+        bytes.remove_prefix(sizeof value);
+        return true;
+    };
+    float x = 0, y = 0, z = 0;
+    while (next(x)) {
+        if (std::isinf(x)) {
+            strands.emplace_back();
+            continue;
+        }
+        if (!next(y) || !next(z)) break;
+        if (std::isfinite(x) && std::isfinite(y) && std::isfinite(z))
+            strands.back().push_back({{x, y, z}, radius});
+    }
+    return strands;
+}
+
+/// A knot in each line, with or without a radius; an empty line ends a strand.
+std::vector<Strand> textStrands(const build::FilePlace& where, std::string_view text,
+                                double radius) {
+    std::vector<Strand> strands(1);
+    while (!text.empty()) {
+        const size_t end = std::min(text.find('\n'), text.size());
+        const std::vector<double> numbers = numbersOf(where, text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+        if (numbers.empty()) {
+            strands.emplace_back();
+        } else if (numbers.size() < 3) {
+            where.fail(
+                fmt::format("has a line of {} numbers, expected three or four", numbers.size()));
+        } else {
+            strands.back().push_back({{numbers[0], numbers[1], numbers[2]},
+                                      numbers.size() > 3 ? std::max(numbers[3], 0.0) : radius});
+        }
+    }
+    return strands;
+}
+
+/// Without the knots at which a strand hardly bends.
+Strand straightened(const Strand& strand, double degrees) {
+    const double most = std::cos(glm::radians(degrees));
+    Strand kept;
+    for (size_t i = 0; i < strand.size(); ++i) {
+        if (!kept.empty() && strand[i].place == kept.back().place) continue;
+        if (kept.size() > 1) {
+            const auto before = build::unit(kept.back().place - kept[kept.size() - 2].place);
+            const auto after = build::unit(strand[i].place - kept.back().place);
+            if (before && after && glm::dot(*before, *after) > most) kept.pop_back();
+        }
+        kept.push_back(strand[i]);
+    }
+    return kept;
+}
+
+/// Points of the uniform cubic B-spline that the knots control.
+Strand splined(const Strand& knots) {
+    constexpr int kSteps = 6;
+    Strand points;
+    for (size_t i = 0; i + 3 < knots.size(); ++i)
+        for (int step = i == 0 ? 0 : 1; step <= kSteps; ++step) {
+            const double t = double(step) / kSteps, u = 1 - t;
+            const double weights[4] = {u * u * u / 6, (3 * t * t * t - 6 * t * t + 4) / 6,
+                                       (3 * u * u * u - 6 * u * u + 4) / 6, t * t * t / 6};
+            Knot& point = points.emplace_back();
+            for (size_t k = 0; k < 4; ++k) {
+                point.place += weights[k] * knots[i + k].place;
+                point.radius += weights[k] * knots[i + k].radius;
+            }
+        }
+    return points;
+}
+
+/// The mean of the directions to both neighbours.
+glm::dvec3 directionAt(const Strand& strand, size_t i) {
+    const size_t before = i > 0 ? i - 1 : i, after = std::min(i + 1, strand.size() - 1);
+    return build::unit(strand[after].place - strand[before].place)
+        .value_or(build::unit(strand[after].place - strand[i].place).value_or(glm::dvec3(0, 0, 1)));
+}
+
+void addTube(build::Mesh& mesh, const Strand& strand) {
+    constexpr double kTurn = 2 * std::numbers::pi / kTubeSides;
+    const double wider = kTurn / 2 / std::sin(kTurn / 2); // the outline is a circle's
+    const auto first = uint32_t(mesh.positions.size());
+    glm::dvec3 x(0.0);
+    for (size_t i = 0; i < strand.size(); ++i) {
+        const glm::dvec3 along = directionAt(strand, i);
+        const glm::dvec3 other =
+            std::abs(along.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+        // Turned as little as may be from the ring before.
+        x = build::unit(x - along * glm::dot(along, x))
+                .value_or(glm::normalize(glm::cross(along, other)));
+        const glm::dvec3 y = glm::cross(along, x);
+        for (uint32_t side = 0; side < kTubeSides; ++side) {
+            const glm::dvec3 normal = x * std::cos(kTurn * side) + y * std::sin(kTurn * side);
+            mesh.positions.push_back(strand[i].place + wider * strand[i].radius * normal);
+            mesh.normals.push_back(normal);
+            mesh.attributes.emplace_back().uv[0] = {float(side) / float(kTubeSides),
+                                                    float(i) / float(strand.size() - 1)};
+        }
+    }
+    build::MeshPart& part = mesh.parts.front();
+    for (uint32_t ring = 0; ring + 1 < strand.size(); ++ring)
+        for (uint32_t side = 0; side < kTubeSides; ++side) {
+            const auto corner = [&](uint32_t up, uint32_t around) {
+                const uint32_t n = first + (ring + up) * kTubeSides + around % kTubeSides;
+                return build::Corner{n, n, n};
+            };
+            part.push_back({corner(0, side), corner(0, side + 1), corner(1, side + 1)});
+            part.push_back({corner(0, side), corner(1, side + 1), corner(1, side)});
+        }
+}
+
+} // namespace
+
+bool isHair(const Plugin& shape) {
+    return shape.type == "hair" || shape.type == "linearcurve" || shape.type == "bsplinecurve";
+}
+
+build::Mesh hairMesh(const Context& context, const Plugin& shape) {
+    const std::filesystem::path file = context.document.file(shape, "filename");
+    const std::string bytes = build::readFile(file);
+    const build::FilePlace where{file.string(), 0, "hair"};
+    const double radius = shape.number("radius", 0).value_or(0.025);
+    const double angle = shape.number("angle_threshold", 0, 90).value_or(1);
+    constexpr std::string_view kHead = "BINARY_HAIR";
+    const size_t head = kHead.size() + sizeof(uint32_t);
+    const bool isBinary = bytes.starts_with(kHead) && bytes.size() >= head;
+    build::requireMemory(where.file, bytes.size() * 20 * kTubeSides);
+    const std::vector<Strand> strands =
+        isBinary ? binaryStrands(std::string_view(bytes).substr(head), radius)
+                 : textStrands(where, bytes, radius);
+    build::Mesh mesh;
+    mesh.parts.emplace_back();
+    for (const Strand& strand : strands) {
+        const Strand line = shape.type == "bsplinecurve" ? splined(strand)
+                            : shape.type == "hair"       ? straightened(strand, angle)
+                                                         : straightened(strand, 0);
+        if (line.size() > 1) addTube(mesh, line);
+    }
+    if (mesh.positions.empty()) where.fail("has no strand of two points or more");
+    return mesh;
+}
+
+} // namespace stromboli::mitsuba
