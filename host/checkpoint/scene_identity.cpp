@@ -90,7 +90,7 @@ void add(Sum& sum, const Material& m) {
 }
 
 void add(Sum& sum, const TextureImage& i) {
-    const auto& [name, width, height, format, words] = i;
+    const auto& [name, width, height, format, words, goesBeyond] = i;
     sum.add(width), sum.add(height), sum.add(format), sum.addAll(words);
 }
 

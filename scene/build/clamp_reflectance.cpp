@@ -55,11 +55,12 @@ size_t clampBaseColors(Scene& scene) {
         for (TextureUse& use : material.textures) {
             if (use.slot != TextureSlot::BaseColor) continue;
             const Texture texture = scene.textures[use.texture];
-            if (scene.images[texture.image].format != TexelFormat::RgbaHalf) continue;
+            const TextureImage& image = scene.images[texture.image];
+            if (image.format != TexelFormat::RgbaHalf || image.goesBeyond) continue;
             const auto [found, isNew] =
                 made.try_emplace({use.texture, {most.x, most.y, most.z}}, use.texture);
             if (isNew)
-                if (auto copy = clamped(scene.images[texture.image], most, count)) {
+                if (auto copy = clamped(image, most, count)) {
                     found->second = uint32_t(scene.textures.size());
                     scene.textures.push_back(texture);
                     scene.textures.back().image = uint32_t(scene.images.size());

@@ -110,6 +110,16 @@ glm::dvec3 directionAt(const Strand& strand, size_t i) {
         .value_or(build::unit(strand[after].place - strand[i].place).value_or(glm::dvec3(0, 0, 1)));
 }
 
+/// How far a ring's point lies outwards, so that the tubes on both sides are as wide as `radius`
+/// when they meet at an angle.
+double mitred(double radius, const glm::dvec3& normal, const Strand& strand, size_t i) {
+    if (i == 0 || i + 1 == strand.size()) return radius;
+    const auto before = build::unit(strand[i].place - strand[i - 1].place);
+    const double along = before ? glm::dot(normal, *before) : 0;
+    constexpr double kLongest = 3; // where a strand turns back
+    return radius * std::min(1 / std::sqrt(std::max(1 - along * along, 1e-6)), kLongest);
+}
+
 void addTube(build::Mesh& mesh, const Strand& strand) {
     constexpr double kTurn = 2 * std::numbers::pi / kTubeSides;
     const double wider = kTurn / 2 / std::sin(kTurn / 2); // the outline is a circle's
@@ -125,7 +135,8 @@ void addTube(build::Mesh& mesh, const Strand& strand) {
         const glm::dvec3 y = glm::cross(along, x);
         for (uint32_t side = 0; side < kTubeSides; ++side) {
             const glm::dvec3 normal = x * std::cos(kTurn * side) + y * std::sin(kTurn * side);
-            mesh.positions.push_back(strand[i].place + wider * strand[i].radius * normal);
+            const double radius = mitred(wider * strand[i].radius, normal, strand, i);
+            mesh.positions.push_back(strand[i].place + radius * normal);
             mesh.normals.push_back(normal);
             mesh.attributes.emplace_back().uv[0] = {float(side) / float(kTubeSides),
                                                     float(i) / float(strand.size() - 1)};

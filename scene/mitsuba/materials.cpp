@@ -86,8 +86,11 @@ bool Materials::wantsPaint(const Surface& surface) const {
 void Materials::paint(Surface& surface, const Plugin& shape, const Painter& painter) {
     for (Surface* each = &surface; each; each = each->other.get())
         for (TextureUse& use : each->material.textures)
-            if (const Paint* paint = textures_.paintOf(use.texture))
-                use.texture = textures_.add(painter(*paint), shape);
+            if (const Paint* found = textures_.paintOf(use.texture)) {
+                Paint paint = *found;
+                paint.isFraction = use.slot == TextureSlot::BaseColor;
+                use.texture = textures_.add(painter(paint), shape);
+            }
 }
 
 BoundMaterial Materials::bind(Surface&& surface) {

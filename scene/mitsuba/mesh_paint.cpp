@@ -25,22 +25,25 @@ glm::dvec3 colorOf(const build::Mesh& mesh, const build::Corner& corner) {
 
 } // namespace
 
-TextureImage paintOfCorners(const build::Mesh& mesh, Layout layout) {
+TextureImage paintOfCorners(const build::Mesh& mesh, const Paint& paint) {
     const Grid grid(mesh);
     const build::MeshPart& triangles = mesh.parts.front();
     TextureImage image{
         "mesh attribute", 2 * grid.columns, 2 * grid.rows, TexelFormat::RgbaHalf, {}};
+    image.goesBeyond = true;
     image.words.reserve(8 * size_t(grid.columns) * grid.rows);
     for (uint32_t row = 0; row < image.height; ++row)
         for (uint32_t column = 0; column < grid.columns; ++column) {
             std::array<glm::dvec3, 3> at{};
             const size_t triangle = size_t(row / 2) * grid.columns + column;
             if (triangle < triangles.size())
-                for (size_t k = 0; k < 3; ++k)
+                for (size_t k = 0; k < 3; ++k) {
                     at[k] = colorOf(mesh, triangles[triangle][k]);
+                    if (paint.isFraction) at[k] = glm::clamp(at[k], 0.0, 1.0);
+                }
             const bool isUpper = row % 2 == 0;
-            appendTexel(image.words, isUpper ? at[0] : at[2], layout);
-            appendTexel(image.words, isUpper ? at[1] : at[1] + at[2] - at[0], layout);
+            appendTexel(image.words, isUpper ? at[0] : at[2], paint.layout);
+            appendTexel(image.words, isUpper ? at[1] : at[1] + at[2] - at[0], paint.layout);
         }
     return image;
 }

@@ -11,7 +11,7 @@ namespace stromboli::mitsuba {
 // these middles.
 
 /// The colours of the mesh's corners, triangle by triangle.
-TextureImage paintOfCorners(const build::Mesh& mesh, Layout layout);
+TextureImage paintOfCorners(const build::Mesh& mesh, const Paint& paint);
 /// Gives all corners attributes of their own, with the coordinates of such a picture.
 void spreadCorners(build::Mesh& mesh);
 

@@ -248,7 +248,7 @@ Surface blend(Context& context, Textures& textures, const Plugin& plugin) {
     const std::vector<const Plugin*> inside = atMostTwo(plugin);
     Surface first = readBsdf(context, textures, *inside.front());
     if (inside.size() == 1) {
-        plugin.replace(build::Shortfall::Model, "has 1 bsdf inside, expected two", "that one");
+        plugin.replace(build::Shortfall::Model, "has 1 bsdfs inside, expected two", "that one");
         return first;
     }
     Surface second = readBsdf(context, textures, *inside.back());

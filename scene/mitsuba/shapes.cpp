@@ -62,7 +62,7 @@ void dropNormals(build::Mesh& mesh) {
 void sayMedia(const Plugin& shape) {
     for (const char* tag : {"medium", "subsurface"})
         for (const Plugin* inside : shape.childrenOf(tag))
-            inside->replace(build::Shortfall::Medium, "is not supported");
+            inside->replace(build::Shortfall::Medium, "is a medium, which is not supported");
 }
 
 } // namespace
@@ -116,7 +116,7 @@ Shapes::Part Shapes::single(const Plugin& shape) {
     const BoundMaterial material = materials_.of(shape, [&](const Paint& paint) {
         const std::string& attribute = usableAttribute(shape, paint.attribute);
         return paintOfCorners(attribute.empty() ? meshOf(shape, {}) : read(shape, attribute).mesh,
-                              paint.layout);
+                              paint);
     });
     Part part{&shape, {}, shape.transform("to_world"), {material.number}};
     const bool isSphere = shape.type == "sphere";

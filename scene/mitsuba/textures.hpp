@@ -23,6 +23,7 @@ struct Shade {
 struct Paint {
     std::string attribute; ///< as Mitsuba names it: vertex_color, ...
     Layout layout = Layout::Color;
+    bool isFraction = false; ///< of light, so that it is clamped to [0, 1]
 };
 
 /// The first colour that an object states, whatever its name.

@@ -19,6 +19,9 @@ struct TextureImage {
     uint32_t width = 0, height = 0;
     TexelFormat format = TexelFormat::Rgba8;
     std::vector<uint32_t> words; ///< width x height texels, row after row
+    /// Some texels only continue what lies between others, where alone it is looked up: they may
+    /// exceed what the surface can have.
+    bool goesBeyond = false;
 };
 
 /// What a picture shows beyond its edges.

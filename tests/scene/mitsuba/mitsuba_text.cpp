@@ -15,6 +15,20 @@ std::filesystem::path writeFile(const std::string& name, std::string_view text) 
     return folder / name;
 }
 
+std::string writePicture(const std::string& name, int width, int height,
+                         const std::vector<std::array<unsigned char, 4>>& texels) {
+    // TGA: true colour, 32 bits, the first row at the top.
+    std::string bytes(18, '\0');
+    bytes[2] = 2;
+    bytes[12] = char(width & 0xFF), bytes[13] = char(width >> 8);
+    bytes[14] = char(height & 0xFF), bytes[15] = char(height >> 8);
+    bytes[16] = 32, bytes[17] = 0x28;
+    for (const auto& [r, g, b, a] : texels)
+        for (const unsigned char value : {b, g, r, a})
+            bytes += char(value);
+    return writeFile(name, bytes).filename().string();
+}
+
 std::string sceneText(std::string_view inside, std::string_view version) {
     return fmt::format("<scene version=\"{}\">\n{}\n</scene>\n", version, inside);
 }

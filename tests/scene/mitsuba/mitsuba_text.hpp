@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -15,6 +16,11 @@ namespace stromboli::test {
 
 /// Writes a file into a folder of this process's own, and says where it is.
 std::filesystem::path writeFile(const std::string& name, std::string_view text);
+
+/// Writes a picture of 8 bits, row after row from the top, red, green, blue and alpha. Returns its
+/// name, in the folder of the scenes.
+std::string writePicture(const std::string& name, int width, int height,
+                         const std::vector<std::array<unsigned char, 4>>& texels);
 
 /// `<scene version="3.0.0">`, what is given, and its end, each on a line of its own.
 std::string sceneText(std::string_view inside, std::string_view version = "3.0.0");

@@ -27,7 +27,7 @@ TEST(MitsubaMutations, NeverCrash) {
     ASSERT_EQ(problemOf(kScene), "");
     std::mt19937 random(1);
     const std::string original = kScene;
-    size_t loaded = 0;
+    size_t loaded = 0, shown = 0;
     for (int i = 0; i < 3000; ++i) {
         std::string text = original;
         for (uint64_t changes = 1 + random() % 3; changes > 0; --changes) {
@@ -51,8 +51,14 @@ TEST(MitsubaMutations, NeverCrash) {
             if (text.empty()) text = " ";
         }
         loaded += problemOf(text).empty() ? 1 : 0;
+        try {
+            loadText(text); // whatever can be shown of it
+            ++shown;
+        } catch (const SceneError&) {
+        }
     }
     EXPECT_GT(loaded, 50u);
+    EXPECT_GT(shown, loaded);
 }
 
 } // namespace

@@ -147,8 +147,8 @@ TEST(MitsubaSensors, DepthsCountSegments) {
     EXPECT_EQ(bouncesOf(""), 10000u);
     EXPECT_EQ(bouncesOf("", "direct"), 1u);
     EXPECT_EQ(bouncesOf("<integrator type=\"direct\"/>", "moment"), 1u);
-    EXPECT_THAT(problemInside("<integrator type=\"bdpt\"/>"),
-                HasSubstr("'bdpt' is no integrator that is read"));
+    EXPECT_THAT(problemInside("<integrator type=\"rasterizer\"/>"),
+                HasSubstr("'rasterizer' is no integrator that is read"));
 }
 
 TEST(MitsubaSensors, RouletteBeginsWhereTheFileSays) {

@@ -11,7 +11,6 @@ namespace stromboli::test {
 namespace {
 
 using mitsuba::FileMesh;
-using mitsuba::serializedMesh;
 using testing::HasSubstr;
 
 template <class T>
@@ -60,13 +59,19 @@ std::string fileOf(const std::vector<std::string>& meshes, uint16_t version) {
     return file + table + bytesOf(uint32_t(meshes.size()));
 }
 
+/// Read without a word.
+FileMesh serializedMesh(const std::string& bytes, uint64_t number = 0) {
+    build::Report report(true);
+    return mitsuba::serializedMesh(bytes, "file", number, report);
+}
+
 TEST(SerializedMeshes, HaveEveryAttributeInEitherPrecision) {
     for (const uint16_t version : {uint16_t(3), uint16_t(4)})
         for (const bool isDouble : {false, true}) {
             const uint32_t flags = 0xB | (isDouble ? 0x2000u : 0x1000u);
             const std::string one =
                 isDouble ? triangle<double>(flags, version, 5) : triangle<float>(flags, version, 5);
-            const FileMesh found = serializedMesh(fileOf({one}, version), "file", 0);
+            const FileMesh found = serializedMesh(fileOf({one}, version), 0);
             ASSERT_EQ(found.mesh.parts.at(0).size(), 1u);
             EXPECT_EQ(found.mesh.positions.at(1), glm::dvec3(6, 0, 0));
             EXPECT_EQ(found.mesh.normals.at(2), glm::dvec3(0, 0, 2));
@@ -81,23 +86,31 @@ TEST(SerializedMeshes, AreNumbered) {
     for (const uint16_t version : {uint16_t(3), uint16_t(4)}) {
         const std::string file = fileOf(
             {triangle<float>(0x1000, version, 0), triangle<float>(0x1000, version, 7)}, version);
-        EXPECT_EQ(serializedMesh(file, "file", 0).mesh.positions.at(0).x, 0);
-        const FileMesh second = serializedMesh(file, "file", 1);
+        EXPECT_EQ(serializedMesh(file, 0).mesh.positions.at(0).x, 0);
+        const FileMesh second = serializedMesh(file, 1);
         EXPECT_EQ(second.mesh.positions.at(0).x, 7);
         EXPECT_TRUE(second.mesh.attributes.empty());
         EXPECT_EQ(second.mesh.parts[0][0][1].attributes, kNoAttributes);
     }
 }
 
+/// Mitsuba looks at the flag of double precision alone.
+TEST(SerializedMeshes, WithoutAPrecisionAreSingle) {
+    const FileMesh found = serializedMesh(fileOf({triangle<float>(0x000B, 3, 5)}, 3));
+    EXPECT_EQ(found.mesh.positions.at(1), glm::dvec3(6, 0, 0));
+    const FileMesh both = serializedMesh(fileOf({triangle<double>(0x300B, 4, 5)}, 4));
+    EXPECT_EQ(both.mesh.positions.at(1), glm::dvec3(6, 0, 0));
+}
+
 TEST(SerializedMeshes, OfFaceNormalsAreFlat) {
-    const FileMesh found = serializedMesh(fileOf({triangle<float>(0x1011, 4, 0)}, 4), "file", 0);
+    const FileMesh found = serializedMesh(fileOf({triangle<float>(0x1011, 4, 0)}, 4), 0);
     EXPECT_TRUE(found.mesh.isFlat);
     EXPECT_TRUE(found.mesh.normals.empty());
 }
 
 std::string problemOfBytes(const std::string& bytes, uint64_t number = 0) {
     try {
-        serializedMesh(bytes, "file", number);
+        serializedMesh(bytes, number);
     } catch (const SceneError& error) {
         return error.what();
     }
@@ -110,13 +123,11 @@ TEST(SerializedMeshes, WrongOnesSayWhy) {
     EXPECT_THAT(problemOfBytes("PK" + good.substr(2)), HasSubstr("expected 0x041c"));
     EXPECT_THAT(problemOfBytes(good.substr(0, 2) + bytesOf(uint16_t(9)) + good.substr(4)),
                 HasSubstr("is of version 9, expected 3 or 4"));
-    EXPECT_THAT(problemOfBytes(good, 1), HasSubstr("has 1 meshes, expected more than 1"));
+    EXPECT_THAT(problemOfBytes(good, 1), HasSubstr("has no mesh with the number 1"));
     EXPECT_THAT(problemOfBytes(good.substr(0, good.size() - 4) + bytesOf(~0u)),
                 HasSubstr("has no table"));
     EXPECT_THAT(problemOfBytes(fileOf({triangle<float>(0x1000, 4, 0, 3)}, 4)),
                 HasSubstr("triangle 0 names vertex 3, but there are 3"));
-    EXPECT_THAT(problemOfBytes(fileOf({triangle<float>(0x0000, 4, 0)}, 4)),
-                HasSubstr("says neither"));
     const std::string huge =
         bytesOf(0x1000u) + '\0' + bytesOf(uint64_t(1) << 31) + bytesOf(uint64_t(1));
     EXPECT_THAT(problemOfBytes(

@@ -143,8 +143,8 @@ TEST(MitsubaShapes, FaceColorsAreAnAttributeOfPlyFiles) {
     const auto problemOf = [&](const std::string& type, const std::string& inside) {
         return problemInside("<shape type=\"" + type + "\">" + inside + "</shape>");
     };
-    EXPECT_THAT(problemOf("ply", mesh + bsdf("vertex_color")),
-                HasSubstr("has a bsdf of vertex_color, and its file has no such attribute"));
+    EXPECT_THAT(problemOf("ply", mesh + bsdf("vertex_density")),
+                HasSubstr("has a bsdf of vertex_density, and its file has no such attribute"));
     EXPECT_THAT(problemOf("ply", mesh + bsdf("face_density")),
                 HasSubstr("has a bsdf of face_density, and its file has no such attribute"));
     EXPECT_THAT(problemOf("ply", mesh + bsdf("density")),
@@ -204,7 +204,7 @@ TEST(MitsubaShapes, MeshAttributesPaintAnyTexture) {
     EXPECT_THAT(problemInside("<shape type=\"ply\">" + mesh + "<bsdf type=\"bumpmap\">" +
                               painted("", "vertex_rough") +
                               "<bsdf type=\"diffuse\"/></bsdf></shape>"),
-                HasSubstr("is no picture, expected one of heights"));
+                HasSubstr("that is no picture, expected one of heights"));
 }
 
 /// Corner by corner, whatever shares them: the mean of two faces at right angles.
@@ -218,7 +218,7 @@ TEST(MitsubaShapes, NormalsAreWeighedByAngles) {
     EXPECT_EQ(mesh.parts[0][0][0].normal, mesh.parts[0][1][0].normal);
 }
 
-TEST(MitsubaShapes, MediaAreRefused) {
+TEST(MitsubaShapes, MediaAreSaid) {
     EXPECT_THAT(problemInside("<shape type=\"sphere\"><medium name=\"interior\" "
                               "type=\"homogeneous\"/></shape>"),
                 HasSubstr("<medium>: is a medium, which is not supported"));

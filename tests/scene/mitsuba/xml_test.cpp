@@ -117,7 +117,8 @@ TEST(MitsubaXml, WrongValues) {
               "2: <string>: 'radius' is a string, expected a float");
     EXPECT_EQ(sphere("<float name=\"radius\"/>"), "2: <float>: has no attribute 'value'");
     EXPECT_EQ(sphere("<float name=\"radius\" valu=\"1\"/>"),
-              "2: <float>: has the attribute 'valu', expected one of name, value, filename");
+              "2: <float>: has the attribute 'valu', expected one of name, value, filename, "
+              "intent, unit");
     EXPECT_EQ(sphere("<float name=\"radius\" value=\"1\"/><float name=\"radius\" value=\"1\"/>"),
               "2: <float>: 'radius' is set already in this shape");
     EXPECT_THAT(sphere("<float name=\"radios\" value=\"1\"/>"),
@@ -125,8 +126,8 @@ TEST(MitsubaXml, WrongValues) {
     EXPECT_EQ(sphere("<transform name=\"to_world\"><turn/></transform>"),
               "2: <turn>: is no step of a transform, expected translate, rotate, scale, lookat or "
               "matrix");
-    EXPECT_THAT(problemInside("<shape type=\"hair\"/>"),
-                HasSubstr("2: <shape>: 'hair' is no shape that is read, expected obj, ply"));
+    EXPECT_THAT(problemInside("<shape type=\"torus\"/>"),
+                HasSubstr("2: <shape>: 'torus' is no shape that is read, expected obj, ply"));
 }
 
 TEST(MitsubaXml, OldNamesAreUpgraded) {

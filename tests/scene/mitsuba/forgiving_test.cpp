@@ -1,0 +1,247 @@
+// What cannot be read is replaced or left out, and said; the rest is shown. With --strict each of
+// these is an error.
+
+#include "tests/scene/mitsuba/mitsuba_text.hpp"
+
+#include <fmt/format.h>
+
+namespace stromboli::test {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::string kBall = "<shape type=\"sphere\"/>\n";
+
+/// The scene is there, with a ball; and strictly it is an error with the same words.
+Scene forgiven(const std::string& inside, const std::string& words, const std::string& instead) {
+    Scene scene = loadInside(kBall + inside);
+    EXPECT_FALSE(scene.spheres.empty());
+    EXPECT_THAT(scene.report.forgiven, Contains(AllOf(HasSubstr(words), HasSubstr(instead))));
+    EXPECT_THAT(problemInside(kBall + inside), HasSubstr(words));
+    return scene;
+}
+
+std::string ball(const std::string& inside) {
+    return "<shape type=\"sphere\">" + inside + "</shape>";
+}
+
+TEST(MitsubaForgives, WhatItDoesNotKnow) {
+    forgiven("<sculpture/>", "<sculpture>: is no element of a Mitsuba scene", "it is left out");
+    forgiven("<shape type=\"torus\"/>", "'torus' is no shape that is read", "it is left out");
+    forgiven("<emitter type=\"laser\"/>", "'laser' is no emitter that is read", "it is left out");
+    forgiven("<emitter type=\"collimated\"/>", "is a beam without a width", "it is left out");
+    forgiven("<emitter type=\"area\"/>", "shines on a surface", "it is left out");
+    forgiven("<integrator type=\"rasterizer\"/>", "'rasterizer' is no integrator", "path");
+    forgiven(ball("<bsdf type=\"velvet\"/>"), "'velvet' is no bsdf", "mid grey takes its place");
+    forgiven(ball("<bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"noise\"/></bsdf>"),
+             "'noise' is no texture", "there is no picture");
+    forgiven(ball("<bsdf type=\"diffuse\"><spectrum name=\"reflectance\" type=\"noise\"/></bsdf>"),
+             "'noise' is no spectrum", "its default is taken");
+    forgiven(ball("<float name=\"radios\" value=\"1\"/>"), "'radios' is not read",
+             "it has no effect");
+}
+
+TEST(MitsubaForgives, CamerasAreShownInPerspective) {
+    const Scene scene =
+        forgiven("<sensor type=\"spherical\"><film type=\"rawfilm\"><rfilter "
+                 "type=\"cone\"/></film><float name=\"fov\" value=\"500\"/></sensor>",
+                 "is no", "the nearest one takes its place");
+    ASSERT_EQ(scene.cameras.size(), 1u);
+    EXPECT_EQ(scene.cameras[0].projection, Projection::Perspective);
+    EXPECT_THAT(scene.report.forgiven, Contains(HasSubstr("gaussian")));
+    EXPECT_THAT(scene.report.forgiven, Contains(HasSubstr("'fov' is 500")));
+    EXPECT_EQ(loadInside(kBall + "<sensor type=\"telecentric\"/>").cameras.at(0).projection,
+              Projection::Orthographic);
+}
+
+TEST(MitsubaForgives, WrongNumbersAndWords) {
+    const auto radius = [](const std::string& parameter) {
+        return forgiven(ball(parameter), "", "").spheres.at(1).radius;
+    };
+    EXPECT_EQ(radius("<float name=\"radius\" value=\"one\"/>"), 1);
+    EXPECT_EQ(radius("<string name=\"radius\" value=\"2\"/>"), 1);
+    EXPECT_EQ(radius("<float name=\"radius\" value=\"2\"/><float name=\"radius\" value=\"3\"/>"),
+              2);
+    EXPECT_EQ(radius("<float name=\"radius\" value=\"2\" colour=\"red\"/>"), 2);
+    EXPECT_EQ(forgiven(ball("<transform name=\"to_world\"><translate x=\"1\"/><turn/></transform>"),
+                       "is no step of a transform", "it has no effect")
+                  .spheres.at(1)
+                  .center.x,
+              1);
+    const Scene rough = forgiven(ball("<bsdf type=\"roughconductor\"><float name=\"alpha\" "
+                                      "value=\"-1\"/></bsdf>"),
+                                 "'alpha' is -1, expected 0 to", "the nearest one in it");
+    EXPECT_EQ(rough.materials.at(1).facets.alpha.x, 0);
+    const Scene glass = forgiven(ball("<bsdf type=\"dielectric\"><string name=\"int_ior\" "
+                                      "value=\"mud\"/></bsdf>"),
+                                 "'int_ior' is 'mud'", "its default is taken");
+    EXPECT_FLOAT_EQ(glass.materials.at(1).ior, 1.5046f / 1.000277f);
+    const Scene metal = forgiven(ball("<bsdf type=\"conductor\"><string name=\"material\" "
+                                      "value=\"Unobtainium\"/></bsdf>"),
+                                 "'material' is 'Unobtainium'", "Cu");
+    EXPECT_FLOAT_EQ(metal.materials.at(1).k.x, 3.912949f);
+}
+
+/// Whole numbers may be written as floats.
+TEST(MitsubaForgives, FloatsThatAreWhole) {
+    EXPECT_EQ(loadInside("<integrator type=\"path\"><float name=\"max_depth\" value=\"4\"/>"
+                         "</integrator>")
+                  .hints.maxBounces,
+              3u);
+    EXPECT_THAT(problemInside("<integrator type=\"path\"><float name=\"max_depth\" "
+                              "value=\"4.5\"/></integrator>"),
+                HasSubstr("is a float, expected an integer"));
+}
+
+TEST(MitsubaForgives, FilesThatAreNotThere) {
+    forgiven("<shape type=\"ply\"><string name=\"filename\" value=\"no.ply\"/></shape>",
+             "names the file 'no.ply', which is not there", "it is left out");
+    forgiven("<include filename=\"no.xml\"/>", "names the file 'no.xml'", "it is left out");
+    writeFile("broken.xml", "<scene version=\"3.0.0\"><shape");
+    forgiven("<include filename=\"broken.xml\"/>", "not well-formed XML", "it is left out");
+    forgiven("<path value=\"nowhere\"/>", "there is no folder", "it is left out");
+    forgiven("<emitter type=\"envmap\"><string name=\"filename\" value=\"no.exr\"/></emitter>",
+             "names the file 'no.exr'", "it is left out");
+    const Scene scene = forgiven(
+        ball("<bsdf type=\"diffuse\"><texture type=\"bitmap\" name=\"reflectance\"><string "
+             "name=\"filename\" value=\"no.png\"/></texture></bsdf>"),
+        "names the file 'no.png'", "there is no picture on the surface");
+    EXPECT_EQ(scene.materials.at(1).albedo, glm::vec3(0.5f));
+    writeFile("damaged.png", "no picture at all");
+    const Scene masked = forgiven(
+        ball("<bsdf type=\"mask\"><texture type=\"bitmap\" name=\"opacity\"><string "
+             "name=\"filename\" value=\"damaged.png\"/></texture><bsdf type=\"diffuse\"/></bsdf>"),
+        "damaged.png", "there is no picture on the surface");
+    EXPECT_EQ(masked.materials.at(1).opacity, 1); // it is there
+}
+
+/// Files were named where capitals do not matter.
+TEST(MitsubaForgives, NamesOfOtherMachines) {
+    const std::filesystem::path folder = writeFile("a", "").parent_path() / "models";
+    std::filesystem::create_directories(folder);
+    std::filesystem::rename(writeFile("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
+                            folder / "t.obj");
+    const Scene scene = loadInside("<shape type=\"obj\"><string name=\"filename\" "
+                                   "value=\"Models\\T.OBJ\"/></shape>");
+    EXPECT_EQ(scene.triangles.size(), 1u);
+    EXPECT_THAT(scene.report.forgiven, ElementsAre(HasSubstr("other capitals")));
+}
+
+TEST(MitsubaForgives, ReferencesThatLeadNowhere) {
+    const Scene scene = forgiven(ball("<ref id=\"nothing\"/>"),
+                                 "there is no object with the id 'nothing'", "it counts as absent");
+    EXPECT_EQ(scene.spheres.size(), 2u);
+    forgiven("<bsdf type=\"twosided\" id=\"a\"><ref id=\"b\"/></bsdf>"
+             "<bsdf type=\"twosided\" id=\"b\"><ref id=\"a\"/></bsdf>" +
+                 ball("<ref id=\"a\"/>"),
+             "lies inside itself, by references", "it counts as absent");
+    forgiven("<bsdf type=\"null\" id=\"a\"/>\n<bsdf type=\"null\" id=\"a\"/>",
+             "has the id 'a', which is that of", "it counts as absent");
+}
+
+TEST(MitsubaForgives, Seconds) {
+    const Scene scene = forgiven("<emitter type=\"constant\"><rgb name=\"radiance\" value=\"2\"/>"
+                                 "</emitter><emitter type=\"sunsky\"/>",
+                                 "is the second environment", "it is left out");
+    EXPECT_EQ(scene.environment.value().name, "constant");
+    const Scene two = forgiven(ball("<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"1\"/>"
+                                    "</bsdf><bsdf type=\"plastic\"/>"),
+                               "is the second bsdf of this shape", "it is left out");
+    EXPECT_EQ(two.materials.at(1).albedo, glm::vec3(1));
+}
+
+TEST(MitsubaForgives, BsdfsThatDoNotFit) {
+    const std::string blend = "<bsdf type=\"blendbsdf\"><bsdf type=\"diffuse\"/>"
+                              "<bsdf type=\"plastic\"/></bsdf>";
+    const Scene scene =
+        forgiven(ball("<bsdf type=\"blendbsdf\"><float name=\"weight\" value=\"0.75\"/>" + blend +
+                      blend + "</bsdf>"),
+                 "has a first bsdf that is a blend", "that of both with the larger share");
+    EXPECT_NE(scene.materials.at(scene.spheres.at(1).material).other, kNoMaterial);
+    forgiven(ball("<bsdf type=\"twosided\"/>"), "has 0 bsdfs inside", "mid grey");
+    forgiven(ball("<bsdf type=\"twosided\">" + blend + blend + "</bsdf>"),
+             "has two bsdfs that are blends", "the front on both sides");
+    const std::string board = "<texture type=\"checkerboard\"/>";
+    forgiven(ball("<bsdf type=\"bumpmap\">" + board + "<bsdf type=\"bumpmap\">" + board +
+                  "<bsdf type=\"diffuse\"/></bsdf></bsdf>"),
+             "is a bump map over another map of normals", "there is no picture");
+}
+
+/// Where a number or colour alone is possible, a picture has a mean.
+TEST(MitsubaForgives, PicturesAsNumbers) {
+    const Scene scene = forgiven(
+        ball(
+            "<bsdf type=\"roughconductor\"><texture name=\"alpha\" type=\"checkerboard\"/></bsdf>"),
+        "'alpha' is a texture", "its mean");
+    EXPECT_NEAR(scene.materials.at(1).facets.alpha.x, 0.3, 1e-3);
+    const Scene glass =
+        forgiven(ball("<bsdf type=\"dielectric\"><texture "
+                      "name=\"specular_transmittance\" type=\"checkerboard\"/></bsdf>"),
+                 "'specular_transmittance' is a texture", "its mean");
+    EXPECT_NEAR(glass.materials.at(1).transmittance.x, 0.3, 1e-3);
+}
+
+TEST(MitsubaForgives, Media) {
+    const Scene scene =
+        forgiven(ball("<medium name=\"interior\" type=\"homogeneous\"/><subsurface "
+                      "type=\"dipole\"/>") +
+                     "<sensor type=\"perspective\"><medium type=\"homogeneous\"/></sensor>",
+                 "<medium>: is a medium", "the scene is shown without it");
+    EXPECT_EQ(scene.spheres.size(), 2u);
+    EXPECT_EQ(scene.cameras.size(), 1u);
+}
+
+/// Lines are counted: there is one for each kind.
+TEST(MitsubaForgives, InOneLineForEachKind) {
+    std::string inside;
+    for (int i = 0; i < 5; ++i)
+        inside += ball(fmt::format("<float name=\"wrong{}\" value=\"1\"/>", i));
+    const Scene scene = loadInside(kBall + inside);
+    EXPECT_THAT(scene.report.forgiven,
+                ElementsAre(AllOf(HasSubstr("3: <float>: 'wrong0'"), HasSubstr("(5 times)"))));
+}
+
+TEST(MitsubaForgives, NotWhatLeavesNothing) {
+    const auto problem = [](const std::string& inside) {
+        try {
+            loadInside(inside);
+        } catch (const SceneError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    EXPECT_THAT(problem("<shape type=\"torus\"/>"), HasSubstr("'torus' is no shape that is read"));
+    EXPECT_THAT(problem(kBall + "<shape type=\"$kind\"/>"),
+                HasSubstr("refers to '$kind', which has no value"));
+    EXPECT_THAT(problem(kBall + "<shape type=\"sphere\">"), HasSubstr("not well-formed XML"));
+    EXPECT_THROW(loadText("<sculpture/>"), SceneError);
+    EXPECT_THROW(loadText(sceneText(kBall), {{"unknown", "1"}}), SceneError);
+}
+
+TEST(MitsubaForgives, NothingOfWhatIsRight) {
+    const Scene scene = loadInside(ball("<bsdf type=\"diffuse\"><texture type=\"rawconstant\" "
+                                        "name=\"reflectance\"><vector name=\"value\" "
+                                        "value=\"0.25 0.5 0.75\"/></texture></bsdf>"));
+    EXPECT_THAT(scene.report.forgiven, IsEmpty());
+    EXPECT_EQ(scene.materials.at(0).albedo, glm::vec3(0.25f, 0.5f, 0.75f));
+    EXPECT_EQ(problemInside("<emitter type=\"point\"><spectrum type=\"d65\" name=\"intensity\">"
+                            "<float name=\"scale\" value=\"2\"/></spectrum></emitter>"
+                            "<emitter type=\"point\"><spectrum type=\"irregular\" "
+                            "name=\"intensity\"><string name=\"wavelengths\" value=\"400, 700\"/>"
+                            "<string name=\"values\" value=\"1, 2\"/></spectrum></emitter>"
+                            "<emitter type=\"point\"><spectrum type=\"regular\" "
+                            "name=\"intensity\"><float name=\"wavelength_min\" value=\"400\"/>"
+                            "<float name=\"wavelength_max\" value=\"700\"/>"
+                            "<string name=\"values\" value=\"1, 2\"/></spectrum></emitter>"
+                            "<emitter type=\"point\"><spectrum type=\"blackbody\" "
+                            "name=\"intensity\"><float name=\"temperature\" value=\"3000\"/>"
+                            "</spectrum></emitter>"),
+              "");
+}
+
+} // namespace
+} // namespace stromboli::test
