@@ -103,11 +103,12 @@ Strand splined(const Strand& knots) {
     return points;
 }
 
-/// The mean of the directions to both neighbours.
+/// The mean of the directions from and to the neighbours.
 glm::dvec3 directionAt(const Strand& strand, size_t i) {
-    const size_t before = i > 0 ? i - 1 : i, after = std::min(i + 1, strand.size() - 1);
-    return build::unit(strand[after].place - strand[before].place)
-        .value_or(build::unit(strand[after].place - strand[i].place).value_or(glm::dvec3(0, 0, 1)));
+    glm::dvec3 from(0.0), to(0.0);
+    if (i > 0) from = build::unit(strand[i].place - strand[i - 1].place).value_or(from);
+    if (i + 1 < strand.size()) to = build::unit(strand[i + 1].place - strand[i].place).value_or(to);
+    return build::unit(from + to).value_or(build::unit(to).value_or(glm::dvec3(0, 0, 1)));
 }
 
 /// How far a ring's point lies outwards, so that the tubes on both sides are as wide as `radius`
