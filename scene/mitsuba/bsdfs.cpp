@@ -7,6 +7,8 @@
 #include "scene/mitsuba/surface_maker.hpp"
 #include "scene/mitsuba/tolerate.hpp"
 
+#include <fmt/format.h>
+
 #include <optional>
 
 namespace stromboli::mitsuba {
@@ -72,7 +74,12 @@ Surface nothing(SurfaceMaker& maker) {
     return maker.done();
 }
 
+/// Mixtures that name another one twice, which does so too, hold 2^n bsdfs.
+constexpr size_t kMostBsdfs = 1'000'000;
+
 Surface readModel(Context& context, Textures& textures, const Plugin& bsdf) {
+    if (++context.bsdfsRead > kMostBsdfs)
+        bsdf.fail(fmt::format("is one of more than {} bsdfs inside each other", kMostBsdfs));
     SurfaceMaker maker(bsdf, textures, context);
     const std::string& type = bsdf.type;
     if (type == "diffuse") return diffuse(maker);

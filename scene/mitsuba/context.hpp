@@ -13,6 +13,7 @@ struct Context {
     glm::dmat4 worldFromFile{1.0};
     /// The emitter that is all around; null: there is none.
     const Plugin* environment = nullptr;
+    size_t bsdfsRead = 0; ///< each as often as it is inside of others
 
     build::Report& report() const { return builder.report(); }
 };

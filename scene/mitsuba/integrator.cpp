@@ -12,13 +12,9 @@ namespace {
 constexpr int64_t kMostBounces = 10000;
 
 /// Ways to the same picture as that of the path tracer.
-constexpr std::array<std::string_view, 18> kOtherWays = {
-    "bdpt",           "pssmlt",       "mlt",
-    "erpt",           "photonmapper", "ppm",
-    "sppm",           "vpl",          "ptracer",
-    "singlescatter",  "prb",          "prb_basic",
-    "prb_projective", "prbvolpath",   "direct_projective",
-    "emission",       "bdpt_simple",  "sppm_simple"};
+constexpr std::array<std::string_view, 14> kOtherWays = {
+    "bdpt", "pssmlt",  "mlt", "erpt",      "photonmapper",   "ppm",        "sppm",
+    "vpl",  "ptracer", "prb", "prb_basic", "prb_projective", "prbvolpath", "guidedpath"};
 
 /// What has an integrator inside that does the work.
 constexpr std::array<std::string_view, 6> kWrappers = {"moment",   "aov",          "irrcache",
@@ -78,7 +74,7 @@ void readIntegrator(Context& context, const Plugin& integrator) {
     RenderHints& hints = context.builder.hints();
     if (const std::optional<int64_t> start = rouletteStartOf(integrator))
         hints.rouletteStart = uint32_t(*start);
-    if (type == "direct") {
+    if (type == "direct" || type == "direct_projective") {
         hints.maxBounces = 1;
         for (const char* unused : {"shading_samples", "emitter_samples", "bsdf_samples"})
             integrator.skip(unused);

@@ -106,6 +106,16 @@ void takeMasksOut(Material& first, Material& second, double& weight) {
     second.opacity = 1;
 }
 
+/// As many materials as a mixture may be of: each hit may look at all of them.
+constexpr size_t kMostParts = 256;
+
+size_t partsOf(const Surface& surface) {
+    size_t parts = 0;
+    for (const Surface* each = &surface; each; each = each->other.get())
+        ++parts;
+    return parts;
+}
+
 /// What keeps two surfaces from being mixed; empty: nothing does.
 std::string mixingProblem(const Surface& first, const Surface& second, bool hasPicture) {
     const bool haveTextures = opacityTexture(first.material) || opacityTexture(second.material);
@@ -115,6 +125,8 @@ std::string mixingProblem(const Surface& first, const Surface& second, bool hasP
                "around the blend";
     if (first.other && (second.other || hasPicture)) // only the other may be a mixture in turn
         return "has a first bsdf that is a blend, which is not supported here";
+    if (partsOf(first) + partsOf(second) > kMostParts)
+        return fmt::format("is a mixture of more than {} bsdfs", kMostParts);
     return "";
 }
 

@@ -5,6 +5,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace stromboli::mitsuba {
 namespace {
@@ -52,10 +53,16 @@ glm::dvec3 colorAt(const TextureImage& image, size_t i, bool srgb) {
         const glm::vec2 low = glm::unpackHalf2x16(image.words[2 * i]);
         return {low.x, low.y, glm::unpackHalf2x16(image.words[2 * i + 1]).x};
     }
+    static const std::array<double, 256> kLinear = [] {
+        std::array<double, 256> linear{};
+        for (size_t value = 0; value < linear.size(); ++value)
+            linear[value] = srgbToLinear(double(value) / 255);
+        return linear;
+    }();
     glm::dvec3 color;
     for (const int channel : {0, 1, 2}) {
-        const double value = double(image.words[i] >> (8 * channel) & 0xFF) / 255;
-        color[channel] = srgb ? srgbToLinear(value) : value;
+        const size_t value = image.words[i] >> (8 * channel) & 0xFF;
+        color[channel] = srgb ? kLinear[value] : double(value) / 255;
     }
     return color;
 }

@@ -171,6 +171,25 @@ TEST(MitsubaForgives, BsdfsThatDoNotFit) {
              "is a bump map over another map of normals", "there is no picture");
 }
 
+/// Neither the time nor the stack that a scene takes doubles with each line of it.
+TEST(MitsubaForgives, MixturesOfMixtures) {
+    std::string inside = "<bsdf type=\"diffuse\" id=\"b0\"/>\n";
+    for (int i = 1; i <= 60; ++i)
+        inside += fmt::format("<bsdf type=\"mixturebsdf\" id=\"b{}\"><string name=\"weights\" "
+                              "value=\"0.5 0.5\"/><ref name=\"x\" id=\"b{}\"/><ref name=\"y\" "
+                              "id=\"b{}\"/></bsdf>\n",
+                              i, i - 1, i - 1);
+    EXPECT_EQ(loadInside(inside + ball("<ref id=\"b60\"/>")).spheres.size(), 1u);
+    std::string weights, many;
+    for (int i = 0; i < 5000; ++i) {
+        weights += "0.0002 ";
+        many += "<bsdf type=\"diffuse\"/>";
+    }
+    forgiven(ball("<bsdf type=\"mixturebsdf\"><string name=\"weights\" value=\"" + weights +
+                  "\"/>" + many + "</bsdf>"),
+             "is a mixture of more than 256 bsdfs", "that of both with the larger share");
+}
+
 /// Where a number or colour alone is possible, a picture has a mean.
 TEST(MitsubaForgives, PicturesAsNumbers) {
     const Scene scene = forgiven(
