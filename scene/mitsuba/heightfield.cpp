@@ -24,7 +24,7 @@ const Plugin& pictureOf(const Plugin& plugin, double& scale, int depth = 0) {
     return pictureOf(*inside.front(), scale, depth + 1);
 }
 
-/// Red, of linear light where the picture has colours of 8 or 16 bits and is not raw.
+/// The luminance, of linear light where the picture has colours of 8 or 16 bits and is not raw.
 std::vector<double> heightsOf(const images::Picture& picture, bool isRaw) {
     std::vector<double> heights;
     heights.reserve(picture.texelCount());
@@ -33,12 +33,17 @@ std::vector<double> heightsOf(const images::Picture& picture, bool isRaw) {
             using T = typename std::decay_t<decltype(values)>::value_type;
             constexpr bool isFloat = std::is_same_v<T, float>;
             for (size_t i = 0; i < picture.texelCount(); ++i) {
-                double value = double(values[4 * i]);
-                if constexpr (!isFloat) {
-                    value /= double(std::numeric_limits<T>::max());
-                    if (!isRaw) value = srgbToLinear(value);
+                double height = 0;
+                constexpr double kWeights[3] = {0.212671, 0.715160, 0.072169}; // Rec. 709
+                for (size_t channel = 0; channel < 3; ++channel) {
+                    double value = double(values[4 * i + channel]);
+                    if constexpr (!isFloat) {
+                        value /= double(std::numeric_limits<T>::max());
+                        if (!isRaw) value = srgbToLinear(value);
+                    }
+                    height += kWeights[channel] * value;
                 }
-                heights.push_back(std::isfinite(value) ? value : 0);
+                heights.push_back(std::isfinite(height) ? height : 0);
             }
         },
         picture.values);

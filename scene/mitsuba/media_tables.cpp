@@ -120,10 +120,24 @@ double refractiveIndex(const Plugin& plugin, std::string_view name, std::string_
     return index > 0 ? index : indexOfName(plugin, name, std::string(otherwise));
 }
 
+/// Part of an index of refraction. Programs that make three channels of spectra write some below 0,
+/// which would reflect more than all light.
+static std::optional<glm::dvec3> partOfIndex(const Plugin& plugin, const char* name) {
+    const std::optional<glm::dvec3> part = colorOf(plugin, name, ColorOf::Index);
+    if (!part) return std::nullopt;
+    for (const int channel : {0, 1, 2})
+        if ((*part)[channel] < 0) {
+            plugin.replaceParameter(name, build::Shortfall::Number,
+                                    fmt::format("is {}, expected 0 or more", (*part)[channel]));
+            break;
+        }
+    return glm::max(*part, 0.0);
+}
+
 MetalIndex metalIndex(const Plugin& plugin) {
     const std::optional<std::string> name = plugin.text("material");
-    const std::optional<glm::dvec3> eta = colorOf(plugin, "eta", ColorOf::Index);
-    const std::optional<glm::dvec3> k = colorOf(plugin, "k", ColorOf::Index);
+    const std::optional<glm::dvec3> eta = partOfIndex(plugin, "eta");
+    const std::optional<glm::dvec3> k = partOfIndex(plugin, "k");
     for (const char* parameter : {"eta", "k"})
         if (plugin.child(parameter) && !(eta && k))
             plugin.replaceParameter(parameter, build::Shortfall::Word,

@@ -86,6 +86,16 @@ TEST(MitsubaForgives, WrongNumbersAndWords) {
     EXPECT_FLOAT_EQ(metal.materials.at(1).k.x, 3.912949f);
 }
 
+/// An index below 0 would reflect more than all light.
+TEST(MitsubaForgives, IndicesBelowZero) {
+    const Scene scene =
+        forgiven(ball("<bsdf type=\"roughconductor\"><rgb name=\"eta\" value=\"-0.5 4 5\"/>"
+                      "<rgb name=\"k\" value=\"-0.25 0.5 1\"/></bsdf>"),
+                 "'eta' is -0.5, expected 0 or more", "the nearest one in it is taken");
+    EXPECT_EQ(scene.materials.at(1).eta, glm::vec3(0, 4, 5));
+    EXPECT_EQ(scene.materials.at(1).k, glm::vec3(0, 0.5f, 1));
+}
+
 /// Whole numbers may be written as floats.
 TEST(MitsubaForgives, FloatsThatAreWhole) {
     EXPECT_EQ(loadInside("<integrator type=\"path\"><float name=\"max_depth\" value=\"4\"/>"

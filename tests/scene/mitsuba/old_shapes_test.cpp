@@ -96,14 +96,14 @@ TEST(MitsubaHair, WrongFilesSayWhy) {
     EXPECT_THAT(problem("flat.txt"), HasSubstr("has a line of 2 numbers"));
 }
 
-/// A slope, in linear light: 0, 1/3 and 1 would be of a picture of floats.
+/// A roof, whose heights are luminances.
 TEST(MitsubaHeightfields, AreCornersForTexels) {
     const std::string name = writePicture("heights.tga", 3, 2,
                                           {{0, 0, 0, 255},
-                                           {255, 0, 0, 255},
+                                           {255, 255, 255, 255},
                                            {0, 0, 0, 255},
                                            {0, 0, 0, 255},
-                                           {255, 0, 0, 255},
+                                           {255, 255, 255, 255},
                                            {0, 0, 0, 255}});
     const Scene scene = loadFile("heightfield", name, "<float name=\"scale\" value=\"0.5\"/>");
     EXPECT_EQ(scene.triangles.size(), 4u);
