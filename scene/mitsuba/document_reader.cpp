@@ -79,7 +79,9 @@ void DocumentReader::readVersion(const Element& root, Source& source) {
     if (!version) return;
     const std::string_view text(version);
     const size_t dot = std::min(text.find('.'), text.size());
-    const int64_t major = integerOf(placeOf(root, source), text.substr(0, dot));
+    int64_t major = 3;
+    tolerate(report_, build::Shortfall::Word,
+             [&] { major = integerOf(placeOf(root, source), text.substr(0, dot)); });
     source.isOld = major < 2;
     source.isAncient = major == 0 && (text.starts_with("0.1") || text.starts_with("0.2") ||
                                       text.starts_with("0.3"));

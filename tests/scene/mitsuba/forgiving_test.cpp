@@ -234,6 +234,11 @@ TEST(MitsubaForgives, InOneLineForEachKind) {
                 ElementsAre(AllOf(HasSubstr("3: <float>: 'wrong0'"), HasSubstr("(5 times)"))));
 }
 
+TEST(MitsubaForgives, VersionsThatAreNone) {
+    EXPECT_EQ(loadText(sceneText(kBall, "new")).spheres.size(), 1u);
+    EXPECT_EQ(loadText(sceneText(kBall, "")).spheres.size(), 1u);
+}
+
 TEST(MitsubaForgives, NotWhatLeavesNothing) {
     const auto problem = [](const std::string& inside) {
         try {

@@ -23,42 +23,94 @@ const char* const kScene = R"(<scene version="3.0.0">
 <emitter type="point"><rgb name="intensity" value="1"/></emitter></scene>
 )";
 
+/// Of Mitsuba 0.x: what takes the place of others, and files beside the scene's.
+const char* const kOldScene = R"(<scene version="0.6.0">
+<integrator type="sppm"><integer name="maxDepth" value="3"/></integrator>
+<sensor type="perspective"><film type="ldrfilm"><integer name="width" value="8"/>
+<rfilter type="mitchell"><float name="B" value="0.3"/></rfilter></film></sensor>
+<texture type="scale" id="t"><float name="scale" value="0.5"/><texture type="bitmap">
+<string name="filename" value="mutated.tga"/><string name="channel" value="a"/>
+<float name="uoffset" value="0.5"/></texture></texture>
+<bsdf type="phong" id="p"><ref name="diffuseReflectance" id="t"/></bsdf>
+<bsdf type="mixturebsdf" id="m"><string name="weights" value="0.5 0.3"/>
+<bsdf type="coating"><bsdf type="ward"/></bsdf><bsdf type="hk"><rgb name="sigmaT" value="1 2 3"/>
+</bsdf></bsdf>
+<bsdf type="mask" id="k"><texture name="opacity" type="gridtexture"/><ref id="p"/></bsdf>
+<shape type="heightfield"><string name="filename" value="mutated.tga"/><ref id="m"/></shape>
+<shape type="hair"><string name="filename" value="mutated.hair"/><ref id="k"/></shape>
+<shape type="obj"><string name="filename" value="mutated.obj"/><float name="maxSmoothAngle" value="30"/>
+<bsdf type="difftrans" name="a"/><bsdf type="twosided" name="b"><ref id="m"/></bsdf></shape>
+<emitter type="point"><blackbody name="intensity" temperature="3000K"/></emitter></scene>
+)";
+
+void change(std::string& text, const std::string& original, std::mt19937& random) {
+    const size_t at = random() % text.size();
+    const size_t length = std::min<size_t>(random() % 12, text.size() - at);
+    switch (random() % 4) {
+    case 0:
+        text[at] = char(random() % 128);
+        break;
+    case 1:
+        text.erase(at, length);
+        break;
+    case 2:
+        text.insert(at, original, random() % original.size(), length);
+        break;
+    default: // another digit
+        if (const size_t digit = text.find_first_of("0123456789", at); digit != std::string::npos)
+            text[digit] = "0123456789-.e$"[random() % 14];
+    }
+    if (text.empty()) text = " ";
+}
+
+/// Whether there is anything to show of it.
+bool isShown(const std::string& text) {
+    try {
+        loadText(text);
+        return true;
+    } catch (const SceneError&) {
+        return false;
+    }
+}
+
 TEST(MitsubaMutations, NeverCrash) {
     ASSERT_EQ(problemOf(kScene), "");
     std::mt19937 random(1);
-    const std::string original = kScene;
     size_t loaded = 0, shown = 0;
     for (int i = 0; i < 3000; ++i) {
-        std::string text = original;
-        for (uint64_t changes = 1 + random() % 3; changes > 0; --changes) {
-            const size_t at = random() % text.size();
-            const size_t length = std::min<size_t>(random() % 12, text.size() - at);
-            switch (random() % 4) {
-            case 0:
-                text[at] = char(random() % 128);
-                break;
-            case 1:
-                text.erase(at, length);
-                break;
-            case 2:
-                text.insert(at, original, random() % original.size(), length);
-                break;
-            default: // another digit
-                if (const size_t digit = text.find_first_of("0123456789", at);
-                    digit != std::string::npos)
-                    text[digit] = "0123456789-.e$"[random() % 14];
-            }
-            if (text.empty()) text = " ";
-        }
+        std::string text = kScene;
+        for (uint64_t changes = 1 + random() % 3; changes > 0; --changes)
+            change(text, kScene, random);
         loaded += problemOf(text).empty() ? 1 : 0;
-        try {
-            loadText(text); // whatever can be shown of it
-            ++shown;
-        } catch (const SceneError&) {
-        }
+        shown += isShown(text) ? 1 : 0;
     }
     EXPECT_GT(loaded, 50u);
     EXPECT_GT(shown, loaded);
+}
+
+TEST(MitsubaMutations, OldScenesAndTheirFilesNeverCrash) {
+    const std::string picture = "mutated.tga", hair = "mutated.hair", mesh = "mutated.obj";
+    writePicture(picture, 2, 2, {{255, 0, 0, 9}, {1, 2, 3, 99}, {4, 5, 6, 7}, {8, 9, 9, 9}});
+    const std::string strands = "0 0 0\n0 0 1\n0 1 1\n\n1 1 1\n2 2 2\n";
+    const std::string triangles = "mtllib mutated.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 1\n"
+                                  "usemtl a\nf 1/1 2/1 3/1\nusemtl b\nf 3 2 1\n";
+    writeFile("mutated.mtl", "newmtl a\nKd 1 0 0\nnewmtl b\nKd 0 1 0\n");
+    writeFile(hair, strands);
+    writeFile(mesh, triangles);
+    ASSERT_TRUE(isShown(kOldScene));
+    std::mt19937 random(2);
+    size_t shown = 0;
+    for (int i = 0; i < 1500; ++i) {
+        std::string text = kOldScene, damagedHair = strands, damagedMesh = triangles;
+        for (uint64_t changes = 1 + random() % 3; changes > 0; --changes)
+            change(text, kOldScene, random);
+        change(damagedHair, strands, random);
+        change(damagedMesh, triangles, random);
+        writeFile(hair, damagedHair);
+        writeFile(mesh, damagedMesh);
+        shown += isShown(text) ? 1 : 0;
+    }
+    EXPECT_GT(shown, 300u); // the others are no XML any more
 }
 
 } // namespace
