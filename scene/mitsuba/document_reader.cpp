@@ -17,8 +17,6 @@
 namespace stromboli::mitsuba {
 namespace {
 
-/// As deep as the XML parser goes within a file; here with what is included and referred to.
-constexpr size_t kMostLevels = 500;
 /// Mitsuba's own limit of files that include each other.
 constexpr size_t kMostIncludeLevels = 15;
 /// A file that includes itself twice would be read 2^15 times.
@@ -230,10 +228,17 @@ glm::dmat4 DocumentReader::readTransform(const Element& element, const Source& s
         const auto named = [&](std::string_view name) {
             return attribute(*step, source, std::string(name).c_str());
         };
-        tolerate(report_, build::Shortfall::Parameter, [&] {
-            transform =
-                transformStep(placeOf(*step, source), tagOf(*step, source), named) * transform;
-        });
+        const std::string tag = tagOf(*step, source);
+        const auto apply = [&](const Attributes& attributes) {
+            return tolerate(report_, build::Shortfall::Parameter, [&] {
+                transform = transformStep(placeOf(*step, source), tag, attributes) * transform;
+            });
+        };
+        // A look-at whose `up` is of no use has one without.
+        if (!apply(named) && tag == "lookat")
+            apply([&](std::string_view name) {
+                return name.starts_with('u') ? std::nullopt : named(name);
+            });
     }
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
@@ -356,52 +361,6 @@ std::string DocumentReader::replaced(const build::FilePlace& where, std::string_
         at += 1 + longest->first.size();
     }
     return result;
-}
-
-void DocumentReader::name(const std::string& id, Plugin& plugin, const build::FilePlace& where) {
-    const auto [known, isNew] = ids_.try_emplace(id, Named{&plugin, where});
-    if (!isNew)
-        where.fail(fmt::format("has the id '{}', which is that of {}:{}", id,
-                               known->second.place.file, known->second.place.line));
-}
-
-void DocumentReader::resolveReferences() {
-    for (Plugin& plugin : document_.plugins_)
-        std::erase_if(plugin.children(), [&](Plugin::Child& child) {
-            if (child.plugin) return false;
-            const auto found = ids_.find(child.reference);
-            if (found == ids_.end()) {
-                report_.replace(
-                    child.place, build::Shortfall::Reference,
-                    fmt::format("there is no object with the id '{}'", child.reference));
-                return true;
-            }
-            child.plugin = found->second.plugin;
-            return false;
-        });
-    heightOf(*document_.scene_, 0);
-}
-
-/// How many objects lie inside each other, references followed. What would make an object lie
-/// inside itself, or too many inside each other, is taken out.
-size_t DocumentReader::heightOf(Plugin& plugin, size_t depth) {
-    const auto known = heights_.find(&plugin);
-    if (known != heights_.end() && known->second == 0)
-        plugin.fail("lies inside itself, by references");
-    if (known != heights_.end()) return known->second;
-    if (depth > kMostLevels) plugin.fail(fmt::format("lies more than {} levels deep", kMostLevels));
-    heights_[&plugin] = 0;
-    size_t height = 0;
-    std::erase_if(plugin.children(), [&](const Plugin::Child& child) {
-        return !tolerate(report_, build::Shortfall::Reference, [&] {
-            const size_t inner = heightOf(*child.plugin, depth + 1);
-            if (inner >= kMostLevels)
-                child.plugin->fail(
-                    fmt::format("has more than {} levels of objects in it", kMostLevels));
-            height = std::max(height, inner);
-        });
-    });
-    return heights_[&plugin] = height + 1;
 }
 
 } // namespace stromboli::mitsuba

@@ -15,6 +15,9 @@ namespace stromboli::mitsuba {
 
 using Element = tinyxml2::XMLElement;
 
+/// As deep as the XML parser goes within a file; here with what is included and referred to.
+inline constexpr size_t kMostLevels = 500;
+
 /// Makes the objects of a document from the elements of its files.
 class DocumentReader {
   public:

@@ -234,6 +234,16 @@ TEST(MitsubaForgives, InOneLineForEachKind) {
                 ElementsAre(AllOf(HasSubstr("3: <float>: 'wrong0'"), HasSubstr("(5 times)"))));
 }
 
+/// A camera that looks along its own `up` still looks where it is meant to.
+TEST(MitsubaForgives, UpsThatAreAhead) {
+    const Scene scene = forgiven("<sensor type=\"perspective\"><transform name=\"to_world\">"
+                                 "<lookat origin=\"0 9 0\" target=\"0 0 0\" up=\"0 1 0\"/>"
+                                 "</transform></sensor>",
+                                 "looks along 'up'", "it has no effect");
+    EXPECT_EQ(scene.cameras.at(0).position, glm::dvec3(0, 9, 0));
+    EXPECT_NEAR(scene.cameras.at(0).back.y, 1, 1e-12);
+}
+
 TEST(MitsubaForgives, VersionsThatAreNone) {
     EXPECT_EQ(loadText(sceneText(kBall, "new")).spheres.size(), 1u);
     EXPECT_EQ(loadText(sceneText(kBall, "")).spheres.size(), 1u);
