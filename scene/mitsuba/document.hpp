@@ -21,6 +21,10 @@ class Document {
 
     const Plugin& scene() const { return *scene_; }
 
+    /// The file is one of the renderer Rainbow, which has Mitsuba 0.5's names: its surfaces reflect
+    /// on both sides.
+    bool isRainbows() const { return isRainbows_; }
+
     /// The file that a plugin names by its string `parameter`: in one of the scene's folders.
     std::filesystem::path file(const Plugin& plugin, std::string_view parameter) const;
 
@@ -31,6 +35,7 @@ class Document {
 
     std::deque<Plugin> plugins_;
     Plugin* scene_ = nullptr;
+    bool isRainbows_ = false;
     std::vector<std::filesystem::path> folders_; ///< in the order in which they are searched
     build::Report& report_;
 };

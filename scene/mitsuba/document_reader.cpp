@@ -60,6 +60,12 @@ void DocumentReader::read() {
         source.isAncient = root.FirstChildElement("camera") || root.FirstChildElement("luminaire");
     }
     readVersion(root, source);
+    // No other renderer has this element.
+    if (source.isOld && root.FirstChildElement("mode")) {
+        document_.isRainbows_ = true;
+        report_.assume("the file has an element <mode>: it is one of the renderer Rainbow, whose "
+                       "surfaces reflect on both sides");
+    }
     document_.scene_ = &document_.plugins_.emplace_back();
     document_.scene_->tag = document_.scene_->type = "scene";
     document_.scene_->place = placeOf(root, source);
@@ -120,7 +126,7 @@ void DocumentReader::readChild(const Element& element, const Source& source, Plu
         readPath(element, source);
     } else if (tag == "include") {
         include(element, source, into, depth);
-    } else {
+    } else if (tag != "mode" || !document_.isRainbows_) {
         report_.forgive(placeOf(element, source), "is no element of a Mitsuba scene",
                         "it is left out");
     }

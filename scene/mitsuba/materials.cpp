@@ -45,7 +45,7 @@ BoundMaterial Materials::of(const Plugin& shape, const Plugin& bsdf) {
 Surface Materials::make(const Plugin& shape, const Plugin* bsdf, const Plugin* emitter) {
     Surface surface;
     surface.material = build::greyMaterial();
-    surface.material.isBlackBehind = true;
+    surface.material.isBlackBehind = !context_.document.isRainbows();
     if (emitter) surface.material.albedo = glm::vec3(0); // what shines reflects by its bsdf alone
     if (!emitter && isBorderAlone(shape)) {
         surface.material.alphaMode = AlphaMode::Blend;

@@ -80,7 +80,7 @@ Surface SurfaceMaker::done() {
     const bool hasBack = material.kind == MaterialKind::Dielectric ||
                          material.kind == MaterialKind::ThinDielectric ||
                          (isBurleys && (material.burley.transmits() || material.burley.isThin));
-    material.isBlackBehind = !hasBack;
+    material.isBlackBehind = !hasBack && !context_.document.isRainbows();
     return {std::move(material), cornerColors_, cornerPaint_, nullptr};
 }
 
