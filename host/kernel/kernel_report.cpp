@@ -15,10 +15,10 @@ std::vector<KernelReport> reportKernels(const vulkan::Device& device, const GpuS
     };
     // Those that begin and stop a render run once.
     const Kernel kernels[] = {{"persistent", std::nullopt},
-                        {"depart", gpu::STAGE_DEPART},
-                        {"trace", gpu::STAGE_TRACE},
-                        {"follow", gpu::STAGE_FOLLOW},
-                        {"light", gpu::STAGE_LIGHT}};
+                              {"depart", gpu::STAGE_DEPART},
+                              {"trace", gpu::STAGE_TRACE},
+                              {"follow", gpu::STAGE_FOLLOW},
+                              {"light", gpu::STAGE_LIGHT}};
     const DeviceTuning tuning = resolve({.texelFetch = false}, device);
     const KernelFeatures features = kernelFeatures(scene, camera, estimator, tuning);
     std::vector<KernelReport> reports;
