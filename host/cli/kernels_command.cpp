@@ -8,9 +8,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace stromboli {
@@ -29,9 +31,22 @@ std::string radeonManifest() {
         "mesa-vulkan-drivers): no radeon_icd*.json is in the Vulkan loader's folders");
 }
 
+/// Families that Mesa 22.3 compiles for without hardware. It ends the process at others, so they
+/// are refused here.
+constexpr std::string_view kFamilies[] = {
+    "tahiti",    "pitcairn",  "verde",     "oland",    "hainan",    "bonaire", "kaveri",
+    "kabini",    "hawaii",    "tonga",     "iceland",  "carrizo",   "fiji",    "stoney",
+    "polaris10", "polaris11", "polaris12", "vegam",    "vega10",    "vega12",  "vega20",
+    "raven",     "raven2",    "renoir",    "arcturus", "aldebaran", "navi10",  "navi12",
+    "navi14",    "navi21",    "navi22",    "navi23",   "navi24",    "vangogh", "rembrandt",
+    "gfx1036",   "gfx1100",   "gfx1101",   "gfx1102"};
+
 /// Has the Vulkan loader find that driver alone, for a GPU of that family, whether there is one or
 /// not. Both variables are read when the instance is made.
 void compileFor(const std::string& family) {
+    if (std::ranges::count(kFamilies, family) == 0)
+        throw UsageError(fmt::format("--device-family is '{}'; families are {}", printable(family),
+                                     fmt::join(kFamilies, ", ")));
     setenv("RADV_FORCE_FAMILY", family.c_str(), 1);
     setenv("VK_ICD_FILENAMES", radeonManifest().c_str(), 1);
     setenv("VK_DRIVER_FILES", radeonManifest().c_str(), 1);
@@ -42,8 +57,7 @@ const vulkan::DeviceDescription& chosen(const std::vector<vulkan::DeviceDescript
     if (options.deviceFamily.empty())
         return devices[vulkan::chooseDevice(devices, options.device).index];
     if (devices.empty())
-        throw DeviceError("the driver has no device of family " + options.deviceFamily +
-                          "; families are, for example, navi21, gfx1100, vega10");
+        throw DeviceError("Mesa's driver has no device of family " + options.deviceFamily);
     return devices.front();
 }
 
@@ -85,7 +99,8 @@ int kernelsCommand(const Options& options) {
     nowDoing("compiling", StatusLine::OfOthers);
     const std::vector<KernelReport> reports =
         reportKernels(device, built.gpu, job.camera, job.settings.estimator);
-    fmt::print("{}\n{:<12}", printable(description.name()), "kernel");
+    fmt::print("{}, {}\n{:<12}", printable(description.name()), printable(description.driver),
+               "kernel");
     for (const Column& column : columns())
         fmt::print(" {:>12}", column.title);
     fmt::print("\n");

@@ -62,8 +62,7 @@ DeviceDescription describe(VkPhysicalDevice handle) {
         (subgroup.supportedOperations & kNeeded) != kNeeded)
         d.missing = "subgroup votes and ballots in compute shaders";
     if (d.queueFamily < 0) d.missing = "a queue with compute";
-    if (d.memory == 0)
-        d.missing = "memory: it is a driver that compiles for hardware that is not there";
+    if (d.memory == 0) d.missing = "memory of its own: it only compiles (see 'stromboli kernels')";
     // llvmpipe takes any width; above 16 lanes it was seen to leave out the others.
     if (d.isCpu() && d.subgroupSize > 16)
         d.missing =

@@ -1,0 +1,131 @@
+// `stromboli kernels`: what Mesa's driver for AMD GPUs makes of the kernels, without such a GPU;
+// and that the table in docs/results.md says so.
+#include "tests/cli/program.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace stromboli::test {
+namespace {
+
+using testing::HasSubstr;
+
+struct Row {
+    double registers = 0, spilled = 0, scratch = 0, shared = 0, instructions = 0, waves = 0;
+};
+
+std::istream& operator>>(std::istream& in, Row& r) {
+    return in >> r.registers >> r.spilled >> r.scratch >> r.shared >> r.instructions >> r.waves;
+}
+
+bool hasRadv() {
+    return std::filesystem::exists("/usr/share/vulkan/icd.d/radeon_icd.x86_64.json");
+}
+
+ProgramRun kernelsOf(const std::string& scene) {
+    return stromboli({"kernels", scene, "--device-family", "navi21", "-q"});
+}
+
+/// By the names of the kernels.
+std::map<std::string, Row> rowsOf(const std::string& printed) {
+    std::map<std::string, Row> rows;
+    std::istringstream lines(printed);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string kernel;
+        Row row;
+        if (words >> kernel >> row) rows[kernel] = row;
+    }
+    return rows;
+}
+
+/// The goal that the wavefront scheduler is there for: nothing is spilled, and eight waves trace.
+TEST(Kernels, OfTheWavefrontSchedulerSpillNothing) {
+    if (!hasRadv()) GTEST_SKIP() << "Mesa's driver for AMD GPUs is not installed";
+    for (const char* scene : {"cornell_boxes", "still_life", "texture_chart"}) {
+        const ProgramRun run = kernelsOf(scene);
+        ASSERT_EQ(run.exitCode, 0) << run.err;
+        const std::map<std::string, Row> rows = rowsOf(run.out);
+        ASSERT_EQ(rows.size(), 5u) << run.out;
+        for (const char* kernel : {"depart", "trace", "follow", "light"}) {
+            EXPECT_EQ(rows.at(kernel).spilled, 0) << scene << ", " << kernel;
+            EXPECT_EQ(rows.at(kernel).scratch, 0) << scene << ", " << kernel;
+            EXPECT_GT(rows.at(kernel).registers, 0) << scene << ", " << kernel;
+        }
+        EXPECT_GE(rows.at("trace").waves, 8) << scene;
+    }
+}
+
+/// Rows `| scene | kernel | registers | spilled | scratch | instructions | waves |` of the section.
+TEST(Kernels, AreAsTheResultsSay) {
+    if (!hasRadv()) GTEST_SKIP() << "Mesa's driver for AMD GPUs is not installed";
+    std::ifstream file(std::filesystem::path(STROMBOLI_SOURCE_DIR) / "docs/results.md");
+    std::map<std::string, std::map<std::string, Row>> stated;
+    bool isIn = false;
+    for (std::string line; std::getline(file, line);) {
+        if (line.starts_with("## ")) isIn = line == "## Kernels on a GPU that is not there";
+        if (!isIn || !line.starts_with("| `")) continue;
+        std::vector<std::string> cells;
+        std::istringstream all(line.substr(1));
+        for (std::string cell; std::getline(all, cell, '|');)
+            cells.push_back(cell.substr(1, cell.size() - 2));
+        ASSERT_EQ(cells.size(), 7u) << line;
+        Row row;
+        row.registers = std::stod(cells[2]), row.spilled = std::stod(cells[3]);
+        row.scratch = std::stod(cells[4]), row.instructions = std::stod(cells[5]);
+        row.waves = std::stod(cells[6]);
+        stated[cells[0].substr(1, cells[0].size() - 2)][cells[1]] = row;
+    }
+    ASSERT_GE(stated.size(), 4u);
+    for (const auto& [scene, kernels] : stated) {
+        const ProgramRun run = kernelsOf(scene);
+        ASSERT_EQ(run.exitCode, 0) << run.err;
+        if (run.out.find("Mesa 22.3") == std::string::npos)
+            GTEST_SKIP() << "the table is of Mesa 22.3";
+        const std::map<std::string, Row> found = rowsOf(run.out);
+        for (const auto& [kernel, row] : kernels) {
+            ASSERT_TRUE(found.contains(kernel)) << kernel;
+            const Row& f = found.at(kernel);
+            EXPECT_NEAR(f.registers, row.registers, 16) << scene << ", " << kernel;
+            EXPECT_NEAR(f.waves, row.waves, 2) << scene << ", " << kernel;
+            EXPECT_NEAR(f.instructions, row.instructions, 0.1 * row.instructions)
+                << scene << ", " << kernel;
+            EXPECT_NEAR(f.spilled, row.spilled, 0.25 * row.spilled) << scene << ", " << kernel;
+            EXPECT_EQ(f.scratch > 0, row.scratch > 0) << scene << ", " << kernel;
+        }
+    }
+}
+
+TEST(Kernels, SayWhatIsMissing) {
+    const ProgramRun family = stromboli({"kernels", "cornell_boxes", "--device-family", "voodoo"});
+    EXPECT_EQ(family.exitCode, 1);
+    EXPECT_THAT(family.err, HasSubstr("voodoo"));
+    EXPECT_THAT(family.err, HasSubstr("navi21"));
+    const ProgramRun cpu = stromboli({"kernels", "cornell_boxes", "--device", "llvmpipe"});
+    if (cpu.err.find("llvmpipe") == std::string::npos) GTEST_SKIP() << "no llvmpipe";
+    EXPECT_EQ(cpu.exitCode, 3);
+    EXPECT_THAT(cpu.err, HasSubstr("VK_KHR_pipeline_executable_properties"));
+}
+
+/// A driver that only compiles reports no memory; to render with it is refused, in a line.
+TEST(Kernels, ADriverWithoutHardwareDoesNotRender) {
+    if (!hasRadv()) GTEST_SKIP() << "Mesa's driver for AMD GPUs is not installed";
+    const ScratchFolder folder;
+    const ProgramRun run = stromboli(
+        {"render", "cornell_boxes", "-r", "8", "8", "-s", "1", "-o", folder.file("a.png")},
+        "RADV_FORCE_FAMILY=navi21 "
+        "VK_ICD_FILENAMES=/usr/share/vulkan/icd.d/radeon_icd.x86_64.json");
+    EXPECT_EQ(run.exitCode, 3) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("cannot be used: it lacks memory"));
+}
+
+} // namespace
+} // namespace stromboli::test
