@@ -131,9 +131,13 @@ void followStoredPath(bool isThere, uint slot) {
         const bool returns = branchIsOver(path);
         const bool arrives = path.phase == PHASE_PATH || returns;
         if (returns) loadPath(slot, path, job, AT_RETURN);
+        // What has arrived sets up another surface; where the old one is needed late, it takes no registers before.
+        const bool needsSurfaceNow = DIRECT_LIGHT == DIRECT_HEMISPHERE;
+        if (needsSurfaceNow && !arrives) loadPath(slot, path, job, AT_RESULT);
         MaterialPoint asked = askedPoint(path);
         if (returns) asked = materialPoint(path.splitPoint.surface);
         const bool goesOn = path.phase != PHASE_NEXT && takeInRay(path, asked);
+        if (!needsSurfaceNow && !arrives) loadPath(slot, path, job, AT_RESULT);
         if (returns) nextBranch(path, path.found.parameters);
         isLit = goesOn && wantsDirectSample(path);
         if (goesOn && !isLit) leaveDirectLight(path);

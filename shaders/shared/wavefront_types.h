@@ -34,7 +34,7 @@ SHARED_ROWS(QueueHead, 1);
 SHARED_END
 
 /// Who reads and who writes a field (below), as bits. A stage loads what it reads, of which what it does not use is
-/// no longer in its kernel, and stores what it changes. Three occasions are told apart, so that what they need
+/// no longer in its kernel, and stores what it changes. Some occasions are told apart, so that what they need
 /// does not take registers in all that a stage does.
 #define BY_DEPART 1u
 #define BY_TRACE 2u
@@ -42,6 +42,7 @@ SHARED_END
 #define BY_LIGHT 8u
 #define BY_SERVICE (BY_DEPART | BY_FOLLOW)
 #define AT_ARRIVAL 16u // a path ray has met a surface, or a branch begins
+#define AT_RESULT 128u // the ray of a light sample is done
 #define AT_RETURN 32u  // a branch begins, where the path has split
 #define AT_SPLIT 64u   // of STAGE_DEPART: the path splits
 #define BY_ALL (BY_DEPART | BY_TRACE | BY_FOLLOW | BY_LIGHT)
@@ -96,14 +97,14 @@ SHARED_END
     F(uint, path.sampledEmitter.material, emissionHasFactors(), BY_ALL, BY_LIGHT) \
     F(uint, path.sampledEmitter.primitive, emissionHasFactors(), BY_ALL, BY_LIGHT) \
     F(vec2, path.sampledEmitter.weights, emissionHasFactors(), BY_ALL, BY_LIGHT) \
-    SURFACE_FIELDS(F, path.surface, true, BY_ALL, AT_ARRIVAL) \
-    F(uvec4, path.material.header, true, BY_ALL, AT_ARRIVAL) \
-    F(uvec4, path.material.row1, true, BY_ALL, AT_ARRIVAL) \
-    F(uvec4, path.material.row2, materialsHaveRow(2u), BY_ALL, AT_ARRIVAL) \
-    F(uvec4, path.material.row3, materialsHaveRow(3u), BY_ALL, AT_ARRIVAL) \
-    F(uvec4, path.material.row4, materialsHaveRow(4u), BY_ALL, AT_ARRIVAL) \
-    F(uvec4, path.material.row5, materialsHaveRow(5u), BY_ALL, AT_ARRIVAL) \
-    F(uvec4, path.material.row6, materialsHaveRow(6u), BY_ALL, AT_ARRIVAL) \
+    SURFACE_FIELDS(F, path.surface, true, BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
+    F(uvec4, path.material.header, true, BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
+    F(uvec4, path.material.row1, true, BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
+    F(uvec4, path.material.row2, materialsHaveRow(2u), BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
+    F(uvec4, path.material.row3, materialsHaveRow(3u), BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
+    F(uvec4, path.material.row4, materialsHaveRow(4u), BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
+    F(uvec4, path.material.row5, materialsHaveRow(5u), BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
+    F(uvec4, path.material.row6, materialsHaveRow(6u), BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
     F(vec3, path.splitPoint.throughput, SPLITS, AT_RETURN, AT_SPLIT) \
     F(uint, path.splitPoint.bounce, SPLITS, BY_ALL, BY_DEPART) \
     F(uint, path.splitPoint.medium, SPLITS, AT_RETURN, AT_SPLIT) \

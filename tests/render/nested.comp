@@ -93,7 +93,7 @@ void takeSample(inout PathState path) {
     depart(path);
     followToTheEnd(path);
     while (branchIsOver(path)) {
-        nextBranch(path);
+        nextBranch(path, materialAt(path.splitPoint.surface));
         bounceOn(path);
         followToTheEnd(path);
         ++loopPasses;
