@@ -114,7 +114,6 @@ void main() {
     if (GAP_PROPOSAL) findGap();
     endTraversal(path.ray);
     path.rayCount = 0u;
-    path.waits = false;
     loopPasses = 0u;
     for (uint i = 0u; i < dispatch.segmentBase; ++i)
         takeSample(path);
