@@ -18,9 +18,10 @@ SpectrumValue sorted(const build::FilePlace& where, SpectrumValue spectrum) {
     if (samples.size() < 2)
         where.fail(fmt::format("has {} wavelengths, expected two or more", samples.size()));
     std::ranges::stable_sort(samples, {}, [](const auto& sample) { return sample.first; });
-    const auto rest =
-        std::ranges::unique(samples, {}, [](const auto& sample) { return sample.first; });
-    samples.erase(rest.begin(), rest.end());
+    // Clang 14 does not compile std::ranges::unique of this library.
+    const auto rest = std::unique(samples.begin(), samples.end(),
+                                  [](const auto& a, const auto& b) { return a.first == b.first; });
+    samples.erase(rest, samples.end());
     return spectrum;
 }
 

@@ -332,7 +332,7 @@ TEST(LayoutSizes, NoFieldIsForgotten) {
         sizeof(gpu::SuspendedPath) + sizeof(gpu::SuspendedSplit) + sizeof(gpu::DispatchStatus);
     EXPECT_EQ(bytes / 4,
               16 + 16 + 16 + 16 + 4 + (4 + 4 + 4 + 4 + 8 + 8 + 12 + 12 + 8 + 12 + 20 + 12) +
-                  (4 + 12 + 12 + 4 + 4 + 8 + 4) + (4 + 4 + 8) + 36 + 8 + 4 + 16 + 24 + 28 + 8u);
+                  (4 + 12 + 12 + 4 + 4 + 8 + 4) + (4 + 4 + 8) + 36 + 12 + 4 + 16 + 24 + 28 + 8u);
 }
 
 } // namespace
