@@ -1,5 +1,6 @@
 #include "scene/gltf/animation.hpp"
 
+#include "host/core/error.hpp"
 #include "scene/gltf/accessors.hpp"
 
 #include <fmt/format.h>
@@ -106,7 +107,7 @@ void animate(Context& context, const Element& animation, const Element& channel,
     const std::optional<size_t> number = channel.index("sampler", animation.size("samplers"));
     if (!number) channel.fail("has no 'sampler'");
     if (!node) return; // targets without a node belong to extensions, or to nothing
-    const SamplerReader sampler(context.document, animation.item("samplers", *number));
+    const SamplerReader sampler(context.document, animation.strictly().item("samplers", *number));
     const std::string path = target->text("path");
     AnimatedNode& pose = nodes[*node];
     if (path == "translation" || path == "scale") {
@@ -138,7 +139,11 @@ std::map<size_t, AnimatedNode> animatedNodes(Context& context) {
                         context.selection().isFrame ? "--frames" : "--at"));
     context.report().ignore("animations", "the first one is shown", animations.size() - 1);
     for (const Element& channel : animations.front().items("channels"))
-        animate(context, animations.front(), channel, *seconds, nodes);
+        try {
+            animate(context, animations.front(), channel.strictly(), *seconds, nodes);
+        } catch (const SceneError& error) {
+            context.report().replace(error, build::Shortfall::Parameter);
+        }
     return nodes;
 }
 

@@ -17,9 +17,11 @@ double positive(const Element& at, std::string_view member) {
 void readDepths(const Element& at, FileCamera& camera) {
     camera.nearDistance = at.number("znear", 0, 0, std::numeric_limits<double>::infinity());
     camera.farDistance = at.number("zfar", camera.farDistance);
-    if (!(camera.farDistance > camera.nearDistance))
-        at.fail("zfar", fmt::format("is {}, expected more than znear, {}", camera.farDistance,
-                                    camera.nearDistance));
+    if (camera.farDistance > camera.nearDistance) return;
+    at.forgive(build::Shortfall::Word, "zfar",
+               fmt::format("is {}, expected more than znear, {}", camera.farDistance,
+                           camera.nearDistance));
+    camera.farDistance = FileCamera().farDistance;
 }
 
 } // namespace
@@ -38,8 +40,12 @@ void placeCamera(Context& context, const Element& at, const std::string& name,
         if (!(angle < std::numbers::pi))
             lens->fail("yfov", fmt::format("is {}, expected less than pi", angle));
         camera.halfHeight = std::tan(angle / 2);
-        if (lens->has("aspectRatio"))
-            camera.halfWidth = *camera.halfHeight * positive(*lens, "aspectRatio");
+        const double aspect = lens->number("aspectRatio", NAN);
+        if (aspect > 0)
+            camera.halfWidth = *camera.halfHeight * aspect;
+        else if (!std::isnan(aspect)) // which is none that a file can state
+            lens->forgive(build::Shortfall::Word, "aspectRatio",
+                          fmt::format("is {}, expected more than 0", aspect));
     } else {
         camera.projection = Projection::Orthographic;
         camera.halfWidth = std::abs(lens->number("xmag"));

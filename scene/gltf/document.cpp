@@ -24,7 +24,7 @@ Document::Document(const std::filesystem::path& file, build::Report& report)
     } catch (const JsonError& error) {
         throw SceneError(file_, 0, "", fmt::format("is no glTF: {}", error.what()));
     }
-    root_ = std::make_unique<Element>(file_, "", json_);
+    root_ = std::make_unique<Element>(file_, "", json_, &report);
     requireVersion();
     checkExtensions(report);
 }
@@ -33,7 +33,7 @@ void Document::requireVersion() const {
     const std::optional<Element> asset = root_->child("asset");
     if (!asset) root_->fail("is no glTF 2.0: it has no 'asset'");
     if (!asset->has("version")) asset->fail("has no 'version'");
-    const std::string version = asset->text("version");
+    const std::string version = asset->text("version", "2.0");
     if (!version.starts_with("2."))
         asset->fail("version", fmt::format("is '{}', expected 2.0", version));
     const std::string least = asset->text("minVersion", "2.0");
@@ -45,6 +45,12 @@ void Document::checkExtensions(build::Report& report) const {
         if (!isReadExtension(name))
             report.replace({file_, 0, "extensionsRequired"}, build::Shortfall::Extension,
                            fmt::format("the file requires '{}', which is not read", name));
+}
+
+Element Document::at(std::string_view array, size_t index) const {
+    const bool isAboutBytes =
+        array == "accessors" || array == "bufferViews" || array == "buffers" || array == "skins";
+    return (isAboutBytes ? root_->strictly() : *root_).item(array, index);
 }
 
 std::optional<Element> Document::follow(const Element& from, std::string_view member,

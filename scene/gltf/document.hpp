@@ -24,8 +24,9 @@ class Document {
 
     const std::string& file() const { return file_; }
     const Element& root() const { return *root_; }
-    /// Element `index` of one of the file's arrays, such as "meshes".
-    Element at(std::string_view array, size_t index) const { return root_->item(array, index); }
+    /// Element `index` of one of the file's arrays, such as "meshes". What is wrong in one of those
+    /// that say where bytes lie is an error: guesses would show something else.
+    Element at(std::string_view array, size_t index) const;
     size_t size(std::string_view array) const { return root_->size(array); }
     /// The element of `array` that a member names by its number; nothing if it is not there.
     std::optional<Element> follow(const Element& from, std::string_view member,

@@ -34,6 +34,11 @@ Value Element::readOr(const Value& otherwise, build::Shortfall kind, Read&& read
     return otherwise;
 }
 
+void Element::forgive(build::Shortfall kind, std::string_view member,
+                      const std::string& message) const {
+    readOr(0, kind, [&]() -> int { fail(member, message); });
+}
+
 const Json* Element::find(std::string_view member) const {
     return json_->visit([&](const auto& value) -> const Json* {
         if constexpr (std::same_as<std::decay_t<decltype(value)>, Json::Object>) {
@@ -66,8 +71,10 @@ std::optional<Element> Element::extension(std::string_view name) const {
 const Json::Array* Element::array(std::string_view member) const {
     const Json* json = find(member);
     if (!json) return nullptr;
-    if (!json->isArray()) fail(member, "is no array, expected [...]");
-    return &json->elements();
+    return readOr<const Json::Array*>(nullptr, build::Shortfall::Word, [&] {
+        if (!json->isArray()) fail(member, "is no array, expected [...]");
+        return &json->elements();
+    });
 }
 
 size_t Element::size(std::string_view member) const {
@@ -83,8 +90,12 @@ Element Element::item(std::string_view member, size_t index) const {
 
 std::vector<Element> Element::items(std::string_view member) const {
     std::vector<Element> found;
-    for (size_t i = 0; i < size(member); ++i)
-        found.push_back(item(member, i));
+    const size_t count = size(member);
+    for (size_t i = 0; i < count; ++i) {
+        const auto one = readOr<std::optional<Element>>(
+            std::nullopt, build::Shortfall::Word, [&] { return std::optional(item(member, i)); });
+        if (one) found.push_back(*one);
+    }
     return found;
 }
 
@@ -174,24 +185,35 @@ std::optional<size_t> Element::index(std::string_view member, size_t size) const
     const Json* json = find(member);
     if (!json) return std::nullopt;
     return readOr<std::optional<size_t>>(std::nullopt, build::Shortfall::Reference, [&] {
-        const uint64_t value = countOf(member, *json);
-        if (value >= size)
-            fail(member,
-                 fmt::format("is {}, but there {} {}", value, size == 1 ? "is" : "are", size));
-        return std::optional(size_t(value));
+        return std::optional(indexOf(member, *json, size));
     });
+}
+
+size_t Element::indexOf(std::string_view member, const Json& json, size_t size) const {
+    const uint64_t value = countOf(member, json);
+    if (value >= size)
+        fail(member, fmt::format("is {}, but there {} {}", value, size == 1 ? "is" : "are", size));
+    return size_t(value);
 }
 
 std::vector<size_t> Element::indices(std::string_view member, size_t size) const {
     std::vector<size_t> found;
     const Json::Array* elements = array(member);
+    for (size_t i = 0; elements && i < elements->size(); ++i)
+        found.push_back(indexOf(fmt::format("{}[{}]", member, i), (*elements)[i], size));
+    return found;
+}
+
+std::vector<size_t> Element::indicesOr(std::string_view member, size_t size) const {
+    std::vector<size_t> found;
+    const Json::Array* elements = array(member);
     for (size_t i = 0; elements && i < elements->size(); ++i) {
-        const std::string name = fmt::format("{}[{}]", member, i);
-        const uint64_t value = countOf(name, (*elements)[i]);
-        if (value >= size)
-            fail(name,
-                 fmt::format("is {}, but there {} {}", value, size == 1 ? "is" : "are", size));
-        found.push_back(size_t(value));
+        const auto one =
+            readOr<std::optional<size_t>>(std::nullopt, build::Shortfall::Reference, [&] {
+                return std::optional(
+                    indexOf(fmt::format("{}[{}]", member, i), (*elements)[i], size));
+            });
+        if (one) found.push_back(*one);
     }
     return found;
 }
@@ -200,8 +222,10 @@ std::vector<std::string> Element::texts(std::string_view member) const {
     std::vector<std::string> found;
     const Json::Array* elements = array(member);
     for (size_t i = 0; elements && i < elements->size(); ++i) {
-        if (!(*elements)[i].isText()) fail(fmt::format("{}[{}]", member, i), "is no text");
-        found.push_back((*elements)[i].get<std::string>());
+        if ((*elements)[i].isText())
+            found.push_back((*elements)[i].get<std::string>());
+        else
+            forgive(build::Shortfall::Word, fmt::format("{}[{}]", member, i), "is no text");
     }
     return found;
 }

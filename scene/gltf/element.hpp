@@ -29,6 +29,10 @@ class Element {
     [[noreturn]] void fail(const std::string& message) const { place().fail(message); }
     /// About one member.
     [[noreturn]] void fail(std::string_view member, const std::string& message) const;
+    /// The same, where the rest can be shown: the report says what is taken instead.
+    void forgive(build::Shortfall kind, std::string_view member, const std::string& message) const;
+    /// The same element, of which all that is wrong is an error.
+    Element strictly() const { return {*file_, path_, *json_}; }
 
     bool has(std::string_view member) const { return find(member) != nullptr; }
 
@@ -40,6 +44,7 @@ class Element {
     size_t size(std::string_view member) const;
     /// One object of an array; `index` must be below its size.
     Element item(std::string_view member, size_t index) const;
+    /// Those of an array that are objects.
     std::vector<Element> items(std::string_view member) const;
     /// The names of all members.
     std::vector<std::string> names() const;
@@ -56,6 +61,9 @@ class Element {
     /// The number of something there are `size` of, such as a node; nothing if it is not there.
     std::optional<size_t> index(std::string_view member, size_t size) const;
     std::vector<size_t> indices(std::string_view member, size_t size) const;
+    /// The same; those that name nothing are left out.
+    std::vector<size_t> indicesOr(std::string_view member, size_t size) const;
+    /// Those of an array that are texts.
     std::vector<std::string> texts(std::string_view member) const;
     /// As many finite numbers as said (any number of them if 0); empty if not there.
     std::vector<double> numbers(std::string_view member, size_t expected) const;
@@ -75,6 +83,7 @@ class Element {
     const Json& require(std::string_view member) const;
     const Json::Array* array(std::string_view member) const;
     double numberOf(std::string_view member, const Json& json) const;
+    size_t indexOf(std::string_view member, const Json& json, size_t size) const;
     uint64_t countOf(std::string_view member, const Json& json) const;
 
     const std::string* file_;

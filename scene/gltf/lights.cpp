@@ -10,9 +10,13 @@ namespace {
 
 /// Between the cones the format's own formula: the square of a ramp of the cosine.
 void readCones(const Element& at, Light& light) {
-    const std::optional<Element> spot = at.child("spot");
-    if (!spot) at.fail("has no 'spot'");
     constexpr double quarter = std::numbers::pi / 4;
+    const std::optional<Element> spot = at.child("spot");
+    if (!spot) {
+        at.forgive(build::Shortfall::Word, "spot", "is not there");
+        light.falloffAngle = float(2 * quarter);
+        return;
+    }
     const double outer = spot->number("outerConeAngle", quarter, 0, 2 * quarter);
     const double inner = spot->number("innerConeAngle", 0, 0, 2 * quarter);
     if (outer == 0) spot->fail("outerConeAngle", "is 0, expected more");

@@ -65,7 +65,7 @@ void MaterialReader::readBase() {
     const std::optional<Element> pbr = at_.child("pbrMetallicRoughness");
     if (!pbr) return;
     PrincipledParameters& p = material_.principled;
-    const std::vector<double> base = pbr->numbers("baseColorFactor", 4);
+    const std::vector<double> base = pbr->numbersOr("baseColorFactor", 4);
     if (!base.empty()) {
         p.baseColor = context_.builder.reflectedFraction(pbr->path() + ".baseColorFactor",
                                                          glm::vec3(base[0], base[1], base[2]));
@@ -84,7 +84,8 @@ void MaterialReader::readAlpha() {
     else if (mode == "BLEND")
         material_.alphaMode = AlphaMode::Blend;
     else if (mode != "OPAQUE")
-        at_.fail("alphaMode", fmt::format("is '{}', expected OPAQUE, MASK or BLEND", mode));
+        at_.forgive(build::Shortfall::Word, "alphaMode",
+                    fmt::format("is '{}', expected OPAQUE, MASK or BLEND", mode));
     material_.alphaCutoff = float(at_.number("alphaCutoff", 0.5, 0, kNoMaximum));
 }
 
@@ -108,10 +109,11 @@ void MaterialReader::readTransmission() {
         p.isThin = extension->number("thicknessFactor", 0, 0, kNoMaximum) == 0;
         p.attenuationColor = color(*extension, "attenuationColor", glm::vec3(1));
         const double distance = extension->number("attenuationDistance", kNoMaximum);
-        if (!(distance > 0))
-            extension->fail("attenuationDistance",
-                            fmt::format("is {}, expected more than 0", distance));
-        p.attenuationDistance = float(distance);
+        if (distance > 0)
+            p.attenuationDistance = float(distance);
+        else
+            extension->forgive(build::Shortfall::Word, "attenuationDistance",
+                               fmt::format("is {}, expected more than 0", distance));
     }
 }
 
@@ -122,10 +124,11 @@ void MaterialReader::readSpecular() {
         if (ior == 0)
             context_.report().ignore("an index of refraction of 0",
                                      "that reflection does not depend on the angle; 1.5 is taken");
-        else if (ior < 1)
-            extension->fail("ior", fmt::format("is {}, expected 0 or at least 1", ior));
         else
-            p.ior = float(ior);
+            p.ior = float(std::max(ior, 1.0));
+        if (ior != 0 && ior < 1)
+            extension->forgive(build::Shortfall::Number, "ior",
+                               fmt::format("is {}, expected 0 or at least 1", ior));
     }
     if (const auto extension = at_.extension("KHR_materials_specular")) {
         p.specular = float(fraction(*extension, "specularFactor", 1));
@@ -178,7 +181,7 @@ void MaterialReader::readSpecularGlossiness() {
     PrincipledParameters& p = material_.principled;
     p = {};
     std::erase_if(material_.textures, [](const TextureUse&) { return true; });
-    const std::vector<double> diffuse = extension->numbers("diffuseFactor", 4);
+    const std::vector<double> diffuse = extension->numbersOr("diffuseFactor", 4);
     if (!diffuse.empty()) {
         p.baseColor = context_.builder.reflectedFraction(
             extension->path() + ".diffuseFactor", glm::vec3(diffuse[0], diffuse[1], diffuse[2]));

@@ -1,5 +1,6 @@
 #include "scene/gltf/materials.hpp"
 
+#include "host/core/error.hpp"
 #include "scene/gltf/material_reader.hpp"
 
 #include <fmt/format.h>
@@ -24,8 +25,8 @@ std::optional<int> tangentSetOf(const Material& material) {
 std::optional<size_t> chosenVariant(const Document& document, build::SceneBuilder& builder) {
     std::vector<std::string> names;
     if (const auto extension = document.root().extension("KHR_materials_variants"))
-        for (const Element& variant : extension->items("variants"))
-            names.push_back(variant.text("name"));
+        for (size_t i = 0; i < extension->size("variants"); ++i)
+            names.push_back(extension->item("variants", i).text("name"));
     const std::string& wanted = builder.conventions().selection.variant;
     const std::string list = fmt::format("{}", fmt::join(names, ", "));
     if (wanted.empty()) {
@@ -47,7 +48,7 @@ std::optional<size_t> Materials::indexFor(const Element& primitive) const {
     const auto extension = primitive.extension("KHR_materials_variants");
     if (extension && context_.variant)
         for (const Element& mapping : extension->items("mappings"))
-            for (const size_t variant : mapping.indices("variants", size_t(-1)))
+            for (const size_t variant : mapping.indicesOr("variants", size_t(-1)))
                 if (variant == *context_.variant) return mapping.index("material", count);
     return primitive.index("material", count);
 }
@@ -56,9 +57,18 @@ const BoundMaterial& Materials::of(const Element& primitive) {
     const std::optional<size_t> index = indexFor(primitive);
     const auto found = made_.find(index);
     if (found != made_.end()) return found->second;
-    return made_
-        .emplace(index, index ? read(context_.document.at("materials", *index)) : standard())
-        .first->second;
+    return made_.emplace(index, index ? readOrGrey(*index) : standard()).first->second;
+}
+
+BoundMaterial Materials::readOrGrey(size_t index) {
+    try {
+        return read(context_.document.at("materials", index));
+    } catch (const SceneError& error) {
+        context_.report().replace(error, build::Shortfall::Material);
+    }
+    BoundMaterial bound;
+    bound.number = context_.builder.addMaterial(build::greyMaterial());
+    return bound;
 }
 
 BoundMaterial Materials::read(const Element& element) {

@@ -26,6 +26,7 @@ class Materials {
 
   private:
     std::optional<size_t> indexFor(const Element& primitive) const;
+    BoundMaterial readOrGrey(size_t index);
     BoundMaterial read(const Element& element);
     BoundMaterial standard();
 

@@ -1,5 +1,6 @@
 #include "scene/gltf/meshes.hpp"
 
+#include "host/core/error.hpp"
 #include "scene/build/tangents.hpp"
 #include "scene/gltf/deform.hpp"
 
@@ -51,17 +52,22 @@ std::optional<BuiltMesh> Meshes::get(size_t index, const Deformation& deformatio
 
 std::optional<BuiltMesh> Meshes::make(const Element& element, const Deformation& deformation) {
     const std::vector<double> weights =
-        deformation.weights.empty() ? element.numbers("weights", 0) : deformation.weights;
+        deformation.weights.empty() ? element.numbersOr("weights", 0) : deformation.weights;
     build::Mesh mesh;
     BuiltMesh built;
     for (const Element& at : element.items("primitives")) {
         const BoundMaterial& material = materials_.of(at);
-        std::optional<Primitive> primitive = readPrimitive(context_, at, material.uvSets.sets);
-        if (!primitive) continue;
-        applyTargets(*primitive, weights);
-        if (!deformation.joints.empty() && !primitive->joints.empty())
-            applySkin(*primitive, deformation.joints, at);
-        append(at, std::move(*primitive), material, mesh);
+        try {
+            std::optional<Primitive> primitive = readPrimitive(context_, at, material.uvSets.sets);
+            if (!primitive) continue;
+            applyTargets(*primitive, weights);
+            if (!deformation.joints.empty() && !primitive->joints.empty())
+                applySkin(*primitive, deformation.joints, at);
+            append(at, std::move(*primitive), material, mesh);
+        } catch (const SceneError& error) {
+            context_.report().replace(error, build::Shortfall::Geometry);
+            continue;
+        }
         built.materials.push_back(material.number);
     }
     if (mesh.parts.empty()) return std::nullopt;

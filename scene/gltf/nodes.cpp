@@ -23,8 +23,9 @@ glm::dmat4 composed(const glm::dvec3& translation, const glm::dquat& rotation,
 /// Files round quaternions; they stand for unit ones.
 glm::dquat unitRotation(const Element& at, const glm::dquat& q) {
     const double length = glm::length(q);
-    if (!(length > 0)) at.fail("rotation", "has no direction");
-    return q / length;
+    if (length > 0) return q / length;
+    at.forgive(build::Shortfall::Word, "rotation", "has no direction");
+    return {1, 0, 0, 0};
 }
 
 /// KHR_node_visibility.
@@ -38,33 +39,44 @@ bool isHidden(const Element& node) {
 Nodes::Nodes(Context& context)
     : context_(context), document_(context.document), meshes_(context),
       animated_(animatedNodes(context)) {
+    readNodes();
     findParents();
     findTransforms();
 }
 
-std::vector<size_t> Nodes::childrenOf(size_t node) const {
-    return document_.at("nodes", node).indices("children", document_.size("nodes"));
+void Nodes::readNodes() {
+    const size_t count = document_.size("nodes");
+    nodes_.resize(count);
+    children_.resize(count);
+    for (size_t node = 0; node < count; ++node)
+        placeOrLeaveOut(build::Shortfall::Node, [&] {
+            nodes_[node] = document_.at("nodes", node);
+            children_[node] = nodes_[node]->indicesOr("children", count);
+        });
 }
 
 void Nodes::findParents() {
     constexpr size_t none = size_t(-1);
-    std::vector<size_t> parents(document_.size("nodes"), none);
+    std::vector<size_t> parents(nodes_.size(), none);
     for (size_t node = 0; node < parents.size(); ++node)
-        for (const size_t child : childrenOf(node)) {
-            if (parents[child] != none)
-                document_.at("nodes", child)
-                    .fail(
-                        fmt::format("is a child of nodes[{}] and of nodes[{}], expected one parent",
-                                    parents[child], node));
-            parents[child] = node;
-        }
+        std::erase_if(children_[node], [&](size_t child) {
+            if (parents[child] == none) {
+                parents[child] = node;
+                return false;
+            }
+            document_.root().forgive(
+                build::Shortfall::Reference, fmt::format("nodes[{}]", child),
+                fmt::format("is a child of nodes[{}] and of nodes[{}], expected one parent",
+                            parents[child], node));
+            return true;
+        });
     for (size_t node = 0; node < parents.size(); ++node)
         if (parents[node] == none) roots_.push_back(node);
 }
 
 /// From the roots on, without recursion: a file can nest nodes as deep as it likes.
 void Nodes::findTransforms() {
-    toWorld_.assign(document_.size("nodes"), glm::dmat4(1));
+    toWorld_.assign(nodes_.size(), glm::dmat4(1));
     moves_.assign(toWorld_.size(), false);
     std::vector<bool> reached(toWorld_.size(), false);
     std::vector<size_t> open = roots_;
@@ -76,7 +88,7 @@ void Nodes::findTransforms() {
         reached[node] = true;
         if (const auto found = animated_.find(node); found != animated_.end())
             moves_[node] = moves_[node] || found->second.isPosed();
-        for (const size_t child : childrenOf(node)) {
+        for (const size_t child : children_[node]) {
             toWorld_[child] = toWorld_[node] * localTransform(child);
             moves_[child] = moves_[node];
             open.push_back(child);
@@ -84,22 +96,27 @@ void Nodes::findTransforms() {
     }
     // Each node has at most one parent: what no root reaches is on a circle, or hangs on one.
     for (size_t node = 0; node < reached.size(); ++node)
-        if (!reached[node])
-            document_.at("nodes", node).fail("is on a circle of parents and children");
+        if (!reached[node]) {
+            document_.root().forgive(build::Shortfall::Node, fmt::format("nodes[{}]", node),
+                                     "is on a circle of parents and children");
+            nodes_[node].reset();
+            children_[node].clear();
+        }
 }
 
 glm::dmat4 Nodes::localTransform(size_t index) const {
-    const Element node = document_.at("nodes", index);
+    if (!nodes_[index]) return glm::dmat4(1);
+    const Element& node = *nodes_[index];
     const auto found = animated_.find(index);
     const AnimatedNode pose = found == animated_.end() ? AnimatedNode{} : found->second;
-    const std::vector<double> m = node.numbers("matrix", 16);
+    const std::vector<double> m = node.numbersOr("matrix", 16);
     if (!m.empty() && !pose.isPosed()) {
         glm::dmat4 matrix;
         for (int i = 0; i < 16; ++i)
             matrix[i / 4][i % 4] = m[size_t(i)];
         return matrix;
     }
-    const std::vector<double> q = node.numbers("rotation", 4);
+    const std::vector<double> q = node.numbersOr("rotation", 4);
     const glm::dquat stated =
         q.empty() ? glm::dquat(1, 0, 0, 0) : glm::dquat(q[3], q[0], q[1], q[2]);
     return composed(pose.translation.value_or(node.vector("translation", glm::dvec3(0))),
@@ -119,7 +136,9 @@ std::vector<size_t> Nodes::rootsOfScene() const {
     const std::optional<size_t> stated = document_.root().index("scene", count);
     if (count > 1) context_.report().ignore("scenes", "one is shown (--scene N)", count - 1);
     const size_t scene = asked ? *asked : stated.value_or(0);
-    return document_.at("scenes", scene).indices("nodes", document_.size("nodes"));
+    const std::vector<Element> scenes = document_.root().items("scenes");
+    if (scenes.size() != count) return roots_; // which has been said
+    return scenes[scene].indicesOr("nodes", nodes_.size());
 }
 
 void Nodes::place() {
@@ -131,25 +150,41 @@ void Nodes::place() {
         open.pop_back();
         if (placed[node]) continue; // a scene may name a node and its parent
         placed[node] = true;
-        if (isHidden(document_.at("nodes", node))) continue; // and so is what hangs on it
+        if (!nodes_[node] || isHidden(*nodes_[node])) continue; // and so is what hangs on it
         placeNode(node);
-        const std::vector<size_t> children = childrenOf(node);
-        open.insert(open.end(), children.rbegin(), children.rend());
+        open.insert(open.end(), children_[node].rbegin(), children_[node].rend());
+    }
+}
+
+template <class Place>
+void Nodes::placeOrLeaveOut(build::Shortfall kind, Place&& place) {
+    try {
+        place();
+    } catch (const SceneError& error) {
+        context_.report().replace(error, kind);
     }
 }
 
 void Nodes::placeNode(size_t index) {
-    const Element node = document_.at("nodes", index);
-    placeMesh(node, index);
-    if (const auto camera = document_.follow(node, "camera", "cameras")) {
-        const std::string name = node.has("name") ? node.displayName() : camera->displayName();
-        placeCamera(context_, *camera, name, toWorld_[index]);
-    }
+    const Element& node = *nodes_[index];
+    // One mesh never costs the scene, nor does a camera or a light.
+    placeOrLeaveOut(build::Shortfall::Geometry, [&] { placeMesh(node, index); });
+    placeOrLeaveOut(build::Shortfall::Node, [&] {
+        if (const auto camera = document_.follow(node, "camera", "cameras")) {
+            const std::string name = node.has("name") ? node.displayName() : camera->displayName();
+            placeCamera(context_, *camera, name, toWorld_[index]);
+        }
+    });
+    placeOrLeaveOut(build::Shortfall::Node, [&] { placeLightOf(node, index); });
+}
+
+void Nodes::placeLightOf(const Element& node, size_t index) {
     const auto used = node.extension("KHR_lights_punctual");
-    const auto stated = document_.root().extension("KHR_lights_punctual");
     if (!used) return;
-    const std::optional<size_t> light = used->index("light", stated ? stated->size("lights") : 0);
-    if (!light) used->fail("has no 'light'");
+    const auto stated = document_.root().extension("KHR_lights_punctual");
+    const Element which = used->strictly();
+    const std::optional<size_t> light = which.index("light", stated ? stated->size("lights") : 0);
+    if (!light) which.fail("has no 'light'");
     const Element at = stated->item("lights", *light);
     placeLight(context_, at, node.has("name") ? node.displayName() : at.displayName(),
                toWorld_[index]);
@@ -163,20 +198,17 @@ void Nodes::placeMesh(const Element& node, size_t index) {
     const auto found = animated_.find(index);
     deformation.weights = found != animated_.end() && !found->second.weights.empty()
                               ? found->second.weights
-                              : node.numbers("weights", 0);
-    deformation.joints = jointsOf(node);
-    std::optional<BuiltMesh> built;
-    try {
-        built = meshes_.get(*mesh, deformation);
-    } catch (const SceneError& error) {
-        // One mesh never costs the scene.
-        context_.report().replace(error, build::Shortfall::Geometry);
-    }
+                              : node.numbersOr("weights", 0);
+    placeOrLeaveOut(build::Shortfall::Attribute, [&] { deformation.joints = jointsOf(node); });
+    const std::optional<BuiltMesh> built = meshes_.get(*mesh, deformation);
     if (!built) return;
     // The joints of a skin lead to the world by themselves.
-    const glm::dmat4 toWorld = deformation.joints.empty() ? toWorld_[index] : glm::dmat4(1);
-    const bool moves = isMoved(node, index);
-    for (const glm::dmat4& place : placesOf(node, toWorld)) {
+    const bool hasSkin = !deformation.joints.empty();
+    const glm::dmat4 toWorld = hasSkin ? glm::dmat4(1) : toWorld_[index];
+    const bool moves = isMoved(node, index, hasSkin);
+    std::vector<glm::dmat4> places = {toWorld};
+    placeOrLeaveOut(build::Shortfall::Attribute, [&] { places = placesOf(node, toWorld); });
+    for (const glm::dmat4& place : places) {
         context_.builder.place(node.place(), built->shape, place, built->materials,
                                node.displayName());
         if (moves) context_.builder.markMoving();
@@ -184,13 +216,12 @@ void Nodes::placeMesh(const Element& node, size_t index) {
 }
 
 /// The joints of a skin lead to the world whatever its node does.
-bool Nodes::isMoved(const Element& node, size_t index) const {
+bool Nodes::isMoved(const Element& node, size_t index, bool hasSkin) const {
     const auto found = animated_.find(index);
     if (found != animated_.end() && !found->second.weights.empty()) return true;
-    const auto skin = document_.follow(node, "skin", "skins");
+    if (!hasSkin) return moves_[index];
     const std::vector<size_t> joints =
-        skin ? skin->indices("joints", document_.size("nodes")) : std::vector<size_t>{};
-    if (joints.empty()) return moves_[index];
+        document_.follow(node, "skin", "skins")->indices("joints", nodes_.size());
     return std::ranges::any_of(joints, [&](size_t joint) { return moves_[joint]; });
 }
 
@@ -198,14 +229,18 @@ bool Nodes::isMoved(const Element& node, size_t index) const {
 std::vector<glm::dmat4> Nodes::placesOf(const Element& node, const glm::dmat4& toWorld) const {
     const auto extension = node.extension("EXT_mesh_gpu_instancing");
     const auto attributes = extension ? extension->child("attributes") : std::nullopt;
-    if (!attributes) return {toWorld};
+    return attributes ? readPlaces(attributes->strictly(), toWorld) : std::vector{toWorld};
+}
+
+std::vector<glm::dmat4> Nodes::readPlaces(const Element& attributes,
+                                          const glm::dmat4& toWorld) const {
     std::optional<size_t> count;
     const auto read = [&](const char* name, size_t width) -> std::optional<Values> {
-        const auto accessor = attributes->index(name, document_.size("accessors"));
+        const auto accessor = attributes.index(name, document_.size("accessors"));
         if (!accessor) return std::nullopt;
         Values values = readValues(document_, *accessor, width);
         if (count && values.count != *count)
-            attributes->fail(
+            attributes.fail(
                 name, fmt::format("has {} elements, another attribute {}", values.count, *count));
         count = values.count;
         return values;
@@ -217,7 +252,7 @@ std::vector<glm::dmat4> Nodes::placesOf(const Element& node, const glm::dmat4& t
         const glm::dvec4 q = rotations ? rotations->vec4(i) : glm::dvec4(0, 0, 0, 1);
         places.push_back(toWorld *
                          composed(translations ? translations->vec3(i) : glm::dvec3(0),
-                                  unitRotation(*attributes, glm::dquat(q.w, q.x, q.y, q.z)),
+                                  unitRotation(attributes, glm::dquat(q.w, q.x, q.y, q.z)),
                                   scales ? scales->vec3(i) : glm::dvec3(1)));
     }
     return places;

@@ -1,9 +1,11 @@
 #include "scene/gltf/primitives.hpp"
 
+#include "host/core/error.hpp"
 #include "scene/gltf/draco.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace stromboli::gltf {
@@ -16,13 +18,13 @@ class PrimitiveReader {
   public:
     PrimitiveReader(Context& context, const Element& at) : context_(context), at_(at) {
         if (const auto packed = at.extension("KHR_draco_mesh_compression"))
-            unpacked_ = unpackDraco(context.document, at, *packed);
+            unpacked_ = unpackDraco(context.document, at.strictly(), packed->strictly());
     }
 
     std::optional<Primitive> read(const std::array<uint32_t, 2>& uvSets) {
         const std::optional<Element> attributes = at_.child("attributes");
         if (!attributes) at_.fail("has no 'attributes'");
-        std::optional<Values> positions = values(*attributes, "POSITION", 3);
+        std::optional<Values> positions = values(attributes->strictly(), "POSITION", 3);
         if (!positions) {
             context_.report().ignore("primitives", "they have no positions");
             return std::nullopt;
@@ -31,12 +33,13 @@ class PrimitiveReader {
         p.vertexCount = positions->count;
         p.positions = std::move(*positions);
         vertexCount_ = p.vertexCount;
-        p.normals = values(*attributes, "NORMAL", 3);
-        p.tangents = values(*attributes, "TANGENT", 4);
-        p.colors = colors(*attributes);
+        const Element wanted = attributes->strictly();
+        p.normals = valuesOr(wanted, "NORMAL", 3);
+        p.tangents = valuesOr(wanted, "TANGENT", 4);
+        forgiveAttribute([&] { p.colors = colors(wanted); });
         for (size_t i = 0; i < 2; ++i)
-            p.uvs[i] = values(*attributes, fmt::format("TEXCOORD_{}", uvSets[i]), 2);
-        readSkin(*attributes, p);
+            p.uvs[i] = valuesOr(wanted, fmt::format("TEXCOORD_{}", uvSets[i]), 2);
+        forgiveAttribute([&] { readSkin(wanted, p); });
         readTargets(p);
         p.triangles = triangles();
         if (p.triangles.empty()) return std::nullopt;
@@ -63,6 +66,23 @@ class PrimitiveReader {
         return found;
     }
 
+    /// One attribute never costs the mesh.
+    template <class Read>
+    void forgiveAttribute(Read&& read) {
+        try {
+            read();
+        } catch (const SceneError& error) {
+            context_.report().replace(error, build::Shortfall::Attribute);
+        }
+    }
+
+    std::optional<Values> valuesOr(const Element& attributes, const std::string& name,
+                                   size_t width) {
+        std::optional<Values> found;
+        forgiveAttribute([&] { found = values(attributes, name, width); });
+        return found;
+    }
+
     std::optional<Values> colors(const Element& attributes) {
         std::optional<Values> found = values(attributes, "COLOR_0", 0);
         if (found && found->width != 3 && found->width != 4)
@@ -77,37 +97,30 @@ class PrimitiveReader {
         for (int set = 0; attributes.has(fmt::format("JOINTS_{}", set)); ++set) {
             std::optional<Values> weights = values(attributes, fmt::format("WEIGHTS_{}", set), 4);
             if (!weights) attributes.fail(fmt::format("has JOINTS_{} and no WEIGHTS_{}", set, set));
-            p.joints.push_back(*values(attributes, fmt::format("JOINTS_{}", set), 4));
+            p.joints.push_back(values(attributes, fmt::format("JOINTS_{}", set), 4).value());
             p.weights.push_back(std::move(*weights));
         }
     }
 
     void readTargets(Primitive& p) {
         for (const Element& target : at_.items("targets"))
-            p.targets.push_back({values(target, "POSITION", 3), values(target, "NORMAL", 3),
-                                 values(target, "TANGENT", 3)});
+            p.targets.push_back({valuesOr(target.strictly(), "POSITION", 3),
+                                 valuesOr(target.strictly(), "NORMAL", 3),
+                                 valuesOr(target.strictly(), "TANGENT", 3)});
     }
 
     std::vector<uint32_t> indices() {
         if (!unpacked_.indices.empty()) return std::move(unpacked_.indices);
         const std::optional<size_t> accessor =
-            at_.index("indices", context_.document.size("accessors"));
-        if (accessor) {
-            std::vector<uint32_t> found = readIndices(context_.document, *accessor);
-            for (const uint32_t index : found)
-                if (index >= *vertexCount_)
-                    context_.document.at("accessors", *accessor)
-                        .fail(fmt::format("has the index {}, but there are {} vertices", index,
-                                          *vertexCount_));
-            return found;
-        }
+            at_.strictly().index("indices", context_.document.size("accessors"));
+        if (accessor) return readIndices(context_.document, *accessor);
         std::vector<uint32_t> all(*vertexCount_);
         std::iota(all.begin(), all.end(), 0u);
         return all;
     }
 
     std::vector<std::array<uint32_t, 3>> triangles() {
-        const uint64_t mode = at_.count("mode", kTriangles);
+        const uint64_t mode = at_.strictly().count("mode", kTriangles);
         if (mode > kFan) at_.fail("mode", fmt::format("is {}, expected 0 to 6", mode));
         if (mode < kTriangles) {
             context_.report().ignore("primitives of points or lines", "only triangles are shown");
@@ -128,7 +141,20 @@ class PrimitiveReader {
                                     ? std::array{v[i + 1], v[i + 2], v[0]}
                                     : std::array{v[i], v[i + 1 + i % 2], v[i + 2 - i % 2]});
         }
+        leaveOutWrongOnes(found);
         return found;
+    }
+
+    /// A triangle with a corner that is not there costs no other one.
+    void leaveOutWrongOnes(std::vector<std::array<uint32_t, 3>>& triangles) {
+        std::erase_if(triangles, [&](const std::array<uint32_t, 3>& t) {
+            const uint32_t last = std::max({t[0], t[1], t[2]});
+            if (last < *vertexCount_) return false;
+            at_.forgive(
+                build::Shortfall::Geometry, "indices",
+                fmt::format("has the index {}, but there are {} vertices", last, *vertexCount_));
+            return true;
+        });
     }
 
     Context& context_;

@@ -16,7 +16,8 @@ namespace {
 constexpr uint64_t kNearest = 9728, kClamp = 33071, kMirror = 33648, kRepeat = 10497;
 
 Wrap wrapOf(const Element& sampler, std::string_view member) {
-    switch (sampler.count(member, kRepeat)) {
+    const uint64_t stated = sampler.count(member, kRepeat);
+    switch (stated) {
     case kClamp:
         return Wrap::Clamp;
     case kMirror:
@@ -24,8 +25,9 @@ Wrap wrapOf(const Element& sampler, std::string_view member) {
     case kRepeat:
         return Wrap::Repeat;
     default:
-        sampler.fail(member,
-                     fmt::format("is {}, expected 33071, 33648 or 10497", sampler.count(member)));
+        sampler.forgive(build::Shortfall::Word, member,
+                        fmt::format("is {}, expected 33071, 33648 or 10497", stated));
+        return Wrap::Repeat;
     }
 }
 
@@ -35,7 +37,7 @@ void applyTransform(const Element& info, TextureUse& use) {
     const std::optional<Element> transform = info.extension("KHR_texture_transform");
     if (!transform) return;
     const auto pair = [&](std::string_view member, const glm::dvec2& otherwise) {
-        const std::vector<double> v = transform->numbers(member, 2);
+        const std::vector<double> v = transform->numbersOr(member, 2);
         return v.empty() ? otherwise : glm::dvec2(v[0], v[1]);
     };
     const glm::dvec2 offset = pair("offset", {0, 0}), scale = pair("scale", {1, 1});
@@ -69,8 +71,12 @@ std::optional<TextureUse> Textures::use(const Element& parent, std::string_view 
     const std::optional<Element> info = parent.child(member);
     if (!info) return std::nullopt;
     const std::optional<size_t> index = info->index("index", context_.document.size("textures"));
-    if (!index) info->fail("has no 'index'");
-    const std::optional<uint32_t> number = texture(*index, srgb);
+    if (!index) {
+        if (!info->has("index"))
+            info->forgive(build::Shortfall::Reference, "index", "is not there");
+        return std::nullopt;
+    }
+    const std::optional<uint32_t> number = textureOrNone(*index, srgb);
     if (!number) return std::nullopt;
     TextureUse use;
     use.slot = slot;
@@ -78,7 +84,10 @@ std::optional<TextureUse> Textures::use(const Element& parent, std::string_view 
     uint64_t set = info->count("texCoord", 0);
     if (const auto transform = info->extension("KHR_texture_transform"))
         set = transform->count("texCoord", set);
-    if (set > kMostUvSets) info->fail("texCoord", fmt::format("is {}", set));
+    if (set > kMostUvSets) {
+        info->forgive(build::Shortfall::Word, "texCoord", fmt::format("is {}", set));
+        set = 0;
+    }
     const std::optional<uint32_t> place = placeOf(set, uvSets);
     if (!place) {
         context_.report().ignore(
@@ -101,6 +110,16 @@ std::optional<size_t> Textures::sourceOf(const Element& texture) {
                                                  "(KHR_texture_basisu) are not read"
                                                : "they name no picture");
     return std::nullopt;
+}
+
+/// Nothing if the texture cannot be read.
+std::optional<uint32_t> Textures::textureOrNone(size_t index, bool srgb) {
+    try {
+        return texture(index, srgb);
+    } catch (const SceneError& error) {
+        context_.report().replace(error, build::Shortfall::Picture);
+        return std::nullopt;
+    }
 }
 
 std::optional<uint32_t> Textures::texture(size_t index, bool srgb) {

@@ -27,6 +27,7 @@ class Textures {
                                   bool srgb, UvSets& uvSets);
 
   private:
+    std::optional<uint32_t> textureOrNone(size_t index, bool srgb);
     std::optional<uint32_t> texture(size_t index, bool srgb);
     std::optional<size_t> sourceOf(const Element& texture);
     std::optional<uint32_t> image(size_t index, bool srgb);

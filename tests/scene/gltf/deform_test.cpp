@@ -98,7 +98,7 @@ TEST(GltfSkins, JointsMustBeThere) {
     g.arrays["skins"][0] = R"({"joints": [1]})";
     EXPECT_EQ(problem(g), "<meshes[0].primitives[0]>: vertex 1 names joint 1 of 1");
     g.arrays["skins"][0] = R"({"joints": [1, 2, 1], "inverseBindMatrices": 4})";
-    EXPECT_THAT(problem(g),
+    EXPECT_THAT(load(g).report.forgiven.at(0),
                 HasSubstr("<skins[0].inverseBindMatrices>: has 2 matrices for 3 joints"));
 }
 
@@ -206,9 +206,14 @@ TEST(GltfAnimations, MarkLightsThatTheyMove) {
 }
 
 TEST(GltfAnimations, WrongOnes) {
-    EXPECT_THAT(problem(animated("translation", "VEC3", {0, 0, 0}), at(1)),
+    const auto said = [](const GltfText& g) {
+        const Scene scene = load(g, at(1));
+        EXPECT_EQ(scene.triangles.size(), 1u);
+        return scene.report.forgiven.at(0);
+    };
+    EXPECT_THAT(said(animated("translation", "VEC3", {0, 0, 0})),
                 HasSubstr("<animations[0].samplers[0].output>: has 3 numbers for 2 key frames"));
-    EXPECT_THAT(problem(animated("scale", "VEC3", {1, 1, 1, 1, 1, 1}, "MAGIC"), at(1)),
+    EXPECT_THAT(said(animated("scale", "VEC3", {1, 1, 1, 1, 1, 1}, "MAGIC")),
                 HasSubstr("interpolation>: is 'MAGIC', expected LINEAR, STEP or CUBICSPLINE"));
 }
 

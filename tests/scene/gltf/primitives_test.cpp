@@ -85,7 +85,8 @@ TEST(GltfPrimitives, IndicesInRange) {
     GltfText g;
     const size_t indices = g.addAccessor<uint8_t>({0, 1, 3}, "SCALAR");
     g.addTriangle(fmt::format(R"(, "indices": {})", indices));
-    EXPECT_EQ(problem(g), "<accessors[0]>: has the index 3, but there are 3 vertices");
+    EXPECT_EQ(problem(g),
+              "<meshes[0].primitives[0].indices>: has the index 3, but there are 3 vertices");
 }
 
 TEST(GltfAccessors, Interleaved) {
