@@ -1,5 +1,6 @@
 #include "scene/build/unicode.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -63,6 +64,58 @@ std::optional<std::string> utf8FromUtf16(std::string_view bytes, ByteOrder order
         appendUtf8(text, 0x10000 + ((first - 0xD800) << 10) + (unit(i) - 0xDC00));
     }
     return text;
+}
+
+/// How many bytes the character at the beginning has (RFC 3629); 0: it is none.
+static size_t lengthOfCharacter(std::string_view text) {
+    const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
+    const unsigned char first = byte(0);
+    if (first < 0x80) return 1;
+    const size_t length = first >= 0xC2 && first <= 0xDF   ? 2
+                          : first >= 0xE0 && first <= 0xEF ? 3
+                          : first >= 0xF0 && first <= 0xF4 ? 4
+                                                           : 0;
+    if (length == 0 || text.size() < length) return 0;
+    for (size_t i = 1; i < length; ++i)
+        if ((byte(i) & 0xC0) != 0x80) return 0;
+    // The second byte tells codes that fewer bytes would hold, halves of UTF-16, and what is beyond
+    // the last code.
+    const unsigned char second = byte(1);
+    const bool isWrong = (first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
+                         (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F);
+    return isWrong ? 0 : length;
+}
+
+std::string utf8WithLatin1(std::string_view text) {
+    std::string found;
+    found.reserve(text.size());
+    while (!text.empty()) {
+        const size_t length = lengthOfCharacter(text);
+        if (length == 0) {
+            const auto code = static_cast<unsigned char>(text[0]);
+            found += char(0xC0 | code >> 6);
+            found += char(0x80 | (code & 0x3F));
+        }
+        found += text.substr(0, length);
+        text.remove_prefix(std::max<size_t>(length, 1));
+    }
+    return found;
+}
+
+std::optional<std::string> latin1FromUtf8(std::string_view text) {
+    std::string found;
+    while (!text.empty()) {
+        const size_t length = lengthOfCharacter(text);
+        if (length == 0 || length > 2) return std::nullopt;
+        const auto first = static_cast<unsigned char>(text[0]);
+        const unsigned code =
+            length == 1 ? first
+                        : (first & 0x1Fu) << 6 | (static_cast<unsigned char>(text[1]) & 0x3Fu);
+        if (code > 0xFF) return std::nullopt;
+        found += char(code);
+        text.remove_prefix(length);
+    }
+    return found;
 }
 
 } // namespace stromboli::build

@@ -22,4 +22,11 @@ std::optional<Utf16Beginning> utf16Beginning(std::string_view bytes);
 /// half a surrogate pair.
 std::optional<std::string> utf8FromUtf16(std::string_view bytes, ByteOrder order);
 
+/// The text with each byte that belongs to no character of UTF-8 as the character of that code
+/// (Latin-1), as older programs of western Europe write names.
+std::string utf8WithLatin1(std::string_view text);
+
+/// A text of UTF-8 with one byte for each character; nothing if one has no such code.
+std::optional<std::string> latin1FromUtf8(std::string_view text);
+
 } // namespace stromboli::build

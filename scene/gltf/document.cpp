@@ -2,6 +2,7 @@
 
 #include "host/core/error.hpp"
 #include "scene/build/read_file.hpp"
+#include "scene/build/unicode.hpp"
 #include "scene/gltf/extensions.hpp"
 #include "scene/gltf/meshopt.hpp"
 #include "scene/gltf/uri.hpp"
@@ -17,10 +18,14 @@ constexpr int kDeepest = 256;
 } // namespace
 
 Document::Document(const std::filesystem::path& file, build::Report& report)
-    : path_(file), file_(file.string()), bytes_(build::readFile(file)),
+    : report_(&report), path_(file), file_(file.string()), bytes_(build::readFile(file)),
       container_(openContainer(file_, bytes_)) {
+    const std::string json = build::utf8WithLatin1(container_.json);
+    if (json != container_.json)
+        report.forgive({file_, 0, ""}, "has bytes that are no UTF-8",
+                       "they are read as characters of Latin-1");
     try {
-        json_ = Json::parse(container_.json, kDeepest);
+        json_ = Json::parse(json, kDeepest);
     } catch (const JsonError& error) {
         throw SceneError(file_, 0, "", fmt::format("is no glTF: {}", error.what()));
     }
@@ -61,7 +66,7 @@ std::optional<Element> Document::follow(const Element& from, std::string_view me
 }
 
 std::string Document::bytesOfUri(const std::string& uri, const Element& element) const {
-    return readUri(path_.parent_path(), uri, file_, element.path());
+    return readUri(path_.parent_path(), uri, element.place(), *report_);
 }
 
 std::string_view Document::bytesOfBuffer(size_t index) const {

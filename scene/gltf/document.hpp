@@ -44,6 +44,7 @@ class Document {
     void requireVersion() const;
     void checkExtensions(build::Report& report) const;
 
+    build::Report* report_;
     std::filesystem::path path_;
     std::string file_; ///< path_, for messages
     std::string bytes_;

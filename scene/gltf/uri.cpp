@@ -1,14 +1,17 @@
 #include "scene/gltf/uri.hpp"
 
 #include "host/core/error.hpp"
+#include "scene/build/companion.hpp"
 #include "scene/build/folder.hpp"
 #include "scene/build/read_file.hpp"
+#include "scene/build/unicode.hpp"
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <cctype>
 #include <optional>
+#include <system_error>
 
 namespace stromboli::gltf {
 namespace {
@@ -72,11 +75,47 @@ bool hasScheme(std::string_view uri) {
     return colon > 0;
 }
 
-bool leadsOut(const fs::path& path) {
-    if (path.is_absolute()) return true;
-    for (const fs::path& part : path)
-        if (part == "..") return true;
-    return false;
+bool leadsOut(std::string name) {
+    std::replace(name.begin(), name.end(), '\\', '/');
+    const fs::path path = fs::path(name).lexically_normal();
+    return path.is_absolute() || (!path.empty() && *path.begin() == "..");
+}
+
+/// The file that a URI stands for, read as the format wants it or else as it is written: programs
+/// forget to encode a percent sign, and write names in the code of their machine. Of a place on
+/// another machine no more than the name counts.
+build::Companion companionOf(const fs::path& folder, std::string_view uri) {
+    constexpr std::string_view file = "file://";
+    const bool isPlace = uri.starts_with(file);
+    if (hasScheme(uri) && !isPlace && uri.find(':') > 1) return {};
+    const std::string_view written = isPlace ? uri.substr(file.size()) : uri;
+    const std::string name = withoutPercents(written);
+    for (const std::string& reading : {name, std::string(written), build::utf8WithLatin1(name),
+                                       build::latin1FromUtf8(name).value_or("")})
+        if (build::Companion found = build::companion(folder, reading); found.path) return found;
+    return {};
+}
+
+[[noreturn]] void failToFind(const fs::path& folder, std::string_view uri,
+                             const build::FilePlace& place) {
+    if (hasScheme(uri))
+        place.fail(
+            fmt::format("the URI '{}' is no relative path; only files are read", shortUri(uri)));
+    const std::string name = withoutPercents(uri);
+    // A zero byte would end the name for the system and not for the checks.
+    if (name.find('\0') != std::string::npos || leadsOut(name))
+        place.fail(fmt::format("the URI '{}' leads out of the file's folder", shortUri(uri)));
+    const fs::path path = folder / fs::path(name);
+    std::error_code error;
+    if (fs::exists(path, error) && !build::liesBelow(folder, path))
+        place.fail(fmt::format("the URI '{}' is a link out of the file's folder", shortUri(uri)));
+    if (fs::exists(path, error)) place.fail(fmt::format("'{}' is no file", shortUri(uri)));
+    try {
+        build::readFile(path);
+    } catch (const SceneError& notThere) {
+        place.fail(notThere.what());
+    }
+    place.fail(fmt::format("'{}' was not there", shortUri(uri)));
 }
 
 } // namespace
@@ -87,37 +126,26 @@ std::string shortUri(std::string_view uri) {
     return std::string(uri.substr(0, 200));
 }
 
-std::string readUri(const fs::path& folder, std::string_view uri, const std::string& file,
-                    const std::string& element) {
-    const auto fail = [&](const std::string& message) {
-        throw SceneError(file, 0, element, message);
-    };
+std::string readUri(const fs::path& folder, std::string_view uri, const build::FilePlace& place,
+                    build::Report& report) {
     if (uri.starts_with("data:")) {
         const size_t comma = uri.find(',');
-        if (comma == std::string_view::npos) fail("the data URI has no comma");
+        if (comma == std::string_view::npos) place.fail("the data URI has no comma");
         if (!uri.substr(0, comma).ends_with(";base64"))
             return withoutPercents(uri.substr(comma + 1));
-        const std::optional<std::string> bytes = fromBase64(uri.substr(comma + 1));
-        if (!bytes) fail("the data URI is no base64");
-        return *bytes;
+        std::optional<std::string> bytes = fromBase64(uri.substr(comma + 1));
+        if (!bytes) place.fail("the data URI is no base64");
+        return std::move(*bytes);
     }
-    if (uri.empty()) fail("the URI is empty");
-    if (hasScheme(uri))
-        fail(fmt::format("the URI '{}' is no relative path; only files are read", shortUri(uri)));
-    const std::string name = withoutPercents(uri);
-    // A zero byte would end the name for the system and not for the checks.
-    if (name.find('\0') != std::string::npos || name.find('\\') != std::string::npos ||
-        leadsOut(fs::path(name)))
-        fail(fmt::format("the URI '{}' leads out of the file's folder", shortUri(uri)));
-    const fs::path path = folder / fs::path(name);
-    if (fs::exists(path) && !build::liesBelow(folder, path))
-        fail(fmt::format("the URI '{}' is a link out of the file's folder", shortUri(uri)));
+    if (uri.empty()) place.fail("the URI is empty");
+    const build::Companion found = companionOf(folder, uri);
+    if (!found.path) failToFind(folder, uri, place);
+    if (!found.problem.empty()) report.forgive(place, found.problem, found.reading);
     try {
-        return build::readFile(path);
+        return build::readFile(*found.path);
     } catch (const SceneError& error) {
-        fail(error.what());
+        place.fail(error.what());
     }
-    return {};
 }
 
 } // namespace stromboli::gltf

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "scene/build/report.hpp"
+
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -7,11 +9,12 @@
 namespace stromboli::gltf {
 
 /// What a URI of a file stands for: the bytes of a data URI (`data:...;base64,...`), or of a file
-/// in the folder `folder` or below it. Throws SceneError, with `file` and `element`, for whatever
-/// leads out of the folder: other schemes, absolute paths, "..", also percent-encoded, and symbolic
-/// links to a place outside.
+/// in the folder `folder` or below it, found as build::companion finds files; the report says where
+/// a URI had to be read otherwise than it is written. No other file is ever read: throws
+/// SceneError, at `place`, where only such a one is named, by another scheme, an absolute path,
+/// "..", also percent-encoded, or a symbolic link to a place outside.
 std::string readUri(const std::filesystem::path& folder, std::string_view uri,
-                    const std::string& file, const std::string& element);
+                    const build::FilePlace& place, build::Report& report);
 
 /// A URI for messages: data URIs without their data.
 std::string shortUri(std::string_view uri);

@@ -41,5 +41,14 @@ TEST(Utf16, IsToldByItsMarkOrItsFirstCharacter) {
         EXPECT_FALSE(utf16Beginning(other));
 }
 
+TEST(Unicode, BytesThatAreNone) {
+    EXPECT_EQ(utf8WithLatin1("caf\xE9 caf\xC3\xA9"), "caf\xC3\xA9 caf\xC3\xA9");
+    EXPECT_EQ(utf8WithLatin1("\xE2\x82\xAC \xF0\x9F\x98\x80"), "\xE2\x82\xAC \xF0\x9F\x98\x80");
+    EXPECT_EQ(utf8WithLatin1("\xC0\x80"), "\xC3\x80\xC2\x80"); // a zero in two bytes is none
+    EXPECT_EQ(utf8WithLatin1("\xE2\x82"), "\xC3\xA2\xC2\x82");
+    EXPECT_EQ(latin1FromUtf8("caf\xC3\xA9"), "caf\xE9");
+    EXPECT_EQ(latin1FromUtf8("\xE2\x82\xAC"), std::nullopt);
+}
+
 } // namespace
 } // namespace stromboli::build
