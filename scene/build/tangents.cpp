@@ -157,4 +157,25 @@ void computeTangents(Mesh& mesh, size_t part, int uvSet) {
     }
 }
 
+void turnTangents(Mesh& mesh, size_t part, const glm::dvec2& uRow, const glm::dvec2& vRow) {
+    const double area = uRow.x * vRow.y - uRow.y * vRow.x;
+    if (area == 0 || !std::isfinite(area)) return; // one texel for all: it has no direction
+    const double sense = area < 0 ? -1 : 1;
+    const std::vector<TangentCorner> corners = cornersOf(mesh, mesh.parts[part], 0);
+    std::vector<bool> turned(mesh.attributes.size(), false);
+    for (size_t i = 0; i < corners.size(); ++i) {
+        const uint32_t index = mesh.parts[part][i / 3][i % 3].attributes;
+        if (index == kNoAttributes || turned[index]) continue;
+        turned[index] = true;
+        glm::vec4& stated = mesh.attributes[index].tangent;
+        const auto tangent = across(corners[i].normal, glm::dvec3(stated));
+        if (stated.w == 0 || !tangent) continue;
+        // The bitangent points to where v falls: the position's derivative by u' is that by u times
+        // that of u by u', and the same of v, from the inverse of the rows.
+        const glm::dvec3 bitangent = double(stated.w) * glm::cross(corners[i].normal, *tangent);
+        const auto along = unit(sense * (vRow.y * *tangent + vRow.x * bitangent));
+        stated = {glm::vec3(along.value_or(*tangent)), stated.w * float(sense)};
+    }
+}
+
 } // namespace stromboli::build

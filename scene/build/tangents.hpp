@@ -21,4 +21,9 @@ namespace stromboli::build {
 /// Corners without attributes get them.
 void computeTangents(Mesh& mesh, size_t part, int uvSet);
 
+/// Gives the corners of a part, which have tangents along the coordinates (u, v), those along
+/// u' = (uRow.x u + uRow.y v) and v' of vRow: turned as they are turned, and of the other sense
+/// where they are mirrored. Tangent and bitangent are taken to be of one length.
+void turnTangents(Mesh& mesh, size_t part, const glm::dvec2& uRow, const glm::dvec2& vRow);
+
 } // namespace stromboli::build

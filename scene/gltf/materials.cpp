@@ -6,18 +6,29 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace stromboli::gltf {
 namespace {
 
-std::optional<int> tangentSetOf(const Material& material) {
+/// Those whose coordinates tangents follow.
+const TextureUse* tangentUseOf(const Material& material) {
     // Where several want tangents, those that the surface's own normal map was made with count.
     for (const TextureSlot slot :
          {TextureSlot::Normal, TextureSlot::ClearcoatNormal, TextureSlot::Anisotropy})
         for (const TextureUse& use : material.textures)
-            if (use.slot == slot) return int(use.uvSet);
-    if (material.principled.anisotropy > 0) return 0;
-    return std::nullopt;
+            if (use.slot == slot) return &use;
+    return nullptr;
+}
+
+/// Without a picture for it the direction of anisotropy is that of the mesh's own tangents.
+void keepAnisotropy(Material& material, const glm::dvec2 (&rows)[2]) {
+    for (const TextureUse& use : material.textures)
+        if (use.slot == TextureSlot::Anisotropy) return;
+    const double sense = rows[0].x * rows[1].y < rows[0].y * rows[1].x ? -1 : 1;
+    const double turn = std::atan2(sense * rows[1].x, sense * rows[1].y);
+    float& angle = material.principled.anisotropyRotation;
+    angle = float(sense * (double(angle) - turn));
 }
 
 } // namespace
@@ -77,7 +88,14 @@ BoundMaterial Materials::read(const Element& element) {
     BoundMaterial bound;
     bound.uvSets = reader.uvSets();
     bound.isTextured = !material.textures.empty();
-    bound.tangentSet = tangentSetOf(material);
+    if (const TextureUse* use = tangentUseOf(material)) {
+        bound.tangentSet = int(use->uvSet);
+        bound.tangentRows[0] = glm::dvec2(use->uRow);
+        bound.tangentRows[1] = glm::dvec2(use->vRow);
+        keepAnisotropy(material, bound.tangentRows);
+    } else if (material.principled.anisotropy > 0) {
+        bound.tangentSet = 0;
+    }
     bound.number = context_.builder.addMaterial(std::move(material));
     return bound;
 }

@@ -14,6 +14,8 @@ struct BoundMaterial {
     bool isTextured = false;
     /// Which of the two sets of texture coordinates tangents follow; nothing if none are needed.
     std::optional<int> tangentSet;
+    /// How KHR_texture_transform turns and mirrors the picture that the tangents are for.
+    glm::dvec2 tangentRows[2] = {{1, 0}, {0, 1}};
 };
 
 /// The materials of a file, each of which is read when a mesh uses it.

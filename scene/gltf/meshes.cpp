@@ -108,6 +108,9 @@ void Meshes::append(const Element& at, Primitive&& p, const BoundMaterial& mater
     mesh.parts.push_back(std::move(part));
     if (material.tangentSet && !p.tangents)
         build::computeTangents(mesh, mesh.parts.size() - 1, *material.tangentSet);
+    const auto& rows = material.tangentRows;
+    if (rows[0] != glm::dvec2(1, 0) || rows[1] != glm::dvec2(0, 1))
+        build::turnTangents(mesh, mesh.parts.size() - 1, rows[0], rows[1]);
 }
 
 } // namespace stromboli::gltf

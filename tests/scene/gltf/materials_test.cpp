@@ -277,6 +277,36 @@ TEST(GltfTextures, StatedTangentsAreKept) {
     EXPECT_EQ(load(g).attributes.at(0).tangent, glm::vec4(0, 1, 0, -1));
 }
 
+/// The tangent of the first corner where the normal map has this KHR_texture_transform.
+glm::vec4 tangentUnder(const std::string& transform, bool isStated = false) {
+    GltfText g = withMaterial(R"("normalTexture": {"index": 0, )" +
+                              extension("KHR_texture_transform", transform) + "}");
+    const size_t tangents = g.addAccessor<float>({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
+    std::string& mesh = g.arrays["meshes"][0];
+    if (isStated)
+        mesh.insert(mesh.find("\"POSITION\""), fmt::format(R"("TANGENT": {}, )", tangents));
+    const Scene scene = load(g);
+    const uint32_t corner = scene.attributeCorners.at(0)[0];
+    return scene.attributes.at(corner).tangent;
+}
+
+/// The picture's u is along x and its v along -y before it is turned.
+TEST(GltfTextures, TangentsTurnAndMirrorWithThePicture) {
+    const auto expectTangent = [](const std::string& transform, const glm::vec4& expected) {
+        for (const bool isStated : {false, true})
+            for (int i = 0; i < 4; ++i)
+                EXPECT_NEAR(tangentUnder(transform, isStated)[i], expected[i], 1e-6) << transform;
+    };
+    expectTangent(R"("offset": [0.5, 0.1], "scale": [3, 3])", {1, 0, 0, 1});
+    expectTangent(R"("rotation": 1.5707963267948966)", {0, -1, 0, 1});
+    expectTangent(R"("rotation": 0.52359877559829887)", {std::sqrt(0.75f), -0.5f, 0, 1});
+    expectTangent(R"("scale": [-1, 1])", {-1, 0, 0, -1});
+    expectTangent(R"("scale": [1, -1])", {1, 0, 0, -1});
+    expectTangent(R"("scale": [-2, -2])", {-1, 0, 0, 1});
+    // First scaled, then turned: u' = v, v' = u.
+    expectTangent(R"("scale": [-1, 1], "rotation": 1.5707963267948966)", {0, -1, 0, -1});
+}
+
 TEST(GltfTextures, OfExtensions) {
     GltfText g = withMaterial(R"("pbrMetallicRoughness": {"baseColorTexture": {"index": 0}})");
     g.addTo("images", fmt::format(R"("uri": "data:image/webp;base64,{}")",
