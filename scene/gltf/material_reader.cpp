@@ -173,8 +173,8 @@ void MaterialReader::readAnisotropy() {
     if (p.anisotropy > 0) use(*extension, "anisotropyTexture", TextureSlot::Anisotropy);
 }
 
-/// The older model, as far as the newer one can say it: a dielectric whose reflectance at right
-/// angles is the specular colour.
+/// The older model, whose names the newer one has for all it says: a dielectric whose reflectance
+/// at right angles is the specular colour, and which scatters back what is left of the light.
 void MaterialReader::readSpecularGlossiness() {
     const auto extension = at_.extension("KHR_materials_pbrSpecularGlossiness");
     if (!extension) return;
@@ -189,14 +189,32 @@ void MaterialReader::readSpecularGlossiness() {
     }
     constexpr float reflectance = 0.04f; // of ior 1.5 at right angles
     p.metallic = 0;
-    p.roughness = float(1 - fraction(*extension, "glossinessFactor", 1));
-    p.specularColor = color(*extension, "specularFactor", glm::vec3(1)) / reflectance;
+    const double glossiness = fraction(*extension, "glossinessFactor", 1);
+    const glm::vec3 specular = color(*extension, "specularFactor", glm::vec3(1));
+    p.roughness = float(1 - glossiness);
+    p.specularColor = specular / reflectance;
     use(*extension, "diffuseTexture", TextureSlot::BaseColor, true);
+    if (extension->has("specularGlossinessTexture"))
+        readSpecularGlossinessTexture(*extension, glossiness);
     context_.report().assume("KHR_materials_pbrSpecularGlossiness is taken as a dielectric of that "
                              "specular colour");
-    if (extension->has("specularGlossinessTexture"))
-        context_.report().ignore("specularGlossinessTexture",
-                                 "the model of today has no such picture");
+}
+
+void MaterialReader::readSpecularGlossinessTexture(const Element& extension, double glossiness) {
+    constexpr std::string_view member = "specularGlossinessTexture";
+    PrincipledParameters& p = material_.principled;
+    const auto colors = textures_.use(extension, member, TextureSlot::SpecularColor, true, uvSets_);
+    if (!colors) {
+        // Factors of a picture that is not there are mostly 1, which would be a mirror.
+        p.specularColor = glm::vec3(1);
+        p.roughness = 1;
+        return;
+    }
+    material_.textures.push_back(*colors);
+    if (const auto rough = textures_.useGlossiness(extension, member, glossiness, uvSets_)) {
+        material_.textures.push_back(*rough);
+        p.roughness = 1;
+    }
 }
 
 /// A colour that is shown as it is, whatever the light: it is emitted, and nothing is reflected.

@@ -24,6 +24,7 @@ class MaterialReader {
     void readSheen();
     void readAnisotropy();
     void readSpecularGlossiness();
+    void readSpecularGlossinessTexture(const Element& extension, double glossiness);
     void makeUnlit();
     void reportIgnored();
 

@@ -7,7 +7,9 @@
 #include "scene/images/texture_image.hpp"
 
 #include <fmt/format.h>
+#include <glm/packing.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace stromboli::gltf {
@@ -61,6 +63,23 @@ std::optional<uint32_t> placeOf(uint64_t set, UvSets& uvSets) {
     return std::nullopt;
 }
 
+/// Puts 1 - glossiness x alpha where a texture of MetallicRoughness has its roughness.
+void makeRoughness(TextureImage& picture, double glossiness) {
+    const auto roughness = [&](double alpha) {
+        return std::clamp(1 - glossiness * alpha, 0.0, 1.0);
+    };
+    if (picture.format == TexelFormat::Rgba8) {
+        for (uint32_t& texel : picture.words)
+            texel = uint32_t(std::lround(255 * roughness((texel >> 24) / 255.0))) << 8 | 0xFF0000FF;
+        return;
+    }
+    for (size_t i = 0; i + 1 < picture.words.size(); i += 2) {
+        const double alpha = glm::unpackHalf2x16(picture.words[i + 1]).y;
+        picture.words[i] = glm::packHalf2x16(glm::vec2(1, roughness(alpha)));
+        picture.words[i + 1] = glm::packHalf2x16(glm::vec2(0, 1));
+    }
+}
+
 /// Numbers of attributes above this are no texture coordinates that any program writes.
 constexpr uint64_t kMostUvSets = 1024;
 
@@ -68,6 +87,16 @@ constexpr uint64_t kMostUvSets = 1024;
 
 std::optional<TextureUse> Textures::use(const Element& parent, std::string_view member,
                                         TextureSlot slot, bool srgb, UvSets& uvSets) {
+    return use(parent, member, slot, Reading{srgb, std::nullopt}, uvSets);
+}
+
+std::optional<TextureUse> Textures::useGlossiness(const Element& parent, std::string_view member,
+                                                  double glossiness, UvSets& uvSets) {
+    return use(parent, member, TextureSlot::MetallicRoughness, Reading{false, glossiness}, uvSets);
+}
+
+std::optional<TextureUse> Textures::use(const Element& parent, std::string_view member,
+                                        TextureSlot slot, const Reading& reading, UvSets& uvSets) {
     const std::optional<Element> info = parent.child(member);
     if (!info) return std::nullopt;
     const std::optional<size_t> index = info->index("index", context_.document.size("textures"));
@@ -76,7 +105,7 @@ std::optional<TextureUse> Textures::use(const Element& parent, std::string_view 
             info->forgive(build::Shortfall::Reference, "index", "is not there");
         return std::nullopt;
     }
-    const std::optional<uint32_t> number = textureOrNone(*index, srgb);
+    const std::optional<uint32_t> number = textureOrNone(*index, reading);
     if (!number) return std::nullopt;
     TextureUse use;
     use.slot = slot;
@@ -113,27 +142,27 @@ std::optional<size_t> Textures::sourceOf(const Element& texture) {
 }
 
 /// Nothing if the texture cannot be read.
-std::optional<uint32_t> Textures::textureOrNone(size_t index, bool srgb) {
+std::optional<uint32_t> Textures::textureOrNone(size_t index, const Reading& reading) {
     try {
-        return texture(index, srgb);
+        return texture(index, reading);
     } catch (const SceneError& error) {
         context_.report().replace(error, build::Shortfall::Picture);
         return std::nullopt;
     }
 }
 
-std::optional<uint32_t> Textures::texture(size_t index, bool srgb) {
-    const auto found = textures_.find({index, srgb});
+std::optional<uint32_t> Textures::texture(size_t index, const Reading& reading) {
+    const auto found = textures_.find({index, reading});
     if (found != textures_.end()) return found->second;
     const Element element = context_.document.at("textures", index);
-    std::optional<uint32_t>& number = textures_[{index, srgb}];
+    std::optional<uint32_t>& number = textures_[{index, reading}];
     const std::optional<size_t> source = sourceOf(element);
     if (!source) return std::nullopt;
     Texture texture;
-    const std::optional<uint32_t> picture = image(*source, srgb);
+    const std::optional<uint32_t> picture = image(*source, reading);
     if (!picture) return std::nullopt;
     texture.image = *picture;
-    texture.srgb = srgb;
+    texture.srgb = reading.srgb;
     if (const auto sampler = context_.document.follow(element, "sampler", "samplers")) {
         texture.wrapU = wrapOf(*sampler, "wrapS");
         texture.wrapV = wrapOf(*sampler, "wrapT");
@@ -144,24 +173,27 @@ std::optional<uint32_t> Textures::texture(size_t index, bool srgb) {
 }
 
 /// Nothing if the picture is not there or cannot be read.
-std::optional<uint32_t> Textures::image(size_t index, bool srgb) {
-    const auto found = images_.find({index, srgb});
+std::optional<uint32_t> Textures::image(size_t index, const Reading& reading) {
+    const auto found = images_.find({index, reading});
     if (found != images_.end()) return found->second;
     TextureImage picture;
     try {
-        picture = readOnce(index, srgb);
+        picture = readOnce(index, reading.srgb);
+        if (reading.glossiness) makeRoughness(picture, *reading.glossiness);
     } catch (const SceneError& error) {
         context_.report().replace(error, build::Shortfall::Picture);
         return std::nullopt;
     }
     // Bytes are the same whatever they mean; what is decoded or mixed is not.
-    const auto other = images_.find({index, !srgb});
+    const auto other = reading.glossiness
+                           ? images_.end()
+                           : images_.find({index, Reading{!reading.srgb, std::nullopt}});
     const bool mayBeMixed = context_.selection().largestTexture > 0;
     if (other != images_.end() && !mayBeMixed && picture.format == TexelFormat::Rgba8)
-        return images_[{index, srgb}] = other->second;
+        return images_[{index, reading}] = other->second;
     const uint64_t copies = context_.builder.conventions().pictures ? 2 : 1;
     requireRoom(copies * picture.words.size() * sizeof(uint32_t), index);
-    return images_[{index, srgb}] = context_.builder.addImage(std::move(picture));
+    return images_[{index, reading}] = context_.builder.addImage(std::move(picture));
 }
 
 /// A picture of one colour takes a few bytes in a file, and a file names any number of them.

@@ -25,12 +25,25 @@ class Textures {
     /// are sRGB. `uvSets` are those of the material.
     std::optional<TextureUse> use(const Element& parent, std::string_view member, TextureSlot slot,
                                   bool srgb, UvSets& uvSets);
+    /// The same for a member whose alpha, times `glossiness`, is how smooth the surface is: a
+    /// texture of MetallicRoughness that says how rough it is.
+    std::optional<TextureUse> useGlossiness(const Element& parent, std::string_view member,
+                                            double glossiness, UvSets& uvSets);
 
   private:
-    std::optional<uint32_t> textureOrNone(size_t index, bool srgb);
-    std::optional<uint32_t> texture(size_t index, bool srgb);
+    /// What textures are made of beside their pictures.
+    struct Reading {
+        bool srgb = false;
+        std::optional<double> glossiness; ///< the picture's alpha times that becomes roughness
+        auto operator<=>(const Reading&) const = default;
+    };
+
+    std::optional<TextureUse> use(const Element& parent, std::string_view member, TextureSlot slot,
+                                  const Reading& reading, UvSets& uvSets);
+    std::optional<uint32_t> textureOrNone(size_t index, const Reading& reading);
+    std::optional<uint32_t> texture(size_t index, const Reading& reading);
     std::optional<size_t> sourceOf(const Element& texture);
-    std::optional<uint32_t> image(size_t index, bool srgb);
+    std::optional<uint32_t> image(size_t index, const Reading& reading);
     /// From where the conventions keep it, if it is there.
     TextureImage readOnce(size_t index, bool srgb);
     /// Shrunk to the largest size that is wanted.
@@ -41,8 +54,8 @@ class Textures {
     void requireRoom(uint64_t bytes, size_t index);
 
     Context& context_;
-    std::map<std::pair<size_t, bool>, std::optional<uint32_t>> textures_;
-    std::map<std::pair<size_t, bool>, uint32_t> images_;
+    std::map<std::pair<size_t, Reading>, std::optional<uint32_t>> textures_;
+    std::map<std::pair<size_t, Reading>, uint32_t> images_;
     uint64_t bytes_ = 0; ///< of all pictures that are kept
 };
 

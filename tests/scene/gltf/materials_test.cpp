@@ -307,6 +307,46 @@ TEST(GltfTextures, TangentsTurnAndMirrorWithThePicture) {
     expectTangent(R"("scale": [-1, 1], "rotation": 1.5707963267948966)", {0, -1, 0, -1});
 }
 
+TEST(GltfMaterials, SpecularGlossinessWithPictures) {
+    GltfText g = withMaterial(extension(
+        "KHR_materials_pbrSpecularGlossiness",
+        R"("specularFactor": [1, 0.5, 0.2], "glossinessFactor": 0.5, "diffuseTexture": {"index": 1},
+           "specularGlossinessTexture": {"index": 2})"));
+    const size_t view = g.addView(png8(2, 1, 4, {255, 10, 20, 255, 30, 40, 50, 102}));
+    g.addTo("images", fmt::format(R"("bufferView": {}, "mimeType": "image/png")", view));
+    g.addTo("textures", R"("source": 2)");
+    const Scene scene = load(g);
+    const Material& m = scene.materials.at(0);
+    EXPECT_EQ(m.principled.metallic, 0);
+    EXPECT_EQ(m.principled.roughness, 1); // all of it is in the picture
+    for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(m.principled.specularColor[i], glm::vec3(25, 12.5, 5)[i], 1e-5);
+    ASSERT_NE(useOf(m, TextureSlot::BaseColor), nullptr);
+    ASSERT_NE(useOf(m, TextureSlot::SpecularColor), nullptr);
+    ASSERT_NE(useOf(m, TextureSlot::MetallicRoughness), nullptr);
+    const Texture& colors = scene.textures.at(useOf(m, TextureSlot::SpecularColor)->texture);
+    EXPECT_TRUE(colors.srgb);
+    EXPECT_EQ(scene.images.at(colors.image).words.at(1) & 0xFFFFFF, 0x32281Eu);
+    const Texture& rough = scene.textures.at(useOf(m, TextureSlot::MetallicRoughness)->texture);
+    EXPECT_FALSE(rough.srgb);
+    const std::vector<uint32_t>& texels = scene.images.at(rough.image).words;
+    EXPECT_EQ(texels.at(0) >> 8 & 0xFF, 128u); // 1 - 0.5 x 1
+    EXPECT_EQ(texels.at(1) >> 8 & 0xFF, 204u); // 1 - 0.5 x 0.4
+    EXPECT_TRUE(scene.report.ignored.empty());
+}
+
+/// White specular colours are for a picture to multiply: without it nothing becomes a mirror.
+TEST(GltfMaterials, SpecularGlossinessIsNoChrome) {
+    GltfText g = withMaterial(extension("KHR_materials_pbrSpecularGlossiness",
+                                        R"("specularGlossinessTexture": {"index": 2})"));
+    g.addTo("images", R"("uri": "none.png")");
+    g.addTo("textures", R"("source": 2)");
+    const Scene scene = load(g);
+    EXPECT_THAT(scene.report.forgiven, Contains(HasSubstr("none.png")));
+    EXPECT_EQ(scene.materials.at(0).principled.specularColor, glm::vec3(1));
+    EXPECT_EQ(scene.materials.at(0).principled.roughness, 1);
+}
+
 TEST(GltfTextures, OfExtensions) {
     GltfText g = withMaterial(R"("pbrMetallicRoughness": {"baseColorTexture": {"index": 0}})");
     g.addTo("images", fmt::format(R"("uri": "data:image/webp;base64,{}")",
