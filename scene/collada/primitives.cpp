@@ -1,5 +1,6 @@
 #include "scene/collada/primitives.hpp"
 
+#include "host/core/error.hpp"
 #include "scene/collada/sources.hpp"
 
 #include <fmt/format.h>
@@ -105,13 +106,18 @@ void MeshReader::checkCount(const Element& primitive, size_t found) const {
 
 void MeshReader::readPrimitive(const Element& primitive, const TexcoordInputs& texcoords) {
     const std::string_view kind = primitive.Name();
-    const Inputs inputs = readInputs(primitive, texcoords);
     MeshPart part;
-    if (kind == "triangles") readTriangles(primitive, inputs, part);
-    if (kind == "polylist") readPolylist(primitive, inputs, part);
-    if (kind == "polygons") readPolygons(primitive, inputs, part);
-    if (kind == "tristrips") readStrips(primitive, inputs, part);
-    if (kind == "trifans") readFans(primitive, inputs, part);
+    try {
+        const Inputs inputs = readInputs(primitive, texcoords);
+        if (kind == "triangles") readTriangles(primitive, inputs, part);
+        if (kind == "polylist") readPolylist(primitive, inputs, part);
+        if (kind == "polygons") readPolygons(primitive, inputs, part);
+        if (kind == "tristrips") readStrips(primitive, inputs, part);
+        if (kind == "trifans") readFans(primitive, inputs, part);
+    } catch (const SceneError& error) { // which costs this part of the mesh
+        context_.report.replace(error, build::Shortfall::Geometry);
+        part.clear();
+    }
     mesh_.parts.push_back(std::move(part));
 }
 

@@ -1,5 +1,6 @@
 #include "scene/obj/obj_reader.hpp"
 
+#include "host/core/error.hpp"
 #include "scene/build/number_word.hpp"
 #include "scene/build/read_file.hpp"
 #include "scene/model/srgb.hpp"
@@ -152,8 +153,12 @@ void ObjReader::readTexcoord() {
 
 void ObjReader::readFace() {
     corners_.clear();
-    for (Words words(statements_.values()); !words.atEnd();)
-        corners_.push_back(readCorner(words.next()));
+    try {
+        for (Words words(statements_.values()); !words.atEnd();)
+            corners_.push_back(readCorner(words.next()));
+    } catch (const SceneError& error) { // which costs this face
+        return builder_.report().replace(error, build::Shortfall::Geometry);
+    }
     makeUniform(corners_);
     if (smoothing_.isOn() && corners_.size() > 2 && corners_.front().normal == kNoNormals &&
         lists_.mesh.normals.size() + lists_.smoothNormals.size() < kFirstSmooth - 1)

@@ -1,5 +1,6 @@
 #include "scene/ply/ply_reader.hpp"
 
+#include "host/core/error.hpp"
 #include "scene/build/companion.hpp"
 #include "scene/build/polygon.hpp"
 #include "scene/build/read_file.hpp"
@@ -8,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -22,6 +24,8 @@ constexpr uint64_t kBytesOfTriangle =
 
 /// Within a strip, where the next one begins.
 constexpr uint32_t kRestart = 0xFFFFFFFFu;
+/// A corner that is not there.
+constexpr uint32_t kNoVertex = kRestart - 1;
 
 bool isCornerList(const Property& property) {
     return property.countType &&
@@ -39,7 +43,7 @@ PlyReader::PlyReader(const std::filesystem::path& file, build::SceneBuilder& bui
 void PlyReader::read() {
     const Element* vertices = header_.find("vertex");
     if (!vertices) build::FilePlace{name_, 0, ""}.fail("the header has no element 'vertex'");
-    if (vertices->count >= kRestart)
+    if (vertices->count >= kNoVertex)
         build::FilePlace{name_, 0, "vertex"}.fail(
             fmt::format("there are {}, more than there is room for", vertices->count));
     vertexCount_ = vertices->count;
@@ -146,16 +150,23 @@ void PlyReader::addStrip(const std::vector<uint32_t>& strip) {
     for (size_t i = 0; i < strip.size(); ++i) {
         if (strip[i] == kRestart) first = i + 1;
         if (i < first + 2) continue;
+        if (std::max({strip[i - 2], strip[i - 1], strip[i]}) >= kNoVertex) continue;
         const bool isOdd = (i - first) % 2 == 1;
         corners_.insert(corners_.end(), {strip[i - 2 + isOdd], strip[i - 1 - isOdd], strip[i]});
         sizes_.push_back(3);
     }
 }
 
+/// A corner that is not there costs its face.
 uint32_t PlyReader::vertex(double index) {
-    if (!(index >= 0) || index >= double(vertexCount_) || index != std::floor(index))
+    if (index >= 0 && index < double(vertexCount_) && index == std::floor(index))
+        return uint32_t(index);
+    try {
         body_.fail(fmt::format("names vertex {}, but there are {}", index, vertexCount_));
-    return uint32_t(index);
+    } catch (const SceneError& error) {
+        builder_.report().replace(error, build::Shortfall::Geometry);
+    }
+    return kNoVertex;
 }
 
 void PlyReader::skip(const Element& element) {
@@ -202,9 +213,12 @@ build::Mesh PlyReader::makeMesh() {
     cornerUvs_.resize(cornerUvs_.empty() ? 0 : corners_.size(), glm::vec2(0));
     for (size_t i = 0; i < sizes_.size(); ++i) {
         face.clear();
-        for (size_t k = 0; k < sizes_[i]; ++k)
+        const auto* corners = corners_.data() + first;
+        const bool isWhole =
+            std::find(corners, corners + sizes_[i], kNoVertex) == corners + sizes_[i];
+        for (size_t k = 0; isWhole && k < sizes_[i]; ++k)
             face.push_back(cornerOf(i, first + k, hasAttributes, mesh));
-        polygons.add(face, part);
+        if (isWhole) polygons.add(face, part);
         first += sizes_[i];
     }
     return mesh;

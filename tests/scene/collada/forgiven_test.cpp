@@ -70,6 +70,19 @@ TEST(Forgiven, NothingInADocumentThatKeepsTheRules) {
     EXPECT_EQ(loadText(document.str(), strict()).triangles.size(), 1u);
 }
 
+TEST(Forgiven, OnePartOfAMeshCostsItself) {
+    DocumentText document;
+    document.libraries =
+        meshLibrary("0 0 0 1 0 0 0 1 0", 9,
+                    fmt::format("<triangles count=\"1\">{}<p>0 1 2</p></triangles>"
+                                "<triangles count=\"2\">{}<p>0 1 2 0 1 7</p></triangles>",
+                                kVertexInput, kVertexInput));
+    document.nodes = meshNode();
+    const Scene scene = forgiven(document, "[0-9]+: .*position index 7 is out of range: there are "
+                                           "3: it is left out");
+    EXPECT_EQ(scene.triangles.size(), 1u);
+}
+
 TEST(Forgiven, DecimalCommas) {
     DocumentText document;
     document.asset = "<unit meter=\"0,5\"/>";

@@ -12,7 +12,7 @@ const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
 TEST(ObjErrors, NameFileAndLine) {
     const std::pair<std::string, std::string> cases[] = {
         {"", "a.obj: has no vertex"},
-        {"f 1 2 3\n", "a.obj:1: <f>: '1' names vertex 1, but the lines before have 0"},
+        {"f 1 2 3\n", "a.obj: has no vertex"},
         {kTriangle + "f 1 2 4\n", "a.obj:4: <f>: '4' names vertex 4, but the lines before have 3"},
         {kTriangle + "\n\nf 1 2 -4\n", "a.obj:6: <f>: '-4' names vertex -4"},
         {kTriangle + "f 1 2 0\n", "a.obj:4: <f>: '0' names vertex 0"},
@@ -21,7 +21,7 @@ TEST(ObjErrors, NameFileAndLine) {
         {kTriangle + "f 1 2 3/1/1/1\n", "'3/1/1/1' has more than three numbers"},
         {kTriangle + "f 1 2 three\n", "'three' is no corner; expected whole numbers"},
         {kTriangle + "f 1 2 99999999999999999999\n", "is no corner"},
-        {kTriangle + "f 1 2 \\\n 7\nv x", "a.obj:4: <f>: '7' names vertex 7"},
+        {kTriangle + "f 1 2 \\\n 7\n", "a.obj:4: <f>: '7' names vertex 7"},
         {"v 0 0\n", "a.obj:1: <v>: ends where a number is expected"},
         {"v 0 zero 0\n", "a.obj:1: <v>: 'zero' is no finite number"},
         {"v 0 1e999 0\n", "'1e999' is no finite number"},
@@ -37,6 +37,18 @@ TEST(ObjErrors, VerticesThatAreNoPointsCostTheirTriangles) {
     const Scene scene = loadObjText(kTriangle + "v 0 nan 0\nf 1 2 3\nf 1 2 4\n");
     EXPECT_EQ(scene.triangles.size(), 1u);
     EXPECT_THAT(scene.report.warnings, testing::Contains(HasSubstr("1 of 2 triangles")));
+}
+
+TEST(ObjErrors, OneFaceCostsItself) {
+    for (const char* face : {"f 1 2 9\n", "f 1 2 0\n", "f 1/7 2/7 3/7\n", "f 1 2 three\n"}) {
+        const std::string text = kTriangle + face + "f 1 2 3\n";
+        const Scene scene = loadObjText(text);
+        EXPECT_EQ(scene.triangles.size(), 1u) << face;
+        EXPECT_THAT(scene.report.forgiven, testing::ElementsAre(HasSubstr("it is left out")));
+        SceneConventions strict;
+        strict.strict = true;
+        EXPECT_THROW(loadObjText(text, strict), SceneError) << face;
+    }
 }
 
 TEST(ObjErrors, NumbersTooSmallForADoubleAre0) {

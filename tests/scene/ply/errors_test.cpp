@@ -40,6 +40,18 @@ TEST(PlyErrors, VerticesThatAreNoPointsCostTheirTriangles) {
     EXPECT_EQ(scene.triangles.size(), 1u); // no face names the vertex
 }
 
+TEST(PlyErrors, OneFaceCostsItself) {
+    std::string header = plyHeader("ascii");
+    header.replace(header.find("element face 1"), 14, "element face 3");
+    const std::string text = header + kPlySquare + "3 0 1 2\n3 0 1 7\n3 0 2 3\n";
+    const Scene scene = loadPlyBytes(text);
+    EXPECT_EQ(scene.triangles.size(), 2u);
+    EXPECT_THAT(scene.report.forgiven, testing::ElementsAre(HasSubstr("names vertex 7")));
+    SceneConventions strict;
+    strict.strict = true;
+    EXPECT_THROW(loadPlyBytes(text, strict), SceneError);
+}
+
 TEST(PlyErrors, OfBinaryFilesNameTheElement) {
     const std::string floats(12 * 4, '\0');
     const std::string header = plyHeader("binary_little_endian");
