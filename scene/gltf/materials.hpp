@@ -12,6 +12,7 @@ struct BoundMaterial {
     uint32_t number = 0;
     UvSets uvSets;
     bool isTextured = false;
+    bool isUnlit = false;
     /// Which of the two sets of texture coordinates tangents follow; nothing if none are needed.
     std::optional<int> tangentSet;
     /// How KHR_texture_transform turns and mirrors the picture that the tangents are for.

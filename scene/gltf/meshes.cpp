@@ -91,6 +91,9 @@ void Meshes::append(const Element& at, Primitive&& p, const BoundMaterial& mater
             context_.report().warn(fmt::format("{}: has no TEXCOORD_{}, which its material looks "
                                                "up pictures by; (0, 0) is taken",
                                                at.path(), material.uvSets.sets[set]));
+    if (p.colors && material.isUnlit)
+        context_.report().ignore("vertex colours of unlit materials",
+                                 "what is emitted has no colours of vertices");
     const bool wantsAttributes = material.isTextured || material.tangentSet || p.colors;
     if (wantsAttributes) {
         const std::vector<VertexAttributes> attributes = attributesOf(p, at, context_.report());

@@ -307,6 +307,21 @@ TEST(GltfTextures, TangentsTurnAndMirrorWithThePicture) {
     expectTangent(R"("scale": [-1, 1], "rotation": 1.5707963267948966)", {0, -1, 0, -1});
 }
 
+TEST(GltfMaterials, ColorsOfVerticesAreFractions) {
+    const auto withColors = [](const std::string& material) {
+        GltfText g = withMaterial(material);
+        const size_t colors = g.addAccessor<float>({2, 0.5, -1, 1, 1, 1, 0, 0, 0}, "VEC3");
+        std::string& mesh = g.arrays["meshes"][0];
+        mesh.insert(mesh.find("\"POSITION\""), fmt::format(R"("COLOR_0": {}, )", colors));
+        return load(g);
+    };
+    const Scene scene = withColors("");
+    EXPECT_EQ(scene.attributes.at(scene.attributeCorners.at(0)[0]).color, glm::vec4(1, 0.5, 0, 1));
+    EXPECT_THAT(scene.report.warnings, Contains(HasSubstr("colours of vertices")));
+    EXPECT_THAT(withColors(extension("KHR_materials_unlit", "")).report.ignored,
+                Contains(HasSubstr("vertex colours of unlit materials")));
+}
+
 TEST(GltfMaterials, SpecularGlossinessWithPictures) {
     GltfText g = withMaterial(extension(
         "KHR_materials_pbrSpecularGlossiness",
