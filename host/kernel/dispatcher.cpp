@@ -32,6 +32,10 @@ Buffer bufferOf(const vulkan::Device& device, const vulkan::BufferPlan& plan) {
     return {device, plan.name, plan.bytes, plan.use};
 }
 
+PathBuffers pathBuffers(const DispatchSettings& s) {
+    return pathBuffers(s.frame.branches, s.tuning.lanes, s.tuning.scheduler);
+}
+
 template <class T>
 std::span<const std::byte> bytesOf(const T& value) {
     return std::as_bytes(std::span(&value, 1));
@@ -39,28 +43,26 @@ std::span<const std::byte> bytesOf(const T& value) {
 
 } // namespace
 
-Dispatcher::Dispatcher(const vulkan::Device& device, const DeviceScene& scene,
-                       const PathKernel& kernel, DeviceFilm& film, const vulkan::Buffer& filter,
-                       const gpu::Frame& frame, const DeviceTuning& tuning,
-                       std::optional<uint32_t> fixedIterations)
-    : device_(device), tuning_(tuning), hardIterations_(hardLimit(device, scene.scene(), kernel)),
-      queue_(device),
-      paths_(bufferOf(device, pathBuffers(frame.branches, tuning.lanes, tuning.scheduler).paths)),
-      more_(bufferOf(device, pathBuffers(frame.branches, tuning.lanes, tuning.scheduler).more)),
-      film_(film), fixedIterations_(fixedIterations),
-      frameBuffer_(device, "frame constants", sizeof(gpu::Frame), BufferUse::Uniform),
-      workItems_(device, "work list", tuning.itemsPerDispatch * sizeof(gpu::WorkItem),
-                 rowUse(tuning)),
-      status_(device, "dispatch status", sizeof(gpu::DispatchStatus), BufferUse::Storage) {
-    setFrame(frame);
-    for (const DeviceFilm::Segment& s : film.segments()) {
+Dispatcher::Dispatcher(const DispatchTarget& target, const PathKernel& kernel,
+                       const DispatchSettings& settings)
+    : device_(target.device), tuning_(settings.tuning),
+      hardIterations_(hardLimit(device_, target.scene.scene(), kernel)), queue_(device_),
+      paths_(bufferOf(device_, pathBuffers(settings).paths)),
+      more_(bufferOf(device_, pathBuffers(settings).more)), film_(target.film),
+      fixedIterations_(settings.fixedIterations),
+      frameBuffer_(device_, "frame constants", sizeof(gpu::Frame), BufferUse::Uniform),
+      workItems_(device_, "work list", tuning_.itemsPerDispatch * sizeof(gpu::WorkItem),
+                 rowUse(tuning_)),
+      status_(device_, "dispatch status", sizeof(gpu::DispatchStatus), BufferUse::Storage) {
+    setFrame(settings.frame);
+    for (const DeviceFilm::Segment& s : target.film.segments()) {
         std::vector<const Buffer*> buffers;
-        for (const Buffer& b : scene.buffers())
+        for (const Buffer& b : target.scene.buffers())
             buffers.push_back(&b);
-        buffers.insert(buffers.end(),
-                       {&frameBuffer_, &workItems_, &s.pixels, &paths_, &status_, &more_, &filter});
+        buffers.insert(buffers.end(), {&frameBuffer_, &workItems_, &s.pixels, &paths_, &status_,
+                                       &more_, &target.filter});
         sets_.push_back(
-            std::make_unique<vulkan::DescriptorSet>(device, kernel.pipeline(), buffers));
+            std::make_unique<vulkan::DescriptorSet>(device_, kernel.pipeline(), buffers));
     }
 }
 

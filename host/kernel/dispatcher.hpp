@@ -17,16 +17,29 @@ struct StepCounters {
     uint64_t all = 0;  ///< ... out of these
 };
 
+/// What a dispatcher works on. All must outlive it.
+struct DispatchTarget {
+    const vulkan::Device& device;
+    const DeviceScene& scene;
+    DeviceFilm& film;
+    const vulkan::Buffer& filter; ///< the picture's table (filter_table.hpp)
+};
+
+/// How it does so.
+struct DispatchSettings {
+    gpu::Frame frame;
+    DeviceTuning tuning;
+    double targetSeconds;                    ///< of a submission
+    std::optional<uint32_t> fixedIterations; ///< of each submission, instead of pacing (tests)
+};
+
 /// Runs the path kernel over work lists in submissions that are neither too long nor too short, and
 /// keeps what lanes have in hand between them. Each scheduler is a class of its own.
 class Dispatcher {
   public:
-    /// All but `tuning` and `frame` must outlive the object. kernel: any of the scheduler's, for
-    /// its features and the layout of its bindings. filter: the picture's table (filter_table.hpp).
-    /// fixedIterations: of each submission, instead of pacing by time (tests).
-    Dispatcher(const vulkan::Device& device, const DeviceScene& scene, const PathKernel& kernel,
-               DeviceFilm& film, const vulkan::Buffer& filter, const gpu::Frame& frame,
-               const DeviceTuning& tuning, std::optional<uint32_t> fixedIterations);
+    /// kernel: any of the scheduler's, for its features and the layout of its bindings.
+    Dispatcher(const DispatchTarget& target, const PathKernel& kernel,
+               const DispatchSettings& settings);
     virtual ~Dispatcher() = default;
     Dispatcher(const Dispatcher&) = delete;
     Dispatcher& operator=(const Dispatcher&) = delete;

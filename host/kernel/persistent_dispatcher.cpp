@@ -20,18 +20,15 @@ uint32_t paceLimit(uint32_t soft, const DeviceTuning& tuning) {
 
 } // namespace
 
-PersistentDispatcher::PersistentDispatcher(const vulkan::Device& device, const DeviceScene& scene,
-                                           const PathKernel& kernel, DeviceFilm& film,
-                                           const vulkan::Buffer& filter, const gpu::Frame& frame,
-                                           const DeviceTuning& tuning, double targetSeconds,
-                                           std::optional<uint32_t> fixedIterations)
-    : Dispatcher(device, scene, kernel, film, filter, frame, tuning, fixedIterations),
-      kernel_(kernel), softIterations_(softLimit(hardIterations_, frame)),
-      pace_(targetSeconds, paceLimit(softIterations_, tuning)) {
+PersistentDispatcher::PersistentDispatcher(const DispatchTarget& target, const PathKernel& kernel,
+                                           const DispatchSettings& settings)
+    : Dispatcher(target, kernel, settings), kernel_(kernel),
+      softIterations_(softLimit(hardIterations_, settings.frame)),
+      pace_(settings.targetSeconds, paceLimit(softIterations_, settings.tuning)) {
     gpu::SuspendedPath none{};
     none.bounce = gpu::SUSPENDED_NONE;
     none.item = gpu::NO_ITEM;
-    const std::vector<gpu::SuspendedPath> idle(tuning.lanes, none);
+    const std::vector<gpu::SuspendedPath> idle(tuning_.lanes, none);
     paths_.upload(queue_, std::as_bytes(std::span(idle)));
 }
 

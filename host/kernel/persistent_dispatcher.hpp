@@ -9,11 +9,8 @@ namespace stromboli {
 /// lane follows paths until enough iterations of its loop are done.
 class PersistentDispatcher final : public Dispatcher {
   public:
-    /// As Dispatcher. targetSeconds: of a submission.
-    PersistentDispatcher(const vulkan::Device& device, const DeviceScene& scene,
-                         const PathKernel& kernel, DeviceFilm& film, const vulkan::Buffer& filter,
-                         const gpu::Frame& frame, const DeviceTuning& tuning, double targetSeconds,
-                         std::optional<uint32_t> fixedIterations);
+    PersistentDispatcher(const DispatchTarget& target, const PathKernel& kernel,
+                         const DispatchSettings& settings);
 
   private:
     void record(VkCommandBuffer commands, const Share& share) override;

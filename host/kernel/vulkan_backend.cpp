@@ -72,13 +72,11 @@ void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& setti
 
 std::unique_ptr<Dispatcher> VulkanBackend::makeDispatcher(const StageKernels& kernels,
                                                           const DeviceTuning& tuning) const {
+    const DispatchTarget target{device_, *deviceScene_, *film_, *filter_};
+    const DispatchSettings settings{frame_, tuning, tuning_.targetSeconds, tuning_.fixedIterations};
     if (tuning.scheduler == PathScheduler::Wavefront)
-        return std::make_unique<WavefrontDispatcher>(
-            device_, *deviceScene_, kernels, *film_, *filter_, frame_, tuning,
-            tuning_.targetSeconds, tuning_.fixedIterations);
-    return std::make_unique<PersistentDispatcher>(device_, *deviceScene_, *kernels.front(), *film_,
-                                                  *filter_, frame_, tuning, tuning_.targetSeconds,
-                                                  tuning_.fixedIterations);
+        return std::make_unique<WavefrontDispatcher>(target, kernels, settings);
+    return std::make_unique<PersistentDispatcher>(target, *kernels.front(), settings);
 }
 
 void VulkanBackend::setFilter(const std::vector<Row>& table, const DeviceTuning& tuning) {

@@ -13,13 +13,10 @@ uint64_t offsetOf(uint32_t queue) {
 
 } // namespace
 
-WavefrontDispatcher::WavefrontDispatcher(const vulkan::Device& device, const DeviceScene& scene,
-                                         const StageKernels& kernels, DeviceFilm& film,
-                                         const vulkan::Buffer& filter, const gpu::Frame& frame,
-                                         const DeviceTuning& tuning, double targetSeconds,
-                                         std::optional<uint32_t> fixedIterations)
-    : Dispatcher(device, scene, *kernels.front(), film, filter, frame, tuning, fixedIterations),
-      kernels_(kernels), pace_(targetSeconds, kMostRounds) {
+WavefrontDispatcher::WavefrontDispatcher(const DispatchTarget& target, const StageKernels& kernels,
+                                         const DispatchSettings& settings)
+    : Dispatcher(target, *kernels.front(), settings), kernels_(kernels),
+      pace_(settings.targetSeconds, kMostRounds) {
     paths_.clear(queue_);
     more_.clear(queue_);
 }

@@ -15,12 +15,9 @@ using StageKernels = std::array<const PathKernel*, gpu::STAGE_COUNT>;
 /// which draws rays, traces them and takes them in, for all paths under way.
 class WavefrontDispatcher final : public Dispatcher {
   public:
-    /// As Dispatcher; the kernels must outlive the object. targetSeconds: of a submission.
-    /// fixedIterations: rounds of each.
-    WavefrontDispatcher(const vulkan::Device& device, const DeviceScene& scene,
-                        const StageKernels& kernels, DeviceFilm& film, const vulkan::Buffer& filter,
-                        const gpu::Frame& frame, const DeviceTuning& tuning, double targetSeconds,
-                        std::optional<uint32_t> fixedIterations);
+    /// The kernels must outlive the object. fixedIterations counts rounds.
+    WavefrontDispatcher(const DispatchTarget& target, const StageKernels& kernels,
+                        const DispatchSettings& settings);
 
   private:
     void record(VkCommandBuffer commands, const Share& share) override;

@@ -148,7 +148,8 @@ Device::Device(const Instance&, const DeviceDescription& description,
 }
 
 Device::~Device() {
-    if (!device_ || use_ == DeviceUse::Compiling) return;
+    const bool isWithoutHardware = use_ == DeviceUse::Compiling && description_.memory == 0;
+    if (!device_ || isWithoutHardware) return;
     table_.vkDeviceWaitIdle(device_);
     kept_.clear();
     pipelines_.reset();

@@ -43,7 +43,7 @@ enum class DeviceUse {
     Rendering,
     /// Its driver is to say what it makes of kernels (pipeline_statistics.hpp). It may be a driver
     /// without hardware, such as RADV with RADV_FORCE_FAMILY, which crashes when a device is
-    /// destroyed (Mesa 22.3): the device is left to the end of the process.
+    /// destroyed (Mesa 22.3): such a device is left to the end of the process.
     Compiling,
 };
 

@@ -11,6 +11,7 @@ namespace stromboli::assimp {
 /// Assimp's functions, found in its library when they are first wanted.
 struct AssimpApi {
     decltype(&::aiImportFile) importFile = nullptr;
+    decltype(&::aiImportFileFromMemory) importMemory = nullptr;
     decltype(&::aiReleaseImport) releaseImport = nullptr;
     decltype(&::aiGetErrorString) errorString = nullptr;
     decltype(&::aiGetMaterialColor) materialColor = nullptr;

@@ -10,7 +10,9 @@
 
 #include <assimp/postprocess.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <memory>
 #include <string_view>
 
@@ -19,6 +21,12 @@ namespace assimp {
 namespace {
 
 using Imported = std::unique_ptr<const aiScene, decltype(&::aiReleaseImport)>;
+
+std::string lowered(std::string text) {
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char c) { return char(std::tolower(c)); });
+    return text;
+}
 
 Imported import(const std::filesystem::path& file) {
     const AssimpApi& api = assimpApi();
@@ -29,6 +37,11 @@ Imported import(const std::filesystem::path& file) {
     constexpr unsigned kSteps =
         aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_JoinIdenticalVertices;
     Imported scene(api.importFile(file.c_str(), kSteps), api.releaseImport);
+    // Assimp reads the keywords of STL as text in small letters only.
+    if (!scene && lowered(file.extension().string()) == ".stl") {
+        const std::string text = lowered(build::readFile(file));
+        scene.reset(api.importMemory(text.data(), unsigned(text.size()), kSteps, "stl"));
+    }
     if (!scene) throw SceneError(file.string(), 0, "", std::string("Assimp: ") + api.errorString());
     return scene;
 }

@@ -22,6 +22,12 @@ std::optional<glm::dvec3> unit(const glm::dvec3& v) {
     return glm::normalize(v / largest);
 }
 
+std::optional<double> angleAt(const glm::dvec3& corner, const glm::dvec3& a, const glm::dvec3& b) {
+    const std::optional<glm::dvec3> toA = unit(a - corner), toB = unit(b - corner);
+    if (!toA || !toB) return {};
+    return std::acos(std::clamp(glm::dot(*toA, *toB), -1.0, 1.0));
+}
+
 bool inRange(const glm::dvec3& p) {
     return std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate &&
            std::abs(p.z) <= kLargestCoordinate;

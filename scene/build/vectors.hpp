@@ -17,6 +17,10 @@ bool isFinite(const glm::dmat4& matrix);
 /// The vector made unit, whatever its length; nothing if it has no direction.
 std::optional<glm::dvec3> unit(const glm::dvec3& v);
 
+/// The angle at `corner` between the ways to two other points, in [0, pi]; nothing if one of them
+/// is at the corner.
+std::optional<double> angleAt(const glm::dvec3& corner, const glm::dvec3& a, const glm::dvec3& b);
+
 /// True for finite points whose coordinates the renderer accepts.
 bool inRange(const glm::dvec3& p);
 

@@ -29,9 +29,8 @@ std::map<Place, std::vector<Side>> sidesOf(build::Mesh& mesh) {
             const std::optional<glm::dvec3> normal =
                 build::unit(glm::cross(p(1) - p(0), p(2) - p(0)));
             for (size_t i = 0; i < 3; ++i) {
-                const auto a = build::unit(p(i + 1) - p(i)), b = build::unit(p(i + 2) - p(i));
-                const double angle =
-                    normal && a && b ? std::acos(std::clamp(glm::dot(*a, *b), -1.0, 1.0)) : 0;
+                const std::optional<double> at = build::angleAt(p(i), p(i + 1), p(i + 2));
+                const double angle = normal ? at.value_or(0) : 0;
                 sides[{p(i).x, p(i).y, p(i).z}].push_back(
                     {normal.value_or(glm::dvec3(0)), angle, &triangle[i]});
             }

@@ -160,10 +160,8 @@ void computeNormals(build::Mesh& mesh) {
                 build::unit(glm::cross(p(1) - p(0), p(2) - p(0)));
             for (size_t i = 0; i < 3; ++i) {
                 triangle[i].normal = numberOf(triangle[i]);
-                const auto a = build::unit(p(i + 1) - p(i)), b = build::unit(p(i + 2) - p(i));
-                if (!normal || !a || !b) continue;
-                mesh.normals[triangle[i].normal] +=
-                    *normal * std::acos(std::clamp(glm::dot(*a, *b), -1.0, 1.0));
+                const std::optional<double> angle = build::angleAt(p(i), p(i + 1), p(i + 2));
+                if (normal && angle) mesh.normals[triangle[i].normal] += *normal * *angle;
             }
         }
 }

@@ -1,10 +1,10 @@
 #include "scene/obj/smoothing.hpp"
 
 #include "scene/build/number_word.hpp"
+#include "scene/build/vectors.hpp"
 
 #include <glm/geometric.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -29,12 +29,9 @@ void Smoothing::apply(std::span<build::Corner> polygon, const std::vector<glm::d
     if (!(length > 0) || !std::isfinite(length)) return;
     normal /= length;
     for (size_t i = 0; i < count; ++i) {
-        const glm::dvec3 before = at(i + count - 1) - at(i), after = at(i + 1) - at(i);
-        const double lengths = glm::length(before) * glm::length(after);
         // A corner twice in a row has no angle; it has a normal all the same, since a face has them
         // at all of its corners or at none.
-        const double cosine = lengths > 0 ? glm::dot(before, after) / lengths : 1;
-        const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
+        const double angle = build::angleAt(at(i), at(i + count - 1), at(i + 1)).value_or(0);
         const uint64_t key = uint64_t(group_) << 32 | polygon[i].position;
         const auto [found, isNew] = normals_.try_emplace(key, uint32_t(normals.size()));
         if (isNew) normals.emplace_back(0);

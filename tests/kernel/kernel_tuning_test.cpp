@@ -38,14 +38,6 @@ class KernelTuningTest : public DeviceTest {
     Camera camera_ = makeCamera(loaded_, CameraChoice::Automatic, 61, 37);
 };
 
-bool sameStatistics(const Film& a, const Film& b) {
-    for (size_t i = 0; i < a.pixels.size(); ++i)
-        if (a.pixels[i].count != b.pixels[i].count || a.pixels[i].mean != b.pixels[i].mean ||
-            a.pixels[i].m2 != b.pixels[i].m2)
-            return false;
-    return a.pixels.size() == b.pixels.size();
-}
-
 TEST_F(KernelTuningTest, TheDeviceDecidesWhatIsLeftOpen) {
     const DeviceTuning t = resolve({}, testDevice());
     const bool cpu = testDevice().description().isCpu();

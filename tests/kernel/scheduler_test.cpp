@@ -15,14 +15,6 @@ namespace {
 
 using namespace test;
 
-bool sameStatistics(const Film& a, const Film& b) {
-    for (size_t i = 0; i < a.pixels.size(); ++i)
-        if (a.pixels[i].count != b.pixels[i].count || a.pixels[i].mean != b.pixels[i].mean ||
-            a.pixels[i].m2 != b.pixels[i].m2)
-            return false;
-    return a.pixels.size() == b.pixels.size();
-}
-
 class SchedulerTest : public DeviceTest {
   protected:
     SchedulerTest() {

@@ -15,6 +15,13 @@ Film renderOnDevice(const vulkan::Device& device, const Scene& scene, const Came
     return render(backend, settings);
 }
 
+bool sameStatistics(const Film& a, const Film& b) {
+    return std::equal(a.pixels.begin(), a.pixels.end(), b.pixels.begin(), b.pixels.end(),
+                      [](const PixelStatistics& p, const PixelStatistics& q) {
+                          return p.count == q.count && p.mean == q.mean && p.m2 == q.m2;
+                      });
+}
+
 Scene loadScene(const std::filesystem::path& file, const SceneConventions& conventions) {
     return loadCollada(file, conventions);
 }

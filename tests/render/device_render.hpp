@@ -16,6 +16,9 @@ namespace stromboli::test {
 Film renderOnDevice(const vulkan::Device& device, const Scene& scene, const Camera& camera,
                     const RenderSettings& settings, const KernelTuning& tuning = {});
 
+/// Whether all pixels have the same numbers of samples, means and squared deviations, to the bit.
+bool sameStatistics(const Film& a, const Film& b);
+
 /// Loads a scene of the repository (scene/library) or of ../shared.
 Scene loadScene(const std::filesystem::path& file, const SceneConventions& conventions = {});
 

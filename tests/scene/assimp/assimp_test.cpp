@@ -9,6 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -82,6 +84,16 @@ TEST_F(AssimpFiles, StlHasItsTriangles) {
         EXPECT_NEAR(scene->geometricNormal(t).z, 1, 1e-6);
     EXPECT_EQ(scene->lights.size(), 1u) << "the default light";
     EXPECT_TRUE(scene->cameras.empty());
+}
+
+TEST_F(AssimpFiles, StlInCapitalsHasItsTrianglesToo) {
+    std::string text = kStl;
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char c) { return char(std::toupper(c)); });
+    const std::optional<Scene> scene = read(write("a.stl", text));
+    if (!scene) GTEST_SKIP() << "Assimp is not installed";
+    EXPECT_EQ(scene->triangles.size(), 2u);
+    EXPECT_EQ(scene->bounds().hi, glm::vec3(2, 3, 0));
 }
 
 TEST_F(AssimpFiles, PolygonsAreTriangles) {
