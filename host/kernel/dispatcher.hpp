@@ -46,8 +46,9 @@ class Dispatcher {
 
     /// Dispatches until every item of the work list has its samples. `advance` is told how many
     /// samples each dispatch took; if it returns false, no further sample is begun, those under way
-    /// are ended without bias (shaders/pathtrace.comp, endsSampleUnderWay), and the result is
-    /// false. Throws DeviceError if a surface needs more loop iterations than the device runs.
+    /// are ended without bias (shaders/include/path_kernel.glsl, endsSampleUnderWay), and the
+    /// result is false. Throws DeviceError if a surface needs more loop iterations than the device
+    /// runs.
     bool run(size_t segment, std::span<const gpu::WorkItem> items,
              const std::function<bool(uint64_t)>& advance);
 
