@@ -87,14 +87,24 @@ std::string webp(uint32_t width, uint32_t height, std::vector<uint8_t> values) {
 
 std::string exr(uint32_t width, uint32_t height, const std::string& channels,
                 std::vector<float> values, bool half) {
+    std::vector<std::string> names;
+    for (const char name : channels)
+        names.emplace_back(1, name);
+    return exr(width, height, names, std::move(values), half);
+}
+
+std::string exr(uint32_t width, uint32_t height, const std::vector<std::string>& channels,
+                std::vector<float> values, bool half,
+                const std::function<void(Imf::Header&)>& change) {
     Imf::Header header{int(width), int(height)};
+    if (change) change(header);
     std::vector<::half> halves(values.begin(), values.end());
     Imf::FrameBuffer buffer;
     const size_t size = half ? sizeof(::half) : sizeof(float);
     char* data =
         half ? reinterpret_cast<char*>(halves.data()) : reinterpret_cast<char*>(values.data());
     for (size_t i = 0; i < channels.size(); ++i) {
-        const std::string name(1, channels[i]);
+        const std::string& name = channels[i];
         const Imf::PixelType type = half ? Imf::HALF : Imf::FLOAT;
         header.channels().insert(name, Imf::Channel(type));
         buffer.insert(name, Imf::Slice(type, data + i * size, size * channels.size(),

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <OpenEXR/ImfHeader.h>
+
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,5 +19,9 @@ std::string webp(uint32_t width, uint32_t height, std::vector<uint8_t> values);
 /// Of the channels named by the letters, interleaved in `values`; half floats or floats.
 std::string exr(uint32_t width, uint32_t height, const std::string& channels,
                 std::vector<float> values, bool half);
+/// The same with channels of any names, and what `change` does to the header.
+std::string exr(uint32_t width, uint32_t height, const std::vector<std::string>& channels,
+                std::vector<float> values, bool half,
+                const std::function<void(Imf::Header&)>& change = {});
 
 } // namespace stromboli::test

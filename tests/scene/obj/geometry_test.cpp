@@ -112,6 +112,27 @@ TEST(ObjGeometry, FacesOfASmoothingGroupShareNormals) {
     }
 }
 
+/// At the corner of 90 and of 45 degrees the first face counts twice as much.
+TEST(ObjGeometry, NormalsOfAGroupAreWeightedByAngles) {
+    const Scene scene = loadObjText("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 0 -1\ns 1\nf 1 2 3\nf 1 4 2\n");
+    const Triangle& t = scene.triangles.at(0);
+    for (int k = 0; k < 3; ++k) {
+        if (scene.positions[t.corner[k]] != glm::vec3(0)) continue;
+        const glm::vec3 n = scene.normals.at(t.normals[k]);
+        EXPECT_NEAR(n.z, 2 / std::sqrt(5.0), 1e-3);
+        EXPECT_NEAR(n.y, -1 / std::sqrt(5.0), 1e-3);
+        return;
+    }
+    ADD_FAILURE() << "no corner at the origin";
+}
+
+/// Faces behind `s off` take no part in the group before.
+TEST(ObjGeometry, SmoothingIsSwitchedOff) {
+    const Scene scene = loadObjText(kFold + "s 1\nf 1 2 3\ns off\nf 2 1 4\n");
+    for (const Triangle& t : scene.triangles)
+        EXPECT_EQ(t.normals[0], kNoNormals);
+}
+
 TEST(ObjGeometry, ACornerTwiceInARowOfASmoothFaceIsNoFault) {
     EXPECT_EQ(loadObjText(kFold + "s 1\nf 1 1 2 3\n").triangles.size(), 1u);
 }
