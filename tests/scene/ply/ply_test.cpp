@@ -88,6 +88,30 @@ TEST(Ply, APictureThatIsNotThereIsSaid) {
                 testing::Contains(testing::HasSubstr("'none.png' is not in the file's folder")));
 }
 
+/// MeshLab writes two coordinates for each corner of a face; v points up in the file.
+TEST(Ply, FacesHaveTextureCoordinatesOfTheirCorners) {
+    const Scene scene =
+        loadPlyBytes(plyHeader("ascii", "",
+                               "element face 1\nproperty list uchar int vertex_indices\n"
+                               "property list uchar float texcoord\n") +
+                     kPlySquare + "3 0 1 2 6 0.25 0.125 1 0 0.5 0.75\n");
+    ASSERT_EQ(scene.triangles.size(), 1u);
+    const glm::vec2 expected[3] = {{0.25f, 0.875f}, {1, 1}, {0.5f, 0.25f}};
+    for (int k = 0; k < 3; ++k)
+        EXPECT_EQ(scene.attributes.at(scene.attributeCorners.at(0)[k]).uv[0], expected[k]);
+}
+
+/// Other numbers of them than two a corner are left out, and said.
+TEST(Ply, TextureCoordinatesThatDoNotFitAreSaid) {
+    const Scene scene =
+        loadPlyBytes(plyHeader("ascii", "",
+                               "element face 1\nproperty list uchar int vertex_indices\n"
+                               "property list uchar float texcoord\n") +
+                     kPlySquare + "3 0 1 2 4 0.25 0.125 1 0\n");
+    EXPECT_EQ(scene.triangles.size(), 1u);
+    EXPECT_THAT(scene.report.forgiven, Contains(HasSubstr("4 texture coordinates for 3 corners")));
+}
+
 TEST(Ply, ColoursAsFloatsAreLinear) {
     const std::string row = " 0.5 2 0\n"; // what is above 1 would reflect more than there is
     const Scene scene =
