@@ -31,12 +31,12 @@ Frame frame; // read once, before all loops (docs/kernel.md, "Nothing is moved o
 #include "include/pixel_filter.glsl"
 #include "include/cs184.glsl"
 #include "include/surface.glsl"
-#include "bsdf/bsdf.glsl"
+#include "closures/bsdf.glsl"
 #include "include/material_detail.glsl"
 #include "include/relief.glsl"
 #include "include/pass_number.glsl"
 #include "include/camera_sample.glsl"
-#include "bsdf/seen_surface.glsl"
+#include "closures/seen_surface.glsl"
 
 SeenPixel seen;
 Traversal ray;

@@ -79,11 +79,12 @@ std::string embreePathsLack(const Scene& scene, const RenderSettings& settings) 
         return std::ranges::any_of(scene.triangles, hasIt) ||
                std::ranges::any_of(scene.spheres, hasIt);
     };
-    if (anyHas([](const Material& m) { return m.kind == MaterialKind::Microfacet; }))
-        return "microfacet materials";
     if (anyHas([](const Material& m) { return m.kind == MaterialKind::Principled; }))
         return "principled materials";
-    if (anyHas([](const Material& m) { return m.kind >= MaterialKind::Conductor; }))
+    if (anyHas([](const Material& m) {
+            return m.kind >= MaterialKind::Conductor &&
+                   !(m.kind == MaterialKind::Dielectric && m.isSmooth());
+        }))
         return "conductors, rough and thin dielectrics, and plastic";
     if (anyHas([](const Material& m) {
             return m.alphaMode != AlphaMode::Opaque || m.isHiddenFromCamera;

@@ -18,7 +18,7 @@ native::SurfaceKind kindOf(MaterialKind kind) {
         return native::SurfaceKind::Mirror;
     case MaterialKind::Refraction:
         return native::SurfaceKind::Refraction;
-    case MaterialKind::Glass:
+    case MaterialKind::Dielectric:
         return native::SurfaceKind::Glass;
     default:
         return native::SurfaceKind::Diffuse;

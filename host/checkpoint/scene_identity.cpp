@@ -64,13 +64,13 @@ void add(Sum& sum, const TextureUse& t) {
 }
 
 void add(Sum& sum, const Material& m) {
-    const auto& [name, kind, albedo, reflectance, transmittance, ior, alpha, eta, k, facets,
-                 isNonlinear, internalViews, emission, bothSides, principled, burley, alphaMode,
-                 opacity, alphaCutoff, other, otherShare, otherPlace, isHiddenFromCamera,
-                 isBlackBehind, reliefRule, reliefShadows, textures] = m;
+    const auto& [name, kind, albedo, reflectance, transmittance, ior, eta, k, facets, isNonlinear,
+                 internalViews, emission, bothSides, principled, burley, alphaMode, opacity,
+                 alphaCutoff, other, otherShare, otherPlace, isHiddenFromCamera, isBlackBehind,
+                 reliefRule, reliefShadows, textures] = m;
     const auto& [distribution, facetAlpha, masking] = facets;
     sum.add(kind), sum.add(albedo), sum.add(reflectance), sum.add(transmittance), sum.add(ior);
-    sum.add(alpha), sum.add(eta), sum.add(k), sum.add(emission), sum.add(bothSides);
+    sum.add(eta), sum.add(k), sum.add(emission), sum.add(bothSides);
     // A state saved before materials had these stays that of its scene.
     if (kind >= MaterialKind::Conductor)
         sum.add(distribution), sum.add(facetAlpha), sum.add(isNonlinear);

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace stromboli {
 namespace {
 
@@ -32,12 +34,31 @@ std::string textureText(const KernelFeatures& f) {
                  "share of a mixture", "of a projector", "opacity"});
 }
 
-/// What the principled materials have besides metal and dielectric.
-std::string principledText(const KernelFeatures& f) {
-    if (f[SPEC_PRINCIPLED_FEATURES] == 0) return "";
-    return fmt::format(" (with {})", list(f[SPEC_PRINCIPLED_FEATURES],
-                                          {"clear coat", "sheen", "anisotropy", "thin transmission",
-                                           "refraction", "absorption"}));
+/// Closures, lobes and recipes that occur.
+std::string closureText(const KernelFeatures& f) {
+    using namespace gpu;
+    const uint32_t some = f[SPEC_CLOSURES], all = f[SPEC_CLOSURES_OF_ALL];
+    const bool hasFacets = (some & CLOSURE_INTERFACE) && !(all & INTERFACE_IS_SMOOTH);
+    const std::pair<bool, const char*> parts[] = {
+        {some & CLOSURE_BASE, "diffuse"},
+        {some & INTERFACE_IS_SMOOTH, "smooth interfaces"},
+        {hasFacets && !(all & FACETS_ARE_BECKMANN), "GGX microfacets"},
+        {some & FACETS_ARE_BECKMANN, "Beckmann microfacets"},
+        {some & FACETS_ARE_TURNED, "grain"},
+        {some & INTERFACE_IS_CONDUCTOR, "conductors"},
+        {some & INTERFACE_IS_DIELECTRIC, "dielectrics"},
+        {some & INTERFACE_REFRACTS, "refraction"},
+        {some & INTERFACE_IS_THIN, "thin sheets"},
+        {some & CLOSURE_LAYERS, "bases under interfaces"},
+        {some & CLOSURE_COAT, "clear coat"},
+        {some & CLOSURE_SHEEN, "sheen"},
+        {some & VOLUME_ABSORBS, "absorption"},
+        {some & RECIPE_PRINCIPLED, "glTF's recipe"},
+        {some & RECIPE_BURLEY, "Burley's recipe"}};
+    std::string text;
+    for (const auto& [occurs, name] : parts)
+        if (occurs) text += (text.empty() ? "" : ", ") + std::string(name);
+    return text.empty() ? "none" : text;
 }
 
 } // namespace
@@ -58,13 +79,7 @@ std::vector<std::string> describe(const KernelFeatures& f) {
         fmt::format("shading normals: {}", f[SPEC_CORNER_NORMALS] ? "interpolated"
                                            : f[SPEC_HAS_NORMALS]  ? "of maps"
                                                                   : "none"),
-        fmt::format(
-            "materials: {}{}",
-            list(f[SPEC_BSDF_KINDS],
-                 {"diffuse", "mirror", "refraction", "glass", "rough conductor", "principled",
-                  "smooth conductor", "conductor of facets", "dielectric of facets",
-                  "thin dielectric", "plastic", "plastic of facets", "Burley's principled"}),
-            principledText(f)),
+        fmt::format("materials: {}", closureText(f)),
         fmt::format("textures: {}", textureText(f)),
         fmt::format("vertex colors: {}",
                     f[SPEC_ATTRIBUTES] & gpu::ATTRIBUTE_COLOR ? "yes" : "none"),

@@ -28,9 +28,10 @@ bool isDiffuse(const GpuScene& scene, uint32_t place) {
     const gpu::LeafRecord leaf = asLeaf(scene.bvh.records[place / 2]);
     const uint32_t primitive = (leaf.primitive & gpu::RECORD_INDEX_MASK) + place % 2;
     const gpu::Primitive& p = scene.primitives[primitive];
-    if (bsdfKind(materialHeader(scene, p)) != gpu::BSDF_DIFFUSE) return false;
-    const auto parameters = structureAt<gpu::DiffuseParameters>(scene.materials, materialOf(p) + 1);
-    return glm::any(glm::greaterThan(parameters.albedo, glm::vec3(0)));
+    const uint32_t closures = materialHeader(scene, p).closures;
+    if (!(closures & gpu::CLOSURE_BASE) || (closures & gpu::CLOSURE_INTERFACE)) return false;
+    const auto color = structureAt<glm::vec4>(scene.materials, materialOf(p) + 1);
+    return glm::any(glm::greaterThan(glm::vec3(color), glm::vec3(0)));
 }
 
 /// The median distance of what probes from the light along n (unit) find, if enough find something.

@@ -75,9 +75,7 @@ void packPrimitives(const Scene& scene, const std::vector<uint32_t>& materialRow
     const std::vector<bool> used = usedMaterials(scene);
     for (size_t i = 0; i < used.size(); ++i) {
         if (!used[i]) continue;
-        g.bsdfKinds |= 1u << bsdfKind(scene.materials[i]);
-        g.principledFeatures |= principledFeatures(scene.materials[i]);
-        g.facets |= facetBits(scene.materials[i]);
+        g.closures.add(closureBits(scene.materials[i]));
         g.hasEmission |= scene.materials[i].emits();
         g.hasBlackBacks |= scene.materials[i].isBlackBehind;
         g.hasReliefRules |= reliefBits(scene.materials[i]) != 0;

@@ -20,14 +20,12 @@ struct GpuScene {
     std::vector<Row> materials;
     std::vector<Row> details; ///< attributes of corners, and texels (detail_rows.hpp)
     LightTable lights;
-    uint32_t bsdfKinds = 0;          ///< bit n: a primitive has a material of BSDF_ kind n
-    uint32_t principledFeatures = 0; ///< PRINCIPLED_HAS_ bits: what primitives' materials have
-    uint32_t facets = 0;             ///< FACETS_ bits, likewise
-    bool hasEmission = false;        ///< a primitive emits
-    bool hasBlends = false;          ///< a primitive's material is a mixture
-    bool hasBlackBacks = false;      ///< a primitive's material is black behind
-    bool hasReliefRules = false;     ///< a primitive's material has MATERIAL_RELIEF_ bits
-    float gapWidth = 0;              ///< gap_proposal.hpp
+    SceneClosures closures;      ///< of the materials that primitives have
+    bool hasEmission = false;    ///< a primitive emits
+    bool hasBlends = false;      ///< a primitive's material is a mixture
+    bool hasBlackBacks = false;  ///< a primitive's material is black behind
+    bool hasReliefRules = false; ///< a primitive's material has MATERIAL_RELIEF_ bits
+    float gapWidth = 0;          ///< gap_proposal.hpp
     bool hasTriangles = false, hasSpheres = false;
     bool hasNormals = false; ///< any triangle with shading normals
     bool hasPlacements = false;
@@ -49,9 +47,6 @@ inline uint32_t materialOf(const gpu::Primitive& p) {
 }
 inline gpu::MaterialHeader materialHeader(const GpuScene& scene, const gpu::Primitive& p) {
     return structureAt<gpu::MaterialHeader>(scene.materials, materialOf(p));
-}
-inline uint32_t bsdfKind(const gpu::MaterialHeader& header) {
-    return header.kind & gpu::MATERIAL_KIND_MASK;
 }
 
 /// Octahedral encoding of a unit vector (Meyer et al. 2010), two 16-bit signed fractions.

@@ -15,60 +15,21 @@ namespace {
 /// Whether a service pass has more to do than the plainest scenes ask for: textures, layered
 /// materials, environments, filters. Such kernels trace longer between two services (DeviceTuning).
 bool servesForLong(const KernelFeatures& f) {
-    return f[SPEC_BSDF_KINDS] >> gpu::BSDF_CONDUCTOR != 0 || f[SPEC_FACETS] != 0 ||
+    constexpr uint32_t kPlain = gpu::CLOSURE_BASE | gpu::CLOSURE_INTERFACE | gpu::INTERFACE_BITS |
+                                gpu::INTERFACE_REFRACTS | gpu::LOBE_MASK | gpu::HAS_BASE_COLOR;
+    return (f[SPEC_CLOSURES] & ~(kPlain | gpu::FACETS_ARE_BECKMANN)) != 0 ||
            (f[SPEC_LIGHT_KINDS] & 1u << gpu::LIGHT_PROJECTOR) != 0 ||
            f[SPEC_HAS_ENVIRONMENT] != 0 || f[SPEC_HAS_BACKDROP] != 0 || f[SPEC_HAS_LENS] != 0 ||
            f[SPEC_PIXEL_FILTER] != gpu::FILTER_BOX || f[SPEC_FILTER_EXTRA] != 0 ||
            f[SPEC_HIDES_SURFACES] != 0 || f[SPEC_FLAT_TERMINATOR] != 0 ||
-           (f[SPEC_BSDF_KINDS] & 1u << gpu::BSDF_PRINCIPLED) != 0 || f[SPEC_TEXTURE_SLOTS] != 0 ||
-           f[SPEC_LOOSE_SLOTS] != 0 || f[SPEC_LOOSE_TEXTURES] != 0 || f[SPEC_TEXEL_KINDS] != 0 ||
-           f[SPEC_ATTRIBUTES] != 0 || f[SPEC_HAS_ALPHA] != 0 || f[SPEC_TANGENT_FRAMES] != 0 ||
-           f[SPEC_HAS_BLENDS] != 0 || f[SPEC_RELIEF_RULES] != 0 ||
-           f[SPEC_PRINCIPLED_FEATURES] != 0 || f[SPEC_HAS_PLACEMENTS] != 0 ||
-           f[SPEC_CORNER_NORMALS] != f[SPEC_HAS_NORMALS];
+           f[SPEC_TEXTURE_SLOTS] != 0 || f[SPEC_LOOSE_SLOTS] != 0 || f[SPEC_LOOSE_TEXTURES] != 0 ||
+           f[SPEC_TEXEL_KINDS] != 0 || f[SPEC_ATTRIBUTES] != 0 || f[SPEC_HAS_ALPHA] != 0 ||
+           f[SPEC_TANGENT_FRAMES] != 0 || f[SPEC_HAS_BLENDS] != 0 || f[SPEC_RELIEF_RULES] != 0 ||
+           f[SPEC_HAS_PLACEMENTS] != 0 || f[SPEC_CORNER_NORMALS] != f[SPEC_HAS_NORMALS];
 }
 
 static_assert(float(Roulette::kMaxContinue) == gpu::ROULETTE_MAX_CONTINUE);
 static_assert(float(Roulette::kBoldness) == gpu::ROULETTE_BOLDNESS);
-
-/// By BSDF_ kind.
-constexpr std::array<uint32_t, gpu::BSDF_KIND_COUNT> kBsdfLobes = {gpu::DIFFUSE_BSDF_LOBES,
-                                                                   gpu::MIRROR_BSDF_LOBES,
-                                                                   gpu::REFRACTION_BSDF_LOBES,
-                                                                   gpu::GLASS_BSDF_LOBES,
-                                                                   gpu::ROUGH_CONDUCTOR_BSDF_LOBES,
-                                                                   gpu::PRINCIPLED_BSDF_LOBES,
-                                                                   gpu::CONDUCTOR_BSDF_LOBES,
-                                                                   gpu::FACET_CONDUCTOR_BSDF_LOBES,
-                                                                   gpu::FACET_DIELECTRIC_BSDF_LOBES,
-                                                                   gpu::THIN_DIELECTRIC_BSDF_LOBES,
-                                                                   gpu::PLASTIC_BSDF_LOBES,
-                                                                   gpu::FACET_PLASTIC_BSDF_LOBES,
-                                                                   gpu::BURLEY_BSDF_LOBES};
-
-/// The numbers of a path ray that a BSDF takes are either the two within a lobe or the one that
-/// chooses a lobe, which is one of the two (scatter() in shaders/include/path.glsl). A kind with
-/// several lobes, one of them no delta lobe, needs all three: then that number has to come from a
-/// block of its own, as it does for the principled kinds and for rough dielectrics
-/// (TAKES_THREE_NUMBERS in shaders/bsdf/bsdf.glsl), or the choice has to leave a number for what
-/// follows, as that of plastic does.
-constexpr bool someKindNeedsThreeNumbers() {
-    for (uint32_t kind = 0; kind < gpu::BSDF_KIND_COUNT; ++kind) {
-        const uint32_t lobes = kBsdfLobes[kind];
-        if (kind == gpu::BSDF_PRINCIPLED || kind == gpu::BSDF_FACET_DIELECTRIC) continue;
-        if (kind == gpu::BSDF_PLASTIC || kind == gpu::BSDF_BURLEY) continue;
-        if ((lobes & (lobes - 1)) != 0 && (lobes & ~gpu::DELTA_LOBES) != 0) return true;
-    }
-    return false;
-}
-static_assert(!someKindNeedsThreeNumbers());
-
-uint32_t lobesOf(uint32_t bsdfKinds) {
-    uint32_t lobes = 0;
-    for (uint32_t kind = 0; kind < gpu::BSDF_KIND_COUNT; ++kind)
-        if (bsdfKinds & 1u << kind) lobes |= kBsdfLobes[kind];
-    return lobes;
-}
 
 /// Kinds of lights that light samples go to.
 uint32_t lightKinds(const GpuScene& scene, const Estimator& settings) {
@@ -89,13 +50,13 @@ bool combinesBouncesAndLightSamples(const Estimator& settings) {
 
 /// Lobes from which MIS helps: where light samples and bounces find the same light, and either
 /// often finds it better (docs/estimator.md, "MIS").
-uint32_t misLobes(const GpuScene& scene, const Estimator& settings, uint32_t bsdfKinds) {
+uint32_t misLobes(const GpuScene& scene, const Estimator& settings) {
     if (!combinesBouncesAndLightSamples(settings) || scene.lights.areaCount == 0) return 0;
     const bool skyAlone = scene.lights.sampledKinds == 1u << gpu::LIGHT_AMBIENT;
     const bool isPicture = scene.lights.environment != nullptr;
     const bool everywhere = skyAlone || isPicture || settings.directLight == DirectLight::MisAll;
     const uint32_t helped = everywhere ? ~gpu::DELTA_LOBES : gpu::GLOSSY_LOBES;
-    return lobesOf(bsdfKinds) & helped;
+    return scene.closures.some & gpu::LOBE_MASK & helped;
 }
 
 bool proposesGap(const GpuScene& scene, const Estimator& settings) {
@@ -148,10 +109,8 @@ void switchOnAllTheSceneCouldHave(KernelFeatures& f, const Estimator& settings) 
     f[SPEC_LARGE_TREE] = f[SPEC_HAS_AMBIENT] = f[SPEC_HAS_ENVIRONMENT] = 1;
     if (f[SPEC_LIGHT_NUMBERS] == gpu::LIGHT_NUMBERS_SHARED)
         f[SPEC_LIGHT_NUMBERS] = gpu::LIGHT_NUMBERS_FIRST;
-    f[SPEC_BSDF_KINDS] = (1u << gpu::BSDF_KIND_COUNT) - 1;
-    f[SPEC_PRINCIPLED_FEATURES] = gpu::PRINCIPLED_ALL_FEATURES;
-    f[SPEC_FACETS] = gpu::FACETS_GGX | gpu::FACETS_BECKMANN | gpu::FACETS_CORRELATED |
-                     gpu::FACETS_SEPARABLE | gpu::BURLEY_HAS_TRANSMISSION | gpu::BURLEY_HAS_THIN;
+    f[SPEC_CLOSURES] = gpu::CLOSURE_MASK;
+    f[SPEC_CLOSURES_OF_ALL] = 0;
     f[SPEC_LIGHT_KINDS] = (1u << gpu::LIGHT_KIND_COUNT) - 1;
     if (f[SPEC_LIGHT_GROUPS]) f[SPEC_LIGHT_GROUPS] = (1u << gpu::LIGHT_GROUP_COUNT) - 1;
     if (combinesBouncesAndLightSamples(settings)) f[SPEC_MIS_LOBES] |= gpu::GLOSSY_LOBES;
@@ -209,9 +168,8 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_HAS_TRIANGLES] = scene.hasTriangles;
     f[SPEC_HAS_SPHERES] = scene.hasSpheres;
     f[SPEC_HAS_NORMALS] = f[SPEC_CORNER_NORMALS] = scene.hasNormals;
-    f[SPEC_BSDF_KINDS] = normalsOnly ? 0 : scene.bsdfKinds;
-    f[SPEC_PRINCIPLED_FEATURES] = normalsOnly ? 0 : scene.principledFeatures;
-    f[SPEC_FACETS] = normalsOnly ? 0 : scene.facets;
+    f[SPEC_CLOSURES] = normalsOnly ? 0 : scene.closures.some;
+    f[SPEC_CLOSURES_OF_ALL] = normalsOnly ? 0 : scene.closures.all & scene.closures.some;
     f[SPEC_HAS_EMISSION] = !normalsOnly && scene.hasEmission;
     f[SPEC_BLACK_BACKS] = !normalsOnly && scene.hasBlackBacks;
     f[SPEC_LIGHT_KINDS] = lightKinds(scene, settings);
@@ -243,7 +201,7 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     f[SPEC_SAMPLER] =
         settings.sampler == Sampler::Sobol ? gpu::SAMPLER_SOBOL : gpu::SAMPLER_INDEPENDENT;
     f[SPEC_LIGHT_NUMBERS] = lightNumbers(scene, settings);
-    f[SPEC_MIS_LOBES] = normalsOnly ? 0 : misLobes(scene, settings, f[SPEC_BSDF_KINDS]);
+    f[SPEC_MIS_LOBES] = normalsOnly ? 0 : misLobes(scene, settings);
     f[SPEC_HAS_AMBIENT] = !normalsOnly && scene.lights.hasAmbient;
     f[SPEC_HAS_ENVIRONMENT] = !normalsOnly && scene.lights.environment != nullptr;
     f[SPEC_HAS_BACKDROP] = !normalsOnly && scene.lights.hasBackdrop && settings.showsBackdrop;

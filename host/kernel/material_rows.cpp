@@ -70,35 +70,41 @@ gpu::PrincipledParameters principledRows(const Material& m) {
 static_assert(kLeastAlpha == gpu::LEAST_GGX_ALPHA);
 static_assert(kLeastRefractionAlpha == gpu::LEAST_REFRACTION_ALPHA);
 
-/// FACETS_ bits.
-uint32_t bitsOf(const Facets& facets) {
-    const bool isBeckmann = facets.distribution == FacetDistribution::Beckmann;
-    const bool isSeparable = facets.masking == FacetMasking::Separable;
-    return (isBeckmann ? gpu::FACETS_BECKMANN : gpu::FACETS_GGX) |
-           (isSeparable ? gpu::FACETS_SEPARABLE : gpu::FACETS_CORRELATED);
-}
-
-gpu::ConductorParameters conductorRows(const Material& m) {
+gpu::StatedParameters statedRows(const Material& m) {
+    gpu::StatedParameters g{};
     const glm::vec2 alpha = m.facetAlpha();
-    return {m.reflectance, alpha.y, m.eta, alpha.x, m.k, bitsOf(m.facets)};
-}
-
-gpu::FacetDielectricParameters facetDielectricRows(const Material& m) {
-    Material least = m;
-    least.facets.alpha = glm::vec2(0);
-    const glm::vec2 alpha = m.facetAlpha();
-    return {m.transmittance,  alpha.y, m.reflectance, alpha.x, m.ior, least.facetAlpha().x,
-            bitsOf(m.facets), 0};
-}
-
-/// Without the place of the table.
-gpu::PlasticParameters plasticRows(const Material& m) {
-    const float alpha = m.facetAlpha().x;
-    const double inside = m.isSmooth()
-                              ? internalReflectance(m.ior)
-                              : internalReflectance(m.ior, alpha, m.facets, m.internalViews);
-    const uint32_t flags = (m.isNonlinear ? gpu::PLASTIC_IS_NONLINEAR : 0) | bitsOf(m.facets);
-    return {m.albedo, float(inside), m.reflectance, m.ior, alpha, flags, 0, 0};
+    g.alphaX = alpha.x;
+    g.alphaY = alpha.y;
+    g.edge = m.reflectance;
+    g.index[gpu::INDEX_RATIO] = m.ior;
+    switch (m.kind) {
+    case MaterialKind::Diffuse:
+        g.color = m.albedo;
+        break;
+    case MaterialKind::Mirror:
+        g.color = m.reflectance;
+        break;
+    case MaterialKind::Conductor:
+        g.color = m.reflectance;
+        g.edge = m.eta;
+        g.index = m.k;
+        break;
+    case MaterialKind::Plastic:
+        g.color = m.albedo;
+        g.alphaY = alpha.x;
+        g.index[gpu::INDEX_BACK] =
+            float(m.isSmooth() ? internalReflectance(m.ior)
+                               : internalReflectance(m.ior, alpha.x, m.facets, m.internalViews));
+        break;
+    default: {
+        g.color = m.transmittance;
+        Material least = m;
+        least.facets.alpha = glm::vec2(0);
+        g.index[gpu::INDEX_LEAST_ALPHA] = least.facetAlpha().x;
+        if (m.isSmooth()) g.alphaY = m.ior;
+    }
+    }
+    return g;
 }
 
 gpu::BurleyParameters burleyRows(const BurleyParameters& p) {
@@ -122,44 +128,50 @@ gpu::BurleyParameters burleyRows(const BurleyParameters& p) {
 }
 
 void appendParameters(std::vector<Row>& rows, const Material& m) {
-    switch (m.kind) {
-    case MaterialKind::Diffuse:
-        return appendRows(rows, gpu::DiffuseParameters{m.albedo, 0});
-    case MaterialKind::Mirror:
-        return appendRows(rows, gpu::MirrorParameters{m.reflectance, 0});
-    case MaterialKind::Refraction:
-        return appendRows(rows, gpu::RefractionParameters{m.transmittance, m.ior});
-    case MaterialKind::Glass:
-        return appendRows(rows, gpu::GlassParameters{m.reflectance, m.ior, m.transmittance, 0});
-    case MaterialKind::Microfacet:
-        return appendRows(rows, gpu::RoughConductorParameters{m.eta, m.alpha, m.k, 0});
-    case MaterialKind::Principled:
-        return appendRows(rows, principledRows(m));
-    case MaterialKind::Conductor:
-        return appendRows(rows, conductorRows(m));
-    case MaterialKind::Dielectric:
-        if (m.isSmooth())
-            return appendRows(rows, gpu::GlassParameters{m.reflectance, m.ior, m.transmittance, 0});
-        return appendRows(rows, facetDielectricRows(m));
-    case MaterialKind::ThinDielectric:
-        return appendRows(rows,
-                          gpu::ThinDielectricParameters{m.transmittance, m.ior, m.reflectance, 0});
-    case MaterialKind::Plastic:
-        return appendRows(rows, plasticRows(m));
-    case MaterialKind::Burley:
-        return appendRows(rows, burleyRows(m.burley));
-    }
+    if (m.kind == MaterialKind::Principled) return appendRows(rows, principledRows(m));
+    if (m.kind == MaterialKind::Burley) return appendRows(rows, burleyRows(m.burley));
+    appendRows(rows, statedRows(m));
+}
+
+uint32_t facetBits(const Facets& facets) {
+    const bool isBeckmann = facets.distribution == FacetDistribution::Beckmann;
+    const bool isSeparable = facets.masking == FacetMasking::Separable;
+    return (isBeckmann ? gpu::FACETS_ARE_BECKMANN : 0) |
+           (isSeparable ? gpu::FACETS_ARE_SEPARABLE : 0);
+}
+
+/// Samples of a mixture of closures count as glossy ones: they have the density of all.
+uint32_t principledBits(const Material& m) {
+    using namespace gpu;
+    const auto& p = m.principled;
+    uint32_t bits = RECIPE_PRINCIPLED | CLOSURE_BASE | CLOSURE_INTERFACE | LOBE_GLOSSY_REFLECTION;
+    if (p.clearcoat > 0) bits |= CLOSURE_COAT;
+    if (p.sheenColor != glm::vec3(0)) bits |= CLOSURE_SHEEN;
+    if (p.anisotropy > 0) bits |= FACETS_ARE_TURNED;
+    if (transmits(m)) bits |= LOBE_GLOSSY_TRANSMISSION | (p.isThin ? INTERFACE_IS_THIN : 0);
+    if (!refracts(m)) return bits;
+    bits |= INTERFACE_REFRACTS | INTERFACE_IS_DIELECTRIC;
+    return principledRows(m).absorption != glm::vec3(0) ? bits | VOLUME_ABSORBS : bits;
+}
+
+uint32_t burleyBits(const stromboli::BurleyParameters& p) {
+    using namespace gpu;
+    uint32_t bits = RECIPE_BURLEY | CLOSURE_BASE | CLOSURE_INTERFACE | INTERFACE_IS_DIELECTRIC |
+                    FACETS_ARE_SEPARABLE | LOBE_GLOSSY_REFLECTION;
+    if (p.clearcoat > 0 && !p.isThin) bits |= CLOSURE_COAT;
+    if (p.sheen > 0) bits |= CLOSURE_SHEEN;
+    if (p.isThin) bits |= INTERFACE_IS_THIN;
+    if (!p.isThin && p.transmits()) bits |= INTERFACE_REFRACTS;
+    return p.transmits() ? bits | LOBE_GLOSSY_TRANSMISSION : bits;
 }
 
 /// Puts the tables of the interfaces of plastic behind all materials.
 void appendTables(MaterialRows& packed, std::span<const Material> materials) {
     for (size_t i = 0; i < materials.size(); ++i) {
         const Material& m = materials[i];
-        if (bsdfKind(m) != gpu::BSDF_FACET_PLASTIC) continue;
-        constexpr size_t kRowOfTable = 3, kPlace = 2; // PlasticParameters::table
-        static_assert(offsetof(gpu::PlasticParameters, table) ==
-                      16 * (kRowOfTable - 1) + 4 * kPlace);
-        packed.rows[packed.firstRow[i] + kRowOfTable][kPlace] = uint32_t(packed.rows.size());
+        if (m.kind != MaterialKind::Plastic || m.isSmooth()) continue;
+        static_assert(offsetof(gpu::StatedParameters, table) == 16 * gpu::STATED_TABLE_ROW - 4);
+        packed.rows[packed.firstRow[i] + gpu::STATED_TABLE_ROW][3] = uint32_t(packed.rows.size());
         for (const glm::vec4& piece : transmittanceTable(m.ior, m.facetAlpha().x, m.facets))
             appendRows(packed.rows, piece);
     }
@@ -178,59 +190,48 @@ void nameOthers(MaterialRows& packed, std::span<const Material> materials,
 
 } // namespace
 
-uint32_t facetBits(const Material& material) {
-    if (const BurleyParameters& b = material.burley; material.kind == MaterialKind::Burley)
-        return gpu::FACETS_GGX | gpu::FACETS_SEPARABLE |
-               (b.transmits() ? gpu::BURLEY_HAS_TRANSMISSION : 0) |
-               (b.isThin ? gpu::BURLEY_HAS_THIN : 0);
-    const bool canHave = material.kind == MaterialKind::Conductor ||
-                         material.kind == MaterialKind::Dielectric ||
-                         material.kind == MaterialKind::Plastic;
-    if (!canHave || material.isSmooth()) return 0;
-    return bitsOf(material.facets);
-}
-
-uint32_t bsdfKind(const Material& material) {
-    const bool isSmooth = material.isSmooth();
-    switch (material.kind) {
+uint32_t closureBits(const Material& m) {
+    using namespace gpu;
+    const uint32_t colored = m.baseColor() != nullptr ? HAS_BASE_COLOR : 0;
+    const bool isSmooth = m.isSmooth();
+    const uint32_t plane = isSmooth ? INTERFACE_IS_SMOOTH : facetBits(m.facets);
+    const uint32_t reflects = isSmooth ? LOBE_DELTA_REFLECTION : LOBE_GLOSSY_REFLECTION;
+    const uint32_t passes = isSmooth ? LOBE_DELTA_TRANSMISSION : LOBE_GLOSSY_TRANSMISSION;
+    switch (m.kind) {
     case MaterialKind::Diffuse:
-        return gpu::BSDF_DIFFUSE;
+        return CLOSURE_BASE | LOBE_DIFFUSE_REFLECTION | colored;
     case MaterialKind::Mirror:
-        return gpu::BSDF_MIRROR;
+        return CLOSURE_INTERFACE | INTERFACE_IS_SMOOTH | INTERFACE_IS_IDEAL | LOBE_DELTA_REFLECTION;
     case MaterialKind::Refraction:
-        return gpu::BSDF_REFRACTION;
-    case MaterialKind::Glass:
-        return gpu::BSDF_GLASS;
-    case MaterialKind::Microfacet:
-        return gpu::BSDF_ROUGH_CONDUCTOR;
-    case MaterialKind::Principled:
-        return gpu::BSDF_PRINCIPLED;
+        return CLOSURE_INTERFACE | INTERFACE_IS_SMOOTH | INTERFACE_IS_IDEAL |
+               INTERFACE_IS_DIELECTRIC | INTERFACE_REFRACTS | LOBE_DELTA_TRANSMISSION;
     case MaterialKind::Conductor:
-        return isSmooth ? gpu::BSDF_CONDUCTOR : gpu::BSDF_FACET_CONDUCTOR;
+        return CLOSURE_INTERFACE | INTERFACE_IS_CONDUCTOR | plane | reflects | colored;
     case MaterialKind::Dielectric:
-        return isSmooth ? gpu::BSDF_GLASS : gpu::BSDF_FACET_DIELECTRIC;
+        return CLOSURE_INTERFACE | INTERFACE_IS_DIELECTRIC | INTERFACE_REFRACTS | plane | reflects |
+               passes | colored;
     case MaterialKind::ThinDielectric:
-        return gpu::BSDF_THIN_DIELECTRIC;
+        return CLOSURE_INTERFACE | INTERFACE_IS_SMOOTH | INTERFACE_IS_DIELECTRIC |
+               INTERFACE_IS_THIN | LOBE_DELTA_REFLECTION | LOBE_DELTA_TRANSMISSION | colored;
     case MaterialKind::Plastic:
-        return isSmooth ? gpu::BSDF_PLASTIC : gpu::BSDF_FACET_PLASTIC;
+        return CLOSURE_BASE | CLOSURE_INTERFACE | CLOSURE_LAYERS | INTERFACE_IS_DIELECTRIC | plane |
+               reflects | (isSmooth ? LOBE_DIFFUSE_REFLECTION : 0) |
+               (m.isNonlinear ? BASE_IS_NONLINEAR : 0) | colored;
+    case MaterialKind::Principled:
+        return principledBits(m) | colored;
     case MaterialKind::Burley:
-        return gpu::BSDF_BURLEY;
+        return burleyBits(m.burley) | colored;
     }
-    return gpu::BSDF_DIFFUSE;
+    return 0;
 }
 
-uint32_t principledFeatures(const Material& material) {
-    if (material.kind != MaterialKind::Principled) return 0;
-    const PrincipledParameters& p = material.principled;
-    uint32_t features = 0;
-    if (p.clearcoat > 0) features |= gpu::PRINCIPLED_HAS_CLEARCOAT;
-    if (p.sheenColor != glm::vec3(0)) features |= gpu::PRINCIPLED_HAS_SHEEN;
-    if (p.anisotropy > 0) features |= gpu::PRINCIPLED_HAS_ANISOTROPY;
-    if (transmits(material) && p.isThin) features |= gpu::PRINCIPLED_HAS_THIN_TRANSMISSION;
-    if (refracts(material)) features |= gpu::PRINCIPLED_HAS_REFRACTION;
-    if (refracts(material) && principledRows(material).absorption != glm::vec3(0))
-        features |= gpu::PRINCIPLED_HAS_ABSORPTION;
-    return features;
+void SceneClosures::add(uint32_t bits) {
+    uint32_t ofNoConcern = 0;
+    if (!(bits & gpu::CLOSURE_INTERFACE)) ofNoConcern |= gpu::INTERFACE_BITS;
+    if (!(bits & gpu::CLOSURE_INTERFACE) || (bits & gpu::INTERFACE_IS_SMOOTH))
+        ofNoConcern |= gpu::FACETS_BITS;
+    some |= bits;
+    all &= bits | ofNoConcern;
 }
 
 uint32_t reliefBits(const Material& m) {
@@ -246,7 +247,7 @@ MaterialRows packMaterials(std::span<const Material> materials,
         appendRows(packed.rows,
                    gpu::MaterialHeader{
                        m.emission,
-                       bsdfKind(m) | (m.emitsBothSides ? gpu::MATERIAL_EMITS_BOTH_SIDES : 0) |
+                       closureBits(m) | (m.emitsBothSides ? gpu::MATERIAL_EMITS_BOTH_SIDES : 0) |
                            (m.isBlackBehind ? gpu::MATERIAL_IS_BLACK_BEHIND : 0) | reliefBits(m)});
         appendParameters(packed.rows, m);
         if (details.empty()) continue;

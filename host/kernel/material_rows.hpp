@@ -22,14 +22,16 @@ MaterialRows packMaterials(std::span<const Material> materials,
 /// MATERIAL_RELIEF_ bits.
 uint32_t reliefBits(const Material& material);
 
-/// PRINCIPLED_HAS_ bits of what the material has; 0 for other kinds.
-uint32_t principledFeatures(const Material& material);
+/// LOBE_ and closure bits of a material (shaders/shared/bsdf_types.h).
+uint32_t closureBits(const Material& material);
 
-/// The FACETS_ and BURLEY_HAS_ bits of the microfacets of a conductor, a dielectric or plastic; 0
-/// where it has none.
-uint32_t facetBits(const Material& material);
+/// Which of these bits the materials of a scene have.
+struct SceneClosures {
+    uint32_t some = 0;                ///< of some material
+    uint32_t all = gpu::CLOSURE_MASK; ///< of all that they concern
 
-/// The BSDF_ kind that stands for a material of the scene.
-uint32_t bsdfKind(const Material& material);
+    /// bits: of one more material.
+    void add(uint32_t bits);
+};
 
 } // namespace stromboli

@@ -3,7 +3,6 @@
 #include "host/reference/burley.hpp"
 #include "host/reference/fresnel.hpp"
 #include "host/reference/interfaces.hpp"
-#include "host/reference/microfacet.hpp"
 #include "host/reference/plastic.hpp"
 #include "host/reference/principled.hpp"
 #include "host/reference/sampling.hpp"
@@ -48,23 +47,6 @@ BsdfSample sampleDiffuse(const Material& m, const glm::dvec3& u) {
     return {wi, m.albedo, wi.z / kPi, gpu::LOBE_DIFFUSE_REFLECTION};
 }
 
-// --- Rough conductor -----------------------------------------------------------------------------
-
-BsdfValue evaluateRoughConductor(const Material& m, const Incidence& i, const glm::dvec3& wi) {
-    if (!(i.wo.z > 0 && wi.z > 0)) return {};
-    return {microfacet(m, i.wo, wi, i.conventions) * wi.z, microfacetDensity(m.alpha, i.wo, wi)};
-}
-
-BsdfSample sampleRoughConductor(const Material& m, const Incidence& i, const glm::dvec3& u) {
-    const glm::dvec3 h = sampleBeckmann(m.alpha, u.x, u.y);
-    const glm::dvec3 wi = 2 * glm::dot(i.wo, h) * h - i.wo;
-    const BsdfValue f = evaluateRoughConductor(m, i, wi);
-    BsdfSample sample{wi, glm::dvec3(0.0), f.pdf, gpu::LOBE_GLOSSY_REFLECTION};
-    // The density is 0 so far down the tail of D that it has no double.
-    if (f.pdf > 0) sample.weight = f.value / f.pdf;
-    return sample;
-}
-
 // --- Interfaces
 // ------------------------------------------------------------------------------------
 
@@ -80,9 +62,12 @@ BsdfSample sampleInterface(const Material& m, const Incidence& i, double u) {
         return face.total ? BsdfSample{} : refract(i.wo, eta, face.cosTransmitted, transmitted);
 
     const bool exact = i.conventions.exactFresnel || face.total;
-    const double reflectance = exact ? face.reflectance : schlick(cosine, ior);
-    if (u < reflectance) return reflect(i.wo, m.reflectance);
-    return refract(i.wo, eta, face.cosTransmitted, transmitted);
+    const double share = exact ? face.reflectance : schlick(cosine, ior);
+    const glm::dvec3 reflected = share * glm::dvec3(m.reflectance);
+    const glm::dvec3 passed = (1 - share) * glm::dvec3(m.transmittance);
+    const double reflects = shareOfReflection(reflected, passed);
+    if (u < reflects) return reflect(i.wo, reflected / reflects);
+    return refract(i.wo, eta, face.cosTransmitted, passed * (compression / (1 - reflects)));
 }
 
 // --- All kinds
@@ -92,21 +77,19 @@ BsdfValue evaluateLocally(const Material& m, const Incidence& i, const glm::dvec
     switch (m.kind) {
     case MaterialKind::Diffuse:
         return evaluateDiffuse(m, wi);
-    case MaterialKind::Microfacet:
-        return evaluateRoughConductor(m, i, wi);
     case MaterialKind::Principled:
         return evaluatePrincipled(m.principled, i.wo, i.entering, wi, i.coat);
     case MaterialKind::Conductor:
-        return m.isSmooth() ? BsdfValue{} : evaluateFacetConductor(m, i.wo, wi);
+        return m.isSmooth() ? BsdfValue{} : evaluateFacetConductor(m, i.wo, wi, i.conventions);
     case MaterialKind::Dielectric:
-        return m.isSmooth() ? BsdfValue{} : evaluateFacetDielectric(m, i.wo, i.entering, wi);
+        return m.isSmooth() ? BsdfValue{}
+                            : evaluateFacetDielectric(m, i.wo, i.entering, wi, i.conventions);
     case MaterialKind::Plastic:
-        return evaluatePlastic(m, i.wo, wi);
+        return evaluatePlastic(m, i.wo, wi, i.conventions);
     case MaterialKind::Burley:
         return evaluateBurley(m.burley, i.wo, i.entering, wi);
     case MaterialKind::Mirror:
     case MaterialKind::Refraction:
-    case MaterialKind::Glass:
     case MaterialKind::ThinDielectric:
         return {}; // delta lobes
     }
@@ -120,21 +103,19 @@ BsdfSample sampleLocally(const Material& m, const Incidence& i, const glm::dvec3
     case MaterialKind::Mirror:
         return reflect(i.wo, m.reflectance);
     case MaterialKind::Refraction:
-    case MaterialKind::Glass:
         return sampleInterface(m, i, u.z);
-    case MaterialKind::Microfacet:
-        return sampleRoughConductor(m, i, u);
     case MaterialKind::Principled:
         return samplePrincipled(m.principled, i.wo, i.entering, u, i.coat);
     case MaterialKind::Conductor:
-        return m.isSmooth() ? sampleConductor(m, i.wo) : sampleFacetConductor(m, i.wo, u);
+        return m.isSmooth() ? sampleConductor(m, i.wo, i.conventions)
+                            : sampleFacetConductor(m, i.wo, u, i.conventions);
     case MaterialKind::Dielectric:
         return m.isSmooth() ? sampleInterface(m, i, u.z)
-                            : sampleFacetDielectric(m, i.wo, i.entering, u);
+                            : sampleFacetDielectric(m, i.wo, i.entering, u, i.conventions);
     case MaterialKind::ThinDielectric:
         return sampleThinDielectric(m, i.wo, u.z);
     case MaterialKind::Plastic:
-        return samplePlastic(m, i.wo, u);
+        return samplePlastic(m, i.wo, u, i.conventions);
     case MaterialKind::Burley:
         return sampleBurley(m.burley, i.wo, i.entering, u);
     }
@@ -205,6 +186,7 @@ glm::dvec3 absorptionInside(const Material& material) {
 }
 
 uint32_t lobesOf(const Material& material) {
+    const bool isSmooth = material.isSmooth();
     switch (material.kind) {
     case MaterialKind::Diffuse:
         return gpu::LOBE_DIFFUSE_REFLECTION;
@@ -212,20 +194,18 @@ uint32_t lobesOf(const Material& material) {
         return gpu::LOBE_DELTA_REFLECTION;
     case MaterialKind::Refraction:
         return gpu::LOBE_DELTA_TRANSMISSION;
-    case MaterialKind::Glass:
-        return gpu::LOBE_DELTA_REFLECTION | gpu::LOBE_DELTA_TRANSMISSION;
-    case MaterialKind::Microfacet:
-        return gpu::LOBE_GLOSSY_REFLECTION;
     case MaterialKind::Principled:
         return principledLobes(material.principled);
     case MaterialKind::Conductor:
-        return material.isSmooth() ? gpu::CONDUCTOR_BSDF_LOBES : gpu::FACET_CONDUCTOR_BSDF_LOBES;
+        return isSmooth ? gpu::LOBE_DELTA_REFLECTION : gpu::LOBE_GLOSSY_REFLECTION;
     case MaterialKind::Dielectric:
-        return material.isSmooth() ? gpu::GLASS_BSDF_LOBES : gpu::FACET_DIELECTRIC_BSDF_LOBES;
+        return isSmooth ? gpu::LOBE_DELTA_REFLECTION | gpu::LOBE_DELTA_TRANSMISSION
+                        : gpu::LOBE_GLOSSY_REFLECTION | gpu::LOBE_GLOSSY_TRANSMISSION;
     case MaterialKind::ThinDielectric:
-        return gpu::THIN_DIELECTRIC_BSDF_LOBES;
-    case MaterialKind::Plastic:
-        return material.isSmooth() ? gpu::PLASTIC_BSDF_LOBES : gpu::FACET_PLASTIC_BSDF_LOBES;
+        return gpu::LOBE_DELTA_REFLECTION | gpu::LOBE_DELTA_TRANSMISSION;
+    case MaterialKind::Plastic: // with facets the base's samples have the density of the mixture
+        return isSmooth ? gpu::LOBE_DELTA_REFLECTION | gpu::LOBE_DIFFUSE_REFLECTION
+                        : gpu::LOBE_GLOSSY_REFLECTION;
     case MaterialKind::Burley:
         return burleyLobes(material.burley);
     }

@@ -36,17 +36,19 @@ double FacetModel::density(const glm::dvec3& h) const {
     return std::exp(-slope2) / (kPi * alphaX * alphaY * square(square(h.z)));
 }
 
-double FacetModel::lambda(const glm::dvec3& w) const {
+double FacetModel::lambda(const glm::dvec3& w, bool exact) const {
     if (distribution == FacetDistribution::Ggx) return Ggx{alphaX, alphaY}.lambda(w);
     const double sine = std::hypot(alphaX * w.x, alphaY * w.y);
     if (sine == 0) return 0;
     const double a = std::abs(w.z) / sine;
-    return std::exp(-a * a) / (2 * a * std::sqrt(kPi)) - std::erfc(a) / 2;
+    const double root = exact ? std::sqrt(kPi) : kPi;
+    return std::exp(-a * a) / (2 * a * root) - std::erfc(a) / 2;
 }
 
-double FacetModel::visibleFromBoth(const glm::dvec3& wo, const glm::dvec3& wi) const {
-    if (masking == FacetMasking::Separable) return 1 / ((1 + lambda(wo)) * (1 + lambda(wi)));
-    return 1 / (1 + lambda(wo) + lambda(wi));
+double FacetModel::visibleFromBoth(const glm::dvec3& wo, const glm::dvec3& wi, bool exact) const {
+    const double atO = lambda(wo, exact), atI = lambda(wi, exact);
+    if (masking == FacetMasking::Separable) return 1 / ((1 + atO) * (1 + atI));
+    return 1 / (1 + atO + atI);
 }
 
 double FacetModel::visibleDensity(const glm::dvec3& wo, const glm::dvec3& h) const {

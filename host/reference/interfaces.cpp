@@ -33,51 +33,64 @@ struct DielectricFacet {
         reflected = face.reflectance * glm::dvec3(m.reflectance);
         const glm::dvec3 through = (1 - face.reflectance) * glm::dvec3(m.transmittance);
         transmitted = eta * eta * through;
-        const double r = mean(reflected), t = mean(through);
-        reflects = t > 0 ? r / (r + t) : 1;
+        reflects = shareOfReflection(reflected, through);
         cosTransmitted = face.cosTransmitted;
     }
 };
 
 } // namespace
 
-BsdfSample sampleConductor(const Material& m, const glm::dvec3& wo) {
+double shareOfReflection(const glm::dvec3& reflected, const glm::dvec3& transmitted) {
+    const double r = mean(reflected), t = mean(transmitted);
+    return t > 0 ? r / (r + t) : 1;
+}
+
+BsdfSample sampleConductor(const Material& m, const glm::dvec3& wo,
+                           const ShadingConventions& conventions) {
     const double cosine = std::clamp(std::abs(wo.z), 1e-300, 1.0);
-    return {{-wo.x, -wo.y, wo.z},
-            glm::dvec3(m.reflectance) * conductor(cosine, m.eta, m.k),
-            0,
-            gpu::LOBE_DELTA_REFLECTION};
+    const glm::dvec3 fresnel = conventions.exactFresnel ? conductor(cosine, m.eta, m.k)
+                                                        : approximateConductor(cosine, m.eta, m.k);
+    return {
+        {-wo.x, -wo.y, wo.z}, glm::dvec3(m.reflectance) * fresnel, 0, gpu::LOBE_DELTA_REFLECTION};
 }
 
 /// The sum over all orders: R + T^2 R (1 + R^2 + ...), T = 1 - R.
 BsdfSample sampleThinDielectric(const Material& m, const glm::dvec3& wo, double u) {
     const double r = dielectric(std::min(std::abs(wo.z), 1.0), 1 / double(m.ior)).reflectance;
     const double all = r < 1 ? r + (1 - r) * (1 - r) * r / (1 - r * r) : 1;
-    if (u < all) return {{-wo.x, -wo.y, wo.z}, m.reflectance, 0, gpu::LOBE_DELTA_REFLECTION};
-    return {-wo, m.transmittance, 0, gpu::LOBE_DELTA_TRANSMISSION};
+    const glm::dvec3 reflected = all * glm::dvec3(m.reflectance);
+    const glm::dvec3 transmitted = (1 - all) * glm::dvec3(m.transmittance);
+    const double reflects = shareOfReflection(reflected, transmitted);
+    if (u < reflects)
+        return {{-wo.x, -wo.y, wo.z}, reflected / reflects, 0, gpu::LOBE_DELTA_REFLECTION};
+    return {-wo, transmitted / (1 - reflects), 0, gpu::LOBE_DELTA_TRANSMISSION};
 }
 
-BsdfValue evaluateFacetConductor(const Material& m, const glm::dvec3& wo, const glm::dvec3& wi) {
+BsdfValue evaluateFacetConductor(const Material& m, const glm::dvec3& wo, const glm::dvec3& wi,
+                                 const ShadingConventions& conventions) {
     if (!(wo.z > 0 && wi.z > 0)) return {};
     const FacetModel facets(m);
     const glm::dvec3 h = glm::normalize(wo + wi);
     const double cosine = std::min(glm::dot(wo, h), 1.0);
-    const double f = facets.density(h) * facets.visibleFromBoth(wo, wi) / (4 * wo.z);
-    return {glm::dvec3(m.reflectance) * conductor(cosine, m.eta, m.k) * f,
+    const double lit = facets.visibleFromBoth(wo, wi, conventions.exactLambda);
+    const glm::dvec3 fresnel = conventions.exactFresnel ? conductor(cosine, m.eta, m.k)
+                                                        : approximateConductor(wi.z, m.eta, m.k);
+    return {glm::dvec3(m.reflectance) * fresnel * (facets.density(h) * lit / (4 * wo.z)),
             facets.visibleDensity(wo, h) / (4 * cosine)};
 }
 
-BsdfSample sampleFacetConductor(const Material& m, const glm::dvec3& wo, const glm::dvec3& u) {
+BsdfSample sampleFacetConductor(const Material& m, const glm::dvec3& wo, const glm::dvec3& u,
+                                const ShadingConventions& conventions) {
     BsdfSample s;
     s.lobe = gpu::LOBE_GLOSSY_REFLECTION;
     if (!(wo.z > 0)) return s;
     s.direction = mirrored(wo, FacetModel(m).sampleVisible(wo, u.x, u.y));
-    return weighed(s, evaluateFacetConductor(m, wo, s.direction));
+    return weighed(s, evaluateFacetConductor(m, wo, s.direction, conventions));
 }
 
 /// Walter et al. 2007, equations 20 and 21, and 16 for the half vector.
 BsdfValue evaluateFacetDielectric(const Material& m, const glm::dvec3& wo, bool entering,
-                                  const glm::dvec3& wi) {
+                                  const glm::dvec3& wi, const ShadingConventions& conventions) {
     if (!(wo.z > 0) || wi.z == 0) return {};
     const FacetModel facets(m);
     const double inside = m.ior, eta = entering ? 1 / inside : inside;
@@ -87,7 +100,8 @@ BsdfValue evaluateFacetDielectric(const Material& m, const glm::dvec3& wo, bool 
     const double cosO = glm::dot(wo, h), cosI = glm::dot(wi, h);
     if (!(cosO > 0)) return {};
     const DielectricFacet facet(m, eta, cosO);
-    const double visible = facets.density(h) * facets.visibleFromBoth(wo, wi);
+    const double visible =
+        facets.density(h) * facets.visibleFromBoth(wo, wi, conventions.exactLambda);
     const double pdfOfH = facets.visibleDensity(wo, h);
     if (wi.z > 0)
         return {facet.reflected * (visible / (4 * wo.z)), facet.reflects * pdfOfH / (4 * cosO)};
@@ -98,7 +112,7 @@ BsdfValue evaluateFacetDielectric(const Material& m, const glm::dvec3& wo, bool 
 }
 
 BsdfSample sampleFacetDielectric(const Material& m, const glm::dvec3& wo, bool entering,
-                                 const glm::dvec3& u) {
+                                 const glm::dvec3& u, const ShadingConventions& conventions) {
     BsdfSample s;
     s.lobe = gpu::LOBE_GLOSSY_REFLECTION;
     if (!(wo.z > 0)) return s;
@@ -111,7 +125,7 @@ BsdfSample sampleFacetDielectric(const Material& m, const glm::dvec3& wo, bool e
         s.direction = (eta * cosine - facet.cosTransmitted) * h - eta * wo;
     }
     if (s.transmitted() != (s.direction.z < 0)) return s;
-    return weighed(s, evaluateFacetDielectric(m, wo, entering, s.direction));
+    return weighed(s, evaluateFacetDielectric(m, wo, entering, s.direction, conventions));
 }
 
 bool hasNarrowFacets(const Material& m) {

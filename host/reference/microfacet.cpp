@@ -33,11 +33,12 @@ glm::dvec3 microfacet(const Material& m, const glm::dvec3& wo, const glm::dvec3&
                       const ShadingConventions& conventions) {
     if (!(wo.z > 0 && wi.z > 0)) return glm::dvec3(0.0);
     const glm::dvec3 h = glm::normalize(wo + wi);
+    const double alpha = m.facets.alpha.x;
     const double g =
-        1 / (1 + smithLambda(wo, m.alpha, conventions) + smithLambda(wi, m.alpha, conventions));
+        1 / (1 + smithLambda(wo, alpha, conventions) + smithLambda(wi, alpha, conventions));
     const glm::dvec3 f = conventions.exactFresnel ? conductor(glm::dot(wi, h), m.eta, m.k)
                                                   : approximateConductor(wi.z, m.eta, m.k);
-    return f * (g * beckmannD(h, m.alpha) / (4 * wo.z * wi.z));
+    return f * (g * beckmannD(h, alpha) / (4 * wo.z * wi.z));
 }
 
 double microfacetDensity(double alpha, const glm::dvec3& wo, const glm::dvec3& wi) {

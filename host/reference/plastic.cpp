@@ -120,11 +120,13 @@ struct SeenPlastic {
     const Material& m;
     const glm::dvec3& wo;
     const PlasticInterface& interface;
+    bool exactLambda;
     double through, topShare;
 
-    SeenPlastic(const Material& material, const glm::dvec3& from)
+    SeenPlastic(const Material& material, const glm::dvec3& from,
+                const ShadingConventions& conventions)
         : m(material), wo(from), interface(interfaceOf(material)),
-          through(interface.transmittance(wo.z)) {
+          exactLambda(conventions.exactLambda), through(interface.transmittance(wo.z)) {
         const double top = (1 - through) * mean(m.reflectance);
         topShare = top > 0 ? top / (top + through * mean(m.albedo)) : 0;
     }
@@ -147,8 +149,9 @@ struct SeenPlastic {
         const glm::dvec3 h = glm::normalize(wo + wi);
         const double cosine = std::min(glm::dot(wo, h), 1.0);
         const double fresnel = dielectric(cosine, 1 / double(m.ior)).reflectance;
-        f.value += glm::dvec3(m.reflectance) *
-                   (fresnel * facets.density(h) * facets.visibleFromBoth(wo, wi) / (4 * wo.z));
+        f.value +=
+            glm::dvec3(m.reflectance) * (fresnel * facets.density(h) *
+                                         facets.visibleFromBoth(wo, wi, exactLambda) / (4 * wo.z));
         f.pdf += topShare * facets.visibleDensity(wo, h) / (4 * cosine);
         return f;
     }
@@ -156,16 +159,18 @@ struct SeenPlastic {
 
 } // namespace
 
-BsdfValue evaluatePlastic(const Material& m, const glm::dvec3& wo, const glm::dvec3& wi) {
+BsdfValue evaluatePlastic(const Material& m, const glm::dvec3& wo, const glm::dvec3& wi,
+                          const ShadingConventions& conventions) {
     if (!(wo.z > 0)) return {};
-    return SeenPlastic(m, wo).evaluate(wi);
+    return SeenPlastic(m, wo, conventions).evaluate(wi);
 }
 
-BsdfSample samplePlastic(const Material& m, const glm::dvec3& wo, const glm::dvec3& u) {
+BsdfSample samplePlastic(const Material& m, const glm::dvec3& wo, const glm::dvec3& u,
+                         const ShadingConventions& conventions) {
     BsdfSample s;
     s.lobe = m.isSmooth() ? gpu::LOBE_DIFFUSE_REFLECTION : gpu::LOBE_GLOSSY_REFLECTION;
     if (!(wo.z > 0)) return s;
-    const SeenPlastic seen(m, wo);
+    const SeenPlastic seen(m, wo, conventions);
     const bool isTop = u.z < seen.topShare;
     if (isTop && m.isSmooth())
         return {{-wo.x, -wo.y, wo.z},

@@ -27,11 +27,10 @@ glm::dvec3 tintOf(const Material& m, const BsdfSample& next) {
 
 /// The colour of a surface in white light, apart from what its gloss adds.
 glm::dvec3 albedoOf(const Material& m) {
-    if (m.kind != MaterialKind::Microfacet && m.kind != MaterialKind::Conductor)
-        return m.baseColor() ? *m.baseColor() : m.albedo;
+    if (m.kind != MaterialKind::Conductor) return m.baseColor() ? *m.baseColor() : m.albedo;
     const glm::dvec3 eta(m.eta), k(m.k), less = eta - 1.0, more = eta + 1.0;
     const glm::dvec3 atNormal = (less * less + k * k) / (more * more + k * k);
-    return m.kind == MaterialKind::Conductor ? glm::dvec3(m.reflectance) * atNormal : atNormal;
+    return glm::dvec3(m.reflectance) * atNormal;
 }
 
 /// The surface as it is shaded.

@@ -61,13 +61,14 @@ std::optional<Material> readMaterial(Context& context, const Element& element) {
         material.transmittance = fields.fraction("transmittance");
         material.ior = fields.positive("ior");
     } else if (kind == "glass") {
-        material.kind = MaterialKind::Glass;
+        material.kind = MaterialKind::Dielectric;
         material.reflectance = fields.fraction("reflectance");
         material.transmittance = fields.fraction("transmittance");
         material.ior = fields.positive("ior");
     } else if (kind == "microfacet") {
-        material.kind = MaterialKind::Microfacet;
-        material.alpha = fields.positive("alpha");
+        material.kind = MaterialKind::Conductor;
+        const auto alpha = float(fields.positive("alpha"));
+        material.facets = {FacetDistribution::Beckmann, glm::vec2(alpha)};
         material.eta = fields.light("eta");
         material.k = fields.light("k");
     } else {

@@ -85,15 +85,15 @@ Material mirror(float reflectance, float emission) {
 
 Material glass(float ior) {
     Material m;
-    m.kind = MaterialKind::Glass;
+    m.kind = MaterialKind::Dielectric;
     m.ior = ior;
     return m;
 }
 
 Material metal(float alpha, float emission) {
     Material m;
-    m.kind = MaterialKind::Microfacet;
-    m.alpha = alpha;
+    m.kind = MaterialKind::Conductor;
+    m.facets = {FacetDistribution::Beckmann, glm::vec2(alpha)};
     m.eta = glm::vec3(1.2f);
     m.k = glm::vec3(3);
     m.emission = glm::vec3(emission);

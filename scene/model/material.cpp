@@ -42,7 +42,6 @@ bool Material::isDelta() const {
     switch (kind) {
     case MaterialKind::Mirror:
     case MaterialKind::Refraction:
-    case MaterialKind::Glass:
     case MaterialKind::ThinDielectric:
         return true;
     case MaterialKind::Conductor:

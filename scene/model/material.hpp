@@ -15,8 +15,6 @@ enum class MaterialKind : uint32_t {
     Diffuse,        ///< Lambert: albedo / pi
     Mirror,         ///< perfect reflection: reflectance
     Refraction,     ///< perfect transmission without Fresnel: transmittance, ior
-    Glass,          ///< smooth dielectric: reflectance, transmittance, ior
-    Microfacet,     ///< Beckmann conductor: alpha, eta, k
     Principled,     ///< glTF's metallic-roughness model and its extensions: principled
     Conductor,      ///< reflectance, eta, k, facets
     Dielectric,     ///< an interface: reflectance, transmittance, ior, facets
@@ -122,7 +120,6 @@ struct Material {
     glm::vec3 reflectance{1.0f};   ///< of mirrors, and a factor of what interfaces reflect
     glm::vec3 transmittance{1.0f}; ///< a factor of what interfaces transmit
     float ior = 1.5f;              ///< of dielectrics: index inside / index outside
-    float alpha = 0.1f;            ///< Microfacet: Beckmann roughness (RMS slope times sqrt 2)
     glm::vec3 eta{1.0f};           ///< of conductors: real part of the index of refraction
     glm::vec3 k{0.0f};             ///< of conductors: extinction coefficient
     Facets facets;

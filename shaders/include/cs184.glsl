@@ -38,11 +38,9 @@ float radianceCompression(float eta) {
     return COMPRESSES_RADIANCE ? eta * eta : 1.0 / (eta * eta);
 }
 
-/// The last term of Smith's Lambda. That renderer has pi where sqrt(pi) is due, and half of the
-/// term's weight is missing in its denominator.
-float lambdaTail(float tail) {
-    return EXACT_LAMBDA ? tail * 0.282094791773878 : 0.5 * tail * INV_PI; // 1 / (2 sqrt(pi))
-}
+/// The weight of the last term of Smith's Lambda of Beckmann's facets. That renderer has pi where sqrt(pi) is due,
+/// and half of the term's weight is missing in its denominator.
+const float LAMBDA_TAIL = EXACT_LAMBDA ? 0.282094791773878 : 0.5 * INV_PI; // 1 / (2 sqrt(pi))
 
 /// Falloff of an area light that is sampled by area, besides the cosine: that renderer's density lacks
 /// one factor 1 / distance.

@@ -82,51 +82,38 @@ uint materialOf(Primitive p) { return HAS_CORNER_NORMALS ? p.material & ~PRIMITI
 
 // --- Materials (shaders/shared/bsdf_types.h) --------------------------------------------------
 
-/// The rows of a material: its header, and two rows that its kind of BSDF reads its parameters from.
+/// The rows of a material: its header, and those that its closures read their parameters from.
 struct Material {
     uvec4 header, row1, row2;
     uvec4 row3, row4, row5, row6; ///< of those that have as many
 };
 
-/// Whether the material's BSDF is of this kind: known without looking where the scene has but one kind,
-/// or none of this one.
-bool isBsdf(Material m, uint kind) {
-    return sceneHasBsdf(kind) &&
-           (BSDF_KINDS == 1u << kind || (m.header.w & MATERIAL_KIND_MASK) == kind);
+bool hasClosure(Material m, uint bit) { return has(m.header.w, bit); }
+
+const bool HAS_RECIPES = (CLOSURES & (RECIPE_PRINCIPLED | RECIPE_BURLEY)) != 0u;
+
+/// Whether some material of the scene has this row behind its header.
+bool materialsHaveRow(uint row) {
+    const bool hasIndices = sceneHas(INTERFACE_IS_CONDUCTOR | CLOSURE_LAYERS | GLOSSY_LOBES);
+    if (row <= 1u) return true;
+    if (row == 2u) return hasIndices || sceneHas(INTERFACE_IS_DIELECTRIC);
+    if (row == 3u) return hasIndices;
+    return row <= 5u ? HAS_RECIPES : sceneHas(RECIPE_PRINCIPLED);
 }
 
-/// Whether the material's BSDF is of a kind made of microfacets.
-bool isFacetMaterial(Material m) {
-    const bool allAre = (BSDF_KINDS & (1u << BSDF_CONDUCTOR) - 1u) == 0u;
-    return sceneHasFacetMaterials() &&
-           (allAre || (m.header.w & MATERIAL_KIND_MASK) >= BSDF_CONDUCTOR);
-}
-
-/// row: the material's first. Rows that no kind of the scene has are not read.
+/// row: the material's first. Rows that no material of the scene has are not read.
 Material fetchMaterial(uint row) {
-    const bool severalKinds = (BSDF_KINDS & (BSDF_KINDS - 1u)) != 0u;
     const uvec4 none = uvec4(0u);
     Material m = Material(none, none, none, none, none, none, none);
-    if (sceneHasBsdf(BSDF_PRINCIPLED)) {
-        m.row2 = ROW(materialRows, row + 2u);
-        m.row3 = ROW(materialRows, row + 3u);
-        m.row4 = ROW(materialRows, row + 4u);
-        m.row5 = ROW(materialRows, row + 5u);
-        m.row6 = ROW(materialRows, row + 6u);
-    }
-    if (sceneHasFacetMaterials()) {
-        m.row2 = ROW(materialRows, row + 2u);
-        m.row3 = ROW(materialRows, row + 3u);
-    }
-    if (sceneHasBsdf(BSDF_BURLEY)) {
-        m.row4 = ROW(materialRows, row + 4u);
-        m.row5 = ROW(materialRows, row + 5u);
-    }
-    if (HAS_EMISSION || severalKinds || BLACK_BACKS || RELIEF_RULES) m.header = ROW(materialRows, row);
+    const bool differ = (CLOSURES & ~CLOSURES_OF_ALL) != 0u;
+    if (HAS_EMISSION || differ || BLACK_BACKS || RELIEF_RULES)
+        m.header = ROW(materialRows, row);
     m.row1 = ROW(materialRows, row + 1u);
-    if (sceneHasBsdf(BSDF_GLASS) || sceneHasBsdf(BSDF_ROUGH_CONDUCTOR) ||
-        sceneHasBsdf(BSDF_PRINCIPLED))
-        m.row2 = ROW(materialRows, row + 2u);
+    if (materialsHaveRow(2u)) m.row2 = ROW(materialRows, row + 2u);
+    if (materialsHaveRow(3u)) m.row3 = ROW(materialRows, row + 3u);
+    if (materialsHaveRow(4u)) m.row4 = ROW(materialRows, row + 4u);
+    if (materialsHaveRow(5u)) m.row5 = ROW(materialRows, row + 5u);
+    if (materialsHaveRow(6u)) m.row6 = ROW(materialRows, row + 6u);
     return m;
 }
 
@@ -136,28 +123,13 @@ bool isBlackBehind(Material m) { return BLACK_BACKS && (m.header.w & MATERIAL_IS
 uint reliefRules(Material m) { return RELIEF_RULES ? m.header.w & MATERIAL_RELIEF_RULES : 0u; }
 bool emitsBothSides(Material m) { return (m.header.w & MATERIAL_EMITS_BOTH_SIDES) != 0u; }
 
-// The parameters of each kind of BSDF; of a material of that kind.
+// The parameters, of a material that has these.
 
-DiffuseParameters diffuseParameters(Material m) {
-    return DiffuseParameters(uintBitsToFloat(m.row1.xyz), m.row1.w);
-}
-
-MirrorParameters mirrorParameters(Material m) {
-    return MirrorParameters(uintBitsToFloat(m.row1.xyz), m.row1.w);
-}
-
-RefractionParameters refractionParameters(Material m) {
-    return RefractionParameters(uintBitsToFloat(m.row1.xyz), uintBitsToFloat(m.row1.w));
-}
-
-GlassParameters glassParameters(Material m) {
-    return GlassParameters(uintBitsToFloat(m.row1.xyz), uintBitsToFloat(m.row1.w),
-                           uintBitsToFloat(m.row2.xyz), m.row2.w);
-}
-
-RoughConductorParameters roughConductorParameters(Material m) {
-    return RoughConductorParameters(uintBitsToFloat(m.row1.xyz), uintBitsToFloat(m.row1.w),
-                                    uintBitsToFloat(m.row2.xyz), m.row2.w);
+StatedParameters statedParameters(Material m) {
+    StatedParameters p = StatedParameters(uintBitsToFloat(m.row1.xyz), uintBitsToFloat(m.row1.w), uintBitsToFloat(m.row2.xyz),
+                                          uintBitsToFloat(m.row2.w), uintBitsToFloat(m.row3.xyz), m.row3.w);
+    if (!materialsHaveRow(3u)) p.index[INDEX_RATIO] = p.alphaY;
+    return p;
 }
 
 PrincipledParameters principledParameters(Material m) {
@@ -166,30 +138,6 @@ PrincipledParameters principledParameters(Material m) {
     const vec4 row5 = uintBitsToFloat(m.row5), row6 = uintBitsToFloat(m.row6);
     return PrincipledParameters(row1.xyz, row1.w, row2.xyz, row2.w, row3.x, row3.y, row3.z, row3.w,
                                 row4.xyz, row4.w, row5.x, row5.y, row5.z, m.row5.w, row6.xyz, row6.w);
-}
-
-ConductorParameters conductorParameters(Material m) {
-    return ConductorParameters(uintBitsToFloat(m.row1.xyz), uintBitsToFloat(m.row1.w),
-                               uintBitsToFloat(m.row2.xyz), uintBitsToFloat(m.row2.w),
-                               uintBitsToFloat(m.row3.xyz), m.row3.w);
-}
-
-FacetDielectricParameters facetDielectricParameters(Material m) {
-    return FacetDielectricParameters(uintBitsToFloat(m.row1.xyz), uintBitsToFloat(m.row1.w),
-                                     uintBitsToFloat(m.row2.xyz), uintBitsToFloat(m.row2.w),
-                                     uintBitsToFloat(m.row3.x), uintBitsToFloat(m.row3.y), m.row3.z,
-                                     m.row3.w);
-}
-
-ThinDielectricParameters thinDielectricParameters(Material m) {
-    return ThinDielectricParameters(uintBitsToFloat(m.row1.xyz), uintBitsToFloat(m.row1.w),
-                                    uintBitsToFloat(m.row2.xyz), m.row2.w);
-}
-
-PlasticParameters plasticParameters(Material m) {
-    return PlasticParameters(uintBitsToFloat(m.row1.xyz), uintBitsToFloat(m.row1.w),
-                             uintBitsToFloat(m.row2.xyz), uintBitsToFloat(m.row2.w),
-                             uintBitsToFloat(m.row3.x), m.row3.y, m.row3.z, m.row3.w);
 }
 
 BurleyParameters burleyParameters(Material m) {

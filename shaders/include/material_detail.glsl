@@ -176,12 +176,12 @@ bool isReadElsewhere(uint slot) {
            sceneHasSlot(TEXTURE_CLEARCOAT_NORMAL) && slot == TEXTURE_CLEARCOAT_NORMAL;
 }
 
-/// A texel's part in the parameters (PrincipledParameters; a diffuse material has the first row only, and those of
-/// other kinds are arranged to suit), and in what maps say.
+/// A texel's part in the parameters (PrincipledParameters; those of other recipes are arranged to suit), and in what
+/// maps say.
 void applyTexel(inout MaterialAtPoint at, TextureUse t, vec4 texel) {
     const uint slot = t.flags & TEXTURE_SLOT_MASK;
     if (isLoose(slot, TEXTURE_BASE_COLOR)) {
-        if (hasBaseColor(at.parameters)) scale(at.parameters.row1, texel.rgb);
+        if (hasClosure(at.parameters, HAS_BASE_COLOR)) scale(at.parameters.row1, texel.rgb);
         at.opacity *= texel.a;
     }
     if (isLoose(slot, TEXTURE_OPACITY)) at.opacity *= t.scale < 0.0 ? 1.0 - texel.r : texel.r;
@@ -190,7 +190,7 @@ void applyTexel(inout MaterialAtPoint at, TextureUse t, vec4 texel) {
         at.emissionFactor *= texel.rgb;
     }
     if (isLoose(slot, TEXTURE_NORMAL)) at.relief.mapped = mappedNormal(texel, t.scale);
-    if (hasFurtherParameters()) applyToFurtherParameters(at.parameters, slot, texel);
+    if (materialsHaveRow(2u)) applyToFurtherParameters(at.parameters, slot, texel);
 }
 
 /// The bundle's part in them.
@@ -199,7 +199,7 @@ void applyBundle(inout MaterialAtPoint at, uint materialRow, PointAttributes a) 
     const BundleTexels texels = fetchBundle(t, coordinatesOf(t, a));
     if (sceneHasSlot(TEXTURE_BASE_COLOR)) {
         const vec4 texel = mapOf(texels, TEXTURE_BASE_COLOR);
-        if (hasBaseColor(at.parameters)) scale(at.parameters.row1, texel.rgb);
+        if (hasClosure(at.parameters, HAS_BASE_COLOR)) scale(at.parameters.row1, texel.rgb);
         at.opacity *= texel.a;
     }
     if (sceneHasSlot(TEXTURE_EMISSION)) {
@@ -209,7 +209,7 @@ void applyBundle(inout MaterialAtPoint at, uint materialRow, PointAttributes a) 
     }
     if (sceneHasSlot(TEXTURE_NORMAL) && (t.flags & TEXELS_MAP_NORMALS) != 0u)
         at.relief.mapped = mappedNormal(mapOf(texels, TEXTURE_NORMAL), t.scale);
-    if (sceneHasSlot(TEXTURE_METALLIC_ROUGHNESS) && hasFurtherParameters())
+    if (sceneHasSlot(TEXTURE_METALLIC_ROUGHNESS) && materialsHaveRow(2u))
         applyMetallicRoughness(at.parameters, mapOf(texels, TEXTURE_METALLIC_ROUGHNESS));
 }
 
@@ -262,7 +262,7 @@ MaterialAtPoint lookUpMaterial(MaterialPoint p) {
     MaterialAtPoint at =
         MaterialAtPoint(fetchMaterial(p.material), Relief(vec3(0.0, 0.0, 1.0), vec2(0.0)), vec3(1.0), 1.0);
     const PointAttributes a = attributesOf(p);
-    if (hasAttribute(ATTRIBUTE_COLOR) && hasBaseColor(at.parameters)) scale(at.parameters.row1, a.color.rgb);
+    if (hasAttribute(ATTRIBUTE_COLOR) && hasClosure(at.parameters, HAS_BASE_COLOR)) scale(at.parameters.row1, a.color.rgb);
     if (!hasDetails()) return at;
     const MaterialDetail detail = fetchDetail(p.material);
     at.opacity = detail.opacity * a.color.a;

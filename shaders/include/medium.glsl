@@ -1,7 +1,7 @@
 // What absorbs along a path: the inside of the surface that it has entered last. Entering a volume sets it
 // and leaving one clears it (docs/estimator.md, "Volumes"). Scenes without absorption have nothing of this.
 
-const bool HAS_ABSORPTION = (PRINCIPLED_FEATURES & PRINCIPLED_HAS_ABSORPTION) != 0u;
+const bool HAS_ABSORPTION = (CLOSURES & (VOLUME_ABSORBS)) != 0u;
 
 /// No material begins there.
 const uint NO_MEDIUM = 0xFFFFFFFFu;

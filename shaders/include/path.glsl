@@ -180,11 +180,11 @@ void depart(inout PathState path) {
     const uvec4 words = pathWords(path, 0u);
     const vec4 u = unitFloats(words);
     path.arrivalNumbers = vec3(u.xy, leftOver(words));
-    // Most kinds of BSDF take either the two numbers within a lobe or the one that chooses a lobe, so that
-    // both may be the same (host/kernel/kernel_features.cpp asserts it).
+    // Most materials take either the two numbers within a lobe or the one that chooses a side, so that both may be
+    // the same.
     if (begins) startCameraRay(path, u.zw);
     else if (SCATTERS_THROUGH && INTEGRATOR == INTEGRATOR_PATH)
-        scatter(path, vec3(u.zw, TAKES_THREE_NUMBERS(path.material) ? sideNumber(path) : u.z), path.arrivalNumbers.z);
+        scatter(path, vec3(u.zw, takesThreeNumbers(lobesOf(path.material)) ? sideNumber(path) : u.z), path.arrivalNumbers.z);
     else if (INTEGRATOR == INTEGRATOR_PATH) scatter(path, u.zwz, path.arrivalNumbers.z);
 }
 

@@ -1,15 +1,6 @@
 // States of paths in memory, between two stages of the wavefront scheduler: word by word, those of all paths one
 // after the other, so that neighbouring lanes read neighbouring words. The table is PATH_FIELDS.
 
-/// Whether some kind of material of the scene has this row (fetchMaterial()).
-bool materialsHaveRow(uint row) {
-    const bool principled = sceneHasBsdf(BSDF_PRINCIPLED), burley = sceneHasBsdf(BSDF_BURLEY);
-    if (row == 2u) return principled || sceneHasFacetMaterials() || sceneHasBsdf(BSDF_GLASS) || sceneHasBsdf(BSDF_ROUGH_CONDUCTOR);
-    if (row == 3u) return principled || sceneHasFacetMaterials();
-    if (row == 6u) return principled;
-    return principled || burley;
-}
-
 uint pathWord(uint slot, uint word) { return pathWords[word * dispatch.laneCount + slot]; }
 void setPathWord(uint slot, uint word, uint value) { pathWords[word * dispatch.laneCount + slot] = value; }
 

@@ -8,9 +8,11 @@ KERNEL_CONSTANTS(DECLARE_CONSTANT)
 const bool HAS_CORNER_NORMALS = HAS_NORMALS && CORNER_NORMALS;
 /// Whether samples have weights by their place about the pixel, some of them negative.
 bool samplesHaveWeights() { return PIXEL_FILTER == FILTER_TABLE; }
-bool sceneHasBsdf(uint kind) { return (BSDF_KINDS & (1u << kind)) != 0u; }
-/// Kinds made of microfacets, with much code.
-bool sceneHasFacetMaterials() { return BSDF_KINDS >= 1u << BSDF_CONDUCTOR; }
+/// Whether some material of the scene has one of these bits (shared/bsdf_types.h), or each that they concern.
+bool sceneHas(uint bits) { return (CLOSURES & bits) != 0u; }
+bool sceneHasOnly(uint bit) { return (CLOSURES_OF_ALL & bit) != 0u; }
+/// Whether a material has this bit, known without looking where all have it, or none.
+bool has(uint closures, uint bit) { return sceneHas(bit) && (sceneHasOnly(bit) || (closures & bit) != 0u); }
 /// Whether light samples go to lights of this kind.
 bool samplesLightKind(uint kind) { return (LIGHT_KINDS & (1u << kind)) != 0u; }
 /// kind == wanted, known without looking where there is but one, or none of that kind.

@@ -2,9 +2,7 @@
 // light sample there goes to one of them, each in one of two cases, and counts only if it comes from that
 // side: its density is half of what it would be. Scenes without such surfaces have nothing of this.
 
-const bool SCATTERS_THROUGH =
-    ((BSDF_KINDS & 1u << BSDF_FACET_DIELECTRIC) | (FACETS & BURLEY_HAS_TRANSMISSION) |
-     (PRINCIPLED_FEATURES & (PRINCIPLED_HAS_THIN_TRANSMISSION | PRINCIPLED_HAS_REFRACTION))) != 0u;
+const bool SCATTERS_THROUGH = (CLOSURES & (LOBE_GLOSSY_TRANSMISSION | LOBE_DIFFUSE_TRANSMISSION)) != 0u;
 
 bool isLitFromBothSides(uint lobes) {
     return SCATTERS_THROUGH && (lobes & TRANSMISSION_LOBES & ~DELTA_LOBES) != 0u;

@@ -1,8 +1,7 @@
-// Surfaces as the kernel reads them: emission, and the parameters of one BSDF.
+// Surfaces as the kernel reads them: emission, and the closures that scatter light.
 //
 // A material is a run of rows in the material buffer: its MaterialHeader, then the parameters of its
-// kind of BSDF, in a structure of that kind's own. Primitives name a material by its first row.
-// docs/architecture.md says how to add a kind.
+// closures. Primitives name a material by its first row. docs/architecture.md says how to add a closure.
 #ifndef STROMBOLI_SHARED_BSDF_TYPES_H
 #define STROMBOLI_SHARED_BSDF_TYPES_H
 
@@ -26,47 +25,45 @@ SHARED_CONST uint TRANSMISSION_LOBES = 8u | 16u | 32u;
 SHARED_CONST uint GLOSSY_LOBES = 2u | 16u;
 SHARED_CONST uint DIFFUSE_LOBES = 1u | 8u;
 
-// --- Kinds of BSDF and their parameters ------------------------------------------------------
+// --- Closures ------------------------------------------------------------------------------
+// A material is a short list of closures, which scatter light together: a diffuse base, an interface on
+// it (a plane, or microfacets), a clear coat, sheen. These bits say which ones it has and how they are;
+// with its lobes they are the low bits of MaterialHeader::closures. A scene's kernel knows which bits some
+// material has and which ones all have that they concern (CLOSURES, CLOSURES_OF_ALL).
 
-SHARED_CONST uint BSDF_DIFFUSE = 0u;
-SHARED_CONST uint BSDF_MIRROR = 1u;
-SHARED_CONST uint BSDF_REFRACTION = 2u;
-SHARED_CONST uint BSDF_GLASS = 3u;
-SHARED_CONST uint BSDF_ROUGH_CONDUCTOR = 4u;
-SHARED_CONST uint BSDF_PRINCIPLED = 5u;
-SHARED_CONST uint BSDF_CONDUCTOR = 6u;        ///< smooth
-SHARED_CONST uint BSDF_FACET_CONDUCTOR = 7u;  ///< microfacets of either distribution
-SHARED_CONST uint BSDF_FACET_DIELECTRIC = 8u; ///< the same of a dielectric; BSDF_GLASS is smooth
-SHARED_CONST uint BSDF_THIN_DIELECTRIC = 9u;
-SHARED_CONST uint BSDF_PLASTIC = 10u; ///< a diffuse base under a smooth dielectric interface
-SHARED_CONST uint BSDF_FACET_PLASTIC = 11u;
-SHARED_CONST uint BSDF_BURLEY = 12u;
-SHARED_CONST uint BSDF_KIND_COUNT = 13u;
+SHARED_CONST uint LOBE_MASK = 63u;
+SHARED_CONST uint CLOSURE_BASE = 1u << 6;      ///< diffuse reflection
+SHARED_CONST uint CLOSURE_INTERFACE = 1u << 7; ///< what reflects and transmits by a plane or by microfacets
+/// Base or coat beside the interface, so that samples choose.
+SHARED_CONST uint CLOSURE_LAYERS = 1u << 8;
+SHARED_CONST uint CLOSURE_COAT = 1u << 9;
+SHARED_CONST uint CLOSURE_SHEEN = 1u << 10;
+SHARED_CONST uint INTERFACE_IS_SMOOTH = 1u << 11;    ///< a plane
+SHARED_CONST uint INTERFACE_IS_CONDUCTOR = 1u << 12; ///< Fresnel's equations of a complex index
+SHARED_CONST uint INTERFACE_IS_DIELECTRIC = 1u << 13; ///< Fresnel's equations of a real index
+/// All is reflected; a dielectric: all is transmitted but in total reflection.
+SHARED_CONST uint INTERFACE_IS_IDEAL = 1u << 14;
+SHARED_CONST uint INTERFACE_REFRACTS = 1u << 15; ///< into a volume
+SHARED_CONST uint INTERFACE_IS_THIN = 1u << 16;  ///< a sheet that transmits: light goes straight through
+SHARED_CONST uint FACETS_ARE_BECKMANN = 1u << 17;  ///< else GGX
+SHARED_CONST uint FACETS_ARE_SEPARABLE = 1u << 18; ///< masking and shadowing; else correlated by height
+SHARED_CONST uint FACETS_ARE_TURNED = 1u << 19;    ///< stretched along a direction in the frame of the tangent
+SHARED_CONST uint BASE_IS_NONLINEAR = 1u << 20;    ///< its colour deepens with each reflection between base and interface
+SHARED_CONST uint VOLUME_ABSORBS = 1u << 21;
+SHARED_CONST uint HAS_BASE_COLOR = 1u << 22; ///< the first row is what base colours multiply
+/// Its closures follow from glTF's metallic-roughness model, or from Burley's; else they are stated.
+SHARED_CONST uint RECIPE_PRINCIPLED = 1u << 23;
+SHARED_CONST uint RECIPE_BURLEY = 1u << 24;
+SHARED_CONST uint CLOSURE_MASK = (1u << 25) - 1u;
 
-/// The lobes of each kind.
-SHARED_CONST uint DIFFUSE_BSDF_LOBES = LOBE_DIFFUSE_REFLECTION;
-SHARED_CONST uint MIRROR_BSDF_LOBES = LOBE_DELTA_REFLECTION;
-SHARED_CONST uint REFRACTION_BSDF_LOBES = LOBE_DELTA_TRANSMISSION;
-SHARED_CONST uint GLASS_BSDF_LOBES = LOBE_DELTA_REFLECTION | LOBE_DELTA_TRANSMISSION;
-SHARED_CONST uint ROUGH_CONDUCTOR_BSDF_LOBES = LOBE_GLOSSY_REFLECTION;
-/// Samples of all its lobes count as glossy ones: each has the density of the mixture of all. Only those
-/// materials transmit that have any transmission.
-SHARED_CONST uint PRINCIPLED_BSDF_LOBES = LOBE_GLOSSY_REFLECTION | LOBE_GLOSSY_TRANSMISSION;
-SHARED_CONST uint CONDUCTOR_BSDF_LOBES = LOBE_DELTA_REFLECTION;
-SHARED_CONST uint FACET_CONDUCTOR_BSDF_LOBES = LOBE_GLOSSY_REFLECTION;
-SHARED_CONST uint FACET_DIELECTRIC_BSDF_LOBES = LOBE_GLOSSY_REFLECTION | LOBE_GLOSSY_TRANSMISSION;
-SHARED_CONST uint THIN_DIELECTRIC_BSDF_LOBES = LOBE_DELTA_REFLECTION | LOBE_DELTA_TRANSMISSION;
-SHARED_CONST uint PLASTIC_BSDF_LOBES = LOBE_DELTA_REFLECTION | LOBE_DIFFUSE_REFLECTION;
-/// Samples of its diffuse lobe count as glossy ones: they have the density of the mixture.
-SHARED_CONST uint FACET_PLASTIC_BSDF_LOBES = LOBE_GLOSSY_REFLECTION;
-
-/// As of the principled kind.
-SHARED_CONST uint BURLEY_BSDF_LOBES = LOBE_GLOSSY_REFLECTION | LOBE_GLOSSY_TRANSMISSION;
+/// Bits that concern materials with an interface only, and those that concern microfacets only.
+SHARED_CONST uint INTERFACE_BITS = INTERFACE_IS_SMOOTH | INTERFACE_IS_CONDUCTOR | INTERFACE_IS_DIELECTRIC | INTERFACE_IS_IDEAL;
+SHARED_CONST uint FACETS_BITS = FACETS_ARE_BECKMANN | FACETS_ARE_SEPARABLE;
 
 /// What every material has.
 struct MaterialHeader {
     vec3 emission; ///< radiance, W sr^-1 m^-2
-    uint kind;     ///< BSDF_ kind; | MATERIAL_EMITS_BOTH_SIDES ... MATERIAL_RELIEF_SHADOWS
+    uint closures; ///< LOBE_ and closure bits | MATERIAL_EMITS_BOTH_SIDES ... MATERIAL_RELIEF_SHADOWS
 };
 SHARED_ROWS(MaterialHeader, 1);
 /// Else a surface emits only on the side that its geometric normal, as stored, points to.
@@ -81,111 +78,30 @@ SHARED_CONST uint MATERIAL_RELIEF_BLACKENS = 0x10000000u;
 SHARED_CONST uint MATERIAL_RELIEF_SHADOWS = 0x08000000u;
 SHARED_CONST uint MATERIAL_RELIEF_RULES =
     MATERIAL_RELIEF_FLIPS | MATERIAL_RELIEF_BLACKENS | MATERIAL_RELIEF_SHADOWS;
-SHARED_CONST uint MATERIAL_KIND_MASK = 0xFFu;
 
-struct DiffuseParameters {
-    vec3 albedo;
-    uint unused;
-};
-SHARED_ROWS(DiffuseParameters, 1);
+// --- Parameters ------------------------------------------------------------------------------
+// Three structures for the rows behind the header: stated closures, and the two recipes.
 
-struct MirrorParameters {
-    vec3 reflectance;
-    uint unused;
-};
-SHARED_ROWS(MirrorParameters, 1);
-
-/// A smooth interface that only transmits; there is no Fresnel reflection.
-struct RefractionParameters {
-    vec3 transmittance;
-    float ior; ///< index inside over index outside
-};
-SHARED_ROWS(RefractionParameters, 1);
-
-/// A smooth dielectric interface.
-struct GlassParameters {
-    vec3 reflectance; ///< multiplies what Fresnel's equations reflect
-    float ior;        ///< index inside over index outside
-    vec3 transmittance;
-    uint unused;
-};
-SHARED_ROWS(GlassParameters, 2);
-
-/// A conductor with a Beckmann distribution of microfacets.
-struct RoughConductorParameters {
-    vec3 eta;    ///< real part of the index of refraction, per colour channel
-    float alpha; ///< Beckmann roughness: RMS slope times sqrt(2)
-    vec3 k;      ///< extinction coefficient
-    uint unused;
-};
-SHARED_ROWS(RoughConductorParameters, 2);
-
-// Of the kinds below, the first row is the colour that base colour textures multiply, the second one of
-// plastic what textures of the specular colour do, and their last numbers are what textures of roughness
-// multiply, as those of the principled material are.
-
-/// A conductor of complex index eta + i k against what is outside of it, smooth or of microfacets.
-struct ConductorParameters {
-    vec3 reflectance; ///< multiplies what Fresnel's equations reflect
-    float alphaY;     ///< of the microfacets, across the tangent
-    vec3 eta;
+/// A base, an interface, or a base under an interface. A base alone and a mirror read the first row only.
+struct StatedParameters {
+    vec3 color;   ///< albedo of the base; transmittance of a dielectric; reflectance of a conductor or a mirror
+    float alphaY; ///< of the microfacets, across the tangent; a smooth dielectric has its index here too, for scenes
+                  ///< without third rows
+    vec3 edge;    ///< what multiplies the reflection of a dielectric; real part of a conductor's index
     float alphaX; ///< along the tangent
-    vec3 k;
-    uint facets; ///< FACETS_ bits: its distribution and its masking
+    vec3 index;   ///< INDEX_ components of a dielectric; extinction coefficient of a conductor
+    uint table;   ///< base under microfacets: row of the first piece of their transmittance
 };
-SHARED_ROWS(ConductorParameters, 3);
-
-/// An interface of microfacets between dielectrics.
-struct FacetDielectricParameters {
-    vec3 transmittance; ///< multiplies what Fresnel's equations let through
-    float alphaY;
-    vec3 reflectance;
-    float alphaX;
-    float ior;        ///< index inside over index outside
-    float leastAlpha; ///< either alpha is no less
-    uint facets;
-    uint unused;
-};
-SHARED_ROWS(FacetDielectricParameters, 3);
-
-/// A sheet of a dielectric, too thin to be seen as two interfaces.
-struct ThinDielectricParameters {
-    vec3 transmittance;
-    float ior; ///< index of the sheet over the index around it
-    vec3 reflectance;
-    uint unused;
-};
-SHARED_ROWS(ThinDielectricParameters, 2);
-
-/// A diffuse base under the interface of a dielectric.
-struct PlasticParameters {
-    vec3 albedo;           ///< of the base
-    float internalDiffuse; ///< share of diffuse light that the interface sends back to the base
-    vec3 reflectance;      ///< multiplies what Fresnel's equations reflect
-    float ior;             ///< index under the interface over the index above it
-    float alpha;           ///< of the interface's microfacets
-    uint flags;            ///< PLASTIC_, and FACETS_ bits
-    uint table;            ///< microfacets: row of the first piece of their transmittance
-    uint unused;
-};
-SHARED_ROWS(PlasticParameters, 3);
-/// The base's colour deepens with each reflection between base and interface.
-SHARED_CONST uint PLASTIC_IS_NONLINEAR = 256u;
+SHARED_ROWS(StatedParameters, 3);
+SHARED_CONST int INDEX_RATIO = 0;       ///< index inside over index outside
+SHARED_CONST int INDEX_BACK = 1;        ///< share of diffuse light that the interface sends back to the base
+SHARED_CONST int INDEX_LEAST_ALPHA = 2; ///< either alpha of the microfacets is no less
+SHARED_CONST uint STATED_TABLE_ROW = 3u; ///< of a material, its header counted: its last word is `table`
 
 /// The transmittance of an interface of microfacets from outside, seen at the cosine mu, is a cubic
 /// polynomial on each of so many equal pieces of sqrt(mu) in [0, 1]: one row each, the coefficients by
 /// rising powers of the place in the piece, [0, 1].
 SHARED_CONST uint TRANSMITTANCE_PIECES = 16u;
-
-/// The microfacets of these kinds: one of two distributions, one of two ways of masking. Those that a scene has
-/// are a constant of its kernel (SPEC_FACETS).
-SHARED_CONST uint FACETS_GGX = 1u;
-SHARED_CONST uint FACETS_BECKMANN = 2u;
-SHARED_CONST uint FACETS_CORRELATED = 4u;
-SHARED_CONST uint FACETS_SEPARABLE = 8u;
-/// What the materials of Burley's kind have in a scene, in the same constant.
-SHARED_CONST uint BURLEY_HAS_TRANSMISSION = 16u;
-SHARED_CONST uint BURLEY_HAS_THIN = 32u;
 
 /// Burley's principled BSDF (scene/model/material.hpp). Its numbers are where textures of the principled kind's slots
 /// multiply them.
@@ -233,7 +149,7 @@ SHARED_ROWS(PrincipledParameters, 6);
 SHARED_CONST uint PRINCIPLED_IS_THIN = 1u; ///< there is no volume behind the surface
 SHARED_CONST uint PRINCIPLED_ABSORPTION_ROW = 6u; ///< of a material, its header counted
 
-/// The least parameter of GGX, and of the Beckmann distribution of the kinds above. Roundings of two directions turn their half vector by up to 12 * 2^-24 (three
+/// The least parameter of GGX, and of Beckmann's distribution. Roundings of two directions turn their half vector by up to 12 * 2^-24 (three
 /// in each component of either, and as many in the sum); of a lobe this wide that is 0.7 %, which is 1.5 %
 /// of D at its flank. A mirror of this roughness blurs by 1e-4 radians, half a pixel of a picture 4000
 /// pixels and 50 degrees wide.
@@ -251,15 +167,6 @@ SHARED_CONST float CLEARCOAT_F0 = 0.04f;
 /// above LEAST_SHEEN_COSINE); below that, more light would be reflected than arrives.
 SHARED_CONST float LEAST_SHEEN_ALPHA = 0.07f;
 SHARED_CONST float LEAST_SHEEN_COSINE = 1e-3f;
-
-/// What the principled materials of a scene have (SPEC_PRINCIPLED_FEATURES).
-SHARED_CONST uint PRINCIPLED_HAS_CLEARCOAT = 1u;
-SHARED_CONST uint PRINCIPLED_HAS_SHEEN = 2u;
-SHARED_CONST uint PRINCIPLED_HAS_ANISOTROPY = 4u;
-SHARED_CONST uint PRINCIPLED_HAS_THIN_TRANSMISSION = 8u;
-SHARED_CONST uint PRINCIPLED_HAS_REFRACTION = 16u; ///< into volumes
-SHARED_CONST uint PRINCIPLED_HAS_ABSORPTION = 32u; ///< in these volumes
-SHARED_CONST uint PRINCIPLED_ALL_FEATURES = 63u;
 
 SHARED_END
 

@@ -16,7 +16,7 @@
     C(3, bool, HAS_TRIANGLES, true) /* the scene has triangles */ \
     C(4, bool, HAS_SPHERES, true) /* the scene has spheres */ \
     C(5, bool, HAS_NORMALS, true) /* some surface has a shading normal beside its geometric one */ \
-    C(6, uint, BSDF_KINDS, 31u) /* bit n: BSDF_ kind n occurs */ \
+    C(6, uint, CLOSURES, 33554431u) /* LOBE_ and closure bits that some material has (bsdf_types.h) */ \
     C(7, bool, HAS_EMISSION, true) /* some surface shines */ \
     C(8, uint, LIGHT_KINDS, 255u) /* bit n: lights of LIGHT_ kind n are sampled */ \
     C(9, uint, INTEGRATOR, INTEGRATOR_PATH) /* what a sample is (INTEGRATOR_) */ \
@@ -47,22 +47,21 @@
     C(34, uint, ATTRIBUTES, 0u) /* ATTRIBUTE_ bits: what the detail buffer has of primitives' corners */ \
     C(35, bool, HAS_ALPHA, false) /* surfaces may be partly not there */ \
     C(36, bool, TANGENT_FRAMES, false) /* the frame of a BSDF follows the surface's tangent */ \
-    C(37, uint, PRINCIPLED_FEATURES, 63u) /* PRINCIPLED_HAS_ bits: what the principled materials have */ \
+    C(37, uint, CLOSURES_OF_ALL, 0u) /* those of these that all materials have which they concern */ \
     C(38, uint, LOOSE_SLOTS, 0u) /* bit n: some material has a texture in slot n that is in no bundle */ \
-    C(39, uint, FACETS, 63u) /* FACETS_ bits: of microfacets of conductors, dielectrics, plastic */ \
-    C(40, bool, BLACK_BACKS, false) /* materials are black where normals do not point */ \
-    C(41, bool, HAS_BLENDS, false) /* materials are mixtures of others */ \
-    C(42, float, FILTER_EXTRA, 0.0) /* a float: Gaussian and tent are wider by this share */ \
-    C(43, bool, HIDES_SURFACES, false) /* camera rays pass some materials (DETAIL_IS_HIDDEN) */ \
-    C(44, bool, RELIEF_RULES, false) /* some material has MATERIAL_RELIEF_ bits */ \
-    C(45, bool, HAS_PLACEMENTS, false) /* prototypes are placed in the world (scene_types.h) */ \
-    C(46, uint, TRAVERSAL_LEGS, 1u) /* between two service passes, each of SPEC_TRAVERSAL_STEPS */ \
-    C(47, uint, ROULETTE_START, 3u) /* bounces before roulette by throughput */ \
-    C(48, bool, FLAT_TERMINATOR, false) /* light is reflected from flat triangles (no terminator offset) */ \
-    C(49, uint, LOOSE_TEXTURES, 255u) /* the most textures that a material has in no bundle */ \
-    C(50, bool, CORNER_NORMALS, true) /* some triangle has normals of its corners; else maps alone make shading normals */
+    C(39, bool, BLACK_BACKS, false) /* materials are black where normals do not point */ \
+    C(40, bool, HAS_BLENDS, false) /* materials are mixtures of others */ \
+    C(41, float, FILTER_EXTRA, 0.0) /* a float: Gaussian and tent are wider by this share */ \
+    C(42, bool, HIDES_SURFACES, false) /* camera rays pass some materials (DETAIL_IS_HIDDEN) */ \
+    C(43, bool, RELIEF_RULES, false) /* some material has MATERIAL_RELIEF_ bits */ \
+    C(44, bool, HAS_PLACEMENTS, false) /* prototypes are placed in the world (scene_types.h) */ \
+    C(45, uint, TRAVERSAL_LEGS, 1u) /* between two service passes, each of SPEC_TRAVERSAL_STEPS */ \
+    C(46, uint, ROULETTE_START, 3u) /* bounces before roulette by throughput */ \
+    C(47, bool, FLAT_TERMINATOR, false) /* light is reflected from flat triangles (no terminator offset) */ \
+    C(48, uint, LOOSE_TEXTURES, 255u) /* the most textures that a material has in no bundle */ \
+    C(49, bool, CORNER_NORMALS, true) /* some triangle has normals of its corners; else maps alone make shading normals */
 
-#define SPEC_COUNT 51
+#define SPEC_COUNT 50
 
 #ifdef __cplusplus
 namespace stromboli {

@@ -61,7 +61,7 @@ TEST_P(Branches, RouletteByThroughput) {
 /// A mirror first, glass first, metal first: what splits, and where, is a matter of the material.
 TEST_P(Branches, BehindEveryMaterial) {
     for (const MaterialKind kind : {MaterialKind::Mirror, MaterialKind::Refraction,
-                                    MaterialKind::Glass, MaterialKind::Microfacet}) {
+                                    MaterialKind::Dielectric, MaterialKind::Conductor}) {
         SCOPED_TRACE(int(kind));
         SceneMaker maker;
         maker.box({-1, -1, -1}, {1, 1, 1}, maker.add(diffuse(0.5f)), true);
@@ -70,7 +70,9 @@ TEST_P(Branches, BehindEveryMaterial) {
         m.kind = kind;
         m.reflectance = m.transmittance = glm::vec3(0.9f);
         m.ior = 1.5f;
-        m.alpha = 0.3f, m.eta = glm::vec3(1.5f), m.k = glm::vec3(3);
+        if (kind == MaterialKind::Conductor)
+            m.facets = {FacetDistribution::Beckmann, glm::vec2(0.3f)};
+        m.eta = glm::vec3(1.5f), m.k = glm::vec3(3);
         maker.sphere({0.5f, -0.3f, 0}, 0.4f, maker.add(m));
         RenderSettings s = branching(GetParam(), 6);
         s.budget.mostSamplesPerPixel *= 2;

@@ -133,7 +133,7 @@ TEST(Cs184, RefractionScalesRadianceTheOtherWay) {
     const Camera center = pointCamera({0, 0, 0}, {0, 0, 1}, 0.5);
     b.scene.materials[1].kind = MaterialKind::Refraction;
     expectMean(estimate(b.scene, center, cs184(4, 50)), 1 / 2.25);
-    b.scene.materials[1].kind = MaterialKind::Glass;
+    b.scene.materials[1].kind = MaterialKind::Dielectric;
     expectMean(estimate(b.scene, center, cs184(16, 50)), 1 / 2.25);
     const Camera outside = pointCamera({0, 0, 4}, {0, 0, 0}, 0.18);
     expectMean(estimate(b.scene, outside, cs184(16, 50)), 1);

@@ -33,7 +33,7 @@ TEST(Glass, RadianceInsideIsLargerByTheSquareOfTheIndex) {
     Material m = glass(1.5f);
     m.kind = MaterialKind::Refraction;
     const Camera center = pointCamera({0, 0, 0}, {0, 0, 1}, 0.5);
-    for (MaterialKind kind : {MaterialKind::Refraction, MaterialKind::Glass}) {
+    for (MaterialKind kind : {MaterialKind::Refraction, MaterialKind::Dielectric}) {
         m.kind = kind;
         expectMean(estimate(sphereInAmbientLight(m), center, smallPicture(16, 1000)), 2.25);
     }

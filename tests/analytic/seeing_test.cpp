@@ -285,7 +285,8 @@ TEST(Layers, AlbedoOfMetalsAndPrincipledMaterials) {
         return seenColor(b.scene, pointCamera({0, 3, 1}, {0, 0, 0}));
     };
     Material gold;
-    gold.kind = MaterialKind::Microfacet;
+    gold.kind = MaterialKind::Conductor;
+    gold.facets = {FacetDistribution::Beckmann, glm::vec2(0.1f)};
     gold.eta = {0.2f, 0.5f, 1.5f};
     gold.k = {3, 2, 0};
     const auto reflectance = [](double n, double k) {

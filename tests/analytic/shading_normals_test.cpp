@@ -65,8 +65,8 @@ TEST(ShadingNormals, GeometricNormalStandsInBeyondTheirHorizon) {
 /// to the other side, whatever finds the emitter.
 TEST(ShadingNormals, LetNoLightThroughTheSurface) {
     Material metal;
-    metal.kind = MaterialKind::Microfacet;
-    metal.alpha = 0.8f, metal.k = glm::vec3(5);
+    metal.kind = MaterialKind::Conductor;
+    metal.facets = {FacetDistribution::Beckmann, glm::vec2(0.8f)}, metal.k = glm::vec3(5);
     Material mirror;
     mirror.kind = MaterialKind::Mirror;
     for (const Material& material : {diffuse(0.5f), metal, mirror}) {

@@ -27,8 +27,8 @@ Material mirror() {
 
 Material metal() {
     Material m;
-    m.kind = MaterialKind::Microfacet;
-    m.alpha = 0.8f, m.k = glm::vec3(5);
+    m.kind = MaterialKind::Conductor;
+    m.facets = {FacetDistribution::Beckmann, glm::vec2(0.8f)}, m.k = glm::vec3(5);
     return m;
 }
 

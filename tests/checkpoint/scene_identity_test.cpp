@@ -34,7 +34,7 @@ TEST(SceneIdentity, EveryMemberCounts) {
         [](Scene& s, Camera&) { s.triangles[1].material = 1; },
         [](Scene& s, Camera&) { s.spheres[0].radius = 2; },
         [](Scene& s, Camera&) { s.materials[1].albedo.y = 0.25f; },
-        [](Scene& s, Camera&) { s.materials[1].kind = MaterialKind::Glass; },
+        [](Scene& s, Camera&) { s.materials[1].kind = MaterialKind::Dielectric; },
         [](Scene& s, Camera&) { s.materials[1].emitsBothSides = false; },
         [](Scene& s, Camera&) { s.lights[0].color.x = 2; },
         [](Scene& s, Camera&) { s.lights[0].falloffAngle = 1; },

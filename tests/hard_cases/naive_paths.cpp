@@ -157,7 +157,7 @@ glm::vec3 Path::scatter() {
         throughput *= material->albedo;
         return aroundNormal(normal, u, v);
     }
-    if (material->kind == MaterialKind::Mirror || material->kind == MaterialKind::Microfacet) {
+    if (material->kind == MaterialKind::Mirror || material->kind == MaterialKind::Conductor) {
         throughput *= material->reflectance;
         return reflected;
     }

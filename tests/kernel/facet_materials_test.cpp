@@ -20,23 +20,62 @@ Material ofKind(MaterialKind kind, float alphaX, float alphaY, float ior = 1.5f)
 
 TEST(FacetMaterials, AreSmoothWhereFloatsCannotTell) {
     using enum MaterialKind;
-    EXPECT_EQ(bsdfKind(ofKind(Conductor, 0, 0)), gpu::BSDF_CONDUCTOR);
-    EXPECT_EQ(bsdfKind(ofKind(Conductor, 0.99e-4f, 0)), gpu::BSDF_CONDUCTOR);
-    EXPECT_EQ(bsdfKind(ofKind(Conductor, 1e-4f, 0)), gpu::BSDF_FACET_CONDUCTOR);
-    EXPECT_EQ(bsdfKind(ofKind(Conductor, 0, 0.3f)), gpu::BSDF_FACET_CONDUCTOR);
+    const auto isSmooth = [](const Material& m) {
+        const uint32_t bits = closureBits(m);
+        EXPECT_TRUE(bits & gpu::CLOSURE_INTERFACE);
+        const bool smooth = bits & gpu::INTERFACE_IS_SMOOTH;
+        EXPECT_EQ(bool(bits & gpu::DELTA_LOBES), smooth);
+        EXPECT_EQ(bool(bits & gpu::GLOSSY_LOBES), !smooth);
+        return smooth;
+    };
+    EXPECT_TRUE(isSmooth(ofKind(Conductor, 0, 0)));
+    EXPECT_TRUE(isSmooth(ofKind(Conductor, 0.99e-4f, 0)));
+    EXPECT_FALSE(isSmooth(ofKind(Conductor, 1e-4f, 0)));
+    EXPECT_FALSE(isSmooth(ofKind(Conductor, 0, 0.3f)));
     EXPECT_EQ(ofKind(Conductor, 0, 0.3f).facetAlpha(), glm::vec2(1e-4f, 0.3f));
-    EXPECT_EQ(bsdfKind(ofKind(Dielectric, 0, 0)), gpu::BSDF_GLASS);
-    EXPECT_EQ(bsdfKind(ofKind(Dielectric, 0.1f, 0.1f)), gpu::BSDF_FACET_DIELECTRIC);
-    EXPECT_EQ(bsdfKind(ofKind(Dielectric, 0.1f, 0.1f, 1)), gpu::BSDF_GLASS) << "no interface";
-    EXPECT_EQ(bsdfKind(ofKind(Dielectric, 0.02f, 0.02f, 1 + 0x1p-10f)), gpu::BSDF_GLASS);
-    EXPECT_EQ(bsdfKind(ofKind(Dielectric, 0.04f, 0.04f, 1 + 0x1p-10f)), gpu::BSDF_FACET_DIELECTRIC);
-    EXPECT_EQ(bsdfKind(ofKind(ThinDielectric, 0.1f, 0.1f)), gpu::BSDF_THIN_DIELECTRIC);
-    EXPECT_EQ(bsdfKind(ofKind(Plastic, 0, 1)), gpu::BSDF_PLASTIC) << "the first alpha counts";
-    EXPECT_EQ(bsdfKind(ofKind(Plastic, 0.1f, 0)), gpu::BSDF_FACET_PLASTIC);
+    EXPECT_TRUE(isSmooth(ofKind(Dielectric, 0, 0)));
+    EXPECT_FALSE(isSmooth(ofKind(Dielectric, 0.1f, 0.1f)));
+    EXPECT_TRUE(isSmooth(ofKind(Dielectric, 0.1f, 0.1f, 1))) << "no interface";
+    EXPECT_TRUE(isSmooth(ofKind(Dielectric, 0.02f, 0.02f, 1 + 0x1p-10f)));
+    EXPECT_FALSE(isSmooth(ofKind(Dielectric, 0.04f, 0.04f, 1 + 0x1p-10f)));
+    EXPECT_TRUE(isSmooth(ofKind(ThinDielectric, 0.1f, 0.1f)));
+    EXPECT_TRUE(isSmooth(ofKind(Plastic, 0, 1))) << "the first alpha counts";
+    EXPECT_FALSE(isSmooth(ofKind(Plastic, 0.1f, 0)));
     EXPECT_TRUE(ofKind(Dielectric, 0, 0).isDelta());
     EXPECT_FALSE(ofKind(Plastic, 0, 0).isDelta());
-    EXPECT_EQ(facetBits(ofKind(Plastic, 0, 0)), 0u);
-    EXPECT_EQ(facetBits(ofKind(Plastic, 0.1f, 0)), gpu::FACETS_GGX | gpu::FACETS_CORRELATED);
+}
+
+TEST(FacetMaterials, SayWhichClosuresTheyHave) {
+    using enum MaterialKind;
+    Material beckmann = ofKind(Conductor, 0.3f, 0.3f);
+    beckmann.facets.distribution = FacetDistribution::Beckmann;
+    beckmann.facets.masking = FacetMasking::Separable;
+    EXPECT_EQ(closureBits(beckmann), gpu::CLOSURE_INTERFACE | gpu::INTERFACE_IS_CONDUCTOR |
+                                         gpu::FACETS_BITS | gpu::LOBE_GLOSSY_REFLECTION |
+                                         gpu::HAS_BASE_COLOR);
+    EXPECT_EQ(closureBits(ofKind(Diffuse, 0, 0)),
+              gpu::CLOSURE_BASE | gpu::LOBE_DIFFUSE_REFLECTION | gpu::HAS_BASE_COLOR);
+    const uint32_t plastic = closureBits(ofKind(Plastic, 0.1f, 0.1f));
+    EXPECT_TRUE(plastic & gpu::CLOSURE_LAYERS);
+    EXPECT_FALSE(plastic & (gpu::INTERFACE_REFRACTS | gpu::FACETS_BITS));
+}
+
+/// What a material lacks is no vote on how those are that have it.
+TEST(SceneClosures, AreThoseOfSomeMaterialAndOfAllThatTheyConcern) {
+    using enum MaterialKind;
+    SceneClosures scene;
+    scene.add(closureBits(ofKind(Diffuse, 0, 0)));
+    scene.add(closureBits(ofKind(Conductor, 0, 0)));
+    EXPECT_EQ(scene.some & scene.all & ~gpu::HAS_BASE_COLOR,
+              gpu::INTERFACE_IS_SMOOTH | gpu::INTERFACE_IS_CONDUCTOR);
+    Material beckmann = ofKind(Conductor, 0.3f, 0.3f);
+    beckmann.facets.distribution = FacetDistribution::Beckmann;
+    scene.add(closureBits(beckmann));
+    EXPECT_FALSE(scene.all & gpu::INTERFACE_IS_SMOOTH);
+    EXPECT_TRUE(scene.all & gpu::FACETS_ARE_BECKMANN) << "planes have no facets";
+    scene.add(closureBits(ofKind(Conductor, 0.3f, 0.3f)));
+    EXPECT_FALSE(scene.all & gpu::FACETS_ARE_BECKMANN);
+    EXPECT_TRUE(scene.some & gpu::FACETS_ARE_BECKMANN);
 }
 
 TEST(FacetMaterials, HaveAGrainWhereTheirAlphasDiffer) {

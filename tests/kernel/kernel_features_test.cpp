@@ -33,18 +33,22 @@ TEST(KernelFeatures, HoldOnlyWhatTheSceneNeeds) {
     EXPECT_FALSE(f[SPEC_HAS_SPHERES]);
     EXPECT_FALSE(f[SPEC_HAS_NORMALS]);
     EXPECT_FALSE(f[SPEC_HAS_EMISSION]);
-    EXPECT_EQ(f[SPEC_BSDF_KINDS], 1u << gpu::BSDF_DIFFUSE);
+    constexpr uint32_t kDiffuse =
+        gpu::CLOSURE_BASE | gpu::LOBE_DIFFUSE_REFLECTION | gpu::HAS_BASE_COLOR;
+    EXPECT_EQ(f[SPEC_CLOSURES], kDiffuse);
+    EXPECT_EQ(f[SPEC_CLOSURES_OF_ALL], kDiffuse);
     EXPECT_EQ(f[SPEC_LIGHT_KINDS], 0u);
 
     Material unused;
-    unused.kind = MaterialKind::Glass;
+    unused.kind = MaterialKind::Dielectric;
     scene.materials.push_back(unused); // no surface has it
-    EXPECT_EQ(featuresOf(scene)[SPEC_BSDF_KINDS], 1u << gpu::BSDF_DIFFUSE);
+    EXPECT_EQ(featuresOf(scene)[SPEC_CLOSURES], kDiffuse);
 
     scene.spheres.push_back({{0, 0, 5}, 1, 1, 0});
     f = featuresOf(scene);
     EXPECT_TRUE(f[SPEC_HAS_SPHERES]);
-    EXPECT_EQ(f[SPEC_BSDF_KINDS], (1u << gpu::BSDF_DIFFUSE) | (1u << gpu::BSDF_GLASS));
+    EXPECT_EQ(f[SPEC_CLOSURES], kDiffuse | closureBits(unused));
+    EXPECT_EQ(f[SPEC_CLOSURES_OF_ALL], gpu::INTERFACE_IS_SMOOTH | gpu::INTERFACE_IS_DIELECTRIC);
 }
 
 TEST(KernelFeatures, LightsFollowTheSettings) {
@@ -64,7 +68,8 @@ TEST(KernelFeatures, LightsFollowTheSettings) {
 
 TEST(KernelFeatures, MisOnlyWhereRoughMetalsMeetEmittersThatBouncesFind) {
     Material metal, emitter;
-    metal.kind = MaterialKind::Microfacet;
+    metal.kind = MaterialKind::Conductor;
+    metal.facets = {FacetDistribution::Beckmann, glm::vec2(0.1f)};
     emitter.emission = glm::vec3(1);
     Scene scene = oneTriangle(metal);
     EXPECT_FALSE(featuresOf(scene)[SPEC_MIS_LOBES]); // no light
@@ -330,11 +335,12 @@ TEST(KernelFeatures, MetalThatATextureMakesClearTransmits) {
     m.kind = MaterialKind::Principled;
     m.principled.metallic = 1;
     m.principled.transmission = 1;
-    EXPECT_EQ(principledFeatures(m), 0u);
+    constexpr uint32_t kThrough = gpu::INTERFACE_REFRACTS | gpu::INTERFACE_IS_THIN;
+    EXPECT_EQ(closureBits(m) & kThrough, 0u);
     m.textures = {{.slot = TextureSlot::MetallicRoughness}};
-    EXPECT_EQ(principledFeatures(m), gpu::PRINCIPLED_HAS_THIN_TRANSMISSION);
+    EXPECT_EQ(closureBits(m) & kThrough, gpu::INTERFACE_IS_THIN);
     m.principled.isThin = false;
-    EXPECT_EQ(principledFeatures(m), gpu::PRINCIPLED_HAS_REFRACTION);
+    EXPECT_EQ(closureBits(m) & kThrough, gpu::INTERFACE_REFRACTS);
 }
 
 TEST(KernelFeatures, EverythingOn) {
@@ -349,7 +355,8 @@ TEST(KernelFeatures, EverythingOn) {
     for (const uint32_t feature :
          {SPEC_HAS_TRIANGLES, SPEC_HAS_SPHERES, SPEC_HAS_NORMALS, SPEC_HAS_EMISSION})
         EXPECT_EQ(f[feature], 1u) << feature;
-    EXPECT_EQ(f[SPEC_BSDF_KINDS], (1u << gpu::BSDF_KIND_COUNT) - 1);
+    EXPECT_EQ(f[SPEC_CLOSURES], gpu::CLOSURE_MASK);
+    EXPECT_EQ(f[SPEC_CLOSURES_OF_ALL], 0u);
     EXPECT_EQ(f[SPEC_LIGHT_KINDS], (1u << gpu::LIGHT_KIND_COUNT) - 1);
     EXPECT_EQ(f[SPEC_ROULETTE], gpu::ROULETTE_NONE);
     EXPECT_EQ(f[SPEC_CS184], 0u);

@@ -10,7 +10,8 @@ namespace {
 /// A flat triangle brings its normal, a smooth one those of its corners; a light's leaf names it.
 TEST(PackedPrimitives, HaveTheirNormalsAndNameTheirLights) {
     Material metal, emitter;
-    metal.kind = MaterialKind::Microfacet;
+    metal.kind = MaterialKind::Conductor;
+    metal.facets = {FacetDistribution::Beckmann, glm::vec2(0.1f)};
     emitter.emission = glm::vec3(1);
     Scene scene;
     scene.materials = {metal, emitter};

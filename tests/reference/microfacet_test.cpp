@@ -1,6 +1,7 @@
 #include "host/reference/bsdf.hpp"
+#include "host/reference/facets.hpp"
 #include "host/reference/fresnel.hpp"
-#include "host/reference/microfacet.hpp"
+#include "host/reference/interfaces.hpp"
 #include "host/reference/random.hpp"
 #include "host/reference/sampling.hpp"
 
@@ -14,9 +15,16 @@ namespace {
 
 Material metal(float alpha) {
     Material m;
-    m.kind = MaterialKind::Microfacet;
-    m.alpha = alpha, m.eta = {1.3f, 1.0f, 0.2f}, m.k = {7.3f, 0.5f, 3.9f};
+    m.kind = MaterialKind::Conductor;
+    m.facets = {FacetDistribution::Beckmann, glm::vec2(alpha)};
+    m.eta = {1.3f, 1.0f, 0.2f}, m.k = {7.3f, 0.5f, 3.9f};
     return m;
+}
+
+/// f.
+glm::dvec3 reflected(const Material& m, const glm::dvec3& wo, const glm::dvec3& wi,
+                     const ShadingConventions& conventions) {
+    return evaluateFacetConductor(m, wo, wi, conventions).value / wi.z;
 }
 
 /// Reflects everything, so that f holds all of the geometry and nothing else.
@@ -42,20 +50,23 @@ double integrate(double c0, double c1, double p0, double p1, int n, F&& f) {
 }
 
 TEST(Microfacet, NormalsProjectToTheSurface) {
-    for (double alpha : {0.2, 0.5, 1.0})
+    for (const float alpha : {0.2f, 0.5f, 1.0f}) {
+        const FacetModel facets(metal(alpha));
         EXPECT_NEAR(integrate(0, 1, 0, 2 * kPi, 1000,
-                              [&](const glm::dvec3& h) { return beckmannD(h, alpha) * h.z; }),
+                              [&](const glm::dvec3& h) { return facets.density(h) * h.z; }),
                     1, 1e-4);
+    }
 }
 
 TEST(Microfacet, VisibleNormalsProjectToTheView) {
     // Smith's masking is defined by: integral of G1 max(0, w.h) D(h) dh = cos of w.
-    for (double alpha : {0.3, 0.8})
+    for (const float alpha : {0.3f, 0.8f})
         for (double cosine : {0.2, 0.6, 1.0}) {
+            const FacetModel facets(metal(alpha));
             const glm::dvec3 w = direction(cosine, 0.7);
-            const double g1 = 1 / (1 + smithLambda(w, alpha, {}));
+            const double g1 = 1 / (1 + facets.lambda(w));
             const double projected = integrate(0, 1, 0, 2 * kPi, 1000, [&](const glm::dvec3& h) {
-                return beckmannD(h, alpha) * std::max(glm::dot(w, h), 0.0);
+                return facets.density(h) * std::max(glm::dot(w, h), 0.0);
             });
             EXPECT_NEAR(g1 * projected, cosine, 1e-4);
         }
@@ -66,8 +77,8 @@ TEST(Microfacet, Reciprocity) {
     for (double a : {0.05, 0.4, 0.9})
         for (double b : {0.1, 0.7, 1.0}) {
             const glm::dvec3 wo = direction(a, 0.3), wi = direction(b, 2.0);
-            const glm::dvec3 f = microfacet(m, wo, wi, {});
-            const glm::dvec3 g = microfacet(m, wi, wo, {});
+            const glm::dvec3 f = reflected(m, wo, wi, {});
+            const glm::dvec3 g = reflected(m, wi, wo, {});
             for (int c = 0; c < 3; ++c) {
                 EXPECT_GT(f[c], 0);
                 EXPECT_NEAR(f[c] / g[c], 1, 1e-12);
@@ -83,11 +94,13 @@ TEST(Microfacet, SamplesFollowTheirDensity) {
     for (float alpha : {0.15f, 0.5f, 1.0f})
         for (double cosine : {0.3, 0.9}) {
             const glm::dvec3 wo = direction(cosine, 1);
+            const Material m = metal(alpha);
+            const FacetModel facets(m);
             std::vector<double> counts(kRows * kColumns + 1), expected(counts.size());
             RandomStream random(0, 0, 1);
             for (int i = 0; i < kSamples; ++i) {
                 const double u = random.next(), v = random.next();
-                const glm::dvec3 h = sampleBeckmann(alpha, u, v);
+                const glm::dvec3 h = facets.sampleVisible(wo, u, v);
                 const glm::dvec3 wi = 2 * glm::dot(wo, h) * h - wo;
                 double azimuth = std::atan2(wi.y, wi.x);
                 if (azimuth < 0) azimuth += 2 * kPi;
@@ -100,8 +113,9 @@ TEST(Microfacet, SamplesFollowTheirDensity) {
                 for (int column = 0; column < kColumns; ++column) {
                     const double share = integrate(
                         double(row) / kRows, (row + 1.0) / kRows, 2 * kPi * column / kColumns,
-                        2 * kPi * (column + 1) / kColumns, 60,
-                        [&](const glm::dvec3& wi) { return microfacetDensity(alpha, wo, wi); });
+                        2 * kPi * (column + 1) / kColumns, 60, [&](const glm::dvec3& wi) {
+                            return evaluateFacetConductor(m, wo, wi, {}).pdf;
+                        });
                     expected[row * kColumns + column] = share * kSamples;
                     total += share;
                 }
@@ -159,7 +173,7 @@ TEST(Microfacet, SampledAlbedoIsTheIntegralOfF) {
         const Material m = metal(0.5f);
         const glm::dvec3 wo = direction(0.6, 0.5);
         const double integral = integrate(0, 1, 0, 2 * kPi, 500, [&](const glm::dvec3& wi) {
-            return microfacet(m, wo, wi, conventions).x * wi.z;
+            return reflected(m, wo, wi, conventions).x * wi.z;
         });
         EXPECT_NEAR(albedo(m, 0.6, conventions), integral, 0.015);
     }
@@ -168,8 +182,8 @@ TEST(Microfacet, SampledAlbedoIsTheIntegralOfF) {
 TEST(Microfacet, EvaluationNeedsBothDirectionsAbove) {
     const Material m = metal(0.5f);
     const glm::dvec3 up(0.6, 0, 0.8), down(0.6, 0, -0.8);
-    EXPECT_EQ(microfacet(m, up, down, {}), glm::dvec3(0.0));
-    EXPECT_EQ(microfacet(m, down, up, {}), glm::dvec3(0.0));
+    EXPECT_EQ(reflected(m, up, down, {}), glm::dvec3(0.0));
+    EXPECT_EQ(reflected(m, down, up, {}), glm::dvec3(0.0));
 }
 
 TEST(Microfacet, FormsThatAreNotExact) {
@@ -184,9 +198,9 @@ TEST(Microfacet, FormsThatAreNotExact) {
     const double rp = (s * c * c - 2 * 1.3 * c + 1) / (s * c * c + 2 * 1.3 * c + 1);
     const double fresnel = (rs + rp) / 2, masking = 1 / (1 + 2 * lambda);
     const double exactFresnel = conductor(1, m.eta, m.k).x;
-    const double exactMasking = 1 / (1 + 2 * smithLambda(w, 1, {}));
+    const double exactMasking = 1 / (1 + 2 * FacetModel(m).lambda(w));
     const auto relative = [&](const ShadingConventions& conventions, double f, double g) {
-        return microfacet(m, w, w, conventions).x / (f * g * rest);
+        return reflected(m, w, w, conventions).x / (f * g * rest);
     };
     EXPECT_NEAR(relative({}, exactFresnel, exactMasking), 1, 1e-6);
     EXPECT_NEAR(relative({.exactFresnel = false}, fresnel, exactMasking), 1, 1e-6);

@@ -25,7 +25,7 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "include/pixel_filter.glsl"
 #include "include/cs184.glsl"
 #include "include/surface.glsl"
-#include "bsdf/bsdf.glsl"
+#include "closures/bsdf.glsl"
 #include "include/material_detail.glsl"
 #include "include/relief.glsl"
 #include "lights/lights.glsl"

@@ -38,8 +38,8 @@ struct Picture {
 /// Rough metal in the place of all that scatters.
 void makeMetal(Scene& scene) {
     for (Material& m : scene.materials) {
-        m.kind = MaterialKind::Microfacet;
-        m.alpha = 0.2f;
+        m.kind = MaterialKind::Conductor;
+        m.facets = {FacetDistribution::Beckmann, glm::vec2(0.2f)};
         m.eta = glm::vec3(1.5f), m.k = glm::vec3(3);
     }
 }
@@ -54,7 +54,7 @@ const Picture kPictures[] = {
     {"refraction", "cornell_mirror_glass.dae",
      [](Scene& scene, RenderSettings&) {
          for (Material& m : scene.materials)
-             if (m.kind == MaterialKind::Glass) m.kind = MaterialKind::Refraction;
+             if (m.kind == MaterialKind::Dielectric) m.kind = MaterialKind::Refraction;
      }},
     {"metal", "cornell_metal.dae", [](Scene&, RenderSettings&) {}},
     {"metalUnderAMesh", "light_mesh.dae", [](Scene& scene, RenderSettings&) { makeMetal(scene); }},

@@ -60,7 +60,7 @@ inline std::vector<BsdfCase> bsdfCases() {
         },
         0.44);
     add(
-        "glass", MaterialKind::Glass,
+        "glass", MaterialKind::Dielectric,
         [](Material& m) {
             m.transmittance = {0.9f, 0.5f, 0.1f};
             m.reflectance = {0.8f, 0.4f, 0.2f};
@@ -69,9 +69,9 @@ inline std::vector<BsdfCase> bsdfCases() {
     for (const float alpha : {0.001f, 0.01f, 0.025f, 0.1f, 0.25f, 0.5f, 1.0f}) {
         const std::string digits = std::to_string(int(alpha * 1000));
         add(
-            "roughConductor" + digits, MaterialKind::Microfacet,
+            "roughConductor" + digits, MaterialKind::Conductor,
             [alpha](Material& m) {
-                m.alpha = alpha;
+                m.facets = {FacetDistribution::Beckmann, glm::vec2(alpha)};
                 m.eta = {1.3352f, 1.0109f, 0.68955f};
                 m.k = {7.3398f, 6.6157f, 5.6471f};
             },

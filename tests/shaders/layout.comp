@@ -57,44 +57,22 @@ void putPlacement() {
     put(t.unused0), put(t.unused1), put(t.unused2);
 }
 
-void putFacetMaterial(Material m) {
-    const ConductorParameters conductor = conductorParameters(m);
-    put(conductor.reflectance), put(conductor.alphaY), put(conductor.eta), put(conductor.alphaX);
-    put(conductor.k), put(conductor.facets);
-    const FacetDielectricParameters rough = facetDielectricParameters(m);
-    put(rough.transmittance), put(rough.alphaY), put(rough.reflectance), put(rough.alphaX);
-    put(rough.ior), put(rough.leastAlpha), put(rough.facets), put(rough.unused);
-    const ThinDielectricParameters thin = thinDielectricParameters(m);
-    put(thin.transmittance), put(thin.ior), put(thin.reflectance), put(thin.unused);
-    const PlasticParameters plastic = plasticParameters(m);
-    put(plastic.albedo), put(plastic.internalDiffuse), put(plastic.reflectance), put(plastic.ior);
-    put(plastic.alpha), put(plastic.flags), put(plastic.table), put(plastic.unused);
-    const BurleyParameters burley = burleyParameters(m);
-    put(burley.baseColor), put(burley.metallic), put(burley.flatness), put(burley.diffuseTransmission);
-    put(burley.leastAlpha), put(burley.roughness), put(burley.specularTint), put(burley.ior);
-    put(burley.transmission), put(burley.anisotropy), put(burley.sheen), put(burley.sheenTint);
-    put(burley.clearcoat), put(burley.clearcoatGloss), put(burley.unused), put(burley.flags);
-}
-
 void putMaterial(Material m) {
     put(emissionOf(m)), put(m.header.w);
-    const DiffuseParameters diffuse = diffuseParameters(m);
-    put(diffuse.albedo), put(diffuse.unused);
-    const MirrorParameters mirror = mirrorParameters(m);
-    put(mirror.reflectance), put(mirror.unused);
-    const RefractionParameters refraction = refractionParameters(m);
-    put(refraction.transmittance), put(refraction.ior);
-    const GlassParameters glass = glassParameters(m);
-    put(glass.reflectance), put(glass.ior), put(glass.transmittance), put(glass.unused);
-    const RoughConductorParameters metal = roughConductorParameters(m);
-    put(metal.eta), put(metal.alpha), put(metal.k), put(metal.unused);
+    const StatedParameters stated = statedParameters(m);
+    put(stated.color), put(stated.alphaY), put(stated.edge), put(stated.alphaX);
+    put(stated.index), put(stated.table);
     const PrincipledParameters rich = principledParameters(m);
     put(rich.baseColor), put(rich.metallic), put(rich.specularColor), put(rich.roughness);
     put(rich.specular), put(rich.ior), put(rich.transmission), put(rich.anisotropy);
     put(rich.sheenColor), put(rich.sheenRoughness), put(rich.clearcoat);
     put(rich.clearcoatRoughness), put(rich.anisotropyRotation), put(rich.flags);
     put(rich.absorption), put(rich.leastAlpha);
-    putFacetMaterial(m);
+    const BurleyParameters burley = burleyParameters(m);
+    put(burley.baseColor), put(burley.metallic), put(burley.flatness), put(burley.diffuseTransmission);
+    put(burley.leastAlpha), put(burley.roughness), put(burley.specularTint), put(burley.ior);
+    put(burley.transmission), put(burley.anisotropy), put(burley.sheen), put(burley.sheenTint);
+    put(burley.clearcoat), put(burley.clearcoatGloss), put(burley.unused), put(burley.flags);
 }
 
 void putLight(LightRows l) {

@@ -19,7 +19,7 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "include/warps.glsl"
 #include "include/cs184.glsl"
 #include "include/surface.glsl"
-#include "bsdf/bsdf.glsl"
+#include "closures/bsdf.glsl"
 #include "include/material_detail.glsl"
 #include "include/relief.glsl"
 #include "lights/lights.glsl"

@@ -9,6 +9,6 @@ WarpAnswer answer(WarpQuery q) {
     const ShadingFrame f = makeFrame(q.normal);
     const vec2 turned = cosSin(4.0 * q.u);
     return WarpAnswer(sampleCosineHemisphere(u), disk.x, sampleUniformHemisphere(u), disk.y,
-                      sampleBeckmann(u, q.alpha), turned.x, f.x, turned.y, f.y, 0u, f.z, 0u,
+                      sampleFacet(FacetShape(vec2(q.alpha), true, false), vec3(0.0, 0.0, 1.0), u), turned.x, f.x, turned.y, f.y, 0u, f.z, 0u,
                       decodeNormal(q.encodedNormal), 0u);
 }

@@ -102,7 +102,8 @@ TEST_F(Warps, UniformHemisphere) {
               kLevel);
 }
 
-/// D cos over the solid angle integrates to 1 - exp(-tan^2 / alpha^2) from the pole.
+/// Seen along the normal, D cos over the solid angle integrates to 1 - exp(-tan^2 / alpha^2) from
+/// the pole.
 TEST_F(Warps, BeckmannHalfVectors) {
     for (const float alpha : {0.01f, 0.1f, 0.5f, 1.0f})
         EXPECT_GT(uniformOnSquare(randomAnswers(84, alpha),

@@ -32,8 +32,10 @@ ShaderOptions::ShaderOptions() {
     for (const uint32_t feature : {SPEC_HAS_TRIANGLES, SPEC_HAS_SPHERES, SPEC_HAS_NORMALS,
                                    SPEC_CORNER_NORMALS, SPEC_HAS_EMISSION})
         set(feature, 1);
-    set(SPEC_BSDF_KINDS, ~0u).set(SPEC_LIGHT_KINDS, ~0u).set(SPEC_LIGHT_SAMPLES, 1);
-    set(SPEC_PRINCIPLED_FEATURES, gpu::PRINCIPLED_ALL_FEATURES).set(SPEC_FACETS, ~0u);
+    set(SPEC_CLOSURES, gpu::CLOSURE_MASK)
+        .set(SPEC_CLOSURES_OF_ALL, 0)
+        .set(SPEC_LIGHT_KINDS, ~0u)
+        .set(SPEC_LIGHT_SAMPLES, 1);
     set(SPEC_LIGHT_CHOICE, gpu::LIGHT_CHOICE_TREE).set(SPEC_LIGHT_GROUPS, 7);
 }
 

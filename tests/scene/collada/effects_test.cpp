@@ -139,13 +139,13 @@ TEST(Effects, DialectMaterials) {
     EXPECT_EQ(refraction.ior, 1.45f);
     const Material glass = cgl("<glass><reflectance>1 1 0</reflectance><transmittance>0 1 1"
                                "</transmittance><roughness>0</roughness><ior>1.6</ior></glass>");
-    EXPECT_EQ(glass.kind, MaterialKind::Glass);
+    EXPECT_EQ(glass.kind, MaterialKind::Dielectric);
     EXPECT_EQ(glass.reflectance, glm::vec3(1, 1, 0));
     EXPECT_EQ(glass.transmittance, glm::vec3(0, 1, 1));
     EXPECT_EQ(glass.ior, 1.6f);
     const Material metal =
         cgl("<microfacet><alpha>0.25</alpha><eta>1 2 3</eta><k>4 5 6</k></microfacet>");
-    EXPECT_EQ(metal.kind, MaterialKind::Microfacet);
+    EXPECT_EQ(metal.kind, MaterialKind::Conductor);
     EXPECT_EQ(metal.alpha, 0.25f);
     EXPECT_EQ(metal.eta, glm::vec3(1, 2, 3));
     EXPECT_EQ(metal.k, glm::vec3(4, 5, 6));

@@ -141,10 +141,10 @@ TEST_F(SingleFiles, MaterialsOfTheSpheres) {
     std::set<MaterialKind> kinds;
     for (const Sphere& s : scene.spheres)
         kinds.insert(scene.materials[s.material].kind);
-    EXPECT_EQ(kinds, (std::set{MaterialKind::Mirror, MaterialKind::Glass}));
+    EXPECT_EQ(kinds, (std::set{MaterialKind::Mirror, MaterialKind::Dielectric}));
     const Scene metals = read("sky/CBspheres_microfacet_al_ag.dae", false);
     for (const Sphere& s : metals.spheres)
-        EXPECT_EQ(metals.materials[s.material].kind, MaterialKind::Microfacet);
+        EXPECT_EQ(metals.materials[s.material].kind, MaterialKind::Conductor);
 }
 
 TEST_F(SingleFiles, MaxPlancksBoundaryIsMostlyFlipped) {

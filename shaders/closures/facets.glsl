@@ -1,6 +1,6 @@
-// Interfaces of microfacets (Walter et al. 2007) of either distribution, GGX or Beckmann's, stretched along
-// x and y, with Smith's masking and shadowing, height-correlated (Heitz 2014) or separable (Walter). Normals are sampled as they are
-// seen from wo. Directions are unit vectors in the frame of the shading normal.
+// Microfacets (Walter et al. 2007) of either distribution, GGX (Trowbridge and Reitz 1975) or Beckmann's, stretched
+// along x and y, with Smith's masking and shadowing, height-correlated (Heitz 2014) or separable (Walter). Normals are
+// sampled as they are seen from wo. Directions are unit vectors in the frame of the shading normal.
 //
 // Everything is in terms of the facets' projected area, |cos| (1 + Lambda): none of its parts is a difference
 // of nearly equal numbers, and it is above 0 at grazing views, where Lambda has no bound.
@@ -11,16 +11,27 @@ struct FacetShape {
     bool isBeckmann, isSeparable;
 };
 
-const bool HAS_GGX = (FACETS & FACETS_GGX) != 0u;
-const bool HAS_BECKMANN = (FACETS & FACETS_BECKMANN) != 0u;
-const bool HAS_CORRELATED = (FACETS & FACETS_CORRELATED) != 0u;
-const bool HAS_SEPARABLE = (FACETS & FACETS_SEPARABLE) != 0u;
+const bool HAS_INTERFACES = (CLOSURES & CLOSURE_INTERFACE) != 0u;
+const bool SOME_ARE_NOT_SMOOTH = (CLOSURES_OF_ALL & INTERFACE_IS_SMOOTH) == 0u;
+const bool SOME_ARE_NOT_BECKMANN = (CLOSURES_OF_ALL & FACETS_ARE_BECKMANN) == 0u;
+const bool SOME_ARE_BECKMANN = (CLOSURES & FACETS_ARE_BECKMANN) != 0u;
+const bool HAS_FACETS = HAS_INTERFACES && SOME_ARE_NOT_SMOOTH;
+const bool HAS_GGX = HAS_FACETS && SOME_ARE_NOT_BECKMANN;
+const bool HAS_BECKMANN = HAS_FACETS && SOME_ARE_BECKMANN;
 
-/// facets: FACETS_ bits of this material, which are looked at only where the scene has both of two.
-FacetShape facetShape(vec2 alpha, uint facets) {
-    return FacetShape(alpha, HAS_BECKMANN && (!HAS_GGX || (facets & FACETS_BECKMANN) != 0u),
-                      HAS_SEPARABLE && (!HAS_CORRELATED || (facets & FACETS_SEPARABLE) != 0u));
+/// closures: the material's bits, which are looked at only where the scene has both of two.
+FacetShape facetShape(vec2 alpha, uint closures) {
+    return FacetShape(alpha, has(closures, FACETS_ARE_BECKMANN), has(closures, FACETS_ARE_SEPARABLE));
 }
+
+/// GGX's distribution per steradian; its integral times cos is 1.
+float ggxD(vec3 h, vec2 alpha) {
+    const vec2 slope = h.xy / alpha;
+    const float q = dot(slope, slope) + h.z * h.z;
+    return 1.0 / (PI * alpha.x * alpha.y * q * q);
+}
+
+float stretchedLength(vec3 w, vec2 alpha) { return length(vec3(alpha * w.xy, w.z)); }
 
 /// Beckmann's distribution per steradian; its integral times cos is 1. The slope is taken from x and y: 1 - z^2
 /// has few correct digits near the normal.
@@ -34,24 +45,43 @@ float facetD(FacetShape f, vec3 h) {
     return f.isBeckmann ? stretchedBeckmannD(h, f.alpha) : ggxD(h, f.alpha);
 }
 
+/// erf for x >= 0, absolute error below 1.5e-7 (Abramowitz and Stegun 7.1.26).
+float erfPositive(float x) {
+    const float t = 1.0 / (1.0 + 0.3275911 * x);
+    const float p = t * (0.254829592 +
+                         t * (-0.284496736 +
+                              t * (1.421413741 + t * (-1.453152027 + t * 1.061405429))));
+    return 1.0 - p * exp(-x * x);
+}
+
 /// Where a direction of Beckmann's facets of alpha 1 stands: its cosine over its sine. Beyond 10 all facets face it:
 /// exp(-100) is below what floats hold.
 float slopeLimit(float cosine, float sine) { return cosine / max(sine, 0.1 * cosine); }
 
-/// Projected area of the facets that are seen from w, over that of the surface they are on.
-float facetArea(FacetShape f, vec3 w) {
+/// tail: the weight of the last term of Lambda, which conventions differ in.
+float facetArea(FacetShape f, vec3 w, float tail) {
     const float cosine = abs(w.z);
-    if (!f.isBeckmann) return 0.5 * (cosine + stretchedLength(w, f.alpha));
-    const float sine = length(f.alpha * w.xy), limit = slopeLimit(cosine, sine);
-    return 0.5 * cosine * (1.0 + erfPositive(limit)) +
-           0.282094791773878 * sine * exp(-limit * limit); // 1 / (2 sqrt(pi))
+    float ggx = 0.0, beckmann = 0.0;
+    if (HAS_GGX) ggx = 0.5 * (cosine + stretchedLength(w, f.alpha));
+    if (HAS_BECKMANN) {
+        const float sine = length(f.alpha * w.xy), limit = slopeLimit(cosine, sine);
+        beckmann = 0.5 * cosine * (1.0 + erfPositive(limit)) + tail * sine * exp(-limit * limit);
+    }
+    return HAS_BECKMANN && (!HAS_GGX || f.isBeckmann) ? beckmann : ggx;
 }
+
+const float HALF_INVERSE_ROOT_PI = 0.282094791773878; // 1 / (2 sqrt(pi))
+
+/// Projected area of the facets that are seen from w, over that of the surface they are on.
+float facetArea(FacetShape f, vec3 w) { return facetArea(f, w, HALF_INVERSE_ROOT_PI); }
 
 /// G2 / G1(wo), the share of the facets seen from wo that light from wi reaches. areaO: facetArea() of wo.
 float facetsLit(FacetShape f, vec3 wo, float areaO, vec3 wi) {
-    const float cosO = abs(wo.z), cosI = abs(wi.z), areaI = facetArea(f, wi);
-    if (f.isSeparable) return cosI / areaI; // G1(wi)
-    return cosI * areaO / (cosI * areaO + cosO * (areaI - cosI));
+    const float cosO = abs(wo.z), cosI = abs(wi.z), areaI = facetArea(f, wi, LAMBDA_TAIL);
+    const float maskedO = EXACT_LAMBDA ? areaO : facetArea(f, wo, LAMBDA_TAIL);
+    const float correlated = cosI * areaO / (cosI * maskedO + cosO * (areaI - cosI));
+    const float separable = EXACT_LAMBDA ? cosI / areaI : cosI * areaO / (areaI * maskedO);
+    return f.isSeparable ? separable : correlated;
 }
 
 /// Inverse of erf, |x| < 1: relative error below 4e-7 (Giles 2012, "Approximating the erfinv Function").
@@ -104,6 +134,16 @@ vec2 visibleBeckmannSlopes(float cosine, float sine, vec2 u) {
     return vec2(isNegative ? -t : t, across);
 }
 
+/// A normal seen from wo (Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", 2023):
+/// in the space where the surface is a hemisphere, mirrored directions are uniform on a cap.
+vec3 sampleVisibleNormal(vec3 wo, vec2 alpha, vec2 u) {
+    const vec3 v = unit(vec3(alpha * wo.xy, wo.z));
+    const float cap = 1.0 + v.z, fromTop = u.x * cap; // 1 - z
+    const float sine = sqrt(max(fromTop * (2.0 - fromTop), 0.0));
+    const vec3 h = vec3(sine * cosSin(4.0 * u.y), 1.0 - fromTop) + v;
+    return unit(vec3(alpha * h.xy, max(h.z, TINY)));
+}
+
 /// A normal seen from wo, wo.z > 0, with the density D(h) (wo . h) / facetArea(wo).
 vec3 sampleFacet(FacetShape f, vec3 wo, vec2 u) {
     vec3 ggx, beckmann;
@@ -118,10 +158,4 @@ vec3 sampleFacet(FacetShape f, vec3 wo, vec2 u) {
     beckmann = unit(vec3(f.alpha * slope, 1.0));
     if (!HAS_GGX) return beckmann;
     return f.isBeckmann ? beckmann : ggx;
-}
-
-/// What facets of this shape reflect if each reflects everything.
-BsdfValue reflectionByFacets(FacetShape f, vec3 wo, vec3 wi, vec3 h) {
-    const float area = facetArea(f, wo), density = facetD(f, h) / (4.0 * area);
-    return BsdfValue(vec3(density * facetsLit(f, wo, area, wi)), density);
 }

@@ -4,7 +4,7 @@
 /// that is all metal or transmits all that it does not reflect.
 bool isSeenThrough(Material m) {
     bool isSmooth_ = !scattersIntoManyDirections(lobesOf(m));
-    if (isBsdf(m, BSDF_PRINCIPLED)) {
+    if (hasClosure(m, RECIPE_PRINCIPLED)) {
         const PrincipledParameters p = principledParameters(m);
         isSmooth_ = p.roughness == 0.0 && (p.metallic == 1.0 || p.transmission == 1.0);
     }
@@ -15,28 +15,15 @@ bool isSeenThrough(Material m) {
 /// to radiance by the ratio of the indices.
 vec3 tintOf(Material m, BsdfSample b) {
     if (b.lobe != LOBE_DELTA_TRANSMISSION || !(largestComponent(b.weight) > 0.0)) return b.weight;
-    vec3 tint = refractionParameters(m).transmittance;
-    if (isBsdf(m, BSDF_GLASS)) tint = glassParameters(m).transmittance;
-    if (isBsdf(m, BSDF_THIN_DIELECTRIC)) tint = thinDielectricParameters(m).transmittance;
-    return tint;
-}
-
-/// Reflectance of a conductor at normal incidence.
-vec3 normalReflectance(vec3 eta, vec3 k) {
-    const vec3 k2 = k * k, less = eta - 1.0, more = eta + 1.0;
-    return (less * less + k2) / (more * more + k2);
+    return statedParameters(m).color;
 }
 
 /// The colour of a surface in white light, apart from what its gloss adds.
 vec3 albedoOf(Material m) {
-    vec3 albedo = uintBitsToFloat(m.row1.xyz); // diffuse, or the base colour
-    if (isBsdf(m, BSDF_ROUGH_CONDUCTOR)) {
-        const RoughConductorParameters p = roughConductorParameters(m);
-        albedo = normalReflectance(p.eta, p.k);
-    }
-    if (isBsdf(m, BSDF_CONDUCTOR) || isBsdf(m, BSDF_FACET_CONDUCTOR)) {
-        const ConductorParameters p = conductorParameters(m);
-        albedo = p.reflectance * normalReflectance(p.eta, p.k);
+    vec3 albedo = uintBitsToFloat(m.row1.xyz); // of the base, or the base colour
+    if (hasClosure(m, INTERFACE_IS_CONDUCTOR)) {
+        const StatedParameters p = statedParameters(m);
+        albedo = p.color * normalReflectance(p.edge, p.index);
     }
     return albedo;
 }
