@@ -58,13 +58,26 @@ Json buffersJson(const Job& job, const BuiltScene& built) {
     return buffers;
 }
 
+/// All features, those that the kernel lacks as well.
+Json kernelJson(const Job& job, const BuiltScene& built) {
+    const KernelFeatures values = kernelFeatures(built.gpu, job.camera, job.settings.estimator, {});
+    Json features = Json::array();
+    for (const Feature& f : featureTable())
+        features.push_back({{"name", f.name},
+                            {"label", f.label},
+                            {"value", values[f.constant]},
+                            {"text", valueText(f, values[f.constant])},
+                            {"adds", f.adds}});
+    return features;
+}
+
 } // namespace
 
 Json infoJson(const Job& job, const BuiltScene& built) {
     return {{"scene", sceneJson(job)},
             {"picture", pictureJson(job)},
             {"bvh", bvhJson(built)},
-            {"kernel", describe(kernelFeatures(built.gpu, job.camera, job.settings.estimator, {}))},
+            {"kernel", kernelJson(job, built)},
             {"buffers", buffersJson(job, built)}};
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <stdexcept>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -16,8 +17,9 @@ namespace {
 /// materials, environments, filters. Such kernels trace longer between two services (DeviceTuning).
 bool servesForLong(const KernelFeatures& f) {
     constexpr uint32_t kPlain = gpu::CLOSURE_BASE | gpu::CLOSURE_INTERFACE | gpu::INTERFACE_BITS |
-                                gpu::INTERFACE_REFRACTS | gpu::LOBE_MASK | gpu::HAS_BASE_COLOR;
-    return (f[SPEC_CLOSURES] & ~(kPlain | gpu::FACETS_ARE_BECKMANN)) != 0 ||
+                                gpu::INTERFACE_REFRACTS | gpu::FACETS_ARE_BECKMANN |
+                                gpu::LOBE_MASK | gpu::HAS_BASE_COLOR;
+    return (f[SPEC_CLOSURES] & ~kPlain) != 0 ||
            (f[SPEC_LIGHT_KINDS] & 1u << gpu::LIGHT_PROJECTOR) != 0 ||
            f[SPEC_HAS_ENVIRONMENT] != 0 || f[SPEC_HAS_BACKDROP] != 0 || f[SPEC_HAS_LENS] != 0 ||
            f[SPEC_PIXEL_FILTER] != gpu::FILTER_BOX || f[SPEC_FILTER_EXTRA] != 0 ||
@@ -103,37 +105,47 @@ uint32_t filterConstant(PixelFilter filter) {
     return gpu::FILTER_BOX;
 }
 
-void switchOnAllTheSceneCouldHave(KernelFeatures& f, const Estimator& settings) {
-    f[SPEC_HAS_TRIANGLES] = f[SPEC_HAS_SPHERES] = f[SPEC_HAS_EMISSION] = 1;
-    f[SPEC_HAS_NORMALS] = f[SPEC_CORNER_NORMALS] = 1;
-    f[SPEC_LARGE_TREE] = f[SPEC_HAS_AMBIENT] = f[SPEC_HAS_ENVIRONMENT] = 1;
-    if (f[SPEC_LIGHT_NUMBERS] == gpu::LIGHT_NUMBERS_SHARED)
-        f[SPEC_LIGHT_NUMBERS] = gpu::LIGHT_NUMBERS_FIRST;
-    f[SPEC_CLOSURES] = gpu::CLOSURE_MASK;
-    f[SPEC_CLOSURES_OF_ALL] = 0;
-    f[SPEC_LIGHT_KINDS] = (1u << gpu::LIGHT_KIND_COUNT) - 1;
-    if (f[SPEC_LIGHT_GROUPS]) f[SPEC_LIGHT_GROUPS] = (1u << gpu::LIGHT_GROUP_COUNT) - 1;
-    if (combinesBouncesAndLightSamples(settings)) f[SPEC_MIS_LOBES] |= gpu::GLOSSY_LOBES;
+uint32_t directLightConstant(DirectLight mode) {
+    if (samplesLights(mode)) return gpu::DIRECT_LIGHTS;
+    return mode == DirectLight::Hemisphere ? gpu::DIRECT_HEMISPHERE : gpu::DIRECT_BSDF;
 }
 
-void setDetails(KernelFeatures& f, const GpuScene& scene, bool normalsOnly) {
-    f[SPEC_HAS_ALPHA] = scene.hasAlpha;
-    f[SPEC_HIDES_SURFACES] = scene.hasHidden;
-    // Normals are those of the geometry: only what is not there has to be known.
+/// Roulette by throughput never acts on paths shorter than where it starts.
+uint32_t rouletteConstant(const Estimator& settings) {
+    switch (settings.roulette.mode) {
+    case Roulette::Mode::None:
+        return gpu::ROULETTE_NONE;
+    case Roulette::Mode::Fixed:
+        return gpu::ROULETTE_FIXED;
+    case Roulette::Mode::Throughput:
+        return settings.maxBounces < settings.roulette.throughputStart ? gpu::ROULETTE_NONE
+                                                                       : gpu::ROULETTE_THROUGHPUT;
+    }
+    return gpu::ROULETTE_NONE;
+}
+
+/// As bits of TEXTURE_ slots. Where surfaces do not scatter, only what is not there has to be
+/// known.
+uint32_t texturesWanted(const GpuScene& scene, bool shades) {
     constexpr uint32_t kOpacityMaps = 1u << gpu::TEXTURE_BASE_COLOR | 1u << gpu::TEXTURE_OPACITY;
-    const uint32_t wanted = !normalsOnly ? ~0u : scene.hasAlpha ? kOpacityMaps : 0;
-    f[SPEC_TEXTURE_SLOTS] = scene.textureSlots & wanted;
-    f[SPEC_LOOSE_SLOTS] = scene.looseSlots & wanted;
-    f[SPEC_LOOSE_TEXTURES] = f[SPEC_LOOSE_SLOTS] ? scene.mostTextures : 0;
-    f[SPEC_TEXEL_KINDS] = scene.texelKinds;
-    f[SPEC_ATTRIBUTES] = scene.attributes;
-    if (normalsOnly) return;
-    f[SPEC_TANGENT_FRAMES] = scene.hasTangentFrames;
-    f[SPEC_HAS_BLENDS] = scene.hasBlends;
-    f[SPEC_RELIEF_RULES] = scene.hasReliefRules;
-    // A map gives flat surfaces a shading normal too.
-    constexpr uint32_t kMaps = 1u << gpu::TEXTURE_NORMAL | 1u << gpu::TEXTURE_HEIGHT;
-    if (f[SPEC_TEXTURE_SLOTS] & kMaps) f[SPEC_HAS_NORMALS] = 1;
+    return shades ? ~0u : scene.hasAlpha ? kOpacityMaps : 0;
+}
+
+/// Maps give flat surfaces a shading normal too.
+constexpr uint32_t kNormalMaps = 1u << gpu::TEXTURE_NORMAL | 1u << gpu::TEXTURE_HEIGHT;
+
+uint32_t traversalSteps(const KernelFeatures& f, const DeviceTuning& tuning) {
+    if (f[SPEC_HAS_PLACEMENTS]) return tuning.placedTraversalSteps;
+    return servesForLong(f) ? tuning.richTraversalSteps : tuning.traversalSteps;
+}
+
+/// The 32 bits of a constant.
+template <class Type>
+uint32_t word(auto value) {
+    if constexpr (std::is_same_v<Type, float>)
+        return std::bit_cast<uint32_t>(float(value));
+    else
+        return uint32_t(Type(value));
 }
 
 } // namespace
@@ -156,67 +168,18 @@ uint32_t lightChoiceConstant(const LightTable& lights) {
 
 KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
                               const Estimator& settings, const DeviceTuning& tuning) {
-    const bool normalsOnly = settings.integrator != Integrator::Path; // or distances
+    using uint = uint32_t;
+    const bool shades = settings.integrator == Integrator::Path;
     KernelFeatures f{};
     f[SPEC_WORKGROUP_SIZE] = tuning.workgroupSize;
-    f[SPEC_TRAVERSAL_STEPS] = tuning.traversalSteps;
-    f[SPEC_STACK_SIZE] = std::max(scene.bvh.stackSize, 1u);
-    f[SPEC_STACK_IN_REGISTERS] = f[SPEC_STACK_SIZE] <= tuning.registerStack;
-    f[SPEC_HAS_PLACEMENTS] = scene.hasPlacements;
-    // Groups of two words have the bit that tells the world from prototypes (traverse.glsl).
-    f[SPEC_LARGE_TREE] = scene.hasPlacements || scene.bvh.records.size() > gpu::SMALL_TREE_RECORDS;
-    f[SPEC_HAS_TRIANGLES] = scene.hasTriangles;
-    f[SPEC_HAS_SPHERES] = scene.hasSpheres;
-    f[SPEC_HAS_NORMALS] = f[SPEC_CORNER_NORMALS] = scene.hasNormals;
-    f[SPEC_CLOSURES] = normalsOnly ? 0 : scene.closures.some;
-    f[SPEC_CLOSURES_OF_ALL] = normalsOnly ? 0 : scene.closures.all & scene.closures.some;
-    f[SPEC_HAS_EMISSION] = !normalsOnly && scene.hasEmission;
-    f[SPEC_BLACK_BACKS] = !normalsOnly && scene.hasBlackBacks;
-    f[SPEC_LIGHT_KINDS] = lightKinds(scene, settings);
-    f[SPEC_INTEGRATOR] = integratorConstant(settings.integrator);
-    f[SPEC_DIRECT_LIGHT] = samplesLights(settings.directLight) ? gpu::DIRECT_LIGHTS
-                           : settings.directLight == DirectLight::Hemisphere
-                               ? gpu::DIRECT_HEMISPHERE
-                               : gpu::DIRECT_BSDF;
-    f[SPEC_ROULETTE] = settings.roulette.mode == Roulette::Mode::None ? gpu::ROULETTE_NONE
-                       : settings.roulette.mode == Roulette::Mode::Throughput
-                           ? gpu::ROULETTE_THROUGHPUT
-                           : gpu::ROULETTE_FIXED;
-    // Roulette by throughput never acts on paths shorter than where it starts.
-    if (settings.roulette.mode == Roulette::Mode::Throughput &&
-        settings.maxBounces < settings.roulette.throughputStart)
-        f[SPEC_ROULETTE] = gpu::ROULETTE_NONE;
-    f[SPEC_ROULETTE_START] = settings.roulette.throughputStart;
-    f[SPEC_ORTHOGRAPHIC] = camera.orthographic;
-    f[SPEC_HAS_LENS] = camera.lensRadius > 0;
-    f[SPEC_PIXEL_FILTER] = filterConstant(settings.filter);
-    f[SPEC_FILTER_EXTRA] = std::bit_cast<uint32_t>(float(settings.filterShape.width - 1));
-    f[SPEC_CLIP_ALONG_RAY] = camera.clipAlongRay;
-    f[SPEC_CS184] = conventionsConstant(settings.conventions);
-    f[SPEC_FLAT_TERMINATOR] = scene.hasNormals && settings.conventions.facesForward &&
-                              !settings.conventions.offsetsTerminator;
-    f[SPEC_LIGHT_SAMPLES] = directSampling(scene.lights, settings).perLight;
-    f[SPEC_LIGHT_CHOICE] = lightChoiceConstant(scene.lights);
-    f[SPEC_LIGHT_GROUPS] = scene.lights.groups;
-    f[SPEC_SAMPLER] =
-        settings.sampler == Sampler::Sobol ? gpu::SAMPLER_SOBOL : gpu::SAMPLER_INDEPENDENT;
-    f[SPEC_LIGHT_NUMBERS] = lightNumbers(scene, settings);
-    f[SPEC_MIS_LOBES] = normalsOnly ? 0 : misLobes(scene, settings);
-    f[SPEC_HAS_AMBIENT] = !normalsOnly && scene.lights.hasAmbient;
-    f[SPEC_HAS_ENVIRONMENT] = !normalsOnly && scene.lights.environment != nullptr;
-    f[SPEC_HAS_BACKDROP] = !normalsOnly && scene.lights.hasBackdrop && settings.showsBackdrop;
-    f[SPEC_AMBIENT_BY_BOUNCES] = !normalsOnly && scene.lights.ambientLeftToBounces;
-    f[SPEC_SPLITS] = settings.branches > 1;
-    f[SPEC_GAP_PROPOSAL] = proposesGap(scene, settings);
-    f[SPEC_COUNT_STEPS] = tuning.countSteps;
-    setDetails(f, scene, normalsOnly);
-    if (tuning.everythingOn) switchOnAllTheSceneCouldHave(f, settings);
-    f[SPEC_TRAVERSAL_LEGS] = 1;
-    if (servesForLong(f)) f[SPEC_TRAVERSAL_STEPS] = tuning.richTraversalSteps;
-    if (scene.hasPlacements) {
-        f[SPEC_TRAVERSAL_STEPS] = tuning.placedTraversalSteps;
-        f[SPEC_TRAVERSAL_LEGS] = tuning.traversalLegs;
+#define SET_FEATURE(number, type, name, standard, value, all, label, shown, adds)                  \
+    f[number] = word<type>(value);                                                                 \
+    if (tuning.everythingOn) {                                                                     \
+        [[maybe_unused]] const uint32_t own = f[number];                                           \
+        f[number] = uint32_t(all);                                                                 \
     }
+    KERNEL_FEATURES(SET_FEATURE)
+#undef SET_FEATURE
     return f;
 }
 

@@ -24,7 +24,35 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
 /// The LIGHT_CHOICE_ that a kernel for these lights has.
 uint32_t lightChoiceConstant(const LightTable& lights);
 
-/// The features that a kernel contains, in words, for `stromboli info`.
+/// How the value of a feature reads.
+struct FeatureValue {
+    enum class Kind {
+        Flag,   ///< on or off
+        Bits,   ///< a set: bit n stands for names[n]
+        Choice, ///< n stands for names[n]
+        Count,  ///< a number of names[0]
+        Share,  ///< a float
+    };
+    Kind kind;
+    std::vector<const char*> names;
+};
+
+/// A row of the table of features (shaders/shared/features.h).
+struct Feature {
+    KernelConstant constant;
+    const char* name;
+    const char* label; ///< of its line of `stromboli info`
+    FeatureValue shown;
+    const char* adds; ///< to the kernel
+};
+
+/// In the order of the table.
+const std::vector<Feature>& featureTable();
+
+/// In words; a flag that is on has none, and what is off "none".
+std::string valueText(const Feature& feature, uint32_t value);
+
+/// The features that a kernel has, a line each, for `stromboli info`.
 std::vector<std::string> describe(const KernelFeatures& features);
 
 } // namespace stromboli

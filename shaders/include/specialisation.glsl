@@ -1,7 +1,7 @@
 // Only what a scene needs: the constants of shaders/shared/features.h, and what follows from them.
 layout(local_size_x_id = SPEC_WORKGROUP_SIZE) in;
-#define DECLARE_CONSTANT(number, type, name, standard) layout(constant_id = number) const type name = standard;
-KERNEL_CONSTANTS(DECLARE_CONSTANT)
+#define DECLARE_CONSTANT(number, type, name, standard, value, all, label, shown, adds) layout(constant_id = number) const type name = standard;
+KERNEL_FEATURES(DECLARE_CONSTANT)
 
 /// Whether triangles have normals of their corners. Without these and without maps there is no shading normal
 /// beside the geometric one (HAS_NORMALS).

@@ -1,6 +1,6 @@
-// The path kernel's specialisation constants: one table, of which GLSL makes the constants and C++ their numbers.
-// The host derives their values from the scene, the settings and the device (host/kernel/kernel_features.cpp), and
-// what they switch off is not in the scene's kernel (host/spirv).
+// The path kernel's features: one table, from which GLSL has the specialisation constants, C++ their numbers, their
+// values for a scene (host/kernel/kernel_features.cpp), the lines of `stromboli info` (describe_features.cpp) and the
+// tests that switch every feature on and off (tests/spirv). What is switched off is not in the scene's kernel.
 #ifndef STROMBOLI_SHARED_FEATURES_H
 #define STROMBOLI_SHARED_FEATURES_H
 
@@ -9,68 +9,146 @@
 /// Of the workgroup; GLSL names it in a layout only.
 #define SPEC_WORKGROUP_SIZE 0
 
-/// C(number, type, name, default): the default holds where the host gives no value (tests of single functions).
-#define KERNEL_CONSTANTS(C) \
-    C(1, uint, TRAVERSAL_STEPS, 8u) /* traversal steps between two service passes */ \
-    C(2, uint, STACK_SIZE, 64u) /* proven sufficient by the BVH builder */ \
-    C(3, bool, HAS_TRIANGLES, true) /* the scene has triangles */ \
-    C(4, bool, HAS_SPHERES, true) /* the scene has spheres */ \
-    C(5, bool, HAS_NORMALS, true) /* some surface has a shading normal beside its geometric one */ \
-    C(6, uint, CLOSURES, 33554431u) /* LOBE_ and closure bits that some material has (bsdf_types.h) */ \
-    C(7, bool, HAS_EMISSION, true) /* some surface shines */ \
-    C(8, uint, LIGHT_KINDS, 255u) /* bit n: lights of LIGHT_ kind n are sampled */ \
-    C(9, uint, INTEGRATOR, INTEGRATOR_PATH) /* what a sample is (INTEGRATOR_) */ \
-    C(10, uint, DIRECT_LIGHT, DIRECT_LIGHTS) /* how lights are found from a surface (DIRECT_) */ \
-    C(11, uint, ROULETTE, ROULETTE_THROUGHPUT) /* ROULETTE_ mode */ \
-    C(12, bool, ORTHOGRAPHIC, false) /* the camera is orthographic */ \
-    C(13, bool, CLIP_ALONG_RAY, false) /* the near and far distances are along the ray, not along the axis */ \
-    C(14, bool, CS184, false) /* the CS184 renderer's shading conventions */ \
-    C(15, uint, LIGHT_GROUPS, 7u) /* bit n: the light tree has lights of LIGHT_GROUP_ n */ \
-    C(16, uint, LIGHT_SAMPLES, 1u) /* per shading point (LIGHT_CHOICE_EACH: and light) */ \
-    C(17, bool, COUNT_STEPS, false) /* count how many lanes are at work in each step */ \
-    C(18, uint, SAMPLER, SAMPLER_INDEPENDENT) /* SAMPLER_ kind */ \
-    C(19, uint, LIGHT_NUMBERS, LIGHT_NUMBERS_FIRST) /* which random numbers light samples take */ \
-    C(20, uint, LIGHT_CHOICE, LIGHT_CHOICE_TREE) /* how one of the lights is picked */ \
-    C(21, uint, MIS_LOBES, 0u) /* LOBE_ bits: of these bounces find lights too, weighted */ \
-    C(22, bool, SPLITS, false) /* paths may split into branches */ \
-    C(23, bool, GAP_PROPOSAL, false) /* the gap proposal: some bounces go into the gap (gap_proposal.glsl) */ \
-    C(24, bool, STACK_IN_REGISTERS, false) /* else in a memory that each lane indexes */ \
-    C(25, bool, LARGE_TREE, false) /* the tree has more than SMALL_TREE_RECORDS records */ \
-    C(26, bool, AMBIENT_BY_BOUNCES, false) /* bounces alone find the ambient light; light samples go to others */ \
-    C(27, bool, HAS_AMBIENT, true) /* rays that hit nothing find ambient light */ \
-    C(28, bool, HAS_ENVIRONMENT, true) /* that light is a picture */ \
-    C(29, bool, HAS_BACKDROP, true) /* the camera sees it */ \
-    C(30, bool, HAS_LENS, false) /* the camera has a lens of some radius */ \
-    C(31, uint, PIXEL_FILTER, FILTER_BOX) /* how samples are spread about a pixel */ \
-    C(32, uint, TEXTURE_SLOTS, 0u) /* bit n: some material has a texture in slot n (TEXTURE_) */ \
-    C(33, uint, TEXEL_KINDS, 8191u) /* TEXEL_KIND_ bits that occur */ \
-    C(34, uint, ATTRIBUTES, 0u) /* ATTRIBUTE_ bits: what the detail buffer has of primitives' corners */ \
-    C(35, bool, HAS_ALPHA, false) /* surfaces may be partly not there */ \
-    C(36, bool, TANGENT_FRAMES, false) /* the frame of a BSDF follows the surface's tangent */ \
-    C(37, uint, CLOSURES_OF_ALL, 0u) /* those of these that all materials have which they concern */ \
-    C(38, uint, LOOSE_SLOTS, 0u) /* bit n: some material has a texture in slot n that is in no bundle */ \
-    C(39, bool, BLACK_BACKS, false) /* materials are black where normals do not point */ \
-    C(40, bool, HAS_BLENDS, false) /* materials are mixtures of others */ \
-    C(41, float, FILTER_EXTRA, 0.0) /* a float: Gaussian and tent are wider by this share */ \
-    C(42, bool, HIDES_SURFACES, false) /* camera rays pass some materials (DETAIL_IS_HIDDEN) */ \
-    C(43, bool, RELIEF_RULES, false) /* some material has MATERIAL_RELIEF_ bits */ \
-    C(44, bool, HAS_PLACEMENTS, false) /* prototypes are placed in the world (scene_types.h) */ \
-    C(45, uint, TRAVERSAL_LEGS, 1u) /* between two service passes, each of SPEC_TRAVERSAL_STEPS */ \
-    C(46, uint, ROULETTE_START, 3u) /* bounces before roulette by throughput */ \
-    C(47, bool, FLAT_TERMINATOR, false) /* light is reflected from flat triangles (no terminator offset) */ \
-    C(48, uint, LOOSE_TEXTURES, 255u) /* the most textures that a material has in no bundle */ \
-    C(49, bool, CORNER_NORMALS, true) /* some triangle has normals of its corners; else maps alone make shading normals */
+// F(number, type, name, standard, value, all, label, shown, adds):
+//   standard  what holds where the host gives no value (tests of single functions)
+//   value     C++: how it follows from `scene`, `camera`, `settings` and `tuning`. `shades`: surfaces scatter light,
+//             which they do not in pictures of normals and distances. f[SPEC_NAME]: the value of a row above.
+//   all       C++: the value where the kernel is to have all that a scene might need; `own`: as for the scene
+//   label     of the line of `info`
+//   shown     how the value reads there: flag; bits or oneOf, with a name for each bit or choice; count, with a unit;
+//             share
+//   adds      what the feature adds to the kernel
+#define KERNEL_FEATURES(F) \
+    F(3, bool, HAS_TRIANGLES, true, scene.hasTriangles, 1, \
+      "triangles", flag, "the intersection of rays and triangles") \
+    F(4, bool, HAS_SPHERES, true, scene.hasSpheres, 1, \
+      "spheres", flag, "the intersection of rays and spheres") \
+    F(45, bool, HAS_PLACEMENTS, false, scene.hasPlacements, own, \
+      "instances", flag, "prototypes that are placed in the world: rays go into their space and back") \
+    F(25, bool, LARGE_TREE, false, f[SPEC_HAS_PLACEMENTS] || scene.bvh.records.size() > gpu::SMALL_TREE_RECORDS, 1, \
+      "a large tree", flag, \
+        "groups of children of two words, which number more records than one can, or tell the world from prototypes") \
+    F(2, uint, STACK_SIZE, 64u, std::max(scene.bvh.stackSize, 1u), own, \
+      "traversal stack", count("entries"), \
+        "room for the groups of children that a traversal puts off; proven sufficient by the BVH builder") \
+    F(24, bool, STACK_IN_REGISTERS, false, f[SPEC_STACK_SIZE] <= tuning.registerStack, own, \
+      "traversal stack in registers", flag, \
+        "a stack that moves as a whole, in place of a memory that each lane indexes") \
+    F(6, uint, CLOSURES, 33554431u, shades ? scene.closures.some : 0, gpu::CLOSURE_MASK, \
+      "materials", bits(kClosures), "the closures of materials, and the recipes by which they follow from parameters") \
+    F(37, uint, CLOSURES_OF_ALL, 0u, shades ? scene.closures.some & scene.closures.all : 0, 0u, \
+      "all materials", bits(kClosures), "no choice between materials that have these and materials that have not") \
+    F(41, bool, HAS_BLENDS, false, shades && scene.hasBlends, own, \
+      "mixtures of materials", flag, "the choice of one of two materials at a hit") \
+    F(40, bool, BLACK_BACKS, false, shades && scene.hasBlackBacks, own, \
+      "black backs", flag, "materials that are black where normals do not point") \
+    F(35, bool, HAS_ALPHA, false, scene.hasAlpha, own, \
+      "opacity", flag, "surfaces that are partly not there, which rays pass") \
+    F(43, bool, HIDES_SURFACES, false, scene.hasHidden, own, \
+      "surfaces hidden from the camera", flag, "camera rays that pass some materials") \
+    F(32, uint, TEXTURE_SLOTS, 0u, scene.textureSlots & texturesWanted(scene, shades), own, \
+      "textures", bits(kTextureSlots), "lookups for these parameters of materials") \
+    F(38, uint, LOOSE_SLOTS, 0u, scene.looseSlots & texturesWanted(scene, shades), own, \
+      "textures by themselves", bits(kTextureSlots), "lookups of textures that are in no bundle") \
+    F(49, uint, LOOSE_TEXTURES, 255u, f[SPEC_LOOSE_SLOTS] ? scene.mostTextures : 0, own, \
+      "most textures of a material", count("by themselves"), \
+        "a loop over the textures of a material that are in no bundle") \
+    F(33, uint, TEXEL_KINDS, 8191u, scene.texelKinds, own, \
+      "texels", bits({"nearest", "bilinear", "sRGB", "bytes", "half floats", "bundled", "not bundled", "repeated", \
+        "mirrored", "clamped", "transformed", "line after line", "gathered"}), \
+        "ways in which texels are stored, found and decoded") \
+    F(34, uint, ATTRIBUTES, 0u, scene.attributes, own, \
+      "attributes of corners", bits({"texture coordinates", "second texture coordinates", "colors", "tangents"}), \
+        "attributes of corners that are interpolated") \
+    F(39, bool, CORNER_NORMALS, true, scene.hasNormals, 1, \
+      "normals of corners", flag, "normals of corners that are interpolated, and the terminator offset") \
+    F(5, bool, HAS_NORMALS, true, scene.hasNormals || (shades && (scene.textureSlots & kNormalMaps) != 0), 1, \
+      "shading normals", flag, "a shading normal beside the geometric one, from corners or maps") \
+    F(36, bool, TANGENT_FRAMES, false, shades && scene.hasTangentFrames, own, \
+      "tangents", flag, "frames of BSDFs that follow the surface's tangent") \
+    F(44, bool, RELIEF_RULES, false, shades && scene.hasReliefRules, own, \
+      "rules of relief", flag, \
+        "materials with rules of their own for shading normals that turn away (MATERIAL_RELIEF_ bits)") \
+    F(7, bool, HAS_EMISSION, true, shades && scene.hasEmission, 1, \
+      "emission", flag, "surfaces that shine") \
+    F(9, uint, INTEGRATOR, INTEGRATOR_PATH, integratorConstant(settings.integrator), own, \
+      "integrator", oneOf({"path", "normals", "depth"}), "what a sample is") \
+    F(10, uint, DIRECT_LIGHT, DIRECT_LIGHTS, directLightConstant(settings.directLight), own, \
+      "direct light", oneOf({"light sampling", "uniform hemisphere", "left to bounces (delta lights sampled)"}), \
+        "how lights are found from a surface") \
+    F(8, uint, LIGHT_KINDS, 255u, lightKinds(scene, settings), (1u << gpu::LIGHT_KIND_COUNT) - 1, \
+      "lights", bits({"quad", "triangle", "sphere", "ambient", "directional", "point", "spot", "environment", \
+        "projector"}), "the sampling of these kinds of lights") \
+    F(20, uint, LIGHT_CHOICE, LIGHT_CHOICE_TREE, lightChoiceConstant(scene.lights), own, \
+      "choice of lights", oneOf({"there is one", "by a tree of them", "by power", "uniform", "each in turn"}), \
+        "how a light sample picks its light") \
+    F(15, uint, LIGHT_GROUPS, 7u, scene.lights.groups, own ? (1u << gpu::LIGHT_GROUP_COUNT) - 1 : 0, \
+      "tree of lights", bits({"near", "unattenuated", "infinitely far"}), "groups of lights that the tree has") \
+    F(16, uint, LIGHT_SAMPLES, 1u, directSampling(scene.lights, settings).perLight, own, \
+      "light samples", count("at a surface"), \
+        "a loop over the light samples at a surface; where lights are taken in turn, over those of each light") \
+    F(19, uint, LIGHT_NUMBERS, LIGHT_NUMBERS_FIRST, lightNumbers(scene, settings), gpu::LIGHT_NUMBERS_FIRST, \
+      "random numbers of light samples", oneOf({"of their own", "the first as the bounce", "as the bounce"}), \
+        "which random numbers light samples take") \
+    F(21, uint, MIS_LOBES, 0u, shades ? misLobes(scene, settings) : 0, own | \
+        (combinesBouncesAndLightSamples(settings) ? gpu::GLOSSY_LOBES : 0), \
+      "light shared with bounces (MIS) from", bits(kLobes), \
+        "weights of light that both light samples and bounces from these lobes find") \
+    F(27, bool, HAS_AMBIENT, true, shades && scene.lights.hasAmbient, 1, \
+      "ambient light", flag, "light that rays find which hit nothing") \
+    F(28, bool, HAS_ENVIRONMENT, true, shades && scene.lights.environment != nullptr, 1, \
+      "environment", flag, "ambient light that is a picture") \
+    F(29, bool, HAS_BACKDROP, true, shades && scene.lights.hasBackdrop && settings.showsBackdrop, own, \
+      "ambient light seen by the camera", flag, "ambient light behind the scene") \
+    F(26, bool, AMBIENT_BY_BOUNCES, false, shades && scene.lights.ambientLeftToBounces, own, \
+      "ambient light left to bounces", flag, \
+        "ambient light that bounces alone find, while light samples go to other lights") \
+    F(18, uint, SAMPLER, SAMPLER_INDEPENDENT, settings.sampler == Sampler::Sobol ? gpu::SAMPLER_SOBOL : \
+        gpu::SAMPLER_INDEPENDENT, own, \
+      "sampler", oneOf({"independent", "sobol"}), "how the random numbers of a pixel's samples are drawn") \
+    F(11, uint, ROULETTE, ROULETTE_THROUGHPUT, rouletteConstant(settings), own, \
+      "roulette", oneOf({"none", "by throughput", "fixed probability"}), "how paths are ended at random") \
+    F(47, uint, ROULETTE_START, 3u, f[SPEC_ROULETTE] == gpu::ROULETTE_THROUGHPUT ? settings.roulette.throughputStart \
+        : 0, own, \
+      "roulette by throughput", count("bounces from the camera and farther"), \
+        "the bounce from which on throughput ends paths") \
+    F(22, bool, SPLITS, false, settings.branches > 1, own, \
+      "paths with branches", flag, "paths that split at the first surface that scatters at random") \
+    F(23, bool, GAP_PROPOSAL, false, proposesGap(scene, settings), own, \
+      "bounces into the gap behind the light", flag, "a second density of bounces (gap_proposal.glsl)") \
+    F(12, bool, ORTHOGRAPHIC, false, camera.orthographic, own, \
+      "orthographic camera", flag, "parallel camera rays") \
+    F(13, bool, CLIP_ALONG_RAY, false, camera.clipAlongRay, own, \
+      "clipping along rays", flag, "near and far distances along the ray, not along the axis") \
+    F(30, bool, HAS_LENS, false, camera.lensRadius > 0, own, \
+      "camera with a lens", flag, "camera rays from points of a lens") \
+    F(31, uint, PIXEL_FILTER, FILTER_BOX, filterConstant(settings.filter), own, \
+      "pixel filter", oneOf({"box", "Gaussian", "Blackman-Harris", "tent", \
+        "negative in places, samples have weights"}), "how samples are spread about a pixel") \
+    F(42, float, FILTER_EXTRA, 0.0, settings.filterShape.width - 1, own, \
+      "filter wider by", share, "Gaussian and tent filters of another width") \
+    F(14, bool, CS184, false, conventionsConstant(settings.conventions), own, \
+      "CS184 conventions", flag, "the shading conventions of the CS184 renderer") \
+    F(48, bool, FLAT_TERMINATOR, false, scene.hasNormals && settings.conventions.facesForward && \
+        !settings.conventions.offsetsTerminator, own, \
+      "no terminator offset", flag, "light that smooth meshes reflect from their flat triangles") \
+    F(17, bool, COUNT_STEPS, false, tuning.countSteps, own, \
+      "counts of steps", flag, "counts of the lanes at work in each step") \
+    F(46, uint, TRAVERSAL_LEGS, 1u, scene.hasPlacements ? tuning.traversalLegs : 1, own, \
+      "legs between two services", count(""), "rays that are prepared anew between two service passes") \
+    F(1, uint, TRAVERSAL_STEPS, 8u, traversalSteps(f, tuning), own, \
+      "traversal steps in a leg", count(""), "traversal steps between two service passes, or in a leg")
 
 #define SPEC_COUNT 50
 
 #ifdef __cplusplus
 namespace stromboli {
-#define KERNEL_CONSTANT_NUMBER(number, type, name, standard) SPEC_##name = number,
-enum KernelConstant : uint32_t { KERNEL_CONSTANTS(KERNEL_CONSTANT_NUMBER) };
-#undef KERNEL_CONSTANT_NUMBER
-#define KERNEL_CONSTANT_COUNT(number, type, name, standard) +1
-static_assert(SPEC_COUNT == 1 KERNEL_CONSTANTS(KERNEL_CONSTANT_COUNT));
-#undef KERNEL_CONSTANT_COUNT
+#define FEATURE_NUMBER(number, type, name, standard, value, all, label, shown, adds) SPEC_##name = number,
+enum KernelConstant : uint32_t { KERNEL_FEATURES(FEATURE_NUMBER) };
+#undef FEATURE_NUMBER
+#define FEATURE_COUNT(number, type, name, standard, value, all, label, shown, adds) +1
+static_assert(SPEC_COUNT == 1 KERNEL_FEATURES(FEATURE_COUNT));
+#undef FEATURE_COUNT
 } // namespace stromboli
 #endif
 

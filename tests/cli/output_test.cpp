@@ -1,11 +1,13 @@
 // What is printed, and what becomes of it where it cannot be written.
 #include "host/film/png.hpp"
+#include "shaders/shared/bsdf_types.h"
 #include "tests/cli/program.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 
 namespace stromboli::test {
@@ -80,7 +82,13 @@ TEST_F(Printing, InfoAsJsonHasWhatTheTextHas) {
     EXPECT_EQ(json["scene"]["spheres"], 2);
     EXPECT_EQ(json["picture"]["width"], 40);
     EXPECT_GT(json["bvh"]["leaves"], 0);
-    EXPECT_THAT(json["kernel"].dump(), testing::AllOf(HasSubstr("mirror"), HasSubstr("glass")));
+    const auto materials = std::ranges::find_if(
+        json["kernel"], [](const auto& feature) { return feature["name"] == "CLOSURES"; });
+    EXPECT_EQ((*materials)["label"], "materials");
+    EXPECT_THAT((*materials)["text"], testing::AllOf(HasSubstr("mirror"), HasSubstr("dielectric")));
+    EXPECT_EQ(uint32_t((*materials)["value"]) & gpu::LOBE_MASK, // with the diffuse walls
+              gpu::LOBE_DIFFUSE_REFLECTION | gpu::LOBE_DELTA_REFLECTION |
+                  gpu::LOBE_DELTA_TRANSMISSION);
     uint64_t bytes = 0;
     for (const auto& buffer : json["buffers"])
         bytes += buffer["bytes"].get<uint64_t>();

@@ -8,6 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <bit>
+
 namespace stromboli {
 namespace {
 
@@ -261,11 +263,35 @@ TEST(KernelFeatures, LongServicesTakeMoreSteps) {
 /// Maps make shading normals of flat triangles, too, which then have none of their corners.
 TEST(KernelFeatures, SayWhereShadingNormalsComeFrom) {
     KernelFeatures f = featuresOf(oneTriangle({}));
-    EXPECT_THAT(describe(f), testing::Contains("shading normals: none"));
+    EXPECT_THAT(describe(f), testing::Not(testing::Contains("shading normals")));
     f[SPEC_HAS_NORMALS] = 1;
-    EXPECT_THAT(describe(f), testing::Contains("shading normals: of maps"));
+    EXPECT_THAT(describe(f), testing::Contains("shading normals"));
+    EXPECT_THAT(describe(f), testing::Not(testing::Contains("normals of corners")));
     f[SPEC_CORNER_NORMALS] = 1;
-    EXPECT_THAT(describe(f), testing::Contains("shading normals: interpolated"));
+    EXPECT_THAT(describe(f), testing::Contains("normals of corners"));
+}
+
+/// A line for each that is there, by the kind of its value.
+TEST(KernelFeatures, AreDescribedByTheirTable) {
+    EXPECT_EQ(featureTable().size() + 1, SPEC_COUNT) << "all but the size of a workgroup";
+    KernelFeatures f{};
+    f[SPEC_HAS_SPHERES] = 1;
+    f[SPEC_STACK_SIZE] = 12;
+    f[SPEC_LIGHT_KINDS] = 1u << gpu::LIGHT_QUAD | 1u << gpu::LIGHT_SPOT;
+    f[SPEC_PIXEL_FILTER] = gpu::FILTER_TENT;
+    f[SPEC_FILTER_EXTRA] = std::bit_cast<uint32_t>(0.25f);
+    f[SPEC_TRAVERSAL_LEGS] = 3;
+    const auto lines = describe(f);
+    EXPECT_THAT(lines,
+                testing::IsSupersetOf({"spheres", "traversal stack: 12 entries",
+                                       "lights: quad, spot", "pixel filter: tent",
+                                       "filter wider by: 25 %", "legs between two services: 3"}));
+    EXPECT_THAT(lines, testing::Not(testing::Contains("triangles")));
+    EXPECT_THAT(lines, testing::Not(testing::Contains(testing::StartsWith("materials"))));
+    for (const Feature& feature : featureTable()) {
+        EXPECT_STRNE(feature.adds, "") << feature.name;
+        EXPECT_STRNE(feature.label, "") << feature.name;
+    }
 }
 
 TEST(KernelFeatures, FollowTheTuning) {

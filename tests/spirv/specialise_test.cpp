@@ -1,11 +1,7 @@
 // Modules with their constants in place: valid, smaller, and the same whatever else the source
 // holds.
-#include "host/bvh/wide_layout.hpp"
-#include "host/kernel/kernel_features.hpp"
 #include "host/spirv/specialise.hpp"
-#include "scene/read_scene.hpp"
-#include "tests/film/temporary_folder.hpp"
-#include "tests/support/shell.hpp"
+#include "tests/spirv/modules.hpp"
 
 #include "embedded/decided_shader.h"
 #include "embedded/pathtrace_storage.h"
@@ -19,13 +15,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 namespace stromboli {
 namespace {
 
-using Words = std::vector<uint32_t>;
-using Code = std::span<const uint32_t>;
+using namespace test;
 
 struct Module {
     const char* name;
@@ -38,34 +31,11 @@ const Module kModules[] = {{"pathtrace_storage", pathtrace_storage},
                            {"trace_rays_storage", trace_rays_storage},
                            {"trace_rays_texel", trace_rays_texel}};
 
-/// What spirv-val says of the module; empty: it is valid.
-std::string complaint(const Words& code) {
-    const TemporaryFolder folder;
-    std::ofstream(folder / "a.spv", std::ios::binary)
-        .write(reinterpret_cast<const char*>(code.data()),
-               std::streamsize(code.size() * sizeof(uint32_t)));
-    const test::ShellRun run =
-        test::shell(STROMBOLI_SPIRV_VAL " --target-env vulkan1.1 " + (folder / "a.spv").string());
-    return run.exitCode == 0 ? "" : run.output;
-}
-
 size_t countOf(const Words& code, uint32_t opcode) {
     size_t count = 0;
     for (size_t i = 5; i < code.size(); i += code[i] >> 16)
         count += (code[i] & 0xFFFF) == opcode;
     return count;
-}
-
-Words featuresOf(const std::string& name, bool everythingOn = false) {
-    const Scene scene = readScene(name);
-    DeviceTuning tuning;
-    tuning.workgroupSize = 8;
-    tuning.everythingOn = everythingOn;
-    const RenderSettings settings;
-    const KernelFeatures f = kernelFeatures(
-        packScene(scene, buildWideBvh(scene), lightSelection(settings.estimator)),
-        makeCamera(scene, CameraChoice::Automatic, 64, 48), settings.estimator, tuning);
-    return {f.begin(), f.end()};
 }
 
 class SpecialisedKernel : public testing::TestWithParam<const char*> {};

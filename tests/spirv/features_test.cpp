@@ -1,0 +1,169 @@
+// Every feature of the table (shaders/shared/features.h), switched on and off: the kernel changes,
+// stays valid, and holds nothing of what is off.
+#include "host/kernel/kernel_features.hpp"
+#include "host/spirv/specialise.hpp"
+#include "tests/film/temporary_folder.hpp"
+#include "tests/spirv/modules.hpp"
+#include "tests/support/shell.hpp"
+
+#include "embedded/pathtrace_storage.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+
+namespace stromboli {
+namespace {
+
+using namespace test;
+using Kind = FeatureValue::Kind;
+
+/// Of two kernels that differ as far as can be: what has no effect beside the one has some beside
+/// the other.
+const std::vector<Words>& bases() {
+    static const std::vector<Words> all = [] {
+        Words everything = featuresOf("cornell_boxes", true);
+        // Off: what takes the place of others.
+        const std::set<uint32_t> off = {SPEC_CS184, SPEC_ORTHOGRAPHIC, SPEC_FLAT_TERMINATOR,
+                                        SPEC_STACK_IN_REGISTERS};
+        for (const Feature& f : featureTable()) {
+            if (f.shown.kind == Kind::Flag) everything[f.constant] = !off.contains(f.constant);
+            if (f.shown.kind == Kind::Bits)
+                everything[f.constant] = (1u << f.shown.names.size()) - 1;
+        }
+        everything[SPEC_LIGHT_CHOICE] = gpu::LIGHT_CHOICE_TREE;
+        everything[SPEC_LOOSE_TEXTURES] = 4;
+        everything[SPEC_PIXEL_FILTER] = gpu::FILTER_TENT;
+        return std::vector<Words>{featuresOf("cornell_boxes"), everything};
+    }();
+    return all;
+}
+
+std::vector<uint32_t> otherValues(const Feature& f, uint32_t value) {
+    std::vector<uint32_t> others;
+    switch (f.shown.kind) {
+    case Kind::Flag:
+        return {value ^ 1u};
+    case Kind::Count:
+        return {value + 1, 1};
+    case Kind::Share:
+        return {std::bit_cast<uint32_t>(0.25f)};
+    case Kind::Bits:
+        for (uint32_t bit = 0; bit < f.shown.names.size(); ++bit)
+            others.push_back(value ^ 1u << bit);
+        return others;
+    case Kind::Choice:
+        for (uint32_t choice = 0; choice < f.shown.names.size(); ++choice)
+            if (choice != value) others.push_back(choice);
+        return others;
+    }
+    return others;
+}
+
+Words specialised(Code code, const Words& constants) {
+    const auto made = spirv::specialise(code, constants);
+    return made ? *made : Words();
+}
+
+class SwitchedFeature : public testing::TestWithParam<Feature> {};
+
+/// Some other value of it makes another kernel: that of the Cornell box, or else of the one with
+/// everything.
+TEST_P(SwitchedFeature, ChangesAKernelThatStaysValid) {
+    const Feature& f = GetParam();
+    bool changes = false;
+    for (size_t i = 0; i < bases().size() && !changes; ++i) {
+        static std::vector<Words> kernels(bases().size());
+        if (kernels[i].empty()) kernels[i] = specialised(pathtrace_storage, bases()[i]);
+        for (const uint32_t value : otherValues(f, bases()[i][f.constant])) {
+            Words values = bases()[i];
+            values[f.constant] = value;
+            const Words made = specialised(pathtrace_storage, values);
+            if (made == kernels[i]) continue;
+            EXPECT_EQ(complaint(made), "") << f.name << " = " << value;
+            changes = true;
+            if (i > 0) break; // a large kernel, which takes a second to check
+        }
+    }
+    EXPECT_TRUE(changes) << f.name << ": no value of it makes another kernel";
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, SwitchedFeature, testing::ValuesIn(featureTable()),
+                         [](const auto& feature) { return std::string(feature.param.name); });
+
+/// The path kernel's source with all includes, but for constants of features that these values
+/// switch off: they are plain constants in it, which no host can switch on.
+std::string sourceWithout(const Words& values) {
+    const ShellRun run = shell(
+        STROMBOLI_GLSLANG " -E -I" STROMBOLI_SOURCE_DIR "/shaders/robust -I" STROMBOLI_SOURCE_DIR
+                          "/shaders " STROMBOLI_SOURCE_DIR "/shaders/pathtrace.comp");
+    EXPECT_EQ(run.exitCode, 0) << run.output;
+    std::string source = run.output;
+    for (const Feature& f : featureTable()) {
+        const bool isFlag = f.shown.kind == Kind::Flag;
+        if (values[f.constant] != 0 || (!isFlag && f.shown.kind != Kind::Bits)) continue;
+        const std::regex declaration(
+            fmt::format("layout\\(constant_id = {}\\) ?const (\\w+) {} = [^;]*;",
+                        uint32_t(f.constant), f.name));
+        EXPECT_TRUE(std::regex_search(source, declaration)) << f.name;
+        source = std::regex_replace(
+            source, declaration, fmt::format("const $1 {} = {};", f.name, isFlag ? "false" : "0u"));
+    }
+    return source;
+}
+
+Words readWords(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    Words words(bytes.size() / sizeof(uint32_t));
+    std::memcpy(words.data(), bytes.data(), words.size() * sizeof(uint32_t));
+    return words;
+}
+
+/// As the build compiles shaders.
+Words compiled(const std::string& source) {
+    const TemporaryFolder folder;
+    const std::string glsl = (folder / "a.comp").string(), spv = (folder / "a.spv").string();
+    std::ofstream(glsl) << source;
+    const ShellRun run =
+        shell(fmt::format(STROMBOLI_GLSLANG " --quiet -V --target-env vulkan1.1 -o {1} {0} && " //
+                          STROMBOLI_SPIRV_OPT " --target-env=vulkan1.1 {1} -o {1}",
+                          glsl, spv));
+    EXPECT_EQ(run.exitCode, 0) << run.output;
+    return readWords(spv);
+}
+
+/// Without local variables, as drivers read a module: where a feature is switched off before the
+/// build's passes, these dissolve some more of them than where the finished module lacks it.
+Words dissolved(const Words& module) {
+    const TemporaryFolder folder;
+    const std::string spv = (folder / "a.spv").string();
+    std::ofstream(spv, std::ios::binary)
+        .write(reinterpret_cast<const char*>(module.data()),
+               std::streamsize(module.size() * sizeof(uint32_t)));
+    const ShellRun run = shell(fmt::format(
+        "{} --target-env=vulkan1.1 --ssa-rewrite --eliminate-dead-code-aggressive "
+        "--simplify-instructions --eliminate-dead-code-aggressive --merge-blocks {} -o {}",
+        STROMBOLI_OPT, spv, spv));
+    EXPECT_EQ(run.exitCode, 0) << run.output;
+    return specialised(readWords(spv), {});
+}
+
+/// What a scene lacks costs it nothing: its kernel is the same as if the shaders had never had it.
+TEST(Features, WhatTheCornellBoxLacksLeavesNoTrace) {
+    const Words values = featuresOf("cornell_boxes");
+    const Words with = dissolved(specialised(pathtrace_storage, values)),
+                without = dissolved(specialised(compiled(sourceWithout(values)), values));
+    EXPECT_TRUE(with == without) << with.size() << " and " << without.size() << " words";
+}
+
+} // namespace
+} // namespace stromboli
