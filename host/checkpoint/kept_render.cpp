@@ -7,105 +7,137 @@
 namespace stromboli {
 namespace {
 
-/// The file of a render, and when it is to be written.
-class Keeper {
+/// Adds the seconds that it lives to a sum.
+class Timed {
   public:
-    Keeper(const KeptRender& render, const std::function<void(const std::string&)>& say)
-        : render_(render), say_(say) {}
-
-    bool isDue() const {
-        return !render_.file.empty() && sinceLast_.seconds() >= render_.everySeconds;
-    }
-    /// There is a file to go on from.
-    bool hasFile() const { return written_ || render_.begun; }
-
-    /// A disk that is full costs the checkpoint, not the render: the old one stays.
-    void write(const RenderSession& session) {
-        sinceLast_ = {};
-        try {
-            if (!identity_) identity_ = render_.identity();
-            writeCheckpoint(render_.file, {*identity_, session.save()});
-            written_ = true;
-        } catch (const OutputError& error) {
-            say_(fmt::format("no checkpoint: {}; the render goes on", error.what()));
-        }
-    }
-
-    /// Empty: the render has to begin anew.
-    std::optional<SessionState> lastState() const {
-        return written_ ? readCheckpoint(render_.file).state : render_.begun;
-    }
-
-    void end(const RenderSession& session, bool finished, bool hasMore) {
-        if (render_.file.empty()) return;
-        if (!finished || render_.keepsAtEnd) {
-            if (hasMore || !render_.begun) write(session); // else the file has all of it
-        } else if (hasFile()) {
-            std::error_code failed; // what cannot be removed does no harm
-            isRemoved_ = std::filesystem::remove(render_.file, failed);
-        }
-    }
-    bool isThere() const { return hasFile() && !isRemoved_; }
+    explicit Timed(double& sum) : sum_(sum) {}
+    ~Timed() { sum_ += watch_.seconds(); }
+    Timed(const Timed&) = delete;
+    Timed& operator=(const Timed&) = delete;
 
   private:
-    const KeptRender& render_;
-    const std::function<void(const std::string&)>& say_;
-    std::optional<RenderIdentity> identity_;
-    bool written_ = false, isRemoved_ = false;
-    Stopwatch sinceLast_;
+    double& sum_;
+    Stopwatch watch_;
 };
-
-/// Passes until there is no more to do. False if `progress` said stop.
-bool runPasses(RenderSession& session, Keeper& keeper, const ProgressCallback& progress) {
-    for (;;) {
-        bool stopped = false, due = false;
-        const bool goesOn = session.pass([&](const RenderProgress& state) {
-            stopped = progress && !progress(state);
-            due = keeper.isDue();
-            return !stopped && !due;
-        });
-        if (stopped) return false;
-        if (due || keeper.isDue()) keeper.write(session);
-        if (!goesOn && !due) return true;
-    }
-}
 
 } // namespace
 
-KeptOutcome renderKept(const KeptRender& render, const MakeBackend& makeBackend,
-                       const ProgressCallback& progress,
-                       const std::function<void(const std::string&)>& say) {
-    Keeper keeper(render, say);
-    KeptOutcome result;
-    std::optional<SessionState> begun = render.begun;
-    for (bool again = false;; again = true) {
-        const Stopwatch preparing;
-        const std::shared_ptr<Backend> backend = makeBackend(render.settings, again);
-        RenderSession session =
-            begun ? RenderSession(*backend, *begun) : RenderSession(*backend, render.settings);
-        const uint64_t samplesBefore = session.samplesDone();
-        result.prepareSeconds += preparing.seconds();
-        const Stopwatch rendering;
-        try {
-            result.stopped = !runPasses(session, keeper, progress);
-            result.outcome = session.outcome();
-            keeper.end(session, !result.stopped, session.samplesDone() > samplesBefore);
-        } catch (const DeviceLostError& error) {
-            if (!again) {
-                result.renderSeconds += rendering.seconds();
-                begun = keeper.lastState();
-                say(fmt::format("{}; once more, from {}", error.what(),
-                                begun ? "the last checkpoint" : "the beginning"));
-                continue;
-            }
-            result.lost = error.what();
-        }
-        result.renderSeconds += rendering.seconds();
-        result.counters = backend->counters();
-        result.film = std::move(session).takeFilm();
-        result.fileIsThere = keeper.isThere();
-        return result;
+KeptSession::KeptSession(KeptRender render, MakeBackend makeBackend, Say say)
+    : render_(std::move(render)), makeBackend_(std::move(makeBackend)), say_(std::move(say)) {
+    begin(false);
+}
+
+void KeptSession::begin(bool again) {
+    const Timed preparing(result_.prepareSeconds);
+    std::optional<SessionState> begun = render_.begun;
+    if (written_) begun = readCheckpoint(render_.file).state;
+    session_.reset();
+    backend_.reset(); // before the memory of the next is asked for
+    backend_ = makeBackend_(render_.settings, again);
+    if (begun)
+        session_.emplace(*backend_, *begun);
+    else
+        session_.emplace(*backend_, render_.settings);
+    samplesBefore_ = session_->samplesDone();
+}
+
+bool KeptSession::isDue() const {
+    return !render_.file.empty() && sinceLast_.seconds() >= render_.everySeconds;
+}
+
+/// A disk that is full costs the checkpoint, not the render: the old one stays.
+void KeptSession::write() {
+    sinceLast_ = {};
+    try {
+        if (!identity_) identity_ = render_.identity();
+        writeCheckpoint(render_.file, {*identity_, session_->save()});
+        written_ = true;
+    } catch (const OutputError& error) {
+        say_(fmt::format("no checkpoint: {}; the render goes on", error.what()));
     }
+}
+
+bool KeptSession::sample(const ProgressCallback& progress) {
+    bool asked = false, due = false;
+    const bool goesOn = session_->pass([&](const RenderProgress& state) {
+        asked = progress && !progress(state);
+        due = isDue();
+        return !asked && !due;
+    });
+    if (asked) return true; // whoever asked says whether it goes on
+    if (due || isDue()) write();
+    return goesOn || due;
+}
+
+bool KeptSession::pass(const ProgressCallback& progress) {
+    if (over_) return false;
+    try {
+        const Timed rendering(result_.renderSeconds);
+        if (sample(progress)) return true;
+        close(true);
+        return false;
+    } catch (const DeviceLostError& error) {
+        recover(error.what());
+    }
+    return !over_;
+}
+
+/// The noise is known, and the file is left or removed.
+void KeptSession::close(bool finished) {
+    result_.outcome = session_->outcome();
+    result_.stopped = !finished;
+    if (!render_.file.empty()) {
+        const bool hasFile = written_ || render_.begun;
+        if (!finished || render_.keepsAtEnd) {
+            // Where nothing was added, the file has all of it.
+            if (session_->samplesDone() > samplesBefore_ || !render_.begun) write();
+        } else if (hasFile) {
+            std::error_code failed; // what cannot be removed does no harm
+            removed_ = std::filesystem::remove(render_.file, failed);
+        }
+    }
+    over_ = true;
+}
+
+/// After the first loss a new backend goes on; the second one is the end.
+void KeptSession::recover(const std::string& why) {
+    if (recovered_) {
+        result_.lost = why;
+        over_ = true;
+        return;
+    }
+    recovered_ = true;
+    say_(fmt::format("{}; once more, from {}", why,
+                     written_ || render_.begun ? "the last checkpoint" : "the beginning"));
+    begin(true);
+}
+
+const KeptOutcome& KeptSession::end() {
+    while (!over_) {
+        try {
+            const Timed rendering(result_.renderSeconds);
+            close(false);
+        } catch (const DeviceLostError& error) {
+            recover(error.what());
+        }
+    }
+    result_.counters = backend_->counters();
+    result_.fileIsThere = (written_ || render_.begun) && !removed_;
+    return result_;
+}
+
+KeptOutcome renderKept(const KeptRender& render, const MakeBackend& makeBackend,
+                       const ProgressCallback& progress, const KeptSession::Say& say) {
+    KeptSession session(render, makeBackend, say);
+    bool stopped = false;
+    while (!stopped && session.pass([&](const RenderProgress& state) {
+        stopped = progress && !progress(state);
+        return !stopped;
+    })) {
+    }
+    KeptOutcome outcome = session.end();
+    outcome.film = std::move(session).takeFilm();
+    return outcome;
 }
 
 } // namespace stromboli

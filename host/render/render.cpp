@@ -11,7 +11,7 @@ uint64_t samplesAtMost(const PictureArea& area, const Budget& budget) {
 
 Film render(Backend& backend, const RenderSettings& settings, const ProgressCallback& progress,
             RenderOutcome* outcome) {
-    RenderSession session(backend, settings);
+    SamplingSession session(backend, settings);
     while (session.pass(progress)) {
     }
     if (outcome) *outcome = session.outcome();

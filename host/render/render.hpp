@@ -2,7 +2,7 @@
 
 #include "host/film/film.hpp"
 #include "host/render/backend.hpp"
-#include "host/render/render_session.hpp"
+#include "host/render/sampling_session.hpp"
 #include "host/render/settings.hpp"
 
 namespace stromboli {

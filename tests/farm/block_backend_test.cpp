@@ -1,7 +1,7 @@
 // Renders in blocks, with samples that need no renderer.
 #include "host/core/error.hpp"
 #include "host/render/block_backend.hpp"
-#include "host/render/render_session.hpp"
+#include "host/render/sampling_session.hpp"
 #include "tests/farm/films.hpp"
 
 #include <gtest/gtest.h>
@@ -64,7 +64,7 @@ TEST(BlockBackend, GoesOnToMoreSamplesWithTheSameBytes) {
     RenderSettings s = settingsOf(100);
     s.budget.samplesPerBlock = 16;
     BlockBackend first(std::make_shared<DrawnBackend>(uneven, 1), s.area, 16);
-    RenderSession session(first, s);
+    SamplingSession session(first, s);
     while (session.pass()) {
     }
     SessionState state = sessionFromBytes(toBytes(session.save()));
@@ -72,7 +72,7 @@ TEST(BlockBackend, GoesOnToMoreSamplesWithTheSameBytes) {
     EXPECT_EQ(state.sums.front().count, 4u);
     state.settings.budget.mostSamplesPerPixel = 250;
     BlockBackend second(std::make_shared<DrawnBackend>(uneven, 1), s.area, 16);
-    RenderSession more(second, state);
+    SamplingSession more(second, state);
     EXPECT_TRUE(sameFilms(more.film(), session.film()));
     while (more.pass()) {
     }

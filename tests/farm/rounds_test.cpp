@@ -3,7 +3,7 @@
 #include "host/core/error.hpp"
 #include "host/farm/plan_round.hpp"
 #include "host/render/block_backend.hpp"
-#include "host/render/render_session.hpp"
+#include "host/render/sampling_session.hpp"
 #include "tests/farm/films.hpp"
 #include "tests/film/temporary_folder.hpp"
 #include "tests/support/refusal.hpp"

@@ -3,7 +3,7 @@
 #include "host/core/error.hpp"
 #include "host/reference/reference_backend.hpp"
 #include "host/render/block_backend.hpp"
-#include "host/render/render_session.hpp"
+#include "host/render/sampling_session.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/render/film_checks.hpp"
 #include "tests/support/device_fixture.hpp"
@@ -64,7 +64,7 @@ class Session : public DeviceTest {
 
     Film uninterrupted(MakeBackend make, const RenderSettings& s) const {
         const std::unique_ptr<Backend> backend = (this->*make)(s);
-        RenderSession session(*backend, s);
+        SamplingSession session(*backend, s);
         while (session.pass()) {
         }
         return session.film();
@@ -74,7 +74,7 @@ class Session : public DeviceTest {
     /// of its own each time.
     Film inPieces(MakeBackend make, const RenderSettings& s, int reports, int& pieces) const {
         std::unique_ptr<Backend> backend = (this->*make)(s);
-        auto session = std::make_unique<RenderSession>(*backend, s);
+        auto session = std::make_unique<SamplingSession>(*backend, s);
         for (pieces = 1;; ++pieces) {
             bool stopped = false;
             int left = reports;
@@ -84,7 +84,7 @@ class Session : public DeviceTest {
             const std::vector<std::byte> bytes = toBytes(session->save());
             session.reset();
             backend = (this->*make)(s);
-            session = std::make_unique<RenderSession>(*backend, sessionFromBytes(bytes));
+            session = std::make_unique<SamplingSession>(*backend, sessionFromBytes(bytes));
         }
     }
 };
@@ -173,7 +173,7 @@ TEST_F(Session, BlocksOfSeveralBackendsAddUpToOneRender) {
 TEST_F(Session, ThePictureSoFarCanBeLookedAtAfterEveryPass) {
     const RenderSettings s = settings({.mostSamplesPerPixel = 64});
     const std::unique_ptr<Backend> backend = device(s);
-    RenderSession session(*backend, s);
+    SamplingSession session(*backend, s);
     uint64_t before = 0;
     while (session.pass()) {
         uint64_t taken = 0;
@@ -194,7 +194,7 @@ TEST_F(Session, AnotherPictureOfTheSceneNeitherCompilesNorUploadsIt) {
     const RenderSettings s = settings({.mostSamplesPerPixel = 4});
     VulkanBackend backend(testDevice(), mesh, camera(s), s);
     { // something is there to be left over
-        RenderSession session(backend, s);
+        SamplingSession session(backend, s);
         session.pass();
     }
     const uint64_t pipelines = testDevice().pipelinesMade();
@@ -203,7 +203,7 @@ TEST_F(Session, AnotherPictureOfTheSceneNeitherCompilesNorUploadsIt) {
     Camera moved = camera(other);
     moved.position += glm::vec3(0.1f, 0.05f, 0);
     backend.setPicture(moved, other);
-    RenderSession session(backend, other);
+    SamplingSession session(backend, other);
     while (session.pass()) {
     }
     EXPECT_EQ(testDevice().pipelinesMade(), pipelines);
@@ -214,7 +214,7 @@ TEST_F(Session, AnotherPictureOfTheSceneNeitherCompilesNorUploadsIt) {
     VulkanBackend fresh(testDevice(), mesh, moved, other);
     EXPECT_EQ(testDevice().pipelinesMade(), pipelines) << "the same kernel was compiled twice";
     EXPECT_GE(testDevice().bytesUploaded() - uploadedBefore, sceneBytes);
-    RenderSession again(fresh, other);
+    SamplingSession again(fresh, other);
     while (again.pass()) {
     }
     EXPECT_EQ(differingPixels(session.film(), again.film()), 0u);
@@ -231,7 +231,7 @@ TEST_F(Session, AnotherEstimatorIsCompiledOnce) {
     for (int i = 0; i < 2; ++i)
         for (const RenderSettings& picture : {independent, s}) {
             backend.setPicture(camera(picture), picture);
-            RenderSession session(backend, picture);
+            SamplingSession session(backend, picture);
             while (session.pass()) {
             }
             EXPECT_EQ(differingPixels(session.film(), uninterrupted(&Session::device, picture)),
@@ -244,7 +244,7 @@ TEST_F(Session, AnotherEstimatorIsCompiledOnce) {
 TEST_F(Session, DamagedStatesAreRefused) {
     const RenderSettings s = settings({.mostSamplesPerPixel = 4}, 3, 2);
     const std::unique_ptr<Backend> backend = reference(s);
-    RenderSession session(*backend, s);
+    SamplingSession session(*backend, s);
     session.pass();
     const std::vector<std::byte> bytes = toBytes(session.save());
     EXPECT_EQ(toBytes(sessionFromBytes(bytes)), bytes);

@@ -3,7 +3,7 @@
 
 #include "host/core/error.hpp"
 #include "host/render/block_backend.hpp"
-#include "host/render/render_session.hpp"
+#include "host/render/sampling_session.hpp"
 #include "tests/render/drawn_samples.hpp"
 
 #include <gmock/gmock.h>
@@ -175,7 +175,7 @@ TEST(TeamBackend, GoesOnWhereItWasStopped) {
     for (const RenderSettings& s : kindsOfRenders())
         for (const int reports : {1, 3, 10}) {
             auto team = std::make_unique<Team>(std::vector{kSound, kSound});
-            auto session = std::make_unique<RenderSession>(*team->backend, s);
+            auto session = std::make_unique<SamplingSession>(*team->backend, s);
             for (bool isDone = false; !isDone;) {
                 int left = reports;
                 bool stopped = false;
@@ -186,7 +186,7 @@ TEST(TeamBackend, GoesOnWhereItWasStopped) {
                 const std::vector<std::byte> bytes = toBytes(session->save());
                 session.reset();
                 team = std::make_unique<Team>(std::vector{kSound, kSound});
-                session = std::make_unique<RenderSession>(*team->backend, sessionFromBytes(bytes));
+                session = std::make_unique<SamplingSession>(*team->backend, sessionFromBytes(bytes));
             }
             expectSame(session->film(), renderDrawn(uneven, s, 1).film);
         }

@@ -1,4 +1,4 @@
-#include "host/render/render_session.hpp"
+#include "host/render/sampling_session.hpp"
 
 #include "host/render/render.hpp"
 
@@ -7,7 +7,7 @@
 
 namespace stromboli {
 
-RenderSession::RenderSession(Backend& backend, const RenderSettings& settings)
+SamplingSession::SamplingSession(Backend& backend, const RenderSettings& settings)
     : backend_(backend), settings_(settings), plan_(settings.budget),
       noisePlan_(settings.budget.mostSamplesPerPixel, settings.estimator.branches,
                  settings.budget.stop.seconds > 0 ? NoisePlan::Beginning::CoarseToFine
@@ -16,18 +16,23 @@ RenderSession::RenderSession(Backend& backend, const RenderSettings& settings)
     film_.branches = settings.estimator.branches;
 }
 
-RenderSession::RenderSession(Backend& backend, const SessionState& saved)
-    : RenderSession(backend, saved.settings) {
+SamplingSession::SamplingSession(Backend& backend, const SessionState& saved)
+    : SamplingSession(backend, saved.settings) {
     backend_.restoreBlocks(saved.blocks);
     backend_.restoreAll(saved.sums, film_);
     estimate_.remember(saved.estimate);
     pending_ = saved.pending;
     secondsBefore_ = saved.secondsUsed;
+    countSamples();
+}
+
+void SamplingSession::countSamples() {
+    samplesDone_ = 0;
     for (const PixelStatistics& p : film_.pixels)
         samplesDone_ += p.taken();
 }
 
-bool RenderSession::pass(const ProgressCallback& progress) {
+bool SamplingSession::pass(const ProgressCallback& progress) {
     if (!watch_) watch_.emplace();
     if (timeIsUp()) return false;
     if (pending_.empty()) pending_ = nextPass();
@@ -38,17 +43,19 @@ bool RenderSession::pass(const ProgressCallback& progress) {
         // One sample tells no error; two do, without what was before them.
         if (pending_.front().samples > 1) estimate_.update(film_);
         pending_.clear();
+    } else {
+        countSamples(); // a backend that is stopped may end some more than it has told of
     }
     return goesOn && !timeIsUp();
 }
 
-std::vector<PixelTarget> RenderSession::nextPass() const {
+std::vector<PixelTarget> SamplingSession::nextPass() const {
     const Budget& budget = settings_.budget;
     if (!budget.spreads()) return plan_.next(film_);
     return noisePlan_.next(film_, estimate_, samplesLeft(), budget.stop.noise);
 }
 
-void RenderSession::sample(const ProgressCallback& progress, bool& goesOn) {
+void SamplingSession::sample(const ProgressCallback& progress, bool& goesOn) {
     RenderProgress state;
     state.samplesAtMost = samplesAtMost(settings_.area, settings_.budget);
     const uint64_t before = samplesDone_, expected = expectedSamples();
@@ -64,20 +71,20 @@ void RenderSession::sample(const ProgressCallback& progress, bool& goesOn) {
     });
 }
 
-bool RenderSession::isComplete(const std::vector<PixelTarget>& pass) const {
+bool SamplingSession::isComplete(const std::vector<PixelTarget>& pass) const {
     return std::all_of(pass.begin(), pass.end(), [&](const PixelTarget& t) {
         return film_.pixels[t.pixel].taken() >= t.samples;
     });
 }
 
-bool RenderSession::timeIsUp() const {
+bool SamplingSession::timeIsUp() const {
     const double seconds = settings_.budget.stop.seconds;
     return seconds > 0 && secondsUsed() >= seconds;
 }
 
 /// Samples that the budget still has, as to time at the rate so far, or one a pixel while there is
 /// none.
-uint64_t RenderSession::samplesLeft() const {
+uint64_t SamplingSession::samplesLeft() const {
     const Budget& budget = settings_.budget;
     const uint64_t all = budget.meanSamplesPerPixel > 0
                              ? film_.pixels.size() * uint64_t(budget.meanSamplesPerPixel)
@@ -91,7 +98,7 @@ uint64_t RenderSession::samplesLeft() const {
 }
 
 /// In all: if the noise is to fall from where it is now to the one asked for, as 1 / sqrt(n).
-uint64_t RenderSession::expectedSamples() const {
+uint64_t SamplingSession::expectedSamples() const {
     const uint64_t atMost = samplesAtMost(settings_.area, settings_.budget);
     const double target = settings_.budget.stop.noise;
     if (target == 0 || samplesDone_ == 0) return atMost;
@@ -102,14 +109,14 @@ uint64_t RenderSession::expectedSamples() const {
     return expected < double(atMost) ? uint64_t(expected) + 1 : atMost;
 }
 
-RenderOutcome RenderSession::outcome() const {
+RenderOutcome SamplingSession::outcome() const {
     if (pending_.empty()) return {estimate_.picture(film_), timeIsUp()};
     NoiseEstimate now = estimate_; // the pass that was stopped has changed some pixels
     now.update(film_);
     return {now.picture(film_), timeIsUp()};
 }
 
-SessionState RenderSession::save() const {
+SessionState SamplingSession::save() const {
     return {
         settings_,    backend_.saveAll(film_), backend_.saveBlocks(), estimate_.memory(), pending_,
         secondsUsed()};

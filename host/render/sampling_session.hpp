@@ -35,13 +35,13 @@ struct RenderOutcome {
 /// A picture in the making. It goes on pass by pass; between passes, and after one that was
 /// stopped, it can be looked at, saved, and gone on with. However often it is stopped, saved and
 /// restored, the film in the end has the same bytes (unless time limits the render).
-class RenderSession {
+class SamplingSession {
   public:
     /// The backend was made for these settings, has taken no sample yet, and outlives the session.
-    RenderSession(Backend& backend, const RenderSettings& settings);
+    SamplingSession(Backend& backend, const RenderSettings& settings);
     /// Goes on where a session was saved; the backend was made for its settings, by the same kind
     /// of backend, scene and camera. Throws std::invalid_argument if the film is of another size.
-    RenderSession(Backend& backend, const SessionState& saved);
+    SamplingSession(Backend& backend, const SessionState& saved);
 
     /// Takes the samples of the next pass, or those that a stopped pass still lacks. False if there
     /// is nothing more to do, if `progress` said stop, or if the time is up.
@@ -58,6 +58,7 @@ class RenderSession {
   private:
     std::vector<PixelTarget> nextPass() const;
     void sample(const ProgressCallback& progress, bool& goesOn);
+    void countSamples();
     bool isComplete(const std::vector<PixelTarget>& pass) const;
     double secondsUsed() const { return secondsBefore_ + (watch_ ? watch_->seconds() : 0); }
     bool timeIsUp() const;
