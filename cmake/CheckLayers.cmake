@@ -1,9 +1,9 @@
 # cmake -DTABLE=layers.txt -DLIBRARY=name -DROOT=source_folder -DSTAMP=file -P CheckLayers.cmake
 #
 # Fails, with file, line and what is missing, if a file of a library includes a header that the
-# library may not see. A library sees its own headers and those of the libraries that it names in
-# DEPENDS or PRIVATE_DEPENDS; its headers see those of DEPENDS alone, and none of the libraries whose
-# headers are slow to compile. The table has a line per library of the program:
+# library may not see, or calls a function that changes the process. A library sees its own headers
+# and those of the libraries that it names in DEPENDS or PRIVATE_DEPENDS; its headers see those of
+# DEPENDS alone, and none of the libraries whose headers are slow to compile. The table has a line per library of the program:
 #     name|folder|its DEPENDS|its PRIVATE_DEPENDS        (lists separated by commas)
 cmake_minimum_required(VERSION 3.22)
 
@@ -16,8 +16,13 @@ set(outside_prefixes
     "meshoptimizer.h=meshoptimizer::meshoptimizer"
     "OpenEXR/=OpenEXR::OpenEXR" "zlib.h=ZLIB::ZLIB" "volk.h=stromboli_volk"
     "vulkan/=Vulkan::Headers")
+# Functions that change the process, which belongs to whoever runs the program, and the folders that
+# may call them.
+set(process_functions
+    "(^|[^A-Za-z0-9_.>])(setenv|unsetenv|putenv|mallopt|sigaction|pthread_sigmask|signal|atexit)[ ]*\\(")
+set(process_folders host/cli host/process)
 # Templates that take seconds to compile: no header includes them.
-set(slow_in_headers "^(CLI/|nlohmann/|spdlog/|fmt/|tbb/)")
+set(slow_in_headers "^(CLI/|nlohmann/json\\.hpp|spdlog/|fmt/|tbb/)")
 
 file(STRINGS ${TABLE} rows)
 foreach(row IN LISTS rows)
@@ -95,10 +100,20 @@ foreach(file IN LISTS files)
             string(APPEND broken "${file}:${line}: ${header} ${problem}\n")
         endif()
     endforeach()
+    if(NOT own_folder IN_LIST process_folders)
+        file(STRINGS ${file} calls REGEX "${process_functions}")
+        foreach(call IN LISTS calls)
+            if(call MATCHES "^[ \t]*//")
+                continue()
+            endif()
+            line_of(${file} "${call}" line)
+            string(APPEND broken "${file}:${line}: this changes the process; only ${process_folders} may\n")
+        endforeach()
+    endif()
 endforeach()
 
 if(broken)
     message("${broken}")
-    message(FATAL_ERROR "Layers: the includes above cross a boundary (docs/architecture.md).")
+    message(FATAL_ERROR "Layers: the lines above cross a boundary (docs/architecture.md).")
 endif()
 file(WRITE ${STAMP} "")

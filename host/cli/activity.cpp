@@ -1,6 +1,7 @@
 #include "host/cli/activity.hpp"
 
-#include "host/core/status_line.hpp"
+#include "host/cli/status_line.hpp"
+#include "host/core/log.hpp"
 #include "host/core/stopwatch.hpp"
 
 #include <fmt/format.h>
@@ -50,6 +51,24 @@ void redrawActivity() {
     if (s.line == StatusLine::OfOthers || s.since.seconds() < kWorthNamingSeconds) return;
     s.isDrawn = true;
     status_line::draw(fmt::format("{}, {:.0f} s", s.what, s.since.seconds()));
+}
+
+Listener toTerminal() {
+    Listener listener;
+    listener.message = [](Severity severity, const std::string& text) {
+        switch (severity) {
+        case Severity::Detail:
+            return logging::debug(text);
+        case Severity::Information:
+            return logging::info(text);
+        case Severity::Warning:
+            return logging::warn(text);
+        }
+    };
+    listener.activity = [](Stage stage, const std::string& what) {
+        nowDoing(what, stage == Stage::Sampling ? StatusLine::OfOthers : StatusLine::OfActivity);
+    };
+    return listener;
 }
 
 } // namespace stromboli

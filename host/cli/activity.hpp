@@ -1,5 +1,7 @@
 #pragma once
 
+#include "host/engine/listener.hpp"
+
 #include <string>
 
 namespace stromboli {
@@ -20,5 +22,8 @@ std::string whatIsBeingDone();
 /// Draws the status line anew if something has been done for a while. Called a few times a second
 /// by the thread that watches for signals, because those who work do not know how long it takes.
 void redrawActivity();
+
+/// What an engine says becomes messages, and what it does the activity.
+Listener toTerminal();
 
 } // namespace stromboli

@@ -1,22 +1,67 @@
+// `compare`: how far a picture is from a reference.
 #include "host/cli/activity.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/declared_command.hpp"
+#include "host/cli/exit_code.hpp"
 #include "host/compare/false_color.hpp"
 #include "host/core/error.hpp"
 #include "host/core/json.hpp"
 #include "host/core/log.hpp"
 #include "host/core/output.hpp"
 #include "host/film/exr.hpp"
+#include "host/film/image_file.hpp"
 #include "host/film/png.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <memory>
 
 namespace stromboli {
 namespace {
 
 using compare::Comparison;
 using compare::Picture;
+
+constexpr Range<double> kErrors{0, 1e300}, kDecibels{-1000, 1000}, kSimilarities{-1, 1},
+    kFlip{0, 1}, kPercent{0, 1e9}, kStops{-100, 100}, kPixelsPerDegree{1, 1000},
+    kFalseAlarms{1e-12, 0.5};
+constexpr Range<uint32_t> kSampleCounts{1, 1u << 30};
+
+void declareThresholds(OptionList& list, compare::Thresholds& t) {
+    list.group("Limits (exit code 3 if one is not kept)");
+    list.real("--max-mse", "X", "mean squared error of linear radiance", t.mse, kErrors);
+    list.real("--max-relmse", "X",
+              "mean of (x - r)^2 / (r^2 + 0.01 m^2), r the reference, m its mean", t.relMse,
+              kErrors);
+    list.real("--min-psnr", "DB", "PSNR of the sRGB signals, in dB", t.psnr, kDecibels);
+    list.real("--min-ssim", "X", "structural similarity of the grey sRGB signals", t.ssim,
+              kSimilarities);
+    list.real("--max-flip", "X", "mean FLIP: HDR-FLIP of two linear pictures, FLIP if one is a PNG",
+              t.flip, kFlip);
+    list.real("--max-bias", "PERCENT",
+              "difference of the means of each channel, in percent of the reference's",
+              t.biasPercent, kPercent);
+    list.flag("--ztest",
+              "the pictures must agree within their variances (two EXR files of render --aov, "
+              "different seeds)",
+              t.zTest);
+}
+
+bool namesPng(const std::string& file) {
+    return file.ends_with(".png") || file.ends_with(".PNG");
+}
+
+void checkFiles(const CompareOptions& o) {
+    if (!o.differenceFile.empty()) checkWritable(o.differenceFile);
+    if (!o.jsonFile.empty()) checkOutputWritable(o.jsonFile);
+    for (const std::string& out : {o.differenceFile, o.jsonFile})
+        if (!out.empty() && (out == o.reference || out == o.picture))
+            throw UsageError(out + ": the output would replace a picture that is compared");
+    if (!o.jsonFile.empty() && o.jsonFile == o.differenceFile)
+        throw UsageError("--json and --diff name the same file: " + o.jsonFile);
+}
 
 ByteImage differenceImage(const Picture& reference, const Picture& picture, const Comparison& c,
                           DifferenceView show) {
@@ -86,8 +131,65 @@ void judgeByVariance(const CompareOptions& o, const Picture& reference, const Pi
 
 } // namespace
 
-int compareCommand(const Options& options) {
-    const CompareOptions& o = options.compare;
+void declareCompare(DeclaredCommand& c) {
+    const auto owned = std::make_shared<CompareOptions>();
+    CompareOptions& o = *owned;
+    OptionList& list = c.list;
+    list.group("Pictures");
+    list.text("REF", "", "the reference: .png (sRGB), .exr or .pfm (linear)", o.reference)
+        .required()
+        .proposes(Proposed::Files);
+    list.text("IMG", "", "the picture to judge, of the same size", o.picture)
+        .required()
+        .proposes(Proposed::Files);
+    declareThresholds(list, o.thresholds);
+    list.text("--ztest-variance", "FILE",
+              "IMG must agree with REF by the variance of one sample of REF, as Mitsuba 3 judges "
+              "its render tests: in CIE XYZ, 99.75 % of all |IMG - REF| sqrt(N / max(variance, "
+              "1e-4)) "
+              "are below a limit that no pixel exceeds in 99 of 100 pictures",
+              o.varianceFile)
+        .proposes(Proposed::Files);
+    list.number("-s,--samples", "N", "samples of each pixel of IMG, for --ztest-variance",
+                o.samples, kSampleCounts)
+        .usually("those that IMG states (render --aov)")
+        .needs("--ztest-variance");
+    list.flag(
+            "--ztest-blocks",
+            "beside --ztest-variance: the means of the picture and of blocks of 8 x 8 pixels must "
+            "agree as well, within the variances of both (render --aov; else REF's for both)",
+            o.thresholds.blocks)
+        .needs("--ztest-variance");
+    list.real("--reference-samples", "N", "samples of each pixel of REF, for the means and blocks",
+              o.referenceSamples, {1, 1e18})
+        .needs("--ztest-variance");
+    list.group("Output");
+    list.text("--diff", "FILE", "write the difference: .png in false colour, .exr as IMG - REF",
+              o.differenceFile)
+        .proposes(Proposed::Files);
+    list.choice("--show", "WHAT", "what --diff FILE.png shows", o.show);
+    list.text("--json", "FILE.json", "write all figures as JSON; - for standard output", o.jsonFile)
+        .proposes(Proposed::Files);
+    list.group("Metrics");
+    list.real("--exposure", "EV", "radiance times 2^EV before PSNR and SSIM look at it",
+              o.settings.exposure, kStops);
+    list.real("--ppd", "N",
+              "FLIP: pixels per degree of the viewer's sight (67: 0.7 m from a 4K screen 0.7 m "
+              "wide)",
+              o.settings.pixelsPerDegree, kPixelsPerDegree)
+        .usually(fmt::format("{:.2f}", o.settings.pixelsPerDegree));
+    list.real("--alpha", "P", "z-tests: probability of a false alarm", o.settings.familyError,
+              kFalseAlarms);
+    c.finish = [&c, owned] {
+        checkFiles(*owned);
+        owned->familyErrorGiven = c.has("--alpha");
+        if (c.has("--show") && !namesPng(owned->differenceFile))
+            throw UsageError("--show says what --diff FILE.png shows: there is no such file");
+        return *owned;
+    };
+}
+
+int compareCommand(const CompareOptions& o) {
     nowDoing("comparing " + o.picture);
     const Picture reference = compare::readPicture(o.reference);
     const Picture picture = compare::readPicture(o.picture);

@@ -12,8 +12,59 @@
 
 namespace stromboli {
 
+/// A command with its options.
+struct DeclaredCommand {
+    std::string name, description, footer;
+    OptionList list;
+    HostOptions host;
+    std::set<std::string> given; ///< names of the options on the command line
+    /// The command as it decides on the picture (RenderOptions::command).
+    std::vector<std::string> pictureCommand;
+    /// Works out what the options mean together. Throws UsageError.
+    std::function<CommandOptions()> finish;
+
+    bool has(const std::string& option) const { return given.contains(option); }
+    /// Those of the options that are on the command line: "-m, -l"; empty: none.
+    std::string givenOf(const std::vector<std::string>& names) const;
+};
+
+/// All commands. The functions inside refer to their own command: it must not be moved.
+std::deque<DeclaredCommand> declareCommands();
+
+/// Understands the words of the command line (without the program's name): stores them in the
+/// command that they name, and checks conflicts. Null: help or version was printed and the program
+/// is done. Throws UsageError.
+DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, const Words& words);
+
+// Each command declares its options in the file that runs it.
+
+void declareRender(DeclaredCommand& command);
+void declareCheck(DeclaredCommand& command);
+void declareInfo(DeclaredCommand& command);
+void declareKernels(DeclaredCommand& command);
+void declareDevices(DeclaredCommand& command);
+void declareBench(DeclaredCommand& command);
+void declareStress(DeclaredCommand& command);
+void declareCompare(DeclaredCommand& command);
+void declareStudy(DeclaredCommand& command);
+void declareMerge(DeclaredCommand& command);
+void declarePlan(DeclaredCommand& command);
+void declareSubmit(DeclaredCommand& command);
+
+// Groups of options that several commands have. Each stores what it understands in the structure it
+// is given. A `finish...` belongs to the group of its name.
+
+/// Which pictures a command makes.
+enum class Makes {
+    Pictures, ///< or parts of them, by one command or several machines
+    NoPicture ///< it looks at one, or measures
+};
+
 /// What was asked for, before it is known what it means together with the rest.
 struct Asked {
+    Makes makes = Makes::NoPicture;
+    bool maySpread = false;    ///< samples may go where they help most
+    bool branchesPay = false;  ///< the scene says how many branches there are, where nobody does
     uint32_t usualPaths = 64;  ///< -s where it is not given
     bool usuallySpread = true; ///< samples go where they help most
     std::optional<uint32_t> paths;
@@ -21,87 +72,53 @@ struct Asked {
     uint32_t pathsPerBlock = 128; ///< of an even render
     std::optional<Crop> cell;     ///< y counts from the bottom of the picture
     std::optional<uint32_t> accumulate;
+    std::vector<std::string> cameras; ///< RenderOptions::cameras
     SampleName sample;
     bool sampleAlone = false; ///< `sample` and nothing else
 };
 
-/// A command with its options. Each has its own defaults: `options` and `asked` as they are when
-/// the options are declared.
-struct DeclaredCommand {
-    std::string name, description, footer;
-    Options options;
-    Asked asked;
-    OptionList list;
-    std::set<std::string> given; ///< names of the options on the command line
-    bool has(const std::string& option) const { return given.contains(option); }
-    /// Those of the options that are on the command line: "-m, -l"; empty: none.
-    std::string givenOf(const std::vector<std::string>& names) const;
-    /// Works out what the options mean together. Throws UsageError.
-    std::function<void()> finish = [] {};
-};
+void declareScene(OptionList& list, SceneRequest& scene);
 
-/// All commands. The functions inside refer to their own command: it must not be moved.
-std::deque<DeclaredCommand> declareCommands();
-
-/// Understands the words of the command line (without the program's name): stores them in the
-/// command that they name, checks conflicts, and finishes it. Null: help or version was printed and
-/// the program is done. Throws UsageError.
-DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, const Words& words);
-
-// Groups of options that several commands have. Each `finish...` belongs to the group above it.
-
-void declareScene(DeclaredCommand& command);
-
-/// Views that files do not state: where from, which angle, which lens.
 /// What is said of the file that a picture is written to.
-void declarePictureFile(DeclaredCommand& command);
+void declarePictureFile(OptionList& list, OutputOptions& output, ToneCurve& tone);
+/// Throws UsageError if the kind of the picture has no use for --exposure, --aov or --layers.
+void checkOutputOptions(const DeclaredCommand& command, const OutputOptions& output,
+                        const RenderRequest& picture);
 /// --transparent, --layers.
-void declareSeen(DeclaredCommand& command);
-void declareOptics(DeclaredCommand& command);
-void declareSequence(DeclaredCommand& command);
-void checkSequence(const DeclaredCommand& command);
-/// Size, camera, crop.
-void declarePicture(DeclaredCommand& command);
-void finishPicture(DeclaredCommand& command);
+void declareSeen(OptionList& list, RenderRequest& picture);
+
+/// Size, camera, crop; of a command that makes several pictures also several cameras.
+void declarePicture(OptionList& list, RenderRequest& picture, Asked& asked, bool several = false);
+void finishPicture(const DeclaredCommand& command, RenderRequest& picture, const Asked& asked,
+                   bool several = false);
+void declareSequence(OptionList& list, SequenceOptions& sequence);
 
 /// What the estimator is, and --cs184.
-void declareEstimator(DeclaredCommand& command);
-void finishEstimator(DeclaredCommand& command);
+void declareEstimator(OptionList& list, SceneAndPicture& work, Asked& asked);
+void finishEstimator(DeclaredCommand& command, SceneAndPicture& work, const Asked& asked);
 
-void declareSampler(DeclaredCommand& command, Sampler& where);
+void declareSampler(OptionList& list, Sampler& where);
 /// -s, --sampler, --seed.
-void declareSamples(DeclaredCommand& command, const std::string& samplesHelp);
+void declareSamples(OptionList& list, RenderRequest& picture, Asked& asked,
+                    const std::string& samplesHelp);
 /// usually: the default, in words.
-void declareBranches(DeclaredCommand& command, const std::string& usually);
+void declareBranches(OptionList& list, RenderRequest& picture, const std::string& usually);
 /// --block.
-CommandOption& declareBlock(DeclaredCommand& command);
+CommandOption& declareBlock(OptionList& list, Asked& asked);
 /// --noise.
-CommandOption& declareNoise(DeclaredCommand& command, const std::string& help, double& where);
+CommandOption& declareNoise(OptionList& list, const std::string& help, double& where);
 /// Where samples go and when it is enough: --even, -a, --noise, --time.
-void declareSpreading(DeclaredCommand& command);
-/// Throws UsageError if the kind of the picture has no use for --exposure, --aov or --layers.
-void checkOutputOptions(const DeclaredCommand& command);
-/// --share, and what belongs to it.
-void declareShare(DeclaredCommand& command);
-void finishShare(DeclaredCommand& command);
-/// Works out the budget of a command whose samples may be spread, or not.
-void finishBudget(DeclaredCommand& command, bool maySpread);
-/// --pixel and --sample.
-void declareSampleAlone(DeclaredCommand& command);
+void declareSpreading(OptionList& list, RenderRequest& picture, Asked& asked);
+/// Works out the budget of the picture.
+void finishBudget(RenderRequest& picture, const Asked& asked);
 
 /// --film-memory.
-void declareFilmMemory(DeclaredCommand& command);
-void declareDevice(DeclaredCommand& command);
+void declareFilmMemory(OptionList& list, DeviceRequest& device);
+void declareDevice(OptionList& list, std::string& device);
 /// Threads and how much is said.
 void declareHost(DeclaredCommand& command);
 
-// Commands with options of their own.
-void declareBench(DeclaredCommand& command);
-void declareCompare(DeclaredCommand& command);
-void declareMerge(DeclaredCommand& command);
-void declarePlan(DeclaredCommand& command);
-void declareStress(DeclaredCommand& command);
-void declareStudy(DeclaredCommand& command);
-void declareSubmit(DeclaredCommand& command);
+/// The words of an option that takes names, with commas between them.
+Words splitAtCommas(const std::string& word);
 
 } // namespace stromboli

@@ -1,10 +1,12 @@
 #include "host/cli/commands.hpp"
+#include "host/cli/declared_command.hpp"
 #include "host/core/error.hpp"
 #include "host/vulkan/choose_device.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 
 namespace stromboli {
 namespace {
@@ -27,7 +29,13 @@ void print(size_t index, const vulkan::DeviceDescription& d, bool chosen) {
 
 } // namespace
 
-int devicesCommand(const Options& options) {
+void declareDevices(DeclaredCommand& c) {
+    const auto o = std::make_shared<DevicesOptions>();
+    declareDevice(c.list, o->device);
+    c.finish = [o] { return *o; };
+}
+
+int devicesCommand(const DevicesOptions& options) {
     const vulkan::Instance instance(vulkan::validationRequested());
     const std::vector<vulkan::DeviceDescription> devices = vulkan::listDevices(instance);
     const std::vector<vulkan::DeviceChoice> choices =

@@ -1,6 +1,8 @@
-// Options: what is estimated, and how.
+// Options: what is estimated and how, how many samples, where they go and when it is enough; which
+// device takes them.
 #include "host/cli/declared_command.hpp"
 #include "host/core/error.hpp"
+#include "host/render/noise_plan.hpp"
 
 #include <fmt/format.h>
 
@@ -25,32 +27,31 @@ Roulette readRoulette(const std::string& word) {
 
 /// That renderer's conventions, each by its name, and its defaults. What is below the command line
 /// knows of the conventions and not of the option.
-void useCs184(DeclaredCommand& c) {
-    Options& o = c.options;
-    o.reading = cs184Conventions();
-    o.framing = cs184Framing();
-    o.estimator.conventions = cs184Shading();
-    o.tone.kind = ToneCurve::Kind::Cs184;
-    o.budget.adaptive.rule = Adaptive::Rule::PerChannel;
+void useCs184(SceneAndPicture& work, Asked& asked) {
+    RenderRequest& picture = work.picture;
+    work.scene.reading = cs184Conventions();
+    picture.framing = cs184Framing();
+    picture.estimator.conventions = cs184Shading();
+    work.tone.kind = ToneCurve::Kind::Cs184;
+    picture.budget.adaptive.rule = Adaptive::Rule::PerChannel;
 
-    o.estimator.maxBounces = 1;
-    o.estimator.sampler = Sampler::Independent;
-    o.estimator.roulette.mode = Roulette::Mode::None;
-    o.branches = 1;
-    o.budget.adaptive.enabled = true;
-    if (rendersPictures(o.command)) c.asked.usualPaths = 1; // one sample checks nothing
-    c.asked.usuallySpread = false;
+    picture.estimator.maxBounces = 1;
+    picture.estimator.sampler = Sampler::Independent;
+    picture.estimator.roulette.mode = Roulette::Mode::None;
+    picture.branches = 1;
+    picture.budget.adaptive.enabled = true;
+    if (asked.makes == Makes::Pictures) asked.usualPaths = 1; // one sample checks nothing
+    asked.usuallySpread = false;
 }
 
 /// Which light a light sample takes is no question where each is sampled in turn, and without
 /// samples of emitters a question of lights that no direction meets.
-void remarkOnLightChoice(DeclaredCommand& c) {
-    const Estimator& e = c.options.estimator;
+void remarkOnLightChoice(DeclaredCommand& c, const Estimator& e, BackendChoice backend) {
     if (!c.has("--light-choice") || e.integrator != Integrator::Path) return;
-    std::vector<std::string>& remarks = c.options.remarks;
+    std::vector<std::string>& remarks = c.host.remarks;
     if (e.conventions.everyLightInTurn)
         remarks.emplace_back("--cs184 samples every light in turn: ignored: --light-choice");
-    else if (c.options.backend == BackendChoice::Reference)
+    else if (backend == BackendChoice::Reference)
         remarks.emplace_back("the reference samples every light in turn: ignored: --light-choice");
     else if (!samplesLights(e.directLight))
         remarks.push_back(fmt::format("--direct {} finds what shines by directions: --light-choice "
@@ -58,11 +59,30 @@ void remarkOnLightChoice(DeclaredCommand& c) {
                                       nameOf(e.directLight)));
 }
 
+constexpr Range<uint32_t> kSamples{1, kMostSamples};
+/// A sample is the least work a lane takes on: more would leave lanes without work at the end.
+constexpr Range<uint32_t> kBranches{1, 64};
+constexpr Range<uint32_t> kAnySeed{0, 0xFFFFFFFFu};
+constexpr Range<uint32_t> kSampleNumbers{0, kMostSamples - 1};
+constexpr Range<double> kTolerance{0, 1e6};
+constexpr Range<double> kNoise{1e-6, 1e6}; // a float has no more digits
+constexpr Range<double> kSeconds{0.01, 1e9};
+const char* const kBothSpread = "both say where samples go";
+
+void checkBranches(const RenderRequest& picture, const Asked& asked) {
+    const PathBudget& budget = picture.budget;
+    const uint32_t paths = budget.pathsPerPixel(), branches = picture.branches.value_or(1);
+    if ((asked.paths || !budget.stop.open()) && paths % branches != 0)
+        throw UsageError(fmt::format("-s {} is not a multiple of --branches {}", paths, branches));
+    if (branches > 1 && budget.adaptive.enabled)
+        throw UsageError(
+            "--branches does not go with -a, which counts paths and which --cs184 switches on");
+}
+
 } // namespace
 
-void declareEstimator(DeclaredCommand& c) {
-    Estimator& e = c.options.estimator;
-    OptionList& list = c.list;
+void declareEstimator(OptionList& list, SceneAndPicture& work, Asked& asked) {
+    Estimator& e = work.picture.estimator;
     list.group("Light");
     list.number("-m,--max-bounces", "N", "scatterings of light at most; 0: emission only",
                 e.maxBounces, kBounces)
@@ -98,28 +118,29 @@ void declareEstimator(DeclaredCommand& c) {
     list.flag("--cs184",
               "the CS184 renderer's conventions: framing and crop, normals, lights, tone curve, "
               "adaptive sampling by default (docs/cs184.md)",
-              [&c] { useCs184(c); })
+              [&work, &asked] { useCs184(work, asked); })
         .changesDefaults();
 }
 
-void finishEstimator(DeclaredCommand& c) {
-    Estimator& e = c.options.estimator;
-    c.options.bouncesGiven = c.has("-m") || c.has("--min-bounce") || c.has("--cs184");
-    c.options.filterGiven = c.has("--filter") || c.has("--cs184");
-    c.options.integratorGiven = c.has("--integrator");
-    if (c.asked.accumulate && *c.asked.accumulate == 0) e.minBounce = e.maxBounces;
+void finishEstimator(DeclaredCommand& c, SceneAndPicture& work, const Asked& asked) {
+    Estimator& e = work.picture.estimator;
+    const BackendChoice backend = work.device.backend;
+    const bool isCs184 = c.has("--cs184");
+    work.picture.leftToFile = {.bounces = !c.has("-m") && !c.has("--min-bounce") && !isCs184,
+                               .filter = !c.has("--filter") && !isCs184,
+                               .integrator = !c.has("--integrator")};
+    if (asked.accumulate && *asked.accumulate == 0) e.minBounce = e.maxBounces;
     const std::string moot =
         e.integrator != Integrator::Path
             ? c.givenOf({"-m", "--min-bounce", "-l", "--direct", "-H", "--light-choice",
                          "--roulette", "--gap-proposal", "--terminator-offset", "--branches", "-a"})
             : "";
     if (!moot.empty())
-        c.options.remarks.push_back(fmt::format("--integrator {} follows no light: ignored: {}",
-                                                nameOf(e.integrator), moot));
-    remarkOnLightChoice(c);
-    if (c.has("--gap-proposal") && e.gapProposal && c.options.backend == BackendChoice::Reference)
-        c.options.remarks.emplace_back(
-            "the reference makes no gap proposal: --gap-proposal ignored");
+        c.host.remarks.push_back(fmt::format("--integrator {} follows no light: ignored: {}",
+                                             nameOf(e.integrator), moot));
+    remarkOnLightChoice(c, e, backend);
+    if (c.has("--gap-proposal") && e.gapProposal && backend == BackendChoice::Reference)
+        c.host.remarks.emplace_back("the reference makes no gap proposal: --gap-proposal ignored");
     if (c.has("--gap-proposal") && e.gapProposal && !samplesLights(e.directLight))
         throw UsageError(
             fmt::format("--gap-proposal on needs lights that are sampled: not --direct {}",
@@ -132,10 +153,142 @@ void finishEstimator(DeclaredCommand& c) {
                                      e.minBounce, e.maxBounces));
 }
 
-void declareSampler(DeclaredCommand& c, Sampler& where) {
-    c.list.group("Sampling");
-    c.list.choice("--sampler", "WHICH", "where random numbers come from", where)
+void declareSampler(OptionList& list, Sampler& where) {
+    list.group("Sampling");
+    list.choice("--sampler", "WHICH", "where random numbers come from", where)
         .usually(fmt::format("{}; --cs184: independent", nameOf(where)));
+}
+
+void declareSamples(OptionList& list, RenderRequest& picture, Asked& asked,
+                    const std::string& samplesHelp) {
+    Estimator& e = picture.estimator;
+    list.group("Sampling");
+    list.number("-s,--samples", "N", samplesHelp, asked.paths, kSamples)
+        .usually(fmt::format("{}{}", asked.usualPaths,
+                             asked.makes == Makes::Pictures ? "; --cs184: 1" : ""));
+    declareSampler(list, e.sampler);
+    list.choice("--filter", "WHICH", "how much places about a pixel count for it", e.filter);
+    list.number("--seed", "N", "another seed, another noise", e.seed, kAnySeed);
+}
+
+void declareBranches(OptionList& list, RenderRequest& picture, const std::string& usually) {
+    list.group("Sampling");
+    list.number("--branches", "K",
+                "paths that share a camera ray and the light samples where it ends; -s, which "
+                "counts paths, is a multiple of it",
+                picture.branches, kBranches)
+        .usually(usually);
+}
+
+CommandOption& declareBlock(OptionList& list, Asked& asked) {
+    return list.number(
+        "--block", "N",
+        "paths of a pixel that are added up by themselves, where all pixels get as many; shares "
+        "consist of whole blocks, and renders of other blocks differ in the last bits "
+        "(docs/farm.md)",
+        asked.pathsPerBlock, kSamples);
+}
+
+CommandOption& declareNoise(OptionList& list, const std::string& help, double& where) {
+    return list.real("--noise", "T", help, where, kNoise).usually("");
+}
+
+void declareSpreading(OptionList& list, RenderRequest& picture, Asked& asked) {
+    Adaptive& a = picture.budget.adaptive;
+    StopRule& stop = picture.budget.stop;
+    list.group("Sampling");
+    list.flag("--even",
+              "the same number of samples for every pixel, so that a --crop has the bytes it has "
+              "in the whole picture",
+              asked.even);
+    declareBlock(list, asked).needs("--even");
+    list.words("-a,--adaptive", "BATCH TOLERANCE",
+               "adaptive sampling: test a pixel every BATCH samples, stop at 1.96 sigma <= "
+               "TOLERANCE * mean",
+               2,
+               [&asked, &a](const Words& words) {
+                   asked.adaptive = true;
+                   a.batch = readNumber("-a: BATCH", words[0], kSamples);
+                   a.tolerance = readReal("-a: TOLERANCE", words[1], kTolerance);
+               })
+        .from(fmt::format("{} and {}", inWords(kSamples), inWords(kTolerance)))
+        .usually(fmt::format("off; --cs184: {} {}", a.batch, a.tolerance))
+        .excludes("--even", kBothSpread);
+    declareNoise(list,
+                 "go on until the picture's noise, the square root of its relMSE, is at most T "
+                 "(0.02: 2 %) in 95 of 100 renders; samples go where they help most; -s is the "
+                 "most per pixel",
+                 stop.noise)
+        .excludes("-a", kBothSpread)
+        .excludes("--even", kBothSpread);
+    list.real(
+            "--time", "S",
+            "take samples for at most S seconds, from a coarse grid of pixels to all of them, then "
+            "where they help most; loading, preparing and writing are not counted; -s is the most "
+            "per pixel",
+            stop.seconds, kSeconds)
+        .usually("")
+        .excludes("-a", kBothSpread)
+        .excludes("--even", kBothSpread);
+}
+
+void finishBudget(RenderRequest& picture, const Asked& asked) {
+    PathBudget& b = picture.budget;
+    b.mostPathsPerPixel = asked.paths.value_or(asked.usualPaths);
+    // --cs184 turns it on: for paths, where nothing else is asked for.
+    if (picture.estimator.integrator != Integrator::Path || asked.even || b.stop.open())
+        b.adaptive.enabled = false;
+    if (asked.adaptive) b.adaptive.enabled = true;
+    if (b.stop.open() && !asked.paths) b.mostPathsPerPixel.reset();
+    if (asked.even) b.pathsPerBlock = asked.pathsPerBlock;
+    if (!picture.branches && !asked.branchesPay) picture.branches = 1;
+    if (picture.branches) checkBranches(picture, asked);
+
+    // Samples go where they help most unless something else is asked for. With as few as the
+    // first, uniform pass takes there is nothing to spread.
+    const bool isSpreadOtherwise =
+        asked.even || b.adaptive.enabled || b.stop.open() || asked.sampleAlone;
+    if (!asked.maySpread || !asked.usuallySpread || isSpreadOtherwise ||
+        b.pathsPerPixel() <= NoisePlan::kFirstPaths)
+        return;
+    b.meanPathsPerPixel = b.pathsPerPixel();
+    b.mostPathsPerPixel.reset();
+}
+
+void declareFilmMemory(OptionList& list, DeviceRequest& device) {
+    list.group("Device");
+    list.number("--film-memory", "MIB",
+                "mebibytes for the film and what belongs to it; a picture that needs more is "
+                "rendered in bands",
+                device.filmMebibytes, {1, 1u << 30})
+        .usually("half of the machine's memory")
+        .besidePicture();
+}
+
+void declareDevice(OptionList& list, std::string& device) {
+    list.group("Device");
+    list.text("--device", "D",
+              "number, UUID or part of a name from 'stromboli devices', or cpu; of 'render' also "
+              "several, with commas between them, or all",
+              device)
+        .usually("the best")
+        .besidePicture()
+        .proposes({"cpu", "all"});
+}
+
+void declareHost(DeclaredCommand& c) {
+    HostOptions& o = c.host;
+    c.list.group("Device");
+    c.list
+        .number("-t,--threads", "N", "host threads (BVH, reference); 0: all", o.threads, {0, 65536})
+        .usually("all")
+        .besidePicture();
+    c.list.group("Messages");
+    c.list.flag("-q,--quiet", "warnings and errors only", [&o] { o.verbosity = Verbosity::Quiet; })
+        .besidePicture();
+    c.list.flag("-v,--verbose", "more detail", [&o] { o.verbosity = Verbosity::Verbose; })
+        .besidePicture()
+        .excludes("-q");
 }
 
 } // namespace stromboli

@@ -1,18 +1,20 @@
 #include "host/bvh/statistics.hpp"
 #include "host/cli/activity.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/info_json.hpp"
-#include "host/cli/job.hpp"
+#include "host/cli/declared_command.hpp"
 #include "host/cli/progress.hpp"
 #include "host/core/json.hpp"
 #include "host/core/output.hpp"
 #include "host/core/printable.hpp"
+#include "host/engine/build_scene.hpp"
 #include "host/film/image_file.hpp"
 #include "host/kernel/kernel_buffers.hpp"
 #include "host/kernel/kernel_features.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,10 +22,87 @@
 namespace stromboli {
 namespace {
 
-void printScene(const Job& job) {
-    const Scene& s = job.scene;
+template <class Vector>
+Json vector(const Vector& v) {
+    return Json{double(v.x), double(v.y), double(v.z)};
+}
+
+Json sceneJson(const LoadedScene& scene) {
+    const Scene& s = *scene.scene;
     const Bounds b = s.bounds();
-    fmt::print("scene {} (loaded in {})\n", printable(s.file), formatDuration(job.loadSeconds));
+    return {
+        {"file", s.file},
+        {"loadSeconds", scene.seconds},
+        {"triangles", s.triangles.size()},
+        {"instances", s.placements.size()},
+        {"placedTriangles", s.placedTriangles()},
+        {"spheres", s.spheres.size()},
+        {"materials", s.materials.size()},
+        {"lights", s.lights.size()},
+        {"cameras", s.cameras.size()},
+        {"cs184Dialect", s.cglDialect},
+        {"bounds", b.empty() ? Json(nullptr) : Json{{"low", vector(b.lo)}, {"high", vector(b.hi)}}},
+        {"ignored", s.report.ignored},
+        {"forgiven", s.report.forgiven},
+        {"warnings", s.report.warnings}};
+}
+
+Json pictureJson(const ResolvedPicture& picture) {
+    const Camera& c = picture.camera;
+    return {{"width", picture.settings.area.width},
+            {"height", picture.settings.area.height},
+            {"camera", c.orthographic ? "orthographic" : "perspective"},
+            {"position", vector(c.position)},
+            {"direction", vector(-c.back)}};
+}
+
+Json bvhJson(const BuiltScene& built) {
+    const BvhStatistics s = measure(built.gpu.bvh);
+    return {{"buildSeconds", built.seconds},
+            {"nodes", s.nodes},
+            {"childrenPerNode", s.childrenPerNode()},
+            {"leaves", s.leaves},
+            {"primitivesPerLeaf", s.primitivesPerLeaf()},
+            {"depth", s.depth},
+            {"recordsOnALinesWay", s.expectedVisits},
+            {"bytesPerPrimitive", s.bytesPerPrimitive()}};
+}
+
+Json buffersJson(const ResolvedPicture& picture, const BuiltScene& built) {
+    Json buffers = Json::array();
+    for (const vulkan::BufferPlan& b :
+         planBuffers(built.gpu, picture.settings.area, picture.settings.estimator, {}))
+        buffers.push_back({{"name", b.name}, {"bytes", b.bytes}});
+    return buffers;
+}
+
+/// All features, those that the kernel lacks as well.
+Json kernelJson(const ResolvedPicture& picture, const BuiltScene& built) {
+    const KernelFeatures values =
+        kernelFeatures(built.gpu, picture.camera, picture.settings.estimator, {});
+    Json features = Json::array();
+    for (const Feature& f : featureTable())
+        features.push_back({{"name", f.name},
+                            {"label", f.label},
+                            {"value", values[f.constant]},
+                            {"text", valueText(f, values[f.constant])},
+                            {"adds", f.adds}});
+    return features;
+}
+
+Json infoJson(const PreparedPicture& prepared, const BuiltScene& built) {
+    const auto& [scene, picture] = prepared;
+    return {{"scene", sceneJson(scene)},
+            {"picture", pictureJson(picture)},
+            {"bvh", bvhJson(built)},
+            {"kernel", kernelJson(picture, built)},
+            {"buffers", buffersJson(picture, built)}};
+}
+
+void printScene(const LoadedScene& scene) {
+    const Scene& s = *scene.scene;
+    const Bounds b = s.bounds();
+    fmt::print("scene {} (loaded in {})\n", printable(s.file), formatDuration(scene.seconds));
     fmt::print("  triangles {}, spheres {}, materials {}, lights {}, cameras {}{}\n",
                s.triangles.size(), s.spheres.size(), s.materials.size(), s.lights.size(),
                s.cameras.size(), s.cglDialect ? ", CS184 dialect" : "");
@@ -41,10 +120,10 @@ void printScene(const Job& job) {
         fmt::print("  {}\n", printable(line));
 }
 
-void printFileCameras(const Job& job, const Options& options) {
-    const std::vector<FileCamera>& cameras = job.scene.cameras;
-    const std::optional<size_t> chosen = chosenCamera(job.scene, options.camera, options.framing);
-    const bool framed = isFramed(job.scene, options.camera, options.framing);
+void printFileCameras(const Scene& scene, const RenderRequest& request) {
+    const std::vector<FileCamera>& cameras = scene.cameras;
+    const std::optional<size_t> chosen = chosenCamera(scene, request.camera, request.framing);
+    const bool framed = isFramed(scene, request.camera, request.framing);
     for (size_t i = 0; i < cameras.size(); ++i)
         fmt::print("  camera {} '{}', {}{}\n", i + 1, printable(cameras[i].name),
                    cameras[i].projection == Projection::Perspective ? "perspective"
@@ -52,18 +131,18 @@ void printFileCameras(const Job& job, const Options& options) {
                    !framed && chosen == i ? ": taken" : "");
 }
 
-void printCamera(const Job& job) {
-    const Camera& c = job.camera;
+void printCamera(const ResolvedPicture& picture) {
+    const Camera& c = picture.camera;
     fmt::print(
         "picture {} x {}, {} camera at ({:g}, {:g}, {:g}) looking along ({:g}, {:g}, {:g})\n",
-        job.settings.area.width, job.settings.area.height,
+        picture.settings.area.width, picture.settings.area.height,
         c.orthographic ? "orthographic" : "perspective", c.position.x, c.position.y, c.position.z,
         -c.back.x, -c.back.y, -c.back.z);
 }
 
 void printBvh(const BuiltScene& built) {
     const BvhStatistics s = measure(built.gpu.bvh);
-    fmt::print("BVH (built in {})\n", formatDuration(built.buildSeconds));
+    fmt::print("BVH (built in {})\n", formatDuration(built.seconds));
     fmt::print("  nodes {} with {:.1f} children, leaves {} with {:.2f} primitives, depth {}\n",
                s.nodes, s.childrenPerNode(), s.leaves, s.primitivesPerLeaf(), s.depth);
     fmt::print("  {:.1f} records on a line's way, {:.1f} bytes per primitive\n", s.expectedVisits,
@@ -71,17 +150,17 @@ void printBvh(const BuiltScene& built) {
 }
 
 /// Of what a picture of this program says in its file.
-int infoOfPicture(const Options& options) {
-    const PictureNotes notes = readPictureNotes(options.scene);
+int infoOfPicture(const std::string& file, const std::string& jsonFile) {
+    const PictureNotes notes = readPictureNotes(file);
     nowDoing("printing", StatusLine::OfOthers);
-    if (!options.infoJsonFile.empty()) {
+    if (!jsonFile.empty()) {
         Json json = Json::object();
         for (const PictureNote& note : notes)
             json[note.name] = printable(note.text);
-        writeOutput(options.infoJsonFile, json.dump(2) + "\n");
+        writeOutput(jsonFile, json.dump(2) + "\n");
         return 0;
     }
-    fmt::print("picture {}{}\n", printable(options.scene),
+    fmt::print("picture {}{}\n", printable(file),
                notes.empty() ? ": its file says nothing of how it was made" : "");
     for (const PictureNote& note : notes)
         fmt::print("  {}: {}\n", printable(note.name), printable(note.text));
@@ -90,27 +169,52 @@ int infoOfPicture(const Options& options) {
 
 } // namespace
 
-int infoCommand(const Options& options) {
-    if (namesPicture(options.scene)) return infoOfPicture(options);
-    const Job job = prepareJob(options);
-    const BuiltScene built = buildScene(job);
+void declareInfo(DeclaredCommand& c) {
+    const auto o = std::make_shared<InfoOptions>();
+    const auto asked = std::make_shared<Asked>();
+    asked->branchesPay = true;
+    declareScene(c.list, o->scene);
+    declarePicture(c.list, o->picture, *asked);
+    declareEstimator(c.list, *o, *asked);
+    declareSampler(c.list, o->picture.estimator.sampler);
+    c.list.group("Output");
+    c.list
+        .text("--json", "FILE.json", "write all of it as JSON instead; - for standard output",
+              o->jsonFile)
+        .proposes(Proposed::Files);
+    declareHost(c);
+    c.finish = [&c, o, asked] {
+        finishPicture(c, o->picture, *asked);
+        finishEstimator(c, *o, *asked);
+        finishBudget(o->picture, *asked);
+        return *o;
+    };
+}
+
+int infoCommand(const InfoOptions& options) {
+    if (namesPicture(options.scene.source))
+        return infoOfPicture(options.scene.source, options.jsonFile);
+    const PreparedPicture prepared = preparePicture(options);
+    const auto& [scene, picture] = prepared;
+    const RenderSettings& settings = picture.settings;
+    const BuiltScene built = buildScene(*scene.scene, settings.estimator, toTerminal());
     nowDoing("printing", StatusLine::OfOthers);
-    if (!options.infoJsonFile.empty()) {
-        writeOutput(options.infoJsonFile, infoJson(job, built).dump(2) + "\n");
+    if (!options.jsonFile.empty()) {
+        writeOutput(options.jsonFile, infoJson(prepared, built).dump(2) + "\n");
         return 0;
     }
-    printScene(job);
-    printFileCameras(job, options);
-    printCamera(job);
+    printScene(scene);
+    printFileCameras(*scene.scene, options.picture);
+    printCamera(picture);
     printBvh(built);
     fmt::print("kernel (only what the scene needs)\n");
     for (const std::string& line :
-         describe(kernelFeatures(built.gpu, job.camera, job.settings.estimator, {})))
+         describe(kernelFeatures(built.gpu, picture.camera, settings.estimator, {})))
         fmt::print("  {}\n", line);
     fmt::print("buffers on the device\n");
     uint64_t total = 0;
     for (const vulkan::BufferPlan& b :
-         planBuffers(built.gpu, job.settings.area, job.settings.estimator, {})) {
+         planBuffers(built.gpu, settings.area, settings.estimator, {})) {
         fmt::print("  {:<26} {:>12} bytes\n", b.name, b.bytes);
         total += b.bytes;
     }

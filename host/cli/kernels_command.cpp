@@ -1,8 +1,9 @@
 #include "host/cli/activity.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/job.hpp"
+#include "host/cli/declared_command.hpp"
 #include "host/core/error.hpp"
 #include "host/core/printable.hpp"
+#include "host/engine/build_scene.hpp"
 #include "host/kernel/kernel_report.hpp"
 #include "host/vulkan/choose_device.hpp"
 
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,9 +55,9 @@ void compileFor(const std::string& family) {
 }
 
 const vulkan::DeviceDescription& chosen(const std::vector<vulkan::DeviceDescription>& devices,
-                                        const Options& options) {
+                                        const KernelsOptions& options) {
     if (options.deviceFamily.empty())
-        return devices[vulkan::chooseDevice(devices, options.device).index];
+        return devices[vulkan::chooseDevice(devices, options.device.device).index];
     if (devices.empty())
         throw DeviceError("Mesa's driver has no device of family " + options.deviceFamily);
     return devices.front();
@@ -88,17 +90,41 @@ std::string cell(const KernelReport& report, const Column& column) {
 
 } // namespace
 
-int kernelsCommand(const Options& options) {
+void declareKernels(DeclaredCommand& c) {
+    const auto o = std::make_shared<KernelsOptions>();
+    const auto asked = std::make_shared<Asked>();
+    declareScene(c.list, o->scene);
+    declarePicture(c.list, o->picture, *asked);
+    declareEstimator(c.list, *o, *asked);
+    declareSampler(c.list, o->picture.estimator.sampler);
+    declareDevice(c.list, o->device.device);
+    c.list
+        .text(
+            "--device-family", "F",
+            "compile for this family of AMD GPUs, which need not be there: navi21, gfx1100, vega10",
+            o->deviceFamily)
+        .usually("the device itself")
+        .proposes({"navi21", "gfx1100", "vega10"});
+    declareHost(c);
+    c.finish = [&c, o, asked] {
+        finishPicture(c, o->picture, *asked);
+        finishEstimator(c, *o, *asked);
+        finishBudget(o->picture, *asked);
+        return *o;
+    };
+}
+
+int kernelsCommand(const KernelsOptions& options) {
     if (!options.deviceFamily.empty()) compileFor(options.deviceFamily);
-    const Job job = prepareJob(options);
-    const BuiltScene built = buildScene(job);
+    const auto [scene, picture] = preparePicture(options);
+    const BuiltScene built = buildScene(*scene.scene, picture.settings.estimator, toTerminal());
     const vulkan::Instance instance(vulkan::validationRequested());
     const std::vector<vulkan::DeviceDescription> devices = vulkan::listDevices(instance);
     const vulkan::DeviceDescription& description = chosen(devices, options);
     const vulkan::Device device(instance, description, std::nullopt, vulkan::DeviceUse::Compiling);
     nowDoing("compiling", StatusLine::OfOthers);
     const std::vector<KernelReport> reports =
-        reportKernels(device, built.gpu, job.camera, job.settings.estimator);
+        reportKernels(device, built.gpu, picture.camera, picture.settings.estimator);
     fmt::print("{}, {}\n{:<12}", printable(description.name()), printable(description.driver),
                "kernel");
     for (const Column& column : columns())

@@ -2,18 +2,21 @@
 #include "host/cli/activity.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/declared_command.hpp"
+#include "host/cli/exit_code.hpp"
 #include "host/cli/render_outputs.hpp"
 #include "host/cli/report.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
 #include "host/core/output.hpp"
+#include "host/farm/film_file.hpp"
 #include "host/farm/merge_films.hpp"
 #include "host/farm/picture_parts.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 
 namespace stromboli {
@@ -21,10 +24,11 @@ namespace {
 
 /// The command that renders the picture in one go, with what was said when it was put together, in
 /// the order in which `render` lists its options.
-std::vector<std::string> wholeCommand(std::vector<std::string> command, const Options& options) {
+std::vector<std::string> wholeCommand(std::vector<std::string> command,
+                                      const MergeOptions& options) {
     if (options.tone.exposure != 0)
         command.push_back(fmt::format("--exposure {}", options.tone.exposure));
-    if (options.statisticsChannels) command.emplace_back("--aov");
+    if (options.output.statisticsChannels) command.emplace_back("--aov");
     const std::deque<DeclaredCommand> commands = declareCommands();
     const auto& all = commands.front().list.all();
     const auto placeOf = [&](const std::string& part) {
@@ -51,8 +55,8 @@ std::string samplesNote(const FilmHeader& film) {
     return film.isComplete() ? text : fmt::format("{}; {}", text, missingFrom(film));
 }
 
-void writeFilm(FilmsToMerge& films, const Options& options) {
-    FilmWriter writer(options.output, films.header());
+void writeFilm(FilmsToMerge& films, const MergeOptions& options) {
+    FilmWriter writer(options.output.file, films.header());
     films.addUp(
         [&](const PictureArea&, std::span<const SharedPixel> run, std::span<const float> layers) {
             if (!films.header().isEmpty()) writer.add(run, layers);
@@ -66,13 +70,13 @@ std::string noteOf(const PictureNoise& noise) {
 }
 
 /// Channels that the picture has beside its radiance.
-std::vector<std::string> channelsBeside(const FilmHeader& header, const Options& options) {
+std::vector<std::string> channelsBeside(const FilmHeader& header, const MergeOptions& options) {
     std::vector<std::string> names;
     if (header.hasAlpha()) names.emplace_back(kAlphaChannel);
     if (header.layers.empty()) return names;
-    if (isPng(options.output)) {
+    if (isPng(options.output.file)) {
         logging::warn(
-            fmt::format("{} has no channels for the layers of the films", options.output));
+            fmt::format("{} has no channels for the layers of the films", options.output.file));
         return names;
     }
     if (!header.holdsLayers)
@@ -84,13 +88,13 @@ std::vector<std::string> channelsBeside(const FilmHeader& header, const Options&
 }
 
 /// Returns what is known of the picture's noise.
-PictureNoise writeMergedPicture(FilmsToMerge& films, const Options& options) {
+PictureNoise writeMergedPicture(FilmsToMerge& films, const MergeOptions& options) {
     const FilmHeader& header = films.header();
-    const PictureOptions pictureOptions{options.tone, options.statisticsChannels,
+    const PictureOptions pictureOptions{options.tone, options.output.statisticsChannels,
                                         channelsBeside(header, options)};
     const auto notesOf = [&](const PictureNoise& noise) {
-        const PictureNotes legend = isPng(options.output) ? PictureNotes{} : header.legend;
-        if (!options.notes) return legend;
+        const PictureNotes legend = isPng(options.output.file) ? PictureNotes{} : header.legend;
+        if (!options.output.notes) return legend;
         // A picture in one round has the bytes of one render, whose notes cannot tell: the noise of
         // a render in bands or in two goes is found out in another way.
         PictureNotes notes =
@@ -101,10 +105,11 @@ PictureNoise writeMergedPicture(FilmsToMerge& films, const Options& options) {
         return notes;
     };
     const Crop part = header.settings.area.rendered();
-    if (!isStandardOutput(options.output))
-        checkFreeSpace(options.output, largestPictureFile(options.output, part.width, part.height,
-                                                          pictureOptions, notesOf({})));
-    PictureFile picture(options.output, header.settings.area, pictureOptions);
+    if (!isStandardOutput(options.output.file))
+        checkFreeSpace(options.output.file,
+                       largestPictureFile(options.output.file, part.width, part.height,
+                                          pictureOptions, notesOf({})));
+    PictureFile picture(options.output.file, header.settings.area, pictureOptions);
     std::vector<PartNoise> noises;
     PictureParts parts(
         header, [&](const Film& film, const NoiseEstimate& estimate, const FloatImage& more) {
@@ -113,7 +118,7 @@ PictureNoise writeMergedPicture(FilmsToMerge& films, const Options& options) {
         });
     films.addUp([&](const PictureArea&, std::span<const SharedPixel> run,
                     std::span<const float> layers) { parts.add(run, layers); });
-    nowDoing("writing " + options.output);
+    nowDoing("writing " + options.output.file);
     const PictureNoise noise = togetherOf(noises);
     picture.write(notesOf(noise));
     return noise;
@@ -121,29 +126,61 @@ PictureNoise writeMergedPicture(FilmsToMerge& films, const Options& options) {
 
 } // namespace
 
-int mergeCommand(const Options& options) {
+void declareMerge(DeclaredCommand& c) {
+    const auto owned = std::make_shared<MergeOptions>();
+    MergeOptions& o = *owned;
+    c.list.group("Films");
+    c.list.list("FILM", "", "films that render --share or merge wrote, in any order", o.films)
+        .required()
+        .proposes(Proposed::Files);
+    c.list.group("Output");
+    c.list
+        .text("-o,--output", "FILE",
+              "picture to write: .png or .exr, with the bytes that a render in one go has; or a "
+              ".film, to be merged with others",
+              o.output.file)
+        .required()
+        .proposes(Proposed::Files);
+    c.list.flag("--complete", "write nothing, and fail, if shares are missing", o.wantsAllShares);
+    declarePictureFile(c.list, o.output, o.tone);
+    declareHost(c);
+    c.finish = [&c, owned] {
+        const OutputOptions& output = owned->output;
+        if (!namesFilm(output.file)) {
+            checkOutputOptions(c, output, {});
+            return *owned;
+        }
+        const std::string ofPictures = c.givenOf({"--exposure", "--aov", "--notes"});
+        if (!ofPictures.empty())
+            throw UsageError(fmt::format("{}: a film has no {}: say it when the picture is made",
+                                         output.file, ofPictures));
+        return *owned;
+    };
+}
+
+int mergeCommand(const MergeOptions& options) {
     nowDoing(fmt::format("adding up {} films", options.films.size()));
-    if (namesFilm(options.output))
-        checkFileWritable(options.output);
+    if (namesFilm(options.output.file))
+        checkFileWritable(options.output.file);
     else
-        checkWritable(options.output);
+        checkWritable(options.output.file);
     FilmsToMerge films({options.films.begin(), options.films.end()});
     const FilmHeader& header = films.header();
     if (!header.isComplete()) {
         const std::string missing = missingFrom(header);
         if (options.wantsAllShares)
-            throw UsageError(fmt::format("{} is not written: {}", options.output, missing));
-        if (header.blocks.empty() && !namesFilm(options.output))
+            throw UsageError(fmt::format("{} is not written: {}", options.output.file, missing));
+        if (header.blocks.empty() && !namesFilm(options.output.file))
             throw UsageError(fmt::format("{} is not written: the films have no samples{}; {}",
-                                         options.output,
+                                         options.output.file,
                                          header.isEmpty() ? ""
                                                           : " of the first round, which all "
                                                             "pixels have",
                                          missing));
-        logging::warn(fmt::format("{}: {}", options.output, samplesNote(header)));
+        logging::warn(fmt::format("{}: {}", options.output.file, samplesNote(header)));
     }
     std::optional<PictureNoise> noise;
-    if (namesFilm(options.output))
+    if (namesFilm(options.output.file))
         writeFilm(films, options);
     else
         noise = writeMergedPicture(films, options);

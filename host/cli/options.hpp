@@ -1,62 +1,26 @@
 #pragma once
 
-#include "host/cli/bench_options.hpp"
-#include "host/cli/compare_options.hpp"
-#include "host/cli/stress_options.hpp"
-#include "host/cli/study_options.hpp"
+#include "host/bench/bench.hpp"
+#include "host/compare/comparison.hpp"
 #include "host/core/log.hpp"
 #include "host/core/named_values.hpp"
+#include "host/engine/load_scene.hpp"
+#include "host/engine/render_request.hpp"
+#include "host/engine/render_result.hpp"
 #include "host/farm/film_header.hpp"
 #include "host/film/tone.hpp"
-#include "host/kernel/kernel_tuning.hpp"
-#include "host/render/layers.hpp"
-#include "host/render/settings.hpp"
-#include "scene/add_environment.hpp"
-#include "scene/build/conventions.hpp"
-#include "scene/camera/camera.hpp"
+#include "host/study/study.hpp"
 
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace stromboli {
 
-enum class Command {
-    Render,
-    Check,
-    Info,
-    Kernels,
-    Devices,
-    Bench,
-    Stress,
-    Compare,
-    Study,
-    Merge,
-    Plan,
-    Submit
-};
-/// Rather than look at one, or measure.
-inline bool rendersPictures(Command command) {
-    return command == Command::Render || command == Command::Submit;
-}
-enum class Scheduler { Slurm };
-template <>
-inline constexpr auto kNamedValues<Scheduler> = std::to_array<NamedValue<Scheduler>>({
-    {Scheduler::Slurm, "slurm", "job arrays, and a job that merges"},
-});
-enum class BackendChoice { Vulkan, Reference };
-template <>
-inline constexpr auto kNamedValues<BackendChoice> = std::to_array<NamedValue<BackendChoice>>({
-    {BackendChoice::Vulkan, "vulkan", "the kernel, on a Vulkan device"},
-    {BackendChoice::Reference, "reference", "the slow double-precision path tracer on the CPU"},
-});
+// What each command was asked to do, understood and checked. What needs the scene is still open.
 
-template <>
-inline constexpr auto kNamedValues<PathScheduler> = std::to_array<NamedValue<PathScheduler>>({
-    {PathScheduler::Persistent, "persistent", "one kernel, whose lanes follow paths"},
-    {PathScheduler::Wavefront, "wavefront", "kernels that draw, trace and follow, with queues"},
-});
 template <>
 inline constexpr auto kNamedValues<CameraChoice> = std::to_array<NamedValue<CameraChoice>>({
     {CameraChoice::Automatic, "auto",
@@ -65,9 +29,33 @@ inline constexpr auto kNamedValues<CameraChoice> = std::to_array<NamedValue<Came
     {CameraChoice::Frame, "frame", "all of the scene, as the CS184 renderer frames it"},
 });
 
-/// Names one sample of a picture: column, row from the top, number.
-struct SampleName {
-    uint32_t x = 0, y = 0, sample = 0;
+/// Of every command.
+struct HostOptions {
+    uint32_t threads = 0; ///< 0: all
+    Verbosity verbosity = Verbosity::Normal;
+    std::vector<std::string> remarks; ///< on what was given and has no effect
+};
+
+/// What commands about a picture of a scene have in common.
+struct SceneAndPicture {
+    SceneRequest scene;
+    RenderRequest picture;
+    DeviceRequest device;
+    ToneCurve tone;
+};
+
+/// The file of a picture.
+struct OutputOptions {
+    std::string file;
+    bool notes = true;               ///< of the picture, in its file
+    bool statisticsChannels = false; ///< EXR: sample counts and variances
+    std::string statsFile;           ///< empty: none
+};
+
+struct CheckpointOptions {
+    std::string file; ///< empty: the usual one; "off": none
+    double everySeconds = 60;
+    bool resume = false; ///< goes on from the checkpoint
 };
 
 struct FrameRange {
@@ -83,8 +71,108 @@ struct SequenceOptions {
     bool isGiven() const { return turntable > 0 || frames; }
 };
 
-/// `submit`, beside the picture.
-struct SubmitOptions {
+struct ShareOptions {
+    std::optional<ShareName> share; ///< take only these samples, into a film
+    std::string planFile;           ///< of this round; empty: of the first
+    /// The fingerprint that scene and program must have (host/engine/share.hpp); empty: any.
+    std::string expected;
+};
+
+struct RenderOptions : SceneAndPicture {
+    OutputOptions output;
+    /// A picture of each of these cameras of the file (names, numbers; "all" alone: of each);
+    /// empty: one, of picture.camera.
+    std::vector<std::string> cameras;
+    SequenceOptions sequence;
+    CheckpointOptions checkpoint;
+    ShareOptions share;
+    std::optional<SampleName> sampleAlone; ///< print this sample and write nothing
+    /// The command without what leaves the picture as it is: its own name, the device, checkpoints.
+    /// Words that belong together are one of its parts.
+    std::vector<std::string> command;
+};
+
+struct CheckOptions : SceneAndPicture {
+    double familyWiseError = 0.01;
+};
+
+struct InfoOptions : SceneAndPicture {
+    std::string jsonFile; ///< empty: text
+};
+
+struct KernelsOptions : SceneAndPicture {
+    std::string deviceFamily; ///< of AMD GPUs: compile for it; empty: for the device
+};
+
+struct DevicesOptions {
+    std::string device;
+};
+
+struct BenchOptions {
+    bench::BenchSettings settings;
+    std::string jsonFile;      ///< empty: none
+    bool probeStartup = false; ///< time the stages of this process's start, and no more
+};
+
+struct StressOptions {
+    std::vector<std::string> cases; ///< names, or numbers of docs/hard_cases.md; empty: all
+    bool list = false, full = false;
+    std::string jsonFile; ///< empty: none
+    std::string device;
+};
+
+/// What a PNG of the difference shows.
+enum class DifferenceView { Flip, Relative, Signed };
+template <>
+inline constexpr auto kNamedValues<DifferenceView> = std::to_array<NamedValue<DifferenceView>>({
+    {DifferenceView::Flip, "flip", "FLIP, black 0 to white 1"},
+    {DifferenceView::Relative, "relative", "the error that relMSE squares, black 0 to white 1"},
+    {DifferenceView::Signed, "signed", "blue where IMG is darker, red where it is brighter"},
+});
+
+struct CompareOptions {
+    std::string reference, picture;
+    compare::CompareSettings settings;
+    compare::Thresholds thresholds;
+    std::string jsonFile;       ///< empty: none; "-": standard output, instead of the text
+    std::string differenceFile; ///< empty: none
+    DifferenceView show = DifferenceView::Flip;
+    std::string varianceFile;        ///< of one sample of the reference; empty: none
+    std::optional<uint32_t> samples; ///< of each pixel of the picture, for varianceFile
+    double referenceSamples = compare::kReferenceSamples; ///< of each pixel, for varianceFile
+    bool familyErrorGiven = false;                        ///< on the command line
+};
+
+struct StudyOptions {
+    study::StudySettings settings;
+    std::string folder = "study";
+    bool list = false; ///< print the known configurations and no more
+    std::string device;
+    Verbosity verbosity = Verbosity::Normal;
+};
+
+struct MergeOptions {
+    std::vector<std::string> films;
+    bool wantsAllShares = false; ///< without all of them there is no picture
+    OutputOptions output;
+    ToneCurve tone;
+};
+
+struct PlanOptions {
+    std::vector<std::string> films;
+    std::string file;
+    double noise = 0;                  ///< to be reached
+    std::optional<uint32_t> mostPaths; ///< of a pixel, over all rounds; empty: no limit
+};
+
+enum class Scheduler { Slurm };
+template <>
+inline constexpr auto kNamedValues<Scheduler> = std::to_array<NamedValue<Scheduler>>({
+    {Scheduler::Slurm, "slurm", "job arrays, and a job that merges"},
+});
+
+struct SubmitOptions : SceneAndPicture {
+    OutputOptions output;
     Scheduler scheduler = Scheduler::Slurm;
     uint32_t shares = 0;
     double noise = 0;    ///< to be reached in rounds; 0: one round
@@ -95,66 +183,21 @@ struct SubmitOptions {
     std::string jobTime;
     std::vector<std::string> sbatch; ///< options of it
     bool dryRun = false;
+    std::vector<std::string> command; ///< as RenderOptions::command
 };
 
-/// The command line, understood and checked; what needs the scene (picture size) is still open.
-struct Options {
-    Command command = Command::Render;
-    std::string scene;
-    std::string output;
-    PictureArea area;
-    bool sizeGiven = false;                         ///< area.width, height
-    bool bouncesGiven = false, filterGiven = false; ///< estimator.maxBounces, filter
-    bool integratorGiven = false;                   ///< estimator.integrator
-    SceneConventions reading;                       ///< of the scene's file
-    EnvironmentRequest environment;
-    FramingConventions framing;
-    Estimator estimator;              ///< its branches are not yet chosen
-    std::optional<uint32_t> branches; ///< empty: what pays in the scene
-    PathBudget budget;
-    CameraRequest camera;
-    /// A picture of each of these cameras of the file (names, numbers; "all" alone: of each);
-    /// empty: one, of `camera`.
-    std::vector<std::string> cameras;
-    SequenceOptions sequence;
-    std::string device;
-    PathScheduler scheduler = PathScheduler::Persistent;
-    std::string deviceFamily; ///< of AMD GPUs, of `kernels`: compile for it; empty: for the device
-    BackendChoice backend = BackendChoice::Vulkan;
-    ToneCurve tone;
-    std::string statsFile;
-    std::string checkpointFile;            ///< empty: the usual one; "off": none
-    double checkpointSeconds = 60;         ///< from one to the next
-    bool resume = false;                   ///< goes on from the checkpoint
-    std::optional<uint32_t> filmMebibytes; ///< for the film; empty: half of the machine's memory
-    /// The command without what leaves the picture as it is: its own name, the device, checkpoints.
-    /// Words that belong together are one of its parts.
-    std::vector<std::string> pictureCommand;
-    bool notes = true;               ///< of the picture, in its file
-    bool statisticsChannels = false; ///< EXR: sample counts and variances
-    bool transparent = false;        ///< alpha in place of the environment
-    std::vector<Layer> layers;       ///< EXR: channels beside the radiance
-    std::optional<ShareName> share;  ///< take only these samples, into a film
-    std::string planFile;            ///< render: of this round; empty: of the first
-    /// The fingerprint that scene and program must have (host/cli/share_render.hpp); empty: any.
-    std::string expected;
-    std::optional<SampleName> sampleAlone; ///< print this sample and write nothing
-    uint32_t threads = 0;                  ///< host threads; 0: all
-    Verbosity verbosity = Verbosity::Normal;
-    std::vector<std::string> remarks; ///< on what was given and has no effect
-    double familyWiseError = 0.01;    ///< check
-    BenchOptions bench;
-    CompareOptions compare;
-    StudyOptions study;
-    StressOptions stress;
-    std::string infoJsonFile; ///< info; empty: text
-    SubmitOptions submit;
-    std::vector<std::string> films; ///< merge, plan
-    bool wantsAllShares = false;    ///< merge: without all of them there is no picture
+using CommandOptions = std::variant<RenderOptions, CheckOptions, InfoOptions, KernelsOptions,
+                                    DevicesOptions, BenchOptions, StressOptions, CompareOptions,
+                                    StudyOptions, MergeOptions, PlanOptions, SubmitOptions>;
+
+/// The command line, understood and checked.
+struct ParsedCommand {
+    HostOptions host;
+    CommandOptions options;
 };
 
 /// Parses the arguments (without the program's name). Empty: help or version was printed and the
 /// program is done. Throws UsageError.
-std::optional<Options> parseOptions(std::vector<std::string> arguments);
+std::optional<ParsedCommand> parseOptions(std::vector<std::string> arguments);
 
 } // namespace stromboli

@@ -1,7 +1,6 @@
 // The only file that knows the library that splits the command line into options.
 #include "host/cli/command_line.hpp"
 #include "host/cli/declared_command.hpp"
-#include "host/cli/nearest_name.hpp"
 #include "host/cli/program_text.hpp"
 #include "host/core/error.hpp"
 #include "host/version/version.hpp"
@@ -21,13 +20,11 @@ using Given = std::map<std::string, Words>;
 
 /// The pieces of all words. Also those that are empty, which CLI11's own splitting leaves out: a
 /// comma too many is a mistake.
-Words splitAtCommas(const Words& words) {
+Words splitAllAtCommas(const Words& words) {
     Words pieces;
     for (const std::string& word : words)
-        for (size_t first = 0, end = 0; end != std::string::npos; first = end + 1) {
-            end = word.find(',', first);
-            pieces.push_back(word.substr(first, end - first));
-        }
+        for (std::string& piece : splitAtCommas(word))
+            pieces.push_back(std::move(piece));
     return pieces;
 }
 
@@ -42,7 +39,7 @@ void declare(CLI::App& app, const CommandOption& o, Given& given) {
     CLI::Option* option = app.add_option(
         o.names,
         [&given, &o](const CLI::results_t& words) {
-            given[o.name()] = o.separatedByCommas ? splitAtCommas(words) : words;
+            given[o.name()] = o.separatedByCommas ? splitAllAtCommas(words) : words;
             return true;
         },
         o.fullHelp());
@@ -218,9 +215,16 @@ DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, const Words
     for (const auto& option : given)
         command.given.insert(option.first);
     store(command.list, given);
-    command.options.pictureCommand = pictureCommandOf(command, given);
-    command.finish();
+    command.pictureCommand = pictureCommandOf(command, given);
     return &command;
+}
+
+std::optional<ParsedCommand> parseOptions(std::vector<std::string> arguments) {
+    std::deque<DeclaredCommand> commands = declareCommands();
+    DeclaredCommand* const chosen = parseCommand(commands, fromCs184Spelling(std::move(arguments)));
+    if (!chosen) return std::nullopt;
+    CommandOptions options = chosen->finish(); // adds remarks
+    return ParsedCommand{chosen->host, std::move(options)};
 }
 
 } // namespace stromboli

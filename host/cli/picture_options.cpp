@@ -1,15 +1,23 @@
-// Options: which scene, and which part of which picture of it.
+// Options: which scene, which picture of it, and the file that it is written to.
 #include "host/cli/declared_command.hpp"
+#include "host/cli/sequence.hpp"
 #include "host/core/error.hpp"
 #include "host/core/number_text.hpp"
+#include "host/film/image_file.hpp"
 
 #include <fmt/format.h>
+#include <glm/gtc/constants.hpp>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
 
 namespace stromboli {
 namespace {
 
-/// Larger pictures than this on a side are taken for mistakes.
 constexpr Range<double> kStops{-100, 100};
+/// Larger pictures than this on a side are taken for mistakes.
 constexpr Range<uint32_t> kSide{1, 65536};
 constexpr Range<uint32_t> kPlace{0, 65535};
 constexpr Range<uint32_t> kSceneNumbers{0, 0xFFFFFFFEu};
@@ -53,14 +61,10 @@ CameraRequest readCamera(const std::string& word) {
 /// The cameras that a word names if it names several: "all", or names and numbers with commas.
 Words readCameras(const std::string& word) {
     if (word == "all") return {word};
-    Words cameras;
-    if (word.find(',') == std::string::npos) return cameras;
-    for (size_t first = 0, end = 0; end != std::string::npos; first = end + 1) {
-        end = word.find(',', first);
-        cameras.push_back(word.substr(first, end - first));
-        if (cameras.back().empty())
-            refuse("--camera", word, "names or numbers of cameras with commas between");
-    }
+    if (word.find(',') == std::string::npos) return {};
+    const Words cameras = splitAtCommas(word);
+    if (std::ranges::count(cameras, "") > 0)
+        refuse("--camera", word, "names or numbers of cameras with commas between");
     return cameras;
 }
 
@@ -69,12 +73,88 @@ Words withAll(Words names) {
     return names;
 }
 
+/// The scene's coordinates are below 2^60 metres (docs/numerics.md).
+constexpr Range<double> kCoordinates{-1e18, 1e18};
+/// A picture plane at distance 1 that is within a thousandth of a degree of half a turn has lost
+/// all of its precision.
+constexpr Range<double> kAngles{1e-6, 179.999};
+
+glm::dvec3 readPoint(const std::string& option, const Words& words) {
+    return {readReal(option + ": x", words[0], kCoordinates),
+            readReal(option + ": y", words[1], kCoordinates),
+            readReal(option + ": z", words[2], kCoordinates)};
+}
+
+/// A positive length; metres, where it has no unit.
+double readLength(const std::string& option, const std::string& word) {
+    constexpr std::array<std::pair<std::string_view, double>, 5> kUnits = {
+        {{"mm", 1e-3}, {"cm", 1e-2}, {"km", 1e3}, {"m", 1}, {"", 1}}};
+    for (const auto& [unit, metres] : kUnits) {
+        if (!word.ends_with(unit)) continue;
+        const std::optional<double> value = realNumber(word.substr(0, word.size() - unit.size()));
+        if (value && *value * metres > 0 && *value * metres <= kCoordinates.most)
+            return *value * metres;
+        break;
+    }
+    refuse(option, word,
+           "a length greater than 0, in metres or with its unit: 5mm, 2.5cm, 3m, 1km");
+}
+
+std::vector<Layer> readLayers(const std::string& list) {
+    std::vector<Layer> layers;
+    for (const std::string& name : splitAtCommas(list)) {
+        const std::optional<Layer> layer = valueNamed<Layer>(name);
+        if (!layer) refuse("--layers", name, allNames<Layer>());
+        if (std::ranges::count(layers, *layer) > 0)
+            throw UsageError(fmt::format("--layers names {} twice", name));
+        layers.push_back(*layer);
+    }
+    return layers;
+}
+
+/// Views that files do not state: where from, which angle, which lens.
+void declareOptics(OptionList& list, CameraRequest& camera) {
+    list.words("--look-from", "X Y Z", "look from this point instead of with a camera of the file",
+               3, [&camera](const Words& words) { camera.from = readPoint("--look-from", words); })
+        .from(inWords(kCoordinates))
+        .excludes("--camera", "both say where from");
+    list.words("--look-at", "X Y Z", "what --look-from looks at", 3,
+               [&camera](const Words& words) { camera.at = readPoint("--look-at", words); })
+        .from(inWords(kCoordinates))
+        .needs("--look-from")
+        .usually("the scene's middle");
+    list.words("--fov", "DEGREES", "angle of view over the height of the picture", 1,
+               [&camera](const Words& words) {
+                   camera.fieldOfView =
+                       readReal("--fov", words[0], kAngles) * glm::pi<double>() / 180;
+               })
+        .from(inWords(kAngles))
+        .usually("the camera's; --look-from: 40");
+    list.words(
+            "--aperture", "LENGTH", "diameter of a thin lens (5mm): blurs what is out of focus", 1,
+            [&camera](const Words& words) { camera.aperture = readLength("--aperture", words[0]); })
+        .needs("--focus")
+        .usually("a pinhole");
+    list.words("--focus", "LENGTH",
+               "distance from the camera, along its axis, of what is sharp (2.5m)", 1,
+               [&camera](const Words& words) { camera.focus = readLength("--focus", words[0]); })
+        .needs("--aperture");
+}
+
 } // namespace
 
-void declareScene(DeclaredCommand& c) {
-    c.list.group("Scene");
-    c.list
-        .text(
+Words splitAtCommas(const std::string& word) {
+    Words pieces;
+    for (size_t first = 0, end = 0; end != std::string::npos; first = end + 1) {
+        end = word.find(',', first);
+        pieces.push_back(word.substr(first, end - first));
+    }
+    return pieces;
+}
+
+void declareScene(OptionList& list, SceneRequest& scene) {
+    list.group("Scene");
+    list.text(
             "SCENE", "",
             "COLLADA (.dae, .zae), glTF (.gltf, .glb), Mitsuba (.xml), OBJ, PLY, or by Assimp STL, "
             "FBX, 3DS, ... file; or a "
@@ -83,18 +163,16 @@ void declareScene(DeclaredCommand& c) {
             "...); or generate:cornell_mesh:N for a scene of N triangles made in memory, "
             "generate:lamps:N for one lit by N triangles, generate:forest:N for N trees that "
             "are instances",
-            c.options.scene)
+            scene.source)
         .required()
         .proposes(Proposed::Scenes);
-    SceneConventions& reading = c.options.reading;
-    c.list
-        .onOff("--default-light",
+    SceneConventions& reading = scene.reading;
+    list.onOff("--default-light",
                "on: a plain sky lights a file without any light; off: it stays black",
                reading.defaultLight)
         .usually("on; --cs184: off");
-    EnvironmentRequest& environment = c.options.environment;
-    c.list
-        .words("--env", "FILE",
+    EnvironmentRequest& environment = scene.environment;
+    list.words("--env", "FILE",
                "light from all around: an equirectangular picture (.hdr, .exr, ...), the bundled "
                "evening_sky, or its radiance as a number or as R,G,B; takes the place of ambient "
                "light and is seen by the camera",
@@ -106,31 +184,27 @@ void declareScene(DeclaredCommand& c) {
                })
         .excludes("--cs184")
         .proposes(Proposed::Files);
-    c.list
-        .real("--env-rotate", "DEGREES",
+    list.real("--env-rotate", "DEGREES",
               "turns it about the vertical, counter-clockwise seen from above",
               environment.rotationDegrees, {-3600, 3600})
         .needs("--env");
-    c.list.real("--env-strength", "X", "multiplies its radiance", environment.strength, {0, 1e9})
+    list.real("--env-strength", "X", "multiplies its radiance", environment.strength, {0, 1e9})
         .needs("--env");
     FileSelection& selection = reading.selection;
-    c.list
-        .words("--scene", "N", "glTF: the scene of this number, from 0", 1,
+    list.words("--scene", "N", "glTF: the scene of this number, from 0", 1,
                [&selection](const Words& words) {
                    selection.scene = readNumber("--scene", words[0], kSceneNumbers);
                })
         .usually("the file's own choice")
         .from(inWords(kSceneNumbers));
-    c.list.text("--variant", "NAME", "glTF: the set of materials of this name", selection.variant);
-    c.list
-        .words("--at", "SECONDS", "glTF: the pose that the first animation has at this time", 1,
+    list.text("--variant", "NAME", "glTF: the set of materials of this name", selection.variant);
+    list.words("--at", "SECONDS", "glTF: the pose that the first animation has at this time", 1,
                [&selection](const Words& words) {
                    selection.seconds = readReal("--at", words[0], kAnimationSeconds);
                })
         .usually("the pose without animation")
         .from(inWords(kAnimationSeconds));
-    c.list
-        .words(
+    list.words(
             "-D,--define", "NAME=VALUE",
             "Mitsuba: the value of $NAME in the scene, in place of its <default>; may be repeated",
             1,
@@ -144,93 +218,128 @@ void declareScene(DeclaredCommand& c) {
                 }
             })
         .mayRepeat = true;
-    c.list.number("--max-texture", "N",
-                  "halves pictures on surfaces until no side has more pixels; 0: never",
-                  selection.largestTexture, kTextureSides);
-    c.list.choice(
+    list.number("--max-texture", "N",
+                "halves pictures on surfaces until no side has more pixels; 0: never",
+                selection.largestTexture, kTextureSides);
+    list.choice(
         "--instances", "HOW",
         "what meshes that a file shows several times do with their triangles; sharing takes "
         "less memory, copies are faster",
         reading.instances);
-    c.list.flag("--strict",
-                "what breaks the rules of the scene's format or cannot be read is an error, also "
-                "where it is clear "
-                "what is meant",
-                reading.strict);
+    list.flag("--strict",
+              "what breaks the rules of the scene's format or cannot be read is an error, also "
+              "where it is clear "
+              "what is meant",
+              reading.strict);
 }
 
-void declarePictureFile(DeclaredCommand& c) {
-    Options& o = c.options;
-    c.list.real("--exposure", "EV", "PNG: radiance times 2^EV", o.tone.exposure, kStops);
-    c.list.flag("--aov", "EXR: also sample counts and variances of the mean", o.statisticsChannels);
-    c.list
-        .onOff("--notes",
+void declarePictureFile(OptionList& list, OutputOptions& o, ToneCurve& tone) {
+    list.real("--exposure", "EV", "PNG: radiance times 2^EV", tone.exposure, kStops);
+    list.flag("--aov", "EXR: also sample counts and variances of the mean", o.statisticsChannels);
+    list.onOff("--notes",
                "on: the picture's file says of which scene it is, with which seed, samples, "
                "version, device and command it was made (info shows it); off: it does not",
                o.notes)
         .besidePicture();
 }
 
-void declarePicture(DeclaredCommand& c) {
-    c.list.group("Picture");
-    Options& o = c.options;
-    c.list
-        .words("-r,--size", "W H", "picture size", 2,
-               [&o](const Words& words) {
-                   o.area.width = readNumber("-r: width", words[0], kSide);
-                   o.area.height = readNumber("-r: height", words[1], kSide);
-                   o.sizeGiven = true;
+void declareSeen(OptionList& list, RenderRequest& o) {
+    list.group("Output");
+    list.flag("--transparent",
+              "the picture has alpha: what no surface covers is transparent, and the camera does "
+              "not see the environment, which lights the scene all the same",
+              o.transparent);
+    list.words("--layers", "LIST",
+               fmt::format("EXR: also these channels, with commas between (docs/layers.md): {}",
+                           allMeanings<Layer>()),
+               1, [&o](const Words& words) { o.layers = readLayers(words[0]); })
+        .proposes(namesOf<Layer>());
+}
+
+void checkOutputOptions(const DeclaredCommand& c, const OutputOptions& o,
+                        const RenderRequest& picture) {
+    const bool isExr = !isPng(o.file);
+    if (o.statisticsChannels && !isExr)
+        throw UsageError(fmt::format("--aov needs an EXR file: {} has no channels for it", o.file));
+    if (!picture.layers.empty() && !isExr)
+        throw UsageError(fmt::format(
+            "--layers needs an EXR file (-o name.exr): {} has no channels for them", o.file));
+    if (c.has("--exposure") && isExr)
+        throw UsageError(fmt::format("--exposure is for PNG: {} holds radiance as it is", o.file));
+}
+
+void declarePicture(OptionList& list, RenderRequest& picture, Asked& asked, bool several) {
+    list.group("Picture");
+    list.words("-r,--size", "W H", "picture size", 2,
+               [&picture](const Words& words) {
+                   picture.size = {readNumber("-r: width", words[0], kSide),
+                                   readNumber("-r: height", words[1], kSide)};
                })
         .from(inWords(kSide))
-        .usually(o.sizeGiven ? fmt::format("{} {}", o.area.width, o.area.height)
-                             : "the camera's shape, 800 wide");
-    c.list
-        .words("--camera", "WHICH",
+        .usually(picture.size ? fmt::format("{} {}", picture.size->width, picture.size->height)
+                              : "the camera's shape, 800 wide");
+    list.words("--camera", "WHICH",
                fmt::format("whose view ({}; NAME or N: the file's camera of that name or number, "
                            "which info lists{})",
                            allMeanings<CameraChoice>(),
-                           o.command == Command::Render
-                               ? "; all, or several with commas, 1,3: a picture of each, "
-                                 "OUT.NAME.png or, where a name is not plain (letters, digits, - "
-                                 "and _) or not the only one, OUT.N.png"
-                               : ""),
+                           several ? "; all, or several with commas, 1,3: a picture of each, "
+                                     "OUT.NAME.png or, where a name is not plain (letters, digits, "
+                                     "- and _) or not the only one, OUT.N.png"
+                                   : ""),
                1,
-               [&o](const Words& words) {
+               [&picture, &asked](const Words& words) {
                    const CameraRequest which = readCamera(words[0]);
-                   o.camera.choice = which.choice;
-                   o.camera.name = which.name;
-                   o.cameras = readCameras(words[0]);
+                   picture.camera.choice = which.choice;
+                   picture.camera.name = which.name;
+                   asked.cameras = readCameras(words[0]);
                })
-        .usually(nameOf(o.camera.choice))
-        .proposes(o.command == Command::Render ? withAll(namesOf<CameraChoice>())
-                                               : namesOf<CameraChoice>());
-    declareOptics(c);
+        .usually(nameOf(picture.camera.choice))
+        .proposes(several ? withAll(namesOf<CameraChoice>()) : namesOf<CameraChoice>());
+    declareOptics(list, picture.camera);
     const std::string placeAndSize = fmt::format("{} and {}", inWords(kPlace), inWords(kSide));
-    c.list
-        .words("--crop", "X Y W H", "only this part: left, top, width, height in pixels", 4,
-               [&o](const Words& words) { o.area.crop = readCrop("--crop", words); })
+    list.words("--crop", "X Y W H", "only this part: left, top, width, height in pixels", 4,
+               [&picture](const Words& words) { picture.crop = readCrop("--crop", words); })
         .from(placeAndSize);
-    c.list
-        .words("--cell", "X Y W H", "the same with Y from the bottom (CS184's -p)", 4,
-               [&c](const Words& words) { c.asked.cell = readCrop("--cell", words); })
+    list.words("--cell", "X Y W H", "the same with Y from the bottom (CS184's -p)", 4,
+               [&asked](const Words& words) { asked.cell = readCrop("--cell", words); })
         .from(placeAndSize)
         .excludes("--crop");
 }
 
-void finishPicture(DeclaredCommand& c) {
-    Options& o = c.options;
-    if (o.command != Command::Render && o.cameras == Words{"all"})
+void finishPicture(const DeclaredCommand& c, RenderRequest& picture, const Asked& asked,
+                   bool several) {
+    if (!several && asked.cameras == Words{"all"})
         throw UsageError(fmt::format("--camera all: {} is of one picture; only render makes one of "
                                      "each camera",
                                      c.name));
-    if (!c.asked.cell) return;
-    const Crop& cell = *c.asked.cell;
-    o.sizeGiven = true; // 800 x 600, unless the user gave another
-    if (uint64_t(cell.y) + cell.height > o.area.height)
+    if (!asked.cell) return;
+    const Crop& cell = *asked.cell;
+    if (!picture.size) picture.size = PictureSize{}; // 800 x 600
+    const uint32_t height = picture.size->height;
+    if (uint64_t(cell.y) + cell.height > height)
         throw UsageError(fmt::format("-p: the cell ends at row {} of {}",
-                                     uint64_t(cell.y) + cell.height, o.area.height));
-    o.area.crop = cell;
-    o.area.crop.y = o.area.height - cell.y - cell.height;
+                                     uint64_t(cell.y) + cell.height, height));
+    picture.crop = cell;
+    picture.crop.y = height - cell.y - cell.height;
+}
+
+void declareSequence(OptionList& list, SequenceOptions& sequence) {
+    list.number(
+            "--turntable", "N",
+            "N pictures, from cameras all around the scene: each is turned by a further N-th of "
+            "a turn, counter-clockwise seen from above, about the vertical axis through its middle",
+            sequence.turntable, {1, kFrameNumbers.most})
+        .usually("one picture");
+    list.words(
+            "--frames", "A..B",
+            "a picture of each of these frames: of the file's first animation (glTF), or of "
+            "--turntable; OUT.0007.png, or as a pattern says: -o out%04d.png",
+            1,
+            [&sequence](const Words& words) { sequence.frames = readFrames("--frames", words[0]); })
+        .usually("all of --turntable");
+    list.real("--fps", "F", "frames of an animation in a second", sequence.framesPerSecond,
+              {1e-3, 1e6})
+        .needs("--frames");
 }
 
 } // namespace stromboli

@@ -1,6 +1,8 @@
 // `plan`: films of the rounds until now say where the samples of the next one go.
 #include "host/cli/activity.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/declared_command.hpp"
+#include "host/cli/exit_code.hpp"
 #include "host/cli/report.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
@@ -10,13 +12,15 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+
 namespace stromboli {
 namespace {
 
 /// Of a pixel, in samples: -s counts paths.
-uint32_t mostSamplesOf(const FilmHeader& header, const Options& options) {
-    if (!options.budget.mostPathsPerPixel) return kMostSamples;
-    const uint32_t paths = *options.budget.mostPathsPerPixel;
+uint32_t mostSamplesOf(const FilmHeader& header, const PlanOptions& options) {
+    if (!options.mostPaths) return kMostSamples;
+    const uint32_t paths = *options.mostPaths;
     const uint32_t branches = header.settings.estimator.branches;
     if (paths % branches != 0)
         throw UsageError(fmt::format("-s {} is not a multiple of the {} --branches of the films",
@@ -52,18 +56,54 @@ void sayWhatIsPlanned(const NextRound& next, double noise) {
 
 } // namespace
 
-int planCommand(const Options& options) {
+void declarePlan(DeclaredCommand& c) {
+    const auto owned = std::make_shared<PlanOptions>();
+    PlanOptions& o = *owned;
+    c.list.group("Films");
+    c.list
+        .list("FILM", "",
+              "all films of the rounds until now, of render --share or merge, in any "
+              "order",
+              o.films)
+        .required()
+        .proposes(Proposed::Files);
+    c.list.group("Output");
+    c.list
+        .text("-o,--output", "FILE.plan",
+              "the plan of the next round, for render --plan; nothing is written, and the exit "
+              "code is 7, if nothing is left to do",
+              o.file)
+        .required()
+        .proposes(Proposed::Files);
+    c.list.group("Sampling");
+    declareNoise(c.list,
+                 "the noise to reach, as of render: the square root of the picture's relMSE is at "
+                 "most T (0.02: 2 %) in 95 of 100 renders",
+                 o.noise)
+        .required();
+    c.list.number("-s,--samples", "N", "the most samples of a pixel, over all rounds", o.mostPaths,
+                  {1, kMostSamples});
+    declareHost(c);
+    c.finish = [owned] {
+        if (!namesPlan(owned->file))
+            throw UsageError(
+                fmt::format("{}: plan writes a plan, whose name must end in .plan", owned->file));
+        return *owned;
+    };
+}
+
+int planCommand(const PlanOptions& options) {
     nowDoing(fmt::format("adding up {} films", options.films.size()));
-    checkFileWritable(options.output);
+    checkFileWritable(options.file);
     FilmsToMerge films({options.films.begin(), options.films.end()});
-    const double noise = options.budget.stop.noise;
+    const double noise = options.noise;
     const NextRound next = planNextRound(films, noise, mostSamplesOf(films.header(), options));
     if (!next.plan) {
         sayWhyNothingIsLeft(next.reached, noise);
         return int(ExitCode::NothingLeft);
     }
-    nowDoing("writing " + options.output);
-    writePlan(options.output, *next.plan);
+    nowDoing("writing " + options.file);
+    writePlan(options.file, *next.plan);
     sayWhatIsPlanned(next, noise);
     return 0;
 }

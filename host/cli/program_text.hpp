@@ -19,7 +19,7 @@ struct Explained {
     const char* meaning;
 };
 
-/// The program's own; the script `stromboli` has 5 besides (host/core/error.hpp).
+/// The program's own; the script `stromboli` has 5 besides (host/cli/exit_code.hpp).
 inline constexpr std::array kExitCodes = {
     Explained{"0", "done"},
     Explained{"1", "usage"},
@@ -41,5 +41,8 @@ inline constexpr std::array kFirstCommands = {
 
 /// "0 done, 1 usage".
 std::string exitCodesInOneLine();
+
+/// What the program says when it is called without arguments: enough to make a picture.
+std::string shortHelp();
 
 } // namespace stromboli

@@ -1,6 +1,6 @@
 #include "host/cli/progress.hpp"
 
-#include "host/core/status_line.hpp"
+#include "host/cli/status_line.hpp"
 
 #include <fmt/format.h>
 

@@ -1,259 +1,234 @@
+// `render`: a picture, a share of one, several, or one sample.
 #include "host/cli/activity.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/going_on.hpp"
-#include "host/cli/job.hpp"
+#include "host/cli/exit_code.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/render_outputs.hpp"
-#include "host/cli/renderer.hpp"
 #include "host/cli/report.hpp"
-#include "host/cli/seen_channels.hpp"
 #include "host/cli/sequence.hpp"
-#include "host/cli/share_render.hpp"
 #include "host/cli/signals.hpp"
-#include "host/cli/views.hpp"
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
 #include "host/core/stopwatch.hpp"
+#include "host/engine/keeping.hpp"
+#include "host/engine/render_session.hpp"
+#include "host/engine/share.hpp"
 #include "host/farm/plan_file.hpp"
-#include "host/film/unreached.hpp"
-#include "host/render/bands.hpp"
-#include "host/render/block_backend.hpp"
-#include "host/render/noise_plan.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace stromboli {
 namespace {
 
-/// Of all bands.
-struct Progress {
-    uint64_t pixelsDone = 0, pixels = 0, samplesDone = 0, bandPixels = 0;
-    ProgressBar bar;
-
-    void show(RenderProgress state) {
-        state.samplesDone += samplesDone;
-        state.share = (double(pixelsDone) + state.share * double(bandPixels)) / double(pixels);
+/// Events of a picture whose progress is shown, and which signals end.
+SessionEvents watched(ProgressBar& bar) {
+    SessionEvents events;
+    events.progress = [&bar](const RenderProgress& state) {
+        if (state.samplesDone > 0) onSignal(OnSignal::AskToKeep);
         bar.show(state);
-    }
-};
-
-/// The time that is left, shared by rows with the bands to come.
-RenderSettings settingsOf(const RenderSettings& all, const PictureArea& band, double secondsUsed,
-                          uint64_t pixelsLeft) {
-    RenderSettings settings = all;
-    settings.area = band;
-    double& seconds = settings.budget.stop.seconds;
-    if (seconds > 0 && band.pixelCount() < pixelsLeft)
-        seconds = std::max((seconds - secondsUsed) * double(band.pixelCount()) / double(pixelsLeft),
-                           1e-3); // it begins at least
-    return settings;
-}
-
-void addTo(RenderReport& report, const KeptOutcome& kept) {
-    report.prepareSeconds += kept.prepareSeconds;
-    report.renderSeconds += kept.renderSeconds;
-    report.counters.paths += kept.counters.paths;
-    report.counters.rays += kept.counters.rays;
-    report.interrupted = kept.stopped;
-    report.lost = kept.lost;
-}
-
-/// Alpha and layers of a band; a device that is lost sees nothing.
-FloatImage lookAround(const KeptOutcome& kept, const Job& job, const Options& options,
-                      Viewer* viewer) {
-    if (seenChannelNames(options).empty()) return {};
-    nowDoing("tracing alpha and layers");
-    FloatImage seen = seenChannels(kept.lost ? nullptr : viewer, kept.film, job, options);
-    nowDoing("taking samples", StatusLine::OfOthers);
-    return seen;
-}
-
-/// The backend, adding up blocks where the settings ask for it.
-MakeBackend inBlocks(const MakeBackend& makeBackend) {
-    return [&makeBackend](const RenderSettings& settings, bool again) -> std::shared_ptr<Backend> {
-        std::shared_ptr<Backend> backend = makeBackend(settings, again);
-        if (!settings.budget.isInBlocks()) return backend;
-        return std::make_shared<BlockBackend>(std::move(backend), settings.area,
-                                              settings.budget.samplesPerBlock);
+        return interrupted() ? Next::Cancel : Next::GoOn;
     };
+    return events;
 }
 
-/// Samples until the picture is there, with checkpoints, band by band.
-void takeSamples(const Job& job, const Options& options, const Begun& begun,
-                 const MakeBackend& makeBackend, const std::function<Viewer*()>& viewer,
-                 uint64_t mostPixels, RenderOutputs& outputs, RenderReport& report) {
-    const std::vector<PictureArea> bands = bandsToRender(job.settings.area, mostPixels, begun);
-    bool alone = begun.checkpoint.has_value(); // no checkpoint of an earlier render is in the way
-    double secondsBefore = 0;                  // of the bands that were done in earlier runs
-    Progress progress;
-    progress.pixels = job.settings.area.pixelCount();
-    nowDoing("taking samples", StatusLine::OfOthers);
-    for (size_t i = 0; i < bands.size(); ++i) {
-        const PictureArea& band = bands[i];
-        if (report.interrupted || report.lost) {
-            outputs.leaveOut(band);
-            report.pixelsUnreached += band.pixelCount();
-            continue;
-        }
-        progress.bandPixels = band.pixelCount();
-        KeptRender render =
-            keptRender(job,
-                       settingsOf(job.settings, band, secondsBefore + report.renderSeconds,
-                                  progress.pixels - progress.pixelsDone),
-                       options, begunBand(begun, i, bands.size()), report.backend);
-        if (render.begun) secondsBefore += render.begun->secondsUsed;
-        if (bands.size() > 1) render.keepsAtEnd = !render.file.empty(); // until all are done
-        render.identity = [&, identity = std::move(render.identity)] {
-            if (!alone) forgetEarlier(begun.file, bands.size());
-            alone = true;
-            return identity();
-        };
-        KeptOutcome kept = renderKept(
-            render, inBlocks(makeBackend),
-            [&](const RenderProgress& state) {
-                if (state.samplesDone > 0) onSignal(OnSignal::AskToKeep);
-                progress.show(state);
-                return !interrupted();
-            },
-            [](const std::string& line) { logging::warn(line); });
-        addTo(report, kept);
-        if (kept.fileIsThere) report.checkpoint = render.file.string();
-        count(kept.film, render.settings, report);
-        const FloatImage more = lookAround(kept, job, options, viewer());
-        showNeighbours(kept.film, NoisePlan::kCoarsest);
-        outputs.place(kept.film, kept.outcome.noise, more);
-        progress.pixelsDone += band.pixelCount();
-        progress.samplesDone = report.samplesTaken / job.settings.estimator.branches;
-    }
-    report.bands = bands.size();
+/// The checkpoint, and what it holds where --resume asks for it.
+Keeping keepingOf(const RenderOptions& options) {
+    const CheckpointOptions& asked = options.checkpoint;
+    const std::string& output = options.output.file;
+    Keeping keeping;
+    if (asked.file != "off" && output != "-")
+        keeping.file = asked.file.empty() ? usualCheckpointPath(output).string() : asked.file;
+    keeping.everySeconds = asked.everySeconds;
+    keeping.keepsAtEnd = !asked.file.empty() && !keeping.file.empty();
+    if (!asked.resume) return keeping;
+    if (keeping.file.empty())
+        throw UsageError("--resume needs a checkpoint, and --checkpoint is off");
+    return takeUp(keeping, toTerminal());
 }
 
-void sayHowToGoOn(const RenderReport& report) {
-    if (!report.checkpoint.empty())
+void sayHowToGoOn(const RenderResult& result) {
+    if (!result.checkpoint.empty())
         logging::warn(
-            fmt::format("the same command with --resume goes on from {}", report.checkpoint));
+            fmt::format("the same command with --resume goes on from {}", result.checkpoint));
 }
 
-int reportLoss(const RenderReport& report, const Options& options) {
-    logging::error(fmt::format("{}, twice; {} holds the samples that were taken", *report.lost,
-                               options.output));
-    sayHowToGoOn(report);
+int reportLoss(const RenderResult& result, const std::string& file) {
+    logging::error(
+        fmt::format("{}, twice; {} holds the samples that were taken", *result.lost, file));
+    sayHowToGoOn(result);
     return int(ExitCode::Device);
 }
 
-int reportInterruption(const RenderReport& report, const Job& job, const Options& options) {
-    if (job.settings.budget.stop.open())
-        logging::warn(
-            fmt::format("interrupted: {} holds the samples that were taken", options.output));
+int reportInterruption(const RenderResult& result, const StopRule& stop, const std::string& file) {
+    if (stop.open())
+        logging::warn(fmt::format("interrupted: {} holds the samples that were taken", file));
     else
-        logging::warn(fmt::format(
-            "interrupted: {} holds the {:.1f} % of the samples that were taken", options.output,
-            100.0 * double(report.samplesTaken) / double(report.samplesAtMost)));
-    sayHowToGoOn(report);
+        logging::warn(
+            fmt::format("interrupted: {} holds the {:.1f} % of the samples that were taken", file,
+                        100.0 * double(result.samplesTaken) / double(result.samplesAtMost)));
+    sayHowToGoOn(result);
     return interruptedExitCode();
 }
 
 /// Returns the exit code.
-int renderPicture(Renderer& renderer, Job& job, const Options& asked, const Begun& begun) {
-    const Options options = optionsToGoOn(asked, begun);
-    setPicture(job, options);
-    checkDiskSpace(job, options);
-    RenderOutputs outputs(job, options);
+int renderPicture(RenderSession& session, const LoadedScene& scene, const RenderOptions& options,
+                  const Keeping& keeping) {
+    session.begin(scene.scene, options.picture, keeping);
+    const RenderSettings& settings = session.picture().settings;
+    checkDiskSpace(*scene.scene, settings, options);
+    RenderOutputs outputs(*scene.scene, settings, options);
     RenderReport report;
-    report.loadSeconds = job.loadSeconds;
-    renderer.render(
-        job, options,
-        [&](const MakeBackend& makeBackend, const std::function<Viewer*()>& viewer,
-            uint64_t mostPixels, RenderReport& r) {
-            takeSamples(job, options, begun, makeBackend, viewer, mostPixels, outputs, r);
-        },
-        report);
-    report.noise = outputs.noise();
-    report.samplesAtMost = mostPathsOf(job.settings);
-    nowDoing("writing " + options.output);
+    report.loadSeconds = scene.seconds;
+    {
+        ProgressBar bar;
+        SessionEvents events = watched(bar);
+        events.bandDone = [&](const FinishedBand& band) { outputs.place(band); };
+        report.render = session.run(events);
+    }
+    const RenderResult& result = report.render;
+    const std::string& file = options.output.file;
+    nowDoing("writing " + file);
     const Stopwatch writing;
     outputs.write(report);
-    if (report.bands > 1 && !report.interrupted && !report.lost && options.checkpointFile.empty())
-        forgetEarlier(begun.file, report.bands);
+    if (!result.cancelled && !result.lost && !keeping.keepsAtEnd) session.forgetBands();
     report.writeSeconds = writing.seconds();
-    logReport(report, job.settings);
-    logBrightness(outputs.brightness(), job, options);
-    if (report.lost) return reportLoss(report, options);
-    return report.interrupted ? reportInterruption(report, job, options) : 0;
-}
-
-/// At another moment of its file. Where nothing but the camera has moved, the scene is kept as it
-/// is built and uploaded.
-void moveTo(const Options& frame, Job& job, Renderer& renderer) {
-    job = loadMoment(frame, job);
-    if (job.scene.isMoment()) renderer.changeScene();
+    logReport(report, settings);
+    logBrightness(outputs.brightness(), *scene.scene, file);
+    if (result.lost) return reportLoss(result, file);
+    return result.cancelled ? reportInterruption(result, settings.budget.stop, file) : 0;
 }
 
 /// Part of the samples of all pixels, or of a plan, as a film. Returns the exit code.
-int renderShare(Renderer& renderer, Job& job, const Options& options) {
-    setPicture(job, options);
-    requireExpected(job, options);
-    std::optional<RoundPlan> plan;
-    if (!options.planFile.empty()) plan = readPlan(options.planFile);
+int renderShare(const RenderOptions& options) {
+    const Listener listener = toTerminal();
+    Renderer renderer(options.device, listener); // opens the device while the scene is read
+    const auto [scene, picture] = preparePicture(options);
+    if (!options.share.expected.empty())
+        requireFingerprint(options.share.expected, *scene.scene, picture.camera,
+                           options.scene.source);
+    ShareRequest share{*options.share.share,   {},
+                       options.share.planFile, {options.scene.source, options.command},
+                       options.output.file,    options.checkpoint.resume};
+    if (!share.planFile.empty()) share.plan = readPlan(share.planFile);
     RenderReport report;
-    report.loadSeconds = job.loadSeconds;
+    report.loadSeconds = scene.seconds;
     report.isShare = true;
-    bool isThere = false;
-    renderer.render(
-        job, options,
-        [&](const MakeBackend& makeBackend, const std::function<Viewer*()>& viewer,
-            uint64_t mostPixels, RenderReport& r) {
-            const PlannedShare share = shareToTake(job, options, plan, r.backend);
-            isThere = isThereAlready(share.header, options);
-            if (!isThere) takeShare(job, options, share, makeBackend, viewer, mostPixels, r);
-        },
-        report);
-    if (isThere) return 0;
-    if (report.interrupted) {
-        logging::warn(fmt::format("interrupted: {} is not written", options.output));
+    bool wasThere = false;
+    onSignal(OnSignal::Ask);
+    {
+        ProgressBar bar;
+        SessionEvents events;
+        events.progress = [&bar](const RenderProgress& state) {
+            bar.show(state);
+            return interrupted() ? Next::Cancel : Next::GoOn;
+        };
+        const ShareResult taken =
+            takeShare(renderer, scene.scene, picture, options.picture, share, events, listener);
+        report.render = taken.render;
+        report.writeSeconds = taken.writeSeconds;
+        wasThere = taken.wasThere;
+    }
+    if (wasThere) return 0;
+    if (report.render.cancelled) {
+        logging::warn(fmt::format("interrupted: {} is not written", share.film));
         return interruptedExitCode();
     }
-    logReport(report, job.settings);
-    if (!options.statsFile.empty()) writeStatistics(options.statsFile, report, job);
+    logReport(report, picture.settings);
+    if (!options.output.statsFile.empty())
+        writeStatistics(options.output.statsFile, report, *scene.scene, picture.settings);
     return 0;
 }
 
 /// One after the other, until one is not finished.
-int renderPictures(Renderer& renderer, Job& job, const std::vector<Options>& pictures) {
-    for (const Options& picture : pictures)
+int renderPictures(RenderSession& session, LoadedScene scene,
+                   const std::vector<RenderOptions>& pictures) {
+    for (const RenderOptions& picture : pictures)
         checkOutputs(picture); // before the first takes its time
     for (size_t i = 0; i < pictures.size(); ++i) {
-        logging::info(fmt::format("{} ({} of {})", pictures[i].output, i + 1, pictures.size()));
-        if (i > 0 && pictures[i].reading.selection.isFrame) moveTo(pictures[i], job, renderer);
-        const int code = renderPicture(renderer, job, pictures[i], takeUp(pictures[i]));
+        const RenderOptions& picture = pictures[i];
+        logging::info(fmt::format("{} ({} of {})", picture.output.file, i + 1, pictures.size()));
+        if (i > 0 && picture.scene.reading.selection.isFrame)
+            scene = loadMoment(picture.scene, std::move(scene), toTerminal());
+        const int code = renderPicture(session, scene, picture, keepingOf(picture));
         if (code != 0 && i + 1 < pictures.size())
             logging::warn(fmt::format("the other {} of the {} pictures are left out",
                                       pictures.size() - i - 1, pictures.size()));
         if (code != 0) return code;
-        job.loadSeconds = 0; // was the first one's
+        scene.seconds = 0; // was the first one's
     }
+    return 0;
+}
+
+LoadedScene load(const SceneAndPicture& work) {
+    LoadedScene scene = loadScene(work.scene, toTerminal());
+    warnOfBlackPicture(*scene.scene, work.scene.source, work.picture, toTerminal());
+    return scene;
+}
+
+/// A picture of its size, of which only the one pixel is rendered.
+ResolvedPicture pictureOfPixel(ResolvedPicture picture, const SampleName& name) {
+    PictureArea& area = picture.settings.area;
+    if (name.x >= area.width || name.y >= area.height)
+        throw UsageError(fmt::format("--pixel {} {} is not in the picture of {} x {}", name.x,
+                                     name.y, area.width, area.height));
+    area.crop = {name.x, name.y, 1, 1};
+    return picture;
+}
+
+std::string verdict(const SampleValue& value) {
+    if (!value.rejected) return "accepted";
+    for (int c = 0; c < 3; ++c)
+        if (!std::isfinite(value.radiance[c])) return "rejected: not finite";
+    const double least = std::min({value.radiance.x, value.radiance.y, value.radiance.z});
+    return least < 0 ? "rejected: negative" : "rejected: too large";
+}
+
+/// Prints the radiance of one sample of one pixel, by itself, and whether it is rejected.
+int renderSample(const RenderOptions& options) {
+    const SampleName& name = *options.sampleAlone;
+    Renderer renderer(options.device, toTerminal());
+    const PreparedPicture prepared = preparePicture(options);
+    const ResolvedPicture picture = pictureOfPixel(prepared.picture, name);
+    renderer.begin(prepared.scene.scene, picture, 0);
+    constexpr uint32_t pixel = 0; // the only one
+    const SampleValue value =
+        renderer.backend(picture.settings, false)->sampleAlone(pixel, name.sample);
+    renderer.requireNoValidationMessages();
+    nowDoing("printing", StatusLine::OfOthers);
+    // Enough digits to tell any two floats, or doubles, apart.
+    const int digits = options.device.backend == BackendChoice::Vulkan ? 9 : 17;
+    fmt::print("radiance {:.{}g} {:.{}g} {:.{}g}\n{}\n", value.radiance.x, digits, value.radiance.y,
+               digits, value.radiance.z, digits, verdict(value));
     return 0;
 }
 
 } // namespace
 
-int renderCommand(const Options& asked) {
-    const bool several = !asked.cameras.empty() || asked.sequence.isGiven();
-    Begun begun;
-    if (!several) checkOutputs(asked);
-    if (!several && !asked.share) begun = takeUp(asked);
-    Renderer renderer(asked);
-    if (asked.sequence.isGiven()) {
-        const std::vector<Options> frames = optionsOfFrames(asked);
-        Job job = loadJob(frames.front());
-        return renderPictures(renderer, job, frames);
+PreparedPicture preparePicture(const SceneAndPicture& work) {
+    PreparedPicture prepared{load(work), {}};
+    prepared.picture = resolvePicture(*prepared.scene.scene, work.picture, toTerminal());
+    return prepared;
+}
+
+int renderCommand(const RenderOptions& options) {
+    if (options.sampleAlone) return renderSample(options);
+    const bool several = !options.cameras.empty() || options.sequence.isGiven();
+    if (!several) checkOutputs(options);
+    if (options.share.share) return renderShare(options);
+    Keeping keeping;
+    if (!several) keeping = keepingOf(options);
+    RenderSession session(options.device, toTerminal()); // opens devices while the scene is read
+    if (options.sequence.isGiven()) {
+        const std::vector<RenderOptions> frames = optionsOfFrames(options);
+        return renderPictures(session, load(frames.front()), frames);
     }
-    Job job = loadJob(asked);
-    if (asked.share) return renderShare(renderer, job, asked);
-    if (!several) return renderPicture(renderer, job, asked, begun);
-    return renderPictures(renderer, job, optionsOfPictures(asked, job.scene));
+    const LoadedScene scene = load(options);
+    if (!several) return renderPicture(session, scene, options, keeping);
+    return renderPictures(session, scene, optionsOfCameras(options, *scene.scene));
 }
 
 } // namespace stromboli

@@ -1,7 +1,5 @@
 #include "host/cli/render_outputs.hpp"
 
-#include "host/cli/seen_channels.hpp"
-
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
 #include "host/core/output.hpp"
@@ -20,8 +18,8 @@ namespace {
 /// Whether a picture of its own shows how many samples each pixel has. Where they are spread
 /// without being asked to, it would be a file that nobody asked for.
 template <class AnyBudget>
-bool writesRates(const Options& options, const AnyBudget& budget) {
-    return !isStandardOutput(options.output) && (budget.adaptive.enabled || budget.stop.open());
+bool writesRates(const OutputOptions& output, const AnyBudget& budget) {
+    return !isStandardOutput(output.file) && (budget.adaptive.enabled || budget.stop.open());
 }
 
 /// What the rate picture shows as full.
@@ -34,20 +32,20 @@ uint32_t mostSamples(const Film& film, const Budget& budget) {
 }
 
 /// samples: paths a pixel, on the mean.
-PictureNotes notesOf(const Job& job, const Options& options, const std::string& device,
-                     const std::string& samples) {
-    if (!options.notes) return {};
+PictureNotes notesOf(const RenderSettings& settings, const RenderOptions& options,
+                     const std::string& device, const std::string& samples) {
+    if (!options.output.notes) return {};
     return pictureNotes(
-        {options.scene, job.settings.estimator.seed, samples, device, options.pictureCommand, ""});
+        {options.scene.source, settings.estimator.seed, samples, device, options.command, ""});
 }
 
-PictureOptions pictureOptions(const Options& options) {
-    return {options.tone, options.statisticsChannels, seenChannelNames(options)};
+PictureOptions pictureOptions(const RenderOptions& options) {
+    return {options.tone, options.output.statisticsChannels, options.picture.channels()};
 }
 
 /// With what says what the channels mean.
-PictureNotes withLegend(PictureNotes notes, const Job& job, const Options& options) {
-    for (PictureNote& note : legendOf(options.layers, job.scene))
+PictureNotes withLegend(PictureNotes notes, const Scene& scene, const RenderOptions& options) {
+    for (PictureNote& note : legendOf(options.picture.layers, scene))
         notes.push_back({note.name, printable(note.text)});
     return notes;
 }
@@ -65,59 +63,59 @@ PictureNotes pictureNotes(const PictureOrigin& origin) {
     return notes;
 }
 
-void checkOutputs(const Options& options) {
-    if (options.share)
-        checkFileWritable(options.output);
+void checkOutputs(const RenderOptions& options) {
+    const OutputOptions& output = options.output;
+    const bool hasRates = writesRates(output, options.picture.budget);
+    if (options.share.share)
+        checkFileWritable(output.file);
     else
-        checkWritable(options.output);
-    if (writesRates(options, options.budget)) checkOutputWritable(ratePicturePath(options.output));
-    if (options.statsFile.empty()) return;
-    if (options.statsFile == options.output)
-        throw UsageError("--stats and -o name the same file: " + options.output);
-    if (writesRates(options, options.budget) &&
-        options.statsFile == ratePicturePath(options.output))
-        throw UsageError("--stats names the file of the rate picture: " + options.statsFile);
-    checkOutputWritable(options.statsFile);
+        checkWritable(output.file);
+    if (hasRates) checkOutputWritable(ratePicturePath(output.file));
+    if (output.statsFile.empty()) return;
+    if (output.statsFile == output.file)
+        throw UsageError("--stats and -o name the same file: " + output.file);
+    if (hasRates && output.statsFile == ratePicturePath(output.file))
+        throw UsageError("--stats names the file of the rate picture: " + output.statsFile);
+    checkOutputWritable(output.statsFile);
 }
 
 /// The statistics take no more than the estimate spares.
-void checkDiskSpace(const Job& job, const Options& options) {
-    if (isStandardOutput(options.output)) return;
-    const Crop part = job.settings.area.rendered();
-    const PictureNotes notes = notesOf(job, options, "", "");
-    uint64_t bytes = largestPictureFile(options.output, part.width, part.height,
-                                        pictureOptions(options), withLegend(notes, job, options));
-    if (writesRates(options, job.settings.budget))
-        bytes +=
-            largestPictureFile(ratePicturePath(options.output), part.width, part.height, {}, notes);
-    checkFreeSpace(options.output, bytes);
+void checkDiskSpace(const Scene& scene, const RenderSettings& settings,
+                    const RenderOptions& options) {
+    const std::string& file = options.output.file;
+    if (isStandardOutput(file)) return;
+    const Crop part = settings.area.rendered();
+    const PictureNotes notes = notesOf(settings, options, "", "");
+    uint64_t bytes = largestPictureFile(file, part.width, part.height, pictureOptions(options),
+                                        withLegend(notes, scene, options));
+    if (writesRates(options.output, settings.budget))
+        bytes += largestPictureFile(ratePicturePath(file), part.width, part.height, {}, notes);
+    checkFreeSpace(file, bytes);
 }
 
-RenderOutputs::RenderOutputs(const Job& job, const Options& options)
-    : job_(job), options_(options),
-      picture_(options.output, job.settings.area, pictureOptions(options)) {}
+RenderOutputs::RenderOutputs(const Scene& scene, const RenderSettings& settings,
+                             const RenderOptions& options)
+    : scene_(scene), settings_(settings), options_(options),
+      picture_(options.output.file, settings.area, pictureOptions(options)) {}
 
-void RenderOutputs::place(const Film& film, const PictureNoise& noise, const FloatImage& more) {
-    picture_.place(film, more);
-    noises_.push_back({noise, film.pixels.size()});
-    const ToneCurve tone = isPng(options_.output) ? options_.tone : ToneCurve{};
+void RenderOutputs::place(const FinishedBand& band) {
+    const Film& film = band.film;
+    picture_.place(film, band.beside);
+    const ToneCurve tone = isPng(options_.output.file) ? options_.tone : ToneCurve{};
     brightness_.push_back({brightnessOf(film, tone), film.pixels.size()});
-    if (writesRates(options_, job_.settings.budget) &&
-        film.pixels.size() == job_.settings.area.pixelCount())
-        rates_ = ratePicture(film, mostSamples(film, job_.settings.budget));
-}
-
-void RenderOutputs::leaveOut(const PictureArea& band) {
-    noises_.push_back({{}, band.pixelCount()});
+    if (writesRates(options_.output, settings_.budget) &&
+        film.pixels.size() == settings_.area.pixelCount())
+        rates_ = ratePicture(film, mostSamples(film, settings_.budget));
 }
 
 void RenderOutputs::write(const RenderReport& report) const {
-    const double samples = double(report.samplesTaken) / double(job_.settings.area.pixelCount());
+    const double samples = double(report.render.samplesTaken) / double(settings_.area.pixelCount());
     const PictureNotes notes =
-        notesOf(job_, options_, report.backend, fmt::format("{:.6g} a pixel", samples));
-    picture_.write(withLegend(notes, job_, options_));
-    if (rates_) writePng(ratePicturePath(options_.output), *rates_, PngColorSpace::Unnamed, notes);
-    if (!options_.statsFile.empty()) writeStatistics(options_.statsFile, report, job_);
+        notesOf(settings_, options_, report.render.backend, fmt::format("{:.6g} a pixel", samples));
+    const OutputOptions& output = options_.output;
+    picture_.write(withLegend(notes, scene_, options_));
+    if (rates_) writePng(ratePicturePath(output.file), *rates_, PngColorSpace::Unnamed, notes);
+    if (!output.statsFile.empty()) writeStatistics(output.statsFile, report, scene_, settings_);
 }
 
 } // namespace stromboli

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "host/cli/job.hpp"
+#include "host/cli/options.hpp"
 #include "host/cli/report.hpp"
+#include "host/engine/render_session.hpp"
 #include "host/film/brightness.hpp"
 #include "host/film/image_file.hpp"
 
@@ -15,7 +16,7 @@ struct PictureOrigin {
     std::string scene;
     uint32_t seed = 0;
     std::string samples, device;
-    std::vector<std::string> command; ///< as Options::pictureCommand
+    std::vector<std::string> command; ///< as RenderOptions::command
     std::string noise;                ///< of a picture in rounds; else empty: not said
 };
 /// Nothing of when or where: the same command makes the same bytes.
@@ -23,30 +24,28 @@ PictureNotes pictureNotes(const PictureOrigin& origin);
 
 /// What can be found out of the files of a render before it: names, folders, permissions. Throws
 /// UsageError, OutputError.
-void checkOutputs(const Options& options);
+void checkOutputs(const RenderOptions& options);
 /// The same for a disk that would be full.
-void checkDiskSpace(const Job& job, const Options& options);
+void checkDiskSpace(const Scene& scene, const RenderSettings& settings,
+                    const RenderOptions& options);
 
 /// The pictures and statistics of a render, put together from the films of its bands.
 class RenderOutputs {
   public:
-    RenderOutputs(const Job& job, const Options& options);
-    /// The band's film, what is known of its noise, and the channels beside its radiance.
-    void place(const Film& film, const PictureNoise& noise, const FloatImage& more);
-    /// A band that was not begun.
-    void leaveOut(const PictureArea& band);
+    /// What it is told of must outlive it.
+    RenderOutputs(const Scene& scene, const RenderSettings& settings, const RenderOptions& options);
+    void place(const FinishedBand& band);
     /// Throws OutputError.
     void write(const RenderReport& report) const;
 
-    PictureNoise noise() const { return togetherOf(noises_); }
     Brightness brightness() const { return togetherOf(brightness_); }
 
   private:
-    const Job& job_;
-    const Options& options_;
+    const Scene& scene_;
+    const RenderSettings& settings_;
+    const RenderOptions& options_;
     PictureFile picture_;
     std::optional<ByteImage> rates_; ///< of a picture in one band
-    std::vector<PartNoise> noises_;
     std::vector<PartBrightness> brightness_;
 };
 

@@ -6,33 +6,16 @@
 #include "host/core/log.hpp"
 #include "host/core/output.hpp"
 #include "host/film/image_file.hpp"
-#include "host/film/unreached.hpp"
-#include "host/render/render.hpp"
 #include "host/version/version.hpp"
 #include "scene/model/emitters.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 
 namespace stromboli {
-
-void count(const Film& film, const RenderSettings& settings, RenderReport& r) {
-    for (uint32_t i = 0; i < film.pixels.size(); ++i) {
-        const PixelStatistics& p = film.pixels[i];
-        r.samplesTaken += uint64_t(p.taken()) * settings.estimator.branches;
-        r.samplesRejected += p.rejected;
-        if (p.rejected == 0 || r.firstRejected) continue;
-        const PixelPlace place = film.area.placeOf(i);
-        r.firstRejected = SampleName{place.x, place.y, p.firstRejected};
-    }
-    r.pixelsUnreached += unreachedPixels(film);
-}
-
-uint64_t mostPathsOf(const RenderSettings& settings) {
-    return samplesAtMost(settings.area, settings.budget) * settings.estimator.branches;
-}
 
 std::string percent(double share) {
     const double p = 100 * share;
@@ -56,7 +39,7 @@ std::string inWords(const PictureNoise& noise) {
 
 namespace {
 
-void logNoise(const RenderReport& r, const StopRule& stop) {
+void logNoise(const RenderResult& r, const StopRule& stop) {
     const std::string reached = inWords(r.noise);
     if (stop.noise == 0)
         logging::info(reached);
@@ -65,18 +48,20 @@ void logNoise(const RenderReport& r, const StopRule& stop) {
     else
         logging::warn(fmt::format("{}; at most {} % was asked for, but {} ended the render",
                                   reached, percent(stop.noise),
-                                  r.interrupted ? "the interruption" : "--time or -s"));
+                                  r.cancelled ? "the interruption" : "--time or -s"));
 }
 
 } // namespace
 
-void logReport(const RenderReport& r, const RenderSettings& settings) {
+void logReport(const RenderReport& report, const RenderSettings& settings) {
+    const RenderResult& r = report.render;
     const double rate = double(r.counters.rays) * 1e-6 / std::max(r.renderSeconds, 1e-9);
     logging::info(fmt::format("{}: {} ({} to load, {} to build the BVH, {} to "
                               "prepare, {} to write)",
                               r.backend, formatDuration(r.renderSeconds),
-                              formatDuration(r.loadSeconds), formatDuration(r.buildSeconds),
-                              formatDuration(r.prepareSeconds), formatDuration(r.writeSeconds)));
+                              formatDuration(report.loadSeconds), formatDuration(r.buildSeconds),
+                              formatDuration(r.prepareSeconds),
+                              formatDuration(report.writeSeconds)));
     const std::string share = // of a number that nobody chose it says nothing
         settings.budget.spreads() || r.samplesAtMost == 0
             ? ""
@@ -89,8 +74,8 @@ void logReport(const RenderReport& r, const RenderSettings& settings) {
         logging::warn(fmt::format("{} of {} pixels have no sample ({}); they show a neighbour that "
                                   "has, or black",
                                   r.pixelsUnreached, settings.area.pixelCount(),
-                                  r.interrupted ? "interrupted" : "--time is too short for more"));
-    if (settings.estimator.integrator == Integrator::Path && !r.isShare)
+                                  r.cancelled ? "interrupted" : "--time is too short for more"));
+    if (settings.estimator.integrator == Integrator::Path && !report.isShare)
         logNoise(r, settings.budget.stop);
     if (!r.firstRejected) return;
     logging::warn(fmt::format(
@@ -99,9 +84,9 @@ void logReport(const RenderReport& r, const RenderSettings& settings) {
         r.samplesRejected, r.firstRejected->x, r.firstRejected->y, r.firstRejected->sample));
 }
 
-void logBrightness(const Brightness& b, const Job& job, const Options& options) {
+void logBrightness(const Brightness& b, const Scene& scene, const std::string& file) {
     if (b.unlit) {
-        const size_t lights = job.scene.lights.size() + collectEmitters(job.scene).size();
+        const size_t lights = scene.lights.size() + collectEmitters(scene).size();
         logging::warn(fmt::format(
             "the picture is black: no path met light ({}); the camera may be inside an object or "
             "look past the scene (--camera frame), or the light may be cut off (-m)",
@@ -109,7 +94,7 @@ void logBrightness(const Brightness& b, const Job& job, const Options& options) 
                         : fmt::format("lights and emitting surfaces: {}", lights)));
         return;
     }
-    if (!isPng(options.output)) return; // it keeps all radiances
+    if (!isPng(file)) return; // it keeps all radiances
     if (b.darkShare == 1)
         logging::warn(fmt::format("the picture is so dark that all of it is black in 8 bits: "
                                   "--exposure {:.0f}, or write an .exr file",
@@ -120,11 +105,12 @@ void logBrightness(const Brightness& b, const Job& job, const Options& options) 
                                   100 * b.whiteShare, *b.exposure));
 }
 
-void writeStatistics(const std::string& file, const RenderReport& r, const Job& job) {
-    const RenderSettings& s = job.settings;
+void writeStatistics(const std::string& file, const RenderReport& report, const Scene& scene,
+                     const RenderSettings& s) {
+    const RenderResult& r = report.render;
     Json json = {
         {"version", version()},
-        {"scene", job.scene.file},
+        {"scene", scene.file},
         {"backend", r.backend},
         {"complete", r.complete()},
         {"pixels", s.area.pixelCount()},
@@ -139,10 +125,10 @@ void writeStatistics(const std::string& file, const RenderReport& r, const Job& 
         {"maxBounces", s.estimator.maxBounces},
         {"seed", s.estimator.seed},
         {"sampler", nameOf(s.estimator.sampler)},
-        {"triangles", job.scene.triangles.size()},
-        {"spheres", job.scene.spheres.size()},
+        {"triangles", scene.triangles.size()},
+        {"spheres", scene.spheres.size()},
         {"seconds",
-         {{"load", r.loadSeconds},
+         {{"load", report.loadSeconds},
           {"build", r.buildSeconds},
           {"prepare", r.prepareSeconds},
           {"render", r.renderSeconds}}},
@@ -155,7 +141,8 @@ void writeStatistics(const std::string& file, const RenderReport& r, const Job& 
         {"noise", r.noise.known() ? Json(r.noise.estimate) : Json()},
         {"noiseRange", r.noise.known() ? Json(std::array{r.noise.least, r.noise.most}) : Json()},
     };
-    if (r.isShare) json["seconds"]["write"] = r.writeSeconds; // of pictures it is still to come
+    if (report.isShare)
+        json["seconds"]["write"] = report.writeSeconds; // of pictures it is still to come
     writeOutput(file, json.dump(4) + "\n");
 }
 

@@ -1,7 +1,7 @@
 #include "host/cli/signals.hpp"
 
 #include "host/cli/activity.hpp"
-#include "host/core/status_line.hpp"
+#include "host/cli/status_line.hpp"
 #include "host/core/temporary_file.hpp"
 
 #include <fmt/format.h>

@@ -1,12 +1,15 @@
+// `stress`: the hard cases of docs/hard_cases.md on the device.
 #include "host/cli/activity.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/declared_command.hpp"
+#include "host/cli/exit_code.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/signals.hpp"
+#include "host/cli/status_line.hpp"
 #include "host/core/error.hpp"
 #include "host/core/json.hpp"
 #include "host/core/log.hpp"
 #include "host/core/output.hpp"
-#include "host/core/status_line.hpp"
 #include "host/core/stopwatch.hpp"
 #include "host/stress/device_subject.hpp"
 #include "host/stress/report.hpp"
@@ -14,15 +17,24 @@
 #include "host/vulkan/open_device.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 
 namespace stromboli {
 namespace {
 
 using stress::Case;
 using stress::Outcome;
+
+Words caseNames() {
+    Words names;
+    for (const stress::Case& one : stress::allCases())
+        names.push_back(one.name);
+    return names;
+}
 
 /// Names the case that runs and says how long the others may take, in the status line.
 class CaseLine {
@@ -112,28 +124,52 @@ std::vector<Outcome> runCases(const std::vector<Case>& cases, const vulkan::Devi
 
 } // namespace
 
-int stressCommand(const Options& options) {
-    const std::vector<Case> cases = chosenCases(options.stress.cases);
-    if (options.stress.list) {
+void declareStress(DeclaredCommand& c) {
+    const auto o = std::make_shared<StressOptions>();
+    c.list.group("Cases");
+    c.list.list("CASE", "", "names or numbers from --list", o->cases)
+        .usually("all")
+        .proposes(caseNames());
+    c.list.flag("--list", "list the cases and run none", o->list);
+    c.list.flag("--full",
+                "as much of each as docs/hard_cases.md states (1e8 rays, 1e7 bounces for each "
+                "scale): some ten minutes on two cores, instead of a part of it, half a minute",
+                o->full);
+    c.list.group("Output");
+    c.list.text("--json", "FILE.json", "write the results as JSON", o->jsonFile)
+        .proposes(Proposed::Files);
+    declareDevice(c.list, o->device);
+    declareHost(c);
+    c.finish = [&c, o] {
+        const std::string ignored =
+            o->list ? c.givenOf({"--full", "--json", "--device", "-t"}) : "";
+        if (!ignored.empty()) c.host.remarks.push_back("--list runs nothing: ignored: " + ignored);
+        return *o;
+    };
+}
+
+int stressCommand(const StressOptions& options) {
+    const std::vector<Case> cases = chosenCases(options.cases);
+    if (options.list) {
         for (const Case& c : cases)
             fmt::print("{}", stress::listRow(c));
         return 0;
     }
-    if (!options.stress.jsonFile.empty()) checkOutputWritable(options.stress.jsonFile);
+    if (!options.jsonFile.empty()) checkOutputWritable(options.jsonFile);
     onSignal(OnSignal::Ask);
     const vulkan::OpenDevice open = vulkan::openDevice(options.device);
     const vulkan::DeviceDescription& device = open.device->description();
-    const bool prints = !isStandardOutput(options.stress.jsonFile);
+    const bool prints = !isStandardOutput(options.jsonFile);
     if (prints) fmt::print("{}, {}\n", device.name(), device.driver);
-    const auto amount = options.stress.full ? stress::Amount::Full : stress::Amount::Quick;
+    const auto amount = options.full ? stress::Amount::Full : stress::Amount::Quick;
     const std::vector<Outcome> outcomes = runCases(cases, *open.device, amount, prints);
     if (outcomes.size() < cases.size()) {
         logging::warn(
             fmt::format("interrupted after {} of {} cases", outcomes.size(), cases.size()));
         return interruptedExitCode();
     }
-    if (!options.stress.jsonFile.empty())
-        writeJson(options.stress.jsonFile,
+    if (!options.jsonFile.empty())
+        writeJson(options.jsonFile,
                   stress::toJson({device.name(), device.driver, version(), amount}, outcomes));
     vulkan::requireNoValidationMessages(open);
     const auto failed = std::ranges::count_if(outcomes, std::not_fn(&Outcome::passed));

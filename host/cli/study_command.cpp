@@ -1,15 +1,17 @@
+// `study`: error against time of several configurations.
 #include "host/bench/circumstances.hpp"
 #include "host/cli/activity.hpp"
 #include "host/cli/command_line.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/job.hpp"
+#include "host/cli/options.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/signals.hpp"
+#include "host/cli/status_line.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/checksum.hpp"
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
-#include "host/core/status_line.hpp"
+#include "host/engine/build_scene.hpp"
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/reference/reference_backend.hpp"
 #include "host/study/folder_lock.hpp"
@@ -20,11 +22,13 @@
 #include "scene/find_scene.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
 #include <span>
+#include <variant>
 
 namespace stromboli {
 namespace {
@@ -62,15 +66,16 @@ std::string checksum(const fs::path& file) {
 }
 
 /// The command line of `render` that a picture of the study is.
-Options renderLine(const std::string& scene, const std::vector<std::string>& words) {
+RenderOptions renderLine(const std::string& scene, const std::vector<std::string>& words) {
     const std::string file = sceneFile(scene);
     std::vector<std::string> line = {"render", file.empty() ? scene : file, "-o", "study.exr"};
     line.insert(line.end(), words.begin(), words.end());
-    const std::optional<Options> options = parseOptions(line);
-    if (!options || options->area.crop.width != 0 || options->sampleAlone)
+    const std::optional<ParsedCommand> parsed = parseOptions(line);
+    const RenderOptions* options = parsed ? std::get_if<RenderOptions>(&parsed->options) : nullptr;
+    if (!options || options->picture.crop.width != 0 || options->sampleAlone)
         throw UsageError(fmt::format("a study renders whole pictures: {}", fmt::join(words, " ")));
-    if (!options->statsFile.empty() || options->statisticsChannels || !options->device.empty() ||
-        options->verbosity != Verbosity::Normal)
+    if (!options->output.statsFile.empty() || options->output.statisticsChannels ||
+        !options->device.device.empty() || parsed->host.verbosity != Verbosity::Normal)
         throw UsageError(fmt::format("a study has one device and files of its own: --stats, --aov, "
                                      "--device, -q and -v are not for its configurations: {}",
                                      fmt::join(words, " ")));
@@ -93,25 +98,26 @@ void checkConfigurations(const study::StudySettings& s) {
 
 /// Scene and arrays that a backend refers to.
 struct Held {
-    Job job;
+    PreparedPicture prepared;
     BuiltScene built;
 };
 
 study::PreparedRender prepareRender(const vulkan::Device& device, const std::string& scene,
                                     const std::vector<std::string>& words) {
-    const Options options = renderLine(scene, words);
-    auto held = std::make_shared<Held>(Held{prepareJob(options), {}});
+    const RenderOptions options = renderLine(scene, words);
+    auto held = std::make_shared<Held>(Held{preparePicture(options), {}});
     setVerbosity(Verbosity::ErrorsOnly); // what the loader has to say, it says once
-    study::PreparedRender render{held, held->job.settings, nullptr};
-    if (options.backend == BackendChoice::Reference) {
-        render.backend = std::make_unique<ReferenceBackend>(held->job.scene, held->job.camera,
-                                                            held->job.settings, options.threads);
+    const Scene& loaded = *held->prepared.scene.scene;
+    const auto& [camera, settings] = held->prepared.picture;
+    study::PreparedRender render{held, settings, nullptr};
+    if (options.device.backend == BackendChoice::Reference) {
+        render.backend =
+            std::make_unique<ReferenceBackend>(loaded, camera, settings, options.device.threads);
         return render;
     }
-    held->built = buildScene(held->job);
+    held->built = buildScene(loaded, settings.estimator, toTerminal());
     nowDoing("measuring", StatusLine::OfOthers);
-    render.backend = std::make_unique<VulkanBackend>(device, held->built.gpu, held->job.camera,
-                                                     held->job.settings);
+    render.backend = std::make_unique<VulkanBackend>(device, held->built.gpu, camera, settings);
     return render;
 }
 
@@ -168,8 +174,7 @@ void writeReports(const fs::path& folder, const Study& s) {
 
 } // namespace
 
-int studyCommand(const Options& options) {
-    const StudyOptions& o = options.study;
+int studyCommand(const StudyOptions& o) {
     if (o.list) {
         listConfigurations();
         return 0;
@@ -182,7 +187,7 @@ int studyCommand(const Options& options) {
     const study::FolderLock lock(folder);
     onSignal(OnSignal::Ask); // every run that is done is on the disk
     nowDoing("measuring", StatusLine::OfOthers);
-    const vulkan::OpenDevice open = vulkan::openDevice(options.device);
+    const vulkan::OpenDevice open = vulkan::openDevice(o.device);
     Study s = newStudy(o.settings, *open.device);
     const size_t before = study::takeOver(folder / "study.json", s);
     if (before > 0) logging::info(fmt::format("going on: {} runs are there already", before));
@@ -195,7 +200,7 @@ int studyCommand(const Options& options) {
              },
              [&](const study::StudyProgress& progress) { line.show(progress); }, interrupted});
     }();
-    setUpLogging(options.verbosity);
+    setVerbosity(o.verbosity);
     writeReports(folder, s);
     vulkan::requireNoValidationMessages(open);
     fmt::print("{}", study::toText(s));

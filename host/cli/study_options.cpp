@@ -1,8 +1,8 @@
+// Options of `study`.
 #include "host/cli/declared_command.hpp"
 #include "host/core/error.hpp"
 
 #include <fmt/format.h>
-
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -143,26 +143,28 @@ void finishStudy(const AskedStudy& asked, StudyOptions& o) {
 } // namespace
 
 void declareStudy(DeclaredCommand& c) {
-    StudyOptions& o = c.options.study;
+    const auto o = std::make_shared<StudyOptions>();
     const auto asked = std::make_shared<AskedStudy>();
-    declareScenes(c.list, o);
-    declareConfigurations(c.list, *asked, o);
-    declareMeasuring(c.list, *asked, o);
-    declareDevice(c);
+    declareScenes(c.list, *o);
+    declareConfigurations(c.list, *asked, *o);
+    declareMeasuring(c.list, *asked, *o);
+    declareDevice(c.list, o->device);
     declareHost(c);
     c.footer = "Errors are relMSE, the mean of (x - r)^2 / (r^2 + 0.01 m^2), r the reference and m "
                "its mean, less what the reference's own noise adds. Times are those of sampling "
                "alone.\nExample: stromboli study cornell_boxes island -c default -c hemisphere "
                "-c \"four=-l 4\" --seeds 8";
-    c.finish = [&c, asked, &o] {
+    c.finish = [&c, asked, o] {
         const std::string ignored =
-            o.list ? c.givenOf({"SCENE", "-o", "-c", "--baseline", "--options", "--quick", "-r",
-                                "-m", "-s", "--seeds", "--reference-samples", "--target-samples",
-                                "--most-seconds", "--device", "-t"})
-                   : "";
+            o->list ? c.givenOf({"SCENE", "-o", "-c", "--baseline", "--options", "--quick", "-r",
+                                 "-m", "-s", "--seeds", "--reference-samples", "--target-samples",
+                                 "--most-seconds", "--device", "-t"})
+                    : "";
         if (!ignored.empty())
-            c.options.remarks.push_back("--list measures nothing: ignored: " + ignored);
-        finishStudy(*asked, o);
+            c.host.remarks.push_back("--list measures nothing: ignored: " + ignored);
+        finishStudy(*asked, *o);
+        o->verbosity = c.host.verbosity;
+        return *o;
     };
 }
 

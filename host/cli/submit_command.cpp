@@ -1,14 +1,13 @@
 // `submit`: a picture goes to a scheduler, as shares and their merge.
-#include "host/checkpoint/scene_identity.hpp"
 #include "host/cli/activity.hpp"
 #include "host/cli/command_line.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/job.hpp"
-#include "host/cli/share_render.hpp"
+#include "host/cli/declared_command.hpp"
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
 #include "host/core/temporary_file.hpp"
+#include "host/engine/share.hpp"
 #include "host/farm/film_file.hpp"
 #include "host/farm/slurm_scripts.hpp"
 #include "host/version/version.hpp"
@@ -17,6 +16,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <sys/wait.h>
 
 namespace stromboli {
@@ -26,12 +26,14 @@ namespace fs = std::filesystem;
 
 /// The shares of a round whose films are not there. Films of another picture in their place are an
 /// error now, rather than one of each task.
-std::vector<uint32_t> sharesToTake(const Job& job, const Options& options, const fs::path& folder,
-                                   uint32_t round = 1) {
-    FilmHeader picture = headerOfPicture(job, options, "");
+std::vector<uint32_t> sharesToTake(const PreparedPicture& prepared, const SubmitOptions& options,
+                                   const fs::path& folder, uint32_t round = 1) {
+    FilmHeader picture = headerOfPicture(*prepared.scene.scene, prepared.picture, options.picture,
+                                         {options.scene.source, options.command},
+                                         std::string(nameOf(options.device.backend)), "");
     std::vector<uint32_t> missing;
-    for (uint32_t share = 1; share <= options.submit.shares; ++share) {
-        const fs::path file = folder / filmOfShare(share, options.submit.shares, round);
+    for (uint32_t share = 1; share <= options.shares; ++share) {
+        const fs::path file = folder / filmOfShare(share, options.shares, round);
         if (!fs::exists(file)) {
             missing.push_back(share);
             continue;
@@ -55,26 +57,26 @@ struct RoundToSubmit {
 };
 
 /// Those that are still to be done: of a round whose plan is there, the missing shares.
-std::vector<RoundToSubmit> roundsToSubmit(const Job& job, const Options& options,
-                                          const fs::path& folder) {
+std::vector<RoundToSubmit> roundsToSubmit(const PreparedPicture& prepared,
+                                          const SubmitOptions& options, const fs::path& folder) {
     std::vector<RoundToSubmit> rounds;
-    for (uint32_t round = 2; options.submit.noise > 0 && round <= options.submit.rounds; ++round) {
+    for (uint32_t round = 2; options.noise > 0 && round <= options.rounds; ++round) {
         RoundToSubmit next{round, fs::exists(folder / planOfRound(round)),
-                           sharesToTake(job, options, folder, round)};
+                           sharesToTake(prepared, options, folder, round)};
         if (!next.isPlanned || !next.toTake.empty()) rounds.push_back(std::move(next));
     }
     return rounds;
 }
 
-void requireSamples(const Job& job, uint32_t shares) {
-    const Budget& budget = job.settings.budget;
+void requireSamples(const RenderSettings& settings, uint32_t shares) {
+    const Budget& budget = settings.budget;
     const uint32_t blocks =
         SampleBlocks{budget.mostSamplesPerPixel, budget.samplesPerBlock}.count();
     if (blocks < shares)
         throw UsageError(fmt::format("{} of the {} shares would have no samples: -s makes {} "
                                      "blocks of {}; --block N, of less, makes more",
                                      shares - blocks, shares, blocks,
-                                     budget.samplesPerBlock * job.settings.estimator.branches));
+                                     budget.samplesPerBlock * settings.estimator.branches));
 }
 
 /// Runs sbatch, and returns the number of the job.
@@ -168,35 +170,136 @@ void printScripts(const SlurmJob& job, const std::vector<RoundToSubmit>& rounds)
     fmt::print("{}# sbatch merge.sh\n", job.isMergedInGroups() ? "# sbatch groups.sh\n" : "");
 }
 
+void finishSubmit(DeclaredCommand& c, SubmitOptions& o, const Asked& asked) {
+    finishPicture(c, o.picture, asked);
+    finishEstimator(c, o, asked);
+    finishBudget(o.picture, asked);
+    if (!asked.cameras.empty())
+        throw UsageError("submit is of one picture: --camera names several");
+    o.picture.estimator.showsBackdrop = !o.picture.transparent;
+    o.command = c.pictureCommand;
+    checkOutputOptions(c, o.output, o.picture);
+    for (size_t i = 1; i < o.command.size(); ++i) { // the first is the command's name
+        const std::string& part = o.command[i];
+        const bool isOfMerge = part.starts_with("--exposure") || part == "--aov";
+        (isOfMerge ? o.merge : o.render).push_back(part);
+    }
+    if (!o.output.notes) o.merge.emplace_back("--notes off");
+    if (c.has("--device")) o.render.push_back("--device " + shellQuoted(o.device.device));
+    if (c.has("-t")) o.render.push_back(fmt::format("-t {}", c.host.threads));
+    if (o.device.filmMebibytes)
+        o.render.push_back(fmt::format("--film-memory {}", *o.device.filmMebibytes));
+}
+
 } // namespace
 
-int submitCommand(const Options& options) {
-    const Job job = prepareJob(options);
-    requireSamples(job, options.submit.shares);
-    const fs::path folder = options.output + ".shares";
+void declareSubmit(DeclaredCommand& c) {
+    const auto owned = std::make_shared<SubmitOptions>();
+    const auto asked = std::make_shared<Asked>();
+    asked->makes = Makes::Pictures;
+    asked->maySpread = asked->branchesPay = true;
+    asked->even = true;
+    SubmitOptions& submit = *owned;
+    c.list.group("Scheduler");
+    c.list.choice("SCHEDULER", "", "who gives the work to machines", submit.scheduler)
+        .usually("")
+        .required()
+        .besidePicture();
+    c.list
+        .number("--shares", "N", "tasks: parts of every pixel's samples", submit.shares, {1, 1000})
+        .required()
+        .usually("")
+        .besidePicture();
+    declareNoise(c.list,
+                 "sample in rounds, each where the films until then are noisy, until the picture's "
+                 "noise is at most T, as of render; -s is the number of samples of the first one",
+                 submit.noise)
+        .besidePicture();
+    c.list
+        .number("--rounds", "K",
+                "with --noise: at most so many rounds; each at most doubles the samples, once "
+                "pixels have 8 of them",
+                submit.rounds, {2, 100})
+        .needs("--noise")
+        .besidePicture();
+    c.list
+        .text("--job-time", "LIMIT", "most time of a task, as sbatch --time has it: 90, 2:00:00",
+              submit.jobTime)
+        .usually("the cluster's own")
+        .besidePicture();
+    c.list
+        .words("--sbatch", "OPTION",
+               "another option of sbatch, as --sbatch=--partition=gpu; may be repeated", 1,
+               [&submit](const Words& words) {
+                   for (const std::string& word : words)
+                       if (!word.starts_with("-"))
+                           refuse("--sbatch", word, "an option of sbatch, with its dashes");
+                   submit.sbatch = words;
+               })
+        .besidePicture()
+        .mayRepeat = true;
+    c.list.text("--program", "FILE", "the program, as the nodes find it", submit.program)
+        .usually("the file of this one")
+        .besidePicture()
+        .proposes(Proposed::Files);
+    c.list.flag("--dry-run", "print the scripts and submit nothing", submit.dryRun).besidePicture();
+    declareScene(c.list, submit.scene);
+    c.list.group("Output");
+    c.list
+        .text(
+            "-o,--output", "FILE",
+            "picture to write, in a folder that all nodes share: .png or .exr; films, scripts and "
+            "logs are put into FILE.shares",
+            submit.output.file)
+        .required()
+        .besidePicture()
+        .proposes(Proposed::Files);
+    declarePictureFile(c.list, submit.output, submit.tone);
+    declareSeen(c.list, submit.picture);
+    declarePicture(c.list, submit.picture, *asked);
+    declareEstimator(c.list, submit, *asked);
+    declareSamples(c.list, submit.picture, *asked,
+                   "samples per pixel, the same number for all; with --noise in the first round");
+    declareBranches(c.list, submit.picture,
+                    "4 where bounces make most of the noise, else 1 (docs/estimator.md)");
+    declareBlock(c.list, *asked);
+    declareFilmMemory(c.list, submit.device);
+    c.list.choice("--backend", "WHICH", "what takes the samples", submit.device.backend);
+    declareDevice(c.list, submit.device.device);
+    declareHost(c);
+    c.finish = [&c, owned, asked] {
+        finishSubmit(c, *owned, *asked);
+        return *owned;
+    };
+}
+
+int submitCommand(const SubmitOptions& options) {
+    const PreparedPicture prepared = preparePicture(options);
+    const auto& [scene, picture] = prepared;
+    requireSamples(picture.settings, options.shares);
+    const fs::path folder = options.output.file + ".shares";
     SlurmJob slurm;
-    slurm.program =
-        shellQuoted(options.submit.program.empty() ? fs::read_symlink("/proc/self/exe").string()
-                                                   : options.submit.program);
+    slurm.program = shellQuoted(
+        options.program.empty() ? fs::read_symlink("/proc/self/exe").string() : options.program);
     slurm.version = version();
-    slurm.render = options.submit.render;
-    slurm.merge = options.submit.merge;
-    slurm.fingerprint = fingerprintOf(job);
-    slurm.picture = shellQuoted(options.output);
+    slurm.render = options.render;
+    slurm.merge = options.merge;
+    slurm.fingerprint = fingerprintOf(*scene.scene, picture.camera);
+    slurm.picture = shellQuoted(options.output.file);
     slurm.files = shellQuoted(folder);
     slurm.runsIn = shellQuoted(fs::current_path());
-    slurm.shares = options.submit.shares;
-    slurm.toTake = sharesToTake(job, options, folder);
-    slurm.noise = options.submit.noise;
-    slurm.timeLimit = options.submit.jobTime;
-    slurm.sbatch = options.submit.sbatch;
-    const std::vector<RoundToSubmit> rounds = roundsToSubmit(job, options, folder);
+    slurm.shares = options.shares;
+    slurm.toTake = sharesToTake(prepared, options, folder);
+    slurm.noise = options.noise;
+    slurm.timeLimit = options.jobTime;
+    slurm.sbatch = options.sbatch;
+    const std::vector<RoundToSubmit> rounds = roundsToSubmit(prepared, options, folder);
     nowDoing("submitting");
-    if (options.submit.dryRun) {
+    if (options.dryRun) {
         printScripts(slurm, rounds);
         return 0;
     }
-    checkFileWritable(options.output);
+    checkFileWritable(options.output.file);
     submitToSlurm(slurm, rounds, folder);
     return 0;
 }

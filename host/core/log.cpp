@@ -1,7 +1,6 @@
 #include "host/core/log.hpp"
 
 #include "host/core/printable.hpp"
-#include "host/core/status_line.hpp"
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
@@ -10,6 +9,8 @@
 
 namespace stromboli {
 namespace {
+
+void (*beforeMessages)() = nullptr;
 
 spdlog::level::level_enum levelOf(Verbosity verbosity) {
     switch (verbosity) {
@@ -27,7 +28,8 @@ spdlog::level::level_enum levelOf(Verbosity verbosity) {
 
 } // namespace
 
-void setUpLogging(Verbosity verbosity) {
+void setUpLogging(Verbosity verbosity, void (*before)()) {
+    beforeMessages = before;
     // As https://no-color.org has it: set, and not empty.
     const char* const plain = std::getenv("NO_COLOR");
     auto logger = std::make_shared<spdlog::logger>(
@@ -45,7 +47,7 @@ void setVerbosity(Verbosity verbosity) {
 
 static void log(spdlog::level::level_enum level, std::string_view message) {
     if (!spdlog::should_log(level)) return;
-    status_line::clear();
+    if (beforeMessages) beforeMessages();
     spdlog::log(level, printable(message));
 }
 

@@ -7,8 +7,9 @@ namespace stromboli {
 /// What is said: errors only, warnings too, information too, or everything.
 enum class Verbosity { ErrorsOnly, Quiet, Normal, Verbose };
 
-/// From now on messages go to standard error, without time stamps, down to this verbosity.
-void setUpLogging(Verbosity verbosity);
+/// From now on messages go to standard error, without time stamps, down to this verbosity. `before`
+/// is called before each that appears: it clears what is drawn there.
+void setUpLogging(Verbosity verbosity, void (*before)() = nullptr);
 
 /// Changes what is said from now on.
 void setVerbosity(Verbosity verbosity);

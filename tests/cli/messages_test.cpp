@@ -1,5 +1,5 @@
 // What the program says of command lines that it does not understand, or does not heed.
-#include "host/cli/nearest_name.hpp"
+#include "host/cli/command_line.hpp"
 #include "host/cli/options.hpp"
 #include "host/core/error.hpp"
 #include "tests/cli/program.hpp"
@@ -27,7 +27,7 @@ std::string renderRefusal(std::vector<std::string> words, const std::string& out
 }
 
 std::vector<std::string> remarks(std::vector<std::string> words) {
-    return parseOptions(std::move(words))->remarks;
+    return parseOptions(std::move(words))->host.remarks;
 }
 
 TEST(NearestName, DistancesCountSingleMistakes) {

@@ -13,13 +13,13 @@
 namespace stromboli {
 namespace {
 
-using test::parse;
+using test::parseAny;
 
 /// What is not in the range of an option is refused by a message that names the option and the
 /// range.
 TEST(RefusedOptions, RangesAreNamed) {
     const auto refusal = [](const std::vector<std::string>& words) {
-        return test::refusalOf([&] { parse(words); });
+        return test::refusalOf([&] { parseAny(words); });
     };
     const std::vector<std::pair<std::vector<std::string>, std::string>> renders = {
         {{"-s", "0"}, "-s is '0': expected a whole number from 1 to 16777216"},
@@ -97,7 +97,7 @@ void expectRefusal(const DeclaredCommand& c, const CommandOption& o, const std::
                    uint32_t place) {
     std::vector<std::string> words(o.wordCount, "1");
     words[place] = bad;
-    const std::string message = test::refusalOf([&] { parse(lineWith(c, o, words)); });
+    const std::string message = test::refusalOf([&] { parseAny(lineWith(c, o, words)); });
     EXPECT_EQ(message.rfind(o.name(), 0), 0u)
         << c.name << " " << o.name() << " '" << bad << "' in place " << place << ": "
         << (message.empty() ? "accepted" : message);
@@ -160,11 +160,11 @@ TEST(RefusedOptions, ContradictionsAreRefused) {
                                                {"second.dae"}}) {
         std::vector<std::string> arguments = {"render", "a.dae", "-o", "a.png"};
         arguments.insert(arguments.end(), extra.begin(), extra.end());
-        EXPECT_THROW(parse(arguments), UsageError) << extra[0];
+        EXPECT_THROW(parseAny(arguments), UsageError) << extra[0];
     }
-    EXPECT_THROW(parse({}), UsageError);
-    EXPECT_THROW(parse({"paint"}), UsageError);
-    EXPECT_THROW(parse({"render", "a.dae"}), UsageError); // no output
+    EXPECT_THROW(parseAny({}), UsageError);
+    EXPECT_THROW(parseAny({"paint"}), UsageError);
+    EXPECT_THROW(parseAny({"render", "a.dae"}), UsageError); // no output
 }
 
 } // namespace

@@ -14,7 +14,7 @@ using test::parse;
 
 TEST(SceneOptions, OtherWordsNameACameraOfTheFile) {
     const auto camera = [](const char* word) {
-        return parse({"info", "a.dae", "--camera", word}).camera;
+        return parse<InfoOptions>({"info", "a.dae", "--camera", word}).picture.camera;
     };
     EXPECT_EQ(camera("2").choice, CameraChoice::File);
     EXPECT_EQ(camera("2").name, "2");
@@ -25,7 +25,7 @@ TEST(SceneOptions, OtherWordsNameACameraOfTheFile) {
 TEST(SceneOptions, TheLightAroundTheScene) {
     const auto environment = [](std::vector<std::string> words) {
         words.insert(words.begin(), {"info", "a.dae"});
-        return parse(words).environment;
+        return parse<InfoOptions>(words).scene.environment;
     };
     EXPECT_FALSE(environment({}).isGiven());
     EXPECT_EQ(environment({"--env", "sky.hdr"}).file, "sky.hdr");
@@ -41,22 +41,23 @@ TEST(SceneOptions, TheLightAroundTheScene) {
 
 TEST(SceneOptions, ViewsAndLenses) {
     const CameraRequest camera =
-        parse({"info", "a.dae", "--look-from", "1", "-2", "3e1", "--look-at", "0", "0.5", "0",
-               "--fov", "90", "--aperture", "5mm", "--focus", "2.5"})
-            .camera;
+        parse<InfoOptions>({"info", "a.dae", "--look-from", "1", "-2", "3e1", "--look-at", "0",
+                            "0.5", "0", "--fov", "90", "--aperture", "5mm", "--focus", "2.5"})
+            .picture.camera;
     EXPECT_EQ(camera.from, glm::dvec3(1, -2, 30));
     EXPECT_EQ(camera.at, glm::dvec3(0, 0.5, 0));
     EXPECT_DOUBLE_EQ(camera.fieldOfView.value(), std::acos(0.0));
     EXPECT_DOUBLE_EQ(camera.aperture, 0.005);
     EXPECT_DOUBLE_EQ(camera.focus, 2.5);
-    EXPECT_DOUBLE_EQ(parse({"info", "a.dae", "--aperture", "1cm", "--focus", "0.1km"}).camera.focus,
+    EXPECT_DOUBLE_EQ(parse<InfoOptions>({"info", "a.dae", "--aperture", "1cm", "--focus", "0.1km"})
+                         .picture.camera.focus,
                      100);
 }
 
 TEST(SceneOptions, HowFilesAreRead) {
     const auto reading = [](std::vector<std::string> extra) {
         extra.insert(extra.begin(), {"check", "a.dae"});
-        return parse(extra).reading;
+        return parse<CheckOptions>(extra).scene.reading;
     };
     EXPECT_TRUE(reading({}).defaultLight);
     EXPECT_FALSE(reading({}).strict);
@@ -71,7 +72,7 @@ TEST(SceneOptions, HowFilesAreRead) {
 TEST(SceneOptions, WhatOfAFileIsShown) {
     const auto selection = [](std::vector<std::string> extra) {
         extra.insert(extra.begin(), {"info", "a.glb"});
-        return parse(extra).reading.selection;
+        return parse<InfoOptions>(extra).scene.reading.selection;
     };
     EXPECT_FALSE(selection({}).scene.has_value());
     EXPECT_FALSE(selection({}).seconds.has_value());
@@ -84,26 +85,28 @@ TEST(SceneOptions, WhatOfAFileIsShown) {
 }
 
 TEST(SceneOptions, ValuesOfNamesInAScene) {
-    const Options o = parse({"info", "a.xml", "-D", "spp=4", "--define", "file=a=b"});
-    ASSERT_EQ(o.reading.selection.definitions.size(), 2u);
-    EXPECT_EQ(o.reading.selection.definitions[0].name, "spp");
-    EXPECT_EQ(o.reading.selection.definitions[1].value, "a=b");
-    EXPECT_THROW(parse({"info", "a.xml", "-D", "spp"}), UsageError);
-    EXPECT_THROW(parse({"info", "a.xml", "-D", "=4"}), UsageError);
+    const InfoOptions o =
+        parse<InfoOptions>({"info", "a.xml", "-D", "spp=4", "--define", "file=a=b"});
+    ASSERT_EQ(o.scene.reading.selection.definitions.size(), 2u);
+    EXPECT_EQ(o.scene.reading.selection.definitions[0].name, "spp");
+    EXPECT_EQ(o.scene.reading.selection.definitions[1].value, "a=b");
+    EXPECT_THROW(parse<InfoOptions>({"info", "a.xml", "-D", "spp"}), UsageError);
+    EXPECT_THROW(parse<InfoOptions>({"info", "a.xml", "-D", "=4"}), UsageError);
 }
 
 TEST(SceneOptions, WhatASceneFileMayAskForIsKnownToBeGiven) {
-    const Options none = parse({"render", "a.xml", "-o", "a.png"});
-    EXPECT_FALSE(none.bouncesGiven || none.filterGiven);
-    const Options both = parse({"render", "a.xml", "-o", "a.png", "-m", "3", "--filter", "box"});
-    EXPECT_TRUE(both.bouncesGiven && both.filterGiven);
+    const LeftToFile all = parse({"render", "a.xml", "-o", "a.png"}).picture.leftToFile;
+    EXPECT_TRUE(all.bounces && all.filter && all.integrator);
+    const LeftToFile less =
+        parse({"render", "a.xml", "-o", "a.png", "-m", "3", "--filter", "box"}).picture.leftToFile;
+    EXPECT_FALSE(less.bounces || less.filter);
 }
 
 TEST(SceneOptions, HowInstancesAreHeld) {
     const auto instances = [](const std::vector<std::string>& words) {
         std::vector<std::string> all = {"info", "a.dae"};
         all.insert(all.end(), words.begin(), words.end());
-        return parse(all).reading.instances;
+        return parse<InfoOptions>(all).scene.reading.instances;
     };
     EXPECT_EQ(instances({}), InstanceSharing::Automatic);
     EXPECT_EQ(instances({"--instances", "on"}), InstanceSharing::On);

@@ -74,12 +74,12 @@ TEST(FrameNumbers, AreARangeOrOne) {
 }
 
 TEST(Turntable, TurnsCounterClockwise) {
-    Options asked;
+    RenderOptions asked;
     asked.sequence.turntable = 4;
-    const std::vector<Options> frames = optionsOfFrames(asked);
+    const std::vector<RenderOptions> frames = optionsOfFrames(asked);
     ASSERT_EQ(frames.size(), 4u);
     for (size_t i = 0; i < 4; ++i)
-        EXPECT_NEAR(frames[i].camera.turn, 1.5707963267948966 * double(i), 1e-12);
+        EXPECT_NEAR(frames[i].picture.camera.turn, 1.5707963267948966 * double(i), 1e-12);
 }
 
 TEST_F(Sequence, TurntableHasTheBytesOfItsFramesAlone) {

@@ -1,7 +1,7 @@
 #include "tests/support/device_fixture.hpp"
 
+#include "host/process/process.hpp"
 #include "host/vulkan/open_device.hpp"
-#include "host/vulkan/vector_width.hpp"
 
 #include <memory>
 #include <optional>
@@ -33,7 +33,7 @@ SharedDevice& open() {
 /// still heard.
 class DeviceEnvironment : public ::testing::Environment {
   public:
-    void SetUp() override { vulkan::useWideVectors(); }
+    void SetUp() override { process::useWideVectors(); }
     void TearDown() override {
         if (!shared) return;
         const uint32_t before = shared->instance->validationMessages();

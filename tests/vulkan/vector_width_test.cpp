@@ -1,5 +1,5 @@
-#include "host/vulkan/vector_width.hpp"
-
+#include "host/process/process.hpp"
+#include "host/vulkan/device.hpp"
 #include "tests/support/device_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -24,13 +24,13 @@ class VectorWidth : public testing::Test {
 
 TEST_F(VectorWidth, WhatTheUserAsksForStays) {
     setenv(kVariable, "128", 1);
-    useWideVectors();
+    process::useWideVectors();
     EXPECT_STREQ(std::getenv(kVariable), "128");
 }
 
 TEST_F(VectorWidth, IsThatOfTheProcessor) {
     unsetenv(kVariable);
-    useWideVectors();
+    process::useWideVectors();
     const char* width = std::getenv(kVariable);
 #if defined(__x86_64__)
     EXPECT_EQ(width != nullptr, bool(__builtin_cpu_supports("avx512vl")));

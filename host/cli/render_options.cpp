@@ -1,0 +1,233 @@
+// Options of `render`.
+#include "host/cli/declared_command.hpp"
+#include "host/core/error.hpp"
+#include "host/core/output.hpp"
+#include "host/farm/film_file.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+namespace stromboli {
+namespace {
+
+constexpr Range<double> kSeconds{0.01, 1e9};
+constexpr Range<uint32_t> kSampleNumbers{0, kMostSamples - 1};
+constexpr Range<uint32_t> kShares{1, 1'000'000};
+const char* const kAllAlike = "a share has as many samples of every pixel as of all others";
+
+ShareName readShare(const std::string& word) {
+    const size_t slash = word.find('/');
+    if (slash == std::string::npos) refuse("--share", word, "I/N, as 3/16");
+    ShareName share;
+    share.count = readNumber("--share: N", word.substr(slash + 1), kShares);
+    share.index = readNumber("--share: I", word.substr(0, slash), {1, share.count});
+    return share;
+}
+
+void declareOutput(OptionList& list, RenderOptions& o) {
+    list.group("Output");
+    list.text("-o,--output", "FILE",
+              "picture to write: .png (sRGB, 8 bit) or .exr (linear); -: a PNG on standard output; "
+              "with "
+              "--share a .film",
+              o.output.file)
+        .besidePicture()
+        .proposes(Proposed::Files);
+    declarePictureFile(list, o.output, o.tone);
+    declareSeen(list, o.picture);
+    list.text("--stats", "FILE.json",
+              "write statistics of the render as JSON; - for standard output", o.output.statsFile)
+        .besidePicture()
+        .proposes(Proposed::Files);
+}
+
+void declareCheckpoints(OptionList& list, CheckpointOptions& o) {
+    list.group("Going on");
+    list.text("--checkpoint", "FILE",
+              "keep the state of the render there, and leave it at the end; off: nowhere", o.file)
+        .usually("OUTPUT.checkpoint, from the first minute to the end of the render")
+        .besidePicture()
+        .proposes({"off"})
+        .proposes(Proposed::Files);
+    list.real("--checkpoint-every", "S", "seconds from one checkpoint to the next", o.everySeconds,
+              kSeconds)
+        .besidePicture();
+    list.flag("--resume",
+              "go on from the checkpoint, to the same bytes as if never interrupted; also with "
+              "another -s, --noise, --time or -a (--time counts all runs); with --share: the film "
+              "of this share is kept if it is there",
+              o.resume)
+        .besidePicture();
+}
+
+void declareShare(OptionList& list, ShareOptions& o) {
+    list.group("Shares of several machines");
+    list.words("--share", "I/N",
+               "take only the I-th of N parts of every pixel's samples and write them as a film "
+               "(-o NAME.film), for stromboli merge; implies --even",
+               1, [&o](const Words& words) { o.share = readShare(words[0]); })
+        .implies("--even")
+        .excludes("-a", kAllAlike)
+        .excludes("--noise", "a share has as many samples of every pixel as of all others; "
+                             "stromboli plan spreads those of further rounds")
+        .excludes("--time", kAllAlike)
+        .excludes("--checkpoint", "a share is what is kept: take more of them")
+        .excludes("--checkpoint-every", "a share is what is kept: take more of them")
+        .excludes("--exposure", "merge has it")
+        .excludes("--aov", "merge has it")
+        .excludes("--notes", "merge has it")
+        .excludes("--pixel")
+        .besidePicture();
+    list.text("--plan", "FILE.plan",
+              "with --share: a part of the samples of this round, which stromboli plan wrote; all "
+              "other options are those of the first round",
+              o.planFile)
+        .needs("--share")
+        .besidePicture()
+        .proposes(Proposed::Files);
+    list.text("--expect", "FINGERPRINT",
+              "with --share: begin only if scene, camera and program are those of this "
+              "fingerprint, which submit writes",
+              o.expected)
+        .needs("--share")
+        .besidePicture();
+}
+
+/// As a line about rejected samples names one: added to the same command, they show it again.
+void declareSampleAlone(OptionList& list, Asked& asked) {
+    list.group("Sampling");
+    SampleName& name = asked.sample;
+    list.numbers("--pixel", "X Y",
+                 "with --sample: no picture, only print the radiance of one sample of this pixel "
+                 "(column, row from the top)",
+                 {&name.x, &name.y}, {0, 65535})
+        .needs("--sample");
+    list.words("--sample", "N", "the sample's number, the first being 0", 1,
+               [&asked](const Words& words) {
+                   asked.sample.sample = readNumber("--sample", words[0], kSampleNumbers);
+                   asked.sampleAlone = true;
+               })
+        .from(inWords(kSampleNumbers))
+        .needs("--pixel");
+}
+
+/// Each has files of its own.
+void checkSeveralPictures(const RenderOptions& o) {
+    if (o.cameras.empty()) return;
+    if (o.sampleAlone) throw UsageError("--pixel is of one picture: --camera names several");
+    if (isStandardOutput(o.output.file))
+        throw UsageError("-o - has place for one picture: --camera names several");
+    if (o.output.statsFile == "-")
+        throw UsageError("--stats - has place for one picture's: --camera names several");
+}
+
+/// Each picture has files of its own.
+void checkSequence(const RenderOptions& o) {
+    const SequenceOptions& sequence = o.sequence;
+    if (!sequence.isGiven()) return;
+    const char* option = sequence.turntable > 0 ? "--turntable" : "--frames";
+    if (sequence.turntable > 0 && sequence.frames && sequence.frames->last >= sequence.turntable)
+        throw UsageError(
+            fmt::format("--frames: the turntable has the frames 0 to {}", sequence.turntable - 1));
+    if (!o.cameras.empty())
+        throw UsageError(fmt::format("{} is of one camera: --camera names several", option));
+    if (o.share.share)
+        throw UsageError(fmt::format("--share is of one picture, and not of {}", option));
+    if (o.sampleAlone)
+        throw UsageError(fmt::format("--pixel is of one picture, and not of {}", option));
+    if (o.output.file == "-" || o.output.statsFile == "-")
+        throw UsageError(
+            fmt::format("- has place for one picture, and not for those of {}", option));
+    if (sequence.turntable == 0 && o.scene.reading.selection.seconds)
+        throw UsageError("--at is one moment, --frames are many");
+}
+
+void checkShare(const RenderOptions& o) {
+    if (!o.cameras.empty()) throw UsageError("--share is of one picture: --camera names several");
+    if (!namesFilm(o.output.file))
+        throw UsageError(
+            fmt::format("{}: --share writes a film, whose name must end in .film", o.output.file));
+}
+
+/// What is given and has no effect here: said, and not refused, because these options are added to
+/// command lines that are there already.
+void remarkOnWhatIsIgnored(DeclaredCommand& c, const RenderOptions& o) {
+    std::vector<std::string>& remarks = c.host.remarks;
+    const std::string ignored = o.sampleAlone
+                                    ? c.givenOf({"-o", "--stats", "--exposure", "--aov", "--layers",
+                                                 "--notes", "--crop", "--cell"})
+                                    : "";
+    if (!ignored.empty())
+        remarks.push_back(
+            fmt::format("--pixel prints one sample and makes no picture: ignored: {}", ignored));
+    const PathBudget& budget = o.picture.budget;
+    if (isStandardOutput(o.output.file) && (budget.adaptive.enabled || budget.stop.open()))
+        remarks.emplace_back(
+            "-o - has no place for a second picture: the rate picture is left out");
+}
+
+void finishRender(DeclaredCommand& c, RenderOptions& o, const Asked& asked) {
+    finishPicture(c, o.picture, asked, true);
+    finishEstimator(c, o, asked);
+    finishBudget(o.picture, asked);
+    o.cameras = asked.cameras;
+    if (asked.sampleAlone) o.sampleAlone = asked.sample;
+    o.device.threads = c.host.threads;
+    o.command = c.pictureCommand;
+    o.picture.estimator.showsBackdrop = !o.picture.transparent;
+    checkSeveralPictures(o);
+    checkSequence(o);
+    if (o.output.file.empty() && !o.sampleAlone)
+        throw UsageError("--output is required (see --help)");
+    if (o.device.backend == BackendChoice::Reference && c.has("--device"))
+        throw UsageError("--device and --backend reference exclude each other: the reference "
+                         "runs on the CPU, without Vulkan");
+    if (o.share.share)
+        checkShare(o);
+    else if (!o.sampleAlone)
+        checkOutputOptions(c, o.output, o.picture);
+    remarkOnWhatIsIgnored(c, o);
+}
+
+} // namespace
+
+void declareRender(DeclaredCommand& c) {
+    const auto o = std::make_shared<RenderOptions>();
+    const auto asked = std::make_shared<Asked>();
+    asked->makes = Makes::Pictures;
+    asked->maySpread = asked->branchesPay = true;
+    OptionList& list = c.list;
+    declareScene(list, o->scene);
+    declareOutput(list, *o);
+    declarePicture(list, o->picture, *asked, true);
+    declareSequence(list, o->sequence);
+    declareEstimator(list, *o, *asked);
+    declareSamples(list, o->picture, *asked,
+                   "samples per pixel, on the mean: they go where they help most (--even: to all "
+                   "alike); with -a, --noise and --time the most a pixel gets");
+    declareBranches(list, o->picture,
+                    "4 where bounces make most of the noise, else 1 (docs/estimator.md)");
+    declareSpreading(list, o->picture, *asked);
+    declareSampleAlone(list, *asked);
+    declareShare(list, o->share);
+    declareCheckpoints(list, o->checkpoint);
+    declareFilmMemory(list, o->device);
+    list.choice("--backend", "WHICH", "what takes the samples", o->device.backend);
+    declareDevice(list, o->device.device);
+    list.choice("--scheduler", "WHICH",
+                "what a device's lanes do next; the picture is the same (docs/kernel.md)",
+                o->device.scheduler)
+        .besidePicture();
+    declareHost(c);
+    list.number("--accumulate", "N", "CS184's -o: 0 is --min-bounce equal to -m", asked->accumulate,
+                {0, 0xFFFFFFFFu})
+        .excludes("--min-bounce", "both say which bounces are left out")
+        .hidden();
+    c.finish = [&c, o, asked] {
+        finishRender(c, *o, *asked);
+        return *o;
+    };
+}
+
+} // namespace stromboli

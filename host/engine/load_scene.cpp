@@ -1,0 +1,60 @@
+#include "host/engine/load_scene.hpp"
+
+#include "host/core/stopwatch.hpp"
+#include "scene/read_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace stromboli {
+namespace {
+
+Scene readFile(const SceneRequest& request, const Listener& listener) {
+    listener.doing(Stage::Loading, "loading " + request.source);
+    SceneConventions reading = request.reading;
+    if (request.environment.isGiven()) reading.defaultLight = false;
+    return readScene(request.source, reading);
+}
+
+void report(const LoadReport& lines, const Listener& listener) {
+    for (const std::string& line : lines.warnings)
+        listener.warn(line);
+    for (const std::string& line : lines.forgiven)
+        listener.warn(line);
+    for (const std::string& line : lines.ignored)
+        listener.info(fmt::format("ignored: {}", line));
+    for (const std::string& line : lines.assumed)
+        listener.info(line);
+}
+
+} // namespace
+
+LoadedScene loadScene(const SceneRequest& request, const Listener& listener) {
+    const Stopwatch watch;
+    auto scene = std::make_shared<Scene>(readFile(request, listener));
+    if (request.environment.isGiven()) {
+        EnvironmentRequest environment = request.environment;
+        environment.largestSide = request.reading.selection.largestTexture;
+        environment.strict = request.reading.strict;
+        addEnvironment(*scene, environment);
+    }
+    const double seconds = watch.seconds();
+    report(scene->report, listener);
+    return {std::move(scene), seconds};
+}
+
+LoadedScene loadMoment(const SceneRequest& request, LoadedScene before, const Listener& listener) {
+    const Stopwatch watch;
+    Scene moment = readFile(request, listener);
+    const double seconds = watch.seconds();
+    if (!moment.isMoment()) {
+        before.scene->cameras = std::move(moment.cameras);
+        return {before.scene, seconds};
+    }
+    if (request.environment.isGiven())
+        addEnvironment(moment, std::move(*std::exchange(before.scene->environment, {})));
+    return {std::make_shared<Scene>(std::move(moment)), seconds};
+}
+
+} // namespace stromboli

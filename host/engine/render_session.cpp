@@ -1,0 +1,213 @@
+#include "host/engine/render_session.hpp"
+
+#include "host/core/error.hpp"
+#include "host/engine/seen_channels.hpp"
+#include "host/film/image_file.hpp"
+#include "host/film/unreached.hpp"
+#include "host/render/block_backend.hpp"
+#include "host/render/noise_plan.hpp"
+#include "host/render/render.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace stromboli {
+
+RenderSession::RenderSession(const DeviceRequest& device, Listener listener)
+    : listener_(std::move(listener)), renderer_(device, listener_) {}
+
+void RenderSession::begin(std::shared_ptr<const Scene> scene, const RenderRequest& request,
+                          const Keeping& keeping) {
+    sampling_.reset(); // refers to the renderer's last backend
+    bands_.clear();
+    over_ = true; // if what follows throws
+    scene_ = std::move(scene);
+    keeping_ = keeping;
+    request_ = toGoOn(request, keeping);
+    picture_ = resolvePicture(*scene_, request_, listener_);
+    cancelAsked_ = false;
+    isAlone_ = keeping_.begun.has_value();
+    secondsBefore_ = 0;
+    pixelsDone_ = 0;
+    noises_.clear();
+    result_ = {};
+    result_.samplesAtMost = mostPathsOf(picture_.settings);
+    over_ = false;
+}
+
+void RenderSession::moveCamera(const CameraRequest& camera) {
+    RenderRequest request = request_;
+    request.camera = camera;
+    begin(scene_, request);
+}
+
+void RenderSession::prepare() {
+    renderer_.begin(scene_, picture_, request_.channels().size());
+    result_.backend = renderer_.name();
+    result_.buildSeconds = renderer_.buildSeconds();
+    bands_ = bandsToRender(picture_.settings.area, renderer_.mostPixels(), keeping_, listener_);
+    result_.bands = bands_.size();
+    band_ = 0;
+}
+
+/// The time that is left is shared by rows with the bands to come.
+RenderSettings RenderSession::settingsOfBand() const {
+    RenderSettings settings = picture_.settings;
+    const uint64_t left = settings.area.pixelCount() - pixelsDone_;
+    settings.area = bands_[band_];
+    const uint64_t pixels = settings.area.pixelCount();
+    double& seconds = settings.budget.stop.seconds;
+    const double used = secondsBefore_ + result_.renderSeconds;
+    if (seconds > 0 && pixels < left)
+        seconds = std::max((seconds - used) * double(pixels) / double(left), 1e-3); // it begins
+    return settings;
+}
+
+/// The backend adds up blocks where the settings ask for it.
+std::shared_ptr<Backend> RenderSession::makeBackend(const RenderSettings& settings, bool again) {
+    std::shared_ptr<Backend> backend = renderer_.backend(settings, again);
+    if (!settings.budget.isInBlocks()) return backend;
+    return std::make_shared<BlockBackend>(std::move(backend), settings.area,
+                                          settings.budget.samplesPerBlock);
+}
+
+void RenderSession::beginBand() {
+    const auto identity = [this] { return renderer_.identity(); };
+    KeptRender render = keptRender(settingsOfBand(), keepingOfBand(keeping_, band_, bands_.size()),
+                                   identity, renderer_.name(), listener_);
+    render.identity = [this, identity] { // asked for when the first checkpoint is written
+        if (!isAlone_) forgetEarlier(keeping_.file, bands_.size());
+        isAlone_ = true;
+        return identity();
+    };
+    if (render.begun) secondsBefore_ += render.begun->secondsUsed;
+    sampling_.emplace(
+        std::move(render),
+        [this](const RenderSettings& settings, bool again) { return makeBackend(settings, again); },
+        [listener = listener_](const std::string& line) { listener.warn(line); });
+    listener_.doing(Stage::Sampling, "taking samples");
+}
+
+Next RenderSession::tell(const SessionEvents& events, RenderProgress state) {
+    const uint64_t all = picture_.settings.area.pixelCount();
+    state.samplesAtMost = samplesAtMost(picture_.settings.area, picture_.settings.budget);
+    state.samplesDone += result_.samplesTaken / picture_.settings.estimator.branches;
+    state.share =
+        (double(pixelsDone_) + state.share * double(bands_[band_].pixelCount())) / double(all);
+    const Next next = events.progress ? events.progress(state) : Next::GoOn;
+    return cancelAsked_ ? Next::Cancel : next;
+}
+
+bool RenderSession::pass(const SessionEvents& events) {
+    if (over_) return false;
+    if (bands_.empty()) prepare();
+    if (!sampling_) beginBand();
+    Next next = Next::GoOn;
+    const bool hasMore = sampling_->pass([&](const RenderProgress& state) {
+        if (next != Next::Cancel) next = tell(events, state);
+        return next == Next::GoOn;
+    });
+    if (next == Next::Cancel) result_.cancelled = true;
+    if (hasMore && !result_.cancelled) return true;
+    endBand(events);
+    return !over_;
+}
+
+void RenderSession::endBand(const SessionEvents& events) {
+    const KeptOutcome& kept = sampling_->end();
+    result_.prepareSeconds += kept.prepareSeconds;
+    result_.renderSeconds += kept.renderSeconds;
+    result_.counters.paths += kept.counters.paths;
+    result_.counters.rays += kept.counters.rays;
+    result_.lost = kept.lost;
+    if (kept.fileIsThere) result_.checkpoint = sampling_->render().file.string();
+    const uint64_t unreachedBefore = result_.pixelsUnreached;
+    count(sampling_->film(), sampling_->render().settings, result_);
+    noises_.push_back({kept.outcome.noise, bands_[band_].pixelCount()});
+    if (events.bandDone) {
+        const FloatImage seen = beside(sampling_->film());
+        if (result_.pixelsUnreached == unreachedBefore)
+            events.bandDone({sampling_->film(), kept.outcome.noise, seen});
+        else
+            events.bandDone({shownFilm(), kept.outcome.noise, seen});
+    }
+    pixelsDone_ += bands_[band_].pixelCount();
+    if (result_.cancelled || result_.lost)
+        leaveOutTheRest(events);
+    else if (band_ + 1 < bands_.size())
+        ++band_, sampling_.reset();
+    else
+        over_ = true;
+    if (over_) renderer_.requireNoValidationMessages();
+}
+
+void RenderSession::leaveOutTheRest(const SessionEvents& events) {
+    for (size_t i = band_ + 1; i < bands_.size(); ++i) {
+        if (events.bandLeftOut) events.bandLeftOut(bands_[i]);
+        noises_.push_back({{}, bands_[i].pixelCount()});
+        result_.pixelsUnreached += bands_[i].pixelCount();
+    }
+    over_ = true;
+}
+
+RenderResult RenderSession::run(const SessionEvents& events) {
+    while (pass(events)) {
+    }
+    return result();
+}
+
+RenderResult RenderSession::result() const {
+    RenderResult result = result_;
+    std::vector<PartNoise> noises = noises_;
+    if (sampling_ && !over_) noises.push_back({sampling_->outcome().noise, film().pixels.size()});
+    result.noise = togetherOf(noises);
+    return result;
+}
+
+const Film& RenderSession::film() const {
+    if (!sampling_) throw std::logic_error("no sample of the picture has been taken");
+    return sampling_->film();
+}
+
+Film RenderSession::shownFilm() const {
+    Film shown = film();
+    showNeighbours(shown, NoisePlan::kCoarsest);
+    return shown;
+}
+
+/// A device that is lost sees nothing.
+FloatImage RenderSession::beside(const Film& film) {
+    if (request_.channels().empty()) return {};
+    listener_.doing(Stage::Looking, "tracing alpha and layers");
+    FloatImage seen = seenChannels(result_.lost ? nullptr : renderer_.viewer(), film, *scene_,
+                                   picture_.camera, request_);
+    listener_.doing(Stage::Sampling, "taking samples");
+    return seen;
+}
+
+FloatImage RenderSession::pixels(bool statistics) {
+    const Film shown = shownFilm();
+    FloatImage image = linearPicture(shown, statistics);
+    for (auto& [name, values] : beside(film()).channels)
+        image.channels[name] = std::move(values);
+    return image;
+}
+
+ByteImage RenderSession::shown(const ToneCurve& tone) {
+    std::vector<float> alpha;
+    if (request_.transparent) alpha = std::move(beside(film()).channel(kAlphaChannel));
+    return toneMap(shownFilm(), tone, alpha);
+}
+
+Checkpoint RenderSession::save() const {
+    if (bands_.size() > 1)
+        throw UsageError("a picture in several bands is kept in the files of its checkpoint");
+    if (!sampling_) throw std::logic_error("no sample of the picture has been taken");
+    return {renderer_.identity(), sampling_->save()};
+}
+
+void RenderSession::forgetBands() const {
+    if (bands_.size() > 1) forgetEarlier(keeping_.file, bands_.size());
+}
+
+} // namespace stromboli

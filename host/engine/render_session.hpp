@@ -1,0 +1,135 @@
+#pragma once
+
+#include "host/engine/keeping.hpp"
+#include "host/engine/listener.hpp"
+#include "host/engine/render_request.hpp"
+#include "host/engine/render_result.hpp"
+#include "host/engine/renderer.hpp"
+#include "host/film/film.hpp"
+#include "host/film/image.hpp"
+#include "host/film/tone.hpp"
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace stromboli {
+
+/// What whoever is told how far a picture is wants next.
+enum class Next {
+    GoOn,
+    Pause, ///< RenderSession::pass() returns, so that the picture can be looked at
+    Cancel ///< the picture ends as it is
+};
+
+/// A band of the picture, all of it in most cases, whose samples are taken.
+struct FinishedBand {
+    const Film& film; ///< pixels without samples show a neighbour that has some
+    const PictureNoise& noise;
+    const FloatImage& beside; ///< the channels that the request asks for beside the radiance
+};
+
+/// What a session tells while it takes samples, on the thread that called it. Functions may be
+/// empty.
+struct SessionEvents {
+    /// Several times a second: of the picture as a whole.
+    std::function<Next(const RenderProgress&)> progress;
+    std::function<void(const FinishedBand&)> bandDone;
+    /// Of a picture that was cancelled or whose device was lost: a band that was not begun.
+    std::function<void(const PictureArea&)> bandLeftOut;
+};
+
+/// Pictures of scenes, one after the other, in passes between which they can be looked at, changed,
+/// saved and cancelled. What a picture has in common with the one before is kept: the devices, a
+/// scene that is built and uploaded, kernels that are compiled. A picture has the bytes that it has
+/// in a session of its own, however often it is paused, saved and gone on with (unless its time is
+/// limited).
+///
+///     RenderSession session;
+///     session.begin(loadScene({"room.xml"}).scene, request);
+///     while (session.pass())
+///         show(session.shown(tone));
+///     session.moveCamera(other); // the next picture
+///
+/// A session is used by one thread at a time, cancel() by any. There may be several sessions in a
+/// process, at the same time too: they share nothing but scenes.
+class RenderSession {
+  public:
+    /// Begins to open the devices, on another thread.
+    explicit RenderSession(const DeviceRequest& device = {}, Listener listener = {});
+
+    /// Begins a picture, in place of the one before. Nothing is built before the first pass.
+    /// `keeping` says where its state is kept and what it goes on from. Throws SceneError and
+    /// UsageError (resolvePicture()).
+    void begin(std::shared_ptr<const Scene> scene, const RenderRequest& request,
+               const Keeping& keeping = {});
+    /// Begins the picture again with another camera.
+    void moveCamera(const CameraRequest& camera);
+
+    /// The picture that was begun, with nothing left open.
+    const ResolvedPicture& picture() const { return picture_; }
+    const RenderRequest& request() const { return request_; }
+
+    /// Takes samples until a pass is done or progress() asks to pause; the next call goes on.
+    /// False: the picture is finished, cancelled, or its device is lost for good (result()). Throws
+    /// DeviceError, OutputError (checkpoints), SceneError, UsageError (`keeping`).
+    bool pass(const SessionEvents& events = {});
+    /// Passes until there is no more to do.
+    RenderResult run(const SessionEvents& events = {});
+    /// Any thread may call this: the picture ends within a fraction of a second. The next one is
+    /// not affected.
+    void cancel() { cancelAsked_ = true; }
+
+    bool isOver() const { return over_; }
+    /// What was done so far.
+    RenderResult result() const;
+
+    // The picture so far, of the last band that was begun; not during pass().
+
+    /// Means, variances and numbers of samples.
+    const Film& film() const;
+    /// In floats, linear: R, G, B, the channels that the request asks for, and with `statistics`
+    /// the number of samples and the variance of the mean. Pixels without samples show a neighbour.
+    FloatImage pixels(bool statistics = false);
+    /// As it is shown on a screen.
+    ByteImage shown(const ToneCurve& tone);
+
+    /// All that another session needs to go on: Keeping::begun. Throws UsageError of a picture in
+    /// several bands, whose states are in their files.
+    Checkpoint save() const;
+    /// Removes the checkpoints of the bands of a picture that is finished and written.
+    void forgetBands() const;
+
+  private:
+    void prepare();
+    void beginBand();
+    void endBand(const SessionEvents& events);
+    void leaveOutTheRest(const SessionEvents& events);
+    std::shared_ptr<Backend> makeBackend(const RenderSettings& settings, bool again);
+    RenderSettings settingsOfBand() const;
+    Next tell(const SessionEvents& events, RenderProgress state);
+    FloatImage beside(const Film& film);
+    Film shownFilm() const;
+
+    Listener listener_;
+    Renderer renderer_;
+    std::atomic<bool> cancelAsked_ = false;
+    // Of the picture:
+    std::shared_ptr<const Scene> scene_;
+    RenderRequest request_;
+    Keeping keeping_;
+    ResolvedPicture picture_;
+    std::vector<PictureArea> bands_; ///< none: not prepared yet
+    size_t band_ = 0;                ///< under way, or the last one
+    std::optional<KeptSession> sampling_;
+    bool isAlone_ = false; ///< no checkpoint of an earlier render is in the way
+    bool over_ = true;
+    double secondsBefore_ = 0; ///< of the bands that were done in earlier runs
+    uint64_t pixelsDone_ = 0;  ///< of the bands before
+    std::vector<PartNoise> noises_;
+    RenderResult result_;
+};
+
+} // namespace stromboli

@@ -1,0 +1,246 @@
+#include "host/engine/renderer.hpp"
+
+#include "host/checkpoint/scene_identity.hpp"
+#include "host/core/error.hpp"
+#include "host/core/memory.hpp"
+#include "host/kernel/kernel_buffers.hpp"
+#include "host/reference/reference_backend.hpp"
+#include "host/render/bands.hpp"
+#include "host/version/version.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <tuple>
+#include <utility>
+
+namespace stromboli {
+namespace {
+
+bool sameSelection(const LightSelection& a, const LightSelection& b) {
+    const auto all = [](const LightSelection& s) {
+        return std::tie(s.choice, s.deltaLightsOnly, s.ambientToBounces, s.emitters,
+                        s.everyLightOfTheFile);
+    };
+    return all(a) == all(b);
+}
+
+} // namespace
+
+RenderDevices::RenderDevices(const DeviceRequest& request, Listener listener)
+    : request_(request), listener_(std::move(listener)),
+      opening_(std::async(std::launch::async, vulkan::openDevices, request.device)) {}
+
+void RenderDevices::open() {
+    if (!opening_.valid()) return;
+    for (vulkan::OpenDevice& open : opening_.get())
+        seats_.push_back({std::move(open), nullptr});
+    sayWhich();
+}
+
+void RenderDevices::reopen() {
+    team_.reset();
+    seats_.clear();
+    for (vulkan::OpenDevice& open : vulkan::openDevices(request_.device))
+        seats_.push_back({std::move(open), nullptr});
+}
+
+void RenderDevices::sayWhich() const {
+    for (const Seat& seat : seats_)
+        listener_.detail(fmt::format("device {}: {} ({})", seat.open.choice.index,
+                                     seat.open.device->description().name(),
+                                     seat.open.choice.reason));
+}
+
+/// Once, of the first picture.
+void RenderDevices::sayHow() {
+    if (std::exchange(howIsSaid_, true)) return;
+    for (const std::string& line : describe(seats_.front().backend->features()))
+        listener_.detail(fmt::format("kernel: {}", line));
+}
+
+std::string RenderDevices::name() const {
+    std::vector<std::string> names;
+    for (const Seat& seat : seats_) {
+        std::string name = seat.open.device->description().name();
+        if (std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
+    }
+    return fmt::format("{}", fmt::join(names, " and "));
+}
+
+uint64_t RenderDevices::pixelsThatFit(const GpuScene& scene, const Estimator& estimator,
+                                      uint64_t hostBytes, uint64_t hostBytesPerPixel) const {
+    uint64_t onDevice = ~uint64_t(0), perPixel = hostBytesPerPixel;
+    for (const Seat& seat : seats_) {
+        const vulkan::DeviceDescription& description = seat.open.device->description();
+        onDevice = std::min(onDevice, filmPixelsThatFit(description, scene, estimator));
+        if (description.isCpu()) perPixel += sizeof(gpu::PixelState);
+    }
+    if (seats_.size() > 1) perPixel += sizeof(PixelSums);
+    return std::min(hostBytes / perPixel, onDevice);
+}
+
+bool RenderDevices::haveRoomForTextures(const GpuScene& scene) const {
+    return std::ranges::all_of(seats_, [&](const Seat& seat) {
+        return stromboli::haveRoomForTextures(seat.open.device->description(), scene);
+    });
+}
+
+void RenderDevices::setScene(const GpuScene& scene) {
+    leaveOutWhoDroppedOut();
+    scene_ = &scene;
+    for (Seat& seat : seats_)
+        if (seat.backend) seat.backend->setScene(scene);
+}
+
+void RenderDevices::leaveOutWhoDroppedOut() {
+    if (!team_) return;
+    const std::vector<size_t> present = team_->present();
+    team_.reset(); // it has backends in hand, which must not outlive their devices
+    std::vector<Seat> left;
+    for (const size_t i : present)
+        left.push_back(std::move(seats_[i]));
+    seats_ = std::move(left);
+}
+
+void RenderDevices::prepare(Seat& seat, const Camera& camera,
+                            const RenderSettings& settings) const {
+    if (seat.backend) {
+        seat.backend->setPicture(camera, settings);
+        return;
+    }
+    seat.backend = std::make_shared<VulkanBackend>(*seat.open.device, *scene_, camera, settings,
+                                                   KernelTuning{.scheduler = request_.scheduler});
+}
+
+/// At the same time on all of them: compiling the kernel takes seconds on some.
+void RenderDevices::prepareAll(const Camera& camera, const RenderSettings& settings) {
+    std::vector<std::future<void>> ready;
+    for (Seat& seat : seats_)
+        ready.push_back(std::async(std::launch::async, [&] { prepare(seat, camera, settings); }));
+    std::vector<Seat> left;
+    std::exception_ptr why;
+    for (size_t i = 0; i < ready.size(); ++i) {
+        try {
+            ready[i].get();
+            left.push_back(std::move(seats_[i]));
+        } catch (const DeviceError& error) {
+            why = std::current_exception();
+            listener_.warn(fmt::format("{} takes no samples: {}",
+                                       seats_[i].open.device->description().name(), error.what()));
+        }
+    }
+    seats_ = std::move(left);
+    if (seats_.empty()) std::rethrow_exception(why);
+}
+
+std::shared_ptr<Backend> RenderDevices::backendFor(const Camera& camera,
+                                                   const RenderSettings& settings) {
+    leaveOutWhoDroppedOut();
+    if (seats_.empty()) throw DeviceLostError("no device is left");
+    if (seats_.size() == 1)
+        prepare(seats_.front(), camera, settings);
+    else
+        prepareAll(camera, settings);
+    sayHow();
+    if (seats_.size() == 1) return seats_.front().backend;
+    std::vector<TeamMember> members;
+    for (const Seat& seat : seats_)
+        members.push_back({seat.open.device->description().name(), seat.backend});
+    team_ = std::make_shared<TeamBackend>(
+        std::move(members), settings.area,
+        [listener = listener_](const std::string& line) { listener.warn(line); });
+    return team_;
+}
+
+Viewer* RenderDevices::viewer() {
+    if (seats_.empty()) return nullptr;
+    if (!team_) return seats_.front().backend.get();
+    const std::vector<size_t> present = team_->present();
+    return present.empty() ? nullptr : seats_[present.front()].backend.get();
+}
+
+void RenderDevices::requireNoValidationMessages() const {
+    for (const Seat& seat : seats_)
+        vulkan::requireNoValidationMessages(seat.open);
+}
+
+Renderer::Renderer(const DeviceRequest& request, Listener listener)
+    : request_(request), listener_(std::move(listener)) {
+    if (request_.backend == BackendChoice::Vulkan) devices_.emplace(request_, listener_);
+}
+
+void Renderer::begin(std::shared_ptr<const Scene> scene, const ResolvedPicture& picture,
+                     size_t channels) {
+    scene_ = std::move(scene);
+    camera_ = picture.camera;
+    settings_ = picture.settings;
+    channels_ = channels;
+    buildSeconds_ = 0;
+    if (!devices_) {
+        name_ = "CPU reference (double precision)";
+        return;
+    }
+    const bool isThere = built_ && builtOf_ == scene_ &&
+                         sameSelection(builtFor_, lightSelection(settings_.estimator));
+    if (!isThere) build(settings_.estimator, kUsualGatheredRows);
+    devices_->open(); // began while the scene was built
+    if (!isThere && !devices_->haveRoomForTextures(built_->gpu)) build(settings_.estimator, 0);
+    name_ = devices_->name();
+}
+
+void Renderer::build(const Estimator& estimator, uint64_t gatheredRows) {
+    auto built = std::make_unique<BuiltScene>(buildScene(
+        *scene_, estimator, listener_, scene_->isMoment() ? &kept_ : nullptr, gatheredRows));
+    devices_->setScene(built->gpu);
+    built_ = std::move(built);
+    builtOf_ = scene_;
+    builtFor_ = lightSelection(estimator);
+    buildSeconds_ = built_->seconds;
+}
+
+std::shared_ptr<Backend> Renderer::backend(const RenderSettings& settings, bool again) {
+    if (devices_) {
+        if (again) devices_->reopen();
+        return devices_->backendFor(camera_, settings);
+    }
+    auto made = std::make_shared<ReferenceBackend>(*scene_, camera_, settings, request_.threads);
+    referenceViewer_ = made.get();
+    reference_ = made;
+    return made;
+}
+
+Viewer* Renderer::viewer() {
+    return devices_ ? devices_->viewer() : referenceViewer_;
+}
+
+/// What a film and all that belongs to it may take.
+uint64_t Renderer::bytesForFilms() const {
+    return request_.filmMebibytes ? uint64_t(*request_.filmMebibytes) << 20 : physicalMemory() / 2;
+}
+
+uint64_t Renderer::bytesPerPixel() const {
+    return hostBytesPerPixel(settings_.budget.isInBlocks()) + channels_ * sizeof(float);
+}
+
+uint64_t Renderer::mostPixels() const {
+    if (!devices_) return bytesForFilms() / bytesPerPixel();
+    return devices_->pixelsThatFit(built_->gpu, settings_.estimator, bytesForFilms(),
+                                   bytesPerPixel());
+}
+
+RenderIdentity Renderer::identity() const {
+    return {version(),
+            renderingCode(),
+            scene_->file,
+            sceneIdentity(*scene_, camera_),
+            std::string(nameOf(request_.backend)),
+            name_};
+}
+
+void Renderer::requireNoValidationMessages() const {
+    if (devices_) devices_->requireNoValidationMessages();
+}
+
+} // namespace stromboli

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+
+namespace stromboli::process {
+
+// What belongs to a process as a whole. Programs call these functions, from main(): a library that
+// did so would change its user's process. cmake/CheckLayers.cmake sees to it that nothing else in
+// host/ or scene/ sets an environment variable, an allocator's option or a signal handler, apart
+// from the command line.
+
+/// Has lavapipe run 16 lanes at a time on processors with AVX-512, where Mesa (22.3 at least) takes
+/// 8 unless the environment variable LP_NATIVE_VECTOR_WIDTH asks for more. If the user has set
+/// that, nothing is done. No other driver reads it. To be called before the first device is opened,
+/// and while there is one thread only.
+void useWideVectors();
+
+/// Has lavapipe work on so many threads. To be called as useWideVectors() is.
+void useDriverThreads(uint32_t threads);
+
+/// Freed memory is kept for what is asked for next: between two passes the plan takes and frees
+/// many times the picture, and to have its pages zeroed anew each time is 5 % of a render's CPU
+/// time.
+void keepFreedMemory();
+
+} // namespace stromboli::process

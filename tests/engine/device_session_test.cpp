@@ -1,0 +1,136 @@
+// Sessions on a device: what is kept from picture to picture, and what a process does not notice.
+#include "tests/engine/engine_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <csignal>
+#include <future>
+#include <set>
+#include <unistd.h>
+
+namespace stromboli {
+namespace {
+
+using namespace test;
+
+/// What belongs to the process and not to a session.
+struct ProcessState {
+    std::set<std::string> environment;
+    std::array<void (*)(int), 4> handlers{};
+    std::array<bool, 4> blocked{};
+
+    static ProcessState now() {
+        ProcessState state;
+        for (char** variable = environ; *variable; ++variable)
+            state.environment.insert(*variable);
+        sigset_t mask;
+        pthread_sigmask(SIG_SETMASK, nullptr, &mask);
+        constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP, SIGPIPE};
+        for (size_t i = 0; i < kSignals.size(); ++i) {
+            struct sigaction action = {};
+            sigaction(kSignals[i], nullptr, &action);
+            state.handlers[i] = action.sa_handler;
+            state.blocked[i] = sigismember(&mask, kSignals[i]) == 1;
+        }
+        return state;
+    }
+    bool operator==(const ProcessState&) const = default;
+};
+
+TEST(DeviceSession, LeavesTheProcessAsItIs) {
+    const ProcessState before = ProcessState::now();
+    const Film film = alone({}, bundled("cornell_spheres"), smallPicture(4));
+    EXPECT_GT(film.at(12, 9).mean.g, 0);
+    EXPECT_TRUE(ProcessState::now() == before);
+}
+
+TEST(DeviceSession, AMovedCameraBuildsNothingAndHasTheBytesOfASessionOfItsOwn) {
+    const auto scene = bundled("cornell_spheres");
+    RenderRequest request = smallPicture(16);
+    Told told;
+    RenderSession session({}, told.listener());
+    session.begin(scene, request);
+    session.pass(after(1, Next::Pause)); // the camera moves in the midst of a pass
+    session.moveCamera(fromTheSide());
+    const RenderResult result = session.run();
+    EXPECT_EQ(result.buildSeconds, 0);
+    EXPECT_EQ(told.count(Stage::Building), 1u);
+    request.camera = fromTheSide();
+    EXPECT_TRUE(sameBytes(session.film(), alone({}, scene, request)));
+}
+
+/// Another way to find lights needs other tables.
+TEST(DeviceSession, AnotherEstimatorHasTheBytesOfASessionOfItsOwn) {
+    const auto scene = bundled("cornell_spheres");
+    RenderRequest request = smallPicture(8);
+    RenderSession session;
+    session.begin(scene, request);
+    session.run();
+    request.estimator.directLight = DirectLight::Bsdf;
+    session.begin(scene, request);
+    session.run();
+    EXPECT_TRUE(sameBytes(session.film(), alone({}, scene, request)));
+}
+
+TEST(DeviceSession, AnEditedMaterialHasTheBytesOfASessionOfItsOwn) {
+    const auto scene = bundled("cornell_spheres");
+    const RenderRequest request = smallPicture(8);
+    RenderSession session;
+    session.begin(scene, request);
+    session.run();
+    const Film before = session.film();
+    const auto edited = std::make_shared<Scene>(*scene);
+    for (Triangle& triangle : edited->triangles)
+        triangle.material = 0;
+    session.begin(edited, request);
+    session.run();
+    EXPECT_FALSE(sameBytes(session.film(), before));
+    EXPECT_TRUE(sameBytes(session.film(), alone({}, edited, request)));
+    session.begin(scene, request); // and back
+    session.run();
+    EXPECT_TRUE(sameBytes(session.film(), before));
+}
+
+TEST(DeviceSession, SeveralAtTheSameTimeDoNotDisturbEachOther) {
+    const auto scene = bundled("cornell_spheres");
+    const RenderRequest front = smallPicture(16);
+    RenderRequest side = smallPicture(24);
+    side.camera = fromTheSide();
+    const auto render = [&](const RenderRequest& request) {
+        return std::async(std::launch::async, [&] { return alone({}, scene, request); });
+    };
+    auto one = render(front), two = render(side);
+    const Film first = one.get(), second = two.get();
+    EXPECT_TRUE(sameBytes(first, alone({}, scene, front)));
+    EXPECT_TRUE(sameBytes(second, alone({}, scene, side)));
+    // Interleaved on one thread.
+    RenderSession a, b;
+    a.begin(scene, front);
+    b.begin(scene, side);
+    for (bool goesOn = true; goesOn;) {
+        goesOn = a.pass(after(0, Next::Pause));
+        goesOn = b.pass(after(0, Next::Pause)) || goesOn;
+    }
+    EXPECT_TRUE(sameBytes(a.film(), first));
+    EXPECT_TRUE(sameBytes(b.film(), second));
+}
+
+TEST(DeviceSession, SavedItGoesOnInAnotherToTheSameBytes) {
+    const auto scene = bundled("cornell_spheres");
+    const RenderRequest request = smallPicture(40);
+    RenderSession first;
+    first.begin(scene, request);
+    ASSERT_TRUE(first.pass(after(2, Next::Pause)));
+    Keeping keeping;
+    keeping.begun = first.save();
+    RenderSession second;
+    second.begin(scene, request, keeping);
+    second.run();
+    first.run();
+    EXPECT_TRUE(sameBytes(second.film(), first.film()));
+    EXPECT_TRUE(sameBytes(first.film(), alone({}, scene, request)));
+}
+
+} // namespace
+} // namespace stromboli
