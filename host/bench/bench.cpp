@@ -72,7 +72,7 @@ class Benchmark {
         s.estimator.maxBounces = settings_.maxBounces;
         s.estimator.seed = settings_.seed;
         s.estimator.sampler = settings_.sampler;
-        s.estimator.gapProposal = false; // Embree's path tracer does not: the same estimator
+        s.estimator.gapProposal = false; // comparable with earlier figures
         return s;
     }
 
@@ -111,24 +111,27 @@ class Benchmark {
         return report;
     }
 
-    /// All that needs rays or a device's copy of the scene.
-    void trace(const Arena& arena, SceneReport& report) {
+    void traceRays(const Arena& arena, const GpuScene& gpu, SceneReport& report) {
         if (progress_) progress_(arena.scene.name + ": making rays");
         const Scene& scene = arena.scene.scene;
-        const GpuScene gpu =
-            packScene(scene, buildWideBvh(scene), lightSelection(arena.settings.estimator));
         const RaySets sets =
             scene.placements.empty()
                 ? makeRaySets(scene, arena.camera, arena.settings, raysPerPixel())
                 : makePlacedRaySets(scene, gpu.bvh, arena.camera, arena.settings, raysPerPixel());
         const EmbreePair embree = buildBest(arena, sets.bounce);
         if (embree.fast) report.embreeQuality = nameOf(embree.quality);
-        if (wants(Part::Rays)) {
-            DeviceRays rays(device(), gpu, rayTuning(device(), rowBytes(gpu, sets.largest())));
-            for (const RaySet* set : {&sets.camera, &sets.shadow, &sets.bounce})
-                report.rays.push_back(benchRays(arena, rays, embree, *set));
-        }
-        if (wants(Part::Paths)) report.paths = benchPaths(arena, gpu, embree);
+        DeviceRays rays(device(), gpu, rayTuning(device(), rowBytes(gpu, sets.largest())));
+        for (const RaySet* set : {&sets.camera, &sets.shadow, &sets.bounce})
+            report.rays.push_back(benchRays(arena, rays, embree, *set));
+    }
+
+    /// All that needs a device's copy of the scene.
+    void trace(const Arena& arena, SceneReport& report) {
+        const Scene& scene = arena.scene.scene;
+        const GpuScene gpu =
+            packScene(scene, buildWideBvh(scene), lightSelection(arena.settings.estimator));
+        if (wants(Part::Rays)) traceRays(arena, gpu, report);
+        if (wants(Part::Paths)) report.paths = benchPaths(arena, gpu);
         if (wants(Part::Variants)) report.variants = benchVariants(arena, gpu, kernelVariants(gpu));
     }
 

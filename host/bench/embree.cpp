@@ -1,8 +1,7 @@
 #include "host/bench/embree.hpp"
 
 #include "host/bench/embree_api.hpp"
-#include "host/bench/embree_kernel.hpp"
-#include "host/bench/embree_paths.hpp"
+#include "host/bench/embree_rays.hpp"
 #include "host/bench/workers.hpp"
 #include "host/core/error.hpp"
 #include "host/core/stopwatch.hpp"
@@ -109,11 +108,6 @@ class BuiltScene final : public EmbreeScene {
         std::vector<float> result(set.rays.size());
         run(set, result.data());
         return result;
-    }
-
-    std::unique_ptr<Backend> pathTracer(const Scene& scene, const Camera& camera,
-                                        const RenderSettings& settings) const override {
-        return std::make_unique<EmbreePaths>(scene, camera, settings, tracer(), device_->threads());
     }
 
   private:
@@ -227,9 +221,9 @@ class LoadedEmbree final : public Embree {
     std::shared_ptr<const Device> device_;
 };
 
-/// Whether this CPU has the instructions that embree_kernel.cpp was compiled for.
-bool kernelRunsHere() {
-#ifdef STROMBOLI_EMBREE_KERNEL_NEEDS_AVX2
+/// Whether this CPU has the instructions that embree_rays.cpp was compiled for.
+bool raysRunHere() {
+#ifdef STROMBOLI_EMBREE_RAYS_NEED_AVX2
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
            __builtin_cpu_supports("bmi2");
 #else
@@ -240,8 +234,9 @@ bool kernelRunsHere() {
 } // namespace
 
 OpenedEmbree openEmbree(uint32_t threads) {
-    if (!kernelRunsHere())
-        return {nullptr, "this CPU has no AVX2, which the path tracer on Embree is compiled for"};
+    if (!raysRunHere())
+        return {nullptr,
+                "this CPU has no AVX2, which the loops over rays for Embree are compiled for"};
     if (!embreeApi().missing.empty()) return {nullptr, embreeApi().missing};
     return {std::make_unique<LoadedEmbree>(threads), {}};
 }

@@ -2,7 +2,7 @@
 
 #include "host/bench/device_rays.hpp"
 #include "host/bench/ray_sets.hpp"
-#include "host/render/backend.hpp"
+#include "scene/model/scene.hpp"
 
 #include <memory>
 #include <string>
@@ -37,10 +37,6 @@ class EmbreeScene {
     virtual RayTotals trace(const RaySet& set) const = 0;
     /// Where each ray ended; the largest float for misses. Shadow rays: 0 for hits.
     virtual std::vector<float> distances(const RaySet& set) const = 0;
-    /// A path tracer on this scene: docs/estimator.md with the kernel's random numbers, on all
-    /// threads. The scenes must outlive it. Only where pathsLack() has nothing to say.
-    virtual std::unique_ptr<Backend> pathTracer(const Scene& scene, const Camera& camera,
-                                                const RenderSettings& settings) const = 0;
 
     double buildSeconds = 0;
     uint64_t bytes = 0; ///< of the acceleration structure; the geometry comes on top
@@ -54,7 +50,7 @@ class Embree {
     virtual std::unique_ptr<EmbreeScene> build(std::shared_ptr<const EmbreeGeometry> geometry,
                                                EmbreeMode mode, EmbreeQuality quality) const = 0;
     virtual std::string version() const = 0;
-    /// How its path tracer and its ray loops were compiled.
+    /// How the loops that call it were compiled.
     virtual std::string compiledWith() const = 0;
 };
 
@@ -65,8 +61,5 @@ struct OpenedEmbree {
 
 /// threads: for building and tracing; at least 1.
 OpenedEmbree openEmbree(uint32_t threads);
-
-/// What the scene or the settings need and the Embree path tracer lacks; empty: nothing.
-std::string embreePathsLack(const Scene& scene, const RenderSettings& settings);
 
 } // namespace stromboli::bench

@@ -8,8 +8,4 @@ OpenedEmbree openEmbree(uint32_t) {
                      "then build again"};
 }
 
-std::string embreePathsLack(const Scene&, const RenderSettings&) {
-    return {};
-}
-
 } // namespace stromboli::bench

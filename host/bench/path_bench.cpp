@@ -1,41 +1,14 @@
 #include "host/bench/path_bench.hpp"
 
 #include "host/bench/painter.hpp"
-#include "host/check/cross_check.hpp"
 #include "host/kernel/vulkan_backend.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace stromboli::bench {
 namespace {
-
-/// Share of the pixels whose means differ by less than a path tracer in float may put on them.
-double equalPixels(const Film& a, const Film& b) {
-    constexpr double tolerance = 0x1p-10; // relative
-    size_t equal = 0;
-    for (size_t i = 0; i < a.pixels.size(); ++i) {
-        const glm::dvec3 &x = a.pixels[i].mean, &y = b.pixels[i].mean;
-        equal += glm::length(x - y) <= tolerance * glm::length(x) ? 1 : 0;
-    }
-    return double(equal) / double(std::max<size_t>(a.pixels.size(), 1));
-}
-
-void comparePictures(const std::vector<Painter>& painters, PathReport& report) {
-    if (painters.size() < 2) return;
-    report.picturesAgree = true;
-    report.equalPixels = 1;
-    for (size_t i = 1; i < painters.size(); ++i) {
-        const CheckResult check = crossCheck(painters[0].film(), painters[i].film());
-        report.equalPixels =
-            std::min(report.equalPixels, equalPixels(painters[0].film(), painters[i].film()));
-        if (check.agree()) continue;
-        report.picturesAgree = false;
-        report.disagreement += painters[i].name() + "\n" + formatCheck(check);
-    }
-}
 
 /// Counting slows the kernel down, so it is done on the side, in another one.
 double lanesBusy(const Arena& arena, const GpuScene& gpu) {
@@ -50,38 +23,20 @@ double lanesBusy(const Arena& arena, const GpuScene& gpu) {
     return steps.all > 0 ? double(steps.busy) / double(steps.all) : 0;
 }
 
-/// Why there is no path tracer on Embree for this scene; empty if there is one.
-std::string whyNoEmbree(const Arena& arena, const EmbreePair& embree) {
-    if (!embree.fast) return "there is no Embree";
-    const std::string lacking = embreePathsLack(arena.scene.scene, arena.settings);
-    return lacking.empty() ? "" : "its path tracer has no " + lacking;
-}
-
 } // namespace
 
-PathReport benchPaths(const Arena& arena, const GpuScene& gpu, const EmbreePair& embree) {
+PathReport benchPaths(const Arena& arena, const GpuScene& gpu) {
     PathReport report;
-    const Scene& scene = arena.scene.scene;
     std::vector<Painter> painters;
     painters.emplace_back(
         "device", std::make_unique<VulkanBackend>(arena.device, gpu, arena.camera, arena.settings),
         arena.settings);
-    report.embreeMissing = whyNoEmbree(arena, embree);
-    if (report.embreeMissing.empty()) {
-        painters.emplace_back("Embree fast",
-                              embree.fast->pathTracer(scene, arena.camera, arena.settings),
-                              arena.settings);
-        painters.emplace_back("Embree robust",
-                              embree.robust->pathTracer(scene, arena.camera, arena.settings),
-                              arena.settings);
-    }
     report.contestants = race(painters, arena.plan);
     const RenderCounters counters = painters[0].backend().counters();
     report.raysPerPath = double(counters.rays) / double(std::max<uint64_t>(counters.paths, 1));
     if (arena.device.description().isCpu())
         report.driverBusy = report.contestants[0].parallelism() / arena.threads;
     report.lanesBusy = lanesBusy(arena, gpu);
-    comparePictures(painters, report);
     return report;
 }
 

@@ -6,11 +6,9 @@
 
 namespace stromboli::bench {
 
-/// Whole paths: the kernel that renders use against the path tracer on Embree, fast and robust. A
-/// measurement takes samplesPerPixel more samples of every pixel, film and all; what the scene
-/// needs on the device is there already. The contestants have the same random numbers, so their
-/// pictures are compared sample for sample.
-PathReport benchPaths(const Arena& arena, const GpuScene& gpu, const EmbreePair& embree);
+/// Whole paths by the kernel that renders use. A measurement takes samplesPerPixel more samples of
+/// every pixel, film and all; what the scene needs on the device is there already.
+PathReport benchPaths(const Arena& arena, const GpuScene& gpu);
 
 /// A form of the kernel to compare with the default one.
 struct KernelVariant {

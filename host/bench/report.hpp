@@ -44,13 +44,9 @@ struct RayReport {
 
 struct PathReport {
     double raysPerPath = 0;
-    std::vector<Series> contestants; ///< device, Embree fast, Embree robust
-    std::string embreeMissing;       ///< why Embree's are not there; or nothing
+    std::vector<Series> contestants; ///< device
     double driverBusy = 0; ///< share of the driver's threads at work; 0 where they are a GPU's
     double lanesBusy = 0;  ///< share of lanes at work in traversal steps
-    std::optional<bool> picturesAgree; ///< none: nothing to compare with
-    std::string disagreement;          ///< the comparison's text where they do not
-    double equalPixels = 0;            ///< share of pixels that are the same up to rounding
 };
 
 /// The kernel in another form, against the one that renders use.

@@ -1,5 +1,7 @@
 #include "host/bench/report_json.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace stromboli::bench {
 namespace {
 
@@ -71,12 +73,10 @@ Json toJson(const RayReport& r) {
 }
 
 Json toJson(const PathReport& p) {
-    Json json = {{"raysPerPath", p.raysPerPath},     {"contestants", toJson(p.contestants)},
-                 {"embreeMissing", p.embreeMissing}, {"driverBusy", p.driverBusy},
-                 {"lanesBusy", p.lanesBusy},         {"picturesAgree", nullptr},
-                 {"equalPixels", p.equalPixels}};
-    if (p.picturesAgree) json["picturesAgree"] = *p.picturesAgree;
-    return json;
+    return {{"raysPerPath", p.raysPerPath},
+            {"contestants", toJson(p.contestants)},
+            {"driverBusy", p.driverBusy},
+            {"lanesBusy", p.lanesBusy}};
 }
 
 Json toJson(const VariantReport& v) {

@@ -64,8 +64,7 @@ std::string head(const Circumstances& c) {
     text += fmt::format("device  {}; {}\n", c.device, c.driver);
     text += fmt::format("built   {}\n", c.compiler);
     if (c.embreeMissing.empty())
-        text += fmt::format("Embree  {}; path tracer and ray loops: {}\n", c.embreeVersion,
-                            c.embreeFlags);
+        text += fmt::format("Embree  {}; ray loops: {}\n", c.embreeVersion, c.embreeFlags);
     else
         text += fmt::format("Embree  none: {}\n", c.embreeMissing);
     text += "Medians [least most]; x: how many times faster ours is, from the ratios of each "
@@ -93,11 +92,6 @@ std::string table(const RayReport& r, bool deviceIsCpu) {
 std::string table(const PathReport& p, bool deviceIsCpu) {
     std::string text = fmt::format("  paths of {:.2f} rays\n", p.raysPerPath);
     text += rates(p.contestants, deviceIsCpu);
-    if (!p.embreeMissing.empty()) text += fmt::format("    without Embree: {}\n", p.embreeMissing);
-    if (p.picturesAgree)
-        text += fmt::format("    the pictures {}; {:.2f} % of the pixels are equal\n",
-                            *p.picturesAgree ? "agree" : "DIFFER", 100 * p.equalPixels);
-    text += p.disagreement;
     if (p.driverBusy > 0)
         text += fmt::format("    driver threads busy {:.1f} %\n", 100 * p.driverBusy);
     if (p.lanesBusy > 0)
