@@ -1,7 +1,7 @@
 // The program as its users run it.
 #include "host/film/exr.hpp"
 #include "host/film/png.hpp"
-#include "tests/cli/program.hpp"
+#include "tests/cli/running_program.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -115,7 +116,7 @@ TEST_F(Program, StopsAtTheNoiseAskedForAndSaysSo) {
 TEST_F(Program, SaysWhatNoiseItReachedWhenSomethingElseEndedIt) {
     EXPECT_THAT(render("a.png", {"--noise", "0.001", "-s", "16"}).err,
                 HasSubstr("at most 0.10 % was asked for, but --time or -s ended the render"));
-    const ProgramRun timed = render("b.png", {"--time", "0.2"});
+    const ProgramRun timed = render("b.png", {"--time", "1"});
     EXPECT_THAT(timed.err, HasSubstr("noise about"));
     EXPECT_THAT(timed.err, Not(HasSubstr("interrupted")));
 }
@@ -331,9 +332,11 @@ TEST_F(Program, HelpAndVersion) {
 
 TEST_F(Program, InterruptWritesWhatThereIs) {
     const std::string output = folder.file("a.png");
-    const ProgramRun run =
-        stromboli({"render", scene, "-o", output, "-r", "32", "24", "-s", "10000000"},
-                  "timeout --foreground --preserve-status -s INT 3");
+    RunningProgram program({"render", scene, "-o", output, "-r", "32", "24", "-s", "10000000"},
+                           {80}, {"STROMBOLI_VALIDATION=1"});
+    ASSERT_TRUE(program.says("M samples", 250)); // as long as a busy machine may take
+    program.send(SIGINT);
+    const ProgramRun run = program.finish(250);
     EXPECT_EQ(run.exitCode, 130) << run.err;
     EXPECT_THAT(run.err, HasSubstr("interrupted"));
     EXPECT_EQ(readPng(output).width, 32u);

@@ -21,7 +21,7 @@ std::string loadPage(const fs::path& folder, const std::string& page, const std:
     // No sandbox, because tests may run as root; the page is our own. The virtual time budget is
     // how long timers may run on, in milliseconds of the page's clock, before it is written out.
     const std::string command =
-        "timeout 60 chromium --headless --no-sandbox --disable-gpu --window-size=1200,2000 "
+        "timeout 240 chromium --headless --no-sandbox --disable-gpu --window-size=1200,2000 "
         "--host-resolver-rules='MAP * ~NOTFOUND' --user-data-dir='" +
         (folder / "profile").string() +
         "' --blink-settings=preferredColorScheme=" + (dark ? "0" : "1") +
