@@ -1,5 +1,7 @@
 #include "host/render/layers.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "host/core/json.hpp"
 #include "scene/model/surface_lookup.hpp"
 

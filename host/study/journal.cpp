@@ -3,6 +3,7 @@
 #include "host/core/error.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <fstream>
@@ -139,7 +140,7 @@ Run runFrom(const Json& j) {
             j.at("seed").get<uint32_t>(),
             {},
             j.at("cutShort").get<bool>()};
-    for (const Json& p : j.at("points").elements())
+    for (const Json& p : j.at("points"))
         run.points.push_back(pointFrom(p));
     return run;
 }
@@ -160,8 +161,7 @@ bool fits(const Run& run, const Configuration& c, const StudySettings& s) {
 }
 
 bool sameOptions(const Json& configurations, const Configuration& c) {
-    const Json::Array& all = configurations.elements();
-    return std::any_of(all.begin(), all.end(), [&](const Json& j) {
+    return std::ranges::any_of(configurations, [&](const Json& j) {
         return j.at("name") == c.name && j.at("options") == c.options && j.at("effort") == c.effort;
     });
 }
@@ -169,7 +169,7 @@ bool sameOptions(const Json& configurations, const Configuration& c) {
 size_t takeRuns(const Json& json, const Json& configurations, const StudySettings& settings,
                 SceneStudy& scene) {
     size_t taken = 0;
-    for (const Json& j : json.at("runs").elements()) {
+    for (const Json& j : json.at("runs")) {
         const Run run = runFrom(j);
         for (const Configuration& c : settings.configurations)
             if (c.name == run.configuration && sameOptions(configurations, c) &&
@@ -208,18 +208,18 @@ Json toJson(const Study& study) {
 size_t takeOver(const std::filesystem::path& file, Study& study) {
     if (!std::filesystem::exists(file)) return 0;
     std::ifstream in(file);
-    const Json json = Json::parse(in).value_or(nullptr);
-    if (!json.isObject() || json.value("format", std::string()) != kFormat)
+    const Json json = Json::parse(in, nullptr, false);
+    if (!json.is_object() || json.value("format", std::string()) != kFormat)
         throw OutputError(file.string() + ": not a study of this program; choose another folder");
     if (json.value("key", std::string()) != study.key) return 0;
     size_t taken = 0;
     try {
-        for (const Json& j : json.at("scenes").elements())
+        for (const Json& j : json.at("scenes"))
             for (SceneStudy& scene : study.scenes)
                 if (j.at("name") == scene.name && j.at("content") == scene.content)
                     taken += takeRuns(j, json.at("settings").at("configurations"), study.settings,
                                       scene);
-    } catch (const JsonError& error) {
+    } catch (const Json::exception& error) {
         throw OutputError(fmt::format("{}: {}", file.string(), error.what()));
     }
     return taken;

@@ -1,5 +1,7 @@
 #include "host/study/page.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "host/study/base64.hpp"
 #include "host/study/journal.hpp"
 #include "host/study/run_study.hpp"
@@ -65,7 +67,7 @@ Json picturesOf(const Study& study, const SceneStudy& scene, const fs::path& fol
         const std::string base =
             (folder / pictureName(scene.name, run.configuration, index)).string();
         const Json picture = imageOf(base + ".png");
-        if (picture.isNull()) continue;
+        if (picture.is_null()) continue;
         pictures[run.configuration] = {{"picture", picture},
                                        {"error", imageOf(base + "-error.png")},
                                        {"samples", imageOf(base + "-samples.png")},

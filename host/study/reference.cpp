@@ -10,6 +10,7 @@
 #include "host/render/render.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <fstream>
@@ -34,8 +35,8 @@ std::optional<compare::Picture> kept(const fs::path& picture, const fs::path& la
                                      SceneStudy& scene) {
     Reference& described = scene.reference;
     std::ifstream file(label);
-    const Json json = Json::parse(file).value_or(nullptr);
-    if (!json.isObject() || json.value("options", std::string()) != described.options ||
+    const Json json = Json::parse(file, nullptr, false);
+    if (!json.is_object() || json.value("options", std::string()) != described.options ||
         json.value("scene", std::string()) != scene.name ||
         json.value("content", std::string()) != scene.content ||
         json.value("samples", 0u) < described.samples || !fs::exists(picture))

@@ -12,6 +12,7 @@
 #include "host/study/reference.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cctype>

@@ -8,6 +8,7 @@
 #include "scene/gltf/uri.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace stromboli::gltf {
 namespace {
@@ -25,11 +26,11 @@ Document::Document(const std::filesystem::path& file, build::Report& report)
         report.forgive({file_, 0, ""}, "has bytes that are no UTF-8",
                        "they are read as characters of Latin-1");
     try {
-        json_ = Json::parse(json, kDeepest);
+        json_ = std::make_shared<const Json>(parseJson(json, kDeepest));
     } catch (const JsonError& error) {
         throw SceneError(file_, 0, "", fmt::format("is no glTF: {}", error.what()));
     }
-    root_ = std::make_unique<Element>(file_, "", json_, &report);
+    root_ = std::make_unique<Element>(file_, "", *json_, &report);
     requireVersion();
     checkExtensions(report);
 }

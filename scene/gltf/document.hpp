@@ -49,7 +49,7 @@ class Document {
     std::string file_; ///< path_, for messages
     std::string bytes_;
     Container container_;
-    Json json_;
+    std::shared_ptr<const Json> json_;
     std::unique_ptr<Element> root_;
     mutable std::map<size_t, std::string> buffers_, unpackedViews_;
 };

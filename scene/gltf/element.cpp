@@ -3,6 +3,7 @@
 #include "host/core/error.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,7 @@ namespace stromboli::gltf {
 
 Element::Element(const std::string& file, std::string path, const Json& json, build::Report* report)
     : file_(&file), path_(std::move(path)), json_(&json), report_(report) {
-    if (!json.isObject()) fail("is no object, expected {...}");
+    if (!json.is_object()) fail("is no object, expected {...}");
 }
 
 void Element::fail(std::string_view member, const std::string& message) const {
@@ -40,13 +41,8 @@ void Element::forgive(build::Shortfall kind, std::string_view member,
 }
 
 const Json* Element::find(std::string_view member) const {
-    return json_->visit([&](const auto& value) -> const Json* {
-        if constexpr (std::same_as<std::decay_t<decltype(value)>, Json::Object>) {
-            for (const auto& [name, json] : value)
-                if (name == member) return &json;
-        }
-        return nullptr;
-    });
+    const auto found = json_->find(member);
+    return found == json_->end() ? nullptr : &*found;
 }
 
 const Json& Element::require(std::string_view member) const {
@@ -68,17 +64,17 @@ std::optional<Element> Element::extension(std::string_view name) const {
     return extensions ? extensions->child(name) : std::nullopt;
 }
 
-const Json::Array* Element::array(std::string_view member) const {
+const Json* Element::array(std::string_view member) const {
     const Json* json = find(member);
     if (!json) return nullptr;
-    return readOr<const Json::Array*>(nullptr, build::Shortfall::Word, [&] {
-        if (!json->isArray()) fail(member, "is no array, expected [...]");
-        return &json->elements();
+    return readOr<const Json*>(nullptr, build::Shortfall::Word, [&] {
+        if (!json->is_array()) fail(member, "is no array, expected [...]");
+        return json;
     });
 }
 
 size_t Element::size(std::string_view member) const {
-    const Json::Array* elements = array(member);
+    const Json* elements = array(member);
     return elements ? elements->size() : 0;
 }
 
@@ -100,24 +96,17 @@ std::vector<Element> Element::items(std::string_view member) const {
 }
 
 std::vector<std::string> Element::names() const {
-    return json_->visit([](const auto& value) {
-        std::vector<std::string> found;
-        if constexpr (std::same_as<std::decay_t<decltype(value)>, Json::Object>) {
-            for (const auto& member : value)
-                found.push_back(member.first);
-        }
-        return found;
-    });
+    std::vector<std::string> found;
+    for (const auto& member : json_->items())
+        found.push_back(member.key());
+    return found;
 }
 
 double Element::numberOf(std::string_view member, const Json& json) const {
-    try {
-        const double value = json.get<double>();
-        if (std::isfinite(value)) return value;
-        fail(member, "is not finite");
-    } catch (const JsonError&) {
-        fail(member, "is no number");
-    }
+    if (!json.is_number()) fail(member, "is no number");
+    const double value = json.get<double>();
+    if (!std::isfinite(value)) fail(member, "is not finite");
+    return value;
 }
 
 double Element::number(std::string_view member) const {
@@ -146,11 +135,8 @@ bool Element::flag(std::string_view member, bool otherwise) const {
     const Json* json = find(member);
     if (!json) return otherwise;
     return readOr(otherwise, build::Shortfall::Word, [&] {
-        try {
-            return json->get<bool>();
-        } catch (const JsonError&) {
-            fail(member, "is neither true nor false");
-        }
+        if (!json->is_boolean()) fail(member, "is neither true nor false");
+        return json->get<bool>();
     });
 }
 
@@ -158,7 +144,7 @@ std::string Element::text(std::string_view member, const std::string& otherwise)
     const Json* json = find(member);
     if (!json) return otherwise;
     return readOr(otherwise, build::Shortfall::Word, [&] {
-        if (!json->isText()) fail(member, "is no text");
+        if (!json->is_string()) fail(member, "is no text");
         return json->get<std::string>();
     });
 }
@@ -198,7 +184,7 @@ size_t Element::indexOf(std::string_view member, const Json& json, size_t size) 
 
 std::vector<size_t> Element::indices(std::string_view member, size_t size) const {
     std::vector<size_t> found;
-    const Json::Array* elements = array(member);
+    const Json* elements = array(member);
     for (size_t i = 0; elements && i < elements->size(); ++i)
         found.push_back(indexOf(fmt::format("{}[{}]", member, i), (*elements)[i], size));
     return found;
@@ -206,7 +192,7 @@ std::vector<size_t> Element::indices(std::string_view member, size_t size) const
 
 std::vector<size_t> Element::indicesOr(std::string_view member, size_t size) const {
     std::vector<size_t> found;
-    const Json::Array* elements = array(member);
+    const Json* elements = array(member);
     for (size_t i = 0; elements && i < elements->size(); ++i) {
         const auto one =
             readOr<std::optional<size_t>>(std::nullopt, build::Shortfall::Reference, [&] {
@@ -220,9 +206,9 @@ std::vector<size_t> Element::indicesOr(std::string_view member, size_t size) con
 
 std::vector<std::string> Element::texts(std::string_view member) const {
     std::vector<std::string> found;
-    const Json::Array* elements = array(member);
+    const Json* elements = array(member);
     for (size_t i = 0; elements && i < elements->size(); ++i) {
-        if ((*elements)[i].isText())
+        if ((*elements)[i].is_string())
             found.push_back((*elements)[i].get<std::string>());
         else
             forgive(build::Shortfall::Word, fmt::format("{}[{}]", member, i), "is no text");
@@ -232,7 +218,7 @@ std::vector<std::string> Element::texts(std::string_view member) const {
 
 std::vector<double> Element::numbers(std::string_view member, size_t expected) const {
     std::vector<double> found;
-    const Json::Array* elements = array(member);
+    const Json* elements = array(member);
     if (!elements) return found;
     if (expected > 0 && elements->size() != expected)
         fail(member, fmt::format("has {} numbers, expected {}", elements->size(), expected));
@@ -253,7 +239,7 @@ glm::dvec3 Element::vector(std::string_view member, const glm::dvec3& otherwise)
 
 std::string Element::displayName() const {
     const Json* name = find("name");
-    if (name && name->isText() && !name->get<std::string>().empty())
+    if (name && name->is_string() && !name->get<std::string>().empty())
         return name->get<std::string>();
     return path_;
 }

@@ -81,7 +81,8 @@ class Element {
     std::string pathOf(std::string_view member) const;
     const Json* find(std::string_view member) const;
     const Json& require(std::string_view member) const;
-    const Json::Array* array(std::string_view member) const;
+    /// Nothing if it is not there.
+    const Json* array(std::string_view member) const;
     double numberOf(std::string_view member, const Json& json) const;
     size_t indexOf(std::string_view member, const Json& json, size_t size) const;
     uint64_t countOf(std::string_view member, const Json& json) const;
