@@ -16,19 +16,46 @@ std::string_view withoutPlus(std::string_view word) {
     return word;
 }
 
+/// from_chars reports overflow and underflow alike; the exponent's sign tells them apart. Without
+/// one, only hundreds of zeros after the point underflow.
+bool isUnderflow(std::string_view word) {
+    const size_t e = word.find_first_of("eE");
+    if (e != std::string_view::npos) return e + 1 < word.size() && word[e + 1] == '-';
+    const size_t digit = word.find_first_not_of("+-0");
+    return digit != std::string_view::npos && word[digit] == '.';
+}
+
+/// The whole word; `error` says what from_chars had to say.
+template <class T>
+std::optional<T> valueOf(std::string_view word, std::errc& error) {
+    T value{};
+    const std::from_chars_result read =
+        std::from_chars(word.data(), word.data() + word.size(), value);
+    error = read.ec;
+    const bool isWhole = read.ptr == word.data() + word.size();
+    return isWhole && error != std::errc::invalid_argument ? std::optional(value) : std::nullopt;
+}
+
+template <class T>
+std::optional<T> inRange(std::string_view word) {
+    std::errc error{};
+    const std::optional<T> value = valueOf<T>(word, error);
+    return error == std::errc{} ? value : std::nullopt;
+}
+
 } // namespace
 
-std::optional<double> realIn(std::string_view word) {
-    word = withoutPlus(word);
-    double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (end != word.data() + word.size()) return std::nullopt;
-    // Out of range is said of both ends of the range.
-    const bool isTiny = error == std::errc::result_out_of_range &&
-                        (word.find("e-") != word.npos || word.find("E-") != word.npos);
-    if (isTiny) return 0.0;
-    if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
+std::optional<double> anyRealIn(std::string_view word) {
+    std::errc error{};
+    const std::optional<double> value = valueOf<double>(withoutPlus(word), error);
+    if (value && error == std::errc::result_out_of_range)
+        return isUnderflow(word) ? 0 : std::numeric_limits<double>::infinity();
     return value;
+}
+
+std::optional<double> realIn(std::string_view word) {
+    const std::optional<double> value = anyRealIn(word);
+    return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 std::optional<double> realOrNanIn(std::string_view word) {
@@ -44,11 +71,11 @@ std::optional<double> realOrNanIn(std::string_view word) {
 }
 
 std::optional<int64_t> integerIn(std::string_view word) {
-    word = withoutPlus(word);
-    int64_t value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
-    return value;
+    return inRange<int64_t>(withoutPlus(word));
+}
+
+std::optional<uint32_t> countIn(std::string_view word) {
+    return inRange<uint32_t>(word);
 }
 
 } // namespace stromboli::build

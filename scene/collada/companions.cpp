@@ -2,8 +2,8 @@
 
 #include "scene/build/companion.hpp"
 #include "scene/build/folder.hpp"
+#include "scene/build/percent_decoding.hpp"
 #include "scene/build/read_file.hpp"
-#include "scene/collada/percent_decoding.hpp"
 #include "scene/collada/zae.hpp"
 
 #include <fmt/format.h>
@@ -48,7 +48,7 @@ WrittenPath parse(std::string_view reference) {
         if (rest.starts_with("localhost/")) rest.remove_prefix(9);
         written.hasWrongScheme = !rest.starts_with('/');
     }
-    std::string text = percentDecoded(rest);
+    std::string text = build::percentDecoded(rest);
     written.hasBackslashes = text.find('\\') != std::string::npos;
     std::replace(text.begin(), text.end(), '\\', '/');
     std::string_view path = text;

@@ -1,6 +1,6 @@
 #include "scene/collada/document.hpp"
 
-#include "scene/collada/percent_decoding.hpp"
+#include "scene/build/percent_decoding.hpp"
 #include "scene/collada/source_text.hpp"
 #include "scene/xml/parse.hpp"
 
@@ -85,7 +85,8 @@ const Element* Document::find(const char* kind, std::string_view reference) cons
 
 const Element* Document::findId(const char* kind, std::string_view id) const {
     auto found = byKindAndId_.find(key(kind, id));
-    if (found == byKindAndId_.end()) found = byKindAndId_.find(key(kind, percentDecoded(id)));
+    if (found == byKindAndId_.end())
+        found = byKindAndId_.find(key(kind, build::percentDecoded(id)));
     return found == byKindAndId_.end() ? nullptr : found->second;
 }
 

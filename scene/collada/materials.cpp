@@ -1,11 +1,12 @@
 #include "scene/collada/materials.hpp"
 
+#include "scene/build/number_word.hpp"
 #include "scene/build/scene_builder.hpp"
 #include "scene/collada/numbers.hpp"
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -15,11 +16,7 @@ namespace {
 /// The number at the end of a name such as CHANNEL1.
 std::optional<uint32_t> numberAtEnd(std::string_view name) {
     const size_t last = name.find_last_not_of("0123456789");
-    const std::string_view digits = name.substr(last == std::string_view::npos ? 0 : last + 1);
-    uint32_t number = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    const bool isNumber = error == std::errc() && end == digits.data() + digits.size();
-    return isNumber ? std::optional(number) : std::nullopt;
+    return build::countIn(name.substr(last == std::string_view::npos ? 0 : last + 1));
 }
 
 /// The input of that set; null where there is none.

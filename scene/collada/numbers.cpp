@@ -1,8 +1,9 @@
 #include "scene/collada/numbers.hpp"
 
+#include "scene/build/number_word.hpp"
+
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -42,27 +43,6 @@ std::string quoted(std::string_view word) {
                              : fmt::format("'{}...'", word.substr(0, 40));
 }
 
-/// from_chars reports overflow and underflow alike; the exponent's sign tells them apart. Without
-/// one, only hundreds of zeros after the point underflow.
-bool isUnderflow(std::string_view word) {
-    const size_t e = word.find_first_of("eE");
-    if (e != std::string_view::npos) return e + 1 < word.size() && word[e + 1] == '-';
-    const size_t digit = word.find_first_not_of("+-0");
-    return digit != std::string_view::npos && word[digit] == '.';
-}
-
-/// A number as the standard writes it; nothing if it is none.
-std::optional<double> asNumber(std::string_view word) {
-    if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
-    double value = 0;
-    const char* end = word.data() + word.size();
-    const auto [rest, error] = std::from_chars(word.data(), end, value);
-    if (error == std::errc::invalid_argument || rest != end) return std::nullopt;
-    if (error == std::errc::result_out_of_range)
-        return isUnderflow(word) ? 0 : std::numeric_limits<double>::infinity();
-    return value;
-}
-
 /// A number with a comma where a point should be, as programs write it that take the user's
 /// language for the file's.
 std::optional<double> asNumberWithComma(std::string_view word) {
@@ -71,13 +51,13 @@ std::optional<double> asNumberWithComma(std::string_view word) {
         return std::nullopt;
     std::string pointed(word);
     pointed[comma] = '.';
-    return asNumber(pointed);
+    return build::anyRealIn(pointed);
 }
 
 /// `commas` becomes true where the number is forgiven a decimal comma.
 double parseNumber(const Document& document, const Element& at, std::string_view word,
                    NonFinite nonFinite, bool& commas) {
-    std::optional<double> number = asNumber(word);
+    std::optional<double> number = build::anyRealIn(word);
     if (!number) {
         number = asNumberWithComma(word);
         if (!number) document.fail(at, quoted(word) + " is not a number");
@@ -95,13 +75,11 @@ void forgiveCommas(const Document& document, const Element& at, bool commas) {
 
 uint32_t parseIndex(const Document& document, const Element& at, std::string_view word,
                     std::string_view what) {
-    uint32_t value = 0;
-    const char* end = word.data() + word.size();
-    const auto [rest, error] = std::from_chars(word.data(), end, value);
-    if (error != std::errc() || rest != end)
+    const std::optional<uint32_t> value = build::countIn(word);
+    if (!value)
         document.fail(
             at, fmt::format("{}{} is not an integer from 0 to 4294967295", what, quoted(word)));
-    return value;
+    return *value;
 }
 
 } // namespace

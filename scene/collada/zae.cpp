@@ -1,8 +1,8 @@
 #include "scene/collada/zae.hpp"
 
 #include "host/core/error.hpp"
+#include "scene/build/percent_decoding.hpp"
 #include "scene/build/read_file.hpp"
-#include "scene/collada/percent_decoding.hpp"
 
 #include <fmt/format.h>
 #include <tinyxml2.h>
@@ -109,7 +109,7 @@ std::string rootOfManifest(const Archive& archive) {
     if (!named)
         archive.fail(
             "its manifest.xml does not name a document: expected <dae_root>PATH</dae_root>");
-    std::string path = percentDecoded(root->GetText());
+    std::string path = build::percentDecoded(root->GetText());
     const char* spaces = " \t\r\n";
     path.erase(0, std::min(path.find_first_not_of(spaces), path.size()));
     path.erase(path.find_last_not_of(spaces) + 1);

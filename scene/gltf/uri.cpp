@@ -3,6 +3,7 @@
 #include "host/core/error.hpp"
 #include "scene/build/companion.hpp"
 #include "scene/build/folder.hpp"
+#include "scene/build/percent_decoding.hpp"
 #include "scene/build/read_file.hpp"
 #include "scene/build/unicode.hpp"
 
@@ -17,24 +18,6 @@ namespace stromboli::gltf {
 namespace {
 
 namespace fs = std::filesystem;
-
-int hexDigit(char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return -1;
-}
-
-std::string withoutPercents(std::string_view text) {
-    std::string decoded;
-    for (size_t i = 0; i < text.size(); ++i) {
-        const bool escape = text[i] == '%' && i + 2 < text.size() && hexDigit(text[i + 1]) >= 0 &&
-                            hexDigit(text[i + 2]) >= 0;
-        decoded += escape ? char(hexDigit(text[i + 1]) * 16 + hexDigit(text[i + 2])) : text[i];
-        if (escape) i += 2;
-    }
-    return decoded;
-}
 
 int base64Digit(char c) {
     if (c >= 'A' && c <= 'Z') return c - 'A';
@@ -89,7 +72,7 @@ build::Companion companionOf(const fs::path& folder, std::string_view uri) {
     const bool isPlace = uri.starts_with(file);
     if (hasScheme(uri) && !isPlace && uri.find(':') > 1) return {};
     const std::string_view written = isPlace ? uri.substr(file.size()) : uri;
-    const std::string name = withoutPercents(written);
+    const std::string name = build::percentDecoded(written);
     for (const std::string& reading : {name, std::string(written), build::utf8WithLatin1(name),
                                        build::latin1FromUtf8(name).value_or("")})
         if (build::Companion found = build::companion(folder, reading); found.path) return found;
@@ -101,7 +84,7 @@ build::Companion companionOf(const fs::path& folder, std::string_view uri) {
     if (hasScheme(uri))
         place.fail(
             fmt::format("the URI '{}' is no relative path; only files are read", shortUri(uri)));
-    const std::string name = withoutPercents(uri);
+    const std::string name = build::percentDecoded(uri);
     // A zero byte would end the name for the system and not for the checks.
     if (name.find('\0') != std::string::npos || leadsOut(name))
         place.fail(fmt::format("the URI '{}' leads out of the file's folder", shortUri(uri)));
@@ -132,7 +115,7 @@ std::string readUri(const fs::path& folder, std::string_view uri, const build::F
         const size_t comma = uri.find(',');
         if (comma == std::string_view::npos) place.fail("the data URI has no comma");
         if (!uri.substr(0, comma).ends_with(";base64"))
-            return withoutPercents(uri.substr(comma + 1));
+            return build::percentDecoded(uri.substr(comma + 1));
         std::optional<std::string> bytes = fromBase64(uri.substr(comma + 1));
         if (!bytes) place.fail("the data URI is no base64");
         return std::move(*bytes);

@@ -1,9 +1,10 @@
 #include "scene/mitsuba/words.hpp"
 
+#include "scene/build/number_word.hpp"
+
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
+#include <optional>
 
 namespace stromboli::mitsuba {
 namespace {
@@ -20,15 +21,6 @@ std::string quoted(std::string_view word) {
                              : fmt::format("'{}...'", word.substr(0, 40));
 }
 
-/// The whole word as a number; false if it is none, or one that T cannot hold.
-template <class T>
-bool parse(std::string_view word, T& value) {
-    if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
-    const char* end = word.data() + word.size();
-    const auto [rest, error] = std::from_chars(word.data(), end, value);
-    return error == std::errc() && rest == end && !word.empty();
-}
-
 } // namespace
 
 std::vector<std::string_view> wordsOf(std::string_view text) {
@@ -43,16 +35,15 @@ std::vector<std::string_view> wordsOf(std::string_view text) {
 }
 
 double numberOf(const build::FilePlace& where, std::string_view word) {
-    double value = 0;
-    if (!parse(trimmed(word), value) || !std::isfinite(value))
-        where.fail(quoted(word) + " is not a finite number");
-    return value;
+    const std::optional<double> value = build::realIn(trimmed(word));
+    if (!value) where.fail(quoted(word) + " is not a finite number");
+    return *value;
 }
 
 int64_t integerOf(const build::FilePlace& where, std::string_view word) {
-    int64_t value = 0;
-    if (!parse(trimmed(word), value)) where.fail(quoted(word) + " is not a whole number");
-    return value;
+    const std::optional<int64_t> value = build::integerIn(trimmed(word));
+    if (!value) where.fail(quoted(word) + " is not a whole number");
+    return *value;
 }
 
 bool flagOf(const build::FilePlace& where, std::string_view word) {

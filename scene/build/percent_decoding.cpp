@@ -1,8 +1,8 @@
-#include "scene/collada/percent_decoding.hpp"
+#include "scene/build/percent_decoding.hpp"
 
 #include <cstddef>
 
-namespace stromboli::collada {
+namespace stromboli::build {
 
 std::string percentDecoded(std::string_view text) {
     const auto digit = [](char c) {
@@ -25,4 +25,4 @@ std::string percentDecoded(std::string_view text) {
     return decoded;
 }
 
-} // namespace stromboli::collada
+} // namespace stromboli::build
