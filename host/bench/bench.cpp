@@ -1,13 +1,10 @@
 #include "host/bench/bench.hpp"
 
-#include "host/bench/bvh_bench.hpp"
 #include "host/bench/circumstances.hpp"
-#include "host/bench/growth_bench.hpp"
 #include "host/bench/path_bench.hpp"
 #include "host/bench/ray_bench.hpp"
 #include "host/bench/startup_bench.hpp"
-#include "host/bench/texture_bench.hpp"
-#include "host/bench/transfer_bench.hpp"
+#include "host/engine/build_scene.hpp"
 #include "host/vulkan/open_device.hpp"
 #include "scene/find_scene.hpp"
 
@@ -128,8 +125,7 @@ class Benchmark {
     /// All that needs a device's copy of the scene.
     void trace(const Arena& arena, SceneReport& report) {
         const Scene& scene = arena.scene.scene;
-        const GpuScene gpu =
-            packScene(scene, buildWideBvh(scene), lightSelection(arena.settings.estimator));
+        const GpuScene gpu = buildScene(scene, arena.settings.estimator).gpu;
         if (wants(Part::Rays)) traceRays(arena, gpu, report);
         if (wants(Part::Paths)) report.paths = benchPaths(arena, gpu);
         if (wants(Part::Variants)) report.variants = benchVariants(arena, gpu, kernelVariants(gpu));

@@ -1,6 +1,13 @@
 #include "host/bench/contestants.hpp"
 
+#include "host/engine/load_scene.hpp"
+#include "scene/find_scene.hpp"
+
 namespace stromboli::bench {
+
+BenchScene loadBenchScene(const std::string& name) {
+    return {name, sceneFile(name), std::move(*loadScene({name, {}, {}}).scene)};
+}
 
 const char* nameOf(EmbreeQuality quality) {
     return quality == EmbreeQuality::High ? "high" : "medium";

@@ -1,15 +1,26 @@
 #pragma once
 
-#include "host/bench/alternate.hpp"
-#include "host/bench/bench_scene.hpp"
 #include "host/bench/embree.hpp"
+#include "host/bench/measuring.hpp"
 #include "host/kernel/gpu_scene.hpp"
+#include "host/render/settings.hpp"
 #include "host/vulkan/device.hpp"
+#include "scene/camera/camera.hpp"
+#include "scene/model/scene.hpp"
 
 #include <memory>
 #include <string>
 
 namespace stromboli::bench {
+
+struct BenchScene {
+    std::string name;
+    std::string file; ///< empty: made in memory
+    Scene scene;
+};
+
+/// `name`: as readScene understands it. Throws SceneError.
+BenchScene loadBenchScene(const std::string& name);
 
 /// What all parts of the benchmark of one scene work on.
 struct Arena {

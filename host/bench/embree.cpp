@@ -2,7 +2,7 @@
 
 #include "host/bench/embree_api.hpp"
 #include "host/bench/embree_rays.hpp"
-#include "host/bench/workers.hpp"
+#include "host/bench/measuring.hpp"
 #include "host/core/error.hpp"
 #include "host/core/stopwatch.hpp"
 

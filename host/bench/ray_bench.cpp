@@ -1,5 +1,12 @@
 #include "host/bench/ray_bench.hpp"
 
+#include "host/bench/contestants.hpp"
+#include "host/bvh/binary_tree.hpp"
+#include "host/bvh/leaf_items.hpp"
+#include "host/bvh/statistics.hpp"
+#include "host/bvh/wide_layout.hpp"
+#include "host/core/stopwatch.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -61,6 +68,61 @@ RayReport benchRays(const Arena& arena, DeviceRays& device, const EmbreePair& em
     add("Embree fast", embree.fast.get());
     add("Embree robust", embree.robust.get());
     report.contestants = alternate(contestants, arena.plan);
+    return report;
+}
+
+GrowthPoint benchSize(uint64_t triangles, const vulkan::Device& device, const Embree* embree,
+                      uint32_t threads, const RenderSettings& settings, uint32_t raysPerPixel,
+                      const AlternatePlan& plan) {
+    const BenchScene scene = loadBenchScene("generate:cornell_mesh:" + std::to_string(triangles));
+    const Arena arena = {device, embree, threads, plan, scene, cameraOf(scene, settings), settings};
+    GrowthPoint point;
+    point.scene = scene.name;
+    point.triangles = scene.scene.triangles.size();
+    const RaySet bounce =
+        makeRaySets(scene.scene, arena.camera, arena.settings, raysPerPixel).bounce;
+    const Stopwatch watch;
+    WideLayout bvh = buildWideBvh(scene.scene);
+    point.buildSeconds = watch.seconds();
+    const EmbreePair pair = buildBest(arena, bounce);
+    if (pair.fast) point.embreeBuildSeconds = pair.fast->buildSeconds;
+    const GpuScene gpu = packScene(scene.scene, std::move(bvh));
+    DeviceRays rays(device, gpu, rayTuning(device, rowBytes(gpu, bounce.rays.size())));
+    point.bounce = benchRays(arena, rays, pair, bounce);
+    return point;
+}
+
+BvhReport benchBvh(const Arena& arena) {
+    const Scene& scene = arena.scene.scene;
+    std::vector<Contestant> contestants = {{"ours", [&] {
+                                                buildWideBvh(scene);
+                                                return Work{};
+                                            }}};
+    uint64_t embreeBytes = 0;
+    if (arena.embree) {
+        const auto build = [&, geometry = arena.embree->geometry(scene)](EmbreeQuality quality) {
+            // In its robust mode Embree builds the same whatever the quality.
+            embreeBytes = arena.embree->build(geometry, EmbreeMode::Fast, quality)->bytes;
+            return Work{};
+        };
+        contestants.push_back(
+            {"Embree, medium quality", [build] { return build(EmbreeQuality::Medium); }});
+        contestants.push_back(
+            {"Embree, high quality", [build] { return build(EmbreeQuality::High); }});
+    }
+    contestants.push_back({"ours, binary tree alone", [&] {
+                               buildBinaryTree(bvh::itemBounds(scene, bvh::makeLeafItems(scene)));
+                               return Work{};
+                           }});
+    BvhReport report;
+    report.builds = alternate(contestants, arena.plan);
+    report.binaryTree = std::move(report.builds.back());
+    report.builds.pop_back();
+    const BvhStatistics statistics = measure(buildWideBvh(scene));
+    report.expectedVisits = statistics.expectedVisits;
+    report.bytesPerPrimitive = statistics.bytesPerPrimitive();
+    const size_t primitives = scene.triangles.size() + scene.spheres.size();
+    if (primitives > 0) report.embreeBytesPerPrimitive = double(embreeBytes) / double(primitives);
     return report;
 }
 

@@ -2,7 +2,13 @@
 
 #include "host/bench/contestants.hpp"
 #include "host/bench/device_rays.hpp"
+#include "host/bench/embree.hpp"
+#include "host/bench/measuring.hpp"
 #include "host/bench/report.hpp"
+#include "host/render/settings.hpp"
+#include "host/vulkan/device.hpp"
+
+#include <cstdint>
 
 namespace stromboli::bench {
 
@@ -18,5 +24,15 @@ uint64_t countDisagreements(const RaySet& set, const std::vector<float>& a,
 
 /// Of rays, by where they end.
 double hitShare(const std::vector<float>& distances);
+
+/// Bounce rays in the generated mesh of so many triangles in a box.
+GrowthPoint benchSize(uint64_t triangles, const vulkan::Device& device, const Embree* embree,
+                      uint32_t threads, const RenderSettings& settings, uint32_t raysPerPixel,
+                      const AlternatePlan& plan);
+
+/// Building: ours (and its binary tree alone) against Embree's high and medium quality, the same
+/// number of threads, the scene's arrays at hand. Ours includes the layout for the device, Embree's
+/// its own.
+BvhReport benchBvh(const Arena& arena);
 
 } // namespace stromboli::bench

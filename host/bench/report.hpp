@@ -1,13 +1,14 @@
 #pragma once
 
-#include "host/bench/alternate.hpp"
+/// What `stromboli bench` found, before it is put into words. Series are in seconds for one item:
+/// one build, one ray, one path, one byte.
+#include "host/bench/measuring.hpp"
+#include "host/core/json.hpp"
 
 #include <optional>
 #include <string>
 #include <vector>
 
-/// What `stromboli bench` found, before it is put into words. Series are in seconds for one item:
-/// one build, one ray, one path, one byte.
 namespace stromboli::bench {
 
 /// Where and how the figures were made.
@@ -101,5 +102,14 @@ struct BenchReport {
     std::optional<StartupReport> startup;
     std::optional<TransferReport> transfer;
 };
+
+/// All of the report, every single measurement included; times in seconds for one item (build, ray,
+/// path, byte). Comparisons are against the first contestant of a list, which is ours.
+Json toJson(const BenchReport& report);
+
+/// The report for people: lines of at most 100 characters or so. Figures are medians, with the
+/// least and the most in brackets; "x" figures are medians of the ratios of each round, above 1
+/// where ours is the faster.
+std::string toTable(const BenchReport& report);
 
 } // namespace stromboli::bench

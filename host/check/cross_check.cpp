@@ -1,14 +1,82 @@
 #include "host/check/cross_check.hpp"
 
-#include "host/check/difference.hpp"
-#include "host/check/normal.hpp"
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
 
 namespace stromboli {
+
+double twoSidedProbability(double z) {
+    return std::erfc(std::abs(z) / std::numbers::sqrt2);
+}
+
+double twoSidedQuantile(double probability) {
+    // erfc of 40 / sqrt(2) is 0 in double; halving 64 times leaves less than one rounding.
+    double low = 0, high = 40;
+    for (int i = 0; i < 64; ++i) {
+        const double middle = 0.5 * (low + high);
+        (twoSidedProbability(middle) > probability ? low : high) = middle;
+    }
+    return high;
+}
+
+double sidakLevel(double familyError, uint64_t tests) {
+    return -std::expm1(std::log1p(-familyError) / double(tests));
+}
+
+void Difference::add(const PixelStatistics& a, const PixelStatistics& b, int channel) {
+    const double na = a.count, nb = b.count, n = na + nb;
+    const double d = a.mean[channel] - b.mean[channel];
+    sumA_ += a.mean[channel];
+    sumB_ += b.mean[channel];
+    const double own = a.varianceOfMean()[channel] + b.varianceOfMean()[channel];
+    // E d^2 is the variance itself: both estimates are unbiased. For na = nb they are equal.
+    separate_ += own * ((n - 2) / (n - 1)) + d * d / (n - 1);
+    const double deviations = a.m2[channel] + b.m2[channel] + d * d * na * nb / n;
+    pooled_ += deviations / (n - 1) * (n / (na * nb));
+    const double both = 0.5 * (a.mean[channel] + b.mean[channel]);
+    ownShare_ += both * both / (n - 1);
+}
+
+void Difference::add(const Difference& other) {
+    sumA_ += other.sumA_;
+    sumB_ += other.sumB_;
+    separate_ += other.separate_;
+    pooled_ += other.pooled_;
+    ownShare_ += other.ownShare_;
+}
+
+double Difference::z(double rounding) const {
+    const double d = sumA_ - sumB_;
+    // Radiance is not negative, so the sums bound the sum of the pixels' own rounding errors.
+    const double excess = std::abs(d) - rounding * std::max(sumA_, sumB_) - kUnderflow;
+    if (excess <= 0) return 0;
+    const double deviations = excess / std::sqrt(variance());
+    // What is not a number agrees with nothing.
+    return std::isnan(deviations) ? std::numeric_limits<double>::infinity()
+                                  : std::copysign(deviations, d);
+}
+
+/// A relative difference x shifts the difference of the sums by x m, m the mean of both sums, and
+/// makes its estimated variance v + x^2 q, q = ownShare_. It is found with probability `power`
+/// where x m - p sqrt(v) - r = limit sqrt(v + x^2 q): p is the normal quantile of `power`, r what
+/// rounding may explain. With c = p sqrt(v) + r this is a quadratic equation, of which the root
+/// with x m > c is returned; there is none unless m > limit sqrt(q).
+double Difference::visible(double limit, double power, double rounding) const {
+    constexpr double kNothing = std::numeric_limits<double>::infinity();
+    if (isBlack()) return kNothing;
+    const double m = 0.5 * (sumA_ + sumB_), v = variance(), q = ownShare_;
+    const double a = m * m - limit * limit * q;
+    if (!(a > 0)) return kNothing;
+    const double c = twoSidedQuantile(2 * (1 - power)) * std::sqrt(v) + rounding * m + kUnderflow;
+    return (m * c + limit * std::sqrt(a * v + q * c * c)) / a;
+}
+
 namespace {
 
 using ChannelDifferences = std::array<Difference, 3>;
@@ -188,6 +256,73 @@ CheckResult crossCheck(const Film& a, const Film& b, const CheckSettings& settin
     checkPixels(pixels, a, settings, result);
     checkConstants(a, b, settings, error, result);
     return result;
+}
+
+namespace {
+
+constexpr const char* kChannelNames[] = {"red", "green", "blue"};
+
+const char* verdict(bool agrees) {
+    return agrees ? "ok" : "DIFFERENT";
+}
+
+std::string percent(const CheckChannel& c) {
+    if (c.isBlack) return "black";
+    return std::isfinite(c.visible) ? fmt::format("{:.3g} %", 100 * c.visible) : "nothing";
+}
+
+/// What the test of the means was able to see, whatever it found.
+std::string formatSight(const CheckResult& r) {
+    if (r.varied == 0) return "sight      unknown: no pixel has two samples\n";
+    return fmt::format("sight      differences of the means found with {:g} % probability: from {} "
+                       "(red), {} (green), {} (blue)\n",
+                       100 * r.power, percent(r.channels[0]), percent(r.channels[1]),
+                       percent(r.channels[2]));
+}
+
+std::string finalWord(const CheckResult& r) {
+    switch (r.verdict()) {
+    case Verdict::Agree:
+        return "the pictures agree";
+    case Verdict::Different:
+        return "DIFFERENT";
+    case Verdict::Undecided:
+        break;
+    }
+    return r.varied == 0
+               ? "UNDECIDED: no pixel has two samples, and so nothing tells noise from a difference"
+               : "UNDECIDED: the noise would hide it if one picture were black; take more samples";
+}
+
+} // namespace
+
+std::string formatCheck(const CheckResult& r) {
+    if (r.pixels == 0) return "no pixel has samples in both pictures\nverdict: DIFFERENT\n";
+    std::string text;
+    for (int c = 0; c < 3; ++c) {
+        const CheckChannel& channel = r.channels[c];
+        text +=
+            fmt::format("mean {:<6} {:.6g} and {:.6g}, {:+.3f} %, z = {:+.2f}\n", kChannelNames[c],
+                        channel.meanA, channel.meanB, 100 * channel.relativeDifference, channel.z);
+    }
+    text += fmt::format("means      |z| <= {:.2f}: {}\n", r.channelLimit, verdict(r.channelsAgree));
+    text += formatSight(r);
+    const CheckBlock& block = r.worstBlock;
+    text += fmt::format(
+        "blocks     |z| <= {:.2f}: {}; worst z = {:+.2f} of {} at ({}, {}), {} x {}, {}\n",
+        r.blockLimit, verdict(r.blocksAgree), block.z, r.blockTests, block.x, block.y, block.width,
+        block.height, kChannelNames[block.channel]);
+    text +=
+        fmt::format("pixels     {:.3f} % with |z| <= {:.2f}: {}; worst z = {:+.2f} at "
+                    "({}, {}), {}\n",
+                    100 * r.fractionPassing, r.pixelLimit, verdict(r.pixelsAgree), r.worstPixel.z,
+                    r.worstPixel.x, r.worstPixel.y, kChannelNames[r.worstPixel.channel]);
+    text += fmt::format("constants  {} of {} pixels differ: {}\n", r.constantMismatches, r.pixels,
+                        verdict(r.constantsAgree));
+    if (r.rejectedA + r.rejectedB > 0)
+        text += fmt::format("samples rejected: {} and {}\n", r.rejectedA, r.rejectedB);
+    text += fmt::format("verdict: {}\n", finalWord(r));
+    return text;
 }
 
 } // namespace stromboli

@@ -2,6 +2,7 @@
 
 #include "host/render/session_state.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -41,5 +42,19 @@ void requireSameRender(const std::filesystem::path& file, const Checkpoint& chec
 /// The state to go on from with a budget that may be another. The pass that was under way belongs
 /// to the budget it was planned for: with another one it is planned anew.
 SessionState withBudget(SessionState state, const Budget& budget);
+
+// A picture that is rendered in bands has a checkpoint for each, beside where that of the whole
+// picture would be. Bands have about the same height (host/render/bands.hpp), so that their number
+// says which rows each has.
+
+/// FILE.band2of5 for the second one of five; `band` counts from 0.
+std::filesystem::path bandFile(const std::filesystem::path& file, size_t band, size_t count);
+
+/// The number of bands that the checkpoints beside the file are of; 0: there are none. Throws
+/// UsageError if they are of different numbers: of two renders.
+uint32_t bandsKept(const std::filesystem::path& file);
+
+/// Removes the checkpoints of all bands, of however many. What cannot be removed stays.
+void removeBandFiles(const std::filesystem::path& file);
 
 } // namespace stromboli

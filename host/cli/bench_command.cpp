@@ -1,6 +1,5 @@
 // `bench`: speed, against Embree where it is installed.
-#include "host/bench/report_json.hpp"
-#include "host/bench/report_table.hpp"
+#include "host/bench/report.hpp"
 #include "host/bench/startup_bench.hpp"
 #include "host/cli/activity.hpp"
 #include "host/cli/command_line.hpp"

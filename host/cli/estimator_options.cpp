@@ -2,7 +2,7 @@
 // device takes them.
 #include "host/cli/declared_command.hpp"
 #include "host/core/error.hpp"
-#include "host/render/noise_plan.hpp"
+#include "host/render/sampling_plan.hpp"
 
 #include <fmt/format.h>
 

@@ -11,7 +11,6 @@
 #include "host/core/output.hpp"
 #include "host/farm/film_file.hpp"
 #include "host/farm/merge_films.hpp"
-#include "host/farm/picture_parts.hpp"
 
 #include <fmt/format.h>
 

@@ -7,8 +7,7 @@
 #include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
-#include "host/farm/plan_file.hpp"
-#include "host/farm/plan_round.hpp"
+#include "host/farm/round_plan.hpp"
 
 #include <fmt/format.h>
 

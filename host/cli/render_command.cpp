@@ -13,7 +13,7 @@
 #include "host/engine/keeping.hpp"
 #include "host/engine/render_session.hpp"
 #include "host/engine/share.hpp"
-#include "host/farm/plan_file.hpp"
+#include "host/farm/round_plan.hpp"
 
 #include <fmt/format.h>
 

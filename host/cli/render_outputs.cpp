@@ -5,7 +5,7 @@
 #include "host/core/output.hpp"
 #include "host/core/printable.hpp"
 #include "host/film/png.hpp"
-#include "host/film/rate_picture.hpp"
+#include "host/film/shown_film.hpp"
 #include "host/version/version.hpp"
 
 #include <fmt/format.h>

@@ -3,8 +3,8 @@
 #include "host/cli/options.hpp"
 #include "host/cli/report.hpp"
 #include "host/engine/render_session.hpp"
-#include "host/film/brightness.hpp"
 #include "host/film/image_file.hpp"
+#include "host/film/shown_film.hpp"
 
 #include <optional>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/engine/render_result.hpp"
-#include "host/film/brightness.hpp"
+#include "host/film/shown_film.hpp"
 #include "host/render/picture_noise.hpp"
 #include "scene/model/scene.hpp"
 

@@ -14,7 +14,6 @@
 #include "host/engine/build_scene.hpp"
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/reference/reference_backend.hpp"
-#include "host/study/folder_lock.hpp"
 #include "host/study/journal.hpp"
 #include "host/study/page.hpp"
 #include "host/study/run_study.hpp"

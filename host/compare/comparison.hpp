@@ -2,7 +2,6 @@
 
 #include "host/check/cross_check.hpp"
 #include "host/compare/acceptance.hpp"
-#include "host/compare/block_acceptance.hpp"
 #include "host/compare/flip.hpp"
 #include "host/compare/metrics.hpp"
 #include "host/core/json.hpp"

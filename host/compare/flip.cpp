@@ -1,13 +1,91 @@
 #include "host/compare/flip.hpp"
 
-#include "host/compare/flip_color.hpp"
-#include "host/compare/plane.hpp"
+#include "host/core/color.hpp"
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
 namespace stromboli::compare {
+namespace {
+
+/// Filters along x and exchanges x and y: done twice, it filters along both.
+Plane filterAndTranspose(const Plane& plane, const Kernel& kernel) {
+    Plane out(plane.height, plane.width);
+    const int radius = int(kernel.size() / 2), last = int(plane.width) - 1;
+    tbb::parallel_for(uint32_t(0), plane.height, [&](uint32_t y) {
+        const double* row = &plane.values[size_t(y) * plane.width];
+        for (int x = 0; x <= last; ++x) {
+            double sum = 0;
+            for (int i = -radius; i <= radius; ++i)
+                sum += kernel[size_t(i + radius)] * row[std::clamp(x + i, 0, last)];
+            out.values[size_t(x) * plane.height + y] = sum;
+        }
+    });
+    return out;
+}
+
+} // namespace
+
+Kernel gaussian(double sigma, int radius) {
+    Kernel kernel;
+    double sum = 0;
+    for (int x = -radius; x <= radius; ++x) {
+        kernel.push_back(std::exp(-x * x / (2 * sigma * sigma)));
+        sum += kernel.back();
+    }
+    for (double& weight : kernel)
+        weight /= sum;
+    return kernel;
+}
+
+Plane filter(const Plane& plane, const Kernel& alongX, const Kernel& alongY) {
+    return filterAndTranspose(filterAndTranspose(plane, alongX), alongY);
+}
+
+namespace {
+
+/// IEC 61966-2-1's primaries and white point D65, (x, y) = (0.3127, 0.3290), as exact fractions:
+/// XYZ of linear RGB. Column by column, as GLM stores it.
+const glm::dmat3 kXyzFromRgb = {10135552.0 / 24577794, 2613072.0 / 12288897, 1425312.0 / 73733382,
+                                8788810.0 / 24577794,  8788810.0 / 12288897, 8788810.0 / 73733382,
+                                4435075.0 / 24577794,  887015.0 / 12288897,  70074185.0 / 73733382};
+const glm::dmat3 kRgbFromXyz = glm::inverse(kXyzFromRgb);
+const glm::dvec3 kWhite = kXyzFromRgb * glm::dvec3(1);
+
+double labCurve(double t) {
+    constexpr double kDelta = 6.0 / 29;
+    return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0 / 29;
+}
+
+} // namespace
+
+glm::dvec3 yccFromLinear(const glm::dvec3& rgb) {
+    const glm::dvec3 t = kXyzFromRgb * rgb / kWhite;
+    return {116 * t.y - 16, 500 * (t.x - t.y), 200 * (t.y - t.z)};
+}
+
+glm::dvec3 linearFromYcc(const glm::dvec3& ycc) {
+    const double y = (ycc.x + 16) / 116;
+    const glm::dvec3 t = {y + ycc.y / 500, y, y - ycc.z / 200};
+    return kRgbFromXyz * (t * kWhite);
+}
+
+glm::dvec3 huntLabFromLinear(const glm::dvec3& rgb) {
+    const glm::dvec3 t = kXyzFromRgb * rgb / kWhite;
+    const double fy = labCurve(t.y), lightness = 116 * fy - 16;
+    return {lightness, 0.01 * lightness * 500 * (labCurve(t.x) - fy),
+            0.01 * lightness * 200 * (fy - labCurve(t.z))};
+}
+
+double hyAb(const glm::dvec3& a, const glm::dvec3& b) {
+    const glm::dvec3 d = a - b;
+    return std::abs(d.x) + std::hypot(d.y, d.z);
+}
+
 namespace {
 
 using std::numbers::pi;
@@ -153,6 +231,74 @@ double meanOf(const std::vector<double>& values) {
     for (const double value : values)
         sum += value;
     return values.empty() ? 0 : sum / double(values.size());
+}
+
+namespace {
+
+/// ACES tone curve in Narkowicz's fit (2015), a ratio of two quadratics; its input is scaled by
+/// 0.6 to undo the fit's exposure, as the HDR-FLIP paper does.
+constexpr double kScale = 0.6;
+constexpr double kN2 = 2.51 * kScale * kScale, kN1 = 0.03 * kScale;
+constexpr double kD2 = 2.43 * kScale * kScale, kD1 = 0.59 * kScale, kD0 = 0.14;
+
+double tone(double x) {
+    return std::clamp((kN2 * x * x + kN1 * x) / (kD2 * x * x + kD1 * x + kD0), 0.0, 1.0);
+}
+
+/// Where the curve reaches 0.85, the paper's limit of what is still well exposed: the positive
+/// root of the quadratic equation tone(x) = 0.85.
+double wellExposed() {
+    constexpr double kLimit = 0.85;
+    constexpr double a = kN2 - kLimit * kD2, b = kN1 - kLimit * kD1, c = -kLimit * kD0;
+    return (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a);
+}
+
+Picture toned(const Picture& picture, double stops) {
+    Picture out = picture;
+    const double exposure = std::exp2(stops);
+    for (glm::dvec3& c : out.rgb)
+        for (int i = 0; i < 3; ++i)
+            c[i] = tone(exposure * std::max(c[i], 0.0));
+    return out;
+}
+
+double medianOf(std::vector<double> values) {
+    const size_t half = values.size() / 2;
+    std::sort(values.begin(), values.end());
+    return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+/// The curve's input is what the paper scales, so a black picture has no range: one exposure.
+HdrFlip exposureRange(const Picture& reference) {
+    std::vector<double> luminances;
+    for (const glm::dvec3& c : reference.rgb)
+        luminances.push_back(luminance(c));
+    const double most = *std::max_element(luminances.begin(), luminances.end());
+    HdrFlip range;
+    range.exposures = 1;
+    if (!(most > 0)) return range;
+    // Not more than 2^-20 of the brightest, for pictures that are mostly black.
+    const double median = std::max(medianOf(std::move(luminances)), most * 0x1p-20);
+    range.startStops = std::log2(wellExposed() / most);
+    range.stopStops = std::log2(wellExposed() / median);
+    range.exposures = std::max(2, int(std::ceil(range.stopStops - range.startStops)));
+    return range;
+}
+
+} // namespace
+
+HdrFlip hdrFlipMap(const Picture& reference, const Picture& picture, double pixelsPerDegree) {
+    HdrFlip result = exposureRange(reference);
+    result.map.assign(reference.rgb.size(), 0);
+    const double step = (result.stopStops - result.startStops) / std::max(result.exposures - 1, 1);
+    for (int i = 0; i < result.exposures; ++i) {
+        const double stops = result.startStops + i * step;
+        const std::vector<double> map =
+            flipMap(toned(reference, stops), toned(picture, stops), pixelsPerDegree);
+        for (size_t p = 0; p < map.size(); ++p)
+            result.map[p] = std::max(result.map[p], map[p]);
+    }
+    return result;
 }
 
 } // namespace stromboli::compare

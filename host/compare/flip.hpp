@@ -2,7 +2,44 @@
 
 #include "host/compare/picture.hpp"
 
+#include <glm/glm.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 namespace stromboli::compare {
+
+/// One channel of a picture, rows from the top.
+struct Plane {
+    uint32_t width = 0, height = 0;
+    std::vector<double> values;
+
+    Plane() = default;
+    Plane(uint32_t w, uint32_t h) : width(w), height(h), values(size_t(w) * h) {}
+};
+
+/// Weights at -r, ..., 0, ..., r.
+using Kernel = std::vector<double>;
+
+/// exp(-x^2 / (2 sigma^2)) at whole x up to `radius`, with sum 1.
+Kernel gaussian(double sigma, int radius);
+
+/// sum of alongX[i] alongY[j] p(x + i, y + j): a correlation, beyond the edges of the plane the
+/// nearest value of it.
+Plane filter(const Plane& plane, const Kernel& alongX, const Kernel& alongY);
+
+/// Linear sRGB to YCxCz, the opponent space of iCAM (Moroney 2002; FLIP paper, section 4.1) for
+/// the white of sRGB: white has Y = 100, Cx = Cz = 0.
+glm::dvec3 yccFromLinear(const glm::dvec3& rgb);
+glm::dvec3 linearFromYcc(const glm::dvec3& ycc);
+
+/// CIE L*a*b* of linear sRGB, a and b scaled by L / 100: the Hunt effect, by which colours are
+/// less colourful in the dark.
+glm::dvec3 huntLabFromLinear(const glm::dvec3& rgb);
+
+/// |dL| + sqrt(da^2 + db^2) (Abasi et al. 2020), a distance for large differences of colour.
+double hyAb(const glm::dvec3& a, const glm::dvec3& b);
 
 /// Pixels per degree of a viewer 0.7 m from a screen 0.7 m wide with 3840 pixels across, the
 /// default of the FLIP papers: 0.7 (3840 / 0.7) pi / 180.

@@ -1,7 +1,7 @@
 // Checkpoints of renders: which file, and what it means to go on from it.
 #include "host/engine/keeping.hpp"
 
-#include "host/checkpoint/band_files.hpp"
+#include "host/checkpoint/checkpoint_file.hpp"
 #include "host/core/error.hpp"
 #include "host/render/bands.hpp"
 

@@ -1,6 +1,6 @@
 #include "host/engine/render_result.hpp"
 
-#include "host/film/unreached.hpp"
+#include "host/film/shown_film.hpp"
 
 namespace stromboli {
 

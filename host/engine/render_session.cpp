@@ -3,10 +3,10 @@
 #include "host/core/error.hpp"
 #include "host/engine/seen_channels.hpp"
 #include "host/film/image_file.hpp"
-#include "host/film/unreached.hpp"
+#include "host/film/shown_film.hpp"
 #include "host/render/block_backend.hpp"
-#include "host/render/noise_plan.hpp"
 #include "host/render/render.hpp"
+#include "host/render/sampling_plan.hpp"
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,8 +1,8 @@
 #include "host/engine/seen_channels.hpp"
 
 #include "host/film/image_file.hpp"
-#include "host/film/unreached.hpp"
-#include "host/render/noise_plan.hpp"
+#include "host/film/shown_film.hpp"
+#include "host/render/sampling_plan.hpp"
 
 #include <algorithm>
 #include <functional>

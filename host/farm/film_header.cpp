@@ -1,7 +1,7 @@
 #include "host/farm/film_header.hpp"
 
 #include "host/core/error.hpp"
-#include "host/render/adaptive.hpp"
+#include "host/render/sampling_plan.hpp"
 #include "host/render/session_state.hpp"
 
 #include <fmt/format.h>

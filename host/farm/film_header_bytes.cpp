@@ -1,5 +1,5 @@
 // What a film says of itself, as bytes.
-#include "host/checkpoint/byte_parts.hpp"
+#include "host/checkpoint/packed_bytes.hpp"
 #include "host/core/error.hpp"
 #include "host/farm/film_header.hpp"
 #include "host/render/session_state.hpp"

@@ -1,8 +1,13 @@
 #pragma once
 
 #include "host/farm/film_file.hpp"
+#include "host/farm/film_header.hpp"
+#include "host/film/exact_statistics.hpp"
+#include "host/film/image.hpp"
+#include "host/render/picture_noise.hpp"
 
 #include <functional>
+#include <span>
 
 namespace stromboli {
 
@@ -25,6 +30,33 @@ class FilmsToMerge {
   private:
     std::vector<FilmReader> films_;
     FilmHeader header_;
+};
+
+/// The statistics of a picture whose films are added up run by run, in parts that are large enough
+/// for their noise to mean something, and no larger than four million pixels: what memory holds.
+/// The parts follow from the picture's size alone, and so does what is worked out from them.
+class PictureParts {
+  public:
+    /// `estimate` knows the errors of the part's pixels; `more`: its alpha and layers, as far as
+    /// the picture has them and films hold them.
+    using Take = std::function<void(const Film& part, const NoiseEstimate& estimate,
+                                    const FloatImage& more)>;
+
+    PictureParts(const FilmHeader& header, Take take);
+    /// The next run of rows, from the top. Calls `take` for each part that is whole.
+    void add(std::span<const SharedPixel> run, std::span<const float> layers = {});
+
+  private:
+    void begin();
+    void addChannels(std::span<const SharedPixel> run, std::span<const float> layers);
+
+    FilmHeader header_;
+    Take take_;
+    uint32_t rowsLeft_; ///< of the picture
+    Film part_;
+    NoiseEstimate::Memory errors_;
+    FloatImage more_;
+    size_t next_ = 0; ///< pixel of the part
 };
 
 } // namespace stromboli

@@ -1,8 +1,12 @@
 #pragma once
 
 #include "host/farm/film_header.hpp"
+#include "host/farm/merge_films.hpp"
+#include "host/render/picture_noise.hpp"
 
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,5 +45,45 @@ struct PlannedShare {
 /// order, so that each has about as much of the costly parts of the picture. Shares are cut by
 /// samples: about as many in each.
 PlannedShare ofShare(const RoundPlan& plan, const ShareName& share);
+
+/// What comes after the rounds whose films there are.
+struct NextRound {
+    PictureNoise reached;          ///< the picture's noise until now
+    std::optional<RoundPlan> plan; ///< empty: nothing is left to do
+};
+
+/// Spreads the samples of the next round as a render of one machine does those of its next pass
+/// (NoisePlan): until the noise is at most `noise`; no pixel gets more than `mostSamples`. The same
+/// films give the same plan.
+class NextRoundPlanner {
+  public:
+    /// header: of all films together. Throws UsageError if they are incomplete.
+    NextRoundPlanner(const FilmHeader& header, double noise, uint32_t mostSamples);
+    NextRoundPlanner(const NextRoundPlanner&) = delete; // parts_ knows where it is
+    /// The next run of rows, from the top.
+    void add(std::span<const SharedPixel> run) { parts_.add(run); }
+    /// To be called once, after the last run.
+    NextRound finish();
+
+  private:
+    void plan(const Film& part, const NoiseEstimate& estimate);
+
+    double noise_;
+    uint32_t mostSamples_;
+    RoundPlan plan_;
+    std::vector<PartNoise> noises_;
+    PictureParts parts_;
+};
+
+/// Of films in files. Throws UsageError if they are incomplete or damaged.
+NextRound planNextRound(FilmsToMerge& films, double noise, uint32_t mostSamples);
+
+/// Whether a name ends as that of a plan does: .plan.
+bool namesPlan(const std::filesystem::path& path);
+
+/// Replaces the file whole. Throws OutputError.
+void writePlan(const std::filesystem::path& file, const RoundPlan& plan);
+/// Throws UsageError that names the file if it is none, of another version, damaged or cut short.
+RoundPlan readPlan(const std::filesystem::path& file);
 
 } // namespace stromboli

@@ -1,6 +1,7 @@
 #include "host/farm/shared_band.hpp"
 
-#include "host/farm/add_samples.hpp"
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <map>
@@ -80,6 +81,16 @@ void SharedBand::addCovered(uint32_t firstSample, std::span<const PixelTarget> t
         for (size_t i = 0; i < seen.size(); ++i)
             sums_[begin + i].covered += seen[i].hits;
     }
+}
+
+void addSamples(std::span<SharedPixel> pixels, std::span<const PixelTarget> targets,
+                const Film& taken, uint32_t firstSample, uint32_t pass) {
+    constexpr size_t kTargetsAtOnce = 4096;
+    tbb::parallel_for(
+        tbb::blocked_range<size_t>(0, targets.size(), kTargetsAtOnce), [&](const auto& range) {
+            for (size_t i = range.begin(); i != range.end(); ++i)
+                pixels[targets[i].pixel].add(taken.pixels[targets[i].pixel], firstSample, pass);
+        });
 }
 
 } // namespace stromboli

@@ -2,7 +2,7 @@
 
 #include "host/farm/film_header.hpp"
 #include "host/farm/round_plan.hpp"
-#include "host/film/shared_pixel.hpp"
+#include "host/film/exact_statistics.hpp"
 #include "host/render/backend.hpp"
 #include "host/render/seeing.hpp"
 
@@ -45,5 +45,10 @@ class SharedBand {
     std::function<Viewer*()> viewer_; ///< none: no alpha
     std::vector<SharedPixel> sums_;
 };
+
+/// Adds what a backend has taken of the targets, from number `firstSample` of each pixel on, as
+/// part of pass number `pass`. Throws SceneError if a radiance is out of range.
+void addSamples(std::span<SharedPixel> pixels, std::span<const PixelTarget> targets,
+                const Film& taken, uint32_t firstSample, uint32_t pass);
 
 } // namespace stromboli

@@ -10,6 +10,16 @@
 
 namespace stromboli {
 
+/// What a picture's file says about the picture in words: text chunks of PNG, string attributes of
+/// EXR.
+struct PictureNote {
+    std::string name; ///< 1 to 31 letters and digits of ASCII: PNG allows 79, EXR 31
+    std::string text; ///< UTF-8 without NUL
+
+    friend bool operator==(const PictureNote&, const PictureNote&) = default;
+};
+using PictureNotes = std::vector<PictureNote>;
+
 /// 8-bit picture: rows from the top, three bytes (R, G, B) per pixel.
 struct ByteImage {
     uint32_t width = 0, height = 0;

@@ -2,7 +2,6 @@
 
 #include "host/film/film.hpp"
 #include "host/film/image.hpp"
-#include "host/film/picture_notes.hpp"
 #include "host/film/tone.hpp"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "host/film/image.hpp"
-#include "host/film/picture_notes.hpp"
 
 #include <filesystem>
 

@@ -1,8 +1,8 @@
 #include "host/render/bands.hpp"
 
-#include "host/film/shared_pixel.hpp"
+#include "host/film/exact_statistics.hpp"
 #include "host/render/backend.hpp"
-#include "host/render/noise_plan.hpp"
+#include "host/render/sampling_plan.hpp"
 
 #include <algorithm>
 

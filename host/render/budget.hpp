@@ -24,7 +24,7 @@ struct Adaptive {
 };
 
 /// When a render is over, apart from the number of samples. Any of these spreads the samples to
-/// where they lower the picture's noise most (noise_plan.hpp).
+/// where they lower the picture's noise most (sampling_plan.hpp).
 struct StopRule {
     double noise = 0; ///< square root of the picture's estimated relMSE, a fraction; 0: none
     double seconds =

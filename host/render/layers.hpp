@@ -2,7 +2,6 @@
 
 #include "host/core/named_values.hpp"
 #include "host/film/image.hpp"
-#include "host/film/picture_notes.hpp"
 #include "host/render/seeing.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/model/scene.hpp"

@@ -1,13 +1,58 @@
 #include "host/render/picture_noise.hpp"
 
-#include "host/render/pixel_windows.hpp"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace stromboli {
+
+PixelWindows::PixelWindows(const Film& film, std::span<const glm::dvec3> values, int64_t first)
+    : film_(film), values_(values) {
+    rows_.fill(std::vector<PixelGroup>(film.width));
+    for (int64_t y = std::max<int64_t>(first - kReach, 0); y < first + kReach; ++y)
+        sumRow(y);
+}
+
+std::vector<PixelGroup> PixelWindows::of(int64_t y) {
+    sumRow(y + kReach);
+    std::vector<PixelGroup> sums = besides(y);
+    for (int64_t j = std::max<int64_t>(y - kReach, 0); j <= y + kReach; ++j)
+        for (size_t x = 0; j != y && x < sums.size(); ++x)
+            sums[x] += rows_[size_t(j) % rows_.size()][x];
+    return sums;
+}
+
+PixelGroup PixelWindows::alone(int64_t x, int64_t y) const {
+    const size_t pixel = size_t(y) * film_.width + size_t(x);
+    const PixelStatistics& p = film_.pixels[pixel];
+    if (p.count < 2) return {};
+    return {values_[pixel], p.mean, 1};
+}
+
+/// Neighbours in the same row.
+std::vector<PixelGroup> PixelWindows::besides(int64_t y) const {
+    std::vector<PixelGroup> sums(film_.width);
+    for (int64_t x = 0; x < int64_t(film_.width); ++x) {
+        const int64_t right = std::min<int64_t>(x + kReach, int64_t(film_.width) - 1);
+        for (int64_t i = std::max<int64_t>(x - kReach, 0); i <= right; ++i)
+            if (i != x) sums[size_t(x)] += alone(i, y);
+    }
+    return sums;
+}
+
+void PixelWindows::sumRow(int64_t y) {
+    std::vector<PixelGroup>& row = rows_[size_t(y) % rows_.size()];
+    std::fill(row.begin(), row.end(), PixelGroup{});
+    if (y >= int64_t(film_.height)) return;
+    for (int64_t x = 0; x < int64_t(film_.width); ++x) {
+        const PixelGroup own = alone(x, y);
+        const int64_t right = std::min<int64_t>(x + kReach, int64_t(film_.width) - 1);
+        for (int64_t i = std::max<int64_t>(x - kReach, 0); i <= right; ++i)
+            row[size_t(i)] += own;
+    }
+}
+
 namespace {
 
 /// Side of the tiles, in pixels, whose means stand between those of the picture and of a window: a
@@ -267,6 +312,67 @@ PictureNoise togetherOf(std::span<const PartNoise> parts) {
     if (!sum.known()) return sum;
     return {Unknown::No, std::sqrt(sum.estimate / pixels), std::sqrt(sum.least / pixels),
             std::sqrt(sum.most / pixels)};
+}
+
+namespace {
+
+double meanOfChannels(const glm::dvec3& v) {
+    return (v.x + v.y + v.z) / 3;
+}
+
+} // namespace
+
+void NoiseEstimate::update(const Film& film) {
+    const size_t pixels = film.pixels.size();
+    memory_.counts.resize(pixels, 0);
+    memory_.means.resize(pixels, glm::dvec3(0.0));
+    memory_.squaredErrors.resize(pixels, glm::dvec3(0.0));
+    for (size_t i = 0; i < film.pixels.size(); ++i) {
+        const PixelStatistics& p = film.pixels[i];
+        if (p.count == memory_.counts[i]) continue;
+        const glm::dvec3 moved = p.mean - memory_.means[i];
+        memory_.squaredErrors[i] =
+            memory_.counts[i] == 0
+                ? p.varianceOfMean()
+                : moved * moved * double(memory_.counts[i]) / double(p.count - memory_.counts[i]);
+        memory_.counts[i] = p.count;
+        memory_.means[i] = p.mean;
+    }
+}
+
+double NoiseEstimate::meanRadiance(const Film& film) const {
+    double sum = 0;
+    for (const PixelStatistics& p : film.pixels)
+        sum += meanOfChannels(p.mean);
+    return film.pixels.empty() ? 0 : sum / double(film.pixels.size());
+}
+
+PictureNoise NoiseEstimate::picture(const Film& film) const {
+    return pictureNoise(film, memory_.squaredErrors);
+}
+
+std::vector<double> NoiseEstimate::relativeVariance(const Film& film) const {
+    const double floor = kRelativeFloor * meanRadiance(film);
+    std::vector<double> result(film.pixels.size(), 0.0);
+    if (floor == 0) return result;
+    std::vector<glm::dvec3> variances(film.pixels.size());
+    for (size_t i = 0; i < variances.size(); ++i)
+        variances[i] = memory_.squaredErrors[i] * double(memory_.counts[i]);
+    constexpr uint32_t kBand = 64; // rows a thread takes at a time
+    tbb::parallel_for(0u, (film.height + kBand - 1) / kBand, [&](uint32_t band) {
+        PixelWindows windows(film, variances, band * kBand);
+        for (uint32_t y = band * kBand; y < std::min((band + 1) * kBand, film.height); ++y) {
+            const std::vector<PixelGroup> row = windows.of(y);
+            for (uint32_t x = 0; x < film.width; ++x) {
+                const PixelGroup group = row[x].pixels > 0 ? row[x] : windows.alone(x, y);
+                if (group.pixels == 0) continue;
+                const glm::dvec3 mean = group.mean / group.pixels;
+                result[size_t(y) * film.width + x] =
+                    meanOfChannels(group.value / group.pixels / (mean * mean + floor * floor));
+            }
+        }
+    });
+    return result;
 }
 
 } // namespace stromboli

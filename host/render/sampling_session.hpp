@@ -2,10 +2,9 @@
 
 #include "host/core/stopwatch.hpp"
 #include "host/film/film.hpp"
-#include "host/render/adaptive.hpp"
 #include "host/render/backend.hpp"
-#include "host/render/noise_estimate.hpp"
-#include "host/render/noise_plan.hpp"
+#include "host/render/picture_noise.hpp"
+#include "host/render/sampling_plan.hpp"
 #include "host/render/session_state.hpp"
 #include "host/render/settings.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/render/backend.hpp"
-#include "host/render/noise_estimate.hpp"
+#include "host/render/picture_noise.hpp"
 #include "host/render/pixel_sums.hpp"
 #include "host/render/settings.hpp"
 

@@ -1,7 +1,6 @@
 // There is no length in the renderer: a scene of any size, its radiances unchanged, makes the same
 // picture, and so does one that is not at the origin.
 #include "host/check/cross_check.hpp"
-#include "host/check/normal.hpp"
 #include "host/stress/case.hpp"
 #include "host/stress/scenes.hpp"
 #include "host/stress/totals.hpp"

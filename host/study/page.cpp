@@ -1,24 +1,40 @@
 #include "host/study/page.hpp"
 
-#include <nlohmann/json.hpp>
-
-#include "host/study/base64.hpp"
-#include "host/study/journal.hpp"
-#include "host/study/run_study.hpp"
-
 #include "embedded/page_html.h"
 #include "embedded/page_script.h"
 #include "embedded/page_style.h"
 #include "embedded/uplot_script.h"
 #include "embedded/uplot_style.h"
+#include "host/study/journal.hpp"
+#include "host/study/run_study.hpp"
 
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <span>
 #include <string_view>
 
 namespace stromboli::study {
+
+std::string toBase64(std::string_view bytes) {
+    constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (size_t i = 0; i < bytes.size(); i += 3) {
+        const size_t count = std::min<size_t>(3, bytes.size() - i);
+        uint32_t group = 0;
+        for (size_t k = 0; k < 3; ++k)
+            group = group << 8 | (k < count ? uint8_t(bytes[i + k]) : 0);
+        for (size_t k = 0; k < 4; ++k)
+            text += k <= count ? kDigits[group >> (18 - 6 * k) & 63] : '=';
+    }
+    return text;
+}
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -1,5 +1,5 @@
 // How measurements are taken: their order and what is made of them, never how long anything took.
-#include "host/bench/alternate.hpp"
+#include "host/bench/measuring.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,3 @@
-#include "host/bench/child_process.hpp"
 #include "host/bench/startup_bench.hpp"
 #include "host/core/error.hpp"
 

@@ -1,6 +1,6 @@
 // What is measured of whole paths and of growing scenes; nothing is timed.
-#include "host/bench/growth_bench.hpp"
 #include "host/bench/path_bench.hpp"
+#include "host/bench/ray_bench.hpp"
 #include "tests/bench/bench_fixtures.hpp"
 #include "tests/support/device_fixture.hpp"
 

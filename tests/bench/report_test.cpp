@@ -1,6 +1,5 @@
 // What becomes of the measurements: JSON with every key, a table with every figure.
-#include "host/bench/report_json.hpp"
-#include "host/bench/report_table.hpp"
+#include "host/bench/report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

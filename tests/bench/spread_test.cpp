@@ -1,4 +1,4 @@
-#include "host/bench/spread.hpp"
+#include "host/bench/measuring.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "host/bench/texture_means.hpp"
+#include "host/bench/path_bench.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "host/bench/workers.hpp"
+#include "host/bench/measuring.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,6 @@
 // Synthetic films with known distributions: how often the cross-check calls equal films different,
 // and what differences it finds.
 #include "host/check/cross_check.hpp"
-#include "host/check/difference.hpp"
-#include "host/check/normal.hpp"
 #include "tests/support/test_names.hpp"
 
 #include <gmock/gmock.h>

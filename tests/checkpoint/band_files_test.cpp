@@ -1,5 +1,5 @@
 // The checkpoints of bands: what they are called, and which of them are there.
-#include "host/checkpoint/band_files.hpp"
+#include "host/checkpoint/checkpoint_file.hpp"
 #include "host/core/error.hpp"
 #include "tests/film/temporary_folder.hpp"
 

@@ -1,8 +1,6 @@
 // Means and blocks against a reference with a variance, on pictures whose z are known.
-#include "host/compare/block_acceptance.hpp"
-
 #include "host/compare/acceptance.hpp"
-#include "host/compare/cie_xyz.hpp"
+
 #include "host/compare/comparison.hpp"
 #include "host/core/error.hpp"
 #include "tests/compare/pictures.hpp"

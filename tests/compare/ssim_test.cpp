@@ -1,4 +1,4 @@
-#include "host/compare/ssim.hpp"
+#include "host/compare/metrics.hpp"
 #include "host/film/tone.hpp"
 #include "tests/compare/pictures.hpp"
 

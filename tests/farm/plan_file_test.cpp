@@ -1,6 +1,6 @@
 // Plans as files: what comes back, damage, and how shares divide them.
 #include "host/core/error.hpp"
-#include "host/farm/plan_file.hpp"
+#include "host/farm/round_plan.hpp"
 #include "tests/farm/films.hpp"
 #include "tests/film/temporary_folder.hpp"
 

@@ -1,7 +1,7 @@
 // Rounds of shares: the same bits however they are cut and put together, what is refused, where
 // samples go, and that this does not darken the picture. Samples are drawn, without a renderer.
 #include "host/core/error.hpp"
-#include "host/farm/plan_round.hpp"
+#include "host/farm/round_plan.hpp"
 #include "host/render/block_backend.hpp"
 #include "host/render/sampling_session.hpp"
 #include "tests/farm/films.hpp"

@@ -1,6 +1,5 @@
 // What is said of pictures in which little can be seen, and pixels without samples.
-#include "host/film/brightness.hpp"
-#include "host/film/unreached.hpp"
+#include "host/film/shown_film.hpp"
 
 #include <gtest/gtest.h>
 

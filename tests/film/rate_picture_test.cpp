@@ -1,5 +1,5 @@
 #include "host/core/error.hpp"
-#include "host/film/rate_picture.hpp"
+#include "host/film/shown_film.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

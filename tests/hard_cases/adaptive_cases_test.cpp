@@ -1,5 +1,5 @@
 // Hard case 57 on the device; accumulation_cases_test.cpp has the rule itself.
-#include "host/render/adaptive.hpp"
+#include "host/render/sampling_plan.hpp"
 #include "host/stress/scenes.hpp"
 #include "tests/hard_cases/hits.hpp"
 

@@ -1,5 +1,5 @@
 // Pictures in bands: where they are cut, and what is known of them together.
-#include "host/film/brightness.hpp"
+#include "host/film/shown_film.hpp"
 #include "host/render/bands.hpp"
 #include "host/render/picture_noise.hpp"
 

@@ -8,7 +8,7 @@
 // differ more than that (hemisphere sampling), its blocks may differ by 1.25 times as much as ours.
 #include "host/film/image_file.hpp"
 #include "host/film/png.hpp"
-#include "host/film/rate_picture.hpp"
+#include "host/film/shown_film.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "host/film/film.hpp"
 #include "host/render/backend.hpp"
-#include "host/render/noise_estimate.hpp"
+#include "host/render/picture_noise.hpp"
 #include "host/render/render.hpp"
 
 #include <cmath>

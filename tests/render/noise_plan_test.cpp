@@ -1,5 +1,5 @@
 // Stop rules, and where they send samples, against samples of known mean and variance.
-#include "host/render/noise_plan.hpp"
+#include "host/render/sampling_plan.hpp"
 #include "tests/render/drawn_samples.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // How a pass is shared by backends of different speeds: simulated, by a clock of its own.
-#include "host/render/piece_plan.hpp"
+#include "host/render/team_backend.hpp"
 
 #include <gtest/gtest.h>
 

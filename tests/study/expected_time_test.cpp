@@ -1,4 +1,4 @@
-#include "host/study/expected_time.hpp"
+#include "host/study/measure.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include "host/core/error.hpp"
-#include "host/study/folder_lock.hpp"
+#include "host/study/journal.hpp"
 #include "tests/film/temporary_folder.hpp"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,5 @@
 // The report in a headless browser: what a user would click, press and see.
 #include "host/film/png.hpp"
-#include "host/study/base64.hpp"
 #include "host/study/page.hpp"
 #include "host/study/run_study.hpp"
 #include "tests/film/temporary_folder.hpp"

@@ -1,7 +1,6 @@
 // The measuring itself, with a backend whose noise is known: sample values are 1 plus noise of
 // a stated variance, so relMSE is variance / n / 1.01 (the picture's mean is 1).
 #include "host/study/journal.hpp"
-#include "host/study/reference.hpp"
 #include "host/study/run_study.hpp"
 #include "tests/film/temporary_folder.hpp"
 

@@ -6,7 +6,6 @@
 // would fail.
 
 #include "host/compare/acceptance.hpp"
-#include "host/compare/block_acceptance.hpp"
 #include "host/film/exr.hpp"
 #include "scene/mitsuba/load_mitsuba.hpp"
 #include "tests/scene/mitsuba/references_renderer.hpp"

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,5 +47,11 @@ class ByteParts {
     std::string kind_;
     std::span<const std::byte> bytes_;
 };
+
+/// Fewer bytes that say the same, made at some hundred megabytes a second.
+std::vector<std::byte> compressed(std::span<const std::byte> bytes);
+
+/// The `size` bytes that were compressed; nothing if they were others or another number.
+std::optional<std::vector<std::byte>> decompressed(std::span<const std::byte> bytes, uint64_t size);
 
 } // namespace stromboli

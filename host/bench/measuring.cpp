@@ -1,11 +1,72 @@
-#include "host/bench/alternate.hpp"
+#include "host/bench/measuring.hpp"
 
-#include "host/bench/cpu_clock.hpp"
 #include "host/core/stopwatch.hpp"
 
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
 #include <numeric>
+#include <thread>
+#include <vector>
 
 namespace stromboli::bench {
+namespace {
+
+double quantile(const std::vector<double>& sorted, double fraction) {
+    const double at = fraction * double(sorted.size() - 1);
+    const auto below = size_t(std::floor(at));
+    const size_t above = std::min(below + 1, sorted.size() - 1);
+    return std::lerp(sorted[below], sorted[above], at - double(below));
+}
+
+} // namespace
+
+Spread spreadOf(std::vector<double> values) {
+    if (values.empty()) return {};
+    std::sort(values.begin(), values.end());
+    return {quantile(values, 0.5), values.front(), values.back(), quantile(values, 0.25),
+            quantile(values, 0.75)};
+}
+
+namespace {
+
+double secondsOf(int who) {
+    rusage usage{};
+    getrusage(who, &usage);
+    const auto seconds = [](const timeval& t) {
+        return double(t.tv_sec) + 1e-6 * double(t.tv_usec);
+    };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+double now() {
+    return secondsOf(RUSAGE_SELF) + secondsOf(RUSAGE_CHILDREN);
+}
+
+} // namespace
+
+CpuClock::CpuClock() : start_(now()) {}
+
+double CpuClock::seconds() const {
+    return now() - start_;
+}
+
+void forBlocks(uint32_t threads, uint64_t count, uint64_t blockSize,
+               const std::function<void()>& start,
+               const std::function<void(uint64_t first, uint64_t count)>& work) {
+    std::atomic<uint64_t> next{0};
+    const auto takeBlocks = [&] {
+        start();
+        for (uint64_t first; (first = next.fetch_add(blockSize)) < count;)
+            work(first, std::min(blockSize, count - first));
+    };
+    std::vector<std::jthread> workers;
+    for (uint32_t i = 0; i < threads; ++i)
+        workers.emplace_back(takeBlocks);
+}
+
 namespace {
 
 std::vector<double> inverse(std::vector<double> values) {

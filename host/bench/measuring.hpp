@@ -1,13 +1,39 @@
 #pragma once
 
-#include "host/bench/spread.hpp"
-
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace stromboli::bench {
+
+/// Repeated measurements of one quantity, in its unit: their median and how far they lie apart.
+struct Spread {
+    double median = 0;
+    double least = 0, most = 0;
+    double lowerQuartile = 0, upperQuartile = 0;
+};
+
+/// Quantiles by linear interpolation between order statistics (Hyndman and Fan 1996, type 7).
+/// All 0 for no values.
+Spread spreadOf(std::vector<double> values);
+
+/// CPU time, user and system, of all threads of the process and of the processes that it started
+/// and waited for, since the clock was made.
+class CpuClock {
+  public:
+    CpuClock();
+    double seconds() const;
+
+  private:
+    double start_;
+};
+
+/// Cuts 0 .. count-1 into blocks, which `threads` threads take one after the other; `start` is
+/// called first in each of them. Returns when all is done.
+void forBlocks(uint32_t threads, uint64_t count, uint64_t blockSize,
+               const std::function<void()>& start,
+               const std::function<void(uint64_t first, uint64_t count)>& work);
 
 /// What one run of a contestant did.
 struct Work {
