@@ -53,6 +53,7 @@ void declareCheck(DeclaredCommand& c) {
         finishBudget(o->picture, *asked);
         o->picture.budget.adaptive.enabled = false; // a z-test needs fixed sample counts
         o->device.threads = c.host.threads;
+        o->device.maybeSeveral = false;
         return *o;
     };
 }

@@ -173,6 +173,7 @@ void finishRender(DeclaredCommand& c, RenderOptions& o, const Asked& asked) {
     finishBudget(o.picture, asked);
     o.cameras = asked.cameras;
     if (asked.sampleAlone) o.sampleAlone = asked.sample;
+    o.device.maybeSeveral = !asked.sampleAlone;
     o.device.threads = c.host.threads;
     o.command = c.pictureCommand;
     o.picture.estimator.showsBackdrop = !o.picture.transparent;

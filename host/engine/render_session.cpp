@@ -92,6 +92,8 @@ Next RenderSession::tell(const SessionEvents& events, RenderProgress state) {
     const uint64_t all = picture_.settings.area.pixelCount();
     state.samplesAtMost = samplesAtMost(picture_.settings.area, picture_.settings.budget);
     state.samplesDone += result_.samplesTaken / picture_.settings.estimator.branches;
+    state.counters.paths += result_.counters.paths;
+    state.counters.rays += result_.counters.rays;
     state.share =
         (double(pixelsDone_) + state.share * double(bands_[band_].pixelCount())) / double(all);
     const Next next = events.progress ? events.progress(state) : Next::GoOn;

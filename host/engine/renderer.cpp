@@ -26,11 +26,18 @@ bool sameSelection(const LightSelection& a, const LightSelection& b) {
     return all(a) == all(b);
 }
 
+std::vector<vulkan::OpenDevice> openAll(const DeviceRequest& request) {
+    if (request.maybeSeveral) return vulkan::openDevices(request.device);
+    std::vector<vulkan::OpenDevice> one;
+    one.push_back(vulkan::openDevice(request.device));
+    return one;
+}
+
 } // namespace
 
 RenderDevices::RenderDevices(const DeviceRequest& request, Listener listener)
     : request_(request), listener_(std::move(listener)),
-      opening_(std::async(std::launch::async, vulkan::openDevices, request.device)) {}
+      opening_(std::async(std::launch::async, openAll, request)) {}
 
 void RenderDevices::open() {
     if (!opening_.valid()) return;
@@ -42,7 +49,7 @@ void RenderDevices::open() {
 void RenderDevices::reopen() {
     team_.reset();
     seats_.clear();
-    for (vulkan::OpenDevice& open : vulkan::openDevices(request_.device))
+    for (vulkan::OpenDevice& open : openAll(request_))
         seats_.push_back({std::move(open), nullptr});
 }
 

@@ -56,6 +56,7 @@ TEST(DeviceSession, AMovedCameraBuildsNothingAndHasTheBytesOfASessionOfItsOwn) {
     const RenderResult result = session.run();
     EXPECT_EQ(result.buildSeconds, 0);
     EXPECT_EQ(told.count(Stage::Building), 1u);
+    EXPECT_FALSE(sameBytes(session.film(), alone({}, scene, request)));
     request.camera = fromTheSide();
     EXPECT_TRUE(sameBytes(session.film(), alone({}, scene, request)));
 }
@@ -95,13 +96,14 @@ TEST(DeviceSession, AnEditedMaterialHasTheBytesOfASessionOfItsOwn) {
 TEST(DeviceSession, SeveralAtTheSameTimeDoNotDisturbEachOther) {
     const auto scene = bundled("cornell_spheres");
     const RenderRequest front = smallPicture(16);
-    RenderRequest side = smallPicture(24);
+    RenderRequest side = front;
     side.camera = fromTheSide();
     const auto render = [&](const RenderRequest& request) {
         return std::async(std::launch::async, [&] { return alone({}, scene, request); });
     };
     auto one = render(front), two = render(side);
     const Film first = one.get(), second = two.get();
+    EXPECT_FALSE(sameBytes(first, second));
     EXPECT_TRUE(sameBytes(first, alone({}, scene, front)));
     EXPECT_TRUE(sameBytes(second, alone({}, scene, side)));
     // Interleaved on one thread.
@@ -126,7 +128,8 @@ TEST(DeviceSession, SavedItGoesOnInAnotherToTheSameBytes) {
     keeping.begun = first.save();
     RenderSession second;
     second.begin(scene, request, keeping);
-    second.run();
+    const RenderResult rest = second.run();
+    EXPECT_LT(rest.counters.paths, rest.samplesTaken); // some were there
     first.run();
     EXPECT_TRUE(sameBytes(second.film(), first.film()));
     EXPECT_TRUE(sameBytes(first.film(), alone({}, scene, request)));
