@@ -149,7 +149,7 @@ void printBvh(const BuiltScene& built) {
                s.bytesPerPrimitive());
 }
 
-/// Of what a picture of this program says in its file.
+/// What the file of a picture says of how it was made.
 int infoOfPicture(const std::string& file, const std::string& jsonFile) {
     const PictureNotes notes = readPictureNotes(file);
     nowDoing("printing", StatusLine::OfOthers);

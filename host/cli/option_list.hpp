@@ -26,7 +26,7 @@ std::string inWords(Range<double> range);
 /// A whole number in a range, written as host/core/number_text.hpp says. Throws UsageError that
 /// names the option and the range.
 uint32_t readNumber(const std::string& option, const std::string& word, Range<uint32_t> range);
-/// The same for a real number; NaN and infinity are none.
+/// A real number in a range, likewise; NaN and infinity are none.
 double readReal(const std::string& option, const std::string& word, Range<double> range);
 
 /// Throws the UsageError that `option` is `word` where one of `expected` was to be.
@@ -105,7 +105,7 @@ class OptionList {
 
     CommandOption& flag(std::string names, std::string help, bool& where);
     CommandOption& flag(std::string names, std::string help, std::function<void()> store);
-    /// With the word on or off.
+    /// An option that takes the word on or off.
     CommandOption& onOff(std::string names, std::string help, bool& where);
     CommandOption& text(std::string names, std::string valueName, std::string help,
                         std::string& where);

@@ -29,7 +29,7 @@ inline constexpr auto kNamedValues<CameraChoice> = std::to_array<NamedValue<Came
     {CameraChoice::Frame, "frame", "all of the scene, as the CS184 renderer frames it"},
 });
 
-/// Of every command.
+/// What every command is told.
 struct HostOptions {
     uint32_t threads = 0; ///< 0: all
     Verbosity verbosity = Verbosity::Normal;
@@ -177,7 +177,7 @@ struct SubmitOptions : SceneAndPicture {
     uint32_t shares = 0;
     double noise = 0;    ///< to be reached in rounds; 0: one round
     uint32_t rounds = 8; ///< at most
-    /// Of the commands that the nodes run, quoted for a shell.
+    /// Options of the commands that the nodes run, quoted for a shell.
     std::vector<std::string> render, merge;
     std::string program; ///< as the nodes find it; empty: where this one is
     std::string jobTime;

@@ -16,7 +16,7 @@
 namespace stromboli {
 namespace {
 
-/// Of a pixel, in samples: -s counts paths.
+/// The most samples of a pixel; -s counts paths.
 uint32_t mostSamplesOf(const FilmHeader& header, const PlanOptions& options) {
     if (!options.mostPaths) return kMostSamples;
     const uint32_t paths = *options.mostPaths;

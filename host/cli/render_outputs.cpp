@@ -43,7 +43,7 @@ PictureOptions pictureOptions(const RenderOptions& options) {
     return {options.tone, options.output.statisticsChannels, options.picture.channels()};
 }
 
-/// With what says what the channels mean.
+/// Adds what says what the numbers in the channels mean.
 PictureNotes withLegend(PictureNotes notes, const Scene& scene, const RenderOptions& options) {
     for (PictureNote& note : legendOf(options.picture.layers, scene))
         notes.push_back({note.name, printable(note.text)});

@@ -11,7 +11,7 @@
 
 namespace stromboli {
 
-/// Of what a picture's notes tell.
+/// What a picture's notes tell.
 struct PictureOrigin {
     std::string scene;
     uint32_t seed = 0;
@@ -25,7 +25,7 @@ PictureNotes pictureNotes(const PictureOrigin& origin);
 /// What can be found out of the files of a render before it: names, folders, permissions. Throws
 /// UsageError, OutputError.
 void checkOutputs(const RenderOptions& options);
-/// The same for a disk that would be full.
+/// Whether the disk has room for the files. Throws OutputError.
 void checkDiskSpace(const Scene& scene, const RenderSettings& settings,
                     const RenderOptions& options);
 

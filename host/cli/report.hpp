@@ -18,7 +18,7 @@ struct RenderReport {
 
 /// "noise about 2 % (95 % range: 1.5 to 2.6 %)", or why it is unknown.
 std::string inWords(const PictureNoise& noise);
-/// With two digits that say something: 0.0234 is 2.3.
+/// A share in percent, with two digits that say something: 0.0234 is 2.3.
 std::string percent(double share);
 /// Logs time, paths, rays, Mrays/s, samples, noise, and the first rejected sample if there is one.
 void logReport(const RenderReport& report, const RenderSettings& settings);

@@ -53,7 +53,8 @@ std::string inLowerCase(std::string text) {
     return text;
 }
 
-/// Of letters and digits of ASCII, - and _, but no number: those are for cameras without.
+/// Whether a name has letters and digits of ASCII, - and _ alone, and is no number: numbers are for
+/// cameras without a plain name.
 bool isPlain(const std::string& name) {
     const auto isDigit = [](unsigned char c) { return c >= '0' && c <= '9'; };
     return !std::ranges::all_of(name, isDigit) && std::ranges::all_of(name, [](unsigned char c) {

@@ -20,7 +20,7 @@ struct Keeping {
     uint32_t bands = 0; ///< `begun` is one of so many bands, each in its bandFile(); 0: of no band
 };
 
-/// The same with what its file has to go on from. Says so, and begins anew, if there is nothing.
+/// Adds what the file has to go on from. Says so, and begins anew, if there is nothing.
 /// Throws UsageError if it cannot be used.
 Keeping takeUp(Keeping keeping, const Listener& listener = {});
 

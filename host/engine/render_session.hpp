@@ -37,7 +37,7 @@ struct SessionEvents {
     /// Several times a second: of the picture as a whole.
     std::function<Next(const RenderProgress&)> progress;
     std::function<void(const FinishedBand&)> bandDone;
-    /// Of a picture that was cancelled or whose device was lost: a band that was not begun.
+    /// Where a picture was cancelled or its device was lost: each band that was not begun.
     std::function<void(const PictureArea&)> bandLeftOut;
 };
 
@@ -116,7 +116,7 @@ class RenderSession {
     Listener listener_;
     Renderer renderer_;
     std::atomic<bool> cancelAsked_ = false;
-    // Of the picture:
+    // What belongs to the picture:
     std::shared_ptr<const Scene> scene_;
     RenderRequest request_;
     Keeping keeping_;

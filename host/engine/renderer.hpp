@@ -28,7 +28,7 @@ class RenderDevices {
     /// Opens all devices anew.
     void reopen();
 
-    /// Of their kind: names, each once.
+    /// The names of the devices, each once.
     std::string name() const;
     /// Pixels of a picture that all of them, and so many bytes of the host's memory, have room for.
     uint64_t pixelsThatFit(const GpuScene& scene, const Estimator& estimator, uint64_t hostBytes,

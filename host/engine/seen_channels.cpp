@@ -25,7 +25,7 @@ void lookAtAll(Viewer& viewer, const Film& film, Seeing what,
     }
 }
 
-/// Of the very samples that the radiance is the mean of.
+/// Alpha is that of the very samples that the radiance is the mean of.
 void addAlpha(FloatImage& image, Viewer& viewer, const Film& film) {
     std::vector<float>& alpha = image.channel(kAlphaChannel);
     lookAtAll(viewer, film, Seeing::Coverage, &PixelStatistics::taken,
@@ -38,7 +38,7 @@ void addAlpha(FloatImage& image, Viewer& viewer, const Film& film) {
             alpha[size_t(y) * film.width + x] = alpha[shownPixel(film, x, y, NoisePlan::kCoarsest)];
 }
 
-/// Of the same camera rays however far the render came.
+/// Layers are those of the same camera rays, however far the render came.
 void addLayerChannels(FloatImage& image, Viewer& viewer, const Film& film, const Scene& scene,
                       const Camera& camera, const RenderRequest& request) {
     const uint32_t samples = std::min(kLayerSamples, request.budget.pathsPerPixel());

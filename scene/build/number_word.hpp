@@ -12,7 +12,7 @@ namespace stromboli::build {
 /// A number with digits, point and exponent, and one sign at most, or nan, inf or infinity. One too
 /// small for a double is 0, one too large is infinite.
 std::optional<double> anyRealIn(std::string_view word);
-/// The same, finite.
+/// A number as above that is finite.
 std::optional<double> realIn(std::string_view word);
 /// A finite number, or NaN for the words by which programs write what is no number or not finite:
 /// nan, -nan(ind), inf, 1.#QNAN and the like.
