@@ -49,16 +49,15 @@ void suspendSplit(PathState path, uint lane) {
                        p.placement, p.primitive, 0u);
 }
 
-void resume(inout PathState path, inout Job job, uint lane) {
+void resume(const Frame frame, bool beginsNoSample, inout PathState path, inout Job job, uint lane) {
     const SuspendedPath p = suspendedPaths[lane];
     job.sampleCount = 0u;
-    takeUp(path, job, p.item);
+    takeUp(frame, path, job, p.item);
     path.phase = PHASE_NEXT;
     endTraversal(path.ray);
-    clearStack();
     bool isDropped = false;
-    if (dispatch.beginsNoSample != 0u && job.item != NO_ITEM) {
-        isDropped = !endsSampleUnderWay(path);
+    if (beginsNoSample && job.item != NO_ITEM) {
+        isDropped = !endsSampleUnderWay(frame, path);
         job.target = samplesTaken(path) + (isDropped ? 0u : 1u);
     }
     if (isDropped || p.bounce == SUSPENDED_NONE) return;
@@ -70,7 +69,7 @@ void resume(inout PathState path, inout Job job, uint lane) {
     path.arrivalNumbers = p.arrivalNumbers;
     path.departureNormal = p.departureNormal;
     path.medium = p.medium;
-    if (samplesHaveWeights()) restoreFilterWeight(path);
+    if (samplesHaveWeights()) restoreFilterWeight(frame, path);
     if (SPLITS) resumeSplit(path, lane);
     trace(path, PHASE_PATH, p.origin, p.direction, 0.0, INFINITE_DISTANCE, p.skipPrimitive);
     path.ray.skipPlacement = p.skipPlacement;
@@ -98,12 +97,11 @@ void suspend(PathState path, Job job, uint lane) {
 
 /// Starts the ray that a lane has asked for, or its next sample. A lane about to trace a path ray may
 /// put it off to the next dispatch; in any other phase too much would have to be remembered.
-void startWork(inout PathState path, Job job, bool late) {
-    if (path.phase == PHASE_BOUNCE || path.phase == PHASE_NEXT && !wantsPixel(path, job)) depart(path);
-    bool mayBePutOff = true;
-    mayBePutOff = !hasPassedSomething(path);
+void startWork(const Given given, inout PathState path, inout Stack stack, Job job, bool late) {
+    if (path.phase == PHASE_BOUNCE || path.phase == PHASE_NEXT && !wantsPixel(path, job)) depart(given, path);
+    const bool mayBePutOff = !hasPassedSomething(path);
     if (late && path.phase == PHASE_PATH && !traversing(path.ray) && mayBePutOff) path.phase = PHASE_SUSPENDED;
-    startRay(path);
+    startRay(path, stack);
 }
 
 /// Iterations between two looks at the count of all lanes' iterations.
@@ -112,7 +110,7 @@ const uint LOOK_INTERVAL = 64u;
 /// Whether this lane is to start no further ray of a path. Where the host knows how many groups a
 /// thread of the driver runs in turn, the n-th group of every thread is late when all lanes together
 /// have done n groups' share of iterations (docs/kernel.md, "Both threads to the end").
-bool isLate(uint iteration, uint sinceLastLook) {
+bool isLate(const Dispatch dispatch, uint iteration, uint sinceLastLook) {
     if (dispatch.groupsPerThread == 0u) return iteration >= dispatch.softIterations;
     const uint done = atomicAdd(status.iterations, sinceLastLook) + sinceLastLook;
     const uint groupsEnded = gl_WorkGroupID.x % dispatch.groupsPerThread + 1u;
@@ -120,7 +118,7 @@ bool isLate(uint iteration, uint sinceLastLook) {
            iteration > 0u && done >= groupsEnded * dispatch.sharedIterations;
 }
 
-uint nextLook(uint iteration, bool late) {
+uint nextLook(const Dispatch dispatch, uint iteration, bool late) {
     if (late) return dispatch.hardIterations;
     if (dispatch.groupsPerThread == 0u) return dispatch.softIterations;
     return min(dispatch.softIterations, iteration + LOOK_INTERVAL);
@@ -140,17 +138,16 @@ void report(PathState path, Job job) {
 void main() {
     PathState path;
     Job job;
-    frame = frameBuffer;
-    dispatch = dispatchConstants;
-    findPictureGrid();
-    findOnlyLight();
-    if (GAP_PROPOSAL) findGap();
+    Stack stack;
+    clear(stack);
+    const Given given = findGiven();
+    const Dispatch dispatch = dispatchConstants;
     const uint lane = gl_GlobalInvocationID.x;
     if (lane >= dispatch.laneCount) return;
     path.rayCount = 0u;
     job.busySteps = 0u;
     job.allSteps = 0u;
-    resume(path, job, lane);
+    resume(given.frame, dispatch.beginsNoSample != 0u, path, job, lane);
 
     // The lanes of a subgroup leave the inner loop together, when enough of them want another pixel;
     // every exit is in a loop's header or at its end; and hardIterations keeps a dispatch finite on any device
@@ -158,22 +155,22 @@ void main() {
     uint iteration = 0u;
     uint lastLook = 0u;
     while (atWork(path) && iteration < dispatch.hardIterations) {
-        const bool late = subgroupAny(isLate(iteration, iteration - lastLook));
+        const bool late = subgroupAny(isLate(dispatch, iteration, iteration - lastLook));
         lastLook = iteration;
-        const uint pause = nextLook(iteration, late);
-        changePixel(path, job, !late && dispatch.beginsNoSample == 0u);
+        const uint pause = nextLook(dispatch, iteration, late);
+        changePixel(given.frame, dispatch.itemCount, path, job, !late && dispatch.beginsNoSample == 0u);
         bool pixelsWanted = false;
         while (!pixelsWanted && atWork(path) && iteration < pause) {
-            startWork(path, job, late);
-            traverseSomeSteps(path, job);
+            startWork(given, path, stack, job, late);
+            traverseSomeSteps(path, job, stack);
             ++iteration;
-            if (!traversing(path.ray)) followPath(path);
+            if (!traversing(path.ray)) followPath(given, path);
             pixelsWanted = pixelsAreWanted(path, job);
         }
     }
     suspendedPaths[lane].bounce = SUSPENDED_NONE;
     suspendedPaths[lane].item = NO_ITEM;
     if (path.phase == PHASE_SUSPENDED) suspend(path, job, lane);
-    putDown(path, job);
+    putDown(given.frame, path, job);
     report(path, job);
 }

@@ -20,8 +20,7 @@ layout(set = 0, binding = BINDING_SEEN_PIXELS, std430) buffer SeenBuffer { SeenP
 layout(set = 0, binding = BINDING_SEEN_STATUS, std430) buffer StatusBuffer { SeeStatus status; };
 layout(push_constant) uniform DispatchConstants { SeeDispatch dispatch; };
 
-Frame frame; // read once, before all loops (docs/kernel.md, "Nothing is moved out of loops")
-
+#include "include/given.glsl"
 #include "include/numerics.glsl"
 #include "include/random.glsl"
 #include "include/intersect.glsl"
@@ -38,146 +37,157 @@ Frame frame; // read once, before all loops (docs/kernel.md, "Nothing is moved o
 #include "include/camera_sample.glsl"
 #include "closures/seen_surface.glsl"
 
-SeenPixel seen;
-Traversal ray;
-float rayEnd; ///< tMax as the ray began; its own shrinks to its hits
-bool isUnderWay; ///< a camera ray, or what follows from it
-uint bounce;     ///< mirrors and glass that it has met
-vec3 throughput; ///< the colour that these give to what is seen in them
-float filterWeight; ///< of the sample under way
-vec3 firstNormal; ///< of the surface that the camera sees
-uint rayCount;
+/// What a lane knows of its pixel and of the camera ray under way.
+struct Look {
+    SeenPixel seen;
+    Traversal ray;
+    float rayEnd;       ///< tMax as the ray began; its own shrinks to its hits
+    bool isUnderWay;    ///< a camera ray, or what follows from it
+    uint bounce;        ///< mirrors and glass that it has met
+    vec3 throughput;    ///< the colour that these give to what is seen in them
+    float filterWeight; ///< of the sample under way
+    vec3 firstNormal;   ///< of the surface that the camera sees
+    uint rayCount;
+};
 
-void setRay(vec3 origin, vec3 direction, float tMin, float tMax, uint skipPrimitive) {
-    ray.origin = origin;
-    ray.direction = direction;
-    ray.tMin = tMin;
-    ray.tMax = tMax;
-    ray.skipPrimitive = skipPrimitive;
-    ray.passed = NO_PRIMITIVE;
-    ray.skipPlacement = NO_PLACEMENT;
-    rayEnd = tMax;
+void setRay(inout Look look, vec3 origin, vec3 direction, float tMin, float tMax, uint skipPrimitive) {
+    look.ray.origin = origin;
+    look.ray.direction = direction;
+    look.ray.tMin = tMin;
+    look.ray.tMax = tMax;
+    look.ray.skipPrimitive = skipPrimitive;
+    look.ray.passed = NO_PRIMITIVE;
+    look.ray.skipPlacement = NO_PLACEMENT;
+    look.rayEnd = tMax;
 }
 
 /// Of the sample under way: block 0 as in the path kernel, and one for each mirror.
-uint sampleIndex() { return frame.firstSample + seen.samples; }
-uvec4 randomWords() { return randomWords(seen.pixel, sampleIndex(), bounce, frame.seed); }
-
-void beginSample() {
-    bounce = 0u;
-    throughput = vec3(1.0);
-    isUnderWay = true;
-    const uvec2 at = uvec2(seen.pixel % frame.width, seen.pixel / frame.width);
-    const CameraRay c = cameraRayOfSample(at, seen.pixel, sampleIndex(), unitFloats(randomWords()).zw, filterWeight);
-    setRay(c.origin, c.direction, c.tMin, c.tMax, NO_PRIMITIVE);
+uint sampleIndex(const Frame frame, Look look) { return frame.firstSample + look.seen.samples; }
+uvec4 randomWords(const Frame frame, Look look) {
+    return randomWords(look.seen.pixel, sampleIndex(frame, look), look.bounce, frame.seed);
 }
 
-void endSample(vec3 albedo, vec3 normal) {
-    seen.albedo += clamp(albedo, 0.0, 1.0);
-    seen.normal += normal;
-    ++seen.samples;
-    isUnderWay = false;
+void beginSample(const Given given, inout Look look) {
+    const Frame frame = given.frame;
+    look.bounce = 0u;
+    look.throughput = vec3(1.0);
+    look.isUnderWay = true;
+    const uvec2 at = uvec2(look.seen.pixel % frame.width, look.seen.pixel / frame.width);
+    const CameraRay c = cameraRayOfSample(given, at, look.seen.pixel, sampleIndex(frame, look),
+                                           unitFloats(randomWords(frame, look)).zw, look.filterWeight);
+    setRay(look, c.origin, c.direction, c.tMin, c.tMax, NO_PRIMITIVE);
 }
 
-void noteFirst(SurfacePoint s) {
-    firstNormal = shadingNormal(s);
-    seen.position += s.position;
-    if (seen.hits == 1u) {
-        seen.primitive = primitiveAt(ray.hitPrimitive);
-        seen.b1 = ray.b1;
-        seen.b2 = ray.b2;
-        seen.placement = NO_SEEN_PLACEMENT;
+void endSample(inout Look look, vec3 albedo, vec3 normal) {
+    look.seen.albedo += clamp(albedo, 0.0, 1.0);
+    look.seen.normal += normal;
+    ++look.seen.samples;
+    look.isUnderWay = false;
+}
+
+void noteFirst(inout Look look, SurfacePoint s) {
+    look.firstNormal = shadingNormal(s);
+    look.seen.position += s.position;
+    if (look.seen.hits == 1u) {
+        look.seen.primitive = primitiveAt(look.ray.hitPrimitive);
+        look.seen.b1 = look.ray.b1;
+        look.seen.b2 = look.ray.b2;
+        look.seen.placement = NO_SEEN_PLACEMENT;
         if (HAS_PLACEMENTS && s.placement != NO_PLACEMENT)
-            seen.placement = fetchPlacement(s.placement).placement & ~PLACEMENT_MIRRORS;
+            look.seen.placement = fetchPlacement(s.placement).placement & ~PLACEMENT_MIRRORS;
     }
 }
 
 /// At a mirror or glass: goes on to what is seen there, unless it lets nothing through.
-void follow(Material m, SurfacePoint s) {
-    const vec4 u = unitFloats(randomWords());
+void follow(const Frame frame, inout Look look, Material m, SurfacePoint s) {
+    const vec4 u = unitFloats(randomWords(frame, look));
     const BsdfSample b = sampleBsdf(m, s, u.zwx);
-    throughput *= tintOf(m, b);
-    if (largestComponent(throughput) > 0.0) {
+    look.throughput *= tintOf(m, b);
+    if (largestComponent(look.throughput) > 0.0) {
         const bool transmitted = isTransmission(b.lobe);
-        setRay(leave(s, b.direction, transmitted), b.direction, 0.0, INFINITE_DISTANCE,
+        setRay(look, leave(s, b.direction, transmitted), b.direction, 0.0, INFINITE_DISTANCE,
                skipOnLeaving(s, transmitted));
-        ray.skipPlacement = s.placement;
+        look.ray.skipPlacement = s.placement;
     } else {
-        endSample(vec3(0.0), firstNormal);
+        endSample(look, vec3(0.0), look.firstNormal);
     }
 }
 
-void arrive() {
-    SurfacePoint s = surfaceAt(ray);
+void arrive(const Frame frame, inout Look look) {
+    SurfacePoint s = surfaceAt(look.ray);
     if (HAS_BLENDS) s.material = materialOfSide(s);
     const MaterialAtPoint at = lookUpMaterial(materialPoint(s));
     const Material m = at.parameters;
     faceForward(s);
     applyRelief(s, at.relief, dependsOnView(m), reliefRules(m));
-    if (bounce == 0u) noteFirst(s);
+    if (look.bounce == 0u) noteFirst(look, s);
     const bool isFollowed = isSeenThrough(m);
-    ++bounce;
-    if (!isFollowed) endSample(throughput * albedoOf(m), shadingNormal(s));
-    else if (bounce > MOST_SEEN_THROUGH) endSample(throughput, firstNormal);
-    else follow(m, s);
+    ++look.bounce;
+    if (!isFollowed) endSample(look, look.throughput * albedoOf(m), shadingNormal(s));
+    else if (look.bounce > MOST_SEEN_THROUGH) endSample(look, look.throughput, look.firstNormal);
+    else follow(frame, look, m, s);
 }
 
 /// Takes in the finished ray.
-void takeResult() {
-    const bool hit = ray.hitPrimitive != NO_PRIMITIVE;
+void takeResult(const Frame frame, inout Look look) {
+    const bool hit = look.ray.hitPrimitive != NO_PRIMITIVE;
     bool passes = false;
     if (HAS_ALPHA && hit) {
-        const MaterialPoint point = materialPoint(ray.hitPrimitive, vec2(ray.b1, ray.b2));
+        const MaterialPoint point = materialPoint(look.ray.hitPrimitive, vec2(look.ray.b1, look.ray.b2));
         const float opacity = lookUpMaterial(point).opacity;
-        passes = passNumber(ray, seen.pixel, sampleIndex(), bounce, 0u) >=
-                 (bounce == 0u ? opacityForCamera(point, opacity) : opacity);
+        passes = passNumber(frame.seed, look.ray, look.seen.pixel, sampleIndex(frame, look), look.bounce, 0u) >=
+                 (look.bounce == 0u ? opacityForCamera(point, opacity) : opacity);
     }
     if (passes) {
-        passOn(ray, rayEnd);
+        passOn(look.ray, look.rayEnd);
         return;
     }
-    if (hit && bounce == 0u) {
-        ++seen.hits;
-        seen.covered += filterWeight;
+    if (hit && look.bounce == 0u) {
+        ++look.seen.hits;
+        look.seen.covered += look.filterWeight;
     }
-    if (SEES_SURFACES && hit) arrive();
-    else if (bounce > 0u) endSample(throughput, firstNormal); // a mirror that shows the sky
-    else endSample(vec3(0.0), vec3(0.0));
+    if (SEES_SURFACES && hit) arrive(frame, look);
+    else if (look.bounce > 0u) endSample(look, look.throughput, look.firstNormal); // a mirror that shows the sky
+    else endSample(look, vec3(0.0), vec3(0.0));
 }
 
-bool isAtWork(uint iteration) {
-    return isUnderWay || seen.samples < seen.target && iteration < dispatch.softIterations;
+bool isAtWork(Look look, uint softIterations, uint iteration) {
+    return look.isUnderWay || look.seen.samples < look.seen.target && iteration < softIterations;
 }
 
 void main() {
-    frame = frameBuffer;
-    findPictureGrid();
+    Given given;
+    given.frame = frameBuffer;
+    given.grid = pictureGrid(given.frame);
+    const uint softIterations = dispatch.softIterations, hardIterations = dispatch.hardIterations;
     const uint lane = gl_GlobalInvocationID.x;
     if (lane >= dispatch.pixelCount) return;
-    seen = seenPixels[lane];
-    isUnderWay = false;
-    rayCount = 0u;
-    startTraversal(ray, vec3(0.0), vec3(0.0), 0.0, 0.0, NO_PRIMITIVE, false); // done at once
+    Look look;
+    Stack stack;
+    look.seen = seenPixels[lane];
+    look.isUnderWay = false;
+    look.rayCount = 0u;
+    startTraversal(look.ray, stack, vec3(0.0), vec3(0.0), 0.0, 0.0, NO_PRIMITIVE, false); // done at once
 
     // Every exit is in a loop's header (docs/kernel.md, "Exits of loops").
     uint iteration = 0u;
-    while (isAtWork(iteration) && iteration < dispatch.hardIterations) {
-        if (!isUnderWay) beginSample();
-        if (!traversing(ray)) {
-            startTraversal(ray);
-            ++rayCount;
+    while (isAtWork(look, softIterations, iteration) && iteration < hardIterations) {
+        if (!look.isUnderWay) beginSample(given, look);
+        if (!traversing(look.ray)) {
+            startTraversal(look.ray, stack);
+            ++look.rayCount;
         }
-        const Ray prepared = makeRay(ray.origin, ray.direction);
+        const Ray prepared = makeRay(look.ray.origin, look.ray.direction);
         for (uint leg = 0u; leg < TRAVERSAL_LEGS; ++leg) {
-            const Ray aimed = prepareLeg(ray, prepared);
+            const Ray aimed = prepareLeg(look.ray, prepared);
             for (uint k = 0u; k < TRAVERSAL_STEPS; ++k)
-                traversalStep(ray, aimed);
+                traversalStep(look.ray, stack, aimed);
         }
-        if (!traversing(ray)) takeResult();
+        if (!traversing(look.ray)) takeResult(given.frame, look);
         ++iteration;
     }
-    seenPixels[lane] = seen;
-    if (isUnderWay) atomicAdd(status.overflowedPixels, 1u);
-    else if (seen.samples < seen.target) atomicAdd(status.unfinishedPixels, 1u);
-    atomicAdd(status.rays, rayCount);
+    seenPixels[lane] = look.seen;
+    if (look.isUnderWay) atomicAdd(status.overflowedPixels, 1u);
+    else if (look.seen.samples < look.seen.target) atomicAdd(status.unfinishedPixels, 1u);
+    atomicAdd(status.rays, look.rayCount);
 }

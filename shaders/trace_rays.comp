@@ -29,34 +29,37 @@ layout(push_constant) uniform DispatchConstants { RayDispatch dispatch; };
 #include "include/intersect.glsl"
 #include "include/traverse.glsl"
 
-Traversal ray;
-uint rayIndex;
-uint raysLeft;
-bool tracing; ///< `ray` is one of the buffer's
-LaneTotals totals;
+/// What a lane knows of its rays.
+struct Tracer {
+    Traversal ray;
+    uint rayIndex;
+    uint raysLeft;
+    bool tracing; ///< `ray` is one of the buffer's
+    LaneTotals totals;
+};
 
-void takeResult() {
-    const bool hit = ray.hitPrimitive != NO_PRIMITIVE;
-    totals.hits += hit ? 1u : 0u;
-    totals.distances += hit ? ray.tMax : 0.0;
-    if (WRITE_DISTANCES) rayDistances[rayIndex] = hit ? ray.tMax : INFINITE_DISTANCE;
+void takeResult(inout Tracer lane) {
+    const bool hit = lane.ray.hitPrimitive != NO_PRIMITIVE;
+    lane.totals.hits += hit ? 1u : 0u;
+    lane.totals.distances += hit ? lane.ray.tMax : 0.0;
+    if (WRITE_DISTANCES) rayDistances[lane.rayIndex] = hit ? lane.ray.tMax : INFINITE_DISTANCE;
 }
 
-void startRay() {
-    const uvec4 r0 = ROW(rayRows, 2u * rayIndex), r1 = ROW(rayRows, 2u * rayIndex + 1u);
-    startTraversal(ray, uintBitsToFloat(r0.xyz), uintBitsToFloat(r1.xyz), 0.0,
+void startRay(inout Tracer lane, inout Stack stack) {
+    const uvec4 r0 = ROW(rayRows, 2u * lane.rayIndex), r1 = ROW(rayRows, 2u * lane.rayIndex + 1u);
+    startTraversal(lane.ray, stack, uintBitsToFloat(r0.xyz), uintBitsToFloat(r1.xyz), 0.0,
                    uintBitsToFloat(r0.w), NO_PRIMITIVE, ANY_HIT);
 }
 
 /// Takes in the finished ray and starts the lane's next one, if there is one.
-void serve() {
-    if (tracing) {
-        takeResult();
-        --raysLeft;
-        rayIndex += gl_WorkGroupSize.x;
+void serve(inout Tracer lane, inout Stack stack) {
+    if (lane.tracing) {
+        takeResult(lane);
+        --lane.raysLeft;
+        lane.rayIndex += gl_WorkGroupSize.x;
     }
-    tracing = raysLeft > 0u && rayIndex < dispatch.rayCount;
-    if (tracing) startRay();
+    lane.tracing = lane.raysLeft > 0u && lane.rayIndex < dispatch.rayCount;
+    if (lane.tracing) startRay(lane, stack);
 }
 
 /// The rays of this group: those of its number, or the next chunk that no group has taken, where a
@@ -69,32 +72,34 @@ uint takeChunk() {
 }
 
 void main() {
+    Tracer lane;
+    Stack stack;
     // Neighbouring lanes take neighbouring rays at about the same time.
     const uint chunk = takeChunk();
-    rayIndex = chunk * gl_WorkGroupSize.x * dispatch.raysPerLane + gl_LocalInvocationID.x;
-    raysLeft = dispatch.chunkCount == 0u || chunk < dispatch.chunkCount ? dispatch.raysPerLane : 0u;
-    totals = LaneTotals(0u, 0.0, 0u);
-    tracing = false;
-    startTraversal(ray, vec3(0.0), vec3(0.0), 0.0, 0.0, NO_PRIMITIVE, ANY_HIT); // done at once
+    lane.rayIndex = chunk * gl_WorkGroupSize.x * dispatch.raysPerLane + gl_LocalInvocationID.x;
+    lane.raysLeft = dispatch.chunkCount == 0u || chunk < dispatch.chunkCount ? dispatch.raysPerLane : 0u;
+    lane.totals = LaneTotals(0u, 0.0, 0u);
+    lane.tracing = false;
+    startTraversal(lane.ray, stack, vec3(0.0), vec3(0.0), 0.0, 0.0, NO_PRIMITIVE, ANY_HIT); // done at once
 
     // Every exit is in a loop's header (docs/kernel.md, "Exits of loops").
     bool finished = false;
     uint iteration = 0u;
     while (!finished && iteration < dispatch.hardIterations) {
-        const Ray prepared = makeRay(ray.origin, ray.direction);
+        const Ray prepared = makeRay(lane.ray.origin, lane.ray.direction);
         for (uint leg = 0u; leg < TRAVERSAL_LEGS; ++leg) {
-            const Ray aimed = prepareLeg(ray, prepared);
+            const Ray aimed = prepareLeg(lane.ray, prepared);
             for (uint k = 0u; k < TRAVERSAL_STEPS; ++k)
-                traversalStep(ray, aimed);
+                traversalStep(lane.ray, stack, aimed);
         }
-        bool waiting = !traversing(ray);
+        bool waiting = !traversing(lane.ray);
         while (waiting) {
-            serve();
-            finished = !tracing;
+            serve(lane, stack);
+            finished = !lane.tracing;
             waiting = false;
         }
         ++iteration;
     }
-    totals.unfinished = finished ? 0u : 1u;
-    laneTotals[gl_GlobalInvocationID.x] = totals;
+    lane.totals.unfinished = finished ? 0u : 1u;
+    laneTotals[gl_GlobalInvocationID.x] = lane.totals;
 }

@@ -20,7 +20,7 @@ layout(set = 0, binding = BINDING_SPLITS, std430) buffer QueueBuffer {
 #include "include/path_memory.glsl"
 
 /// Puts this lane's path into a queue, if `wanted`. One atomic operation for a subgroup.
-void enqueue(uint queue, bool wanted, uint slot) {
+void enqueue(uint queue, bool wanted, PathSlot slot) {
     const uvec4 those = subgroupBallot(wanted);
     const uint count = subgroupBallotBitCount(those);
     uint first = 0u;
@@ -29,22 +29,22 @@ void enqueue(uint queue, bool wanted, uint slot) {
         atomicMax(heads[queue].groups, (first + count + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x);
     }
     first = subgroupBroadcastFirst(first);
-    if (wanted) queued[queue * dispatch.laneCount + first + subgroupBallotExclusiveBitCount(those)] = slot;
+    if (wanted) queued[queue * slot.count + first + subgroupBallotExclusiveBitCount(those)] = slot.number;
 }
 
 uint countOf(bool those) { return subgroupBallotBitCount(subgroupBallot(those)); }
 
 /// Sends a path on, by what it asks for. One without a ray passes through STAGE_TRACE untouched.
-void sendOn(bool isThere, uint slot, uint phase, uint rayQueue) {
+void sendOn(bool isThere, PathSlot slot, uint phase, uint rayQueue) {
     const bool departs = phase == PHASE_BOUNCE || phase == PHASE_NEXT;
     enqueue(QUEUE_DEPARTING, isThere && departs, slot);
     enqueue(rayQueue, isThere && !departs && phase != PHASE_FINISHED, slot);
 }
 
 /// That of the next round.
-uint otherRayQueue() { return QUEUE_RAYS + QUEUE_RAYS + 1u - dispatch.rayQueue; }
+uint otherRayQueue(const Dispatch dispatch) { return QUEUE_RAYS + QUEUE_RAYS + 1u - dispatch.rayQueue; }
 
-void beginPath(bool isThere, uint slot) {
+void beginPath(bool isThere, PathSlot slot) {
     PathState path;
     Job job;
     if (isThere) {
@@ -57,16 +57,16 @@ void beginPath(bool isThere, uint slot) {
     sendOn(isThere, slot, PHASE_NEXT, QUEUE_RAYS);
 }
 
-void stopPath(bool isThere, uint slot) {
+void stopPath(const Frame frame, bool isThere, PathSlot slot) {
     PathState path;
     Job job;
     job.item = NO_ITEM;
     path.phase = PHASE_FINISHED;
     if (isThere) loadPath(slot, path, job, BY_DEPART);
     const bool hasPixel = isThere && job.item != NO_ITEM;
-    if (hasPixel) fetchPixelInHand(path, job);
+    if (hasPixel) fetchPixelInHand(frame, path, job);
     if (hasPixel && !wantsPixel(path, job)) {
-        const bool ends = endsSampleUnderWay(path);
+        const bool ends = endsSampleUnderWay(frame, path);
         job.target = samplesTaken(path) + (ends ? 1u : 0u);
         if (!ends) path.phase = PHASE_NEXT;
         storePath(slot, path, job, BY_DEPART);
@@ -74,18 +74,18 @@ void stopPath(bool isThere, uint slot) {
     sendOn(hasPixel, slot, path.phase, QUEUE_RAYS);
 }
 
-void departPath(bool isThere, uint slot) {
+void departPath(const Given given, const Dispatch dispatch, bool isThere, PathSlot slot) {
     PathState path;
     Job job;
     path.phase = PHASE_FINISHED;
     job.sampleCount = 0u;
     if (isThere) {
         loadPath(slot, path, job, BY_DEPART);
-        if (job.item != NO_ITEM) fetchPixelInHand(path, job);
-        changePixel(path, job, dispatch.beginsNoSample == 0u);
+        if (job.item != NO_ITEM) fetchPixelInHand(given.frame, path, job);
+        changePixel(given.frame, dispatch.itemCount, path, job, dispatch.beginsNoSample == 0u);
         if (path.phase == PHASE_NEXT && job.item != NO_ITEM) storePixel(job.pixel, path.pixelState); // samplesBefore
         const bool hadSplit = !SPLITS || path.splitPoint.bounce != 0u;
-        if (path.phase == PHASE_BOUNCE || path.phase == PHASE_NEXT && !wantsPixel(path, job)) depart(path);
+        if (path.phase == PHASE_BOUNCE || path.phase == PHASE_NEXT && !wantsPixel(path, job)) depart(given, path);
         storePath(slot, path, job, BY_DEPART);
         if (path.phase != PHASE_FINISHED && !hadSplit && path.splitPoint.bounce != 0u) storePath(slot, path, job, AT_SPLIT);
     }
@@ -93,19 +93,20 @@ void departPath(bool isThere, uint slot) {
     enqueue(dispatch.rayQueue, isThere && path.phase != PHASE_FINISHED, slot);
 }
 
-void tracePath(bool isThere, uint slot) {
+void tracePath(const Dispatch dispatch, bool isThere, PathSlot slot) {
     PathState path;
     Job job;
     job.busySteps = 0u;
     job.allSteps = 0u;
+    Stack stack;
     path.phase = PHASE_FINISHED;
     endTraversal(path.ray);
     if (isThere) loadPath(slot, path, job, BY_TRACE);
     const bool traces = isTracing(path.phase);
-    if (traces) startRay(path);
+    if (traces) startRay(path, stack);
     uint iteration = 0u;
     while (traversing(path.ray) && iteration < dispatch.hardIterations) {
-        traverseSomeSteps(path, job);
+        traverseSomeSteps(path, job, stack);
         ++iteration;
     }
     if (traversing(path.ray)) atomicAdd(status.overflowedItems, 1u);
@@ -120,14 +121,14 @@ void tracePath(bool isThere, uint slot) {
 
 /// A path that has ended where it had split comes back here, and the surface of the next branch is looked up as one
 /// that a ray has met.
-void followStoredPath(bool isThere, uint slot) {
+void followStoredPath(const Given given, const Dispatch dispatch, bool isThere, PathSlot slot) {
     PathState path;
     Job job;
     path.phase = PHASE_FINISHED;
     bool endsSample = false, isLit = false;
     if (isThere) {
         loadPath(slot, path, job, BY_FOLLOW);
-        fetchPixelInHand(path, job);
+        fetchPixelInHand(given.frame, path, job);
         const bool returns = branchIsOver(path);
         const bool arrives = path.phase == PHASE_PATH || returns;
         if (returns) loadPath(slot, path, job, AT_RETURN);
@@ -136,59 +137,58 @@ void followStoredPath(bool isThere, uint slot) {
         if (needsSurfaceNow && !arrives) loadPath(slot, path, job, AT_RESULT);
         MaterialPoint asked = askedPoint(path);
         if (returns) asked = materialPoint(path.splitPoint.surface);
-        const bool goesOn = path.phase != PHASE_NEXT && takeInRay(path, asked);
+        const bool goesOn = path.phase != PHASE_NEXT && takeInRay(given, path, asked);
         if (!needsSurfaceNow && !arrives) loadPath(slot, path, job, AT_RESULT);
         if (returns) nextBranch(path, path.found.parameters);
-        isLit = goesOn && wantsDirectSample(path);
-        if (goesOn && !isLit) leaveDirectLight(path);
+        isLit = goesOn && wantsDirectSample(given.frame, path);
+        if (goesOn && !isLit) leaveDirectLight(given.frame, path);
         endsSample = goesOn && path.phase == PHASE_ENDED && !branchIsOver(path);
         if (endsSample) {
             path.pixelState = fetchPixel(job.pixel);
-            finishSample(path);
+            finishSample(given.frame, path);
             storePixel(job.pixel, path.pixelState);
         }
         storePath(slot, path, job, BY_FOLLOW);
         if (arrives) storePath(slot, path, job, AT_ARRIVAL);
     }
     enqueue(QUEUE_LIT, isLit, slot);
-    sendOn(isThere && !isLit, slot, path.phase, otherRayQueue());
+    sendOn(isThere && !isLit, slot, path.phase, otherRayQueue(dispatch));
     const uint samples = countOf(endsSample);
     if (subgroupElect()) atomicAdd(status.samples, samples);
 }
 
 /// A light sample that brings nothing asks for no ray; the path goes on in the next round all the same.
-void lightPath(bool isThere, uint slot) {
+void lightPath(const Given given, const Dispatch dispatch, bool isThere, PathSlot slot) {
     PathState path;
     Job job;
     if (isThere) {
         loadPath(slot, path, job, BY_LIGHT);
-        fetchPixelInHand(path, job);
-        sampleDirect(path);
+        fetchPixelInHand(given.frame, path, job);
+        sampleDirect(given, path);
         storePath(slot, path, job, BY_LIGHT);
     }
-    enqueue(otherRayQueue(), isThere, slot);
+    enqueue(otherRayQueue(dispatch), isThere, slot);
 }
 
 void main() {
-    frame = frameBuffer;
-    dispatch = dispatchConstants;
-    findPictureGrid();
-    findOnlyLight();
-    if (GAP_PROPOSAL) findGap();
+    const Given given = findGiven();
+    const Dispatch dispatch = dispatchConstants;
     const uint lane = gl_GlobalInvocationID.x;
+    const PathSlot own = PathSlot(lane, dispatch.laneCount);
     if (STAGE == STAGE_BEGIN) {
-        beginPath(lane < dispatch.laneCount, lane);
+        beginPath(lane < dispatch.laneCount, own);
         return;
     }
     if (STAGE == STAGE_STOP) {
-        stopPath(lane < dispatch.laneCount, lane);
+        stopPath(given.frame, lane < dispatch.laneCount, own);
         return;
     }
     const uint queue = STAGE == STAGE_DEPART ? QUEUE_DEPARTING : STAGE == STAGE_LIGHT ? QUEUE_LIT : dispatch.rayQueue;
     const bool isThere = lane < heads[queue].count;
-    const uint slot = isThere ? queued[queue * dispatch.laneCount + lane] : 0u;
-    if (STAGE == STAGE_DEPART) departPath(isThere, slot);
-    if (STAGE == STAGE_TRACE) tracePath(isThere, slot);
-    if (STAGE == STAGE_FOLLOW) followStoredPath(isThere, slot);
-    if (STAGE == STAGE_LIGHT) lightPath(isThere, slot);
+    const uint number = isThere ? queued[queue * dispatch.laneCount + lane] : 0u;
+    const PathSlot slot = PathSlot(number, dispatch.laneCount);
+    if (STAGE == STAGE_DEPART) departPath(given, dispatch, isThere, slot);
+    if (STAGE == STAGE_TRACE) tracePath(dispatch, isThere, slot);
+    if (STAGE == STAGE_FOLLOW) followStoredPath(given, dispatch, isThere, slot);
+    if (STAGE == STAGE_LIGHT) lightPath(given, dispatch, isThere, slot);
 }

@@ -6,24 +6,19 @@ struct CameraRay {
     float tMin, tMax;
 };
 
-/// From the camera to the picture, at a distance of 1 (orthographic: 0): its top left corner, and the steps
-/// from one pixel to the next. The same for all rays, so found before they are.
-struct PictureGrid {
-    vec3 corner, right, down;
-};
-PictureGrid pictureGrid;
-
-void findPictureGrid() {
+PictureGrid pictureGrid(const Frame frame) {
+    PictureGrid grid;
     // A middle beside the view axis is in cameraBack, whose part along the axis stays 1.
-    pictureGrid.corner = frame.cameraUp - frame.cameraRight;
-    if (!ORTHOGRAPHIC) pictureGrid.corner -= frame.cameraBack;
-    pictureGrid.right = frame.cameraRight * (2.0 / float(frame.width));
-    pictureGrid.down = frame.cameraUp * (-2.0 / float(frame.height));
+    grid.corner = frame.cameraUp - frame.cameraRight;
+    if (!ORTHOGRAPHIC) grid.corner -= frame.cameraBack;
+    grid.right = frame.cameraRight * (2.0 / float(frame.width));
+    grid.down = frame.cameraUp * (-2.0 / float(frame.height));
+    return grid;
 }
 
 /// The ray through a point of the picture: pixels from the left and from the top. onLens: of the unit disk.
-CameraRay cameraRay(vec2 at, vec2 onLens) {
-    const vec3 d = pictureGrid.corner + at.x * pictureGrid.right + at.y * pictureGrid.down;
+CameraRay cameraRay(const Frame frame, const PictureGrid grid, vec2 at, vec2 onLens) {
+    const vec3 d = grid.corner + at.x * grid.right + at.y * grid.down;
     CameraRay ray;
     ray.origin = frame.cameraPosition;
     ray.direction = -frame.cameraBack;

@@ -2,7 +2,7 @@
 // light at a shading point").
 
 /// A direction of hemisphere sampling as a light sample whose light is not known yet.
-LightSample hemisphereSample(PathState path, vec2 u) {
+LightSample hemisphereSample(const Frame frame, PathState path, vec2 u) {
     if (isLitFromBothSides(lobesOf(path.material))) {
         const float side = takesOtherSide(u) ? -1.0 : 1.0;
         const vec3 w = side * toWorld(makeFrame(shadingNormal(path.surface)), sampleUniformHemisphere(u));
@@ -14,30 +14,30 @@ LightSample hemisphereSample(PathState path, vec2 u) {
 
 /// A sample of one of the lights, with the probability of its choice and its share of the direct light in
 /// its radiance and density.
-LightSample lightSample(inout PathState path, vec2 u, uint index) {
+LightSample lightSample(const Given given, inout PathState path, vec2 u, uint index) {
     SurfacePoint lit = path.surface;
     const bool bothSides = isLitFromBothSides(lobesOf(path.material));
     if (bothSides && takesOtherSide(u)) lit = otherSide(path.surface);
-    const PickedLight picked = pickLight(litPoint(lit), shadingNormal(lit), index, u);
-    LightSample light = sampleLight(lit, picked.light, picked.u, path.sampledEmitter);
+    const PickedLight picked = pickLight(given.frame, litPoint(lit), shadingNormal(lit), index, u);
+    LightSample light = sampleLight(given, lit, picked.light, picked.u, path.sampledEmitter);
     if (bothSides) {
         light.radiance *= dot(shadingNormal(lit), light.direction) > 0.0 ? 2.0 : 0.0;
         light.inversePdf *= 2.0;
     }
     const float perProbability =
         picked.probability > 0.0 ? 1.0 / picked.probability : 0.0;
-    light.radiance *= perProbability * lightSampleShare(index);
+    light.radiance *= perProbability * lightSampleShare(given.frame, index);
     light.inversePdf *= perProbability;
     return light;
 }
 
 /// Starts the ray of a direct light sample, if it can contribute.
-void traceDirectSample(inout PathState path, LightSample light, bool hemisphere) {
+void traceDirectSample(const Given given, inout PathState path, LightSample light, bool hemisphere) {
     const BsdfValue f = evaluateBsdf(path.material, path.surface, light.direction);
     path.directValue = f.value * light.radiance;
     if (!(dot(path.directValue, vec3(1.0)) > 0.0)) return;
     if (combines(lobesOf(path.material))) {
-        const float pdf = bouncePdfWithGap(path.surface, lobesOf(path.material), f.pdf, light.direction);
+        const float pdf = bouncePdfWithGap(given.gap, path.surface, lobesOf(path.material), f.pdf, light.direction);
         path.directValue *= lightSampleWeight(light.inversePdf, pdf);
     }
     const bool transmitted = isBehind(path.surface, light.direction);
@@ -53,15 +53,14 @@ void traceDirectSample(inout PathState path, LightSample light, bool hemisphere)
 }
 
 /// One direct light sample.
-void sampleDirect(inout PathState path) {
+void sampleDirect(const Given given, inout PathState path) {
     const uint index = path.directIndex++;
     vec2 u = path.arrivalNumbers.xy;
     if (LIGHT_NUMBERS == LIGHT_NUMBERS_FIRST && index > 0u)
-        u = unitFloats(pathWords(path, 1u + index)).xy;
-    const bool hemisphere = DIRECT_LIGHT == DIRECT_HEMISPHERE && index < frame.hemisphereSamples;
+        u = unitFloats(pathWords(given.frame, path, 1u + index)).xy;
+    const bool hemisphere = DIRECT_LIGHT == DIRECT_HEMISPHERE && index < given.frame.hemisphereSamples;
     LightSample light;
-    if (hemisphere) light = hemisphereSample(path, u);
-    else light = lightSample(path, u, DIRECT_LIGHT == DIRECT_HEMISPHERE ? index - frame.hemisphereSamples
-                                                                  : index);
-    traceDirectSample(path, light, hemisphere);
+    if (hemisphere) light = hemisphereSample(given.frame, path, u);
+    else light = lightSample(given, path, u, DIRECT_LIGHT == DIRECT_HEMISPHERE ? index - given.frame.hemisphereSamples : index);
+    traceDirectSample(given, path, light, hemisphere);
 }

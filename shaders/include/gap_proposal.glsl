@@ -7,29 +7,22 @@
 
 const float GAP_SHARE = 0.0625; ///< of a surface's bounces
 
-/// The light from the side that is not the gap's, from which the gap is looked into.
-struct Gap {
-    vec3 corner;
-    vec3 along0, along1; ///< unit vectors along the edges
-    vec3 normal;         ///< unit, away from the gap
-    vec2 size;           ///< of the light along the two
-    float width;         ///< from the light to the surface; > 0
-};
-Gap gap; ///< with the gap proposal (GAP_PROPOSAL): found once, as onlyLight is
-
-void findGap() {
-    const QuadLight light = quadLight(onlyLight);
-    const vec3 n = onlyLightNormal;
+Gap findGap(const Frame frame, const OnlyLight onlyLight) {
+    Gap gap;
+    if (!GAP_PROPOSAL) return gap;
+    const QuadLight light = quadLight(onlyLight.rows);
+    const vec3 n = onlyLight.normal;
     gap.corner = light.corner;
     gap.along0 = unit(light.edgeA);
     gap.along1 = cross(n, gap.along0);
     gap.size = vec2(length(light.edgeA), dot(light.edgeB, gap.along1));
     gap.normal = frame.gapWidth > 0.0 ? -n : n;
     gap.width = abs(frame.gapWidth);
+    return gap;
 }
 
 /// Whether bounces from s are mixed with those into the gap.
-bool looksIntoGap(SurfacePoint s, uint lobes) {
+bool looksIntoGap(const Gap gap, SurfacePoint s, uint lobes) {
     return GAP_PROPOSAL && lobes == LOBE_DIFFUSE_REFLECTION && dot(s.position - gap.corner, gap.normal) > 0.0;
 }
 
@@ -46,7 +39,7 @@ struct GapView {
     float weights; ///< the sum
 };
 
-GapView viewGap(vec3 from) {
+GapView viewGap(const Gap gap, vec3 from) {
     GapView g;
     const vec3 d = from - gap.corner;
     g.foot = vec2(dot(d, gap.along0), dot(d, gap.along1));
@@ -60,7 +53,7 @@ GapView viewGap(vec3 from) {
 }
 
 /// The point of the plane that u, in [0, 1)^2, stands for.
-vec2 sampleRims(GapView g, vec2 u) {
+vec2 sampleRims(const Gap gap, GapView g, vec2 u) {
     float x = u.x * g.weights;
     const bool first = x < g.weight.x + g.weight.y; // rims 0 and 1
     if (!first) x -= g.weight.x + g.weight.y;
@@ -74,7 +67,7 @@ vec2 sampleRims(GapView g, vec2 u) {
 }
 
 /// Density of bounces into the gap by solid angle, in the direction w (unit).
-float gapPdf(GapView g, vec3 w) {
+float gapPdf(const Gap gap, GapView g, vec3 w) {
     const float cosine = -dot(w, gap.normal);
     const float t = g.height / cosine;
     if (!(cosine > 0.0 && t < INFINITE_DISTANCE)) return 0.0;
@@ -91,9 +84,9 @@ float gapPdf(GapView g, vec3 w) {
 }
 
 /// Density of bounces from s in the direction w, of which that by the BSDF alone is bsdfPdf.
-float bouncePdfWithGap(SurfacePoint s, uint lobes, float bsdfPdf, vec3 w) {
-    if (!looksIntoGap(s, lobes)) return bsdfPdf;
-    return (1.0 - GAP_SHARE) * bsdfPdf + GAP_SHARE * gapPdf(viewGap(s.position), w);
+float bouncePdfWithGap(const Gap gap, SurfacePoint s, uint lobes, float bsdfPdf, vec3 w) {
+    if (!looksIntoGap(gap, s, lobes)) return bsdfPdf;
+    return (1.0 - GAP_SHARE) * bsdfPdf + GAP_SHARE * gapPdf(gap, viewGap(gap, s.position), w);
 }
 
 /// Which numbers are left when u has decided whether to go into the gap: u.x < GAP_SHARE.
@@ -105,21 +98,21 @@ vec2 afterChoice(vec2 u) {
 /// of the BSDF alone, f |cos| over its own density; mixtureWeight is that density over the mixture's, so
 /// that a path's throughput is multiplied by both. They are apart because roulette goes by the first: a small
 /// second one is no reason to end a path that goes where it is bright.
-BsdfSample sampleBsdfOrGap(Material m, SurfacePoint s, vec3 u, out float mixtureWeight) {
-    const bool looks = looksIntoGap(s, lobesOf(m)), aims = looks && u.x < GAP_SHARE;
+BsdfSample sampleBsdfOrGap(const Gap gap, Material m, SurfacePoint s, vec3 u, out float mixtureWeight) {
+    const bool looks = looksIntoGap(gap, s, lobesOf(m)), aims = looks && u.x < GAP_SHARE;
     if (looks) u.xy = afterChoice(u.xy);
     BsdfSample b = sampleBsdf(m, s, u);
     mixtureWeight = 1.0;
     if (!looks) return b;
-    const GapView g = viewGap(s.position);
+    const GapView g = viewGap(gap, s.position);
     if (aims) {
-        const vec2 at = sampleRims(g, u.xy) - g.foot;
+        const vec2 at = sampleRims(gap, g, u.xy) - g.foot;
         b.direction = unit(at.x * gap.along0 + at.y * gap.along1 - g.height * gap.normal);
         const BsdfValue f = evaluateBsdf(m, s, b.direction);
         b.weight = f.value / max(f.pdf, TINY);
         b.pdf = f.pdf;
     }
-    const float mixture = (1.0 - GAP_SHARE) * b.pdf + GAP_SHARE * gapPdf(g, b.direction);
+    const float mixture = (1.0 - GAP_SHARE) * b.pdf + GAP_SHARE * gapPdf(gap, g, b.direction);
     mixtureWeight = b.pdf / max(mixture, TINY);
     b.pdf = mixture;
     return b;

@@ -23,18 +23,18 @@ float bounceWeight(float inversePdf, float bouncePdf) {
 
 /// Of the light that ray t, a bounce from a surface with this normal, has found: the emissive surface it has
 /// hit, or this sky. What no light sample goes to is left to bounces.
-float foundLightWeight(Traversal t, vec3 normal, FoundSky sky, float bouncePdf) {
+float foundLightWeight(const Given given, Traversal t, vec3 normal, FoundSky sky, float bouncePdf) {
     const bool hit = t.hitPrimitive != NO_PRIMITIVE;
     PlacedPrimitive place;
-    uint number = frame.ambientLight;
+    uint number = given.frame.ambientLight;
     if (hit) {
         place = fetchPlace(t.hitPrimitive);
         number = place.light;
     }
     if (number == NO_LIGHT) return 1.0;
     const LightEntry entry = fetchLightEntry(number);
-    const float probability = lightProbability(entry, t.origin, normal);
+    const float probability = lightProbability(given.frame, entry, t.origin, normal);
     if (!(probability > 0.0)) return 1.0;
-    const float inversePdf = hit ? areaLightInversePdf(t, place, entry.light) : sky.inversePdf;
+    const float inversePdf = hit ? areaLightInversePdf(given.onlyLight, t, place, entry.light) : sky.inversePdf;
     return bounceWeight(inversePdf / probability, bouncePdf);
 }

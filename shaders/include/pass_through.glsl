@@ -7,19 +7,19 @@ Material materialAt(SurfacePoint s) { return lookUpMaterial(materialPoint(s)).pa
 
 #include "include/pass_number.glsl"
 
-float passNumberOfPath(PathState path, uint purpose) {
-    uint sample_ = sampleIndex(path), block = path.bounce * (1u + directSamples());
+float passNumberOfPath(const Frame frame, PathState path, uint purpose) {
+    uint sample_ = sampleIndex(frame, path), block = path.bounce * (1u + directSamples(frame));
     if (DIRECT_LIGHT == DIRECT_HEMISPHERE && path.phase == PHASE_HEMISPHERE) block += path.directIndex;
     if (SPLITS && path.splitPoint.bounce != 0u) {
         sample_ = sample_ * frame.branches + frame.branches - 1u - path.branchesLeft;
         block |= BRANCH_BLOCKS;
     }
-    return passNumber(path.ray, path.pixelId, sample_, block, purpose);
+    return passNumber(frame.seed, path.ray, path.pixelId, sample_, block, purpose);
 }
 
 /// Of a mixture, the first row of the material that the path meets: drawn once at each hit, for light samples and the
 /// bounce alike.
-uint drawnMaterial(PathState path, SurfacePoint s) {
+uint drawnMaterial(const Frame frame, PathState path, SurfacePoint s) {
     uint row = s.material;
     const PointAttributes a = attributesOf(s);
     const uint notThere = isSeenFromBehind(s) ? OTHER_IN_FRONT : OTHER_BEHIND;
@@ -27,7 +27,7 @@ uint drawnMaterial(PathState path, SurfacePoint s) {
     for (uint i = 0u; i < MOST_BLENDS && goesOn; ++i) {
         uint other;
         const float share = blendShare(row, a, notThere, other);
-        goesOn = goesOn && passNumberOfPath(path, i + 1u) < share;
+        goesOn = goesOn && passNumberOfPath(frame, path, i + 1u) < share;
         row = goesOn ? other : row;
     }
     return row;
@@ -36,14 +36,14 @@ uint drawnMaterial(PathState path, SurfacePoint s) {
 /// Whether the ray that is done goes on: it has met a surface that is not there, or partly. A shadow ray goes on with
 /// the light that is left; of others, a path that finds light or scatters, the surface takes the share of its opacity.
 /// hit: the surface's point, with that opacity.
-bool passesThrough(inout PathState path, MaterialPoint hit, float stated) {
+bool passesThrough(const Frame frame, inout PathState path, MaterialPoint hit, float stated) {
     if (!isTracing(path.phase) || path.ray.hitPrimitive == NO_PRIMITIVE) return false;
     const bool isStraight = HIDES_SURFACES && path.phase == PHASE_PATH && path.bounce == 0u;
     const float opacity = isStraight ? opacityForCamera(hit, stated) : stated;
     if (path.phase == PHASE_SHADOW) {
         path.directValue *= 1.0 - opacity;
         if (!(dot(path.directValue, vec3(1.0)) > 0.0)) return false;
-    } else if (passNumberOfPath(path, 0u) < opacity) {
+    } else if (passNumberOfPath(frame, path, 0u) < opacity) {
         return false;
     }
     passOn(path.ray, path.rayEnd);

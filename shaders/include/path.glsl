@@ -13,9 +13,9 @@ vec3 emissionAt(SurfacePoint s, Material m) {
 }
 
 /// The share of the light that the path ray has found that is this ray's, and not light samples'.
-float foundShare(PathState path, FoundSky sky) {
+float foundShare(const Given given, PathState path, FoundSky sky) {
     if (MIS_LOBES == 0u || path.bouncePdf == 0.0) return 1.0;
-    return foundLightWeight(path.ray, path.departureNormal, sky, path.bouncePdf);
+    return foundLightWeight(given, path.ray, path.departureNormal, sky, path.bouncePdf);
 }
 
 MaterialPoint askedPoint(PathState path) {
@@ -45,22 +45,22 @@ void finishHemisphereRay(inout PathState path) {
 }
 
 /// Adds the light of the sky that the path ray has found. share: of it that is this ray's (foundShare()).
-void takeInSky(inout PathState path, FoundSky sky, float share) {
+void takeInSky(const Frame frame, inout PathState path, FoundSky sky, float share) {
     const bool counts = path.countsEmission || AMBIENT_BY_BOUNCES && path.bounce >= frame.minBounce;
     if (counts && (path.bounce > 0u || HAS_BACKDROP) && BOUNCES_FIND_ALL_LIGHT)
         path.radiance += path.throughput * sky.radiance * share;
 }
 
 /// A path ray is done: takes in the light that it has found and sets up the surface for scattering.
-void arrive(inout PathState path) {
+void arrive(const Given given, inout PathState path) {
     const bool hit = path.ray.hitPrimitive != NO_PRIMITIVE;
     path.phase = PHASE_ENDED;
     FoundSky sky = NO_SKY;
     if (!hit) sky = skyFrom(path.departureNormal, path.ray.direction);
-    const float share = foundShare(path, sky);
+    const float share = foundShare(given, path, sky);
     path.throughput *= transmittance(path.medium, hit ? path.ray.tMax : INFINITE_DISTANCE);
     if (!hit) {
-        takeInSky(path, sky, share);
+        takeInSky(given.frame, path, sky, share);
         return;
     }
     path.surface = surfaceAt(path.ray);
@@ -73,7 +73,7 @@ void arrive(inout PathState path) {
         return;
     }
     if (HAS_BLENDS) {
-        path.surface.material = drawnMaterial(path, path.surface);
+        path.surface.material = drawnMaterial(given.frame, path, path.surface);
         path.found = lookUpMaterial(materialPoint(path.surface));
     }
     path.material = path.found.parameters;
@@ -83,14 +83,14 @@ void arrive(inout PathState path) {
     applyRelief(path.surface, path.found.relief, dependsOnView(path.material), reliefRules(path.material));
     if (reliefRules(path.material) != 0u && dot(shadingNormal(path.surface), path.surface.wo) <= 0.0) return;
     ++path.bounce;
-    if (path.bounce > frame.maxBounces) return;
+    if (path.bounce > given.frame.maxBounces) return;
     if (ROULETTE == ROULETTE_FIXED) {
-        if (path.arrivalNumbers.z < frame.terminationProbability) return;
-        path.throughput /= 1.0 - frame.terminationProbability;
+        if (path.arrivalNumbers.z < given.frame.terminationProbability) return;
+        path.throughput /= 1.0 - given.frame.terminationProbability;
     }
     const bool direct =
-        scattersIntoManyDirections(lobesOf(path.material)) && path.bounce >= frame.minBounce;
-    path.directIndex = direct ? 0u : directSamples();
+        scattersIntoManyDirections(lobesOf(path.material)) && path.bounce >= given.frame.minBounce;
+    path.directIndex = direct ? 0u : directSamples(given.frame);
     path.phase = PHASE_DIRECT;
 }
 
@@ -99,14 +99,14 @@ void arrive(inout PathState path) {
 #include "include/direct_samples.glsl"
 
 /// Whether light found by the bounce from here, from one of these lobes, adds to the picture.
-bool emissionCounts(PathState path, uint lobes) {
+bool emissionCounts(const Frame frame, PathState path, uint lobes) {
     return path.bounce >= frame.minBounce &&
            (isDelta(lobes) || combines(lobes) ||
             DIRECT_LIGHT == DIRECT_BSDF && BOUNCES_FIND_ALL_LIGHT);
 }
 
 /// All branches are of one weight. From here on `radiance` is their sum, until finishSample.
-void splitPath(inout PathState path) {
+void splitPath(const Frame frame, inout PathState path) {
     path.splitPoint = SplitPoint(path.surface, path.throughput, path.bounce, path.medium);
     path.branchesLeft = frame.branches - 1u;
     path.radiance *= float(frame.branches);
@@ -124,15 +124,15 @@ void nextBranch(inout PathState path, Material material) {
 }
 
 /// No bounce from here would be traced.
-bool endsHere(PathState path) {
-    return path.bounce == frame.maxBounces && !AMBIENT_BY_BOUNCES && !emissionCounts(path, lobesOf(path.material));
+bool endsHere(const Frame frame, PathState path) {
+    return path.bounce == frame.maxBounces && !AMBIENT_BY_BOUNCES && !emissionCounts(frame, path, lobesOf(path.material));
 }
 
 /// u: as sampleBsdf() takes it; roulette: for the path's end.
-void scatter(inout PathState path, vec3 u, float roulette) {
+void scatter(const Given given, inout PathState path, vec3 u, float roulette) {
     path.phase = PHASE_ENDED;
     float mixtureWeight;
-    const BsdfSample b = sampleBsdfOrGap(path.material, path.surface, u, mixtureWeight);
+    const BsdfSample b = sampleBsdfOrGap(given.gap, path.material, path.surface, u, mixtureWeight);
     path.throughput *= b.weight;
     const float largest = largestComponent(path.throughput);
     if (!(largest > 0.0)) return;
@@ -143,7 +143,7 @@ void scatter(inout PathState path, vec3 u, float roulette) {
     }
     if (GAP_PROPOSAL) path.throughput *= mixtureWeight;
     const bool transmitted = isTransmission(b.lobe);
-    path.countsEmission = emissionCounts(path, b.lobe);
+    path.countsEmission = emissionCounts(given.frame, path, b.lobe);
     path.bouncePdf = combines(b.lobe) ? max(b.pdf, TINY) : 0.0;
     path.departureNormal = shadingNormal(path.surface);
     if (isLitFromBothSides(lobesOf(path.material))) { // as light samples of that side are taken
@@ -155,7 +155,7 @@ void scatter(inout PathState path, vec3 u, float roulette) {
               INFINITE_DISTANCE, transmitted);
 }
 
-void beginSample(inout PathState path) {
+void beginSample(const Frame frame, inout PathState path) {
     path.bounce = 0u;
     path.throughput = vec3(1.0);
     path.radiance = vec3(0.0);
@@ -166,32 +166,32 @@ void beginSample(inout PathState path) {
     path.branchesLeft = 0u;
 }
 
-void startCameraRay(inout PathState path, vec2 u) {
-    const CameraRay c = cameraRayOfSample(path.pixelAt, path.pixelId, sampleIndex(path), u, path.filterWeight);
+void startCameraRay(const Given given, inout PathState path, vec2 u) {
+    const CameraRay c = cameraRayOfSample(given, path.pixelAt, path.pixelId, sampleIndex(given.frame, path), u, path.filterWeight);
     trace(path, PHASE_PATH, c.origin, c.direction, c.tMin, c.tMax, NO_PRIMITIVE);
 }
 
 /// Starts the next path ray: of a new sample (PHASE_NEXT), or the bounce (PHASE_BOUNCE). Both draw
 /// their numbers in one place (docs/kernel.md, "What llvmpipe does"). A bounce may end the path.
-void depart(inout PathState path) {
+void depart(const Given given, inout PathState path) {
     const bool begins = path.phase == PHASE_NEXT;
-    if (begins) beginSample(path);
-    else if (SPLITS && path.splitPoint.bounce == 0u && scattersAtRandom(lobesOf(path.material))) splitPath(path);
-    const uvec4 words = pathWords(path, 0u);
+    if (begins) beginSample(given.frame, path);
+    else if (SPLITS && path.splitPoint.bounce == 0u && scattersAtRandom(lobesOf(path.material))) splitPath(given.frame, path);
+    const uvec4 words = pathWords(given.frame, path, 0u);
     const vec4 u = unitFloats(words);
     path.arrivalNumbers = vec3(u.xy, leftOver(words));
     // Most materials take either the two numbers within a lobe or the one that chooses a side, so that both may be
     // the same.
-    if (begins) startCameraRay(path, u.zw);
+    if (begins) startCameraRay(given, path, u.zw);
     else if (SCATTERS_THROUGH && INTEGRATOR == INTEGRATOR_PATH)
-        scatter(path, vec3(u.zw, takesThreeNumbers(lobesOf(path.material)) ? sideNumber(path) : u.z), path.arrivalNumbers.z);
-    else if (INTEGRATOR == INTEGRATOR_PATH) scatter(path, u.zwz, path.arrivalNumbers.z);
+        scatter(given, path, vec3(u.zw, takesThreeNumbers(lobesOf(path.material)) ? sideNumber(given.frame, path) : u.z), path.arrivalNumbers.z);
+    else if (INTEGRATOR == INTEGRATOR_PATH) scatter(given, path, u.zwz, path.arrivalNumbers.z);
 }
 
 /// The path is over, but not the sample.
 bool branchIsOver(PathState path) { return SPLITS && path.phase == PHASE_ENDED && path.branchesLeft > 0u; }
 
-void finishSample(inout PathState path) {
+void finishSample(const Frame frame, inout PathState path) {
     if (SPLITS && path.splitPoint.bounce != 0u) path.radiance /= float(frame.branches);
     addSample(path.pixelState, path.radiance, path.filterWeight);
     if (samplesHaveWeights()) path.radiance *= path.filterWeight; // as frame.keepsValue shows it
@@ -202,31 +202,31 @@ void finishSample(inout PathState path) {
 
 /// Takes in the finished ray: its light, and where the path is now (PHASE_DIRECT, PHASE_ENDED). asked: the point whose
 /// material is looked up. False: the ray goes on, as it has met something that is not there.
-bool takeInRay(inout PathState path, MaterialPoint asked) {
+bool takeInRay(const Given given, inout PathState path, MaterialPoint asked) {
     path.found = lookUpMaterial(asked);
-    if (HAS_ALPHA && passesThrough(path, asked, path.found.opacity)) return false;
+    if (HAS_ALPHA && passesThrough(given.frame, path, asked, path.found.opacity)) return false;
     if (path.phase == PHASE_SHADOW) finishShadowRay(path);
     else if (DIRECT_LIGHT == DIRECT_HEMISPHERE && path.phase == PHASE_HEMISPHERE) finishHemisphereRay(path);
-    else if (path.phase == PHASE_PATH) arrive(path);
+    else if (path.phase == PHASE_PATH) arrive(given, path);
     return true;
 }
 
-bool wantsDirectSample(PathState path) {
-    return INTEGRATOR == INTEGRATOR_PATH && path.phase == PHASE_DIRECT && path.directIndex < directSamples();
+bool wantsDirectSample(const Frame frame, PathState path) {
+    return INTEGRATOR == INTEGRATOR_PATH && path.phase == PHASE_DIRECT && path.directIndex < directSamples(frame);
 }
 
 /// When all direct light samples are done, what follows is a bounce, if one would be traced.
-void leaveDirectLight(inout PathState path) {
-    if (INTEGRATOR == INTEGRATOR_PATH && path.phase == PHASE_DIRECT && path.directIndex >= directSamples())
-        path.phase = endsHere(path) ? PHASE_ENDED : PHASE_BOUNCE;
+void leaveDirectLight(const Frame frame, inout PathState path) {
+    if (INTEGRATOR == INTEGRATOR_PATH && path.phase == PHASE_DIRECT && path.directIndex >= directSamples(frame))
+        path.phase = endsHere(frame, path) ? PHASE_ENDED : PHASE_BOUNCE;
 }
 
 /// Takes in the finished ray. What is next: a shadow ray, which it asks for; a bounce (PHASE_BOUNCE), or
 /// another sample (PHASE_NEXT), both by depart().
-void followPath(inout PathState path) {
-    if (!takeInRay(path, askedPoint(path))) return;
-    if (wantsDirectSample(path)) sampleDirect(path);
-    leaveDirectLight(path);
+void followPath(const Given given, inout PathState path) {
+    if (!takeInRay(given, path, askedPoint(path))) return;
+    if (wantsDirectSample(given.frame, path)) sampleDirect(given, path);
+    leaveDirectLight(given.frame, path);
     if (INTEGRATOR == INTEGRATOR_PATH && branchIsOver(path)) nextBranch(path, materialAt(path.splitPoint.surface));
-    if (path.phase == PHASE_ENDED && !branchIsOver(path)) finishSample(path);
+    if (path.phase == PHASE_ENDED && !branchIsOver(path)) finishSample(given.frame, path);
 }

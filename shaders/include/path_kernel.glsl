@@ -14,10 +14,7 @@ layout(set = 0, binding = BINDING_FRAME, std140) uniform FrameBuffer { Frame fra
 layout(set = 0, binding = BINDING_STATUS, std430) buffer StatusBuffer { DispatchStatus status; };
 layout(push_constant) uniform DispatchConstants { Dispatch dispatchConstants; };
 
-// Uniforms are read once, before all loops (docs/kernel.md, "Nothing is moved out of loops").
-Frame frame;
-Dispatch dispatch;
-
+#include "include/given.glsl"
 #include "include/numerics.glsl"
 #include "include/random.glsl"
 #include "include/intersect.glsl"
@@ -38,6 +35,15 @@ Dispatch dispatch;
 #include "include/accumulate.glsl"
 #include "include/path.glsl"
 
+Given findGiven() {
+    Given given;
+    given.frame = frameBuffer;
+    given.grid = pictureGrid(given.frame);
+    given.onlyLight = findOnlyLight();
+    given.gap = findGap(given.frame, given.onlyLight);
+    return given;
+}
+
 /// What a lane has in hand of the work list, and what it counts.
 struct Job {
     uint item;        ///< of the work list; NO_ITEM: none
@@ -53,7 +59,7 @@ uint samplesTaken(PathState path) { return path.pixelState.count + path.pixelSta
 bool wantsPixel(PathState path, Job job) { return path.phase == PHASE_NEXT && (job.item == NO_ITEM || samplesTaken(path) >= job.target); }
 
 /// Fetches the pixel of job.item. Returns how many samples the work list wants of it.
-uint fetchPixelInHand(inout PathState path, inout Job job) {
+uint fetchPixelInHand(const Frame frame, inout PathState path, inout Job job) {
     const WorkItem work = fetchWorkItem(job.item);
     job.pixel = work.pixel;
     path.pixelState = fetchPixel(job.pixel);
@@ -62,14 +68,14 @@ uint fetchPixelInHand(inout PathState path, inout Job job) {
     return work.target;
 }
 
-void takeUp(inout PathState path, inout Job job, uint newItem) {
+void takeUp(const Frame frame, inout PathState path, inout Job job, uint newItem) {
     job.item = newItem;
     if (job.item == NO_ITEM) return;
-    job.target = fetchPixelInHand(path, job);
+    job.target = fetchPixelInHand(frame, path, job);
     job.sampleCount -= samplesTaken(path);
 }
 
-void putDown(inout PathState path, inout Job job) {
+void putDown(const Frame frame, inout PathState path, inout Job job) {
     if (job.item == NO_ITEM) return;
     if (frame.keepsValue != 0u && samplesTaken(path) >= job.target) path.pixelState.sum = path.radiance;
     storePixel(job.pixel, path.pixelState);
@@ -79,14 +85,14 @@ void putDown(inout PathState path, inout Job job) {
 
 /// When the pixel has all its samples, goes on with the next one that no lane has taken. No pixel
 /// depends on which lane it falls to.
-void changePixel(inout PathState path, inout Job job, bool mayGoOn) {
+void changePixel(const Frame frame, uint itemCount, inout PathState path, inout Job job, bool mayGoOn) {
     if (!wantsPixel(path, job)) return;
-    putDown(path, job);
+    putDown(frame, path, job);
     path.phase = PHASE_FINISHED;
     if (!mayGoOn) return;
     const uint taken = atomicAdd(status.nextItem, 1u);
-    if (taken >= dispatch.itemCount) return;
-    takeUp(path, job, taken);
+    if (taken >= itemCount) return;
+    takeUp(frame, path, job, taken);
     path.pixelState.samplesBefore = frame.firstSample + samplesTaken(path);
     path.phase = PHASE_NEXT;
 }
@@ -100,7 +106,7 @@ const uint STOPPING_BLOCK = 0x7FFFFFFFu;
 /// without bias (Glynn and Heidelberger 1990); with samples of earlier passes the errors of ending and
 /// dropping cancel, to the first order, where it is ended with the share of those in all (docs/estimator.md,
 /// "A render that is stopped"). The choice knows nothing of the samples' values.
-bool endsSampleUnderWay(PathState path) {
+bool endsSampleUnderWay(const Frame frame, PathState path) {
     const uint taken = frame.firstSample + samplesTaken(path);
     if (taken == 0u) return true;
     const uint word = pcg4d(uvec4(path.pixelId, taken, STOPPING_BLOCK, frame.seed)).x;
@@ -109,13 +115,13 @@ bool endsSampleUnderWay(PathState path) {
 
 /// What follows from the ray is worked out anew in each pass, not kept beside it (docs/kernel.md,
 /// "Nothing is moved out of loops").
-void traverseSomeSteps(inout PathState path, inout Job job) {
+void traverseSomeSteps(inout PathState path, inout Job job, inout Stack stack) {
     const Ray prepared = makeRay(path.ray.origin, path.ray.direction);
     for (uint leg = 0u; leg < TRAVERSAL_LEGS; ++leg) {
         const Ray aimed = prepareLeg(path.ray, prepared);
         for (uint k = 0u; k < TRAVERSAL_STEPS; ++k) {
             if (COUNT_STEPS) job.busySteps += traversing(path.ray) ? 1u : 0u;
-            traversalStep(path.ray, aimed);
+            traversalStep(path.ray, stack, aimed);
         }
         if (COUNT_STEPS) job.allSteps += TRAVERSAL_STEPS;
     }

@@ -1,51 +1,56 @@
 // States of paths in memory, between two stages of the wavefront scheduler: word by word, those of all paths one
 // after the other, so that neighbouring lanes read neighbouring words. The table is PATH_FIELDS.
 
-uint pathWord(uint slot, uint word) { return pathWords[word * dispatch.laneCount + slot]; }
-void setPathWord(uint slot, uint word, uint value) { pathWords[word * dispatch.laneCount + slot] = value; }
+/// Where a path lies.
+struct PathSlot {
+    uint number, count; ///< of all paths
+};
+
+uint pathWord(PathSlot slot, uint word) { return pathWords[word * slot.count + slot.number]; }
+void setPathWord(PathSlot slot, uint word, uint value) { pathWords[word * slot.count + slot.number] = value; }
 
 const uint WORDS_uint = 1u, WORDS_float = 1u, WORDS_bool = 1u, WORDS_vec2 = 2u, WORDS_vec3 = 3u;
 const uint WORDS_vec4 = 4u, WORDS_uvec4 = 4u;
 
-void load(uint slot, uint word, out uint x) { x = pathWord(slot, word); }
-void load(uint slot, uint word, out float x) { x = uintBitsToFloat(pathWord(slot, word)); }
-void load(uint slot, uint word, out bool x) { x = pathWord(slot, word) != 0u; }
-void load(uint slot, uint word, out vec2 v) {
+void load(PathSlot slot, uint word, out uint x) { x = pathWord(slot, word); }
+void load(PathSlot slot, uint word, out float x) { x = uintBitsToFloat(pathWord(slot, word)); }
+void load(PathSlot slot, uint word, out bool x) { x = pathWord(slot, word) != 0u; }
+void load(PathSlot slot, uint word, out vec2 v) {
     v = uintBitsToFloat(uvec2(pathWord(slot, word), pathWord(slot, word + 1u)));
 }
-void load(uint slot, uint word, out vec3 v) {
+void load(PathSlot slot, uint word, out vec3 v) {
     v = uintBitsToFloat(uvec3(pathWord(slot, word), pathWord(slot, word + 1u), pathWord(slot, word + 2u)));
 }
-void load(uint slot, uint word, out uvec4 v) {
+void load(PathSlot slot, uint word, out uvec4 v) {
     v = uvec4(pathWord(slot, word), pathWord(slot, word + 1u), pathWord(slot, word + 2u), pathWord(slot, word + 3u));
 }
-void load(uint slot, uint word, out vec4 v) {
+void load(PathSlot slot, uint word, out vec4 v) {
     uvec4 bits;
     load(slot, word, bits);
     v = uintBitsToFloat(bits);
 }
 
-void store(uint slot, uint word, uint x) { setPathWord(slot, word, x); }
-void store(uint slot, uint word, float x) { setPathWord(slot, word, floatBitsToUint(x)); }
-void store(uint slot, uint word, bool x) { setPathWord(slot, word, x ? 1u : 0u); }
-void store(uint slot, uint word, vec2 v) {
+void store(PathSlot slot, uint word, uint x) { setPathWord(slot, word, x); }
+void store(PathSlot slot, uint word, float x) { setPathWord(slot, word, floatBitsToUint(x)); }
+void store(PathSlot slot, uint word, bool x) { setPathWord(slot, word, x ? 1u : 0u); }
+void store(PathSlot slot, uint word, vec2 v) {
     store(slot, word, v.x);
     store(slot, word + 1u, v.y);
 }
-void store(uint slot, uint word, vec3 v) {
+void store(PathSlot slot, uint word, vec3 v) {
     store(slot, word, v.xy);
     store(slot, word + 2u, v.z);
 }
-void store(uint slot, uint word, uvec4 v) {
+void store(PathSlot slot, uint word, uvec4 v) {
     setPathWord(slot, word, v.x);
     setPathWord(slot, word + 1u, v.y);
     setPathWord(slot, word + 2u, v.z);
     setPathWord(slot, word + 3u, v.w);
 }
-void store(uint slot, uint word, vec4 v) { store(slot, word, floatBitsToUint(v)); }
+void store(PathSlot slot, uint word, vec4 v) { store(slot, word, floatBitsToUint(v)); }
 
 /// Loads the fields that a stage reads. reader: its BY_ bit, or an AT_ bit.
-void loadPath(uint slot, inout PathState path, inout Job job, uint reader) {
+void loadPath(PathSlot slot, inout PathState path, inout Job job, uint reader) {
     path.ray.hitPlacement = NO_PLACEMENT; // passNumber() reads it in all scenes
     uint word = 0u;
 #define LOAD_FIELD(type, member, exists, readers, writers)                                         \
@@ -56,7 +61,7 @@ void loadPath(uint slot, inout PathState path, inout Job job, uint reader) {
 }
 
 /// Stores the fields that a stage changes. writer: its BY_ bit, or an AT_ bit.
-void storePath(uint slot, PathState path, Job job, uint writer) {
+void storePath(PathSlot slot, PathState path, Job job, uint writer) {
     uint word = 0u;
 #define STORE_FIELD(type, member, exists, readers, writers)                                        \
     if ((exists) && ((writers) & writer) != 0u) store(slot, word, member);                         \

@@ -63,15 +63,15 @@ struct PathState {
 const uint BRANCH_BLOCKS = 0x80000000u;
 
 /// Direct light samples at a surface: directions of hemisphere sampling, then samples of lights.
-uint directSamples() { return frame.hemisphereSamples + frame.lightSamples; }
+uint directSamples(const Frame frame) { return frame.hemisphereSamples + frame.lightSamples; }
 
 /// The number of the sample under way, or the next one, of this pixel.
-uint sampleIndex(PathState path) { return frame.firstSample + path.pixelState.count + path.pixelState.rejected; }
+uint sampleIndex(const Frame frame, PathState path) { return frame.firstSample + path.pixelState.count + path.pixelState.rejected; }
 
 /// Block 0 of a path ray, `bounce` of its path, is for the ray itself and for what happens where it ends;
 /// further light samples there take the blocks after it.
-uvec4 pathWords(PathState path, uint slot) {
-    uint sample_ = sampleIndex(path), block = path.bounce * (1u + directSamples()) + slot;
+uvec4 pathWords(const Frame frame, PathState path, uint slot) {
+    uint sample_ = sampleIndex(frame, path), block = path.bounce * (1u + directSamples(frame)) + slot;
     if (SPLITS && path.splitPoint.bounce != 0u) {
         sample_ = sample_ * frame.branches + frame.branches - 1u - path.branchesLeft;
         block |= BRANCH_BLOCKS;
@@ -80,8 +80,8 @@ uvec4 pathWords(PathState path, uint slot) {
 }
 
 /// That of the sample under way, when its path is taken up again: samples have few numbers to remember.
-void restoreFilterWeight(inout PathState path) {
-    const vec4 u = unitFloats(randomWords(path.pixelId, sampleIndex(path), 0u, frame.seed));
+void restoreFilterWeight(const Frame frame, inout PathState path) {
+    const vec4 u = unitFloats(randomWords(path.pixelId, sampleIndex(frame, path), 0u, frame.seed));
     placeInPixel(u.zw, path.filterWeight);
 }
 
@@ -89,8 +89,8 @@ void restoreFilterWeight(inout PathState path) {
 const uint CHOICE_BLOCKS = 0x40000000u;
 
 /// The third number of a bounce: of a block of its own, and not spread evenly.
-float sideNumber(PathState path) {
-    uint sample_ = sampleIndex(path), block = path.bounce | CHOICE_BLOCKS;
+float sideNumber(const Frame frame, PathState path) {
+    uint sample_ = sampleIndex(frame, path), block = path.bounce | CHOICE_BLOCKS;
     if (SPLITS && path.splitPoint.bounce != 0u) {
         sample_ = sample_ * frame.branches + frame.branches - 1u - path.branchesLeft;
         block |= BRANCH_BLOCKS;
@@ -124,9 +124,9 @@ bool isTracing(uint p) {
            (DIRECT_LIGHT == DIRECT_HEMISPHERE && p == PHASE_HEMISPHERE);
 }
 
-void startRay(inout PathState path) {
+void startRay(inout PathState path, inout Stack stack) {
     if (!isTracing(path.phase) || traversing(path.ray)) return;
     path.ray.anyHit = path.phase == PHASE_SHADOW && !HAS_ALPHA;
-    startTraversal(path.ray);
+    startTraversal(path.ray, stack);
     ++path.rayCount;
 }

@@ -35,57 +35,59 @@ Group select(bool takesFirst, Group first, Group second) {
                  LARGE_TREE ? (takesFirst ? first.first : second.first) : 0u);
 }
 
-uint stack[STACK_SIZE];
-uint stackFirst[LARGE_TREE ? STACK_SIZE : 1u]; ///< Group::first of each
-uint stackTop; ///< entries in use, where they are in memory
+struct Stack {
+    uint words[STACK_SIZE];
+    uint firsts[LARGE_TREE ? STACK_SIZE : 1u]; ///< Group::first of each
+    uint top;                                  ///< entries in use, where they are in memory
+};
 
-void clearStack() {
-    stackTop = 0u;
+void clear(inout Stack stack) {
+    stack.top = 0u;
     if (STACK_IN_REGISTERS)
         for (uint i = 0u; i + 1u < STACK_SIZE; ++i)
-            stack[i] = 0u;
+            stack.words[i] = 0u;
 }
 
-uint entriesInUse() {
-    if (!STACK_IN_REGISTERS) return stackTop;
+uint entriesInUse(Stack stack) {
+    if (!STACK_IN_REGISTERS) return stack.top;
     uint n = 0u;
     for (uint i = 0u; i + 1u < STACK_SIZE; ++i)
-        n += stack[i] != 0u ? 1u : 0u;
+        n += stack.words[i] != 0u ? 1u : 0u;
     return n;
 }
 
-Group moveRegisters(bool push, bool pop, Group group) {
+Group moveRegisters(inout Stack stack, bool push, bool pop, Group group) {
     Group newest = noGroup();
-    if (STACK_SIZE > 1u) newest.word = stack[0];
-    if (STACK_SIZE > 1u && LARGE_TREE) newest.first = stackFirst[0];
+    if (STACK_SIZE > 1u) newest.word = stack.words[0];
+    if (STACK_SIZE > 1u && LARGE_TREE) newest.first = stack.firsts[0];
     Group newer = group;
     for (uint i = 0u; i + 1u < STACK_SIZE; ++i) {
-        const uint older = i + 2u < STACK_SIZE ? stack[i + 1u] : 0u, here = stack[i];
-        stack[i] = push ? newer.word : (pop ? older : here);
+        const uint older = i + 2u < STACK_SIZE ? stack.words[i + 1u] : 0u, here = stack.words[i];
+        stack.words[i] = push ? newer.word : (pop ? older : here);
         newer.word = here;
         if (LARGE_TREE) {
-            const uint olderFirst = i + 2u < STACK_SIZE ? stackFirst[i + 1u] : 0u;
-            const uint hereFirst = stackFirst[i];
-            stackFirst[i] = push ? newer.first : (pop ? olderFirst : hereFirst);
+            const uint olderFirst = i + 2u < STACK_SIZE ? stack.firsts[i + 1u] : 0u;
+            const uint hereFirst = stack.firsts[i];
+            stack.firsts[i] = push ? newer.first : (pop ? olderFirst : hereFirst);
             newer.first = hereFirst;
         }
     }
     return newest;
 }
 
-Group moveMemory(bool push, bool pop, Group group) {
-    stack[stackTop] = group.word; // counts only where `push` keeps it
-    if (LARGE_TREE) stackFirst[stackTop] = group.first;
-    stackTop += push ? 1u : 0u;
-    const bool empty = stackTop == 0u;
-    stackTop -= pop && !empty ? 1u : 0u;
+Group moveMemory(inout Stack stack, bool push, bool pop, Group group) {
+    stack.words[stack.top] = group.word; // counts only where `push` keeps it
+    if (LARGE_TREE) stack.firsts[stack.top] = group.first;
+    stack.top += push ? 1u : 0u;
+    const bool empty = stack.top == 0u;
+    stack.top -= pop && !empty ? 1u : 0u;
     Group newest = noGroup();
-    if (!empty) newest.word = stack[stackTop];
-    if (!empty && LARGE_TREE) newest.first = stackFirst[stackTop];
+    if (!empty) newest.word = stack.words[stack.top];
+    if (!empty && LARGE_TREE) newest.first = stack.firsts[stack.top];
     return newest;
 }
 
 /// Puts off `group` if `push`, else takes the newest group if `pop`. Returns that: empty if there is none.
-Group moveStack(bool push, bool pop, Group group) {
-    return STACK_IN_REGISTERS ? moveRegisters(push, pop, group) : moveMemory(push, pop, group);
+Group moveStack(inout Stack stack, bool push, bool pop, Group group) {
+    return STACK_IN_REGISTERS ? moveRegisters(stack, push, pop, group) : moveMemory(stack, push, pop, group);
 }

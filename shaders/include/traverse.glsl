@@ -55,11 +55,11 @@ float farEnd(Traversal t, uint place) {
 }
 
 /// Begins at the root. The ray's origin and direction, tMin, tMax, skipPrimitive and anyHit are set.
-void startTraversal(inout Traversal t) {
+void startTraversal(inout Traversal t, inout Stack stack) {
     t.hitPrimitive = NO_PRIMITIVE;
     t.b1 = 0.0;
     t.b2 = 0.0;
-    clearStack();
+    clear(stack);
     // A ray with a part that is not finite hits nothing: ordered comparisons are false for NaN.
     const float size = dot(abs(t.direction), vec3(1.0));
     const bool finite = size > 0.0 && size + dot(abs(t.origin), vec3(1.0)) < INFINITE_DISTANCE;
@@ -71,7 +71,7 @@ void startTraversal(inout Traversal t) {
     t.waits = false;
 }
 
-void startTraversal(out Traversal t, vec3 origin, vec3 direction, float tMin, float tMax,
+void startTraversal(out Traversal t, inout Stack stack, vec3 origin, vec3 direction, float tMin, float tMax,
                     uint skipPrimitive, bool anyHit) {
     t.origin = origin;
     t.direction = direction;
@@ -81,7 +81,7 @@ void startTraversal(out Traversal t, vec3 origin, vec3 direction, float tMin, fl
     t.anyHit = anyHit;
     t.passed = NO_PRIMITIVE;
     t.skipPlacement = NO_PLACEMENT;
-    startTraversal(t);
+    startTraversal(t, stack);
 }
 
 bool traversing(Traversal t) { return !isEmpty(t.group); }
@@ -161,7 +161,7 @@ void changeSpace(inout Traversal t, bool enters, uint record, Record r) {
 
 /// Visits the next record. A ray that is done visits the root to no effect, which costs less than an `if`
 /// around all this (docs/kernel.md, "What llvmpipe does").
-void traversalStep(inout Traversal t, Ray ray) {
+void traversalStep(inout Traversal t, inout Stack stack, Ray ray) {
     bool working = traversing(t);
     if (HAS_PLACEMENTS) working = working && !t.waits;
     const uint next = nearestSlot(t.group);
@@ -177,7 +177,7 @@ void traversalStep(inout Traversal t, Ray ray) {
     const bool goesDown = descend || working && kind.isPlacement;
     const bool push = goesDown && !isEmpty(rest);
     const bool pop = working && !goesDown && isEmpty(rest);
-    const Group newest = moveStack(push, pop, rest);
+    const Group newest = moveStack(stack, push, pop, rest);
     Group children = makeGroup(r.r0.w, entered);
     if (HAS_PLACEMENTS) children.word |= t.group.word & IN_WORLD;
     const Group after = select(descend, children, select(pop, newest, rest));

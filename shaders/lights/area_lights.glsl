@@ -55,13 +55,13 @@ LightSample angleSample(SurfacePoint s, vec3 p, float pError, vec3 n, float z, f
 // --- Parallelograms ---------------------------------------------------------------------------
 
 /// Unit.
-vec3 quadNormal(QuadLight q) {
-    return LIGHT_CHOICE == LIGHT_CHOICE_ONE ? onlyLightNormal : planeNormal(q.edgeA, q.edgeB);
+vec3 quadNormal(const OnlyLight onlyLight, QuadLight q) {
+    return LIGHT_CHOICE == LIGHT_CHOICE_ONE ? onlyLight.normal : planeNormal(q.edgeA, q.edgeB);
 }
 
-LightSample sampleQuadLight(SurfacePoint s, LightRows rows, vec2 u) {
+LightSample sampleQuadLight(const OnlyLight onlyLight, SurfacePoint s, LightRows rows, vec2 u) {
     const QuadLight q = quadLight(rows);
-    const vec3 n = quadNormal(q), v0 = q.corner - litPoint(s);
+    const vec3 n = quadNormal(onlyLight, q), v0 = q.corner - litPoint(s);
     const float z = dot(v0, n);
     SolidAngleSample a = SolidAngleSample(u, 0.0);
     if (INVERSE_SQUARE_FALLOFF) a = sampleQuadByAngle(v0, q.edgeA, q.edgeB, z, q.area, u);
@@ -150,10 +150,10 @@ float sphereInversePdf(Traversal t, SphereLight l) {
 /// Inverse of the density (steradians) with which a sample of this light, taken from where ray t starts,
 /// goes to the point that t has hit; as in sampleLight(). The ray starts within rounding of where light
 /// samples start; the MIS weights of both add up to 1 but for that share of the light's distance.
-float areaLightInversePdf(Traversal t, PlacedPrimitive place, uint light) {
+float areaLightInversePdf(const OnlyLight onlyLight, Traversal t, PlacedPrimitive place, uint light) {
     if (isTriangleLight(light))
         return triangleAngle(place.v0 - t.origin, place.v1 - place.v0, place.v2 - place.v0);
-    const LightRows rows = fetchLight(light);
+    const LightRows rows = fetchLight(onlyLight, light);
     if (isLight(kindOf(rows), LIGHT_QUAD)) {
         const QuadLight q = quadLight(rows);
         const vec3 v0 = q.corner - t.origin;

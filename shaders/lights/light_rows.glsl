@@ -1,10 +1,5 @@
 // Reads lights and the table that one of them is picked by (shaders/shared/light_types.h).
 
-/// The rows of a light: its header, and three that its kind reads its parameters from.
-struct LightRows {
-    uvec4 header, row1, row2, row3;
-};
-
 /// Rows that no kind of the scene has are not read.
 LightRows fetchLightRows(uint light) {
     const uint row = LIGHT_ROWS * light;
@@ -64,13 +59,13 @@ LightEntry fetchLightEntry(uint number) {
     return LightEntry(r.x, r.y, uintBitsToFloat(r.z), r.w);
 }
 
-AliasColumn fetchAliasColumn(uint number) {
+AliasColumn fetchAliasColumn(const Frame frame, uint number) {
     const uvec4 r = ROW(lightTableRows, frame.lightCount + number);
     return AliasColumn(uintBitsToFloat(r.x), r.y, r.z, r.w);
 }
 
 /// index: of all groups' nodes. Without a cone: row 1 is left out.
-LightNode fetchLightNode(uint index, bool withCone) {
+LightNode fetchLightNode(const Frame frame, uint index, bool withCone) {
     const uvec4 r0 = ROW(lightTableRows, frame.lightCount + index);
     uvec4 r1 = uvec4(0u);
     if (withCone) r1 = ROW(lightTableRows, 3u * frame.lightCount + index);

@@ -8,10 +8,10 @@ struct PickedLight {
 };
 
 /// By the alias table.
-uint pickByAlias(inout ChoiceNumber c) {
+uint pickByAlias(const Frame frame, inout ChoiceNumber c) {
     uint column, fraction;
     umulExtended(c.value << 1u, frame.lightCount, column, fraction);
-    const AliasColumn a = fetchAliasColumn(column);
+    const AliasColumn a = fetchAliasColumn(frame, column);
     const float within = float(int(fraction >> 8u)) * (1.0 / 16777216.0);
     const bool own = within < a.threshold;
     const float low = own ? 0.0 : a.threshold, width = own ? a.threshold : 1.0 - a.threshold;
@@ -22,7 +22,7 @@ uint pickByAlias(inout ChoiceNumber c) {
 
 /// The light of sample number `index` at a surface with unit normal n, whose point that light leaves from
 /// is p. u: two numbers in [0, 1), multiples of 2^-24; the choice uses up digits of the first.
-PickedLight pickLight(vec3 p, vec3 n, uint index, vec2 u) {
+PickedLight pickLight(const Frame frame, vec3 p, vec3 n, uint index, vec2 u) {
     if (LIGHT_CHOICE == LIGHT_CHOICE_ONE) return PickedLight(onlyLightReference(), 1.0, u);
     if (LIGHT_CHOICE == LIGHT_CHOICE_EACH) {
         // Each light in turn, LIGHT_SAMPLES times; delta lights, which are behind the others, once.
@@ -34,26 +34,26 @@ PickedLight pickLight(vec3 p, vec3 n, uint index, vec2 u) {
     float probability;
     uint number;
     if (LIGHT_CHOICE == LIGHT_CHOICE_TREE)
-        number = walkLightTree(p, n, false, LightEntry(0u, 0u, 0.0, 0u), c, probability);
+        number = walkLightTree(frame, p, n, false, LightEntry(0u, 0u, 0.0, 0u), c, probability);
     else
-        number = pickByAlias(c);
+        number = pickByAlias(frame, c);
     const LightEntry entry = fetchLightEntry(number);
     if (LIGHT_CHOICE != LIGHT_CHOICE_TREE) probability = entry.probability;
     return PickedLight(entry.light, probability, vec2(restOf(c), u.y));
 }
 
 /// The probability with which pickLight() takes this light.
-float lightProbability(LightEntry entry, vec3 p, vec3 n) {
+float lightProbability(const Frame frame, LightEntry entry, vec3 p, vec3 n) {
     if (LIGHT_CHOICE == LIGHT_CHOICE_ONE || LIGHT_CHOICE == LIGHT_CHOICE_EACH) return 1.0;
     if (LIGHT_CHOICE != LIGHT_CHOICE_TREE) return entry.probability;
     ChoiceNumber none = ChoiceNumber(0u, 0u);
     float probability;
-    walkLightTree(p, n, true, entry, none, probability);
+    walkLightTree(frame, p, n, true, entry, none, probability);
     return probability;
 }
 
 /// The share that one of a surface's light samples has in its direct light.
-float lightSampleShare(uint index) {
+float lightSampleShare(const Frame frame, uint index) {
     const bool sampledOnce =
         LIGHT_CHOICE == LIGHT_CHOICE_EACH && index >= frame.areaLights * LIGHT_SAMPLES;
     return sampledOnce ? 1.0 : 1.0 / float(LIGHT_SAMPLES);

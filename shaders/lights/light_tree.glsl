@@ -115,21 +115,21 @@ struct LightWalk {
 
 bool isLeaf(LightWalk walk) { return walk.node >= walk.lights; }
 
-uint lightsInGroup(uint group) {
+uint lightsInGroup(const Frame frame, uint group) {
     return group == 0u ? frame.lightsInGroup0
                        : (group == 1u ? frame.lightsInGroup1 : frame.lightsInGroup2);
 }
 
 /// The walk at the root of a group.
-LightWalk atRoot(uint group) {
-    LightWalk walk = LightWalk(group, lightsInGroup(group), 0u, 1u, 1.0);
+LightWalk atRoot(const Frame frame, uint group) {
+    LightWalk walk = LightWalk(group, lightsInGroup(frame, group), 0u, 1u, 1.0);
     if (group > 0u) walk.first = frame.lightsInGroup0;
     if (group > 1u) walk.first += frame.lightsInGroup1;
     return walk;
 }
 
-float likelyLight(LightWalk walk, uint node, vec3 p, vec3 n) {
-    return likelyLight(fetchLightNode(2u * walk.first + node, lightsHaveCones()), walk.group, p, n);
+float likelyLight(const Frame frame, LightWalk walk, uint node, vec3 p, vec3 n) {
+    return likelyLight(fetchLightNode(frame, 2u * walk.first + node, lightsHaveCones()), walk.group, p, n);
 }
 
 /// Takes the first of two choices, or not, and notes the probability; where neither has any weight, that is 0.
@@ -144,38 +144,38 @@ bool take(inout float probability, float first, float second, bool follows, bool
 }
 
 /// To the root of a group: the first group against the other two, then the second against the third.
-LightWalk enterGroup(vec3 p, vec3 n, bool follows, LightEntry to, inout ChoiceNumber c) {
+LightWalk enterGroup(const Frame frame, vec3 p, vec3 n, bool follows, LightEntry to, inout ChoiceNumber c) {
     // The only one, if it is: of the bits 1, 2 and 4.
-    if ((LIGHT_GROUPS & (LIGHT_GROUPS - 1u)) == 0u) return atRoot(LIGHT_GROUPS >> 1u);
+    if ((LIGHT_GROUPS & (LIGHT_GROUPS - 1u)) == 0u) return atRoot(frame, LIGHT_GROUPS >> 1u);
     float likely[LIGHT_GROUP_COUNT];
     for (uint group = 0u; group < LIGHT_GROUP_COUNT; ++group)
-        likely[group] = lightsInGroup(group) > 0u ? likelyLight(atRoot(group), 1u, p, n) : 0.0;
+        likely[group] = lightsInGroup(frame, group) > 0u ? likelyLight(frame, atRoot(frame, group), 1u, p, n) : 0.0;
     float probability = 1.0;
     uint group = 0u;
     if (!take(probability, likely[0], likely[1] + likely[2], follows, to.group == 0u, c))
         group = take(probability, likely[1], likely[2], follows, to.group == 1u, c) ? 1u : 2u;
-    LightWalk walk = atRoot(group);
+    LightWalk walk = atRoot(frame, group);
     walk.probability = probability;
     return walk;
 }
 
 /// One step down.
-void descend(inout LightWalk walk, vec3 p, vec3 n, bool follows, bool wantsFirst,
+void descend(const Frame frame, inout LightWalk walk, vec3 p, vec3 n, bool follows, bool wantsFirst,
              inout ChoiceNumber c) {
     const uint child = 2u * walk.node;
     float likely[2];
     for (uint i = 0u; i < 2u; ++i)
-        likely[i] = likelyLight(walk, child + i, p, n);
+        likely[i] = likelyLight(frame, walk, child + i, p, n);
     walk.node = take(walk.probability, likely[0], likely[1], follows, wantsFirst, c) ? child : child + 1u;
 }
 
 /// From the roots to a light, as seen from p with unit normal n: at random, or to a given one. Returns the
 /// light's number; the probability is 0 where no light reaches the point.
-uint walkLightTree(vec3 p, vec3 n, bool follows, LightEntry to, inout ChoiceNumber c,
+uint walkLightTree(const Frame frame, vec3 p, vec3 n, bool follows, LightEntry to, inout ChoiceNumber c,
                    out float probability) {
-    LightWalk walk = enterGroup(p, n, follows, to, c);
+    LightWalk walk = enterGroup(frame, p, n, follows, to, c);
     for (uint level = 0u; level < MOST_LIGHT_LEVELS && !isLeaf(walk); ++level)
-        descend(walk, p, n, follows, (to.trail >> level & 1u) == 0u, c);
+        descend(frame, walk, p, n, follows, (to.trail >> level & 1u) == 0u, c);
     probability = walk.probability;
     return walk.first + walk.node - walk.lights;
 }

@@ -16,18 +16,13 @@ struct LightSample {
 const LightSample NO_LIGHT_SAMPLE =
     LightSample(vec3(0.0, 0.0, 1.0), true, vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0);
 
-// LIGHT_CHOICE_ONE: the light, and what follows from it, is read once, before all loops
-// (docs/kernel.md, "Nothing is moved out of loops").
-LightRows onlyLight;
-vec3 onlyLightNormal; ///< LIGHT_QUAD
-
 /// As LightEntry::light; of no meaning where it cannot be a triangle, since its rows are known then.
 uint onlyLightReference() {
     return samplesLightKind(LIGHT_TRIANGLE) ? fetchLightEntry(0u).light : 0u;
 }
 
-LightRows fetchLight(uint light) {
-    if (LIGHT_CHOICE == LIGHT_CHOICE_ONE) return onlyLight;
+LightRows fetchLight(const OnlyLight onlyLight, uint light) {
+    if (LIGHT_CHOICE == LIGHT_CHOICE_ONE) return onlyLight.rows;
     return fetchLightRows(light);
 }
 
@@ -38,26 +33,28 @@ LightRows fetchLight(uint light) {
 #include "lights/light_tree.glsl"
 #include "lights/light_sampler.glsl"
 
-void findOnlyLight() {
-    if (LIGHT_CHOICE != LIGHT_CHOICE_ONE) return;
+OnlyLight findOnlyLight() {
+    OnlyLight only;
+    if (LIGHT_CHOICE != LIGHT_CHOICE_ONE) return only;
     const uint light = fetchLightEntry(0u).light;
-    if (isTriangleLight(light)) return;
-    onlyLight = fetchLightRows(light);
+    if (isTriangleLight(light)) return only;
+    only.rows = fetchLightRows(light);
     if (samplesLightKind(LIGHT_QUAD)) {
-        const QuadLight quad = quadLight(onlyLight);
-        onlyLightNormal = planeNormal(quad.edgeA, quad.edgeB);
+        const QuadLight quad = quadLight(only.rows);
+        only.normal = planeNormal(quad.edgeA, quad.edgeB);
     }
+    return only;
 }
 
 /// s: faced forward; light: as LightEntry::light; u: where on the light. emitter: where that is, if on a triangle;
 /// else its primitive is NO_PRIMITIVE. The sample's radiance lacks emissionFactorOf() that point: it is looked up
 /// when the sample's ray arrives (path.glsl).
-LightSample sampleLight(SurfacePoint s, uint light, vec2 u, out MaterialPoint emitter) {
+LightSample sampleLight(const Given given, SurfacePoint s, uint light, vec2 u, out MaterialPoint emitter) {
     emitter = MaterialPoint(0u, NO_PRIMITIVE, vec2(0.0));
     if (isTriangleLight(light)) return sampleTriangleLight(s, light, u, emitter);
-    const LightRows rows = fetchLight(light);
+    const LightRows rows = fetchLight(given.onlyLight, light);
     const uint kind = kindOf(rows);
-    if (isLight(kind, LIGHT_QUAD)) return sampleQuadLight(s, rows, u);
+    if (isLight(kind, LIGHT_QUAD)) return sampleQuadLight(given.onlyLight, s, rows, u);
     if (isLight(kind, LIGHT_SPHERE)) return sampleSphereLight(s, rows, u);
     if (isLight(kind, LIGHT_AMBIENT)) return sampleAmbientLight(s, rows, u);
     if (isLight(kind, LIGHT_DIRECTIONAL)) return sampleDirectionalLight(rows);

@@ -16,6 +16,7 @@ layout(set = 0, binding = BINDING_FRAME, std140) uniform FrameBuffer { Frame fra
 layout(set = 0, binding = BINDING_STATUS, std430) buffer StatusBuffer { DispatchStatus status; };
 layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 
+#include "include/given.glsl"
 #include "include/numerics.glsl"
 #include "include/random.glsl"
 #include "include/intersect.glsl"
@@ -36,69 +37,68 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "include/accumulate.glsl"
 #include "include/path.glsl"
 
-uint loopPasses; ///< of this invocation: llvmpipe ends all loops of a group at 65,535
-
 /// Also looks up the material where the ray asks for one. A ray that passes a surface which is partly there is traced on.
-void traceToTheEnd(inout PathState path) {
+void traceToTheEnd(const Given given, inout PathState path, inout uint loopPasses) {
     bool goesOn = true;
+    Stack stack;
     while (goesOn) {
-        startRay(path);
+        startRay(path, stack);
         const Ray prepared = makeRay(path.ray.origin, path.ray.direction);
         while (traversing(path.ray)) {
-            traversalStep(path.ray, prepared);
+            traversalStep(path.ray, stack, prepared);
             ++loopPasses;
         }
         const MaterialPoint asked = askedPoint(path);
         path.found = lookUpMaterial(asked);
-        goesOn = HAS_ALPHA && passesThrough(path, asked, path.found.opacity);
+        goesOn = HAS_ALPHA && passesThrough(given.frame, path, asked, path.found.opacity);
         ++loopPasses;
     }
 }
 
-void gatherDirectLight(inout PathState path) {
-    const uint samples = directSamples();
+void gatherDirectLight(const Given given, inout PathState path, inout uint loopPasses) {
+    const uint samples = directSamples(given.frame);
     while (path.directIndex < samples) {
-        sampleDirect(path);
+        sampleDirect(given, path);
         if (path.phase == PHASE_SHADOW) {
-            traceToTheEnd(path);
+            traceToTheEnd(given, path, loopPasses);
             finishShadowRay(path);
         }
         if (path.phase == PHASE_HEMISPHERE) {
-            traceToTheEnd(path);
+            traceToTheEnd(given, path, loopPasses);
             finishHemisphereRay(path);
         }
         ++loopPasses;
     }
 }
 
-void bounceOn(inout PathState path) {
-    path.phase = endsHere(path) ? PHASE_ENDED : PHASE_BOUNCE;
-    if (path.phase == PHASE_BOUNCE) depart(path);
+void bounceOn(const Given given, inout PathState path) {
+    path.phase = endsHere(given.frame, path) ? PHASE_ENDED : PHASE_BOUNCE;
+    if (path.phase == PHASE_BOUNCE) depart(given, path);
 }
 
-void followToTheEnd(inout PathState path) {
+void followToTheEnd(const Given given, inout PathState path, inout uint loopPasses) {
     while (path.phase == PHASE_PATH) {
-        traceToTheEnd(path);
-        arrive(path);
+        traceToTheEnd(given, path, loopPasses);
+        arrive(given, path);
         if (INTEGRATOR == INTEGRATOR_PATH && path.phase == PHASE_DIRECT) {
-            gatherDirectLight(path);
-            bounceOn(path);
+            gatherDirectLight(given, path, loopPasses);
+            bounceOn(given, path);
         }
         ++loopPasses;
     }
 }
 
-void takeSample(inout PathState path) {
+void takeSample(const Given given, inout PathState path, inout uint loopPasses) {
     path.phase = PHASE_NEXT;
-    depart(path);
-    followToTheEnd(path);
+    depart(given, path);
+    followToTheEnd(given, path, loopPasses);
     while (branchIsOver(path)) {
         nextBranch(path, materialAt(path.splitPoint.surface));
-        bounceOn(path);
-        followToTheEnd(path);
+        bounceOn(given, path);
+        followToTheEnd(given, path, loopPasses);
         ++loopPasses;
     }
-    finishSample(path);
+    finishSample(given.frame, path);
 }
 
 /// segmentBase: the samples that each pixel gets.
@@ -109,14 +109,16 @@ void main() {
     path.pixelState = fetchPixel(pixel);
     path.pixelAt = uvec2(pixel % frame.width, pixel / frame.width);
     path.pixelId = pixel;
-    findPictureGrid();
-    findOnlyLight();
-    if (GAP_PROPOSAL) findGap();
+    Given given;
+    given.frame = frame;
+    given.grid = pictureGrid(frame);
+    given.onlyLight = findOnlyLight();
+    given.gap = findGap(frame, given.onlyLight);
     endTraversal(path.ray);
     path.rayCount = 0u;
-    loopPasses = 0u;
+    uint loopPasses = 0u; // llvmpipe ends all loops of a group at 65,535
     for (uint i = 0u; i < dispatch.segmentBase; ++i)
-        takeSample(path);
+        takeSample(given, path, loopPasses);
     storePixel(pixel, path.pixelState);
     atomicAdd(status.rays, path.rayCount);
     atomicMax(status.allSteps, loopPasses);

@@ -110,9 +110,9 @@ void putScene() {
     putLight(fetchLightRows(1u));
     const LightEntry e = fetchLightEntry(1u);
     put(e.light), put(e.trail), put(e.probability), put(e.group);
-    const AliasColumn c = fetchAliasColumn(0u);
+    const AliasColumn c = fetchAliasColumn(frame, 0u);
     put(c.threshold), put(c.alias), put(c.unused0), put(c.unused1);
-    const LightNode n = fetchLightNode(0u, true);
+    const LightNode n = fetchLightNode(frame, 0u, true);
     put(n.center), put(n.radiusAndPower), put(n.axis), put(n.cosSpread), put(n.flags), put(n.unused);
 }
 

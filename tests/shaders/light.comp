@@ -6,29 +6,32 @@ QUERIES_AND_ANSWERS(LightQuery, LightAnswer)
 
 bool blocked(vec3 origin, vec3 direction, float tMax) {
     Traversal t;
-    startTraversal(t, origin, direction, 0.0, tMax, NO_PRIMITIVE, true);
+    Stack stack;
+    startTraversal(t, stack, origin, direction, 0.0, tMax, NO_PRIMITIVE, true);
     const Ray ray = makeRay(origin, direction);
     for (uint i = 0u; traversing(t) && i < 1000u; ++i)
-        traversalStep(t, ray);
+        traversalStep(t, stack, ray);
     return t.hitPrimitive != NO_PRIMITIVE;
 }
 
 LightAnswer answer(LightQuery q) {
     const SurfacePoint s = SurfacePoint(q.position, largestComponent(q.error), q.geometric, q.shading,
                                         q.wo, q.outside != 0u, 0u, NO_PRIMITIVE, 0.0 NO_DETAIL);
-    findOnlyLight();
+    Given given;
+    given.frame = frame;
+    given.onlyLight = findOnlyLight();
     const vec2 u = vec2(q.u, q.v);
     PickedLight picked;
     float again = 0.0;
     if (q.light == NO_LIGHT) {
-        picked = pickLight(litPoint(s), shadingNormal(s), 0u, u);
+        picked = pickLight(frame, litPoint(s), shadingNormal(s), 0u, u);
     } else {
         const LightEntry entry = fetchLightEntry(q.light);
-        again = lightProbability(entry, litPoint(s), shadingNormal(s));
+        again = lightProbability(frame, entry, litPoint(s), shadingNormal(s));
         picked = PickedLight(entry.light, 1.0, u);
     }
     MaterialPoint emitter;
-    LightSample l = sampleLight(s, picked.light, picked.u, emitter);
+    LightSample l = sampleLight(given, s, picked.light, picked.u, emitter);
     if (emissionHasFactors() && emitter.primitive != NO_PRIMITIVE)
         l.radiance *= emissionFactorOf(lookUpMaterial(emitter));
     const bool below = dot(s.geometric, l.direction) < 0.0;

@@ -11,6 +11,7 @@
 layout(set = 0, binding = BINDING_FRAME, std140) uniform FrameBuffer { Frame frame; };
 layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 
+#include "include/given.glsl"
 #include "include/numerics.glsl"
 #include "include/random.glsl"
 #include "include/intersect.glsl"

@@ -7,7 +7,8 @@ QUERIES_AND_ANSWERS(SurfaceQuery, SurfaceAnswer)
 /// What one primitive, on its own, does to a ray: the other slot of its leaf is skipped.
 Traversal hitOne(uint place, vec3 origin, vec3 direction) {
     Traversal t;
-    startTraversal(t, origin, direction, 0.0, INFINITE_DISTANCE, place ^ 1u, false);
+    Stack stack;
+    startTraversal(t, stack, origin, direction, 0.0, INFINITE_DISTANCE, place ^ 1u, false);
     const uint record = place >> 1u;
     testLeaf(t, makeRay(origin, direction), fetchRecord(record), record, true);
     return t;

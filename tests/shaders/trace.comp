@@ -6,10 +6,10 @@
 
 QUERIES_AND_ANSWERS(RayQuery, RayAnswer)
 
-void traverse(inout Traversal t, Ray ray, inout RayAnswer a) {
+void traverse(inout Traversal t, inout Stack stack, Ray ray, inout RayAnswer a) {
     while (traversing(t) && a.steps < dispatch.hardIterations) {
-        a.highestEntry = max(a.highestEntry, entriesInUse());
-        traversalStep(t, ray);
+        a.highestEntry = max(a.highestEntry, entriesInUse(stack));
+        traversalStep(t, stack, ray);
         ++a.steps;
     }
     a.t = t.tMax;
@@ -44,9 +44,10 @@ RayAnswer answer(RayQuery q) {
     RayAnswer a =
         RayAnswer(0.0, 0.0, 0.0, NO_PRIMITIVE, 0u, 0u, 0u, q.tMax, 0u, 0u, 0u, 0u);
     Traversal t;
-    startTraversal(t, q.origin, q.direction, q.tMin, q.tMax, q.skipPrimitive, q.anyHit != 0u);
+    Stack stack;
+    startTraversal(t, stack, q.origin, q.direction, q.tMin, q.tMax, q.skipPrimitive, q.anyHit != 0u);
     const Ray ray = makeRay(q.origin, q.direction);
-    traverse(t, ray, a);
+    traverse(t, stack, ray, a);
     for (uint record = 0u; record < dispatch.segmentBase; ++record)
         tryRecord(q, ray, record, a);
     return a;

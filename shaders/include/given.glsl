@@ -1,0 +1,36 @@
+// What all paths of a picture have in common, found once before all loops (docs/kernel.md, "Nothing is moved out of
+// loops") and passed to the functions that ask for it.
+
+/// From the camera to the picture, at a distance of 1 (orthographic: 0): its top left corner, and the steps from one
+/// pixel to the next.
+struct PictureGrid {
+    vec3 corner, right, down;
+};
+
+/// The rows of a light: its header, and three that its kind reads its parameters from (light_rows.glsl).
+struct LightRows {
+    uvec4 header, row1, row2, row3;
+};
+
+/// LIGHT_CHOICE_ONE: the light, if it is no triangle.
+struct OnlyLight {
+    LightRows rows;
+    vec3 normal; ///< LIGHT_QUAD
+};
+
+/// With the gap proposal (gap_proposal.glsl): the light from the side that is not the gap's, from which the gap is
+/// looked into.
+struct Gap {
+    vec3 corner;
+    vec3 along0, along1; ///< unit vectors along the edges
+    vec3 normal;         ///< unit, away from the gap
+    vec2 size;           ///< of the light along the two
+    float width;         ///< from the light to the surface; > 0
+};
+
+struct Given {
+    Frame frame;
+    PictureGrid grid;
+    OnlyLight onlyLight;
+    Gap gap;
+};
