@@ -6,13 +6,10 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 
 #include "include/path_kernel.glsl"
+#include "shared/path_fields.h"
 
-layout(set = 0, binding = BINDING_SUSPENDED, std430) buffer SuspendedBuffer {
-    SuspendedPath suspendedPaths[];
-};
-layout(set = 0, binding = BINDING_SPLITS, std430) buffer SplitBuffer {
-    SuspendedSplit suspendedSplits[];
-};
+const uint KEPT = AT_PAUSE;
+#include "include/path_memory.glsl"
 
 bool atWork(PathState path) { return path.phase != PHASE_FINISHED && path.phase != PHASE_SUSPENDED; }
 
@@ -23,76 +20,30 @@ bool pixelsAreWanted(PathState path, Job job) {
     return 8u * wanting >= subgroupBallotBitCount(subgroupBallot(atWork(path)));
 }
 
-void resumeSplit(inout PathState path, uint lane) {
-    const SuspendedSplit s = suspendedSplits[lane];
-    path.splitPoint.bounce = s.bounce;
-    path.splitPoint.throughput = s.throughput;
-    path.splitPoint.surface = SurfacePoint(s.position, s.error, s.geometric, s.shading, s.wo,
-                                      s.outside != 0u, s.material, s.skipPrimitive, s.lift
-                                      , s.primitive, vec2(s.b1, s.b2), vec4(0.0), vec3(0.0)
-                                      , s.placement
-    );
-    if (TANGENT_FRAMES)
-        path.splitPoint.surface.tangent =
-            tangentAt(path.splitPoint.surface, shadingNormal(path.splitPoint.surface));
-    if (sceneHasCoatNormals()) path.splitPoint.surface.coat = coatNormal(path.splitPoint.surface);
-    path.branchesLeft = s.branchesLeft;
-    path.splitPoint.medium = s.medium;
-}
-
-void suspendSplit(PathState path, uint lane) {
-    const SurfacePoint p = path.splitPoint.surface;
-    suspendedSplits[lane] =
-        SuspendedSplit(p.position, path.splitPoint.bounce, p.geometric, p.material, p.shading,
-                       p.skipPrimitive, p.wo, p.lift, path.splitPoint.throughput, p.error,
-                       p.outside ? 1u : 0u, path.branchesLeft, p.weights.x, p.weights.y, path.splitPoint.medium,
-                       p.placement, p.primitive, 0u);
-}
-
-void resume(const Frame frame, bool beginsNoSample, inout PathState path, inout Job job, uint lane) {
-    const SuspendedPath p = suspendedPaths[lane];
+/// Goes on where the last dispatch ended: with its pixel, and with the path ray that it was about to trace.
+void resume(const Frame frame, bool beginsNoSample, inout PathState path, inout Job job, PathSlot slot) {
+    loadPath(slot, path, job, AT_PAUSE);
+    bool goesOn = path.phase == PHASE_SUSPENDED;
     job.sampleCount = 0u;
-    takeUp(frame, path, job, p.item);
+    takeUp(frame, path, job, job.item);
     path.phase = PHASE_NEXT;
     endTraversal(path.ray);
-    bool isDropped = false;
     if (beginsNoSample && job.item != NO_ITEM) {
-        isDropped = !endsSampleUnderWay(frame, path);
+        const bool isDropped = !endsSampleUnderWay(frame, path);
         job.target = samplesTaken(path) + (isDropped ? 0u : 1u);
+        goesOn = goesOn && !isDropped;
     }
-    if (isDropped || p.bounce == SUSPENDED_NONE) return;
-    path.bounce = p.bounce;
-    path.throughput = p.throughput;
-    path.radiance = p.radiance;
-    path.countsEmission = p.emission != SUSPENDED_NO_EMISSION;
-    path.bouncePdf = max(p.emission, 0.0);
-    path.arrivalNumbers = p.arrivalNumbers;
-    path.departureNormal = p.departureNormal;
-    path.medium = p.medium;
-    if (samplesHaveWeights()) restoreFilterWeight(frame, path);
-    if (SPLITS) resumeSplit(path, lane);
-    trace(path, PHASE_PATH, p.origin, p.direction, 0.0, INFINITE_DISTANCE, p.skipPrimitive);
-    path.ray.skipPlacement = p.skipPlacement;
+    if (!goesOn) return;
+    const uint skipPlacement = path.ray.skipPlacement;
+    trace(path, PHASE_PATH, path.ray.origin, path.ray.direction, 0.0, INFINITE_DISTANCE, path.ray.skipPrimitive);
+    path.ray.skipPlacement = skipPlacement;
 }
 
 /// Remembers the bounce ray that was to be started; a camera ray is simply begun anew.
-void suspend(PathState path, Job job, uint lane) {
-    SuspendedPath p;
-    p.origin = path.ray.origin;
-    p.bounce = path.bounce == 0u ? SUSPENDED_NONE : path.bounce;
-    p.direction = path.ray.direction;
-    p.skipPrimitive = path.ray.skipPrimitive;
-    p.throughput = path.throughput;
-    p.emission = path.countsEmission ? path.bouncePdf : SUSPENDED_NO_EMISSION;
-    p.radiance = path.radiance;
-    p.item = job.item;
-    p.arrivalNumbers = path.arrivalNumbers;
-    p.departureNormal = path.departureNormal;
-    p.skipPlacement = NO_PLACEMENT;
-    p.medium = path.medium;
-    p.skipPlacement = path.ray.skipPlacement;
-    suspendedPaths[lane] = p;
-    if (SPLITS) suspendSplit(path, lane);
+void pause(PathState path, Job job, PathSlot slot) {
+    if (path.phase != PHASE_SUSPENDED) job.item = NO_ITEM;
+    if (path.bounce == 0u) path.phase = PHASE_NEXT;
+    storePath(slot, path, job, AT_PAUSE);
 }
 
 /// Starts the ray that a lane has asked for, or its next sample. A lane about to trace a path ray may
@@ -144,10 +95,12 @@ void main() {
     const Dispatch dispatch = dispatchConstants;
     const uint lane = gl_GlobalInvocationID.x;
     if (lane >= dispatch.laneCount) return;
+    // The words of a path lie together: their addresses would else take registers all the way to pause().
+    const PathSlot slot = PathSlot(lane * wordsOfPath(KEPT), 1u);
     path.rayCount = 0u;
     job.busySteps = 0u;
     job.allSteps = 0u;
-    resume(given.frame, dispatch.beginsNoSample != 0u, path, job, lane);
+    resume(given.frame, dispatch.beginsNoSample != 0u, path, job, slot);
 
     // The lanes of a subgroup leave the inner loop together, when enough of them want another pixel;
     // every exit is in a loop's header or at its end; and hardIterations keeps a dispatch finite on any device
@@ -168,9 +121,7 @@ void main() {
             pixelsWanted = pixelsAreWanted(path, job);
         }
     }
-    suspendedPaths[lane].bounce = SUSPENDED_NONE;
-    suspendedPaths[lane].item = NO_ITEM;
-    if (path.phase == PHASE_SUSPENDED) suspend(path, job, lane);
+    pause(path, job, slot);
     putDown(given.frame, path, job);
     report(path, job);
 }

@@ -11,13 +11,16 @@
 
 layout(constant_id = SPEC_STAGE) const uint STAGE = STAGE_TRACE;
 
-layout(set = 0, binding = BINDING_SUSPENDED, std430) buffer PathBuffer { uint pathWords[]; };
-layout(set = 0, binding = BINDING_SPLITS, std430) buffer QueueBuffer {
+layout(set = 0, binding = BINDING_QUEUES, std430) buffer QueueBuffer {
     QueueHead heads[QUEUE_COUNT];
     uint queued[]; ///< numbers of paths, laneCount for each queue
 };
 
+const uint KEPT = 0xFFFFFFFFu; // all
 #include "include/path_memory.glsl"
+
+/// Words of all paths lie one after the other, so that neighbouring lanes read neighbouring words.
+PathSlot slotOf(uint number, const Dispatch dispatch) { return PathSlot(number, dispatch.laneCount); }
 
 /// Puts this lane's path into a queue, if `wanted`. One atomic operation for a subgroup.
 void enqueue(uint queue, bool wanted, PathSlot slot) {
@@ -29,7 +32,7 @@ void enqueue(uint queue, bool wanted, PathSlot slot) {
         atomicMax(heads[queue].groups, (first + count + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x);
     }
     first = subgroupBroadcastFirst(first);
-    if (wanted) queued[queue * slot.count + first + subgroupBallotExclusiveBitCount(those)] = slot.number;
+    if (wanted) queued[queue * slot.stride + first + subgroupBallotExclusiveBitCount(those)] = slot.first;
 }
 
 uint countOf(bool those) { return subgroupBallotBitCount(subgroupBallot(those)); }
@@ -174,7 +177,7 @@ void main() {
     const Given given = findGiven();
     const Dispatch dispatch = dispatchConstants;
     const uint lane = gl_GlobalInvocationID.x;
-    const PathSlot own = PathSlot(lane, dispatch.laneCount);
+    const PathSlot own = slotOf(lane, dispatch);
     if (STAGE == STAGE_BEGIN) {
         beginPath(lane < dispatch.laneCount, own);
         return;
@@ -186,7 +189,7 @@ void main() {
     const uint queue = STAGE == STAGE_DEPART ? QUEUE_DEPARTING : STAGE == STAGE_LIGHT ? QUEUE_LIT : dispatch.rayQueue;
     const bool isThere = lane < heads[queue].count;
     const uint number = isThere ? queued[queue * dispatch.laneCount + lane] : 0u;
-    const PathSlot slot = PathSlot(number, dispatch.laneCount);
+    const PathSlot slot = slotOf(number, dispatch);
     if (STAGE == STAGE_DEPART) departPath(given, dispatch, isThere, slot);
     if (STAGE == STAGE_TRACE) tracePath(dispatch, isThere, slot);
     if (STAGE == STAGE_FOLLOW) followStoredPath(given, dispatch, isThere, slot);

@@ -32,8 +32,8 @@ Buffer bufferOf(const vulkan::Device& device, const vulkan::BufferPlan& plan) {
     return {device, plan.name, plan.bytes, plan.use};
 }
 
-PathBuffers pathBuffers(const DispatchSettings& s) {
-    return pathBuffers(s.frame.branches, s.tuning.lanes, s.tuning.scheduler);
+PathBuffers pathBuffers(const PathKernel& kernel, const DispatchSettings& s) {
+    return pathBuffers(kernel.features(), s.tuning.lanes, s.tuning.scheduler);
 }
 
 template <class T>
@@ -47,20 +47,22 @@ Dispatcher::Dispatcher(const DispatchTarget& target, const PathKernel& kernel,
                        const DispatchSettings& settings)
     : device_(target.device), tuning_(settings.tuning),
       hardIterations_(hardLimit(device_, target.scene.scene(), kernel)), queue_(device_),
-      paths_(bufferOf(device_, pathBuffers(settings).paths)),
-      more_(bufferOf(device_, pathBuffers(settings).more)), film_(target.film),
+      paths_(bufferOf(device_, pathBuffers(kernel, settings).paths)), film_(target.film),
       fixedIterations_(settings.fixedIterations),
       frameBuffer_(device_, "frame constants", sizeof(gpu::Frame), BufferUse::Uniform),
       workItems_(device_, "work list", tuning_.itemsPerDispatch * sizeof(gpu::WorkItem),
                  rowUse(tuning_)),
       status_(device_, "dispatch status", sizeof(gpu::DispatchStatus), BufferUse::Storage) {
+    if (const auto queues = pathBuffers(kernel, settings).queues)
+        queues_.emplace(bufferOf(device_, *queues));
     setFrame(settings.frame);
     for (const DeviceFilm::Segment& s : target.film.segments()) {
         std::vector<const Buffer*> buffers;
         for (const Buffer& b : target.scene.buffers())
             buffers.push_back(&b);
-        buffers.insert(buffers.end(), {&frameBuffer_, &workItems_, &s.pixels, &paths_, &status_,
-                                       &more_, &target.filter});
+        buffers.insert(buffers.end(),
+                       {&frameBuffer_, &workItems_, &s.pixels, &paths_, &status_, &target.filter});
+        if (queues_) buffers.push_back(&*queues_);
         sets_.push_back(
             std::make_unique<vulkan::DescriptorSet>(device_, kernel.pipeline(), buffers));
     }

@@ -80,7 +80,8 @@ class Dispatcher {
     DeviceTuning tuning_;
     uint32_t hardIterations_;
     vulkan::Queue queue_;
-    vulkan::Buffer paths_, more_;                              ///< PathBuffers
+    vulkan::Buffer paths_; ///< PathBuffers
+    std::optional<vulkan::Buffer> queues_;
     std::vector<std::unique_ptr<vulkan::DescriptorSet>> sets_; ///< of each segment
 
   private:

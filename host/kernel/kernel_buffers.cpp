@@ -1,6 +1,7 @@
 #include "host/kernel/kernel_buffers.hpp"
 
 #include "host/kernel/filter_table.hpp"
+#include "host/kernel/path_words.hpp"
 #include "shaders/shared/render_types.h"
 #include "shaders/shared/wavefront_types.h"
 
@@ -48,18 +49,13 @@ uint64_t largestRowBuffer(const GpuScene& scene, uint64_t pixels) {
     return std::max(largestSceneBuffer(scene), items * sizeof(gpu::WorkItem));
 }
 
-PathBuffers pathBuffers(uint32_t branches, uint64_t lanes, PathScheduler scheduler) {
-    if (scheduler == PathScheduler::Wavefront) {
-        const uint64_t words = pathWords(branches > 1);
-        return {{"states of paths", lanes * words * sizeof(uint32_t), BufferUse::Storage},
-                {"queues of paths",
-                 gpu::QUEUE_COUNT * (sizeof(gpu::QueueHead) + lanes * sizeof(uint32_t)),
-                 BufferUse::Storage}};
-    }
-    const uint64_t splits = branches > 1 ? lanes : 1; // one for the binding
-    return {
-        {"suspended paths", lanes * sizeof(gpu::SuspendedPath), BufferUse::Storage},
-        {"splits of suspended paths", splits * sizeof(gpu::SuspendedSplit), BufferUse::Storage}};
+PathBuffers pathBuffers(const KernelFeatures& features, uint64_t lanes, PathScheduler scheduler) {
+    const uint64_t bytes = lanes * pathWords(features, scheduler) * sizeof(uint32_t);
+    if (scheduler == PathScheduler::Persistent)
+        return {{"suspended paths", bytes, BufferUse::Storage}, std::nullopt};
+    const uint64_t queues = gpu::QUEUE_COUNT * (sizeof(gpu::QueueHead) + lanes * sizeof(uint32_t));
+    return {{"states of paths", bytes, BufferUse::Storage},
+            BufferPlan{"queues of paths", queues, BufferUse::Storage}};
 }
 
 std::vector<BufferPlan> planBuffers(const GpuScene& scene, const PictureArea& area,
@@ -71,8 +67,11 @@ std::vector<BufferPlan> planBuffers(const GpuScene& scene, const PictureArea& ar
     std::vector<BufferPlan> plans = planSceneBuffers(scene, tuning);
     plans.push_back({"film", pixels * sizeof(gpu::PixelState), rows});
     plans.push_back({"work list", items * sizeof(gpu::WorkItem), rows});
-    const PathBuffers paths = pathBuffers(estimator.branches, lanes, tuning.scheduler);
-    plans.insert(plans.end(), {paths.paths, paths.more});
+    // What a path has does not depend on the camera.
+    const PathBuffers paths =
+        pathBuffers(kernelFeatures(scene, Camera{}, estimator, tuning), lanes, tuning.scheduler);
+    plans.push_back(paths.paths);
+    if (paths.queues) plans.push_back(*paths.queues);
     plans.push_back({"pixel filter", filterRows(estimator.filter) * sizeof(Row), rows});
     plans.push_back({"frame constants", sizeof(gpu::Frame), BufferUse::Uniform});
     plans.push_back({"dispatch status", sizeof(gpu::DispatchStatus), BufferUse::Storage});

@@ -2,11 +2,13 @@
 
 #include "host/film/picture_area.hpp"
 #include "host/kernel/gpu_scene.hpp"
+#include "host/kernel/kernel_features.hpp"
 #include "host/kernel/kernel_tuning.hpp"
 #include "host/render/estimator.hpp"
 #include "host/vulkan/buffer_limits.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace stromboli {
@@ -43,10 +45,11 @@ bool haveRoomForTextures(const vulkan::DeviceDescription& device, const GpuScene
 void checkMemory(const vulkan::DeviceDescription& device, const GpuScene& scene,
                  const PictureArea& area, const Estimator& estimator, const DeviceTuning& tuning);
 
-/// What a scheduler keeps of paths between two dispatches (BINDING_SUSPENDED, BINDING_SPLITS).
+/// What a scheduler keeps of paths between two dispatches (BINDING_PATHS, BINDING_QUEUES).
 struct PathBuffers {
-    vulkan::BufferPlan paths, more;
+    vulkan::BufferPlan paths;
+    std::optional<vulkan::BufferPlan> queues; ///< of the wavefront scheduler
 };
-PathBuffers pathBuffers(uint32_t branches, uint64_t lanes, PathScheduler scheduler);
+PathBuffers pathBuffers(const KernelFeatures& features, uint64_t lanes, PathScheduler scheduler);
 
 } // namespace stromboli

@@ -13,9 +13,10 @@ namespace {
 
 using vulkan::BufferUse;
 
-std::vector<vulkan::Binding> kernelBindings(bool texelFetch) {
+std::vector<vulkan::Binding> kernelBindings(bool texelFetch, bool isStage) {
     std::vector<vulkan::Binding> bindings;
     for (uint32_t i = 0; i < BINDING_COUNT; ++i) {
+        if (i == BINDING_QUEUES && !isStage) continue;
         // The film and the work list are read and written row by row as well.
         const bool rows = i < SCENE_BINDING_COUNT || i == BINDING_WORK_ITEMS ||
                           i == BINDING_PIXELS || i == BINDING_FILTER;
@@ -48,7 +49,8 @@ PathKernel::PathKernel(const vulkan::Device& device, const KernelFeatures& featu
                        bool texelFetch, vulkan::Specialiser specialiser,
                        std::optional<uint32_t> stage)
     : features_(features),
-      pipeline_(device, moduleFor(texelFetch, stage.has_value()), kernelBindings(texelFetch),
-                constantsOf(features, stage), sizeof(gpu::Dispatch), specialiser) {}
+      pipeline_(device, moduleFor(texelFetch, stage.has_value()),
+                kernelBindings(texelFetch, stage.has_value()), constantsOf(features, stage),
+                sizeof(gpu::Dispatch), specialiser) {}
 
 } // namespace stromboli

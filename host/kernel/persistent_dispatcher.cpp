@@ -1,5 +1,7 @@
 #include "host/kernel/persistent_dispatcher.hpp"
 
+#include "host/kernel/path_words.hpp"
+
 #include <algorithm>
 
 namespace stromboli {
@@ -25,10 +27,9 @@ PersistentDispatcher::PersistentDispatcher(const DispatchTarget& target, const P
     : Dispatcher(target, kernel, settings), kernel_(kernel),
       softIterations_(softLimit(hardIterations_, settings.frame)),
       pace_(settings.targetSeconds, paceLimit(softIterations_, settings.tuning)) {
-    gpu::SuspendedPath none{};
-    none.bounce = gpu::SUSPENDED_NONE;
-    none.item = gpu::NO_ITEM;
-    const std::vector<gpu::SuspendedPath> idle(tuning_.lanes, none);
+    // No lane has an item, whatever its other words say.
+    const std::vector<uint32_t> idle(
+        tuning_.lanes * pathWords(kernel.features(), tuning_.scheduler), gpu::NO_ITEM);
     paths_.upload(queue_, std::as_bytes(std::span(idle)));
 }
 

@@ -18,12 +18,13 @@ WavefrontDispatcher::WavefrontDispatcher(const DispatchTarget& target, const Sta
     : Dispatcher(target, *kernels.front(), settings), kernels_(kernels),
       pace_(settings.targetSeconds, kMostRounds) {
     paths_.clear(queue_);
-    more_.clear(queue_);
+    queues_->clear(queue_);
 }
 
 void WavefrontDispatcher::empty(VkCommandBuffer commands, uint32_t queue) {
     const gpu::QueueHead none{.groups = 0, .one = 1, .alsoOne = 1, .count = 0};
-    device_.vk().vkCmdUpdateBuffer(commands, more_.handle(), offsetOf(queue), sizeof(none), &none);
+    device_.vk().vkCmdUpdateBuffer(commands, queues_->handle(), offsetOf(queue), sizeof(none),
+                                   &none);
     vulkan::fullBarrier(device_, commands);
 }
 
@@ -44,7 +45,7 @@ void WavefrontDispatcher::serve(VkCommandBuffer commands, const Share& share, ui
     gpu::Dispatch d = constants(share);
     d.rayQueue = rayQueue_;
     vulkan::recordIndirectDispatch(device_, commands, kernels_[stage]->pipeline(),
-                                   *sets_[share.segment], std::as_bytes(std::span(&d, 1)), more_,
+                                   *sets_[share.segment], std::as_bytes(std::span(&d, 1)), *queues_,
                                    offsetOf(queue));
 }
 
@@ -69,7 +70,7 @@ void WavefrontDispatcher::record(VkCommandBuffer commands, const Share& share) {
 void WavefrontDispatcher::hasRun(double seconds, gpu::DispatchStatus& status) {
     pace_.took(seconds);
     std::array<gpu::QueueHead, gpu::QUEUE_COUNT> heads;
-    more_.download(queue_, std::as_writable_bytes(std::span(heads)));
+    queues_->download(queue_, std::as_writable_bytes(std::span(heads)));
     for (const gpu::QueueHead& head : heads)
         status.unfinishedItems += head.count;
 }

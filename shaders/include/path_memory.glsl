@@ -1,13 +1,18 @@
-// States of paths in memory, between two stages of the wavefront scheduler: word by word, those of all paths one
-// after the other, so that neighbouring lanes read neighbouring words. The table is PATH_FIELDS.
+// States of paths in memory (shared/path_fields.h). The scheduler says which fields it keeps (KEPT, of their readers'
+// bits) and where the words of a path lie.
+
+#include "shared/path_fields.h"
+
+layout(set = 0, binding = BINDING_PATHS, std430) buffer PathBuffer { uint pathWords[]; };
 
 /// Where a path lies.
 struct PathSlot {
-    uint number, count; ///< of all paths
+    uint first;  ///< number of the path's first word
+    uint stride; ///< from each word to the next
 };
 
-uint pathWord(PathSlot slot, uint word) { return pathWords[word * slot.count + slot.number]; }
-void setPathWord(PathSlot slot, uint word, uint value) { pathWords[word * slot.count + slot.number] = value; }
+uint pathWord(PathSlot slot, uint word) { return pathWords[slot.first + word * slot.stride]; }
+void setPathWord(PathSlot slot, uint word, uint value) { pathWords[slot.first + word * slot.stride] = value; }
 
 const uint WORDS_uint = 1u, WORDS_float = 1u, WORDS_bool = 1u, WORDS_vec2 = 2u, WORDS_vec3 = 3u;
 const uint WORDS_vec4 = 4u, WORDS_uvec4 = 4u;
@@ -55,9 +60,19 @@ void loadPath(PathSlot slot, inout PathState path, inout Job job, uint reader) {
     uint word = 0u;
 #define LOAD_FIELD(type, member, exists, readers, writers)                                         \
     if ((exists) && ((readers) & reader) != 0u) load(slot, word, member);                          \
-    word += (exists) ? WORDS_##type : 0u;
+    word += (exists) && ((readers) & KEPT) != 0u ? WORDS_##type : 0u;
     PATH_FIELDS(LOAD_FIELD)
 #undef LOAD_FIELD
+}
+
+/// 32-bit words of a path (host/kernel/path_words.cpp). kept: as KEPT.
+uint wordsOfPath(uint kept) {
+    uint words = 0u;
+#define COUNT_FIELD(type, member, exists, readers, writers)                                        \
+    words += (exists) && ((readers) & kept) != 0u ? WORDS_##type : 0u;
+    PATH_FIELDS(COUNT_FIELD)
+#undef COUNT_FIELD
+    return words;
 }
 
 /// Stores the fields that a stage changes. writer: its BY_ bit, or an AT_ bit.
@@ -65,7 +80,7 @@ void storePath(PathSlot slot, PathState path, Job job, uint writer) {
     uint word = 0u;
 #define STORE_FIELD(type, member, exists, readers, writers)                                        \
     if ((exists) && ((writers) & writer) != 0u) store(slot, word, member);                         \
-    word += (exists) ? WORDS_##type : 0u;
+    word += (exists) && ((readers) & KEPT) != 0u ? WORDS_##type : 0u;
     PATH_FIELDS(STORE_FIELD)
 #undef STORE_FIELD
 }

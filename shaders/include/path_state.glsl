@@ -79,12 +79,6 @@ uvec4 pathWords(const Frame frame, PathState path, uint slot) {
     return randomWords(path.pixelId, sample_, block, frame.seed);
 }
 
-/// That of the sample under way, when its path is taken up again: samples have few numbers to remember.
-void restoreFilterWeight(const Frame frame, inout PathState path) {
-    const vec4 u = unitFloats(randomWords(path.pixelId, sampleIndex(frame, path), 0u, frame.seed));
-    placeInPixel(u.zw, path.filterWeight);
-}
-
 /// Blocks of random numbers that choices between reflection and transmission take.
 const uint CHOICE_BLOCKS = 0x40000000u;
 

@@ -19,10 +19,10 @@ SHARED_BEGIN
 #define BINDING_FRAME 7
 #define BINDING_WORK_ITEMS 8
 #define BINDING_PIXELS 9
-#define BINDING_SUSPENDED 10 // persistent scheduler: suspended paths; wavefront: states of paths
+#define BINDING_PATHS 10 // states of paths (path_fields.h)
 #define BINDING_STATUS 11
-#define BINDING_SPLITS 12 // persistent scheduler: of suspended paths; wavefront: queues
-#define BINDING_FILTER 13 // the table of a pixel filter; read row by row as well
+#define BINDING_FILTER 12 // the table of a pixel filter; read row by row as well
+#define BINDING_QUEUES 13 // of the wavefront scheduler alone
 #define BINDING_COUNT 14
 #define SCENE_BINDING_COUNT 7 // bindings 0 to 6 hold the scene and are read row by row
 

@@ -78,45 +78,6 @@ struct PixelState {
 SHARED_ROWS(PixelState, 4);
 SHARED_OFFSET(PixelState, rejected, 28);
 
-/// What a lane has in hand between two dispatches: a pixel, and the ray that is to be traced next.
-struct SuspendedPath {
-    vec3 origin;
-    uint bounce; ///< scatterings so far; SUSPENDED_NONE: no path under way
-    vec3 direction;
-    uint skipPrimitive;
-    vec3 throughput;
-    float emission; ///< SUSPENDED_NO_EMISSION, or bouncePdf of path.glsl
-    vec3 radiance;
-    uint item; ///< of the work list; NO_ITEM: the lane has none
-    vec3 arrivalNumbers; ///< path.glsl
-    uint medium;         ///< path.glsl; of no meaning where nothing absorbs
-    vec3 departureNormal; ///< path.glsl
-    uint skipPlacement;   ///< that skipPrimitive is in; of no meaning where nothing is placed
-};
-SHARED_ROWS(SuspendedPath, 6);
-/// Where the path of a suspended lane split, if it has; the surface as in surface.glsl.
-struct SuspendedSplit {
-    vec3 position;
-    uint bounce; ///< 0: has not split
-    vec3 geometric;
-    uint material;
-    vec3 shading;
-    uint skipPrimitive;
-    vec3 wo;
-    float lift;
-    vec3 throughput;
-    float error;
-    uint outside;
-    uint branchesLeft; ///< that have not begun
-    float b1, b2;      ///< barycentric weights, where materials have textures or colours; 0 else
-    uint medium;       ///< path.glsl
-    uint placement;    ///< that skipPrimitive is in; of no meaning where nothing is placed
-    uint primitive;    ///< as skipPrimitive, in the Primitive buffer; where there are b1 and b2
-    uint unused;
-};
-SHARED_ROWS(SuspendedSplit, 7);
-SHARED_CONST float SUSPENDED_NO_EMISSION = -1.0f;
-SHARED_CONST uint SUSPENDED_NONE = 0xFFFFFFFFu;
 SHARED_CONST uint NO_ITEM = 0xFFFFFFFFu;
 
 /// Counters of one dispatch; zeroed by the host before it, but for nextItem.

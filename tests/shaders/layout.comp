@@ -5,12 +5,6 @@
 #include "prelude.glsl"
 #include "include/film.glsl"
 
-layout(set = 0, binding = BINDING_SUSPENDED, std430) buffer SuspendedBuffer {
-    SuspendedPath suspendedPaths[];
-};
-layout(set = 0, binding = BINDING_SPLITS, std430) buffer SplitBuffer {
-    SuspendedSplit suspendedSplits[];
-};
 layout(set = 0, binding = BINDING_STATUS, std430) buffer StatusBuffer { DispatchStatus status; };
 layout(set = 0, binding = BINDING_ANSWERS, std430) buffer AnswerBuffer { uint words[]; };
 
@@ -137,15 +131,6 @@ void putWork() {
     const PixelState s = fetchPixel(1u);
     put(s.sum), put(s.count), put(s.sumError), put(s.rejected), put(s.m2), put(s.firstRejected);
     put(s.m2Error), put(s.samplesBefore);
-    const SuspendedPath p = suspendedPaths[1];
-    put(p.origin), put(p.bounce), put(p.direction), put(p.skipPrimitive), put(p.throughput);
-    put(p.emission), put(p.radiance), put(p.item), put(p.arrivalNumbers);
-    put(p.medium), put(p.departureNormal), put(p.skipPlacement);
-    const SuspendedSplit q = suspendedSplits[1];
-    put(q.position), put(q.bounce), put(q.geometric), put(q.material), put(q.shading);
-    put(q.skipPrimitive), put(q.wo), put(q.lift), put(q.throughput), put(q.error);
-    put(q.outside), put(q.branchesLeft), put(q.b1), put(q.b2);
-    put(q.medium), put(q.placement), put(q.primitive), put(q.unused);
     put(status.unfinishedItems), put(status.overflowedItems), put(status.rays);
     put(status.samples), put(status.nextItem), put(status.busySteps), put(status.allSteps);
     put(status.iterations);
@@ -157,6 +142,4 @@ void main() {
     putFrame();
     putWork();
     storePixel(2u, fetchPixel(1u)); // as the kernel stores whole structures
-    suspendedPaths[2] = suspendedPaths[1];
-    suspendedSplits[2] = suspendedSplits[1];
 }

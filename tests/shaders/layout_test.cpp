@@ -222,19 +222,6 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         const gpu::PixelState& s = states_[1];
         expected_.structure("PixelState", s.sum, s.count, s.sumError, s.rejected, s.m2,
                             s.firstRejected, s.m2Error, s.samplesBefore);
-        paths_ = patterns.several<gpu::SuspendedPath>();
-        shader.set(BINDING_SUSPENDED, paths_);
-        const gpu::SuspendedPath& p = paths_[1];
-        expected_.structure("SuspendedPath", p.origin, p.bounce, p.direction, p.skipPrimitive,
-                            p.throughput, p.emission, p.radiance, p.item, p.arrivalNumbers,
-                            p.medium, p.departureNormal, p.skipPlacement);
-        splits_ = patterns.several<gpu::SuspendedSplit>();
-        shader.set(BINDING_SPLITS, splits_);
-        const gpu::SuspendedSplit& q = splits_[1];
-        expected_.structure("SuspendedSplit", q.position, q.bounce, q.geometric, q.material,
-                            q.shading, q.skipPrimitive, q.wo, q.lift, q.throughput, q.error,
-                            q.outside, q.branchesLeft, q.b1, q.b2, q.medium, q.placement,
-                            q.primitive, q.unused);
         const gpu::DispatchStatus status = patterns.several<gpu::DispatchStatus>()[0];
         shader.setOne(BINDING_STATUS, status);
         expected_.structure("DispatchStatus", status.unfinishedItems, status.overflowedItems,
@@ -244,8 +231,6 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
 
     Words expected_;
     std::vector<gpu::PixelState> states_;
-    std::vector<gpu::SuspendedPath> paths_;
-    std::vector<gpu::SuspendedSplit> splits_;
 };
 
 /// Compares memory: NaNs are not equal to themselves.
@@ -273,8 +258,6 @@ TEST_P(LayoutTest, EveryFieldArrives) {
         EXPECT_EQ(found[i], expected_.word(i)) << expected_.name(i);
     EXPECT_EQ(found.back(), 0xDEADBEEF) << "the shader writes more fields than C++ has";
     EXPECT_TRUE(sameBits(shader.get<gpu::PixelState>(BINDING_PIXELS, 3)[2], states_[1]));
-    EXPECT_TRUE(sameBits(shader.get<gpu::SuspendedPath>(BINDING_SUSPENDED, 3)[2], paths_[1]));
-    EXPECT_TRUE(sameBits(shader.get<gpu::SuspendedSplit>(BINDING_SPLITS, 3)[2], splits_[1]));
 }
 
 INSTANTIATE_TEST_SUITE_P(Fetch, LayoutTest,
@@ -296,11 +279,9 @@ TEST(LayoutSizes, NoFieldIsForgotten) {
         sizeof(gpu::AmbientLight) + sizeof(gpu::EnvironmentLight) + sizeof(gpu::DirectionalLight) +
         sizeof(gpu::LightEntry) + sizeof(gpu::AliasColumn) + sizeof(gpu::LightNode) +
         sizeof(gpu::Frame) + sizeof(gpu::Dispatch) + sizeof(gpu::WorkItem) +
-        sizeof(gpu::PixelState) + sizeof(gpu::SuspendedPath) + sizeof(gpu::SuspendedSplit) +
-        sizeof(gpu::DispatchStatus);
+        sizeof(gpu::PixelState) + sizeof(gpu::DispatchStatus);
     EXPECT_EQ(bytes / 4, 16 + 16 + 16 + 16 + 4 + (4 + 12 + 24 + 20 + 12) +
-                             (4 + 12 + 12 + 4 + 4 + 8 + 4) + (4 + 4 + 8) + 36 + 12 + 4 + 16 + 24 +
-                             28 + 8u);
+                             (4 + 12 + 12 + 4 + 4 + 8 + 4) + (4 + 4 + 8) + 36 + 12 + 4 + 16 + 8u);
 }
 
 } // namespace

@@ -1,0 +1,86 @@
+// What of a path lies in memory: between two stages of the wavefront scheduler, or two dispatches of the persistent
+// one. Code that loads and stores it (include/path_memory.glsl) and sizes of buffers (host/kernel/path_words.hpp) follow
+// from this table.
+#ifndef STROMBOLI_SHARED_PATH_FIELDS_H
+#define STROMBOLI_SHARED_PATH_FIELDS_H
+
+/// Who reads and who writes a field (below), as bits. A stage of the wavefront scheduler loads what it reads, of which
+/// what it does not use is no longer in its kernel, and stores what it changes. Some occasions are told apart, so
+/// that what they need does not take registers in all that a stage does.
+#define BY_DEPART 1u
+#define BY_TRACE 2u
+#define BY_FOLLOW 4u
+#define BY_LIGHT 8u
+#define BY_SERVICE (BY_DEPART | BY_FOLLOW)
+#define AT_ARRIVAL 16u // a path ray has met a surface, or a branch begins
+#define AT_RESULT 128u // the ray of a light sample is done
+#define AT_RETURN 32u  // a branch begins, where the path has split
+#define AT_SPLIT 64u   // of STAGE_DEPART: the path splits
+#define AT_PAUSE 256u  // persistent scheduler: a lane ends a dispatch, where it may be about to trace a path ray
+#define BY_ALL (BY_DEPART | BY_TRACE | BY_FOLLOW | BY_LIGHT)
+
+/// A point where a path scatters (surface.glsl). exists: whether a path may have such a point.
+#define SURFACE_FIELDS(F, point, exists, readers, writers) \
+    F(vec3, point.position, exists, readers, writers) \
+    F(float, point.error, exists, readers, writers) \
+    F(vec3, point.geometric, exists, readers, writers) \
+    F(vec3, point.shading, exists && HAS_NORMALS, readers, writers) \
+    F(vec3, point.wo, exists, readers, writers) \
+    F(bool, point.outside, exists, readers, writers) \
+    F(uint, point.material, exists, readers, writers) \
+    F(uint, point.skipPrimitive, exists, readers, writers) \
+    F(float, point.lift, exists && HAS_NORMALS, readers, writers) \
+    F(uint, point.primitive, exists, readers, writers) \
+    F(vec2, point.weights, exists, readers, writers) \
+    F(vec4, point.tangent, exists && TANGENT_FRAMES, readers, writers) \
+    F(vec3, point.coat, exists && sceneHasCoatNormals(), readers, writers) \
+    F(uint, point.placement, exists && HAS_PLACEMENTS, readers, writers)
+
+/// F(type, member, exists, readers, writers): all of a path (path_state.glsl) and of its place in the work list that
+/// the next stage, or the next dispatch, has to find. exists: whether the scene's kernels have the field.
+#define PATH_FIELDS(F) \
+    F(uint, job.item, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
+    F(uint, job.target, true, BY_ALL, BY_DEPART) \
+    F(uint, path.phase, true, BY_ALL | AT_PAUSE, BY_SERVICE | BY_LIGHT | AT_PAUSE) \
+    F(uint, path.bounce, true, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
+    F(vec3, path.ray.origin, true, BY_ALL | AT_PAUSE, BY_SERVICE | BY_LIGHT | AT_PAUSE) \
+    F(vec3, path.ray.direction, true, BY_ALL | AT_PAUSE, BY_SERVICE | BY_LIGHT | AT_PAUSE) \
+    F(float, path.ray.tMin, true, BY_ALL, BY_SERVICE | BY_LIGHT) \
+    F(float, path.ray.tMax, true, BY_ALL, BY_SERVICE | BY_LIGHT | BY_TRACE) \
+    F(float, path.rayEnd, true, BY_ALL, BY_SERVICE | BY_LIGHT) \
+    F(uint, path.ray.skipPrimitive, true, BY_ALL | AT_PAUSE, BY_SERVICE | BY_LIGHT | AT_PAUSE) \
+    F(uint, path.ray.skipPlacement, HAS_PLACEMENTS, BY_ALL | AT_PAUSE, BY_SERVICE | BY_LIGHT | AT_PAUSE) \
+    F(uint, path.ray.passed, HAS_ALPHA, BY_ALL, BY_SERVICE | BY_LIGHT) \
+    F(uint, path.ray.passedPlacement, HAS_ALPHA && HAS_PLACEMENTS, BY_ALL, BY_SERVICE) \
+    F(uint, path.ray.hitPrimitive, true, BY_ALL, BY_TRACE) \
+    F(float, path.ray.b1, true, BY_ALL, BY_TRACE) \
+    F(float, path.ray.b2, true, BY_ALL, BY_TRACE) \
+    F(uint, path.ray.hitPlacement, HAS_PLACEMENTS, BY_ALL, BY_TRACE) \
+    F(vec3, path.throughput, true, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
+    F(vec3, path.radiance, true, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
+    F(uint, path.medium, true, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
+    F(bool, path.countsEmission, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
+    F(float, path.bouncePdf, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
+    F(vec3, path.departureNormal, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
+    F(vec3, path.arrivalNumbers, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
+    F(float, path.filterWeight, samplesHaveWeights(), BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
+    F(uint, path.directIndex, true, BY_ALL, BY_FOLLOW | BY_LIGHT) \
+    F(vec3, path.directValue, true, BY_ALL, BY_FOLLOW | BY_LIGHT) \
+    F(uint, path.sampledEmitter.material, emissionHasFactors(), BY_ALL, BY_LIGHT) \
+    F(uint, path.sampledEmitter.primitive, emissionHasFactors(), BY_ALL, BY_LIGHT) \
+    F(vec2, path.sampledEmitter.weights, emissionHasFactors(), BY_ALL, BY_LIGHT) \
+    SURFACE_FIELDS(F, path.surface, true, BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
+    F(uvec4, path.material.header, true, BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
+    F(uvec4, path.material.row1, true, BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
+    F(uvec4, path.material.row2, materialsHaveRow(2u), BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
+    F(uvec4, path.material.row3, materialsHaveRow(3u), BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
+    F(uvec4, path.material.row4, materialsHaveRow(4u), BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
+    F(uvec4, path.material.row5, materialsHaveRow(5u), BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
+    F(uvec4, path.material.row6, materialsHaveRow(6u), BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
+    F(vec3, path.splitPoint.throughput, SPLITS, AT_RETURN | AT_PAUSE, AT_SPLIT | AT_PAUSE) \
+    F(uint, path.splitPoint.bounce, SPLITS, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
+    F(uint, path.splitPoint.medium, SPLITS, AT_RETURN | AT_PAUSE, AT_SPLIT | AT_PAUSE) \
+    SURFACE_FIELDS(F, path.splitPoint.surface, SPLITS, AT_RETURN | AT_PAUSE, AT_SPLIT | AT_PAUSE) \
+    F(uint, path.branchesLeft, SPLITS, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE)
+
+#endif

@@ -1,0 +1,14 @@
+#version 460
+// How many words each scheduler keeps of a path.
+#extension GL_GOOGLE_include_directive : require
+
+#include "include/path_kernel.glsl"
+#include "shared/path_fields.h"
+const uint KEPT = AT_PAUSE;
+#include "include/path_memory.glsl"
+
+void main() {
+    if (gl_GlobalInvocationID.x != 0u) return;
+    pathWords[0] = wordsOfPath(AT_PAUSE);
+    pathWords[1] = wordsOfPath(0xFFFFFFFFu);
+}
