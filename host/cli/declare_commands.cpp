@@ -15,7 +15,7 @@ std::deque<DeclaredCommand> declareCommands() {
          declareCheck},
         {"info", "What a scene holds, what its kernel contains, sizes of all buffers, its BVH",
          declareInfo},
-        {"kernels", "What a GPU's driver makes of a scene's kernels: registers, spills, waves",
+        {"kernels", "What a GPU's driver makes of the kernels of scenes: registers, spills, waves",
          declareKernels},
         {"devices", "List Vulkan devices and which one is chosen, and why", declareDevices},
         {"bench", "Measure BVH, rays, paths, start-up; against Embree where that is installed",

@@ -77,7 +77,8 @@ struct Asked {
     bool sampleAlone = false; ///< `sample` and nothing else
 };
 
-void declareScene(OptionList& list, SceneRequest& scene);
+/// several: where a command takes more than one scene; their names go there, and not into `scene`.
+void declareScene(OptionList& list, SceneRequest& scene, Words* several = nullptr);
 
 /// What is said of the file that a picture is written to.
 void declarePictureFile(OptionList& list, OutputOptions& output, ToneCurve& tone);

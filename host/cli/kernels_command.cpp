@@ -88,12 +88,31 @@ std::string cell(const KernelReport& report, const Column& column) {
     return "-";
 }
 
+/// Those of one scene.
+void printKernels(const vulkan::Device& device, const KernelsOptions& options) {
+    const auto [scene, picture] = preparePicture(options);
+    const BuiltScene built = buildScene(*scene.scene, picture.settings.estimator, toTerminal());
+    nowDoing("compiling", StatusLine::OfOthers);
+    const std::vector<KernelReport> reports =
+        reportKernels(device, built.gpu, picture.camera, picture.settings.estimator);
+    fmt::print("\n{}\n{:<12}", printable(options.scene.source), "kernel");
+    for (const Column& column : columns())
+        fmt::print(" {:>12}", column.title);
+    fmt::print("\n");
+    for (const KernelReport& report : reports) {
+        fmt::print("{:<12}", report.kernel);
+        for (const Column& column : columns())
+            fmt::print(" {:>12}", cell(report, column));
+        fmt::print("\n");
+    }
+}
+
 } // namespace
 
 void declareKernels(DeclaredCommand& c) {
     const auto o = std::make_shared<KernelsOptions>();
     const auto asked = std::make_shared<Asked>();
-    declareScene(c.list, o->scene);
+    declareScene(c.list, o->scene, &o->scenes);
     declarePicture(c.list, o->picture, *asked);
     declareEstimator(c.list, *o, *asked);
     declareSampler(c.list, o->picture.estimator.sampler);
@@ -116,25 +135,15 @@ void declareKernels(DeclaredCommand& c) {
 
 int kernelsCommand(const KernelsOptions& options) {
     if (!options.deviceFamily.empty()) compileFor(options.deviceFamily);
-    const auto [scene, picture] = preparePicture(options);
-    const BuiltScene built = buildScene(*scene.scene, picture.settings.estimator, toTerminal());
     const vulkan::Instance instance(vulkan::validationRequested());
     const std::vector<vulkan::DeviceDescription> devices = vulkan::listDevices(instance);
     const vulkan::DeviceDescription& description = chosen(devices, options);
     const vulkan::Device device(instance, description, std::nullopt, vulkan::DeviceUse::Compiling);
-    nowDoing("compiling", StatusLine::OfOthers);
-    const std::vector<KernelReport> reports =
-        reportKernels(device, built.gpu, picture.camera, picture.settings.estimator);
-    fmt::print("{}, {}\n{:<12}", printable(description.name()), printable(description.driver),
-               "kernel");
-    for (const Column& column : columns())
-        fmt::print(" {:>12}", column.title);
-    fmt::print("\n");
-    for (const KernelReport& report : reports) {
-        fmt::print("{:<12}", report.kernel);
-        for (const Column& column : columns())
-            fmt::print(" {:>12}", cell(report, column));
-        fmt::print("\n");
+    fmt::print("{}, {}\n", printable(description.name()), printable(description.driver));
+    for (const std::string& scene : options.scenes) {
+        KernelsOptions ofScene = options;
+        ofScene.scene.source = scene;
+        printKernels(device, ofScene);
     }
     return 0;
 }

@@ -101,7 +101,8 @@ struct InfoOptions : SceneAndPicture {
 };
 
 struct KernelsOptions : SceneAndPicture {
-    std::string deviceFamily; ///< of AMD GPUs: compile for it; empty: for the device
+    std::vector<std::string> scenes; ///< instead of SceneRequest::source
+    std::string deviceFamily;        ///< of AMD GPUs: compile for it; empty: for the device
 };
 
 struct DevicesOptions {

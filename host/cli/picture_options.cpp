@@ -152,20 +152,19 @@ Words splitAtCommas(const std::string& word) {
     return pieces;
 }
 
-void declareScene(OptionList& list, SceneRequest& scene) {
+void declareScene(OptionList& list, SceneRequest& scene, Words* several) {
     list.group("Scene");
-    list.text(
-            "SCENE", "",
-            "COLLADA (.dae, .zae), glTF (.gltf, .glb), Mitsuba (.xml), OBJ, PLY, or by Assimp STL, "
-            "FBX, 3DS, ... file; or a "
-            "bundled scene by its name "
-            "(cornell_boxes, island, "
-            "...); or generate:cornell_mesh:N for a scene of N triangles made in memory, "
-            "generate:lamps:N for one lit by N triangles, generate:forest:N for N trees that "
-            "are instances",
-            scene.source)
-        .required()
-        .proposes(Proposed::Scenes);
+    const char* const help =
+        "COLLADA (.dae, .zae), glTF (.gltf, .glb), Mitsuba (.xml), OBJ, PLY, or by Assimp STL, "
+        "FBX, 3DS, ... file; or a "
+        "bundled scene by its name "
+        "(cornell_boxes, island, "
+        "...); or generate:cornell_mesh:N for a scene of N triangles made in memory, "
+        "generate:lamps:N for one lit by N triangles, generate:forest:N for N trees that "
+        "are instances";
+    CommandOption& named = several ? list.list("SCENE", "", help, *several)
+                                   : list.text("SCENE", "", help, scene.source);
+    named.required().proposes(Proposed::Scenes);
     SceneConventions& reading = scene.reading;
     list.onOff("--default-light",
                "on: a plain sky lights a file without any light; off: it stays black",
