@@ -1,6 +1,6 @@
 // A render that is killed again and again, while it writes its files, loses next to nothing and
 // never a file. It is killed by the number of its writes, so that a busy machine changes nothing.
-#include "tests/cli/program.hpp"
+#include "tests/cli/killed_at.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

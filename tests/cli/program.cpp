@@ -68,11 +68,6 @@ std::vector<std::string> ScratchFolder::entries() const {
     return names;
 }
 
-std::string killedAt(const ScratchFolder& folder, uint32_t n) {
-    return "STROMBOLI_VALIDATION=0 LD_PRELOAD=" STROMBOLI_KILLED_AT " STROMBOLI_KILL_FOLDER=" +
-           folder.path().string() + " STROMBOLI_KILL_AT=" + std::to_string(n);
-}
-
 std::string libraryScene(const std::string& name) {
     return (std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene" / "library" / name).string();
 }

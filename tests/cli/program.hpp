@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -36,12 +35,6 @@ class ScratchFolder {
   private:
     std::filesystem::path path_;
 };
-
-/// Environment of a program that is killed (exit code 137) at the n-th time that it writes to a
-/// file of the folder, forces one to the disk, or is about to rename one or has done so
-/// (killed_at.cpp). It ends by itself where it does so fewer times. Without the validation layer.
-std::string killedAt(const ScratchFolder& folder, uint32_t n);
-inline constexpr int kWasKilled = 128 + 9;
 
 /// A scene of scene/library.
 std::string libraryScene(const std::string& name);

@@ -2,6 +2,7 @@
 #include "host/film/exr.hpp"
 #include "host/film/image_file.hpp"
 #include "tests/cli/film_folder.hpp"
+#include "tests/cli/killed_at.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 // Pictures that several runs of the program render together.
 #include "host/film/image_file.hpp"
 #include "tests/cli/film_folder.hpp"
+#include "tests/cli/killed_at.hpp"
 #include "tests/cli/running_program.hpp"
 #include "tests/support/shell.hpp"
 
