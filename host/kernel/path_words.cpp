@@ -19,8 +19,8 @@ struct FieldConditions {
 #undef SET_FEATURE
     }
 
-    bool sceneHasBsdf(uint32_t kind) const {
-        return (BSDF_KINDS & 1u << kind) != 0;
+    bool sceneHas(uint32_t bits) const {
+        return (CLOSURES & bits) != 0;
     }
     bool sceneHasSlot(uint32_t slot) const {
         return (TEXTURE_SLOTS & 1u << slot) != 0;
@@ -32,18 +32,16 @@ struct FieldConditions {
         return sceneHasSlot(gpu::TEXTURE_EMISSION) || HAS_ALPHA != 0;
     }
     bool sceneHasCoatNormals() const {
-        return (PRINCIPLED_FEATURES & gpu::PRINCIPLED_HAS_CLEARCOAT) != 0 &&
+        return sceneHas(gpu::CLOSURE_COAT) && sceneHas(gpu::RECIPE_PRINCIPLED) &&
                (sceneHasSlot(gpu::TEXTURE_NORMAL) || sceneHasSlot(gpu::TEXTURE_CLEARCOAT_NORMAL));
     }
     bool materialsHaveRow(uint32_t row) const {
-        const bool principled = sceneHasBsdf(gpu::BSDF_PRINCIPLED);
-        const bool facets = BSDF_KINDS >= 1u << gpu::BSDF_CONDUCTOR;
-        if (row == 2)
-            return principled || facets || sceneHasBsdf(gpu::BSDF_GLASS) ||
-                   sceneHasBsdf(gpu::BSDF_ROUGH_CONDUCTOR);
-        if (row == 3) return principled || facets;
-        if (row == 6) return principled;
-        return principled || sceneHasBsdf(gpu::BSDF_BURLEY);
+        const bool hasIndices =
+            sceneHas(gpu::INTERFACE_IS_CONDUCTOR | gpu::CLOSURE_LAYERS | gpu::GLOSSY_LOBES);
+        if (row == 2) return hasIndices || sceneHas(gpu::INTERFACE_IS_DIELECTRIC);
+        if (row == 3) return hasIndices;
+        if (row <= 5) return sceneHas(gpu::RECIPE_PRINCIPLED | gpu::RECIPE_BURLEY);
+        return sceneHas(gpu::RECIPE_PRINCIPLED);
     }
 
     /// kept: of readers' bits.

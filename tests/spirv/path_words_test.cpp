@@ -49,8 +49,7 @@ TEST_F(PathWords, AreAsManyInTheShaders) {
             f[flag] = random() % 2;
         if (random() % 2) f[SPEC_PIXEL_FILTER] = gpu::FILTER_TABLE;
         f[SPEC_TEXTURE_SLOTS] = random() & random() & ((1u << gpu::TEXTURE_SLOT_COUNT) - 1);
-        f[SPEC_PRINCIPLED_FEATURES] = random() & gpu::PRINCIPLED_ALL_FEATURES;
-        f[SPEC_BSDF_KINDS] = random() & random() & random() & ((1u << gpu::BSDF_KIND_COUNT) - 1);
+        f[SPEC_CLOSURES] = random() & random() & random() & gpu::CLOSURE_MASK;
         const std::array<uint32_t, 2> words = {pathWords(f, PathScheduler::Persistent),
                                                pathWords(f, PathScheduler::Wavefront)};
         EXPECT_EQ(words, asShadersCount(f)) << i;
