@@ -186,7 +186,8 @@ TEST(TeamBackend, GoesOnWhereItWasStopped) {
                 const std::vector<std::byte> bytes = toBytes(session->save());
                 session.reset();
                 team = std::make_unique<Team>(std::vector{kSound, kSound});
-                session = std::make_unique<SamplingSession>(*team->backend, sessionFromBytes(bytes));
+                session =
+                    std::make_unique<SamplingSession>(*team->backend, sessionFromBytes(bytes));
             }
             expectSame(session->film(), renderDrawn(uneven, s, 1).film);
         }

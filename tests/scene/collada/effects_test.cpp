@@ -146,7 +146,8 @@ TEST(Effects, DialectMaterials) {
     const Material metal =
         cgl("<microfacet><alpha>0.25</alpha><eta>1 2 3</eta><k>4 5 6</k></microfacet>");
     EXPECT_EQ(metal.kind, MaterialKind::Conductor);
-    EXPECT_EQ(metal.alpha, 0.25f);
+    EXPECT_EQ(metal.facets.alpha, glm::vec2(0.25f));
+    EXPECT_EQ(metal.facets.distribution, FacetDistribution::Beckmann);
     EXPECT_EQ(metal.eta, glm::vec3(1, 2, 3));
     EXPECT_EQ(metal.k, glm::vec3(4, 5, 6));
     EXPECT_EQ(cgl("<diffuse><reflectance>0.3 0.3 0.3</reflectance></diffuse>").albedo,
