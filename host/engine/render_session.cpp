@@ -26,6 +26,7 @@ void RenderSession::begin(std::shared_ptr<const Scene> scene, const RenderReques
     request_ = toGoOn(request, keeping);
     picture_ = resolvePicture(*scene_, request_, listener_);
     cancelAsked_ = false;
+    bandIsOver_ = false;
     isAlone_ = keeping_.begun.has_value();
     secondsBefore_ = 0;
     pixelsDone_ = 0;
@@ -36,6 +37,7 @@ void RenderSession::begin(std::shared_ptr<const Scene> scene, const RenderReques
 }
 
 void RenderSession::moveCamera(const CameraRequest& camera) {
+    if (!scene_) throw std::logic_error("no picture has been begun");
     RenderRequest request = request_;
     request.camera = camera;
     begin(scene_, request);
@@ -102,6 +104,21 @@ Next RenderSession::tell(const SessionEvents& events, RenderProgress state) {
 
 bool RenderSession::pass(const SessionEvents& events) {
     if (over_) return false;
+    try {
+        return takePass(events);
+    } catch (...) { // what is half made is not looked at
+        over_ = true;
+        sampling_.reset();
+        throw;
+    }
+}
+
+bool RenderSession::takePass(const SessionEvents& events) {
+    if (bandIsOver_) {
+        sampling_.reset();
+        ++band_;
+        bandIsOver_ = false;
+    }
     if (bands_.empty()) prepare();
     if (!sampling_) beginBand();
     Next next = Next::GoOn;
@@ -137,7 +154,7 @@ void RenderSession::endBand(const SessionEvents& events) {
     if (result_.cancelled || result_.lost)
         leaveOutTheRest(events);
     else if (band_ + 1 < bands_.size())
-        ++band_, sampling_.reset();
+        bandIsOver_ = true; // its film can be looked at until the next pass
     else
         over_ = true;
     if (over_) renderer_.requireNoValidationMessages();
@@ -161,7 +178,7 @@ RenderResult RenderSession::run(const SessionEvents& events) {
 RenderResult RenderSession::result() const {
     RenderResult result = result_;
     std::vector<PartNoise> noises = noises_;
-    if (sampling_ && !over_) noises.push_back({sampling_->outcome().noise, film().pixels.size()});
+    if (sampling_ && !over_ && !bandIsOver_) noises.push_back({sampling_->outcome().noise, film().pixels.size()});
     result.noise = togetherOf(noises);
     return result;
 }

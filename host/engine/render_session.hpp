@@ -105,6 +105,7 @@ class RenderSession {
   private:
     void prepare();
     void beginBand();
+    bool takePass(const SessionEvents& events);
     void endBand(const SessionEvents& events);
     void leaveOutTheRest(const SessionEvents& events);
     std::shared_ptr<Backend> makeBackend(const RenderSettings& settings, bool again);
@@ -126,6 +127,7 @@ class RenderSession {
     std::optional<KeptSession> sampling_;
     bool isAlone_ = false; ///< no checkpoint of an earlier render is in the way
     bool over_ = true;
+    bool bandIsOver_ = false; ///< the next pass begins the next band
     double secondsBefore_ = 0; ///< of the bands that were done in earlier runs
     uint64_t pixelsDone_ = 0;  ///< of the bands before
     std::vector<PartNoise> noises_;

@@ -200,6 +200,7 @@ void Renderer::begin(std::shared_ptr<const Scene> scene, const ResolvedPicture& 
 void Renderer::build(const Estimator& estimator, uint64_t gatheredRows) {
     auto built = std::make_unique<BuiltScene>(buildScene(
         *scene_, estimator, listener_, scene_->isMoment() ? &kept_ : nullptr, gatheredRows));
+    builtOf_ = nullptr; // until the devices have this one
     devices_->setScene(built->gpu);
     built_ = std::move(built);
     builtOf_ = scene_;

@@ -14,14 +14,16 @@ namespace {
 constexpr size_t kMostRows = 7;
 static_assert(gpu::MATERIAL_DETAIL_ROW >= kMostRows);
 
-/// Anywhere on the surface: a texture may make less of a metal of it.
-bool transmits(const Material& m) {
+/// Everywhere on the surface: a texture may make less of a metal of it.
+bool isAllMetal(const Material& m, float metallic) {
     const auto isMetallic = [](const TextureUse& t) {
         return t.slot == TextureSlot::MetallicRoughness;
     };
-    const bool isAllMetal =
-        m.principled.metallic >= 1 && std::ranges::none_of(m.textures, isMetallic);
-    return m.principled.transmission > 0 && !isAllMetal;
+    return metallic >= 1 && std::ranges::none_of(m.textures, isMetallic);
+}
+
+bool transmits(const Material& m) {
+    return m.principled.transmission > 0 && !isAllMetal(m, m.principled.metallic);
 }
 
 bool refracts(const Material& m) {
@@ -154,15 +156,18 @@ uint32_t principledBits(const Material& m) {
     return principledRows(m).absorption != glm::vec3(0) ? bits | VOLUME_ABSORBS : bits;
 }
 
-uint32_t burleyBits(const stromboli::BurleyParameters& p) {
+uint32_t burleyBits(const Material& m) {
+    const stromboli::BurleyParameters& p = m.burley;
+    // A texture may make less of a metal of it.
+    const bool passes = p.isThin ? p.transmits() : p.transmission > 0 && !isAllMetal(m, p.metallic);
     using namespace gpu;
     uint32_t bits = RECIPE_BURLEY | CLOSURE_BASE | CLOSURE_INTERFACE | INTERFACE_IS_DIELECTRIC |
                     FACETS_ARE_SEPARABLE | LOBE_GLOSSY_REFLECTION;
     if (p.clearcoat > 0 && !p.isThin) bits |= CLOSURE_COAT;
     if (p.sheen > 0) bits |= CLOSURE_SHEEN;
     if (p.isThin) bits |= INTERFACE_IS_THIN;
-    if (!p.isThin && p.transmits()) bits |= INTERFACE_REFRACTS;
-    return p.transmits() ? bits | LOBE_GLOSSY_TRANSMISSION : bits;
+    if (!p.isThin && passes) bits |= INTERFACE_REFRACTS;
+    return passes ? bits | LOBE_GLOSSY_TRANSMISSION : bits;
 }
 
 /// Puts the tables of the interfaces of plastic behind all materials.
@@ -220,7 +225,7 @@ uint32_t closureBits(const Material& m) {
     case MaterialKind::Principled:
         return principledBits(m) | colored;
     case MaterialKind::Burley:
-        return burleyBits(m.burley) | colored;
+        return burleyBits(m) | colored;
     }
     return 0;
 }
@@ -256,7 +261,9 @@ MaterialRows packMaterials(std::span<const Material> materials,
         for (const Row& row : own)
             packed.rows.push_back(row);
     }
-    packed.rows.resize(packed.rows.size() + kMostRows - 1);
+    // The kernel reads as many rows from the first on, for materials without a table.
+    packed.rows.resize(
+        std::max(packed.rows.size() + kMostRows - 1, size_t(gpu::TRANSMITTANCE_PIECES)));
     appendTables(packed, materials);
     nameOthers(packed, materials, details);
     return packed;

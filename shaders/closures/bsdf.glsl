@@ -57,6 +57,7 @@ Closures closuresOf(Material m, Incidence i) {
     c.eta = 1.0;
     c.isSmooth = c.isThin = false;
     c.grain = vec2(1.0, 0.0);
+    c.coatNormal = vec3(0.0, 0.0, 1.0);
     c.interfaceWeight = 1.0;
     c.diffuse = c.through = c.sheen = vec3(0.0);
     c.diffuseShare = c.throughShare = c.sheenShare = c.coatShare = c.coat = 0.0;

@@ -46,6 +46,6 @@ InterfaceLight statedLight(Material m, StatedParameters p, Closures c, float cos
     }
     if (hasClosure(m, INTERFACE_IS_CONDUCTOR))
         f.reflected = p.color * (EXACT_FRESNEL ? fresnelConductor(cosine, p.edge, p.index)
-                                               : fresnelConductorCs184(cosI, p.edge, p.index));
+                                               : fresnelConductorCs184(abs(cosI), p.edge, p.index));
     return f;
 }

@@ -293,6 +293,11 @@ TEST(Layers, AlbedoOfMetalsAndPrincipledMaterials) {
         return ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k);
     };
     expectNear(colorOf(gold), {reflectance(0.2, 3), reflectance(0.5, 2), reflectance(1.5, 0)});
+    // What is true of all interfaces of a scene is not true of walls that have none.
+    SceneMaker both;
+    addFloor(both, both.add(diffuse(0.3f)));
+    both.sphere({0, 50, 0}, 0.1f, both.add(gold));
+    expectNear(seenColor(both.scene, pointCamera({0, 3, 1}, {0, 0, 0})), glm::dvec3(0.3));
     Material paint;
     paint.kind = MaterialKind::Principled;
     paint.principled.baseColor = {0.2f, 0.4f, 0.6f};

@@ -168,7 +168,9 @@ TEST(RenderSession, BandsAreHandedOverAndLeftOut) {
     events.bandDone = [&](const FinishedBand& band) { done += band.film.pixels.size(); };
     events.bandLeftOut = [&](const PictureArea& area) { leftOut += area.pixelCount(); };
     session.begin(bundled("cornell_spheres"), request);
-    EXPECT_GT(session.run(events).bands, 1u);
+    while (session.pass(events))
+        EXPECT_FALSE(session.film().pixels.empty()) << "also when a band has just ended";
+    EXPECT_GT(session.result().bands, 1u);
     EXPECT_EQ(done, 120u * 90);
     EXPECT_EQ(leftOut, 0u);
     EXPECT_THROW(session.save(), UsageError);

@@ -1,4 +1,4 @@
-// Conductors, rough and thin dielectrics and plastic as the kernel gets them: which kind of BSDF
+// Conductors, rough and thin dielectrics and plastic as the kernel gets them: which closures
 // they are, and the numbers that plastic is made of.
 #include "host/kernel/interface_table.hpp"
 #include "host/kernel/material_rows.hpp"

@@ -8,7 +8,7 @@
 
 namespace stromboli::test {
 
-/// A material that all tests of the BSDF contract are run on. A new kind of BSDF adds its lines to
+/// A material that all tests of the BSDF contract are run on. A new closure adds its lines to
 /// bsdfCases().
 struct BsdfCase {
     std::string name;
