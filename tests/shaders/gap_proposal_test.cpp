@@ -64,8 +64,9 @@ struct GapCase {
 class GapShader : public DeviceTest, public ::testing::WithParamInterface<GapCase> {
   protected:
     GapShader()
-        : shader_(gap_proposal_texel,
-                  ShaderOptions::texel().set(SPEC_LIGHT_CHOICE, gpu::LIGHT_CHOICE_ONE)) {
+        : shader_(gap_proposal_texel, ShaderOptions::texel()
+                                          .set(SPEC_LIGHT_CHOICE, gpu::LIGHT_CHOICE_ONE)
+                                          .set(SPEC_GAP_PROPOSAL, 1)) {
         const Scene scene = emitterUnderCeiling(GetParam().scale, GetParam().turned);
         const GpuScene packed = packScene(scene, buildWideBvh(scene));
         EXPECT_NEAR(std::abs(packed.gapWidth), kGap * GetParam().scale, 1e-5 * GetParam().scale);
