@@ -178,7 +178,8 @@ RenderResult RenderSession::run(const SessionEvents& events) {
 RenderResult RenderSession::result() const {
     RenderResult result = result_;
     std::vector<PartNoise> noises = noises_;
-    if (sampling_ && !over_ && !bandIsOver_) noises.push_back({sampling_->outcome().noise, film().pixels.size()});
+    if (sampling_ && !over_ && !bandIsOver_)
+        noises.push_back({sampling_->outcome().noise, film().pixels.size()});
     result.noise = togetherOf(noises);
     return result;
 }

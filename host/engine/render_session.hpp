@@ -127,7 +127,7 @@ class RenderSession {
     std::optional<KeptSession> sampling_;
     bool isAlone_ = false; ///< no checkpoint of an earlier render is in the way
     bool over_ = true;
-    bool bandIsOver_ = false; ///< the next pass begins the next band
+    bool bandIsOver_ = false;  ///< the next pass begins the next band
     double secondsBefore_ = 0; ///< of the bands that were done in earlier runs
     uint64_t pixelsDone_ = 0;  ///< of the bands before
     std::vector<PartNoise> noises_;
