@@ -1,4 +1,4 @@
-# Everything comes from Debian 12 packages; ./stromboli installs them (see README, "Libraries").
+# Everything comes from Debian 12 packages; ./stromboli installs them (see docs/libraries.md).
 find_package(Threads REQUIRED)
 find_package(TBB REQUIRED)
 find_package(glm REQUIRED)
