@@ -195,9 +195,12 @@ void checkPixels(const Grid& pixels, const Film& film, const CheckSettings& sett
     result.pixelsAgree = result.fractionPassing >= settings.requiredFraction;
 }
 
-/// Whether the samples differ by no more than rounding errors.
+/// Whether the samples differ by no more than rounding errors, as far as the film can tell: devices
+/// keep squares of deviations as floats, the least of which is 2^-126.
 bool isConstant(const PixelStatistics& pixel, int channel, const CheckSettings& settings) {
-    const double deviation = settings.rounding * pixel.mean[channel];
+    constexpr double kLeastDeviation = 0x1p-63;
+    const double mean = pixel.mean[channel], deviation = settings.rounding * mean;
+    if (mean != 0 && deviation < kLeastDeviation) return false;
     return pixel.m2[channel] <= pixel.count * deviation * deviation;
 }
 

@@ -142,7 +142,8 @@ struct CheckResult {
 /// 4. pixels whose samples are all equal within each film must be equal between the films up to
 ///    rounding: a pixel where a sample has the value with probability p is all-equal in film A
 ///    and all-unlike it in film B with probability p^na (1 - p)^nb <= 2^-2min(na, nb), so beyond a
-///    few dozen samples only an error in one of the films explains a difference.
+///    few dozen samples only an error in one of the films explains a difference. Means below 2^-47
+///    are left out: a film's squares of so small deviations underflow.
 /// familyError is divided equally among 1, 2 and 4, with Sidak's correction within each.
 /// Throws std::invalid_argument if the films have different sizes.
 CheckResult crossCheck(const Film& a, const Film& b, const CheckSettings& settings = {});

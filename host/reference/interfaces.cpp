@@ -131,14 +131,9 @@ BsdfSample sampleFacetDielectric(const Material& m, const glm::dvec3& wo, bool e
 bool hasNarrowFacets(const Material& m) {
     const bool canHave = m.kind == MaterialKind::Conductor || m.kind == MaterialKind::Dielectric ||
                          m.kind == MaterialKind::Plastic;
-    // That of the principled material's, squared. Bounces alone leave pixels of rough Beckmann
-    // metals (of COLLADA files) without any light in some of the comparisons' few samples.
-    const bool isOfCollada = m.kind == MaterialKind::Conductor &&
-                             m.facets.distribution == FacetDistribution::Beckmann &&
-                             m.facets.masking == FacetMasking::Correlated;
-    const double narrow = isOfCollada ? 0.05 : 0.25;
+    constexpr double kNarrow = 0.25; // that of the principled material's, squared
     const glm::vec2 alpha = m.facetAlpha();
-    return canHave && !m.isSmooth() && std::min(alpha.x, alpha.y) < narrow;
+    return canHave && !m.isSmooth() && std::min(alpha.x, alpha.y) < kNarrow;
 }
 
 } // namespace stromboli::reference

@@ -262,6 +262,16 @@ TEST(Constants, MustBeEqualUpToRounding) {
     EXPECT_TRUE(result.pixelsAgree) << "one of 1024 is below the 0.25 % that may fail";
 }
 
+/// A device cannot tell samples of 1e-20 that differ from equal ones: their squares are no floats.
+TEST(Constants, AreUnknownWhereSquaresUnderflow) {
+    for (const auto& [value, mismatches] : {std::pair(1e-20, 0u), std::pair(1e-12, 1u)}) {
+        Film a(8, 8), b(8, 8);
+        for (int s = 0; s < 64; ++s)
+            a.at(2, 3).add(glm::dvec3(value)), b.at(2, 3).add(glm::dvec3(0));
+        EXPECT_EQ(crossCheck(a, b).constantMismatches, mismatches) << value;
+    }
+}
+
 TEST(Check, SkipsPixelsWithoutSamples) {
     Generator random(6);
     Film a = makeFilm(20, 4, mild, random), b = makeFilm(20, 4, mild, random);
