@@ -5,6 +5,7 @@
 
 #include <deque>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -112,6 +113,18 @@ CommandOption& declareNoise(OptionList& list, const std::string& help, double& w
 void declareSpreading(OptionList& list, RenderRequest& picture, Asked& asked);
 /// Works out the budget of the picture.
 void finishBudget(RenderRequest& picture, const Asked& asked);
+
+/// The `finish` of a command that looks at the picture that its options ask for, and at no other.
+template <class LookingOptions>
+void finishesAsPicture(DeclaredCommand& command, std::shared_ptr<LookingOptions> options,
+                       std::shared_ptr<Asked> asked) {
+    command.finish = [&command, options, asked] {
+        finishPicture(command, options->picture, *asked);
+        finishEstimator(command, *options, *asked);
+        finishBudget(options->picture, *asked);
+        return *options;
+    };
+}
 
 /// --film-memory.
 void declareFilmMemory(OptionList& list, DeviceRequest& device);

@@ -183,12 +183,7 @@ void declareInfo(DeclaredCommand& c) {
               o->jsonFile)
         .proposes(Proposed::Files);
     declareHost(c);
-    c.finish = [&c, o, asked] {
-        finishPicture(c, o->picture, *asked);
-        finishEstimator(c, *o, *asked);
-        finishBudget(o->picture, *asked);
-        return *o;
-    };
+    finishesAsPicture(c, o, asked);
 }
 
 int infoCommand(const InfoOptions& options) {

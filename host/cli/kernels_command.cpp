@@ -125,12 +125,7 @@ void declareKernels(DeclaredCommand& c) {
         .usually("the device itself")
         .proposes({"navi21", "gfx1100", "vega10"});
     declareHost(c);
-    c.finish = [&c, o, asked] {
-        finishPicture(c, o->picture, *asked);
-        finishEstimator(c, *o, *asked);
-        finishBudget(o->picture, *asked);
-        return *o;
-    };
+    finishesAsPicture(c, o, asked);
 }
 
 int kernelsCommand(const KernelsOptions& options) {

@@ -78,8 +78,9 @@ class RenderSession {
     bool pass(const SessionEvents& events = {});
     /// Passes until there is no more to do.
     RenderResult run(const SessionEvents& events = {});
-    /// Any thread may call this: the picture ends within a fraction of a second. The next one is
-    /// not affected.
+    /// Any thread may call this: the picture ends within a fraction of a second of sampling; what
+    /// comes before (building the scene, compiling) is finished first. The next one is not
+    /// affected.
     void cancel() { cancelAsked_ = true; }
 
     bool isOver() const { return over_; }

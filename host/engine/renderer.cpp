@@ -40,9 +40,15 @@ RenderDevices::RenderDevices(const DeviceRequest& request, Listener listener)
       opening_(std::async(std::launch::async, openAll, request)) {}
 
 void RenderDevices::open() {
+    if (whyNotOpen_) std::rethrow_exception(whyNotOpen_);
     if (!opening_.valid()) return;
-    for (vulkan::OpenDevice& open : opening_.get())
-        seats_.push_back({std::move(open), nullptr});
+    try {
+        for (vulkan::OpenDevice& open : opening_.get())
+            seats_.push_back({std::move(open), nullptr});
+    } catch (...) { // each picture that is asked for ends with the reason
+        whyNotOpen_ = std::current_exception();
+        throw;
+    }
     sayWhich();
 }
 

@@ -7,6 +7,7 @@
 #include "host/render/team_backend.hpp"
 #include "host/vulkan/open_device.hpp"
 
+#include <exception>
 #include <future>
 #include <memory>
 #include <optional>
@@ -63,6 +64,7 @@ class RenderDevices {
     DeviceRequest request_;
     Listener listener_;
     std::future<std::vector<vulkan::OpenDevice>> opening_;
+    std::exception_ptr whyNotOpen_; ///< what opening them has thrown
     std::vector<Seat> seats_;
     const GpuScene* scene_ = nullptr;
     bool howIsSaid_ = false;

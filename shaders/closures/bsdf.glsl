@@ -11,7 +11,7 @@ struct BsdfValue {
 
 /// A sampled direction. `lobe` is a LOBE_ bit.
 struct BsdfSample {
-    vec3 direction; ///< unit; world space, or the frame's where a kind samples itself
+    vec3 direction; ///< unit; world space, inside this folder the frame of the shading normal
     vec3 weight;    ///< f |cos| / pdf; 0: the path ends
     float pdf;      ///< by solid angle; delta lobes: of no meaning
     uint lobe;
@@ -106,10 +106,10 @@ vec3 normalBetween(Closures c, vec3 wo, vec3 wi) {
 /// The interface's microfacets, reflected or transmitted. wo, wi, h: along the grain; h: normalBetween() them.
 BsdfValue evaluateFacets(Material m, Closures c, vec3 wo, vec3 wi, vec3 h) {
     const bool transmits = wi.z < 0.0, bends = isBent(c, wi);
-    const bool isSheet = sceneHas(RECIPE_BURLEY) && hasClosure(m, RECIPE_BURLEY) && c.isThin;
+    const bool isSheet = hasClosure(m, RECIPE_BURLEY) && c.isThin;
     const float cosO = dot(wo, h), cosI = dot(wi, h);
     FacetShape shape = c.facets;
-    if (sceneHas(RECIPE_BURLEY) && isSheet && transmits) shape = c.thinFacets;
+    if (isSheet && transmits) shape = c.thinFacets;
     const InterfaceLight face = interfaceLight(m, c, cosO, wi.z);
     // Solid angle of normals over that of directions, times the cosine of which visible normals have one.
     const float across = c.eta * cosO + cosI;
