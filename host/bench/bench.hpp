@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/bench/report.hpp"
-#include "host/core/named_values.hpp"
+#include "host/core/text.hpp"
 #include "host/render/settings.hpp"
 
 #include <functional>

@@ -4,7 +4,7 @@
 #include "host/bench/embree_rays.hpp"
 #include "host/bench/measuring.hpp"
 #include "host/core/error.hpp"
-#include "host/core/stopwatch.hpp"
+#include "host/core/system.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "host/bench/embree_api.hpp"
 
-#include "host/core/shared_library.hpp"
+#include "host/core/system.hpp"
 
 namespace stromboli::bench {
 namespace {

@@ -1,6 +1,6 @@
 #include "host/bench/measuring.hpp"
 
-#include "host/core/stopwatch.hpp"
+#include "host/core/system.hpp"
 
 #include <sys/resource.h>
 

@@ -5,7 +5,7 @@
 #include "host/bvh/leaf_items.hpp"
 #include "host/bvh/statistics.hpp"
 #include "host/bvh/wide_layout.hpp"
-#include "host/core/stopwatch.hpp"
+#include "host/core/system.hpp"
 
 #include <algorithm>
 #include <cmath>

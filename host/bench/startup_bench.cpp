@@ -1,7 +1,7 @@
 #include "host/bench/startup_bench.hpp"
 
 #include "host/core/error.hpp"
-#include "host/core/stopwatch.hpp"
+#include "host/core/system.hpp"
 #include "host/engine/build_scene.hpp"
 #include "host/engine/load_scene.hpp"
 #include "host/kernel/vulkan_backend.hpp"

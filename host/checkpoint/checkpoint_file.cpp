@@ -1,8 +1,8 @@
 #include "host/checkpoint/checkpoint_file.hpp"
 
 #include "host/checkpoint/packed_bytes.hpp"
-#include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/files.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/checkpoint/checkpoint_file.hpp"
-#include "host/core/stopwatch.hpp"
+#include "host/core/system.hpp"
 #include "host/film/film.hpp"
 #include "host/render/sampling_session.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "host/cli/status_line.hpp"
 #include "host/core/log.hpp"
-#include "host/core/stopwatch.hpp"
+#include "host/core/system.hpp"
 
 #include <fmt/format.h>
 

@@ -8,8 +8,8 @@
 #include "host/cli/signals.hpp"
 #include "host/cli/status_line.hpp"
 #include "host/core/error.hpp"
+#include "host/core/files.hpp"
 #include "host/core/log.hpp"
-#include "host/core/output.hpp"
 #include "scene/find_scene.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/declared_command.hpp"
 #include "host/core/error.hpp"
-#include "host/core/printable.hpp"
+#include "host/core/log.hpp"
 #include "host/engine/build_scene.hpp"
 #include "host/kernel/kernel_report.hpp"
 #include "host/vulkan/choose_device.hpp"

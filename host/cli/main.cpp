@@ -6,8 +6,8 @@
 #include "host/cli/signals.hpp"
 #include "host/cli/status_line.hpp"
 #include "host/core/error.hpp"
+#include "host/core/files.hpp"
 #include "host/core/log.hpp"
-#include "host/core/output.hpp"
 #include "host/process/process.hpp"
 
 #include <fmt/format.h>

@@ -5,10 +5,9 @@
 #include "host/cli/exit_code.hpp"
 #include "host/cli/render_outputs.hpp"
 #include "host/cli/report.hpp"
-#include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/files.hpp"
 #include "host/core/log.hpp"
-#include "host/core/output.hpp"
 #include "host/farm/film_file.hpp"
 #include "host/farm/merge_films.hpp"
 

@@ -1,7 +1,7 @@
 #include "host/cli/option_list.hpp"
 
 #include "host/core/error.hpp"
-#include "host/core/number_text.hpp"
+#include "host/core/text.hpp"
 
 #include <fmt/format.h>
 

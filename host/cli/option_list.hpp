@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/core/named_values.hpp"
+#include "host/core/text.hpp"
 
 #include <cstdint>
 #include <deque>
@@ -23,7 +23,7 @@ struct Range {
 std::string inWords(Range<uint32_t> range);
 std::string inWords(Range<double> range);
 
-/// A whole number in a range, written as host/core/number_text.hpp says. Throws UsageError that
+/// A whole number in a range, written as host/core/text.hpp says. Throws UsageError that
 /// names the option and the range.
 uint32_t readNumber(const std::string& option, const std::string& word, Range<uint32_t> range);
 /// A real number in a range, likewise; NaN and infinity are none.

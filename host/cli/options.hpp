@@ -3,7 +3,7 @@
 #include "host/bench/bench.hpp"
 #include "host/compare/comparison.hpp"
 #include "host/core/log.hpp"
-#include "host/core/named_values.hpp"
+#include "host/core/text.hpp"
 #include "host/engine/load_scene.hpp"
 #include "host/engine/render_request.hpp"
 #include "host/engine/render_result.hpp"

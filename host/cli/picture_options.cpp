@@ -2,7 +2,7 @@
 #include "host/cli/declared_command.hpp"
 #include "host/cli/sequence.hpp"
 #include "host/core/error.hpp"
-#include "host/core/number_text.hpp"
+#include "host/core/text.hpp"
 #include "host/film/image_file.hpp"
 
 #include <fmt/format.h>

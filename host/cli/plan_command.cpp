@@ -4,8 +4,8 @@
 #include "host/cli/declared_command.hpp"
 #include "host/cli/exit_code.hpp"
 #include "host/cli/report.hpp"
-#include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/files.hpp"
 #include "host/core/log.hpp"
 #include "host/farm/round_plan.hpp"
 

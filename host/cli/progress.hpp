@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/core/stopwatch.hpp"
+#include "host/core/system.hpp"
 #include "host/render/render.hpp"
 
 #include <optional>

@@ -9,7 +9,7 @@
 #include "host/cli/signals.hpp"
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
-#include "host/core/stopwatch.hpp"
+#include "host/core/system.hpp"
 #include "host/engine/keeping.hpp"
 #include "host/engine/render_session.hpp"
 #include "host/engine/share.hpp"

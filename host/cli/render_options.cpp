@@ -1,7 +1,7 @@
 // Options of `render`.
 #include "host/cli/declared_command.hpp"
 #include "host/core/error.hpp"
-#include "host/core/output.hpp"
+#include "host/core/files.hpp"
 #include "host/farm/film_file.hpp"
 
 #include <fmt/format.h>

@@ -1,9 +1,8 @@
 #include "host/cli/render_outputs.hpp"
 
-#include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
-#include "host/core/output.hpp"
-#include "host/core/printable.hpp"
+#include "host/core/files.hpp"
+#include "host/core/log.hpp"
 #include "host/film/png.hpp"
 #include "host/film/shown_film.hpp"
 #include "host/version/version.hpp"

@@ -2,9 +2,9 @@
 
 #include "host/cli/progress.hpp"
 #include "host/core/error.hpp"
+#include "host/core/files.hpp"
 #include "host/core/json.hpp"
 #include "host/core/log.hpp"
-#include "host/core/output.hpp"
 #include "host/film/image_file.hpp"
 #include "host/version/version.hpp"
 #include "scene/model/emitters.hpp"

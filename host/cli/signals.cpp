@@ -2,7 +2,7 @@
 
 #include "host/cli/activity.hpp"
 #include "host/cli/status_line.hpp"
-#include "host/core/temporary_file.hpp"
+#include "host/core/files.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "host/core/user_cache.hpp"
 
-#include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/files.hpp"
 #include "host/core/log.hpp"
 
 #include <fmt/format.h>

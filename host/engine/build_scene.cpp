@@ -1,6 +1,6 @@
 #include "host/engine/build_scene.hpp"
 
-#include "host/core/stopwatch.hpp"
+#include "host/core/system.hpp"
 
 #include <fmt/format.h>
 

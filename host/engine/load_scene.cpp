@@ -1,6 +1,6 @@
 #include "host/engine/load_scene.hpp"
 
-#include "host/core/stopwatch.hpp"
+#include "host/core/system.hpp"
 #include "scene/read_scene.hpp"
 
 #include <fmt/format.h>

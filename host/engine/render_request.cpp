@@ -1,7 +1,7 @@
 #include "host/engine/render_request.hpp"
 
 #include "host/core/error.hpp"
-#include "host/core/memory.hpp"
+#include "host/core/system.hpp"
 #include "host/film/image_file.hpp"
 #include "host/render/branches.hpp"
 #include "host/render/render.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/core/named_values.hpp"
+#include "host/core/text.hpp"
 #include "host/engine/listener.hpp"
 #include "host/kernel/kernel_tuning.hpp"
 #include "host/render/layers.hpp"

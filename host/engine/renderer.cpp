@@ -2,7 +2,7 @@
 
 #include "host/checkpoint/scene_identity.hpp"
 #include "host/core/error.hpp"
-#include "host/core/memory.hpp"
+#include "host/core/system.hpp"
 #include "host/kernel/kernel_buffers.hpp"
 #include "host/reference/reference_backend.hpp"
 #include "host/render/bands.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/core/temporary_file.hpp"
+#include "host/core/files.hpp"
 #include "host/farm/film_header.hpp"
 #include "host/film/exact_statistics.hpp"
 

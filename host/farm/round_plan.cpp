@@ -3,8 +3,8 @@
 #include "host/farm/round_plan.hpp"
 
 #include "host/checkpoint/packed_bytes.hpp"
-#include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/files.hpp"
 #include "host/film/exact_statistics.hpp"
 #include "host/render/budget.hpp"
 #include "host/render/sampling_plan.hpp"

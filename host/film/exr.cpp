@@ -1,7 +1,7 @@
 #include "host/film/exr.hpp"
 
 #include "host/core/error.hpp"
-#include "host/core/output.hpp"
+#include "host/core/files.hpp"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>

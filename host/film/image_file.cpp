@@ -1,7 +1,7 @@
 #include "host/film/image_file.hpp"
 
 #include "host/core/error.hpp"
-#include "host/core/output.hpp"
+#include "host/core/files.hpp"
 #include "host/film/exr.hpp"
 #include "host/film/png.hpp"
 

@@ -1,7 +1,7 @@
 #include "host/film/pfm.hpp"
 
-#include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/files.hpp"
 
 #include <fmt/format.h>
 

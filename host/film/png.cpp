@@ -1,7 +1,7 @@
 #include "host/film/png.hpp"
 
 #include "host/core/error.hpp"
-#include "host/core/output.hpp"
+#include "host/core/files.hpp"
 
 #include <fmt/format.h>
 #include <png.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/core/named_values.hpp"
+#include "host/core/text.hpp"
 #include "host/film/image.hpp"
 #include "host/render/seeing.hpp"
 #include "scene/camera/camera.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/core/stopwatch.hpp"
+#include "host/core/system.hpp"
 #include "host/film/film.hpp"
 #include "host/render/backend.hpp"
 #include "host/render/picture_noise.hpp"

@@ -1,7 +1,7 @@
 #include "host/render/team_backend.hpp"
 
 #include "host/core/error.hpp"
-#include "host/core/stopwatch.hpp"
+#include "host/core/system.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "host/study/configuration.hpp"
 
 #include "host/core/error.hpp"
-#include "host/core/number_text.hpp"
+#include "host/core/text.hpp"
 #include "host/render/estimator.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "host/bench/measuring.hpp"
 #include "host/compare/metrics.hpp"
-#include "host/core/stopwatch.hpp"
+#include "host/core/system.hpp"
 #include "host/render/render.hpp"
 
 #include <fmt/format.h>

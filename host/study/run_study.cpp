@@ -2,11 +2,11 @@
 
 #include "host/compare/false_color.hpp"
 #include "host/compare/metrics.hpp"
-#include "host/core/atomic_file.hpp"
 #include "host/core/error.hpp"
+#include "host/core/files.hpp"
 #include "host/core/json.hpp"
 #include "host/core/log.hpp"
-#include "host/core/stopwatch.hpp"
+#include "host/core/system.hpp"
 #include "host/film/image_file.hpp"
 #include "host/film/png.hpp"
 #include "host/film/shown_film.hpp"

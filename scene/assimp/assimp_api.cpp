@@ -1,6 +1,6 @@
 #include "scene/assimp/assimp_api.hpp"
 
-#include "host/core/shared_library.hpp"
+#include "host/core/system.hpp"
 
 namespace stromboli::assimp {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/core/named_values.hpp"
+#include "host/core/text.hpp"
 
 #include <cstdint>
 #include <memory>

@@ -1,7 +1,7 @@
 #include "scene/build/read_file.hpp"
 
 #include "host/core/error.hpp"
-#include "host/core/memory.hpp"
+#include "host/core/system.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "scene/collada/textures.hpp"
 
 #include "host/core/error.hpp"
-#include "host/core/memory.hpp"
+#include "host/core/system.hpp"
 #include "scene/images/texture_image.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "scene/generate/generated_scene.hpp"
 
 #include "host/core/error.hpp"
-#include "host/core/number_text.hpp"
+#include "host/core/text.hpp"
 #include "scene/generate/cornell_mesh.hpp"
 #include "scene/generate/emitters_room.hpp"
 #include "scene/generate/forest.hpp"

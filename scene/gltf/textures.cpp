@@ -1,7 +1,7 @@
 #include "scene/gltf/textures.hpp"
 
 #include "host/core/error.hpp"
-#include "host/core/memory.hpp"
+#include "host/core/system.hpp"
 #include "scene/build/picture_store.hpp"
 #include "scene/gltf/uri.hpp"
 #include "scene/images/texture_image.hpp"

@@ -1,6 +1,6 @@
 #include "scene/obj/pictures.hpp"
 
-#include "host/core/memory.hpp"
+#include "host/core/system.hpp"
 #include "scene/build/read_file.hpp"
 #include "scene/images/load_texture.hpp"
 #include "scene/images/texture_image.hpp"

@@ -1,4 +1,4 @@
-#include "host/core/number_text.hpp"
+#include "host/core/text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "host/core/printable.hpp"
+#include "host/core/log.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Files beside the one that is written: whose they are, and that none stays behind.
-#include "host/core/temporary_file.hpp"
+#include "host/core/files.hpp"
 
 #include "host/core/error.hpp"
 

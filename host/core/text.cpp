@@ -1,8 +1,7 @@
-#include "host/core/number_text.hpp"
+#include "host/core/text.hpp"
 
 #include <charconv>
 #include <limits>
-#include <string>
 
 namespace stromboli {
 namespace {

@@ -1,23 +1,87 @@
-#include "host/core/temporary_file.hpp"
+#include "host/core/files.hpp"
 
 #include "host/core/error.hpp"
 
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <fcntl.h>
+#include <fstream>
 #include <mutex>
 #include <set>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <system_error>
 #include <unistd.h>
+#include <vector>
 
 namespace stromboli {
-namespace {
+
+// --- Files that are whole or not there -----------------------------------------------------------
 
 namespace fs = std::filesystem;
+
+/// The file that `path` stands for once symbolic links are followed; it need not exist.
+static fs::path followLinks(const fs::path& path) {
+    constexpr int kMostLinks = 40; // as the Linux kernel (MAXSYMLINKS)
+    fs::path target = path;
+    std::error_code error;
+    for (int i = 0; fs::is_symlink(target, error); ++i) {
+        if (i == kMostLinks) failToWrite(path, ELOOP);
+        target = target.parent_path() / fs::read_symlink(target, error);
+        if (error) failToWrite(path, error.message());
+    }
+    return target;
+}
+
+static void checkTarget(const fs::path& path) {
+    const fs::path folder = folderOf(path);
+    std::error_code error;
+    const fs::file_status folderStatus = fs::status(folder, error);
+    if (folderStatus.type() == fs::file_type::not_found)
+        failToWrite(path, fmt::format("the folder {} does not exist", folder.string()));
+    if (error) failToWrite(path, error.message());
+    if (!fs::is_directory(folderStatus))
+        failToWrite(path, fmt::format("{} is not a folder", folder.string()));
+
+    const fs::file_status status = fs::status(path, error);
+    if (fs::is_directory(status)) failToWrite(path, "it is a folder");
+    if (fs::exists(status) && !fs::is_regular_file(status))
+        failToWrite(path, "it is not a regular file");
+    if (fs::exists(status) && ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0)
+        failToWrite(path, errno);
+}
+
+void writeFileAtomically(const fs::path& path, std::span<const std::byte> bytes, Sync sync) {
+    const fs::path target = followLinks(path);
+    checkTarget(target);
+    TemporaryFile file(target);
+    file.write(bytes);
+    file.rename(sync);
+}
+
+void checkFileWritable(const fs::path& path) {
+    const fs::path target = followLinks(path);
+    checkTarget(target);
+    TemporaryFile file(target);
+}
+
+void checkFreeSpace(const fs::path& path, uint64_t bytes) {
+    struct statvfs system = {};
+    if (::statvfs(folderOf(followLinks(path)).c_str(), &system) != 0) return;
+    if (system.f_blocks == 0) return; // a file system that counts no blocks, as some network ones
+    const uint64_t free = uint64_t(system.f_bavail) * system.f_frsize;
+    if (bytes > free)
+        failToWrite(path, fmt::format("it may need {} bytes, but {} are free there", bytes, free));
+}
+
+// --- Temporary files -----------------------------------------------------------------------------
+
+namespace {
 
 /// The temporary files there are. Held while one appears, is renamed or disappears, so that the
 /// thread that ends the process knows of all.
@@ -147,6 +211,63 @@ void removeTemporaryFilesForGood() {
     registry().mutex.lock(); // and never unlocked
     for (const fs::path& file : registry().files)
         ::unlink(file.c_str());
+}
+
+// --- Checksums -----------------------------------------------------------------------------------
+
+uint32_t checksumOfFile(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::vector<char> piece(1 << 20);
+    uLong sum = crc32(0, nullptr, 0);
+    while (stream) {
+        stream.read(piece.data(), std::streamsize(piece.size()));
+        sum = crc32_z(sum, reinterpret_cast<const Bytef*>(piece.data()), size_t(stream.gcount()));
+    }
+    return uint32_t(sum);
+}
+
+// --- Standard output -----------------------------------------------------------------------------
+
+[[noreturn]] static void failToPrint(const std::string& reason) {
+    throw OutputError("standard output: cannot write: " + reason);
+}
+
+bool isStandardOutput(const fs::path& path) {
+    return path == "-";
+}
+
+void writeOutput(const fs::path& path, std::span<const std::byte> bytes) {
+    if (!isStandardOutput(path)) return writeFileAtomically(path, bytes);
+    finishStandardOutput();
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(STDOUT_FILENO, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) failToPrint(std::generic_category().message(errno));
+        bytes = bytes.subspan(static_cast<size_t>(written));
+    }
+}
+
+void writeOutput(const fs::path& path, std::string_view text) {
+    writeOutput(path, std::as_bytes(std::span(text)));
+}
+
+void checkOutputWritable(const fs::path& path) {
+    if (!isStandardOutput(path)) checkFileWritable(path);
+}
+
+void reserveStandardStreams() {
+    for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+        if (::fcntl(descriptor, F_GETFD) >= 0) continue;
+        // open() takes the smallest free number. Reading from an output is allowed to nobody.
+        const int mode = descriptor == STDERR_FILENO ? O_WRONLY : O_RDONLY;
+        if (::open("/dev/null", mode) < 0) return;
+    }
+}
+
+void finishStandardOutput() {
+    const bool failedBefore = std::ferror(stdout) != 0;
+    if (std::fflush(stdout) != 0) failToPrint(std::generic_category().message(errno));
+    if (failedBefore) failToPrint("not all of it was taken");
 }
 
 } // namespace stromboli

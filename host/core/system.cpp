@@ -1,10 +1,18 @@
-#include "host/core/shared_library.hpp"
+#include "host/core/system.hpp"
 
 #include <dlfcn.h>
-
+#include <unistd.h>
 #include <utility>
 
 namespace stromboli {
+
+// --- Memory --------------------------------------------------------------------------------------
+
+uint64_t physicalMemory() {
+    return uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGE_SIZE));
+}
+
+// --- Shared libraries ----------------------------------------------------------------------------
 
 SharedLibrary::SharedLibrary(std::string name, const std::string& package)
     : name_(std::move(name)), handle_(dlopen(name_.c_str(), RTLD_NOW | RTLD_LOCAL)) {

@@ -1,9 +1,31 @@
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <string>
 #include <type_traits>
 
 namespace stromboli {
+
+// --- Memory --------------------------------------------------------------------------------------
+
+/// The memory of this machine in bytes: what no single thing can need more of.
+uint64_t physicalMemory();
+
+// --- Time ----------------------------------------------------------------------------------------
+
+/// Wall-clock time since it was made.
+class Stopwatch {
+  public:
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// --- Shared libraries ----------------------------------------------------------------------------
 
 /// A library that is opened when it is first wanted, and stays open: linked with the program, it
 /// would be loaded at every start of it.
