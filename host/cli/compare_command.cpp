@@ -8,9 +8,8 @@
 #include "host/core/files.hpp"
 #include "host/core/json.hpp"
 #include "host/core/log.hpp"
-#include "host/film/exr.hpp"
 #include "host/film/image_file.hpp"
-#include "host/film/png.hpp"
+#include "host/film/image_formats.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

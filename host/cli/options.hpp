@@ -8,7 +8,7 @@
 #include "host/engine/render_request.hpp"
 #include "host/engine/render_result.hpp"
 #include "host/farm/film_header.hpp"
-#include "host/film/tone.hpp"
+#include "host/film/image_file.hpp"
 #include "host/study/study.hpp"
 
 #include <cstdint>

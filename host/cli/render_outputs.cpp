@@ -3,7 +3,7 @@
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
 #include "host/core/log.hpp"
-#include "host/film/png.hpp"
+#include "host/film/image_formats.hpp"
 #include "host/film/shown_film.hpp"
 #include "host/version/version.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/compare/picture.hpp"
-#include "host/film/image.hpp"
+#include "host/film/image_file.hpp"
 
 #include <cstdint>
 #include <span>

@@ -2,7 +2,7 @@
 
 #include "host/compare/flip.hpp"
 #include "host/core/color.hpp"
-#include "host/film/tone.hpp"
+#include "host/film/image_file.hpp"
 
 #include <cmath>
 #include <limits>

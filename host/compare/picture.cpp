@@ -1,10 +1,8 @@
 #include "host/compare/picture.hpp"
 
 #include "host/core/error.hpp"
-#include "host/film/exr.hpp"
-#include "host/film/pfm.hpp"
-#include "host/film/png.hpp"
-#include "host/film/tone.hpp"
+#include "host/film/image_file.hpp"
+#include "host/film/image_formats.hpp"
 
 #include <fmt/format.h>
 

@@ -6,8 +6,7 @@
 #include "host/engine/render_result.hpp"
 #include "host/engine/renderer.hpp"
 #include "host/film/film.hpp"
-#include "host/film/image.hpp"
-#include "host/film/tone.hpp"
+#include "host/film/image_file.hpp"
 
 #include <atomic>
 #include <functional>

@@ -2,7 +2,7 @@
 
 #include "host/engine/render_request.hpp"
 #include "host/film/film.hpp"
-#include "host/film/image.hpp"
+#include "host/film/image_file.hpp"
 #include "host/render/seeing.hpp"
 
 #include <vector>

@@ -2,7 +2,7 @@
 
 #include "host/core/files.hpp"
 #include "host/farm/film_header.hpp"
-#include "host/film/exact_statistics.hpp"
+#include "host/film/film.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -2,8 +2,8 @@
 
 #include "host/farm/film_file.hpp"
 #include "host/farm/film_header.hpp"
-#include "host/film/exact_statistics.hpp"
-#include "host/film/image.hpp"
+#include "host/film/film.hpp"
+#include "host/film/image_file.hpp"
 #include "host/render/picture_noise.hpp"
 
 #include <functional>

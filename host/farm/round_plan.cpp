@@ -5,7 +5,7 @@
 #include "host/checkpoint/packed_bytes.hpp"
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
-#include "host/film/exact_statistics.hpp"
+#include "host/film/film.hpp"
 #include "host/render/budget.hpp"
 #include "host/render/sampling_plan.hpp"
 

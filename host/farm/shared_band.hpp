@@ -2,7 +2,7 @@
 
 #include "host/farm/film_header.hpp"
 #include "host/farm/round_plan.hpp"
-#include "host/film/exact_statistics.hpp"
+#include "host/film/film.hpp"
 #include "host/render/backend.hpp"
 #include "host/render/seeing.hpp"
 

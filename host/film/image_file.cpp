@@ -2,17 +2,55 @@
 
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
-#include "host/film/exr.hpp"
-#include "host/film/png.hpp"
+#include "host/film/image_formats.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 namespace stromboli {
+
+// --- Tone curves ---------------------------------------------------------------------------------
+
+/// Clamps to [0, 1]; NaN gives 0.
+static double unitInterval(double value) {
+    if (!(value > 0)) return 0;
+    return value < 1 ? value : 1;
+}
+
+double srgbFromLinear(double linear) {
+    const double l = unitInterval(linear);
+    return l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055;
+}
+
+double linearFromSrgb(double signal) {
+    const double s = unitInterval(signal);
+    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+}
+
+double radianceFromCs184(uint8_t byte) {
+    return std::pow((byte + 0.5) / 255, 2.2) / std::numbers::sqrt2;
+}
+
+uint8_t ToneCurve::toByte(double radiance) const {
+    if (!(radiance > 0)) return 0;
+    const double exposed = std::exp2(exposure) * radiance;
+    if (kind == Kind::Srgb) return static_cast<uint8_t>(255 * srgbFromLinear(exposed) + 0.5);
+    const double signal = std::pow(std::numbers::sqrt2 * exposed, 1 / 2.2);
+    return static_cast<uint8_t>(255 * unitInterval(signal));
+}
+
+// --- Images in memory ----------------------------------------------------------------------------
+
+std::vector<float>& FloatImage::channel(const std::string& name) {
+    return channels.try_emplace(name, size_t(width) * height).first->second;
+}
+
+// --- Picture files -------------------------------------------------------------------------------
 
 namespace fs = std::filesystem;
 

@@ -1,16 +1,87 @@
 #pragma once
 
 #include "host/film/film.hpp"
-#include "host/film/image.hpp"
-#include "host/film/tone.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace stromboli {
+
+// --- Tone curves ---------------------------------------------------------------------------------
+
+/// How linear radiance becomes a byte of a picture. Each channel by itself; values above the
+/// range are clamped.
+struct ToneCurve {
+    enum class Kind {
+        Srgb,  ///< IEC 61966-2-1 transfer curve, rounded to the nearest byte
+        Cs184, ///< floor(255 min(1, (sqrt(2) L)^(1 / 2.2))): the CS184 renderer's curve
+    };
+
+    Kind kind = Kind::Srgb;
+    double exposure = 0; ///< stops: radiance is multiplied by 2^exposure first
+
+    /// The byte for a radiance; 0 for NaN and for negative values.
+    uint8_t toByte(double radiance) const;
+};
+
+/// The sRGB transfer curve: linear light in [0, 1] to signal in [0, 1]; clamps its argument.
+double srgbFromLinear(double linear);
+
+/// Inverse of srgbFromLinear: signal in [0, 1] to linear light; clamps its argument.
+double linearFromSrgb(double signal);
+
+/// The radiance in the middle of the interval that Cs184 (exposure 0) maps to `byte`, on the
+/// signal axis: ((byte + 1/2) / 255)^2.2 / sqrt(2).
+double radianceFromCs184(uint8_t byte);
+
+// --- Images in memory ----------------------------------------------------------------------------
+
+/// What a picture's file says about the picture in words: text chunks of PNG, string attributes of
+/// EXR.
+struct PictureNote {
+    std::string name; ///< 1 to 31 letters and digits of ASCII: PNG allows 79, EXR 31
+    std::string text; ///< UTF-8 without NUL
+
+    friend bool operator==(const PictureNote&, const PictureNote&) = default;
+};
+using PictureNotes = std::vector<PictureNote>;
+
+/// 8-bit picture: rows from the top, three bytes (R, G, B) per pixel.
+struct ByteImage {
+    uint32_t width = 0, height = 0;
+    std::vector<uint8_t> rgb;
+    /// One byte per pixel, by which rgb is not multiplied; empty: all is opaque.
+    std::vector<uint8_t> alpha;
+
+    ByteImage() = default;
+    ByteImage(uint32_t w, uint32_t h) : width(w), height(h), rgb(size_t(w) * h * 3) {}
+    uint8_t* pixel(uint32_t x, uint32_t y) { return &rgb[(size_t(y) * width + x) * 3]; }
+    const uint8_t* pixel(uint32_t x, uint32_t y) const { return &rgb[(size_t(y) * width + x) * 3]; }
+};
+
+/// Linear picture, or a part of one: named channels ("R", "G", "B", ...), each with width * height
+/// values, rows from the top.
+struct FloatImage {
+    uint32_t width = 0, height = 0; ///< of the part
+    PictureArea area;               ///< where the part lies in the whole picture
+    std::map<std::string, std::vector<float>> channels;
+    uint32_t branches = 1; ///< paths of each sample that the channel "samples" counts by paths
+
+    FloatImage() = default;
+    explicit FloatImage(const PictureArea& a)
+        : width(a.rendered().width), height(a.rendered().height), area(a) {}
+    FloatImage(uint32_t w, uint32_t h) : FloatImage(PictureArea{w, h, {}}) {}
+    /// The channel of that name, made (all 0) if there is none.
+    std::vector<float>& channel(const std::string& name);
+};
+
+// --- Picture files -------------------------------------------------------------------------------
 
 /// The channel of the share of a pixel that is covered.
 inline constexpr const char* kAlphaChannel = "A";

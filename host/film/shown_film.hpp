@@ -1,8 +1,7 @@
 #pragma once
 
 #include "host/film/film.hpp"
-#include "host/film/image.hpp"
-#include "host/film/tone.hpp"
+#include "host/film/image_file.hpp"
 
 #include <cstdint>
 #include <filesystem>

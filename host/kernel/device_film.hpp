@@ -1,7 +1,6 @@
 #pragma once
 
 #include "host/film/film.hpp"
-#include "host/film/picture_area.hpp"
 #include "host/kernel/kernel_tuning.hpp"
 #include "host/render/backend.hpp"
 #include "host/vulkan/buffer.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/film/picture_area.hpp"
+#include "host/film/film.hpp"
 #include "host/kernel/gpu_scene.hpp"
 #include "host/render/estimator.hpp"
 #include "scene/camera/camera.hpp"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "host/film/exact_statistics.hpp"
 #include "host/film/film.hpp"
 #include "host/render/pixel_sums.hpp"
 

@@ -1,6 +1,6 @@
 #include "host/render/bands.hpp"
 
-#include "host/film/exact_statistics.hpp"
+#include "host/film/film.hpp"
 #include "host/render/backend.hpp"
 #include "host/render/sampling_plan.hpp"
 

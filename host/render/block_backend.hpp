@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/film/exact_statistics.hpp"
+#include "host/film/film.hpp"
 #include "host/render/backend.hpp"
 #include "host/render/sample_blocks.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/core/text.hpp"
-#include "host/film/image.hpp"
+#include "host/film/image_file.hpp"
 #include "host/render/seeing.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/model/scene.hpp"

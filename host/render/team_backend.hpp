@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/film/picture_area.hpp"
+#include "host/film/film.hpp"
 #include "host/render/backend.hpp"
 
 #include <cstddef>

@@ -8,7 +8,7 @@
 #include "host/core/log.hpp"
 #include "host/core/system.hpp"
 #include "host/film/image_file.hpp"
-#include "host/film/png.hpp"
+#include "host/film/image_formats.hpp"
 #include "host/film/shown_film.hpp"
 #include "host/render/render.hpp"
 #include "host/study/journal.hpp"

@@ -1,5 +1,4 @@
-#include "host/film/exr.hpp"
-#include "host/film/png.hpp"
+#include "host/film/image_formats.hpp"
 #include "tests/cli/program.hpp"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,5 @@
 // Alpha, layers, and a picture of each camera, as users ask for them.
-#include "host/film/exr.hpp"
-#include "host/film/png.hpp"
+#include "host/film/image_formats.hpp"
 #include "tests/cli/program.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // What is printed, and what becomes of it where it cannot be written.
-#include "host/film/png.hpp"
+#include "host/film/image_formats.hpp"
 #include "shaders/shared/bsdf_types.h"
 #include "tests/cli/program.hpp"
 

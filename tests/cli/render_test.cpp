@@ -1,6 +1,5 @@
 // The program as its users run it.
-#include "host/film/exr.hpp"
-#include "host/film/png.hpp"
+#include "host/film/image_formats.hpp"
 #include "tests/cli/running_program.hpp"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // Pictures whose shares are taken in rounds, each where the films until then are noisy.
-#include "host/film/exr.hpp"
 #include "host/film/image_file.hpp"
+#include "host/film/image_formats.hpp"
 #include "tests/cli/film_folder.hpp"
 #include "tests/cli/killed_at.hpp"
 

@@ -1,5 +1,5 @@
 // One sample of a picture by itself: --pixel and --sample.
-#include "host/film/exr.hpp"
+#include "host/film/image_formats.hpp"
 #include "tests/cli/program.hpp"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // Scene files as they are found: what is taken for what they leave open, what is forgiven, which of
 // their cameras is taken, and names instead of files.
-#include "host/film/exr.hpp"
+#include "host/film/image_formats.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/support/cpu_time.hpp"
 

@@ -1,5 +1,5 @@
 // Ctrl-C and its kin, at any time: the picture so far or a line, at once, and nothing left behind.
-#include "host/film/png.hpp"
+#include "host/film/image_formats.hpp"
 #include "tests/cli/running_program.hpp"
 #include "tests/support/test_names.hpp"
 

@@ -1,6 +1,6 @@
 // Errors of pictures small enough to add up by hand.
 #include "host/compare/metrics.hpp"
-#include "host/film/tone.hpp"
+#include "host/film/image_file.hpp"
 #include "tests/compare/pictures.hpp"
 
 #include <gtest/gtest.h>

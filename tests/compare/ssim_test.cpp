@@ -1,5 +1,5 @@
 #include "host/compare/metrics.hpp"
-#include "host/film/tone.hpp"
+#include "host/film/image_file.hpp"
 #include "tests/compare/pictures.hpp"
 
 #include <gtest/gtest.h>

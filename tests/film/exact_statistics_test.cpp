@@ -1,7 +1,7 @@
 // Sums that do not depend on order and grouping, against whole numbers of any size and Welford's
 // update.
 #include "host/core/error.hpp"
-#include "host/film/exact_statistics.hpp"
+#include "host/film/film.hpp"
 
 #include <gtest/gtest.h>
 

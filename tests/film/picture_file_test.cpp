@@ -1,7 +1,6 @@
 #include "host/core/error.hpp"
-#include "host/film/exr.hpp"
 #include "host/film/image_file.hpp"
-#include "host/film/png.hpp"
+#include "host/film/image_formats.hpp"
 #include "tests/film/temporary_folder.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,3 @@
-#include "host/film/tone.hpp"
-
 #include "host/film/image_file.hpp"
 
 #include <gtest/gtest.h>

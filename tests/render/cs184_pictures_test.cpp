@@ -7,7 +7,7 @@
 // STROMBOLI_WHOLE_PICTURES=1 renders the whole. Where a picture is so noisy that two seeds of ours
 // differ more than that (hemisphere sampling), its blocks may differ by 1.25 times as much as ours.
 #include "host/film/image_file.hpp"
-#include "host/film/png.hpp"
+#include "host/film/image_formats.hpp"
 #include "host/film/shown_film.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"

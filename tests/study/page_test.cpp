@@ -1,5 +1,5 @@
 // The report in a headless browser: what a user would click, press and see.
-#include "host/film/png.hpp"
+#include "host/film/image_formats.hpp"
 #include "host/study/page.hpp"
 #include "host/study/run_study.hpp"
 #include "tests/film/temporary_folder.hpp"

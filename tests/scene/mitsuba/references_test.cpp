@@ -6,7 +6,7 @@
 // would fail.
 
 #include "host/compare/acceptance.hpp"
-#include "host/film/exr.hpp"
+#include "host/film/image_formats.hpp"
 #include "scene/mitsuba/load_mitsuba.hpp"
 #include "tests/scene/mitsuba/references_renderer.hpp"
 

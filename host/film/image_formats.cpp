@@ -1,0 +1,374 @@
+#include "host/film/image_formats.hpp"
+
+#include "host/core/error.hpp"
+#include "host/core/files.hpp"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStdIO.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <fmt/format.h>
+#include <png.h>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <new>
+#include <span>
+#include <string>
+
+namespace stromboli {
+
+// --- PNG -----------------------------------------------------------------------------------------
+
+namespace fs = std::filesystem;
+
+// libpng reports errors by longjmp, which must not skip destructors: the functions that call
+// setjmp own nothing, and the objects live in their callers.
+
+static void onError(png_structp png, png_const_charp message) {
+    static_cast<std::string*>(png_get_error_ptr(png))->assign(message);
+    png_longjmp(png, 1);
+}
+
+static void onWarning(png_structp, png_const_charp) {}
+
+static void append(png_structp png, png_bytep data, size_t size) {
+    auto* bytes = static_cast<std::vector<png_byte>*>(png_get_io_ptr(png));
+    bytes->insert(bytes->end(), data, data + size);
+}
+
+static void flush(png_structp) {}
+
+namespace {
+
+struct Writer {
+    std::string error;
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &error, onError, onWarning);
+    png_infop info = png_create_info_struct(png);
+    Writer() {
+        if (!info) throw std::bad_alloc();
+    }
+    ~Writer() { png_destroy_write_struct(&png, &info); }
+};
+
+struct Reader {
+    std::string error;
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &error, onError, onWarning);
+    png_infop info = png_create_info_struct(png);
+    Reader() {
+        if (!info) throw std::bad_alloc();
+    }
+    ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+};
+
+} // namespace
+
+/// The notes as libpng takes them; they point into them. tEXt chunks hold Latin-1: what goes beyond
+/// ASCII becomes iTXt, which holds UTF-8.
+static std::vector<png_text> textsOf(const PictureNotes& notes) {
+    std::vector<png_text> texts;
+    for (const PictureNote& note : notes) {
+        const bool isAscii = std::all_of(note.text.begin(), note.text.end(), [](char c) {
+            return static_cast<unsigned char>(c) < 128;
+        });
+        png_text& text = texts.emplace_back();
+        text.compression = isAscii ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
+        text.key = const_cast<png_charp>(note.name.c_str());
+        text.text = const_cast<png_charp>(note.text.c_str());
+        text.text_length = isAscii ? note.text.size() : 0;
+        text.itxt_length = isAscii ? 0 : note.text.size();
+    }
+    return texts;
+}
+
+namespace {
+
+/// The rows of a picture as PNG has them: alpha, where there is any, behind each colour.
+class Rows {
+  public:
+    explicit Rows(const ByteImage& image) : image_(image) {
+        if (!image.alpha.empty()) row_.resize(size_t(image.width) * 4);
+    }
+    png_const_bytep row(uint32_t y) {
+        if (row_.empty()) return image_.pixel(0, y);
+        for (uint32_t x = 0; x < image_.width; ++x) {
+            std::copy_n(image_.pixel(x, y), 3, &row_[size_t(x) * 4]);
+            row_[size_t(x) * 4 + 3] = image_.alpha[size_t(y) * image_.width + x];
+        }
+        return row_.data();
+    }
+
+  private:
+    const ByteImage& image_;
+    std::vector<png_byte> row_;
+};
+
+} // namespace
+
+static bool encode(png_structp png, png_infop info, const ByteImage& image, Rows& rows,
+                   PngColorSpace colorSpace, std::span<const png_text> texts,
+                   std::vector<png_byte>& bytes) {
+    if (setjmp(png_jmpbuf(png))) return false;
+    png_set_write_fn(png, &bytes, append, flush);
+    png_set_IHDR(png, info, image.width, image.height, 8,
+                 image.alpha.empty() ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    if (colorSpace == PngColorSpace::Srgb) png_set_sRGB(png, info, PNG_sRGB_INTENT_RELATIVE);
+    if (!texts.empty()) png_set_text(png, info, texts.data(), int(texts.size()));
+    png_write_info(png, info);
+    for (uint32_t y = 0; y < image.height; ++y)
+        png_write_row(png, rows.row(y));
+    png_write_end(png, info);
+    return true;
+}
+
+static bool decode(png_structp png, png_infop info, std::FILE* file) {
+    if (setjmp(png_jmpbuf(png))) return false;
+    png_init_io(png, file);
+    png_read_png(png, info,
+                 PNG_TRANSFORM_EXPAND | PNG_TRANSFORM_SCALE_16 | PNG_TRANSFORM_GRAY_TO_RGB,
+                 nullptr);
+    return true;
+}
+
+void writePng(const fs::path& path, const ByteImage& image, PngColorSpace colorSpace,
+              const PictureNotes& notes) {
+    const std::vector<png_text> texts = textsOf(notes);
+    Writer writer;
+    Rows rows(image);
+    std::vector<png_byte> bytes;
+    if (!encode(writer.png, writer.info, image, rows, colorSpace, texts, bytes))
+        throw OutputError(fmt::format("{}: cannot encode PNG: {}", path.string(), writer.error));
+    writeOutput(path, std::as_bytes(std::span(bytes)));
+}
+
+/// Throws UsageError.
+static void readInto(Reader& reader, const fs::path& path) {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                               &std::fclose);
+    if (!file)
+        throw UsageError(fmt::format("{}: cannot read: {}", path.string(), std::strerror(errno)));
+    if (!decode(reader.png, reader.info, file.get()))
+        throw UsageError(fmt::format("{}: cannot read PNG: {}", path.string(), reader.error));
+}
+
+ByteImage readPng(const fs::path& path) {
+    Reader reader;
+    readInto(reader, path);
+    ByteImage image(png_get_image_width(reader.png, reader.info),
+                    png_get_image_height(reader.png, reader.info));
+    png_bytepp rows = png_get_rows(reader.png, reader.info);
+    const bool hasAlpha = png_get_channels(reader.png, reader.info) == 4;
+    if (hasAlpha) image.alpha.resize(size_t(image.width) * image.height);
+    const size_t bytes = hasAlpha ? 4 : 3;
+    for (uint32_t y = 0; y < image.height; ++y)
+        for (uint32_t x = 0; x < image.width; ++x) {
+            png_const_bytep pixel = rows[y] + bytes * x;
+            std::copy_n(pixel, 3, image.pixel(x, y));
+            if (hasAlpha) image.alpha[size_t(y) * image.width + x] = pixel[3];
+        }
+    return image;
+}
+
+PictureNotes readPngNotes(const fs::path& path) {
+    Reader reader;
+    readInto(reader, path);
+    png_textp texts = nullptr;
+    const png_uint_32 count = png_get_text(reader.png, reader.info, &texts, nullptr);
+    PictureNotes notes;
+    for (png_uint_32 i = 0; i < count; ++i)
+        notes.push_back({texts[i].key, texts[i].text ? texts[i].text : ""});
+    return notes;
+}
+
+// --- OpenEXR -------------------------------------------------------------------------------------
+
+constexpr const char* kBranches = "branches";
+
+/// Where OpenEXR finds a channel whose first value belongs to the corner of `window`.
+static Imf::Slice sliceOf(const std::vector<float>& values, const Imath::Box2i& window,
+                          size_t width) {
+    return Imf::Slice::Make(Imf::FLOAT, values.data(), window, sizeof(float),
+                            width * sizeof(float));
+}
+
+/// The window of pixels that a part of a picture fills, whose corner the whole has at (0, 0).
+static Imath::Box2i windowOf(const Crop& part) {
+    const Imath::V2i corner(int(part.x), int(part.y));
+    return {corner, corner + Imath::V2i(int(part.width) - 1, int(part.height) - 1)};
+}
+
+/// Encoded in memory, because OpenEXR does not notice a disk that is full when it closes a file.
+static std::string encode(const FloatImage& image, const PictureNotes& notes) {
+    Imf::Header header(windowOf({0, 0, image.area.width, image.area.height}),
+                       windowOf(image.area.rendered()));
+    header.compression() = Imf::ZIP_COMPRESSION;
+    // By itself, and no note: it says what the channels mean.
+    if (image.branches > 1) header.insert(kBranches, Imf::IntAttribute(int(image.branches)));
+    for (const PictureNote& note : notes)
+        header.insert(note.name, Imf::StringAttribute(note.text));
+    Imf::FrameBuffer frameBuffer;
+    for (const auto& [name, values] : image.channels) {
+        header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+        frameBuffer.insert(name, sliceOf(values, header.dataWindow(), image.width));
+    }
+
+    Imf::StdOSStream stream;
+    {
+        Imf::OutputFile file(stream, header);
+        file.setFrameBuffer(frameBuffer);
+        file.writePixels(static_cast<int>(image.height));
+    } // the destructor completes the line offset table
+    return stream.str();
+}
+
+/// Where the data lie in the picture that is to be shown: all there is to see, if they reach beyond
+/// it.
+static PictureArea areaOf(const Imath::Box2i& display, const Imath::Box2i& data) {
+    const Imath::V2i size = data.max - data.min + Imath::V2i(1);
+    const Imath::V2i whole = display.max - display.min + Imath::V2i(1);
+    const Imath::V2i corner = data.min - display.min;
+    PictureArea area{uint32_t(size.x), uint32_t(size.y), {}};
+    if (data == display || !display.intersects(data.min) || !display.intersects(data.max))
+        return area;
+    area.crop = {uint32_t(corner.x), uint32_t(corner.y), area.width, area.height};
+    area.width = uint32_t(whole.x), area.height = uint32_t(whole.y);
+    return area;
+}
+
+static FloatImage decode(const fs::path& path) {
+    Imf::InputFile file(path.c_str());
+    const Imath::Box2i window = file.header().dataWindow();
+    FloatImage image(areaOf(file.header().displayWindow(), window));
+    if (const auto* branches = file.header().findTypedAttribute<Imf::IntAttribute>(kBranches))
+        image.branches = uint32_t(std::max(branches->value(), 1));
+    Imf::FrameBuffer frameBuffer;
+    const Imf::ChannelList& channels = file.header().channels();
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+        if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1) continue;
+        frameBuffer.insert(channel.name(),
+                           sliceOf(image.channel(channel.name()), window, image.width));
+    }
+    file.setFrameBuffer(frameBuffer);
+    file.readPixels(window.min.y, window.max.y);
+    return image;
+}
+
+void writeExr(const fs::path& path, const FloatImage& image, const PictureNotes& notes) {
+    std::string bytes;
+    try {
+        bytes = encode(image, notes);
+    } catch (const std::exception& error) {
+        throw OutputError(fmt::format("{}: cannot encode EXR: {}", path.string(), error.what()));
+    }
+    writeOutput(path, std::as_bytes(std::span(bytes)));
+}
+
+FloatImage readExr(const fs::path& path) {
+    try {
+        return decode(path);
+    } catch (const std::exception& error) {
+        throw UsageError(fmt::format("{}: cannot read EXR: {}", path.string(), error.what()));
+    }
+}
+
+PictureNotes readExrNotes(const fs::path& path) {
+    try {
+        const Imf::InputFile file(path.c_str());
+        const Imf::Header& header = file.header();
+        PictureNotes notes;
+        for (auto i = header.begin(); i != header.end(); ++i)
+            if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&i.attribute()))
+                notes.push_back({i.name(), text->value()});
+        return notes;
+    } catch (const std::exception& error) {
+        throw UsageError(fmt::format("{}: cannot read EXR: {}", path.string(), error.what()));
+    }
+}
+
+// --- PFM -----------------------------------------------------------------------------------------
+
+namespace {
+
+constexpr const char* kChannels[] = {"R", "G", "B"};
+/// Larger pictures on a side are taken for damaged files.
+constexpr int64_t kLargestSide = 65536;
+
+struct Header {
+    uint32_t width = 0, height = 0, channels = 0;
+    bool littleEndian = true;
+};
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
+    throw UsageError(fmt::format("{}: cannot read PFM: {}", path.string(), reason));
+}
+
+Header readHeader(std::istream& file, const fs::path& path) {
+    std::string kind;
+    int64_t width = 0, height = 0;
+    double scale = 0;
+    if (!(file >> kind) || (kind != "PF" && kind != "Pf"))
+        refuse(path, "it does not begin with PF or Pf");
+    if (!(file >> width >> height >> scale) || width < 1 || height < 1 || width > kLargestSide ||
+        height > kLargestSide || scale == 0)
+        refuse(path, "its header needs a width, a height and a scale that is not 0");
+    file.get(); // the one white space before the values
+    return {uint32_t(width), uint32_t(height), kind == "PF" ? 3u : 1u, scale < 0};
+}
+
+float fromBytes(const char* bytes, bool littleEndian) {
+    uint32_t bits = 0;
+    std::memcpy(&bits, bytes, sizeof bits);
+    if (littleEndian != (std::endian::native == std::endian::little))
+        bits = __builtin_bswap32(bits);
+    return std::bit_cast<float>(bits);
+}
+
+} // namespace
+
+FloatImage readPfm(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) refuse(path, "it cannot be opened");
+    const Header header = readHeader(file, path);
+    FloatImage image(header.width, header.height);
+    std::vector<float>* planes[3] = {};
+    for (int c = 0; c < 3; ++c)
+        planes[c] = &image.channel(kChannels[c]);
+    std::vector<char> row(size_t(header.width) * header.channels * sizeof(float));
+    for (uint32_t y = header.height; y-- > 0;) { // the lowest row comes first
+        if (!file.read(row.data(), std::streamsize(row.size()))) refuse(path, "it is cut short");
+        for (uint32_t x = 0; x < header.width; ++x)
+            for (uint32_t c = 0; c < 3; ++c) {
+                const size_t value = size_t(x) * header.channels + std::min(c, header.channels - 1);
+                (*planes[c])[size_t(y) * header.width + x] =
+                    fromBytes(&row[value * sizeof(float)], header.littleEndian);
+            }
+    }
+    return image;
+}
+
+void writePfm(const fs::path& path, const FloatImage& image) {
+    static_assert(std::endian::native == std::endian::little, "the scale below says so");
+    std::string bytes = fmt::format("PF\n{} {}\n-1.0\n", image.width, image.height);
+    bytes.reserve(bytes.size() + size_t(image.width) * image.height * 3 * sizeof(float));
+    for (uint32_t y = image.height; y-- > 0;)
+        for (uint32_t x = 0; x < image.width; ++x)
+            for (const char* name : kChannels) {
+                const float value = image.channels.at(name)[size_t(y) * image.width + x];
+                char raw[sizeof value];
+                std::memcpy(raw, &value, sizeof value);
+                bytes.append(raw, sizeof value);
+            }
+    writeFileAtomically(path, std::as_bytes(std::span(bytes)));
+}
+
+} // namespace stromboli
