@@ -1,9 +1,7 @@
 #include "host/bvh/binary_tree.hpp"
 
 #include "host/bvh/binned_split.hpp"
-#include "host/bvh/build_input.hpp"
 #include "host/bvh/reinsertion.hpp"
-#include "host/bvh/run_partition.hpp"
 
 #include <tbb/task_group.h>
 
@@ -11,6 +9,8 @@
 #include <memory>
 
 namespace stromboli {
+
+// --- The binary tree -----------------------------------------------------------------------------
 
 namespace {
 
@@ -141,3 +141,26 @@ BinaryTree buildBinaryTree(std::span<const Bounds> items, const BuildOptions& op
 }
 
 } // namespace stromboli
+
+namespace stromboli::bvh {
+
+// --- Subtrees ------------------------------------------------------------------------------------
+
+CutTree cut(const BinaryTree& tree, uint32_t mostNodes) {
+    CutTree result;
+    std::vector<Subtree> pending{wholeTree(tree)};
+    while (!pending.empty()) {
+        const Subtree next = pending.back();
+        pending.pop_back();
+        if (next.size() <= mostNodes) {
+            result.subtrees.push_back(next);
+            continue;
+        }
+        result.above.push_back(next.first);
+        pending.push_back(rightOf(tree, next));
+        pending.push_back(leftOf(tree, next));
+    }
+    return result;
+}
+
+} // namespace stromboli::bvh

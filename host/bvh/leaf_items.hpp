@@ -8,7 +8,43 @@
 #include <span>
 #include <vector>
 
+namespace stromboli {
+
+// --- Bounds of primitives ------------------------------------------------------------------------
+
+/// The box of one primitive of the scene: triangles are 0..nt-1, then spheres nt..nt+ns-1. The
+/// primitive lies wholly inside: a triangle's box is exact, a sphere's is rounded outward. NaN
+/// where a corner is not finite.
+Bounds primitiveBounds(const Scene& scene, uint32_t primitive);
+
+} // namespace stromboli
+
 namespace stromboli::bvh {
+
+// --- Edges that triangles share ------------------------------------------------------------------
+
+inline constexpr uint32_t kNoEdge = 0xFFFFFFFFu;
+
+/// For each edge of each triangle the edge of another triangle that joins the same two positions
+/// (bit for bit) in the opposite direction, or kNoEdge. Edge 3 * t + c of triangle t goes from its
+/// corner c to the next. Where more than two triangles meet in an edge, some are joined in pairs.
+std::vector<uint32_t> oppositeEdges(const Scene& scene);
+
+// --- Pairs of triangles --------------------------------------------------------------------------
+
+/// Two triangles with an edge in common, which they run through in opposite directions; its ends
+/// have the same bits in both.
+struct TrianglePair {
+    std::array<uint32_t, 2> triangle; ///< the lesser number first
+    std::array<uint8_t, 2> edge;      ///< the common edge goes from this corner to the next
+};
+
+/// Pairs of triangles that are cheaper to visit together than apart: the area of their box is not
+/// above the sum of the areas of theirs (SAH). Greedily, the pair that saves most first; each
+/// triangle is in one pair at most. Ordered by the first triangle.
+std::vector<TrianglePair> pairTriangles(const Scene& scene);
+
+// --- Items of leaves -----------------------------------------------------------------------------
 
 /// What one leaf record holds: two triangles that share an edge, a triangle, a sphere, or a
 /// placement. The tree is built over these.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/bvh/wide_tree.hpp"
 #include "scene/model/scene.hpp"
 #include "shaders/shared/scene_types.h"
 
@@ -8,8 +9,39 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace stromboli::bvh {
+
+// --- Boxes on a node's grid ----------------------------------------------------------------------
+
+// Boxes on the grid of a node: a byte for each plane (gpu::NodeRecord). docs/numerics.md, "Boxes",
+// derives the margins.
+
+/// The grid of a node on one axis: plane q lies at origin + q * cell, q = 0..255.
+struct AxisGrid {
+    float origin = 0;        ///< 16 significant bits: the last 8 of its 32 are 0
+    uint32_t exponent = 127; ///< cell = 2^(exponent - 127); 1..254
+
+    double cell() const;
+    /// Both in one word, as gpu::NodeRecord has them.
+    uint32_t word() const;
+    static AxisGrid fromWord(uint32_t word);
+};
+
+/// The finest grid on which every interval within [low, high] has both bytes below. Cells are
+/// at least 2^-90, so that the kernel's products with them stay normal numbers.
+AxisGrid gridOver(double low, double high);
+
+/// The highest plane that is BOX_MARGIN cells or more below `low`; `low` must lie within what
+/// the grid was made for.
+uint32_t planeBelow(const AxisGrid& grid, double low);
+
+/// The lowest plane that is BOX_MARGIN cells or more above `high`.
+uint32_t planeAbove(const AxisGrid& grid, double high);
+
+// --- Node records --------------------------------------------------------------------------------
 
 /// The boxes of a node's children by slot; nothing for absent ones.
 using ChildBoxes = std::array<std::optional<Bounds>, gpu::WIDE_CHILDREN>;
@@ -33,5 +65,27 @@ struct GridBox {
 GridBox childBox(const gpu::NodeRecord& node, uint32_t slot);
 
 uint32_t firstChild(const gpu::NodeRecord& node);
+
+// --- Places of records ---------------------------------------------------------------------------
+
+/// Where a node and its children are put in the list of records.
+struct NodePlace {
+    uint32_t record;
+    uint32_t firstChild; ///< its child in slot s is record firstChild + s
+};
+
+struct RecordPacking {
+    std::vector<NodePlace> places; ///< by node
+    uint32_t records = 0;          ///< with gaps, and all that any firstChild + 7 names
+    uint32_t depth = 0;            ///< of the inner nodes: edges from the root
+};
+
+/// Packs the children of each node in turn (depth first, as collapse() gives them). Gaps are
+/// filled by children of later nodes as long as they are near: first fit among the last 256
+/// records (16 KB). Where a slot of a node is absent there is never the record of another node,
+/// but a leaf or nothing: a ray far away, against whose distance the node is small, may take the
+/// absent child's inverted box for hit (docs/numerics.md, "Boxes"). A leaf too many does no
+/// harm; nodes could lead it in circles.
+RecordPacking packRecords(std::span<const WideNode> nodes);
 
 } // namespace stromboli::bvh

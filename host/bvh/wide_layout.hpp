@@ -1,15 +1,20 @@
 #pragma once
 
 #include "host/bvh/binary_tree.hpp"
+#include "host/bvh/leaf_items.hpp"
 #include "scene/model/scene.hpp"
 #include "shaders/shared/scene_types.h"
 
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace stromboli {
+
+// --- The layout ----------------------------------------------------------------------------------
 
 /// 64 bytes: a gpu::NodeRecord or a gpu::LeafRecord.
 using Record = std::array<uint32_t, sizeof(gpu::NodeRecord) / sizeof(uint32_t)>;
@@ -49,7 +54,7 @@ struct WideLayout {
     std::vector<uint32_t> recordOfPlacement; ///< by placement
 };
 
-class KeptTrees;
+class KeptTrees; // two_level_layout.hpp
 
 /// The tree over all primitives and placements of the scene (triangles first, then spheres). Throws
 /// SceneError where it has more records than gpu::MAX_RECORDS, and what buildBinaryTree throws.
@@ -59,3 +64,15 @@ WideLayout buildWideBvh(const Scene& scene, const BuildOptions& options = {},
                         KeptTrees* kept = nullptr);
 
 } // namespace stromboli
+
+namespace stromboli::bvh {
+
+// --- Writing it ----------------------------------------------------------------------------------
+
+/// The layout of a tree over leaf items of the scene. The records of placements are there, but for
+/// what they lead to. padding: of its boxes; by default that of the tree's own box (boxPadding()),
+/// which is enough where the tree is all that rays meet in its space.
+WideLayout writeLayout(const Scene& scene, std::span<const LeafItem> items, const BinaryTree& tree,
+                       std::optional<double> padding = {});
+
+} // namespace stromboli::bvh

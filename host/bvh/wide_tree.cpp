@@ -1,13 +1,161 @@
 #include "host/bvh/wide_tree.hpp"
 
-#include "host/bvh/child_slots.hpp"
-#include "host/bvh/collapse_plan.hpp"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
+#include <limits>
 
 namespace stromboli::bvh {
+
+// --- Which nodes stay ----------------------------------------------------------------------------
+
+namespace {
+
+constexpr uint32_t kMost = gpu::WIDE_CHILDREN;
+constexpr uint32_t kTaskNodes = 1u << 14;
+
+} // namespace
+
+CollapsePlan::CollapsePlan(const BinaryTree& tree) : tree_(tree), entries_(tree.nodes.size()) {
+    const float rootArea = tree.nodes.front().bounds.halfArea();
+    inverseRootArea_ = rootArea > 0 ? 1 / rootArea : 0;
+    // Children follow their parents.
+    const CutTree parts = cut(tree, kTaskNodes);
+    tbb::parallel_for(size_t(0), parts.subtrees.size(), [&](size_t i) {
+        for (uint32_t node = parts.subtrees[i].end; node-- > parts.subtrees[i].first;)
+            plan(node);
+    });
+    for (size_t i = parts.above.size(); i-- > 0;)
+        plan(parts.above[i]);
+}
+
+void CollapsePlan::plan(uint32_t index) {
+    const BinaryNode& node = tree_.nodes[index];
+    Entry& entry = entries_[index];
+    const float area = node.bounds.halfArea() * inverseRootArea_;
+    entry.choice = 0;
+    if (node.isLeaf()) {
+        std::fill_n(entry.cost, kMost - 1, area);
+        return;
+    }
+    const Entry &left = entries_[node.left], &right = entries_[node.right];
+    float apart[kMost + 1];     // by number of records: the cost without one for the node itself
+    uint32_t toLeft[kMost + 1]; // and how many of them go to the left child
+    for (uint32_t j = 2; j <= kMost; ++j) {
+        apart[j] = left.cost[0] + right.cost[j - 2];
+        toLeft[j] = 1;
+        for (uint32_t k = 2; k < j; ++k) {
+            const float cost = left.cost[k - 1] + right.cost[j - k - 1];
+            if (cost < apart[j]) apart[j] = cost, toLeft[j] = k;
+        }
+    }
+    entry.cost[0] = area + apart[kMost];
+    for (uint32_t j = 2; j < kMost; ++j) {
+        entry.cost[j - 1] = std::min(entry.cost[j - 2], apart[j]);
+        if (apart[j] < entry.cost[j - 2]) entry.choose(j, toLeft[j]);
+    }
+    entry.choose(kMost, toLeft[kMost]);
+}
+
+SubtreeGroup CollapsePlan::childrenOf(Subtree subtree) const {
+    struct Part {
+        Subtree subtree;
+        uint32_t records;
+    };
+    SubtreeGroup group;
+    std::array<Part, kMost> pending; // right sides, each of which is given a record at least
+    uint32_t pendingCount = 0;
+    Part part{subtree, kMost};
+    for (;;) {
+        const Entry& entry = entries_[part.subtree.first];
+        while (part.records > 1 && entry.choiceOf(part.records) == 0)
+            --part.records;
+        if (part.records > 1) {
+            const uint32_t toLeft = entry.choiceOf(part.records);
+            pending[pendingCount++] = {rightOf(tree_, part.subtree), part.records - toLeft};
+            part = {leftOf(tree_, part.subtree), toLeft};
+            continue;
+        }
+        group.subtree[group.count++] = part.subtree;
+        if (pendingCount == 0) return group;
+        part = pending[--pendingCount];
+    }
+}
+
+// --- Slots of children ---------------------------------------------------------------------------
+
+namespace {
+
+constexpr uint32_t kSlots = gpu::WIDE_CHILDREN;
+constexpr uint32_t kSets = 1u << kSlots;
+
+/// All sets of slots, smaller ones first.
+struct SetsBySize {
+    std::array<uint8_t, kSets> set{};
+    std::array<uint32_t, kSlots + 2> start{}; ///< by size; one more at the end
+
+    constexpr SetsBySize() {
+        uint32_t next = 0;
+        for (uint32_t size = 0; size <= kSlots; ++size) {
+            start[size] = next;
+            for (uint32_t s = 0; s < kSets; ++s)
+                if (uint32_t(std::popcount(s)) == size) set[next++] = uint8_t(s);
+        }
+        start[kSlots + 1] = next;
+    }
+};
+constexpr SetsBySize kSetsBySize;
+
+/// How well a child fits into each slot.
+std::array<double, kSlots> gains(const Bounds& child, const glm::dvec3& doubledMiddle) {
+    const glm::dvec3 offset = glm::dvec3(child.lo) + glm::dvec3(child.hi) - doubledMiddle;
+    // Not 0 for boxes without area, so that their order counts where there are only those.
+    const double weight = std::max(double(child.halfArea()), std::numeric_limits<double>::min());
+    std::array<double, kSlots> gain;
+    for (uint32_t slot = 0; slot < kSlots; ++slot)
+        gain[slot] =
+            weight * ((slot & 1 ? offset.x : -offset.x) + (slot & 2 ? offset.y : -offset.y) +
+                      (slot & 4 ? offset.z : -offset.z));
+    return gain;
+}
+
+} // namespace
+
+std::array<uint8_t, kSlots> assignSlots(std::span<const Bounds> children) {
+    Bounds all;
+    for (const Bounds& b : children)
+        all.extend(b);
+    const glm::dvec3 doubledMiddle = glm::dvec3(all.lo) + glm::dvec3(all.hi);
+    // By set of slots: the greatest gain of the first children in them, and the last one's slot.
+    std::array<double, kSets> best;
+    std::array<uint8_t, kSets> lastSlot;
+    best[0] = 0;
+    for (uint32_t child = 0; child < children.size(); ++child) {
+        const auto gain = gains(children[child], doubledMiddle);
+        for (uint32_t i = kSetsBySize.start[child + 1]; i < kSetsBySize.start[child + 2]; ++i) {
+            const uint32_t set = kSetsBySize.set[i];
+            best[set] = -std::numeric_limits<double>::infinity();
+            for (uint32_t rest = set; rest != 0; rest &= rest - 1) {
+                const uint32_t slot = uint32_t(std::countr_zero(rest));
+                const double total = best[set ^ 1u << slot] + gain[slot];
+                if (total > best[set]) best[set] = total, lastSlot[set] = uint8_t(slot);
+            }
+        }
+    }
+    const auto sets = kSetsBySize.set.begin();
+    uint32_t set = *std::max_element(sets + kSetsBySize.start[children.size()],
+                                     sets + kSetsBySize.start[children.size() + 1],
+                                     [&](uint8_t a, uint8_t b) { return best[a] < best[b]; });
+    std::array<uint8_t, kSlots> slots{};
+    for (size_t child = children.size(); child-- > 0;) {
+        slots[child] = lastSlot[set];
+        set ^= 1u << lastSlot[set];
+    }
+    return slots;
+}
+
+// --- The wide tree -------------------------------------------------------------------------------
 
 namespace {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/bvh/kept_trees.hpp"
+#include "host/bvh/two_level_layout.hpp"
 #include "host/engine/listener.hpp"
 #include "host/kernel/gpu_scene.hpp"
 #include "host/render/estimator.hpp"

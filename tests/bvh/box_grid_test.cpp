@@ -1,6 +1,6 @@
 // No decoded box is ever inside the true one: the margin holds on hard intervals, exactly.
 
-#include "host/bvh/box_grid.hpp"
+#include "host/bvh/node_record.hpp"
 #include "host/core/random.hpp"
 #include "shaders/shared/scene_types.h"
 

@@ -1,4 +1,4 @@
-#include "host/bvh/child_slots.hpp"
+#include "host/bvh/wide_tree.hpp"
 #include "host/core/random.hpp"
 
 #include <gtest/gtest.h>

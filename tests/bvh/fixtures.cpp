@@ -1,6 +1,6 @@
 #include "tests/bvh/fixtures.hpp"
 
-#include "host/bvh/primitive_bounds.hpp"
+#include "host/bvh/leaf_items.hpp"
 
 #include <algorithm>
 #include <cmath>

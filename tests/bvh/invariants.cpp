@@ -1,7 +1,7 @@
 #include "tests/bvh/invariants.hpp"
 
+#include "host/bvh/leaf_items.hpp"
 #include "host/bvh/node_record.hpp"
-#include "host/bvh/primitive_bounds.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Trees of scenes in which an animation moves things: what stands still has a tree of its own,
 // which is built once.
-#include "host/bvh/kept_trees.hpp"
 #include "host/bvh/leaf_items.hpp"
+#include "host/bvh/two_level_layout.hpp"
 #include "tests/bvh/fixtures.hpp"
 
 #include <gtest/gtest.h>

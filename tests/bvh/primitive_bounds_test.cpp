@@ -1,4 +1,4 @@
-#include "host/bvh/primitive_bounds.hpp"
+#include "host/bvh/leaf_items.hpp"
 #include "host/bvh/wide_layout.hpp"
 #include "host/core/error.hpp"
 #include "scene/generate/scene_maker.hpp"

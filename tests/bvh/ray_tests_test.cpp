@@ -1,7 +1,7 @@
 // The single tests of ray against box, triangle and sphere, against double precision.
 
+#include "host/bvh/cpu_traversal.hpp"
 #include "host/bvh/node_record.hpp"
-#include "host/bvh/ray_tests.hpp"
 #include "host/core/random.hpp"
 #include "tests/bvh/oracle.hpp"
 

@@ -1,4 +1,4 @@
-#include "host/bvh/record_packing.hpp"
+#include "host/bvh/node_record.hpp"
 #include "host/core/random.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 // Moving subtrees keeps the tree valid and never makes it dearer.
 
-#include "host/bvh/linked_tree.hpp"
 #include "host/bvh/reinsertion.hpp"
 #include "tests/bvh/fixtures.hpp"
 #include "tests/bvh/invariants.hpp"

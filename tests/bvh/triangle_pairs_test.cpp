@@ -1,5 +1,4 @@
-#include "host/bvh/primitive_bounds.hpp"
-#include "host/bvh/triangle_pairs.hpp"
+#include "host/bvh/leaf_items.hpp"
 #include "tests/bvh/fixtures.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,7 @@
 // Hard cases 18 to 28 that are not in `stromboli stress`: trees over what is hard to split, boxes,
 // and rays that would not end.
-#include "host/bvh/box_grid.hpp"
+#include "host/bvh/leaf_items.hpp"
 #include "host/bvh/node_record.hpp"
-#include "host/bvh/primitive_bounds.hpp"
 #include "host/core/error.hpp"
 #include "host/stress/device_subject.hpp"
 #include "host/vulkan/buffer.hpp"

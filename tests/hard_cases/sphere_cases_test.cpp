@@ -1,5 +1,5 @@
 // Hard cases 30 and 31: spheres from within and from far away, as surfaces and as emitters.
-#include "host/bvh/ray_tests.hpp"
+#include "host/bvh/cpu_traversal.hpp"
 #include "host/core/random.hpp"
 #include "host/stress/device_subject.hpp"
 #include "host/stress/scenes.hpp"

@@ -178,7 +178,7 @@ TEST_F(EnterChildren, LosesNoneThatTheExactRayMeetsAtAnyScale) {
 
 /// Origins up to 1e7 node sizes away, nodes up to 1e5 of their sizes from the coordinates'
 /// origin: rays that are aimed at a child meet the node or pass it by a few roundings. From where a
-/// node is smaller than the slack, rays enter absent children too (host/bvh/record_packing.hpp).
+/// node is smaller than the slack, rays enter absent children too (host/bvh/node_record.hpp).
 TEST_F(EnterChildren, LosesNoneFromAfar) {
     Random random(52);
     for (const float distance : {1e3f, 1e5f, 1e7f}) {

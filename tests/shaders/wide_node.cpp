@@ -7,7 +7,7 @@ namespace stromboli::test {
 namespace {
 
 constexpr uint32_t kOriginMask = 0xFFFFFF00u;
-constexpr int kLeastCellExponent = -90; // what the host packs (host/bvh/box_grid.hpp)
+constexpr int kLeastCellExponent = -90; // what the host packs (host/bvh/node_record.hpp)
 
 /// The largest float that is not above x and has nothing in its lowest byte.
 uint32_t originWord(float x) {
