@@ -5,7 +5,7 @@
 #include "host/engine/build_scene.hpp"
 #include "host/engine/load_scene.hpp"
 #include "host/kernel/vulkan_backend.hpp"
-#include "host/render/render.hpp"
+#include "host/render/sampling_session.hpp"
 #include "host/vulkan/buffer.hpp"
 #include "host/vulkan/open_device.hpp"
 

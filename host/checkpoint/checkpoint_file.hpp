@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/render/session_state.hpp"
+#include "host/render/sampling_session.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -44,8 +44,8 @@ void requireSameRender(const std::filesystem::path& file, const Checkpoint& chec
 SessionState withBudget(SessionState state, const Budget& budget);
 
 // A picture that is rendered in bands has a checkpoint for each, beside where that of the whole
-// picture would be. Bands have about the same height (host/render/bands.hpp), so that their number
-// says which rows each has.
+// picture would be. Bands have about the same height (host/render/block_backend.hpp), so that their
+// number says which rows each has.
 
 /// FILE.band2of5 for the second one of five; `band` counts from 0.
 std::filesystem::path bandFile(const std::filesystem::path& file, size_t band, size_t count);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/core/system.hpp"
-#include "host/render/render.hpp"
+#include "host/render/sampling_session.hpp"
 
 #include <optional>
 #include <string>

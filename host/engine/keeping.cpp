@@ -3,7 +3,7 @@
 
 #include "host/checkpoint/checkpoint_file.hpp"
 #include "host/core/error.hpp"
-#include "host/render/bands.hpp"
+#include "host/render/block_backend.hpp"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 #include "host/core/error.hpp"
 #include "host/core/system.hpp"
 #include "host/film/image_file.hpp"
-#include "host/render/branches.hpp"
-#include "host/render/render.hpp"
+#include "host/render/sampling_session.hpp"
+#include "host/render/settings.hpp"
 #include "scene/model/default_light.hpp"
 
 #include <fmt/format.h>

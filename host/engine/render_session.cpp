@@ -5,8 +5,8 @@
 #include "host/film/image_file.hpp"
 #include "host/film/shown_film.hpp"
 #include "host/render/block_backend.hpp"
-#include "host/render/render.hpp"
 #include "host/render/sampling_plan.hpp"
+#include "host/render/sampling_session.hpp"
 
 #include <algorithm>
 #include <stdexcept>

@@ -5,7 +5,7 @@
 #include "host/core/system.hpp"
 #include "host/kernel/kernel_buffers.hpp"
 #include "host/reference/reference_backend.hpp"
-#include "host/render/bands.hpp"
+#include "host/render/block_backend.hpp"
 #include "host/version/version.hpp"
 
 #include <fmt/format.h>

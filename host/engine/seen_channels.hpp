@@ -3,7 +3,7 @@
 #include "host/engine/render_request.hpp"
 #include "host/film/film.hpp"
 #include "host/film/image_file.hpp"
-#include "host/render/seeing.hpp"
+#include "host/render/layers.hpp"
 
 #include <vector>
 

@@ -7,7 +7,7 @@
 #include "host/engine/seen_channels.hpp"
 #include "host/farm/film_file.hpp"
 #include "host/farm/shared_band.hpp"
-#include "host/render/bands.hpp"
+#include "host/render/block_backend.hpp"
 #include "host/version/version.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "host/core/error.hpp"
 #include "host/render/sampling_plan.hpp"
-#include "host/render/session_state.hpp"
+#include "host/render/sampling_session.hpp"
 
 #include <fmt/format.h>
 

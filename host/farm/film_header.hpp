@@ -1,8 +1,8 @@
 #pragma once
 
 #include "host/checkpoint/checkpoint_file.hpp"
+#include "host/render/block_backend.hpp"
 #include "host/render/layers.hpp"
-#include "host/render/sample_blocks.hpp"
 #include "host/render/settings.hpp"
 
 #include <compare>

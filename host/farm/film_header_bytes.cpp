@@ -2,7 +2,7 @@
 #include "host/checkpoint/packed_bytes.hpp"
 #include "host/core/error.hpp"
 #include "host/farm/film_header.hpp"
-#include "host/render/session_state.hpp"
+#include "host/render/sampling_session.hpp"
 
 #include <fmt/format.h>
 

@@ -6,8 +6,8 @@
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
 #include "host/film/film.hpp"
-#include "host/render/budget.hpp"
 #include "host/render/sampling_plan.hpp"
+#include "host/render/settings.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include "host/farm/round_plan.hpp"
 #include "host/film/film.hpp"
 #include "host/render/backend.hpp"
-#include "host/render/seeing.hpp"
+#include "host/render/layers.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -2,7 +2,7 @@
 
 #include "host/kernel/device_scene.hpp"
 #include "host/render/estimator.hpp"
-#include "host/render/seeing.hpp"
+#include "host/render/layers.hpp"
 #include "host/vulkan/compute_pipeline.hpp"
 #include "scene/camera/camera.hpp"
 #include "shaders/shared/layer_types.h"

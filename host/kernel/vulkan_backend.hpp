@@ -4,7 +4,7 @@
 #include "host/kernel/see_pass.hpp"
 #include "host/kernel/wavefront_dispatcher.hpp"
 #include "host/render/backend.hpp"
-#include "host/render/seeing.hpp"
+#include "host/render/layers.hpp"
 #include "host/render/settings.hpp"
 #include "scene/camera/camera.hpp"
 

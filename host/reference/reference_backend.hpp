@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/render/backend.hpp"
-#include "host/render/seeing.hpp"
+#include "host/render/layers.hpp"
 #include "host/render/settings.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/model/scene.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/reference/intersect.hpp"
-#include "host/render/shading_conventions.hpp"
+#include "host/render/estimator.hpp"
 #include "scene/model/scene.hpp"
 
 #include <memory>

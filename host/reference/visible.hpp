@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/reference/world.hpp"
-#include "host/render/seeing.hpp"
+#include "host/render/layers.hpp"
 
 namespace stromboli::reference {
 

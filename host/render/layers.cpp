@@ -1,9 +1,9 @@
 #include "host/render/layers.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include "host/core/json.hpp"
 #include "scene/model/surface_lookup.hpp"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 
 #include "host/film/film.hpp"
 #include "host/render/backend.hpp"
-#include "host/render/budget.hpp"
 #include "host/render/picture_noise.hpp"
+#include "host/render/settings.hpp"
 
 #include <cstdint>
 #include <vector>

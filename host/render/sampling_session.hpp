@@ -5,14 +5,38 @@
 #include "host/render/backend.hpp"
 #include "host/render/picture_noise.hpp"
 #include "host/render/sampling_plan.hpp"
-#include "host/render/session_state.hpp"
 #include "host/render/settings.hpp"
 
+#include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace stromboli {
+
+// --- The state of a render -----------------------------------------------------------------------
+
+/// A render that has been stopped, as a plain value: all that a session needs to go on, apart from
+/// the scene, the camera and the device.
+struct SessionState {
+    RenderSettings settings;
+    std::vector<PixelSums> sums;         ///< as Backend::saveAll gives them
+    std::vector<ExactStatistics> blocks; ///< as Backend::saveBlocks gives them
+    NoiseEstimate::Memory estimate;      ///< of the passes that are done
+    std::vector<PixelTarget> pending; ///< of the pass that was stopped; empty: between two passes
+    double secondsUsed = 0;           ///< of StopRule::seconds
+};
+
+/// Whether they take the same samples.
+bool sameEstimator(const Estimator& a, const Estimator& b);
+
+/// For a file. Of this version and byte order of the program.
+std::vector<std::byte> toBytes(const SessionState& state);
+/// Throws UsageError if the bytes are damaged, cut short or of another version.
+SessionState sessionFromBytes(std::span<const std::byte> bytes);
+
+// --- Sessions ------------------------------------------------------------------------------------
 
 /// State of a render for a progress display.
 struct RenderProgress {
@@ -75,5 +99,15 @@ class SamplingSession {
     double secondsBefore_ = 0;       ///< of the sessions that this one continues
     std::optional<Stopwatch> watch_; ///< since the first pass began
 };
+
+// --- Renders in one go ---------------------------------------------------------------------------
+
+/// The most samples a render of this budget takes.
+uint64_t samplesAtMost(const PictureArea& area, const Budget& budget);
+
+/// Takes all samples of a picture, in a session of its own: pass by pass until the sampling plan is
+/// content.
+Film render(Backend& backend, const RenderSettings& settings, const ProgressCallback& progress = {},
+            RenderOutcome* outcome = nullptr);
 
 } // namespace stromboli

@@ -2,7 +2,7 @@
 
 #include "host/film/film.hpp"
 #include "host/kernel/kernel_tuning.hpp"
-#include "host/render/render.hpp"
+#include "host/render/sampling_session.hpp"
 #include "host/render/settings.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/model/scene.hpp"

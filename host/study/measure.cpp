@@ -3,7 +3,7 @@
 #include "host/bench/measuring.hpp"
 #include "host/compare/metrics.hpp"
 #include "host/core/system.hpp"
-#include "host/render/render.hpp"
+#include "host/render/sampling_session.hpp"
 
 #include <fmt/format.h>
 

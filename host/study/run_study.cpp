@@ -10,7 +10,7 @@
 #include "host/film/image_file.hpp"
 #include "host/film/image_formats.hpp"
 #include "host/film/shown_film.hpp"
-#include "host/render/render.hpp"
+#include "host/render/sampling_session.hpp"
 #include "host/study/journal.hpp"
 #include "host/study/measure.hpp"
 

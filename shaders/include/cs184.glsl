@@ -1,7 +1,7 @@
 // All that the kernel does differently under the conventions of the CS184 renderer (docs/cs184.md says
 // why, docs/estimator.md, "CS184 mode", what). Other files ask for a convention by its name; the
 // specialisation constant CS184 is read here only, for two sets of conventions. They have the names that
-// they have on the host (host/render/shading_conventions.hpp).
+// they have on the host (host/render/estimator.hpp).
 
 /// Normals are turned to the side of wo; with that the lit point may be lifted onto the smooth surface
 /// (FLAT_TERMINATOR).

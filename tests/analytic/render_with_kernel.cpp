@@ -1,6 +1,6 @@
 #include "host/bvh/wide_layout.hpp"
 #include "host/kernel/vulkan_backend.hpp"
-#include "host/render/render.hpp"
+#include "host/render/sampling_session.hpp"
 #include "tests/analytic/scenes.hpp"
 #include "tests/support/device_fixture.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "host/film/film.hpp"
 #include "host/render/backend.hpp"
-#include "host/render/seeing.hpp"
+#include "host/render/layers.hpp"
 #include "host/render/settings.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/generate/scene_maker.hpp"

@@ -1,7 +1,7 @@
 // Hard cases 55 to 58: variances, and adaptive sampling of pixels whose light is rare. Pixels are
 // made up here, so that thousands of renders cost nothing; tests/render has the same on the device.
-#include "host/render/render.hpp"
 #include "host/render/sampling_plan.hpp"
+#include "host/render/sampling_session.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // How the kernel runs on a device: what is chosen, and that no choice changes the picture.
 #include "host/bvh/wide_layout.hpp"
-#include "host/render/render.hpp"
+#include "host/render/sampling_session.hpp"
 #include "scene/generate/scene_maker.hpp"
 #include "scene/read_scene.hpp"
 #include "tests/render/device_render.hpp"

@@ -2,7 +2,7 @@
 // last bit; and each ends a render that is stopped.
 #include "host/bvh/wide_layout.hpp"
 #include "host/kernel/direct_sampling.hpp"
-#include "host/render/render.hpp"
+#include "host/render/sampling_session.hpp"
 #include "scene/generate/scene_maker.hpp"
 #include "scene/read_scene.hpp"
 #include "tests/render/device_render.hpp"

@@ -4,7 +4,7 @@
 // seeds are fixed.
 #include "host/check/cross_check.hpp"
 #include "host/reference/reference_backend.hpp"
-#include "host/render/render.hpp"
+#include "host/render/sampling_session.hpp"
 #include "scene/generate/scene_maker.hpp"
 #include "scene/read_scene.hpp"
 #include "tests/render/device_render.hpp"

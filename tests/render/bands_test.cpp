@@ -1,6 +1,6 @@
 // Pictures in bands: where they are cut, and what is known of them together.
 #include "host/film/shown_film.hpp"
-#include "host/render/bands.hpp"
+#include "host/render/block_backend.hpp"
 #include "host/render/picture_noise.hpp"
 
 #include <gtest/gtest.h>

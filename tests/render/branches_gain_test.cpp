@@ -1,6 +1,6 @@
 // What branches are for: less noise for the rays that are traced, where bounces make the noise.
-#include "host/render/branches.hpp"
-#include "host/render/render.hpp"
+#include "host/render/sampling_session.hpp"
+#include "host/render/settings.hpp"
 #include "scene/read_scene.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"

@@ -1,7 +1,7 @@
 #include "tests/render/device_render.hpp"
 
 #include "host/bvh/wide_layout.hpp"
-#include "host/render/render.hpp"
+#include "host/render/sampling_session.hpp"
 #include "scene/collada/load_collada.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Several devices that share a picture: two of the same driver.
 #include "host/bvh/wide_layout.hpp"
 #include "host/core/error.hpp"
-#include "host/render/render.hpp"
+#include "host/render/sampling_session.hpp"
 #include "host/render/team_backend.hpp"
 #include "host/vulkan/open_device.hpp"
 #include "tests/render/device_render.hpp"

@@ -3,7 +3,7 @@
 #include "host/film/film.hpp"
 #include "host/render/backend.hpp"
 #include "host/render/picture_noise.hpp"
-#include "host/render/render.hpp"
+#include "host/render/sampling_session.hpp"
 
 #include <cmath>
 #include <functional>

@@ -2,7 +2,7 @@
 
 #include "host/check/cross_check.hpp"
 #include "host/reference/reference_backend.hpp"
-#include "host/render/render.hpp"
+#include "host/render/sampling_session.hpp"
 #include "tests/render/device_render.hpp"
 
 #include <gtest/gtest.h>

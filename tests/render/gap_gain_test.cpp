@@ -1,5 +1,5 @@
 // What the gap proposal is for: less noise where a light hangs close below a ceiling.
-#include "host/render/render.hpp"
+#include "host/render/sampling_session.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
 

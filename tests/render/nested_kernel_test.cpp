@@ -4,7 +4,7 @@
 #include "host/bvh/wide_layout.hpp"
 #include "host/kernel/frame.hpp"
 #include "host/kernel/kernel_features.hpp"
-#include "host/render/render.hpp"
+#include "host/render/sampling_session.hpp"
 #include "scene/generate/generated_scene.hpp"
 #include "scene/read_scene.hpp"
 #include "tests/render/device_render.hpp"

@@ -1,6 +1,6 @@
 // Which pixels the sampling plan gives more samples. Films are made by hand: no renderer.
-#include "host/render/render.hpp"
 #include "host/render/sampling_plan.hpp"
+#include "host/render/sampling_session.hpp"
 
 #include <gtest/gtest.h>
 

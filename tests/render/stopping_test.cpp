@@ -6,7 +6,7 @@
 #include "tests/support/device_fixture.hpp"
 
 #include "host/bvh/wide_layout.hpp"
-#include "host/render/render.hpp"
+#include "host/render/sampling_session.hpp"
 #include "scene/generate/scene_maker.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,6 @@
-#include "host/render/branches.hpp"
+#include "host/render/settings.hpp"
 
 #include "scene/model/emitters.hpp"
-
-#include <algorithm>
 
 namespace stromboli {
 namespace {
