@@ -3,7 +3,7 @@
 // then kEnd.
 #include "host/farm/film_file.hpp"
 
-#include "host/checkpoint/packed_bytes.hpp"
+#include "host/checkpoint/checkpoint_file.hpp"
 #include "host/core/error.hpp"
 
 #include <fcntl.h>

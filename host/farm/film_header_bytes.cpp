@@ -1,5 +1,5 @@
 // What a film says of itself, as bytes.
-#include "host/checkpoint/packed_bytes.hpp"
+#include "host/checkpoint/checkpoint_file.hpp"
 #include "host/core/error.hpp"
 #include "host/farm/film_header.hpp"
 #include "host/render/sampling_session.hpp"

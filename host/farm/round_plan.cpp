@@ -2,7 +2,7 @@
 // have, then those they are to have, compressed; and a checksum of all that.
 #include "host/farm/round_plan.hpp"
 
-#include "host/checkpoint/packed_bytes.hpp"
+#include "host/checkpoint/checkpoint_file.hpp"
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
 #include "host/film/film.hpp"
