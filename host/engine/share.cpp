@@ -6,7 +6,7 @@
 #include "host/core/log.hpp"
 #include "host/engine/seen_channels.hpp"
 #include "host/farm/film_file.hpp"
-#include "host/farm/shared_band.hpp"
+#include "host/farm/round_plan.hpp"
 #include "host/render/block_backend.hpp"
 #include "host/version/version.hpp"
 

@@ -1,5 +1,5 @@
 // What a share takes of a band, with samples and camera rays that need no renderer.
-#include "host/farm/shared_band.hpp"
+#include "host/farm/round_plan.hpp"
 
 #include "tests/farm/films.hpp"
 
