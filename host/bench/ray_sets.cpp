@@ -2,9 +2,9 @@
 
 #include "host/bvh/cpu_traversal.hpp"
 #include "host/kernel/work_order.hpp"
-#include "host/reference/camera_ray.hpp"
+#include "host/reference/camera.hpp"
+#include "host/reference/integrator.hpp"
 #include "host/reference/sampling.hpp"
-#include "host/reference/world.hpp"
 #include "scene/model/placements.hpp"
 
 #include <tbb/parallel_for.h>

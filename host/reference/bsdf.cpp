@@ -1,9 +1,8 @@
 #include "host/reference/bsdf.hpp"
 
 #include "host/reference/burley.hpp"
-#include "host/reference/fresnel.hpp"
 #include "host/reference/interfaces.hpp"
-#include "host/reference/plastic.hpp"
+#include "host/reference/microfacet.hpp"
 #include "host/reference/principled.hpp"
 #include "host/reference/sampling.hpp"
 

@@ -1,8 +1,6 @@
 #include "host/reference/burley.hpp"
 
-#include "host/reference/arithmetic.hpp"
-#include "host/reference/fresnel.hpp"
-#include "host/reference/ggx.hpp"
+#include "host/reference/microfacet.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,49 @@
 #pragma once
 
-#include "host/reference/world.hpp"
+#include "host/reference/bvh.hpp"
+#include "host/reference/lights.hpp"
 #include "host/render/estimator.hpp"
+#include "host/render/layers.hpp"
+
+#include <algorithm>
 
 namespace stromboli::reference {
+
+// --- The world -----------------------------------------------------------------------------------
+
+/// What paths are traced through. Refers to the scene, which must outlive it.
+struct World {
+    const Scene& scene;
+    ShadingConventions conventions;
+    Bvh bvh;
+    Lights lights;
+    bool hasDetails; ///< materials have textures, or corners have attributes
+    bool hasAlpha;   ///< some surface may be partly not there, or hidden from the camera
+
+    World(const Scene& s, const ShadingConventions& c)
+        : scene(s), conventions(c), bvh(s), lights(s, c),
+          hasDetails(!s.textures.empty() || !s.attributes.empty()),
+          hasAlpha(std::ranges::any_of(s.materials, [](const Material& m) {
+              return m.alphaMode != AlphaMode::Opaque || m.isHiddenFromCamera;
+          })) {}
+};
+
+// --- What rays pass and what they see ------------------------------------------------------------
+
+/// The share of light that meets the surface at a hit.
+double opacityAt(const World& world, const Hit& hit);
+
+/// The first hit that is there: of what is partly there, decided by numbers of `passes`.
+Hit closestThere(const World& world, const Ray& ray, Skip skip, RandomStream& passes);
+/// The same for camera rays, which pass what is hidden from the camera.
+Hit closestForCamera(const World& world, const Ray& ray, RandomStream& passes);
+
+/// Adds what one camera ray of a pixel sees (docs/layers.md). `random`: the stream of its sample,
+/// as the camera has left it; weight: by the pixel filter.
+void addSeen(SeenPixel& pixel, const World& world, const Ray& cameraRay, double weight,
+             RandomStream random, Seeing what);
+
+// --- Paths ---------------------------------------------------------------------------------------
 
 /// One sample of a pixel (docs/estimator.md), in the order of that page.
 class PathSample {

@@ -4,6 +4,8 @@
 
 namespace stromboli::reference {
 
+// --- Conductors and dielectrics ------------------------------------------------------------------
+
 // Conductors, rough and thin dielectrics: docs/estimator.md, "Surfaces". All directions are unit
 // vectors in the frame of the shading normal. entering: wo is outside of what the surface bounds.
 // u: three independent numbers in [0, 1).
@@ -27,5 +29,15 @@ BsdfSample sampleFacetDielectric(const Material& m, const glm::dvec3& wo, bool e
 
 /// Whether the lobe of facets is too narrow for light samples to find.
 bool hasNarrowFacets(const Material& m);
+
+// --- Plastic -------------------------------------------------------------------------------------
+
+// A diffuse base under the interface of a dielectric: docs/estimator.md, "Plastic". All directions
+// are unit vectors in the frame of the shading normal. u: three independent numbers in [0, 1).
+
+BsdfValue evaluatePlastic(const Material& m, const glm::dvec3& wo, const glm::dvec3& wi,
+                          const ShadingConventions& conventions);
+BsdfSample samplePlastic(const Material& m, const glm::dvec3& wo, const glm::dvec3& u,
+                         const ShadingConventions& conventions);
 
 } // namespace stromboli::reference

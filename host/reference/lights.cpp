@@ -1,14 +1,254 @@
 #include "host/reference/lights.hpp"
 
-#include "host/reference/emitters.hpp"
-#include "host/reference/sampling.hpp"
+#include "host/core/color.hpp"
 #include "scene/model/mean_emission.hpp"
+#include "scene/model/surface_lookup.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 namespace stromboli::reference {
+
+// --- The environment -----------------------------------------------------------------------------
+
+namespace {
+
+/// Counter-clockwise about +y, seen from above.
+glm::dvec3 rotate(const glm::dvec3& v, double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    return {c * v.x + s * v.z, v.y, c * v.z - s * v.x};
+}
+
+struct Picked {
+    size_t index;
+    double rest; ///< uniform in [0, 1)
+};
+
+/// sums: running sums of weights.
+Picked pick(const double* sums, size_t count, double u) {
+    const double target = u * sums[count - 1];
+    const size_t index =
+        std::min(size_t(std::upper_bound(sums, sums + count, target) - sums), count - 1);
+    const double before = index == 0 ? 0 : sums[index - 1];
+    return {index, std::clamp((target - before) / (sums[index] - before), 0.0, 1.0)};
+}
+
+} // namespace
+
+EnvironmentMap::EnvironmentMap(const Environment& environment) : environment_(environment) {
+    const int64_t width = environment.width, height = environment.height;
+    double sum = 0;
+    for (int64_t y = 0; y < height; ++y) {
+        const double solidAngle = 2 * kPi / double(width) *
+                                  (std::cos(kPi * double(y) / double(height)) -
+                                   std::cos(kPi * double(y + 1) / double(height)));
+        double inRow = 0;
+        for (int64_t x = 0; x < width; ++x)
+            sumsInRow_.push_back(inRow += neighbourhoodLuminance(x, y) * solidAngle);
+        rowSums_.push_back(sum += inRow);
+    }
+}
+
+glm::dvec3 EnvironmentMap::texel(int64_t x, int64_t y) const {
+    const int64_t width = environment_.width, height = environment_.height;
+    const int64_t row = std::clamp<int64_t>(y, 0, height - 1), column = (x + width) % width;
+    return environment_.radiance[size_t(row * width + column)];
+}
+
+double EnvironmentMap::neighbourhoodLuminance(int64_t x, int64_t y) const {
+    double most = 0;
+    for (int64_t dy = -1; dy <= 1; ++dy)
+        for (int64_t dx = -1; dx <= 1; ++dx)
+            most = std::max(most, luminance(texel(x + dx, y + dy)));
+    return most;
+}
+
+glm::dvec3 EnvironmentMap::radiance(const glm::dvec3& direction) const {
+    const glm::dvec3 d = rotate(direction, -double(environment_.rotation));
+    const double u = std::atan2(d.x, -d.z) / (2 * kPi) + 0.5;
+    const double v = std::acos(std::clamp(d.y, -1.0, 1.0)) / kPi;
+    const double x = u * environment_.width - 0.5, y = v * environment_.height - 0.5;
+    const double left = std::floor(x), top = std::floor(y);
+    const auto column = int64_t(left), row = int64_t(top);
+    const glm::dvec3 above = glm::mix(texel(column, row), texel(column + 1, row), x - left);
+    const glm::dvec3 below = glm::mix(texel(column, row + 1), texel(column + 1, row + 1), x - left);
+    return double(environment_.strength) * glm::mix(above, below, y - top);
+}
+
+EnvironmentMap::Sample EnvironmentMap::sample(const glm::dvec3& u) const {
+    const size_t width = environment_.width, height = environment_.height;
+    Sample s;
+    if (!(rowSums_.back() > 0)) return s;
+    const Picked row = pick(rowSums_.data(), height, u.x);
+    const double* const sums = sumsInRow_.data() + row.index * width;
+    const Picked column = pick(sums, width, u.y);
+    // Uniform by solid angle in the texel: in the azimuth and in the height y.
+    const double top = std::cos(kPi * double(row.index) / double(height));
+    const double bottom = std::cos(kPi * double(row.index + 1) / double(height));
+    const double y = glm::mix(top, bottom, u.z);
+    const double azimuth =
+        2 * kPi * ((double(column.index) + column.rest) / double(width) - 0.5); // from -z
+    const double sine = std::sqrt(std::max(1 - y * y, 0.0));
+    s.direction = rotate({sine * std::sin(azimuth), y, -sine * std::cos(azimuth)},
+                         double(environment_.rotation));
+    const double before = column.index == 0 ? 0 : sums[column.index - 1];
+    const double probability = (sums[column.index] - before) / rowSums_.back();
+    const double solidAngle = 2 * kPi / double(width) * (top - bottom);
+    s.weight = radiance(s.direction) * (solidAngle / probability);
+    return s;
+}
+
+// --- Emitters ------------------------------------------------------------------------------------
+
+namespace {
+
+/// A point chosen uniformly on an emitter's area.
+struct EmitterPoint {
+    glm::dvec3 position;
+    double error;      ///< distance to stop before the emitter
+    glm::dvec3 normal; ///< unit, of the side that always emits
+    uint32_t primitive;
+    glm::dvec3 emission; ///< radiance
+};
+
+LightSample toEmitterPoint(const EmitterPoint& p, const Material& material, double area,
+                           const glm::dvec3& from) {
+    LightSample sample;
+    const glm::dvec3 to = p.position - from;
+    const double distance2 = glm::dot(to, to);
+    if (distance2 == 0) return sample;
+    sample.direction = to / std::sqrt(distance2);
+    sample.infinite = false;
+    sample.target = moveOff(p.position, p.error, p.normal, -sample.direction);
+    sample.primitive = p.primitive;
+    const double cosine = -glm::dot(sample.direction, p.normal);
+    if (cosine > 0 || material.emitsBothSides)
+        sample.value = p.emission * (area * std::abs(cosine) / distance2);
+    return sample;
+}
+
+} // namespace
+
+EmitterTriangle::EmitterTriangle(const Scene& s, uint32_t i) : index(i), scene(&s) {
+    const Triangle& t = s.triangles[i];
+    v0 = s.positions[t.corner[0]];
+    v1 = s.positions[t.corner[1]];
+    v2 = s.positions[t.corner[2]];
+    area = 0.5 * glm::length(glm::cross(v1 - v0, v2 - v0));
+}
+
+glm::dvec3 EmitterTriangle::emissionAt(const glm::dvec3& point) const {
+    const Material& m = scene->materials[scene->triangles[index].material];
+    if (m.textures.empty() && m.alphaMode == AlphaMode::Opaque) return m.emission;
+    const glm::dvec3 n = glm::cross(v1 - v0, v2 - v0);
+    const double n2 = glm::dot(n, n);
+    const double b1 = glm::dot(glm::cross(point - v0, v2 - v0), n) / n2;
+    const double b2 = glm::dot(glm::cross(v1 - v0, point - v0), n) / n2;
+    const PointAttributes at = attributesAt(*scene, index, b1, b2);
+    return stromboli::emissionAt(*scene, m, at) * opacityAt(*scene, m, at);
+}
+
+namespace {
+
+/// A triangle as seen: unit directions of the corners. Nothing where the point is one of them.
+std::optional<SphericalTriangle> asSeen(const EmitterTriangle& t, const glm::dvec3& from) {
+    const glm::dvec3 a = t.v0 - from, b = t.v1 - from, c = t.v2 - from;
+    if (a == glm::dvec3(0.0) || b == glm::dvec3(0.0) || c == glm::dvec3(0.0)) return std::nullopt;
+    return SphericalTriangle(glm::normalize(a), glm::normalize(b), glm::normalize(c));
+}
+
+} // namespace
+
+double solidAngle(const EmitterTriangle& t, const glm::dvec3& from) {
+    const auto seen = asSeen(t, from);
+    return seen ? seen->solidAngle() : 0;
+}
+
+LightSample sampleTriangle(const EmitterTriangle& t, double probability, const Material& material,
+                           const SurfacePoint& surface, RandomStream& random) {
+    const double u = random.next(), v = random.next();
+    const glm::dvec3 n = triangleNormal(t.v0, t.v1, t.v2), from = litPoint(surface);
+    const double error = errorOnTriangle(t.v0, t.v1, t.v2), z = glm::dot(t.v0 - from, n);
+    if (std::abs(z) <= error + surface.error) return {};
+    const auto seen = asSeen(t, from);
+    if (!seen || seen->solidAngle() < SphericalTriangle::kSmallest) { // uniform on the area
+        const glm::dvec2 b = uniformTriangle(u, v);
+        const glm::dvec3 at = (1 - b.x - b.y) * t.v0 + b.x * t.v1 + b.y * t.v2;
+        const EmitterPoint point{at, error, n, t.index, t.emissionAt(at)};
+        return toEmitterPoint(point, material, t.area / probability, from);
+    }
+    LightSample sample;
+    sample.direction = glm::normalize(seen->sample(u, v));
+    sample.infinite = false;
+    sample.primitive = t.index;
+    const glm::dvec3 point = from + z / glm::dot(sample.direction, n) * sample.direction;
+    sample.target = moveOff(point, error, n, -sample.direction);
+    if (z < 0 || material.emitsBothSides)
+        sample.value = t.emissionAt(point) * (seen->solidAngle() / probability);
+    return sample;
+}
+
+LightSample sampleSphere(const Scene& scene, const Emitter& emitter, const SurfacePoint& surface,
+                         RandomStream& random) {
+    const double u = random.next(), v = random.next();
+    const Sphere& sphere = scene.spheres[emitter.sphere];
+    const Material& material = scene.materials[emitter.material];
+    const auto primitive = uint32_t(scene.triangles.size()) + emitter.sphere;
+    const glm::dvec3 center = sphere.center;
+    const double radius = sphere.radius, error = errorOnSphere(center, radius);
+    const glm::dvec3 emission =
+        stromboli::emissionAt(scene, material, {}) * opacityAt(scene, material, {});
+    const glm::dvec3 from = litPoint(surface), toCenter = center - from;
+    const double distance2 = glm::dot(toCenter, toCenter), sine2 = radius * radius / distance2;
+    const bool inside = surface.primitive == primitive ? !surface.outside : !(sine2 < 1);
+    if (inside) {
+        const glm::dvec3 n = uniformSphere(u, v);
+        return toEmitterPoint({center + radius * n, error, n, primitive, emission}, material,
+                              emitter.area, from);
+    }
+    if (surface.primitive == primitive) return {}; // all of the sphere is below its own horizon
+
+    const double oneMinusCosMax = sine2 / (1 + std::sqrt(1 - sine2));
+    const double distance = std::sqrt(distance2);
+    const Frame cone(toCenter / distance);
+    const glm::dvec3 w = uniformCone(u, v, oneMinusCosMax);
+    const double across2 = distance2 * (w.x * w.x + w.y * w.y);
+    const double t = distance * w.z - std::sqrt(std::max(radius * radius - across2, 0.0));
+    LightSample sample;
+    sample.direction = cone.toWorld(w);
+    const glm::dvec3 n = glm::normalize(from + t * sample.direction - center);
+    sample.target = center + (radius + error) * n;
+    sample.infinite = false;
+    sample.primitive = primitive;
+    sample.value = emission * (2 * kPi * oneMinusCosMax);
+    return sample;
+}
+
+LightSample sampleRectangle(const Light& light, const glm::dvec3& from,
+                            const ShadingConventions& conventions, RandomStream& random) {
+    const double u = random.next(), v = random.next();
+    const glm::dvec3 center = light.position, x = light.edgeX, y = light.edgeY;
+    const glm::dvec3 n = glm::normalize(glm::dvec3(light.direction));
+    const glm::dvec3 point = center + (u - 0.5) * x + (v - 0.5) * y;
+    const glm::dvec3 to = point - from;
+    LightSample sample;
+    if (!(glm::dot(to, n) < 0)) return sample;
+    const double distance = glm::length(to);
+    sample.direction = to / distance;
+    sample.infinite = false;
+    // The mesh that stands for the light lies in its plane, but both were rounded to float.
+    const double error = 0x1p29 * errorOnTriangle(center, center + x, center + y);
+    sample.target = moveOff(point, error, n, -to);
+    const double falloff = conventions.inverseSquareFalloff ? distance * distance : distance;
+    sample.value = glm::dvec3(light.color) *
+                   (glm::length(glm::cross(x, y)) * -glm::dot(sample.direction, n) / falloff);
+    return sample;
+}
+
+// --- All lights ----------------------------------------------------------------------------------
+
 namespace {
 
 std::vector<double> runningAreas(const Scene& scene, const Emitter& emitter) {

@@ -1,13 +1,80 @@
 #pragma once
 
-#include "host/reference/environment.hpp"
-#include "host/reference/random.hpp"
+#include "host/reference/sampling.hpp"
 #include "host/reference/surface.hpp"
 #include "scene/model/emitters.hpp"
+#include "scene/model/environment.hpp"
+
+#include <glm/glm.hpp>
 
 #include <vector>
 
 namespace stromboli::reference {
+
+// --- The environment -----------------------------------------------------------------------------
+
+/// The environment's radiance, and samples of it: a row and a texel in it by running sums of
+/// weights, then any direction in the texel's patch of the sphere. A texel's weight is its solid
+/// angle times the largest luminance among it and its neighbours, which no interpolated value in
+/// it exceeds.
+class EnvironmentMap {
+  public:
+    explicit EnvironmentMap(const Environment& environment);
+
+    /// From a unit direction.
+    glm::dvec3 radiance(const glm::dvec3& direction) const;
+
+    struct Sample {
+        glm::dvec3 direction{0, 0, 1}; ///< unit
+        glm::dvec3 weight{0.0};        ///< radiance over density by solid angle
+    };
+    /// u: each uniform in [0, 1).
+    Sample sample(const glm::dvec3& u) const;
+
+  private:
+    glm::dvec3 texel(int64_t x, int64_t y) const;
+    double neighbourhoodLuminance(int64_t x, int64_t y) const;
+
+    Environment environment_;
+    std::vector<double> rowSums_, sumsInRow_;
+};
+
+// --- Emitters ------------------------------------------------------------------------------------
+
+/// A triangle of a mesh that emits.
+struct EmitterTriangle {
+    glm::dvec3 v0, v1, v2;
+    double area; ///< of one side
+    uint32_t index;
+    const Scene* scene;
+
+    EmitterTriangle(const Scene& scene, uint32_t index);
+    /// What it sends out at a point of it, on a side that emits: its texture and its opacity count.
+    glm::dvec3 emissionAt(const glm::dvec3& point) const;
+};
+
+// Samples of one emitter each, from a surface at `from`.
+
+/// Uniform by direction: density `probability`, that of picking this triangle, over its solid
+/// angle. Nothing from a surface in the triangle's plane, whose distance is rounding.
+LightSample sampleTriangle(const EmitterTriangle& triangle, double probability,
+                           const Material& material, const SurfacePoint& surface,
+                           RandomStream& random);
+
+/// Steradians that the triangle takes up as seen from a point; 0 in its plane.
+double solidAngle(const EmitterTriangle& triangle, const glm::dvec3& from);
+
+/// From outside uniform in the cone the sphere subtends (Shirley, Wang and Zimmerman 1996), from
+/// inside uniform on its area. A surface point on the sphere itself is on the side wo is on.
+LightSample sampleSphere(const Scene& scene, const Emitter& emitter, const SurfacePoint& surface,
+                         RandomStream& random);
+
+/// Uniform on the rectangle, falling off with the distance or its square; only the side that the
+/// light's direction points to emits.
+LightSample sampleRectangle(const Light& light, const glm::dvec3& from,
+                            const ShadingConventions& conventions, RandomStream& random);
+
+// --- All lights ----------------------------------------------------------------------------------
 
 /// A sampled way from a surface to a light.
 struct LightSample {

@@ -1,8 +1,6 @@
 #include "host/reference/principled.hpp"
 
-#include "host/reference/arithmetic.hpp"
-#include "host/reference/fresnel.hpp"
-#include "host/reference/ggx.hpp"
+#include "host/reference/microfacet.hpp"
 #include "host/reference/sampling.hpp"
 #include "shaders/shared/albedo_fits.h"
 

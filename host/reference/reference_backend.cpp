@@ -1,10 +1,8 @@
 #include "host/reference/reference_backend.hpp"
 
-#include "host/reference/camera_ray.hpp"
+#include "host/reference/camera.hpp"
 #include "host/reference/integrator.hpp"
-#include "host/reference/pixel_filter.hpp"
 #include "host/reference/sampling.hpp"
-#include "host/reference/visible.hpp"
 #include "scene/model/placements.hpp"
 
 #include <tbb/blocked_range.h>

@@ -4,6 +4,191 @@
 #include <cmath>
 
 namespace stromboli::reference {
+
+// --- Random numbers ------------------------------------------------------------------------------
+
+std::array<uint32_t, 4> philox(std::array<uint32_t, 4> c, std::array<uint32_t, 2> key) {
+    for (int round = 0; round < 10; ++round) {
+        const uint64_t a = uint64_t(0xD2511F53u) * c[0], b = uint64_t(0xCD9E8D57u) * c[2];
+        c = {uint32_t(b >> 32) ^ c[1] ^ key[0], uint32_t(b), uint32_t(a >> 32) ^ c[3] ^ key[1],
+             uint32_t(a)};
+        key[0] += 0x9E3779B9u; // golden ratio
+        key[1] += 0xBB67AE85u; // sqrt(3) - 1
+    }
+    return c;
+}
+
+namespace {
+
+/// Two words as a fraction of 53 bits.
+double fraction(uint32_t high, uint32_t low) {
+    return double((uint64_t(high) << 32 | low) >> 11) * 0x1p-53;
+}
+
+/// The last word of a counter says what it is for.
+constexpr uint32_t kFirstHalf = 0, kSecondHalf = 1, kKeys = 2, kMoreKeys = 3, kShuffle = 4;
+
+uint64_t join(uint32_t high, uint32_t low) {
+    return uint64_t(high) << 32 | low;
+}
+
+/// Samples of which one sequence has numbers; more of them begin another one.
+constexpr uint32_t kIndexBits = 24;
+
+} // namespace
+
+RandomStream::RandomStream(uint32_t pixel, uint32_t sample, uint32_t seed, Sampler sampler)
+    : pixel_(pixel), sample_(sample), seed_(seed), sampler_(sampler) {}
+
+void RandomStream::fill() {
+    used_ = 0;
+    const uint32_t block = block_++;
+    if (sampler_ == Sampler::Independent) {
+        const auto a = philox({block, sample_, pixel_, kFirstHalf}, {seed_, 0});
+        const auto b = philox({block, sample_, pixel_, kSecondHalf}, {seed_, 0});
+        numbers_ = {fraction(a[0], a[1]), fraction(a[2], a[3]), fraction(b[0], b[1]),
+                    fraction(b[2], b[3])};
+        return;
+    }
+    // The same for all samples of the pixel.
+    const uint32_t sequence = sample_ >> kIndexBits;
+    const auto a = philox({block, sequence, pixel_, kKeys}, {seed_, 0});
+    const auto b = philox({block, sequence, pixel_, kMoreKeys}, {seed_, 0});
+    const auto c = philox({block, sequence, pixel_, kShuffle}, {seed_, 0});
+    const uint32_t index = owenShuffled(sample_ & ((1u << kIndexBits) - 1), join(c[0], c[1]));
+    const auto point = sobolPoint(index);
+    numbers_ = {
+        owenScrambled(point[0], join(a[0], a[1])), owenScrambled(point[1], join(a[2], a[3])),
+        owenScrambled(point[2], join(b[0], b[1])), owenScrambled(point[3], join(b[2], b[3]))};
+}
+
+double RandomStream::next() {
+    if (used_ == numbers_.size()) fill();
+    return numbers_[used_++];
+}
+
+void RandomStream::beginBlock() {
+    used_ = unsigned(numbers_.size());
+}
+
+glm::dvec3 RandomStream::threeNumbers() {
+    beginBlock();
+    const double x = next(), y = next(), z = next();
+    return {x, y, z};
+}
+
+RandomStream RandomStream::apart() const {
+    constexpr uint32_t kBlocksApart = 1u << 30;
+    RandomStream stream(pixel_, sample_, seed_, Sampler::Independent);
+    stream.block_ = block_ | kBlocksApart;
+    return stream;
+}
+
+RandomStream RandomStream::branch(uint32_t number, uint32_t count) const {
+    constexpr uint32_t kBranchBlocks = 1u << 31;
+    RandomStream stream(pixel_, sample_ * count + number, seed_, sampler_);
+    stream.block_ = block_ | kBranchBlocks;
+    return stream;
+}
+
+// --- Sobol points --------------------------------------------------------------------------------
+
+namespace {
+
+/// A primitive polynomial over GF(2) and the first numbers m_k of its dimension: Joe and Kuo,
+/// "Constructing Sobol Sequences with Better Two-Dimensional Projections" (2008), table
+/// new-joe-kuo-6.
+struct Primitive {
+    uint32_t degree, inner; ///< inner: coefficients between the first and the last
+    std::array<uint32_t, 3> m;
+};
+constexpr Primitive kPrimitives[] = {{1, 0, {1}}, {2, 1, {1, 3}}, {3, 1, {1, 3, 1}}};
+
+/// Their recurrence (equation 2): m_k = 2 a_1 m_{k-1} ^ ... ^ 2^s m_{k-s} ^ m_{k-s}.
+constexpr SobolColumns columnsOf(const Primitive& p) {
+    std::array<uint32_t, 32> m{};
+    for (uint32_t k = 0; k < 32; ++k) {
+        if (k < p.degree) {
+            m[k] = p.m[k];
+            continue;
+        }
+        m[k] = m[k - p.degree] ^ m[k - p.degree] << p.degree;
+        for (uint32_t i = 1; i < p.degree; ++i)
+            if (p.inner >> (p.degree - 1 - i) & 1) m[k] ^= m[k - i] << i;
+    }
+    for (uint32_t k = 0; k < 32; ++k)
+        m[k] <<= 31 - k;
+    return m;
+}
+
+constexpr SobolColumns vanDerCorput() {
+    SobolColumns columns{};
+    for (uint32_t k = 0; k < 32; ++k)
+        columns[k] = 0x80000000u >> k;
+    return columns;
+}
+
+constexpr std::array<SobolColumns, kSobolDimensions> kColumns = {
+    vanDerCorput(), columnsOf(kPrimitives[0]), columnsOf(kPrimitives[1]),
+    columnsOf(kPrimitives[2])};
+
+/// Stafford's thirteenth mixing of 64 bits (2011), as in SplitMix64.
+uint64_t mixed(uint64_t x) {
+    x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9u;
+    x = (x ^ x >> 27) * 0x94D049BB133111EBu;
+    return x ^ x >> 31;
+}
+
+/// Of a key and the first `count` digits of a number, which are the only bits set in `digits`.
+uint64_t hashOfDigits(uint32_t digits, uint32_t count, uint64_t key) {
+    return mixed(key + (uint64_t(digits) << 6 | count) * 0x9E3779B97F4A7C15u);
+}
+
+/// So many digits share a hash: of the 63 bits that they take, each belongs to one of the nodes of
+/// the binary tree that their digits descend.
+constexpr uint32_t kDigitsOfAHash = 6;
+
+/// Flips digit k of a number, its bit 31 - k, by a bit that the digits 0 to k - 1 choose: the hash
+/// of those before its group has one bit for each way in which the group can begin.
+uint32_t flipped(uint32_t digits, uint32_t count, uint64_t key) {
+    uint32_t result = digits;
+    for (uint32_t first = 0; first < count; first += kDigitsOfAHash) {
+        const uint32_t before = first == 0 ? 0 : digits >> (32 - first) << (32 - first);
+        const uint64_t flips = hashOfDigits(before, first, key);
+        uint32_t node = 1; // the root; its children are 2 node and 2 node + 1
+        for (uint32_t k = first; k < std::min(first + kDigitsOfAHash, count); ++k) {
+            result ^= uint32_t(flips >> node & 1) << (31 - k);
+            node = 2 * node + (digits >> (31 - k) & 1);
+        }
+    }
+    return result;
+}
+
+} // namespace
+
+const SobolColumns& sobolColumns(size_t dimension) {
+    return kColumns.at(dimension);
+}
+
+std::array<uint32_t, kSobolDimensions> sobolPoint(uint32_t index) {
+    std::array<uint32_t, kSobolDimensions> point{};
+    for (uint32_t k = 0; k < 32 && index >> k; ++k)
+        for (size_t d = 0; d < kSobolDimensions; ++d)
+            point[d] ^= kColumns[d][k] & (0u - (index >> k & 1)); // no branch: it would be a coin
+    return point;
+}
+
+double owenScrambled(uint32_t digits, uint64_t key) {
+    const uint64_t rest = hashOfDigits(digits, 32, key) >> (64 - 21);
+    return double(uint64_t(flipped(digits, 32, key)) << 21 | rest) * 0x1p-53;
+}
+
+uint32_t owenShuffled(uint32_t index, uint64_t key) {
+    return flipped(index << 8, 24, key) >> 8;
+}
+
+// --- Warps ---------------------------------------------------------------------------------------
+
 namespace {
 
 /// The unit vector with azimuth 2 pi v whose angle to the z axis has this cosine and sine.
@@ -44,6 +229,41 @@ glm::dvec3 uniformCone(double u, double v, double oneMinusCosMax) {
 glm::dvec2 uniformTriangle(double u, double v) {
     // A point of the square beyond the diagonal is turned by half a turn about its middle.
     return u + v <= 1 ? glm::dvec2(u, v) : glm::dvec2(1 - u, 1 - v);
+}
+
+// --- Spherical triangles -------------------------------------------------------------------------
+
+namespace {
+
+/// Angle at unit `corner` between the great circles to p and to q.
+double angleAt(const glm::dvec3& corner, const glm::dvec3& p, const glm::dvec3& q) {
+    const glm::dvec3 m = glm::cross(corner, p), n = glm::cross(corner, q);
+    return std::atan2(glm::length(glm::cross(m, n)), glm::dot(m, n));
+}
+
+/// The unit component of x that is orthogonal to unit y: Arvo's [x | y].
+glm::dvec3 orthogonal(const glm::dvec3& x, const glm::dvec3& y) {
+    const glm::dvec3 v = x - glm::dot(x, y) * y;
+    const double length = glm::length(v);
+    return length > 0 ? v / length : Frame(y).x;
+}
+
+} // namespace
+
+SphericalTriangle::SphericalTriangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
+    : a_(a), b_(b), c_(c), alpha_(angleAt(a, b, c)) {
+    area_ = std::max(alpha_ + angleAt(b, c, a) + angleAt(c, a, b) - kPi, 0.0); // Girard
+}
+
+glm::dvec3 SphericalTriangle::sample(double u, double v) const {
+    const double cosAlpha = std::cos(alpha_), sinAlpha = std::sin(alpha_);
+    const double s = std::sin(u * area_ - alpha_), t = std::cos(u * area_ - alpha_);
+    const double x = t - cosAlpha, y = s + sinAlpha * glm::dot(a_, b_);
+    const double q = ((y * t - x * s) * cosAlpha - y) / ((y * s + x * t) * sinAlpha);
+    const double cosine = std::clamp(q, -1.0, 1.0);
+    const glm::dvec3 swung = cosine * a_ + std::sqrt(1 - cosine * cosine) * orthogonal(c_, a_);
+    const double z = 1 - v * (1 - glm::dot(swung, b_));
+    return z * b_ + std::sqrt(std::max(1 - z * z, 0.0)) * orthogonal(swung, b_);
 }
 
 } // namespace stromboli::reference

@@ -1,8 +1,79 @@
 #pragma once
 
+#include "host/render/settings.hpp"
+
 #include <glm/glm.hpp>
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
 namespace stromboli::reference {
+
+// --- Random numbers ------------------------------------------------------------------------------
+
+/// Ten rounds of Philox 4x32: Salmon, Moraes, Dror and Shaw, "Parallel Random Numbers: As Easy as
+/// 1, 2, 3" (SC 2011). A bijection of the counter for every key.
+std::array<uint32_t, 4> philox(std::array<uint32_t, 4> counter, std::array<uint32_t, 2> key);
+
+/// The random numbers of one sample of one pixel: a pure function of (pixel, sample, seed), so
+/// that neither threads nor passes change a picture. They come in blocks of four. Blocks never
+/// overlap, because their Philox counters are distinct; with Sampler::Sobol, a block's numbers over
+/// the samples of a pixel are a sequence that fills the unit cube evenly (docs/estimator.md), and
+/// different blocks are independent.
+class RandomStream {
+  public:
+    RandomStream(uint32_t pixel, uint32_t sample, uint32_t seed,
+                 Sampler sampler = Sampler::Independent);
+    /// Uniform in [0, 1): a multiple of 2^-53.
+    double next();
+    /// Takes the next numbers from the beginning of a block: to be called before numbers that
+    /// belong together, so that they are even together.
+    void beginBlock();
+    /// The first three numbers of the next block.
+    glm::dvec3 threeNumbers();
+    /// What the sample draws from here on in one of its branches: `count` times as many as there
+    /// are samples, spread evenly together, in blocks that no unsplit path takes.
+    RandomStream branch(uint32_t number, uint32_t count) const;
+
+    /// Independent numbers of the same sample, from blocks that neither this stream nor a branch
+    /// of it takes: for what is not always asked, so that no other number depends on it.
+    RandomStream apart() const;
+
+  private:
+    void fill();
+
+    uint32_t pixel_, sample_, seed_;
+    Sampler sampler_;
+    uint32_t block_ = 0;
+    std::array<double, 4> numbers_{};
+    unsigned used_ = 4; ///< numbers of numbers_ that have been handed out
+};
+
+// --- Sobol points --------------------------------------------------------------------------------
+
+/// The first four dimensions of Sobol's sequence.
+inline constexpr size_t kSobolDimensions = 4;
+
+/// Columns of a dimension's generator matrix: the coordinate of point i is the exclusive or of
+/// those columns whose bit of i is set; digit k of the coordinate is bit 31 - k.
+using SobolColumns = std::array<uint32_t, 32>;
+const SobolColumns& sobolColumns(size_t dimension);
+
+/// Coordinates of point `index` < 2^32, in units of 2^-32.
+std::array<uint32_t, kSobolDimensions> sobolPoint(uint32_t index);
+
+/// Owen's nested uniform scrambling (1995) of a 32-bit fraction, from its definition: each digit is
+/// flipped or not by a bit of its own for each value of the digits before it, from hashes of them
+/// and the key. In [0, 1), a multiple of 2^-53: what follows the 32 digits is the hash of all of
+/// them.
+double owenScrambled(uint32_t digits, uint64_t key);
+
+/// The same permutation of the numbers below 2^24 by their digits: 2^k of them that begin at a
+/// multiple of 2^k stay such a set.
+uint32_t owenShuffled(uint32_t index, uint64_t key);
+
+// --- Warps ---------------------------------------------------------------------------------------
 
 inline constexpr double kPi = 3.14159265358979323846;
 
@@ -33,5 +104,29 @@ glm::dvec3 uniformSphere(double u, double v);
 glm::dvec3 uniformCone(double u, double v, double oneMinusCosMax);
 /// Barycentric weights (b1, b2) of the second and third corner, uniform on the triangle's area.
 glm::dvec2 uniformTriangle(double u, double v);
+
+// --- Spherical triangles -------------------------------------------------------------------------
+
+/// The directions in which a triangle is seen, sampled uniformly by solid angle: Arvo, "Stratified
+/// Sampling of Spherical Triangles" (SIGGRAPH 1995).
+class SphericalTriangle {
+  public:
+    /// Below this solid angle (steradians) the sum of angles from which it comes has lost too many
+    /// digits: 16 roundings of 2^-53 of angles up to pi are 2^-20 of it.
+    static constexpr double kSmallest = 0x1p-27;
+
+    /// Unit directions of the corners.
+    SphericalTriangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
+
+    /// Steradians, in [0, 2 pi].
+    double solidAngle() const { return area_; }
+    /// Unit; u, v: independent, uniform in [0, 1). Density 1 / solidAngle(), which is at least
+    /// kSmallest.
+    glm::dvec3 sample(double u, double v) const;
+
+  private:
+    glm::dvec3 a_, b_, c_;
+    double alpha_, area_; ///< alpha_: the angle at a
+};
 
 } // namespace stromboli::reference

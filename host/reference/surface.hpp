@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/reference/intersect.hpp"
+#include "host/reference/bvh.hpp"
 #include "host/render/estimator.hpp"
 #include "scene/model/scene.hpp"
 

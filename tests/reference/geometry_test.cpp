@@ -1,5 +1,4 @@
 #include "host/reference/bvh.hpp"
-#include "host/reference/random.hpp"
 #include "host/reference/sampling.hpp"
 #include "host/reference/surface.hpp"
 #include "tests/analytic/scenes.hpp"

@@ -1,6 +1,6 @@
 #include "host/reference/bsdf.hpp"
-#include "host/reference/fresnel.hpp"
-#include "host/reference/random.hpp"
+#include "host/reference/microfacet.hpp"
+#include "host/reference/sampling.hpp"
 #include "tests/analytic/scenes.hpp"
 
 #include <gtest/gtest.h>

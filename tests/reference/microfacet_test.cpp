@@ -1,8 +1,6 @@
 #include "host/reference/bsdf.hpp"
-#include "host/reference/facets.hpp"
-#include "host/reference/fresnel.hpp"
 #include "host/reference/interfaces.hpp"
-#include "host/reference/random.hpp"
+#include "host/reference/microfacet.hpp"
 #include "host/reference/sampling.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // GGX, and the fits of albedos by which the principled material's layers are defined, against
 // integrals.
-#include "host/reference/ggx.hpp"
+#include "host/reference/microfacet.hpp"
 #include "host/reference/principled.hpp"
 #include "host/reference/sampling.hpp"
 #include "shaders/shared/albedo_fits.h"

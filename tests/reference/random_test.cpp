@@ -1,4 +1,4 @@
-#include "host/reference/random.hpp"
+#include "host/reference/sampling.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
 // The reference's sampler from its definitions.
-#include "host/reference/random.hpp"
-#include "host/reference/sobol.hpp"
+#include "host/reference/sampling.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,5 @@
 // Arvo's sampling against the octant, Lambert's formula and the sphere as a whole.
-#include "host/reference/random.hpp"
 #include "host/reference/sampling.hpp"
-#include "host/reference/spherical_triangle.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
 // The terms of the BSDFs against formulas in double precision: host/reference where it has them,
 // docs/estimator.md for the conventions of CS184.
 #include "host/core/random.hpp"
-#include "host/reference/fresnel.hpp"
 #include "host/reference/microfacet.hpp"
 #include "tests/shaders/queries.h"
 #include "tests/support/device_fixture.hpp"

@@ -2,8 +2,7 @@
 // probability of reflection, under both conventions.
 #include "tests/shaders/bsdf_fixture.hpp"
 
-#include "host/reference/arithmetic.hpp"
-#include "host/reference/fresnel.hpp"
+#include "host/reference/microfacet.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // sobol.glsl: Sobol's points bit for bit from their direction numbers; evenness in every run of 2^k
 // samples; uniform, and uncorrelated between pixels, blocks and dimensions. Statistical tests have
 // .01 for the file together.
-#include "host/reference/sobol.hpp"
+#include "host/reference/sampling.hpp"
 #include "tests/shaders/queries.h"
 #include "tests/support/chi_square.hpp"
 #include "tests/support/device_fixture.hpp"

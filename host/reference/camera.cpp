@@ -1,4 +1,4 @@
-#include "host/reference/pixel_filter.hpp"
+#include "host/reference/camera.hpp"
 
 #include "host/reference/sampling.hpp"
 #include "shaders/shared/interface.h"
@@ -10,6 +10,30 @@
 #include <tuple>
 
 namespace stromboli::reference {
+
+// --- Camera rays ---------------------------------------------------------------------------------
+
+Ray cameraRay(const Camera& camera, double s, double t, const glm::dvec2& onLens) {
+    const glm::dvec3 offset = ((2 * s - 1) * camera.halfWidth + camera.shift.x) * camera.right +
+                              ((1 - 2 * t) * camera.halfHeight + camera.shift.y) * camera.up;
+    Ray ray;
+    if (camera.orthographic) {
+        ray.origin = camera.position + offset;
+        ray.direction = -camera.back;
+    } else {
+        ray.origin =
+            camera.position + camera.lensRadius * (onLens.x * camera.right + onLens.y * camera.up);
+        const glm::dvec3 sharp = camera.position + camera.focusDistance * (offset - camera.back);
+        ray.direction = glm::normalize(sharp - ray.origin);
+    }
+    const double depthPerLength = camera.clipAlongRay ? 1 : -glm::dot(ray.direction, camera.back);
+    ray.tMin = camera.nearDistance / depthPerLength;
+    ray.tMax = camera.farDistance / depthPerLength;
+    return ray;
+}
+
+// --- Pixel filters -------------------------------------------------------------------------------
+
 namespace {
 
 /// The four-term Blackman-Harris window on [0, 1], integrated from 0 and divided by the whole.

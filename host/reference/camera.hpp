@@ -1,12 +1,22 @@
 #pragma once
 
+#include "host/reference/bvh.hpp"
 #include "host/render/estimator.hpp"
+#include "scene/camera/camera.hpp"
 
 #include <glm/glm.hpp>
 
 #include <vector>
 
 namespace stromboli::reference {
+
+// --- Camera rays ---------------------------------------------------------------------------------
+
+/// The ray through picture coordinates s, t in [0, 1], from the left and from the top, limited to
+/// the distances that the camera clips to. onLens: where it leaves from, on the unit disk.
+Ray cameraRay(const Camera& camera, double s, double t, const glm::dvec2& onLens = glm::dvec2(0));
+
+// --- Pixel filters -------------------------------------------------------------------------------
 
 struct FilterSample {
     glm::dvec2 place;  ///< from the pixel's upper left corner, in pixels
