@@ -3,7 +3,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/declared_command.hpp"
 #include "host/cli/exit_code.hpp"
-#include "host/compare/false_color.hpp"
+#include "host/compare/flip.hpp"
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
 #include "host/core/json.hpp"

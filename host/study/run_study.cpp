@@ -1,6 +1,6 @@
 #include "host/study/run_study.hpp"
 
-#include "host/compare/false_color.hpp"
+#include "host/compare/flip.hpp"
 #include "host/compare/metrics.hpp"
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"

@@ -1,6 +1,5 @@
 // Mitsuba's rule of acceptance, on pictures whose z are known.
 
-#include "host/compare/acceptance.hpp"
 #include "host/compare/comparison.hpp"
 #include "host/core/error.hpp"
 #include "tests/compare/pictures.hpp"

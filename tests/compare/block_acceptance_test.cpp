@@ -1,7 +1,6 @@
 // Means and blocks against a reference with a variance, on pictures whose z are known.
-#include "host/compare/acceptance.hpp"
-
 #include "host/compare/comparison.hpp"
+
 #include "host/core/error.hpp"
 #include "tests/compare/pictures.hpp"
 

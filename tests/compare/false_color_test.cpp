@@ -1,4 +1,4 @@
-#include "host/compare/false_color.hpp"
+#include "host/compare/flip.hpp"
 #include "tests/compare/pictures.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "host/compare/picture.hpp"
+#include "host/compare/metrics.hpp"
 #include "host/core/error.hpp"
 #include "host/film/image_file.hpp"
 #include "host/film/image_formats.hpp"

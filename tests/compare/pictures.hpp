@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/compare/picture.hpp"
+#include "host/compare/metrics.hpp"
 
 #include <random>
 

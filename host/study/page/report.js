@@ -308,7 +308,7 @@ function drawPictures() {
   drawDivider();
 }
 
-/// As host/compare/false_color.cpp.
+/// As host/compare/flip.cpp.
 function cubehelix(t) {
   const angle = 2 * Math.PI * (0.5 / 3 + 1 - 1.5 * t), a = t * (1 - t) / 2;
   const [x, y] = [Math.cos(angle), Math.sin(angle)];

@@ -1,11 +1,11 @@
 // Mitsuba's own test scenes, where they lie beside this project, against the pictures that come
 // with them.
 //
-// They are judged by two rules: Mitsuba's own (host/compare/acceptance.hpp), and by their means and
+// They are judged by two rules: Mitsuba's own (host/compare/comparison.hpp), and by their means and
 // those of blocks of 8 x 8 pixels (block_acceptance.hpp), of which one right picture in a thousand
 // would fail.
 
-#include "host/compare/acceptance.hpp"
+#include "host/compare/comparison.hpp"
 #include "host/film/image_formats.hpp"
 #include "scene/mitsuba/load_mitsuba.hpp"
 #include "tests/scene/mitsuba/references_renderer.hpp"
