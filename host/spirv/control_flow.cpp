@@ -1,4 +1,4 @@
-#include "host/spirv/passes.hpp"
+#include "host/spirv/module.hpp"
 
 #include <algorithm>
 #include <unordered_set>

@@ -10,6 +10,8 @@
 
 namespace stromboli::spirv {
 
+// --- Modules -------------------------------------------------------------------------------------
+
 /// An instruction; its operands, without result and type, lie in Module::words.
 struct Instruction {
     uint16_t op = 0;
@@ -88,5 +90,25 @@ void forEachNumber(const Instruction& i, Words operands, Visit visit) {
         }
     }
 }
+
+// --- Passes --------------------------------------------------------------------------------------
+
+/// Makes specialisation constants constants, and computes those that follow from them.
+void setConstants(Module& module, std::span<const uint32_t> constants);
+
+/// Computes the integers and booleans that constants alone decide, and puts values in the place of
+/// what is always equal to them. Returns whether anything changed.
+bool fold(Module& module);
+
+/// Goes straight on where a branch is decided, and drops blocks that cannot be reached, selections
+/// of nothing and boundaries of blocks that nobody else enters. Returns whether anything changed.
+bool simplifyControlFlow(Module& module);
+
+/// Drops what nobody reads: values, stores to variables that are never loaded, and these variables.
+void dropDeadCode(Module& module);
+
+/// Makes variables of the members of structures that are only used member by member or copied as a
+/// whole. Returns whether there were any.
+bool splitStructures(Module& module);
 
 } // namespace stromboli::spirv

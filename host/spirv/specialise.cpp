@@ -1,6 +1,6 @@
 #include "host/spirv/specialise.hpp"
 
-#include "host/spirv/passes.hpp"
+#include "host/spirv/module.hpp"
 
 namespace stromboli::spirv {
 namespace {
