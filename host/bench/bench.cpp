@@ -5,7 +5,7 @@
 #include "host/bench/ray_bench.hpp"
 #include "host/bench/startup_bench.hpp"
 #include "host/engine/build_scene.hpp"
-#include "host/vulkan/open_device.hpp"
+#include "host/vulkan/device.hpp"
 #include "scene/find_scene.hpp"
 
 #include <tbb/global_control.h>

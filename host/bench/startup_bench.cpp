@@ -7,7 +7,7 @@
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/render/sampling_session.hpp"
 #include "host/vulkan/buffer.hpp"
-#include "host/vulkan/open_device.hpp"
+#include "host/vulkan/device.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/declared_command.hpp"
 #include "host/core/error.hpp"
-#include "host/vulkan/choose_device.hpp"
+#include "host/vulkan/device.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include "host/core/log.hpp"
 #include "host/engine/build_scene.hpp"
 #include "host/kernel/kernel_report.hpp"
-#include "host/vulkan/choose_device.hpp"
+#include "host/vulkan/device.hpp"
 
 #include <fmt/format.h>
 

@@ -14,7 +14,7 @@
 #include "host/stress/device_subject.hpp"
 #include "host/stress/report.hpp"
 #include "host/version/version.hpp"
-#include "host/vulkan/open_device.hpp"
+#include "host/vulkan/device.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

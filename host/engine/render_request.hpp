@@ -31,7 +31,7 @@ inline constexpr auto kNamedValues<PathScheduler> = std::to_array<NamedValue<Pat
 /// What takes the samples. None of it changes what is estimated.
 struct DeviceRequest {
     BackendChoice backend = BackendChoice::Vulkan;
-    std::string device;       ///< one or several (host/vulkan/choose_device.hpp); empty: the best
+    std::string device;       ///< one or several (host/vulkan/device.hpp); empty: the best
     bool maybeSeveral = true; ///< else to name several is an error
     PathScheduler scheduler = PathScheduler::Persistent;
     uint32_t threads = 0;                  ///< of the reference; 0: all

@@ -5,7 +5,7 @@
 #include "host/engine/render_request.hpp"
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/render/team_backend.hpp"
-#include "host/vulkan/open_device.hpp"
+#include "host/vulkan/device.hpp"
 
 #include <exception>
 #include <future>

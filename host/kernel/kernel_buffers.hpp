@@ -5,7 +5,7 @@
 #include "host/kernel/kernel_features.hpp"
 #include "host/kernel/kernel_tuning.hpp"
 #include "host/render/estimator.hpp"
-#include "host/vulkan/buffer_limits.hpp"
+#include "host/vulkan/buffer.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/kernel/kernel_features.hpp"
-#include "host/vulkan/pipeline_statistics.hpp"
+#include "host/vulkan/compute_pipeline.hpp"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "host/kernel/kernel_tuning.hpp"
 
-#include "host/vulkan/buffer_limits.hpp"
+#include "host/vulkan/buffer.hpp"
 #include "shaders/shared/interface.h"
 
 #include <algorithm>

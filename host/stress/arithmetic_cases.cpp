@@ -1,5 +1,5 @@
 // What kernels take for granted of the device's floats (docs/numerics.md): IEEE 754 as the host has
-// it. Where a device promises it, kernels ask for it (host/vulkan/float_controls.hpp).
+// it. Where a device promises it, kernels ask for it (host/vulkan/instance.hpp).
 #include "host/core/random.hpp"
 #include "host/stress/case.hpp"
 

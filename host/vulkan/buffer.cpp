@@ -1,14 +1,192 @@
 #include "host/vulkan/buffer.hpp"
 
-#include "host/vulkan/result.hpp"
+#include "host/core/error.hpp"
+#include "shaders/shared/interface.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
+#include <sys/mman.h>
 #include <utility>
 
 namespace stromboli::vulkan {
+
+// --- Huge pages ----------------------------------------------------------------------------------
+
+namespace {
+
+/// Of x86-64, and of AArch64 with base pages of 4 KiB. Elsewhere the system does nothing or more.
+constexpr uintptr_t kHugePage = uintptr_t(2) << 20;
+
+} // namespace
+
+void preferHugePages(std::span<std::byte> memory) {
+    const auto begin = reinterpret_cast<uintptr_t>(memory.data());
+    const uintptr_t first = (begin + kHugePage - 1) / kHugePage * kHugePage;
+    const uintptr_t last = (begin + memory.size()) / kHugePage * kHugePage;
+    if (first < last) ::madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+}
+
+// --- Memory of a device --------------------------------------------------------------------------
+
+namespace {
+
+VkMemoryPropertyFlags flagsOf(MemoryPlace place) {
+    return place == MemoryPlace::Device
+               ? VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT
+               : VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+}
+
+/// The first type that fits: the specification puts the best one first. The host's memory is
+/// cached where it can be: from memory that is not, the host reads some bytes at a time, hundreds
+/// of times slower.
+uint32_t memoryType(const Device& device, uint32_t allowed, MemoryPlace place,
+                    const std::string& name) {
+    const VkPhysicalDeviceMemoryProperties& memory = device.memory();
+    const VkMemoryPropertyFlags least = flagsOf(place);
+    const VkMemoryPropertyFlags best =
+        place == MemoryPlace::Host ? least | VK_MEMORY_PROPERTY_HOST_CACHED_BIT : least;
+    for (const VkMemoryPropertyFlags wanted : {best, least})
+        for (uint32_t i = 0; i < memory.memoryTypeCount; ++i)
+            if ((allowed & (1u << i)) && (memory.memoryTypes[i].propertyFlags & wanted) == wanted)
+                return i;
+    throw DeviceError(
+        fmt::format("no memory type of {} fits the {}", device.description().name(), name));
+}
+
+} // namespace
+
+DeviceMemory::DeviceMemory(const Device& device, VkBuffer buffer, MemoryPlace place,
+                           const std::string& name) {
+    VkMemoryRequirements needs;
+    device.vk().vkGetBufferMemoryRequirements(device.handle(), buffer, &needs);
+    const VkMemoryAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                       .allocationSize = needs.size,
+                                       .memoryTypeIndex =
+                                           memoryType(device, needs.memoryTypeBits, place, name)};
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    check(device.vk().vkAllocateMemory(device.handle(), &info, nullptr, &memory),
+          fmt::format("allocate {} bytes for the {}", needs.size, name));
+    memory_ = {device.handle(), memory, device.vk().vkFreeMemory};
+    check(device.vk().vkBindBufferMemory(device.handle(), buffer, memory, 0),
+          fmt::format("bind the {}", name));
+    if (place == MemoryPlace::Host) {
+        void* mapped = nullptr;
+        check(device.vk().vkMapMemory(device.handle(), memory, 0, VK_WHOLE_SIZE, 0, &mapped),
+              fmt::format("map the {}", name));
+        mapped_ = static_cast<std::byte*>(mapped);
+        if (device.description().isCpu()) preferHugePages({mapped_, needs.size});
+    }
+    device_ = &device;
+    bytes_ = needs.size;
+    device.countAllocation(int64_t(bytes_));
+}
+
+DeviceMemory::~DeviceMemory() {
+    if (device_) device_->countAllocation(-int64_t(bytes_));
+}
+
+DeviceMemory& DeviceMemory::operator=(DeviceMemory&& other) noexcept {
+    std::swap(device_, other.device_);
+    std::swap(memory_, other.memory_);
+    std::swap(bytes_, other.bytes_);
+    std::swap(mapped_, other.mapped_);
+    return *this;
+}
+
+// --- Limits of buffers ---------------------------------------------------------------------------
+
+namespace {
+
+constexpr uint64_t kRowBytes = 16; // one RGBA32UI texel
+constexpr uint32_t kMostRows = gpu::TEXEL_ROW_MASK + 1;
+
+/// A number of buffers of one kind, and the limit it must keep.
+struct BufferCount {
+    const char* what;
+    const char* limit;
+    uint64_t needed;
+    uint32_t allowed;
+};
+
+/// The first count that the device does not allow; nothing if it allows all.
+std::optional<BufferCount> tooMany(const DeviceDescription& device,
+                                   std::span<const BufferUse> buffers) {
+    const VkPhysicalDeviceLimits& limits = device.properties.limits;
+    const auto count = [&](BufferUse use) { return uint64_t(std::ranges::count(buffers, use)); };
+    for (const BufferCount& c :
+         {BufferCount{"storage buffers", "maxPerStageDescriptorStorageBuffers",
+                      count(BufferUse::Storage), limits.maxPerStageDescriptorStorageBuffers},
+          BufferCount{"storage texel buffers", "maxPerStageDescriptorStorageImages",
+                      count(BufferUse::Texel), limits.maxPerStageDescriptorStorageImages},
+          BufferCount{"uniform buffers", "maxPerStageDescriptorUniformBuffers",
+                      count(BufferUse::Uniform), limits.maxPerStageDescriptorUniformBuffers},
+          BufferCount{"buffers", "maxPerStageResources", buffers.size(),
+                      limits.maxPerStageResources}})
+        if (c.needed > c.allowed) return c;
+    return std::nullopt;
+}
+
+} // namespace
+
+void requireBindable(const DeviceDescription& device, std::span<const BufferUse> buffers) {
+    if (const auto c = tooMany(device, buffers))
+        throw DeviceError(fmt::format("the kernel needs {} {}, but {} allows a shader {} ({})",
+                                      c->needed, c->what, device.name(), c->allowed, c->limit));
+}
+
+bool areBindable(const DeviceDescription& device, std::span<const BufferUse> buffers) {
+    return !tooMany(device, buffers);
+}
+
+BindingLimit bindingLimit(const DeviceDescription& device, BufferUse use) {
+    const VkPhysicalDeviceLimits& limits = device.properties.limits;
+    switch (use) {
+    case BufferUse::Texel:
+        return limits.maxTexelBufferElements <= kMostRows
+                   ? BindingLimit{uint64_t(limits.maxTexelBufferElements) * kRowBytes,
+                                  "maxTexelBufferElements"}
+                   : BindingLimit{uint64_t(kMostRows) * kRowBytes, "27 bits for the kernel's rows"};
+    case BufferUse::Uniform:
+        return {limits.maxUniformBufferRange, "maxUniformBufferRange"};
+    default:
+        return {limits.maxStorageBufferRange, "maxStorageBufferRange"};
+    }
+}
+
+void requireFits(const DeviceDescription& device, const BufferPlan& buffer) {
+    const auto refuse = [&](const std::string& why) {
+        throw DeviceError(fmt::format("the {} needs {} bytes, but {} {}{}{}", buffer.name,
+                                      buffer.bytes, device.name(), why,
+                                      buffer.remedy.empty() ? "" : "; ", buffer.remedy));
+    };
+    const BindingLimit binding = bindingLimit(device, buffer.use);
+    if (buffer.bytes > binding.bytes)
+        refuse(fmt::format("allows {} ({})", binding.bytes, binding.name));
+    if (buffer.bytes > device.largestAllocation)
+        refuse(fmt::format("allocates at most {} at once (maxMemoryAllocationSize)",
+                           device.largestAllocation));
+    if (buffer.bytes > device.memory) refuse(fmt::format("has {} bytes of memory", device.memory));
+}
+
+void requireTogetherFit(const DeviceDescription& device, std::span<const BufferPlan> buffers) {
+    uint64_t total = 0, most = 0;
+    std::string list, remedy;
+    for (const BufferPlan& buffer : buffers) {
+        total += buffer.bytes;
+        if (buffer.bytes > most) most = buffer.bytes, remedy = buffer.remedy;
+        list += fmt::format("{}{} {}", list.empty() ? "" : ", ", buffer.name, buffer.bytes);
+    }
+    if (total > device.memory)
+        throw DeviceError(fmt::format(
+            "the buffers need {} bytes together, but {} has {} bytes of memory: {}{}{}", total,
+            device.name(), device.memory, list, remedy.empty() ? "" : "; ", remedy));
+}
+
+// --- Buffers -------------------------------------------------------------------------------------
+
 namespace {
 
 /// The smallest buffer: one row of 16 bytes.

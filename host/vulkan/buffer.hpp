@@ -1,14 +1,93 @@
 #pragma once
 
-#include "host/vulkan/buffer_limits.hpp"
-#include "host/vulkan/device_memory.hpp"
-#include "host/vulkan/handle.hpp"
+#include "host/vulkan/device.hpp"
+#include "host/vulkan/instance.hpp"
 #include "host/vulkan/queue.hpp"
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 
 namespace stromboli::vulkan {
+
+// --- Huge pages ----------------------------------------------------------------------------------
+
+/// Asks the system for pages of 2 MiB behind memory that nothing has been written to yet. A tree of
+/// millions of triangles is read in no order: with pages of 4 KiB nearly every record of it is a
+/// miss in the processor's table of pages as well. Only a request: nothing changes where the system
+/// has no such pages.
+void preferHugePages(std::span<std::byte> memory);
+
+// --- Memory of a device --------------------------------------------------------------------------
+
+/// Where memory should lie.
+enum class MemoryPlace {
+    Device, ///< fast for the device
+    Host,   ///< mapped, coherent
+};
+
+/// Memory of a device with one buffer bound to it, counted in Device::allocatedBytes.
+class DeviceMemory {
+  public:
+    DeviceMemory() = default;
+    /// `name` of the buffer is for error messages. Throws DeviceError.
+    DeviceMemory(const Device& device, VkBuffer buffer, MemoryPlace place, const std::string& name);
+    ~DeviceMemory();
+    DeviceMemory(DeviceMemory&& other) noexcept { *this = std::move(other); }
+    DeviceMemory& operator=(DeviceMemory&& other) noexcept;
+
+    /// Null unless in MemoryPlace::Host.
+    std::byte* mapped() const { return mapped_; }
+    /// What the driver asks for a buffer: its size rounded up to the driver's alignment.
+    uint64_t bytes() const { return bytes_; }
+
+  private:
+    const Device* device_ = nullptr;
+    Handle<VkDeviceMemory> memory_;
+    uint64_t bytes_ = 0;
+    std::byte* mapped_ = nullptr;
+};
+
+// --- Limits of buffers ---------------------------------------------------------------------------
+
+enum class BufferUse {
+    Storage, ///< storage buffer
+    Texel,   ///< storage texel buffer of RGBA32UI rows
+    Uniform, ///< uniform buffer
+};
+
+/// A buffer before it is made.
+struct BufferPlan {
+    std::string name; ///< for messages
+    uint64_t bytes = 0;
+    BufferUse use = BufferUse::Storage;
+    std::string remedy; ///< what the user can do where it does not fit; may be empty
+};
+
+/// The most bytes of one buffer that a shader can reach through one binding of this kind, and the
+/// name of the limit in Vulkan.
+struct BindingLimit {
+    uint64_t bytes = 0;
+    const char* name = "";
+};
+BindingLimit bindingLimit(const DeviceDescription& device, BufferUse use);
+
+/// Throws DeviceError, naming the buffer, both sizes and the limit, if the buffer does not fit one
+/// binding, one allocation or the device's memory.
+void requireFits(const DeviceDescription& device, const BufferPlan& buffer);
+
+/// Throws DeviceError, naming the limit, what is needed and what there is, if a shader cannot have
+/// that many buffers of each kind. Storage texel buffers count as storage images.
+void requireBindable(const DeviceDescription& device, std::span<const BufferUse> buffers);
+
+/// True if requireBindable would not throw.
+bool areBindable(const DeviceDescription& device, std::span<const BufferUse> buffers);
+
+/// Throws DeviceError that lists the buffers if they do not fit the device's memory together.
+void requireTogetherFit(const DeviceDescription& device, std::span<const BufferPlan> buffers);
+
+// --- Buffers -------------------------------------------------------------------------------------
 
 /// A buffer in the device's memory. Where that is the host's memory it is mapped; elsewhere
 /// uploads and downloads go through a staging buffer.

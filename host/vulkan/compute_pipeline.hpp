@@ -1,13 +1,17 @@
 #pragma once
 
 #include "host/vulkan/buffer.hpp"
+#include "host/vulkan/device.hpp"
 
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace stromboli::vulkan {
+
+// --- Compute pipelines ---------------------------------------------------------------------------
 
 struct Binding {
     uint32_t number = 0;
@@ -65,5 +69,17 @@ void recordIndirectDispatch(const Device& device, VkCommandBuffer commands,
                             const ComputePipeline& pipeline, const DescriptorSet& set,
                             std::span<const std::byte> pushConstants, const Buffer& counts,
                             uint64_t offset);
+
+// --- What the driver made of them ----------------------------------------------------------------
+
+/// What a driver says of the machine code that it has made of a kernel.
+struct PipelineStatistic {
+    std::string name; ///< the driver's words, such as "VGPRs" or "Spilled VGPRs"
+    double value = 0;
+};
+
+/// In the driver's order. The device is one that was opened for compiling (DeviceUse). Throws
+/// DeviceError.
+std::vector<PipelineStatistic> statisticsOf(const Device& device, VkPipeline pipeline);
 
 } // namespace stromboli::vulkan

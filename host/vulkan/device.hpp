@@ -1,8 +1,6 @@
 #pragma once
 
-#include "host/vulkan/float_controls.hpp"
 #include "host/vulkan/instance.hpp"
-#include "host/vulkan/kept_pipelines.hpp"
 #include "host/vulkan/pipeline_cache.hpp"
 
 #include <atomic>
@@ -12,6 +10,8 @@
 #include <vector>
 
 namespace stromboli::vulkan {
+
+// --- The device ----------------------------------------------------------------------------------
 
 /// What a physical device is and whether the renderer can use it.
 struct DeviceDescription {
@@ -41,7 +41,7 @@ std::vector<DeviceDescription> listDevices(const Instance& instance);
 /// What a device is opened for.
 enum class DeviceUse {
     Rendering,
-    /// Its driver is to say what it makes of kernels (pipeline_statistics.hpp). It may be a driver
+    /// Its driver is to say what it makes of kernels (compute_pipeline.hpp). It may be a driver
     /// without hardware, such as RADV with RADV_FORCE_FAMILY, which crashes when a device is
     /// destroyed (Mesa 22.3): such a device is left to the end of the process.
     Compiling,
@@ -94,5 +94,44 @@ class Device {
     mutable KeptPipelines kept_;
     mutable std::atomic<uint64_t> allocated_ = 0, pipelinesMade_ = 0, uploaded_ = 0;
 };
+
+// --- Choosing one --------------------------------------------------------------------------------
+
+struct DeviceChoice {
+    size_t index = 0;
+    std::string reason;
+};
+
+/// Picks by `wanted`: empty (the best usable one: discrete, integrated, virtual, CPU, other), a
+/// number in the list, "cpu", a UUID or part of a name (case-insensitive, must be unique).
+/// Throws DeviceError if nothing fits or the device lacks something, saying what.
+DeviceChoice chooseDevice(const std::vector<DeviceDescription>& devices, const std::string& wanted);
+
+/// One or several: "all" (every usable one; those that are the host's own processor only where
+/// there is no other), or what chooseDevice understands, with commas between (a name with a comma
+/// in it is taken for a name). Throws DeviceError as chooseDevice does.
+std::vector<DeviceChoice> chooseDevices(const std::vector<DeviceDescription>& devices,
+                                        const std::string& wanted);
+
+// --- Opening one ---------------------------------------------------------------------------------
+
+/// An instance and the device chosen from it, kept together in the right order of destruction.
+struct OpenDevice {
+    std::unique_ptr<Instance> instance;
+    std::unique_ptr<Device> device;
+    DeviceChoice choice;
+};
+
+/// Opens the device `wanted` names (chooseDevice), with the validation layer if the environment
+/// asks for it, and with the pipelines that earlier runs kept in the user's cache folder. Throws
+/// DeviceError.
+OpenDevice openDevice(const std::string& wanted);
+
+/// The devices that `wanted` names (chooseDevices), each with an instance of its own; a device that
+/// is named twice is opened twice. Throws DeviceError.
+std::vector<OpenDevice> openDevices(const std::string& wanted);
+
+/// Throws DeviceError if the validation layer had anything to say.
+void requireNoValidationMessages(const OpenDevice& open);
 
 } // namespace stromboli::vulkan

@@ -8,6 +8,9 @@
 #include <new>
 
 namespace stromboli::vulkan {
+
+// --- The pipeline cache --------------------------------------------------------------------------
+
 namespace {
 
 /// Empty if the driver cannot make one.
@@ -73,6 +76,23 @@ void PipelineCache::save() noexcept try {
     kept_->keep(name_, now);
     found_ = std::move(now);
 } catch (const std::bad_alloc&) { // no room for a copy of the cache: none is kept
+}
+
+// --- Pipelines kept in memory --------------------------------------------------------------------
+
+KeptPipelines::Made KeptPipelines::get(const Key& key, const std::function<Made()>& make) {
+    // Held while one is made: another thread that wants the same one waits for it.
+    const std::lock_guard lock(mutex_);
+    if (const auto found = made_.find(key); found != made_.end()) return found->second;
+    Made made = make();
+    if (made_.size() == kMost) made_.clear();
+    made_.emplace(key, made);
+    return made;
+}
+
+void KeptPipelines::clear() {
+    const std::lock_guard lock(mutex_);
+    made_.clear();
 }
 
 } // namespace stromboli::vulkan

@@ -1,6 +1,6 @@
 #include "host/vulkan/queue.hpp"
 
-#include "host/vulkan/result.hpp"
+#include "host/vulkan/instance.hpp"
 
 #include <chrono>
 

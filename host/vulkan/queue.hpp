@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/vulkan/device.hpp"
-#include "host/vulkan/handle.hpp"
+#include "host/vulkan/instance.hpp"
 
 #include <functional>
 

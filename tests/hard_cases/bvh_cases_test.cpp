@@ -5,7 +5,6 @@
 #include "host/core/error.hpp"
 #include "host/stress/device_subject.hpp"
 #include "host/vulkan/buffer.hpp"
-#include "host/vulkan/buffer_limits.hpp"
 #include "tests/bvh/fixtures.hpp"
 #include "tests/bvh/invariants.hpp"
 #include "tests/hard_cases/hits.hpp"

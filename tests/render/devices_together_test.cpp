@@ -3,7 +3,7 @@
 #include "host/core/error.hpp"
 #include "host/render/sampling_session.hpp"
 #include "host/render/team_backend.hpp"
-#include "host/vulkan/open_device.hpp"
+#include "host/vulkan/device.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/render/film_checks.hpp"
 #include "tests/support/device_fixture.hpp"

@@ -1,6 +1,6 @@
 // What happens at the device's limits: an error that says so, never a wrong picture.
 #include "host/core/error.hpp"
-#include "host/vulkan/result.hpp"
+#include "host/vulkan/instance.hpp"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
 

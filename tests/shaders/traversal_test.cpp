@@ -1,6 +1,6 @@
 // The traversal on the device against trying every primitive in double precision.
 #include "host/kernel/kernel_features.hpp"
-#include "host/vulkan/buffer_limits.hpp"
+#include "host/vulkan/buffer.hpp"
 #include "tests/bvh/fixtures.hpp"
 #include "tests/shaders/placed.hpp"
 #include "tests/shaders/queries.h"

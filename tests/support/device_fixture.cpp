@@ -1,7 +1,7 @@
 #include "tests/support/device_fixture.hpp"
 
 #include "host/process/process.hpp"
-#include "host/vulkan/open_device.hpp"
+#include "host/vulkan/device.hpp"
 
 #include <memory>
 #include <optional>

@@ -1,6 +1,6 @@
 // Every limit a buffer can be over, on devices that exist only here.
 #include "host/core/error.hpp"
-#include "host/vulkan/buffer_limits.hpp"
+#include "host/vulkan/buffer.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // The pipeline cache on a real device: wherever it comes from, results are the same.
 #include "host/vulkan/compute_pipeline.hpp"
-#include "host/vulkan/open_device.hpp"
+#include "host/vulkan/device.hpp"
 #include "tests/film/temporary_folder.hpp"
 
 #include "embedded/squares_shader.h"

@@ -1,6 +1,6 @@
 // Which device is taken, on machines that tests do not have: descriptions made by hand.
 #include "host/core/error.hpp"
-#include "host/vulkan/choose_device.hpp"
+#include "host/vulkan/device.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Memory of buffers on the device: what is counted is what the driver asks for.
 #include "host/vulkan/buffer.hpp"
-#include "host/vulkan/choose_device.hpp"
+#include "host/vulkan/device.hpp"
 #include "tests/support/device_fixture.hpp"
 
 #include <gtest/gtest.h>

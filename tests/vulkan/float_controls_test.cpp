@@ -1,5 +1,5 @@
 // Modules that ask for what GLSL cannot ask for.
-#include "host/vulkan/float_controls.hpp"
+#include "host/vulkan/instance.hpp"
 #include "tests/film/temporary_folder.hpp"
 #include "tests/support/shell.hpp"
 

@@ -1,6 +1,6 @@
 // That a device's pipelines are made once, and not kept without end. No device is needed.
 #include "host/vulkan/compute_pipeline.hpp"
-#include "host/vulkan/kept_pipelines.hpp"
+#include "host/vulkan/pipeline_cache.hpp"
 
 #include <gtest/gtest.h>
 
