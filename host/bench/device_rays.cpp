@@ -3,7 +3,7 @@
 #include "host/core/error.hpp"
 #include "host/kernel/kernel_buffers.hpp"
 #include "host/kernel/kernel_features.hpp"
-#include "host/kernel/loop_limit.hpp"
+#include "host/kernel/kernel_tuning.hpp"
 #include "host/vulkan/queue.hpp"
 
 #include "embedded/trace_rays_storage.h"

@@ -1,7 +1,7 @@
 #include "host/bench/ray_sets.hpp"
 
 #include "host/bvh/cpu_traversal.hpp"
-#include "host/kernel/work_order.hpp"
+#include "host/kernel/dispatcher.hpp"
 #include "host/reference/camera.hpp"
 #include "host/reference/integrator.hpp"
 #include "host/reference/sampling.hpp"

@@ -4,7 +4,7 @@
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
 #include "host/engine/build_scene.hpp"
-#include "host/kernel/kernel_report.hpp"
+#include "host/kernel/path_kernel.hpp"
 #include "host/vulkan/device.hpp"
 
 #include <fmt/format.h>

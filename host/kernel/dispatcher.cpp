@@ -1,14 +1,37 @@
 #include "host/kernel/dispatcher.hpp"
 
 #include "host/core/error.hpp"
-#include "host/kernel/kernel_buffers.hpp"
-#include "host/kernel/loop_limit.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace stromboli {
+
+// --- The order of work ---------------------------------------------------------------------------
+
+std::vector<PixelTarget> tileOrder(std::span<const PixelTarget> targets, uint32_t width) {
+    if (targets.empty()) return {};
+    constexpr uint32_t kTile = 8; // pixels: one row of a tile fills the lanes of an AVX2 register
+    const size_t tilesAcross = (width + kTile - 1) / kTile;
+    const auto tileOf = [&](const PixelTarget& t) {
+        return t.pixel / width / kTile * tilesAcross + t.pixel % width / kTile;
+    };
+    // Counting sort: targets are in row order, and so are those of a tile.
+    std::vector<size_t> firstOf(tileOf(targets.back()) / tilesAcross * tilesAcross + tilesAcross +
+                                1);
+    for (const PixelTarget& t : targets)
+        ++firstOf[tileOf(t) + 1];
+    std::partial_sum(firstOf.begin(), firstOf.end(), firstOf.begin());
+    std::vector<PixelTarget> order(targets.size());
+    for (const PixelTarget& t : targets)
+        order[firstOf[tileOf(t)]++] = t;
+    return order;
+}
+
+// --- Dispatches ----------------------------------------------------------------------------------
+
 namespace {
 
 using vulkan::Buffer;
@@ -135,6 +158,130 @@ void Dispatcher::count(const gpu::DispatchStatus& status) {
     counters_.paths += status.samples;
     steps_.busy += status.busySteps;
     steps_.all += status.allSteps;
+}
+
+// --- The persistent scheduler --------------------------------------------------------------------
+
+namespace {
+
+/// Where lanes stop taking path rays. What is left has to do for one more surface with all its
+/// direct light samples: a pass or more for each.
+uint32_t softLimit(uint32_t hard, const gpu::Frame& frame) {
+    const uint32_t directSamples = frame.hemisphereSamples + frame.lightSamples;
+    return directSamples < hard / 32 ? hard / 2 : 1;
+}
+
+/// Iterations a dispatch may be given. Where threads share them, a fast one runs more of them in a
+/// group than the others: up to twice as many.
+uint32_t paceLimit(uint32_t soft, const DeviceTuning& tuning) {
+    return tuning.driverThreads > 0 ? std::max(soft / 2, 1u) : soft;
+}
+
+} // namespace
+
+PersistentDispatcher::PersistentDispatcher(const DispatchTarget& target, const PathKernel& kernel,
+                                           const DispatchSettings& settings)
+    : Dispatcher(target, kernel, settings), kernel_(kernel),
+      softIterations_(softLimit(hardIterations_, settings.frame)),
+      pace_(settings.targetSeconds, paceLimit(softIterations_, settings.tuning)) {
+    // No lane has an item, whatever its other words say.
+    const std::vector<uint32_t> idle(
+        tuning_.lanes * pathWords(kernel.features(), tuning_.scheduler), gpu::NO_ITEM);
+    paths_.upload(queue_, std::as_bytes(std::span(idle)));
+}
+
+void PersistentDispatcher::record(VkCommandBuffer commands, const Share& share) {
+    const uint32_t groups = (tuning_.lanes + tuning_.workgroupSize - 1) / tuning_.workgroupSize;
+    gpu::Dispatch d = constants(share);
+    if (tuning_.driverThreads == 0 || fixedIterations()) {
+        d.softIterations = fixedIterations().value_or(pace_.iterations());
+    } else {
+        d.softIterations = softIterations_;
+        d.groupsPerThread = std::max(groups / tuning_.driverThreads, 1u);
+        d.sharedIterations = pace_.iterations() * tuning_.workgroupSize * tuning_.driverThreads;
+    }
+    vulkan::recordDispatch(device_, commands, kernel_.pipeline(), *sets_[share.segment],
+                           std::as_bytes(std::span(&d, 1)), groups);
+}
+
+void PersistentDispatcher::hasRun(double seconds, gpu::DispatchStatus&) {
+    pace_.took(seconds);
+}
+
+// --- The wavefront scheduler ---------------------------------------------------------------------
+
+namespace {
+
+/// Rounds of a submission: those in which nothing is left to do cost next to nothing, but are
+/// recorded.
+constexpr uint32_t kMostRounds = 1024;
+
+uint64_t offsetOf(uint32_t queue) {
+    return queue * sizeof(gpu::QueueHead);
+}
+
+} // namespace
+
+WavefrontDispatcher::WavefrontDispatcher(const DispatchTarget& target, const StageKernels& kernels,
+                                         const DispatchSettings& settings)
+    : Dispatcher(target, *kernels.front(), settings), kernels_(kernels),
+      pace_(settings.targetSeconds, kMostRounds) {
+    paths_.clear(queue_);
+    queues_->clear(queue_);
+}
+
+void WavefrontDispatcher::empty(VkCommandBuffer commands, uint32_t queue) {
+    const gpu::QueueHead none{.groups = 0, .one = 1, .alsoOne = 1, .count = 0};
+    device_.vk().vkCmdUpdateBuffer(commands, queues_->handle(), offsetOf(queue), sizeof(none),
+                                   &none);
+    vulkan::fullBarrier(device_, commands);
+}
+
+/// Begins or stops: puts every path into the queue that it belongs to.
+void WavefrontDispatcher::enterAllPaths(VkCommandBuffer commands, const Share& share,
+                                        uint32_t stage) {
+    for (uint32_t queue = 0; queue < gpu::QUEUE_COUNT; ++queue)
+        empty(commands, queue);
+    rayQueue_ = gpu::QUEUE_RAYS;
+    const gpu::Dispatch d = constants(share);
+    const uint32_t groups = (tuning_.lanes + tuning_.workgroupSize - 1) / tuning_.workgroupSize;
+    vulkan::recordDispatch(device_, commands, kernels_[stage]->pipeline(), *sets_[share.segment],
+                           std::as_bytes(std::span(&d, 1)), groups);
+}
+
+void WavefrontDispatcher::serve(VkCommandBuffer commands, const Share& share, uint32_t stage,
+                                uint32_t queue) {
+    gpu::Dispatch d = constants(share);
+    d.rayQueue = rayQueue_;
+    vulkan::recordIndirectDispatch(device_, commands, kernels_[stage]->pipeline(),
+                                   *sets_[share.segment], std::as_bytes(std::span(&d, 1)), *queues_,
+                                   offsetOf(queue));
+}
+
+void WavefrontDispatcher::record(VkCommandBuffer commands, const Share& share) {
+    if (share.isFirst)
+        enterAllPaths(commands, share, gpu::STAGE_BEGIN);
+    else if (share.isEnding)
+        enterAllPaths(commands, share, gpu::STAGE_STOP);
+    const uint32_t rounds = fixedIterations().value_or(pace_.iterations());
+    for (uint32_t i = 0; i < rounds; ++i) {
+        serve(commands, share, gpu::STAGE_DEPART, gpu::QUEUE_DEPARTING);
+        empty(commands, gpu::QUEUE_DEPARTING);
+        serve(commands, share, gpu::STAGE_TRACE, rayQueue_);
+        serve(commands, share, gpu::STAGE_FOLLOW, rayQueue_);
+        serve(commands, share, gpu::STAGE_LIGHT, gpu::QUEUE_LIT);
+        empty(commands, gpu::QUEUE_LIT);
+        empty(commands, rayQueue_);
+        rayQueue_ = 2 * gpu::QUEUE_RAYS + 1 - rayQueue_;
+    }
+}
+
+void WavefrontDispatcher::hasRun(double seconds, gpu::DispatchStatus& status) {
+    pace_.took(seconds);
+    std::array<gpu::QueueHead, gpu::QUEUE_COUNT> heads;
+    queues_->download(queue_, std::as_writable_bytes(std::span(heads)));
+    for (const gpu::QueueHead& head : heads)
+        status.unfinishedItems += head.count;
 }
 
 } // namespace stromboli

@@ -1,15 +1,30 @@
 #pragma once
 
-#include "host/kernel/device_film.hpp"
-#include "host/kernel/device_scene.hpp"
+#include "host/kernel/kernel_buffers.hpp"
+#include "host/kernel/kernel_tuning.hpp"
 #include "host/kernel/path_kernel.hpp"
+#include "host/render/backend.hpp"
+#include "shaders/shared/wavefront_types.h"
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace stromboli {
+
+// --- The order of work ---------------------------------------------------------------------------
+
+/// Puts targets (in row order) into the order in which lanes take them: tile by tile of 8 x 8
+/// pixels, so that the rays of lanes that work side by side are alike. Pixels that need no more
+/// samples are not in the list, and lanes take the next item whenever they are done with one, so
+/// the order need not balance anything.
+std::vector<PixelTarget> tileOrder(std::span<const PixelTarget> targets, uint32_t width);
+
+// --- Dispatches ----------------------------------------------------------------------------------
 
 /// How well traversal filled the lanes.
 struct StepCounters {
@@ -22,7 +37,7 @@ struct DispatchTarget {
     const vulkan::Device& device;
     const DeviceScene& scene;
     DeviceFilm& film;
-    const vulkan::Buffer& filter; ///< the picture's table (filter_table.hpp)
+    const vulkan::Buffer& filter; ///< the picture's table (sampling_tables.hpp)
 };
 
 /// How it does so.
@@ -96,6 +111,50 @@ class Dispatcher {
     RenderCounters counters_;
     StepCounters steps_;
     double kernelSeconds_ = 0;
+};
+
+// --- The persistent scheduler --------------------------------------------------------------------
+
+/// The persistent scheduler (shaders/pathtrace.comp): a submission is one dispatch, in which each
+/// lane follows paths until enough iterations of its loop are done.
+class PersistentDispatcher final : public Dispatcher {
+  public:
+    PersistentDispatcher(const DispatchTarget& target, const PathKernel& kernel,
+                         const DispatchSettings& settings);
+
+  private:
+    void record(VkCommandBuffer commands, const Share& share) override;
+    void hasRun(double seconds, gpu::DispatchStatus& status) override;
+
+    const PathKernel& kernel_;
+    uint32_t softIterations_;
+    DispatchPace pace_;
+};
+
+// --- The wavefront scheduler ---------------------------------------------------------------------
+
+/// The kernels of the wavefront scheduler, by STAGE_ number.
+using StageKernels = std::array<const PathKernel*, gpu::STAGE_COUNT>;
+
+/// The wavefront scheduler (shaders/wavefront.comp): a submission is a number of rounds, each of
+/// which draws rays, traces them and takes them in, for all paths under way.
+class WavefrontDispatcher final : public Dispatcher {
+  public:
+    /// The kernels must outlive the object. fixedIterations counts rounds.
+    WavefrontDispatcher(const DispatchTarget& target, const StageKernels& kernels,
+                        const DispatchSettings& settings);
+
+  private:
+    void record(VkCommandBuffer commands, const Share& share) override;
+    void hasRun(double seconds, gpu::DispatchStatus& status) override;
+
+    void empty(VkCommandBuffer commands, uint32_t queue);
+    void enterAllPaths(VkCommandBuffer commands, const Share& share, uint32_t stage);
+    void serve(VkCommandBuffer commands, const Share& share, uint32_t stage, uint32_t queue);
+
+    StageKernels kernels_;
+    DispatchPace pace_;                   ///< in rounds
+    uint32_t rayQueue_ = gpu::QUEUE_RAYS; ///< of the next round
 };
 
 } // namespace stromboli

@@ -13,6 +13,8 @@
 
 namespace stromboli {
 
+// --- The scene -----------------------------------------------------------------------------------
+
 /// The scene in the arrays that the kernel reads, ready to upload.
 struct GpuScene {
     WideLayout bvh;                         ///< leaves name the lights that they are
@@ -25,7 +27,7 @@ struct GpuScene {
     bool hasBlends = false;      ///< a primitive's material is a mixture
     bool hasBlackBacks = false;  ///< a primitive's material is black behind
     bool hasReliefRules = false; ///< a primitive's material has MATERIAL_RELIEF_ bits
-    float gapWidth = 0;          ///< gap_proposal.hpp
+    float gapWidth = 0;          ///< gpu_scene.hpp
     bool hasTriangles = false, hasSpheres = false;
     bool hasNormals = false; ///< any triangle with shading normals
     bool hasPlacements = false;
@@ -53,5 +55,14 @@ inline gpu::MaterialHeader materialHeader(const GpuScene& scene, const gpu::Prim
 uint32_t encodeNormal(const glm::vec3& n);
 /// The unit vector of a code, as the shaders decode it but for rounding.
 glm::vec3 decodeNormal(uint32_t code);
+
+// --- The gap -------------------------------------------------------------------------------------
+
+/// Width of the gap that the gap proposal aims at: the space between a scene's only light, a
+/// rectangle, and a diffuse surface close to it. What leaves the gap comes from few directions,
+/// into which the kernel sends some bounces (shaders/include/gap_proposal.glsl; docs/estimator.md,
+/// "Gaps"). In scene units; positive on the side that edgeA x edgeB points to, negative on the
+/// other; 0: there is no gap.
+float gapWidth(const GpuScene& scene);
 
 } // namespace stromboli

@@ -4,14 +4,20 @@
 #include "host/kernel/gpu_scene.hpp"
 #include "host/kernel/kernel_features.hpp"
 #include "host/kernel/kernel_tuning.hpp"
+#include "host/render/backend.hpp"
 #include "host/render/estimator.hpp"
 #include "host/vulkan/buffer.hpp"
+#include "shaders/shared/render_types.h"
 
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace stromboli {
+
+// --- Plans of buffers ----------------------------------------------------------------------------
 
 /// How buffers that are read row by row are bound.
 vulkan::BufferUse rowUse(const DeviceTuning& tuning);
@@ -51,5 +57,82 @@ struct PathBuffers {
     std::optional<vulkan::BufferPlan> queues; ///< of the wavefront scheduler
 };
 PathBuffers pathBuffers(const KernelFeatures& features, uint64_t lanes, PathScheduler scheduler);
+
+// --- The scene on the device ---------------------------------------------------------------------
+
+/// Buffers that hold what a scene has for these bindings already.
+using SceneBuffers = std::map<uint32_t, vulkan::Buffer>;
+
+/// A scene in the device's memory: uploaded once, for all pictures of it.
+class DeviceScene {
+  public:
+    /// `scene` must outlive the object. filled: of the same device; the others are uploaded. Throws
+    /// DeviceError if a buffer is over a limit of the device.
+    DeviceScene(const vulkan::Device& device, const GpuScene& scene, const DeviceTuning& tuning,
+                SceneBuffers filled = {});
+
+    /// Gives away the buffers in which the next scene has the same bytes, and frees the others: the
+    /// object has none after that.
+    SceneBuffers releaseWhatIsAlsoIn(const GpuScene& next);
+
+    const GpuScene& scene() const { return scene_; }
+    /// How its rows are read: as DeviceTuning::texelFetch was when it was uploaded.
+    bool isFetchedAsTexels() const { return isFetchedAsTexels_; }
+    /// In the order of their bindings, which are the first of the kernel's.
+    const std::vector<vulkan::Buffer>& buffers() const { return buffers_; }
+
+  private:
+    const GpuScene& scene_;
+    bool isFetchedAsTexels_;
+    std::vector<vulkan::Buffer> buffers_;
+};
+
+// --- The film on the device ----------------------------------------------------------------------
+
+/// The statistics of a picture's pixels in the device's memory.
+class DeviceFilm {
+  public:
+    /// A run of the rendered pixels whose states fit one binding.
+    struct Segment {
+        uint32_t firstPixel; ///< counted in the part that is rendered
+        uint32_t pixelCount;
+        vulkan::Buffer pixels;
+    };
+
+    /// An empty film. Throws DeviceError if it does not fit.
+    DeviceFilm(const vulkan::Device& device, const PictureArea& area, const DeviceTuning& tuning);
+
+    const PictureArea& area() const { return area_; }
+    const std::vector<Segment>& segments() const { return segments_; }
+
+    /// The targets as work items of each segment, in their order.
+    std::vector<std::vector<gpu::WorkItem>> workOf(std::span<const PixelTarget> targets) const;
+    /// The segment of a pixel, and its index there.
+    std::pair<size_t, uint32_t> segmentOf(uint32_t pixel) const;
+
+    gpu::PixelState read(size_t segment, uint32_t pixel);
+    void write(size_t segment, uint32_t pixel, const gpu::PixelState& state);
+    /// Statistics of all pixels of a segment that are in `items`, into `film`.
+    void readBack(size_t segment, std::span<const gpu::WorkItem> items, Film& film);
+
+    /// Forgets all samples.
+    void clear();
+
+    /// Pixels to the last bit.
+    std::vector<PixelSums> save(PixelRun run);
+    /// What was saved of these pixels; also into `film`. Throws std::invalid_argument if they are
+    /// not of the area, or if their number is another.
+    void restore(PixelRun run, std::span<const PixelSums> sums, Film& film);
+
+  private:
+    /// Pixels of a segment, counted in it; until the next dispatch or call.
+    std::span<const gpu::PixelState> statesOf(const Segment& segment, PixelRun run);
+
+    PictureArea area_;
+    vulkan::Queue queue_;
+    std::vector<Segment> segments_;
+    std::vector<gpu::PixelState>
+        copy_; ///< of a part of a segment, where it is not the host's memory
+};
 
 } // namespace stromboli

@@ -4,10 +4,14 @@
 #include "shaders/shared/interface.h"
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
 #include <vector>
 
 namespace stromboli {
+
+// --- Tuning --------------------------------------------------------------------------------------
+
 namespace {
 
 /// So that a dispatch takes some 0.1 s although each group ends well before the driver's limit of
@@ -75,6 +79,36 @@ DeviceTuning resolve(const KernelTuning& tuning, const vulkan::Device& device, u
     t.countSteps = tuning.countSteps;
     t.everythingOn = tuning.everythingOn;
     return t;
+}
+
+// --- Limits of loops -----------------------------------------------------------------------------
+
+uint32_t loopLimit(const vulkan::Device& device, uint32_t passes) {
+    constexpr uint32_t kLlvmpipePasses = 65535, kGuard = 1u << 20;
+    return device.description().isCpu() ? std::max(kLlvmpipePasses / passes, 2u) : kGuard;
+}
+
+uint32_t passesOfCameraRays(std::span<const uint32_t> constants) {
+    // sampleBlackmanHarris() of shaders/include/pixel_filter.glsl, for columns and rows.
+    constexpr uint32_t kInversion = 2 * (10 + 1);
+    const bool inverts = constants[SPEC_PIXEL_FILTER] == gpu::FILTER_BLACKMAN_HARRIS;
+    const uint32_t legs = std::max(constants[SPEC_TRAVERSAL_LEGS], 1u);
+    const uint32_t steps = constants[SPEC_TRAVERSAL_STEPS] + 1;
+    return (legs > 1 ? legs * (steps + 1) : steps) + (inverts ? kInversion : 0);
+}
+
+// --- The pace of dispatches ----------------------------------------------------------------------
+
+DispatchPace::DispatchPace(double targetSeconds, uint32_t limit)
+    : target_(targetSeconds), limit_(limit), iterations_(std::min(64u, limit)) {}
+
+void DispatchPace::took(double seconds) {
+    // At most fourfold a step: a first dispatch that includes compilation, or a last one with few
+    // lanes, says little about the next.
+    const double factor = std::clamp(target_ / std::max(seconds, 1e-9), 0.25, 4.0); // 1 ns
+    const double next = std::clamp(std::round(iterations_ * factor), std::min(16.0, double(limit_)),
+                                   double(limit_));
+    iterations_ = uint32_t(next);
 }
 
 } // namespace stromboli

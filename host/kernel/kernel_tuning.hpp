@@ -5,8 +5,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 namespace stromboli {
+
+// --- Tuning --------------------------------------------------------------------------------------
 
 /// Who decides what each lane does next (docs/kernel.md, "Two schedulers").
 enum class PathScheduler {
@@ -60,5 +63,35 @@ DeviceTuning resolve(const KernelTuning& tuning, const vulkan::Device& device,
 /// Whether rows are read through storage texel buffers on this device: where that is faster and
 /// its limits allow it.
 bool prefersTexels(const vulkan::DeviceDescription& device, uint64_t rowBytes);
+
+// --- Limits of loops -----------------------------------------------------------------------------
+
+/// Iterations that a kernel's main loop may run in one dispatch; `passes`: those of any loop that
+/// one of its iterations can take. llvmpipe ends all loops of a group, silently, after 65,535
+/// passes; on other devices it is only a guard against endless loops: a ray through 2^20 nodes is
+/// none.
+uint32_t loopLimit(const vulkan::Device& device, uint32_t passes);
+
+/// Passes for the steps of the traversal and, where a sample begins, for the pixel filter's
+/// inversion. constants: specialisation constants by their SPEC_ numbers.
+uint32_t passesOfCameraRays(std::span<const uint32_t> constants);
+
+// --- The pace of dispatches ----------------------------------------------------------------------
+
+/// Chooses how long a dispatch runs: as a number of kernel loop iterations after which no lane
+/// starts another ray. Learns from the time dispatches took, so that they stay near the target:
+/// long enough to cost little, short enough for watchdogs and Ctrl-C.
+class DispatchPace {
+  public:
+    /// limit: the most iterations a dispatch may ever be given.
+    DispatchPace(double targetSeconds, uint32_t limit);
+    uint32_t iterations() const { return iterations_; }
+    void took(double seconds);
+
+  private:
+    double target_;
+    uint32_t limit_;
+    uint32_t iterations_;
+};
 
 } // namespace stromboli

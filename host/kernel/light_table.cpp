@@ -1,16 +1,17 @@
 #include "host/kernel/light_table.hpp"
 
-#include "host/kernel/alias_table.hpp"
-#include "host/kernel/light_bounds.hpp"
 #include "host/kernel/light_tree.hpp"
 #include "scene/model/emitters.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
+#include <stdexcept>
 
 namespace stromboli {
+
+// --- The table of lights -------------------------------------------------------------------------
+
 namespace {
 
 gpu::QuadLight quad(const glm::vec3& corner, const glm::vec3& a, const glm::vec3& b) {
@@ -369,6 +370,41 @@ LightTable packLights(const Scene& scene, std::span<const uint32_t> placeOf,
                       const LightSelection& selection, std::span<const uint32_t> pictures,
                       std::shared_ptr<const EnvironmentTable> environment) {
     return Packer(scene, placeOf, selection, pictures, std::move(environment)).pack();
+}
+
+// --- Samples of direct light ---------------------------------------------------------------------
+
+namespace {
+
+/// Lights are sampled one by one or, in turn, each; a single delta light needs no second sample.
+void addLightSamples(const LightTable& lights, uint32_t samples, DirectSampling& direct) {
+    const uint32_t deltaLights = lights.count - lights.areaCount;
+    direct.perLight = samples;
+    if (lights.choice == LightChoice::Each)
+        direct.lights = lights.areaCount * samples + deltaLights;
+    else
+        direct.lights = lights.count > 0 ? samples : 0;
+    if (lights.count == 1 && deltaLights == 1) direct.lights = direct.perLight = 1;
+}
+
+} // namespace
+
+DirectSampling directSampling(const LightTable& lights, const Estimator& settings) {
+    DirectSampling direct;
+    const uint32_t samples = settings.lightSamples;
+    if (settings.countsLightsForHemisphere()) {
+        direct.hemisphere = samples * lights.count;
+        return direct;
+    }
+    if (!samplesLights(settings.directLight) && lights.areaCount > 0)
+        throw std::invalid_argument("the lights were packed for another way to find direct light");
+    const bool samplesAll =
+        samplesLights(settings.directLight) && settings.directLight != DirectLight::Mis;
+    if (samplesAll && lights.ambientLeftToBounces)
+        throw std::invalid_argument("ambient light was left to bounces, which do not look for it");
+    if (settings.directLight == DirectLight::Hemisphere) direct.hemisphere = samples;
+    addLightSamples(lights, samples, direct);
+    return direct;
 }
 
 } // namespace stromboli

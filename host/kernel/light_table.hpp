@@ -1,17 +1,20 @@
 #pragma once
 
-#include "host/kernel/environment_table.hpp"
 #include "host/kernel/rows.hpp"
+#include "host/kernel/sampling_tables.hpp"
 #include "host/render/estimator.hpp"
 #include "scene/model/scene.hpp"
 #include "shaders/shared/light_types.h"
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
 namespace stromboli {
+
+// --- The table of lights -------------------------------------------------------------------------
 
 /// Which lights are sampled, and how one of them is picked.
 struct LightSelection {
@@ -63,5 +66,20 @@ struct LightTable {
 LightTable packLights(const Scene& scene, std::span<const uint32_t> placeOf,
                       const LightSelection& selection, std::span<const uint32_t> pictures = {},
                       std::shared_ptr<const EnvironmentTable> environment = {});
+
+// --- Samples of direct light ---------------------------------------------------------------------
+
+/// How many samples find direct light at a shading point.
+struct DirectSampling {
+    uint32_t hemisphere = 0; ///< directions that are traced to whatever they meet
+    uint32_t lights = 0;     ///< samples of lights, of all together
+    uint32_t perLight =
+        1; ///< of those, for one light where each is sampled in turn; else all of them
+};
+
+/// Throws std::invalid_argument if the lights were selected for a mode of direct light in which all
+/// of them are sampled, and this one leaves some to rays, which would count them twice; or the
+/// other way round.
+DirectSampling directSampling(const LightTable& lights, const Estimator& settings);
 
 } // namespace stromboli

@@ -4,9 +4,20 @@
 #include "host/kernel/kernel_tuning.hpp"
 #include "host/vulkan/compute_pipeline.hpp"
 
+#include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace stromboli {
+
+// --- Words of a path -----------------------------------------------------------------------------
+
+/// 32-bit words that a scheduler keeps of a path in memory (shaders/shared/path_fields.h), in
+/// kernels with these features.
+uint32_t pathWords(const KernelFeatures& features, PathScheduler scheduler);
+
+// --- The kernel ----------------------------------------------------------------------------------
 
 /// The path kernel, compiled with the features that a picture needs.
 class PathKernel {
@@ -23,5 +34,18 @@ class PathKernel {
     KernelFeatures features_;
     vulkan::ComputePipeline pipeline_;
 };
+
+// --- What drivers make of it ---------------------------------------------------------------------
+
+/// What a device's driver makes of one of the kernels of a picture.
+struct KernelReport {
+    std::string kernel; ///< "persistent", or a stage of the wavefront scheduler
+    std::vector<vulkan::PipelineStatistic> statistics;
+};
+
+/// The kernels of both schedulers, compiled as for a GPU. The device is opened for compiling
+/// (vulkan::DeviceUse). Throws DeviceError.
+std::vector<KernelReport> reportKernels(const vulkan::Device& device, const GpuScene& scene,
+                                        const Camera& camera, const Estimator& estimator);
 
 } // namespace stromboli

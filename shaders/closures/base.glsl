@@ -1,7 +1,7 @@
 // The base under an interface: diffuse reflection, with what the interface lets through and sends back. The interface
 // is a plane or of microfacets. docs/estimator.md, "Plastic", has the formulas.
 
-/// The share of light along w that an interface of microfacets lets through (host/kernel/interface_table.hpp).
+/// The share of light along w that an interface of microfacets lets through (host/kernel/material_rows.hpp).
 float facetTransmittance(uint table, float cosine) {
     const float place = sqrt(clamp(cosine, 0.0, 1.0)) * float(TRANSMITTANCE_PIECES);
     const float piece = min(floor(place), float(TRANSMITTANCE_PIECES - 1u)), x = place - piece;

@@ -3,7 +3,7 @@
 // (docs/estimator.md, "Gaps"). That surface is bright, and is seen past the rims of the light
 // only: in few directions, but from everywhere. One bounce in sixteen from diffuse surfaces goes
 // there, by the one-sample balance heuristic (Veach and Guibas 1995), so that no weight is above
-// 16 / 15. host/kernel/gap_proposal.hpp finds the gap.
+// 16 / 15. host/kernel/gpu_scene.hpp finds the gap.
 
 const float GAP_SHARE = 0.0625; ///< of a surface's bounces
 

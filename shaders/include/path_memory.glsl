@@ -65,7 +65,7 @@ void loadPath(PathSlot slot, inout PathState path, inout Job job, uint reader) {
 #undef LOAD_FIELD
 }
 
-/// 32-bit words of a path (host/kernel/path_words.cpp). kept: as KEPT.
+/// 32-bit words of a path (host/kernel/path_kernel.cpp). kept: as KEPT.
 uint wordsOfPath(uint kept) {
     uint words = 0u;
 #define COUNT_FIELD(type, member, exists, readers, writers)                                        \

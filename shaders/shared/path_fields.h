@@ -1,5 +1,5 @@
 // What of a path lies in memory: between two stages of the wavefront scheduler, or two dispatches of the persistent
-// one. Code that loads and stores it (include/path_memory.glsl) and sizes of buffers (host/kernel/path_words.hpp) follow
+// one. Code that loads and stores it (include/path_memory.glsl) and sizes of buffers (host/kernel/path_kernel.hpp) follow
 // from this table.
 #ifndef STROMBOLI_SHARED_PATH_FIELDS_H
 #define STROMBOLI_SHARED_PATH_FIELDS_H

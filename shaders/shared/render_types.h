@@ -18,7 +18,7 @@ struct Frame {
     uint keepsValue; ///< 1: leave the last sample's value in PixelState::sum, rejected or not
     float nearDistance;
     float farDistance;
-    float gapWidth; ///< host/kernel/gap_proposal.hpp
+    float gapWidth; ///< host/kernel/gpu_scene.hpp
     uint seed;
     uint minBounce;
     uint maxBounces;

@@ -1,4 +1,4 @@
-// The wavefront scheduler (wavefront.comp, host/kernel/wavefront_dispatcher.hpp): its stages and its queues.
+// The wavefront scheduler (wavefront.comp, host/kernel/dispatcher.hpp): its stages and its queues.
 #ifndef STROMBOLI_SHARED_WAVEFRONT_TYPES_H
 #define STROMBOLI_SHARED_WAVEFRONT_TYPES_H
 

@@ -119,7 +119,7 @@ void expectBlurredEdge(PixelFilter filter, const FilterShape& shape) {
         const double error =
             std::sqrt(std::max(square - shares.below * shares.below, 1e-12) / kSamples);
         // 4.5 standard errors; what the Gaussian's cut takes away is 3.4e-4 of its weight, and the
-        // kernel's table errs by less than 2e-4 (host/kernel/filter_table.hpp).
+        // kernel's table errs by less than 2e-4 (host/kernel/sampling_tables.hpp).
         EXPECT_NEAR(film.pixels[size_t(pixel)].mean.x, shares.below, 4.5 * error + 3.4e-4) << pixel;
     }
 }

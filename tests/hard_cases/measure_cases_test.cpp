@@ -1,5 +1,5 @@
 // Hard cases 41, 42 and 45: solid angles, frames and choices by weight.
-#include "host/kernel/alias_table.hpp"
+#include "host/kernel/sampling_tables.hpp"
 #include "host/reference/lights.hpp"
 #include "scene/model/emitters.hpp"
 #include "tests/hard_cases/uniform.hpp"

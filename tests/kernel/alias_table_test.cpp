@@ -1,5 +1,5 @@
 // Tables that pick one of many weights.
-#include "host/kernel/alias_table.hpp"
+#include "host/kernel/sampling_tables.hpp"
 
 #include <gtest/gtest.h>
 

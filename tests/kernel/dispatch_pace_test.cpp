@@ -1,5 +1,5 @@
 // How long dispatches run.
-#include "host/kernel/dispatch_pace.hpp"
+#include "host/kernel/kernel_tuning.hpp"
 
 #include <gtest/gtest.h>
 

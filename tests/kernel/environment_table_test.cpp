@@ -1,6 +1,6 @@
 // What the kernel reads of an environment: radiance to 18 bits, and an alias table whose
 // probabilities are those of the weights.
-#include "host/kernel/environment_table.hpp"
+#include "host/kernel/sampling_tables.hpp"
 
 #include "host/core/color.hpp"
 #include "host/core/random.hpp"

@@ -1,6 +1,5 @@
 // Conductors, rough and thin dielectrics and plastic as the kernel gets them: which closures
 // they are, and the numbers that plastic is made of.
-#include "host/kernel/interface_table.hpp"
 #include "host/kernel/material_rows.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The tables by which the kernel samples pixel filters that are negative in places.
-#include "host/kernel/filter_table.hpp"
+#include "host/kernel/sampling_tables.hpp"
 
 #include "shaders/shared/interface.h"
 

@@ -1,5 +1,5 @@
 // Which lights have a gap into which some bounces are sent, and how wide it is.
-#include "host/kernel/gap_proposal.hpp"
+#include "host/kernel/gpu_scene.hpp"
 
 #include "host/bvh/wide_layout.hpp"
 #include "host/kernel/kernel_features.hpp"

@@ -1,8 +1,8 @@
 // What of the scene and the settings a kernel contains.
 #include "host/bvh/wide_layout.hpp"
-#include "host/kernel/direct_sampling.hpp"
 #include "host/kernel/kernel_features.hpp"
-#include "host/kernel/loop_limit.hpp"
+#include "host/kernel/kernel_tuning.hpp"
+#include "host/kernel/light_table.hpp"
 #include "shaders/shared/texture_types.h"
 
 #include <gmock/gmock.h>

@@ -1,7 +1,7 @@
 // The two schedulers run the same functions of a path, so that they make the same picture to the
 // last bit; and each ends a render that is stopped.
 #include "host/bvh/wide_layout.hpp"
-#include "host/kernel/direct_sampling.hpp"
+#include "host/kernel/light_table.hpp"
 #include "host/render/sampling_session.hpp"
 #include "scene/generate/scene_maker.hpp"
 #include "scene/read_scene.hpp"

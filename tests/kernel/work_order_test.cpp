@@ -1,5 +1,5 @@
 // The order in which lanes take pixels.
-#include "host/kernel/work_order.hpp"
+#include "host/kernel/dispatcher.hpp"
 
 #include <gtest/gtest.h>
 

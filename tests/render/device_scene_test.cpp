@@ -1,5 +1,5 @@
 // A scene in the device's memory, and what of it the next one needs no upload for.
-#include "host/kernel/device_scene.hpp"
+#include "host/kernel/kernel_buffers.hpp"
 #include "scene/generate/scene_maker.hpp"
 #include "shaders/shared/interface.h"
 #include "tests/support/device_fixture.hpp"

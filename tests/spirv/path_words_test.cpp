@@ -1,5 +1,5 @@
 // Words of a path in memory: the host makes buffers as large as the shaders have them.
-#include "host/kernel/path_words.hpp"
+#include "host/kernel/path_kernel.hpp"
 #include "host/vulkan/compute_pipeline.hpp"
 #include "host/vulkan/queue.hpp"
 #include "shaders/shared/texture_types.h"

@@ -1,0 +1,233 @@
+#include "host/kernel/sampling_tables.hpp"
+
+#include "host/core/color.hpp"
+#include "shaders/shared/interface.h"
+
+#include <glm/gtc/constants.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <numeric>
+
+namespace stromboli {
+
+// --- Alias tables --------------------------------------------------------------------------------
+
+std::vector<AliasColumn> buildAliasTable(std::span<const double> weights) {
+    const size_t n = weights.size();
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    std::vector<double> scaled(n);
+    std::vector<uint32_t> small, large;
+    for (uint32_t i = 0; i < n; ++i) {
+        scaled[i] = weights[i] * double(n) / sum;
+        (scaled[i] < 1 ? small : large).push_back(i);
+    }
+    std::vector<AliasColumn> table(n);
+    while (!small.empty() && !large.empty()) {
+        const uint32_t s = small.back(), l = large.back();
+        small.pop_back();
+        table[s] = {scaled[s], l};
+        scaled[l] -= 1 - scaled[s];
+        if (scaled[l] < 1) {
+            large.pop_back();
+            small.push_back(l);
+        }
+    }
+    // What is left is 1 but for rounding. An index of weight 0 cannot be left here alone: its
+    // column was filled while a larger one was at hand.
+    for (uint32_t i : small)
+        table[i] = {weights[i] > 0 ? 1.0 : 0.0, i};
+    for (uint32_t i : large)
+        table[i] = {1.0, i};
+    const auto heaviest =
+        uint32_t(std::max_element(weights.begin(), weights.end()) - weights.begin());
+    for (uint32_t i = 0; i < n; ++i)
+        if (table[i].threshold == 0 && table[i].alias == i) table[i].alias = heaviest;
+    return table;
+}
+
+// --- Environments --------------------------------------------------------------------------------
+
+namespace {
+
+constexpr uint32_t kMostMantissa = (1u << gpu::ENVIRONMENT_MANTISSA_BITS) - 1;
+/// Exponents whose scale, 2^(exponent - bias), is a normal float.
+constexpr int kLeastExponent = int(gpu::ENVIRONMENT_EXPONENT_BIAS) - 126, kMostExponent = 255;
+
+float scaleOf(int exponent) {
+    return std::ldexp(1.0f, exponent - int(gpu::ENVIRONMENT_EXPONENT_BIAS));
+}
+
+} // namespace
+
+void encodeRadiance(const glm::vec3& radiance, gpu::EnvironmentTexel& texel) {
+    const float largest = std::max({radiance.x, radiance.y, radiance.z});
+    int power = 0; // largest < 2^power
+    std::frexp(largest, &power);
+    const int exponent = std::clamp(power - int(gpu::ENVIRONMENT_MANTISSA_BITS) +
+                                        int(gpu::ENVIRONMENT_EXPONENT_BIAS),
+                                    kLeastExponent, kMostExponent);
+    uint32_t mantissa[3];
+    for (int c = 0; c < 3; ++c)
+        mantissa[c] = std::min(uint32_t(radiance[c] / scaleOf(exponent) + 0.5f), kMostMantissa);
+    texel.low = mantissa[0] | mantissa[1] << 18;
+    texel.high = mantissa[1] >> 14 | mantissa[2] << 4 | uint32_t(exponent) << 22;
+}
+
+glm::vec3 decodeRadiance(const gpu::EnvironmentTexel& texel) {
+    const uint32_t mantissa[3] = {texel.low, texel.low >> 18 | texel.high << 14, texel.high >> 4};
+    glm::vec3 radiance;
+    for (int c = 0; c < 3; ++c)
+        radiance[c] = float(mantissa[c] & kMostMantissa) * scaleOf(int(texel.high >> 22 & 0xFF));
+    return radiance;
+}
+
+EnvironmentTable packEnvironment(const Environment& environment) {
+    const uint32_t width = environment.width, height = environment.height;
+    const size_t count = size_t(width) * height;
+    EnvironmentTable table;
+    std::vector<double> weights(count);
+    std::vector<gpu::EnvironmentTexel> texels(count);
+    double sum = 0;
+    for (uint32_t y = 0; y < height; ++y) {
+        const double sine = std::sin(glm::pi<double>() * (y + 0.5) / height);
+        for (uint32_t x = 0; x < width; ++x) {
+            const size_t i = size_t(y) * width + x;
+            encodeRadiance(environment.radiance[i], texels[i]);
+            sum += weights[i] = luminance(decodeRadiance(texels[i])) * sine;
+        }
+    }
+    if (!(sum > 0)) return table;
+    {
+        const std::vector<AliasColumn> columns = buildAliasTable(weights);
+        for (size_t i = 0; i < count; ++i) {
+            texels[i].threshold = float(columns[i].threshold);
+            texels[i].alias = columns[i].alias;
+        }
+    }
+    weights = {};
+    table.texels.reserve(count);
+    for (const gpu::EnvironmentTexel& texel : texels)
+        appendRows(table.texels, texel);
+    // A texel's solid angle is 2 pi / width times pi / height times its sine.
+    const double texelsPerAngle = double(count) / (2 * glm::pi<double>() * glm::pi<double>());
+    table.light.width = width;
+    table.light.height = height;
+    table.light.cosRotation = std::cos(environment.rotation);
+    table.light.sinRotation = std::sin(environment.rotation);
+    table.light.density = float(texelsPerAngle / sum);
+    table.luminance = sum / texelsPerAngle * environment.strength;
+    return table;
+}
+
+// --- Pixel filters -------------------------------------------------------------------------------
+
+namespace {
+
+/// A filter of one coordinate, which is the same on both sides of 0.
+struct Profile {
+    double radius;
+    std::function<double(double)> at; ///< for [0, radius]
+};
+
+/// Mitchell and Netravali, Reconstruction filters in computer graphics (1988), equation 8.
+Profile cubic(double b, double c) {
+    return {2, [b, c](double x) {
+                const double x2 = x * x, x3 = x2 * x;
+                if (x < 1)
+                    return ((12 - 9 * b - 6 * c) * x3 + (-18 + 12 * b + 6 * c) * x2 + 6 - 2 * b) /
+                           6;
+                return ((-b - 6 * c) * x3 + (6 * b + 30 * c) * x2 + (-12 * b - 48 * c) * x + 8 * b +
+                        24 * c) /
+                       6;
+            }};
+}
+
+double sinc(double x) {
+    const double turn = std::numbers::pi * x;
+    return x < 1e-4 ? 1 - turn * turn / 6 : std::sin(turn) / turn; // the next term is below 1e-16
+}
+
+Profile lanczos(uint32_t lobes) {
+    return {double(lobes), [lobes](double x) { return sinc(x) * sinc(x / lobes); }};
+}
+
+Profile profileOf(PixelFilter filter, const FilterShape& shape) {
+    if (filter == PixelFilter::Mitchell) return cubic(shape.b, shape.c);
+    if (filter == PixelFilter::CatmullRom) return cubic(0, 0.5);
+    return lanczos(shape.lobes);
+}
+
+/// Integrals from -radius to each of many equidistant places: of the filter and of its absolute
+/// value.
+class Integrals {
+  public:
+    explicit Integrals(const Profile& profile)
+        : radius_(profile.radius), filter_(2 * kHalf + 1, 0.0), absolute_(2 * kHalf + 1, 0.0) {
+        const double step = radius_ / kHalf;
+        for (size_t i = 0; i < 2 * kHalf; ++i) {
+            // The rule of Simpson on a step; both halves of the filter have the same sums.
+            const size_t fromMiddle = i < kHalf ? kHalf - 1 - i : i - kHalf;
+            const double x = double(fromMiddle) * step;
+            const double piece =
+                (profile.at(x) + 4 * profile.at(x + step / 2) + profile.at(x + step)) * step / 6;
+            filter_[i + 1] = filter_[i] + piece;
+            absolute_[i + 1] = absolute_[i] + std::abs(piece);
+        }
+    }
+
+    double wholeFilter() const { return filter_.back(); }
+    struct Place {
+        double x, filter; ///< the integral up to there
+    };
+    /// Where the integral of the absolute value has this share of the whole.
+    Place at(double share) const {
+        const double wanted = share * absolute_.back();
+        const auto above = std::upper_bound(absolute_.begin() + 1, absolute_.end() - 1, wanted);
+        const auto i = size_t(above - absolute_.begin()) - 1;
+        const double piece = absolute_[i + 1] - absolute_[i];
+        const double part = piece > 0 ? std::clamp((wanted - absolute_[i]) / piece, 0.0, 1.0) : 0;
+        return {(double(i) + part) * radius_ / kHalf - radius_,
+                filter_[i] + part * (filter_[i + 1] - filter_[i])};
+    }
+
+  private:
+    /// On each side: steps that are far shorter than the kernel's cells but in the filter's far
+    /// ends, of which cells hold many.
+    static constexpr size_t kHalf = size_t(1) << 16;
+
+    double radius_;
+    std::vector<double> filter_, absolute_;
+};
+
+} // namespace
+
+uint32_t filterRows(PixelFilter filter) {
+    return hasNegativeLobes(filter) ? gpu::FILTER_CELLS : 1;
+}
+
+std::vector<Row> filterTable(PixelFilter filter, const FilterShape& shape) {
+    std::vector<gpu::FilterCell> cells;
+    std::vector<Row> rows;
+    if (!hasNegativeLobes(filter)) {
+        appendRows(rows, gpu::FilterCell{});
+        return rows;
+    }
+    const Integrals integrals(profileOf(filter, shape));
+    Integrals::Place begin = integrals.at(0);
+    for (uint32_t cell = 1; cell <= gpu::FILTER_CELLS; ++cell) {
+        const Integrals::Place end = integrals.at(double(cell) / gpu::FILTER_CELLS);
+        const double weight =
+            gpu::FILTER_CELLS * (end.filter - begin.filter) / integrals.wholeFilter();
+        cells.push_back({float(begin.x), float(end.x - begin.x), float(weight), 0});
+        begin = end;
+    }
+    std::ranges::stable_partition(cells, [](const auto& cell) { return cell.weight > 0; });
+    for (const gpu::FilterCell& cell : cells)
+        appendRows(rows, cell);
+    return rows;
+}
+
+} // namespace stromboli
