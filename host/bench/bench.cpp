@@ -4,7 +4,7 @@
 #include "host/bench/path_bench.hpp"
 #include "host/bench/ray_bench.hpp"
 #include "host/bench/startup_bench.hpp"
-#include "host/engine/build_scene.hpp"
+#include "host/engine/load_scene.hpp"
 #include "host/vulkan/device.hpp"
 #include "scene/find_scene.hpp"
 

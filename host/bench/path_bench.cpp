@@ -1,6 +1,6 @@
 #include "host/bench/path_bench.hpp"
 
-#include "host/engine/build_scene.hpp"
+#include "host/engine/load_scene.hpp"
 #include "host/kernel/vulkan_backend.hpp"
 #include "scene/add_environment.hpp"
 #include "scene/model/surface_lookup.hpp"

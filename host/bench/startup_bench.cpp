@@ -2,7 +2,6 @@
 
 #include "host/core/error.hpp"
 #include "host/core/system.hpp"
-#include "host/engine/build_scene.hpp"
 #include "host/engine/load_scene.hpp"
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/render/sampling_session.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/engine/listener.hpp"
+#include "host/engine/load_scene.hpp"
 
 #include <string>
 

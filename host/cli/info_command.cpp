@@ -6,7 +6,7 @@
 #include "host/core/files.hpp"
 #include "host/core/json.hpp"
 #include "host/core/log.hpp"
-#include "host/engine/build_scene.hpp"
+#include "host/engine/load_scene.hpp"
 #include "host/film/image_file.hpp"
 #include "host/kernel/kernel_buffers.hpp"
 #include "host/kernel/kernel_features.hpp"

@@ -3,7 +3,7 @@
 #include "host/cli/declared_command.hpp"
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
-#include "host/engine/build_scene.hpp"
+#include "host/engine/load_scene.hpp"
 #include "host/kernel/path_kernel.hpp"
 #include "host/vulkan/device.hpp"
 

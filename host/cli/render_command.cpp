@@ -10,7 +10,6 @@
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
 #include "host/core/system.hpp"
-#include "host/engine/keeping.hpp"
 #include "host/engine/render_session.hpp"
 #include "host/engine/share.hpp"
 #include "host/farm/round_plan.hpp"

@@ -10,7 +10,7 @@
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
 #include "host/core/log.hpp"
-#include "host/engine/build_scene.hpp"
+#include "host/engine/load_scene.hpp"
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/reference/reference_backend.hpp"
 #include "host/study/journal.hpp"

@@ -8,6 +8,9 @@
 #include <utility>
 
 namespace stromboli {
+
+// --- Loading -------------------------------------------------------------------------------------
+
 namespace {
 
 Scene readFile(const SceneRequest& request, const Listener& listener) {
@@ -55,6 +58,23 @@ LoadedScene loadMoment(const SceneRequest& request, LoadedScene before, const Li
     if (request.environment.isGiven())
         addEnvironment(moment, std::move(*std::exchange(before.scene->environment, {})));
     return {std::make_shared<Scene>(std::move(moment)), seconds};
+}
+
+// --- Building ------------------------------------------------------------------------------------
+
+BuiltScene buildScene(const Scene& scene, const Estimator& estimator, const Listener& listener,
+                      KeptParts* kept, uint64_t gatheredRows) {
+    listener.doing(Stage::Building,
+                   fmt::format("building the BVH of {} triangles", scene.triangles.size()));
+    const Stopwatch watch;
+    BuiltScene built;
+    built.gpu =
+        packScene(scene, buildWideBvh(scene, {}, kept ? &kept->trees : nullptr),
+                  lightSelection(estimator), kept ? kept->environment : nullptr, gatheredRows);
+    if (kept) kept->environment = built.gpu.lights.environment;
+    built.seconds = watch.seconds();
+    listener.doing(Stage::Preparing, "opening the device and compiling the kernel"); // comes next
+    return built;
 }
 
 } // namespace stromboli

@@ -1,14 +1,48 @@
 #pragma once
 
-#include "host/engine/listener.hpp"
+#include "host/bvh/two_level_layout.hpp"
+#include "host/kernel/gpu_scene.hpp"
+#include "host/render/estimator.hpp"
 #include "scene/add_environment.hpp"
 #include "scene/build/conventions.hpp"
 #include "scene/model/scene.hpp"
 
+#include <functional>
 #include <memory>
 #include <string>
 
 namespace stromboli {
+
+// --- Listeners -----------------------------------------------------------------------------------
+
+/// How much a message matters.
+enum class Severity { Detail, Information, Warning };
+
+/// What an engine is busy with.
+enum class Stage { Loading, Building, Preparing, Sampling, Looking, Writing };
+
+/// Whom the engine tells what it does. Functions may be empty. They are called on the threads that
+/// call the engine, and never after that call has returned.
+struct Listener {
+    /// A message of one line.
+    std::function<void(Severity, const std::string&)> message;
+    /// What begins now, in words: "building the BVH of 12 triangles".
+    std::function<void(Stage, const std::string&)> activity;
+
+    void detail(const std::string& text) const { say(Severity::Detail, text); }
+    void info(const std::string& text) const { say(Severity::Information, text); }
+    void warn(const std::string& text) const { say(Severity::Warning, text); }
+    void doing(Stage stage, const std::string& what) const {
+        if (activity) activity(stage, what);
+    }
+
+  private:
+    void say(Severity severity, const std::string& text) const {
+        if (message) message(severity, text);
+    }
+};
+
+// --- Loading -------------------------------------------------------------------------------------
 
 /// Where a scene comes from, how its file is read, and what lights it from all around.
 struct SceneRequest {
@@ -33,5 +67,23 @@ LoadedScene loadScene(const SceneRequest& request, const Listener& listener = {}
 /// `before`, which is of no use any more.
 LoadedScene loadMoment(const SceneRequest& request, LoadedScene before,
                        const Listener& listener = {});
+
+// --- Building ------------------------------------------------------------------------------------
+
+/// A BVH and the kernel's arrays.
+struct BuiltScene {
+    GpuScene gpu;
+    double seconds = 0; ///< that building took
+};
+
+/// What one moment of an animation keeps for the next.
+struct KeptParts {
+    KeptTrees trees;
+    std::shared_ptr<const EnvironmentTable> environment;
+};
+
+/// kept: where the scene is a moment of a sequence. gatheredRows: of planDetails().
+BuiltScene buildScene(const Scene& scene, const Estimator& estimator, const Listener& listener = {},
+                      KeptParts* kept = nullptr, uint64_t gatheredRows = kUsualGatheredRows);
 
 } // namespace stromboli

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/core/text.hpp"
-#include "host/engine/listener.hpp"
+#include "host/engine/load_scene.hpp"
 #include "host/kernel/kernel_tuning.hpp"
 #include "host/render/layers.hpp"
 #include "host/render/settings.hpp"

@@ -1,15 +1,21 @@
 #pragma once
 
+#include "host/engine/render_request.hpp"
 #include "host/film/film.hpp"
+#include "host/film/image_file.hpp"
 #include "host/render/backend.hpp"
+#include "host/render/layers.hpp"
 #include "host/render/picture_noise.hpp"
 #include "host/render/settings.hpp"
 
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace stromboli {
+
+// --- Results -------------------------------------------------------------------------------------
 
 /// Names one sample of a picture: column, row from the top, number.
 struct SampleName {
@@ -39,5 +45,17 @@ struct RenderResult {
 
 /// Adds the samples and pixels of a band.
 void count(const Film& film, const RenderSettings& settings, RenderResult& result);
+
+// --- Channels of what is seen --------------------------------------------------------------------
+
+/// The channels that a request asks for beside the radiance, of a film whose samples are taken
+/// (docs/layers.md), by the viewer of its picture; without one, all that there is is opaque and
+/// unknown. Pixels without samples show the alpha of the ones that showNeighbours() shows.
+FloatImage seenChannels(Viewer* viewer, const Film& film, const Scene& scene, const Camera& camera,
+                        const RenderRequest& request);
+
+/// The channels of the layers, pixel by pixel, as films of shares have them.
+std::vector<float> layersByPixel(Viewer& viewer, const Film& film, const Scene& scene,
+                                 const Camera& camera, const RenderRequest& request);
 
 } // namespace stromboli

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/checkpoint/checkpoint_file.hpp"
-#include "host/engine/build_scene.hpp"
+#include "host/engine/load_scene.hpp"
 #include "host/engine/render_request.hpp"
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/render/team_backend.hpp"

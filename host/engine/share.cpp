@@ -4,7 +4,7 @@
 #include "host/checkpoint/scene_identity.hpp"
 #include "host/core/error.hpp"
 #include "host/core/log.hpp"
-#include "host/engine/seen_channels.hpp"
+#include "host/engine/render_result.hpp"
 #include "host/farm/film_file.hpp"
 #include "host/farm/round_plan.hpp"
 #include "host/render/block_backend.hpp"
