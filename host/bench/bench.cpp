@@ -1,8 +1,8 @@
 #include "host/bench/bench.hpp"
 
-#include "host/bench/circumstances.hpp"
 #include "host/bench/path_bench.hpp"
 #include "host/bench/ray_bench.hpp"
+#include "host/bench/report.hpp"
 #include "host/bench/startup_bench.hpp"
 #include "host/engine/load_scene.hpp"
 #include "host/vulkan/device.hpp"

@@ -1,20 +1,197 @@
 #include "host/bench/device_rays.hpp"
 
-#include "host/core/error.hpp"
-#include "host/kernel/kernel_buffers.hpp"
-#include "host/kernel/kernel_features.hpp"
-#include "host/kernel/kernel_tuning.hpp"
-#include "host/vulkan/queue.hpp"
-
 #include "embedded/trace_rays_storage.h"
 #include "embedded/trace_rays_texel.h"
+#include "host/bvh/cpu_traversal.hpp"
+#include "host/core/error.hpp"
+#include "host/kernel/dispatcher.hpp"
+#include "host/kernel/kernel_buffers.hpp"
+#include "host/kernel/kernel_features.hpp"
+#include "host/reference/camera.hpp"
+#include "host/reference/integrator.hpp"
+#include "host/reference/sampling.hpp"
+#include "host/vulkan/queue.hpp"
+#include "scene/model/placements.hpp"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
 
 namespace stromboli::bench {
+
+// --- Sets of rays --------------------------------------------------------------------------------
+
+namespace {
+
+using reference::SurfacePoint;
+
+constexpr float kInfinite = std::numeric_limits<float>::max();
+/// The share of a shadow ray, at its end, where nothing counts: far more than any contestant's
+/// rounding, so that none of them takes the emitter for an obstacle.
+constexpr float kEmitterGap = 0x1p-12f;
+
+/// What became of one camera ray.
+struct PathStart {
+    gpu::TracedRay camera{};
+    std::optional<gpu::TracedRay> shadow, bounce;
+};
+
+/// The kernel's bound of a hit point's error (docs/numerics.md, "Hit points"): 32 u of the largest
+/// coordinate.
+double floatError(const glm::dvec3& p) {
+    return 32 * 0x1p-24 * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+}
+
+gpu::TracedRay leave(const SurfacePoint& s, const glm::dvec3& direction, float tMax) {
+    const glm::dvec3 origin =
+        reference::moveOff(s.position, floatError(s.position), s.geometric, direction);
+    return {glm::vec3(origin), tMax, glm::vec3(direction), 0};
+}
+
+std::optional<gpu::TracedRay> shadowRay(const reference::Lights& lights, const SurfacePoint& s,
+                                        reference::RandomStream& random) {
+    const size_t count = lights.broadCount() + lights.deltaCount();
+    if (count == 0) return {};
+    const auto index = size_t(random.next() * double(count));
+    const reference::LightSample light = index < lights.broadCount()
+                                             ? lights.sampleBroad(index, s, random)
+                                             : lights.sampleDelta(index - lights.broadCount(), s);
+    const bool lit = light.value.x > 0 || light.value.y > 0 || light.value.z > 0;
+    if (!lit || glm::dot(s.geometric, light.direction) <= 0) return {};
+    if (light.infinite) return leave(s, light.direction, kInfinite);
+    gpu::TracedRay ray = leave(s, light.direction, 1 - kEmitterGap);
+    ray.direction = glm::vec3(light.target - glm::dvec3(ray.origin));
+    return ray;
+}
+
+gpu::TracedRay bounceRay(const SurfacePoint& s, reference::RandomStream& random) {
+    const double u = random.next(), v = random.next();
+    const reference::Frame frame(s.shading);
+    glm::dvec3 direction = frame.toWorld(reference::cosineHemisphere(u, v));
+    // Interpolated normals may send it into the surface; a path would end there.
+    if (glm::dot(direction, s.geometric) <= 0)
+        direction -= 2 * glm::dot(direction, s.geometric) * s.geometric;
+    return leave(s, direction, kInfinite);
+}
+
+/// Jittered.
+reference::Ray cameraRay(const Camera& camera, const RenderSettings& settings, uint32_t pixel,
+                         reference::RandomStream& random) {
+    const double x = pixel % settings.area.width + random.next();
+    const double y = pixel / settings.area.width + random.next();
+    return reference::cameraRay(camera, x / settings.area.width, y / settings.area.height);
+}
+
+gpu::TracedRay rounded(const reference::Ray& ray) {
+    return {glm::vec3(ray.origin), kInfinite, glm::vec3(ray.direction), 0};
+}
+
+PathStart startPath(const reference::World& world, const Camera& camera,
+                    const RenderSettings& settings, uint32_t pixel, uint32_t sample) {
+    reference::RandomStream random(pixel, sample, settings.estimator.seed);
+    const reference::Ray ray = cameraRay(camera, settings, pixel, random);
+    PathStart start;
+    start.camera = rounded(ray);
+    const reference::Hit hit = world.bvh.closest(ray, {});
+    if (hit.primitive == reference::kNoPrimitive) return start;
+    SurfacePoint surface = reference::surfaceAt(world.scene, ray, hit);
+    reference::faceForward(surface, world.conventions);
+    start.shadow = shadowRay(world.lights, surface, random);
+    start.bounce = bounceRay(surface, random);
+    return start;
+}
+
+/// All pixels in tiles of 8 x 8; tiles that follow each other are far apart in the picture.
+/// lavapipe gives each of its threads one contiguous share of a dispatch, and none shall have the
+/// empty half.
+std::vector<PixelTarget> pixelsInOrder(const RenderSettings& settings) {
+    std::vector<PixelTarget> pixels(size_t(settings.area.width) * settings.area.height);
+    for (uint32_t i = 0; i < pixels.size(); ++i)
+        pixels[i].pixel = i;
+    const std::vector<PixelTarget> tiled = tileOrder(pixels, settings.area.width);
+    constexpr size_t kTile = 64, kStride = 61;
+    const size_t tiles = (tiled.size() + kTile - 1) / kTile;
+    std::vector<PixelTarget> order;
+    for (size_t start = 0; start < kStride; ++start)
+        for (size_t tile = start; tile < tiles; tile += kStride) {
+            const auto first = tiled.begin() + ptrdiff_t(tile * kTile);
+            const size_t count = std::min(kTile, tiled.size() - tile * kTile);
+            order.insert(order.end(), first, first + ptrdiff_t(count));
+        }
+    return order;
+}
+
+/// startOf: what becomes of the camera ray of a pixel's sample.
+RaySets collect(const RenderSettings& settings, uint32_t perPixel,
+                const std::function<PathStart(uint32_t pixel, uint32_t sample)>& startOf) {
+    const std::vector<PixelTarget> order = pixelsInOrder(settings);
+    std::vector<PathStart> starts(order.size() * perPixel);
+    tbb::parallel_for(size_t(0), starts.size(), [&](size_t i) {
+        starts[i] = startOf(order[i % order.size()].pixel, uint32_t(i / order.size()));
+    });
+    RaySets sets;
+    for (const PathStart& start : starts) {
+        sets.camera.rays.push_back(start.camera);
+        if (start.shadow) sets.shadow.rays.push_back(*start.shadow);
+        if (start.bounce) sets.bounce.rays.push_back(*start.bounce);
+    }
+    return sets;
+}
+
+/// A triangle that was hit, in the world.
+SurfacePoint flatSurface(const Scene& scene, const WideLayout& layout, const TraversalRay& ray,
+                         const TraversalHit& hit) {
+    const gpu::LeafRecord leaf = asLeaf(layout.records[hit.primitive / 2]);
+    std::array<glm::vec3, 3> corner = {leaf.p0, leaf.p1, leaf.p2};
+    if (hit.primitive % 2 == 1) corner = {leaf.p0, leaf.p2, leaf.p3};
+    if (hit.placement != gpu::NO_PLACEMENT) {
+        const uint32_t number =
+            asPlacement(layout.records[hit.placement]).placement & ~gpu::PLACEMENT_MIRRORS;
+        for (glm::vec3& c : corner)
+            c = placed(scene.placements[number], c);
+    }
+    const glm::dvec3 a(corner[0]), b(corner[1]), c(corner[2]);
+    SurfacePoint s{};
+    s.position = a + double(hit.b1) * (b - a) + double(hit.b2) * (c - a);
+    s.geometric = glm::normalize(glm::cross(b - a, c - a));
+    if (glm::dot(s.geometric, glm::dvec3(ray.direction)) > 0) s.geometric = -s.geometric;
+    s.shading = s.geometric;
+    return s;
+}
+
+} // namespace
+
+RaySets makeRaySets(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                    uint32_t perPixel) {
+    const reference::World world(scene, {});
+    return collect(settings, perPixel, [&](uint32_t pixel, uint32_t sample) {
+        return startPath(world, camera, settings, pixel, sample);
+    });
+}
+
+RaySets makePlacedRaySets(const Scene& scene, const WideLayout& layout, const Camera& camera,
+                          const RenderSettings& settings, uint32_t perPixel) {
+    return collect(settings, perPixel, [&](uint32_t pixel, uint32_t sample) {
+        reference::RandomStream random(pixel, sample, settings.estimator.seed);
+        PathStart start;
+        start.camera = rounded(cameraRay(camera, settings, pixel, random));
+        TraversalRay ray;
+        ray.origin = start.camera.origin, ray.direction = start.camera.direction;
+        const TraversalHit hit = closestHit(layout, ray);
+        if (!hit) return start;
+        const SurfacePoint surface = flatSurface(scene, layout, ray, hit);
+        start.shadow = bounceRay(surface, random);
+        start.bounce = bounceRay(surface, random);
+        return start;
+    });
+}
+
+// --- Rays on the device --------------------------------------------------------------------------
+
 namespace {
 
 using vulkan::Buffer;

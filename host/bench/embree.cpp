@@ -1,18 +1,54 @@
 #include "host/bench/embree.hpp"
 
-#include "host/bench/embree_api.hpp"
 #include "host/bench/embree_rays.hpp"
 #include "host/bench/measuring.hpp"
 #include "host/core/error.hpp"
 #include "host/core/system.hpp"
 
+#include <embree3/rtcore.h>
 #include <fmt/format.h>
 
 #include <atomic>
 #include <mutex>
+#include <string>
 
 namespace stromboli::bench {
 namespace {
+
+/// Embree's functions, found in its shared library when they are first wanted: linked with the
+/// program, the library would add 3 ms to every start of it.
+struct EmbreeApi {
+#define STROMBOLI_EMBREE_FUNCTIONS(apply)                                                          \
+    apply(rtcNewDevice) apply(rtcReleaseDevice) apply(rtcGetDeviceError)                           \
+        apply(rtcGetDeviceProperty) apply(rtcSetDeviceMemoryMonitorFunction) apply(rtcNewScene)    \
+            apply(rtcReleaseScene) apply(rtcSetSceneFlags) apply(rtcSetSceneBuildQuality)          \
+                apply(rtcCommitScene) apply(rtcNewGeometry) apply(rtcReleaseGeometry)              \
+                    apply(rtcSetGeometryBuildQuality) apply(rtcSetSharedGeometryBuffer)            \
+                        apply(rtcCommitGeometry) apply(rtcAttachGeometryByID) apply(rtcIntersect1) \
+                            apply(rtcOccluded1) apply(rtcSetGeometryInstancedScene)                \
+                                apply(rtcSetGeometryTransform) apply(rtcAttachGeometry)
+#define STROMBOLI_EMBREE_POINTER(name) decltype(&::name) name = nullptr;
+    STROMBOLI_EMBREE_FUNCTIONS(STROMBOLI_EMBREE_POINTER)
+#undef STROMBOLI_EMBREE_POINTER
+
+    std::string missing; ///< why Embree cannot be used; empty: it can
+};
+
+EmbreeApi load() {
+    EmbreeApi api;
+    SharedLibrary library("libembree3.so.3", "libembree3-3");
+#define STROMBOLI_EMBREE_FIND(name) library.find(api.name, #name);
+    STROMBOLI_EMBREE_FUNCTIONS(STROMBOLI_EMBREE_FIND)
+#undef STROMBOLI_EMBREE_FIND
+    api.missing = library.missing();
+    return api;
+}
+
+/// Loaded at the first call and never unloaded.
+const EmbreeApi& embreeApi() {
+    static const EmbreeApi api = load();
+    return api;
+}
 
 constexpr uint64_t kRayBlock = 1024; ///< rays a thread takes at a time
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "host/bench/device_rays.hpp"
-#include "host/bench/ray_sets.hpp"
 #include "scene/model/scene.hpp"
 
 #include <memory>

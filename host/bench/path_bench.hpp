@@ -1,6 +1,5 @@
 #pragma once
 
-#include "host/bench/contestants.hpp"
 #include "host/bench/measuring.hpp"
 #include "host/bench/report.hpp"
 #include "host/kernel/kernel_tuning.hpp"

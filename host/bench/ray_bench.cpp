@@ -1,6 +1,6 @@
 #include "host/bench/ray_bench.hpp"
 
-#include "host/bench/contestants.hpp"
+#include "host/bench/measuring.hpp"
 #include "host/bvh/binary_tree.hpp"
 #include "host/bvh/leaf_items.hpp"
 #include "host/bvh/statistics.hpp"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "host/bench/contestants.hpp"
 #include "host/bench/device_rays.hpp"
 #include "host/bench/embree.hpp"
 #include "host/bench/measuring.hpp"

@@ -1,15 +1,20 @@
 #pragma once
 
-/// What `stromboli bench` found, before it is put into words. Series are in seconds for one item:
-/// one build, one ray, one path, one byte.
+#include "host/bench/embree.hpp"
 #include "host/bench/measuring.hpp"
 #include "host/core/json.hpp"
+#include "host/vulkan/device.hpp"
 
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace stromboli::bench {
+
+// --- Reports -------------------------------------------------------------------------------------
+
+// What `stromboli bench` found, before it is put into words. Series are in seconds for one item:
+// one build, one ray, one path, one byte.
 
 /// Where and how the figures were made.
 struct Circumstances {
@@ -111,5 +116,13 @@ Json toJson(const BenchReport& report);
 /// least and the most in brackets; "x" figures are medians of the ratios of each round, above 1
 /// where ours is the faster.
 std::string toTable(const BenchReport& report);
+
+// --- Circumstances -------------------------------------------------------------------------------
+
+/// Threads of a device that is a CPU (llvmpipe: LP_NUM_THREADS, at most one a core); of others 0.
+uint32_t deviceThreads(const vulkan::DeviceDescription& device);
+
+Circumstances circumstancesOf(const vulkan::DeviceDescription& device, const OpenedEmbree& embree,
+                              uint32_t threads, const std::string& commandLine);
 
 } // namespace stromboli::bench

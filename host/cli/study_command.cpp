@@ -1,5 +1,5 @@
 // `study`: error against time of several configurations.
-#include "host/bench/circumstances.hpp"
+#include "host/bench/report.hpp"
 #include "host/cli/activity.hpp"
 #include "host/cli/command_line.hpp"
 #include "host/cli/commands.hpp"

@@ -1,5 +1,5 @@
 // The rays that contestants trace: what they are is known of each of them.
-#include "host/bench/ray_sets.hpp"
+#include "host/bench/device_rays.hpp"
 #include "host/reference/bvh.hpp"
 #include "scene/model/emitters.hpp"
 #include "tests/bench/bench_fixtures.hpp"
