@@ -1,5 +1,5 @@
 #include "host/cli/options.hpp"
-#include "host/study/configuration.hpp"
+#include "host/study/study.hpp"
 #include "tests/cli/program.hpp"
 
 #include <gmock/gmock.h>

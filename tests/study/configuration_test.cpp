@@ -1,5 +1,5 @@
 #include "host/core/error.hpp"
-#include "host/study/configuration.hpp"
+#include "host/study/study.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "host/study/estimate.hpp"
+#include "host/study/summary.hpp"
 
 #include <gtest/gtest.h>
 

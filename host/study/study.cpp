@@ -1,4 +1,4 @@
-#include "host/study/configuration.hpp"
+#include "host/study/study.hpp"
 
 #include "host/core/error.hpp"
 #include "host/core/text.hpp"
