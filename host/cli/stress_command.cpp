@@ -11,8 +11,8 @@
 #include "host/core/json.hpp"
 #include "host/core/log.hpp"
 #include "host/core/system.hpp"
+#include "host/stress/case.hpp"
 #include "host/stress/device_subject.hpp"
-#include "host/stress/report.hpp"
 #include "host/version/version.hpp"
 #include "host/vulkan/device.hpp"
 

@@ -12,7 +12,7 @@ void main() {
     const float a = uintBitsToFloat(pairs[i].x), b = uintBitsToFloat(pairs[i].y);
     precise float sum = a + b, difference = a - b, product = a * b, negated = -a;
     results[i] = floatBitsToUint(vec4(sum, difference, product, negated));
-    // In the order of FloatFacts::comparisons (subject.hpp).
+    // In the order of FloatFacts::comparisons (case.hpp).
     comparisons[i] = uint(a < b) | uint(a <= b) << 1 | uint(a > b) << 2 | uint(a >= b) << 3 |
                      uint(a == b) << 4 | uint(a != b) << 5 | uint(!(a < b)) << 6;
 }

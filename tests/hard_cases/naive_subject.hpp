@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/stress/subject.hpp"
+#include "host/stress/case.hpp"
 
 #include <random>
 

@@ -1,5 +1,5 @@
 // What `stromboli stress` says of what it found.
-#include "host/stress/report.hpp"
+#include "host/stress/case.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

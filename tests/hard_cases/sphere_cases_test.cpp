@@ -3,7 +3,6 @@
 #include "host/core/random.hpp"
 #include "host/stress/device_subject.hpp"
 #include "host/stress/scenes.hpp"
-#include "host/stress/totals.hpp"
 #include "tests/hard_cases/cpu_subject.hpp"
 #include "tests/hard_cases/hits.hpp"
 #include "tests/hard_cases/naive_intersection.hpp"

@@ -1,4 +1,4 @@
-#include "host/stress/report.hpp"
+#include "host/stress/case.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -6,6 +6,36 @@
 #include <algorithm>
 
 namespace stromboli::stress {
+
+// --- A run ---------------------------------------------------------------------------------------
+
+Picture Run::render(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                    const KernelTuning& tuning) const {
+    Picture picture = subject_.render(scene, camera, settings, tuning,
+                                      [this](const RenderProgress&) { return !goOn_ || goOn_(); });
+    goOn(); // a picture that was cut short is no picture
+    return picture;
+}
+
+// --- All cases -----------------------------------------------------------------------------------
+
+const std::vector<Case>& allCases() {
+    static const std::vector<Case> all = [] {
+        std::vector<Case> cases;
+        for (const auto group :
+             {edgeCases, intersectionCases, closedCases, offsetCases, scaleCases, randomCases,
+              furnaceCases, estimatorCases, filmCases, agreementCases, arithmeticCases,
+              environmentCases, materialCases, textureCases, tangentCases, instanceCases})
+            std::ranges::move(group(), std::back_inserter(cases));
+        // By their first number.
+        std::ranges::stable_sort(cases, {}, [](const Case& c) { return std::stoi(c.numbers); });
+        return cases;
+    }();
+    return all;
+}
+
+// --- Reports -------------------------------------------------------------------------------------
+
 namespace {
 
 constexpr const char* kRow = "{:<4}  {:<17}  {:>6}  {:>10}  {:>8}  {:<18}  {:>8} {:<8}  {}\n";
