@@ -1,12 +1,11 @@
 // `bench`: speed, against Embree where it is installed.
 #include "host/bench/report.hpp"
 #include "host/bench/startup_bench.hpp"
-#include "host/cli/activity.hpp"
 #include "host/cli/command_line.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/declared_command.hpp"
+#include "host/cli/progress.hpp"
 #include "host/cli/signals.hpp"
-#include "host/cli/status_line.hpp"
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
 #include "host/core/log.hpp"

@@ -1,8 +1,11 @@
 #pragma once
 
 #include "host/cli/options.hpp"
+#include "host/core/error.hpp"
 
 namespace stromboli {
+
+// --- Commands ------------------------------------------------------------------------------------
 
 /// Each runs one command and returns the program's exit code; errors are thrown.
 int renderCommand(const RenderOptions& options);
@@ -25,5 +28,35 @@ struct PreparedPicture {
     ResolvedPicture picture;
 };
 PreparedPicture preparePicture(const SceneAndPicture& work);
+
+// --- Exit codes ----------------------------------------------------------------------------------
+
+/// Exit codes of the program; the numbers are part of its interface (README, "Exit codes"). 5 is
+/// that of the `stromboli` script where it cannot build the program.
+enum class ExitCode : int {
+    Success = 0,
+    Usage = 1,
+    Scene = 2,
+    Device = 3,
+    Output = 4,
+    Undecided = 6,
+    NothingLeft = 7
+};
+
+/// What the program ends with after an error.
+inline ExitCode exitCodeOf(ErrorKind kind) {
+    switch (kind) {
+    case ErrorKind::Usage:
+        return ExitCode::Usage;
+    case ErrorKind::Scene:
+        return ExitCode::Scene;
+    case ErrorKind::Device:
+    case ErrorKind::DeviceLost:
+        return ExitCode::Device;
+    case ErrorKind::Output:
+        return ExitCode::Output;
+    }
+    return ExitCode::Device;
+}
 
 } // namespace stromboli

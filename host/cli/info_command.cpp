@@ -1,5 +1,4 @@
 #include "host/bvh/statistics.hpp"
-#include "host/cli/activity.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/declared_command.hpp"
 #include "host/cli/progress.hpp"

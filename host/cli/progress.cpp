@@ -1,12 +1,161 @@
 #include "host/cli/progress.hpp"
 
-#include "host/cli/status_line.hpp"
+#include "host/core/log.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <mutex>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+namespace stromboli::status_line {
+
+// --- The status line -----------------------------------------------------------------------------
+
+namespace {
+
+std::atomic<bool> wantedByUser = false;
+
+struct State {
+    std::mutex mutex;
+    bool isDrawn = false;
+};
+
+/// Never destroyed: threads may still draw when main has returned.
+State& state() {
+    static State& line = *new State;
+    return line;
+}
+
+bool terminalCanRedraw() {
+    static const bool can = [] {
+        const char* const kind = std::getenv("TERM");
+        return isatty(STDERR_FILENO) != 0 && kind && std::string_view(kind) != "dumb";
+    }();
+    return can;
+}
+
+/// The terminal may be resized at any time.
+size_t columns() {
+    winsize size = {};
+    constexpr size_t kUsual = 80;
+    return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kUsual;
+}
+
+/// The first `most` characters of UTF-8 text: a byte 10xxxxxx goes on with a character.
+std::string_view firstCharacters(std::string_view text, size_t most) {
+    size_t characters = 0;
+    for (size_t i = 0; i < text.size(); ++i)
+        if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80 && characters++ == most)
+            return text.substr(0, i);
+    return text;
+}
+
+void print(std::string_view text) {
+    std::fwrite(text.data(), 1, text.size(), stderr);
+    std::fflush(stderr);
+}
+
+} // namespace
+
+void allow(bool wanted) {
+    wantedByUser = wanted;
+}
+
+bool isShown() {
+    return wantedByUser && terminalCanRedraw();
+}
+
+void draw(std::string_view text) {
+    if (!isShown()) return;
+    const std::lock_guard lock(state().mutex);
+    state().isDrawn = true;
+    // In the last column some terminals would begin a new line.
+    print(std::string(kErase) + std::string(firstCharacters(text, columns() - 1)));
+}
+
+void clear() {
+    if (!terminalCanRedraw()) return;
+    const std::lock_guard lock(state().mutex);
+    if (!state().isDrawn) return;
+    state().isDrawn = false;
+    print(kErase);
+}
+
+} // namespace stromboli::status_line
 
 namespace stromboli {
+
+// --- Activity ------------------------------------------------------------------------------------
+
+namespace {
+
+/// What takes less is done before anyone could have read its name.
+constexpr double kWorthNamingSeconds = 0.5;
+
+struct State {
+    std::mutex mutex; // held while the line is drawn, so that no old text is drawn over a new one
+    std::string what;
+    StatusLine line = StatusLine::OfOthers;
+    Stopwatch since;
+    bool isDrawn = false;
+};
+
+/// Never destroyed: the thread that watches for signals outlives main.
+State& state() {
+    static State& activity = *new State;
+    return activity;
+}
+
+} // namespace
+
+void nowDoing(const std::string& what, StatusLine line) {
+    State& s = state();
+    const std::lock_guard lock(s.mutex);
+    if (s.isDrawn) status_line::clear();
+    s.isDrawn = false;
+    s.what = what;
+    s.line = line;
+    s.since = {};
+}
+
+std::string whatIsBeingDone() {
+    const std::unique_lock lock(state().mutex, std::try_to_lock);
+    return lock ? state().what : std::string();
+}
+
+void redrawActivity() {
+    State& s = state();
+    const std::lock_guard lock(s.mutex);
+    if (s.line == StatusLine::OfOthers || s.since.seconds() < kWorthNamingSeconds) return;
+    s.isDrawn = true;
+    status_line::draw(fmt::format("{}, {:.0f} s", s.what, s.since.seconds()));
+}
+
+Listener toTerminal() {
+    Listener listener;
+    listener.message = [](Severity severity, const std::string& text) {
+        switch (severity) {
+        case Severity::Detail:
+            return logging::debug(text);
+        case Severity::Information:
+            return logging::info(text);
+        case Severity::Warning:
+            return logging::warn(text);
+        }
+    };
+    listener.activity = [](Stage stage, const std::string& what) {
+        nowDoing(what, stage == Stage::Sampling ? StatusLine::OfOthers : StatusLine::OfActivity);
+    };
+    return listener;
+}
+
+// --- Progress ------------------------------------------------------------------------------------
+
 namespace {
 
 constexpr double kRedrawSeconds = 0.25;

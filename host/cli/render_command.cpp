@@ -1,10 +1,7 @@
 // `render`: a picture, a share of one, several, or one sample.
-#include "host/cli/activity.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/exit_code.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/render_outputs.hpp"
-#include "host/cli/report.hpp"
 #include "host/cli/sequence.hpp"
 #include "host/cli/signals.hpp"
 #include "host/core/error.hpp"

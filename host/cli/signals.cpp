@@ -1,7 +1,6 @@
 #include "host/cli/signals.hpp"
 
-#include "host/cli/activity.hpp"
-#include "host/cli/status_line.hpp"
+#include "host/cli/progress.hpp"
 #include "host/core/files.hpp"
 
 #include <fmt/format.h>

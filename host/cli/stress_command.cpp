@@ -1,11 +1,8 @@
 // `stress`: the hard cases of docs/hard_cases.md on the device.
-#include "host/cli/activity.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/declared_command.hpp"
-#include "host/cli/exit_code.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/signals.hpp"
-#include "host/cli/status_line.hpp"
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
 #include "host/core/json.hpp"

@@ -1,8 +1,8 @@
 // `submit`: a picture goes to a scheduler, as shares and their merge.
-#include "host/cli/activity.hpp"
 #include "host/cli/command_line.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/declared_command.hpp"
+#include "host/cli/progress.hpp"
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
 #include "host/core/log.hpp"

@@ -1,7 +1,7 @@
 #include "host/manual/man_page.hpp"
 
+#include "host/cli/command_line.hpp"
 #include "host/cli/declared_command.hpp"
-#include "host/cli/program_text.hpp"
 #include "host/version/version.hpp"
 #include "scene/find_scene.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "host/cli/option_list.hpp"
+#include "host/cli/declared_command.hpp"
 
 namespace stromboli {
 
