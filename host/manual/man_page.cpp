@@ -1,7 +1,6 @@
-#include "host/manual/man_page.hpp"
+#include "host/manual/manual.hpp"
 
 #include "host/cli/command_line.hpp"
-#include "host/cli/declared_command.hpp"
 #include "host/version/version.hpp"
 #include "scene/find_scene.hpp"
 

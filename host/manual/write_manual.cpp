@@ -1,8 +1,5 @@
 // stromboli_write_manual man|bash|fish|zsh: the manual page, or completion, on standard output.
-#include "host/manual/bash_completion.hpp"
-#include "host/manual/fish_completion.hpp"
-#include "host/manual/man_page.hpp"
-#include "host/manual/zsh_completion.hpp"
+#include "host/manual/manual.hpp"
 
 #include <cstdio>
 #include <string>

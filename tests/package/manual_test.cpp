@@ -1,10 +1,7 @@
 // Manual page and completion hold what is declared, and the programs that read them understand
 // them.
 #include "host/cli/declared_command.hpp"
-#include "host/manual/bash_completion.hpp"
-#include "host/manual/fish_completion.hpp"
-#include "host/manual/man_page.hpp"
-#include "host/manual/zsh_completion.hpp"
+#include "host/manual/manual.hpp"
 #include "tests/support/shell.hpp"
 
 #include <gmock/gmock.h>
