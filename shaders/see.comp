@@ -61,7 +61,7 @@ void setRay(inout Look look, vec3 origin, vec3 direction, float tMin, float tMax
     look.rayEnd = tMax;
 }
 
-/// Of the sample under way: block 0 as in the path kernel, and one for each mirror.
+/// The number of the sample under way, whose random words are block 0 as in the path kernel, and a block for each mirror.
 uint sampleIndex(const Frame frame, Look look) { return frame.firstSample + look.seen.samples; }
 uvec4 randomWords(const Frame frame, Look look) {
     return randomWords(look.seen.pixel, sampleIndex(frame, look), look.bounce, frame.seed);

@@ -131,7 +131,7 @@ class Benchmark {
         if (wants(Part::Variants)) report.variants = benchVariants(arena, gpu, kernelVariants(gpu));
     }
 
-    /// Of the first scene that is a file.
+    /// Measures start-up with the first scene that is a file; empty if none is.
     std::optional<StartupReport> startup() {
         for (const std::string& name : settings_.scenes)
             if (const std::string file = sceneFile(name); !file.empty())

@@ -198,7 +198,8 @@ using vulkan::Buffer;
 using vulkan::BufferUse;
 
 constexpr uint32_t kBindings = BINDING_RAY_DISTANCES + 1;
-/// Of the lanes' totals in their buffer, after the number of the next chunk of rays.
+/// Byte offset of the lanes' totals in their buffer: they follow the number of the next chunk of
+/// rays.
 constexpr uint64_t kTotalsOffset = sizeof(uint32_t);
 
 /// The scene's buffers by binding; the traversal reads the first ones only, but all are bound.
@@ -277,7 +278,8 @@ void DeviceRays::load(const RaySet& set) {
     anyHit_ = set.anyHit;
     const uint32_t raysPerGroup = tuning_.kernel.workgroupSize * tuning_.raysPerLane;
     chunks_ = (rayCount_ + raysPerGroup - 1) / raysPerGroup;
-    // Of twice the groups a thread may do its own half, or up to all.
+    // There are twice as many groups as chunks, so that a fast thread can take up to twice its
+    // share.
     groups_ = groupsTakeChunks() ? 2 * chunks_ : chunks_;
     rays_.emplace(device_, "ray buffer", set.rays.size() * sizeof(gpu::TracedRay),
                   tuning_.kernel.texelFetch ? BufferUse::Texel : BufferUse::Storage);

@@ -47,8 +47,9 @@ struct RaySets {
 RaySets makeRaySets(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                     uint32_t perPixel);
 
-/// The same of a scene with placements, of which the reference has no tree, by the tree of the
-/// device; bounces go by geometric normals, and shadow rays to anywhere in the sky.
+/// Ray sets as makeRaySets() makes them, for a scene with placements. The reference has no tree of
+/// such a scene, so rays are traced through the device's; bounces go by geometric normals, and
+/// shadow rays to anywhere in the sky.
 RaySets makePlacedRaySets(const Scene& scene, const WideLayout& layout, const Camera& camera,
                           const RenderSettings& settings, uint32_t perPixel);
 
@@ -101,7 +102,7 @@ class DeviceRays {
     std::vector<uint32_t> constants_; ///< specialisation constants of the path kernel
     vulkan::Queue queue_;
     std::vector<vulkan::Buffer> sceneBuffers_;
-    // Of the loaded rays:
+    // What load() sets up:
     uint32_t rayCount_ = 0, chunks_ = 0, groups_ = 0;
     bool anyHit_ = false;
     std::optional<vulkan::Buffer> rays_, totals_, distances_;

@@ -25,7 +25,7 @@ class Painter {
     const std::string& name() const { return name_; }
     const Film& film() const { return film_; }
     const Backend& backend() const { return *backend_; }
-    /// As many samples of every pixel as the settings say.
+    /// Takes as many more samples of every pixel as the settings say.
     Work goOn();
 
   private:

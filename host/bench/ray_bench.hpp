@@ -21,7 +21,7 @@ RayReport benchRays(const Arena& arena, DeviceRays& device, const EmbreePair& em
 uint64_t countDisagreements(const RaySet& set, const std::vector<float>& a,
                             const std::vector<float>& b);
 
-/// Of rays, by where they end.
+/// The share of rays that hit something, from the distances at which they end.
 double hitShare(const std::vector<float>& distances);
 
 /// Bounce rays in the generated mesh of so many triangles in a box.

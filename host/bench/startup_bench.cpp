@@ -40,7 +40,8 @@ std::vector<std::string> environmentWith(const Environment& changes) {
     return all;
 }
 
-/// As exec wants them: pointers, the last one null. The strings must stay.
+/// The argument list that exec takes: pointers to the strings, the last one null. The strings must
+/// outlive it.
 std::vector<char*> pointers(std::vector<std::string>& strings) {
     std::vector<char*> result;
     for (std::string& s : strings)

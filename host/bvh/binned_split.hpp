@@ -19,8 +19,9 @@ namespace stromboli::bvh {
 using Float4 = float __attribute__((vector_size(16)));
 using Int4 = int32_t __attribute__((vector_size(16)));
 
-/// Of equal values (zeros of either sign) the second one. This is associative, so that reductions
-/// that keep the order, as TBB's do, are the same to the bit however they are divided.
+/// The lesser of two values by lane; where they are equal (zeros of either sign), the second. This
+/// is associative, so that reductions that keep the order, as TBB's do, are the same to the bit
+/// however they are divided.
 inline Float4 minimum(Float4 a, Float4 b) {
     return a < b ? a : b;
 }

@@ -182,7 +182,8 @@ class Traversal {
         bottom_ = below;
     }
 
-    /// With a ray in the prototype's space for boxes, as shaders/include/placements.glsl has it.
+    /// Goes on in the tree of the placement's prototype, with the ray in the prototype's space
+    /// where boxes are tested, as shaders/include/placements.glsl has it.
     void visitPlacement(const gpu::PlacementRecord& p, uint32_t record) {
         const auto transform = std::bit_cast<gpu::TransformRecord>(layout_.records.at(p.transform));
         const glm::vec4 rows[3] = {p.toPrototype0, p.toPrototype1, p.toPrototype2};

@@ -53,12 +53,12 @@ struct LeafItem {
     std::array<uint32_t, 2> primitive{gpu::NO_PRIMITIVE, gpu::NO_PRIMITIVE};
     /// Which corner of the triangle is the slot's first.
     std::array<uint8_t, 2> firstCorner{0, 0};
-    /// Of an item without primitives: in Scene::placements.
+    /// Index into Scene::placements, if the item is a placement and has no primitives.
     uint32_t placement = kNoPlacement;
 
     static constexpr uint32_t kNoPlacement = 0xFFFFFFFFu;
     bool isPlacement() const { return placement != kNoPlacement; }
-    /// Of primitives.
+    /// How many primitives the item has, 0 to 2.
     uint32_t count() const { return isPlacement() ? 0 : primitive[1] == gpu::NO_PRIMITIVE ? 1 : 2; }
 };
 

@@ -23,7 +23,8 @@ struct BvhStatistics {
 
     double childrenPerNode() const;
     double primitivesPerLeaf() const;
-    /// Of the records and of a gpu::Primitive; 0 without primitives.
+    /// Bytes of the records and of a gpu::Primitive, divided by the number of primitives; 0 if
+    /// there are none.
     double bytesPerPrimitive() const;
 };
 

@@ -80,7 +80,7 @@ class CommandOption {
     CommandOption& proposes(Words words);
     CommandOption& proposes(Proposed what);
 
-    /// As messages call it: the first of its names.
+    /// The name that messages call it by, which is its first one.
     std::string name() const;
     /// {"-l", "--light-samples"}; none: by position.
     Words dashedNames() const;
@@ -118,7 +118,7 @@ class OptionList {
                           uint32_t& where, Range<uint32_t> range);
     CommandOption& number(std::string names, std::string valueName, std::string help,
                           std::optional<uint32_t>& where, Range<uint32_t> range);
-    /// As many whole numbers as there are places.
+    /// An option that takes as many whole numbers as `where` has places.
     CommandOption& numbers(std::string names, std::string valueNames, std::string help,
                            std::vector<uint32_t*> where, Range<uint32_t> range);
     CommandOption& real(std::string names, std::string valueName, std::string help, double& where,

@@ -94,7 +94,8 @@ void declareShare(OptionList& list, ShareOptions& o) {
         .besidePicture();
 }
 
-/// As a line about rejected samples names one: added to the same command, they show it again.
+/// Options that name one sample as the line about rejected samples does: added to the same command,
+/// they show that sample again.
 void declareSampleAlone(OptionList& list, Asked& asked) {
     list.group("Sampling");
     SampleName& name = asked.sample;

@@ -48,7 +48,8 @@ class CaseLine {
     }
 
   private:
-    /// As if all cases took the mean time of those that are done; nothing before the first is.
+    /// The time left if all cases take the mean time of those that are done; empty before the first
+    /// is.
     std::string timeLeft(size_t number, size_t count) const {
         if (number == 1) return "";
         const double each = watch_.seconds() / double(number - 1);

@@ -58,7 +58,7 @@ Acceptance judgeByVariance(const Picture& reference, const Picture& variance,
 
 namespace {
 
-/// Of some pixels, in XYZ.
+/// The sum of the differences of some pixels and of their variances, in CIE XYZ.
 struct Sum {
     glm::dvec3 difference{0.0}, variance{0.0};
 

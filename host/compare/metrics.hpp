@@ -17,7 +17,7 @@ struct Picture {
     std::vector<glm::dvec3> rgb;
     /// From 8-bit sRGB: values are in [0, 1], and what was brighter is lost.
     bool lowDynamicRange = false;
-    /// With means, variances and sample counts, where the file has them.
+    /// The film, if the file has means, variances and sample counts.
     std::optional<Film> film;
 
     Picture() = default;

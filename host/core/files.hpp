@@ -61,7 +61,7 @@ void removeTemporaryFilesForGood();
 
 /// Throws the OutputError that `path` cannot be written, for this reason.
 [[noreturn]] void failToWrite(const std::filesystem::path& path, const std::string& reason);
-/// The same for an error number of the system.
+/// Throws that OutputError with the system's text for an error number (errno).
 [[noreturn]] void failToWrite(const std::filesystem::path& path, int error);
 
 /// The folder that a file of this name is in.
@@ -77,11 +77,12 @@ uint32_t checksumOfFile(const std::filesystem::path& file);
 /// Where a command writes: a file, or standard output where the name is "-".
 bool isStandardOutput(const std::filesystem::path& path);
 
-/// As writeFileAtomically, or all of it to standard output. Throws OutputError.
+/// Writes a file as writeFileAtomically() does, or all bytes to standard output. Throws
+/// OutputError.
 void writeOutput(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void writeOutput(const std::filesystem::path& path, std::string_view text);
 
-/// As checkFileWritable; of standard output nothing is known beforehand.
+/// Checks what checkFileWritable() does; of standard output nothing is known beforehand.
 void checkOutputWritable(const std::filesystem::path& path);
 
 /// To be called before anything is opened: a standard stream that was closed when the program was

@@ -86,7 +86,7 @@ spdlog::level::level_enum levelOf(Verbosity verbosity) {
 
 void setUpLogging(Verbosity verbosity, void (*before)()) {
     beforeMessages = before;
-    // As https://no-color.org has it: set, and not empty.
+    // https://no-color.org: colours are unwanted if the variable is set and not empty.
     const char* const plain = std::getenv("NO_COLOR");
     auto logger = std::make_shared<spdlog::logger>(
         "stromboli",

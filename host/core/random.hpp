@@ -22,14 +22,14 @@ class Random {
         const float x = uniform(-half, half), y = uniform(-half, half);
         return {x, y, uniform(-half, half)};
     }
-    /// Of a length between 0.1 and sqrt(3), as rays may have; not uniform.
+    /// A vector of a length between 0.1 and sqrt(3), as directions of rays may have; not uniform.
     glm::vec3 vector() {
         for (;;) {
             const glm::vec3 v = inCube(1);
             if (glm::dot(v, v) > 0.01f) return v;
         }
     }
-    /// Of unit length, uniform.
+    /// A unit vector, uniform over the sphere.
     glm::vec3 direction() {
         for (;;) {
             const glm::vec3 d = inCube(1);

@@ -134,7 +134,7 @@ class RenderSession {
     /// In floats, linear: R, G, B, the channels that the request asks for, and with `statistics`
     /// the number of samples and the variance of the mean. Pixels without samples show a neighbour.
     FloatImage pixels(bool statistics = false);
-    /// As it is shown on a screen.
+    /// The picture as it is shown on a screen, through this tone curve.
     ByteImage shown(const ToneCurve& tone);
 
     /// All that another session needs to go on: Keeping::begun. Throws UsageError of a picture in

@@ -20,7 +20,7 @@ std::vector<std::byte> toBytes(std::span<const SharedPixel> run);
 /// A run of pixels as their bytes have them, number by number: a tenth of what the pixels take.
 class PackedRun {
   public:
-    /// Of pixels without samples.
+    /// A run of pixels that have no samples.
     explicit PackedRun(size_t pixels) : pixels_(pixels) {}
     /// Nothing if the bytes are others.
     static std::optional<PackedRun> fromBytes(std::span<const std::byte> bytes, size_t pixels);

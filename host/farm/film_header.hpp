@@ -38,7 +38,7 @@ struct PlannedRound {
 struct FilmHeader {
     RenderIdentity identity;
     RenderSettings settings; ///< of the whole picture
-    /// As the picture's notes say it: the scene's name, and the command that renders it in one go.
+    /// What the picture's notes say: the scene's name, and the command that renders it in one go.
     std::string scene;
     std::vector<std::string> command;
     /// Channels beside the radiance, of which the film of a pixel's first samples has those of its
@@ -46,7 +46,7 @@ struct FilmHeader {
     std::vector<Layer> layers;
     PictureNotes legend;
     bool holdsLayers = false;
-    // Of the first round, in which all pixels have as many samples:
+    // The first round, in which all pixels have the same number of samples:
     std::vector<ShareName> shares;  ///< in rising order
     std::vector<BlockRange> blocks; ///< in rising order, with gaps between them
     /// The rounds after it, up to the last one that is known here, whether it is held or not.
@@ -60,9 +60,9 @@ struct FilmHeader {
         return {settings.budget.mostSamplesPerPixel, settings.budget.samplesPerBlock};
     }
     uint32_t rounds() const { return uint32_t(planned.size()) + 1; }
-    /// Of a pixel in the first round, held here.
+    /// The samples of a pixel in the first round that are held here.
     uint32_t samples() const;
-    /// Of all pixels and rounds: held here, and in all films together.
+    /// The samples of all pixels and rounds that are held here, and those of all films together.
     uint64_t samplesHeld() const;
     uint64_t samplesInAll() const;
     bool isComplete() const;

@@ -98,7 +98,7 @@ void FilmsToMerge::addUp(const std::function<void(const PictureArea&, std::span<
 
 namespace {
 
-/// Of a part: 64 of 65,536 pixels each.
+/// How many runs, of 65,536 pixels each, make a part.
 constexpr uint32_t kRunsPerPart = 64;
 
 } // namespace

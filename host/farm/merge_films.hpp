@@ -18,7 +18,7 @@ class FilmsToMerge {
     /// another picture than the first, or holds samples that another holds too.
     explicit FilmsToMerge(const std::vector<std::filesystem::path>& files);
 
-    /// Of all of them together.
+    /// The header of the film that they make together.
     const FilmHeader& header() const { return header_; }
 
     /// Calls `take` with the sum of each run of pixels, from the top of the picture, and the part

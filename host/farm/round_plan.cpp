@@ -254,7 +254,7 @@ bool SharedBand::take(uint32_t first, std::span<const PixelTarget> targets, uint
     uint64_t told = 0;
     backend_.beginAt(first);
     backend_.sample(targets, film, [&](uint64_t done) {
-        // Of several devices, one may be lost with what it had said to be done.
+        // One of several devices may be lost with what it had said to be done, so `done` may fall.
         const uint64_t more = done > told ? done - told : 0;
         told = std::max(told, done);
         return goesOn = progress_(more) && goesOn;

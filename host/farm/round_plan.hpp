@@ -20,7 +20,8 @@ namespace stromboli {
 
 /// A round of samples after the first: which pixels get more, and how many.
 struct RoundPlan {
-    /// Of the picture, and of the rounds before, whose checksums count and not what is held.
+    /// The header of the picture and of the rounds before this one. What counts of them are their
+    /// checksums, not what is held.
     FilmHeader picture;
     /// By pixel: the samples it has, and those it is to have. The numbers of samples go on, so that
     /// none is taken twice and Sobol points fill each other's gaps.
@@ -31,8 +32,8 @@ struct RoundPlan {
     uint64_t pixels() const; ///< that get some
 };
 
-/// Of what a plan asks for and of the plans before it: the same plan of the same picture, whoever
-/// wrote it.
+/// The checksum of what a plan asks for and of the plans before it: it is the same for the same
+/// plan of the same picture, whoever wrote it.
 uint32_t checksumOf(const RoundPlan& plan);
 
 /// A pixel's samples of the round: those from number `from` to `to`, without the last.
@@ -81,7 +82,8 @@ class NextRoundPlanner {
     PictureParts parts_;
 };
 
-/// Of films in files. Throws UsageError if they are incomplete or damaged.
+/// Plans the round that follows the films in these files. Throws UsageError if they are incomplete
+/// or damaged.
 NextRound planNextRound(FilmsToMerge& films, double noise, uint32_t mostSamples);
 
 /// Whether a name ends as that of a plan does: .plan.

@@ -35,8 +35,8 @@ struct SlurmJob {
 /// A failing job is tried so many times more, on whatever node Slurm chooses.
 inline constexpr uint32_t kJobRetries = 3;
 
-/// As the scripts name the film of a share of a round, and the plan of a round from the second on:
-/// they are in the folder of the job's files.
+/// The names that the scripts give the film of a share of a round, and the plan of a round from the
+/// second on. Both are in the folder of the job's files.
 std::string filmOfShare(uint32_t share, uint32_t shares, uint32_t round = 1);
 std::string planOfRound(uint32_t round);
 

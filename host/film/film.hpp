@@ -174,16 +174,17 @@ class FixedSum {
 /// sums are exact, and mean and variance are worked out once, when they are asked for
 /// (docs/farm.md, "What a film adds up").
 struct ExactStatistics {
-    /// Of radiance. A film's samples are at most 2^48 each, negative where a pixel filter is, and
-    /// at most 2^24.
+    /// A sum of radiance. A film's samples are at most 2^48 each, negative where a pixel filter is,
+    /// and there are at most 2^24.
     using Sum = FixedSum<4, -180>;
-    /// Of squared radiance.
+    /// A sum of squared radiance.
     using Squares = FixedSum<5, -192>;
 
     uint32_t count = 0, rejected = 0;
     uint32_t firstRejected = 0xFFFFFFFFu; ///< counted from the pixel's first sample
     std::array<Sum, 3> sum;               ///< of the samples
-    /// Of each block's squared deviations from its mean, and its squared sum over its count.
+    /// The sum over all blocks of their squared deviations from their means, and of their squared
+    /// sums divided by their counts.
     std::array<Squares, 3> squares;
 
     uint32_t taken() const { return count + rejected; }
@@ -191,7 +192,7 @@ struct ExactStatistics {
     /// SceneError if their radiance is out of range.
     void add(const PixelStatistics& block, uint32_t firstSample);
     void add(const ExactStatistics& other);
-    /// Of a single block, they are what was added.
+    /// The statistics of all samples. If a single block was added, they are what was added.
     PixelStatistics statistics() const;
 
     bool operator==(const ExactStatistics&) const = default;
@@ -202,9 +203,10 @@ struct ExactStatistics {
 /// a picture is"). Can be put together in any order and grouping, to the same bits.
 struct SharedPixel {
     ExactStatistics all;
-    /// Of the samples taken, where the picture has alpha: those whose camera ray ends on a surface.
+    /// How many of the samples taken have a camera ray that ends on a surface, if the picture has
+    /// alpha.
     uint32_t covered = 0;
-    /// Of the samples in the mean: the number of the latest pass among them, and what it added.
+    /// The number of the latest pass among the samples in the mean, and the samples that it added.
     uint32_t lastPass = 0, lastCount = 0;
     std::array<ExactStatistics::Sum, 3> lastSum;
 
@@ -212,8 +214,8 @@ struct SharedPixel {
     /// `firstSample`. Throws SceneError if their radiance is out of range.
     void add(const PixelStatistics& samples, uint32_t firstSample, uint32_t pass);
     void add(const SharedPixel& other);
-    /// The same where the samples of the other one are all of its last pass, of which it need not
-    /// know more than the number.
+    /// Adds a pixel whose samples are all of its last pass; `other` need not know more of that pass
+    /// than its number.
     void addOfOnePass(const SharedPixel& other);
     /// The share of its samples that a surface covers.
     float alpha() const { return all.taken() > 0 ? float(double(covered) / all.taken()) : 0.0f; }

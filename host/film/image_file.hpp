@@ -131,8 +131,8 @@ class PictureFile {
     /// Films of bands of whole rows of the area, and what else is known of their pixels: the
     /// channels of PictureOptions. What no film shows stays black.
     void place(const Film& film, const FloatImage& more = {});
-    /// As PNG or EXR, by the extension, complete or not at all. An EXR file says where in the whole
-    /// picture the area lies. `notes` are kept in it. Throws OutputError.
+    /// Writes PNG or EXR, by the extension, complete or not at all. An EXR file says where in the
+    /// whole picture the area lies. `notes` are kept in it. Throws OutputError.
     void write(const PictureNotes& notes = {}) const;
 
   private:
@@ -143,7 +143,7 @@ class PictureFile {
     FloatImage floats_; ///< EXR
 };
 
-/// The same of a picture in one part.
+/// Writes a picture file of a picture in one part.
 void writePicture(const std::filesystem::path& path, const Film& film,
                   const PictureOptions& options);
 

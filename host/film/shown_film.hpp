@@ -28,7 +28,7 @@ struct PartBrightness {
     uint64_t pixels = 0;
 };
 
-/// Of a picture in parts. The exposure is that of the brightest part.
+/// The brightness of a picture in parts. The exposure is that of the brightest part.
 Brightness togetherOf(std::span<const PartBrightness> parts);
 
 /// Gives pixels without samples the mean of one nearby that has some: of the corner of the square

@@ -126,7 +126,7 @@ class Planner {
         }
     }
 
-    /// Of a light: it has coordinates of its own.
+    /// Adds the picture of a light, which has texture coordinates of its own.
     void addPicture(const TextureUse& use) {
         const uint32_t before = plan_.attributes;
         addTexture(use);
@@ -134,7 +134,7 @@ class Planner {
         addLoose(use);
     }
 
-    /// Of a texture in no bundle.
+    /// Adds a texture that is in no bundle.
     void addLoose(const TextureUse& use) {
         const Texture& texture = scene_.textures[use.texture];
         const DetailPlan::EdgedImage edged(scene_, texture);
@@ -215,7 +215,8 @@ class Planner {
         return true;
     }
 
-    /// With those beyond the edges, of two columns and so many lines (gpu::TextureUse).
+    /// Texels of the picture and of those beyond its edges: two columns, and so many lines
+    /// (gpu::TextureUse).
     uint64_t edgedTexels(const Texture& texture, uint64_t linesBeyond) const {
         const TextureImage& image = scene_.images[texture.image];
         return (uint64_t(image.width) + 2) * (image.height + linesBeyond);

@@ -31,7 +31,8 @@ struct DetailPlan {
     /// By slot, of the first gpu::BUNDLE_MAPS slots; those there are look up pictures of one size
     /// in the same way (gpu::TEXELS_BUNDLE).
     using Bundle = std::array<std::optional<TextureUse>, gpu::BUNDLE_MAPS>;
-    /// The same of a bundle.
+    /// The pictures of a bundle by slot, and what is seen beyond their edges: what the rows of a
+    /// bundle depend on.
     struct EdgedBundle {
         static constexpr uint32_t kNone = ~0u; ///< it has no such map
         std::array<uint32_t, gpu::BUNDLE_MAPS> images;

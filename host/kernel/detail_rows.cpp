@@ -274,7 +274,7 @@ gpu::TextureUse packBundle(const Scene& scene, const DetailPlan::Bundle& bundle,
     return g;
 }
 
-/// Of a material that has no maps in a bundle, in a scene where others have.
+/// The texture use of a material that has no maps in a bundle, in a scene where others have.
 gpu::TextureUse emptyBundle(TexelPacker& texels) {
     gpu::TextureUse g{};
     g.firstRow = texels.firstRowOf(DetailPlan::Bundle{});

@@ -37,7 +37,7 @@ class TexelPacker {
     void packGathered(const TextureImage& image, bool srgb, const EdgedTexels& at);
     void packBundle(const DetailPlan::EdgedBundle& bundle, const EdgedTexels& at, uint32_t width,
                     uint32_t height);
-    /// As gpu::TEXELS_BUNDLE says.
+    /// The row of a texel of a bundle, as gpu::TEXELS_BUNDLE describes it.
     Row bundleTexel(const DetailPlan::EdgedBundle& bundle, size_t texel) const;
 
     const Scene& scene_;

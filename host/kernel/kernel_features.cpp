@@ -127,8 +127,8 @@ uint32_t rouletteConstant(const Estimator& settings) {
     return gpu::ROULETTE_NONE;
 }
 
-/// As bits of TEXTURE_ slots. Where surfaces do not scatter, only what is not there has to be
-/// known.
+/// The textures that the kernel looks up, as bits of TEXTURE_ slots. Where surfaces do not scatter,
+/// only what is not there has to be known.
 uint32_t texturesWanted(const GpuScene& scene, bool shades) {
     constexpr uint32_t kOpacityMaps = 1u << gpu::TEXTURE_BASE_COLOR | 1u << gpu::TEXTURE_OPACITY;
     return shades ? ~0u : scene.hasAlpha ? kOpacityMaps : 0;

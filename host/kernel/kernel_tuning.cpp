@@ -37,7 +37,7 @@ DeviceTuning forCpu(uint32_t subgroupSize) {
     t.workgroupSize = subgroupSize;
     t.traversalSteps = 5;
     t.richTraversalSteps = 8;
-    // Of sixteen lanes one comes to a placement, or leaves one, in nearly every step.
+    // In nearly every step one of sixteen lanes comes to a placement or leaves one.
     t.placedTraversalSteps = 1;
     t.traversalLegs = 20;
     t.registerStack = 16;

@@ -36,7 +36,7 @@ struct KernelTuning {
     vulkan::Specialiser specialiser = vulkan::Specialiser::Ours;
 };
 
-/// The same with nothing left open.
+/// How the kernel runs on a device: KernelTuning with nothing left open.
 struct DeviceTuning {
     bool texelFetch = false;
     uint32_t workgroupSize = 64;

@@ -36,7 +36,7 @@ LightSelection lightSelection(const Estimator& settings);
 struct LightTable {
     std::vector<Row> lights; ///< the parameters: ambient lights first
     std::vector<Row> table;  ///< LightEntry rows, then AliasColumn or LightNode rows
-    /// Of the environment's picture; none where there is none, or a black one.
+    /// The table of the environment's picture; null if there is none, or a black one.
     std::shared_ptr<const EnvironmentTable> environment;
     uint32_t count = 0;     ///< lights that are sampled
     uint32_t areaCount = 0; ///< those of them that rays can meet; LightChoice::Each: the first

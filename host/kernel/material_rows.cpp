@@ -323,7 +323,7 @@ struct Microfacets {
 /// How many rings of normals are summed: integrals over views need fewer.
 constexpr int kCoarse = 64, kFine = 192;
 
-/// Of light seen at a cosine: what is reflected and transmitted after one scattering.
+/// The shares of light from a direction that are reflected and transmitted after one scattering.
 struct Scattered {
     double reflected = 0, transmitted = 0;
 };
@@ -412,7 +412,7 @@ std::array<glm::vec4, gpu::TRANSMITTANCE_PIECES> transmittanceTable(double ior, 
     constexpr uint32_t kPieces = gpu::TRANSMITTANCE_PIECES;
     std::array<double, 3 * kPieces + 1> at{};
     for (size_t i = 0; i < at.size(); ++i) {
-        // Of a view along the surface the limit.
+        // A view along the surface (mu = 0) takes the limit.
         const double mu = std::max(square(double(i) / (3 * kPieces)), 1e-9);
         at[i] = scatteredBy(shape, 1 / ior, mu, kFine).transmitted;
     }

@@ -46,8 +46,8 @@ struct SceneClosures {
 /// The share of diffuse light from below that a smooth interface sends back. A closed form.
 double internalReflectance(double ior);
 
-/// The same of an interface of microfacets; by quadrature, right to 5e-4. views: those of
-/// Material::internalViews.
+/// The share of diffuse light from below that an interface of microfacets sends back; by
+/// quadrature, right to 5e-4. views: those of Material::internalViews.
 double internalReflectance(double ior, double alpha, const Facets& facets, uint32_t views = 0);
 
 /// The share of light from above that an interface of microfacets lets through, as the kernel looks

@@ -51,7 +51,7 @@ glm::vec3 decodeRadiance(const gpu::EnvironmentTexel& texel);
 /// value is that of the filter to 1 / (2 FILTER_CELLS) of the largest radiance, times the ratio of
 /// both integrals: what one stretch weighs. Of other filters, a row for the binding.
 std::vector<Row> filterTable(PixelFilter filter, const FilterShape& shape);
-/// As many rows as it has.
+/// How many rows filterTable() has for this filter.
 uint32_t filterRows(PixelFilter filter);
 
 } // namespace stromboli

@@ -321,7 +321,8 @@ void VulkanBackend::sample(std::span<const PixelTarget> targets, Film& film,
     }
 }
 
-/// With a pixel state and frame constants of its own, which are put back at the end.
+/// Takes the sample with frame constants and a pixel state of its own; what was there is put back
+/// at the end.
 SampleValue VulkanBackend::sampleAlone(uint32_t pixel, uint32_t sample) {
     const auto [segment, index] = film_->segmentOf(pixel);
     const PixelPlace place = area_.placeOf(pixel);

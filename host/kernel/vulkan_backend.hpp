@@ -128,7 +128,7 @@ class VulkanBackend final : public Backend, public Viewer {
         kernels_;                     ///< and stage
     bool kernelsFetchTexels_ = false; ///< all of them, and of seePipelines_
     std::map<std::vector<uint32_t>, vulkan::ComputePipeline> seePipelines_; ///< by their constants
-    // Of the picture:
+    // What belongs to one picture:
     Camera camera_;
     Estimator estimator_;
     PictureArea area_;

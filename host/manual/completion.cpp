@@ -107,7 +107,7 @@ _stromboli() {
 complete -F _stromboli stromboli
 )bash";
 
-/// Of all options that are listed.
+/// The names of all options that are listed.
 Words optionNames(const DeclaredCommand& c) {
     Words names = {"-h", "--help"};
     for (const CommandOption& o : c.list.all()) {

@@ -16,10 +16,10 @@ Words proposalsOf(const CommandOption& option);
 /// that these take.
 std::string bashCompletion();
 
-/// The same for fish, which also shows what each option means.
+/// The completion script of fish, which also shows what each option means.
 std::string fishCompletion();
 
-/// The same for zsh, which also shows what each option and its words mean.
+/// The completion script of zsh, which also shows what each option and its words mean.
 std::string zshCompletion();
 
 } // namespace stromboli

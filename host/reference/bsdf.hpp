@@ -34,7 +34,7 @@ bool isLitFromBehind(const Material& material);
 bool leavesLightsToBounces(const Material& material);
 /// Whether its surface bounds an inside, which may absorb.
 bool boundsVolume(const Material& material);
-/// Of that inside, by metre.
+/// The absorption coefficient of the inside, per metre.
 glm::dvec3 absorptionInside(const Material& material);
 
 /// All lobes of a material, gpu::LOBE_ bits.

@@ -61,7 +61,7 @@ glm::dvec2 sampleGaussian(double u, double v) {
     return {radius * std::cos(2 * kPi * v), radius * std::sin(2 * kPi * v)};
 }
 
-/// Of the density 1 - |x|.
+/// A number of the density 1 - |x| on [-1, 1], by inversion.
 double sampleTent(double u) {
     return u < 0.5 ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 * (1 - u));
 }

@@ -35,7 +35,7 @@ double opacityAt(const World& world, const Hit& hit);
 
 /// The first hit that is there: of what is partly there, decided by numbers of `passes`.
 Hit closestThere(const World& world, const Ray& ray, Skip skip, RandomStream& passes);
-/// The same for camera rays, which pass what is hidden from the camera.
+/// The first hit of a camera ray that is there; it passes what is hidden from the camera.
 Hit closestForCamera(const World& world, const Ray& ray, RandomStream& passes);
 
 /// Adds what one camera ray of a pixel sees (docs/layers.md). `random`: the stream of its sample,

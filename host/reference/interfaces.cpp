@@ -151,7 +151,7 @@ class PlasticInterface {
   public:
     explicit PlasticInterface(const Material& m);
 
-    /// Of light from above.
+    /// The share of light from above that it lets through.
     double transmittance(double cosine) const;
     /// Share of diffuse light from below that it sends back.
     double internal() const { return internal_; }
@@ -262,8 +262,8 @@ struct SeenPlastic {
         topShare = top > 0 ? top / (top + through * mean(m.albedo)) : 0;
     }
 
-    /// Of the base: what comes through, times the sum over all reflections between base and
-    /// interface.
+    /// The BSDF of the base: what comes through the interface, times the sum over all reflections
+    /// between base and interface.
     BsdfValue base(const glm::dvec3& wi) const {
         const glm::dvec3 albedo(m.albedo), back = (m.isNonlinear ? albedo : glm::dvec3(1.0));
         const double n2 = double(m.ior) * m.ior;

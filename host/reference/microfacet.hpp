@@ -9,7 +9,7 @@ namespace stromboli::reference {
 
 // --- Arithmetic ----------------------------------------------------------------------------------
 
-/// Of the channels.
+/// The mean of a colour's channels.
 inline double mean(const glm::dvec3& color) {
     return (color.x + color.y + color.z) / 3;
 }

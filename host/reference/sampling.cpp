@@ -50,7 +50,8 @@ void RandomStream::fill() {
                     fraction(b[2], b[3])};
         return;
     }
-    // The same for all samples of the pixel.
+    // All samples of the pixel have the same keys: `sequence` only changes after 2^kIndexBits of
+    // them.
     const uint32_t sequence = sample_ >> kIndexBits;
     const auto a = philox({block, sequence, pixel_, kKeys}, {seed_, 0});
     const auto b = philox({block, sequence, pixel_, kMoreKeys}, {seed_, 0});
@@ -139,7 +140,8 @@ uint64_t mixed(uint64_t x) {
     return x ^ x >> 31;
 }
 
-/// Of a key and the first `count` digits of a number, which are the only bits set in `digits`.
+/// The hash of a key and the first `count` digits of a number, which are the only bits set in
+/// `digits`.
 uint64_t hashOfDigits(uint32_t digits, uint32_t count, uint64_t key) {
     return mixed(key + (uint64_t(digits) << 6 | count) * 0x9E3779B97F4A7C15u);
 }

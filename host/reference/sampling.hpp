@@ -69,8 +69,8 @@ std::array<uint32_t, kSobolDimensions> sobolPoint(uint32_t index);
 /// them.
 double owenScrambled(uint32_t digits, uint64_t key);
 
-/// The same permutation of the numbers below 2^24 by their digits: 2^k of them that begin at a
-/// multiple of 2^k stay such a set.
+/// Owen's permutation of the numbers below 2^24, by their digits as in owenScrambled(): 2^k of them
+/// that begin at a multiple of 2^k stay such a set.
 uint32_t owenShuffled(uint32_t index, uint64_t key);
 
 // --- Warps ---------------------------------------------------------------------------------------

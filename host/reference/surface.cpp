@@ -261,7 +261,7 @@ void apply(Material& m, TextureSlot slot, const glm::dvec4& texel) {
     }
 }
 
-/// Of the surface as it is seen: perpendicular to the shading normal.
+/// The tangent of the surface as it is seen, perpendicular to the shading normal.
 glm::dvec4 tangentOf(const SurfacePoint& s, const Scene& scene, const Material& m, bool isTurned) {
     if (s.triangle == kNoPrimitive) return glm::dvec4(0.0);
     const uint32_t set = uvSetOfTangents(m);

@@ -61,7 +61,7 @@ bool isSeenFromBehind(const SurfacePoint& surface);
 
 class RandomStream;
 
-/// Of a mixture: the material that light meets there, drawn.
+/// Draws which material of a mixture light meets there.
 void drawMaterial(SurfacePoint& surface, const Scene& scene, RandomStream& random);
 /// The material of the side that the surface is seen from, for those who draw none of a mixture.
 void takeMaterialOfSide(SurfacePoint& surface, const Scene& scene);
@@ -90,7 +90,8 @@ bool isReflected(const SurfacePoint& surface, const glm::dvec3& w);
 
 /// The ray that leaves the surface, reflected, in a unit direction.
 Ray reflectedRay(const SurfacePoint& surface, const glm::dvec3& direction);
-/// The same for light that goes through it.
+/// The ray that leaves the surface on its other side, in a unit direction: light that goes through
+/// it.
 Ray transmittedRay(const SurfacePoint& surface, const glm::dvec3& direction);
 /// What a reflected ray cannot hit: the plane it starts on, but not one that it starts above.
 uint32_t startOfReflected(const SurfacePoint& surface);
@@ -100,7 +101,7 @@ glm::dvec3 emission(const SurfacePoint& surface);
 
 /// Error bound of a point computed on the triangle with these corners: see SurfacePoint::error.
 double errorOnTriangle(const glm::dvec3& v0, const glm::dvec3& v1, const glm::dvec3& v2);
-/// The same for a point computed as center + radius * unit vector.
+/// Error bound of a point computed as center + radius * unit vector.
 double errorOnSphere(const glm::dvec3& center, double radius);
 
 /// Unit, on the side from which the corners are counter-clockwise.

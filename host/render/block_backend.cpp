@@ -17,7 +17,7 @@ uint64_t hostBytesPerPixel(bool inBlocks) {
     constexpr uint64_t kEstimate = sizeof(uint32_t) + 4 * sizeof(glm::dvec3) + sizeof(double);
     // The pass, as planned, in the order of work, and as the device's items of 16 bytes.
     constexpr uint64_t kWork = 2 * sizeof(PixelTarget) + 16;
-    // Of a share; a render in one go knows nothing of last passes.
+    // What a share keeps besides; a render in one go knows nothing of last passes.
     const uint64_t blocks = inBlocks ? kFilm + sizeof(SharedPixel) : 0;
     return kFilm + kEstimate + kWork + NoisePlan::kBytesPerPixel + blocks;
 }

@@ -19,7 +19,7 @@ uint64_t hostBytesPerPixel(bool inBlocks = false);
 /// The rows of what is rendered, from the top, in bands of about the same height and of at most
 /// `pixels` pixels each (at least one row). One band if all of it fits.
 std::vector<PictureArea> bandsOf(const PictureArea& area, uint64_t pixels);
-/// The same by their number, which is not larger than that of the rows.
+/// The rows in `count` bands of about the same height; there are at least as many rows.
 std::vector<PictureArea> inBands(const PictureArea& area, uint32_t count);
 
 // --- Blocks of samples ---------------------------------------------------------------------------
@@ -80,7 +80,7 @@ class BlockBackend final : public Backend {
                 const PassProgress& progress) override;
     SampleValue sampleAlone(uint32_t pixel, uint32_t sample) override;
     RenderCounters counters() const override { return inner_->counters(); }
-    /// Of the block under way.
+    /// Saves the sums of the block under way.
     std::vector<PixelSums> save(const Film& film, PixelRun run) override;
     std::vector<ExactStatistics> saveBlocks() const override { return sums_.pixels(); }
     void restoreBlocks(std::span<const ExactStatistics> blocks) override;

@@ -20,7 +20,7 @@ struct ShadingConventions {
     /// surface reflects, and the side of the shading normal tells whether a path enters what the
     /// surface bounds.
     bool facesForward = true;
-    /// With facesForward: light is reflected from the smooth surface that the normals describe
+    /// If facesForward is set: light is reflected from the smooth surface that the normals describe
     /// (docs/numerics.md, "Shading normals and the terminator"); otherwise from the flat triangle.
     bool offsetsTerminator = true;
     /// Light stays on the side of the geometric surface that its lobe sends it to.

@@ -32,7 +32,7 @@ struct SeenPixel {
     glm::dvec3 albedo{0.0};   ///< of what is seen, also in mirrors and through glass
     glm::dvec3 normal{0.0};   ///< likewise; unit vectors of the world
     glm::dvec3 position{0.0}; ///< of the hits
-    /// Of the first ray that has hit something: what, in the scene's order (triangles, then
+    /// What the first ray that has hit something has hit, in the scene's order (triangles, then
     /// spheres), and where on it: barycentric weights of the second and third corner.
     uint32_t primitive = kNothingSeen;
     uint32_t placement = kNothingSeen; ///< that it is in, of a prototype's triangle
@@ -45,9 +45,9 @@ struct SeenPixel {
 class Viewer {
   public:
     virtual ~Viewer() = default;
-    /// Of pixels that follow each other, from `first` on (Film::pixels): samples[i] camera rays of
-    /// each, from that of sample `firstSample` on, to the last bit those that Backend::sample()
-    /// takes. No more than kMostSeenAtOnce pixels.
+    /// Traces samples[i] camera rays of each of the pixels that follow each other from `first` on
+    /// (Film::pixels), from that of sample `firstSample` on: to the last bit those that
+    /// Backend::sample() takes. No more than kMostSeenAtOnce pixels.
     virtual std::vector<SeenPixel> see(uint32_t first, std::span<const uint32_t> samples,
                                        Seeing what, uint32_t firstSample = 0) = 0;
 

@@ -252,7 +252,7 @@ double chiSquareQuantile(double degrees, double z) {
 }
 
 constexpr double kZ = 1.96; ///< 97.5 % of the normal distribution
-/// With fewer pixels than these at work, a chi-square distribution stands for nothing.
+/// The fewest pixels at work for which a chi-square distribution stands for anything.
 constexpr double kLeastPixels = 3;
 
 /// What the estimate of the relMSE may be off by besides chance. Measured on the bundled scenes at
@@ -278,8 +278,8 @@ PictureNoise pictureNoise(const Film& film, std::span<const glm::dvec3> squaredE
     if (!(picture.meanRadiance() > 0)) return {Unknown::Black};
     const Errors errors = picture.errors();
     if (errors.apart == 0) return {Unknown::No}; // every sample of a pixel is the same
-    // As many pixels of equal errors would vary as much. Both the estimate and the noise it is to
-    // hold vary so: half as many degrees of freedom as the estimate alone has.
+    // The number of pixels of equal errors that would vary as much. Both the estimate and the noise
+    // it is to hold vary so: half as many degrees of freedom as the estimate alone has.
     const double pixels = errors.apart * errors.apart / errors.apartSquared;
     if (pixels < kLeastPixels) return {Unknown::TooFewPixels};
     const double apart = errors.apart / double(errors.pixels);

@@ -36,7 +36,7 @@ class PixelWindows {
     /// values: by pixel of the film. of() is first asked for row `first`.
     PixelWindows(const Film& film, std::span<const glm::dvec3> values, int64_t first);
 
-    /// Of each pixel of row y, the one after the last that was asked for.
+    /// The groups of each pixel of row y, which must be the row after the last that was asked for.
     std::vector<PixelGroup> of(int64_t y);
     /// The pixel by itself.
     PixelGroup alone(int64_t x, int64_t y) const;

@@ -56,7 +56,7 @@ struct Budget {
     bool operator==(const Budget&) const = default;
 };
 
-/// The same as it is asked for: in paths, before it is known how many of them make a sample.
+/// A budget as it is asked for: in paths, before it is known how many of them make a sample.
 struct PathBudget {
     std::optional<uint32_t> mostPathsPerPixel = 64; ///< empty: no limit
     uint32_t meanPathsPerPixel = 0;                 ///< 0: no limit

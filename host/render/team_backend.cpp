@@ -28,7 +28,8 @@ constexpr double kGrowth = 4;
 PiecePlan::PiecePlan(size_t members, double leastSeconds)
     : paces_(members), leastSeconds_(leastSeconds) {}
 
-/// Of all members; one whose speed nobody knows is like the others.
+/// The sum of the speeds of all members; one whose speed nobody knows counts as the mean of the
+/// others.
 double PiecePlan::speedOfAll() const {
     double speed = 0;
     size_t known = 0, count = 0;

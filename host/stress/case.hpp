@@ -32,7 +32,7 @@ class RayTracer {
     virtual ~RayTracer() = default;
     /// How many of the rays hit something. anyHit: stop at the first hit, as shadow rays do.
     virtual uint64_t countHits(std::span<const Ray> rays, bool anyHit) = 0;
-    /// Of each ray's closest hit, in lengths of its direction, or kMissed.
+    /// The distance of each ray's closest hit, in lengths of its direction, or kMissed.
     virtual std::vector<float> distances(std::span<const Ray> rays) = 0;
 };
 

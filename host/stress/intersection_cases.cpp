@@ -275,7 +275,7 @@ Finding missesFromWithin(Run& run, const std::vector<uint32_t>& levels, const gl
     return f;
 }
 
-/// Of the meshes: they have 8 * 4^level triangles.
+/// The levels of subdivision of the meshes, which have 8 * 4^level triangles.
 std::vector<uint32_t> levels(const Run& run) {
     return run.quick() ? std::vector<uint32_t>{0, 1, 3} : std::vector<uint32_t>{0, 1, 3, 5};
 }

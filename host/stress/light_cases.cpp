@@ -297,7 +297,7 @@ std::vector<Case> agreementCases() {
 
 namespace {
 
-/// Of all the comparisons of a case together.
+/// The probability of a false alarm in all the comparisons of a case together.
 constexpr double kFalseAlarms = 1e-3;
 
 /// The worst of a comparison's three z-tests, relative to its limit.

@@ -176,7 +176,7 @@ Finding alphaLayers(Run& run) {
             f.trials += all.taken();
             // Fewer paths than that have no nearly normal distribution.
             if (!byShadowRays && left * all.taken() < 25) continue;
-            // Of paths, a share is counted; shadow rays have no randomness.
+            // The share of paths that get through is binomial; shadow rays have no randomness.
             const double error = byShadowRays ? 0 : std::sqrt(left * (1 - left) / all.taken());
             const double share =
                 std::abs(all.mean.x - expected) / (kRounding * expected + kPermittedSigmas * error);

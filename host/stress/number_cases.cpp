@@ -39,7 +39,8 @@ bool isDenormal(float x) {
     return std::fpclassify(x) == FP_SUBNORMAL;
 }
 
-/// The same bits; any NaN for a NaN, and anything for a denormal, which a device may take for zero.
+/// Whether two floats have the same bits. Any NaN agrees with a NaN, and anything with a denormal,
+/// which a device may take for zero.
 bool agrees(float found, float right) {
     if (std::isnan(right)) return std::isnan(found);
     return isDenormal(right) || std::bit_cast<uint32_t>(found) == std::bit_cast<uint32_t>(right);
@@ -85,8 +86,8 @@ Finding comparisonsWithNaN(Run& run) {
     return compare(run, pairs, false, true);
 }
 
-/// Of rays in planes of boxes, and of lights that fall off to nothing: signs of zeros, infinity and
-/// what is none of them.
+/// Signs of zeros, infinities, and numbers that are neither: rays in planes of boxes and lights
+/// that fall off to nothing depend on them.
 Finding zerosAndInfinities(Run& run) {
     return compare(run,
                    pairsOf({0.0f, -0.0f, 1.0f, -1.0f, 3.0f, -0x1p-126f, 3.402823466e38f,
@@ -171,7 +172,7 @@ Finding words(Run& run) {
     return f;
 }
 
-/// Of n pairs of uniform numbers; its standard deviation is n^-1/2.
+/// The correlation of n pairs of uniform numbers; its standard deviation is n^-1/2.
 double correlation(const std::vector<RandomBlock>& a, size_t i, const std::vector<RandomBlock>& b,
                    size_t k) {
     double sum = 0;
@@ -180,8 +181,8 @@ double correlation(const std::vector<RandomBlock>& a, size_t i, const std::vecto
     return 12 * sum / double(a.size());
 }
 
-/// Of numbers with those of the next pixel, row, sample, use and seed: 1e6 pairs, so that the bound
-/// of 0.01 is ten standard deviations.
+/// Correlations of numbers with those of the next pixel, row, sample, use and seed: 1e6 pairs, so
+/// that the bound of 0.01 is ten standard deviations.
 Finding neighbours(Run& run) {
     Finding f;
     f.bound = 0.01;
@@ -300,7 +301,8 @@ bool sameBits(const PixelStatistics& a, const PixelStatistics& b) {
            std::memcmp(&a.m2, &b.m2, sizeof a.m2) == 0;
 }
 
-/// The same picture to the last bit, whatever the workgroups, lanes, dispatches and ways to fetch.
+/// A picture is the same to the last bit, whatever the workgroups, lanes, dispatches and ways to
+/// fetch.
 Finding cuts(Run& run) {
     const Scene scene = cornellBox();
     const Camera camera = lookingAt({0.5, 0.5, 0.9375}, {0.5, 0.4375, 0}, 0.75);

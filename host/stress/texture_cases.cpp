@@ -25,7 +25,7 @@ uint32_t addTexture(Scene& scene, const Texture& texture) {
 
 // --- Borders and coordinates without a place -----------------------------------------------------
 
-/// Of every texel's colours; what is read beyond a picture is less or more.
+/// The range of every texel's colours; what is read beyond a picture is less or more.
 constexpr double kLeastTexel = 64 / 255.0, kGreatestTexel = 191 / 255.0;
 
 TextureImage randomImage(uint32_t width, uint32_t height, Random& random) {
@@ -60,7 +60,7 @@ double placeOf(double u, Wrap wrap) {
 glm::dvec3 defined(const Scene& scene, const Lookup& lookup) {
     const Texture& t = scene.textures[lookup.texture];
     const TextureImage& image = scene.images[t.image];
-    // As texture transforms make them: what is not finite in one coordinate spoils the other.
+    // Texture transforms mix both coordinates: what is not finite in one spoils the other.
     const auto place = [](float u, Wrap wrap, float other, uint32_t n) {
         return placeOf(double(u) + 0.0 * double(other), wrap) * n;
     };

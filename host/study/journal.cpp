@@ -146,7 +146,7 @@ Json toJson(const StudySettings& s) {
             {"configurations", configurations}};
 }
 
-/// As the render stated it; why it did not is not kept.
+/// The noise as the render stated it; if it did not, the reason is not kept.
 PictureNoise noiseFrom(const Json& j) {
     if (!j.value("noiseKnown", false)) return {};
     const auto number = [&](const char* name) { return j.at(name).get<double>(); };

@@ -22,7 +22,7 @@ class ExpectedTime {
     void runTook(const std::string& scene, const std::string& configuration, double seconds);
     /// `making`: what it took when it was made, which is longer if it was read from a file.
     void referenceTook(double seconds, double making);
-    /// Of what is not done yet; none before anything is known.
+    /// Expected time of what is not done yet; none before anything is known.
     std::optional<double> secondsLeft() const;
     double secondsDone() const { return done_; }
     /// Expected time of one run; none before anything is known.

@@ -17,7 +17,8 @@ namespace stromboli::vulkan {
 
 namespace {
 
-/// Of x86-64, and of AArch64 with base pages of 4 KiB. Elsewhere the system does nothing or more.
+/// The size of huge pages on x86-64, and on AArch64 with base pages of 4 KiB. Elsewhere the system
+/// does nothing or more.
 constexpr uintptr_t kHugePage = uintptr_t(2) << 20;
 
 } // namespace

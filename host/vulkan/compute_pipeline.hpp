@@ -64,7 +64,8 @@ class DescriptorSet {
 void recordDispatch(const Device& device, VkCommandBuffer commands, const ComputePipeline& pipeline,
                     const DescriptorSet& set, std::span<const std::byte> pushConstants,
                     uint32_t groups);
-/// The same with as many groups as `counts` says (VkDispatchIndirectCommand), `offset` bytes in.
+/// Records a dispatch of as many groups as `counts` says, whose VkDispatchIndirectCommand is
+/// `offset` bytes in.
 void recordIndirectDispatch(const Device& device, VkCommandBuffer commands,
                             const ComputePipeline& pipeline, const DescriptorSet& set,
                             std::span<const std::byte> pushConstants, const Buffer& counts,

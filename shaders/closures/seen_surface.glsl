@@ -21,7 +21,7 @@ vec3 tintOf(Material m, BsdfSample b) {
 /// The colour of a surface in white light, apart from what its gloss adds.
 vec3 albedoOf(Material m) {
     vec3 albedo = uintBitsToFloat(m.row1.xyz); // of the base, or the base colour
-    // Of materials without an interface the bit says nothing (SceneClosures).
+    // The bit says nothing of materials without an interface (SceneClosures).
     if (hasClosure(m, CLOSURE_INTERFACE) && hasClosure(m, INTERFACE_IS_CONDUCTOR)) {
         const StatedParameters p = statedParameters(m);
         albedo = p.color * normalReflectance(p.edge, p.index);

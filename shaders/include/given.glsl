@@ -18,8 +18,8 @@ struct OnlyLight {
     vec3 normal; ///< LIGHT_QUAD
 };
 
-/// With the gap proposal (gap_proposal.glsl): the light from the side that is not the gap's, from which the gap is
-/// looked into.
+/// For the gap proposal (gap_proposal.glsl): the light, from the side that is not the gap's, from which one looks into
+/// the gap.
 struct Gap {
     vec3 corner;
     vec3 along0, along1; ///< unit vectors along the edges

@@ -13,7 +13,7 @@ bool hasHeights() { return sceneHasSlot(TEXTURE_HEIGHT) && hasAttribute(ATTRIBUT
 
 // --- Attributes of corners -----------------------------------------------------------------------
 
-/// Of one primitive, up to the attribute `end`.
+/// Rows of one primitive's attributes, up to but without the attribute `end`.
 uint attributeRows(uint end) {
     return (hasAttribute(ATTRIBUTE_UV0) && end > ATTRIBUTE_UV0 ? UV_ROWS : 0u) +
            (hasAttribute(ATTRIBUTE_UV1) && end > ATTRIBUTE_UV1 ? UV_ROWS : 0u) +
@@ -56,7 +56,7 @@ uint attributeRow(uint primitive, uint which) {
 
 uvec4 tangentRow(uint primitive) { return ROW(detailRows, attributeRow(primitive, ATTRIBUTE_TANGENT)); }
 
-/// Of corner 0, 1 or 2, times 8191.
+/// The tangent of corner 0, 1 or 2, times 8191.
 vec3 cornerTangent(uvec4 tangents, uint corner) {
     const uint word = corner == 0u ? tangents.x : (corner == 1u ? tangents.y : tangents.z);
     const int x = int(word << 18u) >> 18, y = int(word << 4u) >> 18;
@@ -97,7 +97,7 @@ uint textureUseRow(uint materialRow, uint number) {
     return materialRow + MATERIAL_DETAIL_ROW + 1u + TEXTURE_USE_ROWS * number;
 }
 
-/// Of each material.
+/// How many bundles each material has, 0 or 1.
 uint bundles() { return hasBundles() ? 1u : 0u; }
 
 uint looseTexturesOf(MaterialDetail detail) { return detail.looseTextures & DETAIL_LOOSE_MASK; }
@@ -152,7 +152,7 @@ bool isLoose(uint slot, uint wanted) {
     return (LOOSE_SLOTS & 1u << wanted) != 0u && slot == wanted;
 }
 
-/// Of parameters behind the first row.
+/// Multiplies the parameters behind the first row by the texel, as the texture's slot says.
 void applyToFurtherParameters(inout Material m, uint slot, vec4 texel) {
     if (isLoose(slot, TEXTURE_METALLIC_ROUGHNESS)) applyMetallicRoughness(m, texel);
     if (isLoose(slot, TEXTURE_SPECULAR_COLOR)) scale(m.row2, texel.rgb);
@@ -226,7 +226,7 @@ MaterialPoint materialPoint(SurfacePoint s) {
 }
 PointAttributes attributesOf(SurfacePoint s) { return attributesOf(materialPoint(s)); }
 
-/// The same at a hit. place: of the primitive in the tree; b: barycentric weights.
+/// The point at a hit. place: of the primitive in the tree; b: barycentric weights.
 MaterialPoint materialPoint(uint place, vec2 b) {
     const PlacedPrimitive p = fetchPlace(place);
     return MaterialPoint(materialOf(fetchPrimitive(p.primitive)), p.isSphere ? NO_PRIMITIVE : p.primitive, b);

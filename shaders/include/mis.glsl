@@ -10,19 +10,19 @@ bool combines(uint lobes) { return (lobes & MIS_LOBES) != 0u; }
 /// 1 / (1 + (q / p)^2).
 float powerHeuristic(float qOverP) { return 1.0 / (1.0 + qOverP * qOverP); }
 
-/// Of a light sample that could also have come from a bounce of density bouncePdf. inversePdf: of one of
+/// The weight of a light sample that could also have come from a bounce of density bouncePdf. inversePdf: of one of
 /// LIGHT_SAMPLES samples (steradians), the choice of the light included; 0: no bounce finds that light.
 float lightSampleWeight(float inversePdf, float bouncePdf) {
     return powerHeuristic(bouncePdf * inversePdf / float(LIGHT_SAMPLES));
 }
 
-/// Of light found by a bounce, bouncePdf > 0.
+/// The weight of light found by a bounce, bouncePdf > 0.
 float bounceWeight(float inversePdf, float bouncePdf) {
     return powerHeuristic(float(LIGHT_SAMPLES) / max(bouncePdf * inversePdf, TINY));
 }
 
-/// Of the light that ray t, a bounce from a surface with this normal, has found: the emissive surface it has
-/// hit, or this sky. What no light sample goes to is left to bounces.
+/// The weight of the light that ray t, a bounce from a surface with this normal, has found: the emissive surface it
+/// has hit, or this sky. What no light sample goes to is left to bounces.
 float foundLightWeight(const Given given, Traversal t, vec3 normal, FoundSky sky, float bouncePdf) {
     const bool hit = t.hitPrimitive != NO_PRIMITIVE;
     PlacedPrimitive place;

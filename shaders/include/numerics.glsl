@@ -39,8 +39,8 @@ vec3 offsetOrigin(vec3 p, float error, vec3 n, vec3 w) {
     return p + (dot(n, w) < 0.0 ? -distance : distance) * n;
 }
 
-/// Of two numbers that are not negative, and no NaN: patterns of bits compare as the numbers do
-/// (docs/kernel.md, "Arithmetic").
+/// The larger and the smaller of two numbers that are not negative, and no NaN: patterns of bits compare as the
+/// numbers do (docs/kernel.md, "Arithmetic").
 float larger(float a, float b) {
     return intBitsToFloat(max(floatBitsToInt(a), floatBitsToInt(b)));
 }
@@ -48,7 +48,7 @@ float smaller(float a, float b) {
     return intBitsToFloat(min(floatBitsToInt(a), floatBitsToInt(b)));
 }
 
-/// Of a vector whose components are not negative.
+/// The largest component of a vector whose components are not negative.
 float largestComponent(vec3 v) { return larger(v.x, larger(v.y, v.z)); }
 
 /// Bound of the error of a point interpolated from corners whose weighted magnitudes sum to `sum`,
@@ -57,7 +57,7 @@ float largestComponent(vec3 v) { return larger(v.x, larger(v.y, v.z)); }
 /// error of its own there (docs/numerics.md).
 float interpolationError(vec3 sum) { return 32.0 * UNIT_ROUNDOFF * largestComponent(sum); }
 
-/// The same of a point put on a sphere: of its unit normal, times the radius, and the sum.
+/// Bound of the error of a point put on a sphere: that of its unit normal, times the radius, and that of the sum.
 float sphereError(vec3 center, float radius) {
     return (16.0 * UNIT_ROUNDOFF) * radius + (4.0 * UNIT_ROUNDOFF) * largestComponent(abs(center));
 }

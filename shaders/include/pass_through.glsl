@@ -17,7 +17,7 @@ float passNumberOfPath(const Frame frame, PathState path, uint purpose) {
     return passNumber(frame.seed, path.ray, path.pixelId, sample_, block, purpose);
 }
 
-/// Of a mixture, the first row of the material that the path meets: drawn once at each hit, for light samples and the
+/// The first row of the material that the path meets, drawn from a mixture once at each hit, for light samples and the
 /// bounce alike.
 uint drawnMaterial(const Frame frame, PathState path, SurfacePoint s) {
     uint row = s.material;

@@ -97,7 +97,7 @@ void changePixel(const Frame frame, uint itemCount, inout PathState path, inout 
     path.phase = PHASE_NEXT;
 }
 
-/// Of random numbers (randomWords); no sample uses it.
+/// The block of random numbers (randomWords) that decides on stopping; no sample uses it.
 const uint STOPPING_BLOCK = 0x7FFFFFFFu;
 
 /// The render was stopped while this lane had a pixel in hand: is its sample under way to be ended, or

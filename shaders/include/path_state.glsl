@@ -107,7 +107,7 @@ void trace(inout PathState path, uint newPhase, vec3 origin, vec3 direction, flo
     path.ray.skipPlacement = NO_PLACEMENT;
 }
 
-/// The same from a surface, whose own primitive is the one that is skipped.
+/// Begins a ray from a surface, whose own primitive is the one that is skipped.
 void traceFrom(inout PathState path, SurfacePoint s, uint newPhase, vec3 origin, vec3 direction, float tMax, bool transmitted) {
     trace(path, newPhase, origin, direction, 0.0, tMax, skipOnLeaving(s, transmitted));
     path.ray.skipPlacement = s.placement;

@@ -2,8 +2,8 @@
 // world, where their corners are the same bits for every ray (docs/numerics.md, "Instances").
 
 
-/// Of each of a vector's components the place that the rows of a matrix give it. Always in this order, and not
-/// contracted: scene/model/placements.cpp and the tests find the same bits.
+/// The point that the rows of an affine transformation place p at. Sums are taken in this order, and not contracted,
+/// so that scene/model/placements.cpp and the tests find the same bits.
 vec3 placed(vec4 row0, vec4 row1, vec4 row2, vec3 p) {
     precise float x = ((row0.x * p.x + row0.y * p.y) + row0.z * p.z) + row0.w;
     precise float y = ((row1.x * p.x + row1.y * p.y) + row1.z * p.z) + row1.w;

@@ -20,7 +20,7 @@ vec4 alongTangent(SurfacePoint s, vec3 n) {
     return vec4(sum - dot(sum, n) * n, isTurned ? -side : side);
 }
 
-/// The same, unit.
+/// The unit tangent perpendicular to n, and the side of the bitangent; 0 where there is no tangent.
 vec4 tangentAt(SurfacePoint s, vec3 n) {
     const vec4 t = alongTangent(s, n);
     const float length2 = dot(t.xyz, t.xyz);

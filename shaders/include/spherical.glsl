@@ -96,7 +96,7 @@ SolidAngleSample sampleTriangleByAngle(vec3 v0, vec3 a, vec3 b, float z, float d
     return SolidAngleSample(sampleSeenTriangle(t, u.x * angle, u.y), angle);
 }
 
-/// The same for the parallelogram, swept about its first corner in two triangles.
+/// Samples the parallelogram of v0 and the edges a, b by direction: it is swept about v0 in two triangles.
 SolidAngleSample sampleQuadByAngle(vec3 v0, vec3 a, vec3 b, float z, float area, vec2 u) {
     const SeenCorner pivot = see(v0), afterA = see(v0 + a), far = see(v0 + a + b),
                      afterB = see(v0 + b);

@@ -59,7 +59,7 @@ vec3 pointInWorld(Placing p, vec3 v) {
     return p.isPlaced ? placed(p.transform.toWorld0, p.transform.toWorld1, p.transform.toWorld2, v) : v;
 }
 
-/// With corners in the world.
+/// The primitive with its corners in the world.
 PlacedPrimitive inWorld(Placing p, PlacedPrimitive at) {
     at.v0 = pointInWorld(p, at.v0);
     at.v1 = pointInWorld(p, at.v1);
@@ -67,14 +67,14 @@ PlacedPrimitive inWorld(Placing p, PlacedPrimitive at) {
     return at;
 }
 
-/// Of a normal, by the inverse transpose; unit.
+/// The unit normal in the world, by the inverse transpose of the placement.
 vec3 normalInWorld(Placing p, vec3 n) {
     return p.isPlaced ? unit(n.x * p.record.toPrototype0.xyz + n.y * p.record.toPrototype1.xyz +
                              n.z * p.record.toPrototype2.xyz)
                       : n;
 }
 
-/// Of a tangent; unit, or zero where it has no length in the world.
+/// The unit tangent in the world; zero where it has no length there.
 vec3 tangentInWorld(Placing p, vec3 t) {
     if (!p.isPlaced) return t;
     const vec3 v = turned(p.transform.toWorld0, p.transform.toWorld1, p.transform.toWorld2, t);
@@ -88,7 +88,7 @@ vec3 triangleNormal(Primitive p, PlacedPrimitive at) {
     return isSmooth(p) ? planeNormal(at.v1 - at.v0, at.v2 - at.v0) : stored;
 }
 
-/// Of a triangle that has normals; those of its corners, as the file means them.
+/// The normals of the corners of a triangle that has some, as the file means them.
 struct CornerNormals {
     vec3 n0, n1, n2;
 };

@@ -32,7 +32,7 @@ vec2 adjusted(TextureUse t, vec2 uv) {
     return isFinite ? uv : vec2(0.0);
 }
 
-/// Of any texture of the scene: known without looking where all or none are of the kind.
+/// Whether a texture has a flag; known without looking where all textures of the scene are of the kind, or none are.
 bool hasFlag(TextureUse t, uint flag, uint kind, uint otherKind) {
     return (TEXEL_KINDS & kind) != 0u &&
            ((TEXEL_KINDS & otherKind) == 0u || (t.flags & flag) != 0u);
@@ -52,7 +52,7 @@ uint wrapMode(TextureUse t, uint shift) {
     if (kinds == TEXEL_KIND_CLAMP) return WRAP_CLAMP;
     return t.flags >> shift & TEXELS_WRAP_MASK;
 }
-/// Of a plain one.
+/// Whether the texels of a plain texture are sRGB.
 bool isSrgb(TextureUse t) {
     return (TEXEL_KINDS & TEXEL_KIND_SRGB) != 0u && (t.flags & TEXELS_SRGB) != 0u;
 }
@@ -172,7 +172,7 @@ vec4 mixed(FourTexels t, vec2 part) {
     return (upper + part.y * (lower - upper)) * t.unit;
 }
 
-/// Of a texture that is not in a bundle.
+/// Looks up a texture that is not in a bundle.
 vec4 lookUp(TextureUse t, vec2 uv) {
     const PicturePlace p = placeIn(t, uv);
     const FourTexels texels = fetchTexels(t, p);
@@ -227,7 +227,7 @@ float mixed(vec4 texels, vec2 part) {
     return lines.x + part.y * (lines.y - lines.x);
 }
 
-/// Of words of the four texels.
+/// The interpolated value of the 8-bit fractions at `shift` in words of the four texels.
 float mixedFraction(uvec4 words, uint shift, vec2 part) {
     return mixed(vec4(ivec4(words >> shift & 0xFFu)), part) * (1.0 / 255.0);
 }

@@ -19,7 +19,7 @@ uint newDigits(inout ChoiceNumber c) {
     return x ^ x >> 16u;
 }
 
-/// Of u.x, a multiple of 2^-24.
+/// A choice number made of u.x, a multiple of 2^-24.
 ChoiceNumber choiceNumber(vec2 u) {
     ChoiceNumber c;
     c.digits = floatBitsToUint(u.x) * 0x9E3779B1u ^ floatBitsToUint(u.y) * 0x85EBCA6Bu;

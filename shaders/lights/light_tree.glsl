@@ -28,8 +28,8 @@ float turnedTowards(LightNode node, vec3 axis, vec2 spread, vec3 w, vec2 bound) 
     return outside ? 0.0 : max(angle.x, 0.0);
 }
 
-/// Of near lights that send the same to all sides, d away: the power over the squared distance, times
-/// (n . d + r) / (|d| + r). Of a single point that is the cosine itself, of others one between the cosines in the node's
+/// The weight of near lights that send the same to all sides, d away: the power over the squared distance, times
+/// (n . d + r) / (|d| + r). That is the cosine itself for a single point, else one between the cosines in the node's
 /// sphere, and 0 where all of the sphere is behind the surface; likelyLight()'s bound takes another square root.
 float likelyLightWithoutCone(vec3 d, vec3 n, float power, float radius) {
     const float distance2 = dot(d, d), reach = dot(n, d) + radius;

@@ -16,7 +16,7 @@ struct LightSample {
 const LightSample NO_LIGHT_SAMPLE =
     LightSample(vec3(0.0, 0.0, 1.0), true, vec3(0.0, 0.0, 1.0), vec3(0.0), 0.0);
 
-/// As LightEntry::light; of no meaning where it cannot be a triangle, since its rows are known then.
+/// LightEntry::light of the only light; it has no meaning where that cannot be a triangle, since its rows are known then.
 uint onlyLightReference() {
     return samplesLightKind(LIGHT_TRIANGLE) ? fetchLightEntry(0u).light : 0u;
 }

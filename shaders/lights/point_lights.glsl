@@ -27,7 +27,7 @@ LightSample samplePointLight(SurfacePoint s, LightRows rows) {
     return r;
 }
 
-/// Of a cosine >= 0; acos has few correct digits.
+/// The angle of a cosine >= 0, in radians; acos has few correct digits.
 float angleOf(float cosine) { return 2.0 * atan(sqrt(max(1.0 - cosine, 0.0) / (1.0 + cosine))); }
 
 LightSample sampleProjector(SurfacePoint s, LightRows rows) {

@@ -20,9 +20,9 @@ using std::sqrt;
 #define Real float
 #endif
 
-/// Of isotropic GGX, height-correlated Smith, whose microfacets reflect everything. alpha in [1e-4,
-/// 1]; relative error below 0.0041. It is 1 at grazing views, and for alpha 0; the variable keeps
-/// the shape of the dip between the two, which is at mu near alpha.
+/// The albedo of isotropic GGX, height-correlated Smith, whose microfacets reflect everything. alpha
+/// in [1e-4, 1]; relative error below 0.0041. It is 1 at grazing views, and for alpha 0; the variable
+/// keeps the shape of the dip between the two, which is at mu near alpha.
 SHARED_FUNCTION Real ggxAlbedo(Real mu, Real alpha) {
     const Real x = mu / (mu + 0.5f * alpha);
     const Real c0 =
@@ -68,9 +68,9 @@ SHARED_FUNCTION Real schlickShare(Real mu, Real alpha) {
     return square * square * left;
 }
 
-/// Of the sheen of colour 1. alpha in [LEAST_SHEEN_ALPHA, 1], mu >= LEAST_SHEEN_COSINE; above the
-/// truth by no more than 0.032 and never below it by more than 1e-3, so that what is beneath never
-/// makes the sum exceed 1.
+/// The albedo of the sheen of colour 1. alpha in [LEAST_SHEEN_ALPHA, 1], mu >= LEAST_SHEEN_COSINE;
+/// above the truth by no more than 0.032 and never below it by more than 1e-3, so that what is beneath
+/// never makes the sum exceed 1.
 SHARED_FUNCTION Real sheenAlbedo(Real mu, Real alpha) {
     const Real x = sqrt(mu);
     const Real s = sqrt(alpha);

@@ -6,7 +6,7 @@
 
 #include "language.h"
 
-/// Of the workgroup; GLSL names it in a layout only.
+/// The size of the workgroup; GLSL names it in a layout only.
 #define SPEC_WORKGROUP_SIZE 0
 
 // F(number, type, name, standard, value, all, label, shown, adds):

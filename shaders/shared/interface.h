@@ -8,7 +8,7 @@
 SHARED_BEGIN
 
 // --- Bindings of the path kernel (set 0) -----------------------------------------------------
-// As macros, since GLSL layout qualifiers of older compilers take literals only.
+// Bindings are macros, since GLSL layout qualifiers of older compilers take literals only.
 #define BINDING_RECORDS 0
 #define BINDING_PRIMITIVES 1
 #define BINDING_MATERIALS 2

@@ -6,7 +6,7 @@
 
 SHARED_BEGIN
 
-/// The same for all dispatches of a picture.
+/// What all dispatches of a picture have in common.
 struct Frame {
     vec3 cameraPosition;
     uint width;       ///< of the whole picture, pixels

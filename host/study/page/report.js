@@ -138,7 +138,7 @@ function drawPlot() {
   plot = newPlot(byId('plot'), byId('plot').clientWidth, Math.max(320, Math.min(520, innerHeight * 0.55)));
 }
 
-/// Of the scene and configurations that are chosen now; uPlot draws later.
+/// The plot of the scene and configurations that are chosen now; uPlot draws it later.
 function newPlot(parent, width, height) {
   const list = shown(), target = scene().summary.targetError;
   const styles = getComputedStyle(document.documentElement);
@@ -308,7 +308,7 @@ function drawPictures() {
   drawDivider();
 }
 
-/// As host/compare/flip.cpp.
+/// Green's cubehelix (2011), with the parameters of host/compare/flip.cpp.
 function cubehelix(t) {
   const angle = 2 * Math.PI * (0.5 / 3 + 1 - 1.5 * t), a = t * (1 - t) / 2;
   const [x, y] = [Math.cos(angle), Math.sin(angle)];
@@ -333,7 +333,7 @@ for (const kind of ['pointerdown', 'pointermove']) byId('frame').addEventListene
 for (const id of ['left', 'right', 'zoom']) byId(id).addEventListener('change', drawPictures);
 byId('baseline').addEventListener('change', event => { state.baseline = event.target.value; draw(); });
 
-/// As large as fits.
+/// The largest zoom at which the pictures fit the window.
 function firstZoom() {
   const fits = [4, 2, 1].find(z => z * scene().width <= byId('compare').clientWidth) || 1;
   byId('zoom').value = fits;
