@@ -73,7 +73,7 @@ endfunction()
 # A few files of a library are compiled as one: what their headers hold is read, and the templates
 # that they share are made, once for all of them. For those who edit a file at a time OFF is better.
 option(STROMBOLI_UNITY_BUILD "Compile several files of a library as one" ON)
-set(STROMBOLI_FILES_AT_ONCE 6)
+set(STROMBOLI_FILES_AT_ONCE 3)
 
 # stromboli_library(NAME [COLD] SOURCES a.cpp ... DEPENDS lib ... [PRIVATE_DEPENDS lib ...]): one
 # folder of the program. COLD: compiled quickly and not for speed. PRIVATE_DEPENDS: libraries whose
