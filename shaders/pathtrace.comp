@@ -8,10 +8,12 @@
 #include "include/path_kernel.glsl"
 #include "shared/path_fields.h"
 
-const uint KEPT = AT_PAUSE;
+// A function, and not a constant: spirv-opt loses the order of constants that are made of so many others.
+uint keptBetweenDispatches() { return KEPT_BETWEEN_DISPATCHES; }
+#define KEPT keptBetweenDispatches()
 #include "include/path_memory.glsl"
 
-bool atWork(PathState path) { return path.phase != PHASE_FINISHED && path.phase != PHASE_SUSPENDED; }
+bool atWork(PathState path) { return path.phase != PHASE_FINISHED && !isSuspended(path.phase); }
 
 /// Whether an eighth of the subgroup's lanes at work want another pixel (docs/kernel.md,
 /// "Leaving the inner loop together").
@@ -20,10 +22,11 @@ bool pixelsAreWanted(PathState path, Job job) {
     return 8u * wanting >= subgroupBallotBitCount(subgroupBallot(atWork(path)));
 }
 
-/// Goes on where the last dispatch ended: with its pixel, and with the path ray that it was about to trace.
+/// Goes on where the last dispatch ended: with its pixel, and with the ray that it was about to trace.
 void resume(const Frame frame, bool beginsNoSample, inout PathState path, inout Job job, PathSlot slot) {
-    loadPath(slot, path, job, AT_PAUSE);
-    bool goesOn = path.phase == PHASE_SUSPENDED;
+    loadPath(slot, path, job, KEPT);
+    bool goesOn = job.item != NO_ITEM && isSuspended(path.phase);
+    const uint phase = path.phase & ~PHASE_SUSPENDED;
     job.sampleCount = 0u;
     takeUp(frame, path, job, job.item);
     path.phase = PHASE_NEXT;
@@ -33,25 +36,28 @@ void resume(const Frame frame, bool beginsNoSample, inout PathState path, inout 
         job.target = samplesTaken(path) + (isDropped ? 0u : 1u);
         goesOn = goesOn && !isDropped;
     }
-    if (!goesOn) return;
-    const uint skipPlacement = path.ray.skipPlacement;
-    trace(path, PHASE_PATH, path.ray.origin, path.ray.direction, 0.0, INFINITE_DISTANCE, path.ray.skipPrimitive);
-    path.ray.skipPlacement = skipPlacement;
+    if (goesOn && STOPS_BEFORE_ANY_RAY) path.phase = phase;
+    if (goesOn && !STOPS_BEFORE_ANY_RAY) {
+        const uint skipPlacement = path.ray.skipPlacement;
+        trace(path, PHASE_PATH, path.ray.origin, path.ray.direction, 0.0, INFINITE_DISTANCE, path.ray.skipPrimitive);
+        path.ray.skipPlacement = skipPlacement;
+    }
 }
 
-/// Remembers the bounce ray that was to be started; a camera ray is simply begun anew.
+/// Remembers the ray that was to be started; a camera ray that has passed nothing is simply begun anew.
 void pause(PathState path, Job job, PathSlot slot) {
-    if (path.phase != PHASE_SUSPENDED) job.item = NO_ITEM;
-    if (path.bounce == 0u) path.phase = PHASE_NEXT;
-    storePath(slot, path, job, AT_PAUSE);
+    if (!isSuspended(path.phase)) job.item = NO_ITEM;
+    const bool isCameraRay = path.bounce == 0u && path.phase == (PHASE_SUSPENDED | PHASE_PATH);
+    if (isCameraRay && !hasPassedSomething(path)) path.phase = PHASE_NEXT;
+    storePath(slot, path, job, KEPT);
 }
 
-/// Starts the ray that a lane has asked for, or its next sample. A lane about to trace a path ray may
-/// put it off to the next dispatch; in any other phase too much would have to be remembered.
+/// Starts the ray that a lane has asked for, or its next sample. Where time is up, the ray is put off to the next
+/// dispatch.
 void startWork(const Given given, inout PathState path, inout Stack stack, Job job, bool late) {
     if (path.phase == PHASE_BOUNCE || path.phase == PHASE_NEXT && !wantsPixel(path, job)) depart(given, path);
-    const bool mayBePutOff = !hasPassedSomething(path);
-    if (late && path.phase == PHASE_PATH && !traversing(path.ray) && mayBePutOff) path.phase = PHASE_SUSPENDED;
+    const bool mayBePutOff = STOPS_BEFORE_ANY_RAY ? isTracing(path.phase) : path.phase == PHASE_PATH;
+    if (late && mayBePutOff && !traversing(path.ray)) path.phase |= PHASE_SUSPENDED;
     startRay(path, stack);
 }
 
@@ -76,7 +82,7 @@ uint nextLook(const Dispatch dispatch, uint iteration, bool late) {
 }
 
 void report(PathState path, Job job) {
-    if (path.phase == PHASE_SUSPENDED) atomicAdd(status.unfinishedItems, 1u);
+    if (isSuspended(path.phase)) atomicAdd(status.unfinishedItems, 1u);
     if (atWork(path)) atomicAdd(status.overflowedItems, 1u);
     atomicAdd(status.rays, path.rayCount);
     atomicAdd(status.samples, job.sampleCount);

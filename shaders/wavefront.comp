@@ -8,6 +8,7 @@
 
 #include "include/path_kernel.glsl"
 #include "shared/wavefront_types.h"
+#include "shared/path_fields.h"
 
 layout(constant_id = SPEC_STAGE) const uint STAGE = STAGE_TRACE;
 
@@ -16,7 +17,7 @@ layout(set = 0, binding = BINDING_QUEUES, std430) buffer QueueBuffer {
     uint queued[]; ///< numbers of paths, laneCount for each queue
 };
 
-const uint KEPT = 0xFFFFFFFFu; // all
+const uint KEPT = ALWAYS;
 #include "include/path_memory.glsl"
 
 /// Words of all paths lie one after the other, so that neighbouring lanes read neighbouring words.

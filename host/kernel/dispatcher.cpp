@@ -122,9 +122,7 @@ bool Dispatcher::runChunk(size_t segment, std::span<const gpu::WorkItem> items,
         if (status.overflowedItems > 0)
             throw DeviceError(fmt::format(
                 "{} pixels needed more than {} loop iterations for one surface, the most that {} "
-                "runs in a dispatch: too many lights or light samples (-l) for one shading point, "
-                "or "
-                "too many transparent layers behind each other",
+                "runs in a dispatch: too many lights or light samples (-l) for one shading point",
                 status.overflowedItems, hardIterations_, device_.description().name()));
         goesOn = advance(status.samples) && goesOn;
     } while (somethingIsLeft());

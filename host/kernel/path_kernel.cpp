@@ -54,8 +54,9 @@ struct FieldConditions {
         return sceneHas(gpu::RECIPE_PRINCIPLED);
     }
 
-    /// kept: of readers' bits.
-    uint32_t words(uint32_t kept) const {
+    uint32_t words(PathScheduler scheduler) const {
+        const uint32_t kept =
+            scheduler == PathScheduler::Persistent ? KEPT_BETWEEN_DISPATCHES : ALWAYS;
         constexpr uint32_t uint_ = 1, float_ = 1, bool_ = 1, vec2_ = 2, vec3_ = 3, vec4_ = 4,
                            uvec4_ = 4;
         uint32_t sum = 0;
@@ -70,8 +71,7 @@ struct FieldConditions {
 } // namespace
 
 uint32_t pathWords(const KernelFeatures& features, PathScheduler scheduler) {
-    const uint32_t kept = scheduler == PathScheduler::Persistent ? AT_PAUSE : ~0u;
-    return FieldConditions(features).words(kept);
+    return FieldConditions(features).words(scheduler);
 }
 
 // --- The kernel ----------------------------------------------------------------------------------

@@ -50,5 +50,4 @@ bool passesThrough(const Frame frame, inout PathState path, MaterialPoint hit, f
     return true;
 }
 
-/// Only a ray that has passed nothing can be put off to another dispatch, which begins it anew.
 bool hasPassedSomething(PathState path) { return HAS_ALPHA && path.ray.passed != NO_PRIMITIVE; }

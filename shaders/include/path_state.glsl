@@ -9,7 +9,9 @@ const uint PHASE_DIRECT = 4u;     ///< at a surface, direct light samples left
 const uint PHASE_BOUNCE = 5u;     ///< at a surface, direct light done
 const uint PHASE_ENDED = 6u;      ///< the path is over
 const uint PHASE_NEXT = 7u;       ///< ready for a new sample
-const uint PHASE_SUSPENDED = 8u;  ///< a path ray has been put off to the next dispatch
+const uint PHASE_SUSPENDED = 8u;  ///< a bit: the ray of the phase has been put off to the next dispatch
+
+bool isSuspended(uint phase) { return (phase & PHASE_SUSPENDED) != 0u; }
 
 /// Where a sample's path has split into branches (path splitting; docs/estimator.md, "Branches"): at
 /// the first surface that scatters at random.

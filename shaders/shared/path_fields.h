@@ -18,6 +18,13 @@
 #define AT_SPLIT 64u   // of STAGE_DEPART: the path splits
 #define AT_PAUSE 256u  // persistent scheduler: a lane ends a dispatch, where it may be about to trace a path ray
 #define BY_ALL (BY_DEPART | BY_TRACE | BY_FOLLOW | BY_LIGHT)
+#define ALWAYS 0xFFFFFFFFu // all of these
+
+/// Where rays pass surfaces, and no number of these may exceed what one dispatch can do, a lane of the persistent
+/// scheduler may stop before any ray, so that all of its path is kept; else only before a path ray.
+#define STOPS_BEFORE_ANY_RAY HAS_ALPHA
+/// Fields, by their readers, that the persistent scheduler keeps from one dispatch to the next.
+#define KEPT_BETWEEN_DISPATCHES (STOPS_BEFORE_ANY_RAY ? ALWAYS : AT_PAUSE)
 
 /// A point where a path scatters (surface.glsl). exists: whether a path may have such a point.
 #define SURFACE_FIELDS(F, point, exists, readers, writers) \

@@ -29,6 +29,9 @@ float apart(int i) {
 float together(int) {
     return 0.25f;
 }
+float close(int i) {
+    return 0.25f + 0.001f * float(i);
+}
 
 SceneMaker layersOver(uint32_t floorKind, int n, float opacity, Heights height) {
     SceneMaker b;
@@ -62,6 +65,22 @@ TEST(Opacity, ShadowRaysLoseTheSameShare) {
             const double expected = 0.5 / kPi * std::pow(0.75, n);
             EXPECT_NEAR(found.mean.x / expected, 1, 1e-4) << n << " layers";
         }
+}
+
+/// More than a driver that limits loops lets a ray pass in one dispatch (docs/kernel.md, "The loop
+/// limit").
+TEST(Opacity, ThousandsOfLayersCostNoPicture) {
+    constexpr int n = 4000;
+    constexpr float opacity = 0x1p-12f;
+    const double left = std::pow(1 - double(opacity), n);
+    expectMean(estimate(layersOver(0, n, opacity, close).scene, kAbove, smallPicture(4, 1)), left);
+    SceneMaker b = layersOver(1, n, opacity, close);
+    Light l;
+    l.position = {0.1f, 0.2f, 16};
+    b.add(l);
+    const Camera below = pointCamera({0.2, 0.1, 0.1}, {0.1, 0.2, 0});
+    const Estimate found = estimate(b.scene, below, smallPicture(1, 1));
+    EXPECT_NEAR(found.mean.x / (0.5 / kPi * left), 1, 1e-3); // 4000 roundings
 }
 
 /// The same place twice, to the last bit.

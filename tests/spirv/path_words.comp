@@ -4,11 +4,11 @@
 
 #include "include/path_kernel.glsl"
 #include "shared/path_fields.h"
-const uint KEPT = AT_PAUSE;
+#define KEPT KEPT_BETWEEN_DISPATCHES
 #include "include/path_memory.glsl"
 
 void main() {
     if (gl_GlobalInvocationID.x != 0u) return;
-    pathWords[0] = wordsOfPath(AT_PAUSE);
-    pathWords[1] = wordsOfPath(0xFFFFFFFFu);
+    pathWords[0] = wordsOfPath(KEPT);
+    pathWords[1] = wordsOfPath(ALWAYS);
 }
