@@ -11,16 +11,21 @@
 namespace stromboli::collada {
 namespace {
 
+/// A number that makes no sense counts as not stated.
 std::optional<double> readPositive(const Document& document, const Element& parent,
                                    const char* name, double below) {
     const Element* at = parent.FirstChildElement(name);
     if (!at) return std::nullopt;
-    const double value = readNumber(document, *at);
-    if (!(value > 0 && value < below))
+    try {
+        const double value = readNumber(document, *at);
+        if (value > 0 && value < below) return value;
         document.fail(*at, std::isinf(below)
                                ? fmt::format("is {}, expected more than 0", value)
                                : fmt::format("is {}, expected between 0 and {}", value, below));
-    return value;
+    } catch (const SceneError& error) {
+        document.replace(error, build::Shortfall::Parameter);
+        return std::nullopt;
+    }
 }
 
 constexpr double kNoLimit = HUGE_VAL;
@@ -66,9 +71,13 @@ void readDepthRange(Context& context, const Element& at, FileCamera& camera) {
         context.report.warn(fmt::format("camera '{}': negative <znear> taken as 0", camera.name));
         camera.nearDistance = 0;
     }
-    if (!(camera.farDistance > camera.nearDistance))
-        document.fail(at, fmt::format("<zfar> ({}) must be greater than <znear> ({})",
-                                      camera.farDistance, camera.nearDistance));
+    if (!(camera.farDistance > camera.nearDistance)) {
+        document.replace(at, build::Shortfall::Parameter,
+                         fmt::format("<zfar> ({}) must be greater than <znear> ({})",
+                                     camera.farDistance, camera.nearDistance));
+        camera.nearDistance = FileCamera().nearDistance;
+        camera.farDistance = FileCamera().farDistance;
+    }
 }
 
 /// The element that says what the camera sees; null where nothing does.

@@ -69,6 +69,14 @@ void Document::forgive(const Element& at, const std::string& problem,
     report_.forgive(place(at), problem, reading);
 }
 
+void Document::replace(const Element& at, build::Shortfall kind, const std::string& problem) const {
+    report_.replace(place(at), kind, problem);
+}
+
+void Document::replace(const Error& error, build::Shortfall kind) const {
+    report_.replace(error, kind);
+}
+
 const Element& Document::require(const Element& parent, const char* child) const {
     if (const Element* found = parent.FirstChildElement(child)) return *found;
     fail(parent, fmt::format("has no <{}>, which is required", child));

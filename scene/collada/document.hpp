@@ -48,6 +48,11 @@ class Document {
     /// SceneError where nothing is forgiven.
     void forgive(const Element& at, const std::string& problem, const std::string& reading) const;
 
+    /// Reports what cannot be read and what takes its place (Report::replace). Throws SceneError
+    /// where nothing is forgiven.
+    void replace(const Element& at, build::Shortfall kind, const std::string& problem) const;
+    void replace(const Error& error, build::Shortfall kind) const;
+
     /// The first child of that name; throws SceneError where there is none.
     const Element& require(const Element& parent, const char* child) const;
     /// The attribute's text; throws SceneError where there is none.

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace stromboli::collada {
@@ -28,31 +29,40 @@ const Element* lightKind(Context& context, const Element& light) {
     return nullptr;
 }
 
+/// The number, or the nearest one in its range, which is said.
+double within(const Document& document, const Element& at, const char* name, double number,
+              double least, double most) {
+    if (number >= least && number <= most) return number;
+    document.replace(at, build::Shortfall::Number,
+                     fmt::format("<{}> is {}, expected {} to {}", name, number, least, most));
+    return std::clamp(number, least, most);
+}
+
 /// Distances in the file are in its own unit, those of the scene in metres: the coefficients are
 /// converted so that the light falls off over the same things.
 void readAttenuation(Context& context, const Element& at, Light& light) {
     const Document& document = context.document;
     const double meters = context.conventions.applyUnit ? metersPerUnit(document) : 1;
-    const double constant = readNumberOr(document, at, "constant_attenuation", 1);
-    const double linear = readNumberOr(document, at, "linear_attenuation", 0) / meters;
-    const double quadratic =
-        readNumberOr(document, at, "quadratic_attenuation", 0) / (meters * meters);
-    if (!(std::min({constant, linear, quadratic}) >= 0))
-        document.fail(at, "attenuation must not be negative");
-    light.constantAttenuation = toFloat(document, at, constant);
-    light.linearAttenuation = toFloat(document, at, linear);
-    light.quadraticAttenuation = toFloat(document, at, quadratic);
-    if (light.constantAttenuation + light.linearAttenuation + light.quadraticAttenuation == 0)
-        document.fail(at, "one of the attenuation coefficients must be greater than 0");
+    const auto coefficient = [&](const char* name, double byDefault, double per) {
+        const double number = readNumberOr(document, at, name, byDefault);
+        return toFloat(document, at, within(document, at, name, number, 0, HUGE_VAL) / per);
+    };
+    light.constantAttenuation = coefficient("constant_attenuation", 1, 1);
+    light.linearAttenuation = coefficient("linear_attenuation", 0, meters);
+    light.quadraticAttenuation = coefficient("quadratic_attenuation", 0, meters * meters);
+    if (light.constantAttenuation + light.linearAttenuation + light.quadraticAttenuation == 0) {
+        document.replace(at, build::Shortfall::Parameter,
+                         "one of the attenuation coefficients must be greater than 0");
+        light.constantAttenuation = 1;
+    }
 }
 
 void readCone(Context& context, const Element& at, Light& light) {
     const Document& document = context.document;
-    const double angle = readNumberOr(document, at, "falloff_angle", 180);
-    if (!(angle >= 0 && angle <= 360))
-        document.fail(at, fmt::format("<falloff_angle> is {}, expected 0 to 360 degrees", angle));
-    const double exponent = readNumberOr(document, at, "falloff_exponent", 0);
-    if (!(exponent >= 0)) document.fail(at, "<falloff_exponent> must not be negative");
+    const double angle = within(document, at, "falloff_angle",
+                                readNumberOr(document, at, "falloff_angle", 180), 0, 360);
+    const double exponent = within(document, at, "falloff_exponent",
+                                   readNumberOr(document, at, "falloff_exponent", 0), 0, HUGE_VAL);
     light.falloffAngle = float(glm::radians(angle));
     light.falloffExponent = toFloat(document, at, exponent);
 }

@@ -107,7 +107,9 @@ glm::dmat4 axesToWorld(const Document& document) {
     if (name == "Y_UP") return glm::dmat4(1);
     if (name == "Z_UP") return matrix({-1, 0, 0}, {0, 0, 1}, {0, 1, 0});
     if (name == "X_UP") return matrix({0, 1, 0}, {1, 0, 0}, {0, 0, -1});
-    document.fail(*upAxis, fmt::format("'{}' must be X_UP, Y_UP or Z_UP", name));
+    document.replace(*upAxis, build::Shortfall::Word,
+                     fmt::format("'{}' is not X_UP, Y_UP or Z_UP", name));
+    return glm::dmat4(1);
 }
 
 } // namespace
@@ -124,9 +126,14 @@ double metersPerUnit(const Document& document) {
     const Element* asset = document.root().FirstChildElement("asset");
     const Element* unit = asset ? asset->FirstChildElement("unit") : nullptr;
     if (!unit) return 1;
-    const double meter = readAttributeOr(document, *unit, "meter", 1);
-    if (!(meter > 0)) document.fail(*unit, "the attribute 'meter' must be greater than 0");
-    return meter;
+    try {
+        const double meter = readAttributeOr(document, *unit, "meter", 1);
+        if (!(meter > 0)) document.fail(*unit, "the attribute 'meter' must be greater than 0");
+        return meter;
+    } catch (const SceneError& error) {
+        document.replace(error, build::Shortfall::Parameter);
+        return 1;
+    }
 }
 
 glm::dmat4 fileToWorld(const Document& document, bool useUnit) {
@@ -142,8 +149,14 @@ bool isTransform(const Element& element) {
 
 glm::dmat4 nodeTransform(const Document& document, const Element& node) {
     glm::dmat4 product(1);
-    for (const Element& child : children(node))
-        if (isTransform(child)) product *= readTransform(document, child);
+    for (const Element& child : children(node)) {
+        if (!isTransform(child)) continue;
+        try {
+            product *= readTransform(document, child);
+        } catch (const SceneError& error) {
+            document.replace(error, build::Shortfall::Parameter);
+        }
+    }
     return product;
 }
 

@@ -12,11 +12,11 @@ namespace stromboli::collada {
 /// leaves lengths as they are.
 glm::dmat4 fileToWorld(const Document& document, bool useUnit);
 
-/// Metres per unit of length of the file; throws SceneError unless positive and finite.
+/// Metres per unit of length of the file; 1, which is said, where that is not positive and finite.
 double metersPerUnit(const Document& document);
 
 /// The product of the node's transformation elements, in document order: the first in the file is
-/// the last applied to a point. Throws SceneError for one that makes no sense.
+/// the last applied to a point. One that makes no sense has no effect, which is said.
 glm::dmat4 nodeTransform(const Document& document, const Element& node);
 
 /// The matrix of the first sixteen numbers, which are in rows as in files.

@@ -1,5 +1,6 @@
 #include "scene/collada/visual_scene.hpp"
 
+#include "scene/build/shortfall.hpp"
 #include "scene/build/vectors.hpp"
 #include "scene/collada/cameras.hpp"
 #include "scene/collada/cgl_dialect.hpp"
@@ -62,22 +63,47 @@ class SceneWalk {
         context_.report.ignore(fmt::format("<{}>", element.Name()), why);
     }
 
+    /// What a node cannot show costs that node, or that child of it, and no more.
     void visitNode(const Element& node, const glm::dmat4& parentToWorld) {
+        try {
+            showNode(node, parentToWorld);
+        } catch (const SceneError& error) {
+            if (hasTooMany_) throw;
+            context_.report.replace(error, build::Shortfall::Node);
+        }
+    }
+
+    void showNode(const Element& node, const glm::dmat4& parentToWorld) {
         const Document& document = context_.document;
         if (std::find(path_.begin(), path_.end(), &node) != path_.end())
             document.fail(node, fmt::format("'{}' contains itself through <instance_node>",
                                             displayName(node)));
         if (path_.size() >= kDeepestNode)
             document.fail(node, fmt::format("nodes are nested more than {} deep", kDeepestNode));
-        if (++visited_ > document.elementCount() + kMostRepeatedNodes)
+        hasTooMany_ = ++visited_ > document.elementCount() + kMostRepeatedNodes;
+        if (hasTooMany_)
             document.fail(node, fmt::format("<instance_node> repeats more than {} nodes",
                                             kMostRepeatedNodes));
         const glm::dmat4 toWorld = parentToWorld * nodeTransform(document, node);
         if (!build::isFinite(toWorld)) document.fail(node, "its transformation overflows");
         path_.push_back(&node);
-        for (const Element& child : children(node))
-            visitChild(node, child, toWorld);
+        for (const Element& child : children(node)) {
+            try {
+                visitChild(node, child, toWorld);
+            } catch (const SceneError& error) {
+                if (hasTooMany_) throw;
+                context_.report.replace(error, shortfallOf(child));
+            }
+        }
         path_.pop_back();
+    }
+
+    /// Of a child that cannot be shown.
+    static build::Shortfall shortfallOf(const Element& child) {
+        const std::string_view kind = child.Name();
+        return kind == "instance_geometry" || kind == "instance_controller"
+                   ? build::Shortfall::Geometry
+                   : build::Shortfall::Node;
     }
 
     void visitChild(const Element& node, const Element& child, const glm::dmat4& toWorld) {
@@ -158,6 +184,7 @@ class SceneWalk {
     std::unordered_map<const Element*, Geometry> geometries_;
     std::vector<const Element*> path_; ///< the nodes from the root to the one being visited
     size_t visited_ = 0;
+    bool hasTooMany_ = false; ///< nodes to go on with: an error ends the walk
 };
 
 /// Counts the contents of libraries nothing here reads, and what <scene> shows besides.

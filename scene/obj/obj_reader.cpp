@@ -65,19 +65,50 @@ void ObjReader::readStatement() {
     report.forgive(statements_.place(), "is no statement of the format", "the line is skipped");
 }
 
+/// A number, or NaN for a word that says so. Programs of some countries write 1,5 for 1.5.
+double ObjReader::number(Words& words) {
+    Words ahead = words;
+    std::string word(ahead.next());
+    if (std::count(word.begin(), word.end(), ',') == 1) {
+        std::replace(word.begin(), word.end(), ',', '.');
+        if (const std::optional<double> value = build::realIn(word)) {
+            builder_.report().forgive(statements_.place(), "a number has a decimal comma",
+                                      "it is read as a decimal point");
+            words = ahead;
+            return *value;
+        }
+    }
+    return statements_.numberOrNan(words);
+}
+
+/// Three numbers. Where one is none, all are NaN, and `kind` says what becomes of them.
+glm::dvec3 ObjReader::readVector(Words& words, build::Shortfall kind) {
+    glm::dvec3 v;
+    try {
+        for (int i = 0; i < 3; ++i)
+            v[i] = number(words);
+        if (std::isnan(v.x + v.y + v.z)) statements_.fail("has a coordinate that is no number");
+        return v;
+    } catch (const SceneError& error) {
+        builder_.report().replace(error, kind);
+        words = Words("");
+        return glm::dvec3(std::numeric_limits<double>::quiet_NaN());
+    }
+}
+
 /// v x y z [w], or v x y z r g b [a]: not in the specification, but programs for scans write it.
 void ObjReader::readPosition() {
     Words words(statements_.values());
-    glm::dvec3 p;
-    for (int i = 0; i < 3; ++i)
-        p[i] = statements_.numberOrNan(words);
-    if (std::isnan(p.x + p.y + p.z))
-        builder_.report().forgive(statements_.place(), "a coordinate is no number",
-                                  "triangles with such a vertex are left out");
+    const glm::dvec3 p = readVector(words, build::Shortfall::Vertex);
     std::array<double, 4> more{};
     size_t count = 0;
-    while (!words.atEnd() && count < more.size())
-        more[count++] = statements_.number(words);
+    try {
+        while (!words.atEnd() && count < more.size())
+            more[count++] = number(words);
+    } catch (const SceneError& error) {
+        builder_.report().replace(error, build::Shortfall::Attribute);
+        count = 0;
+    }
     if (count == 1 && more[0] != 1)
         builder_.report().ignore("weights of vertices (the fourth number of 'v')",
                                  "they belong to curved surfaces");
@@ -123,31 +154,26 @@ void ObjReader::finishColors() {
 
 void ObjReader::readNormal() {
     Words words(statements_.values());
-    glm::dvec3 n;
-    for (int i = 0; i < 3; ++i)
-        n[i] = statements_.numberOrNan(words);
-    if (std::isnan(n.x + n.y + n.z))
-        builder_.report().replace(statements_.place(), build::Shortfall::Normal,
-                                  "a normal is no number");
+    const glm::dvec3 n = readVector(words, build::Shortfall::Normal);
     if (lists_.mesh.normals.size() >= kMostElements) statements_.fail("is one normal too many");
     lists_.mesh.normals.push_back(n);
 }
 
 /// vt u [v [w]]
 void ObjReader::readTexcoord() {
-    Words words(statements_.values());
-    double u = statements_.numberOrNan(words);
-    double v = words.atEnd() ? 0 : statements_.numberOrNan(words);
-    if (std::isnan(u + v)) {
-        builder_.report().replace(statements_.place(), build::Shortfall::Texel,
-                                  "a texture coordinate is no number");
-        u = v = 0;
+    glm::vec2 uv(0);
+    try {
+        Words words(statements_.values());
+        const double u = number(words), v = words.atEnd() ? 0 : number(words);
+        uv = glm::vec2(u, v);
+        if (!std::isfinite(uv.x) || !std::isfinite(uv.y))
+            statements_.fail("is no number in the range of single precision");
+    } catch (const SceneError& error) {
+        builder_.report().replace(error, build::Shortfall::Texel);
+        uv = glm::vec2(0);
     }
     if (lists_.texcoords.size() >= kMostElements)
         statements_.fail("is one texture coordinate too many");
-    const glm::vec2 uv(u, v);
-    if (!std::isfinite(uv.x) || !std::isfinite(uv.y))
-        statements_.fail("is beyond the range of single precision");
     lists_.texcoords.push_back(uv);
 }
 

@@ -23,6 +23,8 @@ class ObjReader {
 
   private:
     void readStatement();
+    double number(Words& words);
+    glm::dvec3 readVector(Words& words, build::Shortfall kind);
     void readPosition();
     void readNormal();
     void readTexcoord();

@@ -94,7 +94,9 @@ double Body::textNumber() {
     const std::string_view text = word();
     if (text.empty()) fail("the file ends where a number is expected");
     if (const std::optional<double> value = build::realIn(text)) return *value;
-    if (!isNotFinite(text)) fail(fmt::format("'{}' is no number", text.substr(0, 60)));
+    if (!isNotFinite(text))
+        report_.replace(place(), build::Shortfall::Vertex,
+                        fmt::format("'{}' is no number", text.substr(0, 60)));
     return std::numeric_limits<double>::quiet_NaN();
 }
 

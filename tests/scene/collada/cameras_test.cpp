@@ -71,18 +71,29 @@ TEST(Cameras, LengthsAreInWorldUnits) {
     expectNear(cs184.position, {1, 0, 0});
 }
 
-TEST(Cameras, BadOnesAreErrors) {
+/// They are left out, and here nothing else is there.
+TEST(Cameras, WithoutAViewAreLeftOut) {
     for (const char* bad :
          {"<perspective/>", "<perspective><aspect_ratio>1</aspect_ratio></perspective>",
           "<perspective><xfov>0</xfov></perspective>",
           "<perspective><xfov>180</xfov></perspective>",
           "<perspective><yfov>-5</yfov></perspective>",
-          "<perspective><xfov>wide</xfov></perspective>",
-          "<perspective><xfov>40</xfov><aspect_ratio>0</aspect_ratio></perspective>",
-          "<perspective><xfov>40</xfov><znear>5</znear><zfar>5</zfar></perspective>",
-          "<orthographic/>", "<orthographic><xmag>0</xmag></orthographic>",
+          "<perspective><xfov>wide</xfov></perspective>", "<orthographic/>",
+          "<orthographic><xmag>0</xmag></orthographic>",
           "<orthographic><ymag>INF</ymag></orthographic>"})
         EXPECT_THROW(loadCameras(bad), SceneError) << bad;
+}
+
+TEST(Cameras, NumbersThatMakeNoSenseCountAsNotStated) {
+    const FileCamera usual = perspective("<xfov>40</xfov>");
+    for (const char* bad :
+         {"<xfov>40</xfov><aspect_ratio>0</aspect_ratio>", "<xfov>40</xfov><yfov>-5</yfov>",
+          "<xfov>40</xfov><znear>5</znear><zfar>5</zfar>"}) {
+        const FileCamera camera = perspective(bad);
+        EXPECT_EQ(camera.halfWidth, usual.halfWidth) << bad;
+        EXPECT_EQ(camera.halfHeight, usual.halfHeight) << bad;
+        EXPECT_EQ(camera.farDistance, usual.farDistance) << bad;
+    }
 }
 
 TEST(Cameras, SingularNodesLeaveNoCamera) {

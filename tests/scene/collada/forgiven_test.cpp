@@ -83,6 +83,34 @@ TEST(Forgiven, OnePartOfAMeshCostsItself) {
     EXPECT_EQ(scene.triangles.size(), 1u);
 }
 
+/// One thing of a node, beside a mesh that is shown.
+TEST(Forgiven, WhatANodeCannotShowCostsItself) {
+    const std::pair<std::string, std::string> cases[] = {
+        {"<instance_camera url=\"#bad\"/>",
+         ".*<perspective>: has neither <xfov> nor <yfov>: it is left out"},
+        {"<instance_light url=\"#bad\"/>",
+         ".*<point>: has no <color>, which is required: it is left out"},
+        {"<instance_geometry url=\"#gone\"/>", ".*no <geometry> with this id: it is left out"},
+        {"<instance_node url=\"#gone\"/>", ".*no <node> with this id: it is left out"},
+        {"<node><rotate>1 2</rotate></node>",
+         ".*<rotate>: has 2 numbers, expected 4: it has no effect"},
+        {"<node id=\"n\"><instance_node url=\"#n\"/></node>",
+         ".*contains itself.*: it is left out"},
+    };
+    for (const auto& [child, line] : cases) {
+        DocumentText document;
+        document.libraries =
+            "<library_cameras><camera id=\"bad\"><optics><technique_common><perspective/>"
+            "</technique_common></optics></camera></library_cameras><library_lights>"
+            "<light id=\"bad\"><technique_common><point/></technique_common></light>"
+            "</library_lights>" +
+            triangleLibrary();
+        document.nodes = "<node>" + child + "</node>" + meshNode();
+        const Scene scene = forgiven(document, "[0-9]+: " + line);
+        EXPECT_EQ(scene.triangles.size(), 1u) << child;
+    }
+}
+
 TEST(Forgiven, DecimalCommas) {
     DocumentText document;
     document.asset = "<unit meter=\"0,5\"/>";

@@ -169,19 +169,30 @@ TEST(Lights, NegativeColorsBecomeBlack) {
     EXPECT_THAT(scene.report.warnings, Contains(HasSubstr("negative")));
 }
 
-TEST(Lights, BadOnesAreErrors) {
-    const std::string color = "<color>1 1 1</color>";
+/// They are left out, and here nothing else is there.
+TEST(Lights, WithoutAColorAreLeftOut) {
     for (const std::string& bad :
          {std::string("<point/>"), std::string("<point><color>1 1</color></point>"),
           std::string("<point><color>1 1 1 1 1</color></point>"),
           std::string("<point><color>1 1 1e39</color></point>"),
-          std::string("<point><color>1 1 nan</color></point>"),
-          "<point>" + color + "<linear_attenuation>-1</linear_attenuation></point>",
-          "<point>" + color + "<constant_attenuation>0</constant_attenuation></point>",
-          "<spot>" + color + "<falloff_angle>361</falloff_angle></spot>",
-          "<spot>" + color + "<falloff_exponent>-1</falloff_exponent></spot>"})
+          std::string("<point><color>1 1 nan</color></point>")})
         EXPECT_THROW(loadLight({.common = bad}), SceneError) << bad;
     EXPECT_THROW(loadLight({.dialect = "<area/>"}), SceneError);
+}
+
+TEST(Lights, NumbersOutsideTheirRangeAreTheNearestInIt) {
+    const auto light = [](const std::string& kind, const std::string& number) {
+        const Scene scene =
+            loadLight({.common = fmt::format("<{0}><color>1 1 1</color>{1}</{0}>", kind, number)});
+        EXPECT_EQ(scene.report.forgiven.size(), 1u) << number;
+        return scene.lights.at(0);
+    };
+    EXPECT_EQ(light("point", "<linear_attenuation>-1</linear_attenuation>").linearAttenuation, 0);
+    EXPECT_EQ(light("point", "<constant_attenuation>0</constant_attenuation>").constantAttenuation,
+              1);
+    EXPECT_FLOAT_EQ(light("spot", "<falloff_angle>361</falloff_angle>").falloffAngle,
+                    float(2 * 3.14159265358979323846));
+    EXPECT_EQ(light("spot", "<falloff_exponent>-1</falloff_exponent>").falloffExponent, 0);
 }
 
 } // namespace

@@ -17,7 +17,6 @@ const fs::path kAssimp = "/usr/share/assimp/models";
 TEST(ObjFiles, AssimpsModelsLoadOrSayWhatIsWrong) {
     if (!fs::exists(kAssimp)) GTEST_SKIP() << "the package assimp-testmodels is not installed";
     const std::map<std::string, std::string> wrong = {
-        {"number_formats.obj", "number_formats.obj:11: <v>: '3.1+e2' is no finite number"},
         {"empty.obj", "has no vertex"},
     };
     const std::vector<std::string> withoutFaces = {"point_cloud.obj", "testline.obj",
