@@ -12,7 +12,7 @@ set(outside_prefixes
     "CLI/=CLI11::CLI11" "nlohmann/=nlohmann_json::nlohmann_json" "spdlog/=spdlog::spdlog"
     "tinyxml2.h=tinyxml2::tinyxml2" "zip.h=PkgConfig::libzip" "zstd.h=PkgConfig::libzstd"
     "png.h=PNG::PNG" "Imf=OpenEXR::OpenEXR"
-    "jpeglib.h=JPEG::JPEG" "webp/=PkgConfig::libwebp" "draco/=draco::draco"
+    "jpeglib.h=JPEG::JPEG" "gif_lib.h=GIF::GIF" "webp/=PkgConfig::libwebp" "draco/=draco::draco"
     "meshoptimizer.h=meshoptimizer::meshoptimizer"
     "OpenEXR/=OpenEXR::OpenEXR" "zlib.h=ZLIB::ZLIB" "volk.h=stromboli_volk"
     "vulkan/=Vulkan::Headers")

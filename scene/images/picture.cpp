@@ -45,6 +45,7 @@ Picture decodePicture(std::string_view bytes, const std::string& name, uint32_t 
     if (bytes.starts_with("\xFF\xD8\xFF")) return decodeJpeg(bytes, name);
     if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP"))
         return decodeWebp(bytes, name);
+    if (bytes.starts_with("GIF8")) return decodeGif(bytes, name);
     if (bytes.starts_with("BM")) return decodeBmp(bytes, name);
     if (bytes.starts_with("#?")) return decodeHdr(bytes, name, largestSide);
     if (bytes.starts_with("\x76\x2f\x31\x01")) return decodeExr(bytes, name);
@@ -52,7 +53,7 @@ Picture decodePicture(std::string_view bytes, const std::string& name, uint32_t 
     throw SceneError(name, 0, "",
                      bytes.empty() ? "is empty, expected a picture"
                                    : "is no picture that is read: expected PNG, JPEG, WebP, "
-                                     "BMP, Radiance HDR, OpenEXR or TGA");
+                                     "GIF, BMP, Radiance HDR, OpenEXR or TGA");
 }
 
 } // namespace stromboli::images

@@ -36,7 +36,7 @@ struct Picture {
     }
 };
 
-/// Decodes the bytes of a PNG, JPEG, WebP, BMP, Radiance HDR, OpenEXR or TGA file, told by their
+/// Decodes the bytes of a PNG, JPEG, WebP, GIF, BMP, Radiance HDR, OpenEXR or TGA file, told by their
 /// beginning. `name` is what messages call it. Throws SceneError if the bytes are none of these,
 /// damaged beyond use, if a side exceeds kLargestSide, if they are too few for the size that they
 /// claim, or if the pixels would not fit in the machine's memory. Radiance pictures of more than
@@ -48,6 +48,7 @@ Picture decodePicture(std::string_view bytes, const std::string& name,
 Picture decodePng(std::string_view bytes, const std::string& name);
 Picture decodeJpeg(std::string_view bytes, const std::string& name);
 Picture decodeWebp(std::string_view bytes, const std::string& name);
+Picture decodeGif(std::string_view bytes, const std::string& name);
 Picture decodeHdr(std::string_view bytes, const std::string& name, uint32_t largestSide);
 Picture decodeExr(std::string_view bytes, const std::string& name);
 Picture decodeBmp(std::string_view bytes, const std::string& name);

@@ -63,6 +63,42 @@ TEST(Formats, Webp) {
                 ElementsAre(1, 2, 3, 255, 250, 251, 252, 128));
 }
 
+/// Three columns and nine rows, as Pillow writes them: colour (x + y) % 3, of which the last is
+/// none.
+std::string gif(char flags = 0) {
+    std::string bytes("GIF89a\x03\x00\x09\x00\x81\x00\x00\x0a\x14\x1e\xc8\x64\x32\x00\x00\xff\x07"
+                      "\x07\x07\x21\xf9\x04"
+                      "\x01\x00\x00\x02\x00\x2c\x00\x00\x00\x00\x03\x00\x09\x00\x00\x08\x14\x00\x01"
+                      "\x04\x10\x30\x10\x80"
+                      "\x00\x81\x02\x09\x1e\x3c\x18\x20\x61\x41\x86\x01\x01\x00\x3b",
+                      67);
+    bytes[42] = flags;
+    return bytes;
+}
+
+TEST(Formats, Gif) {
+    const std::array<Bytes, 3> colors = {Bytes{10, 20, 30, 255}, {200, 100, 50, 255}, {0, 0, 0, 0}};
+    const std::array<size_t, 9> inOrder = {0, 1, 2, 3, 4, 5, 6, 7, 8},
+                                interlaced = {0, 8, 4, 2, 6, 1, 3, 5, 7};
+    for (const bool isInterlaced : {false, true}) {
+        const Bytes values = valuesOf<Bytes>(gif(isInterlaced ? 0x40 : 0));
+        ASSERT_EQ(values.size(), 3u * 9 * 4);
+        for (size_t row = 0; row < 9; ++row) // as they come in the file
+            for (size_t x = 0; x < 3; ++x) {
+                const size_t y = (isInterlaced ? interlaced : inOrder)[row];
+                const auto texel = values.begin() + std::ptrdiff_t(4 * (3 * y + x));
+                EXPECT_EQ(Bytes(texel, texel + 4), colors[(x + row) % 3]) << x << ' ' << y;
+            }
+    }
+}
+
+TEST(Formats, GifThatEndsTooEarlyIsShownAsFarAsItGoes) {
+    const Picture picture = decodePicture(gif().substr(0, 58), "picture");
+    EXPECT_EQ(std::get<Bytes>(picture.values)[0], 10);
+    ASSERT_EQ(picture.faults.size(), 1u);
+    EXPECT_EQ(picture.faults[0].kind, build::Shortfall::PicturePart);
+}
+
 TEST(Formats, OpenExr) {
     EXPECT_THAT(valuesOf<Floats>(test::exr(1, 2, "RGB", {1, 2, 3, 0.5f, 1e30f, -1}, false)),
                 ElementsAre(1, 2, 3, 1, 0.5f, 1e30f, -1, 1));
