@@ -40,6 +40,7 @@ Json sceneJson(const LoadedScene& scene) {
         {"lights", s.lights.size()},
         {"cameras", s.cameras.size()},
         {"cs184Dialect", s.cglDialect},
+        {"origin", vector(s.origin)}, // of all positions here, in the file's coordinates
         {"bounds", b.empty() ? Json(nullptr) : Json{{"low", vector(b.lo)}, {"high", vector(b.hi)}}},
         {"ignored", s.report.ignored},
         {"forgiven", s.report.forgiven},

@@ -56,7 +56,7 @@ Values valuesOf(Layer layer, const SeenPixel& s, const Scene& scene, const Camer
     case Layer::Depth:
         return depthOf(s, camera);
     case Layer::Position:
-        return valuesOf(s.position / double(std::max(s.hits, 1u)));
+        return valuesOf(s.hits > 0 ? s.position / double(s.hits) + scene.origin : glm::dvec3(0));
     case Layer::Uv:
         return uvOf(s, scene);
     case Layer::Object:

@@ -95,6 +95,7 @@ void SceneBuilder::placeSphere(double radius, const glm::dmat4& toWorld, uint32_
                                  instanceName));
     Sphere sphere;
     sphere.center = center;
+    sphereCenters_.push_back(center);
     sphere.radius = float(worldRadius);
     sphere.material = material;
     sphere.instance = startInstance(instanceName);

@@ -97,6 +97,7 @@ void SceneBuilder::placeLight(Light light, const glm::dmat4& toWorld) {
         light.upperHemisphereOnly = conventions_.ambientFrom == AmbientFrom::UpperHemisphere;
     if (poseLight(light, toWorld, conventions_)) {
         scene_.lights.push_back(std::move(light));
+        lightPlaces_.emplace_back(toWorld[3]);
     } else {
         report_.warn(fmt::format("light '{}' is left out: its node's transformation gives it no "
                                  "place, direction or area within 2^60",
@@ -148,6 +149,7 @@ void SceneBuilder::clampReflectance() {
 
 Scene SceneBuilder::finish() {
     clampReflectance();
+    moveOrigin();
     placeMeshes();
     // What was left out may be all there was.
     const bool hasGeometry =

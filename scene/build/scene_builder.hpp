@@ -107,6 +107,8 @@ class SceneBuilder {
     };
 
     uint32_t startInstance(const std::string& name);
+    void centreMeshes();
+    void moveOrigin();
     void placeMeshes();
     void placeSphere(double radius, const glm::dmat4& toWorld, uint32_t material,
                      const std::string& instanceName, Drops& drops);
@@ -119,7 +121,8 @@ class SceneBuilder {
     Scene scene_;
     Report report_;
     std::vector<Shape> shapes_;
-    std::vector<MeshUse> meshes_; ///< that finish() is to place
+    std::vector<MeshUse> meshes_;                         ///< that finish() is to place
+    std::vector<glm::dvec3> sphereCenters_, lightPlaces_; ///< of the scene's, not yet rounded
     std::optional<FilePlace> tooLargeAt_;
     uint64_t copiedTriangles_ = 0; ///< if each use of a mesh were a copy
     std::optional<uint32_t> defaultMaterial_;

@@ -134,11 +134,14 @@ Camera statedView(const Scene& scene, const CameraRequest& request) {
     const Bounds bounds = scene.bounds();
     const glm::dvec3 middle =
         bounds.empty() ? glm::dvec3(0) : 0.5 * (glm::dvec3(bounds.lo) + glm::dvec3(bounds.hi));
-    const glm::dvec3 at = request.at.value_or(middle);
-    if (at == *request.from)
+    // What the user states is in the file's coordinates.
+    const glm::dvec3 from = *request.from - scene.origin;
+    const glm::dvec3 at = request.at ? *request.at - scene.origin : middle;
+    if (at == from)
         throw SceneError(fmt::format("{}: the camera is where it is to look at: ({:g}, {:g}, {:g})",
-                                     scene.file, at.x, at.y, at.z));
-    return lookingAt(*request.from, at, std::tan(kStatedView / 2));
+                                     scene.file, request.from->x, request.from->y,
+                                     request.from->z));
+    return lookingAt(from, at, std::tan(kStatedView / 2));
 }
 
 void applyOptics(Camera& camera, const CameraRequest& request, double aspect,

@@ -104,10 +104,14 @@ struct LoadReport {
 };
 
 /// All there is to render. y is up; lengths are metres (COLLADA unit). Everything is in world space
-/// but the triangles of prototypes. Positions are rounded to float once, so that every backend sees
-/// the same geometry.
+/// but the triangles of prototypes; the world's origin is at `origin` of the file. Positions are
+/// rounded to float once, so that every backend sees the same geometry.
 struct Scene {
     std::string file;
+    /// Where the world's origin lies in the file's coordinates (y up, metres): elsewhere than at 0
+    /// where the scene is far from there, so that positions keep their digits. What users state and
+    /// are shown (`--look-from`, the layer of positions) is in the file's coordinates.
+    glm::dvec3 origin{0.0};
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;    ///< unit length
     std::vector<Triangle> triangles;   ///< those of prototypes come first

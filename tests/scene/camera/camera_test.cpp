@@ -46,6 +46,17 @@ TEST(Turntable, TurnsTheCameraAboutTheMiddle) {
     EXPECT_EQ(makeCamera(withTriangle(), request, 200, 100).position, before.position);
 }
 
+TEST(StatedView, IsInTheCoordinatesOfTheFile) {
+    Scene scene;
+    scene.origin = {1e6, 0, -3e6};
+    CameraRequest request;
+    request.from = glm::dvec3(1e6 + 2, 3, -3e6 + 5);
+    request.at = glm::dvec3(1e6, 3, -3e6 + 5);
+    const Camera camera = makeCamera(scene, request, 4, 3, {});
+    EXPECT_EQ(camera.position, glm::dvec3(2, 3, 5));
+    EXPECT_EQ(camera.back, glm::dvec3(1, 0, 0));
+}
+
 TEST(StatedView, LooksFromWhereItIsToldAtTheMiddleOrAPoint) {
     CameraRequest request;
     request.from = glm::dvec3(2, 0, 5);
