@@ -43,4 +43,14 @@ bool areUnequal(const glm::dvec3& lengths) {
            1.0001 * std::min({lengths.x, lengths.y, lengths.z});
 }
 
+bool isSimilarity(const glm::dmat4& m) {
+    const glm::dvec3 scale = axisLengths(m);
+    if (areUnequal(scale) || !(scale.x > 0)) return false;
+    const glm::dvec3 x = glm::dvec3(m[0]) / scale.x, y = glm::dvec3(m[1]) / scale.y,
+                     z = glm::dvec3(m[2]) / scale.z;
+    constexpr double kChance = 1e-6; // files carry about six digits
+    return std::abs(glm::dot(x, y)) < kChance && std::abs(glm::dot(y, z)) < kChance &&
+           std::abs(glm::dot(z, x)) < kChance;
+}
+
 } // namespace stromboli::build

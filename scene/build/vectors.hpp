@@ -30,4 +30,8 @@ glm::dvec3 axisLengths(const glm::dmat4& toWorld);
 /// True if lengths differ by more than files, which carry about six digits, mean by chance.
 bool areUnequal(const glm::dvec3& lengths);
 
+/// True if a matrix turns, moves, mirrors and scales alike in all directions, so that a sphere
+/// stays one.
+bool isSimilarity(const glm::dmat4& m);
+
 } // namespace stromboli::build

@@ -1,11 +1,11 @@
 #include "scene/mitsuba/bsdfs.hpp"
 
+#include "scene/build/tolerate.hpp"
 #include "scene/mitsuba/media_tables.hpp"
 #include "scene/mitsuba/nested_bsdfs.hpp"
 #include "scene/mitsuba/principled.hpp"
 #include "scene/mitsuba/replaced_bsdfs.hpp"
 #include "scene/mitsuba/surface_maker.hpp"
-#include "scene/mitsuba/tolerate.hpp"
 
 #include <fmt/format.h>
 
@@ -103,8 +103,8 @@ Surface readModel(Context& context, Textures& textures, const Plugin& bsdf) {
 
 Surface readBsdf(Context& context, Textures& textures, const Plugin& bsdf) {
     std::optional<Surface> surface;
-    if (tolerate(context.report(), build::Shortfall::Material,
-                 [&] { surface = readModel(context, textures, bsdf); }))
+    if (build::tolerate(context.report(), build::Shortfall::Material,
+                        [&] { surface = readModel(context, textures, bsdf); }))
         return *std::move(surface);
     Surface grey;
     grey.material = build::greyMaterial();

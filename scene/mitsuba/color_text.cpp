@@ -1,5 +1,6 @@
 #include "scene/mitsuba/color_text.hpp"
 
+#include "scene/build/spectrum.hpp"
 #include "scene/mitsuba/words.hpp"
 #include "scene/model/srgb.hpp"
 
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 
 namespace stromboli::mitsuba {
 namespace {
@@ -99,14 +99,10 @@ SpectrumValue blackbodyOf(const build::FilePlace& where, std::string_view temper
 }
 
 SpectrumValue blackbodyOf(double temperature, double scale) {
-    constexpr double kLight = 299792458, kPlanck = 6.62607015e-34, kBoltzmann = 1.380649e-23;
     SpectrumValue spectrum;
-    for (double nanometres = 360; nanometres <= 830; nanometres += 5) {
-        const double l = nanometres * 1e-9;
-        const double perMetre = 2 * kPlanck * kLight * kLight / std::pow(l, 5) /
-                                std::expm1(kPlanck * kLight / (l * kBoltzmann * temperature));
-        spectrum.samples.emplace_back(nanometres, scale * perMetre * 1e-9);
-    }
+    spectrum.samples = build::blackbody(temperature);
+    for (auto& [wavelength, value] : spectrum.samples)
+        value *= scale;
     return spectrum;
 }
 

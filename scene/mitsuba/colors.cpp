@@ -1,7 +1,7 @@
 #include "scene/mitsuba/colors.hpp"
 
+#include "scene/build/spectrum.hpp"
 #include "scene/mitsuba/color_text.hpp"
-#include "scene/mitsuba/spectrum.hpp"
 #include "scene/mitsuba/words.hpp"
 
 #include <fmt/format.h>
@@ -14,13 +14,13 @@ namespace {
 /// Of equal power at all wavelengths. In Mitsuba 0.x, whose colours are relative to D65, it is
 /// white.
 glm::dvec3 equalEnergy(const Plugin& plugin, ColorOf what) {
-    return what == ColorOf::Light && !plugin.isOld ? kEqualEnergy : glm::dvec3(1);
+    return what == ColorOf::Light && !plugin.isOld ? build::kEqualEnergy : glm::dvec3(1);
 }
 
 glm::dvec3 colorOfSpectrum(const Plugin& plugin, const SpectrumValue& spectrum, ColorOf what) {
     if (spectrum.samples.empty()) return spectrum.everywhere * equalEnergy(plugin, what);
-    if (what == ColorOf::Light) return rgbOfLight(spectrum.samples);
-    if (what == ColorOf::Reflectance) return rgbOfReflectance(spectrum.samples);
+    if (what == ColorOf::Light) return build::rgbOfLight(spectrum.samples);
+    if (what == ColorOf::Reflectance) return build::rgbOfReflectance(spectrum.samples);
     // An index is no fraction: what the curves weigh is divided by what they weigh of 1.
     double most = 1;
     for (const auto& [wavelength, value] : spectrum.samples)
@@ -28,7 +28,7 @@ glm::dvec3 colorOfSpectrum(const Plugin& plugin, const SpectrumValue& spectrum, 
     std::vector<std::pair<double, double>> fractions = spectrum.samples;
     for (auto& [wavelength, value] : fractions)
         value /= most;
-    return most * rgbOfReflectance(fractions);
+    return most * build::rgbOfReflectance(fractions);
 }
 
 std::optional<glm::dvec3> colorOfValue(const Plugin& plugin, std::string_view name,

@@ -2,8 +2,8 @@
 
 #include "host/core/error.hpp"
 #include "scene/build/read_file.hpp"
+#include "scene/build/tolerate.hpp"
 #include "scene/mitsuba/color_text.hpp"
-#include "scene/mitsuba/tolerate.hpp"
 #include "scene/mitsuba/transforms.hpp"
 #include "scene/mitsuba/upgrade.hpp"
 #include "scene/mitsuba/words.hpp"
@@ -84,8 +84,8 @@ void DocumentReader::readVersion(const Element& root, Source& source) {
     const std::string_view text(version);
     const size_t dot = std::min(text.find('.'), text.size());
     int64_t major = 3;
-    tolerate(report_, build::Shortfall::Word,
-             [&] { major = integerOf(placeOf(root, source), text.substr(0, dot)); });
+    build::tolerate(report_, build::Shortfall::Word,
+                    [&] { major = integerOf(placeOf(root, source), text.substr(0, dot)); });
     source.isOld = major < 2;
     source.isAncient = major == 0 && (text.starts_with("0.1") || text.starts_with("0.2") ||
                                       text.starts_with("0.3"));
@@ -100,8 +100,8 @@ void DocumentReader::readChildren(const Element& element, const Source& source, 
          child = child->NextSiblingElement()) {
         const bool isParameter =
             isOneOf(kParameterTags, tagOf(*child, source)) || tagOf(*child, source) == "transform";
-        tolerate(report_, isParameter ? build::Shortfall::Parameter : build::Shortfall::Node,
-                 [&] { readChild(*child, source, into, depth + 1); });
+        build::tolerate(report_, isParameter ? build::Shortfall::Parameter : build::Shortfall::Node,
+                        [&] { readChild(*child, source, into, depth + 1); });
     }
 }
 
@@ -145,8 +145,8 @@ Plugin& DocumentReader::readPlugin(const Element& element, const Source& source,
     if (source.isOld) plugin.type = upgradedType(plugin.tag, plugin.type);
     plugin.id = attribute(element, source, "id").value_or("");
     if (!plugin.id.empty())
-        tolerate(report_, build::Shortfall::Reference,
-                 [&] { name(plugin.id, plugin, plugin.place); });
+        build::tolerate(report_, build::Shortfall::Reference,
+                        [&] { name(plugin.id, plugin, plugin.place); });
     readChildren(element, source, plugin, depth);
     return plugin;
 }
@@ -236,7 +236,7 @@ glm::dmat4 DocumentReader::readTransform(const Element& element, const Source& s
         };
         const std::string tag = tagOf(*step, source);
         const auto apply = [&](const Attributes& attributes) {
-            return tolerate(report_, build::Shortfall::Parameter, [&] {
+            return build::tolerate(report_, build::Shortfall::Parameter, [&] {
                 transform = transformStep(placeOf(*step, source), tag, attributes) * transform;
             });
         };
@@ -357,7 +357,7 @@ std::string DocumentReader::replaced(const build::FilePlace& where, std::string_
                 (!longest || value.first.size() > longest->first.size()))
                 longest = &value;
         if (!longest)
-            throw UnusableScene(SceneError(
+            throw build::UnusableScene(SceneError(
                 where.file, where.line, where.element,
                 fmt::format("refers to '${}', which has no value: expected a <default> before it, "
                             "or -D NAME=VALUE",

@@ -1,6 +1,7 @@
 #include "scene/mitsuba/hair.hpp"
 
 #include "scene/build/read_file.hpp"
+#include "scene/build/tubes.hpp"
 #include "scene/build/vectors.hpp"
 #include "scene/mitsuba/words.hpp"
 
@@ -10,20 +11,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numbers>
 #include <string_view>
 #include <vector>
 
 namespace stromboli::mitsuba {
 namespace {
 
-constexpr uint32_t kTubeSides = 6;
-
-struct Knot {
-    glm::dvec3 place{0.0};
-    double radius = 0;
-};
-using Strand = std::vector<Knot>;
+using build::Knot;
+using build::kTubeSides;
+using build::Strand;
 
 /// After a head and the number of knots, three floats each; before the first one of a strand there
 /// is an infinite one.
@@ -103,58 +99,6 @@ Strand splined(const Strand& knots) {
     return points;
 }
 
-/// The mean of the directions from and to the neighbours.
-glm::dvec3 directionAt(const Strand& strand, size_t i) {
-    glm::dvec3 from(0.0), to(0.0);
-    if (i > 0) from = build::unit(strand[i].place - strand[i - 1].place).value_or(from);
-    if (i + 1 < strand.size()) to = build::unit(strand[i + 1].place - strand[i].place).value_or(to);
-    return build::unit(from + to).value_or(build::unit(to).value_or(glm::dvec3(0, 0, 1)));
-}
-
-/// How far a ring's point lies outwards, so that the tubes on both sides are as wide as `radius`
-/// when they meet at an angle.
-double mitred(double radius, const glm::dvec3& normal, const Strand& strand, size_t i) {
-    if (i == 0 || i + 1 == strand.size()) return radius;
-    const auto before = build::unit(strand[i].place - strand[i - 1].place);
-    const double along = before ? glm::dot(normal, *before) : 0;
-    constexpr double kLongest = 3; // where a strand turns back
-    return radius * std::min(1 / std::sqrt(std::max(1 - along * along, 1e-6)), kLongest);
-}
-
-void addTube(build::Mesh& mesh, const Strand& strand) {
-    constexpr double kTurn = 2 * std::numbers::pi / kTubeSides;
-    const double wider = kTurn / 2 / std::sin(kTurn / 2); // the outline is a circle's
-    const auto first = uint32_t(mesh.positions.size());
-    glm::dvec3 x(0.0);
-    for (size_t i = 0; i < strand.size(); ++i) {
-        const glm::dvec3 along = directionAt(strand, i);
-        const glm::dvec3 other =
-            std::abs(along.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-        // Turned as little as may be from the ring before.
-        x = build::unit(x - along * glm::dot(along, x))
-                .value_or(glm::normalize(glm::cross(along, other)));
-        const glm::dvec3 y = glm::cross(along, x);
-        for (uint32_t side = 0; side < kTubeSides; ++side) {
-            const glm::dvec3 normal = x * std::cos(kTurn * side) + y * std::sin(kTurn * side);
-            const double radius = mitred(wider * strand[i].radius, normal, strand, i);
-            mesh.positions.push_back(strand[i].place + radius * normal);
-            mesh.normals.push_back(normal);
-            mesh.attributes.emplace_back().uv[0] = {float(side) / float(kTubeSides),
-                                                    float(i) / float(strand.size() - 1)};
-        }
-    }
-    build::MeshPart& part = mesh.parts.front();
-    for (uint32_t ring = 0; ring + 1 < strand.size(); ++ring)
-        for (uint32_t side = 0; side < kTubeSides; ++side) {
-            const auto corner = [&](uint32_t up, uint32_t around) {
-                const uint32_t n = first + (ring + up) * kTubeSides + around % kTubeSides;
-                return build::Corner{n, n, n};
-            };
-            part.push_back({corner(0, side), corner(0, side + 1), corner(1, side + 1)});
-            part.push_back({corner(0, side), corner(1, side + 1), corner(1, side)});
-        }
-}
-
 } // namespace
 
 bool isHair(const Plugin& shape) {
@@ -180,7 +124,7 @@ build::Mesh hairMesh(const Context& context, const Plugin& shape) {
         const Strand line = shape.type == "bsplinecurve" ? splined(strand)
                             : shape.type == "hair"       ? straightened(strand, angle)
                                                          : straightened(strand, 0);
-        if (line.size() > 1) addTube(mesh, line);
+        if (line.size() > 1) build::addTube(mesh, line);
     }
     if (mesh.positions.empty()) where.fail("has no strand of two points or more");
     return mesh;

@@ -1,12 +1,12 @@
 #include "scene/mitsuba/load_mitsuba.hpp"
 
 #include "host/core/error.hpp"
+#include "scene/build/tolerate.hpp"
 #include "scene/mitsuba/emitters.hpp"
 #include "scene/mitsuba/environment_map.hpp"
 #include "scene/mitsuba/integrator.hpp"
 #include "scene/mitsuba/sensors.hpp"
 #include "scene/mitsuba/shapes.hpp"
-#include "scene/mitsuba/tolerate.hpp"
 #include "scene/xml/root_element.hpp"
 
 #include <new>
@@ -26,8 +26,8 @@ void turnWorld(Context& context, const Plugin& scene) {
         }
         context.environment = emitter;
         if (emitter->type != "constant")
-            tolerate(context.report(), build::Shortfall::Parameter,
-                     [&] { context.worldFromFile = worldFromFileOf(*emitter); });
+            build::tolerate(context.report(), build::Shortfall::Parameter,
+                            [&] { context.worldFromFile = worldFromFileOf(*emitter); });
     }
 }
 
@@ -35,19 +35,20 @@ void readScene(Context& context) {
     const Plugin& scene = context.document.scene();
     turnWorld(context, scene);
     for (const Plugin* emitter : scene.childrenOf("emitter"))
-        tolerate(context.report(), build::Shortfall::Node,
-                 [&] { placeEmitter(context, *emitter); });
+        build::tolerate(context.report(), build::Shortfall::Node,
+                        [&] { placeEmitter(context, *emitter); });
     bool isFirst = true;
     for (const Plugin* sensor : scene.childrenOf("sensor"))
-        if (tolerate(context.report(), build::Shortfall::Node,
-                     [&] { placeSensor(context, *sensor, isFirst); }))
+        if (build::tolerate(context.report(), build::Shortfall::Node,
+                            [&] { placeSensor(context, *sensor, isFirst); }))
             isFirst = false;
     if (const Plugin* integrator = scene.onlyChildOf("integrator"))
-        tolerate(context.report(), build::Shortfall::Node,
-                 [&] { readIntegrator(context, *integrator); });
+        build::tolerate(context.report(), build::Shortfall::Node,
+                        [&] { readIntegrator(context, *integrator); });
     Shapes shapes(context);
     for (const Plugin* shape : scene.childrenOf("shape"))
-        tolerate(context.report(), build::Shortfall::Geometry, [&] { shapes.place(*shape); });
+        build::tolerate(context.report(), build::Shortfall::Geometry,
+                        [&] { shapes.place(*shape); });
     // What shapes refer to, or may.
     for (const char* tag : {"bsdf", "texture", "spectrum", "sampler", "film", "rfilter"})
         (void)scene.childrenOf(tag);

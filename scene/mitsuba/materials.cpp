@@ -1,6 +1,6 @@
 #include "scene/mitsuba/materials.hpp"
 
-#include "scene/mitsuba/tolerate.hpp"
+#include "scene/build/tolerate.hpp"
 
 #include <fmt/format.h>
 
@@ -55,8 +55,8 @@ Surface Materials::make(const Plugin& shape, const Plugin* bsdf, const Plugin* e
     settleColors(surface);
     if (emitter)
         for (Surface* each = &surface; each; each = each->other.get())
-            tolerate(context_.report(), build::Shortfall::Node,
-                     [&] { addEmission(*emitter, each->material); });
+            build::tolerate(context_.report(), build::Shortfall::Node,
+                            [&] { addEmission(*emitter, each->material); });
     return surface;
 }
 

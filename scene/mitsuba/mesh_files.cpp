@@ -1,5 +1,6 @@
 #include "scene/mitsuba/mesh_files.hpp"
 
+#include "scene/build/mesh_of_scene.hpp"
 #include "scene/obj/load_obj.hpp"
 #include "scene/ply/load_ply.hpp"
 
@@ -18,24 +19,14 @@ FileMesh meshOf(Context& context, const Scene& scene, bool wantsLook) {
     context.report().adopt(
         scene.report, [&](const std::string& line) { return !wantsLook && isAboutLook(line); });
     FileMesh found;
-    build::Mesh& mesh = found.mesh;
-    mesh.positions.assign(scene.positions.begin(), scene.positions.end());
-    mesh.normals.assign(scene.normals.begin(), scene.normals.end());
-    mesh.attributes = scene.attributes;
-    for (const VertexAttributes& a : mesh.attributes) {
+    found.mesh = build::meshOfScene(scene);
+    for (const VertexAttributes& a : found.mesh.attributes) {
         found.hasCoordinates = found.hasCoordinates || a.uv[0] != glm::vec2(0);
         found.hasColors = found.hasColors || a.color != glm::vec4(1);
     }
-    build::MeshPart& part = mesh.parts.emplace_back();
-    for (size_t i = 0; i < scene.triangles.size(); ++i) {
-        const Triangle& t = scene.triangles[i];
-        build::MeshTriangle& triangle = part.emplace_back();
-        if (wantsLook) found.materials.push_back(t.material);
-        for (size_t k = 0; k < 3; ++k)
-            triangle[k] = {t.corner[k], t.normals[k],
-                           scene.attributeCorners.empty() ? kNoAttributes
-                                                          : scene.attributeCorners[i][k]};
-    }
+    if (wantsLook)
+        for (const Triangle& t : scene.triangles)
+            found.materials.push_back(t.material);
     return found;
 }
 

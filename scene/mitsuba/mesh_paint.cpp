@@ -42,8 +42,8 @@ TextureImage paintOfCorners(const build::Mesh& mesh, const Paint& paint) {
                     if (paint.isFraction) at[k] = glm::clamp(at[k], 0.0, 1.0);
                 }
             const bool isUpper = row % 2 == 0;
-            appendTexel(image.words, isUpper ? at[0] : at[2], paint.layout);
-            appendTexel(image.words, isUpper ? at[1] : at[1] + at[2] - at[0], paint.layout);
+            build::appendTexel(image.words, isUpper ? at[0] : at[2], paint.layout);
+            build::appendTexel(image.words, isUpper ? at[1] : at[1] + at[2] - at[0], paint.layout);
         }
     return image;
 }

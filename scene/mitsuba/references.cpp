@@ -1,7 +1,7 @@
 // What objects of a document refer to others by.
 
+#include "scene/build/tolerate.hpp"
 #include "scene/mitsuba/document_reader.hpp"
-#include "scene/mitsuba/tolerate.hpp"
 
 #include <fmt/format.h>
 
@@ -45,7 +45,7 @@ size_t DocumentReader::heightOf(Plugin& plugin, size_t depth) {
     heights_[&plugin] = 0;
     size_t height = 0;
     std::erase_if(plugin.children(), [&](const Plugin::Child& child) {
-        return !tolerate(report_, build::Shortfall::Reference, [&] {
+        return !build::tolerate(report_, build::Shortfall::Reference, [&] {
             const size_t inner = heightOf(*child.plugin, depth + 1);
             if (inner >= kMostLevels)
                 child.plugin->fail(

@@ -1,5 +1,6 @@
 #include "scene/mitsuba/replaced_bsdfs.hpp"
 
+#include "scene/build/fresnel.hpp"
 #include "scene/mitsuba/media_tables.hpp"
 #include "scene/mitsuba/nested_bsdfs.hpp"
 #include "scene/mitsuba/scattering_tables.hpp"
@@ -98,25 +99,6 @@ Surface diffuseTransmitter(Context& context, Textures& textures, const Plugin& p
     return maker.done();
 }
 
-/// The share of diffuse light from inside that an interface sends back; ior: inside / outside.
-double internalReflection(double ior) {
-    constexpr int kSteps = 2000;
-    double sum = 0;
-    for (int i = 0; i < kSteps; ++i) {
-        const double squared = (i + 0.5) / kSteps; // the sine's, so that all parts weigh alike
-        const double in = std::sqrt(1 - squared), outside = 1 - ior * ior * squared;
-        double reflected = 1;
-        if (outside > 0) {
-            const double out = std::sqrt(outside);
-            const double s = (ior * in - out) / (ior * in + out);
-            const double p = (in - ior * out) / (in + ior * out);
-            reflected = (s * s + p * p) / 2;
-        }
-        sum += reflected;
-    }
-    return sum / kSteps;
-}
-
 /// What a coating makes of one material; false where nothing comes near.
 bool coat(Material& m, const Material& coating, const glm::dvec3& through) {
     if (m.kind == MaterialKind::Diffuse) {
@@ -126,7 +108,7 @@ bool coat(Material& m, const Material& coating, const glm::dvec3& through) {
         m.facets = coating.facets;
         m.reflectance = coating.reflectance;
         m.internalViews = 64;
-        m.albedo *= glm::vec3(through * (1 - internalReflection(m.ior)));
+        m.albedo *= glm::vec3(through * (1 - build::internalReflection(m.ior)));
         return true;
     }
     if (m.kind == MaterialKind::Conductor && !m.isSmooth() &&

@@ -1,7 +1,9 @@
 #include "scene/mitsuba/shapes.hpp"
 
 #include "scene/build/read_file.hpp"
+#include "scene/build/surface_mesh.hpp"
 #include "scene/build/tangents.hpp"
+#include "scene/build/tolerate.hpp"
 #include "scene/build/vectors.hpp"
 #include "scene/mitsuba/hair.hpp"
 #include "scene/mitsuba/heightfield.hpp"
@@ -10,27 +12,14 @@
 #include "scene/mitsuba/serialized.hpp"
 #include "scene/mitsuba/smooth_normals.hpp"
 #include "scene/mitsuba/solids.hpp"
-#include "scene/mitsuba/tolerate.hpp"
 
 #include <fmt/format.h>
 #include <glm/ext/matrix_transform.hpp>
 
 #include <array>
-#include <cmath>
 
 namespace stromboli::mitsuba {
 namespace {
-
-/// It turns, moves and scales alike in all directions, so that a sphere stays one.
-bool isSimilarity(const glm::dmat4& m) {
-    const glm::dvec3 scale = build::axisLengths(m);
-    if (build::areUnequal(scale) || !(scale.x > 0)) return false;
-    const glm::dvec3 x = glm::dvec3(m[0]) / scale.x, y = glm::dvec3(m[1]) / scale.y,
-                     z = glm::dvec3(m[2]) / scale.z;
-    constexpr double kChance = 1e-6; // files carry about six digits
-    return std::abs(glm::dot(x, y)) < kChance && std::abs(glm::dot(y, z)) < kChance &&
-           std::abs(glm::dot(z, x)) < kChance;
-}
 
 /// What the plugin's parameters of its own say about a sphere of radius 1 about the origin.
 glm::dmat4 sphereMatrix(const Plugin& sphere) {
@@ -47,15 +36,6 @@ constexpr size_t kMostParts = 1'000'000;
 /// A mesh that is in a file as such.
 bool isFile(const Plugin& shape) {
     return shape.type == "obj" || shape.type == "ply" || shape.type == "serialized";
-}
-
-void dropNormals(build::Mesh& mesh) {
-    mesh.normals.clear();
-    mesh.isFlat = true;
-    for (build::MeshPart& part : mesh.parts)
-        for (build::MeshTriangle& triangle : part)
-            for (build::Corner& corner : triangle)
-                corner.normal = kNoNormals;
 }
 
 /// What shapes have in common with media is said, once for each.
@@ -86,7 +66,7 @@ const std::vector<Shapes::Part>& Shapes::group(const Plugin& plugin) {
     if (!isNew) return found->second;
     std::vector<Part> parts;
     for (const Plugin* shape : plugin.childrenOf("shape")) {
-        tolerate(context_.report(), build::Shortfall::Geometry, [&] {
+        build::tolerate(context_.report(), build::Shortfall::Geometry, [&] {
             if (shape->type == "instance") shape->fail("is an instance inside of a shape group");
             for (const Part& part : partsOf(*shape))
                 parts.push_back(part);
@@ -123,12 +103,12 @@ Shapes::Part Shapes::single(const Plugin& shape) {
     if (isSphere) part.toWorld *= sphereMatrix(shape);
     const bool flips = shape.flag("flip_normals").value_or(false);
     const bool staysSphere =
-        isSphere && !flips && !material.wantsCoordinates() && isSimilarity(part.toWorld);
+        isSphere && !flips && !material.wantsCoordinates() && build::isSimilarity(part.toWorld);
     if (staysSphere) {
         part.shape = context_.builder.addSphere(shape.displayName(), 1);
     } else {
         build::Mesh mesh = meshOf(shape, material);
-        if (flips) flip(mesh);
+        if (flips) build::flip(mesh);
         part.shape = context_.builder.addMesh(shape.displayName(), std::move(mesh));
     }
     shape.requireAllRead();
@@ -150,7 +130,7 @@ Shapes::Part Shapes::withOwnMaterials(const Plugin& shape) {
     }
     shape.skip("collapse");
     finish(shape, file, all, mesh);
-    if (shape.flag("flip_normals").value_or(false)) flip(mesh);
+    if (shape.flag("flip_normals").value_or(false)) build::flip(mesh);
     part.shape = context_.builder.addMesh(shape.displayName(), std::move(mesh));
     shape.requireAllRead();
     return part;
@@ -231,11 +211,11 @@ void Shapes::finish(const Plugin& shape, const FileMesh& file, const BoundMateri
     const std::optional<double> angle = shape.number("max_smooth_angle", 0, 180);
     const bool isFlat = shape.flag("face_normals").value_or(mesh.isFlat && !angle);
     if (isFlat)
-        dropNormals(mesh);
+        build::makeFlat(mesh);
     else if (angle)
         smoothUpTo(mesh, *angle);
     else if (mesh.normals.empty())
-        computeNormals(mesh);
+        build::computeNormals(mesh);
     fitTo(material, mesh);
 }
 

@@ -15,12 +15,4 @@ build::Mesh diskMesh();      ///< of radius 1 in the xy plane, facing z
 build::Mesh sphereMesh();    ///< of radius 1 about the origin
 build::Mesh cylinderMesh(const glm::dvec3& from, const glm::dvec3& to, double radius); ///< open
 
-/// Makes the other side of every triangle its front.
-void flip(build::Mesh& mesh);
-
-/// Gives each corner the mean of the normals of the triangles that share its position and texture
-/// coordinates, each weighed by the triangle's angle there (Thuermer and Wuethrich 1998), as
-/// Mitsuba does where a file states none.
-void computeNormals(build::Mesh& mesh);
-
 } // namespace stromboli::mitsuba

@@ -1,6 +1,6 @@
 #include "scene/mitsuba/sun_radiance.hpp"
 
-#include "scene/mitsuba/spectrum.hpp"
+#include "scene/build/spectrum.hpp"
 
 #include <glm/trigonometric.hpp>
 
@@ -90,7 +90,7 @@ glm::dvec3 sunRadiance(double zenith, double turbidity) {
         depth += 0.2385 * vapour / std::pow(1 + 20.07 * vapour, 0.45);
         arriving.emplace_back(l, outside(l) * std::exp(-depth));
     }
-    return rgbOfLight(arriving);
+    return build::rgbOfLight(arriving);
 }
 
 } // namespace stromboli::mitsuba

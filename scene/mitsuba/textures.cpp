@@ -2,10 +2,9 @@
 
 #include "host/core/system.hpp"
 #include "scene/build/read_file.hpp"
+#include "scene/build/tolerate.hpp"
 #include "scene/images/load_texture.hpp"
 #include "scene/images/texture_image.hpp"
-#include "scene/mitsuba/texels.hpp"
-#include "scene/mitsuba/tolerate.hpp"
 #include "scene/mitsuba/upgrade.hpp"
 
 #include <fmt/format.h>
@@ -83,7 +82,7 @@ glm::dvec3 combined(const TextureImage& image, bool srgb, const glm::dvec3& firs
     glm::dvec3 result = first;
     const size_t count = size_t(image.width) * image.height;
     for (size_t i = 0; i < count; ++i)
-        combine(result, colorAt(image, i, srgb));
+        combine(result, build::colorAt(image, i, srgb));
     return result;
 }
 
@@ -102,8 +101,8 @@ std::optional<glm::dvec3> firstColorOf(const Plugin& plugin, ColorOf what) {
 Shade Textures::shade(const Plugin& plugin, std::string_view name, ColorOf what,
                       const glm::dvec3& otherwise, Layout layout) {
     std::optional<glm::dvec3> color;
-    tolerate(context_.report(), build::Shortfall::Word,
-             [&] { color = colorOf(plugin, name, what); });
+    build::tolerate(context_.report(), build::Shortfall::Word,
+                    [&] { color = colorOf(plugin, name, what); });
     if (color) return {*color, {}, {}};
     const Plugin* object = plugin.child(name);
     if (!object || object->tag == "spectrum") return {otherwise, {}, {}};
@@ -112,8 +111,8 @@ Shade Textures::shade(const Plugin& plugin, std::string_view name, ColorOf what,
         return {otherwise, {}, {}};
     }
     std::optional<Shade> found;
-    tolerate(context_.report(), build::Shortfall::Picture,
-             [&] { found = texture(*object, what, layout); });
+    build::tolerate(context_.report(), build::Shortfall::Picture,
+                    [&] { found = texture(*object, what, layout); });
     return found.value_or(Shade{otherwise, {}, {}});
 }
 
@@ -254,13 +253,13 @@ std::optional<uint32_t> Textures::image(const Plugin& plugin, bool raw, Layout l
     std::optional<TextureImage> image = images::loadTexture(
         [&] { return std::string_view(bytes); }, name, !raw, plugin.place, context_.report());
     if (!image) return images_[key] = std::nullopt;
-    if (channel != '\0') spreadChannel(*image, *placeOfChannel(channel));
+    if (channel != '\0') build::spreadChannel(*image, *placeOfChannel(channel));
     const uint32_t largest = context_.builder.conventions().selection.largestTexture;
     if (largest > 0) images::shrinkToFit(*image, largest, !raw);
     if (layout == Layout::Color)
-        makeOpaque(*image);
-    else if (layout != Layout::Grey || !isGrey(*image))
-        *image = rearranged(*image, !raw && image->format == TexelFormat::Rgba8, layout);
+        build::makeOpaque(*image);
+    else if (layout != Layout::Grey || !build::isGrey(*image))
+        *image = build::rearranged(*image, !raw && image->format == TexelFormat::Rgba8, layout);
     countBytes(*image, plugin);
     return images_[key] = context_.builder.addImage(*std::move(image));
 }
@@ -295,7 +294,7 @@ Shade Textures::checkerboard(const Plugin& plugin, ColorOf what, Layout layout) 
     TextureImage image{"checkerboard", 2, 2, TexelFormat::RgbaHalf, {}};
     const int first = layout == Layout::Color || plugin.isOld ? 0 : 1;
     for (const int which : {first, 1 - first, 1 - first, first})
-        appendTexel(image.words, colors[which], layout);
+        build::appendTexel(image.words, colors[which], layout);
     return shown(plugin, std::move(image), true);
 }
 
@@ -315,7 +314,7 @@ Shade Textures::grid(const Plugin& plugin, ColorOf what, Layout layout) {
     for (int row = 0; row < kSide; ++row)
         for (int column = 0; column < kSide; ++column) {
             const double share = 1 - (1 - covered(row)) * (1 - covered(column));
-            appendTexel(image.words, glm::mix(ground, line, share), layout);
+            build::appendTexel(image.words, glm::mix(ground, line, share), layout);
         }
     return shown(plugin, std::move(image), false);
 }

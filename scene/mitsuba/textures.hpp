@@ -1,8 +1,8 @@
 #pragma once
 
+#include "scene/build/texels.hpp"
 #include "scene/mitsuba/colors.hpp"
 #include "scene/mitsuba/context.hpp"
-#include "scene/mitsuba/texels.hpp"
 
 #include <map>
 #include <optional>
@@ -11,6 +11,8 @@
 #include <vector>
 
 namespace stromboli::mitsuba {
+
+using build::Layout;
 
 /// A colour that is alike everywhere, or a texture of it.
 struct Shade {

@@ -2,6 +2,7 @@
 
 #include "host/core/error.hpp"
 #include "scene/build/companion.hpp"
+#include "scene/build/gunzip.hpp"
 #include "scene/build/polygon.hpp"
 #include "scene/build/read_file.hpp"
 #include "scene/images/load_texture.hpp"
@@ -37,7 +38,8 @@ bool isCornerList(const Property& property) {
 PlyReader::PlyReader(const std::filesystem::path& file, build::SceneBuilder& builder,
                      const PlyAttribute& colors)
     : file_(file), name_(file.string()), builder_(builder), colors_(colors),
-      bytes_(build::readFile(file)), header_(readHeader(name_, bytes_, builder.report())),
+      bytes_(build::gunzipped(build::readFile(file), name_)),
+      header_(readHeader(name_, bytes_, builder.report())),
       body_(name_, bytes_, header_, builder.report()) {}
 
 void PlyReader::read() {

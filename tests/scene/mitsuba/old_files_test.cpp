@@ -1,7 +1,7 @@
 // What files of Mitsuba 0.x call by other names than later ones, and mean otherwise.
 
+#include "scene/build/spectrum.hpp"
 #include "scene/mitsuba/color_text.hpp"
-#include "scene/mitsuba/spectrum.hpp"
 #include "scene/model/srgb.hpp"
 #include "scene/model/surface_lookup.hpp"
 #include "tests/scene/mitsuba/mitsuba_text.hpp"

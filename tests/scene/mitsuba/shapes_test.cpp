@@ -1,5 +1,6 @@
 // Shapes where the file puts them.
 
+#include "scene/build/surface_mesh.hpp"
 #include "scene/mitsuba/solids.hpp"
 #include "scene/model/surface_lookup.hpp"
 #include "tests/scene/mitsuba/mitsuba_text.hpp"
@@ -212,7 +213,7 @@ TEST(MitsubaShapes, NormalsAreWeighedByAngles) {
     build::Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     mesh.parts = {{{{{0}, {1}, {2}}}, {{{0}, {2}, {3}}}}};
-    mitsuba::computeNormals(mesh);
+    build::computeNormals(mesh);
     const glm::dvec3 shared = glm::normalize(mesh.normals[mesh.parts[0][0][0].normal]);
     EXPECT_NEAR(glm::distance(shared, glm::normalize(glm::dvec3(1, 0, 1))), 0, 1e-12);
     EXPECT_EQ(mesh.parts[0][0][0].normal, mesh.parts[0][1][0].normal);

@@ -1,6 +1,6 @@
 // The elements of a scene, whatever its plugins are.
 
-#include "scene/mitsuba/spectrum.hpp"
+#include "scene/build/spectrum.hpp"
 #include "scene/mitsuba/upgrade.hpp"
 #include "scene/read_scene.hpp"
 #include "tests/scene/mitsuba/mitsuba_text.hpp"
@@ -141,10 +141,10 @@ TEST(MitsubaXml, OldNamesAreUpgraded) {
 
 TEST(MitsubaXml, SpectraAlikeEverywhereComeOutExactly) {
     const std::vector<std::pair<double, double>> flat = {{300, 0.25}, {900, 0.25}};
-    const glm::dvec3 light = mitsuba::rgbOfLight(flat);
-    const glm::dvec3 reflectance = mitsuba::rgbOfReflectance(flat);
+    const glm::dvec3 light = build::rgbOfLight(flat);
+    const glm::dvec3 reflectance = build::rgbOfReflectance(flat);
     for (const int channel : {0, 1, 2}) {
-        EXPECT_NEAR(light[channel], 0.25 * mitsuba::kEqualEnergy[channel], 2e-4);
+        EXPECT_NEAR(light[channel], 0.25 * build::kEqualEnergy[channel], 2e-4);
         EXPECT_NEAR(reflectance[channel], 0.25, 1e-4);
     }
 }
@@ -153,7 +153,7 @@ TEST(MitsubaXml, SpectraAlikeEverywhereComeOutExactly) {
 /// (0.27377, 0.71741).
 TEST(MitsubaXml, NarrowSpectraHaveTheirHue) {
     const glm::dvec3 green =
-        mitsuba::rgbOfLight(std::vector<std::pair<double, double>>{{540, 1}, {552, 1}});
+        build::rgbOfLight(std::vector<std::pair<double, double>>{{540, 1}, {552, 1}});
     EXPECT_GT(green.y, green.x);
     EXPECT_EQ(green.z, 0); // outside of the primaries
 }

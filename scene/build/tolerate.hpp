@@ -5,7 +5,7 @@
 
 #include <utility>
 
-namespace stromboli::mitsuba {
+namespace stromboli::build {
 
 /// What is wrong with the command line rather than with the file: it is an error however
 /// forgivingly the file is read.
@@ -17,7 +17,7 @@ class UnusableScene : public SceneError {
 /// The net around everything that can be left out of a scene: what `read` throws is said, as the
 /// table of kinds says what becomes of it, and false is returned.
 template <class Read>
-bool tolerate(build::Report& report, build::Shortfall kind, Read&& read) {
+bool tolerate(Report& report, Shortfall kind, Read&& read) {
     try {
         std::forward<Read>(read)();
         return true;
@@ -29,4 +29,4 @@ bool tolerate(build::Report& report, build::Shortfall kind, Read&& read) {
     }
 }
 
-} // namespace stromboli::mitsuba
+} // namespace stromboli::build

@@ -1,4 +1,4 @@
-#include "scene/mitsuba/texels.hpp"
+#include "scene/build/texels.hpp"
 
 #include "scene/model/srgb.hpp"
 
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 
-namespace stromboli::mitsuba {
+namespace stromboli::build {
 namespace {
 
 double luminance(const glm::dvec3& rgb) {
@@ -108,4 +108,4 @@ void spreadChannel(TextureImage& image, int channel) {
     }
 }
 
-} // namespace stromboli::mitsuba
+} // namespace stromboli::build

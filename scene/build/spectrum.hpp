@@ -4,8 +4,9 @@
 
 #include <span>
 #include <utility>
+#include <vector>
 
-namespace stromboli::mitsuba {
+namespace stromboli::build {
 
 /// What equal power at all wavelengths looks like in Rec. 709 primaries, of luminance 1.
 inline constexpr glm::dvec3 kEqualEnergy{1.2048, 0.9483, 0.9089};
@@ -20,4 +21,8 @@ inline constexpr glm::dvec3 kEqualEnergy{1.2048, 0.9483, 0.9089};
 glm::dvec3 rgbOfLight(std::span<const std::pair<double, double>> samples);
 glm::dvec3 rgbOfReflectance(std::span<const std::pair<double, double>> samples);
 
-} // namespace stromboli::mitsuba
+/// What a black body of a temperature in kelvins emits, from 360 to 830 nanometres:
+/// W m^-2 sr^-1 nm^-1.
+std::vector<std::pair<double, double>> blackbody(double temperature);
+
+} // namespace stromboli::build

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace stromboli::mitsuba {
+namespace stromboli::build {
 
 /// Which numbers of a texel a picture's value becomes; the others are 1. Grey: red, in the
 /// precision of the file where that has no colours.
@@ -27,4 +27,4 @@ void makeOpaque(TextureImage& image);
 /// One channel, 0 to 3, takes the place of all colours.
 void spreadChannel(TextureImage& image, int channel);
 
-} // namespace stromboli::mitsuba
+} // namespace stromboli::build

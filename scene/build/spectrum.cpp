@@ -1,10 +1,10 @@
-#include "scene/mitsuba/spectrum.hpp"
+#include "scene/build/spectrum.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-namespace stromboli::mitsuba {
+namespace stromboli::build {
 namespace {
 
 constexpr int kShortest = 360, kLongest = 830; ///< nanometres, of the CIE curves
@@ -76,4 +76,16 @@ glm::dvec3 rgbOfReflectance(std::span<const std::pair<double, double>> samples) 
     return glm::clamp(rgbOf(samples, d65, daylight), glm::dvec3(0), glm::dvec3(1));
 }
 
-} // namespace stromboli::mitsuba
+std::vector<std::pair<double, double>> blackbody(double temperature) {
+    constexpr double kLight = 299792458, kPlanck = 6.62607015e-34, kBoltzmann = 1.380649e-23;
+    std::vector<std::pair<double, double>> samples;
+    for (double nanometres = kShortest; nanometres <= kLongest; nanometres += 5) {
+        const double l = nanometres * 1e-9;
+        const double perMetre = 2 * kPlanck * kLight * kLight / std::pow(l, 5) /
+                                std::expm1(kPlanck * kLight / (l * kBoltzmann * temperature));
+        samples.emplace_back(nanometres, perMetre * 1e-9);
+    }
+    return samples;
+}
+
+} // namespace stromboli::build
