@@ -10,6 +10,7 @@
 #include "scene/mitsuba/load_mitsuba.hpp"
 #include "scene/model/placements.hpp"
 #include "scene/obj/load_obj.hpp"
+#include "scene/pbrt/load_pbrt.hpp"
 #include "scene/ply/load_ply.hpp"
 
 #include <fmt/format.h>
@@ -41,6 +42,7 @@ constexpr Format kFormats[] = {
     {"binary glTF 2.0 (.glb)", ".glb", looksLikeBinaryGltf, loadGltf, true},
     {"PLY (.ply)", ".ply", looksLikePly, loadPly},
     {"Mitsuba (XML whose root element is <scene>)", "", looksLikeMitsuba, loadMitsuba, false, true},
+    {"pbrt (.pbrt)", ".pbrt", looksLikePbrt, loadPbrt},
     // The last one: it has no mark of its own.
     {"Wavefront OBJ (.obj)", ".obj", looksLikeObj, loadObj},
 };

@@ -6,6 +6,7 @@
 #include "scene/images/picture.hpp"
 #include "scene/mitsuba/load_mitsuba.hpp"
 #include "scene/obj/load_obj.hpp"
+#include "scene/pbrt/load_pbrt.hpp"
 #include "scene/ply/load_ply.hpp"
 
 #include <sys/mman.h>

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "scene/build/mesh.hpp"
+#include "scene/pbrt/context.hpp"
+#include "scene/pbrt/parameters.hpp"
+
+#include <optional>
+#include <string>
+
+namespace stromboli::pbrt {
+
+/// What a shape is in its own space: v of texture coordinates grows upwards in pictures.
+struct Form {
+    build::Mesh mesh;
+    bool hasCoordinates = false;        ///< of textures
+    std::optional<double> sphereRadius; ///< a whole sphere about the origin, beside its mesh
+};
+
+/// The form of a shape. Throws SceneError for a kind that is none, and for what makes no shape.
+Form formOf(Context& context, const std::string& kind, const Parameters& shape);
+
+/// One of the surfaces that are turned about the z axis: sphere, cylinder, disk, cone, paraboloid
+/// and hyperboloid; nothing if the kind is none of them.
+std::optional<Form> revolvedForm(const std::string& kind, const Parameters& shape);
+
+/// Loop's subdivision of a mesh.
+Form subdividedForm(const Parameters& shape);
+/// A grid over a NURBS patch.
+Form nurbsForm(const Parameters& shape);
+/// A tube along a curve.
+Form curveForm(const Parameters& shape);
+
+/// Triangles of a list of corners; those with corners that are not there are left out.
+void addTriangles(const Parameters& shape, const std::vector<double>& indices, build::Mesh& mesh);
+
+} // namespace stromboli::pbrt
