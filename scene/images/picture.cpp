@@ -49,11 +49,12 @@ Picture decodePicture(std::string_view bytes, const std::string& name, uint32_t 
     if (bytes.starts_with("BM")) return decodeBmp(bytes, name);
     if (bytes.starts_with("#?")) return decodeHdr(bytes, name, largestSide);
     if (bytes.starts_with("\x76\x2f\x31\x01")) return decodeExr(bytes, name);
+    if (bytes.starts_with("PF") || bytes.starts_with("Pf")) return decodePfm(bytes, name);
     if (looksLikeTga(bytes)) return decodeTga(bytes, name);
     throw SceneError(name, 0, "",
                      bytes.empty() ? "is empty, expected a picture"
                                    : "is no picture that is read: expected PNG, JPEG, WebP, "
-                                     "GIF, BMP, Radiance HDR, OpenEXR or TGA");
+                                     "GIF, BMP, Radiance HDR, OpenEXR, PFM or TGA");
 }
 
 } // namespace stromboli::images

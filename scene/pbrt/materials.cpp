@@ -12,9 +12,9 @@ BoundMaterial Materials::of(const std::shared_ptr<const MaterialStatement>& stat
                             const std::optional<Pattern>& alpha) {
     std::vector<Parameter> overriding;
     if (context_.isV3()) overriding = shape.unread();
-    const bool isPlain = overriding.empty() && !emission && !alpha;
-    if (const auto found = made_.find(statement.get()); isPlain && found != made_.end())
-        return found->second;
+    const bool isPlain = overriding.empty() && !emission && (!alpha || alpha->number > 0);
+    const std::pair key(statement.get(), alpha ? alpha->number : 0);
+    if (const auto found = made_.find(key); isPlain && found != made_.end()) return found->second;
     MaterialStatement changed = *statement;
     changed.parameters.prepend(overriding);
     Surface surface;
@@ -39,7 +39,7 @@ BoundMaterial Materials::of(const std::shared_ptr<const MaterialStatement>& stat
     if (alpha) setAlpha(surface, *alpha);
     const BoundMaterial bound = bind(std::move(surface));
     if (isPlain) {
-        made_.emplace(statement.get(), bound);
+        made_.emplace(key, bound);
         kept_.push_back(statement);
     }
     return bound;

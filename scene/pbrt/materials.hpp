@@ -68,7 +68,9 @@ class Materials {
 
     Context& context_;
     Textures& textures_;
-    std::map<const MaterialStatement*, BoundMaterial> made_; ///< of shapes that say nothing more
+    /// By the statement and the number of the texture that alpha is; of shapes that say nothing
+    /// more.
+    std::map<std::pair<const MaterialStatement*, uint32_t>, BoundMaterial> made_;
     /// They are kept, so that the addresses in made_ stay theirs.
     std::vector<std::shared_ptr<const MaterialStatement>> kept_;
 };

@@ -43,29 +43,44 @@ Surface diffuseTransmission(const SurfaceMaker& maker) {
 }
 
 /// A pbrt layer without scattering inside attenuates light by its thickness along the way. Here
-/// there is none: the base is so much darker. `reflected`: of the base.
-double darkened(double reflected, double ior, double thickness, double levels) {
-    // Means of exp(-thickness / cosine) over cosine-weighted directions that the interface lets
-    // through, and over those that it sends back.
-    constexpr int kSteps = 200;
-    const double critical = std::sqrt(std::max(1 - 1 / (ior * ior), 0.0));
-    double through = 0, inside = 0, weights[2] = {0, 0};
-    for (int i = 0; i < kSteps; ++i) {
-        const double squared = (i + 0.5) / kSteps; // the cosine's, so that all parts weigh alike
-        const double cosine = std::sqrt(squared), passed = std::exp(-thickness / cosine);
-        const bool isOut = cosine > critical;
-        (isOut ? through : inside) += isOut ? passed : passed * passed;
-        ++weights[isOut ? 0 : 1];
+/// there is none: the base is so much darker.
+class Layer {
+  public:
+    /// bounces: of light between base and interface at most.
+    Layer(double ior, double thickness, double bounces)
+        : back_(build::internalReflection(ior)), bounces_(bounces) {
+        // Means of exp(-thickness / cosine) over cosine-weighted directions that the interface lets
+        // through, and over those that it sends back.
+        constexpr int kSteps = 200;
+        const double critical = std::sqrt(std::max(1 - 1 / (ior * ior), 0.0));
+        int out = 0;
+        for (int i = 0; i < kSteps; ++i) {
+            const double squared =
+                (i + 0.5) / kSteps; // the cosine's, so that all parts weigh alike
+            const double cosine = std::sqrt(squared), passed = std::exp(-thickness / cosine);
+            const bool isOut = cosine > critical;
+            out += isOut ? 1 : 0;
+            (isOut ? through_ : inside_) += isOut ? passed : passed * passed;
+        }
+        through_ /= std::max(out, 1);
+        inside_ /= std::max(kSteps - out, 1);
     }
-    through /= std::max(weights[0], 1.0);
-    inside = weights[1] > 0 ? inside / weights[1] : 1;
-    const double back = build::internalReflection(ior);
-    // A ray ends after so many bounces between base and interface.
-    const double ratio = std::min(reflected * back * inside, 0.999);
-    const double sum = (1 - std::pow(ratio, levels)) / (1 - ratio);
-    const double all = reflected * through * through * sum;
-    return all / (1 + all * back); // of a base under a clear interface that looks the same
-}
+
+    /// Of a base under a clear interface that looks like this one.
+    double darkened(double reflected) const {
+        const double ratio = std::min(reflected * back_ * inside_, 0.999);
+        const double sum = (1 - std::pow(ratio, bounces_)) / (1 - ratio);
+        const double all = reflected * through_ * through_ * sum;
+        return all / (1 + all * back_);
+    }
+    glm::dvec3 darkened(const glm::dvec3& color) const {
+        const glm::dvec3 c = glm::clamp(color, 0.0, 1.0);
+        return {darkened(c.x), darkened(c.y), darkened(c.z)};
+    }
+
+  private:
+    double back_, bounces_, through_ = 0, inside_ = 0;
+};
 
 /// A diffuse base under an interface, with the colour of what light meets several times.
 Surface coatedDiffuse(const SurfaceMaker& maker) {
@@ -80,19 +95,20 @@ Surface coatedDiffuse(const SurfaceMaker& maker) {
     if (glm::dvec3(maker.plainColor("albedo", glm::dvec3(0))) != glm::dvec3(0))
         p.replace(build::Shortfall::Medium, "has a medium between interface and base");
     p.skip({"g", "nsamples"});
+    const Layer layer(m.ior, thickness, std::max(depth / 2, 1.0));
     const Pattern stated = maker.pattern("reflectance", glm::dvec3(0.5));
-    Pattern darker;
-    const double ior = m.ior;
-    combine(
-        stated, Pattern(), Pattern(),
-        [=](const auto& color, const auto&, const auto&) {
-            glm::dvec3 result;
-            for (const int c : {0, 1, 2})
-                result[c] = darkened(std::clamp(color[c], 0.0, 1.0), ior, thickness,
-                                     std::max(depth / 2, 1.0));
-            return result;
-        },
-        darker);
+    Pattern darker = stated;
+    if (stated.isConstant) {
+        darker.color = layer.darkened(stated.color);
+    } else if (stated.texture) { // so much as in the mean: the share hardly depends on the colour
+        const glm::dvec3 mean = glm::clamp(stated.mean(), 1e-3, 1.0);
+        darker.color *= layer.darkened(mean) / mean;
+    } else {
+        combine(
+            stated, Pattern(), Pattern(),
+            [layer](const auto& color, const auto&, const auto&) { return layer.darkened(color); },
+            darker);
+    }
     maker.color(surface, darker, m.albedo, TextureSlot::BaseColor, "reflectance");
     return surface;
 }

@@ -40,6 +40,8 @@ struct Pattern {
     /// be made anew. Its texture is in the scene.
     std::optional<uint32_t> texture;
 
+    uint32_t number = 0; ///< of the texture in the file that it is; 0: it is none
+
     static Pattern constant(const glm::dvec3& color);
     glm::dvec3 valueAt(const glm::dvec2& st) const { return isConstant ? color : at(st); }
     glm::dvec3 mean() const;

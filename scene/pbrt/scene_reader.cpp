@@ -164,7 +164,8 @@ std::shared_ptr<const MaterialStatement> SceneReader::materialOf(std::string kin
                                                                  Parameters parameters) {
     parameters.setKind(kind);
     return std::make_shared<const MaterialStatement>(MaterialStatement{
-        std::move(kind), std::move(parameters), state_.textures, state_.materials});
+        kind, std::move(parameters), state_.textures,
+        kind == "mix" ? state_.materials : nullptr}); // of which there may be many
 }
 
 void SceneReader::setMaterial(const Statement& s) {

@@ -1,5 +1,6 @@
 #include "scene/pbrt/textures.hpp"
 
+#include "host/core/memory.hpp"
 #include "scene/build/read_file.hpp"
 #include "scene/build/tolerate.hpp"
 #include "scene/images/load_texture.hpp"
@@ -81,11 +82,20 @@ std::optional<uint32_t> Textures::picture(const Parameters& parameters, const st
     if (!image) return std::nullopt;
     const uint32_t largest = context_.builder.conventions().selection.largestTexture;
     if (largest > 0) images::shrinkToFit(*image, largest, !isLinear);
+    countBytes(*image, parameters.place());
     Texture texture;
     texture.wrapU = texture.wrapV = wrap;
     texture.srgb = !isLinear && image->format == TexelFormat::Rgba8;
     texture.image = context_.builder.addImage(*std::move(image));
     return found->second = context_.builder.addTexture(texture);
+}
+
+void Textures::countBytes(const TextureImage& image, const build::FilePlace& where) {
+    bytes_ += image.words.size() * sizeof(uint32_t);
+    if (bytes_ > physicalMemory() / 2)
+        where.fail(fmt::format("the pictures take {} MiB, more than half of this machine's memory; "
+                               "--max-texture N shrinks them",
+                               bytes_ >> 20));
 }
 
 Pattern Textures::imageMap(const Parameters& p, bool isNumber) {
@@ -310,6 +320,7 @@ PatternPointer Textures::make(const std::string& kind, bool isNumber, const Para
         if (!result.isConstant && hasOwn) result.mapping = mapping;
     }
     p.reportUnread();
+    result.number = ++made_;
     return std::make_shared<const Pattern>(std::move(result));
 }
 
@@ -343,7 +354,9 @@ Shade Textures::shade(const Pattern& pattern, const Remap& remap, build::Layout 
         shade.texture->texture = *pattern.texture;
         return shade;
     }
-    const glm::uvec2 size = glm::clamp(pattern.texels, 1u, 2048u);
+    const uint32_t largest = context_.builder.conventions().selection.largestTexture;
+    const glm::uvec2 size =
+        glm::clamp(pattern.texels, 1u, largest > 0 ? std::min(largest, 2048u) : 2048u);
     TextureImage image{"pattern", size.x, size.y, TexelFormat::RgbaHalf, {}};
     image.words.reserve(size_t(2 * size.x) * size.y);
     for (uint32_t row = 0; row < size.y; ++row)
@@ -353,6 +366,7 @@ Shade Textures::shade(const Pattern& pattern, const Remap& remap, build::Layout 
             const glm::dvec3 value = pattern.at(st);
             build::appendTexel(image.words, remap ? remap(value) : value, layout);
         }
+    countBytes(image, {});
     Texture texture;
     texture.wrapU = texture.wrapV = pattern.wrap;
     texture.nearest = pattern.isNearest;

@@ -59,7 +59,11 @@ class Textures {
     void readMapping(const Parameters& parameters, const glm::dmat4& worldFromTexture,
                      Mapping& mapping);
 
+    void countBytes(const TextureImage& image, const build::FilePlace& where);
+
     Context& context_;
+    uint32_t made_ = 0;  ///< textures of the file
+    uint64_t bytes_ = 0; ///< of all pictures
     std::map<std::tuple<std::string, bool, Wrap>, std::optional<uint32_t>> pictures_;
 };
 

@@ -38,7 +38,7 @@ std::vector<std::string> someFiles() {
 TEST(DamagedPictures, SayWhatTheyAreNot) {
     EXPECT_EQ(messageOf(""), "a.png: is empty, expected a picture");
     EXPECT_EQ(messageOf("II*"), "a.png: is no picture that is read: expected PNG, JPEG, WebP, GIF, "
-                                "BMP, Radiance HDR, OpenEXR or TGA");
+                                "BMP, Radiance HDR, OpenEXR, PFM or TGA");
     EXPECT_THAT(messageOf("GIF89a"), HasSubstr("a.png: cannot be read as GIF"));
 }
 

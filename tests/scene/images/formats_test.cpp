@@ -1,5 +1,6 @@
 // Pictures that libraries encode, and ones written byte by byte, have the pixels they were given.
 
+#include "host/core/error.hpp"
 #include "scene/images/exr_channels.hpp"
 #include "scene/images/float_image.hpp"
 #include "scene/images/picture.hpp"
@@ -106,6 +107,16 @@ TEST(Formats, OpenExr) {
                 ElementsAre(1, 2, 3, 0.25f));
     EXPECT_THAT(valuesOf<Floats>(test::exr(2, 1, "Y", {7, 9}, false)),
                 ElementsAre(7, 7, 7, 1, 9, 9, 9, 1));
+}
+
+TEST(Formats, PfmFromTheBottomUp) {
+    const std::string one("\x00\x00\x80\x3f", 4), two("\x00\x00\x00\x40", 4);
+    EXPECT_THAT(valuesOf<Floats>("PF\n1 2\n-1.0\n" + one + one + two + two + two + one),
+                ElementsAre(2, 2, 1, 1, 1, 1, 2, 1));
+    const std::string bigOne("\x3f\x80\x00\x00", 4);
+    EXPECT_THAT(valuesOf<Floats>("Pf 1 1 1\n" + bigOne), ElementsAre(1, 1, 1, 1));
+    EXPECT_THROW(valuesOf<Floats>("PF\n9 9\n-1\n" + one), SceneError);
+    EXPECT_THROW(valuesOf<Floats>("PF\nx 9\n-1\n" + one), SceneError);
 }
 
 /// The header of a Radiance file; `rows` follow.

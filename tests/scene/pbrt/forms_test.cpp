@@ -105,17 +105,22 @@ TEST(PbrtTriangles, WithWrongCornersAreLeftOut) {
     EXPECT_THAT(problemInV4("Shape \"torus\""), HasSubstr("'torus' is no shape that is read"));
 }
 
+const char* const kQuadPly =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty "
+    "float y\nproperty float z\nproperty float u\nproperty float v\nelement "
+    "face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 0 0\n"
+    "1 0 0 1 0\n1 1 0 1 .25\n0 1 0 0 .25\n4 0 1 2 3\n";
+
 TEST(PbrtPly, IsRead) {
-    writeFile("quad.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty "
-                          "float y\nproperty float z\nproperty float u\nproperty float v\nelement "
-                          "face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 0 0\n"
-                          "1 0 0 1 0\n1 1 0 1 .25\n0 1 0 0 .25\n4 0 1 2 3\n");
+    writeFile("quad.ply", kQuadPly);
     const std::string picture = writePicture("red.tga", 1, 1, {{255, 0, 0}});
     const Scene scene =
         loadV4("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"" + picture +
                "\" Material \"diffuse\" \"texture reflectance\" \"t\" Shape \"plymesh\" \"string "
                "filename\" \"quad.ply\"");
     EXPECT_EQ(scene.triangles.size(), 2u);
+    writeFile("quad.ply.gz", gzip(kQuadPly));
+    EXPECT_EQ(loadV4("Shape \"plymesh\" \"string filename\" \"quad.ply.gz\"").triangles.size(), 2u);
     float most = 0;
     for (const VertexAttributes& a : scene.attributes)
         most = std::max(most, a.uv[0].y);

@@ -24,6 +24,9 @@ std::string writePicture(const std::string& name, int width, int height,
 std::string writeLight(const std::string& name, int width, int height,
                        const std::vector<std::array<float, 3>>& texels);
 
+/// The bytes packed by gzip.
+std::string gzip(std::string_view text);
+
 /// Loads a scene of such a text.
 Scene loadText(const std::string& text, bool strict = false);
 /// The same of what stands in the world; a Film tells the version.
