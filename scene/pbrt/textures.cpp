@@ -1,6 +1,6 @@
 #include "scene/pbrt/textures.hpp"
 
-#include "host/core/memory.hpp"
+#include "host/core/system.hpp"
 #include "scene/build/read_file.hpp"
 #include "scene/build/tolerate.hpp"
 #include "scene/images/load_texture.hpp"

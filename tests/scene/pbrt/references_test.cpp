@@ -2,8 +2,8 @@
 // words: whatever pbrt has other conventions for (the camera's hand, angles, textures upside down,
 // maps of all around) would show. Agreement by means, and by blocks or tiles within the noise.
 
-#include "host/compare/acceptance.hpp"
-#include "host/film/exr.hpp"
+#include "host/compare/comparison.hpp"
+#include "host/film/image_formats.hpp"
 #include "scene/mitsuba/load_mitsuba.hpp"
 #include "tests/scene/mitsuba/references_renderer.hpp"
 #include "tests/scene/pbrt/pbrt_text.hpp"

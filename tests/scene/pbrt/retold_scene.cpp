@@ -1,6 +1,6 @@
 #include "tests/scene/pbrt/retold_scene.hpp"
 
-#include "host/film/exr.hpp"
+#include "host/film/image_formats.hpp"
 #include "tests/scene/pbrt/pbrt_text.hpp"
 
 #include <fmt/format.h>
