@@ -23,8 +23,8 @@ double mitred(double radius, const glm::dvec3& normal, const Strand& strand, siz
     if (i == 0 || i + 1 == strand.size()) return radius;
     const auto before = unit(strand[i].place - strand[i - 1].place);
     const double along = before ? glm::dot(normal, *before) : 0;
-    constexpr double kLongest = 3; // where a strand turns back
-    return radius * std::min(1 / std::sqrt(std::max(1 - along * along, 1e-6)), kLongest);
+    constexpr double kLongestSegment = 3; // where a strand turns back
+    return radius * std::min(1 / std::sqrt(std::max(1 - along * along, 1e-6)), kLongestSegment);
 }
 
 } // namespace

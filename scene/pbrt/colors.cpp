@@ -138,7 +138,7 @@ glm::dvec3 rgbOf(const Context& context, const Samples& samples, ColorOf what) {
         return y > 0 ? rgb / y : glm::dvec3(0);
     }
     if (what == ColorOf::Reflectance) return build::rgbOfReflectance(samples);
-    // Of no fraction: what the curves weigh is divided by what they weigh of 1.
+    // This is no fraction: what the curves weigh is divided by what they weigh of 1.
     double most = 1;
     for (const auto& [wavelength, value] : samples)
         most = std::max(most, value);

@@ -4,6 +4,7 @@
 #include "scene/pbrt/context.hpp"
 #include "scene/pbrt/parameters.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -13,7 +14,13 @@ namespace stromboli::pbrt {
 struct Form {
     build::Mesh mesh;
     bool hasCoordinates = false;        ///< of textures
-    std::optional<double> sphereRadius; ///< a whole sphere about the origin, beside its mesh
+    std::optional<double> sphereRadius; ///< a whole sphere about the origin
+    /// Makes the mesh of such a sphere, which is seldom needed and large.
+    std::function<build::Mesh()> makeMesh;
+
+    void requireMesh() {
+        if (mesh.parts.empty() && makeMesh) mesh = makeMesh();
+    }
 };
 
 /// The form of a shape. Throws SceneError for a kind that is none, and for what makes no shape.

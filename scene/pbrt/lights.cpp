@@ -179,6 +179,9 @@ void Lights::placeGoniometric(const Parameters& p, const glm::dmat4& worldFromLi
     glm::dvec3 color = colorOfLight(p, "I");
     DirectionMap map;
     if (file) map = readDirectionMap(context_, p, *file);
+    if (!context_.isV3()) // which takes colours from I alone
+        for (glm::vec3& texel : map.image.texels)
+            texel = glm::vec3((texel.x + texel.y + texel.z) / 3);
     double mean = 1;
     if (file) {
         mean = 0;
@@ -208,8 +211,10 @@ void Lights::placeProjection(const Parameters& p, const glm::dmat4& worldFromLig
     const double aspect = double(image.width) / image.height;
     const glm::dvec2 tangents =
         tangent * glm::dvec2(std::max(aspect, 1.0), std::max(1 / aspect, 1.0));
+    const bool isV3 = context_.isV3(); // which has the picture upside down
     const Intensity picture = [&](const glm::dvec3& d) {
-        const glm::dvec2 at = (glm::dvec2(d) / d.z / tangents + 1.0) / 2.0;
+        const glm::dvec2 across(d.x, isV3 ? d.y : -d.y);
+        const glm::dvec2 at = (across / d.z / tangents + 1.0) / 2.0;
         const auto place = [](double share, uint32_t count) {
             return size_t(std::clamp(share * count, 0.0, double(count - 1)));
         };

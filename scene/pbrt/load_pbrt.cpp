@@ -8,20 +8,21 @@
 #include <fmt/format.h>
 
 #include <new>
+#include <utility>
 
 namespace stromboli {
 
 Scene loadPbrt(const std::filesystem::path& file, const SceneConventions& conventions) try {
     build::SceneBuilder builder(file.string(), conventions);
     const pbrt::Files files(file, builder.report());
-    const std::vector<pbrt::Statement> statements =
+    std::vector<pbrt::Statement> statements =
         pbrt::StatementReader(files, builder.report()).read(file);
     const pbrt::VersionFound found = pbrt::versionOf(statements);
     builder.report().assume(
         fmt::format("the scene is one of pbrt-v{}{}", found.version == pbrt::Version::V3 ? 3 : 4,
                     found.sign.empty() ? ": nothing tells which" : ", as by " + found.sign));
     pbrt::Context context{builder, files, found.version};
-    pbrt::SceneReader(context).read(statements);
+    pbrt::SceneReader(context).read(std::move(statements));
     return builder.finish();
 } catch (const std::bad_alloc&) {
     throw SceneError(file.string(), 0, "", "does not fit in memory");

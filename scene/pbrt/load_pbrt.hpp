@@ -8,7 +8,7 @@
 
 namespace stromboli {
 
-/// Reads a scene of pbrt-v3 or pbrt-v4; docs/pbrt.md says what of it. Throws SceneError with file,
+/// Reads a scene of pbrt-v3 or pbrt-v4; docs/guide/pbrt.md says what of it. Throws SceneError with file,
 /// line and directive for what leaves nothing to show.
 Scene loadPbrt(const std::filesystem::path& file, const SceneConventions& conventions = {});
 

@@ -8,7 +8,8 @@
 namespace stromboli::pbrt {
 
 BoundMaterial Materials::of(const std::shared_ptr<const MaterialStatement>& statement,
-                            const Parameters& shape, const std::optional<Emission>& emission,
+                            const Names& ofScene, const Parameters& shape,
+                            const std::optional<Emission>& emission,
                             const std::optional<Pattern>& alpha) {
     std::vector<Parameter> overriding;
     if (context_.isV3()) overriding = shape.unread();
@@ -17,10 +18,11 @@ BoundMaterial Materials::of(const std::shared_ptr<const MaterialStatement>& stat
     if (const auto found = made_.find(key); isPlain && found != made_.end()) return found->second;
     MaterialStatement changed = *statement;
     changed.parameters.prepend(overriding);
+    if (changed.parameters.place().file.empty()) changed.parameters.placeAt(shape.place());
     Surface surface;
     surface.material = build::greyMaterial();
     build::tolerate(context_.report(), build::Shortfall::Material,
-                    [&] { surface = SurfaceMaker(context_, textures_, changed).make(); });
+                    [&] { surface = SurfaceMaker(context_, textures_, changed, ofScene).make(); });
     for (const Parameter& parameter : overriding) // the material's reading is said there
         shape.skip({parameter.name});
     if (emission)

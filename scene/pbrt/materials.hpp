@@ -22,6 +22,13 @@ struct MaterialStatement {
     std::shared_ptr<const MaterialTable> named;
 };
 
+/// The names that a material may refer to: in pbrt-v3 those before it, in pbrt-v4 those of the
+/// whole scene.
+struct Names {
+    const TextureTable* textures = nullptr;
+    const MaterialTable* materials = nullptr;
+};
+
 /// What a material of the file makes of a surface.
 struct Surface {
     Material material;
@@ -56,11 +63,11 @@ class Materials {
   public:
     Materials(Context& context, Textures& textures) : context_(context), textures_(textures) {}
 
-    /// Of a shape, whose own parameters take the place of the material's in pbrt-v3; alpha: how
-    /// much of it is there.
+    /// The material of a shape, whose own parameters take the place of the material's in pbrt-v3;
+    /// alpha: how much of it is there.
     BoundMaterial of(const std::shared_ptr<const MaterialStatement>& statement,
-                     const Parameters& shape, const std::optional<Emission>& emission,
-                     const std::optional<Pattern>& alpha);
+                     const Names& ofScene, const Parameters& shape,
+                     const std::optional<Emission>& emission, const std::optional<Pattern>& alpha);
 
   private:
     void setAlpha(Surface& surface, const Pattern& alpha);

@@ -11,7 +11,7 @@ namespace stromboli::pbrt {
 namespace {
 
 double largestOf(const Pattern& pattern) {
-    // Of a picture in one of all cases: 1 at most where its factor is.
+    // The largest value of a picture: 1 at most where its factor is.
     const glm::dvec3 c = pattern.isConstant || pattern.texture ? pattern.color : glm::dvec3(1);
     return std::clamp(std::max({c.x, c.y, c.z}), 0.0, 1.0);
 }

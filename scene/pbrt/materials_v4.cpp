@@ -66,7 +66,7 @@ class Layer {
         inside_ /= std::max(kSteps - out, 1);
     }
 
-    /// Of a base under a clear interface that looks like this one.
+    /// The albedo of a base under a clear interface that looks like this one.
     double darkened(double reflected) const {
         const double ratio = std::min(reflected * back_ * inside_, 0.999);
         const double sum = (1 - std::pow(ratio, bounces_)) / (1 - ratio);

@@ -28,6 +28,9 @@ class Parameters {
     /// How messages call the thing: the directive and its kind.
     void setKind(const std::string& kind) { place_.element += " \"" + kind + "\""; }
 
+    /// Where nothing in the file stands for it.
+    void placeAt(const build::FilePlace& place) { place_ = place; }
+
     /// Parameters that count where there are none of their names before.
     void append(const std::vector<Parameter>& more);
     /// Parameters that count in place of others.

@@ -63,14 +63,17 @@ Form sphere(const Parameters& shape, double phiMax) {
     low = std::clamp(low, -r, r);
     high = std::clamp(high, -r, r);
     const double from = std::acos(low / r), to = std::acos(high / r);
-    Form form = turnedForm(
-        [=](double v) {
-            const double theta = std::lerp(from, to, v);
-            const bool isPole = theta <= 0 || theta >= std::numbers::pi;
-            return glm::dvec3(isPole ? 0 : r * std::sin(theta), 0, r * std::cos(theta));
-        },
-        phiMax, kSides / 2);
-    if (phiMax >= 2 * std::numbers::pi && low <= -r && high >= r) form.sphereRadius = r;
+    const Profile profile = [=](double v) {
+        const double theta = std::lerp(from, to, v);
+        const bool isPole = theta <= 0 || theta >= std::numbers::pi;
+        return glm::dvec3(isPole ? 0 : r * std::sin(theta), 0, r * std::cos(theta));
+    };
+    const bool isWhole = phiMax >= 2 * std::numbers::pi && low <= -r && high >= r;
+    if (!isWhole) return turnedForm(profile, phiMax, kSides / 2);
+    Form form;
+    form.hasCoordinates = true;
+    form.sphereRadius = r;
+    form.makeMesh = [=] { return turnedForm(profile, phiMax, kSides / 2).mesh; };
     return form;
 }
 

@@ -20,11 +20,14 @@ build::Shortfall shortfallOf(std::string_view directive) {
 
 } // namespace
 
-void SceneReader::read(const std::vector<Statement>& statements) {
-    state_.material = materialOf(context_.isV3() ? "matte" : "diffuse", {});
-    for (const Statement& statement : statements)
+void SceneReader::read(std::vector<Statement> statements) {
+    state_.material = materialOf(context_.isV3() ? "matte" : "diffuse",
+                                 Parameters(Statement{}, context_.report()));
+    for (Statement& statement : statements) {
         build::tolerate(context_.report(), shortfallOf(statement.directive()),
                         [&] { carryOut(statement); });
+        statement.parameters = {}; // which may be large
+    }
     shapes_.finishCurves(openObject());
     if (!isInWorld_) beginWorld();
     lights_.finish();
@@ -226,10 +229,10 @@ void SceneReader::addShape(const Statement& s) {
     if (!isInWorld_) s.place.fail("stands before WorldBegin");
     Parameters parameters = parametersOf(s, "shape");
     parameters.setKind(s.words.front());
-    shapes_.add(
-        s.words.front(), parameters,
-        {worldFromObject(s), state_.isReversed, state_.material, state_.light, state_.textures},
-        openObject());
+    shapes_.add(s.words.front(), parameters,
+                {worldFromObject(s), state_.isReversed, state_.material, state_.light,
+                 state_.textures, state_.materials},
+                openObject());
 }
 
 /// An object keeps the state, as AttributeBegin does.

@@ -20,7 +20,7 @@ class SceneReader {
         : context_(context), view_(context), textures_(context), lights_(context, textures_),
           shapes_(context, textures_, lights_) {}
 
-    void read(const std::vector<Statement>& statements);
+    void read(std::vector<Statement> statements);
 
   private:
     /// What AttributeBegin keeps and AttributeEnd brings back, beside the transformation.

@@ -119,8 +119,13 @@ std::optional<Pattern> Shapes::alphaOf(const Parameters& shape, const ShapeState
 
 /// In pbrt each triangle of a mesh is a light of its own, which `power` is of. Here a mesh is one,
 /// of as much light: the area is that of a triangle in the mean.
-double Shapes::lightArea(const Form& form, const ShapeState& state, const std::string& kind) {
+double Shapes::lightArea(Form& form, const ShapeState& state, const std::string& kind) {
     const glm::dmat4& m = state.worldFromObject;
+    if (form.sphereRadius && build::isSimilarity(m)) {
+        const double radius = *form.sphereRadius * build::axisLengths(m).x;
+        return 4 * std::numbers::pi * radius * radius;
+    }
+    form.requireMesh();
     const auto at = [&](const build::Corner& corner) {
         return glm::dvec3(m * glm::dvec4(form.mesh.positions[corner.position], 1));
     };
@@ -131,10 +136,6 @@ double Shapes::lightArea(const Form& form, const ShapeState& state, const std::s
             area += glm::length(glm::cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]))) / 2;
             ++count;
         }
-    if (form.sphereRadius && build::isSimilarity(m)) {
-        const double radius = *form.sphereRadius * build::axisLengths(m).x;
-        return 4 * std::numbers::pi * radius * radius;
-    }
     const bool isMesh = kind == "trianglemesh" || kind == "plymesh" || kind == "loopsubdiv" ||
                         kind == "heightfield" || kind == "nurbs";
     return isMesh ? area / double(std::max<size_t>(count, 1)) : area;
@@ -163,7 +164,8 @@ void Shapes::addForm(Form form, const std::string& kind, const Parameters& shape
     else if (state.light)
         emission = lights_.emission(state.light->kind, state.light->parameters,
                                     lightArea(form, state, kind));
-    const BoundMaterial material = materials_.of(state.material, shape, emission, alpha);
+    const BoundMaterial material = materials_.of(
+        state.material, {state.textures.get(), state.materials.get()}, shape, emission, alpha);
     shape.reportUnread();
     const bool sidesDiffer = emission || material.isTransparent;
     const bool staysSphere = form.sphereRadius && !material.wantsCoordinates &&
@@ -173,6 +175,7 @@ void Shapes::addForm(Form form, const std::string& kind, const Parameters& shape
     if (staysSphere) {
         part.shape = context_.builder.addSphere(kind, *form.sphereRadius);
     } else {
+        form.requireMesh();
         fit(material, state, form);
         if (state.isReversed) build::flip(form.mesh);
         part.shape = context_.builder.addMesh(kind, std::move(form.mesh));

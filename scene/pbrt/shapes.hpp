@@ -24,6 +24,7 @@ struct ShapeState {
     std::shared_ptr<const MaterialStatement> material;
     std::shared_ptr<const AreaLightStatement> light;
     std::shared_ptr<const TextureTable> textures;
+    std::shared_ptr<const MaterialTable> materials;
 };
 
 /// Something that is placed: once, or wherever its object is.
@@ -63,7 +64,7 @@ class Shapes {
                  const ShapeState& state, std::vector<Part>* object);
     void fit(const BoundMaterial& material, const ShapeState& state, Form& form);
     std::optional<Pattern> alphaOf(const Parameters& shape, const ShapeState& state);
-    double lightArea(const Form& form, const ShapeState& state, const std::string& kind);
+    double lightArea(Form& form, const ShapeState& state, const std::string& kind);
 
     Context& context_;
     Textures& textures_;

@@ -15,7 +15,20 @@
 namespace stromboli::pbrt {
 namespace {
 
-constexpr int kSteps = 8; ///< of the lines that stand for a segment of a curve
+/// Lines that stand for a segment of a curve: so many that they are off by a tenth of its width.
+int stepsOf(std::span<const glm::dvec3> controls, double width) {
+    constexpr int kMostSteps = 16;
+    const glm::dvec3 first = controls.front(), chord = controls.back() - first;
+    const double squared = glm::dot(chord, chord);
+    double away = 0;
+    for (const glm::dvec3& p : controls) {
+        const double along =
+            squared > 0 ? std::clamp(glm::dot(p - first, chord) / squared, 0.0, 1.0) : 0;
+        away = std::max(away, glm::length(p - first - along * chord));
+    }
+    const double steps = std::ceil(std::sqrt(away / std::max(0.1 * width, 1e-30)));
+    return int(std::clamp(std::isnan(steps) ? 1.0 : steps, 1.0, double(kMostSteps)));
+}
 
 /// The values that control a Bezier curve, at t: de Casteljau.
 glm::dvec3 bezier(std::vector<glm::dvec3> points, double t) {
@@ -94,16 +107,18 @@ Form curveForm(const Parameters& shape) {
             fmt::format("has {} points, which make no curve of degree {}", points.size(), degree));
     const size_t segments = (points.size() - order) / step + 1;
     build::Strand strand;
-    for (size_t segment = 0; segment < segments; ++segment)
-        for (int i = segment == 0 ? 0 : 1; i <= kSteps; ++i) {
-            const double t = double(i) / kSteps;
-            const std::span controls = std::span(points).subspan(segment * step, order);
+    for (size_t segment = 0; segment < segments; ++segment) {
+        const std::span controls = std::span(points).subspan(segment * step, order);
+        const int steps = stepsOf(controls, std::max(from, to));
+        for (int i = segment == 0 ? 0 : 1; i <= steps; ++i) {
+            const double t = double(i) / steps;
             const glm::dvec3 at =
                 isBSpline ? bSpline(controls, t) : bezier({controls.begin(), controls.end()}, t);
             if (!strand.empty() && strand.back().place == at) continue;
             const double along = (double(segment) + t) / double(segments);
             strand.push_back({at, std::lerp(from, to, along) / 2});
         }
+    }
     if (strand.size() < 2) shape.place().fail("is a point");
     Form form;
     form.hasCoordinates = true;

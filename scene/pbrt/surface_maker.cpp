@@ -43,7 +43,7 @@ Surface SurfaceMaker::make() {
 
 Pattern SurfaceMaker::pattern(std::string_view name, const glm::dvec3& otherwise, ColorOf what,
                               bool isNumber) const {
-    return textures_.pattern(parameters, name, what, otherwise, *statement.textures, isNumber);
+    return textures_.pattern(parameters, name, what, otherwise, *names_.textures, isNumber);
 }
 
 void SurfaceMaker::color(Surface& surface, const Pattern& pattern, glm::vec3& where,
@@ -236,15 +236,15 @@ Surface SurfaceMaker::mix() const {
         parameters.place().fail(fmt::format("is in more than {} mixtures", kMostMixtures));
     Surface parts[2];
     for (int i = 0; i < 2; ++i) {
-        if (names[i] == "interface" && !statement.named->contains(names[i])) {
+        if (names[i] == "interface" && !names_.materials->contains(names[i])) {
             parts[i] = interface();
             continue;
         }
-        const auto found = statement.named->find(names[i]);
-        if (found == statement.named->end())
+        const auto found = names_.materials->find(names[i]);
+        if (found == names_.materials->end())
             parameters.place().fail(
                 fmt::format("names the material '{}', which is not there", names[i]));
-        parts[i] = SurfaceMaker(context, textures_, *found->second, depth_ + 1).make();
+        parts[i] = SurfaceMaker(context, textures_, *found->second, ofScene_, depth_ + 1).make();
     }
     const bool isFirst = context.isV3();
     Remap share = [isFirst](const glm::dvec3& v) {

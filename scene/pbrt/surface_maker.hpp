@@ -10,10 +10,12 @@ namespace stromboli::pbrt {
 /// Makes a surface of what a material's parameters say.
 class SurfaceMaker {
   public:
-    SurfaceMaker(Context& ofScene, Textures& textures, const MaterialStatement& ofFile,
-                 size_t depth = 0)
-        : context(ofScene), statement(ofFile), parameters(ofFile.parameters), textures_(textures),
-          depth_(depth) {}
+    SurfaceMaker(Context& whole, Textures& textures, const MaterialStatement& ofFile,
+                 const Names& ofScene, size_t depth = 0)
+        : context(whole), statement(ofFile), parameters(ofFile.parameters), textures_(textures),
+          ofScene_(ofScene), names_(ofScene), depth_(depth) {
+        if (context.isV3()) names_ = {statement.textures.get(), statement.named.get()};
+    }
 
     /// Throws SceneError for a kind that is none.
     Surface make();
@@ -27,7 +29,7 @@ class SurfaceMaker {
     /// A reflected or transmitted fraction into a material, or a texture of it in that slot.
     void color(Surface& surface, const Pattern& pattern, glm::vec3& where, TextureSlot slot,
                std::string_view name) const;
-    /// The same where there is one colour for all of the surface.
+    /// Makes it where there is one colour for all of the surface.
     glm::vec3 plainColor(std::string_view name, const glm::dvec3& otherwise) const;
     /// A number in [least, most]; of a texture its mean, which is said.
     double number(std::string_view name, double otherwise, double least, double most) const;
@@ -60,6 +62,7 @@ class SurfaceMaker {
     double alphaOf(double roughness, bool isRemapped) const;
 
     Textures& textures_;
+    Names ofScene_, names_;
     size_t depth_;
 };
 

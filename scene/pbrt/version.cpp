@@ -65,7 +65,7 @@ bool holds(const std::array<std::string_view, N>& names, std::string_view name) 
     return std::ranges::find(names, name) != names.end();
 }
 
-/// Of a material, whose kind stands behind the directive or in a parameter.
+/// The version that a material tells, whose kind stands behind the directive or in a parameter.
 std::optional<Version> versionOfMaterial(const Statement& s) {
     std::string_view kind;
     if (s.directive() == "Material" && !s.words.empty()) {

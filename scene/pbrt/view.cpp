@@ -168,7 +168,7 @@ void View::setCamera(const std::string& kind, Parameters camera,
     camera_ = CameraRead{kind, std::move(camera), cameraFromWorld};
 }
 
-/// Of the picture on the plane at distance 1, half of its shorter side.
+/// The extent of the picture on the plane at distance 1, half of its shorter side.
 double View::halfShorterSide(const CameraRead& camera) const {
     const Parameters& p = camera.parameters;
     if (camera.kind == "perspective") {

@@ -29,7 +29,7 @@ Scene loadShape(const std::string& shape, bool isV3 = false) {
 }
 
 TEST(PbrtShapes, HaveTheirAreas) {
-    // Of a circle of 256 sides a share of 1e-4 is missing.
+    // A polygon of 256 sides lacks a share of 1e-4 of the circle.
     const auto expectArea = [](const std::string& shape, double area) {
         EXPECT_NEAR(areaOf(loadShape(shape)), area, 3e-4 * area) << shape;
     };
@@ -167,6 +167,10 @@ TEST(PbrtCurves, AreTubes) {
     const std::string points = "\"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0] \"float width\" .2";
     const Scene scene = loadShape("\"curve\" " + points);
     EXPECT_NEAR(areaOf(scene), 2 * pi * 0.1 * 3, 0.02);
+    EXPECT_EQ(scene.triangles.size(), 12u); // straight
+    EXPECT_GT(loadShape("\"curve\" \"point3 P\" [0 0 0 0 1 0 1 1 0 1 0 0] \"float width\" .1")
+                  .triangles.size(),
+              70u);
     const Scene many = loadV4("Shape \"curve\" " + points + " Shape \"curve\" " + points +
                               " Shape \"curve\" \"string basis\" \"bspline\" " + points);
     EXPECT_EQ(many.instances.size(), 1u); // one mesh

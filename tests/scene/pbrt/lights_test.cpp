@@ -153,7 +153,7 @@ TEST(PbrtInfinite, IsAConstantOrASum) {
     expectNear(radianceFrom(scene, {0, 1, 0}), {3, 4, 5});
 }
 
-/// Of pbrt-v3: columns of phi, rows from +z down.
+/// The layout of pbrt-v3: columns of phi, rows from +z down.
 std::string latLong() {
     std::vector<std::array<float, 3>> texels;
     for (int row = 0; row < 4; ++row)
@@ -176,7 +176,7 @@ TEST(PbrtInfinite, MapsOfAnglesStandUpright) {
                                    " LightSource \"infinite\" \"string mapname\" \"" + latLong() +
                                    "\" AttributeEnd " + kTriangle);
         ASSERT_EQ(scene.environment->width, 8u) << turn; // texels stay what they are
-        // The same turn as a matrix, by the place where it moves a triangle.
+        // That turn as a matrix, by the place where it moves a triangle.
         for (const glm::dvec3 d : {glm::dvec3(0.9, 0.35, 0.3), glm::dvec3(-0.4, 0.8, -0.3),
                                    glm::dvec3(0.2, -0.9, 0.45), glm::dvec3(-0.6, -0.4, -0.7)}) {
             const Scene moved = loadV3(fmt::format(
@@ -228,7 +228,7 @@ TEST(PbrtSquareMaps, AreOfEqualAreas) {
     EXPECT_NEAR(radianceFrom(scene, {-0.5, -0.5, 0.1}).x, 1, 1e-3);
     EXPECT_NEAR(radianceFrom(scene, {0.5, -0.5, 0.1}).x, 2, 1e-3);
     EXPECT_NEAR(radianceFrom(scene, {0.5, 0.5, -0.1}).x, 8, 1e-3);
-    // Of the upper half of a white map pbrt counts half.
+    // pbrt counts half of the upper half of a white map.
     const std::string white =
         writeLight("white.hdr", 32, 32, std::vector<std::array<float, 3>>(1024, {1, 1, 1}));
     const Scene lit = loadV4("LightSource \"infinite\" \"float illuminance\" 10 \"string "

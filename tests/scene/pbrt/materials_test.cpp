@@ -152,6 +152,16 @@ TEST(PbrtMaterials4, NamedOnesAreThoseOfTheScene) {
     EXPECT_EQ(materialV3(inside).kind, MaterialKind::Diffuse);
 }
 
+TEST(PbrtMaterials4, MayReferToWhatComesLater) {
+    const Scene scene =
+        loadV4("Material \"mix\" \"string materials\" [\"a\" \"b\"] MakeNamedMaterial \"b\" "
+               "\"string type\" \"diffuse\" MakeNamedMaterial \"a\" \"string type\" \"diffuse\" "
+               "\"texture reflectance\" \"t\" Texture \"t\" \"spectrum\" \"constant\" \"rgb "
+               "value\" [.1 .2 .3]" +
+               std::string(kTriangle));
+    expectColor(partsOf(scene).at(0).first.albedo, {0.1f, 0.2f, 0.3f});
+}
+
 TEST(PbrtMaterials4, AttributesAreDefaults) {
     const std::string text = "Attribute \"material\" \"rgb reflectance\" [.9 .9 .9] ";
     expectColor(materialV4(text + "Material \"diffuse\"").albedo, glm::vec3(0.9f));
@@ -247,6 +257,13 @@ TEST(PbrtMaterials3, ShapesOverrideThem) {
     expectColor(scene.materials[scene.spheres[1].material].albedo, {1, 0, 0});
     EXPECT_THAT(problemInV4("Shape \"sphere\" \"rgb Kd\" [0 1 0]"),
                 HasSubstr("has 'Kd', which nothing reads"));
+}
+
+TEST(PbrtMaterials3, ShapesOverrideTheDefaultOne) {
+    const Scene scene = loadV3("Shape \"sphere\" \"rgb Kd\" [0 1 0] \"float gloss\" 1");
+    expectColor(scene.materials[scene.spheres.at(0).material].albedo, {0, 1, 0});
+    EXPECT_THAT(scene.report.forgiven.at(0),
+                HasSubstr("scene.pbrt:1: <Shape \"sphere\">: has 'gloss', which nothing reads"));
 }
 
 TEST(PbrtMaterials3, XyzAndBlackbodyAreColours) {

@@ -29,7 +29,7 @@ std::string gzip(std::string_view text);
 
 /// Loads a scene of such a text.
 Scene loadText(const std::string& text, bool strict = false);
-/// The same of what stands in the world; a Film tells the version.
+/// Loads what stands in the world; a Film tells the version.
 Scene loadV4(std::string_view world);
 Scene loadV3(std::string_view world);
 /// The material of the first triangle of a mesh that has it.
@@ -40,7 +40,7 @@ extern const char* const kTriangle;
 
 /// What strict loading says is wrong, from the line's number on; empty: nothing is.
 std::string problemOf(const std::string& text);
-/// The same of what stands in a world of pbrt-v4, whose first line is 1.
+/// Loads what stands in a world of pbrt-v4, whose first line is 1.
 std::string problemInV4(std::string_view world);
 /// What forgiving loading says, one line each.
 std::vector<std::string> forgivenIn(const std::string& text);

@@ -3,6 +3,7 @@
 #include "scene/pbrt/statement_reader.hpp"
 #include "scene/pbrt/tokens.hpp"
 #include "scene/pbrt/version.hpp"
+#include "scene/read_scene.hpp"
 #include "tests/scene/pbrt/pbrt_text.hpp"
 
 namespace stromboli::test {
@@ -161,6 +162,9 @@ TEST(PbrtFile, IsToldByItsBeginning) {
     EXPECT_FALSE(looksLikePbrt("v 0 0 0"));
     EXPECT_FALSE(looksLikePbrt("<scene>"));
     EXPECT_FALSE(looksLikePbrt(""));
+    const std::string text = "Film \"rgb\" WorldBegin Shape \"sphere\"";
+    for (const char* name : {"named.pbrt", "unnamed"})
+        EXPECT_EQ(readScene(writeFile(name, text).string()).spheres.size(), 1u) << name;
 }
 
 } // namespace
