@@ -49,8 +49,8 @@ void count(const Film& film, const RenderSettings& settings, RenderResult& resul
 // --- Channels of what is seen --------------------------------------------------------------------
 
 /// The channels that a request asks for beside the radiance, of a film whose samples are taken
-/// (docs/layers.md), by the viewer of its picture; without one, all that there is is opaque and
-/// unknown. Pixels without samples show the alpha of the ones that showNeighbours() shows.
+/// (docs/guide/layers.md), by the viewer of its picture; without one, all that there is is opaque
+/// and unknown. Pixels without samples show the alpha of the ones that showNeighbours() shows.
 FloatImage seenChannels(Viewer* viewer, const Film& film, const Scene& scene, const Camera& camera,
                         const RenderRequest& request);
 

@@ -10,6 +10,7 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -92,6 +93,7 @@ struct SessionEvents {
 ///     while (session.pass())
 ///         show(session.shown(tone));
 ///     session.moveCamera(other); // the next picture
+///     session.changeMaterials({{7, redder}}); // and another one
 ///
 /// A session is used by one thread at a time, cancel() by any. There may be several sessions in a
 /// process, at the same time too: they share nothing but scenes.
@@ -107,6 +109,12 @@ class RenderSession {
                const Keeping& keeping = {});
     /// Begins the picture again with another camera.
     void moveCamera(const CameraRequest& camera);
+    /// Begins the picture again with other numbers of materials: colours, roughness, indices,
+    /// emission (differInNumbers()). `numbers` is by the number of the material in the scene. The
+    /// scene that was handed over stays as it is. Nothing is built, what is uploaded are the rows
+    /// of materials and lights, and a kernel is compiled only where the materials want another one.
+    /// Throws std::invalid_argument where a material differs in more than numbers.
+    void changeMaterials(const std::map<uint32_t, Material>& numbers);
 
     /// The picture that was begun, with nothing left open.
     const ResolvedPicture& picture() const { return picture_; }
@@ -160,6 +168,7 @@ class RenderSession {
     std::atomic<bool> cancelAsked_ = false;
     // What belongs to the picture:
     std::shared_ptr<const Scene> scene_;
+    std::shared_ptr<Scene> changed_; ///< the same, if materials have been changed
     RenderRequest request_;
     Keeping keeping_;
     ResolvedPicture picture_;

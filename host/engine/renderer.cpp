@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <ranges>
 #include <tuple>
 #include <utility>
 
@@ -107,6 +108,12 @@ void RenderDevices::setScene(const GpuScene& scene) {
         if (seat.backend) seat.backend->setScene(scene);
 }
 
+void RenderDevices::sceneHasChanged(std::span<const uint32_t> bindings) {
+    leaveOutWhoDroppedOut();
+    for (Seat& seat : seats_)
+        if (seat.backend) seat.backend->sceneHasChanged(bindings);
+}
+
 void RenderDevices::leaveOutWhoDroppedOut() {
     if (!team_) return;
     const std::vector<size_t> present = team_->present();
@@ -132,19 +139,20 @@ void RenderDevices::prepareAll(const Camera& camera, const RenderSettings& setti
     std::vector<std::future<void>> ready;
     for (Seat& seat : seats_)
         ready.push_back(std::async(std::launch::async, [&] { prepare(seat, camera, settings); }));
-    std::vector<Seat> left;
+    std::vector<size_t> failed;
     std::exception_ptr why;
     for (size_t i = 0; i < ready.size(); ++i) {
         try {
             ready[i].get();
-            left.push_back(std::move(seats_[i]));
         } catch (const DeviceError& error) {
             why = std::current_exception();
+            failed.push_back(i);
             listener_.warn(fmt::format("{} takes no samples: {}",
                                        seats_[i].open.device->description().name(), error.what()));
         }
     }
-    seats_ = std::move(left);
+    for (const size_t i : failed | std::views::reverse)
+        seats_.erase(seats_.begin() + std::ptrdiff_t(i));
     if (seats_.empty()) std::rethrow_exception(why);
 }
 
@@ -212,6 +220,13 @@ void Renderer::build(const Estimator& estimator, uint64_t gatheredRows) {
     builtOf_ = scene_;
     builtFor_ = lightSelection(estimator);
     buildSeconds_ = built_->seconds;
+}
+
+void Renderer::materialsHaveChanged(const std::shared_ptr<const Scene>& scene) {
+    if (!devices_ || !built_ || builtOf_ != scene_) return; // it is built when it is asked for
+    devices_->sceneHasChanged(repackMaterials(built_->gpu, *scene, builtFor_));
+    builtOf_ = scene;
+    scene_ = scene;
 }
 
 std::shared_ptr<Backend> Renderer::backend(const RenderSettings& settings, bool again) {

@@ -39,6 +39,8 @@ class RenderDevices {
 
     /// The pictures to come are of this scene, which must outlive them.
     void setScene(const GpuScene& scene);
+    /// That scene has become another one in these bindings.
+    void sceneHasChanged(std::span<const uint32_t> bindings);
     /// Ready for a picture of the scene that was set: of one device its own backend, of several
     /// those that share the work (TeamBackend). A device on which that fails is left out, which is
     /// said; throws DeviceError if none is left.
@@ -82,6 +84,10 @@ class Renderer {
     /// Neither a scene that is there already nor a kernel that was compiled for the same features
     /// is made again. `channels`: those of a picture beside the radiance.
     void begin(std::shared_ptr<const Scene> scene, const ResolvedPicture& picture, size_t channels);
+
+    /// Numbers of the scene's materials have changed (differInNumbers()) while no picture of it was
+    /// under way. Brings to the devices what has become another, and builds nothing.
+    void materialsHaveChanged(const std::shared_ptr<const Scene>& scene);
 
     /// A backend for the settings, which are those of the picture or of a part of it; it is good
     /// until the next one is asked for. `again`: the device of the last one is lost, all are opened

@@ -6,8 +6,10 @@
 #include "shaders/shared/texture_types.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <map>
 
 namespace stromboli {
 
@@ -44,7 +46,39 @@ uint32_t edged(int64_t i, uint32_t n, Wrap wrap) {
     return isFirst ? 0 : n - 1;
 }
 
-} // namespace
+/// Pictures that some texture of the plan shows, each once, as gpu::TextureUse has them.
+class TexelPacker {
+  public:
+    /// rows: the detail buffer, which grows by each picture.
+    TexelPacker(const Scene& scene, const DetailPlan& plan, std::vector<Row>& rows)
+        : scene_(scene), plan_(plan), rows_(rows) {}
+
+    /// gpu::TEXELS_PLAIN
+    bool isPlain(const Texture& texture) const;
+
+    uint32_t firstRowOf(const Texture& texture);
+
+    /// Bundles of the same pictures share their rows. Of no pictures: of one white texel.
+    uint32_t firstRowOf(const DetailPlan::Bundle& bundle);
+
+  private:
+    class EdgedTexels;
+    using TexelWords = std::array<uint32_t, 2>; ///< of a gathered texture
+
+    Row* append(uint64_t rows);
+    void packPlain(const std::vector<uint32_t>& words);
+    void packGathered(const TextureImage& image, bool srgb, const EdgedTexels& at);
+    void packBundle(const DetailPlan::EdgedBundle& bundle, const EdgedTexels& at, uint32_t width,
+                    uint32_t height);
+    /// The row of a texel of a bundle, as gpu::TEXELS_BUNDLE describes it.
+    Row bundleTexel(const DetailPlan::EdgedBundle& bundle, size_t texel) const;
+
+    const Scene& scene_;
+    const DetailPlan& plan_;
+    std::vector<Row>& rows_;
+    std::map<DetailPlan::EdgedImage, uint32_t> firstRowOfImage_, firstRowOfPlainImage_;
+    std::map<DetailPlan::EdgedBundle, uint32_t> firstRowOfBundle_;
+};
 
 /// The places of texels in a picture's words, with what is seen beyond its edges.
 class TexelPacker::EdgedTexels {
@@ -158,8 +192,6 @@ Row TexelPacker::bundleTexel(const DetailPlan::EdgedBundle& bundle, size_t texel
 }
 
 // --- Attributes and textures ---------------------------------------------------------------------
-
-namespace {
 
 Row row(float a, float b, float c, float d) {
     return {std::bit_cast<uint32_t>(a), std::bit_cast<uint32_t>(b), std::bit_cast<uint32_t>(c),

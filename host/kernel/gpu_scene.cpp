@@ -2,6 +2,7 @@
 
 #include "host/bvh/cpu_traversal.hpp"
 #include "host/kernel/detail_rows.hpp"
+#include "shaders/shared/interface.h"
 #include "shaders/shared/texture_types.h"
 
 #include <glm/gtc/packing.hpp>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 namespace stromboli {
 
@@ -63,6 +65,9 @@ std::vector<uint32_t> appendPictures(std::vector<Row>& materials,
 
 void packPrimitives(const Scene& scene, const std::vector<uint32_t>& materialRow, GpuScene& g) {
     const auto triangles = uint32_t(scene.triangles.size());
+    g.primitives.clear();
+    g.closures = {};
+    g.hasNormals = g.hasEmission = g.hasBlackBacks = g.hasReliefRules = false;
     g.hasTriangles = triangles > 0;
     g.hasSpheres = !scene.spheres.empty();
     g.hasPlacements = !scene.placements.empty();
@@ -86,16 +91,36 @@ void packPrimitives(const Scene& scene, const std::vector<uint32_t>& materialRow
     }
 }
 
-/// Tells the leaves of the tree which lights they are.
-void nameLights(GpuScene& g) {
-    for (size_t id = 0; id < g.lights.numberOf.size(); ++id) {
-        const uint32_t number = g.lights.numberOf[id];
-        if (number == gpu::NO_LIGHT) continue;
-        const uint32_t place = g.bvh.placeOf[id];
-        gpu::LeafRecord leaf = asLeaf(g.bvh.records[place / 2]);
-        (place % 2 == 0 ? leaf.light0 : leaf.light1) = number;
-        g.bvh.records[place / 2] = std::bit_cast<Record>(leaf);
+void nameLight(GpuScene& g, size_t primitive, uint32_t number) {
+    const uint32_t place = g.bvh.placeOf[primitive];
+    gpu::LeafRecord leaf = asLeaf(g.bvh.records[place / 2]);
+    (place % 2 == 0 ? leaf.light0 : leaf.light1) = number;
+    g.bvh.records[place / 2] = std::bit_cast<Record>(leaf);
+}
+
+/// Tells the leaves of the tree which lights they are. before: as they were told the last time.
+/// Returns whether any of them is another one now.
+bool nameLights(GpuScene& g, std::span<const uint32_t> before = {}) {
+    bool anyChanged = false;
+    for (size_t id = 0; id < std::max(before.size(), g.lights.numberOf.size()); ++id) {
+        const uint32_t old = id < before.size() ? before[id] : gpu::NO_LIGHT;
+        const uint32_t number =
+            id < g.lights.numberOf.size() ? g.lights.numberOf[id] : gpu::NO_LIGHT;
+        if (number == old) continue;
+        nameLight(g, id, number);
+        anyChanged = true;
     }
+    return anyChanged;
+}
+
+/// All of a scene but its tree and its textures.
+void packRest(GpuScene& g, const Scene& scene, const LightSelection& lights,
+              std::shared_ptr<const EnvironmentTable> environment) {
+    MaterialRows materials = packMaterials(scene.materials, g.detailsOfMaterials);
+    g.materials = std::move(materials.rows);
+    packPrimitives(scene, materials.firstRow, g);
+    g.lights = packLights(scene, g.bvh.placeOf, lights,
+                          appendPictures(g.materials, g.detailsOfLights), std::move(environment));
 }
 
 } // namespace
@@ -125,22 +150,50 @@ GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lig
     g.bvh = std::move(bvh);
     const DetailPlan plan = planDetails(scene, usedMaterials(scene), gatheredRows);
     DetailRows details = packDetails(scene, g.bvh, plan);
-    MaterialRows materials = packMaterials(scene.materials, details.ofMaterials);
-    g.materials = std::move(materials.rows);
     g.details = std::move(details.rows);
+    g.detailsOfMaterials = std::move(details.ofMaterials);
+    g.detailsOfLights = std::move(details.ofLights);
     g.textureSlots = plan.textureSlots, g.looseSlots = plan.looseSlots;
     g.texelKinds = plan.texelKinds;
     g.attributes = plan.attributes, g.hasAlpha = plan.hasAlpha, g.hasHidden = plan.hasHidden;
     g.mostTextures = plan.mostTextures;
     g.hasBlends = plan.hasBlends;
     g.hasTangentFrames = plan.hasTangentFrames;
-    packPrimitives(scene, materials.firstRow, g);
-    g.lights = packLights(scene, g.bvh.placeOf, lights,
-                          appendPictures(g.materials, details.ofLights), std::move(environment));
+    packRest(g, scene, lights, std::move(environment));
     nameLights(g);
     // Beside lights that are geometry: a rectangle that is none has its own mesh close by.
     if (lights.emitters) g.gapWidth = gapWidth(g);
     return g;
+}
+
+bool differInNumbers(const Material& a, const Material& b) {
+    const auto sameUse = [](const TextureUse& x, const TextureUse& y) {
+        return x.slot == y.slot && x.texture == y.texture && x.uvSet == y.uvSet &&
+               x.uRow == y.uRow && x.vRow == y.vRow && x.scale == y.scale;
+    };
+    return a.kind == b.kind && a.alphaMode == b.alphaMode && a.opacity == b.opacity &&
+           a.alphaCutoff == b.alphaCutoff && a.other == b.other && a.otherShare == b.otherShare &&
+           a.otherPlace == b.otherPlace && a.isHiddenFromCamera == b.isHiddenFromCamera &&
+           std::ranges::equal(a.textures, b.textures, sameUse);
+}
+
+std::vector<uint32_t> repackMaterials(GpuScene& packed, const Scene& scene,
+                                      const LightSelection& lights) {
+    const std::vector<Row> materials = std::move(packed.materials);
+    const std::vector<gpu::Primitive> primitives = std::move(packed.primitives);
+    const LightTable before = std::move(packed.lights);
+    packRest(packed, scene, lights, before.environment);
+    std::vector<uint32_t> changed;
+    const auto differ = [](const auto& a, const auto& b) {
+        return !std::ranges::equal(std::as_bytes(std::span(a)), std::as_bytes(std::span(b)));
+    };
+    if (nameLights(packed, before.numberOf)) changed.push_back(BINDING_RECORDS);
+    if (differ(primitives, packed.primitives)) changed.push_back(BINDING_PRIMITIVES);
+    if (differ(materials, packed.materials)) changed.push_back(BINDING_MATERIALS);
+    if (differ(before.lights, packed.lights.lights)) changed.push_back(BINDING_LIGHTS);
+    if (differ(before.table, packed.lights.table)) changed.push_back(BINDING_LIGHT_TABLE);
+    packed.gapWidth = lights.emitters ? gapWidth(packed) : 0;
+    return changed;
 }
 
 // --- The gap -------------------------------------------------------------------------------------

@@ -27,13 +27,15 @@ struct GpuScene {
     bool hasBlends = false;      ///< a primitive's material is a mixture
     bool hasBlackBacks = false;  ///< a primitive's material is black behind
     bool hasReliefRules = false; ///< a primitive's material has MATERIAL_RELIEF_ bits
-    float gapWidth = 0;          ///< gpu_scene.hpp
+    float gapWidth = 0;          ///< gapWidth()
     bool hasTriangles = false, hasSpheres = false;
     bool hasNormals = false; ///< any triangle with shading normals
     bool hasPlacements = false;
     // DetailPlan:
     uint32_t textureSlots = 0, looseSlots = 0, texelKinds = 0, attributes = 0, mostTextures = 0;
     bool hasAlpha = false, hasHidden = false, hasTangentFrames = false;
+    // What DetailRows holds beside its rows, for repackMaterials():
+    std::vector<std::vector<Row>> detailsOfMaterials, detailsOfLights;
 };
 
 /// Packs the scene, whose hierarchy is `bvh`. For a render `lights` is lightSelection() of its
@@ -42,6 +44,16 @@ struct GpuScene {
 GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lights = {},
                    std::shared_ptr<const EnvironmentTable> environment = {},
                    uint64_t gatheredRows = kUsualGatheredRows);
+
+/// Whether both materials differ in numbers alone: colours, roughness, indices and emission, but in
+/// no texture, opacity or mixture.
+bool differInNumbers(const Material& a, const Material& b);
+
+/// Brings into `packed`, which was packed from `scene` with the same `lights`, what has become of
+/// the numbers of its materials (differInNumbers()). The tree and the textures stay as they are.
+/// Returns the bindings (BINDING_ of shaders/shared/interface.h) whose contents have changed.
+std::vector<uint32_t> repackMaterials(GpuScene& packed, const Scene& scene,
+                                      const LightSelection& lights);
 
 /// First row of the primitive's material.
 inline uint32_t materialOf(const gpu::Primitive& p) {
@@ -60,9 +72,9 @@ glm::vec3 decodeNormal(uint32_t code);
 
 /// Width of the gap that the gap proposal aims at: the space between a scene's only light, a
 /// rectangle, and a diffuse surface close to it. What leaves the gap comes from few directions,
-/// into which the kernel sends some bounces (shaders/include/gap_proposal.glsl; docs/estimator.md,
-/// "Gaps"). In scene units; positive on the side that edgeA x edgeB points to, negative on the
-/// other; 0: there is no gap.
+/// into which the kernel sends some bounces (shaders/include/gap_proposal.glsl;
+/// docs/theory/estimator.md, "Gaps"). In scene units; positive on the side that edgeA x edgeB
+/// points to, negative on the other; 0: there is no gap.
 float gapWidth(const GpuScene& scene);
 
 } // namespace stromboli

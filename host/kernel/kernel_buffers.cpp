@@ -185,6 +185,15 @@ SceneBuffers DeviceScene::releaseWhatIsAlsoIn(const GpuScene& next) {
     return filled;
 }
 
+SceneBuffers DeviceScene::releaseAllBut(std::span<const uint32_t> changed) {
+    SceneBuffers filled;
+    for (uint32_t binding = 0; binding < kBuffers; ++binding)
+        if (std::ranges::find(changed, binding) == changed.end())
+            filled.emplace(binding, std::move(buffers_[binding]));
+    buffers_.clear();
+    return filled;
+}
+
 // --- The film on the device ----------------------------------------------------------------------
 
 namespace {

@@ -74,6 +74,9 @@ class DeviceScene {
     /// Gives away the buffers in which the next scene has the same bytes, and frees the others: the
     /// object has none after that.
     SceneBuffers releaseWhatIsAlsoIn(const GpuScene& next);
+    /// Gives away all buffers but those of these bindings, which it frees: the scene has become
+    /// another one there. The object has none after that.
+    SceneBuffers releaseAllBut(std::span<const uint32_t> changed);
 
     const GpuScene& scene() const { return scene_; }
     /// How its rows are read: as DeviceTuning::texelFetch was when it was uploaded.

@@ -54,7 +54,7 @@ bool combinesBouncesAndLightSamples(const Estimator& settings) {
 }
 
 /// Lobes from which MIS helps: where light samples and bounces find the same light, and either
-/// often finds it better (docs/estimator.md, "MIS").
+/// often finds it better (docs/theory/estimator.md, "MIS").
 uint32_t misLobes(const GpuScene& scene, const Estimator& settings) {
     if (!combinesBouncesAndLightSamples(settings) || scene.lights.areaCount == 0) return 0;
     const bool skyAlone = scene.lights.sampledKinds == 1u << gpu::LIGHT_AMBIENT;

@@ -11,7 +11,7 @@ namespace stromboli {
 
 // --- Tuning --------------------------------------------------------------------------------------
 
-/// Who decides what each lane does next (docs/kernel.md, "Two schedulers").
+/// Who decides what each lane does next (docs/theory/kernel.md, "Two schedulers").
 enum class PathScheduler {
     Persistent, ///< one kernel, whose lanes follow paths from ray to ray
     Wavefront,  ///< kernels that draw, trace and follow, with queues of paths between them

@@ -40,8 +40,8 @@ struct SceneClosures {
 // --- Interfaces of microfacets -------------------------------------------------------------------
 
 // What the interface of a dielectric does with light that is scattered once by it: the terms that
-// plastic is made of (docs/estimator.md, "Plastic"). ior: index under the interface over the index
-// above it. facets: their distribution and masking; alpha is stated beside them.
+// plastic is made of (docs/theory/surfaces.md, "Plastic"). ior: index under the interface over the
+// index above it. facets: their distribution and masking; alpha is stated beside them.
 
 /// The share of diffuse light from below that a smooth interface sends back. A closed form.
 double internalReflectance(double ior);

@@ -47,9 +47,9 @@ glm::vec3 decodeRadiance(const gpu::EnvironmentTexel& texel);
 /// FILTER_CELLS stretches that hold the same integral of its absolute value, in each of which the
 /// kernel takes the filter for constant. Those where it is positive come first, both kinds from
 /// left to right: the sign of a sample then changes once with each of its numbers, and Sobol points
-/// balance signs as evenly as they can (docs/estimator.md, "Camera"). Of any picture the expected
-/// value is that of the filter to 1 / (2 FILTER_CELLS) of the largest radiance, times the ratio of
-/// both integrals: what one stretch weighs. Of other filters, a row for the binding.
+/// balance signs as evenly as they can (docs/theory/estimator.md, "Camera"). Of any picture the
+/// expected value is that of the filter to 1 / (2 FILTER_CELLS) of the largest radiance, times the
+/// ratio of both integrals: what one stretch weighs. Of other filters, a row for the binding.
 std::vector<Row> filterTable(PixelFilter filter, const FilterShape& shape);
 /// How many rows filterTable() has for this filter.
 uint32_t filterRows(PixelFilter filter);

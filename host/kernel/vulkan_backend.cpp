@@ -141,7 +141,8 @@ gpu::SeeStatus SeePass::dispatch(uint32_t softIterations) {
 
 void SeePass::run(std::vector<gpu::SeenPixel>& pixels) {
     pixels_.upload(queue_, std::as_bytes(std::span(pixels)));
-    DispatchPace pace(kTargetSeconds, std::max(hardIterations_ / 2, 1u));
+    // What is left when the last camera ray begins has to do for all that it passes.
+    DispatchPace pace(kTargetSeconds, std::max(hardIterations_ / 16, 1u));
     gpu::SeeStatus status{};
     do {
         status = dispatch(pace.iterations());
@@ -204,6 +205,13 @@ void VulkanBackend::setScene(const GpuScene& scene) {
     if (deviceScene_) filled_ = deviceScene_->releaseWhatIsAlsoIn(scene);
     deviceScene_.reset();
     scene_ = &scene;
+}
+
+void VulkanBackend::sceneHasChanged(std::span<const uint32_t> bindings) {
+    dispatcher_.reset();
+    film_.reset();
+    if (deviceScene_) filled_ = deviceScene_->releaseAllBut(bindings);
+    deviceScene_.reset();
 }
 
 void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& settings) {

@@ -89,6 +89,9 @@ class VulkanBackend final : public Backend, public Viewer {
     /// until now is still there. The next call is setPicture(). Kernels that were compiled for the
     /// same features are used again, and so are buffers in which both scenes have the same bytes.
     void setScene(const GpuScene& scene);
+    /// The scene has become another one in these bindings (repackMaterials()), and is uploaded
+    /// there. The next call is setPicture().
+    void sceneHasChanged(std::span<const uint32_t> bindings);
 
     void sample(std::span<const PixelTarget> targets, Film& film,
                 const PassProgress& progress) override;

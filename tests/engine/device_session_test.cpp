@@ -74,6 +74,46 @@ TEST(DeviceSession, AnotherEstimatorHasTheBytesOfASessionOfItsOwn) {
     EXPECT_TRUE(sameBytes(session.film(), alone({}, scene, request)));
 }
 
+/// Colours, roughness and emission, whose lights are other ones then; glass that becomes rough has
+/// another kernel.
+TEST(DeviceSession, ChangedNumbersOfMaterialsBuildNothingAndHaveTheBytesOfASessionOfItsOwn) {
+    for (const char* name : {"cornell_spheres", "still_life"}) {
+        const auto scene = bundled(name);
+        const RenderRequest request = smallPicture(8);
+        Told told;
+        RenderSession session({}, told.listener());
+        session.begin(scene, request);
+        session.run();
+        const Film before = session.film();
+        const auto edited = std::make_shared<Scene>(*scene);
+        std::map<uint32_t, Material> numbers;
+        for (uint32_t i = 0; i < scene->materials.size(); ++i) {
+            Material& m = edited->materials[i];
+            m.albedo *= glm::vec3(0.5f, 1, 0.25f);
+            m.principled.roughness = 0.5f * (m.principled.roughness + 1);
+            m.principled.baseColor *= glm::vec3(1, 0.5f, 1);
+            m.facets.alpha = glm::vec2(0.2f);
+            if (i % 2 == 0 && m.emits()) m.emission *= 3.0f;
+            numbers[i] = m;
+        }
+        session.changeMaterials(numbers);
+        session.run();
+        EXPECT_FALSE(sameBytes(session.film(), before)) << name;
+        EXPECT_TRUE(sameBytes(session.film(), alone({}, edited, request))) << name;
+        // Lights that go out, and all as it was.
+        for (auto& [number, material] : numbers)
+            material.emission = glm::vec3(0);
+        session.changeMaterials(numbers);
+        session.run();
+        for (auto& [number, material] : numbers)
+            material = scene->materials[number];
+        session.changeMaterials(numbers);
+        session.run();
+        EXPECT_TRUE(sameBytes(session.film(), before)) << name;
+        EXPECT_EQ(told.count(Stage::Building), 1u);
+    }
+}
+
 TEST(DeviceSession, AnEditedMaterialHasTheBytesOfASessionOfItsOwn) {
     const auto scene = bundled("cornell_spheres");
     const RenderRequest request = smallPicture(8);

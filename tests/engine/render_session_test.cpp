@@ -63,6 +63,27 @@ TEST(RenderSession, AMovedCameraHasTheBytesOfASessionOfItsOwn) {
     EXPECT_FALSE(sameBytes(alone(kReference, scene, request), expected));
 }
 
+TEST(RenderSession, ChangedNumbersOfMaterialsHaveTheBytesOfASessionOfItsOwn) {
+    const auto scene = bundled("cornell_spheres");
+    const RenderRequest request = smallPicture(8);
+    RenderSession session(kReference);
+    session.begin(scene, request);
+    session.pass();
+    const auto edited = std::make_shared<Scene>(*scene);
+    std::map<uint32_t, Material> numbers;
+    for (uint32_t i = 0; i < scene->materials.size(); ++i) {
+        edited->materials[i].albedo *= 0.5f;
+        numbers[i] = edited->materials[i];
+    }
+    session.changeMaterials(numbers);
+    session.run();
+    EXPECT_TRUE(sameBytes(session.film(), alone(kReference, edited, request)));
+    EXPECT_EQ(scene->materials[0].albedo, 2.0f * edited->materials[0].albedo) << "its own stays";
+    numbers[0].opacity = 0.5f;
+    EXPECT_THROW(session.changeMaterials(numbers), std::invalid_argument);
+    EXPECT_THROW(session.changeMaterials({{1000, {}}}), std::invalid_argument);
+}
+
 TEST(RenderSession, PausesDoNotShowInThePicture) {
     const auto scene = bundled("cornell_spheres");
     RenderRequest request = smallPicture(kMostSamples);
