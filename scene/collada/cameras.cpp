@@ -19,13 +19,14 @@ std::optional<double> readPositive(const Document& document, const Element& pare
     try {
         const double value = readNumber(document, *at);
         if (value > 0 && value < below) return value;
-        document.fail(*at, std::isinf(below)
-                               ? fmt::format("is {}, expected more than 0", value)
-                               : fmt::format("is {}, expected between 0 and {}", value, below));
+        document.replace(*at, build::Shortfall::Parameter,
+                         std::isinf(below)
+                             ? fmt::format("is {}, expected more than 0", value)
+                             : fmt::format("is {}, expected between 0 and {}", value, below));
     } catch (const SceneError& error) {
         document.replace(error, build::Shortfall::Parameter);
-        return std::nullopt;
     }
+    return std::nullopt;
 }
 
 constexpr double kNoLimit = HUGE_VAL;

@@ -6,7 +6,7 @@
 
 namespace stromboli::collada {
 
-/// The CS184 dialect (docs/cs184.md): elements inside `<extra><technique profile="CGL">`, or
+/// The CS184 dialect (docs/guide/cs184.md): elements inside `<extra><technique profile="CGL">`, or
 /// CMU462, which names the same ones.
 
 /// The last material element of the effect's dialect; nothing where there is none.

@@ -65,7 +65,8 @@ class Document {
     /// What the reference `#id` in the attribute points to: an element named `kind`. Throws
     /// SceneError if the attribute is missing, the reference leaves the file or nothing matches.
     const Element& resolve(const Element& at, const char* attribute, const char* kind) const;
-    /// The same; where nothing matches, null, which is forgiven: `reading` says what becomes of it.
+    /// As resolve(); where nothing matches, null, which is forgiven: `reading` says what becomes of
+    /// it.
     const Element* resolveOr(const Element& at, const char* attribute, const char* kind,
                              const char* reading) const;
 

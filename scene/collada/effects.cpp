@@ -66,7 +66,7 @@ double readFactor(const Context& context, const Scope& scope, const Element& mod
     return channel.numbers ? readNumber(context.document, *channel.numbers) : otherwise;
 }
 
-/// Of opacity per channel, of which a surface here has one for all.
+/// One opacity for all channels, which is all that a surface has here.
 double luminanceOf(const glm::dvec3& color) {
     return glm::dot(color, glm::dvec3(0.212671, 0.715160, 0.072169)); // those of the standard
 }
@@ -200,7 +200,7 @@ void useOpacity(Context& context, const Scope& scope, const Element& model, Mate
                                std::string_view(diffuse.texture->Attribute("texture")) ==
                                    opacity.channel.texture->Attribute("texture");
     if (opacity.mode == "A_ONE" && isSamePicture) {
-        // Of a picture of the base colour alpha is the opacity.
+        // The alpha of a picture of the base colour is the opacity.
         material.alphaMode = AlphaMode::Blend;
         material.opacity = float(std::clamp(opacity.factor, 0.0, 1.0));
         return;
@@ -216,7 +216,7 @@ void useOpacity(Context& context, const Scope& scope, const Element& model, Mate
 }
 
 /// Highlights as a rough dielectric coat that reflects <specular> at right angles, as of OBJ files
-/// (docs/obj_ply_files.md); <reflective> as a smooth one.
+/// (docs/guide/obj_ply.md); <reflective> as a smooth one.
 void useReflection(Context& context, const Scope& scope, const Element& model, Material& material) {
     const auto lit = [&](const char* name) {
         const Channel channel = readChannel(context, scope, model, name);
@@ -248,7 +248,7 @@ void useReflection(Context& context, const Scope& scope, const Element& model, M
     if (isMirror && hasHighlight)
         context.report.ignore("<specular>", "the surface has a <reflective> coat in its place");
     constexpr float reflectance = 0.04f; // of an index of 1.5 at right angles
-    // Of phong the angle is that to the mirrored ray: about twice that to the normal, so that the
+    // Phong's angle is that to the mirrored ray: about twice that to the normal, so that the
     // exponent is a quarter of Blinn's. Exporters write some for blinn too; a fraction there is the
     // standard's own roughness.
     const bool isPhong = named(model, "phong");

@@ -17,7 +17,7 @@ enum class NonFinite { Reject, Allow };
 std::vector<double> readNumbers(const Document& document, const Element& at,
                                 NonFinite nonFinite = NonFinite::Reject);
 
-/// The same with exactly `count` numbers.
+/// Reads exactly `count` numbers, or fails.
 std::vector<double> readNumbers(const Document& document, const Element& at, size_t count);
 
 /// One number.
@@ -41,7 +41,7 @@ std::vector<uint32_t> readIndices(const Document& document, const Element& at);
 /// or missing.
 uint32_t readCount(const Document& document, const Element& at, const char* attribute);
 
-/// The same, with a value for a missing attribute.
+/// Reads likewise, with a value for a missing attribute.
 uint32_t readCountOr(const Document& document, const Element& at, const char* attribute,
                      uint32_t otherwise);
 

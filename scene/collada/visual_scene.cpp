@@ -98,7 +98,7 @@ class SceneWalk {
         path_.pop_back();
     }
 
-    /// Of a child that cannot be shown.
+    /// What is said of a child that cannot be shown.
     static build::Shortfall shortfallOf(const Element& child) {
         const std::string_view kind = child.Name();
         return kind == "instance_geometry" || kind == "instance_controller"
@@ -148,9 +148,9 @@ class SceneWalk {
     }
 
     Geometry& read(const Element& element) {
-        const auto [found, isNew] = geometries_.try_emplace(&element);
-        Geometry& geometry = found->second;
-        if (!isNew) return geometry;
+        const auto found = geometries_.find(&element);
+        if (found != geometries_.end()) return found->second;
+        Geometry geometry;
         geometry.sphereRadius = readCglSphere(context_, element);
         for (const Element& child : children(element)) {
             const bool isMesh = named(child, "mesh");
@@ -162,19 +162,23 @@ class SceneWalk {
                 ignore(child, "only <mesh> and spheres are rendered");
         }
         if (geometry.mesh) geometry.primitives = primitivesOf(*geometry.mesh);
-        return geometry;
+        return geometries_.emplace(&element, std::move(geometry)).first->second;
     }
 
     build::ShapeId shapeOf(const Element& element, Geometry& geometry,
                            const std::vector<TexcoordInputs>& texcoords) {
-        const auto [found, isNew] = geometry.shapes.try_emplace(texcoords);
-        if (!isNew) return found->second;
-        const std::string name = displayName(element);
-        if (geometry.sphereRadius)
-            return found->second = context_.builder.addSphere(name, *geometry.sphereRadius);
+        const auto found = geometry.shapes.find(texcoords);
+        if (found != geometry.shapes.end()) return found->second;
+        const build::ShapeId shape = makeShape(displayName(element), geometry, texcoords);
+        return geometry.shapes.emplace(texcoords, shape).first->second;
+    }
+
+    build::ShapeId makeShape(const std::string& name, const Geometry& geometry,
+                             const std::vector<TexcoordInputs>& texcoords) {
+        if (geometry.sphereRadius) return context_.builder.addSphere(name, *geometry.sphereRadius);
         build::Mesh mesh;
         if (geometry.mesh) mesh = MeshReader(context_).read(*geometry.mesh, texcoords);
-        return found->second = context_.builder.addMesh(name, std::move(mesh));
+        return context_.builder.addMesh(name, std::move(mesh));
     }
 
     Context& context_;

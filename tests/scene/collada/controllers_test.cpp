@@ -16,7 +16,7 @@ struct SkinText {
     std::string source = "#mesh";
     std::string bindShape = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1";
     std::string names = "<Name_array id=\"n\" count=\"2\"> hip  knee</Name_array>";
-    /// Of the first joint and a second one.
+    /// Weights of the first joint and a second one.
     std::string inverseBind = "1 0 0 -10 0 1 0 0 0 0 1 0 0 0 0 1  1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1";
     std::string joints = "<joints><input semantic=\"JOINT\" source=\"#names\"/><input "
                          "semantic=\"INV_BIND_MATRIX\" source=\"#matrices\"/></joints>";

@@ -1,4 +1,4 @@
-// The CS184 renderer's conventions of reading a file (docs/cs184.md).
+// The CS184 renderer's conventions of reading a file (docs/guide/cs184.md).
 
 #include "tests/scene/collada/document_text.hpp"
 

@@ -103,8 +103,9 @@ inline void expectNear(const glm::dvec3& actual, const glm::dvec3& expected,
                        expected.x, expected.y, expected.z);
 }
 
+/// In the file's coordinates.
 inline glm::vec3 corner(const Scene& scene, size_t triangle, int i) {
-    return scene.positions[scene.triangles.at(triangle).corner[i]];
+    return glm::dvec3(scene.positions[scene.triangles.at(triangle).corner[i]]) + scene.origin;
 }
 
 inline std::string errorOf(const DocumentText& document) {

@@ -111,6 +111,19 @@ TEST(Forgiven, WhatANodeCannotShowCostsItself) {
     }
 }
 
+/// The second instance of a mesh that cannot be read is not another mesh.
+TEST(Forgiven, AMeshThatCannotBeReadIsLeftOutEachTime) {
+    DocumentText document;
+    document.libraries = triangleLibrary();
+    std::string bad = meshLibrary("0 0 0 1 0 0 0 1 0", 9, "<triangles count=\"x\"/>");
+    for (size_t at = bad.find("\"mesh\""); at != std::string::npos; at = bad.find("\"mesh\""))
+        bad.replace(at, 6, "\"bad\"");
+    document.libraries += bad;
+    document.nodes = meshNode() + "<node><instance_geometry url=\"#bad\"/></node>"
+                                  "<node><instance_geometry url=\"#bad\"/></node>";
+    EXPECT_EQ(load(document).triangles.size(), 1u);
+}
+
 TEST(Forgiven, DecimalCommas) {
     DocumentText document;
     document.asset = "<unit meter=\"0,5\"/>";

@@ -97,6 +97,7 @@ void expectSound(const Scene& scene) {
 
 struct Outcome {
     int scenes = 0, errors = 0;
+    int forgiven = 0; ///< of the scenes, those of which something was replaced or left out
 
     void load(const std::string& text) {
         for (bool cs184 : {false, true}) {
@@ -104,6 +105,7 @@ struct Outcome {
                 const Scene scene = loadText(text, conventionsOf(cs184));
                 expectSound(scene);
                 ++scenes;
+                forgiven += !scene.report.forgiven.empty();
             } catch (const SceneError& error) {
                 EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
                 ++errors;
@@ -174,7 +176,7 @@ TEST(Mutations, ChangedDigits) {
         outcome.load(damaged);
     }
     EXPECT_GT(outcome.scenes, 100);
-    EXPECT_GT(outcome.errors, 100);
+    EXPECT_GT(outcome.forgiven, 100);
 }
 
 TEST(Mutations, MovedPieces) {
@@ -213,7 +215,7 @@ TEST(Mutations, ExtremeNumbers) {
         outcome.load(damaged);
     }
     EXPECT_GT(outcome.scenes, 100);
-    EXPECT_GT(outcome.errors, 100);
+    EXPECT_GT(outcome.forgiven, 100);
 }
 
 } // namespace

@@ -91,7 +91,7 @@ TEST(Normals, TrianglesFaceTheSideOfTheirNormals) {
 }
 
 TEST(Normals, MirroringKeepsTheOutsideOut) {
-    // With normals...
+    // A mesh that has normals...
     const Scene with = loadNormals("0 0.1 1 0 0 1 0 0 1", "<scale>-1 1 1</scale>");
     EXPECT_EQ(with.geometricNormal(with.triangles[0]), glm::vec3(0, 0, 1));
     expectNear(normal(with, 0), glm::normalize(glm::dvec3(0, 0.1, 1)));

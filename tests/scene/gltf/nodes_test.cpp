@@ -15,11 +15,9 @@ void expectNear(const glm::dvec3& actual, const glm::dvec3& expected, double tol
         << actual.x << ' ' << actual.y << ' ' << actual.z;
 }
 
-/// The second corner of the first triangle, (1 0 0) in its mesh.
+/// The second corner of the first triangle, (1 0 0) in its mesh, in the file's coordinates.
 glm::vec3 corner(const Scene& scene) {
-    for (const glm::vec3& p : {scene.positions.at(scene.triangles.at(0).corner[1])})
-        return p;
-    return {};
+    return glm::dvec3(scene.positions.at(scene.triangles.at(0).corner[1])) + scene.origin;
 }
 
 TEST(GltfNodes, TranslationRotationScale) {

@@ -155,7 +155,7 @@ TEST(GltfAccessors, Sparse) {
         places, values);
     g.arrays["accessors"][0].insert(g.arrays["accessors"][0].size() - 1, sparse);
     EXPECT_THAT(corners(load(g)), ElementsAre(ElementsAre(0, 5, 60)));
-    // The same upon zeros.
+    // Sparse numbers upon zeros.
     g.arrays["accessors"][0] =
         R"({"count": 3, "componentType": 5126, "type": "VEC3")" + sparse + "}";
     EXPECT_THAT(corners(load(g)), ElementsAre(ElementsAre(0, 5, 60)));
