@@ -123,7 +123,7 @@ std::optional<std::string> nearestName(const std::string& word,
 
 // --- Parsing -------------------------------------------------------------------------------------
 
-// The only file that knows the library that splits the command line into options.
+// Nothing else knows the library that splits the command line into options (CLI11).
 
 namespace {
 

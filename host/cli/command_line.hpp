@@ -51,8 +51,6 @@ std::string shortHelp();
 
 // --- Words of command lines ----------------------------------------------------------------------
 
-// Words of command lines.
-
 /// A word as a shell would read it again.
 std::string shellQuoted(const std::string& word);
 

@@ -225,12 +225,12 @@ CommandOption& OptionList::list(std::string names, std::string valueName, std::s
 // All commands, in the order in which --help lists them.
 
 std::deque<DeclaredCommand> declareCommands() {
-    struct Row {
+    struct Entry {
         const char* name;
         const char* description;
         void (*declare)(DeclaredCommand&);
     };
-    static constexpr Row kRows[] = {
+    static constexpr Entry kEntries[] = {
         {"render", "Render a scene to a picture", declareRender},
         {"check", "Render on the device and with the CPU reference; say whether they agree",
          declareCheck},
@@ -251,15 +251,16 @@ std::deque<DeclaredCommand> declareCommands() {
          declareSubmit},
         {"study", "Error against time and samples of several configurations; a report to look at",
          declareStudy},
-        {"stress", "Try the hard cases of docs/hard_cases.md on the device: does it do them right?",
+        {"stress",
+         "Try the hard cases of docs/theory/hard_cases.md on the device: does it do them right?",
          declareStress},
     };
     std::deque<DeclaredCommand> commands;
-    for (const Row& row : kRows) {
+    for (const Entry& entry : kEntries) {
         DeclaredCommand& c = commands.emplace_back();
-        c.name = row.name;
-        c.description = row.description;
-        row.declare(c);
+        c.name = entry.name;
+        c.description = entry.description;
+        entry.declare(c);
     }
     return commands;
 }

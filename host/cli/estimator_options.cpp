@@ -117,7 +117,7 @@ void declareEstimator(OptionList& list, SceneAndPicture& work, Asked& asked) {
     list.choice("--integrator", "KIND", "what a sample is", e.integrator);
     list.flag("--cs184",
               "the CS184 renderer's conventions: framing and crop, normals, lights, tone curve, "
-              "adaptive sampling by default (docs/cs184.md)",
+              "adaptive sampling by default (docs/guide/cs184.md)",
               [&work, &asked] { useCs184(work, asked); })
         .changesDefaults();
 }
@@ -185,7 +185,7 @@ CommandOption& declareBlock(OptionList& list, Asked& asked) {
         "--block", "N",
         "paths of a pixel that are added up by themselves, where all pixels get as many; shares "
         "consist of whole blocks, and renders of other blocks differ in the last bits "
-        "(docs/farm.md)",
+        "(docs/guide/farm.md)",
         asked.pathsPerBlock, kSamples);
 }
 

@@ -73,7 +73,7 @@ Words withAll(Words names) {
     return names;
 }
 
-/// The scene's coordinates are below 2^60 metres (docs/numerics.md).
+/// The scene's coordinates are below 2^60 metres (docs/theory/numerics.md).
 constexpr Range<double> kCoordinates{-1e18, 1e18};
 /// A picture plane at distance 1 that is within a thousandth of a degree of half a turn has lost
 /// all of its precision.
@@ -155,7 +155,8 @@ Words splitAtCommas(const std::string& word) {
 void declareScene(OptionList& list, SceneRequest& scene, Words* several) {
     list.group("Scene");
     const char* const help =
-        "COLLADA (.dae, .zae), glTF (.gltf, .glb), Mitsuba (.xml), OBJ, PLY, or by Assimp STL, "
+        "COLLADA (.dae, .zae), glTF (.gltf, .glb), Mitsuba (.xml), pbrt, OBJ, PLY, or by Assimp "
+        "STL, "
         "FBX, 3DS, ... file; or a "
         "bundled scene by its name "
         "(cornell_boxes, island, "
@@ -248,10 +249,11 @@ void declareSeen(OptionList& list, RenderRequest& o) {
               "the picture has alpha: what no surface covers is transparent, and the camera does "
               "not see the environment, which lights the scene all the same",
               o.transparent);
-    list.words("--layers", "LIST",
-               fmt::format("EXR: also these channels, with commas between (docs/layers.md): {}",
-                           allMeanings<Layer>()),
-               1, [&o](const Words& words) { o.layers = readLayers(words[0]); })
+    list.words(
+            "--layers", "LIST",
+            fmt::format("EXR: also these channels, with commas between (docs/guide/layers.md): {}",
+                        allMeanings<Layer>()),
+            1, [&o](const Words& words) { o.layers = readLayers(words[0]); })
         .proposes(namesOf<Layer>());
 }
 

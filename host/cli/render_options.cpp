@@ -209,7 +209,7 @@ void declareRender(DeclaredCommand& c) {
                    "samples per pixel, on the mean: they go where they help most (--even: to all "
                    "alike); with -a, --noise and --time the most a pixel gets");
     declareBranches(list, o->picture,
-                    "4 where bounces make most of the noise, else 1 (docs/estimator.md)");
+                    "4 where bounces make most of the noise, else 1 (docs/theory/estimator.md)");
     declareSpreading(list, o->picture, *asked);
     declareSampleAlone(list, *asked);
     declareShare(list, o->share);
@@ -218,7 +218,7 @@ void declareRender(DeclaredCommand& c) {
     list.choice("--backend", "WHICH", "what takes the samples", o->device.backend);
     declareDevice(list, o->device.device);
     list.choice("--scheduler", "WHICH",
-                "what a device's lanes do next; the picture is the same (docs/kernel.md)",
+                "what a device's lanes do next; the picture is the same (docs/theory/kernel.md)",
                 o->device.scheduler)
         .besidePicture();
     declareHost(c);

@@ -40,8 +40,8 @@ namespace {
 constexpr const char* kUsualBaseline = "independent";
 
 constexpr uint32_t kMostPaths = 1u << 20; // a reference of 16 times that is the most there can be
-constexpr Range<uint32_t> kSamples{1, kMostPaths}, kSeeds{1, 10000}, kSide{1, 65536},
-    kBounces{0, 10000};
+constexpr Range<uint32_t> kStudySamples{1, kMostPaths}, kStudySeeds{1, 10000}, kStudySide{1, 65536},
+    kStudyBounces{0, 10000};
 constexpr Range<double> kSeconds{1e-3, 1e9};
 
 /// What was asked for, before it is known what it means together with the rest.
@@ -96,27 +96,27 @@ void declareMeasuring(OptionList& list, AskedStudy& asked, StudyOptions& o) {
                   s.seeds = 3;
               })
         .changesDefaults();
-    list.numbers("-r,--size", "W H", "picture size", {&asked.width, &asked.height}, kSide)
+    list.numbers("-r,--size", "W H", "picture size", {&asked.width, &asked.height}, kStudySide)
         .usually(fmt::format("{} {}; --quick: 160 120", asked.width, asked.height));
     list.number("-m,--max-bounces", "N", "scatterings of light at most", asked.maxBounces,
-                kBounces);
+                kStudyBounces);
     list.words("-s,--samples", "N,N,...", "growing sample counts", 1,
                [&s](const Words& words) {
                    s.sampleCounts.clear();
                    for (const std::string& word : words)
-                       s.sampleCounts.push_back(readNumber("-s", word, kSamples));
+                       s.sampleCounts.push_back(readNumber("-s", word, kStudySamples));
                })
-        .from(inWords(kSamples))
+        .from(inWords(kStudySamples))
         .usually(fmt::format("{}; --quick: 4,16,64", fmt::join(s.sampleCounts, ",")))
         .separatedByCommas = true;
-    list.number("--seeds", "N", "runs of each configuration", s.seeds, kSeeds)
+    list.number("--seeds", "N", "runs of each configuration", s.seeds, kStudySeeds)
         .usually(fmt::format("{}; --quick: 3", s.seeds));
     list.number("--reference-samples", "N", "of the picture that errors are measured against",
                 asked.referenceSamples, {1, 16 * kMostPaths})
         .usually("16 times the largest count");
     list.number("--target-samples", "N",
                 "times are compared at the error of the baseline with so many samples",
-                asked.targetSamples, kSamples)
+                asked.targetSamples, kStudySamples)
         .usually("64, or the largest count");
     list.real("--most-seconds", "S", "efforts that would take longer are left out",
               s.mostSecondsPerRun, kSeconds);

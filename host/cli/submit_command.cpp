@@ -260,7 +260,7 @@ void declareSubmit(DeclaredCommand& c) {
     declareSamples(c.list, submit.picture, *asked,
                    "samples per pixel, the same number for all; with --noise in the first round");
     declareBranches(c.list, submit.picture,
-                    "4 where bounces make most of the noise, else 1 (docs/estimator.md)");
+                    "4 where bounces make most of the noise, else 1 (docs/theory/estimator.md)");
     declareBlock(c.list, *asked);
     declareFilmMemory(c.list, submit.device);
     c.list.choice("--backend", "WHICH", "what takes the samples", submit.device.backend);

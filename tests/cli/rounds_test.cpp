@@ -31,7 +31,7 @@ class Rounds : public FilmFolder {
         run(render(name, Strings{"--share", share} + extra));
         return folder.file(name);
     }
-    /// Of a round: the first, or that of a plan.
+    /// The films of a round: the first, or that of a plan.
     Strings shares(int round, int count, const Strings& extra = {}) const {
         Strings films;
         for (int i = 1; i <= count; ++i) {

@@ -138,7 +138,7 @@ TEST_F(Submit, ScriptsRenderRounds) {
     EXPECT_TRUE(isOver) << "the noise should be reached in three rounds";
     job("merge.sh");
 
-    // The same by hand.
+    // Done by hand.
     const auto stage = [&](const Strings& extra) {
         Strings all = {"render", scene};
         all.insert(all.end(), picture.begin(), picture.end());
@@ -193,7 +193,7 @@ TEST_F(Submit, JobsThatFailAreTriedAgain) {
     }
 }
 
-/// Of many shares groups are merged first, each by a job; the folder has a space in its name.
+/// Groups of many shares are merged first, each by a job; the folder has a space in its name.
 TEST_F(Submit, ManySharesAreMergedInGroups) {
     const std::string output = folder.file("a b.exr");
     const Strings picture = {"-s", "70", "--block", "1", "--branches", "1", "-r", "8", "6", "-q"};
