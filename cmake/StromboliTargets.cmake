@@ -3,7 +3,7 @@ add_library(stromboli_settings INTERFACE)
 target_compile_features(stromboli_settings INTERFACE cxx_std_20)
 target_include_directories(stromboli_settings INTERFACE ${PROJECT_SOURCE_DIR})
 # No contraction: a*b - c*d must stay two rounded products and a rounded difference, or the
-# error bounds and the edge functions' antisymmetry no longer hold (docs/numerics.md).
+# error bounds and the edge functions' antisymmetry no longer hold (docs/theory/numerics.md).
 target_compile_options(stromboli_settings INTERFACE -Wall -Wextra -Wshadow -Wconversion
                        -Wno-sign-conversion -ffp-contract=off)
 # g++ 12.2 vectorises double -> float -> double conversions of neighbouring members into nothing:
@@ -73,7 +73,7 @@ endfunction()
 # A few files of a library are compiled as one: what their headers hold is read, and the templates
 # that they share are made, once for all of them. For those who edit a file at a time OFF is better.
 option(STROMBOLI_UNITY_BUILD "Compile several files of a library as one" ON)
-set(STROMBOLI_FILES_AT_ONCE 3)
+set(STROMBOLI_FILES_AT_ONCE 6)
 
 # stromboli_library(NAME [COLD] SOURCES a.cpp ... DEPENDS lib ... [PRIVATE_DEPENDS lib ...]): one
 # folder of the program. COLD: compiled quickly and not for speed. PRIVATE_DEPENDS: libraries whose
@@ -152,6 +152,17 @@ endif()
     set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${entries})
 endfunction()
 
+# stromboli_test_objects(NAME SOURCES a.cpp ... DEPENDS lib ...): files that several test programs have, compiled once.
+# Programs name it among what they depend on.
+function(stromboli_test_objects name)
+    cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+    add_library(${name} OBJECT EXCLUDE_FROM_ALL ${ARG_SOURCES})
+    target_link_libraries(${name} PUBLIC stromboli_settings GTest::gtest_main GTest::gmock ${ARG_DEPENDS})
+    target_compile_definitions(${name} PRIVATE STROMBOLI_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    target_compile_options(${name} PRIVATE ${STROMBOLI_COLD_CODE})
+    stromboli_use_precompiled(${name} stromboli_precompiled_tests)
+endfunction()
+
 # stromboli_test(NAME SOURCES a.cpp ... DEPENDS lib ... [LABELS l] [TIMEOUT seconds] [MANY_KERNELS]
 #                [BY_SUITES]):
 # one GoogleTest executable; each of its tests becomes a ctest entry. Tests that use a Vulkan device
@@ -169,6 +180,9 @@ function(stromboli_test name)
     endif()
     if(NOT ARG_TIMEOUT)
         set(ARG_TIMEOUT 300)
+    endif()
+    if(STROMBOLI_SANITIZE)
+        set(ARG_TIMEOUT 2400)
     endif()
     add_executable(${name} ${ARG_SOURCES})
     target_link_libraries(${name} PRIVATE stromboli_settings GTest::gtest_main GTest::gmock
@@ -191,7 +205,8 @@ function(stromboli_test name)
     if(ARG_LABELS)
         list(APPEND properties LABELS ${ARG_LABELS})
     endif()
-    if(ARG_BY_SUITES)
+    # Under sanitizers a process takes longer to start than most tests to run.
+    if(ARG_BY_SUITES OR STROMBOLI_SANITIZE)
         stromboli_suites(${name} ${properties})
     else()
         gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES PROPERTIES ${properties})
