@@ -23,7 +23,7 @@ struct EnvironmentRequest {
 /// Puts the environment around the scene, in the place of its ambient lights, which it reports.
 /// Throws SceneError if the file cannot be read.
 void addEnvironment(Scene& scene, const EnvironmentRequest& request);
-/// The same of an environment that is there.
+/// Does the same with an environment that is there.
 void addEnvironment(Scene& scene, Environment environment);
 
 } // namespace stromboli

@@ -15,7 +15,7 @@ uint keptBetweenDispatches() { return KEPT_BETWEEN_DISPATCHES; }
 
 bool atWork(PathState path) { return path.phase != PHASE_FINISHED && !isSuspended(path.phase); }
 
-/// Whether an eighth of the subgroup's lanes at work want another pixel (docs/kernel.md,
+/// Whether an eighth of the subgroup's lanes at work want another pixel (docs/theory/kernel.md,
 /// "Leaving the inner loop together").
 bool pixelsAreWanted(PathState path, Job job) {
     const uint wanting = subgroupBallotBitCount(subgroupBallot(wantsPixel(path, job)));
@@ -66,7 +66,7 @@ const uint LOOK_INTERVAL = 64u;
 
 /// Whether this lane is to start no further ray of a path. Where the host knows how many groups a
 /// thread of the driver runs in turn, the n-th group of every thread is late when all lanes together
-/// have done n groups' share of iterations (docs/kernel.md, "Both threads to the end").
+/// have done n groups' share of iterations (docs/theory/kernel.md, "Both threads to the end").
 bool isLate(const Dispatch dispatch, uint iteration, uint sinceLastLook) {
     if (dispatch.groupsPerThread == 0u) return iteration >= dispatch.softIterations;
     const uint done = atomicAdd(status.iterations, sinceLastLook) + sinceLastLook;
@@ -110,7 +110,7 @@ void main() {
 
     // The lanes of a subgroup leave the inner loop together, when enough of them want another pixel;
     // every exit is in a loop's header or at its end; and hardIterations keeps a dispatch finite on any device
-    // (docs/kernel.md, "Leaving the inner loop together", "Exits of loops", "The loop limit").
+    // (docs/theory/kernel.md, "Leaving the inner loop together", "Exits of loops", "The loop limit").
     uint iteration = 0u;
     uint lastLook = 0u;
     while (atWork(path) && iteration < dispatch.hardIterations) {

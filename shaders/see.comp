@@ -1,5 +1,5 @@
 #version 460
-// What the camera sees, without light: alpha and the layers of a picture (docs/layers.md). Each lane
+// What the camera sees, without light: alpha and the layers of a picture (docs/guide/layers.md). Each lane
 // has one pixel, and takes the camera rays that the path kernel takes for the same numbers of samples.
 // Same traversal code and the same shape of loop as there: a number of steps, then a service pass.
 #extension GL_GOOGLE_include_directive : require
@@ -169,7 +169,7 @@ void main() {
     look.rayCount = 0u;
     startTraversal(look.ray, stack, vec3(0.0), vec3(0.0), 0.0, 0.0, NO_PRIMITIVE, false); // done at once
 
-    // Every exit is in a loop's header (docs/kernel.md, "Exits of loops").
+    // Every exit is in a loop's header (docs/theory/kernel.md, "Exits of loops").
     uint iteration = 0u;
     while (isAtWork(look, softIterations, iteration) && iteration < hardIterations) {
         if (!look.isUnderWay) beginSample(given, look);

@@ -63,7 +63,7 @@ void serve(inout Tracer lane, inout Stack stack) {
 }
 
 /// The rays of this group: those of its number, or the next chunk that no group has taken, where a
-/// group is one subgroup (docs/kernel.md, "Both threads to the end").
+/// group is one subgroup (docs/theory/kernel.md, "Both threads to the end").
 uint takeChunk() {
     if (dispatch.chunkCount == 0u) return gl_WorkGroupID.x;
     uint chunk = 0u;
@@ -82,7 +82,7 @@ void main() {
     lane.tracing = false;
     startTraversal(lane.ray, stack, vec3(0.0), vec3(0.0), 0.0, 0.0, NO_PRIMITIVE, ANY_HIT); // done at once
 
-    // Every exit is in a loop's header (docs/kernel.md, "Exits of loops").
+    // Every exit is in a loop's header (docs/theory/kernel.md, "Exits of loops").
     bool finished = false;
     uint iteration = 0u;
     while (!finished && iteration < dispatch.hardIterations) {

@@ -1,7 +1,7 @@
 #version 460
 // The path kernel with the wavefront scheduler: the same functions as in pathtrace.comp, in stages that are kernels
 // of their own. Paths lie in memory; each stage serves those in its queue and puts them into the queue of the next
-// one (docs/kernel.md, "Two schedulers"). A kernel that traces needs few registers, and its lanes all trace.
+// one (docs/theory/kernel.md, "Two schedulers"). A kernel that traces needs few registers, and its lanes all trace.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_ballot : require

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Makes docs/pictures/collada_files.png: the COLLADA files of Debian's package assimp-testmodels, as
-Stromboli shows them. Prints what each was forgiven, for the table in docs/collada_files.md.
+Stromboli shows them. Prints what each was forgiven, for the table in docs/guide/collada.md.
 
 Needs the packages assimp-testmodels and python3-pil. Half a minute on two cores."""
 

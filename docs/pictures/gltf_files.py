@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Makes contact sheets for docs/gltf_files.md: glTF models as Stromboli shows them.
+"""Makes contact sheets for docs/guide/gltf.md: glTF models as Stromboli shows them.
 
     docs/pictures/gltf_files.py MODELS ENVIRONMENT.hdr FOLDER SHEET.png
 

@@ -40,8 +40,8 @@ struct PathStart {
     std::optional<gpu::TracedRay> shadow, bounce;
 };
 
-/// The kernel's bound of a hit point's error (docs/numerics.md, "Hit points"): 32 u of the largest
-/// coordinate.
+/// The kernel's bound of a hit point's error (docs/theory/numerics.md, "Hit points"): 32 u of the
+/// largest coordinate.
 double floatError(const glm::dvec3& p) {
     return 32 * 0x1p-24 * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
 }

@@ -41,9 +41,9 @@ struct RaySets {
 /// Rays as paths make them, once, in double precision on the CPU and rounded to float: jittered
 /// camera rays; from where they hit, one shadow ray each to a point of an emitter taken at random
 /// (those that could bring light; they end 2^-12 of their length before the emitter) and one bounce
-/// ray. They start off the surface by the error bound of docs/numerics.md, on the side they go to.
-/// In tiles of 8 x 8 pixels, in the order in which the kernel takes pixels. A pure function of its
-/// arguments. perPixel: camera rays a pixel.
+/// ray. They start off the surface by the error bound of docs/theory/numerics.md, on the side they
+/// go to. In tiles of 8 x 8 pixels, in the order in which the kernel takes pixels. A pure function
+/// of its arguments. perPixel: camera rays a pixel.
 RaySets makeRaySets(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                     uint32_t perPixel);
 

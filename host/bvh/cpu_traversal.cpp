@@ -24,7 +24,7 @@ float largestComponent(const glm::vec3& v) {
 }
 
 /// What rounding relative to the distance can take from the far end of an interval
-/// (docs/numerics.md, "Boxes"; after Ize 2013).
+/// (docs/theory/numerics.md, "Boxes"; after Ize 2013).
 constexpr float kBoxSlack = 1.0f + 0x1p-18f;
 
 /// Below this fraction of the largest component a component of the direction is replaced, so that

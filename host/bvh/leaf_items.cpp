@@ -68,6 +68,8 @@ namespace stromboli::bvh {
 
 namespace {
 
+constexpr uint32_t kNoEdge = 0xFFFFFFFFu;
+
 using PositionBits = std::array<uint32_t, 3>;
 
 PositionBits bitsOf(const glm::vec3& p) {
@@ -142,8 +144,9 @@ EdgeBuckets sortEdges(const Scene& scene) {
     return buckets;
 }
 
-} // namespace
-
+/// For each edge of each triangle the edge of another triangle that joins the same two positions
+/// (bit for bit) in the opposite direction, or kNoEdge. Edge 3 * t + c of triangle t goes from its
+/// corner c to the next. Where more than two triangles meet in an edge, some are joined in pairs.
 std::vector<uint32_t> oppositeEdges(const Scene& scene) {
     EdgeBuckets buckets = sortEdges(scene);
     std::vector<uint32_t> opposite(3 * scene.triangles.size(), kNoEdge);
@@ -169,8 +172,6 @@ std::vector<uint32_t> oppositeEdges(const Scene& scene) {
 }
 
 // --- Pairs of triangles --------------------------------------------------------------------------
-
-namespace {
 
 /// Area saved by pairing the triangles on both sides of an edge.
 float savedArea(const Scene& scene, uint32_t edge, uint32_t opposite) {

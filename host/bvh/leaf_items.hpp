@@ -21,15 +21,6 @@ Bounds primitiveBounds(const Scene& scene, uint32_t primitive);
 
 namespace stromboli::bvh {
 
-// --- Edges that triangles share ------------------------------------------------------------------
-
-inline constexpr uint32_t kNoEdge = 0xFFFFFFFFu;
-
-/// For each edge of each triangle the edge of another triangle that joins the same two positions
-/// (bit for bit) in the opposite direction, or kNoEdge. Edge 3 * t + c of triangle t goes from its
-/// corner c to the next. Where more than two triangles meet in an edge, some are joined in pairs.
-std::vector<uint32_t> oppositeEdges(const Scene& scene);
-
 // --- Pairs of triangles --------------------------------------------------------------------------
 
 /// Two triangles with an edge in common, which they run through in opposite directions; its ends

@@ -16,8 +16,8 @@ namespace stromboli::bvh {
 
 // --- Boxes on a node's grid ----------------------------------------------------------------------
 
-// Boxes on the grid of a node: a byte for each plane (gpu::NodeRecord). docs/numerics.md, "Boxes",
-// derives the margins.
+// Boxes on the grid of a node: a byte for each plane (gpu::NodeRecord). docs/theory/numerics.md,
+// "Boxes", derives the margins.
 
 /// The grid of a node on one axis: plane q lies at origin + q * cell, q = 0..255.
 struct AxisGrid {
@@ -47,7 +47,7 @@ uint32_t planeAbove(const AxisGrid& grid, double high);
 using ChildBoxes = std::array<std::optional<Bounds>, gpu::WIDE_CHILDREN>;
 
 /// What every box of a scene is widened by: 2^-32 of the scene's largest coordinate, the way a ray
-/// may stray from its line in the box test. docs/numerics.md, "Boxes".
+/// may stray from its line in the box test. docs/theory/numerics.md, "Boxes".
 double boxPadding(const Bounds& scene);
 
 /// A node with its children's boxes on its grid, each widened by `padding` and by 2^-21 of its
@@ -84,7 +84,7 @@ struct RecordPacking {
 /// filled by children of later nodes as long as they are near: first fit among the last 256
 /// records (16 KB). Where a slot of a node is absent there is never the record of another node,
 /// but a leaf or nothing: a ray far away, against whose distance the node is small, may take the
-/// absent child's inverted box for hit (docs/numerics.md, "Boxes"). A leaf too many does no
+/// absent child's inverted box for hit (docs/theory/numerics.md, "Boxes"). A leaf too many does no
 /// harm; nodes could lead it in circles.
 RecordPacking packRecords(std::span<const WideNode> nodes);
 

@@ -11,38 +11,24 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <utility>
-
-namespace stromboli {
-
-// --- Trees kept between moments ------------------------------------------------------------------
-
-std::shared_ptr<const PartTree>
-KeptTrees::treeOf(uint32_t number, Scene part, std::optional<double> padding,
-                  const std::function<PartTree(const Scene&)>& build) {
-    Kept& kept = kept_[number];
-    if (kept.tree && kept.padding == padding && bvh::haveSameShape(kept.part, part))
-        return kept.tree;
-    kept = {};
-    kept.tree = std::make_shared<const PartTree>(build(part));
-    kept.part = std::move(part);
-    kept.padding = padding;
-    ++built_;
-    return kept.tree;
-}
-
-} // namespace stromboli
+#include <vector>
 
 namespace stromboli::bvh {
 
 // --- Parts of a scene ----------------------------------------------------------------------------
 
-ScenePart partOf(const Scene& scene, uint32_t first, uint32_t end) {
-    std::vector<uint32_t> triangles(end - first);
-    std::iota(triangles.begin(), triangles.end(), first);
-    return partOf(scene, std::move(triangles));
-}
+namespace {
 
+/// Some of a scene's triangles as a scene of their own, with the positions that they use and
+/// nothing else.
+struct ScenePart {
+    Scene scene;
+    std::vector<uint32_t> primitiveOf; ///< by primitive of the part: its number in the whole scene
+};
+
+/// `triangles`: numbers of those in the part, in ascending order.
 ScenePart partOf(const Scene& scene, std::vector<uint32_t> triangles) {
     ScenePart part;
     // A mesh uses a run of positions; numbers within it need no table over all of the scene's.
@@ -67,6 +53,15 @@ ScenePart partOf(const Scene& scene, std::vector<uint32_t> triangles) {
     return part;
 }
 
+/// Triangles from `first` on, up to `end`.
+ScenePart partOf(const Scene& scene, uint32_t first, uint32_t end) {
+    std::vector<uint32_t> triangles(end - first);
+    std::iota(triangles.begin(), triangles.end(), first);
+    return partOf(scene, std::move(triangles));
+}
+
+/// Whether a tree over one part is one over the other: as many triangles with the same corners,
+/// bit for bit.
 bool haveSameShape(const Scene& a, const Scene& b) {
     const auto bytes = [](const Scene& s) { return std::as_bytes(std::span(s.positions)); };
     return std::ranges::equal(bytes(a), bytes(b)) &&
@@ -75,14 +70,40 @@ bool haveSameShape(const Scene& a, const Scene& b) {
            });
 }
 
+} // namespace
+
+} // namespace stromboli::bvh
+
+namespace stromboli {
+
+// --- Trees kept between moments ------------------------------------------------------------------
+
+std::shared_ptr<const PartTree>
+KeptTrees::treeOf(uint32_t number, Scene part, std::optional<double> padding,
+                  const std::function<PartTree(const Scene&)>& build) {
+    Kept& kept = kept_[number];
+    if (kept.tree && kept.padding == padding && bvh::haveSameShape(kept.part, part))
+        return kept.tree;
+    kept = {};
+    kept.tree = std::make_shared<const PartTree>(build(part));
+    kept.part = std::move(part);
+    kept.padding = padding;
+    ++built_;
+    return kept.tree;
+}
+
+} // namespace stromboli
+
+namespace stromboli::bvh {
+
 // --- Trees put together --------------------------------------------------------------------------
 
 namespace {
 
-/// By how much rays may stray in the prototype's space (docs/numerics.md, "Instances"): in units of
-/// u, the sums of |B| times 15 of the ray's origin, 35 of the prototype's reach E, and 1 of where
-/// it is, m; as 16 times the first, 36 / 16 of the second and 1 / 16 of the third. A little more
-/// covers the rounding of all this.
+/// By how much rays may stray in the prototype's space (docs/theory/numerics.md, "Instances"): in
+/// units of u, the sums of |B| times 15 of the ray's origin, 35 of the prototype's reach E, and 1
+/// of where it is, m; as 16 times the first, 36 / 16 of the second and 1 / 16 of the third. A
+/// little more covers the rounding of all this.
 constexpr double kRounding = 16 * 0x1p-24, kMore = 1 + 0x1p-20;
 
 float slackPerLength(const PlacementMatrices& m, int row) {
@@ -126,7 +147,32 @@ Record moved(const Record& record, uint32_t base, uint32_t entry) {
     return std::bit_cast<Record>(leaf);
 }
 
-} // namespace
+/// Puts trees together: one over the world, whose leaves lead to others, and these behind it.
+class TreeAssembly {
+  public:
+    /// world: the tree that has the root; primitiveOf: of the scene, by primitive of that tree.
+    /// `scene` must outlive the object.
+    TreeAssembly(const Scene& scene, WideLayout world, std::span<const uint32_t> primitiveOf);
+
+    /// Adds a tree; returns the record of its root. primitiveOf: of the scene, by primitive of the
+    /// tree.
+    uint32_t append(const WideLayout& tree, std::span<const uint32_t> primitiveOf);
+
+    /// Lets the record of a placement lead to the tree of its prototype, which was appended.
+    /// box: of the prototype, in its own space.
+    void place(uint32_t placement, uint32_t root, const Bounds& box);
+
+    /// Lets the record of a placement be the root of a tree that was appended and is in world
+    /// space.
+    void join(uint32_t placement, uint32_t root);
+
+    WideLayout finish();
+
+  private:
+    const Scene& scene_;
+    WideLayout layout_;
+    uint32_t levels_ = 0; ///< most stack entries of an appended tree
+};
 
 TreeAssembly::TreeAssembly(const Scene& scene, WideLayout world,
                            std::span<const uint32_t> primitiveOf)
@@ -191,8 +237,6 @@ WideLayout TreeAssembly::finish() {
 }
 
 // --- Both levels ---------------------------------------------------------------------------------
-
-namespace {
 
 /// Boxes of nodes a few levels down are together tighter, once they are in the world, than the box
 /// of all.
@@ -301,8 +345,8 @@ class TwoLevels {
         Bounds whole = still_.scene.bounds();
         for (const Bounds& box : others)
             whole.extend(box);
-        // Boxes are padded for all of the world (docs/numerics.md, "Boxes"). A power of two stays
-        // the same from one moment to the next.
+        // Boxes are padded for all of the world (docs/theory/numerics.md, "Boxes"). A power of two
+        // stays the same from one moment to the next.
         const double padding = std::exp2(std::ceil(std::log2(boxPadding(whole))));
         stillTree_ = treeOf(kStill, std::move(still_.scene), padding, 0);
         addLeadingItem(uint32_t(scene_.placements.size()));

@@ -1,14 +1,12 @@
 #pragma once
 
 #include "host/bvh/wide_layout.hpp"
-#include "scene/model/scene.hpp"
 
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace stromboli {
@@ -48,54 +46,6 @@ class KeptTrees {
 } // namespace stromboli
 
 namespace stromboli::bvh {
-
-// --- Parts of a scene ----------------------------------------------------------------------------
-
-/// Some of a scene's triangles as a scene of their own, with the positions that they use and
-/// nothing else.
-struct ScenePart {
-    Scene scene;
-    std::vector<uint32_t> primitiveOf; ///< by primitive of the part: its number in the whole scene
-};
-
-/// Triangles from `first` on, up to `end`.
-ScenePart partOf(const Scene& scene, uint32_t first, uint32_t end);
-
-/// `triangles`: numbers of those in the part, in ascending order.
-ScenePart partOf(const Scene& scene, std::vector<uint32_t> triangles);
-
-/// Whether a tree over one part is one over the other: as many triangles with the same corners,
-/// bit for bit.
-bool haveSameShape(const Scene& a, const Scene& b);
-
-// --- Trees put together --------------------------------------------------------------------------
-
-/// Puts trees together: one over the world, whose leaves lead to others, and these behind it.
-class TreeAssembly {
-  public:
-    /// world: the tree that has the root; primitiveOf: of the scene, by primitive of that tree.
-    /// `scene` must outlive the object.
-    TreeAssembly(const Scene& scene, WideLayout world, std::span<const uint32_t> primitiveOf);
-
-    /// Adds a tree; returns the record of its root. primitiveOf: of the scene, by primitive of the
-    /// tree.
-    uint32_t append(const WideLayout& tree, std::span<const uint32_t> primitiveOf);
-
-    /// Lets the record of a placement lead to the tree of its prototype, which was appended.
-    /// box: of the prototype, in its own space.
-    void place(uint32_t placement, uint32_t root, const Bounds& box);
-
-    /// Lets the record of a placement be the root of a tree that was appended and is in world
-    /// space.
-    void join(uint32_t placement, uint32_t root);
-
-    WideLayout finish();
-
-  private:
-    const Scene& scene_;
-    WideLayout layout_;
-    uint32_t levels_ = 0; ///< most stack entries of an appended tree
-};
 
 // --- Both levels ---------------------------------------------------------------------------------
 

@@ -13,15 +13,49 @@ namespace stromboli::bvh {
 namespace {
 
 constexpr uint32_t kMost = gpu::WIDE_CHILDREN;
-constexpr uint32_t kTaskNodes = 1u << 14;
+constexpr uint32_t kNodesPerPlanTask = 1u << 14;
 
-} // namespace
+/// Up to eight subtrees of the binary tree, in its order.
+struct SubtreeGroup {
+    std::array<Subtree, gpu::WIDE_CHILDREN> subtree;
+    uint32_t count = 0;
+};
+
+/// Which nodes of a binary tree become nodes of the wide one, so that a random line visits the
+/// fewest records, node and leaf records alike (Ylitie, Karras and Laine 2017, section 4). Leaves
+/// stay leaves.
+class CollapsePlan {
+  public:
+    /// `tree` must outlive the plan.
+    explicit CollapsePlan(const BinaryTree& tree);
+
+    /// Those whose roots are to be the children of this one's root, an inner node: 2 to 8.
+    SubtreeGroup childrenOf(Subtree subtree) const;
+
+  private:
+    struct Entry {
+        /// [j - 1]: the areas of all records of the subtree together, if it is given at most j
+        /// records at its top, j = 1..7.
+        float cost[gpu::WIDE_CHILDREN - 1];
+        /// Four bits each for j = 1..8: how many of the j records the left child gets; 0: as for
+        /// j - 1, and for j = 1 a record for the node itself.
+        uint32_t choice;
+
+        uint32_t choiceOf(uint32_t j) const { return choice >> (4 * (j - 1)) & 15u; }
+        void choose(uint32_t j, uint32_t toLeft) { choice |= toLeft << (4 * (j - 1)); }
+    };
+    void plan(uint32_t node);
+
+    const BinaryTree& tree_;
+    float inverseRootArea_; ///< areas are relative to the root's, so that sums stay in range
+    std::vector<Entry> entries_;
+};
 
 CollapsePlan::CollapsePlan(const BinaryTree& tree) : tree_(tree), entries_(tree.nodes.size()) {
     const float rootArea = tree.nodes.front().bounds.halfArea();
     inverseRootArea_ = rootArea > 0 ? 1 / rootArea : 0;
     // Children follow their parents.
-    const CutTree parts = cut(tree, kTaskNodes);
+    const CutTree parts = cut(tree, kNodesPerPlanTask);
     tbb::parallel_for(size_t(0), parts.subtrees.size(), [&](size_t i) {
         for (uint32_t node = parts.subtrees[i].end; node-- > parts.subtrees[i].first;)
             plan(node);
@@ -82,6 +116,8 @@ SubtreeGroup CollapsePlan::childrenOf(Subtree subtree) const {
         part = pending[--pendingCount];
     }
 }
+
+} // namespace
 
 // --- Slots of children ---------------------------------------------------------------------------
 
@@ -159,7 +195,7 @@ std::array<uint8_t, kSlots> assignSlots(std::span<const Bounds> children) {
 
 namespace {
 
-constexpr uint32_t kTaskNodes = 1u << 13; // of the binary tree
+constexpr uint32_t kNodesPerCollapseTask = 1u << 13; // of the binary tree
 
 class Collapse {
   public:
@@ -173,7 +209,7 @@ class Collapse {
             const Subtree next = pending.back();
             pending.pop_back();
             Part& part = parts.emplace_back(Part{next, {}});
-            if (next.size() > kTaskNodes) appendNode(next, part.nodes, pending);
+            if (next.size() > kNodesPerCollapseTask) appendNode(next, part.nodes, pending);
         }
         tbb::parallel_for(size_t(0), parts.size(), [&](size_t i) {
             if (parts[i].nodes.empty()) parts[i].nodes = collapseSubtree(parts[i].subtree);

@@ -42,7 +42,7 @@ struct FilmHeader {
     std::string scene;
     std::vector<std::string> command;
     /// Channels beside the radiance, of which the film of a pixel's first samples has those of its
-    /// first camera rays (docs/layers.md), and what their numbers stand for.
+    /// first camera rays (docs/guide/layers.md), and what their numbers stand for.
     std::vector<Layer> layers;
     PictureNotes legend;
     bool holdsLayers = false;

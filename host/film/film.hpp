@@ -50,6 +50,48 @@ inline bool sameArea(const PictureArea& a, const PictureArea& b) {
            x.width == y.width && x.height == y.height;
 }
 
+// --- Films ---------------------------------------------------------------------------------------
+
+/// Running statistics of one pixel's samples (linear RGB radiance).
+struct PixelStatistics {
+    uint32_t count = 0;                   ///< samples in the mean; rejected ones are not
+    uint32_t rejected = 0;                ///< samples whose radiance was not finite or negative
+    uint32_t firstRejected = 0xFFFFFFFFu; ///< index of the first rejected sample
+    glm::dvec3 mean{0.0};
+    glm::dvec3 m2{0.0}; ///< sum of squared deviations from the mean (Welford 1962)
+
+    uint32_t taken() const { return count + rejected; }
+    /// Unbiased variance of one sample, per channel; 0 for fewer than two samples.
+    glm::dvec3 variance() const;
+    /// Variance of the mean.
+    glm::dvec3 varianceOfMean() const;
+    /// Adds one sample; rejects it if a channel is not finite or is negative. weight: that of its
+    /// place by a pixel filter, which may be negative.
+    void add(const glm::dvec3& radiance, double weight = 1);
+    /// Chan, Golub and LeVeque 1979: statistics of the union of two sets of samples. The other's
+    /// samples follow these: its firstRejected counts from its own first sample.
+    void merge(const PixelStatistics& other);
+};
+
+/// The part of a picture that is rendered, in the making: row 0 is the top, pixel (x, y) of the
+/// part is pixels[y * width + x].
+struct Film {
+    uint32_t width = 0, height = 0; ///< of the part
+    PictureArea area;               ///< where the part lies in the whole picture
+    std::vector<PixelStatistics> pixels;
+    uint32_t branches = 1; ///< paths of a sample (docs/theory/estimator.md, "Branches")
+
+    Film() = default;
+    explicit Film(const PictureArea& a)
+        : width(a.rendered().width), height(a.rendered().height), area(a), pixels(a.pixelCount()) {}
+    /// A whole picture.
+    Film(uint32_t w, uint32_t h) : Film(PictureArea{w, h, {}}) {}
+    PixelStatistics& at(uint32_t x, uint32_t y) { return pixels[size_t(y) * width + x]; }
+    const PixelStatistics& at(uint32_t x, uint32_t y) const {
+        return pixels[size_t(y) * width + x];
+    }
+};
+
 // --- Statistics that add up exactly --------------------------------------------------------------
 
 __extension__ using uint128 = unsigned __int128;
@@ -172,7 +214,7 @@ class FixedSum {
 /// Statistics of a pixel's samples that can be put together from blocks of them in any order and
 /// grouping, to the same bits. A block's own statistics are rounded when it is added; from then on
 /// sums are exact, and mean and variance are worked out once, when they are asked for
-/// (docs/farm.md, "What a film adds up").
+/// (docs/guide/farm.md, "How sums become exact").
 struct ExactStatistics {
     /// A sum of radiance. A film's samples are at most 2^48 each, negative where a pixel filter is,
     /// and there are at most 2^24.
@@ -199,8 +241,8 @@ struct ExactStatistics {
 };
 
 /// A pixel of a film that several machines fill: of all its samples, and how much of them the last
-/// pass over it took, which says how large the error is that is left (docs/estimator.md, "How noisy
-/// a picture is"). Can be put together in any order and grouping, to the same bits.
+/// pass over it took, which says how large the error is that is left (docs/theory/noise.md, "How
+/// noisy a picture is"). Can be put together in any order and grouping, to the same bits.
 struct SharedPixel {
     ExactStatistics all;
     /// How many of the samples taken have a camera ray that ends on a surface, if the picture has
@@ -229,48 +271,6 @@ struct SharedPixel {
 
   private:
     void addToLast(uint32_t pass, uint32_t count, const std::array<ExactStatistics::Sum, 3>& sum);
-};
-
-// --- Films ---------------------------------------------------------------------------------------
-
-/// Running statistics of one pixel's samples (linear RGB radiance).
-struct PixelStatistics {
-    uint32_t count = 0;                   ///< samples in the mean; rejected ones are not
-    uint32_t rejected = 0;                ///< samples whose radiance was not finite or negative
-    uint32_t firstRejected = 0xFFFFFFFFu; ///< index of the first rejected sample
-    glm::dvec3 mean{0.0};
-    glm::dvec3 m2{0.0}; ///< sum of squared deviations from the mean (Welford 1962)
-
-    uint32_t taken() const { return count + rejected; }
-    /// Unbiased variance of one sample, per channel; 0 for fewer than two samples.
-    glm::dvec3 variance() const;
-    /// Variance of the mean.
-    glm::dvec3 varianceOfMean() const;
-    /// Adds one sample; rejects it if a channel is not finite or is negative. weight: that of its
-    /// place by a pixel filter, which may be negative.
-    void add(const glm::dvec3& radiance, double weight = 1);
-    /// Chan, Golub and LeVeque 1979: statistics of the union of two sets of samples. The other's
-    /// samples follow these: its firstRejected counts from its own first sample.
-    void merge(const PixelStatistics& other);
-};
-
-/// The part of a picture that is rendered, in the making: row 0 is the top, pixel (x, y) of the
-/// part is pixels[y * width + x].
-struct Film {
-    uint32_t width = 0, height = 0; ///< of the part
-    PictureArea area;               ///< where the part lies in the whole picture
-    std::vector<PixelStatistics> pixels;
-    uint32_t branches = 1; ///< paths of a sample (docs/estimator.md, "Branches")
-
-    Film() = default;
-    explicit Film(const PictureArea& a)
-        : width(a.rendered().width), height(a.rendered().height), area(a), pixels(a.pixelCount()) {}
-    /// A whole picture.
-    Film(uint32_t w, uint32_t h) : Film(PictureArea{w, h, {}}) {}
-    PixelStatistics& at(uint32_t x, uint32_t y) { return pixels[size_t(y) * width + x]; }
-    const PixelStatistics& at(uint32_t x, uint32_t y) const {
-        return pixels[size_t(y) * width + x];
-    }
 };
 
 } // namespace stromboli

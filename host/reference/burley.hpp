@@ -4,9 +4,9 @@
 
 namespace stromboli::reference {
 
-// Burley's principled BSDF as Mitsuba 3 has it: docs/estimator.md, "Burley". All directions are
-// unit vectors in the frame of the shading normal; wo.z > 0, or nothing scatters. entering: wo is
-// outside of what the surface bounds.
+// Burley's principled BSDF as Mitsuba 3 has it: docs/theory/surfaces.md, "Burley". All directions
+// are unit vectors in the frame of the shading normal; wo.z > 0, or nothing scatters. entering: wo
+// is outside of what the surface bounds.
 
 /// gpu::LOBE_ bits.
 uint32_t burleyLobes(const BurleyParameters& p);

@@ -38,14 +38,14 @@ Hit closestThere(const World& world, const Ray& ray, Skip skip, RandomStream& pa
 /// The first hit of a camera ray that is there; it passes what is hidden from the camera.
 Hit closestForCamera(const World& world, const Ray& ray, RandomStream& passes);
 
-/// Adds what one camera ray of a pixel sees (docs/layers.md). `random`: the stream of its sample,
-/// as the camera has left it; weight: by the pixel filter.
+/// Adds what one camera ray of a pixel sees (docs/guide/layers.md). `random`: the stream of its
+/// sample, as the camera has left it; weight: by the pixel filter.
 void addSeen(SeenPixel& pixel, const World& world, const Ray& cameraRay, double weight,
              RandomStream random, Seeing what);
 
 // --- Paths ---------------------------------------------------------------------------------------
 
-/// One sample of a pixel (docs/estimator.md), in the order of that page.
+/// One sample of a pixel (docs/theory/estimator.md), in the order of that page.
 class PathSample {
   public:
     /// All three must outlive the object.

@@ -6,9 +6,9 @@ namespace stromboli::reference {
 
 // --- Conductors and dielectrics ------------------------------------------------------------------
 
-// Conductors, rough and thin dielectrics: docs/estimator.md, "Surfaces". All directions are unit
-// vectors in the frame of the shading normal. entering: wo is outside of what the surface bounds.
-// u: three independent numbers in [0, 1).
+// Conductors, rough and thin dielectrics: docs/theory/surfaces.md, "Surfaces". All directions are
+// unit vectors in the frame of the shading normal. entering: wo is outside of what the surface
+// bounds. u: three independent numbers in [0, 1).
 
 /// Probability with which samples are reflected: by what is reflected and transmitted.
 double shareOfReflection(const glm::dvec3& reflected, const glm::dvec3& transmitted);
@@ -32,8 +32,9 @@ bool hasNarrowFacets(const Material& m);
 
 // --- Plastic -------------------------------------------------------------------------------------
 
-// A diffuse base under the interface of a dielectric: docs/estimator.md, "Plastic". All directions
-// are unit vectors in the frame of the shading normal. u: three independent numbers in [0, 1).
+// A diffuse base under the interface of a dielectric: docs/theory/surfaces.md, "Plastic". All
+// directions are unit vectors in the frame of the shading normal. u: three independent numbers in
+// [0, 1).
 
 BsdfValue evaluatePlastic(const Material& m, const glm::dvec3& wo, const glm::dvec3& wi,
                           const ShadingConventions& conventions);

@@ -4,7 +4,7 @@
 
 namespace stromboli::reference {
 
-// glTF's metallic-roughness material and its extensions: docs/estimator.md, "Principled". All
+// glTF's metallic-roughness material and its extensions: docs/theory/surfaces.md, "Principled". All
 // directions are unit vectors in the frame of the shading normal; wo.z > 0, or nothing scatters.
 // entering: wo is outside of what the surface bounds.
 

@@ -11,9 +11,9 @@
 namespace stromboli {
 
 /// Path tracer in double precision on the CPU: the second, independent implementation of
-/// docs/estimator.md, for checking the Vulkan kernel against. Random numbers depend on pixel,
-/// sample and seed only, so the film is the same to the last bit for every number of threads and
-/// every division into passes.
+/// docs/theory/estimator.md, for checking the Vulkan kernel against. Random numbers depend on
+/// pixel, sample and seed only, so the film is the same to the last bit for every number of threads
+/// and every division into passes.
 class ReferenceBackend final : public Backend, public Viewer {
   public:
     /// The scene must outlive the backend. threads: 0 for all the machine has, which is also the

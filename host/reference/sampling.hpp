@@ -19,8 +19,8 @@ std::array<uint32_t, 4> philox(std::array<uint32_t, 4> counter, std::array<uint3
 /// The random numbers of one sample of one pixel: a pure function of (pixel, sample, seed), so
 /// that neither threads nor passes change a picture. They come in blocks of four. Blocks never
 /// overlap, because their Philox counters are distinct; with Sampler::Sobol, a block's numbers over
-/// the samples of a pixel are a sequence that fills the unit cube evenly (docs/estimator.md), and
-/// different blocks are independent.
+/// the samples of a pixel are a sequence that fills the unit cube evenly
+/// (docs/theory/estimator.md), and different blocks are independent.
 class RandomStream {
   public:
     RandomStream(uint32_t pixel, uint32_t sample, uint32_t seed,

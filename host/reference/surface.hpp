@@ -46,8 +46,8 @@ struct SmoothTriangle {
     /// How far the smooth surface is in front of the point with these barycentric weights, `front`
     /// being one of the two unit normals of the plane; 0 where it is behind, or where not all
     /// corner normals are on one side of the plane. The sum, over the edges where the mesh bulges
-    /// forward, of b_i b_j (n_i - n_j) . (v_i - v_j): docs/numerics.md, "Shading normals and the
-    /// terminator", after Hanika 2021.
+    /// forward, of b_i b_j (n_i - n_j) . (v_i - v_j): docs/theory/numerics.md, "Shading normals and
+    /// the terminator", after Hanika 2021.
     double height(const glm::dvec3& weights, const glm::dvec3& front) const;
 };
 

@@ -51,8 +51,8 @@ struct SampleValue {
 
 /// Called now and then with the number of samples done in this pass; returning false asks the
 /// backend to stop early: it begins no further sample, and leaves a valid film, whose pixels are
-/// not biased by which samples were under way (docs/estimator.md, "A render that is stopped"). It
-/// may be called again while samples under way are ended.
+/// not biased by which samples were under way (docs/theory/noise.md, "A render that is stopped").
+/// It may be called again while samples under way are ended.
 using PassProgress = std::function<bool(uint64_t samplesDone)>;
 
 /// Something that takes samples of a picture: the Vulkan kernel or the CPU reference.

@@ -8,11 +8,11 @@ namespace stromboli {
 
 // --- Shading conventions -------------------------------------------------------------------------
 
-/// Rules of shading by which renderers differ (docs/estimator.md, "CS184 mode", has the formulas).
-/// The default is what physics says. Code asks for a convention by its name and does not know whose
-/// it is. The names are those of shaders/include/cs184.glsl, which has those of surfaces and light;
-/// the kernel knows two sets only, the default and cs184Shading(), but for the terminator offset
-/// (host/kernel/kernel_features.hpp).
+/// Rules of shading by which renderers differ (docs/guide/cs184.md, "CS184 mode", has the
+/// formulas). The default is what physics says. Code asks for a convention by its name and does not
+/// know whose it is. The names are those of shaders/include/cs184.glsl, which has those of surfaces
+/// and light; the kernel knows two sets only, the default and cs184Shading(), but for the
+/// terminator offset (host/kernel/kernel_features.hpp).
 struct ShadingConventions {
     // Surfaces.
 
@@ -21,7 +21,8 @@ struct ShadingConventions {
     /// surface bounds.
     bool facesForward = true;
     /// If facesForward is set: light is reflected from the smooth surface that the normals describe
-    /// (docs/numerics.md, "Shading normals and the terminator"); otherwise from the flat triangle.
+    /// (docs/theory/numerics.md, "Shading normals and the terminator"); otherwise from the flat
+    /// triangle.
     bool offsetsTerminator = true;
     /// Light stays on the side of the geometric surface that its lobe sends it to.
     bool testsGeometricSide = true;
@@ -60,7 +61,7 @@ struct ShadingConventions {
     bool operator==(const ShadingConventions&) const = default;
 };
 
-/// Those of the CS184 renderer (docs/cs184.md).
+/// Those of the CS184 renderer (docs/guide/cs184.md).
 constexpr ShadingConventions cs184Shading() {
     return {.facesForward = false,
             .offsetsTerminator = false,
@@ -90,7 +91,8 @@ inline constexpr auto kNamedValues<Integrator> = std::to_array<NamedValue<Integr
     {Integrator::Depth, "depth", "how far the first hit is, in metres"},
 });
 
-/// How the light that reaches a surface straight from a light is estimated (docs/estimator.md).
+/// How the light that reaches a surface straight from a light is estimated
+/// (docs/theory/estimator.md).
 enum class DirectLight {
     Mis,        ///< sample lights; bounces find them too, weighted, where that helps
     MisAll,     ///< the same from every lobe that is no delta: the control
@@ -114,7 +116,7 @@ inline bool combinesWithBounces(DirectLight mode) {
     return mode == DirectLight::Mis || mode == DirectLight::MisAll;
 }
 
-/// Where random numbers come from (docs/estimator.md, "Random numbers").
+/// Where random numbers come from (docs/theory/estimator.md, "Random numbers").
 enum class Sampler {
     Independent, ///< each sample on its own
     Sobol,       ///< the samples of a pixel spread evenly: less noise
@@ -147,7 +149,8 @@ inline constexpr auto kNamedValues<PixelFilter> = std::to_array<NamedValue<Pixel
     {PixelFilter::CatmullRom, "catmull-rom", "sharper, more negative"},
     {PixelFilter::Lanczos, "lanczos", "of three lobes, the sharpest"},
 });
-/// Samples of these filters have weights, some of them negative (docs/estimator.md, "Camera").
+/// Samples of these filters have weights, some of them negative (docs/theory/estimator.md,
+/// "Camera").
 inline bool hasNegativeLobes(PixelFilter filter) {
     return filter == PixelFilter::Mitchell || filter == PixelFilter::CatmullRom ||
            filter == PixelFilter::Lanczos;
@@ -162,7 +165,7 @@ struct FilterShape {
     bool operator==(const FilterShape&) const = default;
 };
 
-/// How a light sample picks one of the lights (docs/estimator.md, "Which light").
+/// How a light sample picks one of the lights (docs/theory/estimator.md, "Which light").
 enum class LightChoice {
     Automatic, ///< what suits the lights: Tree, but Each of two, and Power in a single small mesh
     Tree,      ///< by what it is likely to bring to the surface
@@ -191,7 +194,7 @@ struct Roulette {
     /// A path is worth going on with as long as what it may still bring is not small beside the
     /// noise the pixel has anyway: the best probability is the throughput times sqrt(second moment
     /// of the light to come / its cost) / sqrt(variance of the pixel / cost of a sample) (Bolin and
-    /// Meyer 1997). Between 2 and 4 in diffuse rooms (docs/estimator.md).
+    /// Meyer 1997). Between 2 and 4 in diffuse rooms (docs/theory/estimator.md).
     static constexpr double kBoldness = 3;
 
     Mode mode = Mode::Throughput;
@@ -200,8 +203,8 @@ struct Roulette {
     uint32_t throughputStart = kThroughputStart;
 };
 
-/// What is estimated, and how: what a sample is (docs/estimator.md). The same estimator, scene,
-/// picture size and device give the same sample for the same pixel and number.
+/// What is estimated, and how: what a sample is (docs/theory/estimator.md). The same estimator,
+/// scene, picture size and device give the same sample for the same pixel and number.
 struct Estimator {
     uint32_t lightSamples = 1; ///< per shading point (LightChoice::Each: and area light)
     uint32_t maxBounces = 8;   ///< number of scatterings; 0: emission only
@@ -213,7 +216,8 @@ struct Estimator {
     FilterShape filterShape;
     LightChoice lightChoice = LightChoice::Automatic;
     uint32_t branches = 1; ///< paths of a sample, from the first surface that scatters at random on
-    bool gapProposal = true; ///< bounces are sent into bright gaps too (docs/estimator.md, "Gaps")
+    bool gapProposal =
+        true; ///< bounces are sent into bright gaps too (docs/theory/estimator.md, "Gaps")
     Roulette roulette;
     uint32_t seed = 0;
     bool showsBackdrop = true; ///< the camera sees the environment, where the scene has one

@@ -24,7 +24,7 @@ enum class Seeing {
 
 inline constexpr uint32_t kNothingSeen = 0xFFFFFFFFu;
 
-/// What the camera rays of a pixel have found: sums over these rays (docs/layers.md).
+/// What the camera rays of a pixel have found: sums over these rays (docs/guide/layers.md).
 struct SeenPixel {
     uint32_t samples = 0;     ///< camera rays
     uint32_t hits = 0;        ///< those of them that end on a surface
@@ -56,7 +56,7 @@ class Viewer {
 
 // --- Layers --------------------------------------------------------------------------------------
 
-/// What a picture says of each pixel beside its radiance (docs/layers.md).
+/// What a picture says of each pixel beside its radiance (docs/guide/layers.md).
 enum class Layer { Albedo, Normal, Depth, Position, Uv, Object, Material };
 template <>
 inline constexpr auto kNamedValues<Layer> = std::to_array<NamedValue<Layer>>({

@@ -65,8 +65,8 @@ struct PictureNoise {
     };
     Unknown unknown = Unknown::TooFewSamples;
     double estimate = 0;
-    /// A range that holds the noise in 95 of 100 renders (docs/estimator.md, "How noisy a picture
-    /// is"; docs/results.md has the test of it).
+    /// A range that holds the noise in 95 of 100 renders (docs/theory/noise.md, "How noisy a
+    /// picture is"; docs/results.md has the test of it).
     double least = 0, most = 0;
 
     bool known() const { return unknown == Unknown::No; }

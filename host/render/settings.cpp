@@ -5,8 +5,9 @@
 namespace stromboli {
 namespace {
 
-/// Near the best of the bundled scenes where more than one pays (docs/estimator.md, "Branches"): a
-/// branch's share of the camera ray and first light samples is a tenth to a sixth of its cost then.
+/// Near the best of the bundled scenes where more than one pays (docs/theory/estimator.md,
+/// "Branches"): a branch's share of the camera ray and first light samples is a tenth to a sixth of
+/// its cost then.
 constexpr uint32_t kBranches = 4;
 /// Camera rays of a pixel for each branch. With fewer the noise at edges and in soft shadows is no
 /// longer small beside that of bounces: it falls as n^-1.5, theirs as 1/n, and in a diffuse room

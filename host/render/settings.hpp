@@ -91,8 +91,8 @@ struct RenderSettings {
 
 // --- Branches ------------------------------------------------------------------------------------
 
-/// How many branches pay in this scene (docs/estimator.md, "Branches"); a divisor of the number of
-/// paths a pixel is to have.
+/// How many branches pay in this scene (docs/theory/estimator.md, "Branches"); a divisor of the
+/// number of paths a pixel is to have.
 uint32_t branchesThatPay(const Scene& scene, const Estimator& estimator, const PathBudget& budget);
 
 } // namespace stromboli

@@ -101,8 +101,6 @@ std::optional<Module> readModule(std::span<const uint32_t> code) {
 
 namespace {
 
-constexpr uint32_t kMagic = 0x07230203, kHeaderWords = 5;
-
 class Writer {
   public:
     explicit Writer(const Module& module)

@@ -351,7 +351,7 @@ Finding scales(Run& run) {
 }
 
 /// The coordinates of the box are such that it can be moved without rounding. The offsets of rays
-/// grow with the distance (docs/numerics.md): at 1e4 of the box's size they are 3 % of it.
+/// grow with the distance (docs/theory/numerics.md): at 1e4 of the box's size they are 3 % of it.
 Finding translations(Run& run) {
     const std::vector<float> distances =
         run.quick() ? std::vector<float>{1024} : std::vector<float>{16, 256, 1024, 4096};

@@ -19,7 +19,7 @@ namespace stromboli::stress {
 namespace {
 
 /// How far a white material may be from keeping all light: errors of the fitted albedos
-/// (docs/estimator.md, "Principled": 0.4 % and 0.0075 together).
+/// (docs/theory/surfaces.md, "Principled": 0.4 % and 0.0075 together).
 constexpr double kAlbedoFits = 0.0117;
 /// Standard errors: a right renderer exceeds them once in 1e5 times.
 constexpr double kPermittedSigmas = 4.5;
@@ -77,7 +77,7 @@ Finding grazingGgx(Run& run) {
 /// A ball of white glass in a ball of white glass, in light 1 from everywhere, and the same without
 /// refraction (ior 1), but with absorption, along rays that pass at known distances from the
 /// middle. A path knows the medium that it has entered last, and none behind its far side
-/// (docs/estimator.md, "Volumes").
+/// (docs/theory/estimator.md, "Volumes").
 Finding nestedGlass(Run& run) {
     constexpr double kOuter = 1, kInner = 0.5;
     const glm::dvec3 outerColor(0.7, 0.9, 0.5), innerColor(0.6, 0.3, 0.8);

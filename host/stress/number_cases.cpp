@@ -14,8 +14,8 @@ namespace stromboli::stress {
 
 // --- Arithmetic ----------------------------------------------------------------------------------
 
-// What kernels take for granted of the device's floats (docs/numerics.md): IEEE 754 as the host has
-// it. Where a device promises it, kernels ask for it (host/vulkan/instance.hpp).
+// What kernels take for granted of the device's floats (docs/theory/numerics.md): IEEE 754 as the
+// host has it. Where a device promises it, kernels ask for it (host/vulkan/instance.hpp).
 
 namespace {
 
@@ -262,8 +262,6 @@ Finding manySamples(Run& run) {
 
 /// A wall of nine emitters, the middle one of a radiance that is none.
 Finding badSamples(Run& run) {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
     Finding f;
     for (const float bad : {kNaN, -kNaN, kInfinity, -kInfinity, -1.0f, 1e38f, 0x1.000002p48f}) {
         SceneMaker m;

@@ -352,8 +352,9 @@ std::vector<Ray> raysFromOutside(const Scene& scene, const World& world, uint32_
 
 /// Copies have the corners of instances to the last bit, so that the same rays hit, and distances
 /// are those of the same test. Pairs of triangles may begin at other corners, which changes how a
-/// distance is rounded: by 23 u each way (docs/numerics.md, "Boxes") of the distance and of how far
-/// a triangle reaches along the ray, 1.4 for its corners times 3.16 for the stretch, on both sides.
+/// distance is rounded: by 23 u each way (docs/theory/numerics.md, "Boxes") of the distance and of
+/// how far a triangle reaches along the ray, 1.4 for its corners times 3.16 for the stretch, on
+/// both sides.
 Finding asCopies(Run& run) {
     constexpr float kRounding = 46 * 0x1p-24f;
     Finding f;

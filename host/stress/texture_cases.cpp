@@ -55,7 +55,7 @@ double placeOf(double u, Wrap wrap) {
     return std::abs(u) < 0x1p24 ? u : 0;
 }
 
-/// The definition (docs/estimator.md, "Textures"), which shares no step with lookUp() of the
+/// The definition (docs/theory/surfaces.md, "Textures"), which shares no step with lookUp() of the
 /// scene's model: the picture goes on for ever; tents of one texel's width weigh the texels.
 glm::dvec3 defined(const Scene& scene, const Lookup& lookup) {
     const Texture& t = scene.textures[lookup.texture];

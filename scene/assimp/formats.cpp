@@ -6,7 +6,7 @@
 namespace stromboli {
 namespace {
 
-/// Of the importers of Assimp 5.2 those that make meshes.
+/// The importers of Assimp 5.2 that make meshes.
 constexpr auto kSuffixes = std::to_array<std::string_view>(
     {".3d",   ".3ds",    ".3mf",     ".ac",  ".ac3d", ".acc",     ".amf",  ".ase", ".ask",
      ".b3d",  ".blend",  ".bvh",     ".cob", ".csm",  ".dxf",     ".enff", ".fbx", ".hmp",

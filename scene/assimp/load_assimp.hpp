@@ -12,7 +12,7 @@ namespace stromboli {
 bool isAssimpFormat(const std::string& suffix);
 
 /// Reads a file with Assimp (https://assimp.org): meshes and where they stand, materials as those
-/// of OBJ files (docs/obj_ply_files.md), pictures, cameras and lights. Throws SceneError where
+/// of OBJ files (docs/guide/obj_ply.md), pictures, cameras and lights. Throws SceneError where
 /// Assimp cannot read the file, with its words, and where it is not installed, with how to do that.
 Scene loadWithAssimp(const std::filesystem::path& file, const SceneConventions& conventions = {});
 

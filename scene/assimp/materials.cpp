@@ -112,7 +112,7 @@ std::optional<obj::Map> Materials::map(const aiMaterial& m, aiTextureType type) 
     map.place = {file_, 0, "material"};
     map.name = name;
     if (const aiTexture* inside = embedded(name)) {
-        // Of a width in bytes and no height are files; others are bare texels.
+        // Textures with a width in bytes and no height are files; others are bare texels.
         if (inside->mHeight != 0 || inside->mWidth == 0) {
             builder_.report().ignore("bare texels in the file", "surfaces are shown without them");
             return std::nullopt;

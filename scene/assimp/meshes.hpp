@@ -15,7 +15,7 @@ class Meshes {
   public:
     Meshes(const aiScene& scene, build::SceneBuilder& builder, Materials& materials);
 
-    /// Of the mesh of this number; nothing if it has no triangles.
+    /// The shape of the mesh with this number; nothing if it has no triangles.
     std::optional<build::ShapeId> shapeOf(unsigned mesh);
     uint32_t materialOf(unsigned mesh);
 

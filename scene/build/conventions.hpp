@@ -147,7 +147,7 @@ struct SceneConventions {
     bool areDefault() const { return renderer.empty(); }
 };
 
-/// Those of the CS184 renderer (docs/cs184.md).
+/// Those of the CS184 renderer (docs/guide/cs184.md).
 SceneConventions cs184Conventions();
 
 } // namespace stromboli

@@ -62,7 +62,7 @@ double orientation(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c
     const double left = (a.x - c.x) * (b.y - c.y);
     const double right = (a.y - c.y) * (b.x - c.x);
     const double determinant = left - right;
-    // With u = 2^-53 = epsilon / 2: a product of two rounded differences is off by 3 u of itself
+    // Let u = 2^-53 = epsilon / 2: a product of two rounded differences is off by 3 u of itself
     // and terms of u^2; rounding the difference of the products keeps its sign. 4 u covers both
     // and the rounding of the bound.
     const double bound =

@@ -32,11 +32,11 @@ class Report {
     /// The one rule about what cannot be read: a picture is made of the rest, and the table of
     /// kinds (shortfall.hpp) says what takes its place. Forgives, as above.
     void replace(const FilePlace& where, Shortfall kind, const std::string& problem);
-    /// The same with a line of its own for each `instead`, which says more exactly what is taken
-    /// than the table can.
+    /// Forgives likewise, with a line of its own for each `instead`, which says more exactly what
+    /// is taken than the table can.
     void replace(const FilePlace& where, Shortfall kind, const std::string& problem,
                  const std::string& instead);
-    /// The same of an error that was thrown, whose words have their place: it is thrown again where
+    /// Forgives an error that was thrown, whose words have their place: it is thrown again where
     /// the reading is strict, and at the end where the scene has nothing to show without it.
     void replace(const Error& error, Shortfall kind);
     /// Adds the lines about a file that the scene's file refers to, but those that `isLeftOut` says

@@ -8,7 +8,7 @@ namespace stromboli::build {
 
 /// What a file lacks or has wrong where a picture can be made of the rest. Loaders do not decide
 /// what becomes of it: they hand the kind to Report::replace, and the table below says what is
-/// taken instead. docs/forgiving.md is the same table for users.
+/// taken instead. docs/guide/replacements.md is the same table for users.
 enum class Shortfall : size_t {
     Picture,
     PicturePart,

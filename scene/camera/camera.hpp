@@ -47,7 +47,7 @@ Camera lookingAt(const glm::dvec3& from, const glm::dvec3& at, double halfWidth)
 enum class CameraChoice {
     Automatic, ///< the file's camera; a CGL-dialect file, or one without a camera, is framed
     File,      ///< the file's camera
-    Frame,     ///< all of the scene (docs/cs184.md)
+    Frame,     ///< all of the scene (docs/guide/cs184.md)
 };
 
 /// Whose view a picture shows.
@@ -93,7 +93,7 @@ struct FramingConventions {
     bool clipsAlongRay = false; ///< Camera::clipAlongRay
 };
 
-/// Those of the CS184 renderer (docs/cs184.md).
+/// Those of the CS184 renderer (docs/guide/cs184.md).
 FramingConventions cs184Framing();
 
 /// The place in Scene::cameras of the one that is meant; nothing if the file has none. Throws
@@ -113,7 +113,7 @@ PictureSize defaultPictureSize(const Scene& scene, const CameraRequest& request,
 /// The camera for a picture of width x height pixels.
 /// File: the whole of the file's field of view is visible; where the picture's shape differs,
 /// it shows more on the longer side.
-/// Frame: docs/cs184.md.
+/// Frame: docs/guide/cs184.md.
 /// Throws SceneError if the file's camera is wanted and there is none, or none of that name, and if
 /// an orthographic camera is to have an angle of view or a lens.
 Camera makeCamera(const Scene& scene, const CameraRequest& request, uint32_t width, uint32_t height,

@@ -16,7 +16,8 @@ class Volume {
   public:
     explicit Volume(const Camera& camera)
         : camera_(camera),
-          // Of one unit of depth, on each side; an orthographic view does not widen.
+          // How much one unit of depth widens the view, on each side; an orthographic view does not
+          // widen.
           slopeX_(camera.orthographic ? 0 : camera.halfWidth),
           slopeY_(camera.orthographic ? 0 : camera.halfHeight) {
         // A ray is at most so much longer than its depth: in the corners of the picture.

@@ -9,7 +9,7 @@ namespace stromboli {
 /// of 8, at least 8. Always the same for the same number.
 Scene emittersRoom(uint32_t triangles, const std::string& source);
 
-/// The same room lit by point lights instead, at least 1, which fall off with the squared distance
+/// That room lit by point lights instead, at least 1, which fall off with the squared distance
 /// and whose intensities are even in the logarithm over a range of a million.
 Scene pointsRoom(uint32_t lights, const std::string& source);
 

@@ -113,7 +113,7 @@ void copyElement(const AccessorType& type, const char* from, double* to) {
         const size_t at =
             type.rows > 0 ? i / type.rows * columnSize(type) + i % type.rows * size : i * size;
         const double value = componentAt(from + at, type.component) * factor;
-        // Of the two numbers of smallest code, both mean -1.
+        // The two smallest codes both mean -1.
         to[i] = type.normalized ? std::max(value, -1.0) : value;
     }
 }

@@ -29,9 +29,9 @@ class Element {
     [[noreturn]] void fail(const std::string& message) const { place().fail(message); }
     /// About one member.
     [[noreturn]] void fail(std::string_view member, const std::string& message) const;
-    /// The same, where the rest can be shown: the report says what is taken instead.
+    /// Reports likewise, where the rest can be shown: the report says what is taken instead.
     void forgive(build::Shortfall kind, std::string_view member, const std::string& message) const;
-    /// The same element, of which all that is wrong is an error.
+    /// This element, but all that is wrong with it is an error.
     Element strictly() const { return {*file_, path_, *json_}; }
 
     bool has(std::string_view member) const { return find(member) != nullptr; }
@@ -61,13 +61,13 @@ class Element {
     /// The number of something there are `size` of, such as a node; nothing if it is not there.
     std::optional<size_t> index(std::string_view member, size_t size) const;
     std::vector<size_t> indices(std::string_view member, size_t size) const;
-    /// The same; those that name nothing are left out.
+    /// Reads likewise; numbers that name nothing are left out.
     std::vector<size_t> indicesOr(std::string_view member, size_t size) const;
     /// Those of an array that are texts.
     std::vector<std::string> texts(std::string_view member) const;
     /// As many finite numbers as said (any number of them if 0); empty if not there.
     std::vector<double> numbers(std::string_view member, size_t expected) const;
-    /// The same; numbers that are none, or another count of them, count as not there.
+    /// Reads likewise; numbers that are none, or another count of them, count as not there.
     std::vector<double> numbersOr(std::string_view member, size_t expected) const;
     glm::dvec3 vector(std::string_view member, const glm::dvec3& otherwise) const;
 

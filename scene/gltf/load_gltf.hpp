@@ -8,7 +8,7 @@
 
 namespace stromboli {
 
-/// Reads a glTF 2.0 file, as text (.gltf) or binary (.glb); docs/gltf.md says what of it. Throws
+/// Reads a glTF 2.0 file, as text (.gltf) or binary (.glb); docs/guide/gltf.md says what of it. Throws
 /// SceneError with file and element for anything it cannot make sense of.
 Scene loadGltf(const std::filesystem::path& file, const SceneConventions& conventions = {});
 

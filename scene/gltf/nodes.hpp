@@ -14,7 +14,8 @@ namespace stromboli::gltf {
 /// The nodes of a file: a forest, in which each has a place in the world.
 class Nodes {
   public:
-    /// Of two parents of a node the first counts; nodes that are their own ancestors are left out.
+    /// The first of several parents of a node counts; nodes that are their own ancestors are left
+    /// out.
     explicit Nodes(Context& context);
 
     /// Places whatever the nodes of the chosen scene show.

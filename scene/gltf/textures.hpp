@@ -25,7 +25,7 @@ class Textures {
     /// are sRGB. `uvSets` are those of the material.
     std::optional<TextureUse> use(const Element& parent, std::string_view member, TextureSlot slot,
                                   bool srgb, UvSets& uvSets);
-    /// The same for a member whose alpha, times `glossiness`, is how smooth the surface is: a
+    /// As use(), for a member whose alpha, times `glossiness`, is how smooth the surface is: a
     /// texture of MetallicRoughness that says how rough it is.
     std::optional<TextureUse> useGlossiness(const Element& parent, std::string_view member,
                                             double glossiness, UvSets& uvSets);

@@ -17,9 +17,9 @@ namespace {
 
 using Rgbe = std::array<uint8_t, 4>;
 
-/// Of CIE XYZ with Y = 179 lumens to a watt left out, as Radiance writes it. Its white is that of
-/// equal energy, which becomes white here too: each row of the matrix of Rec. 709 is divided by its
-/// sum.
+/// The matrix from CIE XYZ, with Y = 179 lumens to a watt left out, as Radiance writes it. Its
+/// white is that of equal energy, which becomes white here too: each row of the matrix of Rec. 709
+/// is divided by its sum.
 const glm::dmat3 kRgbFromXyz = [] {
     glm::dmat3 rows(glm::dvec3(3.2404542, -1.5371385, -0.4985314),
                     glm::dvec3(-0.9692660, 1.8760108, 0.0415560),

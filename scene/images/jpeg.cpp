@@ -89,7 +89,7 @@ Picture decodeJpeg(std::string_view bytes, const std::string& name) {
     // of ITU-T T.81, G.1.2.2): only the limits on the size itself bound the memory.
     requireSize(name, reader.jpeg.image_width, reader.jpeg.image_height, 4, bytes.size(), 0);
     Picture picture{reader.jpeg.image_width, reader.jpeg.image_height, {}};
-    // Of a few bytes that claim many pixels next to nothing could be shown, slowly.
+    // A few bytes that claim many pixels could show next to nothing, slowly.
     constexpr uint64_t manyTexels = uint64_t(1) << 22, texelsOfByte = 256;
     reader.errors.forgives =
         picture.texelCount() < manyTexels || picture.texelCount() / texelsOfByte < bytes.size();

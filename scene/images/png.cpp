@@ -87,7 +87,7 @@ Picture decodePng(std::string_view bytes, const std::string& name) {
                     png_get_image_height(reader.png, reader.info),
                     {}};
     const bool deep = png_get_bit_depth(reader.png, reader.info) == 16;
-    // Of the file's own pixels, which a palette may pack eight to a byte.
+    // Bytes of the file's own pixels, which a palette may pack eight to a byte.
     const uint64_t leastBits = picture.texelCount() * (deep ? 16 : 1);
     requireSize(name, picture.width, picture.height, deep ? 8 : 4, bytes.size(),
                 leastBits / 8 / kDeflateRatio);

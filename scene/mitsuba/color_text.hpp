@@ -10,7 +10,7 @@ namespace stromboli::mitsuba {
 /// Each throws SceneError at `where` for what is none.
 /// One number, or three.
 RgbValue rgbOf(const build::FilePlace& where, std::string_view text);
-/// The same in sRGB, or #rrggbb.
+/// Reads three numbers in sRGB, or #rrggbb.
 RgbValue srgbOf(const build::FilePlace& where, std::string_view text);
 /// #rrggbb, taken for fractions of 255 of linear light, as Mitsuba 0.x does in <rgb>.
 RgbValue hexOf(const build::FilePlace& where, std::string_view text);

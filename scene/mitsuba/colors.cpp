@@ -11,8 +11,8 @@
 namespace stromboli::mitsuba {
 namespace {
 
-/// Of equal power at all wavelengths. In Mitsuba 0.x, whose colours are relative to D65, it is
-/// white.
+/// A spectrum of equal power at all wavelengths. In Mitsuba 0.x, whose colours are relative to D65,
+/// it is white.
 glm::dvec3 equalEnergy(const Plugin& plugin, ColorOf what) {
     return what == ColorOf::Light && !plugin.isOld ? build::kEqualEnergy : glm::dvec3(1);
 }
@@ -73,7 +73,7 @@ SpectrumValue listedSpectrum(const Plugin& plugin) {
     return spectrum;
 }
 
-/// Of an object that is one colour; nothing where it is none.
+/// The value of an object that is one colour; nothing where it is none.
 std::optional<glm::dvec3> colorOfObject(const Plugin& object, ColorOf what) {
     const std::string& type = object.type;
     if (type == "blackbody") {

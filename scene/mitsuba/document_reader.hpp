@@ -40,7 +40,7 @@ class DocumentReader {
     };
 
     void readVersion(const Element& root, Source& source);
-    /// Of a parameter or an object inside of another one, as later versions write it.
+    /// Reads a parameter or an object inside of another one, as later versions write it.
     std::string nameOf(const Element& element, const Source& source, const Plugin& into);
     Value colorOf(const Element& element, const Source& source, const std::string& tag);
     void readAnimation(const Element& element, const Source& source, Plugin& into);

@@ -8,7 +8,7 @@
 
 namespace stromboli {
 
-/// Reads a scene of Mitsuba (XML, of version 3 or earlier); docs/mitsuba.md says what of it. Throws
+/// Reads a scene of Mitsuba (XML, of version 3 or earlier); docs/guide/mitsuba.md says what of it. Throws
 /// SceneError with file, line and element for anything it cannot make sense of.
 Scene loadMitsuba(const std::filesystem::path& file, const SceneConventions& conventions = {});
 

@@ -27,9 +27,9 @@ class Materials {
     /// The picture that a shape's mesh is painted with.
     using Painter = std::function<TextureImage(const Paint&)>;
 
-    /// Of a shape, which may have neither a BSDF nor an emitter.
+    /// The material of a shape, which may have neither a BSDF nor an emitter.
     BoundMaterial of(const Plugin& shape, const Painter& painter);
-    /// Of a part of a shape that has that BSDF, and no mesh attributes.
+    /// The material of a part of a shape that has that BSDF, and no mesh attributes.
     BoundMaterial of(const Plugin& shape, const Plugin& bsdf);
 
   private:

@@ -14,7 +14,7 @@ const TextureUse* opacityTexture(const Material& m) {
     return found == m.textures.end() ? nullptr : &*found;
 }
 
-/// Of a mixture, which is there as often as its first material.
+/// The opacity of a mixture, which is there as often as its first material.
 double opacityOf(const Material& m) {
     return m.alphaMode == AlphaMode::Opaque ? 1.0 : double(m.opacity);
 }
@@ -93,7 +93,7 @@ Surface blendWithNothing(const Plugin& plugin, Surface surface,
     return surface;
 }
 
-/// Of two surfaces, either of which may be there in a share of cases only, the mixture is there in
+/// If either of two surfaces may be there in a share of cases only, the mixture is there in
 /// the mean of both shares, and then the second one as often as it is one of those.
 void takeMasksOut(Material& first, Material& second, double& weight) {
     const double a = opacityOf(first), b = opacityOf(second);
@@ -130,7 +130,7 @@ std::string mixingProblem(const Surface& first, const Surface& second, bool hasP
     return "";
 }
 
-/// Of those inside.
+/// The BSDFs inside.
 std::vector<const Plugin*> atMostTwo(const Plugin& plugin) {
     std::vector<const Plugin*> inside = plugin.childrenOf("bsdf");
     if (inside.empty())

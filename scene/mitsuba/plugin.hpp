@@ -60,7 +60,7 @@ class Plugin {
     // Parameters. One of another type than expected is said, and counts as absent.
 
     bool has(std::string_view name) const;
-    /// Of all parameters, in the order of the file.
+    /// The names of all parameters, in the order of the file.
     const std::vector<std::string>& names() const { return order_; }
     /// The value itself, whatever it is; null if there is none.
     const Value* find(std::string_view name) const;
@@ -82,7 +82,7 @@ class Plugin {
     const Plugin* child(std::string_view name) const;
     /// The objects inside it with that tag, with or without a name.
     std::vector<const Plugin*> childrenOf(std::string_view tag) const;
-    /// The same, where there can be one at most: the first one; others are said.
+    /// The object, where there can be one at most: the first one; others are said.
     const Plugin* onlyChildOf(std::string_view tag) const;
     /// Counts a parameter or object as read.
     void skip(std::string_view name) const { asked_.insert(std::string(name)); }

@@ -6,7 +6,7 @@ namespace stromboli::mitsuba {
 
 /// Mitsuba's principled BSDF (Burley 2012 and 2015).
 Surface principled(SurfaceMaker& maker);
-/// The same of a thin sheet.
+/// The material of a thin sheet (principledthin).
 Surface principledThin(SurfaceMaker& maker);
 
 } // namespace stromboli::mitsuba

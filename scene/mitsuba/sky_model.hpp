@@ -12,8 +12,8 @@ class SkyModel {
     /// turbidity: 1 to 10; albedo: of the ground, in [0, 1]; sunElevation: radians, 0 to pi / 2.
     SkyModel(double turbidity, const glm::dvec3& albedo, double sunElevation);
 
-    /// Of the sky without the sun. cosine: of the angle from the zenith, not negative; fromSun: the
-    /// angle from the middle of the sun, radians.
+    /// Radiance of the sky without the sun. cosine: of the angle from the zenith, not negative;
+    /// fromSun: the angle from the middle of the sun, radians.
     glm::dvec3 sky(double cosine, double fromSun) const;
     /// The mean of the sun's disk, as it is in the sky.
     glm::dvec3 sun() const;

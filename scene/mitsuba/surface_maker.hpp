@@ -17,9 +17,9 @@ class SurfaceMaker {
 
     /// A reflected or transmitted fraction, or a texture of it in that slot.
     void color(const char* name, const glm::dvec3& otherwise, glm::vec3& where, TextureSlot slot);
-    /// The same of what has been read.
+    /// Makes it of what has been read.
     void put(const char* name, const Shade& shade, glm::vec3& where, TextureSlot slot);
-    /// The same where no texture is possible: the mean of one is taken.
+    /// Makes it where no texture is possible: the mean of one is taken.
     void plainColor(const char* name, const glm::dvec3& otherwise, glm::vec3& where);
     /// A number in [0, most], or a texture of it in that slot, where `layout` puts it.
     float fraction(const char* name, double otherwise, TextureSlot slot, Layout layout,
@@ -32,7 +32,7 @@ class SurfaceMaker {
     Surface done();
 
   private:
-    /// Of facets, a number or the mean of a texture.
+    /// The roughness of facets, a number or the mean of a texture.
     double alpha(const char* name, double otherwise);
     void sayMean(const char* name);
 

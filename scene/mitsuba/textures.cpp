@@ -75,7 +75,7 @@ std::optional<int> placeOfChannel(char channel) {
     return int(place % 4);
 }
 
-/// Of a number of channels that are alike, or of colours.
+/// A picture of channels that are alike, or of colours.
 template <class Combine>
 glm::dvec3 combined(const TextureImage& image, bool srgb, const glm::dvec3& first,
                     Combine combine) {

@@ -15,7 +15,7 @@ struct RgbValue {
     glm::dvec3 rgb{0.0};
 };
 
-/// The same value at every wavelength, or values at some wavelengths, linear between them and 0
+/// One value for every wavelength, or values at some wavelengths, linear between them and 0
 /// outside.
 struct SpectrumValue {
     double everywhere = 0;

@@ -7,8 +7,9 @@ namespace stromboli {
 /// True if anything gives light: a light, or geometry whose material emits, that is not black.
 bool shines(const Scene& scene);
 
-/// The same, but pictures of emission on surfaces count only where they would light these: lamps of
-/// a vehicle or a screen would not, and without more light nothing else is seen of it.
+/// Whether it shines likewise, but pictures of emission on surfaces count only where they would
+/// light these: lamps of a vehicle or a screen would not, and without more light nothing else is
+/// seen of it.
 bool lightsItsSurfaces(const Scene& scene);
 
 /// What lights a scene in which nothing shines: a sky that has the same radiance, 1, everywhere

@@ -95,7 +95,7 @@ class Expansion {
         }
     }
 
-    /// Of the last triangle, so that its geometric normal stays on the side that it was on.
+    /// Turns the last triangle, so that its geometric normal stays on the side that it was on.
     void turnOver() {
         Triangle& t = out_.scene.triangles.back();
         std::swap(t.corner[1], t.corner[2]);

@@ -155,7 +155,7 @@ struct Material {
     bool emits() const { return emission.x > 0 || emission.y > 0 || emission.z > 0; }
     /// True where no light sample can ever contribute: the BSDF is a delta distribution.
     bool isDelta() const;
-    /// Of a conductor, a dielectric or plastic: the interface is a plane.
+    /// Whether the interface of a conductor, a dielectric or plastic is a plane.
     bool isSmooth() const;
     bool hasReliefRules() const { return reliefRule != ReliefRule::Bend || reliefShadows; }
     /// Both alphas of the facets that light meets, where the interface is not smooth.

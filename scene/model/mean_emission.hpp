@@ -16,7 +16,7 @@ class MeanEmission {
 
     /// Radiance, times the share of the surface that is there.
     glm::dvec3 ofTriangle(uint32_t triangle) const;
-    /// Of what has no texture coordinates: the same everywhere.
+    /// The emission of what has no texture coordinates: it is alike everywhere.
     glm::dvec3 ofSphere(uint32_t sphere) const;
     /// Luminance of a triangle's emission (Rec. 709) times the area of the sides that emit.
     double powerOfTriangle(uint32_t triangle) const;

@@ -58,7 +58,7 @@ std::optional<Placement> placementOf(const glm::dmat4& toWorld) {
     const PlacementMatrices m = matricesOf(placement);
     if (!isFinite(m.linear, m.offset) || !isFinite(m.inverseLinear, m.inverseOffset))
         return std::nullopt;
-    // Of the norms of largest entries, which exceed those of lengths by no more than 3.
+    // Bounds by the norms of largest entries, which exceed those of lengths by no more than 3.
     if (!(largestEntry(m.linear) * largestEntry(m.inverseLinear) <= kMostStretch))
         return std::nullopt;
     return placement;

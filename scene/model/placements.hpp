@@ -26,7 +26,7 @@ PlacementMatrices matricesOf(const Placement& placement);
 
 /// A matrix for a Placement, rounded to floats. Nothing where it is of no use for one: not finite,
 /// without an inverse, or one that stretches some direction 2^16 times as much as another, so that
-/// a ray of floats can no longer be told well in the prototype's space (docs/numerics.md,
+/// a ray of floats can no longer be told well in the prototype's space (docs/theory/numerics.md,
 /// "Instances").
 std::optional<Placement> placementOf(const glm::dmat4& toWorld);
 

@@ -165,7 +165,7 @@ glm::vec4 tangentAtCorner(const Scene& scene, uint32_t triangle, uint32_t corner
     const double length = glm::length(alongU);
     // Written so that NaN is no tangent either.
     if (!(std::abs(determinant) > 0 && length > 0 && std::isfinite(length))) return glm::vec4(0);
-    // With texture coordinates that are not mirrored, normal x tangent points against v.
+    // Where texture coordinates are not mirrored, normal x tangent points against v.
     return glm::vec4(glm::vec3(alongU / length), determinant < 0 ? 1.0f : -1.0f);
 }
 

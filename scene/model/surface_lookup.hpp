@@ -6,8 +6,8 @@ namespace stromboli {
 
 // What textures and the attributes of corners say of a point of a surface.
 
-/// Of a point: its triangle's attributes, interpolated. Spheres and triangles without attributes
-/// have these.
+/// The attributes at a point: its triangle's, interpolated. Spheres and triangles without
+/// attributes have these.
 struct PointAttributes {
     glm::dvec2 uv[2] = {glm::dvec2(0.0), glm::dvec2(0.0)};
     glm::dvec4 color{1.0};

@@ -45,7 +45,7 @@ class Groups {
 
     std::vector<Group> groups_;
     std::unordered_map<std::string, size_t> byName_;
-    /// Of the faces that follow; it becomes a group with the first of them.
+    /// The name of the faces that follow; it becomes a group with the first of them.
     std::string name_ = "default";
     int line_ = 0;
 };

@@ -9,7 +9,7 @@
 namespace stromboli {
 
 /// Reads a Wavefront OBJ file with the MTL files and pictures that it names;
-/// docs/obj_ply_files.md says what of them. Throws SceneError with file and line for anything it
+/// docs/guide/obj_ply.md says what of them. Throws SceneError with file and line for anything it
 /// cannot make sense of.
 Scene loadObj(const std::filesystem::path& file, const SceneConventions& conventions = {});
 

@@ -14,7 +14,7 @@ namespace stromboli::obj {
 namespace {
 
 constexpr float kDielectricIor = 1.5f;
-/// Of a dielectric of that index at right angles: ((1.5 - 1) / (1.5 + 1))^2.
+/// What a dielectric of that index reflects at right angles: ((1.5 - 1) / (1.5 + 1))^2.
 constexpr float kDielectricReflectance = 0.04f;
 
 bool isBlack(const std::optional<glm::dvec3>& color) {

@@ -7,7 +7,7 @@
 namespace stromboli::obj {
 
 /// What a material of an MTL file means here. MTL describes how OpenGL-like renderers shade, and
-/// its newer keys a metallic-roughness model; docs/obj_ply_files.md has the rules by which both
+/// its newer keys a metallic-roughness model; docs/guide/obj_ply.md has the rules by which both
 /// become diffuse or principled surfaces.
 Material materialOf(const MtlMaterial& stated, build::SceneBuilder& builder, Pictures& pictures);
 

@@ -208,7 +208,7 @@ class MtlReader {
         for (size_t at = text.find(" -"); at != std::string::npos; at = text.find(" -", at + 1)) {
             Map changed = map;
             Words words(std::string_view(text).substr(at));
-            // With a name behind them, options read no word of it as a number of theirs.
+            // Where a name stands behind them, options read no word of it as a number of theirs.
             const std::string options = std::string(words.rest()) + " .";
             Words ahead(options);
             try {

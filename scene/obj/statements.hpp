@@ -46,7 +46,7 @@ class Statements {
 
     /// The next word as a finite number; throws SceneError if it is none.
     double number(Words& words) const;
-    /// The same, or NaN for a word that says so.
+    /// The next word as a number, or NaN where it says so.
     double numberOrNan(Words& words) const;
 
   private:

@@ -17,7 +17,7 @@ struct PlyAttribute {
     bool isOfFaces = false;
 };
 
-/// Reads a PLY file, ASCII or binary; docs/obj_ply_files.md says what of it. Throws SceneError with
+/// Reads a PLY file, ASCII or binary; docs/guide/obj_ply.md says what of it. Throws SceneError with
 /// file and line, or in binary files element and number, for anything it cannot make sense of.
 Scene loadPly(const std::filesystem::path& file, const SceneConventions& conventions = {});
 Scene loadPlyWith(const PlyAttribute& colors, const std::filesystem::path& file,

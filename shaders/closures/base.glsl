@@ -1,5 +1,5 @@
 // The base under an interface: diffuse reflection, with what the interface lets through and sends back. The interface
-// is a plane or of microfacets. docs/estimator.md, "Plastic", has the formulas.
+// is a plane or of microfacets. docs/theory/surfaces.md, "Plastic", has the formulas.
 
 /// The share of light along w that an interface of microfacets lets through (host/kernel/material_rows.hpp).
 float facetTransmittance(uint table, float cosine) {

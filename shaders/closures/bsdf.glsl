@@ -1,7 +1,7 @@
 // How surfaces scatter light: what the integrator, light sampling and MIS know of it. They ask for values, densities
 // and lobes, never for what a material is made of. A material is a short list of closures: a recipe says which, with
 // what weights as one direction sees them (closures.glsl); here all are evaluated together, and sampled by choosing
-// one. docs/estimator.md has the formulas, docs/architecture.md says how to add a closure.
+// one. docs/theory/estimator.md has the formulas, docs/architecture.md says how to add a closure.
 
 /// Value and density of a BSDF for one pair of directions; both 0 where nothing scatters.
 struct BsdfValue {

@@ -1,5 +1,5 @@
 // Burley's principled BSDF (2012, 2015) as Mitsuba 3 has it: the plugins principled and principledthin. The lobes are
-// added, not layered: at grazing angles more can be reflected than arrives. docs/estimator.md, "Burley", has the formulas.
+// added, not layered: at grazing angles more can be reflected than arrives. docs/theory/surfaces.md, "Burley", has the formulas.
 
 /// roughness squared, stretched as Burley 2012 does it.
 FacetShape burleyFacets(BurleyParameters p, float roughness) {

@@ -1,6 +1,6 @@
 // glTF's metallic-roughness material with its extensions: a metal and a dielectric, mixed; on the
 // dielectric, specular reflection over diffuse or over transmission; sheen and a clear coat on top.
-// docs/estimator.md, "Principled", has the formulas. Light that microfacets would scatter again is given
+// docs/theory/surfaces.md, "Principled", has the formulas. Light that microfacets would scatter again is given
 // back to the lobe it comes from (Turquin 2019); layers get what those above them leave (albedo scaling).
 
 #include "shared/albedo_fits.h"

@@ -1,4 +1,4 @@
-// What layers say of a surface (docs/layers.md).
+// What layers say of a surface (docs/guide/layers.md).
 
 /// Whether what is seen there is another surface: by delta lobes alone, or a principled material without roughness
 /// that is all metal or transmits all that it does not reflect.

@@ -1,5 +1,5 @@
-// All that the kernel does differently under the conventions of the CS184 renderer (docs/cs184.md says
-// why, docs/estimator.md, "CS184 mode", what). Other files ask for a convention by its name; the
+// All that the kernel does differently under the conventions of the CS184 renderer (docs/guide/cs184.md says
+// why, docs/guide/cs184.md, "CS184 mode", what). Other files ask for a convention by its name; the
 // specialisation constant CS184 is read here only, for two sets of conventions. They have the names that
 // they have on the host (host/render/estimator.hpp).
 

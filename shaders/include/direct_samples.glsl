@@ -1,4 +1,4 @@
-// Direct light at a surface: samples of lights, and directions of hemisphere sampling (docs/estimator.md, "Direct
+// Direct light at a surface: samples of lights, and directions of hemisphere sampling (docs/theory/estimator.md, "Direct
 // light at a shading point").
 
 /// A direction of hemisphere sampling as a light sample whose light is not known yet.

@@ -1,5 +1,5 @@
 // Reads the scene row by row (16 bytes) through one kind of memory, chosen when the shader is
-// compiled: storage texel buffers (FETCH_TEXEL) or storage buffers (docs/kernel.md, "Fetch").
+// compiled: storage texel buffers (FETCH_TEXEL) or storage buffers (docs/theory/kernel.md, "Fetch").
 // Rows are integers: floats pass through uintBitsToFloat, so that no bit pattern is altered.
 
 #ifdef FETCH_TEXEL

@@ -1,6 +1,6 @@
 // The gap proposal: a second density from which bounces are drawn, besides the BSDF's own. It aims
 // into the gap between the scene's only light, a rectangle, and a surface close behind it
-// (docs/estimator.md, "Gaps"). That surface is bright, and is seen past the rims of the light
+// (docs/theory/estimator.md, "Gaps"). That surface is bright, and is seen past the rims of the light
 // only: in few directions, but from everywhere. One bounce in sixteen from diffuse surfaces goes
 // there, by the one-sample balance heuristic (Veach and Guibas 1995), so that no weight is above
 // 16 / 15. host/kernel/gpu_scene.hpp finds the gap.

@@ -1,4 +1,4 @@
-// What all paths of a picture have in common, found once before all loops (docs/kernel.md, "Nothing is moved out of
+// What all paths of a picture have in common, found once before all loops (docs/theory/kernel.md, "Nothing is moved out of
 // loops") and passed to the functions that ask for it.
 
 /// From the camera to the picture, at a distance of 1 (orthographic: 0): its top left corner, and the steps from one

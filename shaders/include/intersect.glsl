@@ -1,4 +1,4 @@
-// Ray against box, triangle and sphere. The bounds used here are derived in docs/numerics.md.
+// Ray against box, triangle and sphere. The bounds used here are derived in docs/theory/numerics.md.
 
 /// A ray with what its intersection tests need, all of which follows from origin and direction. Distances
 /// are in units of the direction's length.
@@ -41,7 +41,7 @@ void prepareForBoxes(inout Ray ray, vec3 origin, vec3 direction) {
     ray.childBits[1] = uvec4(1u) << (uvec4(4u, 5u, 6u, 7u) ^ ray.octant);
     const vec3 a = abs(direction);
     // A component below 2^-60 of the largest is taken as that in box tests, which keeps
-    // 0 * infinity and infinity - infinity away (docs/numerics.md).
+    // 0 * infinity and infinity - infinity away (docs/theory/numerics.md).
     const vec3 sign = mix(vec3(1.0), vec3(-1.0), lessThan(direction, vec3(0.0)));
     const float least = largestComponent(a) * 8.673617379884035e-19;
     ray.inverse = 1.0 / (sign * vec3(larger(a.x, least), larger(a.y, least), larger(a.z, least)));
@@ -68,7 +68,7 @@ Ray makeRay(vec3 origin, vec3 direction) {
 }
 
 /// Position of the highest bit of x, 1 to 255: the exponent of x as a float
-/// (docs/kernel.md, "Arithmetic").
+/// (docs/theory/kernel.md, "Arithmetic").
 uint highestBit(uint x) { return (floatBitsToUint(float(int(x))) >> 23u) - 127u; }
 
 /// Planes of a node's grid along a ray: plane q of an axis is at distance q * scale + base.
@@ -93,7 +93,7 @@ GridAxis movedBy(GridAxis g, float distance) {
 }
 
 // The bytes of a word as floats, times 1, 2^8, 2^16 and 1: BYTE_SCALES undoes it, and a mask is
-// cheaper than a shift and a mask. Signed: docs/kernel.md, "Arithmetic".
+// cheaper than a shift and a mask. Signed: docs/theory/kernel.md, "Arithmetic".
 #define BYTES_AS_FLOATS(w)                                                                         \
     vec4(float(int((w)&0xFFu)), float(int((w)&0xFF00u)), float(int((w)&0xFF0000u)),                \
          float(int((w) >> 24u)))
@@ -102,7 +102,7 @@ GridAxis movedBy(GridAxis g, float distance) {
 
 /// Distances of four planes as bit patterns. As integers, patterns of floats that are not
 /// negative compare as the floats do, and a negative one is below them all, which is all that is
-/// needed here (docs/kernel.md, "Arithmetic").
+/// needed here (docs/theory/kernel.md, "Arithmetic").
 ivec4 planeDistances(uint word, GridAxis g) {
     precise vec4 t = BYTES_AS_FLOATS(word) * g.scale.xyzx + g.base;
     return floatBitsToInt(t);
@@ -130,7 +130,7 @@ uint enterFour(uvec3 nearWords, uvec3 farWords, GridAxes near, GridAxes far, flo
 /// Conservative: never misses a box it touches, nor one that holds a primitive at tMax.
 /// Rounding is covered by the margin of the boxes (BOX_MARGIN) where it is relative to the node's
 /// size, and by the slack of the far planes where it is relative to the distance (after Ize 2013);
-/// docs/numerics.md derives both. Planes are near or far by the direction's sign: sorting
+/// docs/theory/numerics.md derives both. Planes are near or far by the direction's sign: sorting
 /// their distances would turn the inverted box of an absent child into a huge one.
 uint enterChildren(Record r, Ray ray, float tMax) {
     const vec3 origin = boxOrigin(ray), slack = boxSlack(ray);

@@ -1,5 +1,5 @@
 // What a material is at a point of a surface: its parameters times textures and the colours of corners, its
-// opacity, and what a normal map says. docs/estimator.md, "Textures", has the rules.
+// opacity, and what a normal map says. docs/theory/surfaces.md, "Textures", has the rules.
 
 #include "include/texture.glsl"
 
@@ -249,7 +249,7 @@ void applyLooseTexture(inout MaterialAtPoint at, uint materialRow, uint number, 
 }
 
 /// One after the other. Without a loop where no material of the scene has two; else with the exit at its end, as
-/// llvmpipe runs a body once more, for no lane, after an exit in the header (docs/kernel.md, "Exits of loops").
+/// llvmpipe runs a body once more, for no lane, after an exit in the header (docs/theory/kernel.md, "Exits of loops").
 void applyLooseTextures(inout MaterialAtPoint at, uint materialRow, uint count, PointAttributes a) {
     uint i = 0u;
     do {

@@ -1,5 +1,5 @@
 // What absorbs along a path: the inside of the surface that it has entered last. Entering a volume sets it
-// and leaving one clears it (docs/estimator.md, "Volumes"). Scenes without absorption have nothing of this.
+// and leaving one clears it (docs/theory/estimator.md, "Volumes"). Scenes without absorption have nothing of this.
 
 const bool HAS_ABSORPTION = (CLOSURES & (VOLUME_ABSORBS)) != 0u;
 

@@ -1,7 +1,7 @@
 // Multiple importance sampling (Veach and Guibas 1995): light that both a light sample and a bounce may
 // find is shared between them by the power heuristic with exponent 2. A narrow lobe finds a large light
 // better than points on the light find the lobe, a wide lobe finds a small light worse. MIS_LOBES says for
-// which lobes that is done (docs/estimator.md, "MIS"); a scene where it does not help has none, and none of
+// which lobes that is done (docs/theory/estimator.md, "MIS"); a scene where it does not help has none, and none of
 // this is in its kernel.
 
 /// Whether a bounce from a surface with any of these lobes shares finding lights with its light samples.

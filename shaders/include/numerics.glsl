@@ -1,4 +1,4 @@
-// Floating-point facts the kernel relies on (docs/numerics.md has the derivations).
+// Floating-point facts the kernel relies on (docs/theory/numerics.md has the derivations).
 
 const float PI = 3.14159265358979;
 const float INV_PI = 0.318309886183791;
@@ -40,7 +40,7 @@ vec3 offsetOrigin(vec3 p, float error, vec3 n, vec3 w) {
 }
 
 /// The larger and the smaller of two numbers that are not negative, and no NaN: patterns of bits compare as the
-/// numbers do (docs/kernel.md, "Arithmetic").
+/// numbers do (docs/theory/kernel.md, "Arithmetic").
 float larger(float a, float b) {
     return intBitsToFloat(max(floatBitsToInt(a), floatBitsToInt(b)));
 }
@@ -54,7 +54,7 @@ float largestComponent(vec3 v) { return larger(v.x, larger(v.y, v.z)); }
 /// Bound of the error of a point interpolated from corners whose weighted magnitudes sum to `sum`,
 /// and of the distance at which a neighbouring triangle's test finds it. The test mixes the
 /// components, so the largest one counts for all of them: a plane through a zero coordinate has no
-/// error of its own there (docs/numerics.md).
+/// error of its own there (docs/theory/numerics.md).
 float interpolationError(vec3 sum) { return 32.0 * UNIT_ROUNDOFF * largestComponent(sum); }
 
 /// Bound of the error of a point put on a sphere: that of its unit normal, times the radius, and that of the sum.

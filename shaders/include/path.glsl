@@ -1,7 +1,7 @@
 // The path tracer as a state machine. Each lane is in one phase; its rays are traced a few steps
 // at a time (traverse.glsl), and a lane whose ray is done is served here: it takes in the result,
 // works out its next ray, and begins its next sample as soon as a path ends, so that lanes stay
-// busy. docs/estimator.md defines what a sample is.
+// busy. docs/theory/estimator.md defines what a sample is.
 
 #include "include/path_state.glsl"
 
@@ -172,7 +172,7 @@ void startCameraRay(const Given given, inout PathState path, vec2 u) {
 }
 
 /// Starts the next path ray: of a new sample (PHASE_NEXT), or the bounce (PHASE_BOUNCE). Both draw
-/// their numbers in one place (docs/kernel.md, "What llvmpipe does"). A bounce may end the path.
+/// their numbers in one place (docs/theory/kernel.md, "What llvmpipe does"). A bounce may end the path.
 void depart(const Given given, inout PathState path) {
     const bool begins = path.phase == PHASE_NEXT;
     if (begins) beginSample(given.frame, path);

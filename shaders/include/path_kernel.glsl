@@ -104,7 +104,7 @@ const uint STOPPING_BLOCK = 0x7FFFFFFFu;
 /// dropped? Samples that take long are under way more often than others, and are often brighter. A pixel
 /// that has no other sample ends it and one that began in this pass drops it, which leaves its mean
 /// without bias (Glynn and Heidelberger 1990); with samples of earlier passes the errors of ending and
-/// dropping cancel, to the first order, where it is ended with the share of those in all (docs/estimator.md,
+/// dropping cancel, to the first order, where it is ended with the share of those in all (docs/theory/noise.md,
 /// "A render that is stopped"). The choice knows nothing of the samples' values.
 bool endsSampleUnderWay(const Frame frame, PathState path) {
     const uint taken = frame.firstSample + samplesTaken(path);
@@ -113,7 +113,7 @@ bool endsSampleUnderWay(const Frame frame, PathState path) {
     return float(word >> 8u) * (1.0 / 16777216.0) * float(taken) < float(path.pixelState.samplesBefore);
 }
 
-/// What follows from the ray is worked out anew in each pass, not kept beside it (docs/kernel.md,
+/// What follows from the ray is worked out anew in each pass, not kept beside it (docs/theory/kernel.md,
 /// "Nothing is moved out of loops").
 void traverseSomeSteps(inout PathState path, inout Job job, inout Stack stack) {
     const Ray prepared = makeRay(path.ray.origin, path.ray.direction);

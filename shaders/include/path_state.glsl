@@ -13,7 +13,7 @@ const uint PHASE_SUSPENDED = 8u;  ///< a bit: the ray of the phase has been put 
 
 bool isSuspended(uint phase) { return (phase & PHASE_SUSPENDED) != 0u; }
 
-/// Where a sample's path has split into branches (path splitting; docs/estimator.md, "Branches"): at
+/// Where a sample's path has split into branches (path splitting; docs/theory/estimator.md, "Branches"): at
 /// the first surface that scatters at random.
 struct SplitPoint {
     SurfacePoint surface;
@@ -45,7 +45,7 @@ struct PathState {
     vec3 departureNormal; ///< shading normal of the surface that the ray has left, for that weight
 
     /// What a material is at the point that the finished ray asks for (askedPoint()). One lookup for all, since
-    /// every lane takes part in each (docs/kernel.md, "Textures").
+    /// every lane takes part in each (docs/theory/kernel.md, "Textures").
     MaterialAtPoint found;
     SurfacePoint surface; ///< where the path scatters next, and light samples are taken
     Material material;    ///< of that surface
@@ -96,7 +96,7 @@ float sideNumber(const Frame frame, PathState path) {
 
 #include "include/pass_through.glsl"
 
-/// Asks for a ray. Rays are prepared in one place, startRay() (docs/kernel.md, "What llvmpipe does").
+/// Asks for a ray. Rays are prepared in one place, startRay() (docs/theory/kernel.md, "What llvmpipe does").
 void trace(inout PathState path, uint newPhase, vec3 origin, vec3 direction, float tMin, float tMax, uint skipPrimitive) {
     path.phase = newPhase;
     path.ray.origin = origin;

@@ -1,5 +1,5 @@
 // Prototypes in the world (scene_types.h): boxes of their trees are met in the prototype's space, triangles in the
-// world, where their corners are the same bits for every ray (docs/numerics.md, "Instances").
+// world, where their corners are the same bits for every ray (docs/theory/numerics.md, "Instances").
 
 
 /// The point that the rows of an affine transformation place p at. Sums are taken in this order, and not contracted,

@@ -17,7 +17,7 @@ uvec4 pcg4d(uvec4 v) {
 }
 
 /// Uniform in [0, 1 - 2^-24]: the top 24 bits, so that 1 never comes out by rounding.
-/// Converted as signed integers (docs/kernel.md, "Arithmetic").
+/// Converted as signed integers (docs/theory/kernel.md, "Arithmetic").
 vec4 unitFloats(uvec4 words) { return vec4(ivec4(words >> 8u)) * (1.0 / 16777216.0); }
 
 #include "sobol.glsl"

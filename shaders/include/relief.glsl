@@ -1,4 +1,4 @@
-// Tangents, and what normal maps and heights make of the shading normal (docs/estimator.md, "Textures").
+// Tangents, and what normal maps and heights make of the shading normal (docs/theory/surfaces.md, "Textures").
 
 /// Along the tangent at a point of a surface with shading normal n (faced forward), perpendicular to n, of no certain
 /// length; w: the bitangent is along w (n x tangent), 0: there is none. Seen from behind, the normal is turned and w with

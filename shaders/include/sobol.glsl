@@ -20,7 +20,7 @@ const uint SOBOL_INDEX_MASK = 0xFFFFFFu;
 // Dimensions of Sobol's sequence, reversed, for the direction numbers of Joe and Kuo (2008). The
 // first dimension is the index itself. The others multiply its bits with a triangular matrix over
 // GF(2): as a product of sparse factors, one for each halving of the matrix, whose diagonals are the
-// shifts and masks here (docs/estimator.md; a test compares them with the direction numbers).
+// shifts and masks here (docs/theory/estimator.md; a test compares them with the direction numbers).
 
 /// x + 1: Pascal's triangle.
 uint sobolReversed1(uint y) {

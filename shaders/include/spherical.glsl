@@ -2,10 +2,10 @@
 // which takes both the distance and the slant of a light out of the noise. Angles never come from
 // the arc cosine of a sum close to 1: solid angles have the numerator of van Oosterom and Strackee
 // (1983), a volume, and angles between corners come from their chord. So nothing cancels,
-// whether the light is far or touched (docs/numerics.md, "Solid angles").
+// whether the light is far or touched (docs/theory/numerics.md, "Solid angles").
 
 /// Angle in [0, pi] of the point (x, y), y >= 0: polynomial 4.4.49 of Abramowitz and Stegun, of
-/// relative error below 1e-7 on every device (docs/kernel.md, "Arithmetic").
+/// relative error below 1e-7 on every device (docs/theory/kernel.md, "Arithmetic").
 float angleOf(float y, float x) {
     const float far = larger(abs(x), y), near = smaller(abs(x), y);
     const float q = near / max(far, TINY), q2 = q * q;

@@ -67,7 +67,7 @@ vec3 linearOfSrgb(vec3 c) {
 }
 
 vec4 bytesOf(uint word, bool srgb) {
-    // Signed conversions, which all processors have (docs/kernel.md, "Arithmetic").
+    // Signed conversions, which all processors have (docs/theory/kernel.md, "Arithmetic").
     vec4 texel = vec4(ivec4(uvec4(word, word >> 8u, word >> 16u, word >> 24u) & 0xFFu)) * (1.0 / 255.0);
     if (srgb) texel.rgb = linearOfSrgb(texel.rgb);
     return texel;
@@ -114,7 +114,7 @@ struct FourTexels {
     float unit;
 };
 
-// Signed conversions, which all processors have (docs/kernel.md, "Arithmetic").
+// Signed conversions, which all processors have (docs/theory/kernel.md, "Arithmetic").
 vec4 fractionsOf(uvec2 words) {
     return vec4(ivec4(uvec4(words.x & 0xFFFFu, words.x >> 16u, words.y & 0xFFFFu, words.y >> 16u)));
 }

@@ -1,7 +1,7 @@
 // The groups of children that a traversal has put off, newest first. Each level of the tree leaves at most one
 // (host/bvh/wide_layout.hpp), and STACK_SIZE counts one more.
 //
-// In registers the stack moves as a whole: two selections an entry. docs/kernel.md, "The traversal stack", says when a
+// In registers the stack moves as a whole: two selections an entry. docs/theory/kernel.md, "The traversal stack", says when a
 // memory that each lane indexes for itself is used instead.
 
 /// Some of a node's children: the first child's record, and in bits 0-7 of `word` bit (slot ^ octant) for each

@@ -1,6 +1,6 @@
 // Traversal of the 8-wide BVH in steps, so that lanes whose rays are done can be served while
 // others go on (path.glsl). A step visits one record, whatever its kind, so that lanes do not part
-// ways (docs/kernel.md, "What llvmpipe does").
+// ways (docs/theory/kernel.md, "What llvmpipe does").
 
 #include "traversal_stack.glsl"
 #include "placements.glsl"
@@ -160,7 +160,7 @@ void changeSpace(inout Traversal t, bool enters, uint record, Record r) {
 }
 
 /// Visits the next record. A ray that is done visits the root to no effect, which costs less than an `if`
-/// around all this (docs/kernel.md, "What llvmpipe does").
+/// around all this (docs/theory/kernel.md, "What llvmpipe does").
 void traversalStep(inout Traversal t, inout Stack stack, Ray ray) {
     bool working = traversing(t);
     if (HAS_PLACEMENTS) working = working && !t.waits;

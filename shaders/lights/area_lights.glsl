@@ -1,5 +1,5 @@
 // Lights with a surface: parallelograms, triangles, spheres. Sampled uniformly by the direction they are
-// seen in (docs/numerics.md, "Solid angles"), so that neither distance nor slant is left in the noise.
+// seen in (docs/theory/numerics.md, "Solid angles"), so that neither distance nor slant is left in the noise.
 
 /// Ends the segment d from `from` to the point p just before the light's surface, whatever the rounding of
 /// p (pError, per component) and of the segment itself. n: unit normal of the light there; away: n points

@@ -1,7 +1,7 @@
 // The environment: a picture around the scene, interpolated between the middles of its texels, and light samples
 // in proportion to it. A texel is taken from an alias table by its weight, then a point about its middle by a tent as
 // wide as the interpolation: the density of points in the picture is then the interpolated weight itself, so that
-// no light is found that no sample goes to (docs/estimator.md, "Environment").
+// no light is found that no sample goes to (docs/theory/estimator.md, "Environment").
 
 struct EnvironmentValue {
     vec3 radiance;

@@ -2,7 +2,7 @@
 /// "shadow terminator". After Hanika, "Hacking the Shadow Terminator" (Ray Tracing Gems II, 2021),
 /// reflected light leaves from the smooth surface instead. His height, what a point lacks to the
 /// tangent planes of the corners, is a sum over the edges where the mesh is convex; taken by edges,
-/// normals that are tilted but parallel do not lift (docs/numerics.md, "Shading normals").
+/// normals that are tilted but parallel do not lift (docs/theory/numerics.md, "Shading normals").
 float liftAt(CornerNormals n, PlacedPrimitive at, vec3 b, vec3 facing) {
     const vec3 c = vec3(dot(n.n0, facing), dot(n.n1, facing), dot(n.n2, facing));
     const float least = min(c.x, min(c.y, c.z)), most = max(c.x, max(c.y, c.z));

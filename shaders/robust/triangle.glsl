@@ -1,4 +1,4 @@
-// Ray against triangle: watertight (docs/numerics.md, "Triangles").
+// Ray against triangle: watertight (docs/theory/numerics.md, "Triangles").
 
 struct TriangleHit {
     float t; ///< INFINITE_DISTANCE: no hit

@@ -1,6 +1,6 @@
 // The path kernel's features: one table, from which GLSL has the specialisation constants, C++ their numbers, their
-// values for a scene (host/kernel/kernel_features.cpp), the lines of `stromboli info` (describe_features.cpp) and the
-// tests that switch every feature on and off (tests/spirv). What is switched off is not in the scene's kernel.
+// values for a scene and the lines of `stromboli info` (host/kernel/kernel_features.cpp), and the tests that switch
+// every feature on and off (tests/spirv). What is switched off is not in the scene's kernel.
 #ifndef STROMBOLI_SHARED_FEATURES_H
 #define STROMBOLI_SHARED_FEATURES_H
 

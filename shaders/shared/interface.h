@@ -26,7 +26,7 @@ SHARED_BEGIN
 #define BINDING_COUNT 14
 #define SCENE_BINDING_COUNT 7 // bindings 0 to 6 hold the scene and are read row by row
 
-/// Numbers of rows in texel buffers are cut to these bits; no buffer has more rows (docs/kernel.md,
+/// Numbers of rows in texel buffers are cut to these bits; no buffer has more rows (docs/theory/kernel.md,
 /// "Fetch").
 SHARED_CONST uint TEXEL_ROW_MASK = 0x07FFFFFFu;
 

@@ -16,7 +16,7 @@ SHARED_BEGIN
 /// seen in a mirror, with a reflection inside. Where that is not the end, the first surface counts.
 SHARED_CONST uint MOST_SEEN_THROUGH = 8u;
 
-/// One pixel: what it is asked for, and sums over its camera rays so far (docs/layers.md).
+/// One pixel: what it is asked for, and sums over its camera rays so far (docs/guide/layers.md).
 struct SeenPixel {
     vec3 albedo;
     uint samples; ///< camera rays that are done

@@ -23,8 +23,7 @@ struct TracedRay {
 };
 SHARED_ROWS(TracedRay, 2);
 
-/// What a lane's rays found: few words, written once a lane and not once a ray (docs/kernel.md,
-/// "The ray kernel").
+/// What a lane's rays found: few words, written once a lane and not once a ray.
 struct LaneTotals {
     uint hits;
     float distances; ///< sum over closest hits of t

@@ -24,7 +24,7 @@ SHARED_BEGIN
 /// float `origin`, the lower 8 the exponent of `cell` = 2^(exponent - 127).
 /// Box of child s on an axis: [origin + low[s] * cell, origin + high[s] * cell], low and high being
 /// bytes, s = 0 in the lowest byte of the first word. The true box lies inside by BOX_MARGIN
-/// cells or more (docs/numerics.md derives the margin). An absent child has low = 255 and high = 0
+/// cells or more (docs/theory/numerics.md derives the margin). An absent child has low = 255 and high = 0
 /// on every axis.
 struct NodeRecord {
     uint originAndExponentX;
@@ -69,7 +69,7 @@ struct PlacementRecord {
     uint kind;      ///< RECORD_IS_PLACEMENT
     /// Rows of the matrix from the world, without an offset: what it turns is the difference to the
     /// prototype's origin in the world. In w, by how much planes of boxes move across that axis for
-    /// each unit of length in the world (docs/numerics.md, "Instances").
+    /// each unit of length in the world (docs/theory/numerics.md, "Instances").
     vec4 toPrototype0, toPrototype1, toPrototype2;
 };
 SHARED_ROWS(PlacementRecord, 4);
@@ -95,7 +95,7 @@ SHARED_CONST uint MAX_RECORDS = 0x40000000u; ///< 2^30: their rows are numbered 
 SHARED_CONST uint SMALL_TREE_RECORDS = 0x01000000u;
 SHARED_CONST uint WIDE_CHILDREN = 8u;
 /// In cells: what a plane's distance along a ray can lose to the rounding of 255 cells,
-/// 8 * 255 * 2^-24 < 2^-13 (docs/numerics.md).
+/// 8 * 255 * 2^-24 < 2^-13 (docs/theory/numerics.md).
 SHARED_CONST float BOX_MARGIN = 0.0001220703125f;
 /// Coordinates of scenes stay below 2^60 (the loader drops what does not), so that no
 /// arithmetic on them overflows.

@@ -59,7 +59,7 @@ double lanczosAt(double x, double lobes) {
     return turn == 0 ? 1 : std::sin(turn) * std::sin(turn / lobes) * lobes / (turn * turn);
 }
 
-/// Of a filter's weight, and of that of its absolute value, the shares below x, and the ratio of
+/// For a filter's weight, and for that of its absolute value, the shares below x, and the ratio of
 /// both weights.
 struct SignedShares {
     double below = 0, absoluteBelow = 0, ratio = 1;
@@ -114,7 +114,7 @@ void expectBlurredEdge(PixelFilter filter, const FilterShape& shape) {
     for (int pixel = 0; pixel < 8; ++pixel) {
         const double toEdge = 4 - (pixel + 0.5); // from the pixel's middle to x = 0
         const SignedShares shares = sharesOf(filter, shape, toEdge);
-        // Of samples whose weights are the ratio across times that along, with signs.
+        // The variance of samples whose weights are the ratio across times that along, with signs.
         const double square = std::pow(shares.ratio, 4) * shares.absoluteBelow;
         const double error =
             std::sqrt(std::max(square - shares.below * shares.below, 1e-12) / kSamples);

@@ -147,7 +147,7 @@ TEST(ThinDielectric, HasAllReflectionsInside) {
     }
 }
 
-/// The same sheet made of two interfaces of glass.
+/// A sheet made of two interfaces of glass.
 TEST(ThinDielectric, IsASlabOfGlass) {
     SceneMaker b;
     b.box({-100, -100, -0.01f}, {100, 100, 0}, b.add(glass(1.5f)));
@@ -219,7 +219,7 @@ TEST(Interfaces, LightIsFoundAlikeInEveryWay) {
     }
 }
 
-/// Of diffuse light inside glass of index 1.5, an interface sends back 0.5963 (Duntley 1942).
+/// An interface sends back 0.5963 of diffuse light inside glass of index 1.5 (Duntley 1942).
 constexpr double kInternal = 0.59631;
 
 /// The sum over all reflections between base and interface: f + (1 - f) a (1 - F) / (1 - a F) with

@@ -59,7 +59,7 @@ void addEnvironment(SceneMaker& maker) {
     maker.scene.environment = e;
 }
 
-/// With a gap that bounces are sent into (docs/estimator.md, "Gaps").
+/// The scene has a gap that bounces are sent into (docs/theory/estimator.md, "Gaps").
 void addQuadBeforeAWall(SceneMaker& maker) {
     maker.quad({-1, 2, -1}, {0, 0, 2}, {2, 0, 0}, maker.add(emissive(2)));
     maker.quad({-3, 2.02f, -3}, {6, 0, 0}, {0, 0, 6}, maker.add(diffuse(0.8f)));

@@ -86,7 +86,8 @@ TEST(Mixtures, MayBeOfMixtures) {
     expectMean(seenInAmbientLight(b, material), glm::dvec3(0.5 * 0.9 + 0.25 * 0.5 + 0.25 * 0.1));
 }
 
-/// Of kinds with lobes of different sorts: delta ones, which light samples do not find, and others.
+/// Mixtures of kinds with lobes of different sorts: delta ones, which light samples do not find,
+/// and others.
 TEST(Mixtures, MayBeOfMirrorsAndPaint) {
     SceneMaker b;
     Material mirror;

@@ -142,7 +142,7 @@ TEST(Principled, LightOnBothSidesIsFoundAlikeInEveryWay) {
         }
 }
 
-/// With branches and two light samples, which take other random numbers, the mean is the same.
+/// For branches and two light samples, which take other random numbers, the mean is the same.
 TEST(Principled, BranchesAndLightSamplesLeaveTheMean) {
     Material m = roughGlass(0.5f, false);
     m.principled.attenuationColor = {0.5f, 0.9f, 0.2f};

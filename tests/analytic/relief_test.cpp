@@ -255,7 +255,7 @@ struct Raised {
     }
 };
 
-/// Of a surface z = f(x, y) the normal is (-f_x, -f_y, 1); v grows downwards.
+/// The normal of a surface z = f(x, y) is (-f_x, -f_y, 1); v grows downwards.
 double leaning(double x, double y) {
     return glm::dot(glm::dvec3(kLeaning), glm::normalize(glm::dvec3(-x, -y, 1)));
 }

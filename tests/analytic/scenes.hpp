@@ -54,7 +54,7 @@ Estimate estimate(const Scene& scene, const Camera& camera, const RenderSettings
 /// below 1e-5 per channel. kRounding of the value is allowed besides.
 void expectMean(const Estimate& found, const glm::dvec3& expected);
 void expectMean(const Estimate& found, double expected);
-/// The same for two independent estimates of one value.
+/// Expects likewise of two independent estimates of one value.
 void expectSameMean(const Estimate& a, const Estimate& b);
 
 inline constexpr DirectLight kDirectLightModes[] = {DirectLight::Mis, DirectLight::MisAll,

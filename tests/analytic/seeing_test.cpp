@@ -14,7 +14,8 @@ using namespace test;
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr PictureArea kArea{16, 12, {}};
-/// Of positions and normals of some metres: roundings of a few operations, and of octahedral codes.
+/// Tolerance for positions and normals of some metres: roundings of a few operations, and of
+/// octahedral codes.
 constexpr double kNear = 1e-4;
 
 RenderSettings seenPicture(PixelFilter filter = PixelFilter::Box) {
@@ -203,7 +204,7 @@ TEST(Layers, NormalOfASphere) {
                n);
 }
 
-/// Of a square whose texture has four colours, seen from the front and in a mirror.
+/// Albedo of a square whose texture has four colours, seen from the front and in a mirror.
 struct TexturedSquare {
     SceneMaker b;
 
@@ -230,7 +231,7 @@ TEST(Layers, UvAndAlbedoOfATexturedSquare) {
     expectNear(seenColor(square.b.scene, camera), glm::dvec3(0.5)); // the last of the colours
 }
 
-/// Of both: what the mirror shows, in the mirror's colour; the place is that of the mirror.
+/// Albedo of both: what the mirror shows, in the mirror's colour; the place is that of the mirror.
 TEST(Layers, AlbedoAndNormalAreFollowedThroughMirrors) {
     TexturedSquare square;
     square.b.quad({-4, -4, 2}, {0, 8, 0}, {8, 0, 0}, square.b.add(mirror(0.8f))); // faces down
@@ -264,8 +265,8 @@ TEST(Layers, EndlessMirrorsEnd) {
                glm::dvec3(std::pow(0.5, 8)));
 }
 
-/// Of a glass pane at normal incidence 4 % shows the white sky, and the rest the floor, which is a
-/// third: the mean of 16 x 192 choices has a standard error of 0.003.
+/// A glass pane at normal incidence shows, by 4 %, the white sky, and the rest the floor, which is
+/// a third: the mean of 16 x 192 choices has a standard error of 0.003.
 TEST(Layers, GlassShowsBothSides) {
     SceneMaker b;
     b.quad({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}, b.add(diffuse(1 / 3.0f)));

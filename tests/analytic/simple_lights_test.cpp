@@ -97,7 +97,7 @@ TEST(SimpleLights, SpotWithSoftEdge) {
     light.direction = {0, -1, 0};
     light.falloffAngle = float(120 * kPi / 180);
     light.innerAngle = float(60 * kPi / 180);
-    // Of the angles as they are rounded: nearly 0.5 and sqrt(0.75).
+    // Cosines of the angles as they are rounded: nearly 0.5 and sqrt(0.75).
     const double outer = std::cos(double(light.falloffAngle) / 2);
     const double inner = std::cos(double(*light.innerAngle) / 2);
     const double edge = (0.8 - outer) / (inner - outer);

@@ -15,12 +15,12 @@ class TextureMaker {
 
     /// Texels from the top, row after row; each a fraction that is stored in 8 bits.
     uint32_t bytes(uint32_t width, uint32_t height, const std::vector<glm::vec4>& texels);
-    /// The same in half floats.
+    /// A picture in half floats.
     uint32_t halves(uint32_t width, uint32_t height, const std::vector<glm::vec4>& texels);
     uint32_t texture(const Texture& texture);
     /// A bilinear, linear texture that repeats.
     uint32_t texture(uint32_t image) { return texture(Texture{.image = image}); }
-    /// The same colour everywhere.
+    /// One colour everywhere.
     uint32_t constant(const glm::vec4& color) { return texture(halves(1, 1, {color})); }
 
     /// Gives the corners of the last `triangles` triangles attributes by where they are.

@@ -26,7 +26,7 @@ std::vector<Bounds> boxesAt(const std::vector<glm::vec3>& centers, float half) {
     return boxes;
 }
 
-/// With and without moving subtrees afterwards.
+/// Both with and without moving subtrees afterwards.
 void expectBuilds(const std::vector<Bounds>& boxes, BuildOptions options = {}) {
     for (const bool reinsert : {false, true}) {
         options.reinsert = reinsert;

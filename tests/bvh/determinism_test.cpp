@@ -1,4 +1,4 @@
-// The same scene gives the same bytes, whatever the number of threads.
+// A scene gives the same bytes, whatever the number of threads.
 
 #include "host/bvh/wide_layout.hpp"
 #include "tests/bvh/fixtures.hpp"

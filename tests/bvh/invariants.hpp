@@ -12,9 +12,9 @@ namespace stromboli::test {
 /// several, nodes that are not depth first, the wrong depth.
 void expectValidTree(const BinaryTree& tree, std::span<const Bounds> items, uint32_t depthCap);
 
-/// The same for a scene's layout: every primitive in one leaf, where placeOf says and with its own
-/// corners; in every node boxes that hold all that is below and the margin; absent children that
-/// do no harm; a stack for the deepest way down.
+/// Checks a scene's layout likewise: every primitive in one leaf, where placeOf says and with its
+/// own corners; in every node boxes that hold all that is below and the margin; absent children
+/// that do no harm; a stack for the deepest way down.
 void expectValidLayout(const WideLayout& layout, const Scene& scene);
 
 } // namespace stromboli::test

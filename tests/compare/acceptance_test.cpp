@@ -45,7 +45,7 @@ TEST(Acceptance, LimitIsThatOfOnePixelInAHundredPictures) {
     EXPECT_TRUE(a.accepted());
 }
 
-/// Of a variance of 0.04, 400 samples have a standard deviation of 0.2 / 20 = 0.01.
+/// If the variance is 0.04, 400 samples have a standard deviation of 0.2 / 20 = 0.01.
 TEST(Acceptance, ZIsInStandardDeviationsOfTheMeanInXyz) {
     const Acceptance a = judgeByVariance(reference(), variances(0.04), shifted(1, 0.03), 400);
     EXPECT_NEAR(a.largest, 3, 1e-4);
@@ -90,7 +90,7 @@ TEST(Acceptance, AShareOfTheTestsMayFail) {
     EXPECT_THAT(toText(comparison), testing::HasSubstr("NOT ACCEPTED"));
 }
 
-/// With very many samples the reference's own noise, that of 32,000, is no longer small.
+/// For very many samples the reference's own noise, that of 32,000, is no longer small.
 TEST(Acceptance, ManySamplesMeetANoisyReference) {
     const double n = 32000;
     EXPECT_NEAR(

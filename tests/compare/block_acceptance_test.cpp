@@ -30,7 +30,7 @@ Picture variances() {
 BlockAcceptance judge(const Picture& picture, double familyError = 0.01) {
     return judgeBlocks(reference(), variances(), picture, kSamples, kReference, familyError);
 }
-/// Of a pixel's difference.
+/// Deviation of a pixel's difference.
 const double kDeviation = std::sqrt(kVariance * (1.0 / double(kSamples) + 1 / kReference));
 
 TEST(BlockAcceptance, ZIsInStandardDeviationsOfSums) {
@@ -65,7 +65,7 @@ TEST(BlockAcceptance, SeesASmallErrorOfTheWholePicture) {
     EXPECT_NEAR(a.noise.y, kDeviation / (kSide * y), 1e-9);
 }
 
-/// Of right pictures as many fail as the error rate says: of 400 at 5 % 20, with a standard
+/// As many right pictures fail as the error rate says: of 400 at 5 % 20, with a standard
 /// deviation of 4.4.
 TEST(BlockAcceptance, RightPicturesFailAsOftenAsItSays) {
     std::mt19937_64 random(11);

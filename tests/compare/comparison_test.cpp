@@ -36,7 +36,7 @@ TEST(Comparison, ZTestsWhereBothHaveVariances) {
     EXPECT_THROW(violations(comparePictures(a, plain, {}), {.zTest = true}), UsageError);
     EXPECT_EQ(violations(same, {.zTest = true}).size(), 0u);
     EXPECT_EQ(violations(other, {.zTest = true}).size(), 1u);
-    // With a sample each nothing is found, because nothing can be.
+    // From a sample each nothing is found, because nothing can be.
     const Comparison blind = comparePictures(noisyPicture(1, 0, 1), noisyPicture(2, 0, 1), {});
     EXPECT_FALSE(blind.zTest->anyDiffers());
     EXPECT_EQ(violations(blind, {.zTest = true}).size(), 1u);

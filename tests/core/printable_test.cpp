@@ -16,7 +16,7 @@ TEST(Printable, ShowsControlCharacters) {
     EXPECT_EQ(printable("\x1B[2J\x1B]0;title\x07"), "\\x1b[2J\\x1b]0;title\\x07");
     EXPECT_EQ(printable("a\nerror: b\tc\rd"), "a\\nerror: b\\tc\\x0dd");
     EXPECT_EQ(printable("a\0b\x7F"s), "a\\x00b\\x7f");
-    // Of eight bits: U+0085 and U+009B, which begins a sequence on some terminals.
+    // Controls of eight bits: U+0085 and U+009B, which begins a sequence on some terminals.
     EXPECT_EQ(printable("\xC2\x85|\xC2\x9B|\xC2\xA0"), "\\xc2\\x85|\\xc2\\x9b|\xC2\xA0");
 }
 

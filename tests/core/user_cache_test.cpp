@@ -205,7 +205,7 @@ TEST_F(Cache, LeftoversOfKilledProgramsGoWithTheOldest) {
     cache_.keep("a", blobOf(10));
     const std::string name = file().filename().string();
     for (size_t i = 0; i < 3 * BlobCache::kMostBlobs; ++i) { // as writeFileAtomically names them
-        // Of another blob: those of the same one go when it is written.
+        // Leftovers of another blob: those of the same one go when it is written.
         const fs::path leftover = folder_ / (".b" + name + ".77." + std::to_string(i) + ".tmp");
         setContent(leftover, "half a blo");
         fs::last_write_time(leftover, fs::file_time_type::clock::now() - std::chrono::hours(1));

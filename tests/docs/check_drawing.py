@@ -9,8 +9,8 @@ import sys
 
 # What stands for several folders in the drawing, and folders under a shorter name.
 GROUPS = {
-    "loaders": ["scene/collada", "scene/gltf", "scene/mitsuba", "scene/obj", "scene/ply",
-                "scene/assimp", "scene/generate"],
+    "loaders": ["scene/collada", "scene/gltf", "scene/mitsuba", "scene/pbrt", "scene/obj",
+                "scene/ply", "scene/assimp", "scene/generate"],
     "build": ["scene/build", "scene/xml", "scene/images"],
     "model": ["scene/model"],
     "camera": ["scene/camera"],
@@ -24,7 +24,9 @@ def node_of(folder):
     for node, folders in GROUPS.items():
         if folder in folders:
             return node
-    return folder.removeprefix("host/") if folder.startswith("host/") else None
+    if not folder.startswith("host/"):
+        sys.exit(f"{folder} is not in the drawing: it wants a node, or a place in GROUPS")
+    return folder.removeprefix("host/")
 
 
 def drawn_arrows(text):

@@ -59,7 +59,7 @@ TEST(BlockBackend, HasTheSamplesOfARenderWithoutBlocks) {
     }
 }
 
-/// With more samples later, as --resume has it: the blocks that are done are not begun anew.
+/// For more samples later, as --resume has it: the blocks that are done are not begun anew.
 TEST(BlockBackend, GoesOnToMoreSamplesWithTheSameBytes) {
     RenderSettings s = settingsOf(100);
     s.budget.samplesPerBlock = 16;

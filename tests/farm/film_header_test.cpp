@@ -46,7 +46,7 @@ TEST(FilmHeader, RefusesWhatMakesNoSense) {
     EXPECT_EQ(refusal([](FilmHeader& h) { h.shares[0].index = 5; }), kNonsense);
 }
 
-/// Of planned rounds and layers, too.
+/// Headers of planned rounds and layers, too.
 TEST(FilmHeader, RefusesRoundsAndLayersThatMakeNoSense) {
     const auto refusal = [](const std::function<void(FilmHeader&)>& change) {
         FilmHeader h = sumOf({{1, 4}});

@@ -10,7 +10,7 @@
 
 namespace stromboli::test {
 
-/// Of a picture of drawn samples, kSide pixels on a side.
+/// Films of a picture of drawn samples, kSide pixels on a side.
 inline FilmHeader pictureOf(uint32_t samples, uint32_t perBlock) {
     FilmHeader header;
     header.identity = {"0.1.0", "12345678", "room.dae", 42, "vulkan", "a device"};

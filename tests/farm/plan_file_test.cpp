@@ -93,7 +93,8 @@ TEST(PlanFile, RefusesWhatMakesNoSense) {
                 HasSubstr("no sense"));
 }
 
-/// Of the samples, whatever the number of shares: each once, and about as many in each share.
+/// Every sample is in a share, whatever the number of shares: each once, and about as many in each
+/// share.
 TEST(RoundPlan, SharesAreAllOfItOnce) {
     const RoundPlan plan = smallPlan();
     for (const uint32_t shares : {1u, 2u, 7u, 64u, 100'000u}) {

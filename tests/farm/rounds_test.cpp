@@ -294,7 +294,7 @@ TEST_F(Rounds, RefuseForeignPlansAndSharesThatComeTwice) {
     ++other.to[100];
     EXPECT_THAT(refusal({thirds[0], planned(other, {2, 3})}),
                 HasSubstr("follows another plan of round 2"));
-    // Of other plans of the second round, films of the third are strangers as well.
+    // Where the second round had other plans, films of the third are strangers as well.
     RoundPlan later = plan, laterOfOther = plan;
     later.picture = ofShare(plan, {1, 1}).header;
     laterOfOther.picture = ofShare(other, {1, 1}).header;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How one picture scales over workers that share it, on this machine: the table of docs/farm.md, "How it scales".
+"""How one picture scales over workers that share it, on this machine: the table of docs/results.md, "How shares scale".
 
     python3 tests/farm/scaling.py build/release/bin/stromboli [--rounds 3]
 

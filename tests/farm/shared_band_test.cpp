@@ -42,7 +42,7 @@ TEST(SharedBand, HasTheSamplesOfItsBlocks) {
     EXPECT_EQ(done, 12u * kSide * kSide);
 }
 
-/// Of several devices the first one may drop out between two blocks: another one sees then.
+/// The first of several devices may drop out between two blocks: another one sees then.
 TEST(SharedBand, CountsWhatIsCoveredByTheViewerThatIsLeft) {
     const FilmHeader header = ofShare(pictureOf(20, 4), {1, 1});
     DrawnBackend backend(uneven, 1);

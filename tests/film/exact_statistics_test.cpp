@@ -45,7 +45,7 @@ class BitCounts {
     std::map<int, uint64_t> counts_;
 };
 
-/// Of any size between 2^-60 and 2^48, and now and then one near the least of all doubles.
+/// Numbers of any size between 2^-60 and 2^48, and now and then one near the least of all doubles.
 double anyRadiance(std::mt19937& random) {
     std::uniform_real_distribution<double> digits(1, 2), exponent(-60, 47);
     const double value = std::ldexp(digits(random), int(exponent(random)));

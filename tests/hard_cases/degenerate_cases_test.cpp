@@ -91,7 +91,7 @@ TEST_F(HardCases, C12_CornersThatAreNotFiniteAmongGoodOnes) {
         << "negative control: NaN in a box hides the good triangles";
 }
 
-/// The same quad 64 times, each of another colour: every sample has one of the colours, and the
+/// One quad 64 times, each of another colour: every sample has one of the colours, and the
 /// picture is the same to the last bit for any way to cut the work. Which copy is seen depends on
 /// the tree, and on nothing else.
 TEST_F(HardCases, C16_CoplanarCopies) {

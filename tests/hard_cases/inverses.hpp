@@ -10,7 +10,7 @@
 /// sampler follows its density if, and only if, its inverse makes uniform numbers of its samples.
 namespace stromboli::test {
 
-/// Of the angle about z, in [0, 1).
+/// The number that leads to the angle about z, in [0, 1).
 inline double turn(const glm::dvec3& w) {
     const double turns = std::atan2(w.y, w.x) / (2 * reference::kPi);
     return turns < 0 ? turns + 1 : turns;
@@ -20,7 +20,7 @@ inline glm::dvec2 invertCosineHemisphere(const glm::dvec3& w) {
     return {w.x * w.x + w.y * w.y, turn(w)};
 }
 
-/// Of uniformCone; the hemisphere's cone is 1, the sphere's 2.
+/// The inverse of uniformCone; the hemisphere's cone is 1, the sphere's 2.
 inline glm::dvec2 invertUniformCone(const glm::dvec3& w, double oneMinusCosMax) {
     // Without cancellation, where there would be any.
     const double sine2 = w.x * w.x + w.y * w.y;

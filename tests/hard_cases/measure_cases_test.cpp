@@ -73,7 +73,7 @@ TEST(HardCases, C42_FramesAreOrthonormal) {
                 n[axis] = sign;
                 normals.push_back(n);
             }
-    // Of Duff et al. 2017, table 1.
+    // The vectors of Duff et al. 2017, table 1.
     const glm::vec3 bad(0.00038527316f, 0.00038460016f, -0.99999988079f);
     normals.push_back(glm::normalize(glm::dvec3(bad)));
     normals.push_back(glm::normalize(glm::dvec3(-0.00019813581, -0.00008946839, -0.99999988079)));

@@ -16,7 +16,7 @@ float inHalf(float x) {
     return std::bit_cast<float>(std::bit_cast<uint32_t>(x) & ~0x1FFFu);
 }
 
-/// Of the nearest texel; the remainder of a negative number is negative, and reads before the
+/// Index of the nearest texel; the remainder of a negative number is negative, and reads before the
 /// picture, where everything is black.
 glm::vec3 texelOf(const Scene& scene, const TextureUse& use, const glm::vec2& uv) {
     const Texture& texture = scene.textures[use.texture];

@@ -166,8 +166,8 @@ TEST(HardCases, C39_DensitiesIntegrateToWhatIsSampled) {
         }
 }
 
-/// Of radiance 1 all around a conductor that absorbs nothing sends back 1 at most, at every angle
-/// and roughness; f is the same both ways.
+/// Under radiance 1 all around, a conductor that absorbs nothing sends back 1 at most, at every
+/// angle and roughness; f is the same both ways.
 TEST(HardCases, C40_NoMoreIsReflectedThanArrives) {
     Material m;
     m.kind = MaterialKind::Conductor;

@@ -70,7 +70,7 @@ TEST_F(Bundles, LeaveTheRestLoose) {
 }
 
 /// Where a material has a bundle all look one up, so that a picture by itself is best in one too.
-/// Of several groups that are alike the largest is taken.
+/// The largest of several groups that are alike is taken.
 TEST_F(Bundles, TakePicturesByThemselvesWhereOthersHaveOne) {
     scene_.materials.push_back(scene_.materials[0]);
     scene_.materials[1].textures.resize(1);

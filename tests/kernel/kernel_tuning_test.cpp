@@ -122,7 +122,7 @@ TEST_F(KernelTuningTest, LanesSeldomWaitForAnotherPixel) {
     EXPECT_GT(busyShare(2), 0.9 * busyShare(64));
 }
 
-/// With a step a service pass, a lane that has work is busy in every step.
+/// If there is one step a service pass, a lane that has work is busy in every step.
 TEST_F(KernelTuningTest, FewerStepsBetweenServicesKeepLanesBusier) {
     VulkanBackend often = backend({.traversalSteps = 1, .countSteps = true});
     VulkanBackend seldom = backend({.traversalSteps = 16, .countSteps = true});

@@ -34,7 +34,7 @@ class SchedulerTest : public DeviceTest {
         return film;
     }
 
-    /// With few and many paths under way, and with submissions of a single round.
+    /// For few and many paths under way, and with submissions of a single round.
     void expectSamePictures(const Scene& scene) const {
         const Film persistent = pictureOf(scene, {.scheduler = PathScheduler::Persistent});
         const uint64_t rays = rays_, paths = paths_;
@@ -54,7 +54,7 @@ class SchedulerTest : public DeviceTest {
     mutable uint64_t rays_ = 0, paths_ = 0; ///< of the last picture
 };
 
-/// Of two sheets, one faces whoever looks. Rays that have come through it meet nothing, in a medium
+/// One of two sheets faces whoever looks. Rays that have come through it meet nothing, in a medium
 /// that absorbs all light but blue.
 Scene sheetsBeforeTheSky() {
     scenes::SceneMaker b;

@@ -8,7 +8,8 @@
 namespace stromboli {
 namespace {
 
-/// Of every n-th pixel, as an adaptive pass leaves them; the sample number names the pixel.
+/// Targets for every n-th pixel, as an adaptive pass leaves them; the sample number names the
+/// pixel.
 std::vector<PixelTarget> everyNth(uint32_t n, uint32_t pixels) {
     std::vector<PixelTarget> targets;
     for (uint32_t i = 0; i < pixels; i += n)

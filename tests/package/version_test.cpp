@@ -27,7 +27,7 @@ class Version : public testing::Test {
         EXPECT_EQ(done.exitCode, 0) << done.output;
         return done.output;
     }
-    /// Of the folder, as the build asks for it.
+    /// Version of the folder, as the build asks for it.
     std::string version() {
         return run("cmake -DSOURCE=$PWD/source -DBASE=0.1.0 -DINPUT=version.in -DOUTPUT=version "
                    "-P " STROMBOLI_SOURCE_DIR "/cmake/GitVersion.cmake; printf %s $(cat version)");
@@ -105,11 +105,11 @@ TEST_F(Version, TheRenderingCodeIsThatOfTheRenderers) {
                    "/cmake/GitVersion.cmake; printf %s $(cat code)");
     };
     run("mkdir -p source/shaders/lights source/host/cli source/docs; cd source; echo 1 "
-        ">shaders/lights/a.glsl; echo 1 >host/cli/b.cpp; echo 1 >docs/c.md; echo 1 >shaders/d.md");
+        ">shaders/lights/a.glsl; echo 1 >host/cli/b.cpp; echo 1 >docs/c.txt; echo 1 >shaders/d.md");
     const std::string first = code("g++ 12");
     EXPECT_EQ(first.size(), 16u);
     EXPECT_EQ(first.find_first_not_of("0123456789abcdef"), std::string::npos);
-    run("cd source; echo 2 >host/cli/b.cpp; echo 2 >docs/c.md; echo 2 >shaders/d.md");
+    run("cd source; echo 2 >host/cli/b.cpp; echo 2 >docs/c.txt; echo 2 >shaders/d.md");
     EXPECT_EQ(code("g++ 12"), first) << "nothing that renders";
     EXPECT_NE(code("g++ 13"), first);
     run("cd source; echo 2 >shaders/lights/a.glsl");

@@ -1,5 +1,5 @@
 #!/bin/bash
-# How many files of formats that Assimp reads load (docs/assimp_files.md):
+# How many files of formats that Assimp reads load (docs/guide/assimp.md):
 #
 #   tests/peers/assimp_files.sh PROGRAM [FOLDER]
 #

@@ -90,7 +90,7 @@ TEST(Fresnel, Dielectric) {
     const double brewster = std::atan(1.5);
     const double s = std::pow(std::cos(2 * brewster), 2);
     EXPECT_NEAR(reference::dielectric(std::cos(brewster), 1 / 1.5).reflectance, s / 2, 1e-12);
-    // The same from the other side of the refracted ray.
+    // And from the other side of the refracted ray.
     const reference::Interface in = reference::dielectric(0.3, 1 / 1.5);
     EXPECT_NEAR(reference::dielectric(in.cosTransmitted, 1.5).reflectance, in.reflectance, 1e-12);
 }

@@ -51,7 +51,7 @@ struct OnSphere {
 
 /// The plane through the lifted point across the shading normal does not touch the sphere: no
 /// direction above the horizon meets the mesh within. True while the triangles span 60 degrees or
-/// less from their middle (docs/numerics.md), and shown to end there.
+/// less from their middle (docs/theory/numerics.md), and shown to end there.
 TEST_F(SmoothTriangles, LiftedPointsSeeOverASphere) {
     int small = 0, large = 0, under = 0;
     for (int i = 0; i < 200000; ++i) {

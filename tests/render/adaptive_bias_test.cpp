@@ -74,7 +74,7 @@ struct Bias {
     /// 30 degrees of freedom is beyond 3.5 in one of 1400.)
     bool isShownToBeBelow(double bound) const { return std::abs(value) + 3.5 * error < bound; }
 
-    /// The same measurement, had the bias been larger by `more`, whichever way it is.
+    /// This measurement, had the bias been larger by `more`, whichever way it is.
     Bias with(double more) const {
         Bias b = *this;
         b.value += b.value < 0 ? -more : more;

@@ -18,7 +18,7 @@ Scene libraryScene(const std::string& name) {
 }
 
 struct Expense {
-    double variance = 0; ///< relMSE (docs/study.md)
+    double variance = 0; ///< relMSE (docs/guide/study.md)
     double rays = 0;
 };
 
@@ -36,7 +36,7 @@ class BranchesGain : public DeviceTest {
         return (sum.x + sum.y + sum.z) / 3 / double(a.pixels.size());
     }
 
-    /// Of 64 paths a pixel, from the difference of two pictures of independent noise.
+    /// Variance of 64 paths a pixel, from the difference of two pictures of independent noise.
     static Expense expense(const Scene& scene, uint32_t branches, uint32_t maxBounces = 5) {
         RenderSettings s;
         s.area.width = 64, s.area.height = 48;

@@ -1,4 +1,4 @@
-// The same scene, settings and device give the same bytes, however the work is cut.
+// A scene, settings and a device give the same bytes, however the work is cut.
 #include "tests/render/device_render.hpp"
 #include "tests/render/film_checks.hpp"
 #include "tests/support/device_fixture.hpp"

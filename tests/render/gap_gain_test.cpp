@@ -11,7 +11,7 @@ namespace {
 using namespace test;
 
 struct Expense {
-    double variance = 0; ///< relMSE (docs/study.md)
+    double variance = 0; ///< relMSE (docs/guide/study.md)
     double rays = 0;
 };
 

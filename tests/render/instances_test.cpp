@@ -235,7 +235,7 @@ FloatImage layersBy(Viewer& viewer, const Scene& scene, const PictureArea& area)
     return image;
 }
 
-/// Of the numbers of a channel, how many are other ones.
+/// How many numbers of a channel are other ones.
 size_t differences(const std::vector<float>& a, const std::vector<float>& b) {
     size_t different = 0;
     for (size_t i = 0; i < a.size(); ++i)

@@ -1,7 +1,7 @@
 // What is in a pixel when a render is stopped in the middle of a pass. Paths take unequal time, and
 // long ones are often the bright ones: which of the samples under way are ended decides whether the
 // pixels of a stopped render are right on the mean. Dropping all of them favours short paths,
-// ending all of them long ones (docs/estimator.md, "A render that is stopped").
+// ending all of them long ones (docs/theory/noise.md, "A render that is stopped").
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
 

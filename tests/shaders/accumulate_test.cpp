@@ -39,7 +39,7 @@ glm::dvec3 mean(const PixelState& s) {
     return (glm::dvec3(s.sum) + glm::dvec3(s.sumError)) / double(s.count);
 }
 
-/// Of the samples, with n (not n - 1) in the denominator.
+/// Variance of the samples, with n (not n - 1) in the denominator.
 glm::dvec3 variance(const PixelState& s) {
     return (glm::dvec3(s.m2) + glm::dvec3(s.m2Error)) / double(s.count);
 }

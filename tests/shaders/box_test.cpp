@@ -157,7 +157,7 @@ TEST_F(EnterChildren, LosesNoneThatTheExactRayMeetsAtAnyScale) {
         Cases cases;
         for (int i = 0; i < 30000; ++i) {
             const WideNode node = randomNode(size, random.below(2) ? 0.5f : 5.0f, random);
-            // Directions as short as docs/numerics.md allows coordinates to be.
+            // Directions as short as docs/theory/numerics.md allows coordinates to be.
             const bool unit = size < 1e-15f || random.below(2) == 0;
             cases.add(node, randomRay(node, size, 3, unit, random));
         }

@@ -1,5 +1,5 @@
 // The terms of the BSDFs against formulas in double precision: host/reference where it has them,
-// docs/estimator.md for the conventions of CS184.
+// docs/theory/estimator.md for the conventions of CS184.
 #include "host/core/random.hpp"
 #include "host/reference/microfacet.hpp"
 #include "tests/shaders/queries.h"
@@ -88,7 +88,7 @@ TEST_F(BsdfTerms, ConductorFresnel) {
         for (int c = 0; c < 3; ++c) {
             // Where eta << k, the part of the root that eta leaves is a small difference.
             ASSERT_NEAR(found[i].conductor[c], exact[c], 120 * kUlp) << i;
-            // docs/estimator.md, "CS184 mode".
+            // docs/guide/cs184.md, "CS184 mode".
             const double cosine = q.x, eta = q.eta[c], s = eta * eta + double(q.k[c]) * q.k[c];
             const double c2 = cosine * cosine;
             const double rs = (s - 2 * eta * cosine + c2) / (s + 2 * eta * cosine + c2);

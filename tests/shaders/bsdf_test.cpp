@@ -65,7 +65,7 @@ bool isCritical(const reference::SurfacePoint& s, const glm::dvec3& h,
     return isVolume(*s.material) && std::abs(1 - eta * eta * (1 - cosine * cosine)) < 0.03;
 }
 
-/// The same of the plane over the base of plastic, which either direction may meet.
+/// The side of the plane over the base of plastic, which either direction may meet.
 bool isCriticalOfPlastic(const reference::SurfacePoint& s, const glm::dvec3& wi) {
     const double eta = 1 / double(s.material->ior);
     const auto isNear = [&](double cosine) {
@@ -156,8 +156,8 @@ TEST_P(BsdfTest, WeightsAreValuesOverDensities) {
     for (size_t i = 0; i < queries.size(); ++i) {
         const BsdfCase& c = cases_[queries[i].material];
         reference::SurfacePoint s = surface(queries[i]);
-        // Of unit length in double: the half vector of two directions near the horizon turns by the
-        // difference of their lengths over the cosine.
+        // The directions have unit length in double: the half vector of two directions near the
+        // horizon turns by the difference of their lengths over the cosine.
         s.wo = glm::normalize(s.wo);
         const uint32_t lobes = reference::lobesOf(*s.material);
         const bool black = found[i].weight == glm::vec3(0.0f);
@@ -179,7 +179,7 @@ TEST_P(BsdfTest, WeightsAreValuesOverDensities) {
         // D, whose error is the larger part of f's, is in both and drops out; the direction carries
         // the roundings of the frame, both ways.
         double relative = (100 + 20 / cosO + 20 / std::abs(cosI)) * kRoundoff;
-        // Of several lobes it does not.
+        // If there are several lobes it does not.
         if (c.error > 0) relative += inLobe;
         for (int k = 0; k < 3; ++k) {
             const double weight = zero ? 0 : expected.value[k] / expected.pdf;

@@ -31,7 +31,7 @@ struct Lobe {
     glm::dvec3 direction{0.0}, weight{0.0};
 };
 
-/// Everything docs/estimator.md says of a delta material at a surface.
+/// Everything docs/theory/estimator.md says of a delta material at a surface.
 struct Delta {
     double reflection = 0; ///< probability
     bool total = false;

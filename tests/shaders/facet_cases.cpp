@@ -10,7 +10,7 @@ namespace {
 /// Fresnel's equations for a dielectric, in tens of roundings of terms of size 1; of what is
 /// transmitted at a grazing view, which is as small as its cosine, tolerances have them already.
 constexpr double kFresnel = 1e-5;
-/// Of Fresnel's equations for conductors (bsdf_terms_test.cpp has 120 ulp of 1).
+/// Tolerance of Fresnel's equations for conductors (bsdf_terms_test.cpp has 120 ulp of 1).
 constexpr double kConductorFresnel = 3e-5;
 /// Both sides' tables of an interface's transmittance, right to 5e-4, by which densities are
 /// divided between the lobes: of what the interface reflects, 0.04 at least, that is 1 %.

@@ -20,10 +20,10 @@ class LightFixture : public DeviceTest {
 
     /// A surface at `position` that faces `normal`, seen from there.
     static gpu::LightQuery surfaceAt(const glm::vec3& position, const glm::vec3& normal);
-    /// The same surface with n samples of light 0.
+    /// That surface with n samples of light 0.
     static std::vector<gpu::LightQuery> samples(const gpu::LightQuery& surface, size_t n,
                                                 uint32_t seed);
-    /// With every pair of u and v from the ends of their interval.
+    /// Samples for every pair of u and v from the ends of their interval.
     static std::vector<gpu::LightQuery> ends(const gpu::LightQuery& surface);
 
     GpuScene packed_;

@@ -176,7 +176,7 @@ TEST_F(LightSampling, DeltaLightsAsTheReferenceHasThem) {
     }
 }
 
-/// docs/estimator.md, "CS184 mode": nothing unless D . n < 0; area cos_light / |D|.
+/// docs/guide/cs184.md, "CS184 mode": nothing unless D . n < 0; area cos_light / |D|.
 TEST_F(LightSamplingCs184, RectangleWithOneFactorOfDistanceTooFew) {
     Scene scene = sceneWithEmitter(glm::vec3(0.0f), true);
     Light& light = scene.lights.emplace_back();

@@ -66,7 +66,7 @@ class ManyLights : public DeviceTest, public ::testing::WithParamInterface<Light
         e.variance -= e.mean * e.mean;
         return e;
     }
-    /// Of all triangles, nothing hidden.
+    /// Irradiance of all triangles, nothing hidden.
     double truth(const LightQuery& surface) const {
         double sum = 0;
         for (const Triangle& t : scene_.triangles) {

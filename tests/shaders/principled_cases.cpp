@@ -90,7 +90,7 @@ std::vector<BsdfCase> principledCases() {
     }
     add("nearlyNoInterface", 0.9f,
         [](auto& p) { p.transmission = 1, p.isThin = false, p.ior = 1.0f, p.roughness = 0.3f; });
-    // Of a half vector whose length is that of the step of the index.
+    // The error of a half vector whose length is that of the step of the index.
     cases.back().error = 30 * 0x1p-24 / double(gpu::LEAST_INDEX_STEP) / 0.09;
     add("lessDenseInside", 0.9f,
         [](auto& p) { p.transmission = 1, p.isThin = false, p.ior = 0.8f, p.roughness = 0.5f; });

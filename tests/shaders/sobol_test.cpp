@@ -176,7 +176,7 @@ TEST_F(SobolShader, EachSampleIsUniformInTheCube) {
     }
 }
 
-/// Of uniform numbers; deviation n^-1/2 = .002.
+/// Correlation of uniform numbers; deviation n^-1/2 = .002.
 double correlation(const std::vector<RandomAnswer>& a, size_t i, const std::vector<RandomAnswer>& b,
                    size_t j) {
     double sum = 0;

@@ -81,7 +81,7 @@ class SolidAngles : public LightFixture,
             sum += angle;
         return sum;
     }
-    /// Of the cells of a grid in s and t; those of triangles are cut by the diagonal.
+    /// The cells of a grid in s and t; those of triangles are cut by the diagonal.
     std::vector<double> cellAngles(size_t grid) const {
         std::vector<double> angles(grid * grid);
         const double step = 1 / double(grid);

@@ -132,7 +132,7 @@ TEST_P(TextureLookup, SrgbIsDecoded) {
     for (int i = 0; i < 256; ++i) {
         const double c = i / 255.0;
         const double linear = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-        // Of the fit or of fractions of 65,535, and of two roundings of numbers up to 1.
+        // Errors of the fit or of fractions of 65,535, and of two roundings of numbers up to 1.
         const double error =
             packed_.texelKinds & gpu::TEXEL_KIND_SRGB ? 1.1e-4 * linear : 0.5 / 65535;
         EXPECT_NEAR(found[size_t(i)].color.x, linear, error + 0x1p-23) << i;

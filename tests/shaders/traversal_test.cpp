@@ -105,7 +105,7 @@ class TraversalTest : public DeviceTest, public ::testing::WithParamInterface<Va
         checkWeights(*found, q, a, i);
     }
 
-    /// The same tests on every primitive give the same hit: the boxes lose none.
+    /// Tests on every primitive give the same hit: the boxes lose none.
     static void checkAgainstAll(const RayQuery& q, const RayAnswer& a, size_t i) {
         if (a.bruteRecords == 0) return; // not tried
         EXPECT_EQ(a.primitive != gpu::NO_PRIMITIVE, a.bruteHits > 0) << "ray " << i;
@@ -273,7 +273,7 @@ TEST_F(DeviceTest, TheStackIsAsDeepAsTheBuilderSays) {
     EXPECT_TRUE(full) << "the bound is loose";
 }
 
-/// The same tree with `records` unused ones behind the root.
+/// This tree with `records` unused ones behind the root.
 GpuScene movedBack(GpuScene scene, uint32_t records) {
     for (Record& r : scene.bvh.records)
         if (isNode(r)) {

@@ -83,7 +83,7 @@ TEST_F(Warps, DiskIsUniform) {
               kLevel);
 }
 
-/// Of a cosine density, cos^2 is uniform.
+/// Under a cosine density, cos^2 is uniform.
 TEST_F(Warps, CosineHemisphere) {
     EXPECT_GT(uniformOnSquare(randomAnswers(82),
                               [](const WarpAnswer& a) {
@@ -148,7 +148,7 @@ TEST_F(Warps, FramesAreOrthonormal) {
                 n[axis] = sign;
                 add(n);
             }
-    // Of Duff et al. 2017, table 1: where older constructions lose all digits.
+    // The vectors of Duff et al. 2017, table 1: where older constructions lose all digits.
     add({0.00038527316f, 0.00038460016f, -0.99999988079f});
     add({-0.00019813581f, -0.00008946839f, -0.99999988079f});
     Random random(86);

@@ -26,7 +26,7 @@ namespace {
 using namespace test;
 using Kind = FeatureValue::Kind;
 
-/// Of two kernels that differ as far as can be: what has no effect beside the one has some beside
+/// In two kernels that differ as far as can be: what has no effect beside the one has some beside
 /// the other.
 const std::vector<Words>& bases() {
     static const std::vector<Words> all = [] {

@@ -80,7 +80,7 @@ std::vector<Answer> ask(TestShader& shader, const std::vector<Query>& queries,
     return shader.get<Answer>(kAnswerBinding, queries.size());
 }
 
-/// The same with a shader that is used once and needs no other buffers.
+/// Runs a shader that is used once and needs no other buffers.
 template <class Answer, class Query>
 std::vector<Answer> ask(std::span<const uint32_t> spirv, const std::vector<Query>& queries,
                         const ShaderOptions& options = {}) {

@@ -103,7 +103,7 @@ TEST_F(DeviceMemory, LargeCopiesArriveWhole) {
     expectLargeCopiesArrive(testDevice(), testQueue());
 }
 
-/// The same on a device that claims to have memory of its own, as a graphics card has.
+/// Counts on a device that claims to have memory of its own, as a graphics card has.
 TEST_F(DeviceMemory, LargeCopiesArriveWholeInMemoryOfTheDevicesOwn) {
     const vulkan::Instance instance(true);
     std::vector<vulkan::DeviceDescription> devices = vulkan::listDevices(instance);

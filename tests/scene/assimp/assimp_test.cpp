@@ -142,7 +142,7 @@ struct Sample {
     size_t triangles;
 };
 
-/// Of files that other programs wrote: their triangles, and that what they name is found.
+/// Files that other programs wrote: their triangles, and that what they name is found.
 TEST(AssimpSamples, AreRead) {
     const fs::path models = "/usr/share/assimp/models";
     if (!fs::exists(models)) GTEST_SKIP() << "the package assimp-testmodels is not installed";

@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace stromboli::build {
 namespace {
 
@@ -47,7 +49,7 @@ Scene placed(const Mesh& mesh, const std::vector<glm::dmat4>& toWorld,
     return builder.finish();
 }
 
-/// Of all vertices, in the file's coordinates.
+/// Largest error of all vertices, in the file's coordinates.
 double largestError(const Scene& scene, const Mesh& mesh, const glm::dvec3& moved) {
     double largest = 0;
     EXPECT_EQ(scene.positions.size(), mesh.positions.size());
@@ -103,6 +105,44 @@ TEST(FarScenes, LightsCamerasAndSpheresGoWithThem) {
     EXPECT_LT(
         glm::distance(scene.cameras.at(0).pointAhead + scene.origin, eye - glm::dvec3(0, 0, 1)),
         1e-8);
+}
+
+/// The scene of a stair at `from` with one light.
+Scene litStair(const glm::dvec3& from, LightKind kind, const glm::dmat4& toWorld) {
+    SceneConventions conventions;
+    conventions.areaLights = AreaLights::StayLights; // else finish() makes triangles of them
+    SceneBuilder builder("town.xyz", conventions);
+    const std::vector<uint32_t> materials{builder.defaultMaterial()};
+    builder.place(kPlace, builder.addMesh("stair", stair({})), movedTo(from), materials, "stair");
+    Light light;
+    light.kind = kind;
+    light.color = glm::vec3(1);
+    builder.placeLight(light, toWorld);
+    return builder.finish();
+}
+
+TEST(FarScenes, OfALightOnlyThePlaceGoesWithThem) {
+    // It shines along -z, and is turned about y.
+    const glm::dmat4 turned = glm::rotate(glm::dmat4(1), 0.5, glm::dvec3(0, 1, 0));
+    const glm::dvec3 aim(-std::sin(0.5), 0, -std::cos(0.5)), lamp = kFar + glm::dvec3(0.1, 4, 0);
+    for (const LightKind kind : {LightKind::Directional, LightKind::Spot, LightKind::Area}) {
+        const Scene scene = litStair(kFar, kind, movedTo(lamp) * turned);
+        ASSERT_NE(scene.origin, glm::dvec3(0));
+        const Light& light = scene.lights.at(0);
+        EXPECT_LT(glm::distance(glm::dvec3(light.direction), aim), 0x1p-22); // rounded to floats
+        if (kind != LightKind::Directional) {
+            EXPECT_LT(glm::distance(glm::dvec3(light.position) + scene.origin, lamp), kRounding);
+        }
+        if (kind == LightKind::Area) {
+            EXPECT_NEAR(glm::length(glm::cross(light.edgeX, light.edgeY)), 1, 0x1p-22);
+        }
+    }
+}
+
+TEST(FarScenes, LightsDoNotMoveTheOrigin) {
+    const Scene scene = litStair({}, LightKind::Point, movedTo(kFar));
+    EXPECT_EQ(scene.origin, glm::dvec3(0));
+    EXPECT_EQ(scene.lights.at(0).position, glm::vec3(kFar));
 }
 
 TEST(FarScenes, InstancesShareTheirTriangles) {

@@ -52,7 +52,7 @@ TEST(ReportTest, StrictForgivesNothing) {
 }
 
 TEST(Shortfalls, AreTheTableForUsers) {
-    std::ifstream file(std::string(STROMBOLI_SOURCE_DIR) + "/docs/forgiving.md");
+    std::ifstream file(std::string(STROMBOLI_SOURCE_DIR) + "/docs/guide/replacements.md");
     std::vector<std::string> rows;
     for (std::string line; std::getline(file, line);)
         if (line.starts_with("| a") || line.starts_with("| c")) rows.push_back(line);

@@ -49,7 +49,7 @@ TEST(DamagedPictures, ExposureWithoutANumber) {
     EXPECT_THAT(messageOf("#?RADIANCE\nEXPOSURE=   \n\n-Y 1 +X 1\n"), HasSubstr("exposure is ''"));
 }
 
-/// Of an OpenEXR file: its magic, version 2 without flags, and what follows.
+/// An OpenEXR file: its magic, version 2 without flags, and what follows.
 std::string exrOf(const std::string& rest) {
     return std::string("\x76\x2f\x31\x01\x02\0\0\0", 8) + rest;
 }
@@ -84,7 +84,7 @@ TEST(DamagedPictures, TruncatedAnywhere) {
         for (const double part : {0.1, 0.5, 0.9}) {
             const std::string message =
                 messageOf(file.substr(0, size_t(double(file.size()) * part)));
-            // Of a JPEG picture what there is of it is shown; formats_test.cpp sees that it is
+            // What there is of a JPEG picture of it is shown; formats_test.cpp sees that it is
             // said.
             const bool isShown = file.starts_with("\xFF\xD8") && part > 0.2;
             EXPECT_THAT(message, HasSubstr(isShown ? "" : "a.png: ")) << part;

@@ -311,7 +311,7 @@ TEST(MitsubaBsdfs, UnknownOnesAreNamed) {
                 HasSubstr("'color' is not read in bsdf 'diffuse'; expected one of reflectance"));
 }
 
-/// Of A, there in half of all cases, and B in the other place of a quarter: 7/8 of 3/4 is there.
+/// A, there in half of all cases, and B in the other place of a quarter: 7/8 of 3/4 is there.
 TEST(MitsubaBsdfs, MasksInBlendsAreTakenOut) {
     const std::string weight = "<float name=\"weight\" value=\"0.25\"/>";
     const std::string masked = "<bsdf type=\"mask\"><float name=\"opacity\" value=\"0.5\"/>"

@@ -29,7 +29,7 @@ std::string sceneText(std::string_view inside, std::string_view version = "3.0.0
 Scene loadText(const std::string& text, const std::vector<Definition>& definitions = {});
 Scene loadInside(std::string_view inside);
 
-/// The same of a file of Mitsuba 0.6.
+/// Loads the text as a file of Mitsuba 0.6.
 Scene loadOld(std::string_view inside);
 
 /// What strict loading says is wrong, from the line's number on; empty: nothing is.

@@ -23,7 +23,7 @@ const char* const kScene = R"(<scene version="3.0.0">
 <emitter type="point"><rgb name="intensity" value="1"/></emitter></scene>
 )";
 
-/// Of Mitsuba 0.x: what takes the place of others, and files beside the scene's.
+/// A file of Mitsuba 0.x: what takes the place of others, and files beside the scene's.
 const char* const kOldScene = R"(<scene version="0.6.0">
 <integrator type="sppm"><integer name="maxDepth" value="3"/></integrator>
 <sensor type="perspective"><film type="ldrfilm"><integer name="width" value="8"/>

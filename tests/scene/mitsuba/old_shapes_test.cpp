@@ -150,7 +150,7 @@ TEST(MitsubaSmoothing, TakesThePlaceOfTheFilesNormals) {
     EXPECT_THAT(scene.report.forgiven, IsEmpty());
 }
 
-/// Of two materials of a library, in a scene of Mitsuba 0.x.
+/// A mesh of two materials of a library, in a scene of Mitsuba 0.x.
 class MitsubaObjMaterials : public testing::Test {
   protected:
     void SetUp() override {

@@ -80,7 +80,7 @@ Agreement agreement(const std::string& scene, const std::string& reference) {
 
 /// shareByBounces: that of the tests of pixels which pass if light is found by bounces alone.
 /// referenceIsOff: so little noise is in it that blocks of 8 x 8 see by how much it is off: Mitsuba
-/// 3.9.1 fails by them as well (docs/mitsuba.md).
+/// 3.9.1 fails by them as well (docs/guide/mitsuba.md).
 struct Case {
     const char *scene, *reference;
     double shareByBounces = 0.9975;
@@ -160,7 +160,7 @@ TEST(IgnisReferences, MeansAgree) {
     }
 }
 
-/// Of a picture as coarse as a film, whose pixels are squares of its own.
+/// The mean of a picture as coarse as a film, whose pixels are squares of its own.
 std::vector<glm::dvec3> coarse(FloatImage& image, uint32_t side) {
     const uint32_t size = image.width / side;
     std::vector<glm::dvec3> means(size_t(side) * side, glm::dvec3(0.0));

@@ -119,7 +119,7 @@ TEST(MitsubaReplacedBsdfs, DiffuseTransmitters) {
     EXPECT_THAT(found.forgiven, IsEmpty()); // exactly that
 }
 
-/// Of diffuse light from inside, an interface of 1.5 sends 59.6 % back (Duntley 1942), which a
+/// An interface of 1.5 sends 59.6 % of diffuse light from inside back (Duntley 1942), which a
 /// coating loses; light goes twice through the layer.
 TEST(MitsubaReplacedBsdfs, CoatingsOfDiffuseBases) {
     const std::string base = "<bsdf type=\"diffuse\"><spectrum name=\"reflectance\" "

@@ -120,7 +120,7 @@ TEST(MitsubaShapes, VertexColorsAreAnAttribute) {
                 HasSubstr("expected a mesh from a file"));
 }
 
-/// Of a quad, which is cut in two, and a triangle that shares corners with it.
+/// Attributes of a quad, which is cut in two, and a triangle that shares corners with it.
 TEST(MitsubaShapes, FaceColorsAreAnAttributeOfPlyFiles) {
     writeFile("tiles.ply",
               "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"

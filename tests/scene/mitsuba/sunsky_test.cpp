@@ -74,7 +74,7 @@ const std::string kNoSky = "<float name=\"sky_scale\" value=\"0\"/>";
 const std::string kNoSun = "<float name=\"sun_scale\" value=\"0\"/>";
 const std::string kSunInYz = "<vector name=\"sun_direction\" value=\"0, 0.5, 0.5\"/>";
 
-/// Of all that comes in, the amount and the mean direction, in the world.
+/// For all light that comes in, the amount and the mean direction, in the world.
 struct Total {
     glm::dvec3 irradiance{0.0}, direction{0.0};
 };
@@ -111,7 +111,7 @@ TEST(SunSky, TheSunIsAllThere) {
     }
 }
 
-/// The same sky in a world whose y is up, and one that is turned; sun_direction is the world's.
+/// One sky in a world whose y is up, and one that is turned; sun_direction is the world's.
 TEST(SunSky, IsTurned) {
     const std::string upright =
         "<transform name=\"to_world\"><rotate x=\"1\" angle=\"-90\"/></transform>";
