@@ -8,8 +8,8 @@
 
 namespace stromboli {
 
-/// Reads a glTF 2.0 file, as text (.gltf) or binary (.glb); docs/guide/gltf.md says what of it. Throws
-/// SceneError with file and element for anything it cannot make sense of.
+/// Reads a glTF 2.0 file, as text (.gltf) or binary (.glb); docs/guide/gltf.md says what of it.
+/// Throws SceneError with file and element for anything it cannot make sense of.
 Scene loadGltf(const std::filesystem::path& file, const SceneConventions& conventions = {});
 
 /// True if a file that begins like this is a JSON object with the member `asset`.

@@ -8,8 +8,8 @@
 
 namespace stromboli {
 
-/// Reads a scene of Mitsuba (XML, of version 3 or earlier); docs/guide/mitsuba.md says what of it. Throws
-/// SceneError with file, line and element for anything it cannot make sense of.
+/// Reads a scene of Mitsuba (XML, of version 3 or earlier); docs/guide/mitsuba.md says what of it.
+/// Throws SceneError with file, line and element for anything it cannot make sense of.
 Scene loadMitsuba(const std::filesystem::path& file, const SceneConventions& conventions = {});
 
 /// True if a file that begins like this is XML whose root element is <scene>.

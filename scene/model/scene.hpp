@@ -91,7 +91,8 @@ struct FileCamera {
     /// A thin lens, in world units (scene/camera/camera.hpp); 0: a pinhole.
     double lensRadius = 0, focusDistance = 1;
     /// On the view axis, one of the file's units in front of the position. A camera that frames the
-    /// scene (docs/guide/cs184.md) looks at it from the direction in which this lies from the origin.
+    /// scene (docs/guide/cs184.md) looks at it from the direction in which this lies from the
+    /// origin.
     glm::dvec3 pointAhead{0, 0, -1};
 };
 

@@ -8,8 +8,8 @@
 
 namespace stromboli {
 
-/// Reads a scene of pbrt-v3 or pbrt-v4; docs/guide/pbrt.md says what of it. Throws SceneError with file,
-/// line and directive for what leaves nothing to show.
+/// Reads a scene of pbrt-v3 or pbrt-v4; docs/guide/pbrt.md says what of it. Throws SceneError with
+/// file, line and directive for what leaves nothing to show.
 Scene loadPbrt(const std::filesystem::path& file, const SceneConventions& conventions = {});
 
 /// True if a file that begins like this has a directive of pbrt first, behind comments.

@@ -1,5 +1,5 @@
-// Paths that share a camera ray (docs/theory/estimator.md, "Branches") bring the light that paths of their
-// own bring, whatever the number of branches.
+// Paths that share a camera ray (docs/theory/estimator.md, "Branches") bring the light that paths
+// of their own bring, whatever the number of branches.
 #include "tests/analytic/scenes.hpp"
 #include "tests/support/test_names.hpp"
 

@@ -114,8 +114,8 @@ TEST(Moments, WhatChangesIsBuiltAgain) {
     EXPECT_EQ(kept.built(), 3u);
 }
 
-/// Boxes are padded by a part of the largest coordinate that there is (docs/theory/numerics.md): the land
-/// needs more once the cube is far away.
+/// Boxes are padded by a part of the largest coordinate that there is (docs/theory/numerics.md):
+/// the land needs more once the cube is far away.
 TEST(Moments, PaddingIsThatOfTheWholeWorld) {
     KeptTrees kept;
     buildWideBvh(moment(0), {}, &kept);

@@ -161,8 +161,9 @@ TEST_F(Program, APictureInBandsHasTheSameBytes) {
 }
 
 TEST_F(Program, SaysThatAPictureIsBlackOrTooBright) {
-    EXPECT_THAT(render("a.png", {"-s", "1", "-m", "0", "--camera", "file"}).err,
-                AllOf(Not(HasSubstr("brighter than white")), HasSubstr("% of the pixels are black: ")));
+    EXPECT_THAT(
+        render("a.png", {"-s", "1", "-m", "0", "--camera", "file"}).err,
+        AllOf(Not(HasSubstr("brighter than white")), HasSubstr("% of the pixels are black: ")));
     EXPECT_THAT(render("b.png", {"-s", "4", "--exposure", "20"}).err,
                 HasSubstr("% of the pixels are brighter than white: --exposure "));
     EXPECT_THAT(render("c.png", {"-s", "4", "--exposure", "-40"}).err,
