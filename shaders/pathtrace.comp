@@ -53,10 +53,11 @@ void pause(PathState path, Job job, PathSlot slot) {
 }
 
 /// Starts the ray that a lane has asked for, or its next sample. Where time is up, the ray is put off to the next
-/// dispatch.
+/// dispatch, if what is kept of the path is enough to go on with it.
 void startWork(const Given given, inout PathState path, inout Stack stack, Job job, bool late) {
     if (path.phase == PHASE_BOUNCE || path.phase == PHASE_NEXT && !wantsPixel(path, job)) depart(given, path);
-    const bool mayBePutOff = STOPS_BEFORE_ANY_RAY ? isTracing(path.phase) : path.phase == PHASE_PATH;
+    const bool mayBePutOff =
+        STOPS_BEFORE_ANY_RAY ? isTracing(path.phase) : path.phase == PHASE_PATH && !hasPassedSomething(path);
     if (late && mayBePutOff && !traversing(path.ray)) path.phase |= PHASE_SUSPENDED;
     startRay(path, stack);
 }

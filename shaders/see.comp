@@ -98,6 +98,40 @@ void noteFirst(inout Look look, SurfacePoint s) {
     }
 }
 
+/// Goes on with the camera ray that the last dispatch has left.
+void resume(inout Look look) {
+    look.isUnderWay = look.seen.isUnderWay != 0u;
+    look.bounce = look.seen.bounce;
+    look.throughput = look.seen.throughput;
+    look.filterWeight = look.seen.filterWeight;
+    look.firstNormal = look.seen.firstNormal;
+    setRay(look, look.seen.origin, look.seen.direction, look.seen.tMin, look.seen.tMax, look.seen.skipPrimitive);
+    look.ray.passed = look.seen.passed;
+    look.ray.passedPlacement = look.seen.passedPlacement;
+    look.ray.skipPlacement = look.seen.skipPlacement;
+}
+
+/// Keeps the camera ray for the next dispatch, which begins at the surface that it has passed last. Returns whether it
+/// has come farther in this one.
+bool pause(inout Look look) {
+    const bool hasMoved = look.seen.isUnderWay == 0u || look.bounce != look.seen.bounce ||
+                          look.ray.tMin != look.seen.tMin || look.ray.passed != look.seen.passed;
+    look.seen.isUnderWay = 1u;
+    look.seen.bounce = look.bounce;
+    look.seen.throughput = look.throughput;
+    look.seen.filterWeight = look.filterWeight;
+    look.seen.firstNormal = look.firstNormal;
+    look.seen.origin = look.ray.origin;
+    look.seen.direction = look.ray.direction;
+    look.seen.tMin = look.ray.tMin;
+    look.seen.tMax = look.rayEnd;
+    look.seen.skipPrimitive = look.ray.skipPrimitive;
+    look.seen.passed = look.ray.passed;
+    look.seen.passedPlacement = look.ray.passedPlacement;
+    look.seen.skipPlacement = look.ray.skipPlacement;
+    return hasMoved;
+}
+
 /// At a mirror or glass: goes on to what is seen there, unless it lets nothing through.
 void follow(const Frame frame, inout Look look, Material m, SurfacePoint s) {
     const vec4 u = unitFloats(randomWords(frame, look));
@@ -165,9 +199,9 @@ void main() {
     Look look;
     Stack stack;
     look.seen = seenPixels[lane];
-    look.isUnderWay = false;
     look.rayCount = 0u;
     startTraversal(look.ray, stack, vec3(0.0), vec3(0.0), 0.0, 0.0, NO_PRIMITIVE, false); // done at once
+    resume(look);
 
     // Every exit is in a loop's header (docs/theory/kernel.md, "Exits of loops").
     uint iteration = 0u;
@@ -186,8 +220,11 @@ void main() {
         if (!traversing(look.ray)) takeResult(given.frame, look);
         ++iteration;
     }
+    bool hasMoved = true;
+    if (look.isUnderWay) hasMoved = pause(look);
+    else look.seen.isUnderWay = 0u;
     seenPixels[lane] = look.seen;
-    if (look.isUnderWay) atomicAdd(status.overflowedPixels, 1u);
-    else if (look.seen.samples < look.seen.target) atomicAdd(status.unfinishedPixels, 1u);
+    if (!hasMoved) atomicAdd(status.overflowedPixels, 1u);
+    else if (look.isUnderWay || look.seen.samples < look.seen.target) atomicAdd(status.unfinishedPixels, 1u);
     atomicAdd(status.rays, look.rayCount);
 }

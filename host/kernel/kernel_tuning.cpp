@@ -41,6 +41,7 @@ DeviceTuning forCpu(uint32_t subgroupSize) {
     t.placedTraversalSteps = 1;
     t.traversalLegs = 20;
     t.registerStack = 16;
+    t.limitsLoops = true;
     t.driverThreads = std::max(std::thread::hardware_concurrency(), 1u);
     t.lanes = t.workgroupSize * kGroupsPerThread * t.driverThreads;
     return t;

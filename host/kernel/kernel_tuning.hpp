@@ -50,6 +50,7 @@ struct DeviceTuning {
     uint32_t lanes = 1u << 20;
     uint32_t driverThreads = 0; ///< that run workgroups one after the other; 0: unknown, a GPU
     uint32_t itemsPerDispatch = 1u << 20;
+    bool limitsLoops = false; ///< the device ends loops that take long (loopLimit())
     bool countSteps = false;
     bool everythingOn = false;
 };

@@ -141,8 +141,7 @@ gpu::SeeStatus SeePass::dispatch(uint32_t softIterations) {
 
 void SeePass::run(std::vector<gpu::SeenPixel>& pixels) {
     pixels_.upload(queue_, std::as_bytes(std::span(pixels)));
-    // What is left when the last camera ray begins has to do for all that it passes.
-    DispatchPace pace(kTargetSeconds, std::max(hardIterations_ / 16, 1u));
+    DispatchPace pace(kTargetSeconds, std::max(hardIterations_ / 2, 1u));
     gpu::SeeStatus status{};
     do {
         status = dispatch(pace.iterations());
@@ -150,7 +149,7 @@ void SeePass::run(std::vector<gpu::SeenPixel>& pixels) {
         if (status.overflowedPixels > 0)
             throw DeviceError(fmt::format(
                 "the camera rays of {} pixels needed more than {} loop iterations, the most that "
-                "{} runs in a dispatch: too many transparent layers behind each other",
+                "{} runs in a dispatch, to get to the next surface",
                 status.overflowedPixels, hardIterations_, device_.description().name()));
     } while (status.unfinishedPixels > 0);
     pixels_.download(queue_, std::as_writable_bytes(std::span(pixels)));

@@ -113,12 +113,12 @@ struct GridAxes {
     GridAxis x, y, z;
 };
 
-/// Which of four children the ray enters within [0, tMax]: the `bits` of those.
-uint enterFour(uvec3 nearWords, uvec3 farWords, GridAxes near, GridAxes far, float tMax, uvec4 bits) {
+/// Which of four children the ray enters within [tMin, tMax]: the `bits` of those.
+uint enterFour(uvec3 nearWords, uvec3 farWords, GridAxes near, GridAxes far, float tMin, float tMax, uvec4 bits) {
     const ivec4 nx = planeDistances(nearWords.x, near.x), fx = planeDistances(farWords.x, far.x);
     const ivec4 ny = planeDistances(nearWords.y, near.y), fy = planeDistances(farWords.y, far.y);
     const ivec4 nz = planeDistances(nearWords.z, near.z), fz = planeDistances(farWords.z, far.z);
-    const ivec4 enter = max(max(nx, ny), max(nz, ivec4(0)));
+    const ivec4 enter = max(max(nx, ny), max(nz, ivec4(floatBitsToInt(tMin))));
     const ivec4 last = min(min(fx, fy), min(fz, ivec4(floatBitsToInt(tMax))));
     precise vec4 widened = intBitsToFloat(last) * BOX_SLACK;
     const ivec4 leave = floatBitsToInt(widened);
@@ -126,13 +126,13 @@ uint enterFour(uvec3 nearWords, uvec3 farWords, GridAxes near, GridAxes far, flo
            (enter.z <= leave.z ? bits.z : 0u) | (enter.w <= leave.w ? bits.w : 0u);
 }
 
-/// Which children of a node the ray enters within [0, tMax]: bit (slot ^ octant) for each slot.
-/// Conservative: never misses a box it touches, nor one that holds a primitive at tMax.
+/// Which children of a node the ray enters within [tMin, tMax], tMin >= 0: bit (slot ^ octant) for each slot.
+/// Conservative: never misses a box it touches, nor one that holds a primitive at tMin or tMax.
 /// Rounding is covered by the margin of the boxes (BOX_MARGIN) where it is relative to the node's
 /// size, and by the slack of the far planes where it is relative to the distance (after Ize 2013);
 /// docs/theory/numerics.md derives both. Planes are near or far by the direction's sign: sorting
 /// their distances would turn the inverted box of an absent child into a huge one.
-uint enterChildren(Record r, Ray ray, float tMax) {
+uint enterChildren(Record r, Ray ray, float tMin, float tMax) {
     const vec3 origin = boxOrigin(ray), slack = boxSlack(ray);
     const GridAxes axes = GridAxes(gridAxis(r.r0.x, origin.x, ray.inverse.x),
                                    gridAxis(r.r0.y, origin.y, ray.inverse.y),
@@ -146,9 +146,9 @@ uint enterChildren(Record r, Ray ray, float tMax) {
     const uvec4 wx = ray.ascends[0] ? r.r1 : r.r1.zwxy;
     const uvec4 wy = ray.ascends[1] ? r.r2 : r.r2.zwxy;
     const uvec4 wz = ray.ascends[2] ? r.r3 : r.r3.zwxy;
-    return enterFour(uvec3(wx.x, wy.x, wz.x), uvec3(wx.z, wy.z, wz.z), near, far, tMax,
+    return enterFour(uvec3(wx.x, wy.x, wz.x), uvec3(wx.z, wy.z, wz.z), near, far, tMin, tMax,
                      ray.childBits[0]) |
-           enterFour(uvec3(wx.y, wy.y, wz.y), uvec3(wx.w, wy.w, wz.w), near, far, tMax,
+           enterFour(uvec3(wx.y, wy.y, wz.y), uvec3(wx.w, wy.w, wz.w), near, far, tMin, tMax,
                      ray.childBits[1]);
 }
 

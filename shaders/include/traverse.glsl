@@ -170,7 +170,10 @@ void traversalStep(inout Traversal t, inout Stack stack, Ray ray) {
 
     const Record r = fetchRecord(record);
     const RecordKind kind = kindOf(r);
-    const uint entered = enterChildren(r, ray, t.tMax);
+    // A ray that has passed surfaces begins at its origin again, and leaves out what lies before them.
+    float begin = 0.0;
+    if (HAS_ALPHA) begin = t.tMin;
+    const uint entered = enterChildren(r, ray, begin, t.tMax);
     testLeaf(t, ray, r, record, working && !kind.isNode && !kind.isPlacement);
 
     const bool descend = working && kind.isNode && entered != 0u;

@@ -44,6 +44,9 @@
       "black backs", flag, "materials that are black where normals do not point") \
     F(35, bool, HAS_ALPHA, false, scene.hasAlpha, own, \
       "opacity", flag, "surfaces that are partly not there, which rays pass") \
+    F(50, bool, STOPS_BEFORE_ANY_RAY, false, f[SPEC_HAS_ALPHA] && tuning.limitsLoops, own, \
+      "stops before any ray", flag, \
+        "paths that are kept whole between dispatches, so that a ray passes any number of surfaces where loops are limited") \
     F(43, bool, HIDES_SURFACES, false, scene.hasHidden, own, \
       "surfaces hidden from the camera", flag, "camera rays that pass some materials") \
     F(32, uint, TEXTURE_SLOTS, 0u, scene.textureSlots & texturesWanted(scene, shades), own, \
@@ -139,7 +142,7 @@
     F(1, uint, TRAVERSAL_STEPS, 8u, traversalSteps(f, tuning), own, \
       "traversal steps in a leg", count(""), "traversal steps between two service passes, or in a leg")
 
-#define SPEC_COUNT 50
+#define SPEC_COUNT 51
 
 #ifdef __cplusplus
 namespace stromboli {

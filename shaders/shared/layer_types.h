@@ -29,9 +29,21 @@ struct SeenPixel {
     uint pixel;     ///< row * width + column in the whole picture
     uint placement; ///< that the primitive is in, in Scene::placements; NO_SEEN_PLACEMENT: none
     float covered;  ///< the sum of the hits' weights by the pixel filter
-    uint unused0, unused1;
+    uint isUnderWay; ///< a camera ray that passes many surfaces goes on in the next dispatch, from here on:
+    uint bounce;     ///< mirrors and glass that it has met
+    vec3 origin;
+    float tMin; ///< of the surface that it has passed last
+    vec3 direction;
+    float tMax;
+    vec3 throughput;
+    uint passed;
+    vec3 firstNormal;
+    uint passedPlacement;
+    uint skipPrimitive, skipPlacement;
+    float filterWeight;
+    uint unused0;
 };
-SHARED_ROWS(SeenPixel, 5);
+SHARED_ROWS(SeenPixel, 10);
 SHARED_OFFSET(SeenPixel, b1, 48);
 
 SHARED_CONST uint NO_SEEN_PLACEMENT = 0xFFFFFFFFu;
@@ -40,13 +52,13 @@ SHARED_CONST uint NO_SEEN_PLACEMENT = 0xFFFFFFFFu;
 struct SeeDispatch {
     uint pixelCount;
     uint softIterations; ///< begin no further camera ray at or after this loop iteration
-    uint hardIterations; ///< leave the loop here: an error, reported as overflow
+    uint hardIterations; ///< leave the loop here
 };
 
 /// Zeroed by the host before each dispatch.
 struct SeeStatus {
     uint unfinishedPixels;
-    uint overflowedPixels; ///< whose loop hit its limit: their sums are wrong
+    uint overflowedPixels; ///< whose ray could not get to the next surface within a dispatch
     uint rays;
 };
 

@@ -20,10 +20,8 @@
 #define BY_ALL (BY_DEPART | BY_TRACE | BY_FOLLOW | BY_LIGHT)
 #define ALWAYS 0xFFFFFFFFu // all of these
 
-/// Where rays pass surfaces, and no number of these may exceed what one dispatch can do, a lane of the persistent
-/// scheduler may stop before any ray, so that all of its path is kept; else only before a path ray.
-#define STOPS_BEFORE_ANY_RAY HAS_ALPHA
-/// Fields, by their readers, that the persistent scheduler keeps from one dispatch to the next.
+/// Fields, by their readers, that the persistent scheduler keeps from one dispatch to the next: all, where a lane may
+/// stop before any ray, else those that a path ray needs.
 #define KEPT_BETWEEN_DISPATCHES (STOPS_BEFORE_ANY_RAY ? ALWAYS : AT_PAUSE)
 
 /// A point where a path scatters (surface.glsl). exists: whether a path may have such a point.

@@ -84,6 +84,12 @@ TEST(Opacity, ThousandsOfLayersCostNoPicture) {
     s.budget.mostSamplesPerPixel = 1;
     const Estimate found = estimate(b.scene, below, s);
     EXPECT_NEAR(found.mean.x / (0.5 / kPi * left), 1, 5e-4); // 2000 roundings
+    // Layers are means over the rays that the layers let through and those that they do not: all
+    // hit.
+    const std::vector<uint32_t> samples(s.area.pixelCount(), 2);
+    for (const SeenPixel& p :
+         seenBy(layersOver(0, n, opacity, close).scene, kAbove, s, samples, Seeing::Surfaces))
+        EXPECT_EQ(p.hits, 2u);
 }
 
 /// Triangles in one place, to the last bit.

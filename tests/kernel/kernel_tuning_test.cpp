@@ -122,6 +122,32 @@ TEST_F(KernelTuningTest, LanesSeldomWaitForAnotherPixel) {
     EXPECT_GT(busyShare(2), 0.9 * busyShare(64));
 }
 
+/// A ray that has passed a layer begins at its origin again, and leaves out what lies before the
+/// next one: the steps of a layer grow like the depth of the tree, not like the number of layers.
+TEST_F(KernelTuningTest, LayersThatWerePassedAreNotVisitedAgain) {
+    const auto stepsOfALayer = [](uint32_t layers) {
+        scenes::SceneMaker b;
+        Material layer;
+        layer.alphaMode = AlphaMode::Blend;
+        layer.opacity = 0x1p-24f; // none stops a ray of this picture
+        const uint32_t material = b.add(layer);
+        for (uint32_t i = 0; i < layers; ++i)
+            b.quad({-2, -2, float(i)}, {4, 0, 0}, {0, 4, 0}, material);
+        Camera camera;
+        camera.position = {0, 0, float(layers)};
+        camera.halfWidth = camera.halfHeight = 1 / float(layers);
+        RenderSettings s = settings();
+        s.area.width = s.area.height = 8;
+        s.budget.mostSamplesPerPixel = 1;
+        const GpuScene scene = packScene(b.scene, buildWideBvh(b.scene));
+        VulkanBackend backend(testDevice(), scene, camera, s, {.countSteps = true});
+        render(backend, s);
+        return double(backend.steps().busy) / (64.0 * layers);
+    };
+    // Where layers are visited again, 16 times as many take 12 times as many steps each.
+    EXPECT_LT(stepsOfALayer(1024), 5 * stepsOfALayer(64));
+}
+
 /// If there is one step a service pass, a lane that has work is busy in every step.
 TEST_F(KernelTuningTest, FewerStepsBetweenServicesKeepLanesBusier) {
     VulkanBackend often = backend({.traversalSteps = 1, .countSteps = true});

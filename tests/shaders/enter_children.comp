@@ -31,6 +31,6 @@ uint enterNaively(Record r, Ray ray, float tMax) {
 NodeAnswer answer(NodeQuery q) {
     const Ray ray = makeRay(q.origin, q.direction);
     const Record r = recordOf(q.record);
-    return NodeAnswer(enterChildren(r, ray, q.tMax), ray.octant, enterNaively(r, ray, q.tMax),
+    return NodeAnswer(enterChildren(r, ray, 0.0, q.tMax), ray.octant, enterNaively(r, ray, q.tMax),
                       highestBit(q.number));
 }

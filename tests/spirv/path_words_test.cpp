@@ -45,7 +45,7 @@ TEST_F(PathWords, AreAsManyInTheShaders) {
         f[SPEC_WORKGROUP_SIZE] = 8;
         f[SPEC_STACK_SIZE] = 1;
         for (const uint32_t flag : {SPEC_SPLITS, SPEC_HAS_NORMALS, SPEC_TANGENT_FRAMES,
-                                    SPEC_HAS_PLACEMENTS, SPEC_HAS_ALPHA})
+                                    SPEC_HAS_PLACEMENTS, SPEC_HAS_ALPHA, SPEC_STOPS_BEFORE_ANY_RAY})
             f[flag] = random() % 2;
         if (random() % 2) f[SPEC_PIXEL_FILTER] = gpu::FILTER_TABLE;
         f[SPEC_TEXTURE_SLOTS] = random() & random() & ((1u << gpu::TEXTURE_SLOT_COUNT) - 1);
