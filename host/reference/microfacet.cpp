@@ -95,14 +95,21 @@ glm::dvec3 Ggx::sampleVisible(const glm::dvec3& wo, double u, double v) const {
 
 namespace {
 
-/// x such that increasing(x) = value, to the last digit.
-template <class F>
-double solve(double low, double high, double value, F&& increasing) {
-    for (int i = 0; i < 60; ++i) {
-        const double middle = (low + high) / 2;
-        (increasing(middle) < value ? low : high) = middle;
+/// x between low and high such that increasing(x) = value, to the last digits: Newton's steps, and
+/// halves where one of them leaves the bracket. slope(x): increasing's derivative.
+template <class F, class Slope>
+double solve(double low, double high, double value, F&& increasing, Slope&& slope) {
+    double x = (low + high) / 2;
+    for (int i = 0; i < 60; ++i) { // as many as halves alone would take
+        const double off = increasing(x) - value;
+        (off < 0 ? low : high) = x;
+        double next = x - off / slope(x);
+        if (!(next >= low && next <= high)) next = (low + high) / 2;
+        const bool found = std::abs(next - x) <= 1e-16;
+        x = next;
+        if (found) break;
     }
-    return (low + high) / 2;
+    return x;
 }
 
 /// No slope of Beckmann's distribution of alpha 1 is above it: exp(-6^2) is 2e-16.
@@ -150,13 +157,16 @@ glm::dvec3 FacetModel::sampleVisible(const glm::dvec3& wo, double u, double v) c
     const glm::dvec3 view = glm::normalize(glm::dvec3(alphaX * wo.x, alphaY * wo.y, wo.z));
     const double sine = std::hypot(view.x, view.y), cosine = view.z;
     const double low = sine * kSteepest > cosine ? -cosine / sine : -kSteepest;
+    const double erfLow = std::erf(low), expLow = std::exp(-low * low);
     const auto share = [&](double x) {
-        return cosine * std::sqrt(kPi) * (std::erf(x) - std::erf(low)) +
-               sine * (std::exp(-low * low) - std::exp(-x * x));
+        return cosine * std::sqrt(kPi) * (std::erf(x) - erfLow) +
+               sine * (expLow - std::exp(-x * x));
     };
-    const double along = solve(low, kSteepest, u * share(kSteepest), share);
-    const double across =
-        solve(-kSteepest, kSteepest, 2 * v - 1, [](double x) { return std::erf(x); });
+    const auto shareSlope = [&](double x) { return 2 * std::exp(-x * x) * (cosine + sine * x); };
+    const double along = solve(low, kSteepest, u * share(kSteepest), share, shareSlope);
+    const double across = solve(
+        -kSteepest, kSteepest, 2 * v - 1, [](double x) { return std::erf(x); },
+        [](double x) { return 2 / std::sqrt(kPi) * std::exp(-x * x); });
     const double c = sine > 0 ? view.x / sine : 1, s = sine > 0 ? view.y / sine : 0;
     return glm::normalize(
         glm::dvec3(alphaX * (c * along - s * across), alphaY * (s * along + c * across), 1));

@@ -46,8 +46,8 @@ void RandomStream::fill() {
     if (sampler_ == Sampler::Independent) {
         const auto a = philox({block, sample_, pixel_, kFirstHalf}, {seed_, 0});
         const auto b = philox({block, sample_, pixel_, kSecondHalf}, {seed_, 0});
-        numbers_ = {fraction(a[0], a[1]), fraction(a[2], a[3]), fraction(b[0], b[1]),
-                    fraction(b[2], b[3])};
+        digits_ = {a[0], a[2], b[0], b[2]};
+        keys_ = {a[1], a[3], b[1], b[3]};
         return;
     }
     // All samples of the pixel have the same keys: `sequence` only changes after 2^kIndexBits of
@@ -57,19 +57,19 @@ void RandomStream::fill() {
     const auto b = philox({block, sequence, pixel_, kMoreKeys}, {seed_, 0});
     const auto c = philox({block, sequence, pixel_, kShuffle}, {seed_, 0});
     const uint32_t index = owenShuffled(sample_ & ((1u << kIndexBits) - 1), join(c[0], c[1]));
-    const auto point = sobolPoint(index);
-    numbers_ = {
-        owenScrambled(point[0], join(a[0], a[1])), owenScrambled(point[1], join(a[2], a[3])),
-        owenScrambled(point[2], join(b[0], b[1])), owenScrambled(point[3], join(b[2], b[3]))};
+    digits_ = sobolPoint(index);
+    keys_ = {join(a[0], a[1]), join(a[2], a[3]), join(b[0], b[1]), join(b[2], b[3])};
 }
 
 double RandomStream::next() {
-    if (used_ == numbers_.size()) fill();
-    return numbers_[used_++];
+    if (used_ == digits_.size()) fill();
+    const unsigned i = used_++;
+    return sampler_ == Sampler::Independent ? fraction(digits_[i], uint32_t(keys_[i]))
+                                            : owenScrambled(digits_[i], keys_[i]);
 }
 
 void RandomStream::beginBlock() {
-    used_ = unsigned(numbers_.size());
+    used_ = unsigned(digits_.size());
 }
 
 glm::dvec3 RandomStream::threeNumbers() {
@@ -157,11 +157,16 @@ uint32_t flipped(uint32_t digits, uint32_t count, uint64_t key) {
     for (uint32_t first = 0; first < count; first += kDigitsOfAHash) {
         const uint32_t before = first == 0 ? 0 : digits >> (32 - first) << (32 - first);
         const uint64_t flips = hashOfDigits(before, first, key);
-        uint32_t node = 1; // the root; its children are 2 node and 2 node + 1
-        for (uint32_t k = first; k < std::min(first + kDigitsOfAHash, count); ++k) {
-            result ^= uint32_t(flips >> node & 1) << (31 - k);
-            node = 2 * node + (digits >> (31 - k) & 1);
+        // Node 1 is the tree's root, the children of a node are 2 node and 2 node + 1. So the node of
+        // the group's digit k is a one before the k digits above it.
+        const uint32_t group = digits << first >> (32 - kDigitsOfAHash);
+        const uint32_t inGroup = std::min(kDigitsOfAHash, count - first);
+        uint32_t flipsOfGroup = 0;
+        for (uint32_t k = 0; k < kDigitsOfAHash; ++k) {
+            const uint32_t node = 1u << k | group >> (kDigitsOfAHash - k);
+            flipsOfGroup |= uint32_t(flips >> node & (k < inGroup)) << (31 - k);
         }
+        result ^= flipsOfGroup >> first;
     }
     return result;
 }

@@ -46,8 +46,10 @@ class RandomStream {
     uint32_t pixel_, sample_, seed_;
     Sampler sampler_;
     uint32_t block_ = 0;
-    std::array<double, 4> numbers_{};
-    unsigned used_ = 4; ///< numbers of numbers_ that have been handed out
+    /// What the block's numbers are made of, which is done when they are asked for.
+    std::array<uint32_t, 4> digits_{};
+    std::array<uint64_t, 4> keys_{}; ///< independent numbers: the digits behind those
+    unsigned used_ = 4;              ///< numbers that have been handed out
 };
 
 // --- Sobol points --------------------------------------------------------------------------------

@@ -1,5 +1,6 @@
 // A sample taken on its own is, to the last bit, the one that a whole picture has.
 #include "scene/collada/load_collada.hpp"
+#include "source_dir.h"
 #include "tests/analytic/scenes.hpp"
 #include "tests/support/test_names.hpp"
 

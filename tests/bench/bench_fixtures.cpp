@@ -1,6 +1,7 @@
 #include "tests/bench/bench_fixtures.hpp"
 
 #include "scene/collada/load_collada.hpp"
+#include "source_dir.h"
 
 #include <filesystem>
 

@@ -1,5 +1,6 @@
 // `stromboli kernels`: what Mesa's driver for AMD GPUs makes of the kernels, without such a GPU;
 // and that the table in docs/results.md says so.
+#include "source_dir.h"
 #include "tests/cli/program.hpp"
 
 #include <gmock/gmock.h>

@@ -82,9 +82,9 @@ TEST_F(KilledRender, InBandsHasTheSameBytesToo) {
                                           "120",
                                           "90",
                                           "-s",
-                                          "480",
+                                          "240",
                                           "--checkpoint-every",
-                                          "0.3",
+                                          "0.15",
                                           "-q",
                                           "--film-memory",
                                           "1"};

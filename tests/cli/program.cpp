@@ -1,4 +1,5 @@
 #include "tests/cli/program.hpp"
+#include "source_dir.h"
 
 #include <sys/wait.h>
 #include <unistd.h>

@@ -1,4 +1,5 @@
 // Pictures that a cluster with Slurm renders; the cluster is on this machine.
+#include "source_dir.h"
 #include "tests/cli/program.hpp"
 #include "tests/support/shell.hpp"
 

@@ -1,5 +1,6 @@
 // docs/theory/hard_cases.md: all 77 cases, and no test that is not there.
 #include "host/stress/case.hpp"
+#include "source_dir.h"
 
 #include <gtest/gtest.h>
 

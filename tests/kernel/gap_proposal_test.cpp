@@ -4,6 +4,7 @@
 #include "host/bvh/wide_layout.hpp"
 #include "host/kernel/kernel_features.hpp"
 #include "scene/collada/load_collada.hpp"
+#include "source_dir.h"
 
 #include <gtest/gtest.h>
 

@@ -3,6 +3,7 @@
 #include "host/core/error.hpp"
 #include "host/kernel/kernel_buffers.hpp"
 #include "shaders/shared/render_types.h"
+#include "source_dir.h"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
 

@@ -3,6 +3,7 @@
 #include "scene/generate/gnarled_knot.hpp"
 #include "scene/generate/island.hpp"
 #include "scene/generate/terrain.hpp"
+#include "source_dir.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 #include "scene/camera/camera.hpp"
 #include "scene/read_scene.hpp"
+#include "source_dir.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,6 +3,7 @@
 #include "scene/camera/camera.hpp"
 #include "scene/generate/generated_scene.hpp"
 #include "scene/read_scene.hpp"
+#include "source_dir.h"
 #include "tests/support/test_names.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
 // The program where it was installed, and the Debian package.
+#include "source_dir.h"
 #include "tests/support/shell.hpp"
 
 #include <gmock/gmock.h>

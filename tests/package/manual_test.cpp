@@ -2,6 +2,7 @@
 // them.
 #include "host/cli/declared_command.hpp"
 #include "host/manual/manual.hpp"
+#include "source_dir.h"
 #include "tests/support/shell.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
 // The version of a source folder, as cmake/GitVersion.cmake says it.
+#include "source_dir.h"
 #include "tests/support/shell.hpp"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,7 @@
 // What adaptive sampling does to the mean, measured over seeds against a long uniform render.
 #include "host/bvh/wide_layout.hpp"
 #include "host/render/sampling_session.hpp"
+#include "source_dir.h"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
 

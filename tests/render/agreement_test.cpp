@@ -7,6 +7,7 @@
 #include "host/render/sampling_session.hpp"
 #include "scene/generate/scene_maker.hpp"
 #include "scene/read_scene.hpp"
+#include "source_dir.h"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
 
@@ -19,7 +20,7 @@ namespace {
 
 using namespace test;
 
-constexpr uint32_t kWidth = 96, kHeight = 72;
+constexpr uint32_t kWidth = 64, kHeight = 48;
 
 RenderSettings smallSettings(uint32_t samples) {
     RenderSettings s;

@@ -2,6 +2,7 @@
 #include "host/render/sampling_session.hpp"
 #include "host/render/settings.hpp"
 #include "scene/read_scene.hpp"
+#include "source_dir.h"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
 

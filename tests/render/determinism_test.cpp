@@ -1,4 +1,5 @@
 // A scene, settings and a device give the same bytes, however the work is cut.
+#include "source_dir.h"
 #include "tests/render/device_render.hpp"
 #include "tests/render/film_checks.hpp"
 #include "tests/support/device_fixture.hpp"

@@ -3,6 +3,7 @@
 #include "host/bvh/wide_layout.hpp"
 #include "host/render/sampling_session.hpp"
 #include "scene/collada/load_collada.hpp"
+#include "source_dir.h"
 
 #include <algorithm>
 

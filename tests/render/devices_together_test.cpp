@@ -4,6 +4,7 @@
 #include "host/render/sampling_session.hpp"
 #include "host/render/team_backend.hpp"
 #include "host/vulkan/device.hpp"
+#include "source_dir.h"
 #include "tests/render/device_render.hpp"
 #include "tests/render/film_checks.hpp"
 #include "tests/support/device_fixture.hpp"

@@ -1,5 +1,6 @@
 // What the gap proposal is for: less noise where a light hangs close below a ceiling.
 #include "host/render/sampling_session.hpp"
+#include "source_dir.h"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
 

@@ -1,6 +1,7 @@
 // What happens at the device's limits: an error that says so, never a wrong picture.
 #include "host/core/error.hpp"
 #include "host/vulkan/instance.hpp"
+#include "source_dir.h"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
 

@@ -1,6 +1,7 @@
 // What multiple importance sampling is for: less noise on rough metals than either way to find
 // lights alone.
 #include "host/render/sampling_session.hpp"
+#include "source_dir.h"
 #include "tests/render/device_render.hpp"
 #include "tests/support/device_fixture.hpp"
 

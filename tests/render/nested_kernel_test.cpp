@@ -13,6 +13,7 @@
 #include "tests/support/test_shader.hpp"
 
 #include "embedded/nested_texel.h"
+#include "source_dir.h"
 
 #include <gtest/gtest.h>
 

@@ -7,6 +7,7 @@
 #include "tests/support/shell.hpp"
 
 #include "embedded/pathtrace_storage.h"
+#include "source_dir.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 #include "scene/build/report.hpp"
 
 #include "host/core/error.hpp"
+#include "source_dir.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -4,6 +4,7 @@
 #include "tests/scene/collada/document_text.hpp"
 
 #include "scene/model/emitters.hpp"
+#include "source_dir.h"
 #include "tests/support/cpu_time.hpp"
 
 #include <set>

@@ -1,6 +1,7 @@
 // Files that other programs wrote: Khronos' sample models where they lie beside the checkout, and
 // those of Debian's package assimp-testmodels.
 
+#include "source_dir.h"
 #include "tests/scene/gltf/gltf_text.hpp"
 
 #include <algorithm>

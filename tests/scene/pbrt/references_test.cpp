@@ -5,6 +5,7 @@
 #include "host/compare/comparison.hpp"
 #include "host/film/image_formats.hpp"
 #include "scene/mitsuba/load_mitsuba.hpp"
+#include "source_dir.h"
 #include "tests/scene/mitsuba/references_renderer.hpp"
 #include "tests/scene/pbrt/pbrt_text.hpp"
 #include "tests/scene/pbrt/retold_scene.hpp"
