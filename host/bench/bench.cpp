@@ -24,7 +24,8 @@ class Benchmark {
   public:
     Benchmark(const BenchSettings& settings,
               const std::function<void(const std::string&)>& progress)
-        : settings_(settings), progress_(progress), open_(vulkan::openDevice(settings.device)),
+        : settings_(settings), progress_(progress),
+          open_(vulkan::openDevice(settings.device, settings.messages)),
           threads_(threadsFor(settings)), embree_(openEmbree(threads_)) {}
 
     BenchReport run() {

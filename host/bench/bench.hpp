@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/bench/report.hpp"
+#include "host/core/messages.hpp"
 #include "host/core/text.hpp"
 #include "host/render/settings.hpp"
 
@@ -48,6 +49,7 @@ struct BenchSettings {
     std::string device;
     std::string program;     ///< the file to start for start-up times
     std::string commandLine; ///< for the report
+    Messages messages;       ///< of the device
 };
 
 /// Does all of it. `progress` is told what is being measured, and may throw Stopped. Throws

@@ -4,11 +4,11 @@
 #include "host/cli/command_line.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/declared_command.hpp"
+#include "host/cli/log.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/signals.hpp"
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
-#include "host/core/log.hpp"
 #include "scene/find_scene.hpp"
 
 #include <fmt/format.h>
@@ -151,6 +151,7 @@ int benchCommand(const BenchOptions& options) {
     if (!options.jsonFile.empty()) checkOutputWritable(options.jsonFile);
     settings.program = std::filesystem::read_symlink("/proc/self/exe").string();
     settings.commandLine = commandLine();
+    settings.messages = toTerminal().message;
     onSignal(OnSignal::Ask);
     try {
         const bench::BenchReport report = bench::runBench(settings, [&](const std::string& step) {

@@ -2,7 +2,7 @@
 #include "host/cli/declared_command.hpp"
 #include "host/cli/progress.hpp"
 #include "host/core/error.hpp"
-#include "host/core/log.hpp"
+#include "host/core/printable.hpp"
 #include "host/engine/load_scene.hpp"
 #include "host/kernel/path_kernel.hpp"
 #include "host/vulkan/device.hpp"
@@ -48,7 +48,7 @@ void declareDevices(DeclaredCommand& c) {
 }
 
 int devicesCommand(const DevicesOptions& options) {
-    const vulkan::Instance instance(vulkan::validationRequested());
+    const vulkan::Instance instance(vulkan::validationRequested(), toTerminal().message);
     const std::vector<vulkan::DeviceDescription> devices = vulkan::listDevices(instance);
     const std::vector<vulkan::DeviceChoice> choices =
         vulkan::chooseDevices(devices, options.device);
@@ -175,7 +175,7 @@ void declareKernels(DeclaredCommand& c) {
 
 int kernelsCommand(const KernelsOptions& options) {
     if (!options.deviceFamily.empty()) compileFor(options.deviceFamily);
-    const vulkan::Instance instance(vulkan::validationRequested());
+    const vulkan::Instance instance(vulkan::validationRequested(), toTerminal().message);
     const std::vector<vulkan::DeviceDescription> devices = vulkan::listDevices(instance);
     const vulkan::DeviceDescription& description = chosen(devices, options);
     const vulkan::Device device(instance, description, std::nullopt, vulkan::DeviceUse::Compiling);

@@ -4,7 +4,7 @@
 #include "host/cli/progress.hpp"
 #include "host/core/files.hpp"
 #include "host/core/json.hpp"
-#include "host/core/log.hpp"
+#include "host/core/printable.hpp"
 #include "host/engine/load_scene.hpp"
 #include "host/film/image_file.hpp"
 #include "host/kernel/kernel_buffers.hpp"

@@ -1,11 +1,11 @@
 #include "host/cli/command_line.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/log.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/signals.hpp"
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
-#include "host/core/log.hpp"
 #include "host/process/process.hpp"
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "host/bench/bench.hpp"
+#include "host/cli/log.hpp"
 #include "host/compare/comparison.hpp"
-#include "host/core/log.hpp"
 #include "host/core/text.hpp"
 #include "host/engine/load_scene.hpp"
 #include "host/engine/render_request.hpp"

@@ -1,6 +1,6 @@
 #include "host/cli/progress.hpp"
 
-#include "host/core/log.hpp"
+#include "host/cli/log.hpp"
 
 #include <fmt/format.h>
 
@@ -146,6 +146,8 @@ Listener toTerminal() {
             return logging::info(text);
         case Severity::Warning:
             return logging::warn(text);
+        case Severity::Error:
+            return logging::error(text);
         }
     };
     listener.activity = [](Stage stage, const std::string& what) {

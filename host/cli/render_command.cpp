@@ -1,11 +1,11 @@
 // `render`: a picture, a share of one, several, or one sample.
 #include "host/cli/commands.hpp"
+#include "host/cli/log.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/render_outputs.hpp"
 #include "host/cli/sequence.hpp"
 #include "host/cli/signals.hpp"
 #include "host/core/error.hpp"
-#include "host/core/log.hpp"
 #include "host/core/system.hpp"
 #include "host/engine/render_session.hpp"
 #include "host/engine/share.hpp"

@@ -1,10 +1,11 @@
 #include "host/cli/render_outputs.hpp"
 
+#include "host/cli/log.hpp"
 #include "host/cli/progress.hpp"
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
 #include "host/core/json.hpp"
-#include "host/core/log.hpp"
+#include "host/core/printable.hpp"
 #include "host/film/image_formats.hpp"
 #include "host/version/version.hpp"
 #include "scene/model/emitters.hpp"

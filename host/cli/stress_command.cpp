@@ -1,12 +1,12 @@
 // `stress`: the hard cases of docs/theory/hard_cases.md on the device.
 #include "host/cli/commands.hpp"
 #include "host/cli/declared_command.hpp"
+#include "host/cli/log.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/signals.hpp"
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
 #include "host/core/json.hpp"
-#include "host/core/log.hpp"
 #include "host/core/system.hpp"
 #include "host/stress/case.hpp"
 #include "host/stress/device_subject.hpp"
@@ -156,7 +156,7 @@ int stressCommand(const StressOptions& options) {
     }
     if (!options.jsonFile.empty()) checkOutputWritable(options.jsonFile);
     onSignal(OnSignal::Ask);
-    const vulkan::OpenDevice open = vulkan::openDevice(options.device);
+    const vulkan::OpenDevice open = vulkan::openDevice(options.device, toTerminal().message);
     const vulkan::DeviceDescription& device = open.device->description();
     const bool prints = !isStandardOutput(options.jsonFile);
     if (prints) fmt::print("{}, {}\n", device.name(), device.driver);

@@ -2,12 +2,12 @@
 #include "host/cli/command_line.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/declared_command.hpp"
+#include "host/cli/log.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/signals.hpp"
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
-#include "host/core/log.hpp"
 #include "host/engine/load_scene.hpp"
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/reference/reference_backend.hpp"
@@ -353,7 +353,7 @@ int studyCommand(const StudyOptions& o) {
     const study::FolderLock lock(folder);
     onSignal(OnSignal::Ask); // every run that is done is on the disk
     nowDoing("measuring", StatusLine::OfOthers);
-    const vulkan::OpenDevice open = vulkan::openDevice(o.device);
+    const vulkan::OpenDevice open = vulkan::openDevice(o.device, toTerminal().message);
     Study s = newStudy(o.settings, *open.device);
     const size_t before = study::takeOver(folder / "study.json", s);
     if (before > 0) logging::info(fmt::format("going on: {} runs are there already", before));

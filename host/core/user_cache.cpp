@@ -2,7 +2,6 @@
 
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
-#include "host/core/log.hpp"
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -77,7 +76,7 @@ std::optional<std::vector<std::byte>> BlobCache::find(const std::string& name) c
     std::vector<std::byte> blob(header.bytes);
     if (!file.read(reinterpret_cast<char*>(blob.data()), std::streamsize(blob.size())) ||
         file.peek() != std::ifstream::traits_type::eof() || checksumOf(blob) != header.checksum) {
-        logging::debug(fmt::format("{}: damaged, ignored", path.string()));
+        tell(messages_, Severity::Detail, fmt::format("{}: damaged, ignored", path.string()));
         return std::nullopt;
     }
     return blob;
@@ -97,7 +96,7 @@ void BlobCache::keep(const std::string& name, std::span<const std::byte> blob) c
     writeFileAtomically(path, bytes, Sync::Later); // the checksum guards against power cuts
     removeOldest();
 } catch (const std::exception& reason) { // no permission, full disk, a file in the folder's place
-    logging::debug(fmt::format("nothing kept in the cache: {}", reason.what()));
+    tell(messages_, Severity::Detail, fmt::format("nothing kept in the cache: {}", reason.what()));
 }
 
 /// Also takes away temporary files of programs that were killed while they wrote.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "host/core/messages.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -29,7 +31,9 @@ class BlobCache {
     /// Blobs in a folder; when one is kept, those that were written longest ago make room.
     static constexpr size_t kMostBlobs = 8;
 
-    explicit BlobCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    /// `messages`: who is told, in detail, of files that are damaged or cannot be written.
+    explicit BlobCache(std::filesystem::path folder, Messages messages = {})
+        : folder_(std::move(folder)), messages_(std::move(messages)) {}
 
     /// The blob last kept under `name`.
     std::optional<std::vector<std::byte>> find(const std::string& name) const;
@@ -42,6 +46,7 @@ class BlobCache {
     void removeOldest() const;
 
     std::filesystem::path folder_;
+    Messages messages_;
 };
 
 } // namespace stromboli

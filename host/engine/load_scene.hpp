@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/bvh/two_level_layout.hpp"
+#include "host/core/messages.hpp"
 #include "host/kernel/gpu_scene.hpp"
 #include "host/render/estimator.hpp"
 #include "scene/add_environment.hpp"
@@ -15,30 +16,22 @@ namespace stromboli {
 
 // --- Listeners -----------------------------------------------------------------------------------
 
-/// How much a message matters.
-enum class Severity { Detail, Information, Warning };
-
 /// What an engine is busy with.
 enum class Stage { Loading, Building, Preparing, Sampling, Looking, Writing };
 
 /// Whom the engine tells what it does. Functions may be empty. They are called on the threads that
-/// call the engine, and never after that call has returned.
+/// call the engine, and never after that call has returned; but messages of severity Error, which
+/// are those of Vulkan's validation layer, on any thread as long as the engine lives.
 struct Listener {
-    /// A message of one line.
-    std::function<void(Severity, const std::string&)> message;
+    Messages message;
     /// What begins now, in words: "building the BVH of 12 triangles".
     std::function<void(Stage, const std::string&)> activity;
 
-    void detail(const std::string& text) const { say(Severity::Detail, text); }
-    void info(const std::string& text) const { say(Severity::Information, text); }
-    void warn(const std::string& text) const { say(Severity::Warning, text); }
+    void detail(const std::string& text) const { tell(message, Severity::Detail, text); }
+    void info(const std::string& text) const { tell(message, Severity::Information, text); }
+    void warn(const std::string& text) const { tell(message, Severity::Warning, text); }
     void doing(Stage stage, const std::string& what) const {
         if (activity) activity(stage, what);
-    }
-
-  private:
-    void say(Severity severity, const std::string& text) const {
-        if (message) message(severity, text);
     }
 };
 

@@ -27,10 +27,10 @@ bool sameSelection(const LightSelection& a, const LightSelection& b) {
     return all(a) == all(b);
 }
 
-std::vector<vulkan::OpenDevice> openAll(const DeviceRequest& request) {
-    if (request.maybeSeveral) return vulkan::openDevices(request.device);
+std::vector<vulkan::OpenDevice> openAll(const DeviceRequest& request, const Listener& listener) {
+    if (request.maybeSeveral) return vulkan::openDevices(request.device, listener.message);
     std::vector<vulkan::OpenDevice> one;
-    one.push_back(vulkan::openDevice(request.device));
+    one.push_back(vulkan::openDevice(request.device, listener.message));
     return one;
 }
 
@@ -56,7 +56,7 @@ void RenderDevices::open() {
 void RenderDevices::reopen() {
     team_.reset();
     seats_.clear();
-    for (vulkan::OpenDevice& open : openAll(request_))
+    for (vulkan::OpenDevice& open : openAll(request_, listener_))
         seats_.push_back({std::move(open), nullptr});
 }
 

@@ -3,7 +3,7 @@
 
 #include "host/checkpoint/scene_identity.hpp"
 #include "host/core/error.hpp"
-#include "host/core/log.hpp"
+#include "host/core/printable.hpp"
 #include "host/engine/render_result.hpp"
 #include "host/farm/film_file.hpp"
 #include "host/farm/round_plan.hpp"

@@ -5,7 +5,6 @@
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
 #include "host/core/json.hpp"
-#include "host/core/log.hpp"
 #include "host/core/system.hpp"
 #include "host/film/image_file.hpp"
 #include "host/film/image_formats.hpp"

@@ -300,33 +300,36 @@ std::vector<DeviceChoice> chooseDevices(const std::vector<DeviceDescription>& de
 namespace {
 
 OpenDevice opened(std::unique_ptr<Instance> instance, const std::vector<DeviceDescription>& devices,
-                  DeviceChoice choice) {
+                  DeviceChoice choice, const Messages& messages) {
     OpenDevice open;
     open.instance = std::move(instance);
     open.choice = std::move(choice);
     std::optional<BlobCache> cache;
-    if (const auto folder = userCacheFolder()) cache.emplace(*folder);
+    if (const auto folder = userCacheFolder()) cache.emplace(*folder, messages);
     open.device =
         std::make_unique<Device>(*open.instance, devices[open.choice.index], std::move(cache));
+    tell(messages, Severity::Detail,
+         fmt::format("pipeline cache: {} bytes from earlier runs",
+                     open.device->pipelineBytesFound()));
     return open;
 }
 
 } // namespace
 
-OpenDevice openDevice(const std::string& wanted) {
-    auto instance = std::make_unique<Instance>(validationRequested());
+OpenDevice openDevice(const std::string& wanted, const Messages& messages) {
+    auto instance = std::make_unique<Instance>(validationRequested(), messages);
     const std::vector<DeviceDescription> devices = listDevices(*instance);
-    return opened(std::move(instance), devices, chooseDevice(devices, wanted));
+    return opened(std::move(instance), devices, chooseDevice(devices, wanted), messages);
 }
 
-std::vector<OpenDevice> openDevices(const std::string& wanted) {
-    auto instance = std::make_unique<Instance>(validationRequested());
+std::vector<OpenDevice> openDevices(const std::string& wanted, const Messages& messages) {
+    auto instance = std::make_unique<Instance>(validationRequested(), messages);
     const std::vector<DeviceChoice> choices = chooseDevices(listDevices(*instance), wanted);
     std::vector<OpenDevice> open;
     for (const DeviceChoice& choice : choices) {
-        if (!instance) instance = std::make_unique<Instance>(validationRequested());
+        if (!instance) instance = std::make_unique<Instance>(validationRequested(), messages);
         const std::vector<DeviceDescription> devices = listDevices(*instance);
-        open.push_back(opened(std::move(instance), devices, choice));
+        open.push_back(opened(std::move(instance), devices, choice, messages));
     }
     return open;
 }

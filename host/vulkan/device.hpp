@@ -69,6 +69,8 @@ class Device {
     const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
     /// Pass it to the creation of pipelines; may be VK_NULL_HANDLE.
     VkPipelineCache pipelineCache() const { return pipelines_->handle(); }
+    /// Bytes of compiled pipelines that an earlier run left in the cache.
+    size_t pipelineBytesFound() const { return pipelines_->bytesFound(); }
     /// Compute pipelines that are made already.
     KeptPipelines& keptPipelines() const { return kept_; }
     /// Device memory that the buffers of this device take now, bytes.
@@ -123,13 +125,14 @@ struct OpenDevice {
 };
 
 /// Opens the device `wanted` names (chooseDevice), with the validation layer if the environment
-/// asks for it, and with the pipelines that earlier runs kept in the user's cache folder. Throws
+/// asks for it, and with the pipelines that earlier runs kept in the user's cache folder.
+/// `messages` is told of that cache, and what the validation layer says, on any thread. Throws
 /// DeviceError.
-OpenDevice openDevice(const std::string& wanted);
+OpenDevice openDevice(const std::string& wanted, const Messages& messages = {});
 
 /// The devices that `wanted` names (chooseDevices), each with an instance of its own; a device that
 /// is named twice is opened twice. Throws DeviceError.
-std::vector<OpenDevice> openDevices(const std::string& wanted);
+std::vector<OpenDevice> openDevices(const std::string& wanted, const Messages& messages = {});
 
 /// Throws DeviceError if the validation layer had anything to say.
 void requireNoValidationMessages(const OpenDevice& open);

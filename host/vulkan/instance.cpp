@@ -1,7 +1,7 @@
 #include "host/vulkan/instance.hpp"
 
 #include "host/core/error.hpp"
-#include "host/core/log.hpp"
+#include "host/core/messages.hpp"
 
 #include <fmt/format.h>
 
@@ -65,20 +65,21 @@ constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                          VkDebugUtilsMessageTypeFlagsEXT,
                                          const VkDebugUtilsMessengerCallbackDataEXT* data,
-                                         void* counter) {
-    ++*static_cast<std::atomic<uint32_t>*>(counter);
-    logging::error(fmt::format("validation: {}", data->pMessage));
+                                         void* user) {
+    auto& complaints = *static_cast<Instance::Complaints*>(user);
+    ++complaints.count;
+    tell(complaints.messages, Severity::Error, fmt::format("validation: {}", data->pMessage));
     return VK_FALSE;
 }
 
-VkDebugUtilsMessengerCreateInfoEXT messengerInfo(std::atomic<uint32_t>* counter) {
+VkDebugUtilsMessengerCreateInfoEXT messengerInfo(Instance::Complaints* complaints) {
     return {.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
             .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
                                VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
             .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
                            VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT,
             .pfnUserCallback = onMessage,
-            .pUserData = counter};
+            .pUserData = complaints};
 }
 
 bool hasLayer(const char* name) {
@@ -98,7 +99,8 @@ bool validationRequested() {
     return value && std::string_view(value) != "0" && *value;
 }
 
-Instance::Instance(bool validation) {
+Instance::Instance(bool validation, Messages messages)
+    : complaints_{.messages = std::move(messages)} {
     if (volkInitialize() != VK_SUCCESS)
         throw DeviceError("no Vulkan loader (libvulkan.so.1) on this machine; on Debian: apt "
                           "install libvulkan1 mesa-vulkan-drivers");
@@ -108,7 +110,7 @@ Instance::Instance(bool validation) {
     std::vector<const char*> layers, extensions;
     VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
                                  .pApplicationInfo = &application};
-    const VkDebugUtilsMessengerCreateInfoEXT messenger = messengerInfo(&messages_);
+    const VkDebugUtilsMessengerCreateInfoEXT messenger = messengerInfo(&complaints_);
     if (validation) {
         if (!hasLayer(kValidationLayer))
             throw DeviceError("validation was asked for but VK_LAYER_KHRONOS_validation is not "

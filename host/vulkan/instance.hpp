@@ -1,5 +1,7 @@
 #pragma once
 
+#include "host/core/messages.hpp"
+
 #include <volk.h>
 
 #include <atomic>
@@ -54,11 +56,11 @@ void check(VkResult result, std::string_view operation);
 // --- The instance --------------------------------------------------------------------------------
 
 /// A Vulkan 1.1 instance without any window system. With validation, the Khronos layer checks
-/// every call; its messages are logged and counted.
+/// every call; its messages are counted, and told as errors, on any thread that calls Vulkan.
 class Instance {
   public:
     /// Throws DeviceError if there is no Vulkan loader or (validation) no validation layer.
-    explicit Instance(bool validation);
+    explicit Instance(bool validation, Messages messages = {});
     ~Instance();
     Instance(const Instance&) = delete;
     Instance& operator=(const Instance&) = delete;
@@ -66,12 +68,18 @@ class Instance {
     VkInstance handle() const { return instance_; }
     bool validation() const { return messenger_ != VK_NULL_HANDLE; }
     /// Warnings and errors of the validation layer so far.
-    uint32_t validationMessages() const { return messages_.load(); }
+    uint32_t validationMessages() const { return complaints_.count.load(); }
+
+    /// What the validation layer says goes here.
+    struct Complaints {
+        std::atomic<uint32_t> count = 0;
+        Messages messages;
+    };
 
   private:
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
-    std::atomic<uint32_t> messages_ = 0;
+    Complaints complaints_;
     // volk's are those of the instance that was made last, which may have no validation layer.
     PFN_vkDestroyInstance destroy_ = nullptr;
     PFN_vkDestroyDebugUtilsMessengerEXT destroyMessenger_ = nullptr;

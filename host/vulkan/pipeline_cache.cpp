@@ -1,7 +1,5 @@
 #include "host/vulkan/pipeline_cache.hpp"
 
-#include "host/core/log.hpp"
-
 #include <fmt/format.h>
 
 #include <cstring>
@@ -55,7 +53,6 @@ PipelineCache::PipelineCache(VkDevice device, const VolkDeviceTable& vk,
         found_.clear();
         cache_ = createCache(device, vk, {});
     }
-    logging::debug(fmt::format("pipeline cache: {} bytes from earlier runs", found_.size()));
 }
 
 /// Empty if the driver does not give it out.

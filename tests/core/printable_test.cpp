@@ -1,4 +1,4 @@
-#include "host/core/log.hpp"
+#include "host/core/printable.hpp"
 
 #include <gtest/gtest.h>
 

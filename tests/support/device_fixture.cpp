@@ -3,6 +3,7 @@
 #include "host/process/process.hpp"
 #include "host/vulkan/device.hpp"
 
+#include <cstdio>
 #include <memory>
 #include <optional>
 
@@ -10,7 +11,10 @@ namespace stromboli::test {
 namespace {
 
 struct SharedDevice {
-    std::unique_ptr<vulkan::Instance> instance = std::make_unique<vulkan::Instance>(true);
+    std::unique_ptr<vulkan::Instance> instance =
+        std::make_unique<vulkan::Instance>(true, [](Severity, const std::string& text) {
+            std::fprintf(stderr, "%s\n", text.c_str());
+        });
     std::unique_ptr<vulkan::Device> device;
     std::unique_ptr<vulkan::Queue> queue;
 
