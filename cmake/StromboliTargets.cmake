@@ -170,7 +170,8 @@ endfunction()
 # one GoogleTest executable; each of its tests becomes a ctest entry. Tests that use a Vulkan device
 # (label device) are left out under sanitizers: drivers leak, and software ones are slow already.
 # NOT_SANITIZED ones are, too: of commands that measure, print and install, and read no file but the
-# program's own. Their libraries are a third of what the compiler would have to do.
+# program's own, whose libraries are a third of what the compiler would have to do; and whole pictures
+# of files that other tests read.
 # MANY_KERNELS: leaves out the core checks of the Vulkan validation layer, which optimise and validate
 # each specialised kernel anew and take up to three quarters of a test that compiles one. For tests
 # that ask of the device what others ask that keep the checks.

@@ -38,7 +38,7 @@ std::vector<vulkan::OpenDevice> openAll(const DeviceRequest& request, const List
 
 RenderDevices::RenderDevices(const DeviceRequest& request, Listener listener)
     : request_(request), listener_(std::move(listener)),
-      opening_(std::async(std::launch::async, openAll, request)) {}
+      opening_(std::async(std::launch::async, openAll, request, listener_)) {}
 
 void RenderDevices::open() {
     if (whyNotOpen_) std::rethrow_exception(whyNotOpen_);
