@@ -151,7 +151,7 @@ ScreenImage<Value> numbersOf(const FloatImage& radiance, const ToneMapping& tone
             const glm::dvec3 signals = signalOf(covered.at(i));
             const double added = dithers ? ditherThreshold({part.x + x, part.y + y}) : usual;
             for (int c = 0; c < 3; ++c)
-                image.pixel(x, y)[c] = Value(std::min(most * signals[c] + added, most));
+                image.pixel(x, y)[c] = Value(most * signals[c] + added);
             if (covered.hasAlpha()) image.alpha[i] = Value(float(most) * covered.alpha(i) + 0.5f);
         }
     });

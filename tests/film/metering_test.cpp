@@ -74,9 +74,9 @@ TEST(MeteredExposure, BackgroundDoesNotMatter) {
 TEST(MeteredExposure, WhatIsNoLightDoesNotMatter) {
     Colors picture = room(-3, 2, 1000);
     const double before = meteredExposure(picture);
-    picture.emplace_back(std::numeric_limits<float>::quiet_NaN());
-    picture.emplace_back(std::numeric_limits<float>::infinity());
-    picture.emplace_back(-5.0f);
+    for (const float none :
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -5.0f})
+        picture.insert(picture.end(), 200, glm::vec3(none));
     EXPECT_EQ(meteredExposure(picture), before);
 }
 
@@ -168,6 +168,16 @@ TEST(Metering, IsOfThePictureAsItShows) {
     half.channel(kAlphaChannel).assign(50, 0.5f);
     EXPECT_NEAR(resolved({.metersExposure = true}, half).curve.exposure, std::log2(0.18 / 0.4),
                 0.011);
+}
+
+/// Blue light of a lamp's picture weighs more when the lamp shows as white.
+TEST(Metering, ExposesWhatTheWhiteBalanceMakes) {
+    const glm::vec3 blue(0.1f, 0.1f, 0.8f);
+    const double before = luminance(blue), after = luminance(whiteBalance(2500) * glm::dvec3(blue));
+    ASSERT_GT(std::log2(after / before), 0.1);
+    const ToneMapping found =
+        resolved({.illuminant = 2500, .metersExposure = true}, pictureOf(Colors(9, blue)));
+    EXPECT_NEAR(found.curve.exposure, std::log2(0.18 / after), 0.0051);
 }
 
 TEST(Metering, LeavesWhatIsGiven) {
