@@ -63,10 +63,10 @@ glm::dvec3 agx(const glm::dvec3& radiance) {
 // --- Filmic --------------------------------------------------------------------------------------
 
 // John Hable, "Filmic Tonemapping Operators" (filmicworlds.com, 2010), the curve of Uncharted 2. Of
-// the curves that go by this name it is the one that is a closed formula of named parts: toe,
-// straight line and shoulder, with a white that is reached, at 5.6 times the radiance of
-// Standard's. Fits of ACES (Narkowicz, Hill) stand for a table that was made for cinemas, with a
-// darker picture.
+// the curves that go by this name it is the one that is defined by its formula, of named parts:
+// toe, straight line and shoulder, with a white that is reached, at 5.6 times the radiance of
+// Standard's. Narkowicz's and Hill's are fits of ACES, whose own definition is a table with other
+// results.
 double filmicCurve(double x) {
     constexpr double shoulderStrength = 0.15, linearStrength = 0.50, linearAngle = 0.10,
                      toeStrength = 0.20, toeNumerator = 0.02, toeDenominator = 0.30;
@@ -89,7 +89,8 @@ glm::dvec3 filmic(const glm::dvec3& radiance) {
 
 // "Khronos PBR Neutral Tone Mapper", specification of 2024 (github.com/KhronosGroup/ToneMapping): a
 // colour under grey light becomes the base colour of its material, less what its surface reflects
-// without colour (0.04, F90 of a dielectric of index 1.5); above 0.8 it is compressed and fades.
+// without colour (0.04, a dielectric of index 1.5 seen from the front); above 0.8 it is compressed
+// and fades.
 glm::dvec3 pbrNeutral(const glm::dvec3& radiance) {
     constexpr double fresnel = 0.04, compressedFrom = 0.8 - fresnel, desaturation = 0.15;
     const double least = std::min({radiance.x, radiance.y, radiance.z});

@@ -5,8 +5,8 @@
 namespace stromboli {
 namespace {
 
-/// CIE 224:2017, section 4.2: a reference light is a black body up to the first of these, daylight
-/// from the second on, and between them a mixture of both of the same luminance.
+/// CIE 224:2017, as ANSI/IES TM-30-18: a reference light is a black body up to the first of these,
+/// daylight from the second on, and between them a mixture of both of the same luminance.
 constexpr double kLastBlackBody = 4000, kFirstDaylight = 5000;
 
 /// CIE's diagram of 1960, in which the nearest illuminant is defined.
@@ -28,7 +28,7 @@ Chromaticity blackBody(double t) {
                       (1 - 2.89741816e-5 * t + 1.61456053e-7 * t * t));
 }
 
-/// CIE 15:2004, equations 3.3 and 3.4: daylight from 4000 to 25000 K. D65 is that of 6504 K.
+/// CIE 15:2004, illuminants D: daylight from 4000 to 25000 K. D65 is that of 6504 K.
 Chromaticity daylight(double t) {
     const double x = t <= 7000 ? ((-4.6070e9 / t + 2.9678e6) / t + 0.09911e3) / t + 0.244063
                                : ((-2.0064e9 / t + 1.9018e6) / t + 0.24748e3) / t + 0.237040;

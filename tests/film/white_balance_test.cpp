@@ -15,7 +15,7 @@ glm::dvec3 lightOf(double kelvin) {
     return glm::inverse(xyzFromRgb(kRec709)) * xyzOf(illuminantOf(kelvin));
 }
 
-/// CIE 15:2004, table T.3: D50, D55, D65 and D75 have the correlated colour temperatures 5003,
+/// CIE 15:2004: D50, D55, D65 and D75 have the correlated colour temperatures 5003,
 /// 5503, 6504 and 7504 K.
 TEST(Illuminants, OfDaylightAreThoseOfTheCie) {
     struct Row {
@@ -28,7 +28,7 @@ TEST(Illuminants, OfDaylightAreThoseOfTheCie) {
     }
 }
 
-/// Illuminant A is a black body of 2856 K, (0.44758, 0.40745) by the same table; the formula is of
+/// Illuminant A is a black body of 2856 K, (0.44758, 0.40745) by the same; the formula is of
 /// u and v within 9e-5, which are 3.2e-4 of y there.
 TEST(Illuminants, OfLampsAreBlackBodies) {
     EXPECT_NEAR(illuminantOf(2856).x, 0.44758, 3.3e-4);
