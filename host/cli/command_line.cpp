@@ -33,9 +33,9 @@ std::string shortHelp() {
            "scene\n"
            "by its name, as cornell_mesh, or generate:cornell_mesh:100k, which is made in memory.\n"
            "\n"
-           "Other commands: merge, submit, devices, compare, study, bench, stress. 'stromboli "
-           "--help'\n"
-           "says what each does, 'stromboli COMMAND --help' lists its options.\n";
+           "Other commands: tonemap, merge, submit, devices, compare, study, bench, stress.\n"
+           "'stromboli --help' says what each does, 'stromboli COMMAND --help' lists its "
+           "options.\n";
 }
 
 // --- Words of command lines ----------------------------------------------------------------------

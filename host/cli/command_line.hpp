@@ -13,7 +13,7 @@ namespace stromboli {
 
 inline constexpr const char* kInOneLine = "a path tracer in Vulkan compute shaders";
 inline constexpr const char* kWhatItDoes =
-    "COLLADA in, PNG or EXR out; on any Vulkan 1.1 device, GPU or not.";
+    "COLLADA in, PNG, JPEG, WebP or EXR out; on any Vulkan 1.1 device, GPU or not.";
 inline constexpr const char* kHowNumbersAreWritten =
     "Numbers may have an exponent, k or M: 2.5k, 1e6.";
 

@@ -58,7 +58,13 @@ bool namesPng(const std::string& file) {
 }
 
 void checkFiles(const CompareOptions& o) {
-    if (!o.differenceFile.empty()) checkWritable(o.differenceFile);
+    if (!o.differenceFile.empty()) {
+        const PictureFormat format = formatOf(o.differenceFile);
+        if (format == PictureFormat::Jpeg || format == PictureFormat::WebP)
+            throw UsageError(
+                fmt::format("--diff {}: expected a .png or an .exr file", o.differenceFile));
+        checkWritable(o.differenceFile);
+    }
     if (!o.jsonFile.empty()) checkOutputWritable(o.jsonFile);
     for (const std::string& out : {o.differenceFile, o.jsonFile})
         if (!out.empty() && (out == o.reference || out == o.picture))

@@ -192,6 +192,7 @@ void declareStudy(DeclaredCommand& command);
 void declareMerge(DeclaredCommand& command);
 void declarePlan(DeclaredCommand& command);
 void declareSubmit(DeclaredCommand& command);
+void declareTonemap(DeclaredCommand& command);
 
 // Groups of options that several commands have. Each stores what it understands in the structure it
 // is given. A `finish...` belongs to the group of its name.
@@ -222,9 +223,22 @@ struct Asked {
 /// several: where a command takes more than one scene; their names go there, and not into `scene`.
 void declareScene(OptionList& list, SceneRequest& scene, Words* several = nullptr);
 
-/// What is said of the file that a picture is written to.
-void declarePictureFile(OptionList& list, OutputOptions& output, ToneCurve& tone);
-/// Throws UsageError if the kind of the picture has no use for --exposure, --aov or --layers.
+/// How radiance becomes a picture for a screen.
+void declareToneMapping(OptionList& list, ToneMapping& tone, PictureEncoding& encoding);
+/// Names of the options that declareToneMapping() declares.
+const Words& toneMappingOptions();
+/// Throws UsageError if the kind of the picture has no use for one of them that is given.
+void checkToneMapping(const DeclaredCommand& command, const OutputOptions& output);
+
+/// What is said of the file that a picture is written to, and how radiance becomes one.
+void declarePictureFile(OptionList& list, OutputOptions& output, ToneMapping& tone);
+/// Names of the options that declarePictureFile() declares.
+Words pictureFileOptions();
+/// Those of a command's parts (DeclaredCommand::pictureCommand) that are such an option.
+Words partsOfPictureFile(const Words& command);
+/// Whether the picture's file says how it was made.
+void declareNotes(OptionList& list, OutputOptions& output);
+/// Throws UsageError if the kind of the picture has no use for what is asked for.
 void checkOutputOptions(const DeclaredCommand& command, const OutputOptions& output,
                         const RenderRequest& picture);
 /// --transparent, --layers.

@@ -32,7 +32,7 @@ void useCs184(SceneAndPicture& work, Asked& asked) {
     work.scene.reading = cs184Conventions();
     picture.framing = cs184Framing();
     picture.estimator.conventions = cs184Shading();
-    work.tone.kind = ToneCurve::Kind::Cs184;
+    work.tone.curve.kind = ToneCurve::Kind::Cs184;
     picture.budget.adaptive.rule = Adaptive::Rule::PerChannel;
 
     picture.estimator.maxBounces = 1;
@@ -280,7 +280,8 @@ void declareHost(DeclaredCommand& c) {
     HostOptions& o = c.host;
     c.list.group("Device");
     c.list
-        .number("-t,--threads", "N", "host threads (BVH, reference); 0: all", o.threads, {0, 65536})
+        .number("-t,--threads", "N", "host threads (BVH, reference, tone mapping); 0: all",
+                o.threads, {0, 65536})
         .usually("all")
         .besidePicture();
     c.list.group("Messages");

@@ -124,9 +124,7 @@ namespace {
 /// the order in which `render` lists its options.
 std::vector<std::string> wholeCommand(std::vector<std::string> command,
                                       const MergeOptions& options) {
-    if (options.tone.exposure != 0)
-        command.push_back(fmt::format("--exposure {}", options.tone.exposure));
-    if (options.output.statisticsChannels) command.emplace_back("--aov");
+    command.insert(command.end(), options.ofPicture.begin(), options.ofPicture.end());
     const std::deque<DeclaredCommand> commands = declareCommands();
     const auto& all = commands.front().list.all();
     const auto placeOf = [&](const std::string& part) {
@@ -171,8 +169,12 @@ std::string noteOf(const PictureNoise& noise) {
 std::vector<std::string> channelsBeside(const FilmHeader& header, const MergeOptions& options) {
     std::vector<std::string> names;
     if (header.hasAlpha()) names.emplace_back(kAlphaChannel);
+    if (header.hasAlpha() && formatOf(options.output.file) == PictureFormat::Jpeg)
+        throw UsageError(fmt::format("{} is a JPEG, which has no alpha, and the films have: write "
+                                     ".png, .webp or .exr",
+                                     options.output.file));
     if (header.layers.empty()) return names;
-    if (isPng(options.output.file)) {
+    if (isToneMapped(options.output.file)) {
         logging::warn(
             fmt::format("{} has no channels for the layers of the films", options.output.file));
         return names;
@@ -189,9 +191,10 @@ std::vector<std::string> channelsBeside(const FilmHeader& header, const MergeOpt
 PictureNoise writeMergedPicture(FilmsToMerge& films, const MergeOptions& options) {
     const FilmHeader& header = films.header();
     const PictureOptions pictureOptions{options.tone, options.output.statisticsChannels,
-                                        channelsBeside(header, options)};
+                                        channelsBeside(header, options), options.output.encoding};
     const auto notesOf = [&](const PictureNoise& noise) {
-        const PictureNotes legend = isPng(options.output.file) ? PictureNotes{} : header.legend;
+        const PictureNotes legend =
+            isToneMapped(options.output.file) ? PictureNotes{} : header.legend;
         if (!options.output.notes) return legend;
         // A picture in one round has the bytes of one render, whose notes cannot tell: the noise of
         // a render in bands or in two goes is found out in another way.
@@ -203,6 +206,7 @@ PictureNoise writeMergedPicture(FilmsToMerge& films, const MergeOptions& options
         return notes;
     };
     const Crop part = header.settings.area.rendered();
+    checkPictureSize(options.output.file, part.width, part.height);
     if (!isStandardOutput(options.output.file))
         checkFreeSpace(options.output.file,
                        largestPictureFile(options.output.file, part.width, part.height,
@@ -218,7 +222,7 @@ PictureNoise writeMergedPicture(FilmsToMerge& films, const MergeOptions& options
                     std::span<const float> layers) { parts.add(run, layers); });
     nowDoing("writing " + options.output.file);
     const PictureNoise noise = togetherOf(noises);
-    picture.write(notesOf(noise));
+    sayWhatWasMetered(options.tone, picture.write(notesOf(noise)));
     return noise;
 }
 
@@ -234,8 +238,8 @@ void declareMerge(DeclaredCommand& c) {
     c.list.group("Output");
     c.list
         .text("-o,--output", "FILE",
-              "picture to write: .png or .exr, with the bytes that a render in one go has; or a "
-              ".film, to be merged with others",
+              "picture to write: .png, .jpg, .webp or .exr, with the bytes that a render in one go "
+              "has; or a .film, to be merged with others",
               o.output.file)
         .required()
         .proposes(Proposed::Files);
@@ -244,11 +248,12 @@ void declareMerge(DeclaredCommand& c) {
     declareHost(c);
     c.finish = [&c, owned] {
         const OutputOptions& output = owned->output;
+        owned->ofPicture = partsOfPictureFile(c.pictureCommand);
         if (!namesFilm(output.file)) {
             checkOutputOptions(c, output, {});
             return *owned;
         }
-        const std::string ofPictures = c.givenOf({"--exposure", "--aov", "--notes"});
+        const std::string ofPictures = c.givenOf(pictureFileOptions());
         if (!ofPictures.empty())
             throw UsageError(fmt::format("{}: a film has no {}: say it when the picture is made",
                                          output.file, ofPictures));

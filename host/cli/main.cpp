@@ -39,6 +39,7 @@ struct Run {
     int operator()(const MergeOptions& o) const { return mergeCommand(o); }
     int operator()(const PlanOptions& o) const { return planCommand(o); }
     int operator()(const SubmitOptions& o) const { return submitCommand(o); }
+    int operator()(const TonemapOptions& o) const { return tonemapCommand(o); }
 };
 
 int run(const ParsedCommand& command) {

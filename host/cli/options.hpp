@@ -41,12 +41,13 @@ struct SceneAndPicture {
     SceneRequest scene;
     RenderRequest picture;
     DeviceRequest device;
-    ToneCurve tone;
+    ToneMapping tone;
 };
 
 /// The file of a picture.
 struct OutputOptions {
     std::string file;
+    PictureEncoding encoding;
     bool notes = true;               ///< of the picture, in its file
     bool statisticsChannels = false; ///< EXR: sample counts and variances
     std::string statsFile;           ///< empty: none
@@ -156,7 +157,17 @@ struct MergeOptions {
     std::vector<std::string> films;
     bool wantsAllShares = false; ///< without all of them there is no picture
     OutputOptions output;
-    ToneCurve tone;
+    ToneMapping tone;
+    /// The options of `render` that are given when films become a picture.
+    std::vector<std::string> ofPicture;
+};
+
+struct TonemapOptions {
+    std::string picture;
+    std::string layer; ///< empty: the picture itself
+    OutputOptions output;
+    ToneMapping tone;
+    std::vector<std::string> command; ///< as RenderOptions::command
 };
 
 struct PlanOptions {
@@ -187,9 +198,10 @@ struct SubmitOptions : SceneAndPicture {
     std::vector<std::string> command; ///< as RenderOptions::command
 };
 
-using CommandOptions = std::variant<RenderOptions, CheckOptions, InfoOptions, KernelsOptions,
-                                    DevicesOptions, BenchOptions, StressOptions, CompareOptions,
-                                    StudyOptions, MergeOptions, PlanOptions, SubmitOptions>;
+using CommandOptions =
+    std::variant<RenderOptions, CheckOptions, InfoOptions, KernelsOptions, DevicesOptions,
+                 BenchOptions, StressOptions, CompareOptions, StudyOptions, MergeOptions,
+                 PlanOptions, SubmitOptions, TonemapOptions>;
 
 /// The command line, understood and checked.
 struct ParsedCommand {

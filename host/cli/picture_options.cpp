@@ -16,7 +16,6 @@
 namespace stromboli {
 namespace {
 
-constexpr Range<double> kStops{-100, 100};
 /// Larger pictures than this on a side are taken for mistakes.
 constexpr Range<uint32_t> kSide{1, 65536};
 constexpr Range<uint32_t> kPlace{0, 65535};
@@ -233,9 +232,28 @@ void declareScene(OptionList& list, SceneRequest& scene, Words* several) {
               reading.strict);
 }
 
-void declarePictureFile(OptionList& list, OutputOptions& o, ToneCurve& tone) {
-    list.real("--exposure", "EV", "PNG: radiance times 2^EV", tone.exposure, kStops);
+void declarePictureFile(OptionList& list, OutputOptions& o, ToneMapping& tone) {
+    declareToneMapping(list, tone, o.encoding);
+    list.group("Output");
     list.flag("--aov", "EXR: also sample counts and variances of the mean", o.statisticsChannels);
+    declareNotes(list, o);
+}
+
+Words pictureFileOptions() {
+    Words names = toneMappingOptions();
+    names.insert(names.end(), {"--aov", "--notes"});
+    return names;
+}
+
+Words partsOfPictureFile(const Words& command) {
+    const Words names = pictureFileOptions();
+    Words parts;
+    for (const std::string& part : command)
+        if (std::ranges::count(names, part.substr(0, part.find(' '))) > 0) parts.push_back(part);
+    return parts;
+}
+
+void declareNotes(OptionList& list, OutputOptions& o) {
     list.onOff("--notes",
                "on: the picture's file says of which scene it is, with which seed, samples, "
                "version, device and command it was made (info shows it); off: it does not",
@@ -259,14 +277,17 @@ void declareSeen(OptionList& list, RenderRequest& o) {
 
 void checkOutputOptions(const DeclaredCommand& c, const OutputOptions& o,
                         const RenderRequest& picture) {
-    const bool isExr = !isPng(o.file);
+    const bool isExr = !isToneMapped(o.file);
     if (o.statisticsChannels && !isExr)
         throw UsageError(fmt::format("--aov needs an EXR file: {} has no channels for it", o.file));
     if (!picture.layers.empty() && !isExr)
         throw UsageError(fmt::format(
             "--layers needs an EXR file (-o name.exr): {} has no channels for them", o.file));
-    if (c.has("--exposure") && isExr)
-        throw UsageError(fmt::format("--exposure is for PNG: {} holds radiance as it is", o.file));
+    if (picture.transparent && formatOf(o.file) == PictureFormat::Jpeg)
+        throw UsageError(fmt::format("--transparent: {} is a JPEG, which has no alpha: write .png, "
+                                     ".webp or .exr",
+                                     o.file));
+    checkToneMapping(c, o);
 }
 
 void declarePicture(OptionList& list, RenderRequest& picture, Asked& asked, bool several) {

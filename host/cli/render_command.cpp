@@ -93,7 +93,7 @@ int renderPicture(RenderSession& session, const LoadedScene& scene, const Render
     if (!result.cancelled && !result.lost && !keeping.keepsAtEnd) session.forgetBands();
     report.writeSeconds = writing.seconds();
     logReport(report, settings);
-    logBrightness(outputs.brightness(), *scene.scene, file);
+    logBrightness(outputs.brightness(), *scene.scene, file, options.tone);
     if (result.lost) return reportLoss(result, file);
     return result.cancelled ? reportInterruption(result, settings.budget.stop, file) : 0;
 }

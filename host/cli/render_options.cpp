@@ -27,11 +27,11 @@ ShareName readShare(const std::string& word) {
 
 void declareOutput(OptionList& list, RenderOptions& o) {
     list.group("Output");
-    list.text("-o,--output", "FILE",
-              "picture to write: .png (sRGB, 8 bit) or .exr (linear); -: a PNG on standard output; "
-              "with "
-              "--share a .film",
-              o.output.file)
+    list.text(
+            "-o,--output", "FILE",
+            "picture to write: .png, .jpg or .webp (sRGB), or .exr (linear); -: a PNG on standard "
+            "output; with --share a .film",
+            o.output.file)
         .besidePicture()
         .proposes(Proposed::Files);
     declarePictureFile(list, o.output, o.tone);
@@ -63,20 +63,20 @@ void declareCheckpoints(OptionList& list, CheckpointOptions& o) {
 
 void declareShare(OptionList& list, ShareOptions& o) {
     list.group("Shares of several machines");
-    list.words("--share", "I/N",
-               "take only the I-th of N parts of every pixel's samples and write them as a film "
-               "(-o NAME.film), for stromboli merge; implies --even",
-               1, [&o](const Words& words) { o.share = readShare(words[0]); })
-        .implies("--even")
+    CommandOption& share =
+        list.words("--share", "I/N",
+                   "take only the I-th of N parts of every pixel's samples and write them as a "
+                   "film (-o NAME.film), for stromboli merge; implies --even",
+                   1, [&o](const Words& words) { o.share = readShare(words[0]); });
+    for (const std::string& option : pictureFileOptions())
+        share.excludes(option, "merge has it");
+    share.implies("--even")
         .excludes("-a", kAllAlike)
         .excludes("--noise", "a share has as many samples of every pixel as of all others; "
                              "stromboli plan spreads those of further rounds")
         .excludes("--time", kAllAlike)
         .excludes("--checkpoint", "a share is what is kept: take more of them")
         .excludes("--checkpoint-every", "a share is what is kept: take more of them")
-        .excludes("--exposure", "merge has it")
-        .excludes("--aov", "merge has it")
-        .excludes("--notes", "merge has it")
         .excludes("--pixel")
         .besidePicture();
     list.text("--plan", "FILE.plan",
@@ -155,10 +155,9 @@ void checkShare(const RenderOptions& o) {
 /// command lines that are there already.
 void remarkOnWhatIsIgnored(DeclaredCommand& c, const RenderOptions& o) {
     std::vector<std::string>& remarks = c.host.remarks;
-    const std::string ignored = o.sampleAlone
-                                    ? c.givenOf({"-o", "--stats", "--exposure", "--aov", "--layers",
-                                                 "--notes", "--crop", "--cell"})
-                                    : "";
+    Words ofPictures = pictureFileOptions();
+    ofPictures.insert(ofPictures.end(), {"-o", "--stats", "--layers", "--crop", "--cell"});
+    const std::string ignored = o.sampleAlone ? c.givenOf(ofPictures) : "";
     if (!ignored.empty())
         remarks.push_back(
             fmt::format("--pixel prints one sample and makes no picture: ignored: {}", ignored));

@@ -87,7 +87,8 @@ void logReport(const RenderReport& report, const RenderSettings& settings) {
         r.samplesRejected, r.firstRejected->x, r.firstRejected->y, r.firstRejected->sample));
 }
 
-void logBrightness(const Brightness& b, const Scene& scene, const std::string& file) {
+void logBrightness(const Brightness& b, const Scene& scene, const std::string& file,
+                   const ToneMapping& tone) {
     if (b.unlit) {
         const size_t lights = scene.lights.size() + collectEmitters(scene).size();
         logging::warn(fmt::format(
@@ -97,7 +98,8 @@ void logBrightness(const Brightness& b, const Scene& scene, const std::string& f
                         : fmt::format("lights and emitting surfaces: {}", lights)));
         return;
     }
-    if (!isPng(file)) return; // it keeps all radiances
+    if (!isToneMapped(file)) return; // it keeps all radiances
+    if (tone.metersExposure) return; // it is as bright as it can be
     if (b.darkShare == 1)
         logging::warn(fmt::format("the picture is so dark that all of it is black in 8 bits: "
                                   "--exposure {:.0f}, or write an .exr file",
@@ -109,10 +111,15 @@ void logBrightness(const Brightness& b, const Scene& scene, const std::string& f
                 ? fmt::format("--exposure {:.0f}, or write an .exr file", *b.exposure)
                 : "little light reaches what is seen (--env evening_sky lights it, --camera frame "
                   "shows the whole scene)"));
-    else if (b.whiteShare > 0.5)
+    else if (b.whiteShare > 0.5 && tone.view == View::Standard)
         logging::warn(fmt::format("{:.0f} % of the pixels are brighter than white: --exposure "
                                   "{:.1f}, or write an .exr file",
                                   100 * b.whiteShare, *b.exposure));
+}
+
+void sayWhatWasMetered(const ToneMapping& asked, const ToneMapping& found) {
+    const std::string text = metered(asked, found);
+    if (!text.empty()) logging::info(fmt::format("{} (metered)", text));
 }
 
 void writeStatistics(const std::string& file, const RenderReport& report, const Scene& scene,
@@ -185,7 +192,8 @@ PictureNotes notesOf(const RenderSettings& settings, const RenderOptions& option
 }
 
 PictureOptions pictureOptions(const RenderOptions& options) {
-    return {options.tone, options.output.statisticsChannels, options.picture.channels()};
+    return {options.tone, options.output.statisticsChannels, options.picture.channels(),
+            options.output.encoding};
 }
 
 /// Adds what says what the numbers in the channels mean.
@@ -224,12 +232,14 @@ void checkOutputs(const RenderOptions& options) {
     checkOutputWritable(output.statsFile);
 }
 
-/// The statistics take no more than the estimate spares.
+/// Also whether the kind of file holds so many pixels. The statistics take no more than the
+/// estimate spares.
 void checkDiskSpace(const Scene& scene, const RenderSettings& settings,
                     const RenderOptions& options) {
     const std::string& file = options.output.file;
-    if (isStandardOutput(file)) return;
     const Crop part = settings.area.rendered();
+    checkPictureSize(file, part.width, part.height);
+    if (isStandardOutput(file)) return;
     const PictureNotes notes = notesOf(settings, options, "", "");
     uint64_t bytes = largestPictureFile(file, part.width, part.height, pictureOptions(options),
                                         withLegend(notes, scene, options));
@@ -246,7 +256,7 @@ RenderOutputs::RenderOutputs(const Scene& scene, const RenderSettings& settings,
 void RenderOutputs::place(const FinishedBand& band) {
     const Film& film = band.film;
     picture_.place(film, band.beside);
-    const ToneCurve tone = isPng(options_.output.file) ? options_.tone : ToneCurve{};
+    const ToneCurve tone = isToneMapped(options_.output.file) ? options_.tone.curve : ToneCurve{};
     brightness_.push_back({brightnessOf(film, tone), film.pixels.size()});
     if (writesRates(options_.output, settings_.budget) &&
         film.pixels.size() == settings_.area.pixelCount())
@@ -258,7 +268,7 @@ void RenderOutputs::write(const RenderReport& report) const {
     const PictureNotes notes =
         notesOf(settings_, options_, report.render.backend, fmt::format("{:.6g} a pixel", samples));
     const OutputOptions& output = options_.output;
-    picture_.write(withLegend(notes, scene_, options_));
+    sayWhatWasMetered(options_.tone, picture_.write(withLegend(notes, scene_, options_)));
     if (rates_) writePng(ratePicturePath(output.file), *rates_, PngColorSpace::Unnamed, notes);
     if (!output.statsFile.empty()) writeStatistics(output.statsFile, report, scene_, settings_);
 }

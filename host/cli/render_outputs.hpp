@@ -30,7 +30,10 @@ std::string percent(double share);
 /// Logs time, paths, rays, Mrays/s, samples, noise, and the first rejected sample if there is one.
 void logReport(const RenderReport& report, const RenderSettings& settings);
 /// Says so if hardly anything can be seen in the picture, and what would help.
-void logBrightness(const Brightness& brightness, const Scene& scene, const std::string& file);
+void logBrightness(const Brightness& brightness, const Scene& scene, const std::string& file,
+                   const ToneMapping& tone);
+/// Says which exposure and white balance were found out from the picture, if they were.
+void sayWhatWasMetered(const ToneMapping& asked, const ToneMapping& found);
 /// Throws OutputError.
 void writeStatistics(const std::string& file, const RenderReport& report, const Scene& scene,
                      const RenderSettings& settings);

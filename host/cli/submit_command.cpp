@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -178,11 +179,9 @@ void finishSubmit(DeclaredCommand& c, SubmitOptions& o, const Asked& asked) {
     o.picture.estimator.showsBackdrop = !o.picture.transparent;
     o.command = c.pictureCommand;
     checkOutputOptions(c, o.output, o.picture);
-    for (size_t i = 1; i < o.command.size(); ++i) { // the first is the command's name
-        const std::string& part = o.command[i];
-        const bool isOfMerge = part.starts_with("--exposure") || part == "--aov";
-        (isOfMerge ? o.merge : o.render).push_back(part);
-    }
+    o.merge = partsOfPictureFile(o.command);
+    for (size_t i = 1; i < o.command.size(); ++i) // the first is the command's name
+        if (std::ranges::count(o.merge, o.command[i]) == 0) o.render.push_back(o.command[i]);
     if (!o.output.notes) o.merge.emplace_back("--notes off");
     if (c.has("--device")) o.render.push_back("--device " + shellQuoted(o.device.device));
     if (c.has("-t")) o.render.push_back(fmt::format("-t {}", c.host.threads));
@@ -247,8 +246,8 @@ void declareSubmit(DeclaredCommand& c) {
     c.list
         .text(
             "-o,--output", "FILE",
-            "picture to write, in a folder that all nodes share: .png or .exr; films, scripts and "
-            "logs are put into FILE.shares",
+            "picture to write, in a folder that all nodes share: .png, .jpg, .webp or .exr; films, "
+            "scripts and logs are put into FILE.shares",
             submit.output.file)
         .required()
         .besidePicture()

@@ -7,70 +7,31 @@
 #include <fmt/format.h>
 
 #include <cctype>
-#include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
 namespace stromboli {
-
-// --- Tone curves ---------------------------------------------------------------------------------
-
-/// Clamps to [0, 1]; NaN gives 0.
-static double unitInterval(double value) {
-    if (!(value > 0)) return 0;
-    return value < 1 ? value : 1;
-}
-
-double srgbFromLinear(double linear) {
-    const double l = unitInterval(linear);
-    return l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055;
-}
-
-double linearFromSrgb(double signal) {
-    const double s = unitInterval(signal);
-    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-}
-
-double radianceFromCs184(uint8_t byte) {
-    return std::pow((byte + 0.5) / 255, 2.2) / std::numbers::sqrt2;
-}
-
-uint8_t ToneCurve::toByte(double radiance) const {
-    if (!(radiance > 0)) return 0;
-    const double exposed = std::exp2(exposure) * radiance;
-    if (kind == Kind::Srgb) return static_cast<uint8_t>(255 * srgbFromLinear(exposed) + 0.5);
-    const double signal = std::pow(std::numbers::sqrt2 * exposed, 1 / 2.2);
-    return static_cast<uint8_t>(255 * unitInterval(signal));
-}
-
-// --- Images in memory ----------------------------------------------------------------------------
-
-std::vector<float>& FloatImage::channel(const std::string& name) {
-    return channels.try_emplace(name, size_t(width) * height).first->second;
-}
 
 // --- Picture files -------------------------------------------------------------------------------
 
 namespace fs = std::filesystem;
 
-namespace {
-enum class Format { Png, Exr };
-}
-
-static std::optional<Format> formatNamedBy(const fs::path& path) {
+static std::optional<PictureFormat> formatNamedBy(const fs::path& path) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension == ".png") return Format::Png;
-    if (extension == ".exr") return Format::Exr;
+    if (extension == ".png") return PictureFormat::Png;
+    if (extension == ".exr") return PictureFormat::Exr;
+    if (extension == ".jpg" || extension == ".jpeg") return PictureFormat::Jpeg;
+    if (extension == ".webp") return PictureFormat::WebP;
     return std::nullopt;
 }
 
-static Format formatOf(const fs::path& path) {
-    if (isStandardOutput(path)) return Format::Png;
-    if (const std::optional<Format> format = formatNamedBy(path)) return *format;
-    throw UsageError(fmt::format("{}: unknown kind of picture; the name must end in .png or .exr",
+PictureFormat formatOf(const fs::path& path) {
+    if (isStandardOutput(path)) return PictureFormat::Png;
+    if (const std::optional<PictureFormat> format = formatNamedBy(path)) return *format;
+    throw UsageError(fmt::format("{}: unknown kind of picture; the name must end in .png, .exr, "
+                                 ".jpg, .jpeg or .webp",
                                  path.string()));
 }
 
@@ -78,13 +39,24 @@ bool namesPicture(const fs::path& path) {
     return formatNamedBy(path).has_value();
 }
 
-bool isPng(const fs::path& path) {
-    return formatOf(path) == Format::Png;
+bool isToneMapped(const fs::path& path) {
+    return formatOf(path) != PictureFormat::Exr;
 }
 
 void checkWritable(const fs::path& path) {
     formatOf(path);
     checkOutputWritable(path);
+}
+
+void checkPictureSize(const fs::path& path, uint32_t width, uint32_t height) {
+    const PictureFormat format = formatOf(path);
+    if (format != PictureFormat::Jpeg && format != PictureFormat::WebP) return;
+    const uint32_t most = format == PictureFormat::Jpeg ? kLargestJpegSide : kLargestWebPSide;
+    if (width > most || height > most)
+        throw UsageError(fmt::format(
+            "{}: the picture has {} x {} pixels, and {} holds at most {} a "
+            "side: write .png or .exr",
+            path.string(), width, height, format == PictureFormat::Jpeg ? "JPEG" : "WebP", most));
 }
 
 uint64_t largestPictureFile(const fs::path& path, uint32_t width, uint32_t height,
@@ -93,13 +65,19 @@ uint64_t largestPictureFile(const fs::path& path, uint32_t width, uint32_t heigh
     uint64_t headers = 4096;              // bytes; a few hundred are used
     for (const PictureNote& note : notes) // PNG takes at most 17 bytes around each, EXR 13
         headers += note.name.size() + note.text.size() + 17;
-    if (formatOf(path) == Format::Png) {
+    const PictureFormat format = formatOf(path);
+    if (format == PictureFormat::Png) {
         // A byte before each row names its filter.
-        const uint64_t filtered = (options.hasAlpha() ? 4 : 3) * pixels + height;
+        const uint64_t filtered =
+            (options.hasAlpha() ? 4 : 3) * (options.encoding.bits / 8) * pixels + height;
         // zlib's compressBound(); libpng frames every 8192 bytes by 12 more.
         const uint64_t compressed = filtered + (filtered >> 12) + (filtered >> 14) + 13;
         return compressed + 12 * (compressed / 8192 + 1) + headers;
     }
+    // What libjpeg-turbo reserves for any picture whose colours are kept for each pixel
+    // (tjBufSize()): 6 bytes for each pixel of whole blocks. WebP's are fewer.
+    if (format == PictureFormat::Jpeg || format == PictureFormat::WebP)
+        return 6 * (uint64_t(width) + 7) * (uint64_t(height) + 7) + headers;
     // Blocks of 16 rows that ZIP does not make smaller are kept as they are; each has its place and
     // size, and an entry in the table of blocks.
     const uint64_t channels = (options.statistics ? 7 : 3) + options.channels.size();
@@ -108,7 +86,17 @@ uint64_t largestPictureFile(const fs::path& path, uint32_t width, uint32_t heigh
 }
 
 PictureNotes readPictureNotes(const fs::path& path) {
-    return isPng(path) ? readPngNotes(path) : readExrNotes(path);
+    switch (formatOf(path)) {
+    case PictureFormat::Png:
+        return readPngNotes(path);
+    case PictureFormat::Exr:
+        return readExrNotes(path);
+    case PictureFormat::Jpeg:
+        return readJpegNotes(path);
+    case PictureFormat::WebP:
+        return readWebPNotes(path);
+    }
+    return {};
 }
 
 /// Pixel filters that are negative in places overshoot at edges.
@@ -137,6 +125,10 @@ ByteImage toneMap(const Film& film, const ToneCurve& tone, std::span<const float
     return image;
 }
 
+static PngColorSpace colorSpaceOf(const ToneCurve& curve) {
+    return curve.kind == ToneCurve::Kind::Srgb ? PngColorSpace::Srgb : PngColorSpace::Unnamed;
+}
+
 /// A variance, the square of a radiance, may exceed what a float holds.
 static float toFloat(double value) {
     return static_cast<float>(std::min(value, double(std::numeric_limits<float>::max())));
@@ -152,7 +144,7 @@ static void fill(FloatImage& image, const std::string& name, const Film& film, c
 
 FloatImage linearPicture(const Film& film, bool statistics) {
     FloatImage image(film.area);
-    const char* const names[] = {"R", "G", "B"};
+    const auto& names = kColorChannels;
     for (int c = 0; c < 3; ++c)
         fill(image, names[c], film, [c](const PixelStatistics& p) { return p.mean[c]; });
     if (!statistics) return image;
@@ -169,20 +161,28 @@ FloatImage linearPicture(const Film& film, bool statistics) {
 PictureFile::PictureFile(fs::path path, const PictureArea& area, const PictureOptions& options)
     : path_(std::move(path)), options_(options), area_(area) {
     const Crop part = area.rendered();
-    if (isPng(path_)) {
+    if (mapsAtOnce()) {
         bytes_ = ByteImage(part.width, part.height);
         if (options_.hasAlpha()) bytes_.alpha.resize(area.pixelCount());
-    } else {
-        floats_ = FloatImage(area); // place() makes the channels
+        return;
     }
+    floats_ = FloatImage(area); // place() makes the channels of EXR files
+    if (!isToneMapped(path_)) return;
+    for (const char* name : kColorChannels)
+        floats_.channel(name);
+    if (options_.hasAlpha()) floats_.channel(kAlphaChannel);
+}
+
+bool PictureFile::mapsAtOnce() const {
+    return isToneMapped(path_) && options_.tone.isCurveAlone() && options_.encoding.isUsual();
 }
 
 void PictureFile::place(const Film& film, const FloatImage& more) {
     const size_t first = size_t(film.area.rendered().y - area_.rendered().y) * film.width;
-    if (isPng(path_)) {
+    if (mapsAtOnce()) {
         std::span<const float> alpha;
         if (options_.hasAlpha()) alpha = more.channels.at(kAlphaChannel);
-        const ByteImage part = toneMap(film, options_.tone, alpha);
+        const ByteImage part = toneMap(film, options_.tone.curve, alpha);
         std::copy(part.rgb.begin(), part.rgb.end(), bytes_.rgb.begin() + std::ptrdiff_t(3 * first));
         std::copy(part.alpha.begin(), part.alpha.end(),
                   bytes_.alpha.begin() + std::ptrdiff_t(first));
@@ -196,14 +196,44 @@ void PictureFile::place(const Film& film, const FloatImage& more) {
                   floats_.channel(name).begin() + std::ptrdiff_t(first));
 }
 
-void PictureFile::write(const PictureNotes& notes) const {
-    if (isPng(path_))
-        writePng(path_, bytes_,
-                 options_.tone.kind == ToneCurve::Kind::Srgb ? PngColorSpace::Srgb
-                                                             : PngColorSpace::Unnamed,
-                 notes);
-    else
+namespace {
+
+/// Writes a picture of 8 bits a channel.
+void writeBytes(const fs::path& path, const ByteImage& image, const PictureOptions& options,
+                const PictureNotes& notes) {
+    switch (formatOf(path)) {
+    case PictureFormat::Jpeg:
+        return writeJpeg(path, image, options.encoding.quality, notes);
+    case PictureFormat::WebP:
+        return writeWebP(path, image, options.encoding.quality, notes);
+    case PictureFormat::Png:
+    case PictureFormat::Exr:
+        break;
+    }
+    writePng(path, image, colorSpaceOf(options.tone.curve), notes);
+}
+
+} // namespace
+
+ToneMapping PictureFile::write(const PictureNotes& notes) const {
+    if (!isToneMapped(path_))
         writeExr(path_, floats_, notes);
+    else if (mapsAtOnce())
+        writeBytes(path_, bytes_, options_, notes);
+    else
+        return writeToneMapped(path_, floats_, options_, notes);
+    return options_.tone;
+}
+
+ToneMapping writeToneMapped(const fs::path& path, const FloatImage& radiance,
+                            const PictureOptions& options, const PictureNotes& notes) {
+    const ToneMapping tone = resolved(options.tone, radiance);
+    const bool dithers = options.encoding.dithers;
+    if (options.encoding.bits == 16)
+        writePng(path, toneMap<uint16_t>(radiance, tone, dithers), colorSpaceOf(tone.curve), notes);
+    else
+        writeBytes(path, toneMap<uint8_t>(radiance, tone, dithers), options, notes);
+    return tone;
 }
 
 void writePicture(const fs::path& path, const Film& film, const PictureOptions& options) {

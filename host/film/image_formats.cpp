@@ -93,38 +93,42 @@ static std::vector<png_text> textsOf(const PictureNotes& notes) {
 namespace {
 
 /// The rows of a picture as PNG has them: alpha, where there is any, behind each colour.
+template <class Value>
 class Rows {
   public:
-    explicit Rows(const ByteImage& image) : image_(image) {
+    explicit Rows(const ScreenImage<Value>& image) : image_(image) {
         if (!image.alpha.empty()) row_.resize(size_t(image.width) * 4);
     }
     png_const_bytep row(uint32_t y) {
-        if (row_.empty()) return image_.pixel(0, y);
+        if (row_.empty()) return reinterpret_cast<png_const_bytep>(image_.pixel(0, y));
         for (uint32_t x = 0; x < image_.width; ++x) {
             std::copy_n(image_.pixel(x, y), 3, &row_[size_t(x) * 4]);
             row_[size_t(x) * 4 + 3] = image_.alpha[size_t(y) * image_.width + x];
         }
-        return row_.data();
+        return reinterpret_cast<png_const_bytep>(row_.data());
     }
 
   private:
-    const ByteImage& image_;
-    std::vector<png_byte> row_;
+    const ScreenImage<Value>& image_;
+    std::vector<Value> row_;
 };
 
 } // namespace
 
-static bool encode(png_structp png, png_infop info, const ByteImage& image, Rows& rows,
-                   PngColorSpace colorSpace, std::span<const png_text> texts,
+template <class Value>
+static bool encode(png_structp png, png_infop info, const ScreenImage<Value>& image,
+                   Rows<Value>& rows, PngColorSpace colorSpace, std::span<const png_text> texts,
                    std::vector<png_byte>& bytes) {
     if (setjmp(png_jmpbuf(png))) return false;
     png_set_write_fn(png, &bytes, append, flush);
-    png_set_IHDR(png, info, image.width, image.height, 8,
+    png_set_IHDR(png, info, image.width, image.height, 8 * sizeof(Value),
                  image.alpha.empty() ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGB_ALPHA,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     if (colorSpace == PngColorSpace::Srgb) png_set_sRGB(png, info, PNG_sRGB_INTENT_RELATIVE);
     if (!texts.empty()) png_set_text(png, info, texts.data(), int(texts.size()));
     png_write_info(png, info);
+    if constexpr (sizeof(Value) > 1 && std::endian::native == std::endian::little)
+        png_set_swap(png); // the file's order is big-endian
     for (uint32_t y = 0; y < image.height; ++y)
         png_write_row(png, rows.row(y));
     png_write_end(png, info);
@@ -140,8 +144,9 @@ static bool decode(png_structp png, png_infop info, std::FILE* file) {
     return true;
 }
 
-void writePng(const fs::path& path, const ByteImage& image, PngColorSpace colorSpace,
-              const PictureNotes& notes) {
+template <class Value>
+static void writeAnyPng(const fs::path& path, const ScreenImage<Value>& image,
+                        PngColorSpace colorSpace, const PictureNotes& notes) {
     const std::vector<png_text> texts = textsOf(notes);
     Writer writer;
     Rows rows(image);
@@ -149,6 +154,16 @@ void writePng(const fs::path& path, const ByteImage& image, PngColorSpace colorS
     if (!encode(writer.png, writer.info, image, rows, colorSpace, texts, bytes))
         throw OutputError(fmt::format("{}: cannot encode PNG: {}", path.string(), writer.error));
     writeOutput(path, std::as_bytes(std::span(bytes)));
+}
+
+void writePng(const fs::path& path, const ByteImage& image, PngColorSpace colorSpace,
+              const PictureNotes& notes) {
+    writeAnyPng(path, image, colorSpace, notes);
+}
+
+void writePng(const fs::path& path, const WordImage& image, PngColorSpace colorSpace,
+              const PictureNotes& notes) {
+    writeAnyPng(path, image, colorSpace, notes);
 }
 
 /// Throws UsageError.
@@ -299,7 +314,6 @@ PictureNotes readExrNotes(const fs::path& path) {
 
 namespace {
 
-constexpr const char* kChannels[] = {"R", "G", "B"};
 /// Larger pictures on a side are taken for damaged files.
 constexpr int64_t kLargestSide = 65536;
 
@@ -342,7 +356,7 @@ FloatImage readPfm(const fs::path& path) {
     FloatImage image(header.width, header.height);
     std::vector<float>* planes[3] = {};
     for (int c = 0; c < 3; ++c)
-        planes[c] = &image.channel(kChannels[c]);
+        planes[c] = &image.channel(kColorChannels[c]);
     std::vector<char> row(size_t(header.width) * header.channels * sizeof(float));
     for (uint32_t y = header.height; y-- > 0;) { // the lowest row comes first
         if (!file.read(row.data(), std::streamsize(row.size()))) refuse(path, "it is cut short");
@@ -362,7 +376,7 @@ void writePfm(const fs::path& path, const FloatImage& image) {
     bytes.reserve(bytes.size() + size_t(image.width) * image.height * 3 * sizeof(float));
     for (uint32_t y = image.height; y-- > 0;)
         for (uint32_t x = 0; x < image.width; ++x)
-            for (const char* name : kChannels) {
+            for (const char* name : kColorChannels) {
                 const float value = image.channels.at(name)[size_t(y) * image.width + x];
                 char raw[sizeof value];
                 std::memcpy(raw, &value, sizeof value);

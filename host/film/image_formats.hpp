@@ -14,8 +14,10 @@ enum class PngColorSpace {
     Unnamed, ///< nothing
 };
 
-/// Writes an 8-bit RGB PNG, complete or not at all. Throws OutputError.
+/// Writes an RGB PNG of 8 or of 16 bits a channel, complete or not at all. Throws OutputError.
 void writePng(const std::filesystem::path& path, const ByteImage& image, PngColorSpace colorSpace,
+              const PictureNotes& notes = {});
+void writePng(const std::filesystem::path& path, const WordImage& image, PngColorSpace colorSpace,
               const PictureNotes& notes = {});
 
 /// Reads any PNG as 8-bit RGB: palettes and greys are expanded, 16 bits are scaled down, alpha
@@ -24,6 +26,31 @@ ByteImage readPng(const std::filesystem::path& path);
 
 /// The texts of a PNG, in the file's order. Throws UsageError if there is no readable PNG.
 PictureNotes readPngNotes(const std::filesystem::path& path);
+
+// --- JPEG and WebP -------------------------------------------------------------------------------
+
+// Of 8 bits a channel, as sRGB, which programs take them for where they say nothing.
+
+inline constexpr uint32_t kLargestJpegSide = 65500, kLargestWebPSide = 16383;
+
+/// Writes a JPEG with colours for each pixel (4:4:4), complete or not at all; its alpha is left
+/// out. quality: 1 to 100, as libjpeg scales its tables. Each note is a comment, "name: text", of
+/// at most 65533 bytes. Throws OutputError.
+void writeJpeg(const std::filesystem::path& path, const ByteImage& image, uint32_t quality,
+               const PictureNotes& notes = {});
+
+/// The comments that writeJpeg() makes of notes, in the file's order. Throws UsageError if there is
+/// no readable JPEG.
+PictureNotes readJpegNotes(const std::filesystem::path& path);
+
+/// Writes a WebP, complete or not at all. quality: 1 to 99 with loss, 100 without any. The notes
+/// are in its XMP. Throws OutputError.
+void writeWebP(const std::filesystem::path& path, const ByteImage& image, uint32_t quality,
+               const PictureNotes& notes = {});
+
+/// The notes that writeWebP() puts there, in the file's order. Throws UsageError if there is no
+/// readable WebP.
+PictureNotes readWebPNotes(const std::filesystem::path& path);
 
 // --- OpenEXR -------------------------------------------------------------------------------------
 

@@ -54,10 +54,8 @@ std::optional<ExrChannels> channelsOf(const std::string& name, const Layer& laye
     return found;
 }
 
-} // namespace
-
-std::optional<ExrChannels> exrChannels(const std::vector<std::string>& names) {
-    // By rank, then in the file's order, which is that of the alphabet.
+/// All of them that have colours: by rank, then in the file's order, which is that of the alphabet.
+std::vector<ExrChannels> shownLayers(const std::vector<std::string>& names) {
     std::map<std::pair<int, std::string>, Layer> layers;
     for (const std::string& full : names) {
         const size_t dot = full.find_last_of('.');
@@ -65,9 +63,32 @@ std::optional<ExrChannels> exrChannels(const std::vector<std::string>& names) {
         const std::string last = dot == std::string::npos ? full : full.substr(dot + 1);
         layers[{rankOf(layer), layer}].try_emplace(inSmallLetters(last), full);
     }
+    std::vector<ExrChannels> shown;
     for (const auto& [key, layer] : layers)
-        if (std::optional<ExrChannels> found = channelsOf(key.second, layer)) return found;
+        if (std::optional<ExrChannels> found = channelsOf(key.second, layer))
+            shown.push_back(std::move(*found));
+    return shown;
+}
+
+} // namespace
+
+std::optional<ExrChannels> exrChannels(const std::vector<std::string>& names) {
+    std::vector<ExrChannels> shown = shownLayers(names);
+    return shown.empty() ? std::nullopt : std::optional(std::move(shown.front()));
+}
+
+std::optional<ExrChannels> exrChannelsOf(const std::vector<std::string>& names,
+                                         const std::string& layer) {
+    for (ExrChannels& channels : shownLayers(names))
+        if (channels.layer == layer) return std::move(channels);
     return std::nullopt;
+}
+
+std::vector<std::string> exrLayers(const std::vector<std::string>& names) {
+    std::vector<std::string> layers;
+    for (ExrChannels& channels : shownLayers(names))
+        layers.push_back(std::move(channels.layer));
+    return layers;
 }
 
 } // namespace stromboli::images

@@ -20,4 +20,12 @@ struct ExrChannels {
 /// Blender calls it ViewLayer.Combined, others rgba or beauty. Nothing where no layer has colours.
 std::optional<ExrChannels> exrChannels(const std::vector<std::string>& names);
 
+/// Those of the layer of that name, "" being the channels without one. Nothing where there is no
+/// such layer, or it has no colours.
+std::optional<ExrChannels> exrChannelsOf(const std::vector<std::string>& names,
+                                         const std::string& layer);
+
+/// The names of the layers that have colours, the likeliest picture first.
+std::vector<std::string> exrLayers(const std::vector<std::string>& names);
+
 } // namespace stromboli::images

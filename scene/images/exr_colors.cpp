@@ -3,6 +3,8 @@
 
 #include "scene/images/exr_colors.hpp"
 
+#include "host/core/chromaticity.hpp"
+
 #include <OpenEXR/ImfChromaticities.h>
 #include <OpenEXR/ImfEnvmap.h>
 #include <OpenEXR/ImfRgbaYca.h>
@@ -32,19 +34,7 @@ Imf::Chromaticities primariesOf(const std::array<float, 8>& xy) {
 }
 
 glm::dvec3 whiteOf(const Imf::Chromaticities& c) {
-    const double x = double(c.white.x), y = double(c.white.y);
-    return {x / y, 1, (1 - x - y) / y};
-}
-
-/// From XYZ under one white to XYZ under another.
-glm::dmat3 adaptation(const glm::dvec3& from, const glm::dvec3& to) {
-    const glm::dmat3 cones = glm::transpose(
-        glm::dmat3(0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296));
-    const glm::dvec3 factors = cones * to / (cones * from);
-    glm::dmat3 scale(1);
-    for (int i = 0; i < 3; ++i)
-        scale[i][i] = factors[i];
-    return glm::inverse(cones) * scale * cones;
+    return xyzOf(Chromaticity{double(c.white.x), double(c.white.y)});
 }
 
 bool isFinite(const glm::dmat3& m) {
@@ -138,7 +128,7 @@ void toRec709(const ExrMeaning& meaning, std::vector<float>& rgba) {
         isNear(stated.blue, own.blue) && isNear(stated.white, own.white))
         return;
     const glm::dmat3 matrix = columnsOf(Imf::XYZtoRGB(own, 1)) *
-                              adaptation(whiteOf(stated), whiteOf(own)) *
+                              chromaticAdaptation(whiteOf(stated), whiteOf(own)) *
                               columnsOf(Imf::RGBtoXYZ(stated, 1));
     if (!isFinite(matrix)) return; // no primaries span a space of no size
     for (size_t i = 0; i < rgba.size(); i += 4) {

@@ -1,5 +1,6 @@
 #include "scene/images/float_image.hpp"
 
+#include "host/core/error.hpp"
 #include "scene/build/read_file.hpp"
 #include "scene/images/picture.hpp"
 #include "scene/model/srgb.hpp"
@@ -35,6 +36,22 @@ void toLinear(const std::vector<Value>& values, std::vector<glm::vec3>& texels) 
 void toLinear(const std::vector<float>& values, std::vector<glm::vec3>& texels) {
     for (size_t i = 0; i < texels.size(); ++i)
         texels[i] = {values[4 * i], values[4 * i + 1], values[4 * i + 2]};
+}
+
+template <class Value>
+void toRadiance(const std::vector<Value>& values, std::vector<glm::vec4>& texels) {
+    const std::vector<float> table = decodingTable<Value>();
+    constexpr float most = std::numeric_limits<Value>::max();
+    for (size_t i = 0; i < texels.size(); ++i) {
+        const float alpha = float(values[4 * i + 3]) / most; // by which files do not multiply
+        texels[i] = {alpha * table[values[4 * i]], alpha * table[values[4 * i + 1]],
+                     alpha * table[values[4 * i + 2]], alpha};
+    }
+}
+
+void toRadiance(const std::vector<float>& values, std::vector<glm::vec4>& texels) {
+    for (size_t i = 0; i < texels.size(); ++i)
+        texels[i] = {values[4 * i], values[4 * i + 1], values[4 * i + 2], values[4 * i + 3]};
 }
 
 /// Texels with a number that is no light get 0 in its place.
@@ -101,6 +118,31 @@ FloatImage readFloatImage(const std::filesystem::path& file, uint32_t largestSid
     clearWhatIsNoLight(image);
     shrink(image, largestSide);
     return image;
+}
+
+bool RadiancePicture::isTransparent() const {
+    return std::ranges::any_of(texels, [](const glm::vec4& texel) { return texel.a != 1; });
+}
+
+RadiancePicture readRadiance(const std::filesystem::path& file, const std::string& layer) {
+    const std::string name = file.string();
+    const std::string bytes = build::readFile(file);
+    PicturePart part;
+    if (isExr(bytes)) {
+        part = decodeExrLayer(bytes, name, layer);
+    } else if (layer.empty()) {
+        part.picture = decodePicture(bytes, name);
+        part.width = part.picture.width, part.height = part.picture.height;
+    } else {
+        throw SceneError(name, 0, "", "has no layers: only OpenEXR files have them");
+    }
+    RadiancePicture radiance{part.picture.width, part.picture.height, part.left, part.top,
+                             part.width,         part.height,         {},        {}};
+    radiance.texels.resize(part.picture.texelCount());
+    std::visit([&](const auto& values) { toRadiance(values, radiance.texels); },
+               part.picture.values);
+    radiance.faults = std::move(part.picture.faults);
+    return radiance;
 }
 
 } // namespace stromboli::images

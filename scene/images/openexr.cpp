@@ -120,6 +120,22 @@ ShownPart shownPart(const Imf::MultiPartInputFile& file) {
     throw std::runtime_error(fmt::format("it has neither R, G, B nor Y channels, but {}", names));
 }
 
+ShownPart partWithLayer(const Imf::MultiPartInputFile& file, const std::string& layer) {
+    std::string layers;
+    for (int part = 0; part < file.parts(); ++part) {
+        const Imf::Header& header = file.header(part);
+        if (header.hasType() && Imf::isDeepData(header.type())) continue;
+        const std::vector<std::string> names = namesOf(header.channels());
+        if (const auto channels = exrChannelsOf(names, layer)) return {part, *channels};
+        if (header.hasName() && header.name() == layer)
+            if (const auto channels = exrChannelsOf(names, "")) return {part, *channels};
+        for (const std::string& name : exrLayers(names))
+            if (!name.empty()) layers += (layers.empty() ? "" : ", ") + name;
+    }
+    throw std::runtime_error(fmt::format("it has no layer '{}' with colours{}", layer,
+                                         layers.empty() ? "" : ", but " + layers));
+}
+
 /// The numbers of a channel for each pixel of the data window. One that is there for every other
 /// column or row only is interpolated between them.
 std::vector<float> readChannel(Imf::InputPart& part, const std::string& channel) {
@@ -197,29 +213,66 @@ Picture inDisplayWindow(const std::string& name, const Imf::Header& header,
     return picture;
 }
 
+/// The colours of a part, checked before they take memory.
+std::vector<float> readChecked(Imf::InputPart& part, const ExrChannels& channels,
+                               std::string_view bytes, const std::string& name) {
+    const Imath::Box2i window = part.header().dataWindow();
+    requireSize(name, uint64_t(widthOf(window)), uint64_t(heightOf(window)), 24, bytes.size(),
+                uint64_t(heightOf(window)) / 256 * 8);
+    return readColors(part, channels);
+}
+
 Picture readExrPixels(std::string_view bytes, const std::string& name) {
     checkWindows(bytes, name);
     ExrSource source(bytes, name);
     Imf::MultiPartInputFile file(source);
     const ShownPart shown = shownPart(file);
     Imf::InputPart part(file, shown.number);
-    const Imath::Box2i window = part.header().dataWindow();
-    requireSize(name, uint64_t(widthOf(window)), uint64_t(heightOf(window)), 24, bytes.size(),
-                uint64_t(heightOf(window)) / 256 * 8);
-    Picture picture = inDisplayWindow(name, part.header(), readColors(part, shown.channels));
+    Picture picture =
+        inDisplayWindow(name, part.header(), readChecked(part, shown.channels, bytes, name));
     return asEnvironment(meaningOf(part.header()), std::move(picture));
 }
 
-} // namespace
+PicturePart readExrLayer(std::string_view bytes, const std::string& name,
+                         const std::string& layer) {
+    checkWindows(bytes, name);
+    ExrSource source(bytes, name);
+    Imf::MultiPartInputFile file(source);
+    const ShownPart shown = layer.empty() ? shownPart(file) : partWithLayer(file, layer);
+    Imf::InputPart part(file, shown.number);
+    const Imath::Box2i data = part.header().dataWindow(), whole = part.header().displayWindow();
+    PicturePart result{{uint32_t(widthOf(data)), uint32_t(heightOf(data)), {}}};
+    result.picture.values = readChecked(part, shown.channels, bytes, name);
+    const bool isInside = whole.intersects(data.min) && whole.intersects(data.max);
+    const Imath::Box2i& frame = isInside ? whole : data;
+    result.left = uint32_t(data.min.x - frame.min.x);
+    result.top = uint32_t(data.min.y - frame.min.y);
+    result.width = uint32_t(widthOf(frame));
+    result.height = uint32_t(heightOf(frame));
+    return result;
+}
 
-Picture decodeExr(std::string_view bytes, const std::string& name) {
+/// What `read` reads, with errors as the other decoders have them.
+template <class Read>
+auto readingExr(const std::string& name, const Read& read) {
     try {
-        return readExrPixels(bytes, name);
+        return read();
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {
         failToDecode(name, "OpenEXR", error.what());
     }
+}
+
+} // namespace
+
+Picture decodeExr(std::string_view bytes, const std::string& name) {
+    return readingExr(name, [&] { return readExrPixels(bytes, name); });
+}
+
+PicturePart decodeExrLayer(std::string_view bytes, const std::string& name,
+                           const std::string& layer) {
+    return readingExr(name, [&] { return readExrLayer(bytes, name, layer); });
 }
 
 } // namespace stromboli::images

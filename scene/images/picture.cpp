@@ -40,6 +40,10 @@ void requireSize(const std::string& name, uint64_t width, uint64_t height, uint6
     build::requireMemory(name, width * height * bytesPerTexel);
 }
 
+bool isExr(std::string_view bytes) {
+    return bytes.starts_with("\x76\x2f\x31\x01");
+}
+
 Picture decodePicture(std::string_view bytes, const std::string& name, uint32_t largestSide) {
     if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return decodePng(bytes, name);
     if (bytes.starts_with("\xFF\xD8\xFF")) return decodeJpeg(bytes, name);
@@ -48,7 +52,7 @@ Picture decodePicture(std::string_view bytes, const std::string& name, uint32_t 
     if (bytes.starts_with("GIF8")) return decodeGif(bytes, name);
     if (bytes.starts_with("BM")) return decodeBmp(bytes, name);
     if (bytes.starts_with("#?")) return decodeHdr(bytes, name, largestSide);
-    if (bytes.starts_with("\x76\x2f\x31\x01")) return decodeExr(bytes, name);
+    if (isExr(bytes)) return decodeExr(bytes, name);
     if (bytes.starts_with("PF") || bytes.starts_with("Pf")) return decodePfm(bytes, name);
     if (looksLikeTga(bytes)) return decodeTga(bytes, name);
     throw SceneError(name, 0, "",

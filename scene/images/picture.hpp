@@ -55,6 +55,22 @@ Picture decodeBmp(std::string_view bytes, const std::string& name);
 Picture decodeTga(std::string_view bytes, const std::string& name);
 Picture decodePfm(std::string_view bytes, const std::string& name);
 
+/// True if a file that begins like this is OpenEXR.
+bool isExr(std::string_view bytes);
+
+/// A picture that may be a part of a larger one.
+struct PicturePart {
+    Picture picture;
+    uint32_t left = 0, top = 0;     ///< of the part in the whole
+    uint32_t width = 0, height = 0; ///< of the whole
+};
+
+/// A layer of an OpenEXR file, as it is stored: its data window alone, and not turned or unfolded
+/// if the header calls it an environment. `layer`: a layer's name, as of exrChannelsOf(), or that
+/// of a part with channels without a layer; empty: the likeliest picture. Throws SceneError.
+PicturePart decodeExrLayer(std::string_view bytes, const std::string& name,
+                           const std::string& layer);
+
 /// True if a file that begins like this can be a TGA: the format has no mark of its own, but few
 /// other files have a header that makes sense as one.
 bool looksLikeTga(std::string_view bytes);

@@ -153,8 +153,8 @@ TEST_F(BadInput, OutputFolderMissing) {
 }
 TEST_F(BadInput, OutputOfUnknownKind) {
     expectRefused(
-        stromboli({"render", libraryScene("light_point.dae"), "-o", folder.file("out.jpg")}),
-        kUsage, "out.jpg");
+        stromboli({"render", libraryScene("light_point.dae"), "-o", folder.file("out.gif")}),
+        kUsage, "out.gif");
 }
 TEST_F(BadInput, OutputNotWritable) {
     expectRefused(stromboli({"render", libraryScene("light_point.dae"), "-o", "/proc/out.png"}),

@@ -70,7 +70,8 @@ TEST(Messages, WhatCannotHaveAnEffectIsRefused) {
     EXPECT_THAT(renderRefusal({"--aov"}), HasSubstr("--aov needs an EXR file: a.png"));
     EXPECT_THAT(renderRefusal({"--aov"}, "-"), HasSubstr("--aov needs an EXR file"));
     EXPECT_EQ(renderRefusal({"--aov"}, "a.EXR"), "");
-    EXPECT_THAT(renderRefusal({"--exposure", "1"}, "a.exr"), HasSubstr("--exposure is for PNG"));
+    EXPECT_THAT(renderRefusal({"--exposure", "1"}, "a.exr"),
+                HasSubstr("--exposure is for pictures of a screen"));
     EXPECT_EQ(renderRefusal({"--exposure", "1"}), "");
     EXPECT_THAT(renderRefusal({"-H", "--direct", "lights"}), HasSubstr("exclude each other"));
     EXPECT_THAT(renderRefusal({"--backend", "reference", "--device", "0"}),

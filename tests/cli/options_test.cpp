@@ -49,7 +49,7 @@ TEST(Options, EverythingGiven) {
     EXPECT_EQ(o.picture.camera.choice, CameraChoice::Frame);
     EXPECT_EQ(o.picture.estimator.seed, 5u);
     EXPECT_EQ(o.device.backend, BackendChoice::Reference);
-    EXPECT_EQ(o.tone.exposure, -1.5);
+    EXPECT_EQ(o.tone.curve.exposure, -1.5);
     EXPECT_EQ(o.picture.crop.height, 4u);
 }
 
@@ -125,7 +125,7 @@ TEST(Options, Cs184IsResolvedIntoConventions) {
     EXPECT_FALSE(none.picture.framing.pictureSize || none.picture.framing.framesEveryScene ||
                  none.picture.framing.clipsAlongRay);
     EXPECT_EQ(none.picture.estimator.conventions, ShadingConventions{});
-    EXPECT_EQ(none.tone.kind, ToneCurve::Kind::Srgb);
+    EXPECT_EQ(none.tone.curve.kind, ToneCurve::Kind::Srgb);
     EXPECT_EQ(none.picture.budget.adaptive.rule, Adaptive::Rule::Neighbourhood);
     EXPECT_FALSE(none.picture.branches);
     const RenderOptions o = parse({"render", "a.dae", "-o", "a.png", "-s", "100", "--cs184"});
@@ -133,7 +133,7 @@ TEST(Options, Cs184IsResolvedIntoConventions) {
     EXPECT_TRUE(o.picture.framing.pictureSize && o.picture.framing.framesEveryScene &&
                 o.picture.framing.clipsAlongRay);
     EXPECT_EQ(o.picture.estimator.conventions, cs184Shading());
-    EXPECT_EQ(o.tone.kind, ToneCurve::Kind::Cs184);
+    EXPECT_EQ(o.tone.curve.kind, ToneCurve::Kind::Cs184);
     EXPECT_EQ(o.picture.budget.adaptive.rule, Adaptive::Rule::PerChannel);
     EXPECT_EQ(o.picture.branches, 1u);
     // Its pixels have as many samples each, where the adaptive rule has nothing to look at too.

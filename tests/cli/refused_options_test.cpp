@@ -29,7 +29,7 @@ TEST(RefusedOptions, RangesAreNamed) {
         {{"--time", "nan"}, "--time is 'nan': expected a number from 0.01 to 1000000000"},
         {{"--time", "inf"}, "--time is 'inf': expected a number from 0.01 to 1000000000"},
         {{"--noise", "0.1x"}, "--noise is '0.1x': expected a number from 1e-06 to 1000000"},
-        {{"--exposure", "nan"}, "--exposure is 'nan': expected a number from -100 to 100"},
+        {{"--exposure", "nan"}, "--exposure is 'nan': expected auto or a number from -100 to 100"},
         {{"-a", "32", "nan"}, "-a: TOLERANCE is 'nan': expected a number from 0 to 1000000"},
         {{"--roulette", "nan"},
          "--roulette is 'nan': expected none, throughput or a probability in [0, 1)"},

@@ -42,7 +42,7 @@ class FailedWrites : public testing::TestWithParam<const char*> {
     std::string name_ = std::string("a") + GetParam();
 };
 
-INSTANTIATE_TEST_SUITE_P(Kinds, FailedWrites, testing::Values(".png", ".exr"),
+INSTANTIATE_TEST_SUITE_P(Kinds, FailedWrites, testing::Values(".png", ".exr", ".jpg", ".webp"),
                          [](const auto& kind) { return std::string(kind.param + 1); });
 
 TEST_P(FailedWrites, MissingFolder) {
@@ -137,7 +137,7 @@ TEST_P(FailedWrites, NewFilesObeyTheUmask) {
 
 TEST(CheckWritable, UnknownExtensionIsAUsageError) {
     const TemporaryFolder folder;
-    for (const std::string name : {"a", "a.jpg", "a.png.bak", ".png", "png"}) {
+    for (const std::string name : {"a", "a.gif", "a.png.bak", ".png", "png"}) {
         EXPECT_THROW(checkWritable(folder / name), UsageError) << name;
         EXPECT_THROW(writePicture(folder / name, Film(1, 1), {}), UsageError) << name;
     }
