@@ -20,8 +20,8 @@ namespace stromboli {
 enum class Stage { Loading, Building, Preparing, Sampling, Looking, Writing };
 
 /// Whom the engine tells what it does. Functions may be empty. They are called on the threads that
-/// call the engine, and never after that call has returned; but messages about a device, of its cache
-/// and of Vulkan's validation layer, come on any thread, from its opening to its end.
+/// call the engine, and never after that call has returned; but messages about a device, of its
+/// cache and of Vulkan's validation layer, come on any thread, from its opening to its end.
 struct Listener {
     Messages message;
     /// What begins now, in words: "building the BVH of 12 triangles".
