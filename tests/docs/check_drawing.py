@@ -7,30 +7,32 @@ CMakeLists.txt (layers.txt has all of that), and whatever one names follows from
 import re
 import sys
 
-# What stands for several folders in the drawing, and folders under a shorter name.
-GROUPS = {
-    "loaders": ["scene/collada", "scene/gltf", "scene/mitsuba", "scene/pbrt", "scene/obj",
-                "scene/ply", "scene/assimp", "scene/generate"],
-    "build": ["scene/build", "scene/xml", "scene/images"],
-    "model": ["scene/model"],
-    "camera": ["scene/camera"],
-    "scene": ["scene"],
-    "shared": ["shaders/shared"],
-}
 LEFT_OUT = {"host/version"}  # named by nearly all, names nothing
 
 
-def node_of(folder):
-    for node, folders in GROUPS.items():
-        if folder in folders:
-            return node
+def drawing_in(text):
+    return re.search(r"```mermaid\n(.*?)```", text, re.S).group(1)
+
+
+def nodes_in(drawing):
+    """The node of each folder: `build[scene/build, xml, images]` stands for three of scene."""
+    nodes = {"scene": "scene"}
+    for node, label in re.findall(r"(\w+)\[([^]]*)\]", drawing):
+        first, *others = label.split(", ")
+        parent = first.rsplit("/", 1)[0]
+        nodes |= {folder: node for folder in [first, *(f"{parent}/{name}" for name in others)]}
+    return nodes
+
+
+def node_of(folder, nodes):
+    if folder in nodes:
+        return nodes[folder]
     if not folder.startswith("host/"):
-        sys.exit(f"{folder} is not in the drawing: it wants a node, or a place in GROUPS")
+        sys.exit(f"{folder} is not in the drawing: it wants a node, or a place in the label of one")
     return folder.removeprefix("host/")
 
 
-def drawn_arrows(text):
-    drawing = re.search(r"```mermaid\n(.*?)```", text, re.S).group(1)
+def drawn_arrows(drawing):
     arrows = set()
     for line in re.sub(r"\[[^]]*\]", "", drawing).splitlines():
         if "-->" not in line:
@@ -40,9 +42,9 @@ def drawn_arrows(text):
     return arrows
 
 
-def named_arrows(text):
+def named_arrows(text, nodes):
     rows = [line.split("|") for line in text.splitlines() if line]
-    node = {row[0]: node_of(row[1]) for row in rows if row[1] not in LEFT_OUT}
+    node = {row[0]: node_of(row[1], nodes) for row in rows if row[1] not in LEFT_OUT}
     arrows = set()
     for name, _, public, private in rows:
         for other in (public + "," + private).split(","):
@@ -64,8 +66,9 @@ def reachable(arrows, start):
 
 
 def main():
-    drawn = drawn_arrows(open(sys.argv[1], encoding="utf-8").read())
-    named = named_arrows(open(sys.argv[2], encoding="utf-8").read())
+    drawing = drawing_in(open(sys.argv[1], encoding="utf-8").read())
+    drawn = drawn_arrows(drawing)
+    named = named_arrows(open(sys.argv[2], encoding="utf-8").read(), nodes_in(drawing))
     wrong = [f"{a} --> {b} is drawn, and {a} does not name {b}" for a, b in sorted(drawn - named)]
     for a, b in sorted(named):
         if b not in reachable(drawn, a):
