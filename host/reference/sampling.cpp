@@ -157,8 +157,8 @@ uint32_t flipped(uint32_t digits, uint32_t count, uint64_t key) {
     for (uint32_t first = 0; first < count; first += kDigitsOfAHash) {
         const uint32_t before = first == 0 ? 0 : digits >> (32 - first) << (32 - first);
         const uint64_t flips = hashOfDigits(before, first, key);
-        // Node 1 is the tree's root, the children of a node are 2 node and 2 node + 1. So the node of
-        // the group's digit k is a one before the k digits above it.
+        // Node 1 is the tree's root, the children of a node are 2 node and 2 node + 1. So the node
+        // of the group's digit k is a one before the k digits above it.
         const uint32_t group = digits << first >> (32 - kDigitsOfAHash);
         const uint32_t inGroup = std::min(kDigitsOfAHash, count - first);
         uint32_t flipsOfGroup = 0;
