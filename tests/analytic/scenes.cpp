@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace stromboli::test {
@@ -11,18 +10,10 @@ void addFloor(SceneMaker& builder, uint32_t material) {
     builder.quad({-10, 0, -10}, {0, 0, 20}, {20, 0, 0}, material);
 }
 
-uint32_t samplesForThisBuild(uint32_t samples) {
-#ifdef STROMBOLI_SANITIZED
-    return std::max(samples / 16, std::min(samples, 16u));
-#else
-    return samples;
-#endif
-}
-
 RenderSettings smallPicture(uint32_t samplesPerPixel, uint32_t maxBounces) {
     RenderSettings settings;
     settings.area.width = settings.area.height = 16;
-    settings.budget.mostSamplesPerPixel = samplesForThisBuild(samplesPerPixel);
+    settings.budget.mostSamplesPerPixel = samplesPerPixel;
     settings.estimator.maxBounces = maxBounces;
     settings.estimator.roulette.mode = Roulette::Mode::None;
     return settings;

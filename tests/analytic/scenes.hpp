@@ -24,13 +24,7 @@ inline Camera pointCamera(const glm::dvec3& from, const glm::dvec3& at, double h
     return lookingAt(from, at, halfWidth);
 }
 
-/// A sixteenth of `samples`, but no fewer than 16 of them, where the program is built with
-/// sanitizers: they look for errors in memory and arithmetic, which few samples show as well as
-/// many, and the build without them has shown the mean. Every other build takes all samples.
-uint32_t samplesForThisBuild(uint32_t samples);
-
-/// Settings of a small picture without roulette; its samples are
-/// samplesForThisBuild(samplesPerPixel).
+/// Settings of a small picture without roulette.
 RenderSettings smallPicture(uint32_t samplesPerPixel, uint32_t maxBounces);
 
 /// The mean over all pixels and samples, with its standard error.
