@@ -1,6 +1,7 @@
 #include "host/core/error.hpp"
 #include "host/film/image_file.hpp"
 #include "host/film/image_formats.hpp"
+#include "tests/film/random_film.hpp"
 #include "tests/film/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -12,16 +13,6 @@
 
 namespace stromboli {
 namespace {
-
-Film randomFilm(uint32_t width, uint32_t height) {
-    std::mt19937_64 random(3);
-    std::exponential_distribution<double> radiance(2);
-    Film film(width, height);
-    for (PixelStatistics& pixel : film.pixels)
-        for (int i = 0; i < 3; ++i)
-            pixel.add({radiance(random), radiance(random), radiance(random)});
-    return film;
-}
 
 std::string contentOf(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);

@@ -2,6 +2,7 @@
 #include "host/film/image_file.hpp"
 #include "host/film/image_formats.hpp"
 #include "host/film/white_balance.hpp"
+#include "tests/film/random_film.hpp"
 #include "tests/film/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -155,16 +156,6 @@ TEST(Dithering, DependsOnThePixelAlone) {
 }
 
 // --- Files of films ------------------------------------------------------------------------------
-
-Film randomFilm(uint32_t width, uint32_t height) {
-    std::mt19937_64 random(3);
-    std::exponential_distribution<double> radiance(2);
-    Film film(width, height);
-    for (PixelStatistics& pixel : film.pixels)
-        for (int i = 0; i < 3; ++i)
-            pixel.add({radiance(random), radiance(random), radiance(random)});
-    return film;
-}
 
 PictureOptions optionsOf(const ToneMapping& tone, const PictureEncoding& encoding = {}) {
     PictureOptions options;
