@@ -82,6 +82,10 @@ uint32_t passesOfCameraRays(std::span<const uint32_t> constants);
 /// Chooses how long a dispatch runs: as a number of kernel loop iterations after which no lane
 /// starts another ray. Learns from the time dispatches took, so that they stay near the target:
 /// long enough to cost little, short enough for watchdogs and Ctrl-C.
+///
+/// The numbers are powers of two and the limit, so that they are few: they are push constants, and
+/// lavapipe makes code of its own for each value of one that loops end by (Mesa 22.3, "inlined
+/// uniforms"), which takes it tens of milliseconds for a large kernel.
 class DispatchPace {
   public:
     /// limit: the most iterations a dispatch may ever be given.
