@@ -120,7 +120,7 @@ class Benchmark {
         if (embree.fast) report.embreeQuality = nameOf(embree.quality);
         DeviceRays rays(device(), gpu, rayTuning(device(), rowBytes(gpu, sets.largest())));
         for (const RaySet* set : {&sets.camera, &sets.shadow, &sets.bounce})
-            report.rays.push_back(benchRays(arena, rays, embree, *set));
+            report.rays.push_back(benchRays(arena, rays, embree, gpu.bvh, *set));
     }
 
     /// All that needs a device's copy of the scene.

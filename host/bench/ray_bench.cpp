@@ -2,6 +2,7 @@
 
 #include "host/bench/measuring.hpp"
 #include "host/bvh/binary_tree.hpp"
+#include "host/bvh/cpu_traversal.hpp"
 #include "host/bvh/leaf_items.hpp"
 #include "host/bvh/statistics.hpp"
 #include "host/bvh/wide_layout.hpp"
@@ -28,6 +29,23 @@ bool agree(float a, float b, bool anyHit) {
     return std::abs(a - b) <= kSameDistance * std::max(a, b);
 }
 
+/// Counts what rays visit, by the double of the kernel's traversal.
+void countVisits(const WideLayout& layout, const RaySet& set, RayReport& report) {
+    uint64_t nodes = 0, leaves = 0;
+    for (const gpu::TracedRay& r : set.rays) {
+        const TraversalRay ray{r.origin, r.direction, 0, r.tMax};
+        TraversalCounts counts;
+        if (set.anyHit)
+            anyHit(layout, ray, &counts);
+        else
+            closestHit(layout, ray, &counts);
+        nodes += counts.nodes;
+        leaves += counts.leaves;
+    }
+    report.nodes = double(nodes) / double(set.rays.size());
+    report.leaves = double(leaves) / double(set.rays.size());
+}
+
 } // namespace
 
 double hitShare(const std::vector<float>& distances) {
@@ -44,7 +62,7 @@ uint64_t countDisagreements(const RaySet& set, const std::vector<float>& a,
 }
 
 RayReport benchRays(const Arena& arena, DeviceRays& device, const EmbreePair& embree,
-                    const RaySet& set) {
+                    const WideLayout& layout, const RaySet& set) {
     RayReport report;
     report.kind = set.name;
     report.rays = set.rays.size();
@@ -52,6 +70,7 @@ RayReport benchRays(const Arena& arena, DeviceRays& device, const EmbreePair& em
     device.load(set);
     const std::vector<float> distances = device.distances();
     report.hitShare = hitShare(distances);
+    countVisits(layout, set, report);
 
     const auto rays = double(set.rays.size());
     std::vector<Contestant> contestants = {{"device", [&] {
@@ -88,7 +107,7 @@ GrowthPoint benchSize(uint64_t triangles, const vulkan::Device& device, const Em
     if (pair.fast) point.embreeBuildSeconds = pair.fast->buildSeconds;
     const GpuScene gpu = packScene(scene.scene, std::move(bvh));
     DeviceRays rays(device, gpu, rayTuning(device, rowBytes(gpu, bounce.rays.size())));
-    point.bounce = benchRays(arena, rays, pair, bounce);
+    point.bounce = benchRays(arena, rays, pair, gpu.bvh, bounce);
     return point;
 }
 

@@ -13,8 +13,9 @@ namespace stromboli::bench {
 
 /// Traces one ray set: the device against Embree fast and robust, where there is Embree. Rays are
 /// uploaded once, outside of what is measured. First, unmeasured, all say where each ray ends.
+/// layout: the tree that the device has.
 RayReport benchRays(const Arena& arena, DeviceRays& device, const EmbreePair& embree,
-                    const RaySet& set);
+                    const WideLayout& layout, const RaySet& set);
 
 /// Rays that one ray tracer lets end elsewhere than the other: hit against miss, or distances
 /// apart by more than rounding explains. A shadow ray only hits or misses.

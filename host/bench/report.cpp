@@ -82,6 +82,8 @@ Json toJson(const RayReport& r) {
     return {{"kind", r.kind},
             {"rays", r.rays},
             {"hitShare", r.hitShare},
+            {"nodes", r.nodes},
+            {"leaves", r.leaves},
             {"contestants", toJson(r.contestants)},
             {"disagreements", r.disagreements}};
 }
@@ -250,7 +252,9 @@ std::string table(const BvhReport& b) {
 }
 
 std::string table(const RayReport& r, bool deviceIsCpu) {
-    std::string text = fmt::format("  {} rays: {}, {:.1f} % hit", r.kind, r.rays, 100 * r.hitShare);
+    std::string text =
+        fmt::format("  {} rays: {}, {:.1f} % hit, {:.1f} nodes and {:.1f} leaves each", r.kind,
+                    r.rays, 100 * r.hitShare, r.nodes, r.leaves);
     for (size_t i = 0; i < r.disagreements.size(); ++i)
         text += fmt::format("; {} disagrees on {}", r.contestants[i + 1].name, r.disagreements[i]);
     return text + "\n" + rates(r.contestants, deviceIsCpu);

@@ -42,6 +42,7 @@ struct RayReport {
     std::string kind;
     uint64_t rays = 0;
     double hitShare = 0;
+    double nodes = 0, leaves = 0;    ///< records of either kind that a ray visits, on average
     std::vector<Series> contestants; ///< device, Embree fast, Embree robust
     /// Rays that an Embree contestant found to end elsewhere than the device did; one entry for
     /// each of them.

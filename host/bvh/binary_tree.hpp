@@ -27,10 +27,25 @@ struct BinaryTree {
     uint32_t depth = 0; ///< edges on the longest path from the root; <= depthCap
 };
 
+/// How far the boxes of items are split before the tree is built (split_items.hpp). The figures are
+/// those with which no kind of ray in real rooms visits more records than without splits
+/// (docs/results.md, "Experiments with the tree").
+struct SplitOptions {
+    /// Most boxes beyond one for each item, as a share of the items; 0: none is split.
+    double most = 0.3;
+    /// A box is split only if the two parts have together this share less of its area: what it
+    /// saves has to outweigh the nodes that lead to one more record.
+    double leastShare = 0.3;
+    /// And only if that is this many times the median of the items' areas: small boxes are met by
+    /// few rays.
+    double leastGain = 1;
+};
+
 struct BuildOptions {
     uint32_t bins = 32;     ///< per axis, 2..64
     uint32_t depthCap = 48; ///< of the binary tree; the builder proves it for every input
     bool reinsert = true;   ///< improve the tree by moving subtrees (reinsertion.hpp)
+    SplitOptions split;
 };
 
 /// Binned SAH over centroid bounds (Wald 2007), all three axes; median split where SAH finds

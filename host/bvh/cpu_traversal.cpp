@@ -245,13 +245,15 @@ class Traversal {
 
     void visitLeaf(const gpu::LeafRecord& r, uint32_t record) {
         if (r.primitive & gpu::RECORD_IS_SPHERE) {
-            const auto hit = hitSphere(r.p0, r.radius, prepared_, ray_.tMin, hit_.t);
+            const auto hit =
+                hitSphere(r.p0, std::bit_cast<float>(r.homeOrRadius), prepared_, ray_.tMin, hit_.t);
             if (hit) hit_ = {2 * record, hit->t, 0, 0, gpu::NO_PLACEMENT};
             return;
         }
         const glm::vec3 p0 = inWorld(r.p0), p2 = inWorld(r.p2);
-        visitTriangle(p0, inWorld(r.p1), p2, 2 * record);
-        visitTriangle(p0, p2, inWorld(r.p3), 2 * record + 1);
+        const uint32_t home = 2 * r.homeOrRadius;
+        visitTriangle(p0, inWorld(r.p1), p2, home);
+        visitTriangle(p0, p2, inWorld(r.p3), home + 1);
     }
 
     void visitTriangle(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2,

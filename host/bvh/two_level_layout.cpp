@@ -142,8 +142,9 @@ Record moved(const Record& record, uint32_t base, uint32_t entry) {
         node.firstChild += base;
         return std::bit_cast<Record>(node);
     }
-    gpu::LeafRecord leaf = asLeaf(record);
+    gpu::LeafRecord leaf = asLeaf(record); // of triangles: spheres are in the world
     leaf.primitive += entry;
+    leaf.homeOrRadius += base;
     return std::bit_cast<Record>(leaf);
 }
 
@@ -253,8 +254,9 @@ void collectBoxes(const BinaryTree& tree, uint32_t node, uint32_t levels,
 PartTree buildPart(const Scene& part, std::optional<double> padding, uint32_t boxLevels,
                    const BuildOptions& options) {
     const std::vector<LeafItem> items = makeLeafItems(part);
-    const BinaryTree tree = buildBinaryTree(itemBounds(part, items), options);
-    PartTree built{writeLayout(part, items, tree, padding), {}};
+    const ItemBoxes split = splitItems(part, items, itemBounds(part, items), options.split);
+    const BinaryTree tree = buildBinaryTree(split.boxes, options);
+    PartTree built{writeLayout(part, items, split.itemOf, tree, padding), {}};
     if (!tree.nodes.empty()) collectBoxes(tree, 0, boxLevels, built.boxes);
     return built;
 }
@@ -272,10 +274,11 @@ class TwoLevels {
     WideLayout build() {
         buildPrototypes();
         splitWorld();
-        const std::vector<Bounds> bounds = findItems();
-        TreeAssembly assembly(scene_,
-                              writeLayout(world_.scene, items_, buildBinaryTree(bounds, options_)),
-                              world_.primitiveOf);
+        const ItemBoxes split = splitItems(world_.scene, items_, findItems(), options_.split);
+        TreeAssembly assembly(
+            scene_,
+            writeLayout(world_.scene, items_, split.itemOf, buildBinaryTree(split.boxes, options_)),
+            world_.primitiveOf);
         if (stillTree_) {
             const auto last = uint32_t(scene_.placements.size());
             assembly.join(last, assembly.append(stillTree_->layout, still_.primitiveOf));

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "host/bvh/binary_tree.hpp"
-#include "host/bvh/leaf_items.hpp"
+#include "host/bvh/split_items.hpp"
 #include "scene/model/scene.hpp"
 #include "shaders/shared/scene_types.h"
 
@@ -45,7 +45,8 @@ inline bool isPlacement(const Record& r) {
 struct WideLayout {
     std::vector<Record> records;          ///< record 0: the root, always a node
     std::vector<uint32_t> primitiveOrder; ///< entry i of the Primitive buffer is order[i]
-    std::vector<uint32_t> placeOf;        ///< by scene primitive: 2 * record + slot in the leaf
+    /// By scene primitive: 2 * record + slot in the leaf, the first where there are several.
+    std::vector<uint32_t> placeOf;
     /// By scene primitive: the slot's corner c is corner (c + firstCorner) % 3 of the triangle.
     std::vector<uint8_t> firstCorner;
     /// Entries the kernel's stack needs: those that can wait at once, and one that it writes
@@ -69,10 +70,13 @@ namespace stromboli::bvh {
 
 // --- Writing it ----------------------------------------------------------------------------------
 
-/// The layout of a tree over leaf items of the scene. The records of placements are there, but for
-/// what they lead to. padding: of its boxes; by default that of the tree's own box (boxPadding()),
-/// which is enough where the tree is all that rays meet in its space.
-WideLayout writeLayout(const Scene& scene, std::span<const LeafItem> items, const BinaryTree& tree,
+/// The layout of a tree over the boxes of leaf items of the scene. An item with several boxes has a
+/// leaf for each, and all of these name the first. The records of placements are there, but for
+/// what they lead to. itemOf: by box (ItemBoxes). padding: of its boxes; by default that of the
+/// tree's own box (boxPadding()), which is enough where the tree is all that rays meet in its
+/// space.
+WideLayout writeLayout(const Scene& scene, std::span<const LeafItem> items,
+                       std::span<const uint32_t> itemOf, const BinaryTree& tree,
                        std::optional<double> padding = {});
 
 } // namespace stromboli::bvh

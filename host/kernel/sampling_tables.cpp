@@ -4,8 +4,10 @@
 #include "shaders/shared/interface.h"
 
 #include <glm/gtc/constants.hpp>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -56,31 +58,35 @@ constexpr uint32_t kMostMantissa = (1u << gpu::ENVIRONMENT_MANTISSA_BITS) - 1;
 /// Exponents whose scale, 2^(exponent - bias), is a normal float.
 constexpr int kLeastExponent = int(gpu::ENVIRONMENT_EXPONENT_BIAS) - 126, kMostExponent = 255;
 
+/// 2^(exponent - bias), exponent being kLeastExponent to kMostExponent.
 float scaleOf(int exponent) {
-    return std::ldexp(1.0f, exponent - int(gpu::ENVIRONMENT_EXPONENT_BIAS));
+    return std::bit_cast<float>(uint32_t(exponent + 127 - int(gpu::ENVIRONMENT_EXPONENT_BIAS))
+                                << 23);
 }
 
 } // namespace
 
 void encodeRadiance(const glm::vec3& radiance, gpu::EnvironmentTexel& texel) {
     const float largest = std::max({radiance.x, radiance.y, radiance.z});
-    int power = 0; // largest < 2^power
-    std::frexp(largest, &power);
+    // largest < 2^power; for what is no normal float a power that is clamped like its own.
+    const int power = int(std::bit_cast<uint32_t>(largest) >> 23) - 126;
     const int exponent = std::clamp(power - int(gpu::ENVIRONMENT_MANTISSA_BITS) +
                                         int(gpu::ENVIRONMENT_EXPONENT_BIAS),
                                     kLeastExponent, kMostExponent);
+    const float scale = scaleOf(exponent);
     uint32_t mantissa[3];
     for (int c = 0; c < 3; ++c)
-        mantissa[c] = std::min(uint32_t(radiance[c] / scaleOf(exponent) + 0.5f), kMostMantissa);
+        mantissa[c] = std::min(uint32_t(radiance[c] / scale + 0.5f), kMostMantissa);
     texel.low = mantissa[0] | mantissa[1] << 18;
     texel.high = mantissa[1] >> 14 | mantissa[2] << 4 | uint32_t(exponent) << 22;
 }
 
 glm::vec3 decodeRadiance(const gpu::EnvironmentTexel& texel) {
     const uint32_t mantissa[3] = {texel.low, texel.low >> 18 | texel.high << 14, texel.high >> 4};
+    const float scale = scaleOf(int(texel.high >> 22 & 0xFF));
     glm::vec3 radiance;
     for (int c = 0; c < 3; ++c)
-        radiance[c] = float(mantissa[c] & kMostMantissa) * scaleOf(int(texel.high >> 22 & 0xFF));
+        radiance[c] = float(mantissa[c] & kMostMantissa) * scale;
     return radiance;
 }
 
@@ -89,28 +95,29 @@ EnvironmentTable packEnvironment(const Environment& environment) {
     const size_t count = size_t(width) * height;
     EnvironmentTable table;
     std::vector<double> weights(count);
-    std::vector<gpu::EnvironmentTexel> texels(count);
-    double sum = 0;
-    for (uint32_t y = 0; y < height; ++y) {
+    std::vector<Row> texels(count);
+    tbb::parallel_for(0u, height, [&](uint32_t y) {
         const double sine = std::sin(glm::pi<double>() * (y + 0.5) / height);
-        for (uint32_t x = 0; x < width; ++x) {
-            const size_t i = size_t(y) * width + x;
-            encodeRadiance(environment.radiance[i], texels[i]);
-            sum += weights[i] = luminance(decodeRadiance(texels[i])) * sine;
+        for (size_t i = size_t(y) * width; i < (size_t(y) + 1) * width; ++i) {
+            gpu::EnvironmentTexel texel{};
+            encodeRadiance(environment.radiance[i], texel);
+            weights[i] = luminance(decodeRadiance(texel)) * sine;
+            texels[i] = std::bit_cast<Row>(texel);
         }
-    }
+    });
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
     if (!(sum > 0)) return table;
-    {
-        const std::vector<AliasColumn> columns = buildAliasTable(weights);
-        for (size_t i = 0; i < count; ++i) {
-            texels[i].threshold = float(columns[i].threshold);
-            texels[i].alias = columns[i].alias;
-        }
-    }
+    const std::vector<AliasColumn> columns = buildAliasTable(weights);
     weights = {};
-    table.texels.reserve(count);
-    for (const gpu::EnvironmentTexel& texel : texels)
-        appendRows(table.texels, texel);
+    tbb::parallel_for(0u, height, [&](uint32_t y) {
+        for (size_t i = size_t(y) * width; i < (size_t(y) + 1) * width; ++i) {
+            auto texel = std::bit_cast<gpu::EnvironmentTexel>(texels[i]);
+            texel.threshold = float(columns[i].threshold);
+            texel.alias = columns[i].alias;
+            texels[i] = std::bit_cast<Row>(texel);
+        }
+    });
+    table.texels = std::move(texels);
     // A texel's solid angle is 2 pi / width times pi / height times its sine.
     const double texelsPerAngle = double(count) / (2 * glm::pi<double>() * glm::pi<double>());
     table.light.width = width;

@@ -12,12 +12,18 @@
 namespace stromboli::obj {
 namespace {
 
-constexpr std::string_view kSpace = " \t\v\f";
+/// find_first_of() of the standard library calls memchr for each character of the text, which took
+/// an eighth of the time to load a room.
+bool isSpace(char c) {
+    return c == ' ' || c == '\t' || c == '\v' || c == '\f';
+}
 
 std::string_view trimmed(std::string_view text) {
-    const size_t first = text.find_first_not_of(kSpace);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
+    while (!text.empty() && isSpace(text.front()))
+        text.remove_prefix(1);
+    while (!text.empty() && isSpace(text.back()))
+        text.remove_suffix(1);
+    return text;
 }
 
 std::string inUtf8(const std::string& file, std::string text) {
@@ -48,7 +54,7 @@ void Words::skipSpace() {
 }
 
 std::string_view Words::next() {
-    const std::string_view word = rest_.substr(0, rest_.find_first_of(kSpace));
+    const std::string_view word(rest_.begin(), std::ranges::find_if(rest_, isSpace));
     rest_.remove_prefix(word.size());
     skipSpace();
     return word;
@@ -58,8 +64,10 @@ Statements::Statements(std::string file, std::string text)
     : file_(std::move(file)), text_(inUtf8(file_, std::move(text))) {}
 
 std::string_view Statements::physicalLine() {
-    const size_t end = std::min(text_.find_first_of("\r\n", at_), text_.size());
-    const std::string_view line(text_.data() + at_, end - at_);
+    std::string_view line = std::string_view(text_).substr(at_);
+    line = line.substr(0, line.find('\n'));
+    line = line.substr(0, line.find('\r'));
+    const size_t end = at_ + line.size();
     at_ = end + (text_.compare(end, 2, "\r\n") == 0 ? 2 : 1);
     ++nextLine_;
     return line;

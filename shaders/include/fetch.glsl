@@ -43,7 +43,8 @@ LeafPoints leafPoints(Record r) {
                       uintBitsToFloat(r.r3.xyz), uintBitsToFloat(r.r2.xyz));
 }
 
-float leafRadius(Record r) { return uintBitsToFloat(r.r3.w); }
+float leafRadius(Record r) { return uintBitsToFloat(r.r3.w); } ///< of a sphere
+uint leafHome(Record r) { return r.r3.w; }                     ///< of triangles
 
 /// One primitive by its place in the tree, 2 * record + slot.
 struct PlacedPrimitive {

@@ -120,8 +120,8 @@ void acceptTriangle(inout Traversal t, TriangleHit hit, uint place, bool isLeaf)
 void testLeaf(inout Traversal t, Ray ray, Record r, uint record, bool isLeaf) {
     if (HAS_TRIANGLES) {
         const TrianglePairHit hit = hitTrianglePair(pointsInWorld(leafPoints(r), ray), ray);
-        acceptTriangle(t, hit.first, 2u * record, isLeaf);
-        acceptTriangle(t, hit.second, 2u * record + 1u, isLeaf);
+        acceptTriangle(t, hit.first, 2u * leafHome(r), isLeaf);
+        acceptTriangle(t, hit.second, 2u * leafHome(r) + 1u, isLeaf);
     }
     if (HAS_SPHERES) {
         const vec3 center = uintBitsToFloat(r.r0.xyz);

@@ -43,6 +43,9 @@ SHARED_OFFSET(NodeRecord, lowX0, 16);
 /// p0 p1 p2, slot 1 is p0 p2 p3 (corners may have been rotated: p0 need not be the first in the
 /// file). One triangle on its own has p3 = p2: slot 1 has no area then and is never hit. A
 /// sphere has its centre in all four, and its radius.
+/// Triangles that are askew to the axes have several leaves, each of which is reached by a part of
+/// them (host/bvh/split_items.hpp). The first is their home: all of them name it, hits are hits
+/// of it, and it alone knows of lights.
 /// Row 1 + slot is the slot's own: a corner, and which light the primitive is (light_types.h).
 struct LeafRecord {
     vec3 p0;
@@ -52,12 +55,12 @@ struct LeafRecord {
     vec3 p3;
     uint light1; ///< of slot 1
     vec3 p2;
-    float radius; ///< spheres; 0 else
+    uint homeOrRadius; ///< triangles: record of the home; spheres: the radius, as a float
 };
 SHARED_ROWS(LeafRecord, 4);
 SHARED_OFFSET(LeafRecord, primitive, 12);
 SHARED_OFFSET(LeafRecord, p3, 32);
-SHARED_OFFSET(LeafRecord, radius, 60);
+SHARED_OFFSET(LeafRecord, homeOrRadius, 60);
 
 /// A prototype in the world (scene/model/scene.hpp), a leaf of the tree over the world: it leads into
 /// the tree of the prototype, whose nodes and leaves are in the prototype's own space. That tree's
@@ -101,7 +104,7 @@ SHARED_CONST float BOX_MARGIN = 0.0001220703125f;
 /// arithmetic on them overflows.
 SHARED_CONST float LARGEST_COORDINATE = 1.152921504606846976e18f;
 
-/// Names a primitive where it lies in the tree: 2 * record + slot.
+/// Names a primitive where it lies in the tree: 2 * record + slot, of its home.
 SHARED_CONST uint NO_PRIMITIVE = 0xFFFFFFFFu;
 
 /// What a hit needs beside the geometry. Normals of a smooth triangle: of the corners, octahedral, two

@@ -33,7 +33,7 @@ BenchReport fullReport() {
     scene.name = "cornell_boxes";
     scene.triangles = 36;
     scene.bvh = BvhReport{contestants(1e-3), series("binary tree", 1e-3), 9.5, 64, 96};
-    scene.rays.push_back({"bounce", 1000, 0.75, contestants(1e-7), {3, 0}});
+    scene.rays.push_back({"bounce", 1000, 0.75, 4.5, 2.5, contestants(1e-7), {3, 0}});
     PathReport paths;
     paths.contestants = contestants(1e-6);
     paths.driverBusy = 0.97;
@@ -97,6 +97,8 @@ TEST(BenchJson, HasEveryKey) {
                             "/scenes[]/rays[]/kind",
                             "/scenes[]/rays[]/rays",
                             "/scenes[]/rays[]/hitShare",
+                            "/scenes[]/rays[]/nodes",
+                            "/scenes[]/rays[]/leaves",
                             "/scenes[]/rays[]/disagreements",
                             "/scenes[]/rays[]/contestants[]/name",
                             "/scenes[]/rays[]/contestants[]/wallSeconds/median",
@@ -177,7 +179,7 @@ TEST(BenchTable, SaysHowTimesGrow) {
                              4006,
                              0.001,
                              0.002,
-                             {"bounce", 1000, 0.75, contestants(5e-7), {}}});
+                             {"bounce", 1000, 0.75, 4.5, 2.5, contestants(5e-7), {}}});
     // Medians: 200, 400 and 600 ns with the first size, 1000, 2000 and 3000 ns with the last.
     EXPECT_THAT(toTable(report),
                 testing::ContainsRegex(

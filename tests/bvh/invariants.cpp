@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
+#include <map>
+#include <set>
 #include <vector>
 
 namespace stromboli::test {
@@ -73,22 +76,38 @@ class LayoutCheck {
         ASSERT_EQ(layout_.primitiveOrder.size(), primitives);
         ASSERT_EQ(layout_.placeOf.size(), primitives);
         ASSERT_EQ(layout_.firstCorner.size(), primitives);
-        visit(0, 0);
+        for (uint32_t i = 0; i < layout_.records.size(); ++i)
+            if (isCopy(i)) split_.insert(asLeaf(layout_.records[i]).homeOrRadius);
+        visit(0, 0, bvh::GridBox{glm::dvec3(-1e300), glm::dvec3(1e300)});
         EXPECT_EQ(primitivesSeen_, primitives);
+        for (const uint32_t home : split_)
+            expectCovered(home);
         EXPECT_LE(*std::max_element(timesReached_.begin(), timesReached_.end()), 1);
         EXPECT_EQ(layout_.stackSize, deepestNode_ + 1);
     }
 
   private:
-    /// Returns the box of all primitives below.
-    Bounds visit(uint32_t index, uint32_t depth) {
+    /// Whether the record is a leaf whose triangles have another one for their home.
+    bool isCopy(uint32_t index) const {
+        const Record& record = layout_.records[index];
+        if (isNode(record) || isPlacement(record)) return false;
+        const gpu::LeafRecord leaf = asLeaf(record);
+        const bool isSphere = (leaf.primitive & gpu::RECORD_IS_SPHERE) != 0;
+        const bool isGap = leaf.p0 == leaf.p1 && leaf.p1 == leaf.p2 && leaf.homeOrRadius == 0;
+        return !isSphere && !isGap && leaf.homeOrRadius != index;
+    }
+
+    /// `reached`: where all boxes on the way to the record are. Returns the box of all primitives
+    /// below that have one leaf.
+    Bounds visit(uint32_t index, uint32_t depth, const bvh::GridBox& reached) {
         EXPECT_LT(index, layout_.records.size());
         ++timesReached_.at(index);
         const Record& record = layout_.records.at(index);
-        return isNode(record) ? visitNode(asNode(record), depth) : visitLeaf(asLeaf(record), index);
+        return isNode(record) ? visitNode(asNode(record), depth, reached)
+                              : visitLeaf(asLeaf(record), index, reached);
     }
 
-    Bounds visitNode(const gpu::NodeRecord& node, uint32_t depth) {
+    Bounds visitNode(const gpu::NodeRecord& node, uint32_t depth, const bvh::GridBox& reached) {
         deepestNode_ = std::max(deepestNode_, depth);
         Bounds all;
         for (uint32_t slot = 0; slot < gpu::WIDE_CHILDREN; ++slot) {
@@ -99,7 +118,8 @@ class LayoutCheck {
                 EXPECT_TRUE(glm::all(glm::greaterThan(box.lo, box.hi))) << "inverted on each axis";
                 continue;
             }
-            const Bounds inside = visit(child, depth + 1);
+            const bvh::GridBox there{glm::max(box.lo, reached.lo), glm::min(box.hi, reached.hi)};
+            const Bounds inside = visit(child, depth + 1, there);
             expectHolds(node, box, inside);
             all.extend(inside);
         }
@@ -125,9 +145,12 @@ class LayoutCheck {
         }
     }
 
-    Bounds visitLeaf(const gpu::LeafRecord& leaf, uint32_t record) {
-        const uint32_t entry = leaf.primitive & gpu::RECORD_INDEX_MASK;
+    Bounds visitLeaf(const gpu::LeafRecord& leaf, uint32_t record, const bvh::GridBox& reached) {
         const bool isSphere = (leaf.primitive & gpu::RECORD_IS_SPHERE) != 0;
+        const bool isSplit = !isSphere && split_.contains(leaf.homeOrRadius);
+        if (isSplit) parts_[leaf.homeOrRadius].push_back(reached);
+        if (isCopy(record)) return expectCopy(leaf), Bounds{};
+        const uint32_t entry = leaf.primitive & gpu::RECORD_INDEX_MASK;
         Bounds inside;
         for (uint32_t slot = 0; slot < 2; ++slot) {
             if (entry + slot >= layout_.primitiveOrder.size()) break;
@@ -137,11 +160,40 @@ class LayoutCheck {
                 continue;
             }
             ++primitivesSeen_;
-            inside.extend(primitiveBounds(scene_, primitive));
+            if (!isSplit) inside.extend(primitiveBounds(scene_, primitive));
             EXPECT_EQ(isSphere, primitive >= scene_.triangles.size());
             isSphere ? expectSphere(leaf, primitive) : expectTriangle(leaf, slot, primitive);
         }
         return inside;
+    }
+
+    /// Geometry and numbers of its home.
+    void expectCopy(const gpu::LeafRecord& leaf) const {
+        gpu::LeafRecord home = asLeaf(layout_.records.at(leaf.homeOrRadius));
+        home.light0 = leaf.light0, home.light1 = leaf.light1;
+        EXPECT_EQ(std::bit_cast<Record>(leaf), std::bit_cast<Record>(home));
+    }
+
+    /// Every point of the triangles of a leaf with copies is where the way to one of these leads.
+    void expectCovered(uint32_t home) {
+        const gpu::LeafRecord leaf = asLeaf(layout_.records.at(home));
+        const std::vector<bvh::GridBox>& parts = parts_[home];
+        EXPECT_GE(parts.size(), 2u);
+        const auto inside = [](const bvh::GridBox& box, const glm::dvec3& p) {
+            return glm::all(glm::lessThanEqual(box.lo, p)) &&
+                   glm::all(glm::lessThanEqual(p, box.hi));
+        };
+        constexpr int kSteps = 24;
+        const glm::dvec3 p0 = leaf.p0, p2 = leaf.p2;
+        for (const glm::dvec3 other : {glm::dvec3(leaf.p1), glm::dvec3(leaf.p3)})
+            for (int i = 0; i <= kSteps; ++i)
+                for (int k = 0; i + k <= kSteps; ++k) {
+                    const glm::dvec3 p =
+                        p0 + (p2 - p0) * (i / double(kSteps)) + (other - p0) * (k / double(kSteps));
+                    EXPECT_TRUE(
+                        std::ranges::any_of(parts, [&](const auto& b) { return inside(b, p); }))
+                        << "leaf " << home << ", point " << i << ' ' << k;
+                }
     }
 
     void expectTriangle(const gpu::LeafRecord& leaf, uint32_t slot, uint32_t primitive) const {
@@ -150,12 +202,11 @@ class LayoutCheck {
         for (uint32_t c = 0; c < 3; ++c)
             EXPECT_EQ(corners[slot][c],
                       scene_.positions[t.corner[(c + layout_.firstCorner[primitive]) % 3]]);
-        EXPECT_EQ(leaf.radius, 0);
     }
 
     void expectSphere(const gpu::LeafRecord& leaf, uint32_t primitive) const {
         const Sphere& s = scene_.spheres[primitive - scene_.triangles.size()];
-        EXPECT_EQ(leaf.radius, s.radius);
+        EXPECT_EQ(std::bit_cast<float>(leaf.homeOrRadius), s.radius);
         EXPECT_EQ(leaf.p0, s.center);
         EXPECT_EQ(leaf.p1, s.center);
         EXPECT_EQ(leaf.p2, s.center);
@@ -164,7 +215,9 @@ class LayoutCheck {
 
     const WideLayout& layout_;
     const Scene& scene_;
-    std::vector<int> timesReached_; ///< by record
+    std::vector<int> timesReached_;                       ///< by record
+    std::set<uint32_t> split_;                            ///< homes of leaves with copies
+    std::map<uint32_t, std::vector<bvh::GridBox>> parts_; ///< by home: where rays reach its leaves
     size_t primitivesSeen_ = 0;
     uint32_t deepestNode_ = 0;
 };

@@ -13,8 +13,9 @@ namespace stromboli::test {
 void expectValidTree(const BinaryTree& tree, std::span<const Bounds> items, uint32_t depthCap);
 
 /// Checks a scene's layout likewise: every primitive in one leaf, where placeOf says and with its
-/// own corners; in every node boxes that hold all that is below and the margin; absent children
-/// that do no harm; a stack for the deepest way down.
+/// own corners, or in copies of that leaf, which are together reached by way of all its points; in
+/// every node boxes that hold all that is below and the margin; absent children that do no harm; a
+/// stack for the deepest way down.
 void expectValidLayout(const WideLayout& layout, const Scene& scene);
 
 } // namespace stromboli::test

@@ -70,6 +70,8 @@ std::vector<uint32_t> numbersUnder(const WideLayout& layout, uint32_t record) {
     for (const uint32_t entry : entries)
         numbers.push_back(layout.primitiveOrder.at(entry));
     std::ranges::sort(numbers);
+    const auto copies = std::ranges::unique(numbers); // of leaves that are in several places
+    numbers.erase(copies.begin(), copies.end());
     return numbers;
 }
 

@@ -13,7 +13,7 @@ TEST(DispatchPace, ApproachesTheTargetTime) {
     DispatchPace pace(0.1, 5000);
     for (int i = 0; i < 20; ++i)
         pace.took(pace.iterations() * 1e-4); // 0.1 ms an iteration
-    EXPECT_EQ(pace.iterations(), 1024u); // of 1000
+    EXPECT_EQ(pace.iterations(), 1024u);     // of 1000
     for (int i = 0; i < 20; ++i)
         pace.took(1e-9);
     EXPECT_EQ(pace.iterations(), 5000u);

@@ -123,11 +123,12 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
     /// Once as it is, then both of its primitives.
     void expectLeaf(const gpu::LeafRecord& l) {
         expected_.structure("LeafRecord", l.p0, l.primitive, l.p1, l.light0, l.p3, l.light1, l.p2,
-                            l.radius);
+                            l.homeOrRadius);
         const uint32_t isSphere = (l.primitive & gpu::RECORD_IS_SPHERE) != 0;
         const uint32_t primitive = l.primitive & gpu::RECORD_INDEX_MASK;
-        expected_.structure("slot 0", l.p0, l.p1, l.p2, l.radius, isSphere, primitive, l.light0);
-        expected_.structure("slot 1", l.p0, l.p2, l.p3, l.radius, isSphere, primitive + 1,
+        expected_.structure("slot 0", l.p0, l.p1, l.p2, l.homeOrRadius, isSphere, primitive,
+                            l.light0);
+        expected_.structure("slot 1", l.p0, l.p2, l.p3, l.homeOrRadius, isSphere, primitive + 1,
                             l.light1);
     }
 

@@ -2,6 +2,8 @@
 
 #include "host/bvh/wide_layout.hpp"
 
+#include <bit>
+
 namespace stromboli::test {
 
 GpuScene pack(Scene scene) {
@@ -15,7 +17,8 @@ std::vector<Placed> placed(const GpuScene& scene) {
         const gpu::LeafRecord leaf = asLeaf(scene.bvh.records[place / 2]);
         const bool first = place % 2 == 0;
         primitives.push_back({place, (leaf.primitive & gpu::RECORD_IS_SPHERE) != 0, leaf.p0,
-                              first ? leaf.p1 : leaf.p2, first ? leaf.p2 : leaf.p3, leaf.radius});
+                              first ? leaf.p1 : leaf.p2, first ? leaf.p2 : leaf.p3,
+                              std::bit_cast<float>(leaf.homeOrRadius)});
     }
     return primitives;
 }

@@ -36,8 +36,9 @@ void tryRecord(RayQuery q, Ray ray, uint record, inout RayAnswer a) {
     const bool isSphere = (r.r0.w & RECORD_IS_SPHERE) != 0u;
     const float first =
         isSphere ? hitSphere(p.p0, leafRadius(r), ray, q.tMin, q.tMax) : hit.first.t;
-    tryOne(q, ray, 2u * record, first, p.p0, p.p1, p.p2, a);
-    tryOne(q, ray, 2u * record + 1u, hit.second.t, p.p0, p.p2, p.p3, a);
+    const uint home = isSphere ? record : leafHome(r);
+    tryOne(q, ray, 2u * home, first, p.p0, p.p1, p.p2, a);
+    tryOne(q, ray, 2u * home + 1u, hit.second.t, p.p0, p.p2, p.p3, a);
 }
 
 RayAnswer answer(RayQuery q) {
