@@ -49,7 +49,7 @@ PictureNotes notesOf(const TonemapOptions& o) {
     return notes;
 }
 
-/// With a channel A if it is transparent anywhere.
+/// The picture has a channel A if it is transparent anywhere.
 FloatImage channelsOf(const images::RadiancePicture& picture) {
     FloatImage image(PictureArea{picture.wholeWidth,
                                  picture.wholeHeight,

@@ -29,7 +29,7 @@ PictureNotes readPngNotes(const std::filesystem::path& path);
 
 // --- JPEG and WebP -------------------------------------------------------------------------------
 
-// Of 8 bits a channel, as sRGB, which programs take them for where they say nothing.
+// Pictures of 8 bits a channel are sRGB, which programs take them for where they say nothing.
 
 inline constexpr uint32_t kLargestJpegSide = 65500, kLargestWebPSide = 16383;
 

@@ -63,8 +63,8 @@ jpeg_error_mgr* prepared(JpegFailure& failure) {
 struct JpegEncoder {
     JpegFailure failure;
     jpeg_compress_struct jpeg{};
-    /// Of the size that the file has at most: libjpeg allocates a larger one otherwise, and does
-    /// not say where it is when it fails.
+    /// As large as the file may become: libjpeg allocates a larger one otherwise, and does not say
+    /// where it is when it fails.
     std::vector<unsigned char> buffer;
     unsigned char* bytes = nullptr;
     unsigned long size = 0;

@@ -56,8 +56,8 @@ struct ToneMapping {
     bool isCurveAlone() const { return view == View::Standard && !illuminant && !isOpen(); }
 };
 
-/// With the exposure and the illuminant that are found out from the channels R, G, B and A of the
-/// picture, if they are left open.
+/// The mapping whose exposure and illuminant, if they are left open, are found out from the
+/// channels R, G, B and A of the picture.
 ToneMapping resolved(ToneMapping tone, const FloatImage& radiance);
 
 /// "exposure 1.25 EV, white balance 3200 K": what was left open in `asked` and found out; empty if

@@ -61,7 +61,7 @@ TEST(SplitItems, ADiagonalTriangleIsSplitAndAnAlignedOneIsNot) {
     EXPECT_EQ(boxes.itemOf[1], 1u);
     EXPECT_EQ(parts[square], 1) << "its box has no volume, and two boxes have the same area";
     EXPECT_EQ(parts[1 - square], 17) << "all that may be had";
-    // Of 16 equal parts each has 1/256 of the area; 17 are a little more uneven.
+    // If there were 16 equal parts, each would have 1/256 of the area; 17 are a little uneven.
     EXPECT_LT(area, 12.0 / 16 * 1.3);
 }
 

@@ -148,8 +148,8 @@ class Tonemap : public testing::Test {
     }
 };
 
-/// Of what has one of the options that the plain picture has not: those are made of the floats that
-/// an EXR file holds.
+/// Pictures with one of the options that the plain one has not are made of the floats that an EXR
+/// file holds.
 TEST_F(Tonemap, MakesTheBytesOfARender) {
     render("a.exr");
     const std::vector<std::vector<std::string>> looks = {

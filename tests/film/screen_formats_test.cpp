@@ -172,7 +172,7 @@ TEST(WebP, OfQuality100IsWithoutLoss) {
     }
 }
 
-/// With loss too: it is kept beside the colours.
+/// Alpha is kept beside the colours, also where these lose something.
 TEST(WebP, AlphaIsExact) {
     const TemporaryFolder folder;
     const ByteImage image = noise(31, 17, true);

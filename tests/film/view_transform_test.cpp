@@ -39,8 +39,8 @@ TEST(ViewAgX, OfGreysIsTheSigmoidOfTheLogarithm) {
     expectNear(ofGrey(View::AgX, 1e6), glm::dvec3(std::pow(0.99858, 2.2)), 1e-9);
 }
 
-/// Of colours, with the matrices between Rec. 709 and Rec. 2020 as ITU-R BT.2087 and BT.2407 print
-/// them, with four digits: the tolerance is theirs.
+/// Colours are compared by the matrices between Rec. 709 and Rec. 2020 as ITU-R BT.2087 and BT.2407
+/// print them, with four digits: the tolerance is theirs.
 TEST(ViewAgX, OfColoursIsThePublishedOne) {
     constexpr double rounded = 3e-4;
     expectNear(displayLight(View::AgX, {1, 0, 0}), {0.723276, 0.105847, 0.066736}, rounded);

@@ -89,7 +89,8 @@ TEST(WhiteBalance, WarmLightIsCooledAndColdLightWarmed) {
     EXPECT_GT(fromCold.x, fromCold.z);
 }
 
-/// Of colours that no channel lacks: below 1900 K light has less than no blue of Rec. 709.
+/// Only temperatures whose colours lack no channel: below 1900 K light has less than no blue of
+/// Rec. 709.
 TEST(NearestTemperature, OfAnIlluminantIsItsOwn) {
     for (double kelvin = 2000; kelvin <= 25000; kelvin += 500) {
         EXPECT_EQ(nearestTemperature(lightOf(kelvin)), kelvin);

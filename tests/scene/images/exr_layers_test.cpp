@@ -24,7 +24,7 @@ using testing::HasSubstr;
 const std::vector<std::string> kChannels = {"R",        "G",       "B",     "albedo.R", "albedo.G",
                                             "albedo.B", "depth.Z", "sky.Y", "A"};
 
-/// Of one pixel: 1, 2, 3, ... in the order of the channels.
+/// A picture of one pixel, which is 1, 2, 3, ... in the order of the channels.
 std::string layered(const std::function<void(Imf::Header&)>& change = {}) {
     return test::exr(1, 1, kChannels, {1, 2, 3, 4, 5, 6, 7, 8, 0.5f}, false, change);
 }
