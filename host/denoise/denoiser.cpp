@@ -1,0 +1,93 @@
+#include "host/denoise/denoiser.hpp"
+
+#include "host/core/error.hpp"
+#include "host/denoise/device_filter.hpp"
+#include "host/denoise/half_blend.hpp"
+#include "host/denoise/oidn.hpp"
+#include "host/denoise/prepare.hpp"
+#include "host/denoise/reference_filter.hpp"
+#include "host/denoise/stated_error.hpp"
+
+#include <cmath>
+
+namespace stromboli::denoise {
+namespace {
+
+/// The filter's results, wherever it runs.
+std::vector<ReferenceResult> filter(const Prepared& picture, const vulkan::Device* device) {
+    if (!device) return filterOnHost(picture);
+    std::vector<ReferenceResult> results;
+    results.reserve(picture.pixels.size());
+    for (const gpu::DenoiseResult& r : DeviceFilter(*device).run(picture))
+        results.push_back({r.mean, r.shares, glm::dvec2(r.ownNoise, r.ownChange),
+                           glm::dvec2(r.windowNoise, r.windowChange), r.ownVariance});
+    return results;
+}
+
+DenoisedPicture denoiseByFilter(const NoisyPicture& picture, const vulkan::Device* device) {
+    Prepared prepared = prepare(picture);
+    limitOutliers(prepared);
+    const std::vector<ReferenceResult> filtered = filter(prepared, device);
+    DenoisedPicture result{picture.width, picture.height};
+    std::vector<PixelError> errors;
+    errors.reserve(filtered.size());
+    const double floor = kRelativeFloor * prepared.meanRadiance;
+    double noisyShares = 0;
+    for (size_t i = 0; i < filtered.size(); ++i) {
+        const ReferenceResult& f = filtered[i];
+        const glm::dvec2 parts(picture.errorShare.empty() ? 1.0f : picture.errorShare[i], 1);
+        const glm::dvec3 mean = f.mean * glm::dvec3(prepared.albedo[i]);
+        const double variance = parts.x * f.ownVariance;
+        const double expected = std::max(glm::dot(parts, f.window), variance);
+        result.mean.emplace_back(mean);
+        result.error.emplace_back(glm::sqrt(expected * (mean * mean + floor * floor)));
+        errors.push_back({glm::dot(parts, f.own), variance});
+        noisyShares += 1 - f.shares.x - f.shares.y - f.shares.z;
+    }
+    Summary& s = result.summary;
+    s.noise = statedError(picture.width, picture.height, errors);
+    s.noisyShare = filtered.empty() ? 0 : noisyShares / double(filtered.size());
+    s.movedLight = prepared.movedLight;
+    s.limitedPixels = prepared.limitedPixels;
+    s.unknownPixels = picture.unknownPixels;
+    s.hasLayers = !picture.albedo.empty() && !picture.normal.empty() && !picture.depth.empty();
+    return result;
+}
+
+DenoisedPicture denoiseByOidn(const NoisyPicture& picture) {
+    const OidnHalves halves = runOidn(picture);
+    DenoisedPicture result = blendHalves(picture, halves.first, halves.second);
+    result.summary.hasLayers = !picture.albedo.empty() && !picture.normal.empty();
+    return result;
+}
+
+} // namespace
+
+void requireUsable(Denoiser which) {
+    if (which == Denoiser::Oidn && !oidnMissing().empty()) throw UsageError(oidnMissing());
+}
+
+DenoisedPicture denoisePicture(const NoisyPicture& picture, Denoiser which,
+                               const vulkan::Device* device) {
+    return which == Denoiser::Oidn ? denoiseByOidn(picture) : denoiseByFilter(picture, device);
+}
+
+const std::vector<std::string>& channelNames() {
+    static const std::vector<std::string> names = {"error.R", "error.G", "error.B",
+                                                   "noisy.R", "noisy.G", "noisy.B"};
+    return names;
+}
+
+void addChannels(FloatImage& image, const NoisyPicture& noisy, const DenoisedPicture& denoised) {
+    const std::vector<std::string>& names = channelNames();
+    for (size_t c = 0; c < 3; ++c) {
+        std::vector<float>& error = image.channel(names[c]);
+        std::vector<float>& before = image.channel(names[c + 3]);
+        for (size_t i = 0; i < denoised.mean.size(); ++i) {
+            error[i] = denoised.error[i][int(c)];
+            before[i] = noisy.mean[i][int(c)];
+        }
+    }
+}
+
+} // namespace stromboli::denoise
