@@ -8,6 +8,7 @@
 #include "host/denoise/reference_filter.hpp"
 #include "host/denoise/stated_error.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace stromboli::denoise {
@@ -24,6 +25,19 @@ std::vector<ReferenceResult> filter(const Prepared& picture, const vulkan::Devic
     return results;
 }
 
+/// The noise that is left in a pixel by what its neighbours say, too: one pixel's is as rough as a
+/// square of one number.
+double noiseLeftAround(const std::vector<ReferenceResult>& filtered, uint32_t width,
+                       uint32_t height, size_t pixel) {
+    constexpr int kAround = 2;
+    const int x = int(pixel % width), y = int(pixel / width);
+    double sum = 0, pixels = 0;
+    for (int v = std::max(y - kAround, 0); v <= std::min(y + kAround, int(height) - 1); ++v)
+        for (int u = std::max(x - kAround, 0); u <= std::min(x + kAround, int(width) - 1); ++u)
+            sum += filtered[size_t(v) * width + size_t(u)].ownVariance, ++pixels;
+    return sum / pixels;
+}
+
 DenoisedPicture denoiseByFilter(const NoisyPicture& picture, const vulkan::Device* device) {
     Prepared prepared = prepare(picture);
     limitOutliers(prepared);
@@ -31,17 +45,17 @@ DenoisedPicture denoiseByFilter(const NoisyPicture& picture, const vulkan::Devic
     DenoisedPicture result{picture.width, picture.height};
     std::vector<PixelError> errors;
     errors.reserve(filtered.size());
-    const double floor = kRelativeFloor * prepared.meanRadiance;
     double noisyShares = 0;
     for (size_t i = 0; i < filtered.size(); ++i) {
         const ReferenceResult& f = filtered[i];
         const glm::dvec2 parts(picture.errorShare.empty() ? 1.0f : picture.errorShare[i], 1);
         const glm::dvec3 mean = f.mean * glm::dvec3(prepared.albedo[i]);
-        const double variance = parts.x * f.ownVariance;
-        const double expected = std::max(glm::dot(parts, f.window), variance);
+        const double left = parts.x * noiseLeftAround(filtered, picture.width, picture.height, i);
+        const double expected = std::max(glm::dot(parts, f.window), left);
         result.mean.emplace_back(mean);
-        result.error.emplace_back(glm::sqrt(expected * (mean * mean + floor * floor)));
-        errors.push_back({glm::dot(parts, f.own), variance});
+        result.error.emplace_back(
+            glm::sqrt(expected * (mean * mean + prepared.floor * prepared.floor)));
+        errors.push_back({glm::dot(parts, f.own), parts.x * f.ownVariance});
         noisyShares += 1 - f.shares.x - f.shares.y - f.shares.z;
     }
     Summary& s = result.summary;

@@ -140,12 +140,15 @@ void DeviceFilter::runStrip(const Prepared& picture, Rows rows, Buffers& buffers
     buffers.all[DENOISE_BINDING_PIXELS].upload(
         queue_,
         std::as_bytes(std::span(picture.pixels).subspan(all.first * width, all.count() * width)));
-    const double floor = kRelativeFloor * picture.meanRadiance;
     queue_.run("denoise a picture", [&](VkCommandBuffer commands) {
         for (size_t i = 0; i < pipelines_.size(); ++i) {
-            const gpu::DenoiseDispatch dispatch = {
-                picture.width,   picture.height,         all.first,           made[i].first,
-                made[i].count(), uint32_t(taps_.size()), float(floor * floor)};
+            const gpu::DenoiseDispatch dispatch = {picture.width,
+                                                   picture.height,
+                                                   all.first,
+                                                   made[i].first,
+                                                   made[i].count(),
+                                                   uint32_t(taps_.size()),
+                                                   float(picture.floor * picture.floor)};
             const uint64_t pixels = uint64_t(made[i].count()) * width;
             vulkan::recordDispatch(
                 device_, commands, pipelines_[i], buffers.sets[i],

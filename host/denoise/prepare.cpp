@@ -1,6 +1,6 @@
 #include "host/denoise/prepare.hpp"
 
-#include <tbb/parallel_for.h>
+#include "host/render/picture_noise.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -67,6 +67,8 @@ Prepared prepare(const NoisyPicture& picture) {
         ++known;
     }
     result.meanRadiance = known > 0 ? sum / double(known) : 0;
+    // relMSE's; where all is black there is nothing to compare with.
+    if (result.meanRadiance > 0) result.floor = kRelativeFloor * result.meanRadiance;
     fillSlopes(result);
     return result;
 }

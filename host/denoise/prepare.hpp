@@ -16,6 +16,7 @@ struct Prepared {
     std::vector<gpu::DenoisePixel> pixels;
     std::vector<glm::vec3> albedo; ///< that radiance was divided by
     double meanRadiance = 0;
+    double floor = 1; ///< radiance, that is added, squared, to that which errors are compared with
     double movedLight = 0; ///< the share of all light that limitOutliers() has moved
     uint64_t limitedPixels = 0;
 };

@@ -1,7 +1,6 @@
 #include "host/denoise/reference_filter.hpp"
 
 #include "host/denoise/taps.hpp"
-#include "host/render/picture_noise.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -62,8 +61,7 @@ class HostFilter {
         : picture_(picture), width_(int(picture.width)), height_(int(picture.height)),
           taps_(taps()), pilots_(picture.pixels.size()), candidates_(picture.pixels.size()),
           moments_(picture.pixels.size()) {
-        const double floor = kRelativeFloor * picture.meanRadiance;
-        floor_ = floor * floor;
+        floor_ = picture.floor * picture.floor;
     }
 
     std::vector<ReferenceResult> run() {

@@ -25,9 +25,9 @@ DenoisedPicture denoised(const TruthOf& truth, uint32_t seed) {
                                    nullptr);
 }
 
-/// Of the picture as a whole, on the mean over renders. Shares that are found from the very samples
-/// that say how good they are make it a little too small.
-TEST(PredictedError, IsThatOfThePictureWithinATenth) {
+/// Of the picture as a whole, on the mean over renders. It is rather too large than too small: the
+/// error of a tile is taken to be at least the noise that is left in it.
+TEST(PredictedError, IsThatOfThePictureWithinAFifth) {
     for (const float sigma : {0.5f, 0.2f, 0.05f}) {
         double predicted = 0, measured = 0;
         for (uint32_t seed = 1; seed <= 4; ++seed) {
@@ -36,7 +36,7 @@ TEST(PredictedError, IsThatOfThePictureWithinATenth) {
             predicted += d.summary.noise.estimate * d.summary.noise.estimate;
             measured += relMse(d.mean, kWidth, roomWith(sigma));
         }
-        EXPECT_NEAR(std::sqrt(predicted / measured), 1, 0.1) << sigma;
+        EXPECT_NEAR(std::sqrt(predicted / measured), 1, 0.2) << sigma;
     }
 }
 
@@ -60,12 +60,13 @@ TEST(PredictedError, IsThatOfEachPartOfThePicture) {
     for (size_t part = 0; part < predicted.size(); ++part) {
         const double ratio = std::sqrt(predicted[part] / measured[part]);
         EXPECT_GT(ratio, 0.7) << "part " << part;
-        EXPECT_LT(ratio, 1.5) << "part " << part;
+        // Where nearly all noise is taken out a window of 120 pixels cannot tell how much is left.
+        EXPECT_LT(ratio, 2) << "part " << part;
     }
 }
 
-/// A range that holds in 95 of 100 renders holds in at least 89 of 100, but in one case of a
-/// hundred (binomial distribution).
+/// A range that holds in 95 of 100 renders holds in at least 52 of 60, but in one case of a hundred
+/// (binomial distribution).
 TEST(PredictedError, TheRangeHolds) {
     int held = 0;
     constexpr int kRenders = 60;
@@ -76,7 +77,7 @@ TEST(PredictedError, TheRangeHolds) {
         held += d.summary.noise.known() && truth >= d.summary.noise.least &&
                 truth <= d.summary.noise.most;
     }
-    EXPECT_GE(held, 89);
+    EXPECT_GE(held, 52);
 }
 
 TEST(PredictedError, AFewPixelsThatMakeAllOfItSayNothing) {
