@@ -38,6 +38,24 @@ double noiseLeftAround(const std::vector<ReferenceResult>& filtered, uint32_t wi
     return sum / pixels;
 }
 
+/// Standard errors that a pixel may change by.
+constexpr double kMostErrors = 4;
+
+/// How much of its change a pixel makes: no more than its own samples can be wrong by. Where they
+/// agree that it is dark, the noise of its neighbours says nothing of it.
+double shareOfChange(const NoisyPicture& picture, const Prepared& prepared, size_t pixel,
+                     const glm::dvec3& change) {
+    const gpu::DenoisePixel& p = prepared.pixels[pixel];
+    if (p.weight == 0) return 1;
+    const glm::dvec3 deviation(p.deviation), albedo(prepared.albedo[pixel]);
+    glm::dvec3 variance = deviation * deviation;
+    if (!picture.variance.empty())
+        variance = glm::max(variance, glm::dvec3(picture.variance[pixel]) / (albedo * albedo));
+    const double allowed = kMostErrors * sumOf(glm::sqrt(variance) * albedo);
+    const double wanted = sumOf(glm::abs(change) * albedo);
+    return wanted > allowed ? allowed / wanted : 1;
+}
+
 DenoisedPicture denoiseByFilter(const NoisyPicture& picture, const vulkan::Device* device) {
     Prepared prepared = prepare(picture);
     limitOutliers(prepared);
@@ -49,13 +67,23 @@ DenoisedPicture denoiseByFilter(const NoisyPicture& picture, const vulkan::Devic
     for (size_t i = 0; i < filtered.size(); ++i) {
         const ReferenceResult& f = filtered[i];
         const glm::dvec2 parts(picture.errorShare.empty() ? 1.0f : picture.errorShare[i], 1);
-        const glm::dvec3 mean = f.mean * glm::dvec3(prepared.albedo[i]);
+        const gpu::DenoisePixel& own = prepared.pixels[i];
+        const glm::dvec3 albedo(prepared.albedo[i]), change = f.mean - glm::dvec3(own.mean);
+        const double share = shareOfChange(picture, prepared, i, change);
+        const glm::dvec3 mean = (glm::dvec3(own.mean) + share * change) * albedo;
+        const glm::dvec3 compared = mean * mean + prepared.floor * prepared.floor;
         const double left = parts.x * noiseLeftAround(filtered, picture.width, picture.height, i);
         const double expected = std::max(glm::dot(parts, f.window), left);
         result.mean.emplace_back(mean);
-        result.error.emplace_back(
-            glm::sqrt(expected * (mean * mean + prepared.floor * prepared.floor)));
-        errors.push_back({glm::dot(parts, f.own), parts.x * f.ownVariance});
+        result.error.emplace_back(glm::sqrt(expected * compared));
+        // With a part of the change its square is that of the part, and what it takes of the error
+        // is the part of what it took.
+        const glm::dvec3 deviation = glm::dvec3(own.deviation) * albedo;
+        const double before = own.weight * sumOf(deviation * deviation / compared) / 3;
+        const glm::dvec2 error =
+            share < 1 ? glm::dvec2(before + share * (f.own.x - before), share * share * f.own.y)
+                      : f.own;
+        errors.push_back({glm::dot(parts, error), parts.x * f.ownVariance});
         noisyShares += 1 - f.shares.x - f.shares.y - f.shares.z;
     }
     Summary& s = result.summary;

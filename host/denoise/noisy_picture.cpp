@@ -107,6 +107,7 @@ void takeHalves(NoisyPicture& picture, const Triple& a, const Triple& b) {
 /// the normal means problem via coupled bootstrap techniques").
 void takeVariance(NoisyPicture& picture, const Triple& variance) {
     const std::vector<glm::vec3> values = valuesOf(variance);
+    picture.variance = values;
     for (uint32_t i = 0; i < values.size(); ++i) {
         glm::vec3 d;
         for (uint32_t c = 0; c < 3; ++c)
@@ -137,6 +138,7 @@ NoisyPicture noisyPictureOf(const Film& film, std::span<const glm::dvec3> square
         const bool isKnown = film.pixels[i].count >= 2;
         picture.mean.push_back(isKnown ? glm::vec3(film.pixels[i].mean) : kNotKnown);
         picture.deviation.push_back(signOf(i) * glm::vec3(glm::sqrt(squaredErrors[i])));
+        picture.variance.emplace_back(film.pixels[i].varianceOfMean());
     }
     takeLayers(picture, layers);
     markUnknown(picture);

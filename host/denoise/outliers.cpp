@@ -19,9 +19,8 @@ constexpr double kLeastNeighbours = 8;
 /// What a pixel gives away.
 struct Gift {
     glm::dvec3 light{0.0}; ///< radiance
-    glm::dvec3 perShare{
-        0.0};        ///< what it is divided by: weights of those that take it, times albedo
-    float keeps = 1; ///< what is left of the pixel's radiance
+    double parts = 0;      ///< of it that its neighbours take, the pixel included
+    float keeps = 1;       ///< what is left of the pixel's radiance
 };
 
 class Limiter {
@@ -32,6 +31,7 @@ class Limiter {
 
     void run() {
         forEachPixel([&](int x, int y) { gifts_[at(x, y)] = giftOf(x, y); });
+        forEachPixel([&](int x, int y) { gifts_[at(x, y)].parts = partsAround(x, y); });
         std::vector<glm::vec3> taken(gifts_.size());
         forEachPixel([&](int x, int y) { taken[at(x, y)] = takenBy(x, y); });
         double moved = 0;
@@ -102,10 +102,23 @@ class Limiter {
         gift.keeps = float(limit / own);
         gift.light =
             (1.0 - gift.keeps) * glm::dvec3(p.mean) * glm::dvec3(picture_.albedo[at(x, y)]);
-        forEachNear(x, y, [&](int u, int v) {
-            gift.perShare += weightOf(x, y, u, v) * glm::dvec3(picture_.albedo[at(u, v)]);
-        });
         return gift;
+    }
+
+    /// How much the pixel at (u, v) takes of what the one at (x, y) gives: by its own radiance as
+    /// well, so that dark pixels stay dark and all become brighter by the same factor.
+    double partOf(int x, int y, int u, int v) const {
+        const gpu::DenoisePixel& q = picture_.pixels[at(u, v)];
+        const double radiance = sumOf(glm::dvec3(q.mean) * glm::dvec3(picture_.albedo[at(u, v)]));
+        return weightOf(x, y, u, v) * gifts_[at(u, v)].keeps * std::max(radiance, 0.0);
+    }
+
+    /// The parts of all that take.
+    double partsAround(int x, int y) const {
+        double sum = 0;
+        if (gifts_[at(x, y)].keeps < 1)
+            forEachNear(x, y, [&](int u, int v) { sum += partOf(x, y, u, v); });
+        return sum;
     }
 
     /// Radiance over albedo that a pixel gets from those around it.
@@ -113,9 +126,13 @@ class Limiter {
         glm::dvec3 taken(0.0);
         forEachNear(x, y, [&](int u, int v) {
             const Gift& gift = gifts_[at(u, v)];
-            if (gift.keeps < 1) taken += weightOf(u, v, x, y) * gift.light / gift.perShare;
+            if (gift.keeps >= 1) return;
+            // Where all is black it has its light back.
+            const bool isOwn = u == x && v == y;
+            taken += gift.parts > 0 ? partOf(u, v, x, y) / gift.parts * gift.light
+                                    : (isOwn ? gift.light : glm::dvec3(0.0));
         });
-        return taken;
+        return taken / glm::dvec3(picture_.albedo[at(x, y)]);
     }
 
     Prepared& picture_;

@@ -98,6 +98,7 @@ def main():
     parser.add_argument("--seeds", type=int, default=1)
     parser.add_argument("--reference", type=int, default=1024)
     parser.add_argument("--size", nargs=2, default=[320, 180])
+    parser.add_argument("--denoise", default="on", help="or oidn")
     parser.add_argument("--options", default="", help="of all renders")
     o = parser.parse_args()
     os.makedirs(o.folder, exist_ok=True)
@@ -117,8 +118,8 @@ def main():
             references.append(read_exr(file))
         for samples in map(int, o.samples.split(",")):
             for seed in range(1, o.seeds + 1):
-                picture, stats = (os.path.join(o.folder, f"{name}-{samples}-{seed}.{end}") for end in ("exr", "json"))
-                run(o.program, "render", scene, "-o", picture, "-s", samples, "--seed", seed, "--denoise", "on",
+                picture, stats = (os.path.join(o.folder, f"{name}-{samples}-{seed}-{o.denoise}.{end}") for end in ("exr", "json"))
+                run(o.program, "render", scene, "-o", picture, "-s", samples, "--seed", seed, "--denoise", o.denoise,
                     "--stats", stats, *common)
                 channels = read_exr(picture)
                 said = json.load(open(stats))["denoised"]
