@@ -112,6 +112,10 @@ void KeptSession::recover(const std::string& why) {
     begin(true);
 }
 
+void KeptSession::finish() {
+    if (!over_) close(true);
+}
+
 const KeptOutcome& KeptSession::end() {
     while (!over_) {
         try {

@@ -60,11 +60,15 @@ class KeptSession {
     const Film& film() const { return session_->film(); }
     /// What is known of its noise.
     RenderOutcome outcome() const { return session_->outcome(); }
+    std::vector<glm::dvec3> squaredErrors() const { return session_->squaredErrors(); }
+    bool isBetweenPasses() const { return session_->isBetweenPasses(); }
     uint64_t samplesDone() const { return session_->samplesDone(); }
     const KeptRender& render() const { return render_; }
     /// All that another session needs to go on with the same bytes.
     SessionState save() const { return session_->save(); }
 
+    /// The render is finished, although its budget is not used up.
+    void finish();
     /// Ends the render, finished or not, and says what came of it, without the film. Where it is
     /// not finished, the file keeps its state.
     const KeptOutcome& end();

@@ -193,6 +193,7 @@ void declareMerge(DeclaredCommand& command);
 void declarePlan(DeclaredCommand& command);
 void declareSubmit(DeclaredCommand& command);
 void declareTonemap(DeclaredCommand& command);
+void declareDenoise(DeclaredCommand& command);
 
 // Groups of options that several commands have. Each stores what it understands in the structure it
 // is given. A `finish...` belongs to the group of its name.

@@ -40,6 +40,7 @@ struct Run {
     int operator()(const PlanOptions& o) const { return planCommand(o); }
     int operator()(const SubmitOptions& o) const { return submitCommand(o); }
     int operator()(const TonemapOptions& o) const { return tonemapCommand(o); }
+    int operator()(const DenoiseOptions& o) const { return denoiseCommand(o); }
 };
 
 int run(const ParsedCommand& command) {

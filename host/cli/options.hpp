@@ -4,6 +4,7 @@
 #include "host/cli/log.hpp"
 #include "host/compare/comparison.hpp"
 #include "host/core/text.hpp"
+#include "host/denoise/denoiser.hpp"
 #include "host/engine/load_scene.hpp"
 #include "host/engine/render_request.hpp"
 #include "host/engine/render_result.hpp"
@@ -170,6 +171,15 @@ struct TonemapOptions {
     std::vector<std::string> command; ///< as RenderOptions::command
 };
 
+struct DenoiseOptions {
+    std::string picture;
+    Denoiser denoiser = Denoiser::On;
+    OutputOptions output;
+    ToneMapping tone;
+    std::string device;
+    std::vector<std::string> command; ///< as RenderOptions::command
+};
+
 struct PlanOptions {
     std::vector<std::string> films;
     std::string file;
@@ -201,7 +211,7 @@ struct SubmitOptions : SceneAndPicture {
 using CommandOptions =
     std::variant<RenderOptions, CheckOptions, InfoOptions, KernelsOptions, DevicesOptions,
                  BenchOptions, StressOptions, CompareOptions, StudyOptions, MergeOptions,
-                 PlanOptions, SubmitOptions, TonemapOptions>;
+                 PlanOptions, SubmitOptions, TonemapOptions, DenoiseOptions>;
 
 /// The command line, understood and checked.
 struct ParsedCommand {

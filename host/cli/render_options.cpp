@@ -3,6 +3,7 @@
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
 #include "host/farm/film_file.hpp"
+#include "host/film/image_file.hpp"
 
 #include <fmt/format.h>
 
@@ -36,6 +37,10 @@ void declareOutput(OptionList& list, RenderOptions& o) {
         .proposes(Proposed::Files);
     declarePictureFile(list, o.output, o.tone);
     declareSeen(list, o.picture);
+    list.choice("--denoise", "WHICH",
+                "what takes the noise out of the picture that is finished (docs/guide/denoise.md)",
+                o.picture.denoiser)
+        .excludes("--share", "films of shares are put together first: stromboli denoise has it");
     list.text("--stats", "FILE.json",
               "write statistics of the render as JSON; - for standard output", o.output.statsFile)
         .besidePicture()
@@ -188,6 +193,7 @@ void finishRender(DeclaredCommand& c, RenderOptions& o, const Asked& asked) {
         checkShare(o);
     else if (!o.sampleAlone)
         checkOutputOptions(c, o.output, o.picture);
+    o.picture.keepsNoisy = !o.share.share && !o.sampleAlone && !isToneMapped(o.output.file);
     remarkOnWhatIsIgnored(c, o);
 }
 

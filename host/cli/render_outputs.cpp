@@ -42,19 +42,46 @@ std::string inWords(const PictureNoise& noise) {
 
 namespace {
 
+/// With a denoiser the limit is one of its picture's error.
 void logNoise(const RenderResult& r, const StopRule& stop) {
+    const PictureNoise& limited = r.denoised ? r.denoised->noise : r.noise;
     const std::string reached = inWords(r.noise);
+    const char* const atMost = r.denoised ? "of the denoised picture at most" : "at most";
     if (stop.noise == 0)
         logging::info(reached);
-    else if (r.noise.known() && r.noise.most <= stop.noise)
-        logging::info(fmt::format("{}; at most {} % was asked for", reached, percent(stop.noise)));
+    else if (limited.known() && limited.most <= stop.noise)
+        logging::info(
+            fmt::format("{}; {} {} % was asked for", reached, atMost, percent(stop.noise)));
     else
-        logging::warn(fmt::format("{}; at most {} % was asked for, but {} ended the render",
-                                  reached, percent(stop.noise),
+        logging::warn(fmt::format("{}; {} {} % was asked for, but {} ended the render", reached,
+                                  atMost, percent(stop.noise),
                                   r.cancelled ? "the interruption" : "--time or -s"));
 }
 
 } // namespace
+
+void logDenoised(const denoise::Summary& s) {
+    if (!s.hasLayers)
+        logging::warn(
+            "albedo, normals or depth are not known: edges without noise of their own are "
+            "blurred more (render --layers albedo,normal,depth)");
+    if (s.noise.known())
+        logging::info(fmt::format("denoised: error about {} % (95 % range: {} to {} %); the noisy "
+                                  "picture has a share of {} %",
+                                  percent(s.noise.estimate), percent(s.noise.least),
+                                  percent(s.noise.most), percent(s.noisyShare)));
+    else
+        logging::info("denoised: its error is not known");
+    if (s.limitedPixels > 0)
+        logging::info(
+            fmt::format("{} pixels rested on single samples, whose light was spread: {} % "
+                        "of all light was moved",
+                        s.limitedPixels, percent(s.movedLight)));
+    if (s.unknownPixels > 0)
+        logging::warn(fmt::format("{} pixels were no numbers or had no samples, and show what is "
+                                  "around them",
+                                  s.unknownPixels));
+}
 
 void logReport(const RenderReport& report, const RenderSettings& settings) {
     const RenderResult& r = report.render;
@@ -80,6 +107,7 @@ void logReport(const RenderReport& report, const RenderSettings& settings) {
                                   r.cancelled ? "interrupted" : "--time is too short for more"));
     if (settings.estimator.integrator == Integrator::Path && !report.isShare)
         logNoise(r, settings.budget.stop);
+    if (r.denoised) logDenoised(*r.denoised);
     if (!r.firstRejected) return;
     logging::warn(fmt::format(
         "{} samples were not finite, negative or too large and were left out; to see the "
@@ -158,6 +186,16 @@ void writeStatistics(const std::string& file, const RenderReport& report, const 
         {"noise", r.noise.known() ? Json(r.noise.estimate) : Json()},
         {"noiseRange", r.noise.known() ? Json(std::array{r.noise.least, r.noise.most}) : Json()},
     };
+    if (r.denoised) {
+        const denoise::Summary& d = *r.denoised;
+        json["denoised"] = {{"noise", d.noise.known() ? Json(d.noise.estimate) : Json()},
+                            {"noiseRange", d.noise.known()
+                                               ? Json(std::array{d.noise.least, d.noise.most})
+                                               : Json()},
+                            {"noisyShare", d.noisyShare},
+                            {"limitedPixels", d.limitedPixels},
+                            {"movedLight", d.movedLight}};
+    }
     if (report.isShare)
         json["seconds"]["write"] = report.writeSeconds; // of pictures it is still to come
     writeOutput(file, json.dump(4) + "\n");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/cli/options.hpp"
+#include "host/denoise/denoiser.hpp"
 #include "host/engine/render_result.hpp"
 #include "host/engine/render_session.hpp"
 #include "host/film/image_file.hpp"
@@ -27,6 +28,8 @@ struct RenderReport {
 std::string inWords(const PictureNoise& noise);
 /// A share in percent, with two digits that say something: 0.0234 is 2.3.
 std::string percent(double share);
+/// Logs the error of a denoised picture and what was done to it.
+void logDenoised(const denoise::Summary& summary);
 /// Logs time, paths, rays, Mrays/s, samples, noise, and the first rejected sample if there is one.
 void logReport(const RenderReport& report, const RenderSettings& settings);
 /// Says so if hardly anything can be seen in the picture, and what would help.

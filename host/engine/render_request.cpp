@@ -156,6 +156,8 @@ std::vector<std::string> RenderRequest::channels() const {
     for (const Layer layer : layers)
         for (std::string& name : channelsOf(layer))
             names.push_back(std::move(name));
+    if (denoiser != Denoiser::Off && keepsNoisy)
+        names.insert(names.end(), denoise::channelNames().begin(), denoise::channelNames().end());
     return names;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/core/text.hpp"
+#include "host/denoise/denoiser.hpp"
 #include "host/engine/load_scene.hpp"
 #include "host/kernel/kernel_tuning.hpp"
 #include "host/render/layers.hpp"
@@ -56,6 +57,9 @@ struct RenderRequest {
     PathBudget budget;
     bool transparent = false; ///< alpha in place of the environment
     std::vector<Layer> layers;
+    Denoiser denoiser = Denoiser::Off;
+    /// Of a denoised picture: the noisy one and the predicted error are channels too.
+    bool keepsNoisy = false;
 
     /// Names of the channels beside the radiance.
     std::vector<std::string> channels() const;

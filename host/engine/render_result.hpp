@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/denoise/denoiser.hpp"
 #include "host/engine/render_request.hpp"
 #include "host/film/film.hpp"
 #include "host/film/image_file.hpp"
@@ -32,7 +33,8 @@ struct RenderResult {
     uint64_t samplesTaken = 0, samplesAtMost = 0, samplesRejected = 0; ///< in paths
     /// The first sample that was rejected: its pixel, and its number there.
     std::optional<SampleName> firstRejected;
-    PictureNoise noise;
+    PictureNoise noise; ///< of the samples' means, whether these are denoised or not
+    std::optional<denoise::Summary> denoised;
     uint64_t pixelsUnreached = 0;    ///< without samples
     size_t bands = 1;                ///< it was rendered in, one after the other
     bool cancelled = false;          ///< before it was finished

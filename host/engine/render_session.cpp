@@ -2,6 +2,7 @@
 
 #include "host/checkpoint/checkpoint_file.hpp"
 #include "host/core/error.hpp"
+#include "host/denoise/denoiser.hpp"
 #include "host/film/shown_film.hpp"
 #include "host/render/block_backend.hpp"
 #include "host/render/sampling_plan.hpp"
@@ -142,6 +143,7 @@ void RenderSession::begin(std::shared_ptr<const Scene> scene, const RenderReques
     scene_ = std::move(scene);
     keeping_ = keeping;
     request_ = toGoOn(request, keeping);
+    denoise::requireUsable(request_.denoiser);
     picture_ = resolvePicture(*scene_, request_, listener_);
     cancelAsked_ = false;
     bandIsOver_ = false;
@@ -149,6 +151,8 @@ void RenderSession::begin(std::shared_ptr<const Scene> scene, const RenderReques
     secondsBefore_ = 0;
     pixelsDone_ = 0;
     noises_.clear();
+    guide_.reset();
+    denoised_.reset();
     result_ = {};
     result_.samplesAtMost = mostPathsOf(picture_.settings);
     over_ = false;
@@ -189,6 +193,9 @@ void RenderSession::prepare() {
     bands_ = bandsToRender(picture_.settings.area, renderer_.mostPixels(), keeping_, listener_);
     result_.bands = bands_.size();
     band_ = 0;
+    if (denoises() && bands_.size() > 1)
+        throw UsageError("--denoise looks at the picture as a whole, and its film does not fit the "
+                         "memory here: give it more --film-memory");
 }
 
 /// The time that is left is shared by rows with the bands to come.
@@ -261,6 +268,7 @@ bool RenderSession::takePass(const SessionEvents& events) {
     if (bands_.empty()) prepare();
     if (!sampling_) beginBand();
     Next next = Next::GoOn;
+    if (isDenoisedEnough()) sampling_->finish();
     const bool hasMore = sampling_->pass([&](const RenderProgress& state) {
         if (next != Next::Cancel) next = tell(events, state);
         return next == Next::GoOn;
@@ -282,7 +290,9 @@ void RenderSession::endBand(const SessionEvents& events) {
     const uint64_t unreachedBefore = result_.pixelsUnreached;
     count(sampling_->film(), sampling_->render().settings, result_);
     noises_.push_back({kept.outcome.noise, bands_[band_].pixelCount()});
-    if (events.bandDone) {
+    if (denoises()) {
+        endDenoised(events);
+    } else if (events.bandDone) {
         const FloatImage seen = beside(sampling_->film());
         if (result_.pixelsUnreached == unreachedBefore)
             events.bandDone({sampling_->film(), kept.outcome.noise, seen});
@@ -334,14 +344,59 @@ Film RenderSession::shownFilm() const {
     return shown;
 }
 
-/// A device that is lost sees nothing.
 FloatImage RenderSession::beside(const Film& film) {
-    if (request_.channels().empty()) return {};
+    return see(film, request_);
+}
+
+/// A device that is lost sees nothing.
+FloatImage RenderSession::see(const Film& film, const RenderRequest& request) {
+    if (request.channels().empty()) return {};
     listener_.doing(Stage::Looking, "tracing alpha and layers");
     FloatImage seen = seenChannels(result_.lost ? nullptr : renderer_.viewer(), film, *scene_,
-                                   picture_.camera, request_);
+                                   picture_.camera, request);
     listener_.doing(Stage::Sampling, "taking samples");
     return seen;
+}
+
+/// The denoiser looks at layers, whether the request asks for them or not; they do not depend on
+/// the samples.
+const RenderSession::Denoised& RenderSession::denoisedNow() {
+    const uint64_t samples = sampling_->samplesDone();
+    if (denoised_ && denoised_->samples == samples) return *denoised_;
+    if (!guide_) {
+        RenderRequest looks = request_;
+        looks.transparent = false;
+        looks.denoiser = Denoiser::Off;
+        looks.layers = {Layer::Albedo, Layer::Normal, Layer::Depth};
+        guide_ = see(film(), looks);
+    }
+    listener_.doing(Stage::Looking, "denoising");
+    Denoised d{samples, denoise::noisyPictureOf(film(), sampling_->squaredErrors(), *guide_), {}};
+    d.picture = denoise::denoisePicture(d.noisy, request_.denoiser, renderer_.device());
+    listener_.doing(Stage::Sampling, "taking samples");
+    return denoised_.emplace(std::move(d));
+}
+
+/// Asked between passes alone, and before one begins, so that a render that was stopped there ends
+/// with the bytes of one that was not.
+bool RenderSession::isDenoisedEnough() {
+    const double asked = picture_.settings.budget.stop.noise;
+    if (asked == 0 || !denoises() || !sampling_->isBetweenPasses() || sampling_->samplesDone() == 0)
+        return false;
+    const PictureNoise& noise = denoisedNow().picture.summary.noise;
+    return noise.known() && noise.most <= asked;
+}
+
+void RenderSession::endDenoised(const SessionEvents& events) {
+    const Denoised& d = denoisedNow();
+    result_.denoised = d.picture.summary;
+    if (!events.bandDone) return;
+    Film shown = film();
+    for (size_t i = 0; i < shown.pixels.size(); ++i)
+        shown.pixels[i].mean = d.picture.mean[i];
+    FloatImage seen = beside(film());
+    if (request_.keepsNoisy) denoise::addChannels(seen, d.noisy, d.picture);
+    events.bandDone({shown, d.picture.summary.noise, seen});
 }
 
 FloatImage RenderSession::pixels(bool statistics) {

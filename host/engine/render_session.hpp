@@ -1,6 +1,7 @@
 #pragma once
 
 #include "host/checkpoint/kept_render.hpp"
+#include "host/denoise/denoiser.hpp"
 #include "host/engine/load_scene.hpp"
 #include "host/engine/render_request.hpp"
 #include "host/engine/render_result.hpp"
@@ -67,7 +68,8 @@ enum class Next {
 
 /// A band of the picture, all of it in most cases, whose samples are taken.
 struct FinishedBand {
-    const Film& film; ///< pixels without samples show a neighbour that has some
+    /// Pixels without samples show a neighbour that has some; denoised if the request asks for it.
+    const Film& film;
     const PictureNoise& noise;
     const FloatImage& beside; ///< the channels that the request asks for beside the radiance
 };
@@ -160,7 +162,18 @@ class RenderSession {
     std::shared_ptr<Backend> makeBackend(const RenderSettings& settings, bool again);
     RenderSettings settingsOfBand() const;
     Next tell(const SessionEvents& events, RenderProgress state);
+    /// The picture so far without its noise.
+    struct Denoised {
+        uint64_t samples = 0; ///< that the picture had
+        denoise::NoisyPicture noisy;
+        denoise::DenoisedPicture picture;
+    };
     FloatImage beside(const Film& film);
+    FloatImage see(const Film& film, const RenderRequest& request);
+    bool denoises() const { return request_.denoiser != Denoiser::Off && !result_.lost; }
+    const Denoised& denoisedNow();
+    bool isDenoisedEnough();
+    void endDenoised(const SessionEvents& events);
     Film shownFilm() const;
 
     Listener listener_;
@@ -181,6 +194,8 @@ class RenderSession {
     double secondsBefore_ = 0; ///< of the bands that were done in earlier runs
     uint64_t pixelsDone_ = 0;  ///< of the bands before
     std::vector<PartNoise> noises_;
+    std::optional<FloatImage> guide_; ///< layers that the denoiser looks at
+    std::optional<Denoised> denoised_;
     RenderResult result_;
 };
 

@@ -182,6 +182,10 @@ Viewer* RenderDevices::viewer() {
     return present.empty() ? nullptr : seats_[present.front()].backend.get();
 }
 
+const vulkan::Device* RenderDevices::first() const {
+    return seats_.empty() ? nullptr : seats_.front().open.device.get();
+}
+
 void RenderDevices::requireNoValidationMessages() const {
     for (const Seat& seat : seats_)
         vulkan::requireNoValidationMessages(seat.open);

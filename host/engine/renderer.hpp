@@ -47,6 +47,8 @@ class RenderDevices {
     std::shared_ptr<Backend> backendFor(const Camera& camera, const RenderSettings& settings);
     /// What sees surfaces of the picture: the first device that is left, or nothing.
     Viewer* viewer();
+    /// The first of those that are left, or nothing.
+    const vulkan::Device* first() const;
 
     /// Throws DeviceError if the validation layer had anything to say.
     void requireNoValidationMessages() const;
@@ -96,6 +98,8 @@ class Renderer {
     /// What sees surfaces of the part that the last backend is for; nothing where all devices are
     /// lost.
     Viewer* viewer();
+    /// A device for what is done to a picture afterwards; nothing where the reference renders.
+    const vulkan::Device* device() const { return devices_ ? devices_->first() : nullptr; }
 
     /// Pixels that a part of the picture may have.
     uint64_t mostPixels() const;

@@ -243,14 +243,6 @@ class Picture {
     std::vector<glm::vec3> weights_;
 };
 
-/// A chi-square variable's quantile at the normal quantile z, for 3 degrees of freedom or more
-/// (Wilson and Hilferty 1931); the lower one is too low, by 16 % at 3 and less from there on.
-double chiSquareQuantile(double degrees, double z) {
-    const double spread = 2 / (9 * degrees);
-    const double root = 1 - spread + z * std::sqrt(spread);
-    return degrees * root * root * root;
-}
-
 constexpr double kZ = 1.96; ///< 97.5 % of the normal distribution
 /// The fewest pixels at work for which a chi-square distribution stands for anything.
 constexpr double kLeastPixels = 3;
@@ -268,6 +260,12 @@ double tooSmall(double samplesPerPixel) {
 constexpr double kTooLarge = 4;
 
 } // namespace
+
+double chiSquareQuantile(double degrees, double z) {
+    const double spread = 2 / (9 * degrees);
+    const double root = 1 - spread + z * std::sqrt(spread);
+    return degrees * root * root * root;
+}
 
 PictureNoise pictureNoise(const Film& film, std::span<const glm::dvec3> squaredErrors) {
     using Unknown = PictureNoise::Unknown;

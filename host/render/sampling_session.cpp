@@ -295,11 +295,21 @@ uint64_t SamplingSession::expectedSamples() const {
     return expected < double(atMost) ? uint64_t(expected) + 1 : atMost;
 }
 
+NoiseEstimate SamplingSession::estimateNow() const {
+    NoiseEstimate now = estimate_;
+    if (!pending_.empty()) now.update(film_); // the pass that was stopped has changed some pixels
+    return now;
+}
+
 RenderOutcome SamplingSession::outcome() const {
     if (pending_.empty()) return {estimate_.picture(film_), timeIsUp()};
-    NoiseEstimate now = estimate_; // the pass that was stopped has changed some pixels
-    now.update(film_);
-    return {now.picture(film_), timeIsUp()};
+    return {estimateNow().picture(film_), timeIsUp()};
+}
+
+std::vector<glm::dvec3> SamplingSession::squaredErrors() const {
+    std::vector<glm::dvec3> errors = estimateNow().memory().squaredErrors;
+    errors.resize(film_.pixels.size(), glm::dvec3(0.0)); // none: not one pass is complete
+    return errors;
 }
 
 SessionState SamplingSession::save() const {

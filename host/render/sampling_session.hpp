@@ -74,12 +74,17 @@ class SamplingSession {
     const Film& film() const { return film_; }
     Film takeFilm() && { return std::move(film_); }
     RenderOutcome outcome() const;
+    /// Whether no sample is missing of a pass that has begun.
+    bool isBetweenPasses() const { return pending_.empty(); }
+    /// Estimates of the squared errors of the film's means, by pixel and channel (NoiseEstimate).
+    std::vector<glm::dvec3> squaredErrors() const;
     uint64_t samplesDone() const { return samplesDone_; }
 
     SessionState save() const;
 
   private:
     std::vector<PixelTarget> nextPass() const;
+    NoiseEstimate estimateNow() const;
     void sample(const ProgressCallback& progress, bool& goesOn);
     void countSamples();
     bool isComplete(const std::vector<PixelTarget>& pass) const;

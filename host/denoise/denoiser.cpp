@@ -1,0 +1,135 @@
+#include "host/denoise/denoiser.hpp"
+
+#include "host/core/error.hpp"
+#include "host/denoise/device_filter.hpp"
+#include "host/denoise/half_blend.hpp"
+#include "host/denoise/oidn.hpp"
+#include "host/denoise/prepare.hpp"
+#include "host/denoise/reference_filter.hpp"
+#include "host/denoise/stated_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stromboli::denoise {
+namespace {
+
+/// The filter's results, wherever it runs.
+std::vector<ReferenceResult> filter(const Prepared& picture, const vulkan::Device* device) {
+    if (!device) return filterOnHost(picture);
+    std::vector<ReferenceResult> results;
+    results.reserve(picture.pixels.size());
+    for (const gpu::DenoiseResult& r : DeviceFilter(*device).run(picture))
+        results.push_back({r.mean, r.shares, glm::dvec2(r.ownNoise, r.ownChange),
+                           glm::dvec2(r.windowNoise, r.windowChange), r.ownVariance});
+    return results;
+}
+
+/// The noise that is left in a pixel by what its neighbours say, too: one pixel's is as rough as a
+/// square of one number.
+double noiseLeftAround(const std::vector<ReferenceResult>& filtered, uint32_t width,
+                       uint32_t height, size_t pixel) {
+    constexpr int kAround = 2;
+    const int x = int(pixel % width), y = int(pixel / width);
+    double sum = 0, pixels = 0;
+    for (int v = std::max(y - kAround, 0); v <= std::min(y + kAround, int(height) - 1); ++v)
+        for (int u = std::max(x - kAround, 0); u <= std::min(x + kAround, int(width) - 1); ++u)
+            sum += filtered[size_t(v) * width + size_t(u)].ownVariance, ++pixels;
+    return sum / pixels;
+}
+
+/// Standard errors that a pixel may change by.
+constexpr double kMostErrors = 4;
+
+/// How much of its change a pixel makes: no more than its own samples can be wrong by. Where they
+/// agree that it is dark, the noise of its neighbours says nothing of it.
+double shareOfChange(const NoisyPicture& picture, const Prepared& prepared, size_t pixel,
+                     const glm::dvec3& change) {
+    const gpu::DenoisePixel& p = prepared.pixels[pixel];
+    if (p.weight == 0) return 1;
+    const glm::dvec3 deviation(p.deviation), albedo(prepared.albedo[pixel]);
+    glm::dvec3 variance = deviation * deviation;
+    if (!picture.variance.empty())
+        variance = glm::max(variance, glm::dvec3(picture.variance[pixel]) / (albedo * albedo));
+    const double allowed = kMostErrors * sumOf(glm::sqrt(variance) * albedo);
+    const double wanted = sumOf(glm::abs(change) * albedo);
+    return wanted > allowed ? allowed / wanted : 1;
+}
+
+DenoisedPicture denoiseByFilter(const NoisyPicture& picture, const vulkan::Device* device) {
+    Prepared prepared = prepare(picture);
+    limitOutliers(prepared);
+    const std::vector<ReferenceResult> filtered = filter(prepared, device);
+    DenoisedPicture result{picture.width, picture.height};
+    std::vector<PixelError> errors;
+    errors.reserve(filtered.size());
+    double noisyShares = 0;
+    for (size_t i = 0; i < filtered.size(); ++i) {
+        const ReferenceResult& f = filtered[i];
+        const glm::dvec2 parts(picture.errorShare.empty() ? 1.0f : picture.errorShare[i], 1);
+        const gpu::DenoisePixel& own = prepared.pixels[i];
+        const glm::dvec3 albedo(prepared.albedo[i]), change = f.mean - glm::dvec3(own.mean);
+        const double share = shareOfChange(picture, prepared, i, change);
+        const glm::dvec3 mean = (glm::dvec3(own.mean) + share * change) * albedo;
+        const glm::dvec3 compared = mean * mean + prepared.floor * prepared.floor;
+        const double left = parts.x * noiseLeftAround(filtered, picture.width, picture.height, i);
+        const double expected = std::max(glm::dot(parts, f.window), left);
+        result.mean.emplace_back(mean);
+        result.error.emplace_back(glm::sqrt(expected * compared));
+        // With a part of the change its square is that of the part, and what it takes of the error
+        // is the part of what it took.
+        const glm::dvec3 deviation = glm::dvec3(own.deviation) * albedo;
+        const double before = own.weight * sumOf(deviation * deviation / compared) / 3;
+        const glm::dvec2 error =
+            share < 1 ? glm::dvec2(before + share * (f.own.x - before), share * share * f.own.y)
+                      : f.own;
+        errors.push_back({glm::dot(parts, error), parts.x * f.ownVariance});
+        noisyShares += 1 - f.shares.x - f.shares.y - f.shares.z;
+    }
+    Summary& s = result.summary;
+    s.noise = statedError(picture.width, picture.height, errors);
+    s.noisyShare = filtered.empty() ? 0 : noisyShares / double(filtered.size());
+    s.movedLight = prepared.movedLight;
+    s.limitedPixels = prepared.limitedPixels;
+    s.unknownPixels = picture.unknownPixels;
+    s.hasLayers = !picture.albedo.empty() && !picture.normal.empty() && !picture.depth.empty();
+    return result;
+}
+
+DenoisedPicture denoiseByOidn(const NoisyPicture& picture) {
+    const OidnHalves halves = runOidn(picture);
+    DenoisedPicture result = blendHalves(picture, halves.first, halves.second);
+    result.summary.hasLayers = !picture.albedo.empty() && !picture.normal.empty();
+    return result;
+}
+
+} // namespace
+
+void requireUsable(Denoiser which) {
+    if (which == Denoiser::Oidn && !oidnMissing().empty()) throw UsageError(oidnMissing());
+}
+
+DenoisedPicture denoisePicture(const NoisyPicture& picture, Denoiser which,
+                               const vulkan::Device* device) {
+    return which == Denoiser::Oidn ? denoiseByOidn(picture) : denoiseByFilter(picture, device);
+}
+
+const std::vector<std::string>& channelNames() {
+    static const std::vector<std::string> names = {"error.R", "error.G", "error.B",
+                                                   "noisy.R", "noisy.G", "noisy.B"};
+    return names;
+}
+
+void addChannels(FloatImage& image, const NoisyPicture& noisy, const DenoisedPicture& denoised) {
+    const std::vector<std::string>& names = channelNames();
+    for (size_t c = 0; c < 3; ++c) {
+        std::vector<float>& error = image.channel(names[c]);
+        std::vector<float>& before = image.channel(names[c + 3]);
+        for (size_t i = 0; i < denoised.mean.size(); ++i) {
+            error[i] = denoised.error[i][int(c)];
+            before[i] = noisy.mean[i][int(c)];
+        }
+    }
+}
+
+} // namespace stromboli::denoise

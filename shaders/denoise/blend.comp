@@ -1,0 +1,95 @@
+#version 460
+// Blends the noisy picture and the candidates so that the error which the window's moments predict is least.
+#extension GL_GOOGLE_include_directive : require
+
+#include "shared/denoise_types.h"
+#include "denoise/rows.glsl"
+ROWS_TO_READ(DENOISE_BINDING_PIXELS, pixelRows)
+ROWS_TO_READ(DENOISE_BINDING_CANDIDATES, candidateRows)
+ROWS_TO_READ(DENOISE_BINDING_MOMENTS, momentRows)
+ROWS_TO_READ(DENOISE_BINDING_SUMS, sumRows)
+ROWS_TO_WRITE(DENOISE_BINDING_RESULTS, resultRows)
+#include "denoise/features.glsl"
+
+DenoiseMoments momentsOf(vec4 r0, vec4 r1, vec4 r2) {
+    return DenoiseMoments(r0.x, r0.y, r0.z, r0.w, r1.x, r1.y, r1.z, r1.w, r2.x, r2.y, r2.z, r2.w);
+}
+
+/// All pixels of the window but the one in its middle, whose own error has no say in its shares: so what its moments say
+/// of the error with these is right on the mean.
+DenoiseMoments windowAround(Place place) {
+    vec4 s0 = vec4(0.0), s1 = vec4(0.0), s2 = vec4(0.0);
+    for (int d = -DENOISE_WINDOW_REACH; d <= DENOISE_WINDOW_REACH; ++d) {
+        const bool rowIsThere = d != 0 && isInPicture(place.x, place.y + d);
+        const uint row = 3u * (rowIsThere ? indexBeside(place, 0, d) : place.index);
+        const float rows = rowIsThere ? 1.0 : 0.0;
+        s0 += rows * ROW(sumRows, row);
+        s1 += rows * ROW(sumRows, row + 1u);
+        s2 += rows * ROW(sumRows, row + 2u);
+        const bool besideIsThere = d != 0 && isInPicture(place.x + d, place.y);
+        const uint beside = 3u * (besideIsThere ? indexBeside(place, d, 0) : place.index);
+        const float times = besideIsThere ? 1.0 : 0.0;
+        s0 += times * ROW(momentRows, beside);
+        s1 += times * ROW(momentRows, beside + 1u);
+        s2 += times * ROW(momentRows, beside + 2u);
+    }
+    return momentsOf(s0, s1, s2);
+}
+
+/// The share of a candidate that makes the error least while the others stay: `taken` is what is left for it to take,
+/// `room` what the others leave of 1.
+float shareOf(float taken, float product, float room) {
+    const float best = taken / ((1.0 + DENOISE_RIDGE) * product + 1e-30); // no 0 / 0 where nothing would change
+    return clamp(best, 0.0, max(room, 0.0));
+}
+
+/// Shares from 0 to 1, together at most 1, by coordinate descent: what they minimise is convex.
+vec3 sharesOf(DenoiseMoments m) {
+    vec3 s = vec3(0.0);
+    for (int sweep = 0; sweep < DENOISE_SWEEPS; ++sweep) {
+        s.x = shareOf(m.taken0 - m.product01 * s.y - m.product02 * s.z, m.product00, 1.0 - s.y - s.z);
+        s.y = shareOf(m.taken1 - m.product01 * s.x - m.product12 * s.z, m.product11, 1.0 - s.x - s.z);
+        s.z = shareOf(m.taken2 - m.product02 * s.x - m.product12 * s.y, m.product22, 1.0 - s.x - s.y);
+    }
+    return s;
+}
+
+/// The two parts of the squared error that is left with these shares.
+vec2 errorWith(DenoiseMoments m, vec3 s) {
+    const float noise = m.error - 2.0 * (m.taken0 * s.x + m.taken1 * s.y + m.taken2 * s.z);
+    const float change = m.product00 * s.x * s.x + m.product11 * s.y * s.y + m.product22 * s.z * s.z +
+                         2.0 * (m.product01 * s.x * s.y + m.product02 * s.x * s.z + m.product12 * s.y * s.z);
+    return vec2(noise, change);
+}
+
+DenoiseCandidate fetchCandidate(uint place, uint number) {
+    const uint row = 6u * place + 2u * number;
+    return DenoiseCandidate(ROW(candidateRows, row).xyz, 0.0, ROW(candidateRows, row + 1u).xyz, 0.0);
+}
+
+void main() {
+    const Place place = placeOfInvocation();
+    if (place.isNeeded) {
+        const DenoisePixel own = fetchPixel(place.index);
+        const DenoiseCandidate c0 = fetchCandidate(place.index, 0u), c1 = fetchCandidate(place.index, 1u),
+                               c2 = fetchCandidate(place.index, 2u);
+        const DenoiseMoments window = windowAround(place);
+        const vec3 shares = sharesOf(window);
+        // What is not known has no share in the picture: the widest candidate takes its place.
+        const vec3 seen = own.weight > 0.0 ? shares : vec3(shares.xy, 1.0 - shares.x - shares.y);
+        const vec3 mean = own.mean + seen.x * c0.change + seen.y * c1.change + seen.z * c2.change;
+
+        const uint row = 3u * place.index;
+        const DenoiseMoments alone =
+            momentsOf(ROW(momentRows, row), ROW(momentRows, row + 1u), ROW(momentRows, row + 2u));
+        // Half of what the blends of the two halves differ by: the noise that is left.
+        const float rest = 1.0 - shares.x - shares.y - shares.z;
+        const vec3 left = rest * own.deviation + shares.x * c0.deviation + shares.y * c1.deviation + shares.z * c2.deviation;
+        const float variance = dot(countOf(own, own.mean + c2.change), left * left) / 3.0;
+        const vec2 ofWindow = errorWith(window, shares) / max(window.pixels, 1.0) * alone.noise / 3.0;
+        const vec2 ofPixel = errorWith(alone, shares) * alone.noise / 3.0;
+        WRITE_ROW(resultRows, 3u * place.index, vec4(mean, ofPixel.x));
+        WRITE_ROW(resultRows, 3u * place.index + 1u, vec4(shares, ofPixel.y));
+        WRITE_ROW(resultRows, 3u * place.index + 2u, vec4(ofWindow, own.weight * variance, 0.0));
+    }
+}

@@ -1,0 +1,102 @@
+// What is predicted of the error, against the error. Seeds are fixed.
+#include "host/denoise/denoiser.hpp"
+#include "host/denoise/stated_error.hpp"
+#include "tests/denoise/pictures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace stromboli {
+namespace {
+
+using namespace test;
+using denoise::DenoisedPicture;
+
+constexpr uint32_t kWidth = 128, kHeight = 96;
+
+TruthOf roomWith(float sigma) {
+    return [sigma](uint32_t x, uint32_t y) { return room(x, y, sigma); };
+}
+
+DenoisedPicture denoised(const TruthOf& truth, uint32_t seed) {
+    return denoise::denoisePicture(noisyPicture(kWidth, kHeight, truth, seed), Denoiser::On,
+                                   nullptr);
+}
+
+/// Of the picture as a whole, on the mean over renders. It is rather too large than too small: the
+/// error of a tile is taken to be at least the noise that is left in it.
+TEST(PredictedError, IsThatOfThePictureWithinAFifth) {
+    for (const float sigma : {0.5f, 0.2f, 0.05f}) {
+        double predicted = 0, measured = 0;
+        for (uint32_t seed = 1; seed <= 4; ++seed) {
+            const DenoisedPicture d = denoised(roomWith(sigma), seed);
+            ASSERT_TRUE(d.summary.noise.known());
+            predicted += d.summary.noise.estimate * d.summary.noise.estimate;
+            measured += relMse(d.mean, kWidth, roomWith(sigma));
+        }
+        EXPECT_NEAR(std::sqrt(predicted / measured), 1, 0.2) << sigma;
+    }
+}
+
+/// By pixel, in four kinds of places: where there are few neighbours of the same surface, where a
+/// shadow begins that no layer knows of, and where all is smooth.
+TEST(PredictedError, IsThatOfEachPartOfThePicture) {
+    constexpr uint32_t kPart = 32;
+    std::array<double, (kWidth / kPart) * (kHeight / kPart)> predicted{}, measured{};
+    constexpr uint32_t kSeeds = 8;
+    const TruthOf truth = roomWith(0.2f);
+    for (uint32_t seed = 1; seed <= kSeeds; ++seed) {
+        const DenoisedPicture d = denoised(truth, seed);
+        for (uint32_t i = 0; i < d.mean.size(); ++i) {
+            const uint32_t x = i % kWidth, y = i / kWidth;
+            const size_t part = y / kPart * (kWidth / kPart) + x / kPart;
+            const double error = double(d.mean[i].y) - truth(x, y).radiance.y;
+            predicted[part] += double(d.error[i].y) * d.error[i].y;
+            measured[part] += error * error;
+        }
+    }
+    for (size_t part = 0; part < predicted.size(); ++part) {
+        const double ratio = std::sqrt(predicted[part] / measured[part]);
+        EXPECT_GT(ratio, 0.7) << "part " << part;
+        // Where nearly all noise is taken out a window of 120 pixels cannot tell how much is left.
+        EXPECT_LT(ratio, 2) << "part " << part;
+    }
+}
+
+/// A range that holds in 95 of 100 renders holds in at least 34 of 40, but in one case of a hundred
+/// (binomial distribution).
+TEST(PredictedError, TheRangeHolds) {
+    int held = 0;
+    constexpr int kRenders = 40;
+    for (int seed = 1; seed <= kRenders; ++seed) {
+        const float sigma = seed % 2 == 0 ? 0.3f : 0.06f;
+        const DenoisedPicture d = denoised(roomWith(sigma), uint32_t(seed));
+        const double truth = std::sqrt(relMse(d.mean, kWidth, roomWith(sigma)));
+        held += d.summary.noise.known() && truth >= d.summary.noise.least &&
+                truth <= d.summary.noise.most;
+    }
+    EXPECT_GE(held, 34);
+}
+
+TEST(PredictedError, AFewPixelsThatMakeAllOfItSayNothing) {
+    std::vector<denoise::PixelError> errors(64 * 64);
+    errors[70].error = 1;
+    EXPECT_FALSE(denoise::statedError(64, 64, errors).known());
+}
+
+TEST(PredictedError, TheRangeIsWiderWhereFewTilesMakeTheError) {
+    const auto spreadOf = [](const std::vector<denoise::PixelError>& errors) {
+        const PictureNoise noise = denoise::statedError(256, 256, errors);
+        EXPECT_TRUE(noise.known());
+        return noise.most / noise.least;
+    };
+    std::vector<denoise::PixelError> even(256 * 256, {1, 0}), uneven(256 * 256);
+    for (size_t tile = 0; tile < 8; ++tile)
+        uneven[tile * 32].error = 1;
+    EXPECT_GT(spreadOf(uneven), 1.5 * spreadOf(even));
+}
+
+} // namespace
+} // namespace stromboli
