@@ -33,7 +33,7 @@ layout(push_constant) uniform DispatchConstants { SeeDispatch dispatch; };
 #include "closures/bsdf.glsl"
 #include "include/material_detail.glsl"
 #include "include/relief.glsl"
-#include "include/pass_number.glsl"
+#include "include/mixture.glsl"
 #include "include/camera_sample.glsl"
 #include "closures/seen_surface.glsl"
 
@@ -169,7 +169,8 @@ void takeResult(const Frame frame, inout Look look) {
     if (HAS_ALPHA && hit) {
         const MaterialPoint point = materialPoint(look.ray.hitPrimitive, vec2(look.ray.b1, look.ray.b2));
         const float opacity = lookUpMaterial(point).opacity;
-        passes = passNumber(frame.seed, look.ray, look.seen.pixel, sampleIndex(frame, look), look.bounce, 0u) >=
+        const uvec4 words = hitWords(frame.seed, look.ray, look.seen.pixel, sampleIndex(frame, look), look.bounce);
+        passes = hitNumber(words, 0u) >=
                  (look.bounce == 0u ? opacityForCamera(point, opacity) : opacity);
     }
     if (passes) {

@@ -65,8 +65,8 @@ uint32_t misLobes(const GpuScene& scene, const Estimator& settings) {
 }
 
 bool proposesGap(const GpuScene& scene, const Estimator& settings) {
-    return settings.gapProposal && scene.gapWidth != 0 && samplesLights(settings.directLight) &&
-           settings.integrator == Integrator::Path && settings.maxBounces > 1;
+    return settings.gapProposal && scene.gapWidth != 0 && scene.mostOthers == 0 &&
+           samplesLights(settings.directLight) && settings.integrator == Integrator::Path && settings.maxBounces > 1;
 }
 
 /// The shaders have two sets of conventions, told apart by one constant (include/cs184.glsl).

@@ -1,5 +1,6 @@
 #include "host/kernel/material_rows.hpp"
 
+#include "scene/model/mixture.hpp"
 #include "shaders/shared/texture_types.h"
 
 #include <algorithm>
@@ -184,6 +185,19 @@ void appendTables(MaterialRows& packed, std::span<const Material> materials) {
     }
 }
 
+static_assert(gpu::MOST_BLENDS + 1 == kMostOfAMixture);
+static_assert(gpu::MOST_BLENDS <= gpu::BLEND_OTHERS_MASK);
+
+/// BLEND_ bits: how many materials are evaluated with any one of a mixture, and the lobes of all.
+uint32_t blendBits(std::span<const Material> materials, std::span<const uint32_t> mixture) {
+    if (!areEvaluatedTogether(materials, mixture)) return 0;
+    uint32_t lobes = 0;
+    for (const uint32_t i : mixture)
+        lobes |= closureBits(materials[i]) & gpu::LOBE_MASK;
+    return uint32_t(mixture.size() - 1) << gpu::BLEND_OTHERS_SHIFT |
+           lobes << gpu::BLEND_LOBES_SHIFT;
+}
+
 /// A blend is the last row of a material's details, and names another material by its number.
 void nameOthers(MaterialRows& packed, std::span<const Material> materials,
                 std::span<const std::vector<Row>> details) {
@@ -191,7 +205,15 @@ void nameOthers(MaterialRows& packed, std::span<const Material> materials,
         const auto detail = std::bit_cast<gpu::MaterialDetail>(details[i].front());
         if ((detail.flags & gpu::DETAIL_IS_BLEND) == 0) continue;
         const size_t row = packed.firstRow[i] + gpu::MATERIAL_DETAIL_ROW + details[i].size() - 1;
-        packed.rows[row][0] = packed.firstRow.at(materials[i].other);
+        auto blend = std::bit_cast<gpu::BlendRow>(packed.rows[row]);
+        const std::vector<uint32_t> mixture = materialsOfMixture(materials, uint32_t(i));
+        const uint32_t bits = blendBits(materials, mixture);
+        blend.other = packed.firstRow.at(materials[i].other);
+        blend.place = uint32_t(materials[i].otherPlace) | bits;
+        packed.rows[row] = std::bit_cast<Row>(blend);
+        packed.mostBlends = std::max(packed.mostBlends, uint32_t(mixture.size() - 1));
+        packed.mostOthers =
+            std::max(packed.mostOthers, bits >> gpu::BLEND_OTHERS_SHIFT & gpu::BLEND_OTHERS_MASK);
     }
 }
 

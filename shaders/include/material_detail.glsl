@@ -282,29 +282,3 @@ bool emissionHasFactors() { return sceneHasSlot(TEXTURE_EMISSION) || HAS_ALPHA; 
 float opacityForCamera(MaterialPoint p, float opacity) {
     return HIDES_SURFACES && (fetchDetail(p.material).flags & DETAIL_IS_HIDDEN) != 0u ? 0.0 : opacity;
 }
-
-/// How often another material takes the place of the one with this first row, and the first row of that. notThere:
-/// OTHER_ of the side that the surface is not seen from.
-float blendShare(uint materialRow, PointAttributes a, uint notThere, out uint other) {
-    const MaterialDetail detail = fetchDetail(materialRow);
-    const uvec4 r = ROW(materialRows, textureUseRow(materialRow, bundles() + looseTexturesOf(detail)));
-    const bool isBlend = (detail.flags & DETAIL_IS_BLEND) != 0u;
-    const BlendRow blend = BlendRow(r.x, uintBitsToFloat(r.y), isBlend ? r.z : 0u, r.w);
-    other = blend.other;
-    float share = isBlend && blend.place != notThere ? blend.share : 0.0;
-    if (sceneHasSlot(TEXTURE_BLEND_SHARE)) {
-        const TextureUse t = fetchTextureUse(materialRow, blend.texture);
-        const float texel = lookUp(t, coordinatesOf(t, a)).r;
-        share *= blend.texture != 0u ? texel : 1.0;
-    }
-    return share;
-}
-
-/// The material of the side that a surface is seen from, for those who draw none of a mixture.
-uint materialOfSide(SurfacePoint s) {
-    const uint notThere = isSeenFromBehind(s) ? OTHER_IN_FRONT : OTHER_BEHIND;
-    const MaterialDetail detail = fetchDetail(s.material);
-    const uvec4 r = ROW(materialRows, textureUseRow(s.material, bundles() + looseTexturesOf(detail)));
-    const bool hasOther = (detail.flags & DETAIL_IS_BLEND) != 0u && r.w != OTHER_BY_SHARE && r.w != notThere;
-    return hasOther ? r.x : s.material;
-}

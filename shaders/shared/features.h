@@ -40,6 +40,9 @@
       "all materials", bits(kClosures), "no choice between materials that have these and materials that have not") \
     F(41, bool, HAS_BLENDS, false, shades && scene.hasBlends, own, \
       "mixtures of materials", flag, "the choice of one of two materials at a hit") \
+    F(51, uint, MOST_OTHERS, 0u, shades ? scene.mostOthers : 0, own, \
+      "materials evaluated beside the chosen one", count(""), \
+        "the other materials of a mixture, looked up and evaluated for each light sample and bounce") \
     F(40, bool, BLACK_BACKS, false, shades && scene.hasBlackBacks, own, \
       "black backs", flag, "materials that are black where normals do not point") \
     F(35, bool, HAS_ALPHA, false, scene.hasAlpha, own, \
@@ -79,7 +82,7 @@
     F(10, uint, DIRECT_LIGHT, DIRECT_LIGHTS, directLightConstant(settings.directLight), own, \
       "direct light", oneOf({"light sampling", "uniform hemisphere", "left to bounces (delta lights sampled)"}), \
         "how lights are found from a surface") \
-    F(8, uint, LIGHT_KINDS, 255u, lightKinds(scene, settings), (1u << gpu::LIGHT_KIND_COUNT) - 1, \
+    F(8, uint, LIGHT_KINDS, 511u, lightKinds(scene, settings), (1u << gpu::LIGHT_KIND_COUNT) - 1, \
       "lights", bits({"quad", "triangle", "sphere", "ambient", "directional", "point", "spot", "environment", \
         "projector"}), "the sampling of these kinds of lights") \
     F(20, uint, LIGHT_CHOICE, LIGHT_CHOICE_TREE, lightChoiceConstant(scene.lights), own, \
@@ -142,7 +145,7 @@
     F(1, uint, TRAVERSAL_STEPS, 8u, traversalSteps(f, tuning), own, \
       "traversal steps in a leg", count(""), "traversal steps between two service passes, or in a leg")
 
-#define SPEC_COUNT 51
+#define SPEC_COUNT 52
 
 #ifdef __cplusplus
 namespace stromboli {
