@@ -64,7 +64,7 @@ Closures closuresOf(Material m, Incidence i) {
     const bool isPrincipled = hasClosure(m, RECIPE_PRINCIPLED), isBurley = hasClosure(m, RECIPE_BURLEY);
     if (!isPrincipled && !isBurley) stateClosures(c, m, statedParameters(m), i);
     if (isPrincipled) principledClosures(c, principledParameters(m), i);
-    if (isBurley) burleyClosures(c, burleyParameters(m), i);
+    if (isBurley) burleyClosures(c, m, burleyParameters(m), i);
     return c;
 }
 

@@ -1,7 +1,7 @@
 // Surfaces as the kernel reads them: emission, and the closures that scatter light.
 //
 // A material is a run of rows in the material buffer: its MaterialHeader, then the parameters of its
-// closures. Primitives name a material by its first row. docs/architecture.md says how to add a closure.
+// closures (parameters.h). Primitives name a material by its first row. docs/architecture.md says how to add a closure.
 #ifndef STROMBOLI_SHARED_BSDF_TYPES_H
 #define STROMBOLI_SHARED_BSDF_TYPES_H
 
@@ -79,75 +79,12 @@ SHARED_CONST uint MATERIAL_RELIEF_SHADOWS = 0x08000000u;
 SHARED_CONST uint MATERIAL_RELIEF_RULES =
     MATERIAL_RELIEF_FLIPS | MATERIAL_RELIEF_BLACKENS | MATERIAL_RELIEF_SHADOWS;
 
-// --- Parameters ------------------------------------------------------------------------------
-// Three structures for the rows behind the header: stated closures, and the two recipes.
-
-/// A base, an interface, or a base under an interface. A base alone and a mirror read the first row only.
-struct StatedParameters {
-    vec3 color;   ///< albedo of the base; transmittance of a dielectric; reflectance of a conductor or a mirror
-    float alphaY; ///< of the microfacets, across the tangent; a smooth dielectric has its index here too, for scenes
-                  ///< without third rows
-    vec3 edge;    ///< what multiplies the reflection of a dielectric; real part of a conductor's index
-    float alphaX; ///< along the tangent
-    vec3 index;   ///< INDEX_ components of a dielectric; extinction coefficient of a conductor
-    uint table;   ///< base under microfacets: row of the first piece of their transmittance
-};
-SHARED_ROWS(StatedParameters, 3);
-SHARED_CONST int INDEX_RATIO = 0;       ///< index inside over index outside
-SHARED_CONST int INDEX_BACK = 1;        ///< share of diffuse light that the interface sends back to the base
-SHARED_CONST int INDEX_LEAST_ALPHA = 2; ///< either alpha of the microfacets is no less
-SHARED_CONST uint STATED_TABLE_ROW = 3u; ///< of a material, its header counted: its last word is `table`
+// --- Numbers --------------------------------------------------------------------------------
 
 /// The transmittance of an interface of microfacets from outside, seen at the cosine mu, is a cubic
 /// polynomial on each of so many equal pieces of sqrt(mu) in [0, 1]: one row each, the coefficients by
 /// rising powers of the place in the piece, [0, 1].
 SHARED_CONST uint TRANSMITTANCE_PIECES = 16u;
-
-/// Burley's principled BSDF (scene/model/material.hpp). Its numbers are where textures of the principled kind's slots
-/// multiply them.
-struct BurleyParameters {
-    vec3 baseColor;
-    float metallic;
-    float flatness;
-    float diffuseTransmission;
-    float leastAlpha;
-    float roughness;
-    float specularTint;
-    float ior; ///< index inside over index outside
-    float transmission;
-    float anisotropy;
-    vec3 sheen; ///< three times the same number
-    float sheenTint;
-    float clearcoat;
-    float clearcoatGloss;
-    float unused; ///< textures of anisotropy turn it
-    uint flags;   ///< BURLEY_
-};
-SHARED_ROWS(BurleyParameters, 5);
-SHARED_CONST uint BURLEY_IS_THIN = 1u;
-
-/// glTF 2.0's metallic-roughness model and its extensions (scene/model/material.hpp).
-struct PrincipledParameters {
-    vec3 baseColor;
-    float metallic;
-    vec3 specularColor;
-    float roughness; ///< glTF's: the GGX parameter is its square
-    float specular;
-    float ior; ///< index inside over index outside
-    float transmission;
-    float anisotropy; ///< strength
-    vec3 sheenColor;
-    float sheenRoughness;
-    float clearcoat;
-    float clearcoatRoughness;
-    float anisotropyRotation; ///< radians from the tangent towards the bitangent
-    uint flags;               ///< PRINCIPLED_
-    vec3 absorption; ///< per metre, inside the surface
-    float leastAlpha; ///< the GGX parameter is no less
-};
-SHARED_ROWS(PrincipledParameters, 6);
-SHARED_CONST uint PRINCIPLED_IS_THIN = 1u; ///< there is no volume behind the surface
-SHARED_CONST uint PRINCIPLED_ABSORPTION_ROW = 6u; ///< of a material, its header counted
 
 /// The least parameter of GGX, and of Beckmann's distribution. Roundings of two directions turn their half vector by up to 12 * 2^-24 (three
 /// in each component of either, and as many in the sum); of a lobe this wide that is 0.7 %, which is 1.5 %

@@ -11,6 +11,7 @@
 #define SHARED_BEGIN namespace stromboli::gpu {
 #define SHARED_END }
 #define SHARED_CONST inline constexpr
+#define SHARED_FUNCTION inline constexpr
 /// A structure is a whole number of 16-byte rows, the unit in which shaders fetch it.
 #define SHARED_ROWS(type, rows) static_assert(sizeof(type) == 16 * (rows), #type)
 #define SHARED_OFFSET(type, member, bytes)                                                         \
@@ -25,6 +26,7 @@ using glm::vec4;
 #define SHARED_BEGIN
 #define SHARED_END
 #define SHARED_CONST const
+#define SHARED_FUNCTION
 #define SHARED_ROWS(type, rows)
 #define SHARED_OFFSET(type, member, bytes)
 #endif

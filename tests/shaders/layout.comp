@@ -54,19 +54,14 @@ void putPlacement() {
 void putMaterial(Material m) {
     put(emissionOf(m)), put(m.header.w);
     const StatedParameters stated = statedParameters(m);
-    put(stated.color), put(stated.alphaY), put(stated.edge), put(stated.alphaX);
-    put(stated.index), put(stated.table);
-    const PrincipledParameters rich = principledParameters(m);
-    put(rich.baseColor), put(rich.metallic), put(rich.specularColor), put(rich.roughness);
-    put(rich.specular), put(rich.ior), put(rich.transmission), put(rich.anisotropy);
-    put(rich.sheenColor), put(rich.sheenRoughness), put(rich.clearcoat);
-    put(rich.clearcoatRoughness), put(rich.anisotropyRotation), put(rich.flags);
-    put(rich.absorption), put(rich.leastAlpha);
+    const PrincipledParameters principled = principledParameters(m);
     const BurleyParameters burley = burleyParameters(m);
-    put(burley.baseColor), put(burley.metallic), put(burley.flatness), put(burley.diffuseTransmission);
-    put(burley.leastAlpha), put(burley.roughness), put(burley.specularTint), put(burley.ior);
-    put(burley.transmission), put(burley.anisotropy), put(burley.sheen), put(burley.sheenTint);
-    put(burley.clearcoat), put(burley.clearcoatGloss), put(burley.unused), put(burley.flags);
+#define PUT_STATED(type, name, row, place, value) put(stated.name);
+#define PUT_PRINCIPLED(type, name, row, place, value) put(principled.name);
+#define PUT_BURLEY(type, name, row, place, value) put(burley.name);
+    STATED_PARAMETERS(PUT_STATED)
+    PRINCIPLED_PARAMETERS(PUT_PRINCIPLED)
+    BURLEY_PARAMETERS(PUT_BURLEY)
 }
 
 void putLight(LightRows l) {
