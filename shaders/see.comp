@@ -79,15 +79,15 @@ void beginSample(const Given given, inout Look look) {
 }
 
 void endSample(inout Look look, vec3 albedo, vec3 normal) {
-    look.seen.albedo += clamp(albedo, 0.0, 1.0);
-    look.seen.normal += normal;
+#define ADD_SUM(name, value) look.seen.name.xyz += value;
+    SUMS_OF_END(ADD_SUM)
     ++look.seen.samples;
     look.isUnderWay = false;
 }
 
-void noteFirst(inout Look look, SurfacePoint s) {
+void noteFirst(inout Look look, Material m, SurfacePoint s) {
     look.firstNormal = shadingNormal(s);
-    look.seen.position += s.position;
+    SUMS_OF_FIRST(ADD_SUM)
     if (look.seen.hits == 1u) {
         look.seen.primitive = primitiveAt(look.ray.hitPrimitive);
         look.seen.b1 = look.ray.b1;
@@ -154,7 +154,7 @@ void arrive(const Frame frame, inout Look look) {
     const Material m = at.parameters;
     faceForward(s);
     applyRelief(s, at.relief, dependsOnView(m), reliefRules(m));
-    if (look.bounce == 0u) noteFirst(look, s);
+    if (look.bounce == 0u) noteFirst(look, m, s);
     const bool isFollowed = isSeenThrough(m);
     ++look.bounce;
     if (!isFollowed) endSample(look, look.throughput * albedoOf(m), shadingNormal(s));

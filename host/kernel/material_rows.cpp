@@ -195,8 +195,8 @@ uint32_t blendBits(std::span<const Material> materials, std::span<const uint32_t
     uint32_t lobes = 0;
     for (const uint32_t i : mixture)
         lobes |= closureBits(materials[i]) & gpu::LOBE_MASK;
-    return uint32_t(mixture.size() - 1) << gpu::BLEND_OTHERS_SHIFT |
-           lobes << gpu::BLEND_LOBES_SHIFT;
+    return uint32_t(mixture.size() - 1) << gpu::BLEND_OTHERS_SHIFT | lobes
+                                                                         << gpu::BLEND_LOBES_SHIFT;
 }
 
 /// A blend is the last row of a material's details, and names another material by its number.

@@ -34,7 +34,7 @@
     F(24, bool, STACK_IN_REGISTERS, false, f[SPEC_STACK_SIZE] <= tuning.registerStack, own, \
       "traversal stack in registers", flag, \
         "a stack that moves as a whole, in place of a memory that each lane indexes") \
-    F(6, uint, CLOSURES, 33554431u, shades ? scene.closures.some : 0, gpu::CLOSURE_MASK, \
+    F(6, uint, CLOSURES, 0xFFFFFFFFu, shades ? scene.closures.some : 0, gpu::CLOSURE_MASK, \
       "materials", bits(kClosures), "the closures of materials, and the recipes by which they follow from parameters") \
     F(37, uint, CLOSURES_OF_ALL, 0u, shades ? scene.closures.some & scene.closures.all : 0, 0u, \
       "all materials", bits(kClosures), "no choice between materials that have these and materials that have not") \
@@ -82,9 +82,8 @@
     F(10, uint, DIRECT_LIGHT, DIRECT_LIGHTS, directLightConstant(settings.directLight), own, \
       "direct light", oneOf({"light sampling", "uniform hemisphere", "left to bounces (delta lights sampled)"}), \
         "how lights are found from a surface") \
-    F(8, uint, LIGHT_KINDS, 511u, lightKinds(scene, settings), (1u << gpu::LIGHT_KIND_COUNT) - 1, \
-      "lights", bits({"quad", "triangle", "sphere", "ambient", "directional", "point", "spot", "environment", \
-        "projector"}), "the sampling of these kinds of lights") \
+    F(8, uint, LIGHT_KINDS, 0xFFFFFFFFu, lightKinds(scene, settings), (1u << gpu::LIGHT_KIND_COUNT) - 1, \
+      "lights", bits(kLights), "the sampling of these kinds of lights") \
     F(20, uint, LIGHT_CHOICE, LIGHT_CHOICE_TREE, lightChoiceConstant(scene.lights), own, \
       "choice of lights", oneOf({"there is one", "by a tree of them", "by power", "uniform", "each in turn"}), \
         "how a light sample picks its light") \

@@ -66,25 +66,13 @@ void putMaterial(Material m) {
 
 void putLight(LightRows l) {
     put(colorOf(l)), put(l.header.w);
-    const QuadLight quad = quadLight(l);
-    put(quad.corner), put(quad.area), put(quad.edgeA), put(quad.unused0);
-    put(quad.edgeB), put(quad.unused1);
-    const ProjectorLight projector = projectorLight(l);
-    put(projector.position), put(projector.cosCutoff), put(projector.acrossU), put(projector.softness);
-    put(projector.acrossV), put(projector.picture);
-    const PointLight point = pointLight(l);
-    put(point.position), put(point.falloffExponent), put(point.attenuation);
-    put(point.cosCutoff), put(point.axis), put(point.softness);
-    const SphereLight sphere = sphereLight(l);
-    put(sphere.center), put(sphere.radius);
-    const AmbientLight ambient = ambientLight(l);
-    put(ambient.fromAbove), put(ambient.unused);
-    const EnvironmentLight environment = environmentLight(l);
-    put(environment.width), put(environment.height), put(environment.cosRotation);
-    put(environment.sinRotation), put(environment.density), put(environment.unused0);
-    put(environment.unused1), put(environment.unused2);
-    const DirectionalLight sun = directionalLight(l);
-    put(sun.toLight), put(sun.unused);
+#define PUT_FIELD(type, name, row, place) put(light.name);
+#define PUT_LIGHT(structure, function, fields, met, sample_) \
+    {                                                        \
+        const structure light = function(l);                 \
+        fields(PUT_FIELD)                                    \
+    }
+    LIGHT_STRUCTURES(PUT_LIGHT)
 }
 
 void putScene() {
