@@ -33,7 +33,7 @@ layout(push_constant) uniform DispatchConstants { SeeDispatch dispatch; };
 #include "closures/bsdf.glsl"
 #include "include/material_detail.glsl"
 #include "include/relief.glsl"
-#include "include/pass_number.glsl"
+#include "include/mixture.glsl"
 #include "include/camera_sample.glsl"
 #include "closures/seen_surface.glsl"
 
@@ -79,15 +79,15 @@ void beginSample(const Given given, inout Look look) {
 }
 
 void endSample(inout Look look, vec3 albedo, vec3 normal) {
-    look.seen.albedo += clamp(albedo, 0.0, 1.0);
-    look.seen.normal += normal;
+#define ADD_SUM(name, value) look.seen.name.xyz += value;
+    SUMS_OF_END(ADD_SUM)
     ++look.seen.samples;
     look.isUnderWay = false;
 }
 
-void noteFirst(inout Look look, SurfacePoint s) {
+void noteFirst(inout Look look, Material m, SurfacePoint s) {
     look.firstNormal = shadingNormal(s);
-    look.seen.position += s.position;
+    SUMS_OF_FIRST(ADD_SUM)
     if (look.seen.hits == 1u) {
         look.seen.primitive = primitiveAt(look.ray.hitPrimitive);
         look.seen.b1 = look.ray.b1;
@@ -154,7 +154,7 @@ void arrive(const Frame frame, inout Look look) {
     const Material m = at.parameters;
     faceForward(s);
     applyRelief(s, at.relief, dependsOnView(m), reliefRules(m));
-    if (look.bounce == 0u) noteFirst(look, s);
+    if (look.bounce == 0u) noteFirst(look, m, s);
     const bool isFollowed = isSeenThrough(m);
     ++look.bounce;
     if (!isFollowed) endSample(look, look.throughput * albedoOf(m), shadingNormal(s));
@@ -169,7 +169,8 @@ void takeResult(const Frame frame, inout Look look) {
     if (HAS_ALPHA && hit) {
         const MaterialPoint point = materialPoint(look.ray.hitPrimitive, vec2(look.ray.b1, look.ray.b2));
         const float opacity = lookUpMaterial(point).opacity;
-        passes = passNumber(frame.seed, look.ray, look.seen.pixel, sampleIndex(frame, look), look.bounce, 0u) >=
+        const uvec4 words = hitWords(frame.seed, look.ray, look.seen.pixel, sampleIndex(frame, look), look.bounce);
+        passes = hitNumber(words, 0u) >=
                  (look.bounce == 0u ? opacityForCamera(point, opacity) : opacity);
     }
     if (passes) {

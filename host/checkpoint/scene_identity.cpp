@@ -2,7 +2,10 @@
 
 #include <zlib.h>
 
+#include <cstddef>
+#include <tuple>
 #include <type_traits>
+#include <utility>
 
 namespace stromboli {
 namespace {
@@ -37,25 +40,40 @@ class Sum {
     uint32_t value_ = 0;
 };
 
-// Structured bindings name all members: one more is an error here.
+/// Those of the value's laterMembers() that are not the default, with their numbers: a state saved
+/// before it had them stays that of its scene.
+template <class T>
+void addLater(Sum& sum, const T& value) {
+    const T standard{};
+    [[maybe_unused]] const auto members = laterMembers(value), usual = laterMembers(standard);
+    [&]<size_t... i>(std::index_sequence<i...>) {
+        [[maybe_unused]] const auto addOne = [&](size_t number, const auto& member,
+                                                 const auto& other) {
+            if (member != other) sum.add(uint64_t(number)), sum.add(member);
+        };
+        (addOne(i, std::get<i>(members), std::get<i>(usual)), ...);
+    }
+    (std::make_index_sequence<std::tuple_size_v<decltype(members)>>());
+}
+
+// laterMembers() name all members of these: one more is an error there. Structured bindings do so
+// here.
 
 void add(Sum& sum, const PrincipledParameters& p) {
-    const auto& [baseColor, metallic, roughness, ior, specular, specularColor, clearcoat,
-                 clearcoatRoughness, sheenColor, sheenRoughness, anisotropy, rotation, transmission,
-                 isThin, attenuationColor, attenuationDistance] = p;
-    sum.add(baseColor), sum.add(metallic), sum.add(roughness), sum.add(ior), sum.add(specular);
-    sum.add(specularColor), sum.add(clearcoat), sum.add(clearcoatRoughness), sum.add(sheenColor);
-    sum.add(sheenRoughness), sum.add(anisotropy), sum.add(rotation), sum.add(transmission);
-    sum.add(isThin), sum.add(attenuationColor), sum.add(attenuationDistance);
+    sum.add(p.baseColor), sum.add(p.metallic), sum.add(p.roughness), sum.add(p.ior);
+    sum.add(p.specular), sum.add(p.specularColor), sum.add(p.clearcoat);
+    sum.add(p.clearcoatRoughness), sum.add(p.sheenColor), sum.add(p.sheenRoughness);
+    sum.add(p.anisotropy), sum.add(p.anisotropyRotation), sum.add(p.transmission);
+    sum.add(p.isThin), sum.add(p.attenuationColor), sum.add(p.attenuationDistance);
+    addLater(sum, p);
 }
 
 void add(Sum& sum, const BurleyParameters& b) {
-    const auto& [baseColor, metallic, roughness, anisotropy, ior, specularTint, transmission, sheen,
-                 sheenTint, flatness, clearcoat, clearcoatGloss, isThin, diffuseTransmission] = b;
-    sum.add(baseColor), sum.add(metallic), sum.add(roughness), sum.add(anisotropy), sum.add(ior);
-    sum.add(specularTint), sum.add(transmission), sum.add(sheen), sum.add(sheenTint);
-    sum.add(flatness), sum.add(clearcoat), sum.add(clearcoatGloss), sum.add(isThin);
-    sum.add(diffuseTransmission);
+    sum.add(b.baseColor), sum.add(b.metallic), sum.add(b.roughness), sum.add(b.anisotropy);
+    sum.add(b.ior), sum.add(b.specularTint), sum.add(b.transmission), sum.add(b.sheen);
+    sum.add(b.sheenTint), sum.add(b.flatness), sum.add(b.clearcoat), sum.add(b.clearcoatGloss);
+    sum.add(b.isThin), sum.add(b.diffuseTransmission);
+    addLater(sum, b);
 }
 
 void add(Sum& sum, const TextureUse& t) {
@@ -64,29 +82,25 @@ void add(Sum& sum, const TextureUse& t) {
 }
 
 void add(Sum& sum, const Material& m) {
-    const auto& [name, kind, albedo, reflectance, transmittance, ior, eta, k, facets, isNonlinear,
-                 internalViews, emission, bothSides, principled, burley, alphaMode, opacity,
-                 alphaCutoff, other, otherShare, otherPlace, isHiddenFromCamera, isBlackBehind,
-                 reliefRule, reliefShadows, textures] = m;
-    const auto& [distribution, facetAlpha, masking] = facets;
-    sum.add(kind), sum.add(albedo), sum.add(reflectance), sum.add(transmittance), sum.add(ior);
-    sum.add(eta), sum.add(k), sum.add(emission), sum.add(bothSides);
+    const auto& [distribution, facetAlpha, masking] = m.facets;
+    sum.add(m.kind), sum.add(m.albedo), sum.add(m.reflectance), sum.add(m.transmittance);
+    sum.add(m.ior), sum.add(m.eta), sum.add(m.k), sum.add(m.emission), sum.add(m.emitsBothSides);
     // A state saved before materials had these stays that of its scene.
-    if (kind >= MaterialKind::Conductor)
-        sum.add(distribution), sum.add(facetAlpha), sum.add(isNonlinear);
+    if (m.kind >= MaterialKind::Conductor)
+        sum.add(distribution), sum.add(facetAlpha), sum.add(m.isNonlinear);
     if (masking != FacetMasking::Correlated) sum.add(masking);
-    if (internalViews > 0) sum.add(internalViews);
-    add(sum, principled);
-    if (kind == MaterialKind::Burley) add(sum, burley);
-    if (isBlackBehind) sum.add(isBlackBehind);
-    if (reliefRule != ReliefRule::Bend || reliefShadows)
-        sum.add(reliefRule), sum.add(reliefShadows);
-    if (isHiddenFromCamera) sum.add(2);
-    if (other != kNoMaterial) sum.add(other), sum.add(otherShare);
-    if (otherPlace != OtherPlace::ByShare) sum.add(otherPlace);
-    sum.add(alphaMode), sum.add(opacity), sum.add(alphaCutoff);
-    for (const TextureUse& t : textures)
+    if (m.internalViews > 0) sum.add(m.internalViews);
+    add(sum, m.principled);
+    if (m.kind == MaterialKind::Burley) add(sum, m.burley);
+    if (m.isBlackBehind) sum.add(m.isBlackBehind);
+    if (m.hasReliefRules()) sum.add(m.reliefRule), sum.add(m.reliefShadows);
+    if (m.isHiddenFromCamera) sum.add(2);
+    if (m.other != kNoMaterial) sum.add(m.other), sum.add(m.otherShare);
+    if (m.otherPlace != OtherPlace::ByShare) sum.add(m.otherPlace);
+    sum.add(m.alphaMode), sum.add(m.opacity), sum.add(m.alphaCutoff);
+    for (const TextureUse& t : m.textures)
         add(sum, t);
+    addLater(sum, m);
 }
 
 void add(Sum& sum, const TextureImage& i) {
@@ -105,14 +119,14 @@ void add(Sum& sum, const Environment& e) {
 }
 
 void add(Sum& sum, const Light& l) {
-    const auto& [name, kind, color, position, direction, constant, linear, quadratic, angle,
-                 exponent, innerAngle, upperOnly, edgeX, edgeY, picture, isFramed] = l;
-    sum.add(kind), sum.add(color), sum.add(position), sum.add(direction), sum.add(constant);
-    sum.add(linear), sum.add(quadratic), sum.add(angle), sum.add(exponent), sum.add(upperOnly);
-    sum.add(edgeX), sum.add(edgeY);
-    if (innerAngle) sum.add(*innerAngle);
-    if (picture) add(sum, *picture);
-    if (isFramed) sum.add(isFramed);
+    sum.add(l.kind), sum.add(l.color), sum.add(l.position), sum.add(l.direction);
+    sum.add(l.constantAttenuation), sum.add(l.linearAttenuation), sum.add(l.quadraticAttenuation);
+    sum.add(l.falloffAngle), sum.add(l.falloffExponent), sum.add(l.upperHemisphereOnly);
+    sum.add(l.edgeX), sum.add(l.edgeY);
+    if (l.innerAngle) sum.add(*l.innerAngle);
+    if (l.picture) add(sum, *l.picture);
+    if (l.isFramed) sum.add(l.isFramed);
+    addLater(sum, l);
 }
 
 void add(Sum& sum, const Camera& c) {

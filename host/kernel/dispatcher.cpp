@@ -38,16 +38,19 @@ using vulkan::Buffer;
 using vulkan::BufferUse;
 
 /// One iteration of the kernel's loop counts for itself, its traversal steps and pixel filter, the
-/// loop around it that changes pixels and, where there are such, the walk down the light tree and
-/// the loose textures of a material.
+/// loop around it that changes pixels and, where there are such, the walk down the light tree, the
+/// loose textures of a material and the materials of a mixture.
 uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene, const PathKernel& kernel) {
     // At a hit, where a path splits again, and at the end of a ray of hemisphere sampling.
     constexpr uint32_t kTextureLoops = 3;
+    // At a hit to draw one, for a light sample and for a bounce to evaluate the others.
+    const uint32_t textures = scene.mostTextures + 1, others = scene.mostOthers;
+    const uint32_t mixtures = (scene.mostBlends ? scene.mostBlends + 1 : 0) +
+                              (others ? 2 * (others + 1) * (1 + textures) : 0);
     // A light is picked for a light sample, and looked up once more for MIS.
-    const uint32_t perIteration =
-        1 + passesOfCameraRays(kernel.features()) + 2 +
-        (scene.lights.groups ? 2 * (scene.lights.levels + 1) : 0) +
-        (scene.mostTextures ? kTextureLoops * (scene.mostTextures + 1) : 0);
+    const uint32_t perIteration = 1 + passesOfCameraRays(kernel.features()) + 2 +
+                                  (scene.lights.groups ? 2 * (scene.lights.levels + 1) : 0) +
+                                  (scene.mostTextures ? kTextureLoops * textures : 0) + mixtures;
     return loopLimit(device, perIteration);
 }
 

@@ -2,6 +2,7 @@
 
 #include "host/bvh/cpu_traversal.hpp"
 #include "host/kernel/detail_rows.hpp"
+#include "scene/model/mixture.hpp"
 #include "shaders/shared/interface.h"
 #include "shaders/shared/texture_types.h"
 
@@ -44,11 +45,10 @@ std::vector<bool> usedMaterials(const Scene& scene) {
         used[t.material] = true;
     for (const Sphere& s : scene.spheres)
         used[s.material] = true;
-    // Others may have others in turn.
-    for (size_t round = 0; round < gpu::MOST_BLENDS; ++round)
-        for (size_t i = 0; i < used.size(); ++i)
-            if (const uint32_t other = scene.materials[i].other; used[i] && other != kNoMaterial)
-                used[other] = true;
+    for (uint32_t i = 0; i < used.size(); ++i)
+        if (used[i] && scene.materials[i].other != kNoMaterial)
+            for (const uint32_t part : materialsOfMixture(scene.materials, i))
+                used[part] = true;
     return used;
 }
 
@@ -118,6 +118,7 @@ void packRest(GpuScene& g, const Scene& scene, const LightSelection& lights,
               std::shared_ptr<const EnvironmentTable> environment) {
     MaterialRows materials = packMaterials(scene.materials, g.detailsOfMaterials);
     g.materials = std::move(materials.rows);
+    g.mostOthers = materials.mostOthers, g.mostBlends = materials.mostBlends;
     packPrimitives(scene, materials.firstRow, g);
     g.lights = packLights(scene, g.bvh.placeOf, lights,
                           appendPictures(g.materials, g.detailsOfLights), std::move(environment));

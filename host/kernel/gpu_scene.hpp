@@ -22,12 +22,13 @@ struct GpuScene {
     std::vector<Row> materials;
     std::vector<Row> details; ///< attributes of corners, and texels (detail_rows.hpp)
     LightTable lights;
-    SceneClosures closures;      ///< of the materials that primitives have
-    bool hasEmission = false;    ///< a primitive emits
-    bool hasBlends = false;      ///< a primitive's material is a mixture
-    bool hasBlackBacks = false;  ///< a primitive's material is black behind
-    bool hasReliefRules = false; ///< a primitive's material has MATERIAL_RELIEF_ bits
-    float gapWidth = 0;          ///< gapWidth()
+    SceneClosures closures;                  ///< of the materials that primitives have
+    bool hasEmission = false;                ///< a primitive emits
+    bool hasBlends = false;                  ///< a primitive's material is a mixture
+    uint32_t mostOthers = 0, mostBlends = 0; ///< of MaterialRows
+    bool hasBlackBacks = false;              ///< a primitive's material is black behind
+    bool hasReliefRules = false;             ///< a primitive's material has MATERIAL_RELIEF_ bits
+    float gapWidth = 0;                      ///< gapWidth()
     bool hasTriangles = false, hasSpheres = false;
     bool hasNormals = false; ///< any triangle with shading normals
     bool hasPlacements = false;

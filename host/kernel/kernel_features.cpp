@@ -65,8 +65,9 @@ uint32_t misLobes(const GpuScene& scene, const Estimator& settings) {
 }
 
 bool proposesGap(const GpuScene& scene, const Estimator& settings) {
-    return settings.gapProposal && scene.gapWidth != 0 && samplesLights(settings.directLight) &&
-           settings.integrator == Integrator::Path && settings.maxBounces > 1;
+    return settings.gapProposal && scene.gapWidth != 0 && scene.mostOthers == 0 &&
+           samplesLights(settings.directLight) && settings.integrator == Integrator::Path &&
+           settings.maxBounces > 1;
 }
 
 /// The shaders have two sets of conventions, told apart by one constant (include/cs184.glsl).
@@ -221,20 +222,16 @@ const std::vector<const char*> kTextureSlots = {"base color",
                                                 "of a projector",
                                                 "opacity"};
 
-/// By LOBE_ bit, and behind these by closure bit (shaders/shared/bsdf_types.h).
-const std::vector<const char*> kLobes = {"diffuse reflection",  "glossy reflection",
-                                         "mirror reflection",   "diffuse transmission",
-                                         "glossy transmission", "clear transmission"};
-const std::vector<const char*> kClosures = [] {
-    std::vector<const char*> names = kLobes;
-    for (const char* name :
-         {"diffuse base", "interface", "base under an interface", "clear coat", "sheen",
-          "smooth interface", "conductor", "dielectric", "ideal interface", "refraction",
-          "thin sheet", "Beckmann's microfacets", "separable masking", "turned grain",
-          "base that deepens", "absorption", "base color", "glTF's recipe", "Burley's recipe"})
-        names.push_back(name);
-    return names;
-}();
+/// By bit: lobes are the first ones of closures.
+#define NAME_CLOSURE(name, bit, label) label,
+const std::vector<const char*> kClosures = {CLOSURE_LIST(NAME_CLOSURE)};
+#undef NAME_CLOSURE
+const std::vector<const char*> kLobes(kClosures.begin(),
+                                      kClosures.begin() + std::popcount(gpu::LOBE_MASK));
+
+#define NAME_LIGHT(name, number, rows, label) label,
+const std::vector<const char*> kLights = {LIGHT_LIST(NAME_LIGHT)};
+#undef NAME_LIGHT
 
 std::string list(uint32_t bits, const std::vector<const char*>& names) {
     std::string text;

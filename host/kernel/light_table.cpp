@@ -1,6 +1,6 @@
 #include "host/kernel/light_table.hpp"
 
-#include "host/kernel/light_tree.hpp"
+#include "host/kernel/light_kinds.hpp"
 #include "scene/model/emitters.hpp"
 
 #include <algorithm>
@@ -13,54 +13,6 @@ namespace stromboli {
 // --- The table of lights -------------------------------------------------------------------------
 
 namespace {
-
-gpu::QuadLight quad(const glm::vec3& corner, const glm::vec3& a, const glm::vec3& b) {
-    gpu::QuadLight q{};
-    q.corner = corner;
-    q.edgeA = a;
-    q.edgeB = b;
-    q.area = float(glm::length(glm::cross(glm::dvec3(a), glm::dvec3(b))));
-    return q;
-}
-
-/// An area light of the file. The kernel's normal is edgeA x edgeB: the edges are swapped
-/// where the light faces the other way.
-gpu::QuadLight rectangle(const Light& l) {
-    const bool swap = glm::dot(glm::cross(l.edgeX, l.edgeY), l.direction) < 0;
-    const glm::vec3 a = swap ? l.edgeY : l.edgeX, b = swap ? l.edgeX : l.edgeY;
-    return quad(l.position - 0.5f * a - 0.5f * b, a, b);
-}
-
-gpu::PointLight pointLight(const Light& l) {
-    gpu::PointLight p{};
-    p.position = l.position;
-    p.axis = l.direction;
-    p.attenuation = {l.constantAttenuation, l.linearAttenuation, l.quadraticAttenuation};
-    p.cosCutoff = std::cos(0.5f * l.falloffAngle);
-    p.falloffExponent = l.falloffExponent;
-    if (l.innerAngle) {
-        const double inner = std::cos(0.5 * double(*l.innerAngle));
-        p.softness = float(1 / (inner - std::cos(0.5 * double(l.falloffAngle))));
-    }
-    return p;
-}
-
-gpu::ProjectorLight projectorLight(const Light& l, uint32_t picture) {
-    gpu::ProjectorLight p{};
-    p.position = l.position;
-    p.cosCutoff = std::cos(0.5f * l.falloffAngle);
-    p.acrossU = l.edgeX;
-    p.acrossV = l.edgeY;
-    if (l.innerAngle) p.softness = 2 / (l.falloffAngle - *l.innerAngle);
-    p.picture = picture;
-    return p;
-}
-
-uint32_t flagsOf(const Light& l) {
-    if (l.kind != LightKind::Projector) return 0;
-    const bool isMirrored = glm::dot(glm::cross(l.edgeX, l.edgeY), l.direction) < 0;
-    return (isMirrored ? gpu::LIGHT_IS_MIRRORED : 0) | (l.isFramed ? gpu::LIGHT_IS_FRAMED : 0);
-}
 
 /// How far apart surfaces and lights are, more or less: half the diagonal of the scene.
 double radiusOf(const Scene& scene) {
@@ -140,8 +92,8 @@ class Packer {
                 (l.upperHemisphereOnly ? above : everywhere).color += l.color;
         if (scene_.environment)
             everywhere.color += scene_.environment->strength * scene_.environment->radiance[0];
-        LightBounds bounds = boundsOfLight(everywhere, sceneRadius_);
-        const LightBounds fromAbove = boundsOfLight(above, sceneRadius_);
+        LightBounds bounds = packLight(everywhere, sceneRadius_).bounds;
+        const LightBounds fromAbove = packLight(above, sceneRadius_).bounds;
         if (!(bounds.power > 0))
             bounds = fromAbove;
         else
@@ -180,41 +132,16 @@ class Packer {
             if (number != gpu::NO_LIGHT) --number;
     }
 
-    static uint32_t kindOf(LightKind kind) {
-        switch (kind) {
-        case LightKind::Area:
-            return gpu::LIGHT_QUAD;
-        case LightKind::Ambient:
-            return gpu::LIGHT_AMBIENT;
-        case LightKind::Directional:
-            return gpu::LIGHT_DIRECTIONAL;
-        case LightKind::Point:
-            return gpu::LIGHT_POINT;
-        case LightKind::Spot:
-            return gpu::LIGHT_SPOT;
-        case LightKind::Projector:
-            return gpu::LIGHT_PROJECTOR;
-        }
-        return gpu::LIGHT_POINT;
-    }
-
     void addLight(const Light& l) {
-        const LightBounds bounds = boundsOfLight(l, sceneRadius_);
-        if (!shines(bounds) && !selection_.everyLightOfTheFile) return;
-        const uint32_t kind = kindOf(l.kind);
-        const uint32_t number = addRows(l.color, kind | flagsOf(l));
-        if (l.kind == LightKind::Area) appendRows(out_.lights, rectangle(l));
-        if (l.kind == LightKind::Directional)
-            appendRows(out_.lights, gpu::DirectionalLight{-l.direction, 0});
-        if (l.kind == LightKind::Point || l.kind == LightKind::Spot)
-            appendRows(out_.lights, pointLight(l));
-        if (l.kind == LightKind::Projector) {
-            const size_t index = size_t(&l - scene_.lights.data());
-            const uint32_t picture = index < pictures_.size() ? pictures_[index] : 0;
-            appendRows(out_.lights, projectorLight(l, picture));
-        }
+        const size_t index = size_t(&l - scene_.lights.data());
+        const uint32_t picture = index < pictures_.size() ? pictures_[index] : 0;
+        const PackedLight packed = packLight(l, sceneRadius_, picture);
+        if (!shines(packed.bounds) && !selection_.everyLightOfTheFile) return;
+        const uint32_t number = addRows(l.color, packed.kindAndFlags);
+        for (const Row& row : packed.parameters)
+            out_.lights.push_back(row);
         fillRows();
-        addEntry(kind, number, bounds);
+        addEntry(packed.kind(), number, packed.bounds);
     }
 
     void addEmitters() {
@@ -234,7 +161,7 @@ class Packer {
                 addRows(isQuad ? m.emission : glm::vec3(means_.ofSphere(e.sphere)),
                         kind | (m.emitsBothSides ? gpu::LIGHT_BOTH_SIDES : 0));
             if (isQuad) {
-                appendRows(out_.lights, quad(e.corner, e.edgeA, e.edgeB));
+                appendRows(out_.lights, quadLight(e.corner, e.edgeA, e.edgeB));
             } else {
                 const Sphere& sphere = scene_.spheres[e.sphere];
                 appendRows(out_.lights, gpu::SphereLight{sphere.center, sphere.radius});

@@ -39,23 +39,6 @@ LightBounds planar(const Material& material, const glm::dvec3& emission, const g
     return bounds;
 }
 
-/// A light with attenuation c + l d + q d^2 at distance d. It counts as near where the last term is
-/// the larger one at the scene's size; its irradiance is then at most color / q over the squared
-/// distance, and no more than color / c, which is what a sphere of radius sqrt(c / q) makes of it.
-void setFalloff(LightBounds& bounds, const Light& light, double sceneRadius) {
-    const double c = light.constantAttenuation, l = light.linearAttenuation,
-                 q = light.quadraticAttenuation;
-    const double flat = c + l * sceneRadius, steep = q * sceneRadius * sceneRadius;
-    if (steep >= flat && q > 0) {
-        bounds.group = gpu::LIGHT_GROUP_NEAR;
-        bounds.power = luminance(light.color) / q;
-        bounds.reach = std::sqrt(c / q);
-    } else {
-        bounds.group = gpu::LIGHT_GROUP_UNATTENUATED;
-        bounds.power = luminance(light.color) / (flat + steep);
-    }
-}
-
 } // namespace
 
 LightBounds boundsOfTriangle(const Scene& scene, uint32_t index, const MeanEmission& means) {
@@ -94,36 +77,6 @@ LightBounds boundsOfEnvironment(double luminance) {
     bounds.cosSpread = -1;
     // A surface that may face anywhere sees a quarter of it: the mean of its cosine.
     bounds.power = luminance / 4;
-    return bounds;
-}
-
-LightBounds boundsOfLight(const Light& light, double sceneRadius) {
-    LightBounds bounds;
-    bounds.axis = glm::normalize(glm::dvec3(light.direction));
-    switch (light.kind) {
-    case LightKind::Directional:
-        bounds.group = gpu::LIGHT_GROUP_INFINITE;
-        bounds.cosSpread = 1;
-        bounds.power = luminance(light.color);
-        break;
-    case LightKind::Ambient:
-        bounds.group = gpu::LIGHT_GROUP_INFINITE;
-        bounds.axis = {0, -1, 0};
-        bounds.cosSpread = light.upperHemisphereOnly ? 0 : -1;
-        bounds.power = luminance(light.color) * glm::pi<double>();
-        break;
-    case LightKind::Point:
-    case LightKind::Spot:
-    case LightKind::Projector:
-        bounds.lo = bounds.hi = glm::dvec3(light.position);
-        setFalloff(bounds, light, sceneRadius);
-        if (light.kind == LightKind::Point) break;
-        bounds.cosSpread = std::cos(0.5 * double(light.falloffAngle));
-        bounds.sharp = true;
-        break;
-    case LightKind::Area:
-        break;
-    }
     return bounds;
 }
 

@@ -32,9 +32,6 @@ struct LightBounds {
 LightBounds boundsOfTriangle(const Scene& scene, uint32_t triangle, const MeanEmission& means);
 /// A quad or a sphere.
 LightBounds boundsOfEmitter(const Scene& scene, const Emitter& emitter, const MeanEmission& means);
-/// Not an area light. sceneRadius: how far apart, more or less, lights and surfaces are; it decides
-/// whether a point light falls off with the squared distance or hardly at all.
-LightBounds boundsOfLight(const Light& light, double sceneRadius);
 /// luminance: integral over all directions.
 LightBounds boundsOfEnvironment(double luminance);
 

@@ -1,5 +1,7 @@
 #include "host/kernel/material_rows.hpp"
 
+#include "scene/model/mixture.hpp"
+#include "shaders/shared/parameters.h"
 #include "shaders/shared/texture_types.h"
 
 #include <algorithm>
@@ -13,7 +15,7 @@ namespace stromboli {
 namespace {
 
 /// Rows that the kernel may read from the first row of a material on, whatever its kind.
-constexpr size_t kMostRows = 7;
+constexpr size_t kMostRows = gpu::MOST_PARAMETER_ROWS + 1;
 static_assert(gpu::MATERIAL_DETAIL_ROW >= kMostRows);
 
 /// Everywhere on the surface: a texture may make less of a metal of it.
@@ -42,100 +44,100 @@ float usedIndex(const Material& m) {
     return p.ior < 1 ? 1 - gpu::LEAST_INDEX_STEP : 1 + gpu::LEAST_INDEX_STEP;
 }
 
-gpu::PrincipledParameters principledRows(const Material& m) {
-    const PrincipledParameters& p = m.principled;
-    // Beer and Lambert's law: attenuationColor = exp(-absorption attenuationDistance). A channel
-    // that lets nothing through gets the largest coefficient whose product with a length is finite.
+/// Beer and Lambert's law: attenuationColor = exp(-absorption attenuationDistance). A channel that
+/// lets nothing through gets the largest coefficient whose product with a length is finite.
+glm::vec3 absorptionOf(const Material& m) {
     constexpr float kLeastTransmitted = 1e-30f;
+    const PrincipledParameters& p = m.principled;
     const glm::vec3 left = glm::max(p.attenuationColor, glm::vec3(kLeastTransmitted));
-    gpu::PrincipledParameters g{};
-    g.baseColor = p.baseColor;
-    g.metallic = p.metallic;
-    g.specularColor = p.specularColor;
-    g.roughness = p.roughness;
-    g.specular = p.specular;
-    g.ior = usedIndex(m);
-    g.transmission = p.transmission;
-    g.anisotropy = p.anisotropy;
-    g.sheenColor = p.sheenColor;
-    g.sheenRoughness = p.sheenRoughness;
-    g.clearcoat = p.clearcoat;
-    g.clearcoatRoughness = p.clearcoatRoughness;
-    g.anisotropyRotation = p.anisotropyRotation;
-    g.flags = p.isThin ? gpu::PRINCIPLED_IS_THIN : 0;
-    g.absorption = -glm::log(left) / p.attenuationDistance;
-    g.leastAlpha = gpu::LEAST_GGX_ALPHA;
-    if (refracts(m))
-        g.leastAlpha = std::max(g.leastAlpha, gpu::LEAST_REFRACTION_ALPHA * std::max(g.ior, 1.0f) /
-                                                  std::abs(g.ior - 1));
-    return g;
+    return -glm::log(left) / p.attenuationDistance;
+}
+
+float leastAlphaOf(const Material& m) {
+    if (!refracts(m)) return gpu::LEAST_GGX_ALPHA;
+    const float ior = usedIndex(m);
+    return std::max(gpu::LEAST_GGX_ALPHA,
+                    gpu::LEAST_REFRACTION_ALPHA * std::max(ior, 1.0f) / std::abs(ior - 1));
 }
 
 static_assert(kLeastAlpha == gpu::LEAST_GGX_ALPHA);
 static_assert(kLeastRefractionAlpha == gpu::LEAST_REFRACTION_ALPHA);
 
-gpu::StatedParameters statedRows(const Material& m) {
-    gpu::StatedParameters g{};
-    const glm::vec2 alpha = m.facetAlpha();
-    g.alphaX = alpha.x;
-    g.alphaY = alpha.y;
-    g.edge = m.reflectance;
-    g.index[gpu::INDEX_RATIO] = m.ior;
-    switch (m.kind) {
-    case MaterialKind::Diffuse:
-        g.color = m.albedo;
-        break;
-    case MaterialKind::Mirror:
-        g.color = m.reflectance;
-        break;
-    case MaterialKind::Conductor:
-        g.color = m.reflectance;
-        g.edge = m.eta;
-        g.index = m.k;
-        break;
-    case MaterialKind::Plastic:
-        g.color = m.albedo;
-        g.alphaY = alpha.x;
-        g.index[gpu::INDEX_BACK] =
-            float(m.isSmooth() ? internalReflectance(m.ior)
-                               : internalReflectance(m.ior, alpha.x, m.facets, m.internalViews));
-        break;
-    default: {
-        g.color = m.transmittance;
-        Material least = m;
-        least.facets.alpha = glm::vec2(0);
-        g.index[gpu::INDEX_LEAST_ALPHA] = least.facetAlpha().x;
-        if (m.isSmooth()) g.alphaY = m.ior;
-    }
-    }
-    return g;
-}
+/// The stated parameters that a kind of material stands for.
+struct Stated {
+    glm::vec3 color, edge, index{0.0f};
+    float alphaX, alphaY;
 
-gpu::BurleyParameters burleyRows(const BurleyParameters& p) {
-    gpu::BurleyParameters g{};
-    g.baseColor = p.baseColor;
-    g.metallic = p.isThin ? 0 : p.metallic;
-    g.flatness = p.flatness;
-    g.diffuseTransmission = p.diffuseTransmission;
-    g.leastAlpha = p.leastAlpha();
-    g.roughness = p.roughness;
-    g.specularTint = p.specularTint;
-    g.ior = p.usedIor();
-    g.transmission = p.transmission;
-    g.anisotropy = p.anisotropy;
-    g.sheen = glm::vec3(p.sheen);
-    g.sheenTint = p.sheenTint;
-    g.clearcoat = p.isThin ? 0 : p.clearcoat;
-    g.clearcoatGloss = p.clearcoatGloss;
-    g.flags = p.isThin ? gpu::BURLEY_IS_THIN : 0;
-    return g;
-}
+    explicit Stated(const Material& m)
+        : color(m.reflectance), edge(m.reflectance), alphaX(m.facetAlpha().x),
+          alphaY(m.facetAlpha().y) {
+        index[gpu::INDEX_RATIO] = m.ior;
+        switch (m.kind) {
+        case MaterialKind::Diffuse:
+            color = m.albedo;
+            break;
+        case MaterialKind::Mirror:
+            break;
+        case MaterialKind::Conductor:
+            edge = m.eta;
+            index = m.k;
+            break;
+        case MaterialKind::Plastic:
+            color = m.albedo;
+            alphaY = alphaX;
+            index[gpu::INDEX_BACK] =
+                float(m.isSmooth() ? internalReflectance(m.ior)
+                                   : internalReflectance(m.ior, alphaX, m.facets, m.internalViews));
+            break;
+        default: {
+            color = m.transmittance;
+            Material least = m;
+            least.facets.alpha = glm::vec2(0);
+            index[gpu::INDEX_LEAST_ALPHA] = least.facetAlpha().x;
+            if (m.isSmooth()) alphaY = m.ior;
+        }
+        }
+    }
+};
 
+/// The parameters of its recipe (shaders/shared/parameters.h).
 void appendParameters(std::vector<Row>& rows, const Material& m) {
-    if (m.kind == MaterialKind::Principled) return appendRows(rows, principledRows(m));
-    if (m.kind == MaterialKind::Burley) return appendRows(rows, burleyRows(m.burley));
-    appendRows(rows, statedRows(m));
+#define PACK(type, name, row, place, value) p.name = value;
+    if (m.kind == MaterialKind::Principled) {
+        gpu::PrincipledParameters p;
+        PRINCIPLED_PARAMETERS(PACK)
+        appendRows(rows, p);
+    } else if (m.kind == MaterialKind::Burley) {
+        gpu::BurleyParameters p;
+        BURLEY_PARAMETERS(PACK)
+        appendRows(rows, p);
+    } else {
+        const Stated stated(m);
+        gpu::StatedParameters p;
+        STATED_PARAMETERS(PACK)
+        appendRows(rows, p);
+    }
+#undef PACK
 }
+
+/// Where a table says that a parameter is.
+constexpr size_t bytesBefore(size_t row, const char* place) {
+    const char first = place[0];
+    return 16 * (row - 1) + 4 * size_t(first == 'w' ? 3 : first - 'x');
+}
+#define IS_THERE(structure, name, row, place)                                                      \
+    static_assert(offsetof(gpu::structure, name) == bytesBefore(row, #place), #name);
+#define STATED_IS_THERE(type, name, row, place, value) IS_THERE(StatedParameters, name, row, place)
+#define PRINCIPLED_IS_THERE(type, name, row, place, value)                                         \
+    IS_THERE(PrincipledParameters, name, row, place)
+#define BURLEY_IS_THERE(type, name, row, place, value) IS_THERE(BurleyParameters, name, row, place)
+STATED_PARAMETERS(STATED_IS_THERE)
+PRINCIPLED_PARAMETERS(PRINCIPLED_IS_THERE)
+BURLEY_PARAMETERS(BURLEY_IS_THERE)
+#undef IS_THERE
+#undef STATED_IS_THERE
+#undef PRINCIPLED_IS_THERE
+#undef BURLEY_IS_THERE
 
 uint32_t facetBits(const Facets& facets) {
     const bool isBeckmann = facets.distribution == FacetDistribution::Beckmann;
@@ -155,7 +157,7 @@ uint32_t principledBits(const Material& m) {
     if (transmits(m)) bits |= LOBE_GLOSSY_TRANSMISSION | (p.isThin ? INTERFACE_IS_THIN : 0);
     if (!refracts(m)) return bits;
     bits |= INTERFACE_REFRACTS | INTERFACE_IS_DIELECTRIC;
-    return principledRows(m).absorption != glm::vec3(0) ? bits | VOLUME_ABSORBS : bits;
+    return absorptionOf(m) != glm::vec3(0) ? bits | VOLUME_ABSORBS : bits;
 }
 
 uint32_t burleyBits(const Material& m) {
@@ -184,6 +186,19 @@ void appendTables(MaterialRows& packed, std::span<const Material> materials) {
     }
 }
 
+static_assert(gpu::MOST_BLENDS + 1 == kMostOfAMixture);
+static_assert(gpu::MOST_BLENDS <= gpu::BLEND_OTHERS_MASK);
+
+/// BLEND_ bits: how many materials are evaluated with any one of a mixture, and the lobes of all.
+uint32_t blendBits(std::span<const Material> materials, std::span<const uint32_t> mixture) {
+    if (!areEvaluatedTogether(materials, mixture)) return 0;
+    uint32_t lobes = 0;
+    for (const uint32_t i : mixture)
+        lobes |= closureBits(materials[i]) & gpu::LOBE_MASK;
+    return uint32_t(mixture.size() - 1) << gpu::BLEND_OTHERS_SHIFT | lobes
+                                                                         << gpu::BLEND_LOBES_SHIFT;
+}
+
 /// A blend is the last row of a material's details, and names another material by its number.
 void nameOthers(MaterialRows& packed, std::span<const Material> materials,
                 std::span<const std::vector<Row>> details) {
@@ -191,7 +206,15 @@ void nameOthers(MaterialRows& packed, std::span<const Material> materials,
         const auto detail = std::bit_cast<gpu::MaterialDetail>(details[i].front());
         if ((detail.flags & gpu::DETAIL_IS_BLEND) == 0) continue;
         const size_t row = packed.firstRow[i] + gpu::MATERIAL_DETAIL_ROW + details[i].size() - 1;
-        packed.rows[row][0] = packed.firstRow.at(materials[i].other);
+        auto blend = std::bit_cast<gpu::BlendRow>(packed.rows[row]);
+        const std::vector<uint32_t> mixture = materialsOfMixture(materials, uint32_t(i));
+        const uint32_t bits = blendBits(materials, mixture);
+        blend.other = packed.firstRow.at(materials[i].other);
+        blend.place = uint32_t(materials[i].otherPlace) | bits;
+        packed.rows[row] = std::bit_cast<Row>(blend);
+        packed.mostBlends = std::max(packed.mostBlends, uint32_t(mixture.size() - 1));
+        packed.mostOthers =
+            std::max(packed.mostOthers, bits >> gpu::BLEND_OTHERS_SHIFT & gpu::BLEND_OTHERS_MASK);
     }
 }
 

@@ -16,6 +16,10 @@ namespace stromboli {
 struct MaterialRows {
     std::vector<Row> rows;
     std::vector<uint32_t> firstRow; ///< by material of the scene
+    /// Materials beside any one of a mixture's that are evaluated with it: of the largest mixture
+    /// that details name.
+    uint32_t mostOthers = 0;
+    uint32_t mostBlends = 0; ///< most times that another material may take a place at one hit
 };
 
 /// details: of each material, the rows from gpu::MATERIAL_DETAIL_ROW on; empty: none has any.

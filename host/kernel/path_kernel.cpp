@@ -5,6 +5,7 @@
 #include "embedded/wavefront_storage.h"
 #include "embedded/wavefront_texel.h"
 #include "shaders/shared/interface.h"
+#include "shaders/shared/parameters.h"
 #include "shaders/shared/path_fields.h"
 #include "shaders/shared/render_types.h"
 #include "shaders/shared/texture_types.h"
@@ -46,12 +47,7 @@ struct FieldConditions {
                (sceneHasSlot(gpu::TEXTURE_NORMAL) || sceneHasSlot(gpu::TEXTURE_CLEARCOAT_NORMAL));
     }
     bool materialsHaveRow(uint32_t row) const {
-        const bool hasIndices =
-            sceneHas(gpu::INTERFACE_IS_CONDUCTOR | gpu::CLOSURE_LAYERS | gpu::GLOSSY_LOBES);
-        if (row == 2) return hasIndices || sceneHas(gpu::INTERFACE_IS_DIELECTRIC);
-        if (row == 3) return hasIndices;
-        if (row <= 5) return sceneHas(gpu::RECIPE_PRINCIPLED | gpu::RECIPE_BURLEY);
-        return sceneHas(gpu::RECIPE_PRINCIPLED);
+        return row <= 1 || sceneHas(gpu::closuresWithRow(row));
     }
 
     uint32_t words(PathScheduler scheduler) const {

@@ -160,9 +160,9 @@ SeenPixel seenPixelOf(const gpu::SeenPixel& pixel, const GpuScene& scene) {
     seen.samples = pixel.samples;
     seen.hits = pixel.hits;
     seen.covered = pixel.covered;
-    seen.albedo = pixel.albedo;
-    seen.normal = pixel.normal;
-    seen.position = pixel.position;
+#define TAKE_SUM(name, value) seen.name = glm::vec3(pixel.name);
+    SEEN_SUMS(TAKE_SUM)
+#undef TAKE_SUM
     if (pixel.primitive == kNothingSeen) return seen;
     seen.primitive = scene.bvh.primitiveOrder[pixel.primitive];
     seen.placement = pixel.placement;

@@ -149,6 +149,54 @@ double reliefShadow(const SurfacePoint& s, const glm::dvec3& wi) {
     return 2 / (1 + std::sqrt(1 + alpha2 * squaredTangent(cosine)));
 }
 
+/// The materials of a surface of which `which` is true, together, each by its share.
+template <class Which>
+BsdfValue evaluateThose(const SurfacePoint& s, const glm::dvec3& wi,
+                        const ShadingConventions& conventions, const Which& which) {
+    const Frame frame = surfaceFrame(s);
+    const glm::dvec3 local = frame.toLocal(wi);
+    if (!isOnItsSide(s, wi, local.z < 0, conventions)) return {};
+    BsdfValue sum;
+    const auto add = [&](const Material& m, double share) {
+        if (!which(m)) return;
+        const BsdfValue f = evaluateLocally(m, incidenceOn(s, frame, conventions), local);
+        sum.value += share * f.value;
+        sum.pdf += share * f.pdf;
+    };
+    add(*s.material, s.share);
+    for (const SurfacePoint::Part& part : s.others)
+        add(*part.material, part.share);
+    sum.value *= reliefShadow(s, wi);
+    return sum;
+}
+
+/// The share of the light from there that light samples leave to bounces.
+glm::dvec3 shareLeft(const SurfacePoint& s, const glm::dvec3& wi,
+                     const ShadingConventions& conventions) {
+    if (s.others.empty()) return glm::dvec3(leavesLightsToBounces(*s.material) ? 1.0 : 0.0);
+    const glm::dvec3 all = evaluateBsdf(s, wi, conventions).value;
+    const glm::dvec3 taken = evaluateForLights(s, wi, conventions).value;
+    glm::dvec3 left(0.0);
+    for (int c = 0; c < 3; ++c)
+        if (all[c] > 0) left[c] = 1 - taken[c] / all[c];
+    return left;
+}
+
+/// A sample of the drawn material, as one of all that scatter with it.
+BsdfSample ofMixture(BsdfSample sample, const SurfacePoint& s,
+                     const ShadingConventions& conventions) {
+    const Frame frame = surfaceFrame(s);
+    const glm::dvec3 local = frame.toLocal(sample.direction);
+    const BsdfValue own = evaluateLocally(*s.material, incidenceOn(s, frame, conventions), local);
+    // What falls on the wrong side is lost, and no density counts it.
+    const bool isLost = sample.transmitted() != (local.z < 0) || !(own.pdf > 0);
+    const BsdfValue all = evaluateBsdf(s, sample.direction, conventions);
+    sample.pdf = all.pdf;
+    sample.weight = isLost || !(all.pdf > 0) ? glm::dvec3(0.0) : all.value / all.pdf;
+    sample.left = shareLeft(s, sample.direction, conventions);
+    return sample;
+}
+
 } // namespace
 
 Frame surfaceFrame(const SurfacePoint& s) {
@@ -157,7 +205,8 @@ Frame surfaceFrame(const SurfacePoint& s) {
         return {x, s.tangent.w * glm::cross(s.shading, x), s.shading};
     }
     Frame frame(s.shading);
-    if (!s.material->hasGrain()) return frame;
+    const auto hasGrain = [](const SurfacePoint::Part& p) { return p.material->hasGrain(); };
+    if (!s.material->hasGrain() && std::ranges::none_of(s.others, hasGrain)) return frame;
     // What has a grain needs a tangent that the kernel has too (Duff et al. 2017).
     const glm::dvec3& n = s.shading;
     const double sign = n.z >= 0 ? 1 : -1, a = -1 / (sign + n.z);
@@ -168,6 +217,17 @@ Frame surfaceFrame(const SurfacePoint& s) {
 
 bool isLitFromBehind(const Material& material) {
     return (lobesOf(material) & gpu::TRANSMISSION_LOBES & ~gpu::DELTA_LOBES) != 0;
+}
+
+bool isLitFromBehind(const SurfacePoint& s) {
+    return (lobesOf(s) & gpu::TRANSMISSION_LOBES & ~gpu::DELTA_LOBES) != 0;
+}
+
+bool leavesLightsToBounces(const SurfacePoint& s) {
+    return leavesLightsToBounces(*s.material) &&
+           std::ranges::all_of(s.others, [](const SurfacePoint::Part& p) {
+               return leavesLightsToBounces(*p.material);
+           });
 }
 
 bool leavesLightsToBounces(const Material& material) {
@@ -211,6 +271,13 @@ uint32_t lobesOf(const Material& material) {
     return 0;
 }
 
+uint32_t lobesOf(const SurfacePoint& s) {
+    uint32_t lobes = lobesOf(*s.material);
+    for (const SurfacePoint::Part& part : s.others)
+        lobes |= lobesOf(*part.material);
+    return lobes;
+}
+
 bool scattersIntoManyDirections(uint32_t lobes) {
     return (lobes & ~gpu::DELTA_LOBES) != 0;
 }
@@ -221,12 +288,13 @@ bool scattersAtRandom(uint32_t lobes) {
 
 BsdfValue evaluateBsdf(const SurfacePoint& s, const glm::dvec3& wi,
                        const ShadingConventions& conventions) {
-    const Frame frame = surfaceFrame(s);
-    const glm::dvec3 local = frame.toLocal(wi);
-    if (!isOnItsSide(s, wi, local.z < 0, conventions)) return {};
-    BsdfValue f = evaluateLocally(*s.material, incidenceOn(s, frame, conventions), local);
-    f.value *= reliefShadow(s, wi);
-    return f;
+    return evaluateThose(s, wi, conventions, [](const Material&) { return true; });
+}
+
+BsdfValue evaluateForLights(const SurfacePoint& s, const glm::dvec3& wi,
+                            const ShadingConventions& conventions) {
+    return evaluateThose(s, wi, conventions,
+                         [](const Material& m) { return !leavesLightsToBounces(m); });
 }
 
 BsdfSample sampleBsdf(const SurfacePoint& s, const glm::dvec3& u,
@@ -235,9 +303,12 @@ BsdfSample sampleBsdf(const SurfacePoint& s, const glm::dvec3& u,
     BsdfSample sample = sampleLocally(*s.material, incidenceOn(s, frame, conventions), u);
     // Rounding errors of the direction's length would add up along a path.
     sample.direction = glm::normalize(frame.toWorld(sample.direction));
+    // The share of a delta lobe is that of the draw.
+    if (!s.others.empty() && !sample.isDelta()) return ofMixture(sample, s, conventions);
     if (!isOnItsSide(s, sample.direction, sample.transmitted(), conventions))
         sample.weight = glm::dvec3(0.0);
     sample.weight *= reliefShadow(s, sample.direction);
+    if (!sample.isDelta()) sample.left = shareLeft(s, sample.direction, conventions);
     return sample;
 }
 

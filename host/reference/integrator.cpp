@@ -179,7 +179,7 @@ void PathSample::follow(uint32_t bounce, bool splits) {
         if (surface_.material->hasReliefRules() && glm::dot(surface_.shading, surface_.wo) <= 0)
             return;
         if (!survivesFixed()) return;
-        const uint32_t lobes = lobesOf(*surface_.material);
+        const uint32_t lobes = lobesOf(surface_);
         if (scattersIntoManyDirections(lobes) && bounce >= settings_.minBounce) addDirectLight();
         if (splits && scattersAtRandom(lobes)) return followBranches(bounce);
         if (!scatter(bounce)) return;
@@ -205,18 +205,16 @@ bool PathSample::scatter(uint32_t bounce) {
     if (!(largest(throughput_) > 0)) return false;
     if (!survivesThroughput(bounce)) return false;
 
-    const bool left = leavesLightsToBounces(*surface_.material) &&
-                      samplesLights(settings_.directLight) &&
-                      world_.conventions.bouncesFindAllLight;
-    const bool counts = emissionCounts(bounce, next.isDelta() || left);
-    if (bounce == settings_.maxBounces && !counts) return false;
+    const glm::dvec3 found = shareFound(bounce, next);
+    if (bounce == settings_.maxBounces && !(largest(found) > 0)) return false;
     medium_ = mediumBeyond(next.transmitted());
     const bool hit =
         next.transmitted()
             ? arrive(transmittedRay(surface_, next.direction), {surface_.triangle})
             : arrive(reflectedRay(surface_, next.direction), {startOfReflected(surface_)});
-    if (counts && hit) addEmission();
-    if (counts && !hit) radiance_ += throughput_ * world_.lights.ambientRadiance(next.direction);
+    if (!(largest(found) > 0)) return hit;
+    radiance_ += throughput_ * found *
+                 (hit ? emission(surface_) : world_.lights.ambientRadiance(next.direction));
     return hit;
 }
 
@@ -269,12 +267,13 @@ void PathSample::addEmission() {
     radiance_ += throughput_ * emission(surface_);
 }
 
-/// Whether a light that the ray after this scattering finds adds to the picture, or whether direct
-/// light has accounted for it.
-bool PathSample::emissionCounts(uint32_t bounce, bool delta) const {
-    const bool leftToBounces =
-        settings_.directLight == DirectLight::Bsdf && world_.conventions.bouncesFindAllLight;
-    return bounce >= settings_.minBounce && (delta || leftToBounces);
+/// Direct light has accounted for the rest.
+glm::dvec3 PathSample::shareFound(uint32_t bounce, const BsdfSample& next) const {
+    if (bounce < settings_.minBounce) return glm::dvec3(0.0);
+    if (next.isDelta()) return glm::dvec3(1.0);
+    if (!world_.conventions.bouncesFindAllLight) return glm::dvec3(0.0);
+    if (settings_.directLight == DirectLight::Bsdf) return glm::dvec3(1.0);
+    return samplesLights(settings_.directLight) ? next.left : glm::dvec3(0.0);
 }
 
 bool PathSample::survivesFixed() {
@@ -295,7 +294,7 @@ bool PathSample::survivesThroughput(uint32_t bounce) {
 void PathSample::addDirectLight() {
     lit_ = surface_;
     addDirectLightOfSide();
-    if (!isLitFromBehind(*surface_.material)) return;
+    if (!isLitFromBehind(surface_)) return;
     lit_.geometric = -surface_.geometric;
     lit_.shading = -surface_.shading;
     lit_.wo = -surface_.wo;
@@ -308,7 +307,7 @@ bool PathSample::looksBehind() const {
 }
 
 bool PathSample::isOfSide(const glm::dvec3& direction) const {
-    return !isLitFromBehind(*surface_.material) || glm::dot(lit_.shading, direction) > 0;
+    return !isLitFromBehind(surface_) || glm::dot(lit_.shading, direction) > 0;
 }
 
 Ray PathSample::leaveTo(const glm::dvec3& direction) const {
@@ -327,28 +326,33 @@ const Material* PathSample::mediumBeyond(bool transmitted) const {
 
 void PathSample::addDirectLightOfSide() {
     if (settings_.directLight == DirectLight::Hemisphere) addHemisphereSamples();
-    const bool left =
-        leavesLightsToBounces(*surface_.material) && world_.conventions.bouncesFindAllLight;
+    const bool left = leavesLightsToBounces(surface_) && world_.conventions.bouncesFindAllLight;
     if (samplesLights(settings_.directLight) && !left) addBroadLights();
     if (!settings_.countsLightsForHemisphere()) addDeltaLights();
 }
 
 void PathSample::addBroadLights() {
     const double share = 1.0 / settings_.lightSamples;
+    const auto evaluate = world_.conventions.bouncesFindAllLight ? evaluateForLights : evaluateBsdf;
     for (size_t light = 0; light < world_.lights.broadCount(); ++light)
-        for (uint32_t i = 0; i < settings_.lightSamples; ++i)
-            addLightSample(world_.lights.sampleBroad(light, lit_, random_), share);
+        for (uint32_t i = 0; i < settings_.lightSamples; ++i) {
+            const LightSample sample = world_.lights.sampleBroad(light, lit_, random_);
+            const BsdfValue f = evaluate(surface_, sample.direction, world_.conventions);
+            addLightSample(sample, f.value * share);
+        }
 }
 
 void PathSample::addDeltaLights() {
-    for (size_t light = 0; light < world_.lights.deltaCount(); ++light)
-        addLightSample(world_.lights.sampleDelta(light, lit_), 1);
+    for (size_t light = 0; light < world_.lights.deltaCount(); ++light) {
+        const LightSample sample = world_.lights.sampleDelta(light, lit_);
+        const BsdfValue f = evaluateBsdf(surface_, sample.direction, world_.conventions);
+        addLightSample(sample, f.value);
+    }
 }
 
-void PathSample::addLightSample(const LightSample& light, double share) {
+void PathSample::addLightSample(const LightSample& light, const glm::dvec3& f) {
     if (!isOfSide(light.direction)) return;
-    glm::dvec3 value =
-        light.value * evaluateBsdf(surface_, light.direction, world_.conventions).value * share;
+    glm::dvec3 value = light.value * f;
     if (!(largest(value) > 0)) return;
     Ray ray = leaveTo(light.direction);
     const double distance = light.infinite ? kInfinite : glm::length(light.target - ray.origin);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/reference/bsdf.hpp"
 #include "host/reference/bvh.hpp"
 #include "host/reference/lights.hpp"
 #include "host/render/estimator.hpp"
@@ -84,7 +85,8 @@ class PathSample {
     /// The share of light that comes through to the end of the ray.
     double shareThatPasses(const Ray& ray, Skip skip) const;
     void addEmission();
-    bool emissionCounts(uint32_t bounce, bool delta) const;
+    /// The share of the light that the ray after this scattering finds that adds to the picture.
+    glm::dvec3 shareFound(uint32_t bounce, const BsdfSample& next) const;
     bool survivesFixed();
     bool survivesThroughput(uint32_t bounce);
     void addDirectLight();
@@ -93,7 +95,8 @@ class PathSample {
     void addBroadLights();
     void addDeltaLights();
     void addHemisphereSamples();
-    void addLightSample(const LightSample& light, double share);
+    /// f: what the surface scatters of it.
+    void addLightSample(const LightSample& light, const glm::dvec3& f);
 
     const World& world_;
     const Estimator& settings_;

@@ -1,10 +1,12 @@
 #include "host/reference/surface.hpp"
 
 #include "host/reference/sampling.hpp"
+#include "scene/model/mixture.hpp"
 #include "scene/model/surface_lookup.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace stromboli::reference {
 
@@ -348,12 +350,43 @@ std::optional<glm::dvec3> mappedNormal(const SurfacePoint& s, const Scene& scene
 
 } // namespace
 
+namespace {
+
+/// All materials of a mixture but the one that has been drawn.
+void noteOthers(SurfacePoint& s, const Scene& scene, std::span<const uint32_t> mixture,
+                const PointAttributes& at) {
+    double left = 1;
+    for (const uint32_t i : mixture) {
+        const Material& m = scene.materials[i];
+        const double next = i == mixture.back() ? 0 : otherShareAt(scene, m, at);
+        const double share = left * (1 - next);
+        left *= next;
+        if (&m == s.material)
+            s.share = share;
+        else if (share > 0)
+            s.others.push_back({{std::shared_ptr<void>(), &m}, share}); // the scene's
+    }
+}
+
+} // namespace
+
 void drawMaterial(SurfacePoint& s, const Scene& scene, RandomStream& random) {
     const PointAttributes at = attributesOf(s, scene);
     const OtherPlace notThere = isSeenFromBehind(s) ? OtherPlace::InFront : OtherPlace::Behind;
+    std::vector<uint32_t> together; // from the first material on that scatters with all behind it
+    const auto note = [&] {
+        if (s.material->other == kNoMaterial || !together.empty()) return;
+        const auto number = uint32_t(s.material - scene.materials.data());
+        together = materialsOfMixture(scene.materials, number);
+        if (!areEvaluatedTogether(scene.materials, together)) together.clear();
+    };
+    note();
     while (s.material->other != kNoMaterial && s.material->otherPlace != notThere &&
-           random.next() < otherShareAt(scene, *s.material, at))
+           random.next() < otherShareAt(scene, *s.material, at)) {
         s.material = s.stated = &scene.materials[s.material->other];
+        note();
+    }
+    noteOthers(s, scene, together, at);
 }
 
 void takeMaterialOfSide(SurfacePoint& s, const Scene& scene) {
@@ -364,13 +397,21 @@ void takeMaterialOfSide(SurfacePoint& s, const Scene& scene) {
 
 void applyTextures(SurfacePoint& s, const Scene& scene) {
     const PointAttributes at = attributesOf(s, scene);
-    if (s.material->textures.empty() && at.color == glm::dvec4(1.0)) return;
-    const auto own = std::make_shared<Material>(*s.material);
-    multiplyBaseColor(*own, glm::dvec3(at.color));
-    for (const TextureUse& use : s.material->textures)
-        apply(*own, use.slot, lookUp(scene, use, at));
-    s.material = own.get();
-    s.ownMaterial = own;
+    const auto textured = [&](const Material& m) {
+        std::shared_ptr<Material> own;
+        if (m.textures.empty() && at.color == glm::dvec4(1.0)) return own;
+        own = std::make_shared<Material>(m);
+        multiplyBaseColor(*own, glm::dvec3(at.color));
+        for (const TextureUse& use : m.textures)
+            apply(*own, use.slot, lookUp(scene, use, at));
+        return own;
+    };
+    for (SurfacePoint::Part& part : s.others)
+        if (const auto own = textured(*part.material)) part.material = own;
+    if (const auto own = textured(*s.material)) {
+        s.material = own.get();
+        s.ownMaterial = own;
+    }
 }
 
 /// glTF's clear coat is not turned by the base's map, but by its own.
@@ -395,7 +436,8 @@ void applyNormalMap(SurfacePoint& s, const Scene& scene, const ShadingConvention
     if (const TextureUse* heights = textureIn(*s.material, TextureSlot::Height))
         if (s.triangle != kNoPrimitive) applyHeights(s, scene, *heights, conventions);
     const TextureUse* map = textureIn(*s.material, TextureSlot::Normal);
-    if (!map && !s.material->hasGrain()) return;
+    const auto hasGrain = [](const SurfacePoint::Part& p) { return p.material->hasGrain(); };
+    if (!map && !s.material->hasGrain() && std::ranges::none_of(s.others, hasGrain)) return;
     const bool isTurned = conventions.facesForward && !s.outside;
     s.tangent = tangentOf(s, scene, *s.material, isTurned);
     if (!map || s.tangent.w == 0) return;

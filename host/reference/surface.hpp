@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace stromboli::reference {
 
@@ -28,6 +29,14 @@ struct SurfacePoint {
     const Material* material = nullptr;
     const Material* stated = nullptr;            ///< the scene's: it outlives the point
     std::shared_ptr<const Material> ownMaterial; ///< `material`, where it is not the scene's
+    /// The other materials of the mixture that `material` was drawn from, where they scatter with
+    /// it (areEvaluatedTogether()), and the shares of these and of `material`: 1 in all.
+    struct Part {
+        std::shared_ptr<const Material> material;
+        double share = 0;
+    };
+    std::vector<Part> others;
+    double share = 1;
     /// Unit, perpendicular to the shading normal, along which u grows; w: the bitangent is
     /// w (shading normal x tangent), 0: there is none.
     glm::dvec4 tangent{0.0};
@@ -61,7 +70,7 @@ bool isSeenFromBehind(const SurfacePoint& surface);
 
 class RandomStream;
 
-/// Draws which material of a mixture light meets there.
+/// Draws which material of a mixture light meets there, and notes those that scatter with it.
 void drawMaterial(SurfacePoint& surface, const Scene& scene, RandomStream& random);
 /// The material of the side that the surface is seen from, for those who draw none of a mixture.
 void takeMaterialOfSide(SurfacePoint& surface, const Scene& scene);

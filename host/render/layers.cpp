@@ -15,8 +15,15 @@ namespace {
 /// What a layer has in a pixel; as many of the numbers as it has channels.
 using Values = std::array<double, 3>;
 
-Values valuesOf(const glm::dvec3& v) {
+Values meanOf(const glm::dvec3& sum, uint32_t count) {
+    const glm::dvec3 v = sum / double(std::max(count, 1u));
     return {v.x, v.y, v.z};
+}
+
+Values positionOf(const SeenPixel& s, const Scene& scene) {
+    if (s.hits == 0) return {};
+    const glm::dvec3 p = s.position / double(s.hits) + scene.origin;
+    return {p.x, p.y, p.z};
 }
 
 Values depthOf(const SeenPixel& s, const Camera& camera) {
@@ -49,22 +56,24 @@ Values materialOf(const SeenPixel& s, const Scene& scene) {
 
 Values valuesOf(Layer layer, const SeenPixel& s, const Scene& scene, const Camera& camera) {
     switch (layer) {
-    case Layer::Albedo:
-        return valuesOf(s.albedo / double(std::max(s.samples, 1u)));
-    case Layer::Normal:
-        return valuesOf(s.normal / double(std::max(s.samples, 1u)));
-    case Layer::Depth:
-        return depthOf(s, camera);
-    case Layer::Position:
-        return valuesOf(s.hits > 0 ? s.position / double(s.hits) + scene.origin : glm::dvec3(0));
-    case Layer::Uv:
-        return uvOf(s, scene);
-    case Layer::Object:
-        return objectOf(s, scene);
-    case Layer::Material:
-        return materialOf(s, scene);
+#define VALUE_OF_LAYER(name, text, help, channels, value)                                          \
+    case Layer::name:                                                                              \
+        return value;
+        LAYER_LIST(VALUE_OF_LAYER)
+#undef VALUE_OF_LAYER
     }
     return {};
+}
+
+std::string_view axesOf(Layer layer) {
+    switch (layer) {
+#define AXES_OF_LAYER(name, text, help, channels, value)                                           \
+    case Layer::name:                                                                              \
+        return channels;
+        LAYER_LIST(AXES_OF_LAYER)
+#undef AXES_OF_LAYER
+    }
+    return "";
 }
 
 std::string listOf(const std::vector<std::string>& names) {
@@ -77,14 +86,9 @@ std::string listOf(const std::vector<std::string>& names) {
 } // namespace
 
 std::vector<std::string> channelsOf(Layer layer) {
-    const char* axes = "X";
-    if (layer == Layer::Albedo) axes = "RGB";
-    if (layer == Layer::Normal || layer == Layer::Position) axes = "XYZ";
-    if (layer == Layer::Depth) axes = "Z";
-    if (layer == Layer::Uv) axes = "UV";
     std::vector<std::string> names;
-    for (const char* axis = axes; *axis; ++axis)
-        names.push_back(std::string(nameOf(layer)) + "." + *axis);
+    for (const char axis : axesOf(layer))
+        names.push_back(std::string(nameOf(layer)) + "." + axis);
     return names;
 }
 

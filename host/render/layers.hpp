@@ -4,6 +4,7 @@
 #include "host/film/image_file.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/model/scene.hpp"
+#include "shaders/shared/layer_types.h"
 
 #include <glm/glm.hpp>
 
@@ -26,19 +27,21 @@ inline constexpr uint32_t kNothingSeen = 0xFFFFFFFFu;
 
 /// What the camera rays of a pixel have found: sums over these rays (docs/guide/layers.md).
 struct SeenPixel {
-    uint32_t samples = 0;     ///< camera rays
-    uint32_t hits = 0;        ///< those of them that end on a surface
-    double covered = 0;       ///< the sum of the weights that these have by the pixel filter
-    glm::dvec3 albedo{0.0};   ///< of what is seen, also in mirrors and through glass
-    glm::dvec3 normal{0.0};   ///< likewise; unit vectors of the world
-    glm::dvec3 position{0.0}; ///< of the hits
+    uint32_t samples = 0; ///< camera rays
+    uint32_t hits = 0;    ///< those of them that end on a surface
+    double covered = 0;   ///< the sum of the weights that these have by the pixel filter
+#define DECLARE_SUM(name, value) glm::dvec3 name{0.0};
+    SEEN_SUMS(DECLARE_SUM) ///< shaders/shared/layer_types.h
+#undef DECLARE_SUM
     /// What the first ray that has hit something has hit, in the scene's order (triangles, then
     /// spheres), and where on it: barycentric weights of the second and third corner.
     uint32_t primitive = kNothingSeen;
     uint32_t placement = kNothingSeen; ///< that it is in, of a prototype's triangle
     double b1 = 0, b2 = 0;
 
-    double coverage() const { return samples == 0 ? 0 : covered / samples; }
+    double coverage() const {
+        return samples == 0 ? 0 : covered / samples;
+    }
 };
 
 /// Traces camera rays without light: a backend, for the picture that it was made for.
@@ -51,23 +54,21 @@ class Viewer {
     virtual std::vector<SeenPixel> see(uint32_t first, std::span<const uint32_t> samples,
                                        Seeing what, uint32_t firstSample = 0) = 0;
 
-    static constexpr uint32_t kMostSeenAtOnce = 1u << 16; ///< 4 MiB on the device
+    static constexpr uint32_t kMostSeenAtOnce = 1u << 16; ///< 11 MiB on the device
 };
 
 // --- Layers --------------------------------------------------------------------------------------
 
 /// What a picture says of each pixel beside its radiance (docs/guide/layers.md).
-enum class Layer { Albedo, Normal, Depth, Position, Uv, Object, Material };
+#define NAME_LAYER(name, text, help, channels, value) name,
+enum class Layer { LAYER_LIST(NAME_LAYER) };
+#undef NAME_LAYER
+#define DESCRIBE_LAYER(name, text, help, channels, value)                                          \
+    NamedValue<Layer>{Layer::name, text, help},
 template <>
-inline constexpr auto kNamedValues<Layer> = std::to_array<NamedValue<Layer>>({
-    {Layer::Albedo, "albedo", "color in white light"},
-    {Layer::Normal, "normal", "shading normal"},
-    {Layer::Depth, "depth", "metres along the camera's axis"},
-    {Layer::Position, "position", "in the world, metres"},
-    {Layer::Uv, "uv", "first texture coordinates"},
-    {Layer::Object, "object", "number of the mesh or sphere"},
-    {Layer::Material, "material", "number of the material"},
-});
+inline constexpr auto
+    kNamedValues<Layer> = std::to_array<NamedValue<Layer>>({LAYER_LIST(DESCRIBE_LAYER)});
+#undef DESCRIBE_LAYER
 
 /// Camera rays that a pixel's layers are made of, where the picture has as many samples.
 inline constexpr uint32_t kLayerSamples = 16;

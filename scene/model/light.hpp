@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <tuple>
 
 namespace stromboli {
 
@@ -55,5 +56,13 @@ struct Light {
                kind == LightKind::Spot || kind == LightKind::Projector;
     }
 };
+
+/// Members that came after the first checkpoints (material.hpp).
+inline auto laterMembers(const Light& l) {
+    [[maybe_unused]] const auto& [name, kind, color, position, direction, constant, linear,
+                                  quadratic, angle, exponent, innerAngle, upperOnly, edgeX, edgeY,
+                                  picture, isFramed] = l;
+    return std::tie();
+}
 
 } // namespace stromboli

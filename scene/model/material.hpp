@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace stromboli {
@@ -166,6 +167,31 @@ struct Material {
     glm::vec3* baseColor();
     const glm::vec3* baseColor() const { return const_cast<Material*>(this)->baseColor(); }
 };
+
+/// Members that came after the first checkpoints, for host/checkpoint, which counts those that are
+/// not the default; and all members by name, so that a new one is not forgotten. A new one goes
+/// behind the last and into the tuple.
+inline auto laterMembers(const PrincipledParameters& p) {
+    [[maybe_unused]] const auto& [baseColor, metallic, roughness, ior, specular, specularColor,
+                                  clearcoat, clearcoatRoughness, sheenColor, sheenRoughness,
+                                  anisotropy, rotation, transmission, isThin, attenuationColor,
+                                  attenuationDistance] = p;
+    return std::tie();
+}
+inline auto laterMembers(const BurleyParameters& b) {
+    [[maybe_unused]] const auto& [baseColor, metallic, roughness, anisotropy, ior, specularTint,
+                                  transmission, sheen, sheenTint, flatness, clearcoat,
+                                  clearcoatGloss, isThin, diffuseTransmission] = b;
+    return std::tie();
+}
+inline auto laterMembers(const Material& m) {
+    [[maybe_unused]] const auto& [name, kind, albedo, reflectance, transmittance, ior, eta, k,
+                                  facets, isNonlinear, internalViews, emission, emitsBothSides,
+                                  principled, burley, alphaMode, opacity, alphaCutoff, other,
+                                  otherShare, otherPlace, isHiddenFromCamera, isBlackBehind,
+                                  reliefRule, reliefShadows, textures] = m;
+    return std::tie();
+}
 
 /// Below these, floats cannot tell microfacets from a plane (shaders/shared/bsdf_types.h has the
 /// reasons): the parameter of the distribution, and that times what refraction turns of it.

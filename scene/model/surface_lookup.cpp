@@ -132,7 +132,7 @@ double otherShareAt(const Scene& scene, const Material& material, const PointAtt
     double share = material.otherShare;
     if (const TextureUse* use = textureIn(material, TextureSlot::BlendShare))
         share *= lookUp(scene, *use, at).r;
-    return share;
+    return std::min(share, 1.0);
 }
 
 glm::dvec3 emissionAt(const Scene& scene, const Material& material, const PointAttributes& at) {

@@ -64,7 +64,7 @@ Closures closuresOf(Material m, Incidence i) {
     const bool isPrincipled = hasClosure(m, RECIPE_PRINCIPLED), isBurley = hasClosure(m, RECIPE_BURLEY);
     if (!isPrincipled && !isBurley) stateClosures(c, m, statedParameters(m), i);
     if (isPrincipled) principledClosures(c, principledParameters(m), i);
-    if (isBurley) burleyClosures(c, burleyParameters(m), i);
+    if (isBurley) burleyClosures(c, m, burleyParameters(m), i);
     return c;
 }
 
@@ -295,6 +295,7 @@ BsdfSample sampleLocally(Material m, Incidence i, vec3 u) {
     const bool isOnSide = transmits ? s.direction.z < 0.0 : s.direction.z > 0.0;
     const bool isLost = !isMet(m, i) || !isOnSide || ofFacets && !left.isPossible;
     if (isPlane ? FACES_FORWARD && !(i.wo.z > 0.0) : isLost) s.weight = vec3(0.0);
+    if (MOST_OTHERS > 0u && isLost) s.pdf = 0.0; // which tells it from what is black
     return s;
 }
 

@@ -16,9 +16,9 @@ vec3 burleyTint(BurleyParameters p) {
 /// Burley 2015, figure 15: light that passes a thin sheet is spread less.
 float thinRoughness(BurleyParameters p) { return (0.65 * p.ior - 0.35) * p.roughness; }
 
-void burleyClosures(inout Closures c, BurleyParameters p, Incidence i) {
+void burleyClosures(inout Closures c, Material m, BurleyParameters p, Incidence i) {
     c.isSmooth = false;
-    c.isThin = (p.flags & BURLEY_IS_THIN) != 0u;
+    c.isThin = hasClosure(m, INTERFACE_IS_THIN);
     c.eta = i.entering || c.isThin ? 1.0 / p.ior : p.ior;
     c.facets = burleyFacets(p, p.roughness);
     c.thinFacets = burleyFacets(p, thinRoughness(p));
@@ -26,7 +26,7 @@ void burleyClosures(inout Closures c, BurleyParameters p, Incidence i) {
     const bool isInside = !c.isThin && !i.entering;
     const float dielectric = c.isThin ? 1.0 : 1.0 - p.metallic;
     const float opaque = isInside ? 0.0 : dielectric * (1.0 - p.transmission);
-    const float sheen = isInside ? 0.0 : p.sheen.x * (c.isThin ? 1.0 - p.transmission : dielectric);
+    const float sheen = isInside ? 0.0 : p.sheen * (c.isThin ? 1.0 - p.transmission : dielectric);
     const float passed = c.isThin ? p.diffuseTransmission : 0.0;
     c.burley = BurleyInterface(isInside, dielectric * p.transmission, burleyTint(p));
     c.interfaceWeight = c.isThin && !(p.transmission > 0.0) ? 0.0 : 1.0;

@@ -33,7 +33,7 @@ LightSample lightSample(const Given given, inout PathState path, vec2 u, uint in
 
 /// Starts the ray of a direct light sample, if it can contribute.
 void traceDirectSample(const Given given, inout PathState path, LightSample light, bool hemisphere) {
-    const BsdfValue f = evaluateBsdf(path.material, path.surface, light.direction);
+    const BsdfValue f = evaluateMixture(path.material, path.surface, light.direction);
     path.directValue = f.value * light.radiance;
     if (!(dot(path.directValue, vec3(1.0)) > 0.0)) return;
     if (combines(lobesOf(path.material))) {

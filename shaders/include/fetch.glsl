@@ -91,16 +91,8 @@ struct Material {
 
 bool hasClosure(Material m, uint bit) { return has(m.header.w, bit); }
 
-const bool HAS_RECIPES = (CLOSURES & (RECIPE_PRINCIPLED | RECIPE_BURLEY)) != 0u;
-
 /// Whether some material of the scene has this row behind its header.
-bool materialsHaveRow(uint row) {
-    const bool hasIndices = sceneHas(INTERFACE_IS_CONDUCTOR | CLOSURE_LAYERS | GLOSSY_LOBES);
-    if (row <= 1u) return true;
-    if (row == 2u) return hasIndices || sceneHas(INTERFACE_IS_DIELECTRIC);
-    if (row == 3u) return hasIndices;
-    return row <= 5u ? HAS_RECIPES : sceneHas(RECIPE_PRINCIPLED);
-}
+bool materialsHaveRow(uint row) { return row <= 1u || sceneHas(closuresWithRow(row)); }
 
 /// row: the material's first. Rows that no material of the scene has are not read.
 Material fetchMaterial(uint row) {
@@ -124,27 +116,62 @@ bool isBlackBehind(Material m) { return BLACK_BACKS && (m.header.w & MATERIAL_IS
 uint reliefRules(Material m) { return RELIEF_RULES ? m.header.w & MATERIAL_RELIEF_RULES : 0u; }
 bool emitsBothSides(Material m) { return (m.header.w & MATERIAL_EMITS_BOTH_SIDES) != 0u; }
 
-// The parameters, of a material that has these.
+// By which recipe a material's closures follow from its parameters.
 
+bool isOfPrincipled(Material m) { return hasClosure(m, RECIPE_PRINCIPLED); }
+bool isOfBurley(Material m) { return hasClosure(m, RECIPE_BURLEY); }
+bool isOfStated(Material m) { return !isOfPrincipled(m) && !isOfBurley(m); }
+
+// The parameters (shared/parameters.h), of a material of the recipe, and functions that multiply or raise one of them.
+
+vec3 as_vec3(uvec3 bits) { return uintBitsToFloat(bits); }
+float as_float(uint bits) { return uintBitsToFloat(bits); }
+uint as_uint(uint bits) { return bits; }
+void multiply(inout uvec3 bits, vec3 factor) { bits = floatBitsToUint(uintBitsToFloat(bits) * factor); }
+void multiply(inout uint bits, float factor) { bits = floatBitsToUint(uintBitsToFloat(bits) * factor); }
+
+#define READ_PARAMETER(type, name, at, place, value) p.name = as_##type(m.row##at.place);
 StatedParameters statedParameters(Material m) {
-    StatedParameters p = StatedParameters(uintBitsToFloat(m.row1.xyz), uintBitsToFloat(m.row1.w), uintBitsToFloat(m.row2.xyz),
-                                          uintBitsToFloat(m.row2.w), uintBitsToFloat(m.row3.xyz), m.row3.w);
+    StatedParameters p;
+    STATED_PARAMETERS(READ_PARAMETER)
     if (!materialsHaveRow(3u)) p.index[INDEX_RATIO] = p.alphaY;
     return p;
 }
-
 PrincipledParameters principledParameters(Material m) {
-    const vec4 row1 = uintBitsToFloat(m.row1), row2 = uintBitsToFloat(m.row2);
-    const vec4 row3 = uintBitsToFloat(m.row3), row4 = uintBitsToFloat(m.row4);
-    const vec4 row5 = uintBitsToFloat(m.row5), row6 = uintBitsToFloat(m.row6);
-    return PrincipledParameters(row1.xyz, row1.w, row2.xyz, row2.w, row3.x, row3.y, row3.z, row3.w,
-                                row4.xyz, row4.w, row5.x, row5.y, row5.z, m.row5.w, row6.xyz, row6.w);
+    PrincipledParameters p;
+    PRINCIPLED_PARAMETERS(READ_PARAMETER)
+    return p;
 }
-
 BurleyParameters burleyParameters(Material m) {
-    const vec4 row1 = uintBitsToFloat(m.row1), row2 = uintBitsToFloat(m.row2);
-    const vec4 row3 = uintBitsToFloat(m.row3), row4 = uintBitsToFloat(m.row4);
-    const vec4 row5 = uintBitsToFloat(m.row5);
-    return BurleyParameters(row1.xyz, row1.w, row2.x, row2.y, row2.z, row2.w, row3.x, row3.y, row3.z, row3.w,
-                            row4.xyz, row4.w, row5.x, row5.y, row5.z, m.row5.w);
+    BurleyParameters p;
+    BURLEY_PARAMETERS(READ_PARAMETER)
+    return p;
+}
+#undef READ_PARAMETER
+
+#define FACTOR_vec3 vec3
+#define FACTOR_float float
+#define FACTOR_uint float
+#define MULTIPLY_PARAMETER(recipe, type, name, at, place) \
+    void multiply##recipe##_##name(inout Material m, FACTOR_##type factor) { multiply(m.row##at.place, factor); }
+#define MULTIPLY_STATED(type, name, at, place, value) MULTIPLY_PARAMETER(Stated, type, name, at, place)
+#define MULTIPLY_PRINCIPLED(type, name, at, place, value) MULTIPLY_PARAMETER(Principled, type, name, at, place)
+#define MULTIPLY_BURLEY(type, name, at, place, value) MULTIPLY_PARAMETER(Burley, type, name, at, place)
+STATED_PARAMETERS(MULTIPLY_STATED)
+PRINCIPLED_PARAMETERS(MULTIPLY_PRINCIPLED)
+BURLEY_PARAMETERS(MULTIPLY_BURLEY)
+#undef MULTIPLY_STATED
+#undef MULTIPLY_PRINCIPLED
+#undef MULTIPLY_BURLEY
+
+#define WRITE_PARAMETER(type, name, at, place, value) m.row##at.place = bits_##type(p.name);
+uvec3 bits_vec3(vec3 v) { return floatBitsToUint(v); }
+uint bits_float(float x) { return floatBitsToUint(x); }
+uint bits_uint(uint x) { return x; }
+void setParameters(inout Material m, PrincipledParameters p) { PRINCIPLED_PARAMETERS(WRITE_PARAMETER) }
+#undef WRITE_PARAMETER
+
+/// What base colours multiply is in the first place by every recipe.
+void multiplyBaseColor(inout Material m, vec3 factor) {
+    if (hasClosure(m, HAS_BASE_COLOR)) multiply(m.row1.xyz, factor);
 }

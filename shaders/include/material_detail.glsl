@@ -117,13 +117,6 @@ struct MaterialPoint {
     vec2 weights;   ///< barycentric, of the second and third corner
 };
 
-void scale(inout uvec4 row, vec3 factor) {
-    row.xyz = floatBitsToUint(uintBitsToFloat(row.xyz) * factor);
-}
-void scale(inout uint word, float factor) {
-    word = floatBitsToUint(uintBitsToFloat(word) * factor);
-}
-
 /// What maps say of the normal at a point.
 struct Relief {
     vec3 mapped; ///< a normal map's vector in the frame of the surface's tangent; (0, 0, 1) without one
@@ -142,32 +135,34 @@ vec3 mappedNormal(vec4 texel, float scale_) {
     return vec3((2.0 * texel.xy - 1.0) * scale_, 2.0 * texel.z - 1.0);
 }
 
-void applyMetallicRoughness(inout Material m, vec4 texel) {
-    scale(m.row1.w, texel.b);
-    scale(m.row2.w, texel.g);
-}
-
 /// Whether loose textures have this slot, and whether this one does.
 bool isLoose(uint slot, uint wanted) {
     return (LOOSE_SLOTS & 1u << wanted) != 0u && slot == wanted;
 }
 
-/// Multiplies the parameters behind the first row by the texel, as the texture's slot says.
-void applyToFurtherParameters(inout Material m, uint slot, vec4 texel) {
-    if (isLoose(slot, TEXTURE_METALLIC_ROUGHNESS)) applyMetallicRoughness(m, texel);
-    if (isLoose(slot, TEXTURE_SPECULAR_COLOR)) scale(m.row2, texel.rgb);
-    if (isLoose(slot, TEXTURE_SPECULAR)) scale(m.row3.x, texel.a);
-    if (isLoose(slot, TEXTURE_TRANSMISSION)) scale(m.row3.z, texel.r);
-    if (isLoose(slot, TEXTURE_SHEEN_COLOR)) scale(m.row4, texel.rgb);
-    if (isLoose(slot, TEXTURE_SHEEN_ROUGHNESS)) scale(m.row4.w, texel.a);
-    if (isLoose(slot, TEXTURE_CLEARCOAT)) scale(m.row5.x, texel.r);
-    if (isLoose(slot, TEXTURE_CLEARCOAT_ROUGHNESS)) scale(m.row5.y, texel.g);
-    if (isLoose(slot, TEXTURE_ANISOTROPY)) {
-        scale(m.row3.w, texel.b);
-        const vec2 along = 2.0 * texel.xy - 1.0;
-        const float turn = along == vec2(0.0) ? 0.0 : atan(along.y, along.x);
-        m.row5.z = floatBitsToUint(uintBitsToFloat(m.row5.z) + turn);
-    }
+/// The direction of glTF's anisotropy, as the texel turns it.
+void turnGrain(inout Material m, vec4 texel) {
+    const vec2 along = 2.0 * texel.xy - 1.0;
+    PrincipledParameters p = principledParameters(m);
+    p.anisotropyRotation += along == vec2(0.0) ? 0.0 : atan(along.y, along.x);
+    setParameters(m, p);
+}
+
+/// Multiplies the parameters behind the first row by the texel of a loose texture, as its slot says.
+void applyToParameters(inout Material m, uint slot, vec4 texel) {
+#define APPLY(slot_, recipe, name, factor)                                                         \
+    if (isLoose(slot, TEXTURE_##slot_) && isOf##recipe(m)) multiply##recipe##_##name(m, factor);
+    TEXTURED_PARAMETERS(APPLY)
+#undef APPLY
+    if (isLoose(slot, TEXTURE_ANISOTROPY) && isOfPrincipled(m)) turnGrain(m, texel);
+}
+
+/// The same of the metallic-roughness map of a bundle.
+void applyBundledRoughness(inout Material m, vec4 texel) {
+#define APPLY(slot_, recipe, name, factor)                                                         \
+    if (TEXTURE_##slot_ == TEXTURE_METALLIC_ROUGHNESS && isOf##recipe(m)) multiply##recipe##_##name(m, factor);
+    TEXTURED_PARAMETERS(APPLY)
+#undef APPLY
 }
 
 /// Whether a texture is no part of these: what takes the material's place, the coat's normal.
@@ -176,21 +171,20 @@ bool isReadElsewhere(uint slot) {
            sceneHasSlot(TEXTURE_CLEARCOAT_NORMAL) && slot == TEXTURE_CLEARCOAT_NORMAL;
 }
 
-/// A texel's part in the parameters (PrincipledParameters; those of other recipes are arranged to suit), and in what
-/// maps say.
+/// A texel's part in the parameters (shared/parameters.h, TEXTURED_PARAMETERS), and in what maps say.
 void applyTexel(inout MaterialAtPoint at, TextureUse t, vec4 texel) {
     const uint slot = t.flags & TEXTURE_SLOT_MASK;
     if (isLoose(slot, TEXTURE_BASE_COLOR)) {
-        if (hasClosure(at.parameters, HAS_BASE_COLOR)) scale(at.parameters.row1, texel.rgb);
+        multiplyBaseColor(at.parameters, texel.rgb);
         at.opacity *= texel.a;
     }
     if (isLoose(slot, TEXTURE_OPACITY)) at.opacity *= t.scale < 0.0 ? 1.0 - texel.r : texel.r;
     if (isLoose(slot, TEXTURE_EMISSION)) {
-        scale(at.parameters.header, texel.rgb);
+        multiply(at.parameters.header.xyz, texel.rgb);
         at.emissionFactor *= texel.rgb;
     }
     if (isLoose(slot, TEXTURE_NORMAL)) at.relief.mapped = mappedNormal(texel, t.scale);
-    if (materialsHaveRow(2u)) applyToFurtherParameters(at.parameters, slot, texel);
+    if (materialsHaveRow(2u)) applyToParameters(at.parameters, slot, texel);
 }
 
 /// The bundle's part in them.
@@ -199,18 +193,18 @@ void applyBundle(inout MaterialAtPoint at, uint materialRow, PointAttributes a) 
     const BundleTexels texels = fetchBundle(t, coordinatesOf(t, a));
     if (sceneHasSlot(TEXTURE_BASE_COLOR)) {
         const vec4 texel = mapOf(texels, TEXTURE_BASE_COLOR);
-        if (hasClosure(at.parameters, HAS_BASE_COLOR)) scale(at.parameters.row1, texel.rgb);
+        multiplyBaseColor(at.parameters, texel.rgb);
         at.opacity *= texel.a;
     }
     if (sceneHasSlot(TEXTURE_EMISSION)) {
         const vec3 texel = mapOf(texels, TEXTURE_EMISSION).rgb;
-        scale(at.parameters.header, texel);
+        multiply(at.parameters.header.xyz, texel);
         at.emissionFactor *= texel;
     }
     if (sceneHasSlot(TEXTURE_NORMAL) && (t.flags & TEXELS_MAP_NORMALS) != 0u)
         at.relief.mapped = mappedNormal(mapOf(texels, TEXTURE_NORMAL), t.scale);
     if (sceneHasSlot(TEXTURE_METALLIC_ROUGHNESS) && materialsHaveRow(2u))
-        applyMetallicRoughness(at.parameters, mapOf(texels, TEXTURE_METALLIC_ROUGHNESS));
+        applyBundledRoughness(at.parameters, mapOf(texels, TEXTURE_METALLIC_ROUGHNESS));
 }
 
 PointAttributes attributesOf(MaterialPoint p) {
@@ -262,7 +256,7 @@ MaterialAtPoint lookUpMaterial(MaterialPoint p) {
     MaterialAtPoint at =
         MaterialAtPoint(fetchMaterial(p.material), Relief(vec3(0.0, 0.0, 1.0), vec2(0.0)), vec3(1.0), 1.0);
     const PointAttributes a = attributesOf(p);
-    if (hasAttribute(ATTRIBUTE_COLOR) && hasClosure(at.parameters, HAS_BASE_COLOR)) scale(at.parameters.row1, a.color.rgb);
+    if (hasAttribute(ATTRIBUTE_COLOR)) multiplyBaseColor(at.parameters, a.color.rgb);
     if (!hasDetails()) return at;
     const MaterialDetail detail = fetchDetail(p.material);
     at.opacity = detail.opacity * a.color.a;
@@ -281,30 +275,4 @@ bool emissionHasFactors() { return sceneHasSlot(TEXTURE_EMISSION) || HAS_ALPHA; 
 /// For rays that come straight from the camera: they pass what is hidden from it.
 float opacityForCamera(MaterialPoint p, float opacity) {
     return HIDES_SURFACES && (fetchDetail(p.material).flags & DETAIL_IS_HIDDEN) != 0u ? 0.0 : opacity;
-}
-
-/// How often another material takes the place of the one with this first row, and the first row of that. notThere:
-/// OTHER_ of the side that the surface is not seen from.
-float blendShare(uint materialRow, PointAttributes a, uint notThere, out uint other) {
-    const MaterialDetail detail = fetchDetail(materialRow);
-    const uvec4 r = ROW(materialRows, textureUseRow(materialRow, bundles() + looseTexturesOf(detail)));
-    const bool isBlend = (detail.flags & DETAIL_IS_BLEND) != 0u;
-    const BlendRow blend = BlendRow(r.x, uintBitsToFloat(r.y), isBlend ? r.z : 0u, r.w);
-    other = blend.other;
-    float share = isBlend && blend.place != notThere ? blend.share : 0.0;
-    if (sceneHasSlot(TEXTURE_BLEND_SHARE)) {
-        const TextureUse t = fetchTextureUse(materialRow, blend.texture);
-        const float texel = lookUp(t, coordinatesOf(t, a)).r;
-        share *= blend.texture != 0u ? texel : 1.0;
-    }
-    return share;
-}
-
-/// The material of the side that a surface is seen from, for those who draw none of a mixture.
-uint materialOfSide(SurfacePoint s) {
-    const uint notThere = isSeenFromBehind(s) ? OTHER_IN_FRONT : OTHER_BEHIND;
-    const MaterialDetail detail = fetchDetail(s.material);
-    const uvec4 r = ROW(materialRows, textureUseRow(s.material, bundles() + looseTexturesOf(detail)));
-    const bool hasOther = (detail.flags & DETAIL_IS_BLEND) != 0u && r.w != OTHER_BY_SHARE && r.w != notThere;
-    return hasOther ? r.x : s.material;
 }

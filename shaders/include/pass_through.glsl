@@ -5,32 +5,15 @@ bool isTracing(uint p); // path_state.glsl
 
 Material materialAt(SurfacePoint s) { return lookUpMaterial(materialPoint(s)).parameters; }
 
-#include "include/pass_number.glsl"
-
-float passNumberOfPath(const Frame frame, PathState path, uint purpose) {
+/// hitWords() of the ray that is done.
+uvec4 hitWordsOfPath(const Frame frame, PathState path) {
     uint sample_ = sampleIndex(frame, path), block = path.bounce * (1u + directSamples(frame));
     if (DIRECT_LIGHT == DIRECT_HEMISPHERE && path.phase == PHASE_HEMISPHERE) block += path.directIndex;
     if (SPLITS && path.splitPoint.bounce != 0u) {
         sample_ = sample_ * frame.branches + frame.branches - 1u - path.branchesLeft;
         block |= BRANCH_BLOCKS;
     }
-    return passNumber(frame.seed, path.ray, path.pixelId, sample_, block, purpose);
-}
-
-/// The first row of the material that the path meets, drawn from a mixture once at each hit, for light samples and the
-/// bounce alike.
-uint drawnMaterial(const Frame frame, PathState path, SurfacePoint s) {
-    uint row = s.material;
-    const PointAttributes a = attributesOf(s);
-    const uint notThere = isSeenFromBehind(s) ? OTHER_IN_FRONT : OTHER_BEHIND;
-    bool goesOn = true;
-    for (uint i = 0u; i < MOST_BLENDS && goesOn; ++i) {
-        uint other;
-        const float share = blendShare(row, a, notThere, other);
-        goesOn = goesOn && passNumberOfPath(frame, path, i + 1u) < share;
-        row = goesOn ? other : row;
-    }
-    return row;
+    return hitWords(frame.seed, path.ray, path.pixelId, sample_, block);
 }
 
 /// Whether the ray that is done goes on: it has met a surface that is not there, or partly. A shadow ray goes on with
@@ -43,7 +26,7 @@ bool passesThrough(const Frame frame, inout PathState path, MaterialPoint hit, f
     if (path.phase == PHASE_SHADOW) {
         path.directValue *= 1.0 - opacity;
         if (!(dot(path.directValue, vec3(1.0)) > 0.0)) return false;
-    } else if (passNumberOfPath(frame, path, 0u) < opacity) {
+    } else if (hitNumber(hitWordsOfPath(frame, path), 0u) < opacity) {
         return false;
     }
     passOn(path.ray, path.rayEnd);

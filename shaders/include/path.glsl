@@ -73,10 +73,10 @@ void arrive(const Given given, inout PathState path) {
         return;
     }
     if (HAS_BLENDS) {
-        path.surface.material = drawnMaterial(given.frame, path, path.surface);
+        drawMaterial(path.surface, hitWordsOfPath(given.frame, path));
         path.found = lookUpMaterial(materialPoint(path.surface));
     }
-    path.material = path.found.parameters;
+    path.material = inMixture(path.found.parameters, path.surface);
     if (path.countsEmission) path.radiance += path.throughput * emissionAt(path.surface, path.material) * share;
     if (isBlackBehind(path.material) && isSeenFromBehind(path.surface)) return;
     faceForward(path.surface);
@@ -112,11 +112,11 @@ void splitPath(const Frame frame, inout PathState path) {
     path.radiance *= float(frame.branches);
 }
 
-/// Goes back to where the path split, with the next branch. material: of that surface.
+/// Goes back to where the path split, with the next branch. material: drawn at that surface.
 void nextBranch(inout PathState path, Material material) {
     --path.branchesLeft;
     path.surface = path.splitPoint.surface;
-    path.material = material;
+    path.material = inMixture(material, path.surface);
     path.throughput = path.splitPoint.throughput;
     path.bounce = path.splitPoint.bounce;
     path.medium = path.splitPoint.medium;
@@ -132,7 +132,7 @@ bool endsHere(const Frame frame, PathState path) {
 void scatter(const Given given, inout PathState path, vec3 u, float roulette) {
     path.phase = PHASE_ENDED;
     float mixtureWeight;
-    const BsdfSample b = sampleBsdfOrGap(given.gap, path.material, path.surface, u, mixtureWeight);
+    const BsdfSample b = ofMixture(sampleBsdfOrGap(given.gap, path.material, path.surface, u, mixtureWeight), path.surface);
     path.throughput *= b.weight;
     const float largest = largestComponent(path.throughput);
     if (!(largest > 0.0)) return;

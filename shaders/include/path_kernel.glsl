@@ -27,6 +27,7 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatchConstants; };
 #include "closures/bsdf.glsl"
 #include "include/material_detail.glsl"
 #include "include/relief.glsl"
+#include "include/mixture.glsl"
 #include "lights/lights.glsl"
 #include "include/mis.glsl"
 #include "include/gap_proposal.glsl"

@@ -56,7 +56,7 @@ void store(PathSlot slot, uint word, vec4 v) { store(slot, word, floatBitsToUint
 
 /// Loads the fields that a stage reads. reader: its BY_ bit, or an AT_ bit.
 void loadPath(PathSlot slot, inout PathState path, inout Job job, uint reader) {
-    path.ray.hitPlacement = NO_PLACEMENT; // passNumber() reads it in all scenes
+    path.ray.hitPlacement = NO_PLACEMENT; // hitWords() reads it in all scenes
     uint word = 0u;
 #define LOAD_FIELD(type, member, exists, readers, writers)                                         \
     if ((exists) && ((readers) & reader) != 0u) load(slot, word, member);                          \

@@ -15,7 +15,11 @@ struct SurfacePoint {
     vec4 tangent; ///< relief.glsl; with TANGENT_FRAMES
     vec3 coat;    ///< unit; the clear coat's normal, with sceneHasCoatNormals() (relief.glsl)
     uint placement; ///< that skipPrimitive is in; NO_PLACEMENT: none
+    uint mixture;   ///< first row of the mixture that `material` is of and that is evaluated together; NO_MIXTURE
 };
+
+/// No material begins there.
+const uint NO_MIXTURE = 0xFFFFFFFFu;
 
 /// Without normals of corners a second copy of the geometric one, which would be carried along.
 vec3 shadingNormal(SurfacePoint s) { return HAS_NORMALS ? s.shading : s.geometric; }
@@ -138,6 +142,7 @@ SurfacePoint surfaceAt(Traversal t) {
     }
     const vec3 v0 = place.v0, v1 = place.v1, v2 = place.v2;
     s.material = materialOf(p);
+    s.mixture = NO_MIXTURE;
     s.wo = -t.direction;
     s.lift = 0.0;
     if (HAS_TRIANGLES && !place.isSphere) {

@@ -1,15 +1,19 @@
 // Reads lights and the table that one of them is picked by (shaders/shared/light_types.h).
 
+/// Whether some light of the scene that is sampled has so many rows of parameters.
+bool lightsHaveRows(uint wanted) {
+#define HAS_ROWS(name, number, rows, label) || uint(rows) >= wanted && samplesLightKind(LIGHT_##name)
+    return false LIGHT_LIST(HAS_ROWS);
+#undef HAS_ROWS
+}
+
 /// Rows that no kind of the scene has are not read.
 LightRows fetchLightRows(uint light) {
     const uint row = LIGHT_ROWS * light;
-    const bool two = samplesLightKind(LIGHT_QUAD) || samplesLightKind(LIGHT_POINT) ||
-                     samplesLightKind(LIGHT_SPOT) || samplesLightKind(LIGHT_PROJECTOR) || HAS_ENVIRONMENT;
     LightRows l = LightRows(ROW(lightRows, row), uvec4(0u), uvec4(0u), uvec4(0u));
     l.row1 = ROW(lightRows, row + 1u);
-    if (two) l.row2 = ROW(lightRows, row + 2u);
-    if (samplesLightKind(LIGHT_QUAD) || samplesLightKind(LIGHT_SPOT) || samplesLightKind(LIGHT_PROJECTOR))
-        l.row3 = ROW(lightRows, row + 3u);
+    if (lightsHaveRows(2u) || HAS_ENVIRONMENT) l.row2 = ROW(lightRows, row + 2u);
+    if (lightsHaveRows(3u)) l.row3 = ROW(lightRows, row + 3u);
     return l;
 }
 
@@ -17,37 +21,16 @@ vec3 colorOf(LightRows l) { return uintBitsToFloat(l.header.xyz); }
 uint kindOf(LightRows l) { return l.header.w & LIGHT_KIND_MASK; }
 bool hasFlag(LightRows l, uint flag) { return (l.header.w & flag) != 0u; }
 
-QuadLight quadLight(LightRows l) {
-    return QuadLight(uintBitsToFloat(l.row1.xyz), uintBitsToFloat(l.row1.w),
-                     uintBitsToFloat(l.row2.xyz), l.row2.w, uintBitsToFloat(l.row3.xyz), l.row3.w);
-}
-
-AmbientLight ambientLight(LightRows l) { return AmbientLight(uintBitsToFloat(l.row1.xyz), l.row1.w); }
-
-EnvironmentLight environmentLight(LightRows l) {
-    return EnvironmentLight(l.row1.x, l.row1.y, uintBitsToFloat(l.row1.z), uintBitsToFloat(l.row1.w),
-                            uintBitsToFloat(l.row2.x), l.row2.y, l.row2.z, l.row2.w);
-}
-
-SphereLight sphereLight(LightRows l) {
-    return SphereLight(uintBitsToFloat(l.row1.xyz), uintBitsToFloat(l.row1.w));
-}
-
-DirectionalLight directionalLight(LightRows l) {
-    return DirectionalLight(uintBitsToFloat(l.row1.xyz), l.row1.w);
-}
-
-PointLight pointLight(LightRows l) {
-    return PointLight(uintBitsToFloat(l.row1.xyz), uintBitsToFloat(l.row1.w),
-                      uintBitsToFloat(l.row2.xyz), uintBitsToFloat(l.row2.w),
-                      uintBitsToFloat(l.row3.xyz), uintBitsToFloat(l.row3.w));
-}
-
-ProjectorLight projectorLight(LightRows l) {
-    return ProjectorLight(uintBitsToFloat(l.row1.xyz), uintBitsToFloat(l.row1.w),
-                          uintBitsToFloat(l.row2.xyz), uintBitsToFloat(l.row2.w),
-                          uintBitsToFloat(l.row3.xyz), l.row3.w);
-}
+#define READ_FIELD(type, name, at, place) p.name = as_##type(l.row##at.place);
+#define READ_LIGHT(structure, function, fields, met, sample) \
+    structure function(LightRows l) { \
+        structure p; \
+        fields(READ_FIELD) \
+        return p; \
+    }
+LIGHT_STRUCTURES(READ_LIGHT)
+#undef READ_LIGHT
+#undef READ_FIELD
 
 bool isTriangleLight(uint light) {
     return samplesLightKind(LIGHT_TRIANGLE) &&

@@ -1,5 +1,5 @@
 // Sampling of lights: docs/theory/estimator.md has the table of densities. A kind of light is a file in this
-// folder (or a part of one) and a line in sampleLight().
+// folder (or a part of one) and a row in the tables of shared/light_types.h.
 
 #include "include/spherical.glsl"
 #include "lights/light_rows.glsl"
@@ -54,12 +54,9 @@ LightSample sampleLight(const Given given, SurfacePoint s, uint light, vec2 u, o
     if (isTriangleLight(light)) return sampleTriangleLight(s, light, u, emitter);
     const LightRows rows = fetchLight(given.onlyLight, light);
     const uint kind = kindOf(rows);
-    if (isLight(kind, LIGHT_QUAD)) return sampleQuadLight(given.onlyLight, s, rows, u);
-    if (isLight(kind, LIGHT_SPHERE)) return sampleSphereLight(s, rows, u);
-    if (isLight(kind, LIGHT_AMBIENT)) return sampleAmbientLight(s, rows, u);
-    if (isLight(kind, LIGHT_DIRECTIONAL)) return sampleDirectionalLight(rows);
-    if (isLight(kind, LIGHT_ENVIRONMENT)) return sampleEnvironment(rows, u);
-    if (isLight(kind, LIGHT_PROJECTOR)) return sampleProjector(s, rows);
-    if (samplesLightKind(LIGHT_POINT) || samplesLightKind(LIGHT_SPOT)) return samplePointLight(s, rows);
+#define SAMPLE_LIGHT(structure, function, fields, met, sample_) \
+    if (met) return sample_;
+    LIGHT_STRUCTURES(SAMPLE_LIGHT)
+#undef SAMPLE_LIGHT
     return NO_LIGHT_SAMPLE;
 }

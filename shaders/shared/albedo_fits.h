@@ -11,19 +11,19 @@
 SHARED_BEGIN
 
 #ifdef __cplusplus
-#define SHARED_FUNCTION inline
+#define FIT_FUNCTION inline
 using Real = double;
 using std::max;
 using std::sqrt;
 #else
-#define SHARED_FUNCTION
+#define FIT_FUNCTION
 #define Real float
 #endif
 
 /// The albedo of isotropic GGX, height-correlated Smith, whose microfacets reflect everything. alpha
 /// in [1e-4, 1]; relative error below 0.0041. It is 1 at grazing views, and for alpha 0; the variable
 /// keeps the shape of the dip between the two, which is at mu near alpha.
-SHARED_FUNCTION Real ggxAlbedo(Real mu, Real alpha) {
+FIT_FUNCTION Real ggxAlbedo(Real mu, Real alpha) {
     const Real x = mu / (mu + 0.5f * alpha);
     const Real c0 =
         0.084475523f +
@@ -49,7 +49,7 @@ SHARED_FUNCTION Real ggxAlbedo(Real mu, Real alpha) {
 /// with Schlick's Fresnel term the lobe's albedo is ggxAlbedo * (f0 + (f90 - f0) schlickShare).
 /// Absolute error below 0.0075. The polynomial is of the cosine whose fifth power does, over
 /// sqrt(mu^2 + alpha^2).
-SHARED_FUNCTION Real schlickShare(Real mu, Real alpha) {
+FIT_FUNCTION Real schlickShare(Real mu, Real alpha) {
     const Real x = mu / (mu + alpha);
     const Real s = sqrt(alpha);
     const Real c0 =
@@ -71,7 +71,7 @@ SHARED_FUNCTION Real schlickShare(Real mu, Real alpha) {
 /// The albedo of the sheen of colour 1. alpha in [LEAST_SHEEN_ALPHA, 1], mu >= LEAST_SHEEN_COSINE;
 /// above the truth by no more than 0.032 and never below it by more than 1e-3, so that what is beneath
 /// never makes the sum exceed 1.
-SHARED_FUNCTION Real sheenAlbedo(Real mu, Real alpha) {
+FIT_FUNCTION Real sheenAlbedo(Real mu, Real alpha) {
     const Real x = sqrt(mu);
     const Real s = sqrt(alpha);
     const Real c0 =

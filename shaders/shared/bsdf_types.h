@@ -1,7 +1,7 @@
 // Surfaces as the kernel reads them: emission, and the closures that scatter light.
 //
 // A material is a run of rows in the material buffer: its MaterialHeader, then the parameters of its
-// closures. Primitives name a material by its first row. docs/architecture.md says how to add a closure.
+// closures (parameters.h). Primitives name a material by its first row. docs/architecture.md says how to add a closure.
 #ifndef STROMBOLI_SHARED_BSDF_TYPES_H
 #define STROMBOLI_SHARED_BSDF_TYPES_H
 
@@ -9,52 +9,68 @@
 
 SHARED_BEGIN
 
-// --- Lobes ---------------------------------------------------------------------------------
-// A BSDF is a sum of lobes; each is one of these. Delta lobes scatter into single directions: no
-// light sample finds one, and their densities have no value.
+// --- Lobes and closures ----------------------------------------------------------------------
+// A BSDF is a sum of lobes; each is one of the LOBE_ bits. Delta lobes scatter into single directions: no light sample
+// finds one, and their densities have no value.
+//
+// A material is a short list of closures, which scatter light together: a diffuse base, an interface on it (a plane, or
+// microfacets), a clear coat, sheen. The other bits say which ones it has and how they are; all are the low bits of
+// MaterialHeader::closures. A scene's kernel knows which bits some material has and which ones all have that they concern
+// (CLOSURES, CLOSURES_OF_ALL).
 
-SHARED_CONST uint LOBE_DIFFUSE_REFLECTION = 1u;
-SHARED_CONST uint LOBE_GLOSSY_REFLECTION = 2u;
-SHARED_CONST uint LOBE_DELTA_REFLECTION = 4u;
-SHARED_CONST uint LOBE_DIFFUSE_TRANSMISSION = 8u;
-SHARED_CONST uint LOBE_GLOSSY_TRANSMISSION = 16u;
-SHARED_CONST uint LOBE_DELTA_TRANSMISSION = 32u;
+// F(name, bit, label): label: what `stromboli info` calls it. Of them:
+//   CLOSURE_LAYERS           base or coat beside the interface, so that samples choose
+//   INTERFACE_IS_IDEAL       all is reflected; a dielectric: all is transmitted but in total reflection
+//   INTERFACE_REFRACTS       into a volume
+//   INTERFACE_IS_THIN        a sheet that transmits: light goes straight through
+//   FACETS_ARE_BECKMANN      else GGX
+//   FACETS_ARE_SEPARABLE     masking and shadowing; else correlated by height
+//   FACETS_ARE_TURNED        stretched along a direction in the frame of the tangent
+//   BASE_IS_NONLINEAR        its colour deepens with each reflection between base and interface
+//   HAS_BASE_COLOR           the first row is what base colours multiply
+//   RECIPE_                  its closures follow from glTF's metallic-roughness model, or from Burley's; else they are
+//                            stated (parameters.h)
+#define CLOSURE_LIST(F) \
+    F(LOBE_DIFFUSE_REFLECTION, 0, "diffuse reflection") \
+    F(LOBE_GLOSSY_REFLECTION, 1, "glossy reflection") \
+    F(LOBE_DELTA_REFLECTION, 2, "mirror reflection") \
+    F(LOBE_DIFFUSE_TRANSMISSION, 3, "diffuse transmission") \
+    F(LOBE_GLOSSY_TRANSMISSION, 4, "glossy transmission") \
+    F(LOBE_DELTA_TRANSMISSION, 5, "clear transmission") \
+    F(CLOSURE_BASE, 6, "diffuse base") \
+    F(CLOSURE_INTERFACE, 7, "interface") \
+    F(CLOSURE_LAYERS, 8, "base under an interface") \
+    F(CLOSURE_COAT, 9, "clear coat") \
+    F(CLOSURE_SHEEN, 10, "sheen") \
+    F(INTERFACE_IS_SMOOTH, 11, "smooth interface") \
+    F(INTERFACE_IS_CONDUCTOR, 12, "conductor") \
+    F(INTERFACE_IS_DIELECTRIC, 13, "dielectric") \
+    F(INTERFACE_IS_IDEAL, 14, "ideal interface") \
+    F(INTERFACE_REFRACTS, 15, "refraction") \
+    F(INTERFACE_IS_THIN, 16, "thin sheet") \
+    F(FACETS_ARE_BECKMANN, 17, "Beckmann's microfacets") \
+    F(FACETS_ARE_SEPARABLE, 18, "separable masking") \
+    F(FACETS_ARE_TURNED, 19, "turned grain") \
+    F(BASE_IS_NONLINEAR, 20, "base that deepens") \
+    F(VOLUME_ABSORBS, 21, "absorption") \
+    F(HAS_BASE_COLOR, 22, "base color") \
+    F(RECIPE_PRINCIPLED, 23, "glTF's recipe") \
+    F(RECIPE_BURLEY, 24, "Burley's recipe")
 
-SHARED_CONST uint DELTA_LOBES = 4u | 32u;
-SHARED_CONST uint TRANSMISSION_LOBES = 8u | 16u | 32u;
-SHARED_CONST uint GLOSSY_LOBES = 2u | 16u;
-SHARED_CONST uint DIFFUSE_LOBES = 1u | 8u;
+#define NAME_CLOSURE(name, bit, label) SHARED_CONST uint name = 1u << bit;
+CLOSURE_LIST(NAME_CLOSURE)
+#undef NAME_CLOSURE
+#define ADD_CLOSURE(name, bit, label) | name
+SHARED_CONST uint CLOSURE_MASK = 0u CLOSURE_LIST(ADD_CLOSURE);
+#undef ADD_CLOSURE
 
-// --- Closures ------------------------------------------------------------------------------
-// A material is a short list of closures, which scatter light together: a diffuse base, an interface on
-// it (a plane, or microfacets), a clear coat, sheen. These bits say which ones it has and how they are;
-// with its lobes they are the low bits of MaterialHeader::closures. A scene's kernel knows which bits some
-// material has and which ones all have that they concern (CLOSURES, CLOSURES_OF_ALL).
-
-SHARED_CONST uint LOBE_MASK = 63u;
-SHARED_CONST uint CLOSURE_BASE = 1u << 6;      ///< diffuse reflection
-SHARED_CONST uint CLOSURE_INTERFACE = 1u << 7; ///< what reflects and transmits by a plane or by microfacets
-/// Base or coat beside the interface, so that samples choose.
-SHARED_CONST uint CLOSURE_LAYERS = 1u << 8;
-SHARED_CONST uint CLOSURE_COAT = 1u << 9;
-SHARED_CONST uint CLOSURE_SHEEN = 1u << 10;
-SHARED_CONST uint INTERFACE_IS_SMOOTH = 1u << 11;    ///< a plane
-SHARED_CONST uint INTERFACE_IS_CONDUCTOR = 1u << 12; ///< Fresnel's equations of a complex index
-SHARED_CONST uint INTERFACE_IS_DIELECTRIC = 1u << 13; ///< Fresnel's equations of a real index
-/// All is reflected; a dielectric: all is transmitted but in total reflection.
-SHARED_CONST uint INTERFACE_IS_IDEAL = 1u << 14;
-SHARED_CONST uint INTERFACE_REFRACTS = 1u << 15; ///< into a volume
-SHARED_CONST uint INTERFACE_IS_THIN = 1u << 16;  ///< a sheet that transmits: light goes straight through
-SHARED_CONST uint FACETS_ARE_BECKMANN = 1u << 17;  ///< else GGX
-SHARED_CONST uint FACETS_ARE_SEPARABLE = 1u << 18; ///< masking and shadowing; else correlated by height
-SHARED_CONST uint FACETS_ARE_TURNED = 1u << 19;    ///< stretched along a direction in the frame of the tangent
-SHARED_CONST uint BASE_IS_NONLINEAR = 1u << 20;    ///< its colour deepens with each reflection between base and interface
-SHARED_CONST uint VOLUME_ABSORBS = 1u << 21;
-SHARED_CONST uint HAS_BASE_COLOR = 1u << 22; ///< the first row is what base colours multiply
-/// Its closures follow from glTF's metallic-roughness model, or from Burley's; else they are stated.
-SHARED_CONST uint RECIPE_PRINCIPLED = 1u << 23;
-SHARED_CONST uint RECIPE_BURLEY = 1u << 24;
-SHARED_CONST uint CLOSURE_MASK = (1u << 25) - 1u;
+SHARED_CONST uint DELTA_LOBES = LOBE_DELTA_REFLECTION | LOBE_DELTA_TRANSMISSION;
+SHARED_CONST uint GLOSSY_LOBES = LOBE_GLOSSY_REFLECTION | LOBE_GLOSSY_TRANSMISSION;
+SHARED_CONST uint DIFFUSE_LOBES = LOBE_DIFFUSE_REFLECTION | LOBE_DIFFUSE_TRANSMISSION;
+SHARED_CONST uint TRANSMISSION_LOBES =
+    LOBE_DIFFUSE_TRANSMISSION | LOBE_GLOSSY_TRANSMISSION | LOBE_DELTA_TRANSMISSION;
+SHARED_CONST uint LOBE_MASK =
+    LOBE_DIFFUSE_REFLECTION | LOBE_GLOSSY_REFLECTION | LOBE_DELTA_REFLECTION | TRANSMISSION_LOBES;
 
 /// Bits that concern materials with an interface only, and those that concern microfacets only.
 SHARED_CONST uint INTERFACE_BITS = INTERFACE_IS_SMOOTH | INTERFACE_IS_CONDUCTOR | INTERFACE_IS_DIELECTRIC | INTERFACE_IS_IDEAL;
@@ -79,75 +95,12 @@ SHARED_CONST uint MATERIAL_RELIEF_SHADOWS = 0x08000000u;
 SHARED_CONST uint MATERIAL_RELIEF_RULES =
     MATERIAL_RELIEF_FLIPS | MATERIAL_RELIEF_BLACKENS | MATERIAL_RELIEF_SHADOWS;
 
-// --- Parameters ------------------------------------------------------------------------------
-// Three structures for the rows behind the header: stated closures, and the two recipes.
-
-/// A base, an interface, or a base under an interface. A base alone and a mirror read the first row only.
-struct StatedParameters {
-    vec3 color;   ///< albedo of the base; transmittance of a dielectric; reflectance of a conductor or a mirror
-    float alphaY; ///< of the microfacets, across the tangent; a smooth dielectric has its index here too, for scenes
-                  ///< without third rows
-    vec3 edge;    ///< what multiplies the reflection of a dielectric; real part of a conductor's index
-    float alphaX; ///< along the tangent
-    vec3 index;   ///< INDEX_ components of a dielectric; extinction coefficient of a conductor
-    uint table;   ///< base under microfacets: row of the first piece of their transmittance
-};
-SHARED_ROWS(StatedParameters, 3);
-SHARED_CONST int INDEX_RATIO = 0;       ///< index inside over index outside
-SHARED_CONST int INDEX_BACK = 1;        ///< share of diffuse light that the interface sends back to the base
-SHARED_CONST int INDEX_LEAST_ALPHA = 2; ///< either alpha of the microfacets is no less
-SHARED_CONST uint STATED_TABLE_ROW = 3u; ///< of a material, its header counted: its last word is `table`
+// --- Numbers --------------------------------------------------------------------------------
 
 /// The transmittance of an interface of microfacets from outside, seen at the cosine mu, is a cubic
 /// polynomial on each of so many equal pieces of sqrt(mu) in [0, 1]: one row each, the coefficients by
 /// rising powers of the place in the piece, [0, 1].
 SHARED_CONST uint TRANSMITTANCE_PIECES = 16u;
-
-/// Burley's principled BSDF (scene/model/material.hpp). Its numbers are where textures of the principled kind's slots
-/// multiply them.
-struct BurleyParameters {
-    vec3 baseColor;
-    float metallic;
-    float flatness;
-    float diffuseTransmission;
-    float leastAlpha;
-    float roughness;
-    float specularTint;
-    float ior; ///< index inside over index outside
-    float transmission;
-    float anisotropy;
-    vec3 sheen; ///< three times the same number
-    float sheenTint;
-    float clearcoat;
-    float clearcoatGloss;
-    float unused; ///< textures of anisotropy turn it
-    uint flags;   ///< BURLEY_
-};
-SHARED_ROWS(BurleyParameters, 5);
-SHARED_CONST uint BURLEY_IS_THIN = 1u;
-
-/// glTF 2.0's metallic-roughness model and its extensions (scene/model/material.hpp).
-struct PrincipledParameters {
-    vec3 baseColor;
-    float metallic;
-    vec3 specularColor;
-    float roughness; ///< glTF's: the GGX parameter is its square
-    float specular;
-    float ior; ///< index inside over index outside
-    float transmission;
-    float anisotropy; ///< strength
-    vec3 sheenColor;
-    float sheenRoughness;
-    float clearcoat;
-    float clearcoatRoughness;
-    float anisotropyRotation; ///< radians from the tangent towards the bitangent
-    uint flags;               ///< PRINCIPLED_
-    vec3 absorption; ///< per metre, inside the surface
-    float leastAlpha; ///< the GGX parameter is no less
-};
-SHARED_ROWS(PrincipledParameters, 6);
-SHARED_CONST uint PRINCIPLED_IS_THIN = 1u; ///< there is no volume behind the surface
-SHARED_CONST uint PRINCIPLED_ABSORPTION_ROW = 6u; ///< of a material, its header counted
 
 /// The least parameter of GGX, and of Beckmann's distribution. Roundings of two directions turn their half vector by up to 12 * 2^-24 (three
 /// in each component of either, and as many in the sum); of a lobe this wide that is 0.7 %, which is 1.5 %

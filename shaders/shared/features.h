@@ -34,12 +34,15 @@
     F(24, bool, STACK_IN_REGISTERS, false, f[SPEC_STACK_SIZE] <= tuning.registerStack, own, \
       "traversal stack in registers", flag, \
         "a stack that moves as a whole, in place of a memory that each lane indexes") \
-    F(6, uint, CLOSURES, 33554431u, shades ? scene.closures.some : 0, gpu::CLOSURE_MASK, \
+    F(6, uint, CLOSURES, 0xFFFFFFFFu, shades ? scene.closures.some : 0, gpu::CLOSURE_MASK, \
       "materials", bits(kClosures), "the closures of materials, and the recipes by which they follow from parameters") \
     F(37, uint, CLOSURES_OF_ALL, 0u, shades ? scene.closures.some & scene.closures.all : 0, 0u, \
       "all materials", bits(kClosures), "no choice between materials that have these and materials that have not") \
     F(41, bool, HAS_BLENDS, false, shades && scene.hasBlends, own, \
       "mixtures of materials", flag, "the choice of one of two materials at a hit") \
+    F(51, uint, MOST_OTHERS, 0u, shades ? scene.mostOthers : 0, own, \
+      "materials evaluated beside the chosen one", count(""), \
+        "the other materials of a mixture, looked up and evaluated for each light sample and bounce") \
     F(40, bool, BLACK_BACKS, false, shades && scene.hasBlackBacks, own, \
       "black backs", flag, "materials that are black where normals do not point") \
     F(35, bool, HAS_ALPHA, false, scene.hasAlpha, own, \
@@ -79,9 +82,8 @@
     F(10, uint, DIRECT_LIGHT, DIRECT_LIGHTS, directLightConstant(settings.directLight), own, \
       "direct light", oneOf({"light sampling", "uniform hemisphere", "left to bounces (delta lights sampled)"}), \
         "how lights are found from a surface") \
-    F(8, uint, LIGHT_KINDS, 255u, lightKinds(scene, settings), (1u << gpu::LIGHT_KIND_COUNT) - 1, \
-      "lights", bits({"quad", "triangle", "sphere", "ambient", "directional", "point", "spot", "environment", \
-        "projector"}), "the sampling of these kinds of lights") \
+    F(8, uint, LIGHT_KINDS, 0xFFFFFFFFu, lightKinds(scene, settings), (1u << gpu::LIGHT_KIND_COUNT) - 1, \
+      "lights", bits(kLights), "the sampling of these kinds of lights") \
     F(20, uint, LIGHT_CHOICE, LIGHT_CHOICE_TREE, lightChoiceConstant(scene.lights), own, \
       "choice of lights", oneOf({"there is one", "by a tree of them", "by power", "uniform", "each in turn"}), \
         "how a light sample picks its light") \
@@ -142,7 +144,7 @@
     F(1, uint, TRAVERSAL_STEPS, 8u, traversalSteps(f, tuning), own, \
       "traversal steps in a leg", count(""), "traversal steps between two service passes, or in a leg")
 
-#define SPEC_COUNT 51
+#define SPEC_COUNT 52
 
 #ifdef __cplusplus
 namespace stromboli {

@@ -12,18 +12,26 @@ SHARED_BEGIN
 
 // --- Kinds of light and their parameters -----------------------------------------------------
 
-SHARED_CONST uint LIGHT_QUAD = 0u;
-SHARED_CONST uint LIGHT_TRIANGLE = 1u;
-SHARED_CONST uint LIGHT_SPHERE = 2u;
-SHARED_CONST uint LIGHT_AMBIENT = 3u;
-SHARED_CONST uint LIGHT_DIRECTIONAL = 4u;
-SHARED_CONST uint LIGHT_POINT = 5u;
-SHARED_CONST uint LIGHT_SPOT = 6u;
-SHARED_CONST uint LIGHT_ENVIRONMENT = 7u;
-SHARED_CONST uint LIGHT_PROJECTOR = 8u;
-SHARED_CONST uint LIGHT_KIND_COUNT = 9u;
-/// Kinds that no ray can meet, bit by bit.
-SHARED_CONST uint DELTA_LIGHTS = 1u << 4u | 1u << 5u | 1u << 6u | 1u << 8u;
+// F(name, number, rows, label): the kinds of light.
+//   rows   how many rows of parameters are read of it
+//   label  what `stromboli info` calls it
+#define LIGHT_LIST(F) \
+    F(QUAD, 0, 3, "quad") \
+    F(TRIANGLE, 1, 0, "triangle") \
+    F(SPHERE, 2, 1, "sphere") \
+    F(AMBIENT, 3, 1, "ambient") \
+    F(DIRECTIONAL, 4, 1, "directional") \
+    F(POINT, 5, 2, "point") \
+    F(SPOT, 6, 3, "spot") \
+    F(ENVIRONMENT, 7, 2, "environment") \
+    F(PROJECTOR, 8, 3, "projector")
+
+#define NUMBER_LIGHT(name, number, rows, label) SHARED_CONST uint LIGHT_##name = uint(number);
+LIGHT_LIST(NUMBER_LIGHT)
+#undef NUMBER_LIGHT
+#define COUNT_LIGHT(name, number, rows, label) +1u
+SHARED_CONST uint LIGHT_KIND_COUNT = 0u LIGHT_LIST(COUNT_LIGHT);
+#undef COUNT_LIGHT
 
 SHARED_CONST uint LIGHT_ROWS = 4u;
 
@@ -38,34 +46,90 @@ SHARED_CONST uint LIGHT_IS_MIRRORED = 0x40000000u;
 SHARED_CONST uint LIGHT_IS_FRAMED = 0x20000000u;
 SHARED_CONST uint LIGHT_BOTH_SIDES = 0x80000000u; ///< quad, sphere: emits on both sides
 
-/// A parallelogram. Its normal is edgeA x edgeB.
-struct QuadLight {
-    vec3 corner;
-    float area; ///< of one side
-    vec3 edgeA;
-    uint unused0;
-    vec3 edgeB;
-    uint unused1;
-};
-SHARED_ROWS(QuadLight, 3);
+// F(type, name, row, place): the parameters of a light, in the order of their places behind its header, of which none is
+// left out (parameters.h).
+
+/// A parallelogram. Its normal is edgeA x edgeB. area: of one side.
+#define QUAD_LIGHT(F) \
+    F(vec3, corner, 1, xyz) \
+    F(float, area, 1, w) \
+    F(vec3, edgeA, 2, xyz) \
+    F(uint, unused0, 2, w) \
+    F(vec3, edgeB, 3, xyz) \
+    F(uint, unused1, 3, w)
+
+#define SPHERE_LIGHT(F) \
+    F(vec3, center, 1, xyz) \
+    F(float, radius, 1, w)
 
 /// All of a scene's ambient light is one, the first in the light buffer: radiance `color` from everywhere, and
-/// some from above the horizon.
-struct AmbientLight {
-    vec3 fromAbove; ///< radiance in addition from directions with y > 0
-    uint unused;
-};
-SHARED_ROWS(AmbientLight, 1);
+/// some in addition from directions with y > 0.
+#define AMBIENT_LIGHT(F) \
+    F(vec3, fromAbove, 1, xyz) \
+    F(uint, unused, 1, w)
+
+/// toLight: unit.
+#define DIRECTIONAL_LIGHT(F) \
+    F(vec3, toLight, 1, xyz) \
+    F(uint, unused, 1, w)
+
+/// A point light, or a spot light: a point light that shines into a cone. attenuation: constant, linear and quadratic.
+/// Spot: falloffExponent is that of the cosine to the axis, a unit vector that the light travels along; cosCutoff the
+/// cosine of half the opening angle; softness 1 / (cosine of half the inner angle - cosCutoff), or 0: no inner cone.
+#define POINT_LIGHT(F) \
+    F(vec3, position, 1, xyz) \
+    F(float, falloffExponent, 1, w) \
+    F(vec3, attenuation, 2, xyz) \
+    F(float, cosCutoff, 2, w) \
+    F(vec3, axis, 3, xyz) \
+    F(float, softness, 3, w)
 
 /// A picture around the scene (scene/model/environment.hpp); it takes the place of ambient light. The header's
-/// colour multiplies its radiance.
-struct EnvironmentLight {
-    uint width, height;
-    float cosRotation, sinRotation;
-    float density; ///< of a sample by solid angle, where the interpolated weight is the sine of the polar angle
-    uint unused0, unused1, unused2;
-};
-SHARED_ROWS(EnvironmentLight, 2);
+/// colour multiplies its radiance. density: of a sample by solid angle, where the interpolated weight is the sine of the
+/// polar angle.
+#define ENVIRONMENT_LIGHT(F) \
+    F(uint, width, 1, x) \
+    F(uint, height, 1, y) \
+    F(float, cosRotation, 1, z) \
+    F(float, sinRotation, 1, w) \
+    F(float, density, 2, x) \
+    F(uint, unused0, 2, y) \
+    F(uint, unused1, 2, z) \
+    F(uint, unused2, 2, w)
+
+/// A light that throws a picture (scene/model/light.hpp). u is 0.5 + acrossU . d / axis . d. cosCutoff: of the angle to
+/// the axis where it ends; softness: 1 / the angle over which it ends, or 0: at once. picture: first row of its
+/// TextureUse in the material buffer; 0: none.
+#define PROJECTOR_LIGHT(F) \
+    F(vec3, position, 1, xyz) \
+    F(float, cosCutoff, 1, w) \
+    F(vec3, acrossU, 2, xyz) \
+    F(float, softness, 2, w) \
+    F(vec3, acrossV, 3, xyz) \
+    F(uint, picture, 3, w)
+
+// F(structure, function, fields, met, sample): how the kernel reads and samples lights (shaders/lights/lights.glsl).
+//   met     GLSL: whether a light of this `kind` has that structure, by isLight()
+//   sample  GLSL: a LightSample of it, for `given`, a surface `s`, its `rows` and two numbers `u`
+#define LIGHT_STRUCTURES(F) \
+    F(QuadLight, quadLight, QUAD_LIGHT, isLight(kind, LIGHT_QUAD), sampleQuadLight(given.onlyLight, s, rows, u)) \
+    F(SphereLight, sphereLight, SPHERE_LIGHT, isLight(kind, LIGHT_SPHERE), sampleSphereLight(s, rows, u)) \
+    F(AmbientLight, ambientLight, AMBIENT_LIGHT, isLight(kind, LIGHT_AMBIENT), sampleAmbientLight(s, rows, u)) \
+    F(DirectionalLight, directionalLight, DIRECTIONAL_LIGHT, isLight(kind, LIGHT_DIRECTIONAL), \
+      sampleDirectionalLight(rows)) \
+    F(EnvironmentLight, environmentLight, ENVIRONMENT_LIGHT, isLight(kind, LIGHT_ENVIRONMENT), \
+      sampleEnvironment(rows, u)) \
+    F(ProjectorLight, projectorLight, PROJECTOR_LIGHT, isLight(kind, LIGHT_PROJECTOR), sampleProjector(s, rows)) \
+    F(PointLight, pointLight, POINT_LIGHT, isLight(kind, LIGHT_POINT) || isLight(kind, LIGHT_SPOT), \
+      samplePointLight(s, rows))
+
+#define DECLARE_FIELD(type, name, row, place) type name;
+#define DECLARE_LIGHT(structure, function, fields, met, sample) \
+    struct structure { fields(DECLARE_FIELD) }; \
+    SHARED_WHOLE_ROWS(structure);
+LIGHT_STRUCTURES(DECLARE_LIGHT)
+#undef DECLARE_LIGHT
+#undef DECLARE_FIELD
 
 /// A texel of the environment, in rows from the top. Its weight is the luminance times the sine of the polar angle
 /// of its middle; it is a column of an alias table by weight (Walker 1977, Vose 1991).
@@ -78,40 +142,6 @@ struct EnvironmentTexel {
 SHARED_ROWS(EnvironmentTexel, 1);
 SHARED_CONST uint ENVIRONMENT_MANTISSA_BITS = 18u;
 SHARED_CONST uint ENVIRONMENT_EXPONENT_BIAS = 145u;
-
-struct SphereLight {
-    vec3 center;
-    float radius;
-};
-SHARED_ROWS(SphereLight, 1);
-
-struct DirectionalLight {
-    vec3 toLight; ///< unit
-    uint unused;
-};
-SHARED_ROWS(DirectionalLight, 1);
-
-/// A point light, or a spot light: a point light that shines into a cone.
-struct PointLight {
-    vec3 position;
-    float falloffExponent; ///< spot: of the cosine to the axis
-    vec3 attenuation;      ///< constant, linear and quadratic
-    float cosCutoff;       ///< spot: cosine of half the opening angle
-    vec3 axis;             ///< spot: unit vector that the light travels along
-    float softness;        ///< spot: 1 / (cosine of half the inner angle - cosCutoff); 0: no inner cone
-};
-SHARED_ROWS(PointLight, 3);
-
-/// A light that throws a picture (scene/model/light.hpp).
-struct ProjectorLight {
-    vec3 position;
-    float cosCutoff; ///< of the angle to the axis where it ends
-    vec3 acrossU;    ///< u is 0.5 + acrossU . d / axis . d
-    float softness;  ///< 1 / the angle over which it ends; 0: at once
-    vec3 acrossV;
-    uint picture; ///< first row of its TextureUse in the material buffer; 0: none
-};
-SHARED_ROWS(ProjectorLight, 3);
 
 // --- Picking one light --------------------------------------------------------------------------
 // The table of lights holds all LightEntry rows, and behind them either AliasColumn rows, one for each

@@ -39,7 +39,8 @@
     F(vec2, point.weights, exists, readers, writers) \
     F(vec4, point.tangent, exists && TANGENT_FRAMES, readers, writers) \
     F(vec3, point.coat, exists && sceneHasCoatNormals(), readers, writers) \
-    F(uint, point.placement, exists && HAS_PLACEMENTS, readers, writers)
+    F(uint, point.placement, exists && HAS_PLACEMENTS, readers, writers) \
+    F(uint, point.mixture, exists && MOST_OTHERS != 0u, readers, writers)
 
 /// F(type, member, exists, readers, writers): all of a path (path_state.glsl) and of its place in the work list that
 /// the next stage, or the next dispatch, has to find. exists: whether the scene's kernels have the field.

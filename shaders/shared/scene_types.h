@@ -7,6 +7,7 @@
 #include "bsdf_types.h"
 #include "language.h"
 #include "light_types.h"
+#include "parameters.h"
 
 SHARED_BEGIN
 

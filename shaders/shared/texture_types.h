@@ -39,15 +39,21 @@ struct BlendRow {
     uint other;   ///< the first row of that material
     float share;  ///< of cases
     uint texture; ///< the number of the TextureUse that multiplies it, plus one; 0: none
-    uint place;   ///< OTHER_
+    uint place;   ///< OTHER_; | BLEND_
 };
 SHARED_ROWS(BlendRow, 1);
+/// Of mixtures whose materials are evaluated together: how many there are beside any one of them; 0: one is drawn. And
+/// the lobes of all.
+SHARED_CONST uint BLEND_OTHERS_SHIFT = 8u;
+SHARED_CONST uint BLEND_OTHERS_MASK = 0xFFu;
+SHARED_CONST uint BLEND_LOBES_SHIFT = 16u;
 /// OtherPlace of scene/model/material.hpp: in all cases, or on one side of the surface.
+SHARED_CONST uint OTHER_MASK = 3u;
 SHARED_CONST uint OTHER_BY_SHARE = 0u;
 SHARED_CONST uint OTHER_BEHIND = 1u;
 SHARED_CONST uint OTHER_IN_FRONT = 2u;
-/// No mixture is deeper.
-SHARED_CONST uint MOST_BLENDS = 8u;
+/// A mixture is of so many materials and one more, at most.
+SHARED_CONST uint MOST_BLENDS = 255u;
 
 /// A texture of a material, or a bundle of them: which slot it has, where it is looked up, and where its texels are.
 struct TextureUse {

@@ -98,6 +98,35 @@ TEST(Mixtures, MayBeOfMirrorsAndPaint) {
     expectMean(seenInAmbientLight(b, material), glm::dvec3(0.6 * 0.3 + 0.4 * 0.9));
 }
 
+/// A sheet of two materials under a lamp, the second one in 0.4 of cases. drawn: a rule of relief
+/// of one that has no relief keeps the two from being evaluated together.
+Estimate underALamp(Material first, const Material& second, bool drawn) {
+    SceneMaker b;
+    if (drawn) first.reliefRule = ReliefRule::Blacken;
+    addTexturedSquare(b, mixture(b, first, b.add(second), 0.4f));
+    b.quad({-1, -1, 3}, {0, 2, 0}, {2, 0, 0}, b.add(emissive(5)));
+    b.add(ambient(0.2f));
+    return estimate(b.scene, pointCamera({0.8, 0.3, 2}, {0.4, 0.3, 0}), smallPicture(64, 2));
+}
+
+/// One mean, with less noise where they differ.
+TEST(Mixtures, EvaluatedTogetherAreAsDrawnButForNoise) {
+    const Material pairs[][2] = {{diffuse(0.9f), diffuse(0.1f)},
+                                 {diffuse(0.6f), metal(0.3f)},
+                                 {metal(0.6f), metal(0.2f)},
+                                 {diffuse(0.2f), glass(1.5f)}};
+    for (const auto& [first, second] : pairs) {
+        const Estimate together = underALamp(first, second, false),
+                       drawn = underALamp(first, second, true);
+        expectSameMean(together, drawn);
+        // Where most of the noise is of bounces, it stays; errors are known to some per cent.
+        EXPECT_LT(together.error.x, 1.1 * drawn.error.x);
+        if (second.kind == MaterialKind::Diffuse) {
+            EXPECT_LT(together.error.x, 0.5 * drawn.error.x) << "two paints";
+        }
+    }
+}
+
 TEST(Mixtures, FollowAPicture) {
     SceneMaker b;
     TextureMaker t(b.scene);

@@ -1,6 +1,7 @@
 // The light tree: its bounds hold what they bound, and every light is in it once, at the end of its
 // trail.
 #include "host/kernel/gpu_scene.hpp"
+#include "host/kernel/light_kinds.hpp"
 #include "host/kernel/light_tree.hpp"
 #include "scene/generate/generated_scene.hpp"
 
@@ -122,20 +123,21 @@ Light lightOf(LightKind kind) {
 /// Whether a point light falls off within the scene decides what it is compared with.
 TEST(LightBounds, GroupsFollowTheFalloff) {
     Light point = lightOf(LightKind::Point);
-    EXPECT_EQ(boundsOfLight(point, 10).group, gpu::LIGHT_GROUP_UNATTENUATED);
-    EXPECT_NEAR(boundsOfLight(point, 10).power, 2, 1e-6);
+    EXPECT_EQ(packLight(point, 10).bounds.group, gpu::LIGHT_GROUP_UNATTENUATED);
+    EXPECT_NEAR(packLight(point, 10).bounds.power, 2, 1e-6);
     point.quadraticAttenuation = 1; // 1 + d^2
-    EXPECT_EQ(boundsOfLight(point, 10).group, gpu::LIGHT_GROUP_NEAR);
-    EXPECT_NEAR(boundsOfLight(point, 10).power, 2, 1e-6);
-    EXPECT_NEAR(boundsOfLight(point, 10).reach, 1, 1e-12) << "no more than color / 1";
-    EXPECT_EQ(boundsOfLight(point, 0.1).group, gpu::LIGHT_GROUP_UNATTENUATED) << "a small scene";
-    EXPECT_EQ(boundsOfLight(lightOf(LightKind::Directional), 10).group, gpu::LIGHT_GROUP_INFINITE);
+    EXPECT_EQ(packLight(point, 10).bounds.group, gpu::LIGHT_GROUP_NEAR);
+    EXPECT_NEAR(packLight(point, 10).bounds.power, 2, 1e-6);
+    EXPECT_NEAR(packLight(point, 10).bounds.reach, 1, 1e-12) << "no more than color / 1";
+    EXPECT_EQ(packLight(point, 0.1).bounds.group, gpu::LIGHT_GROUP_UNATTENUATED) << "a small scene";
+    EXPECT_EQ(packLight(lightOf(LightKind::Directional), 10).bounds.group,
+              gpu::LIGHT_GROUP_INFINITE);
 }
 
 TEST_F(LightTreeTest, GroupsHaveTreesOfTheirOwn) {
-    lights.push_back(boundsOfLight(lightOf(LightKind::Directional), 1));
-    lights.push_back(boundsOfLight(lightOf(LightKind::Ambient), 1));
-    lights.push_back(boundsOfLight(lightOf(LightKind::Point), 1));
+    lights.push_back(packLight(lightOf(LightKind::Directional), 1).bounds);
+    lights.push_back(packLight(lightOf(LightKind::Ambient), 1).bounds);
+    lights.push_back(packLight(lightOf(LightKind::Point), 1).bounds);
     tree = buildLightTree(lights);
     EXPECT_EQ(tree.groups, 7u);
     EXPECT_EQ(tree.lightsInGroup, (std::array<uint32_t, 3>{1000, 1, 2}));

@@ -29,6 +29,7 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "closures/bsdf.glsl"
 #include "include/material_detail.glsl"
 #include "include/relief.glsl"
+#include "include/mixture.glsl"
 #include "lights/lights.glsl"
 #include "include/mis.glsl"
 #include "include/gap_proposal.glsl"

@@ -54,42 +54,25 @@ void putPlacement() {
 void putMaterial(Material m) {
     put(emissionOf(m)), put(m.header.w);
     const StatedParameters stated = statedParameters(m);
-    put(stated.color), put(stated.alphaY), put(stated.edge), put(stated.alphaX);
-    put(stated.index), put(stated.table);
-    const PrincipledParameters rich = principledParameters(m);
-    put(rich.baseColor), put(rich.metallic), put(rich.specularColor), put(rich.roughness);
-    put(rich.specular), put(rich.ior), put(rich.transmission), put(rich.anisotropy);
-    put(rich.sheenColor), put(rich.sheenRoughness), put(rich.clearcoat);
-    put(rich.clearcoatRoughness), put(rich.anisotropyRotation), put(rich.flags);
-    put(rich.absorption), put(rich.leastAlpha);
+    const PrincipledParameters principled = principledParameters(m);
     const BurleyParameters burley = burleyParameters(m);
-    put(burley.baseColor), put(burley.metallic), put(burley.flatness), put(burley.diffuseTransmission);
-    put(burley.leastAlpha), put(burley.roughness), put(burley.specularTint), put(burley.ior);
-    put(burley.transmission), put(burley.anisotropy), put(burley.sheen), put(burley.sheenTint);
-    put(burley.clearcoat), put(burley.clearcoatGloss), put(burley.unused), put(burley.flags);
+#define PUT_STATED(type, name, row, place, value) put(stated.name);
+#define PUT_PRINCIPLED(type, name, row, place, value) put(principled.name);
+#define PUT_BURLEY(type, name, row, place, value) put(burley.name);
+    STATED_PARAMETERS(PUT_STATED)
+    PRINCIPLED_PARAMETERS(PUT_PRINCIPLED)
+    BURLEY_PARAMETERS(PUT_BURLEY)
 }
 
 void putLight(LightRows l) {
     put(colorOf(l)), put(l.header.w);
-    const QuadLight quad = quadLight(l);
-    put(quad.corner), put(quad.area), put(quad.edgeA), put(quad.unused0);
-    put(quad.edgeB), put(quad.unused1);
-    const ProjectorLight projector = projectorLight(l);
-    put(projector.position), put(projector.cosCutoff), put(projector.acrossU), put(projector.softness);
-    put(projector.acrossV), put(projector.picture);
-    const PointLight point = pointLight(l);
-    put(point.position), put(point.falloffExponent), put(point.attenuation);
-    put(point.cosCutoff), put(point.axis), put(point.softness);
-    const SphereLight sphere = sphereLight(l);
-    put(sphere.center), put(sphere.radius);
-    const AmbientLight ambient = ambientLight(l);
-    put(ambient.fromAbove), put(ambient.unused);
-    const EnvironmentLight environment = environmentLight(l);
-    put(environment.width), put(environment.height), put(environment.cosRotation);
-    put(environment.sinRotation), put(environment.density), put(environment.unused0);
-    put(environment.unused1), put(environment.unused2);
-    const DirectionalLight sun = directionalLight(l);
-    put(sun.toLight), put(sun.unused);
+#define PUT_FIELD(type, name, row, place) put(light.name);
+#define PUT_LIGHT(structure, function, fields, met, sample_) \
+    {                                                        \
+        const structure light = function(l);                 \
+        fields(PUT_FIELD)                                    \
+    }
+    LIGHT_STRUCTURES(PUT_LIGHT)
 }
 
 void putScene() {

@@ -23,13 +23,14 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "closures/bsdf.glsl"
 #include "include/material_detail.glsl"
 #include "include/relief.glsl"
+#include "include/mixture.glsl"
 #include "lights/lights.glsl"
 #include "include/accumulate.glsl"
 
 #include "queries.h"
 
 /// Ends the constructor of a SurfacePoint that has no texture and is not placed.
-#define NO_DETAIL , 0u, vec2(0.0), vec4(0.0), vec3(0.0, 0.0, 1.0), NO_PLACEMENT
+#define NO_DETAIL , 0u, vec2(0.0), vec4(0.0), vec3(0.0, 0.0, 1.0), NO_PLACEMENT, NO_MIXTURE
 
 #define BINDING_QUERIES BINDING_COUNT
 #define BINDING_ANSWERS (BINDING_COUNT + 1)

@@ -1,0 +1,136 @@
+// What materials are made of: a table of parameters for each recipe by which closures follow from a material, and
+// which textures multiply them. From these tables C++ and GLSL have the structures, the code that reads and packs them
+// and their places in the rows behind a material's header; `tests/shaders/layout_test.cpp` reads every one back.
+#ifndef STROMBOLI_SHARED_PARAMETERS_H
+#define STROMBOLI_SHARED_PARAMETERS_H
+
+#include "bsdf_types.h"
+#include "language.h"
+
+SHARED_BEGIN
+
+// F(type, name, row, place, value): in the order of their places, of which none is left out.
+//   row, place  where it is: a row of the material, whose header is row 0, and components of it
+//   value       C++: how it follows from `m`, a Material of the scene (host/kernel/material_rows.cpp)
+
+/// Stated closures: a base, an interface, or a base under an interface. A base alone and a mirror read the first row
+/// only. The values are those that `stated` has found for the material's kind.
+/// color: albedo of the base; transmittance of a dielectric; reflectance of a conductor or a mirror. alphaY: of the
+/// microfacets, across the tangent, as alphaX is along it; a smooth dielectric has its index here too, for scenes without
+/// third rows. edge: what multiplies the reflection of a dielectric; real part of a conductor's index. index: INDEX_
+/// components of a dielectric; extinction coefficient of a conductor. table: base under microfacets: row of the first
+/// piece of their transmittance.
+#define STATED_PARAMETERS(F) \
+    F(vec3, color, 1, xyz, stated.color) \
+    F(float, alphaY, 1, w, stated.alphaY) \
+    F(vec3, edge, 2, xyz, stated.edge) \
+    F(float, alphaX, 2, w, stated.alphaX) \
+    F(vec3, index, 3, xyz, stated.index) \
+    F(uint, table, 3, w, 0)
+
+/// glTF 2.0's metallic-roughness model and its extensions (scene/model/material.hpp).
+/// roughness, clearcoatRoughness: glTF's, whose squares are the parameters of GGX. ior: index inside over outside.
+/// anisotropy: its strength. anisotropyRotation: radians from the tangent towards the bitangent. absorption: per metre,
+/// inside the surface. leastAlpha: the parameter of GGX is no less. flags: PRINCIPLED_.
+#define PRINCIPLED_PARAMETERS(F) \
+    F(vec3, baseColor, 1, xyz, m.principled.baseColor) \
+    F(float, metallic, 1, w, m.principled.metallic) \
+    F(vec3, specularColor, 2, xyz, m.principled.specularColor) \
+    F(float, roughness, 2, w, m.principled.roughness) \
+    F(float, specular, 3, x, m.principled.specular) \
+    F(float, ior, 3, y, usedIndex(m)) \
+    F(float, transmission, 3, z, m.principled.transmission) \
+    F(float, anisotropy, 3, w, m.principled.anisotropy) \
+    F(vec3, sheenColor, 4, xyz, m.principled.sheenColor) \
+    F(float, sheenRoughness, 4, w, m.principled.sheenRoughness) \
+    F(float, clearcoat, 5, x, m.principled.clearcoat) \
+    F(float, clearcoatRoughness, 5, y, m.principled.clearcoatRoughness) \
+    F(float, anisotropyRotation, 5, z, m.principled.anisotropyRotation) \
+    F(uint, flags, 5, w, m.principled.isThin ? gpu::PRINCIPLED_IS_THIN : 0) \
+    F(vec3, absorption, 6, xyz, absorptionOf(m)) \
+    F(float, leastAlpha, 6, w, leastAlphaOf(m))
+
+/// Burley's principled BSDF (scene/model/material.hpp). ior: index inside over outside. leastAlpha: neither parameter of
+/// the facets is less.
+#define BURLEY_PARAMETERS(F) \
+    F(vec3, baseColor, 1, xyz, m.burley.baseColor) \
+    F(float, metallic, 1, w, m.burley.isThin ? 0 : m.burley.metallic) \
+    F(float, flatness, 2, x, m.burley.flatness) \
+    F(float, diffuseTransmission, 2, y, m.burley.diffuseTransmission) \
+    F(float, leastAlpha, 2, z, m.burley.leastAlpha()) \
+    F(float, roughness, 2, w, m.burley.roughness) \
+    F(float, specularTint, 3, x, m.burley.specularTint) \
+    F(float, ior, 3, y, m.burley.usedIor()) \
+    F(float, transmission, 3, z, m.burley.transmission) \
+    F(float, anisotropy, 3, w, m.burley.anisotropy) \
+    F(float, sheen, 4, x, m.burley.sheen) \
+    F(float, sheenTint, 4, y, m.burley.sheenTint) \
+    F(float, clearcoat, 4, z, m.burley.isThin ? 0 : m.burley.clearcoat) \
+    F(float, clearcoatGloss, 4, w, m.burley.clearcoatGloss)
+
+#define DECLARE_PARAMETER(type, name, row, place, value) type name;
+struct StatedParameters {
+    STATED_PARAMETERS(DECLARE_PARAMETER)
+};
+struct PrincipledParameters {
+    PRINCIPLED_PARAMETERS(DECLARE_PARAMETER)
+};
+struct BurleyParameters {
+    BURLEY_PARAMETERS(DECLARE_PARAMETER)
+};
+#undef DECLARE_PARAMETER
+SHARED_ROWS(StatedParameters, 3);
+SHARED_ROWS(PrincipledParameters, 6);
+SHARED_ROWS(BurleyParameters, 4);
+
+SHARED_CONST int INDEX_RATIO = 0;       ///< index inside over index outside
+SHARED_CONST int INDEX_BACK = 1;        ///< share of diffuse light that the interface sends back to the base
+SHARED_CONST int INDEX_LEAST_ALPHA = 2; ///< either alpha of the microfacets is no less
+SHARED_CONST uint STATED_TABLE_ROW = 3u; ///< of a material, its header counted: its last word is `table`
+SHARED_CONST uint PRINCIPLED_IS_THIN = 1u; ///< there is no volume behind the surface
+SHARED_CONST uint PRINCIPLED_ABSORPTION_ROW = 6u; ///< of a material, its header counted
+
+/// The last row that some recipe has.
+SHARED_CONST uint MOST_PARAMETER_ROWS = 6u;
+
+/// A scene's materials have the row where its closures have one of these bits; row 1 they always have.
+SHARED_FUNCTION uint closuresWithRow(uint row) {
+    const uint indices = INTERFACE_IS_CONDUCTOR | CLOSURE_LAYERS | GLOSSY_LOBES;
+    if (row == 2u) return indices | INTERFACE_IS_DIELECTRIC;
+    if (row == 3u) return indices;
+    if (row == 4u) return RECIPE_PRINCIPLED | RECIPE_BURLEY;
+    return row <= 1u ? CLOSURE_MASK : RECIPE_PRINCIPLED;
+}
+
+/// F(slot, recipe, name, factor): a texture in the slot TEXTURE_slot multiplies that parameter by what its texel has for
+/// it. Base colours are in all recipes' first place, and multiplied there. The reference has its own list
+/// (host/reference/surface.cpp).
+#define TEXTURED_PARAMETERS(F) \
+    F(METALLIC_ROUGHNESS, Stated, alphaX, texel.g) \
+    F(METALLIC_ROUGHNESS, Stated, alphaY, texel.b) \
+    F(SPECULAR_COLOR, Stated, edge, texel.rgb) \
+    F(METALLIC_ROUGHNESS, Principled, roughness, texel.g) \
+    F(METALLIC_ROUGHNESS, Principled, metallic, texel.b) \
+    F(TRANSMISSION, Principled, transmission, texel.r) \
+    F(SPECULAR, Principled, specular, texel.a) \
+    F(SPECULAR_COLOR, Principled, specularColor, texel.rgb) \
+    F(CLEARCOAT, Principled, clearcoat, texel.r) \
+    F(CLEARCOAT_ROUGHNESS, Principled, clearcoatRoughness, texel.g) \
+    F(SHEEN_COLOR, Principled, sheenColor, texel.rgb) \
+    F(SHEEN_ROUGHNESS, Principled, sheenRoughness, texel.a) \
+    F(ANISOTROPY, Principled, anisotropy, texel.b) \
+    F(METALLIC_ROUGHNESS, Burley, roughness, texel.g) \
+    F(METALLIC_ROUGHNESS, Burley, metallic, texel.b) \
+    F(TRANSMISSION, Burley, transmission, texel.r) \
+    F(SPECULAR, Burley, specularTint, texel.a) \
+    F(SPECULAR_COLOR, Burley, flatness, texel.r) \
+    F(SPECULAR_COLOR, Burley, diffuseTransmission, texel.g) \
+    F(CLEARCOAT, Burley, clearcoat, texel.r) \
+    F(CLEARCOAT_ROUGHNESS, Burley, clearcoatGloss, texel.g) \
+    F(SHEEN_COLOR, Burley, sheen, texel.r) \
+    F(SHEEN_ROUGHNESS, Burley, sheenTint, texel.a) \
+    F(ANISOTROPY, Burley, anisotropy, texel.b)
+
+SHARED_END
+
+#endif
