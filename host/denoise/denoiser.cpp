@@ -41,16 +41,16 @@ double noiseLeftAround(const std::vector<ReferenceResult>& filtered, uint32_t wi
 /// Standard errors that a pixel may change by.
 constexpr double kMostErrors = 4;
 
-/// How much of its change a pixel makes: no more than its own samples can be wrong by. Where they
-/// agree that it is dark, the noise of its neighbours says nothing of it.
+/// How much of its change a pixel makes: no more than its own samples can be wrong by, where their
+/// variance is known; a deviation alone is one number. Where they agree that it is dark, the noise
+/// of its neighbours says nothing of it.
 double shareOfChange(const NoisyPicture& picture, const Prepared& prepared, size_t pixel,
                      const glm::dvec3& change) {
     const gpu::DenoisePixel& p = prepared.pixels[pixel];
-    if (p.weight == 0) return 1;
+    if (p.weight == 0 || picture.variance.empty()) return 1;
     const glm::dvec3 deviation(p.deviation), albedo(prepared.albedo[pixel]);
-    glm::dvec3 variance = deviation * deviation;
-    if (!picture.variance.empty())
-        variance = glm::max(variance, glm::dvec3(picture.variance[pixel]) / (albedo * albedo));
+    const glm::dvec3 variance =
+        glm::max(deviation * deviation, glm::dvec3(picture.variance[pixel]) / (albedo * albedo));
     const double allowed = kMostErrors * sumOf(glm::sqrt(variance) * albedo);
     const double wanted = sumOf(glm::abs(change) * albedo);
     return wanted > allowed ? allowed / wanted : 1;

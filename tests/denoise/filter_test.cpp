@@ -168,6 +168,20 @@ TEST(DenoiseFilter, ConvergesToTheNoisyPicture) {
     }
 }
 
+/// A dark pixel on a surface that is bright and noisy around it.
+TEST(DenoiseFilter, APixelThatItsSamplesAgreeOnIsNotLitByItsNeighbours) {
+    const auto isDark = [](uint32_t x, uint32_t y) { return x == 30 && y == 20; };
+    const TruthOf truth = [&](uint32_t x, uint32_t y) {
+        Truth t;
+        t.radiance = glm::vec3(isDark(x, y) ? 0.01f : 1.0f);
+        t.sigma = isDark(x, y) ? 0.1f : 0.5f;
+        return t;
+    };
+    const DenoisedPicture d = denoised(truth);
+    // Four standard errors beside its own.
+    EXPECT_NEAR(d.mean[20 * kWidth + 30].y, 0.01, 8 * 0.001);
+}
+
 TEST(DenoiseFilter, WithoutLayersAllIsOneSurface) {
     const TruthOf truth = [](uint32_t, uint32_t) {
         Truth t;

@@ -32,6 +32,7 @@ denoise::NoisyPicture noisyPicture(uint32_t width, uint32_t height, const TruthO
             }
             picture.mean.push_back(t.radiance + sum);
             picture.deviation.push_back(difference);
+            picture.variance.push_back(t.sigma * t.sigma * t.radiance * t.radiance);
             picture.albedo.push_back(t.albedo);
             picture.normal.push_back(t.normal);
             picture.depth.push_back(t.depth);
