@@ -42,7 +42,7 @@ std::string inWords(const PictureNoise& noise) {
 
 namespace {
 
-/// With a denoiser the limit is one of its picture's error; the noisy one may reach it first, whose
+/// Where a denoiser works the limit is one of its picture's error; the noisy one may reach it first, whose
 /// range is narrower in small pictures.
 void logNoise(const RenderResult& r, const StopRule& stop) {
     const auto isReached = [&](const PictureNoise& noise) {

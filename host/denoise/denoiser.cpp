@@ -76,7 +76,7 @@ DenoisedPicture denoiseByFilter(const NoisyPicture& picture, const vulkan::Devic
         const double expected = std::max(glm::dot(parts, f.window), left);
         result.mean.emplace_back(mean);
         result.error.emplace_back(glm::sqrt(expected * compared));
-        // With a part of the change its square is that of the part, and what it takes of the error
+        // A part of the change has the square of that part, and what it takes of the error
         // is the part of what it took.
         const glm::dvec3 deviation = glm::dvec3(own.deviation) * albedo;
         const double before = own.weight * sumOf(deviation * deviation / compared) / 3;

@@ -22,7 +22,7 @@ class DenoiseCli : public testing::Test {
   protected:
     ScratchFolder folder;
 
-    /// Of a room of 40 x 30 pixels.
+    /// A room of 40 x 30 pixels.
     ProgramRun render(std::vector<std::string> words) {
         std::vector<std::string> all = {"render", libraryScene("cornell_boxes.dae"), "-r", "40",
                                         "30"};

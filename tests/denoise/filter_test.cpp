@@ -141,9 +141,9 @@ TEST(DenoiseFilter, AnEdgeThatOnlyRadianceShowsIsKept) {
     EXPECT_LT(relMse(d.mean, kWidth, truth), 0.15 * relMse(noisy.mean, kWidth, truth));
 }
 
-/// With less and less noise the denoised picture becomes the noisy one, and is never worse.
+/// As the noise falls the denoised picture becomes the noisy one, and it is never worse.
 TEST(DenoiseFilter, ConvergesToTheNoisyPicture) {
-    // Of detail that no layer knows, as fine as pixels, and that does not repeat.
+    // Detail that no layer knows, as fine as pixels, and that does not repeat.
     const auto truth = [](float sigma) {
         return [sigma](uint32_t x, uint32_t y) {
             Truth t;
