@@ -42,14 +42,17 @@ std::string inWords(const PictureNoise& noise) {
 
 namespace {
 
-/// With a denoiser the limit is one of its picture's error.
+/// Where a denoiser works the limit is one of its picture's error; the noisy one may reach it first, whose
+/// range is narrower in small pictures.
 void logNoise(const RenderResult& r, const StopRule& stop) {
-    const PictureNoise& limited = r.denoised ? r.denoised->noise : r.noise;
+    const auto isReached = [&](const PictureNoise& noise) {
+        return noise.known() && noise.most <= stop.noise;
+    };
     const std::string reached = inWords(r.noise);
     const char* const atMost = r.denoised ? "of the denoised picture at most" : "at most";
     if (stop.noise == 0)
         logging::info(reached);
-    else if (limited.known() && limited.most <= stop.noise)
+    else if (isReached(r.noise) || (r.denoised && isReached(r.denoised->noise)))
         logging::info(
             fmt::format("{}; {} {} % was asked for", reached, atMost, percent(stop.noise)));
     else

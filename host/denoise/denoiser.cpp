@@ -41,16 +41,16 @@ double noiseLeftAround(const std::vector<ReferenceResult>& filtered, uint32_t wi
 /// Standard errors that a pixel may change by.
 constexpr double kMostErrors = 4;
 
-/// How much of its change a pixel makes: no more than its own samples can be wrong by. Where they
-/// agree that it is dark, the noise of its neighbours says nothing of it.
+/// How much of its change a pixel makes: no more than its own samples can be wrong by, where their
+/// variance is known; a deviation alone is one number. Where they agree that it is dark, the noise
+/// of its neighbours says nothing of it.
 double shareOfChange(const NoisyPicture& picture, const Prepared& prepared, size_t pixel,
                      const glm::dvec3& change) {
     const gpu::DenoisePixel& p = prepared.pixels[pixel];
-    if (p.weight == 0) return 1;
+    if (p.weight == 0 || picture.variance.empty()) return 1;
     const glm::dvec3 deviation(p.deviation), albedo(prepared.albedo[pixel]);
-    glm::dvec3 variance = deviation * deviation;
-    if (!picture.variance.empty())
-        variance = glm::max(variance, glm::dvec3(picture.variance[pixel]) / (albedo * albedo));
+    const glm::dvec3 variance =
+        glm::max(deviation * deviation, glm::dvec3(picture.variance[pixel]) / (albedo * albedo));
     const double allowed = kMostErrors * sumOf(glm::sqrt(variance) * albedo);
     const double wanted = sumOf(glm::abs(change) * albedo);
     return wanted > allowed ? allowed / wanted : 1;
@@ -76,7 +76,7 @@ DenoisedPicture denoiseByFilter(const NoisyPicture& picture, const vulkan::Devic
         const double expected = std::max(glm::dot(parts, f.window), left);
         result.mean.emplace_back(mean);
         result.error.emplace_back(glm::sqrt(expected * compared));
-        // With a part of the change its square is that of the part, and what it takes of the error
+        // A part of the change has the square of that part, and what it takes of the error
         // is the part of what it took.
         const glm::dvec3 deviation = glm::dvec3(own.deviation) * albedo;
         const double before = own.weight * sumOf(deviation * deviation / compared) / 3;

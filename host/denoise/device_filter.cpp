@@ -71,7 +71,7 @@ bool prefersTexels(const vulkan::DeviceDescription& device, uint64_t pixels) {
 
 } // namespace
 
-/// Of a strip.
+/// What a strip needs.
 struct DeviceFilter::Buffers {
     std::vector<Buffer> all;                 ///< by binding
     std::vector<vulkan::DescriptorSet> sets; ///< by pass

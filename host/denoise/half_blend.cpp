@@ -22,6 +22,10 @@ struct Moments {
         error += other.error, taken += other.taken;
         product += other.product, pixels += other.pixels, removed += other.removed;
     }
+    void operator-=(const Moments& other) {
+        error -= other.error, taken -= other.taken;
+        product -= other.product, pixels -= other.pixels, removed -= other.removed;
+    }
     /// The noise that is left with this share.
     double left(double share) const { return error - 2 * share * taken + share * share * removed; }
     /// known: how much of the squared deviation is error.
@@ -29,7 +33,8 @@ struct Moments {
         return known * (error - 2 * share * taken) + share * share * product;
     }
     double bestShare() const {
-        const double ridged = (1 + double(gpu::DENOISE_RIDGE)) * product + 1e-30; // no 0 / 0
+        const double ridged =
+            (1 + double(gpu::DENOISE_RIDGE)) * std::max(product, 0.0) + 1e-30; // no 0 / 0
         return std::clamp(taken / ridged, 0.0, 1.0);
     }
 };
@@ -55,7 +60,8 @@ Moments momentsOf(const glm::dvec3& mean, const glm::dvec3& deviation, const glm
             meanOf(counts * (deviation - odd) * (deviation - odd))};
 }
 
-/// Sums over windows, by width and then by height.
+/// Sums over windows, by width and then by height, without the pixel in the middle, whose own error
+/// has no say in its share.
 std::vector<Moments> overWindows(const std::vector<Moments>& moments, int width, int height) {
     std::vector<Moments> rows(moments.size()), sums(moments.size());
     tbb::parallel_for(0, height, [&](int y) {
@@ -70,6 +76,8 @@ std::vector<Moments> overWindows(const std::vector<Moments>& moments, int width,
                 sums[size_t(y) * size_t(width) + size_t(x)] +=
                     rows[size_t(v) * size_t(width) + size_t(x)];
     });
+    for (size_t i = 0; i < sums.size(); ++i)
+        sums[i] -= moments[i];
     return sums;
 }
 

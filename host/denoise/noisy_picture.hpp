@@ -20,7 +20,7 @@ struct NoisyPicture {
     /// deviation are means of independent errors, and the expectation of its square is the variance
     /// of the mean. Which share is which, hence its sign, means nothing.
     std::vector<glm::vec3> deviation;
-    /// Of the mean, by the samples' own spread; empty: not known beside the deviation.
+    /// The mean's, by the samples' own spread; empty: not known beside the deviation.
     std::vector<glm::vec3> variance;
     /// How much of the squared deviation is error of the mean (gap_filling.hpp); empty: all of it.
     /// It goes into what is predicted of the error, and not into what is chosen by it: a share that

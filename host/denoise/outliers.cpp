@@ -13,7 +13,7 @@ constexpr int kNear = 3;
 /// Standard errors above what the neighbours have that a pixel may be. Of normal errors one pixel
 /// in 700 is that far off by chance, and nearly all of these have light in both halves.
 constexpr double kAllowed = 3;
-/// Of the neighbours, so many have to count fully for their mean to say anything.
+/// So many neighbours have to count fully for their mean to say anything.
 constexpr double kLeastNeighbours = 8;
 
 /// What a pixel gives away.

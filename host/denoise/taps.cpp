@@ -12,7 +12,7 @@ constexpr int kStep = 2;
 /// Deviations of the candidates' weights by distance, in pixels.
 constexpr double kStrict = 6, kNarrow = 2, kWide = 8;
 
-/// Of a Gaussian.
+/// A Gaussian's.
 float exponent(int square, double deviation) {
     return float(square / (2 * deviation * deviation));
 }

@@ -58,7 +58,7 @@ struct RenderRequest {
     bool transparent = false; ///< alpha in place of the environment
     std::vector<Layer> layers;
     Denoiser denoiser = Denoiser::Off;
-    /// Of a denoised picture: the noisy one and the predicted error are channels too.
+    /// A denoised picture has the noisy one and the predicted error as channels too.
     bool keepsNoisy = false;
 
     /// Names of the channels beside the radiance.

@@ -22,7 +22,7 @@ class DenoiseCli : public testing::Test {
   protected:
     ScratchFolder folder;
 
-    /// Of a room of 40 x 30 pixels.
+    /// A room of 40 x 30 pixels.
     ProgramRun render(std::vector<std::string> words) {
         std::vector<std::string> all = {"render", libraryScene("cornell_boxes.dae"), "-r", "40",
                                         "30"};
@@ -100,14 +100,24 @@ TEST_F(DenoiseCli, AFileThatDoesNotSayHowNoisyItIsIsRefused) {
 /// The error of the denoised picture is what --noise is the limit of.
 TEST_F(DenoiseCli, NoiseStopsByTheDenoisedPicture) {
     const auto samplesTo = [&](const std::string& name, std::vector<std::string> more) {
-        more.insert(more.end(), {"--noise", "0.05", "-o", folder.file(name + ".exr"), "--stats",
-                                 folder.file(name + ".json")});
-        EXPECT_EQ(render(more).exitCode, 0);
+        std::vector<std::string> words = {"render",
+                                          libraryScene("cornell_boxes.dae"),
+                                          "-r",
+                                          "120",
+                                          "90",
+                                          "--noise",
+                                          "0.15",
+                                          "-o",
+                                          folder.file(name + ".exr"),
+                                          "--stats",
+                                          folder.file(name + ".json")};
+        words.insert(words.end(), more.begin(), more.end());
+        EXPECT_EQ(stromboli(words).exitCode, 0);
         return statistics(name + ".json").at("samplesTaken").get<double>();
     };
     const double noisy = samplesTo("noisy", {}), denoised = samplesTo("clean", {"--denoise", "on"});
     EXPECT_LT(denoised, 0.5 * noisy);
-    EXPECT_LE(statistics("clean.json").at("denoised").at("noiseRange")[1].get<double>(), 0.05);
+    EXPECT_LE(statistics("clean.json").at("denoised").at("noiseRange")[1].get<double>(), 0.15);
 }
 
 TEST_F(DenoiseCli, WithoutOpenImageDenoiseThatIsSaid) {

@@ -20,7 +20,7 @@ using denoise::Prepared;
 
 constexpr uint32_t kWidth = 83, kHeight = 101; // no multiples of a workgroup
 
-/// With pixels that are unknown, some of them beside each other.
+/// Some pixels are unknown, two of them beside each other.
 Prepared picture(float sigma, uint32_t seed) {
     denoise::NoisyPicture noisy = noisyPicture(
         kWidth, kHeight, [sigma](uint32_t x, uint32_t y) { return room(x, y, sigma); }, seed);

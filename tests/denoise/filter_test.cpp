@@ -141,9 +141,9 @@ TEST(DenoiseFilter, AnEdgeThatOnlyRadianceShowsIsKept) {
     EXPECT_LT(relMse(d.mean, kWidth, truth), 0.15 * relMse(noisy.mean, kWidth, truth));
 }
 
-/// With less and less noise the denoised picture becomes the noisy one, and is never worse.
+/// As the noise falls the denoised picture becomes the noisy one, and it is never worse.
 TEST(DenoiseFilter, ConvergesToTheNoisyPicture) {
-    // Of detail that no layer knows, as fine as pixels, and that does not repeat.
+    // Detail that no layer knows, as fine as pixels, and that does not repeat.
     const auto truth = [](float sigma) {
         return [sigma](uint32_t x, uint32_t y) {
             Truth t;
@@ -166,6 +166,20 @@ TEST(DenoiseFilter, ConvergesToTheNoisyPicture) {
             EXPECT_LT(moved, 0.1 * sigma);
         }
     }
+}
+
+/// A dark pixel on a surface that is bright and noisy around it.
+TEST(DenoiseFilter, APixelThatItsSamplesAgreeOnIsNotLitByItsNeighbours) {
+    const auto isDark = [](uint32_t x, uint32_t y) { return x == 30 && y == 20; };
+    const TruthOf truth = [&](uint32_t x, uint32_t y) {
+        Truth t;
+        t.radiance = glm::vec3(isDark(x, y) ? 0.01f : 1.0f);
+        t.sigma = isDark(x, y) ? 0.1f : 0.5f;
+        return t;
+    };
+    const DenoisedPicture d = denoised(truth);
+    // Four standard errors beside its own.
+    EXPECT_NEAR(d.mean[20 * kWidth + 30].y, 0.01, 8 * 0.001);
 }
 
 TEST(DenoiseFilter, WithoutLayersAllIsOneSurface) {

@@ -54,7 +54,7 @@ double meanOf(const std::vector<float>& values) {
     return sum / double(values.size());
 }
 
-/// Of 81 pixels the ratio is known to 16 %; what is above 1 counts as 1, so that the mean is below.
+/// 81 pixels tell the ratio to 16 %; what is above 1 counts as 1, so that the mean is below.
 TEST(GapFilling, IndependentSamplesHaveNoneToFill) {
     Random random(3);
     const Halves h = halvesOf(32, [&](uint32_t, uint32_t) { return double(random.uniform()); });

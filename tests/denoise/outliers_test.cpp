@@ -80,7 +80,7 @@ TEST(Outliers, RareLightIsNotLimited) {
     EXPECT_EQ(picture.limitedPixels, 0u);
 }
 
-/// Of 24 x 24 pixels with normal errors of 10 % none is that far off, in any of these pictures.
+/// No pixel with normal errors of 40 % has most of its light in one half and is that far off.
 TEST(Outliers, NormalNoiseIsNotLimited) {
     for (uint32_t seed = 1; seed <= 10; ++seed) {
         Prepared picture = denoise::prepare(noisyPicture(

@@ -25,13 +25,14 @@ denoise::NoisyPicture noisyPicture(uint32_t width, uint32_t height, const TruthO
             const Truth t = truth(x, y);
             glm::vec3 sum, difference;
             for (int c = 0; c < 3; ++c) {
-                // Of either half, sqrt(2) times the error of both together.
+                // Either half has sqrt(2) times the error of both together.
                 const float half = std::sqrt(2.0f) * t.sigma * t.radiance[c];
                 const float a = half * normalNumber(random), b = half * normalNumber(random);
                 sum[c] = 0.5f * (a + b), difference[c] = 0.5f * (a - b);
             }
             picture.mean.push_back(t.radiance + sum);
             picture.deviation.push_back(difference);
+            picture.variance.push_back(t.sigma * t.sigma * t.radiance * t.radiance);
             picture.albedo.push_back(t.albedo);
             picture.normal.push_back(t.normal);
             picture.depth.push_back(t.depth);

@@ -25,7 +25,7 @@ DenoisedPicture denoised(const TruthOf& truth, uint32_t seed) {
                                    nullptr);
 }
 
-/// Of the picture as a whole, on the mean over renders. It is rather too large than too small: the
+/// For the picture as a whole, on the mean over renders. It is rather too large than too small: the
 /// error of a tile is taken to be at least the noise that is left in it.
 TEST(PredictedError, IsThatOfThePictureWithinAFifth) {
     for (const float sigma : {0.5f, 0.2f, 0.05f}) {
