@@ -42,8 +42,8 @@ std::string inWords(const PictureNoise& noise) {
 
 namespace {
 
-/// Where a denoiser works the limit is one of its picture's error; the noisy one may reach it first, whose
-/// range is narrower in small pictures.
+/// Where a denoiser works the limit is one of its picture's error; the noisy one may reach it
+/// first, whose range is narrower in small pictures.
 void logNoise(const RenderResult& r, const StopRule& stop) {
     const auto isReached = [&](const PictureNoise& noise) {
         return noise.known() && noise.most <= stop.noise;
