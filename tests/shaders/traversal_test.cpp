@@ -280,6 +280,9 @@ GpuScene movedBack(GpuScene scene, uint32_t records) {
             gpu::NodeRecord node = asNode(r);
             node.firstChild += records;
             r = std::bit_cast<Record>(node);
+        } else if (gpu::LeafRecord leaf = asLeaf(r); !(leaf.primitive & gpu::RECORD_IS_SPHERE)) {
+            leaf.homeOrRadius += records;
+            r = std::bit_cast<Record>(leaf);
         }
     scene.bvh.records.insert(scene.bvh.records.begin() + 1, records, Record{});
     return scene;
