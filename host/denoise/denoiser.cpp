@@ -49,8 +49,9 @@ double shareOfChange(const NoisyPicture& picture, const Prepared& prepared, size
     const gpu::DenoisePixel& p = prepared.pixels[pixel];
     if (p.weight == 0 || picture.variance.empty()) return 1;
     const glm::dvec3 deviation(p.deviation), albedo(prepared.albedo[pixel]);
-    const glm::dvec3 variance =
-        glm::max(deviation * deviation, glm::dvec3(picture.variance[pixel]) / (albedo * albedo));
+    const glm::dvec3 perScale = albedo / double(prepared.scale);
+    const glm::dvec3 variance = glm::max(
+        deviation * deviation, glm::dvec3(picture.variance[pixel]) / (perScale * perScale));
     const double allowed = kMostErrors * sumOf(glm::sqrt(variance) * albedo);
     const double wanted = sumOf(glm::abs(change) * albedo);
     return wanted > allowed ? allowed / wanted : 1;
@@ -74,8 +75,8 @@ DenoisedPicture denoiseByFilter(const NoisyPicture& picture, const vulkan::Devic
         const glm::dvec3 compared = mean * mean + prepared.floor * prepared.floor;
         const double left = parts.x * noiseLeftAround(filtered, picture.width, picture.height, i);
         const double expected = std::max(glm::dot(parts, f.window), left);
-        result.mean.emplace_back(mean);
-        result.error.emplace_back(glm::sqrt(expected * compared));
+        result.mean.emplace_back(mean / double(prepared.scale));
+        result.error.emplace_back(glm::sqrt(expected * compared) / double(prepared.scale));
         // A part of the change has the square of that part, and what it takes of the error
         // is the part of what it took.
         const glm::dvec3 deviation = glm::dvec3(own.deviation) * albedo;

@@ -40,14 +40,30 @@ void fillSlopes(Prepared& picture) {
         }
 }
 
+/// Of the pixels that are known.
+double meanRadianceOf(const NoisyPicture& picture) {
+    double sum = 0;
+    uint64_t known = 0;
+    for (const glm::vec3& mean : picture.mean)
+        if (std::isfinite(mean.x)) sum += sumOf(mean) / 3, ++known;
+    return known > 0 ? sum / double(known) : 0;
+}
+
+/// A power of two, so that nothing is rounded, and a normal float.
+float scaleTo1(double mean) {
+    if (!(mean > 0) || !std::isfinite(mean)) return 1;
+    return std::ldexp(1.0f, std::clamp(-std::ilogb(mean), -120, 120));
+}
+
 } // namespace
 
 Prepared prepare(const NoisyPicture& picture) {
     Prepared result{picture.width, picture.height};
+    const double mean = meanRadianceOf(picture);
+    result.scale = scaleTo1(mean);
+    result.meanRadiance = mean * result.scale;
     result.pixels.resize(picture.pixelCount());
     result.albedo.resize(picture.pixelCount(), glm::vec3(1.0f));
-    double sum = 0;
-    uint64_t known = 0;
     for (size_t i = 0; i < result.pixels.size(); ++i) {
         gpu::DenoisePixel& p = result.pixels[i];
         p = {};
@@ -61,12 +77,9 @@ Prepared prepare(const NoisyPicture& picture) {
         if (!picture.depth.empty()) p.disparity = disparityOf(picture.depth[i]);
         if (!std::isfinite(picture.mean[i].x)) continue; // NoisyPicture::unknownPixels
         p.weight = 1;
-        p.mean = picture.mean[i] / result.albedo[i];
-        p.deviation = picture.deviation[i] / result.albedo[i];
-        sum += sumOf(picture.mean[i]) / 3;
-        ++known;
+        p.mean = result.scale * picture.mean[i] / result.albedo[i];
+        p.deviation = result.scale * picture.deviation[i] / result.albedo[i];
     }
-    result.meanRadiance = known > 0 ? sum / double(known) : 0;
     // relMSE's; where all is black there is nothing to compare with.
     if (result.meanRadiance > 0) result.floor = kRelativeFloor * result.meanRadiance;
     fillSlopes(result);

@@ -15,6 +15,9 @@ struct Prepared {
     uint32_t width = 0, height = 0;
     std::vector<gpu::DenoisePixel> pixels;
     std::vector<glm::vec3> albedo; ///< that radiance was divided by
+    /// Radiance is multiplied by this power of two, which makes its mean about 1: what a picture
+    /// becomes does not depend on its unit.
+    float scale = 1;
     double meanRadiance = 0;
     double floor = 1; ///< radiance, that is added, squared, to that which errors are compared with
     double movedLight = 0; ///< the share of all light that limitOutliers() has moved

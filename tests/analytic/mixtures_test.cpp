@@ -103,8 +103,9 @@ TEST(Mixtures, MayBeOfMirrorsAndPaint) {
 Estimate underALamp(Material first, const Material& second, bool drawn) {
     SceneMaker b;
     if (drawn) first.reliefRule = ReliefRule::Blacken;
-    addTexturedSquare(b, mixture(b, first, b.add(second), 0.4f));
     b.quad({-1, -1, 3}, {0, 2, 0}, {2, 0, 0}, b.add(emissive(5)));
+    addTexturedSquare(b,
+                      mixture(b, first, b.add(second), 0.4f)); // last: it says who has attributes
     b.add(ambient(0.2f));
     return estimate(b.scene, pointCamera({0.8, 0.3, 2}, {0.4, 0.3, 0}), smallPicture(64, 2));
 }

@@ -119,8 +119,11 @@ TEST(Watertight, ClosedMeshesOfNeedles) {
                              std::ldexp(1.0f, -int(random.below(20))) * glm::cross(x, y));
         for (glm::vec3& p : mesh.positions)
             p = axes * p;
-        const Traceable t(std::move(mesh));
+        BuildOptions inParts;
+        inParts.split = {20, 0, 0};
+        const Traceable parts(mesh, inParts), t(std::move(mesh));
         EXPECT_EQ(countEscapes(t, axes, 0.2f, 20000, random), 0u) << i;
+        EXPECT_EQ(countEscapes(parts, axes, 0.2f, 20000, random), 0u) << i << ", in parts";
     }
 }
 

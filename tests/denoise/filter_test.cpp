@@ -195,6 +195,25 @@ TEST(DenoiseFilter, WithoutLayersAllIsOneSurface) {
     EXPECT_LT(relMse(d.mean, kWidth, truth), 0.05 * relMse(noisy.mean, kWidth, truth));
 }
 
+/// Radiance has any unit. Powers of two round nothing, so that the numbers are the same.
+TEST(DenoiseFilter, APictureOfAnyScaleBecomesTheSame) {
+    const TruthOf truth = [](uint32_t x, uint32_t y) { return room(x, y, 0.2f); };
+    const DenoisedPicture d = denoised(truth);
+    for (const float scale : {0x1p-50f, 0x1p50f}) {
+        NoisyPicture noisy = noisyPicture(kWidth, kHeight, truth, 1);
+        for (size_t i = 0; i < noisy.mean.size(); ++i) {
+            noisy.mean[i] *= scale, noisy.deviation[i] *= scale;
+            noisy.variance[i] *= scale * scale;
+        }
+        const DenoisedPicture scaled = denoise::denoisePicture(noisy, Denoiser::On, nullptr);
+        for (size_t i = 0; i < d.mean.size(); ++i) {
+            ASSERT_EQ(scaled.mean[i], scale * d.mean[i]) << scale;
+            ASSERT_EQ(scaled.error[i], scale * d.error[i]) << scale;
+        }
+        EXPECT_EQ(scaled.summary.noise.estimate, d.summary.noise.estimate);
+    }
+}
+
 TEST(DenoiseFilter, SmallPictures) {
     const TruthOf truth = [](uint32_t, uint32_t) {
         Truth t;
