@@ -49,7 +49,8 @@ TEST(Outliers, ASampleThatMakesAPixelIsSpreadAndNoLightIsLost) {
         EXPECT_NEAR(after[c], before[c], 1e-5 * before[c]);
     // Four standard errors of the neighbours, and what the pixel gets back of its own light.
     EXPECT_LT(picture.pixels[kMiddle].mean.x, 6 * picture.scale);
-    EXPECT_GT(picture.pixels[kMiddle + 1].mean.x, pixels[kMiddle + 1].mean.x + 0.5f * picture.scale);
+    EXPECT_GT(picture.pixels[kMiddle + 1].mean.x,
+              pixels[kMiddle + 1].mean.x + 0.5f * picture.scale);
     // The error of who takes light is at least that light.
     EXPECT_GE(std::abs(picture.pixels[kMiddle + 1].deviation.x),
               picture.pixels[kMiddle + 1].mean.x - pixels[kMiddle + 1].mean.x);
