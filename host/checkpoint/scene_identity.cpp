@@ -118,6 +118,17 @@ void add(Sum& sum, const Environment& e) {
     sum.add(width), sum.add(height), sum.addAll(radiance), sum.add(strength), sum.add(rotation);
 }
 
+void add(Sum& sum, const Medium& m) {
+    const auto& [name, absorption, scattering, emission, phase, asymmetry, density] = m;
+    sum.add(absorption), sum.add(scattering), sum.add(emission), sum.add(phase);
+    sum.add(asymmetry);
+    if (!density) return;
+    const auto& [size, values, toUnit] = *density;
+    sum.add(size), sum.addAll(values);
+    for (const glm::dvec4& row : toUnit)
+        sum.add(row);
+}
+
 void add(Sum& sum, const Light& l) {
     sum.add(l.kind), sum.add(l.color), sum.add(l.position), sum.add(l.direction);
     sum.add(l.constantAttenuation), sum.add(l.linearAttenuation), sum.add(l.quadraticAttenuation);
@@ -131,11 +142,12 @@ void add(Sum& sum, const Light& l) {
 
 void add(Sum& sum, const Camera& c) {
     const auto& [orthographic, position, right, up, back, halfWidth, halfHeight, shift,
-                 nearDistance, farDistance, clipAlongRay, lensRadius, focusDistance] = c;
+                 nearDistance, farDistance, clipAlongRay, lensRadius, focusDistance, medium] = c;
     sum.add(orthographic), sum.add(position), sum.add(right), sum.add(up), sum.add(back);
     sum.add(halfWidth), sum.add(halfHeight), sum.add(shift), sum.add(nearDistance);
     sum.add(farDistance);
     sum.add(clipAlongRay), sum.add(lensRadius), sum.add(focusDistance);
+    if (medium != kNoMedium) sum.add(medium);
 }
 
 static_assert(sizeof(Triangle) == 8 * sizeof(uint32_t), "has padding, or a new member");
@@ -166,6 +178,9 @@ uint32_t sceneIdentity(const Scene& scene, const Camera& camera) {
     sum.addAll(scene.attributes);
     sum.addAll(scene.attributeCorners);
     if (scene.environment) add(sum, *scene.environment);
+    // A scene without media has the sum that it had before there were any.
+    for (const Medium& m : scene.media)
+        add(sum, m);
     add(sum, camera);
     return sum.value();
 }

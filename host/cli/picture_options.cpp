@@ -50,6 +50,41 @@ std::optional<glm::vec3> readRadiance(const std::string& word) {
     return r && g && b ? std::optional(glm::vec3(*r, *g, *b)) : std::nullopt;
 }
 
+/// The numbers of a list, whose commas have nothing but numbers between them; else empty.
+std::vector<double> numbersOfList(const std::string& word) {
+    std::vector<double> numbers;
+    for (size_t from = 0; from <= word.size();) {
+        const size_t comma = std::min(word.find(',', from), word.size());
+        const std::optional<double> value = realNumber(word.substr(from, comma - from));
+        if (!value) return {};
+        numbers.push_back(*value);
+        from = comma + 1;
+    }
+    return numbers;
+}
+
+/// DENSITY[,R,G,B][,G].
+FogRequest readFog(const std::string& word) {
+    const std::vector<double> n = numbersOfList(word);
+    const auto within = [&](size_t from, size_t end, double low, double high) {
+        return std::all_of(n.begin() + long(from), n.begin() + long(end),
+                           [&](double x) { return x >= low && x <= high; });
+    };
+    const bool hasColor = n.size() >= 4, hasAsymmetry = n.size() == 2 || n.size() == 5;
+    const bool isRead = n.size() == 1 || n.size() == 2 || n.size() == 4 || n.size() == 5;
+    if (!isRead || !within(0, 1, 0, 1e9) || (hasColor && !within(1, 4, 0, 1)) ||
+        (hasAsymmetry && !within(n.size() - 1, n.size(), -double(kMostAsymmetry), double(kMostAsymmetry))))
+        throw UsageError(fmt::format(
+            "--fog is '{}': expected a density per metre, or DENSITY,R,G,B with a colour in "
+            "[0, 1], and behind either a mean cosine from -0.9999 to 0.9999",
+            word));
+    FogRequest fog;
+    fog.density = n[0];
+    if (hasColor) fog.color = {float(n[1]), float(n[2]), float(n[3])};
+    if (hasAsymmetry) fog.asymmetry = n.back();
+    return fog;
+}
+
 /// One of the words of CameraChoice, else the name or number of a camera of the file.
 CameraRequest readCamera(const std::string& word) {
     if (word.empty()) throw UsageError("--camera is empty: expected text");
@@ -189,6 +224,11 @@ void declareScene(OptionList& list, SceneRequest& scene, Words* several) {
         .needs("--env");
     list.real("--env-strength", "X", "multiplies its radiance", environment.strength, {0, 1e9})
         .needs("--env");
+    list.words("--fog", "DENSITY",
+               "fills the scene with fog of that extinction per metre; DENSITY,R,G,B: of a colour; "
+               "and ,G behind either: its light goes forwards (up to 0.9999) or back (-0.9999)",
+               1, [&scene](const Words& words) { scene.fog = readFog(words[0]); })
+        .excludes("--cs184");
     FileSelection& selection = reading.selection;
     list.words("--scene", "N", "glTF: the scene of this number, from 0", 1,
                [&selection](const Words& words) {

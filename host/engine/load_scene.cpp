@@ -42,6 +42,7 @@ LoadedScene loadScene(const SceneRequest& request, const Listener& listener) {
         environment.strict = request.reading.strict;
         addEnvironment(*scene, environment);
     }
+    if (request.fog.isGiven()) addFog(*scene, request.fog);
     const double seconds = watch.seconds();
     report(scene->report, listener);
     return {std::move(scene), seconds};
@@ -57,6 +58,7 @@ LoadedScene loadMoment(const SceneRequest& request, LoadedScene before, const Li
     }
     if (request.environment.isGiven())
         addEnvironment(moment, std::move(*std::exchange(before.scene->environment, {})));
+    if (request.fog.isGiven()) addFog(moment, request.fog);
     return {std::make_shared<Scene>(std::move(moment)), seconds};
 }
 

@@ -5,6 +5,7 @@
 #include "host/kernel/gpu_scene.hpp"
 #include "host/render/estimator.hpp"
 #include "scene/add_environment.hpp"
+#include "scene/add_fog.hpp"
 #include "scene/build/conventions.hpp"
 #include "scene/model/scene.hpp"
 
@@ -37,11 +38,12 @@ struct Listener {
 
 // --- Loading -------------------------------------------------------------------------------------
 
-/// Where a scene comes from, how its file is read, and what lights it from all around.
+/// Where a scene comes from, how its file is read, what lights it from all around and what fills it.
 struct SceneRequest {
     std::string source; ///< a file, a bundled scene or a generated one (scene/read_scene.hpp)
     SceneConventions reading;
     EnvironmentRequest environment;
+    FogRequest fog;
 };
 
 /// A scene in memory. Sessions share it and do not change it; nor may others while one uses it.

@@ -4,6 +4,7 @@
 #include "host/kernel/detail_rows.hpp"
 #include "scene/model/mixture.hpp"
 #include "shaders/shared/interface.h"
+#include "shaders/shared/medium_types.h"
 #include "shaders/shared/texture_types.h"
 
 #include <glm/gtc/packing.hpp>
@@ -116,10 +117,14 @@ bool nameLights(GpuScene& g, std::span<const uint32_t> before = {}) {
 /// All of a scene but its tree and its textures.
 void packRest(GpuScene& g, const Scene& scene, const LightSelection& lights,
               std::shared_ptr<const EnvironmentTable> environment) {
-    MaterialRows materials = packMaterials(scene.materials, g.detailsOfMaterials);
+    MaterialRows materials = packMaterials(scene.materials, g.detailsOfMaterials, scene.media);
     g.materials = std::move(materials.rows);
     g.mostOthers = materials.mostOthers, g.mostBlends = materials.mostBlends;
     packPrimitives(scene, materials.firstRow, g);
+    g.media = materials.media.kinds;
+    g.mediumRow = std::move(materials.media.firstRow);
+    for (const uint32_t closures : materials.media.closures)
+        g.closures.add(closures);
     g.lights = packLights(scene, g.bvh.placeOf, lights,
                           appendPictures(g.materials, g.detailsOfLights), std::move(environment));
 }

@@ -1,6 +1,7 @@
 #include "host/kernel/kernel_features.hpp"
 
 #include "host/kernel/light_table.hpp"
+#include "shaders/shared/medium_types.h"
 #include "shaders/shared/texture_types.h"
 
 #include <fmt/format.h>
@@ -29,7 +30,7 @@ bool servesForLong(const KernelFeatures& f) {
            f[SPEC_HIDES_SURFACES] != 0 || f[SPEC_FLAT_TERMINATOR] != 0 ||
            f[SPEC_TEXTURE_SLOTS] != 0 || f[SPEC_LOOSE_SLOTS] != 0 || f[SPEC_LOOSE_TEXTURES] != 0 ||
            f[SPEC_TEXEL_KINDS] != 0 || f[SPEC_ATTRIBUTES] != 0 || f[SPEC_HAS_ALPHA] != 0 ||
-           f[SPEC_TANGENT_FRAMES] != 0 || f[SPEC_HAS_BLENDS] != 0 || f[SPEC_RELIEF_RULES] != 0 ||
+           f[SPEC_TANGENT_FRAMES] != 0 || f[SPEC_HAS_BLENDS] != 0 || f[SPEC_MEDIA] != 0 || f[SPEC_RELIEF_RULES] != 0 ||
            f[SPEC_HAS_PLACEMENTS] != 0 || f[SPEC_CORNER_NORMALS] != f[SPEC_HAS_NORMALS];
 }
 
@@ -59,7 +60,9 @@ uint32_t misLobes(const GpuScene& scene, const Estimator& settings) {
     if (!combinesBouncesAndLightSamples(settings) || scene.lights.areaCount == 0) return 0;
     const bool skyAlone = scene.lights.sampledKinds == 1u << gpu::LIGHT_AMBIENT;
     const bool isPicture = scene.lights.environment != nullptr;
-    const bool everywhere = skyAlone || isPicture || settings.directLight == DirectLight::MisAll;
+    // Bounces from media find light as those from diffuse surfaces do, and narrow phases better.
+    const bool scatters = (scene.media & gpu::MEDIA_SCATTER) != 0;
+    const bool everywhere = skyAlone || scatters || isPicture || settings.directLight == DirectLight::MisAll;
     const uint32_t helped = everywhere ? ~gpu::DELTA_LOBES : gpu::GLOSSY_LOBES;
     return scene.closures.some & gpu::LOBE_MASK & helped;
 }
@@ -226,6 +229,9 @@ const std::vector<const char*> kTextureSlots = {"base color",
 #define NAME_CLOSURE(name, bit, label) label,
 const std::vector<const char*> kClosures = {CLOSURE_LIST(NAME_CLOSURE)};
 #undef NAME_CLOSURE
+#define NAME_MEDIA(name, bit, label) label,
+const std::vector<const char*> kMedia = {MEDIA_LIST(NAME_MEDIA)};
+#undef NAME_MEDIA
 const std::vector<const char*> kLobes(kClosures.begin(),
                                       kClosures.begin() + std::popcount(gpu::LOBE_MASK));
 

@@ -1,6 +1,7 @@
 #include "host/kernel/material_rows.hpp"
 
 #include "scene/model/mixture.hpp"
+#include "shaders/shared/medium_types.h"
 #include "shaders/shared/parameters.h"
 #include "shaders/shared/texture_types.h"
 
@@ -42,15 +43,6 @@ float usedIndex(const Material& m) {
     if (p.ior == 0) return kLargestIndex;
     if (!refracts(m) || std::abs(p.ior - 1) >= gpu::LEAST_INDEX_STEP) return p.ior;
     return p.ior < 1 ? 1 - gpu::LEAST_INDEX_STEP : 1 + gpu::LEAST_INDEX_STEP;
-}
-
-/// Beer and Lambert's law: attenuationColor = exp(-absorption attenuationDistance). A channel that
-/// lets nothing through gets the largest coefficient whose product with a length is finite.
-glm::vec3 absorptionOf(const Material& m) {
-    constexpr float kLeastTransmitted = 1e-30f;
-    const PrincipledParameters& p = m.principled;
-    const glm::vec3 left = glm::max(p.attenuationColor, glm::vec3(kLeastTransmitted));
-    return -glm::log(left) / p.attenuationDistance;
 }
 
 float leastAlphaOf(const Material& m) {
@@ -157,7 +149,7 @@ uint32_t principledBits(const Material& m) {
     if (transmits(m)) bits |= LOBE_GLOSSY_TRANSMISSION | (p.isThin ? INTERFACE_IS_THIN : 0);
     if (!refracts(m)) return bits;
     bits |= INTERFACE_REFRACTS | INTERFACE_IS_DIELECTRIC;
-    return absorptionOf(m) != glm::vec3(0) ? bits | VOLUME_ABSORBS : bits;
+    return m.principled.absorption() != glm::vec3(0) ? bits | VOLUME_ABSORBS : bits;
 }
 
 uint32_t burleyBits(const Material& m) {
@@ -270,9 +262,11 @@ uint32_t reliefBits(const Material& m) {
 }
 
 MaterialRows packMaterials(std::span<const Material> materials,
-                           std::span<const std::vector<Row>> details) {
+                           std::span<const std::vector<Row>> details,
+                           std::span<const Medium> media) {
     MaterialRows packed;
     for (const Material& m : materials) {
+        if (!media.empty()) packed.rows.resize(packed.rows.size() + gpu::MEDIUM_BORDER_ROWS);
         packed.firstRow.push_back(uint32_t(packed.rows.size()));
         appendRows(packed.rows,
                    gpu::MaterialHeader{
@@ -286,6 +280,8 @@ MaterialRows packMaterials(std::span<const Material> materials,
         for (const Row& row : own)
             packed.rows.push_back(row);
     }
+    packed.media = appendMedia(packed.rows, media, !details.empty());
+    if (!media.empty()) nameBorders(packed.rows, materials, packed.firstRow, packed.media.firstRow);
     // The kernel reads as many rows from the first on, for materials without a table.
     packed.rows.resize(
         std::max(packed.rows.size() + kMostRows - 1, size_t(gpu::TRANSMITTANCE_PIECES)));

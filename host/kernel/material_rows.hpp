@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/kernel/medium_rows.hpp"
 #include "host/kernel/rows.hpp"
 #include "scene/model/material.hpp"
 #include "shaders/shared/bsdf_types.h"
@@ -19,12 +20,15 @@ struct MaterialRows {
     /// Materials beside any one of a mixture's that are evaluated with it: of the largest mixture
     /// that details name.
     uint32_t mostOthers = 0;
+    MediumRows media;
     uint32_t mostBlends = 0; ///< most times that another material may take a place at one hit
 };
 
 /// details: of each material, the rows from gpu::MATERIAL_DETAIL_ROW on; empty: none has any.
+/// media: of the scene, whose rows are behind those of its materials.
 MaterialRows packMaterials(std::span<const Material> materials,
-                           std::span<const std::vector<Row>> details = {});
+                           std::span<const std::vector<Row>> details = {},
+                           std::span<const Medium> media = {});
 
 /// MATERIAL_RELIEF_ bits.
 uint32_t reliefBits(const Material& material);

@@ -7,6 +7,7 @@
 #include "host/kernel/kernel_tuning.hpp"
 #include "host/kernel/light_table.hpp"
 #include "host/kernel/sampling_tables.hpp"
+#include "shaders/shared/medium_types.h"
 
 #include <fmt/format.h>
 
@@ -48,6 +49,8 @@ gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const PictureA
     f.lightSamples = direct.lights;
     f.branches = s.branches;
     f.gapWidth = scene.gapWidth;
+    f.cameraMedium =
+        camera.medium == kNoMedium ? gpu::NO_MEDIUM : scene.mediumRow.at(camera.medium);
     return f;
 }
 

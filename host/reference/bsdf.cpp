@@ -2,6 +2,7 @@
 
 #include "host/reference/burley.hpp"
 #include "host/reference/interfaces.hpp"
+#include "host/reference/medium.hpp"
 #include "host/reference/microfacet.hpp"
 #include "host/reference/principled.hpp"
 #include "host/reference/sampling.hpp"
@@ -170,6 +171,11 @@ BsdfValue evaluateThose(const SurfacePoint& s, const glm::dvec3& wi,
     return sum;
 }
 
+BsdfValue evaluatePhase(const SurfacePoint& s, const glm::dvec3& wi) {
+    const double density = phaseDensity(*s.medium, -glm::dot(s.wo, wi));
+    return {glm::dvec3(density), density};
+}
+
 /// The share of the light from there that light samples leave to bounces.
 glm::dvec3 shareLeft(const SurfacePoint& s, const glm::dvec3& wi,
                      const ShadingConventions& conventions) {
@@ -272,6 +278,7 @@ uint32_t lobesOf(const Material& material) {
 }
 
 uint32_t lobesOf(const SurfacePoint& s) {
+    if (s.medium) return gpu::LOBE_DIFFUSE_REFLECTION;
     uint32_t lobes = lobesOf(*s.material);
     for (const SurfacePoint::Part& part : s.others)
         lobes |= lobesOf(*part.material);
@@ -288,17 +295,24 @@ bool scattersAtRandom(uint32_t lobes) {
 
 BsdfValue evaluateBsdf(const SurfacePoint& s, const glm::dvec3& wi,
                        const ShadingConventions& conventions) {
+    if (s.medium) return evaluatePhase(s, wi);
     return evaluateThose(s, wi, conventions, [](const Material&) { return true; });
 }
 
 BsdfValue evaluateForLights(const SurfacePoint& s, const glm::dvec3& wi,
                             const ShadingConventions& conventions) {
+    if (s.medium) return evaluatePhase(s, wi);
     return evaluateThose(s, wi, conventions,
                          [](const Material& m) { return !leavesLightsToBounces(m); });
 }
 
 BsdfSample sampleBsdf(const SurfacePoint& s, const glm::dvec3& u,
                       const ShadingConventions& conventions) {
+    if (s.medium) {
+        const glm::dvec3 wi = samplePhase(*s.medium, -s.wo, u.x, u.y);
+        return {wi, glm::dvec3(1.0), evaluatePhase(s, wi).pdf, gpu::LOBE_DIFFUSE_REFLECTION,
+                glm::dvec3(0.0)};
+    }
     const Frame frame = surfaceFrame(s);
     BsdfSample sample = sampleLocally(*s.material, incidenceOn(s, frame, conventions), u);
     // Rounding errors of the direction's length would add up along a path.

@@ -1,6 +1,7 @@
 #include "host/reference/integrator.hpp"
 
 #include "host/reference/bsdf.hpp"
+#include "host/reference/medium.hpp"
 #include "host/reference/sampling.hpp"
 #include "scene/model/surface_lookup.hpp"
 #include "shaders/shared/layer_types.h"
@@ -144,9 +145,9 @@ double largest(const glm::dvec3& v) {
 }
 
 /// Beer and Lambert's law. The distance may be infinite.
-glm::dvec3 transmittance(const Material* medium, double distance) {
-    if (medium == nullptr) return glm::dvec3(1.0);
-    const glm::dvec3 a = absorptionInside(*medium);
+glm::dvec3 transmittance(const Material* volume, double distance) {
+    if (volume == nullptr) return glm::dvec3(1.0);
+    const glm::dvec3 a = absorptionInside(*volume);
     glm::dvec3 left(1.0);
     for (int c = 0; c < 3; ++c)
         if (a[c] > 0) left[c] = std::exp(-a[c] * distance);
@@ -155,15 +156,32 @@ glm::dvec3 transmittance(const Material* medium, double distance) {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
+/// A point of a ray in a medium, as a surface without normals that reflects nothing by itself.
+SurfacePoint pointInMedium(const Ray& ray, double t, const Medium& medium) {
+    static const Material kBlack = [] {
+        Material m;
+        m.albedo = glm::vec3(0.0f);
+        return m;
+    }();
+    SurfacePoint s;
+    s.position = ray.origin + t * ray.direction;
+    s.geometric = s.shading = glm::dvec3(0.0);
+    s.wo = -ray.direction;
+    s.material = s.stated = &kBlack;
+    s.medium = &medium;
+    return s;
+}
+
 } // namespace
 
 PathSample::PathSample(const World& world, const Estimator& settings, const RandomStream& random)
     : world_(world), settings_(settings), random_(random), passes_(random.apart()) {}
 
-glm::dvec3 PathSample::radiance(const Ray& cameraRay) {
+glm::dvec3 PathSample::radiance(const Ray& cameraRay, uint32_t medium) {
+    if (medium != kNoMedium) filling_.medium = &world_.scene.media.at(medium);
     if (!arriveFromCamera(cameraRay)) { // ambient light is not a backdrop
         if (settings_.minBounce == 0 && settings_.showsBackdrop)
-            radiance_ += world_.lights.backdrop(cameraRay.direction);
+            radiance_ += throughput_ * world_.lights.backdrop(cameraRay.direction);
         return radiance_;
     }
     if (settings_.minBounce == 0) addEmission();
@@ -173,11 +191,13 @@ glm::dvec3 PathSample::radiance(const Ray& cameraRay) {
 
 void PathSample::follow(uint32_t bounce, bool splits) {
     for (; bounce <= settings_.maxBounces; ++bounce) {
-        if (surface_.material->isBlackBehind && isSeenFromBehind(surface_)) return;
-        faceForward(surface_, world_.conventions);
-        if (world_.hasDetails) applyNormalMap(surface_, world_.scene, world_.conventions);
-        if (surface_.material->hasReliefRules() && glm::dot(surface_.shading, surface_.wo) <= 0)
-            return;
+        if (!surface_.medium) {
+            if (surface_.material->isBlackBehind && isSeenFromBehind(surface_)) return;
+            faceForward(surface_, world_.conventions);
+            if (world_.hasDetails) applyNormalMap(surface_, world_.scene, world_.conventions);
+            if (surface_.material->hasReliefRules() && glm::dot(surface_.shading, surface_.wo) <= 0)
+                return;
+        }
         if (!survivesFixed()) return;
         const uint32_t lobes = lobesOf(surface_);
         if (scattersIntoManyDirections(lobes) && bounce >= settings_.minBounce) addDirectLight();
@@ -191,7 +211,7 @@ void PathSample::followBranches(uint32_t bounce) {
     radiance_ = {};
     for (uint32_t branch = 0; branch < settings_.branches; ++branch) {
         surface_ = before.surface_;
-        medium_ = before.medium_;
+        filling_ = before.filling_;
         throughput_ = before.throughput_;
         random_ = before.random_.branch(branch, settings_.branches);
         if (scatter(bounce)) follow(bounce + 1, false);
@@ -206,8 +226,9 @@ bool PathSample::scatter(uint32_t bounce) {
     if (!survivesThroughput(bounce)) return false;
 
     const glm::dvec3 found = shareFound(bounce, next);
-    if (bounce == settings_.maxBounces && !(largest(found) > 0)) return false;
-    medium_ = mediumBeyond(next.transmitted());
+    if (bounce == settings_.maxBounces && !(largest(found) > 0) && !world_.mediaShine) return false;
+    filling_ = beyond(next.transmitted());
+    scatterings_ = bounce;
     const bool hit =
         next.transmitted()
             ? arrive(transmittedRay(surface_, next.direction), {surface_.triangle})
@@ -229,17 +250,19 @@ glm::dvec3 PathSample::depth(const Ray& cameraRay) {
 
 bool PathSample::arriveFromCamera(const Ray& ray) {
     ++rays_;
+    if (!world_.scene.media.empty()) return travel(ray, {}, true);
     return arriveAt(ray, closestForCamera(world_, ray, passes_));
 }
 
 bool PathSample::arrive(const Ray& ray, Skip skip) {
     ++rays_;
+    if (!world_.scene.media.empty()) return travel(ray, skip, false);
     return arriveAt(ray, closest(ray, skip));
 }
 
 bool PathSample::arriveAt(const Ray& ray, const Hit& hit) {
     const bool misses = hit.primitive == kNoPrimitive;
-    throughput_ *= transmittance(medium_, misses ? kInfinite : hit.t);
+    throughput_ *= transmittance(filling_.volume, misses ? kInfinite : hit.t);
     if (misses) return false;
     surface_ = surfaceAt(world_.scene, ray, hit);
     drawMaterial(surface_, world_.scene, passes_);
@@ -247,18 +270,57 @@ bool PathSample::arriveAt(const Ray& ray, const Hit& hit) {
     return true;
 }
 
+bool PathSample::travel(const Ray& ray, Skip skip, bool fromCamera) {
+    Hit hit;
+    double from = ray.tMin;
+    while (true) {
+        hit = world_.bvh.closestBehind(ray, hit, skip);
+        const bool misses = hit.primitive == kNoPrimitive;
+        if (scattersInMedium(ray, from, misses ? kInfinite : hit.t)) return true;
+        if (misses) return false;
+        const bool isHidden = fromCamera && isHiddenFromCamera(world_.scene, hit);
+        if (!isHidden && passes_.next() < opacityAt(world_, hit)) return arriveAt(ray, hit);
+        filling_ = behind(ray, hit, filling_);
+        from = hit.t;
+    }
+}
+
+bool PathSample::scattersInMedium(const Ray& ray, double from, double to) {
+    if (!filling_.medium) return false;
+    const MediumEvent event = flyThrough(*filling_.medium, ray, from, to, throughput_, passes_);
+    if (scatterings_ >= settings_.minBounce) radiance_ += throughput_ * event.shone;
+    throughput_ *= event.weight;
+    if (event.scatters) surface_ = pointInMedium(ray, event.distance, *filling_.medium);
+    return event.scatters;
+}
+
+Filling PathSample::behind(const Ray& ray, const Hit& hit, Filling filling) const {
+    const SurfacePoint s = surfaceAt(world_.scene, ray, hit);
+    if (!s.material->boundsMedia) return filling;
+    const uint32_t number = s.outside ? s.material->inside : s.material->outside;
+    return {nullptr, number == kNoMedium ? nullptr : &world_.scene.media.at(number)};
+}
+
 Hit PathSample::closest(const Ray& ray, Skip skip) {
     return closestThere(world_, ray, skip, passes_);
 }
 
-double PathSample::shareThatPasses(const Ray& ray, Skip skip) const {
-    if (!world_.hasAlpha) return world_.bvh.occluded(ray, skip) ? 0 : 1;
-    double left = 1;
+glm::dvec3 PathSample::shareThatPasses(const Ray& ray, Skip skip, Filling filling) const {
+    const bool hasMedia = !world_.scene.media.empty();
+    if (!world_.hasAlpha && !hasMedia)
+        return glm::dvec3(world_.bvh.occluded(ray, skip) ? 0.0 : 1.0);
+    glm::dvec3 left(1.0);
     Hit hit;
-    while (left > 0) {
+    double from = ray.tMin;
+    while (largest(left) > 0) {
         hit = world_.bvh.closestBehind(ray, hit, skip);
-        if (hit.primitive == kNoPrimitive) break;
+        const bool misses = hit.primitive == kNoPrimitive;
+        if (filling.medium)
+            left *= transmittance(*filling.medium, ray, from, misses ? ray.tMax : hit.t);
+        if (misses) break;
         left *= 1 - opacityAt(world_, hit);
+        if (hasMedia) filling = behind(ray, hit, filling);
+        from = hit.t;
     }
     return left;
 }
@@ -318,10 +380,15 @@ uint32_t PathSample::startOfLightSample() const {
     return looksBehind() ? surface_.triangle : startOfReflected(surface_);
 }
 
-const Material* PathSample::mediumBeyond(bool transmitted) const {
+Filling PathSample::beyond(bool transmitted) const {
     const Material& m = *surface_.material;
-    if (!transmitted || !boundsVolume(m)) return medium_;
-    return surface_.outside ? surface_.stated : nullptr;
+    if (!transmitted) return filling_;
+    if (m.boundsMedia) {
+        const uint32_t number = surface_.outside ? m.inside : m.outside;
+        return {nullptr, number == kNoMedium ? nullptr : &world_.scene.media.at(number)};
+    }
+    if (!boundsVolume(m) || !world_.scene.media.empty()) return filling_;
+    return {surface_.outside ? surface_.stated : nullptr, nullptr};
 }
 
 void PathSample::addDirectLightOfSide() {
@@ -356,15 +423,16 @@ void PathSample::addLightSample(const LightSample& light, const glm::dvec3& f) {
     if (!(largest(value) > 0)) return;
     Ray ray = leaveTo(light.direction);
     const double distance = light.infinite ? kInfinite : glm::length(light.target - ray.origin);
-    value *= transmittance(mediumBeyond(looksBehind()), distance);
+    const Filling filling = beyond(looksBehind());
+    value *= transmittance(filling.volume, distance);
     if (!light.infinite) {
         const glm::dvec3 to = light.target - ray.origin;
         ray.tMax = glm::length(to);
         if (ray.tMax > 0) ray.direction = to / ray.tMax;
     }
     ++rays_;
-    radiance_ +=
-        throughput_ * value * shareThatPasses(ray, {startOfLightSample(), light.primitive});
+    radiance_ += throughput_ * value *
+                 shareThatPasses(ray, {startOfLightSample(), light.primitive}, filling);
 }
 
 void PathSample::addHemisphereSamples() {
@@ -390,8 +458,9 @@ void PathSample::addHemisphereSamples() {
             found = emission(s);
             distance = hit.t;
         }
-        radiance_ +=
-            throughput_ * weight * found * transmittance(mediumBeyond(looksBehind()), distance);
+        const Filling filling = beyond(looksBehind());
+        if (filling.medium) found *= transmittance(*filling.medium, ray, 0, distance);
+        radiance_ += throughput_ * weight * found * transmittance(filling.volume, distance);
     }
 }
 

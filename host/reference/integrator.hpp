@@ -20,13 +20,15 @@ struct World {
     Lights lights;
     bool hasDetails; ///< materials have textures, or corners have attributes
     bool hasAlpha;   ///< some surface may be partly not there, or hidden from the camera
+    bool mediaShine; ///< a medium emits light
 
     World(const Scene& s, const ShadingConventions& c)
         : scene(s), conventions(c), bvh(s), lights(s, c),
           hasDetails(!s.textures.empty() || !s.attributes.empty()),
           hasAlpha(std::ranges::any_of(s.materials, [](const Material& m) {
               return m.alphaMode != AlphaMode::Opaque || m.isHiddenFromCamera;
-          })) {}
+          })),
+          mediaShine(std::ranges::any_of(s.media, &Medium::emits)) {}
 };
 
 // --- What rays pass and what they see ------------------------------------------------------------
@@ -46,6 +48,12 @@ void addSeen(SeenPixel& pixel, const World& world, const Ray& cameraRay, double 
 
 // --- Paths ---------------------------------------------------------------------------------------
 
+/// What a path is in between two surfaces.
+struct Filling {
+    const Material* volume = nullptr; ///< whose inside it is, which absorbs; in scenes without media
+    const Medium* medium = nullptr;   ///< in scenes with media
+};
+
 /// One sample of a pixel (docs/theory/estimator.md), in the order of that page.
 class PathSample {
   public:
@@ -53,7 +61,8 @@ class PathSample {
     PathSample(const World& world, const Estimator& settings, const RandomStream& random);
 
     /// The radiance the camera ray brings back. To be called once.
-    glm::dvec3 radiance(const Ray& cameraRay);
+    /// medium: of the scene, around the camera; or kNoMedium.
+    glm::dvec3 radiance(const Ray& cameraRay, uint32_t medium = kNoMedium);
     /// 0.5 n + 0.5 of the shading normal at the first hit; 0 for a miss.
     glm::dvec3 normalColor(const Ray& cameraRay);
     /// The distance of the first hit; 0 for a miss.
@@ -69,21 +78,28 @@ class PathSample {
     void followBranches(uint32_t bounce);
     /// Scattering number `bounce` and the ray after it; false if the path ends.
     bool scatter(uint32_t bounce);
-    /// Traces a path ray and, if it hits, makes that point the current surface.
+    /// Traces a path ray and, if it hits, or scatters in a medium, makes that point the current
+    /// surface.
     bool arrive(const Ray& ray, Skip skip);
     bool arriveFromCamera(const Ray& ray);
     bool arriveAt(const Ray& ray, const Hit& hit);
+    /// The same through media, from one surface that is passed to the next.
+    bool travel(const Ray& ray, Skip skip, bool fromCamera);
+    /// Whether the ray scatters in the medium that it is in, between two distances.
+    bool scattersInMedium(const Ray& ray, double from, double to);
     /// Whether a light sample in this direction is for the side that is looked at; where it starts,
     /// what it cannot hit, and what it goes through.
     bool isOfSide(const glm::dvec3& direction) const;
     bool looksBehind() const;
     Ray leaveTo(const glm::dvec3& direction) const;
     uint32_t startOfLightSample() const;
-    const Material* mediumBeyond(bool transmitted) const;
+    Filling beyond(bool transmitted) const;
     /// The first hit that is there: of what is partly there, decided at random.
     Hit closest(const Ray& ray, Skip skip);
-    /// The share of light that comes through to the end of the ray.
-    double shareThatPasses(const Ray& ray, Skip skip) const;
+    /// The share of light that comes through to the end of the ray, which begins in that filling.
+    glm::dvec3 shareThatPasses(const Ray& ray, Skip skip, Filling filling) const;
+    /// What is on the other side of a surface that is passed.
+    Filling behind(const Ray& ray, const Hit& hit, Filling filling) const;
     void addEmission();
     /// The share of the light that the ray after this scattering finds that adds to the picture.
     glm::dvec3 shareFound(uint32_t bounce, const BsdfSample& next) const;
@@ -103,8 +119,8 @@ class PathSample {
     RandomStream random_;
     RandomStream passes_; ///< for surfaces that are partly not there
     SurfacePoint surface_;
-    /// Whose inside the path is in, and which absorbs; null: nothing does.
-    const Material* medium_ = nullptr;
+    Filling filling_;
+    uint32_t scatterings_ = 0; ///< before the path ray under way
     /// The surface as light samples see it: of the side that they go to.
     SurfacePoint lit_;
     glm::dvec3 throughput_{1.0}, radiance_{0.0};

@@ -251,6 +251,11 @@ LightSample Lights::sampleAmbient(const Light& light, const SurfacePoint& surfac
     const bool upper = light.upperHemisphereOnly || !conventions_.ambientAboutNormal;
     const Frame frame(upper ? glm::dvec3(0, 1, 0) : surface.shading);
     LightSample sample;
+    if (surface.medium && !upper) {
+        sample.direction = uniformSphere(u, v);
+        sample.value = glm::dvec3(light.color) * (4 * kPi);
+        return sample;
+    }
     sample.direction = frame.toWorld(uniformHemisphere(u, v));
     sample.value = glm::dvec3(light.color) * (2 * kPi);
     return sample;

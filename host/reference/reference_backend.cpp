@@ -114,7 +114,7 @@ struct ReferenceBackend::Implementation {
         const Integrator integrator = settings.estimator.integrator;
         const glm::dvec3 value = integrator == Integrator::Normals ? path.normalColor(ray)
                                  : integrator == Integrator::Depth ? path.depth(ray)
-                                                                   : path.radiance(ray);
+                                                                   : path.radiance(ray, camera.medium);
         rayCount += path.rays();
         return {value, weight};
     }

@@ -42,6 +42,9 @@ struct SurfacePoint {
     glm::dvec4 tangent{0.0};
     glm::dvec3 unmapped{0, 0, 1};   ///< shading normal before a map turned it, where one may have
     std::optional<glm::dvec3> coat; ///< unit; the clear coat's normal, where it has one of its own
+    /// The point is in this medium and on no surface: it has no normals, and scatters by the phase
+    /// function.
+    const Medium* medium = nullptr;
     double b1 = 0, b2 = 0;          ///< barycentric weights of the second and third corner
 };
 

@@ -34,6 +34,19 @@ uint32_t SceneBuilder::addMaterial(Material material) {
     return uint32_t(scene_.materials.size() - 1);
 }
 
+uint32_t SceneBuilder::addMedium(Medium medium) {
+    medium.absorption = lightColor("absorption", medium.absorption);
+    medium.scattering = lightColor("scattering", medium.scattering);
+    medium.emission = lightColor("emission", medium.emission);
+    const float inside = std::clamp(medium.asymmetry, -kMostAsymmetry, kMostAsymmetry);
+    if (inside != medium.asymmetry)
+        sayClamped(fmt::format("{}: the mean cosine of its phase function is clamped to {}",
+                               medium.name, inside));
+    medium.asymmetry = std::isnan(inside) ? 0 : inside;
+    scene_.media.push_back(std::move(medium));
+    return uint32_t(scene_.media.size() - 1);
+}
+
 uint32_t SceneBuilder::addImage(TextureImage image) {
     scene_.images.push_back(std::move(image));
     return uint32_t(scene_.images.size() - 1);
@@ -161,6 +174,7 @@ Scene SceneBuilder::finish() {
     lightTheDark();
     report_.writeTo(scene_.report);
     if (conventions_.areaLights == AreaLights::BecomeGeometry) resolveAreaLights(scene_);
+    resolveMedia(scene_);
     return std::move(scene_);
 }
 

@@ -65,6 +65,11 @@ class SceneBuilder {
     /// finite become 0, with a warning.
     glm::vec3 lightColor(std::string_view what, const glm::vec3& color);
 
+    /// Returns the number by which materials and cameras name the medium. Coefficients that are
+    /// negative or not finite become 0, and the asymmetry is kept in its range; both are said. The
+    /// densities of a grid lie in the world's coordinates.
+    uint32_t addMedium(Medium medium);
+
     /// `name`: of the shape in the file, for messages.
     ShapeId addMesh(std::string name, Mesh mesh);
     /// A sphere about its own origin.

@@ -96,6 +96,7 @@ Camera fileView(const FileCamera& file) {
     camera.shift = file.shift;
     camera.lensRadius = file.lensRadius;
     camera.focusDistance = file.focusDistance;
+    camera.medium = file.medium;
     return camera;
 }
 
@@ -246,6 +247,7 @@ Camera makeCamera(const Scene& scene, const CameraRequest& request, uint32_t wid
         camera.halfWidth = camera.halfHeight * aspect;
         applyOptics(camera, request, aspect, scene.file);
         turnAbout(camera, scene, request.turn);
+        camera.medium = scene.surrounding.at(camera.position);
         return camera;
     }
     const bool framed = isFramed(scene, request, conventions);
@@ -265,6 +267,7 @@ Camera makeCamera(const Scene& scene, const CameraRequest& request, uint32_t wid
     }
     applyOptics(camera, request, aspect, scene.file);
     turnAbout(camera, scene, request.turn);
+    if (camera.medium == kNoMedium) camera.medium = scene.surrounding.at(camera.position);
     return camera;
 }
 

@@ -35,6 +35,7 @@ struct Camera {
     /// 0: a pinhole.
     double lensRadius = 0;
     double focusDistance = 1; ///< > 0
+    uint32_t medium = kNoMedium; ///< where rays begin: into Scene::media
 
     /// From the middle of the picture, on its plane, to the position; perspective cameras.
     glm::dvec3 backOfMiddle() const { return back - shift.x * right - shift.y * up; }

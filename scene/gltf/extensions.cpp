@@ -23,6 +23,7 @@ bool isReadExtension(std::string_view name) {
         "KHR_materials_unlit",
         "KHR_materials_variants",
         "KHR_materials_volume",
+        "KHR_materials_volume_scatter",
         "KHR_mesh_quantization",
         "KHR_node_visibility",
         "KHR_texture_transform",

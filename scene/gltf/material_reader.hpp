@@ -19,6 +19,7 @@ class MaterialReader {
     void readAlpha();
     void readEmission();
     void readTransmission();
+    void readScattering();
     void readSpecular();
     void readClearcoat();
     void readSheen();

@@ -38,23 +38,21 @@ void readScene(Context& context) {
         build::tolerate(context.report(), build::Shortfall::Node,
                         [&] { placeEmitter(context, *emitter); });
     bool isFirst = true;
+    Shapes shapes(context);
     for (const Plugin* sensor : scene.childrenOf("sensor"))
         if (build::tolerate(context.report(), build::Shortfall::Node,
-                            [&] { placeSensor(context, *sensor, isFirst); }))
+                            [&] { placeSensor(context, shapes.media(), *sensor, isFirst); }))
             isFirst = false;
     if (const Plugin* integrator = scene.onlyChildOf("integrator"))
         build::tolerate(context.report(), build::Shortfall::Node,
                         [&] { readIntegrator(context, *integrator); });
-    Shapes shapes(context);
     for (const Plugin* shape : scene.childrenOf("shape"))
         build::tolerate(context.report(), build::Shortfall::Geometry,
                         [&] { shapes.place(*shape); });
     // What shapes refer to, or may.
-    for (const char* tag : {"bsdf", "texture", "spectrum", "sampler", "film", "rfilter"})
+    for (const char* tag : {"bsdf", "texture", "spectrum", "sampler", "film", "rfilter", "medium",
+                            "volume", "phase", "subsurface"})
         (void)scene.childrenOf(tag);
-    for (const char* tag : {"medium", "volume", "phase", "subsurface"})
-        for (const Plugin* plugin : scene.childrenOf(tag))
-            context.report().ignore(plugin->tag, "media are not supported");
     scene.requireAllRead();
 }
 

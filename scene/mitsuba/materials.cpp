@@ -25,7 +25,7 @@ TextureImage unpainted(const Paint&) {
 BoundMaterial Materials::of(const Plugin& shape, const Painter& painter) {
     const Plugin* bsdf = shape.onlyChildOf("bsdf");
     const Plugin* emitter = shape.onlyChildOf("emitter");
-    const auto key = std::tuple(bsdf, emitter, isBorderAlone(shape));
+    const auto key = std::tuple(bsdf, emitter, sidesOf(shape));
     if (const auto found = made_.find(key); found != made_.end()) return found->second;
     Surface surface = make(shape, bsdf, emitter);
     if (!wantsPaint(surface)) return made_.emplace(key, bind(std::move(surface))).first->second;
@@ -34,7 +34,7 @@ BoundMaterial Materials::of(const Plugin& shape, const Painter& painter) {
 }
 
 BoundMaterial Materials::of(const Plugin& shape, const Plugin& bsdf) {
-    const auto key = std::tuple(&bsdf, static_cast<const Plugin*>(nullptr), false);
+    const auto key = std::tuple(&bsdf, static_cast<const Plugin*>(nullptr), sidesOf(shape));
     if (const auto found = made_.find(key); found != made_.end()) return found->second;
     Surface surface = make(shape, &bsdf, nullptr);
     paint(surface, shape, unpainted);
@@ -53,11 +53,21 @@ Surface Materials::make(const Plugin& shape, const Plugin* bsdf, const Plugin* e
     }
     if (bsdf) surface = readBsdf(context_, textures_, *bsdf);
     settleColors(surface);
+    surround(surface, sidesOf(shape));
     if (emitter)
         for (Surface* each = &surface; each; each = each->other.get())
             build::tolerate(context_.report(), build::Shortfall::Node,
                             [&] { addEmission(*emitter, each->material); });
     return surface;
+}
+
+void Materials::surround(Surface& surface, const Sides& sides) {
+    if (!sides.areStated()) return;
+    for (Surface* each = &surface; each; each = each->other.get()) {
+        each->material.boundsMedia = true;
+        each->material.inside = media_.of(sides.inside);
+        each->material.outside = media_.of(sides.outside);
+    }
 }
 
 /// Colours of corners multiply those of all materials of a mixture. Where not all are meant to have

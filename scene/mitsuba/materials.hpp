@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/mitsuba/bsdfs.hpp"
+#include "scene/mitsuba/media.hpp"
 
 #include <functional>
 #include <map>
@@ -22,7 +23,8 @@ struct BoundMaterial {
 /// The materials of a scene: one for each BSDF and emitter that a shape has.
 class Materials {
   public:
-    explicit Materials(Context& context) : context_(context), textures_(context) {}
+    explicit Materials(Context& context)
+        : context_(context), textures_(context), media_(context) {}
 
     /// The picture that a shape's mesh is painted with.
     using Painter = std::function<TextureImage(const Paint&)>;
@@ -32,9 +34,13 @@ class Materials {
     /// The material of a part of a shape that has that BSDF, and no mesh attributes.
     BoundMaterial of(const Plugin& shape, const Plugin& bsdf);
 
+    Media& media() { return media_; }
+
   private:
     Surface make(const Plugin& shape, const Plugin* bsdf, const Plugin* emitter);
     BoundMaterial bind(Surface&& surface);
+    /// Says what is on both sides of a surface, if anything is.
+    void surround(Surface& surface, const Sides& sides);
     static void settleColors(Surface& surface);
     bool wantsPaint(const Surface& surface) const;
     void paint(Surface& surface, const Plugin& shape, const Painter& painter);
@@ -43,8 +49,9 @@ class Materials {
 
     Context& context_;
     Textures textures_;
-    /// By BSDF, emitter, and whether the surface is not there without a BSDF.
-    std::map<std::tuple<const Plugin*, const Plugin*, bool>, BoundMaterial> made_;
+    Media media_;
+    /// By BSDF, emitter, and what is on both sides.
+    std::map<std::tuple<const Plugin*, const Plugin*, Sides>, BoundMaterial> made_;
 };
 
 } // namespace stromboli::mitsuba

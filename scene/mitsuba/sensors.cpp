@@ -222,7 +222,7 @@ static void loseDepthRange(const Plugin& sensor, FileCamera& camera) {
     camera.farDistance = FileCamera().farDistance;
 }
 
-void placeSensor(Context& context, const Plugin& sensor, bool isFirst) {
+void placeSensor(Context& context, Media& media, const Plugin& sensor, bool isFirst) {
     const Film film = filmOf(context, sensor);
     FileCamera camera;
     camera.name = sensor.displayName();
@@ -242,8 +242,8 @@ void placeSensor(Context& context, const Plugin& sensor, bool isFirst) {
     sensor.childrenOf("sampler");
     for (const char* unused : {"shutter_open", "shutter_close", "srf"})
         sensor.skip(unused);
-    for (const Plugin* medium : sensor.childrenOf("medium"))
-        medium->replace(build::Shortfall::Medium, "is a medium, which is not supported");
+    const Sides around = sidesOf(sensor);
+    camera.medium = media.of(around.inside ? around.inside : around.outside);
     const glm::dmat4 pose = context.worldFromFile * poseOf(sensor);
     sensor.requireAllRead();
     const bool isMirrored = glm::determinant(glm::dmat3(pose)) < 0;

@@ -38,11 +38,10 @@ bool isFile(const Plugin& shape) {
     return shape.type == "obj" || shape.type == "ply" || shape.type == "serialized";
 }
 
-/// What shapes have in common with media is said, once for each.
-void sayMedia(const Plugin& shape) {
-    for (const char* tag : {"medium", "subsurface"})
-        for (const Plugin* inside : shape.childrenOf(tag))
-            inside->replace(build::Shortfall::Medium, "is a medium, which is not supported");
+/// What scatters under a surface without being a medium in it is said, once for each.
+void saySubsurface(const Plugin& shape) {
+    for (const Plugin* inside : shape.childrenOf("subsurface"))
+        inside->replace(build::Shortfall::Medium, "scatters under a surface, which is not supported");
 }
 
 } // namespace
@@ -89,7 +88,7 @@ std::vector<Shapes::Part> Shapes::instance(const Plugin& shape) {
 }
 
 Shapes::Part Shapes::single(const Plugin& shape) {
-    sayMedia(shape);
+    saySubsurface(shape);
     if (usesOwnMaterials(shape)) return withOwnMaterials(shape);
     for (const char* unused : {"load_materials", "collapse", "srgb"})
         shape.skip(unused);

@@ -19,6 +19,9 @@ class Shapes {
     /// A shape of the scene: shape groups show nothing until they are instanced.
     void place(const Plugin& shape);
 
+    /// What fills the space between them.
+    Media& media() { return materials_.media(); }
+
   private:
     /// What one plugin shows.
     struct Part {

@@ -20,6 +20,12 @@ glm::vec2 statedAlpha(const Material& m) {
 
 } // namespace
 
+glm::vec3 PrincipledParameters::absorption() const {
+    constexpr float kLeastTransmitted = 1e-30f;
+    return -glm::log(glm::max(attenuationColor, glm::vec3(kLeastTransmitted))) /
+           attenuationDistance;
+}
+
 bool BurleyParameters::transmits() const {
     if (isThin) return transmission > 0 || diffuseTransmission > 0;
     return transmission > 0 && metallic < 1;
@@ -47,6 +53,20 @@ bool Material::isDelta() const {
     case MaterialKind::Conductor:
     case MaterialKind::Dielectric:
         return isSmooth();
+    default:
+        return false;
+    }
+}
+
+bool Material::entersVolume() const {
+    switch (kind) {
+    case MaterialKind::Refraction:
+    case MaterialKind::Dielectric:
+        return true;
+    case MaterialKind::Principled:
+        return !principled.isThin && principled.transmission > 0;
+    case MaterialKind::Burley:
+        return !burley.isThin && burley.transmits();
     default:
         return false;
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/model/medium.hpp"
 #include "scene/model/texture.hpp"
 
 #include <glm/glm.hpp>
@@ -63,6 +64,11 @@ struct PrincipledParameters {
     /// Volume: the share of light that is left after attenuationDistance (metres).
     glm::vec3 attenuationColor{1.0f};
     float attenuationDistance = std::numeric_limits<float>::infinity();
+
+    /// The absorption coefficient of the volume, per metre (Beer and Lambert): attenuationColor is
+    /// exp(-absorption attenuationDistance). A channel that lets nothing through gets the largest
+    /// one whose product with a length is finite.
+    glm::vec3 absorption() const;
 };
 
 /// Burley's principled BSDF of 2012 and 2015 as Mitsuba 3 has it: a sum of lobes, all parameters in
@@ -149,6 +155,11 @@ struct Material {
     /// Bumps dim light that comes at grazing angles, as facets would (Conty Estevez, Lecocq and
     /// Stein 2019).
     bool reliefShadows = false;
+    /// Light that passes the surface comes into another medium: `inside` on the side that the
+    /// geometric normal, as stored, does not point to, `outside` on the other one. Indices of
+    /// Scene::media, or kNoMedium.
+    bool boundsMedia = false;
+    uint32_t inside = kNoMedium, outside = kNoMedium;
     /// At most one for each slot, but of MetallicRoughness and SpecularColor, whose numbers
     /// multiply.
     std::vector<TextureUse> textures;
@@ -161,6 +172,10 @@ struct Material {
     bool hasReliefRules() const { return reliefRule != ReliefRule::Bend || reliefShadows; }
     /// Both alphas of the facets that light meets, where the interface is not smooth.
     glm::vec2 facetAlpha() const;
+    /// Whether light may pass the surface into what it bounds.
+    bool entersVolume() const;
+    /// Opacity is 0 everywhere: a surface between two media and nothing else.
+    bool isNull() const { return alphaMode == AlphaMode::Blend && opacity == 0 && !emits(); }
     /// The surface looks different along its tangent and across it.
     bool hasGrain() const;
     /// What textures of the base colour and the colours of corners multiply; none: nullptr.
@@ -189,8 +204,9 @@ inline auto laterMembers(const Material& m) {
                                   facets, isNonlinear, internalViews, emission, emitsBothSides,
                                   principled, burley, alphaMode, opacity, alphaCutoff, other,
                                   otherShare, otherPlace, isHiddenFromCamera, isBlackBehind,
-                                  reliefRule, reliefShadows, textures] = m;
-    return std::tie();
+                                  reliefRule, reliefShadows, boundsMedia, inside, outside,
+                                  textures] = m;
+    return std::tie(m.boundsMedia, m.inside, m.outside);
 }
 
 /// Below these, floats cannot tell microfacets from a plane (shaders/shared/bsdf_types.h has the

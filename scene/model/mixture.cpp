@@ -20,8 +20,7 @@ bool mayHaveCoatNormal(const Material& m) {
 }
 
 bool boundsVolume(const Material& m) {
-    return m.kind == MaterialKind::Principled && !m.principled.isThin &&
-           m.principled.transmission > 0;
+    return m.boundsMedia || (m.kind == MaterialKind::Principled && m.entersVolume());
 }
 
 /// Heights bend the normals of diffuse surfaces in another way than those of others.

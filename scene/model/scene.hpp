@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -90,6 +91,7 @@ struct FileCamera {
     double farDistance = 1e30;
     /// A thin lens, in world units (scene/camera/camera.hpp); 0: a pinhole.
     double lensRadius = 0, focusDistance = 1;
+    uint32_t medium = kNoMedium; ///< around the camera: into Scene::media
     /// On the view axis, one of the file's units in front of the position. A camera that frames the
     /// scene (docs/guide/cs184.md) looks at it from the direction in which this lies from the
     /// origin.
@@ -102,6 +104,18 @@ struct LoadReport {
     std::vector<std::string> warnings; ///< things that change the picture: dropped triangles, ...
     std::vector<std::string> forgiven; ///< what breaks the format's rules, and how it was read
     std::vector<std::string> assumed;  ///< what the file leaves open, and what was taken for it
+};
+
+/// The medium that fills the world, or a ball in it, where nothing else does.
+struct Surrounding {
+    uint32_t medium = kNoMedium; ///< into Scene::media
+    glm::vec3 center{0.0f};
+    float radius = std::numeric_limits<float>::infinity();
+
+    /// What it puts at a place, for cameras.
+    uint32_t at(const glm::dvec3& place) const {
+        return glm::length(place - glm::dvec3(center)) <= double(radius) ? medium : kNoMedium;
+    }
 };
 
 /// All there is to render. y is up; lengths are metres (COLLADA unit). Everything is in world space
@@ -120,6 +134,8 @@ struct Scene {
     std::vector<Placement> placements;
     std::vector<Sphere> spheres;
     std::vector<Material> materials;
+    std::vector<Medium> media;
+    Surrounding surrounding;
     std::vector<Light> lights;
     std::vector<TextureImage> images;
     std::vector<Texture> textures;

@@ -10,11 +10,11 @@ namespace stromboli::pbrt {
 BoundMaterial Materials::of(const std::shared_ptr<const MaterialStatement>& statement,
                             const Names& ofScene, const Parameters& shape,
                             const std::optional<Emission>& emission,
-                            const std::optional<Pattern>& alpha) {
+                            const std::optional<Pattern>& alpha, const MediumSides& media) {
     std::vector<Parameter> overriding;
     if (context_.isV3()) overriding = shape.unread();
     const bool isPlain = overriding.empty() && !emission && (!alpha || alpha->number > 0);
-    const std::pair key(statement.get(), alpha ? alpha->number : 0);
+    const std::tuple key(statement.get(), alpha ? alpha->number : 0, media);
     if (const auto found = made_.find(key); isPlain && found != made_.end()) return found->second;
     MaterialStatement changed = *statement;
     changed.parameters.prepend(overriding);
@@ -39,6 +39,13 @@ BoundMaterial Materials::of(const std::shared_ptr<const MaterialStatement>& stat
         surface.material.opacity = 1;
     }
     if (alpha) setAlpha(surface, *alpha);
+    // A surface within one medium leaves rays in the medium that they are in.
+    if (media.isStated && media.inside != media.outside)
+        surface.each([&](Material& material) {
+            material.boundsMedia = true;
+            material.inside = media.inside;
+            material.outside = media.outside;
+        });
     const BoundMaterial bound = bind(std::move(surface));
     if (isPlain) {
         made_.emplace(key, bound);
@@ -76,7 +83,7 @@ BoundMaterial Materials::bind(Surface&& surface) {
         m.hasGrain() || std::ranges::any_of(m.textures, [](const TextureUse& use) {
             return use.slot == TextureSlot::Normal;
         });
-    bound.isTransparent = m.kind == MaterialKind::Dielectric ||
+    bound.isTransparent = m.boundsMedia || m.kind == MaterialKind::Dielectric ||
                           (m.kind == MaterialKind::Burley && m.burley.transmits());
     if (surface.other) {
         const BoundMaterial other = bind(std::move(*surface.other));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/pbrt/media.hpp"
 #include "scene/pbrt/textures.hpp"
 
 #include <map>
@@ -54,7 +55,7 @@ struct Emission {
 struct BoundMaterial {
     uint32_t number = 0;
     bool wantsCoordinates = false, wantsTangents = false;
-    bool isTransparent = false; ///< light goes through it, so that its sides differ
+    bool isTransparent = false; ///< light goes through it, or to other media: its sides differ
     std::optional<Mapping> mapping;
 };
 
@@ -67,7 +68,8 @@ class Materials {
     /// alpha: how much of it is there.
     BoundMaterial of(const std::shared_ptr<const MaterialStatement>& statement,
                      const Names& ofScene, const Parameters& shape,
-                     const std::optional<Emission>& emission, const std::optional<Pattern>& alpha);
+                     const std::optional<Emission>& emission, const std::optional<Pattern>& alpha,
+                     const MediumSides& media);
 
   private:
     void setAlpha(Surface& surface, const Pattern& alpha);
@@ -75,9 +77,9 @@ class Materials {
 
     Context& context_;
     Textures& textures_;
-    /// By the statement and the number of the texture that alpha is; of shapes that say nothing
-    /// more.
-    std::map<std::pair<const MaterialStatement*, uint32_t>, BoundMaterial> made_;
+    /// By the statement, the number of the texture that alpha is, and what is on both sides; of
+    /// shapes that say nothing more.
+    std::map<std::tuple<const MaterialStatement*, uint32_t, MediumSides>, BoundMaterial> made_;
     /// They are kept, so that the addresses in made_ stay theirs.
     std::vector<std::shared_ptr<const MaterialStatement>> kept_;
 };

@@ -48,9 +48,9 @@ void SceneReader::carryOut(const Statement& s) {
         {"ObjectBegin", &SceneReader::beginObject},
         {"ObjectEnd", &SceneReader::endObject},
         {"ObjectInstance", &SceneReader::placeObject},
-        {"MakeNamedMedium", &SceneReader::sayMedium},
-        {"MediumInterface", &SceneReader::sayMedium},
-        {"Volume", &SceneReader::sayMedium},
+        {"MakeNamedMedium", &SceneReader::defineMedium},
+        {"MediumInterface", &SceneReader::setMedia},
+        {"Volume", &SceneReader::sayVolume},
         {"Camera", &SceneReader::readView},
         {"Film", &SceneReader::readView},
         {"PixelFilter", &SceneReader::readView},
@@ -133,7 +133,7 @@ void SceneReader::readView(const Statement& s) {
         const Transforms& t = transforms_.current;
         if (t.isMoving())
             parameters.replace(build::Shortfall::Model, "moves", "its place at the start");
-        view_.setCamera(kind, parameters, t.start);
+        view_.setCamera(kind, parameters, t.start, state_.media.outside);
         Transforms camera = t;
         camera.start = glm::inverse(t.start);
         camera.end = glm::inverse(t.end);
@@ -231,7 +231,7 @@ void SceneReader::addShape(const Statement& s) {
     parameters.setKind(s.words.front());
     shapes_.add(s.words.front(), parameters,
                 {worldFromObject(s), state_.isReversed, state_.material, state_.light,
-                 state_.textures, state_.materials},
+                 state_.textures, state_.materials, state_.media},
                 openObject());
 }
 
@@ -267,10 +267,19 @@ void SceneReader::placeObject(const Statement& s) {
     }
 }
 
-void SceneReader::sayMedium(const Statement& s) {
-    const bool isNone = std::ranges::all_of(s.words, &std::string::empty);
-    if (s.directive() != "MediumInterface" || !isNone)
-        context_.report().replace(s.place, build::Shortfall::Medium, "is a medium");
+void SceneReader::defineMedium(const Statement& s) {
+    Parameters parameters = parametersOf(s, "medium");
+    parameters.setKind(s.words.front());
+    media_.define(s.words.front(), parameters, worldFromObject(s));
+}
+
+void SceneReader::setMedia(const Statement& s) {
+    state_.media = media_.between(s);
+}
+
+/// Of pbrt-v1 and v2: it fills a box.
+void SceneReader::sayVolume(const Statement& s) {
+    context_.report().replace(s.place, build::Shortfall::Medium, "is a medium");
 }
 
 } // namespace stromboli::pbrt

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scene/pbrt/context.hpp"
+#include "scene/pbrt/media.hpp"
 #include "scene/pbrt/shapes.hpp"
 #include "scene/pbrt/transforms.hpp"
 #include "scene/pbrt/view.hpp"
@@ -18,7 +19,7 @@ class SceneReader {
   public:
     explicit SceneReader(Context& context)
         : context_(context), view_(context), textures_(context), lights_(context, textures_),
-          shapes_(context, textures_, lights_) {}
+          shapes_(context, textures_, lights_), media_(context) {}
 
     void read(std::vector<Statement> statements);
 
@@ -31,6 +32,7 @@ class SceneReader {
         std::shared_ptr<const TextureTable> textures = std::make_shared<TextureTable>();
         std::shared_ptr<const MaterialTable> materials = std::make_shared<MaterialTable>();
         std::string colorSpace = "srgb";
+        MediumSides media;
         std::map<std::string, std::vector<Parameter>> attributes; ///< by what they are of
     };
     struct Saved {
@@ -55,7 +57,9 @@ class SceneReader {
     void placeLight(const Statement& statement);
     void addShape(const Statement& statement);
     void readView(const Statement& statement);
-    void sayMedium(const Statement& statement);
+    void defineMedium(const Statement& statement);
+    void setMedia(const Statement& statement);
+    void sayVolume(const Statement& statement);
     std::shared_ptr<const MaterialStatement> materialOf(std::string kind, Parameters parameters);
     /// The parameters of a statement, with those that Attribute has for things of this sort.
     Parameters parametersOf(const Statement& statement, const char* sort);
@@ -69,6 +73,7 @@ class SceneReader {
     Textures textures_;
     Lights lights_;
     Shapes shapes_;
+    Media media_;
     State state_;
     TransformStack transforms_;
     std::vector<Saved> saved_;

@@ -25,6 +25,7 @@ struct ShapeState {
     std::shared_ptr<const AreaLightStatement> light;
     std::shared_ptr<const TextureTable> textures;
     std::shared_ptr<const MaterialTable> materials;
+    MediumSides media;
 };
 
 /// Something that is placed: once, or wherever its object is.

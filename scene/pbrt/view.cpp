@@ -164,8 +164,8 @@ void View::readIntegrator(const std::string& kind, const Parameters& integrator)
 }
 
 void View::setCamera(const std::string& kind, Parameters camera,
-                     const glm::dmat4& cameraFromWorld) {
-    camera_ = CameraRead{kind, std::move(camera), cameraFromWorld};
+                     const glm::dmat4& cameraFromWorld, uint32_t medium) {
+    camera_ = CameraRead{kind, std::move(camera), cameraFromWorld, medium};
 }
 
 /// The extent of the picture on the plane at distance 1, half of its shorter side.
@@ -191,6 +191,7 @@ void View::placeCamera(const CameraRead& read) {
     const Parameters& p = read.parameters;
     FileCamera camera;
     camera.name = read.kind;
+    camera.medium = read.medium;
     const bool isOrthographic = read.kind == "orthographic";
     if (!isOrthographic && read.kind != "perspective")
         p.replace(build::Shortfall::Model, "is no camera that is read",

@@ -20,7 +20,9 @@ class View {
     void readFilm(const std::string& kind, const Parameters& film);
     void readFilter(const std::string& kind, const Parameters& filter);
     void readIntegrator(const std::string& kind, const Parameters& integrator);
-    void setCamera(const std::string& kind, Parameters camera, const glm::dmat4& cameraFromWorld);
+    /// medium: around the camera.
+    void setCamera(const std::string& kind, Parameters camera, const glm::dmat4& cameraFromWorld,
+                   uint32_t medium);
 
     /// Hands over the camera and what the film says; sets Context::imagingRatio.
     void finish();
@@ -30,6 +32,7 @@ class View {
         std::string kind;
         Parameters parameters;
         glm::dmat4 cameraFromWorld{1.0};
+        uint32_t medium = kNoMedium;
     };
 
     void readCrop(const Parameters& film);

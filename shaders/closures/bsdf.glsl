@@ -31,6 +31,7 @@ bool isTransmission(uint lobe) { return (lobe & TRANSMISSION_LOBES) != 0u; }
 #include "closures/stated.glsl"
 #include "closures/principled.glsl"
 #include "closures/burley.glsl"
+#include "closures/phase.glsl"
 
 /// All lobes of a material.
 uint lobesOf(Material m) {
@@ -341,9 +342,7 @@ float reliefShadow(Material m, SurfacePoint s, vec3 wi) {
     return 2.0 * abs(c) / (abs(c) + sqrt(c2 + alpha2 * max(1.0 - c2, 0.0)));
 }
 
-/// f |cos| and the density for the unit world direction wi, of all lobes but delta ones.
-/// s: faced forward.
-BsdfValue evaluateBsdf(Material m, SurfacePoint s, vec3 wi) {
+BsdfValue evaluateOnSurface(Material m, SurfacePoint s, vec3 wi) {
     const ShadingFrame frame_ = shadingFrame(s);
     const vec3 local = toLocal(frame_, wi);
     const bool transmitted = local.z < 0.0;
@@ -356,9 +355,15 @@ BsdfValue evaluateBsdf(Material m, SurfacePoint s, vec3 wi) {
     return f;
 }
 
-/// Samples the direction in which light goes on. u, each in [0, 1): x and y for the direction within
-/// a lobe, z for the choice of one of several lobes. s: faced forward.
-BsdfSample sampleBsdf(Material m, SurfacePoint s, vec3 u) {
+/// f |cos| and the density for the unit world direction wi, of all lobes but delta ones; of a medium, the phase function.
+/// s: faced forward.
+BsdfValue evaluateBsdf(Material m, SurfacePoint s, vec3 wi) {
+    BsdfValue f = evaluateOnSurface(m, s, wi);
+    if (HAS_PHASES && isPhase(m)) f = evaluatePhase(m, s.wo, wi);
+    return f;
+}
+
+BsdfSample sampleOnSurface(Material m, SurfacePoint s, vec3 u) {
     const ShadingFrame frame_ = shadingFrame(s);
     BsdfSample b = sampleLocally(m, incidenceOn(s, frame_), u);
     b.direction = toWorld(frame_, b.direction);
@@ -367,5 +372,13 @@ BsdfSample sampleBsdf(Material m, SurfacePoint s, vec3 u) {
     if ((b.lobe & DIFFUSE_LOBES) == 0u) b.direction = unit(b.direction);
     if (!isOnItsSide(s, b.direction, isTransmission(b.lobe))) b.weight = vec3(0.0);
     if (RELIEF_RULES) b.weight *= reliefShadow(m, s, b.direction);
+    return b;
+}
+
+/// Samples the direction in which light goes on. u, each in [0, 1): x and y for the direction within
+/// a lobe, z for the choice of one of several lobes. s: faced forward.
+BsdfSample sampleBsdf(Material m, SurfacePoint s, vec3 u) {
+    BsdfSample b = sampleOnSurface(m, s, u);
+    if (HAS_PHASES && isPhase(m)) b = samplePhase(m, s.wo, u.xy);
     return b;
 }

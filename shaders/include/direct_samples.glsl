@@ -47,6 +47,7 @@ void traceDirectSample(const Given given, inout PathState path, LightSample ligh
         path.directValue *=
             transmittance(mediumBeyond(path.surface, path.material, path.medium, transmitted),
                           light.infinite ? INFINITE_DISTANCE : length(light.target - origin));
+    if (HAS_MEDIA) path.shadowMedium = mediumBeyond(path.surface, path.material, path.medium, transmitted);
     traceFrom(path, path.surface, hemisphere ? PHASE_HEMISPHERE : PHASE_SHADOW, origin,
               light.infinite ? light.direction : light.target - origin,
               light.infinite ? INFINITE_DISTANCE : 1.0, transmitted);

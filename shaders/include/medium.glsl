@@ -1,18 +1,35 @@
-// What absorbs along a path: the inside of the surface that it has entered last. Entering a volume sets it
-// and leaving one clears it (docs/theory/estimator.md, "Volumes"). Scenes without absorption have nothing of this.
+// What rays go through (docs/theory/media.md). In scenes with media (MEDIA), surfaces say what is on their two sides.
+// In others a volume may absorb: the inside of the surface that the path has entered last (docs/theory/estimator.md,
+// "Volumes"). Scenes without either have nothing of this.
 
-const bool HAS_ABSORPTION = (CLOSURES & (VOLUME_ABSORBS)) != 0u;
+#include "shared/medium_types.h"
 
-/// No material begins there.
-const uint NO_MEDIUM = 0xFFFFFFFFu;
+const bool HAS_MEDIA = MEDIA != 0u;
+const bool HAS_ABSORPTION = (CLOSURES & (VOLUME_ABSORBS)) != 0u && !HAS_MEDIA;
+
+bool mediaDo(uint bits) { return (MEDIA & bits) != 0u; }
+
+MediumBorder fetchBorder(uint materialRow) {
+    const uvec4 r = ROW(materialRows, materialRow - MEDIUM_BORDER_ROWS);
+    return MediumBorder(r.x, r.y, r.z, r.w);
+}
+
+/// What is beyond the surface of a material, for what goes through it; outside: it comes from where the stored normal
+/// points to.
+uint mediumBehind(uint materialRow, uint here, bool outside) {
+    const MediumBorder border = fetchBorder(materialRow);
+    return border.isBorder == 0u ? here : (outside ? border.inside : border.outside);
+}
 
 /// Where light comes from that leaves s: `here`, or what is beyond s.
 uint mediumBeyond(SurfacePoint s, Material m, uint here, bool transmitted) {
+    if (HAS_MEDIA) return transmitted ? mediumBehind(s.material, here, s.outside) : here;
     if (!HAS_ABSORPTION || !transmitted || !boundsVolume(m)) return here;
     return s.outside ? s.material : NO_MEDIUM;
 }
 
-/// The share of light that is left after that distance in a medium (Beer and Lambert).
+/// The share of light that is left after that distance in a volume that absorbs (Beer and Lambert). Media are another
+/// matter (media.glsl).
 vec3 transmittance(uint medium, float distance) {
     if (!HAS_ABSORPTION) return vec3(1.0);
     const bool none = medium == NO_MEDIUM;

@@ -2,6 +2,8 @@
 // goes on from the same origin, with tMin at the hit (traverse.glsl), or is done.
 
 bool isTracing(uint p); // path_state.glsl
+void passIntoMedium(inout PathState path); // media.glsl
+bool scattersInMedium(Traversal ray);
 
 Material materialAt(SurfacePoint s) { return lookUpMaterial(materialPoint(s)).parameters; }
 
@@ -20,7 +22,7 @@ uvec4 hitWordsOfPath(const Frame frame, PathState path) {
 /// the light that is left; of others, a path that finds light or scatters, the surface takes the share of its opacity.
 /// hit: the surface's point, with that opacity.
 bool passesThrough(const Frame frame, inout PathState path, MaterialPoint hit, float stated) {
-    if (!isTracing(path.phase) || path.ray.hitPrimitive == NO_PRIMITIVE) return false;
+    if (!isTracing(path.phase) || path.ray.hitPrimitive == NO_PRIMITIVE || scattersInMedium(path.ray)) return false;
     const bool isStraight = HIDES_SURFACES && path.phase == PHASE_PATH && path.bounce == 0u;
     const float opacity = isStraight ? opacityForCamera(hit, stated) : stated;
     if (path.phase == PHASE_SHADOW) {
@@ -29,6 +31,7 @@ bool passesThrough(const Frame frame, inout PathState path, MaterialPoint hit, f
     } else if (hitNumber(hitWordsOfPath(frame, path), 0u) < opacity) {
         return false;
     }
+    passIntoMedium(path);
     passOn(path.ray, path.rayEnd);
     return true;
 }

@@ -4,6 +4,7 @@
 // busy. docs/theory/estimator.md defines what a sample is.
 
 #include "include/path_state.glsl"
+#include "include/media.glsl"
 
 // --- Arrivals ----------------------------------------------------------------------------------
 
@@ -19,6 +20,7 @@ float foundShare(const Given given, PathState path, FoundSky sky) {
 }
 
 MaterialPoint askedPoint(PathState path) {
+    if (scattersInMedium(path.ray)) return MaterialPoint(path.medium, NO_PRIMITIVE, vec2(0.0));
     if (path.ray.hitPrimitive != NO_PRIMITIVE) return materialPoint(path.ray.hitPrimitive, vec2(path.ray.b1, path.ray.b2));
     if (emissionHasFactors() && path.phase == PHASE_SHADOW) return path.sampledEmitter;
     return MaterialPoint(0u, NO_PRIMITIVE, vec2(0.0));
@@ -53,17 +55,19 @@ void takeInSky(const Frame frame, inout PathState path, FoundSky sky, float shar
 
 /// A path ray is done: takes in the light that it has found and sets up the surface for scattering.
 void arrive(const Given given, inout PathState path) {
-    const bool hit = path.ray.hitPrimitive != NO_PRIMITIVE;
+    const bool hit = path.ray.hitPrimitive != NO_PRIMITIVE, inMedium = scattersInMedium(path.ray);
     path.phase = PHASE_ENDED;
     FoundSky sky = NO_SKY;
     if (!hit) sky = skyFrom(path.departureNormal, path.ray.direction);
-    const float share = foundShare(given, path, sky);
+    float share = 1.0;
+    if (!inMedium) share = foundShare(given, path, sky);
     path.throughput *= transmittance(path.medium, hit ? path.ray.tMax : INFINITE_DISTANCE);
     if (!hit) {
         takeInSky(given.frame, path, sky, share);
         return;
     }
-    path.surface = surfaceAt(path.ray);
+    if (!inMedium) path.surface = surfaceAt(path.ray);
+    if (inMedium) path.surface = pointInMedium(path.ray, path.medium);
     if (INTEGRATOR == INTEGRATOR_NORMALS) {
         path.radiance = 0.5 * shadingNormal(path.surface) + 0.5;
         return;
@@ -79,8 +83,10 @@ void arrive(const Given given, inout PathState path) {
     path.material = inMixture(path.found.parameters, path.surface);
     if (path.countsEmission) path.radiance += path.throughput * emissionAt(path.surface, path.material) * share;
     if (isBlackBehind(path.material) && isSeenFromBehind(path.surface)) return;
-    faceForward(path.surface);
-    applyRelief(path.surface, path.found.relief, dependsOnView(path.material), reliefRules(path.material));
+    if (!inMedium) {
+        faceForward(path.surface);
+        applyRelief(path.surface, path.found.relief, dependsOnView(path.material), reliefRules(path.material));
+    }
     if (reliefRules(path.material) != 0u && dot(shadingNormal(path.surface), path.surface.wo) <= 0.0) return;
     ++path.bounce;
     if (path.bounce > given.frame.maxBounces) return;
@@ -125,7 +131,7 @@ void nextBranch(inout PathState path, Material material) {
 
 /// No bounce from here would be traced.
 bool endsHere(const Frame frame, PathState path) {
-    return path.bounce == frame.maxBounces && !AMBIENT_BY_BOUNCES && !emissionCounts(frame, path, lobesOf(path.material));
+    return path.bounce == frame.maxBounces && !AMBIENT_BY_BOUNCES && !mediaDo(MEDIA_SHINE) && !emissionCounts(frame, path, lobesOf(path.material));
 }
 
 /// u: as sampleBsdf() takes it; roulette: for the path's end.
@@ -161,7 +167,7 @@ void beginSample(const Frame frame, inout PathState path) {
     path.radiance = vec3(0.0);
     path.countsEmission = frame.minBounce == 0u;
     path.bouncePdf = 0.0;
-    path.medium = NO_MEDIUM;
+    path.medium = HAS_MEDIA ? frame.cameraMedium : NO_MEDIUM;
     path.splitPoint.bounce = 0u;
     path.branchesLeft = 0u;
 }
@@ -224,6 +230,7 @@ void leaveDirectLight(const Frame frame, inout PathState path) {
 /// Takes in the finished ray. What is next: a shadow ray, which it asks for; a bounce (PHASE_BOUNCE), or
 /// another sample (PHASE_NEXT), both by depart().
 void followPath(const Given given, inout PathState path) {
+    goThroughMedium(given, path);
     if (!takeInRay(given, path, askedPoint(path))) return;
     if (wantsDirectSample(given.frame, path)) sampleDirect(given, path);
     leaveDirectLight(given.frame, path);

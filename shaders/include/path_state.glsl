@@ -40,6 +40,7 @@ struct PathState {
     vec3 throughput;
     vec3 radiance;
     uint medium;          ///< that the path ray goes through: the first row of a material, or NO_MEDIUM
+    uint shadowMedium;    ///< likewise, of the light sample's ray under way; in scenes with media
     bool countsEmission;  ///< light that the ray finds adds to the picture ...
     float bouncePdf;      ///< ... weighted (mis.glsl), by this density of the ray's direction; 0: not weighted
     vec3 departureNormal; ///< shading normal of the surface that the ray has left, for that weight

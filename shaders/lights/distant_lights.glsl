@@ -1,8 +1,10 @@
 // Lights from infinity: ambient light, which is the same from everywhere, and directional light.
 
 /// Density of the directions of an ambient light's samples, by solid angle: cos / pi about the shading
-/// normal, as constant light arrives at a surface.
-float ambientPdf(vec3 normal, vec3 w) { return max(dot(normal, w), 0.0) * INV_PI; }
+/// normal, as constant light arrives at a surface; in a medium the same from everywhere.
+float ambientPdf(vec3 normal, vec3 w) {
+    return isNowhere(normal) ? 0.25 * INV_PI : max(dot(normal, w), 0.0) * INV_PI;
+}
 
 /// Radiance of an ambient light from direction w (unit, away from the surface).
 vec3 ambientRadianceOf(LightRows rows, vec3 w) {
@@ -15,6 +17,10 @@ LightSample sampleAmbientLight(SurfacePoint s, LightRows rows, vec2 u) {
         const vec3 local = sampleCosineHemisphere(u);
         r.direction = toWorld(makeFrame(shadingNormal(s)), local);
         r.inversePdf = PI / max(local.z, TINY);
+        if (isNowhere(shadingNormal(s))) {
+            r.direction = sampleUniformSphere(u);
+            r.inversePdf = 4.0 * PI;
+        }
     } else {
         r.direction = sampleAmbientCs184(u);
         r.inversePdf = 2.0 * PI;

@@ -32,7 +32,7 @@ float turnedTowards(LightNode node, vec3 axis, vec2 spread, vec3 w, vec2 bound) 
 /// (n . d + r) / (|d| + r). That is the cosine itself for a single point, else one between the cosines in the node's
 /// sphere, and 0 where all of the sphere is behind the surface; likelyLight()'s bound takes another square root.
 float likelyLightWithoutCone(vec3 d, vec3 n, float power, float radius) {
-    const float distance2 = dot(d, d), reach = dot(n, d) + radius;
+    const float distance2 = dot(d, d), reach = (isNowhere(n) ? sqrt(distance2) : dot(n, d)) + radius;
     const float square = larger(distance2, radius * radius);
     // Beyond the cube root of what floats hold weights are no longer those, but not 0.
     const float cube = smaller(larger((sqrt(distance2) + radius) * square, TINY), INFINITE_DISTANCE);
@@ -41,14 +41,15 @@ float likelyLightWithoutCone(vec3 d, vec3 n, float power, float radius) {
 
 /// A bound of the irradiance (luminance) that the node's lights bring to a point with unit normal n. Of
 /// near lights: the power over the squared distance, times the largest cosines that light and surface can
-/// have anywhere in the node's sphere; within the sphere the distance is its radius, and cosines are 1.
+/// have anywhere in the node's sphere; within the sphere the distance is its radius, and cosines are 1, as that of a
+/// point in a medium is everywhere.
 /// 0 only where nothing can arrive.
 float likelyLight(LightNode node, uint group, vec3 p, vec3 n) {
     const float power = powerOf(node), radius = radiusOf(node);
     const vec3 axis = decodeNormal(node.axis);
     const vec2 spread = angleOfCosine(node.cosSpread);
     if (LIGHT_GROUPS == 1u << LIGHT_GROUP_INFINITE)
-        return power * max(lessAngle(angleOfCosine(-dot(n, axis)), spread).x, 0.0);
+        return isNowhere(n) ? power : power * max(lessAngle(angleOfCosine(-dot(n, axis)), spread).x, 0.0);
     if (LIGHT_GROUPS == 1u << LIGHT_GROUP_NEAR && !lightsHaveCones())
         return likelyLightWithoutCone(node.center - p, n, power, radius);
     const bool infinite = isGroup(group, LIGHT_GROUP_INFINITE);
@@ -62,7 +63,7 @@ float likelyLight(LightNode node, uint group, vec3 p, vec3 n) {
     // The least angle between n and a direction to the sphere, as in lessAngle().
     const float towards = dot(n, d);
     const float across = sqrt(max(distance2 - towards * towards, 0.0));
-    const float cosine = within || towards >= gap ? 1.0 : (towards * gap + across * reach) * scale;
+    const float cosine = within || isNowhere(n) || towards >= gap ? 1.0 : (towards * gap + across * reach) * scale;
     float lightCosine = 1.0;
     if (lightsHaveCones() && !infinite && !within) {
         const float inverse = inversesqrt(max(distance2, TINY));

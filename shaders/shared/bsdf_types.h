@@ -28,6 +28,7 @@ SHARED_BEGIN
 //   FACETS_ARE_TURNED        stretched along a direction in the frame of the tangent
 //   BASE_IS_NONLINEAR        its colour deepens with each reflection between base and interface
 //   HAS_BASE_COLOR           the first row is what base colours multiply
+//   PHASE_FUNCTION           it is no surface but a medium (medium_types.h)
 //   RECIPE_                  its closures follow from glTF's metallic-roughness model, or from Burley's; else they are
 //                            stated (parameters.h)
 #define CLOSURE_LIST(F) \
@@ -55,7 +56,9 @@ SHARED_BEGIN
     F(VOLUME_ABSORBS, 21, "absorption") \
     F(HAS_BASE_COLOR, 22, "base color") \
     F(RECIPE_PRINCIPLED, 23, "glTF's recipe") \
-    F(RECIPE_BURLEY, 24, "Burley's recipe")
+    F(RECIPE_BURLEY, 24, "Burley's recipe") \
+    F(PHASE_FUNCTION, 25, "phase function") \
+    F(PHASE_IS_RAYLEIGH, 26, "Rayleigh's phase function")
 
 #define NAME_CLOSURE(name, bit, label) SHARED_CONST uint name = 1u << bit;
 CLOSURE_LIST(NAME_CLOSURE)

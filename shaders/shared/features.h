@@ -45,6 +45,8 @@
         "the other materials of a mixture, looked up and evaluated for each light sample and bounce") \
     F(40, bool, BLACK_BACKS, false, shades && scene.hasBlackBacks, own, \
       "black backs", flag, "materials that are black where normals do not point") \
+    F(52, uint, MEDIA, 0u, shades ? scene.media : 0, own, \
+      "media", bits(kMedia), "what rays go through between surfaces: points where paths scatter, and what is left of light") \
     F(35, bool, HAS_ALPHA, false, scene.hasAlpha, own, \
       "opacity", flag, "surfaces that are partly not there, which rays pass") \
     F(50, bool, STOPS_BEFORE_ANY_RAY, false, f[SPEC_HAS_ALPHA] && tuning.limitsLoops, own, \
@@ -144,7 +146,7 @@
     F(1, uint, TRAVERSAL_STEPS, 8u, traversalSteps(f, tuning), own, \
       "traversal steps in a leg", count(""), "traversal steps between two service passes, or in a leg")
 
-#define SPEC_COUNT 52
+#define SPEC_COUNT 53
 
 #ifdef __cplusplus
 namespace stromboli {

@@ -47,7 +47,7 @@ SHARED_BEGIN
     F(float, clearcoatRoughness, 5, y, m.principled.clearcoatRoughness) \
     F(float, anisotropyRotation, 5, z, m.principled.anisotropyRotation) \
     F(uint, flags, 5, w, m.principled.isThin ? gpu::PRINCIPLED_IS_THIN : 0) \
-    F(vec3, absorption, 6, xyz, absorptionOf(m)) \
+    F(vec3, absorption, 6, xyz, m.principled.absorption()) \
     F(float, leastAlpha, 6, w, leastAlphaOf(m))
 
 /// Burley's principled BSDF (scene/model/material.hpp). ior: index inside over outside. leastAlpha: neither parameter of

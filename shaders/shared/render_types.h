@@ -32,7 +32,8 @@ struct Frame {
     uint lightsInGroup0, lightsInGroup1, lightsInGroup2; ///< by LIGHT_GROUP_: how many the light tree has
     float lensRadius;
     float focusDistance; ///< of the plane that is sharp, along the view axis
-    uint unused0, unused1;
+    uint cameraMedium; ///< where camera rays begin: the first row of a medium, or NO_MEDIUM
+    uint unused0;
 };
 SHARED_ROWS(Frame, 9);
 SHARED_OFFSET(Frame, nearDistance, 64);

@@ -39,6 +39,20 @@ TEST(SceneOptions, TheLightAroundTheScene) {
     EXPECT_EQ(turned.strength, 2);
 }
 
+TEST(SceneOptions, FogInTheScene) {
+    const auto fog = [](const std::string& word) {
+        return parse<InfoOptions>({"info", "a.dae", "--fog", word}).scene.fog;
+    };
+    EXPECT_FALSE(parse<InfoOptions>({"info", "a.dae"}).scene.fog.isGiven());
+    EXPECT_EQ(fog("0.5").density, 0.5);
+    EXPECT_EQ(fog("0.5").color, glm::vec3(1));
+    EXPECT_EQ(fog("0.5,-0.25").asymmetry, -0.25);
+    EXPECT_EQ(fog("0.5,1,0.5,0").color, glm::vec3(1, 0.5f, 0));
+    EXPECT_EQ(fog("0.5,1,0.5,0,0.75").asymmetry, 0.75);
+    for (const char* wrong : {"", "thick", "-1", "1,2", "1,0.5,0.5", "1,2,0,0", "1,1,1,1,1,1", "1,"})
+        EXPECT_THROW(fog(wrong), UsageError) << wrong;
+}
+
 TEST(SceneOptions, ViewsAndLenses) {
     const CameraRequest camera =
         parse<InfoOptions>({"info", "a.dae", "--look-from", "1", "-2", "3e1", "--look-at", "0",

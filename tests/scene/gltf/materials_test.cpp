@@ -107,6 +107,25 @@ TEST(GltfMaterials, TransmissionAndVolume) {
     EXPECT_TRUE(std::isinf(materialOf("").principled.attenuationDistance));
 }
 
+/// Grey that scatters as much as white marble: its single scattering keeps nearly all.
+TEST(GltfMaterials, VolumesScatter) {
+    const Scene scene = load(withMaterial(
+        R"("extensions": {"KHR_materials_transmission": {"transmissionFactor": 1},
+            "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 0.5,
+                                     "attenuationColor": [0.1, 0.2, 0.3]},
+            "KHR_materials_volume_scatter": {"multiscatterColor": [1, 0.5, 0],
+                                             "scatterAnisotropy": 0.25}})"));
+    const Material& m = scene.materials.at(0);
+    ASSERT_TRUE(m.boundsMedia);
+    const Medium& medium = scene.media.at(m.inside);
+    EXPECT_EQ(medium.asymmetry, 0.25f);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(medium.extinction()[c], -std::log(0.1 * (c + 1)) / 0.5, 1e-5);
+    EXPECT_NEAR(medium.scattering.x / medium.extinction().x, 1, 1e-3);
+    EXPECT_GT(medium.scattering.y / medium.extinction().y, 0.8);
+    EXPECT_NEAR(medium.scattering.z, 0, 1e-3);
+}
+
 TEST(GltfMaterials, SpecularAndIor) {
     EXPECT_EQ(materialOf(extension("KHR_materials_ior", R"("ior": 1.8)")).principled.ior, 1.8f);
     const Scene scene = load(withMaterial(extension("KHR_materials_ior", R"("ior": 0.5)")));

@@ -216,10 +216,11 @@ TEST(MitsubaForgives, PicturesAsNumbers) {
 
 TEST(MitsubaForgives, Media) {
     const Scene scene =
-        forgiven(ball("<medium name=\"interior\" type=\"homogeneous\"/><subsurface "
+        forgiven(ball("<medium name=\"interior\" type=\"plasma\"/><subsurface "
                       "type=\"dipole\"/>") +
-                     "<sensor type=\"perspective\"><medium type=\"homogeneous\"/></sensor>",
-                 "<medium>: is a medium", "the scene is shown without it");
+                     "<sensor type=\"perspective\"><medium type=\"plasma\"/></sensor>",
+                 "<medium>: 'plasma' is no medium that is read", "the scene is shown without it");
+    EXPECT_TRUE(scene.media.empty());
     EXPECT_EQ(scene.spheres.size(), 2u);
     EXPECT_EQ(scene.cameras.size(), 1u);
 }

@@ -244,8 +244,6 @@ TEST(PbrtLights, ThatCannotBeReadAreSaid) {
                 HasSubstr("names the file 'no.exr', which is not there"));
     EXPECT_THAT(problemInV4("LightSource \"point\" \"rgb J\" [1 1 1]"),
                 HasSubstr("has 'J', which nothing reads"));
-    EXPECT_THAT(problemInV4("MakeNamedMedium \"fog\" \"string type\" \"homogeneous\""),
-                HasSubstr("is a medium"));
 }
 
 } // namespace

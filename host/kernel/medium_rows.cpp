@@ -1,0 +1,136 @@
+#include "host/kernel/medium_rows.hpp"
+
+#include "shaders/shared/bsdf_types.h"
+#include "shaders/shared/medium_types.h"
+#include "shaders/shared/texture_types.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace stromboli {
+namespace {
+
+float largestOf(const glm::vec3& v) {
+    return std::max({v.x, v.y, v.z});
+}
+
+uint32_t closuresOf(const Medium& m) {
+    if (!m.scatters()) return 0;
+    return gpu::PHASE_FUNCTION | gpu::LOBE_DIFFUSE_REFLECTION |
+           (m.phase == PhaseFunction::Rayleigh ? gpu::PHASE_IS_RAYLEIGH : 0);
+}
+
+uint32_t kindsOf(const Medium& m) {
+    return gpu::MEDIA_ABSORB | (m.scatters() ? gpu::MEDIA_SCATTER : 0) |
+           (m.emits() ? gpu::MEDIA_SHINE : 0) | (m.density ? gpu::MEDIA_VARY : 0);
+}
+
+glm::vec3 albedoOf(const Medium& m) {
+    const glm::vec3 extinction = m.extinction();
+    glm::vec3 albedo(0);
+    for (int c = 0; c < 3; ++c)
+        if (extinction[c] > 0) albedo[c] = m.scattering[c] / extinction[c];
+    return albedo;
+}
+
+/// A value with its neighbours, so that the kernel interpolates with two rows of eight values.
+gpu::GridValue valueAt(const DensityGrid& g, glm::uvec3 at) {
+    const uint32_t x = std::min(at.x + 1, g.size.x - 1), y = std::min(at.y + 1, g.size.y - 1);
+    const auto value = [&](uint32_t i, uint32_t j) {
+        return g.values[i + g.size.x * (j + size_t(g.size.y) * at.z)];
+    };
+    return {{value(at.x, at.y), value(x, at.y), value(at.x, y), value(x, y)}};
+}
+
+/// Returns the row of its header.
+uint32_t appendGrid(std::vector<Row>& rows, const DensityGrid& g) {
+    const DensityBounds bounds = boundDensity(g);
+    const auto header = uint32_t(rows.size());
+    const auto values = header + uint32_t(sizeof(gpu::GridHeader) / sizeof(Row));
+    const size_t count = g.values.size();
+    appendRows(rows,
+               gpu::GridHeader{glm::vec4(g.toUnit[0]), glm::vec4(g.toUnit[1]),
+                               glm::vec4(g.toUnit[2]), g.size.x, g.size.y, g.size.z,
+                               values, bounds.blocks.x, bounds.blocks.y, bounds.blocks.z,
+                               uint32_t(values + count)});
+    rows.reserve(rows.size() + count);
+    glm::uvec3 at;
+    for (at.z = 0; at.z < g.size.z; ++at.z)
+        for (at.y = 0; at.y < g.size.y; ++at.y)
+            for (at.x = 0; at.x < g.size.x; ++at.x)
+                appendRows(rows, valueAt(g, at));
+    for (size_t i = 0; i < bounds.most.size(); i += 4) {
+        glm::vec4 four(0);
+        for (size_t k = 0; k < std::min<size_t>(4, bounds.most.size() - i); ++k)
+            four[glm::length_t(k)] = bounds.most[i + k];
+        appendRows(rows, four);
+    }
+    return header;
+}
+
+} // namespace
+
+/// A block has the values whose interpolation reaches into it, and one more on either side for the
+/// rounding of places.
+DensityBounds boundDensity(const DensityGrid& g) {
+    DensityBounds bounds;
+    bounds.blocks = glm::min(g.size, glm::uvec3(gpu::MOST_BLOCKS));
+    const auto first = [&](int axis, uint32_t block) {
+        const double from = double(block) / bounds.blocks[axis] * g.size[axis] - 0.5;
+        return uint32_t(std::max(std::floor(from) - 1, 0.0));
+    };
+    const auto last = [&](int axis, uint32_t block) {
+        const double to = double(block + 1) / bounds.blocks[axis] * g.size[axis] - 0.5;
+        return uint32_t(std::min(std::ceil(to) + 1, g.size[axis] - 1.0));
+    };
+    glm::uvec3 block;
+    for (block.z = 0; block.z < bounds.blocks.z; ++block.z)
+        for (block.y = 0; block.y < bounds.blocks.y; ++block.y)
+            for (block.x = 0; block.x < bounds.blocks.x; ++block.x) {
+                float most = 0;
+                for (uint32_t z = first(2, block.z); z <= last(2, block.z); ++z)
+                    for (uint32_t y = first(1, block.y); y <= last(1, block.y); ++y)
+                        for (uint32_t x = first(0, block.x); x <= last(0, block.x); ++x)
+                            most = std::max(most,
+                                            g.values[x + g.size.x * (y + size_t(g.size.y) * z)]);
+                bounds.most.push_back(most);
+            }
+    return bounds;
+}
+
+MediumRows appendMedia(std::vector<Row>& rows, std::span<const Medium> media, bool hasDetails) {
+    MediumRows packed;
+    for (const Medium& m : media) {
+        const uint32_t closures = closuresOf(m);
+        const size_t first = rows.size();
+        packed.firstRow.push_back(uint32_t(first));
+        packed.kinds |= kindsOf(m);
+        if (closures != 0) packed.closures.push_back(closures);
+        appendRows(rows, gpu::MaterialHeader{glm::vec3(0), closures});
+        appendRows(rows, gpu::MediumBody{m.extinction(), m.asymmetry, albedoOf(m), 0, m.emission,
+                                         largestOf(m.extinction())});
+        rows.resize(first + gpu::MATERIAL_DETAIL_ROW);
+        if (hasDetails) appendRows(rows, gpu::MaterialDetail{1, 0, 0, 0});
+    }
+    for (size_t i = 0; i < media.size(); ++i) {
+        if (!media[i].density) continue;
+        const uint32_t grid = appendGrid(rows, *media[i].density);
+        rows[packed.firstRow[i] + gpu::MEDIUM_BODY_ROW + 1][3] = grid;
+    }
+    return packed;
+}
+
+void nameBorders(std::vector<Row>& rows, std::span<const Material> materials,
+                 std::span<const uint32_t> materialRow, std::span<const uint32_t> mediumRow) {
+    const auto rowOf = [&](uint32_t medium) {
+        return medium == kNoMedium ? gpu::NO_MEDIUM : mediumRow[medium];
+    };
+    for (size_t i = 0; i < materials.size(); ++i) {
+        const Material& m = materials[i];
+        const gpu::MediumBorder border{rowOf(m.inside), rowOf(m.outside), m.boundsMedia, 0};
+        rows[materialRow[i] - gpu::MEDIUM_BORDER_ROWS] = std::bit_cast<Row>(border);
+    }
+}
+
+} // namespace stromboli

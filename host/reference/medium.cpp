@@ -1,0 +1,150 @@
+#include "host/reference/medium.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace stromboli::reference {
+namespace {
+
+double largest(const glm::dvec3& v) {
+    return std::max({v.x, v.y, v.z});
+}
+
+glm::dvec3 exponential(const glm::dvec3& extinction, double depth) {
+    glm::dvec3 left(1.0);
+    for (int c = 0; c < 3; ++c) // the distance may be infinite
+        if (extinction[c] > 0) left[c] = std::exp(-extinction[c] * depth);
+    return left;
+}
+
+/// The part of a ray in the unit cube of a grid.
+struct Stretch {
+    glm::dvec3 origin, direction; ///< in the cube's coordinates
+    double from, to;
+};
+
+Stretch withinCube(const DensityGrid& grid, const Ray& ray, double from, double to) {
+    Stretch s{grid.place(ray.origin), glm::dvec3(0), from, to};
+    for (int i = 0; i < 3; ++i) {
+        s.direction[i] = glm::dot(glm::dvec3(grid.toUnit[size_t(i)]), ray.direction);
+        const double o = s.origin[i], d = s.direction[i];
+        if (d == 0) {
+            if (o < 0 || o > 1) s.to = s.from;
+            continue;
+        }
+        const auto [low, high] = std::minmax(-o / d, (1 - o) / d);
+        s.from = std::max(s.from, low);
+        s.to = std::min(s.to, high);
+    }
+    return s;
+}
+
+double densityAt(const DensityGrid& grid, const Stretch& s, double t) {
+    return grid.at(glm::clamp(s.origin + t * s.direction, 0.0, 1.0));
+}
+
+/// The integral of the density along a ray. Between the planes through the middles of cells it is a
+/// cubic polynomial, for which Simpson's rule is exact.
+double integrateDensity(const DensityGrid& grid, const Ray& ray, double from, double to) {
+    const Stretch s = withinCube(grid, ray, from, to);
+    if (!(s.to > s.from)) return 0;
+    std::vector<double> ends{s.from, s.to};
+    for (int axis = 0; axis < 3; ++axis)
+        for (uint32_t i = 0; i < grid.size[axis] && s.direction[axis] != 0; ++i) {
+            const double t =
+                ((i + 0.5) / grid.size[axis] - s.origin[axis]) / s.direction[axis];
+            if (t > s.from && t < s.to) ends.push_back(t);
+        }
+    std::ranges::sort(ends);
+    double sum = 0;
+    for (size_t i = 1; i < ends.size(); ++i) {
+        const double a = ends[i - 1], b = ends[i], middle = (a + b) / 2;
+        sum += (b - a) / 6 *
+               (densityAt(grid, s, a) + 4 * densityAt(grid, s, middle) + densityAt(grid, s, b));
+    }
+    return sum;
+}
+
+/// Woodcock's tentative collisions at a rate that is nowhere exceeded, for three channels at once.
+MediumEvent trackGrid(const Medium& m, const Ray& ray, double from, double to,
+                      const glm::dvec3& carried, RandomStream& random) {
+    MediumEvent event;
+    const Stretch s = withinCube(*m.density, ray, from, to);
+    const glm::dvec3 extinction(m.extinction()), scattering(m.scattering);
+    const double rate = double(m.density->largest()) * largest(extinction);
+    if (!(rate > 0)) return event;
+    for (double t = s.from;;) {
+        t -= std::log(1 - random.next()) / rate;
+        if (!(t < s.to)) return event;
+        const double density = densityAt(*m.density, s, t);
+        event.shone += event.weight * glm::dvec3(m.emission) * density / rate;
+        const glm::dvec3 real = scattering * density / rate;
+        const glm::dvec3 none = glm::max(1.0 - extinction * density / rate, 0.0);
+        const double ofReal = glm::dot(carried * event.weight, real);
+        const double all = ofReal + glm::dot(carried * event.weight, none);
+        event.scatters = random.next() * all < ofReal;
+        event.distance = t;
+        if (!(all > 0)) {
+            event.weight = glm::dvec3(0.0);
+            return event;
+        }
+        event.weight *= event.scatters ? real * (all / ofReal) : none * (all / (all - ofReal));
+        if (event.scatters) return event;
+    }
+}
+
+} // namespace
+
+MediumEvent flyThrough(const Medium& m, const Ray& ray, double from, double to,
+                       const glm::dvec3& carried, RandomStream& random) {
+    if (m.density) return trackGrid(m, ray, from, to, carried, random);
+    MediumEvent event;
+    const glm::dvec3 extinction(m.extinction()), scattering(m.scattering);
+    const double length = to - from;
+    event.weight = exponential(extinction, length);
+    for (int c = 0; c < 3; ++c)
+        event.shone[c] = m.emission[c] * (extinction[c] > 0
+                                              ? -std::expm1(-extinction[c] * length) / extinction[c]
+                                              : m.emission[c] > 0 ? length : 0.0);
+    if (!m.scatters()) return event;
+    const glm::dvec3 share = carried / (carried.x + carried.y + carried.z);
+    const double which = random.next(), depth = -std::log(1 - random.next());
+    const int channel = which < share.x ? 0 : which < share.x + share.y ? 1 : 2;
+    const double distance = extinction[channel] > 0 ? depth / extinction[channel] : kInfinity;
+    event.scatters = distance < length;
+    const glm::dvec3 left = exponential(extinction, std::min(distance, length));
+    event.distance = from + distance;
+    event.weight = event.scatters ? scattering * left / glm::dot(share, extinction * left)
+                                  : left / glm::dot(share, left);
+    return event;
+}
+
+glm::dvec3 transmittance(const Medium& m, const Ray& ray, double from, double to) {
+    const double depth = m.density ? integrateDensity(*m.density, ray, from, to) : to - from;
+    return exponential(glm::dvec3(m.extinction()), depth);
+}
+
+double phaseDensity(const Medium& m, double cosine) {
+    if (m.phase == PhaseFunction::Rayleigh) return 3 / (16 * kPi) * (1 + cosine * cosine);
+    const double g = m.asymmetry;
+    return (1 - g * g) / (4 * kPi * std::pow(1 + g * g - 2 * g * cosine, 1.5));
+}
+
+/// Henyey and Greenstein's distribution has an inverse; Rayleigh's is sampled by rejection folded
+/// into one number: a mixture of a uniform cosine (3/4 of it) and one of density 3/2 cos^2.
+glm::dvec3 samplePhase(const Medium& m, const glm::dvec3& forward, double u, double v) {
+    double cosine = 1 - 2 * u;
+    const double g = m.asymmetry;
+    if (m.phase == PhaseFunction::Rayleigh) {
+        cosine = u < 0.75 ? 1 - 2 * (u / 0.75) : std::cbrt(1 - 2 * ((u - 0.75) / 0.25));
+    } else if (std::abs(g) > 1e-6) {
+        const double s = (1 - g * g) / (1 - g + 2 * g * u);
+        cosine = std::clamp((1 + g * g - s * s) / (2 * g), -1.0, 1.0);
+    }
+    const double sine = std::sqrt(std::max(1 - cosine * cosine, 0.0));
+    return Frame(forward).toWorld(
+        {sine * std::cos(2 * kPi * v), sine * std::sin(2 * kPi * v), cosine});
+}
+
+} // namespace stromboli::reference

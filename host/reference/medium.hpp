@@ -1,0 +1,34 @@
+#pragma once
+
+#include "host/reference/bvh.hpp"
+#include "host/reference/sampling.hpp"
+#include "scene/model/medium.hpp"
+
+namespace stromboli::reference {
+
+// Media (docs/theory/media.md). Distances are along rays, whose directions are unit vectors.
+
+/// What becomes of a path on a stretch of a ray through one medium.
+struct MediumEvent {
+    glm::dvec3 weight{1.0}; ///< of the path, for what follows
+    glm::dvec3 shone{0.0};  ///< radiance that the medium sends into the path
+    bool scatters = false;
+    double distance = 0; ///< on the ray, where it scatters
+};
+
+/// carried: what the path's channels carry, by which one of them is drawn.
+MediumEvent flyThrough(const Medium& medium, const Ray& ray, double from, double to,
+                       const glm::dvec3& carried, RandomStream& random);
+
+/// The share of light that is left between two distances, the second of which may be infinite. No
+/// estimate: of a grid it is the exponential of an integral that is exact but for rounding.
+glm::dvec3 transmittance(const Medium& medium, const Ray& ray, double from, double to);
+
+/// Density of the phase function, by solid angle, at the cosine between the directions before and
+/// after.
+double phaseDensity(const Medium& medium, double cosine);
+
+/// A direction in proportion to it. forward: unit, the way the light goes; u, v: in [0, 1).
+glm::dvec3 samplePhase(const Medium& medium, const glm::dvec3& forward, double u, double v);
+
+} // namespace stromboli::reference

@@ -1,0 +1,138 @@
+#include "scene/mitsuba/media.hpp"
+
+#include "scene/build/tolerate.hpp"
+#include "scene/mitsuba/colors.hpp"
+#include "scene/mitsuba/scattering_tables.hpp"
+#include "scene/mitsuba/volumes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace stromboli::mitsuba {
+namespace {
+
+/// What Mitsuba 3 takes for a medium that states nothing.
+constexpr double kUsualAlbedo = 0.75, kUsualExtinction = 1;
+
+void readPhase(const Plugin& phase, Medium& medium) {
+    medium.phase = PhaseFunction::HenyeyGreenstein;
+    medium.asymmetry = 0;
+    if (phase.type == "rayleigh") {
+        medium.phase = PhaseFunction::Rayleigh;
+    } else if (phase.type == "hg") {
+        medium.asymmetry = float(phase.number("g").value_or(0.8));
+    } else if (phase.type == "blendphase") {
+        // The mean cosine of a sum is that of its parts.
+        const std::vector<const Plugin*> parts = phase.childrenOf("phase");
+        const double share = phase.number("weight", 0, 1).value_or(0.5);
+        Medium first = medium, second = medium;
+        if (parts.size() == 2) readPhase(*parts[0], first), readPhase(*parts[1], second);
+        medium.asymmetry = float((1 - share) * first.asymmetry + share * second.asymmetry);
+        phase.replace(build::Shortfall::Model, "is a sum of two phase functions",
+                      "Henyey and Greenstein's of the same mean cosine");
+    } else if (phase.type != "isotropic") {
+        phase.replace(build::Shortfall::Model,
+                      fmt::format("'{}' is no phase function that is read, expected isotropic, hg, "
+                                  "rayleigh or blendphase",
+                                  phase.type),
+                      "isotropic");
+        return;
+    }
+    phase.requireAllRead();
+}
+
+/// The share of light that is scattered, of a volume that may vary.
+glm::dvec3 albedoOf(const Context& context, const Plugin& plugin) {
+    const Plugin* volume = plugin.child("albedo");
+    if (!volume || volume->tag != "volume")
+        return colorOf(plugin, "albedo", ColorOf::Index).value_or(glm::dvec3(kUsualAlbedo));
+    const Volume read = readVolume(context, *volume);
+    if (read.grid)
+        volume->replace(build::Shortfall::Model, "varies from place to place", "its mean");
+    return read.mean;
+}
+
+void setColors(Medium& medium, const glm::dvec3& extinction, const glm::dvec3& albedo) {
+    const glm::dvec3 share = glm::clamp(albedo, 0.0, 1.0);
+    medium.scattering = extinction * share;
+    medium.absorption = extinction * (1.0 - share);
+}
+
+/// Mitsuba 3 calls the density sigma_t, 0.x density.
+void readHeterogeneous(const Context& context, const Plugin& plugin, double scale, Medium& medium) {
+    const char* name = plugin.isOld ? "density" : "sigma_t";
+    const Plugin* volume = plugin.child(name);
+    if (!volume) plugin.fail(fmt::format("has no volume '{}'", name));
+    Volume density = readVolume(context, *volume);
+    if (!density.grid) return setColors(medium, scale * density.mean, albedoOf(context, plugin));
+    setColors(medium, glm::dvec3(scale), albedoOf(context, plugin));
+    density.grid->setWorld(context.worldFromFile * density.toFile);
+    medium.density = std::move(density.grid);
+}
+
+void readHomogeneous(const Context& context, const Plugin& plugin, double scale, Medium& medium) {
+    const bool isOfTable = plugin.has("material");
+    const bool isByParts = plugin.has("sigma_s") || plugin.has("sigma_a");
+    if (isOfTable || isByParts || (plugin.isOld && !plugin.has("sigma_t"))) {
+        const Scattering s = scatteringOf(plugin);
+        medium.scattering = scale * s.scattered;
+        medium.absorption = scale * s.absorbed;
+        return;
+    }
+    const Plugin* volume = plugin.child("sigma_t");
+    const bool isVolume = volume && volume->tag == "volume";
+    const glm::dvec3 extinction =
+        isVolume ? readVolume(context, *volume).mean
+                 : colorOf(plugin, "sigma_t", ColorOf::Index).value_or(glm::dvec3(kUsualExtinction));
+    setColors(medium, scale * extinction, albedoOf(context, plugin));
+}
+
+} // namespace
+
+Sides sidesOf(const Plugin& shape) {
+    Sides sides;
+    for (const Plugin::Child& child : shape.children()) {
+        if (child.plugin->tag != "medium") continue;
+        (child.name == "exterior" ? sides.outside : sides.inside) = child.plugin;
+    }
+    (void)shape.childrenOf("medium");
+    return sides;
+}
+
+uint32_t Media::of(const Plugin* medium) {
+    if (!medium) return kNoMedium;
+    const auto [found, isNew] = made_.try_emplace(medium, kNoMedium);
+    if (isNew)
+        build::tolerate(context_.report(), build::Shortfall::Medium, [&] {
+            const uint32_t number = context_.builder.addMedium(make(*medium));
+            made_[medium] = number;
+        });
+    return made_[medium];
+}
+
+Medium Media::make(const Plugin& plugin) {
+    Medium medium;
+    medium.name = plugin.displayName();
+    const double scale = plugin.number("scale", 0).value_or(1);
+    if (const Plugin* phase = plugin.onlyChildOf("phase")) readPhase(*phase, medium);
+    if (plugin.type == "heterogeneous")
+        readHeterogeneous(context_, plugin, scale, medium);
+    else if (plugin.type == "homogeneous")
+        readHomogeneous(context_, plugin, scale, medium);
+    else
+        plugin.fail(fmt::format("'{}' is no medium that is read, expected homogeneous or "
+                                "heterogeneous",
+                                plugin.type));
+    // How samples are taken, and not what of.
+    for (const char* unused : {"sample_emitters", "has_spectral_extinction", "strategy", "method",
+                               "majorant_grid_res", "majorant_resolution_factor", "step_size",
+                               "monochromatic", "sampling_density"})
+        plugin.skip(unused);
+    (void)plugin.childrenOf("volume");
+    plugin.requireAllRead();
+    return medium;
+}
+
+} // namespace stromboli::mitsuba

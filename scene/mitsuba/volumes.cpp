@@ -1,0 +1,128 @@
+#include "scene/mitsuba/volumes.hpp"
+
+#include "host/core/error.hpp"
+#include "scene/build/read_file.hpp"
+#include "scene/mitsuba/colors.hpp"
+
+#include <fmt/format.h>
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/gtc/packing.hpp>
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace stromboli::mitsuba {
+namespace {
+
+/// Numbers of a file, the least byte first, one after the other.
+class Numbers {
+  public:
+    Numbers(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
+
+    template <class T>
+    T next() {
+        static_assert(std::endian::native == std::endian::little);
+        T value;
+        if (bytes_.size() < sizeof value) throw SceneError(name_, 0, "", "ends too early");
+        std::memcpy(&value, bytes_.data(), sizeof value);
+        bytes_.remove_prefix(sizeof value);
+        return value;
+    }
+    size_t left() const { return bytes_.size(); }
+
+  private:
+    std::string_view bytes_;
+    const std::string& name_;
+};
+
+enum class Encoding : int32_t { Float = 1, Half = 2, Byte = 3 };
+
+size_t bytesOf(Encoding encoding) {
+    return encoding == Encoding::Float ? 4 : encoding == Encoding::Half ? 2 : 1;
+}
+
+float nextValue(Numbers& numbers, Encoding encoding) {
+    if (encoding == Encoding::Float) return numbers.next<float>();
+    if (encoding == Encoding::Half) return glm::unpackHalf1x16(numbers.next<uint16_t>());
+    return float(numbers.next<uint8_t>()) / 255;
+}
+
+/// What is no number, or less than 0, is nothing.
+float usable(float value) {
+    return std::isfinite(value) && value > 0 ? value : 0;
+}
+
+Volume readGrid(const Context& context, const Plugin& volume) {
+    const std::string file = context.document.file(volume, "filename").string();
+    VolumeFile read = parseVolume(build::readFile(file), file);
+    Volume result;
+    result.mean = read.mean;
+    // Mitsuba 0.x takes the box of the file, and Mitsuba 3 the unit cube.
+    const bool takesBox = volume.flag("use_grid_bbox").value_or(volume.isOld);
+    result.toFile = volume.transform("to_world");
+    if (takesBox)
+        result.toFile = result.toFile * glm::translate(glm::dmat4(1.0), read.low) *
+                        glm::scale(glm::dmat4(1.0), read.high - read.low);
+    result.grid = std::move(read.grid);
+    for (const char* unused : {"filter_type", "wrap_mode", "raw", "accel", "send_data"})
+        volume.skip(unused);
+    return result;
+}
+
+} // namespace
+
+Volume readVolume(const Context& context, const Plugin& volume) {
+    Volume result;
+    if (volume.type == "constvolume") {
+        result.mean = colorOf(volume, "value", ColorOf::Index).value_or(glm::dvec3(1));
+    } else if (volume.type == "gridvolume") {
+        result = readGrid(context, volume);
+    } else {
+        volume.fail(fmt::format("'{}' is no volume that is read, expected constvolume or gridvolume",
+                                volume.type));
+    }
+    volume.requireAllRead();
+    return result;
+}
+
+VolumeFile parseVolume(std::string_view bytes, const std::string& name) {
+    const auto fail = [&](const std::string& problem) { throw SceneError(name, 0, "", problem); };
+    if (!bytes.starts_with("VOL\x03")) fail("is no volume of Mitsuba's version 3");
+    Numbers numbers(bytes.substr(4), name);
+    const auto encoding = Encoding(numbers.next<int32_t>());
+    if (encoding < Encoding::Float || encoding > Encoding::Byte)
+        fail(fmt::format("has the encoding {}, expected 1, 2 or 3", int32_t(encoding)));
+    VolumeFile file;
+    uint64_t count = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto size = numbers.next<int32_t>();
+        if (size < 1 || size > 1 << 16) fail(fmt::format("has the size {}", size));
+        file.grid.size[axis] = uint32_t(size);
+        count *= uint64_t(size);
+    }
+    const auto channels = numbers.next<int32_t>();
+    if (channels != 1 && channels != 3)
+        fail(fmt::format("has {} channels, expected 1 or 3", channels));
+    for (glm::dvec3* corner : {&file.low, &file.high})
+        for (int axis = 0; axis < 3; ++axis)
+            (*corner)[axis] = numbers.next<float>();
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(file.high[axis] > file.low[axis]) || !std::isfinite(file.high[axis] - file.low[axis]))
+            fail("has a box without a volume");
+    if (numbers.left() / bytesOf(encoding) / size_t(channels) < count) fail("ends too early");
+    file.grid.values.resize(count);
+    for (float& value : file.grid.values) {
+        float sum = 0;
+        for (int channel = 0; channel < channels; ++channel) {
+            const float one = usable(nextValue(numbers, encoding));
+            file.mean[channel] += double(one) / double(count);
+            sum += one / float(channels);
+        }
+        value = usable(sum);
+    }
+    if (channels == 1) file.mean = glm::dvec3(file.mean.x);
+    return file;
+}
+
+} // namespace stromboli::mitsuba

@@ -1,0 +1,47 @@
+// Phase functions: the closures of media. cos: between the directions in which light goes before and after; densities
+// by solid angle, whose integral is 1, so that samples in proportion to them have the weight 1. A point in a medium has no
+// normal: both of its normals are zero.
+
+const bool HAS_PHASES = (CLOSURES & (PHASE_FUNCTION)) != 0u;
+
+/// Whether a normal is that of a point in a medium.
+bool isNowhere(vec3 normal) { return MEDIA != 0u && normal == vec3(0.0); }
+
+bool isPhase(Material m) { return hasClosure(m, PHASE_FUNCTION); }
+float asymmetryOf(Material m) { return uintBitsToFloat(m.row1.w); }
+
+/// oneMinusCos: 1 - cos, whose digits the peak of a narrow function needs.
+float phaseDensity(Material m, float oneMinusCos) {
+    const float g = asymmetryOf(m), square = (1.0 - g) * (1.0 - g) + 2.0 * g * oneMinusCos;
+    float density = (1.0 - g) * (1.0 + g) * (0.25 * INV_PI) / max(square * sqrt(square), TINY);
+    const float cosine = 1.0 - oneMinusCos;
+    if (hasClosure(m, PHASE_IS_RAYLEIGH)) density = (0.1875 * INV_PI) * (1.0 + cosine * cosine);
+    return density;
+}
+
+/// 1 - cos of a sample. Henyey and Greenstein's, from the inverse of its distribution, which is written so that no
+/// difference of large terms is left and g = 0 is no exception; Rayleigh's is the root of a cubic equation.
+float samplePhase(Material m, float u) {
+    const float g = asymmetryOf(m), d = (1.0 - g) + 2.0 * g * u;
+    float oneMinusCos = (1.0 - g) * (1.0 - g) * (1.0 + (1.0 + g) / d) * (1.0 - u) / d;
+    if (hasClosure(m, PHASE_IS_RAYLEIGH)) {
+        const float z = 4.0 * u - 2.0, root = pow(abs(z) + sqrt(z * z + 1.0), 1.0 / 3.0);
+        const float cosine = root - 1.0 / root;
+        oneMinusCos = 1.0 - (z < 0.0 ? -cosine : cosine);
+    }
+    return clamp(oneMinusCos, 0.0, 2.0);
+}
+
+/// wo: back along the ray.
+BsdfValue evaluatePhase(Material m, vec3 wo, vec3 wi) {
+    const vec3 turn = wi + wo;
+    const float density = phaseDensity(m, 0.5 * dot(turn, turn));
+    return BsdfValue(vec3(density), density);
+}
+
+BsdfSample samplePhase(Material m, vec3 wo, vec2 u) {
+    const float oneMinusCos = samplePhase(m, u.x);
+    const vec3 local = vec3(sqrt(max(oneMinusCos * (2.0 - oneMinusCos), 0.0)) * cosSin(4.0 * u.y), 1.0 - oneMinusCos);
+    const float density = phaseDensity(m, oneMinusCos);
+    return BsdfSample(toWorld(makeFrame(-wo), local), vec3(1.0), density, LOBE_DIFFUSE_REFLECTION);
+}

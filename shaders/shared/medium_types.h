@@ -1,0 +1,64 @@
+// Media as the kernel reads them (scene/model/medium.hpp). A medium is a material of the material buffer whose closure
+// is its phase function, so that a point in it is a point where paths scatter like any other; its header is followed by a
+// MediumBody. In scenes with media every material has a MediumBorder in front of its header.
+#ifndef STROMBOLI_SHARED_MEDIUM_TYPES_H
+#define STROMBOLI_SHARED_MEDIUM_TYPES_H
+
+#include "language.h"
+
+SHARED_BEGIN
+
+/// F(name, bit, label): what the media of a scene have (the feature MEDIA); label: what `stromboli info` calls it.
+#define MEDIA_LIST(F) \
+    F(MEDIA_ABSORB, 0, "absorption") \
+    F(MEDIA_SCATTER, 1, "scattering") \
+    F(MEDIA_SHINE, 2, "emission") \
+    F(MEDIA_VARY, 3, "grids of densities")
+
+#define NAME_MEDIA(name, bit, label) SHARED_CONST uint name = 1u << bit;
+MEDIA_LIST(NAME_MEDIA)
+#undef NAME_MEDIA
+
+/// No medium begins at that row.
+SHARED_CONST uint NO_MEDIUM = 0xFFFFFFFFu;
+
+/// What is on both sides of a surface.
+struct MediumBorder {
+    uint inside;  ///< the first row of the medium where the stored normal does not point to, or NO_MEDIUM
+    uint outside; ///< likewise, on the other side
+    uint isBorder; ///< 0: light that passes the surface stays in its medium
+    uint unused;
+};
+SHARED_ROWS(MediumBorder, 1);
+SHARED_CONST uint MEDIUM_BORDER_ROWS = 1u;
+
+struct MediumBody {
+    vec3 extinction; ///< per metre, times the density
+    float asymmetry; ///< of Henyey and Greenstein's function
+    vec3 albedo;     ///< the share of the extinction that is scattering
+    uint grid;       ///< the row of its GridHeader; 0: the density is 1 everywhere
+    vec3 emission;   ///< radiance per metre, times the density
+    float mostExtinction; ///< the largest component
+};
+SHARED_ROWS(MediumBody, 3);
+SHARED_CONST uint MEDIUM_BODY_ROW = 1u; ///< of a medium, its header counted
+
+/// A grid of densities. Between the middles of its cells, which fill the unit cube, densities are interpolated.
+struct GridHeader {
+    vec4 toUnit0, toUnit1, toUnit2; ///< rows of the matrix from the world to the unit cube
+    uint sizeX, sizeY, sizeZ;
+    uint values; ///< row of the first GridValue, x changing fastest
+    uint blocksX, blocksY, blocksZ; ///< the unit cube in equal blocks
+    uint bounds; ///< row of the first four upper bounds of the density in a block, x changing fastest
+};
+SHARED_ROWS(GridHeader, 5);
+/// The density of a cell, and of its neighbours in +x, +y and both; that of the last cell beyond the end.
+struct GridValue {
+    vec4 corners;
+};
+SHARED_ROWS(GridValue, 1);
+SHARED_CONST uint MOST_BLOCKS = 16u; ///< along an axis
+
+SHARED_END
+
+#endif

@@ -1,0 +1,157 @@
+// Media of Mitsuba 3 and 0.x, and volumes.
+#include "scene/mitsuba/volumes.hpp"
+#include "tests/scene/mitsuba/mitsuba_text.hpp"
+
+#include <cstring>
+
+namespace stromboli::test {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string ball(const std::string& medium, const std::string& more = "") {
+    return "<shape type=\"sphere\">" + medium + more + "</shape>";
+}
+
+/// The medium in a ball whose surface is nothing else.
+Medium mediumOf(const std::string& type, const std::string& inside) {
+    const Scene scene = loadInside(ball("<medium name=\"interior\" type=\"" + type + "\">" +
+                                            inside + "</medium>",
+                                        "<bsdf type=\"null\"/>"));
+    return scene.media.at(0);
+}
+
+void expectColors(const Medium& m, const glm::vec3& scattering, const glm::vec3& absorption) {
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(m.scattering[c], scattering[c], 1e-5) << c;
+        EXPECT_NEAR(m.absorption[c], absorption[c], 1e-5) << c;
+    }
+}
+
+TEST(MitsubaMedia, AreHomogeneous) {
+    expectColors(mediumOf("homogeneous", "<rgb name=\"albedo\" value=\"0.5, 0.25, 1\"/>"
+                                         "<float name=\"sigma_t\" value=\"2\"/>"
+                                         "<float name=\"scale\" value=\"3\"/>"),
+                 {3, 1.5f, 6}, {3, 4.5f, 0});
+    expectColors(mediumOf("homogeneous", ""), glm::vec3(0.75f), glm::vec3(0.25f));
+    expectColors(mediumOf("homogeneous", "<rgb name=\"sigma_s\" value=\"1, 2, 3\"/>"
+                                         "<rgb name=\"sigma_a\" value=\"4, 5, 6\"/>"),
+                 {1, 2, 3}, {4, 5, 6});
+    expectColors(mediumOf("homogeneous", "<string name=\"material\" value=\"ketchup\"/>"
+                                         "<float name=\"scale\" value=\"10\"/>"),
+                 {1.8f, 0.7f, 0.3f}, {0.61f, 9.7f, 14.5f});
+    expectColors(mediumOf("homogeneous",
+                          "<volume name=\"albedo\" type=\"constvolume\"><float name=\"value\" "
+                          "value=\"0.5\"/></volume>"),
+                 glm::vec3(0.5f), glm::vec3(0.5f));
+}
+
+TEST(MitsubaMedia, HavePhaseFunctions) {
+    const auto phaseOf = [](const std::string& phase) { return mediumOf("homogeneous", phase); };
+    EXPECT_EQ(phaseOf("<phase type=\"hg\"><float name=\"g\" value=\"-0.5\"/></phase>").asymmetry,
+              -0.5f);
+    EXPECT_EQ(phaseOf("<phase type=\"isotropic\"/>").asymmetry, 0);
+    EXPECT_EQ(phaseOf("<phase type=\"rayleigh\"/>").phase, PhaseFunction::Rayleigh);
+    EXPECT_FLOAT_EQ(phaseOf("<phase type=\"blendphase\"><float name=\"weight\" value=\"0.25\"/>"
+                            "<phase type=\"hg\"><float name=\"g\" value=\"0.8\"/></phase>"
+                            "<phase type=\"isotropic\"/></phase>")
+                        .asymmetry,
+                    0.6f);
+}
+
+TEST(MitsubaMedia, AreOnBothSides) {
+    const Scene scene = loadInside(
+        "<medium type=\"homogeneous\" id=\"fog\"/>" +
+        ball("<medium name=\"interior\" type=\"homogeneous\"><float name=\"sigma_t\" "
+             "value=\"2\"/></medium><ref name=\"exterior\" id=\"fog\"/>",
+             "<bsdf type=\"dielectric\"/>") +
+        "<sensor type=\"perspective\"><ref id=\"fog\"/></sensor>");
+    ASSERT_EQ(scene.media.size(), 2u);
+    const Material& m = scene.materials.at(scene.spheres.at(0).material);
+    EXPECT_TRUE(m.boundsMedia);
+    EXPECT_NE(m.inside, m.outside);
+    EXPECT_EQ(scene.cameras.at(0).medium, m.outside);
+    EXPECT_EQ(scene.media.at(m.outside).name, "fog");
+}
+
+/// What nothing is in contact with is not part of the scene.
+TEST(MitsubaMedia, AreLeftOutWhereNothingIsInThem) {
+    const Scene scene = loadInside("<medium type=\"homogeneous\" id=\"fog\"/>" + ball(""));
+    EXPECT_TRUE(scene.media.empty());
+}
+
+template <class T>
+void append(std::string& bytes, const T& value) {
+    const size_t at = bytes.size();
+    bytes.resize(at + sizeof value);
+    std::memcpy(bytes.data() + at, &value, sizeof value);
+}
+
+/// A grid of 2 x 1 x 3 values, in a box.
+std::string volumeBytes(int32_t encoding, int32_t channels = 1) {
+    std::string bytes = "VOL\x03";
+    for (const int32_t number : {encoding, 2, 1, 3, channels})
+        append(bytes, number);
+    for (const float corner : {0.0f, -1.0f, 2.0f, 4.0f, 1.0f, 3.0f})
+        append(bytes, corner);
+    for (int i = 0; i < 6 * channels; ++i) {
+        if (encoding == 1) append(bytes, float(i));
+        if (encoding == 2) append(bytes, uint16_t(i == 0 ? 0 : 0x3C00)); // 1 as a half
+        if (encoding == 3) append(bytes, uint8_t(51 * (i % 6)));
+    }
+    return bytes;
+}
+
+TEST(MitsubaVolumes, HaveThreeEncodings) {
+    const mitsuba::VolumeFile floats = mitsuba::parseVolume(volumeBytes(1), "a.vol");
+    EXPECT_EQ(floats.grid.size, glm::uvec3(2, 1, 3));
+    EXPECT_THAT(floats.grid.values, ElementsAre(0, 1, 2, 3, 4, 5));
+    EXPECT_EQ(floats.low, glm::dvec3(0, -1, 2));
+    EXPECT_EQ(floats.high, glm::dvec3(4, 1, 3));
+    EXPECT_DOUBLE_EQ(floats.mean.x, 2.5);
+    EXPECT_THAT(mitsuba::parseVolume(volumeBytes(2), "a.vol").grid.values,
+                ElementsAre(0, 1, 1, 1, 1, 1));
+    EXPECT_FLOAT_EQ(mitsuba::parseVolume(volumeBytes(3), "a.vol").grid.values.at(5), 1);
+    EXPECT_THAT(mitsuba::parseVolume(volumeBytes(1, 3), "a.vol").grid.values,
+                ElementsAre(1, 4, 7, 10, 13, 16));
+}
+
+TEST(MitsubaVolumes, ThatAreNoneAreErrors) {
+    const auto problem = [](std::string bytes) -> std::string {
+        try {
+            mitsuba::parseVolume(bytes, "a.vol");
+        } catch (const SceneError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_THAT(problem("VOL"), HasSubstr("is no volume"));
+    EXPECT_THAT(problem(volumeBytes(7)), HasSubstr("encoding 7"));
+    EXPECT_THAT(problem(volumeBytes(1, 2)), HasSubstr("2 channels"));
+    for (size_t cut = 0; cut < volumeBytes(1).size(); ++cut)
+        EXPECT_NE(problem(volumeBytes(1).substr(0, cut)), "") << cut;
+}
+
+TEST(MitsubaMedia, HaveGrids) {
+    const std::string name = writeFile("smoke.vol", volumeBytes(1)).filename().string();
+    const std::string volume =
+        "type=\"gridvolume\"><string name=\"filename\" value=\"" + name + "\"/>";
+    const Medium m = mediumOf("heterogeneous", "<volume name=\"sigma_t\" " + volume +
+                                                   "<transform name=\"to_world\"><scale x=\"4\"/>"
+                                                   "</transform></volume><float name=\"albedo\" "
+                                                   "value=\"0.5\"/>");
+    ASSERT_TRUE(m.density);
+    expectColors(m, glm::vec3(0.5f), glm::vec3(0.5f));
+    EXPECT_EQ(m.density->place({2, 0.5, 0.5}), glm::dvec3(0.5));
+    // Mitsuba 0.x: the file's box.
+    const Scene old = loadOld("<shape type=\"sphere\"><medium name=\"interior\" "
+                              "type=\"heterogeneous\"><volume name=\"density\" " +
+                              volume + "</volume></medium></shape>");
+    ASSERT_TRUE(old.media.at(0).density);
+    EXPECT_EQ(old.media.at(0).density->place({2, 0, 2.5}), glm::dvec3(0.5));
+}
+
+} // namespace
+} // namespace stromboli::test
