@@ -39,7 +39,7 @@ std::map<std::string, fs::path> libraryFiles(std::initializer_list<std::string_v
 }
 
 std::map<std::string, fs::path> libraryScenes() {
-    return libraryFiles({".dae", ".glb"});
+    return libraryFiles({".dae", ".glb", ".xml"});
 }
 
 std::vector<std::string> namesOf(const std::map<std::string, fs::path>& files) {

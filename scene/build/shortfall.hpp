@@ -73,7 +73,7 @@ inline constexpr auto kShortfalls = std::to_array<ShortfallKind>({
      "it has no effect"},
     {Shortfall::Model, "a material, texture, light, camera or shape that does not exist here",
      "the nearest one takes its place"},
-    {Shortfall::Medium, "a medium or what scatters under a surface",
+    {Shortfall::Medium, "a medium that cannot be read, or what scatters under a surface",
      "the scene is shown without it"},
 });
 

@@ -20,6 +20,10 @@ const char* const kScene = R"(<scene version="3.0.0">
 <shape type="shapegroup" id="g"><shape type="cube"><bsdf type="roughconductor">
 <string name="material" value="Au"/></bsdf></shape></shape>
 <shape type="instance"><ref id="g"/><transform name="to_world"><scale value="2"/></transform></shape>
+<medium type="heterogeneous" id="f"><volume name="sigma_t" type="gridvolume">
+<string name="filename" value="mutated.vol"/></volume><rgb name="albedo" value="0.5 0.9 1"/>
+<phase type="hg"><float name="g" value="0.5"/></phase></medium><shape type="sphere"><ref name="interior" id="f"/><medium name="exterior"
+ type="homogeneous"><float name="sigma_t" value="2"/></medium><bsdf type="null"/></shape>
 <emitter type="point"><rgb name="intensity" value="1"/></emitter></scene>
 )";
 
@@ -73,7 +77,19 @@ bool isShown(const std::string& text) {
     }
 }
 
+/// Mitsuba's format of volumes: one cell of the density 1, as bytes.
+std::string volume() {
+    using namespace std::string_literals;
+    const std::string one = "\1\0\0\0"s, zero = "\0\0\0\0"s, oneAsFloat = "\0\0\x80\x3f"s;
+    std::string bytes = "VOL\3";
+    for (int i = 0; i < 5; ++i) // encoding, sizes, channels
+        bytes += one;
+    bytes += zero + zero + zero + oneAsFloat + oneAsFloat + oneAsFloat + oneAsFloat;
+    return bytes;
+}
+
 TEST(MitsubaMutations, NeverCrash) {
+    writeFile("mutated.vol", volume());
     ASSERT_EQ(problemOf(kScene), "");
     std::mt19937 random(1);
     size_t loaded = 0, shown = 0;
@@ -81,6 +97,9 @@ TEST(MitsubaMutations, NeverCrash) {
         std::string text = kScene;
         for (uint64_t changes = 1 + random() % 3; changes > 0; --changes)
             change(text, kScene, random);
+        std::string damaged = volume();
+        if (i % 4 == 0) change(damaged, volume(), random);
+        writeFile("mutated.vol", damaged);
         loaded += problemOf(text).empty() ? 1 : 0;
         shown += isShown(text) ? 1 : 0;
     }

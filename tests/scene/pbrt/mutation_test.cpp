@@ -24,6 +24,9 @@ Translate 1 0 0 Rotate 30 0 1 0 Shape "sphere" "float radius" .5 "float phimax" 
 ObjectBegin "o" NamedMaterial "a" Shape "loopsubdiv" "integer levels" 1 "point3 P" [0 0 0 1 0 0 0 1 0]
 "integer indices" [0 1 2] Shape "curve" "point3 P" [0 0 0 1 0 0 2 0 0 3 1 0] ObjectEnd
 ObjectInstance "o" Scale 2 2 2 ObjectInstance "o"
+MakeNamedMedium "f" "string type" "uniformgrid" "integer nx" 2 "float density" [1 2] "point3 p1" [2 1 1]
+MakeNamedMedium "g" "string type" "homogeneous" "rgb sigma_s" [1 2 3] "rgb Le" [1 1 1] "float g" .5
+MediumInterface "f" "g" Material "interface" Shape "sphere"
 AreaLightSource "diffuse" "rgb L" [5 4 3] "float power" 20
 Shape "bilinearmesh" "point3 P" [0 0 0 1 0 0 0 1 0 1 1 1]
 )";
