@@ -180,6 +180,20 @@ struct DenoiseOptions {
     std::vector<std::string> command; ///< as RenderOptions::command
 };
 
+struct ViewOptions : SceneAndPicture {
+    std::string host = "127.0.0.1"; ///< the address to listen at
+    uint32_t port = 0;              ///< 0: any that is free
+    bool open = false;              ///< a browser
+    // What the page begins with.
+    View viewTransform = View::Standard;
+    std::string exposure = "auto"; ///< a number, or auto
+    bool denoised = false;
+    /// The parts of a command that renders what is viewed, apart from camera, size and tone.
+    std::vector<std::string> command;
+    /// Those that say what camera is taken, as long as nobody has moved it.
+    std::vector<std::string> cameraWords;
+};
+
 struct PlanOptions {
     std::vector<std::string> films;
     std::string file;
@@ -211,7 +225,7 @@ struct SubmitOptions : SceneAndPicture {
 using CommandOptions =
     std::variant<RenderOptions, CheckOptions, InfoOptions, KernelsOptions, DevicesOptions,
                  BenchOptions, StressOptions, CompareOptions, StudyOptions, MergeOptions,
-                 PlanOptions, SubmitOptions, TonemapOptions, DenoiseOptions>;
+                 PlanOptions, SubmitOptions, TonemapOptions, DenoiseOptions, ViewOptions>;
 
 /// The command line, understood and checked.
 struct ParsedCommand {
