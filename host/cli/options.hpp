@@ -80,8 +80,19 @@ struct ShareOptions {
     std::string expected;
 };
 
+/// Who is shown the picture while it is rendered.
+struct WatchOptions {
+    std::optional<uint32_t> port; ///< of a page; 0: any that is free
+    std::string updateFile;       ///< empty: none
+    double updateSeconds = 5;     ///< from one writing to the next
+    std::string tev;              ///< HOST:PORT; empty: none
+
+    bool isGiven() const { return port || !updateFile.empty() || !tev.empty(); }
+};
+
 struct RenderOptions : SceneAndPicture {
     OutputOptions output;
+    WatchOptions watch;
     /// A picture of each of these cameras of the file (names, numbers; "all" alone: of each);
     /// empty: one, of picture.camera.
     std::vector<std::string> cameras;

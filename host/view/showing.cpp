@@ -113,9 +113,10 @@ std::string Showing::textOf(Shown what, const ShownState& state, const Raster& r
     return text.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-void Showing::show(const ShownState& state) {
+void Showing::show(const ShownState& state, bool isLast) {
     const Stopwatch watch;
-    const auto awaited = exchange_.awaited();
+    auto awaited = exchange_.awaited();
+    if (isLast) awaited[size_t(Shown::Picture)] = true;
     exchange_.forgetFrames();
     ++number_;
     for (size_t i = 0; i < awaited.size(); ++i) {

@@ -53,8 +53,9 @@ class Showing {
     void beginPicture();
     /// Whether a pass is to be paused, because a frame is due that somebody waits for.
     bool isDue() const { return exchange_.isAwaited() && cadence_.isDue(watch_.seconds()); }
-    /// Makes all frames that are awaited, whether they are due or not.
-    void show(const ShownState& state);
+    /// Makes all frames that are awaited, whether they are due or not. isLast: and the one of the
+    /// picture, for whoever comes later.
+    void show(const ShownState& state, bool isLast = false);
     PictureSource& source() { return source_; }
     double secondsOfPicture() const { return watch_.seconds(); }
 
