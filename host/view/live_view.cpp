@@ -155,6 +155,10 @@ void LiveView::run(const std::function<bool()>& wantsToEnd) {
         attend();
         if (isCoarse_) {
             if (exchange_.isSteered()) continue;
+            if (isPaused_) { // the coarse picture is what there is to be seen
+                exchange_.waitForWork(kLook);
+                continue;
+            }
             if (isMoving_ && sinceSteering_.seconds() < kRest) {
                 exchange_.waitForWork(kLook / 10);
                 continue;

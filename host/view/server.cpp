@@ -168,8 +168,7 @@ class Server::Threads {
     Threads(const ServerOptions& options, Exchange& exchange)
         : options_(options), exchange_(exchange), token_(randomToken()) {
         setUp();
-        port_ = uint16_t(options.port == 0 ? server_.bind_to_any_port(options.host)
-                                           : bound(options.host, options.port));
+        port_ = bound(options);
         const bool isOurs = isLoopback(options.host);
         rules_.token = token_;
         rules_.wantsTokenForPage = !isOurs;
@@ -195,11 +194,18 @@ class Server::Threads {
     uint16_t port() const { return port_; }
 
   private:
-    int bound(const std::string& host, int port) {
-        if (server_.bind_to_port(host, port)) return port;
+    uint16_t bound(const ServerOptions& options) {
+        const std::string& host = options.host;
+        if (options.port == 0) {
+            const int port = server_.bind_to_any_port(host);
+            if (port > 0) return uint16_t(port);
+            throw UsageError(
+                fmt::format("cannot listen at {}: this machine has no such address", host));
+        }
+        if (server_.bind_to_port(host, options.port)) return options.port;
         throw UsageError(fmt::format("cannot listen at {}:{}: the port is taken, or this machine "
                                      "has no such address",
-                                     host, port));
+                                     host, options.port));
     }
 
     void setUp() {

@@ -114,7 +114,7 @@ ReadFrame Client::finished(const std::string& shown) const {
     }
 }
 
-std::string Client::raw(const std::string& bytes, size_t most) const {
+std::string Client::raw(const std::string& bytes, bool ends) const {
     const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     sockaddr_in address = {};
     address.sin_family = AF_INET;
@@ -123,9 +123,9 @@ std::string Client::raw(const std::string& bytes, size_t most) const {
     std::string answer;
     if (::connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
         static_cast<void>(::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL));
-        ::shutdown(socket, SHUT_WR);
+        if (ends) ::shutdown(socket, SHUT_WR);
         char piece[4096];
-        for (ssize_t count = 1; count > 0 && answer.size() < most;) {
+        for (ssize_t count = 1; count > 0 && answer.find("\r\n\r\n") == std::string::npos;) {
             count = ::recv(socket, piece, sizeof piece, 0);
             if (count > 0) answer.append(piece, size_t(count));
         }

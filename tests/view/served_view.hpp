@@ -47,9 +47,10 @@ class Client {
     ReadFrame frame(uint64_t after, const std::string& shown = "picture") const;
     /// Frames until one is of full size and finished.
     ReadFrame finished(const std::string& shown = "picture") const;
-    /// What is sent as it is, and the answer up to where the connection is closed or `most` bytes
-    /// have come.
-    std::string raw(const std::string& bytes, size_t most = 1 << 20) const;
+    /// Sends these bytes, and returns what comes back up to the end of the answer's headers or,
+    /// where the connection is closed before, up to there. `ends`: nothing more will be sent, and
+    /// the server can know.
+    std::string raw(const std::string& bytes, bool ends) const;
 
   private:
     uint16_t port_;

@@ -1,6 +1,6 @@
 // A scene that is served, as its pages see it, without a browser.
+#include "host/core/error.hpp"
 #include "host/film/image_formats.hpp"
-#include "host/film/shown_film.hpp"
 #include "tests/film/temporary_folder.hpp"
 #include "tests/view/served_view.hpp"
 
@@ -38,18 +38,33 @@ void expectSame(const ReadFrame& frame, const Film& film) {
         }
 }
 
-TEST(ServedView, ShowsACoarsePictureFirstAndTheOneThatARenderMakesInTheEnd) {
+TEST(ServedView, EndsWithThePictureThatARenderMakes) {
     const RenderRequest request = smallPicture(16);
     const ServedView view(request);
-    const ReadFrame first = view.client().frame(0);
-    EXPECT_TRUE(first.says("coarse", "true"));
-    EXPECT_EQ(first.number("width"), 24 / 4);
-    EXPECT_EQ(first.number("fullWidth"), 24);
     const ReadFrame last = view.client().finished();
     EXPECT_TRUE(last.says("coarse", "false"));
     EXPECT_EQ(last.number("samples"), 16);
     EXPECT_EQ(last.number("share"), 1);
     expectSame(last, alone(onTheReference(), view.scene(), request));
+}
+
+TEST(ServedView, ShowsACoarsePictureFirst) {
+    const ServedView view(smallPicture(16));
+    const Client client = view.client();
+    client.finished();
+    client.post("/steer?paused=1"); // so that it stays
+    client.post(steerTo({0.4, 0.6, 1.1}, {0, 0.5, 0}, 35));
+    ReadFrame frame = client.frame(0);
+    while (!(frame.number("epoch") > 1))
+        frame = client.frame(uint64_t(frame.number("number")));
+    EXPECT_TRUE(frame.says("coarse", "true"));
+    EXPECT_LT(frame.number("width"), 24);
+    EXPECT_EQ(frame.number("fullWidth"), 24);
+    EXPECT_EQ(frame.number("fullHeight"), 18);
+    EXPECT_THAT(frame.values, testing::Contains(testing::Gt(0.0f)));
+    EXPECT_EQ(client.get("/save?format=png").status, 400); // there is nothing worth a file yet
+    client.post("/steer?paused=0");
+    EXPECT_GT(client.finished().number("epoch"), 1);
 }
 
 TEST(ServedView, AMovedCameraHasThePictureOfARenderWithoutBuildingAnything) {
@@ -129,10 +144,11 @@ TEST(ServedView, SavesThePictureThatARenderMakes) {
 TEST(ServedView, PausesAndGoesOn) {
     const ServedView view(smallPicture(3000));
     const Client client = view.client();
-    client.frame(0);
-    EXPECT_EQ(client.post("/steer?paused=1").status, 204);
     ReadFrame frame = client.frame(0);
-    while (!frame.says("state", "\"paused\"") || frame.says("coarse", "true"))
+    while (frame.says("coarse", "true"))
+        frame = client.frame(uint64_t(frame.number("number")));
+    EXPECT_EQ(client.post("/steer?paused=1").status, 204);
+    while (!frame.says("state", "\"paused\""))
         frame = client.frame(uint64_t(frame.number("number")));
     const double samples = client.frame(0).number("samples");
     client.get("/probe?x=0&y=0"); // the render answers, and takes none
@@ -196,7 +212,8 @@ TEST(ServedView, AtOtherAddressesNothingIsServedWithoutTheToken) {
     const Client client = view.client();
     EXPECT_EQ(client.get("/", {{"X-Stromboli-Token", ""}}).status, 403);
     EXPECT_THAT(
-        client.raw("GET /?token=" + view.server().token() + " HTTP/1.1\r\nHost: a:1\r\n\r\n"),
+        client.raw("GET /?token=" + view.server().token() + " HTTP/1.1\r\nHost: a:1\r\n\r\n",
+                   false),
         testing::StartsWith("HTTP/1.1 200"));
     EXPECT_EQ(client.get("/").status, 200);
     EXPECT_EQ(Client(view.server().port(), "0").get("/").status, 403);
@@ -209,7 +226,7 @@ TEST(ServedView, ATakenPortIsAnError) {
     Exchange exchange;
     EXPECT_THROW(std::make_unique<Server>(options, exchange), UsageError);
     options = {};
-    options.host = "192.0.2.1"; // an address for documentation, of no machine
+    options.host = "no.such.host.invalid";
     EXPECT_THROW(std::make_unique<Server>(options, exchange), UsageError);
 }
 
