@@ -11,10 +11,14 @@
 namespace stromboli::view {
 namespace {
 
-/// Coarse pictures of a moving view are to take between so many seconds, so that there are two a
-/// second at least with time to spare.
-constexpr double kFastCoarse = 0.06, kSlowCoarse = 0.3;
+/// The first picture after a move is to take at most so many seconds, so that there are two a
+/// second of a view that moves, with time to spare.
+constexpr double kSlowCoarse = 0.3;
 constexpr uint32_t kFinest = 2, kCoarsest = 16;
+/// One of full size that shows nothing for longer has finer ones before it.
+constexpr double kLongWait = 0.7;
+/// Samples of a pixel of a coarse picture: as few as tell how noisy they are.
+constexpr uint32_t kCoarseSamples = 2;
 /// After so many seconds without news a view that is said to move is taken to rest.
 constexpr double kRest = 0.4;
 constexpr double kLook = 0.1; ///< seconds between two looks at what else there is to do
@@ -31,7 +35,7 @@ LiveView::LiveView(RenderSession& session, Exchange& exchange, LiveRequest reque
     request_.picture.size = full_;
     request_.picture.crop = settings.area.crop;
     request_.picture.branches = settings.estimator.branches;
-    beginCoarse();
+    beginFirst();
 }
 
 RenderRequest LiveView::requestNow() const {
@@ -53,20 +57,26 @@ RenderRequest LiveView::requestNow() const {
 
 // --- Pictures ------------------------------------------------------------------------------------
 
-void LiveView::beginCoarse() {
+void LiveView::beginFirst() {
+    ++epoch_;
+    isFirst_ = true;
+    beginCoarse(coarseness_);
+}
+
+void LiveView::beginCoarse(uint32_t coarseness) {
     RenderRequest request = requestNow();
-    const auto fewer = [&](uint32_t pixels) { return std::max(pixels / coarseness_, 1u); };
+    const auto fewer = [&](uint32_t pixels) { return std::max(pixels / coarseness, 1u); };
     request.size = PictureSize{fewer(full_.width), fewer(full_.height)};
     if (request.crop.width > 0) {
         Crop& crop = request.crop;
-        crop = {crop.x / coarseness_, crop.y / coarseness_, fewer(crop.width), fewer(crop.height)};
+        crop = {crop.x / coarseness, crop.y / coarseness, fewer(crop.width), fewer(crop.height)};
     }
     request.budget = {};
-    request.budget.mostPathsPerPixel = 2 * request_.picture.branches.value_or(1);
+    request.budget.mostPathsPerPixel = kCoarseSamples * request_.picture.branches.value_or(1);
     session_.begin(request_.scene.scene, request);
     isCoarse_ = true;
     isOver_ = false;
-    ++epoch_;
+    level_ = coarseness;
     share_ = 0;
     showing_.beginPicture();
 }
@@ -90,15 +100,15 @@ void LiveView::steer(const Steering& steering) {
     pose_ = steering.pose;
     fileCamera_ = steering.fileCamera;
     try {
-        beginCoarse();
+        beginFirst();
     } catch (const SceneError&) { // no camera can be there: the view stays where it was
         std::tie(pose_, fileCamera_) = before;
-        beginCoarse();
+        beginFirst();
     }
 }
 
-/// A coarse picture is finished whatever happens, so that there is always one to be seen; one of
-/// full size is left as soon as somebody wants something else.
+/// The first picture after a move is finished whatever happens, so that there is always one to be
+/// seen; what follows is left as soon as somebody wants something else.
 void LiveView::pass(const std::function<bool()>& wantsToEnd) {
     const auto rays = [this] { return session_.result().counters.rays; };
     const uint64_t raysBefore = rays();
@@ -108,12 +118,12 @@ void LiveView::pass(const std::function<bool()>& wantsToEnd) {
         share_ = progress.share;
         raysNow = progress.counters.rays;
         if (wantsToEnd()) return Next::Cancel;
-        if (isCoarse_) return Next::GoOn;
+        if (isFirst_) return Next::GoOn;
         // Before each pixel has a sample, the coarse picture is the better one.
         samplesDone_ = progress.samplesDone;
         const bool isFit = samplesDone_ >= session_.picture().settings.area.pixelCount();
-        const bool isWanted =
-            exchange_.isSteered() || exchange_.isAsked() || (isFit && showing_.isDue());
+        const bool isWanted = exchange_.isSteered() || exchange_.isAsked() ||
+                              (!isCoarse_ && isFit && showing_.isDue());
         return isWanted ? Next::Pause : Next::GoOn;
     };
     isOver_ = !session_.pass(events);
@@ -123,11 +133,25 @@ void LiveView::pass(const std::function<bool()>& wantsToEnd) {
     raysPerSecond_ = seconds > 0 ? double(std::max(raysNow, rays())) / seconds : 0;
 }
 
-/// The next coarse picture takes about as long as is pleasant.
+/// The first picture after the next move takes about as long as is pleasant.
 void LiveView::endCoarse() {
-    const double seconds = showing_.secondsOfPicture();
-    if (seconds > kSlowCoarse && epoch_ > 1) coarseness_ = std::min(coarseness_ * 2, kCoarsest);
-    if (seconds < kFastCoarse) coarseness_ = std::max(coarseness_ / 2, kFinest);
+    // Before the very first one a kernel was compiled.
+    coarseSeconds_ = epoch_ == 1 ? session_.result().renderSeconds : showing_.secondsOfPicture();
+    if (!isFirst_) return;
+    double seconds = coarseSeconds_;
+    for (; seconds > kSlowCoarse && coarseness_ < kCoarsest; seconds /= 4)
+        coarseness_ *= 2;
+    for (; seconds * 4 < 0.8 * kSlowCoarse && coarseness_ > kFinest; seconds *= 4)
+        coarseness_ /= 2;
+}
+
+void LiveView::refine() {
+    isFirst_ = false;
+    const double secondsOfOneSample = coarseSeconds_ * level_ * level_ / kCoarseSamples;
+    if (level_ > kFinest && secondsOfOneSample > kLongWait)
+        beginCoarse(level_ / 2);
+    else
+        beginFull();
 }
 
 // --- The loop ------------------------------------------------------------------------------------
@@ -151,7 +175,10 @@ void LiveView::run(const std::function<bool()>& wantsToEnd) {
             if (wantsToEnd()) break;
             if (isOver_ && isCoarse_) endCoarse();
         }
-        if (isCoarse_ && !isOver_) continue;
+        if (isCoarse_ && !isOver_) { // what there is of it is not worth showing yet
+            exchange_.answer(*this);
+            continue;
+        }
         attend();
         if (isCoarse_) {
             if (exchange_.isSteered()) continue;
@@ -164,7 +191,7 @@ void LiveView::run(const std::function<bool()>& wantsToEnd) {
                 continue;
             }
             isMoving_ = false;
-            beginFull();
+            refine();
         } else if (isOver_ || isPaused_) {
             exchange_.waitForWork(kLook);
         }

@@ -28,8 +28,9 @@ struct LiveRequest {
     std::function<PictureNotes(const RenderResult& result, const std::string& command)> notes;
 };
 
-/// Renders what pages steer to, on the thread that calls it: after each move a coarse picture,
-/// of fewer pixels, then the one of full size, with as many samples as are asked for.
+/// Renders what pages steer to, on the thread that calls it: after each move a coarse picture, of
+/// fewer pixels; at rest finer ones, as long as the one of full size would take long to begin to
+/// show, and that one, with as many samples as are asked for.
 class LiveView final : public Answers {
   public:
     /// The session and the exchange outlive it. Throws what resolvePicture() does.
@@ -44,8 +45,10 @@ class LiveView final : public Answers {
 
   private:
     void steer(const Steering& steering);
-    void beginCoarse();
+    void beginFirst();
+    void beginCoarse(uint32_t coarseness);
     void beginFull();
+    void refine();
     void pass(const std::function<bool()>& wantsToEnd);
     void endCoarse();
     void attend();
@@ -61,8 +64,12 @@ class LiveView final : public Answers {
     std::optional<Pose> pose_;
     std::optional<size_t> fileCamera_;
     bool isCoarse_ = false, isOver_ = false, isPaused_ = false, isMoving_ = false;
-    bool isStale_ = true;     ///< what has changed since the last frame
-    uint32_t coarseness_ = 4; ///< pixels of full size on a side of a coarse one
+    bool isStale_ = true; ///< what has changed since the last frame
+    bool isFirst_ = true; ///< the picture is the first one after a move
+    // Pixels of full size on a side of a coarse one:
+    uint32_t coarseness_ = 4;  ///< of the first picture after a move
+    uint32_t level_ = 4;       ///< of the coarse one that was begun last
+    double coarseSeconds_ = 0; ///< that it took
     Stopwatch sinceSteering_;
     uint64_t epoch_ = 0;
     uint64_t samplesDone_ = 0; ///< of the picture of full size
