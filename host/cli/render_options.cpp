@@ -51,6 +51,7 @@ void declareOutput(OptionList& list, RenderOptions& o) {
 
 /// FILE or FILE:SECONDS.
 void readUpdate(const std::string& word, WatchOptions& o) {
+    if (word.empty()) throw UsageError("--update is empty: expected FILE or FILE:SECONDS");
     const size_t colon = word.rfind(':');
     if (colon == std::string::npos) {
         o.updateFile = word;
@@ -68,16 +69,17 @@ void declareWatching(OptionList& list, WatchOptions& o) {
                 o.port, {0, 65535})
         .excludes("--share", "its picture is in several films")
         .besidePicture();
-    list.words("--update", "FILE[:SECONDS]",
+    list.words("--update", "FILE",
                "write the picture for a screen (.png, .jpg, .webp) again and again while it is "
-               "rendered, each time complete, every 5 seconds where not told otherwise",
+               "rendered, each time complete; FILE:SECONDS says how often",
                1, [&o](const Words& words) { readUpdate(words[0], o); })
+        .usually("every 5 seconds")
         .excludes("--share", "its picture is in several films")
         .besidePicture()
         .proposes(Proposed::Files);
-    list.text("--tev", "HOST:PORT",
-              "send the picture to the image viewer tev while it is rendered; tev itself listens "
-              "at 127.0.0.1:14158",
+    list.text("--tev", "ADDRESS",
+              "send the picture to the image viewer tev at HOST:PORT while it is rendered; tev "
+              "itself listens at 127.0.0.1:14158",
               o.tev)
         .excludes("--share", "its picture is in several films")
         .besidePicture();
