@@ -97,6 +97,23 @@ function(stromboli_library name)
     stromboli_layer(${name} DEPENDS ${ARG_DEPENDS} PRIVATE_DEPENDS ${ARG_PRIVATE_DEPENDS})
 endfunction()
 
+# stromboli_embed_text(TARGET NAME FILE): the bytes of a file as an array NAME, in the header
+# embedded/NAME.h that the target's files include.
+function(stromboli_embed_text target name file)
+    set(header ${CMAKE_CURRENT_BINARY_DIR}/embedded/${name}.h)
+    get_filename_component(source ${file} ABSOLUTE)
+    add_custom_command(
+        OUTPUT ${header}
+        COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_CURRENT_BINARY_DIR}/embedded
+        COMMAND ${CMAKE_COMMAND} -DINPUT=${source} -DOUTPUT=${header} -DNAME=${name}
+                -P ${PROJECT_SOURCE_DIR}/cmake/EmbedText.cmake
+        DEPENDS ${source} ${PROJECT_SOURCE_DIR}/cmake/EmbedText.cmake
+        COMMENT "Embedding ${name}"
+        VERBATIM)
+    target_sources(${target} PRIVATE ${header})
+    target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
+endfunction()
+
 # stromboli_layer(NAME [FOLDER folder] [DEPENDS lib ...] [PRIVATE_DEPENDS lib ...]): the target owns
 # the headers of the folder (by default the one its CMakeLists.txt is in) and sees those of the
 # libraries it names.

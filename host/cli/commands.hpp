@@ -22,6 +22,7 @@ int studyCommand(const StudyOptions& options);
 int stressCommand(const StressOptions& options);
 int tonemapCommand(const TonemapOptions& options);
 int denoiseCommand(const DenoiseOptions& options);
+int viewCommand(const ViewOptions& options);
 
 /// A scene that is loaded, and the picture of it that is asked for. Warns of what makes the picture
 /// black.

@@ -232,6 +232,8 @@ std::deque<DeclaredCommand> declareCommands() {
     };
     static constexpr Entry kEntries[] = {
         {"render", "Render a scene to a picture", declareRender},
+        {"view", "Look at a scene in a browser, move about in it, and watch the picture get better",
+         declareView},
         {"check", "Render on the device and with the CPU reference; say whether they agree",
          declareCheck},
         {"info", "What a scene holds, what its kernel contains, sizes of all buffers, its BVH",

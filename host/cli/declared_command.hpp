@@ -194,6 +194,7 @@ void declarePlan(DeclaredCommand& command);
 void declareSubmit(DeclaredCommand& command);
 void declareTonemap(DeclaredCommand& command);
 void declareDenoise(DeclaredCommand& command);
+void declareView(DeclaredCommand& command);
 
 // Groups of options that several commands have. Each stores what it understands in the structure it
 // is given. A `finish...` belongs to the group of its name.

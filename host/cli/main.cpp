@@ -41,6 +41,7 @@ struct Run {
     int operator()(const SubmitOptions& o) const { return submitCommand(o); }
     int operator()(const TonemapOptions& o) const { return tonemapCommand(o); }
     int operator()(const DenoiseOptions& o) const { return denoiseCommand(o); }
+    int operator()(const ViewOptions& o) const { return viewCommand(o); }
 };
 
 int run(const ParsedCommand& command) {

@@ -80,8 +80,19 @@ struct ShareOptions {
     std::string expected;
 };
 
+/// Who is shown the picture while it is rendered.
+struct WatchOptions {
+    std::optional<uint32_t> port; ///< of a page; 0: any that is free
+    std::string updateFile;       ///< empty: none
+    double updateSeconds = 5;     ///< from one writing to the next
+    std::string tev;              ///< HOST:PORT; empty: none
+
+    bool isGiven() const { return port || !updateFile.empty() || !tev.empty(); }
+};
+
 struct RenderOptions : SceneAndPicture {
     OutputOptions output;
+    WatchOptions watch;
     /// A picture of each of these cameras of the file (names, numbers; "all" alone: of each);
     /// empty: one, of picture.camera.
     std::vector<std::string> cameras;
@@ -180,6 +191,20 @@ struct DenoiseOptions {
     std::vector<std::string> command; ///< as RenderOptions::command
 };
 
+struct ViewOptions : SceneAndPicture {
+    std::string host = "127.0.0.1"; ///< the address to listen at
+    uint32_t port = 0;              ///< 0: any that is free
+    bool open = false;              ///< a browser
+    // What the page begins with.
+    View viewTransform = View::Standard;
+    std::string exposure = "auto"; ///< a number, or auto
+    bool denoised = false;
+    /// The parts of a command that renders what is viewed, apart from camera, size and tone.
+    std::vector<std::string> command;
+    /// Those that say what camera is taken, as long as nobody has moved it.
+    std::vector<std::string> cameraWords;
+};
+
 struct PlanOptions {
     std::vector<std::string> films;
     std::string file;
@@ -211,7 +236,7 @@ struct SubmitOptions : SceneAndPicture {
 using CommandOptions =
     std::variant<RenderOptions, CheckOptions, InfoOptions, KernelsOptions, DevicesOptions,
                  BenchOptions, StressOptions, CompareOptions, StudyOptions, MergeOptions,
-                 PlanOptions, SubmitOptions, TonemapOptions, DenoiseOptions>;
+                 PlanOptions, SubmitOptions, TonemapOptions, DenoiseOptions, ViewOptions>;
 
 /// The command line, understood and checked.
 struct ParsedCommand {

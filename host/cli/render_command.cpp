@@ -10,11 +10,16 @@
 #include "host/engine/render_session.hpp"
 #include "host/engine/share.hpp"
 #include "host/farm/round_plan.hpp"
+#include "host/view/observer.hpp"
+#include "host/view/server.hpp"
+#include "host/view/tev.hpp"
+#include "host/view/watching.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace stromboli {
@@ -30,6 +35,32 @@ SessionEvents watched(ProgressBar& bar) {
     };
     return events;
 }
+
+/// Who looks at the render while it goes on, by what the options say.
+struct Watchers {
+    explicit Watchers(const RenderOptions& o) : observers(toTerminal().message) {
+        if (o.watch.port) {
+            view::ServerOptions serving;
+            serving.port = uint16_t(*o.watch.port);
+            serving.readOnly = true;
+            serving.tone.view = nameOf(o.tone.view);
+            serving.tone.exposure =
+                o.tone.metersExposure ? "auto" : fmt::format("{}", o.tone.curve.exposure);
+            server.emplace(serving, exchange);
+            observers.add(view::watching(exchange, o.scene.source));
+            logging::info("watch the render at " + server->address());
+        }
+        if (!o.watch.updateFile.empty())
+            observers.add(view::updatingFile(o.watch.updateFile, o.watch.updateSeconds, o.tone));
+        if (!o.watch.tev.empty())
+            observers.add(view::sendingToTev(o.watch.tev, o.scene.source, kTevSeconds));
+    }
+
+    static constexpr double kTevSeconds = 1; ///< from one picture to the next
+    view::Exchange exchange;
+    view::Observers observers;
+    std::optional<view::Server> server; ///< ends first
+};
 
 /// The checkpoint, and what it holds where --resume asks for it.
 Keeping keepingOf(const RenderOptions& options) {
@@ -72,7 +103,7 @@ int reportInterruption(const RenderResult& result, const StopRule& stop, const s
 
 /// Returns the exit code.
 int renderPicture(RenderSession& session, const LoadedScene& scene, const RenderOptions& options,
-                  const Keeping& keeping) {
+                  const Keeping& keeping, view::Observers& observers) {
     session.begin(scene.scene, options.picture, keeping);
     const RenderSettings& settings = session.picture().settings;
     checkDiskSpace(*scene.scene, settings, options);
@@ -83,7 +114,7 @@ int renderPicture(RenderSession& session, const LoadedScene& scene, const Render
         ProgressBar bar;
         SessionEvents events = watched(bar);
         events.bandDone = [&](const FinishedBand& band) { outputs.place(band); };
-        report.render = session.run(events);
+        report.render = observers.run(session, events);
     }
     const RenderResult& result = report.render;
     const std::string& file = options.output.file;
@@ -141,7 +172,7 @@ int renderShare(const RenderOptions& options) {
 
 /// One after the other, until one is not finished.
 int renderPictures(RenderSession& session, LoadedScene scene,
-                   const std::vector<RenderOptions>& pictures) {
+                   const std::vector<RenderOptions>& pictures, view::Observers& observers) {
     for (const RenderOptions& picture : pictures)
         checkOutputs(picture); // before the first takes its time
     for (size_t i = 0; i < pictures.size(); ++i) {
@@ -149,7 +180,7 @@ int renderPictures(RenderSession& session, LoadedScene scene,
         logging::info(fmt::format("{} ({} of {})", picture.output.file, i + 1, pictures.size()));
         if (i > 0 && picture.scene.reading.selection.isFrame)
             scene = loadMoment(picture.scene, std::move(scene), toTerminal());
-        const int code = renderPicture(session, scene, picture, keepingOf(picture));
+        const int code = renderPicture(session, scene, picture, keepingOf(picture), observers);
         if (code != 0 && i + 1 < pictures.size())
             logging::warn(fmt::format("the other {} of the {} pictures are left out",
                                       pictures.size() - i - 1, pictures.size()));
@@ -218,13 +249,15 @@ int renderCommand(const RenderOptions& options) {
     Keeping keeping;
     if (!several) keeping = keepingOf(options);
     RenderSession session(options.device, toTerminal()); // opens devices while the scene is read
+    Watchers watchers(options);
     if (options.sequence.isGiven()) {
         const std::vector<RenderOptions> frames = optionsOfFrames(options);
-        return renderPictures(session, load(frames.front()), frames);
+        return renderPictures(session, load(frames.front()), frames, watchers.observers);
     }
     const LoadedScene scene = load(options);
-    if (!several) return renderPicture(session, scene, options, keeping);
-    return renderPictures(session, scene, optionsOfCameras(options, *scene.scene));
+    if (!several) return renderPicture(session, scene, options, keeping, watchers.observers);
+    return renderPictures(session, scene, optionsOfCameras(options, *scene.scene),
+                          watchers.observers);
 }
 
 } // namespace stromboli

@@ -17,6 +17,8 @@ constexpr Range<uint32_t> kSampleNumbers{0, kMostSamples - 1};
 constexpr Range<uint32_t> kShares{1, 1'000'000};
 const char* const kAllAlike = "a share has as many samples of every pixel as of all others";
 
+constexpr Range<double> kUpdateSeconds{0.1, 1e6};
+
 ShareName readShare(const std::string& word) {
     const size_t slash = word.find('/');
     if (slash == std::string::npos) refuse("--share", word, "I/N, as 3/16");
@@ -45,6 +47,42 @@ void declareOutput(OptionList& list, RenderOptions& o) {
               "write statistics of the render as JSON; - for standard output", o.output.statsFile)
         .besidePicture()
         .proposes(Proposed::Files);
+}
+
+/// FILE or FILE:SECONDS.
+void readUpdate(const std::string& word, WatchOptions& o) {
+    if (word.empty()) throw UsageError("--update is empty: expected FILE or FILE:SECONDS");
+    const size_t colon = word.rfind(':');
+    if (colon == std::string::npos) {
+        o.updateFile = word;
+        return;
+    }
+    o.updateFile = word.substr(0, colon);
+    o.updateSeconds = readReal("--update: SECONDS", word.substr(colon + 1), kUpdateSeconds);
+}
+
+void declareWatching(OptionList& list, WatchOptions& o) {
+    list.group("Watching");
+    list.number("--watch", "PORT",
+                "serve a page that shows the picture while it is rendered, on this machine alone; "
+                "0: at any port that is free; the address is printed (docs/guide/view.md)",
+                o.port, {0, 65535})
+        .excludes("--share", "its picture is in several films")
+        .besidePicture();
+    list.words("--update", "FILE",
+               "write the picture for a screen (.png, .jpg, .webp) again and again while it is "
+               "rendered, each time complete; FILE:SECONDS says how often",
+               1, [&o](const Words& words) { readUpdate(words[0], o); })
+        .usually("every 5 seconds")
+        .excludes("--share", "its picture is in several films")
+        .besidePicture()
+        .proposes(Proposed::Files);
+    list.text("--tev", "ADDRESS",
+              "send the picture to the image viewer tev at HOST:PORT while it is rendered; tev "
+              "itself listens at 127.0.0.1:14158",
+              o.tev)
+        .excludes("--share", "its picture is in several films")
+        .besidePicture();
 }
 
 void declareCheckpoints(OptionList& list, CheckpointOptions& o) {
@@ -219,6 +257,7 @@ void declareRender(DeclaredCommand& c) {
     declareSampleAlone(list, *asked);
     declareShare(list, o->share);
     declareCheckpoints(list, o->checkpoint);
+    declareWatching(list, o->watch);
     declareFilmMemory(list, o->device);
     list.choice("--backend", "WHICH", "what takes the samples", o->device.backend);
     declareDevice(list, o->device.device);

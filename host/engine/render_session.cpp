@@ -372,7 +372,8 @@ const RenderSession::Denoised& RenderSession::denoisedNow() {
     }
     listener_.doing(Stage::Looking, "denoising");
     Denoised d{samples, denoise::noisyPictureOf(film(), sampling_->squaredErrors(), *guide_), {}};
-    d.picture = denoise::denoisePicture(d.noisy, request_.denoiser, renderer_.device());
+    const Denoiser which = request_.denoiser == Denoiser::Off ? Denoiser::On : request_.denoiser;
+    d.picture = denoise::denoisePicture(d.noisy, which, renderer_.device());
     listener_.doing(Stage::Sampling, "taking samples");
     return denoised_.emplace(std::move(d));
 }
@@ -411,6 +412,20 @@ ByteImage RenderSession::shown(const ToneCurve& tone) {
     std::vector<float> alpha;
     if (request_.transparent) alpha = std::move(beside(film()).channel(kAlphaChannel));
     return toneMap(shownFilm(), tone, alpha);
+}
+
+FloatImage RenderSession::layers(const std::vector<Layer>& wanted) {
+    RenderRequest looks = request_;
+    looks.transparent = false;
+    looks.denoiser = Denoiser::Off;
+    looks.layers = wanted;
+    return see(film(), looks);
+}
+
+const denoise::DenoisedPicture& RenderSession::denoised() {
+    static_cast<void>(film()); // throws where there is none
+    if (result_.lost) throw DeviceError(*result_.lost);
+    return denoisedNow().picture;
 }
 
 Checkpoint RenderSession::save() const {

@@ -121,6 +121,8 @@ class RenderSession {
     /// The picture that was begun, with nothing left open.
     const ResolvedPicture& picture() const { return picture_; }
     const RenderRequest& request() const { return request_; }
+    /// The scene of that picture.
+    const Scene& scene() const { return *scene_; }
 
     /// Takes samples until a pass is done or progress() asks to pause; the next call goes on.
     /// False: the picture is finished, cancelled, or its device is lost for good (result()). Throws
@@ -146,6 +148,13 @@ class RenderSession {
     FloatImage pixels(bool statistics = false);
     /// The picture as it is shown on a screen, through this tone curve.
     ByteImage shown(const ToneCurve& tone);
+    /// The channels of these layers, of what the picture's camera sees: whether the request asks
+    /// for them or not. Traced anew at each call; all 0 where the device is lost.
+    FloatImage layers(const std::vector<Layer>& wanted);
+    /// The picture without its noise, by the denoiser of the request or, where it asks for none, by
+    /// the program's own. Kept until there are more samples. Throws std::logic_error before the
+    /// first sample, DeviceError where the device is lost.
+    const denoise::DenoisedPicture& denoised();
 
     /// All that another session needs to go on: Keeping::begun. Throws UsageError of a picture in
     /// several bands, whose states are in their files.

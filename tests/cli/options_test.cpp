@@ -26,6 +26,46 @@ TEST(Options, Defaults) {
     EXPECT_FALSE(o.picture.size);
 }
 
+TEST(Options, OfTheView) {
+    const auto o = parse<ViewOptions>(
+        {"view", "a.dae",      "-s",   "9",         "--port", "8080",  "--look-from",
+         "1",    "2",          "3",    "-r",        "20",     "10",    "--view",
+         "agx",  "--exposure", "-1.5", "--denoise", "on",     "--env", "0.5"});
+    EXPECT_EQ(o.port, 8080u);
+    EXPECT_EQ(o.host, "127.0.0.1");
+    EXPECT_EQ(o.viewTransform, View::AgX);
+    EXPECT_EQ(o.exposure, "-1.5");
+    EXPECT_TRUE(o.denoised);
+    // What the page has a word in is added when the command is asked for.
+    EXPECT_EQ(o.command,
+              (std::vector<std::string>{"stromboli render", "a.dae", "--env 0.5", "-s 9"}));
+    EXPECT_EQ(o.cameraWords, (std::vector<std::string>{"--look-from 1 2 3"}));
+    EXPECT_EQ(parse<ViewOptions>({"view", "a.dae"}).exposure, "auto");
+    for (const std::vector<std::string>& extra : std::vector<std::vector<std::string>>{
+             {"--port", "65536"}, {"--exposure", "x"}, {"--cs184"}, {"-o", "a.png"}}) {
+        std::vector<std::string> words = {"view", "a.dae"};
+        words.insert(words.end(), extra.begin(), extra.end());
+        EXPECT_THROW(parse<ViewOptions>(words), UsageError) << extra[0];
+    }
+}
+
+TEST(Options, WhoWatchesARender) {
+    const RenderOptions o = parse({"render", "a.dae", "-o", "a.png", "--watch", "0", "--update",
+                                   "live.png:2.5", "--tev", "localhost:14158"});
+    EXPECT_EQ(o.watch.port, 0u);
+    EXPECT_EQ(o.watch.updateFile, "live.png");
+    EXPECT_EQ(o.watch.updateSeconds, 2.5);
+    EXPECT_EQ(o.watch.tev, "localhost:14158");
+    EXPECT_EQ(o.command.size(), 2u); // the picture is the same
+    const RenderOptions usual = parse({"render", "a.dae", "-o", "a.png", "--update", "live.png"});
+    EXPECT_EQ(usual.watch.updateFile, "live.png");
+    EXPECT_EQ(usual.watch.updateSeconds, 5);
+    EXPECT_FALSE(usual.watch.port);
+    EXPECT_THROW(parse({"render", "a.dae", "-o", "a.png", "--update", "live.png:x"}), UsageError);
+    EXPECT_THROW(parse({"render", "a.dae", "-o", "a.film", "--share", "1/2", "--watch", "0"}),
+                 UsageError);
+}
+
 TEST(Options, EverythingGiven) {
     const RenderOptions o =
         parse({"render", "a.dae",      "-o",        "a.png",      "-s",    "9",

@@ -98,7 +98,8 @@ TEST(ToneOptions, AJpegHasNoAlpha) {
 TEST(ToneOptions, OfACommandThatMakesNoSuchPictureAreUnknown) {
     EXPECT_THAT(
         refusal({"check", "a.dae", "--view", "agx"}),
-        HasSubstr("check has no option --view; it is one of render, tonemap, denoise, merge"));
+        HasSubstr(
+            "check has no option --view; it is one of render, view, tonemap, denoise, merge"));
     EXPECT_THAT(refusal({"compare", "a.exr", "b.exr", "--diff", "c.jpg"}),
                 HasSubstr("expected a .png or an .exr file"));
 }

@@ -1,0 +1,244 @@
+#include "host/view/live_view.hpp"
+
+#include "host/core/error.hpp"
+
+#include <glm/gtc/constants.hpp>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace stromboli::view {
+namespace {
+
+/// The first picture after a move is to take at most so many seconds, so that there are two a
+/// second of a view that moves, with time to spare.
+constexpr double kSlowCoarse = 0.3;
+constexpr uint32_t kFinest = 2, kCoarsest = 16;
+/// One of full size that shows nothing for longer has finer ones before it.
+constexpr double kLongWait = 0.7;
+/// Samples of a pixel of a coarse picture: as few as tell how noisy they are.
+constexpr uint32_t kCoarseSamples = 2;
+/// After so many seconds without news a view that is said to move is taken to rest.
+constexpr double kRest = 0.4;
+constexpr double kLook = 0.1; ///< seconds between two looks at what else there is to do
+
+} // namespace
+
+LiveView::LiveView(RenderSession& session, Exchange& exchange, LiveRequest request)
+    : session_(session), exchange_(exchange), request_(std::move(request)),
+      showing_(session, exchange) {
+    session_.begin(request_.scene.scene, request_.picture);
+    const RenderSettings& settings = session_.picture().settings;
+    full_ = {settings.area.width, settings.area.height};
+    // All pictures have the kernel of the first: size and branches are settled.
+    request_.picture.size = full_;
+    request_.picture.crop = settings.area.crop;
+    request_.picture.branches = settings.estimator.branches;
+    beginFirst();
+}
+
+RenderRequest LiveView::requestNow() const {
+    RenderRequest request = request_.picture;
+    if (fileCamera_) {
+        request.camera = CameraRequest(CameraChoice::File);
+        request.camera.place = fileCamera_;
+    }
+    if (pose_) {
+        request.camera = CameraRequest();
+        request.camera.from = pose_->from;
+        request.camera.at = pose_->at;
+        request.camera.fieldOfView = pose_->fieldOfView * glm::pi<double>() / 180;
+        request.camera.aperture = pose_->aperture;
+        request.camera.focus = pose_->focus;
+    }
+    return request;
+}
+
+// --- Pictures ------------------------------------------------------------------------------------
+
+void LiveView::beginFirst() {
+    ++epoch_;
+    isFirst_ = true;
+    beginCoarse(coarseness_);
+}
+
+void LiveView::beginCoarse(uint32_t coarseness) {
+    RenderRequest request = requestNow();
+    const auto fewer = [&](uint32_t pixels) { return std::max(pixels / coarseness, 1u); };
+    request.size = PictureSize{fewer(full_.width), fewer(full_.height)};
+    if (request.crop.width > 0) {
+        Crop& crop = request.crop;
+        crop = {crop.x / coarseness, crop.y / coarseness, fewer(crop.width), fewer(crop.height)};
+    }
+    request.budget = {};
+    request.budget.mostPathsPerPixel = kCoarseSamples * request_.picture.branches.value_or(1);
+    session_.begin(request_.scene.scene, request);
+    isCoarse_ = true;
+    isOver_ = false;
+    level_ = coarseness;
+    share_ = 0;
+    showing_.beginPicture();
+}
+
+void LiveView::beginFull() {
+    session_.begin(request_.scene.scene, requestNow());
+    isCoarse_ = false;
+    isOver_ = false;
+    samplesDone_ = 0;
+    showing_.beginPicture();
+}
+
+void LiveView::steer(const Steering& steering) {
+    if (steering.paused) isPaused_ = *steering.paused;
+    if (steering.moving) isMoving_ = *steering.moving;
+    sinceSteering_ = {};
+    isStale_ = true;
+    if (steering.fileCamera && *steering.fileCamera >= request_.scene.scene->cameras.size()) return;
+    if (!steering.pose && !steering.fileCamera) return;
+    const auto before = std::pair(pose_, fileCamera_);
+    pose_ = steering.pose;
+    fileCamera_ = steering.fileCamera;
+    try {
+        beginFirst();
+    } catch (const SceneError&) { // no camera can be there: the view stays where it was
+        std::tie(pose_, fileCamera_) = before;
+        beginFirst();
+    }
+}
+
+/// The first picture after a move is finished whatever happens, so that there is always one to be
+/// seen; what follows is left as soon as somebody wants something else.
+void LiveView::pass(const std::function<bool()>& wantsToEnd) {
+    const auto rays = [this] { return session_.result().counters.rays; };
+    const uint64_t raysBefore = rays();
+    SessionEvents events;
+    uint64_t raysNow = raysBefore;
+    events.progress = [&](const RenderProgress& progress) {
+        share_ = progress.share;
+        raysNow = progress.counters.rays;
+        if (wantsToEnd()) return Next::Cancel;
+        if (isFirst_) return Next::GoOn;
+        // Before each pixel has a sample, the coarse picture is the better one.
+        samplesDone_ = progress.samplesDone;
+        const bool isFit = samplesDone_ >= session_.picture().settings.area.pixelCount();
+        const bool isWanted = exchange_.isSteered() || exchange_.isAsked() ||
+                              (!isCoarse_ && isFit && showing_.isDue());
+        return isWanted ? Next::Pause : Next::GoOn;
+    };
+    isOver_ = !session_.pass(events);
+    if (isOver_) share_ = 1;
+    isStale_ = true;
+    const double seconds = showing_.secondsOfPicture();
+    raysPerSecond_ = seconds > 0 ? double(std::max(raysNow, rays())) / seconds : 0;
+}
+
+/// The first picture after the next move takes about as long as is pleasant.
+void LiveView::endCoarse() {
+    // Before the very first one a kernel was compiled.
+    coarseSeconds_ = epoch_ == 1 ? session_.result().renderSeconds : showing_.secondsOfPicture();
+    if (!isFirst_) return;
+    double seconds = coarseSeconds_;
+    for (; seconds > kSlowCoarse && coarseness_ < kCoarsest; seconds /= 4)
+        coarseness_ *= 2;
+    for (; seconds * 4 < 0.8 * kSlowCoarse && coarseness_ > kFinest; seconds *= 4)
+        coarseness_ /= 2;
+}
+
+void LiveView::refine() {
+    isFirst_ = false;
+    const double secondsOfOneSample = coarseSeconds_ * level_ * level_ / kCoarseSamples;
+    if (level_ > kFinest && secondsOfOneSample > kLongWait)
+        beginCoarse(level_ / 2);
+    else
+        beginFull();
+}
+
+// --- The loop ------------------------------------------------------------------------------------
+
+void LiveView::attend() {
+    const bool rests = isOver_ || isPaused_;
+    const bool isFit = rests || samplesDone_ >= session_.picture().settings.area.pixelCount();
+    if ((isStale_ && exchange_.isAwaited() && isFit && (rests || showing_.isDue())) ||
+        (rests && exchange_.lacksAFrame())) {
+        showing_.show(state());
+        isStale_ = false;
+    }
+    exchange_.answer(*this);
+}
+
+void LiveView::run(const std::function<bool()>& wantsToEnd) {
+    while (!wantsToEnd()) {
+        if (exchange_.isSteered()) steer(exchange_.takeSteering());
+        if (!isOver_ && (isCoarse_ || !isPaused_)) {
+            pass(wantsToEnd);
+            if (wantsToEnd()) break;
+            if (isOver_ && isCoarse_) endCoarse();
+        }
+        if (isCoarse_ && !isOver_) { // what there is of it is not worth showing yet
+            exchange_.answer(*this);
+            continue;
+        }
+        attend();
+        if (isCoarse_) {
+            if (exchange_.isSteered()) continue;
+            if (isPaused_) { // the coarse picture is what there is to be seen
+                exchange_.waitForWork(kLook);
+                continue;
+            }
+            if (isMoving_ && sinceSteering_.seconds() < kRest) {
+                exchange_.waitForWork(kLook / 10);
+                continue;
+            }
+            isMoving_ = false;
+            refine();
+        } else if (isOver_ || isPaused_) {
+            exchange_.waitForWork(kLook);
+        }
+    }
+    exchange_.close();
+}
+
+ShownState LiveView::state() const {
+    ShownState s;
+    s.scene = request_.name;
+    s.epoch = epoch_;
+    s.coarse = isCoarse_;
+    const Crop& crop = request_.picture.crop;
+    s.fullWidth = crop.width > 0 ? crop.width : full_.width;
+    s.fullHeight = crop.width > 0 ? crop.height : full_.height;
+    s.state = isPaused_ ? "paused" : isOver_ && !isCoarse_ ? "done" : "rendering";
+    s.share = isCoarse_ ? 0 : share_;
+    s.raysPerSecond = raysPerSecond_;
+    s.pose = pose_;
+    return s;
+}
+
+// --- Answers -------------------------------------------------------------------------------------
+
+std::string LiveView::commandNow(const ToneWords& tone, bool denoised) const {
+    static_cast<void>(toneOf(tone)); // throws
+    ResolvedPicture picture = session_.picture();
+    picture.settings.area = {full_.width, full_.height, request_.picture.crop};
+    return request_.command(pose_, fileCamera_, picture, tone, denoised);
+}
+
+Reply LiveView::probe(uint32_t x, uint32_t y) {
+    return {200, "application/json", showing_.source().probe(x, y), ""};
+}
+
+Reply LiveView::command(const ToneWords& tone, bool denoised) {
+    return {200, "text/plain", commandNow(tone, denoised), ""};
+}
+
+Reply LiveView::save(const SaveRequest& request) {
+    if (isCoarse_) throw UsageError("the picture of full size has not begun yet");
+    const bool isPng = request.format == SaveRequest::Format::Png;
+    PictureNotes notes;
+    if (request_.notes)
+        notes = request_.notes(session_.result(), commandNow(request.tone, request.denoised));
+    return {200, isPng ? "image/png" : "image/x-exr", showing_.source().file(request, notes),
+            isPng ? "view.png" : "view.exr"};
+}
+
+} // namespace stromboli::view

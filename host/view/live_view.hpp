@@ -1,0 +1,79 @@
+#pragma once
+
+#include "host/engine/load_scene.hpp"
+#include "host/engine/render_session.hpp"
+#include "host/view/exchange.hpp"
+#include "host/view/showing.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace stromboli::view {
+
+/// The command line that makes a picture of what is viewed: of the pose or, without one, of a
+/// camera of the file (its place) or, without either, of the view that was begun with.
+using CommandWriter = std::function<std::string(
+    const std::optional<Pose>& pose, const std::optional<size_t>& fileCamera,
+    const ResolvedPicture& picture, const ToneWords& tone, bool denoised)>;
+
+struct LiveRequest {
+    LoadedScene scene;
+    std::string name;      ///< of the scene, for the page
+    RenderRequest picture; ///< the one to begin with
+    CommandWriter command;
+    /// Of files that are saved; may be empty.
+    std::function<PictureNotes(const RenderResult& result, const std::string& command)> notes;
+};
+
+/// Renders what pages steer to, on the thread that calls it: after each move a coarse picture, of
+/// fewer pixels; at rest finer ones, as long as the one of full size would take long to begin to
+/// show, and that one, with as many samples as are asked for.
+class LiveView final : public Answers {
+  public:
+    /// The session and the exchange outlive it. Throws what resolvePicture() does.
+    LiveView(RenderSession& session, Exchange& exchange, LiveRequest request);
+
+    /// Until wantsToEnd() says so, which is asked several times a second. Throws DeviceError.
+    void run(const std::function<bool()>& wantsToEnd);
+
+    Reply probe(uint32_t x, uint32_t y) override;
+    Reply save(const SaveRequest& request) override;
+    Reply command(const ToneWords& tone, bool denoised) override;
+
+  private:
+    void steer(const Steering& steering);
+    void beginFirst();
+    void beginCoarse(uint32_t coarseness);
+    void beginFull();
+    void refine();
+    void pass(const std::function<bool()>& wantsToEnd);
+    void endCoarse();
+    void attend();
+    ShownState state() const;
+    RenderRequest requestNow() const;
+    std::string commandNow(const ToneWords& tone, bool denoised) const;
+
+    RenderSession& session_;
+    Exchange& exchange_;
+    LiveRequest request_;
+    PictureSize full_;
+    Showing showing_;
+    std::optional<Pose> pose_;
+    std::optional<size_t> fileCamera_;
+    bool isCoarse_ = false, isOver_ = false, isPaused_ = false, isMoving_ = false;
+    bool isStale_ = true; ///< what has changed since the last frame
+    bool isFirst_ = true; ///< the picture is the first one after a move
+    // Pixels of full size on a side of a coarse one:
+    uint32_t coarseness_ = 4;  ///< of the first picture after a move
+    uint32_t level_ = 4;       ///< of the coarse one that was begun last
+    double coarseSeconds_ = 0; ///< that it took
+    Stopwatch sinceSteering_;
+    uint64_t epoch_ = 0;
+    uint64_t samplesDone_ = 0; ///< of the picture of full size
+    double share_ = 0, raysPerSecond_ = 0;
+};
+
+} // namespace stromboli::view

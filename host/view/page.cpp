@@ -1,0 +1,62 @@
+#include "host/view/page.hpp"
+
+#include "embedded/view_html.h"
+#include "embedded/view_script.h"
+#include "embedded/view_style.h"
+#include "embedded/view_transforms.h"
+#include "host/core/json.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <span>
+#include <string_view>
+#include <utility>
+
+namespace stromboli::view {
+namespace {
+
+std::string_view textOf(std::span<const unsigned char> bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+/// In a script element, "</" would end it.
+std::string forScript(std::string json) {
+    for (size_t at = json.find("</"); at != std::string::npos; at = json.find("</", at + 3))
+        json.insert(at + 1, "\\");
+    return json;
+}
+
+} // namespace
+
+std::string pageText(const PageFacts& facts) {
+    const Json settings = {{"token", facts.token},
+                           {"readOnly", facts.readOnly},
+                           {"view", facts.view},
+                           {"exposure", facts.exposure},
+                           {"denoised", facts.denoised}};
+    const std::string data = forScript(settings.dump());
+    const std::pair<std::string_view, std::string_view> parts[] = {
+        {"@@NONCE@@", facts.nonce},          {"@@STYLE@@", textOf(view_style)},
+        {"@@NONCE@@", facts.nonce},          {"@@DATA@@", data},
+        {"@@NONCE@@", facts.nonce},          {"@@TRANSFORMS@@", textOf(view_transforms)},
+        {"@@SCRIPT@@", textOf(view_script)},
+    };
+    std::string page;
+    std::string_view rest = textOf(view_html);
+    for (const auto& [mark, text] : parts) { // in the order they stand in
+        const size_t at = rest.find(mark);
+        page.append(rest.substr(0, at)).append(text);
+        rest.remove_prefix(at + mark.size());
+    }
+    return page.append(rest);
+}
+
+std::string contentPolicy(const std::string& nonce) {
+    return fmt::format("default-src 'none'; script-src 'nonce-{0}'; style-src 'nonce-{0}'; "
+                       "connect-src 'self'; img-src 'self' data: blob:; base-uri 'none'; "
+                       "form-action 'none'; frame-ancestors 'none'",
+                       nonce);
+}
+
+} // namespace stromboli::view

@@ -1,0 +1,77 @@
+#pragma once
+
+#include "host/core/system.hpp"
+#include "host/engine/render_session.hpp"
+#include "host/view/exchange.hpp"
+#include "host/view/picture_source.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace stromboli::view {
+
+/// When the next frame is to be made: soon after a picture has begun and ever later, as long as
+/// frames take at most a thirty-third of the time, so that watching costs at most 3 %.
+class Cadence {
+  public:
+    static constexpr double kShareOfTime = 1.0 / 33;
+    static constexpr double kSoonest = 0.1, kLatest = 1; ///< seconds from one frame to the next
+
+    void beginPicture() { *this = {}; }
+    /// Seconds since the picture has begun.
+    bool isDue(double seconds) const;
+    /// A frame was made at this moment, and making it took so long.
+    void made(double seconds, double cost);
+
+  private:
+    std::optional<double> last_;
+    double cost_ = 0;
+};
+
+/// What a page is told beside the picture itself.
+struct ShownState {
+    std::string scene;
+    uint64_t epoch = 0;  ///< numbers the pictures that were begun
+    bool coarse = false; ///< in place of a picture of full size
+    uint32_t fullWidth = 0, fullHeight = 0;
+    std::string state; ///< "rendering", "paused", "done"
+    double share = 0;  ///< of the work that is done
+    double raysPerSecond = 0;
+    bool readOnly = false;
+    std::optional<Pose> pose; ///< empty: the view of a camera of the file
+};
+
+/// Makes frames of what a session renders, between its passes, for those who wait for them.
+class Showing {
+  public:
+    /// Both outlive it.
+    Showing(RenderSession& session, Exchange& exchange)
+        : session_(session), exchange_(exchange), source_(session) {}
+
+    void beginPicture();
+    /// Whether a pass is to be paused, because a frame is due that somebody waits for.
+    bool isDue() const { return exchange_.isAwaited() && cadence_.isDue(watch_.seconds()); }
+    /// Makes all frames that are awaited, whether they are due or not. isLast: and the one of the
+    /// picture, for whoever comes later.
+    void show(const ShownState& state, bool isLast = false);
+    PictureSource& source() { return source_; }
+    double secondsOfPicture() const { return watch_.seconds(); }
+
+  private:
+    std::string textOf(Shown what, const ShownState& state, const Raster& raster, int exponent);
+
+    RenderSession& session_;
+    Exchange& exchange_;
+    PictureSource source_;
+    Cadence cadence_;
+    Stopwatch watch_;
+    uint64_t number_ = 0; ///< of the last frame
+};
+
+/// The upright perspective view that is nearest to a camera's. `scene` says where the middle is
+/// that it is at a distance from.
+Pose poseOf(const Camera& camera, const Scene& scene);
+
+} // namespace stromboli::view
