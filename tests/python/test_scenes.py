@@ -1,11 +1,15 @@
 """Scenes made in memory, against closed forms, on the reference: no device is needed."""
 
+import inspect
 import math
+import os
+import re
 
 import numpy as np
 import pytest
 
 import stromboli
+from stromboli import _stromboli
 
 PLANE = [(-9, 0, -9), (-9, 0, 9), (9, 0, 9), (9, 0, -9)]
 QUAD = [(0, 1, 2), (0, 2, 3)]
@@ -179,3 +183,20 @@ def test_loading(reference, tmp_path):
         stromboli.load(tmp_path / "empty.obj", strict=True)
     with pytest.raises(stromboli.UsageError, match="no material 'gold'"):
         scene.material_number("gold")
+
+
+def test_the_documents_have_all_names():
+    folder = os.path.join(os.environ["STROMBOLI_EXAMPLES"], "..", "docs", "guide")
+    with open(os.path.join(folder, "library.md"), encoding="utf-8") as file:
+        settings, materials = file.read().split("## Settings")[1].split("## Materials")
+    rows = re.findall(r"^\| `(\w+)` \| (.*) \|$", settings, re.M)
+    assert dict(rows) == stromboli.settings()
+    for kind, parameters in re.findall(r"^\| `(\w+)` \|[^|]*\|(.*)\|$", materials, re.M):
+        named = set(re.findall(r"`(\w+)`", parameters)) | {"emission", "emits_both_sides"}
+        assert named == stromboli.material_parameters(kind).keys(), kind
+    assert all(f"| `{kind}` |" in materials for kind in stromboli.material_kinds())
+    # And the keywords of render() are the settings, with those of devices.
+    keywords = set(inspect.signature(stromboli.render).parameters) - {"scene", "progress"}
+    assert keywords == set(stromboli.settings()) | set(_stromboli.device_settings())
+    loads = set(inspect.signature(stromboli.load).parameters) - {"source"}
+    assert loads == set(_stromboli.reading_settings())
