@@ -170,10 +170,26 @@ const char* stromboli_version_text(void) {
 
 stromboli_code stromboli_scene_load(const char* source, stromboli_scene** scene,
                                     stromboli_error* error) {
+    return stromboli_scene_load_with(source, nullptr, 0, scene, error);
+}
+
+stromboli_code stromboli_scene_load_with(const char* source, const stromboli_option* options,
+                                         size_t option_count, stromboli_scene** scene,
+                                         stromboli_error* error) {
     return guarded(error, [&] {
         there(scene, "scene");
         SceneRequest request;
         request.source = textOf(source, "source");
+        if (option_count > 0) there(options, "options");
+        for (const stromboli_option& option : spanOf(options, option_count)) {
+            const std::string name = textOf(option.name, "name");
+            if (option.word)
+                api::setReading(request, name, std::string(option.word));
+            else if (option.count > 3)
+                throw UsageError(name + ": an option has 3 numbers at most");
+            else
+                api::setReading(request, name, numbersOf(option.numbers, option.count));
+        }
         give(loadScene(request).scene, scene);
     });
 }

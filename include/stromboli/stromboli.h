@@ -70,6 +70,18 @@ typedef struct stromboli_scene stromboli_scene;
 /* Reads a file, or a bundled scene by its name. */
 STROMBOLI_API stromboli_code stromboli_scene_load(const char* source, stromboli_scene** scene,
                                                   stromboli_error* error);
+/* How a file is read, by name: "environment", "strict", "variant", ... (docs/guide/library.md has
+ * the table). A word, or `count` numbers where `word` is NULL. */
+typedef struct stromboli_option {
+    const char* name;
+    const char* word;
+    double numbers[3];
+    size_t count;
+} stromboli_option;
+STROMBOLI_API stromboli_code stromboli_scene_load_with(const char* source,
+                                                       const stromboli_option* options,
+                                                       size_t option_count, stromboli_scene** scene,
+                                                       stromboli_error* error);
 STROMBOLI_API void stromboli_scene_destroy(stromboli_scene* scene);
 
 STROMBOLI_API size_t stromboli_scene_material_count(const stromboli_scene* scene);

@@ -113,6 +113,35 @@ def test_errors_are_codes_with_messages(library):
         getattr(library, f"stromboli_{name}_destroy")(None)
 
 
+class Option(ctypes.Structure):
+    _fields_ = [
+        ("name", ctypes.c_char_p),
+        ("word", ctypes.c_char_p),
+        ("numbers", ctypes.c_double * 3),
+        ("count", ctypes.c_size_t),
+    ]
+
+
+def test_scenes_are_loaded_as_options_say(library):
+    error, scene = Error(), ctypes.c_void_p()
+
+    def load(*options):
+        array = (Option * len(options))(*options)
+        return library.stromboli_scene_load_with(
+            b"light_point", array, ctypes.c_size_t(len(options)), ctypes.byref(scene), ctypes.byref(error)
+        )
+
+    three = (ctypes.c_double * 3)(1, 2, 3)
+    assert load((b"environment", None, three, 3), (b"strict", None, three, 1)) == 0
+    library.stromboli_scene_destroy(scene)
+    for options, message in [
+        ((b"environment", None, three, 2), b"one or three radiances"),
+        ((b"environment", None, three, 4), b"3 numbers at most"),
+        ((b"lights", b"on", three, 0), b"expected one of environment"),
+    ]:
+        assert load(options) == 1 and message in error.message
+
+
 def test_a_session_in_passes(library):
     error, scene, session = Error(), ctypes.c_void_p(), ctypes.c_void_p()
     to = ctypes.byref

@@ -188,9 +188,10 @@ def test_loading(reference, tmp_path):
 def test_the_documents_have_all_names():
     folder = os.path.join(os.environ["STROMBOLI_EXAMPLES"], "..", "docs", "guide")
     with open(os.path.join(folder, "library.md"), encoding="utf-8") as file:
-        settings, materials = file.read().split("## Settings")[1].split("## Materials")
-    rows = re.findall(r"^\| `(\w+)` \| (.*) \|$", settings, re.M)
-    assert dict(rows) == stromboli.settings()
+        settings, rest = file.read().split("## Settings")[1].split("## Reading a scene")
+    reading, materials = rest.split("## Materials")
+    for text, names in [(settings, stromboli.settings()), (reading, _stromboli.reading_settings())]:
+        assert dict(re.findall(r"^\| `(\w+)` \| (.*) \|$", text, re.M)) == names
     for kind, parameters in re.findall(r"^\| `(\w+)` \|[^|]*\|(.*)\|$", materials, re.M):
         named = set(re.findall(r"`(\w+)`", parameters)) | {"emission", "emits_both_sides"}
         assert named == stromboli.material_parameters(kind).keys(), kind
