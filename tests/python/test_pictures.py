@@ -12,6 +12,7 @@ import pytest
 
 import stromboli
 from conftest import SMALL
+from stromboli import _stromboli
 
 ENDLESS = 1 << 24  # samples of a pixel: hours
 
@@ -31,6 +32,7 @@ def test_a_picture_has_the_numbers_of_the_command(run, tmp_path, boxes):
     assert equal(made, read)
     assert equal(made.variance, read.variance) and equal(made.samples, read.samples)
     assert made.layers.keys() == read.layers.keys() == set(layers)
+    assert made.channels().keys() == _stromboli.read(str(tmp_path / "a.exr"))[0].keys()
     assert made.layers["normal"].shape == (18, 24, 3) and made.layers["depth"].shape == (18, 24)
     assert all(equal(made.layers[name], read.layers[name]) for name in layers)
     assert made.samples.mean() == pytest.approx(16, rel=0.1)
