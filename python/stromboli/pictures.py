@@ -85,12 +85,12 @@ class Picture(np.ndarray):
     @property
     def width(self) -> int:
         """In pixels."""
-        return self.shape[1]
+        return int(self.shape[1])
 
     @property
     def height(self) -> int:
         """In pixels."""
-        return self.shape[0]
+        return int(self.shape[0])
 
     def channels(self) -> dict[str, np.ndarray]:
         """All that is known of the pixels, as the channels of an EXR file: height x width each."""

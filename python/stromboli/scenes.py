@@ -21,7 +21,7 @@ def given(settings: dict[str, Any]) -> dict[str, Any]:
 class Scene:
     """A scene in memory. It does not change; any number of renders may share it."""
 
-    def __init__(self, handle: Any) -> None:
+    def __init__(self, handle: _stromboli.Scene) -> None:
         self._handle = handle
 
     def __repr__(self) -> str:
@@ -117,7 +117,7 @@ def load(
 
 def _color(color: Color) -> list[float]:
     values = np.asarray(color, dtype=float).ravel()
-    return np.broadcast_to(values, 3).tolist()
+    return [float(value) for value in np.broadcast_to(values, 3)]
 
 
 class SceneBuilder:

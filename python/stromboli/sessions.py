@@ -199,11 +199,12 @@ atexit.register(release)
 
 
 def _kept_session(device: dict[str, Any]) -> Session:
-    if getattr(_kept, "device", None) != device:
+    kept: Optional[Session] = getattr(_kept, "session", None)
+    if kept is None or _kept.device != device:
         release()
-        _kept.session = Session(**device)
+        kept = _kept.session = Session(**device)
         _kept.device = device
-    return _kept.session
+    return kept
 
 
 def render(
