@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 from typing import Any, Optional, Sequence, Union
 
@@ -16,6 +17,19 @@ Point = Union[Sequence[float], np.ndarray]
 def given(settings: dict[str, Any]) -> dict[str, Any]:
     """Without those that are None."""
     return {name: value for name, value in settings.items() if value is not None}
+
+
+_log = logging.getLogger("stromboli")
+
+
+def _told(handle: _stromboli.Scene) -> Scene:
+    """The scene, when what was left out of it has been said as the command says it."""
+    scene = Scene(handle)
+    for kind, lines in scene.report.items():
+        level = logging.WARNING if kind in ("warnings", "forgiven") else logging.INFO
+        for line in lines:
+            _log.log(level, "%s", line)
+    return scene
 
 
 class Scene:
@@ -112,7 +126,7 @@ def load(
             "instances": instances,
         }
     )
-    return Scene(_stromboli.load(os.fspath(source), settings))
+    return _told(_stromboli.load(os.fspath(source), settings))
 
 
 def _color(color: Color) -> list[float]:
@@ -244,4 +258,4 @@ class SceneBuilder:
 
     def finish(self) -> Scene:
         """The scene; the builder is empty afterwards. Without light it gets a plain sky."""
-        return Scene(self._maker.finish())
+        return _told(self._maker.finish())

@@ -1,6 +1,8 @@
 """Renders on a device: the numbers are the program's, and Python stays in charge meanwhile."""
 
 import ctypes
+import io
+import logging
 import os
 import pickle
 import signal
@@ -12,7 +14,7 @@ import pytest
 
 import stromboli
 from conftest import SMALL
-from stromboli import _stromboli
+from stromboli import _stromboli, sessions
 
 ENDLESS = 1 << 24  # samples of a pixel: hours
 
@@ -59,6 +61,7 @@ def test_what_a_session_keeps_does_not_show(boxes, session):
     first = session.render(boxes, samples=4, even=True, **SMALL)
     session.move_camera(look_from=(0.3, 0.5, 1.8), look_at=(0, 0.4, 0), fov=50)
     moved = session.run()
+    assert moved.info["build_seconds"] == 0  # the scene was there
     assert equal(moved, alone(boxes, look_from=(0.3, 0.5, 1.8), look_at=(0, 0.4, 0), fov=50))
     assert not equal(moved, first)
     assert equal(session.render(boxes, samples=4, even=True, **SMALL), first)
@@ -78,6 +81,7 @@ def test_a_changed_material_is_as_if_the_scene_had_it(session):
     assert np.asarray(session.run()) == pytest.approx(1, rel=1e-6)
     session.change_material("ball", albedo=(0.5, 0.25, 0))
     changed = session.run()
+    assert changed.info["build_seconds"] == 0
     assert np.asarray(changed) == pytest.approx(np.broadcast_to((0.5, 0.25, 0), (8, 8, 3)), abs=1e-6)
     assert equal(changed, session.render(furnace((0.5, 0.25, 0)), samples=4, direct="bsdf", width=8, height=8))
     with pytest.raises(stromboli.UsageError, match="has no material 'none'"):
@@ -103,6 +107,33 @@ def test_progress_is_told_and_may_end_the_picture(boxes, session):
 
     with pytest.raises(LookupError, match="of the callback"):
         session.render(boxes, samples=ENDLESS, progress=fails, **SMALL)
+
+
+def test_progress_is_a_line_on_terminals_alone(monkeypatch):
+    class Screen(io.StringIO):
+        def isatty(self):
+            return True
+
+    screen = Screen()
+    monkeypatch.setattr("sys.stderr", screen)
+    assert sessions._shows_progress()
+    line = sessions._Line()
+    line(0.5, 100)
+    assert screen.getvalue() == ""  # what is done at once needs no line
+    line._begun -= 10
+    line(0.5, 100)
+    assert screen.getvalue().startswith("\rrendering  50%, 10 s left")
+    line.close()
+    assert screen.getvalue().endswith(" \r")
+    monkeypatch.setattr("sys.stderr", io.StringIO())
+    assert not sessions._shows_progress()
+
+
+def test_messages_go_to_the_logger(boxes, caplog):
+    caplog.set_level(logging.DEBUG, "stromboli")
+    picture = stromboli.Session().render(boxes, samples=1, **SMALL)
+    assert any(picture.info["device"] in record.message for record in caplog.records)
+    assert all(record.name == "stromboli" for record in caplog.records)
 
 
 def test_ctrl_c_ends_a_render(boxes, session):

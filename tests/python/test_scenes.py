@@ -118,6 +118,17 @@ def test_an_environment_is_turned_as_it_says(reference, builder):
         assert value(reference, builder) == pytest.approx([7] * 3), direction
 
 
+def test_triangles_that_cannot_be_are_left_out_and_said(builder, caplog):
+    positions = [*PLANE, (math.nan, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0)]
+    triangles = [*QUAD, (0, 1, 4), (5, 6, 7)]
+    builder.mesh(positions, triangles, builder.material())
+    scene = builder.finish()
+    assert scene.triangle_count == 2
+    (line,) = scene.report["warnings"]
+    assert "2 of 4 triangles left out: 1 of zero area, 1 not finite" in line
+    assert [record.message for record in caplog.records if record.levelname == "WARNING"] == [line]
+
+
 def test_every_parameter_of_every_kind_is_taken(builder):
     for kind in stromboli.material_kinds():
         number = builder.material(kind, name=kind)
