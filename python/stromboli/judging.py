@@ -9,6 +9,7 @@ from typing import Any, Optional, Union
 import numpy as np
 
 from . import _stromboli
+from .errors import UsageError
 from .pictures import Picture, of_channels, picture_of
 from .scenes import Scene, load
 from .sessions import Progress, _words
@@ -121,6 +122,9 @@ def check(
 
     Raises SceneError, DeviceError, UsageError.
     """
+    for name in ("noise", "time", "even"):
+        if settings.get(name):
+            raise UsageError(f"{name}: z-tests need the number of samples, the same for all pixels")
     loaded = scene if isinstance(scene, Scene) else load(scene)
     all_ = _words({"samples": samples, "width": width, "height": height, **settings})
     where = _words({"device": device, "threads": threads})

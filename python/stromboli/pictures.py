@@ -9,6 +9,7 @@ from typing import Any, Mapping, NamedTuple, Optional, Union
 import numpy as np
 
 from . import _stromboli
+from .errors import UsageError
 
 _COLORS = ("R", "G", "B")
 _COMPONENTS = "RGBXYZUV"
@@ -55,7 +56,7 @@ class Picture(np.ndarray):
         """Makes a picture of an array of height x width x 3 radiances; `known` as listed above."""
         array = np.ascontiguousarray(color, dtype=np.float32)
         if array.ndim != 3 or array.shape[2] != 3:
-            raise _usage(f"a picture is an array of height x width x 3, not {array.shape}")
+            raise UsageError(f"a picture is an array of height x width x 3, not {array.shape}")
         self = array.view(cls)
         for name, value in known.items():
             if name not in cls.__annotations__:
@@ -140,12 +141,6 @@ def _restored(color: np.ndarray, known: Mapping[str, Any]) -> Picture:
     return Picture(color, **known)
 
 
-def _usage(text: str) -> Exception:
-    from .errors import UsageError
-
-    return UsageError(text)
-
-
 def _letters(layer: str, count: int) -> str:
     if count == 2:
         return "UV"
@@ -163,7 +158,7 @@ def of_channels(
     left = dict(channels)
     missing = [name for name in _COLORS if name not in left]
     if missing:
-        raise _usage(f"a picture has channels R, G and B: there is no {', '.join(missing)}")
+        raise UsageError(f"a picture has channels R, G and B: there is no {', '.join(missing)}")
     picture = Picture(np.stack([left.pop(name) for name in _COLORS], axis=2))
     names = [f"variance.{c}" for c in _COLORS]
     if all(name in left for name in names):

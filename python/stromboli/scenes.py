@@ -9,6 +9,7 @@ from typing import Any, Optional, Sequence, Union
 import numpy as np
 
 from . import _stromboli
+from .errors import UsageError
 
 Color = Union[float, Sequence[float], np.ndarray]
 Point = Union[Sequence[float], np.ndarray]
@@ -78,8 +79,6 @@ class Scene:
         for number in range(self._handle.material_count):
             if self._handle.material(number)["name"] == which:
                 return number
-        from .errors import UsageError
-
         raise UsageError(f"the scene has no material {which!r}")
 
 

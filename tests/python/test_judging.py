@@ -47,6 +47,8 @@ def test_the_kernel_agrees_with_the_reference(boxes):
     found = stromboli.check(boxes, samples=64, **SMALL)
     assert found and found.agrees and found.verdict == "agree"
     assert max(map(abs, found.z)) < found.limit and "A:" in str(found)
+    with pytest.raises(stromboli.UsageError, match="noise: z-tests need"):
+        stromboli.check(boxes, noise=0.1)
     # So few samples prove nothing.
     assert stromboli.check(boxes, samples=1, max_bounces=0, width=2, height=2).verdict == "undecided"
 
