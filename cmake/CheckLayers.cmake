@@ -16,7 +16,7 @@ set(outside_prefixes
     "jpeglib.h=JPEG::JPEG" "gif_lib.h=GIF::GIF" "webp/=PkgConfig::libwebp" "draco/=draco::draco"
     "meshoptimizer.h=meshoptimizer::meshoptimizer"
     "OpenEXR/=OpenEXR::OpenEXR" "zlib.h=ZLIB::ZLIB" "volk.h=stromboli_volk"
-    "vulkan/=Vulkan::Headers")
+    "vulkan/=Vulkan::Headers" "pybind11/=pybind11::headers")
 # Functions that change the process, which belongs to whoever runs the program, and the folders that
 # may call them.
 set(process_functions

@@ -40,9 +40,19 @@ if(STROMBOLI_TESTS)
     include(GoogleTest)
 endif()
 
+# The Python that has the packages of the distribution, which another one earlier in PATH has not.
+if(STROMBOLI_PYTHON)
+    if(NOT DEFINED SKBUILD AND NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)
+        set(Python_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "The Python to build the module for")
+    endif()
+    find_package(Python 3.9 REQUIRED COMPONENTS Interpreter Development.Module)
+    find_package(pybind11 2.9 CONFIG REQUIRED)
+endif()
+
 # Debian ships volk as a header and one source file, so it is compiled here.
 find_path(VOLK_INCLUDE_DIR volk.h REQUIRED)
 find_file(VOLK_SOURCE volk.c PATHS ${VOLK_INCLUDE_DIR} REQUIRED NO_DEFAULT_PATH)
 add_library(stromboli_volk STATIC ${VOLK_SOURCE})
+set_target_properties(stromboli_volk PROPERTIES POSITION_INDEPENDENT_CODE ON C_VISIBILITY_PRESET hidden)
 target_include_directories(stromboli_volk SYSTEM PUBLIC ${VOLK_INCLUDE_DIR})
 target_link_libraries(stromboli_volk PUBLIC ${CMAKE_DL_LIBS})

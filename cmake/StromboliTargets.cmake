@@ -6,6 +6,10 @@ target_include_directories(stromboli_settings INTERFACE ${PROJECT_SOURCE_DIR})
 # error bounds and the edge functions' antisymmetry no longer hold (docs/theory/numerics.md).
 target_compile_options(stromboli_settings INTERFACE -Wall -Wextra -Wshadow -Wconversion
                        -Wno-sign-conversion -ffp-contract=off)
+# All code may become part of a shared library (host/capi, python), which shows nothing but what it
+# says it shows. By an option and not by POSITION_INDEPENDENT_CODE, which is -fPIE for programs:
+# tests could not use precompiled headers that libraries made.
+target_compile_options(stromboli_settings INTERFACE -fPIC -fvisibility=hidden -fvisibility-inlines-hidden)
 # g++ 12.2 vectorises double -> float -> double conversions of neighbouring members into nothing:
 # the rounding to float is lost, and with it the rule that all backends see the same geometry.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

@@ -6,25 +6,43 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <initializer_list>
 #include <map>
 #include <string_view>
+#include <vector>
 
 namespace stromboli {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the bundled scenes are: installed with the program that runs, else in the folder that it
-/// was built from. An installed program may be moved with its whole prefix, and sources may be
-/// gone.
+/// The folder of the shared library that this code is in; empty where it is in the program.
+fs::path libraryFolder(const fs::path& program) {
+    Dl_info info;
+    if (!dladdr(reinterpret_cast<const void*>(&librarySceneNames), &info) || !info.dli_fname)
+        return {};
+    const fs::path file = info.dli_fname;
+    std::error_code failed;
+    if (!file.has_parent_path() || fs::equivalent(file, program, failed)) return {};
+    return file.parent_path();
+}
+
+/// Where the bundled scenes are: installed with the program or library that runs, else in the
+/// folder that it was built from. An installed program may be moved with its whole prefix, and
+/// sources may be gone.
 fs::path sceneLibrary() {
     std::error_code failed;
     const fs::path program = fs::read_symlink("/proc/self/exe", failed);
-    fs::path installed = program.parent_path() / STROMBOLI_SCENES_FROM_PROGRAM;
-    if (!failed && fs::is_directory(installed, failed)) return installed.lexically_normal();
+    std::vector<fs::path> places;
+    if (const fs::path folder = libraryFolder(program); !folder.empty())
+        places = {folder / "scenes", folder / STROMBOLI_SCENES_FROM_LIBRARY};
+    if (!program.empty()) places.push_back(program.parent_path() / STROMBOLI_SCENES_FROM_PROGRAM);
+    for (const fs::path& place : places)
+        if (fs::is_directory(place, failed)) return place.lexically_normal();
     return STROMBOLI_SCENE_LIBRARY;
 }
 

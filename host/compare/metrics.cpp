@@ -42,7 +42,7 @@ bool hasAll(const FloatImage& image, const std::string& prefix) {
 /// The sums that linearPicture() wrote the variances of. The channel "samples" counts paths, of
 /// which each sample has as many as branches; and rejected samples too, which are so few that the
 /// variance of the rest is not affected.
-Film filmOf(const fs::path& path, const Picture& picture, const FloatImage& image) {
+Film filmOf(const std::string& name, const Picture& picture, const FloatImage& image) {
     Film film(picture.width, picture.height);
     film.branches = image.branches;
     for (size_t i = 0; i < film.pixels.size(); ++i) {
@@ -51,8 +51,8 @@ Film filmOf(const fs::path& path, const Picture& picture, const FloatImage& imag
             if (!(v >= 0 && v <= most))
                 throw UsageError(fmt::format("{}: the channel {} is {:g} at pixel {} {}: expected "
                                              "a number from 0 to {:g}",
-                                             path.string(), channel, v, i % film.width,
-                                             i / film.width, most));
+                                             name, channel, v, i % film.width, i / film.width,
+                                             most));
             return v;
         };
         PixelStatistics& pixel = film.pixels[i];
@@ -68,27 +68,26 @@ Film filmOf(const fs::path& path, const Picture& picture, const FloatImage& imag
     return film;
 }
 
-Picture fromFloats(const fs::path& path, const FloatImage& image) {
-    if (!hasAll(image, ""))
-        throw UsageError(fmt::format("{}: expected channels R, G and B", path.string()));
+} // namespace
+
+Picture pictureOf(const FloatImage& image, const std::string& name) {
+    if (!hasAll(image, "")) throw UsageError(fmt::format("{}: expected channels R, G and B", name));
     Picture picture(image.width, image.height);
     for (size_t i = 0; i < picture.rgb.size(); ++i)
         for (int c = 0; c < 3; ++c)
             picture.rgb[i][c] = image.channels.at(kChannels[c])[i];
     if (image.channels.contains("samples") && hasAll(image, "variance."))
-        picture.film = filmOf(path, picture, image);
+        picture.film = filmOf(name, picture, image);
     return picture;
 }
-
-} // namespace
 
 Picture readPicture(const fs::path& path) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return char(std::tolower(c)); });
     if (extension == ".png") return fromBytes(readPng(path));
-    if (extension == ".exr") return fromFloats(path, readExr(path));
-    if (extension == ".pfm") return fromFloats(path, readPfm(path));
+    if (extension == ".exr") return pictureOf(readExr(path), path.string());
+    if (extension == ".pfm") return pictureOf(readPfm(path), path.string());
     throw UsageError(fmt::format(
         "{}: unknown kind of picture; the name must end in .png, .exr or .pfm", path.string()));
 }

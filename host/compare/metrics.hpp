@@ -29,6 +29,10 @@ struct Picture {
 /// and alpha itself is not compared. Throws UsageError.
 Picture readPicture(const std::filesystem::path& path);
 
+/// A picture of the channels of such a file, or of one in memory, which messages call `name`.
+/// Throws UsageError.
+Picture pictureOf(const FloatImage& image, const std::string& name);
+
 /// The means of a film, with the film itself.
 Picture pictureOf(Film film);
 
