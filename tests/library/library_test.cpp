@@ -19,7 +19,8 @@ std::vector<fs::path> libraryFiles() {
     std::vector<fs::path> files;
     for (const fs::directory_entry& entry :
          fs::directory_iterator(STROMBOLI_SOURCE_DIR "/scene/library"))
-        if (entry.path().extension() == ".dae" || entry.path().extension() == ".glb")
+        if (entry.path().extension() == ".dae" || entry.path().extension() == ".glb" ||
+            entry.path().extension() == ".xml")
             files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;
@@ -34,7 +35,7 @@ INSTANTIATE_TEST_SUITE_P(Files, Library, testing::ValuesIn(libraryFiles()),
                          [](const auto& file) { return file.param.stem().string(); });
 
 TEST(LibraryFolder, HasItsScenes) {
-    EXPECT_EQ(libraryFiles().size(), 16u);
+    EXPECT_EQ(libraryFiles().size(), 17u);
 }
 
 TEST_P(Library, LoadsWithNothingIgnoredOrDropped) {

@@ -52,8 +52,9 @@ TEST_F(Install, HasProgramScenesManualCompletionAndDocuments) {
         EXPECT_TRUE(fs::is_regular_file(in(name))) << name;
     size_t scenes = 0;
     for (const auto& entry : fs::directory_iterator(in("share/stromboli/scenes")))
-        scenes += entry.path().extension() == ".dae" || entry.path().extension() == ".glb";
-    EXPECT_EQ(scenes, 16u);
+        scenes += entry.path().extension() == ".dae" || entry.path().extension() == ".glb" ||
+                  entry.path().extension() == ".xml";
+    EXPECT_EQ(scenes, 17u);
     EXPECT_TRUE(fs::is_regular_file(in("share/stromboli/scenes/evening_sky.hdr")));
     EXPECT_THAT(shell("find " + *folder / "prefix").output, Not(HasSubstr("write_manual")));
 }

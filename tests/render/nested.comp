@@ -49,6 +49,7 @@ void traceToTheEnd(const Given given, inout PathState path, inout uint loopPasse
             traversalStep(path.ray, stack, prepared);
             ++loopPasses;
         }
+        goThroughMedium(given, path);
         const MaterialPoint asked = askedPoint(path);
         path.found = lookUpMaterial(asked);
         goesOn = HAS_ALPHA && passesThrough(given.frame, path, asked, path.found.opacity);

@@ -5,6 +5,7 @@
 #include "host/kernel/kernel_features.hpp"
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/render/sampling_session.hpp"
+#include "scene/add_fog.hpp"
 #include "scene/generate/generated_scene.hpp"
 #include "scene/read_scene.hpp"
 #include "tests/render/device_render.hpp"
@@ -100,6 +101,13 @@ const Picture kPictures[] = {
      [](Scene&, RenderSettings& s) { s.estimator.branches = 3; }},
     {"branchesOfMetal", "cornell_metal.dae",
      [](Scene&, RenderSettings& s) { s.estimator.branches = 2; }},
+    {"fogUnderTheSky", "light_ambient.dae",
+     [](Scene& scene, RenderSettings&) { addFog(scene, {.density = 0.5, .asymmetry = 0.5}); }},
+    {"fogAroundGlass", "cornell_mirror_glass.dae",
+     [](Scene& scene, RenderSettings& s) {
+         addFog(scene, {.density = 0.5, .color = {1, 0.5f, 0.25f}});
+         s.estimator.branches = 2;
+     }},
     {"normals", "cornell_mesh.dae",
      [](Scene&, RenderSettings& s) { s.estimator.integrator = Integrator::Normals; }},
     {"cs184Glass", "cornell_mirror_glass.dae", [](Scene&, RenderSettings&) {}, true},
