@@ -14,7 +14,9 @@ constexpr uint32_t kTile = 16;
 constexpr double kLeastTiles = 3;
 constexpr double kZ = 1.96; ///< 97.5 % of the normal distribution
 
-/// What the estimate of the relMSE may be off by besides chance (docs/results.md, "The denoiser").
+/// What the estimate of the relMSE may be off by besides chance: chosen so that most of the renders
+/// of docs/results.md, "The denoiser", are within the range; they are few, so that its 95 % is an
+/// intention and not a measured rate.
 constexpr double kTooSmall = 1.5, kTooLarge = 3;
 
 } // namespace
