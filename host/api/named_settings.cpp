@@ -280,6 +280,20 @@ constexpr Row<SceneRequest> kReadingRows[] = {
      [](SceneRequest& s, Name n, const Value& v) {
          s.environment.strength = number(n, v, 0, 1e9);
      }},
+    {"fog", "extinction of fog that fills the scene, per metre",
+     [](SceneRequest& s, Name n, const Value& v) { s.fog.density = number(n, v, 0, 1e9); }},
+    {"fog_color", "the share of its light that is scattered: one or three numbers",
+     [](SceneRequest& s, Name n, const Value& v) {
+         const auto* given = std::get_if<std::vector<double>>(&v);
+         const bool isGrey = given && given->size() == 1;
+         const auto c = numbers(n, v, isGrey ? 1 : 3, 0, 1, "one or three shares in [0, 1]");
+         s.fog.color =
+             isGrey ? glm::vec3(float(c[0])) : glm::vec3(float(c[0]), float(c[1]), float(c[2]));
+     }},
+    {"fog_asymmetry", "mean cosine of its phase function, from -0.9999 to 0.9999",
+     [](SceneRequest& s, Name n, const Value& v) {
+         s.fog.asymmetry = number(n, v, -double(kMostAsymmetry), double(kMostAsymmetry));
+     }},
     {"default_light", "whether a plain sky lights a scene without any light",
      [](SceneRequest& s, Name n, const Value& v) { s.reading.defaultLight = yes(n, v); }},
     {"strict", "whether what breaks the rules of the format is an error",

@@ -73,7 +73,8 @@ FogRequest readFog(const std::string& word) {
     const bool hasColor = n.size() >= 4, hasAsymmetry = n.size() == 2 || n.size() == 5;
     const bool isRead = n.size() == 1 || n.size() == 2 || n.size() == 4 || n.size() == 5;
     if (!isRead || !within(0, 1, 0, 1e9) || (hasColor && !within(1, 4, 0, 1)) ||
-        (hasAsymmetry && !within(n.size() - 1, n.size(), -double(kMostAsymmetry), double(kMostAsymmetry))))
+        (hasAsymmetry &&
+         !within(n.size() - 1, n.size(), -double(kMostAsymmetry), double(kMostAsymmetry))))
         throw UsageError(fmt::format(
             "--fog is '{}': expected a density per metre, or DENSITY,R,G,B with a colour in "
             "[0, 1], and behind either a mean cosine from -0.9999 to 0.9999",

@@ -38,7 +38,8 @@ struct Listener {
 
 // --- Loading -------------------------------------------------------------------------------------
 
-/// Where a scene comes from, how its file is read, what lights it from all around and what fills it.
+/// Where a scene comes from, how its file is read, what lights it from all around and what fills
+/// it.
 struct SceneRequest {
     std::string source; ///< a file, a bundled scene or a generated one (scene/read_scene.hpp)
     SceneConventions reading;

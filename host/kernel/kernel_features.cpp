@@ -30,8 +30,9 @@ bool servesForLong(const KernelFeatures& f) {
            f[SPEC_HIDES_SURFACES] != 0 || f[SPEC_FLAT_TERMINATOR] != 0 ||
            f[SPEC_TEXTURE_SLOTS] != 0 || f[SPEC_LOOSE_SLOTS] != 0 || f[SPEC_LOOSE_TEXTURES] != 0 ||
            f[SPEC_TEXEL_KINDS] != 0 || f[SPEC_ATTRIBUTES] != 0 || f[SPEC_HAS_ALPHA] != 0 ||
-           f[SPEC_TANGENT_FRAMES] != 0 || f[SPEC_HAS_BLENDS] != 0 || f[SPEC_MEDIA] != 0 || f[SPEC_RELIEF_RULES] != 0 ||
-           f[SPEC_HAS_PLACEMENTS] != 0 || f[SPEC_CORNER_NORMALS] != f[SPEC_HAS_NORMALS];
+           f[SPEC_TANGENT_FRAMES] != 0 || f[SPEC_HAS_BLENDS] != 0 || f[SPEC_MEDIA] != 0 ||
+           f[SPEC_RELIEF_RULES] != 0 || f[SPEC_HAS_PLACEMENTS] != 0 ||
+           f[SPEC_CORNER_NORMALS] != f[SPEC_HAS_NORMALS];
 }
 
 static_assert(float(Roulette::kMaxContinue) == gpu::ROULETTE_MAX_CONTINUE);
@@ -62,7 +63,8 @@ uint32_t misLobes(const GpuScene& scene, const Estimator& settings) {
     const bool isPicture = scene.lights.environment != nullptr;
     // Bounces from media find light as those from diffuse surfaces do, and narrow phases better.
     const bool scatters = (scene.media & gpu::MEDIA_SCATTER) != 0;
-    const bool everywhere = skyAlone || scatters || isPicture || settings.directLight == DirectLight::MisAll;
+    const bool everywhere =
+        skyAlone || scatters || isPicture || settings.directLight == DirectLight::MisAll;
     const uint32_t helped = everywhere ? ~gpu::DELTA_LOBES : gpu::GLOSSY_LOBES;
     return scene.closures.some & gpu::LOBE_MASK & helped;
 }

@@ -49,11 +49,10 @@ uint32_t appendGrid(std::vector<Row>& rows, const DensityGrid& g) {
     const auto header = uint32_t(rows.size());
     const auto values = header + uint32_t(sizeof(gpu::GridHeader) / sizeof(Row));
     const size_t count = g.values.size();
-    appendRows(rows,
-               gpu::GridHeader{glm::vec4(g.toUnit[0]), glm::vec4(g.toUnit[1]),
-                               glm::vec4(g.toUnit[2]), g.size.x, g.size.y, g.size.z,
-                               values, bounds.blocks.x, bounds.blocks.y, bounds.blocks.z,
-                               uint32_t(values + count)});
+    appendRows(rows, gpu::GridHeader{glm::vec4(g.toUnit[0]), glm::vec4(g.toUnit[1]),
+                                     glm::vec4(g.toUnit[2]), g.size.x, g.size.y, g.size.z, values,
+                                     bounds.blocks.x, bounds.blocks.y, bounds.blocks.z,
+                                     uint32_t(values + count)});
     rows.reserve(rows.size() + count);
     glm::uvec3 at;
     for (at.z = 0; at.z < g.size.z; ++at.z)
@@ -92,8 +91,8 @@ DensityBounds boundDensity(const DensityGrid& g) {
                 for (uint32_t z = first(2, block.z); z <= last(2, block.z); ++z)
                     for (uint32_t y = first(1, block.y); y <= last(1, block.y); ++y)
                         for (uint32_t x = first(0, block.x); x <= last(0, block.x); ++x)
-                            most = std::max(most,
-                                            g.values[x + g.size.x * (y + size_t(g.size.y) * z)]);
+                            most =
+                                std::max(most, g.values[x + g.size.x * (y + size_t(g.size.y) * z)]);
                 bounds.most.push_back(most);
             }
     return bounds;

@@ -25,9 +25,11 @@ struct World {
     World(const Scene& s, const ShadingConventions& c)
         : scene(s), conventions(c), bvh(s), lights(s, c),
           hasDetails(!s.textures.empty() || !s.attributes.empty()),
-          hasAlpha(std::ranges::any_of(s.materials, [](const Material& m) {
-              return m.alphaMode != AlphaMode::Opaque || m.isHiddenFromCamera;
-          })),
+          hasAlpha(std::ranges::any_of(s.materials,
+                                       [](const Material& m) {
+                                           return m.alphaMode != AlphaMode::Opaque ||
+                                                  m.isHiddenFromCamera;
+                                       })),
           mediaShine(std::ranges::any_of(s.media, &Medium::emits)) {}
 };
 
@@ -50,8 +52,9 @@ void addSeen(SeenPixel& pixel, const World& world, const Ray& cameraRay, double 
 
 /// What a path is in between two surfaces.
 struct Filling {
-    const Material* volume = nullptr; ///< whose inside it is, which absorbs; in scenes without media
-    const Medium* medium = nullptr;   ///< in scenes with media
+    const Material* volume =
+        nullptr;                    ///< whose inside it is, which absorbs; in scenes without media
+    const Medium* medium = nullptr; ///< in scenes with media
 };
 
 /// One sample of a pixel (docs/theory/estimator.md), in the order of that page.

@@ -52,8 +52,7 @@ double integrateDensity(const DensityGrid& grid, const Ray& ray, double from, do
     std::vector<double> ends{s.from, s.to};
     for (int axis = 0; axis < 3; ++axis)
         for (uint32_t i = 0; i < grid.size[axis] && s.direction[axis] != 0; ++i) {
-            const double t =
-                ((i + 0.5) / grid.size[axis] - s.origin[axis]) / s.direction[axis];
+            const double t = ((i + 0.5) / grid.size[axis] - s.origin[axis]) / s.direction[axis];
             if (t > s.from && t < s.to) ends.push_back(t);
         }
     std::ranges::sort(ends);
@@ -106,7 +105,8 @@ MediumEvent flyThrough(const Medium& m, const Ray& ray, double from, double to,
     for (int c = 0; c < 3; ++c)
         event.shone[c] = m.emission[c] * (extinction[c] > 0
                                               ? -std::expm1(-extinction[c] * length) / extinction[c]
-                                              : m.emission[c] > 0 ? length : 0.0);
+                                          : m.emission[c] > 0 ? length
+                                                              : 0.0);
     if (!m.scatters()) return event;
     const glm::dvec3 share = carried / (carried.x + carried.y + carried.z);
     const double which = random.next(), depth = -std::log(1 - random.next());

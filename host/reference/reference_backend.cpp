@@ -113,8 +113,9 @@ struct ReferenceBackend::Implementation {
         reference::PathSample path(world, settings.estimator, random);
         const Integrator integrator = settings.estimator.integrator;
         const glm::dvec3 value = integrator == Integrator::Normals ? path.normalColor(ray)
-                                 : integrator == Integrator::Depth ? path.depth(ray)
-                                                                   : path.radiance(ray, camera.medium);
+                                 : integrator == Integrator::Depth
+                                     ? path.depth(ray)
+                                     : path.radiance(ray, camera.medium);
         rayCount += path.rays();
         return {value, weight};
     }

@@ -45,7 +45,7 @@ struct SurfacePoint {
     /// The point is in this medium and on no surface: it has no normals, and scatters by the phase
     /// function.
     const Medium* medium = nullptr;
-    double b1 = 0, b2 = 0;          ///< barycentric weights of the second and third corner
+    double b1 = 0, b2 = 0; ///< barycentric weights of the second and third corner
 };
 
 /// Normals as the scene states them. The hit is one of the scene's.

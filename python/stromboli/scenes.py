@@ -88,6 +88,9 @@ def load(
     environment: Union[None, str, os.PathLike[str], Color] = None,
     environment_rotation: Optional[float] = None,
     environment_strength: Optional[float] = None,
+    fog: Optional[float] = None,
+    fog_color: Optional[Color] = None,
+    fog_asymmetry: Optional[float] = None,
     default_light: Optional[bool] = None,
     strict: Optional[bool] = None,
     scene: Optional[int] = None,
@@ -101,6 +104,9 @@ def load(
     environment -- light from all around: an equirectangular picture's file, or its radiance
     environment_rotation -- degrees about the vertical, counter-clockwise seen from above
     environment_strength -- multiplies its radiance
+    fog -- extinction of fog that fills the scene, per metre
+    fog_color -- the share of its light that is scattered, [0, 1]
+    fog_asymmetry -- mean cosine of its phase function, from -0.9999 to 0.9999
     default_light -- False: a scene without any light stays black, in place of getting a plain sky
     strict -- what breaks the rules of the format is an error
     scene, variant, at -- glTF: number of the scene, set of materials, seconds of the animation
@@ -116,6 +122,9 @@ def load(
             "environment": environment,
             "environment_rotation": environment_rotation,
             "environment_strength": environment_strength,
+            "fog": fog,
+            "fog_color": fog_color,
+            "fog_asymmetry": fog_asymmetry,
             "default_light": default_light,
             "strict": strict,
             "scene": scene,

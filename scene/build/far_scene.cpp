@@ -104,8 +104,8 @@ void SceneBuilder::moveOrigin() {
     for (size_t i = 0; i < scene_.lights.size(); ++i)
         scene_.lights[i].position = lightPlaces_[i] - *origin;
     for (Medium& medium : scene_.media)
-        for (glm::dvec4& row : medium.density ? std::span(medium.density->toUnit)
-                                              : std::span<glm::dvec4>())
+        for (glm::dvec4& row :
+             medium.density ? std::span(medium.density->toUnit) : std::span<glm::dvec4>())
             row.w += glm::dot(glm::dvec3(row), *origin);
     for (FileCamera& camera : scene_.cameras) {
         camera.position -= *origin;

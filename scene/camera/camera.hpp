@@ -34,7 +34,7 @@ struct Camera {
     /// `position`, and those of one place in the picture meet at focusDistance along the view axis.
     /// 0: a pinhole.
     double lensRadius = 0;
-    double focusDistance = 1; ///< > 0
+    double focusDistance = 1;    ///< > 0
     uint32_t medium = kNoMedium; ///< where rays begin: into Scene::media
 
     /// From the middle of the picture, on its plane, to the position; perspective cameras.

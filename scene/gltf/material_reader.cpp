@@ -263,9 +263,8 @@ void MaterialReader::makeUnlit() {
 
 void MaterialReader::reportIgnored() {
     build::Report& report = context_.report();
-    for (const std::string_view name :
-         {"KHR_materials_iridescence", "KHR_materials_dispersion",
-          "KHR_materials_diffuse_transmission"})
+    for (const std::string_view name : {"KHR_materials_iridescence", "KHR_materials_dispersion",
+                                        "KHR_materials_diffuse_transmission"})
         if (at_.extension(name))
             report.ignore(fmt::format("{} of a material", name), "it has no such layer here");
     if (at_.has("occlusionTexture"))

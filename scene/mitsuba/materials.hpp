@@ -23,8 +23,7 @@ struct BoundMaterial {
 /// The materials of a scene: one for each BSDF and emitter that a shape has.
 class Materials {
   public:
-    explicit Materials(Context& context)
-        : context_(context), textures_(context), media_(context) {}
+    explicit Materials(Context& context) : context_(context), textures_(context), media_(context) {}
 
     /// The picture that a shape's mesh is painted with.
     using Painter = std::function<TextureImage(const Paint&)>;

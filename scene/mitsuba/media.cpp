@@ -84,8 +84,9 @@ void readHomogeneous(const Context& context, const Plugin& plugin, double scale,
     const Plugin* volume = plugin.child("sigma_t");
     const bool isVolume = volume && volume->tag == "volume";
     const glm::dvec3 extinction =
-        isVolume ? readVolume(context, *volume).mean
-                 : colorOf(plugin, "sigma_t", ColorOf::Index).value_or(glm::dvec3(kUsualExtinction));
+        isVolume
+            ? readVolume(context, *volume).mean
+            : colorOf(plugin, "sigma_t", ColorOf::Index).value_or(glm::dvec3(kUsualExtinction));
     setColors(medium, scale * extinction, albedoOf(context, plugin));
 }
 
@@ -126,9 +127,9 @@ Medium Media::make(const Plugin& plugin) {
                                 "heterogeneous",
                                 plugin.type));
     // How samples are taken, and not what of.
-    for (const char* unused : {"sample_emitters", "has_spectral_extinction", "strategy", "method",
-                               "majorant_grid_res", "majorant_resolution_factor", "step_size",
-                               "monochromatic", "sampling_density"})
+    for (const char* unused :
+         {"sample_emitters", "has_spectral_extinction", "strategy", "method", "majorant_grid_res",
+          "majorant_resolution_factor", "step_size", "monochromatic", "sampling_density"})
         plugin.skip(unused);
     (void)plugin.childrenOf("volume");
     plugin.requireAllRead();

@@ -41,7 +41,8 @@ bool isFile(const Plugin& shape) {
 /// What scatters under a surface without being a medium in it is said, once for each.
 void saySubsurface(const Plugin& shape) {
     for (const Plugin* inside : shape.childrenOf("subsurface"))
-        inside->replace(build::Shortfall::Medium, "scatters under a surface, which is not supported");
+        inside->replace(build::Shortfall::Medium,
+                        "scatters under a surface, which is not supported");
 }
 
 } // namespace

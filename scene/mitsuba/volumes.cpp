@@ -79,8 +79,8 @@ Volume readVolume(const Context& context, const Plugin& volume) {
     } else if (volume.type == "gridvolume") {
         result = readGrid(context, volume);
     } else {
-        volume.fail(fmt::format("'{}' is no volume that is read, expected constvolume or gridvolume",
-                                volume.type));
+        volume.fail(fmt::format(
+            "'{}' is no volume that is read, expected constvolume or gridvolume", volume.type));
     }
     volume.requireAllRead();
     return result;

@@ -25,13 +25,15 @@ DensityGrid gridOf(const Parameters& p, const char* name, const glm::dmat4& worl
     for (int axis = 0; axis < 3; ++axis) {
         const int64_t size = p.integer(kSizes[axis]).value_or(1);
         if (size < 1 || size > 1 << 16)
-            p.place().fail(fmt::format("has '{}' {}, expected from 1 to 65536", kSizes[axis], size));
+            p.place().fail(
+                fmt::format("has '{}' {}, expected from 1 to 65536", kSizes[axis], size));
         grid.size[axis] = uint32_t(size);
         count *= uint64_t(size);
     }
     const std::vector<double> values = p.numbers(name);
     if (count > kMostValues || values.size() != count)
-        p.place().fail(fmt::format("has {} values of '{}', expected {}", values.size(), name, count));
+        p.place().fail(
+            fmt::format("has {} values of '{}', expected {}", values.size(), name, count));
     for (const double value : values)
         grid.values.push_back(std::isfinite(value) && value > 0 ? float(std::min(value, 1e30)) : 0);
     const glm::dvec3 low = p.vector("p0").value_or(glm::dvec3(0));
@@ -93,8 +95,8 @@ void readEmission(const Context& context, const Parameters& p, Medium& medium) {
     const std::optional<glm::dvec3> color = colorOf(context, p, "Le", ColorOf::Light);
     const double scale = p.number("Lescale", 1, 0, 1e30);
     if (color) medium.emission = glm::dvec3(medium.absorption) * *color * scale;
-    for (const char* unread : {"temperature", "temperaturescale", "temperatureoffset",
-                               "temperaturecutoff"})
+    for (const char* unread :
+         {"temperature", "temperaturescale", "temperatureoffset", "temperaturecutoff"})
         if (p.has(unread))
             p.replaceParameter(unread, build::Shortfall::Parameter, "makes it glow by its heat");
 }

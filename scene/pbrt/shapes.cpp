@@ -72,7 +72,8 @@ bool Shapes::addToCurves(const Form& form, const Parameters& shape, const ShapeS
     const bool isPlain =
         !state.light && !shape.has("alpha") && (!context_.isV3() || shape.unread().empty());
     constexpr size_t kMostPoints = 4'000'000;
-    if (curves_ && (!isPlain || curves_->state.material != state.material || curves_->state.media != state.media ||
+    if (curves_ && (!isPlain || curves_->state.material != state.material ||
+                    curves_->state.media != state.media ||
                     curves_->state.worldFromObject != state.worldFromObject ||
                     curves_->form.mesh.positions.size() > kMostPoints))
         finishCurves(object);
@@ -164,9 +165,9 @@ void Shapes::addForm(Form form, const std::string& kind, const Parameters& shape
     else if (state.light)
         emission = lights_.emission(state.light->kind, state.light->parameters,
                                     lightArea(form, state, kind));
-    const BoundMaterial material = materials_.of(
-        state.material, {state.textures.get(), state.materials.get()}, shape, emission, alpha,
-        state.media);
+    const BoundMaterial material =
+        materials_.of(state.material, {state.textures.get(), state.materials.get()}, shape,
+                      emission, alpha, state.media);
     shape.reportUnread();
     const bool sidesDiffer = emission || material.isTransparent;
     const bool staysSphere = form.sphereRadius && !material.wantsCoordinates &&

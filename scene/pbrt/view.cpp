@@ -163,8 +163,8 @@ void View::readIntegrator(const std::string& kind, const Parameters& integrator)
     integrator.reportUnread();
 }
 
-void View::setCamera(const std::string& kind, Parameters camera,
-                     const glm::dmat4& cameraFromWorld, uint32_t medium) {
+void View::setCamera(const std::string& kind, Parameters camera, const glm::dmat4& cameraFromWorld,
+                     uint32_t medium) {
     camera_ = CameraRead{kind, std::move(camera), cameraFromWorld, medium};
 }
 

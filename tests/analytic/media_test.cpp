@@ -1,5 +1,5 @@
-// Media with known answers (docs/theory/media.md): what is left of light (Beer and Lambert), what is
-// scattered once, furnaces in which nothing is lost, what shines, and grids of densities.
+// Media with known answers (docs/theory/media.md): what is left of light (Beer and Lambert), what
+// is scattered once, furnaces in which nothing is lost, what shines, and grids of densities.
 #include "tests/analytic/scenes.hpp"
 #include "tests/support/test_names.hpp"
 
@@ -111,8 +111,7 @@ TEST(Media, LieWithinEachOther) {
     b.sphere({0, 0, 3}, 0.25f, b.add(border(kNoMedium, thick)));
     const Camera camera = pointCamera({0, 0, 8}, {0, 0, 0});
     const Estimate found = estimate(b.scene, camera, smallPicture(4, 1));
-    const glm::dvec3 expected =
-        exponential(glm::dvec3(3 * 0.25) + 0.5 * glm::dvec3(0.5, 1, 2));
+    const glm::dvec3 expected = exponential(glm::dvec3(3 * 0.25) + 0.5 * glm::dvec3(0.5, 1, 2));
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(found.mean[c], expected[c], 1e-5) << c;
 }
@@ -143,7 +142,8 @@ TEST(Media, DimTheEnvironment) {
     expectMean(estimate(b.scene, inFog, smallPicture(4, 1)), 0);
 }
 
-// --- What is scattered -----------------------------------------------------------------------------
+// --- What is scattered
+// -----------------------------------------------------------------------------
 
 /// Light of a point at the distance d from a ray in a medium without an end, scattered once: the
 /// integral over the ray of sigma_s exp(-sigma_t (t + r)) p(cos) I / r^2.
@@ -157,8 +157,7 @@ double scatteredOnce(const glm::dvec3& from, const glm::dvec3& along, const glm:
         const double r = glm::length(d), cosine = -glm::dot(along, d) / r;
         // Light goes along -d, then along -along.
         const double turn = -cosine;
-        const double phase =
-            (1 - g * g) / (4 * kPi * std::pow(1 + g * g - 2 * g * turn, 1.5));
+        const double phase = (1 - g * g) / (4 * kPi * std::pow(1 + g * g - 2 * g * turn, 1.5));
         sum += scattering * std::exp(-extinction * (t + r)) * phase / (r * r);
     }
     return sum * to / kSteps;
@@ -278,7 +277,8 @@ TEST(Media, NarrowPhasesPassLightOn) {
     expectMean(estimate(b.scene, kAbove, smallPicture(64, 1000)), 1);
 }
 
-// --- What shines -----------------------------------------------------------------------------------
+// --- What shines
+// -----------------------------------------------------------------------------------
 
 /// A medium of extinction s that sends out e per metre: e / s (1 - exp(-s d)) of its own, and the
 /// floor behind it.
@@ -327,7 +327,8 @@ TEST(Media, ShineThroughWhatScatters) {
     expectMean(found, radiance * kPi / 4);
 }
 
-// --- Grids -----------------------------------------------------------------------------------------
+// --- Grids
+// -----------------------------------------------------------------------------------------
 
 /// A grid of two layers of cells along z over the slab, of densities a below and b above: between
 /// their middles the density rises linearly, and the mean is that of both.

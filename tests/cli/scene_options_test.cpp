@@ -49,7 +49,8 @@ TEST(SceneOptions, FogInTheScene) {
     EXPECT_EQ(fog("0.5,-0.25").asymmetry, -0.25);
     EXPECT_EQ(fog("0.5,1,0.5,0").color, glm::vec3(1, 0.5f, 0));
     EXPECT_EQ(fog("0.5,1,0.5,0,0.75").asymmetry, 0.75);
-    for (const char* wrong : {"", "thick", "-1", "1,2", "1,0.5,0.5", "1,2,0,0", "1,1,1,1,1,1", "1,"})
+    for (const char* wrong :
+         {"", "thick", "-1", "1,2", "1,0.5,0.5", "1,2,0,0", "1,1,1,1,1,1", "1,"})
         EXPECT_THROW(fog(wrong), UsageError) << wrong;
 }
 

@@ -23,7 +23,8 @@ DensityGrid randomGrid(std::mt19937& random, const glm::uvec3& size) {
 TEST(MediumRows, BlocksBoundTheDensity) {
     std::mt19937 random(1);
     const auto fraction = [&] { return double(random()) / 4294967296.0; };
-    for (const glm::uvec3& size : {glm::uvec3(1, 1, 1), glm::uvec3(2, 3, 16), glm::uvec3(17, 40, 5)}) {
+    for (const glm::uvec3& size :
+         {glm::uvec3(1, 1, 1), glm::uvec3(2, 3, 16), glm::uvec3(17, 40, 5)}) {
         const DensityGrid grid = randomGrid(random, size);
         const DensityBounds bounds = boundDensity(grid);
         ASSERT_EQ(bounds.most.size(), size_t(bounds.blocks.x * bounds.blocks.y * bounds.blocks.z));
@@ -35,8 +36,8 @@ TEST(MediumRows, BlocksBoundTheDensity) {
             glm::dvec3 place;
             for (int axis = 0; axis < 3; ++axis) {
                 const double beyond = 1e-5 * (fraction() - 0.5);
-                place[axis] = std::clamp(
-                    (block[axis] + fraction()) / bounds.blocks[axis] + beyond, 0.0, 1.0);
+                place[axis] =
+                    std::clamp((block[axis] + fraction()) / bounds.blocks[axis] + beyond, 0.0, 1.0);
             }
             const size_t index =
                 block.x + bounds.blocks.x * (block.y + size_t(bounds.blocks.y) * block.z);
@@ -78,8 +79,8 @@ TEST(MediumRows, BordersNameTheirMedia) {
     maker.sphere({0, 0, 0}, 2, maker.add(border));
     const MaterialRows rows = packMaterials(maker.scene.materials, {}, maker.scene.media);
     const auto borderOf = [&](size_t material) {
-        return structureAt<gpu::MediumBorder>(rows.rows, rows.firstRow[material] -
-                                                             gpu::MEDIUM_BORDER_ROWS);
+        return structureAt<gpu::MediumBorder>(rows.rows,
+                                              rows.firstRow[material] - gpu::MEDIUM_BORDER_ROWS);
     };
     EXPECT_EQ(borderOf(0).isBorder, 0u);
     EXPECT_EQ(borderOf(1).isBorder, 1u);

@@ -17,9 +17,9 @@ std::string ball(const std::string& medium, const std::string& more = "") {
 
 /// The medium in a ball whose surface is nothing else.
 Medium mediumOf(const std::string& type, const std::string& inside) {
-    const Scene scene = loadInside(ball("<medium name=\"interior\" type=\"" + type + "\">" +
-                                            inside + "</medium>",
-                                        "<bsdf type=\"null\"/>"));
+    const Scene scene =
+        loadInside(ball("<medium name=\"interior\" type=\"" + type + "\">" + inside + "</medium>",
+                        "<bsdf type=\"null\"/>"));
     return scene.media.at(0);
 }
 
@@ -62,12 +62,12 @@ TEST(MitsubaMedia, HavePhaseFunctions) {
 }
 
 TEST(MitsubaMedia, AreOnBothSides) {
-    const Scene scene = loadInside(
-        "<medium type=\"homogeneous\" id=\"fog\"/>" +
-        ball("<medium name=\"interior\" type=\"homogeneous\"><float name=\"sigma_t\" "
-             "value=\"2\"/></medium><ref name=\"exterior\" id=\"fog\"/>",
-             "<bsdf type=\"dielectric\"/>") +
-        "<sensor type=\"perspective\"><ref id=\"fog\"/></sensor>");
+    const Scene scene =
+        loadInside("<medium type=\"homogeneous\" id=\"fog\"/>" +
+                   ball("<medium name=\"interior\" type=\"homogeneous\"><float name=\"sigma_t\" "
+                        "value=\"2\"/></medium><ref name=\"exterior\" id=\"fog\"/>",
+                        "<bsdf type=\"dielectric\"/>") +
+                   "<sensor type=\"perspective\"><ref id=\"fog\"/></sensor>");
     ASSERT_EQ(scene.media.size(), 2u);
     const Material& m = scene.materials.at(scene.spheres.at(0).material);
     EXPECT_TRUE(m.boundsMedia);

@@ -31,10 +31,10 @@ TEST(PbrtMedia, AreHomogeneous) {
     expectColors(m, {2, 2.5f, 3}, {0.5f, 1, 1.5f});
     EXPECT_EQ(m.asymmetry, 0.25f);
     // Whole milk.
-    expectColors(loadV4(fog("\"string type\" \"homogeneous\"")).media.at(0),
-                 {2.55f, 3.21f, 3.77f}, {0.0011f, 0.0024f, 0.014f});
-    expectColors(loadV3(fog("\"string type\" \"homogeneous\"")).media.at(0),
-                 {2.55f, 3.21f, 3.77f}, {0.0011f, 0.0024f, 0.014f});
+    expectColors(loadV4(fog("\"string type\" \"homogeneous\"")).media.at(0), {2.55f, 3.21f, 3.77f},
+                 {0.0011f, 0.0024f, 0.014f});
+    expectColors(loadV3(fog("\"string type\" \"homogeneous\"")).media.at(0), {2.55f, 3.21f, 3.77f},
+                 {0.0011f, 0.0024f, 0.014f});
 }
 
 TEST(PbrtMedia, Shine) {
