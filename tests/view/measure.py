@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How quickly `stromboli view` shows what it is steered to, and what watching a render costs.
 
-measure.py PROGRAM [SCENE] [--size W H] [--pairs N]
+measure.py PROGRAM [SCENE] [--size W H] [--pairs N] [--samples N]
 
 Prints a table. It is no test: the figures are those of the machine and of what else it does.
 """
@@ -33,11 +33,9 @@ def orbited(pose, angle):
 
 def moving(program, scene, size, shown):
     """Seconds from a move to its first picture, and pictures a second of a view that is moved all the time."""
-    firsts, rates = [], []
+    firsts, rates, widths = [], [], []
     with Served(program, "view", scene, "-r", *map(str, size), "-s", "1000000") as view:
-        text, _ = view.frame(0, shown)
-        while text["coarse"]:
-            text, _ = view.frame(text["number"], shown)
+        text, _ = view.frame(0, shown)  # the kernel is compiled
         pose, angle = text["pose"], 0
 
         def move(still):
@@ -52,8 +50,7 @@ def moving(program, scene, size, shown):
             while text["epoch"] == epoch:
                 text, _ = view.frame(text["number"], shown)
             firsts.append(time.monotonic() - begun)
-            while text["coarse"]:
-                text, _ = view.frame(text["number"], shown)
+            widths.append(text["width"])
         for _ in range(5):  # two seconds of dragging, with a move for each picture
             count, begun = 0, time.monotonic()
             while time.monotonic() < begun + 2:
@@ -64,12 +61,13 @@ def moving(program, scene, size, shown):
                 count += 1
             rates.append(count / (time.monotonic() - begun))
         view.end()
-    return firsts, rates
+    return firsts, rates, widths
 
 
-def render_seconds(program, scene, size, folder, pages):
-    """CPU seconds of a render of so many paths, which that many pages watch."""
-    options = ["render", scene, "-r", *map(str, size), "-s", "32", "--even", "-o", "out.png", "--stats", "stats.json"]
+def render_seconds(program, scene, size, samples, folder, pages):
+    """Seconds that the samples of a render take, which that many pages watch."""
+    options = ["render", scene, "-r", *map(str, size), "-s", str(samples), "--even", "-o", "out.png",
+               "--stats", "stats.json"]
     if pages == 0:
         subprocess.run([program, *options], cwd=folder, check=True, stderr=subprocess.DEVNULL)
     else:
@@ -97,20 +95,24 @@ def main():
     parser.add_argument("program")
     parser.add_argument("scene", nargs="?", default="cornell_boxes")
     parser.add_argument("--size", nargs=2, type=int, default=[640, 360])
-    parser.add_argument("--pairs", type=int, default=8)
+    parser.add_argument("--pairs", type=int, default=8, help="of renders with and without a page")
+    parser.add_argument("--samples", type=int, default=32, help="of these renders")
     asked = parser.parse_args()
     program = os.path.abspath(asked.program)
     print(f"{asked.scene}, {asked.size[0]} x {asked.size[1]}; load of the machine {os.getloadavg()[0]:.1f}")
     for shown in ("picture", "denoised"):
-        firsts, rates = moving(program, asked.scene, asked.size, shown)
+        firsts, rates, widths = moving(program, asked.scene, asked.size, shown)
         low, middle, high = quartiles(firsts)
-        print(f"{shown}: first picture after a move {middle:.2f} s (half of them {low:.2f} to {high:.2f}); "
+        print(f"{shown}: first picture after a move {middle:.2f} s (half of them {low:.2f} to {high:.2f}), "
+              f"{statistics.median(widths):.0f} pixels wide; "
               f"{statistics.median(rates):.1f} pictures a second while moving (least {min(rates):.1f})")
+    if asked.pairs == 0:
+        return
     with tempfile.TemporaryDirectory() as folder:
         ratios = []
         for _ in range(asked.pairs):  # one after the other, so that both see the same load
-            alone = render_seconds(program, asked.scene, asked.size, folder, 0)
-            ratios.append(render_seconds(program, asked.scene, asked.size, folder, 1) / alone - 1)
+            alone = render_seconds(program, asked.scene, asked.size, asked.samples, folder, 0)
+            ratios.append(render_seconds(program, asked.scene, asked.size, asked.samples, folder, 1) / alone - 1)
         low, middle, high = quartiles(ratios)
         print(f"watching by one page: {100 * middle:+.1f} % of render time (half of {asked.pairs} pairs "
               f"{100 * low:+.1f} to {100 * high:+.1f})")

@@ -334,7 +334,7 @@ at("command").addEventListener("click", async () => {
   await navigator.clipboard?.writeText(text).catch(() => {}); // where it may not, it is selected by a click
 });
 
-if (settings.readOnly) at("camera-tools").hidden = at("keys").hidden = true;
+if (settings.readOnly) at("camera-tools").hidden = at("keys").hidden = at("command").hidden = true;
 showTools();
 window.stromboli = page; // for who looks at it from the console
 follow();
