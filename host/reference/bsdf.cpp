@@ -171,6 +171,12 @@ BsdfValue evaluateThose(const SurfacePoint& s, const glm::dvec3& wi,
     return sum;
 }
 
+/// Light samples seldom come from where so narrow a phase function scatters light from.
+bool isNarrow(const Medium& medium) {
+    constexpr float kNarrow = 0.75f;
+    return medium.phase == PhaseFunction::HenyeyGreenstein && std::abs(medium.asymmetry) > kNarrow;
+}
+
 BsdfValue evaluatePhase(const SurfacePoint& s, const glm::dvec3& wi) {
     const double density = phaseDensity(*s.medium, -glm::dot(s.wo, wi));
     return {glm::dvec3(density), density};
@@ -230,6 +236,7 @@ bool isLitFromBehind(const SurfacePoint& s) {
 }
 
 bool leavesLightsToBounces(const SurfacePoint& s) {
+    if (s.medium) return isNarrow(*s.medium);
     return leavesLightsToBounces(*s.material) &&
            std::ranges::all_of(s.others, [](const SurfacePoint::Part& p) {
                return leavesLightsToBounces(*p.material);
@@ -301,7 +308,7 @@ BsdfValue evaluateBsdf(const SurfacePoint& s, const glm::dvec3& wi,
 
 BsdfValue evaluateForLights(const SurfacePoint& s, const glm::dvec3& wi,
                             const ShadingConventions& conventions) {
-    if (s.medium) return evaluatePhase(s, wi);
+    if (s.medium) return isNarrow(*s.medium) ? BsdfValue{} : evaluatePhase(s, wi);
     return evaluateThose(s, wi, conventions,
                          [](const Material& m) { return !leavesLightsToBounces(m); });
 }
@@ -311,7 +318,7 @@ BsdfSample sampleBsdf(const SurfacePoint& s, const glm::dvec3& u,
     if (s.medium) {
         const glm::dvec3 wi = samplePhase(*s.medium, -s.wo, u.x, u.y);
         return {wi, glm::dvec3(1.0), evaluatePhase(s, wi).pdf, gpu::LOBE_DIFFUSE_REFLECTION,
-                glm::dvec3(0.0)};
+                glm::dvec3(isNarrow(*s.medium) ? 1.0 : 0.0)};
     }
     const Frame frame = surfaceFrame(s);
     BsdfSample sample = sampleLocally(*s.material, incidenceOn(s, frame, conventions), u);

@@ -33,9 +33,9 @@ Stretch withinCube(const DensityGrid& grid, const Ray& ray, double from, double 
             if (o < 0 || o > 1) s.to = s.from;
             continue;
         }
-        const auto [low, high] = std::minmax(-o / d, (1 - o) / d);
-        s.from = std::max(s.from, low);
-        s.to = std::min(s.to, high);
+        const double toLow = -o / d, toHigh = (1 - o) / d;
+        s.from = std::max(s.from, std::min(toLow, toHigh));
+        s.to = std::min(s.to, std::max(toLow, toHigh));
     }
     return s;
 }

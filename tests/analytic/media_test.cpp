@@ -171,8 +171,9 @@ TEST(Media, ScatterLightOfAPointOnce) {
         camera.medium = add(b, medium(glm::vec3(0.0625f), glm::vec3(0.25f), g));
         Light l;
         l.position = {1, 0.5f, 0.25f};
+        l.constantAttenuation = 0;
+        l.quadraticAttenuation = 1;
         b.add(l);
-        // The border of nothing: a scene has to have the medium on a surface, or around a camera.
         const double expected =
             scatteredOnce({0, 0, 4}, {0, 0, -1}, l.position, 0.25, 0.3125, g, 8);
         const Estimate found = estimate(b.scene, camera, smallPicture(256, 1));
