@@ -139,10 +139,11 @@ void followStoredPath(const Given given, const Dispatch dispatch, bool isThere, 
         // What has arrived sets up another surface; where the old one is needed late, it takes no registers before.
         const bool needsSurfaceNow = DIRECT_LIGHT == DIRECT_HEMISPHERE;
         if (needsSurfaceNow && !arrives) loadPath(slot, path, job, AT_RESULT);
-        if (!returns) goThroughMedium(given, path);
+        bool isUnderWay = false;
+        if (!returns) isUnderWay = goThroughMedium(given, path);
         MaterialPoint asked = askedPoint(path);
         if (returns) asked = materialPoint(path.splitPoint.surface);
-        const bool goesOn = path.phase != PHASE_NEXT && takeInRay(given, path, asked);
+        const bool goesOn = path.phase != PHASE_NEXT && !isUnderWay && takeInRay(given, path, asked);
         if (!needsSurfaceNow && !arrives) loadPath(slot, path, job, AT_RESULT);
         if (returns) nextBranch(path, path.found.parameters);
         isLit = goesOn && wantsDirectSample(given.frame, path);

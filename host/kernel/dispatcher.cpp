@@ -1,6 +1,7 @@
 #include "host/kernel/dispatcher.hpp"
 
 #include "host/core/error.hpp"
+#include "shaders/shared/medium_types.h"
 
 #include <fmt/format.h>
 
@@ -39,7 +40,8 @@ using vulkan::BufferUse;
 
 /// One iteration of the kernel's loop counts for itself, its traversal steps and pixel filter, the
 /// loop around it that changes pixels and, where there are such, the walk down the light tree, the
-/// loose textures of a material and the materials of a mixture.
+/// loose textures of a material, the materials of a mixture and the steps through a grid of
+/// densities.
 uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene, const PathKernel& kernel) {
     // At a hit, where a path splits again, and at the end of a ray of hemisphere sampling.
     constexpr uint32_t kTextureLoops = 3;
@@ -50,7 +52,8 @@ uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene, const Pa
     // A light is picked for a light sample, and looked up once more for MIS.
     const uint32_t perIteration = 1 + passesOfCameraRays(kernel.features()) + 2 +
                                   (scene.lights.groups ? 2 * (scene.lights.levels + 1) : 0) +
-                                  (scene.mostTextures ? kTextureLoops * textures : 0) + mixtures;
+                                  (scene.mostTextures ? kTextureLoops * textures : 0) + mixtures +
+                                  (scene.media & gpu::MEDIA_VARY ? gpu::GRID_STEPS + 1 : 0);
     return loopLimit(device, perIteration);
 }
 

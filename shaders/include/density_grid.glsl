@@ -68,15 +68,12 @@ float endOfBlock(GridRay r, ivec3 block, vec3 blocks, out int axis) {
     return end;
 }
 
-/// More tentative collisions and blocks than any medium takes whose light is not long gone: keeps the loop finite.
-const uint MOST_GRID_STEPS = 1u << 20u;
-
 /// Of light that a ray to a light carries less than this is left: it ends half of the time.
 const float LITTLE_LEFT = 0.125;
 
 /// isPath: collisions scatter; else they dim. carried: what the channels have, for the choice.
 MediumResult trackGrid(MediumBody m, Traversal ray, vec3 carried, bool isPath, uvec4 words) {
-    MediumResult result = MediumResult(vec3(1.0), vec3(0.0), false, 0.0);
+    MediumResult result = MediumResult(vec3(1.0), vec3(0.0), false, false, 0.0);
     const GridHeader g = fetchGrid(m.grid);
     const float perLength = 1.0 / length(ray.direction);
     const GridRay r = intoGrid(g, ray, perLength);
@@ -86,7 +83,7 @@ MediumResult trackGrid(MediumBody m, Traversal ray, vec3 carried, bool isPath, u
     ivec3 block = ivec3(clamp(floor((r.origin + at * r.direction) * blocks), vec3(0.0), blocks - 1.0));
     uint draw = 0u;
     bool goesOn = at < r.to;
-    while (goesOn) {
+    while (goesOn && draw < GRID_STEPS) {
         int axis;
         const float end = min(endOfBlock(r, block, blocks, axis), r.to);
         const float rate = boundOfBlock(g, block) * m.mostExtinction;
@@ -105,7 +102,6 @@ MediumResult trackGrid(MediumBody m, Traversal ray, vec3 carried, bool isPath, u
                 result.scatters = u.y * all < ofReal;
                 const float probability = (result.scatters ? ofReal : ofNull) / max(all, TINY);
                 result.weight *= all > 0.0 ? (result.scatters ? real : null_) / max(probability, TINY) : vec3(0.0);
-                result.distance = at - start;
                 goesOn = !result.scatters && all > 0.0;
             } else {
                 result.weight *= null_;
@@ -119,7 +115,8 @@ MediumResult trackGrid(MediumBody m, Traversal ray, vec3 carried, bool isPath, u
                 if (i == axis) block[i] += r.direction[i] > 0.0 ? 1 : -1;
             goesOn = at < r.to && all(greaterThanEqual(block, ivec3(0))) && all(lessThan(block, ivec3(blocks)));
         }
-        goesOn = goesOn && draw < MOST_GRID_STEPS;
     }
+    result.distance = at - start;
+    result.isUnderWay = goesOn;
     return result;
 }

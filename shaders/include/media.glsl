@@ -65,13 +65,14 @@ struct MediumResult {
     vec3 weight;    ///< of the path, for what follows
     vec3 shone;     ///< radiance that the medium has sent into the path
     bool scatters;
-    float distance; ///< from the stretch's beginning to where it scatters
+    bool isUnderWay; ///< the stretch has not come to its end: it goes on from `distance`
+    float distance;  ///< from the stretch's beginning to where it scatters
 };
 
 /// Free flight by one channel of three, which is drawn by what the channels carry; the density is that of all (Miller,
 /// Georgiev and Jarosz 2019, for a single collision). A medium without scattering has a path's whole weight left.
 MediumResult flyFreely(MediumBody m, vec3 carried, float length_, vec4 u) {
-    MediumResult r = MediumResult(exp(-m.extinction * length_), vec3(0.0), false, 0.0);
+    MediumResult r = MediumResult(exp(-m.extinction * length_), vec3(0.0), false, false, 0.0);
     if (mediaDo(MEDIA_SHINE)) r.shone = m.emission * integratedTransmittance(m.extinction, length_);
     if (!mediaDo(MEDIA_SCATTER) || !(largestComponent(m.albedo) > 0.0)) return r;
     const vec3 share = carried / max(carried.x + carried.y + carried.z, TINY);
@@ -91,32 +92,43 @@ MediumResult flyFreely(MediumBody m, vec3 carried, float length_, vec4 u) {
 
 // --- The stage ----------------------------------------------------------------------------------------
 
-/// Takes in what the ray that is done has gone through, and makes IN_MEDIUM its end if it has scattered.
-void goThroughMedium(const Given given, inout PathState path) {
-    if (!HAS_MEDIA || !isTracing(path.phase)) return;
+/// The ray goes on from farther away, to its own end; what it has hit is found again.
+void goOnFrom(inout Traversal t, float from, float end) {
+    // Farther in any case, where steps are less than floats can tell.
+    t.tMin = larger(from, uintBitsToFloat(floatBitsToUint(t.tMin) + 1u));
+    t.passed = NO_PRIMITIVE;
+    t.tMax = end;
+}
+
+/// Takes in what the ray that is done has gone through, and makes IN_MEDIUM its end if it has scattered. Returns whether
+/// the ray is under way still: so much of a grid is tracked at a time as loops may take.
+bool goThroughMedium(const Given given, inout PathState path) {
+    if (!HAS_MEDIA) return false;
     const bool isPath = path.phase == PHASE_PATH;
     const uint here = isPath ? path.medium : path.shadowMedium;
     const bool isBlocked = !isPath && path.phase == PHASE_SHADOW && !HAS_ALPHA && path.ray.hitPrimitive != NO_PRIMITIVE;
-    if (here == NO_MEDIUM || isBlocked) return;
-    const MediumBody m = fetchMedium(here);
-    const float length_ = (path.ray.tMax - path.ray.tMin) * (isPath ? 1.0 : length(path.ray.direction));
-    const uvec4 words = mediumWords(given.frame, path);
-    MediumResult r;
-    const vec3 carried = isPath ? path.throughput : path.directValue;
-    if (!mediaDo(MEDIA_VARY) || m.grid == 0u) {
-        if (isPath) r = flyFreely(m, carried, length_, mediumNumbers(words, 0u));
-        else r = MediumResult(exp(-m.extinction * length_), vec3(0.0), false, 0.0);
+    bool isUnderWay = false;
+    if (isTracing(path.phase) && here != NO_MEDIUM && !isBlocked) {
+        const MediumBody m = fetchMedium(here);
+        const float perUnit = isPath ? 1.0 : length(path.ray.direction);
+        const float length_ = (path.ray.tMax - path.ray.tMin) * perUnit;
+        const uvec4 words = mediumWords(given.frame, path);
+        const vec3 carried = isPath ? path.throughput : path.directValue;
+        MediumResult r = MediumResult(exp(-m.extinction * length_), vec3(0.0), false, false, 0.0);
+        const bool varies = mediaDo(MEDIA_VARY) && m.grid != 0u;
+        if (isPath && !varies) r = flyFreely(m, carried, length_, mediumNumbers(words, 0u));
+        if (varies) r = trackGrid(m, path.ray, carried, isPath, words);
+        if (mediaDo(MEDIA_SHINE) && isPath && path.bounce >= given.frame.minBounce) path.radiance += path.throughput * r.shone;
+        if (isPath) path.throughput *= r.weight;
+        else path.directValue *= r.weight;
+        isUnderWay = r.isUnderWay;
+        if (isUnderWay) goOnFrom(path.ray, path.ray.tMin + r.distance / perUnit, path.rayEnd);
+        else if (isPath && r.scatters) {
+            path.ray.tMax = path.ray.tMin + r.distance;
+            path.ray.hitPrimitive = IN_MEDIUM;
+        }
     }
-    if (mediaDo(MEDIA_VARY) && m.grid != 0u) r = trackGrid(m, path.ray, carried, isPath, words);
-    if (!isPath) {
-        path.directValue *= r.weight;
-        return;
-    }
-    if (mediaDo(MEDIA_SHINE) && path.bounce >= given.frame.minBounce) path.radiance += path.throughput * r.shone;
-    path.throughput *= r.weight;
-    if (!r.scatters) return;
-    path.ray.tMax = path.ray.tMin + r.distance;
-    path.ray.hitPrimitive = IN_MEDIUM;
+    return isUnderWay;
 }
 
 /// Where the ray has scattered, as a point that paths leave like a surface's: without normals, and with nothing to skip.

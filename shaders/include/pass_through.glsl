@@ -36,4 +36,7 @@ bool passesThrough(const Frame frame, inout PathState path, MaterialPoint hit, f
     return true;
 }
 
-bool hasPassedSomething(PathState path) { return HAS_ALPHA && path.ray.passed != NO_PRIMITIVE; }
+/// Whether the ray has begun before where it is now: a camera ray begins anew.
+bool hasPassedSomething(PathState path) {
+    return HAS_ALPHA && path.ray.passed != NO_PRIMITIVE || mediaDo(MEDIA_VARY) && path.bounce > 0u && path.ray.tMin > 0.0;
+}

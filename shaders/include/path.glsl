@@ -230,8 +230,7 @@ void leaveDirectLight(const Frame frame, inout PathState path) {
 /// Takes in the finished ray. What is next: a shadow ray, which it asks for; a bounce (PHASE_BOUNCE), or
 /// another sample (PHASE_NEXT), both by depart().
 void followPath(const Given given, inout PathState path) {
-    goThroughMedium(given, path);
-    if (!takeInRay(given, path, askedPoint(path))) return;
+    if (goThroughMedium(given, path) || !takeInRay(given, path, askedPoint(path))) return;
     if (wantsDirectSample(given.frame, path)) sampleDirect(given, path);
     leaveDirectLight(given.frame, path);
     if (INTEGRATOR == INTEGRATOR_PATH && branchIsOver(path)) nextBranch(path, materialAt(path.splitPoint.surface));

@@ -49,7 +49,8 @@
       "media", bits(kMedia), "what rays go through between surfaces: points where paths scatter, and what is left of light") \
     F(35, bool, HAS_ALPHA, false, scene.hasAlpha, own, \
       "opacity", flag, "surfaces that are partly not there, which rays pass") \
-    F(50, bool, STOPS_BEFORE_ANY_RAY, false, f[SPEC_HAS_ALPHA] && tuning.limitsLoops, own, \
+    F(50, bool, STOPS_BEFORE_ANY_RAY, false, \
+        (f[SPEC_HAS_ALPHA] || (f[SPEC_MEDIA] & gpu::MEDIA_VARY)) && tuning.limitsLoops, own, \
       "stops before any ray", flag, \
         "paths that are kept whole between dispatches, so that a ray passes any number of surfaces where loops are limited") \
     F(43, bool, HIDES_SURFACES, false, scene.hasHidden, own, \

@@ -58,6 +58,8 @@ struct GridValue {
 };
 SHARED_ROWS(GridValue, 1);
 SHARED_CONST uint MOST_BLOCKS = 16u; ///< along an axis
+/// Tentative collisions and blocks that a ray is tracked through at a time: a driver may limit what loops take.
+SHARED_CONST uint GRID_STEPS = 32u;
 
 SHARED_END
 

@@ -49,10 +49,10 @@ void traceToTheEnd(const Given given, inout PathState path, inout uint loopPasse
             traversalStep(path.ray, stack, prepared);
             ++loopPasses;
         }
-        goThroughMedium(given, path);
+        const bool isUnderWay = goThroughMedium(given, path);
         const MaterialPoint asked = askedPoint(path);
         path.found = lookUpMaterial(asked);
-        goesOn = HAS_ALPHA && passesThrough(given.frame, path, asked, path.found.opacity);
+        goesOn = isUnderWay || HAS_ALPHA && passesThrough(given.frame, path, asked, path.found.opacity);
         ++loopPasses;
     }
 }

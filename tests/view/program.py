@@ -12,9 +12,12 @@ class Served:
     """A program that prints or says the address it serves at."""
 
     def __init__(self, program, *arguments, folder=None):
-        # An empty cache folder is none: nothing is left in the user's.
+        # Ctrl-C is ignored by what a shell has started in the background, and by all that this starts.
+        def heed_ctrl_c():
+            signal.signal(signal.SIGINT, signal.SIG_DFL)
+
         self.process = subprocess.Popen([program, *arguments], cwd=folder, text=True, stdout=subprocess.PIPE,
-                                        stderr=subprocess.STDOUT)
+                                        stderr=subprocess.STDOUT, preexec_fn=heed_ctrl_c)
         self.said = []
         for line in self.process.stdout:
             self.said.append(line)
