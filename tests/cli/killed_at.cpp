@@ -44,6 +44,8 @@ Function* next(const char* name) {
 
 } // namespace
 
+// The program is to find these in place of the C library's.
+#pragma GCC visibility push(default)
 extern "C" {
 
 ssize_t write(int descriptor, const void* bytes, size_t size) {
@@ -67,3 +69,4 @@ int rename(const char* from, const char* to) {
     return result;
 }
 }
+#pragma GCC visibility pop
