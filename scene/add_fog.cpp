@@ -5,14 +5,6 @@
 namespace stromboli {
 namespace {
 
-/// The middle of what is there, and the radius of a ball that reaches one diagonal beyond it.
-Surrounding ballAbout(const Bounds& bounds) {
-    Surrounding ball;
-    ball.center = 0.5f * (bounds.lo + bounds.hi);
-    ball.radius = std::max(1.5f * glm::length(bounds.extent()), 1e-6f);
-    return ball;
-}
-
 /// Light from infinity would not come through fog without an end.
 bool isLitFromInfinity(const Scene& scene) {
     return scene.environment || std::ranges::any_of(scene.lights, [](const Light& light) {
@@ -20,18 +12,21 @@ bool isLitFromInfinity(const Scene& scene) {
            });
 }
 
-/// A sphere that light passes, between the fog and nothing.
-void addEdge(Scene& scene, const Surrounding& ball) {
+/// A sphere that light passes, between the fog and nothing, which reaches one diagonal beyond what
+/// is there.
+void addEdge(Scene& scene, const Bounds& bounds) {
     Material edge;
     edge.name = "edge of the fog";
     edge.albedo = glm::vec3(0);
     edge.alphaMode = AlphaMode::Blend;
     edge.opacity = 0;
     edge.boundsMedia = true;
-    edge.inside = ball.medium;
+    edge.inside = scene.surrounding;
     scene.materials.push_back(edge);
     scene.instances.push_back(edge.name);
-    scene.spheres.push_back({ball.center, ball.radius, uint32_t(scene.materials.size() - 1),
+    const float diagonal = glm::length(bounds.extent());
+    scene.spheres.push_back({0.5f * (bounds.lo + bounds.hi), diagonal > 0 ? 1.5f * diagonal : 1,
+                             uint32_t(scene.materials.size() - 1),
                              uint32_t(scene.instances.size() - 1)});
     if (!scene.movingInstances.empty()) scene.movingInstances.push_back(false);
 }
@@ -48,12 +43,11 @@ void addFog(Scene& scene, const FogRequest& request) {
     const Bounds bounds = scene.bounds();
     const bool hasEdge = isLitFromInfinity(scene) && !bounds.empty();
     if (!scene.framing) scene.framing = bounds;
-    if (hasEdge) scene.surrounding = ballAbout(bounds);
-    scene.surrounding.medium = uint32_t(scene.media.size());
+    scene.surrounding = uint32_t(scene.media.size());
     scene.media.push_back(fog);
     for (Material& m : scene.materials)
-        if (m.boundsMedia && m.outside == kNoMedium) m.outside = scene.surrounding.medium;
-    if (hasEdge) addEdge(scene, scene.surrounding);
+        if (m.boundsMedia && m.outside == kNoMedium) m.outside = scene.surrounding;
+    if (hasEdge) addEdge(scene, bounds);
     resolveMedia(scene);
 }
 

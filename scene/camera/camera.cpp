@@ -247,7 +247,7 @@ Camera makeCamera(const Scene& scene, const CameraRequest& request, uint32_t wid
         camera.halfWidth = camera.halfHeight * aspect;
         applyOptics(camera, request, aspect, scene.file);
         turnAbout(camera, scene, request.turn);
-        camera.medium = scene.surrounding.at(camera.position);
+        camera.medium = mediumAt(scene, camera.position);
         return camera;
     }
     const bool framed = isFramed(scene, request, conventions);
@@ -267,7 +267,9 @@ Camera makeCamera(const Scene& scene, const CameraRequest& request, uint32_t wid
     }
     applyOptics(camera, request, aspect, scene.file);
     turnAbout(camera, scene, request.turn);
-    if (camera.medium == kNoMedium) camera.medium = scene.surrounding.at(camera.position);
+    // What the file says holds for where the file puts its camera.
+    const bool isStated = !framed && request.turn == 0 && scene.surrounding == kNoMedium;
+    if (!isStated) camera.medium = mediumAt(scene, camera.position);
     return camera;
 }
 

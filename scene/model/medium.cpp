@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace stromboli {
 
@@ -67,7 +68,7 @@ uint32_t mediumInside(Scene& scene, const Material& m) {
 
 bool usesMedia(const Scene& scene) {
     const auto isThere = [](uint32_t medium) { return medium != kNoMedium; };
-    return isThere(scene.surrounding.medium) ||
+    return isThere(scene.surrounding) ||
            std::ranges::any_of(scene.cameras, isThere, &FileCamera::medium) ||
            std::ranges::any_of(scene.materials, isThere, &Material::inside) ||
            std::ranges::any_of(scene.materials, isThere, &Material::outside);
@@ -85,9 +86,113 @@ void resolveMedia(Scene& scene) {
     for (Material& m : scene.materials) {
         if (m.boundsMedia || m.isNull() || !m.entersVolume()) continue;
         m.inside = mediumInside(scene, m);
-        m.outside = scene.surrounding.medium;
+        m.outside = scene.surrounding;
         m.boundsMedia = true;
     }
+}
+
+namespace {
+
+/// A ray, and the first border that it has met so far.
+struct BorderSearch {
+    glm::dvec3 origin, direction;
+    double nearest = std::numeric_limits<double>::infinity();
+    uint32_t medium = kNoMedium; ///< on this side of it
+
+    void meet(double t, bool fromOutside, const Material& border) {
+        if (!(t > 0 && t < nearest)) return;
+        nearest = t;
+        medium = fromOutside ? border.outside : border.inside;
+    }
+
+    /// facing: 1, or -1 where the normal points to the other side.
+    void triangle(const std::array<glm::dvec3, 3>& corners, double facing, const Material& border) {
+        const glm::dvec3 a = corners[1] - corners[0], b = corners[2] - corners[0];
+        const glm::dvec3 p = glm::cross(direction, b), s = origin - corners[0];
+        const double determinant = glm::dot(a, p);
+        if (determinant == 0) return;
+        const double u = glm::dot(s, p) / determinant;
+        const glm::dvec3 q = glm::cross(s, a);
+        const double v = glm::dot(direction, q) / determinant;
+        if (u < 0 || v < 0 || u + v > 1) return;
+        meet(glm::dot(b, q) / determinant, facing * glm::dot(direction, glm::cross(a, b)) < 0,
+             border);
+    }
+
+    void sphere(const Sphere& sphere, const Material& border) {
+        const glm::dvec3 from = origin - glm::dvec3(sphere.center);
+        const double a = glm::dot(direction, direction), b = glm::dot(from, direction);
+        const double c = glm::dot(from, from) - double(sphere.radius) * double(sphere.radius);
+        const double root = b * b - a * c;
+        if (root < 0) return;
+        meet((-b - std::sqrt(root)) / a, true, border);
+        meet((-b + std::sqrt(root)) / a, false, border);
+    }
+};
+
+/// Calls take(corners, facing, material) for each triangle of a border, wherever it is placed.
+template <class Take>
+void forBorderTriangles(const Scene& scene, const Take& take) {
+    const auto cornersOf = [&](const Triangle& t, const auto& toWorld) {
+        std::array<glm::dvec3, 3> corners;
+        for (size_t i = 0; i < 3; ++i)
+            corners[i] = toWorld(glm::dvec3(scene.positions[t.corner[i]]));
+        return corners;
+    };
+    const auto borderOf = [&](const Triangle& t) {
+        return scene.materials[t.material].boundsMedia;
+    };
+    for (size_t i = scene.firstInWorld(); i < scene.triangles.size(); ++i) {
+        const Triangle& t = scene.triangles[i];
+        if (borderOf(t))
+            take(cornersOf(t, [](const glm::dvec3& p) { return p; }), 1.0,
+                 scene.materials[t.material]);
+    }
+    for (const Placement& placement : scene.placements) {
+        const Prototype& prototype = scene.prototypes[placement.prototype];
+        const auto toWorld = [&](const glm::dvec3& p) {
+            glm::dvec3 world;
+            for (int i = 0; i < 3; ++i) {
+                const glm::dvec4 row(placement.toWorld[size_t(i)]);
+                world[i] = glm::dot(glm::dvec3(row), p) + row.w;
+            }
+            return world;
+        };
+        const glm::dmat3 turn(glm::dvec3(placement.toWorld[0]), glm::dvec3(placement.toWorld[1]),
+                              glm::dvec3(placement.toWorld[2]));
+        const double facing = glm::determinant(turn) < 0 ? -1 : 1;
+        for (uint32_t i = 0; i < prototype.triangles; ++i) {
+            const Triangle& t = scene.triangles[prototype.firstTriangle + i];
+            if (borderOf(t)) take(cornersOf(t, toWorld), facing, scene.materials[t.material]);
+        }
+    }
+}
+
+} // namespace
+
+uint32_t mediumAt(const Scene& scene, const glm::dvec3& place) {
+    if (scene.media.empty()) return kNoMedium;
+    Bounds borders;
+    forBorderTriangles(scene,
+                       [&](const std::array<glm::dvec3, 3>& corners, double, const Material&) {
+                           for (const glm::dvec3& corner : corners)
+                               borders.extend(glm::vec3(corner));
+                       });
+    const auto isBorder = [&](const Sphere& s) { return scene.materials[s.material].boundsMedia; };
+    for (const Sphere& s : scene.spheres)
+        if (isBorder(s)) {
+            borders.extend(s.center - s.radius);
+            borders.extend(s.center + s.radius);
+        }
+    if (borders.empty()) return scene.surrounding;
+    BorderSearch search{place, 0.5 * (glm::dvec3(borders.lo) + glm::dvec3(borders.hi)) - place};
+    if (search.direction == glm::dvec3(0)) search.direction = {0.36, 0.48, 0.8}; // any will do
+    search.medium = scene.surrounding;
+    forBorderTriangles(scene, [&](const std::array<glm::dvec3, 3>& corners, double facing,
+                                  const Material& m) { search.triangle(corners, facing, m); });
+    for (const Sphere& s : scene.spheres)
+        if (isBorder(s)) search.sphere(s, scene.materials[s.material]);
+    return search.medium;
 }
 
 } // namespace stromboli

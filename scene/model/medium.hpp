@@ -65,4 +65,9 @@ inline constexpr float kMostAsymmetry = 0.9999f;
 /// that of Scene::surrounding. A scene without media is left as it is.
 void resolveMedia(Scene& scene);
 
+/// The medium that a place is in, or kNoMedium: by the first border, of those that a ray from there
+/// towards the middle of all borders meets, and Scene::surrounding where it meets none. Surfaces
+/// that are no borders do not count. Takes time in proportion to the triangles.
+uint32_t mediumAt(const Scene& scene, const glm::dvec3& place);
+
 } // namespace stromboli

@@ -10,7 +10,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -106,18 +105,6 @@ struct LoadReport {
     std::vector<std::string> assumed;  ///< what the file leaves open, and what was taken for it
 };
 
-/// The medium that fills the world, or a ball in it, where nothing else does.
-struct Surrounding {
-    uint32_t medium = kNoMedium; ///< into Scene::media
-    glm::vec3 center{0.0f};
-    float radius = std::numeric_limits<float>::infinity();
-
-    /// What it puts at a place, for cameras.
-    uint32_t at(const glm::dvec3& place) const {
-        return glm::length(place - glm::dvec3(center)) <= double(radius) ? medium : kNoMedium;
-    }
-};
-
 /// All there is to render. y is up; lengths are metres (COLLADA unit). Everything is in world space
 /// but the triangles of prototypes; the world's origin is at `origin` of the file. Positions are
 /// rounded to float once, so that every backend sees the same geometry.
@@ -135,7 +122,8 @@ struct Scene {
     std::vector<Sphere> spheres;
     std::vector<Material> materials;
     std::vector<Medium> media;
-    Surrounding surrounding;
+    /// The medium that fills the world where no surface says what is there; into `media`.
+    uint32_t surrounding = kNoMedium;
     std::vector<Light> lights;
     std::vector<TextureImage> images;
     std::vector<Texture> textures;

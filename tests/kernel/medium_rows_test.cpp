@@ -60,9 +60,9 @@ TEST(MediumRows, AreOnlyWhereAMediumIs) {
     fog.scattering = glm::vec3(1);
     fog.emission = glm::vec3(1);
     maker.scene.media.push_back(fog);
-    maker.scene.surrounding.medium = 0;
+    maker.scene.surrounding = 0;
     const GpuScene filled = packScene(maker.scene, buildWideBvh(maker.scene));
-    EXPECT_EQ(filled.media, gpu::MEDIA_ABSORB | gpu::MEDIA_SCATTER | gpu::MEDIA_SHINE);
+    EXPECT_EQ(filled.media, gpu::MEDIA_DIM | gpu::MEDIA_SCATTER | gpu::MEDIA_SHINE);
     EXPECT_NE(filled.closures.some & gpu::PHASE_FUNCTION, 0u);
 }
 

@@ -72,6 +72,26 @@ TEST(AddFog, HasNoEdgeInScenesWithoutASky) {
     EXPECT_EQ(makeCamera(scene, camera, 4, 4, {}).medium, 0u);
 }
 
+/// What a file says of its camera holds for where the file puts it; all other views are in what
+/// their place is in.
+TEST(AddFog, ViewsAreInTheMediumOfTheirPlace) {
+    Scene scene = roomWithGlass();
+    scene.media.push_back(Medium{});
+    Material& glass = scene.materials.at(scene.spheres.at(0).material);
+    glass.boundsMedia = true;
+    glass.inside = 0;
+    FileCamera inFile;
+    inFile.position = {0, 0, 0.9};
+    inFile.medium = 0;
+    scene.cameras.push_back(inFile);
+    CameraRequest camera;
+    EXPECT_EQ(makeCamera(scene, camera, 4, 4, {}).medium, 0u);
+    camera.from = glm::dvec3(0, 0, 0.9);
+    EXPECT_EQ(makeCamera(scene, camera, 4, 4, {}).medium, kNoMedium);
+    camera.from = glm::dvec3(0, 0.1, 0);
+    EXPECT_EQ(makeCamera(scene, camera, 4, 4, {}).medium, 0u);
+}
+
 /// Borders of the file that say nothing of their outside are in the fog.
 TEST(AddFog, IsAroundOtherMedia) {
     Scene scene = roomWithGlass();
