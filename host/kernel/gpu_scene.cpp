@@ -180,6 +180,7 @@ bool differInNumbers(const Material& a, const Material& b) {
     return a.kind == b.kind && a.alphaMode == b.alphaMode && a.opacity == b.opacity &&
            a.alphaCutoff == b.alphaCutoff && a.other == b.other && a.otherShare == b.otherShare &&
            a.otherPlace == b.otherPlace && a.isHiddenFromCamera == b.isHiddenFromCamera &&
+           a.boundsMedia == b.boundsMedia && a.inside == b.inside && a.outside == b.outside &&
            std::ranges::equal(a.textures, b.textures, sameUse);
 }
 

@@ -49,7 +49,7 @@ GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lig
                    uint64_t gatheredRows = kUsualGatheredRows);
 
 /// Whether both materials differ in numbers alone: colours, roughness, indices and emission, but in
-/// no texture, opacity or mixture.
+/// no texture, opacity, mixture or medium.
 bool differInNumbers(const Material& a, const Material& b);
 
 /// Brings into `packed`, which was packed from `scene` with the same `lights`, what has become of

@@ -22,7 +22,7 @@ uint32_t closuresOf(const Medium& m) {
 }
 
 uint32_t kindsOf(const Medium& m) {
-    return gpu::MEDIA_ABSORB | (m.scatters() ? gpu::MEDIA_SCATTER : 0) |
+    return gpu::MEDIA_DIM | (m.scatters() ? gpu::MEDIA_SCATTER : 0) |
            (m.emits() ? gpu::MEDIA_SHINE : 0) | (m.density ? gpu::MEDIA_VARY : 0);
 }
 

@@ -45,7 +45,7 @@ DensityGrid gridOf(const Parameters& p, const char* name, const glm::dmat4& worl
     return grid;
 }
 
-/// The mean of what is listed by threes, over what is listed at most: rgbgrid.
+/// The mean of colours that a parameter lists; negative channels count as 0.
 glm::dvec3 meanOfTriples(const std::vector<double>& numbers) {
     glm::dvec3 sum(0.0);
     for (size_t i = 0; i + 2 < numbers.size(); i += 3)
@@ -53,8 +53,8 @@ glm::dvec3 meanOfTriples(const std::vector<double>& numbers) {
     return numbers.size() < 3 ? sum : sum / double(numbers.size() / 3);
 }
 
-/// Of a grid whose absorption and scattering are listed by colour: densities in proportion to the
-/// mean extinction, of the mean colours.
+/// A grid that lists absorption and scattering by colour (rgbgrid): the colours become their means,
+/// and the densities follow the mean extinction of each cell.
 void readColoredGrid(const Context& context, const Parameters& p, double scale, Medium& medium,
                      const glm::dmat4& worldFromMedium) {
     const Parameter* a = p.find("sigma_a");

@@ -91,13 +91,12 @@ MediumResult trackGrid(MediumBody m, Traversal ray, vec3 carried, bool isPath, u
         const float next = rate > 0.0 ? at - log(1.0 - u.x) / rate : INFINITE_DISTANCE;
         if (next < end) {
             at = next;
-            const vec3 extinction = m.extinction * densityAt(g, clamp(r.origin + at * r.direction, vec3(0.0), vec3(1.0)));
+            const float density = densityAt(g, clamp(r.origin + at * r.direction, vec3(0.0), vec3(1.0)));
+            const vec3 extinction = m.extinction * density;
             const vec3 null_ = max(rate - extinction, vec3(0.0)) / rate;
             if (isPath) {
                 const vec3 real = extinction * m.albedo / rate, has_ = carried * result.weight;
-                if (mediaDo(MEDIA_SHINE))
-                    result.shone += result.weight * m.emission * (extinction.x + extinction.y + extinction.z) /
-                                    max(rate * (m.extinction.x + m.extinction.y + m.extinction.z), TINY);
+                if (mediaDo(MEDIA_SHINE)) result.shone += result.weight * m.emission * (density / rate);
                 const float ofReal = dot(has_, real), ofNull = dot(has_, null_), all = ofReal + ofNull;
                 result.scatters = u.y * all < ofReal;
                 const float probability = (result.scatters ? ofReal : ofNull) / max(all, TINY);

@@ -74,15 +74,14 @@ struct MediumResult {
 MediumResult flyFreely(MediumBody m, vec3 carried, float length_, vec4 u) {
     MediumResult r = MediumResult(exp(-m.extinction * length_), vec3(0.0), false, false, 0.0);
     if (mediaDo(MEDIA_SHINE)) r.shone = m.emission * integratedTransmittance(m.extinction, length_);
-    if (!mediaDo(MEDIA_SCATTER) || !(largestComponent(m.albedo) > 0.0)) return r;
     const vec3 share = carried / max(carried.x + carried.y + carried.z, TINY);
     const float rate = u.x < share.x ? m.extinction.x : (u.x < share.x + share.y ? m.extinction.y : m.extinction.z);
-    const float distance = rate > 0.0 ? -log(1.0 - u.y) / rate : INFINITE_DISTANCE;
-    r.scatters = distance < length_;
-    const vec3 left = exp(-m.extinction * min(distance, length_));
+    r.distance = rate > 0.0 ? -log(1.0 - u.y) / rate : INFINITE_DISTANCE;
+    const bool mayScatter = mediaDo(MEDIA_SCATTER) && largestComponent(m.albedo) > 0.0;
+    r.scatters = mayScatter && r.distance < length_;
+    const vec3 left = exp(-m.extinction * min(r.distance, length_));
     const vec3 density = r.scatters ? m.extinction * left : left;
-    r.weight = (r.scatters ? m.albedo * density : density) / max(dot(share, density), TINY);
-    r.distance = distance;
+    if (mayScatter) r.weight = (r.scatters ? m.albedo * density : density) / max(dot(share, density), TINY);
     return r;
 }
 

@@ -10,7 +10,7 @@ SHARED_BEGIN
 
 /// F(name, bit, label): what the media of a scene have (the feature MEDIA); label: what `stromboli info` calls it.
 #define MEDIA_LIST(F) \
-    F(MEDIA_ABSORB, 0, "absorption") \
+    F(MEDIA_DIM, 0, "extinction") \
     F(MEDIA_SCATTER, 1, "scattering") \
     F(MEDIA_SHINE, 2, "emission") \
     F(MEDIA_VARY, 3, "grids of densities")
