@@ -5,6 +5,7 @@
 #include "embedded/page_style.h"
 #include "embedded/uplot_script.h"
 #include "embedded/uplot_style.h"
+#include "host/core/page_text.hpp"
 #include "host/study/journal.hpp"
 #include "host/study/run_study.hpp"
 
@@ -94,13 +95,6 @@ Json picturesOf(const Study& study, const SceneStudy& scene, const fs::path& fol
     return pictures;
 }
 
-/// In a script element, "</" would end it.
-std::string forScript(std::string json) {
-    for (size_t at = json.find("</"); at != std::string::npos; at = json.find("</", at + 3))
-        json.insert(at + 1, "\\");
-    return json;
-}
-
 std::string dataOf(Study study, const fs::path& folder) {
     std::erase_if(study.scenes, [](const SceneStudy& scene) { return scene.runs.empty(); });
     Json json = toJson(study);
@@ -122,14 +116,7 @@ std::string toPage(const Study& study, const fs::path& folder) {
         {"@@UPLOT_JS@@", textOf(uplot_script)},
         {"@@SCRIPT@@", textOf(page_script)},
     };
-    std::string page;
-    std::string_view rest = textOf(page_html);
-    for (const auto& [mark, text] : parts) { // in the order they stand in
-        const size_t at = rest.find(mark);
-        page.append(rest.substr(0, at)).append(text);
-        rest.remove_prefix(at + mark.size());
-    }
-    return page.append(rest);
+    return filledIn(textOf(page_html), parts);
 }
 
 } // namespace stromboli::study

@@ -5,6 +5,7 @@
 #include "embedded/view_style.h"
 #include "embedded/view_transforms.h"
 #include "host/core/json.hpp"
+#include "host/core/page_text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -18,13 +19,6 @@ namespace {
 
 std::string_view textOf(std::span<const unsigned char> bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-/// In a script element, "</" would end it.
-std::string forScript(std::string json) {
-    for (size_t at = json.find("</"); at != std::string::npos; at = json.find("</", at + 3))
-        json.insert(at + 1, "\\");
-    return json;
 }
 
 } // namespace
@@ -42,14 +36,7 @@ std::string pageText(const PageFacts& facts) {
         {"@@NONCE@@", facts.nonce},          {"@@TRANSFORMS@@", textOf(view_transforms)},
         {"@@SCRIPT@@", textOf(view_script)},
     };
-    std::string page;
-    std::string_view rest = textOf(view_html);
-    for (const auto& [mark, text] : parts) { // in the order they stand in
-        const size_t at = rest.find(mark);
-        page.append(rest.substr(0, at)).append(text);
-        rest.remove_prefix(at + mark.size());
-    }
-    return page.append(rest);
+    return filledIn(textOf(view_html), parts);
 }
 
 std::string contentPolicy(const std::string& nonce) {
