@@ -33,8 +33,10 @@ struct World {
           mediaShine(std::ranges::any_of(s.media, &Medium::emits)) {}
 };
 
-// --- What rays pass and what they see ------------------------------------------------------------
+// --- What rays pass and what they see (seeing.cpp) -----------------------------------------------
 
+/// Whether rays straight from the camera pass the surface at a hit.
+bool isHiddenFromCamera(const Scene& scene, const Hit& hit);
 /// The share of light that meets the surface at a hit.
 double opacityAt(const World& world, const Hit& hit);
 
