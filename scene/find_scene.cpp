@@ -1,6 +1,7 @@
 #include "scene/find_scene.hpp"
 
 #include "host/core/error.hpp"
+#include "host/core/nearest_name.hpp"
 #include "scene/generate/generated_scene.hpp"
 
 #include <fmt/format.h>
@@ -67,6 +68,18 @@ std::vector<std::string> namesOf(const std::map<std::string, fs::path>& files) {
     return names;
 }
 
+/// Throws the SceneError that a name is that of no file and of nothing bundled: it names what may
+/// have been meant, or else all there is.
+[[noreturn]] void throwMissing(const std::string& name, const char* kind,
+                               const std::vector<std::string>& bundled) {
+    std::optional<std::string> meant = nearestName(name, bundled);
+    if (!meant) meant = nearestFile(name);
+    throw SceneError(name, 0, "",
+                     fmt::format("there is no such file, and no bundled {} of this name; {}", kind,
+                                 meant ? fmt::format("did you mean {}?", *meant)
+                                       : fmt::format("those are {}", fmt::join(bundled, ", "))));
+}
+
 } // namespace
 
 std::vector<std::string> librarySceneNames() {
@@ -84,10 +97,7 @@ std::string sceneFile(const std::string& name) {
     if (const auto found = bundled.find(name); found != bundled.end())
         return found->second.string();
     if (status.type() == fs::file_type::directory) return name;
-    throw SceneError(name, 0, "",
-                     fmt::format("there is no such file, and no bundled scene of this name; those "
-                                 "are {}",
-                                 fmt::join(namesOf(bundled), ", ")));
+    throwMissing(name, "scene", namesOf(bundled));
 }
 
 std::string environmentFile(const std::string& name) {
@@ -96,10 +106,7 @@ std::string environmentFile(const std::string& name) {
     const std::map<std::string, fs::path> bundled = libraryFiles({".hdr"});
     if (const auto found = bundled.find(name); found != bundled.end())
         return found->second.string();
-    throw SceneError(name, 0, "",
-                     fmt::format("there is no such file, and no bundled environment of this name; "
-                                 "those are {}",
-                                 fmt::join(namesOf(bundled), ", ")));
+    throwMissing(name, "environment", namesOf(bundled));
 }
 
 } // namespace stromboli

@@ -2,6 +2,7 @@
 
 #include "host/cli/declared_command.hpp"
 #include "host/core/error.hpp"
+#include "host/core/nearest_name.hpp"
 #include "host/version/version.hpp"
 
 #include <CLI/CLI.hpp>
@@ -29,13 +30,12 @@ std::string shortHelp() {
         text += fmt::format("  stromboli {:<39} {}\n", command.word, command.meaning);
     return text +
            "\n"
-           "SCENE is a COLLADA, glTF, OBJ or PLY file (.dae, .gltf, .glb, .obj, .ply), a bundled "
-           "scene\n"
-           "by its name, as cornell_mesh, or generate:cornell_mesh:100k, which is made in memory.\n"
+           "SCENE is a glTF, COLLADA, Mitsuba, pbrt, OBJ or PLY file, a bundled scene by its name, "
+           "as\n"
+           "cornell_mesh, or generate:cornell_mesh:100k, which is made in memory.\n"
            "\n"
            "Other commands: tonemap, merge, submit, devices, compare, study, bench, stress.\n"
-           "'stromboli --help' says what each does, 'stromboli COMMAND --help' lists its "
-           "options.\n";
+           "'stromboli --help' says what each does, 'stromboli help COMMAND' lists its options.\n";
 }
 
 // --- Words of command lines ----------------------------------------------------------------------
@@ -45,17 +45,6 @@ namespace {
 bool isWholeNumber(const std::string& s) {
     return !s.empty() &&
            std::all_of(s.begin(), s.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
-}
-
-std::optional<std::string> onlyOneThatBegins(const std::string& word,
-                                             const std::vector<std::string>& names) {
-    std::optional<std::string> found;
-    for (const std::string& name : names) {
-        if (!name.starts_with(word)) continue;
-        if (found) return std::nullopt;
-        found = name;
-    }
-    return found;
 }
 
 } // namespace
@@ -93,34 +82,6 @@ std::vector<std::string> fromCs184Spelling(std::vector<std::string> arguments) {
     return arguments;
 }
 
-size_t editDistance(const std::string& a, const std::string& b) {
-    // d[i][j]: between the first i letters of a and the first j of b.
-    std::vector<std::vector<size_t>> d(a.size() + 1, std::vector<size_t>(b.size() + 1));
-    for (size_t i = 0; i <= a.size(); ++i)
-        for (size_t j = 0; j <= b.size(); ++j) {
-            if (i == 0 || j == 0) {
-                d[i][j] = i + j;
-                continue;
-            }
-            const size_t replaced = d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-            d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, replaced});
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-                d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
-        }
-    return d[a.size()][b.size()];
-}
-
-std::optional<std::string> nearestName(const std::string& word,
-                                       const std::vector<std::string>& names) {
-    if (word.empty() || names.empty()) return std::nullopt;
-    if (const auto begun = onlyOneThatBegins(word, names)) return begun;
-    const auto nearest = std::ranges::min_element(
-        names, {}, [&](const std::string& name) { return editDistance(word, name); });
-    if (3 * editDistance(word, *nearest) > std::max(word.size(), nearest->size()))
-        return std::nullopt;
-    return *nearest;
-}
-
 // --- Parsing -------------------------------------------------------------------------------------
 
 // Nothing else knows the library that splits the command line into options (CLI11).
@@ -140,11 +101,49 @@ Words splitAllAtCommas(const Words& words) {
     return pieces;
 }
 
+/// The heading of --help that an option stands under; none: it is not listed.
+std::string groupOf(const CommandOption& o) {
+    return o.isHidden ? "" : o.isCommon ? "The usual ones" : o.group;
+}
+
+/// "-r 640x360" is "-r 640 360", and "--size=640x360" too.
+Words withoutJoinedNumbers(const OptionList& list, const Words& words) {
+    const auto isJoined = [&](const std::string& name) {
+        return std::ranges::any_of(list.all(), [&](const CommandOption& o) {
+            const Words dashed = o.dashedNames();
+            return o.mayBeJoined && std::ranges::count(dashed, name) > 0;
+        });
+    };
+    Words apart;
+    for (size_t i = 0; i < words.size(); ++i) {
+        std::string word = words[i];
+        const size_t equals = word.find('=');
+        if (equals != std::string::npos && isJoined(word.substr(0, equals))) {
+            apart.push_back(word.substr(0, equals));
+            word = word.substr(equals + 1);
+        } else if (i == 0 || !isJoined(words[i - 1])) {
+            apart.push_back(word);
+            continue;
+        }
+        const size_t by = word.find_first_of("xX*");
+        apart.push_back(word.substr(0, by));
+        if (by != std::string::npos) apart.push_back(word.substr(by + 1));
+    }
+    return apart;
+}
+
+/// "help render" is "render --help", and "help" is "--help".
+Words withoutHelpCommand(const Words& words) {
+    if (words.empty() || words.front() != "help") return words;
+    if (words.size() == 1) return {"--help"};
+    return {words[1], "--help"};
+}
+
 void declare(CLI::App& app, const CommandOption& o, Given& given) {
     if (o.wordCount == 0) {
         app.add_flag_function(
                o.names, [&given, name = o.name()](std::int64_t) { given[name] = {}; }, o.help)
-            ->group(o.isHidden ? "" : o.group)
+            ->group(groupOf(o))
             ->disable_flag_override(); // "--even=false" would turn it on
         return;
     }
@@ -155,7 +154,7 @@ void declare(CLI::App& app, const CommandOption& o, Given& given) {
             return true;
         },
         o.fullHelp());
-    option->group(o.isHidden ? "" : o.group);
+    option->group(groupOf(o));
     if (!o.valueNames.empty()) option->type_name(o.valueNames);
     if (o.isRequired) option->required();
     if (o.mayRepeat || o.separatedByCommas)
@@ -217,11 +216,6 @@ void store(const OptionList& list, const Given& given) {
                 o.store(words->second);
 }
 
-std::string perhaps(const std::string& word, const std::vector<std::string>& names) {
-    const std::optional<std::string> nearest = nearestName(word, names);
-    return nearest ? fmt::format("; did you mean {}?", *nearest) : "";
-}
-
 /// The first word has to be a command, or ask for help.
 void checkCommandName(const std::deque<DeclaredCommand>& commands, const Words& arguments) {
     if (arguments.empty()) throw UsageError("a command is needed (see --help)");
@@ -235,12 +229,14 @@ void checkCommandName(const std::deque<DeclaredCommand>& commands, const Words& 
         throw UsageError(fmt::format("{} comes before the command: expected stromboli COMMAND "
                                      "OPTIONS, as stromboli render SCENE.dae -o out.png",
                                      word));
-    if (word.ends_with(".dae") || word.ends_with(".gltf") || word.ends_with(".glb") ||
-        word.ends_with(".obj") || word.ends_with(".ply") || word.starts_with("generate:"))
+    constexpr std::string_view kScenes[] = {".dae", ".zae",  ".gltf", ".glb",
+                                            ".xml", ".pbrt", ".obj",  ".ply"};
+    if (std::ranges::any_of(kScenes, [&](std::string_view e) { return word.ends_with(e); }) ||
+        word.starts_with("generate:"))
         throw UsageError(fmt::format(
             "'{0}' is a scene, no command: did you mean stromboli render {0} -o out.png?", word));
     throw UsageError(
-        fmt::format("there is no command '{}'{} (see --help)", word, perhaps(word, names)));
+        fmt::format("there is no command '{}'{} (see --help)", word, didYouMean(word, names)));
 }
 
 /// "-l,--light-samples" has -l and --light-samples.
@@ -267,10 +263,11 @@ void explainUnknown(const std::deque<DeclaredCommand>& commands, const DeclaredC
         std::string others;
         for (const DeclaredCommand& one : commands)
             if (known(one, name)) others += (others.empty() ? "" : ", ") + one.name;
-        throw UsageError(fmt::format(
-            "{} has no option {}{} (see stromboli {} --help)", c.name, name,
-            others.empty() ? perhaps(name, namesOf(c)) : fmt::format("; it is one of {}", others),
-            c.name));
+        throw UsageError(fmt::format("{} has no option {}{} (see stromboli {} --help)", c.name,
+                                     name,
+                                     others.empty() ? didYouMean(name, namesOf(c))
+                                                    : fmt::format("; it is one of {}", others),
+                                     c.name));
     }
 }
 
@@ -291,20 +288,24 @@ std::string DeclaredCommand::givenOf(const std::vector<std::string>& names) cons
     return text;
 }
 
-DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, const Words& words) {
+DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, const Words& asTyped) {
+    const Words asked = withoutHelpCommand(asTyped);
     CLI::App app(fmt::format("Stromboli: {}.\n{}", kInOneLine, kWhatItDoes), "stromboli");
     app.set_version_flag("--version", std::string("stromboli ") + version());
     app.require_subcommand(1);
     app.footer(fmt::format("'stromboli COMMAND --help' explains a command. Exit codes: {}. {}",
                            exitCodesInOneLine(), kHowNumbersAreWritten));
-    checkCommandName(commands, words);
+    checkCommandName(commands, asked);
+    const auto named = std::ranges::find(commands, asked.front(), &DeclaredCommand::name);
+    const Words words = named == commands.end() ? asked : withoutJoinedNumbers(named->list, asked);
     Given given;
     std::vector<CLI::App*> apps;
     for (const DeclaredCommand& c : commands) {
         CLI::App* one = apps.emplace_back(app.add_subcommand(c.name, c.description));
         if (!c.footer.empty()) one->footer(c.footer);
-        for (const CommandOption& o : c.list.all())
-            declare(*one, o, given);
+        for (const bool common : {true, false}) // in the order of --help
+            for (const CommandOption& o : c.list.all())
+                if (o.isCommon == common) declare(*one, o, given);
     }
     try {
         app.parse(Words(words.rbegin(), words.rend())); // CLI11 takes them from the back

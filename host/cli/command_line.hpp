@@ -13,9 +13,11 @@ namespace stromboli {
 
 inline constexpr const char* kInOneLine = "a path tracer in Vulkan compute shaders";
 inline constexpr const char* kWhatItDoes =
-    "COLLADA in, PNG, JPEG, WebP or EXR out; on any Vulkan 1.1 device, GPU or not.";
+    "glTF, COLLADA, Mitsuba, pbrt, OBJ and PLY in; PNG, JPEG, WebP or EXR out; on any Vulkan 1.1 "
+    "device, GPU or not.";
 inline constexpr const char* kHowNumbersAreWritten =
-    "Numbers may have an exponent, k or M: 2.5k, 1e6.";
+    "Numbers may have an exponent, k or M (2.5k, 1e6), and most their unit (10s, 2m, 2%, 5mm, "
+    "30deg).";
 
 /// A word of an interface and what it means.
 struct Explained {
@@ -61,14 +63,5 @@ std::string commandLine();
 /// whole number is `--accumulate N` (a picture's name has an extension, so they cannot be
 /// confused), `-p` is `--cell`.
 std::vector<std::string> fromCs184Spelling(std::vector<std::string> arguments);
-
-/// What may have been meant by a word that is none of the names: the only one that begins with it,
-/// or the nearest one, if no more than one letter in three would have to change.
-std::optional<std::string> nearestName(const std::string& word,
-                                       const std::vector<std::string>& names);
-
-/// How many letters have to be added, left out, replaced or swapped with their neighbour to make
-/// one word of the other (the optimal string alignment distance).
-size_t editDistance(const std::string& a, const std::string& b);
 
 } // namespace stromboli

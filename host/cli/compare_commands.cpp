@@ -46,7 +46,7 @@ void declareThresholds(OptionList& list, compare::Thresholds& t) {
               t.flip, kFlip);
     list.real("--max-bias", "PERCENT",
               "difference of the means of each channel, in percent of the reference's",
-              t.biasPercent, kPercent);
+              t.biasPercent, kPercent, kPercents);
     list.flag("--ztest",
               "the pictures must agree within their variances (two EXR files of render --aov, "
               "different seeds)",

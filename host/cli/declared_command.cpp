@@ -1,9 +1,12 @@
 #include "host/cli/declared_command.hpp"
 
 #include "host/core/error.hpp"
+#include "host/core/nearest_name.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
 #include <sstream>
 
 namespace stromboli {
@@ -35,12 +38,43 @@ uint32_t readNumber(const std::string& option, const std::string& word, Range<ui
     return inRange(option, word, wholeNumber(word), range, "a whole number");
 }
 
-double readReal(const std::string& option, const std::string& word, Range<double> range) {
-    return inRange(option, word, realNumber(word), range, "a number");
+std::optional<double> quantityIn(std::string_view word, Units units) {
+    if (const std::optional<double> plain = realNumber(word)) return plain;
+    constexpr std::string_view kOfNumbers = "0123456789.eE+-";
+    double sum = 0, before = std::numeric_limits<double>::infinity();
+    for (std::string_view rest = word; !rest.empty();) {
+        const size_t digits = std::min(rest.find_first_not_of(kOfNumbers), rest.size());
+        const size_t end = std::min(rest.find_first_of("0123456789.", digits), rest.size());
+        const std::optional<double> number = realNumber(rest.substr(0, digits));
+        const auto unit = std::ranges::find(units, rest.substr(digits, end - digits),
+                                            [](const Unit& u) { return std::string_view(u.name); });
+        if (!number || unit == units.end() || unit->factor >= before) return std::nullopt;
+        if (*number < 0 && end < rest.size()) return std::nullopt; // of what would that be less?
+        sum += *number * unit->factor;
+        before = unit->factor;
+        rest.remove_prefix(end);
+    }
+    return word.empty() ? std::nullopt : std::optional(sum);
+}
+
+double readReal(const std::string& option, const std::string& word, Range<double> range,
+                Units units) {
+    const std::optional<double> value = quantityIn(word, units);
+    if (value && *value >= range.least && *value <= range.most) return *value;
+    std::string expected = "a number from " + inWords(range);
+    for (const Unit& unit : units)
+        expected += fmt::format("{}{}", &unit == units.data() ? ", maybe with its unit: " : ", ",
+                                unit.name);
+    refuse(option, word, expected);
 }
 
 void refuse(const std::string& option, const std::string& word, const std::string& expected) {
     throw UsageError(fmt::format("{} is '{}': expected {}", option, word, expected));
+}
+
+void refuseName(const std::string& option, const std::string& word, const Words& names,
+                const std::string& namesInWords) {
+    refuse(option, word, namesInWords + didYouMean(word, names));
 }
 
 CommandOption& CommandOption::usually(std::string text) {
@@ -85,6 +119,16 @@ CommandOption& CommandOption::besidePicture() {
 
 CommandOption& CommandOption::hidden() {
     isHidden = true;
+    return *this;
+}
+
+CommandOption& CommandOption::maybeJoined() {
+    mayBeJoined = true;
+    return *this;
+}
+
+CommandOption& CommandOption::common() {
+    isCommon = true;
     return *this;
 }
 
@@ -190,20 +234,20 @@ CommandOption& OptionList::numbers(std::string names, std::string valueNames, st
 }
 
 CommandOption& OptionList::real(std::string names, std::string valueName, std::string help,
-                                double& where, Range<double> range) {
+                                double& where, Range<double> range, Units units) {
     CommandOption& o = words(std::move(names), std::move(valueName), std::move(help), 1, {});
     o.usual = fmt::format("{}", where);
-    o.from(inWords(range)).store = [&where, range, name = o.name()](const Words& given) {
-        where = readReal(name, given.front(), range);
+    o.from(inWords(range)).store = [&where, range, units, name = o.name()](const Words& given) {
+        where = readReal(name, given.front(), range, units);
     };
     return o;
 }
 
 CommandOption& OptionList::real(std::string names, std::string valueName, std::string help,
-                                std::optional<double>& where, Range<double> range) {
+                                std::optional<double>& where, Range<double> range, Units units) {
     CommandOption& o = words(std::move(names), std::move(valueName), std::move(help), 1, {});
-    o.from(inWords(range)).store = [&where, range, name = o.name()](const Words& given) {
-        where = readReal(name, given.front(), range);
+    o.from(inWords(range)).store = [&where, range, units, name = o.name()](const Words& given) {
+        where = readReal(name, given.front(), range, units);
     };
     return o;
 }
@@ -218,6 +262,11 @@ CommandOption& OptionList::list(std::string names, std::string valueName, std::s
         where = given;
     };
     return o;
+}
+
+void OptionList::makeCommon(const Words& names) {
+    for (CommandOption& o : options_)
+        if (std::ranges::count(names, o.name()) > 0) o.common();
 }
 
 // --- All commands --------------------------------------------------------------------------------

@@ -10,7 +10,9 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace stromboli {
@@ -28,15 +30,38 @@ struct Range {
 std::string inWords(Range<uint32_t> range);
 std::string inWords(Range<double> range);
 
+/// What may stand behind a number, and how many of the option's own units that is.
+struct Unit {
+    const char* name;
+    double factor;
+};
+/// The larger before the smaller.
+using Units = std::span<const Unit>;
+inline constexpr Unit kTimes[] = {{"h", 3600}, {"min", 60}, {"m", 60}, {"s", 1}, {"ms", 1e-3}};
+inline constexpr Unit kLengths[] = {{"km", 1e3}, {"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}};
+inline constexpr Unit kShares[] = {{"%", 0.01}};
+inline constexpr Unit kPercents[] = {{"%", 1}};
+inline constexpr Unit kDegrees[] = {{"rad", 57.29577951308232}, {"deg", 1}, {"\u00b0", 1}};
+
+/// A number as host/core/text.hpp says, or one or more with units behind them, the larger first:
+/// "90", "1.5min", "1h30m". Empty if the word is none of these.
+std::optional<double> quantityIn(std::string_view word, Units units);
+
 /// A whole number in a range, written as host/core/text.hpp says. Throws UsageError that
 /// names the option and the range.
 uint32_t readNumber(const std::string& option, const std::string& word, Range<uint32_t> range);
-/// A real number in a range, likewise; NaN and infinity are none.
-double readReal(const std::string& option, const std::string& word, Range<double> range);
+/// A real number in a range, likewise, or a quantity; NaN and infinity are none.
+double readReal(const std::string& option, const std::string& word, Range<double> range,
+                Units units = {});
 
 /// Throws the UsageError that `option` is `word` where one of `expected` was to be.
 [[noreturn]] void refuse(const std::string& option, const std::string& word,
                          const std::string& expected);
+
+/// Throws the UsageError that `option` is `word` where one of these names was to be: which may have
+/// been meant, and which there are.
+[[noreturn]] void refuseName(const std::string& option, const std::string& word, const Words& names,
+                             const std::string& namesInWords);
 
 /// The names in the table of an enumeration.
 template <class E>
@@ -76,6 +101,10 @@ class CommandOption {
     CommandOption& besidePicture();
     /// Is understood, but not listed by --help, the manual page and completion.
     CommandOption& hidden();
+    /// Two numbers that may also be one word with an x between them: 640x360.
+    CommandOption& maybeJoined();
+    /// Is among the few that --help lists first.
+    CommandOption& common();
     /// Words that completion proposes. Others may be understood too.
     CommandOption& proposes(Words words);
     CommandOption& proposes(Proposed what);
@@ -94,6 +123,7 @@ class CommandOption {
     uint32_t wordCount = 1;
     bool anyNumber = false, separatedByCommas = false, mayRepeat = false;
     bool isRequired = false, isHidden = false, isFirst = false, isBesidePicture = false;
+    bool isCommon = false, mayBeJoined = false;
     std::vector<Conflict> conflicts;
     std::vector<std::string> needed, implied;
     Proposed proposed = Proposed::Nothing;
@@ -121,10 +151,11 @@ class OptionList {
     /// An option that takes as many whole numbers as `where` has places.
     CommandOption& numbers(std::string names, std::string valueNames, std::string help,
                            std::vector<uint32_t*> where, Range<uint32_t> range);
+    /// units: what may stand behind the number.
     CommandOption& real(std::string names, std::string valueName, std::string help, double& where,
-                        Range<double> range);
+                        Range<double> range, Units units = {});
     CommandOption& real(std::string names, std::string valueName, std::string help,
-                        std::optional<double>& where, Range<double> range);
+                        std::optional<double>& where, Range<double> range, Units units = {});
     /// A value of an enumeration with a table of names; --help lists what they mean.
     template <class E>
     CommandOption& choice(std::string names, std::string valueName, std::string help, E& where) {
@@ -134,7 +165,7 @@ class OptionList {
         o.proposals = namesOf<E>();
         o.store = [&where, name = o.name()](const Words& given) {
             const std::optional<E> value = valueNamed<E>(given.front());
-            if (!value) refuse(name, given.front(), allNames<E>());
+            if (!value) refuseName(name, given.front(), namesOf<E>(), allNames<E>());
             where = *value;
         };
         return o;
@@ -146,6 +177,8 @@ class OptionList {
                          uint32_t count, std::function<void(const Words&)> store);
 
     const std::deque<CommandOption>& all() const { return options_; }
+    /// Makes options common (CommandOption::common), by their first names.
+    void makeCommon(const Words& names);
 
   private:
     std::string group_;

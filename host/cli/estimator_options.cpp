@@ -190,7 +190,7 @@ CommandOption& declareBlock(OptionList& list, Asked& asked) {
 }
 
 CommandOption& declareNoise(OptionList& list, const std::string& help, double& where) {
-    return list.real("--noise", "T", help, where, kNoise).usually("");
+    return list.real("--noise", "T", help, where, kNoise, kShares).usually("");
 }
 
 void declareSpreading(OptionList& list, RenderRequest& picture, Asked& asked) {
@@ -209,24 +209,25 @@ void declareSpreading(OptionList& list, RenderRequest& picture, Asked& asked) {
                [&asked, &a](const Words& words) {
                    asked.adaptive = true;
                    a.batch = readNumber("-a: BATCH", words[0], kSamples);
-                   a.tolerance = readReal("-a: TOLERANCE", words[1], kTolerance);
+                   a.tolerance = readReal("-a: TOLERANCE", words[1], kTolerance, kShares);
                })
         .from(fmt::format("{} and {}", inWords(kSamples), inWords(kTolerance)))
         .usually(fmt::format("off; --cs184: {} {}", a.batch, a.tolerance))
         .excludes("--even", kBothSpread);
     declareNoise(list,
                  "go on until the picture's noise, the square root of its relMSE, is at most T "
-                 "(0.02: 2 %) in 95 of 100 renders; samples go where they help most; -s is the "
+                 "(0.02 or 2%) in 95 of 100 renders; samples go where they help most; -s is the "
                  "most per pixel",
                  stop.noise)
         .excludes("-a", kBothSpread)
         .excludes("--even", kBothSpread);
     list.real(
             "--time", "S",
-            "take samples for at most S seconds, from a coarse grid of pixels to all of them, then "
+            "take samples for at most S seconds (90, 10s, 2m, 1h30m), from a coarse grid of pixels "
+            "to all of them, then "
             "where they help most; loading, preparing and writing are not counted; -s is the most "
             "per pixel",
-            stop.seconds, kSeconds)
+            stop.seconds, kSeconds, kTimes)
         .usually("")
         .excludes("-a", kBothSpread)
         .excludes("--even", kBothSpread);

@@ -90,14 +90,29 @@ struct WatchOptions {
     bool isGiven() const { return port || !updateFile.empty() || !tev.empty(); }
 };
 
+/// How it is said how far a render is.
+enum class ProgressForm {
+    Auto,    ///< a bar in the status line; where there is none, lines
+    Lines,   ///< messages
+    Objects, ///< one JSON object a line, on standard error
+    Off
+};
+
+struct ProgressRequest {
+    ProgressForm form = ProgressForm::Auto;
+    double everySeconds = 10; ///< from one line to the next
+};
+
 struct RenderOptions : SceneAndPicture {
     OutputOptions output;
     WatchOptions watch;
+    ProgressRequest progress;
     /// A picture of each of these cameras of the file (names, numbers; "all" alone: of each);
     /// empty: one, of picture.camera.
     std::vector<std::string> cameras;
     SequenceOptions sequence;
     CheckpointOptions checkpoint;
+    bool skipExisting = false; ///< pictures that are finished are not rendered again
     ShareOptions share;
     std::optional<SampleName> sampleAlone; ///< print this sample and write nothing
     /// The command without what leaves the picture as it is: its own name, the device, checkpoints.

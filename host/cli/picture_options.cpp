@@ -122,15 +122,8 @@ glm::dvec3 readPoint(const std::string& option, const Words& words) {
 
 /// A positive length; metres, where it has no unit.
 double readLength(const std::string& option, const std::string& word) {
-    constexpr std::array<std::pair<std::string_view, double>, 5> kUnits = {
-        {{"mm", 1e-3}, {"cm", 1e-2}, {"km", 1e3}, {"m", 1}, {"", 1}}};
-    for (const auto& [unit, metres] : kUnits) {
-        if (!word.ends_with(unit)) continue;
-        const std::optional<double> value = realNumber(word.substr(0, word.size() - unit.size()));
-        if (value && *value * metres > 0 && *value * metres <= kCoordinates.most)
-            return *value * metres;
-        break;
-    }
+    const std::optional<double> metres = quantityIn(word, kLengths);
+    if (metres && *metres > 0 && *metres <= kCoordinates.most) return *metres;
     refuse(option, word,
            "a length greater than 0, in metres or with its unit: 5mm, 2.5cm, 3m, 1km");
 }
@@ -139,7 +132,7 @@ std::vector<Layer> readLayers(const std::string& list) {
     std::vector<Layer> layers;
     for (const std::string& name : splitAtCommas(list)) {
         const std::optional<Layer> layer = valueNamed<Layer>(name);
-        if (!layer) refuse("--layers", name, allNames<Layer>());
+        if (!layer) refuseName("--layers", name, namesOf<Layer>(), allNames<Layer>());
         if (std::ranges::count(layers, *layer) > 0)
             throw UsageError(fmt::format("--layers names {} twice", name));
         layers.push_back(*layer);
@@ -161,7 +154,7 @@ void declareOptics(OptionList& list, CameraRequest& camera) {
     list.words("--fov", "DEGREES", "angle of view over the height of the picture", 1,
                [&camera](const Words& words) {
                    camera.fieldOfView =
-                       readReal("--fov", words[0], kAngles) * glm::pi<double>() / 180;
+                       readReal("--fov", words[0], kAngles, kDegrees) * glm::pi<double>() / 180;
                })
         .from(inWords(kAngles))
         .usually("the camera's; --look-from: 40");
@@ -221,7 +214,7 @@ void declareScene(OptionList& list, SceneRequest& scene, Words* several) {
         .proposes(Proposed::Files);
     list.real("--env-rotate", "DEGREES",
               "turns it about the vertical, counter-clockwise seen from above",
-              environment.rotationDegrees, {-3600, 3600})
+              environment.rotationDegrees, {-3600, 3600}, kDegrees)
         .needs("--env");
     list.real("--env-strength", "X", "multiplies its radiance", environment.strength, {0, 1e9})
         .needs("--env");
@@ -240,7 +233,7 @@ void declareScene(OptionList& list, SceneRequest& scene, Words* several) {
     list.text("--variant", "NAME", "glTF: the set of materials of this name", selection.variant);
     list.words("--at", "SECONDS", "glTF: the pose that the first animation has at this time", 1,
                [&selection](const Words& words) {
-                   selection.seconds = readReal("--at", words[0], kAnimationSeconds);
+                   selection.seconds = readReal("--at", words[0], kAnimationSeconds, kTimes);
                })
         .usually("the pose without animation")
         .from(inWords(kAnimationSeconds));
@@ -340,7 +333,8 @@ void declarePicture(OptionList& list, RenderRequest& picture, Asked& asked, bool
                })
         .from(inWords(kSide))
         .usually(picture.size ? fmt::format("{} {}", picture.size->width, picture.size->height)
-                              : "the camera's shape, 800 wide");
+                              : "the camera's shape, 800 wide")
+        .maybeJoined();
     list.words("--camera", "WHICH",
                fmt::format("whose view ({}; NAME or N: the file's camera of that name or number, "
                            "which info lists{})",

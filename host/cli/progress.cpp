@@ -1,8 +1,10 @@
 #include "host/cli/progress.hpp"
 
 #include "host/cli/log.hpp"
+#include "host/core/json.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -165,6 +167,13 @@ constexpr int kBarWidth = 24; // characters
 /// Some twenty dispatches: their length settles, and single ones no longer matter.
 constexpr double kLeastToTellFromSeconds = 2;
 
+/// As a whole, whatever other threads write.
+void printLine(std::string line) {
+    line += '\n';
+    std::fwrite(line.data(), 1, line.size(), stderr);
+    std::fflush(stderr);
+}
+
 } // namespace
 
 std::optional<double> TimeLeft::after(double seconds, double done) {
@@ -179,14 +188,37 @@ std::optional<double> TimeLeft::after(double seconds, double done) {
 
 ProgressBar::~ProgressBar() {
     status_line::clear();
+    if (request_.form == ProgressForm::Objects && notShown_)
+        printLine(progressAsJson(*notShown_, watch_.seconds(), std::nullopt));
+}
+
+std::string progressInWords(const RenderProgress& p, double seconds, std::optional<double> left) {
+    return fmt::format("{:.1f} %, {:.2f} M samples in {}, {} left",
+                       100 * std::clamp(p.share, 0.0, 1.0), double(p.samplesDone) * 1e-6,
+                       formatDuration(seconds), left ? formatDuration(*left) : "?");
+}
+
+std::string progressAsJson(const RenderProgress& p, double seconds, std::optional<double> left) {
+    const Json object = {{"share", std::clamp(p.share, 0.0, 1.0)},
+                         {"samples", p.samplesDone},
+                         {"rays", p.counters.rays},
+                         {"seconds", seconds},
+                         {"secondsLeft", left ? Json(*left) : Json()}};
+    return object.dump();
 }
 
 /// What matters most comes first: a narrow terminal shows the beginning.
 void ProgressBar::show(const RenderProgress& p) {
     const double now = watch_.seconds(), done = std::clamp(p.share, 0.0, 1.0);
     const std::optional<double> left = left_.after(now, done);
-    if (!status_line::isShown() || (lastShown_ && now - *lastShown_ < kRedrawSeconds)) return;
+    const bool isBar = request_.form == ProgressForm::Auto && status_line::isShown();
+    if (request_.form == ProgressForm::Off) return;
+    notShown_ = p;
+    if (now - lastShown_ < (isBar ? kRedrawSeconds : request_.everySeconds)) return;
     lastShown_ = now;
+    notShown_.reset();
+    if (request_.form == ProgressForm::Objects) return printLine(progressAsJson(p, now, left));
+    if (!isBar) return logging::info(progressInWords(p, now, left));
     const int filled = int(done * kBarWidth);
     status_line::draw(fmt::format(
         "{:5.1f} %  {} left  [{:#<{}}{:.<{}}] {:.2f} M samples  {:.2f} Mrays/s", 100 * done,

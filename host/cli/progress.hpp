@@ -1,5 +1,6 @@
 #pragma once
 
+#include "host/cli/options.hpp"
 #include "host/core/system.hpp"
 #include "host/engine/load_scene.hpp"
 #include "host/render/sampling_session.hpp"
@@ -66,19 +67,29 @@ class TimeLeft {
     double firstShare_ = 0;
 };
 
-/// Shows in the status line how far a render is, at most four times a second.
+/// "12.5 %, 0.30 M samples in 1.0 s, 7.0 s left".
+std::string progressInWords(const RenderProgress& progress, double seconds,
+                            std::optional<double> secondsLeft);
+/// An object without a line's end: share (0 to 1), samples, rays, seconds, secondsLeft (null: not
+/// known yet).
+std::string progressAsJson(const RenderProgress& progress, double seconds,
+                           std::optional<double> secondsLeft);
+
+/// Says how far a render is: in the status line at most four times a second, or as lines.
 class ProgressBar {
   public:
-    ProgressBar() = default;
+    explicit ProgressBar(ProgressRequest request = {}) : request_(request) {}
     ~ProgressBar();
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
     void show(const RenderProgress& progress);
 
   private:
+    ProgressRequest request_;
     Stopwatch watch_;
     TimeLeft left_;
-    std::optional<double> lastShown_; ///< seconds
+    double lastShown_ = 0;                   ///< seconds
+    std::optional<RenderProgress> notShown_; ///< since then
 };
 
 /// "850 ms", "12.3 s", "4 min 05 s", "2 h 03 min".

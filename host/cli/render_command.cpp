@@ -1,4 +1,5 @@
 // `render`: a picture, a share of one, several, or one sample.
+#include "host/checkpoint/checkpoint_file.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/log.hpp"
 #include "host/cli/progress.hpp"
@@ -19,6 +20,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -62,13 +64,42 @@ struct Watchers {
     std::optional<view::Server> server; ///< ends first
 };
 
+/// Where the state of a render is kept; empty: nowhere.
+std::string checkpointFileOf(const RenderOptions& options) {
+    const std::string& asked = options.checkpoint.file;
+    if (asked == "off" || options.output.file == "-") return {};
+    return asked.empty() ? usualCheckpointPath(options.output.file).string() : asked;
+}
+
+bool hasCheckpoint(const RenderOptions& options) {
+    const std::string file = checkpointFileOf(options);
+    return !file.empty() && (std::filesystem::exists(file) || bandsKept(file) > 0);
+}
+
+/// Whether an earlier run has finished the picture: it is there, and no checkpoint is left of it.
+bool isFinished(const RenderOptions& options) {
+    return std::filesystem::is_regular_file(options.output.file) && !hasCheckpoint(options);
+}
+
+/// Those of several pictures that are still to be rendered, where the options ask for no others.
+std::vector<RenderOptions> unfinished(std::vector<RenderOptions> pictures) {
+    const size_t all = pictures.size();
+    std::erase_if(pictures, [](const RenderOptions& o) {
+        return (o.checkpoint.resume || o.skipExisting) && isFinished(o);
+    });
+    if (pictures.size() < all)
+        logging::info(
+            fmt::format("{} of {} pictures are there already", all - pictures.size(), all));
+    for (RenderOptions& o : pictures)
+        if (!hasCheckpoint(o)) o.checkpoint.resume = false; // of one that has not begun
+    return pictures;
+}
+
 /// The checkpoint, and what it holds where --resume asks for it.
 Keeping keepingOf(const RenderOptions& options) {
     const CheckpointOptions& asked = options.checkpoint;
-    const std::string& output = options.output.file;
     Keeping keeping;
-    if (asked.file != "off" && output != "-")
-        keeping.file = asked.file.empty() ? usualCheckpointPath(output).string() : asked.file;
+    keeping.file = checkpointFileOf(options);
     keeping.everySeconds = asked.everySeconds;
     keeping.keepsAtEnd = !asked.file.empty() && !keeping.file.empty();
     if (!asked.resume) return keeping;
@@ -111,7 +142,7 @@ int renderPicture(RenderSession& session, const LoadedScene& scene, const Render
     RenderReport report;
     report.loadSeconds = scene.seconds;
     {
-        ProgressBar bar;
+        ProgressBar bar(options.progress);
         SessionEvents events = watched(bar);
         events.bandDone = [&](const FinishedBand& band) { outputs.place(band); };
         report.render = observers.run(session, events);
@@ -147,7 +178,7 @@ int renderShare(const RenderOptions& options) {
     bool wasThere = false;
     onSignal(OnSignal::Ask);
     {
-        ProgressBar bar;
+        ProgressBar bar(options.progress);
         SessionEvents events;
         events.progress = [&bar](const RenderProgress& state) {
             bar.show(state);
@@ -244,6 +275,10 @@ PreparedPicture preparePicture(const SceneAndPicture& work) {
 int renderCommand(const RenderOptions& options) {
     if (options.sampleAlone) return renderSample(options);
     const bool several = !options.cameras.empty() || options.sequence.isGiven();
+    if (!several && options.skipExisting && isFinished(options)) {
+        logging::info(fmt::format("{} is there already", options.output.file));
+        return 0;
+    }
     if (!several) checkOutputs(options);
     if (options.share.share) return renderShare(options);
     Keeping keeping;
@@ -251,12 +286,13 @@ int renderCommand(const RenderOptions& options) {
     RenderSession session(options.device, toTerminal()); // opens devices while the scene is read
     Watchers watchers(options);
     if (options.sequence.isGiven()) {
-        const std::vector<RenderOptions> frames = optionsOfFrames(options);
+        const std::vector<RenderOptions> frames = unfinished(optionsOfFrames(options));
+        if (frames.empty()) return 0;
         return renderPictures(session, load(frames.front()), frames, watchers.observers);
     }
     const LoadedScene scene = load(options);
     if (!several) return renderPicture(session, scene, options, keeping, watchers.observers);
-    return renderPictures(session, scene, optionsOfCameras(options, *scene.scene),
+    return renderPictures(session, scene, unfinished(optionsOfCameras(options, *scene.scene)),
                           watchers.observers);
 }
 

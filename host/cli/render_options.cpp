@@ -18,6 +18,7 @@ constexpr Range<uint32_t> kShares{1, 1'000'000};
 const char* const kAllAlike = "a share has as many samples of every pixel as of all others";
 
 constexpr Range<double> kUpdateSeconds{0.1, 1e6};
+constexpr Range<double> kProgressSeconds{1e-3, 1e9};
 
 ShareName readShare(const std::string& word) {
     const size_t slash = word.find('/');
@@ -58,11 +59,29 @@ void readUpdate(const std::string& word, WatchOptions& o) {
         return;
     }
     o.updateFile = word.substr(0, colon);
-    o.updateSeconds = readReal("--update: SECONDS", word.substr(colon + 1), kUpdateSeconds);
+    o.updateSeconds = readReal("--update: SECONDS", word.substr(colon + 1), kUpdateSeconds, kTimes);
 }
 
-void declareWatching(OptionList& list, WatchOptions& o) {
+ProgressRequest readProgress(const std::string& word) {
+    if (word == "auto") return {};
+    if (word == "off") return {ProgressForm::Off};
+    if (word == "json") return {ProgressForm::Objects, 1};
+    const std::optional<double> seconds = quantityIn(word, kTimes);
+    if (!seconds || !(*seconds >= kProgressSeconds.least && *seconds <= kProgressSeconds.most))
+        refuse("--progress", word, "auto, json, off, or how often lines come, as 30s");
+    return {ProgressForm::Lines, *seconds};
+}
+
+void declareWatching(OptionList& list, WatchOptions& o, ProgressRequest& progress) {
     list.group("Watching");
+    list.words("--progress", "HOW",
+               "how it is said how far the render is: auto: a bar on a terminal, elsewhere a line "
+               "every 10 s; a time, as 30s: a line that often; json: a JSON object a line on "
+               "standard error, every second and at the end; off: not at all",
+               1, [&progress](const Words& words) { progress = readProgress(words[0]); })
+        .usually("auto")
+        .besidePicture()
+        .proposes({"auto", "json", "off"});
     list.number("--watch", "PORT",
                 "serve a page that shows the picture while it is rendered, on this machine alone; "
                 "0: at any port that is free; the address is printed (docs/guide/view.md)",
@@ -85,7 +104,7 @@ void declareWatching(OptionList& list, WatchOptions& o) {
         .besidePicture();
 }
 
-void declareCheckpoints(OptionList& list, CheckpointOptions& o) {
+void declareCheckpoints(OptionList& list, CheckpointOptions& o, bool& skipExisting) {
     list.group("Going on");
     list.text("--checkpoint", "FILE",
               "keep the state of the render there, and leave it at the end; off: nowhere", o.file)
@@ -94,13 +113,20 @@ void declareCheckpoints(OptionList& list, CheckpointOptions& o) {
         .proposes({"off"})
         .proposes(Proposed::Files);
     list.real("--checkpoint-every", "S", "seconds from one checkpoint to the next", o.everySeconds,
-              kSeconds)
+              kSeconds, kTimes)
         .besidePicture();
     list.flag("--resume",
               "go on from the checkpoint, to the same bytes as if never interrupted; also with "
-              "another -s, --noise, --time or -a (--time counts all runs); with --share: the film "
-              "of this share is kept if it is there",
+              "another -s, --noise, --time or -a (--time counts all runs); of several pictures "
+              "(--frames, --turntable, --camera) with the first that is not finished; with "
+              "--share: the film of this share is kept if it is there",
               o.resume)
+        .besidePicture();
+    list.flag("--skip-existing",
+              "leave out pictures whose file is there, unless a checkpoint says that they are not "
+              "finished",
+              skipExisting)
+        .excludes("--share", "--resume keeps its film")
         .besidePicture();
 }
 
@@ -256,8 +282,8 @@ void declareRender(DeclaredCommand& c) {
     declareSpreading(list, o->picture, *asked);
     declareSampleAlone(list, *asked);
     declareShare(list, o->share);
-    declareCheckpoints(list, o->checkpoint);
-    declareWatching(list, o->watch);
+    declareCheckpoints(list, o->checkpoint, o->skipExisting);
+    declareWatching(list, o->watch, o->progress);
     declareFilmMemory(list, o->device);
     list.choice("--backend", "WHICH", "what takes the samples", o->device.backend);
     declareDevice(list, o->device.device);
@@ -266,6 +292,12 @@ void declareRender(DeclaredCommand& c) {
                 o->device.scheduler)
         .besidePicture();
     declareHost(c);
+    list.makeCommon({"-o", "-r", "-s", "--time", "--noise", "--denoise", "--camera", "--look-from",
+                     "--look-at", "--env", "--view", "--exposure"});
+    c.footer = "Examples:\n"
+               "  stromboli render room.gltf -o room.png --time 2m --denoise on\n"
+               "  stromboli render room.gltf -o room.exr -r 1920x1080 --noise 2%\n"
+               "  stromboli render helmet.glb -o helmet.png --env studio.hdr --view agx";
     list.number("--accumulate", "N", "CS184's -o: 0 is --min-bounce equal to -m", asked->accumulate,
                 {0, 0xFFFFFFFFu})
         .excludes("--min-bounce", "both say which bounces are left out")

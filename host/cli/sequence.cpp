@@ -133,9 +133,11 @@ FrameRange readFrames(const std::string& option, const std::string& word) {
     const auto number = [&](const std::string& text) {
         return readNumber(option, text, kFrameNumbers);
     };
-    const size_t dots = word.find("..");
-    if (dots == std::string::npos) return {number(word), number(word)};
-    const FrameRange range{number(word.substr(0, dots)), number(word.substr(dots + 2))};
+    size_t between = std::string::npos, length = 0;
+    for (const std::string_view mark : {"..", "-", ":"})
+        if (between == std::string::npos) between = word.find(mark), length = mark.size();
+    if (between == std::string::npos) return {number(word), number(word)};
+    const FrameRange range{number(word.substr(0, between)), number(word.substr(between + length))};
     if (range.first > range.last) refuse(option, word, "the first frame and the last, as 0..59");
     return range;
 }

@@ -22,7 +22,8 @@ std::vector<RenderOptions> optionsOfCameras(const RenderOptions& asked, const Sc
 /// number, of four digits or more, before the ending ("a.png": "a.0007.png").
 std::string fileOfFrame(const std::string& file, uint32_t frame);
 
-/// Reads "A..B", whole numbers with A not above B, or one number. Throws UsageError.
+/// Reads "A..B", "A-B" or "A:B", whole numbers with A not above B, or one number. Throws
+/// UsageError.
 FrameRange readFrames(const std::string& option, const std::string& word);
 
 } // namespace stromboli

@@ -119,7 +119,7 @@ void declareMeasuring(OptionList& list, AskedStudy& asked, StudyOptions& o) {
                 asked.targetSamples, kStudySamples)
         .usually("64, or the largest count");
     list.real("--most-seconds", "S", "efforts that would take longer are left out",
-              s.mostSecondsPerRun, kSeconds);
+              s.mostSecondsPerRun, kSeconds, kTimes);
 }
 
 void checkRange(const char* what, uint32_t value, uint32_t least, uint32_t most) {

@@ -16,8 +16,6 @@ using testing::HasSubstr;
 using testing::UnorderedElementsAre;
 using Json = nlohmann::json;
 
-constexpr int kUsage = 1;
-
 class DenoiseCli : public testing::Test {
   protected:
     ScratchFolder folder;

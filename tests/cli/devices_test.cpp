@@ -13,8 +13,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr int kDevice = 3;
-
 class Devices : public testing::Test {
   protected:
     ScratchFolder folder;

@@ -17,8 +17,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::UnorderedElementsAre;
 
-constexpr int kUsage = 1, kScene = 2;
-
 /// A grey square of four metres that faces up, and cameras above it that see one of a metre, or
 /// six.
 std::string floorScene(const std::string& cameras) {

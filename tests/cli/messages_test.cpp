@@ -2,6 +2,7 @@
 #include "host/cli/command_line.hpp"
 #include "host/cli/options.hpp"
 #include "host/core/error.hpp"
+#include "host/core/nearest_name.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/support/refusal.hpp"
 
@@ -64,6 +65,21 @@ TEST(Messages, AnUnknownOptionIsNamedWithOneLikeIt) {
                 HasSubstr("check has no option --stats; it is one of render"));
     EXPECT_THAT(renderRefusal({"--teapot"}), Not(HasSubstr("did you mean")));
     EXPECT_EQ(renderRefusal({"--even=false"}), "--even takes no value: --even=false");
+}
+
+TEST(Messages, AValueThatIsNoneIsNamedWithOneLikeIt) {
+    EXPECT_EQ(renderRefusal({"--integrator", "pth"}),
+              "--integrator is 'pth': expected path, normals or depth; did you mean path?");
+    EXPECT_THAT(renderRefusal({"--layers", "depth,albdo"}, "a.exr"),
+                HasSubstr("did you mean albedo?"));
+    EXPECT_THAT(renderRefusal({"--time", "10q"}),
+                HasSubstr("maybe with its unit: h, min, m, s, ms"));
+}
+
+TEST(Messages, HelpOfACommandIsAlsoACommand) {
+    EXPECT_FALSE(parseOptions({"help"}));
+    EXPECT_FALSE(parseOptions({"help", "render"}));
+    EXPECT_THAT(refusal({"help", "rendr"}), HasSubstr("did you mean render?"));
 }
 
 TEST(Messages, WhatCannotHaveAnEffectIsRefused) {

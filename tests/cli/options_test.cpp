@@ -252,6 +252,50 @@ TEST(Options, NumbersHaveExponentsAndUnits) {
               (std::vector<uint64_t>{1000, 2'500'000}));
 }
 
+TEST(Options, QuantitiesHaveUnits) {
+    const auto with = [](std::vector<std::string> words) {
+        words.insert(words.begin(), {"render", "a.dae", "-o", "a.png"});
+        return parse(std::move(words));
+    };
+    for (const auto& [word, seconds] : {std::pair("10s", 10.0),
+                                        {"2m", 120.0},
+                                        {"1.5min", 90.0},
+                                        {"1h30m", 5400.0},
+                                        {"250ms", 0.25},
+                                        {"1e2s", 100.0}})
+        EXPECT_EQ(with({"--time", word}).picture.budget.stop.seconds, seconds) << word;
+    EXPECT_DOUBLE_EQ(with({"--noise", "2%"}).picture.budget.stop.noise, 0.02);
+    EXPECT_DOUBLE_EQ(*with({"--fov", "90deg"}).picture.camera.fieldOfView, std::acos(0.0));
+    EXPECT_DOUBLE_EQ(*with({"--fov", "90°"}).picture.camera.fieldOfView, std::acos(0.0));
+    EXPECT_DOUBLE_EQ(*with({"--fov", "1rad"}).picture.camera.fieldOfView, 1);
+    EXPECT_DOUBLE_EQ(with({"--focus", "2m50cm", "--aperture", "5mm"}).picture.camera.focus, 2.5);
+}
+
+TEST(Options, QuantitiesAreNoOthers) {
+    for (const char* word : {"", "s", "10q", "30m1h", "1h1h", "10 s", "10s ", "1h-5m", "s10", "%"})
+        EXPECT_EQ(quantityIn(word, kTimes), std::nullopt) << word;
+    EXPECT_EQ(quantityIn("2%", kTimes), std::nullopt);
+    EXPECT_EQ(quantityIn("-5deg", kDegrees), -5);
+}
+
+TEST(Options, SizesMayBeOneWord) {
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"-r", "640", "360"},
+                                                  {"-r", "640x360"},
+                                                  {"-r", "640X360"},
+                                                  {"--size=640x360"},
+                                                  {"--size", "640x360"}}) {
+        std::vector<std::string> all = {"render", "a.dae", "-o", "a.png"};
+        all.insert(all.end(), words.begin(), words.end());
+        const RenderOptions o = parse(all);
+        EXPECT_EQ(o.picture.size->width, 640u);
+        EXPECT_EQ(o.picture.size->height, 360u);
+        EXPECT_EQ(o.command.back(), "-r 640 360"); // however it was written
+    }
+    EXPECT_THROW(parse({"render", "a.dae", "-o", "a.png", "-r", "640"}), UsageError);
+    EXPECT_THROW(parse({"render", "a.dae", "-o", "a.png", "-r", "640x"}), UsageError);
+    EXPECT_EQ(parse({"render", "a.dae", "-o", "4x4"}).output.file, "4x4");
+}
+
 /// Profiles change what options are by default, wherever they stand; what is given is kept.
 TEST(Options, ProfilesChangeOnlyDefaults) {
     const RenderOptions o = parse({"render", "a.dae", "-o", "a.png", "-m", "6", "-s", "9",

@@ -6,6 +6,9 @@
 
 namespace stromboli::test {
 
+/// Exit codes, stated here a second time so that a change of the program's is noticed.
+inline constexpr int kUsage = 1, kScene = 2, kDevice = 3, kOutput = 4, kNothingLeft = 7;
+
 /// What a run of the program left behind.
 struct ProgramRun {
     int exitCode = -1; ///< 128 + n if signal n ended it

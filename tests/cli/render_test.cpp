@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 namespace stromboli::test {
 namespace {
@@ -100,6 +101,25 @@ TEST_F(Program, ShowsProgressOnATerminal) {
     const std::string shown = bytesOf(folder.path() / "terminal");
     for (const char* part : {"\r", " %", "M samples", "Mrays/s", "left"})
         EXPECT_THAT(shown, HasSubstr(part));
+}
+
+TEST_F(Program, SaysHowFarItIsInLinesWhereThatIsAskedFor) {
+    const ProgramRun lines = render("a.png", {"-s", "64", "--progress", "1ms"});
+    EXPECT_THAT(lines.err, testing::ContainsRegex("info: +[0-9.]+ %, [0-9.]+ M samples in "));
+    const ProgramRun objects = render("b.png", {"-s", "64", "--progress", "json"});
+    std::istringstream all(objects.err);
+    uint64_t samples = 0;
+    for (std::string line; std::getline(all, line);) {
+        if (!line.starts_with("{")) continue;
+        const auto object = nlohmann::json::parse(line);
+        EXPECT_GE(object["samples"].get<uint64_t>(), samples);
+        samples = object["samples"].get<uint64_t>();
+        EXPECT_TRUE(object["secondsLeft"].is_null() || object["secondsLeft"].is_number());
+    }
+    EXPECT_GT(samples, 0u);
+    EXPECT_EQ(bytesOf(folder.path() / "a.png"), bytesOf(folder.path() / "b.png"));
+    EXPECT_EQ(render("c.png", {"--progress", "off"}).exitCode, 0);
+    EXPECT_EQ(stromboli({"render", scene, "-o", "d.png", "--progress", "often"}).exitCode, kUsage);
 }
 
 TEST_F(Program, StopsAtTheNoiseAskedForAndSaysSo) {

@@ -16,8 +16,6 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr int kNothingLeft = 7;
-
 class Rounds : public FilmFolder {
   protected:
     std::string scene = libraryScene("cornell_spheres.dae");

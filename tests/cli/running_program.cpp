@@ -96,7 +96,7 @@ void RunningProgram::takeIn() {
         return;
     }
     char bytes[4096];
-    for (ssize_t n; (n = read(terminal_, bytes, sizeof bytes)) > 0;)
+    for (ssize_t n; (n = ::read(terminal_, bytes, sizeof bytes)) > 0;)
         shown_.append(bytes, size_t(n));
 }
 

@@ -9,6 +9,9 @@
 
 namespace stromboli::test {
 
+/// Seconds within which a program does what it does at once, on a machine however busy.
+inline constexpr double kSoon = 250;
+
 /// What standard error is: a terminal of so many columns, or a file (0).
 struct Terminal {
     unsigned short columns = 0;

@@ -18,8 +18,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr int kUsage = 1, kScene = 2;
-
 std::string camera(const std::string& id, const std::string& transform) {
     return "<node>" + transform + "<instance_camera url=\"#" + id + "\"/></node>";
 }

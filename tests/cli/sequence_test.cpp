@@ -13,10 +13,10 @@
 namespace stromboli::test {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-constexpr int kUsage = 1, kScene = 2;
+using testing::Not;
 
 std::string bytesOf(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
@@ -69,7 +69,11 @@ TEST(FrameNumbers, AreARangeOrOne) {
     EXPECT_EQ(readFrames("--frames", "3..17").first, 3u);
     EXPECT_EQ(readFrames("--frames", "3..17").last, 17u);
     EXPECT_EQ(readFrames("--frames", "5").last, 5u);
-    for (const char* wrong : {"", "..", "3..", "..4", "4..3", "1-3", "-1..2", "1..1e9"})
+    for (const char* word : {"3-17", "3:17"}) {
+        EXPECT_EQ(readFrames("--frames", word).first, 3u);
+        EXPECT_EQ(readFrames("--frames", word).last, 17u);
+    }
+    for (const char* wrong : {"", "..", "3..", "..4", "4..3", "4-3", "3-", "-4", "-1..2", "1..1e9"})
         EXPECT_THROW(readFrames("--frames", wrong), UsageError) << wrong;
 }
 
@@ -95,6 +99,39 @@ TEST_F(Sequence, TurntableHasTheBytesOfItsFramesAlone) {
     EXPECT_NE(picture("a03.png"), "");
     EXPECT_EQ(picture("a03.png"), picture("b.0003.png"));
     EXPECT_NE(picture("a03.png"), picture("a02.png"));
+}
+
+/// Which of five pictures are rendered is seen by what is in their place: each is replaced by a
+/// text.
+TEST_F(Sequence, FinishedFramesAreNotRenderedAgain) {
+    const std::string scene = libraryScene("cornell_boxes.dae");
+    const auto run = [&](const std::string& how) {
+        std::vector<std::string> words = {scene, "--turntable", "5", "-o", folder.file("a%d.png")};
+        if (!how.empty()) words.push_back(how);
+        const ProgramRun all = render(words);
+        EXPECT_EQ(all.exitCode, 0) << all.err;
+        return all.err;
+    };
+    run("");
+    const std::string second = picture("a2.png");
+    for (const char* how : {"--resume", "--skip-existing"}) {
+        for (const char* name : {"a0.png", "a1.png", "a3.png", "a4.png"})
+            folder.write(name, "another");
+        std::filesystem::remove(folder.file("a2.png"));
+        EXPECT_THAT(run(how), AllOf(HasSubstr("4 of 5 pictures are there already"),
+                                    Not(HasSubstr("begins anew"))));
+        for (const char* name : {"a0.png", "a1.png", "a3.png", "a4.png"})
+            EXPECT_EQ(picture(name), "another");
+        EXPECT_EQ(picture("a2.png"), second);
+    }
+    EXPECT_THAT(run("--skip-existing"), HasSubstr("5 of 5 pictures are there already"));
+    // What a checkpoint is left of is not finished.
+    folder.write("a3.png.checkpoint", "no checkpoint");
+    EXPECT_THAT(render({scene, "--turntable", "5", "-o", folder.file("a%d.png"), "--resume"}).err,
+                HasSubstr("a3.png.checkpoint"));
+    run("");
+    EXPECT_EQ(picture("a2.png"), second);
+    EXPECT_NE(picture("a0.png"), "another");
 }
 
 TEST_F(Sequence, AnimationHasTheBytesOfItsFramesAlone) {

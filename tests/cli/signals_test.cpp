@@ -16,7 +16,6 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 /// Waiting ends as soon as what is waited for is there: this is when a test has hung.
-constexpr double kSoon = 250; // seconds
 
 /// Seconds of work to make, so that the program is busy with it when the signal comes.
 const std::string kLargeScene = "generate:cornell_mesh:4M";

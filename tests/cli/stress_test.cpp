@@ -13,8 +13,6 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr int kUsage = 1, kOutput = 4;
-
 TEST(StressCommand, ListsItsCasesWithoutADevice) {
     const ProgramRun run = stromboli({"stress", "--list"}, "VK_DRIVER_FILES=/none");
     EXPECT_EQ(run.exitCode, 0) << run.err;

@@ -15,7 +15,6 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr double kSoon = 250; // seconds
 const std::string kErase = "\r\033[K";
 
 class OnTerminal : public testing::Test {

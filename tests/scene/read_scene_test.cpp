@@ -138,10 +138,18 @@ TEST_F(ReadScene, BundledScenesByNameFromAnyFolder) {
 
 TEST_F(ReadScene, UnknownNamesAreOneErrorThatNamesTheBundledScenes) {
     EXPECT_EQ(librarySceneNames().size(), 17u);
-    for (const char* name : {"cornell_boxs", "../library/cornell_boxes", "cornell_boxes.dae/", ""})
+    for (const char* name : {"nothing_like_it", "../library/cornell_boxes", ""})
         for (const std::string& known : librarySceneNames())
             EXPECT_THAT(messageOf(name), AllOf(HasSubstr("no such file"), HasSubstr(known)))
                 << name;
+}
+
+TEST_F(ReadScene, NamesAWordLikeTheOneThatIsUnknown) {
+    for (const char* name : {"cornell_boxs", "cornell_boxes.dae/"})
+        EXPECT_THAT(messageOf(name), HasSubstr("did you mean cornell_boxes?")) << name;
+    write("kitchen.gltf", "");
+    EXPECT_THAT(messageOf((folder_ / "kitchn.gltf").string()),
+                HasSubstr("did you mean " + (folder_ / "kitchen.gltf").string() + "?"));
 }
 
 TEST_F(ReadScene, InUtf16) {
