@@ -77,10 +77,16 @@ function(stromboli_use_precompiled target header)
     endif()
 endfunction()
 
-# A few files of a library are compiled as one: what their headers hold is read, and the templates
-# that they share are made, once for all of them. For those who edit a file at a time OFF is better.
-option(STROMBOLI_UNITY_BUILD "Compile several files of a library as one" ON)
+# A few files of a library or a test program are compiled as one: what their headers hold is read, and
+# the templates that they share are made, once for all of them (docs/results.md). What a file
+# keeps to itself must therefore have a name that no other file of its folder uses. For those who edit a
+# file at a time OFF is better.
+option(STROMBOLI_UNITY_BUILD "Compile several files of a library or a test program as one" ON)
 set(STROMBOLI_FILES_AT_ONCE 6)
+function(stromboli_compile_together target)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ${STROMBOLI_UNITY_BUILD}
+                          UNITY_BUILD_BATCH_SIZE ${STROMBOLI_FILES_AT_ONCE})
+endfunction()
 
 # stromboli_library(NAME [COLD] SOURCES a.cpp ... DEPENDS lib ... [PRIVATE_DEPENDS lib ...]): one
 # folder of the program. COLD: compiled quickly and not for speed. PRIVATE_DEPENDS: libraries whose
@@ -90,8 +96,7 @@ function(stromboli_library name)
     add_library(${name} STATIC ${ARG_SOURCES})
     target_link_libraries(${name} PUBLIC stromboli_settings ${ARG_DEPENDS}
                           PRIVATE ${ARG_PRIVATE_DEPENDS})
-    set_target_properties(${name} PROPERTIES UNITY_BUILD ${STROMBOLI_UNITY_BUILD}
-                          UNITY_BUILD_BATCH_SIZE ${STROMBOLI_FILES_AT_ONCE})
+    stromboli_compile_together(${name})
     if(ARG_COLD)
         target_compile_options(${name} PRIVATE ${STROMBOLI_COLD_CODE})
         stromboli_use_precompiled(${name} stromboli_precompiled_cold)
@@ -158,11 +163,13 @@ function(stromboli_check_layers)
     endforeach()
 endfunction()
 
-# Makes a ctest entry of each suite of a GoogleTest program, which is asked for them once it is linked.
-function(stromboli_suites name)
+# stromboli_suites(NAME LEFT_OUT property value ...): makes a ctest entry of each suite of a GoogleTest
+# program, which is asked for them once it is linked, but of those of the list LEFT_OUT.
+function(stromboli_suites name left_out)
     set(list ${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake)
     add_custom_command(TARGET ${name} POST_BUILD
-        COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:${name}> -DLIST=${list} "-DPROPERTIES=${ARGN}"
+        COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:${name}> -DLIST=${list}
+                "-DLEFT_OUT=${left_out}" "-DPROPERTIES=${ARGN}"
                 -P ${PROJECT_SOURCE_DIR}/cmake/ListSuites.cmake
         BYPRODUCTS ${list}
         VERBATIM)
@@ -183,16 +190,18 @@ function(stromboli_test_objects name)
     add_library(${name} OBJECT EXCLUDE_FROM_ALL ${ARG_SOURCES})
     target_link_libraries(${name} PUBLIC stromboli_settings GTest::gtest_main GTest::gmock ${ARG_DEPENDS})
     target_compile_options(${name} PRIVATE ${STROMBOLI_COLD_CODE})
+    stromboli_compile_together(${name})
     stromboli_use_precompiled(${name} stromboli_precompiled_tests)
 endfunction()
 
 # stromboli_test(NAME SOURCES a.cpp ... DEPENDS lib ... [LABELS l] [TIMEOUT seconds] [MANY_KERNELS]
-#                [BY_SUITES] [NOT_SANITIZED]):
+#                [BY_SUITES] [NOT_SANITIZED] [SUITES_NOT_SANITIZED suite ...]):
 # one GoogleTest executable; each of its tests becomes a ctest entry. Tests that use a Vulkan device
 # (label device) are left out under sanitizers: drivers leak, and software ones are slow already.
 # NOT_SANITIZED ones are, too: of commands that measure, print and install, and read no file but the
 # program's own, whose libraries are a third of what the compiler would have to do; and whole pictures
 # of files that other tests read.
+# SUITES_NOT_SANITIZED: suites of statistics, which do a thousand times what other tests do once.
 # MANY_KERNELS: leaves out the core checks of the Vulkan validation layer, which optimise and validate
 # each specialised kernel anew and take up to three quarters of a test that compiles one. For tests
 # that ask of the device what others ask that keep the checks.
@@ -200,7 +209,7 @@ endfunction()
 # to open, and kernels that tests share longer to compile, than the tests take to run.
 function(stromboli_test name)
     cmake_parse_arguments(ARG "MANY_KERNELS;BY_SUITES;NOT_SANITIZED" "TIMEOUT;LABELS"
-                          "SOURCES;DEPENDS" ${ARGN})
+                          "SOURCES;DEPENDS;SUITES_NOT_SANITIZED" ${ARGN})
     set(left_out FALSE)
     if(STROMBOLI_SANITIZE AND (ARG_NOT_SANITIZED OR "device" IN_LIST ARG_LABELS))
         set(left_out TRUE)
@@ -215,6 +224,7 @@ function(stromboli_test name)
     target_link_libraries(${name} PRIVATE stromboli_settings GTest::gtest_main GTest::gmock
                           ${ARG_DEPENDS})
     target_compile_options(${name} PRIVATE ${STROMBOLI_COLD_CODE})
+    stromboli_compile_together(${name})
     stromboli_use_precompiled(${name} stromboli_precompiled_tests)
     if(left_out)
         set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL TRUE)
@@ -231,8 +241,10 @@ function(stromboli_test name)
         list(APPEND properties LABELS ${ARG_LABELS})
     endif()
     # Under sanitizers a process takes longer to start than most tests to run.
-    if(ARG_BY_SUITES OR STROMBOLI_SANITIZE)
-        stromboli_suites(${name} ${properties})
+    if(STROMBOLI_SANITIZE)
+        stromboli_suites(${name} "${ARG_SUITES_NOT_SANITIZED}" ${properties})
+    elseif(ARG_BY_SUITES)
+        stromboli_suites(${name} "" ${properties})
     else()
         gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES PROPERTIES ${properties})
     endif()

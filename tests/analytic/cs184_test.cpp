@@ -11,7 +11,6 @@ namespace {
 
 using namespace test;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kF = 0.5 / kPi;
 const Camera kFromAbove = pointCamera({3, 2, 3}, {0, 0, 0});
 const Camera kFromBelow = pointCamera({3, -2, 3}, {0, 0, 0});

@@ -12,7 +12,6 @@ namespace {
 
 using namespace test;
 
-constexpr double kPi = 3.14159265358979323846;
 const Camera kSeesOrigin = pointCamera({3, 2, 3}, {0, 0, 0});
 
 /// Lambert 1760: irradiance at the origin, normal n, from a polygon of radiance 1 above the

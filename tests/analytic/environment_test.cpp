@@ -14,7 +14,6 @@ namespace {
 
 using namespace test;
 
-constexpr double kPi = 3.14159265358979323846;
 const Camera kSeesOrigin = pointCamera({1, 2, 3}, {0, 0, 0});
 
 Environment picture(uint32_t width, uint32_t height, const glm::vec3& value) {

@@ -8,15 +8,6 @@ namespace {
 
 using namespace test;
 
-Scene sphereInAmbientLight(const Material& material) {
-    SceneMaker b;
-    b.sphere({0, 0, 0}, 1, b.add(material));
-    b.scene.lights.emplace_back().kind = LightKind::Ambient;
-    return b.scene;
-}
-
-const Camera kOutside = pointCamera({0, 0, 4}, {0, 0, 0}, 0.18); // the sphere fills the picture
-
 TEST(Glass, WhiteFurnaceIsOneInEverySample) {
     for (Roulette::Mode mode : {Roulette::Mode::None, Roulette::Mode::Throughput}) {
         RenderSettings s = smallPicture(64, 1000);

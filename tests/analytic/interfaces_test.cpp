@@ -40,15 +40,7 @@ Scene sheetInAmbientLight(const Material& material) {
     return b.scene;
 }
 
-Scene sphereInAmbientLight(const Material& material) {
-    SceneMaker b;
-    b.sphere({0, 0, 0}, 1, b.add(material));
-    b.add(ambient(1));
-    return b.scene;
-}
-
 const Camera kStraight = pointCamera({0.3, 0.2, 2}, {0.3, 0.2, 0});
-const Camera kOutside = pointCamera({0, 0, 4}, {0, 0, 0}, 0.18); // the sphere fills the picture
 const double kTilt = std::cos(std::atan(2.0));
 const Camera kTilted = pointCamera({4, 0, 2}, {0, 0, 0}); // at the cosine kTilt
 

@@ -12,8 +12,6 @@ namespace {
 
 using namespace test;
 
-constexpr double kPi = 3.14159265358979323846;
-
 Medium medium(const glm::vec3& absorption, const glm::vec3& scattering, float asymmetry = 0) {
     Medium m;
     m.absorption = absorption;

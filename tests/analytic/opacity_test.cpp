@@ -12,8 +12,6 @@ namespace {
 
 using namespace test;
 
-constexpr double kPi = 3.14159265358979323846;
-
 Material layer(float opacity, float albedo = 0) {
     Material m = diffuse(albedo);
     m.alphaMode = AlphaMode::Blend;

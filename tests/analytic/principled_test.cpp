@@ -30,15 +30,6 @@ Material roughGlass(float roughness, bool thin, float ior = 1.5f) {
     return m;
 }
 
-Scene sphereInAmbientLight(const Material& material) {
-    SceneMaker b;
-    b.sphere({0, 0, 0}, 1, b.add(material));
-    b.add(ambient(1));
-    return b.scene;
-}
-
-const Camera kOutside = pointCamera({0, 0, 4}, {0, 0, 0}, 0.18); // the sphere fills the picture
-
 TEST(Principled, WhiteMaterialsKeepTheLight) {
     for (const float roughness : {0.0f, 0.25f, 0.6f, 1.0f})
         for (const float metallic : {0.0f, 1.0f})

@@ -11,8 +11,6 @@ namespace {
 
 using namespace test;
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// A square whose normals all lean by a map. (0.6, 0, 0.8) in the frame of tangent and bitangent.
 struct Mapped {
     glm::vec4 tangent{1, 0, 0, 1};

@@ -10,6 +10,20 @@ void addFloor(SceneMaker& builder, uint32_t material) {
     builder.quad({-10, 0, -10}, {0, 0, 20}, {20, 0, 0}, material);
 }
 
+Scene sphereInAmbientLight(const Material& material) {
+    SceneMaker b;
+    b.sphere({0, 0, 0}, 1, b.add(material));
+    b.add(ambient(1));
+    return b.scene;
+}
+
+Light pointLight(float intensity, const glm::vec3& position) {
+    Light light;
+    light.position = position;
+    light.color = glm::vec3(intensity);
+    return light;
+}
+
 RenderSettings smallPicture(uint32_t samplesPerPixel, uint32_t maxBounces) {
     RenderSettings settings;
     settings.area.width = settings.area.height = 16;

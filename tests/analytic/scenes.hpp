@@ -7,6 +7,7 @@
 #include "scene/camera/camera.hpp"
 #include "scene/generate/scene_maker.hpp"
 #include "scene/model/scene.hpp"
+#include "tests/support/numbers.hpp"
 
 #include <initializer_list>
 #include <span>
@@ -23,6 +24,14 @@ void addFloor(SceneMaker& builder, uint32_t material);
 inline Camera pointCamera(const glm::dvec3& from, const glm::dvec3& at, double halfWidth = 1e-10) {
     return lookingAt(from, at, halfWidth);
 }
+
+/// A sphere about the origin, of radius 1, in ambient light of radiance 1.
+Scene sphereInAmbientLight(const Material& material);
+/// Stands before that sphere, which fills its picture.
+inline const Camera kOutside = pointCamera({0, 0, 4}, {0, 0, 0}, 0.18);
+
+/// A point light of this radiant intensity in each channel.
+Light pointLight(float intensity, const glm::vec3& position);
 
 /// Settings of a small picture without roulette.
 RenderSettings smallPicture(uint32_t samplesPerPixel, uint32_t maxBounces);

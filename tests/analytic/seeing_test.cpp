@@ -12,7 +12,6 @@ namespace {
 
 using namespace test;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr PictureArea kArea{16, 12, {}};
 /// Tolerance for positions and normals of some metres: roundings of a few operations, and of
 /// octahedral codes.

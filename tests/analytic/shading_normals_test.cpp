@@ -24,15 +24,9 @@ SceneMaker tiltedTriangle(const Material& material) {
     return b;
 }
 
-Light pointLight(const glm::vec3& position) {
-    Light light;
-    light.position = position;
-    return light;
-}
-
 TEST(ShadingNormals, CosineIsTheirs) {
     SceneMaker b = tiltedTriangle(diffuse(0.5f));
-    b.add(pointLight({1, 1, 0}));
+    b.add(pointLight(1, {1, 1, 0}));
     const double cosine =
         glm::dot(glm::normalize(glm::dvec3(1, 1, 0)), glm::normalize(glm::dvec3(kShadingNormal)));
     const Estimate found = estimate(b.scene, kFromAbove, smallPicture(1, 1));
@@ -41,13 +35,13 @@ TEST(ShadingNormals, CosineIsTheirs) {
 
 TEST(ShadingNormals, NothingComesFromBelowThem) {
     SceneMaker b = tiltedTriangle(diffuse(0.5f));
-    b.add(pointLight({-3, 1, 0})); // above the triangle
+    b.add(pointLight(1, {-3, 1, 0})); // above the triangle
     expectMean(estimate(b.scene, kFromAbove, smallPicture(1, 1)), 0);
 }
 
 TEST(ShadingNormals, AreFlippedForTheOtherSide) {
     SceneMaker b = tiltedTriangle(diffuse(0.5f));
-    b.add(pointLight({0, -1, 0}));
+    b.add(pointLight(1, {0, -1, 0}));
     const Camera fromBelow = pointCamera({-0.5, -2, 0}, {0, 0, 0});
     const Estimate found = estimate(b.scene, fromBelow, smallPicture(1, 1));
     EXPECT_NEAR(found.mean.x / (kF * 0.6), 1, 1e-7);
@@ -55,7 +49,7 @@ TEST(ShadingNormals, AreFlippedForTheOtherSide) {
 
 TEST(ShadingNormals, GeometricNormalStandsInBeyondTheirHorizon) {
     SceneMaker b = tiltedTriangle(diffuse(0.5f));
-    b.add(pointLight({0, 1, 0}));
+    b.add(pointLight(1, {0, 1, 0}));
     const Camera low = pointCamera({-2, 0.5, 0}, {0, 0, 0}); // above the triangle, below the normal
     const Estimate found = estimate(b.scene, low, smallPicture(1, 1));
     EXPECT_NEAR(found.mean.x / kF, 1, 1e-7);
@@ -72,7 +66,7 @@ TEST(ShadingNormals, LetNoLightThroughTheSurface) {
     for (const Material& material : {diffuse(0.5f), metal, mirror}) {
         SceneMaker b = tiltedTriangle(material);
         b.sphere({2, -0.4f, 0}, 0.35f, b.add(emissive(1)));
-        b.add(pointLight({2, -0.2f, 0}));
+        b.add(pointLight(1, {2, -0.2f, 0}));
         for (DirectLight mode : kDirectLightModes) {
             RenderSettings s = smallPicture(64, 3);
             s.estimator.directLight = mode;

@@ -12,8 +12,7 @@ namespace {
 
 using namespace test;
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kF = 0.5 / kPi; ///< BSDF of the floor
+constexpr double kFloor = 0.5 / kPi; ///< BSDF of the floor
 
 const Camera kSeesOrigin = pointCamera({1, 2, 3}, {0, 0, 0});
 
@@ -43,7 +42,7 @@ TEST(SimpleLights, Point) {
         RenderSettings s = smallPicture(1, 1);
         s.estimator.directLight = mode;
         expectMean(estimate(floorUnder(light), kSeesOrigin, s),
-                   kF * irradiance * glm::dvec3(3, 2, 1));
+                   kFloor * irradiance * glm::dvec3(3, 2, 1));
     }
 }
 
@@ -58,7 +57,7 @@ TEST(SimpleLights, TwoSidedFloorIsLitFromBelow) {
     light.position.y = -2;
     const Camera below = pointCamera({1, -2, 3}, {0, 0, 0});
     expectMean(estimate(floorUnder(light), below, smallPicture(1, 1)),
-               kF * 0.8 * glm::dvec3(3, 2, 1));
+               kFloor * 0.8 * glm::dvec3(3, 2, 1));
 }
 
 TEST(SimpleLights, Shadow) {
@@ -69,14 +68,15 @@ TEST(SimpleLights, Shadow) {
     expectMean(estimate(b.scene, kSeesOrigin, smallPicture(1, 1)), 0);
     // The sphere beyond the light does not shade it.
     b.scene.spheres[0].center = {0, 4, 3};
-    expectMean(estimate(b.scene, kSeesOrigin, smallPicture(1, 1)), kF * 0.8 * glm::dvec3(3, 2, 1));
+    expectMean(estimate(b.scene, kSeesOrigin, smallPicture(1, 1)),
+               kFloor * 0.8 * glm::dvec3(3, 2, 1));
 }
 
 TEST(SimpleLights, Directional) {
     const Light light = lightAbove(LightKind::Directional);
     const glm::dvec3 axis = glm::normalize(glm::dvec3(light.direction));
     expectMean(estimate(floorUnder(light), kSeesOrigin, smallPicture(1, 1)),
-               kF * -axis.y * glm::dvec3(3, 2, 1));
+               kFloor * -axis.y * glm::dvec3(3, 2, 1));
 }
 
 TEST(SimpleLights, Spot) {
@@ -84,7 +84,7 @@ TEST(SimpleLights, Spot) {
     light.direction = {0, -1, 0}; // the floor point is off the axis by acos 0.8 = 36.87 degrees
     light.falloffExponent = 3;
     light.falloffAngle = float(74 * kPi / 180);
-    const double lit = kF * 0.8 * std::pow(0.8, 3);
+    const double lit = kFloor * 0.8 * std::pow(0.8, 3);
     expectMean(estimate(floorUnder(light), kSeesOrigin, smallPicture(1, 1)),
                lit * glm::dvec3(3, 2, 1));
     light.falloffAngle = float(73 * kPi / 180);
@@ -102,10 +102,10 @@ TEST(SimpleLights, SpotWithSoftEdge) {
     const double inner = std::cos(double(*light.innerAngle) / 2);
     const double edge = (0.8 - outer) / (inner - outer);
     expectMean(estimate(floorUnder(light), kSeesOrigin, smallPicture(1, 1)),
-               kF * 0.8 * edge * edge * glm::dvec3(3, 2, 1));
+               kFloor * 0.8 * edge * edge * glm::dvec3(3, 2, 1));
     light.innerAngle = float(74 * kPi / 180);
     expectMean(estimate(floorUnder(light), kSeesOrigin, smallPicture(1, 1)),
-               kF * 0.8 * glm::dvec3(3, 2, 1));
+               kFloor * 0.8 * glm::dvec3(3, 2, 1));
 }
 
 TEST(SimpleLights, AmbientFromAllSidesInEveryMode) {
@@ -144,7 +144,7 @@ TEST(SimpleLights, OthersBesideAmbientLight) {
             b.scene.lights.back().constantAttenuation = 0;
         }
         b.scene.lights.emplace_back().kind = LightKind::Ambient;
-        const glm::dvec3 ofPoint = kF * (0.8 / (2.5 * 2.5)) * glm::dvec3(3, 2, 1);
+        const glm::dvec3 ofPoint = kFloor * (0.8 / (2.5 * 2.5)) * glm::dvec3(3, 2, 1);
         for (DirectLight mode : kDirectLightModes) {
             SCOPED_TRACE(fmt::format("{} {}", nameOf(mode), points));
             RenderSettings s = smallPicture(64, 1);

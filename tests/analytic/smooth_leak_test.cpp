@@ -12,13 +12,6 @@ namespace {
 
 using namespace test;
 
-Light pointLight(const glm::vec3& position) {
-    Light light;
-    light.position = position;
-    light.color = glm::vec3(10);
-    return light;
-}
-
 Material mirror() {
     Material m;
     m.kind = MaterialKind::Mirror;
@@ -59,7 +52,7 @@ TEST(SmoothLeak, NoneOutOfAClosedSphere) {
     for (size_t i = 0; i < b.scene.triangles.size(); ++i)
         b.scene.triangles[i].material = materials[i % 3];
     b.sphere({0.3f, 0.2f, 0}, 0.4f, b.add(emissive(5)));
-    b.add(pointLight({0, -0.3f, 0.4f}));
+    b.add(pointLight(10, {0, -0.3f, 0.4f}));
     expectDark(b.scene, fromOutside());
 }
 
@@ -67,7 +60,7 @@ TEST(SmoothLeak, NoneIntoAClosedSphere) {
     SceneMaker b;
     addSmoothSphere(b, 5, 8, b.add(diffuse(0.5f)));
     b.sphere({1.6f, 0.2f, 0}, 0.4f, b.add(emissive(5)));
-    b.add(pointLight({0, -1.3f, 0.4f}));
+    b.add(pointLight(10, {0, -1.3f, 0.4f}));
     expectDark(b.scene, pointCamera({0.1, 0, 0}, {0.5, 0.3, 0.2}, 1.0));
 }
 
@@ -114,7 +107,7 @@ TEST(SmoothLeak, NoneIntoARoomWithWildNormals) {
         b.scene = roughRoom(tilt);
         b.sphere({0, -1.6f, 0}, 0.5f, b.add(emissive(5)));
         b.sphere({0, 0.2f, 2.6f}, 1.4f, b.add(emissive(5)));
-        b.add(pointLight({1.2f, 1.1f, 0.9f}));
+        b.add(pointLight(10, {1.2f, 1.1f, 0.9f}));
         expectDark(b.scene, pointCamera({0.1, 0, 0}, {-0.5, -0.3, -0.2}, 2.0));
     }
 }
@@ -137,11 +130,11 @@ TEST(SmoothLeak, DegenerateNormals) {
     }
     b.sphere({1, -0.6f, 0}, 0.5f, b.add(emissive(5)));
     b.sphere({-1, -0.6f, 0}, 0.5f, b.add(emissive(5)));
-    b.add(pointLight({0.1f, -0.2f, 0}));
+    b.add(pointLight(10, {0.1f, -0.2f, 0}));
     Camera above = pointCamera({0, 2, 0}, {0, 0, 0}, 0.6);
     above.farDistance = 2.01; // sees the triangles, but not the emitters
     expectDark(b.scene, above);
-    b.add(pointLight({0, 1, 0.2f}));
+    b.add(pointLight(10, {0, 1, 0.2f}));
     for (const PixelStatistics& p : renderFilm(b.scene, above, smallPicture(16, 2)).pixels)
         EXPECT_EQ(p.rejected, 0u);
 }

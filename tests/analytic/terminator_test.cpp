@@ -14,7 +14,6 @@ namespace {
 
 using namespace test;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kAlbedo = 0.5; ///< a float, too
 
 // --- Scan lines across the terminator ----------------------------------------------------------

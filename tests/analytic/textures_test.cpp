@@ -11,8 +11,6 @@ namespace {
 
 using namespace test;
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// Emission alone, of the point (x, y) of the square.
 glm::dvec3 seen(const Scene& scene, double x, double y) {
     const Camera camera = pointCamera({x, y, 1}, {x, y, 0});

@@ -14,31 +14,27 @@
 namespace stromboli::compare {
 namespace {
 
-constexpr uint32_t kSide = 48;
 constexpr uint64_t kPixels = kSide * kSide;
 constexpr double kVariance = 0.04, kReference = 32000;
 constexpr uint64_t kSamples = 868;
 
-const glm::dvec3 kEqualXyz = glm::inverse(kXyzFromLinear) * glm::dvec3(1.0);
+const glm::dvec3 kLinearOfEqualXyz = glm::inverse(kXyzFromLinear) * glm::dvec3(1.0);
 
-Picture reference() {
-    return constantPicture(kSide, kSide, glm::dvec3(0.5));
-}
 Picture variances() {
-    return constantPicture(kSide, kSide, kVariance * kEqualXyz);
+    return constantPicture(kSide, kSide, kVariance * kLinearOfEqualXyz);
 }
 BlockAcceptance judge(const Picture& picture, double familyError = 0.01) {
-    return judgeBlocks(reference(), variances(), picture, kSamples, kReference, familyError);
+    return judgeBlocks(greyReference(), variances(), picture, kSamples, kReference, familyError);
 }
 /// Deviation of a pixel's difference.
 const double kDeviation = std::sqrt(kVariance * (1.0 / double(kSamples) + 1 / kReference));
 
 TEST(BlockAcceptance, ZIsInStandardDeviationsOfSums) {
-    Picture picture = reference();
+    Picture picture = greyReference();
     const double shift = 0.5 * kDeviation; // of each pixel of one block
     for (uint32_t y = 8; y < 16; ++y)
         for (uint32_t x = 40; x < 48; ++x)
-            picture.rgb[y * kSide + x] += shift * kEqualXyz;
+            picture.rgb[y * kSide + x] += shift * kLinearOfEqualXyz;
     const BlockAcceptance a = judge(picture);
     EXPECT_NEAR(a.largest, 0.5 * 8, 1e-6);
     EXPECT_EQ(a.x, 40u);
@@ -53,10 +49,10 @@ TEST(BlockAcceptance, ZIsInStandardDeviationsOfSums) {
 
 /// What the other rule does not see: 0.5 % of the whole picture, an eighth of a pixel's noise.
 TEST(BlockAcceptance, SeesASmallErrorOfTheWholePicture) {
-    Picture picture = reference();
+    Picture picture = greyReference();
     for (glm::dvec3& p : picture.rgb)
         p *= 1.005;
-    EXPECT_TRUE(judgeByVariance(reference(), variances(), picture, kSamples).accepted());
+    EXPECT_TRUE(judgeByVariance(greyReference(), variances(), picture, kSamples).accepted());
     const BlockAcceptance a = judge(picture);
     EXPECT_FALSE(a.accepted());
     EXPECT_NEAR(a.errors.y, 0.005, 1e-12);
@@ -72,7 +68,7 @@ TEST(BlockAcceptance, RightPicturesFailAsOftenAsItSays) {
     std::normal_distribution<double> normal;
     int failed = 0;
     for (int trial = 0; trial < 400; ++trial) {
-        Picture picture = reference();
+        Picture picture = greyReference();
         for (glm::dvec3& p : picture.rgb)
             p += glm::inverse(kXyzFromLinear) *
                  (kDeviation * glm::dvec3(normal(random), normal(random), normal(random)));
@@ -97,7 +93,7 @@ TEST(BlockAcceptance, ThePicturesOwnNoiseCounts) {
 }
 
 TEST(BlockAcceptance, WhatIsNotFiniteFails) {
-    Picture picture = reference();
+    Picture picture = greyReference();
     picture.rgb[kSide * 20 + 30].z = std::numeric_limits<double>::quiet_NaN();
     const BlockAcceptance a = judge(picture);
     EXPECT_FALSE(a.accepted());
@@ -106,10 +102,10 @@ TEST(BlockAcceptance, WhatIsNotFiniteFails) {
 }
 
 TEST(BlockAcceptance, DecidesOnlyIfAskedFor) {
-    Picture picture = reference();
+    Picture picture = greyReference();
     for (glm::dvec3& p : picture.rgb)
         p *= 1.005;
-    Comparison comparison = comparePictures(reference(), picture, {});
+    Comparison comparison = comparePictures(greyReference(), picture, {});
     comparison.blockAcceptance = judge(picture);
     EXPECT_TRUE(violations(comparison, {}).empty());
     EXPECT_THAT(violations(comparison, {.blocks = true}),

@@ -28,4 +28,10 @@ inline Picture scaled(Picture picture, double factor) {
     return picture;
 }
 
+/// What tests of acceptance compare with: grey, of kSide x kSide pixels.
+inline constexpr uint32_t kSide = 48;
+inline Picture greyReference() {
+    return constantPicture(kSide, kSide, glm::dvec3(0.5));
+}
+
 } // namespace stromboli::compare

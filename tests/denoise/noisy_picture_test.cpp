@@ -17,7 +17,7 @@ using denoise::NoisyPicture;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr uint32_t kWidth = 40, kHeight = 30;
+constexpr uint32_t kImageWidth = 40, kImageHeight = 30;
 
 void fill(FloatImage& image, const std::vector<std::string>& names, float value) {
     for (const std::string& name : names)
@@ -106,13 +106,13 @@ TEST(NoisyPicture, AFilmIsTakenWithItsErrors) {
 TEST(NoisyPicture, WhatIsNoNumberIsFilledIn) {
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     constexpr float kInf = std::numeric_limits<float>::infinity();
-    FloatImage image(kWidth, kHeight);
+    FloatImage image(kImageWidth, kImageHeight);
     fill(image, kColor, 2);
     fill(image, kVariance, 0.01f);
     fill(image, {"albedo.R", "albedo.G", "albedo.B"}, 0.5f);
     fill(image, {"normal.X", "normal.Y", "normal.Z"}, 0.5f);
     fill(image, {"depth.Z"}, 3);
-    const size_t at = 10 * kWidth + 10;
+    const size_t at = 10 * kImageWidth + 10;
     image.channel("R")[at] = kNan;
     image.channel("G")[at + 7] = kInf;
     image.channel("variance.B")[at + 90] = kNan;
@@ -133,7 +133,7 @@ TEST(NoisyPicture, WhatIsNoNumberIsFilledIn) {
 }
 
 TEST(NoisyPicture, ThatIsNoNumberAnywhereIsBlack) {
-    FloatImage image(kWidth, kHeight);
+    FloatImage image(kImageWidth, kImageHeight);
     fill(image, kColor, std::numeric_limits<float>::quiet_NaN());
     fill(image, kVariance, 0.01f);
     const denoise::DenoisedPicture d =

@@ -14,14 +14,14 @@ namespace {
 using namespace test;
 using denoise::DenoisedPicture;
 
-constexpr uint32_t kWidth = 128, kHeight = 96;
+constexpr uint32_t kRoomWidth = 128, kRoomHeight = 96;
 
 TruthOf roomWith(float sigma) {
     return [sigma](uint32_t x, uint32_t y) { return room(x, y, sigma); };
 }
 
-DenoisedPicture denoised(const TruthOf& truth, uint32_t seed) {
-    return denoise::denoisePicture(noisyPicture(kWidth, kHeight, truth, seed), Denoiser::On,
+DenoisedPicture denoisedRoom(const TruthOf& truth, uint32_t seed) {
+    return denoise::denoisePicture(noisyPicture(kRoomWidth, kRoomHeight, truth, seed), Denoiser::On,
                                    nullptr);
 }
 
@@ -31,10 +31,10 @@ TEST(PredictedError, IsThatOfThePictureWithinAFifth) {
     for (const float sigma : {0.5f, 0.2f, 0.05f}) {
         double predicted = 0, measured = 0;
         for (uint32_t seed = 1; seed <= 4; ++seed) {
-            const DenoisedPicture d = denoised(roomWith(sigma), seed);
+            const DenoisedPicture d = denoisedRoom(roomWith(sigma), seed);
             ASSERT_TRUE(d.summary.noise.known());
             predicted += d.summary.noise.estimate * d.summary.noise.estimate;
-            measured += relMse(d.mean, kWidth, roomWith(sigma));
+            measured += relMse(d.mean, kRoomWidth, roomWith(sigma));
         }
         EXPECT_NEAR(std::sqrt(predicted / measured), 1, 0.2) << sigma;
     }
@@ -44,14 +44,14 @@ TEST(PredictedError, IsThatOfThePictureWithinAFifth) {
 /// shadow begins that no layer knows of, and where all is smooth.
 TEST(PredictedError, IsThatOfEachPartOfThePicture) {
     constexpr uint32_t kPart = 32;
-    std::array<double, (kWidth / kPart) * (kHeight / kPart)> predicted{}, measured{};
+    std::array<double, (kRoomWidth / kPart) * (kRoomHeight / kPart)> predicted{}, measured{};
     constexpr uint32_t kSeeds = 8;
     const TruthOf truth = roomWith(0.2f);
     for (uint32_t seed = 1; seed <= kSeeds; ++seed) {
-        const DenoisedPicture d = denoised(truth, seed);
+        const DenoisedPicture d = denoisedRoom(truth, seed);
         for (uint32_t i = 0; i < d.mean.size(); ++i) {
-            const uint32_t x = i % kWidth, y = i / kWidth;
-            const size_t part = y / kPart * (kWidth / kPart) + x / kPart;
+            const uint32_t x = i % kRoomWidth, y = i / kRoomWidth;
+            const size_t part = y / kPart * (kRoomWidth / kPart) + x / kPart;
             const double error = double(d.mean[i].y) - truth(x, y).radiance.y;
             predicted[part] += double(d.error[i].y) * d.error[i].y;
             measured[part] += error * error;
@@ -72,8 +72,8 @@ TEST(PredictedError, TheRangeHolds) {
     constexpr int kRenders = 40;
     for (int seed = 1; seed <= kRenders; ++seed) {
         const float sigma = seed % 2 == 0 ? 0.3f : 0.06f;
-        const DenoisedPicture d = denoised(roomWith(sigma), uint32_t(seed));
-        const double truth = std::sqrt(relMse(d.mean, kWidth, roomWith(sigma)));
+        const DenoisedPicture d = denoisedRoom(roomWith(sigma), uint32_t(seed));
+        const double truth = std::sqrt(relMse(d.mean, kRoomWidth, roomWith(sigma)));
         held += d.summary.noise.known() && truth >= d.summary.noise.least &&
                 truth <= d.summary.noise.most;
     }

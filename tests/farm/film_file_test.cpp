@@ -2,6 +2,7 @@
 #include "host/core/error.hpp"
 #include "tests/farm/films.hpp"
 #include "tests/film/temporary_folder.hpp"
+#include "tests/support/refusal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,11 +15,6 @@ namespace {
 
 using namespace test;
 using testing::HasSubstr;
-
-std::string contentOf(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 std::vector<SharedPixel> readAll(const std::filesystem::path& file) {
     FilmReader reader(file);
@@ -33,13 +29,8 @@ std::vector<SharedPixel> readAll(const std::filesystem::path& file) {
     return all;
 }
 
-std::string refusalOf(const std::filesystem::path& file) {
-    try {
-        readAll(file);
-    } catch (const UsageError& error) {
-        return error.what();
-    }
-    return "";
+std::string filmRefusal(const std::filesystem::path& file) {
+    return test::refusalOf([&] { readAll(file); });
 }
 
 TEST(FilmFile, ComesBackAsItWas) {
@@ -133,20 +124,20 @@ TEST(FilmFile, DamageIsSeen) {
         std::string damaged = whole;
         damaged[i] = char(damaged[i] ^ 0x10);
         std::ofstream(folder / "b.film", std::ios::binary) << damaged;
-        ASSERT_THAT(refusalOf(folder / "b.film"), HasSubstr("/b.film: ")) << "byte " << i;
+        ASSERT_THAT(filmRefusal(folder / "b.film"), HasSubstr("/b.film: ")) << "byte " << i;
     }
     for (size_t size = 0; size < whole.size(); size += 131) {
         std::ofstream(folder / "b.film", std::ios::binary) << whole.substr(0, size);
-        ASSERT_THAT(refusalOf(folder / "b.film"), HasSubstr("/b.film: ")) << size;
+        ASSERT_THAT(filmRefusal(folder / "b.film"), HasSubstr("/b.film: ")) << size;
     }
 }
 
 TEST(FilmFile, SaysWhatIsNoFilm) {
     const TemporaryFolder folder;
     std::ofstream(folder / "a.film") << "not a film at all";
-    EXPECT_THAT(refusalOf(folder / "a.film"), HasSubstr("not a film of this version"));
-    EXPECT_THAT(refusalOf(folder / "none.film"), HasSubstr("No such file"));
-    EXPECT_THAT(refusalOf(folder.path()), HasSubstr("it is no film"));
+    EXPECT_THAT(filmRefusal(folder / "a.film"), HasSubstr("not a film of this version"));
+    EXPECT_THAT(filmRefusal(folder / "none.film"), HasSubstr("No such file"));
+    EXPECT_THAT(filmRefusal(folder.path()), HasSubstr("it is no film"));
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "host/farm/merge_films.hpp"
 #include "tests/farm/films.hpp"
 #include "tests/film/temporary_folder.hpp"
+#include "tests/support/refusal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -58,17 +59,8 @@ class MergeFilms : public testing::Test {
         writer.finish();
         return folder_ / name;
     }
-    static std::string contentOf(const fs::path& file) {
-        std::ifstream stream(file, std::ios::binary);
-        return {std::istreambuf_iterator<char>(stream), {}};
-    }
     static std::string refusalOf(const std::vector<fs::path>& files) {
-        try {
-            const FilmsToMerge films(files);
-        } catch (const UsageError& error) {
-            return error.what();
-        }
-        return "";
+        return test::refusalOf([&] { const FilmsToMerge films(files); });
     }
 };
 

@@ -3,6 +3,7 @@
 #include "host/farm/round_plan.hpp"
 #include "tests/farm/films.hpp"
 #include "tests/film/temporary_folder.hpp"
+#include "tests/support/refusal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,13 +30,8 @@ RoundPlan smallPlan() {
     return plan;
 }
 
-std::string refusalOf(const std::filesystem::path& file) {
-    try {
-        readPlan(file);
-    } catch (const UsageError& error) {
-        return error.what();
-    }
-    return "";
+std::string planRefusal(const std::filesystem::path& file) {
+    return test::refusalOf([&] { readPlan(file); });
 }
 
 TEST(PlanFile, ComesBackAsItWas) {
@@ -60,20 +56,20 @@ TEST(PlanFile, DamageIsSeen) {
         std::string damaged = whole;
         damaged[i] = char(damaged[i] ^ 0x10);
         std::ofstream(folder / "b.plan", std::ios::binary) << damaged;
-        ASSERT_THAT(refusalOf(folder / "b.plan"), HasSubstr("/b.plan: ")) << "byte " << i;
+        ASSERT_THAT(planRefusal(folder / "b.plan"), HasSubstr("/b.plan: ")) << "byte " << i;
     }
     for (size_t size = 0; size < whole.size(); size += 31) {
         std::ofstream(folder / "b.plan", std::ios::binary) << whole.substr(0, size);
-        ASSERT_THAT(refusalOf(folder / "b.plan"), HasSubstr("/b.plan: ")) << size;
+        ASSERT_THAT(planRefusal(folder / "b.plan"), HasSubstr("/b.plan: ")) << size;
     }
 }
 
 TEST(PlanFile, SaysWhatIsNoPlan) {
     const TemporaryFolder folder;
     std::ofstream(folder / "a.plan") << "not a plan at all";
-    EXPECT_THAT(refusalOf(folder / "a.plan"), HasSubstr("not a plan of this version"));
-    EXPECT_THAT(refusalOf(folder / "none.plan"), HasSubstr("there is no such plan"));
-    EXPECT_THAT(refusalOf(folder.path()), HasSubstr("cannot read the plan"));
+    EXPECT_THAT(planRefusal(folder / "a.plan"), HasSubstr("not a plan of this version"));
+    EXPECT_THAT(planRefusal(folder / "none.plan"), HasSubstr("there is no such plan"));
+    EXPECT_THAT(planRefusal(folder.path()), HasSubstr("cannot read the plan"));
 }
 
 TEST(PlanFile, RefusesWhatMakesNoSense) {
@@ -82,7 +78,7 @@ TEST(PlanFile, RefusesWhatMakesNoSense) {
         RoundPlan plan = smallPlan();
         change(plan);
         writePlan(folder / "a.plan", plan);
-        return refusalOf(folder / "a.plan");
+        return planRefusal(folder / "a.plan");
     };
     EXPECT_EQ(refusal([](RoundPlan&) {}), "");
     EXPECT_THAT(refusal([](RoundPlan& p) { p.to[7] = p.from[7] - 1; }), HasSubstr("no sense"));

@@ -80,10 +80,6 @@ class Rounds : public testing::Test {
         writer.finish();
         return file;
     }
-    static std::string contentOf(const fs::path& file) {
-        std::ifstream stream(file, std::ios::binary);
-        return {std::istreambuf_iterator<char>(stream), {}};
-    }
 };
 
 Files operator+(Files a, const Files& b) {

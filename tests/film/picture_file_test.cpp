@@ -14,11 +14,6 @@
 namespace stromboli {
 namespace {
 
-std::string contentOf(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 TEST(Png, RoundTrip) {
     const TemporaryFolder folder;
     for (auto [width, height] : {std::pair{1u, 1u}, {7u, 13u}, {640u, 3u}}) {

@@ -16,11 +16,6 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-std::string contentOf(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 void writeWith(const std::filesystem::path& path, const PictureNotes& notes) {
     const Film film(3, 2);
     PictureFile file(path, film.area, {});

@@ -19,11 +19,6 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string contentOf(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 template <class Value>
 std::vector<Value> valuesOf(const std::filesystem::path& path) {
     return std::get<std::vector<Value>>(

@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 namespace stromboli::test::naive {
 namespace {
 
-constexpr float kPi = 3.14159265f;
+constexpr float kPiInFloat = std::numbers::pi_v<float>;
 
 /// 11 bits, as texture coordinates have that are stored in half precision.
 float inHalf(float x) {
@@ -64,8 +65,8 @@ glm::vec3 mappedNormal(const Scene& scene, const Hit& hit) {
 }
 
 glm::vec3 skyAlong(const Environment& sky, const glm::vec3& d) {
-    const float polar = std::acos(std::clamp(d.y, -1.0f, 1.0f)) / kPi;
-    float azimuth = std::atan2(-d.x, d.z) / (2 * kPi);
+    const float polar = std::acos(std::clamp(d.y, -1.0f, 1.0f)) / kPiInFloat;
+    float azimuth = std::atan2(-d.x, d.z) / (2 * kPiInFloat);
     if (azimuth < 0) azimuth += 1;
     const uint32_t x = std::min(uint32_t(azimuth * float(sky.width)), sky.width - 1),
                    y = std::min(uint32_t(polar * float(sky.height)), sky.height - 1);
@@ -82,14 +83,14 @@ SkySample sampleSky(const Environment& sky, Random& random) {
         target -= sky.radiance[i++].x;
     const float x = float(i % sky.width) + random.uniform();
     const float y = float(i / sky.width) + random.uniform();
-    const float density = sky.radiance[i].x / sum * float(sky.radiance.size()) / (4 * kPi);
-    return {directionAt(kPi * y / float(sky.height), 2 * kPi * x / float(sky.width)),
+    const float density = sky.radiance[i].x / sum * float(sky.radiance.size()) / (4 * kPiInFloat);
+    return {directionAt(kPiInFloat * y / float(sky.height), 2 * kPiInFloat * x / float(sky.width)),
             sky.strength * sky.radiance[i] / density};
 }
 
 glm::vec3 halfVector(const glm::vec3& n, float alpha, float u, float v) {
     const float cosine = std::sqrt((1 - u) / (1 + (alpha * alpha - 1) * u));
-    const float sine = std::sqrt(std::max(1 - cosine * cosine, 0.0f)), phi = 2 * kPi * v;
+    const float sine = std::sqrt(std::max(1 - cosine * cosine, 0.0f)), phi = 2 * kPiInFloat * v;
     const glm::vec3 other = std::abs(n.x) > 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
     const glm::vec3 x = glm::normalize(glm::cross(n, other)), y = glm::cross(n, x);
     return sine * std::cos(phi) * x + sine * std::sin(phi) * y + cosine * n;

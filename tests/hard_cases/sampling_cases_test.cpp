@@ -52,11 +52,11 @@ TEST(HardCases, C37_SamplersFollowTheirDensities) {
     const auto cone = [](const glm::dvec3& w) { return invertUniformCone(w, kCone); };
     const auto beckmann = [](const glm::dvec3& h) { return invertBeckmann(h, kAlpha); };
     const auto triangle = [](const glm::dvec2& b) { return squareOfTriangle(b); };
-    struct Sampler {
+    struct SamplerCase {
         const char* name;
         Map right, naive;
     };
-    const std::vector<Sampler> samplers = {
+    const std::vector<SamplerCase> samplers = {
         {"cosine", [&](double u, double v) { return cosine(cosineHemisphere(u, v)); },
          [&](double u, double v) { return cosine(atAngle(u * kPi / 2, v)); }},
         {"hemisphere", [&](double u, double v) { return hemisphere(uniformHemisphere(u, v)); },
@@ -72,7 +72,7 @@ TEST(HardCases, C37_SamplersFollowTheirDensities) {
              return triangle({u * (1 - v), v});
          }},
     };
-    for (const Sampler& s : samplers) {
+    for (const SamplerCase& s : samplers) {
         EXPECT_GT(chiSquareOf(s.right, 37), sidakLevel(0.01, samplers.size())) << s.name;
         EXPECT_LT(chiSquareOf(s.naive, 37), 1e-6) << "negative control: " << s.name;
     }

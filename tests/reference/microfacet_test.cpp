@@ -2,6 +2,7 @@
 #include "host/reference/interfaces.hpp"
 #include "host/reference/microfacet.hpp"
 #include "host/reference/sampling.hpp"
+#include "tests/reference/directions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -30,11 +31,6 @@ Material perfectMetal(float alpha) {
     Material m = metal(alpha);
     m.eta = glm::vec3(1), m.k = glm::vec3(1e6f);
     return m;
-}
-
-glm::dvec3 direction(double cosine, double azimuth) {
-    const double sine = std::sqrt(1 - cosine * cosine);
-    return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
 }
 
 /// Midpoint rule over the cell [c0, c1] x [p0, p1] of cosine and azimuth: f per solid angle.

@@ -5,6 +5,7 @@
 #include "host/reference/sampling.hpp"
 #include "shaders/shared/albedo_fits.h"
 #include "shaders/shared/bsdf_types.h"
+#include "tests/reference/directions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,11 +13,6 @@
 
 namespace stromboli::reference {
 namespace {
-
-glm::dvec3 direction(double cosine, double azimuth) {
-    const double sine = std::sqrt(1 - cosine * cosine);
-    return {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine};
-}
 
 template <class F>
 double overHemisphere(int n, F&& f) {

@@ -18,11 +18,6 @@ Scene libraryScene(const std::string& name) {
                      (name + ".dae"));
 }
 
-struct Expense {
-    double variance = 0; ///< relMSE (docs/guide/study.md)
-    double rays = 0;
-};
-
 class BranchesGain : public DeviceTest {
   protected:
     static double relativeDifference(const Film& a, const Film& b) {

@@ -19,6 +19,12 @@ Film renderOnDevice(const vulkan::Device& device, const Scene& scene, const Came
 /// Whether all pixels have the same numbers of samples, means and squared deviations, to the bit.
 bool sameStatistics(const Film& a, const Film& b);
 
+/// What renders cost: their error for the rays that were cast.
+struct Expense {
+    double variance = 0; ///< relMSE (docs/guide/study.md)
+    double rays = 0;
+};
+
 /// Loads a scene of the repository (scene/library) or of ../shared.
 Scene loadScene(const std::filesystem::path& file, const SceneConventions& conventions = {});
 

@@ -11,11 +11,6 @@ namespace {
 
 using namespace test;
 
-struct Expense {
-    double variance = 0; ///< relMSE (docs/guide/study.md)
-    double rays = 0;
-};
-
 class GapGain : public DeviceTest {
   protected:
     /// From the pixels' spread over several seeds.

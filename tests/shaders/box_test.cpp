@@ -19,9 +19,6 @@ namespace {
 using gpu::NodeAnswer;
 using gpu::NodeQuery;
 
-constexpr float kInfinite = 3.402823466e38f;
-constexpr double kRoundoff = 0x1p-24;
-
 NodeQuery query(const WideNode& node, const glm::vec3& origin, const glm::vec3& direction,
                 float tMax = kInfinite) {
     NodeQuery q{};

@@ -19,7 +19,6 @@ using gpu::TermAnswer;
 using gpu::TermQuery;
 
 constexpr double kUlp = 0x1p-23;
-constexpr double kPi = 3.14159265358979323846;
 
 class BsdfTerms : public DeviceTest {
   protected:

@@ -14,9 +14,6 @@
 namespace stromboli::test {
 namespace {
 
-constexpr double kRoundoff = 0x1p-24;
-constexpr double kPi = 3.14159265358979323846;
-
 /// Relative error of f, in units of 2^-24, with the cosines of wo, wi and between wo and h. Some
 /// tens of roundings; 8 in each of wo.z and wi.z, of size 1; and where D is within exp(-16), its
 /// exponent tan^2 / alpha^2 carries 8 / alpha times the error of h, which is that of wo + wi, some

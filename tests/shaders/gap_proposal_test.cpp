@@ -21,7 +21,6 @@ namespace {
 using gpu::GapAnswer;
 using gpu::GapQuery;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr glm::dvec2 kSize(0.8, 0.5);
 constexpr double kGap = 0.02;
 

@@ -22,7 +22,7 @@ namespace {
 using gpu::LightAnswer;
 using gpu::LightQuery;
 
-constexpr size_t kSamples = 400000;
+constexpr size_t kPicks = 400000;
 
 /// Every kind of light, `count` of each bounded one, with powers from 1e-3 to 1e3.
 Scene allKinds(int count, uint32_t seed) {
@@ -148,7 +148,7 @@ TEST_P(LightSampler, PicksAsOftenAsItSays) {
         EXPECT_LT(sum, 1 + 1e-5);
         std::map<uint32_t, double> counts;
         double nowhere = 0;
-        for (const LightAnswer& a : picks(from, kSamples, 132)) {
+        for (const LightAnswer& a : picks(from, kPicks, 132)) {
             ASSERT_NEAR(a.probability, stated.at(a.light), 1e-5 * stated.at(a.light) + 1e-9);
             if (a.probability > 0)
                 ++counts[a.light];
@@ -158,10 +158,10 @@ TEST_P(LightSampler, PicksAsOftenAsItSays) {
         std::vector<double> found, expected;
         for (const auto& [light, p] : stated) {
             found.push_back(counts[light]);
-            expected.push_back(p * kSamples);
+            expected.push_back(p * kPicks);
         }
         found.push_back(nowhere);
-        expected.push_back(std::max(1 - sum, 0.0) * kSamples);
+        expected.push_back(std::max(1 - sum, 0.0) * kPicks);
         EXPECT_GT(chiSquareTest(found, expected), level);
     }
 }
@@ -172,7 +172,7 @@ TEST_P(LightSampler, LeavesAUniformNumber) {
     load(allKinds(12, 131));
     std::map<uint32_t, std::vector<double>> cells;
     const LightQuery from = surface({0, -1, 0}, {0, 1, 0});
-    for (const LightAnswer& a : picks(from, kSamples, 133)) {
+    for (const LightAnswer& a : picks(from, kPicks, 133)) {
         ASSERT_GE(a.u, 0);
         ASSERT_LT(a.u, 1);
         auto& counts = cells[a.light];

@@ -14,8 +14,7 @@ namespace {
 using gpu::LightAnswer;
 using gpu::LightQuery;
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr size_t kSamples = 100000;
+constexpr size_t kLightSamples = 100000;
 const double kLevel = sidakLevel(0.01, 4);
 
 class LightSampling : public LightFixture {};
@@ -100,7 +99,7 @@ TEST_F(LightSampling, AmbientByTheCosineAboutTheNormal) {
         const LightQuery surface = surfaceAt({1, 2, 3}, {0.6f, -0.64f, 0.48f});
         const glm::dvec3 normal(surface.shading);
         std::vector<double> counts(20);
-        for (const LightAnswer& a : answers(samples(surface, kSamples, 125))) {
+        for (const LightAnswer& a : answers(samples(surface, kLightSamples, 125))) {
             ASSERT_TRUE(isSound(a));
             ASSERT_EQ(a.infinite, 1u);
             const double cosine = glm::dot(glm::dvec3(a.direction), normal);
@@ -112,7 +111,7 @@ TEST_F(LightSampling, AmbientByTheCosineAboutTheNormal) {
             // cos^2 is uniform.
             ++counts[std::min(size_t(std::max(cosine * cosine, 0.0) * 20), size_t(19))];
         }
-        EXPECT_GT(chiSquareTest(counts, std::vector<double>(20, kSamples / 20.0)), kLevel);
+        EXPECT_GT(chiSquareTest(counts, std::vector<double>(20, kLightSamples / 20.0)), kLevel);
     }
 }
 

@@ -17,7 +17,7 @@ namespace {
 using gpu::LightAnswer;
 using gpu::LightQuery;
 
-constexpr size_t kSamples = 100000;
+constexpr size_t kSamplesOfMany = 100000;
 
 /// Irradiance of a triangle of radiance 1 on a point with unit normal n (Lambert), nothing of it
 /// below the horizon.
@@ -52,7 +52,7 @@ class ManyLights : public DeviceTest, public ::testing::WithParamInterface<Light
                                            SPEC_LIGHT_CHOICE, lightChoiceConstant(packed.lights)));
         shader.setScene(packed);
         Random random(151);
-        std::vector<LightQuery> queries(kSamples, surface);
+        std::vector<LightQuery> queries(kSamplesOfMany, surface);
         for (LightQuery& q : queries)
             q.u = random.uniform(), q.v = random.uniform();
         Estimate e;
@@ -60,8 +60,8 @@ class ManyLights : public DeviceTest, public ::testing::WithParamInterface<Light
             EXPECT_TRUE(isSound(a));
             const double value =
                 a.radiance.y * std::max(double(glm::dot(a.direction, surface.shading)), 0.0);
-            e.mean += value / kSamples;
-            e.variance += value * value / kSamples;
+            e.mean += value / kSamplesOfMany;
+            e.variance += value * value / kSamplesOfMany;
         }
         e.variance -= e.mean * e.mean;
         return e;
@@ -100,7 +100,7 @@ TEST_P(ManyLights, BringTheLightOfAllOfThem) {
     for (const LightQuery& surface : {floor(0.1f, 0.2f), floor(-0.97f, 0.5f)}) {
         const Estimate e = estimate(GetParam(), surface);
         // Eight such means: 4.5 sigma.
-        EXPECT_NEAR(e.mean, truth(surface), 4.5 * std::sqrt(e.variance / kSamples));
+        EXPECT_NEAR(e.mean, truth(surface), 4.5 * std::sqrt(e.variance / kSamplesOfMany));
         EXPECT_GT(e.mean, 0);
     }
 }

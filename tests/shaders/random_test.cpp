@@ -1,5 +1,5 @@
 // random.glsl: the words bit for bit, the numbers below 1, uniform and uncorrelated.
-#include "tests/shaders/queries.h"
+#include "tests/shaders/random_answers.hpp"
 #include "tests/support/chi_square.hpp"
 #include "tests/support/device_fixture.hpp"
 #include "tests/support/test_shader.hpp"
@@ -132,16 +132,7 @@ TEST_F(RandomShader, LeftOverDigitsAreAFifthNumber) {
     }
 }
 
-/// Sample correlation of n pairs of uniform numbers; its standard deviation is n^-1/2, so that
-/// .01 is ten of them here.
-double correlation(const std::vector<RandomAnswer>& a, size_t component,
-                   const std::vector<RandomAnswer>& b, size_t other) {
-    double sum = 0;
-    for (size_t i = 0; i < a.size(); ++i)
-        sum += (a[i].block[component] - 0.5) * (b[i].block[other] - 0.5);
-    return 12 * sum / double(a.size());
-}
-
+/// A correlation of 0.01 is ten standard deviations here.
 TEST_F(RandomShader, NeighboursAreUncorrelated) {
     const std::vector<RandomAnswer> base = answers(pictureCounters({}));
     for (const auto& [name, step] : kSteps) {

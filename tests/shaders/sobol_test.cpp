@@ -2,7 +2,7 @@
 // samples; uniform, and uncorrelated between pixels, blocks and dimensions. Statistical tests have
 // .01 for the file together.
 #include "host/reference/sampling.hpp"
-#include "tests/shaders/queries.h"
+#include "tests/shaders/random_answers.hpp"
 #include "tests/support/chi_square.hpp"
 #include "tests/support/device_fixture.hpp"
 #include "tests/support/test_shader.hpp"
@@ -177,14 +177,6 @@ TEST_F(SobolShader, EachSampleIsUniformInTheCube) {
 }
 
 /// Correlation of uniform numbers; deviation n^-1/2 = .002.
-double correlation(const std::vector<RandomAnswer>& a, size_t i, const std::vector<RandomAnswer>& b,
-                   size_t j) {
-    double sum = 0;
-    for (size_t k = 0; k < a.size(); ++k)
-        sum += (a[k].block[i] - 0.5) * (b[k].block[j] - 0.5);
-    return 12 * sum / double(a.size());
-}
-
 TEST_F(SobolShader, PixelsBlocksSeedsAndDimensionsAreUncorrelated) {
     const std::vector<RandomAnswer> base = answers(oneSample(5));
     for (const RandomQuery& step :

@@ -16,7 +16,7 @@ namespace {
 using gpu::LightAnswer;
 using gpu::LightQuery;
 
-constexpr size_t kSamples = 60000;
+constexpr size_t kAngleSamples = 60000;
 
 /// An emitter v0 + s a + t b and a surface; with `triangle`, s + t <= 1.
 struct EmitterCase {
@@ -116,7 +116,7 @@ class SolidAngles : public LightFixture,
 
 TEST_P(SolidAngles, AreSampledUniformly) {
     makeScene();
-    const std::vector<LightAnswer> found = answers(samples(surface(), kSamples, 141));
+    const std::vector<LightAnswer> found = answers(samples(surface(), kAngleSamples, 141));
     const double angle = wholeAngle();
     const glm::dmat3 toWeights = glm::inverse(
         glm::dmat3(glm::dvec3(emitter().a), glm::dvec3(emitter().b),
@@ -124,7 +124,7 @@ TEST_P(SolidAngles, AreSampledUniformly) {
     constexpr size_t kGrid = 8;
     std::vector<double> counts(kGrid * kGrid), expected = cellAngles(kGrid);
     for (double& e : expected)
-        e *= double(kSamples) / angle;
+        e *= double(kAngleSamples) / angle;
     // A few roundings of coordinates, over edges of 1 or in an emitter that is small and near.
     const double off = 1e-4 + 0x1p-22 * glm::length(emitter().v0);
     double sum = 0, squares = 0;
@@ -148,15 +148,16 @@ TEST_P(SolidAngles, AreSampledUniformly) {
         for (size_t i = 1; i < kGrid; ++i)
             counts[i * kGrid + kGrid - 1 - i] += std::exchange(counts[i * kGrid + kGrid - i], 0);
     EXPECT_GT(chiSquareTest(counts, expected), sidakLevel(0.01, 2 * std::size(kCases)));
-    const double mean = sum / kSamples, truth = irradiance(corners(), emitter().normal);
-    const double variance = squares / kSamples - mean * mean;
-    EXPECT_NEAR(mean, truth, 4.5 * std::sqrt(std::max(variance, 0.0) / kSamples) + 1e-5 * truth);
+    const double mean = sum / kAngleSamples, truth = irradiance(corners(), emitter().normal);
+    const double variance = squares / kAngleSamples - mean * mean;
+    EXPECT_NEAR(mean, truth,
+                4.5 * std::sqrt(std::max(variance, 0.0) / kAngleSamples) + 1e-5 * truth);
 
     // Negative control: the same emitter by area.
     Random random(142);
     double areaSum = 0, areaSquares = 0;
     const glm::dvec3 normal = glm::cross(glm::dvec3(emitter().a), glm::dvec3(emitter().b));
-    for (size_t i = 0; i < kSamples; ++i) {
+    for (size_t i = 0; i < kAngleSamples; ++i) {
         double s = random.uniform(), t = random.uniform();
         if (!isQuad() && s + t > 1) s = 1 - s, t = 1 - t;
         const glm::dvec3 to = at(s, t);
@@ -168,7 +169,7 @@ TEST_P(SolidAngles, AreSampledUniformly) {
         areaSquares += value * value;
     }
     const double relative = variance / (mean * mean);
-    const double relativeByArea = areaSquares * kSamples / (areaSum * areaSum) - 1;
+    const double relativeByArea = areaSquares * kAngleSamples / (areaSum * areaSum) - 1;
     EXPECT_GT(relativeByArea, emitter().areaIsWorse * relative);
 }
 

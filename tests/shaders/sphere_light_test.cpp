@@ -13,8 +13,7 @@ namespace {
 using gpu::LightAnswer;
 using gpu::LightQuery;
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr size_t kSamples = 40000;
+constexpr size_t kSphereSamples = 40000;
 
 Scene sphereEmitter(const glm::vec3& center, float radius, bool bothSides) {
     Scene scene = sceneWithEmitter({1, 2, 4}, bothSides);
@@ -40,7 +39,7 @@ TEST_P(SphereLight, FromOutsideUniformlyInTheCone) {
     setScene(sphereEmitter(center, radius, false));
     LightQuery surface = surfaceAt(center + ratio * radius * away, -away);
     surface.error = glm::vec3(0.0f); // the point is where it is, as near to the sphere as it is
-    const std::vector<LightAnswer> found = answers(samples(surface, kSamples, 132));
+    const std::vector<LightAnswer> found = answers(samples(surface, kSphereSamples, 132));
 
     const glm::dvec3 to = glm::dvec3(center) - glm::dvec3(surface.position);
     const double distance = glm::length(to), sine2 = std::pow(double(radius) / distance, 2);
@@ -64,13 +63,14 @@ TEST_P(SphereLight, FromOutsideUniformlyInTheCone) {
         // L / pdf, pdf = 1 / (2 pi (1 - cos_max)).
         ASSERT_NEAR(a.radiance.y / (2 * 2 * kPi * oneMinusCosMax), 1, 1e-5 / std::sqrt(1 - sine2));
         ASSERT_EQ(a.blocked, 0u) << "the emitter shades itself";
-        irradiance += a.radiance.x * cosine / double(kSamples);
+        irradiance += a.radiance.x * cosine / double(kSphereSamples);
     }
-    EXPECT_GT(chiSquareTest(counts, std::vector<double>(counts.size(),
-                                                        double(kSamples) / double(counts.size()))),
+    EXPECT_GT(chiSquareTest(counts, std::vector<double>(counts.size(), double(kSphereSamples) /
+                                                                           double(counts.size()))),
               sidakLevel(0.01, 7));
     // A sphere facing a surface gives E = pi L (r / d)^2. cos is uniform in [cosMax, 1].
-    const double sigma = oneMinusCosMax / std::sqrt(12.0 * kSamples) * 2 * kPi * oneMinusCosMax;
+    const double sigma =
+        oneMinusCosMax / std::sqrt(12.0 * kSphereSamples) * 2 * kPi * oneMinusCosMax;
     EXPECT_NEAR(irradiance, kPi * sine2, 4 * sigma + 1e-5 * kPi * sine2);
     for (const LightAnswer& a : answers(ends(surface)))
         EXPECT_TRUE(isSound(a));
@@ -96,7 +96,7 @@ TEST_F(SphereLightInside, UniformlyOnTheArea) {
         const LightQuery surface = surfaceAt(center + glm::vec3(0.5f, 1, -0.75f), {0, 1, 0});
         std::vector<double> heights(16);
         double irradiance = 0, squares = 0;
-        for (const LightAnswer& a : answers(samples(surface, kSamples, 133))) {
+        for (const LightAnswer& a : answers(samples(surface, kSphereSamples, 133))) {
             ASSERT_TRUE(isSound(a));
             ASSERT_EQ(a.radiance.x > 0, bothSides);
             ASSERT_EQ(a.blocked, 0u);
@@ -110,11 +110,14 @@ TEST_F(SphereLightInside, UniformlyOnTheArea) {
             const double expected = 4 * kPi * r * r * glm::dot(n, w) / (d * d);
             ASSERT_NEAR(a.radiance.x / expected, 1, 1e-5);
             const double value = a.radiance.x * std::max(double(a.direction.y), 0.0);
-            irradiance += value / double(kSamples), squares += value * value / double(kSamples);
+            irradiance += value / double(kSphereSamples),
+                squares += value * value / double(kSphereSamples);
         }
         // By Archimedes, heights on a sphere are uniform.
-        EXPECT_GT(chiSquareTest(heights, std::vector<double>(16, double(kSamples) / 16)), 0.005);
-        const double sigma = std::sqrt((squares - irradiance * irradiance) / double(kSamples));
+        EXPECT_GT(chiSquareTest(heights, std::vector<double>(16, double(kSphereSamples) / 16)),
+                  0.005);
+        const double sigma =
+            std::sqrt((squares - irradiance * irradiance) / double(kSphereSamples));
         EXPECT_NEAR(irradiance, bothSides ? kPi : 0, 4 * sigma) << "radiance 1 all around";
         for (const LightAnswer& a : answers(ends(surface)))
             EXPECT_TRUE(isSound(a));

@@ -16,9 +16,6 @@ namespace {
 using gpu::SphereAnswer;
 using gpu::SphereQuery;
 
-constexpr double kRoundoff = 0x1p-24;
-constexpr float kInfinite = 3.402823466e38f;
-
 bool hits(float t) {
     return t > 0 && t < kInfinite;
 }

@@ -20,8 +20,6 @@ namespace {
 using gpu::SurfaceAnswer;
 using gpu::SurfaceQuery;
 
-constexpr float kInfinite = 3.402823466e38f;
-
 class SurfaceTest : public DeviceTest {
   protected:
     void setScene(const Scene& scene) {

@@ -23,7 +23,6 @@ namespace {
 using gpu::RayAnswer;
 using gpu::RayQuery;
 
-constexpr float kInfinite = 3.402823466e38f;
 constexpr uint32_t kStepLimit = 20000;
 constexpr size_t kTriedOneByOne = 1000; ///< records of a scene at most
 

@@ -19,7 +19,6 @@ using gpu::TriangleAnswer;
 using gpu::TriangleQuery;
 
 constexpr double kUlp = 0x1p-23;
-constexpr float kInfinite = 3.402823466e38f; // INFINITE_DISTANCE
 
 TriangleQuery query(const glm::vec3& v0, const glm::vec3& v1, const glm::vec3& v2,
                     const glm::vec3& origin, const glm::vec3& direction) {

@@ -20,8 +20,7 @@ namespace {
 using gpu::WarpAnswer;
 using gpu::WarpQuery;
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr size_t kGrid = 16, kSamples = 200000;
+constexpr size_t kWarpGrid = 16, kWarpSamples = 200000;
 const double kLevel = sidakLevel(0.01, 9);
 
 class Warps : public DeviceTest {
@@ -32,7 +31,7 @@ class Warps : public DeviceTest {
 
     std::vector<WarpAnswer> randomAnswers(uint32_t seed, float alpha = 0.1f) {
         Random random(seed);
-        std::vector<WarpQuery> queries(kSamples);
+        std::vector<WarpQuery> queries(kWarpSamples);
         for (WarpQuery& q : queries) {
             q.normal = {0, 0, 1};
             q.alpha = alpha;
@@ -46,13 +45,15 @@ class Warps : public DeviceTest {
 /// Chi-square of a map of each answer to the unit square, uniform there if the warp is right.
 double uniformOnSquare(const std::vector<WarpAnswer>& found,
                        const std::function<glm::dvec2(const WarpAnswer&)>& toSquare) {
-    std::vector<double> counts(kGrid * kGrid);
+    std::vector<double> counts(kWarpGrid * kWarpGrid);
     for (const WarpAnswer& a : found) {
-        const glm::dvec2 p = toSquare(a) * double(kGrid);
-        const auto cell = [](double x) { return std::min(size_t(std::max(x, 0.0)), kGrid - 1); };
-        ++counts[cell(p.x) * kGrid + cell(p.y)];
+        const glm::dvec2 p = toSquare(a) * double(kWarpGrid);
+        const auto cell = [](double x) {
+            return std::min(size_t(std::max(x, 0.0)), kWarpGrid - 1);
+        };
+        ++counts[cell(p.x) * kWarpGrid + cell(p.y)];
     }
-    const double each = double(found.size()) / double(kGrid * kGrid);
+    const double each = double(found.size()) / double(kWarpGrid * kWarpGrid);
     return chiSquareTest(counts, std::vector<double>(counts.size(), each));
 }
 

@@ -16,8 +16,6 @@ namespace {
 using gpu::RayAnswer;
 using gpu::RayQuery;
 
-constexpr float kInfinite = 3.402823466e38f;
-
 /// A corner, or a point of an edge, rounded.
 glm::vec3 pointOnWireframe(const Scene& mesh, Random& random) {
     const Triangle& t = mesh.triangles[random.below(uint32_t(mesh.triangles.size()))];

@@ -4,6 +4,7 @@
 #include "host/vulkan/compute_pipeline.hpp"
 #include "shaders/shared/interface.h"
 #include "shaders/shared/render_types.h"
+#include "tests/support/numbers.hpp"
 
 #include <array>
 #include <cstring>

@@ -11,7 +11,7 @@
 namespace stromboli::build {
 namespace {
 
-const FilePlace kPlace{"scene.xyz", 7, "thing"};
+const FilePlace kThing{"scene.xyz", 7, "thing"};
 
 /// A tetrahedron with a normal at each corner.
 Mesh tetrahedron() {
@@ -42,10 +42,10 @@ Scene fourTetrahedra(const SceneConventions& conventions, const glm::vec3& emiss
     shared.emission = emission;
     const std::array a{builder.addMaterial(shared)}, b{builder.addMaterial(other)};
     const ShapeId shape = builder.addMesh("mesh", tetrahedron());
-    builder.place(kPlace, shape, at(0), a, "first");
-    builder.place(kPlace, shape, at(10, {-1, 2, 1}), a, "second");
-    builder.place(kPlace, shape, at(20), b, "other");
-    builder.place(kPlace, shape, at(30), a, "third");
+    builder.place(kThing, shape, at(0), a, "first");
+    builder.place(kThing, shape, at(10, {-1, 2, 1}), a, "second");
+    builder.place(kThing, shape, at(20), b, "other");
+    builder.place(kThing, shape, at(30), a, "third");
     return builder.finish();
 }
 
@@ -77,7 +77,7 @@ TEST(MeshUses, ShareWhereCopiesAreMany) {
     const std::array material{builder.addMaterial({})};
     const ShapeId shape = builder.addMesh("mesh", mesh);
     for (int i = 0; i < 1000; ++i)
-        builder.place(kPlace, shape, at(3 * i), material, "one");
+        builder.place(kThing, shape, at(3 * i), material, "one");
     const Scene scene = builder.finish();
     EXPECT_EQ(scene.placements.size(), 1000u);
     EXPECT_EQ(scene.triangles.size(), 1204u);
@@ -92,7 +92,7 @@ TEST(MeshUses, FlatMatricesAreCopied) {
     const std::array material{builder.addMaterial({})};
     const ShapeId shape = builder.addMesh("mesh", tetrahedron());
     for (int i = 0; i < 3; ++i)
-        builder.place(kPlace, shape, at(3 * i, {1, 0, 1}), material, "flat");
+        builder.place(kThing, shape, at(3 * i, {1, 0, 1}), material, "flat");
     EXPECT_TRUE(builder.finish().placements.empty());
 }
 

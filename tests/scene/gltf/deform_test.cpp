@@ -10,11 +10,6 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 
-void expectNear(const glm::dvec3& actual, const glm::dvec3& expected, double tolerance = 1e-6) {
-    EXPECT_LT(glm::distance(actual, expected), tolerance)
-        << actual.x << ' ' << actual.y << ' ' << actual.z;
-}
-
 /// The second corner of the triangle, (1 0 0) in its mesh.
 glm::vec3 corner(const Scene& scene) {
     return scene.positions.at(scene.triangles.at(0).corner[1]);

@@ -85,6 +85,12 @@ inline Scene load(const GltfText& text, const SceneConventions& conventions = {}
     return loadGltfBytes(text.text(), conventions);
 }
 
+inline void expectNear(const glm::dvec3& actual, const glm::dvec3& expected,
+                       double tolerance = 1e-6) {
+    EXPECT_LT(glm::distance(actual, expected), tolerance)
+        << actual.x << ' ' << actual.y << ' ' << actual.z;
+}
+
 /// What loading complains about, after the file's name; empty if it does not.
 std::string gltfProblem(std::string_view bytes, const SceneConventions& conventions = {});
 inline std::string problem(const GltfText& text, const SceneConventions& conventions = {}) {

@@ -10,13 +10,8 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 
-void expectNear(const glm::dvec3& actual, const glm::dvec3& expected, double tolerance = 1e-6) {
-    EXPECT_LT(glm::distance(actual, expected), tolerance)
-        << actual.x << ' ' << actual.y << ' ' << actual.z;
-}
-
 /// The second corner of the first triangle, (1 0 0) in its mesh, in the file's coordinates.
-glm::vec3 corner(const Scene& scene) {
+glm::vec3 cornerInFile(const Scene& scene) {
     return glm::dvec3(scene.positions.at(scene.triangles.at(0).corner[1])) + scene.origin;
 }
 
@@ -26,7 +21,7 @@ TEST(GltfNodes, TranslationRotationScale) {
     // A quarter turn about z, which takes x to y.
     g.arrays["nodes"][0] = R"({"mesh": 0, "translation": [1, 2, 3], "scale": [4, 1, 1],
         "rotation": [0, 0, 0.70710678, 0.70710678]})";
-    expectNear(corner(load(g)), {1, 6, 3});
+    expectNear(cornerInFile(load(g)), {1, 6, 3});
 }
 
 TEST(GltfNodes, HiddenOnesAreNotShownNorWhatHangsOnThem) {
@@ -53,7 +48,7 @@ TEST(GltfNodes, Matrices) {
     g.addTriangle();
     g.arrays["nodes"][0] =
         R"({"mesh": 0, "matrix": [0, 2, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1]})";
-    expectNear(corner(load(g)), {5, 8, 7});
+    expectNear(cornerInFile(load(g)), {5, 8, 7});
 }
 
 TEST(GltfNodes, Hierarchies) {
@@ -62,7 +57,7 @@ TEST(GltfNodes, Hierarchies) {
     g.addTo("nodes", R"("children": [0], "translation": [0, 10, 0])");
     g.addTo("nodes", R"("children": [1], "scale": [2, 2, 2])");
     g.arrays["scenes"][0] = R"({"nodes": [2]})";
-    expectNear(corner(load(g)), {2, 20, 0});
+    expectNear(cornerInFile(load(g)), {2, 20, 0});
 }
 
 TEST(GltfNodes, OfTheChosenSceneAreShown) {
@@ -70,13 +65,13 @@ TEST(GltfNodes, OfTheChosenSceneAreShown) {
     g.addTriangle();
     g.addTo("nodes", R"("mesh": 0, "translation": [7, 0, 0])");
     g.addTo("scenes", R"("nodes": [1])");
-    EXPECT_EQ(corner(load(g)), glm::vec3(1, 0, 0));
+    EXPECT_EQ(cornerInFile(load(g)), glm::vec3(1, 0, 0));
     EXPECT_THAT(load(g).report.ignored, Contains("1 scenes: one is shown (--scene N)"));
     g.members["scene"] = "1";
-    EXPECT_EQ(corner(load(g)), glm::vec3(8, 0, 0));
+    EXPECT_EQ(cornerInFile(load(g)), glm::vec3(8, 0, 0));
     SceneConventions conventions;
     conventions.selection.scene = 0;
-    EXPECT_EQ(corner(load(g, conventions)), glm::vec3(1, 0, 0));
+    EXPECT_EQ(cornerInFile(load(g, conventions)), glm::vec3(1, 0, 0));
     conventions.selection.scene = 2;
     EXPECT_EQ(problem(g, conventions), "has no scene 2: there are 2, from 0");
 }
@@ -111,7 +106,7 @@ TEST(GltfNodes, MayBeDeep) {
     for (int i = 1; i < depth; ++i)
         g.addTo("nodes", fmt::format(R"("children": [{}], "translation": [1, 0, 0])", i - 1));
     g.arrays["scenes"][0] = fmt::format(R"({{"nodes": [{}]}})", depth - 1);
-    expectNear(corner(load(g)), {depth, 0, 0});
+    expectNear(cornerInFile(load(g)), {depth, 0, 0});
 }
 
 TEST(GltfNodes, InstancesOnTheGpu) {
@@ -125,7 +120,7 @@ TEST(GltfNodes, InstancesOnTheGpu) {
         places, scales);
     const Scene scene = load(g);
     ASSERT_EQ(scene.triangles.size(), 2u);
-    EXPECT_EQ(corner(scene), glm::vec3(2, 0, 9));
+    EXPECT_EQ(cornerInFile(scene), glm::vec3(2, 0, 9));
     EXPECT_EQ(scene.positions[scene.triangles[1].corner[1]], glm::vec3(3, 5, 9));
     const size_t three = g.addAccessor<float>({1, 0, 0, 0, 5, 0, 0, 0, 0}, "VEC3");
     g.arrays["nodes"][0] = fmt::format(

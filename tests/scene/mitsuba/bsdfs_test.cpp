@@ -11,10 +11,6 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-std::string rectangleOf(const std::string& bsdf) {
-    return "<shape type=\"rectangle\">" + bsdf + "</shape>";
-}
-
 Scene sceneOf(const std::string& bsdf) {
     return loadInside(rectangleOf(bsdf));
 }

@@ -25,7 +25,7 @@ Scene forgiven(const std::string& inside, const std::string& words, const std::s
     return scene;
 }
 
-std::string ball(const std::string& inside) {
+std::string ballOf(const std::string& inside) {
     return "<shape type=\"sphere\">" + inside + "</shape>";
 }
 
@@ -36,12 +36,13 @@ TEST(MitsubaForgives, WhatItDoesNotKnow) {
     forgiven("<emitter type=\"collimated\"/>", "is a beam without a width", "it is left out");
     forgiven("<emitter type=\"area\"/>", "shines on a surface", "it is left out");
     forgiven("<integrator type=\"rasterizer\"/>", "'rasterizer' is no integrator", "path");
-    forgiven(ball("<bsdf type=\"velvet\"/>"), "'velvet' is no bsdf", "mid grey takes its place");
-    forgiven(ball("<bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"noise\"/></bsdf>"),
+    forgiven(ballOf("<bsdf type=\"velvet\"/>"), "'velvet' is no bsdf", "mid grey takes its place");
+    forgiven(ballOf("<bsdf type=\"diffuse\"><texture name=\"reflectance\" type=\"noise\"/></bsdf>"),
              "'noise' is no texture", "there is no picture");
-    forgiven(ball("<bsdf type=\"diffuse\"><spectrum name=\"reflectance\" type=\"noise\"/></bsdf>"),
-             "'noise' is no spectrum", "its default is taken");
-    forgiven(ball("<float name=\"radios\" value=\"1\"/>"), "'radios' is not read",
+    forgiven(
+        ballOf("<bsdf type=\"diffuse\"><spectrum name=\"reflectance\" type=\"noise\"/></bsdf>"),
+        "'noise' is no spectrum", "its default is taken");
+    forgiven(ballOf("<float name=\"radios\" value=\"1\"/>"), "'radios' is not read",
              "it has no effect");
 }
 
@@ -60,28 +61,29 @@ TEST(MitsubaForgives, CamerasAreShownInPerspective) {
 
 TEST(MitsubaForgives, WrongNumbersAndWords) {
     const auto radius = [](const std::string& parameter) {
-        return forgiven(ball(parameter), "", "").spheres.at(1).radius;
+        return forgiven(ballOf(parameter), "", "").spheres.at(1).radius;
     };
     EXPECT_EQ(radius("<float name=\"radius\" value=\"one\"/>"), 1);
     EXPECT_EQ(radius("<string name=\"radius\" value=\"2\"/>"), 1);
     EXPECT_EQ(radius("<float name=\"radius\" value=\"2\"/><float name=\"radius\" value=\"3\"/>"),
               2);
     EXPECT_EQ(radius("<float name=\"radius\" value=\"2\" colour=\"red\"/>"), 2);
-    EXPECT_EQ(forgiven(ball("<transform name=\"to_world\"><translate x=\"1\"/><turn/></transform>"),
-                       "is no step of a transform", "it has no effect")
-                  .spheres.at(1)
-                  .center.x,
-              1);
-    const Scene rough = forgiven(ball("<bsdf type=\"roughconductor\"><float name=\"alpha\" "
-                                      "value=\"-1\"/></bsdf>"),
+    EXPECT_EQ(
+        forgiven(ballOf("<transform name=\"to_world\"><translate x=\"1\"/><turn/></transform>"),
+                 "is no step of a transform", "it has no effect")
+            .spheres.at(1)
+            .center.x,
+        1);
+    const Scene rough = forgiven(ballOf("<bsdf type=\"roughconductor\"><float name=\"alpha\" "
+                                        "value=\"-1\"/></bsdf>"),
                                  "'alpha' is -1, expected 0 to", "the nearest one in it");
     EXPECT_EQ(rough.materials.at(1).facets.alpha.x, 0);
-    const Scene glass = forgiven(ball("<bsdf type=\"dielectric\"><string name=\"int_ior\" "
-                                      "value=\"mud\"/></bsdf>"),
+    const Scene glass = forgiven(ballOf("<bsdf type=\"dielectric\"><string name=\"int_ior\" "
+                                        "value=\"mud\"/></bsdf>"),
                                  "'int_ior' is 'mud'", "its default is taken");
     EXPECT_FLOAT_EQ(glass.materials.at(1).ior, 1.5046f / 1.000277f);
-    const Scene metal = forgiven(ball("<bsdf type=\"conductor\"><string name=\"material\" "
-                                      "value=\"Unobtainium\"/></bsdf>"),
+    const Scene metal = forgiven(ballOf("<bsdf type=\"conductor\"><string name=\"material\" "
+                                        "value=\"Unobtainium\"/></bsdf>"),
                                  "'material' is 'Unobtainium'", "Cu");
     EXPECT_FLOAT_EQ(metal.materials.at(1).k.x, 3.912949f);
 }
@@ -89,8 +91,8 @@ TEST(MitsubaForgives, WrongNumbersAndWords) {
 /// An index below 0 would reflect more than all light.
 TEST(MitsubaForgives, IndicesBelowZero) {
     const Scene scene =
-        forgiven(ball("<bsdf type=\"roughconductor\"><rgb name=\"eta\" value=\"-0.5 4 5\"/>"
-                      "<rgb name=\"k\" value=\"-0.25 0.5 1\"/></bsdf>"),
+        forgiven(ballOf("<bsdf type=\"roughconductor\"><rgb name=\"eta\" value=\"-0.5 4 5\"/>"
+                        "<rgb name=\"k\" value=\"-0.25 0.5 1\"/></bsdf>"),
                  "'eta' is -0.5, expected 0 or more", "the nearest one in it is taken");
     EXPECT_EQ(scene.materials.at(1).eta, glm::vec3(0, 4, 5));
     EXPECT_EQ(scene.materials.at(1).k, glm::vec3(0, 0.5f, 1));
@@ -117,14 +119,15 @@ TEST(MitsubaForgives, FilesThatAreNotThere) {
     forgiven("<emitter type=\"envmap\"><string name=\"filename\" value=\"no.exr\"/></emitter>",
              "names the file 'no.exr'", "it is left out");
     const Scene scene = forgiven(
-        ball("<bsdf type=\"diffuse\"><texture type=\"bitmap\" name=\"reflectance\"><string "
-             "name=\"filename\" value=\"no.png\"/></texture></bsdf>"),
+        ballOf("<bsdf type=\"diffuse\"><texture type=\"bitmap\" name=\"reflectance\"><string "
+               "name=\"filename\" value=\"no.png\"/></texture></bsdf>"),
         "names the file 'no.png'", "there is no picture on the surface");
     EXPECT_EQ(scene.materials.at(1).albedo, glm::vec3(0.5f));
     writeFile("damaged.png", "no picture at all");
     const Scene masked = forgiven(
-        ball("<bsdf type=\"mask\"><texture type=\"bitmap\" name=\"opacity\"><string "
-             "name=\"filename\" value=\"damaged.png\"/></texture><bsdf type=\"diffuse\"/></bsdf>"),
+        ballOf(
+            "<bsdf type=\"mask\"><texture type=\"bitmap\" name=\"opacity\"><string "
+            "name=\"filename\" value=\"damaged.png\"/></texture><bsdf type=\"diffuse\"/></bsdf>"),
         "damaged.png", "there is no picture on the surface");
     EXPECT_EQ(masked.materials.at(1).opacity, 1); // it is there
 }
@@ -142,12 +145,12 @@ TEST(MitsubaForgives, NamesOfOtherMachines) {
 }
 
 TEST(MitsubaForgives, ReferencesThatLeadNowhere) {
-    const Scene scene = forgiven(ball("<ref id=\"nothing\"/>"),
+    const Scene scene = forgiven(ballOf("<ref id=\"nothing\"/>"),
                                  "there is no object with the id 'nothing'", "it counts as absent");
     EXPECT_EQ(scene.spheres.size(), 2u);
     forgiven("<bsdf type=\"twosided\" id=\"a\"><ref id=\"b\"/></bsdf>"
              "<bsdf type=\"twosided\" id=\"b\"><ref id=\"a\"/></bsdf>" +
-                 ball("<ref id=\"a\"/>"),
+                 ballOf("<ref id=\"a\"/>"),
              "lies inside itself, by references", "it counts as absent");
     forgiven("<bsdf type=\"null\" id=\"a\"/>\n<bsdf type=\"null\" id=\"a\"/>",
              "has the id 'a', which is that of", "it counts as absent");
@@ -158,9 +161,10 @@ TEST(MitsubaForgives, Seconds) {
                                  "</emitter><emitter type=\"sunsky\"/>",
                                  "is the second environment", "it is left out");
     EXPECT_EQ(scene.environment.value().name, "constant");
-    const Scene two = forgiven(ball("<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"1\"/>"
-                                    "</bsdf><bsdf type=\"plastic\"/>"),
-                               "is the second bsdf of this shape", "it is left out");
+    const Scene two =
+        forgiven(ballOf("<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"1\"/>"
+                        "</bsdf><bsdf type=\"plastic\"/>"),
+                 "is the second bsdf of this shape", "it is left out");
     EXPECT_EQ(two.materials.at(1).albedo, glm::vec3(1));
 }
 
@@ -168,16 +172,16 @@ TEST(MitsubaForgives, BsdfsThatDoNotFit) {
     const std::string blend = "<bsdf type=\"blendbsdf\"><bsdf type=\"diffuse\"/>"
                               "<bsdf type=\"plastic\"/></bsdf>";
     const Scene scene =
-        forgiven(ball("<bsdf type=\"blendbsdf\"><float name=\"weight\" value=\"0.75\"/>" + blend +
-                      blend + "</bsdf>"),
+        forgiven(ballOf("<bsdf type=\"blendbsdf\"><float name=\"weight\" value=\"0.75\"/>" + blend +
+                        blend + "</bsdf>"),
                  "has a first bsdf that is a blend", "that of both with the larger share");
     EXPECT_NE(scene.materials.at(scene.spheres.at(1).material).other, kNoMaterial);
-    forgiven(ball("<bsdf type=\"twosided\"/>"), "has 0 bsdfs inside", "mid grey");
-    forgiven(ball("<bsdf type=\"twosided\">" + blend + blend + "</bsdf>"),
+    forgiven(ballOf("<bsdf type=\"twosided\"/>"), "has 0 bsdfs inside", "mid grey");
+    forgiven(ballOf("<bsdf type=\"twosided\">" + blend + blend + "</bsdf>"),
              "has two bsdfs that are blends", "the front on both sides");
     const std::string board = "<texture type=\"checkerboard\"/>";
-    forgiven(ball("<bsdf type=\"bumpmap\">" + board + "<bsdf type=\"bumpmap\">" + board +
-                  "<bsdf type=\"diffuse\"/></bsdf></bsdf>"),
+    forgiven(ballOf("<bsdf type=\"bumpmap\">" + board + "<bsdf type=\"bumpmap\">" + board +
+                    "<bsdf type=\"diffuse\"/></bsdf></bsdf>"),
              "is a bump map over another map of normals", "there is no picture");
 }
 
@@ -189,35 +193,35 @@ TEST(MitsubaForgives, MixturesOfMixtures) {
                               "value=\"0.5 0.5\"/><ref name=\"x\" id=\"b{}\"/><ref name=\"y\" "
                               "id=\"b{}\"/></bsdf>\n",
                               i, i - 1, i - 1);
-    EXPECT_EQ(loadInside(inside + ball("<ref id=\"b60\"/>")).spheres.size(), 1u);
+    EXPECT_EQ(loadInside(inside + ballOf("<ref id=\"b60\"/>")).spheres.size(), 1u);
     std::string weights, many;
     for (int i = 0; i < 5000; ++i) {
         weights += "0.0002 ";
         many += "<bsdf type=\"diffuse\"/>";
     }
-    forgiven(ball("<bsdf type=\"mixturebsdf\"><string name=\"weights\" value=\"" + weights +
-                  "\"/>" + many + "</bsdf>"),
+    forgiven(ballOf("<bsdf type=\"mixturebsdf\"><string name=\"weights\" value=\"" + weights +
+                    "\"/>" + many + "</bsdf>"),
              "is a mixture of more than 256 bsdfs", "that of both with the larger share");
 }
 
 /// Where a number or colour alone is possible, a picture has a mean.
 TEST(MitsubaForgives, PicturesAsNumbers) {
     const Scene scene = forgiven(
-        ball(
+        ballOf(
             "<bsdf type=\"roughconductor\"><texture name=\"alpha\" type=\"checkerboard\"/></bsdf>"),
         "'alpha' is a texture", "its mean");
     EXPECT_NEAR(scene.materials.at(1).facets.alpha.x, 0.3, 1e-3);
     const Scene glass =
-        forgiven(ball("<bsdf type=\"dielectric\"><texture "
-                      "name=\"specular_transmittance\" type=\"checkerboard\"/></bsdf>"),
+        forgiven(ballOf("<bsdf type=\"dielectric\"><texture "
+                        "name=\"specular_transmittance\" type=\"checkerboard\"/></bsdf>"),
                  "'specular_transmittance' is a texture", "its mean");
     EXPECT_NEAR(glass.materials.at(1).transmittance.x, 0.3, 1e-3);
 }
 
 TEST(MitsubaForgives, Media) {
     const Scene scene =
-        forgiven(ball("<medium name=\"interior\" type=\"plasma\"/><subsurface "
-                      "type=\"dipole\"/>") +
+        forgiven(ballOf("<medium name=\"interior\" type=\"plasma\"/><subsurface "
+                        "type=\"dipole\"/>") +
                      "<sensor type=\"perspective\"><medium type=\"plasma\"/></sensor>",
                  "<medium>: 'plasma' is no medium that is read", "the scene is shown without it");
     EXPECT_TRUE(scene.media.empty());
@@ -229,7 +233,7 @@ TEST(MitsubaForgives, Media) {
 TEST(MitsubaForgives, InOneLineForEachKind) {
     std::string inside;
     for (int i = 0; i < 5; ++i)
-        inside += ball(fmt::format("<float name=\"wrong{}\" value=\"1\"/>", i));
+        inside += ballOf(fmt::format("<float name=\"wrong{}\" value=\"1\"/>", i));
     const Scene scene = loadInside(kBall + inside);
     EXPECT_THAT(scene.report.forgiven,
                 ElementsAre(AllOf(HasSubstr("3: <float>: 'wrong0'"), HasSubstr("(5 times)"))));
@@ -268,9 +272,9 @@ TEST(MitsubaForgives, NotWhatLeavesNothing) {
 }
 
 TEST(MitsubaForgives, NothingOfWhatIsRight) {
-    const Scene scene = loadInside(ball("<bsdf type=\"diffuse\"><texture type=\"rawconstant\" "
-                                        "name=\"reflectance\"><vector name=\"value\" "
-                                        "value=\"0.25 0.5 0.75\"/></texture></bsdf>"));
+    const Scene scene = loadInside(ballOf("<bsdf type=\"diffuse\"><texture type=\"rawconstant\" "
+                                          "name=\"reflectance\"><vector name=\"value\" "
+                                          "value=\"0.25 0.5 0.75\"/></texture></bsdf>"));
     EXPECT_THAT(scene.report.forgiven, IsEmpty());
     EXPECT_EQ(scene.materials.at(0).albedo, glm::vec3(0.25f, 0.5f, 0.75f));
     EXPECT_EQ(problemInside("<emitter type=\"point\"><spectrum type=\"d65\" name=\"intensity\">"

@@ -25,6 +25,11 @@ std::string writePicture(const std::string& name, int width, int height,
 /// `<scene version="3.0.0">`, what is given, and its end, each on a line of its own.
 std::string sceneText(std::string_view inside, std::string_view version = "3.0.0");
 
+/// A rectangle with what is given inside.
+inline std::string rectangleOf(const std::string& inside) {
+    return "<shape type=\"rectangle\">" + inside + "</shape>";
+}
+
 /// Loads a scene of such a text.
 Scene loadText(const std::string& text, const std::vector<Definition>& definitions = {});
 Scene loadInside(std::string_view inside);

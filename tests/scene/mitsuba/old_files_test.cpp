@@ -17,10 +17,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-std::string rectangleOf(const std::string& bsdf) {
-    return "<shape type=\"rectangle\">" + bsdf + "</shape>";
-}
-
 Material oldMaterial(const std::string& bsdf) {
     const Scene scene = loadOld(rectangleOf(bsdf));
     return scene.materials.at(scene.triangles.at(0).material);
