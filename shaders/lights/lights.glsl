@@ -1,4 +1,4 @@
-// Sampling of lights: docs/theory/estimator.md has the table of densities. A kind of light is a file in this
+// Sampling of lights: docs/theory/estimator.md has their densities. A kind of light is a file in this
 // folder (or a part of one) and a row in the tables of shared/light_types.h.
 
 #include "include/spherical.glsl"
