@@ -133,18 +133,18 @@ void logBrightness(const Brightness& b, const Scene& scene, const std::string& f
     if (tone.metersExposure) return; // it is as bright as it can be
     if (b.darkShare == 1)
         logging::warn(fmt::format("the picture is so dark that all of it is black in 8 bits: "
-                                  "--exposure {:.0f}, or write an .exr file",
+                                  "--exposure auto (about {:.0f}), or write an .exr file",
                                   *b.exposure));
     else if (b.darkShare > 0.9)
         logging::warn(fmt::format(
             "{:.1f} % of the pixels are black: {}", 100 * b.darkShare,
             *b.exposure >= 1
-                ? fmt::format("--exposure {:.0f}, or write an .exr file", *b.exposure)
+                ? fmt::format("--exposure auto (about {:.0f}), or write an .exr file", *b.exposure)
                 : "little light reaches what is seen (--env evening_sky lights it, --camera frame "
                   "shows the whole scene)"));
     else if (b.whiteShare > 0.5 && tone.view == View::Standard)
-        logging::warn(fmt::format("{:.0f} % of the pixels are brighter than white: --exposure "
-                                  "{:.1f}, or write an .exr file",
+        logging::warn(fmt::format("{:.0f} % of the pixels are brighter than white: --exposure auto "
+                                  "(about {:.1f}), or write an .exr file",
                                   100 * b.whiteShare, *b.exposure));
 }
 

@@ -4,6 +4,7 @@
 #include "host/core/color.hpp"
 #include "host/core/error.hpp"
 #include "host/film/image_formats.hpp"
+#include "scene/images/float_image.hpp"
 
 #include <fmt/format.h>
 
@@ -32,6 +33,20 @@ Picture fromBytes(const ByteImage& image) {
     for (size_t i = 0; i < image.alpha.size(); ++i) // as EXR has it: over black
         picture.rgb[i] *= image.alpha[i] / 255.0;
     return picture;
+}
+
+/// Of a kind that film files do not have. Over black, as EXR has it.
+Picture fromOthers(const fs::path& path, bool lowDynamicRange) {
+    try {
+        const images::RadiancePicture read = images::readRadiance(path);
+        Picture picture(read.width, read.height);
+        picture.lowDynamicRange = lowDynamicRange;
+        for (size_t i = 0; i < picture.rgb.size(); ++i)
+            picture.rgb[i] = glm::vec3(read.texels[i]);
+        return picture;
+    } catch (const SceneError& error) { // it is no scene
+        throw UsageError(error.what());
+    }
 }
 
 bool hasAll(const FloatImage& image, const std::string& prefix) {
@@ -88,8 +103,12 @@ Picture readPicture(const fs::path& path) {
     if (extension == ".png") return fromBytes(readPng(path));
     if (extension == ".exr") return pictureOf(readExr(path), path.string());
     if (extension == ".pfm") return pictureOf(readPfm(path), path.string());
-    throw UsageError(fmt::format(
-        "{}: unknown kind of picture; the name must end in .png, .exr or .pfm", path.string()));
+    if (extension == ".hdr") return fromOthers(path, false);
+    for (const char* bytes : {".jpg", ".jpeg", ".webp", ".bmp", ".gif"})
+        if (extension == bytes) return fromOthers(path, true);
+    throw UsageError(fmt::format("{}: unknown kind of picture; the name must end in .png, .jpg, "
+                                 ".webp, .bmp, .gif, .exr, .hdr or .pfm",
+                                 path.string()));
 }
 
 Picture pictureOf(Film film) {

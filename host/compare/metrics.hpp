@@ -24,7 +24,8 @@ struct Picture {
     Picture(uint32_t w, uint32_t h) : width(w), height(h), rgb(size_t(w) * h) {}
 };
 
-/// Reads PNG (as sRGB), EXR or PFM, by the extension. Channels "samples" and "variance.R", ".G",
+/// Reads PNG, JPEG, WebP, BMP and GIF (as sRGB), EXR, HDR or PFM, by the extension. Channels
+/// "samples" and "variance.R", ".G",
 /// ".B" of an EXR file (`render --aov`) give the film. What has alpha is taken as it is over black,
 /// and alpha itself is not compared. Throws UsageError.
 Picture readPicture(const std::filesystem::path& path);

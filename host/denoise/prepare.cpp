@@ -40,7 +40,7 @@ void fillSlopes(Prepared& picture) {
         }
 }
 
-/// Of the pixels that are known.
+/// The mean over the pixels that are known.
 double meanRadianceOf(const NoisyPicture& picture) {
     double sum = 0;
     uint64_t known = 0;

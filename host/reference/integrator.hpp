@@ -88,7 +88,7 @@ class PathSample {
     bool arrive(const Ray& ray, Skip skip);
     bool arriveFromCamera(const Ray& ray);
     bool arriveAt(const Ray& ray, const Hit& hit);
-    /// The same through media, from one surface that is passed to the next.
+    /// Traces as arrive() does, through media, from one surface that is passed to the next.
     bool travel(const Ray& ray, Skip skip, bool fromCamera);
     /// Whether the ray scatters in the medium that it is in, between two distances.
     bool scattersInMedium(const Ray& ray, double from, double to);

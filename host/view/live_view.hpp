@@ -24,7 +24,7 @@ struct LiveRequest {
     std::string name;      ///< of the scene, for the page
     RenderRequest picture; ///< the one to begin with
     CommandWriter command;
-    /// Of files that are saved; may be empty.
+    /// What saved files say of how they were made; may be empty.
     std::function<PictureNotes(const RenderResult& result, const std::string& command)> notes;
 };
 

@@ -277,7 +277,7 @@ void SceneReader::setMedia(const Statement& s) {
     state_.media = media_.between(s);
 }
 
-/// Of pbrt-v1 and v2: it fills a box.
+/// The Volume statement of pbrt-v1 and v2, a medium that fills a box.
 void SceneReader::sayVolume(const Statement& s) {
     context_.report().replace(s.place, build::Shortfall::Medium, "is a medium");
 }

@@ -68,7 +68,7 @@ float endOfBlock(GridRay r, ivec3 block, vec3 blocks, out int axis) {
     return end;
 }
 
-/// Of light that a ray to a light carries less than this is left: it ends half of the time.
+/// A ray to a light that has less than this share of its light left ends half of the time.
 const float LITTLE_LEFT = 0.125;
 
 /// isPath: collisions scatter; else they dim. carried: what the channels have, for the choice.

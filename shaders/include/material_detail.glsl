@@ -157,7 +157,7 @@ void applyToParameters(inout Material m, uint slot, vec4 texel) {
     if (isLoose(slot, TEXTURE_ANISOTROPY) && isOfPrincipled(m)) turnGrain(m, texel);
 }
 
-/// The same of the metallic-roughness map of a bundle.
+/// Multiplies them likewise by the texel of a bundle's metallic-roughness map.
 void applyBundledRoughness(inout Material m, vec4 texel) {
 #define APPLY(slot_, recipe, name, factor)                                                         \
     if (TEXTURE_##slot_ == TEXTURE_METALLIC_ROUGHNESS && isOf##recipe(m)) multiply##recipe##_##name(m, factor);

@@ -42,8 +42,8 @@ struct BlendRow {
     uint place;   ///< OTHER_; | BLEND_
 };
 SHARED_ROWS(BlendRow, 1);
-/// Of mixtures whose materials are evaluated together: how many there are beside any one of them; 0: one is drawn. And
-/// the lobes of all.
+/// A mixture whose materials are evaluated together says how many there are beside any one of them (0: one is drawn),
+/// and the lobes of all.
 SHARED_CONST uint BLEND_OTHERS_SHIFT = 8u;
 SHARED_CONST uint BLEND_OTHERS_MASK = 0xFFu;
 SHARED_CONST uint BLEND_LOBES_SHIFT = 16u;

@@ -77,6 +77,30 @@ TEST(ReadPicture, EveryKindGivesLinearValues) {
     EXPECT_DOUBLE_EQ(png.rgb[5].z, linearFromSrgb(bytes.rgb[17] / 255.0));
 }
 
+/// Of the same bytes a WebP without loss is what a PNG is, and a good JPEG is near it.
+TEST(ReadPicture, KindsThatLoadersRead) {
+    const TemporaryFolder folder;
+    ByteImage bytes(16, 8);
+    for (size_t i = 0; i < bytes.rgb.size(); ++i)
+        bytes.rgb[i] = uint8_t(100 + i / 3);
+    writePng(folder / "a.png", bytes, PngColorSpace::Srgb);
+    writeWebP(folder / "a.webp", bytes, 100);
+    writeJpeg(folder / "a.jpg", bytes, 100);
+    std::ofstream(folder / "a.hdr") << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n"
+                                    << "\x80\x40\x20\x82";
+    const Picture png = readPicture(folder / "a.png");
+    const Picture webp = readPicture(folder / "a.webp"), jpeg = readPicture(folder / "a.jpg");
+    EXPECT_TRUE(webp.lowDynamicRange && jpeg.lowDynamicRange);
+    for (size_t i = 0; i < png.rgb.size(); ++i) {
+        EXPECT_NEAR(webp.rgb[i].x, png.rgb[i].x, 1e-6);
+        EXPECT_NEAR(jpeg.rgb[i].x, png.rgb[i].x, 0.02);
+    }
+    const Picture hdr = readPicture(folder / "a.hdr");
+    EXPECT_FALSE(hdr.lowDynamicRange);
+    EXPECT_NEAR(hdr.rgb[0].x, 2, 0.02); // 128 / 256 * 2^2
+    EXPECT_NEAR(hdr.rgb[0].z, 0.5, 0.02);
+}
+
 TEST(ReadPicture, StatisticsComeBackAsAFilm) {
     const TemporaryFolder folder;
     Film film(2, 1);

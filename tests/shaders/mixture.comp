@@ -4,7 +4,7 @@
 
 QUERIES_AND_ANSWERS(BsdfQuery, BsdfAnswer)
 
-/// Of a mixture, one of whose materials is drawn first; the answer's `lobe` has the lobes of all in its upper half.
+/// Answers for a mixture, one of whose materials is drawn first; the answer's `lobe` has the lobes of all in its upper half.
 BsdfAnswer answer(BsdfQuery q) {
     SurfacePoint s = SurfacePoint(vec3(0.0), 0.0, q.geometric, q.shading, q.wo,
                                   q.outside != 0u, q.materialRow, NO_PRIMITIVE, 0.0 NO_DETAIL);

@@ -168,8 +168,9 @@ class MixtureTest : public DeviceTest, public ::testing::WithParamInterface<size
     std::optional<TestShader> shader_;
 };
 
-/// Of all tests here: that of the widest lobes, whose half vectors are known to some 1e-6, and that
-/// of the fitted albedos, which are in the shares of the principled material (bsdf_cases.hpp).
+/// The tolerance of all tests here: that of the widest lobes, whose half vectors are known to some
+/// 1e-6, and that of the fitted albedos, which are in the shares of the principled material
+/// (bsdf_cases.hpp).
 double toleranceOf(const std::vector<Part>& parts) {
     for (const Part& part : parts)
         if (part.material.kind == MaterialKind::Principled) return 2e-3;

@@ -17,7 +17,8 @@
 #include <string>
 
 /// Assimp keeps some memory of an import that has failed; what the program leaks is still found.
-extern "C" const char* __lsan_default_suppressions() {
+/// The sanitizer finds the function only where it is seen from outside.
+extern "C" __attribute__((visibility("default"))) const char* __lsan_default_suppressions() {
     return "leak:libassimp";
 }
 
