@@ -249,7 +249,7 @@ class Watcher {
             return Next::Cancel;
         }
     }
-    /// With the GIL: throws what Python has thrown meanwhile.
+    /// Throws what Python has thrown meanwhile; the caller holds the GIL.
     void rethrow() {
         if (failed_) std::rethrow_exception(std::exchange(failed_, {}));
     }

@@ -35,7 +35,7 @@ Picture fromBytes(const ByteImage& image) {
     return picture;
 }
 
-/// Of a kind that film files do not have. Over black, as EXR has it.
+/// A picture of a kind that films are not written in. Over black, as EXR has it.
 Picture fromOthers(const fs::path& path, bool lowDynamicRange) {
     try {
         const images::RadiancePicture read = images::readRadiance(path);

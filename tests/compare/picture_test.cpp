@@ -77,7 +77,7 @@ TEST(ReadPicture, EveryKindGivesLinearValues) {
     EXPECT_DOUBLE_EQ(png.rgb[5].z, linearFromSrgb(bytes.rgb[17] / 255.0));
 }
 
-/// Of the same bytes a WebP without loss is what a PNG is, and a good JPEG is near it.
+/// A WebP without loss is what a PNG of these bytes is, and a good JPEG is near it.
 TEST(ReadPicture, KindsThatLoadersRead) {
     const TemporaryFolder folder;
     ByteImage bytes(16, 8);
