@@ -180,7 +180,7 @@ class Planner {
         material.bundle = bundle;
         std::erase_if(material.textures, [&](const TextureUse& use) {
             const uint32_t slot = uint32_t(use.slot);
-            return slot < bundle.size() && bundle[slot];
+            return slot < bundle.size() && bundle[slot] && bundle[slot]->texture == use.texture;
         });
     }
 

@@ -160,8 +160,8 @@ struct Material {
     /// Scene::media, or kNoMedium.
     bool boundsMedia = false;
     uint32_t inside = kNoMedium, outside = kNoMedium;
-    /// At most one for each slot, but of MetallicRoughness and SpecularColor, whose numbers
-    /// multiply.
+    /// At most one for each slot, but of MetallicRoughness, Emission and SpecularColor, whose
+    /// numbers multiply.
     std::vector<TextureUse> textures;
 
     bool emits() const { return emission.x > 0 || emission.y > 0 || emission.z > 0; }

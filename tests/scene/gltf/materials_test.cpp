@@ -1,5 +1,6 @@
 // Materials and textures.
 
+#include "scene/model/surface_lookup.hpp"
 #include "tests/scene/gltf/gltf_text.hpp"
 #include "tests/scene/images/encoders.hpp"
 
@@ -337,8 +338,45 @@ TEST(GltfMaterials, ColorsOfVerticesAreFractions) {
     const Scene scene = withColors("");
     EXPECT_EQ(scene.attributes.at(scene.attributeCorners.at(0)[0]).color, glm::vec4(1, 0.5, 0, 1));
     EXPECT_THAT(scene.report.warnings, Contains(HasSubstr("colours of vertices")));
-    EXPECT_THAT(withColors(extension("KHR_materials_unlit", "")).report.ignored,
-                Contains(HasSubstr("vertex colours of unlit materials")));
+}
+
+/// A triangle whose unlit material has colours of corners, and emits 0.5, 0.25, 1 without them.
+Scene unlitWithColors(const std::vector<float>& colors, const std::string& type,
+                      const std::string& picture) {
+    GltfText g = withMaterial(R"("pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 1, 1])" +
+                              picture + "}, " + extension("KHR_materials_unlit", ""));
+    const size_t accessor = g.addAccessor<float>(colors, type);
+    std::string& mesh = g.arrays["meshes"][0];
+    mesh.insert(mesh.find("\"POSITION\""), fmt::format(R"("COLOR_0": {}, )", accessor));
+    return load(g);
+}
+
+TEST(GltfMaterials, UnlitOnesHaveColorsOfCorners) {
+    // Within what half floats hold of the picture, 2^-11, and of its four texels together.
+    constexpr double kHalf = 4 * 0x1p-11;
+    for (const char* picture : {"", R"(, "baseColorTexture": {"index": 1})"}) {
+        const Scene scene =
+            unlitWithColors({1, 0.5, 0.25, 0, 2, 1, 0.75, 0.125, 0}, "VEC3", picture);
+        const Material& m = scene.materials.at(scene.triangles.at(0).material);
+        const glm::dvec3 at[] = {{1, 0.5, 0.25}, {0, 1, 1}, {0.75, 0.125, 0}}; // at most 1
+        // Of the picture, which is linear in its 16 bits but for sRGB: one texel everywhere.
+        const glm::dvec3 texel = *picture ? glm::dvec3(0, 0.2140411, 1) : glm::dvec3(1);
+        for (const glm::dvec2& b : {glm::dvec2(0, 0), {1, 0}, {0, 1}, {0.25, 0.5}, {0.4, 0.1}}) {
+            const glm::dvec3 emitted = emissionAt(scene, m, attributesAt(scene, 0, b.x, b.y));
+            const glm::dvec3 color = (1 - b.x - b.y) * at[0] + b.x * at[1] + b.y * at[2];
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(emitted[c], color[c] * texel[c] * glm::dvec3(0.5, 0.25, 1)[c], kHalf);
+        }
+    }
+}
+
+TEST(GltfMaterials, UnlitOnesOfOneColorNeedNoPicture) {
+    const Scene scene =
+        unlitWithColors({0.5, 1, 0.25, 0.75, 0.5, 1, 0.25, 0.75, 0.5, 1, 0.25, 0.75}, "VEC4", "");
+    const Material& m = scene.materials.at(scene.triangles.at(0).material);
+    EXPECT_EQ(m.emission, glm::vec3(0.25f, 0.25f, 0.25f));
+    EXPECT_TRUE(m.textures.empty());
+    EXPECT_EQ(scene.attributes.at(scene.attributeCorners.at(0)[0]).color, glm::vec4(1, 1, 1, 0.75));
 }
 
 TEST(GltfMaterials, SpecularGlossinessWithPictures) {
