@@ -182,11 +182,12 @@ TEST(GltfMaterials, UnlitOnesEmit) {
 
 TEST(GltfMaterials, WhatIsIgnoredIsReported) {
     const Scene scene = sceneOf(R"("occlusionTexture": {"index": 0}, )" +
-                                extension("KHR_materials_iridescence", ""));
+                                extension("KHR_materials_dispersion", R"("dispersion": 0.5)"));
     EXPECT_THAT(scene.report.ignored,
                 Contains("1 occlusion textures: what they foretell is computed"));
     EXPECT_THAT(scene.report.ignored,
-                Contains(HasSubstr("KHR_materials_iridescence of a material")));
+                Contains(HasSubstr("KHR_materials_dispersion of a material without a volume")));
+    EXPECT_EQ(scene.materials.at(0).principled.dispersion, 0);
 }
 
 TEST(GltfMaterials, Variants) {
@@ -377,6 +378,57 @@ TEST(GltfMaterials, UnlitOnesOfOneColorNeedNoPicture) {
     EXPECT_EQ(m.emission, glm::vec3(0.25f, 0.25f, 0.25f));
     EXPECT_TRUE(m.textures.empty());
     EXPECT_EQ(scene.attributes.at(scene.attributeCorners.at(0)[0]).color, glm::vec4(1, 1, 1, 0.75));
+}
+
+TEST(GltfMaterials, DiffuseTransmission) {
+    const Material m = materialOf(extension(
+        "KHR_materials_diffuse_transmission",
+        R"("diffuseTransmissionFactor": 0.25, "diffuseTransmissionColorFactor": [1, 0.5, 0.25],
+           "diffuseTransmissionTexture": {"index": 1},
+           "diffuseTransmissionColorTexture": {"index": 0})"));
+    EXPECT_EQ(m.principled.diffuseTransmission, 0.25f);
+    EXPECT_EQ(m.principled.diffuseTransmissionColor, glm::vec3(1, 0.5, 0.25));
+    EXPECT_NE(useOf(m, TextureSlot::DiffuseTransmission), nullptr);
+    EXPECT_NE(useOf(m, TextureSlot::DiffuseTransmissionColor), nullptr);
+    EXPECT_FALSE(m.entersVolume());
+    const Material none = materialOf(extension("KHR_materials_diffuse_transmission", ""));
+    EXPECT_EQ(none.principled.diffuseTransmission, 0);
+    EXPECT_EQ(none.principled.diffuseTransmissionColor, glm::vec3(1));
+    const Material thick = materialOf(
+        R"("extensions": {"KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 1},
+                          "KHR_materials_volume": {"thicknessFactor": 1}})");
+    EXPECT_TRUE(thick.entersVolume());
+}
+
+TEST(GltfMaterials, Dispersion) {
+    const Material m = materialOf(
+        R"("extensions": {"KHR_materials_dispersion": {"dispersion": 0.4},
+                          "KHR_materials_volume": {"thicknessFactor": 1}})");
+    EXPECT_EQ(m.principled.dispersion, 0.4f);
+    // The Abbe number 50: the indices of the lines F and C are 0.5 / 50 apart.
+    EXPECT_FLOAT_EQ(m.principled.indexSpread(), 0.005f);
+}
+
+TEST(GltfMaterials, Iridescence) {
+    const Material film = materialOf(
+        extension("KHR_materials_iridescence", R"("iridescenceFactor": 0.5, "iridescenceIor": 1.4,
+        "iridescenceThicknessMaximum": 500, "iridescenceTexture": {"index": 1})"));
+    EXPECT_EQ(film.principled.iridescence, 0.5f);
+    EXPECT_EQ(film.principled.filmIor, 1.4f);
+    EXPECT_EQ(film.principled.filmThickness, 500); // without a picture it is the maximum
+    EXPECT_EQ(film.principled.filmSpan, 0);
+    EXPECT_NE(useOf(film, TextureSlot::Iridescence), nullptr);
+    const Material painted = materialOf(
+        extension("KHR_materials_iridescence",
+                  R"("iridescenceFactor": 1, "iridescenceThicknessTexture": {"index": 1})"));
+    EXPECT_EQ(painted.principled.filmIor, 1.3f);
+    EXPECT_EQ(painted.principled.filmThickness, 100);
+    EXPECT_EQ(painted.principled.filmSpan, 300);
+    EXPECT_NE(useOf(painted, TextureSlot::FilmThickness), nullptr);
+    const Material none =
+        materialOf(extension("KHR_materials_iridescence", R"("iridescenceTexture": {"index": 1})"));
+    EXPECT_EQ(none.principled.iridescence, 0);
+    EXPECT_TRUE(none.textures.empty());
 }
 
 TEST(GltfMaterials, SpecularGlossinessWithPictures) {
