@@ -360,6 +360,13 @@ TEST(GltfMaterials, UnlitOnesHaveColorsOfCorners) {
             unlitWithColors({1, 0.5, 0.25, 0, 2, 1, 0.75, 0.125, 0}, "VEC3", picture);
         const Material& m = scene.materials.at(scene.triangles.at(0).material);
         const glm::dvec3 at[] = {{1, 0.5, 0.25}, {0, 1, 1}, {0.75, 0.125, 0}}; // at most 1
+        if (*picture) { // whose coordinates stay
+            ASSERT_EQ(m.textures.size(), 2u);
+            EXPECT_EQ(m.textures[0].uvSet, 0u);
+            EXPECT_EQ(m.textures[1].uvSet, 1u);
+            const uint32_t corner = scene.attributeCorners.at(0)[1];
+            EXPECT_EQ(scene.attributes.at(corner).uv[0], glm::vec2(1, 1));
+        }
         // Of the picture, which is linear in its 16 bits but for sRGB: one texel everywhere.
         const glm::dvec3 texel = *picture ? glm::dvec3(0, 0.2140411, 1) : glm::dvec3(1);
         for (const glm::dvec2& b : {glm::dvec2(0, 0), {1, 0}, {0, 1}, {0.25, 0.5}, {0.4, 0.1}}) {
