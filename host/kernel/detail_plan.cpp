@@ -54,6 +54,14 @@ bool hasEffect(const Material& m, TextureSlot slot) {
         return isPrincipled && !isBlack(p.sheenColor) && p.sheenRoughness > 0;
     case TextureSlot::Anisotropy:
         return isPrincipled && p.anisotropy > 0;
+    case TextureSlot::DiffuseTransmission:
+        return isPrincipled && p.diffuseTransmission > 0;
+    case TextureSlot::DiffuseTransmissionColor:
+        return isPrincipled && p.diffuseTransmission > 0 && !isBlack(p.diffuseTransmissionColor);
+    case TextureSlot::Iridescence:
+        return isPrincipled && p.iridescence > 0;
+    case TextureSlot::FilmThickness:
+        return isPrincipled && p.iridescence > 0 && p.filmSpan != 0;
     case TextureSlot::BlendShare: // above
     case TextureSlot::Opacity:    // likewise
     case TextureSlot::Projection: // of lights
@@ -180,7 +188,7 @@ class Planner {
         material.bundle = bundle;
         std::erase_if(material.textures, [&](const TextureUse& use) {
             const uint32_t slot = uint32_t(use.slot);
-            return slot < bundle.size() && bundle[slot];
+            return slot < bundle.size() && bundle[slot] && bundle[slot]->texture == use.texture;
         });
     }
 
@@ -276,6 +284,7 @@ DetailPlan planDetails(const Scene& scene, const std::vector<bool>& used, uint64
     static_assert(uint32_t(OtherPlace::InFront) == gpu::OTHER_IN_FRONT);
     static_assert(uint32_t(TextureSlot::Projection) == gpu::TEXTURE_PROJECTION);
     static_assert(uint32_t(TextureSlot::Opacity) == gpu::TEXTURE_OPACITY);
+    static_assert(uint32_t(TextureSlot::FilmThickness) == gpu::TEXTURE_FILM_THICKNESS);
     DetailPlan plan = Planner(scene, gatheredRows, 2).plan(used);
     // Where all lanes look up a bundle anyway, a picture by itself costs less in one than as a
     // loose texture: nothing, or four loads for a lookup's two and all of its code.

@@ -69,6 +69,7 @@ void packPrimitives(const Scene& scene, const std::vector<uint32_t>& materialRow
     g.primitives.clear();
     g.closures = {};
     g.hasNormals = g.hasEmission = g.hasBlackBacks = g.hasReliefRules = false;
+    g.hasDispersion = g.hasIridescence = false;
     g.hasTriangles = triangles > 0;
     g.hasSpheres = !scene.spheres.empty();
     g.hasPlacements = !scene.placements.empty();
@@ -89,6 +90,8 @@ void packPrimitives(const Scene& scene, const std::vector<uint32_t>& materialRow
         g.hasEmission |= scene.materials[i].emits();
         g.hasBlackBacks |= scene.materials[i].isBlackBehind;
         g.hasReliefRules |= reliefBits(scene.materials[i]) != 0;
+        g.hasDispersion |= isDispersive(scene.materials[i]);
+        g.hasIridescence |= isIridescent(scene.materials[i]);
     }
 }
 

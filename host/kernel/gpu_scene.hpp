@@ -28,6 +28,8 @@ struct GpuScene {
     uint32_t mostOthers = 0, mostBlends = 0; ///< of MaterialRows
     bool hasBlackBacks = false;              ///< a primitive's material is black behind
     bool hasReliefRules = false;             ///< a primitive's material has MATERIAL_RELIEF_ bits
+    bool hasDispersion = false;              ///< a primitive's material refracts by colour
+    bool hasIridescence = false;             ///< a primitive's material has a thin film
     uint32_t media = 0;                      ///< MEDIA_ bits
     std::vector<uint32_t> mediumRow;         ///< by medium of the scene: its first row
     float gapWidth = 0;                      ///< gapWidth()

@@ -32,6 +32,7 @@ bool servesForLong(const KernelFeatures& f) {
            f[SPEC_TEXEL_KINDS] != 0 || f[SPEC_ATTRIBUTES] != 0 || f[SPEC_HAS_ALPHA] != 0 ||
            f[SPEC_TANGENT_FRAMES] != 0 || f[SPEC_HAS_BLENDS] != 0 || f[SPEC_MEDIA] != 0 ||
            f[SPEC_RELIEF_RULES] != 0 || f[SPEC_HAS_PLACEMENTS] != 0 ||
+           f[SPEC_HAS_DISPERSION] != 0 || f[SPEC_HAS_IRIDESCENCE] != 0 ||
            f[SPEC_CORNER_NORMALS] != f[SPEC_HAS_NORMALS];
 }
 
@@ -225,7 +226,11 @@ const std::vector<const char*> kTextureSlots = {"base color",
                                                 "height",
                                                 "share of a mixture",
                                                 "of a projector",
-                                                "opacity"};
+                                                "opacity",
+                                                "diffuse transmission",
+                                                "diffuse transmission color",
+                                                "iridescence",
+                                                "film thickness"};
 
 /// By bit: lobes are the first ones of closures.
 #define NAME_CLOSURE(name, bit, label) label,

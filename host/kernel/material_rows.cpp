@@ -35,6 +35,10 @@ bool refracts(const Material& m) {
     return transmits(m) && !m.principled.isThin;
 }
 
+bool passesDiffusely(const Material& m) {
+    return m.principled.diffuseTransmission > 0 && !isAllMetal(m, m.principled.metallic);
+}
+
 /// glTF writes 0 for an index so large that everything is reflected.
 constexpr float kLargestIndex = 1e6f;
 
@@ -45,9 +49,16 @@ float usedIndex(const Material& m) {
     return p.ior < 1 ? 1 - gpu::LEAST_INDEX_STEP : 1 + gpu::LEAST_INDEX_STEP;
 }
 
+float indexSpreadOf(const Material& m) {
+    if (m.principled.isThin) return -1;
+    return isDispersive(m) ? m.principled.indexSpread() : 0;
+}
+
 float leastAlphaOf(const Material& m) {
     if (!refracts(m)) return gpu::LEAST_GGX_ALPHA;
-    const float ior = usedIndex(m);
+    // Red light is refracted least.
+    const float red = usedIndex(m) - std::max(indexSpreadOf(m), 0.0f);
+    const float ior = isDispersive(m) ? std::max(red, 1 + gpu::LEAST_INDEX_STEP) : red;
     return std::max(gpu::LEAST_GGX_ALPHA,
                     gpu::LEAST_REFRACTION_ALPHA * std::max(ior, 1.0f) / std::abs(ior - 1));
 }
@@ -147,8 +158,9 @@ uint32_t principledBits(const Material& m) {
     if (p.sheenColor != glm::vec3(0)) bits |= CLOSURE_SHEEN;
     if (p.anisotropy > 0) bits |= FACETS_ARE_TURNED;
     if (transmits(m)) bits |= LOBE_GLOSSY_TRANSMISSION | (p.isThin ? INTERFACE_IS_THIN : 0);
-    if (!refracts(m)) return bits;
-    bits |= INTERFACE_REFRACTS | INTERFACE_IS_DIELECTRIC;
+    if (passesDiffusely(m)) bits |= LOBE_DIFFUSE_TRANSMISSION | LOBE_GLOSSY_TRANSMISSION;
+    if (refracts(m)) bits |= INTERFACE_REFRACTS | INTERFACE_IS_DIELECTRIC;
+    if (p.isThin || (bits & LOBE_GLOSSY_TRANSMISSION) == 0) return bits;
     return m.principled.absorption() != glm::vec3(0) ? bits | VOLUME_ABSORBS : bits;
 }
 
@@ -211,6 +223,14 @@ void nameOthers(MaterialRows& packed, std::span<const Material> materials,
 }
 
 } // namespace
+
+bool isDispersive(const Material& m) {
+    return m.kind == MaterialKind::Principled && refracts(m) && m.principled.indexSpread() > 0;
+}
+
+bool isIridescent(const Material& m) {
+    return m.kind == MaterialKind::Principled && m.principled.iridescence > 0;
+}
 
 uint32_t closureBits(const Material& m) {
     using namespace gpu;

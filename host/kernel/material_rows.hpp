@@ -33,6 +33,10 @@ MaterialRows packMaterials(std::span<const Material> materials,
 /// MATERIAL_RELIEF_ bits.
 uint32_t reliefBits(const Material& material);
 
+/// Whether a material refracts light of each colour in its own direction, or has a thin film on it.
+bool isDispersive(const Material& material);
+bool isIridescent(const Material& material);
+
 /// LOBE_ and closure bits of a material (shaders/shared/bsdf_types.h).
 uint32_t closureBits(const Material& material);
 

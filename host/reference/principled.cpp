@@ -2,6 +2,7 @@
 
 #include "host/reference/microfacet.hpp"
 #include "host/reference/sampling.hpp"
+#include "host/reference/thin_film.hpp"
 #include "shaders/shared/albedo_fits.h"
 
 #include <algorithm>
@@ -31,6 +32,17 @@ double usedIndex(const PrincipledParameters& p) {
     const double step = double(p.ior) - 1, least = gpu::LEAST_INDEX_STEP;
     if (!refracts(p) || std::abs(step) >= least) return p.ior;
     return step < 0 ? 1 - least : 1 + least;
+}
+
+/// Indices of red, green and blue light. The middle one is that of the material; the Abbe number is
+/// it less 1 over the difference of the outer ones.
+dvec3 indicesOf(const PrincipledParameters& p) {
+    const double middle = usedIndex(p);
+    if (!refracts(p) || p.dispersion <= 0 || middle <= 1 || p.ior == 0) return dvec3(middle);
+    const double abbe = 20 / double(p.dispersion), outer = (double(p.ior) - 1) / abbe;
+    if (!(outer > 0)) return dvec3(middle);
+    const double least = 1 + double(gpu::LEAST_INDEX_STEP);
+    return glm::max(dvec3(middle - outer / 2, middle, middle + outer / 2), dvec3(least));
 }
 
 dvec3 mixed(const dvec3& f0, double f90, double weight) {
@@ -91,41 +103,47 @@ class Layers {
         dvec3 reflected{0.0}, transmitted{0.0};
         double reflects = 1; ///< share of samples
     };
-    Facet facetAt(double cosine) const;
+    Facet facetAt(double cosine, int channel) const;
     Part facets(const dvec3& wi) const;
-    dvec3 halfVector(const dvec3& wi) const;
+    Part facets(const dvec3& wi, int channel) const;
+    dvec3 halfVector(const dvec3& wi, int channel) const;
     Part coat(const dvec3& wi) const;
-    dvec3 interfaceReflectance(double cosine) const;
+    dvec3 interfaceReflectance(double cosine, int channel) const;
+    dvec3 withFilm(const dvec3& plain, double cosine, const dvec3& f0, double f90) const;
 
     const PrincipledParameters& p_;
     dvec3 wo_, grainWo_; ///< the latter in the frame of the facets
     Frame coatFrame_;
     dvec3 coatWo_;
     bool thin_, covered_;
-    double index_, eta_;
+    double index_;
+    dvec3 indices_, etas_; ///< by channel
+    bool disperses_;
     dvec3 baseColor_, f0_;
     double f90_;
     Ggx ggx_{1, 1}, coatGgx_{1, 1};
     double albedo_ = 1, coatAlbedo_ = 1, sheenAlpha_ = 1;
     double opaque_, clear_; ///< shares of dielectric over diffuse, and over transmission
     double underCoat_ = 1, underSheen_ = 1;
-    dvec3 diffuse_{0.0}, sheen_{0.0};
-    double facetShare_ = 1, diffuseShare_ = 0, sheenShare_ = 0, coatShare_ = 0;
+    dvec3 diffuse_{0.0}, through_{0.0}, sheen_{0.0};
+    dvec3 meanDielectric_, meanMetal_; ///< by which light is given back
+    double facetShare_ = 1, diffuseShare_ = 0, throughShare_ = 0, sheenShare_ = 0, coatShare_ = 0;
 };
 
 Layers::Layers(const PrincipledParameters& p, const dvec3& wo, bool entering, const dvec3& coat)
     : p_(p), wo_(wo), grainWo_(turned(wo, -double(p.anisotropyRotation))), coatFrame_(coat),
       coatWo_(coatFrame_.toLocal(wo)), thin_(!refracts(p)), covered_(p.isThin || entering),
-      index_(usedIndex(p)), eta_(entering ? 1 / index_ : index_), baseColor_(p.baseColor),
-      f90_(p.specular), opaque_((1 - double(p.metallic)) * (1 - double(p.transmission))),
+      index_(usedIndex(p)), indices_(indicesOf(p)), etas_(entering ? 1.0 / indices_ : indices_),
+      disperses_(indices_.x != indices_.z), baseColor_(p.baseColor), f90_(p.specular),
+      opaque_((1 - double(p.metallic)) * (1 - double(p.transmission))),
       clear_((1 - double(p.metallic)) * double(p.transmission)) {
     const double r = (index_ - 1) / (index_ + 1);
     f0_ = glm::min(r * r * dvec3(p.specularColor), dvec3(1.0)) * double(p.specular);
 
     double least = gpu::LEAST_GGX_ALPHA;
-    if (refracts(p))
-        least = std::max(least, gpu::LEAST_REFRACTION_ALPHA * std::max(index_, 1.0) /
-                                    std::abs(index_ - 1));
+    if (refracts(p)) // red light is refracted least
+        least = std::max(least, gpu::LEAST_REFRACTION_ALPHA * std::max(indices_.x, 1.0) /
+                                    std::abs(indices_.x - 1));
     const double alpha = std::max(double(p.roughness) * p.roughness, least);
     const double strength = p.anisotropy;
     ggx_ = {alpha + (1 - alpha) * strength * strength, alpha};
@@ -153,60 +171,95 @@ Layers::Layers(const PrincipledParameters& p, const dvec3& wo, bool entering, co
     }
     albedo_ = gpu::ggxAlbedo(wo.z, ggx_.alphaY);
     const double weight = gpu::schlickShare(wo.z, ggx_.alphaY);
-    const dvec3 dielectric = albedo_ * mixed(f0_, f90_, weight) * givenBack(f0_, albedo_);
-    const dvec3 metal = albedo_ * mixed(baseColor_, 1, weight) * givenBack(baseColor_, albedo_);
-    diffuse_ = underSheen_ * opaque_ * std::max(1 - largestComponent(dielectric), 0.0) * baseColor_;
+    // At the cosine whose Schlick weight is the facets' mean one.
+    const double cosine = 1 - std::pow(std::clamp(weight, 0.0, 1.0), 0.2);
+    meanDielectric_ = withFilm(f0_, cosine, f0_, f90_);
+    meanMetal_ = withFilm(baseColor_, cosine, baseColor_, 1);
+    const dvec3 dielectric = albedo_ * withFilm(mixed(f0_, f90_, weight), cosine, f0_, f90_) *
+                             givenBack(meanDielectric_, albedo_);
+    const dvec3 metal = albedo_ * withFilm(mixed(baseColor_, 1, weight), cosine, baseColor_, 1) *
+                        givenBack(meanMetal_, albedo_);
+    const double base = underSheen_ * opaque_ * std::max(1 - largestComponent(dielectric), 0.0);
+    const double passes = p.diffuseTransmission;
+    diffuse_ = base * (1 - passes) * baseColor_;
+    through_ = base * passes * dvec3(p.diffuseTransmissionColor);
     diffuseShare_ = mean(diffuse_);
+    throughShare_ = mean(through_);
     constexpr double kLeastFacets = 1.0 / 64;
     facetShare_ =
         std::max(underSheen_ * (mean(double(p.metallic) * metal + opaque_ * dielectric) + clear_),
                  kLeastFacets);
-    const double sum = facetShare_ + diffuseShare_ + sheenShare_ + coatShare_;
-    for (double* share : {&facetShare_, &diffuseShare_, &sheenShare_, &coatShare_})
+    const double sum = facetShare_ + diffuseShare_ + throughShare_ + sheenShare_ + coatShare_;
+    for (double* share : {&facetShare_, &diffuseShare_, &throughShare_, &sheenShare_, &coatShare_})
         *share /= sum;
 }
 
-dvec3 Layers::interfaceReflectance(double cosine) const {
-    const Interface face = dielectric(std::min(cosine, 1.0), eta_);
-    if (face.total) return dvec3(1.0);
-    const double r = (index_ - 1) / (index_ + 1), normal = r * r;
-    return mixed(f0_, f90_, std::max((face.reflectance - normal) / (1 - normal), 0.0));
+/// What the film, if any, makes of a reflectance of the surface, from f0 to f90.
+dvec3 Layers::withFilm(const dvec3& plain, double cosine, const dvec3& f0, double f90) const {
+    if (!(p_.iridescence > 0)) return plain;
+    if (!(f90 > 0)) return plain * (1 - double(p_.iridescence));
+    const ThinFilm film{p_.filmIor, double(p_.filmThickness) + p_.filmSpan};
+    return glm::mix(plain, f90 * film.reflectance(cosine, f0 / f90), double(p_.iridescence));
 }
 
-Layers::Facet Layers::facetAt(double cosine) const {
+dvec3 Layers::interfaceReflectance(double cosine, int channel) const {
+    const Interface face = dielectric(std::min(cosine, 1.0), etas_[channel]);
+    if (face.total) return dvec3(1.0);
+    const double n = indices_[channel], normal = square((n - 1) / (n + 1));
+    const dvec3 plain = mixed(f0_, f90_, std::max((face.reflectance - normal) / (1 - normal), 0.0));
+    // Film and surface reflect as much from below as from where such light goes to.
+    return withFilm(plain, covered_ ? std::min(cosine, 1.0) : face.cosTransmitted, f0_, f90_);
+}
+
+Layers::Facet Layers::facetAt(double cosine, int channel) const {
     const double weight = schlickWeight(cosine), metallic = p_.metallic;
-    const dvec3 dielectric = mixed(f0_, f90_, weight);
+    const double met = std::min(cosine, 1.0);
+    const dvec3 dielectric = withFilm(mixed(f0_, f90_, weight), met, f0_, f90_);
     Facet f;
-    f.reflected = metallic * mixed(baseColor_, 1, weight) * givenBack(baseColor_, albedo_) +
-                  opaque_ * dielectric * givenBack(f0_, albedo_);
+    f.reflected = metallic * withFilm(mixed(baseColor_, 1, weight), met, baseColor_, 1) *
+                      givenBack(meanMetal_, albedo_) +
+                  opaque_ * dielectric * givenBack(meanDielectric_, albedo_);
     if (clear_ == 0) return f;
-    const dvec3 mirrored = thin_ ? dielectric : interfaceReflectance(cosine);
+    const dvec3 mirrored = thin_ ? dielectric : interfaceReflectance(cosine, channel);
     // All that a thin sheet's facets do not send on at first is given back.
     const double scale = thin_ ? clear_ / albedo_ : clear_;
     f.reflected += scale * mirrored;
     f.transmitted = scale * std::max(1 - largestComponent(mirrored), 0.0) * baseColor_;
     const double r = mean(f.reflected), t = mean(f.transmitted);
     if (t > 0) f.reflects = r / (r + t);
-    if (!thin_) f.transmitted *= eta_ * eta_; // radiance over the squared index is invariant
+    if (!thin_)
+        f.transmitted *= square(etas_[channel]); // radiance over the squared index is invariant
     return f;
 }
 
 /// The normal of the facets that send light from wi to wo, in their frame; 0 where none does.
-dvec3 Layers::halfVector(const dvec3& wi) const {
+dvec3 Layers::halfVector(const dvec3& wi, int channel) const {
     if (wi.z > 0) return glm::normalize(grainWo_ + wi);
     if (thin_) return glm::normalize(grainWo_ + dvec3(wi.x, wi.y, -wi.z));
-    dvec3 h = -(eta_ * grainWo_ + wi);
+    dvec3 h = -(etas_[channel] * grainWo_ + wi);
     if (h.z < 0) h = -h;
     h = glm::normalize(h);
     return glm::dot(grainWo_, h) > 0 && glm::dot(wi, h) < 0 ? h : dvec3(0.0);
 }
 
-Part Layers::facets(const dvec3& worldWi) const {
+/// Samples take the index of any of the channels, each in a third of the cases.
+Part Layers::facets(const dvec3& wi) const {
+    if (!disperses_) return facets(wi, 1);
+    Part all;
+    for (int channel = 0; channel < 3; ++channel) {
+        const Part one = facets(wi, channel);
+        all.value[channel] = one.value[channel];
+        all.pdf += one.pdf / 3;
+    }
+    return all;
+}
+
+Part Layers::facets(const dvec3& worldWi, int channel) const {
     const dvec3 wi = turned(worldWi, -double(p_.anisotropyRotation));
-    const dvec3 h = halfVector(wi);
+    const dvec3 h = halfVector(wi, channel);
     const double cosO = glm::dot(grainWo_, h);
     if (!(cosO > 0)) return {};
-    const Facet facet = facetAt(cosO);
+    const Facet facet = facetAt(cosO, channel);
     const double d = ggx_.density(h), g2 = ggx_.visibleFromBoth(grainWo_, wi);
     const double pdfOfH = ggx_.visibleDensity(grainWo_, h);
     if (wi.z > 0)
@@ -216,7 +269,7 @@ Part Layers::facets(const dvec3& worldWi) const {
                 (1 - facet.reflects) * pdfOfH / (4 * cosO)};
     // Walter et al. 2007, equations 17 and 21, the far side's index taken as 1.
     const double cosI = std::abs(glm::dot(wi, h));
-    const double jacobian = cosI / std::pow(eta_ * cosO - cosI, 2);
+    const double jacobian = cosI / square(etas_[channel] * cosO - cosI);
     return {facet.transmitted * (d * g2 * cosO * jacobian / wo_.z),
             (1 - facet.reflects) * pdfOfH * jacobian};
 }
@@ -236,7 +289,11 @@ Part Layers::coat(const dvec3& baseWi) const {
 BsdfValue Layers::evaluate(const dvec3& wi) const {
     const Part facet = facets(wi);
     BsdfValue f{underSheen_ * facet.value, facetShare_ * facet.pdf};
-    if (!(wi.z > 0)) return f;
+    if (!(wi.z > 0)) {
+        f.value += through_ * (-wi.z / kPi);
+        f.pdf += throughShare_ * (-wi.z / kPi);
+        return f;
+    }
     f.value += diffuse_ * (wi.z / kPi);
     f.pdf += diffuseShare_ * (wi.z / kPi);
     if (sheenShare_ > 0) {
@@ -257,7 +314,11 @@ BsdfSample Layers::sample(const dvec3& u) const {
     double pick = u.z;
     if (pick < diffuseShare_) {
         s.direction = cosineHemisphere(u.x, u.y);
-    } else if ((pick -= diffuseShare_) < sheenShare_) {
+    } else if ((pick -= diffuseShare_) < throughShare_) {
+        s.direction = cosineHemisphere(u.x, u.y);
+        s.direction.z = -s.direction.z;
+        s.lobe = gpu::LOBE_GLOSSY_TRANSMISSION;
+    } else if ((pick -= throughShare_) < sheenShare_) {
         s.direction = uniformHemisphere(u.x, u.y);
     } else if ((pick -= sheenShare_) < coatShare_) {
         const dvec3 h = coatGgx_.sampleVisible(coatWo_, u.x, u.y);
@@ -265,18 +326,25 @@ BsdfSample Layers::sample(const dvec3& u) const {
         if (!(wi.z > 0)) return s; // below the coat's own horizon, where it has no density
         s.direction = coatFrame_.toWorld(wi);
     } else {
-        const double left = std::min((pick - coatShare_) / facetShare_, 1.0);
+        double left = std::min((pick - coatShare_) / facetShare_, 1.0);
+        int channel = 1;
+        if (disperses_) {
+            channel = std::min(int(3 * left), 2);
+            left = 3 * left - channel;
+        }
         const dvec3 h = ggx_.sampleVisible(grainWo_, u.x, u.y);
         const double cosine = glm::dot(grainWo_, h);
-        const Facet facet = facetAt(cosine);
+        const Facet facet = facetAt(cosine, channel);
         dvec3 wi = 2 * cosine * h - grainWo_;
         if (left >= facet.reflects) {
             s.lobe = gpu::LOBE_GLOSSY_TRANSMISSION;
             if (thin_)
                 wi.z = -wi.z;
             else
-                wi = (eta_ * cosine - dielectric(std::min(cosine, 1.0), eta_).cosTransmitted) * h -
-                     eta_ * grainWo_;
+                wi = (etas_[channel] * cosine -
+                      dielectric(std::min(cosine, 1.0), etas_[channel]).cosTransmitted) *
+                         h -
+                     etas_[channel] * grainWo_;
         }
         s.direction = turned(wi, double(p_.anisotropyRotation));
     }
@@ -290,12 +358,14 @@ BsdfSample Layers::sample(const dvec3& u) const {
 } // namespace
 
 uint32_t principledLobes(const PrincipledParameters& p) {
-    return gpu::LOBE_GLOSSY_REFLECTION | (transmits(p) ? gpu::LOBE_GLOSSY_TRANSMISSION : 0);
+    const uint32_t diffuse = gpu::LOBE_DIFFUSE_TRANSMISSION | gpu::LOBE_GLOSSY_TRANSMISSION;
+    return gpu::LOBE_GLOSSY_REFLECTION | (transmits(p) ? gpu::LOBE_GLOSSY_TRANSMISSION : 0) |
+           (p.passesDiffusely() ? diffuse : 0);
 }
 
 BsdfValue evaluatePrincipled(const PrincipledParameters& p, const dvec3& wo, bool entering,
                              const dvec3& wi, const dvec3& coat) {
-    if (!(wo.z > 0) || wi.z == 0 || (wi.z < 0 && !transmits(p))) return {};
+    if (!(wo.z > 0) || wi.z == 0 || (wi.z < 0 && !transmits(p) && !p.passesDiffusely())) return {};
     return Layers(p, wo, entering, coat).evaluate(wi);
 }
 
@@ -311,7 +381,7 @@ bool isNarrow(const PrincipledParameters& p) {
 }
 
 dvec3 absorption(const PrincipledParameters& p) {
-    if (!refracts(p)) return dvec3(0.0);
+    if (p.isThin || !(transmits(p) || p.passesDiffusely())) return dvec3(0.0);
     constexpr double kLeastTransmitted = 1e-30;
     return -glm::log(glm::max(dvec3(p.attenuationColor), kLeastTransmitted)) /
            double(p.attenuationDistance);

@@ -253,6 +253,14 @@ void apply(Material& m, TextureSlot slot, const glm::dvec4& texel) {
         multiply(p.anisotropy, texel.b);
         p.anisotropyRotation += float(std::atan2(2 * texel.g - 1, 2 * texel.r - 1));
         return;
+    case TextureSlot::DiffuseTransmission:
+        return multiply(p.diffuseTransmission, texel.a);
+    case TextureSlot::DiffuseTransmissionColor:
+        return multiply(p.diffuseTransmissionColor, color);
+    case TextureSlot::Iridescence:
+        return multiply(p.iridescence, texel.r);
+    case TextureSlot::FilmThickness:
+        return multiply(p.filmSpan, texel.g);
     case TextureSlot::Normal:
     case TextureSlot::ClearcoatNormal:
     case TextureSlot::Height:

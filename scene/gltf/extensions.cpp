@@ -14,8 +14,11 @@ bool isReadExtension(std::string_view name) {
         "KHR_lights_punctual",
         "KHR_materials_anisotropy",
         "KHR_materials_clearcoat",
+        "KHR_materials_diffuse_transmission",
+        "KHR_materials_dispersion",
         "KHR_materials_emissive_strength",
         "KHR_materials_ior",
+        "KHR_materials_iridescence",
         "KHR_materials_pbrSpecularGlossiness", // as far as the other model can say it
         "KHR_materials_sheen",
         "KHR_materials_specular",

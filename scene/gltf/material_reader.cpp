@@ -24,6 +24,9 @@ Material MaterialReader::read() {
     readClearcoat();
     readSheen();
     readAnisotropy();
+    readDiffuseTransmission();
+    readDispersion();
+    readIridescence();
     useNormalMap(at_, "normalTexture", TextureSlot::Normal);
     if (at_.extension("KHR_materials_unlit")) makeUnlit();
     reportIgnored();
@@ -199,6 +202,47 @@ void MaterialReader::readAnisotropy() {
     if (p.anisotropy > 0) use(*extension, "anisotropyTexture", TextureSlot::Anisotropy);
 }
 
+void MaterialReader::readDiffuseTransmission() {
+    const auto extension = at_.extension("KHR_materials_diffuse_transmission");
+    if (!extension) return;
+    PrincipledParameters& p = material_.principled;
+    p.diffuseTransmission = float(fraction(*extension, "diffuseTransmissionFactor", 0));
+    p.diffuseTransmissionColor = color(*extension, "diffuseTransmissionColorFactor", glm::vec3(1));
+    if (p.diffuseTransmission == 0) return;
+    use(*extension, "diffuseTransmissionTexture", TextureSlot::DiffuseTransmission);
+    use(*extension, "diffuseTransmissionColorTexture", TextureSlot::DiffuseTransmissionColor, true);
+}
+
+void MaterialReader::readDispersion() {
+    const auto extension = at_.extension("KHR_materials_dispersion");
+    if (!extension) return;
+    PrincipledParameters& p = material_.principled;
+    const double dispersion = extension->number("dispersion", 0, 0, kNoMaximum);
+    if (p.isThin && dispersion > 0)
+        context_.report().ignore("KHR_materials_dispersion of a material without a volume",
+                                 "light goes straight through it");
+    else
+        p.dispersion = float(dispersion);
+}
+
+void MaterialReader::readIridescence() {
+    const auto extension = at_.extension("KHR_materials_iridescence");
+    if (!extension) return;
+    PrincipledParameters& p = material_.principled;
+    p.iridescence = float(fraction(*extension, "iridescenceFactor", 0));
+    if (p.iridescence == 0) return;
+    p.filmIor = float(extension->number("iridescenceIor", 1.3, 1, kNoMaximum));
+    const double least = extension->number("iridescenceThicknessMinimum", 100, 0, kNoMaximum);
+    const double most = extension->number("iridescenceThicknessMaximum", 400, 0, kNoMaximum);
+    p.filmThickness = float(most);
+    use(*extension, "iridescenceTexture", TextureSlot::Iridescence);
+    const size_t before = material_.textures.size();
+    use(*extension, "iridescenceThicknessTexture", TextureSlot::FilmThickness);
+    if (material_.textures.size() == before) return;
+    p.filmThickness = float(least);
+    p.filmSpan = float(most - least);
+}
+
 /// The older model, whose names the newer one has for all it says: a dielectric whose reflectance
 /// at right angles is the specular colour, and which scatters back what is left of the light.
 void MaterialReader::readSpecularGlossiness() {
@@ -262,13 +306,8 @@ void MaterialReader::makeUnlit() {
 }
 
 void MaterialReader::reportIgnored() {
-    build::Report& report = context_.report();
-    for (const std::string_view name : {"KHR_materials_iridescence", "KHR_materials_dispersion",
-                                        "KHR_materials_diffuse_transmission"})
-        if (at_.extension(name))
-            report.ignore(fmt::format("{} of a material", name), "it has no such layer here");
     if (at_.has("occlusionTexture"))
-        report.ignore("occlusion textures", "what they foretell is computed");
+        context_.report().ignore("occlusion textures", "what they foretell is computed");
 }
 
 } // namespace stromboli::gltf

@@ -24,6 +24,9 @@ class MaterialReader {
     void readClearcoat();
     void readSheen();
     void readAnisotropy();
+    void readDiffuseTransmission();
+    void readDispersion();
+    void readIridescence();
     void readSpecularGlossiness();
     void readSpecularGlossinessTexture(const Element& extension, double glossiness);
     void makeUnlit();

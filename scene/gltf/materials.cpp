@@ -87,7 +87,7 @@ BoundMaterial Materials::read(const Element& element) {
     Material material = reader.read();
     BoundMaterial bound;
     bound.uvSets = reader.uvSets();
-    bound.isUnlit = element.extension("KHR_materials_unlit").has_value();
+    if (element.extension("KHR_materials_unlit")) bound.unlit = material;
     bound.isTextured = !material.textures.empty();
     if (const TextureUse* use = tangentUseOf(material)) {
         bound.tangentSet = int(use->uvSet);

@@ -12,7 +12,8 @@ struct BoundMaterial {
     uint32_t number = 0;
     UvSets uvSets;
     bool isTextured = false;
-    bool isUnlit = false;
+    /// The material itself, where it is unlit, so that colours of corners can be added to it.
+    std::optional<Material> unlit;
     /// Which of the two sets of texture coordinates tangents follow; nothing if none are needed.
     std::optional<int> tangentSet;
     /// How KHR_texture_transform turns and mirrors the picture that the tangents are for.

@@ -1,11 +1,13 @@
 #include "scene/gltf/meshes.hpp"
 
 #include "host/core/error.hpp"
+#include "scene/build/corner_paint.hpp"
 #include "scene/build/tangents.hpp"
 #include "scene/gltf/deform.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace stromboli::gltf {
@@ -63,12 +65,10 @@ std::optional<BuiltMesh> Meshes::make(const Element& element, const Deformation&
             applyTargets(*primitive, weights);
             if (!deformation.joints.empty() && !primitive->joints.empty())
                 applySkin(*primitive, deformation.joints, at);
-            append(at, std::move(*primitive), material, mesh);
+            built.materials.push_back(append(at, std::move(*primitive), material, mesh));
         } catch (const SceneError& error) {
             context_.report().replace(error, build::Shortfall::Geometry);
-            continue;
         }
-        built.materials.push_back(material.number);
     }
     if (mesh.parts.empty()) return std::nullopt;
     built.shape = context_.builder.addMesh(element.displayName(), std::move(mesh));
@@ -76,8 +76,8 @@ std::optional<BuiltMesh> Meshes::make(const Element& element, const Deformation&
 }
 
 /// Adds a part. Corners have attributes only where something looks at them.
-void Meshes::append(const Element& at, Primitive&& p, const BoundMaterial& material,
-                    build::Mesh& mesh) {
+uint32_t Meshes::append(const Element& at, Primitive&& p, const BoundMaterial& material,
+                        build::Mesh& mesh) {
     const auto firstPosition = uint32_t(mesh.positions.size());
     const auto firstNormal = uint32_t(mesh.normals.size());
     const auto firstAttributes = uint32_t(mesh.attributes.size());
@@ -91,9 +91,6 @@ void Meshes::append(const Element& at, Primitive&& p, const BoundMaterial& mater
             context_.report().warn(fmt::format("{}: has no TEXCOORD_{}, which its material looks "
                                                "up pictures by; (0, 0) is taken",
                                                at.path(), material.uvSets.sets[set]));
-    if (p.colors && material.isUnlit)
-        context_.report().ignore("vertex colours of unlit materials",
-                                 "what is emitted has no colours of vertices");
     const bool wantsAttributes = material.isTextured || material.tangentSet || p.colors;
     if (wantsAttributes) {
         const std::vector<VertexAttributes> attributes = attributesOf(p, at, context_.report());
@@ -108,12 +105,49 @@ void Meshes::append(const Element& at, Primitive&& p, const BoundMaterial& mater
                            wantsAttributes ? firstAttributes + t[i] : kNoAttributes};
         part.push_back(triangle);
     }
+    uint32_t number = material.number;
+    if (p.colors && material.unlit) number = withColors(*material.unlit, mesh, part);
     mesh.parts.push_back(std::move(part));
     if (material.tangentSet && !p.tangents)
         build::computeTangents(mesh, mesh.parts.size() - 1, *material.tangentSet);
     const auto& rows = material.tangentRows;
     if (rows[0] != glm::dvec2(1, 0) || rows[1] != glm::dvec2(0, 1))
         build::turnTangents(mesh, mesh.parts.size() - 1, rows[0], rows[1]);
+    return number;
+}
+
+/// The colours of corners multiply what an unlit material emits: where they differ, as a picture by
+/// the texture coordinates that the material's own picture leaves. Their alpha stays with the
+/// corners. Returns the number of a material for this part alone.
+uint32_t Meshes::withColors(Material unlit, build::Mesh& mesh, build::MeshPart& part) {
+    const auto colorOf = [&](const build::Corner& corner) {
+        const glm::vec3 color(mesh.attributes[corner.attributes].color);
+        return glm::clamp(color, 0.0f, 1.0f);
+    };
+    const glm::vec3 first = part.empty() ? glm::vec3(1) : colorOf(part[0][0]);
+    const bool areAlike = std::ranges::all_of(part, [&](const build::MeshTriangle& t) {
+        return std::ranges::all_of(t, [&](const build::Corner& c) { return colorOf(c) == first; });
+    });
+    if (areAlike) {
+        unlit.emission *= first;
+    } else {
+        const auto usesSecond = [](const TextureUse& use) { return use.uvSet == 1; };
+        TextureUse paint{.slot = TextureSlot::Emission};
+        paint.uvSet = std::ranges::any_of(unlit.textures, usesSecond) ? 0 : 1;
+        const uint32_t image = context_.builder.addImage(
+            build::paintOfCorners(mesh.attributes, part, build::Layout::Color, true));
+        paint.texture = context_.builder.addTexture({.image = image});
+        unlit.textures.push_back(paint);
+        const std::vector<VertexAttributes> spread =
+            build::spreadCorners(mesh.attributes, part, paint.uvSet, mesh.attributes.size());
+        mesh.attributes.insert(mesh.attributes.end(), spread.begin(), spread.end());
+    }
+    for (const build::MeshTriangle& triangle : part)
+        for (const build::Corner& corner : triangle) {
+            glm::vec4& color = mesh.attributes[corner.attributes].color;
+            color = glm::vec4(1, 1, 1, color.a);
+        }
+    return context_.builder.addMaterial(std::move(unlit));
 }
 
 } // namespace stromboli::gltf

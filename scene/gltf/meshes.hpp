@@ -33,8 +33,10 @@ class Meshes {
 
   private:
     std::optional<BuiltMesh> make(const Element& element, const Deformation& deformation);
-    void append(const Element& element, Primitive&& primitive, const BoundMaterial& material,
-                build::Mesh& mesh);
+    /// Returns the part's material, which may be another one than that of its element.
+    uint32_t append(const Element& element, Primitive&& primitive, const BoundMaterial& material,
+                    build::Mesh& mesh);
+    uint32_t withColors(Material unlit, build::Mesh& mesh, build::MeshPart& part);
 
     Context& context_;
     Materials materials_;

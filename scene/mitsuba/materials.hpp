@@ -14,7 +14,7 @@ namespace stromboli::mitsuba {
 struct BoundMaterial {
     uint32_t number = 0;
     bool isTextured = false, wantsTangents = false;
-    bool isPainted = false;   ///< with textures by the second coordinates (mesh_paint.hpp)
+    bool isPainted = false;   ///< with textures by the second coordinates (corner_paint.hpp)
     std::string cornerColors; ///< the mesh attribute that corners have colours by; empty: none
 
     bool wantsCoordinates() const { return isTextured || wantsTangents; }

@@ -1,5 +1,6 @@
 #include "scene/mitsuba/shapes.hpp"
 
+#include "scene/build/corner_paint.hpp"
 #include "scene/build/read_file.hpp"
 #include "scene/build/surface_mesh.hpp"
 #include "scene/build/tangents.hpp"
@@ -7,7 +8,6 @@
 #include "scene/build/vectors.hpp"
 #include "scene/mitsuba/hair.hpp"
 #include "scene/mitsuba/heightfield.hpp"
-#include "scene/mitsuba/mesh_paint.hpp"
 #include "scene/mitsuba/obj_materials.hpp"
 #include "scene/mitsuba/serialized.hpp"
 #include "scene/mitsuba/smooth_normals.hpp"
@@ -32,6 +32,11 @@ glm::dmat4 sphereMatrix(const Plugin& sphere) {
 
 /// Groups that name each other twice hold 2^n shapes.
 constexpr size_t kMostParts = 1'000'000;
+
+/// Corners get coordinates of their colours' picture (paintOfCorners).
+void spreadCorners(build::Mesh& mesh) {
+    mesh.attributes = build::spreadCorners(mesh.attributes, mesh.parts.front(), 1, 0);
+}
 
 /// A mesh that is in a file as such.
 bool isFile(const Plugin& shape) {
@@ -95,8 +100,12 @@ Shapes::Part Shapes::single(const Plugin& shape) {
         shape.skip(unused);
     const BoundMaterial material = materials_.of(shape, [&](const Paint& paint) {
         const std::string& attribute = usableAttribute(shape, paint.attribute);
-        return paintOfCorners(attribute.empty() ? meshOf(shape, {}) : read(shape, attribute).mesh,
-                              paint);
+        const build::Mesh mesh =
+            attribute.empty() ? meshOf(shape, {}) : read(shape, attribute).mesh;
+        TextureImage image = build::paintOfCorners(mesh.attributes, mesh.parts.front(),
+                                                   paint.layout, paint.isFraction);
+        image.name = "mesh attribute";
+        return image;
     });
     Part part{&shape, {}, shape.transform("to_world"), {material.number}};
     const bool isSphere = shape.type == "sphere";

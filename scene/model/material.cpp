@@ -26,6 +26,11 @@ glm::vec3 PrincipledParameters::absorption() const {
            attenuationDistance;
 }
 
+float PrincipledParameters::indexSpread() const {
+    // The definition of the Abbe number, (n_d - 1) / (n_F - n_C), of which dispersion is 20 over.
+    return isThin || ior <= 1 ? 0 : (ior - 1) * dispersion / 40;
+}
+
 bool BurleyParameters::transmits() const {
     if (isThin) return transmission > 0 || diffuseTransmission > 0;
     return transmission > 0 && metallic < 1;
@@ -64,7 +69,8 @@ bool Material::entersVolume() const {
     case MaterialKind::Dielectric:
         return true;
     case MaterialKind::Principled:
-        return !principled.isThin && principled.transmission > 0;
+        return !principled.isThin &&
+               (principled.transmission > 0 || principled.diffuseTransmission > 0);
     case MaterialKind::Burley:
         return !burley.isThin && burley.transmits();
     default:

@@ -46,7 +46,8 @@ struct Facets {
 };
 
 /// glTF 2.0's metallic-roughness material with KHR_materials_ior, specular, clearcoat, sheen,
-/// anisotropy, transmission and volume. Roughness is glTF's: the GGX parameter is its square.
+/// anisotropy, transmission, diffuse_transmission, volume, dispersion and iridescence. Roughness is
+/// glTF's: the GGX parameter is its square.
 struct PrincipledParameters {
     glm::vec3 baseColor{1.0f};
     float metallic = 1;
@@ -64,7 +65,19 @@ struct PrincipledParameters {
     /// Volume: the share of light that is left after attenuationDistance (metres).
     glm::vec3 attenuationColor{1.0f};
     float attenuationDistance = std::numeric_limits<float>::infinity();
+    /// The share of what is scattered diffusely that goes to the other side, and its colour.
+    float diffuseTransmission = 0;
+    glm::vec3 diffuseTransmissionColor{1.0f};
+    float dispersion = 0; ///< of the volume: 20 / its Abbe number; 0: none
+    /// The strength of interference in a thin film on the surface; its index and its thickness in
+    /// nanometres. Textures multiply the span, which is added to the thickness.
+    float iridescence = 0;
+    float filmIor = 1.3f, filmThickness = 400, filmSpan = 0;
 
+    bool passesDiffusely() const { return diffuseTransmission > 0 && metallic < 1; }
+    /// Half the difference between the indices of blue and red light, `ior` being that of green, by
+    /// the volume's dispersion; 0 where there is none.
+    float indexSpread() const;
     /// The absorption coefficient of the volume, per metre (Beer and Lambert): attenuationColor is
     /// exp(-absorption attenuationDistance). A channel that lets nothing through gets the largest
     /// one whose product with a length is finite.
@@ -160,8 +173,8 @@ struct Material {
     /// Scene::media, or kNoMedium.
     bool boundsMedia = false;
     uint32_t inside = kNoMedium, outside = kNoMedium;
-    /// At most one for each slot, but of MetallicRoughness and SpecularColor, whose numbers
-    /// multiply.
+    /// At most one for each slot, but of MetallicRoughness, Emission and SpecularColor, whose
+    /// numbers multiply.
     std::vector<TextureUse> textures;
 
     bool emits() const { return emission.x > 0 || emission.y > 0 || emission.z > 0; }
@@ -190,8 +203,10 @@ inline auto laterMembers(const PrincipledParameters& p) {
     [[maybe_unused]] const auto& [baseColor, metallic, roughness, ior, specular, specularColor,
                                   clearcoat, clearcoatRoughness, sheenColor, sheenRoughness,
                                   anisotropy, rotation, transmission, isThin, attenuationColor,
-                                  attenuationDistance] = p;
-    return std::tie();
+                                  attenuationDistance, diffuseTransmission, diffuseColor,
+                                  dispersion, iridescence, filmIor, filmThickness, filmSpan] = p;
+    return std::tie(p.diffuseTransmission, p.diffuseTransmissionColor, p.dispersion, p.iridescence,
+                    p.filmIor, p.filmThickness, p.filmSpan);
 }
 inline auto laterMembers(const BurleyParameters& b) {
     [[maybe_unused]] const auto& [baseColor, metallic, roughness, anisotropy, ior, specularTint,

@@ -41,9 +41,9 @@ BlockRange blocksWithin(double least, double most, Wrap wrap, uint32_t texels, u
 MeanEmission::MeanEmission(const Scene& scene) : scene_(scene) {
     for (const Material& m : scene.materials) {
         if (!m.emits()) continue;
-        const TextureUse* use = textureIn(m, TextureSlot::Emission);
-        if (use && !blocks_.contains(use->texture))
-            blocks_[use->texture] = blocksOf(scene.textures[use->texture]);
+        for (const TextureUse& use : m.textures)
+            if (use.slot == TextureSlot::Emission && !blocks_.contains(use.texture))
+                blocks_[use.texture] = blocksOf(scene.textures[use.texture]);
     }
 }
 
@@ -91,10 +91,10 @@ glm::dvec3 MeanEmission::largestOn(uint32_t triangle, const TextureUse& use) con
 
 glm::dvec3 MeanEmission::ofTriangle(uint32_t triangle) const {
     const Material& m = scene_.materials[scene_.triangles[triangle].material];
-    const TextureUse* use = textureIn(m, TextureSlot::Emission);
-    if (!use && m.alphaMode == AlphaMode::Opaque) return m.emission;
-    const glm::dvec3 largest =
-        use ? glm::dvec3(m.emission) * largestOn(triangle, *use) : glm::dvec3(m.emission);
+    if (!textureIn(m, TextureSlot::Emission) && m.alphaMode == AlphaMode::Opaque) return m.emission;
+    glm::dvec3 largest(m.emission);
+    for (const TextureUse& use : m.textures)
+        if (use.slot == TextureSlot::Emission) largest *= largestOn(triangle, use);
     glm::dvec3 sum(0.0);
     int points = 0;
     for (int i = 0; i < kGrid; ++i)

@@ -137,8 +137,8 @@ double otherShareAt(const Scene& scene, const Material& material, const PointAtt
 
 glm::dvec3 emissionAt(const Scene& scene, const Material& material, const PointAttributes& at) {
     glm::dvec3 emission = material.emission;
-    if (const TextureUse* use = textureIn(material, TextureSlot::Emission))
-        emission *= glm::dvec3(lookUp(scene, *use, at));
+    for (const TextureUse& use : material.textures)
+        if (use.slot == TextureSlot::Emission) emission *= glm::dvec3(lookUp(scene, use, at));
     return emission;
 }
 

@@ -38,26 +38,30 @@ struct Texture {
 /// What a texture of a material changes. All but Normal, ClearcoatNormal and Height multiply the
 /// number of the same name in the material; glTF's channels.
 enum class TextureSlot : uint32_t {
-    BaseColor,          ///< red, green, blue: Material::baseColor(); alpha: opacity
-    MetallicRoughness,  ///< green: roughness, blue: metallic; of Facets alpha along and across
-    Normal,             ///< tangent space, [0, 1] for [-1, 1]
-    Emission,           ///< red, green, blue
-    Transmission,       ///< red
-    Specular,           ///< alpha
-    SpecularColor,      ///< red, green, blue; Dielectric with facets, ThinDielectric, Plastic:
-                        ///< reflectance
-    Clearcoat,          ///< red
-    ClearcoatRoughness, ///< green
-    ClearcoatNormal,    ///< as Normal
-    SheenColor,         ///< red, green, blue
-    SheenRoughness,     ///< alpha
-    Anisotropy,         ///< red, green: direction, [0, 1] for [-1, 1]; blue: strength
-    Height,             ///< red: above the surface, along its shading normal; uvSet is 0
-    BlendShare,         ///< red: Material::otherShare
-    Projection,         ///< of lights: red, green, blue
-    Opacity,            ///< red: opacity; with a scale below 0 what is left of 1
+    BaseColor,           ///< red, green, blue: Material::baseColor(); alpha: opacity
+    MetallicRoughness,   ///< green: roughness, blue: metallic; of Facets alpha along and across
+    Normal,              ///< tangent space, [0, 1] for [-1, 1]
+    Emission,            ///< red, green, blue
+    Transmission,        ///< red
+    Specular,            ///< alpha
+    SpecularColor,       ///< red, green, blue; Dielectric with facets, ThinDielectric, Plastic:
+                         ///< reflectance
+    Clearcoat,           ///< red
+    ClearcoatRoughness,  ///< green
+    ClearcoatNormal,     ///< as Normal
+    SheenColor,          ///< red, green, blue
+    SheenRoughness,      ///< alpha
+    Anisotropy,          ///< red, green: direction, [0, 1] for [-1, 1]; blue: strength
+    Height,              ///< red: above the surface, along its shading normal; uvSet is 0
+    BlendShare,          ///< red: Material::otherShare
+    Projection,          ///< of lights: red, green, blue
+    Opacity,             ///< red: opacity; with a scale below 0 what is left of 1
+    DiffuseTransmission, ///< alpha
+    DiffuseTransmissionColor, ///< red, green, blue
+    Iridescence,              ///< red
+    FilmThickness,            ///< green: filmSpan
 };
-inline constexpr uint32_t kTextureSlotCount = 17;
+inline constexpr uint32_t kTextureSlotCount = 21;
 
 /// A texture in one of a material's slots.
 struct TextureUse {

@@ -26,6 +26,7 @@ bool isTransmission(uint lobe) { return (lobe & TRANSMISSION_LOBES) != 0u; }
 #include "closures/fresnel.glsl"
 #include "closures/facets.glsl"
 #include "closures/sheen.glsl"
+#include "closures/film.glsl"
 #include "closures/closures.glsl"
 #include "closures/base.glsl"
 #include "closures/stated.glsl"
@@ -47,7 +48,7 @@ bool dependsOnView(Material m) { return hasClosure(m, CLOSURE_INTERFACE); }
 
 /// Whether the surface bounds an inside, which may absorb (include/medium.glsl).
 bool boundsVolume(Material m) {
-    return hasClosure(m, RECIPE_PRINCIPLED) && (principledParameters(m).flags & PRINCIPLED_IS_THIN) == 0u;
+    return hasClosure(m, RECIPE_PRINCIPLED) && principledParameters(m).spread >= 0.0;
 }
 
 // --- All closures together ------------------------------------------------------------------------
@@ -125,6 +126,32 @@ BsdfValue evaluateFacets(Material m, Closures c, vec3 wo, vec3 wi, vec3 h) {
     return f;
 }
 
+/// Light of three channels has three indices where a volume disperses. The interface as one of them meets it.
+Closures ofChannel(Closures c, uint channel) {
+    c.principled.index = max(c.principled.index + c.principled.spread * (float(channel) - 1.0), 1.0 + LEAST_INDEX_STEP);
+    c.eta = c.eta > 1.0 ? c.principled.index : 1.0 / c.principled.index;
+    return c;
+}
+
+bool disperses(Material m, Closures c) {
+    return HAS_DISPERSION && hasClosure(m, RECIPE_PRINCIPLED) && c.principled.spread > 0.0;
+}
+
+/// Samples follow each channel in a third of the cases: the density is the mean of theirs, and no channel's value is
+/// more than three times its own (the balance heuristic of Veach).
+BsdfValue evaluateDispersed(Material m, Closures c, vec3 wo, vec3 wi) {
+    BsdfValue f = NO_SCATTERING;
+    uint channel = 0u;
+    do {
+        const Closures one = ofChannel(c, channel);
+        const BsdfValue facets = evaluateFacets(m, one, wo, wi, normalBetween(one, wo, wi));
+        f.value += facets.value * vec3(equal(uvec3(channel), uvec3(0u, 1u, 2u)));
+        f.pdf += facets.pdf * (1.0 / 3.0);
+        ++channel;
+    } while (channel < 3u);
+    return f;
+}
+
 /// The clear coat of glTF's model: f cos and density.
 BsdfValue evaluateCoat(Closures c, vec3 wi) {
     const vec3 wo_ = toCoat(c, c.wo), wi_ = toCoat(c, wi);
@@ -162,7 +189,11 @@ BsdfValue evaluateClosures(Material m, Closures c, vec3 wi, vec3 h) {
     f.value = diffuseValue(m, c, wi) * (hasClosure(m, CLOSURE_BASE) ? 1.0 : 0.0);
     f.pdf = (wi.z < 0.0 ? c.throughShare : c.diffuseShare) * lambert;
     if (HAS_FACETS && hasClosure(m, CLOSURE_INTERFACE)) {
-        const BsdfValue facets = evaluateFacets(m, c, alongGrain(c, c.wo), alongGrain(c, wi), h);
+        BsdfValue facets;
+        if (disperses(m, c))
+            facets = evaluateDispersed(m, c, alongGrain(c, c.wo), alongGrain(c, wi));
+        else
+            facets = evaluateFacets(m, c, alongGrain(c, c.wo), alongGrain(c, wi), h);
         f.value += c.interfaceWeight * facets.value;
         f.pdf += interfaceShare(c) * facets.pdf;
     }
@@ -267,7 +298,14 @@ BsdfSample sampleLocally(Material m, Incidence i, vec3 u) {
     }
     if (choice.through) s.direction.z = -s.direction.z;
     if (HAS_SHEEN && choice.sheen) s.direction = sampleUniformHemisphere(choice.rest);
-    const LeftFacet left = leaveFacet(m, c, choice.coat, choice.rest, u.z);
+    Closures leaves = c;
+    float side = u.z;
+    if (disperses(m, c)) {
+        const float channel = min(floor(3.0 * side), 2.0);
+        leaves = ofChannel(c, uint(int(channel)));
+        side = clamp(3.0 * side - channel, 0.0, 1.0 - UNIT_ROUNDOFF);
+    }
+    const LeftFacet left = leaveFacet(m, leaves, choice.coat, choice.rest, side);
     const bool ofFacets = !choice.diffuse && !choice.sheen;
     const bool ofInterface = ofFacets && !choice.coat;
     if (ofFacets) s.direction = left.direction;

@@ -6,6 +6,8 @@
 const bool SCENE_REFRACTS = (CLOSURES & (INTERFACE_REFRACTS)) != 0u;
 const bool SCENE_TRANSMITS = (CLOSURES & (INTERFACE_REFRACTS | INTERFACE_IS_THIN)) != 0u;
 const bool HAS_COAT = (CLOSURES & (CLOSURE_COAT)) != 0u;
+/// Whether some base scatters to the other side in glTF's model.
+const bool HAS_THROUGH = (CLOSURES & (LOBE_DIFFUSE_TRANSMISSION)) != 0u;
 const bool HAS_SHEEN = (CLOSURES & (CLOSURE_SHEEN)) != 0u;
 /// Whether samples choose between closures of one material.
 const bool SAMPLES_CHOOSE = (CLOSURES & (CLOSURE_LAYERS | RECIPE_PRINCIPLED | RECIPE_BURLEY)) != 0u;
@@ -31,7 +33,12 @@ struct PrincipledInterface {
     vec3 f0; ///< of the dielectric
     float f90;
     float index;  ///< inside over outside
+    float spread; ///< half of what blue light's index has more than red light's
+    bool isInside; ///< of the volume
+    float film;    ///< strength of interference in a thin film
+    float filmIor, filmThickness; ///< nanometres
     float albedo; ///< ggxAlbedo() of the microfacets
+    vec3 given, givenMetal; ///< under a film, reflectances by which light that facets scatter again is given back
 };
 
 /// What the interface and the base of Burley's model are made of.

@@ -17,6 +17,22 @@ vec2 facetAlpha(PrincipledParameters p) {
     return vec2(mix(alpha, 1.0, p.anisotropy * p.anisotropy), alpha);
 }
 
+/// What a thin film makes of the reflectance `plain` of a surface that reflects f0 at normal incidence, f90 at grazing.
+vec3 underFilm(PrincipledInterface l, vec3 plain, float cosine, vec3 f0, float f90) {
+    vec3 reflectance = plain;
+    if (HAS_IRIDESCENCE) {
+        const vec3 film = f90 * filmReflectance(cosine, f0 / max(f90, TINY), l.filmIor, l.filmThickness);
+        if (l.film > 0.0) reflectance = mix(plain, film, l.film);
+    }
+    return reflectance;
+}
+
+vec3 givenBy(PrincipledInterface l) { return HAS_IRIDESCENCE ? l.given : l.f0; }
+vec3 givenByMetal(PrincipledInterface l) { return HAS_IRIDESCENCE ? l.givenMetal : l.baseColor; }
+
+/// Facets whose mean of Schlick's weight is this reflect about what one at this cosine does, for which the weight is so.
+float meanCosine(float weight) { return 1.0 - pow(clamp(weight, 0.0, 1.0), 0.2); }
+
 /// Shares are of all light; what a layer gets from those above it is in the weights.
 void principledClosures(inout Closures c, PrincipledParameters p, Incidence i) {
     PrincipledInterface l;
@@ -24,17 +40,22 @@ void principledClosures(inout Closures c, PrincipledParameters p, Incidence i) {
     c.isSmooth = false;
     c.facets = FacetShape(facetAlpha(p), false, false);
     if (sceneHas(FACETS_ARE_TURNED)) c.grain = vec2(cos(p.anisotropyRotation), sin(p.anisotropyRotation));
-    const bool isThin = (p.flags & PRINCIPLED_IS_THIN) != 0u;
+    const bool isThin = p.spread < 0.0;
     l.metallic = p.metallic;
     l.transmission = SCENE_TRANSMITS ? p.transmission : 0.0;
     l.baseColor = p.baseColor;
     c.isThin = !SCENE_REFRACTS || isThin;
     const bool fromOutside = isThin || i.entering;
     l.index = p.ior;
+    l.spread = max(p.spread, 0.0);
     c.eta = i.entering ? 1.0 / p.ior : p.ior;
     const float r = (p.ior - 1.0) / (p.ior + 1.0);
     l.f0 = min(r * r * p.specularColor, vec3(1.0)) * p.specular;
     l.f90 = p.specular;
+    l.isInside = !fromOutside;
+    l.film = p.iridescence;
+    l.filmIor = p.filmIor;
+    l.filmThickness = p.filmThickness + p.filmSpan;
 
     // The coat.
     float left = 1.0;
@@ -58,14 +79,33 @@ void principledClosures(inout Closures c, PrincipledParameters p, Incidence i) {
     c.interfaceWeight = max(left, 0.0);
     l.albedo = ggxAlbedo(mu, c.facets.alpha.y);
     const float weight = schlickShare(mu, c.facets.alpha.y);
-    const vec3 dielectric = l.albedo * schlick(l.f0, l.f90, weight) * givenBack(l.f0, l.albedo);
-    const vec3 metal = l.albedo * schlick(l.baseColor, 1.0, weight) * givenBack(l.baseColor, l.albedo);
+    vec3 ofDielectric = schlick(l.f0, l.f90, weight), ofMetal = schlick(l.baseColor, 1.0, weight);
+    if (HAS_IRIDESCENCE) {
+        const float cosine = meanCosine(weight);
+        ofDielectric = underFilm(l, ofDielectric, cosine, l.f0, l.f90);
+        ofMetal = underFilm(l, ofMetal, cosine, l.baseColor, 1.0);
+        l.given = underFilm(l, l.f0, cosine, l.f0, l.f90);
+        l.givenMetal = underFilm(l, l.baseColor, cosine, l.baseColor, 1.0);
+    }
+    const vec3 dielectric = l.albedo * ofDielectric * givenBack(givenBy(l), l.albedo);
+    const vec3 metal = l.albedo * ofMetal * givenBack(givenByMetal(l), l.albedo);
     const float opaque = (1.0 - l.metallic) * (1.0 - l.transmission);
     c.diffuse = c.interfaceWeight * opaque * max(1.0 - largestComponent(dielectric), 0.0) * l.baseColor;
     c.diffuseShare = mean(c.diffuse);
     const float facets = c.interfaceWeight * mean(l.metallic * metal + opaque * dielectric +
                                                   vec3((1.0 - l.metallic) * l.transmission));
-    const float sum = c.coatShare + c.sheenShare + c.diffuseShare + max(facets, LEAST_FACET_SHARE);
+    if (HAS_THROUGH) {
+        const float base = c.interfaceWeight * opaque * max(1.0 - largestComponent(dielectric), 0.0);
+        c.through = base * p.diffuseTransmission * p.diffuseTransmissionColor;
+        c.throughShare = mean(c.through);
+        c.diffuse *= 1.0 - p.diffuseTransmission;
+        c.diffuseShare = mean(c.diffuse);
+    }
+    float sum = c.coatShare + c.sheenShare + c.diffuseShare + max(facets, LEAST_FACET_SHARE);
+    if (HAS_THROUGH) {
+        sum += c.throughShare;
+        c.throughShare /= sum;
+    }
     c.coatShare /= sum;
     c.sheenShare /= sum;
     c.diffuseShare /= sum;
@@ -84,17 +124,21 @@ vec3 reflectanceOfVolume(PrincipledInterface l, float exact, float cosTransmitte
 InterfaceLight principledLight(Closures c, float cosine, float exact, float cosTransmitted) {
     const PrincipledInterface l = c.principled;
     const float weight = schlickWeight(cosine);
-    const vec3 dielectric = schlick(l.f0, l.f90, weight);
+    const vec3 dielectric = underFilm(l, schlick(l.f0, l.f90, weight), cosine, l.f0, l.f90);
+    const vec3 metal = underFilm(l, schlick(l.baseColor, 1.0, weight), cosine, l.baseColor, 1.0);
     const float opaque = (1.0 - l.metallic) * (1.0 - l.transmission);
     InterfaceLight f = InterfaceLight(vec3(0.0), vec3(0.0), cosTransmitted, 1.0);
-    f.reflected = l.metallic * schlick(l.baseColor, 1.0, weight) * givenBack(l.baseColor, l.albedo) +
-                  opaque * dielectric * givenBack(l.f0, l.albedo);
+    f.reflected = l.metallic * metal * givenBack(givenByMetal(l), l.albedo) +
+                  opaque * dielectric * givenBack(givenBy(l), l.albedo);
     if (SCENE_TRANSMITS) {
         const float share = (1.0 - l.metallic) * l.transmission;
         vec3 mirrored = dielectric;
         float scale = share / l.albedo;
         if (!c.isThin) {
             mirrored = reflectanceOfVolume(l, exact, cosTransmitted);
+            // The film is outside, and reflects as much from either side.
+            const float above = l.isInside ? cosTransmitted : cosine;
+            if (HAS_IRIDESCENCE && cosTransmitted > 0.0) mirrored = underFilm(l, mirrored, above, l.f0, l.f90);
             scale = share;
         }
         f.reflected += scale * mirrored;

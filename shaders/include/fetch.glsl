@@ -86,7 +86,7 @@ uint materialOf(Primitive p) { return HAS_CORNER_NORMALS ? p.material & ~PRIMITI
 /// The rows of a material: its header, and those that its closures read their parameters from.
 struct Material {
     uvec4 header, row1, row2;
-    uvec4 row3, row4, row5, row6; ///< of those that have as many
+    uvec4 row3, row4, row5, row6, row7, row8; ///< of those that have as many
 };
 
 bool hasClosure(Material m, uint bit) { return has(m.header.w, bit); }
@@ -97,7 +97,7 @@ bool materialsHaveRow(uint row) { return row <= 1u || sceneHas(closuresWithRow(r
 /// row: the material's first. Rows that no material of the scene has are not read.
 Material fetchMaterial(uint row) {
     const uvec4 none = uvec4(0u);
-    Material m = Material(none, none, none, none, none, none, none);
+    Material m = Material(none, none, none, none, none, none, none, none, none);
     const bool differ = (CLOSURES & ~CLOSURES_OF_ALL) != 0u;
     if (HAS_EMISSION || differ || BLACK_BACKS || RELIEF_RULES)
         m.header = ROW(materialRows, row);
@@ -107,6 +107,8 @@ Material fetchMaterial(uint row) {
     if (materialsHaveRow(4u)) m.row4 = ROW(materialRows, row + 4u);
     if (materialsHaveRow(5u)) m.row5 = ROW(materialRows, row + 5u);
     if (materialsHaveRow(6u)) m.row6 = ROW(materialRows, row + 6u);
+    if (sceneHas(LOBE_DIFFUSE_TRANSMISSION)) m.row7 = ROW(materialRows, row + 7u);
+    if (HAS_IRIDESCENCE) m.row8 = ROW(materialRows, row + 8u);
     return m;
 }
 

@@ -38,6 +38,10 @@
       "materials", bits(kClosures), "the closures of materials, and the recipes by which they follow from parameters") \
     F(37, uint, CLOSURES_OF_ALL, 0u, shades ? scene.closures.some & scene.closures.all : 0, 0u, \
       "all materials", bits(kClosures), "no choice between materials that have these and materials that have not") \
+    F(53, bool, HAS_DISPERSION, true, shades && scene.hasDispersion, own, \
+      "dispersion", flag, "volumes that refract each colour in its own direction") \
+    F(54, bool, HAS_IRIDESCENCE, true, shades && scene.hasIridescence, own, \
+      "iridescence", flag, "interference in thin films on surfaces") \
     F(41, bool, HAS_BLENDS, false, shades && scene.hasBlends, own, \
       "mixtures of materials", flag, "the choice of one of two materials at a hit") \
     F(51, uint, MOST_OTHERS, 0u, shades ? scene.mostOthers : 0, own, \
@@ -147,7 +151,7 @@
     F(1, uint, TRAVERSAL_STEPS, 8u, traversalSteps(f, tuning), own, \
       "traversal steps in a leg", count(""), "traversal steps between two service passes, or in a leg")
 
-#define SPEC_COUNT 53
+#define SPEC_COUNT 55
 
 #ifdef __cplusplus
 namespace stromboli {

@@ -31,7 +31,9 @@ SHARED_BEGIN
 /// glTF 2.0's metallic-roughness model and its extensions (scene/model/material.hpp).
 /// roughness, clearcoatRoughness: glTF's, whose squares are the parameters of GGX. ior: index inside over outside.
 /// anisotropy: its strength. anisotropyRotation: radians from the tangent towards the bitangent. absorption: per metre,
-/// inside the surface. leastAlpha: the parameter of GGX is no less. flags: PRINCIPLED_.
+/// inside the surface. leastAlpha: the parameter of GGX is no less. spread: half the difference between the indices of
+/// blue and red light; below 0 where there is no volume behind the surface. diffuseTransmission: share of what is
+/// diffuse, with a colour of its own. film: in nanometres; the span is what textures multiply.
 #define PRINCIPLED_PARAMETERS(F) \
     F(vec3, baseColor, 1, xyz, m.principled.baseColor) \
     F(float, metallic, 1, w, m.principled.metallic) \
@@ -46,9 +48,15 @@ SHARED_BEGIN
     F(float, clearcoat, 5, x, m.principled.clearcoat) \
     F(float, clearcoatRoughness, 5, y, m.principled.clearcoatRoughness) \
     F(float, anisotropyRotation, 5, z, m.principled.anisotropyRotation) \
-    F(uint, flags, 5, w, m.principled.isThin ? gpu::PRINCIPLED_IS_THIN : 0) \
+    F(float, spread, 5, w, indexSpreadOf(m)) \
     F(vec3, absorption, 6, xyz, m.principled.absorption()) \
-    F(float, leastAlpha, 6, w, leastAlphaOf(m))
+    F(float, leastAlpha, 6, w, leastAlphaOf(m)) \
+    F(vec3, diffuseTransmissionColor, 7, xyz, m.principled.diffuseTransmissionColor) \
+    F(float, diffuseTransmission, 7, w, m.principled.diffuseTransmission) \
+    F(float, iridescence, 8, x, m.principled.iridescence) \
+    F(float, filmIor, 8, y, m.principled.filmIor) \
+    F(float, filmThickness, 8, z, m.principled.filmThickness) \
+    F(float, filmSpan, 8, w, m.principled.filmSpan)
 
 /// Burley's principled BSDF (scene/model/material.hpp). ior: index inside over outside. leastAlpha: neither parameter of
 /// the facets is less.
@@ -80,20 +88,20 @@ struct BurleyParameters {
 };
 #undef DECLARE_PARAMETER
 SHARED_ROWS(StatedParameters, 3);
-SHARED_ROWS(PrincipledParameters, 6);
+SHARED_ROWS(PrincipledParameters, 8);
 SHARED_ROWS(BurleyParameters, 4);
 
 SHARED_CONST int INDEX_RATIO = 0;       ///< index inside over index outside
 SHARED_CONST int INDEX_BACK = 1;        ///< share of diffuse light that the interface sends back to the base
 SHARED_CONST int INDEX_LEAST_ALPHA = 2; ///< either alpha of the microfacets is no less
 SHARED_CONST uint STATED_TABLE_ROW = 3u; ///< of a material, its header counted: its last word is `table`
-SHARED_CONST uint PRINCIPLED_IS_THIN = 1u; ///< there is no volume behind the surface
 SHARED_CONST uint PRINCIPLED_ABSORPTION_ROW = 6u; ///< of a material, its header counted
 
 /// The last row that some recipe has.
-SHARED_CONST uint MOST_PARAMETER_ROWS = 6u;
+SHARED_CONST uint MOST_PARAMETER_ROWS = 8u;
 
-/// A scene's materials have the row where its closures have one of these bits; row 1 they always have.
+/// A scene's materials have the row where its closures have one of these bits; row 1 they always have. Row 7
+/// is there for LOBE_DIFFUSE_TRANSMISSION, row 8 for HAS_IRIDESCENCE.
 SHARED_FUNCTION uint closuresWithRow(uint row) {
     const uint indices = INTERFACE_IS_CONDUCTOR | CLOSURE_LAYERS | GLOSSY_LOBES;
     if (row == 2u) return indices | INTERFACE_IS_DIELECTRIC;
@@ -119,6 +127,10 @@ SHARED_FUNCTION uint closuresWithRow(uint row) {
     F(SHEEN_COLOR, Principled, sheenColor, texel.rgb) \
     F(SHEEN_ROUGHNESS, Principled, sheenRoughness, texel.a) \
     F(ANISOTROPY, Principled, anisotropy, texel.b) \
+    F(DIFFUSE_TRANSMISSION, Principled, diffuseTransmission, texel.a) \
+    F(DIFFUSE_TRANSMISSION_COLOR, Principled, diffuseTransmissionColor, texel.rgb) \
+    F(IRIDESCENCE, Principled, iridescence, texel.r) \
+    F(FILM_THICKNESS, Principled, filmSpan, texel.g) \
     F(METALLIC_ROUGHNESS, Burley, roughness, texel.g) \
     F(METALLIC_ROUGHNESS, Burley, metallic, texel.b) \
     F(TRANSMISSION, Burley, transmission, texel.r) \

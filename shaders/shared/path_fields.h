@@ -84,6 +84,8 @@
     F(uvec4, path.material.row4, materialsHaveRow(4u), BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
     F(uvec4, path.material.row5, materialsHaveRow(5u), BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
     F(uvec4, path.material.row6, materialsHaveRow(6u), BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
+    F(uvec4, path.material.row7, sceneHas(LOBE_DIFFUSE_TRANSMISSION), BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
+    F(uvec4, path.material.row8, HAS_IRIDESCENCE, BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
     F(vec3, path.splitPoint.throughput, SPLITS, AT_RETURN | AT_PAUSE, AT_SPLIT | AT_PAUSE) \
     F(uint, path.splitPoint.bounce, SPLITS, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(uint, path.splitPoint.medium, SPLITS, AT_RETURN | AT_PAUSE, AT_SPLIT | AT_PAUSE) \

@@ -13,7 +13,7 @@ SHARED_BEGIN
 /// whatever its kind; behind it follow its bundle, where some material of the scene has one, and its loose
 /// textures, the slots in ascending order. A material without maps in a bundle has one of a single texel without
 /// pictures then, so that no lane has to ask.
-SHARED_CONST uint MATERIAL_DETAIL_ROW = 7u;
+SHARED_CONST uint MATERIAL_DETAIL_ROW = 9u;
 struct MaterialDetail {
     float opacity;
     float alphaCutoff;
@@ -92,7 +92,11 @@ SHARED_CONST uint TEXTURE_HEIGHT = 13u;
 SHARED_CONST uint TEXTURE_BLEND_SHARE = 14u;
 SHARED_CONST uint TEXTURE_PROJECTION = 15u;
 SHARED_CONST uint TEXTURE_OPACITY = 16u;
-SHARED_CONST uint TEXTURE_SLOT_COUNT = 17u;
+SHARED_CONST uint TEXTURE_DIFFUSE_TRANSMISSION = 17u;
+SHARED_CONST uint TEXTURE_DIFFUSE_TRANSMISSION_COLOR = 18u;
+SHARED_CONST uint TEXTURE_IRIDESCENCE = 19u;
+SHARED_CONST uint TEXTURE_FILM_THICKNESS = 20u;
+SHARED_CONST uint TEXTURE_SLOT_COUNT = 21u;
 
 /// How a texture's coordinates become a texel, and what a texel is.
 ///

@@ -86,10 +86,21 @@ Scene principledRoom() {
             p.metallic = 0, p.transmission = 1, p.roughness = 0.55f, p.isThin = false;
             p.attenuationColor = {0.3f, 0.8f, 0.5f}, p.attenuationDistance = 0.3f;
         }),
+        add([](auto& p) {
+            p.metallic = 0, p.diffuseTransmission = 0.6f, p.isThin = false, p.roughness = 0.6f;
+            p.attenuationColor = {0.8f, 0.5f, 0.3f}, p.attenuationDistance = 0.5f;
+        }),
+        add([](auto& p) {
+            p.metallic = 0.5f, p.iridescence = 0.8f, p.filmThickness = 300, p.roughness = 0.55f;
+        }),
+        add([](auto& p) {
+            p.metallic = 0, p.transmission = 1, p.isThin = false, p.roughness = 0.6f;
+            p.dispersion = 4;
+        }),
     };
     b.box({-2, 0, -2}, {2, 3, 2}, b.add(scenes::diffuse(0.6f)), true);
     b.quad({-0.6f, 2.9f, -0.6f}, {1.2f, 0, 0}, {0, 0, 1.2f}, b.add(scenes::emissive(6)));
-    for (int i = 0; i < 7; ++i)
+    for (int i = 0; i < 10; ++i)
         b.sphere({-1.2f + 0.8f * float(i % 4), 0.4f + 0.9f * float(i / 4), 0.3f * float(i % 3)},
                  0.35f, materials[i]);
     Light lamp;

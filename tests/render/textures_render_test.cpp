@@ -100,8 +100,15 @@ Scene texturedRoom() {
     Material sheet;
     sheet.kind = MaterialKind::Principled;
     sheet.principled = {.metallic = 0, .roughness = 0.6f, .transmission = 0.9f};
+    sheet.principled.diffuseTransmission = 0.7f;
+    sheet.principled.iridescence = 0.9f;
+    sheet.principled.filmThickness = 150, sheet.principled.filmSpan = 400;
     sheet.textures = {{.slot = TextureSlot::Transmission, .texture = soft},
-                      {.slot = TextureSlot::BaseColor, .texture = paper}};
+                      {.slot = TextureSlot::BaseColor, .texture = paper},
+                      {.slot = TextureSlot::DiffuseTransmission, .texture = soft},
+                      {.slot = TextureSlot::DiffuseTransmissionColor, .texture = soft},
+                      {.slot = TextureSlot::Iridescence, .texture = soft},
+                      {.slot = TextureSlot::FilmThickness, .texture = soft}};
     b.quad({-0.9f, -0.2f, 0.3f}, {0.5f, 0, -0.2f}, {0, 0.7f, 0}, b.add(sheet));
     t.attributes(2, projected(0, 1, 0.9f));
     b.sphere({0.5f, -0.5f, -0.4f}, 0.3f, b.add(glass(1.5f)));

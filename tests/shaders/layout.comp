@@ -83,7 +83,7 @@ void putScene() {
     putPlacement();
     const Primitive p = fetchPrimitive(1u);
     put(p.material), put(p.n0), put(p.n1), put(p.n2);
-    putMaterial(fetchMaterial(7u)); // seven rows each
+    putMaterial(fetchMaterial(9u)); // nine rows each
     putLight(fetchLightRows(1u));
     const LightEntry e = fetchLightEntry(1u);
     put(e.light), put(e.trail), put(e.probability), put(e.group);

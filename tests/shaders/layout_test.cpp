@@ -74,7 +74,7 @@ class Patterns {
 };
 
 /// A header and the most rows of parameters that a kind has.
-using MaterialWords = std::array<Row, 7>;
+using MaterialWords = std::array<Row, 9>;
 using LightWords = std::array<Row, gpu::LIGHT_ROWS>;
 
 struct LayoutCase {
@@ -138,7 +138,7 @@ class LayoutTest : public DeviceTest, public ::testing::WithParamInterface<Layou
         expected_.structure("MaterialHeader", header.emission, header.closures);
         const auto stated = std::bit_cast<gpu::StatedParameters>(std::array{m[1], m[2], m[3]});
         const auto principled = std::bit_cast<gpu::PrincipledParameters>(
-            std::array{m[1], m[2], m[3], m[4], m[5], m[6]});
+            std::array{m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8]});
         const auto burley =
             std::bit_cast<gpu::BurleyParameters>(std::array{m[1], m[2], m[3], m[4]});
 #define EXPECT_STATED(type, name, row, place, value)                                               \

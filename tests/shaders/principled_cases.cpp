@@ -95,6 +95,50 @@ std::vector<BsdfCase> principledCases() {
     add("lessDenseInside", 0.9f,
         [](auto& p) { p.transmission = 1, p.isThin = false, p.ior = 0.8f, p.roughness = 0.5f; });
     cases.back().gain += 1 / (0.8 * 0.8) - 1; // radiance is no longer compressed but stretched
+    // What is diffuse goes to either side, without regard to the index of a volume.
+    add("leaf", 0.97f, [](auto& p) {
+        p.diffuseTransmission = 0.6f, p.diffuseTransmissionColor = {0.8f, 0.9f, 0.2f};
+    });
+    cases.back().white.principled.diffuseTransmissionColor = glm::vec3(1);
+    add("wax", 0.97f, [](auto& p) {
+        p.diffuseTransmission = 1, p.diffuseTransmissionColor = {0.9f, 0.5f, 0.2f};
+        p.isThin = false, p.roughness = 0.3f, p.attenuationDistance = 1;
+    });
+    cases.back().white.principled.diffuseTransmissionColor = glm::vec3(1);
+    add("waxAndGlass", 0.4f, [](auto& p) {
+        p.diffuseTransmission = 0.5f, p.transmission = 0.5f, p.isThin = false, p.metallic = 0.1f;
+        p.clearcoat = 0.5f, p.clearcoatRoughness = 0.5f, p.sheenColor = {0.2f, 0.3f, 0.1f};
+        p.sheenRoughness = 0.6f;
+    });
+    cases.back().error = kSheenFitError;
+    cases.back().gain += kSheenGain;
+    // Directions of the colours differ, by more than a smooth lobe is wide.
+    for (const float roughness : {0.0f, 0.3f}) {
+        add("prism", 0.3f, [&](auto& p) {
+            p.transmission = 1, p.isThin = false, p.ior = 1.6f, p.dispersion = 2;
+            p.roughness = roughness;
+        });
+        cases.back().name += percent(roughness);
+    }
+    add("prismOfSmallIndex", 0.3f, [](auto& p) { // red is not refracted
+        p.transmission = 1, p.isThin = false, p.ior = 1.25f, p.dispersion = 64, p.roughness = 0.5f;
+    });
+    cases.back().error = 30 * 0x1p-24 / double(gpu::LEAST_INDEX_STEP) / 0.25;
+    cases.back().smooth = false; // red goes nearly straight on
+    const auto film = [](auto& p) {
+        p.iridescence = 0.75f, p.filmIor = 1.4f, p.filmThickness = 300, p.filmSpan = 150;
+    };
+    add("filmOnPlastic", 0.9f, [&](auto& p) { film(p); });
+    add("filmOnRoughPlastic", 0.9f, [&](auto& p) { film(p), p.roughness = 0.9f; });
+    add("filmOnMetal", 0.5f, [&](auto& p) { film(p), p.metallic = 1, p.roughness = 0.1f; });
+    add("bubble", 0.9f, [](auto& p) {
+        p.iridescence = 1, p.filmIor = 1.33f, p.filmThickness = 500, p.transmission = 1;
+        p.roughness = 0.2f;
+    });
+    add("oilOnGlass", 0.3f, [](auto& p) {
+        p.iridescence = 1, p.filmIor = 1.8f, p.filmThickness = 250, p.transmission = 1;
+        p.roughness = 0.3f, p.isThin = false, p.specular = 0.5f;
+    });
     add("mixture", 0.4f, [](auto& p) {
         p.transmission = 0.6f, p.isThin = false, p.metallic = 0.2f, p.clearcoat = 0.5f;
         p.clearcoatRoughness = 0.5f, p.sheenColor = {0.2f, 0.3f, 0.1f}, p.sheenRoughness = 0.6f;

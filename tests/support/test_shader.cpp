@@ -34,6 +34,8 @@ ShaderOptions::ShaderOptions() {
         set(feature, 1);
     set(SPEC_CLOSURES, gpu::CLOSURE_MASK)
         .set(SPEC_CLOSURES_OF_ALL, 0)
+        .set(SPEC_HAS_DISPERSION, 1)
+        .set(SPEC_HAS_IRIDESCENCE, 1)
         .set(SPEC_LIGHT_KINDS, ~0u)
         .set(SPEC_LIGHT_SAMPLES, 1);
     set(SPEC_LIGHT_CHOICE, gpu::LIGHT_CHOICE_TREE).set(SPEC_LIGHT_GROUPS, 7);

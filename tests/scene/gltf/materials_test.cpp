@@ -1,5 +1,6 @@
 // Materials and textures.
 
+#include "scene/model/surface_lookup.hpp"
 #include "tests/scene/gltf/gltf_text.hpp"
 #include "tests/scene/images/encoders.hpp"
 
@@ -181,11 +182,12 @@ TEST(GltfMaterials, UnlitOnesEmit) {
 
 TEST(GltfMaterials, WhatIsIgnoredIsReported) {
     const Scene scene = sceneOf(R"("occlusionTexture": {"index": 0}, )" +
-                                extension("KHR_materials_iridescence", ""));
+                                extension("KHR_materials_dispersion", R"("dispersion": 0.5)"));
     EXPECT_THAT(scene.report.ignored,
                 Contains("1 occlusion textures: what they foretell is computed"));
     EXPECT_THAT(scene.report.ignored,
-                Contains(HasSubstr("KHR_materials_iridescence of a material")));
+                Contains(HasSubstr("KHR_materials_dispersion of a material without a volume")));
+    EXPECT_EQ(scene.materials.at(0).principled.dispersion, 0);
 }
 
 TEST(GltfMaterials, Variants) {
@@ -337,8 +339,103 @@ TEST(GltfMaterials, ColorsOfVerticesAreFractions) {
     const Scene scene = withColors("");
     EXPECT_EQ(scene.attributes.at(scene.attributeCorners.at(0)[0]).color, glm::vec4(1, 0.5, 0, 1));
     EXPECT_THAT(scene.report.warnings, Contains(HasSubstr("colours of vertices")));
-    EXPECT_THAT(withColors(extension("KHR_materials_unlit", "")).report.ignored,
-                Contains(HasSubstr("vertex colours of unlit materials")));
+}
+
+/// A triangle whose unlit material has colours of corners, and emits 0.5, 0.25, 1 without them.
+Scene unlitWithColors(const std::vector<float>& colors, const std::string& type,
+                      const std::string& picture) {
+    GltfText g = withMaterial(R"("pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 1, 1])" +
+                              picture + "}, " + extension("KHR_materials_unlit", ""));
+    const size_t accessor = g.addAccessor<float>(colors, type);
+    std::string& mesh = g.arrays["meshes"][0];
+    mesh.insert(mesh.find("\"POSITION\""), fmt::format(R"("COLOR_0": {}, )", accessor));
+    return load(g);
+}
+
+TEST(GltfMaterials, UnlitOnesHaveColorsOfCorners) {
+    // Within what half floats hold of the picture, 2^-11, and of its four texels together.
+    constexpr double kHalf = 4 * 0x1p-11;
+    for (const char* picture : {"", R"(, "baseColorTexture": {"index": 1})"}) {
+        const Scene scene =
+            unlitWithColors({1, 0.5, 0.25, 0, 2, 1, 0.75, 0.125, 0}, "VEC3", picture);
+        const Material& m = scene.materials.at(scene.triangles.at(0).material);
+        const glm::dvec3 at[] = {{1, 0.5, 0.25}, {0, 1, 1}, {0.75, 0.125, 0}}; // at most 1
+        if (*picture) { // whose coordinates stay
+            ASSERT_EQ(m.textures.size(), 2u);
+            EXPECT_EQ(m.textures[0].uvSet, 0u);
+            EXPECT_EQ(m.textures[1].uvSet, 1u);
+            const uint32_t corner = scene.attributeCorners.at(0)[1];
+            EXPECT_EQ(scene.attributes.at(corner).uv[0], glm::vec2(1, 1));
+        }
+        // Of the picture, which is linear in its 16 bits but for sRGB: one texel everywhere.
+        const glm::dvec3 texel = *picture ? glm::dvec3(0, 0.2140411, 1) : glm::dvec3(1);
+        for (const glm::dvec2& b : {glm::dvec2(0, 0), {1, 0}, {0, 1}, {0.25, 0.5}, {0.4, 0.1}}) {
+            const glm::dvec3 emitted = emissionAt(scene, m, attributesAt(scene, 0, b.x, b.y));
+            const glm::dvec3 color = (1 - b.x - b.y) * at[0] + b.x * at[1] + b.y * at[2];
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(emitted[c], color[c] * texel[c] * glm::dvec3(0.5, 0.25, 1)[c], kHalf);
+        }
+    }
+}
+
+TEST(GltfMaterials, UnlitOnesOfOneColorNeedNoPicture) {
+    const Scene scene =
+        unlitWithColors({0.5, 1, 0.25, 0.75, 0.5, 1, 0.25, 0.75, 0.5, 1, 0.25, 0.75}, "VEC4", "");
+    const Material& m = scene.materials.at(scene.triangles.at(0).material);
+    EXPECT_EQ(m.emission, glm::vec3(0.25f, 0.25f, 0.25f));
+    EXPECT_TRUE(m.textures.empty());
+    EXPECT_EQ(scene.attributes.at(scene.attributeCorners.at(0)[0]).color, glm::vec4(1, 1, 1, 0.75));
+}
+
+TEST(GltfMaterials, DiffuseTransmission) {
+    const Material m = materialOf(extension(
+        "KHR_materials_diffuse_transmission",
+        R"("diffuseTransmissionFactor": 0.25, "diffuseTransmissionColorFactor": [1, 0.5, 0.25],
+           "diffuseTransmissionTexture": {"index": 1},
+           "diffuseTransmissionColorTexture": {"index": 0})"));
+    EXPECT_EQ(m.principled.diffuseTransmission, 0.25f);
+    EXPECT_EQ(m.principled.diffuseTransmissionColor, glm::vec3(1, 0.5, 0.25));
+    EXPECT_NE(useOf(m, TextureSlot::DiffuseTransmission), nullptr);
+    EXPECT_NE(useOf(m, TextureSlot::DiffuseTransmissionColor), nullptr);
+    EXPECT_FALSE(m.entersVolume());
+    const Material none = materialOf(extension("KHR_materials_diffuse_transmission", ""));
+    EXPECT_EQ(none.principled.diffuseTransmission, 0);
+    EXPECT_EQ(none.principled.diffuseTransmissionColor, glm::vec3(1));
+    const Material thick = materialOf(
+        R"("extensions": {"KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 1},
+                          "KHR_materials_volume": {"thicknessFactor": 1}})");
+    EXPECT_TRUE(thick.entersVolume());
+}
+
+TEST(GltfMaterials, Dispersion) {
+    const Material m = materialOf(
+        R"("extensions": {"KHR_materials_dispersion": {"dispersion": 0.4},
+                          "KHR_materials_volume": {"thicknessFactor": 1}})");
+    EXPECT_EQ(m.principled.dispersion, 0.4f);
+    // The Abbe number 50: the indices of the lines F and C are 0.5 / 50 apart.
+    EXPECT_FLOAT_EQ(m.principled.indexSpread(), 0.005f);
+}
+
+TEST(GltfMaterials, Iridescence) {
+    const Material film = materialOf(
+        extension("KHR_materials_iridescence", R"("iridescenceFactor": 0.5, "iridescenceIor": 1.4,
+        "iridescenceThicknessMaximum": 500, "iridescenceTexture": {"index": 1})"));
+    EXPECT_EQ(film.principled.iridescence, 0.5f);
+    EXPECT_EQ(film.principled.filmIor, 1.4f);
+    EXPECT_EQ(film.principled.filmThickness, 500); // without a picture it is the maximum
+    EXPECT_EQ(film.principled.filmSpan, 0);
+    EXPECT_NE(useOf(film, TextureSlot::Iridescence), nullptr);
+    const Material painted = materialOf(
+        extension("KHR_materials_iridescence",
+                  R"("iridescenceFactor": 1, "iridescenceThicknessTexture": {"index": 1})"));
+    EXPECT_EQ(painted.principled.filmIor, 1.3f);
+    EXPECT_EQ(painted.principled.filmThickness, 100);
+    EXPECT_EQ(painted.principled.filmSpan, 300);
+    EXPECT_NE(useOf(painted, TextureSlot::FilmThickness), nullptr);
+    const Material none =
+        materialOf(extension("KHR_materials_iridescence", R"("iridescenceTexture": {"index": 1})"));
+    EXPECT_EQ(none.principled.iridescence, 0);
+    EXPECT_TRUE(none.textures.empty());
 }
 
 TEST(GltfMaterials, SpecularGlossinessWithPictures) {
