@@ -60,8 +60,8 @@ dvec3 ThinFilm::reflectance(double cosine, const dvec3& f0) const {
         const double root = std::sqrt(std::min(f0[c] + 1e-4, 0.9999));
         const double surface = (1 + root) / (1 - root); // the index that reflects f0 in air
         const double bottom = schlickBetween(inside, index, surface);
-        // Reflection at what is denser turns the phase by half a wave; light inside meets the top
-        // from its other side.
+        // Against light that the top reflects, the phase of what comes back from the surface is
+        // turned by half a wave, and by another half where the surface is less dense than the film.
         shift[c] = (index < 1 ? 0 : kPi) + (surface < index ? kPi : 0);
         const double both = std::clamp(top * bottom, 1e-5, 0.9999);
         const double reflectedInside = square(through) * bottom / (1 - both);
