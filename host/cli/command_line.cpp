@@ -106,9 +106,17 @@ std::string groupOf(const CommandOption& o) {
     return o.isHidden ? "" : o.isCommon ? "The usual ones" : o.group;
 }
 
-/// "-r 640x360" is "-r 640 360", and "--size=640x360" too.
+/// The two numbers of "640x360"; empty if the word is anything else.
+Words joinedNumbers(const std::string& word) {
+    const size_t by = word.find_first_of("xX");
+    if (by == std::string::npos) return {};
+    const std::string first = word.substr(0, by), second = word.substr(by + 1);
+    return isWholeNumber(first) && isWholeNumber(second) ? Words{first, second} : Words{};
+}
+
+/// "-r 640x360" is "-r 640 360", and so is "-r=640x360"; "-r 640x360 9" is left as it is.
 Words withoutJoinedNumbers(const OptionList& list, const Words& words) {
-    const auto isJoined = [&](const std::string& name) {
+    const auto mayBeJoined = [&](const std::string& name) {
         return std::ranges::any_of(list.all(), [&](const CommandOption& o) {
             const Words dashed = o.dashedNames();
             return o.mayBeJoined && std::ranges::count(dashed, name) > 0;
@@ -116,18 +124,21 @@ Words withoutJoinedNumbers(const OptionList& list, const Words& words) {
     };
     Words apart;
     for (size_t i = 0; i < words.size(); ++i) {
-        std::string word = words[i];
+        const std::string& word = words[i];
         const size_t equals = word.find('=');
-        if (equals != std::string::npos && isJoined(word.substr(0, equals))) {
-            apart.push_back(word.substr(0, equals));
-            word = word.substr(equals + 1);
-        } else if (i == 0 || !isJoined(words[i - 1])) {
+        const bool isBehindName =
+            equals != std::string::npos && mayBeJoined(word.substr(0, equals));
+        const bool isNext = !apart.empty() && mayBeJoined(apart.back());
+        const Words numbers = isBehindName ? joinedNumbers(word.substr(equals + 1))
+                              : isNext     ? joinedNumbers(word)
+                                           : Words{};
+        const bool anotherFollows = i + 1 < words.size() && isWholeNumber(words[i + 1]);
+        if (numbers.empty() || anotherFollows) {
             apart.push_back(word);
             continue;
         }
-        const size_t by = word.find_first_of("xX*");
-        apart.push_back(word.substr(0, by));
-        if (by != std::string::npos) apart.push_back(word.substr(by + 1));
+        if (isBehindName) apart.push_back(word.substr(0, equals));
+        apart.insert(apart.end(), numbers.begin(), numbers.end());
     }
     return apart;
 }

@@ -293,7 +293,7 @@ TEST(Options, SizesMayBeOneWord) {
     }
     EXPECT_THROW(parse({"render", "a.dae", "-o", "a.png", "-r", "640"}), UsageError);
     EXPECT_THROW(parse({"render", "a.dae", "-o", "a.png", "-r", "640x"}), UsageError);
-    EXPECT_EQ(parse({"render", "a.dae", "-o", "4x4"}).output.file, "4x4");
+    EXPECT_EQ(parse({"render", "4x4", "-o", "a.png"}).scene.source, "4x4");
 }
 
 /// Profiles change what options are by default, wherever they stand; what is given is kept.

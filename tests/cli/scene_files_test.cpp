@@ -148,8 +148,9 @@ TEST_F(SceneFiles, BundledScenesHaveNames) {
     EXPECT_THAT(stromboli({"info", "light_point"}).out, HasSubstr("light_point.dae"));
     const ProgramRun wrong = render("light_piont");
     EXPECT_EQ(wrong.exitCode, kScene);
-    EXPECT_THAT(wrong.err, AllOf(HasSubstr("light_piont"), HasSubstr("cornell_boxes, "),
-                                 HasSubstr("light_point, ")));
+    EXPECT_THAT(wrong.err, AllOf(HasSubstr("light_piont"), HasSubstr("did you mean light_point?")));
+    EXPECT_THAT(render("nothing_like_it").err,
+                AllOf(HasSubstr("cornell_boxes, "), HasSubstr("light_point, ")));
 }
 
 /// A name that would clear the screen and write a line of its own.

@@ -106,9 +106,11 @@ TEST_F(Sequence, TurntableHasTheBytesOfItsFramesAlone) {
 TEST_F(Sequence, FinishedFramesAreNotRenderedAgain) {
     const std::string scene = libraryScene("cornell_boxes.dae");
     const auto run = [&](const std::string& how) {
-        std::vector<std::string> words = {scene, "--turntable", "5", "-o", folder.file("a%d.png")};
+        std::vector<std::string> words = {
+            "render", scene, "--turntable", "5",  "-o", folder.file("a%d.png"),
+            "-r",     "24",  "16",          "-s", "4"};
         if (!how.empty()) words.push_back(how);
-        const ProgramRun all = render(words);
+        const ProgramRun all = stromboli(words);
         EXPECT_EQ(all.exitCode, 0) << all.err;
         return all.err;
     };
