@@ -167,8 +167,9 @@ constexpr int kBarWidth = 24; // characters
 /// Some twenty dispatches: their length settles, and single ones no longer matter.
 constexpr double kLeastToTellFromSeconds = 2;
 
-/// As a whole, whatever other threads write.
+/// As a whole, whatever other threads write, and where the status line was.
 void printLine(std::string line) {
+    status_line::clear();
     line += '\n';
     std::fwrite(line.data(), 1, line.size(), stderr);
     std::fflush(stderr);

@@ -76,6 +76,16 @@ bool hasCheckpoint(const RenderOptions& options) {
     return !file.empty() && (std::filesystem::exists(file) || bandsKept(file) > 0);
 }
 
+/// Throws the UsageError that nothing tells which pictures are finished, where that is asked for.
+void requireCheckpoints(const RenderOptions& options) {
+    if (options.checkpoint.file != "off") return;
+    if (options.checkpoint.resume)
+        throw UsageError("--resume needs a checkpoint, and --checkpoint is off");
+    if (options.skipExisting)
+        throw UsageError("--skip-existing tells by checkpoints which pictures are not finished, "
+                         "and --checkpoint is off");
+}
+
 /// Whether an earlier run has finished the picture: it is there, and no checkpoint is left of it.
 bool isFinished(const RenderOptions& options) {
     return std::filesystem::is_regular_file(options.output.file) && !hasCheckpoint(options);
@@ -103,8 +113,7 @@ Keeping keepingOf(const RenderOptions& options) {
     keeping.everySeconds = asked.everySeconds;
     keeping.keepsAtEnd = !asked.file.empty() && !keeping.file.empty();
     if (!asked.resume) return keeping;
-    if (keeping.file.empty())
-        throw UsageError("--resume needs a checkpoint, and --checkpoint is off");
+    if (keeping.file.empty()) throw UsageError("--resume needs a checkpoint, and -o - has none");
     return takeUp(keeping, toTerminal());
 }
 
@@ -274,6 +283,7 @@ PreparedPicture preparePicture(const SceneAndPicture& work) {
 
 int renderCommand(const RenderOptions& options) {
     if (options.sampleAlone) return renderSample(options);
+    requireCheckpoints(options);
     const bool several = !options.cameras.empty() || options.sequence.isGiven();
     if (!several && options.skipExisting && isFinished(options)) {
         logging::info(fmt::format("{} is there already", options.output.file));

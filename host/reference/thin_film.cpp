@@ -56,6 +56,8 @@ dvec3 ThinFilm::reflectance(double cosine, const dvec3& f0) const {
     const double top = schlickBetween(cosine, 1, index), through = 1 - top;
     const double path = 2 * index * thickness * 1e-9 * inside;
     dvec3 amplitude, first, sum, shift;
+    // The extension's bounds of reflectances: the index of the surface, and the sum over
+    // reflections inside the film, stay finite where everything is reflected.
     for (int c = 0; c < 3; ++c) {
         const double root = std::sqrt(std::min(f0[c] + 1e-4, 0.9999));
         const double surface = (1 + root) / (1 - root); // the index that reflects f0 in air

@@ -16,7 +16,8 @@ vec3 filmSensitivity(float phase, vec3 shift) {
 }
 
 /// Reflectance of a film in air on a surface that reflects f0 at normal incidence. cosine: in air, > 0; thickness: in
-/// nanometres.
+/// nanometres. 1e-4, 0.9999 and 1e-5 are the extension's own: they confine reflectances, which have no scale, to where
+/// the index of the surface and the sum over reflections inside the film are finite.
 vec3 filmReflectance(float cosine, vec3 f0, float index, float thickness) {
     const float inside2 = 1.0 - max(1.0 - cosine * cosine, 0.0) / (index * index);
     const float cosInside = sqrt(max(inside2, 0.0));

@@ -210,6 +210,8 @@ TEST_F(Sequence, WhatDoesNotGoTogetherIsRefused) {
     refused({"-o", out, "--frames", "4..2"}, "--frames");
     refused({"-o", out, "--fps", "4"}, "--frames");
     refused({"-o", out, "--frames", "2", "--at", "1"}, "--at");
+    for (const char* how : {"--resume", "--skip-existing"})
+        refused({"-o", out, "--turntable", "2", "--checkpoint", "off", how}, "--checkpoint is off");
     EXPECT_THAT(folder.entries(), ElementsAre());
 }
 
