@@ -102,8 +102,7 @@ void main() {
     const Dispatch dispatch = dispatchConstants;
     const uint lane = gl_GlobalInvocationID.x;
     if (lane >= dispatch.laneCount) return;
-    // The words of a path lie together: their addresses would else take registers all the way to pause().
-    const PathSlot slot = PathSlot(lane * wordsOfPath(KEPT), 1u);
+    const PathSlot slot = slotOf(lane);
     path.rayCount = 0u;
     job.busySteps = 0u;
     job.allSteps = 0u;

@@ -20,11 +20,9 @@ layout(set = 0, binding = BINDING_QUEUES, std430) buffer QueueBuffer {
 const uint KEPT = ALWAYS;
 #include "include/path_memory.glsl"
 
-/// Words of all paths lie one after the other, so that neighbouring lanes read neighbouring words.
-PathSlot slotOf(uint number, const Dispatch dispatch) { return PathSlot(number, dispatch.laneCount); }
-
 /// Puts this lane's path into a queue, if `wanted`. One atomic operation for a subgroup.
 void enqueue(uint queue, bool wanted, PathSlot slot) {
+    const uint laneCount = dispatchConstants.laneCount;
     const uvec4 those = subgroupBallot(wanted);
     const uint count = subgroupBallotBitCount(those);
     uint first = 0u;
@@ -33,7 +31,7 @@ void enqueue(uint queue, bool wanted, PathSlot slot) {
         atomicMax(heads[queue].groups, (first + count + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x);
     }
     first = subgroupBroadcastFirst(first);
-    if (wanted) queued[queue * slot.stride + first + subgroupBallotExclusiveBitCount(those)] = slot.first;
+    if (wanted) queued[queue * laneCount + first + subgroupBallotExclusiveBitCount(those)] = slot.number;
 }
 
 uint countOf(bool those) { return subgroupBallotBitCount(subgroupBallot(those)); }
@@ -180,7 +178,7 @@ void main() {
     const Given given = findGiven();
     const Dispatch dispatch = dispatchConstants;
     const uint lane = gl_GlobalInvocationID.x;
-    const PathSlot own = slotOf(lane, dispatch);
+    const PathSlot own = slotOf(lane);
     if (STAGE == STAGE_BEGIN) {
         beginPath(lane < dispatch.laneCount, own);
         return;
@@ -192,7 +190,7 @@ void main() {
     const uint queue = STAGE == STAGE_DEPART ? QUEUE_DEPARTING : STAGE == STAGE_LIGHT ? QUEUE_LIT : dispatch.rayQueue;
     const bool isThere = lane < heads[queue].count;
     const uint number = isThere ? queued[queue * dispatch.laneCount + lane] : 0u;
-    const PathSlot slot = slotOf(number, dispatch);
+    const PathSlot slot = slotOf(number);
     if (STAGE == STAGE_DEPART) departPath(given, dispatch, isThere, slot);
     if (STAGE == STAGE_TRACE) tracePath(dispatch, isThere, slot);
     if (STAGE == STAGE_FOLLOW) followStoredPath(given, dispatch, isThere, slot);

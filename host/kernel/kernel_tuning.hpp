@@ -24,6 +24,7 @@ struct KernelTuning {
     std::optional<uint32_t> traversalSteps; ///< between two service passes, or in a leg
     std::optional<uint32_t> traversalLegs;  ///< where prototypes are placed
     std::optional<uint32_t> registerStack;  ///< largest traversal stack that is in registers
+    std::optional<bool> stepsBranch;        ///< a traversal step leaves out what no lane needs
     std::optional<PathScheduler> scheduler;
     std::optional<uint32_t> lanes; ///< invocations of a dispatch; wavefront: paths under way
     std::optional<uint32_t> driverThreads;    ///< 0: unknown
@@ -46,6 +47,7 @@ struct DeviceTuning {
     /// and lanes that come to a placement or leave one wait for that.
     uint32_t placedTraversalSteps = 4, traversalLegs = 4;
     uint32_t registerStack = 0; ///< entries
+    bool stepsBranch = false;   ///< a step of the traversal leaves out what no lane needs
     PathScheduler scheduler = PathScheduler::Persistent;
     uint32_t lanes = 1u << 20;
     uint32_t driverThreads = 0; ///< that run workgroups one after the other; 0: unknown, a GPU

@@ -1,5 +1,6 @@
 // States of paths in memory (shared/path_fields.h). The scheduler says which fields it keeps (KEPT, of their readers'
-// bits) and where the words of a path lie.
+// bits). The words of a path lie together: queues mix up the numbers of paths, and of words that lie path beside path
+// each lane would fetch a sector of memory of its own (docs/results.md, "On a GPU").
 
 #include "shared/path_fields.h"
 
@@ -7,12 +8,12 @@ layout(set = 0, binding = BINDING_PATHS, std430) buffer PathBuffer { uint pathWo
 
 /// Where a path lies.
 struct PathSlot {
-    uint first;  ///< number of the path's first word
-    uint stride; ///< from each word to the next
+    uint number; ///< among all paths
+    uint first;  ///< number of its first word
 };
 
-uint pathWord(PathSlot slot, uint word) { return pathWords[slot.first + word * slot.stride]; }
-void setPathWord(PathSlot slot, uint word, uint value) { pathWords[slot.first + word * slot.stride] = value; }
+uint pathWord(PathSlot slot, uint word) { return pathWords[slot.first + word]; }
+void setPathWord(PathSlot slot, uint word, uint value) { pathWords[slot.first + word] = value; }
 
 const uint WORDS_uint = 1u, WORDS_float = 1u, WORDS_bool = 1u, WORDS_vec2 = 2u, WORDS_vec3 = 3u;
 const uint WORDS_vec4 = 4u, WORDS_uvec4 = 4u;
@@ -54,6 +55,18 @@ void store(PathSlot slot, uint word, uvec4 v) {
 }
 void store(PathSlot slot, uint word, vec4 v) { store(slot, word, floatBitsToUint(v)); }
 
+/// 32-bit words of a path (host/kernel/path_kernel.cpp). kept: as KEPT.
+uint wordsOfPath(uint kept) {
+    uint words = 0u;
+#define COUNT_FIELD(type, member, exists, readers, writers)                                        \
+    words += (exists) && ((readers) & kept) != 0u ? WORDS_##type : 0u;
+    PATH_FIELDS(COUNT_FIELD)
+#undef COUNT_FIELD
+    return words;
+}
+
+PathSlot slotOf(uint number) { return PathSlot(number, number * wordsOfPath(KEPT)); }
+
 /// Loads the fields that a stage reads. reader: its BY_ bit, or an AT_ bit.
 void loadPath(PathSlot slot, inout PathState path, inout Job job, uint reader) {
     path.ray.hitPlacement = NO_PLACEMENT; // hitWords() reads it in all scenes
@@ -63,16 +76,6 @@ void loadPath(PathSlot slot, inout PathState path, inout Job job, uint reader) {
     word += (exists) && ((readers) & KEPT) != 0u ? WORDS_##type : 0u;
     PATH_FIELDS(LOAD_FIELD)
 #undef LOAD_FIELD
-}
-
-/// 32-bit words of a path (host/kernel/path_kernel.cpp). kept: as KEPT.
-uint wordsOfPath(uint kept) {
-    uint words = 0u;
-#define COUNT_FIELD(type, member, exists, readers, writers)                                        \
-    words += (exists) && ((readers) & kept) != 0u ? WORDS_##type : 0u;
-    PATH_FIELDS(COUNT_FIELD)
-#undef COUNT_FIELD
-    return words;
 }
 
 /// Stores the fields that a stage changes. writer: its BY_ bit, or an AT_ bit.

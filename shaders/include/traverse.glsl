@@ -159,8 +159,9 @@ void changeSpace(inout Traversal t, bool enters, uint record, Record r) {
     t.waits = t.waits || enters || leaves;
 }
 
-/// Visits the next record. A ray that is done visits the root to no effect, which costs less than an `if`
-/// around all this (docs/theory/kernel.md, "What llvmpipe does").
+/// Visits the next record. Where lanes are those of SIMD registers, both sides of an `if` are executed, and a branch
+/// costs more than it saves: a ray that is done visits the root to no effect (docs/theory/kernel.md, "What llvmpipe does").
+/// STEPS_BRANCH: a GPU leaves out the half of a step that none of its lanes needs.
 void traversalStep(inout Traversal t, inout Stack stack, Ray ray) {
     bool working = traversing(t);
     if (HAS_PLACEMENTS) working = working && !t.waits;
@@ -173,8 +174,10 @@ void traversalStep(inout Traversal t, inout Stack stack, Ray ray) {
     // A ray that has passed surfaces begins at its origin again, and leaves out what lies before them.
     float begin = 0.0;
     if (HAS_ALPHA) begin = t.tMin;
-    const uint entered = enterChildren(r, ray, begin, t.tMax);
-    testLeaf(t, ray, r, record, working && !kind.isNode && !kind.isPlacement);
+    const bool isLeaf = working && !kind.isNode && !kind.isPlacement;
+    uint entered = 0u;
+    if (!STEPS_BRANCH || kind.isNode) entered = enterChildren(r, ray, begin, t.tMax);
+    if (!STEPS_BRANCH || isLeaf) testLeaf(t, ray, r, record, isLeaf);
 
     const bool descend = working && kind.isNode && entered != 0u;
     const bool goesDown = descend || working && kind.isPlacement;

@@ -149,9 +149,11 @@
     F(46, uint, TRAVERSAL_LEGS, 1u, scene.hasPlacements ? tuning.traversalLegs : 1, own, \
       "legs between two services", count(""), "rays that are prepared anew between two service passes") \
     F(1, uint, TRAVERSAL_STEPS, 8u, traversalSteps(f, tuning), own, \
-      "traversal steps in a leg", count(""), "traversal steps between two service passes, or in a leg")
+      "traversal steps in a leg", count(""), "traversal steps between two service passes, or in a leg") \
+    F(55, bool, STEPS_BRANCH, false, tuning.stepsBranch, own, \
+      "steps that branch", flag, "branches around what a step of the traversal does with a node and with a leaf")
 
-#define SPEC_COUNT 55
+#define SPEC_COUNT 56
 
 #ifdef __cplusplus
 namespace stromboli {

@@ -130,7 +130,7 @@ const KernelTuning kTunings[] = {
     {.traversalSteps = 1, .fixedIterations = 40},
     {.itemsPerDispatch = 7, .fixedIterations = 3},
     {.workgroupSize = 24, .traversalSteps = 3, .lanes = 100, .fixedIterations = 1},
-    {.texelFetch = false, .traversalSteps = 16},
+    {.texelFetch = false, .traversalSteps = 16, .stepsBranch = true}, // as GPUs
     {.countSteps = true, .everythingOn = true},
     {.specialiser = vulkan::Specialiser::Drivers},
 };
