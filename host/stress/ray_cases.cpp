@@ -1,13 +1,17 @@
 #include "host/stress/case.hpp"
 #include "host/stress/oracle.hpp"
 #include "host/stress/scenes.hpp"
+#include "scene/build/polygon.hpp"
+#include "scene/build/scene_builder.hpp"
 #include "scene/generate/hard_meshes.hpp"
 #include "scene/model/placements.hpp"
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace stromboli::stress {
@@ -408,6 +412,60 @@ Finding closed(Run& run) {
     return f;
 }
 
+/// Coordinates of a country, where floats are half a metre apart.
+const glm::dvec3 kFarAway{4567890.25, 123.5, 5432100.75};
+constexpr double kStep = 0.05; // metres
+constexpr int kSteps = 100;
+
+/// A stair, whose step i has the height i * kStep, as a loader hands it over: the mesh has these
+/// coordinates itself, or a node brings it there.
+Scene farStair(bool byNode) {
+    build::SceneBuilder builder("town.xyz", {});
+    const glm::dvec3 from = byNode ? glm::dvec3(0) : kFarAway, to = kFarAway - from;
+    build::Mesh mesh;
+    build::MeshPart part;
+    build::PolygonCutter cut(mesh, builder.report());
+    for (int i = 0; i < kSteps; ++i) {
+        const auto first = uint32_t(mesh.positions.size());
+        std::array<build::Corner, 4> corners;
+        for (uint32_t c = 0; c < 4; ++c) {
+            const glm::dvec3 p(c == 1 || c == 2 ? 1 : 0, i * kStep, (i + (c > 1 ? 1 : 0)) * kStep);
+            mesh.positions.push_back(from + p);
+            corners[c] = {first + c, kNoNormals};
+        }
+        cut.add(corners, part);
+    }
+    mesh.parts.push_back(std::move(part));
+    mesh.isFlat = true;
+    const std::array<uint32_t, 1> materials{builder.defaultMaterial()};
+    builder.place({"town.xyz", 1, "stair"}, builder.addMesh("stair", mesh),
+                  glm::translate(glm::dmat4(1), to), materials, "stair");
+    return builder.finish();
+}
+
+/// Rays straight down onto each step. Coordinates are below 16 m from the scene's own origin, so
+/// that a vertex, the ray's origin and its distance are off by 2^-21 m each.
+Finding farFiles(Run& run) {
+    Finding f;
+    f.bound = 0x1p-19;
+    for (const bool byNode : {false, true}) {
+        const Scene scene = farStair(byNode);
+        const auto tracer = run.subject().tracer(scene);
+        std::vector<Ray> rays;
+        for (int i = 0; i < kSteps; ++i)
+            for (const double along : {0.25, 0.5, 0.75}) {
+                const glm::dvec3 above(along, i * kStep + 1, (i + along) * kStep);
+                const glm::vec3 origin(kFarAway + above - scene.origin);
+                rays.push_back({origin, kMissed, glm::vec3(0, -1, 0), 0});
+            }
+        for (const float distance : tracer->distances(rays))
+            f.measured = std::max(f.measured, std::abs(double(distance) - 1));
+        f.trials += rays.size();
+        run.goOn();
+    }
+    return f;
+}
+
 } // namespace
 
 std::vector<Case> instanceCases() {
@@ -418,6 +476,8 @@ std::vector<Case> instanceCases() {
          asCopies},
         {"closed-instances", "77", "no light comes through closed meshes that are placed", "lit",
          "rays", closed},
+        {"far-files", "78", "steps of 5 cm, 7,000 km from the file's origin, keep their height",
+         "m off", "rays", farFiles},
     };
 }
 

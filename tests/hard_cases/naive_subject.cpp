@@ -121,8 +121,12 @@ struct NaivePixel {
 
 } // namespace
 
+/// Positions become floats before they are taken relative to the scene.
 std::unique_ptr<stress::RayTracer> NaiveSubject::tracer(const Scene& scene) {
-    return std::make_unique<NaiveTracer>(scene);
+    Scene rounded = scene;
+    for (glm::vec3& p : rounded.positions)
+        p = glm::vec3(glm::dvec3(glm::vec3(glm::dvec3(p) + scene.origin)) - scene.origin);
+    return std::make_unique<NaiveTracer>(rounded);
 }
 
 stress::Picture NaiveSubject::render(const Scene& original, const Camera& camera,
