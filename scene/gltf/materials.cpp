@@ -11,24 +11,55 @@
 namespace stromboli::gltf {
 namespace {
 
+const TextureUse* useOf(const Material& material, TextureSlot slot) {
+    for (const TextureUse& use : material.textures)
+        if (use.slot == slot) return &use;
+    return nullptr;
+}
+
 /// Those whose coordinates tangents follow.
 const TextureUse* tangentUseOf(const Material& material) {
     // Where several want tangents, those that the surface's own normal map was made with count.
     for (const TextureSlot slot :
          {TextureSlot::Normal, TextureSlot::ClearcoatNormal, TextureSlot::Anisotropy})
-        for (const TextureUse& use : material.textures)
-            if (use.slot == slot) return &use;
+        if (const TextureUse* use = useOf(material, slot)) return use;
     return nullptr;
 }
 
-/// Without a picture for it the direction of anisotropy is that of the mesh's own tangents.
-void keepAnisotropy(Material& material, const glm::dvec2 (&rows)[2]) {
-    for (const TextureUse& use : material.textures)
-        if (use.slot == TextureSlot::Anisotropy) return;
-    const double sense = rows[0].x * rows[1].y < rows[0].y * rows[1].x ? -1 : 1;
-    const double turn = std::atan2(sense * rows[1].x, sense * rows[1].y);
+/// How the tangent that belongs to a map's coordinates lies in the frame of the mesh's own.
+struct Turn {
+    double angle = 0; ///< radians, from the tangent towards the bitangent
+    double sense = 1; ///< -1: the map is mirrored, so that its bitangent lies on the other side
+};
+
+/// rows: those that take texture coordinates to the map's.
+Turn turnOf(const glm::dvec2& uRow, const glm::dvec2& vRow) {
+    const double sense = uRow.x * vRow.y < uRow.y * vRow.x ? -1 : 1;
+    return {std::atan2(sense * vRow.x, sense * vRow.y), sense};
+}
+
+/// The surface's tangents are those of `frame`. The direction of anisotropy is one in the frame of
+/// its own map or, without one, in that of the mesh's own tangents.
+void keepAnisotropy(Material& material, const Turn& frame) {
+    const TextureUse* const map = useOf(material, TextureSlot::Anisotropy);
+    const Turn own = map ? turnOf(glm::dvec2(map->uRow), glm::dvec2(map->vRow)) : Turn{};
+    // A direction at the angle a of its own frame has the angle own.angle + own.sense a in the
+    // mesh's. A map adds its own angles later, so that only maps of one sense can be told in the
+    // other's frame.
+    const double sense = map ? 1 : frame.sense;
     float& angle = material.principled.anisotropyRotation;
-    angle = float(sense * (double(angle) - turn));
+    angle = float(sense * double(angle) + frame.sense * (own.angle - frame.angle));
+}
+
+/// Whether a map holds directions in a frame that the surface's tangents, which follow the
+/// coordinates of `tangents`, cannot stand for.
+bool isOfAnotherFrame(const Material& material, TextureSlot slot, const TextureUse& tangents) {
+    const TextureUse* const map = useOf(material, slot);
+    if (!map) return false;
+    const Turn own = turnOf(glm::dvec2(map->uRow), glm::dvec2(map->vRow));
+    const Turn frame = turnOf(glm::dvec2(tangents.uRow), glm::dvec2(tangents.vRow));
+    return map->uvSet != tangents.uvSet || own.sense != frame.sense ||
+           (slot == TextureSlot::ClearcoatNormal && own.angle != frame.angle);
 }
 
 } // namespace
@@ -93,7 +124,12 @@ BoundMaterial Materials::read(const Element& element) {
         bound.tangentSet = int(use->uvSet);
         bound.tangentRows[0] = glm::dvec2(use->uRow);
         bound.tangentRows[1] = glm::dvec2(use->vRow);
-        keepAnisotropy(material, bound.tangentRows);
+        const Turn frame = turnOf(bound.tangentRows[0], bound.tangentRows[1]);
+        for (const TextureSlot slot : {TextureSlot::ClearcoatNormal, TextureSlot::Anisotropy})
+            if (isOfAnotherFrame(material, slot, *use))
+                context_.report().replace(element.place(), build::Shortfall::Model,
+                                          "maps of directions have coordinates of their own");
+        keepAnisotropy(material, frame);
     } else if (material.principled.anisotropy > 0) {
         bound.tangentSet = 0;
     }

@@ -167,6 +167,35 @@ TEST(GltfMaterials, ClearcoatSheenAnisotropy) {
     EXPECT_NE(useOf(brushed, TextureSlot::Anisotropy), nullptr);
 }
 
+/// A material whose normal map and map of anisotropy have these transforms.
+Scene brushedUnder(const std::string& normalTransform, const std::string& grainTransform) {
+    const auto map = [](const std::string& transform) {
+        return R"({"index": 0, )" + extension("KHR_texture_transform", transform) + "}";
+    };
+    return sceneOf(R"("normalTexture": )" + map(normalTransform) + ", " +
+                   extension("KHR_materials_anisotropy",
+                             R"("anisotropyStrength": 0.5, "anisotropyRotation": 1.5,
+                                "anisotropyTexture": )" +
+                                 map(grainTransform)));
+}
+
+TEST(GltfMaterials, GrainIsToldInTheFrameOfTheNormalMap) {
+    const auto rotation = [](const std::string& normal, const std::string& grain) {
+        return brushedUnder(normal, grain).materials.at(0).principled.anisotropyRotation;
+    };
+    // A map that is turned by an angle has its tangent that much clockwise of the mesh's.
+    EXPECT_NEAR(rotation(R"("rotation": 0)", R"("rotation": 0.25)"), 1.25f, 1e-6f);
+    EXPECT_NEAR(rotation(R"("rotation": 0.25)", R"("rotation": 0)"), 1.75f, 1e-6f);
+    EXPECT_EQ(rotation(R"("rotation": 0.25)", R"("rotation": 0.25)"), 1.5f);
+    // Where both are mirrored, one map still lies in the other as it does where neither is.
+    const std::string mirrored = R"("scale": [-1, 1])";
+    EXPECT_NEAR(rotation(mirrored, R"("scale": [-1, 1], "rotation": 0.25)"), 1.25f, 1e-6f);
+    EXPECT_TRUE(brushedUnder(mirrored, mirrored).report.forgiven.empty());
+    const Scene told = brushedUnder(mirrored, R"("scale": [1, 1])");
+    EXPECT_THAT(told.report.forgiven,
+                testing::Contains(testing::HasSubstr("maps of directions have coordinates")));
+}
+
 TEST(GltfMaterials, UnlitOnesEmit) {
     const Scene scene = sceneOf(R"("pbrMetallicRoughness": {"baseColorFactor": [0.1, 0.2, 0.3, 1],
         "baseColorTexture": {"index": 0}}, )" +
