@@ -11,7 +11,7 @@ cmake_minimum_required(VERSION 3.22)
 set(outside_prefixes
     "CLI/=CLI11::CLI11" "nlohmann/=nlohmann_json::nlohmann_json" "spdlog/=spdlog::spdlog"
     "tinyxml2.h=tinyxml2::tinyxml2" "zip.h=PkgConfig::libzip" "zstd.h=PkgConfig::libzstd"
-    "httplib.h=PkgConfig::httplib"
+    "httplib.h=PkgConfig::httplib" "toml++/=tomlplusplus::tomlplusplus"
     "png.h=PNG::PNG" "Imf=OpenEXR::OpenEXR"
     "jpeglib.h=JPEG::JPEG" "gif_lib.h=GIF::GIF" "webp/=PkgConfig::libwebp" "draco/=draco::draco"
     "meshoptimizer.h=meshoptimizer::meshoptimizer"
@@ -23,7 +23,7 @@ set(process_functions
     "(^|[^A-Za-z0-9_.>])(setenv|unsetenv|putenv|mallopt|sigaction|pthread_sigmask|signal|atexit)[ ]*\\(")
 set(process_folders host/cli host/process)
 # Templates that take seconds to compile: no header includes them.
-set(slow_in_headers "^(CLI/|httplib\\.h|nlohmann/json\\.hpp|spdlog/|fmt/|tbb/)")
+set(slow_in_headers "^(CLI/|toml|httplib\\.h|nlohmann/json\\.hpp|spdlog/|fmt/|tbb/)")
 
 file(STRINGS ${TABLE} rows)
 foreach(row IN LISTS rows)

@@ -20,6 +20,7 @@ int planCommand(const PlanOptions& options);
 int submitCommand(const SubmitOptions& options);
 int studyCommand(const StudyOptions& options);
 int stressCommand(const StressOptions& options);
+int regressCommand(const RegressOptions& options);
 int tonemapCommand(const TonemapOptions& options);
 int denoiseCommand(const DenoiseOptions& options);
 int viewCommand(const ViewOptions& options);

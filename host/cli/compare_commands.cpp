@@ -247,16 +247,22 @@ void declareCheck(DeclaredCommand& c) {
     const auto asked = std::make_shared<Asked>();
     o->picture.size = {160, 120}; // quick
     asked->usualPaths = 256;
-    declareScene(c.list, o->scene);
+    declareScene(c.list, o->scene, &o->scenes);
     declarePicture(c.list, o->picture, *asked);
     declareEstimator(c.list, *o, *asked);
     declareSamples(c.list, o->picture, *asked, "samples per pixel");
     declareBranches(c.list, o->picture, "1");
     c.list.group("Sampling");
     c.list.real("--alpha", "P", "probability of a false alarm", o->familyWiseError, kErrorRates);
+    c.list.group("Output");
+    c.list
+        .text("--json", "FILE.json", "write the verdicts as JSON; - for standard output",
+              o->jsonFile)
+        .proposes(Proposed::Files);
     declareDevice(c.list, o->device.device);
     declareHost(c);
     c.finish = [&c, o, asked] {
+        if (!o->jsonFile.empty()) checkOutputWritable(o->jsonFile);
         finishPicture(c, o->picture, *asked);
         finishEstimator(c, *o, *asked);
         finishBudget(o->picture, *asked);
@@ -267,31 +273,63 @@ void declareCheck(DeclaredCommand& c) {
     };
 }
 
-int checkCommand(const CheckOptions& options) {
-    RenderSession onDevice(options.device, toTerminal()); // is opened while the scene is read
-    DeviceRequest host = options.device;
-    host.backend = BackendChoice::Reference;
-    RenderSession onHost(host); // says nothing that the other has not said
+namespace {
+
+ExitCode exitCodeOf(Verdict verdict) {
+    return verdict == Verdict::Agree       ? ExitCode::Success
+           : verdict == Verdict::Different ? ExitCode::Device
+                                           : ExitCode::Undecided;
+}
+
+/// Renders the scene in both ways and compares the two.
+CheckResult checkScene(RenderSession& onDevice, RenderSession& onHost,
+                       const CheckOptions& options) {
     const LoadedScene scene = loadScene(options.scene, toTerminal());
     warnOfBlackPicture(*scene.scene, options.scene.source, options.picture, toTerminal());
     const Film device = renderWatched(onDevice, options, scene);
     nowDoing("taking samples with the reference", StatusLine::OfOthers);
     const Film reference = renderWatched(onHost, options, scene);
-
     CheckSettings settings;
     settings.familyError = options.familyWiseError;
-    const CheckResult result = crossCheck(device, reference, settings);
-    fmt::print("A: {}\nB: {}\n{}", onDevice.result().backend, onHost.result().backend,
-               formatCheck(result));
-    switch (result.verdict()) {
-    case Verdict::Different:
-        return int(ExitCode::Device);
-    case Verdict::Undecided:
-        return int(ExitCode::Undecided);
-    case Verdict::Agree:
-        break;
-    }
-    return int(ExitCode::Success);
+    return crossCheck(device, reference, settings);
+}
+
+} // namespace
+
+/// Of several scenes one that cannot be rendered costs itself. The exit code is that of the worst:
+/// an error, a difference, too few samples.
+int checkCommand(const CheckOptions& options) {
+    RenderSession onDevice(options.device, toTerminal()); // is opened while the scene is read
+    DeviceRequest host = options.device;
+    host.backend = BackendChoice::Reference;
+    RenderSession onHost(host); // says nothing that the other has not said
+    const bool several = options.scenes.size() > 1, prints = !isStandardOutput(options.jsonFile);
+    Json scenes = Json::array();
+    ExitCode worst = ExitCode::Success;
+    for (const std::string& name : options.scenes)
+        try {
+            CheckOptions one = options;
+            one.scene.source = name;
+            const CheckResult result = checkScene(onDevice, onHost, one);
+            Json& told = scenes.emplace_back(compare::toJson(result));
+            told["scene"] = name;
+            if (prints && several) fmt::print("{}\n", name);
+            if (prints)
+                fmt::print("A: {}\nB: {}\n{}", onDevice.result().backend, onHost.result().backend,
+                           formatCheck(result));
+            const ExitCode code = exitCodeOf(result.verdict());
+            if (worst == ExitCode::Success || code == ExitCode::Device)
+                worst = code == ExitCode::Success ? worst : code;
+        } catch (const Error& error) {
+            if (!several || error.kind() == ErrorKind::DeviceLost) throw;
+            logging::error(error.what());
+            scenes.push_back({{"scene", name}, {"verdict", "failed"}, {"error", error.what()}});
+            worst = exitCodeOf(error.kind());
+        }
+    if (!options.jsonFile.empty())
+        writeOutput(options.jsonFile,
+                    Json{{"device", onDevice.result().backend}, {"scenes", scenes}}.dump(2) + "\n");
+    return int(worst);
 }
 
 } // namespace stromboli

@@ -311,6 +311,8 @@ std::deque<DeclaredCommand> declareCommands() {
         {"stress",
          "Try the hard cases of docs/theory/hard_cases.md on the device: does it do them right?",
          declareStress},
+        {"regress", "Test a suite of pictures against golden ones, by statistics; for CI",
+         declareRegress},
     };
     std::deque<DeclaredCommand> commands;
     for (const Entry& entry : kEntries) {

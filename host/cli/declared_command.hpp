@@ -220,6 +220,7 @@ void declareKernels(DeclaredCommand& command);
 void declareDevices(DeclaredCommand& command);
 void declareBench(DeclaredCommand& command);
 void declareStress(DeclaredCommand& command);
+void declareRegress(DeclaredCommand& command);
 void declareCompare(DeclaredCommand& command);
 void declareStudy(DeclaredCommand& command);
 void declareMerge(DeclaredCommand& command);

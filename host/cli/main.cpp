@@ -34,6 +34,7 @@ struct Run {
     int operator()(const DevicesOptions& o) const { return devicesCommand(o); }
     int operator()(const BenchOptions& o) const { return benchCommand(o); }
     int operator()(const StressOptions& o) const { return stressCommand(o); }
+    int operator()(const RegressOptions& o) const { return regressCommand(o); }
     int operator()(const CompareOptions& o) const { return compareCommand(o); }
     int operator()(const StudyOptions& o) const { return studyCommand(o); }
     int operator()(const MergeOptions& o) const { return mergeCommand(o); }

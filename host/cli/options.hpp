@@ -121,6 +121,8 @@ struct RenderOptions : SceneAndPicture {
 };
 
 struct CheckOptions : SceneAndPicture {
+    std::vector<std::string> scenes; ///< instead of SceneRequest::source
+    std::string jsonFile;            ///< empty: none
     double familyWiseError = 0.01;
 };
 
@@ -148,6 +150,15 @@ struct StressOptions {
     bool list = false, full = false;
     std::string jsonFile; ///< empty: none
     std::string device;
+};
+
+struct RegressOptions {
+    std::string suite;
+    std::vector<std::string> only; ///< names of pictures; empty: all
+    bool update = false;
+    std::string folder = "regress";
+    DeviceRequest device;
+    Verbosity verbosity = Verbosity::Normal;
 };
 
 /// What a PNG of the difference shows.
@@ -248,10 +259,10 @@ struct SubmitOptions : SceneAndPicture {
     std::vector<std::string> command; ///< as RenderOptions::command
 };
 
-using CommandOptions =
-    std::variant<RenderOptions, CheckOptions, InfoOptions, KernelsOptions, DevicesOptions,
-                 BenchOptions, StressOptions, CompareOptions, StudyOptions, MergeOptions,
-                 PlanOptions, SubmitOptions, TonemapOptions, DenoiseOptions, ViewOptions>;
+using CommandOptions = std::variant<RenderOptions, CheckOptions, InfoOptions, KernelsOptions,
+                                    DevicesOptions, BenchOptions, StressOptions, RegressOptions,
+                                    CompareOptions, StudyOptions, MergeOptions, PlanOptions,
+                                    SubmitOptions, TonemapOptions, DenoiseOptions, ViewOptions>;
 
 /// The command line, understood and checked.
 struct ParsedCommand {

@@ -253,15 +253,6 @@ std::vector<std::string> violations(const Comparison& c, const Thresholds& t) {
     return lines;
 }
 
-namespace {
-
-constexpr const char* kColors[] = {"red", "green", "blue"};
-
-std::string flipName(const Comparison& c) {
-    if (!c.highDynamicRange) return "FLIP (LDR)";
-    return "FLIP (HDR)";
-}
-
 Json toJson(const CheckResult& z) {
     Json channels = Json::array(), visible = Json::array();
     for (const CheckChannel& channel : z.channels) {
@@ -279,6 +270,15 @@ Json toJson(const CheckResult& z) {
             {"blockLimit", z.blockLimit},
             {"pixelsPassing", z.fractionPassing},
             {"constantMismatches", z.constantMismatches}};
+}
+
+namespace {
+
+constexpr const char* kColors[] = {"red", "green", "blue"};
+
+std::string flipName(const Comparison& c) {
+    if (!c.highDynamicRange) return "FLIP (LDR)";
+    return "FLIP (HDR)";
 }
 
 Json toJson(const Acceptance& a) {

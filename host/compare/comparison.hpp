@@ -139,5 +139,7 @@ std::vector<std::string> violations(const Comparison& comparison, const Threshol
 
 std::string toText(const Comparison& comparison);
 Json toJson(const Comparison& comparison);
+/// Of the picture, then of the blocks and pixels, in standard deviations.
+Json toJson(const CheckResult& zTests);
 
 } // namespace stromboli::compare

@@ -15,4 +15,7 @@ std::string forScript(std::string_view json);
 std::string filledIn(std::string_view page,
                      std::span<const std::pair<std::string_view, std::string_view>> marks);
 
+/// RFC 4648, section 4, with padding.
+std::string toBase64(std::string_view bytes);
+
 } // namespace stromboli

@@ -8,9 +8,6 @@
 
 namespace stromboli::study {
 
-/// RFC 4648, section 4, with padding.
-std::string toBase64(std::string_view bytes);
-
 /// The report as one HTML page that needs nothing else: figures, script, and, from the study's
 /// folder, the reference and a picture of each configuration, the one that took nearest the time
 /// in which the baseline reaches the target error. Pictures that are not there are left out, and

@@ -17,5 +17,18 @@ TEST(PageText, MarksGiveWayToTexts) {
     EXPECT_EQ(filledIn("<p>@A@</p>@B@-@A@.", marks), "<p>one</p>@A@-.");
 }
 
+TEST(PageText, Base64OfRfc4648) {
+    const std::pair<const char*, const char*> vectors[] = {{"", ""},
+                                                           {"f", "Zg=="},
+                                                           {"fo", "Zm8="},
+                                                           {"foo", "Zm9v"},
+                                                           {"foob", "Zm9vYg=="},
+                                                           {"fooba", "Zm9vYmE="},
+                                                           {"foobar", "Zm9vYmFy"}};
+    for (const auto& [bytes, text] : vectors)
+        EXPECT_EQ(toBase64(bytes), text);
+    EXPECT_EQ(toBase64("\xFB\xFF"), "+/8=");
+}
+
 } // namespace
 } // namespace stromboli::test

@@ -144,19 +144,6 @@ TEST(StudyPage, NeedsNothingElse) {
                 testing::HasSubstr("stromboli \\u003c/script>")); // the data cannot end itself
 }
 
-TEST(StudyPage, Base64OfRfc4648) {
-    const std::pair<const char*, const char*> vectors[] = {{"", ""},
-                                                           {"f", "Zg=="},
-                                                           {"fo", "Zm8="},
-                                                           {"foo", "Zm9v"},
-                                                           {"foob", "Zm9vYg=="},
-                                                           {"fooba", "Zm9vYmE="},
-                                                           {"foobar", "Zm9vYmFy"}};
-    for (const auto& [bytes, text] : vectors)
-        EXPECT_EQ(toBase64(bytes), text);
-    EXPECT_EQ(toBase64("\xFB\xFF"), "+/8=");
-}
-
 void expectFiguresAndPlots(const nlohmann::json& seen) {
     // The laws of powerLawStudy(): a quarter and four times the speed of the baseline.
     EXPECT_EQ(seen["names"], (std::vector{"default", "hemisphere", "bsdf"}));
