@@ -63,6 +63,7 @@ bool wantsPixel(PathState path, Job job) { return path.phase == PHASE_NEXT && (j
 uint fetchPixelInHand(const Frame frame, inout PathState path, inout Job job) {
     const WorkItem work = fetchWorkItem(job.item);
     job.pixel = work.pixel;
+    path.pixelInFilm = job.pixel;
     path.pixelState = fetchPixel(job.pixel);
     path.pixelAt = uvec2(work.column, work.row);
     path.pixelId = path.pixelAt.y * frame.width + path.pixelAt.x;
