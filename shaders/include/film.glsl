@@ -34,3 +34,33 @@ void storePixel(uint index, PixelState s) {
     STORE_ROW(pixelRows, PIXEL_ROWS * index + 2u, uvec4(floatBitsToUint(s.m2), s.firstRejected));
     STORE_ROW(pixelRows, PIXEL_ROWS * index + 3u, uvec4(floatBitsToUint(s.m2Error), s.samplesBefore));
 }
+
+/// The sums behind a pixel's state, in a kernel that sees.
+SeenPixel fetchSeen(uint index) {
+    uint row = PIXEL_ROWS * index + PIXEL_STATE_ROWS;
+    const uvec4 r0 = ROW(pixelRows, row), r1 = ROW(pixelRows, row + 1u);
+    SeenPixel s;
+    s.hits = r0.x;
+    s.covered = uintBitsToFloat(r0.y);
+    s.primitive = r0.z;
+    s.placement = r0.w;
+    s.b1 = uintBitsToFloat(r1.x);
+    s.b2 = uintBitsToFloat(r1.y);
+    row += SEEN_HEAD_ROWS;
+#define FETCH_SUM(name, value, otherwise) s.name = uintBitsToFloat(ROW(pixelRows, row++));
+    SEEN_SUMS(FETCH_SUM)
+#undef FETCH_SUM
+    return s;
+}
+
+void storeSeen(uint index, SeenPixel s) {
+    uint row = PIXEL_ROWS * index + PIXEL_STATE_ROWS;
+    STORE_ROW(pixelRows, row, uvec4(s.hits, floatBitsToUint(s.covered), s.primitive, s.placement));
+    if (SEES_SURFACES) {
+        STORE_ROW(pixelRows, row + 1u, uvec4(floatBitsToUint(vec2(s.b1, s.b2)), 0u, 0u));
+        row += SEEN_HEAD_ROWS;
+#define STORE_SUM(name, value, otherwise) STORE_ROW(pixelRows, row++, floatBitsToUint(s.name));
+        SEEN_SUMS(STORE_SUM)
+#undef STORE_SUM
+    }
+}

@@ -152,7 +152,7 @@ void scatter(const Given given, inout PathState path, vec3 u, float roulette) {
     else path.throughput *= b.weight;
     const float largest = largestComponent(path.throughput);
     if (!(largest > 0.0)) {
-        if (SEES) endAtNothing(vec3(0.0), path);
+        if (SEES) endAtNothing(path.seen, vec3(0.0), path.firstNormal);
         return;
     }
     if (ROULETTE == ROULETTE_THROUGHPUT && path.bounce >= ROULETTE_START) {

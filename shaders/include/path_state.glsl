@@ -48,7 +48,7 @@ struct PathState {
     vec3 departureNormal; ///< shading normal of the surface that the ray has left, for that weight
 
     // Where samples are of what the camera sees (SEES):
-    uint pixelInFilm; ///< Job::pixel
+    SeenPixel seen;   ///< of the pixel
     vec3 firstNormal; ///< of the first surface, as it is shaded
 
     /// What a material is at the point that the finished ray asks for (askedPoint()). One lookup for all, since
