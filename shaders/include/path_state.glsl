@@ -123,7 +123,7 @@ void traceFrom(inout PathState path, SurfacePoint s, uint newPhase, vec3 origin,
 }
 
 bool isTracing(uint p) {
-    return p == PHASE_PATH || isToLight(p) ||
+    return p == PHASE_PATH || p == PHASE_SHADOW ||
            (DIRECT_LIGHT == DIRECT_HEMISPHERE && p == PHASE_HEMISPHERE);
 }
 
