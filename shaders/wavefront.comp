@@ -88,6 +88,7 @@ void departPath(const Given given, const Dispatch dispatch, bool isThere, PathSl
         if (path.phase == PHASE_NEXT && job.item != NO_ITEM) storePixel(job.pixel, path.pixelState); // samplesBefore
         const bool hadSplit = !SPLITS || path.splitPoint.bounce != 0u;
         if (path.phase == PHASE_BOUNCE || path.phase == PHASE_NEXT && !wantsPixel(path, job)) depart(given, path);
+        if (SEES && job.item != NO_ITEM) storeSeen(job.pixel, path.seen);
         storePath(slot, path, job, BY_DEPART);
         if (path.phase != PHASE_FINISHED && !hadSplit && path.splitPoint.bounce != 0u) storePath(slot, path, job, AT_SPLIT);
     }
@@ -152,6 +153,7 @@ void followStoredPath(const Given given, const Dispatch dispatch, bool isThere, 
             finishSample(given.frame, path);
             storePixel(job.pixel, path.pixelState);
         }
+        if (SEES) storeSeen(job.pixel, path.seen);
         storePath(slot, path, job, BY_FOLLOW);
         if (arrives) storePath(slot, path, job, AT_ARRIVAL);
     }

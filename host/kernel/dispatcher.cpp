@@ -85,7 +85,7 @@ Dispatcher::Dispatcher(const DispatchTarget& target, const PathKernel& kernel,
     if (const auto queues = pathBuffers(kernel, settings).queues)
         queues_.emplace(bufferOf(device_, *queues));
     setFrame(settings.frame);
-    for (const DeviceFilm::Segment& s : target.film.segments()) {
+    for (const FilmSegment& s : target.film) {
         std::vector<const Buffer*> buffers;
         for (const Buffer& b : target.scene.buffers())
             buffers.push_back(&b);
@@ -138,7 +138,7 @@ bool Dispatcher::runChunk(size_t segment, std::span<const gpu::WorkItem> items,
 gpu::Dispatch Dispatcher::constants(const Share& share) const {
     gpu::Dispatch d{};
     d.itemCount = share.itemCount;
-    d.segmentBase = film_.segments()[share.segment].firstPixel;
+    d.segmentBase = film_[share.segment].firstPixel;
     d.hardIterations = hardIterations_;
     d.laneCount = tuning_.lanes;
     d.beginsNoSample = share.ends;

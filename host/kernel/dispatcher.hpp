@@ -36,7 +36,7 @@ struct StepCounters {
 struct DispatchTarget {
     const vulkan::Device& device;
     const DeviceScene& scene;
-    DeviceFilm& film;
+    std::span<const FilmSegment> film;
     const vulkan::Buffer& filter; ///< the picture's table (sampling_tables.hpp)
 };
 
@@ -97,7 +97,7 @@ class Dispatcher {
     vulkan::Queue queue_;
     vulkan::Buffer paths_; ///< PathBuffers
     std::optional<vulkan::Buffer> queues_;
-    std::vector<std::unique_ptr<vulkan::DescriptorSet>> sets_; ///< of each segment
+    std::vector<std::unique_ptr<vulkan::DescriptorSet>> sets_; ///< of each segment of the film
 
   private:
     bool runChunk(size_t segment, std::span<const gpu::WorkItem> items,
@@ -105,7 +105,7 @@ class Dispatcher {
     void dispatch(const Share& share, gpu::DispatchStatus& status);
     void count(const gpu::DispatchStatus& status);
 
-    DeviceFilm& film_;
+    std::span<const FilmSegment> film_;
     std::optional<uint32_t> fixedIterations_;
     vulkan::Buffer frameBuffer_, workItems_, status_;
     RenderCounters counters_;

@@ -236,7 +236,7 @@ gpu::PixelState stateOf(const PixelSums& s) {
 }
 
 /// What of a run lies in a segment, counted in it.
-PixelRun partOf(const DeviceFilm::Segment& segment, PixelRun run) {
+PixelRun partOf(const FilmSegment& segment, PixelRun run) {
     const uint32_t first = std::max(run.first, segment.firstPixel);
     const uint32_t end = std::min(run.first + run.count, segment.firstPixel + segment.pixelCount);
     if (end <= first) return {};
@@ -252,10 +252,10 @@ DeviceFilm::DeviceFilm(const vulkan::Device& device, const PictureArea& area,
     const uint64_t perSegment = pixelsPerSegment(device.description(), tuning);
     for (uint64_t first = 0; first < total; first += perSegment) {
         const auto count = uint32_t(std::min(perSegment, total - first));
-        Segment& s = segments_.emplace_back(
-            Segment{uint32_t(first), count,
-                    vulkan::Buffer(device, "film", uint64_t(count) * sizeof(gpu::PixelState),
-                                   rowUse(tuning))});
+        FilmSegment& s = segments_.emplace_back(
+            FilmSegment{uint32_t(first), count,
+                        vulkan::Buffer(device, "film", uint64_t(count) * sizeof(gpu::PixelState),
+                                       rowUse(tuning))});
         s.pixels.clear(queue_);
     }
 }
@@ -288,7 +288,7 @@ void DeviceFilm::write(size_t segment, uint32_t pixel, const gpu::PixelState& st
                                      uint64_t(pixel) * sizeof(gpu::PixelState));
 }
 
-std::span<const gpu::PixelState> DeviceFilm::statesOf(const Segment& segment, PixelRun run) {
+std::span<const gpu::PixelState> DeviceFilm::statesOf(const FilmSegment& segment, PixelRun run) {
     if (const std::byte* view = segment.pixels.hostView())
         return {reinterpret_cast<const gpu::PixelState*>(view) + run.first, run.count};
     copy_.resize(run.count);
@@ -299,7 +299,7 @@ std::span<const gpu::PixelState> DeviceFilm::statesOf(const Segment& segment, Pi
 
 void DeviceFilm::readBack(size_t index, std::span<const gpu::WorkItem> items, Film& film) {
     if (items.empty()) return;
-    const Segment& segment = segments_[index];
+    const FilmSegment& segment = segments_[index];
     const auto [least, most] = std::ranges::minmax(items, {}, &gpu::WorkItem::pixel);
     const PixelRun run = {least.pixel, most.pixel - least.pixel + 1};
     const std::span<const gpu::PixelState> states = statesOf(segment, run);
@@ -311,14 +311,14 @@ void DeviceFilm::readBack(size_t index, std::span<const gpu::WorkItem> items, Fi
 }
 
 void DeviceFilm::clear() {
-    for (Segment& segment : segments_)
+    for (FilmSegment& segment : segments_)
         segment.pixels.clear(queue_);
 }
 
 std::vector<PixelSums> DeviceFilm::save(PixelRun run) {
     std::vector<PixelSums> sums;
     sums.reserve(run.count);
-    for (const Segment& segment : segments_) {
+    for (const FilmSegment& segment : segments_) {
         const PixelRun part = partOf(segment, run);
         if (part.count == 0) continue;
         for (const gpu::PixelState& state : statesOf(segment, part))
@@ -330,7 +330,7 @@ std::vector<PixelSums> DeviceFilm::save(PixelRun run) {
 void DeviceFilm::restore(PixelRun run, std::span<const PixelSums> sums, Film& film) {
     if (sums.size() != run.count || uint64_t(run.first) + run.count > area_.pixelCount())
         throw std::invalid_argument("the saved film is not of this area");
-    for (Segment& segment : segments_) {
+    for (FilmSegment& segment : segments_) {
         const PixelRun part = partOf(segment, run);
         if (part.count == 0) continue;
         const uint32_t first = segment.firstPixel + part.first;

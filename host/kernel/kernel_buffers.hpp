@@ -92,21 +92,21 @@ class DeviceScene {
 
 // --- The film on the device ----------------------------------------------------------------------
 
+/// A run of the rendered pixels whose states fit one binding.
+struct FilmSegment {
+    uint32_t firstPixel; ///< counted in the part that is rendered
+    uint32_t pixelCount;
+    vulkan::Buffer pixels;
+};
+
 /// The statistics of a picture's pixels in the device's memory.
 class DeviceFilm {
   public:
-    /// A run of the rendered pixels whose states fit one binding.
-    struct Segment {
-        uint32_t firstPixel; ///< counted in the part that is rendered
-        uint32_t pixelCount;
-        vulkan::Buffer pixels;
-    };
-
     /// An empty film. Throws DeviceError if it does not fit.
     DeviceFilm(const vulkan::Device& device, const PictureArea& area, const DeviceTuning& tuning);
 
     const PictureArea& area() const { return area_; }
-    const std::vector<Segment>& segments() const { return segments_; }
+    const std::vector<FilmSegment>& segments() const { return segments_; }
 
     /// The targets as work items of each segment, in their order.
     std::vector<std::vector<gpu::WorkItem>> workOf(std::span<const PixelTarget> targets) const;
@@ -129,11 +129,11 @@ class DeviceFilm {
 
   private:
     /// Pixels of a segment, counted in it; until the next dispatch or call.
-    std::span<const gpu::PixelState> statesOf(const Segment& segment, PixelRun run);
+    std::span<const gpu::PixelState> statesOf(const FilmSegment& segment, PixelRun run);
 
     PictureArea area_;
     vulkan::Queue queue_;
-    std::vector<Segment> segments_;
+    std::vector<FilmSegment> segments_;
     std::vector<gpu::PixelState>
         copy_; ///< of a part of a segment, where it is not the host's memory
 };

@@ -193,6 +193,28 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     return f;
 }
 
+KernelFeatures seeingFeatures(const GpuScene& scene, const Camera& camera,
+                              const Estimator& settings, const DeviceTuning& tuning, Seeing what) {
+    Estimator estimator = settings;
+    // That of normals asks for what is there, and for no material.
+    estimator.integrator = what == Seeing::Coverage ? Integrator::Normals : Integrator::Path;
+    estimator.branches = 1;
+    estimator.gapProposal = false;
+    estimator.roulette.mode = Roulette::Mode::None;
+    KernelFeatures f = kernelFeatures(scene, camera, estimator, tuning);
+    for (const KernelConstant ofLight :
+         {SPEC_LIGHT_KINDS, SPEC_MIS_LOBES, SPEC_HAS_EMISSION, SPEC_HAS_AMBIENT,
+          SPEC_HAS_ENVIRONMENT, SPEC_HAS_BACKDROP, SPEC_AMBIENT_BY_BOUNCES, SPEC_BLACK_BACKS,
+          SPEC_MEDIA, SPEC_MOST_OTHERS})
+        f[ofLight] = 0;
+    for (const KernelConstant closures : {SPEC_CLOSURES, SPEC_CLOSURES_OF_ALL})
+        f[closures] &= ~gpu::VOLUME_ABSORBS;
+    f[SPEC_DIRECT_LIGHT] = gpu::DIRECT_LIGHTS;
+    f[SPEC_INTEGRATOR] =
+        what == Seeing::Coverage ? gpu::INTEGRATOR_COVERAGE : gpu::INTEGRATOR_LAYERS;
+    return f;
+}
+
 // --- Features in words ---------------------------------------------------------------------------
 
 namespace {

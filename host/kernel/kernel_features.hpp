@@ -3,6 +3,7 @@
 #include "host/kernel/gpu_scene.hpp"
 #include "host/kernel/kernel_tuning.hpp"
 #include "host/render/estimator.hpp"
+#include "host/render/layers.hpp"
 #include "scene/camera/camera.hpp"
 #include "shaders/shared/interface.h"
 
@@ -20,6 +21,10 @@ using KernelFeatures = std::array<uint32_t, SPEC_COUNT>;
 /// neither the default nor cs184Shading(): the shaders have no mixture of the two.
 KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
                               const Estimator& settings, const DeviceTuning& tuning);
+
+/// Those of the kernel that sees: camera rays of these settings, and nothing of light or media.
+KernelFeatures seeingFeatures(const GpuScene& scene, const Camera& camera,
+                              const Estimator& settings, const DeviceTuning& tuning, Seeing what);
 
 /// The LIGHT_CHOICE_ that a kernel for these lights has.
 uint32_t lightChoiceConstant(const LightTable& lights);

@@ -23,11 +23,13 @@ struct FieldConditions {
 #define NAME_FEATURE(number, type, name, standard, value, all, label, shown, adds) uint32_t name;
     KERNEL_FEATURES(NAME_FEATURE)
 #undef NAME_FEATURE
+    bool SEES_SURFACES;
 
     explicit FieldConditions(const KernelFeatures& f) {
 #define SET_FEATURE(number, type, name, standard, value, all, label, shown, adds) name = f[number];
         KERNEL_FEATURES(SET_FEATURE)
 #undef SET_FEATURE
+        SEES_SURFACES = INTEGRATOR == gpu::INTEGRATOR_LAYERS;
     }
 
     bool sceneHas(uint32_t bits) const {

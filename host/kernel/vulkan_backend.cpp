@@ -1,15 +1,11 @@
 #include "host/kernel/vulkan_backend.hpp"
 
-#include "embedded/see_storage.h"
-#include "embedded/see_texel.h"
-#include "host/core/error.hpp"
 #include "host/kernel/kernel_features.hpp"
 #include "host/kernel/kernel_tuning.hpp"
 #include "host/kernel/light_table.hpp"
 #include "host/kernel/sampling_tables.hpp"
+#include "shaders/shared/layer_types.h"
 #include "shaders/shared/medium_types.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -54,123 +50,32 @@ gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const PictureA
     return f;
 }
 
-// --- Camera rays without light -------------------------------------------------------------------
+// --- What the camera sees ------------------------------------------------------------------------
 
 namespace {
 
-using vulkan::Buffer;
-using vulkan::BufferUse;
+/// A pixel in the film of a kernel that sees.
+struct SeenState {
+    gpu::PixelState state;
+    gpu::SeenPixel seen;
+};
+static_assert(sizeof(SeenState) == 16 * (gpu::PIXEL_STATE_ROWS + gpu::SEEN_ROWS));
 
-constexpr double kTargetSeconds = 0.1; ///< of a dispatch, as KernelTuning has it
-
-/// One iteration of the loop counts for itself, its traversal steps and pixel filter, and the loose
-/// textures of a material.
-uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene,
-                   std::span<const uint32_t> constants) {
-    return loopLimit(device, 1 + passesOfCameraRays(constants) + (scene.mostTextures + 1));
-}
-
-std::vector<vulkan::Binding> bindings(bool texelFetch) {
-    std::vector<vulkan::Binding> all;
-    for (uint32_t i = 0; i < SCENE_BINDING_COUNT; ++i)
-        all.push_back({i, texelFetch ? BufferUse::Texel : BufferUse::Storage});
-    all.push_back({BINDING_FRAME, BufferUse::Uniform});
-    all.push_back({BINDING_FILTER, texelFetch ? BufferUse::Texel : BufferUse::Storage});
-    all.push_back({BINDING_SEEN_PIXELS, BufferUse::Storage});
-    all.push_back({BINDING_SEEN_STATUS, BufferUse::Storage});
-    return all;
-}
-
-std::vector<const Buffer*> buffersOf(const DeviceScene& scene,
-                                     std::initializer_list<const Buffer*> more) {
-    std::vector<const Buffer*> buffers;
-    for (const Buffer& b : scene.buffers())
-        buffers.push_back(&b);
-    buffers.insert(buffers.end(), more);
-    return buffers;
-}
-
-template <class T>
-std::span<const std::byte> bytesOf(const T& value) {
-    return std::as_bytes(std::span(&value, 1));
-}
-
-} // namespace
-
-std::vector<uint32_t> seeConstants(const GpuScene& scene, const Camera& camera,
-                                   const Estimator& settings, const DeviceTuning& tuning,
-                                   Seeing what) {
-    Estimator estimator = settings;
-    // That of normals asks for what is there, and for no material.
-    estimator.integrator = what == Seeing::Coverage ? Integrator::Normals : Integrator::Path;
-    const KernelFeatures f = kernelFeatures(scene, camera, estimator, tuning);
-    std::vector<uint32_t> constants(f.begin(), f.end());
-    constants.push_back(what == Seeing::Surfaces);
-    return constants;
-}
-
-vulkan::ComputePipeline makeSeePipeline(const vulkan::Device& device,
-                                        const std::vector<uint32_t>& constants,
-                                        const DeviceTuning& tuning) {
-    const std::span<const uint32_t> code =
-        tuning.texelFetch ? std::span<const uint32_t>(see_texel) : see_storage;
-    return {device, code, bindings(tuning.texelFetch), constants, sizeof(gpu::SeeDispatch)};
-}
-
-SeePass::SeePass(const vulkan::Device& device, const DeviceScene& scene,
-                 const vulkan::ComputePipeline& pipeline, std::span<const uint32_t> constants,
-                 const vulkan::Buffer& filter, const gpu::Frame& frame, const DeviceTuning& tuning,
-                 uint32_t pixels)
-    : device_(device), pipeline_(pipeline), tuning_(tuning), pixelCount_(pixels),
-      hardIterations_(hardLimit(device, scene.scene(), constants)), queue_(device),
-      frame_(device, "frame constants", sizeof(gpu::Frame), BufferUse::Uniform),
-      pixels_(device, "layers", pixels * sizeof(gpu::SeenPixel), BufferUse::Storage),
-      status_(device, "status of the layers", sizeof(gpu::SeeStatus), BufferUse::Storage),
-      set_(device, pipeline, buffersOf(scene, {&frame_, &filter, &pixels_, &status_})) {
-    frame_.upload(queue_, bytesOf(frame));
-}
-
-gpu::SeeStatus SeePass::dispatch(uint32_t softIterations) {
-    const gpu::SeeDispatch constants{pixelCount_, softIterations, hardIterations_};
-    gpu::SeeStatus status{};
-    status_.upload(queue_, bytesOf(status));
-    const uint32_t groups = (pixelCount_ + tuning_.workgroupSize - 1) / tuning_.workgroupSize;
-    seconds_ = queue_.run("look at the scene", [&](VkCommandBuffer commands) {
-        vulkan::recordDispatch(device_, commands, pipeline_, set_, bytesOf(constants), groups);
-    });
-    status_.download(queue_, std::as_writable_bytes(std::span(&status, 1)));
-    return status;
-}
-
-void SeePass::run(std::vector<gpu::SeenPixel>& pixels) {
-    pixels_.upload(queue_, std::as_bytes(std::span(pixels)));
-    DispatchPace pace(kTargetSeconds, std::max(hardIterations_ / 2, 1u));
-    gpu::SeeStatus status{};
-    do {
-        status = dispatch(pace.iterations());
-        pace.took(seconds_);
-        if (status.overflowedPixels > 0)
-            throw DeviceError(fmt::format(
-                "the camera rays of {} pixels needed more than {} loop iterations, the most that "
-                "{} runs in a dispatch, to get to the next surface",
-                status.overflowedPixels, hardIterations_, device_.description().name()));
-    } while (status.unfinishedPixels > 0);
-    pixels_.download(queue_, std::as_writable_bytes(std::span(pixels)));
-}
-
-SeenPixel seenPixelOf(const gpu::SeenPixel& pixel, const GpuScene& scene) {
+/// In the scene's terms.
+SeenPixel seenPixelOf(const SeenState& pixel, Seeing what, const GpuScene& scene) {
+    const gpu::SeenPixel& s = pixel.seen;
     SeenPixel seen;
-    seen.samples = pixel.samples;
-    seen.hits = pixel.hits;
-    seen.covered = pixel.covered;
-#define TAKE_SUM(name, value) seen.name = glm::vec3(pixel.name);
+    seen.samples = pixel.state.count;
+    seen.hits = s.hits;
+    seen.covered = s.covered;
+#define TAKE_SUM(name, value, otherwise) seen.name = glm::vec3(s.name);
     SEEN_SUMS(TAKE_SUM)
 #undef TAKE_SUM
-    if (pixel.primitive == kNothingSeen) return seen;
-    seen.primitive = scene.bvh.primitiveOrder[pixel.primitive];
-    seen.placement = pixel.placement;
+    if (what == Seeing::Coverage || s.hits == 0) return seen;
+    seen.primitive = scene.bvh.primitiveOrder[s.primitive];
+    seen.placement = s.placement;
     std::array<double, 3> weights{};
-    const std::array<double, 3> ofSlot = {1 - double(pixel.b1) - pixel.b2, pixel.b1, pixel.b2};
+    const std::array<double, 3> ofSlot = {1 - double(s.b1) - s.b2, s.b1, s.b2};
     for (size_t c = 0; c < 3; ++c)
         weights[(c + scene.bvh.firstCorner[seen.primitive]) % 3] = ofSlot[c];
     seen.b1 = weights[1];
@@ -178,17 +83,23 @@ SeenPixel seenPixelOf(const gpu::SeenPixel& pixel, const GpuScene& scene) {
     return seen;
 }
 
+} // namespace
+
 // --- The backend ---------------------------------------------------------------------------------
 
 namespace {
 
 /// No more lanes or items than there are pixels.
+DeviceTuning forPixels(DeviceTuning tuning, uint64_t pixels) {
+    tuning.lanes = uint32_t(std::min<uint64_t>(tuning.lanes, pixels));
+    tuning.itemsPerDispatch = uint32_t(std::min<uint64_t>(tuning.itemsPerDispatch, pixels));
+    return tuning;
+}
+
 DeviceTuning tuningFor(const KernelTuning& tuning, const vulkan::Device& device,
                        const GpuScene& scene, const PictureArea& area) {
-    DeviceTuning t = resolve(tuning, device, largestRowBuffer(scene, area.pixelCount()));
-    t.lanes = uint32_t(std::min<uint64_t>(t.lanes, area.pixelCount()));
-    t.itemsPerDispatch = uint32_t(std::min<uint64_t>(t.itemsPerDispatch, area.pixelCount()));
-    return t;
+    const uint64_t pixels = area.pixelCount();
+    return forPixels(resolve(tuning, device, largestRowBuffer(scene, pixels)), pixels);
 }
 
 } // namespace
@@ -223,7 +134,6 @@ void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& setti
     film_.reset();
     checkMemory(device_.description(), *scene_, settings.area, estimator, tuning);
     if (kernelsFetchTexels_ != tuning.texelFetch) {
-        seePipelines_.clear();
         kernels_.clear(); // where a picture's work list is too large for the device's texel buffers
         deviceScene_.reset();
     }
@@ -243,13 +153,15 @@ void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& setti
     kernel_ = kernels.front();
     film_ = std::make_unique<DeviceFilm>(device_, area_, tuning);
     setFilter(filterTable(estimator.filter, estimator.filterShape), tuning);
-    dispatcher_ = makeDispatcher(kernels, tuning);
+    dispatcher_ = makeDispatcher(film_->segments(), kernels, frame_, tuning);
 }
 
-std::unique_ptr<Dispatcher> VulkanBackend::makeDispatcher(const StageKernels& kernels,
+std::unique_ptr<Dispatcher> VulkanBackend::makeDispatcher(std::span<const FilmSegment> film,
+                                                          const StageKernels& kernels,
+                                                          const gpu::Frame& frame,
                                                           const DeviceTuning& tuning) const {
-    const DispatchTarget target{device_, *deviceScene_, *film_, *filter_};
-    const DispatchSettings settings{frame_, tuning, tuning_.targetSeconds, tuning_.fixedIterations};
+    const DispatchTarget target{device_, *deviceScene_, film, *filter_};
+    const DispatchSettings settings{frame, tuning, tuning_.targetSeconds, tuning_.fixedIterations};
     if (tuning.scheduler == PathScheduler::Wavefront)
         return std::make_unique<WavefrontDispatcher>(target, kernels, settings);
     return std::make_unique<PersistentDispatcher>(target, *kernels.front(), settings);
@@ -284,34 +196,37 @@ const PathKernel& VulkanBackend::kernelFor(const KernelFeatures& features,
         .first->second;
 }
 
-const vulkan::ComputePipeline& VulkanBackend::seePipelineFor(const std::vector<uint32_t>& constants,
-                                                             const DeviceTuning& tuning) {
-    const auto known = seePipelines_.find(constants);
-    if (known != seePipelines_.end()) return known->second;
-    return seePipelines_.emplace(constants, makeSeePipeline(device_, constants, tuning))
-        .first->second;
-}
-
+/// A picture of its own, with the kernel that sees and a film of these pixels.
 std::vector<SeenPixel> VulkanBackend::see(uint32_t first, std::span<const uint32_t> samples,
                                           Seeing what, uint32_t firstSample) {
+    const uint64_t pixels = samples.size();
+    const DeviceTuning tuning =
+        forPixels(tuningFor(tuning_, device_, *scene_, area_), std::max<uint64_t>(pixels, 1));
     gpu::Frame frame = frame_;
     frame.firstSample = firstSample;
-    std::vector<gpu::SeenPixel> pixels(samples.size());
-    for (uint32_t i = 0; i < pixels.size(); ++i) {
-        const PixelPlace place = area_.placeOf(first + i);
-        pixels[i].target = samples[i];
-        pixels[i].pixel = place.y * area_.width + place.x;
-        pixels[i].primitive = kNothingSeen;
+    frame.hemisphereSamples = frame.lightSamples = 0; // which number the blocks of random numbers
+    vulkan::Queue queue(device_);
+    FilmSegment film{first, uint32_t(pixels),
+                     vulkan::Buffer(device_, "layers", pixels * sizeof(SeenState), rowUse(tuning))};
+    film.pixels.clear(queue);
+    std::vector<PixelTarget> targets;
+    for (uint32_t i = 0; i < pixels; ++i)
+        if (samples[i] > 0) targets.push_back({first + i, samples[i]});
+    std::vector<gpu::WorkItem> work;
+    for (const PixelTarget& t : tileOrder(targets, area_.rendered().width)) {
+        const PixelPlace place = area_.placeOf(t.pixel);
+        work.push_back({t.pixel - first, t.samples, place.x, place.y});
     }
-    const DeviceTuning tuning = tuningFor(tuning_, device_, *scene_, area_);
-    const auto constants = seeConstants(*scene_, camera_, estimator_, tuning, what);
-    SeePass(device_, *deviceScene_, seePipelineFor(constants, tuning), constants, *filter_, frame,
-            tuning, uint32_t(pixels.size()))
-        .run(pixels);
+    makeDispatcher({&film, 1},
+                   kernelsFor(seeingFeatures(*scene_, camera_, estimator_, tuning, what), tuning),
+                   frame, tuning)
+        ->run(0, work, [](uint64_t) { return true; });
+    std::vector<SeenState> states(pixels);
+    film.pixels.download(queue, std::as_writable_bytes(std::span(states)));
     std::vector<SeenPixel> seen;
-    seen.reserve(pixels.size());
-    for (const gpu::SeenPixel& p : pixels)
-        seen.push_back(seenPixelOf(p, *scene_));
+    seen.reserve(pixels);
+    for (const SeenState& s : states)
+        seen.push_back(seenPixelOf(s, what, *scene_));
     return seen;
 }
 

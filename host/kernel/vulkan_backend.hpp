@@ -8,9 +8,7 @@
 #include "host/render/estimator.hpp"
 #include "host/render/layers.hpp"
 #include "host/render/settings.hpp"
-#include "host/vulkan/compute_pipeline.hpp"
 #include "scene/camera/camera.hpp"
-#include "shaders/shared/layer_types.h"
 #include "shaders/shared/render_types.h"
 
 #include <map>
@@ -25,47 +23,6 @@ namespace stromboli {
 /// The uniform data of a picture.
 gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const PictureArea& area,
                      const Estimator& estimator);
-
-// --- Camera rays without light -------------------------------------------------------------------
-
-/// The specialisation constants of shaders/see.comp for a picture.
-std::vector<uint32_t> seeConstants(const GpuScene& scene, const Camera& camera,
-                                   const Estimator& settings, const DeviceTuning& tuning,
-                                   Seeing what);
-
-/// shaders/see.comp with these constants.
-vulkan::ComputePipeline makeSeePipeline(const vulkan::Device& device,
-                                        const std::vector<uint32_t>& constants,
-                                        const DeviceTuning& tuning);
-
-/// Traces the camera rays of a run of pixels on the device.
-class SeePass {
-  public:
-    /// constants: those of the pipeline; filter: the picture's table (sampling_tables.hpp). Device,
-    /// scene, pipeline and filter must outlive the object. Throws DeviceError.
-    SeePass(const vulkan::Device& device, const DeviceScene& scene,
-            const vulkan::ComputePipeline& pipeline, std::span<const uint32_t> constants,
-            const vulkan::Buffer& filter, const gpu::Frame& frame, const DeviceTuning& tuning,
-            uint32_t pixels);
-
-    /// Until each pixel has as many samples as it is to have. Throws DeviceError.
-    void run(std::vector<gpu::SeenPixel>& pixels);
-
-  private:
-    gpu::SeeStatus dispatch(uint32_t softIterations);
-
-    const vulkan::Device& device_;
-    const vulkan::ComputePipeline& pipeline_;
-    DeviceTuning tuning_;
-    uint32_t pixelCount_, hardIterations_;
-    vulkan::Queue queue_;
-    vulkan::Buffer frame_, pixels_, status_;
-    vulkan::DescriptorSet set_;
-    double seconds_ = 0; ///< of the last dispatch
-};
-
-/// What the device has found, in the scene's terms.
-SeenPixel seenPixelOf(const gpu::SeenPixel& pixel, const GpuScene& scene);
 
 // --- The backend ---------------------------------------------------------------------------------
 
@@ -115,11 +72,9 @@ class VulkanBackend final : public Backend, public Viewer {
     StageKernels kernelsFor(const KernelFeatures& features, const DeviceTuning& tuning);
     const PathKernel& kernelFor(const KernelFeatures& features, const DeviceTuning& tuning,
                                 std::optional<uint32_t> stage);
-    std::unique_ptr<Dispatcher> makeDispatcher(const StageKernels& kernels,
+    std::unique_ptr<Dispatcher> makeDispatcher(std::span<const FilmSegment> film,
+                                               const StageKernels& kernels, const gpu::Frame& frame,
                                                const DeviceTuning& tuning) const;
-
-    const vulkan::ComputePipeline& seePipelineFor(const std::vector<uint32_t>& constants,
-                                                  const DeviceTuning& tuning);
     void setFilter(const std::vector<Row>& table, const DeviceTuning& tuning);
 
     const vulkan::Device& device_;
@@ -129,8 +84,7 @@ class VulkanBackend final : public Backend, public Viewer {
     SceneBuffers filled_; ///< of the scene to come
     std::map<std::pair<KernelFeatures, std::optional<uint32_t>>, PathKernel>
         kernels_;                     ///< and stage
-    bool kernelsFetchTexels_ = false; ///< all of them, and of seePipelines_
-    std::map<std::vector<uint32_t>, vulkan::ComputePipeline> seePipelines_; ///< by their constants
+    bool kernelsFetchTexels_ = false; ///< all of them
     // What belongs to one picture:
     Camera camera_;
     Estimator estimator_;

@@ -56,8 +56,8 @@ Values materialOf(const SeenPixel& s, const Scene& scene) {
 
 Values valuesOf(Layer layer, const SeenPixel& s, const Scene& scene, const Camera& camera) {
     switch (layer) {
-#define VALUE_OF_LAYER(name, text, help, channels, value)                                          \
-    case Layer::name:                                                                              \
+#define VALUE_OF_LAYER(layer, text, help, channels, value)                                         \
+    case Layer::layer:                                                                             \
         return value;
         LAYER_LIST(VALUE_OF_LAYER)
 #undef VALUE_OF_LAYER
@@ -67,8 +67,8 @@ Values valuesOf(Layer layer, const SeenPixel& s, const Scene& scene, const Camer
 
 std::string_view axesOf(Layer layer) {
     switch (layer) {
-#define AXES_OF_LAYER(name, text, help, channels, value)                                           \
-    case Layer::name:                                                                              \
+#define AXES_OF_LAYER(layer, text, help, channels, value)                                          \
+    case Layer::layer:                                                                             \
         return channels;
         LAYER_LIST(AXES_OF_LAYER)
 #undef AXES_OF_LAYER

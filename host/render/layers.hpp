@@ -30,7 +30,7 @@ struct SeenPixel {
     uint32_t samples = 0; ///< camera rays
     uint32_t hits = 0;    ///< those of them that end on a surface
     double covered = 0;   ///< the sum of the weights that these have by the pixel filter
-#define DECLARE_SUM(name, value) glm::dvec3 name{0.0};
+#define DECLARE_SUM(name, value, otherwise) glm::dvec3 name{0.0};
     SEEN_SUMS(DECLARE_SUM) ///< shaders/shared/layer_types.h
 #undef DECLARE_SUM
     /// What the first ray that has hit something has hit, in the scene's order (triangles, then
@@ -54,17 +54,17 @@ class Viewer {
     virtual std::vector<SeenPixel> see(uint32_t first, std::span<const uint32_t> samples,
                                        Seeing what, uint32_t firstSample = 0) = 0;
 
-    static constexpr uint32_t kMostSeenAtOnce = 1u << 16; ///< 11 MiB on the device
+    static constexpr uint32_t kMostSeenAtOnce = 1u << 16; ///< 9 MiB on the device
 };
 
 // --- Layers --------------------------------------------------------------------------------------
 
 /// What a picture says of each pixel beside its radiance (docs/guide/layers.md).
-#define NAME_LAYER(name, text, help, channels, value) name,
+#define NAME_LAYER(layer, text, help, channels, value) layer,
 enum class Layer { LAYER_LIST(NAME_LAYER) };
 #undef NAME_LAYER
-#define DESCRIBE_LAYER(name, text, help, channels, value)                                          \
-    NamedValue<Layer>{Layer::name, text, help},
+#define DESCRIBE_LAYER(layer, text, help, channels, value)                                         \
+    NamedValue<Layer>{Layer::layer, text, help},
 template <>
 inline constexpr auto
     kNamedValues<Layer> = std::to_array<NamedValue<Layer>>({LAYER_LIST(DESCRIBE_LAYER)});

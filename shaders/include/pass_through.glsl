@@ -25,7 +25,7 @@ bool passesThrough(const Frame frame, inout PathState path, MaterialPoint hit, f
     if (!isTracing(path.phase) || path.ray.hitPrimitive == NO_PRIMITIVE || scattersInMedium(path.ray)) return false;
     const bool isStraight = HIDES_SURFACES && path.phase == PHASE_PATH && path.bounce == 0u;
     const float opacity = isStraight ? opacityForCamera(hit, stated) : stated;
-    if (path.phase == PHASE_SHADOW) {
+    if (isToLight(path.phase)) {
         path.directValue *= 1.0 - opacity;
         if (!(dot(path.directValue, vec3(1.0)) > 0.0)) return false;
     } else if (hitNumber(hitWordsOfPath(frame, path), 0u) < opacity) {

@@ -5,6 +5,7 @@
 
 #include "include/path_state.glsl"
 #include "include/media.glsl"
+#include "include/seeing.glsl"
 
 // --- Arrivals ----------------------------------------------------------------------------------
 
@@ -22,7 +23,7 @@ float foundShare(const Given given, PathState path, FoundSky sky) {
 MaterialPoint askedPoint(PathState path) {
     if (scattersInMedium(path.ray)) return MaterialPoint(path.medium, NO_PRIMITIVE, vec2(0.0));
     if (path.ray.hitPrimitive != NO_PRIMITIVE) return materialPoint(path.ray.hitPrimitive, vec2(path.ray.b1, path.ray.b2));
-    if (emissionHasFactors() && path.phase == PHASE_SHADOW) return path.sampledEmitter;
+    if (emissionHasFactors() && isToLight(path.phase)) return path.sampledEmitter;
     return MaterialPoint(0u, NO_PRIMITIVE, vec2(0.0));
 }
 
@@ -63,7 +64,8 @@ void arrive(const Given given, inout PathState path) {
     if (!inMedium) share = foundShare(given, path, sky);
     path.throughput *= transmittance(path.medium, hit ? path.ray.tMax : INFINITE_DISTANCE);
     if (!hit) {
-        takeInSky(given.frame, path, sky, share);
+        if (SEES) seeNothing(path);
+        else takeInSky(given.frame, path, sky, share);
         return;
     }
     if (!inMedium) path.surface = surfaceAt(path.ray);
@@ -76,8 +78,11 @@ void arrive(const Given given, inout PathState path) {
         path.radiance = vec3(path.ray.tMax);
         return;
     }
+    if (SEES && path.bounce == 0u) countHit(path);
+    if (INTEGRATOR == INTEGRATOR_COVERAGE) return;
     if (HAS_BLENDS) {
-        drawMaterial(path.surface, hitWordsOfPath(given.frame, path));
+        if (SEES) path.surface.material = materialOfSide(path.surface);
+        else drawMaterial(path.surface, hitWordsOfPath(given.frame, path));
         path.found = lookUpMaterial(materialPoint(path.surface));
     }
     path.material = inMixture(path.found.parameters, path.surface);
@@ -86,6 +91,10 @@ void arrive(const Given given, inout PathState path) {
     if (!inMedium) {
         faceForward(path.surface);
         applyRelief(path.surface, path.found.relief, dependsOnView(path.material), reliefRules(path.material));
+    }
+    if (INTEGRATOR == INTEGRATOR_LAYERS) {
+        seeSurface(path);
+        return;
     }
     if (reliefRules(path.material) != 0u && dot(shadingNormal(path.surface), path.surface.wo) <= 0.0) return;
     ++path.bounce;
@@ -139,9 +148,13 @@ void scatter(const Given given, inout PathState path, vec3 u, float roulette) {
     path.phase = PHASE_ENDED;
     float mixtureWeight;
     const BsdfSample b = ofMixture(sampleBsdfOrGap(given.gap, path.material, path.surface, u, mixtureWeight), path.surface);
-    path.throughput *= b.weight;
+    if (SEES) path.throughput *= tintOf(path.material, b);
+    else path.throughput *= b.weight;
     const float largest = largestComponent(path.throughput);
-    if (!(largest > 0.0)) return;
+    if (!(largest > 0.0)) {
+        if (SEES) endAtNothing(path.seen, vec3(0.0), path.firstNormal);
+        return;
+    }
     if (ROULETTE == ROULETTE_THROUGHPUT && path.bounce >= ROULETTE_START) {
         const float q = min(ROULETTE_MAX_CONTINUE, ROULETTE_BOLDNESS * largest);
         if (roulette >= q) return;
@@ -187,11 +200,16 @@ void depart(const Given given, inout PathState path) {
     const vec4 u = unitFloats(words);
     path.arrivalNumbers = vec3(u.xy, leftOver(words));
     // Most materials take either the two numbers within a lobe or the one that chooses a side, so that both may be
-    // the same.
+    // the same; where nothing else takes the first number of the block, it chooses.
     if (begins) startCameraRay(given, path, u.zw);
-    else if (SCATTERS_THROUGH && INTEGRATOR == INTEGRATOR_PATH)
-        scatter(given, path, vec3(u.zw, takesThreeNumbers(lobesOf(path.material)) ? sideNumber(given.frame, path) : u.z), path.arrivalNumbers.z);
-    else if (INTEGRATOR == INTEGRATOR_PATH) scatter(given, path, u.zwz, path.arrivalNumbers.z);
+    else if (INTEGRATOR == INTEGRATOR_PATH || SEES_SURFACES) {
+        vec3 numbers;
+        if (SEES) numbers = u.zwx;
+        else if (SCATTERS_THROUGH)
+            numbers = vec3(u.zw, takesThreeNumbers(lobesOf(path.material)) ? sideNumber(given.frame, path) : u.z);
+        else numbers = u.zwz;
+        scatter(given, path, numbers, path.arrivalNumbers.z);
+    }
 }
 
 /// The path is over, but not the sample.
@@ -199,7 +217,8 @@ bool branchIsOver(PathState path) { return SPLITS && path.phase == PHASE_ENDED &
 
 void finishSample(const Frame frame, inout PathState path) {
     if (SPLITS && path.splitPoint.bounce != 0u) path.radiance /= float(frame.branches);
-    addSample(path.pixelState, path.radiance, path.filterWeight);
+    if (SEES) ++path.pixelState.count;
+    else addSample(path.pixelState, path.radiance, path.filterWeight);
     if (samplesHaveWeights()) path.radiance *= path.filterWeight; // as frame.keepsValue shows it
     path.phase = PHASE_NEXT;
 }
@@ -211,7 +230,7 @@ void finishSample(const Frame frame, inout PathState path) {
 bool takeInRay(const Given given, inout PathState path, MaterialPoint asked) {
     path.found = lookUpMaterial(asked);
     if (HAS_ALPHA && passesThrough(given.frame, path, asked, path.found.opacity)) return false;
-    if (path.phase == PHASE_SHADOW) finishShadowRay(path);
+    if (isToLight(path.phase)) finishShadowRay(path);
     else if (DIRECT_LIGHT == DIRECT_HEMISPHERE && path.phase == PHASE_HEMISPHERE) finishHemisphereRay(path);
     else if (path.phase == PHASE_PATH) arrive(given, path);
     return true;

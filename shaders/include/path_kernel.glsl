@@ -66,6 +66,7 @@ uint fetchPixelInHand(const Frame frame, inout PathState path, inout Job job) {
     path.pixelState = fetchPixel(job.pixel);
     path.pixelAt = uvec2(work.column, work.row);
     path.pixelId = path.pixelAt.y * frame.width + path.pixelAt.x;
+    if (SEES) path.seen = fetchSeen(job.pixel);
     return work.target;
 }
 
@@ -80,6 +81,7 @@ void putDown(const Frame frame, inout PathState path, inout Job job) {
     if (job.item == NO_ITEM) return;
     if (frame.keepsValue != 0u && samplesTaken(path) >= job.target) path.pixelState.sum = path.radiance;
     storePixel(job.pixel, path.pixelState);
+    if (SEES) storeSeen(job.pixel, path.seen);
     job.sampleCount += samplesTaken(path);
     job.item = NO_ITEM;
 }

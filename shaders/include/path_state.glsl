@@ -11,6 +11,8 @@ const uint PHASE_ENDED = 6u;      ///< the path is over
 const uint PHASE_NEXT = 7u;       ///< ready for a new sample
 const uint PHASE_SUSPENDED = 8u;  ///< a bit: the ray of the phase has been put off to the next dispatch
 
+/// Tracing a ray to a light; kernels that see have none.
+bool isToLight(uint phase) { return !SEES && phase == PHASE_SHADOW; }
 bool isSuspended(uint phase) { return (phase & PHASE_SUSPENDED) != 0u; }
 
 /// Where a sample's path has split into branches (path splitting; docs/theory/estimator.md, "Branches"): at
@@ -44,6 +46,10 @@ struct PathState {
     bool countsEmission;  ///< light that the ray finds adds to the picture ...
     float bouncePdf;      ///< ... weighted (mis.glsl), by this density of the ray's direction; 0: not weighted
     vec3 departureNormal; ///< shading normal of the surface that the ray has left, for that weight
+
+    // Where samples are of what the camera sees (SEES):
+    SeenPixel seen;   ///< of the pixel
+    vec3 firstNormal; ///< of the first surface, as it is shaded
 
     /// What a material is at the point that the finished ray asks for (askedPoint()). One lookup for all, since
     /// every lane takes part in each (docs/theory/kernel.md, "Textures").
@@ -123,7 +129,7 @@ bool isTracing(uint p) {
 
 void startRay(inout PathState path, inout Stack stack) {
     if (!isTracing(path.phase) || traversing(path.ray)) return;
-    path.ray.anyHit = path.phase == PHASE_SHADOW && !HAS_ALPHA;
+    path.ray.anyHit = isToLight(path.phase) && !HAS_ALPHA;
     startTraversal(path.ray, stack);
     ++path.rayCount;
 }

@@ -6,6 +6,9 @@ KERNEL_FEATURES(DECLARE_CONSTANT)
 /// Whether triangles have normals of their corners. Without these and without maps there is no shading normal
 /// beside the geometric one (HAS_NORMALS).
 const bool HAS_CORNER_NORMALS = HAS_NORMALS && CORNER_NORMALS;
+/// Whether samples are of what the camera sees, without light (seeing.glsl), and of more than whether it sees something.
+const bool SEES_SURFACES = INTEGRATOR == INTEGRATOR_LAYERS;
+const bool SEES = SEES_SURFACES || INTEGRATOR == INTEGRATOR_COVERAGE;
 /// Whether samples have weights by their place about the pixel, some of them negative.
 bool samplesHaveWeights() { return PIXEL_FILTER == FILTER_TABLE; }
 /// Whether some material of the scene has one of these bits (shared/bsdf_types.h), or each that they concern.

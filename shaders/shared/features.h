@@ -85,7 +85,7 @@
     F(7, bool, HAS_EMISSION, true, shades && scene.hasEmission, 1, \
       "emission", flag, "surfaces that shine") \
     F(9, uint, INTEGRATOR, INTEGRATOR_PATH, integratorConstant(settings.integrator), own, \
-      "integrator", oneOf({"path", "normals", "depth"}), "what a sample is") \
+      "integrator", oneOf({"path", "normals", "depth", "coverage", "layers"}), "what a sample is") \
     F(10, uint, DIRECT_LIGHT, DIRECT_LIGHTS, directLightConstant(settings.directLight), own, \
       "direct light", oneOf({"light sampling", "uniform hemisphere", "left to bounces (delta lights sampled)"}), \
         "how lights are found from a surface") \

@@ -48,6 +48,8 @@ SHARED_CONST uint TEXEL_KIND_GATHERED = 4096u; ///< some texture's do not
 SHARED_CONST uint INTEGRATOR_PATH = 0u;
 SHARED_CONST uint INTEGRATOR_NORMALS = 1u;
 SHARED_CONST uint INTEGRATOR_DEPTH = 2u;
+SHARED_CONST uint INTEGRATOR_COVERAGE = 3u; ///< whether there is a surface (layer_types.h)
+SHARED_CONST uint INTEGRATOR_LAYERS = 4u;   ///< and what is seen of it
 
 SHARED_CONST uint DIRECT_LIGHTS = 0u;
 SHARED_CONST uint DIRECT_HEMISPHERE = 1u;

@@ -76,7 +76,8 @@ struct PixelState {
     vec3 m2Error;
     uint samplesBefore; ///< that the pixel had when the pass under way took it up, of all blocks
 };
-SHARED_ROWS(PixelState, 4);
+SHARED_CONST uint PIXEL_STATE_ROWS = 4u;
+SHARED_ROWS(PixelState, PIXEL_STATE_ROWS);
 SHARED_OFFSET(PixelState, rejected, 28);
 
 SHARED_CONST uint NO_ITEM = 0xFFFFFFFFu;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 namespace stromboli {
 namespace {
@@ -322,6 +323,36 @@ TEST(Layers, OfAPartAreThoseOfTheWhole) {
         EXPECT_EQ(part[i].normal, same.normal);
         EXPECT_EQ(part[i].position, same.position);
         EXPECT_EQ(part[i].primitive, same.primitive);
+    }
+}
+
+/// Glass before a floor, in every way to find light: what is seen is the same to the last bit.
+TEST(Layers, DoNotDependOnHowLightIsFound) {
+    SceneMaker b;
+    addFloor(b, b.add(diffuse(0.4f)));
+    b.sphere({0, 1, 0}, 1, b.add(glass(1.5f)));
+    b.sphere({2, 1, 0}, 1, b.add(emissive(1)));
+    b.scene.environment = constantSky(1);
+    const Camera camera = pointCamera({0, 2, 5}, {0, 1, 0}, 0.5);
+    const auto usual = lookAt(b.scene, camera, Seeing::Surfaces);
+    const std::function<void(Estimator&)> changes[] = {
+        [](Estimator& e) { e.maxBounces = 0; },
+        [](Estimator& e) { e.lightSamples = 5; },
+        [](Estimator& e) { e.directLight = DirectLight::Hemisphere; },
+        [](Estimator& e) { e.directLight = DirectLight::Bsdf; },
+        [](Estimator& e) { e.branches = 3; },
+        [](Estimator& e) { e.roulette.mode = Roulette::Mode::Fixed; },
+        [](Estimator& e) { e.integrator = Integrator::Depth; },
+    };
+    for (size_t c = 0; c < std::size(changes); ++c) {
+        RenderSettings s = seenPicture();
+        changes[c](s.estimator);
+        const auto seen = lookAt(b.scene, camera, Seeing::Surfaces, 16, s);
+        for (size_t i = 0; i < seen.size(); ++i) {
+            ASSERT_EQ(seen[i].albedo, usual[i].albedo) << "change " << c;
+            ASSERT_EQ(seen[i].normal, usual[i].normal) << "change " << c;
+            ASSERT_EQ(seen[i].primitive, usual[i].primitive) << "change " << c;
+        }
     }
 }
 

@@ -68,6 +68,31 @@ TEST(KernelFeatures, LightsFollowTheSettings) {
     EXPECT_EQ(featuresOf(scene, s)[SPEC_LIGHT_KINDS], 0u);
 }
 
+/// A kernel that sees has the surfaces of the one that takes samples, and none of its light.
+TEST(KernelFeatures, SeeingNeedsNoLight) {
+    Material emitter;
+    emitter.emission = glm::vec3(1);
+    Scene scene = oneTriangle(emitter);
+    scene.lights.emplace_back().kind = LightKind::Ambient;
+    scene.lights.emplace_back(); // a point
+    RenderSettings s;
+    s.estimator.branches = 4;
+    const GpuScene gpu = packScene(scene, buildWideBvh(scene), lightSelection(s.estimator));
+    const KernelFeatures light = kernelFeatures(gpu, Camera{}, s.estimator, {});
+    for (const auto& [what, integrator] : {std::pair{Seeing::Coverage, gpu::INTEGRATOR_COVERAGE},
+                                           std::pair{Seeing::Surfaces, gpu::INTEGRATOR_LAYERS}}) {
+        const KernelFeatures f = seeingFeatures(gpu, Camera{}, s.estimator, {}, what);
+        EXPECT_EQ(f[SPEC_INTEGRATOR], integrator);
+        EXPECT_EQ(f[SPEC_CLOSURES], what == Seeing::Surfaces ? light[SPEC_CLOSURES] : 0u);
+        for (const uint32_t ofLight :
+             {SPEC_LIGHT_KINDS, SPEC_HAS_EMISSION, SPEC_HAS_AMBIENT, SPEC_AMBIENT_BY_BOUNCES,
+              SPEC_MIS_LOBES, SPEC_ROULETTE, SPEC_SPLITS}) {
+            EXPECT_EQ(f[ofLight], 0u) << ofLight;
+            EXPECT_TRUE(light[ofLight] != 0 || ofLight == SPEC_MIS_LOBES) << ofLight;
+        }
+    }
+}
+
 TEST(KernelFeatures, MisOnlyWhereRoughMetalsMeetEmittersThatBouncesFind) {
     Material metal, emitter;
     metal.kind = MaterialKind::Conductor;

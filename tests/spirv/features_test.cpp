@@ -7,6 +7,8 @@
 #include "tests/support/shell.hpp"
 
 #include "embedded/pathtrace_storage.h"
+#include "embedded/wavefront_storage.h"
+#include "shaders/shared/wavefront_types.h"
 #include "source_dir.h"
 
 #include <gmock/gmock.h>
@@ -110,14 +112,20 @@ std::vector<Feature> featuresToTry() {
 INSTANTIATE_TEST_SUITE_P(Table, SwitchedFeature, testing::ValuesIn(featuresToTry()),
                          [](const auto& feature) { return std::string(feature.param.name); });
 
-/// The path kernel's source with all includes, but for constants of features that these values
-/// switch off: they are plain constants in it, which no host can switch on.
-std::string sourceWithout(const Words& values) {
-    const ShellRun run = shell(
-        STROMBOLI_GLSLANG " -E -I" STROMBOLI_SOURCE_DIR "/shaders/robust -I" STROMBOLI_SOURCE_DIR
-                          "/shaders " STROMBOLI_SOURCE_DIR "/shaders/pathtrace.comp");
+/// The source of a kernel with all includes.
+std::string sourceOf(const std::string& file) {
+    const ShellRun run = shell(STROMBOLI_GLSLANG " -E -I" STROMBOLI_SOURCE_DIR
+                                                 "/shaders/robust -I" STROMBOLI_SOURCE_DIR
+                                                 "/shaders " STROMBOLI_SOURCE_DIR "/shaders/" +
+                               file);
     EXPECT_EQ(run.exitCode, 0) << run.output;
-    std::string source = run.output;
+    return run.output;
+}
+
+/// The path kernel's, but for constants of features that these values switch off: they are plain
+/// constants in it, which no host can switch on.
+std::string sourceWithout(const Words& values) {
+    std::string source = sourceOf("pathtrace.comp");
     for (const Feature& f : featureTable()) {
         const bool isFlag = f.shown.kind == Kind::Flag;
         if (values[f.constant] != 0 || (!isFlag && f.shown.kind != Kind::Bits)) continue;
@@ -174,6 +182,36 @@ TEST(Features, WhatTheCornellBoxLacksLeavesNoTrace) {
     const Words with = dissolved(specialised(pathtrace_storage, values)),
                 without = dissolved(specialised(compiled(sourceWithout(values)), values));
     EXPECT_TRUE(with == without) << with.size() << " and " << without.size() << " words";
+}
+
+/// What the camera sees is an integrator of the same kernels. Those of radiance are the same words
+/// as if it had never been written: it is cut out of the source here.
+TEST(Features, SeeingLeavesNoTraceInKernelsOfRadiance) {
+    const std::regex asked("INTEGRATOR ?== ?INTEGRATOR_(COVERAGE|LAYERS)");
+    struct Kernel {
+        const char* file;
+        Code code;
+        uint32_t stages;
+    };
+    for (const Kernel& k : {Kernel{"pathtrace.comp", pathtrace_storage, 1},
+                            Kernel{"wavefront.comp", wavefront_storage, gpu::STAGE_COUNT}}) {
+        const std::string source = sourceOf(k.file);
+        const std::string cut = std::regex_replace(source, asked, "false");
+        EXPECT_NE(cut, source);
+        const Words without = compiled(cut);
+        EXPECT_LT(without.size(), k.code.size());
+        for (const char* scene : {"cornell_boxes", "still_life"})
+            for (uint32_t stage = 0; stage < k.stages; ++stage) {
+                Words values = featuresOf(scene);
+                values.push_back(stage); // SPEC_STAGE; the persistent kernel has no such constant
+                EXPECT_TRUE(specialised(without, values) == specialised(k.code, values))
+                    << k.file << ", " << scene << ", stage " << stage;
+                if (k.stages > 1 && stage != gpu::STAGE_FOLLOW) continue;
+                values[SPEC_INTEGRATOR] = gpu::INTEGRATOR_LAYERS;
+                EXPECT_FALSE(specialised(without, values) == specialised(k.code, values))
+                    << k.file << ", " << scene << ": has been cut out of all kernels";
+            }
+    }
 }
 
 } // namespace

@@ -7,8 +7,6 @@
 #include "embedded/pathtrace_storage.h"
 #include "embedded/pathtrace_texel.h"
 #include "embedded/pathtrace_with_feature.h"
-#include "embedded/see_storage.h"
-#include "embedded/see_texel.h"
 #include "embedded/trace_rays_storage.h"
 #include "embedded/trace_rays_texel.h"
 
@@ -26,8 +24,6 @@ struct Module {
 };
 const Module kModules[] = {{"pathtrace_storage", pathtrace_storage},
                            {"pathtrace_texel", pathtrace_texel},
-                           {"see_storage", see_storage},
-                           {"see_texel", see_texel},
                            {"trace_rays_storage", trace_rays_storage},
                            {"trace_rays_texel", trace_rays_texel}};
 
