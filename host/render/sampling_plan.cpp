@@ -245,6 +245,35 @@ std::vector<PixelTarget> NoisePlan::raiseAll(const Film& film, uint64_t budget) 
     return samples > least ? pass : std::vector<PixelTarget>{};
 }
 
+namespace {
+
+/// How many times the error of even samples is that of samples which go where they help most, if
+/// each has these variances: counts in proportion to their roots (Cauchy and Schwarz). 1 where all
+/// are alike.
+double gainOfSpreading(const std::vector<double>& variances) {
+    double sum = 0, roots = 0;
+    for (const double variance : variances) {
+        sum += variance;
+        roots += std::sqrt(variance);
+    }
+    return roots > 0 ? sum * double(variances.size()) / (roots * roots) : 1;
+}
+
+bool isEven(const Film& film) {
+    return std::ranges::all_of(film.pixels, [&](const PixelStatistics& p) {
+        return p.taken() == film.pixels.front().taken();
+    });
+}
+
+std::vector<PixelTarget> allTo(uint32_t samples, const Film& film) {
+    std::vector<PixelTarget> pass;
+    for (uint32_t pixel = 0; pixel < film.pixels.size(); ++pixel)
+        pass.push_back({pixel, samples});
+    return pass;
+}
+
+} // namespace
+
 std::vector<PixelTarget> NoisePlan::spread(const Film& film, const std::vector<double>& variance,
                                            uint64_t budget) const {
     const double least =
@@ -294,7 +323,11 @@ std::vector<PixelTarget> NoisePlan::next(const Film& film, const NoiseEstimate& 
     std::vector<double> variance = estimate.relativeVariance(film);
     if (std::ranges::max(variance) == 0)
         std::ranges::fill(variance, 1.0); // nothing known: all alike
-    return spread(film, variance, std::min(budget, std::max(wanted, taken / kLeastPassShare + 1)));
+    const uint64_t size = std::min(budget, std::max(wanted, taken / kLeastPassShare + 1));
+    const uint64_t evenly = std::min<uint64_t>(fewest + size / film.pixels.size(), mostSamples_);
+    if (evenly > fewest && isEven(film) && gainOfSpreading(variance) < kLeastGain)
+        return allTo(uint32_t(evenly), film);
+    return spread(film, variance, size);
 }
 
 } // namespace stromboli

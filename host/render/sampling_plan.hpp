@@ -70,6 +70,12 @@ class NoisePlan {
     /// known yet cannot show in a variance.
     static constexpr double kLeastShare = 0.125;
 
+    /// Samples are spread where even ones would have so many times their error by what is known
+    /// of the noise. Less is lost again: variances of few samples are noise themselves, numbers
+    /// that are no powers of two suit Sobol points less, and paths where there is more noise are
+    /// longer (docs/results.md, "When samples are spread").
+    static constexpr double kLeastGain = 2;
+
     /// Whether the first samples go to all pixels at once, or, where time may be up before that, to
     /// a coarse grid of them first, then to finer ones.
     enum class Beginning { AllAlike, CoarseToFine };

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace stromboli {
 namespace {
@@ -50,6 +52,25 @@ TEST(StopRule, EvenNoiseLosesLessThanFivePercent) {
 TEST(StopRule, MeanSamplesAreSpread) {
     EXPECT_LT(efficiencyRatio(uneven, {}, 64), 1 / 1.3);
     EXPECT_LT(efficiencyRatio(even, {}, 64), 1.05);
+}
+
+TEST(StopRule, SamplesAreEvenWhereSpreadingPromisesLittle) {
+    const auto counts = [](const Draw& draw, uint32_t mean) {
+        RenderSettings s = settingsOf(1u << 20);
+        s.budget.meanSamplesPerPixel = mean;
+        const Film film = renderDrawn(draw, s, 1).film;
+        const auto [least, most] = std::ranges::minmax(film.pixels, {}, &PixelStatistics::taken);
+        return std::pair(least.taken(), most.taken());
+    };
+    // Half of the pixels with twice the variance: spread samples would have 0.97 of the error.
+    const Draw mild = [](uint32_t pixel, Random& random) {
+        return gamma(pixel % 2 == 0 ? 0.5 : 1.0, random);
+    };
+    for (const uint32_t mean : {16u, 64u, 100u}) {
+        EXPECT_EQ(counts(even, mean), std::pair(mean, mean));
+        EXPECT_EQ(counts(mild, mean), std::pair(mean, mean));
+        EXPECT_LT(counts(uneven, mean).first, counts(uneven, mean).second);
+    }
 }
 
 TEST(StopRule, MeanSamplesAreTaken) {
