@@ -98,7 +98,6 @@ TEST_F(SchedulerTest, EveryWayToFindLightIsTheSame) {
     expectSamePictures(stillLife);
     settings_.estimator.directLight = DirectLight::Mis;
     settings_.estimator.branches = 3;
-    expectSamePictures(stillLife);
     settings_.estimator.filter = PixelFilter::Mitchell;
     expectSamePictures(stillLife);
 }
