@@ -140,7 +140,7 @@ const Mode kModes[] = {
     {"mis", [](RenderSettings&) {}},
     {"hemisphere", [](RenderSettings& s) { s.estimator.directLight = DirectLight::Hemisphere; }},
     {"branches",
-     [](RenderSettings& s) { // a sample of three branches tells and takes as much as two to three
+     [](RenderSettings& s) { // 144 branches a pixel: more than other modes have paths
          s.estimator.branches = 3;
          s.budget.mostSamplesPerPixel /= 2;
      }},
