@@ -1,11 +1,13 @@
-# Writes the ctest entries of a GoogleTest program's suites, but of those LEFT_OUT:
-# cmake -DPROGRAM=... -DLIST=... -DLEFT_OUT=... -DPROPERTIES=... -P
+# Writes the ctest entries of a GoogleTest program's suites, but of those LEFT_OUT; those that are QUICK, or ALL, have
+# the other ENVIRONMENT:
+# cmake -DPROGRAM=... -DLIST=... -DLEFT_OUT=... -DPROPERTIES=... -DQUICK=... -DENVIRONMENT=... -P
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE tests COMMAND_ERROR_IS_FATAL ANY)
 # Suites begin at the margin and end with a full stop; behind it may stand what type or value they have.
 string(REGEX MATCHALL "\n[^ \n]+\\.[^\n]*" suites "\n${tests}")
 if(NOT suites)
     message(FATAL_ERROR "${PROGRAM} lists no suites")
 endif()
+string(REPLACE ";" " " PROPERTIES "${PROPERTIES}")
 set(entries)
 foreach(suite IN LISTS suites)
     string(REGEX REPLACE "^\n([^ \n]+)\\.[^.]*$" "\\1" suite "${suite}")
@@ -16,9 +18,18 @@ foreach(suite IN LISTS suites)
     endif()
     string(APPEND entries "add_test([=[${suite}]=] [=[${PROGRAM}]=] [=[--gtest_filter=${suite}.*]=])\n"
                           "set_tests_properties([=[${suite}]=] PROPERTIES ${PROPERTIES})\n")
+    list(FIND QUICK "${suite}" at)
+    if(NOT at EQUAL -1 OR QUICK STREQUAL "ALL")
+        string(APPEND entries "set_tests_properties([=[${suite}]=] PROPERTIES ENVIRONMENT [=[${ENVIRONMENT}]=])\n")
+    endif()
+    if(NOT at EQUAL -1)
+        list(REMOVE_AT QUICK ${at})
+    endif()
 endforeach()
-if(LEFT_OUT)
-    message(FATAL_ERROR "${PROGRAM} has no suites ${LEFT_OUT}")
+if(QUICK STREQUAL "ALL")
+    set(QUICK "") # not unset: there is a cached one
 endif()
-string(REPLACE ";" " " entries "${entries}")
+if(LEFT_OUT OR QUICK)
+    message(FATAL_ERROR "${PROGRAM} has no suites ${LEFT_OUT} ${QUICK}")
+endif()
 file(WRITE ${LIST} "${entries}")

@@ -163,13 +163,15 @@ function(stromboli_check_layers)
     endforeach()
 endfunction()
 
-# stromboli_suites(NAME LEFT_OUT property value ...): makes a ctest entry of each suite of a GoogleTest
-# program, which is asked for them once it is linked, but of those of the list LEFT_OUT.
-function(stromboli_suites name left_out)
+# stromboli_suites(NAME LEFT_OUT QUICK ENVIRONMENT property value ...): makes a ctest entry of each suite of a
+# GoogleTest program, which is asked for them once it is linked, but of those of the list LEFT_OUT. Those of the list
+# QUICK have the other environment.
+function(stromboli_suites name left_out quick environment)
     set(list ${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake)
     add_custom_command(TARGET ${name} POST_BUILD
         COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:${name}> -DLIST=${list}
                 "-DLEFT_OUT=${left_out}" "-DPROPERTIES=${ARGN}"
+                "-DQUICK=${quick}" "-DENVIRONMENT=${environment}"
                 -P ${PROJECT_SOURCE_DIR}/cmake/ListSuites.cmake
         BYPRODUCTS ${list}
         VERBATIM)
@@ -195,7 +197,7 @@ function(stromboli_test_objects name)
 endfunction()
 
 # stromboli_test(NAME SOURCES a.cpp ... DEPENDS lib ... [LABELS l] [TIMEOUT seconds] [MANY_KERNELS]
-#                [BY_SUITES] [NOT_SANITIZED] [SUITES_NOT_SANITIZED suite ...]):
+#                [BY_SUITES] [QUICK_KERNELS suite ...] [NOT_SANITIZED] [SUITES_NOT_SANITIZED suite ...]):
 # one GoogleTest executable; each of its tests becomes a ctest entry. Tests that use a Vulkan device
 # (label device) are left out under sanitizers: drivers leak, and software ones are slow already.
 # NOT_SANITIZED ones are, too: of commands that measure, print and install, and read no file but the
@@ -205,11 +207,15 @@ endfunction()
 # MANY_KERNELS: leaves out the core checks of the Vulkan validation layer, which optimise and validate
 # each specialised kernel anew and take up to three quarters of a test that compiles one. For tests
 # that ask of the device what others ask that keep the checks.
+# QUICK_KERNELS: suites, or ALL, of a program BY_SUITES for which lavapipe's compiler takes longer than their kernels run:
+# it leaves out optimisation, which halves its time, makes kernels two to three times slower and leaves every bit as it
+# is. Other drivers do not know the setting. For tests of what the shaders say: that the compiler optimises them rightly
+# is asked by those that compare kernels with plain ones, and by all others, which have it.
 # BY_SUITES: the ctest entries are the program's test suites, not its tests: where the device takes longer
 # to open, and kernels that tests share longer to compile, than the tests take to run.
 function(stromboli_test name)
     cmake_parse_arguments(ARG "MANY_KERNELS;BY_SUITES;NOT_SANITIZED" "TIMEOUT;LABELS"
-                          "SOURCES;DEPENDS;SUITES_NOT_SANITIZED" ${ARGN})
+                          "SOURCES;DEPENDS;QUICK_KERNELS;SUITES_NOT_SANITIZED" ${ARGN})
     set(left_out FALSE)
     if(STROMBOLI_SANITIZE AND (ARG_NOT_SANITIZED OR "device" IN_LIST ARG_LABELS))
         set(left_out TRUE)
@@ -236,15 +242,16 @@ function(stromboli_test name)
             VK_LAYER_DISABLES=set:VK_VALIDATION_FEATURE_DISABLE_CORE_CHECKS_EXT)
     endif()
     # Tests leave nothing in the user's cache folder, and find nothing there.
-    set(properties TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT STROMBOLI_CACHE_DIR= ${checks})
+    set(environment STROMBOLI_CACHE_DIR=)
+    set(properties TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT ${environment} ${checks})
     if(ARG_LABELS)
         list(APPEND properties LABELS ${ARG_LABELS})
     endif()
     # Under sanitizers a process takes longer to start than most tests to run.
     if(STROMBOLI_SANITIZE)
-        stromboli_suites(${name} "${ARG_SUITES_NOT_SANITIZED}" ${properties})
+        stromboli_suites(${name} "${ARG_SUITES_NOT_SANITIZED}" "" "" ${properties})
     elseif(ARG_BY_SUITES)
-        stromboli_suites(${name} "" ${properties})
+        stromboli_suites(${name} "" "${ARG_QUICK_KERNELS}" "${environment};GALLIVM_PERF=nopt" ${properties})
     else()
         gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST NO_PRETTY_VALUES PROPERTIES ${properties})
     endif()

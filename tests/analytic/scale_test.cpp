@@ -40,7 +40,9 @@ TEST_P(Scale, LeavesTheCornellBoxAsItIs) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Factors, Scale, testing::Values(1e-12f, 1e-6f, 1e-3f, 1e3f, 1e6f, 1e12f),
+// A small factor and one far beyond it each way: a length in the renderer shows the more, the
+// further the scene is from it.
+INSTANTIATE_TEST_SUITE_P(Factors, Scale, testing::Values(1e-12f, 1e-3f, 1e3f, 1e12f),
                          test::NamedByValue{});
 
 } // namespace

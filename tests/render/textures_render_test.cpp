@@ -129,7 +129,11 @@ const Mode kModes[] = {
     {"misAll", [](RenderSettings& s) { s.estimator.directLight = DirectLight::MisAll; }},
     {"hemisphere", [](RenderSettings& s) { s.estimator.directLight = DirectLight::Hemisphere; }},
     {"bsdf", [](RenderSettings& s) { s.estimator.directLight = DirectLight::Bsdf; }},
-    {"branches", [](RenderSettings& s) { s.estimator.branches = 3; }},
+    {"branches",
+     [](RenderSettings& s) { // 144 branches a pixel: more than other modes have paths
+         s.estimator.branches = 3;
+         s.budget.mostSamplesPerPixel /= 2;
+     }},
     {"normals", [](RenderSettings& s) { s.estimator.integrator = Integrator::Normals; }},
 };
 
@@ -138,6 +142,16 @@ RenderSettings settings(uint32_t samples) {
     s.area.width = 48, s.area.height = 40;
     s.budget.mostSamplesPerPixel = samples;
     s.estimator.maxBounces = 5;
+    return s;
+}
+
+/// A picture that shows whether its bytes depend on how work is cut: a few hundred pixels, more
+/// than the fewest lanes below, of some samples each. More would take longer where dispatches are
+/// short.
+RenderSettings cutSettings() {
+    RenderSettings s = settings(4);
+    s.area.width = 24, s.area.height = 20;
+    s.estimator.branches = 2;
     return s;
 }
 
@@ -183,8 +197,7 @@ TEST_P(ReliefRules, KernelAndReferenceAgree) {
 
 TEST_P(ReliefRules, BytesAreTheSameHoweverWorkIsCut) {
     const Scene scene = reliefRoom(GetParam());
-    RenderSettings s = settings(6);
-    s.estimator.branches = 2;
+    const RenderSettings s = cutSettings();
     const Film whole = renderOnDevice(testDevice(), scene, camera(), s);
     for (const KernelTuning& tuning :
          {KernelTuning{.fixedIterations = 1}, {.lanes = 100, .fixedIterations = 50}})
@@ -198,8 +211,7 @@ class TexturedRoomBytes : public DeviceTest {};
 
 TEST_F(TexturedRoomBytes, AreTheSameHoweverWorkIsCut) {
     const Scene scene = texturedRoom();
-    RenderSettings s = settings(6);
-    s.estimator.branches = 2;
+    RenderSettings s = cutSettings();
     s.estimator.lightSamples = 2;
     const Film whole = renderOnDevice(testDevice(), scene, camera(), s);
     for (const KernelTuning& tuning : {KernelTuning{.fixedIterations = 1},
