@@ -95,7 +95,7 @@ TEST_F(Program, TheWidthOfVectorsDoesNotShow) {
 TEST_F(Program, ShowsProgressOnATerminal) {
     // script (bsdutils, on every Debian) gives the program a terminal of its own.
     const std::string command = "script -qec '" STROMBOLI_PROGRAM " render " + scene + " -o " +
-                                folder.file("a.png") + " -r 32 24 -s 64' /dev/null </dev/null >" +
+                                folder.file("a.png") + " -r 32 24 -s 4096' /dev/null </dev/null >" +
                                 folder.file("terminal");
     ASSERT_EQ(std::system(command.c_str()), 0);
     const std::string shown = bytesOf(folder.path() / "terminal");
@@ -205,6 +205,7 @@ TEST_F(Program, SameArgumentsSameBytes) {
 }
 
 TEST_F(Program, SpreadsSamplesUnlessToldNotTo) {
+    scene = libraryScene("light_spot.dae"); // much of it is dark
     render("a.exr", {"-s", "40", "--aov", "--stats", folder.file("a.json")});
     render("b.exr", {"-s", "40", "--aov"});
     render("even.exr", {"-s", "40", "--aov", "--even", "--stats", folder.file("even.json")});

@@ -225,10 +225,10 @@ rm out.exr.shares/part.{3,8,9}of16.film
 [[ $(again) == 3,8-9 ]] || die "submit would take $(again), not 3,8-9"
 echo "only what is missing is submitted again"
 
-# Rounds until the noise is what is asked for: it takes two, and the third ends at once.
+# Rounds until the noise is what is asked for: it takes three, and the fourth ends at once.
 picture="$scene -r 24 18 -s 16 --block 8"
 noise=0.24
-"$stromboli" submit slurm $picture -o rounds.exr --shares 2 --noise $noise --rounds 3 \
+"$stromboli" submit slurm $picture -o rounds.exr --shares 2 --noise $noise --rounds 4 \
     --job-time 5 --program "$folder/stromboli" || die "submit of rounds failed"
 by_hand() {
     local round=2 films="$folder/hand1.film"
@@ -247,6 +247,6 @@ until_true 20 merged || die "jobs of rounds are left"
 cmp "$folder/hand.exr" rounds.exr || die "the picture of rounds has other bytes than by hand"
 [[ -e failed_round && -e failed_plan && -e failed_merge ]] ||
     die "no share of a round, no plan or no merge has failed"
-[[ -e rounds.exr.shares/round2.plan && ! -e rounds.exr.shares/round3.plan ]] ||
-    die "there were not two rounds"
+[[ -e rounds.exr.shares/round3.plan && ! -e rounds.exr.shares/round4.plan ]] ||
+    die "there were not three rounds"
 echo "rounds have the bytes of rounds by hand, and end when the noise is reached"

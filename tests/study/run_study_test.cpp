@@ -15,7 +15,7 @@ namespace {
 
 class NoiseBackend final : public Backend {
   public:
-    /// `share`: of the noise that the lower half has.
+    /// `share`: of the noise that all but the upper quarter has.
     NoiseBackend(double sigma, double share, uint32_t seed)
         : sigma_(sigma), share_(share), seed_(seed) {}
 
@@ -36,7 +36,7 @@ class NoiseBackend final : public Backend {
         x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
         x ^= x >> 31;
         const double noise = double(x >> 11) * 0x1p-52 - 1; // in [-1, 1)
-        const double sigma = sigma_ * (pixel / (24 * 10) ? share_ : 1);
+        const double sigma = sigma_ * (pixel / (24 * 5) ? share_ : 1);
         return {glm::dvec3(1 + sigma * std::sqrt(3.0) * noise), false}; // variance sigma^2
     }
     RenderCounters counters() const override { return {paths_, 2 * paths_}; }
@@ -73,7 +73,7 @@ struct FakeRenderer {
             render.settings.budget.meanSamplesPerPixel = after("-s");
             render.settings.budget.mostSamplesPerPixel = 1u << 20;
         }
-        render.backend = std::make_unique<NoiseBackend>(after("-l") ? 0.5 : 0.25, spread ? 0.1 : 1,
+        render.backend = std::make_unique<NoiseBackend>(after("-l") ? 0.5 : 0.25, spread ? 0.02 : 1,
                                                         after("--seed"));
         return render;
     }
