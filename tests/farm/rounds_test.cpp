@@ -313,8 +313,9 @@ TEST_F(Rounds, SharesWithoutSamplesDoNoHarm) {
 }
 
 /// The case in which samples that decide about their own number do harm (noise_plan_test.cpp): a
-/// quarter of the picture has rare light, one sample in 50. Over 400 seeds the picture's mean after three
-/// rounds is 1 within a thousandth and three standard errors, as that of a render of one machine.
+/// quarter of the picture has rare light, one sample in 50. Over 400 seeds the picture's mean after
+/// three rounds is 1 within a thousandth and three standard errors, as that of a render of one
+/// machine.
 TEST(RoundPlan, DoesNotDarken) {
     const Draw caustic = [](uint32_t pixel, Random& random) {
         if (pixel % kSide < 3 * kSide / 4) return gamma(0.5, random);

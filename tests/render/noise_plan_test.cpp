@@ -128,8 +128,8 @@ TEST(StopRule, PixelsThatLookFinishedGetTheirShare) {
 }
 
 TEST(StopRule, SpreadingDoesNotDarken) {
-    // A quarter of the picture has rare light, one sample in 50, that a pixel may meet or not in its
-    // first samples: the case in which samples that decide about their own number do harm.
+    // A quarter of the picture has rare light, one sample in 50, that a pixel may meet or not in
+    // its first samples: the case in which samples that decide about their own number do harm.
     const Draw caustic = [](uint32_t pixel, Random& random) {
         if (pixel % kSide < 3 * kSide / 4) return gamma(0.5, random);
         return std::bernoulli_distribution(0.02)(random) ? 50.0 : 0.0;
