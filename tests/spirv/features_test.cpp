@@ -184,8 +184,10 @@ TEST(Features, WhatTheCornellBoxLacksLeavesNoTrace) {
     EXPECT_TRUE(with == without) << with.size() << " and " << without.size() << " words";
 }
 
-/// What the camera sees is an integrator of the same kernels. Those of radiance are the same words
-/// as if it had never been written: it is cut out of the source here.
+/// What the camera sees is an integrator of the same kernels. All that is asked for by its name is
+/// cut out of the source here, and kernels of radiance are the same words: the specialiser leaves
+/// nothing of it behind that the compiler would not. What stands outside of these conditions this
+/// test cannot see; it changes radiance, or is dead.
 TEST(Features, SeeingLeavesNoTraceInKernelsOfRadiance) {
     const std::regex asked("INTEGRATOR ?== ?INTEGRATOR_(COVERAGE|LAYERS)");
     struct Kernel {
