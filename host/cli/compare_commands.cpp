@@ -281,6 +281,23 @@ ExitCode exitCodeOf(Verdict verdict) {
                                            : ExitCode::Undecided;
 }
 
+/// An error is worse than a difference, and that than too few samples to tell.
+ExitCode worseOf(ExitCode a, ExitCode b) {
+    const auto badness = [](ExitCode code) {
+        switch (code) {
+        case ExitCode::Success:
+            return 0;
+        case ExitCode::Undecided:
+            return 1;
+        case ExitCode::Device:
+            return 2;
+        default:
+            return 3;
+        }
+    };
+    return badness(b) > badness(a) ? b : a;
+}
+
 /// Renders the scene in both ways and compares the two.
 CheckResult checkScene(RenderSession& onDevice, RenderSession& onHost,
                        const CheckOptions& options) {
@@ -317,14 +334,12 @@ int checkCommand(const CheckOptions& options) {
             if (prints)
                 fmt::print("A: {}\nB: {}\n{}", onDevice.result().backend, onHost.result().backend,
                            formatCheck(result));
-            const ExitCode code = exitCodeOf(result.verdict());
-            if (worst == ExitCode::Success || code == ExitCode::Device)
-                worst = code == ExitCode::Success ? worst : code;
+            worst = worseOf(worst, exitCodeOf(result.verdict()));
         } catch (const Error& error) {
             if (!several || error.kind() == ErrorKind::DeviceLost) throw;
             logging::error(error.what());
             scenes.push_back({{"scene", name}, {"verdict", "failed"}, {"error", error.what()}});
-            worst = exitCodeOf(error.kind());
+            worst = worseOf(worst, exitCodeOf(error.kind()));
         }
     if (!options.jsonFile.empty())
         writeOutput(options.jsonFile,

@@ -89,17 +89,24 @@ RenderOptions lineOf(const SuitePicture& p, bool golden) {
                                      "--even",
                                      "--branches",
                                      "1"};
-    const auto states = [&](const char* option) {
-        return std::ranges::find(p.options, option) != p.options.end();
+    const auto states = [&](const std::string& option) {
+        return std::ranges::any_of(p.options, [&](const std::string& word) {
+            return word == option || word.starts_with(option + "=");
+        });
     };
+    if (states("--seed"))
+        throw UsageError("--seed is the suite's: golden pictures and those that they judge must "
+                         "have different samples");
     if (!states("--sampler")) line.insert(line.end(), {"--sampler", "independent"});
     if (golden) line.insert(line.end(), {"--seed", std::to_string(kGoldenSeed)});
     line.insert(line.end(), p.options.begin(), p.options.end());
     const std::optional<ParsedCommand> parsed = parseOptions(line);
     const RenderOptions* options = parsed ? std::get_if<RenderOptions>(&parsed->options) : nullptr;
     if (!options || options->sampleAlone || options->sequence.isGiven() ||
-        !options->device.device.empty())
-        throw UsageError(fmt::format("a suite's pictures are single ones, all on one device: {}",
+        !options->cameras.empty() || options->share.share ||
+        options->picture.denoiser != Denoiser::Off || !options->device.device.empty())
+        throw UsageError(fmt::format("a suite's pictures are single ones, all on one device and "
+                                     "judged with their noise: {}",
                                      fmt::join(p.options, " ")));
     return *options;
 }
@@ -123,7 +130,7 @@ class Maker {
     /// Throws Error. The session has the picture's pixels until the next one.
     Film make(const SuitePicture& p, bool golden) {
         const RenderOptions options = lineOf(p, golden);
-        const LoadedScene scene = loadScene(options.scene, quiet_);
+        const LoadedScene scene = loadScene(options.scene, toTerminal());
         ProgressBar bar;
         SessionEvents events;
         events.progress = [&bar](const RenderProgress& progress) {
@@ -139,7 +146,6 @@ class Maker {
     std::string device() const { return session_.result().backend; }
 
   private:
-    Listener quiet_; ///< what a file lacks is said by `info`
     RenderSession session_;
 };
 

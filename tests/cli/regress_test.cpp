@@ -61,6 +61,17 @@ TEST(RegressCommand, AChangeIsFoundAndTheOthersGoOn) {
     EXPECT_THAT(contentOf(folder.file("out/junit.xml")), HasSubstr("<failure"));
 }
 
+TEST(RegressCommand, OptionsThatWouldBeWithoutEffectAreRefused) {
+    for (const char* options :
+         {"--seed 3", "--seed=3", "--denoise on", "--share 1/2", "--camera all"}) {
+        const ScratchFolder folder;
+        writeSuite(folder, std::string("options = \"") + options + "\"\n");
+        const ProgramRun run = regress(folder, {"--only", "dim"});
+        EXPECT_EQ(run.exitCode, kDevice) << options;
+        EXPECT_THAT(run.out, HasSubstr("failed     dim")) << options;
+    }
+}
+
 TEST(RegressCommand, OnePictureAloneAndWhatIsWrongIsSaidBeforeTheWork) {
     const ScratchFolder folder;
     writeSuite(folder);
@@ -74,6 +85,19 @@ TEST(RegressCommand, OnePictureAloneAndWhatIsWrongIsSaidBeforeTheWork) {
     const ProgramRun wrong = regress(folder);
     EXPECT_EQ(wrong.exitCode, kScene);
     EXPECT_THAT(wrong.err, HasSubstr("suite.toml:9: <frames>"));
+}
+
+/// One sample tells nothing, and a scene that is not there is worse, wherever it stands.
+TEST(CheckCommand, EndsWithTheCodeOfTheWorstScene) {
+    const std::vector<std::string> few = {"-r", "16", "12", "-s", "1"};
+    const auto codeOf = [&](std::vector<std::string> scenes) {
+        scenes.insert(scenes.begin(), "check");
+        scenes.insert(scenes.end(), few.begin(), few.end());
+        return stromboli(scenes).exitCode;
+    };
+    EXPECT_EQ(codeOf({"light_point", "cornell_boxes"}), 6);
+    EXPECT_EQ(codeOf({"nowhere.dae", "cornell_boxes"}), kScene);
+    EXPECT_EQ(codeOf({"cornell_boxes", "nowhere.dae"}), kScene);
 }
 
 /// Of several scenes one that is not there costs itself, and the exit code is its own.
