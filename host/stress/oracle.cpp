@@ -12,7 +12,8 @@ namespace stromboli::stress {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// The distance of what is not hit for certain.
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Gathers what may and what must be hit.
 class Verdict {
@@ -30,13 +31,13 @@ class Verdict {
             latest_ = std::min(latest_, c.t + slack);
     }
     bool right() const {
-        return found_ == kMissed ? latest_ == kInfinity : explained_ && found_ <= latest_;
+        return found_ == kMissed ? latest_ == kNever : explained_ && found_ <= latest_;
     }
 
   private:
     double length_, tMax_, found_, error_;
     bool explained_ = false;
-    double latest_ = kInfinity; ///< by then something has been hit for certain
+    double latest_ = kNever; ///< by then something has been hit for certain
 };
 
 void addSphere(const Sphere& s, const Ray& ray, Verdict& verdict) {
@@ -60,7 +61,7 @@ Crossing crossTriangle(const glm::dvec3& v0, const glm::dvec3& v1, const glm::dv
     Crossing c;
     c.t = glm::dot(normal, corner[0]) / glm::dot(normal, d);
     c.cosine = std::abs(slope) / area;
-    c.margin = kInfinity;
+    c.margin = kNever;
     for (int i = 0; i < 3; ++i) {
         const glm::dvec3 a = corner[i], b = corner[(i + 1) % 3];
         const double side = glm::dot(glm::cross(a, b), axis) * (slope > 0 ? 1 : -1);
