@@ -160,8 +160,8 @@ void checkChannels(const Grid& pixels, const CheckSettings& settings, double err
         CheckChannel& channel = result.channels[c];
         channel.meanA = whole[c].sumA() / double(result.pixels);
         channel.meanB = whole[c].sumB() / double(result.pixels);
-        const double mean = 0.5 * (channel.meanA + channel.meanB);
-        channel.relativeDifference = mean > 0 ? (channel.meanA - channel.meanB) / mean : 0;
+        const double difference = channel.meanA - channel.meanB;
+        channel.relativeDifference = difference == 0 ? 0 : difference / channel.meanB;
         channel.z = whole[c].z(settings.rounding);
         channel.isBlack = whole[c].isBlack();
         channel.visible = whole[c].visible(result.channelLimit, settings.power, settings.rounding);

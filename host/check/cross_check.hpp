@@ -88,11 +88,11 @@ struct CheckBlock {
 /// One channel of the whole picture.
 struct CheckChannel {
     double meanA = 0, meanB = 0;
-    double relativeDifference = 0; ///< (meanA - meanB) / the mean of both; 0 for black
+    double relativeDifference = 0; ///< (meanA - meanB) / meanB; 0 for equal means
     double z = 0;
     bool isBlack = false; ///< in both films
-    /// The smallest relativeDifference of the whole picture that the test of the means finds with
-    /// probability CheckSettings::power; infinite: it finds none.
+    /// The smallest difference of the means, over the mean of both, that the test of the means
+    /// finds with probability CheckSettings::power; infinite: it finds none.
     double visible = 0;
 };
 

@@ -304,8 +304,13 @@ DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, const Words
     CLI::App app(fmt::format("Stromboli: {}.\n{}", kInOneLine, kWhatItDoes), "stromboli");
     app.set_version_flag("--version", std::string("stromboli ") + version());
     app.require_subcommand(1);
-    app.footer(fmt::format("'stromboli COMMAND --help' explains a command. Exit codes: {}. {}",
-                           exitCodesInOneLine(), kHowNumbersAreWritten));
+    std::string examples;
+    for (const Explained& command : kFirstCommands)
+        examples += fmt::format("  stromboli {:<39} {}\n", command.word, command.meaning);
+    app.footer(
+        fmt::format("Examples:\n{}\n'stromboli help COMMAND' explains a command. Exit codes: "
+                    "{}. {}",
+                    examples, exitCodesInOneLine(), kHowNumbersAreWritten));
     checkCommandName(commands, asked);
     const auto named = std::ranges::find(commands, asked.front(), &DeclaredCommand::name);
     const Words words = named == commands.end() ? asked : withoutJoinedNumbers(named->list, asked);
@@ -313,6 +318,7 @@ DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, const Words
     std::vector<CLI::App*> apps;
     for (const DeclaredCommand& c : commands) {
         CLI::App* one = apps.emplace_back(app.add_subcommand(c.name, c.description));
+        one->group(c.group);
         if (!c.footer.empty()) one->footer(c.footer);
         for (const bool common : {true, false}) // in the order of --help
             for (const CommandOption& o : c.list.all())

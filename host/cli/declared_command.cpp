@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <limits>
 #include <sstream>
+#include <stdexcept>
 
 namespace stromboli {
 
@@ -265,63 +266,14 @@ CommandOption& OptionList::list(std::string names, std::string valueName, std::s
 }
 
 void OptionList::makeCommon(const Words& names) {
-    for (CommandOption& o : options_)
-        if (std::ranges::count(names, o.name()) > 0) o.common();
-}
-
-// --- All commands --------------------------------------------------------------------------------
-
-// All commands, in the order in which --help lists them.
-
-std::deque<DeclaredCommand> declareCommands() {
-    struct Entry {
-        const char* name;
-        const char* description;
-        void (*declare)(DeclaredCommand&);
-    };
-    static constexpr Entry kEntries[] = {
-        {"render", "Render a scene to a picture", declareRender},
-        {"view", "Look at a scene in a browser, move about in it, and watch the picture get better",
-         declareView},
-        {"check", "Render on the device and with the CPU reference; say whether they agree",
-         declareCheck},
-        {"info", "What a scene holds, what its kernel contains, sizes of all buffers, its BVH",
-         declareInfo},
-        {"kernels", "What a GPU's driver makes of the kernels of scenes: registers, spills, waves",
-         declareKernels},
-        {"devices", "List Vulkan devices and which one is chosen, and why", declareDevices},
-        {"bench", "Measure BVH, rays, paths, start-up; against Embree where that is installed",
-         declareBench},
-        {"compare", "How far a picture is from a reference: relMSE, PSNR, SSIM, FLIP, bias; limits",
-         declareCompare},
-        {"tonemap",
-         "Make a picture for a screen from one of radiance (EXR, HDR, PFM), as render does",
-         declareTonemap},
-        {"denoise",
-         "Take the noise out of a picture of radiance (EXR), and say how far it is from the truth",
-         declareDenoise},
-        {"merge", "Put films of shares (render --share) together: to a picture, or to a film again",
-         declareMerge},
-        {"plan", "Spread the samples of the next round of shares to where films are noisy",
-         declarePlan},
-        {"submit", "Have a cluster render a picture: shares on its nodes, and their merge",
-         declareSubmit},
-        {"study", "Error against time and samples of several configurations; a report to look at",
-         declareStudy},
-        {"stress",
-         "Try the hard cases of docs/theory/hard_cases.md on the device: does it do them right?",
-         declareStress},
-        {"regress", "Test a suite of pictures against golden ones, by statistics; for CI",
-         declareRegress},
-    };
-    std::deque<DeclaredCommand> commands;
-    for (const Entry& entry : kEntries) {
-        DeclaredCommand& c = commands.emplace_back();
-        c.name = entry.name;
-        c.description = entry.description;
-        entry.declare(c);
+    for (const std::string& name : names) {
+        const auto named = std::ranges::find_if(options_, [&](const CommandOption& o) {
+            const Words dashed = o.dashedNames();
+            return std::ranges::count(dashed, name) > 0;
+        });
+        if (named == options_.end()) throw std::logic_error("no option is called " + name);
+        named->common();
     }
-    return commands;
 }
 
 } // namespace stromboli

@@ -41,6 +41,7 @@ inline constexpr Unit kTimes[] = {{"h", 3600}, {"min", 60}, {"m", 60}, {"s", 1},
 inline constexpr Unit kLengths[] = {{"km", 1e3}, {"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}};
 inline constexpr Unit kShares[] = {{"%", 0.01}};
 inline constexpr Unit kPercents[] = {{"%", 1}};
+inline constexpr Unit kMebibytes[] = {{"TiB", 1 << 20}, {"GiB", 1024}, {"G", 1024}, {"MiB", 1}};
 inline constexpr Unit kDegrees[] = {{"rad", 57.29577951308232}, {"deg", 1}, {"\u00b0", 1}};
 
 /// A number as host/core/text.hpp says, or one or more with units behind them, the larger first:
@@ -177,7 +178,8 @@ class OptionList {
                          uint32_t count, std::function<void(const Words&)> store);
 
     const std::deque<CommandOption>& all() const { return options_; }
-    /// Makes options common (CommandOption::common), by their first names.
+    /// Makes options common (CommandOption::common), by any of their names. Throws std::logic_error
+    /// for a name that none has.
     void makeCommon(const Words& names);
 
   private:
@@ -189,7 +191,8 @@ class OptionList {
 
 /// A command with its options.
 struct DeclaredCommand {
-    std::string name, description, footer;
+    std::string name, description, group, footer;
+    std::vector<std::string> examples; ///< whole command lines, which the footer has too
     OptionList list;
     HostOptions host;
     std::set<std::string> given; ///< names of the options on the command line
@@ -252,8 +255,8 @@ struct Asked {
     std::optional<Crop> cell;     ///< y counts from the bottom of the picture
     std::optional<uint32_t> accumulate;
     std::vector<std::string> cameras; ///< RenderOptions::cameras
-    SampleName sample;
-    bool sampleAlone = false; ///< `sample` and nothing else
+    PixelQuestion pixel;
+    bool pixelAlone = false; ///< `pixel` and nothing else
 };
 
 /// several: where a command takes more than one scene; their names go there, and not into `scene`.

@@ -67,6 +67,7 @@ constexpr Range<uint32_t> kSampleNumbers{0, kMostSamples - 1};
 constexpr Range<double> kTolerance{0, 1e6};
 constexpr Range<double> kNoise{1e-6, 1e6}; // a float has no more digits
 constexpr Range<double> kSeconds{0.01, 1e9};
+constexpr Range<double> kMemory{1, 1e7};
 const char* const kBothSpread = "both say where samples go";
 
 void checkBranches(const RenderRequest& picture, const Asked& asked) {
@@ -248,7 +249,7 @@ void finishBudget(RenderRequest& picture, const Asked& asked) {
     // Samples go where they help most unless something else is asked for. With as few as the
     // first, uniform pass takes there is nothing to spread.
     const bool isSpreadOtherwise =
-        asked.even || b.adaptive.enabled || b.stop.open() || asked.sampleAlone;
+        asked.even || b.adaptive.enabled || b.stop.open() || asked.pixelAlone;
     if (!asked.maySpread || !asked.usuallySpread || isSpreadOtherwise ||
         b.pathsPerPixel() <= NoisePlan::kFirstPaths)
         return;
@@ -263,6 +264,13 @@ void declareFilmMemory(OptionList& list, DeviceRequest& device) {
                 "rendered in bands",
                 device.filmMebibytes, {1, 1u << 30})
         .usually("half of the machine's memory")
+        .besidePicture();
+    list.real("--max-memory", "M",
+              "mebibytes (2000, 2GiB) for the whole process, by an estimate before the first "
+              "sample: a picture that needs more is rendered in bands, a scene that does is an "
+              "error",
+              device.mostMebibytes, kMemory, kMebibytes)
+        .usually("no limit")
         .besidePicture();
 }
 

@@ -103,6 +103,13 @@ struct ProgressRequest {
     double everySeconds = 10; ///< from one line to the next
 };
 
+/// What is to be told of one pixel in place of a picture.
+struct PixelQuestion {
+    uint32_t x = 0, y = 0;          ///< column, row from the top
+    std::optional<uint32_t> sample; ///< one of them; empty: all together
+    std::string jsonFile;           ///< empty: text
+};
+
 struct RenderOptions : SceneAndPicture {
     OutputOptions output;
     WatchOptions watch;
@@ -114,7 +121,7 @@ struct RenderOptions : SceneAndPicture {
     CheckpointOptions checkpoint;
     bool skipExisting = false; ///< pictures that are finished are not rendered again
     ShareOptions share;
-    std::optional<SampleName> sampleAlone; ///< print this sample and write nothing
+    std::optional<PixelQuestion> pixelAlone; ///< explain this pixel and make no picture
     /// The command without what leaves the picture as it is: its own name, the device, checkpoints.
     /// Words that belong together are one of its parts.
     std::vector<std::string> command;
@@ -247,9 +254,10 @@ inline constexpr auto kNamedValues<Scheduler> = std::to_array<NamedValue<Schedul
 struct SubmitOptions : SceneAndPicture {
     OutputOptions output;
     Scheduler scheduler = Scheduler::Slurm;
-    uint32_t shares = 0;
-    double noise = 0;    ///< to be reached in rounds; 0: one round
-    uint32_t rounds = 8; ///< at most
+    uint32_t shares = 0;      ///< 0: frames are rendered whole
+    SequenceOptions sequence; ///< a picture of each frame
+    double noise = 0;         ///< to be reached, of shares in rounds; 0: no such end
+    uint32_t rounds = 8;      ///< at most
     /// Options of the commands that the nodes run, quoted for a shell.
     std::vector<std::string> render, merge;
     std::string program; ///< as the nodes find it; empty: where this one is

@@ -55,9 +55,7 @@ void declareRegress(DeclaredCommand& c) {
     declareHost(c);
     c.footer =
         "Exit codes: 0 all pictures agree; 3 one differs, has no golden picture or could not "
-        "be made; 6 none differs, but one has too few samples to tell.\n"
-        "Example: stromboli regress examples/ci/suite.toml --update; stromboli regress "
-        "examples/ci/suite.toml -o regress";
+        "be made; 6 none differs, but one has too few samples to tell.";
     c.finish = [&c, o] {
         o->device.threads = c.host.threads;
         o->device.maybeSeveral = false;
@@ -102,7 +100,7 @@ RenderOptions lineOf(const SuitePicture& p, bool golden) {
     line.insert(line.end(), p.options.begin(), p.options.end());
     const std::optional<ParsedCommand> parsed = parseOptions(line);
     const RenderOptions* options = parsed ? std::get_if<RenderOptions>(&parsed->options) : nullptr;
-    if (!options || options->sampleAlone || options->sequence.isGiven() ||
+    if (!options || options->pixelAlone || options->sequence.isGiven() ||
         !options->cameras.empty() || options->share.share ||
         options->picture.denoiser != Denoiser::Off || !options->device.device.empty())
         throw UsageError(fmt::format("a suite's pictures are single ones, all on one device and "

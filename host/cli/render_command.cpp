@@ -1,6 +1,7 @@
-// `render`: a picture, a share of one, several, or one sample.
+// `render`: a picture, a share of one, or several.
 #include "host/checkpoint/checkpoint_file.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/explain.hpp"
 #include "host/cli/log.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/render_outputs.hpp"
@@ -71,11 +72,6 @@ std::string checkpointFileOf(const RenderOptions& options) {
     return asked.empty() ? usualCheckpointPath(options.output.file).string() : asked;
 }
 
-bool hasCheckpoint(const RenderOptions& options) {
-    const std::string file = checkpointFileOf(options);
-    return !file.empty() && (std::filesystem::exists(file) || bandsKept(file) > 0);
-}
-
 /// Throws the UsageError that nothing tells which pictures are finished, where that is asked for.
 void requireCheckpoints(const RenderOptions& options) {
     if (options.checkpoint.file != "off") return;
@@ -86,9 +82,9 @@ void requireCheckpoints(const RenderOptions& options) {
                          "and --checkpoint is off");
 }
 
-/// Whether an earlier run has finished the picture: it is there, and no checkpoint is left of it.
+/// Whether an earlier run has finished the picture.
 bool isFinished(const RenderOptions& options) {
-    return std::filesystem::is_regular_file(options.output.file) && !hasCheckpoint(options);
+    return isFinishedPicture(options.output.file, checkpointFileOf(options));
 }
 
 /// Those of several pictures that are still to be rendered, where the options ask for no others.
@@ -101,7 +97,8 @@ std::vector<RenderOptions> unfinished(std::vector<RenderOptions> pictures) {
         logging::info(
             fmt::format("{} of {} pictures are there already", all - pictures.size(), all));
     for (RenderOptions& o : pictures)
-        if (!hasCheckpoint(o)) o.checkpoint.resume = false; // of one that has not begun
+        if (!hasCheckpoint(checkpointFileOf(o)))
+            o.checkpoint.resume = false; // of one that has not begun
     return pictures;
 }
 
@@ -236,43 +233,6 @@ LoadedScene load(const SceneAndPicture& work) {
     return scene;
 }
 
-/// A picture of its size, of which only the one pixel is rendered.
-ResolvedPicture pictureOfPixel(ResolvedPicture picture, const SampleName& name) {
-    PictureArea& area = picture.settings.area;
-    if (name.x >= area.width || name.y >= area.height)
-        throw UsageError(fmt::format("--pixel {} {} is not in the picture of {} x {}", name.x,
-                                     name.y, area.width, area.height));
-    area.crop = {name.x, name.y, 1, 1};
-    return picture;
-}
-
-std::string verdict(const SampleValue& value) {
-    if (!value.rejected) return "accepted";
-    for (int c = 0; c < 3; ++c)
-        if (!std::isfinite(value.radiance[c])) return "rejected: not finite";
-    const double least = std::min({value.radiance.x, value.radiance.y, value.radiance.z});
-    return least < 0 ? "rejected: negative" : "rejected: too large";
-}
-
-/// Prints the radiance of one sample of one pixel, by itself, and whether it is rejected.
-int renderSample(const RenderOptions& options) {
-    const SampleName& name = *options.sampleAlone;
-    Renderer renderer(options.device, toTerminal());
-    const PreparedPicture prepared = preparePicture(options);
-    const ResolvedPicture picture = pictureOfPixel(prepared.picture, name);
-    renderer.begin(prepared.scene.scene, picture, 0);
-    constexpr uint32_t pixel = 0; // the only one
-    const SampleValue value =
-        renderer.backend(picture.settings, false)->sampleAlone(pixel, name.sample);
-    renderer.requireNoValidationMessages();
-    nowDoing("printing", StatusLine::OfOthers);
-    // Enough digits to tell any two floats, or doubles, apart.
-    const int digits = options.device.backend == BackendChoice::Vulkan ? 9 : 17;
-    fmt::print("radiance {:.{}g} {:.{}g} {:.{}g}\n{}\n", value.radiance.x, digits, value.radiance.y,
-               digits, value.radiance.z, digits, verdict(value));
-    return 0;
-}
-
 } // namespace
 
 PreparedPicture preparePicture(const SceneAndPicture& work) {
@@ -282,7 +242,7 @@ PreparedPicture preparePicture(const SceneAndPicture& work) {
 }
 
 int renderCommand(const RenderOptions& options) {
-    if (options.sampleAlone) return renderSample(options);
+    if (options.pixelAlone) return explainPixel(options);
     requireCheckpoints(options);
     const bool several = !options.cameras.empty() || options.sequence.isGiven();
     if (!several && options.skipExisting && isFinished(options)) {
@@ -290,6 +250,11 @@ int renderCommand(const RenderOptions& options) {
         return 0;
     }
     if (!several) checkOutputs(options);
+    if (options.share.share && options.sequence.isGiven()) {
+        RenderOptions frame = optionsOfFrames(options).front(); // the only one
+        frame.output.file = options.output.file;
+        return renderShare(frame);
+    }
     if (options.share.share) return renderShare(options);
     Keeping keeping;
     if (!several) keeping = keepingOf(options);

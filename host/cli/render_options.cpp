@@ -1,5 +1,6 @@
 // Options of `render`.
 #include "host/cli/declared_command.hpp"
+#include "host/cli/sequence.hpp"
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
 #include "host/farm/film_file.hpp"
@@ -163,29 +164,42 @@ void declareShare(OptionList& list, ShareOptions& o) {
         .besidePicture();
 }
 
-/// Options that name one sample as the line about rejected samples does: added to the same command,
-/// they show that sample again.
-void declareSampleAlone(OptionList& list, Asked& asked) {
-    list.group("Sampling");
-    SampleName& name = asked.sample;
-    list.numbers("--pixel", "X Y",
-                 "with --sample: no picture, only print the radiance of one sample of this pixel "
-                 "(column, row from the top)",
-                 {&name.x, &name.y}, {0, 65535})
-        .needs("--sample");
-    list.words("--sample", "N", "the sample's number, the first being 0", 1,
+/// They name a sample as the line about rejected samples does: added to the same command, they
+/// explain that sample.
+void declarePixelAlone(OptionList& list, Asked& asked) {
+    list.group("One pixel explained");
+    list.words("--pixel", "X Y",
+               "no picture: the mean and the variance of this pixel (column, row from the top) by "
+               "kernel and reference, and its heaviest samples",
+               2,
                [&asked](const Words& words) {
-                   asked.sample.sample = readNumber("--sample", words[0], kSampleNumbers);
-                   asked.sampleAlone = true;
+                   constexpr Range<uint32_t> kPlaces{0, 65535};
+                   asked.pixel.x = readNumber("--pixel", words[0], kPlaces);
+                   asked.pixel.y = readNumber("--pixel", words[1], kPlaces);
+                   asked.pixelAlone = true;
+               })
+        .besidePicture();
+    list.words("--sample", "N",
+               "with --pixel: this sample, the first being 0, and every vertex of its path: what "
+               "the kernel does, and what the reference makes of the same path",
+               1,
+               [&asked](const Words& words) {
+                   asked.pixel.sample = readNumber("--sample", words[0], kSampleNumbers);
                })
         .from(inWords(kSampleNumbers))
-        .needs("--pixel");
+        .needs("--pixel")
+        .besidePicture();
+    list.text("--json", "FILE.json", "with --pixel: write all of it as JSON; - for standard output",
+              asked.pixel.jsonFile)
+        .needs("--pixel")
+        .besidePicture()
+        .proposes(Proposed::Files);
 }
 
 /// Each has files of its own.
 void checkSeveralPictures(const RenderOptions& o) {
     if (o.cameras.empty()) return;
-    if (o.sampleAlone) throw UsageError("--pixel is of one picture: --camera names several");
+    if (o.pixelAlone) throw UsageError("--pixel is of one picture: --camera names several");
     if (isStandardOutput(o.output.file))
         throw UsageError("-o - has place for one picture: --camera names several");
     if (o.output.statsFile == "-")
@@ -197,20 +211,18 @@ void checkSequence(const RenderOptions& o) {
     const SequenceOptions& sequence = o.sequence;
     if (!sequence.isGiven()) return;
     const char* option = sequence.turntable > 0 ? "--turntable" : "--frames";
-    if (sequence.turntable > 0 && sequence.frames && sequence.frames->last >= sequence.turntable)
-        throw UsageError(
-            fmt::format("--frames: the turntable has the frames 0 to {}", sequence.turntable - 1));
+    checkFrames(sequence, o.scene);
     if (!o.cameras.empty())
         throw UsageError(fmt::format("{} is of one camera: --camera names several", option));
-    if (o.share.share)
-        throw UsageError(fmt::format("--share is of one picture, and not of {}", option));
-    if (o.sampleAlone)
+    if (o.share.share && framesOf(sequence).size() > 1)
+        throw UsageError(fmt::format("--share is of one picture, and not of {}: give it one frame, "
+                                     "as --frames 7",
+                                     option));
+    if (o.pixelAlone)
         throw UsageError(fmt::format("--pixel is of one picture, and not of {}", option));
     if (o.output.file == "-" || o.output.statsFile == "-")
         throw UsageError(
             fmt::format("- has place for one picture, and not for those of {}", option));
-    if (sequence.turntable == 0 && o.scene.reading.selection.seconds)
-        throw UsageError("--at is one moment, --frames are many");
 }
 
 void checkShare(const RenderOptions& o) {
@@ -226,10 +238,10 @@ void remarkOnWhatIsIgnored(DeclaredCommand& c, const RenderOptions& o) {
     std::vector<std::string>& remarks = c.host.remarks;
     Words ofPictures = pictureFileOptions();
     ofPictures.insert(ofPictures.end(), {"-o", "--stats", "--layers", "--crop", "--cell"});
-    const std::string ignored = o.sampleAlone ? c.givenOf(ofPictures) : "";
+    const std::string ignored = o.pixelAlone ? c.givenOf(ofPictures) : "";
     if (!ignored.empty())
         remarks.push_back(
-            fmt::format("--pixel prints one sample and makes no picture: ignored: {}", ignored));
+            fmt::format("--pixel explains one pixel and makes no picture: ignored: {}", ignored));
     const PathBudget& budget = o.picture.budget;
     if (isStandardOutput(o.output.file) && (budget.adaptive.enabled || budget.stop.open()))
         remarks.emplace_back(
@@ -241,23 +253,23 @@ void finishRender(DeclaredCommand& c, RenderOptions& o, const Asked& asked) {
     finishEstimator(c, o, asked);
     finishBudget(o.picture, asked);
     o.cameras = asked.cameras;
-    if (asked.sampleAlone) o.sampleAlone = asked.sample;
-    o.device.maybeSeveral = !asked.sampleAlone;
+    if (asked.pixelAlone) o.pixelAlone = asked.pixel;
+    o.device.maybeSeveral = !asked.pixelAlone;
     o.device.threads = c.host.threads;
     o.command = c.pictureCommand;
     o.picture.estimator.showsBackdrop = !o.picture.transparent;
     checkSeveralPictures(o);
     checkSequence(o);
-    if (o.output.file.empty() && !o.sampleAlone)
+    if (o.output.file.empty() && !o.pixelAlone)
         throw UsageError("--output is required (see --help)");
     if (o.device.backend == BackendChoice::Reference && c.has("--device"))
         throw UsageError("--device and --backend reference exclude each other: the reference "
                          "runs on the CPU, without Vulkan");
     if (o.share.share)
         checkShare(o);
-    else if (!o.sampleAlone)
+    else if (!o.pixelAlone)
         checkOutputOptions(c, o.output, o.picture);
-    o.picture.keepsNoisy = !o.share.share && !o.sampleAlone && !isToneMapped(o.output.file);
+    o.picture.keepsNoisy = !o.share.share && !o.pixelAlone && !isToneMapped(o.output.file);
     remarkOnWhatIsIgnored(c, o);
 }
 
@@ -280,7 +292,7 @@ void declareRender(DeclaredCommand& c) {
     declareBranches(list, o->picture,
                     "4 where bounces make most of the noise, else 1 (docs/theory/estimator.md)");
     declareSpreading(list, o->picture, *asked);
-    declareSampleAlone(list, *asked);
+    declarePixelAlone(list, *asked);
     declareShare(list, o->share);
     declareCheckpoints(list, o->checkpoint, o->skipExisting);
     declareWatching(list, o->watch, o->progress);
@@ -292,12 +304,6 @@ void declareRender(DeclaredCommand& c) {
                 o->device.scheduler)
         .besidePicture();
     declareHost(c);
-    list.makeCommon({"-o", "-r", "-s", "--time", "--noise", "--denoise", "--camera", "--look-from",
-                     "--look-at", "--env", "--view", "--exposure"});
-    c.footer = "Examples:\n"
-               "  stromboli render room.gltf -o room.png --time 2m --denoise on\n"
-               "  stromboli render room.gltf -o room.exr -r 1920x1080 --noise 2%\n"
-               "  stromboli render helmet.glb -o helmet.png --env studio.hdr --view agx";
     list.number("--accumulate", "N", "CS184's -o: 0 is --min-bounce equal to -m", asked->accumulate,
                 {0, 0xFFFFFFFFu})
         .excludes("--min-bounce", "both say which bounces are left out")

@@ -1,8 +1,9 @@
 // Several pictures by one command: frames of a film, or what several cameras see.
 #include "host/cli/sequence.hpp"
 
+#include "host/checkpoint/checkpoint_file.hpp"
 #include "host/core/error.hpp"
-#include "scene/build/picture_store.hpp"
+#include "scene/build/file_store.hpp"
 
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
@@ -28,22 +29,12 @@ void renameFiles(RenderOptions& o, const std::function<std::string(const std::st
         o.checkpoint.file = nameOf(o.checkpoint.file);
 }
 
-/// The frame alone, as the picture's notes have it.
-void nameFrame(std::vector<std::string>& command, uint32_t frame) {
-    std::erase_if(command, [](const std::string& p) { return p.starts_with("--frames "); });
-    command.push_back(fmt::format("--frames {0}..{0}", frame));
-}
-
 RenderOptions optionsOfFrame(const RenderOptions& asked, uint32_t frame) {
     RenderOptions o = asked;
     const SequenceOptions& sequence = asked.sequence;
     o.sequence = {};
     renameFiles(o, [&](const std::string& file) { return fileOfFrame(file, frame); });
-    FileSelection& selection = o.scene.reading.selection;
-    if (sequence.turntable > 0)
-        o.picture.camera.turn = 2 * glm::pi<double>() * frame / sequence.turntable;
-    else
-        selection.seconds = frame / sequence.framesPerSecond, selection.isFrame = true;
+    takeFrame(o, sequence, frame);
     nameFrame(o.command, frame);
     return o;
 }
@@ -114,6 +105,49 @@ RenderOptions optionsOfCamera(const RenderOptions& asked, const Scene& scene, si
 
 } // namespace
 
+std::vector<uint32_t> framesOf(const SequenceOptions& sequence) {
+    const FrameRange all{0, sequence.turntable > 0 ? sequence.turntable - 1 : 0};
+    const FrameRange range = sequence.frames.value_or(all);
+    std::vector<uint32_t> frames(range.last - range.first + 1);
+    std::iota(frames.begin(), frames.end(), range.first);
+    return frames;
+}
+
+void takeFrame(SceneAndPicture& work, const SequenceOptions& sequence, uint32_t frame) {
+    FileSelection& selection = work.scene.reading.selection;
+    if (sequence.turntable > 0)
+        work.picture.camera.turn = 2 * glm::pi<double>() * frame / sequence.turntable;
+    else
+        selection.seconds = frame / sequence.framesPerSecond, selection.isFrame = true;
+}
+
+void nameFrame(std::vector<std::string>& command, uint32_t frame) {
+    const std::string part = fmt::format("--frames {0}..{0}", frame);
+    const auto startsWith = [&](const char* name) {
+        return std::ranges::find_if(command, [&](const auto& p) { return p.starts_with(name); });
+    };
+    if (const auto given = startsWith("--frames "); given != command.end())
+        *given = part;
+    else if (const auto turns = startsWith("--turntable "); turns != command.end())
+        command.insert(turns + 1, part); // where --help has it
+}
+
+void checkFrames(const SequenceOptions& sequence, const SceneRequest& scene) {
+    if (sequence.turntable > 0 && sequence.frames && sequence.frames->last >= sequence.turntable)
+        throw UsageError(
+            fmt::format("--frames: the turntable has the frames 0 to {}", sequence.turntable - 1));
+    if (sequence.isGiven() && sequence.turntable == 0 && scene.reading.selection.seconds)
+        throw UsageError("--at is one moment, --frames are many");
+}
+
+bool hasCheckpoint(const std::string& checkpoint) {
+    return !checkpoint.empty() && (fs::exists(checkpoint) || bandsKept(checkpoint) > 0);
+}
+
+bool isFinishedPicture(const std::string& picture, const std::string& checkpoint) {
+    return fs::is_regular_file(picture) && !hasCheckpoint(checkpoint);
+}
+
 std::string fileOfFrame(const std::string& file, uint32_t frame) {
     static const std::regex kPattern("%(0([1-9]))?d");
     const fs::path path(file);
@@ -144,15 +178,14 @@ FrameRange readFrames(const std::string& option, const std::string& word) {
 
 std::vector<RenderOptions> optionsOfFrames(const RenderOptions& asked) {
     const SequenceOptions& sequence = asked.sequence;
-    const FrameRange all{0, sequence.turntable > 0 ? sequence.turntable - 1 : 0};
-    const FrameRange frames = sequence.frames.value_or(all);
+    const std::vector<uint32_t> frames = framesOf(sequence);
     std::vector<RenderOptions> pictures;
-    // The file is read again for each moment of its animation.
-    const bool isReadAgain = sequence.turntable == 0 && frames.last > frames.first;
-    const auto decoded = isReadAgain ? std::make_shared<build::PictureStore>() : nullptr;
-    for (uint32_t frame = frames.first; frame <= frames.last; ++frame) {
+    // The file is read once for all moments of its animation.
+    const bool hasMoments = sequence.turntable == 0 && frames.size() > 1;
+    const auto kept = hasMoments ? std::make_shared<build::FileStore>() : nullptr;
+    for (const uint32_t frame : frames) {
         pictures.push_back(optionsOfFrame(asked, frame));
-        pictures.back().scene.reading.pictures = decoded;
+        pictures.back().scene.reading.kept = kept;
     }
     return pictures;
 }

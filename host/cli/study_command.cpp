@@ -177,8 +177,7 @@ void declareStudy(DeclaredCommand& c) {
     declareHost(c);
     c.footer = "Errors are relMSE, the mean of (x - r)^2 / (r^2 + 0.01 m^2), r the reference and m "
                "its mean, less what the reference's own noise adds. Times are those of sampling "
-               "alone.\nExample: stromboli study cornell_boxes island -c default -c hemisphere "
-               "-c \"four=-l 4\" --seeds 8";
+               "alone.";
     c.finish = [&c, asked, o] {
         const std::string ignored =
             o->list ? c.givenOf({"SCENE", "-o", "-c", "--baseline", "--options", "--quick", "-r",
@@ -238,7 +237,7 @@ RenderOptions renderLine(const std::string& scene, const std::vector<std::string
     line.insert(line.end(), words.begin(), words.end());
     const std::optional<ParsedCommand> parsed = parseOptions(line);
     const RenderOptions* options = parsed ? std::get_if<RenderOptions>(&parsed->options) : nullptr;
-    if (!options || options->picture.crop.width != 0 || options->sampleAlone)
+    if (!options || options->picture.crop.width != 0 || options->pixelAlone)
         throw UsageError(fmt::format("a study renders whole pictures: {}", fmt::join(words, " ")));
     if (!options->output.statsFile.empty() || options->output.statisticsChannels ||
         !options->device.device.empty() || parsed->host.verbosity != Verbosity::Normal)

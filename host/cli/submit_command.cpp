@@ -1,9 +1,13 @@
-// `submit`: a picture goes to a scheduler, as shares and their merge.
+// `submit`: a picture goes to a scheduler, as shares and their merge; of several, each or its
+// frames.
+#include "host/checkpoint/checkpoint_file.hpp"
 #include "host/cli/command_line.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/declared_command.hpp"
 #include "host/cli/log.hpp"
 #include "host/cli/progress.hpp"
+#include "host/cli/sequence.hpp"
+#include "host/cli/slurm_jobs.hpp"
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
 #include "host/engine/share.hpp"
@@ -14,10 +18,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <sys/wait.h>
 
 namespace stromboli {
 namespace {
@@ -49,13 +51,6 @@ std::vector<uint32_t> sharesToTake(const PreparedPicture& prepared, const Submit
     return missing;
 }
 
-/// A round after the first, as far as it is still to be done.
-struct RoundToSubmit {
-    uint32_t number = 2;
-    bool isPlanned = false; ///< its plan is there
-    std::vector<uint32_t> toTake;
-};
-
 /// Those that are still to be done: of a round whose plan is there, the missing shares.
 std::vector<RoundToSubmit> roundsToSubmit(const PreparedPicture& prepared,
                                           const SubmitOptions& options, const fs::path& folder) {
@@ -79,98 +74,47 @@ void requireSamples(const RenderSettings& settings, uint32_t shares) {
                                      budget.samplesPerBlock * settings.estimator.branches));
 }
 
-/// Runs sbatch, and returns the number of the job.
-std::string sbatch(const std::string& words) {
-    const std::string command = "sbatch --parsable " + words;
-    FILE* const output = ::popen(command.c_str(), "r");
-    std::string said;
-    if (output)
-        for (int c; (c = std::fgetc(output)) != EOF;)
-            said += char(c);
-    const int status = output ? ::pclose(output) : -1;
-    if (status != 0)
-        throw UsageError(fmt::format("'{}' failed{}; --dry-run prints the scripts", command,
-                                     WIFEXITED(status) && WEXITSTATUS(status) == 127
-                                         ? ": Slurm is not installed here"
-                                         : ""));
-    return said.substr(0, said.find_first_of(";\n")); // NUMBER, or NUMBER;CLUSTER
+/// What the jobs of a picture and those of frames have in common.
+SlurmJob jobOf(const SubmitOptions& options, const fs::path& folder) {
+    SlurmJob slurm;
+    slurm.program = shellQuoted(
+        options.program.empty() ? fs::read_symlink("/proc/self/exe").string() : options.program);
+    slurm.version = version();
+    slurm.picture = shellQuoted(options.output.file);
+    slurm.files = shellQuoted(folder);
+    slurm.runsIn = shellQuoted(fs::current_path());
+    slurm.timeLimit = options.jobTime;
+    slurm.sbatch = options.sbatch;
+    return slurm;
 }
 
-void writeScript(const fs::path& file, const std::string& text) {
-    writeFileAtomically(file, std::as_bytes(std::span(text)));
+/// The folder of a sequence's scripts: "a.png.frames" of "a.png" and of "a%04d.png", since % means
+/// something in the names of Slurm's logs.
+fs::path folderOfFrames(const std::string& file) {
+    std::string name = fs::path(file).filename().string();
+    if (const size_t pattern = name.find('%'); pattern != std::string::npos)
+        name.erase(pattern, name.find('d', pattern) + 1 - pattern);
+    return fs::path(file).parent_path() / (name + ".frames");
 }
 
-/// Jobs that follow each other.
-class JobChain {
-  public:
-    explicit JobChain(fs::path folder) : folder_(std::move(folder)) {}
-
-    /// Submits a script of the folder, to be run when the job before has succeeded. `options` are
-    /// of sbatch, `argument` of the script.
-    void add(const std::string& script, const std::string& what, const std::string& options = "",
-             const std::string& argument = "") {
-        const std::string dependency =
-            last_.empty()
-                ? ""
-                : fmt::format("--dependency=afterok:{} --kill-on-invalid-dep=yes ", last_);
-        last_ = sbatch(dependency + options + shellQuoted(folder_ / script) + argument);
-        logging::info(fmt::format("job {}: {}", last_, what));
-    }
-
-  private:
-    fs::path folder_;
-    std::string last_;
-};
-
-void writeScripts(const SlurmJob& job, const fs::path& folder) {
-    std::error_code failed;
-    fs::create_directory(folder, failed);
-    if (failed) failToWrite(folder, failed.message());
-    if (!job.toTake.empty()) writeScript(folder / "shares.sh", shareScript(job));
-    if (job.isInRounds()) {
-        writeScript(folder / "plan.sh", planScript(job));
-        writeScript(folder / "round.sh", roundScript(job));
-    }
-    if (job.isMergedInGroups()) writeScript(folder / "groups.sh", groupScript(job));
-    writeScript(folder / "merge.sh", mergeScript(job));
+/// Parts of a command but for --frames, which each task has of its own.
+std::vector<std::string> withoutFrames(std::vector<std::string> parts) {
+    std::erase_if(parts, [](const std::string& p) { return p.starts_with("--frames "); });
+    return parts;
 }
 
-void submitToSlurm(const SlurmJob& job, const std::vector<RoundToSubmit>& rounds,
-                   const fs::path& folder) {
-    writeScripts(job, folder);
-    JobChain jobs(folder);
-    const auto ofShares = [&](const std::vector<uint32_t>& toTake) {
-        return fmt::format("{} of {} shares", toTake.size(), job.shares);
-    };
-    if (!job.toTake.empty()) jobs.add("shares.sh", ofShares(job.toTake));
-    for (const RoundToSubmit& round : rounds) {
-        const std::string argument = fmt::format(" {}", round.number);
-        if (!round.isPlanned)
-            jobs.add("plan.sh", fmt::format("plans round {}", round.number), "", argument);
-        jobs.add("round.sh", fmt::format("{} of round {}", ofShares(round.toTake), round.number),
-                 fmt::format("--array={} ", arrayOf(round.toTake)), argument);
-    }
-    if (job.isMergedInGroups())
-        jobs.add("groups.sh", fmt::format("merges them in {} groups", job.groups()));
-    jobs.add("merge.sh", fmt::format("merges them to {}", job.picture));
-}
-
-void printScripts(const SlurmJob& job, const std::vector<RoundToSubmit>& rounds) {
-    fmt::print("{}\n", job.toTake.empty() ? "" : shareScript(job));
-    if (job.isInRounds()) fmt::print("{}\n{}\n", planScript(job), roundScript(job));
-    if (job.isMergedInGroups()) fmt::print("{}\n", groupScript(job));
-    fmt::print("{}", mergeScript(job));
-    if (!job.isInRounds()) return;
-    fmt::print("\n# Each after the one before:\n");
-    if (!job.toTake.empty()) fmt::print("# sbatch shares.sh\n");
-    for (const RoundToSubmit& round : rounds) {
-        if (!round.isPlanned) fmt::print("# sbatch plan.sh {}\n", round.number);
-        fmt::print("# sbatch --array={} round.sh {}\n", arrayOf(round.toTake), round.number);
-    }
-    fmt::print("{}# sbatch merge.sh\n", job.isMergedInGroups() ? "# sbatch groups.sh\n" : "");
+/// A share is of one picture, and blocks and rounds are of shares.
+void checkWhatIsSubmitted(DeclaredCommand& c, const SubmitOptions& o) {
+    checkFrames(o.sequence, o.scene);
+    if (o.shares > 0) return;
+    if (!o.sequence.isGiven())
+        throw UsageError("--shares is required, or --frames or --turntable (see --help)");
+    const std::string ofShares = c.givenOf({"--block", "--rounds"});
+    if (!ofShares.empty()) throw UsageError(fmt::format("{}: only with --shares", ofShares));
 }
 
 void finishSubmit(DeclaredCommand& c, SubmitOptions& o, const Asked& asked) {
+    checkWhatIsSubmitted(c, o);
     finishPicture(c, o.picture, asked);
     finishEstimator(c, o, asked);
     finishBudget(o.picture, asked);
@@ -183,10 +127,17 @@ void finishSubmit(DeclaredCommand& c, SubmitOptions& o, const Asked& asked) {
     for (size_t i = 1; i < o.command.size(); ++i) // the first is the command's name
         if (std::ranges::count(o.merge, o.command[i]) == 0) o.render.push_back(o.command[i]);
     if (!o.output.notes) o.merge.emplace_back("--notes off");
+    if (o.shares == 0) { // whole pictures: `render` does what merge would
+        o.render.insert(o.render.end(), o.merge.begin(), o.merge.end());
+        if (o.noise > 0) o.render.push_back(fmt::format("--noise {}", o.noise));
+    }
+    o.render = withoutFrames(o.render);
     if (c.has("--device")) o.render.push_back("--device " + shellQuoted(o.device.device));
     if (c.has("-t")) o.render.push_back(fmt::format("-t {}", c.host.threads));
     if (o.device.filmMebibytes)
         o.render.push_back(fmt::format("--film-memory {}", *o.device.filmMebibytes));
+    if (o.device.mostMebibytes)
+        o.render.push_back(fmt::format("--max-memory {}", *o.device.mostMebibytes));
 }
 
 } // namespace
@@ -196,7 +147,7 @@ void declareSubmit(DeclaredCommand& c) {
     const auto asked = std::make_shared<Asked>();
     asked->makes = Makes::Pictures;
     asked->maySpread = asked->branchesPay = true;
-    asked->even = true;
+    asked->even = true; // of shares
     SubmitOptions& submit = *owned;
     c.list.group("Scheduler");
     c.list.choice("SCHEDULER", "", "who gives the work to machines", submit.scheduler)
@@ -204,13 +155,16 @@ void declareSubmit(DeclaredCommand& c) {
         .required()
         .besidePicture();
     c.list
-        .number("--shares", "N", "tasks: parts of every pixel's samples", submit.shares, {1, 1000})
-        .required()
-        .usually("")
+        .number("--shares", "N",
+                "tasks: parts of every pixel's samples; of several pictures (--frames, "
+                "--turntable) for each",
+                submit.shares, {1, 1000})
+        .usually("of several pictures: each is rendered whole, by a task of its own")
         .besidePicture();
     declareNoise(c.list,
-                 "sample in rounds, each where the films until then are noisy, until the picture's "
-                 "noise is at most T, as of render; -s is the number of samples of the first one",
+                 "until the picture's noise is at most T, as of render; shares sample in rounds, "
+                 "each where the films until then are noisy, and -s is the number of samples of "
+                 "the first one",
                  submit.noise)
         .besidePicture();
     c.list
@@ -255,6 +209,7 @@ void declareSubmit(DeclaredCommand& c) {
     declarePictureFile(c.list, submit.output, submit.tone);
     declareSeen(c.list, submit.picture);
     declarePicture(c.list, submit.picture, *asked);
+    declareSequence(c.list, submit.sequence);
     declareEstimator(c.list, submit, *asked);
     declareSamples(c.list, submit.picture, *asked,
                    "samples per pixel, the same number for all; with --noise in the first round");
@@ -271,34 +226,89 @@ void declareSubmit(DeclaredCommand& c) {
     };
 }
 
-int submitCommand(const SubmitOptions& options) {
-    const PreparedPicture prepared = preparePicture(options);
+namespace {
+
+/// A picture in shares.
+void submitPicture(const PreparedPicture& prepared, const SubmitOptions& options) {
     const auto& [scene, picture] = prepared;
     requireSamples(picture.settings, options.shares);
     const fs::path folder = options.output.file + ".shares";
-    SlurmJob slurm;
-    slurm.program = shellQuoted(
-        options.program.empty() ? fs::read_symlink("/proc/self/exe").string() : options.program);
-    slurm.version = version();
+    SlurmJob slurm = jobOf(options, folder);
     slurm.render = options.render;
     slurm.merge = options.merge;
     slurm.fingerprint = fingerprintOf(*scene.scene, picture.camera);
-    slurm.picture = shellQuoted(options.output.file);
-    slurm.files = shellQuoted(folder);
-    slurm.runsIn = shellQuoted(fs::current_path());
     slurm.shares = options.shares;
     slurm.toTake = sharesToTake(prepared, options, folder);
     slurm.noise = options.noise;
-    slurm.timeLimit = options.jobTime;
-    slurm.sbatch = options.sbatch;
     const std::vector<RoundToSubmit> rounds = roundsToSubmit(prepared, options, folder);
     nowDoing("submitting");
-    if (options.dryRun) {
-        printScripts(slurm, rounds);
+    if (options.dryRun) return printShares(slurm, rounds);
+    checkFileWritable(options.output.file);
+    submitShares(slurm, rounds, folder);
+}
+
+/// The frames whose pictures are not there, or not finished.
+std::vector<uint32_t> framesToRender(const SubmitOptions& options) {
+    std::vector<uint32_t> frames = framesOf(options.sequence);
+    const size_t all = frames.size();
+    std::erase_if(frames, [&](uint32_t frame) {
+        const std::string file = fileOfFrame(options.output.file, frame);
+        return isFinishedPicture(file, usualCheckpointPath(file).string());
+    });
+    if (frames.size() < all)
+        logging::info(fmt::format("{} of {} pictures are there already", all - frames.size(), all));
+    return frames;
+}
+
+SubmitOptions submitOptionsOfFrame(const SubmitOptions& asked, uint32_t frame) {
+    SubmitOptions one = asked;
+    one.output.file = fileOfFrame(asked.output.file, frame);
+    takeFrame(one, asked.sequence, frame);
+    nameFrame(one.command, frame);
+    one.render.push_back(fmt::format("--frames {}", frame));
+    return one;
+}
+
+/// A task for each frame.
+void submitFrames(const SubmitOptions& options, const std::vector<uint32_t>& frames) {
+    preparePicture(submitOptionsOfFrame(options, frames.front())); // fails here, not on the nodes
+    const fs::path folder = folderOfFrames(options.output.file);
+    SlurmJob slurm = jobOf(options, folder);
+    slurm.render = options.render;
+    slurm.frames = frames;
+    nowDoing("submitting");
+    if (options.dryRun) return printFrameArrays(slurm);
+    checkFileWritable(fileOfFrame(options.output.file, frames.front()));
+    submitFrameArrays(slurm, folder);
+}
+
+/// Shares of each frame, and their merge.
+void submitSharesOfFrames(const SubmitOptions& options, const std::vector<uint32_t>& frames) {
+    PreparedPicture prepared;
+    for (const uint32_t frame : frames) {
+        const SubmitOptions one = submitOptionsOfFrame(options, frame);
+        if (!prepared.scene.scene)
+            prepared.scene = loadScene(one.scene, toTerminal());
+        else if (options.sequence.turntable == 0)
+            prepared.scene = loadMoment(one.scene, std::move(prepared.scene), toTerminal());
+        prepared.picture = resolvePicture(*prepared.scene.scene, one.picture, toTerminal());
+        submitPicture(prepared, one);
+    }
+}
+
+} // namespace
+
+int submitCommand(const SubmitOptions& options) {
+    if (!options.sequence.isGiven()) {
+        submitPicture(preparePicture(options), options);
         return 0;
     }
-    checkFileWritable(options.output.file);
-    submitToSlurm(slurm, rounds, folder);
+    const std::vector<uint32_t> frames = framesToRender(options);
+    if (frames.empty()) return 0;
+    if (options.shares == 0)
+        submitFrames(options, frames);
+    else
+        submitSharesOfFrames(options, frames);
     return 0;
 }
 

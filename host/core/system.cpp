@@ -1,6 +1,7 @@
 #include "host/core/system.hpp"
 
 #include <dlfcn.h>
+#include <fstream>
 #include <unistd.h>
 #include <utility>
 
@@ -10,6 +11,12 @@ namespace stromboli {
 
 uint64_t physicalMemory() {
     return uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGE_SIZE));
+}
+
+uint64_t residentMemory() {
+    std::ifstream file("/proc/self/statm");
+    uint64_t all = 0, resident = 0; // pages
+    return file >> all >> resident ? resident * uint64_t(sysconf(_SC_PAGE_SIZE)) : 0;
 }
 
 // --- Shared libraries ----------------------------------------------------------------------------

@@ -11,6 +11,8 @@ namespace stromboli {
 
 /// The memory of this machine in bytes: what no single thing can need more of.
 uint64_t physicalMemory();
+/// What this process has of it now; 0 where the system does not tell.
+uint64_t residentMemory();
 
 // --- Time ----------------------------------------------------------------------------------------
 

@@ -37,6 +37,8 @@ struct DeviceRequest {
     PathScheduler scheduler = PathScheduler::Persistent;
     uint32_t threads = 0;                  ///< of the reference; 0: all
     std::optional<uint32_t> filmMebibytes; ///< for the film; empty: half of the machine's memory
+    /// For the whole process, by the estimate of Renderer::memoryNeeded(); empty: no limit.
+    std::optional<double> mostMebibytes;
 };
 
 /// What is left to the scene's file where it asks for it (RenderHints).

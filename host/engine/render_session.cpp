@@ -191,6 +191,7 @@ void RenderSession::prepare() {
     result_.backend = renderer_.name();
     result_.buildSeconds = renderer_.buildSeconds();
     bands_ = bandsToRender(picture_.settings.area, renderer_.mostPixels(), keeping_, listener_);
+    renderer_.requireMemory(bands_.front().pixelCount());
     result_.bands = bands_.size();
     band_ = 0;
     if (denoises() && bands_.size() > 1)
@@ -238,8 +239,10 @@ void RenderSession::beginBand() {
 
 Next RenderSession::tell(const SessionEvents& events, RenderProgress state) {
     const uint64_t all = picture_.settings.area.pixelCount();
-    state.samplesAtMost = samplesAtMost(picture_.settings.area, picture_.settings.budget);
-    state.samplesDone += result_.samplesTaken / picture_.settings.estimator.branches;
+    // In paths, as RenderResult has them.
+    state.samplesAtMost = mostPathsOf(picture_.settings);
+    state.samplesDone =
+        state.samplesDone * picture_.settings.estimator.branches + result_.samplesTaken;
     state.counters.paths += result_.counters.paths;
     state.counters.rays += result_.counters.rays;
     state.share =

@@ -84,15 +84,31 @@ std::string RenderDevices::name() const {
 }
 
 uint64_t RenderDevices::pixelsThatFit(const GpuScene& scene, const Estimator& estimator,
-                                      uint64_t hostBytes, uint64_t hostBytesPerPixel) const {
-    uint64_t onDevice = ~uint64_t(0), perPixel = hostBytesPerPixel;
+                                      uint64_t hostBytes, uint64_t bytesPerPixel) const {
+    uint64_t onDevice = ~uint64_t(0);
+    for (const Seat& seat : seats_)
+        onDevice = std::min(onDevice,
+                            filmPixelsThatFit(seat.open.device->description(), scene, estimator));
+    return std::min(hostBytes / (bytesPerPixel + hostBytesPerPixel()), onDevice);
+}
+
+uint64_t RenderDevices::hostBytesOfScene(const GpuScene& scene) const {
+    constexpr uint64_t kDriver = uint64_t(96) << 20; // its compiler and kernels, measured
+    uint64_t bytes = 0;
     for (const Seat& seat : seats_) {
-        const vulkan::DeviceDescription& description = seat.open.device->description();
-        onDevice = std::min(onDevice, filmPixelsThatFit(description, scene, estimator));
-        if (description.isCpu()) perPixel += sizeof(gpu::PixelState);
+        if (!seat.open.device->description().isCpu()) continue;
+        bytes += kDriver;
+        for (const vulkan::BufferPlan& plan : planSceneBuffers(scene, {}))
+            bytes += plan.bytes;
     }
-    if (seats_.size() > 1) perPixel += sizeof(PixelSums);
-    return std::min(hostBytes / perPixel, onDevice);
+    return bytes;
+}
+
+uint64_t RenderDevices::hostBytesPerPixel() const {
+    uint64_t bytes = 0;
+    for (const Seat& seat : seats_)
+        if (seat.open.device->description().isCpu()) bytes += sizeof(gpu::PixelState);
+    return seats_.size() > 1 ? bytes + sizeof(PixelSums) : bytes;
 }
 
 bool RenderDevices::haveRoomForTextures(const GpuScene& scene) const {
@@ -203,6 +219,8 @@ void Renderer::begin(std::shared_ptr<const Scene> scene, const ResolvedPicture& 
     settings_ = picture.settings;
     channels_ = channels;
     buildSeconds_ = 0;
+    samplersHaveIt_ = false;
+    resident_ = residentMemory();
     if (!devices_) {
         name_ = "CPU reference (double precision)";
         return;
@@ -213,6 +231,8 @@ void Renderer::begin(std::shared_ptr<const Scene> scene, const ResolvedPicture& 
     devices_->open(); // began while the scene was built
     if (!isThere && !devices_->haveRoomForTextures(built_->gpu)) build(settings_.estimator, 0);
     name_ = devices_->name();
+    samplersHaveIt_ = isThere;
+    resident_ = residentMemory();
 }
 
 void Renderer::build(const Estimator& estimator, uint64_t gatheredRows) {
@@ -250,7 +270,37 @@ Viewer* Renderer::viewer() {
 
 /// What a film and all that belongs to it may take.
 uint64_t Renderer::bytesForFilms() const {
-    return request_.filmMebibytes ? uint64_t(*request_.filmMebibytes) << 20 : physicalMemory() / 2;
+    const uint64_t asked =
+        request_.filmMebibytes ? uint64_t(*request_.filmMebibytes) << 20 : physicalMemory() / 2;
+    if (!request_.mostMebibytes) return asked;
+    const auto most = uint64_t(*request_.mostMebibytes * 0x1p20);
+    const uint64_t others = resident_ + bytesOfScene();
+    return std::min(asked, most > others ? most - others : 0);
+}
+
+/// Of what is still to be made of it.
+uint64_t Renderer::bytesOfScene() const {
+    if (samplersHaveIt_) return 0;
+    return devices_ ? devices_->hostBytesOfScene(built_->gpu) : referenceBytes(*scene_);
+}
+
+MemoryNeed Renderer::memoryNeeded(uint64_t pixels) const {
+    const uint64_t onDevices = devices_ ? devices_->hostBytesPerPixel() : 0;
+    return {resident_, bytesOfScene(), pixels * (bytesPerPixel() + onDevices)};
+}
+
+void Renderer::requireMemory(uint64_t pixels) const {
+    const MemoryNeed need = memoryNeeded(pixels);
+    const auto mebibytes = [](uint64_t bytes) { return (bytes + (1u << 20) - 1) >> 20; };
+    const std::string parts =
+        fmt::format("{} MiB: {} so far, {} for the scene, {} for the film", mebibytes(need.all()),
+                    mebibytes(need.soFar), mebibytes(need.scene), mebibytes(need.film));
+    if (!request_.mostMebibytes) return listener_.detail("memory: about " + parts);
+    if (double(need.all()) > *request_.mostMebibytes * 0x1p20)
+        throw UsageError(fmt::format("--max-memory allows {:.0f} MiB, and the render needs about "
+                                     "{}",
+                                     *request_.mostMebibytes, parts));
+    listener_.info("memory: about " + parts);
 }
 
 uint64_t Renderer::bytesPerPixel() const {

@@ -33,7 +33,11 @@ class RenderDevices {
     std::string name() const;
     /// Pixels of a picture that all of them, and so many bytes of the host's memory, have room for.
     uint64_t pixelsThatFit(const GpuScene& scene, const Estimator& estimator, uint64_t hostBytes,
-                           uint64_t hostBytesPerPixel) const;
+                           uint64_t bytesPerPixel) const;
+    /// Bytes of the host's memory that drivers on its own processor take for the scene, and for
+    /// each pixel of a picture.
+    uint64_t hostBytesOfScene(const GpuScene& scene) const;
+    uint64_t hostBytesPerPixel() const;
     /// Whether all of them have room for the scene's textures, as they were packed.
     bool haveRoomForTextures(const GpuScene& scene) const;
 
@@ -75,6 +79,14 @@ class RenderDevices {
     std::shared_ptr<TeamBackend> team_; ///< of the last picture, if there were several
 };
 
+/// What a render takes of the host's memory, in bytes: an estimate before it begins.
+struct MemoryNeed {
+    uint64_t soFar = 0; ///< the program, the scene as it was read, and what was built of it
+    uint64_t scene = 0; ///< what the samplers make of the scene
+    uint64_t film = 0;  ///< and of the picture, or of each of its bands
+    uint64_t all() const { return soFar + scene + film; }
+};
+
 /// What takes the samples of pictures, one after the other: made once, with the devices or the
 /// reference. It builds a scene and brings it to the devices when it is first asked for, and keeps
 /// it for the pictures that follow.
@@ -103,6 +115,10 @@ class Renderer {
 
     /// Pixels that a part of the picture may have.
     uint64_t mostPixels() const;
+    /// What the picture needs in parts of so many pixels.
+    MemoryNeed memoryNeeded(uint64_t pixels) const;
+    /// Says what it needs. Throws UsageError if that is more than DeviceRequest allows.
+    void requireMemory(uint64_t pixels) const;
     /// The devices' names, or the reference.
     const std::string& name() const { return name_; }
     /// What a checkpoint of the picture is told by.
@@ -119,6 +135,7 @@ class Renderer {
     void build(const Estimator& estimator, uint64_t gatheredRows);
     uint64_t bytesForFilms() const;
     uint64_t bytesPerPixel() const;
+    uint64_t bytesOfScene() const;
 
     DeviceRequest request_;
     Listener listener_;
@@ -128,6 +145,8 @@ class Renderer {
     size_t channels_ = 0;
     std::string name_;
     double buildSeconds_ = 0;
+    uint64_t resident_ = 0;             ///< of the process, when begin() was through
+    bool samplersHaveIt_ = false;       ///< the scene, then
     std::unique_ptr<BuiltScene> built_; ///< of builtOf_; outlives the devices' backends
     std::shared_ptr<const Scene> builtOf_;
     LightSelection builtFor_;

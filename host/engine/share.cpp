@@ -112,8 +112,8 @@ class ShareRender {
 bool ShareRender::show(const Backend& backend, uint64_t more) {
     done_ += more;
     RenderProgress state;
-    state.samplesAtMost = samples_;
-    state.samplesDone = done_;
+    state.samplesAtMost = samples_ * picture_.settings.estimator.branches; // in paths
+    state.samplesDone = done_ * picture_.settings.estimator.branches;
     state.counters = backend.counters();
     state.share = double(done_) / double(samples_);
     return !events_.progress || events_.progress(state) != Next::Cancel;
@@ -164,6 +164,7 @@ ShareResult ShareRender::take(const PlannedShare& share, const std::string& file
     samples_ = header.samplesHeld();
     render.samplesAtMost = samples_ * picture_.settings.estimator.branches;
     std::vector<PictureArea> bands = bandsOf(picture_.settings.area, renderer_.mostPixels());
+    renderer_.requireMemory(bands.front().pixelCount());
     if (header.isEmpty()) bands.clear();
     uint32_t firstPixel = 0; // of the band
     for (const PictureArea& band : bands) {

@@ -85,6 +85,35 @@ std::string planOfRound(uint32_t round) {
     return fmt::format("round{}.plan", round);
 }
 
+std::vector<FrameArray> arraysOf(const std::vector<uint32_t>& frames) {
+    std::vector<FrameArray> arrays;
+    for (const uint32_t frame : frames) {
+        const uint32_t first = frame / FrameArray::kMostTasks * FrameArray::kMostTasks;
+        if (arrays.empty() || arrays.back().first != first) arrays.push_back({first, {}});
+        arrays.back().tasks.push_back(frame - first);
+    }
+    return arrays;
+}
+
+std::string frameScript(const SlurmJob& job) {
+    return beginning(job,
+                     fmt::format("Renders frames of {}: frames.sh FIRST, to which the number of "
+                                 "the task is added.",
+                                 job.picture),
+                     "stromboli-frames", "frame.%A_%a") +
+           fmt::format(
+               "\n"
+               "# A frame that is there already is kept, and one whose node has died goes on\n"
+               "# from its checkpoint.\n"
+               "frame=$(($1 + SLURM_ARRAY_TASK_ID))\n"
+               "{} render {} \\\n"
+               "    --frames \"$frame\" --resume -o {} && exit 0\n"
+               "code=$?\n"
+               "\n",
+               job.program, fmt::join(job.render, " "), job.picture) +
+           triesAgain();
+}
+
 std::string shareScript(const SlurmJob& job) {
     return beginning(job, fmt::format("Takes shares of {}.", job.picture), "stromboli-shares",
                      "share.%a") +

@@ -18,6 +18,9 @@ struct SlurmJob {
     std::string picture;
     std::string files;  ///< the folder of the films, plans, scripts and logs
     std::string runsIn; ///< a folder that all nodes share
+    /// Frames that are rendered whole, a task each; the picture's name is a pattern or gets their
+    /// numbers. None: the picture is rendered in shares.
+    std::vector<uint32_t> frames;
     uint32_t shares = 1;
     std::vector<uint32_t> toTake;    ///< the shares of the first round whose films are not there
     double noise = 0;                ///< to be reached in rounds; 0: there is one round
@@ -42,6 +45,19 @@ std::string planOfRound(uint32_t round);
 
 /// "1-16", "3,7-9": as sbatch's --array has it.
 std::string arrayOf(const std::vector<uint32_t>& shares);
+
+/// Frames that are to be rendered by one job array, whose tasks count from `first` on.
+struct FrameArray {
+    uint32_t first = 0;
+    std::vector<uint32_t> tasks;
+    static constexpr uint32_t kMostTasks = 1000; ///< Slurm's own limit is 1001, if no other is set
+};
+/// frames: in rising order.
+std::vector<FrameArray> arraysOf(const std::vector<uint32_t>& frames);
+
+/// A batch script that renders frames: the one that its argument and the number of the task add up
+/// to.
+std::string frameScript(const SlurmJob& job);
 
 /// A batch script that takes all shares of the first round that are to be taken, as a job array.
 std::string shareScript(const SlurmJob& job);

@@ -215,6 +215,13 @@ KernelFeatures seeingFeatures(const GpuScene& scene, const Camera& camera,
     return f;
 }
 
+KernelFeatures recordingFeatures(const GpuScene& scene, const Camera& camera,
+                                 const Estimator& settings, const DeviceTuning& tuning) {
+    KernelFeatures f = kernelFeatures(scene, camera, settings, tuning);
+    f[SPEC_RECORDS] = 1;
+    return f;
+}
+
 // --- Features in words ---------------------------------------------------------------------------
 
 namespace {

@@ -26,6 +26,10 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
 KernelFeatures seeingFeatures(const GpuScene& scene, const Camera& camera,
                               const Estimator& settings, const DeviceTuning& tuning, Seeing what);
 
+/// Those of the kernel that records the path of a sample as it takes it.
+KernelFeatures recordingFeatures(const GpuScene& scene, const Camera& camera,
+                                 const Estimator& settings, const DeviceTuning& tuning);
+
 /// The LIGHT_CHOICE_ that a kernel for these lights has.
 uint32_t lightChoiceConstant(const LightTable& lights);
 

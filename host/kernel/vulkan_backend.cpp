@@ -3,6 +3,7 @@
 #include "host/kernel/kernel_features.hpp"
 #include "host/kernel/kernel_tuning.hpp"
 #include "host/kernel/light_table.hpp"
+#include "host/kernel/recorded_path.hpp"
 #include "host/kernel/sampling_tables.hpp"
 #include "shaders/shared/layer_types.h"
 #include "shaders/shared/medium_types.h"
@@ -11,6 +12,7 @@
 #include <array>
 #include <future>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace stromboli {
@@ -263,6 +265,89 @@ SampleValue VulkanBackend::sampleAlone(uint32_t pixel, uint32_t sample) {
     film_->write(segment, index, before);
     dispatcher_->setFrame(frame_);
     return {state.sum, state.rejected > 0};
+}
+
+/// A film of its own, with a pixel for each sample: all are the one of the picture, and each has as
+/// many samples behind it as to take the next with its number.
+std::vector<SampleValue> VulkanBackend::someAlone(uint32_t pixel, uint32_t first,
+                                                  uint32_t count) const {
+    const PixelPlace place = area_.placeOf(pixel);
+    const DeviceTuning tuning = forPixels(tuningFor(tuning_, device_, *scene_, area_), count);
+    std::vector<gpu::PixelState> states(count);
+    std::vector<gpu::WorkItem> work;
+    for (uint32_t i = 0; i < count; ++i) {
+        states[i].count = i;
+        work.push_back({i, i + 1, place.x, place.y});
+    }
+    gpu::Frame frame = frame_;
+    frame.firstSample = first;
+    frame.keepsValue = 1;
+    vulkan::Queue queue(device_);
+    FilmSegment film{
+        pixel, count,
+        vulkan::Buffer(device_, "samples", count * sizeof(gpu::PixelState), rowUse(tuning))};
+    film.pixels.upload(queue, std::as_bytes(std::span(states)));
+    StageKernels kernels{};
+    kernels.front() = kernel_;
+    DeviceTuning persistent = tuning;
+    persistent.scheduler = PathScheduler::Persistent;
+    makeDispatcher({&film, 1}, kernels, frame, persistent)->run(0, work, [](uint64_t) {
+        return true;
+    });
+    film.pixels.download(queue, std::as_writable_bytes(std::span(states)));
+    std::vector<SampleValue> values;
+    values.reserve(count);
+    for (const gpu::PixelState& state : states)
+        values.push_back({state.sum, state.rejected > 0});
+    return values;
+}
+
+std::vector<SampleValue> VulkanBackend::samplesAlone(uint32_t pixel, uint32_t first,
+                                                     uint32_t count) {
+    if (tuning_.scheduler != PathScheduler::Persistent)
+        return Backend::samplesAlone(pixel, first, count);
+    constexpr uint32_t kAtOnce = 1u << 16;
+    std::vector<SampleValue> values;
+    for (uint32_t done = 0; done < count; done += kAtOnce)
+        for (const SampleValue& value :
+             someAlone(pixel, first + done, std::min(kAtOnce, count - done)))
+            values.push_back(value);
+    return values;
+}
+
+/// A film of one pixel, behind whose state the kernel that records writes. Both schedulers make the
+/// same sample, and the one without queues records it.
+RecordedPath VulkanBackend::record(uint32_t pixel, uint32_t sample) {
+    if (estimator_.integrator != Integrator::Path)
+        throw std::invalid_argument("only paths are recorded");
+    const PixelPlace place = area_.placeOf(pixel);
+    KernelTuning asked = tuning_;
+    asked.scheduler = PathScheduler::Persistent;
+    const DeviceTuning tuning = forPixels(tuningFor(asked, device_, *scene_, area_), 1);
+    const gpu::WorkItem item = {0, 1, place.x, place.y};
+    gpu::Frame frame = frame_;
+    frame.firstSample = sample;
+    frame.keepsValue = 1;
+    struct Recording {
+        gpu::PixelState state;
+        uint32_t count, unused[3];
+        std::array<gpu::PathEvent, gpu::MOST_EVENTS> events;
+    };
+    auto recording = std::make_unique<Recording>();
+    vulkan::Queue queue(device_);
+    FilmSegment film{pixel, 1,
+                     vulkan::Buffer(device_, "recording", sizeof(Recording), rowUse(tuning))};
+    film.pixels.clear(queue);
+    makeDispatcher({&film, 1},
+                   kernelsFor(recordingFeatures(*scene_, camera_, estimator_, tuning), tuning),
+                   frame, tuning)
+        ->run(0, std::span(&item, 1), [](uint64_t) { return true; });
+    film.pixels.download(queue, std::as_writable_bytes(std::span(recording.get(), 1)));
+    RecordedPath path =
+        recordedPath(recording->events, recording->count, estimator_.branches, *scene_);
+    path.radiance = recording->state.sum;
+    path.rejected = recording->state.rejected > 0;
+    return path;
 }
 
 void VulkanBackend::beginAt(uint32_t firstSample) {

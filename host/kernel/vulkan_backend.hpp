@@ -7,6 +7,7 @@
 #include "host/render/backend.hpp"
 #include "host/render/estimator.hpp"
 #include "host/render/layers.hpp"
+#include "host/render/recorded_path.hpp"
 #include "host/render/settings.hpp"
 #include "scene/camera/camera.hpp"
 #include "shaders/shared/render_types.h"
@@ -28,7 +29,7 @@ gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const PictureA
 
 /// Takes samples with the Vulkan path kernel: a scene on the device, and one picture of it after
 /// the other.
-class VulkanBackend final : public Backend, public Viewer {
+class VulkanBackend final : public Backend, public Viewer, public PathRecorder {
   public:
     /// The device and the scene must outlive the object. Throws DeviceError if a buffer is over a
     /// limit of the device (before any upload).
@@ -53,6 +54,9 @@ class VulkanBackend final : public Backend, public Viewer {
     void sample(std::span<const PixelTarget> targets, Film& film,
                 const PassProgress& progress) override;
     SampleValue sampleAlone(uint32_t pixel, uint32_t sample) override;
+    /// As many as 2^16 in one dispatch.
+    std::vector<SampleValue> samplesAlone(uint32_t pixel, uint32_t first, uint32_t count) override;
+    RecordedPath record(uint32_t pixel, uint32_t sample) override;
     RenderCounters counters() const override { return dispatcher_->counters(); }
     void beginAt(uint32_t firstSample) override;
     std::vector<PixelSums> save(const Film& film, PixelRun run) override;
@@ -75,6 +79,7 @@ class VulkanBackend final : public Backend, public Viewer {
     std::unique_ptr<Dispatcher> makeDispatcher(std::span<const FilmSegment> film,
                                                const StageKernels& kernels, const gpu::Frame& frame,
                                                const DeviceTuning& tuning) const;
+    std::vector<SampleValue> someAlone(uint32_t pixel, uint32_t first, uint32_t count) const;
     void setFilter(const std::vector<Row>& table, const DeviceTuning& tuning);
 
     const vulkan::Device& device_;

@@ -15,7 +15,8 @@ double largest(const glm::dvec3& v) {
     return std::max({v.x, v.y, v.z});
 }
 
-/// Beer and Lambert's law. The distance may be infinite.
+} // namespace
+
 glm::dvec3 transmittance(const Material* volume, double distance) {
     if (volume == nullptr) return glm::dvec3(1.0);
     const glm::dvec3 a = absorptionInside(*volume);
@@ -24,6 +25,8 @@ glm::dvec3 transmittance(const Material* volume, double distance) {
         if (a[c] > 0) left[c] = std::exp(-a[c] * distance);
     return left;
 }
+
+namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
@@ -50,12 +53,14 @@ PathSample::PathSample(const World& world, const Estimator& settings, const Rand
 
 glm::dvec3 PathSample::radiance(const Ray& cameraRay, uint32_t medium) {
     if (medium != kNoMedium) filling_.medium = &world_.scene.media.at(medium);
-    if (!arriveFromCamera(cameraRay)) { // ambient light is not a backdrop
-        if (settings_.minBounce == 0 && settings_.showsBackdrop)
-            radiance_ += throughput_ * world_.lights.backdrop(cameraRay.direction);
-        return radiance_;
-    }
-    if (settings_.minBounce == 0) addEmission();
+    const bool hits = arriveFromCamera(cameraRay);
+    glm::dvec3 light(0.0);
+    if (settings_.minBounce == 0 && hits) light = throughput_ * emission(surface_);
+    if (settings_.minBounce == 0 && !hits && settings_.showsBackdrop) // not ambient light
+        light = throughput_ * world_.lights.backdrop(cameraRay.direction);
+    radiance_ += light;
+    noteArrival(cameraRay, hits, light);
+    if (!hits) return radiance_;
     follow(1, settings_.branches > 1);
     return radiance_;
 }
@@ -85,6 +90,8 @@ void PathSample::followBranches(uint32_t bounce) {
         filling_ = before.filling_;
         throughput_ = before.throughput_;
         random_ = before.random_.branch(branch, settings_.branches);
+        branch_ = branch + 1;
+        if (branch > 0) noteReturn();
         if (scatter(bounce)) follow(bounce + 1, false);
     }
     radiance_ = before.radiance_ + radiance_ / double(settings_.branches);
@@ -93,20 +100,24 @@ void PathSample::followBranches(uint32_t bounce) {
 bool PathSample::scatter(uint32_t bounce) {
     const BsdfSample next = sampleBsdf(surface_, random_.threeNumbers(), world_.conventions);
     throughput_ *= next.weight;
-    if (!(largest(throughput_) > 0)) return false;
-    if (!survivesThroughput(bounce)) return false;
+    const bool survives = largest(throughput_) > 0 && survivesThroughput(bounce);
+    noteBounce(next, goesOn_, survives);
+    if (!survives) return false;
 
     const glm::dvec3 found = shareFound(bounce, next);
     if (bounce == settings_.maxBounces && !(largest(found) > 0) && !world_.mediaShine) return false;
     filling_ = beyond(next.transmitted());
     scatterings_ = bounce;
-    const bool hit =
-        next.transmitted()
-            ? arrive(transmittedRay(surface_, next.direction), {surface_.triangle})
-            : arrive(reflectedRay(surface_, next.direction), {startOfReflected(surface_)});
-    if (!(largest(found) > 0)) return hit;
-    radiance_ += throughput_ * found *
-                 (hit ? emission(surface_) : world_.lights.ambientRadiance(next.direction));
+    const Ray ray = next.transmitted() ? transmittedRay(surface_, next.direction)
+                                       : reflectedRay(surface_, next.direction);
+    const uint32_t start = next.transmitted() ? surface_.triangle : startOfReflected(surface_);
+    const bool hit = arrive(ray, {start});
+    glm::dvec3 light(0.0);
+    if (largest(found) > 0)
+        light = throughput_ * found *
+                (hit ? emission(surface_) : world_.lights.ambientRadiance(next.direction));
+    radiance_ += light;
+    noteArrival(ray, hit, light);
     return hit;
 }
 
@@ -196,10 +207,6 @@ glm::dvec3 PathSample::shareThatPasses(const Ray& ray, Skip skip, Filling fillin
     return left;
 }
 
-void PathSample::addEmission() {
-    radiance_ += throughput_ * emission(surface_);
-}
-
 /// Direct light has accounted for the rest.
 glm::dvec3 PathSample::shareFound(uint32_t bounce, const BsdfSample& next) const {
     if (bounce < settings_.minBounce) return glm::dvec3(0.0);
@@ -217,9 +224,11 @@ bool PathSample::survivesFixed() {
 }
 
 bool PathSample::survivesThroughput(uint32_t bounce) {
+    goesOn_ = 1;
     if (settings_.roulette.mode != Roulette::Mode::Throughput) return true;
     if (bounce < settings_.roulette.throughputStart) return true;
     const double q = std::min(Roulette::kMaxContinue, Roulette::kBoldness * largest(throughput_));
+    goesOn_ = q;
     throughput_ /= q;
     return random_.next() < q;
 }
@@ -291,7 +300,7 @@ void PathSample::addDeltaLights() {
 void PathSample::addLightSample(const LightSample& light, const glm::dvec3& f) {
     if (!isOfSide(light.direction)) return;
     glm::dvec3 value = light.value * f;
-    if (!(largest(value) > 0)) return;
+    if (!(largest(value) > 0)) return noteLight(light, RecordedLight::Fate::BringsNothing, value);
     Ray ray = leaveTo(light.direction);
     const double distance = light.infinite ? kInfinite : glm::length(light.target - ray.origin);
     const Filling filling = beyond(looksBehind());
@@ -302,8 +311,12 @@ void PathSample::addLightSample(const LightSample& light, const glm::dvec3& f) {
         if (ray.tMax > 0) ray.direction = to / ray.tMax;
     }
     ++rays_;
-    radiance_ += throughput_ * value *
-                 shareThatPasses(ray, {startOfLightSample(), light.primitive}, filling);
+    const glm::dvec3 passes =
+        shareThatPasses(ray, {startOfLightSample(), light.primitive}, filling);
+    radiance_ += throughput_ * value * passes;
+    noteLight(light,
+              largest(passes) > 0 ? RecordedLight::Fate::Arrives : RecordedLight::Fate::InShadow,
+              throughput_ * value * passes);
 }
 
 void PathSample::addHemisphereSamples() {
@@ -331,7 +344,12 @@ void PathSample::addHemisphereSamples() {
         }
         const Filling filling = beyond(looksBehind());
         if (filling.medium) found *= transmittance(*filling.medium, ray, 0, distance);
-        radiance_ += throughput_ * weight * found * transmittance(filling.volume, distance);
+        const glm::dvec3 light =
+            throughput_ * weight * found * transmittance(filling.volume, distance);
+        radiance_ += light;
+        LightSample looked;
+        looked.direction = direction;
+        noteLight(looked, RecordedLight::Fate::Arrives, light);
     }
 }
 

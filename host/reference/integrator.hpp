@@ -5,6 +5,7 @@
 #include "host/reference/lights.hpp"
 #include "host/render/estimator.hpp"
 #include "host/render/layers.hpp"
+#include "host/render/recorded_path.hpp"
 
 #include <algorithm>
 
@@ -59,6 +60,9 @@ struct Filling {
     const Medium* medium = nullptr; ///< in scenes with media
 };
 
+/// Beer and Lambert's law in a volume, if there is one. The distance may be infinite.
+glm::dvec3 transmittance(const Material* volume, double distance);
+
 /// One sample of a pixel (docs/theory/estimator.md), in the order of that page.
 class PathSample {
   public:
@@ -72,6 +76,13 @@ class PathSample {
     glm::dvec3 normalColor(const Ray& cameraRay);
     /// The distance of the first hit; 0 for a miss.
     glm::dvec3 depth(const Ray& cameraRay);
+    /// From here on vertices are noted there (recording.cpp). It must outlive the object.
+    void recordTo(RecordedPath& path) { record_ = &path; }
+    /// Follows the path that the kernel has taken, by its directions, densities and decisions, and
+    /// works out in double precision what it meets and brings (retracing.cpp): in scenes without
+    /// media, by the default conventions.
+    RecordedPath retrace(const RecordedPath& taken);
+
     /// Rays traced so far.
     uint64_t rays() const { return rays_; }
 
@@ -105,7 +116,6 @@ class PathSample {
     glm::dvec3 shareThatPasses(const Ray& ray, Skip skip, Filling filling) const;
     /// What is on the other side of a surface that is passed.
     Filling behind(const Ray& ray, const Hit& hit, Filling filling) const;
-    void addEmission();
     /// The share of the light that the ray after this scattering finds that adds to the picture.
     glm::dvec3 shareFound(uint32_t bounce, const BsdfSample& next) const;
     bool survivesFixed();
@@ -119,6 +129,18 @@ class PathSample {
     /// f: what the surface scatters of it.
     void addLightSample(const LightSample& light, const glm::dvec3& f);
 
+    // Where the path is recorded; else these do nothing.
+    void noteArrival(const Ray& ray, bool hits, const glm::dvec3& light);
+    void noteLight(const LightSample& light, RecordedLight::Fate fate, const glm::dvec3& brings);
+    void noteBounce(const BsdfSample& next, double goesOn, bool survives);
+    void noteReturn();
+
+    // Of retrace().
+    bool arriveWhere(const RecordedVertex& vertex, const Ray& ray, Skip skip, bool fromCamera);
+    glm::dvec3 emissionWhere(const Ray& ray, double distance, uint32_t& emitter) const;
+    void retraceLight(const RecordedLight& taken);
+    void retraceBounce(const RecordedBounce& taken, Ray& ray, Skip& skip);
+
     const World& world_;
     const Estimator& settings_;
     RandomStream random_;
@@ -130,6 +152,9 @@ class PathSample {
     SurfacePoint lit_;
     glm::dvec3 throughput_{1.0}, radiance_{0.0};
     uint64_t rays_ = 0;
+    RecordedPath* record_ = nullptr;
+    uint32_t branch_ = 0; ///< from 1; 0: before the path has split
+    double goesOn_ = 1;   ///< the probability of the roulette by throughput at the last bounce
 };
 
 } // namespace stromboli::reference

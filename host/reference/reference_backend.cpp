@@ -136,6 +136,31 @@ struct ReferenceBackend::Implementation {
         seen.primitive = expanded->triangleOf[seen.primitive];
     }
 
+    /// Likewise of a path.
+    void name(RecordedPath& path) const {
+        if (!expanded) return;
+        const auto rename = [&](uint32_t& primitive, uint32_t* placement) {
+            if (primitive == kNotNamed) return;
+            SeenPixel seen;
+            seen.primitive = primitive;
+            name(seen);
+            primitive = seen.primitive;
+            if (placement) *placement = seen.placement;
+        };
+        for (RecordedVertex& vertex : path.vertices) {
+            if (!vertex.returns) rename(vertex.primitive, &vertex.placement);
+            for (RecordedLight& light : vertex.lights)
+                rename(light.primitive, nullptr);
+        }
+        const RecordedVertex* split = nullptr;
+        for (RecordedVertex& vertex : path.vertices) {
+            if (vertex.branch == 0) split = &vertex;
+            if (!vertex.returns || split == nullptr) continue;
+            vertex.primitive = split->primitive;
+            vertex.placement = split->placement;
+        }
+    }
+
     /// The samples of a pixel are taken in order by one thread: their statistics are rounded, and
     /// so depend on the order.
     void fill(const PixelTarget& target, PixelStatistics& pixel, PassReport& report) {
@@ -154,6 +179,15 @@ struct ReferenceBackend::Implementation {
         }
     }
 };
+
+uint64_t referenceBytes(const Scene& scene) {
+    // Of the tree: two nodes of a primitive, its place and, while it is built, its box.
+    constexpr uint64_t kPerPrimitive = 2 * 64 + sizeof(uint32_t) + 48;
+    uint64_t copies = 0; // of placed triangles
+    if (!scene.placements.empty())
+        copies = scene.placedTriangles() * (sizeof(Triangle) + 3 * sizeof(glm::vec3));
+    return kPerPrimitive * (scene.placedTriangles() + scene.spheres.size()) + copies;
+}
 
 ReferenceBackend::ReferenceBackend(const Scene& scene, const Camera& camera,
                                    const RenderSettings& settings, unsigned threads)
@@ -195,6 +229,44 @@ SampleValue ReferenceBackend::sampleAlone(uint32_t pixel, uint32_t sample) {
     PixelStatistics statistics;
     statistics.add(radiance);
     return {weight * radiance, statistics.rejected > 0};
+}
+
+RecordedPath ReferenceBackend::record(uint32_t pixel, uint32_t sample) {
+    const Implementation& all = *implementation_;
+    if (all.settings.estimator.integrator != Integrator::Path)
+        throw std::invalid_argument("only paths are recorded");
+    reference::RandomStream random = all.randomOf(pixel, sample);
+    const auto [ray, weight] = all.cameraRayOf(pixel, random);
+    RecordedPath path;
+    path.origin = ray.origin;
+    path.direction = ray.direction;
+    path.tMin = ray.tMin;
+    path.filterWeight = weight;
+    path.branches = all.settings.estimator.branches;
+    reference::PathSample sampled(all.world, all.settings.estimator, random);
+    sampled.recordTo(path);
+    const glm::dvec3 radiance = sampled.radiance(ray, all.camera.medium);
+    PixelStatistics statistics;
+    statistics.add(radiance);
+    path.radiance = weight * radiance;
+    path.rejected = statistics.rejected > 0;
+    all.name(path);
+    return path;
+}
+
+bool ReferenceBackend::mayRetrace() const {
+    const Implementation& all = *implementation_;
+    return all.world.scene.media.empty() &&
+           all.settings.estimator.conventions == ShadingConventions{};
+}
+
+RecordedPath ReferenceBackend::retrace(const RecordedPath& taken) const {
+    const Implementation& all = *implementation_;
+    if (!mayRetrace()) throw std::invalid_argument("the scene's paths cannot be retraced");
+    reference::PathSample path(all.world, all.settings.estimator, all.randomOf(0, 0));
+    RecordedPath own = path.retrace(taken);
+    all.name(own);
+    return own;
 }
 
 std::vector<SeenPixel> ReferenceBackend::see(uint32_t first, std::span<const uint32_t> samples,

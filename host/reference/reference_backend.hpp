@@ -2,6 +2,7 @@
 
 #include "host/render/backend.hpp"
 #include "host/render/layers.hpp"
+#include "host/render/recorded_path.hpp"
 #include "host/render/settings.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/model/scene.hpp"
@@ -10,11 +11,14 @@
 
 namespace stromboli {
 
+/// Bytes that a backend takes for a scene, beside the scene itself.
+uint64_t referenceBytes(const Scene& scene);
+
 /// Path tracer in double precision on the CPU: the second, independent implementation of
 /// docs/theory/estimator.md, for checking the Vulkan kernel against. Random numbers depend on
 /// pixel, sample and seed only, so the film is the same to the last bit for every number of threads
 /// and every division into passes.
-class ReferenceBackend final : public Backend, public Viewer {
+class ReferenceBackend final : public Backend, public Viewer, public PathRecorder {
   public:
     /// The scene must outlive the backend. threads: 0 for all the machine has, which is also the
     /// most there will be. Throws std::invalid_argument for a scene with area lights that are not
@@ -29,6 +33,13 @@ class ReferenceBackend final : public Backend, public Viewer {
     void sample(std::span<const PixelTarget> targets, Film& film,
                 const PassProgress& progress) override;
     SampleValue sampleAlone(uint32_t pixel, uint32_t sample) override;
+    RecordedPath record(uint32_t pixel, uint32_t sample) override;
+    /// The path that the kernel has taken, with what its directions, densities and decisions meet
+    /// and bring by the reference. Throws std::invalid_argument in scenes with media, and with
+    /// --cs184, whose rules it does not follow.
+    RecordedPath retrace(const RecordedPath& taken) const;
+    /// Whether retrace() can.
+    bool mayRetrace() const;
     RenderCounters counters() const override;
     void beginAt(uint32_t firstSample) override;
     std::vector<SeenPixel> see(uint32_t first, std::span<const uint32_t> samples, Seeing what,

@@ -8,6 +8,14 @@ void Backend::beginAt(uint32_t) {
     throw std::logic_error("this backend takes samples from the first on only");
 }
 
+std::vector<SampleValue> Backend::samplesAlone(uint32_t pixel, uint32_t first, uint32_t count) {
+    std::vector<SampleValue> values;
+    values.reserve(count);
+    for (uint32_t i = 0; i < count; ++i)
+        values.push_back(sampleAlone(pixel, first + i));
+    return values;
+}
+
 void Backend::restoreBlocks(std::span<const ExactStatistics> blocks) {
     if (!blocks.empty()) throw std::invalid_argument("the saved film is one of blocks");
 }

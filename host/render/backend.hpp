@@ -65,6 +65,8 @@ class Backend {
                         const PassProgress& progress) = 0;
     /// Sample number `sample` of a pixel, to the last bit as sample() takes it.
     virtual SampleValue sampleAlone(uint32_t pixel, uint32_t sample) = 0;
+    /// `count` samples of a pixel, each by itself, from number `first` on.
+    virtual std::vector<SampleValue> samplesAlone(uint32_t pixel, uint32_t first, uint32_t count);
     virtual RenderCounters counters() const = 0;
     /// Forgets all samples, whose film the caller empties; those to come are numbered from here on:
     /// the first is the pixel's sample `firstSample`. Throws std::logic_error where a backend

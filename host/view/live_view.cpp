@@ -120,7 +120,8 @@ void LiveView::pass(const std::function<bool()>& wantsToEnd) {
         if (wantsToEnd()) return Next::Cancel;
         if (isFirst_) return Next::GoOn;
         // Before each pixel has a sample, the coarse picture is the better one.
-        samplesDone_ = progress.samplesDone;
+        samplesDone_ =
+            progress.samplesDone / session_.picture().settings.estimator.branches; // of paths
         const bool isFit = samplesDone_ >= session_.picture().settings.area.pixelCount();
         const bool isWanted = exchange_.isSteered() || exchange_.isAsked() ||
                               (!isCoarse_ && isFit && showing_.isDue());

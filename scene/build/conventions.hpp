@@ -12,7 +12,7 @@
 namespace stromboli {
 
 namespace build {
-class PictureStore;
+class FileStore;
 }
 
 /// Which normals meshes are shaded with.
@@ -115,8 +115,8 @@ struct SceneConventions {
     bool scaleCameras = true;
 
     FileSelection selection;
-    /// Where pictures are kept for the next reading of the file; none: nowhere.
-    std::shared_ptr<build::PictureStore> pictures;
+    /// Where what is read is kept for the next reading of the file; none: nowhere.
+    std::shared_ptr<build::FileStore> kept;
 
     VertexNormals vertexNormals = VertexNormals::FromFile;
     Winding winding = Winding::TowardsNormals;

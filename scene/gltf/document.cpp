@@ -1,6 +1,7 @@
 #include "scene/gltf/document.hpp"
 
 #include "host/core/error.hpp"
+#include "scene/build/file_store.hpp"
 #include "scene/build/read_file.hpp"
 #include "scene/build/unicode.hpp"
 #include "scene/gltf/extensions.hpp"
@@ -16,21 +17,30 @@ namespace {
 /// Levels of brackets within each other: files of this format have about ten, without `extras`.
 constexpr int kDeepest = 256;
 
+std::shared_ptr<FileParts> readParts(const std::string& file) {
+    auto parts = std::make_shared<FileParts>();
+    parts->bytes = build::readFile(file);
+    parts->container = openContainer(file, parts->bytes);
+    const std::string json = build::utf8WithLatin1(parts->container.json);
+    parts->isUtf8 = json == parts->container.json;
+    try {
+        parts->json = std::make_shared<const Json>(parseJson(json, kDeepest));
+    } catch (const JsonError& error) {
+        throw SceneError(file, 0, "", fmt::format("is no glTF: {}", error.what()));
+    }
+    return parts;
+}
+
 } // namespace
 
-Document::Document(const std::filesystem::path& file, build::Report& report)
-    : report_(&report), path_(file), file_(file.string()), bytes_(build::readFile(file)),
-      container_(openContainer(file_, bytes_)) {
-    const std::string json = build::utf8WithLatin1(container_.json);
-    if (json != container_.json)
+Document::Document(const std::filesystem::path& file, build::Report& report, build::FileStore* kept)
+    : report_(&report), path_(file), file_(file.string()) {
+    const auto read = [&] { return readParts(file_); };
+    parts_ = kept ? kept->parts<FileParts>(file_, read) : read();
+    if (!parts_->isUtf8)
         report.forgive({file_, 0, ""}, "has bytes that are no UTF-8",
                        "they are read as characters of Latin-1");
-    try {
-        json_ = std::make_shared<const Json>(parseJson(json, kDeepest));
-    } catch (const JsonError& error) {
-        throw SceneError(file_, 0, "", fmt::format("is no glTF: {}", error.what()));
-    }
-    root_ = std::make_unique<Element>(file_, "", *json_, &report);
+    root_ = std::make_unique<Element>(file_, "", *parts_->json, &report);
     requireVersion();
     checkExtensions(report);
 }
@@ -74,14 +84,15 @@ std::string_view Document::bytesOfBuffer(size_t index) const {
     const Element buffer = at("buffers", index);
     std::string_view bytes;
     if (!buffer.has("uri")) {
-        if (index != 0 || !container_.binary)
+        if (index != 0 || !parts_->container.binary)
             buffer.fail("has no 'uri', and no part of the file holds its bytes");
-        bytes = *container_.binary;
+        bytes = *parts_->container.binary;
     } else {
-        const auto found = buffers_.find(index);
-        bytes = found != buffers_.end()
+        const auto found = parts_->buffers.find(index);
+        bytes = found != parts_->buffers.end()
                     ? found->second
-                    : buffers_.emplace(index, bytesOfUri(buffer.text("uri"), buffer)).first->second;
+                    : parts_->buffers.emplace(index, bytesOfUri(buffer.text("uri"), buffer))
+                          .first->second;
     }
     const uint64_t length = buffer.count("byteLength");
     if (length > bytes.size())
@@ -106,9 +117,10 @@ std::string_view Document::bytesOfView(size_t index) const {
     const Element view = at("bufferViews", index);
     const std::optional<Element> packed = view.extension("EXT_meshopt_compression");
     if (!packed) return part(view);
-    const auto found = unpackedViews_.find(index);
-    if (found != unpackedViews_.end()) return found->second;
-    return unpackedViews_.emplace(index, unpackMeshopt(*packed, part(*packed))).first->second;
+    const auto found = parts_->unpackedViews.find(index);
+    if (found != parts_->unpackedViews.end()) return found->second;
+    return parts_->unpackedViews.emplace(index, unpackMeshopt(*packed, part(*packed)))
+        .first->second;
 }
 
 void reportExtensions(const Document& document, build::Report& report) {

@@ -14,13 +14,24 @@
 
 namespace stromboli::gltf {
 
+/// What is read of a file, whatever is made of it.
+struct FileParts {
+    std::string bytes;
+    Container container; ///< views of the bytes
+    std::shared_ptr<const Json> json;
+    bool isUtf8 = true;
+    std::map<size_t, std::string> buffers, unpackedViews; ///< those that were asked for
+};
+
 /// A glTF 2.0 file: its JSON, and the bytes that it names, which are read when they are asked for
 /// and kept.
 class Document {
   public:
     /// Throws SceneError if it is no glTF 2. What is missing of it is said in the report, which
-    /// must outlive the document.
-    Document(const std::filesystem::path& file, build::Report& report);
+    /// must outlive the document. kept: where its parts are from, and are left for the next
+    /// document of this file; may be null.
+    Document(const std::filesystem::path& file, build::Report& report,
+             build::FileStore* kept = nullptr);
 
     const std::string& file() const { return file_; }
     const Element& root() const { return *root_; }
@@ -47,11 +58,8 @@ class Document {
     build::Report* report_;
     std::filesystem::path path_;
     std::string file_; ///< path_, for messages
-    std::string bytes_;
-    Container container_;
-    std::shared_ptr<const Json> json_;
+    std::shared_ptr<FileParts> parts_;
     std::unique_ptr<Element> root_;
-    mutable std::map<size_t, std::string> buffers_, unpackedViews_;
 };
 
 /// Says which of the extensions that the file uses have no effect.

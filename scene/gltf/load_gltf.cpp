@@ -9,7 +9,7 @@ namespace stromboli {
 
 Scene loadGltf(const std::filesystem::path& file, const SceneConventions& conventions) try {
     build::SceneBuilder builder(file.string(), conventions);
-    const gltf::Document document(file, builder.report());
+    const gltf::Document document(file, builder.report(), conventions.kept.get());
     gltf::reportExtensions(document, builder.report());
     gltf::Context context{document, builder, gltf::chosenVariant(document, builder)};
     gltf::Nodes(context).place();

@@ -2,7 +2,7 @@
 
 #include "host/core/error.hpp"
 #include "host/core/system.hpp"
-#include "scene/build/picture_store.hpp"
+#include "scene/build/file_store.hpp"
 #include "scene/gltf/uri.hpp"
 #include "scene/images/texture_image.hpp"
 
@@ -191,7 +191,7 @@ std::optional<uint32_t> Textures::image(size_t index, const Reading& reading) {
     const bool mayBeMixed = context_.selection().largestTexture > 0;
     if (other != images_.end() && !mayBeMixed && picture.format == TexelFormat::Rgba8)
         return images_[{index, reading}] = other->second;
-    const uint64_t copies = context_.builder.conventions().pictures ? 2 : 1;
+    const uint64_t copies = context_.builder.conventions().kept ? 2 : 1;
     requireRoom(copies * picture.words.size() * sizeof(uint32_t), index);
     return images_[{index, reading}] = context_.builder.addImage(std::move(picture));
 }
@@ -208,9 +208,10 @@ void Textures::requireRoom(uint64_t bytes, size_t index) {
 }
 
 TextureImage Textures::readOnce(size_t index, bool srgb) {
-    build::PictureStore* store = context_.builder.conventions().pictures.get();
+    build::FileStore* store = context_.builder.conventions().kept.get();
     if (!store) return readToFit(index, srgb);
-    return store->get(fmt::format("{} {}", index, srgb), [&] { return readToFit(index, srgb); });
+    return store->picture(fmt::format("{} {}", index, srgb),
+                          [&] { return readToFit(index, srgb); });
 }
 
 TextureImage Textures::readToFit(size_t index, bool srgb) {

@@ -28,6 +28,11 @@ LightSample lightSample(const Given given, inout PathState path, vec2 u, uint in
         picked.probability > 0.0 ? 1.0 / picked.probability : 0.0;
     light.radiance *= perProbability * lightSampleShare(given.frame, index);
     light.inversePdf *= perProbability;
+    if (RECORDS) {
+        path.recordedLight = picked.light;
+        if (light.inversePdf > 0.0) path.recordedPdf = float(LIGHT_SAMPLES) / light.inversePdf;
+        else path.recordedPdf = -picked.probability / lightSampleShare(given.frame, index);
+    }
     return light;
 }
 
@@ -35,11 +40,17 @@ LightSample lightSample(const Given given, inout PathState path, vec2 u, uint in
 void traceDirectSample(const Given given, inout PathState path, LightSample light, bool hemisphere) {
     const BsdfValue f = evaluateMixture(path.material, path.surface, light.direction);
     path.directValue = f.value * light.radiance;
-    if (!(dot(path.directValue, vec3(1.0)) > 0.0)) return;
+    if (!(dot(path.directValue, vec3(1.0)) > 0.0)) {
+        if (RECORDS) recordLightSample(path, light, 1.0, false);
+        return;
+    }
+    float weight = 1.0;
     if (combines(lobesOf(path.material))) {
         const float pdf = bouncePdfWithGap(given.gap, path.surface, lobesOf(path.material), f.pdf, light.direction);
-        path.directValue *= lightSampleWeight(light.inversePdf, pdf);
+        weight = lightSampleWeight(light.inversePdf, pdf);
+        path.directValue *= weight;
     }
+    if (RECORDS) recordLightSample(path, light, weight, true);
     const bool transmitted = isBehind(path.surface, light.direction);
     const vec3 origin = leave(path.surface, light.direction, transmitted);
     // What the ray of hemisphere sampling goes through is known when it has arrived.
@@ -63,5 +74,9 @@ void sampleDirect(const Given given, inout PathState path) {
     LightSample light;
     if (hemisphere) light = hemisphereSample(given.frame, path, u);
     else light = lightSample(given, path, u, DIRECT_LIGHT == DIRECT_HEMISPHERE ? index - given.frame.hemisphereSamples : index);
+    if (RECORDS && hemisphere) {
+        path.recordedLight = NO_NAME;
+        path.recordedPdf = 1.0 / light.radiance.x;
+    }
     traceDirectSample(given, path, light, hemisphere);
 }

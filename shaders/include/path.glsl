@@ -6,6 +6,7 @@
 #include "include/path_state.glsl"
 #include "include/media.glsl"
 #include "include/seeing.glsl"
+#include "include/recording.glsl"
 
 // --- Arrivals ----------------------------------------------------------------------------------
 
@@ -30,7 +31,10 @@ MaterialPoint askedPoint(PathState path) {
 void finishShadowRay(inout PathState path) {
     if (emissionHasFactors() && path.sampledEmitter.primitive != NO_PRIMITIVE)
         path.directValue *= emissionFactorOf(path.found);
-    if (path.ray.hitPrimitive == NO_PRIMITIVE) path.radiance += path.throughput * path.directValue;
+    if (path.ray.hitPrimitive == NO_PRIMITIVE) {
+        path.radiance += path.throughput * path.directValue;
+        if (RECORDS) recordArrivedLight(path, path.throughput * path.directValue);
+    }
     path.phase = PHASE_DIRECT;
 }
 
@@ -44,14 +48,16 @@ void finishHemisphereRay(inout PathState path) {
     arriving *= transmittance(mediumBeyond(path.surface, path.material, path.medium, isBehind(path.surface, path.ray.direction)),
                            path.ray.tMax);
     path.radiance += path.throughput * path.directValue * arriving;
+    if (RECORDS) recordArrivedLight(path, path.throughput * path.directValue * arriving);
     path.phase = PHASE_DIRECT;
 }
 
 /// Adds the light of the sky that the path ray has found. share: of it that is this ray's (foundShare()).
 void takeInSky(const Frame frame, inout PathState path, FoundSky sky, float share) {
     const bool counts = path.countsEmission || AMBIENT_BY_BOUNCES && path.bounce >= frame.minBounce;
-    if (counts && (path.bounce > 0u || HAS_BACKDROP) && BOUNCES_FIND_ALL_LIGHT)
-        path.radiance += path.throughput * sky.radiance * share;
+    const bool adds = counts && (path.bounce > 0u || HAS_BACKDROP) && BOUNCES_FIND_ALL_LIGHT;
+    if (adds) path.radiance += path.throughput * sky.radiance * share;
+    if (RECORDS) recordMiss(path, adds ? path.throughput * sky.radiance * share : vec3(0.0), share);
 }
 
 /// A path ray is done: takes in the light that it has found and sets up the surface for scattering.
@@ -87,6 +93,9 @@ void arrive(const Given given, inout PathState path) {
     }
     path.material = inMixture(path.found.parameters, path.surface);
     if (path.countsEmission) path.radiance += path.throughput * emissionAt(path.surface, path.material) * share;
+    if (RECORDS)
+        recordArrival(path, path.countsEmission ? path.throughput * emissionAt(path.surface, path.material) * share : vec3(0.0),
+                      share, 1.0 - (ROULETTE == ROULETTE_FIXED ? given.frame.terminationProbability : 0.0));
     if (isBlackBehind(path.material) && isSeenFromBehind(path.surface)) return;
     if (!inMedium) {
         faceForward(path.surface);
@@ -150,6 +159,7 @@ void scatter(const Given given, inout PathState path, vec3 u, float roulette) {
     const BsdfSample b = ofMixture(sampleBsdfOrGap(given.gap, path.material, path.surface, u, mixtureWeight), path.surface);
     if (SEES) path.throughput *= tintOf(path.material, b);
     else path.throughput *= b.weight;
+    if (RECORDS) recordBounce(path, b, roulette, mixtureWeight);
     const float largest = largestComponent(path.throughput);
     if (!(largest > 0.0)) {
         if (SEES) endAtNothing(path.seen, vec3(0.0), path.firstNormal);
@@ -183,11 +193,13 @@ void beginSample(const Frame frame, inout PathState path) {
     path.medium = HAS_MEDIA ? frame.cameraMedium : NO_MEDIUM;
     path.splitPoint.bounce = 0u;
     path.branchesLeft = 0u;
+    if (RECORDS) path.eventCount = 0u;
 }
 
 void startCameraRay(const Given given, inout PathState path, vec2 u) {
     const CameraRay c = cameraRayOfSample(given, path.pixelAt, path.pixelId, sampleIndex(given.frame, path), u, path.filterWeight);
     trace(path, PHASE_PATH, c.origin, c.direction, c.tMin, c.tMax, NO_PRIMITIVE);
+    if (RECORDS) recordCamera(path);
 }
 
 /// Starts the next path ray: of a new sample (PHASE_NEXT), or the bounce (PHASE_BOUNCE). Both draw

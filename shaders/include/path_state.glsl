@@ -64,6 +64,11 @@ struct PathState {
 
     SplitPoint splitPoint;
     uint branchesLeft; ///< that have not begun
+
+    // Where the path is recorded (RECORDS):
+    uint eventCount;    ///< of the sample under way
+    uint recordedLight; ///< that the light sample under way goes to
+    float recordedPdf;  ///< its density, as PathEvent::pdf
 };
 
 #include "include/camera_sample.glsl"

@@ -151,9 +151,11 @@
     F(1, uint, TRAVERSAL_STEPS, 8u, traversalSteps(f, tuning), own, \
       "traversal steps in a leg", count(""), "traversal steps between two service passes, or in a leg") \
     F(55, bool, STEPS_BRANCH, false, tuning.stepsBranch, own, \
-      "steps that branch", flag, "branches around what a step of the traversal does with a node and with a leaf")
+      "steps that branch", flag, "branches around what a step of the traversal does with a node and with a leaf") \
+    F(56, bool, RECORDS, false, false, own, \
+      "record of a path", flag, "what happens to the path of one sample, written event by event (render --pixel)")
 
-#define SPEC_COUNT 56
+#define SPEC_COUNT 57
 
 #ifdef __cplusplus
 namespace stromboli {

@@ -91,6 +91,7 @@
     F(uint, path.splitPoint.bounce, SPLITS, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(uint, path.splitPoint.medium, SPLITS, AT_RETURN | AT_PAUSE, AT_SPLIT | AT_PAUSE) \
     SURFACE_FIELDS(F, path.splitPoint.surface, SPLITS, AT_RETURN | AT_PAUSE, AT_SPLIT | AT_PAUSE) \
-    F(uint, path.branchesLeft, SPLITS, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE)
+    F(uint, path.branchesLeft, SPLITS, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
+    F(uint, path.eventCount, RECORDS, BY_ALL | AT_PAUSE, BY_SERVICE | BY_LIGHT | AT_PAUSE)
 
 #endif

@@ -47,6 +47,12 @@ std::vector<SampleValue> samplesAlone(const Scene& scene, const Camera& camera,
     return samples;
 }
 
+RecordedPath recordedAlone(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                           uint32_t pixel, uint32_t sample) {
+    const GpuScene gpu = packScene(scene, buildWideBvh(scene), lightSelection(settings.estimator));
+    return VulkanBackend(testDevice(), gpu, camera, settings).record(pixel, sample);
+}
+
 std::vector<SeenPixel> seenBy(const Scene& scene, const Camera& camera,
                               const RenderSettings& settings, const std::vector<uint32_t>& samples,
                               Seeing what) {

@@ -27,6 +27,11 @@ std::vector<SampleValue> samplesAlone(const Scene& scene, const Camera& camera,
     return samples;
 }
 
+RecordedPath recordedAlone(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                           uint32_t pixel, uint32_t sample) {
+    return ReferenceBackend(scene, camera, settings).record(pixel, sample);
+}
+
 std::vector<SeenPixel> seenBy(const Scene& scene, const Camera& camera,
                               const RenderSettings& settings, const std::vector<uint32_t>& samples,
                               Seeing what) {

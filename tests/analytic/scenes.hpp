@@ -3,6 +3,7 @@
 #include "host/film/film.hpp"
 #include "host/render/backend.hpp"
 #include "host/render/layers.hpp"
+#include "host/render/recorded_path.hpp"
 #include "host/render/settings.hpp"
 #include "scene/camera/camera.hpp"
 #include "scene/generate/scene_maker.hpp"
@@ -49,6 +50,9 @@ Film renderFilm(const Scene& scene, const Camera& camera, const RenderSettings& 
 std::vector<SampleValue> samplesAlone(const Scene& scene, const Camera& camera,
                                       const RenderSettings& settings, uint32_t pixel,
                                       uint32_t count);
+/// One of them with its path.
+RecordedPath recordedAlone(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                           uint32_t pixel, uint32_t sample);
 /// What its camera rays see: samples[i] of pixel i.
 std::vector<SeenPixel> seenBy(const Scene& scene, const Camera& camera,
                               const RenderSettings& settings, const std::vector<uint32_t>& samples,

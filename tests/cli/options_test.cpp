@@ -26,6 +26,45 @@ TEST(Options, Defaults) {
     EXPECT_FALSE(o.picture.size);
 }
 
+/// A command line without the program, as a shell takes it apart.
+std::vector<std::string> wordsOfExample(const std::string& line) {
+    std::vector<std::string> words(1);
+    bool isQuoted = false;
+    for (const char c : line) {
+        if (c == '"')
+            isQuoted = !isQuoted;
+        else if (c == ' ' && !isQuoted)
+            words.emplace_back();
+        else
+            words.back() += c;
+    }
+    words.erase(words.begin());
+    return words;
+}
+
+TEST(Options, ExamplesOfTheHelpAreUnderstood) {
+    for (const DeclaredCommand& c : declareCommands()) {
+        EXPECT_EQ(c.examples.size(), 3u) << c.name;
+        EXPECT_FALSE(c.group.empty()) << c.name;
+        for (const std::string& example : c.examples) {
+            EXPECT_NE(c.footer.find("\n  " + example), std::string::npos) << example;
+            EXPECT_NO_THROW(test::parseAny(wordsOfExample(example))) << example;
+        }
+    }
+}
+
+/// Of many options some dozen come first.
+TEST(Options, LongHelpBeginsWithTheUsualOnes) {
+    for (const DeclaredCommand& c : declareCommands()) {
+        const auto count = [&](auto&& what) { return std::ranges::count_if(c.list.all(), what); };
+        const auto shown = count([](const CommandOption& o) { return !o.isHidden; });
+        const auto common = count([](const CommandOption& o) { return o.isCommon; });
+        const bool isLong = shown > 16;
+        EXPECT_GE(common, isLong ? 8 : 0) << c.name << " has " << shown;
+        EXPECT_LE(common, isLong ? 13 : 0) << c.name << " has " << shown;
+    }
+}
+
 TEST(Options, OfTheView) {
     const auto o = parse<ViewOptions>(
         {"view", "a.dae",      "-s",   "9",         "--port", "8080",  "--look-from",

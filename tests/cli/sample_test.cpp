@@ -1,9 +1,10 @@
-// One sample of a picture by itself: --pixel and --sample.
+// One pixel or sample of a picture by itself: --pixel and --sample.
 #include "host/film/image_formats.hpp"
 #include "tests/cli/program.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <sstream>
 
@@ -156,11 +157,87 @@ TEST_F(Sample, WrongNamesAreRefused) {
     expectRefused({"--pixel", "0", "24", "--sample", "0"}, "32 x 24");
     expectRefused({"--pixel", "-1", "3", "--sample", "0"}, "--pixel");
     expectRefused({"--pixel", "3", "--sample", "0"}, "--pixel");
-    expectRefused({"--pixel", "3", "4"}, "--sample");
     expectRefused({"--sample", "4"}, "--pixel");
     expectRefused({"--pixel", "3", "4", "--sample", "20000000"}, "--sample");
     expectRefused({"--pixel", "3", "4", "--sample", "x"}, "--sample");
+    expectRefused({"--json", "a.json"}, "--pixel");
     expectRefused({}, "--output is required");
+}
+
+/// Kernel and reference of one path, as JSON: vertices that add up to the sample.
+TEST_F(Sample, ExplainsItsPath) {
+    const std::vector<std::string> words = {"--pixel", "13", "17", "--sample", "3", "-s", "1"};
+    std::vector<std::string> asJson = words;
+    asJson.insert(asJson.end(), {"--json", "-"});
+    const ProgramRun run = renderWith(asJson);
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    const auto json = nlohmann::json::parse(run.out);
+    EXPECT_EQ(json["sample"], 3);
+    EXPECT_EQ(json["pixel"], nlohmann::json({13, 17}));
+    const auto& kernel = json["kernel"];
+    EXPECT_EQ(kernel["verdict"], "accepted");
+    double sum = 0;
+    for (const auto& vertex : kernel["vertices"]) {
+        sum += vertex["radiance"][0].get<double>();
+        for (const auto& light : vertex["lights"])
+            sum += light["radiance"][0].get<double>();
+    }
+    const double radiance = kernel["radiance"][0];
+    EXPECT_GT(radiance, 0);
+    EXPECT_NEAR(sum, radiance, 1e-5 * radiance);
+    EXPECT_NEAR(json["reference"]["radiance"][0].get<double>(), radiance, 1e-3 * radiance);
+    EXPECT_EQ(json["reference"]["vertices"].size(), kernel["vertices"].size());
+    EXPECT_EQ(kernel["vertices"][0]["object"], json["reference"]["vertices"][0]["object"]);
+    EXPECT_NE(kernel["vertices"][0]["material"], "");
+
+    const ProgramRun text = renderWith(words);
+    EXPECT_THAT(text.out, HasSubstr("the same path by the reference"));
+    EXPECT_THAT(text.out, HasSubstr("light sample: "));
+    EXPECT_THAT(text.out, HasSubstr("bounce: "));
+    EXPECT_THAT(text.out, HasSubstr(kernel["vertices"][0]["object"].get<std::string>()));
+}
+
+/// Its mean is that of the picture in which every pixel has as many samples.
+TEST_F(Sample, ExplainsItsPixel) {
+    const std::string picture = folder.file("a.exr");
+    ASSERT_EQ(renderWith({"-s", "16", "--branches", "1", "--even", "-o", picture}).exitCode, 0);
+    const FloatImage image = readExr(picture);
+    const std::vector<std::string> words = {"-s", "16", "--branches", "1", "--pixel", "13", "17"};
+    std::vector<std::string> asJson = words;
+    asJson.insert(asJson.end(), {"--json", "-"});
+    const ProgramRun run = renderWith(asJson);
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    const auto json = nlohmann::json::parse(run.out);
+    EXPECT_EQ(json["kernel"]["samples"], 16);
+    EXPECT_EQ(json["reference"]["samples"], 16);
+    const double inPicture = double(image.channels.at("R")[17 * 32 + 13]);
+    EXPECT_NEAR(json["kernel"]["mean"][0].get<double>(), inPicture, 1e-6 * inPicture);
+    // Independent pictures: five standard errors are a false alarm once in a million pixels.
+    EXPECT_LT(json["standard_errors_apart"].get<double>(), 5);
+    const auto& heaviest = json["kernel"]["heaviest"];
+    ASSERT_EQ(heaviest.size(), 8u);
+    const auto luminance = [&](size_t i) {
+        const auto& c = heaviest[i]["radiance"];
+        return 0.2126 * c[0].get<double>() + 0.7152 * c[1].get<double>() +
+               0.0722 * c[2].get<double>();
+    };
+    for (size_t i = 1; i < heaviest.size(); ++i)
+        EXPECT_LE(luminance(i), luminance(i - 1) + 1e-6);
+    const std::string number = std::to_string(heaviest[0]["sample"].get<int>());
+    const ProgramRun one = renderWith(
+        {"-s", "16", "--branches", "1", "--pixel", "13", "17", "--sample", number, "--json", "-"});
+    EXPECT_EQ(nlohmann::json::parse(one.out)["kernel"]["radiance"], heaviest[0]["radiance"]);
+    EXPECT_THAT(renderWith(words).out, HasSubstr("heaviest samples"));
+}
+
+/// Without Vulkan: paths of the reference's own.
+TEST_F(Sample, IsExplainedByTheReferenceAlone) {
+    const ProgramRun run = renderWith(
+        {"--backend", "reference", "--pixel", "13", "17", "--sample", "0", "--json", "-"});
+    ASSERT_EQ(run.exitCode, 0) << run.err;
+    const auto json = nlohmann::json::parse(run.out);
+    EXPECT_FALSE(json.contains("kernel"));
+    EXPECT_GT(json["reference"]["vertices"].size(), 0u);
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 # A cluster on this machine: a controller and three nodes of Slurm, started here and ended with this
 # script. It renders a picture in 16 shares while one node dies with all its processes, one is
 # declared dead though its task lives on, and one share and the merge fail once; then another one in
-# rounds, with what is left of the cluster, of which a share and a plan fail once as well.
+# rounds, with what is left of the cluster, of which a share and a plan fail once as well; then frames.
 #
 #   slurm_cluster.sh STROMBOLI SCENE FOLDER
 #
@@ -138,6 +138,14 @@ if [[ \$1 == @(plan|merge) && ! -e $folder/work/failed_\$1 ]]; then
     touch "$folder/work/failed_\$1"
     exit 3
 fi
+if [[ \$words == *--frames*-o* ]]; then
+    frame=\${words#*--frames }
+    echo "frame \${frame%% *}" >>"$folder/work/frames"
+    if [[ \$frame == 3\ * && ! -e $folder/work/failed_frame ]]; then
+        touch "$folder/work/failed_frame"
+        exit 3
+    fi
+fi
 [[ \$words == *--share* ]] || exec "$stromboli" "\$@"
 share=\${words#*--share }
 share=\${share%%/*}
@@ -250,3 +258,18 @@ cmp "$folder/hand.exr" rounds.exr || die "the picture of rounds has other bytes 
 [[ -e rounds.exr.shares/round3.plan && ! -e rounds.exr.shares/round4.plan ]] ||
     die "there were not three rounds"
 echo "rounds have the bytes of rounds by hand, and end when the noise is reached"
+
+# Frames of a turntable, a task for each: the third fails once, and one is there already.
+picture="$scene -r 24 18 -s 8 --turntable 6"
+"$stromboli" render $picture -o "$folder/whole%d.png" -q || die "no turntable"
+"$stromboli" render $picture --frames 4 -o turn%d.png -q || die "no frame 4"
+"$stromboli" submit slurm $picture -o turn%d.png --job-time 5 --program "$folder/stromboli" ||
+    die "submit of frames failed"
+turned() { [[ $(ls turn?.png | wc -l) == 6 && $(timeout 5 squeue -h | wc -l) == 0 ]]; }
+until_true 60 turned || die "frames are missing"
+for frame in {0..5}; do
+    cmp "$folder/whole$frame.png" turn$frame.png || die "frame $frame has other bytes"
+    expected=$((frame == 3 ? 2 : frame == 4 ? 0 : 1))
+    [[ $(grep -c "^frame $frame\$" frames) == "$expected" ]] || die "frame $frame was not begun $expected times"
+done
+echo "each frame was rendered once, but for the one that failed"

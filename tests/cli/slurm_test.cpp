@@ -1,4 +1,5 @@
 // Pictures that a cluster with Slurm renders; the cluster is on this machine.
+#include "host/farm/slurm_scripts.hpp"
 #include "source_dir.h"
 #include "tests/cli/program.hpp"
 #include "tests/support/shell.hpp"
@@ -220,7 +221,85 @@ TEST_F(Submit, ManySharesAreMergedInGroups) {
     EXPECT_EQ(same.exitCode, 0) << same.output;
 }
 
+TEST(FrameArrays, StayBelowTheMostTasksOfSlurm) {
+    const std::vector<FrameArray> arrays = arraysOf({0, 1, 999, 1000, 1003, 2500});
+    ASSERT_EQ(arrays.size(), 3u);
+    EXPECT_EQ(arrays[0].first, 0u);
+    EXPECT_EQ(arrayOf(arrays[0].tasks), "0-1,999");
+    EXPECT_EQ(arrays[1].first, 1000u);
+    EXPECT_EQ(arrayOf(arrays[1].tasks), "0,3");
+    EXPECT_EQ(arrays[2].first, 2000u);
+    EXPECT_EQ(arrayOf(arrays[2].tasks), "500");
+}
+
+/// Frames as the tasks render them, with the bytes of one command for all.
+TEST_F(Submit, ScriptsRenderFrames) {
+    const Strings picture = {"-s", "8", "-r", "16", "12", "--turntable", "4", "-q", "--aov"};
+    const std::string output = folder.file("f%02d.exr");
+    Strings words = {"submit", "slurm", scene, "-o", output, "--frames", "1..3", "--dry-run"};
+    words.insert(words.end(), picture.begin(), picture.end());
+    const ProgramRun dry = stromboli(words);
+    ASSERT_EQ(dry.exitCode, 0) << dry.err;
+    EXPECT_THAT(dry.out, HasSubstr("# sbatch --array=1-3 frames.sh 0\n"));
+    EXPECT_THAT(dry.out, HasSubstr("--output=" + folder.file("f.exr.frames") + "/frame.%A_%a.log"));
+    folder.write("frames.sh", dry.out);
+    EXPECT_EQ(shell("sh -n " + folder.file("frames.sh")).exitCode, 0);
+    const auto task = [&](const std::string& number) {
+        const ShellRun run = shell("export SLURM_ARRAY_TASK_ID=" + number + "; sh " +
+                                   folder.file("frames.sh") + " 0");
+        EXPECT_EQ(run.exitCode, 0) << run.output;
+    };
+    for (const char* number : {"3", "1", "2", "1"}) // the last is there already
+        task(number);
+    Strings together = {"render", scene, "-o", folder.file("w%02d.exr"), "--frames", "1..3"};
+    together.insert(together.end(), picture.begin(), picture.end());
+    ASSERT_EQ(stromboli(together).exitCode, 0);
+    for (const char* frame : {"01", "02", "03"}) {
+        const ShellRun same = shell(std::string("cmp ") + folder.file("w") + frame + ".exr " +
+                                    folder.file("f") + frame + ".exr");
+        EXPECT_EQ(same.exitCode, 0) << same.output;
+    }
+    // What is there is not submitted again; what has begun is.
+    std::filesystem::remove(folder.file("f02.exr"));
+    folder.write("f03.exr.checkpoint", "");
+    EXPECT_THAT(stromboli(words).out, HasSubstr("# sbatch --array=2-3 frames.sh 0\n"));
+}
+
+/// Each frame as a picture in shares.
+TEST_F(Submit, ScriptsRenderSharesOfFrames) {
+    const Strings picture = {"-s", "8", "--block", "2", "-r", "16", "12", "--turntable", "3", "-q"};
+    Strings words = {"submit",   "slurm", scene,      "-o",   folder.file("f.exr"),
+                     "--shares", "2",     "--frames", "1..2", "--dry-run"};
+    words.insert(words.end(), picture.begin(), picture.end());
+    const ProgramRun dry = stromboli(words);
+    ASSERT_EQ(dry.exitCode, 0) << dry.err;
+    const std::vector<std::string> scripts = scriptsIn(dry.out);
+    ASSERT_EQ(scripts.size(), 4u);
+    for (const char* frame : {"0001", "0002"})
+        std::filesystem::create_directory(folder.file(std::string("f.") + frame + ".exr.shares"));
+    for (size_t i = 0; i < 4; ++i) {
+        folder.write("job.sh", scripts[i]);
+        for (const char* share : {"2", "1"}) {
+            const ShellRun run = shell(std::string("export SLURM_ARRAY_TASK_ID=") + share +
+                                       "; sh " + folder.file("job.sh"));
+            EXPECT_EQ(run.exitCode, 0) << run.output;
+        }
+    }
+    Strings together = {"render", scene, "-o", folder.file("w.exr"), "--frames", "1..2", "--even"};
+    together.insert(together.end(), picture.begin(), picture.end());
+    ASSERT_EQ(stromboli(together).exitCode, 0);
+    for (const char* frame : {"0001", "0002"}) {
+        const ShellRun same = shell(std::string("cmp ") + folder.file("w.") + frame + ".exr " +
+                                    folder.file("f.") + frame + ".exr");
+        EXPECT_EQ(same.exitCode, 0) << same.output;
+    }
+}
+
 TEST_F(Submit, RefusesWhatWouldFailOnTheNodes) {
+    EXPECT_THAT(submit({"--turntable", "4", "--block", "2", "--dry-run"}).err,
+                HasSubstr("--block: only with --shares"));
+    EXPECT_THAT(submit({"--turntable", "4", "--frames", "2..4", "--dry-run"}).err,
+                HasSubstr("0 to 3"));
     EXPECT_THAT(submit({"--shares", "5", "--dry-run", "-s", "64", "--block", "32"}).err,
                 HasSubstr("3 of the 5 shares would have no samples: -s makes 2 blocks of 32"));
     EXPECT_THAT(submit({"--dry-run"}).err, HasSubstr("--shares is required"));
@@ -260,6 +339,7 @@ TEST_F(Submit, AClusterThatLosesNodesRendersThePicture) {
     EXPECT_THAT(run.output, HasSubstr("each share was taken once, but for"));
     EXPECT_THAT(run.output, HasSubstr("only what is missing is submitted again"));
     EXPECT_THAT(run.output, HasSubstr("rounds have the bytes of rounds by hand"));
+    EXPECT_THAT(run.output, HasSubstr("each frame was rendered once, but for"));
     EXPECT_THAT(run.output, Not(HasSubstr("FAILED")));
     EXPECT_NE(shell("grep -lzxF SLURM_CONF=" + folder.file("slurm.conf") + " /proc/[0-9]*/environ")
                   .exitCode,

@@ -42,6 +42,21 @@ TEST(Comparison, ZTestsWhereBothHaveVariances) {
     EXPECT_EQ(violations(blind, {.zTest = true}).size(), 1u);
 }
 
+/// What is said twice is the same: the bias, and the difference of the means in the z-tests.
+TEST(Comparison, BiasIsTheDifferenceOfTheMeans) {
+    Picture brighter = noisyPicture(2, 0);
+    for (PixelStatistics& p : brighter.film->pixels)
+        p.mean *= 1.5;
+    for (glm::dvec3& p : brighter.rgb)
+        p *= 1.5;
+    const Comparison c = comparePictures(noisyPicture(1, 0), brighter, {});
+    ASSERT_TRUE(c.zTest);
+    for (size_t i = 0; i < 3; ++i) {
+        EXPECT_GT(c.errors.relativeBias[i], 0.3);
+        EXPECT_NEAR(c.zTest->channels[i].relativeDifference, c.errors.relativeBias[i], 1e-6);
+    }
+}
+
 TEST(Comparison, SaysThatSampleCountsVary) {
     Picture a = noisyPicture(1, 0), b = noisyPicture(2, 0);
     b.film->pixels[7].add(glm::dvec3(1));

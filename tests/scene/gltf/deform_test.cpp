@@ -1,5 +1,6 @@
 // Morph targets, skins and animations.
 
+#include "scene/build/file_store.hpp"
 #include "tests/scene/gltf/gltf_text.hpp"
 
 #include <cmath>
@@ -153,6 +154,26 @@ TEST(GltfAnimations, CubicSplines) {
 TEST(GltfAnimations, Weights) {
     const GltfText g = animated("weights", "SCALAR", {0, 0, 4, 8});
     EXPECT_EQ(corner(load(g, at(2))), glm::vec3(3, 4, 0));
+}
+
+/// The moments of an animation are read from one reading of the file: it may be gone after the
+/// first, and each is what a reading of its own gives.
+TEST(GltfAnimations, AreReadOnce) {
+    const GltfText g = animated("translation", "VEC3", {0, 0, 0, 0, 8, 0});
+    const Folder folder;
+    for (const bool isBinary : {false, true}) {
+        const std::filesystem::path file =
+            folder.write(isBinary ? "a.glb" : "a.gltf", isBinary ? g.binary() : g.text());
+        SceneConventions moment = at(0);
+        moment.kept = std::make_shared<build::FileStore>();
+        EXPECT_EQ(corner(loadGltf(file, moment)), glm::vec3(1, 0, 0));
+        std::filesystem::remove(file);
+        for (const double seconds : {1.5, 9.0, 0.0}) {
+            moment.selection.seconds = seconds;
+            EXPECT_EQ(corner(loadGltf(file, moment)), corner(load(g, at(seconds)))) << seconds;
+        }
+        EXPECT_THROW(loadGltf(file, at(0)), SceneError) << "without what was kept";
+    }
 }
 
 using Marks = std::vector<bool>;

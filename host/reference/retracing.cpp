@@ -1,0 +1,190 @@
+// The path that the kernel has taken, once more in double precision: its directions, densities and
+// decisions are taken as they are, and what they meet and bring is worked out anew.
+#include "host/reference/integrator.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace stromboli::reference {
+
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+/// How far a float's path may be off, of a distance.
+constexpr double kSameDistance = 1e-3;
+
+bool isNear(double t, double distance) {
+    return std::abs(t - distance) <= kSameDistance * distance;
+}
+
+double largestOf(const glm::dvec3& v) {
+    return std::max({v.x, v.y, v.z});
+}
+
+} // namespace
+
+/// Makes the surface there the current one. What is nearer than the kernel's hit is passed if it
+/// may be passed.
+bool PathSample::arriveWhere(const RecordedVertex& vertex, const Ray& ray, Skip skip,
+                             bool fromCamera) {
+    Hit hit;
+    do {
+        hit = world_.bvh.closestBehind(ray, hit, skip);
+    } while (hit.primitive != kNoPrimitive && !isNear(hit.t, vertex.distance) &&
+             (opacityAt(world_, hit) < 1 || (fromCamera && isHiddenFromCamera(world_.scene, hit))));
+    return arriveAt(ray, hit);
+}
+
+/// What the surface at a distance along the ray sends back; nothing where there is none.
+glm::dvec3 PathSample::emissionWhere(const Ray& ray, double distance, uint32_t& emitter) const {
+    Hit hit;
+    do {
+        hit = world_.bvh.closestBehind(ray, hit, {});
+    } while (hit.primitive != kNoPrimitive && !isNear(hit.t, distance));
+    if (hit.primitive == kNoPrimitive) return glm::dvec3(0.0);
+    emitter = hit.primitive;
+    SurfacePoint s = surfaceAt(world_.scene, ray, hit);
+    if (world_.hasDetails) applyTextures(s, world_.scene);
+    return emission(s) * opacityAt(world_, hit);
+}
+
+void PathSample::retraceLight(const RecordedLight& taken) {
+    lit_ = surface_;
+    if (isLitFromBehind(surface_) && glm::dot(taken.direction, surface_.shading) < 0) {
+        lit_.geometric = -surface_.geometric;
+        lit_.shading = -surface_.shading;
+        lit_.wo = -surface_.wo;
+        lit_.lift = 0;
+    }
+    LightSample light;
+    light.direction = taken.direction;
+    light.infinite = !std::isfinite(taken.distance);
+    Ray ray = leaveTo(taken.direction);
+    if (!light.infinite) light.target = ray.origin + taken.distance * taken.direction;
+    glm::dvec3 arriving(0.0);
+    if (taken.pdf > 0 && !light.infinite)
+        arriving = emissionWhere(ray, taken.distance, light.primitive);
+    else if (taken.pdf > 0 && !taken.kind.empty())
+        arriving = world_.lights.ambientRadiance(taken.direction);
+    else if (taken.pdf > 0) { // hemisphere sampling: whatever is met first
+        const Hit hit = world_.bvh.closest(ray, {startOfLightSample()});
+        if (hit.primitive == kNoPrimitive)
+            arriving = world_.lights.ambientRadiance(taken.direction);
+        else
+            arriving = emissionWhere(ray, hit.t, light.primitive);
+        ray.tMax = hit.t;
+    }
+    double closest = -1;
+    for (size_t i = 0; taken.pdf == 0 && i < world_.lights.deltaCount(); ++i) {
+        const LightSample delta = world_.lights.sampleDelta(i, lit_);
+        const double cosine = glm::dot(delta.direction, taken.direction);
+        if (delta.infinite != light.infinite || cosine < closest) continue;
+        closest = cosine;
+        arriving = delta.value;
+    }
+    const double density = taken.pdf > 0 ? taken.pdf : taken.probability;
+    const glm::dvec3 f = evaluateBsdf(surface_, taken.direction, world_.conventions).value;
+    const glm::dvec3 value = density > 0 ? arriving * f * (taken.weight / density) : glm::dvec3(0);
+    RecordedLight::Fate fate = RecordedLight::Fate::BringsNothing;
+    glm::dvec3 brings(0.0);
+    // A sample that was meant for the other side of a surface is lost, which is no mistake.
+    const bool isOfOtherSide =
+        isLitFromBehind(surface_) && taken.fate == RecordedLight::Fate::BringsNothing;
+    if (largestOf(value) > 0 && !isOfOtherSide) {
+        const Filling filling = beyond(looksBehind());
+        if (!light.infinite) ray.tMax = taken.distance * (1 - 1e-6);
+        ++rays_;
+        const glm::dvec3 passes =
+            shareThatPasses(ray, {startOfLightSample(), light.primitive}, filling);
+        brings = throughput_ * value * passes * transmittance(filling.volume, taken.distance);
+        fate = largestOf(passes) > 0 ? RecordedLight::Fate::Arrives : RecordedLight::Fate::InShadow;
+    }
+    radiance_ += brings;
+    noteLight(light, fate, brings);
+    RecordedLight& noted = record_->vertices.back().lights.back();
+    noted.kind = taken.kind;
+    noted.pdf = taken.pdf;
+    noted.probability = taken.probability;
+    noted.weight = taken.weight;
+}
+
+/// ray, skip: of the next path ray.
+void PathSample::retraceBounce(const RecordedBounce& taken, Ray& ray, Skip& skip) {
+    BsdfSample next;
+    next.direction = taken.direction;
+    next.lobe = taken.lobe;
+    if (taken.pdf > 0) {
+        const BsdfValue f = evaluateBsdf(surface_, taken.direction, world_.conventions);
+        next.pdf = f.pdf;
+        next.weight = f.value / taken.pdf;
+    } else { // the sample of that lobe that goes there
+        constexpr int kTries = 256;
+        double best = -1;
+        for (int i = 0; i < kTries; ++i) {
+            const BsdfSample tried =
+                sampleBsdf(surface_, {0.5, 0.5, (i + 0.5) / kTries}, world_.conventions);
+            const double cosine = glm::dot(tried.direction, taken.direction);
+            if (tried.lobe != taken.lobe || cosine <= best) continue;
+            best = cosine;
+            next = tried;
+        }
+    }
+    throughput_ *= next.weight / taken.goesOn;
+    noteBounce(next, taken.goesOn, taken.survives && largestOf(throughput_) > 0);
+    ray = next.transmitted() ? transmittedRay(surface_, taken.direction)
+                             : reflectedRay(surface_, taken.direction);
+    skip = {next.transmitted() ? surface_.triangle : startOfReflected(surface_)};
+    filling_ = beyond(next.transmitted());
+}
+
+RecordedPath PathSample::retrace(const RecordedPath& taken) {
+    RecordedPath own = taken;
+    own.vertices.clear();
+    recordTo(own);
+    Ray ray{taken.origin, taken.direction, taken.tMin, kInfinite};
+    Skip skip;
+    bool fromCamera = true;
+    SurfacePoint surface; // where the path splits
+    Filling filling;
+    glm::dvec3 throughput(1.0);
+    for (const RecordedVertex& vertex : taken.vertices) {
+        branch_ = vertex.branch;
+        if (vertex.returns) {
+            surface_ = surface;
+            filling_ = filling;
+            throughput_ = throughput;
+            noteReturn();
+        } else {
+            ++rays_;
+            const bool hits = arriveWhere(vertex, ray, skip, fromCamera);
+            glm::dvec3 light(0.0);
+            if (largestOf(vertex.light) > 0) // else it is found by light samples
+                light = throughput_ * vertex.weight *
+                        (hits         ? emission(surface_)
+                         : fromCamera ? world_.lights.backdrop(ray.direction)
+                                      : world_.lights.ambientRadiance(ray.direction));
+            noteArrival(ray, hits, light);
+            own.vertices.back().weight = vertex.weight;
+            own.vertices.back().goesOn = vertex.goesOn;
+            if (!hits) continue;
+            faceForward(surface_, world_.conventions);
+            if (world_.hasDetails) applyNormalMap(surface_, world_.scene, world_.conventions);
+            throughput_ /= vertex.goesOn;
+        }
+        fromCamera = false;
+        for (const RecordedLight& light : vertex.lights)
+            retraceLight(light);
+        if (vertex.branch == 0) {
+            surface = surface_;
+            filling = filling_;
+            throughput = throughput_;
+        }
+        if (vertex.bounce) retraceBounce(*vertex.bounce, ray, skip);
+    }
+    own.radiance = sumOf(own);
+    own.rejected = false;
+    return own;
+}
+
+} // namespace stromboli::reference

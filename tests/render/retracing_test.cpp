@@ -1,0 +1,101 @@
+// The kernel's paths once more by the reference: what their vertices meet and bring is the same.
+#include "host/reference/reference_backend.hpp"
+#include "scene/read_scene.hpp"
+#include "tests/render/device_render.hpp"
+#include "tests/support/device_fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace stromboli {
+namespace {
+
+using namespace test;
+
+class Retracing : public DeviceTest {};
+
+/// Of the vertices' sum, beside the path's own size: directions are floats, which move a light's
+/// cosine by 1e-7 and the pdf of rough reflections by as much again for each bounce.
+constexpr double kOff = 2e-3;
+
+TEST_F(Retracing, KernelAndReferenceFindTheSameOnOnePath) {
+    for (const char* name :
+         {"cornell_boxes", "cornell_mirror_glass", "cornell_metal", "light_sphere",
+          "light_directional", "light_ambient", "texture_chart", "island"}) {
+        SCOPED_TRACE(name);
+        const Scene scene = readScene(name);
+        RenderSettings s;
+        s.area = {16, 12, {}};
+        s.estimator.branches = 2;
+        s.estimator.directLight = DirectLight::MisAll;
+        const Camera camera = makeCamera(scene, {}, s.area.width, s.area.height);
+        const GpuScene gpu = packScene(scene, buildWideBvh(scene), lightSelection(s.estimator));
+        VulkanBackend device(testDevice(), gpu, camera, s);
+        const ReferenceBackend host(scene, camera, s);
+        ASSERT_TRUE(host.mayRetrace());
+        size_t compared = 0, met = 0, agree = 0;
+        for (uint32_t i = 0; i < 24; ++i) {
+            const RecordedPath taken = device.record(i * 8, i), again = host.retrace(taken);
+            ASSERT_EQ(again.vertices.size(), taken.vertices.size());
+            for (size_t v = 0; v < taken.vertices.size(); ++v) {
+                ++met;
+                agree += taken.vertices[v].primitive == again.vertices[v].primitive;
+            }
+            const double size = glm::length(taken.radiance);
+            compared += size > 0 && glm::length(again.radiance - taken.radiance) <= kOff * size;
+            compared += size == 0 && glm::length(again.radiance) == 0;
+        }
+        // An edge may be met on the other side, and a narrow lobe be off by the rounding of floats.
+        EXPECT_GE(compared, 22u);
+        EXPECT_GE(agree, met - met / 50);
+    }
+}
+
+/// What the kernel would get wrong is seen: a light twice as bright, a colour that is another.
+TEST_F(Retracing, FindsWhatDiffers) {
+    Scene scene = readScene("cornell_boxes");
+    RenderSettings s;
+    s.area = {16, 12, {}};
+    const Camera camera = makeCamera(scene, {}, s.area.width, s.area.height);
+    const GpuScene gpu = packScene(scene, buildWideBvh(scene), lightSelection(s.estimator));
+    VulkanBackend device(testDevice(), gpu, camera, s);
+    const RecordedPath taken = device.record(8 * 16 + 8, 1);
+    ASSERT_GT(glm::length(taken.radiance), 0);
+    for (Material& m : scene.materials)
+        m.emission *= 2;
+    const ReferenceBackend brighter(scene, camera, s);
+    const RecordedPath doubled = brighter.retrace(taken);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(doubled.radiance[c], 2 * taken.radiance[c], 1e-4 * taken.radiance[c]);
+}
+
+TEST_F(Retracing, MediaAndOtherRulesAreNotFollowed) {
+    Scene scene = readScene("cornell_boxes");
+    RenderSettings s;
+    s.area = {16, 12, {}};
+    const Camera camera = makeCamera(scene, {}, s.area.width, s.area.height);
+    scene.media.emplace_back();
+    const ReferenceBackend host(scene, camera, s);
+    EXPECT_FALSE(host.mayRetrace());
+    EXPECT_THROW(host.retrace({}), std::invalid_argument);
+}
+
+/// All at once and one by one, in whatever order.
+TEST_F(Retracing, SamplesAloneAreThoseOfThePicture) {
+    const Scene scene = readScene("cornell_metal");
+    RenderSettings s;
+    s.area = {16, 12, {}};
+    s.estimator.branches = 2;
+    const Camera camera = makeCamera(scene, {}, s.area.width, s.area.height);
+    const GpuScene gpu = packScene(scene, buildWideBvh(scene), lightSelection(s.estimator));
+    VulkanBackend device(testDevice(), gpu, camera, s);
+    constexpr uint32_t kPixel = 100, kFirst = 3, kCount = 70;
+    const std::vector<SampleValue> together = device.samplesAlone(kPixel, kFirst, kCount);
+    ASSERT_EQ(together.size(), kCount);
+    for (uint32_t i = 0; i < kCount; ++i)
+        EXPECT_EQ(together[i].radiance, device.sampleAlone(kPixel, kFirst + i).radiance) << i;
+}
+
+} // namespace
+} // namespace stromboli
