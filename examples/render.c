@@ -3,43 +3,28 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <stromboli/stromboli.h>
-
-static int show(double share, void* user) {
-    (void)user;
-    fprintf(stderr, "\r%3.0f %%", 100 * share);
-    return 0; /* anything else cancels */
+static stromboli_error error;
+static void check(stromboli_code code) {
+    if (code != STROMBOLI_OK) exit(fprintf(stderr, "error %d: %s\n", (int)code, error.message) > 0);
 }
-
-static void check(stromboli_code code, const stromboli_error* error) {
-    if (code == STROMBOLI_OK) return;
-    fprintf(stderr, "error %d: %s\n", (int)code, error->message);
-    exit(1);
-}
-
 int main(int count, char** words) {
-    stromboli_error e;
     stromboli_scene* scene;
     stromboli_session* session;
     stromboli_info info;
-    check(stromboli_scene_load(count > 1 ? words[1] : "cornell_boxes", &scene, &e), &e);
-    check(stromboli_session_create(NULL, NULL, &session, &e), &e);
-    stromboli_session_on_progress(session, show, NULL);
-    check(stromboli_session_set(session, "samples", 16, &e), &e);
-    check(stromboli_session_set(session, "width", 64, &e), &e);
-    check(stromboli_session_set(session, "height", 48, &e), &e);
-    check(stromboli_session_begin(session, scene, &e), &e);
-    check(stromboli_session_run(session, &e), &e);
-    check(stromboli_session_info(session, &info, &e), &e);
-    const size_t numbers = (size_t)info.width * info.height * 3;
-    float* color = malloc(numbers * sizeof *color);
-    check(stromboli_session_read_color(session, color, numbers, &e), &e);
+    static float color[64 * 48 * 3];
     double sum = 0;
-    for (size_t i = 0; i < numbers; ++i)
-        sum += color[i];
-    printf("mean %.6f, noise %.4f\n", sum / (double)numbers, info.noise);
-    if (count > 2) check(stromboli_session_write(session, words[2], &e), &e);
-    free(color);
+    check(stromboli_scene_load(count > 1 ? words[1] : "cornell_boxes", &scene, &error));
+    check(stromboli_session_create(NULL, NULL, &session, &error)); /* the best device */
+    check(stromboli_session_set(session, "samples", 16, &error));
+    check(stromboli_session_set(session, "width", 64, &error));
+    check(stromboli_session_set(session, "height", 48, &error));
+    check(stromboli_session_begin(session, scene, &error));
+    check(stromboli_session_run(session, &error));
+    check(stromboli_session_info(session, &info, &error));
+    check(stromboli_session_read_color(session, color, 64 * 48 * 3, &error));
+    for (size_t i = 0; i < 64 * 48 * 3; ++i) sum += color[i];
+    printf("mean %.6f, noise %.4f\n", sum / (64 * 48 * 3), info.noise);
+    if (count > 2) check(stromboli_session_write(session, words[2], &error));
     stromboli_session_destroy(session);
     stromboli_scene_destroy(scene);
-    return 0;
 }

@@ -137,6 +137,13 @@ void defineScenes(py::module_& m) {
                  return maker.addTexture(uint32_t(image.shape(1)), uint32_t(image.shape(0)),
                                          spanOf(image), srgb);
              })
+        .def("float_texture",
+             [](api::SceneMaker& maker, const Floats& image) {
+                 if (image.ndim() != 3)
+                     throw UsageError("a texture is an array of height x width x 3 or 4 numbers");
+                 return maker.addTexture(uint32_t(image.shape(1)), uint32_t(image.shape(0)),
+                                         spanOf(image));
+             })
         .def("use_texture", &api::SceneMaker::useTexture)
         .def("mesh", &addMesh)
         .def("sphere",

@@ -110,20 +110,25 @@ Material& SceneMaker::material(uint32_t number) {
     return materials_[number];
 }
 
-uint32_t SceneMaker::addTexture(uint32_t width, uint32_t height, std::span<const uint8_t> bytes,
-                                bool srgb) {
+std::pair<TextureImage, size_t> SceneMaker::textureOf(uint32_t width, uint32_t height, size_t count,
+                                                      const char* what) const {
     const uint64_t texels = uint64_t(width) * height;
     if (width == 0 || height == 0 || width > 65536 || height > 65536 ||
-        (bytes.size() != 3 * texels && bytes.size() != 4 * texels))
-        throw UsageError(fmt::format("a texture of {} x {} texels has 3 or 4 bytes for each, not "
-                                     "{} bytes",
-                                     width, height, bytes.size()));
-    const size_t channels = bytes.size() / texels;
+        (count != 3 * texels && count != 4 * texels))
+        throw UsageError(fmt::format("a texture of {} x {} texels has 3 or 4 {} for each, not {} "
+                                     "{}",
+                                     width, height, what, count, what));
     TextureImage image;
     image.name = fmt::format("texture {}", images_.size());
     image.width = width, image.height = height;
-    image.words.resize(texels);
-    for (size_t i = 0; i < texels; ++i) {
+    return {std::move(image), count / texels};
+}
+
+uint32_t SceneMaker::addTexture(uint32_t width, uint32_t height, std::span<const uint8_t> bytes,
+                                bool srgb) {
+    auto [image, channels] = textureOf(width, height, bytes.size(), "bytes");
+    image.words.resize(bytes.size() / channels);
+    for (size_t i = 0; i < image.words.size(); ++i) {
         const uint8_t* texel = &bytes[i * channels];
         const uint32_t alpha = channels == 4 ? texel[3] : 255;
         image.words[i] =
@@ -131,6 +136,22 @@ uint32_t SceneMaker::addTexture(uint32_t width, uint32_t height, std::span<const
     }
     images_.push_back(std::move(image));
     isSrgb_.push_back(srgb);
+    return uint32_t(images_.size() - 1);
+}
+
+uint32_t SceneMaker::addTexture(uint32_t width, uint32_t height, std::span<const float> values) {
+    constexpr float kLargestHalf = 65504;
+    auto [image, channels] = textureOf(width, height, values.size(), "numbers");
+    if (!std::ranges::all_of(values, [](float x) { return std::abs(x) <= kLargestHalf; }))
+        throw UsageError("a texture's numbers are from -65504 to 65504");
+    image.format = TexelFormat::RgbaHalf;
+    for (size_t i = 0; i < values.size(); i += channels) {
+        const float alpha = channels == 4 ? values[i + 3] : 1;
+        image.words.push_back(glm::packHalf2x16({values[i], values[i + 1]}));
+        image.words.push_back(glm::packHalf2x16({values[i + 2], alpha}));
+    }
+    images_.push_back(std::move(image));
+    isSrgb_.push_back(false);
     return uint32_t(images_.size() - 1);
 }
 

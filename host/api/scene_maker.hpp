@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -63,6 +64,8 @@ class SceneMaker {
     /// A picture of `width` x `height` texels of three (R, G, B) or four (and alpha) bytes, from
     /// the top. Red, green and blue are sRGB or linear. Returns its number.
     uint32_t addTexture(uint32_t width, uint32_t height, std::span<const uint8_t> bytes, bool srgb);
+    /// Likewise of linear floats, from -65504 to 65504: they are kept in 16 bits.
+    uint32_t addTexture(uint32_t width, uint32_t height, std::span<const float> values);
     /// The texture multiplies base_color, roughness_metallic, emission, or is the map of normals
     /// ("normal").
     void useTexture(uint32_t material, std::string_view slot, uint32_t texture);
@@ -87,6 +90,9 @@ class SceneMaker {
         uint32_t material = 0;
     };
     void requireMaterial(uint32_t number) const;
+    /// A picture of that size without texels, and how many channels `count` numbers make.
+    std::pair<TextureImage, size_t> textureOf(uint32_t width, uint32_t height, size_t count,
+                                              const char* what) const;
 
     std::string name_;
     std::vector<Material> materials_;

@@ -130,6 +130,19 @@ stromboli_code stromboli_maker_add_texture(stromboli_maker* maker, uint32_t widt
     });
 }
 
+stromboli_code stromboli_maker_add_float_texture(stromboli_maker* maker, uint32_t width,
+                                                 uint32_t height, uint32_t channels,
+                                                 const float* values, uint32_t* number,
+                                                 stromboli_error* error) {
+    return guarded(error, [&] {
+        there(number, "number");
+        there(values, "values");
+        if (channels != 3 && channels != 4) throw UsageError("a texture has 3 or 4 channels");
+        const size_t count = size_t(channels) * width * height;
+        *number = there(maker, "maker").maker.addTexture(width, height, std::span(values, count));
+    });
+}
+
 stromboli_code stromboli_maker_use_texture(stromboli_maker* maker, uint32_t material,
                                            const char* slot, uint32_t texture,
                                            stromboli_error* error) {

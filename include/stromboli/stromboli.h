@@ -118,6 +118,10 @@ STROMBOLI_API stromboli_code stromboli_maker_add_texture(stromboli_maker* maker,
                                                          uint32_t height, uint32_t channels,
                                                          const uint8_t* bytes, int is_srgb,
                                                          uint32_t* number, stromboli_error* error);
+/* The same of linear floats from -65504 to 65504, which are kept in 16 bits. */
+STROMBOLI_API stromboli_code stromboli_maker_add_float_texture(
+    stromboli_maker* maker, uint32_t width, uint32_t height, uint32_t channels, const float* values,
+    uint32_t* number, stromboli_error* error);
 /* slot: base_color, roughness_metallic, normal or emission. */
 STROMBOLI_API stromboli_code stromboli_maker_use_texture(stromboli_maker* maker, uint32_t material,
                                                          const char* slot, uint32_t texture,

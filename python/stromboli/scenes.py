@@ -166,10 +166,16 @@ class SceneBuilder:
         return self._maker.material(kind, name, given(parameters))
 
     def texture(self, image: Any, *, srgb: bool = True) -> int:
-        """Adds a picture of height x width x 3 or 4 bytes, from the top, and returns its number."""
+        """Adds a picture of height x width x 3 or 4 numbers, from the top, and returns its number.
+
+        image -- of uint8, sRGB unless `srgb` is False; or of floats, which are linear, from -65504
+        to 65504, and are kept in 16 bits
+        """
         array = np.asarray(image)
+        if np.issubdtype(array.dtype, np.floating):
+            return self._maker.float_texture(array)
         if array.dtype != np.uint8:
-            raise TypeError(f"a texture is an array of uint8, not of {array.dtype}")
+            raise TypeError(f"a texture is an array of uint8 or floats, not of {array.dtype}")
         return self._maker.texture(array, srgb)
 
     def use_texture(self, material: int, slot: str, texture: int) -> None:

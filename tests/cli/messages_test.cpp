@@ -104,7 +104,7 @@ TEST(Messages, WhatHasNoEffectBesideAnotherOptionIsSaid) {
     EXPECT_THAT(
         remarks({"render", "a.dae", "-o", "a.png", "--stats", "s.json", "-s", "8", "--pixel", "1",
                  "2", "--sample", "0"}),
-        ElementsAre("--pixel prints one sample and makes no picture: ignored: -o, --stats"));
+        ElementsAre("--pixel explains one pixel and makes no picture: ignored: -o, --stats"));
     EXPECT_THAT(remarks({"render", "a.dae", "-o", "a.png", "--integrator", "normals", "-l", "4",
                          "-m", "2"}),
                 ElementsAre("--integrator normals follows no light: ignored: -m, -l"));

@@ -96,10 +96,9 @@ TEST(ToneOptions, AJpegHasNoAlpha) {
 }
 
 TEST(ToneOptions, OfACommandThatMakesNoSuchPictureAreUnknown) {
-    EXPECT_THAT(
-        refusal({"check", "a.dae", "--view", "agx"}),
-        HasSubstr(
-            "check has no option --view; it is one of render, view, tonemap, denoise, merge"));
+    EXPECT_THAT(refusal({"check", "a.dae", "--view", "agx"}),
+                HasSubstr("check has no option --view; it is one of render, view, tonemap, "
+                          "denoise, submit, merge"));
     EXPECT_THAT(refusal({"compare", "a.exr", "b.exr", "--diff", "c.jpg"}),
                 HasSubstr("expected a .png or an .exr file"));
 }

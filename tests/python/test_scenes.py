@@ -83,6 +83,16 @@ def test_a_texture_begins_at_the_upper_left(reference, builder):
         assert value(reference, builder) == pytest.approx(expected, abs=1e-5)
 
 
+def test_a_texture_of_floats_is_linear_and_may_be_brighter_than_1(reference, builder):
+    texels = np.empty((4, 4, 3), np.float32)
+    texels[:] = (3.5, 0.25, 0.125)
+    material = builder.material("diffuse", albedo=0, emission=2)
+    builder.use_texture(material, "emission", builder.texture(texels))
+    builder.mesh(PLANE, QUAD, material, uvs=np.zeros((4, 2)))
+    builder.camera((3, 4, 0), (0, 0, 0), fov=1e-3)
+    assert value(reference, builder) == pytest.approx([7, 0.5, 0.25])
+
+
 def test_a_transform_moves_a_mesh(reference, builder):
     matrix = np.eye(4)
     matrix[:3, 3] = (0, 1.5, 0)  # the floor is lifted
@@ -174,7 +184,9 @@ def test_what_is_wrong_is_said(builder):
     with pytest.raises(TypeError):
         builder.mesh(PLANE, [(0, 1, -1)], material)
     with pytest.raises(TypeError):
-        builder.texture(np.zeros((2, 2, 3)))
+        builder.texture(np.zeros((2, 2, 3), int))
+    with pytest.raises(stromboli.UsageError, match="from -65504 to 65504"):
+        builder.texture(np.full((2, 2, 3), np.nan))
 
 
 def test_loading(reference, tmp_path):
