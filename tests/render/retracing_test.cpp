@@ -81,6 +81,36 @@ TEST_F(Retracing, MediaAndOtherRulesAreNotFollowed) {
     EXPECT_THROW(host.retrace({}), std::invalid_argument);
 }
 
+/// However the kernel reads the scene, is cut into dispatches, or is asked to be scheduled.
+TEST_F(Retracing, RecordsDoNotDependOnTheTuning) {
+    const Scene scene = readScene("cornell_mirror_glass");
+    RenderSettings s;
+    s.area = {16, 12, {}};
+    s.estimator.branches = 2;
+    const Camera camera = makeCamera(scene, {}, s.area.width, s.area.height);
+    const GpuScene gpu = packScene(scene, buildWideBvh(scene), lightSelection(s.estimator));
+    KernelTuning plain, storage, short_, waves;
+    storage.texelFetch = false;
+    short_.fixedIterations = 3;
+    waves.scheduler = PathScheduler::Wavefront;
+    constexpr uint32_t kPixel = 100, kSample = 2;
+    const RecordedPath path =
+        VulkanBackend(testDevice(), gpu, camera, s, plain).record(kPixel, kSample);
+    EXPECT_GT(path.vertices.size(), 3u);
+    for (const KernelTuning& tuning : {storage, short_, waves}) {
+        VulkanBackend device(testDevice(), gpu, camera, s, tuning);
+        const RecordedPath other = device.record(kPixel, kSample);
+        EXPECT_EQ(other.radiance, path.radiance);
+        ASSERT_EQ(other.vertices.size(), path.vertices.size());
+        for (size_t v = 0; v < path.vertices.size(); ++v) {
+            EXPECT_EQ(other.vertices[v].position, path.vertices[v].position);
+            EXPECT_EQ(other.vertices[v].throughput, path.vertices[v].throughput);
+            EXPECT_EQ(other.vertices[v].light, path.vertices[v].light);
+            EXPECT_EQ(other.vertices[v].lights.size(), path.vertices[v].lights.size());
+        }
+    }
+}
+
 /// All at once and one by one, in whatever order.
 TEST_F(Retracing, SamplesAloneAreThoseOfThePicture) {
     const Scene scene = readScene("cornell_metal");
