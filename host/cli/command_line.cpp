@@ -34,7 +34,8 @@ std::string shortHelp() {
            "as\n"
            "cornell_mesh, or generate:cornell_mesh:100k, which is made in memory.\n"
            "\n"
-           "Other commands: tonemap, merge, submit, devices, compare, study, bench, stress.\n"
+           "Other commands: view, tonemap, denoise, devices, kernels, compare, regress, study, "
+           "bench,\nstress, submit, merge, plan.\n"
            "'stromboli --help' says what each does, 'stromboli help COMMAND' lists its options.\n";
 }
 
