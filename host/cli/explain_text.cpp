@@ -110,6 +110,9 @@ std::string textOfBounce(const RecordedBounce& b, const RecordedBounce* other) {
     std::string text = fmt::format("    bounce: {}, pdf {}, to {}\n", lobeName(b.lobe),
                                    sideBySide(densityOf(b.pdf), other ? densityOf(other->pdf) : ""),
                                    threeOf(b.direction));
+    constexpr double kNarrow = 1e5; // 1e-3 of it is what rounding does to a float's direction
+    if (other && b.pdf > kNarrow)
+        text += "    a lobe so narrow that the rounding of its direction shows\n";
     if (b.goesOn < 1)
         text += fmt::format("    roulette: goes on with {:.4g}: {}\n", b.goesOn,
                             b.survives ? "it does" : "it ends");

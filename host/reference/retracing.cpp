@@ -15,7 +15,7 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kSameDistance = 1e-3;
 
 bool isNear(double t, double distance) {
-    return std::abs(t - distance) <= kSameDistance * distance;
+    return std::isfinite(distance) && std::abs(t - distance) <= kSameDistance * distance;
 }
 
 double largestOf(const glm::dvec3& v) {

@@ -52,6 +52,30 @@ TEST_F(Retracing, KernelAndReferenceFindTheSameOnOnePath) {
     }
 }
 
+/// Rays of both pass the same surfaces, also where they meet nothing in the end.
+TEST_F(Retracing, PassesWhatIsPartlyThere) {
+    Scene scene = readScene("cornell_boxes");
+    for (Material& m : scene.materials)
+        if (!m.emits()) m.alphaMode = AlphaMode::Blend, m.opacity = 0.5f;
+    RenderSettings s;
+    s.area = {16, 12, {}};
+    const Camera camera = makeCamera(scene, {}, s.area.width, s.area.height);
+    const GpuScene gpu = packScene(scene, buildWideBvh(scene), lightSelection(s.estimator));
+    VulkanBackend device(testDevice(), gpu, camera, s);
+    const ReferenceBackend host(scene, camera, s);
+    size_t missed = 0;
+    for (uint32_t i = 0; i < 12; ++i) {
+        const RecordedPath taken = device.record(i * 16 + 8, i), again = host.retrace(taken);
+        ASSERT_EQ(again.vertices.size(), taken.vertices.size());
+        for (size_t v = 0; v < taken.vertices.size(); ++v) {
+            EXPECT_EQ(again.vertices[v].primitive, taken.vertices[v].primitive) << i << ' ' << v;
+            missed += taken.vertices[v].met == RecordedVertex::Met::Nothing;
+        }
+        EXPECT_LE(glm::length(again.radiance - taken.radiance), kOff * glm::length(taken.radiance));
+    }
+    EXPECT_GT(missed, 0u);
+}
+
 /// What the kernel would get wrong is seen: a light twice as bright, a colour that is another.
 TEST_F(Retracing, FindsWhatDiffers) {
     Scene scene = readScene("cornell_boxes");
