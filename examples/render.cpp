@@ -22,7 +22,8 @@ int main(int count, char** words) {
     check(stromboli_maker_finish(maker, &scene, &error));
     stromboli_maker_destroy(maker);
     check(stromboli_session_create(count > 1 ? words[1] : nullptr, nullptr, &session, &error));
-    for (const char* side : {"width", "height"}) check(stromboli_session_set(session, side, 1, &error));
+    for (const char* side : {"width", "height"})
+        check(stromboli_session_set(session, side, 1, &error));
     check(stromboli_session_set_word(session, "direct", "bsdf", &error)); // which is exact here
     check(stromboli_session_begin(session, scene, &error));
     for (const double albedo : {1.0, 0.5}) {
