@@ -174,7 +174,7 @@ const Mode kModes[] = {
 class ModeAgreement : public DeviceTest, public testing::WithParamInterface<Mode> {};
 
 TEST_P(ModeAgreement, WithTheReference) {
-    RenderSettings settings = smallSettings(64);
+    RenderSettings settings = smallSettings(128);
     GetParam().change(settings);
     expectAgreement(
         testDevice(),
