@@ -7,5 +7,7 @@ string(REGEX REPLACE "^stromboli " "" CPACK_PACKAGE_VERSION "${said}")
 # Packages of other versions are removed, so that stromboli_*.deb is the one that was made last.
 if(CPACK_PACKAGE_DIRECTORY)
     file(GLOB earlier ${CPACK_PACKAGE_DIRECTORY}/stromboli_*.deb)
-    file(REMOVE ${earlier})
+    if(earlier)
+        file(REMOVE ${earlier})
+    endif()
 endif()

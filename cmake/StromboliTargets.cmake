@@ -17,6 +17,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # False alarms on the sum of two std::strings (GCC bug 105329).
     target_compile_options(stromboli_settings INTERFACE -Wno-restrict)
 endif()
+# The compiler's garbage collection is a tenth of its time and frees little of the few hundred MB that a file takes.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(stromboli_settings INTERFACE --param=ggc-min-heapsize=500000)
+endif()
 # Vulkan's structures are filled by designated initialisers that leave the zero members out.
 target_compile_options(stromboli_settings INTERFACE -Wno-missing-field-initializers)
 if(STROMBOLI_WARNINGS_AS_ERRORS)
@@ -77,15 +81,15 @@ function(stromboli_use_precompiled target header)
     endif()
 endfunction()
 
-# A few files of a library or a test program are compiled as one: what their headers hold is read, and
+# Several files of a library or a test program are compiled as one: what their headers hold is read, and
 # the templates that they share are made, once for all of them (docs/results.md). What a file
 # keeps to itself must therefore have a name that no other file of its folder uses. For those who edit a
 # file at a time OFF is better.
 option(STROMBOLI_UNITY_BUILD "Compile several files of a library or a test program as one" ON)
 set(STROMBOLI_FILES_AT_ONCE 6)
-function(stromboli_compile_together target)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ${STROMBOLI_UNITY_BUILD}
-                          UNITY_BUILD_BATCH_SIZE ${STROMBOLI_FILES_AT_ONCE})
+set(STROMBOLI_TEST_FILES_AT_ONCE 16) # nearly all of GoogleTest's templates are alike in them
+function(stromboli_compile_together target count)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ${STROMBOLI_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE ${count})
 endfunction()
 
 # stromboli_library(NAME [COLD] SOURCES a.cpp ... DEPENDS lib ... [PRIVATE_DEPENDS lib ...]): one
@@ -96,7 +100,7 @@ function(stromboli_library name)
     add_library(${name} STATIC ${ARG_SOURCES})
     target_link_libraries(${name} PUBLIC stromboli_settings ${ARG_DEPENDS}
                           PRIVATE ${ARG_PRIVATE_DEPENDS})
-    stromboli_compile_together(${name})
+    stromboli_compile_together(${name} ${STROMBOLI_FILES_AT_ONCE})
     if(ARG_COLD)
         target_compile_options(${name} PRIVATE ${STROMBOLI_COLD_CODE})
         stromboli_use_precompiled(${name} stromboli_precompiled_cold)
@@ -192,7 +196,7 @@ function(stromboli_test_objects name)
     add_library(${name} OBJECT EXCLUDE_FROM_ALL ${ARG_SOURCES})
     target_link_libraries(${name} PUBLIC stromboli_settings GTest::gtest_main GTest::gmock ${ARG_DEPENDS})
     target_compile_options(${name} PRIVATE ${STROMBOLI_COLD_CODE})
-    stromboli_compile_together(${name})
+    stromboli_compile_together(${name} ${STROMBOLI_TEST_FILES_AT_ONCE})
     stromboli_use_precompiled(${name} stromboli_precompiled_tests)
 endfunction()
 
@@ -230,7 +234,7 @@ function(stromboli_test name)
     target_link_libraries(${name} PRIVATE stromboli_settings GTest::gtest_main GTest::gmock
                           ${ARG_DEPENDS})
     target_compile_options(${name} PRIVATE ${STROMBOLI_COLD_CODE})
-    stromboli_compile_together(${name})
+    stromboli_compile_together(${name} ${STROMBOLI_TEST_FILES_AT_ONCE})
     stromboli_use_precompiled(${name} stromboli_precompiled_tests)
     if(left_out)
         set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL TRUE)

@@ -12,8 +12,6 @@ namespace {
 
 using namespace test;
 
-const Camera kInside = pointCamera({0.1, 0.2, 0.3}, {0.7, -0.4, 0.1}, 1.0);
-
 /// Closed, with a corner to look into. Emission is 1 and one minus albedo everywhere, so that all
 /// light that is scattered up to N times is the sum of albedo^k.
 Scene furnace(const Material& material) {

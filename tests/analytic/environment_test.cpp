@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-const Camera kSeesOrigin = pointCamera({1, 2, 3}, {0, 0, 0});
+const Camera kSeesFloor = pointCamera({1, 2, 3}, {0, 0, 0});
 
 Environment picture(uint32_t width, uint32_t height, const glm::vec3& value) {
     Environment e;
@@ -84,7 +84,7 @@ TEST(EnvironmentLight, OfOneColourLightsAsAmbientLight) {
             s.estimator.directLight = mode;
             Environment e = picture(width, width == 1 ? 1 : 4, {3, 2, 1});
             e.strength = 2;
-            expectMean(estimate(floorIn(e), kSeesOrigin, s), glm::dvec3(3, 2, 1));
+            expectMean(estimate(floorIn(e), kSeesFloor, s), glm::dvec3(3, 2, 1));
         }
 }
 
@@ -95,7 +95,7 @@ TEST(EnvironmentLight, IrradianceIsThatOfTheInterpolatedPicture) {
         for (const DirectLight mode : kDirectLightModes) {
             RenderSettings s = smallPicture(400, 1);
             s.estimator.directLight = mode;
-            expectMean(estimate(floorIn(e), kSeesOrigin, s),
+            expectMean(estimate(floorIn(e), kSeesFloor, s),
                        0.5 / kPi * irradiance(e, {0, 1, 0}, 16));
         }
     }
@@ -109,7 +109,7 @@ TEST(EnvironmentLight, ASingleBrightTexelIsASun) {
     const double solidAngle = 2 * kPi / 64 * kPi / 32 * std::sin(kPi * 9.5 / 32);
     EXPECT_NEAR(expected.x, 0.5 / kPi * 9000 * solidAngle * std::cos(kPi * 9.5 / 32),
                 0.01 * expected.x);
-    const Estimate found = estimate(floorIn(e), kSeesOrigin, smallPicture(400, 1));
+    const Estimate found = estimate(floorIn(e), kSeesFloor, smallPicture(400, 1));
     expectMean(found, expected);
     EXPECT_LT(found.error.x, 0.01 * expected.x) << "samples go where the sun is";
 }
@@ -118,7 +118,7 @@ TEST(EnvironmentLight, ASunAtThePole) {
     Environment e = picture(16, 8, glm::vec3(0));
     e.radiance[3] = {50, 40, 30};
     e.radiance[7 * 16 + 3] = {900, 900, 900}; // below the floor
-    expectMean(estimate(floorIn(e), kSeesOrigin, smallPicture(400, 1)),
+    expectMean(estimate(floorIn(e), kSeesFloor, smallPicture(400, 1)),
                0.5 / kPi * irradiance(e, {0, 1, 0}, 32));
 }
 
@@ -181,15 +181,15 @@ TEST(EnvironmentLight, AddsToOtherLights) {
     point.color = {3, 2, 1};
     b.add(point);
     const RenderSettings s = smallPicture(400, 1);
-    const Estimate without = estimate(b.scene, kSeesOrigin, s);
+    const Estimate without = estimate(b.scene, kSeesFloor, s);
     b.scene.environment = e;
     // The quad hides a part of the environment: seen by bounces and by light samples alike.
     RenderSettings byBounces = s;
     byBounces.estimator.directLight = DirectLight::Bsdf;
     byBounces.estimator.seed = 2;
-    const Estimate both = estimate(b.scene, kSeesOrigin, s);
+    const Estimate both = estimate(b.scene, kSeesFloor, s);
     EXPECT_GT(both.mean.x, without.mean.x);
-    expectSameMean(both, estimate(b.scene, kSeesOrigin, byBounces));
+    expectSameMean(both, estimate(b.scene, kSeesFloor, byBounces));
 }
 
 } // namespace

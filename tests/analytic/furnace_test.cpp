@@ -12,8 +12,6 @@ namespace {
 
 using namespace test;
 
-const Camera kInside = pointCamera({0.1, 0.2, 0.3}, {0.7, -0.4, 0.1}, 1.0);
-
 double partialSum(double a, uint32_t from, uint32_t to) {
     double sum = 0;
     for (uint32_t k = from; k <= to; ++k)

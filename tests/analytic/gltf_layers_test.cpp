@@ -13,8 +13,6 @@ namespace {
 using namespace test;
 
 constexpr double kPi = 3.14159265358979323846;
-/// Errors of the fitted albedos (shaders/shared/albedo_fits.h).
-constexpr double kFits = 0.0117;
 
 Material principled(float roughness) {
     Material m;

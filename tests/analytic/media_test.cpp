@@ -41,7 +41,6 @@ glm::dvec3 exponential(const glm::dvec3& depth) {
 }
 
 constexpr float kThickness = 0.75f;
-const Camera kAbove = pointCamera({0.2, 0.1, 8}, {0.1, 0.2, 0});
 
 /// A slab of a medium, as wide as if it had no end, from z = 0.25 up to 1, over the floor z = 0,
 /// which shines with the radiance 1 and reflects nothing.

@@ -40,8 +40,6 @@ SceneMaker layersOver(uint32_t floorKind, int n, float opacity, Heights height) 
     return b;
 }
 
-const Camera kAbove = pointCamera({0.2, 0.1, 8}, {0.1, 0.2, 0});
-
 TEST(Opacity, PathsPassLayers) {
     for (const Heights height : {apart, together})
         for (const int n : {1, 2, 5}) {

@@ -11,9 +11,6 @@ namespace {
 
 using namespace test;
 
-/// Errors of the fitted albedos (shaders/shared/albedo_fits.h).
-constexpr double kFits = 0.0117;
-
 Material principled(float metallic, float roughness) {
     Material m;
     m.kind = MaterialKind::Principled;

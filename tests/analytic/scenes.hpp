@@ -30,6 +30,12 @@ inline Camera pointCamera(const glm::dvec3& from, const glm::dvec3& at, double h
 Scene sphereInAmbientLight(const Material& material);
 /// Stands before that sphere, which fills its picture.
 inline const Camera kOutside = pointCamera({0, 0, 4}, {0, 0, 0}, 0.18);
+/// In the middle of closed rooms and spheres.
+inline const Camera kInside = pointCamera({0.1, 0.2, 0.3}, {0.7, -0.4, 0.1}, 1.0);
+/// Over slabs and layers at z = 0, a little from the vertical.
+inline const Camera kAbove = pointCamera({0.2, 0.1, 8}, {0.1, 0.2, 0});
+/// Errors of the fitted albedos (shaders/shared/albedo_fits.h).
+inline constexpr double kFits = 0.0117;
 
 /// A point light of this radiant intensity in each channel.
 Light pointLight(float intensity, const glm::vec3& position);

@@ -14,7 +14,7 @@ using namespace test;
 
 constexpr double kFloor = 0.5 / kPi; ///< BSDF of the floor
 
-const Camera kSeesOrigin = pointCamera({1, 2, 3}, {0, 0, 0});
+const Camera kSeesLitFloor = pointCamera({1, 2, 3}, {0, 0, 0});
 
 Scene floorUnder(const Light& light) {
     SceneMaker b;
@@ -41,7 +41,7 @@ TEST(SimpleLights, Point) {
     for (DirectLight mode : kDirectLightModes) {
         RenderSettings s = smallPicture(1, 1);
         s.estimator.directLight = mode;
-        expectMean(estimate(floorUnder(light), kSeesOrigin, s),
+        expectMean(estimate(floorUnder(light), kSeesLitFloor, s),
                    kFloor * irradiance * glm::dvec3(3, 2, 1));
     }
 }
@@ -49,7 +49,7 @@ TEST(SimpleLights, Point) {
 TEST(SimpleLights, PointBehindTheFloorGivesNothing) {
     Light light = lightAbove(LightKind::Point);
     light.position.y = -2;
-    expectMean(estimate(floorUnder(light), kSeesOrigin, smallPicture(1, 1)), 0);
+    expectMean(estimate(floorUnder(light), kSeesLitFloor, smallPicture(1, 1)), 0);
 }
 
 TEST(SimpleLights, TwoSidedFloorIsLitFromBelow) {
@@ -65,17 +65,17 @@ TEST(SimpleLights, Shadow) {
     addFloor(b, b.add(diffuse(0.5f)));
     b.sphere({0, 1, 0.75f}, 0.1f, 0);
     b.add(lightAbove(LightKind::Point));
-    expectMean(estimate(b.scene, kSeesOrigin, smallPicture(1, 1)), 0);
+    expectMean(estimate(b.scene, kSeesLitFloor, smallPicture(1, 1)), 0);
     // The sphere beyond the light does not shade it.
     b.scene.spheres[0].center = {0, 4, 3};
-    expectMean(estimate(b.scene, kSeesOrigin, smallPicture(1, 1)),
+    expectMean(estimate(b.scene, kSeesLitFloor, smallPicture(1, 1)),
                kFloor * 0.8 * glm::dvec3(3, 2, 1));
 }
 
 TEST(SimpleLights, Directional) {
     const Light light = lightAbove(LightKind::Directional);
     const glm::dvec3 axis = glm::normalize(glm::dvec3(light.direction));
-    expectMean(estimate(floorUnder(light), kSeesOrigin, smallPicture(1, 1)),
+    expectMean(estimate(floorUnder(light), kSeesLitFloor, smallPicture(1, 1)),
                kFloor * -axis.y * glm::dvec3(3, 2, 1));
 }
 
@@ -85,10 +85,10 @@ TEST(SimpleLights, Spot) {
     light.falloffExponent = 3;
     light.falloffAngle = float(74 * kPi / 180);
     const double lit = kFloor * 0.8 * std::pow(0.8, 3);
-    expectMean(estimate(floorUnder(light), kSeesOrigin, smallPicture(1, 1)),
+    expectMean(estimate(floorUnder(light), kSeesLitFloor, smallPicture(1, 1)),
                lit * glm::dvec3(3, 2, 1));
     light.falloffAngle = float(73 * kPi / 180);
-    expectMean(estimate(floorUnder(light), kSeesOrigin, smallPicture(1, 1)), 0);
+    expectMean(estimate(floorUnder(light), kSeesLitFloor, smallPicture(1, 1)), 0);
 }
 
 /// Between the cones of KHR_lights_punctual (glTF 2.0), 36.87 degrees off the axis.
@@ -101,10 +101,10 @@ TEST(SimpleLights, SpotWithSoftEdge) {
     const double outer = std::cos(double(light.falloffAngle) / 2);
     const double inner = std::cos(double(*light.innerAngle) / 2);
     const double edge = (0.8 - outer) / (inner - outer);
-    expectMean(estimate(floorUnder(light), kSeesOrigin, smallPicture(1, 1)),
+    expectMean(estimate(floorUnder(light), kSeesLitFloor, smallPicture(1, 1)),
                kFloor * 0.8 * edge * edge * glm::dvec3(3, 2, 1));
     light.innerAngle = float(74 * kPi / 180);
-    expectMean(estimate(floorUnder(light), kSeesOrigin, smallPicture(1, 1)),
+    expectMean(estimate(floorUnder(light), kSeesLitFloor, smallPicture(1, 1)),
                kFloor * 0.8 * glm::dvec3(3, 2, 1));
 }
 
@@ -115,7 +115,7 @@ TEST(SimpleLights, AmbientFromAllSidesInEveryMode) {
     for (DirectLight mode : kDirectLightModes) {
         RenderSettings s = smallPicture(64, 1);
         s.estimator.directLight = mode;
-        expectMean(estimate(floorUnder(light), kSeesOrigin, s), 0.5 * glm::dvec3(3, 2, 1));
+        expectMean(estimate(floorUnder(light), kSeesLitFloor, s), 0.5 * glm::dvec3(3, 2, 1));
     }
 }
 
@@ -129,7 +129,7 @@ TEST(SimpleLights, UpperHemisphereLightsHalfOfAWall) {
     for (DirectLight mode : kDirectLightModes) {
         RenderSettings s = smallPicture(64, 1);
         s.estimator.directLight = mode;
-        expectMean(estimate(b.scene, kSeesOrigin, s), 0.25);
+        expectMean(estimate(b.scene, kSeesLitFloor, s), 0.25);
     }
 }
 
@@ -149,10 +149,10 @@ TEST(SimpleLights, OthersBesideAmbientLight) {
             SCOPED_TRACE(fmt::format("{} {}", nameOf(mode), points));
             RenderSettings s = smallPicture(64, 1);
             s.estimator.directLight = mode;
-            expectMean(estimate(b.scene, kSeesOrigin, s), 0.5 + double(points) * ofPoint);
+            expectMean(estimate(b.scene, kSeesLitFloor, s), 0.5 + double(points) * ofPoint);
             // Nothing is scattered twice.
             s.estimator.minBounce = s.estimator.maxBounces = 2;
-            expectMean(estimate(b.scene, kSeesOrigin, s), 0);
+            expectMean(estimate(b.scene, kSeesLitFloor, s), 0);
         }
     }
 }
@@ -163,7 +163,7 @@ TEST(SimpleLights, AmbientIsNoBackdrop) {
     for (DirectLight mode : kDirectLightModes) {
         RenderSettings s = smallPicture(1, 5);
         s.estimator.directLight = mode;
-        expectMean(estimate(empty, kSeesOrigin, s), 0);
+        expectMean(estimate(empty, kSeesLitFloor, s), 0);
     }
 }
 
@@ -178,7 +178,7 @@ TEST(SimpleLights, MirrorShowsAmbientLightWithoutDirectLight) {
     for (DirectLight mode : kDirectLightModes) {
         RenderSettings s = smallPicture(1, 1);
         s.estimator.directLight = mode;
-        expectMean(estimate(b.scene, kSeesOrigin, s), 0.25);
+        expectMean(estimate(b.scene, kSeesLitFloor, s), 0.25);
     }
 }
 

@@ -18,7 +18,7 @@ Material mirror() {
     return m;
 }
 
-Material smoothMetal() {
+Material leakingMetal() {
     Material m;
     m.kind = MaterialKind::Conductor;
     m.facets = {FacetDistribution::Beckmann, glm::vec2(0.8f)}, m.k = glm::vec3(5);
@@ -48,7 +48,7 @@ Camera fromOutside() {
 TEST(SmoothLeak, NoneOutOfAClosedSphere) {
     SceneMaker b;
     addSmoothSphere(b, 5, 8, b.add(diffuse(0.5f)));
-    const uint32_t materials[] = {0, b.add(mirror()), b.add(smoothMetal())};
+    const uint32_t materials[] = {0, b.add(mirror()), b.add(leakingMetal())};
     for (size_t i = 0; i < b.scene.triangles.size(); ++i)
         b.scene.triangles[i].material = materials[i % 3];
     b.sphere({0.3f, 0.2f, 0}, 0.4f, b.add(emissive(5)));

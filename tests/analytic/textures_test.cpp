@@ -17,7 +17,7 @@ glm::dvec3 seen(const Scene& scene, double x, double y) {
     return estimate(scene, camera, smallPicture(1, 0)).mean;
 }
 
-void expectNear(const glm::dvec3& found, const glm::dvec3& expected, double tolerance = 1e-5) {
+void expectClose(const glm::dvec3& found, const glm::dvec3& expected, double tolerance = 1e-5) {
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(found[c], expected[c], tolerance) << "channel " << c;
 }
@@ -36,10 +36,10 @@ TEST(Textures, FirstTexelIsUpperLeft) {
     const uint32_t image = t.bytes(2, 2, {kRed, kGreen, kBlue, kWhite});
     const uint32_t nearest = t.texture({.image = image, .nearest = true});
     addTexturedSquare(b, b.add(textured(emissive(2), TextureSlot::Emission, nearest)));
-    expectNear(seen(b.scene, 0.3, 0.8), {2, 0, 0});
-    expectNear(seen(b.scene, 0.7, 0.8), {0, 2, 0});
-    expectNear(seen(b.scene, 0.3, 0.2), {0, 0, 2});
-    expectNear(seen(b.scene, 0.7, 0.2), {2, 2, 2});
+    expectClose(seen(b.scene, 0.3, 0.8), {2, 0, 0});
+    expectClose(seen(b.scene, 0.7, 0.8), {0, 2, 0});
+    expectClose(seen(b.scene, 0.3, 0.2), {0, 0, 2});
+    expectClose(seen(b.scene, 0.7, 0.2), {2, 2, 2});
 }
 
 TEST(Textures, AreMixedBetweenTexels) {
@@ -48,10 +48,10 @@ TEST(Textures, AreMixedBetweenTexels) {
     const uint32_t image = t.halves(2, 1, {glm::vec4(0, 4, 1, 1), glm::vec4(1, 0, 1, 1)});
     addTexturedSquare(b, b.add(textured(emissive(1), TextureSlot::Emission,
                                         t.texture({.image = image, .wrapU = Wrap::Clamp}))));
-    expectNear(seen(b.scene, 0.5, 0.4), {0.5, 2, 1});
-    expectNear(seen(b.scene, 0.3, 0.4), {0.1, 3.6, 1});
-    expectNear(seen(b.scene, 0.1, 0.4), {0, 4, 1});
-    expectNear(seen(b.scene, 0.9, 0.4), {1, 0, 1});
+    expectClose(seen(b.scene, 0.5, 0.4), {0.5, 2, 1});
+    expectClose(seen(b.scene, 0.3, 0.4), {0.1, 3.6, 1});
+    expectClose(seen(b.scene, 0.1, 0.4), {0, 4, 1});
+    expectClose(seen(b.scene, 0.9, 0.4), {1, 0, 1});
 }
 
 /// Decoded before it is mixed: half way between black and white is one half.
@@ -65,8 +65,8 @@ TEST(Textures, SrgbIsDecodedFirst) {
     addTexturedSquare(b, b.add(m));
     m.textures[0].texture = t.texture({.image = grey, .srgb = true});
     addTexturedSquare(b, b.add(m), 1, {2, 0, 0});
-    expectNear(seen(b.scene, 0.5, 0.5), glm::dvec3(0.5));
-    expectNear(seen(b.scene, 2.5, 0.5), glm::dvec3(0.21586050011389926), 0.2159 * 1.2e-4);
+    expectClose(seen(b.scene, 0.5, 0.5), glm::dvec3(0.5));
+    expectClose(seen(b.scene, 2.5, 0.5), glm::dvec3(0.21586050011389926), 0.2159 * 1.2e-4);
 }
 
 /// The second set of coordinates, turned by a quarter: u' = v, v' = 1 - u.
@@ -86,9 +86,9 @@ TEST(Textures, HaveTheirOwnCoordinates) {
         a.uv[1] = {p.x, 1 - p.y};
         return a;
     });
-    expectNear(seen(b.scene, 0.3, 0.8), {0, 0, 1}); // (u, v) = (.3, .2): (u', v') = (.2, .7)
-    expectNear(seen(b.scene, 0.3, 0.2), {1, 1, 1});
-    expectNear(seen(b.scene, 0.7, 0.8), {1, 0, 0});
+    expectClose(seen(b.scene, 0.3, 0.8), {0, 0, 1}); // (u, v) = (.3, .2): (u', v') = (.2, .7)
+    expectClose(seen(b.scene, 0.3, 0.2), {1, 1, 1});
+    expectClose(seen(b.scene, 0.7, 0.8), {1, 0, 0});
 }
 
 /// Coordinates that no picture has, and triangles without any: some texel, no more.
@@ -110,7 +110,7 @@ TEST(Textures, DegenerateCoordinatesAreHarmless) {
     b.quad({12, 0, 0}, {1, 0, 0}, {0, 1, 0}, material);
     t.attributes(0, {});
     for (int i = 0; i < 7; ++i)
-        expectNear(seen(b.scene, 2 * i + 0.4, 0.3), {1, 0, 0});
+        expectClose(seen(b.scene, 2 * i + 0.4, 0.3), {1, 0, 0});
 }
 
 /// What a Lambertian square at the point (0.5, 0.5) sends to a camera over it.
@@ -133,7 +133,7 @@ TEST(Textures, AlbedoIsAProduct) {
         return a;
     });
     const glm::dvec3 albedo = 0.5 * glm::dvec3(0.5, 0.25, 1) * glm::dvec3(0.5, 1, 0.5);
-    expectNear(lit(b, {0.5f, 0.5f, 1}).mean, albedo / kPi);
+    expectClose(lit(b, {0.5f, 0.5f, 1}).mean, albedo / kPi);
 }
 
 /// A closed room in which all that could be constant is a texture.

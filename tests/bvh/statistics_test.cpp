@@ -117,7 +117,7 @@ TEST(Statistics, VisitsAreWhatRandomLinesMake) {
     EXPECT_NEAR(mean, expected, 5 * error + 0.002 * expected);
 }
 
-double innerArea(const BinaryTree& tree) {
+double relativeInnerArea(const BinaryTree& tree) {
     double area = 0;
     for (const BinaryNode& node : tree.nodes)
         if (!node.isLeaf()) area += node.bounds.halfArea();
@@ -129,7 +129,7 @@ void expectCloseToSweep(const char* name, const Scene& scene) {
     const std::vector<Bounds> boxes = boxesOf(scene);
     BuildOptions options;
     options.reinsert = false;
-    const double binned = innerArea(buildBinaryTree(boxes, options));
+    const double binned = relativeInnerArea(buildBinaryTree(boxes, options));
     const double sweep = sweepInnerArea(boxes);
     std::cout << name << ": binned " << binned << ", sweep " << sweep << '\n';
     EXPECT_LE(binned, 1.1 * sweep) << name;

@@ -16,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-std::string contentOf(const std::string& path) {
+std::string outputOf(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
 }
@@ -58,7 +58,7 @@ TEST_F(Budgets, KeepsWithinTheMemoryThatItIsAllowed) {
     EXPECT_EQ(bands.exitCode, 0) << bands.err;
     EXPECT_THAT(bands.err, testing::ContainsRegex("rendering [0-9]+ bands"));
     ASSERT_EQ(run("whole.exr", "900", {}).exitCode, 0);
-    EXPECT_TRUE(contentOf(folder.file("whole.exr")) == contentOf(folder.file("bands.exr")));
+    EXPECT_TRUE(outputOf(folder.file("whole.exr")) == outputOf(folder.file("bands.exr")));
 }
 
 /// Whatever paths share of a sample.

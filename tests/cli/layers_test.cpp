@@ -53,11 +53,6 @@ std::string camera(const std::string& id, const std::string& name, const std::st
 const std::string kThree =
     floorScene(camera("a", "near", "0.5") + camera("b", "far", "3") + camera("c", "far away", "4"));
 
-std::string bytesOf(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 class Layers : public testing::Test {
   protected:
     ScratchFolder folder;

@@ -69,6 +69,11 @@ std::vector<std::string> ScratchFolder::entries() const {
     return names;
 }
 
+std::string bytesOf(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
 std::string libraryScene(const std::string& name) {
     return (std::filesystem::path(STROMBOLI_SOURCE_DIR) / "scene" / "library" / name).string();
 }

@@ -39,6 +39,9 @@ class ScratchFolder {
     std::filesystem::path path_;
 };
 
+/// Empty if there is no such file.
+std::string bytesOf(const std::filesystem::path& path);
+
 /// A scene of scene/library.
 std::string libraryScene(const std::string& name);
 

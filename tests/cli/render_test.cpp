@@ -49,11 +49,6 @@ TEST_F(Program, WritesPngAndReportsTheWork) {
     EXPECT_EQ(run.out, "");
 }
 
-std::string bytesOf(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 TEST_F(Program, LavapipeHasTheProcessorsLanes) {
     const std::string narrow = stromboli({"devices"}, "LP_NATIVE_VECTOR_WIDTH=128").out;
     if (narrow.find("llvmpipe") == std::string::npos) GTEST_SKIP() << "no lavapipe";

@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-constexpr uint32_t kSeeds = 32;
+constexpr uint32_t kBiasSeeds = 32;
 /// For a bound that is far beyond the noise of these.
 constexpr uint32_t kFewSeeds = 8;
 
@@ -40,7 +40,7 @@ struct MeanAndError {
 
 /// The picture's mean over seeds, with its standard error from their spread.
 MeanAndError overSeeds(const vulkan::Device& device, const Scene& scene, RenderSettings s,
-                       uint32_t firstSeed, uint32_t seeds = kSeeds) {
+                       uint32_t firstSeed, uint32_t seeds = kBiasSeeds) {
     const Camera camera = makeCamera(scene, CameraChoice::Automatic, s.area.width, s.area.height);
     double sum = 0, squares = 0;
     MeanAndError result;
@@ -111,14 +111,14 @@ TEST_F(AdaptiveBias, DefaultRuleIsBelowHalfAPercent) {
 TEST_F(AdaptiveBias, StoppingAtAStatedNoiseIsBelowAQuarterOfAPercent) {
     RenderSettings s = baseSettings();
     s.budget.mostSamplesPerPixel = 128;
-    const MeanAndError uniform = overSeeds(testDevice(), scene, s, 1000, 2 * kSeeds);
+    const MeanAndError uniform = overSeeds(testDevice(), scene, s, 1000, 2 * kBiasSeeds);
     s.budget.mostSamplesPerPixel = 1u << 16;
     s.budget.stop.noise = 0.08;
-    const MeanAndError stopped = overSeeds(testDevice(), scene, s, 0, 2 * kSeeds);
+    const MeanAndError stopped = overSeeds(testDevice(), scene, s, 0, 2 * kBiasSeeds);
     const Bias bias(stopped, uniform);
     std::printf("bias %+.4f %% (standard error %.4f %%), %.1f samples a pixel\n", 100 * bias.value,
                 100 * bias.error,
-                double(stopped.samples) / (2 * kSeeds * s.area.width * s.area.height));
+                double(stopped.samples) / (2 * kBiasSeeds * s.area.width * s.area.height));
     EXPECT_TRUE(bias.isShownToBeBelow(0.0025));
     EXPECT_FALSE(bias.with(0.0025).isShownToBeBelow(0.0025)) << "the test cannot fail";
 }

@@ -17,7 +17,7 @@ const std::filesystem::path kLibrary =
 RenderSettings settings() {
     RenderSettings s;
     s.area.width = 61, s.area.height = 37; // no multiples of a tile or a workgroup
-    s.budget.mostSamplesPerPixel = 24;
+    s.budget.mostSamplesPerPixel = 8;
     s.estimator.maxBounces = 6;
     s.estimator.lightSamples = 2;
     return s;

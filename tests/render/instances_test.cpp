@@ -110,7 +110,7 @@ Scene placedRoom() {
     return b.scene;
 }
 
-RenderSettings settings(uint32_t samples) {
+RenderSettings instanceSettings(uint32_t samples) {
     RenderSettings s;
     s.area.width = 48, s.area.height = 40;
     s.budget.mostSamplesPerPixel = samples;
@@ -121,22 +121,22 @@ RenderSettings settings(uint32_t samples) {
 /// A picture that shows whether its bytes depend on how work is cut: a few hundred pixels, more
 /// than the fewest lanes below, of some samples each. More would take longer where dispatches are
 /// short.
-RenderSettings cutSettings() {
-    RenderSettings s = settings(4);
+RenderSettings cutInstanceSettings() {
+    RenderSettings s = instanceSettings(4);
     s.area.width = 24, s.area.height = 20;
     s.estimator.branches = 2;
     return s;
 }
 
-Camera camera() {
+Camera instanceCamera() {
     return lookingAt({0.3, 0.2, 0.95}, {-0.1, -0.2, -0.5}, 0.7);
 }
 
-struct Mode {
+struct InstanceMode {
     const char* name;
     void (*change)(RenderSettings&);
 };
-const Mode kModes[] = {
+const InstanceMode kInstanceModes[] = {
     {"mis", [](RenderSettings&) {}},
     {"hemisphere", [](RenderSettings& s) { s.estimator.directLight = DirectLight::Hemisphere; }},
     {"branches",
@@ -147,16 +147,16 @@ const Mode kModes[] = {
     {"normals", [](RenderSettings& s) { s.estimator.integrator = Integrator::Normals; }},
 };
 
-class InstanceModes : public DeviceTest, public testing::WithParamInterface<Mode> {};
+class InstanceModes : public DeviceTest, public testing::WithParamInterface<InstanceMode> {};
 
 TEST_P(InstanceModes, KernelAndReferenceAgree) {
     const Scene scene = placedRoom();
-    RenderSettings s = settings(96);
+    RenderSettings s = instanceSettings(64);
     GetParam().change(s);
-    expectKernelAndReferenceAgree(testDevice(), scene, camera(), s);
+    expectKernelAndReferenceAgree(testDevice(), scene, instanceCamera(), s);
 }
 
-INSTANTIATE_TEST_SUITE_P(Modes, InstanceModes, testing::ValuesIn(kModes),
+INSTANTIATE_TEST_SUITE_P(Modes, InstanceModes, testing::ValuesIn(kInstanceModes),
                          [](const auto& mode) { return mode.param.name; });
 
 class Instances : public DeviceTest {};
@@ -167,9 +167,9 @@ TEST_F(Instances, AreAsCopies) {
     Scene scene = placedRoom();
     for (Material& m : scene.materials)
         m.alphaMode = AlphaMode::Opaque;
-    const Film shared = renderOnDevice(testDevice(), scene, camera(), settings(4));
-    const Film copied =
-        renderOnDevice(testDevice(), expandPlacements(scene).scene, camera(), settings(4));
+    const Film shared = renderOnDevice(testDevice(), scene, instanceCamera(), instanceSettings(4));
+    const Film copied = renderOnDevice(testDevice(), expandPlacements(scene).scene,
+                                       instanceCamera(), instanceSettings(4));
     size_t different = 0;
     for (size_t i = 0; i < shared.pixels.size(); ++i) {
         const glm::dvec3 a = shared.pixels[i].mean, b = copied.pixels[i].mean;
@@ -181,9 +181,9 @@ TEST_F(Instances, AreAsCopies) {
 
 TEST_F(Instances, HaveTheSameBytesHoweverWorkIsCut) {
     const Scene scene = placedRoom();
-    RenderSettings s = cutSettings();
+    RenderSettings s = cutInstanceSettings();
     s.estimator.lightSamples = 2;
-    const Film whole = renderOnDevice(testDevice(), scene, camera(), s);
+    const Film whole = renderOnDevice(testDevice(), scene, instanceCamera(), s);
     for (const KernelTuning& tuning :
          {KernelTuning{.fixedIterations = 1},
           {.lanes = 100, .fixedIterations = 50},
@@ -191,7 +191,7 @@ TEST_F(Instances, HaveTheSameBytesHoweverWorkIsCut) {
           {.traversalSteps = 3, .traversalLegs = 1},
           {.texelFetch = false},
           {.registerStack = 0}}) {
-        const Film cut = renderOnDevice(testDevice(), scene, camera(), s, tuning);
+        const Film cut = renderOnDevice(testDevice(), scene, instanceCamera(), s, tuning);
         expectSameBytes(whole, cut);
     }
 }
@@ -206,7 +206,7 @@ TEST_F(Instances, ShadeThemselves) {
     place(b.scene, quads, {0, 0, 0}, {1, 1, 1}, 0);
     place(b.scene, quads, {0, 0.5, 0}, {1, 1, 1}, 0);
     b.add(Light{.kind = LightKind::Directional, .color = {1, 1, 1}, .direction = {0, -1, 0}});
-    RenderSettings s = settings(4);
+    RenderSettings s = instanceSettings(4);
     s.estimator.maxBounces = 1;
     const Camera underTheRoof = lookingAt({0.1, 0.25, 0.9}, {0, 0, 0}, 0.1);
     for (const PixelStatistics& pixel :
@@ -233,7 +233,7 @@ TEST_F(Instances, InOnePlaceAreEachPassed) {
     b.quad({-4, -4, -1}, {8, 0, 0}, {0, 8, 0}, b.add(emissive(1)));
     const Camera ahead = lookingAt({0.1, 0.2, 2}, {0, 0, 0}, 0.1);
     double sum = 0;
-    const Film film = renderOnDevice(testDevice(), b.scene, ahead, settings(4));
+    const Film film = renderOnDevice(testDevice(), b.scene, ahead, instanceSettings(4));
     for (const PixelStatistics& pixel : film.pixels)
         sum += pixel.mean.x;
     EXPECT_NEAR(sum / double(film.pixels.size()), 0.25, 0.025);
@@ -244,7 +244,7 @@ FloatImage layersBy(Viewer& viewer, const Scene& scene, const PictureArea& area)
     FloatImage image(area);
     const std::vector<uint32_t> samples(area.pixelCount(), 1);
     addLayers(image, {Layer::Object, Layer::Material, Layer::Uv, Layer::Normal}, 0,
-              viewer.see(0, samples, Seeing::Surfaces), scene, camera());
+              viewer.see(0, samples, Seeing::Surfaces), scene, instanceCamera());
     return image;
 }
 
@@ -263,12 +263,12 @@ TEST_F(Instances, AreSeenAsCopiesAre) {
         m.alphaMode = AlphaMode::Opaque; // or it would be a matter of random numbers
     scene.placements.erase(scene.placements.begin() + 4); // or which of two in one place is met
     const Scene copies = expandPlacements(scene).scene;
-    const RenderSettings s = settings(1);
+    const RenderSettings s = instanceSettings(1);
     const GpuScene gpu = packScene(scene, buildWideBvh(scene), lightSelection(s.estimator));
     const GpuScene gpuCopies = packScene(copies, buildWideBvh(copies), lightSelection(s.estimator));
-    VulkanBackend device(testDevice(), gpu, camera(), s);
-    VulkanBackend deviceCopies(testDevice(), gpuCopies, camera(), s);
-    ReferenceBackend host(scene, camera(), s), hostCopies(copies, camera(), s);
+    VulkanBackend device(testDevice(), gpu, instanceCamera(), s);
+    VulkanBackend deviceCopies(testDevice(), gpuCopies, instanceCamera(), s);
+    ReferenceBackend host(scene, instanceCamera(), s), hostCopies(copies, instanceCamera(), s);
     const FloatImage seen = layersBy(device, scene, s.area);
     const FloatImage seenCopies = layersBy(deviceCopies, copies, s.area);
     const FloatImage onHost = layersBy(host, scene, s.area);

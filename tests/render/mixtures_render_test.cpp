@@ -111,24 +111,24 @@ class RoomMaker {
     uint32_t paper_ = 0, spots_ = 0, normals_ = 0;
 };
 
-struct Mode {
+struct MixtureMode {
     const char* name;
     void (*change)(RenderSettings&);
 };
-const Mode kModes[] = {
+const MixtureMode kMixtureModes[] = {
     {"mis", [](RenderSettings&) {}},
     {"misAll", [](RenderSettings& s) { s.estimator.directLight = DirectLight::MisAll; }},
     {"lights", [](RenderSettings& s) { s.estimator.directLight = DirectLight::Lights; }},
     {"hemisphere", [](RenderSettings& s) { s.estimator.directLight = DirectLight::Hemisphere; }},
     {"bsdf", [](RenderSettings& s) { s.estimator.directLight = DirectLight::Bsdf; }},
     {"branches",
-     [](RenderSettings& s) { // 144 branches a pixel: more than other modes have paths
+     [](RenderSettings& s) { // 96 branches a pixel: more than other modes have paths
          s.estimator.branches = 3;
          s.budget.mostSamplesPerPixel /= 2;
      }},
 };
 
-RenderSettings settings(uint32_t samples) {
+RenderSettings mixtureSettings(uint32_t samples) {
     RenderSettings s;
     s.area.width = 48, s.area.height = 40;
     s.budget.mostSamplesPerPixel = samples;
@@ -139,40 +139,40 @@ RenderSettings settings(uint32_t samples) {
 /// A picture that shows whether its bytes depend on how work is cut: a few hundred pixels, more
 /// than the fewest lanes below, of some samples each. More would take longer where dispatches are
 /// short.
-RenderSettings cutSettings() {
-    RenderSettings s = settings(4);
+RenderSettings cutMixtureSettings() {
+    RenderSettings s = mixtureSettings(4);
     s.area.width = 24, s.area.height = 20;
     s.estimator.branches = 2;
     return s;
 }
 
-Camera camera() {
+Camera mixtureCamera() {
     return lookingAt({0.3, 0.2, 0.95}, {-0.1, -0.2, -0.5}, 0.7);
 }
 
-class MixtureRoom : public DeviceTest, public testing::WithParamInterface<Mode> {};
+class MixtureRoom : public DeviceTest, public testing::WithParamInterface<MixtureMode> {};
 
 TEST_P(MixtureRoom, KernelAndReferenceAgree) {
-    RenderSettings s = settings(96);
+    RenderSettings s = mixtureSettings(64);
     GetParam().change(s);
-    expectKernelAndReferenceAgree(testDevice(), RoomMaker().make(), camera(), s);
+    expectKernelAndReferenceAgree(testDevice(), RoomMaker().make(), mixtureCamera(), s);
 }
 
-INSTANTIATE_TEST_SUITE_P(Modes, MixtureRoom, testing::ValuesIn(kModes),
+INSTANTIATE_TEST_SUITE_P(Modes, MixtureRoom, testing::ValuesIn(kMixtureModes),
                          [](const auto& mode) { return mode.param.name; });
 
 class MixtureRoomBytes : public DeviceTest {};
 
 TEST_F(MixtureRoomBytes, AreTheSameHoweverWorkIsCut) {
     const Scene scene = RoomMaker().make();
-    RenderSettings s = cutSettings();
+    RenderSettings s = cutMixtureSettings();
     s.estimator.lightSamples = 2;
-    const Film whole = renderOnDevice(testDevice(), scene, camera(), s);
+    const Film whole = renderOnDevice(testDevice(), scene, mixtureCamera(), s);
     for (const KernelTuning& tuning : {KernelTuning{.fixedIterations = 1},
                                        {.lanes = 100, .fixedIterations = 50},
                                        {.texelFetch = false},
                                        {.scheduler = PathScheduler::Wavefront}})
-        expectSameBytes(whole, renderOnDevice(testDevice(), scene, camera(), s, tuning));
+        expectSameBytes(whole, renderOnDevice(testDevice(), scene, mixtureCamera(), s, tuning));
 }
 
 } // namespace

@@ -61,43 +61,45 @@ void gatherDirectLight(const Given given, inout PathState path, inout uint loopP
     const uint samples = directSamples(given.frame);
     while (path.directIndex < samples) {
         sampleDirect(given, path);
-        if (path.phase == PHASE_SHADOW) {
+        const bool isShadowRay = path.phase == PHASE_SHADOW;
+        if (isShadowRay || path.phase == PHASE_HEMISPHERE) {
             traceToTheEnd(given, path, loopPasses);
-            finishShadowRay(path);
-        }
-        if (path.phase == PHASE_HEMISPHERE) {
-            traceToTheEnd(given, path, loopPasses);
-            finishHemisphereRay(path);
+            if (isShadowRay) finishShadowRay(path);
+            else finishHemisphereRay(path);
         }
         ++loopPasses;
     }
 }
 
-void bounceOn(const Given given, inout PathState path) {
+void decideToGoOn(const Given given, inout PathState path) {
     path.phase = endsHere(given.frame, path) ? PHASE_ENDED : PHASE_BOUNCE;
-    if (path.phase == PHASE_BOUNCE) depart(given, path);
 }
 
-void followToTheEnd(const Given given, inout PathState path, inout uint loopPasses) {
-    while (path.phase == PHASE_PATH) {
+/// From a place to the next: where the ray goes, all of it, what is there, and all of the light there.
+void followRay(const Given given, inout PathState path, inout uint loopPasses) {
+    depart(given, path);
+    if (path.phase == PHASE_PATH) {
         traceToTheEnd(given, path, loopPasses);
         arrive(given, path);
         if (INTEGRATOR == INTEGRATOR_PATH && path.phase == PHASE_DIRECT) {
             gatherDirectLight(given, path, loopPasses);
-            bounceOn(given, path);
+            decideToGoOn(given, path);
         }
-        ++loopPasses;
     }
 }
 
+/// Bounce after bounce, then each branch in turn. Functions are inlined wherever they are called, and drivers take long
+/// over large modules: so a loop over all rays of a sample, with one call of what follows a ray.
 void takeSample(const Given given, inout PathState path, inout uint loopPasses) {
     path.phase = PHASE_NEXT;
-    depart(given, path);
-    followToTheEnd(given, path, loopPasses);
-    while (branchIsOver(path)) {
-        nextBranch(path, materialAt(path.splitPoint.surface));
-        bounceOn(given, path);
-        followToTheEnd(given, path, loopPasses);
+    bool goesOn = true;
+    while (goesOn) {
+        if (path.phase != PHASE_ENDED) followRay(given, path, loopPasses);
+        if (branchIsOver(path)) {
+            nextBranch(path, materialAt(path.splitPoint.surface));
+            decideToGoOn(given, path);
+        }
+        goesOn = path.phase == PHASE_BOUNCE || branchIsOver(path);
         ++loopPasses;
     }
     finishSample(given.frame, path);

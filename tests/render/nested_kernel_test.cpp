@@ -30,7 +30,7 @@ using namespace test;
 constexpr uint32_t kLoopPassesPerLane = 65535 / 8;
 constexpr uint32_t kSamples = 5, kSamplesPerDispatch = 2;
 
-struct Picture {
+struct NestedPicture {
     const char* name;
     const char* scene;
     void (*change)(Scene&, RenderSettings&);
@@ -47,7 +47,7 @@ void makeMetal(Scene& scene) {
 }
 
 /// Every material, kind of light, way of sampling, roulette, integrator and camera of the kernel.
-const Picture kPictures[] = {
+const NestedPicture kNestedPictures[] = {
     {"diffuse", "cornell_boxes.dae", [](Scene&, RenderSettings&) {}},
     {"spheres", "cornell_spheres.dae",
      [](Scene&, RenderSettings& s) { s.estimator.lightSamples = 3; }},
@@ -145,7 +145,7 @@ struct Result {
 
 class NestedKernel : public DeviceTest {
   protected:
-    void load(const Picture& picture) {
+    void load(const NestedPicture& picture) {
         settings_.area.width = 37,
         settings_.area.height = 27; // no multiples of a tile or a workgroup
         settings_.budget.mostSamplesPerPixel = kSamples;
@@ -222,7 +222,7 @@ class NestedKernel : public DeviceTest {
 class NestedPictures : public NestedKernel, public testing::WithParamInterface<size_t> {};
 
 TEST_P(NestedPictures, AreTheProductsBitForBit) {
-    const Picture& picture = kPictures[GetParam()];
+    const NestedPicture& picture = kNestedPictures[GetParam()];
     load(picture);
     const Result textbook = nested();
     uint64_t samples = 0, rejected = 0;
@@ -234,18 +234,21 @@ TEST_P(NestedPictures, AreTheProductsBitForBit) {
     expectSame(product(kTunings[tuning]), textbook, "tuning " + std::to_string(tuning));
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, NestedPictures, testing::Range<size_t>(0, std::size(kPictures)),
-                         [](const auto& test) { return std::string(kPictures[test.param].name); });
+INSTANTIATE_TEST_SUITE_P(Scenes, NestedPictures,
+                         testing::Range<size_t>(0, std::size(kNestedPictures)),
+                         [](const auto& test) {
+                             return std::string(kNestedPictures[test.param].name);
+                         });
 
 TEST_F(NestedKernel, AgreesWithEveryTuning) {
-    load(kPictures[2]); // mirror and glass: paths of very different lengths
+    load(kNestedPictures[2]); // mirror and glass: paths of very different lengths
     const Result textbook = nested();
     for (size_t i = 0; i < std::size(kTunings); ++i)
         expectSame(product(kTunings[i]), textbook, "tuning " + std::to_string(i));
 }
 
 TEST_F(NestedKernel, AgreesOnBranchesWithEveryTuning) {
-    load(kPictures[2]);
+    load(kNestedPictures[2]);
     settings_.estimator.branches = 3; // lanes stop with some branches done, and go on
     const Result textbook = nested();
     for (size_t i = 0; i < kTuningsOfPictures; ++i)
@@ -254,7 +257,7 @@ TEST_F(NestedKernel, AgreesOnBranchesWithEveryTuning) {
 
 /// The comparison has teeth: another seed is another picture.
 TEST_F(NestedKernel, DiffersForAnotherSeed) {
-    load(kPictures[0]);
+    load(kNestedPictures[0]);
     const Result textbook = nested();
     settings_.estimator.seed = 1;
     const Result other = product({});

@@ -95,7 +95,7 @@ double trueErrorBesideALamp(const Film& film) {
 
 /// The largest errors are those of pixels of which next to nothing is lamp and one sample has met
 /// it. Of 200 renders at a rate of 5 %, 19 misses come by chance once in 200 times.
-TEST(PictureNoise, TheEdgeOfALampIsInTheRange) {
+TEST(LampNoise, TheEdgeIsInTheRange) {
     constexpr int kSeeds = 200, kMostMisses = 18;
     for (const uint32_t samples : {4u, 16u, 64u}) {
         int misses = 0;

@@ -130,7 +130,7 @@ const Mode kModes[] = {
     {"hemisphere", [](RenderSettings& s) { s.estimator.directLight = DirectLight::Hemisphere; }},
     {"bsdf", [](RenderSettings& s) { s.estimator.directLight = DirectLight::Bsdf; }},
     {"branches",
-     [](RenderSettings& s) { // 144 branches a pixel: more than other modes have paths
+     [](RenderSettings& s) { // 96 branches a pixel: more than other modes have paths
          s.estimator.branches = 3;
          s.budget.mostSamplesPerPixel /= 2;
      }},
@@ -163,7 +163,7 @@ class TexturedRoom : public DeviceTest, public testing::WithParamInterface<Mode>
 
 TEST_P(TexturedRoom, KernelAndReferenceAgree) {
     const Scene scene = texturedRoom();
-    RenderSettings s = settings(96);
+    RenderSettings s = settings(64);
     GetParam().change(s);
     expectKernelAndReferenceAgree(testDevice(), scene, camera(), s);
 }
@@ -191,7 +191,7 @@ Scene reliefRoom(const Rule& rule) {
 }
 
 TEST_P(ReliefRules, KernelAndReferenceAgree) {
-    RenderSettings s = settings(96);
+    RenderSettings s = settings(64);
     expectKernelAndReferenceAgree(testDevice(), reliefRoom(GetParam()), camera(), s);
 }
 

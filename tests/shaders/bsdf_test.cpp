@@ -91,6 +91,9 @@ bool isCriticalOfPlastic(const reference::SurfacePoint& s, const glm::dvec3& wi)
            (isNear(glm::dot(s.shading, s.wo)) || isNear(glm::dot(s.shading, wi)));
 }
 
+/// Of each material, for what is compared with the reference in each.
+constexpr size_t kDirections = 3000;
+
 class BsdfTest : public BsdfFixture, public ::testing::WithParamInterface<ShadingConventions> {
   protected:
     BsdfTest() : BsdfFixture(materialsOf(bsdfCases()), GetParam()) {}
@@ -126,7 +129,7 @@ class BsdfTest : public BsdfFixture, public ::testing::WithParamInterface<Shadin
 TEST_P(BsdfTest, ValuesAndDensitiesAreThoseOfTheReference) {
     Random random(101);
     std::vector<gpu::BsdfQuery> queries;
-    for (uint32_t i = 0; i < 5000 * cases_.size(); ++i)
+    for (uint32_t i = 0; i < kDirections * cases_.size(); ++i)
         queries.push_back(queryInLobe(i, random));
     const std::vector<gpu::BsdfAnswer> found = answers(queries);
     std::vector<int> compared(cases_.size(), 0);
@@ -160,7 +163,7 @@ TEST_P(BsdfTest, ValuesAndDensitiesAreThoseOfTheReference) {
         ASSERT_NEAR(found[i].pdf, expected.pdf, expected.pdf * relative) << c.name << ' ' << i;
     }
     for (size_t m = 0; m < cases_.size(); ++m)
-        EXPECT_TRUE(compared[m] > 400 ||
+        EXPECT_TRUE(compared[m] > 240 ||
                     !reference::scattersIntoManyDirections(reference::lobesOf(cases_[m].material)))
             << cases_[m].name << ' ' << compared[m];
 }
@@ -168,7 +171,7 @@ TEST_P(BsdfTest, ValuesAndDensitiesAreThoseOfTheReference) {
 TEST_P(BsdfTest, WeightsAreValuesOverDensities) {
     Random random(102);
     std::vector<gpu::BsdfQuery> queries;
-    for (uint32_t i = 0; i < 5000 * cases_.size(); ++i)
+    for (uint32_t i = 0; i < kDirections * cases_.size(); ++i)
         queries.push_back(randomQuery(i % uint32_t(cases_.size()), random));
     const std::vector<gpu::BsdfAnswer> found = answers(queries);
     int compared = 0;
@@ -214,7 +217,7 @@ TEST_P(BsdfTest, WeightsAreValuesOverDensities) {
         ASSERT_NEAR(found[i].samplePdf, expected.pdf, expected.pdf * (inLobe + relative))
             << c.name << ' ' << i;
     }
-    EXPECT_GT(compared, 12000);
+    EXPECT_GT(compared, 7200);
 }
 
 INSTANTIATE_TEST_SUITE_P(Convention, BsdfTest,

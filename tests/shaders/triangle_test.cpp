@@ -30,7 +30,7 @@ TriangleTruth truth(const TriangleQuery& q) {
 }
 
 /// What the traversal takes for a hit.
-bool hits(float t) {
+bool isHit(float t) {
     return t > 0 && t < kInfinite;
 }
 
@@ -41,10 +41,10 @@ class HitTriangle : public DeviceTest {
         const auto found = ask<TriangleAnswer>(hit_triangle_shader, queries);
         for (size_t i = 0; i < found.size(); ++i) {
             const TriangleAnswer& a = found[i];
-            EXPECT_FALSE(hits(a.t2)) << i;
-            EXPECT_EQ(hits(a.t1), hits(a.t)) << i;
+            EXPECT_FALSE(isHit(a.t2)) << i;
+            EXPECT_EQ(isHit(a.t1), isHit(a.t)) << i;
             const bool same = a.t1 == a.t && a.b11 == a.b1 && a.b21 == a.b2;
-            EXPECT_TRUE(same || !hits(a.t)) << i;
+            EXPECT_TRUE(same || !isHit(a.t)) << i;
         }
         return found;
     }
@@ -82,7 +82,7 @@ TEST_F(HitTriangle, WeightsAndDistanceOfTrianglesOfAnySize) {
         double worst = 0;
         for (size_t i = 0; i < queries.size(); ++i) {
             const TriangleTruth expected = truth(queries[i]);
-            ASSERT_TRUE(hits(found[i].t)) << size << ' ' << i;
+            ASSERT_TRUE(isHit(found[i].t)) << size << ' ' << i;
             worst = std::max({worst, std::abs(found[i].t / expected.t - 1),
                               std::abs(found[i].b1 - expected.weights[1]),
                               std::abs(found[i].b2 - expected.weights[2])});
@@ -104,9 +104,9 @@ TEST_F(HitTriangle, TinyOnesFromAfarWhereACutOffLosesThem) {
         EXPECT_NEAR(found[i].t, 1, 4 * kUlp) << i;
         EXPECT_NEAR(found[i].b1, 1.0 / 3, i == 1 ? 0.01 : 4 * kUlp) << i;
     }
-    EXPECT_TRUE(hits(found[0].naive)) << "2e-4 is above the cut-off";
+    EXPECT_TRUE(isHit(found[0].naive)) << "2e-4 is above the cut-off";
     for (size_t i : {2u, 4u})
-        EXPECT_FALSE(hits(found[i].naive)) << "negative control: the cut-off loses it";
+        EXPECT_FALSE(isHit(found[i].naive)) << "negative control: the cut-off loses it";
 }
 
 TEST_F(HitTriangle, DecidesAsDoublePrecisionDoes) {
@@ -124,7 +124,7 @@ TEST_F(HitTriangle, DecidesAsDoublePrecisionDoes) {
         const TriangleTruth expected = truth(queries[i]);
         if (std::abs(expected.margin) < kMargin || std::abs(expected.t) < 1e-3) continue;
         const bool inside = expected.margin > 0 && expected.t > 0;
-        ASSERT_EQ(hits(found[i].t), inside) << i;
+        ASSERT_EQ(isHit(found[i].t), inside) << i;
         ++(inside ? hit : missed);
     }
     EXPECT_GT(hit, 3000);
@@ -170,7 +170,7 @@ TEST_F(HitTriangle, WithoutAreaIsNeverHit) {
     }
     const std::vector<TriangleAnswer> found = answers(queries);
     for (size_t i = 0; i < queries.size(); ++i)
-        ASSERT_FALSE(hits(found[i].t)) << i;
+        ASSERT_FALSE(isHit(found[i].t)) << i;
 }
 
 TEST_F(HitTriangle, SeenEdgeOnIsNeverHit) {
@@ -187,7 +187,7 @@ TEST_F(HitTriangle, SeenEdgeOnIsNeverHit) {
     }
     const std::vector<TriangleAnswer> found = answers(queries);
     for (size_t i = 0; i < queries.size(); ++i)
-        ASSERT_FALSE(hits(found[i].t)) << i;
+        ASSERT_FALSE(isHit(found[i].t)) << i;
 }
 
 TEST_F(HitTriangle, RaysThatAreNotFiniteHitNothing) {
@@ -203,7 +203,7 @@ TEST_F(HitTriangle, RaysThatAreNotFiniteHitNothing) {
         }
     const std::vector<TriangleAnswer> found = answers(queries);
     for (size_t i = 0; i < queries.size(); ++i)
-        EXPECT_FALSE(hits(found[i].t)) << i;
+        EXPECT_FALSE(isHit(found[i].t)) << i;
 }
 
 /// NUMERICS 8 and 9: long triangles beside the ray whose t must not be made up.
@@ -220,7 +220,7 @@ TEST_F(HitTriangle, SkinnyOnesBesideTheRay) {
     const std::vector<TriangleAnswer> found = answers(queries);
     for (size_t i = 0; i < queries.size(); ++i) {
         const TriangleQuery& q = queries[i];
-        if (!hits(found[i].t)) continue;
+        if (!isHit(found[i].t)) continue;
         const glm::dvec3 d(q.direction), o(q.origin);
         double least = INFINITY, most = -INFINITY; // of t over the triangle
         for (const glm::vec3& v : {q.v0, q.v1, q.v2}) {

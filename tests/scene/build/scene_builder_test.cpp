@@ -18,7 +18,7 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 
-const FilePlace kPlace{"scene.xyz", 7, "thing"};
+const FilePlace kHere{"scene.xyz", 7, "thing"};
 
 /// The corners (0 0 0), (1 0 0), (0 1 0), with one normal for all or none.
 Mesh oneTriangle(const std::vector<glm::dvec3>& normals = {}) {
@@ -34,15 +34,15 @@ Scene placed(const Mesh& mesh, const glm::dmat4& toWorld,
              const SceneConventions& conventions = {}) {
     SceneBuilder builder("scene.xyz", conventions);
     const std::vector<uint32_t> materials(mesh.parts.size(), builder.defaultMaterial());
-    builder.place(kPlace, builder.addMesh("mesh", mesh), toWorld, materials, "instance");
+    builder.place(kHere, builder.addMesh("mesh", mesh), toWorld, materials, "instance");
     return builder.finish();
 }
 
-glm::dmat4 scaled(double x, double y, double z) {
+glm::dmat4 scaledBy(double x, double y, double z) {
     return glm::scale(glm::dmat4(1), glm::dvec3(x, y, z));
 }
 
-void expectNear(const glm::dvec3& actual, const glm::dvec3& expected, double tolerance = 1e-7) {
+void expectAt(const glm::dvec3& actual, const glm::dvec3& expected, double tolerance = 1e-7) {
     EXPECT_LT(glm::distance(actual, expected), tolerance)
         << actual.x << ' ' << actual.y << ' ' << actual.z;
 }
@@ -61,39 +61,39 @@ TEST(SceneBuilder, PositionsAreRoundedOnceAfterAllTransformation) {
 
 TEST(SceneBuilder, NormalsFollowTheInverseTranspose) {
     // The plane x + z = const under a scale of x by 2: its normal turns against the scale.
-    const Scene scene = placed(oneTriangle({{1, 0, 1}}), scaled(2, 1, 1));
+    const Scene scene = placed(oneTriangle({{1, 0, 1}}), scaledBy(2, 1, 1));
     ASSERT_EQ(scene.normals.size(), 1u);
-    expectNear(scene.normals[0], glm::normalize(glm::dvec3(0.5, 0, 1)));
+    expectAt(scene.normals[0], glm::normalize(glm::dvec3(0.5, 0, 1)));
 }
 
 TEST(SceneBuilder, NormalsOfFlattenedMeshesAreAcrossThePlane) {
-    const Scene scene = placed(oneTriangle({{0.5, 0, 1}}), scaled(1, 1, 0));
+    const Scene scene = placed(oneTriangle({{0.5, 0, 1}}), scaledBy(1, 1, 0));
     ASSERT_EQ(scene.triangles.size(), 1u);
     // Shaded with the geometric normal: the two are the same.
     EXPECT_EQ(scene.triangles[0].normals[0], kNoNormals);
-    expectNear(scene.geometricNormal(scene.triangles[0]), {0, 0, 1});
+    expectAt(scene.geometricNormal(scene.triangles[0]), {0, 0, 1});
 }
 
 TEST(SceneBuilder, MirrorsKeepTheFront) {
     // Seen from outside, before and after: +z is the front, and -z where z is mirrored.
-    expectNear(placed(oneTriangle(), scaled(-1, 1, 1))
-                   .geometricNormal(placed(oneTriangle(), scaled(-1, 1, 1)).triangles[0]),
-               {0, 0, 1});
-    const Scene flipped = placed(oneTriangle(), scaled(1, 1, -1));
-    expectNear(flipped.geometricNormal(flipped.triangles[0]), {0, 0, -1});
+    expectAt(placed(oneTriangle(), scaledBy(-1, 1, 1))
+                 .geometricNormal(placed(oneTriangle(), scaledBy(-1, 1, 1)).triangles[0]),
+             {0, 0, 1});
+    const Scene flipped = placed(oneTriangle(), scaledBy(1, 1, -1));
+    expectAt(flipped.geometricNormal(flipped.triangles[0]), {0, 0, -1});
     SceneConventions asTransformed;
     asTransformed.winding = Winding::AsTransformed;
-    const Scene kept = placed(oneTriangle(), scaled(-1, 1, 1), asTransformed);
-    expectNear(kept.geometricNormal(kept.triangles[0]), {0, 0, -1});
+    const Scene kept = placed(oneTriangle(), scaledBy(-1, 1, 1), asTransformed);
+    expectAt(kept.geometricNormal(kept.triangles[0]), {0, 0, -1});
 }
 
 TEST(SceneBuilder, TrianglesTurnTowardsTheirNormals) {
     const Scene turned = placed(oneTriangle({{0.3, 0, -1}}), glm::dmat4(1));
-    expectNear(turned.geometricNormal(turned.triangles[0]), {0, 0, -1});
+    expectAt(turned.geometricNormal(turned.triangles[0]), {0, 0, -1});
     SceneConventions asTransformed;
     asTransformed.winding = Winding::AsTransformed;
     const Scene kept = placed(oneTriangle({{0.3, 0, -1}}), glm::dmat4(1), asTransformed);
-    expectNear(kept.geometricNormal(kept.triangles[0]), {0, 0, 1});
+    expectAt(kept.geometricNormal(kept.triangles[0]), {0, 0, 1});
 }
 
 TEST(SceneBuilder, WhatHasNoAreaOrIsOutOfRangeIsLeftOutAndCounted) {
@@ -120,7 +120,7 @@ TEST(SceneBuilder, InstancesOfAShapeAreCountedTogether) {
     const ShapeId shape = builder.addMesh("line", mesh);
     const uint32_t materials[] = {builder.defaultMaterial()};
     for (int i = 0; i < 3; ++i)
-        builder.place(kPlace, shape, glm::dmat4(1), materials, "instance");
+        builder.place(kHere, shape, glm::dmat4(1), materials, "instance");
     const Scene scene = builder.finish();
     EXPECT_EQ(scene.instances.size(), 3u);
     EXPECT_THAT(scene.report.warnings, Contains(HasSubstr("'line': 3 of 3 triangles left out")));
@@ -130,10 +130,10 @@ TEST(SceneBuilder, SpheresScaleWithTheirXAxis) {
     SceneBuilder builder("scene.xyz", {});
     const uint32_t materials[] = {builder.defaultMaterial()};
     const ShapeId sphere = builder.addSphere("ball", 2);
-    builder.place(kPlace, sphere, glm::translate(scaled(3, 3, 3), glm::dvec3(1, 0, 0)), materials,
+    builder.place(kHere, sphere, glm::translate(scaledBy(3, 3, 3), glm::dvec3(1, 0, 0)), materials,
                   "even");
-    builder.place(kPlace, sphere, scaled(3, 1, 1), materials, "uneven");
-    builder.place(kPlace, sphere, scaled(0, 1, 1), materials, "flat");
+    builder.place(kHere, sphere, scaledBy(3, 1, 1), materials, "uneven");
+    builder.place(kHere, sphere, scaledBy(0, 1, 1), materials, "flat");
     const Scene scene = builder.finish();
     ASSERT_EQ(scene.spheres.size(), 2u);
     EXPECT_EQ(scene.spheres[0].radius, 6);
@@ -184,17 +184,17 @@ TEST(SceneBuilder, LightsAreAimedByTheirMatrix) {
     light.kind = LightKind::Spot;
     builder.placeLight(light, matrix);
     light.name = "nowhere";
-    builder.placeLight(light, scaled(1, 1, 0));
+    builder.placeLight(light, scaledBy(1, 1, 0));
     const Scene scene = builder.finish();
     ASSERT_EQ(scene.lights.size(), 1u);
     EXPECT_EQ(scene.lights[0].position, glm::vec3(1, 2, 3));
-    expectNear(scene.lights[0].direction, {-1, 0, 0});
+    expectAt(scene.lights[0].direction, {-1, 0, 0});
     EXPECT_THAT(scene.report.warnings, Contains(HasSubstr("light 'nowhere' is left out")));
 }
 
 TEST(FilePlaceTest, ErrorsSayFileLineAndElement) {
     try {
-        kPlace.fail("is wrong");
+        kHere.fail("is wrong");
         FAIL();
     } catch (const SceneError& error) {
         EXPECT_STREQ(error.what(), "scene.xyz:7: <thing>: is wrong");

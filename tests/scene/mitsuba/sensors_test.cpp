@@ -12,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-Scene sceneOf(const std::string& inside, const std::string& type = "perspective") {
+Scene sceneSeenBy(const std::string& inside, const std::string& type = "perspective") {
     return loadInside(fmt::format("<sensor type=\"{}\">{}</sensor>", type, inside));
 }
 
@@ -20,7 +20,7 @@ const std::string kWideFilm = "<film type=\"hdrfilm\"><integer name=\"width\" va
                               "<integer name=\"height\" value=\"100\"/></film>";
 
 TEST(MitsubaSensors, LookAlongZWithXToTheLeft) {
-    const FileCamera camera = sceneOf("").cameras.at(0);
+    const FileCamera camera = sceneSeenBy("").cameras.at(0);
     EXPECT_EQ(camera.back, glm::dvec3(0, 0, -1));
     EXPECT_EQ(camera.right, glm::dvec3(-1, 0, 0));
     EXPECT_EQ(camera.up, glm::dvec3(0, 1, 0));
@@ -29,7 +29,7 @@ TEST(MitsubaSensors, LookAlongZWithXToTheLeft) {
 /// A scale of -1 along x turns left and right round.
 TEST(MitsubaSensors, MayShowMirrorImages) {
     const FileCamera camera =
-        sceneOf("<transform name=\"to_world\"><scale x=\"-1\"/></transform>").cameras.at(0);
+        sceneSeenBy("<transform name=\"to_world\"><scale x=\"-1\"/></transform>").cameras.at(0);
     EXPECT_EQ(camera.back, glm::dvec3(0, 0, -1));
     EXPECT_EQ(camera.right, glm::dvec3(1, 0, 0));
     EXPECT_EQ(camera.up, glm::dvec3(0, 1, 0));
@@ -37,9 +37,10 @@ TEST(MitsubaSensors, MayShowMirrorImages) {
 
 /// The diagonal of 36 x 24 mm at 50 mm: 34.02 degrees across a square.
 TEST(MitsubaSensors, TheStandardLensHas50Millimetres) {
-    const FileCamera square = sceneOf("<film type=\"hdrfilm\"><integer name=\"width\" value=\"8\"/>"
-                                      "<integer name=\"height\" value=\"8\"/></film>")
-                                  .cameras.at(0);
+    const FileCamera square =
+        sceneSeenBy("<film type=\"hdrfilm\"><integer name=\"width\" value=\"8\"/>"
+                    "<integer name=\"height\" value=\"8\"/></film>")
+            .cameras.at(0);
     EXPECT_NEAR(2 * std::atan(*square.halfWidth) * 180 / M_PI, 34.0224, 1e-3);
     EXPECT_EQ(square.halfWidth, square.halfHeight);
 }
@@ -48,7 +49,7 @@ TEST(MitsubaSensors, AnglesBelongToAnAxis) {
     const auto widthOf = [](const std::string& axis) {
         const std::string stated =
             axis.empty() ? "" : "<string name=\"fov_axis\" value=\"" + axis + "\"/>";
-        return *sceneOf("<float name=\"fov\" value=\"90\"/>" + stated + kWideFilm)
+        return *sceneSeenBy("<float name=\"fov\" value=\"90\"/>" + stated + kWideFilm)
                     .cameras.at(0)
                     .halfWidth;
     };
@@ -67,7 +68,7 @@ TEST(MitsubaSensors, AnglesBelongToAnAxis) {
 TEST(MitsubaSensors, PrincipalPointsMove) {
     const std::string offsets = "<float name=\"principal_point_offset_x\" value=\"0.2\"/>"
                                 "<float name=\"principal_point_offset_y\" value=\"0.1\"/>";
-    const Scene scene = sceneOf("<float name=\"fov\" value=\"60\"/>" + offsets + kWideFilm);
+    const Scene scene = sceneSeenBy("<float name=\"fov\" value=\"60\"/>" + offsets + kWideFilm);
     const Camera camera = makeCamera(scene, CameraChoice::File, 200, 100);
     EXPECT_NEAR(camera.shift.x, 0.2309401, 1e-6);
     EXPECT_NEAR(camera.shift.y, -0.0577350, 1e-6);
@@ -76,37 +77,37 @@ TEST(MitsubaSensors, PrincipalPointsMove) {
 }
 
 TEST(MitsubaSensors, LensesAndParallelViews) {
-    const FileCamera lens = sceneOf("<float name=\"aperture_radius\" value=\"0.2\"/>"
-                                    "<float name=\"focus_distance\" value=\"7\"/>",
-                                    "thinlens")
+    const FileCamera lens = sceneSeenBy("<float name=\"aperture_radius\" value=\"0.2\"/>"
+                                        "<float name=\"focus_distance\" value=\"7\"/>",
+                                        "thinlens")
                                 .cameras.at(0);
     EXPECT_EQ(lens.lensRadius, 0.2);
     EXPECT_EQ(lens.focusDistance, 7);
     const Scene parallel =
-        sceneOf("<transform name=\"to_world\"><scale value=\"3\"/></transform>" + kWideFilm,
-                "orthographic");
+        sceneSeenBy("<transform name=\"to_world\"><scale value=\"3\"/></transform>" + kWideFilm,
+                    "orthographic");
     EXPECT_EQ(*parallel.cameras.at(0).halfWidth, 3);
     EXPECT_EQ(*parallel.cameras.at(0).halfHeight, 1.5);
     const Camera camera =
-        makeCamera(sceneOf("<float name=\"aperture_radius\" value=\"0.2\"/>", "thinlens"),
+        makeCamera(sceneSeenBy("<float name=\"aperture_radius\" value=\"0.2\"/>", "thinlens"),
                    CameraChoice::File, 100, 75);
     EXPECT_EQ(camera.lensRadius, 0.2);
 }
 
 TEST(MitsubaSensors, FilmsAreHints) {
-    const Scene scene = sceneOf("<film type=\"hdrfilm\"><integer name=\"width\" value=\"200\"/>"
-                                "<integer name=\"height\" value=\"100\"/>"
-                                "<rfilter type=\"box\"/></film>");
+    const Scene scene = sceneSeenBy("<film type=\"hdrfilm\"><integer name=\"width\" value=\"200\"/>"
+                                    "<integer name=\"height\" value=\"100\"/>"
+                                    "<rfilter type=\"box\"/></film>");
     EXPECT_EQ(scene.hints.width, 200u);
     EXPECT_EQ(scene.hints.filter, HintedFilter::Box);
     EXPECT_EQ(defaultPictureSize(scene, {}).height, 100u);
-    EXPECT_EQ(sceneOf(kWideFilm).hints.filter, HintedFilter::Gaussian);
+    EXPECT_EQ(sceneSeenBy(kWideFilm).hints.filter, HintedFilter::Gaussian);
     EXPECT_FALSE(loadInside("").hints.filter);
 }
 
 TEST(MitsubaSensors, FiltersHaveTheirNumbers) {
     const auto hintsOf = [](const std::string& filter) {
-        return sceneOf("<film type=\"hdrfilm\"><rfilter " + filter + "</rfilter></film>").hints;
+        return sceneSeenBy("<film type=\"hdrfilm\"><rfilter " + filter + "</rfilter></film>").hints;
     };
     const RenderHints tent = hintsOf("type=\"tent\"><float name=\"radius\" value=\"1.5\"/>");
     EXPECT_EQ(tent.filter, HintedFilter::Tent);

@@ -15,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-double areaOf(const Scene& scene) {
+double areaOfShape(const Scene& scene) {
     double area = 0;
     for (const Triangle& t : scene.triangles)
         area += 0.5 * glm::length(glm::cross(
@@ -30,14 +30,14 @@ Scene loadShape(const std::string& type, const std::string& inside = "") {
 
 TEST(MitsubaShapes, HaveTheirAreas) {
     constexpr double kPi = std::numbers::pi;
-    EXPECT_DOUBLE_EQ(areaOf(loadShape("rectangle")), 4);
-    EXPECT_DOUBLE_EQ(areaOf(loadShape("cube")), 24);
+    EXPECT_DOUBLE_EQ(areaOfShape(loadShape("rectangle")), 4);
+    EXPECT_DOUBLE_EQ(areaOfShape(loadShape("cube")), 24);
     // A circle of n sides has sin(2 pi / n) / (2 pi / n) of the area.
-    EXPECT_NEAR(areaOf(loadShape("disk")), kPi, kPi * 1.1e-4);
-    EXPECT_NEAR(areaOf(loadShape("cylinder")), 2 * kPi, 2 * kPi * 1e-4);
+    EXPECT_NEAR(areaOfShape(loadShape("disk")), kPi, kPi * 1.1e-4);
+    EXPECT_NEAR(areaOfShape(loadShape("cylinder")), 2 * kPi, 2 * kPi * 1e-4);
     const std::string stretched = "<transform name=\"to_world\"><scale x=\"2\" y=\"2\" z=\"2.01\"/>"
                                   "</transform>";
-    EXPECT_NEAR(areaOf(loadShape("sphere", stretched)), 16 * kPi, 16 * kPi * 5e-3);
+    EXPECT_NEAR(areaOfShape(loadShape("sphere", stretched)), 16 * kPi, 16 * kPi * 5e-3);
     EXPECT_EQ(loadShape("sphere").triangles.size(), 0u);
 }
 

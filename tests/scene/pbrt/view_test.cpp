@@ -15,40 +15,41 @@ FileCamera cameraOf(const std::string& before) {
     return scene.cameras.at(0);
 }
 
-void expectNear(const glm::dvec3& a, const glm::dvec3& b) {
+void expectClose(const glm::dvec3& a, const glm::dvec3& b) {
     for (const int i : {0, 1, 2})
         EXPECT_NEAR(a[i], b[i], 1e-6) << i;
 }
 
 TEST(PbrtCamera, LooksAlongZWithXToTheRight) {
     const FileCamera camera = cameraOf("Camera \"perspective\"");
-    expectNear(camera.right, {1, 0, 0});
-    expectNear(camera.up, {0, 1, 0});
-    expectNear(camera.back, {0, 0, -1});
+    expectClose(camera.right, {1, 0, 0});
+    expectClose(camera.up, {0, 1, 0});
+    expectClose(camera.back, {0, 0, -1});
 }
 
 TEST(PbrtCamera, LookAtIsLeftHanded) {
     const FileCamera camera = cameraOf("LookAt 0 0 -5  0 0 0  0 1 0 Camera \"perspective\"");
-    expectNear(camera.position, {0, 0, -5});
-    expectNear(camera.right, {1, 0, 0});
-    expectNear(camera.back, {0, 0, -1});
+    expectClose(camera.position, {0, 0, -5});
+    expectClose(camera.right, {1, 0, 0});
+    expectClose(camera.back, {0, 0, -1});
     const FileCamera mirrored =
         cameraOf("Scale -1 1 1 LookAt 0 0 -5  0 0 0  0 1 0 Camera \"perspective\"");
-    expectNear(mirrored.right, {-1, 0, 0});
-    expectNear(mirrored.position, {0, 0, -5});
+    expectClose(mirrored.right, {-1, 0, 0});
+    expectClose(mirrored.position, {0, 0, -5});
 }
 
 TEST(PbrtCamera, TransformationsAreMultipliedInTheirOrder) {
     const FileCamera camera = cameraOf("Rotate 90 0 1 0 Translate -1 -2 -3 Camera \"perspective\"");
-    expectNear(camera.position, {1, 2, 3});
-    expectNear(camera.back, {1, 0, 0}); // z of the camera is -x of the world
-    expectNear(
+    expectClose(camera.position, {1, 2, 3});
+    expectClose(camera.back, {1, 0, 0}); // z of the camera is -x of the world
+    expectClose(
         cameraOf("Transform [1 0 0 0 0 1 0 0 0 0 1 0 4 5 6 1] Camera \"perspective\"").position,
         {-4, -5, -6});
-    expectNear(cameraOf("Translate 9 9 9 Identity Translate 1 0 0 ConcatTransform [1 0 0 0 0 1 0 0 "
-                        "0 0 1 0 0 2 0 1] Camera \"perspective\"")
-                   .position,
-               {-1, -2, 0});
+    expectClose(
+        cameraOf("Translate 9 9 9 Identity Translate 1 0 0 ConcatTransform [1 0 0 0 0 1 0 0 "
+                 "0 0 1 0 0 2 0 1] Camera \"perspective\"")
+            .position,
+        {-1, -2, 0});
 }
 
 TEST(PbrtCamera, AngleIsThatOfTheShorterSide) {
@@ -71,7 +72,7 @@ TEST(PbrtCamera, HasAScreenWindow) {
     const FileCamera flat = cameraOf("Camera \"orthographic\" \"float screenwindow\" [0 4 0 2]");
     EXPECT_EQ(flat.projection, Projection::Orthographic);
     EXPECT_NEAR(*flat.halfWidth, 2, 1e-9);
-    expectNear(flat.position, {2, 1, 0});
+    expectClose(flat.position, {2, 1, 0});
 }
 
 TEST(PbrtCamera, HasALens) {
