@@ -17,9 +17,10 @@ constexpr uint32_t kLeastSamplesPerBranch = 4;
 /// Light samples leave little noise beside that of bounces: not where one sample or bounce
 /// stands for all of the sky, or one sample for many lights.
 bool directLightIsSmooth(const Scene& scene, const Estimator& estimator) {
-    const bool sky = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
-        return light.kind == LightKind::Ambient;
-    });
+    const bool sky = (scene.environment && !scene.environment->isConstant()) ||
+                     std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+                         return light.kind == LightKind::Ambient;
+                     });
     return samplesLights(estimator.directLight) && !sky &&
            !haveManyTriangles(collectEmitters(scene));
 }
