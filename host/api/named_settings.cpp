@@ -231,6 +231,8 @@ constexpr Row<Asked> kPictureRows[] = {
      [](Asked& a, Name n, const Value& v) { a.request.estimator.gapProposal = yes(n, v); }},
     {"branches", "paths that share a camera ray; samples is a multiple of it",
      [](Asked& a, Name n, const Value& v) { a.request.branches = whole(n, v, 1, 64); }},
+    {"guiding", "which pictures' light samples are guided: auto, on or off",
+     [](Asked& a, Name n, const Value& v) { a.request.guiding = choice<Guiding>(n, v); }},
     {"integrator", "path, normals or depth",
      [](Asked& a, Name n, const Value& v) {
          a.request.estimator.integrator = choice<Integrator>(n, v);

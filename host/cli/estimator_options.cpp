@@ -134,12 +134,18 @@ void finishEstimator(DeclaredCommand& c, SceneAndPicture& work, const Asked& ask
     const std::string moot =
         e.integrator != Integrator::Path
             ? c.givenOf({"-m", "--min-bounce", "-l", "--direct", "-H", "--light-choice",
-                         "--roulette", "--gap-proposal", "--terminator-offset", "--branches", "-a"})
+                         "--roulette", "--gap-proposal", "--guiding", "--terminator-offset",
+                         "--branches", "-a"})
             : "";
     if (!moot.empty())
         c.host.remarks.push_back(fmt::format("--integrator {} follows no light: ignored: {}",
                                              nameOf(e.integrator), moot));
     remarkOnLightChoice(c, e, backend);
+    if (work.picture.guiding == Guiding::On && backend == BackendChoice::Reference)
+        c.host.remarks.emplace_back("the reference guides no light samples: --guiding ignored");
+    if (work.picture.guiding == Guiding::On && !samplesLights(e.directLight))
+        throw UsageError(fmt::format("--guiding on needs lights that are sampled: not --direct {}",
+                                     nameOf(e.directLight)));
     if (c.has("--gap-proposal") && e.gapProposal && backend == BackendChoice::Reference)
         c.host.remarks.emplace_back("the reference makes no gap proposal: --gap-proposal ignored");
     if (c.has("--gap-proposal") && e.gapProposal && !samplesLights(e.directLight))
@@ -174,6 +180,10 @@ void declareSamples(OptionList& list, RenderRequest& picture, Asked& asked,
 
 void declareBranches(OptionList& list, RenderRequest& picture, const std::string& usually) {
     list.group("Sampling");
+    list.choice("--guiding", "WHEN",
+                "light samples go to the parts of an environment that are seen from where they "
+                "are taken, which is learnt before the picture begins, unless it gains little",
+                picture.guiding);
     list.number("--branches", "K",
                 "paths that share a camera ray and the light samples where it ends; -s, which "
                 "counts paths, is a multiple of it",

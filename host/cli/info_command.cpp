@@ -9,6 +9,7 @@
 #include "host/film/image_file.hpp"
 #include "host/kernel/kernel_buffers.hpp"
 #include "host/kernel/kernel_features.hpp"
+#include "host/kernel/vulkan_backend.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -189,10 +190,12 @@ void declareInfo(DeclaredCommand& c) {
 int infoCommand(const InfoOptions& options) {
     if (namesPicture(options.scene.source))
         return infoOfPicture(options.scene.source, options.jsonFile);
-    const PreparedPicture prepared = preparePicture(options);
+    PreparedPicture prepared = preparePicture(options);
     const auto& [scene, picture] = prepared;
     const RenderSettings& settings = picture.settings;
     const BuiltScene built = buildScene(*scene.scene, settings.estimator, toTerminal());
+    if (liesOpen(built.gpu, picture.camera))
+        prepared.picture.settings.estimator.guidesLight = false; // else it is tried
     nowDoing("printing", StatusLine::OfOthers);
     if (!options.jsonFile.empty()) {
         writeOutput(options.jsonFile, infoJson(prepared, built).dump(2) + "\n");

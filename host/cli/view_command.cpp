@@ -79,6 +79,8 @@ std::string commandOf(const ViewOptions& o, const std::optional<view::Pose>& pos
     if (tone.view != "standard") parts.push_back("--view " + tone.view);
     if (tone.exposure != "0") parts.push_back("--exposure " + tone.exposure);
     if (denoised) parts.emplace_back("--denoise on");
+    if (o.picture.guiding != Guiding::Automatic)
+        parts.push_back(fmt::format("--guiding {}", nameOf(o.picture.guiding)));
     std::string stem = std::filesystem::path(o.scene.source).stem().string();
     if (stem.empty() || o.scene.source.find(':') != std::string::npos) stem = "view";
     parts.push_back("-o " + shellQuoted(stem + ".png"));
@@ -140,6 +142,7 @@ void declareView(DeclaredCommand& c) {
     const auto asked = std::make_shared<Asked>();
     asked->makes = Makes::Pictures;
     asked->maySpread = asked->branchesPay = true;
+    o->picture.guiding = Guiding::Off; // learning takes longer than a move of the camera may
     OptionList& list = c.list;
     declareScene(list, o->scene);
     list.group("Page");

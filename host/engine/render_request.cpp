@@ -161,6 +161,17 @@ std::vector<std::string> RenderRequest::channels() const {
     return names;
 }
 
+namespace {
+
+/// With fewer samples it takes longer to learn than is gained.
+constexpr uint32_t kLeastGuidedPaths = 16;
+bool guidesLight(const RenderRequest& request) {
+    if (request.guiding != Guiding::Automatic) return request.guiding == Guiding::On;
+    return request.budget.pathsPerPixel() >= kLeastGuidedPaths;
+}
+
+} // namespace
+
 ResolvedPicture resolvePicture(const Scene& scene, const RenderRequest& request,
                                const Listener& listener) {
     ResolvedPicture picture;
@@ -169,6 +180,7 @@ ResolvedPicture resolvePicture(const Scene& scene, const RenderRequest& request,
     const uint32_t branches =
         request.branches.value_or(branchesThatPay(scene, settings.estimator, request.budget));
     settings.estimator.branches = branches;
+    settings.estimator.guidesLight = guidesLight(request);
     settings.budget = inSamples(request.budget, branches);
     checkCrop(settings.area);
     checkPictureFits(settings.area, 3 + request.channels().size());

@@ -41,6 +41,16 @@ struct DeviceRequest {
     std::optional<double> mostMebibytes;
 };
 
+/// Which pictures' light samples are guided, where that pays (docs/theory/estimator.md, "Learned
+/// light samples").
+enum class Guiding { Automatic, On, Off };
+template <>
+inline constexpr auto kNamedValues<Guiding> = std::to_array<NamedValue<Guiding>>({
+    {Guiding::Automatic, "auto", "of pictures with 16 samples or more"},
+    {Guiding::On, "on", "of all pictures"},
+    {Guiding::Off, "off", "of none"},
+});
+
 /// What is left to the scene's file where it asks for it (RenderHints).
 struct LeftToFile {
     bool bounces = true, filter = true, integrator = true;
@@ -55,6 +65,7 @@ struct RenderRequest {
     FramingConventions framing;
     Estimator estimator;              ///< its branches are chosen below
     std::optional<uint32_t> branches; ///< empty: what pays in the scene
+    Guiding guiding = Guiding::Automatic;
     LeftToFile leftToFile;
     PathBudget budget;
     bool transparent = false; ///< alpha in place of the environment

@@ -50,8 +50,11 @@ Keeping takeUp(Keeping keeping, const Listener& listener) {
 
 RenderRequest toGoOn(RenderRequest request, const Keeping& keeping) {
     if (!keeping.begun) return request;
-    const uint32_t branches = keeping.begun->state.settings.estimator.branches;
+    const Estimator& begun = keeping.begun->state.settings.estimator;
+    const uint32_t branches = begun.branches;
     if (!request.branches) request.branches = branches;
+    if (request.guiding == Guiding::Automatic)
+        request.guiding = begun.guidesLight ? Guiding::On : Guiding::Off;
     const uint32_t paths = request.budget.pathsPerPixel();
     if (*request.branches == branches && paths != kMostSamples && paths % branches != 0)
         throw UsageError(fmt::format("-s {} is not a multiple of the {} --branches of {}", paths,

@@ -1,6 +1,7 @@
 #include "host/kernel/dispatcher.hpp"
 
 #include "host/core/error.hpp"
+#include "shaders/shared/guide_types.h"
 #include "shaders/shared/medium_types.h"
 
 #include <fmt/format.h>
@@ -41,7 +42,7 @@ using vulkan::BufferUse;
 /// One iteration of the kernel's loop counts for itself, its traversal steps and pixel filter, the
 /// loop around it that changes pixels and, where there are such, the walk down the light tree, the
 /// loose textures of a material, the materials of a mixture and the steps through a grid of
-/// densities.
+/// densities, and the walks down the tree of guided light samples.
 uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene, const PathKernel& kernel) {
     // At a hit, where a path splits again, and at the end of a ray of hemisphere sampling.
     constexpr uint32_t kTextureLoops = 3;
@@ -49,11 +50,15 @@ uint32_t hardLimit(const vulkan::Device& device, const GpuScene& scene, const Pa
     const uint32_t textures = scene.mostTextures + 1, others = scene.mostOthers;
     const uint32_t mixtures = (scene.mostBlends ? scene.mostBlends + 1 : 0) +
                               (others ? 2 * (others + 1) * (1 + textures) : 0);
+    // At a surface, at its other side for a light sample, and for a bounce.
+    constexpr uint32_t kGuideLoops = 3;
+    const bool isGuided = kernel.features()[SPEC_GUIDES_LIGHT] != 0;
     // A light is picked for a light sample, and looked up once more for MIS.
     const uint32_t perIteration = 1 + passesOfCameraRays(kernel.features()) + 2 +
                                   (scene.lights.groups ? 2 * (scene.lights.levels + 1) : 0) +
                                   (scene.mostTextures ? kTextureLoops * textures : 0) + mixtures +
-                                  (scene.media & gpu::MEDIA_VARY ? gpu::GRID_STEPS + 1 : 0);
+                                  (scene.media & gpu::MEDIA_VARY ? gpu::GRID_STEPS + 1 : 0) +
+                                  (isGuided ? kGuideLoops * (gpu::GUIDE_LEVELS + 1) : 0);
     return loopLimit(device, perIteration);
 }
 
@@ -89,8 +94,8 @@ Dispatcher::Dispatcher(const DispatchTarget& target, const PathKernel& kernel,
         std::vector<const Buffer*> buffers;
         for (const Buffer& b : target.scene.buffers())
             buffers.push_back(&b);
-        buffers.insert(buffers.end(),
-                       {&frameBuffer_, &workItems_, &s.pixels, &paths_, &status_, &target.filter});
+        buffers.insert(buffers.end(), {&frameBuffer_, &workItems_, &s.pixels, &paths_, &status_,
+                                       &target.filter, &target.guide, &target.lightNotes});
         if (queues_) buffers.push_back(&*queues_);
         sets_.push_back(
             std::make_unique<vulkan::DescriptorSet>(device_, kernel.pipeline(), buffers));

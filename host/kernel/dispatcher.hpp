@@ -37,7 +37,9 @@ struct DispatchTarget {
     const vulkan::Device& device;
     const DeviceScene& scene;
     std::span<const FilmSegment> film;
-    const vulkan::Buffer& filter; ///< the picture's table (sampling_tables.hpp)
+    const vulkan::Buffer& filter;     ///< the picture's table (sampling_tables.hpp)
+    const vulkan::Buffer& guide;      ///< what guiding has learnt; of a kernel without it, any
+    const vulkan::Buffer& lightNotes; ///< what it learns from; likewise
 };
 
 /// How it does so.

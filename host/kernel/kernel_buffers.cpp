@@ -1,5 +1,6 @@
 #include "host/kernel/kernel_buffers.hpp"
 
+#include "host/kernel/light_guide.hpp"
 #include "host/kernel/path_kernel.hpp"
 #include "host/kernel/sampling_tables.hpp"
 #include "shaders/shared/interface.h"
@@ -54,7 +55,11 @@ uint64_t largestSceneBuffer(const GpuScene& scene) {
 
 uint64_t largestRowBuffer(const GpuScene& scene, uint64_t pixels) {
     const uint64_t items = std::min<uint64_t>(DeviceTuning{}.itemsPerDispatch, pixels);
-    return std::max(largestSceneBuffer(scene), items * sizeof(gpu::WorkItem));
+    const uint64_t notes =
+        scene.lights.environment
+            ? kNotedPixels * kNotedSamples * gpu::GUIDE_VERTICES * sizeof(gpu::LightNote)
+            : 0;
+    return std::max({largestSceneBuffer(scene), items * sizeof(gpu::WorkItem), notes});
 }
 
 PathBuffers pathBuffers(const KernelFeatures& features, uint64_t lanes, PathScheduler scheduler) {
@@ -81,6 +86,15 @@ std::vector<BufferPlan> planBuffers(const GpuScene& scene, const PictureArea& ar
     plans.push_back(paths.paths);
     if (paths.queues) plans.push_back(*paths.queues);
     plans.push_back({"pixel filter", filterRows(estimator.filter) * sizeof(Row), rows});
+    if (guidesLight(scene, estimator)) {
+        const uint64_t guideRows =
+            gpu::GUIDE_NODES + uint64_t(gpu::GUIDE_CELLS) * gpu::GUIDE_TABLE_ROWS;
+        plans.push_back({"light guide", guideRows * sizeof(Row), rows});
+        plans.push_back({"notes of light samples",
+                         std::min(uint64_t(area.width) * area.height, kNotedPixels) *
+                             kNotedSamples * gpu::GUIDE_VERTICES * sizeof(gpu::LightNote),
+                         rows});
+    }
     plans.push_back({"frame constants", sizeof(gpu::Frame), BufferUse::Uniform});
     plans.push_back({"dispatch status", sizeof(gpu::DispatchStatus), BufferUse::Storage});
     return plans;

@@ -193,6 +193,21 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
     return f;
 }
 
+bool guidesLight(const GpuScene& scene, const Estimator& settings) {
+    return settings.guidesLight &&
+           (lightKinds(scene, settings) & 1u << gpu::LIGHT_ENVIRONMENT) != 0;
+}
+
+KernelFeatures notingFeatures(const GpuScene& scene, const Camera& camera,
+                              const Estimator& settings, const DeviceTuning& tuning) {
+    Estimator estimator = settings;
+    estimator.branches = 1;
+    estimator.guidesLight = false;
+    KernelFeatures f = kernelFeatures(scene, camera, estimator, tuning);
+    f[SPEC_NOTES_LIGHT] = 1;
+    return f;
+}
+
 KernelFeatures seeingFeatures(const GpuScene& scene, const Camera& camera,
                               const Estimator& settings, const DeviceTuning& tuning, Seeing what) {
     Estimator estimator = settings;
@@ -200,6 +215,7 @@ KernelFeatures seeingFeatures(const GpuScene& scene, const Camera& camera,
     estimator.integrator = what == Seeing::Coverage ? Integrator::Normals : Integrator::Path;
     estimator.branches = 1;
     estimator.gapProposal = false;
+    estimator.guidesLight = false;
     estimator.roulette.mode = Roulette::Mode::None;
     KernelFeatures f = kernelFeatures(scene, camera, estimator, tuning);
     for (const KernelConstant ofLight :

@@ -26,6 +26,14 @@ KernelFeatures kernelFeatures(const GpuScene& scene, const Camera& camera,
 KernelFeatures seeingFeatures(const GpuScene& scene, const Camera& camera,
                               const Estimator& settings, const DeviceTuning& tuning, Seeing what);
 
+/// Those of the kernel that notes light samples for the guide to learn from, of these settings
+/// without branches.
+KernelFeatures notingFeatures(const GpuScene& scene, const Camera& camera,
+                              const Estimator& settings, const DeviceTuning& tuning);
+
+/// Whether light samples of these settings go to an environment, and shall be guided.
+bool guidesLight(const GpuScene& scene, const Estimator& settings);
+
 /// Those of the kernel that records the path of a sample as it takes it.
 KernelFeatures recordingFeatures(const GpuScene& scene, const Camera& camera,
                                  const Estimator& settings, const DeviceTuning& tuning);

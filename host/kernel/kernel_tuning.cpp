@@ -24,7 +24,7 @@ constexpr uint32_t kWavefrontPaths = 1u << 18;
 
 /// Texel buffers of the path kernel: the scene's, the work list, the film and the table of the
 /// pixel filter; other kernels have fewer.
-constexpr size_t kTexelBuffers = SCENE_BINDING_COUNT + 3;
+constexpr size_t kTexelBuffers = SCENE_BINDING_COUNT + 5;
 
 /// A CPU device (lavapipe) runs a subgroup as one SIMD register per thread. A subgroup per
 /// workgroup, so that none waits for another's lanes; all other pixels come to these lanes
@@ -115,6 +115,12 @@ void DispatchPace::took(double seconds) {
     const double factor = std::clamp(target_ / std::max(seconds, 1e-9), 0.25, 4.0); // 1 ns
     const double wanted = std::exp2(std::round(std::log2(iterations_ * factor)));
     iterations_ = uint32_t(std::clamp(wanted, std::min(16.0, double(limit_)), double(limit_)));
+}
+
+DeviceTuning forPixels(DeviceTuning tuning, uint64_t pixels) {
+    tuning.lanes = uint32_t(std::min<uint64_t>(tuning.lanes, pixels));
+    tuning.itemsPerDispatch = uint32_t(std::min<uint64_t>(tuning.itemsPerDispatch, pixels));
+    return tuning;
 }
 
 } // namespace stromboli

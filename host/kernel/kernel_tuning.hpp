@@ -4,10 +4,13 @@
 #include "host/vulkan/device.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 
 namespace stromboli {
+
+struct LightGuide; // light_guide.hpp
 
 // --- Tuning --------------------------------------------------------------------------------------
 
@@ -35,6 +38,8 @@ struct KernelTuning {
     bool everythingOn = false; ///< leave in all features, also those the scene lacks (benchmark)
     /// Who puts the constants into the kernel's module (tests compare the two).
     vulkan::Specialiser specialiser = vulkan::Specialiser::Ours;
+    /// In place of one that is learnt, where light samples may be guided (tests).
+    std::shared_ptr<const LightGuide> guide;
 };
 
 /// How the kernel runs on a device: KernelTuning with nothing left open.
@@ -100,5 +105,8 @@ class DispatchPace {
     uint32_t limit_;
     uint32_t iterations_;
 };
+
+/// With no more lanes and items of a work list than there are pixels.
+DeviceTuning forPixels(DeviceTuning tuning, uint64_t pixels);
 
 } // namespace stromboli

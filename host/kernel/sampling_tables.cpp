@@ -90,34 +90,112 @@ glm::vec3 decodeRadiance(const gpu::EnvironmentTexel& texel) {
     return radiance;
 }
 
+namespace {
+
+/// How the texels of an environment are divided into tiles (shaders/shared/light_types.h).
+struct Tiles {
+    uint32_t width, height, shift = 0, across, down;
+
+    Tiles(uint32_t w, uint32_t h) : width(w), height(h) {
+        const auto tilesOf = [&](uint32_t texels) { return (texels + (1u << shift) - 1) >> shift; };
+        while (tilesOf(w) > gpu::ENVIRONMENT_TILES_ACROSS ||
+               tilesOf(h) > gpu::ENVIRONMENT_TILES_DOWN)
+            ++shift;
+        across = tilesOf(w);
+        down = tilesOf(h);
+    }
+
+    uint32_t count() const { return across * down; }
+    /// Calls f(texel, number in the tile) for the texels of a tile, in order.
+    template <class F>
+    void forEachTexel(uint32_t tile, F f) const {
+        const uint32_t x0 = tile % across << shift, y0 = tile / across << shift;
+        const uint32_t x1 = std::min(x0 + (1u << shift), width),
+                       y1 = std::min(y0 + (1u << shift), height);
+        uint32_t number = 0;
+        for (uint32_t y = y0; y < y1; ++y)
+            for (uint32_t x = x0; x < x1; ++x)
+                f(size_t(y) * width + x, number++);
+    }
+};
+
+// The kernel chooses by thresholds in steps of 2^-31 (shaders/lights/environment.glsl).
+
+/// As the kernel reads it: no positive threshold becomes 0.
+float steppedThreshold(double threshold) {
+    return threshold > 0 ? std::max(float(threshold), 0x1p-31f) : 0;
+}
+/// The share of a column that a threshold of the kernel chooses.
+double chosenShare(double threshold) {
+    return std::floor(threshold * 0x1p31) * 0x1p-31;
+}
+
+/// The texels of a tile as columns of its alias table; returns the sum of their weights. sines: of
+/// the polar angle, by row.
+double packTile(const Environment& environment, const Tiles& tiles, uint32_t tile,
+                std::span<const double> sines, std::span<Row> texels) {
+    std::vector<double> weights;
+    std::vector<size_t> places;
+    double sum = 0;
+    tiles.forEachTexel(tile, [&](size_t place, uint32_t) {
+        gpu::EnvironmentTexel texel{};
+        encodeRadiance(environment.radiance[place], texel);
+        texels[place] = std::bit_cast<Row>(texel);
+        weights.push_back(luminance(decodeRadiance(texel)) * sines[place / tiles.width]);
+        places.push_back(place);
+        sum += weights.back();
+    });
+    if (!(sum > 0)) return 0; // no sample comes here
+    const std::vector<AliasColumn> columns = buildAliasTable(weights);
+    for (size_t i = 0; i < places.size(); ++i) {
+        auto texel = std::bit_cast<gpu::EnvironmentTexel>(texels[places[i]]);
+        texel.threshold = steppedThreshold(columns[i].threshold);
+        texel.alias = uint32_t(places[columns[i].alias]);
+        texels[places[i]] = std::bit_cast<Row>(texel);
+    }
+    return sum;
+}
+
+} // namespace
+
+TileTable tileTable(std::span<const double> probabilities) {
+    std::vector<AliasColumn> columns = buildAliasTable(probabilities);
+    const size_t n = columns.size();
+    TileTable table;
+    table.probabilities.resize(n);
+    for (size_t i = 0; i < n; ++i) {
+        const double own =
+            chosenShare(columns[i].threshold = steppedThreshold(columns[i].threshold));
+        table.probabilities[i] += own / double(n);
+        table.probabilities[columns[i].alias] += (1 - own) / double(n);
+    }
+    columns.resize(gpu::ENVIRONMENT_TILES);
+    for (size_t i = 0; i < columns.size(); i += 2)
+        appendRows(table.rows,
+                   gpu::TileColumns{float(columns[i].threshold), columns[i].alias,
+                                    float(columns[i + 1].threshold), columns[i + 1].alias});
+    return table;
+}
+
 EnvironmentTable packEnvironment(const Environment& environment) {
     const uint32_t width = environment.width, height = environment.height;
     const size_t count = size_t(width) * height;
+    const Tiles tiles(width, height);
     EnvironmentTable table;
-    std::vector<double> weights(count);
-    std::vector<Row> texels(count);
-    tbb::parallel_for(0u, height, [&](uint32_t y) {
-        const double sine = std::sin(glm::pi<double>() * (y + 0.5) / height);
-        for (size_t i = size_t(y) * width; i < (size_t(y) + 1) * width; ++i) {
-            gpu::EnvironmentTexel texel{};
-            encodeRadiance(environment.radiance[i], texel);
-            weights[i] = luminance(decodeRadiance(texel)) * sine;
-            texels[i] = std::bit_cast<Row>(texel);
-        }
+    std::vector<double> weights(tiles.count()), sines;
+    for (uint32_t y = 0; y < height; ++y)
+        sines.push_back(std::sin(glm::pi<double>() * (y + 0.5) / height));
+    table.texels.resize(gpu::ENVIRONMENT_COLUMN_ROWS + count);
+    const std::span<Row> texels = std::span(table.texels).subspan(gpu::ENVIRONMENT_COLUMN_ROWS);
+    tbb::parallel_for(0u, tiles.count(), [&](uint32_t tile) {
+        weights[tile] = packTile(environment, tiles, tile, sines, texels);
     });
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-    if (!(sum > 0)) return table;
-    const std::vector<AliasColumn> columns = buildAliasTable(weights);
-    weights = {};
-    tbb::parallel_for(0u, height, [&](uint32_t y) {
-        for (size_t i = size_t(y) * width; i < (size_t(y) + 1) * width; ++i) {
-            auto texel = std::bit_cast<gpu::EnvironmentTexel>(texels[i]);
-            texel.threshold = float(columns[i].threshold);
-            texel.alias = columns[i].alias;
-            texels[i] = std::bit_cast<Row>(texel);
-        }
-    });
-    table.texels = std::move(texels);
+    if (!(sum > 0)) return {};
+    for (double& weight : weights)
+        weight /= sum;
+    table.tileProbability = weights;
+    std::ranges::copy(tileTable(weights).rows, table.texels.begin());
     // A texel's solid angle is 2 pi / width times pi / height times its sine.
     const double texelsPerAngle = double(count) / (2 * glm::pi<double>() * glm::pi<double>());
     table.light.width = width;
@@ -125,8 +203,23 @@ EnvironmentTable packEnvironment(const Environment& environment) {
     table.light.cosRotation = std::cos(environment.rotation);
     table.light.sinRotation = std::sin(environment.rotation);
     table.light.density = float(texelsPerAngle / sum);
+    table.light.tileShift = tiles.shift;
+    table.light.tilesAcross = tiles.across;
+    table.light.tiles = tiles.count();
     table.luminance = sum / texelsPerAngle * environment.strength;
     return table;
+}
+
+uint32_t tileOf(const gpu::EnvironmentLight& light, const glm::vec3& direction) {
+    const glm::vec3 d(light.cosRotation * direction.x - light.sinRotation * direction.z,
+                      direction.y,
+                      light.cosRotation * direction.z + light.sinRotation * direction.x);
+    const double u = std::atan2(double(d.x), -double(d.z)) / (2 * glm::pi<double>()) + 0.5;
+    const double v =
+        std::atan2(std::hypot(double(d.x), double(d.z)), double(d.y)) / glm::pi<double>();
+    const auto column = std::min(uint32_t(u * light.width), light.width - 1);
+    const auto row = std::min(uint32_t(v * light.height), light.height - 1);
+    return (row >> light.tileShift) * light.tilesAcross + (column >> light.tileShift);
 }
 
 // --- Pixel filters -------------------------------------------------------------------------------

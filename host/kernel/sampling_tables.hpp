@@ -28,12 +28,22 @@ std::vector<AliasColumn> buildAliasTable(std::span<const double> weights);
 
 /// An environment in the arrays that the kernel reads.
 struct EnvironmentTable {
-    std::vector<Row> texels; ///< EnvironmentTexel rows
+    std::vector<Row> texels;             ///< TileColumns rows, then EnvironmentTexel rows
+    std::vector<double> tileProbability; ///< of a light sample to go to each tile, by weight
     gpu::EnvironmentLight light{};
     double luminance = 0; ///< integral over all directions, of the radiance times the strength
 };
 
 EnvironmentTable packEnvironment(const Environment& environment);
+
+/// By what the kernel picks a tile of an environment.
+struct TileTable {
+    std::vector<Row> rows;             ///< ENVIRONMENT_COLUMN_ROWS of TileColumns
+    std::vector<double> probabilities; ///< with which it picks each, but for its random numbers
+};
+TileTable tileTable(std::span<const double> probabilities);
+/// The tile that lies in a direction (unit).
+uint32_t tileOf(const gpu::EnvironmentLight& light, const glm::vec3& direction);
 
 /// Radiance as an EnvironmentTexel holds it, in `low` and `high`: to 2^-18 of its largest
 /// component. Components are finite and not negative; those below 2^-127 may become 0.

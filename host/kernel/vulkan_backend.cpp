@@ -89,22 +89,11 @@ SeenPixel seenPixelOf(const SeenState& pixel, Seeing what, const GpuScene& scene
 
 // --- The backend ---------------------------------------------------------------------------------
 
-namespace {
-
-/// No more lanes or items than there are pixels.
-DeviceTuning forPixels(DeviceTuning tuning, uint64_t pixels) {
-    tuning.lanes = uint32_t(std::min<uint64_t>(tuning.lanes, pixels));
-    tuning.itemsPerDispatch = uint32_t(std::min<uint64_t>(tuning.itemsPerDispatch, pixels));
-    return tuning;
-}
-
 DeviceTuning tuningFor(const KernelTuning& tuning, const vulkan::Device& device,
                        const GpuScene& scene, const PictureArea& area) {
     const uint64_t pixels = area.pixelCount();
     return forPixels(resolve(tuning, device, largestRowBuffer(scene, pixels)), pixels);
 }
-
-} // namespace
 
 VulkanBackend::VulkanBackend(const vulkan::Device& device, const GpuScene& scene,
                              const Camera& camera, const RenderSettings& settings,
@@ -117,6 +106,7 @@ void VulkanBackend::setScene(const GpuScene& scene) {
     dispatcher_.reset(); // before the memory of the next is asked for
     film_.reset();
     filled_.clear();
+    learntFor_.reset();
     if (deviceScene_) filled_ = deviceScene_->releaseWhatIsAlsoIn(scene);
     deviceScene_.reset();
     scene_ = &scene;
@@ -125,6 +115,7 @@ void VulkanBackend::setScene(const GpuScene& scene) {
 void VulkanBackend::sceneHasChanged(std::span<const uint32_t> bindings) {
     dispatcher_.reset();
     film_.reset();
+    learntFor_.reset();
     if (deviceScene_) filled_ = deviceScene_->releaseAllBut(bindings);
     deviceScene_.reset();
 }
@@ -136,33 +127,49 @@ void VulkanBackend::setPicture(const Camera& camera, const RenderSettings& setti
     film_.reset();
     checkMemory(device_.description(), *scene_, settings.area, estimator, tuning);
     if (kernelsFetchTexels_ != tuning.texelFetch) {
+        learntFor_.reset();
         kernels_.clear(); // where a picture's work list is too large for the device's texel buffers
         deviceScene_.reset();
     }
     kernelsFetchTexels_ = tuning.texelFetch;
-    // The driver compiles on one thread, and the scene goes to the device meanwhile.
-    const KernelFeatures features = kernelFeatures(*scene_, camera, estimator, tuning);
-    std::future<StageKernels> compiled =
-        std::async(std::launch::async, [&] { return kernelsFor(features, tuning); });
-    if (!deviceScene_)
-        deviceScene_ =
-            std::make_unique<DeviceScene>(device_, *scene_, tuning, std::exchange(filled_, {}));
     area_ = settings.area;
     camera_ = camera;
     estimator_ = estimator;
     frame_ = makeFrame(*scene_, camera, area_, estimator);
-    const StageKernels kernels = compiled.get();
+    // The driver compiles on one thread, and the scene goes to the device meanwhile.
+    const bool mayLearn =
+        guidesLight(*scene_, estimator) && (tuning_.guide || !liesOpen(*scene_, camera));
+    if (!mayLearn) estimator_.guidesLight = false;
+    const KernelFeatures first = mayLearn ? notingFeatures(*scene_, camera, estimator, tuning)
+                                          : kernelFeatures(*scene_, camera, estimator_, tuning);
+    std::future<StageKernels> compiled =
+        std::async(std::launch::async, [&] { return kernelsFor(first, tuning); });
+    if (!deviceScene_)
+        deviceScene_ =
+            std::make_unique<DeviceScene>(device_, *scene_, tuning, std::exchange(filled_, {}));
+    setFilter(filterTable(estimator.filter, estimator.filterShape), tuning);
+    StageKernels kernels = compiled.get();
+    if (mayLearn) {
+        learn(tuning);
+        if (!guide_) estimator_.guidesLight = false;
+        kernels = kernelsFor(kernelFeatures(*scene_, camera, estimator_, tuning), tuning);
+    }
     kernel_ = kernels.front();
     film_ = std::make_unique<DeviceFilm>(device_, area_, tuning);
-    setFilter(filterTable(estimator.filter, estimator.filterShape), tuning);
     dispatcher_ = makeDispatcher(film_->segments(), kernels, frame_, tuning);
 }
 
 std::unique_ptr<Dispatcher> VulkanBackend::makeDispatcher(std::span<const FilmSegment> film,
                                                           const StageKernels& kernels,
                                                           const gpu::Frame& frame,
-                                                          const DeviceTuning& tuning) const {
-    const DispatchTarget target{device_, *deviceScene_, film, *filter_};
+                                                          const DeviceTuning& tuning,
+                                                          const vulkan::Buffer* lightNotes) const {
+    const DispatchTarget target{device_,
+                                *deviceScene_,
+                                film,
+                                *filter_,
+                                estimator_.guidesLight && !lightNotes ? *guide_ : *filter_,
+                                lightNotes ? *lightNotes : *filter_};
     const DispatchSettings settings{frame, tuning, tuning_.targetSeconds, tuning_.fixedIterations};
     if (tuning.scheduler == PathScheduler::Wavefront)
         return std::make_unique<WavefrontDispatcher>(target, kernels, settings);

@@ -10,10 +10,12 @@
 #include "host/render/recorded_path.hpp"
 #include "host/render/settings.hpp"
 #include "scene/camera/camera.hpp"
+#include "shaders/shared/guide_types.h"
 #include "shaders/shared/render_types.h"
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,6 +26,14 @@ namespace stromboli {
 /// The uniform data of a picture.
 gpu::Frame makeFrame(const GpuScene& scene, const Camera& camera, const PictureArea& area,
                      const Estimator& estimator);
+
+/// How the kernel runs for pictures of this area.
+DeviceTuning tuningFor(const KernelTuning& tuning, const vulkan::Device& device,
+                       const GpuScene& scene, const PictureArea& area);
+
+/// Whether so much of what the camera sees lies under the open sky that light samples to it arrive
+/// in any case.
+bool liesOpen(const GpuScene& scene, const Camera& camera);
 
 // --- The backend ---------------------------------------------------------------------------------
 
@@ -78,9 +88,14 @@ class VulkanBackend final : public Backend, public Viewer, public PathRecorder {
                                 std::optional<uint32_t> stage);
     std::unique_ptr<Dispatcher> makeDispatcher(std::span<const FilmSegment> film,
                                                const StageKernels& kernels, const gpu::Frame& frame,
-                                               const DeviceTuning& tuning) const;
+                                               const DeviceTuning& tuning,
+                                               const vulkan::Buffer* lightNotes = nullptr) const;
     std::vector<SampleValue> someAlone(uint32_t pixel, uint32_t first, uint32_t count) const;
     void setFilter(const std::vector<Row>& table, const DeviceTuning& tuning);
+    // guided_light.cpp
+    void learn(const DeviceTuning& tuning);
+    std::vector<gpu::LightNote> noteLightSamples(const PictureArea& area, const gpu::Frame& frame,
+                                                 const DeviceTuning& tuning);
 
     const vulkan::Device& device_;
     const GpuScene* scene_;
@@ -92,11 +107,19 @@ class VulkanBackend final : public Backend, public Viewer, public PathRecorder {
     bool kernelsFetchTexels_ = false; ///< all of them
     // What belongs to one picture:
     Camera camera_;
-    Estimator estimator_;
+    Estimator estimator_; ///< guides no light where that does not pay
     PictureArea area_;
     gpu::Frame frame_{};
     const PathKernel* kernel_ = nullptr; ///< one of kernels_
     std::unique_ptr<DeviceFilm> film_;
+    /// The noted picture that the guide was learnt from.
+    struct LearntFor {
+        gpu::Frame frame;
+        Estimator estimator;
+        bool parallel; ///< camera rays
+    };
+    std::optional<LearntFor> learntFor_;
+    std::unique_ptr<vulkan::Buffer> guide_;  ///< LightGuide::rows; none: it does not pay
     std::unique_ptr<vulkan::Buffer> filter_; ///< the table of its pixel filter
     std::unique_ptr<Dispatcher> dispatcher_; ///< refers to film, filter and kernels
 };

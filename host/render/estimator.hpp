@@ -218,6 +218,9 @@ struct Estimator {
     uint32_t branches = 1; ///< paths of a sample, from the first surface that scatters at random on
     bool gapProposal =
         true; ///< bounces are sent into bright gaps too (docs/theory/estimator.md, "Gaps")
+    /// Light samples to an environment go where others have found it before (docs/theory/
+    /// estimator.md, "Learned light samples"), not by its brightness alone.
+    bool guidesLight = false;
     Roulette roulette;
     uint32_t seed = 0;
     bool showsBackdrop = true; ///< the camera sees the environment, where the scene has one

@@ -61,6 +61,7 @@ const std::vector<Configuration>& knownConfigurations() {
         {"unsplit", "--branches 1", "every path with a camera ray of its own"},
         {"no-gap-proposal", "--gap-proposal off",
          "bounces go where the materials scatter, not into gaps too"},
+        {"unguided", "--guiding off", "light samples go to an environment by its brightness alone"},
         {"even", "--even", "the same number of samples for every pixel"},
         {"no-roulette", "--roulette none", "paths end at the last bounce only"},
         {"hemisphere", fmt::format("--direct {}", nameOf(DirectLight::Hemisphere)),

@@ -236,6 +236,7 @@ def render(
     light_choice: Optional[str] = None,
     roulette: Union[None, str, float] = None,
     gap_proposal: Optional[bool] = None,
+    guiding: Optional[str] = None,
     branches: Optional[int] = None,
     integrator: Optional[str] = None,
     sampler: Optional[str] = None,
@@ -264,7 +265,7 @@ def render(
     look_from, look_at -- points in metres, in place of a camera of the scene
     fov -- degrees over the height; aperture, focus -- of a thin lens, metres; turn -- degrees
     max_bounces, min_bounce -- scatterings of light at most (8), and at least (0)
-    light_samples, direct, light_choice, roulette, gap_proposal, branches, integrator, sampler,
+    light_samples, direct, light_choice, roulette, gap_proposal, guiding, branches, integrator, sampler,
     filter -- as the options of the command line
     backend, device, scheduler, threads, film_memory -- as of Session
     progress -- as of Session.run
@@ -307,6 +308,7 @@ def render(
         light_choice=light_choice,
         roulette=roulette,
         gap_proposal=gap_proposal,
+        guiding=guiding,
         branches=branches,
         integrator=integrator,
         sampler=sampler,

@@ -41,6 +41,7 @@ void traceDirectSample(const Given given, inout PathState path, LightSample ligh
     const BsdfValue f = evaluateMixture(path.material, path.surface, light.direction);
     path.directValue = f.value * light.radiance;
     if (!(dot(path.directValue, vec3(1.0)) > 0.0)) {
+        if (!hemisphere) noteLightSample(given.frame, path, light, vec3(0.0));
         if (RECORDS) recordLightSample(path, light, 1.0, false);
         return;
     }
@@ -50,6 +51,7 @@ void traceDirectSample(const Given given, inout PathState path, LightSample ligh
         weight = lightSampleWeight(light.inversePdf, pdf);
         path.directValue *= weight;
     }
+    if (!hemisphere) noteLightSample(given.frame, path, light, path.directValue);
     if (RECORDS) recordLightSample(path, light, weight, true);
     const bool transmitted = isBehind(path.surface, light.direction);
     const vec3 origin = leave(path.surface, light.direction, transmitted);

@@ -21,6 +21,7 @@ SCENE_BUFFER(BINDING_LIGHT_TABLE, lightTableRows)
 SCENE_BUFFER(BINDING_ENVIRONMENT, environmentRows)
 SCENE_BUFFER(BINDING_DETAIL, detailRows)
 SCENE_BUFFER(BINDING_FILTER, filterRows)
+SCENE_BUFFER(BINDING_GUIDE, guideRows)
 
 /// A record of the BVH as it lies in memory: a NodeRecord or a LeafRecord.
 struct Record {

@@ -6,6 +6,7 @@
 #include "include/path_state.glsl"
 #include "include/media.glsl"
 #include "include/seeing.glsl"
+#include "include/guide_notes.glsl"
 #include "include/recording.glsl"
 
 // --- Arrivals ----------------------------------------------------------------------------------
@@ -28,19 +29,21 @@ MaterialPoint askedPoint(PathState path) {
     return MaterialPoint(0u, NO_PRIMITIVE, vec2(0.0));
 }
 
-void finishShadowRay(inout PathState path) {
+void finishShadowRay(const Frame frame, inout PathState path) {
     if (emissionHasFactors() && path.sampledEmitter.primitive != NO_PRIMITIVE)
         path.directValue *= emissionFactorOf(path.found);
     if (path.ray.hitPrimitive == NO_PRIMITIVE) {
         path.radiance += path.throughput * path.directValue;
         if (RECORDS) recordArrivedLight(path, path.throughput * path.directValue);
+    } else {
+        noteShadow(frame, path);
     }
     path.phase = PHASE_DIRECT;
 }
 
 void finishHemisphereRay(inout PathState path) {
     const bool hit = path.ray.hitPrimitive != NO_PRIMITIVE;
-    vec3 arriving = BOUNCES_FIND_ALL_LIGHT ? skyFrom(path.ray.direction, path.ray.direction).radiance : vec3(0.0);
+    vec3 arriving = BOUNCES_FIND_ALL_LIGHT ? skyFrom(path.ray.direction, path.departureTable, path.ray.direction).radiance : vec3(0.0);
     if (hit) {
         const SurfacePoint s = surfaceAt(path.ray);
         arriving = emissionAt(s, materialAt(s));
@@ -65,7 +68,7 @@ void arrive(const Given given, inout PathState path) {
     const bool hit = path.ray.hitPrimitive != NO_PRIMITIVE, inMedium = scattersInMedium(path.ray);
     path.phase = PHASE_ENDED;
     FoundSky sky = NO_SKY;
-    if (!hit) sky = skyFrom(path.departureNormal, path.ray.direction);
+    if (!hit) sky = skyFrom(path.departureNormal, path.departureTable, path.ray.direction);
     float share = 1.0;
     if (!inMedium) share = foundShare(given, path, sky);
     path.throughput *= transmittance(path.medium, hit ? path.ray.tMax : INFINITE_DISTANCE);
@@ -101,6 +104,7 @@ void arrive(const Given given, inout PathState path) {
         faceForward(path.surface);
         applyRelief(path.surface, path.found.relief, dependsOnView(path.material), reliefRules(path.material));
     }
+    path.surface.table = guideTable(path.surface);
     if (INTEGRATOR == INTEGRATOR_LAYERS) {
         seeSurface(path);
         return;
@@ -175,6 +179,7 @@ void scatter(const Given given, inout PathState path, vec3 u, float roulette) {
     path.countsEmission = emissionCounts(given.frame, path, b.lobe);
     path.bouncePdf = combines(b.lobe) ? max(b.pdf, TINY) : 0.0;
     path.departureNormal = shadingNormal(path.surface);
+    path.departureTable = sideLit(path.surface, path.material, transmitted).table;
     if (isLitFromBothSides(lobesOf(path.material))) { // as light samples of that side are taken
         path.bouncePdf *= 2.0;
         path.departureNormal = transmitted ? -path.departureNormal : path.departureNormal;
@@ -190,6 +195,7 @@ void beginSample(const Frame frame, inout PathState path) {
     path.radiance = vec3(0.0);
     path.countsEmission = frame.minBounce == 0u;
     path.bouncePdf = 0.0;
+    path.departureTable = GUIDES_LIGHT ? GUIDE_NODES : OWN_TABLE;
     path.medium = HAS_MEDIA ? frame.cameraMedium : NO_MEDIUM;
     path.splitPoint.bounce = 0u;
     path.branchesLeft = 0u;
@@ -242,7 +248,7 @@ void finishSample(const Frame frame, inout PathState path) {
 bool takeInRay(const Given given, inout PathState path, MaterialPoint asked) {
     path.found = lookUpMaterial(asked);
     if (HAS_ALPHA && passesThrough(given.frame, path, asked, path.found.opacity)) return false;
-    if (isToLight(path.phase)) finishShadowRay(path);
+    if (isToLight(path.phase)) finishShadowRay(given.frame, path);
     else if (DIRECT_LIGHT == DIRECT_HEMISPHERE && path.phase == PHASE_HEMISPHERE) finishHemisphereRay(path);
     else if (path.phase == PHASE_PATH) arrive(given, path);
     return true;

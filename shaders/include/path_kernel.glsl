@@ -5,6 +5,7 @@
 #include "shared/scene_types.h"
 #include "shared/render_types.h"
 #include "shared/texture_types.h"
+#include "shared/guide_types.h"
 
 #include "include/specialisation.glsl"
 #include "include/fetch.glsl"
@@ -28,6 +29,7 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatchConstants; };
 #include "include/material_detail.glsl"
 #include "include/relief.glsl"
 #include "include/mixture.glsl"
+#include "include/guide.glsl"
 #include "lights/lights.glsl"
 #include "include/mis.glsl"
 #include "include/gap_proposal.glsl"

@@ -46,6 +46,7 @@ struct PathState {
     bool countsEmission;  ///< light that the ray finds adds to the picture ...
     float bouncePdf;      ///< ... weighted (mis.glsl), by this density of the ray's direction; 0: not weighted
     vec3 departureNormal; ///< shading normal of the surface that the ray has left, for that weight
+    uint departureTable;  ///< likewise: by which its light samples choose tiles of the environment (guide.glsl)
 
     // Where samples are of what the camera sees (SEES):
     SeenPixel seen;   ///< of the pixel
@@ -60,6 +61,7 @@ struct PathState {
     /// Drawn with the path ray for where it ends. x, y: for the first light sample there; z: for roulette.
     vec3 arrivalNumbers;
     vec3 directValue; ///< what the ray under way adds if it is free (or, hemisphere, per radiance)
+    bool isNoted; ///< the light sample under way (guide_notes.glsl)
     MaterialPoint sampledEmitter; ///< where the light sample under way has gone (sampleLight())
 
     SplitPoint splitPoint;

@@ -16,6 +16,7 @@ struct SurfacePoint {
     vec3 coat;    ///< unit; the clear coat's normal, with sceneHasCoatNormals() (relief.glsl)
     uint placement; ///< that skipPrimitive is in; NO_PLACEMENT: none
     uint mixture;   ///< first row of the mixture that `material` is of and that is evaluated together; NO_MIXTURE
+    uint table;     ///< by which light samples choose tiles of the environment (guide.glsl)
 };
 
 /// No material begins there.

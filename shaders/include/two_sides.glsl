@@ -16,6 +16,13 @@ SurfacePoint otherSide(SurfacePoint s) {
     s.shading = -s.shading;
     s.lift = 0.0;
     s.wo = -s.wo;
+    s.table = guideTable(s);
+    return s;
+}
+
+/// The side of a surface of material m from which light comes that is transmitted, or not.
+SurfacePoint sideLit(SurfacePoint s, Material m, bool transmitted) {
+    if (isLitFromBothSides(lobesOf(m)) && transmitted) return otherSide(s);
     return s;
 }
 

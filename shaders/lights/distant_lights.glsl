@@ -47,14 +47,14 @@ struct FoundSky {
 
 const FoundSky NO_SKY = FoundSky(vec3(0.0), 1.0);
 
-/// w: the ray's direction; normal: of the surface that it left.
-FoundSky skyFrom(vec3 normal, vec3 w) {
+/// w: the ray's direction; normal and table: of the surface that it left (guideTable()).
+FoundSky skyFrom(vec3 normal, uint table, vec3 w) {
     if (!HAS_AMBIENT) return NO_SKY;
     FoundSky found = FoundSky(vec3(0.0), 1.0 / max(ambientPdf(normal, w), TINY));
     const LightRows rows = fetchLightRows(0u);
     if (kindOf(rows) == LIGHT_AMBIENT) found.radiance = ambientRadianceOf(rows, w);
     if (HAS_ENVIRONMENT && kindOf(rows) == LIGHT_ENVIRONMENT) {
-        const EnvironmentValue value = environmentFrom(rows, w);
+        const EnvironmentValue value = environmentFrom(rows, table, w);
         found = FoundSky(value.radiance, 1.0 / max(value.pdf, TINY));
     }
     return found;

@@ -1,5 +1,6 @@
 // The environment: a picture around the scene, interpolated between the middles of its texels, and light samples
-// in proportion to it. A texel is taken from an alias table by its weight, then a point about its middle by a tent as
+// in proportion to it. A tile is taken from an alias table, a texel of it from the tile's own by its weight, then a point
+// about its middle by a tent as
 // wide as the interpolation: the density of points in the picture is then the interpolated weight itself, so that
 // no light is found that no sample goes to (docs/theory/estimator.md, "Environment").
 
@@ -17,7 +18,7 @@ vec3 radianceOf(EnvironmentTexel t) {
 }
 
 EnvironmentTexel fetchEnvironmentTexel(uint index) {
-    const uvec4 r = ROW(environmentRows, index);
+    const uvec4 r = ROW(environmentRows, ENVIRONMENT_COLUMN_ROWS + index);
     return EnvironmentTexel(uintBitsToFloat(r.x), r.y, r.z, r.w);
 }
 
@@ -45,66 +46,108 @@ vec3 directionInEnvironment(EnvironmentLight e, vec2 place) {
     return unit(turned(e, d, 1.0));
 }
 
-/// A row of texels beside the two nearest to a place: both interpolated, with their sine of the polar angle.
-vec4 environmentRow(EnvironmentLight e, int row, uvec2 columns, float across) {
-    const uint first = uint(clamp(row, 0, int(e.height) - 1)) * e.width;
-    const vec3 left = radianceOf(fetchEnvironmentTexel(first + columns.x));
-    const vec3 right = radianceOf(fetchEnvironmentTexel(first + columns.y));
-    const float middle = clamp(float(row), 0.0, float(e.height) - 1.0) + 0.5;
-    return vec4(mix(left, right, across), sin(PI * middle / float(e.height)));
+/// A row of texels beside the two nearest to a place.
+struct EnvironmentRow {
+    vec3 radiance; ///< interpolated
+    float weight;  ///< likewise: luminance, times the ratios of the texels' tiles, times the sine of the polar angle
+};
+
+EnvironmentRow environmentRow(EnvironmentLight e, uint row, uvec2 columns, float across, vec2 ratios) {
+    const vec3 left = radianceOf(fetchEnvironmentTexel(row * e.width + columns.x));
+    const vec3 right = radianceOf(fetchEnvironmentTexel(row * e.width + columns.y));
+    const vec3 radiance = mix(left, right, across);
+    float weight = luminanceOf(radiance);
+    if (GUIDES_LIGHT) weight = mix(ratios.x * luminanceOf(left), ratios.y * luminanceOf(right), across);
+    return EnvironmentRow(radiance, weight * sin(PI * (float(row) + 0.5) / float(e.height)));
 }
 
-/// place: in texels.
-EnvironmentValue environmentAt(EnvironmentLight e, vec3 strength, vec2 place) {
+/// Of the tiles of four texels, left and right in the upper row, then in the lower one.
+vec4 tileRatios(EnvironmentLight e, uint table, uvec2 columns, uvec2 rows) {
+    if (!GUIDES_LIGHT) return vec4(1.0);
+    const uvec2 x = columns >> e.tileShift, y = rows >> e.tileShift;
+    const vec4 r = uintBitsToFloat(ROW(guideRows, table + ENVIRONMENT_COLUMN_ROWS + y.x * e.tilesAcross + x.x));
+    const vec2 upper = x.x == x.y ? r.xx : r.xy;
+    return vec4(upper, y.x == y.y ? upper : (x.x == x.y ? r.zz : r.zw));
+}
+
+/// place: in texels; table: by which the environment's samples choose tiles.
+EnvironmentValue environmentAt(EnvironmentLight e, vec3 strength, uint table, vec2 place) {
     const vec2 from = floor(place - 0.5);
     const vec2 part = place - 0.5 - from;
-    const int width = int(e.width);
+    const int width = int(e.width), lowest = int(e.height) - 1;
     const int left = int(from.x) < 0 ? width - 1 : min(int(from.x), width - 1);
     const uvec2 columns = uvec2(left, left + 1 < width ? left + 1 : 0);
-    const vec4 upper = environmentRow(e, int(from.y), columns, part.x);
-    const vec4 lower = environmentRow(e, int(from.y) + 1, columns, part.x);
-    const float weight =
-        mix(luminanceOf(upper.rgb) * upper.w, luminanceOf(lower.rgb) * lower.w, part.y);
+    const uvec2 rows = uvec2(clamp(int(from.y), 0, lowest), clamp(int(from.y) + 1, 0, lowest));
+    const vec4 ratios = tileRatios(e, table, columns, rows);
+    const EnvironmentRow upper = environmentRow(e, rows.x, columns, part.x, ratios.xy);
+    const EnvironmentRow lower = environmentRow(e, rows.y, columns, part.x, ratios.zw);
     const float sine = sin(PI * place.y / float(e.height));
-    return EnvironmentValue(strength * mix(upper.rgb, lower.rgb, part.y),
-                            weight * e.density / max(sine, TINY));
+    return EnvironmentValue(strength * mix(upper.radiance, lower.radiance, part.y),
+                            mix(upper.weight, lower.weight, part.y) * e.density / max(sine, TINY));
 }
 
-EnvironmentValue environmentFrom(LightRows rows, vec3 w) {
+EnvironmentValue environmentFrom(LightRows rows, uint table, vec3 w) {
     const EnvironmentLight e = environmentLight(rows);
-    return environmentAt(e, colorOf(rows), placeInEnvironment(e, w));
+    return environmentAt(e, colorOf(rows), table, placeInEnvironment(e, w));
 }
 
 /// From u in [0, 1) a number in (-1, 1) of density 1 - |x|.
 float sampleTent(float u) { return u < 0.5 ? sqrt(2.0 * u) - 1.0 : 1.0 - sqrt(2.0 - 2.0 * u); }
 
-/// A texel by its weight; u.x is then what is left of it.
-uint pickEnvironmentTexel(EnvironmentLight e, inout vec2 u) {
-    ChoiceNumber c = choiceNumber(u);
-    const uint count = e.width * e.height;
-    uint index, fraction, within, carry, unused;
+/// A column of an alias table of `count`; fraction: where in it, in 2^-32, by new digits too where the number has too
+/// few.
+uint pickColumn(inout ChoiceNumber c, uint count, out uint fraction) {
+    uint index, within, carry, unused;
     umulExtended(c.value << 1u, count, index, fraction);
     // The number is a multiple of 2^-31: what is between two of them comes from new digits.
     umulExtended(newDigits(c), 2u * count, within, unused);
     fraction = uaddCarry(fraction, within, carry);
-    index += carry;
-    const float part = float(int(fraction >> 8u)) * (1.0 / 16777216.0);
-    const EnvironmentTexel texel = fetchEnvironmentTexel(index);
-    const bool own = part < texel.threshold;
-    const float low = own ? 0.0 : texel.threshold, width = own ? texel.threshold : 1.0 - texel.threshold;
-    u.x = clamp((part - low) / max(width, TINY), 0.0, 1.0 - UNIT_ROUNDOFF);
-    return own ? index : texel.alias;
+    return index + carry;
 }
 
-LightSample sampleEnvironment(LightRows rows, vec2 u) {
+/// Whether the fraction of a column chooses its alias. rest: what is left of the fraction, in [0, 1), with new digits: a
+/// threshold may be as small as 2^-31, in which steps the choice is made.
+bool choosesAlias(inout ChoiceNumber c, uint fraction, float threshold, out float rest) {
+    const uint part = fraction >> 1u, bound = uint(threshold * 2147483648.0);
+    const bool alias = part >= bound;
+    const uint within = alias ? part - bound : part, width = alias ? 0x80000000u - bound : bound;
+    const float digits = float(int(newDigits(c) >> 8u)) * (1.0 / 16777216.0);
+    rest = clamp((float(int(within)) + digits) / max(float(width), 1.0), 0.0, 1.0 - UNIT_ROUNDOFF);
+    return alias;
+}
+
+/// A texel: its tile by the table, then by its weight. u.x is then what is left of it.
+uvec2 pickEnvironmentTexel(EnvironmentLight e, uint table, inout vec2 u) {
+    ChoiceNumber c = choiceNumber(u);
+    uint fraction;
+    float rest;
+    const uint column = pickColumn(c, e.tiles, fraction);
+    uvec4 r;
+    if (GUIDES_LIGHT) r = ROW(guideRows, table + (column >> 1u));
+    else r = ROW(environmentRows, column >> 1u);
+    const uvec2 t = (column & 1u) == 0u ? r.xy : r.zw;
+    const uint tile = choosesAlias(c, fraction, uintBitsToFloat(t.x), rest) ? t.y : column;
+    c.value = uint(int(rest * 16777216.0)) << 7u | newDigits(c) >> 25u;
+    const uvec2 first = uvec2(tile % e.tilesAcross, tile / e.tilesAcross) << e.tileShift;
+    const uvec2 size = min(uvec2(1u << e.tileShift), uvec2(e.width, e.height) - first);
+    const uint inTile = pickColumn(c, size.x * size.y, fraction);
+    uvec2 place = first + uvec2(inTile % size.x, inTile / size.x);
+    const EnvironmentTexel texel = fetchEnvironmentTexel(place.y * e.width + place.x);
+    const bool alias = choosesAlias(c, fraction, texel.threshold, rest);
+    u.x = rest;
+    if (alias) place = uvec2(texel.alias % e.width, texel.alias / e.width);
+    return place;
+}
+
+LightSample sampleEnvironment(LightRows rows, uint table, vec2 u) {
     const EnvironmentLight e = environmentLight(rows);
-    const uint texel = pickEnvironmentTexel(e, u);
-    vec2 place = vec2(uvec2(texel % e.width, texel / e.width)) + 0.5 + vec2(sampleTent(u.x), sampleTent(u.y));
+    const uvec2 texel = pickEnvironmentTexel(e, table, u);
+    vec2 place = vec2(texel) + 0.5 + vec2(sampleTent(u.x), sampleTent(u.y));
     // Around the picture, and turned back at the poles: beyond them the interpolation repeats the last row.
     place.x += place.x < 0.0 ? float(e.width) : (place.x >= float(e.width) ? -float(e.width) : 0.0);
     place.y = abs(place.y);
     if (place.y > float(e.height)) place.y = 2.0 * float(e.height) - place.y;
-    const EnvironmentValue value = environmentAt(e, colorOf(rows), place);
+    const EnvironmentValue value = environmentAt(e, colorOf(rows), table, place);
     LightSample s;
     s.direction = directionInEnvironment(e, place);
     s.infinite = true;

@@ -153,9 +153,13 @@
     F(55, bool, STEPS_BRANCH, false, tuning.stepsBranch, own, \
       "steps that branch", flag, "branches around what a step of the traversal does with a node and with a leaf") \
     F(56, bool, RECORDS, false, false, own, \
-      "record of a path", flag, "what happens to the path of one sample, written event by event (render --pixel)")
+      "record of a path", flag, "what happens to the path of one sample, written event by event (render --pixel)") \
+    F(57, bool, GUIDES_LIGHT, false, guidesLight(scene, settings), own, \
+      "guided light samples", flag, "light samples that go where the environment is seen from") \
+    F(58, bool, NOTES_LIGHT, false, 0, own, \
+      "notes of light samples", flag, "which light samples arrive, written down for guiding to learn from")
 
-#define SPEC_COUNT 57
+#define SPEC_COUNT 59
 
 #ifdef __cplusplus
 namespace stromboli {

@@ -86,16 +86,17 @@ SHARED_CONST uint LIGHT_BOTH_SIDES = 0x80000000u; ///< quad, sphere: emits on bo
 
 /// A picture around the scene (scene/model/environment.hpp); it takes the place of ambient light. The header's
 /// colour multiplies its radiance. density: of a sample by solid angle, where the interpolated weight is the sine of the
-/// polar angle.
+/// polar angle. Its texels lie in `tiles` squares of 2^tileShift columns and rows, or what of them is in the picture,
+/// numbered from the left and from the top.
 #define ENVIRONMENT_LIGHT(F) \
     F(uint, width, 1, x) \
     F(uint, height, 1, y) \
     F(float, cosRotation, 1, z) \
     F(float, sinRotation, 1, w) \
     F(float, density, 2, x) \
-    F(uint, unused0, 2, y) \
-    F(uint, unused1, 2, z) \
-    F(uint, unused2, 2, w)
+    F(uint, tileShift, 2, y) \
+    F(uint, tilesAcross, 2, z) \
+    F(uint, tiles, 2, w)
 
 /// A light that throws a picture (scene/model/light.hpp). u is 0.5 + acrossU . d / axis . d. cosCutoff: of the angle to
 /// the axis where it ends; softness: 1 / the angle over which it ends, or 0: at once. picture: first row of its
@@ -118,7 +119,7 @@ SHARED_CONST uint LIGHT_BOTH_SIDES = 0x80000000u; ///< quad, sphere: emits on bo
     F(DirectionalLight, directionalLight, DIRECTIONAL_LIGHT, isLight(kind, LIGHT_DIRECTIONAL), \
       sampleDirectionalLight(rows)) \
     F(EnvironmentLight, environmentLight, ENVIRONMENT_LIGHT, isLight(kind, LIGHT_ENVIRONMENT), \
-      sampleEnvironment(rows, u)) \
+      sampleEnvironment(rows, s.table, u)) \
     F(ProjectorLight, projectorLight, PROJECTOR_LIGHT, isLight(kind, LIGHT_PROJECTOR), sampleProjector(s, rows)) \
     F(PointLight, pointLight, POINT_LIGHT, isLight(kind, LIGHT_POINT) || isLight(kind, LIGHT_SPOT), \
       samplePointLight(s, rows))
@@ -131,8 +132,24 @@ LIGHT_STRUCTURES(DECLARE_LIGHT)
 #undef DECLARE_LIGHT
 #undef DECLARE_FIELD
 
+/// The rows of the environment: ENVIRONMENT_COLUMN_ROWS of TileColumns, then its texels.
+SHARED_CONST uint ENVIRONMENT_TILES_ACROSS = 32u; ///< at most
+SHARED_CONST uint ENVIRONMENT_TILES_DOWN = 16u;
+SHARED_CONST uint ENVIRONMENT_TILES = ENVIRONMENT_TILES_ACROSS * ENVIRONMENT_TILES_DOWN;
+SHARED_CONST uint ENVIRONMENT_COLUMN_ROWS = ENVIRONMENT_TILES / 2u;
+
+/// Two tiles of the environment as columns of an alias table (Walker 1977, Vose 1991) of all tiles, by the sum of their
+/// texels' weights, or by what guiding has learnt (guide_types.h).
+struct TileColumns {
+    float threshold0; ///< below this fraction of the column its own tile is taken,
+    uint alias0;      ///< above it this one
+    float threshold1;
+    uint alias1;
+};
+SHARED_ROWS(TileColumns, 1);
+
 /// A texel of the environment, in rows from the top. Its weight is the luminance times the sine of the polar angle
-/// of its middle; it is a column of an alias table by weight (Walker 1977, Vose 1991).
+/// of its middle; it is a column of an alias table, by weight, of the texels of its tile.
 /// Radiance: three mantissas of 18 bits, from the lowest on, and an exponent: m 2^(exponent - 145).
 struct EnvironmentTexel {
     float threshold; ///< below this fraction of the column its own texel is taken,

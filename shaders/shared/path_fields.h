@@ -40,7 +40,8 @@
     F(vec4, point.tangent, exists && TANGENT_FRAMES, readers, writers) \
     F(vec3, point.coat, exists && sceneHasCoatNormals(), readers, writers) \
     F(uint, point.placement, exists && HAS_PLACEMENTS, readers, writers) \
-    F(uint, point.mixture, exists && MOST_OTHERS != 0u, readers, writers)
+    F(uint, point.mixture, exists && MOST_OTHERS != 0u, readers, writers) \
+    F(uint, point.table, exists && GUIDES_LIGHT, readers, writers)
 
 /// F(type, member, exists, readers, writers): all of a path (path_state.glsl) and of its place in the work list that
 /// the next stage, or the next dispatch, has to find. exists: whether the scene's kernels have the field.
@@ -69,11 +70,13 @@
     F(bool, path.countsEmission, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(float, path.bouncePdf, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(vec3, path.departureNormal, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
+    F(uint, path.departureTable, GUIDES_LIGHT, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(vec3, path.firstNormal, SEES_SURFACES, BY_ALL | AT_PAUSE, BY_FOLLOW | AT_PAUSE) \
     F(vec3, path.arrivalNumbers, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(float, path.filterWeight, samplesHaveWeights(), BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(uint, path.directIndex, true, BY_ALL, BY_FOLLOW | BY_LIGHT) \
     F(vec3, path.directValue, true, BY_ALL, BY_FOLLOW | BY_LIGHT) \
+    F(bool, path.isNoted, NOTES_LIGHT, BY_ALL, BY_LIGHT) \
     F(uint, path.sampledEmitter.material, emissionHasFactors(), BY_ALL, BY_LIGHT) \
     F(uint, path.sampledEmitter.primitive, emissionHasFactors(), BY_ALL, BY_LIGHT) \
     F(vec2, path.sampledEmitter.weights, emissionHasFactors(), BY_ALL, BY_LIGHT) \

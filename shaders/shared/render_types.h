@@ -33,7 +33,7 @@ struct Frame {
     float lensRadius;
     float focusDistance; ///< of the plane that is sharp, along the view axis
     uint cameraMedium; ///< where camera rays begin: the first row of a medium, or NO_MEDIUM
-    uint unused0;
+    uint notedSamples; ///< of each pixel, where light samples are noted (guide_notes.glsl)
 };
 SHARED_ROWS(Frame, 9);
 SHARED_OFFSET(Frame, nearDistance, 64);

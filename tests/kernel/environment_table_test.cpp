@@ -61,14 +61,54 @@ TEST(EnvironmentTable, TexelsArePickedByTheirWeight) {
         for (uint32_t x = 0; x < 16; ++x)
             sum += weights.emplace_back(luminance(e.radiance[y * 16 + x]) *
                                         std::sin(3.14159265358979 * (y + 0.5) / 8));
+    // Each texel is a tile here: texels are picked as tiles are.
+    ASSERT_EQ(table.light.tiles, 128u);
     for (uint32_t i = 0; i < 128; ++i) {
-        const auto texel = structureAt<gpu::EnvironmentTexel>(table.texels, i);
-        probability[i] += double(texel.threshold) / 128;
-        probability[texel.alias] += (1 - double(texel.threshold)) / 128;
+        const auto columns = structureAt<gpu::TileColumns>(table.texels, i / 2);
+        const double own = i % 2 == 0 ? columns.threshold0 : columns.threshold1;
+        probability[i] += own / 128;
+        probability[i % 2 == 0 ? columns.alias0 : columns.alias1] += (1 - own) / 128;
     }
     for (uint32_t i = 0; i < 128; ++i)
         EXPECT_NEAR(probability[i], weights[i] / sum, 1e-6) << i;
     EXPECT_NEAR(table.luminance, sum * 2 * 3.14159265 * 3.14159265 / 128, 1e-4 * table.luminance);
+}
+
+/// Of a picture whose last tiles are cut off by its edges.
+TEST(EnvironmentTable, TexelsOfATileArePickedByTheirWeight) {
+    const uint32_t width = 150, height = 70;
+    const Environment e = noise(width, height);
+    const EnvironmentTable table = packEnvironment(e);
+    EXPECT_EQ(table.light.tileShift, 3u);
+    EXPECT_EQ(table.light.tilesAcross, 19u);
+    ASSERT_EQ(table.light.tiles, 19u * 9u);
+    std::vector<double> weights(width * height), probability(width * height), ofTile(19 * 9);
+    double sum = 0;
+    const auto tileAt = [](uint32_t x, uint32_t y) { return y / 8 * 19 + x / 8; };
+    for (uint32_t y = 0; y < height; ++y)
+        for (uint32_t x = 0; x < width; ++x) {
+            weights[y * width + x] = luminance(e.radiance[y * width + x]) *
+                                     std::sin(3.14159265358979 * (y + 0.5) / height);
+            sum += weights[y * width + x];
+            ofTile[tileAt(x, y)] += weights[y * width + x];
+        }
+    for (uint32_t y = 0; y < height; ++y)
+        for (uint32_t x = 0; x < width; ++x) {
+            const uint32_t texels =
+                std::min(8u, width - x / 8 * 8) * std::min(8u, height - y / 8 * 8);
+            const auto texel = structureAt<gpu::EnvironmentTexel>(
+                table.texels, gpu::ENVIRONMENT_COLUMN_ROWS + y * width + x);
+            probability[y * width + x] += double(texel.threshold) / texels;
+            probability[texel.alias] += (1 - double(texel.threshold)) / texels;
+            ASSERT_EQ(tileAt(texel.alias % width, texel.alias / width), tileAt(x, y));
+        }
+    for (uint32_t y = 0; y < height; ++y)
+        for (uint32_t x = 0; x < width; ++x) {
+            const uint32_t i = y * width + x;
+            ASSERT_NEAR(probability[i], weights[i] / ofTile[tileAt(x, y)], 4e-6) << x << " " << y;
+        }
+    for (uint32_t t = 0; t < table.light.tiles; ++t)
+        EXPECT_NEAR(table.tileProbability[t], ofTile[t] / sum, 1e-5);
 }
 
 TEST(EnvironmentTable, ABlackOneHasNoTexels) {

@@ -7,6 +7,7 @@
 #include "shared/scene_types.h"
 #include "shared/render_types.h"
 #include "shared/texture_types.h"
+#include "shared/guide_types.h"
 
 #include "include/specialisation.glsl"
 #include "include/fetch.glsl"
@@ -30,6 +31,7 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "include/material_detail.glsl"
 #include "include/relief.glsl"
 #include "include/mixture.glsl"
+#include "include/guide.glsl"
 #include "lights/lights.glsl"
 #include "include/mis.glsl"
 #include "include/gap_proposal.glsl"
@@ -64,7 +66,7 @@ void gatherDirectLight(const Given given, inout PathState path, inout uint loopP
         const bool isShadowRay = path.phase == PHASE_SHADOW;
         if (isShadowRay || path.phase == PHASE_HEMISPHERE) {
             traceToTheEnd(given, path, loopPasses);
-            if (isShadowRay) finishShadowRay(path);
+            if (isShadowRay) finishShadowRay(given.frame, path);
             else finishHemisphereRay(path);
         }
         ++loopPasses;

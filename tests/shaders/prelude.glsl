@@ -4,6 +4,7 @@
 #include "shared/scene_types.h"
 #include "shared/render_types.h"
 #include "shared/texture_types.h"
+#include "shared/guide_types.h"
 
 #include "include/specialisation.glsl"
 #include "include/fetch.glsl"
@@ -30,7 +31,7 @@ layout(push_constant) uniform DispatchConstants { Dispatch dispatch; };
 #include "queries.h"
 
 /// Ends the constructor of a SurfacePoint that has no texture and is not placed.
-#define NO_DETAIL , 0u, vec2(0.0), vec4(0.0), vec3(0.0, 0.0, 1.0), NO_PLACEMENT, NO_MIXTURE
+#define NO_DETAIL , 0u, vec2(0.0), vec4(0.0), vec3(0.0, 0.0, 1.0), NO_PLACEMENT, NO_MIXTURE, 0u
 
 #define BINDING_QUERIES BINDING_COUNT
 #define BINDING_ANSWERS (BINDING_COUNT + 1)

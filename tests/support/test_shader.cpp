@@ -17,7 +17,8 @@ std::vector<vulkan::Binding> allBindings(bool texelFetch) {
     std::vector<vulkan::Binding> bindings;
     for (uint32_t i = 0; i < kBindings; ++i) {
         const bool rows = i < SCENE_BINDING_COUNT || i == BINDING_WORK_ITEMS ||
-                          i == BINDING_PIXELS || i == BINDING_FILTER;
+                          i == BINDING_PIXELS || i == BINDING_FILTER || i == BINDING_GUIDE ||
+                          i == BINDING_LIGHT_NOTES;
         bindings.push_back({i, rows && texelFetch   ? BufferUse::Texel
                                : i == BINDING_FRAME ? BufferUse::Uniform
                                                     : BufferUse::Storage});
@@ -81,6 +82,7 @@ void TestShader::setScene(const GpuScene& scene) {
     set(BINDING_MATERIALS, scene.materials);
     set(BINDING_LIGHTS, scene.lights.lights);
     set(BINDING_LIGHT_TABLE, scene.lights.table);
+    setBytes(BINDING_ENVIRONMENT, std::as_bytes(scene.lights.environmentRows()));
     set(BINDING_DETAIL, scene.details);
     gpu::Frame frame{};
     frame.lightCount = scene.lights.count;

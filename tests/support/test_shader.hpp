@@ -49,7 +49,7 @@ class TestShader {
     void setOne(uint32_t binding, const T& value) {
         setBytes(binding, std::as_bytes(std::span(&value, 1)));
     }
-    /// Sets the five scene buffers, and what the frame constants say of the scene.
+    /// Sets the scene's buffers, and what the frame constants say of the scene.
     void setScene(const GpuScene& scene);
 
     /// Runs `invocations` invocations; `constants.itemCount` is set to that number.
