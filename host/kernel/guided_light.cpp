@@ -20,7 +20,8 @@ namespace {
 constexpr double kOpenShare = 0.3;
 
 /// The share of rays that meet nothing, of those from what the camera sees back into the half space
-/// of the camera. Opacity is not looked at.
+/// of the camera. It decides only whether learning is tried: where a ray starts need not be exact,
+/// and opacity is not looked at.
 double openShare(const GpuScene& scene, const Camera& camera) {
     constexpr int kSide = 20, kRays = 4;
     Random random(1);
