@@ -18,23 +18,15 @@ folder=$(cd "$2" && pwd)
 shift 2
 root=$(cd "$(dirname "$(readlink -f "$0")")/../.." && pwd)
 
-[[ -e $folder/etc/debian_version ]] ||
-    debootstrap --variant=minbase "$suite" "$folder" http://deb.debian.org/debian
+. "$root/tests/support/bare_debian.sh"
+make_bare "$suite" "$folder" || {
+    echo "debootstrap could not make $suite; see $folder.log" >&2
+    exit 1
+}
 mkdir -p "$folder/stromboli"
 (cd "$root" && git ls-files -z | tar c --null -T -) | tar x -C "$folder/stromboli"
 
-# What programs ask of a system that runs. Undone however this ends.
-mounted=()
-leave() {
-    local i
-    for ((i = ${#mounted[@]} - 1; i >= 0; --i)); do umount "${mounted[i]}"; done
-}
-trap leave EXIT
-for place in proc dev sys; do
-    mountpoint -q "$folder/$place" && continue
-    mount --bind "/$place" "$folder/$place" && mounted+=("$folder/$place")
-done
-cp /etc/resolv.conf "$folder/etc/resolv.conf"
+enter_bare "$folder"
 
 inside() { chroot "$folder" env -C /stromboli HOME=/root STROMBOLI_PRESET=ci ./stromboli "$@"; }
 if (($#)); then

@@ -18,32 +18,15 @@ cannot() {
 ((EUID == 0)) || cannot "root is needed, for chroot"
 command -v debootstrap >/dev/null || cannot "debootstrap is not installed"
 suite=$1
-mirror=${STROMBOLI_MIRROR:-http://deb.debian.org/debian}
 mkdir -p "$2"
 folder=$(cd "$2" && pwd)
 root=$(cd "$(dirname "$(readlink -f "$0")")/../.." && pwd)
 package=${3-$("$root/stromboli" package)}
 bare=$folder/bare
 
-if [[ ! -e $bare/made ]]; then
-    rm -rf "$bare"
-    debootstrap --variant=minbase "$suite" "$bare" "$mirror" >"$folder/debootstrap.log" 2>&1 ||
-        cannot "debootstrap could not make $suite from $mirror; see $folder/debootstrap.log"
-    touch "$bare/made"
-fi
-
-# What programs ask of a system that runs. Undone however this ends.
-mounted=()
-leave() {
-    local i
-    for ((i = ${#mounted[@]} - 1; i >= 0; --i)); do umount "${mounted[i]}"; done
-}
-trap leave EXIT
-for place in proc dev sys; do
-    mountpoint -q "$bare/$place" && continue
-    mount --bind "/$place" "$bare/$place" && mounted+=("$bare/$place")
-done
-cp /etc/resolv.conf "$bare/etc/resolv.conf"
+. "$root/tests/support/bare_debian.sh"
+make_bare "$suite" "$bare" || cannot "debootstrap could not make $suite; see $bare.log"
+enter_bare "$bare"
 cp "$package" "$bare/stromboli.deb"
 inside() { chroot "$bare" env HOME=/root DEBIAN_FRONTEND=noninteractive "$@"; }
 
