@@ -92,7 +92,7 @@ class VulkanBackend final : public Backend, public Viewer, public PathRecorder {
                                                const vulkan::Buffer* lightNotes = nullptr) const;
     std::vector<SampleValue> someAlone(uint32_t pixel, uint32_t first, uint32_t count) const;
     void setFilter(const std::vector<Row>& table, const DeviceTuning& tuning);
-    // guided_light.cpp
+    // backend_learning.cpp
     void learn(const DeviceTuning& tuning);
     std::vector<gpu::LightNote> noteLightSamples(const PictureArea& area, const gpu::Frame& frame,
                                                  const DeviceTuning& tuning);
