@@ -5,6 +5,8 @@
 #include "python/values.hpp"
 #include "scene/model/scene.hpp"
 
+#include <glm/glm.hpp>
+
 #include <exception>
 #include <memory>
 #include <utility>
@@ -25,6 +27,8 @@ struct SceneHandle {
     std::shared_ptr<const Scene> scene;
 };
 
+/// A matrix of 16 numbers, row after row, as numpy has it; of none: the identity.
+glm::dmat4 matrixOf(const Doubles& numbers);
 /// Throws UsageError if there is none of this number.
 const Material& materialOf(const std::vector<Material>& materials, uint32_t number);
 /// Its name, its kind and its parameters.

@@ -16,6 +16,15 @@ const Material& materialOf(const std::vector<Material>& materials, uint32_t numb
     return materials[number];
 }
 
+glm::dmat4 matrixOf(const Doubles& numbers) {
+    glm::dmat4 matrix(1);
+    if (numbers.size() == 16)
+        for (int row = 0; row < 4; ++row)
+            for (int column = 0; column < 4; ++column)
+                matrix[column][row] = numbers.data()[4 * row + column];
+    return matrix;
+}
+
 py::dict valuesOf(const Material& material) {
     py::dict result;
     result["name"] = material.name;
@@ -57,10 +66,7 @@ void addMesh(api::SceneMaker& maker, const std::string& name, const Doubles& pos
     mesh.positions = spanOf(positions), mesh.triangles = spanOf(triangles);
     mesh.normals = spanOf(normals), mesh.uvs = spanOf(uvs);
     mesh.material = material;
-    if (toWorld.size() == 16)
-        for (int row = 0; row < 4; ++row)
-            for (int column = 0; column < 4; ++column)
-                mesh.toWorld[column][row] = toWorld.data()[4 * row + column];
+    mesh.toWorld = matrixOf(toWorld);
     maker.addMesh(mesh);
 }
 
@@ -100,6 +106,14 @@ void defineScenes(py::module_& m) {
              [](const SceneHandle& s, uint32_t number) {
                  return valuesOf(materialOf(s.scene->materials, number));
              })
+        .def_property_readonly("lights",
+                               [](const SceneHandle& s) {
+                                   std::vector<std::string> names;
+                                   for (const Light& light : s.scene->lights)
+                                       names.push_back(light.name);
+                                   return names;
+                               })
+        .def_property_readonly("objects", [](const SceneHandle& s) { return s.scene->instances; })
         .def_property_readonly("cameras",
                                [](const SceneHandle& s) {
                                    std::vector<std::string> names;

@@ -67,16 +67,25 @@ py::dict infoOf(const api::PictureSession& session) {
     return info;
 }
 
-void changeMaterials(SessionHandle& handle, const std::map<uint32_t, py::dict>& changes) {
-    std::map<uint32_t, api::MaterialChange> all;
+using NamedChanges = std::map<uint32_t, api::NamedChange>;
+
+NamedChanges changesOf(const std::map<uint32_t, py::dict>& changes) {
+    NamedChanges all;
     for (const auto& [number, values] : changes)
         forEach(values, [&, n = number](const std::string& name, const api::Value& value) {
             all[n].emplace_back(name, value);
         });
+    return all;
+}
+
+/// Changes the scene of a session's picture without the GIL.
+template <class Changes>
+void change(SessionHandle& handle, void (api::PictureSession::*how)(const Changes&),
+            const Changes& changes) {
     api::PictureSession& session = idle(handle);
     const Working working(handle);
     const py::gil_scoped_release others;
-    session.changeMaterials(all);
+    (session.*how)(changes);
 }
 
 } // namespace
@@ -98,7 +107,19 @@ void defineSessions(py::module_& m) {
                  });
                  handle.session.moveCamera(camera);
              })
-        .def("change_materials", &changeMaterials)
+        .def("change_materials",
+             [](SessionHandle& handle, const std::map<uint32_t, py::dict>& changes) {
+                 change(handle, &api::PictureSession::changeMaterials, changesOf(changes));
+             })
+        .def("change_lights",
+             [](SessionHandle& handle, const std::map<uint32_t, py::dict>& changes) {
+                 change(handle, &api::PictureSession::changeLights, changesOf(changes));
+             })
+        .def("move_object",
+             [](SessionHandle& handle, uint32_t number, const Doubles& motion) {
+                 change(handle, &api::PictureSession::moveObjects,
+                        std::map<uint32_t, glm::dmat4>{{number, matrixOf(motion)}});
+             })
         .def("material",
              [](SessionHandle& handle, uint32_t number) {
                  return valuesOf(materialOf(idle(handle).materials(), number));

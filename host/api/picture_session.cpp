@@ -1,10 +1,12 @@
 #include "host/api/picture_session.hpp"
 
+#include "host/api/named_lights.hpp"
 #include "host/api/named_materials.hpp"
 #include "host/core/error.hpp"
 #include "host/film/image_file.hpp"
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <stdexcept>
@@ -56,6 +58,7 @@ void PictureSession::begin(std::shared_ptr<const Scene> scene, const RenderReque
     session_.begin(scene, request);
     scene_ = std::move(scene);
     materials_ = scene_->materials;
+    lights_ = scene_->lights;
     hasBegun();
 }
 
@@ -65,9 +68,22 @@ void PictureSession::moveCamera(const CameraRequest& camera) {
     hasBegun();
 }
 
-void PictureSession::changeMaterials(const std::map<uint32_t, MaterialChange>& changes) {
+void PictureSession::change(const SceneChange& change) {
+    try {
+        session_.change(change);
+    } catch (const std::invalid_argument& error) {
+        throw UsageError(error.what());
+    }
+    for (const auto& [number, material] : change.materials)
+        materials_[number] = material;
+    for (const auto& [number, light] : change.lights)
+        lights_[number] = light;
+    hasBegun();
+}
+
+void PictureSession::changeMaterials(const std::map<uint32_t, NamedChange>& changes) {
     require();
-    std::map<uint32_t, Material> changed;
+    SceneChange all;
     for (const auto& [number, change] : changes) {
         if (number >= materials_.size())
             throw UsageError(
@@ -75,16 +91,35 @@ void PictureSession::changeMaterials(const std::map<uint32_t, MaterialChange>& c
         Material material = materials_[number];
         for (const auto& [parameter, value] : change)
             setMaterial(material, parameter, value);
-        changed.emplace(number, std::move(material));
+        all.materials.emplace(number, std::move(material));
     }
-    try {
-        session_.changeMaterials(changed);
-    } catch (const std::invalid_argument& error) {
-        throw UsageError(error.what());
+    change(all);
+}
+
+void PictureSession::changeLights(const std::map<uint32_t, NamedChange>& changes) {
+    require();
+    SceneChange all;
+    for (const auto& [number, change] : changes) {
+        if (number >= lights_.size())
+            throw UsageError(
+                fmt::format("there is no light {}: there are {}", number, lights_.size()));
+        Light light = lights_[number];
+        for (const auto& [parameter, value] : change)
+            setLight(light, scene_->origin, parameter, value);
+        all.lights.emplace(number, std::move(light));
     }
-    for (auto& [number, material] : changed)
-        materials_[number] = std::move(material);
-    hasBegun();
+    change(all);
+}
+
+void PictureSession::moveObjects(const std::map<uint32_t, glm::dmat4>& motions) {
+    require();
+    SceneChange all;
+    const glm::dmat4 toFile = glm::translate(glm::dmat4(1), scene_->origin),
+                     toWorld = glm::translate(glm::dmat4(1), -scene_->origin);
+    for (const auto& [number, motion] : motions)
+        all.motions.emplace(number,
+                            scene_->origin == glm::dvec3(0) ? motion : toWorld * motion * toFile);
+    change(all);
 }
 
 bool PictureSession::pass(const std::function<Next(const RenderProgress&)>& progress) {

@@ -35,8 +35,8 @@ class MessageQueue {
     std::vector<Message> messages_;
 };
 
-/// Parameters of one material: names and values of setMaterial().
-using MaterialChange = std::vector<std::pair<std::string, Value>>;
+/// Parameters of one material or light: names and values of setMaterial() or setLight().
+using NamedChange = std::vector<std::pair<std::string, Value>>;
 
 /// A RenderSession whose pictures are channels of floats: R, G, B (linear radiance), samples,
 /// variance.R, .G, .B (of the mean), and the layers that the request asks for, by the names that
@@ -51,7 +51,12 @@ class PictureSession {
     void moveCamera(const CameraRequest& camera);
     /// By the number of the material in the scene. Throws UsageError for a material that is not
     /// there, and where it would differ in more than numbers.
-    void changeMaterials(const std::map<uint32_t, MaterialChange>& changes);
+    void changeMaterials(const std::map<uint32_t, NamedChange>& changes);
+    /// By the number of the light in the scene. Throws UsageError for one that is not there.
+    void changeLights(const std::map<uint32_t, NamedChange>& changes);
+    /// By the number of the object (Scene::instances): the motion from where the scene as it was
+    /// read has it, in the file's coordinates. Throws UsageError (ChangingScene::apply()).
+    void moveObjects(const std::map<uint32_t, glm::dmat4>& motions);
 
     /// As RenderSession::pass().
     bool pass(const std::function<Next(const RenderProgress&)>& progress);
@@ -64,8 +69,9 @@ class PictureSession {
     /// Throw UsageError if no picture has been begun.
     const RenderRequest& request() const;
     const RenderSettings& settings() const;
-    /// The materials of the picture, with what has been changed.
+    /// The materials and lights of the picture, with what has been changed.
     const std::vector<Material>& materials() const { return materials_; }
+    const std::vector<Light>& lights() const { return lights_; }
     /// The picture so far; not during pass(). Throws UsageError if no sample has been taken.
     const FloatImage& image();
 
@@ -74,12 +80,14 @@ class PictureSession {
   private:
     void require() const;
     void hasBegun();
+    void change(const SceneChange& change);
     void place(FloatImage part);
 
     MessageQueue messages_; // outlives the session
     RenderSession session_;
     std::shared_ptr<const Scene> scene_;
     std::vector<Material> materials_;
+    std::vector<Light> lights_;
     FloatImage image_;
     bool isPlaced_ = false; ///< the last pass's samples are in `image_`
     bool isTaken_ = false;  ///< there are samples

@@ -208,7 +208,7 @@ auto sceneRows(const GpuScene& scene) {
         std::as_bytes(std::span(scene.bvh.records)),  std::as_bytes(std::span(scene.primitives)),
         std::as_bytes(std::span(scene.materials)),    std::as_bytes(std::span(scene.lights.lights)),
         std::as_bytes(std::span(scene.lights.table)), std::as_bytes(scene.lights.environmentRows()),
-        std::as_bytes(std::span(scene.details))};
+        std::as_bytes(std::span(scene.details.rows))};
     static_assert(rows.size() == SCENE_BINDING_COUNT);
     return rows;
 }

@@ -5,6 +5,8 @@
 #include "host/api/named_materials.hpp"
 #include "host/engine/load_scene.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,6 +29,16 @@ void give(std::shared_ptr<const Scene> scene, stromboli_scene** to) {
     made->report = linesOf(scene->report);
     made->scene = std::move(scene);
     *to = made.release();
+}
+
+/// The number of the first of that name.
+template <class Things, class Name>
+uint32_t numberOf(const Things& things, const char* name, Name nameOf, const char* what) {
+    const std::string wanted = textOf(name, "name");
+    const auto found = std::ranges::find(things, wanted, nameOf);
+    if (found == things.end())
+        throw UsageError(std::string("the scene has no ") + what + " '" + wanted + "'");
+    return uint32_t(found - things.begin());
 }
 
 } // namespace
@@ -70,12 +82,37 @@ size_t stromboli_scene_material_count(const stromboli_scene* scene) {
 stromboli_code stromboli_scene_find_material(const stromboli_scene* scene, const char* name,
                                              uint32_t* number, stromboli_error* error) {
     return guarded(error, [&] {
-        const std::vector<Material>& materials = there(scene, "scene").scene->materials;
-        const std::string wanted = textOf(name, "name");
-        const auto found = std::ranges::find(materials, wanted, &Material::name);
-        if (found == materials.end())
-            throw UsageError("the scene has no material '" + wanted + "'");
-        there(number, "number") = uint32_t(found - materials.begin());
+        const Scene& s = *there(scene, "scene").scene;
+        there(number, "number") = numberOf(s.materials, name, &Material::name, "material");
+    });
+}
+
+size_t stromboli_scene_light_count(const stromboli_scene* scene) {
+    return scene ? scene->scene->lights.size() : 0;
+}
+
+stromboli_code stromboli_scene_find_light(const stromboli_scene* scene, const char* name,
+                                          uint32_t* number, stromboli_error* error) {
+    return guarded(error, [&] {
+        const Scene& s = *there(scene, "scene").scene;
+        there(number, "number") = numberOf(s.lights, name, &Light::name, "light");
+    });
+}
+
+size_t stromboli_scene_object_count(const stromboli_scene* scene) {
+    return scene ? scene->scene->instances.size() : 0;
+}
+
+const char* stromboli_scene_object_name(const stromboli_scene* scene, uint32_t number) {
+    return number < stromboli_scene_object_count(scene) ? scene->scene->instances[number].c_str()
+                                                        : nullptr;
+}
+
+stromboli_code stromboli_scene_find_object(const stromboli_scene* scene, const char* name,
+                                           uint32_t* number, stromboli_error* error) {
+    return guarded(error, [&] {
+        const Scene& s = *there(scene, "scene").scene;
+        there(number, "number") = numberOf(s.instances, name, std::identity{}, "object");
     });
 }
 

@@ -6,6 +6,8 @@
 #include "host/film/image_file.hpp"
 #include "host/film/image_formats.hpp"
 
+#include <glm/gtc/type_ptr.hpp>
+
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -110,6 +112,25 @@ stromboli_code stromboli_session_set_material(stromboli_session* session, uint32
         there(session, "session")
             .session.changeMaterials(
                 {{number, {{textOf(parameter, "parameter"), numbersOf(values, count)}}}});
+    });
+}
+
+stromboli_code stromboli_session_set_light(stromboli_session* session, uint32_t number,
+                                           const char* parameter, const double* values,
+                                           size_t count, stromboli_error* error) {
+    return guarded(error, [&] {
+        there(session, "session")
+            .session.changeLights(
+                {{number, {{textOf(parameter, "parameter"), numbersOf(values, count)}}}});
+    });
+}
+
+stromboli_code stromboli_session_move_object(stromboli_session* session, uint32_t number,
+                                             const double motion[16], stromboli_error* error) {
+    return guarded(error, [&] {
+        glm::dmat4 matrix(1);
+        if (motion) matrix = glm::make_mat4(motion);
+        there(session, "session").session.moveObjects({{number, matrix}});
     });
 }
 

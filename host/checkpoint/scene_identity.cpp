@@ -159,6 +159,12 @@ static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
 
 } // namespace
 
+uint32_t environmentIdentity(const Environment& environment) {
+    Sum sum;
+    add(sum, environment);
+    return sum.value();
+}
+
 uint32_t sceneIdentity(const Scene& scene, const Camera& camera) {
     Sum sum;
     sum.addAll(scene.positions);

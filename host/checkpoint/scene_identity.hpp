@@ -12,4 +12,7 @@ namespace stromboli {
 /// do not count.
 uint32_t sceneIdentity(const Scene& scene, const Camera& camera);
 
+/// The same of an environment alone.
+uint32_t environmentIdentity(const Environment& environment);
+
 } // namespace stromboli

@@ -1,5 +1,6 @@
 #include "host/engine/load_scene.hpp"
 
+#include "host/checkpoint/scene_identity.hpp"
 #include "host/core/system.hpp"
 #include "scene/read_scene.hpp"
 
@@ -65,14 +66,20 @@ LoadedScene loadMoment(const SceneRequest& request, LoadedScene before, const Li
 // --- Building ------------------------------------------------------------------------------------
 
 BuiltScene buildScene(const Scene& scene, const Estimator& estimator, const Listener& listener,
-                      KeptParts* kept, uint64_t gatheredRows) {
+                      KeptParts* kept, uint64_t gatheredRows, const GpuScene* before) {
     listener.doing(Stage::Building,
                    fmt::format("building the BVH of {} triangles", scene.triangles.size()));
     const Stopwatch watch;
     BuiltScene built;
-    built.gpu =
-        packScene(scene, buildWideBvh(scene, {}, kept ? &kept->trees : nullptr),
-                  lightSelection(estimator), kept ? kept->environment : nullptr, gatheredRows);
+    if (kept) {
+        const uint32_t environment =
+            scene.environment ? environmentIdentity(*scene.environment) : 0;
+        if (std::exchange(kept->environmentIdentity, environment) != environment)
+            kept->environment = nullptr;
+    }
+    built.gpu = packScene(scene, buildWideBvh(scene, {}, kept ? &kept->trees : nullptr),
+                          lightSelection(estimator), kept ? kept->environment : nullptr,
+                          gatheredRows, before);
     if (kept) kept->environment = built.gpu.lights.environment;
     built.seconds = watch.seconds();
     listener.doing(Stage::Preparing, "opening the device and compiling the kernel"); // comes next

@@ -72,14 +72,17 @@ struct BuiltScene {
     double seconds = 0; ///< that building took
 };
 
-/// What one moment of an animation keeps for the next.
+/// What one moment of an animation, or one place of objects that a session moves, keeps for the
+/// next.
 struct KeptParts {
     KeptTrees trees;
     std::shared_ptr<const EnvironmentTable> environment;
+    uint32_t environmentIdentity = 0; ///< environmentIdentity() of what it was made from
 };
 
-/// kept: where the scene is a moment of a sequence. gatheredRows: of planDetails().
+/// kept: where the scene is a moment of a sequence. gatheredRows, before: as packScene() has them.
 BuiltScene buildScene(const Scene& scene, const Estimator& estimator, const Listener& listener = {},
-                      KeptParts* kept = nullptr, uint64_t gatheredRows = kUsualGatheredRows);
+                      KeptParts* kept = nullptr, uint64_t gatheredRows = kUsualGatheredRows,
+                      const GpuScene* before = nullptr);
 
 } // namespace stromboli

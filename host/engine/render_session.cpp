@@ -168,25 +168,14 @@ void RenderSession::moveCamera(const CameraRequest& camera) {
     begin(scene_, request);
 }
 
-void RenderSession::changeMaterials(const std::map<uint32_t, Material>& numbers) {
+void RenderSession::change(const SceneChange& change) {
     if (!scene_) throw std::logic_error("no picture has been begun");
-    for (const auto& [number, material] : numbers) {
-        const Material* before =
-            number < scene_->materials.size() ? &scene_->materials[number] : nullptr;
-        // Meshes that share their triangles do not emit.
-        const bool mayBegin =
-            scene_->prototypes.empty() || !material.emits() || !before || before->emits();
-        if (!before || !differInNumbers(*before, material) || !mayBegin)
-            throw std::invalid_argument(
-                fmt::format("material {} differs in more than numbers, or is not there", number));
-    }
+    if (!changing_ || changing_->scene() != scene_) changing_.emplace(scene_);
+    changing_->apply(change);
     sampling_.reset(); // refers to the renderer's last backend
     over_ = true;      // if what follows throws
-    if (!changed_ || changed_ != scene_) changed_ = std::make_shared<Scene>(*scene_);
-    for (const auto& [number, material] : numbers)
-        changed_->materials[number] = material;
-    renderer_.materialsHaveChanged(changed_);
-    begin(changed_, RenderRequest(request_));
+    renderer_.sceneHasChanged(scene_, changing_->scene(), change);
+    begin(changing_->scene(), RenderRequest(request_));
 }
 
 void RenderSession::prepare() {

@@ -6,6 +6,7 @@
 #include "host/engine/render_request.hpp"
 #include "host/engine/render_result.hpp"
 #include "host/engine/renderer.hpp"
+#include "host/engine/scene_change.hpp"
 #include "host/film/film.hpp"
 #include "host/film/image_file.hpp"
 
@@ -111,12 +112,13 @@ class RenderSession {
                const Keeping& keeping = {});
     /// Begins the picture again with another camera.
     void moveCamera(const CameraRequest& camera);
-    /// Begins the picture again with other numbers of materials: colours, roughness, indices,
-    /// emission (differInNumbers()). `numbers` is by the number of the material in the scene. The
-    /// scene that was handed over stays as it is. Nothing is built, what is uploaded are the rows
-    /// of materials and lights, and a kernel is compiled only where the materials want another one.
-    /// Throws std::invalid_argument where a material differs in more than numbers.
-    void changeMaterials(const std::map<uint32_t, Material>& numbers);
+    /// Begins the picture again in a scene that has become another one: numbers of materials,
+    /// lights, places of objects. The scene that was handed over stays as it is. A change of
+    /// materials and lights builds nothing and uploads their rows; what the first motion of an
+    /// object leaves where it is gets a tree of its own, which later ones keep. A kernel is
+    /// compiled only where materials and lights want another one. Throws std::invalid_argument
+    /// (ChangingScene::apply()).
+    void change(const SceneChange& change);
 
     /// The picture that was begun, with nothing left open.
     const ResolvedPicture& picture() const { return picture_; }
@@ -190,7 +192,7 @@ class RenderSession {
     std::atomic<bool> cancelAsked_ = false;
     // What belongs to the picture:
     std::shared_ptr<const Scene> scene_;
-    std::shared_ptr<Scene> changed_; ///< the same, if materials have been changed
+    std::optional<ChangingScene> changing_; ///< has the same, if it has been changed
     RenderRequest request_;
     Keeping keeping_;
     ResolvedPicture picture_;

@@ -227,17 +227,23 @@ void Renderer::begin(std::shared_ptr<const Scene> scene, const ResolvedPicture& 
     }
     const bool isThere = built_ && builtOf_ == scene_ &&
                          sameSelection(builtFor_, lightSelection(settings_.estimator));
-    if (!isThere) build(settings_.estimator, kUsualGatheredRows);
+    if (!isThere && scene_ != movedTo_) gatheredRows_ = kUsualGatheredRows;
+    if (!isThere) build(settings_.estimator);
     devices_->open(); // began while the scene was built
-    if (!isThere && !devices_->haveRoomForTextures(built_->gpu)) build(settings_.estimator, 0);
+    if (!isThere && gatheredRows_ > 0 && !devices_->haveRoomForTextures(built_->gpu)) {
+        gatheredRows_ = 0;
+        build(settings_.estimator);
+    }
     name_ = devices_->name();
     samplersHaveIt_ = isThere;
     resident_ = residentMemory();
 }
 
-void Renderer::build(const Estimator& estimator, uint64_t gatheredRows) {
-    auto built = std::make_unique<BuiltScene>(buildScene(
-        *scene_, estimator, listener_, scene_->isMoment() ? &kept_ : nullptr, gatheredRows));
+void Renderer::build(const Estimator& estimator) {
+    const bool hasMoved = std::exchange(movedTo_, nullptr) == scene_;
+    auto built = std::make_unique<BuiltScene>(
+        buildScene(*scene_, estimator, listener_, scene_->isMoment() ? &kept_ : nullptr,
+                   gatheredRows_, hasMoved ? &built_->gpu : nullptr));
     builtOf_ = nullptr; // until the devices have this one
     devices_->setScene(built->gpu);
     built_ = std::move(built);
@@ -246,8 +252,16 @@ void Renderer::build(const Estimator& estimator, uint64_t gatheredRows) {
     buildSeconds_ = built_->seconds;
 }
 
-void Renderer::materialsHaveChanged(const std::shared_ptr<const Scene>& scene) {
-    if (!devices_ || !built_ || builtOf_ != scene_) return; // it is built when it is asked for
+void Renderer::sceneHasChanged(const std::shared_ptr<const Scene>& before,
+                               const std::shared_ptr<const Scene>& scene,
+                               const SceneChange& change) {
+    if (!devices_ || !built_) return; // it is built when it is asked for
+    if (builtOf_ != before) return;
+    if (!change.motions.empty()) {
+        builtOf_ = nullptr;
+        movedTo_ = scene;
+        return;
+    }
     devices_->sceneHasChanged(repackMaterials(built_->gpu, *scene, builtFor_));
     builtOf_ = scene;
     scene_ = scene;

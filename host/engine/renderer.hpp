@@ -3,6 +3,7 @@
 #include "host/checkpoint/checkpoint_file.hpp"
 #include "host/engine/load_scene.hpp"
 #include "host/engine/render_request.hpp"
+#include "host/engine/scene_change.hpp"
 #include "host/kernel/vulkan_backend.hpp"
 #include "host/render/team_backend.hpp"
 #include "host/vulkan/device.hpp"
@@ -99,9 +100,12 @@ class Renderer {
     /// is made again. `channels`: those of a picture beside the radiance.
     void begin(std::shared_ptr<const Scene> scene, const ResolvedPicture& picture, size_t channels);
 
-    /// Numbers of the scene's materials have changed (differInNumbers()) while no picture of it was
-    /// under way. Brings to the devices what has become another, and builds nothing.
-    void materialsHaveChanged(const std::shared_ptr<const Scene>& scene);
+    /// `before` has become `scene`, which may be the same object, by this change, while no picture
+    /// of it was under way. Of materials and lights it brings to the devices what has become
+    /// another, and builds nothing; motions are left to the next begin(), which keeps trees and
+    /// texels of what has not moved.
+    void sceneHasChanged(const std::shared_ptr<const Scene>& before,
+                         const std::shared_ptr<const Scene>& scene, const SceneChange& change);
 
     /// A backend for the settings, which are those of the picture or of a part of it; it is good
     /// until the next one is asked for. `again`: the device of the last one is lost, all are opened
@@ -132,7 +136,7 @@ class Renderer {
     void requireNoValidationMessages() const;
 
   private:
-    void build(const Estimator& estimator, uint64_t gatheredRows);
+    void build(const Estimator& estimator);
     uint64_t bytesForFilms() const;
     uint64_t bytesPerPixel() const;
     uint64_t bytesOfScene() const;
@@ -150,7 +154,10 @@ class Renderer {
     std::unique_ptr<BuiltScene> built_; ///< of builtOf_; outlives the devices' backends
     std::shared_ptr<const Scene> builtOf_;
     LightSelection builtFor_;
-    KeptParts kept_;                       ///< of the moments of an animation
+    uint64_t gatheredRows_ = kUsualGatheredRows; ///< that it was built with
+    /// The scene that only objects' places tell from the one that was built; null: there is none.
+    std::shared_ptr<const Scene> movedTo_;
+    KeptParts kept_;                       ///< of moments of an animation, and where objects move
     std::optional<RenderDevices> devices_; ///< none: the reference renders
     std::shared_ptr<Backend> reference_;   ///< of the last picture
     Viewer* referenceViewer_ = nullptr;    ///< the same object

@@ -206,19 +206,19 @@ uint32_t bits(int32_t number, uint32_t count) {
 /// The attributes of all primitives, in the order of the tree's leaves.
 class AttributePacker {
   public:
-    AttributePacker(const Scene& scene, const WideLayout& bvh, const DetailPlan& plan,
+    AttributePacker(const Scene& scene, const WideLayout& bvh, uint32_t attributes,
                     std::vector<Row>& rows)
-        : scene_(scene), bvh_(bvh), plan_(plan), rows_(rows) {}
+        : scene_(scene), bvh_(bvh), attributes_(attributes), rows_(rows) {}
 
     void pack() {
-        if (plan_.attributes == 0) return;
-        rows_.reserve(bvh_.primitiveOrder.size() * attributeRows(plan_.attributes));
+        if (attributes_ == 0) return;
+        rows_.reserve(bvh_.primitiveOrder.size() * attributeRows(attributes_));
         for (const uint32_t id : bvh_.primitiveOrder)
             pack(id);
     }
 
   private:
-    bool has(uint32_t attribute) const { return (plan_.attributes & attribute) != 0; }
+    bool has(uint32_t attribute) const { return (attributes_ & attribute) != 0; }
 
     void pack(uint32_t id) {
         VertexAttributes corners[3];
@@ -261,7 +261,7 @@ class AttributePacker {
 
     const Scene& scene_;
     const WideLayout& bvh_;
-    const DetailPlan& plan_;
+    uint32_t attributes_;
     std::vector<Row>& rows_;
 };
 
@@ -363,7 +363,8 @@ uint32_t attributeRows(uint32_t attributes) {
 
 DetailRows packDetails(const Scene& scene, const WideLayout& bvh, const DetailPlan& plan) {
     DetailRows details;
-    AttributePacker(scene, bvh, plan, details.rows).pack();
+    AttributePacker(scene, bvh, plan.attributes, details.rows).pack();
+    details.firstTexel = details.rows.size();
     if (!plan.hasMaterialDetails()) return details;
     TexelPacker texels(scene, plan, details.rows);
     for (size_t i = 0; i < scene.materials.size(); ++i)
@@ -373,6 +374,17 @@ DetailRows packDetails(const Scene& scene, const WideLayout& bvh, const DetailPl
         std::vector<Row>& rows = details.ofLights.emplace_back();
         if (light.picture) appendRows(rows, packUse(scene, *light.picture, texels));
     }
+    return details;
+}
+
+DetailRows repackAttributes(const Scene& scene, const WideLayout& bvh, uint32_t attributes,
+                            const DetailRows& before) {
+    DetailRows details{{}, before.ofLights, before.ofMaterials, before.firstTexel};
+    details.rows.reserve(before.rows.size());
+    AttributePacker(scene, bvh, attributes, details.rows).pack();
+    // As many primitives have as many rows, so that texels stay where rows of materials name them.
+    details.rows.insert(details.rows.end(), before.rows.begin() + std::ptrdiff_t(before.firstTexel),
+                        before.rows.end());
     return details;
 }
 

@@ -15,9 +15,15 @@ struct DetailRows {
     std::vector<std::vector<Row>> ofLights;    ///< of each of the scene's: its picture's TextureUse
     std::vector<std::vector<Row>> ofMaterials; ///< by material: MaterialDetail and TextureUse rows;
                                                ///< empty where no material has any
+    size_t firstTexel = 0;                     ///< into rows
 };
 
 DetailRows packDetails(const Scene& scene, const WideLayout& bvh, const DetailPlan& plan);
+
+/// The same of a scene that differs from the one that `before` was packed from in the places of its
+/// objects alone, with its attributes (gpu::ATTRIBUTE_ bits): texels are copied.
+DetailRows repackAttributes(const Scene& scene, const WideLayout& bvh, uint32_t attributes,
+                            const DetailRows& before);
 
 /// Rows that one primitive's attributes take.
 uint32_t attributeRows(uint32_t attributes);

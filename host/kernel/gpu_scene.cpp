@@ -117,10 +117,31 @@ bool nameLights(GpuScene& g, std::span<const uint32_t> before = {}) {
     return anyChanged;
 }
 
+void packTextures(GpuScene& g, const Scene& scene, const DetailPlan& plan) {
+    g.details = packDetails(scene, g.bvh, plan);
+    g.textureSlots = plan.textureSlots, g.looseSlots = plan.looseSlots;
+    g.texelKinds = plan.texelKinds;
+    g.attributes = plan.attributes, g.hasAlpha = plan.hasAlpha, g.hasHidden = plan.hasHidden;
+    g.mostTextures = plan.mostTextures;
+    g.hasBlends = plan.hasBlends;
+    g.hasTangentFrames = plan.hasTangentFrames;
+}
+
+/// Those of a scene that only the places of its objects tell from this one.
+void keepTextures(GpuScene& g, const Scene& scene, const GpuScene& before) {
+    g.details = repackAttributes(scene, g.bvh, before.attributes, before.details);
+    g.textureSlots = before.textureSlots, g.looseSlots = before.looseSlots;
+    g.texelKinds = before.texelKinds;
+    g.attributes = before.attributes, g.hasAlpha = before.hasAlpha, g.hasHidden = before.hasHidden;
+    g.mostTextures = before.mostTextures;
+    g.hasBlends = before.hasBlends;
+    g.hasTangentFrames = before.hasTangentFrames;
+}
+
 /// All of a scene but its tree and its textures.
 void packRest(GpuScene& g, const Scene& scene, const LightSelection& lights,
               std::shared_ptr<const EnvironmentTable> environment) {
-    MaterialRows materials = packMaterials(scene.materials, g.detailsOfMaterials, scene.media);
+    MaterialRows materials = packMaterials(scene.materials, g.details.ofMaterials, scene.media);
     g.materials = std::move(materials.rows);
     g.mostOthers = materials.mostOthers, g.mostBlends = materials.mostBlends;
     packPrimitives(scene, materials.firstRow, g);
@@ -129,7 +150,7 @@ void packRest(GpuScene& g, const Scene& scene, const LightSelection& lights,
     for (const uint32_t closures : materials.media.closures)
         g.closures.add(closures);
     g.lights = packLights(scene, g.bvh.placeOf, lights,
-                          appendPictures(g.materials, g.detailsOfLights), std::move(environment));
+                          appendPictures(g.materials, g.details.ofLights), std::move(environment));
 }
 
 } // namespace
@@ -154,20 +175,14 @@ glm::vec3 decodeNormal(uint32_t code) {
 }
 
 GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lights,
-                   std::shared_ptr<const EnvironmentTable> environment, uint64_t gatheredRows) {
+                   std::shared_ptr<const EnvironmentTable> environment, uint64_t gatheredRows,
+                   const GpuScene* before) {
     GpuScene g;
     g.bvh = std::move(bvh);
-    const DetailPlan plan = planDetails(scene, usedMaterials(scene), gatheredRows);
-    DetailRows details = packDetails(scene, g.bvh, plan);
-    g.details = std::move(details.rows);
-    g.detailsOfMaterials = std::move(details.ofMaterials);
-    g.detailsOfLights = std::move(details.ofLights);
-    g.textureSlots = plan.textureSlots, g.looseSlots = plan.looseSlots;
-    g.texelKinds = plan.texelKinds;
-    g.attributes = plan.attributes, g.hasAlpha = plan.hasAlpha, g.hasHidden = plan.hasHidden;
-    g.mostTextures = plan.mostTextures;
-    g.hasBlends = plan.hasBlends;
-    g.hasTangentFrames = plan.hasTangentFrames;
+    if (before)
+        keepTextures(g, scene, *before);
+    else
+        packTextures(g, scene, planDetails(scene, usedMaterials(scene), gatheredRows));
     packRest(g, scene, lights, std::move(environment));
     nameLights(g);
     // Beside lights that are geometry: a rectangle that is none has its own mesh close by.

@@ -2,6 +2,7 @@
 
 #include "host/bvh/wide_layout.hpp"
 #include "host/kernel/detail_plan.hpp"
+#include "host/kernel/detail_rows.hpp"
 #include "host/kernel/light_table.hpp"
 #include "host/kernel/material_rows.hpp"
 #include "host/kernel/rows.hpp"
@@ -20,7 +21,7 @@ struct GpuScene {
     WideLayout bvh;                         ///< leaves name the lights that they are
     std::vector<gpu::Primitive> primitives; ///< in the order of the tree's leaves
     std::vector<Row> materials;
-    std::vector<Row> details; ///< attributes of corners, and texels (detail_rows.hpp)
+    DetailRows details; ///< attributes of corners, and texels
     LightTable lights;
     SceneClosures closures;                  ///< of the materials that primitives have
     bool hasEmission = false;                ///< a primitive emits
@@ -39,16 +40,16 @@ struct GpuScene {
     // DetailPlan:
     uint32_t textureSlots = 0, looseSlots = 0, texelKinds = 0, attributes = 0, mostTextures = 0;
     bool hasAlpha = false, hasHidden = false, hasTangentFrames = false;
-    // What DetailRows holds beside its rows, for repackMaterials():
-    std::vector<std::vector<Row>> detailsOfMaterials, detailsOfLights;
 };
 
 /// Packs the scene, whose hierarchy is `bvh`. For a render `lights` is lightSelection() of its
 /// settings; by default all lights are sampled. environment: of the scene's environment, where it
-/// was packed before (LightTable::environment). gatheredRows: of planDetails().
+/// was packed before (LightTable::environment). gatheredRows: of planDetails(). before: of a scene
+/// that differs from this one in the places of its objects alone, packed with the same
+/// gatheredRows; null: there is none.
 GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lights = {},
                    std::shared_ptr<const EnvironmentTable> environment = {},
-                   uint64_t gatheredRows = kUsualGatheredRows);
+                   uint64_t gatheredRows = kUsualGatheredRows, const GpuScene* before = nullptr);
 
 /// Whether both materials differ in numbers alone: colours, roughness, indices and emission, but in
 /// no texture, opacity, mixture or medium.

@@ -43,7 +43,7 @@ std::vector<BufferPlan> planSceneBuffers(const GpuScene& scene, const DeviceTuni
         {"light buffer", sizeOf(scene.lights.lights), rows},
         {"light table", sizeOf(scene.lights.table), rows},
         {"environment", scene.lights.environmentRows().size_bytes(), rows},
-        {"texture buffer", sizeOf(scene.details), rows, "--max-texture N makes textures smaller"}};
+        {"texture buffer", sizeOf(scene.details.rows), rows, "--max-texture N makes textures smaller"}};
 }
 
 uint64_t largestSceneBuffer(const GpuScene& scene) {
@@ -125,7 +125,7 @@ bool haveRoomForTextures(const vulkan::DeviceDescription& device, const GpuScene
     uint64_t all = 0;
     for (const BufferPlan& plan : planSceneBuffers(scene, {}))
         all += plan.bytes;
-    return sizeOf(scene.details) <= limit && all <= device.memory;
+    return sizeOf(scene.details.rows) <= limit && all <= device.memory;
 }
 
 void checkMemory(const vulkan::DeviceDescription& device, const GpuScene& scene,
@@ -160,7 +160,7 @@ std::array<std::span<const std::byte>, kBuffers> contentsOf(const GpuScene& scen
     contents[BINDING_LIGHTS] = bytesOf(scene.lights.lights);
     contents[BINDING_LIGHT_TABLE] = bytesOf(scene.lights.table);
     contents[BINDING_ENVIRONMENT] = std::as_bytes(scene.lights.environmentRows());
-    contents[BINDING_DETAIL] = bytesOf(scene.details);
+    contents[BINDING_DETAIL] = bytesOf(scene.details.rows);
     return contents;
 }
 

@@ -89,6 +89,19 @@ STROMBOLI_API size_t stromboli_scene_material_count(const stromboli_scene* scene
 STROMBOLI_API stromboli_code stromboli_scene_find_material(const stromboli_scene* scene,
                                                            const char* name, uint32_t* number,
                                                            stromboli_error* error);
+/* Lights that are not the emission of a surface; those with an area are surfaces, and objects. */
+STROMBOLI_API size_t stromboli_scene_light_count(const stromboli_scene* scene);
+STROMBOLI_API stromboli_code stromboli_scene_find_light(const stromboli_scene* scene,
+                                                        const char* name, uint32_t* number,
+                                                        stromboli_error* error);
+/* Meshes and spheres where the scene has them. */
+STROMBOLI_API size_t stromboli_scene_object_count(const stromboli_scene* scene);
+/* NULL behind the last. Belongs to the scene. */
+STROMBOLI_API const char* stromboli_scene_object_name(const stromboli_scene* scene,
+                                                      uint32_t number);
+STROMBOLI_API stromboli_code stromboli_scene_find_object(const stromboli_scene* scene,
+                                                         const char* name, uint32_t* number,
+                                                         stromboli_error* error);
 /* What was left out, forgiven or assumed when the scene was read: `line` counts from 0; NULL behind
  * the last. Belongs to the scene. */
 STROMBOLI_API const char* stromboli_scene_report(const stromboli_scene* scene, size_t line);
@@ -224,6 +237,19 @@ STROMBOLI_API stromboli_code stromboli_session_set_material(stromboli_session* s
                                                             uint32_t number, const char* parameter,
                                                             const double* values, size_t count,
                                                             stromboli_error* error);
+/* Likewise of a light: "color", "position", "direction", "angle", "inner_angle" (stromboli_light).
+ * Nothing is built anew. */
+STROMBOLI_API stromboli_code stromboli_session_set_light(stromboli_session* session,
+                                                         uint32_t number, const char* parameter,
+                                                         const double* values, size_t count,
+                                                         stromboli_error* error);
+/* Begins it again with an object elsewhere: `motion`, a matrix, is from where the scene has it;
+ * NULL puts it back. It has an inverse and does not mirror; that of a sphere stretches all
+ * directions alike. What the first motion leaves where it is gets a tree of its own, and is not
+ * built again by those that follow. */
+STROMBOLI_API stromboli_code stromboli_session_move_object(stromboli_session* session,
+                                                           uint32_t number, const double motion[16],
+                                                           stromboli_error* error);
 
 /* Takes samples until a pass is done. *has_more becomes 0 when the picture is finished or
  * cancelled. */

@@ -72,14 +72,28 @@ class Scene:
         """Its materials by number: name, kind and the parameters of the kind."""
         return [self._handle.material(i) for i in range(self._handle.material_count)]
 
-    def material_number(self, which: Union[int, str]) -> int:
-        """The number of the first material of that name. Raises UsageError if there is none."""
+    @property
+    def lights(self) -> list[str]:
+        """Names of its lights that are not the emission of a surface."""
+        return self._handle.lights
+
+    @property
+    def objects(self) -> list[str]:
+        """Names of its meshes and spheres, of each where it is placed."""
+        return self._handle.objects
+
+    def number_of(self, kind: str, which: Union[int, str]) -> int:
+        """The number of the first material, light or object of that name. Raises UsageError."""
         if not isinstance(which, str):
             return int(which)
-        for number in range(self._handle.material_count):
-            if self._handle.material(number)["name"] == which:
-                return number
-        raise UsageError(f"the scene has no material {which!r}")
+        names = {
+            "material": [material["name"] for material in self.materials],
+            "light": self.lights,
+            "object": self.objects,
+        }[kind]
+        if which not in names:
+            raise UsageError(f"the scene has no {kind} {which!r}")
+        return names.index(which)
 
 
 def load(

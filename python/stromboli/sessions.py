@@ -10,6 +10,8 @@ import threading
 import time
 from typing import Any, Callable, Optional, Sequence, Union
 
+import numpy as np
+
 from . import _stromboli
 from .pictures import Picture, of_channels
 from .scenes import Point, Scene, given, load
@@ -135,12 +137,41 @@ class Session:
 
         The scene itself stays as it is. Nothing is built anew.
         """
+        number = self._number("material", which)
+        self._session.change_materials({number: given(parameters)})
+        self._tell()
+
+    def change_light(self, which: Union[int, str], **parameters: Any) -> None:
+        """Begins the picture again with another light: color, position, direction, angle.
+
+        which -- number or name in ``Scene.lights``; lights with an area are objects. Nothing is
+        built anew.
+        """
+        number = self._number("light", which)
+        self._session.change_lights({number: given(parameters)})
+        self._tell()
+
+    def move(self, which: Union[int, str], motion: Any = None) -> None:
+        """Begins the picture again with an object elsewhere.
+
+        which -- number or name in ``Scene.objects``
+        motion -- 4 x 4, from where the scene has it, metres; None: back to there. It has an
+        inverse and does not mirror; a sphere's stretches all directions alike.
+
+        What the first motion leaves where it is gets a tree of its own, which later ones keep.
+        """
+        number = self._number("object", which)
+        matrix = np.eye(4) if motion is None else np.asarray(motion, dtype=float)
+        if matrix.shape != (4, 4):
+            raise TypeError(f"a motion is 4 x 4, not {matrix.shape}")
+        self._session.move_object(number, matrix)
+        self._tell()
+
+    def _number(self, kind: str, which: Union[int, str]) -> int:
         if self._scene is None:
             self._session.change_materials({})  # says that no picture has been begun
         assert self._scene is not None
-        number = self._scene.material_number(which)
-        self._session.change_materials({number: given(parameters)})
-        self._tell()
+        return self._scene.number_of(kind, which)
 
     def step(self, progress: Optional[Progress] = None) -> bool:
         """Takes samples until a pass is done. False: the picture is finished or cancelled."""

@@ -1,6 +1,7 @@
 // Sessions on a device: what is kept from picture to picture, and what a process does not notice.
 #include "tests/engine/engine_fixture.hpp"
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -96,18 +97,18 @@ TEST(DeviceSession, ChangedNumbersOfMaterialsBuildNothingAndHaveTheBytesOfASessi
             if (i % 2 == 0 && m.emits()) m.emission *= 3.0f;
             numbers[i] = m;
         }
-        session.changeMaterials(numbers);
+        session.change({.materials = numbers, .lights = {}, .motions = {}});
         session.run();
         EXPECT_FALSE(sameBytes(session.film(), before)) << name;
         EXPECT_TRUE(sameBytes(session.film(), alone({}, edited, request))) << name;
         // Lights that go out, and all as it was.
         for (auto& [number, material] : numbers)
             material.emission = glm::vec3(0);
-        session.changeMaterials(numbers);
+        session.change({.materials = numbers, .lights = {}, .motions = {}});
         session.run();
         for (auto& [number, material] : numbers)
             material = scene->materials[number];
-        session.changeMaterials(numbers);
+        session.change({.materials = numbers, .lights = {}, .motions = {}});
         session.run();
         EXPECT_TRUE(sameBytes(session.film(), before)) << name;
         EXPECT_EQ(told.count(Stage::Building), 1u);
@@ -131,6 +132,69 @@ TEST(DeviceSession, AnEditedMaterialHasTheBytesOfASessionOfItsOwn) {
     session.begin(scene, request); // and back
     session.run();
     EXPECT_TRUE(sameBytes(session.film(), before));
+}
+
+/// A mesh with textures, and one that is an instance of many: what moves is built, the rest is not.
+TEST(DeviceSession, MovedObjectsHaveTheBytesOfASessionOfTheirOwn) {
+    for (const char* name : {"still_life", "generate:forest:3"}) {
+        const std::shared_ptr<const Scene> scene = bundled(name);
+        const RenderRequest request = smallPicture(8);
+        const uint32_t object = scene->placements.empty() ? scene->triangles.back().instance
+                                                          : scene->placements[1].instance;
+        const auto motion = [&](double x, double y) {
+            SceneChange change;
+            change.motions[object] = glm::translate(glm::dmat4(1), {x, y, 0});
+            return change;
+        };
+        Told told;
+        RenderSession session({}, told.listener());
+        session.begin(scene, request);
+        session.run();
+        const Film before = session.film();
+        session.change(motion(0.5, 0.25));
+        session.change(motion(0.25, 0)); // before a sample was taken
+        session.run();
+        session.change(motion(-0.25, 0.125));
+        session.run();
+        ChangingScene changing(scene);
+        changing.apply(motion(-0.25, 0.125));
+        EXPECT_FALSE(sameBytes(session.film(), before)) << name;
+        EXPECT_TRUE(sameBytes(session.film(), alone({}, changing.scene(), request))) << name;
+        EXPECT_EQ(told.count(Stage::Building), 3u);
+        session.change(motion(0, 0)); // back, and another scene in its place
+        session.run();
+        EXPECT_TRUE(sameBytes(session.film(), before)) << name;
+        session.change(motion(0.25, 0));
+        session.begin(bundled("cornell_boxes"), request);
+        session.run();
+        EXPECT_TRUE(sameBytes(session.film(), alone({}, bundled("cornell_boxes"), request)));
+    }
+}
+
+TEST(DeviceSession, ChangedLightsBuildNothingAndHaveTheBytesOfASessionOfItsOwn) {
+    const std::shared_ptr<const Scene> scene = bundled("light_spot");
+    const RenderRequest request = smallPicture(8);
+    ASSERT_FALSE(scene->lights.empty());
+    SceneChange change;
+    Light& light = change.lights[0] = scene->lights[0];
+    light.position += glm::vec3(0.1f, -0.2f, 0.1f);
+    light.color *= 2.0f;
+    Told told;
+    RenderSession session({}, told.listener());
+    session.begin(scene, request);
+    session.run();
+    const Film before = session.film();
+    session.change(change);
+    session.run();
+    ChangingScene changing(scene);
+    changing.apply(change);
+    EXPECT_FALSE(sameBytes(session.film(), before));
+    EXPECT_TRUE(sameBytes(session.film(), alone({}, changing.scene(), request)));
+    light = scene->lights[0];
+    session.change(change);
+    session.run();
+    EXPECT_TRUE(sameBytes(session.film(), before));
+    EXPECT_EQ(told.count(Stage::Building), 1u);
 }
 
 TEST(DeviceSession, SeveralAtTheSameTimeDoNotDisturbEachOther) {

@@ -75,13 +75,15 @@ TEST(RenderSession, ChangedNumbersOfMaterialsHaveTheBytesOfASessionOfItsOwn) {
         edited->materials[i].albedo *= 0.5f;
         numbers[i] = edited->materials[i];
     }
-    session.changeMaterials(numbers);
+    session.change({.materials = numbers, .lights = {}, .motions = {}});
     session.run();
     EXPECT_TRUE(sameBytes(session.film(), alone(kReference, edited, request)));
     EXPECT_EQ(scene->materials[0].albedo, 2.0f * edited->materials[0].albedo) << "its own stays";
     numbers[0].opacity = 0.5f;
-    EXPECT_THROW(session.changeMaterials(numbers), std::invalid_argument);
-    EXPECT_THROW(session.changeMaterials({{1000, {}}}), std::invalid_argument);
+    EXPECT_THROW(session.change({.materials = numbers, .lights = {}, .motions = {}}),
+                 std::invalid_argument);
+    EXPECT_THROW(session.change({.materials = {{1000, {}}}, .lights = {}, .motions = {}}),
+                 std::invalid_argument);
 }
 
 TEST(RenderSession, PausesDoNotShowInThePicture) {

@@ -231,7 +231,7 @@ TEST(KernelFeatures, TexturesAndOpacityOnlyWhereTheyHaveAnEffect) {
     for (const uint32_t id :
          {SPEC_TEXTURE_SLOTS, SPEC_LOOSE_SLOTS, SPEC_TEXEL_KINDS, SPEC_ATTRIBUTES, SPEC_HAS_ALPHA})
         EXPECT_EQ(f[id], 0u) << id;
-    EXPECT_TRUE(packScene(scene, buildWideBvh(scene)).details.empty());
+    EXPECT_TRUE(packScene(scene, buildWideBvh(scene)).details.rows.empty());
 
     m.textures.push_back({.slot = TextureSlot::BaseColor});
     f = featuresOf(scene);
@@ -242,7 +242,7 @@ TEST(KernelFeatures, TexturesAndOpacityOnlyWhereTheyHaveAnEffect) {
     EXPECT_EQ(f[SPEC_LOOSE_SLOTS], 1u << gpu::TEXTURE_BASE_COLOR);
     EXPECT_EQ(f[SPEC_ATTRIBUTES], gpu::ATTRIBUTE_UV0);
     EXPECT_EQ(f[SPEC_HAS_ALPHA], 0u);
-    EXPECT_EQ(packScene(scene, buildWideBvh(scene)).details.size(), 8u)
+    EXPECT_EQ(packScene(scene, buildWideBvh(scene)).details.rows.size(), 8u)
         << "two rows of coordinates, and the texel at three columns and two lines";
 
     scene.images[0].words = {0x7F804020};

@@ -150,15 +150,15 @@ TEST_F(Memory, TexturesThatHaveNoRoomArePackedPlainly) {
     EXPECT_TRUE(fast.texelKinds & gpu::TEXEL_KIND_GATHERED);
     EXPECT_FALSE(fast.texelKinds & gpu::TEXEL_KIND_PLAIN);
     EXPECT_FALSE(plain.texelKinds & (gpu::TEXEL_KIND_GATHERED | gpu::TEXEL_KIND_BUNDLE));
-    EXPECT_LT(plain.details.size(), fast.details.size() / 2);
+    EXPECT_LT(plain.details.rows.size(), fast.details.rows.size() / 2);
     vulkan::DeviceDescription d = roomyDevice();
     EXPECT_TRUE(haveRoomForTextures(d, fast));
-    const uint64_t bytes = fast.details.size() * sizeof(Row);
+    const uint64_t bytes = fast.details.rows.size() * sizeof(Row);
     d.largestAllocation = bytes - 1;
     EXPECT_FALSE(haveRoomForTextures(d, fast));
     EXPECT_TRUE(haveRoomForTextures(d, plain));
     d = roomyDevice();
-    d.properties.limits.maxTexelBufferElements = uint32_t(fast.details.size() - 1);
+    d.properties.limits.maxTexelBufferElements = uint32_t(fast.details.rows.size() - 1);
     d.properties.limits.maxStorageBufferRange = uint32_t(bytes - 1);
     EXPECT_FALSE(haveRoomForTextures(d, fast));
     EXPECT_TRUE(haveRoomForTextures(d, plain));

@@ -90,6 +90,41 @@ def test_a_changed_material_is_as_if_the_scene_had_it(session):
         session.change_material("ball", roughness=1)
 
 
+def test_a_moved_object_and_a_changed_light_are_as_if_the_scene_had_them(session):
+    def lit(x, color):
+        builder = stromboli.SceneBuilder("lit")
+        gray = builder.material("diffuse", name="gray", albedo=0.5)
+        corners = np.array([(-9, 0, -9), (9, 0, -9), (0, 0, 9)], dtype=float)
+        builder.mesh(corners, [(0, 2, 1)], gray, name="floor")
+        builder.mesh(corners / 16 + (x, 1, 0), [(0, 2, 1)], gray, name="roof")
+        builder.light("point", color=color, position=(0, 4, 0), name="lamp")
+        builder.camera((0, 2, 6), (0, 0, 0))
+        return builder.finish()
+
+    settings = dict(samples=4, width=8, height=8)
+    scene = lit(0, 1)
+    assert scene.objects == ["floor", "roof"] and scene.lights == ["lamp"]
+    session.begin(scene, **settings)
+    before = session.run()
+    motion = np.eye(4)
+    motion[0, 3] = 0.5
+    session.move("roof", motion)
+    session.change_light("lamp", color=(2, 1, 1))
+    changed = session.run()
+    assert not equal(changed, before)
+    assert equal(changed, session.render(lit(0.5, (2, 1, 1)), **settings))
+    session.begin(scene, **settings)
+    session.move("roof", motion)
+    session.move("roof")
+    assert equal(session.run(), before)
+    with pytest.raises(stromboli.UsageError, match="has no object 'none'"):
+        session.move("none")
+    with pytest.raises(stromboli.UsageError, match="affine"):
+        session.move("roof", np.zeros((4, 4)))
+    with pytest.raises(stromboli.UsageError, match="has no 'angle'"):
+        session.change_light(0, angle=3)
+
+
 def test_progress_is_told_and_may_end_the_picture(boxes, session):
     told = []
 

@@ -205,7 +205,7 @@ def test_loading(reference, tmp_path):
     with pytest.raises(stromboli.SceneError):
         stromboli.load(tmp_path / "empty.obj", strict=True)
     with pytest.raises(stromboli.UsageError, match="no material 'gold'"):
-        scene.material_number("gold")
+        scene.number_of("material", "gold")
 
 
 def test_the_documents_have_all_names():
