@@ -114,10 +114,10 @@ class RenderSession {
     void moveCamera(const CameraRequest& camera);
     /// Begins the picture again in a scene that has become another one: numbers of materials,
     /// lights, places of objects. The scene that was handed over stays as it is. A change of
-    /// materials and lights builds nothing and uploads their rows; what the first motion of an
-    /// object leaves where it is gets a tree of its own, which later ones keep. A kernel is
-    /// compiled only where materials and lights want another one. Throws std::invalid_argument
-    /// (ChangingScene::apply()).
+    /// materials and lights uploads their rows and builds nothing, but where a texture begins or
+    /// ceases to count; what the first motion of an object leaves where it is gets a tree of its
+    /// own, which later ones keep. A kernel is compiled only where materials and lights want
+    /// another one. Throws std::invalid_argument (ChangingScene::apply()).
     void change(const SceneChange& change);
 
     /// The picture that was begun, with nothing left open.

@@ -257,7 +257,7 @@ void Renderer::sceneHasChanged(const std::shared_ptr<const Scene>& before,
                                const SceneChange& change) {
     if (!devices_ || !built_) return; // it is built when it is asked for
     if (builtOf_ != before) return;
-    if (!change.motions.empty()) {
+    if (!change.motions.empty() || wantsOtherTextures(built_->gpu, *scene, gatheredRows_)) {
         builtOf_ = nullptr;
         movedTo_ = scene;
         return;

@@ -102,8 +102,8 @@ class Renderer {
 
     /// `before` has become `scene`, which may be the same object, by this change, while no picture
     /// of it was under way. Of materials and lights it brings to the devices what has become
-    /// another, and builds nothing; motions are left to the next begin(), which keeps trees and
-    /// texels of what has not moved.
+    /// another, and builds nothing. Motions, and textures that begin or cease to count, are left to
+    /// the next begin(), which keeps trees of what has not moved, and texels.
     void sceneHasChanged(const std::shared_ptr<const Scene>& before,
                          const std::shared_ptr<const Scene>& scene, const SceneChange& change);
 
@@ -155,7 +155,7 @@ class Renderer {
     std::shared_ptr<const Scene> builtOf_;
     LightSelection builtFor_;
     uint64_t gatheredRows_ = kUsualGatheredRows; ///< that it was built with
-    /// The scene that only objects' places tell from the one that was built; null: there is none.
+    /// What the scene that was built has become, to be built of what is kept of it; null: nothing.
     std::shared_ptr<const Scene> movedTo_;
     KeptParts kept_;                       ///< of moments of an animation, and where objects move
     std::optional<RenderDevices> devices_; ///< none: the reference renders

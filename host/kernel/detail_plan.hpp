@@ -47,6 +47,7 @@ struct DetailPlan {
         bool isHidden = false;            ///< camera rays pass it
         bool isBlend = false;             ///< another material may take its place
         bool coatHasNormal = false;       ///< gpu::DETAIL_COAT_HAS_NORMAL
+        bool operator==(const MaterialPlan&) const = default;
     };
     std::vector<MaterialPlan> materials; ///< by material of the scene
     std::set<EdgedImage> plainImages;    ///< of textures in no bundle: gpu::TEXELS_PLAIN
@@ -61,6 +62,7 @@ struct DetailPlan {
     bool hasBlends = false;
     bool hasTangentFrames = false; ///< a BSDF depends on the direction of tangents
 
+    bool operator==(const DetailPlan&) const = default;
     bool hasBundles() const { return (texelKinds & gpu::TEXEL_KIND_BUNDLE) != 0; }
     /// Materials have a gpu::MaterialDetail.
     bool hasMaterialDetails() const { return textureSlots != 0 || hasAlpha || hasBlends; }

@@ -20,8 +20,8 @@ struct DetailRows {
 
 DetailRows packDetails(const Scene& scene, const WideLayout& bvh, const DetailPlan& plan);
 
-/// The same of a scene that differs from the one that `before` was packed from in the places of its
-/// objects alone, with its attributes (gpu::ATTRIBUTE_ bits): texels are copied.
+/// The same of a scene that `before` was packed from but for the places of its objects, by the same
+/// plan, which has these attributes (gpu::ATTRIBUTE_ bits): texels are copied.
 DetailRows repackAttributes(const Scene& scene, const WideLayout& bvh, uint32_t attributes,
                             const DetailRows& before);
 

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace stromboli {
 
@@ -117,25 +118,18 @@ bool nameLights(GpuScene& g, std::span<const uint32_t> before = {}) {
     return anyChanged;
 }
 
-void packTextures(GpuScene& g, const Scene& scene, const DetailPlan& plan) {
-    g.details = packDetails(scene, g.bvh, plan);
+/// before: as packScene() has it.
+void packTextures(GpuScene& g, const Scene& scene, DetailPlan plan, const GpuScene* before) {
+    g.details = before && before->detailPlan == plan
+                    ? repackAttributes(scene, g.bvh, plan.attributes, before->details)
+                    : packDetails(scene, g.bvh, plan);
     g.textureSlots = plan.textureSlots, g.looseSlots = plan.looseSlots;
     g.texelKinds = plan.texelKinds;
     g.attributes = plan.attributes, g.hasAlpha = plan.hasAlpha, g.hasHidden = plan.hasHidden;
     g.mostTextures = plan.mostTextures;
     g.hasBlends = plan.hasBlends;
     g.hasTangentFrames = plan.hasTangentFrames;
-}
-
-/// Those of a scene that only the places of its objects tell from this one.
-void keepTextures(GpuScene& g, const Scene& scene, const GpuScene& before) {
-    g.details = repackAttributes(scene, g.bvh, before.attributes, before.details);
-    g.textureSlots = before.textureSlots, g.looseSlots = before.looseSlots;
-    g.texelKinds = before.texelKinds;
-    g.attributes = before.attributes, g.hasAlpha = before.hasAlpha, g.hasHidden = before.hasHidden;
-    g.mostTextures = before.mostTextures;
-    g.hasBlends = before.hasBlends;
-    g.hasTangentFrames = before.hasTangentFrames;
+    g.detailPlan = std::move(plan);
 }
 
 /// All of a scene but its tree and its textures.
@@ -179,10 +173,7 @@ GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lig
                    const GpuScene* before) {
     GpuScene g;
     g.bvh = std::move(bvh);
-    if (before)
-        keepTextures(g, scene, *before);
-    else
-        packTextures(g, scene, planDetails(scene, usedMaterials(scene), gatheredRows));
+    packTextures(g, scene, planDetails(scene, usedMaterials(scene), gatheredRows), before);
     packRest(g, scene, lights, std::move(environment));
     nameLights(g);
     // Beside lights that are geometry: a rectangle that is none has its own mesh close by.
@@ -191,15 +182,15 @@ GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lig
 }
 
 bool differInNumbers(const Material& a, const Material& b) {
-    const auto sameUse = [](const TextureUse& x, const TextureUse& y) {
-        return x.slot == y.slot && x.texture == y.texture && x.uvSet == y.uvSet &&
-               x.uRow == y.uRow && x.vRow == y.vRow && x.scale == y.scale;
-    };
     return a.kind == b.kind && a.alphaMode == b.alphaMode && a.opacity == b.opacity &&
            a.alphaCutoff == b.alphaCutoff && a.other == b.other && a.otherShare == b.otherShare &&
            a.otherPlace == b.otherPlace && a.isHiddenFromCamera == b.isHiddenFromCamera &&
            a.boundsMedia == b.boundsMedia && a.inside == b.inside && a.outside == b.outside &&
-           std::ranges::equal(a.textures, b.textures, sameUse);
+           a.textures == b.textures;
+}
+
+bool wantsOtherTextures(const GpuScene& packed, const Scene& scene, uint64_t gatheredRows) {
+    return planDetails(scene, usedMaterials(scene), gatheredRows) != packed.detailPlan;
 }
 
 std::vector<uint32_t> repackMaterials(GpuScene& packed, const Scene& scene,

@@ -37,7 +37,7 @@ struct GpuScene {
     bool hasTriangles = false, hasSpheres = false;
     bool hasNormals = false; ///< any triangle with shading normals
     bool hasPlacements = false;
-    // DetailPlan:
+    DetailPlan detailPlan; ///< that `details` follow; of it:
     uint32_t textureSlots = 0, looseSlots = 0, texelKinds = 0, attributes = 0, mostTextures = 0;
     bool hasAlpha = false, hasHidden = false, hasTangentFrames = false;
 };
@@ -45,7 +45,7 @@ struct GpuScene {
 /// Packs the scene, whose hierarchy is `bvh`. For a render `lights` is lightSelection() of its
 /// settings; by default all lights are sampled. environment: of the scene's environment, where it
 /// was packed before (LightTable::environment). gatheredRows: of planDetails(). before: of a scene
-/// that differs from this one in the places of its objects alone, packed with the same
+/// that has the same meshes and textures, with objects elsewhere, packed with the same
 /// gatheredRows; null: there is none.
 GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lights = {},
                    std::shared_ptr<const EnvironmentTable> environment = {},
@@ -54,6 +54,10 @@ GpuScene packScene(const Scene& scene, WideLayout bvh, const LightSelection& lig
 /// Whether both materials differ in numbers alone: colours, roughness, indices and emission, but in
 /// no texture, opacity, mixture or medium.
 bool differInNumbers(const Material& a, const Material& b);
+
+/// Whether other textures count in the scene than in the one that `packed` was packed from, with
+/// the same gatheredRows: one multiplies a number that is no longer 0, or one that is 0 now.
+bool wantsOtherTextures(const GpuScene& packed, const Scene& scene, uint64_t gatheredRows);
 
 /// Brings into `packed`, which was packed from `scene` with the same `lights`, what has become of
 /// the numbers of its materials (differInNumbers()). The tree and the textures stay as they are.

@@ -73,6 +73,8 @@ struct TextureUse {
     /// Normal, ClearcoatNormal: of the tangential part. Height: what 1 stands for, in metres.
     /// Opacity: its sign alone counts.
     float scale = 1;
+
+    bool operator==(const TextureUse&) const = default;
 };
 
 /// What the corners of triangles have beside position and normal.

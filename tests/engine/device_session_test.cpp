@@ -197,6 +197,23 @@ TEST(DeviceSession, ChangedLightsBuildNothingAndHaveTheBytesOfASessionOfItsOwn) 
     EXPECT_EQ(told.count(Stage::Building), 1u);
 }
 
+/// A texture that multiplies 0 is left out of the scene on the device.
+TEST(DeviceSession, ATextureThatBeginsToCountIsThere) {
+    const std::shared_ptr<Scene> scene = bundled("still_life");
+    std::map<uint32_t, Material> numbers;
+    for (uint32_t i = 0; i < scene->materials.size(); ++i) {
+        numbers[i] = scene->materials[i];
+        scene->materials[i].principled.baseColor = glm::vec3(0);
+    }
+    const RenderRequest request = smallPicture(4);
+    RenderSession session;
+    session.begin(scene, request);
+    session.run();
+    session.change({.materials = numbers, .lights = {}, .motions = {}});
+    session.run();
+    EXPECT_TRUE(sameBytes(session.film(), alone({}, bundled("still_life"), request)));
+}
+
 TEST(DeviceSession, SeveralAtTheSameTimeDoNotDisturbEachOther) {
     const auto scene = bundled("cornell_spheres");
     const RenderRequest front = smallPicture(16);
