@@ -88,6 +88,12 @@ void Lights::placeDistant(const Parameters& p, const glm::dmat4& worldFromLight)
     context_.builder.placeLight(std::move(light), turnedAround(*frame));
 }
 
+/// Pictures of the loader's own are no larger than those of files may be.
+uint32_t Lights::sideOfPicture(uint32_t usual) const {
+    const uint32_t largest = context_.builder.conventions().selection.largestTexture;
+    return largest == 0 ? usual : std::min(usual, largest);
+}
+
 /// A lamp whose intensity is a picture across its direction, so many tangents to each side.
 void Lights::placeProjector(const std::string& name, const Intensity& intensity,
                             const glm::dmat4& worldFromLamp, const glm::dvec2& tangents,
@@ -139,10 +145,10 @@ void Lights::placeAllAround(const std::string& name, const Intensity& intensity,
             face[2][axis] = side;
             face[3][3] = 1;
             const glm::dmat3 turn(face);
-            constexpr uint32_t kSide = 256;
+            const uint32_t texels = sideOfPicture(256);
             placeProjector(
                 name, [&](const glm::dvec3& d) { return intensity(turn * d); },
-                worldFromLamp * face, glm::dvec2(1), glm::uvec2(kSide));
+                worldFromLamp * face, glm::dvec2(1), glm::uvec2(texels));
         }
 }
 
@@ -166,11 +172,11 @@ void Lights::placeSpot(const Parameters& p, const glm::dmat4& worldFromLight) {
         return color * (isV3 ? t * t * t * t : t * t * (3 - 2 * t));
     };
     constexpr double kWidest = 75; // of a single picture across
-    constexpr uint32_t kSide = 512;
+    const uint32_t side = sideOfPicture(512);
     const glm::dmat4 world = worldFromLight * *frame;
     if (cone > kWidest) return placeAllAround("spot", intensity, world);
     placeProjector("spot", intensity, world,
-                   glm::dvec2(std::tan(glm::radians(std::max(cone, 0.1)))), glm::uvec2(kSide));
+                   glm::dvec2(std::tan(glm::radians(std::max(cone, 0.1)))), glm::uvec2(side));
 }
 
 void Lights::placeGoniometric(const Parameters& p, const glm::dmat4& worldFromLight) {

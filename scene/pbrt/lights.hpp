@@ -30,6 +30,7 @@ class Lights {
     void placeGoniometric(const Parameters& light, const glm::dmat4& worldFromLight);
     void placeProjection(const Parameters& light, const glm::dmat4& worldFromLight);
     glm::dvec3 colorOfLight(const Parameters& light, const char* name);
+    uint32_t sideOfPicture(uint32_t usual) const;
     void placeProjector(const std::string& name, const Intensity& intensity,
                         const glm::dmat4& worldFromLamp, const glm::dvec2& tangents,
                         const glm::uvec2& texels);
