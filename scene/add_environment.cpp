@@ -3,11 +3,15 @@
 #include "scene/build/report.hpp"
 #include "scene/find_scene.hpp"
 #include "scene/images/float_image.hpp"
+#include "scene/sky/sun_sky.hpp"
 
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 
+#include <glm/trigonometric.hpp>
+
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace stromboli {
@@ -33,11 +37,31 @@ Environment fromFile(const EnvironmentRequest& request, LoadReport& lines) {
     return environment;
 }
 
+Environment skyOf(const SunRequest& request) {
+    sky::SunSky s;
+    const double azimuth = glm::radians(request.azimuth),
+                 elevation = glm::radians(std::clamp(request.elevation, 0.0, 90.0));
+    s.turbidity = request.turbidity;
+    s.halfAperture = glm::radians(0.5358 / 2);
+    s.sunScale = s.skyScale = 1 / kDaylight;
+    s.skyFromWorld = glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0));
+    s.sun =
+        s.skyFromWorld * glm::dvec3(std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+                                    -std::cos(elevation) * std::cos(azimuth));
+    s.sun.z = std::max(s.sun.z, 0.0); // of an elevation of 0, whose sine is rounded
+    Environment environment = sky::sunSkyPicture(s, sky::sunIrradiance(s));
+    sky::addGround(environment, s.albedo);
+    environment.name = fmt::format("sun at {:g},{:g}", request.azimuth, request.elevation);
+    return environment;
+}
+
 } // namespace
 
 void addEnvironment(Scene& scene, const EnvironmentRequest& request) {
     Environment environment;
-    if (request.constant)
+    if (request.sun)
+        environment = skyOf(*request.sun);
+    else if (request.constant)
         environment.radiance = {*request.constant};
     else
         environment = fromFile(request, scene.report);

@@ -100,6 +100,11 @@ std::string sceneFile(const std::string& name) {
     throwMissing(name, "scene", namesOf(bundled));
 }
 
+std::string usualEnvironment(const std::string& scene) {
+    std::error_code failed;
+    return scene == "still_life" && !fs::is_regular_file(scene, failed) ? "evening_sky" : "";
+}
+
 std::string environmentFile(const std::string& name) {
     std::error_code failed;
     if (fs::exists(name, failed)) return name;

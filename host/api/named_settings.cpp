@@ -66,6 +66,28 @@ const std::string& word(std::string_view name, const Value& value, const std::st
     return *text;
 }
 
+/// One number for all channels, or three.
+glm::vec3 color(std::string_view name, const Value& value, double most, const std::string& what) {
+    const auto* given = std::get_if<std::vector<double>>(&value);
+    const bool isGrey = given && given->size() == 1;
+    const auto c = numbers(name, value, isGrey ? 1 : 3, 0, most, what);
+    return isGrey ? glm::vec3(float(c[0])) : glm::vec3(float(c[0]), float(c[1]), float(c[2]));
+}
+
+SunRequest sun(std::string_view name, const Value& value) {
+    const std::string expected =
+        "degrees around, degrees above the horizon (0 to 90), and maybe haze (1 to 10)";
+    const auto* given = std::get_if<std::vector<double>>(&value);
+    const size_t count = given && given->size() == 2 ? 2 : 3;
+    const auto n = numbers(name, value, count, -3600, 3600, expected);
+    SunRequest result{n[0], n[1]};
+    if (count == 3) result.turbidity = n[2];
+    if (!(result.elevation >= 0 && result.elevation <= 90 && result.turbidity >= 1 &&
+          result.turbidity <= 10))
+        refuse(name, value, expected);
+    return result;
+}
+
 template <class E>
 E choice(std::string_view name, const Value& value) {
     const auto chosen = valueNamed<E>(word(name, value, allNames<E>()));
@@ -262,17 +284,20 @@ constexpr Row<DeviceRequest> kDeviceRows[] = {
 
 constexpr Row<SceneRequest> kReadingRows[] = {
     {"environment",
-     "light from all around: a picture's file, evening_sky, or radiance (one or "
-     "three numbers)",
+     "light from all around: a picture's file or the name of a bundled one, or "
+     "radiance (one or three numbers)",
      [](SceneRequest& s, Name n, const Value& v) {
          if (const auto* file = std::get_if<std::string>(&v)) {
              s.environment.file = *file;
              return;
          }
-         const bool isGrey = std::get<std::vector<double>>(v).size() == 1;
-         const auto c = numbers(n, v, isGrey ? 1 : 3, 0, 1e30, "one or three radiances from 0 on");
-         s.environment.constant =
-             isGrey ? glm::vec3(float(c[0])) : glm::vec3(float(c[0]), float(c[1]), float(c[2]));
+         s.environment.constant = color(n, v, 1e30, "one or three radiances from 0 on");
+     }},
+    {"sun", "a clear sky: degrees clockwise from -z and above the horizon, and maybe haze, 1 to 10",
+     [](SceneRequest& s, Name n, const Value& v) { s.environment.sun = sun(n, v); }},
+    {"ground", "a floor under all there is, of this colour: one or three numbers",
+     [](SceneRequest& s, Name n, const Value& v) {
+         s.ground = {true, color(n, v, 1, "one or three shares in [0, 1]")};
      }},
     {"environment_rotation", "degrees about the vertical",
      [](SceneRequest& s, Name n, const Value& v) {
@@ -286,11 +311,7 @@ constexpr Row<SceneRequest> kReadingRows[] = {
      [](SceneRequest& s, Name n, const Value& v) { s.fog.density = number(n, v, 0, 1e9); }},
     {"fog_color", "the share of its light that is scattered: one or three numbers",
      [](SceneRequest& s, Name n, const Value& v) {
-         const auto* given = std::get_if<std::vector<double>>(&v);
-         const bool isGrey = given && given->size() == 1;
-         const auto c = numbers(n, v, isGrey ? 1 : 3, 0, 1, "one or three shares in [0, 1]");
-         s.fog.color =
-             isGrey ? glm::vec3(float(c[0])) : glm::vec3(float(c[0]), float(c[1]), float(c[2]));
+         s.fog.color = color(n, v, 1, "one or three shares in [0, 1]");
      }},
     {"fog_asymmetry", "mean cosine of its phase function, from -0.9999 to 0.9999",
      [](SceneRequest& s, Name n, const Value& v) {

@@ -1,6 +1,7 @@
 #include "host/cli/command_line.hpp"
 
 #include "host/cli/declared_command.hpp"
+#include "host/cli/presets.hpp"
 #include "host/core/error.hpp"
 #include "host/core/nearest_name.hpp"
 #include "host/version/version.hpp"
@@ -343,6 +344,7 @@ DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, const Words
         std::find_if(apps.begin(), apps.end(), [](const CLI::App* one) { return one->parsed(); });
     DeclaredCommand& command = commands[size_t(chosen - apps.begin())];
     addImplied(command.list, given);
+    command.host.presetSets = addPreset(command.list, given);
     for (const auto& option : given)
         command.given.insert(option.first);
     store(command.list, given);

@@ -69,6 +69,7 @@ int runLine(const std::vector<std::string>& arguments) {
     watchSignals();
     for (const std::string& remark : host.remarks)
         logging::warn(remark);
+    if (!host.presetSets.empty()) logging::info(host.presetSets);
     return run(*command);
 }
 

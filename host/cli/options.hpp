@@ -35,6 +35,7 @@ struct HostOptions {
     uint32_t threads = 0; ///< 0: all
     Verbosity verbosity = Verbosity::Normal;
     std::vector<std::string> remarks; ///< on what was given and has no effect
+    std::string presetSets;           ///< a line on what a preset sets; empty: there is none
 };
 
 /// What commands about a picture of a scene have in common.

@@ -1,4 +1,4 @@
-// Options: which scene, which picture of it, and the file that it is written to.
+// Options: which picture of a scene, and the file that it is written to.
 #include "host/cli/declared_command.hpp"
 #include "host/cli/sequence.hpp"
 #include "host/core/error.hpp"
@@ -19,71 +19,12 @@ namespace {
 /// Larger pictures than this on a side are taken for mistakes.
 constexpr Range<uint32_t> kSide{1, 65536};
 constexpr Range<uint32_t> kPlace{0, 65535};
-constexpr Range<uint32_t> kSceneNumbers{0, 0xFFFFFFFEu};
-constexpr Range<uint32_t> kTextureSides{0, 65536};
-constexpr Range<double> kAnimationSeconds{0, 1e9};
 
 Crop readCrop(const std::string& name, const Words& words) {
     return {readNumber(name + ": left", words[0], kPlace),
             readNumber(name + ": top", words[1], kPlace),
             readNumber(name + ": width", words[2], kSide),
             readNumber(name + ": height", words[3], kSide)};
-}
-
-/// Radiance: one number for all channels, or three with commas between. Empty if it is no such
-/// text.
-std::optional<glm::vec3> readRadiance(const std::string& word) {
-    const size_t first = word.find(','), second = word.find(',', first + 1);
-    const auto channel = [](const std::string& text) -> std::optional<float> {
-        const std::optional<double> value = realNumber(text);
-        if (!value || *value < 0 || *value > 1e30) return std::nullopt;
-        return float(*value);
-    };
-    if (first == std::string::npos) {
-        const std::optional<float> grey = channel(word);
-        return grey ? std::optional(glm::vec3(*grey)) : std::nullopt;
-    }
-    if (second == std::string::npos) return std::nullopt;
-    const std::optional<float> r = channel(word.substr(0, first)),
-                               g = channel(word.substr(first + 1, second - first - 1)),
-                               b = channel(word.substr(second + 1));
-    return r && g && b ? std::optional(glm::vec3(*r, *g, *b)) : std::nullopt;
-}
-
-/// The numbers of a list, whose commas have nothing but numbers between them; else empty.
-std::vector<double> numbersOfList(const std::string& word) {
-    std::vector<double> numbers;
-    for (size_t from = 0; from <= word.size();) {
-        const size_t comma = std::min(word.find(',', from), word.size());
-        const std::optional<double> value = realNumber(word.substr(from, comma - from));
-        if (!value) return {};
-        numbers.push_back(*value);
-        from = comma + 1;
-    }
-    return numbers;
-}
-
-/// DENSITY[,R,G,B][,G].
-FogRequest readFog(const std::string& word) {
-    const std::vector<double> n = numbersOfList(word);
-    const auto within = [&](size_t from, size_t end, double low, double high) {
-        return std::all_of(n.begin() + long(from), n.begin() + long(end),
-                           [&](double x) { return x >= low && x <= high; });
-    };
-    const bool hasColor = n.size() >= 4, hasAsymmetry = n.size() == 2 || n.size() == 5;
-    const bool isRead = n.size() == 1 || n.size() == 2 || n.size() == 4 || n.size() == 5;
-    if (!isRead || !within(0, 1, 0, 1e9) || (hasColor && !within(1, 4, 0, 1)) ||
-        (hasAsymmetry &&
-         !within(n.size() - 1, n.size(), -double(kMostAsymmetry), double(kMostAsymmetry))))
-        throw UsageError(fmt::format(
-            "--fog is '{}': expected a density per metre, or DENSITY,R,G,B with a colour in "
-            "[0, 1], and behind either a mean cosine from -0.9999 to 0.9999",
-            word));
-    FogRequest fog;
-    fog.density = n[0];
-    if (hasColor) fog.color = {float(n[1]), float(n[2]), float(n[3])};
-    if (hasAsymmetry) fog.asymmetry = n.back();
-    return fog;
 }
 
 /// One of the words of CameraChoice, else the name or number of a camera of the file.
@@ -178,92 +119,6 @@ Words splitAtCommas(const std::string& word) {
         pieces.push_back(word.substr(first, end - first));
     }
     return pieces;
-}
-
-void declareScene(OptionList& list, SceneRequest& scene, Words* several) {
-    list.group("Scene");
-    const char* const help =
-        "COLLADA (.dae, .zae), glTF (.gltf, .glb), Mitsuba (.xml), pbrt, OBJ, PLY, or by Assimp "
-        "STL, "
-        "FBX, 3DS, ... file; or a "
-        "bundled scene by its name "
-        "(cornell_boxes, island, "
-        "...); or generate:cornell_mesh:N for a scene of N triangles made in memory, "
-        "generate:lamps:N for one lit by N triangles, generate:forest:N for N trees that "
-        "are instances";
-    CommandOption& named = several ? list.list("SCENE", "", help, *several)
-                                   : list.text("SCENE", "", help, scene.source);
-    named.required().proposes(Proposed::Scenes);
-    SceneConventions& reading = scene.reading;
-    list.onOff("--default-light",
-               "on: a plain sky lights a file without any light; off: it stays black",
-               reading.defaultLight)
-        .usually("on; --cs184: off");
-    EnvironmentRequest& environment = scene.environment;
-    list.words("--env", "FILE",
-               "light from all around: an equirectangular picture (.hdr, .exr, ...), the bundled "
-               "evening_sky, or its radiance as a number or as R,G,B; takes the place of ambient "
-               "light and is seen by the camera",
-               1,
-               [&environment](const Words& words) {
-                   if (words[0].empty()) throw UsageError("--env is empty: expected text");
-                   environment.constant = readRadiance(words[0]);
-                   environment.file = environment.constant ? "" : words[0];
-               })
-        .excludes("--cs184")
-        .proposes(Proposed::Files);
-    list.real("--env-rotate", "DEGREES",
-              "turns it about the vertical, counter-clockwise seen from above",
-              environment.rotationDegrees, {-3600, 3600}, kDegrees)
-        .needs("--env");
-    list.real("--env-strength", "X", "multiplies its radiance", environment.strength, {0, 1e9})
-        .needs("--env");
-    list.words("--fog", "DENSITY",
-               "fills the scene with fog of that extinction per metre; DENSITY,R,G,B: of a colour; "
-               "and ,G behind either: its light goes forwards (up to 0.9999) or back (-0.9999)",
-               1, [&scene](const Words& words) { scene.fog = readFog(words[0]); })
-        .excludes("--cs184");
-    FileSelection& selection = reading.selection;
-    list.words("--scene", "N", "glTF: the scene of this number, from 0", 1,
-               [&selection](const Words& words) {
-                   selection.scene = readNumber("--scene", words[0], kSceneNumbers);
-               })
-        .usually("the file's own choice")
-        .from(inWords(kSceneNumbers));
-    list.text("--variant", "NAME", "glTF: the set of materials of this name", selection.variant);
-    list.words("--at", "SECONDS", "glTF: the pose that the first animation has at this time", 1,
-               [&selection](const Words& words) {
-                   selection.seconds = readReal("--at", words[0], kAnimationSeconds, kTimes);
-               })
-        .usually("the pose without animation")
-        .from(inWords(kAnimationSeconds));
-    list.words(
-            "-D,--define", "NAME=VALUE",
-            "Mitsuba: the value of $NAME in the scene, in place of its <default>; may be repeated",
-            1,
-            [&selection](const Words& words) {
-                for (const std::string& word : words) {
-                    const size_t equals = word.find('=');
-                    if (equals == 0 || equals == std::string::npos)
-                        refuse("-D", word, "NAME=VALUE");
-                    selection.definitions.push_back(
-                        {word.substr(0, equals), word.substr(equals + 1)});
-                }
-            })
-        .mayRepeat = true;
-    list.number("--max-texture", "N",
-                "halves pictures on surfaces until no side has more pixels; 0: never",
-                selection.largestTexture, kTextureSides);
-    list.choice(
-        "--instances", "HOW",
-        "what meshes that a file shows several times do with their triangles; sharing takes "
-        "less memory, copies are faster",
-        reading.instances);
-    list.flag("--strict",
-              "what breaks the rules of the scene's format or cannot be read is an error, also "
-              "where it is clear "
-              "what is meant",
-              reading.strict);
 }
 
 void declarePictureFile(OptionList& list, OutputOptions& o, ToneMapping& tone) {

@@ -1,5 +1,6 @@
 // Options of `render`.
 #include "host/cli/declared_command.hpp"
+#include "host/cli/presets.hpp"
 #include "host/cli/sequence.hpp"
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
@@ -283,6 +284,7 @@ void declareRender(DeclaredCommand& c) {
     OptionList& list = c.list;
     declareScene(list, o->scene);
     declareOutput(list, *o);
+    declarePreset(list);
     declarePicture(list, o->picture, *asked, true);
     declareSequence(list, o->sequence);
     declareEstimator(list, *o, *asked);

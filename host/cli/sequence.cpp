@@ -115,10 +115,13 @@ std::vector<uint32_t> framesOf(const SequenceOptions& sequence) {
 
 void takeFrame(SceneAndPicture& work, const SequenceOptions& sequence, uint32_t frame) {
     FileSelection& selection = work.scene.reading.selection;
-    if (sequence.turntable > 0)
+    if (sequence.turntable > 0) {
         work.picture.camera.turn = 2 * glm::pi<double>() * frame / sequence.turntable;
-    else
-        selection.seconds = frame / sequence.framesPerSecond, selection.isFrame = true;
+        work.picture.camera.isOneOfTurns = true;
+    } else {
+        selection.seconds = frame / sequence.framesPerSecond;
+        selection.isFrame = true;
+    }
 }
 
 void nameFrame(std::vector<std::string>& command, uint32_t frame) {

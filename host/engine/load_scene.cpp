@@ -2,6 +2,7 @@
 
 #include "host/checkpoint/scene_identity.hpp"
 #include "host/core/system.hpp"
+#include "scene/find_scene.hpp"
 #include "scene/read_scene.hpp"
 
 #include <fmt/format.h>
@@ -14,10 +15,20 @@ namespace stromboli {
 
 namespace {
 
+/// What is around the scene, with what it was made for where nobody says another thing.
+EnvironmentRequest environmentOf(const SceneRequest& request) {
+    EnvironmentRequest environment = request.environment;
+    if (!environment.isGiven() && request.reading.defaultLight)
+        environment.file = usualEnvironment(request.source);
+    environment.largestSide = request.reading.selection.largestTexture;
+    environment.strict = request.reading.strict;
+    return environment;
+}
+
 Scene readFile(const SceneRequest& request, const Listener& listener) {
     listener.doing(Stage::Loading, "loading " + request.source);
     SceneConventions reading = request.reading;
-    if (request.environment.isGiven()) reading.defaultLight = false;
+    if (environmentOf(request).isGiven()) reading.defaultLight = false;
     return readScene(request.source, reading);
 }
 
@@ -37,12 +48,13 @@ void report(const LoadReport& lines, const Listener& listener) {
 LoadedScene loadScene(const SceneRequest& request, const Listener& listener) {
     const Stopwatch watch;
     auto scene = std::make_shared<Scene>(readFile(request, listener));
-    if (request.environment.isGiven()) {
-        EnvironmentRequest environment = request.environment;
-        environment.largestSide = request.reading.selection.largestTexture;
-        environment.strict = request.reading.strict;
+    if (const EnvironmentRequest environment = environmentOf(request); environment.isGiven()) {
         addEnvironment(*scene, environment);
+        if (!request.environment.isGiven())
+            listener.info(fmt::format("{} is lit by the bundled {}, for which it was made",
+                                      request.source, environment.file));
     }
+    if (request.ground.isGiven) addGround(*scene, request.ground);
     if (request.fog.isGiven()) addFog(*scene, request.fog);
     const double seconds = watch.seconds();
     report(scene->report, listener);
@@ -59,6 +71,7 @@ LoadedScene loadMoment(const SceneRequest& request, LoadedScene before, const Li
     }
     if (request.environment.isGiven())
         addEnvironment(moment, std::move(*std::exchange(before.scene->environment, {})));
+    if (request.ground.isGiven) addGround(moment, request.ground);
     if (request.fog.isGiven()) addFog(moment, request.fog);
     return {std::make_shared<Scene>(std::move(moment)), seconds};
 }

@@ -6,6 +6,7 @@
 #include "host/render/estimator.hpp"
 #include "scene/add_environment.hpp"
 #include "scene/add_fog.hpp"
+#include "scene/add_ground.hpp"
 #include "scene/build/conventions.hpp"
 #include "scene/model/scene.hpp"
 
@@ -44,6 +45,7 @@ struct SceneRequest {
     std::string source; ///< a file, a bundled scene or a generated one (scene/read_scene.hpp)
     SceneConventions reading;
     EnvironmentRequest environment;
+    GroundRequest ground;
     FogRequest fog;
 };
 

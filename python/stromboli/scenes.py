@@ -100,6 +100,8 @@ def load(
     source: Union[str, os.PathLike[str]],
     *,
     environment: Union[None, str, os.PathLike[str], Color] = None,
+    sun: Optional[Sequence[float]] = None,
+    ground: Optional[Color] = None,
     environment_rotation: Optional[float] = None,
     environment_strength: Optional[float] = None,
     fog: Optional[float] = None,
@@ -116,6 +118,9 @@ def load(
     """Reads a scene: a file of any format that Stromboli knows, or a bundled scene by its name.
 
     environment -- light from all around: an equirectangular picture's file, or its radiance
+    sun -- a clear sky: degrees clockwise from -z seen from above, degrees above the horizon, and
+    maybe haze, 1 to 10
+    ground -- a floor under all there is, of this colour, [0, 1]
     environment_rotation -- degrees about the vertical, counter-clockwise seen from above
     environment_strength -- multiplies its radiance
     fog -- extinction of fog that fills the scene, per metre
@@ -134,6 +139,8 @@ def load(
     settings = given(
         {
             "environment": environment,
+            "sun": sun,
+            "ground": ground,
             "environment_rotation": environment_rotation,
             "environment_strength": environment_strength,
             "fog": fog,

@@ -1,6 +1,7 @@
 #include "scene/camera/camera.hpp"
 
 #include "host/core/error.hpp"
+#include "scene/model/placements.hpp"
 
 #include <fmt/format.h>
 
@@ -128,6 +129,83 @@ Camera framedView(const Scene& scene, const FileCamera& optics,
     return camera;
 }
 
+/// Points that together tell how far the scene reaches, about its middle.
+std::vector<glm::dvec3> outlineOf(const Scene& scene, const Bounds& bounds, bool turns) {
+    const glm::dvec3 middle = 0.5 * (glm::dvec3(bounds.lo) + glm::dvec3(bounds.hi));
+    std::vector<glm::dvec3> points;
+    const auto addBox = [&](const Bounds& box) {
+        for (int corner = 0; corner < 8; ++corner)
+            points.push_back(glm::dvec3(corner & 1 ? box.hi.x : box.lo.x,
+                                        corner & 2 ? box.hi.y : box.lo.y,
+                                        corner & 4 ? box.hi.z : box.lo.z) -
+                             middle);
+    };
+    if (turns) {
+        constexpr int kTurns = 32;
+        addBox(bounds);
+        const std::vector<glm::dvec3> corners = points;
+        for (int i = 1; i < kTurns; ++i) {
+            const double c = std::cos(2 * std::numbers::pi * i / kTurns),
+                         s = std::sin(2 * std::numbers::pi * i / kTurns);
+            for (const glm::dvec3& p : corners)
+                points.emplace_back(c * p.x + s * p.z, p.y, c * p.z - s * p.x);
+        }
+        return points;
+    }
+    // What a scene frames may be less than all there is: a floor is left out.
+    const auto isFramed = [&](const glm::vec3& p) {
+        return glm::all(glm::greaterThanEqual(p, bounds.lo)) &&
+               glm::all(glm::lessThanEqual(p, bounds.hi));
+    };
+    for (uint32_t t = scene.firstInWorld(); t < scene.triangles.size(); ++t)
+        for (const uint32_t corner : scene.triangles[t].corner)
+            if (isFramed(scene.positions[corner]))
+                points.push_back(glm::dvec3(scene.positions[corner]) - middle);
+    const std::vector<Bounds> prototypes = prototypeBounds(scene);
+    for (const Placement& p : scene.placements)
+        addBox(boundsInWorld(p, prototypes[p.prototype]));
+    for (const Sphere& s : scene.spheres) {
+        Bounds box;
+        box.extend(s.center - glm::vec3(s.radius));
+        box.extend(s.center + glm::vec3(s.radius));
+        if (isFramed(box.lo) && isFramed(box.hi)) addBox(box);
+    }
+    if (points.empty()) addBox(bounds);
+    return points;
+}
+
+/// From so far along this axis, and so far beside it, that the points just fill a view of this
+/// tangent: where p is their place across the axis and z that along it, |p - beside| <=
+/// tangent (distance - z).
+struct Fit {
+    double distance = 0, beside = 0;
+};
+Fit fitOf(const std::vector<glm::dvec3>& points, const glm::dvec3& across, const glm::dvec3& back,
+          double tangent) {
+    double most = -1e300, least = 1e300;
+    for (const glm::dvec3& p : points) {
+        const double at = glm::dot(p, across), depth = tangent * glm::dot(p, back);
+        most = std::max(most, at + depth);
+        least = std::min(least, at - depth);
+    }
+    return {(most - least) / (2 * tangent), (most + least) / 2};
+}
+
+/// As close as shows all of the scene, with a margin of a twentieth of the picture at each side.
+void moveToFill(Camera& camera, const Scene& scene, const Frustum& f, bool turns) {
+    const Bounds bounds = scene.framing.value_or(scene.bounds());
+    if (bounds.empty()) return;
+    constexpr double kFilled = 0.9;
+    const std::vector<glm::dvec3> points = outlineOf(scene, bounds, turns);
+    const Fit x = fitOf(points, camera.right, camera.back, kFilled * f.x),
+              y = fitOf(points, camera.up, camera.back, kFilled * f.y);
+    const double distance = std::max(x.distance, y.distance);
+    if (!(distance > 0) || !std::isfinite(distance)) return; // a point
+    const glm::dvec3 middle = 0.5 * (glm::dvec3(bounds.lo) + glm::dvec3(bounds.hi));
+    camera.position =
+        middle + x.beside * camera.right + y.beside * camera.up + distance * camera.back;
+}
+
 /// The angle that a view without a camera has if none is asked for.
 constexpr double kStatedView = 40 * kDegree;
 
@@ -196,6 +274,7 @@ FramingConventions cs184Framing() {
             .framesEveryScene = true,
             .lastOfSeveral = true,
             .directionWithoutCamera = {0, 0, 1},
+            .fillsPicture = false,
             .clipsFramedViews = true,
             .clipsAlongRay = true};
 }
@@ -256,8 +335,13 @@ Camera makeCamera(const Scene& scene, const CameraRequest& request, uint32_t wid
         throw SceneError(scene.file + ": has no camera; use --camera frame");
     Camera camera = framed ? framedView(scene, optics, conventions) : fileView(optics);
     camera.orthographic = !framed && optics.projection == Projection::Orthographic;
-    const Frustum f = framed ? framedFrustum(optics, picture, conventions)
-                             : widen(fileFrustum(optics, aspect), aspect);
+    Frustum f = framed ? framedFrustum(optics, picture, conventions)
+                       : widen(fileFrustum(optics, aspect), aspect);
+    if (framed && conventions.fillsPicture && scene.cameras.empty() && !scene.cglDialect) {
+        if (request.fieldOfView)
+            f = {std::tan(*request.fieldOfView / 2) * aspect, std::tan(*request.fieldOfView / 2)};
+        moveToFill(camera, scene, f, request.isOneOfTurns);
+    }
     camera.halfWidth = f.x;
     camera.halfHeight = f.y;
     camera.clipAlongRay = conventions.clipsAlongRay;

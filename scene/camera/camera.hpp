@@ -67,6 +67,9 @@ struct CameraRequest {
     /// Radians, by which the camera is turned about the vertical axis through the scene's middle,
     /// counter-clockwise seen from above.
     double turn = 0;
+    /// The picture is one of several, turned by different angles, that show the scene alike: a view
+    /// that frames it leaves room for all of them.
+    bool isOneOfTurns = false;
 
     CameraRequest(CameraChoice which = CameraChoice::Automatic, std::string ofName = {})
         : choice(which), name(std::move(ofName)) {}
@@ -86,9 +89,11 @@ struct FramingConventions {
     /// CameraChoice::Automatic frames every scene.
     bool framesEveryScene = false;
     bool lastOfSeveral = false; ///< the last of a file's cameras counts; otherwise the first
-    /// From where a framed view looks at a scene whose file has no camera. From here a box shows
-    /// three sides alike; seen along an axis, it would be a rectangle.
-    glm::dvec3 directionWithoutCamera{1, 1, 1};
+    /// From where a framed view looks at a scene whose file has no camera: from before its front,
+    /// which is +z in glTF, a little from the right and from above.
+    glm::dvec3 directionWithoutCamera{0.45, 0.35, 1};
+    /// Such a view is as close as shows all of the scene, in the middle, with a margin.
+    bool fillsPicture = true;
     /// The depth range of the file's camera holds for framed views as well.
     bool clipsFramedViews = false;
     bool clipsAlongRay = false; ///< Camera::clipAlongRay
@@ -114,7 +119,7 @@ PictureSize defaultPictureSize(const Scene& scene, const CameraRequest& request,
 /// The camera for a picture of width x height pixels.
 /// File: the whole of the file's field of view is visible; where the picture's shape differs,
 /// it shows more on the longer side.
-/// Frame: docs/guide/cs184.md.
+/// Frame: as close as shows all of a scene without a camera; else docs/guide/cs184.md.
 /// Throws SceneError if the file's camera is wanted and there is none, or none of that name, and if
 /// an orthographic camera is to have an angle of view or a lens.
 Camera makeCamera(const Scene& scene, const CameraRequest& request, uint32_t width, uint32_t height,

@@ -54,6 +54,52 @@ TEST(SceneOptions, FogInTheScene) {
         EXPECT_THROW(fog(wrong), UsageError) << wrong;
 }
 
+TEST(SceneOptions, ASunAndAGround) {
+    const auto scene = [](const std::vector<std::string>& words) {
+        std::vector<std::string> all = {"info", "a.dae"};
+        all.insert(all.end(), words.begin(), words.end());
+        return parse<InfoOptions>(all).scene;
+    };
+    EXPECT_FALSE(scene({}).environment.sun);
+    EXPECT_FALSE(scene({}).ground.isGiven);
+    const SunRequest sun = *scene({"--sun", "135,40"}).environment.sun;
+    EXPECT_EQ(sun.azimuth, 135);
+    EXPECT_EQ(sun.elevation, 40);
+    EXPECT_EQ(sun.turbidity, SunRequest{}.turbidity);
+    EXPECT_EQ(scene({"--sun", "-20,0,7"}).environment.sun->turbidity, 7);
+    for (const char* wrong : {"", "45", "0,91", "0,-1", "0,45,11", "0,45,3,1", "east,45"})
+        EXPECT_THROW(scene({"--sun", wrong}), UsageError) << wrong;
+    EXPECT_THROW(scene({"--sun", "0,45", "--env", "1"}), UsageError);
+    EXPECT_EQ(scene({"--ground", "on"}).ground.color, GroundRequest{}.color);
+    EXPECT_EQ(scene({"--ground", "0.25"}).ground.color, glm::vec3(0.25f));
+    EXPECT_EQ(scene({"--ground", "0,0.5,1"}).ground.color, glm::vec3(0, 0.5f, 1));
+    for (const char* wrong : {"", "off", "1.5", "0,0.5"})
+        EXPECT_THROW(scene({"--ground", wrong}), UsageError) << wrong;
+}
+
+/// What a preset sets is what is not given, and it is part of the command that pictures note.
+TEST(SceneOptions, PresetsSetWhatIsNotGiven) {
+    const auto render = [](const std::vector<std::string>& words) {
+        std::vector<std::string> all = {"render", "a.glb"};
+        all.insert(all.end(), words.begin(), words.end());
+        return parse<RenderOptions>(all);
+    };
+    const RenderOptions product = render({"-o", "a.png", "--preset", "product"});
+    EXPECT_EQ(product.scene.environment.file, "studio");
+    EXPECT_EQ(product.picture.denoiser, Denoiser::On);
+    EXPECT_NE(std::ranges::find(product.command, "--env studio"), product.command.end());
+    const RenderOptions given =
+        render({"-o", "a.exr", "--preset", "product", "--sun", "0,45", "--denoise", "off"});
+    EXPECT_TRUE(given.scene.environment.file.empty());
+    EXPECT_EQ(given.picture.denoiser, Denoiser::Off);
+    EXPECT_EQ(std::ranges::find(given.command, "--view pbr-neutral"), given.command.end())
+        << "a file of radiance has no view";
+    EXPECT_EQ(render({"-o", "a.png", "--preset", "draft"}).picture.budget.pathsPerPixel(), 8u);
+    EXPECT_EQ(
+        render({"-o", "a.png", "--preset", "draft", "--time", "9"}).picture.budget.stop.seconds, 9);
+    EXPECT_THROW(render({"-o", "a.png", "--preset", "best"}), UsageError);
+}
+
 TEST(SceneOptions, ViewsAndLenses) {
     const CameraRequest camera =
         parse<InfoOptions>({"info", "a.dae", "--look-from", "1", "-2", "3e1", "--look-at", "0",

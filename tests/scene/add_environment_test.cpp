@@ -3,10 +3,12 @@
 
 #include "host/core/error.hpp"
 
+#include <glm/gtc/constants.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -73,6 +75,48 @@ TEST(AddEnvironment, BundledPicturesGoByTheirNames) {
     EXPECT_GT(sun->x, 200);
     EXPECT_LT(place / sky.width, sky.height / 2);
     EXPECT_LT(place % sky.width, sky.width / 2);
+}
+
+TEST(AddEnvironment, OthersThanTheSkyAreBundledToo) {
+    for (const char* name : {"studio", "overcast", "interior"}) {
+        EnvironmentRequest request;
+        request.file = name;
+        Scene scene;
+        addEnvironment(scene, request);
+        EXPECT_EQ(scene.environment->width, 256u) << name;
+    }
+}
+
+/// What a picture of a sky brings to the ground: the radiance of white paper there.
+glm::dvec3 paperUnder(const Environment& sky) {
+    glm::dvec3 sum(0.0);
+    const double step = glm::pi<double>() / sky.height;
+    for (size_t texel = 0; texel < sky.radiance.size(); ++texel) {
+        const double down = (double(texel / sky.width) + 0.5) * step;
+        if (down < glm::half_pi<double>())
+            sum += glm::dvec3(sky.radiance[texel]) * std::cos(down) * std::sin(down);
+    }
+    return sum * step * glm::two_pi<double>() / double(sky.width) / glm::pi<double>();
+}
+
+TEST(AddEnvironment, ASunIsWhereItIsAskedForAndLightsTheGround) {
+    EnvironmentRequest request;
+    request.sun = SunRequest{};
+    Scene scene;
+    addEnvironment(scene, request);
+    const glm::dvec3 paper = paperUnder(*scene.environment);
+    EXPECT_NEAR(0.2126 * paper.x + 0.7152 * paper.y + 0.0722 * paper.z, 1, 0.01);
+    // The ground around reflects 30 %.
+    const glm::vec3 below = scene.environment->radiance.back();
+    EXPECT_NEAR(below.y, 0.3 * paper.y, 0.002);
+    request.sun = SunRequest{90, 30, 5}; // the east: +x, three quarters along the picture
+    addEnvironment(scene, request);
+    const Environment& sky = *scene.environment;
+    const auto sun =
+        std::ranges::max_element(sky.radiance, {}, [](const glm::vec3& c) { return c.x; });
+    const auto place = size_t(sun - sky.radiance.begin());
+    EXPECT_NEAR(double(place % sky.width) / sky.width, 0.75, 0.003);
+    EXPECT_NEAR(90 - double(place / sky.width) * 180 / sky.height, 30, 0.5);
 }
 
 TEST(AddEnvironment, UnknownNamesAreOneErrorThatNamesTheBundledOnes) {

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes the bundled glTF scenes and the bundled sky: the same bytes on each run.
+"""Writes the bundled glTF scenes and the bundled environments: the same bytes on each run.
 
     scene/generate/gltf/make_scenes.py scene/library
     scene/generate/gltf/make_scenes.py --check scene/library
@@ -9,11 +9,13 @@
 import pathlib
 import sys
 
+from environments import interior, overcast, studio
 from pictures import evening_sky
 from still_life import still_life
 from texture_chart import texture_chart
 
-FILES = {"still_life.glb": still_life, "texture_chart.glb": texture_chart, "evening_sky.hdr": evening_sky}
+FILES = {"still_life.glb": still_life, "texture_chart.glb": texture_chart, "evening_sky.hdr": evening_sky,
+         "studio.hdr": studio, "overcast.hdr": overcast, "interior.hdr": interior}
 
 
 def main():

@@ -231,14 +231,65 @@ TEST(FramingConventions, DepthRangesHoldForFramedViewsOrNot) {
     EXPECT_EQ(farOf(CameraChoice::Frame, {.clipsFramedViews = true}), 2);
 }
 
-TEST(FramingConventions, ScenesWithoutACameraAreSeenFromACornerOrAlongAnAxis) {
+TEST(FramingConventions, ScenesWithoutACameraAreSeenFromTheFrontOrAlongAnAxis) {
     Scene scene;
     scene.framing = Bounds{glm::vec3(-1), glm::vec3(1)};
     const auto from = [&](const FramingConventions& conventions) {
         return makeCamera(scene, CameraChoice::Automatic, 800, 600, conventions).back;
     };
-    EXPECT_LT(glm::distance(from({}), glm::dvec3(1 / std::sqrt(3.0))), 1e-15);
+    EXPECT_GT(from({}).z, 0.8);
+    EXPECT_GT(std::min(from({}).x, from({}).y), 0.2) << "and shows three sides of a box";
     EXPECT_LT(glm::distance(from(cs184Framing()), glm::dvec3(0, 0, 1)), 1e-15);
+}
+
+/// The least and the greatest places in the picture, 0 to 1, of points that a camera sees.
+std::pair<glm::dvec2, glm::dvec2> extentIn(const Camera& camera,
+                                           const std::vector<glm::vec3>& points) {
+    glm::dvec2 least(1e9), most(-1e9);
+    for (const glm::vec3& p : points) {
+        const glm::dvec3 to = glm::dvec3(p) - camera.position;
+        const double ahead = -glm::dot(to, camera.back);
+        EXPECT_GT(ahead, 0);
+        const glm::dvec2 at(0.5 + glm::dot(to, camera.right) / ahead / camera.halfWidth / 2,
+                            0.5 - glm::dot(to, camera.up) / ahead / camera.halfHeight / 2);
+        least = glm::min(least, at), most = glm::max(most, at);
+    }
+    return {least, most};
+}
+
+/// A long thin triangle off the origin fills nine tenths of the picture in one direction, and is in
+/// its middle in both; turned, every picture shows all of it from the same distance.
+TEST(FramingConventions, ScenesWithoutACameraFillThePicture) {
+    Scene scene;
+    scene.positions = {{3, 7, 1}, {3.5f, 9, 1}, {3, 7, 4}, {500, 7, 2}};
+    scene.triangles.resize(2);
+    scene.triangles[0].corner[1] = 1, scene.triangles[0].corner[2] = 2;
+    scene.framing = scene.bounds(); // what comes after is not framed
+    scene.triangles[1].corner[1] = 2, scene.triangles[1].corner[2] = 3;
+    const std::vector<glm::vec3> shown(scene.positions.begin(), scene.positions.begin() + 3);
+    for (const auto& [width, height] : {std::pair(800u, 600u), {100u, 900u}}) {
+        CameraRequest request;
+        for (const bool hasAngle : {false, true}) {
+            if (hasAngle) request.fieldOfView = 0.5;
+            const auto [least, most] = extentIn(makeCamera(scene, request, width, height), shown);
+            EXPECT_NEAR(std::max(most.x - least.x, most.y - least.y), 0.9, 1e-5);
+            for (int axis = 0; axis < 2; ++axis)
+                EXPECT_NEAR((least[axis] + most[axis]) / 2, 0.5, 0.1);
+        }
+    }
+    CameraRequest turned;
+    turned.isOneOfTurns = true;
+    double greatest = 0;
+    for (int i = 0; i < 8; ++i) {
+        turned.turn = i * 0.785;
+        // Turns are about the middle of all there is.
+        scene.triangles.resize(1);
+        const auto [least, most] = extentIn(makeCamera(scene, turned, 800, 600), shown);
+        EXPECT_GT(std::min(least.x, least.y), 0.03);
+        EXPECT_LT(std::max(most.x, most.y), 0.97);
+        greatest = std::max({greatest, most.x - least.x, most.y - least.y});
+    }
+    EXPECT_GT(greatest, 0.5);
 }
 
 /// Three cameras at z = 5, 6 and 7; the second one's name is a number.

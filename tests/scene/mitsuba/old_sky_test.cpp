@@ -1,6 +1,6 @@
 // The sky and the sun of Mitsuba 0.x: y is up, and the sun is Preetham's.
 
-#include "scene/mitsuba/sun_radiance.hpp"
+#include "scene/sky/sun_radiance.hpp"
 #include "tests/scene/mitsuba/mitsuba_text.hpp"
 
 #include <glm/gtc/constants.hpp>
@@ -65,10 +65,10 @@ TEST(MitsubaOldSky, ItsSunIsAsBrightAsTheSun) {
         return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722));
     };
     const double lux =
-        683 * 106.9 * luminance(mitsuba::sunRadiance(glm::radians(30.0), 2)) * solidAngle;
+        683 * 106.9 * luminance(sky::sunRadiance(glm::radians(30.0), 2)) * solidAngle;
     EXPECT_GT(lux, 80e3);
     EXPECT_LT(lux, 130e3);
-    const glm::dvec3 noon = mitsuba::sunRadiance(0, 3), dusk = mitsuba::sunRadiance(1.5, 3);
+    const glm::dvec3 noon = sky::sunRadiance(0, 3), dusk = sky::sunRadiance(1.5, 3);
     EXPECT_GT(noon.y, 4 * dusk.y);
     EXPECT_GT(dusk.x / dusk.z, 4 * noon.x / noon.z); // red
 }

@@ -1,6 +1,6 @@
 // The sky of Hosek and Wilkie, against numbers of Mitsuba 3.9.1 (scalar_rgb: eval of the emitter
 // and its parameter sun_direction).
-#include "scene/mitsuba/sky_model.hpp"
+#include "scene/sky/sky_model.hpp"
 #include "scene/mitsuba/sun_position.hpp"
 #include "tests/scene/mitsuba/mitsuba_text.hpp"
 
@@ -13,7 +13,7 @@
 namespace stromboli::test {
 namespace {
 
-using mitsuba::SkyModel;
+using sky::SkyModel;
 using testing::Contains;
 using testing::HasSubstr;
 

@@ -1,4 +1,4 @@
-#include "scene/mitsuba/sky_model.hpp"
+#include "scene/sky/sky_model.hpp"
 
 #include "third_party/hosek_wilkie_sky/sky_rgb.inc"
 
@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-namespace stromboli::mitsuba {
+namespace stromboli::sky {
 namespace {
 
 constexpr size_t kAlbedos = 2, kPoints = 6, kChannels = 3, kShape = 9;
@@ -115,4 +115,4 @@ double SkyModel::halfSun() {
     return glm::radians(0.5358 / 2);
 }
 
-} // namespace stromboli::mitsuba
+} // namespace stromboli::sky

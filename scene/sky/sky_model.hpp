@@ -2,7 +2,7 @@
 
 #include <glm/glm.hpp>
 
-namespace stromboli::mitsuba {
+namespace stromboli::sky {
 
 /// The sky of Hosek and Wilkie (An analytic model for full spectral sky-dome radiance, 2012) and
 /// the sun in it (Adding a solar-radiance function to the Hosek-Wilkie skylight model, 2013), in
@@ -30,4 +30,4 @@ class SkyModel {
     glm::dvec3 sun_{0.0};
 };
 
-} // namespace stromboli::mitsuba
+} // namespace stromboli::sky

@@ -1,4 +1,4 @@
-#include "scene/mitsuba/sun_radiance.hpp"
+#include "scene/sky/sun_radiance.hpp"
 
 #include "scene/build/spectrum.hpp"
 
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace stromboli::mitsuba {
+namespace stromboli::sky {
 namespace {
 
 using Sample = std::pair<double, double>; ///< wavelength in nanometres and value
@@ -93,4 +93,4 @@ glm::dvec3 sunRadiance(double zenith, double turbidity) {
     return build::rgbOfLight(arriving);
 }
 
-} // namespace stromboli::mitsuba
+} // namespace stromboli::sky

@@ -1,0 +1,110 @@
+#include "host/cli/presets.hpp"
+
+#include "host/cli/command_line.hpp"
+#include "host/core/text.hpp"
+#include "host/film/image_formats.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace stromboli {
+namespace {
+
+struct Setting {
+    Preset preset;
+    const char* option;
+    const char* word;
+};
+constexpr Setting kSettings[] = {
+    {Preset::Product, "--env", "studio"},
+    {Preset::Product, "--exposure", "auto"},
+    {Preset::Product, "--view", "pbr-neutral"},
+    {Preset::Product, "--denoise", "on"},
+    {Preset::Interior, "-m", "16"},
+    {Preset::Interior, "--exposure", "auto"},
+    {Preset::Interior, "--view", "agx"},
+    {Preset::Interior, "--denoise", "on"},
+    {Preset::Exterior, "--sun", "135,40"},
+    {Preset::Exterior, "--exposure", "auto"},
+    {Preset::Exterior, "--view", "agx"},
+    {Preset::Exterior, "--denoise", "on"},
+    {Preset::Draft, "-s", "8"},
+    {Preset::Draft, "-m", "4"},
+    {Preset::Draft, "--denoise", "on"},
+    {Preset::Final, "--noise", "1%"},
+    {Preset::Final, "-s", "16384"},
+};
+
+/// Options that say the same thing in other words: where one is given, the others are not set.
+const std::vector<Words> kAlternatives = {
+    {"--env", "--sun"}, {"-s", "--noise", "--time", "-a"}, {"--look-from", "--camera"}};
+
+bool isGiven(const std::string& option, const std::map<std::string, Words>& given) {
+    if (given.contains(option)) return true;
+    return std::ranges::any_of(kAlternatives, [&](const Words& names) {
+        return std::ranges::count(names, option) > 0 &&
+               std::ranges::any_of(names, [&](const auto& name) { return given.contains(name); });
+    });
+}
+
+/// Radiance as it is has no exposure and no curve.
+bool isOfScreens(const std::string& option) {
+    return option == "--view" || option == "--exposure";
+}
+
+bool writesRadiance(const std::map<std::string, Words>& given) {
+    const auto output = given.find("-o");
+    return output != given.end() && !output->second.empty() &&
+           !isToneMapped(output->second.front());
+}
+
+} // namespace
+
+void declarePreset(OptionList& list) {
+    list.group("Picture");
+    std::string sets;
+    for (const NamedValue<Preset>& row : kNamedValues<Preset>) {
+        Words options;
+        for (const Setting& setting : kSettings)
+            if (setting.preset == row.value)
+                options.push_back(fmt::format("{} {}", setting.option, setting.word));
+        sets += fmt::format("{}{}: {}: {}", sets.empty() ? "" : "; ", row.name, row.meaning,
+                            fmt::join(options, " "));
+    }
+    list.words("--preset", "NAME",
+               "sets other options that are not given themselves, and says which (" + sets + ")", 1,
+               [](const Words& words) {
+                   if (!valueNamed<Preset>(words[0]))
+                       refuseName("--preset", words[0], namesOf<Preset>(), allNames<Preset>());
+               })
+        .excludes("--cs184")
+        .proposes(namesOf<Preset>());
+}
+
+std::string addPreset(const OptionList& list, std::map<std::string, Words>& given) {
+    const auto named = given.find("--preset");
+    if (named == given.end() || named->second.empty()) return {};
+    const std::string name = named->second.front();
+    const std::optional<Preset> preset = valueNamed<Preset>(name);
+    if (!preset) return {}; // refused when it is stored
+    const std::map<std::string, Words> asked = given;
+    Words added;
+    for (const Setting& setting : kSettings) {
+        const auto option = std::ranges::find_if(
+            list.all(), [&](const CommandOption& o) { return o.name() == setting.option; });
+        if (setting.preset != *preset || option == list.all().end() ||
+            isGiven(setting.option, asked) ||
+            (isOfScreens(setting.option) && writesRadiance(asked)))
+            continue;
+        given.emplace(setting.option, Words{setting.word});
+        added.push_back(fmt::format("{} {}", setting.option, setting.word));
+    }
+    return fmt::format("--preset {} sets {}", name,
+                       added.empty() ? "nothing that is not given"
+                                     : fmt::format("{}", fmt::join(added, " ")));
+}
+
+} // namespace stromboli
