@@ -9,9 +9,10 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "path tracer in Vulkan compute shaders")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
-    "Stromboli renders scenes in glTF and COLLADA to PNG or EXR on any Vulkan 1.1 device,
-without a ray-tracing extension, and on machines without a GPU through Mesa's
-lavapipe. A second path tracer, in double precision, checks it.")
+    "Stromboli renders scenes in glTF, COLLADA, Mitsuba, pbrt, OBJ and PLY to PNG, JPEG,
+WebP or EXR on any Vulkan 1.1 device, without a ray-tracing extension, and on
+machines without a GPU through Mesa's lavapipe. A second path tracer, in double
+precision, checks it.")
 # Libraries that the program is linked with are found by dpkg-shlibdeps. The Vulkan loader is opened
 # when it runs, and finds a driver: Mesa's has a device that is a CPU, so that any machine renders.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import operator
 import os
 from typing import Any, Optional, Sequence, Union
 
@@ -73,9 +74,13 @@ class Scene:
         return [self._handle.material(i) for i in range(self._handle.material_count)]
 
     def material_number(self, which: Union[int, str]) -> int:
-        """The number of the first material of that name. Raises UsageError if there is none."""
+        """The number of the first material of that name. Raises UsageError where it is neither."""
         if not isinstance(which, str):
-            return int(which)
+            try:
+                return operator.index(which)
+            except TypeError:
+                kind = type(which).__name__
+                raise UsageError(f"a material is its number or its name, not a {kind}") from None
         for number in range(self._handle.material_count):
             if self._handle.material(number)["name"] == which:
                 return number
