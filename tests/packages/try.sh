@@ -89,7 +89,8 @@ inside /env/bin/pip install -q --no-compile --no-index --find-links /wheels stro
     tail -n 20 "$log" >&2
     fail "pip does not install $(basename "$wheel")"
 }
-inside /env/bin/python -B - <<'PYTHON' || fail "the module of the wheel does not work"
+# Both pictures take less than a second; with lanes that a Mesa cannot do, minutes (docs/results.md, "Sixteen lanes").
+inside timeout 30 /env/bin/python -B - <<'PYTHON' || fail "the module of the wheel does not work, or takes more than 30 s"
 import numpy
 import stromboli
 
@@ -106,7 +107,7 @@ install /stromboli.deb || {
 }
 inside stromboli --version || fail "the installed program does not start"
 inside stromboli devices || fail "the installed program finds no device"
-inside stromboli render "${picture[@]}" -o /there.exr || fail "the installed program does not render"
+inside timeout 30 stromboli render "${picture[@]}" -o /there.exr || fail "the installed program does not render in 30 s"
 cmp "$bare/there.exr" "$folder/here.exr" || fail "the picture of the installed program has other bytes"
 say "$(basename "$package") installed by apt, and its picture has the same bytes as here"
 
