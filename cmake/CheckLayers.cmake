@@ -13,7 +13,7 @@ set(outside_prefixes
     "tinyxml2.h=tinyxml2::tinyxml2" "zip.h=PkgConfig::libzip" "zstd.h=PkgConfig::libzstd"
     "httplib.h=PkgConfig::httplib" "toml++/=tomlplusplus::tomlplusplus"
     "png.h=PNG::PNG" "Imf=OpenEXR::OpenEXR"
-    "jpeglib.h=JPEG::JPEG" "gif_lib.h=GIF::GIF" "webp/=PkgConfig::libwebp" "draco/=draco::draco"
+    "jpeglib.h=JPEG::JPEG" "gif_lib.h=GIF::GIF" "webp/=PkgConfig::libwebp" "draco/=draco::draco_static"
     "meshoptimizer.h=meshoptimizer::meshoptimizer"
     "OpenEXR/=OpenEXR::OpenEXR" "zlib.h=ZLIB::ZLIB" "volk.h=stromboli_volk"
     "vulkan/=Vulkan::Headers" "pybind11/=pybind11::headers")

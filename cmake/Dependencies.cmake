@@ -42,7 +42,7 @@ if(STROMBOLI_TESTS)
 endif()
 
 # The Python that has the packages of the distribution, which another one earlier in PATH has not.
-if(STROMBOLI_PYTHON)
+if(STROMBOLI_PYTHON AND NOT STROMBOLI_PYTHON_HEADERS)
     if(NOT DEFINED SKBUILD AND NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)
         set(Python_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "The Python to build the module for")
     endif()

@@ -338,7 +338,11 @@ DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, const Words
     } catch (const CLI::ParseError& error) {
         for (size_t i = 0; i < apps.size(); ++i)
             if (commands[i].name == words.front()) explainFlagValue(commands[i], words);
-        throw UsageError(std::string(error.what()) + " (see --help)");
+        // Words too many behind an option are taken for others: these stand behind two of it.
+        const std::string text = error.what();
+        const size_t tooMany = text.find(": At Most ");
+        if (tooMany == std::string::npos) throw UsageError(text + " (see --help)");
+        throw UsageError(text.substr(0, tooMany) + " is given more than once (see --help)");
     }
     const auto chosen =
         std::find_if(apps.begin(), apps.end(), [](const CLI::App* one) { return one->parsed(); });

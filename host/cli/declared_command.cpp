@@ -40,7 +40,9 @@ uint32_t readNumber(const std::string& option, const std::string& word, Range<ui
 }
 
 std::optional<double> quantityIn(std::string_view word, Units units) {
-    if (const std::optional<double> plain = realNumber(word)) return plain;
+    const auto endsWord = [&](const Unit& unit) { return word.ends_with(unit.name); };
+    const std::optional<double> plain = realNumber(word);
+    if (plain && std::ranges::none_of(units, endsWord)) return plain;
     constexpr std::string_view kOfNumbers = "0123456789.eE+-";
     double sum = 0, before = std::numeric_limits<double>::infinity();
     for (std::string_view rest = word; !rest.empty();) {

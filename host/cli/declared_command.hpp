@@ -41,11 +41,13 @@ inline constexpr Unit kTimes[] = {{"h", 3600}, {"min", 60}, {"m", 60}, {"s", 1},
 inline constexpr Unit kLengths[] = {{"km", 1e3}, {"m", 1}, {"cm", 1e-2}, {"mm", 1e-3}};
 inline constexpr Unit kShares[] = {{"%", 0.01}};
 inline constexpr Unit kPercents[] = {{"%", 1}};
-inline constexpr Unit kMebibytes[] = {{"TiB", 1 << 20}, {"GiB", 1024}, {"G", 1024}, {"MiB", 1}};
+inline constexpr Unit kMebibytes[] = {
+    {"TiB", 1 << 20}, {"GiB", 1024}, {"G", 1024}, {"MiB", 1}, {"M", 1}};
 inline constexpr Unit kDegrees[] = {{"rad", 57.29577951308232}, {"deg", 1}, {"\u00b0", 1}};
 
 /// A number as host/core/text.hpp says, or one or more with units behind them, the larger first:
-/// "90", "1.5min", "1h30m". Empty if the word is none of these.
+/// "90", "1.5min", "1h30m". A letter that is a unit here is no power of ten. Empty if the word is
+/// none of these.
 std::optional<double> quantityIn(std::string_view word, Units units);
 
 /// A whole number in a range, written as host/core/text.hpp says. Throws UsageError that

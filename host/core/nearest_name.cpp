@@ -65,4 +65,11 @@ std::optional<std::string> nearestFile(const std::filesystem::path& missing) {
     return name ? std::optional((folder / *name).string()) : std::nullopt;
 }
 
+std::string didYouMeanFile(const std::filesystem::path& file) {
+    std::error_code failed;
+    if (std::filesystem::exists(file, failed)) return "";
+    const std::optional<std::string> meant = nearestFile(file);
+    return meant ? fmt::format("; did you mean {}?", *meant) : "";
+}
+
 } // namespace stromboli

@@ -22,4 +22,8 @@ std::string didYouMean(const std::string& word, const std::vector<std::string>& 
 /// The file beside one that does not exist that may have been meant, by its name.
 std::optional<std::string> nearestFile(const std::filesystem::path& missing);
 
+/// "; did you mean room.xml?" for a file that does not exist; nothing where it does, or no file
+/// beside it is near.
+std::string didYouMeanFile(const std::filesystem::path& file);
+
 } // namespace stromboli

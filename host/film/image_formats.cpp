@@ -2,6 +2,7 @@
 
 #include "host/core/error.hpp"
 #include "host/core/files.hpp"
+#include "host/core/nearest_name.hpp"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -171,7 +172,8 @@ static void readInto(Reader& reader, const fs::path& path) {
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                                &std::fclose);
     if (!file)
-        throw UsageError(fmt::format("{}: cannot read: {}", path.string(), std::strerror(errno)));
+        throw UsageError(fmt::format("{}: cannot read: {}{}", path.string(), std::strerror(errno),
+                                     didYouMeanFile(path)));
     if (!decode(reader.png, reader.info, file.get()))
         throw UsageError(fmt::format("{}: cannot read PNG: {}", path.string(), reader.error));
 }
@@ -288,11 +290,22 @@ void writeExr(const fs::path& path, const FloatImage& image, const PictureNotes&
     writeOutput(path, std::as_bytes(std::span(bytes)));
 }
 
+namespace {
+
+[[noreturn]] void refuseExr(const fs::path& path, const char* reason) {
+    if (std::error_code failed; !fs::exists(path, failed))
+        throw UsageError(
+            fmt::format("{}: there is no such file{}", path.string(), didYouMeanFile(path)));
+    throw UsageError(fmt::format("{}: cannot read EXR: {}", path.string(), reason));
+}
+
+} // namespace
+
 FloatImage readExr(const fs::path& path) {
     try {
         return decode(path);
     } catch (const std::exception& error) {
-        throw UsageError(fmt::format("{}: cannot read EXR: {}", path.string(), error.what()));
+        refuseExr(path, error.what());
     }
 }
 
@@ -306,7 +319,7 @@ PictureNotes readExrNotes(const fs::path& path) {
                 notes.push_back({i.name(), text->value()});
         return notes;
     } catch (const std::exception& error) {
-        throw UsageError(fmt::format("{}: cannot read EXR: {}", path.string(), error.what()));
+        refuseExr(path, error.what());
     }
 }
 
@@ -351,7 +364,7 @@ float fromBytes(const char* bytes, bool littleEndian) {
 
 FloatImage readPfm(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
-    if (!file) refuse(path, "it cannot be opened");
+    if (!file) refuse(path, "it cannot be opened" + didYouMeanFile(path));
     const Header header = readHeader(file, path);
     FloatImage image(header.width, header.height);
     std::vector<float>* planes[3] = {};

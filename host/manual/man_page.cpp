@@ -24,9 +24,9 @@ constexpr std::array kEnvironment = {
     Explained{"NO_COLOR", "not empty: messages have no colours"},
     Explained{"TERM", "dumb: no status line is drawn"},
     Explained{"LP_NUM_THREADS", "threads of Mesa's lavapipe, the device that is a CPU"},
-    Explained{"LP_NATIVE_VECTOR_WIDTH",
-              "bits of lavapipe's vectors; 512 where the processor has AVX-512, unless this says "
-              "256"},
+    Explained{"LP_NATIVE_VECTOR_WIDTH", "bits of lavapipe's vectors; with Mesa 22.3 512 where the "
+                                        "processor has AVX-512, unless this says "
+                                        "256"},
 };
 
 /// Text in which roff finds nothing to obey: no requests, no escapes, and no characters that it

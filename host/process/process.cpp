@@ -1,6 +1,11 @@
 #include "host/process/process.hpp"
 
+#include <algorithm>
+#include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #ifdef __GLIBC__
@@ -22,10 +27,33 @@ bool processorHasAvx512() {
 #endif
 }
 
+/// Whether the lavapipe in the loader's usual places is one that was tried with 16 lanes:
+/// Mesa 22.3, which states a Vulkan whose third number, that of the headers, is 230. Mesa 25.0
+/// (305; Debian 13) computes the same bytes with them, but takes a hundred times as long, or for
+/// ever.
+bool lavapipeIsRightWith16Lanes() {
+    for (const char* folder :
+         {"/usr/share/vulkan/icd.d", "/usr/local/share/vulkan/icd.d", "/etc/vulkan/icd.d"}) {
+        std::error_code failed; // a folder that is not there has no drivers
+        for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
+            if (!entry.path().filename().string().starts_with("lvp_icd")) continue;
+            std::ifstream file(entry.path());
+            const std::string text(std::istreambuf_iterator<char>(file), {});
+            const size_t at = std::min(text.find("\"api_version\""), text.size());
+            unsigned headers = 0;
+            if (std::sscanf(text.c_str() + at, "\"api_version\" : \"%*u.%*u.%u", &headers) != 1 ||
+                headers > 230)
+                return false;
+        }
+    }
+    return true;
+}
+
 } // namespace
 
 void useWideVectors() {
-    if (processorHasAvx512()) ::setenv("LP_NATIVE_VECTOR_WIDTH", "512", 0 /* keep the user's */);
+    if (processorHasAvx512() && lavapipeIsRightWith16Lanes())
+        ::setenv("LP_NATIVE_VECTOR_WIDTH", "512", 0 /* keep the user's */);
 }
 
 void useDriverThreads(uint32_t threads) {

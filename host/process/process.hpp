@@ -9,7 +9,7 @@ namespace stromboli::process {
 // host/ or scene/ sets an environment variable, an allocator's option or a signal handler, apart
 // from the command line.
 
-/// Has lavapipe run 16 lanes at a time on processors with AVX-512, where Mesa (22.3 at least) takes
+/// Has lavapipe run 16 lanes at a time on processors with AVX-512, where Mesa up to 22.3 takes
 /// 8 unless the environment variable LP_NATIVE_VECTOR_WIDTH asks for more. If the user has set
 /// that, nothing is done. No other driver reads it. To be called before the first device is opened,
 /// and while there is one thread only.

@@ -271,9 +271,12 @@ DeviceChoice chooseDevice(const std::vector<DeviceDescription>& devices,
     std::vector<size_t> found;
     for (size_t i = 0; i < devices.size(); ++i)
         if (matches(devices[i], lower(wanted))) found.push_back(i);
-    if (found.empty())
-        throw DeviceError(
-            fmt::format("no device matches '{}': 'stromboli devices' lists them", wanted));
+    if (found.empty()) {
+        std::string names;
+        for (const DeviceDescription& device : devices)
+            names += (names.empty() ? "" : "; ") + device.name();
+        throw DeviceError(fmt::format("no device matches '{}'; there is {}", wanted, names));
+    }
     if (found.size() > 1)
         throw DeviceError(fmt::format("{} devices match '{}': give a number or a UUID of "
                                       "'stromboli devices'",

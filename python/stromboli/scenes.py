@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import operator
 import os
 from typing import Any, Optional, Sequence, Union
 
@@ -85,7 +86,11 @@ class Scene:
     def number_of(self, kind: str, which: Union[int, str]) -> int:
         """The number of the first material, light or object of that name. Raises UsageError."""
         if not isinstance(which, str):
-            return int(which)
+            try:
+                return operator.index(which)
+            except TypeError:
+                it = type(which).__name__
+                raise UsageError(f"a {kind} is its number or its name, not a {it}") from None
         names = {
             "material": [material["name"] for material in self.materials],
             "light": self.lights,

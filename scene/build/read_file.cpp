@@ -1,6 +1,7 @@
 #include "scene/build/read_file.hpp"
 
 #include "host/core/error.hpp"
+#include "host/core/nearest_name.hpp"
 #include "host/core/system.hpp"
 
 #include <fmt/format.h>
@@ -60,7 +61,10 @@ std::string readFile(const std::filesystem::path& file, size_t most) {
         fail(fmt::format("cannot be {}: {}", what, std::strerror(errno)));
     };
     const Descriptor in(file);
-    if (in.number() < 0) failBecause("opened for reading");
+    if (in.number() < 0) {
+        const std::string reason = std::strerror(errno);
+        fail(fmt::format("cannot be opened for reading: {}{}", reason, didYouMeanFile(file)));
+    }
     struct stat status {};
     if (fstat(in.number(), &status) != 0) failBecause("looked at");
     if (!S_ISREG(status.st_mode))

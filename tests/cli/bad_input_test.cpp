@@ -177,7 +177,7 @@ TEST_F(BadInput, PictureLargerThanMemory) {
 
 TEST_F(BadInput, UnknownDevice) {
     expectRefused(renderFile(libraryScene("light_point.dae"), {"--device", "voodoo"}), kDevice,
-                  "voodoo");
+                  "no device matches 'voodoo'; there is llvmpipe");
     expectRefused(renderFile(libraryScene("light_point.dae"), {"--device", "99"}), kDevice, "99");
 }
 

@@ -114,6 +114,21 @@ TEST(CompareCommand, VarianceOfTheReferenceDecidesTheExitCode) {
     EXPECT_THAT(unknown.err, HasSubstr("needs -s N"));
 }
 
+TEST(CompareCommand, AMisspelledFileIsAnsweredByTheOneThatWasMeant) {
+    const ScratchFolder folder;
+    const std::string right = constantExr(folder, "reference.exr", 1);
+    for (const std::string command : {"compare", "tonemap"}) {
+        std::vector<std::string> words{command, folder.file("refrence.exr")};
+        const std::vector<std::string> rest =
+            command == "compare" ? std::vector{right}
+                                 : std::vector<std::string>{"-o", folder.file("a.png")};
+        words.insert(words.end(), rest.begin(), rest.end());
+        EXPECT_THAT(stromboli(words).err, HasSubstr("did you mean " + right + "?")) << command;
+    }
+    EXPECT_THAT(stromboli({"compare", right, folder.file("nothing.exr")}).err,
+                HasSubstr("nothing.exr: there is no such file\n"));
+}
+
 TEST(CompareCommand, BadInputIsOneLine) {
     const ScratchFolder folder;
     const std::string a = constantExr(folder, "a.exr", 1);

@@ -56,6 +56,13 @@ TEST(Messages, AnUnknownCommandIsNamed) {
     EXPECT_THAT(refusal({"--quiet", "render"}), HasSubstr("--quiet comes before the command"));
 }
 
+TEST(Messages, AnOptionThatIsGivenTwiceIsNamed) {
+    EXPECT_EQ(refusal({"render", "a.dae", "-o", "a.png", "-r", "64", "48", "-r", "32x24"}),
+              "--size is given more than once (see --help)");
+    EXPECT_EQ(refusal({"render", "a.dae", "-o", "a.png", "-s", "4", "-s", "8"}),
+              "--samples is given more than once (see --help)");
+}
+
 TEST(Messages, AnUnknownOptionIsNamedWithOneLikeIt) {
     EXPECT_EQ(renderRefusal({"--sampels", "3"}),
               "render has no option --sampels; did you mean --samples? (see stromboli render "

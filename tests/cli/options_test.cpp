@@ -303,6 +303,8 @@ TEST(Options, QuantitiesHaveUnits) {
                                         {"250ms", 0.25},
                                         {"1e2s", 100.0}})
         EXPECT_EQ(with({"--time", word}).picture.budget.stop.seconds, seconds) << word;
+    for (const char* word : {"2048", "2G", "2GiB", "2048M", "1G1024MiB"})
+        EXPECT_EQ(with({"--max-memory", word}).device.mostMebibytes, 2048) << word;
     EXPECT_DOUBLE_EQ(with({"--noise", "2%"}).picture.budget.stop.noise, 0.02);
     EXPECT_DOUBLE_EQ(*with({"--fov", "90deg"}).picture.camera.fieldOfView, std::acos(0.0));
     EXPECT_DOUBLE_EQ(*with({"--fov", "90°"}).picture.camera.fieldOfView, std::acos(0.0));

@@ -4,12 +4,17 @@
 #
 #   tests/distributions/try.sh trixie /tmp/trixie [ARGUMENT...]
 #
-# As root, with debootstrap, in a folder that is made. The arguments are those of ./stromboli; without
+# As root, with mmdebstrap, in a folder that is made. The arguments are those of ./stromboli; without
 # them `stress` is run. The folder may be deleted afterwards; nothing is mounted when this ends.
 
 set -euo pipefail
 (($# >= 2)) && ((EUID == 0)) || {
     echo "usage, as root: $0 SUITE FOLDER [ARGUMENT...]" >&2
+    exit 1
+}
+. "$(dirname "$(readlink -f "$0")")/../support/bare_debian.sh"
+own_mounts "$@" || {
+    echo "mounts are not allowed here" >&2
     exit 1
 }
 suite=$1
@@ -18,9 +23,8 @@ folder=$(cd "$2" && pwd)
 shift 2
 root=$(cd "$(dirname "$(readlink -f "$0")")/../.." && pwd)
 
-. "$root/tests/support/bare_debian.sh"
 make_bare "$suite" "$folder" || {
-    echo "debootstrap could not make $suite; see $folder.log" >&2
+    echo "mmdebstrap could not make $suite; see $folder.log" >&2
     exit 1
 }
 mkdir -p "$folder/stromboli"

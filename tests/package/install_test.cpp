@@ -1,4 +1,4 @@
-// The program where it was installed, and the Debian package.
+// The program where it was installed.
 #include "source_dir.h"
 #include "tests/support/shell.hpp"
 
@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 namespace stromboli::test {
@@ -79,29 +78,6 @@ TEST_F(Install, WithoutItsFilesItHasTheSceneOfTheSources) {
     shell("cp " + in("bin/stromboli") + " " + *folder / "alone");
     EXPECT_THAT(info(*folder / "alone", "ortho").output,
                 HasSubstr(STROMBOLI_SOURCE_DIR "/scene/library/ortho.dae"));
-}
-
-TEST(Package, SaysWhatItNeedsAndHasThePrograms) {
-    for (const char* tool : {"dpkg-deb", "dpkg-shlibdeps", "file"})
-        if (!isInstalled(tool)) GTEST_SKIP() << tool << " is not installed";
-    const EmptyFolder folder;
-    std::ofstream(folder / "stromboli_0.0.1_amd64.deb") << "an earlier one";
-    const ShellRun made = shell("cd " + folder.path().string() + " && cpack -G DEB -B . --config " +
-                                kBuild + "/CPackConfig.cmake");
-    ASSERT_EQ(made.exitCode, 0) << made.output;
-    EXPECT_EQ(shell("ls " + folder.path().string() + "/*.deb | wc -l").output, "1\n");
-    const std::string file = "cd " + folder.path().string() + "; dpkg-deb ";
-    const std::string fields = shell(file + "-f *.deb").output;
-    // Linked libraries by their packages; the loader and a driver, which are opened at run time.
-    for (const char* needed : {"libtinyxml2-", "libopenexr-", "libzip", "libvulkan1",
-                               "mesa-vulkan-drivers | vulkan-icd"})
-        EXPECT_THAT(fields, HasSubstr(needed));
-    const std::string said = shell(STROMBOLI_PROGRAM " --version").output;
-    EXPECT_THAT(fields, HasSubstr("Version: " + said.substr(std::string("stromboli ").size())));
-    const std::string content = shell(file + "-c *.deb").output;
-    for (const char* name : {"./usr/bin/stromboli\n", "./usr/share/stromboli/scenes/island.dae\n",
-                             "./usr/share/man/man1/stromboli.1.gz\n"})
-        EXPECT_THAT(content, HasSubstr(name));
 }
 
 } // namespace

@@ -1,50 +1,118 @@
 #!/bin/bash
-# Installs the Debian package in a bare system of its own, as a user would, renders there, and compares the picture with
-# one of the build here:
+# Installs the wheel and the Debian package in a bare system, as a user would, renders there with each of them, and compares
+# the pictures with those of the build here:
 #
-#   tests/packages/try.sh SUITE FOLDER [PACKAGE.deb]
+#   tests/packages/try.sh SUITE FOLDER BUILD
 #
-# SUITE is a release of Debian, as bookworm; in FOLDER, which is made, the bare system is kept for the next try. Without a
-# PACKAGE, `./stromboli package` makes one. As root, with debootstrap and a mirror (STROMBOLI_MIRROR). Exit codes: 0 the
-# picture has the same bytes; 1 something failed; 2 it could not be tried here, and why; 3 apt finds the package's
-# dependencies nowhere in that release.
+# SUITE is a release of Debian, as bookworm; in FOLDER, which is made, the bare system is kept for the next try. BUILD is the
+# build folder where ./stromboli package and ./stromboli wheel have made the package and the wheel; for a release with
+# another Python the wheel is made here, by the headers of that Python. As root, with mmdebstrap and a mirror
+# (STROMBOLI_MIRROR). Exit codes: 0 all pictures have the same bytes; 1 something failed, and what; 77 it could not be tried
+# here, and why.
 
 set -euo pipefail
 cannot() {
     echo "NOT TRIED: $*" >&2
-    exit 2
+    exit 77
 }
-(($# == 2 || $# == 3)) || cannot "usage: $0 SUITE FOLDER [PACKAGE.deb]"
+fail() {
+    echo "FAILED on $suite: $*" >&2
+    exit 1
+}
+(($# == 3)) || cannot "usage: $0 SUITE FOLDER BUILD"
 ((EUID == 0)) || cannot "root is needed, for chroot"
-command -v debootstrap >/dev/null || cannot "debootstrap is not installed"
+command -v mmdebstrap >/dev/null || cannot "mmdebstrap is not installed"
+root=$(cd "$(dirname "$(readlink -f "$0")")/../.." && pwd)
+. "$root/tests/support/bare_debian.sh"
+own_mounts "$@" || cannot "mounts are not allowed here"
 suite=$1
 mkdir -p "$2"
 folder=$(cd "$2" && pwd)
-root=$(cd "$(dirname "$(readlink -f "$0")")/../.." && pwd)
-package=${3-$("$root/stromboli" package)}
+build=$(cd "$3" && pwd)
 bare=$folder/bare
+log=$folder/log
+: >"$log"
 
-. "$root/tests/support/bare_debian.sh"
-make_bare "$suite" "$bare" || cannot "debootstrap could not make $suite; see $bare.log"
-enter_bare "$bare"
-cp "$package" "$bare/stromboli.deb"
-inside() { chroot "$bare" env HOME=/root DEBIAN_FRONTEND=noninteractive "$@"; }
-
-inside apt-get -qq update || cannot "there is no mirror for $suite"
-if ! inside apt-get install -s --no-install-recommends /stromboli.deb >"$folder/apt.log" 2>&1; then
-    echo "$(basename "$package") does not fit $suite:" >&2
-    sed -n '/unmet dependencies/,$p' "$folder/apt.log" >&2
-    exit 3
-fi
-inside apt-get -qq -y install --no-install-recommends /stromboli.deb >>"$folder/apt.log" 2>&1 || {
-    tail -n 20 "$folder/apt.log" >&2
-    exit 1
+# The one file that a pattern stands for.
+only() {
+    (($# == 1)) && [[ -e $1 ]] || cannot "expected one file, found: $*"
+    echo "$1"
 }
+package=$(only "$build"/packages/stromboli_*.deb)
 
-inside stromboli --version
-inside stromboli devices
-picture=(render cornell_mirror_glass -r 96 72 -s 8 --notes off -q)
-inside stromboli "${picture[@]}" -o /there.exr
-"$root/stromboli" "${picture[@]}" -o "$folder/here.exr"
-cmp "$bare/there.exr" "$folder/here.exr"
-echo "$suite: installed by apt, and the picture has the same bytes as here"
+make_bare "$suite" "$bare" || cannot "mmdebstrap could not make $suite; see $bare.log"
+enter_bare "$bare" || cannot "mounts are not allowed here"
+inside() { chroot "$bare" env HOME=/root LC_ALL=C DEBIAN_FRONTEND=noninteractive "$@"; }
+install() { inside apt-get -qq -y install --no-install-recommends "$@" >>"$log" 2>&1; }
+remove() { inside apt-get -qq -y autoremove --purge stromboli >>"$log" 2>&1; }
+say() { echo "$suite: $*"; }
+# What a try that failed has left.
+[[ ! -e $bare/usr/bin/stromboli ]] || remove || cannot "the package of an earlier try cannot be removed; see $log"
+
+# What apt finds lacking: in the bare system, before anything else is there.
+cp "$package" "$bare/stromboli.deb"
+inside apt-get install -s --no-install-recommends /stromboli.deb >"$folder/apt.log" 2>&1 || {
+    sed -n '/unmet dependencies/,$p' "$folder/apt.log" >&2
+    fail "apt finds the dependencies of $(basename "$package") nowhere (above)"
+}
+grep -q '^Inst stromboli ' "$folder/apt.log" || fail "apt would not install the package"
+
+# The wheel first, where none of the package's libraries are: with a driver, a loader and Python.
+install libvulkan1 mesa-vulkan-drivers python3-venv || cannot "there is no mirror for $suite; see $log"
+version=$(inside python3 -c 'import sys; print("3.%d" % sys.version_info.minor)')
+python=cp${version/./}
+if [[ ! -e $(echo "$build"/python/_stromboli.cpython-"${version/./}"-*.so) ]]; then
+    if [[ ! -e $folder/headers ]]; then
+        inside sh -c "cd /tmp && apt-get -qq download libpython$version-dev pybind11-dev" >>"$log" 2>&1 ||
+            cannot "the headers of Python $version cannot be had; see $log"
+        mkdir "$folder/headers"
+        for part in "$bare"/tmp/*-dev_*.deb; do dpkg-deb -x "$part" "$folder/headers"; done
+    fi
+    made=0
+    "${PYTHON:-python3}" "$root/python/make_wheel.py" "$build" "$folder/headers/usr/include" >>"$log" 2>&1 || made=$?
+    ((made != 77)) || cannot "$(tail -n 1 "$log")"
+    ((made == 0)) || fail "the wheel for Python $version could not be made; see $log"
+fi
+wheel=$(only "$build"/packages/stromboli-*-"$python"-manylinux*.whl)
+[[ -e $(echo "$folder"/wheels/numpy-*) ]] ||
+    "${PYTHON:-python3}" -m pip download -q --only-binary :all: --python-version "$version" --platform manylinux2014_x86_64 \
+        --platform manylinux_2_28_x86_64 -d "$folder/wheels" numpy >>"$log" 2>&1 || cannot "numpy cannot be had; see $log"
+
+picture=(cornell_mirror_glass -r 96 72 -s 8 --notes off -q)
+"$build/bin/stromboli" render "${picture[@]}" -o "$folder/here.exr"
+"$build/bin/stromboli" render "${picture[@]}" --aov -o "$bare/with_layers.exr"
+rm -rf "$bare/wheels" "$bare/env"
+mkdir "$bare/wheels"
+cp "$wheel" "$folder"/wheels/numpy-* "$bare/wheels"
+inside python3 -m venv /env
+inside /env/bin/pip install -q --no-compile --no-index --find-links /wheels stromboli >>"$log" 2>&1 || {
+    tail -n 20 "$log" >&2
+    fail "pip does not install $(basename "$wheel")"
+}
+# Both pictures take less than a second; with lanes that a Mesa cannot do, minutes (docs/results.md, "Sixteen lanes").
+inside timeout 30 /env/bin/python -B - <<'PYTHON' || fail "the module of the wheel does not work, or takes more than 30 s"
+import numpy
+import stromboli
+
+picture = stromboli.render("cornell_mirror_glass", width=96, height=72, samples=8, progress=False)
+expected = stromboli.read("/with_layers.exr")
+assert numpy.array_equal(picture, expected), "the module's picture is not that of the program here"
+assert numpy.array_equal(picture.variance, expected.variance), "nor is its variance"
+PYTHON
+say "$(basename "$wheel") installed by pip, and its picture has the numbers of the program here"
+
+install /stromboli.deb || {
+    tail -n 20 "$log" >&2
+    fail "apt does not install $(basename "$package")"
+}
+inside stromboli --version || fail "the installed program does not start"
+inside stromboli devices || fail "the installed program finds no device"
+inside timeout 30 stromboli render "${picture[@]}" -o /there.exr || fail "the installed program does not render in 30 s"
+cmp "$bare/there.exr" "$folder/here.exr" || fail "the picture of the installed program has other bytes"
+say "$(basename "$package") installed by apt, and its picture has the same bytes as here"
+
+rm -rf "$bare/env" "$bare/wheels"
+remove || fail "apt does not remove the package"
+for left in "$bare"/usr/{bin,lib,share,share/doc}/stromboli; do
+    [[ ! -e $left ]] || fail "the removed package leaves ${left#"$bare"}"
+done

@@ -86,6 +86,8 @@ def test_a_changed_material_is_as_if_the_scene_had_it(session):
     assert equal(changed, session.render(furnace((0.5, 0.25, 0)), samples=4, direct="bsdf", width=8, height=8))
     with pytest.raises(stromboli.UsageError, match="has no material 'none'"):
         session.change_material("none", albedo=1)
+    with pytest.raises(stromboli.UsageError, match="its number or its name, not a dict"):
+        session.change_material({"name": "ball"}, albedo=1)
     with pytest.raises(stromboli.UsageError, match="no 'roughness'"):
         session.change_material("ball", roughness=1)
 
