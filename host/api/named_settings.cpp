@@ -217,6 +217,13 @@ constexpr Row<Asked> kPictureRows[] = {
          if (a.request.crop.width == 0 || a.request.crop.height == 0)
              refuse(n, v, "a width and a height of at least 1");
      }},
+    {"background", "where no surface is: radiance (one or three numbers), or a picture's file",
+     [](Asked& a, Name n, const Value& v) {
+         const auto* file = std::get_if<std::string>(&v);
+         a.request.background =
+             file ? backgroundFrom(*file)
+                  : Background{1, 1, {color(n, v, 1e30, "one or three radiances from 0 on")}};
+     }},
     {"transparent", "alpha in place of the environment",
      [](Asked& a, Name n, const Value& v) { a.request.transparent = yes(n, v); }},
     {"layers", "albedo, normal, depth, position, uv, object, material, with commas between",

@@ -261,6 +261,10 @@ struct Asked {
     bool pixelAlone = false; ///< `pixel` and nothing else
 };
 
+/// Radiance: one number for all channels, or three with commas between. Empty if it is no such
+/// text.
+std::optional<glm::vec3> readRadiance(const std::string& word);
+
 /// several: where a command takes more than one scene; their names go there, and not into `scene`.
 void declareScene(OptionList& list, SceneRequest& scene, Words* several = nullptr);
 

@@ -156,6 +156,18 @@ void declareSeen(OptionList& list, RenderRequest& o) {
               "the picture has alpha: what no surface covers is transparent, and the camera does "
               "not see the environment, which lights the scene all the same",
               o.transparent);
+    list.words("--background", "COLOR",
+               "what is seen where no surface is, in place of the environment, which lights the "
+               "scene all the same: a radiance as a number or as R,G,B, or a picture's file, which "
+               "covers the frame",
+               1,
+               [&o](const Words& words) {
+                   const std::optional<glm::vec3> color = readRadiance(words[0]);
+                   o.background = color ? Background{1, 1, {*color}} : backgroundFrom(words[0]);
+               })
+        .excludes("--transparent")
+        .excludes("--share", "films have no place for it")
+        .proposes(Proposed::Files);
     list.words(
             "--layers", "LIST",
             fmt::format("EXR: also these channels, with commas between (docs/guide/layers.md): {}",

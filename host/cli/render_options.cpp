@@ -258,7 +258,6 @@ void finishRender(DeclaredCommand& c, RenderOptions& o, const Asked& asked) {
     o.device.maybeSeveral = !asked.pixelAlone;
     o.device.threads = c.host.threads;
     o.command = c.pictureCommand;
-    o.picture.estimator.showsBackdrop = !o.picture.transparent;
     checkSeveralPictures(o);
     checkSequence(o);
     if (o.output.file.empty() && !o.pixelAlone)

@@ -16,26 +16,6 @@ constexpr Range<uint32_t> kSceneNumbers{0, 0xFFFFFFFEu};
 constexpr Range<uint32_t> kTextureSides{0, 65536};
 constexpr Range<double> kAnimationSeconds{0, 1e9};
 
-/// Radiance: one number for all channels, or three with commas between. Empty if it is no such
-/// text.
-std::optional<glm::vec3> readRadiance(const std::string& word) {
-    const size_t first = word.find(','), second = word.find(',', first + 1);
-    const auto channel = [](const std::string& text) -> std::optional<float> {
-        const std::optional<double> value = realNumber(text);
-        if (!value || *value < 0 || *value > 1e30) return std::nullopt;
-        return float(*value);
-    };
-    if (first == std::string::npos) {
-        const std::optional<float> grey = channel(word);
-        return grey ? std::optional(glm::vec3(*grey)) : std::nullopt;
-    }
-    if (second == std::string::npos) return std::nullopt;
-    const std::optional<float> r = channel(word.substr(0, first)),
-                               g = channel(word.substr(first + 1, second - first - 1)),
-                               b = channel(word.substr(second + 1));
-    return r && g && b ? std::optional(glm::vec3(*r, *g, *b)) : std::nullopt;
-}
-
 /// The numbers of a list, whose commas have nothing but numbers between them; else empty.
 std::vector<double> numbersOfList(const std::string& word) {
     std::vector<double> numbers;
@@ -103,6 +83,24 @@ GroundRequest readGround(const std::string& word) {
 }
 
 } // namespace
+
+std::optional<glm::vec3> readRadiance(const std::string& word) {
+    const size_t first = word.find(','), second = word.find(',', first + 1);
+    const auto channel = [](const std::string& text) -> std::optional<float> {
+        const std::optional<double> value = realNumber(text);
+        if (!value || *value < 0 || *value > 1e30) return std::nullopt;
+        return float(*value);
+    };
+    if (first == std::string::npos) {
+        const std::optional<float> grey = channel(word);
+        return grey ? std::optional(glm::vec3(*grey)) : std::nullopt;
+    }
+    if (second == std::string::npos) return std::nullopt;
+    const std::optional<float> r = channel(word.substr(0, first)),
+                               g = channel(word.substr(first + 1, second - first - 1)),
+                               b = channel(word.substr(second + 1));
+    return r && g && b ? std::optional(glm::vec3(*r, *g, *b)) : std::nullopt;
+}
 
 void declareScene(OptionList& list, SceneRequest& scene, Words* several) {
     list.group("Scene");

@@ -120,7 +120,6 @@ void finishSubmit(DeclaredCommand& c, SubmitOptions& o, const Asked& asked) {
     finishBudget(o.picture, asked);
     if (!asked.cameras.empty())
         throw UsageError("submit is of one picture: --camera names several");
-    o.picture.estimator.showsBackdrop = !o.picture.transparent;
     o.command = c.pictureCommand;
     checkOutputOptions(c, o.output, o.picture);
     o.merge = partsOfPictureFile(o.command);

@@ -93,7 +93,8 @@ Estimator withHints(const RenderHints& hints, const RenderRequest& request) {
     if (hints.filter && left.filter) useFilter(hints, estimator);
     if (hints.rouletteStart) estimator.roulette.throughputStart = *hints.rouletteStart;
     if (hints.showsDepth && left.integrator) estimator.integrator = Integrator::Depth;
-    if (hints.hidesBackdrop) estimator.showsBackdrop = false;
+    if (hints.hidesBackdrop || request.transparent || request.background)
+        estimator.showsBackdrop = false;
     return estimator;
 }
 
@@ -174,6 +175,8 @@ bool guidesLight(const RenderRequest& request) {
 
 ResolvedPicture resolvePicture(const Scene& scene, const RenderRequest& request,
                                const Listener& listener) {
+    if (request.transparent && request.background)
+        throw UsageError("a picture that is transparent has no background");
     ResolvedPicture picture;
     RenderSettings& settings = picture.settings;
     settings = {areaOf(scene, request), withHints(scene.hints, request), {}};

@@ -2,6 +2,7 @@
 
 #include "host/core/text.hpp"
 #include "host/denoise/denoiser.hpp"
+#include "host/engine/background.hpp"
 #include "host/engine/load_scene.hpp"
 #include "host/kernel/kernel_tuning.hpp"
 #include "host/render/layers.hpp"
@@ -69,6 +70,8 @@ struct RenderRequest {
     LeftToFile leftToFile;
     PathBudget budget;
     bool transparent = false; ///< alpha in place of the environment
+    /// In place of the environment, or of nothing; not of a transparent picture.
+    std::optional<Background> background;
     std::vector<Layer> layers;
     Denoiser denoiser = Denoiser::Off;
     /// A denoised picture has the noisy one and the predicted error as channels too.

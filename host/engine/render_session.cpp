@@ -289,7 +289,7 @@ void RenderSession::endBand(const SessionEvents& events) {
         endDenoised(events);
     } else if (events.bandDone) {
         const FloatImage seen = beside(sampling_->film());
-        if (result_.pixelsUnreached == unreachedBefore)
+        if (result_.pixelsUnreached == unreachedBefore && !request_.background)
             events.bandDone({sampling_->film(), kept.outcome.noise, seen});
         else
             events.bandDone({shownFilm(), kept.outcome.noise, seen});
@@ -333,9 +333,19 @@ const Film& RenderSession::film() const {
     return sampling_->film();
 }
 
-Film RenderSession::shownFilm() const {
+void RenderSession::putBackgroundBehind(Film& shown) {
+    if (!request_.background) return;
+    RenderRequest looks = request_;
+    looks.transparent = true;
+    looks.denoiser = Denoiser::Off;
+    looks.layers.clear();
+    putBehind(shown, see(film(), looks).channel(kAlphaChannel), *request_.background);
+}
+
+Film RenderSession::shownFilm() {
     Film shown = film();
     showNeighbours(shown, NoisePlan::kCoarsest);
+    putBackgroundBehind(shown);
     return shown;
 }
 
@@ -390,6 +400,7 @@ void RenderSession::endDenoised(const SessionEvents& events) {
     Film shown = film();
     for (size_t i = 0; i < shown.pixels.size(); ++i)
         shown.pixels[i].mean = d.picture.mean[i];
+    putBackgroundBehind(shown);
     FloatImage seen = beside(film());
     if (request_.keepsNoisy) denoise::addChannels(seen, d.noisy, d.picture);
     events.bandDone({shown, d.picture.summary.noise, seen});

@@ -185,7 +185,8 @@ class RenderSession {
     const Denoised& denoisedNow();
     bool isDenoisedEnough();
     void endDenoised(const SessionEvents& events);
-    Film shownFilm() const;
+    void putBackgroundBehind(Film& shown);
+    Film shownFilm();
 
     Listener listener_;
     Renderer renderer_;

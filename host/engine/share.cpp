@@ -206,6 +206,8 @@ void requireFingerprint(const std::string& expected, const Scene& scene, const C
 FilmHeader headerOfPicture(const Scene& scene, const ResolvedPicture& picture,
                            const RenderRequest& request, const FilmOrigin& origin,
                            const std::string& backend, const std::string& device) {
+    if (request.background)
+        throw UsageError("shares have no --background: films have no place for it");
     // Films count the samples that a surface covers; those of such filters have weights.
     if (request.transparent && hasNegativeLobes(picture.settings.estimator.filter))
         throw UsageError(fmt::format("shares have no --transparent with the pixel filter {}, which "

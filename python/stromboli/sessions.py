@@ -251,6 +251,7 @@ def render(
     crop: Optional[Sequence[int]] = None,
     layers: Union[None, str, Sequence[str]] = None,
     transparent: Optional[bool] = None,
+    background: Union[None, str, float, Sequence[float]] = None,
     denoise: Union[None, bool, str] = None,
     keep_noisy: Optional[bool] = None,
     camera: Union[None, str, int] = None,
@@ -291,6 +292,7 @@ def render(
     seed -- another seed, another noise
     layers -- of albedo, normal, depth, position, uv, object, material
     transparent -- alpha in place of the environment
+    background -- in its place: radiance, one or three numbers, or a picture's file
     denoise -- True or "on", "oidn"; keep_noisy: with the noisy picture as a layer
     camera -- name or number (from 1) of one of the scene, "auto", "file" or "frame"
     look_from, look_at -- points in metres, in place of a camera of the scene
@@ -323,6 +325,7 @@ def render(
         crop=crop,
         layers=layers,
         transparent=transparent,
+        background=background,
         denoise=denoise,
         keep_noisy=keep_noisy,
         camera=camera,

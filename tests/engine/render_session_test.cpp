@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <future>
 #include <unistd.h>
@@ -223,6 +224,44 @@ TEST(RenderSession, PixelsCanBeReadBetweenPasses) {
     const ByteImage dark = session.shown({}), bright = session.shown({.exposure = 2});
     EXPECT_EQ(dark.alpha.size(), 24u * 18);
     EXPECT_LT(dark.pixel(12, 9)[0], bright.pixel(12, 9)[0]); // without another sample
+}
+
+/// A background is behind what surfaces cover, and nowhere else: in all that shows the picture.
+TEST(RenderSession, ABackgroundIsWhereNoSurfaceIs) {
+    RenderRequest request = smallPicture(8);
+    request.transparent = true;
+    request.camera = fromTheSide();
+    request.camera.from->z += 3; // beside the box there is nothing
+    RenderSession session(kReference);
+    session.begin(bundled("cornell_spheres"), request);
+    session.run();
+    const FloatImage clear = session.pixels();
+    request.transparent = false;
+    // Two texels: the left one red, the right one blue; they meet in the middle of the frame.
+    request.background = Background{2, 1, {glm::vec3(4, 0, 0), glm::vec3(0, 0, 2)}};
+    session.begin(bundled("cornell_spheres"), request);
+    Film written;
+    SessionEvents events;
+    events.bandDone = [&](const FinishedBand& band) { written = band.film; };
+    session.run(events);
+    const FloatImage behind = session.pixels();
+    EXPECT_FALSE(behind.channels.contains("A"));
+    size_t open = 0, covered = 0;
+    for (size_t i = 0; i < 24 * 18; ++i) {
+        const float alpha = clear.channels.at("A")[i];
+        (alpha == 1 ? covered : open) += 1;
+        const double right = std::clamp((double(i % 24) + 0.5 - 12) / 18 + 0.5, 0.0, 1.0);
+        EXPECT_NEAR(behind.channels.at("R")[i],
+                    clear.channels.at("R")[i] + (1 - alpha) * 4 * (1 - right), 1e-5);
+        EXPECT_NEAR(behind.channels.at("B")[i], clear.channels.at("B")[i] + (1 - alpha) * 2 * right,
+                    1e-5);
+        EXPECT_EQ(behind.channels.at("G")[i], clear.channels.at("G")[i]);
+        EXPECT_EQ(float(written.pixels[i].mean.b), behind.channels.at("B")[i]);
+    }
+    EXPECT_GT(open, 20u);
+    EXPECT_GT(covered, 20u);
+    request.transparent = true;
+    EXPECT_THROW(session.begin(bundled("cornell_spheres"), request), UsageError);
 }
 
 TEST(RenderSession, ProgressIsThatOfTheWholePicture) {
