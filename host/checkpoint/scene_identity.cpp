@@ -119,9 +119,12 @@ void add(Sum& sum, const Environment& e) {
 }
 
 void add(Sum& sum, const Medium& m) {
-    const auto& [name, absorption, scattering, emission, phase, asymmetry, density] = m;
+    const auto& [name, absorption, scattering, emission, phase, asymmetry, otherPhases, density] =
+        m;
     sum.add(absorption), sum.add(scattering), sum.add(emission), sum.add(phase);
     sum.add(asymmetry);
+    for (const PhaseLobe& lobe : otherPhases)
+        sum.add(lobe.phase), sum.add(lobe.asymmetry), sum.add(lobe.share);
     if (!density) return;
     const auto& [size, values, toUnit] = *density;
     sum.add(size), sum.addAll(values);

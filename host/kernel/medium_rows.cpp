@@ -15,15 +15,31 @@ float largestOf(const glm::vec3& v) {
     return std::max({v.x, v.y, v.z});
 }
 
+bool isRayleigh(const PhaseLobe& lobe) {
+    return lobe.phase == PhaseFunction::Rayleigh;
+}
+
+/// Of one of the functions of a sum, as the kernel reads it.
+float asymmetryOf(const PhaseLobe& lobe) {
+    return isRayleigh(lobe) ? gpu::RAYLEIGH_ASYMMETRY : lobe.asymmetry;
+}
+
+gpu::PhaseMixture mixtureOf(const Medium& m) {
+    std::vector<PhaseLobe> lobes = m.phases();
+    lobes.resize(kMostPhases);
+    return {asymmetryOf(lobes[1]), lobes[1].share, asymmetryOf(lobes[2]), lobes[2].share};
+}
+
 uint32_t closuresOf(const Medium& m) {
     if (!m.scatters()) return 0;
     return gpu::PHASE_FUNCTION | gpu::LOBE_DIFFUSE_REFLECTION |
-           (m.phase == PhaseFunction::Rayleigh ? gpu::PHASE_IS_RAYLEIGH : 0);
+           (std::ranges::any_of(m.phases(), isRayleigh) ? gpu::PHASE_IS_RAYLEIGH : 0);
 }
 
 uint32_t kindsOf(const Medium& m) {
     return gpu::MEDIA_DIM | (m.scatters() ? gpu::MEDIA_SCATTER : 0) |
-           (m.emits() ? gpu::MEDIA_SHINE : 0) | (m.density ? gpu::MEDIA_VARY : 0);
+           (m.emits() ? gpu::MEDIA_SHINE : 0) | (m.density ? gpu::MEDIA_VARY : 0) |
+           (m.scatters() && !m.otherPhases.empty() ? gpu::MEDIA_MIX : 0);
 }
 
 glm::vec3 albedoOf(const Medium& m) {
@@ -107,8 +123,9 @@ MediumRows appendMedia(std::vector<Row>& rows, std::span<const Medium> media, bo
         packed.kinds |= kindsOf(m);
         if (closures != 0) packed.closures.push_back(closures);
         appendRows(rows, gpu::MaterialHeader{glm::vec3(0), closures});
-        appendRows(rows, gpu::MediumBody{m.extinction(), m.asymmetry, albedoOf(m), 0, m.emission,
-                                         largestOf(m.extinction())});
+        appendRows(rows, gpu::MediumBody{m.extinction(), asymmetryOf(m.phases().front()),
+                                         albedoOf(m), 0, m.emission, largestOf(m.extinction())});
+        appendRows(rows, mixtureOf(m));
         rows.resize(first + gpu::MATERIAL_DETAIL_ROW);
         if (hasDetails) appendRows(rows, gpu::MaterialDetail{1, 0, 0, 0});
     }

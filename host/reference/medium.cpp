@@ -125,18 +125,56 @@ glm::dvec3 transmittance(const Medium& m, const Ray& ray, double from, double to
     return exponential(glm::dvec3(m.extinction()), depth);
 }
 
-double phaseDensity(const Medium& m, double cosine) {
-    if (m.phase == PhaseFunction::Rayleigh) return 3 / (16 * kPi) * (1 + cosine * cosine);
-    const double g = m.asymmetry;
+namespace {
+
+double phaseDensity(const PhaseLobe& lobe, double cosine) {
+    if (lobe.phase == PhaseFunction::Rayleigh) return 3 / (16 * kPi) * (1 + cosine * cosine);
+    const double g = lobe.asymmetry;
     return (1 - g * g) / (4 * kPi * std::pow(1 + g * g - 2 * g * cosine, 1.5));
+}
+
+bool isNarrow(const PhaseLobe& lobe) {
+    constexpr float kNarrow = 0.75f;
+    return lobe.phase == PhaseFunction::HenyeyGreenstein && std::abs(lobe.asymmetry) > kNarrow;
+}
+
+/// The function that a random number chooses, by its share, and what is left of the number.
+PhaseLobe choosePhase(const Medium& m, double& u) {
+    const std::vector<PhaseLobe> lobes = m.phases();
+    size_t i = 0;
+    for (; i + 1 < lobes.size() && u >= double(lobes[i].share); ++i)
+        u -= double(lobes[i].share);
+    u = std::min(u / double(lobes[i].share), 1 - 0x1p-53);
+    return lobes[i];
+}
+
+} // namespace
+
+double phaseDensity(const Medium& m, double cosine) {
+    double sum = 0;
+    for (const PhaseLobe& lobe : m.phases())
+        sum += double(lobe.share) * phaseDensity(lobe, cosine);
+    return sum;
+}
+
+double narrowPhaseDensity(const Medium& m, double cosine) {
+    double sum = 0;
+    for (const PhaseLobe& lobe : m.phases())
+        if (isNarrow(lobe)) sum += double(lobe.share) * phaseDensity(lobe, cosine);
+    return sum;
+}
+
+bool isNarrow(const Medium& m) {
+    return std::ranges::all_of(m.phases(), [](const PhaseLobe& lobe) { return isNarrow(lobe); });
 }
 
 /// Henyey and Greenstein's distribution has an inverse; Rayleigh's is sampled by rejection folded
 /// into one number: a mixture of a uniform cosine (3/4 of it) and one of density 3/2 cos^2.
 glm::dvec3 samplePhase(const Medium& m, const glm::dvec3& forward, double u, double v) {
+    const PhaseLobe lobe = choosePhase(m, u);
     double cosine = 1 - 2 * u;
-    const double g = m.asymmetry;
-    if (m.phase == PhaseFunction::Rayleigh) {
+    const double g = lobe.asymmetry;
+    if (lobe.phase == PhaseFunction::Rayleigh) {
         cosine = u < 0.75 ? 1 - 2 * (u / 0.75) : std::cbrt(1 - 2 * ((u - 0.75) / 0.25));
     } else if (std::abs(g) > 1e-6) {
         const double s = (1 - g * g) / (1 - g + 2 * g * u);

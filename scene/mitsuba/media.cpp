@@ -4,6 +4,7 @@
 #include "scene/mitsuba/colors.hpp"
 #include "scene/mitsuba/scattering_tables.hpp"
 #include "scene/mitsuba/volumes.hpp"
+#include "scene/mitsuba/words.hpp"
 
 #include <fmt/format.h>
 
@@ -16,31 +17,66 @@ namespace {
 /// What Mitsuba 3 takes for a medium that states nothing.
 constexpr double kUsualAlbedo = 0.75, kUsualExtinction = 1;
 
-void readPhase(const Plugin& phase, Medium& medium) {
-    medium.phase = PhaseFunction::HenyeyGreenstein;
-    medium.asymmetry = 0;
-    if (phase.type == "rayleigh") {
-        medium.phase = PhaseFunction::Rayleigh;
-    } else if (phase.type == "hg") {
-        medium.asymmetry = float(phase.number("g").value_or(0.8));
-    } else if (phase.type == "blendphase") {
-        // The mean cosine of a sum is that of its parts.
+/// The shares of a sum's parts, as many as there are.
+std::vector<double> sharesOf(const Context& context, const Plugin& phase, size_t parts) {
+    std::vector<double> shares;
+    if (phase.type == "blendphase") {
+        const Plugin* volume = phase.child("weight");
+        double second = 0;
+        if (volume && volume->tag == "volume") {
+            const Volume read = readVolume(context, *volume);
+            if (read.grid)
+                volume->replace(build::Shortfall::Model, "varies from place to place", "its mean");
+            second = std::clamp(read.mean.x, 0.0, 1.0);
+        } else {
+            second = phase.number("weight", 0, 1).value_or(0.5);
+        }
+        shares = {1 - second, second};
+    } else {
+        shares = numbersOf(phase.place, phase.requireText("weights"));
+    }
+    if (shares.size() != parts)
+        phase.replaceParameter(
+            phase.type == "blendphase" ? "weight" : "weights", build::Shortfall::Number,
+            fmt::format("has {} numbers for {} phase functions", shares.size(), parts));
+    shares.resize(parts, 0);
+    return shares;
+}
+
+/// Adds what a phase function is a sum of, `share` of it in all.
+void addPhase(const Context& context, const Plugin& phase, double share,
+              std::vector<PhaseLobe>& lobes) {
+    PhaseLobe lobe{PhaseFunction::HenyeyGreenstein, 0, float(share)};
+    if (phase.type == "blendphase" || phase.type == "mixturephase") {
         const std::vector<const Plugin*> parts = phase.childrenOf("phase");
-        const double share = phase.number("weight", 0, 1).value_or(0.5);
-        Medium first = medium, second = medium;
-        if (parts.size() == 2) readPhase(*parts[0], first), readPhase(*parts[1], second);
-        medium.asymmetry = float((1 - share) * first.asymmetry + share * second.asymmetry);
-        phase.replace(build::Shortfall::Model, "is a sum of two phase functions",
-                      "Henyey and Greenstein's of the same mean cosine");
+        const std::vector<double> shares = sharesOf(context, phase, parts.size());
+        for (size_t i = 0; i < parts.size(); ++i)
+            addPhase(context, *parts[i], share * std::max(shares[i], 0.0), lobes);
+        return phase.requireAllRead();
+    }
+    if (phase.type == "rayleigh") {
+        lobe.phase = PhaseFunction::Rayleigh;
+    } else if (phase.type == "hg") {
+        lobe.asymmetry = float(phase.number("g").value_or(0.8));
     } else if (phase.type != "isotropic") {
         phase.replace(build::Shortfall::Model,
                       fmt::format("'{}' is no phase function that is read, expected isotropic, hg, "
-                                  "rayleigh or blendphase",
+                                  "rayleigh, blendphase or mixturephase",
                                   phase.type),
                       "isotropic");
-        return;
+        return lobes.push_back(lobe);
     }
     phase.requireAllRead();
+    lobes.push_back(lobe);
+}
+
+void readPhase(const Context& context, const Plugin& phase, Medium& medium) {
+    std::vector<PhaseLobe> lobes;
+    addPhase(context, phase, 1, lobes);
+    if (!medium.setPhases(std::move(lobes)))
+        phase.replace(build::Shortfall::Model,
+                      fmt::format("is a sum of more than {} phase functions", kMostPhases),
+                      "those with the largest shares");
 }
 
 /// The share of light that is scattered, of a volume that may vary.
@@ -117,7 +153,7 @@ Medium Media::make(const Plugin& plugin) {
     Medium medium;
     medium.name = plugin.displayName();
     const double scale = plugin.number("scale", 0).value_or(1);
-    if (const Plugin* phase = plugin.onlyChildOf("phase")) readPhase(*phase, medium);
+    if (const Plugin* phase = plugin.onlyChildOf("phase")) readPhase(context_, *phase, medium);
     if (plugin.type == "heterogeneous")
         readHeterogeneous(context_, plugin, scale, medium);
     else if (plugin.type == "homogeneous")

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace stromboli {
@@ -51,6 +52,42 @@ double DensityGrid::at(const glm::dvec3& place) const {
 
 float DensityGrid::largest() const {
     return values.empty() ? 0 : std::ranges::max(values);
+}
+
+std::vector<PhaseLobe> Medium::phases() const {
+    std::vector<PhaseLobe> lobes{{phase, asymmetry, 1}};
+    for (const PhaseLobe& other : otherPhases)
+        lobes.front().share -= other.share;
+    lobes.insert(lobes.end(), otherPhases.begin(), otherPhases.end());
+    return lobes;
+}
+
+bool Medium::setPhases(std::vector<PhaseLobe> lobes) {
+    std::vector<PhaseLobe> taken;
+    for (const PhaseLobe& lobe : lobes) {
+        if (!(lobe.share > 0 && std::isfinite(lobe.share))) continue;
+        const auto isSame = [&](const PhaseLobe& t) {
+            return t.phase == lobe.phase && t.asymmetry == lobe.asymmetry;
+        };
+        const auto same = std::ranges::find_if(taken, isSame);
+        if (same == taken.end())
+            taken.push_back(lobe);
+        else
+            same->share += lobe.share;
+    }
+    std::ranges::stable_sort(taken, std::greater(), &PhaseLobe::share);
+    const bool isAll = taken.size() <= kMostPhases;
+    taken.resize(std::min(taken.size(), kMostPhases));
+    if (taken.empty()) taken.push_back({});
+    float sum = 0;
+    for (const PhaseLobe& lobe : taken)
+        sum += lobe.share;
+    for (PhaseLobe& lobe : taken)
+        lobe.share = sum > 0 ? lobe.share / sum : 1;
+    phase = taken.front().phase;
+    asymmetry = taken.front().asymmetry;
+    otherPhases.assign(taken.begin() + 1, taken.end());
+    return isAll;
 }
 
 namespace {

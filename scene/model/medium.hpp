@@ -22,6 +22,15 @@ enum class PhaseFunction : uint32_t {
     Rayleigh,         ///< 3 / (16 pi) (1 + cos^2)
 };
 
+/// One of the phase functions whose sum is a medium's.
+struct PhaseLobe {
+    PhaseFunction phase = PhaseFunction::HenyeyGreenstein;
+    float asymmetry = 0; ///< Henyey-Greenstein: the mean cosine g, within kMostAsymmetry of 0
+    float share = 0;     ///< of the light that is scattered, at most 1
+
+    bool operator==(const PhaseLobe&) const = default;
+};
+
 /// How dense a medium is from place to place: a factor of its coefficients.
 struct DensityGrid {
     glm::uvec3 size{0}; ///< values along x, y and z, at least 1
@@ -49,15 +58,24 @@ struct Medium {
     glm::vec3 emission{0.0f};   ///< radiance that comes in per metre, times the density
     PhaseFunction phase = PhaseFunction::HenyeyGreenstein;
     float asymmetry = 0; ///< Henyey-Greenstein: the mean cosine g, within kMostAsymmetry of 0
+    /// Beside that function, which has what their shares leave of 1: at most kMostPhases - 1.
+    std::vector<PhaseLobe> otherPhases;
     std::optional<DensityGrid> density; ///< none: the same everywhere
 
     glm::vec3 extinction() const { return absorption + scattering; }
     bool scatters() const { return scattering.x > 0 || scattering.y > 0 || scattering.z > 0; }
+    /// The whole sum, the shares of which are 1 together.
+    std::vector<PhaseLobe> phases() const;
+    /// Takes these in place of what there is: the shares in proportion, equal functions as one. Of
+    /// more than kMostPhases those with the largest shares are taken. Returns whether all are.
+    bool setPhases(std::vector<PhaseLobe> lobes);
     bool emits() const { return emission.x > 0 || emission.y > 0 || emission.z > 0; }
 };
 
 /// Beyond, floats cannot tell the peak of Henyey and Greenstein's function from a single direction.
 inline constexpr float kMostAsymmetry = 0.9999f;
+/// How many phase functions a medium may be a sum of.
+inline constexpr size_t kMostPhases = 3;
 
 /// Leaves out all media where no surface and no camera is in contact with one. Where a scene has
 /// media, gives every surface that light passes into a volume the media on both

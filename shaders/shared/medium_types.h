@@ -13,7 +13,8 @@ SHARED_BEGIN
     F(MEDIA_DIM, 0, "extinction") \
     F(MEDIA_SCATTER, 1, "scattering") \
     F(MEDIA_SHINE, 2, "emission") \
-    F(MEDIA_VARY, 3, "grids of densities")
+    F(MEDIA_VARY, 3, "grids of densities") \
+    F(MEDIA_MIX, 4, "sums of phase functions")
 
 #define NAME_MEDIA(name, bit, label) SHARED_CONST uint name = 1u << bit;
 MEDIA_LIST(NAME_MEDIA)
@@ -34,7 +35,7 @@ SHARED_CONST uint MEDIUM_BORDER_ROWS = 1u;
 
 struct MediumBody {
     vec3 extinction; ///< per metre, times the density
-    float asymmetry; ///< of Henyey and Greenstein's function
+    float asymmetry; ///< of Henyey and Greenstein's function, or RAYLEIGH_ASYMMETRY
     vec3 albedo;     ///< the share of the extinction that is scattering
     uint grid;       ///< the row of its GridHeader; 0: the density is 1 everywhere
     vec3 emission;   ///< radiance per metre, times the density
@@ -42,6 +43,17 @@ struct MediumBody {
 };
 SHARED_ROWS(MediumBody, 3);
 SHARED_CONST uint MEDIUM_BODY_ROW = 1u; ///< of a medium, its header counted
+
+/// Where some medium has a sum of phase functions (MEDIA_MIX): two beside that of the body, which has the rest of the
+/// shares.
+struct PhaseMixture {
+    float asymmetry1, share1; ///< share: 0 where there is none
+    float asymmetry2, share2;
+};
+SHARED_ROWS(PhaseMixture, 1);
+SHARED_CONST uint MEDIUM_PHASES_ROW = 4u; ///< of a medium, its header counted
+/// In place of an asymmetry: Rayleigh's function.
+SHARED_CONST float RAYLEIGH_ASYMMETRY = 2.0f;
 
 /// A grid of densities. Between the middles of its cells, which fill the unit cube, densities are interpolated.
 struct GridHeader {

@@ -142,10 +142,29 @@ TEST(Media, DimTheEnvironment) {
 // --- What is scattered
 // -----------------------------------------------------------------------------
 
+/// A narrow, a wide and a backward one.
+const std::vector<PhaseLobe> kSumOfPhases = {{PhaseFunction::HenyeyGreenstein, 0.9f, 0.25f},
+                                             {PhaseFunction::Rayleigh, 0, 0.5f},
+                                             {PhaseFunction::HenyeyGreenstein, -0.6f, 0.25f}};
+
+double phaseDensity(const Medium& m, double turn) {
+    double sum = 0;
+    for (const PhaseLobe& lobe : m.phases()) {
+        const double g = lobe.asymmetry;
+        sum += double(lobe.share) *
+               (lobe.phase == PhaseFunction::Rayleigh
+                    ? 3 / (16 * kPi) * (1 + turn * turn)
+                    : (1 - g * g) / (4 * kPi * std::pow(1 + g * g - 2 * g * turn, 1.5)));
+    }
+    return sum;
+}
+
 /// Light of a point at the distance d from a ray in a medium without an end, scattered once: the
-/// integral over the ray of sigma_s exp(-sigma_t (t + r)) p(cos) I / r^2.
+/// integral over the ray of sigma_s exp(-sigma_t (t + r)) p(cos) I / r^2. m: the same in all
+/// channels.
 double scatteredOnce(const glm::dvec3& from, const glm::dvec3& along, const glm::dvec3& light,
-                     double scattering, double extinction, double g, double to) {
+                     const Medium& m, double to) {
+    const double scattering = m.scattering.x, extinction = m.extinction().x;
     constexpr int kSteps = 200'000;
     double sum = 0;
     for (int i = 0; i < kSteps; ++i) {
@@ -153,26 +172,25 @@ double scatteredOnce(const glm::dvec3& from, const glm::dvec3& along, const glm:
         const glm::dvec3 d = light - (from + t * along);
         const double r = glm::length(d), cosine = -glm::dot(along, d) / r;
         // Light goes along -d, then along -along.
-        const double turn = -cosine;
-        const double phase = (1 - g * g) / (4 * kPi * std::pow(1 + g * g - 2 * g * turn, 1.5));
-        sum += scattering * std::exp(-extinction * (t + r)) * phase / (r * r);
+        sum += scattering * std::exp(-extinction * (t + r)) * phaseDensity(m, -cosine) / (r * r);
     }
     return sum * to / kSteps;
 }
 
 TEST(Media, ScatterLightOfAPointOnce) {
-    for (const float g : {0.0f, 0.7f, -0.5f}) {
+    for (const float g : {0.0f, 0.7f, -0.5f, 2.0f}) {
+        Medium m = medium(glm::vec3(0.0625f), glm::vec3(0.25f), g);
+        if (g == 2) m.setPhases(kSumOfPhases);
         SceneMaker b;
         b.quad({-50, -50, -4}, {100, 0, 0}, {0, 100, 0}, b.add(diffuse(0)));
         Camera camera = pointCamera({0, 0, 4}, {0, 0, -4});
-        camera.medium = add(b, medium(glm::vec3(0.0625f), glm::vec3(0.25f), g));
+        camera.medium = add(b, m);
         Light l;
         l.position = {1, 0.5f, 0.25f};
         l.constantAttenuation = 0;
         l.quadraticAttenuation = 1;
         b.add(l);
-        const double expected =
-            scatteredOnce({0, 0, 4}, {0, 0, -1}, l.position, 0.25, 0.3125, g, 8);
+        const double expected = scatteredOnce({0, 0, 4}, {0, 0, -1}, l.position, m, 8);
         const Estimate found = estimate(b.scene, camera, smallPicture(256, 1));
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(found.mean[c], expected, 4.5 * found.error[c] + 1e-4 * expected) << g;
@@ -256,7 +274,7 @@ TEST(Media, EstimatorsAgree) {
         SceneMaker b;
         b.quad({-1, -1, 3}, {0, 2, 0}, {2, 0, 0}, b.add(emissive(4, true)));
         Medium m = medium(glm::vec3(0.125f), glm::vec3(1, 0.5f, 0.25f), g);
-        if (g == 0) m.phase = PhaseFunction::Rayleigh;
+        if (g == 0) m.setPhases(kSumOfPhases);
         b.sphere({0, 0, 0}, 1, b.add(border(add(b, m))));
         const auto seen = [&](DirectLight mode, uint32_t samples) {
             RenderSettings s = smallPicture(samples, 20);

@@ -54,11 +54,32 @@ TEST(MitsubaMedia, HavePhaseFunctions) {
               -0.5f);
     EXPECT_EQ(phaseOf("<phase type=\"isotropic\"/>").asymmetry, 0);
     EXPECT_EQ(phaseOf("<phase type=\"rayleigh\"/>").phase, PhaseFunction::Rayleigh);
-    EXPECT_FLOAT_EQ(phaseOf("<phase type=\"blendphase\"><float name=\"weight\" value=\"0.25\"/>"
-                            "<phase type=\"hg\"><float name=\"g\" value=\"0.8\"/></phase>"
-                            "<phase type=\"isotropic\"/></phase>")
-                        .asymmetry,
-                    0.6f);
+}
+
+TEST(MitsubaMedia, HaveSumsOfPhaseFunctions) {
+    constexpr PhaseFunction kHg = PhaseFunction::HenyeyGreenstein;
+    const std::string narrow = "<phase type=\"hg\"><float name=\"g\" value=\"0.75\"/></phase>";
+    const std::string inner = "<phase type=\"blendphase\"><float name=\"weight\" value=\"0.5\"/>"
+                              "<phase type=\"isotropic\"/><phase type=\"rayleigh\"/></phase>";
+    const Medium blend =
+        mediumOf("homogeneous", "<phase type=\"blendphase\"><float name=\"weight\" "
+                                "value=\"0.25\"/>" +
+                                    narrow + inner + "</phase>");
+    EXPECT_THAT(blend.phases(), ElementsAre(PhaseLobe{kHg, 0.75f, 0.75f}, PhaseLobe{kHg, 0, 0.125f},
+                                            PhaseLobe{PhaseFunction::Rayleigh, 0, 0.125f}));
+    const std::string old =
+        "<phase type=\"mixturephase\"><string name=\"weights\" value=\"WEIGHTS\"/>" + narrow +
+        "<phase type=\"isotropic\"/><phase type=\"isotropic\"/></phase>";
+    const auto oldText = [&](std::string weights) {
+        std::string text = old;
+        text.replace(text.find("WEIGHTS"), 7, weights);
+        return "<shape type=\"sphere\"><medium name=\"interior\" type=\"homogeneous\">" + text +
+               "</medium></shape>";
+    };
+    // Equal ones are one, and shares are in proportion.
+    EXPECT_THAT(loadOld(oldText("2, 1, 1")).media.at(0).phases(),
+                ElementsAre(PhaseLobe{kHg, 0.75f, 0.5f}, PhaseLobe{kHg, 0, 0.5f}));
+    EXPECT_THAT(problemInOld(oldText("2, 1")), HasSubstr("has 2 numbers for 3 phase functions"));
 }
 
 TEST(MitsubaMedia, AreOnBothSides) {
