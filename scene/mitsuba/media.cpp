@@ -79,15 +79,35 @@ void readPhase(const Context& context, const Plugin& phase, Medium& medium) {
                       "those with the largest shares");
 }
 
-/// The share of light that is scattered, of a volume that may vary.
-glm::dvec3 albedoOf(const Context& context, const Plugin& plugin) {
+/// The share of light that is scattered.
+Volume albedoOf(const Context& context, const Plugin& plugin) {
     const Plugin* volume = plugin.child("albedo");
-    if (!volume || volume->tag != "volume")
-        return colorOf(plugin, "albedo", ColorOf::Index).value_or(glm::dvec3(kUsualAlbedo));
-    const Volume read = readVolume(context, *volume);
-    if (read.grid)
-        volume->replace(build::Shortfall::Model, "varies from place to place", "its mean");
-    return read.mean;
+    if (volume && volume->tag == "volume") return readVolume(context, *volume);
+    Volume constant;
+    constant.mean = colorOf(plugin, "albedo", ColorOf::Index).value_or(glm::dvec3(kUsualAlbedo));
+    return constant;
+}
+
+/// Where the extinction is the same everywhere.
+glm::dvec3 meanAlbedo(const Context& context, const Plugin& plugin) {
+    const Volume albedo = albedoOf(context, plugin);
+    if (albedo.grid)
+        plugin.child("albedo")->replace(build::Shortfall::Model,
+                                        "varies from place to place and the extinction does not",
+                                        "its mean");
+    return albedo.mean;
+}
+
+/// A volume that varies, as colours in the world.
+ColorGrid colorsOf(const Context& context, const Volume& volume) {
+    ColorGrid colors;
+    if (volume.colors) colors = *volume.colors;
+    colors.size = volume.grid->size;
+    if (!volume.colors)
+        for (const float value : volume.grid->values)
+            colors.values.emplace_back(value);
+    colors.setWorld(context.worldFromFile * volume.toFile);
+    return colors;
 }
 
 void setColors(Medium& medium, const glm::dvec3& extinction, const glm::dvec3& albedo) {
@@ -102,10 +122,20 @@ void readHeterogeneous(const Context& context, const Plugin& plugin, double scal
     const Plugin* volume = plugin.child(name);
     if (!volume) plugin.fail(fmt::format("has no volume '{}'", name));
     Volume density = readVolume(context, *volume);
-    if (!density.grid) return setColors(medium, scale * density.mean, albedoOf(context, plugin));
-    setColors(medium, glm::dvec3(scale), albedoOf(context, plugin));
-    density.grid->setWorld(context.worldFromFile * density.toFile);
-    medium.density = std::move(density.grid);
+    if (!density.grid) return setColors(medium, scale * density.mean, meanAlbedo(context, plugin));
+    const Volume albedo = albedoOf(context, plugin);
+    setColors(medium, glm::dvec3(scale), albedo.mean);
+    if (albedo.grid) {
+        medium.colors.scattering = colorsOf(context, albedo);
+        for (glm::vec3& share : medium.colors.scattering->values)
+            share = glm::min(share, 1.0f);
+    }
+    if (density.colors) {
+        medium.colors.extinction = colorsOf(context, density);
+    } else {
+        density.grid->setWorld(context.worldFromFile * density.toFile);
+        medium.density = std::move(density.grid);
+    }
 }
 
 void readHomogeneous(const Context& context, const Plugin& plugin, double scale, Medium& medium) {
@@ -123,7 +153,7 @@ void readHomogeneous(const Context& context, const Plugin& plugin, double scale,
         isVolume
             ? readVolume(context, *volume).mean
             : colorOf(plugin, "sigma_t", ColorOf::Index).value_or(glm::dvec3(kUsualExtinction));
-    setColors(medium, scale * extinction, albedoOf(context, plugin));
+    setColors(medium, scale * extinction, meanAlbedo(context, plugin));
 }
 
 } // namespace

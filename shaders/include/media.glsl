@@ -116,7 +116,7 @@ bool goThroughMedium(const Given given, inout PathState path) {
         MediumResult r = MediumResult(exp(-m.extinction * length_), vec3(0.0), false, false, 0.0);
         const bool varies = mediaDo(MEDIA_VARY) && m.grid != 0u;
         if (isPath && !varies) r = flyFreely(m, carried, length_, mediumNumbers(words, 0u));
-        if (varies) r = trackGrid(m, path.ray, carried, isPath, words);
+        if (varies) r = trackGrid(m, here, path.ray, carried, isPath, words);
         if (mediaDo(MEDIA_SHINE) && isPath && path.bounce >= given.frame.minBounce) path.radiance += path.throughput * r.shone;
         if (isPath) path.throughput *= r.weight;
         else path.directValue *= r.weight;

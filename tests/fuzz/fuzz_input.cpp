@@ -5,6 +5,7 @@
 #include "scene/gltf/load_gltf.hpp"
 #include "scene/images/picture.hpp"
 #include "scene/mitsuba/load_mitsuba.hpp"
+#include "scene/mitsuba/volumes.hpp"
 #include "scene/obj/load_obj.hpp"
 #include "scene/pbrt/load_pbrt.hpp"
 #include "scene/ply/load_ply.hpp"
@@ -43,8 +44,10 @@ class MemoryFile {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     static MemoryFile file;
     try {
-#ifdef FUZZ_IMAGES
+#if defined(FUZZ_IMAGES)
         images::decodePicture({reinterpret_cast<const char*>(data), size}, "picture");
+#elif defined(FUZZ_VOLUMES)
+        mitsuba::parseVolume({reinterpret_cast<const char*>(data), size}, "volume");
 #else
         FUZZ_LOAD(file.hold(data, size), SceneConventions{});
 #endif
