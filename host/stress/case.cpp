@@ -25,7 +25,7 @@ const std::vector<Case>& allCases() {
         for (const auto group :
              {edgeCases, intersectionCases, closedCases, offsetCases, scaleCases, randomCases,
               furnaceCases, estimatorCases, filmCases, agreementCases, arithmeticCases,
-              environmentCases, materialCases, textureCases, tangentCases, instanceCases})
+              environmentCases, materialCases, mediumCases, textureCases, tangentCases, instanceCases})
             std::ranges::move(group(), std::back_inserter(cases));
         // By their first number.
         std::ranges::stable_sort(cases, {}, [](const Case& c) { return std::stoi(c.numbers); });
