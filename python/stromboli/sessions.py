@@ -258,7 +258,7 @@ def render(
     width, height -- of the picture, pixels; both or none (the camera's shape, 800 wide)
     crop -- left, top, width, height in pixels: only this part
     seed -- another seed, another noise
-    layers -- of albedo, normal, depth, position, uv, object, material
+    layers -- of albedo, normal, depth, transmittance, position, uv, object, material
     transparent -- alpha in place of the environment
     denoise -- True or "on", "oidn"; keep_noisy: with the noisy picture as a layer
     camera -- name or number (from 1) of one of the scene, "auto", "file" or "frame"
