@@ -118,15 +118,27 @@ void add(Sum& sum, const Environment& e) {
     sum.add(width), sum.add(height), sum.addAll(radiance), sum.add(strength), sum.add(rotation);
 }
 
-void add(Sum& sum, const Medium& m) {
-    const auto& [name, absorption, scattering, emission, phase, asymmetry, density] = m;
-    sum.add(absorption), sum.add(scattering), sum.add(emission), sum.add(phase);
-    sum.add(asymmetry);
-    if (!density) return;
-    const auto& [size, values, toUnit] = *density;
+template <class Value>
+void add(Sum& sum, const Grid<Value>& grid) {
+    const auto& [size, values, toUnit] = grid;
     sum.add(size), sum.addAll(values);
     for (const glm::dvec4& row : toUnit)
         sum.add(row);
+}
+
+void add(Sum& sum, const Medium& m) {
+    const auto& [name, absorption, scattering, emission, phase, asymmetry, otherPhases, density,
+                 colors] = m;
+    sum.add(absorption), sum.add(scattering), sum.add(emission), sum.add(phase);
+    sum.add(asymmetry);
+    for (const PhaseLobe& lobe : otherPhases)
+        sum.add(lobe.phase), sum.add(lobe.asymmetry), sum.add(lobe.share);
+    if (density) add(sum, *density);
+    const auto& [extinctionColors, scatteringColors, isFactor, source, glow] = colors;
+    if (extinctionColors) sum.add(uint32_t(1)), add(sum, *extinctionColors);
+    if (scatteringColors) sum.add(uint32_t(2)), add(sum, *scatteringColors), sum.add(isFactor);
+    if (source) sum.add(uint32_t(3)), add(sum, *source);
+    if (glow) sum.add(glow->coldest), sum.add(glow->hottest), sum.addAll(glow->values);
 }
 
 void add(Sum& sum, const Light& l) {

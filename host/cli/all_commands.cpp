@@ -30,9 +30,8 @@ constexpr Entry kEntries[] = {
      "render",
      "Render a scene to a picture",
      declareRender,
-     "-o -r -s --time --noise --denoise --preset --camera --look-from --look-at --env --sun "
-     "--ground "
-     "--view --exposure",
+     "-o -r -s --time --noise --denoise --preset --camera --look-from --look-at --env --view "
+     "--exposure",
      {"room.gltf -o room.png --time 2m --denoise on",
       "room.gltf -o room.exr -r 1920x1080 --noise 2%",
       "helmet.glb -o helmet.png --preset product --ground on"}},
@@ -40,8 +39,7 @@ constexpr Entry kEntries[] = {
      "view",
      "Look at a scene in a browser, move about in it, and watch the picture get better",
      declareView,
-     "-r -m --open --port --host --camera --look-from --look-at --env --sun --ground --view "
-     "--exposure "
+     "-r -m --open --port --host --camera --look-from --look-at --env --sun --view --exposure "
      "--denoise",
      {"room.gltf --open", "helmet.glb --env studio --view agx",
       "room.gltf --host 0.0.0.0 --port 8000"}},

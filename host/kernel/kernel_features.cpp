@@ -221,8 +221,11 @@ KernelFeatures seeingFeatures(const GpuScene& scene, const Camera& camera,
     for (const KernelConstant ofLight :
          {SPEC_LIGHT_KINDS, SPEC_MIS_LOBES, SPEC_HAS_EMISSION, SPEC_HAS_AMBIENT,
           SPEC_HAS_ENVIRONMENT, SPEC_HAS_BACKDROP, SPEC_AMBIENT_BY_BOUNCES, SPEC_BLACK_BACKS,
-          SPEC_MEDIA, SPEC_MOST_OTHERS})
+          SPEC_MOST_OTHERS})
         f[ofLight] = 0;
+    // Colours are seen through media.
+    constexpr uint32_t kDimming = gpu::MEDIA_DIM | gpu::MEDIA_VARY | gpu::MEDIA_VARY_EXTINCTION;
+    f[SPEC_MEDIA] &= what == Seeing::Surfaces ? kDimming : 0;
     for (const KernelConstant closures : {SPEC_CLOSURES, SPEC_CLOSURES_OF_ALL})
         f[closures] &= ~gpu::VOLUME_ABSORBS;
     f[SPEC_DIRECT_LIGHT] = gpu::DIRECT_LIGHTS;

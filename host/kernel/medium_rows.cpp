@@ -15,15 +15,35 @@ float largestOf(const glm::vec3& v) {
     return std::max({v.x, v.y, v.z});
 }
 
+bool isRayleigh(const PhaseLobe& lobe) {
+    return lobe.phase == PhaseFunction::Rayleigh;
+}
+
+/// Of one of the functions of a sum, as the kernel reads it.
+float asymmetryOf(const PhaseLobe& lobe) {
+    return isRayleigh(lobe) ? gpu::RAYLEIGH_ASYMMETRY : lobe.asymmetry;
+}
+
+gpu::PhaseMixture mixtureOf(const Medium& m) {
+    std::vector<PhaseLobe> lobes = m.phases();
+    lobes.resize(kMostPhases);
+    return {asymmetryOf(lobes[1]), lobes[1].share, asymmetryOf(lobes[2]), lobes[2].share};
+}
+
 uint32_t closuresOf(const Medium& m) {
     if (!m.scatters()) return 0;
     return gpu::PHASE_FUNCTION | gpu::LOBE_DIFFUSE_REFLECTION |
-           (m.phase == PhaseFunction::Rayleigh ? gpu::PHASE_IS_RAYLEIGH : 0);
+           (std::ranges::any_of(m.phases(), isRayleigh) ? gpu::PHASE_IS_RAYLEIGH : 0);
 }
 
 uint32_t kindsOf(const Medium& m) {
     return gpu::MEDIA_DIM | (m.scatters() ? gpu::MEDIA_SCATTER : 0) |
-           (m.emits() ? gpu::MEDIA_SHINE : 0) | (m.density ? gpu::MEDIA_VARY : 0);
+           (m.emits() ? gpu::MEDIA_SHINE : 0) | (m.varies() ? gpu::MEDIA_VARY : 0) |
+           (m.scatters() && !m.otherPhases.empty() ? gpu::MEDIA_MIX : 0) |
+           (m.colors.extinction ? gpu::MEDIA_VARY_EXTINCTION : 0) |
+           (m.colors.scattering && m.scatters() ? gpu::MEDIA_VARY_SCATTERING : 0) |
+           (m.colors.source && m.emits() ? gpu::MEDIA_VARY_SOURCE : 0) |
+           (m.colors.glow && m.emits() ? gpu::MEDIA_GLOW : 0);
 }
 
 glm::vec3 albedoOf(const Medium& m) {
@@ -43,8 +63,51 @@ gpu::GridValue valueAt(const DensityGrid& g, glm::uvec3 at) {
     return {{value(at.x, at.y), value(x, at.y), value(at.x, y), value(x, y)}};
 }
 
-/// Returns the row of its header.
-uint32_t appendGrid(std::vector<Row>& rows, const DensityGrid& g) {
+/// Rows of colours, a cell each.
+void appendColors(std::vector<Row>& rows, const std::vector<glm::vec3>& colors) {
+    rows.reserve(rows.size() + colors.size());
+    for (const glm::vec3& color : colors)
+        appendRows(rows, glm::vec4(color, 0));
+}
+
+/// Returns the row of the header.
+uint32_t appendColorGrid(std::vector<Row>& rows, const ColorGrid& g) {
+    const auto header = uint32_t(rows.size());
+    appendRows(rows,
+               gpu::ColorGridHeader{glm::vec4(g.toUnit[0]), glm::vec4(g.toUnit[1]),
+                                    glm::vec4(g.toUnit[2]), g.size.x, g.size.y, g.size.z,
+                                    uint32_t(header + sizeof(gpu::ColorGridHeader) / sizeof(Row))});
+    appendColors(rows, g.values);
+    return header;
+}
+
+uint32_t appendGlow(std::vector<Row>& rows, const GlowTable& t) {
+    const auto header = uint32_t(rows.size());
+    const double first = 1 / double(t.coldest), last = double(t.values.size()) - 1;
+    appendRows(rows, gpu::GlowHeader{t.coldest, float(first),
+                                     float(last / (1 / double(t.hottest) - first)),
+                                     uint32_t(header + sizeof(gpu::GlowHeader) / sizeof(Row)),
+                                     float(last), 0, 0, 0});
+    for (const glm::vec4& value : t.values)
+        appendRows(rows, value);
+    return header;
+}
+
+gpu::MediumTints appendTints(std::vector<Row>& rows, const Medium& m) {
+    gpu::MediumTints tints{};
+    const MediumColors& c = m.colors;
+    if (c.scattering && m.scatters()) tints.scattering = appendColorGrid(rows, *c.scattering);
+    if (c.source && m.emits()) tints.source = appendColorGrid(rows, *c.source);
+    if (c.glow && m.emits()) tints.glow = appendGlow(rows, *c.glow);
+    tints.kinds = (c.extinction ? gpu::TINT_EXTINCTION : 0) |
+                  (c.scatteringIsFactor ? gpu::TINT_SCATTERING_IS_FACTOR : 0);
+    return tints;
+}
+
+/// colors: the medium's extinction by channel, where it is of several. Returns the row of the
+/// header.
+uint32_t appendGrid(std::vector<Row>& rows, const DensityGrid& g,
+                    const std::optional<ColorGrid>& colors) {
     const DensityBounds bounds = boundDensity(g);
     const auto header = uint32_t(rows.size());
     const auto values = header + uint32_t(sizeof(gpu::GridHeader) / sizeof(Row));
@@ -55,7 +118,8 @@ uint32_t appendGrid(std::vector<Row>& rows, const DensityGrid& g) {
                                      uint32_t(values + count)});
     rows.reserve(rows.size() + count);
     glm::uvec3 at;
-    for (at.z = 0; at.z < g.size.z; ++at.z)
+    if (colors) appendColors(rows, colors->values);
+    for (at.z = 0; at.z < g.size.z && !colors; ++at.z)
         for (at.y = 0; at.y < g.size.y; ++at.y)
             for (at.x = 0; at.x < g.size.x; ++at.x)
                 appendRows(rows, valueAt(g, at));
@@ -107,15 +171,19 @@ MediumRows appendMedia(std::vector<Row>& rows, std::span<const Medium> media, bo
         packed.kinds |= kindsOf(m);
         if (closures != 0) packed.closures.push_back(closures);
         appendRows(rows, gpu::MaterialHeader{glm::vec3(0), closures});
-        appendRows(rows, gpu::MediumBody{m.extinction(), m.asymmetry, albedoOf(m), 0, m.emission,
-                                         largestOf(m.extinction())});
+        appendRows(rows, gpu::MediumBody{m.extinction(), asymmetryOf(m.phases().front()),
+                                         albedoOf(m), 0, m.emission, largestOf(m.extinction())});
+        appendRows(rows, mixtureOf(m));
         rows.resize(first + gpu::MATERIAL_DETAIL_ROW);
         if (hasDetails) appendRows(rows, gpu::MaterialDetail{1, 0, 0, 0});
     }
     for (size_t i = 0; i < media.size(); ++i) {
-        if (!media[i].density) continue;
-        const uint32_t grid = appendGrid(rows, *media[i].density);
+        const Medium& m = media[i];
+        if (!m.varies()) continue;
+        const uint32_t grid = appendGrid(rows, m.bound(), m.colors.extinction);
         rows[packed.firstRow[i] + gpu::MEDIUM_BODY_ROW + 1][3] = grid;
+        const gpu::MediumTints tints = appendTints(rows, m);
+        rows[packed.firstRow[i] + gpu::MEDIUM_TINTS_ROW] = std::bit_cast<Row>(tints);
     }
     return packed;
 }

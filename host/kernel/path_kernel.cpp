@@ -5,6 +5,7 @@
 #include "embedded/wavefront_storage.h"
 #include "embedded/wavefront_texel.h"
 #include "shaders/shared/interface.h"
+#include "shaders/shared/medium_types.h"
 #include "shaders/shared/parameters.h"
 #include "shaders/shared/path_fields.h"
 #include "shaders/shared/render_types.h"
@@ -49,7 +50,8 @@ struct FieldConditions {
                (sceneHasSlot(gpu::TEXTURE_NORMAL) || sceneHasSlot(gpu::TEXTURE_CLEARCOAT_NORMAL));
     }
     bool materialsHaveRow(uint32_t row) const {
-        return row <= 1 || sceneHas(gpu::closuresWithRow(row));
+        return row <= 1 || sceneHas(gpu::closuresWithRow(row)) ||
+               (row == gpu::MEDIUM_PHASES_ROW && (MEDIA & gpu::MEDIA_MIX) != 0);
     }
 
     uint32_t words(PathScheduler scheduler) const {

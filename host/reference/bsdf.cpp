@@ -171,15 +171,17 @@ BsdfValue evaluateThose(const SurfacePoint& s, const glm::dvec3& wi,
     return sum;
 }
 
-/// Light samples seldom come from where so narrow a phase function scatters light from.
-bool isNarrow(const Medium& medium) {
-    constexpr float kNarrow = 0.75f;
-    return medium.phase == PhaseFunction::HenyeyGreenstein && std::abs(medium.asymmetry) > kNarrow;
-}
-
 BsdfValue evaluatePhase(const SurfacePoint& s, const glm::dvec3& wi) {
     const double density = phaseDensity(*s.medium, -glm::dot(s.wo, wi));
     return {glm::dvec3(density), density};
+}
+
+/// Without what light samples leave to bounces.
+BsdfValue evaluateWidePhase(const SurfacePoint& s, const glm::dvec3& wi) {
+    BsdfValue f = evaluatePhase(s, wi);
+    f.value -= narrowPhaseDensity(*s.medium, -glm::dot(s.wo, wi));
+    f.value = glm::max(f.value, 0.0);
+    return f;
 }
 
 /// The share of the light from there that light samples leave to bounces.
@@ -308,7 +310,7 @@ BsdfValue evaluateBsdf(const SurfacePoint& s, const glm::dvec3& wi,
 
 BsdfValue evaluateForLights(const SurfacePoint& s, const glm::dvec3& wi,
                             const ShadingConventions& conventions) {
-    if (s.medium) return isNarrow(*s.medium) ? BsdfValue{} : evaluatePhase(s, wi);
+    if (s.medium) return isNarrow(*s.medium) ? BsdfValue{} : evaluateWidePhase(s, wi);
     return evaluateThose(s, wi, conventions,
                          [](const Material& m) { return !leavesLightsToBounces(m); });
 }
@@ -317,8 +319,10 @@ BsdfSample sampleBsdf(const SurfacePoint& s, const glm::dvec3& u,
                       const ShadingConventions& conventions) {
     if (s.medium) {
         const glm::dvec3 wi = samplePhase(*s.medium, -s.wo, u.x, u.y);
-        return {wi, glm::dvec3(1.0), evaluatePhase(s, wi).pdf, gpu::LOBE_DIFFUSE_REFLECTION,
-                glm::dvec3(isNarrow(*s.medium) ? 1.0 : 0.0)};
+        const double density = evaluatePhase(s, wi).pdf;
+        const double narrow = narrowPhaseDensity(*s.medium, -glm::dot(s.wo, wi));
+        return {wi, glm::dvec3(1.0), density, gpu::LOBE_DIFFUSE_REFLECTION,
+                glm::dvec3(isNarrow(*s.medium) ? 1.0 : narrow / density)};
     }
     const Frame frame = surfaceFrame(s);
     BsdfSample sample = sampleLocally(*s.material, incidenceOn(s, frame, conventions), u);

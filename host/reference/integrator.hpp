@@ -48,8 +48,8 @@ Hit closestForCamera(const World& world, const Ray& ray, RandomStream& passes);
 
 /// Adds what one camera ray of a pixel sees (docs/guide/layers.md). `random`: the stream of its
 /// sample, as the camera has left it; weight: by the pixel filter.
-void addSeen(SeenPixel& pixel, const World& world, const Ray& cameraRay, double weight,
-             RandomStream random, Seeing what);
+void addSeen(SeenPixel& pixel, const World& world, const Ray& cameraRay, uint32_t medium,
+             double weight, RandomStream random, Seeing what);
 
 // --- Paths ---------------------------------------------------------------------------------------
 

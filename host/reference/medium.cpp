@@ -11,10 +11,10 @@ double largest(const glm::dvec3& v) {
     return std::max({v.x, v.y, v.z});
 }
 
-glm::dvec3 exponential(const glm::dvec3& extinction, double depth) {
+glm::dvec3 exponential(const glm::dvec3& extinction, double length) {
     glm::dvec3 left(1.0);
     for (int c = 0; c < 3; ++c) // the distance may be infinite
-        if (extinction[c] > 0) left[c] = std::exp(-extinction[c] * depth);
+        if (extinction[c] > 0) left[c] = std::exp(-extinction[c] * length);
     return left;
 }
 
@@ -24,7 +24,8 @@ struct Stretch {
     double from, to;
 };
 
-Stretch withinCube(const DensityGrid& grid, const Ray& ray, double from, double to) {
+template <class Value>
+Stretch withinCube(const Grid<Value>& grid, const Ray& ray, double from, double to) {
     Stretch s{grid.place(ray.origin), glm::dvec3(0), from, to};
     for (int i = 0; i < 3; ++i) {
         s.direction[i] = glm::dot(glm::dvec3(grid.toUnit[size_t(i)]), ray.direction);
@@ -40,15 +41,14 @@ Stretch withinCube(const DensityGrid& grid, const Ray& ray, double from, double 
     return s;
 }
 
-double densityAt(const DensityGrid& grid, const Stretch& s, double t) {
-    return grid.at(glm::clamp(s.origin + t * s.direction, 0.0, 1.0));
-}
-
-/// The integral of the density along a ray. Between the planes through the middles of cells it is a
+/// The integral of a grid along a ray. Between the planes through the middles of cells it is a
 /// cubic polynomial, for which Simpson's rule is exact.
-double integrateDensity(const DensityGrid& grid, const Ray& ray, double from, double to) {
+template <class Value>
+typename Grid<Value>::Exact integrate(const Grid<Value>& grid, const Ray& ray, double from,
+                                      double to) {
     const Stretch s = withinCube(grid, ray, from, to);
-    if (!(s.to > s.from)) return 0;
+    typename Grid<Value>::Exact sum(0.0);
+    if (!(s.to > s.from)) return sum;
     std::vector<double> ends{s.from, s.to};
     for (int axis = 0; axis < 3; ++axis)
         for (uint32_t i = 0; i < grid.size[axis] && s.direction[axis] != 0; ++i) {
@@ -56,11 +56,10 @@ double integrateDensity(const DensityGrid& grid, const Ray& ray, double from, do
             if (t > s.from && t < s.to) ends.push_back(t);
         }
     std::ranges::sort(ends);
-    double sum = 0;
+    const auto value = [&](double t) { return grid.goingOn(s.origin + t * s.direction); };
     for (size_t i = 1; i < ends.size(); ++i) {
         const double a = ends[i - 1], b = ends[i], middle = (a + b) / 2;
-        sum += (b - a) / 6 *
-               (densityAt(grid, s, a) + 4 * densityAt(grid, s, middle) + densityAt(grid, s, b));
+        sum += (b - a) / 6 * (value(a) + 4.0 * value(middle) + value(b));
     }
     return sum;
 }
@@ -69,17 +68,17 @@ double integrateDensity(const DensityGrid& grid, const Ray& ray, double from, do
 MediumEvent trackGrid(const Medium& m, const Ray& ray, double from, double to,
                       const glm::dvec3& carried, RandomStream& random) {
     MediumEvent event;
-    const Stretch s = withinCube(*m.density, ray, from, to);
-    const glm::dvec3 extinction(m.extinction()), scattering(m.scattering);
-    const double rate = double(m.density->largest()) * largest(extinction);
+    const DensityGrid bound = m.bound();
+    const Stretch s = withinCube(bound, ray, from, to);
+    const double rate = double(bound.largest()) * largest(glm::dvec3(m.extinction()));
     if (!(rate > 0)) return event;
     for (double t = s.from;;) {
         t -= std::log(1 - random.next()) / rate;
         if (!(t < s.to)) return event;
-        const double density = densityAt(*m.density, s, t);
-        event.shone += event.weight * glm::dvec3(m.emission) * density / rate;
-        const glm::dvec3 real = scattering * density / rate;
-        const glm::dvec3 none = glm::max(1.0 - extinction * density / rate, 0.0);
+        const MediumPoint p = m.at(ray.origin + t * ray.direction, s.origin + t * s.direction);
+        event.shone += event.weight * p.emission / rate;
+        const glm::dvec3 real = p.scattering / rate;
+        const glm::dvec3 none = glm::max(1.0 - p.extinction / rate, 0.0);
         const double ofReal = glm::dot(carried * event.weight, real);
         const double all = ofReal + glm::dot(carried * event.weight, none);
         event.scatters = random.next() * all < ofReal;
@@ -97,7 +96,7 @@ MediumEvent trackGrid(const Medium& m, const Ray& ray, double from, double to,
 
 MediumEvent flyThrough(const Medium& m, const Ray& ray, double from, double to,
                        const glm::dvec3& carried, RandomStream& random) {
-    if (m.density) return trackGrid(m, ray, from, to, carried, random);
+    if (m.varies()) return trackGrid(m, ray, from, to, carried, random);
     MediumEvent event;
     const glm::dvec3 extinction(m.extinction()), scattering(m.scattering);
     const double length = to - from;
@@ -121,22 +120,62 @@ MediumEvent flyThrough(const Medium& m, const Ray& ray, double from, double to,
 }
 
 glm::dvec3 transmittance(const Medium& m, const Ray& ray, double from, double to) {
-    const double depth = m.density ? integrateDensity(*m.density, ray, from, to) : to - from;
-    return exponential(glm::dvec3(m.extinction()), depth);
+    const glm::dvec3 extinction(m.extinction());
+    if (m.colors.extinction)
+        return exponential(extinction * integrate(*m.colors.extinction, ray, from, to), 1);
+    return exponential(extinction, m.density ? integrate(*m.density, ray, from, to) : to - from);
 }
 
-double phaseDensity(const Medium& m, double cosine) {
-    if (m.phase == PhaseFunction::Rayleigh) return 3 / (16 * kPi) * (1 + cosine * cosine);
-    const double g = m.asymmetry;
+namespace {
+
+double phaseDensity(const PhaseLobe& lobe, double cosine) {
+    if (lobe.phase == PhaseFunction::Rayleigh) return 3 / (16 * kPi) * (1 + cosine * cosine);
+    const double g = lobe.asymmetry;
     return (1 - g * g) / (4 * kPi * std::pow(1 + g * g - 2 * g * cosine, 1.5));
+}
+
+bool isNarrow(const PhaseLobe& lobe) {
+    constexpr float kNarrow = 0.75f;
+    return lobe.phase == PhaseFunction::HenyeyGreenstein && std::abs(lobe.asymmetry) > kNarrow;
+}
+
+/// The function that a random number chooses, by its share, and what is left of the number.
+PhaseLobe choosePhase(const Medium& m, double& u) {
+    const std::vector<PhaseLobe> lobes = m.phases();
+    size_t i = 0;
+    for (; i + 1 < lobes.size() && u >= double(lobes[i].share); ++i)
+        u -= double(lobes[i].share);
+    u = std::min(u / double(lobes[i].share), 1 - 0x1p-53);
+    return lobes[i];
+}
+
+} // namespace
+
+double phaseDensity(const Medium& m, double cosine) {
+    double sum = 0;
+    for (const PhaseLobe& lobe : m.phases())
+        sum += double(lobe.share) * phaseDensity(lobe, cosine);
+    return sum;
+}
+
+double narrowPhaseDensity(const Medium& m, double cosine) {
+    double sum = 0;
+    for (const PhaseLobe& lobe : m.phases())
+        if (isNarrow(lobe)) sum += double(lobe.share) * phaseDensity(lobe, cosine);
+    return sum;
+}
+
+bool isNarrow(const Medium& m) {
+    return std::ranges::all_of(m.phases(), [](const PhaseLobe& lobe) { return isNarrow(lobe); });
 }
 
 /// Henyey and Greenstein's distribution has an inverse; Rayleigh's is sampled by rejection folded
 /// into one number: a mixture of a uniform cosine (3/4 of it) and one of density 3/2 cos^2.
 glm::dvec3 samplePhase(const Medium& m, const glm::dvec3& forward, double u, double v) {
+    const PhaseLobe lobe = choosePhase(m, u);
     double cosine = 1 - 2 * u;
-    const double g = m.asymmetry;
-    if (m.phase == PhaseFunction::Rayleigh) {
+    const double g = lobe.asymmetry;
+    if (lobe.phase == PhaseFunction::Rayleigh) {
         cosine = u < 0.75 ? 1 - 2 * (u / 0.75) : std::cbrt(1 - 2 * ((u - 0.75) / 0.25));
     } else if (std::abs(g) > 1e-6) {
         const double s = (1 - g * g) / (1 - g + 2 * g * u);

@@ -28,6 +28,12 @@ glm::dvec3 transmittance(const Medium& medium, const Ray& ray, double from, doub
 /// after.
 double phaseDensity(const Medium& medium, double cosine);
 
+/// The part of it that is of narrow functions, which light samples seldom meet.
+double narrowPhaseDensity(const Medium& medium, double cosine);
+
+/// Whether all of it is.
+bool isNarrow(const Medium& medium);
+
 /// A direction in proportion to it. forward: unit, the way the light goes; u, v: in [0, 1).
 glm::dvec3 samplePhase(const Medium& medium, const glm::dvec3& forward, double u, double v);
 

@@ -280,7 +280,8 @@ std::vector<SeenPixel> ReferenceBackend::see(uint32_t first, std::span<const uin
                     const auto pixel = uint32_t(first + i);
                     reference::RandomStream random = all.randomOf(pixel, firstSample + sample);
                     const auto [ray, weight] = all.cameraRayOf(pixel, random);
-                    reference::addSeen(seen[i], all.world, ray, weight, random, what);
+                    reference::addSeen(seen[i], all.world, ray, all.camera.medium, weight, random,
+                                       what);
                 }
                 all.name(seen[i]);
             }

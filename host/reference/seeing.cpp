@@ -1,6 +1,7 @@
 // What rays pass, and what the camera sees (docs/guide/layers.md).
 #include "host/reference/integrator.hpp"
 
+#include "host/reference/medium.hpp"
 #include "scene/model/surface_lookup.hpp"
 #include "shaders/shared/layer_types.h"
 
@@ -96,38 +97,91 @@ Hit closestForCamera(const World& world, const Ray& ray, RandomStream& passes) {
     });
 }
 
-void addSeen(SeenPixel& pixel, const World& world, const Ray& cameraRay, double weight,
-             RandomStream random, Seeing what) {
+namespace {
+
+/// What the media of a way leave of what is seen, and the share of their own colour in it.
+class Haze {
+  public:
+    Haze(const World& world, uint32_t medium) : scene_(world.scene), medium_(medium) {}
+
+    /// To the hit, on a ray that begins at `from` or has passed something there.
+    void goTo(const Ray& ray, double from, const Hit& hit) {
+        if (medium_ == kNoMedium) return;
+        const Medium& m = scene_.media.at(medium_);
+        const double to = hit.primitive == kNoPrimitive ? ray.tMax : hit.t;
+        const glm::dvec3 left = transmittance(m, ray, from, to);
+        const glm::dvec3 extinction(m.extinction());
+        for (int c = 0; c < 3; ++c)
+            if (extinction[c] > 0)
+                ownColor[c] += tint[c] * (1 - left[c]) * double(m.scattering[c]) / extinction[c];
+        tint *= left;
+    }
+    void pass(const Ray& ray, const Hit& hit) {
+        const SurfacePoint s = surfaceAt(scene_, ray, hit);
+        enter(s, s.outside);
+    }
+    void enter(const SurfacePoint& s, bool outside) {
+        if (s.material->boundsMedia) medium_ = outside ? s.material->inside : s.material->outside;
+    }
+
+    glm::dvec3 tint{1.0}, ownColor{0.0};
+
+  private:
+    const Scene& scene_;
+    uint32_t medium_;
+};
+
+} // namespace
+
+void addSeen(SeenPixel& pixel, const World& world, const Ray& cameraRay, uint32_t medium,
+             double weight, RandomStream random, Seeing what) {
     RandomStream passes = random.apart();
+    Haze haze(world, medium);
+    const bool hasMedia = !world.scene.media.empty() && what == Seeing::Surfaces;
+    const auto follow = [&](const Ray& ray, Skip skip, bool fromCamera) {
+        double from = ray.tMin;
+        const Hit end = firstNotPassed(world, ray, skip, [&](const Hit& hit) {
+            const bool isHidden = fromCamera && isHiddenFromCamera(world.scene, hit);
+            const bool passed = isHidden || passes.next() >= opacityAt(world, hit);
+            if (passed && hasMedia) haze.goTo(ray, from, hit), haze.pass(ray, hit), from = hit.t;
+            return passed;
+        });
+        if (hasMedia) haze.goTo(ray, from, end);
+        return end;
+    };
     ++pixel.samples;
     Ray ray = cameraRay;
-    Hit hit = closestForCamera(world, ray, passes);
-    if (hit.primitive == kNoPrimitive) return;
+    Hit hit = follow(ray, {}, true);
+    pixel.transmittance += haze.tint;
+    if (hit.primitive == kNoPrimitive) {
+        pixel.albedo += haze.ownColor;
+        return;
+    }
     ++pixel.hits;
     pixel.covered += weight;
     if (what == Seeing::Coverage) return;
 
     SurfacePoint s = shadedSurface(world, ray, hit);
     noteFirst(pixel, s, hit);
-    glm::dvec3 albedo(1.0), normal = s.shading;
+    glm::dvec3 normal = s.shading;
     for (uint32_t mirrors = 0;; ++mirrors) {
         if (!isSeenThrough(*s.material)) {
-            albedo *= albedoOf(*s.material);
+            haze.tint *= albedoOf(*s.material);
             normal = s.shading;
             break;
         }
         if (mirrors == gpu::MOST_SEEN_THROUGH) break;
         const BsdfSample next = sampleBsdf(s, random.threeNumbers(), world.conventions);
-        albedo *= tintOf(*s.material, next);
-        if (!(std::max({albedo.x, albedo.y, albedo.z}) > 0)) break;
+        haze.tint *= tintOf(*s.material, next);
+        if (!(std::max({haze.tint.x, haze.tint.y, haze.tint.z}) > 0)) break;
+        if (next.transmitted()) haze.enter(s, s.outside);
         ray = next.transmitted() ? transmittedRay(s, next.direction)
                                  : reflectedRay(s, next.direction);
-        hit = closestThere(world, ray, {next.transmitted() ? s.triangle : startOfReflected(s)},
-                           passes);
+        hit = follow(ray, {next.transmitted() ? s.triangle : startOfReflected(s)}, false);
         if (hit.primitive == kNoPrimitive) break;
         s = shadedSurface(world, ray, hit);
     }
-    pixel.albedo += glm::clamp(albedo, 0.0, 1.0);
+    pixel.albedo += glm::clamp(haze.tint, 0.0, 1.0) + haze.ownColor;
     pixel.normal += normal;
 }
 

@@ -54,7 +54,7 @@ class Viewer {
     virtual std::vector<SeenPixel> see(uint32_t first, std::span<const uint32_t> samples,
                                        Seeing what, uint32_t firstSample = 0) = 0;
 
-    static constexpr uint32_t kMostSeenAtOnce = 1u << 16; ///< 9 MiB on the device
+    static constexpr uint32_t kMostSeenAtOnce = 1u << 16; ///< 10 MiB on the device
 };
 
 // --- Layers --------------------------------------------------------------------------------------

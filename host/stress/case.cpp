@@ -22,10 +22,10 @@ Picture Run::render(const Scene& scene, const Camera& camera, const RenderSettin
 const std::vector<Case>& allCases() {
     static const std::vector<Case> all = [] {
         std::vector<Case> cases;
-        for (const auto group :
-             {edgeCases, intersectionCases, closedCases, offsetCases, scaleCases, randomCases,
-              furnaceCases, estimatorCases, filmCases, agreementCases, arithmeticCases,
-              environmentCases, materialCases, textureCases, tangentCases, instanceCases})
+        for (const auto group : {edgeCases, intersectionCases, closedCases, offsetCases, scaleCases,
+                                 randomCases, furnaceCases, estimatorCases, filmCases,
+                                 agreementCases, arithmeticCases, environmentCases, materialCases,
+                                 mediumCases, textureCases, tangentCases, instanceCases})
             std::ranges::move(group(), std::back_inserter(cases));
         // By their first number.
         std::ranges::stable_sort(cases, {}, [](const Case& c) { return std::stoi(c.numbers); });

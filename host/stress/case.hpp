@@ -147,6 +147,7 @@ std::vector<Case> agreementCases();  ///< device against reference
 std::vector<Case> arithmeticCases(); ///< what is taken for granted of floats
 std::vector<Case> environmentCases();
 std::vector<Case> materialCases(); ///< parameters at their ends, layers, nested volumes
+std::vector<Case> mediumCases();   ///< densities, borders and grids of media
 std::vector<Case> instanceCases(); ///< meshes met through placements
 std::vector<Case> textureCases();
 std::vector<Case> tangentCases(); ///< normal maps without a frame

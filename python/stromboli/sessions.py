@@ -290,7 +290,7 @@ def render(
     width, height -- of the picture, pixels; both or none (the camera's shape, 800 wide)
     crop -- left, top, width, height in pixels: only this part
     seed -- another seed, another noise
-    layers -- of albedo, normal, depth, position, uv, object, material
+    layers -- of albedo, normal, depth, transmittance, position, uv, object, material
     transparent -- alpha in place of the environment
     background -- in its place: radiance, one or three numbers, or a picture's file
     denoise -- True or "on", "oidn"; keep_noisy: with the noisy picture as a layer

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <span>
 
 namespace stromboli::build {
 namespace {
@@ -104,9 +103,9 @@ void SceneBuilder::moveOrigin() {
     for (size_t i = 0; i < scene_.lights.size(); ++i)
         scene_.lights[i].position = lightPlaces_[i] - *origin;
     for (Medium& medium : scene_.media)
-        for (glm::dvec4& row :
-             medium.density ? std::span(medium.density->toUnit) : std::span<glm::dvec4>())
-            row.w += glm::dot(glm::dvec3(row), *origin);
+        for (std::array<glm::dvec4, 3>* rows : medium.places())
+            for (glm::dvec4& row : *rows)
+                row.w += glm::dot(glm::dvec3(row), *origin);
     for (FileCamera& camera : scene_.cameras) {
         camera.position -= *origin;
         camera.pointAhead -= *origin;

@@ -38,11 +38,16 @@ uint32_t SceneBuilder::addMedium(Medium medium) {
     medium.absorption = lightColor("absorption", medium.absorption);
     medium.scattering = lightColor("scattering", medium.scattering);
     medium.emission = lightColor("emission", medium.emission);
-    const float inside = std::clamp(medium.asymmetry, -kMostAsymmetry, kMostAsymmetry);
-    if (inside != medium.asymmetry)
-        sayClamped(fmt::format("{}: the mean cosine of its phase function is clamped to {}",
-                               medium.name, inside));
-    medium.asymmetry = std::isnan(inside) ? 0 : inside;
+    const auto clampAsymmetry = [&](float& asymmetry) {
+        const float inside = std::clamp(asymmetry, -kMostAsymmetry, kMostAsymmetry);
+        if (inside != asymmetry)
+            sayClamped(fmt::format("{}: the mean cosine of its phase function is clamped to {}",
+                                   medium.name, inside));
+        asymmetry = std::isnan(inside) ? 0 : inside;
+    };
+    clampAsymmetry(medium.asymmetry);
+    for (PhaseLobe& lobe : medium.otherPhases)
+        clampAsymmetry(lobe.asymmetry);
     scene_.media.push_back(std::move(medium));
     return uint32_t(scene_.media.size() - 1);
 }

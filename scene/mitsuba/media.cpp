@@ -4,6 +4,7 @@
 #include "scene/mitsuba/colors.hpp"
 #include "scene/mitsuba/scattering_tables.hpp"
 #include "scene/mitsuba/volumes.hpp"
+#include "scene/mitsuba/words.hpp"
 
 #include <fmt/format.h>
 
@@ -16,42 +17,97 @@ namespace {
 /// What Mitsuba 3 takes for a medium that states nothing.
 constexpr double kUsualAlbedo = 0.75, kUsualExtinction = 1;
 
-void readPhase(const Plugin& phase, Medium& medium) {
-    medium.phase = PhaseFunction::HenyeyGreenstein;
-    medium.asymmetry = 0;
-    if (phase.type == "rayleigh") {
-        medium.phase = PhaseFunction::Rayleigh;
-    } else if (phase.type == "hg") {
-        medium.asymmetry = float(phase.number("g").value_or(0.8));
-    } else if (phase.type == "blendphase") {
-        // The mean cosine of a sum is that of its parts.
+/// The shares of a sum's parts, as many as there are.
+std::vector<double> sharesOf(const Context& context, const Plugin& phase, size_t parts) {
+    std::vector<double> shares;
+    if (phase.type == "blendphase") {
+        const Plugin* volume = phase.child("weight");
+        double second = 0;
+        if (volume && volume->tag == "volume") {
+            const Volume read = readVolume(context, *volume);
+            if (read.grid)
+                volume->replace(build::Shortfall::Model, "varies from place to place", "its mean");
+            second = std::clamp(read.mean.x, 0.0, 1.0);
+        } else {
+            second = phase.number("weight", 0, 1).value_or(0.5);
+        }
+        shares = {1 - second, second};
+    } else {
+        shares = numbersOf(phase.place, phase.requireText("weights"));
+    }
+    if (shares.size() != parts)
+        phase.replaceParameter(
+            phase.type == "blendphase" ? "weight" : "weights", build::Shortfall::Number,
+            fmt::format("has {} numbers for {} phase functions", shares.size(), parts));
+    shares.resize(parts, 0);
+    return shares;
+}
+
+/// Adds what a phase function is a sum of, `share` of it in all.
+void addPhase(const Context& context, const Plugin& phase, double share,
+              std::vector<PhaseLobe>& lobes) {
+    PhaseLobe lobe{PhaseFunction::HenyeyGreenstein, 0, float(share)};
+    if (phase.type == "blendphase" || phase.type == "mixturephase") {
         const std::vector<const Plugin*> parts = phase.childrenOf("phase");
-        const double share = phase.number("weight", 0, 1).value_or(0.5);
-        Medium first = medium, second = medium;
-        if (parts.size() == 2) readPhase(*parts[0], first), readPhase(*parts[1], second);
-        medium.asymmetry = float((1 - share) * first.asymmetry + share * second.asymmetry);
-        phase.replace(build::Shortfall::Model, "is a sum of two phase functions",
-                      "Henyey and Greenstein's of the same mean cosine");
+        const std::vector<double> shares = sharesOf(context, phase, parts.size());
+        for (size_t i = 0; i < parts.size(); ++i)
+            addPhase(context, *parts[i], share * std::max(shares[i], 0.0), lobes);
+        return phase.requireAllRead();
+    }
+    if (phase.type == "rayleigh") {
+        lobe.phase = PhaseFunction::Rayleigh;
+    } else if (phase.type == "hg") {
+        lobe.asymmetry = float(phase.number("g").value_or(0.8));
     } else if (phase.type != "isotropic") {
         phase.replace(build::Shortfall::Model,
                       fmt::format("'{}' is no phase function that is read, expected isotropic, hg, "
-                                  "rayleigh or blendphase",
+                                  "rayleigh, blendphase or mixturephase",
                                   phase.type),
                       "isotropic");
-        return;
+        return lobes.push_back(lobe);
     }
     phase.requireAllRead();
+    lobes.push_back(lobe);
 }
 
-/// The share of light that is scattered, of a volume that may vary.
-glm::dvec3 albedoOf(const Context& context, const Plugin& plugin) {
+void readPhase(const Context& context, const Plugin& phase, Medium& medium) {
+    std::vector<PhaseLobe> lobes;
+    addPhase(context, phase, 1, lobes);
+    if (!medium.setPhases(std::move(lobes)))
+        phase.replace(build::Shortfall::Model,
+                      fmt::format("is a sum of more than {} phase functions", kMostPhases),
+                      "those with the largest shares");
+}
+
+/// The share of light that is scattered.
+Volume albedoOf(const Context& context, const Plugin& plugin) {
     const Plugin* volume = plugin.child("albedo");
-    if (!volume || volume->tag != "volume")
-        return colorOf(plugin, "albedo", ColorOf::Index).value_or(glm::dvec3(kUsualAlbedo));
-    const Volume read = readVolume(context, *volume);
-    if (read.grid)
-        volume->replace(build::Shortfall::Model, "varies from place to place", "its mean");
-    return read.mean;
+    if (volume && volume->tag == "volume") return readVolume(context, *volume);
+    Volume constant;
+    constant.mean = colorOf(plugin, "albedo", ColorOf::Index).value_or(glm::dvec3(kUsualAlbedo));
+    return constant;
+}
+
+/// Where the extinction is the same everywhere.
+glm::dvec3 meanAlbedo(const Context& context, const Plugin& plugin) {
+    const Volume albedo = albedoOf(context, plugin);
+    if (albedo.grid)
+        plugin.child("albedo")->replace(build::Shortfall::Model,
+                                        "varies from place to place and the extinction does not",
+                                        "its mean");
+    return albedo.mean;
+}
+
+/// A volume that varies, as colours in the world.
+ColorGrid colorsOf(const Context& context, const Volume& volume) {
+    ColorGrid colors;
+    if (volume.colors) colors = *volume.colors;
+    colors.size = volume.grid->size;
+    if (!volume.colors)
+        for (const float value : volume.grid->values)
+            colors.values.emplace_back(value);
+    colors.setWorld(context.worldFromFile * volume.toFile);
+    return colors;
 }
 
 void setColors(Medium& medium, const glm::dvec3& extinction, const glm::dvec3& albedo) {
@@ -66,10 +122,20 @@ void readHeterogeneous(const Context& context, const Plugin& plugin, double scal
     const Plugin* volume = plugin.child(name);
     if (!volume) plugin.fail(fmt::format("has no volume '{}'", name));
     Volume density = readVolume(context, *volume);
-    if (!density.grid) return setColors(medium, scale * density.mean, albedoOf(context, plugin));
-    setColors(medium, glm::dvec3(scale), albedoOf(context, plugin));
-    density.grid->setWorld(context.worldFromFile * density.toFile);
-    medium.density = std::move(density.grid);
+    if (!density.grid) return setColors(medium, scale * density.mean, meanAlbedo(context, plugin));
+    const Volume albedo = albedoOf(context, plugin);
+    setColors(medium, glm::dvec3(scale), albedo.mean);
+    if (albedo.grid) {
+        medium.colors.scattering = colorsOf(context, albedo);
+        for (glm::vec3& share : medium.colors.scattering->values)
+            share = glm::min(share, 1.0f);
+    }
+    if (density.colors) {
+        medium.colors.extinction = colorsOf(context, density);
+    } else {
+        density.grid->setWorld(context.worldFromFile * density.toFile);
+        medium.density = std::move(density.grid);
+    }
 }
 
 void readHomogeneous(const Context& context, const Plugin& plugin, double scale, Medium& medium) {
@@ -87,7 +153,7 @@ void readHomogeneous(const Context& context, const Plugin& plugin, double scale,
         isVolume
             ? readVolume(context, *volume).mean
             : colorOf(plugin, "sigma_t", ColorOf::Index).value_or(glm::dvec3(kUsualExtinction));
-    setColors(medium, scale * extinction, albedoOf(context, plugin));
+    setColors(medium, scale * extinction, meanAlbedo(context, plugin));
 }
 
 } // namespace
@@ -117,7 +183,7 @@ Medium Media::make(const Plugin& plugin) {
     Medium medium;
     medium.name = plugin.displayName();
     const double scale = plugin.number("scale", 0).value_or(1);
-    if (const Plugin* phase = plugin.onlyChildOf("phase")) readPhase(*phase, medium);
+    if (const Plugin* phase = plugin.onlyChildOf("phase")) readPhase(context_, *phase, medium);
     if (plugin.type == "heterogeneous")
         readHeterogeneous(context_, plugin, scale, medium);
     else if (plugin.type == "homogeneous")

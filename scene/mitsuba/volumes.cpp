@@ -65,6 +65,7 @@ Volume readGrid(const Context& context, const Plugin& volume) {
         result.toFile = result.toFile * glm::translate(glm::dmat4(1.0), read.low) *
                         glm::scale(glm::dmat4(1.0), read.high - read.low);
     result.grid = std::move(read.grid);
+    result.colors = std::move(read.colors);
     for (const char* unused : {"filter_type", "wrap_mode", "raw", "accel", "send_data"})
         volume.skip(unused);
     return result;
@@ -112,16 +113,17 @@ VolumeFile parseVolume(std::string_view bytes, const std::string& name) {
             fail("has a box without a volume");
     if (numbers.left() / bytesOf(encoding) / size_t(channels) < count) fail("ends too early");
     file.grid.values.resize(count);
+    if (channels == 3) file.colors.emplace().size = file.grid.size;
     for (float& value : file.grid.values) {
-        float sum = 0;
-        for (int channel = 0; channel < channels; ++channel) {
-            const float one = usable(nextValue(numbers, encoding));
-            file.mean[channel] += double(one) / double(count);
-            sum += one / float(channels);
-        }
-        value = usable(sum);
+        glm::vec3 color(0);
+        for (int channel = 0; channel < channels; ++channel)
+            color[channel] = usable(nextValue(numbers, encoding));
+        if (channels == 1) color = glm::vec3(color.x);
+        if (file.colors) file.colors->values.push_back(color);
+        file.mean += glm::dvec3(color) / double(count);
+        value = usable(color.x / 3 + color.y / 3 + color.z / 3);
+        if (channels == 1) value = color.x;
     }
-    if (channels == 1) file.mean = glm::dvec3(file.mean.x);
     return file;
 }
 

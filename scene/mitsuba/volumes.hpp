@@ -15,6 +15,7 @@ namespace stromboli::mitsuba {
 struct Volume {
     glm::dvec3 mean{0.0};
     std::optional<DensityGrid> grid; ///< none: it is `mean` everywhere; toUnit is left open
+    std::optional<ColorGrid> colors; ///< likewise, of three channels; `grid` has their means
     glm::dmat4 toFile{1.0};          ///< from the grid's unit cube to the file's world
 };
 
@@ -25,6 +26,7 @@ Volume readVolume(const Context& context, const Plugin& volume);
 /// means.
 struct VolumeFile {
     DensityGrid grid;
+    std::optional<ColorGrid> colors; ///< of three channels
     glm::dvec3 low{0.0}, high{1.0};
     glm::dvec3 mean{0.0}; ///< by channel
 };

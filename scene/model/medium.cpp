@@ -4,53 +4,112 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace stromboli {
 
-glm::dvec3 DensityGrid::place(const glm::dvec3& world) const {
-    glm::dvec3 p;
-    for (int i = 0; i < 3; ++i) {
-        const glm::dvec4& row = toUnit[size_t(i)];
-        p[i] = glm::dot(glm::dvec3(row), world) + row.w;
+glm::dvec3 GlowTable::at(double kelvins) const {
+    if (!(kelvins >= double(coldest))) return glm::dvec3(0.0);
+    const double first = 1 / double(coldest), last = 1 / double(hottest);
+    const double most = double(values.size()) - 1;
+    const double x = std::clamp((1 / kelvins - first) / (last - first), 0.0, 1.0) * most;
+    const size_t low = std::min(size_t(x), values.size() - 2);
+    const glm::dvec4 v =
+        glm::mix(glm::dvec4(values[low]), glm::dvec4(values[low + 1]), x - double(low));
+    return glm::dvec3(v) * std::exp(v.w);
+}
+
+namespace {
+
+bool isSome(const glm::vec3& v) {
+    return v.x > 0 || v.y > 0 || v.z > 0;
+}
+
+} // namespace
+
+bool Medium::scatters() const {
+    return colors.scattering ? isSome(colors.scattering->largest()) : isSome(scattering);
+}
+
+bool Medium::emits() const {
+    return colors.source ? isSome(colors.source->largest()) : isSome(emission);
+}
+
+MediumPoint Medium::at(const glm::dvec3& world, const glm::dvec3& place) const {
+    const glm::dvec3 whole(extinction());
+    const double dense = density ? density->goingOn(place) : 1;
+    MediumPoint p;
+    p.extinction =
+        whole * (colors.extinction ? colors.extinction->goingOn(place) : glm::dvec3(dense));
+    for (int c = 0; c < 3; ++c)
+        if (whole[c] > 0) p.scattering[c] = p.extinction[c] * double(scattering[c]) / whole[c];
+    if (colors.scattering) {
+        const glm::dvec3 found = colors.scattering->goingOn(colors.scattering->place(world));
+        p.scattering =
+            glm::min((colors.scatteringIsFactor ? whole : p.extinction) * found, p.extinction);
+    }
+    p.emission = glm::dvec3(emission) * dense;
+    if (colors.source) {
+        glm::dvec3 light = colors.source->goingOn(colors.source->place(world));
+        if (colors.glow) light = light.x * colors.glow->at(light.y);
+        p.emission = (p.extinction - p.scattering) * light;
     }
     return p;
 }
 
-void DensityGrid::setWorld(const glm::dmat4& matrix) {
-    const glm::dmat4 rows = glm::transpose(glm::inverse(matrix));
-    for (int i = 0; i < 3; ++i)
-        toUnit[size_t(i)] = rows[i];
+DensityGrid Medium::bound() const {
+    if (!colors.extinction) return density.value();
+    const glm::vec3 whole = extinction();
+    const float most = std::max({whole.x, whole.y, whole.z});
+    ColorGrid scaled = *colors.extinction;
+    for (glm::vec3& value : scaled.values)
+        value *= most > 0 ? whole / most : whole;
+    return largestChannels(scaled);
 }
 
-double DensityGrid::at(const glm::dvec3& place) const {
-    for (int i = 0; i < 3; ++i)
-        if (!(place[i] >= 0 && place[i] <= 1)) return 0;
-    size_t low[3], high[3];
-    double part[3];
-    for (int i = 0; i < 3; ++i) {
-        const double most = size[i] - 1.0;
-        const double x = std::clamp(place[i] * size[i] - 0.5, 0.0, most);
-        low[i] = size_t(x);
-        high[i] = std::min(low[i] + 1, size_t(most));
-        part[i] = x - double(low[i]);
-    }
-    double sum = 0;
-    for (unsigned corner = 0; corner < 8; ++corner) {
-        size_t at[3];
-        double weight = 1;
-        for (unsigned i = 0; i < 3; ++i) {
-            const bool isHigh = corner >> i & 1;
-            at[i] = isHigh ? high[i] : low[i];
-            weight *= isHigh ? part[i] : 1 - part[i];
-        }
-        sum += weight * values[at[0] + size.x * (at[1] + size_t(size.y) * at[2])];
-    }
-    return sum;
+std::vector<std::array<glm::dvec4, 3>*> Medium::places() {
+    std::vector<std::array<glm::dvec4, 3>*> all;
+    if (density) all.push_back(&density->toUnit);
+    for (std::optional<ColorGrid>* grid : {&colors.extinction, &colors.scattering, &colors.source})
+        if (*grid) all.push_back(&(*grid)->toUnit);
+    return all;
 }
 
-float DensityGrid::largest() const {
-    return values.empty() ? 0 : std::ranges::max(values);
+std::vector<PhaseLobe> Medium::phases() const {
+    std::vector<PhaseLobe> lobes{{phase, asymmetry, 1}};
+    for (const PhaseLobe& other : otherPhases)
+        lobes.front().share -= other.share;
+    lobes.insert(lobes.end(), otherPhases.begin(), otherPhases.end());
+    return lobes;
+}
+
+bool Medium::setPhases(std::vector<PhaseLobe> lobes) {
+    std::vector<PhaseLobe> taken;
+    for (const PhaseLobe& lobe : lobes) {
+        if (!(lobe.share > 0 && std::isfinite(lobe.share))) continue;
+        const auto isSame = [&](const PhaseLobe& t) {
+            return t.phase == lobe.phase && t.asymmetry == lobe.asymmetry;
+        };
+        const auto same = std::ranges::find_if(taken, isSame);
+        if (same == taken.end())
+            taken.push_back(lobe);
+        else
+            same->share += lobe.share;
+    }
+    std::ranges::stable_sort(taken, std::greater(), &PhaseLobe::share);
+    const bool isAll = taken.size() <= kMostPhases;
+    taken.resize(std::min(taken.size(), kMostPhases));
+    if (taken.empty()) taken.push_back({});
+    float sum = 0;
+    for (const PhaseLobe& lobe : taken)
+        sum += lobe.share;
+    for (PhaseLobe& lobe : taken)
+        lobe.share = sum > 0 ? lobe.share / sum : 1;
+    phase = taken.front().phase;
+    asymmetry = taken.front().asymmetry;
+    otherPhases.assign(taken.begin() + 1, taken.end());
+    return isAll;
 }
 
 namespace {

@@ -1,8 +1,9 @@
 #pragma once
 
+#include "scene/model/medium_grid.hpp"
+
 #include <glm/glm.hpp>
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -22,23 +23,46 @@ enum class PhaseFunction : uint32_t {
     Rayleigh,         ///< 3 / (16 pi) (1 + cos^2)
 };
 
-/// How dense a medium is from place to place: a factor of its coefficients.
-struct DensityGrid {
-    glm::uvec3 size{0}; ///< values along x, y and z, at least 1
-    /// x changes fastest. Values are at the middles of cells that fill the unit cube; between them
-    /// they are interpolated linearly, and up to the cube's faces the outermost ones go on. Outside
-    /// of the cube there is nothing. Finite, not negative.
-    std::vector<float> values;
-    /// Rows of the matrix from the world to the unit cube.
-    std::array<glm::dvec4, 3> toUnit{glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 1, 0, 0),
-                                     glm::dvec4(0, 0, 1, 0)};
+/// One of the phase functions whose sum is a medium's.
+struct PhaseLobe {
+    PhaseFunction phase = PhaseFunction::HenyeyGreenstein;
+    float asymmetry = 0; ///< Henyey-Greenstein: the mean cosine g, within kMostAsymmetry of 0
+    float share = 0;     ///< of the light that is scattered, at most 1
 
-    /// At a place of the unit cube, or outside of it.
-    double at(const glm::dvec3& place) const;
-    glm::dvec3 place(const glm::dvec3& world) const;
-    /// matrix: from the unit cube to the world.
-    void setWorld(const glm::dmat4& matrix);
-    float largest() const;
+    bool operator==(const PhaseLobe&) const = default;
+};
+
+/// Light that a black body of a temperature sends out, in a table.
+struct GlowTable {
+    float coldest = 0, hottest = 0; ///< kelvins: what is colder sends out nothing
+    /// At equal steps of the temperature's inverse, from coldest to hottest: red, green and blue
+    /// over the luminance, and its logarithm. At least two.
+    std::vector<glm::vec4> values;
+
+    glm::dvec3 at(double kelvins) const;
+};
+
+/// How colours of a medium differ from place to place, where they do. Only where its density or its
+/// extinction does.
+struct MediumColors {
+    /// Factors of the extinction by channel, in place of Medium::density.
+    std::optional<ColorGrid> extinction;
+    /// The share of the extinction that is scattering, at most 1; outside of its cube the outermost
+    /// values go on. In place of what the medium's coefficients say.
+    std::optional<ColorGrid> scattering;
+    /// They are no shares, but factors of the medium's extinction() that give the scattering, which
+    /// is nowhere more than the extinction.
+    bool scatteringIsFactor = false;
+    /// Radiance, which times the absorption is what the medium sends out per metre; in place of
+    /// Medium::emission. With `glow` the temperature in kelvins is in the second channel, and a
+    /// factor of what it glows with in the first one.
+    std::optional<ColorGrid> source;
+    std::optional<GlowTable> glow;
+};
+
+/// What a medium does at a place, per metre.
+struct MediumPoint {
+    glm::dvec3 extinction{0.0}, scattering{0.0}, emission{0.0};
 };
 
 /// What fills a part of space, absorbs light, scatters it and may shine.
@@ -49,15 +73,34 @@ struct Medium {
     glm::vec3 emission{0.0f};   ///< radiance that comes in per metre, times the density
     PhaseFunction phase = PhaseFunction::HenyeyGreenstein;
     float asymmetry = 0; ///< Henyey-Greenstein: the mean cosine g, within kMostAsymmetry of 0
-    std::optional<DensityGrid> density; ///< none: the same everywhere
+    /// Beside that function, which has what their shares leave of 1: at most kMostPhases - 1.
+    std::vector<PhaseLobe> otherPhases;
+    std::optional<DensityGrid> density; ///< none: the same everywhere, but for `colors`
+    MediumColors colors;
 
     glm::vec3 extinction() const { return absorption + scattering; }
-    bool scatters() const { return scattering.x > 0 || scattering.y > 0 || scattering.z > 0; }
-    bool emits() const { return emission.x > 0 || emission.y > 0 || emission.z > 0; }
+    bool varies() const { return density || colors.extinction; }
+    bool scatters() const;
+    bool emits() const;
+    /// Of one that varies: at a place of the world, and of the cube of its density or extinction,
+    /// within which it counts.
+    MediumPoint at(const glm::dvec3& world, const glm::dvec3& place) const;
+    /// Of one that varies: numbers of which, times the largest channel of extinction(), none is
+    /// less than the extinction.
+    DensityGrid bound() const;
+    /// Every grid's rows, for a world that moves.
+    std::vector<std::array<glm::dvec4, 3>*> places();
+    /// The whole sum, the shares of which are 1 together.
+    std::vector<PhaseLobe> phases() const;
+    /// Takes these in place of what there is: the shares in proportion, equal functions as one. Of
+    /// more than kMostPhases those with the largest shares are taken. Returns whether all are.
+    bool setPhases(std::vector<PhaseLobe> lobes);
 };
 
 /// Beyond, floats cannot tell the peak of Henyey and Greenstein's function from a single direction.
 inline constexpr float kMostAsymmetry = 0.9999f;
+/// How many phase functions a medium may be a sum of.
+inline constexpr size_t kMostPhases = 3;
 
 /// Leaves out all media where no surface and no camera is in contact with one. Where a scene has
 /// media, gives every surface that light passes into a volume the media on both

@@ -150,17 +150,8 @@ glm::dvec3 rgbOf(const Context& context, const Samples& samples, ColorOf what) {
 
 std::optional<glm::dvec3> blackbody(const Context& context, const Parameter& p) {
     if (p.numbers.empty() || !(p.numbers[0] > 0 && p.numbers[0] < 1e7)) return std::nullopt;
-    Samples samples = build::blackbody(p.numbers[0]);
-    if (!context.isV3()) return rgbOf(context, samples, ColorOf::Light);
-    // By Wien's law the peak is at 2.8977721e-3 m K over the temperature; what it has there is 1.
-    const double x = 4.965114231744276;
-    const double t5 = std::pow(p.numbers[0], 5);
-    const double peak = 2 * std::pow(1.380649e-23 * x, 5) * t5 /
-                        (std::pow(6.62607015e-34, 4) * std::pow(299792458.0, 3)) / std::expm1(x) *
-                        1e-9;
-    for (auto& [wavelength, value] : samples)
-        value /= peak;
-    return build::rgbOfLight(samples) * (p.numbers.size() > 1 ? p.numbers[1] : 1.0);
+    if (!context.isV3()) return rgbOf(context, build::blackbody(p.numbers[0]), ColorOf::Light);
+    return blackbodyOfPeak(p.numbers[0]) * (p.numbers.size() > 1 ? p.numbers[1] : 1.0);
 }
 
 std::optional<glm::dvec3> colorOfParameter(const Context& context, const Parameters& parameters,
@@ -207,6 +198,18 @@ build::MetalIndex metalOfSamples(const Context& context, const Samples& eta, con
 }
 
 } // namespace
+
+glm::dvec3 blackbodyOfPeak(double kelvins) {
+    Samples samples = build::blackbody(kelvins);
+    // By Wien's law the peak is at 2.8977721e-3 m K over the temperature; what it has there is 1.
+    const double x = 4.965114231744276;
+    const double peak = 2 * std::pow(1.380649e-23 * x, 5) * std::pow(kelvins, 5) /
+                        (std::pow(6.62607015e-34, 4) * std::pow(299792458.0, 3)) / std::expm1(x) *
+                        1e-9;
+    for (auto& [wavelength, value] : samples)
+        value /= peak;
+    return build::rgbOfLight(samples);
+}
 
 double luminance(const glm::dvec3& rgb) {
     return glm::dot(rgb, glm::dvec3(0.212671, 0.715160, 0.072169));

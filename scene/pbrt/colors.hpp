@@ -24,6 +24,9 @@ std::optional<glm::dvec3> colorOf(const Context& context, const Parameters& para
 
 double luminance(const glm::dvec3& rgb);
 
+/// Light of a black body whose spectrum has the peak 1, above 0 kelvins.
+glm::dvec3 blackbodyOfPeak(double kelvins);
+
 /// Index of refraction of what is inside; that of glasses by name is the one of yellow light.
 double indexOf(const Context& context, const Parameters& parameters, double otherwise);
 

@@ -20,6 +20,73 @@ float densityAt(GridHeader g, vec3 p) {
     return mix(along.x, along.y, part.y);
 }
 
+/// p: in the unit cube, outside of which the outermost values go on.
+vec3 colorOfCells(uvec3 size, uint values, vec3 p) {
+    const vec3 most = vec3(size - 1u);
+    const vec3 x = clamp(p * (most + 1.0) - 0.5, vec3(0.0), most), low = floor(x), part = x - low;
+    const uvec3 strides = uvec3(1u, size.x, size.x * size.y), first = uvec3(low) * strides;
+    const uint row = values + first.x + first.y + first.z;
+    const uvec3 next = mix(uvec3(0u), strides, lessThan(low, most));
+#define CELL(offset) uintBitsToFloat(ROW(materialRows, row + (offset))).xyz
+    const vec3 lower = mix(mix(CELL(0u), CELL(next.x), part.x), mix(CELL(next.y), CELL(next.x + next.y), part.x), part.y);
+    const vec3 upper = mix(mix(CELL(next.z), CELL(next.x + next.z), part.x),
+                           mix(CELL(next.y + next.z), CELL(next.x + next.y + next.z), part.x), part.y);
+#undef CELL
+    return mix(lower, upper, part.z);
+}
+
+/// header: the row of a ColorGridHeader.
+vec3 colorAt(uint header, vec3 world) {
+    const vec4 a = uintBitsToFloat(ROW(materialRows, header)), b = uintBitsToFloat(ROW(materialRows, header + 1u)),
+               c = uintBitsToFloat(ROW(materialRows, header + 2u));
+    const uvec4 cells = ROW(materialRows, header + 3u);
+    return colorOfCells(cells.xyz, cells.w, vec3(dot(a.xyz, world) + a.w, dot(b.xyz, world) + b.w, dot(c.xyz, world) + c.w));
+}
+
+/// header: the row of a GlowHeader.
+vec3 glowAt(uint header, float kelvins) {
+    const uvec4 r = ROW(materialRows, header);
+    const vec3 range = uintBitsToFloat(r.xyz);
+    const float last = uintBitsToFloat(ROW(materialRows, header + 1u).x);
+    const float x = clamp((1.0 / kelvins - range.y) * range.z, 0.0, last), low = min(floor(x), last - 1.0);
+    const uint row = r.w + uint(low);
+    const vec4 v = mix(uintBitsToFloat(ROW(materialRows, row)), uintBitsToFloat(ROW(materialRows, row + 1u)), x - low);
+    return kelvins < range.x ? vec3(0.0) : v.xyz * exp(v.w);
+}
+
+MediumTints fetchTints(uint medium) {
+    const uvec4 r = ROW(materialRows, medium + MEDIUM_TINTS_ROW);
+    return MediumTints(r.x, r.y, r.z, r.w);
+}
+
+/// What a medium does at a place, per metre.
+struct MediumPoint {
+    vec3 extinction, scattering, emission;
+};
+
+/// p: the place in the cube of the medium's grid. medium: its first row.
+MediumPoint mediumPoint(MediumBody m, GridHeader g, uint medium, vec3 p, vec3 world) {
+    MediumTints tints = MediumTints(0u, 0u, 0u, 0u);
+    if (mediaDo(MEDIA_VARY_EXTINCTION | MEDIA_VARY_SCATTERING | MEDIA_VARY_SOURCE)) tints = fetchTints(medium);
+    vec3 factor = vec3(densityAt(g, p));
+    if (mediaDo(MEDIA_VARY_EXTINCTION) && (tints.kinds & TINT_EXTINCTION) != 0u)
+        factor = colorOfCells(uvec3(g.sizeX, g.sizeY, g.sizeZ), g.values, p);
+    MediumPoint point;
+    point.extinction = m.extinction * factor;
+    point.scattering = point.extinction * m.albedo;
+    if (mediaDo(MEDIA_VARY_SCATTERING) && tints.scattering != 0u) {
+        const bool isFactor = (tints.kinds & TINT_SCATTERING_IS_FACTOR) != 0u;
+        point.scattering = min(colorAt(tints.scattering, world) * (isFactor ? m.extinction : point.extinction), point.extinction);
+    }
+    point.emission = m.emission * factor;
+    if (mediaDo(MEDIA_VARY_SOURCE) && tints.source != 0u) {
+        vec3 light = colorAt(tints.source, world);
+        if (mediaDo(MEDIA_GLOW) && tints.glow != 0u) light = light.x * glowAt(tints.glow, light.y);
+        point.emission = (point.extinction - point.scattering) * light;
+    }
+    return point;
+}
+
 float boundOfBlock(GridHeader g, ivec3 block) {
     const uint index = uint(block.x) + g.blocksX * (uint(block.y) + g.blocksY * uint(block.z));
     const uvec4 r = ROW(materialRows, g.bounds + (index >> 2u));
@@ -71,8 +138,8 @@ float endOfBlock(GridRay r, ivec3 block, vec3 blocks, out int axis) {
 /// A ray to a light that has less than this share of its light left ends half of the time.
 const float LITTLE_LEFT = 0.125;
 
-/// isPath: collisions scatter; else they dim. carried: what the channels have, for the choice.
-MediumResult trackGrid(MediumBody m, Traversal ray, vec3 carried, bool isPath, uvec4 words) {
+/// isPath: collisions scatter; else they dim. carried: what the channels have, for the choice. medium: its first row.
+MediumResult trackGrid(MediumBody m, uint medium, Traversal ray, vec3 carried, bool isPath, uvec4 words) {
     MediumResult result = MediumResult(vec3(1.0), vec3(0.0), false, false, 0.0);
     const GridHeader g = fetchGrid(m.grid);
     const float perLength = 1.0 / length(ray.direction);
@@ -91,12 +158,12 @@ MediumResult trackGrid(MediumBody m, Traversal ray, vec3 carried, bool isPath, u
         const float next = rate > 0.0 ? at - log(1.0 - u.x) / rate : INFINITE_DISTANCE;
         if (next < end) {
             at = next;
-            const float density = densityAt(g, clamp(r.origin + at * r.direction, vec3(0.0), vec3(1.0)));
-            const vec3 extinction = m.extinction * density;
-            const vec3 null_ = max(rate - extinction, vec3(0.0)) / rate;
+            const MediumPoint point = mediumPoint(m, g, medium, clamp(r.origin + at * r.direction, vec3(0.0), vec3(1.0)),
+                                                  ray.origin + (at * perLength) * ray.direction);
+            const vec3 null_ = max(rate - point.extinction, vec3(0.0)) / rate;
             if (isPath) {
-                const vec3 real = extinction * m.albedo / rate, has_ = carried * result.weight;
-                if (mediaDo(MEDIA_SHINE)) result.shone += result.weight * m.emission * (density / rate);
+                const vec3 real = point.scattering / rate, has_ = carried * result.weight;
+                if (mediaDo(MEDIA_SHINE)) result.shone += result.weight * point.emission / rate;
                 const float ofReal = dot(has_, real), ofNull = dot(has_, null_), all = ofReal + ofNull;
                 result.scatters = u.y * all < ofReal;
                 const float probability = (result.scatters ? ofReal : ofNull) / max(all, TINY);

@@ -2,6 +2,8 @@
 // compiled: storage texel buffers (FETCH_TEXEL) or storage buffers (docs/theory/kernel.md, "Fetch").
 // Rows are integers: floats pass through uintBitsToFloat, so that no bit pattern is altered.
 
+#include "shared/medium_types.h"
+
 #ifdef FETCH_TEXEL
 #define SCENE_BUFFER(binding_, name)                                                               \
     layout(set = 0, binding = binding_, rgba32ui) uniform readonly uimageBuffer name;
@@ -93,7 +95,9 @@ struct Material {
 bool hasClosure(Material m, uint bit) { return has(m.header.w, bit); }
 
 /// Whether some material of the scene has this row behind its header.
-bool materialsHaveRow(uint row) { return row <= 1u || sceneHas(closuresWithRow(row)); }
+bool materialsHaveRow(uint row) {
+    return row <= 1u || sceneHas(closuresWithRow(row)) || row == MEDIUM_PHASES_ROW && (MEDIA & MEDIA_MIX) != 0u;
+}
 
 /// row: the material's first. Rows that no material of the scene has are not read.
 Material fetchMaterial(uint row) {

@@ -100,7 +100,8 @@ void goOnFrom(inout Traversal t, float from, float end) {
 }
 
 /// Takes in what the ray that is done has gone through, and makes IN_MEDIUM its end if it has scattered. Returns whether
-/// the ray is under way still: so much of a grid is tracked at a time as loops may take.
+/// the ray is under way still: so much of a grid is tracked at a time as loops may take. What only sees takes the share
+/// that is left, and the medium's albedo for the rest.
 bool goThroughMedium(const Given given, inout PathState path) {
     if (!HAS_MEDIA) return false;
     const bool isPath = path.phase == PHASE_PATH;
@@ -115,8 +116,9 @@ bool goThroughMedium(const Given given, inout PathState path) {
         const vec3 carried = isPath ? path.throughput : path.directValue;
         MediumResult r = MediumResult(exp(-m.extinction * length_), vec3(0.0), false, false, 0.0);
         const bool varies = mediaDo(MEDIA_VARY) && m.grid != 0u;
-        if (isPath && !varies) r = flyFreely(m, carried, length_, mediumNumbers(words, 0u));
-        if (varies) r = trackGrid(m, path.ray, carried, isPath, words);
+        if (isPath && !varies && !SEES) r = flyFreely(m, carried, length_, mediumNumbers(words, 0u));
+        if (varies) r = trackGrid(m, here, path.ray, carried, isPath && !SEES, words);
+        if (SEES) path.seen.albedo.xyz += path.throughput * (1.0 - r.weight) * m.albedo;
         if (mediaDo(MEDIA_SHINE) && isPath && path.bounce >= given.frame.minBounce) path.radiance += path.throughput * r.shone;
         if (isPath) path.throughput *= r.weight;
         else path.directValue *= r.weight;

@@ -21,7 +21,7 @@ void countHit(inout PathState path) {
 #define ADD_VALUE(name, value, otherwise) seen.name.xyz += value;
 #define ADD_OTHERWISE(name, value, otherwise) seen.name.xyz += otherwise;
 
-void addSumsOfFirst(inout SeenPixel seen, Material m, SurfacePoint s) {
+void addSumsOfFirst(inout SeenPixel seen, vec3 tint, Material m, SurfacePoint s) {
     SUMS_OF_FIRST(ADD_VALUE)
 }
 
@@ -40,6 +40,7 @@ void endAtNothing(inout SeenPixel seen, vec3 tint, vec3 firstNormal) {
 
 /// The ray has met nothing; a mirror may show that.
 void seeNothing(inout PathState path) {
+    if (SEES_SURFACES && path.bounce == 0u) path.seen.transmittance.xyz += path.throughput;
     if (SEES_SURFACES && path.bounce > 0u) endAtNothing(path.seen, path.throughput, path.firstNormal);
 }
 
@@ -47,7 +48,7 @@ void seeNothing(inout PathState path) {
 void seeSurface(inout PathState path) {
     if (path.bounce == 0u) {
         path.firstNormal = shadingNormal(path.surface);
-        addSumsOfFirst(path.seen, path.material, path.surface);
+        addSumsOfFirst(path.seen, path.throughput, path.material, path.surface);
     }
     ++path.bounce;
     if (!isSeenThrough(path.material)) endAtSurface(path.seen, path.throughput, path.material, path.surface);

@@ -29,8 +29,9 @@ SHARED_CONST uint MOST_SEEN_THROUGH = 8u;
 // F(name, value, otherwise): a sum of vectors over the camera rays of a pixel.
 #define SUM_OF_MEAN(F, layer, name, text, help, channels, value, otherwise) F(name, value, otherwise)
 #define SUMS_OF_END(F) MEANS_OF_END(SUM_OF_MEAN, F)
-/// Of the surface `s` that a ray meets first, and its Material `m`.
-#define SUMS_OF_FIRST(F) F(position, s.position, vec3(0.0))
+/// Of the surface `s` that a ray meets first, and its Material `m`. tint: what media on the way leave; a ray that meets
+/// nothing adds its own to the transmittance.
+#define SUMS_OF_FIRST(F) F(position, s.position, vec3(0.0)) F(transmittance, tint, vec3(0.0))
 #define SEEN_SUMS(F) SUMS_OF_FIRST(F) SUMS_OF_END(F)
 
 // F(layer, text, help, channels, value): all layers.
@@ -39,6 +40,7 @@ SHARED_CONST uint MOST_SEEN_THROUGH = 8u;
 #define LAYER_LIST(F) \
     MEANS_OF_END(LAYER_OF_MEAN, F) \
     F(Depth, "depth", "metres along the camera's axis", "Z", depthOf(s, camera)) \
+    F(Transmittance, "transmittance", "share of light that media leave", "RGB", meanOf(s.transmittance, s.samples)) \
     F(Position, "position", "in the world, metres", "XYZ", positionOf(s, scene)) \
     F(Uv, "uv", "first texture coordinates", "UV", uvOf(s, scene)) \
     F(Object, "object", "number of the mesh or sphere", "X", objectOf(s, scene)) \

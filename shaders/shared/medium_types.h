@@ -13,7 +13,12 @@ SHARED_BEGIN
     F(MEDIA_DIM, 0, "extinction") \
     F(MEDIA_SCATTER, 1, "scattering") \
     F(MEDIA_SHINE, 2, "emission") \
-    F(MEDIA_VARY, 3, "grids of densities")
+    F(MEDIA_VARY, 3, "grids of densities") \
+    F(MEDIA_MIX, 4, "sums of phase functions") \
+    F(MEDIA_VARY_EXTINCTION, 5, "extinction of varying colours") \
+    F(MEDIA_VARY_SCATTERING, 6, "scattering of varying colours") \
+    F(MEDIA_VARY_SOURCE, 7, "emission of varying colours") \
+    F(MEDIA_GLOW, 8, "glow by temperature")
 
 #define NAME_MEDIA(name, bit, label) SHARED_CONST uint name = 1u << bit;
 MEDIA_LIST(NAME_MEDIA)
@@ -34,14 +39,58 @@ SHARED_CONST uint MEDIUM_BORDER_ROWS = 1u;
 
 struct MediumBody {
     vec3 extinction; ///< per metre, times the density
-    float asymmetry; ///< of Henyey and Greenstein's function
+    float asymmetry; ///< of Henyey and Greenstein's function, or RAYLEIGH_ASYMMETRY
     vec3 albedo;     ///< the share of the extinction that is scattering
     uint grid;       ///< the row of its GridHeader; 0: the density is 1 everywhere
     vec3 emission;   ///< radiance per metre, times the density
-    float mostExtinction; ///< the largest component
+    float mostExtinction; ///< the largest component, which the bounds of a grid are multiplied by
 };
 SHARED_ROWS(MediumBody, 3);
 SHARED_CONST uint MEDIUM_BODY_ROW = 1u; ///< of a medium, its header counted
+
+/// Where some medium has a sum of phase functions (MEDIA_MIX): two beside that of the body, which has the rest of the
+/// shares.
+struct PhaseMixture {
+    float asymmetry1, share1; ///< share: 0 where there is none
+    float asymmetry2, share2;
+};
+SHARED_ROWS(PhaseMixture, 1);
+SHARED_CONST uint MEDIUM_PHASES_ROW = 4u; ///< of a medium, its header counted
+/// In place of an asymmetry: Rayleigh's function.
+SHARED_CONST float RAYLEIGH_ASYMMETRY = 2.0f;
+
+/// Where colours of some medium vary (MEDIA_VARY_ bits), which of its do: rows of ColorGridHeaders, or 0.
+struct MediumTints {
+    uint scattering;
+    uint source; ///< radiance; with a glow a factor of it and a temperature
+    uint glow;   ///< the row of a GlowHeader, or 0
+    uint kinds;  ///< TINT_ bits
+};
+SHARED_ROWS(MediumTints, 1);
+SHARED_CONST uint MEDIUM_TINTS_ROW = 5u; ///< of a medium, its header counted
+/// The values of the medium's grid are colours, a row each: factors of the extinction.
+SHARED_CONST uint TINT_EXTINCTION = 1u;
+/// Scattering has factors of the medium's extinction; else shares of that at the place.
+SHARED_CONST uint TINT_SCATTERING_IS_FACTOR = 2u;
+
+/// A grid of colours, a row for each cell, x changing fastest.
+struct ColorGridHeader {
+    vec4 toUnit0, toUnit1, toUnit2; ///< rows of the matrix from the world to the unit cube
+    uint sizeX, sizeY, sizeZ;
+    uint values; ///< row of the first one
+};
+SHARED_ROWS(ColorGridHeader, 4);
+
+/// Light of black bodies, at equal steps of 1 / temperature: rows of red, green and blue over the luminance, and its
+/// logarithm.
+struct GlowHeader {
+    float coldest; ///< kelvins
+    float start, perInverse; ///< the place in the table is perInverse * (1 / temperature - start)
+    uint values; ///< row of the first one
+    float last; ///< its number
+    uint unused0, unused1, unused2;
+};
+SHARED_ROWS(GlowHeader, 2);
 
 /// A grid of densities. Between the middles of its cells, which fill the unit cube, densities are interpolated.
 struct GridHeader {

@@ -142,10 +142,29 @@ TEST(Media, DimTheEnvironment) {
 // --- What is scattered
 // -----------------------------------------------------------------------------
 
+/// A narrow, a wide and a backward one.
+const std::vector<PhaseLobe> kSumOfPhases = {{PhaseFunction::HenyeyGreenstein, 0.9f, 0.25f},
+                                             {PhaseFunction::Rayleigh, 0, 0.5f},
+                                             {PhaseFunction::HenyeyGreenstein, -0.6f, 0.25f}};
+
+double phaseDensity(const Medium& m, double turn) {
+    double sum = 0;
+    for (const PhaseLobe& lobe : m.phases()) {
+        const double g = lobe.asymmetry;
+        sum += double(lobe.share) *
+               (lobe.phase == PhaseFunction::Rayleigh
+                    ? 3 / (16 * kPi) * (1 + turn * turn)
+                    : (1 - g * g) / (4 * kPi * std::pow(1 + g * g - 2 * g * turn, 1.5)));
+    }
+    return sum;
+}
+
 /// Light of a point at the distance d from a ray in a medium without an end, scattered once: the
-/// integral over the ray of sigma_s exp(-sigma_t (t + r)) p(cos) I / r^2.
+/// integral over the ray of sigma_s exp(-sigma_t (t + r)) p(cos) I / r^2. m: the same in all
+/// channels.
 double scatteredOnce(const glm::dvec3& from, const glm::dvec3& along, const glm::dvec3& light,
-                     double scattering, double extinction, double g, double to) {
+                     const Medium& m, double to) {
+    const double scattering = m.scattering.x, extinction = m.extinction().x;
     constexpr int kSteps = 200'000;
     double sum = 0;
     for (int i = 0; i < kSteps; ++i) {
@@ -153,26 +172,25 @@ double scatteredOnce(const glm::dvec3& from, const glm::dvec3& along, const glm:
         const glm::dvec3 d = light - (from + t * along);
         const double r = glm::length(d), cosine = -glm::dot(along, d) / r;
         // Light goes along -d, then along -along.
-        const double turn = -cosine;
-        const double phase = (1 - g * g) / (4 * kPi * std::pow(1 + g * g - 2 * g * turn, 1.5));
-        sum += scattering * std::exp(-extinction * (t + r)) * phase / (r * r);
+        sum += scattering * std::exp(-extinction * (t + r)) * phaseDensity(m, -cosine) / (r * r);
     }
     return sum * to / kSteps;
 }
 
 TEST(Media, ScatterLightOfAPointOnce) {
-    for (const float g : {0.0f, 0.7f, -0.5f}) {
+    for (const float g : {0.0f, 0.7f, -0.5f, 2.0f}) {
+        Medium m = medium(glm::vec3(0.0625f), glm::vec3(0.25f), g);
+        if (g == 2) m.setPhases(kSumOfPhases);
         SceneMaker b;
         b.quad({-50, -50, -4}, {100, 0, 0}, {0, 100, 0}, b.add(diffuse(0)));
         Camera camera = pointCamera({0, 0, 4}, {0, 0, -4});
-        camera.medium = add(b, medium(glm::vec3(0.0625f), glm::vec3(0.25f), g));
+        camera.medium = add(b, m);
         Light l;
         l.position = {1, 0.5f, 0.25f};
         l.constantAttenuation = 0;
         l.quadraticAttenuation = 1;
         b.add(l);
-        const double expected =
-            scatteredOnce({0, 0, 4}, {0, 0, -1}, l.position, 0.25, 0.3125, g, 8);
+        const double expected = scatteredOnce({0, 0, 4}, {0, 0, -1}, l.position, m, 8);
         const Estimate found = estimate(b.scene, camera, smallPicture(256, 1));
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(found.mean[c], expected, 4.5 * found.error[c] + 1e-4 * expected) << g;
@@ -256,7 +274,7 @@ TEST(Media, EstimatorsAgree) {
         SceneMaker b;
         b.quad({-1, -1, 3}, {0, 2, 0}, {2, 0, 0}, b.add(emissive(4, true)));
         Medium m = medium(glm::vec3(0.125f), glm::vec3(1, 0.5f, 0.25f), g);
-        if (g == 0) m.phase = PhaseFunction::Rayleigh;
+        if (g == 0) m.setPhases(kSumOfPhases);
         b.sphere({0, 0, 0}, 1, b.add(border(add(b, m))));
         const auto seen = [&](DirectLight mode, uint32_t samples) {
             RenderSettings s = smallPicture(samples, 20);
@@ -378,6 +396,140 @@ TEST(Media, WhiteGridsAreFurnaces) {
         camera.medium = add(b, m);
         expectMean(estimate(b.scene, camera, smallPicture(64, 10'000)), 1);
     }
+}
+
+// --- Grids of colours
+// -----------------------------------------------------------------------------
+
+/// The slab's cube, whatever is in it.
+constexpr double kPerLength = 1 / 160.0, kPerHeight = 1 / double(kThickness);
+const std::array<glm::dvec4, 3> kSlabToUnit = {glm::dvec4(kPerLength, 0, 0, 0.5),
+                                               glm::dvec4(0, kPerLength, 0, 0.5),
+                                               glm::dvec4(0, 0, kPerHeight, -0.25 * kPerHeight)};
+
+/// Two layers of the slab, of one cell each.
+ColorGrid twoLayers(const glm::vec3& below, const glm::vec3& above) {
+    ColorGrid grid;
+    grid.size = {1, 1, 2};
+    grid.values = {below, above};
+    grid.toUnit = kSlabToUnit;
+    return grid;
+}
+
+/// Each channel has the mean of its own densities, for camera rays and for rays to a light.
+TEST(Media, GridsOfColoursAbsorbByChannel) {
+    const glm::vec3 absorption(0.3f, 1.5f, 0.125f), below(0.25f, 0, 3), above(2, 0.5f, 0);
+    Medium m = medium(absorption, glm::vec3(0));
+    m.colors.extinction = twoLayers(below, above);
+    const glm::dvec3 depth = 0.5 * glm::dvec3(absorption) * glm::dvec3(below + above);
+    const SceneMaker seen = slab(m);
+    expectMean(estimate(seen.scene, kAbove, smallPicture(256, 1)),
+               exponential(lengthInSlab() * depth));
+    SceneMaker lit = slab(m);
+    lit.scene.materials[0] = diffuse(0.5f);
+    Light l;
+    l.position = {0.1f, 0.2f, 16};
+    lit.add(l);
+    expectMean(
+        estimate(lit.scene, pointCamera({0.2, 0.1, 0.1}, {0.1, 0.2, 0}), smallPicture(256, 1)),
+        0.5 / kPi * exponential(double(kThickness) * depth));
+}
+
+/// Colours from 0 to 4 in a box from -1 to 1.
+ColorGrid motley(const glm::uvec3& size, float scale) {
+    ColorGrid grid;
+    grid.size = size;
+    for (uint32_t i = 0; i < size.x * size.y * size.z; ++i)
+        grid.values.push_back(scale * glm::vec3(i % 5, i % 3, i % 7 == 0 ? 4 : 0));
+    grid.toUnit = {glm::dvec4(0.5, 0, 0, 0.5), glm::dvec4(0, 0.5, 0, 0.5),
+                   glm::dvec4(0, 0, 0.5, 0.5)};
+    return grid;
+}
+
+/// What scatters all is a furnace, by shares of 1 and by factors that are those of the extinction.
+TEST(Media, WhiteGridsOfColoursAreFurnaces) {
+    for (const bool isFactor : {false, true}) {
+        SceneMaker b;
+        b.box({-1, -1, -1}, {1, 1, 1}, b.add(emissive(1)), true);
+        Medium m = medium(glm::vec3(0.25f), glm::vec3(1, 0.5f, 0.25f), 0.4f);
+        m.colors.extinction = motley({5, 18, 3}, 1);
+        m.colors.scattering = m.colors.extinction;
+        m.colors.scatteringIsFactor = isFactor;
+        if (!isFactor) m.colors.scattering->values.assign(5 * 18 * 3, glm::vec3(1));
+        Camera camera = pointCamera({-0.5, 0.1, 0.3}, {1, 0.4, 0.2});
+        camera.medium = add(b, m);
+        expectMean(estimate(b.scene, camera, smallPicture(32, 10'000)), 1);
+    }
+}
+
+/// Each channel is what it is alone, where extinction and albedo vary in colour, on grids of their
+/// own.
+TEST(Media, ChannelsOfGridsAreWhatTheyAreAlone) {
+    Medium together = medium(glm::vec3(0.5f, 1, 0.25f), glm::vec3(0.5f), 0.3f);
+    together.colors.extinction = motley({3, 2, 5}, 0.5f);
+    together.colors.scattering = motley({2, 3, 1}, 0.25f);
+    const auto seen = [](const Medium& m) {
+        SceneMaker b;
+        b.add(ambient(1));
+        b.box({-1, -1, -1}, {1, 1, 1}, b.add(border(add(b, m))));
+        return estimate(b.scene, pointCamera({0.2, 0.3, 3}, {0.1, 0.2, 0}),
+                        smallPicture(128, 1000));
+    };
+    const Estimate all = seen(together);
+    for (int c = 0; c < 3; ++c) {
+        Medium alone = medium(glm::vec3(together.extinction()[c]), glm::vec3(0), 0.3f);
+        alone.density.emplace();
+        alone.density->size = together.colors.extinction->size;
+        alone.density->toUnit = together.colors.extinction->toUnit;
+        for (const glm::vec3& color : together.colors.extinction->values)
+            alone.density->values.push_back(color[c]);
+        alone.colors.scattering = together.colors.scattering;
+        for (glm::vec3& color : alone.colors.scattering->values)
+            color = glm::vec3(color[c]);
+        const Estimate found = seen(alone);
+        EXPECT_NEAR(all.mean[c], found.mean[c],
+                    4.5 * std::hypot(all.error[c], found.error[c]) + kRounding)
+            << c;
+    }
+}
+
+/// What a slab that absorbs sends up, and the floor behind it: the integral over the way of
+/// absorption times radiance times what is left.
+glm::dvec3 radianceOfSlab(const Medium& m) {
+    constexpr int kSteps = 4000;
+    glm::dvec3 left(1.0), sum(0.0);
+    const double step = lengthInSlab() / kSteps;
+    for (int i = 0; i < kSteps; ++i) {
+        const glm::dvec3 unit(0.5, 0.5, 1 - (i + 0.5) / kSteps);
+        const MediumPoint p = m.at({0, 0, 0.25 + double(kThickness) * unit.z}, unit);
+        const glm::dvec3 half = exponential(0.5 * step * p.extinction);
+        sum += left * half * p.emission * step;
+        left *= half * half;
+    }
+    return sum + left;
+}
+
+/// Radiance of varying colours, and glow by temperatures that vary.
+TEST(Media, ShineInColoursThatVary) {
+    Medium m = medium(glm::vec3(1.5f, 0.75f, 1), glm::vec3(0));
+    m.colors.extinction = twoLayers({1, 2, 0.5f}, {2, 0.25f, 1});
+    m.colors.source = twoLayers({4, 0, 1}, {0.5f, 3, 2});
+    const auto expectShine = [&] {
+        const SceneMaker b = slab(m);
+        const Estimate found = estimate(b.scene, kAbove, smallPicture(1024, 2));
+        const glm::dvec3 expected = radianceOfSlab(m);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(found.mean[c], expected[c], 4.5 * found.error[c] + 1e-5 * expected[c]) << c;
+    };
+    expectShine();
+    m.density.emplace();
+    m.density->size = {1, 1, 2};
+    m.density->values = {0.5f, 1.5f};
+    m.density->toUnit = kSlabToUnit;
+    m.colors.extinction.reset();
+    m.colors.source = twoLayers({1, 1200, 0}, {2, 300, 0}); // a factor, kelvins
+    m.colors.glow = GlowTable{500, 1500, {{0.5f, 1, 0, -3}, {1, 0.5f, 0.25f, 1}, {1, 1, 1, 2}}};
+    expectShine();
 }
 
 } // namespace

@@ -141,6 +141,70 @@ TEST(Alpha, TheHiddenEnvironmentLights) {
     expectMean(estimate(b.scene, pointCamera({1, 2, 3}, {0, 0, 0}), s), 0.5);
 }
 
+/// A floor of the albedo 0.5, above it a metre of fog, whose lower half may be of a grid; and a
+/// camera above, which the fog may be around.
+Scene floorInFog(const Medium& fog) {
+    SceneMaker b;
+    b.quad({-9, -9, 0}, {18, 0, 0}, {0, 18, 0}, b.add(diffuse(0.5f)));
+    b.scene.media.push_back(fog);
+    Material border = diffuse(0);
+    border.alphaMode = AlphaMode::Blend;
+    border.opacity = 0;
+    border.boundsMedia = true;
+    border.inside = 0;
+    b.box({-8, -8, 0.5f}, {8, 8, 1.5f}, b.add(border));
+    return b.scene;
+}
+
+glm::dvec3 meanOf(const std::vector<SeenPixel>& seen, glm::dvec3 SeenPixel::*sum) {
+    glm::dvec3 mean(0.0);
+    for (const SeenPixel& p : seen)
+        mean += p.*sum / double(p.samples) / double(seen.size());
+    return mean;
+}
+
+/// What media leave is seen of what is behind them, and the rest is of their own colour. Depth is
+/// the surface's. 6144 tracked rays have a standard error of at most 0.008.
+TEST(Layers, AreSeenThroughMedia) {
+    Medium fog;
+    fog.absorption = {0.25f, 0, 1};
+    fog.scattering = {0.25f, 1, 0};
+    for (const bool varies : {false, true}) {
+        if (varies) {
+            fog.density.emplace();
+            fog.density->size = {1, 1, 2};
+            fog.density->values = {0.5f, 1.5f}; // 1 on the mean
+            fog.density->setWorld(
+                glm::dmat4({16, 0, 0, 0}, {0, 16, 0, 0}, {0, 0, 1, 0}, {-8, -8, 0.5, 1}));
+        }
+        const Scene scene = floorInFog(fog);
+        const auto seen = lookAt(scene, straightDown(), Seeing::Surfaces, 32);
+        const glm::dvec3 left = glm::exp(-glm::dvec3(fog.extinction()));
+        const glm::dvec3 own(0.5, 1, 0), albedo = 0.5 * left + (1.0 - left) * own;
+        const glm::dvec3 t = meanOf(seen, &SeenPixel::transmittance);
+        const glm::dvec3 a = meanOf(seen, &SeenPixel::albedo);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_NEAR(t[c], left[c], varies ? 0.03 : 1e-5) << c;
+            EXPECT_NEAR(a[c], albedo[c], varies ? 0.03 : 1e-5) << c;
+        }
+        for (const SeenPixel& p : seen) {
+            EXPECT_EQ(p.hits, 32u);
+            EXPECT_NEAR(p.position.z, 0, 32 * kNear);
+            EXPECT_NEAR(p.normal.z, 32, 32 * kNear);
+        }
+    }
+    // Around the camera, without an end, and nothing in it: its own colour.
+    fog.density.reset();
+    SceneMaker sky;
+    sky.quad({-9, -9, 9}, {18, 0, 0}, {0, 18, 0}, sky.add(diffuse(0.5f))); // behind the camera
+    sky.scene.media.push_back(fog);
+    Camera inside = straightDown();
+    inside.medium = 0;
+    const auto seen = lookAt(sky.scene, inside, Seeing::Surfaces, 4);
+    EXPECT_EQ(meanOf(seen, &SeenPixel::transmittance), glm::dvec3(0));
+    EXPECT_NEAR(glm::length(meanOf(seen, &SeenPixel::albedo) - glm::dvec3(0.5, 1, 0)), 0, 1e-5);
+}
+
 FloatImage layersOf(const Scene& scene, const Camera& camera, const std::vector<Layer>& layers,
                     uint32_t samples = 16) {
     FloatImage image(kArea);

@@ -5,6 +5,7 @@
 #include "scene/gltf/load_gltf.hpp"
 #include "scene/images/picture.hpp"
 #include "scene/mitsuba/load_mitsuba.hpp"
+#include "scene/mitsuba/volumes.hpp"
 #include "scene/obj/load_obj.hpp"
 #include "scene/pbrt/load_pbrt.hpp"
 #include "scene/ply/load_ply.hpp"
@@ -38,7 +39,7 @@ class MemoryFile {
     int descriptor_;
 };
 
-#ifndef FUZZ_IMAGES
+#if !defined(FUZZ_IMAGES) && !defined(FUZZ_VOLUMES)
 /// Large pictures would take nearly all of the time, and find nothing that small ones do not.
 SceneConventions conventions() {
     SceneConventions result;
@@ -52,8 +53,10 @@ SceneConventions conventions() {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     static MemoryFile file;
     try {
-#ifdef FUZZ_IMAGES
+#if defined(FUZZ_IMAGES)
         images::decodePicture({reinterpret_cast<const char*>(data), size}, "picture");
+#elif defined(FUZZ_VOLUMES)
+        mitsuba::parseVolume({reinterpret_cast<const char*>(data), size}, "volume");
 #else
         FUZZ_LOAD(file.hold(data, size), conventions());
 #endif

@@ -23,6 +23,9 @@ struct Path {
     glm::vec3 emission{0.0f};
     glm::vec3 throughput{1.0f}, radiance{0.0f};
 
+    const Medium* medium = nullptr;
+
+    void absorb(const glm::vec3& origin, const glm::vec3& direction, float from, float to);
     bool arrive(const glm::vec3& origin, const glm::vec3& direction, float tMin);
     bool counts(uint32_t scatterings) const { return scatterings >= settings.estimator.minBounce; }
     void addEmission(uint32_t scatterings);
@@ -37,13 +40,32 @@ struct Path {
     glm::vec3 scatter();
 };
 
+void Path::absorb(const glm::vec3& origin, const glm::vec3& direction, float from, float to) {
+    if (!medium) return;
+    float density = 1;
+    if (medium->density) {
+        const glm::vec3 middle = origin + (from + to) / 2 * direction;
+        density = float(medium->density->at(medium->density->place(middle)));
+    }
+    throughput *= glm::exp(-density * (to - from) * medium->extinction());
+}
+
 bool Path::arrive(const glm::vec3& origin, const glm::vec3& direction, float tMin) {
     ++rays;
+    float from = 0;
     Hit hit = closest(scene, origin, direction, tMin, stress::kMissed);
     while (hit && hit.material->alphaMode == AlphaMode::Blend &&
-           random.uniform() >= hit.material->opacity)
+           random.uniform() >= hit.material->opacity) {
+        absorb(origin, direction, from, hit.t);
+        from = hit.t;
+        const bool enters = glm::dot(hit.geometric, direction) < 0;
+        const uint32_t number = enters ? hit.material->inside : kNoMedium;
+        if (hit.material->boundsMedia)
+            medium = number == kNoMedium ? nullptr : &scene.media[number];
         hit = closest(scene, origin, direction, hit.t + kEpsilon, stress::kMissed);
+    }
     if (!hit) return false;
+    absorb(origin, direction, from, hit.t);
     position = origin + hit.t * direction;
     wo = -direction;
     material = hit.material;

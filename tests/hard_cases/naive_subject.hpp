@@ -22,6 +22,8 @@ namespace stromboli::test {
 /// - texture coordinates in half precision, and remainders that may be negative; normal maps divide
 /// by the area of texture coordinates;
 /// - texels of an environment as if all were of one size;
+/// - media absorb and do nothing else, by the density in the middle of the way, and there is none
+/// behind a border that a ray leaves;
 /// - GGX with a least denominator; volumes that colour what passes their surface;
 /// - groups of 8 x 8 pixels, as many as fit; random numbers that depend on the group.
 class NaiveSubject : public stress::Subject {

@@ -46,6 +46,26 @@ TEST(MediumRows, BlocksBoundTheDensity) {
     }
 }
 
+/// Of every channel, whatever the medium's own colour.
+TEST(MediumRows, OneNumberBoundsAllChannels) {
+    std::mt19937 random(2);
+    const auto fraction = [&] { return double(random()) / 4294967296.0; };
+    Medium m;
+    m.absorption = {0.5f, 2, 0};
+    m.scattering = {0.25f, 1, 0.125f};
+    ColorGrid& colors = m.colors.extinction.emplace();
+    colors.size = {3, 5, 2};
+    for (int i = 0; i < 30; ++i)
+        colors.values.emplace_back(random() % 100, random() % 20, random() % 300);
+    const DensityGrid bound = m.bound();
+    for (int i = 0; i < 2000; ++i) {
+        const glm::dvec3 place(fraction(), fraction(), fraction());
+        const glm::dvec3 extinction = m.at(place, place).extinction;
+        for (int c = 0; c < 3; ++c)
+            EXPECT_LE(extinction[c], 3 * bound.at(place) * (1 + 1e-6));
+    }
+}
+
 /// A scene whose media nothing is in contact with is packed as if it had none.
 TEST(MediumRows, AreOnlyWhereAMediumIs) {
     scenes::SceneMaker maker;

@@ -2,7 +2,9 @@
 #include "scene/mitsuba/volumes.hpp"
 #include "tests/scene/mitsuba/mitsuba_text.hpp"
 
+#include <cmath>
 #include <cstring>
+#include <random>
 
 namespace stromboli::test {
 namespace {
@@ -54,11 +56,32 @@ TEST(MitsubaMedia, HavePhaseFunctions) {
               -0.5f);
     EXPECT_EQ(phaseOf("<phase type=\"isotropic\"/>").asymmetry, 0);
     EXPECT_EQ(phaseOf("<phase type=\"rayleigh\"/>").phase, PhaseFunction::Rayleigh);
-    EXPECT_FLOAT_EQ(phaseOf("<phase type=\"blendphase\"><float name=\"weight\" value=\"0.25\"/>"
-                            "<phase type=\"hg\"><float name=\"g\" value=\"0.8\"/></phase>"
-                            "<phase type=\"isotropic\"/></phase>")
-                        .asymmetry,
-                    0.6f);
+}
+
+TEST(MitsubaMedia, HaveSumsOfPhaseFunctions) {
+    constexpr PhaseFunction kHg = PhaseFunction::HenyeyGreenstein;
+    const std::string narrow = "<phase type=\"hg\"><float name=\"g\" value=\"0.75\"/></phase>";
+    const std::string inner = "<phase type=\"blendphase\"><float name=\"weight\" value=\"0.5\"/>"
+                              "<phase type=\"isotropic\"/><phase type=\"rayleigh\"/></phase>";
+    const Medium blend =
+        mediumOf("homogeneous", "<phase type=\"blendphase\"><float name=\"weight\" "
+                                "value=\"0.25\"/>" +
+                                    narrow + inner + "</phase>");
+    EXPECT_THAT(blend.phases(), ElementsAre(PhaseLobe{kHg, 0.75f, 0.75f}, PhaseLobe{kHg, 0, 0.125f},
+                                            PhaseLobe{PhaseFunction::Rayleigh, 0, 0.125f}));
+    const std::string old =
+        "<phase type=\"mixturephase\"><string name=\"weights\" value=\"WEIGHTS\"/>" + narrow +
+        "<phase type=\"isotropic\"/><phase type=\"isotropic\"/></phase>";
+    const auto oldText = [&](std::string weights) {
+        std::string text = old;
+        text.replace(text.find("WEIGHTS"), 7, weights);
+        return "<shape type=\"sphere\"><medium name=\"interior\" type=\"homogeneous\">" + text +
+               "</medium></shape>";
+    };
+    // Equal ones are one, and shares are in proportion.
+    EXPECT_THAT(loadOld(oldText("2, 1, 1")).media.at(0).phases(),
+                ElementsAre(PhaseLobe{kHg, 0.75f, 0.5f}, PhaseLobe{kHg, 0, 0.5f}));
+    EXPECT_THAT(problemInOld(oldText("2, 1")), HasSubstr("has 2 numbers for 3 phase functions"));
 }
 
 TEST(MitsubaMedia, AreOnBothSides) {
@@ -134,6 +157,27 @@ TEST(MitsubaVolumes, ThatAreNoneAreErrors) {
         EXPECT_NE(problem(volumeBytes(1).substr(0, cut)), "") << cut;
 }
 
+/// A volume or an error, whatever the bytes are, and no more values than there are bytes.
+TEST(MitsubaVolumes, MayBeDamaged) {
+    std::mt19937 random(1);
+    int read = 0;
+    for (int i = 0; i < 6000; ++i) {
+        std::string bytes = volumeBytes(1 + i % 3, i % 2 == 0 ? 1 : 3);
+        for (int k = 0; k < 1 + i % 3; ++k)
+            bytes[random() % bytes.size()] = char(random());
+        if (i % 5 == 0) bytes.resize(random() % bytes.size());
+        try {
+            const mitsuba::VolumeFile file = mitsuba::parseVolume(bytes, "a.vol");
+            ++read;
+            ASSERT_LE(file.grid.values.size(), bytes.size());
+            for (const float value : file.grid.values)
+                ASSERT_TRUE(std::isfinite(value) && value >= 0);
+        } catch (const SceneError&) {
+        }
+    }
+    EXPECT_GT(read, 1000);
+}
+
 TEST(MitsubaMedia, HaveGrids) {
     const std::string name = writeFile("smoke.vol", volumeBytes(1)).filename().string();
     const std::string volume =
@@ -151,6 +195,33 @@ TEST(MitsubaMedia, HaveGrids) {
                               volume + "</volume></medium></shape>");
     ASSERT_TRUE(old.media.at(0).density);
     EXPECT_EQ(old.media.at(0).density->place({2, 0, 2.5}), glm::dvec3(0.5));
+}
+
+TEST(MitsubaMedia, HaveGridsOfColours) {
+    const std::string colors = writeFile("colors.vol", volumeBytes(1, 3)).filename().string();
+    const std::string numbers = writeFile("numbers.vol", volumeBytes(3)).filename().string();
+    const auto volume = [](const std::string& name, const std::string& file) {
+        return "<volume name=\"" + name +
+               "\" type=\"gridvolume\"><string name=\"filename\" value=\"" + file + "\"/></volume>";
+    };
+    const Medium m =
+        mediumOf("heterogeneous", volume("sigma_t", colors) + volume("albedo", numbers) +
+                                      "<float name=\"scale\" value=\"2\"/>");
+    EXPECT_FALSE(m.density);
+    ASSERT_TRUE(m.colors.extinction);
+    EXPECT_EQ(m.colors.extinction->values.at(1), glm::vec3(3, 4, 5));
+    ASSERT_TRUE(m.colors.scattering);
+    EXPECT_FALSE(m.colors.scatteringIsFactor);
+    EXPECT_EQ(m.colors.scattering->values.at(5), glm::vec3(1));
+    EXPECT_EQ(m.extinction(), glm::vec3(2));
+    // An albedo is at most 1; one by itself has its mean where the extinction does not vary.
+    const Medium tinted =
+        mediumOf("heterogeneous", volume("sigma_t", numbers) + volume("albedo", colors));
+    EXPECT_TRUE(tinted.density);
+    EXPECT_EQ(tinted.colors.scattering->values.at(0), glm::vec3(0, 1, 1));
+    const Medium plain = mediumOf("homogeneous", volume("albedo", numbers));
+    EXPECT_FALSE(plain.varies());
+    expectColors(plain, glm::vec3(0.5f), glm::vec3(0.5f));
 }
 
 } // namespace

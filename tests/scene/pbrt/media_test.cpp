@@ -1,7 +1,11 @@
 // Media of both versions.
+#include "scene/pbrt/colors.hpp"
+#include "scene/pbrt/medium_grids.hpp"
 #include "tests/scene/pbrt/pbrt_text.hpp"
 
+#include <cmath>
 #include <string>
+#include <tuple>
 
 namespace stromboli::test {
 namespace {
@@ -76,16 +80,95 @@ TEST(PbrtMedia, AreGridsInTheirOwnCoordinates) {
     EXPECT_DOUBLE_EQ(m.density->at(glm::dvec3(1.1, 0.5, 0.5)), 0);
 }
 
-TEST(PbrtMedia, OfColouredGridsHaveTheirMeans) {
-    const Scene scene = loadV4(fog("\"string type\" \"rgbgrid\" \"integer nx\" 2 "
-                                   "\"integer ny\" 1 \"integer nz\" 1 "
-                                   "\"rgb sigma_a\" [1 1 1 3 3 3] \"rgb sigma_s\" "
-                                   "[0 0 0 2 2 2]"));
-    const Medium& m = scene.media.at(0);
-    ASSERT_TRUE(m.density);
-    EXPECT_EQ(m.density->values, (std::vector<float>{1, 5}));
-    // Means 2 and 1, over the mean extinction 3.
-    expectColors(m, glm::vec3(1 / 3.0f), glm::vec3(2 / 3.0f));
+const std::string kTwoCells = "\"integer nx\" 2 \"integer ny\" 1 \"integer nz\" 1 ";
+
+void expectPoint(const MediumPoint& p, const glm::dvec3& extinction, const glm::dvec3& scattering,
+                 const glm::dvec3& emission) {
+    for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(p.extinction[c], extinction[c], 1e-5 * extinction[c]) << c;
+        EXPECT_NEAR(p.scattering[c], scattering[c], 1e-5 * scattering[c]) << c;
+        EXPECT_NEAR(p.emission[c], emission[c], 1e-5 * emission[c]) << c;
+    }
+}
+
+TEST(PbrtMedia, AreGridsOfColours) {
+    const Medium m =
+        loadV4(fog("\"string type\" \"rgbgrid\" " + kTwoCells +
+                   "\"rgb sigma_a\" [1 2 3 3 3 3] \"rgb sigma_s\" [0 0 4 2 2 2] \"float scale\" 2 "
+                   "\"rgb Le\" [1 1 1 0 0 4] \"float Lescale\" 3"))
+            .media.at(0);
+    const glm::dvec3 left(0.25, 0.5, 0.5), right(0.75, 0.5, 0.5);
+    expectPoint(m.at(left, left), {2, 4, 14}, {0, 0, 8}, {6, 12, 18});
+    expectPoint(m.at(right, right), {10, 10, 10}, {4, 4, 4}, {0, 0, 72});
+    EXPECT_TRUE(m.scatters());
+    EXPECT_TRUE(m.emits());
+    // One that is not stated is 1.
+    const Medium half =
+        loadV4(fog("\"string type\" \"rgbgrid\" " + kTwoCells + "\"rgb sigma_s\" [1 2 3 0 0 0]"))
+            .media.at(0);
+    expectPoint(half.at(left, left), {2, 3, 4}, {1, 2, 3}, {0, 0, 0});
+    EXPECT_THAT(problemInV4(fog("\"string type\" \"rgbgrid\" " + kTwoCells)),
+                HasSubstr("has no 'sigma_a' and no 'sigma_s'"));
+    EXPECT_THAT(
+        problemInV4(fog("\"string type\" \"rgbgrid\" " + kTwoCells + "\"rgb sigma_s\" [1 2 3]")),
+        HasSubstr("has 3 values of 'sigma_s', expected 6"));
+}
+
+/// Planck's law, summed up here: what light of 1 at all wavelengths looks like has luminance 1.
+TEST(PbrtMedia, GlowByTheirTemperature) {
+    const Medium m =
+        loadV4(fog("\"string type\" \"uniformgrid\" " + kTwoCells +
+                   "\"float density\" [1 2] \"rgb sigma_a\" [1 1 1] \"rgb sigma_s\" [0 0 0] "
+                   "\"float temperature\" [1100 2100] \"float temperatureoffset\" 100 "
+                   "\"float temperaturescale\" 2 \"float Lescale\" [1 0.5]"))
+            .media.at(0);
+    ASSERT_TRUE(m.colors.glow);
+    const glm::dvec3 left(0.25, 0.5, 0.5), right(0.75, 0.5, 0.5), middle(0.5);
+    const auto light = [](double kelvins) { return glm::max(pbrt::blackbodyOfPeak(kelvins), 0.0); };
+    // Between the cells temperatures are interpolated, not light.
+    const std::tuple<glm::dvec3, double, double> places[] = {
+        {left, 2000, 1}, {right, 4000, 2 * 0.5}, {middle, 3000, 1.5 * 0.75}};
+    for (const auto& [place, kelvins, factor] : places)
+        for (int c = 0; c < 3; ++c) {
+            const double expected = factor * light(kelvins)[c];
+            EXPECT_NEAR(m.at(place, place).emission[c], expected, 1e-3 * light(kelvins).x)
+                << kelvins;
+        }
+    // Luminance of 2 h c^2 / l^5 / (exp(hc / lkT) - 1) over its peak, by the eye's curve as a
+    // Gaussian about 556 nm, which is good to some percent.
+    double sum = 0, all = 0;
+    const auto planck = [](double nm, double kelvins) {
+        return std::pow(nm, -5) / std::expm1(1.438777e7 / (nm * kelvins));
+    };
+    for (double nm = 380; nm <= 780; nm += 1) {
+        const double eye = std::exp(-0.5 * std::pow((nm - 556) / 43, 2));
+        sum += eye * planck(nm, 3000) / planck(2.8977721e6 / 3000, 3000);
+        all += eye;
+    }
+    EXPECT_NEAR(pbrt::luminance(light(3000)) / (sum / all), 1, 0.05);
+}
+
+/// A table of black bodies is what it is a table of.
+TEST(PbrtMedia, GlowByATable) {
+    const GlowTable table = pbrt::glowTable(6000);
+    for (double kelvins = 510; kelvins < 6000; kelvins *= 1.013) {
+        const glm::dvec3 exact = glm::max(pbrt::blackbodyOfPeak(kelvins), 0.0);
+        const double most = std::max({exact.x, exact.y, exact.z});
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(table.at(kelvins)[c], exact[c], 2e-3 * most) << kelvins;
+    }
+    EXPECT_EQ(table.at(400), glm::dvec3(0));
+    EXPECT_EQ(table.at(0), glm::dvec3(0));
+}
+
+TEST(PbrtMedia, ShineInGridsByFactors) {
+    const Medium m = loadV4(fog("\"string type\" \"uniformgrid\" " + kTwoCells +
+                                "\"float density\" [1 2] \"rgb sigma_a\" [1 2 1] \"rgb sigma_s\" "
+                                "[0 0 0] \"rgb Le\" [1 1 4] \"float Lescale\" [2 3]"))
+                         .media.at(0);
+    const glm::dvec3 left(0.25, 0.5, 0.5), right(0.75, 0.5, 0.5);
+    expectPoint(m.at(left, left), {1, 2, 1}, {0, 0, 0}, {2, 4, 8});
+    expectPoint(m.at(right, right), {2, 4, 2}, {0, 0, 0}, {6, 12, 24});
 }
 
 TEST(PbrtMedia, ThatCannotBeReadAreSaid) {

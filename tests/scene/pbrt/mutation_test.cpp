@@ -25,6 +25,9 @@ ObjectBegin "o" NamedMaterial "a" Shape "loopsubdiv" "integer levels" 1 "point3 
 "integer indices" [0 1 2] Shape "curve" "point3 P" [0 0 0 1 0 0 2 0 0 3 1 0] ObjectEnd
 ObjectInstance "o" Scale 2 2 2 ObjectInstance "o"
 MakeNamedMedium "f" "string type" "uniformgrid" "integer nx" 2 "float density" [1 2] "point3 p1" [2 1 1]
+"float temperature" [900 3000] "float Lescale" [1 .5] "float temperatureoffset" 100
+MakeNamedMedium "h" "string type" "rgbgrid" "integer nx" 2 "rgb sigma_a" [1 2 3 4 5 6] "rgb Le" [1 1 1 0 0 4]
+MediumInterface "h" "g" Material "interface" Shape "sphere" "float radius" .25
 MakeNamedMedium "g" "string type" "homogeneous" "rgb sigma_s" [1 2 3] "rgb Le" [1 1 1] "float g" .5
 MediumInterface "f" "g" Material "interface" Shape "sphere"
 AreaLightSource "diffuse" "rgb L" [5 4 3] "float power" 20

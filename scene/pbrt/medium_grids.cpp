@@ -1,0 +1,158 @@
+#include "scene/pbrt/medium_grids.hpp"
+
+#include "scene/pbrt/colors.hpp"
+
+#include <fmt/format.h>
+#include <glm/ext/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace stromboli::pbrt {
+namespace {
+
+constexpr uint64_t kMostValues = uint64_t(1) << 31;
+
+float usable(double value) {
+    return std::isfinite(value) && value > 0 ? float(std::min(value, 1e30)) : 0;
+}
+
+/// The size and place of the medium's grid, without values.
+template <class Value>
+Grid<Value> emptyGrid(const Parameters& p, const glm::dmat4& worldFromMedium) {
+    Grid<Value> grid;
+    constexpr const char* kSizes[] = {"nx", "ny", "nz"};
+    for (int axis = 0; axis < 3; ++axis) {
+        const int64_t size = p.integer(kSizes[axis]).value_or(1);
+        if (size < 1 || size > 1 << 16)
+            p.place().fail(
+                fmt::format("has '{}' {}, expected from 1 to 65536", kSizes[axis], size));
+        grid.size[axis] = uint32_t(size);
+    }
+    const glm::dvec3 low = p.vector("p0").value_or(glm::dvec3(0));
+    const glm::dvec3 high = p.vector("p1").value_or(glm::dvec3(1));
+    const glm::dvec3 size = high - low;
+    if (size.x == 0 || size.y == 0 || size.z == 0) p.place().fail("has a box without a volume");
+    const glm::dmat4 identity(1.0);
+    grid.setWorld(worldFromMedium * glm::translate(identity, low) * glm::scale(identity, size));
+    return grid;
+}
+
+/// Fails where there is no value for each cell. found: values of a cell's `each` numbers.
+void expectValues(const Parameters& p, const char* name, size_t found, const glm::uvec3& size,
+                  size_t each) {
+    const uint64_t count = uint64_t(size.x) * size.y * size.z;
+    if (count > kMostValues || found != count * each)
+        p.place().fail(
+            fmt::format("has {} values of '{}', expected {}", found, name, count * each));
+}
+
+/// Colours that a parameter lists; negative channels count as 0.
+ColorGrid colorsOf(const Parameters& p, const char* name, const glm::dmat4& worldFromMedium) {
+    auto grid = emptyGrid<glm::vec3>(p, worldFromMedium);
+    const std::vector<double> numbers = p.numbers(name);
+    expectValues(p, name, numbers.size(), grid.size, 3);
+    for (size_t i = 0; i < numbers.size(); i += 3)
+        grid.values.emplace_back(usable(numbers[i]), usable(numbers[i + 1]),
+                                 usable(numbers[i + 2]));
+    return grid;
+}
+
+} // namespace
+
+DensityGrid gridOf(const Parameters& p, const char* name, const glm::dmat4& worldFromMedium) {
+    auto grid = emptyGrid<float>(p, worldFromMedium);
+    const std::vector<double> values = p.numbers(name);
+    expectValues(p, name, values.size(), grid.size, 1);
+    for (const double value : values)
+        grid.values.push_back(usable(value));
+    return grid;
+}
+
+void readColoredGrid(const Parameters& p, double scale, const glm::dmat4& worldFromMedium,
+                     Medium& medium) {
+    if (!p.has("sigma_a") && !p.has("sigma_s"))
+        p.place().fail("has no 'sigma_a' and no 'sigma_s', expected one of them at least");
+    // One that is not stated is 1 everywhere.
+    const bool hasAbsorption = p.has("sigma_a"), hasScattering = p.has("sigma_s");
+    ColorGrid extinction = colorsOf(p, hasAbsorption ? "sigma_a" : "sigma_s", worldFromMedium);
+    ColorGrid scattering = extinction;
+    if (hasScattering)
+        scattering = colorsOf(p, "sigma_s", worldFromMedium);
+    else
+        std::ranges::fill(scattering.values, glm::vec3(1));
+    for (size_t i = 0; i < extinction.values.size(); ++i)
+        extinction.values[i] += hasAbsorption ? scattering.values[i] : glm::vec3(1);
+    medium.absorption = glm::vec3(float(scale));
+    medium.scattering = glm::vec3(0);
+    medium.colors.extinction = std::move(extinction);
+    medium.colors.scattering = std::move(scattering);
+    medium.colors.scatteringIsFactor = true;
+    const double brightness = p.number("Lescale", 1, 0, 1e30);
+    if (!p.has("Le")) return;
+    ColorGrid source = colorsOf(p, "Le", worldFromMedium);
+    for (glm::vec3& color : source.values)
+        color = glm::vec3(usable(color.x * brightness), usable(color.y * brightness),
+                          usable(color.z * brightness));
+    medium.colors.source = std::move(source);
+}
+
+void readGridEmission(const Context& context, const Parameters& p, Medium& medium) {
+    const std::optional<glm::dvec3> color = colorOf(context, p, "Le", ColorOf::Light);
+    const double offset =
+        p.number("temperatureoffset", p.number("temperaturecutoff", 0, -1e9, 1e9), -1e9, 1e9);
+    const double perKelvin = p.number("temperaturescale", 1, 0, 1e9);
+    const DensityGrid& density = *medium.density;
+    const size_t count = density.values.size();
+    std::vector<double> scales{1}, temperatures;
+    if (p.has("Lescale")) scales = p.numbers("Lescale");
+    if (scales.size() != 1) expectValues(p, "Lescale", scales.size(), density.size, 1);
+    if (p.has("temperature")) {
+        temperatures = p.numbers("temperature");
+        expectValues(p, "temperature", temperatures.size(), density.size, 1);
+    }
+    const auto scaleOf = [&](size_t i) { return scales.size() == 1 ? scales[0] : scales[i]; };
+    if (temperatures.empty() && scales.size() == 1) {
+        if (color)
+            medium.emission = glm::dvec3(medium.absorption) * *color * double(usable(scales[0]));
+        return;
+    }
+    ColorGrid source;
+    source.size = density.size;
+    source.toUnit = density.toUnit;
+    double hottest = 0;
+    for (size_t i = 0; i < count; ++i) {
+        const float scale = usable(scaleOf(i));
+        const double kelvins =
+            temperatures.empty() ? 0 : std::max((temperatures[i] - offset) * perKelvin, 0.0);
+        hottest = std::max(hottest, double(usable(kelvins)));
+        source.values.push_back(temperatures.empty()
+                                    ? scale * glm::vec3(color.value_or(glm::dvec3(0)))
+                                    : glm::vec3(scale, usable(kelvins), 0));
+    }
+    if (!temperatures.empty()) {
+        if (color)
+            p.replaceParameter("Le", build::Shortfall::Parameter, "is stated beside 'temperature'");
+        medium.colors.glow = glowTable(std::min(hottest, 1e6));
+    }
+    medium.colors.source = std::move(source);
+}
+
+GlowTable glowTable(double hottest) {
+    constexpr int kSteps = 256;
+    GlowTable table;
+    // Colder ones send out less than 1e-15 of what they could be seen by.
+    table.coldest = 500;
+    table.hottest = float(std::max(hottest, 1000.0));
+    const double first = 1 / double(table.coldest), last = 1 / double(table.hottest);
+    for (int i = 0; i < kSteps; ++i) {
+        const double kelvins = 1 / (first + (last - first) * i / (kSteps - 1));
+        const glm::dvec3 color = glm::max(blackbodyOfPeak(kelvins), 0.0);
+        const double y = std::max(luminance(color), 1e-300);
+        table.values.emplace_back(glm::vec3(color / y), float(std::log(y)));
+    }
+    return table;
+}
+
+} // namespace stromboli::pbrt
