@@ -107,10 +107,14 @@ def make(build: pathlib.Path, headers: pathlib.Path | None) -> pathlib.Path:
             *(path for name, path in linked if not OF_THE_SYSTEM.match(name)))  # fmt: skip
         raw = pathlib.Path(name) / f"stromboli-{version}-{tag}.whl"
         zip_up(folder, information.name, raw)
+        repaired = pathlib.Path(name) / "repaired"
+        auditwheel(build / "auditwheel", "repair", "-w", repaired, raw)
         packages = build / "packages"
+        packages.mkdir(exist_ok=True)
         for earlier in packages.glob(f"stromboli-*-{python}-*.whl"):
             earlier.unlink()
-        auditwheel(build / "auditwheel", "repair", "-w", packages, raw)
+        for made in repaired.iterdir():
+            shutil.move(made, packages)
     [wheel] = packages.glob(f"stromboli-*-{python}-manylinux*.whl")
     return wheel
 

@@ -1,5 +1,6 @@
 #include "scene/add_environment.hpp"
 
+#include "host/core/error.hpp"
 #include "scene/build/report.hpp"
 #include "scene/find_scene.hpp"
 #include "scene/images/float_image.hpp"
@@ -58,6 +59,10 @@ Environment skyOf(const SunRequest& request) {
 } // namespace
 
 void addEnvironment(Scene& scene, const EnvironmentRequest& request) {
+    if (request.sun && (request.constant || !request.file.empty()))
+        throw UsageError(
+            "a sun and an environment are both the light from all around: expected one "
+            "of them");
     Environment environment;
     if (request.sun)
         environment = skyOf(*request.sun);

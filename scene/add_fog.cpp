@@ -40,7 +40,7 @@ void addFog(Scene& scene, const FogRequest& request) {
     fog.scattering = float(request.density) * color;
     fog.absorption = float(request.density) * (1.0f - color);
     fog.asymmetry = std::clamp(float(request.asymmetry), -kMostAsymmetry, kMostAsymmetry);
-    const Bounds bounds = scene.bounds();
+    const Bounds bounds = scene.framed(); // a floor reaches much farther
     const bool hasEdge = isLitFromInfinity(scene) && !bounds.empty();
     if (!scene.framing) scene.framing = bounds;
     scene.surrounding = uint32_t(scene.media.size());

@@ -5,8 +5,8 @@
 namespace stromboli {
 
 void addGround(Scene& scene, const GroundRequest& request) {
-    const Bounds bounds = scene.bounds();
-    if (!scene.framing) scene.framing = bounds;
+    if (!scene.framing) scene.framing = scene.bounds();
+    const Bounds bounds = request.under.value_or(scene.bounds());
     const float diagonal = bounds.empty() ? 0 : glm::length(bounds.extent());
     const float size = diagonal > 0 ? diagonal : 1;
     const glm::vec3 middle = bounds.empty() ? glm::vec3(0) : 0.5f * (bounds.lo + bounds.hi);

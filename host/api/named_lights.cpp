@@ -83,6 +83,9 @@ void setLight(Light& light, const glm::dvec3& origin, std::string_view parameter
     if (parameter == "direction" && glm::length(vector) == 0)
         throw UsageError("direction of a light: expected a vector that is not 0");
     row.set(light, origin, vector);
+}
+
+void requireLight(const Light& light) {
     if (light.innerAngle && *light.innerAngle >= light.falloffAngle)
         throw UsageError("inner_angle of a spot: expected less than its angle");
 }

@@ -18,6 +18,9 @@ namespace stromboli::api {
 void setLight(Light& light, const glm::dvec3& origin, std::string_view parameter,
               const Value& value);
 
+/// Throws UsageError where parameters do not fit each other.
+void requireLight(const Light& light);
+
 /// Names and meanings of the parameters that a light has.
 std::vector<NamedThing> lightParameters(const Light& light);
 

@@ -57,8 +57,6 @@ void PictureSession::hasBegun() {
 void PictureSession::begin(std::shared_ptr<const Scene> scene, const RenderRequest& request) {
     session_.begin(scene, request);
     scene_ = std::move(scene);
-    materials_ = scene_->materials;
-    lights_ = scene_->lights;
     hasBegun();
 }
 
@@ -74,10 +72,6 @@ void PictureSession::change(const SceneChange& change) {
     } catch (const std::invalid_argument& error) {
         throw UsageError(error.what());
     }
-    for (const auto& [number, material] : change.materials)
-        materials_[number] = material;
-    for (const auto& [number, light] : change.lights)
-        lights_[number] = light;
     hasBegun();
 }
 
@@ -85,10 +79,10 @@ void PictureSession::changeMaterials(const std::map<uint32_t, NamedChange>& chan
     require();
     SceneChange all;
     for (const auto& [number, change] : changes) {
-        if (number >= materials_.size())
+        if (number >= materials().size())
             throw UsageError(
-                fmt::format("there is no material {}: there are {}", number, materials_.size()));
-        Material material = materials_[number];
+                fmt::format("there is no material {}: there are {}", number, materials().size()));
+        Material material = materials()[number];
         for (const auto& [parameter, value] : change)
             setMaterial(material, parameter, value);
         all.materials.emplace(number, std::move(material));
@@ -100,12 +94,14 @@ void PictureSession::changeLights(const std::map<uint32_t, NamedChange>& changes
     require();
     SceneChange all;
     for (const auto& [number, change] : changes) {
-        if (number >= lights_.size())
+        const std::vector<Light>& lights = session_.scene().lights;
+        if (number >= lights.size())
             throw UsageError(
-                fmt::format("there is no light {}: there are {}", number, lights_.size()));
-        Light light = lights_[number];
+                fmt::format("there is no light {}: there are {}", number, lights.size()));
+        Light light = lights[number];
         for (const auto& [parameter, value] : change)
             setLight(light, scene_->origin, parameter, value);
+        requireLight(light);
         all.lights.emplace(number, std::move(light));
     }
     change(all);

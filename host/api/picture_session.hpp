@@ -69,9 +69,11 @@ class PictureSession {
     /// Throw UsageError if no picture has been begun.
     const RenderRequest& request() const;
     const RenderSettings& settings() const;
-    /// The materials and lights of the picture, with what has been changed.
-    const std::vector<Material>& materials() const { return materials_; }
-    const std::vector<Light>& lights() const { return lights_; }
+    /// The materials of the picture, with what has been changed.
+    const std::vector<Material>& materials() const {
+        require();
+        return session_.scene().materials;
+    }
     /// The picture so far; not during pass(). Throws UsageError if no sample has been taken.
     const FloatImage& image();
 
@@ -86,8 +88,6 @@ class PictureSession {
     MessageQueue messages_; // outlives the session
     RenderSession session_;
     std::shared_ptr<const Scene> scene_;
-    std::vector<Material> materials_;
-    std::vector<Light> lights_;
     FloatImage image_;
     bool isPlaced_ = false; ///< the last pass's samples are in `image_`
     bool isTaken_ = false;  ///< there are samples

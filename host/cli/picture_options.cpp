@@ -163,7 +163,13 @@ void declareSeen(OptionList& list, RenderRequest& o) {
                1,
                [&o](const Words& words) {
                    const std::optional<glm::vec3> color = readRadiance(words[0]);
-                   o.background = color ? Background{1, 1, {*color}} : backgroundFrom(words[0]);
+                   try {
+                       o.background = color ? Background{1, 1, {*color}} : backgroundFrom(words[0]);
+                   } catch (const SceneError& error) {
+                       throw UsageError(fmt::format("--background is '{}': expected a radiance, "
+                                                    "as a number or R,G,B, or a picture: {}",
+                                                    words[0], error.what()));
+                   }
                })
         .excludes("--transparent")
         .excludes("--share", "films have no place for it")

@@ -2,7 +2,6 @@
 
 #include "host/cli/command_line.hpp"
 #include "host/core/text.hpp"
-#include "host/film/image_formats.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -38,27 +37,41 @@ constexpr Setting kSettings[] = {
     {Preset::Final, "-s", "16384"},
 };
 
-/// Options that say the same thing in other words: where one is given, the others are not set.
-const std::vector<Words> kAlternatives = {
-    {"--env", "--sun"}, {"-s", "--noise", "--time", "-a"}, {"--look-from", "--camera"}};
+/// Options that say when a render ends: where one is given, the others are not set.
+const Words kBudgets = {"-s", "--noise", "--time", "-a", "--even"};
 
-bool isGiven(const std::string& option, const std::map<std::string, Words>& given) {
-    if (given.contains(option)) return true;
-    return std::ranges::any_of(kAlternatives, [&](const Words& names) {
-        return std::ranges::count(names, option) > 0 &&
-               std::ranges::any_of(names, [&](const auto& name) { return given.contains(name); });
+const CommandOption* optionOf(const OptionList& list, const std::string& name) {
+    const auto found =
+        std::ranges::find_if(list.all(), [&](const CommandOption& o) { return o.name() == name; });
+    return found == list.all().end() ? nullptr : &*found;
+}
+
+bool excludes(const CommandOption& one, const std::string& other) {
+    return std::ranges::find(one.conflicts, other, &CommandOption::Conflict::option) !=
+           one.conflicts.end();
+}
+
+/// Whether the option is given, or one that does not go with it.
+bool isDecided(const OptionList& list, const CommandOption& option,
+               const std::map<std::string, Words>& given) {
+    const bool isBudget = std::ranges::count(kBudgets, option.name()) > 0;
+    return std::ranges::any_of(given, [&](const auto& one) {
+        const CommandOption* other = optionOf(list, one.first);
+        return one.first == option.name() || excludes(option, one.first) ||
+               (other && excludes(*other, option.name())) ||
+               (isBudget && std::ranges::count(kBudgets, one.first) > 0);
     });
 }
 
-/// Radiance as it is has no exposure and no curve.
-bool isOfScreens(const std::string& option) {
-    return option == "--view" || option == "--exposure";
+/// Radiance as it is has no exposure and no curve, and shares of a picture are not denoised.
+bool isOfWholePictures(const std::string& option) {
+    return option == "--view" || option == "--exposure" || option == "--denoise";
 }
 
 bool writesRadiance(const std::map<std::string, Words>& given) {
     const auto output = given.find("-o");
     return output != given.end() && !output->second.empty() &&
-           !isToneMapped(output->second.front());
+           output->second.front().ends_with(".exr");
 }
 
 } // namespace
@@ -93,11 +106,12 @@ std::string addPreset(const OptionList& list, std::map<std::string, Words>& give
     const std::map<std::string, Words> asked = given;
     Words added;
     for (const Setting& setting : kSettings) {
-        const auto option = std::ranges::find_if(
-            list.all(), [&](const CommandOption& o) { return o.name() == setting.option; });
-        if (setting.preset != *preset || option == list.all().end() ||
-            isGiven(setting.option, asked) ||
-            (isOfScreens(setting.option) && writesRadiance(asked)))
+        const CommandOption* option = optionOf(list, setting.option);
+        const bool isUseless =
+            isOfWholePictures(setting.option) &&
+            (asked.contains("--share") ||
+             (std::string_view(setting.option) != "--denoise" && writesRadiance(asked)));
+        if (setting.preset != *preset || !option || isDecided(list, *option, asked) || isUseless)
             continue;
         given.emplace(setting.option, Words{setting.word});
         added.push_back(fmt::format("{} {}", setting.option, setting.word));

@@ -149,6 +149,7 @@ void declareScene(OptionList& list, SceneRequest& scene, Words* several) {
     list.real("--env-rotate", "DEGREES",
               "turns it about the vertical, counter-clockwise seen from above",
               environment.rotationDegrees, {-3600, 3600}, kDegrees)
+        .excludes("--sun", "its first number turns it")
         .needs("--env");
     list.real("--env-strength", "X", "multiplies its radiance", environment.strength, {0, 1e9})
         .needs("--env");

@@ -32,6 +32,20 @@ Scene readFile(const SceneRequest& request, const Listener& listener) {
     return readScene(request.source, reading);
 }
 
+/// All moments of an animation have the same floor: that of the scene without a pose of it.
+std::optional<Bounds> boundsAtRest(const SceneRequest& request) {
+    if (!request.ground.isGiven || !request.reading.selection.seconds) return {};
+    SceneConventions reading = request.reading;
+    reading.selection.seconds.reset();
+    reading.selection.isFrame = false;
+    return readScene(request.source, reading).bounds();
+}
+
+GroundRequest under(const std::optional<Bounds>& bounds, GroundRequest ground) {
+    if (bounds) ground.under = bounds;
+    return ground;
+}
+
 void report(const LoadReport& lines, const Listener& listener) {
     for (const std::string& line : lines.warnings)
         listener.warn(line);
@@ -54,11 +68,12 @@ LoadedScene loadScene(const SceneRequest& request, const Listener& listener) {
             listener.info(fmt::format("{} is lit by the bundled {}, for which it was made",
                                       request.source, environment.file));
     }
-    if (request.ground.isGiven) addGround(*scene, request.ground);
+    const std::optional<Bounds> atRest = boundsAtRest(request);
+    if (request.ground.isGiven) addGround(*scene, under(atRest, request.ground));
     if (request.fog.isGiven()) addFog(*scene, request.fog);
     const double seconds = watch.seconds();
     report(scene->report, listener);
-    return {std::move(scene), seconds};
+    return {std::move(scene), seconds, atRest};
 }
 
 LoadedScene loadMoment(const SceneRequest& request, LoadedScene before, const Listener& listener) {
@@ -67,13 +82,13 @@ LoadedScene loadMoment(const SceneRequest& request, LoadedScene before, const Li
     const double seconds = watch.seconds();
     if (!moment.isMoment()) {
         before.scene->cameras = std::move(moment.cameras);
-        return {before.scene, seconds};
+        return {before.scene, seconds, before.atRest};
     }
     if (request.environment.isGiven())
         addEnvironment(moment, std::move(*std::exchange(before.scene->environment, {})));
-    if (request.ground.isGiven) addGround(moment, request.ground);
+    if (request.ground.isGiven) addGround(moment, under(before.atRest, request.ground));
     if (request.fog.isGiven()) addFog(moment, request.fog);
-    return {std::make_shared<Scene>(std::move(moment)), seconds};
+    return {std::make_shared<Scene>(std::move(moment)), seconds, before.atRest};
 }
 
 // --- Building ------------------------------------------------------------------------------------

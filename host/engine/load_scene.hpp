@@ -52,7 +52,8 @@ struct SceneRequest {
 /// A scene in memory. Sessions share it and do not change it; nor may others while one uses it.
 struct LoadedScene {
     std::shared_ptr<Scene> scene;
-    double seconds = 0; ///< that reading took
+    double seconds = 0;                ///< that reading took
+    std::optional<Bounds> atRest = {}; ///< of an animation with a floor: without a pose of it
 };
 
 /// Reads or makes the scene, and reports what of its file was ignored, forgiven or assumed. Throws

@@ -148,6 +148,7 @@ void RenderSession::begin(std::shared_ptr<const Scene> scene, const RenderReques
     request_ = toGoOn(request, keeping);
     denoise::requireUsable(request_.denoiser);
     picture_ = resolvePicture(*scene_, request_, listener_);
+    if (changing_ && changing_->scene() == scene_) keepCamera();
     cancelAsked_ = false;
     bandIsOver_ = false;
     isAlone_ = keeping_.begun.has_value();
@@ -155,10 +156,21 @@ void RenderSession::begin(std::shared_ptr<const Scene> scene, const RenderReques
     pixelsDone_ = 0;
     noises_.clear();
     guide_.reset();
+    covered_.clear();
     denoised_.reset();
     result_ = {};
     result_.samplesAtMost = mostPathsOf(picture_.settings);
     over_ = false;
+}
+
+/// Objects that move take no camera with them: it is where it is in the scene as it was read, in
+/// the medium that is there now.
+void RenderSession::keepCamera() {
+    const PictureArea& area = picture_.settings.area;
+    picture_.camera = makeCamera(changing_->original(), request_.camera, area.width, area.height,
+                                 request_.framing);
+    if (!scene_->movingInstances.empty())
+        picture_.camera.medium = mediumAt(*scene_, picture_.camera.position);
 }
 
 void RenderSession::moveCamera(const CameraRequest& camera) {
@@ -257,6 +269,7 @@ bool RenderSession::pass(const SessionEvents& events) {
 bool RenderSession::takePass(const SessionEvents& events) {
     if (bandIsOver_) {
         sampling_.reset();
+        covered_.clear();
         ++band_;
         bandIsOver_ = false;
     }
@@ -333,13 +346,17 @@ const Film& RenderSession::film() const {
     return sampling_->film();
 }
 
+/// Alpha does not depend on the samples.
 void RenderSession::putBackgroundBehind(Film& shown) {
     if (!request_.background) return;
-    RenderRequest looks = request_;
-    looks.transparent = true;
-    looks.denoiser = Denoiser::Off;
-    looks.layers.clear();
-    putBehind(shown, see(film(), looks).channel(kAlphaChannel), *request_.background);
+    if (covered_.empty()) {
+        RenderRequest looks = request_;
+        looks.transparent = true;
+        looks.denoiser = Denoiser::Off;
+        looks.layers.clear();
+        covered_ = std::move(see(film(), looks).channel(kAlphaChannel));
+    }
+    putBehind(shown, covered_, *request_.background);
 }
 
 Film RenderSession::shownFilm() {

@@ -145,6 +145,12 @@ class RenderSession {
 
     /// Means, variances and numbers of samples.
     const Film& film() const;
+    /// The same as it is shown: pixels without samples show a neighbour, and the request's
+    /// background is behind it.
+    Film shownFilm();
+    /// Puts the background, if the request has one, behind means of the film's pixels that may be
+    /// other ones by now.
+    void putBackgroundBehind(Film& shown);
     /// In floats, linear: R, G, B, the channels that the request asks for, and with `statistics`
     /// the number of samples and the variance of the mean. Pixels without samples show a neighbour.
     FloatImage pixels(bool statistics = false);
@@ -165,6 +171,7 @@ class RenderSession {
     void forgetBands() const;
 
   private:
+    void keepCamera();
     void prepare();
     void beginBand();
     bool takePass(const SessionEvents& events);
@@ -185,8 +192,6 @@ class RenderSession {
     const Denoised& denoisedNow();
     bool isDenoisedEnough();
     void endDenoised(const SessionEvents& events);
-    void putBackgroundBehind(Film& shown);
-    Film shownFilm();
 
     Listener listener_;
     Renderer renderer_;
@@ -207,6 +212,7 @@ class RenderSession {
     uint64_t pixelsDone_ = 0;  ///< of the bands before
     std::vector<PartNoise> noises_;
     std::optional<FloatImage> guide_; ///< layers that the denoiser looks at
+    std::vector<float> covered_;      ///< alpha of the band, before a background
     std::optional<Denoised> denoised_;
     RenderResult result_;
 };

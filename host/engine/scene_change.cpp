@@ -104,6 +104,21 @@ ChangingScene::Parts ChangingScene::partsOf(uint32_t instance) const {
     return parts;
 }
 
+bool ChangingScene::boundsGrid(const Parts& parts) const {
+    const auto isOfGrid = [&](uint32_t material) {
+        const Material& m = scene_->materials[material];
+        const auto varies = [&](uint32_t medium) {
+            return medium != kNoMedium && scene_->media[medium].varies();
+        };
+        return m.boundsMedia && (varies(m.inside) || varies(m.outside));
+    };
+    return std::ranges::any_of(
+               parts.triangles,
+               [&](uint32_t t) { return isOfGrid(scene_->triangles[t].material); }) ||
+           std::ranges::any_of(parts.spheres,
+                               [&](uint32_t s) { return isOfGrid(scene_->spheres[s].material); });
+}
+
 namespace {
 
 /// Numbers of something that triangles share, as Scene::positions, some of which are to belong to
@@ -195,6 +210,10 @@ void ChangingScene::require(const SceneChange& change) const {
                                "that has an inverse and does not mirror",
                                name));
         const Parts parts = partsOf(instance);
+        if (boundsGrid(parts))
+            refuse(fmt::format("'{}' is the border of a medium that differs from place to place, "
+                               "which does not move",
+                               name));
         if (parts.triangles.empty() && parts.spheres.empty() && parts.placements.empty())
             refuse(fmt::format("'{}' has no surfaces that could move", name));
         for (const uint32_t t : parts.triangles) {
@@ -267,8 +286,6 @@ void ChangingScene::apply(const SceneChange& change) {
         scene_->materials[number] = material;
     for (const auto& [number, light] : change.lights)
         scene_->lights[number] = light;
-    // A camera that frames the scene stays where it is.
-    if (!change.motions.empty() && !scene_->framing) scene_->framing = scene_->bounds();
     for (const auto& [instance, motion] : change.motions)
         move(instance, motion);
 }

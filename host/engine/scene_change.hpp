@@ -21,7 +21,7 @@ struct SceneChange {
     std::map<uint32_t, Light> lights;
     /// By instance: the motion from where the scene as it was read has it; the identity puts it
     /// back. An affine matrix that has an inverse and does not mirror; that of a sphere stretches
-    /// all directions alike.
+    /// all directions alike. A border of a medium that differs from place to place does not move.
     std::map<uint32_t, glm::dmat4> motions;
 };
 
@@ -34,6 +34,7 @@ class ChangingScene {
     /// changed nothing.
     void apply(const SceneChange& change);
 
+    const Scene& original() const { return *original_; }
     /// The same object after every change.
     const std::shared_ptr<Scene>& scene() const { return scene_; }
 
@@ -51,6 +52,7 @@ class ChangingScene {
 
     void require(const SceneChange& change) const;
     Parts partsOf(uint32_t instance) const;
+    bool boundsGrid(const Parts& parts) const;
     void makeOwn(Parts& parts);
     void move(uint32_t instance, const glm::dmat4& motion);
 

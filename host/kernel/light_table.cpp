@@ -16,7 +16,7 @@ namespace {
 
 /// How far apart surfaces and lights are, more or less: half the diagonal of the scene.
 double radiusOf(const Scene& scene) {
-    const Bounds bounds = scene.bounds();
+    const Bounds bounds = scene.framed();
     const double radius = bounds.empty() ? 0 : 0.5 * glm::length(glm::dvec3(bounds.extent()));
     return radius > 0 ? radius : 1;
 }

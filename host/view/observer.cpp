@@ -65,8 +65,7 @@ class UpdatedFile final : public Observer {
     }
     void look(RenderSession& session, bool isOver) override {
         if (!isOver && sinceBegun_.seconds() < nextSeconds_) return;
-        Film film = session.film();
-        showNeighbours(film, NoisePlan::kCoarsest);
+        const Film film = session.shownFilm();
         PictureFile picture(file_, film.area, {tone_, false, {}, {}});
         picture.place(film);
         picture.write();

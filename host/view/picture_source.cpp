@@ -141,10 +141,14 @@ Raster PictureSource::raster(Shown what) {
     switch (what) {
     case Shown::Denoised: {
         const denoise::DenoisedPicture& clean = session_.denoised();
+        Film shown = film;
+        for (size_t i = 0; i < clean.mean.size(); ++i)
+            shown.pixels[i].mean = clean.mean[i];
+        session_.putBackgroundBehind(shown);
         Raster raster{clean.width, clean.height, 3, {}};
         raster.values.resize(clean.mean.size() * 3);
         for (size_t i = 0; i < clean.mean.size(); ++i)
-            set3(&raster.values[i * 3], clean.mean[i]);
+            set3(&raster.values[i * 3], shown.pixels[i].mean);
         return raster;
     }
     case Shown::Albedo:
@@ -162,7 +166,9 @@ Raster PictureSource::raster(Shown what) {
     case Shown::Picture:
         break;
     }
-    return ofFilm(film, 3, [&](float* to, size_t from) { set3(to, film.pixels[from].mean); });
+    Film shown = film;
+    session_.putBackgroundBehind(shown);
+    return ofFilm(shown, 3, [&](float* to, size_t from) { set3(to, shown.pixels[from].mean); });
 }
 
 std::string PictureSource::probe(uint32_t x, uint32_t y) {
@@ -214,6 +220,7 @@ std::string PictureSource::file(const SaveRequest& request, const PictureNotes& 
     } else {
         showNeighbours(film, NoisePlan::kCoarsest);
     }
+    session_.putBackgroundBehind(film);
     PictureFile file(path, film.area, options);
     file.place(film);
     file.write(notes);

@@ -132,7 +132,7 @@ void Showing::show(const ShownState& state, bool isLast) {
 }
 
 Pose poseOf(const Camera& camera, const Scene& scene) {
-    const Bounds bounds = scene.bounds();
+    const Bounds bounds = scene.framed();
     Pose pose;
     pose.from = camera.position + scene.origin;
     double distance = 1;

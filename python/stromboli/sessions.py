@@ -142,7 +142,8 @@ class Session:
         self._tell()
 
     def change_light(self, which: Union[int, str], **parameters: Any) -> None:
-        """Begins the picture again with another light: color, position, direction, angle.
+        """Begins the picture again with another light: color, position, direction, angle,
+        inner_angle.
 
         which -- number or name in ``Scene.lights``; lights with an area are objects. Nothing is
         built anew.

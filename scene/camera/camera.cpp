@@ -114,7 +114,7 @@ glm::dvec3 framingDirection(const Scene& scene, const FileCamera& optics,
 /// its diagonal away, y up.
 Camera framedView(const Scene& scene, const FileCamera& optics,
                   const FramingConventions& conventions) {
-    const Bounds bounds = scene.framing.value_or(scene.bounds());
+    const Bounds bounds = scene.framed();
     const glm::dvec3 low = bounds.empty() ? glm::dvec3(-0.5) : glm::dvec3(bounds.lo);
     const glm::dvec3 high = bounds.empty() ? glm::dvec3(0.5) : glm::dvec3(bounds.hi);
     const glm::dvec3 d = framingDirection(scene, optics, conventions);
@@ -193,7 +193,7 @@ Fit fitOf(const std::vector<glm::dvec3>& points, const glm::dvec3& across, const
 
 /// As close as shows all of the scene, with a margin of a twentieth of the picture at each side.
 void moveToFill(Camera& camera, const Scene& scene, const Frustum& f, bool turns) {
-    const Bounds bounds = scene.framing.value_or(scene.bounds());
+    const Bounds bounds = scene.framed();
     if (bounds.empty()) return;
     constexpr double kFilled = 0.9;
     const std::vector<glm::dvec3> points = outlineOf(scene, bounds, turns);
@@ -210,7 +210,7 @@ void moveToFill(Camera& camera, const Scene& scene, const Frustum& f, bool turns
 constexpr double kStatedView = 40 * kDegree;
 
 Camera statedView(const Scene& scene, const CameraRequest& request) {
-    const Bounds bounds = scene.bounds();
+    const Bounds bounds = scene.framed();
     const glm::dvec3 middle =
         bounds.empty() ? glm::dvec3(0) : 0.5 * (glm::dvec3(bounds.lo) + glm::dvec3(bounds.hi));
     // What the user states is in the file's coordinates.
@@ -244,7 +244,7 @@ void applyOptics(Camera& camera, const CameraRequest& request, double aspect,
 
 void turnAbout(Camera& camera, const Scene& scene, double angle) {
     if (angle == 0) return;
-    const Bounds bounds = scene.bounds();
+    const Bounds bounds = scene.framed();
     const glm::dvec3 middle =
         bounds.empty() ? glm::dvec3(0) : 0.5 * (glm::dvec3(bounds.lo) + glm::dvec3(bounds.hi));
     const double c = std::cos(angle), s = std::sin(angle);

@@ -49,7 +49,8 @@ MediumPoint Medium::at(const glm::dvec3& world, const glm::dvec3& place) const {
         p.scattering =
             glm::min((colors.scatteringIsFactor ? whole : p.extinction) * found, p.extinction);
     }
-    p.emission = glm::dvec3(emission) * dense;
+    p.emission = glm::dvec3(emission) *
+                 (colors.extinction ? colors.extinction->goingOn(place) : glm::dvec3(dense));
     if (colors.source) {
         glm::dvec3 light = colors.source->goingOn(colors.source->place(world));
         if (colors.glow) light = light.x * colors.glow->at(light.y);

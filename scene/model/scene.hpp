@@ -139,7 +139,8 @@ struct Scene {
     std::vector<bool> movingInstances;
     bool lightsMove = false; ///< likewise, some of the lights
     /// What a camera that frames the scene frames, where that is not bounds(): the geometry the
-    /// file states, without emitters made from area lights.
+    /// file states, without emitters made from area lights, and without a floor that a user asks
+    /// for.
     std::optional<Bounds> framing;
     bool cglDialect = false; ///< the file has elements of the CS184 dialect (profile CGL, CMU462)
     RenderHints hints;
@@ -158,6 +159,7 @@ struct Scene {
     /// Triangles that a ray can meet, those of each placement counted anew.
     uint64_t placedTriangles() const;
     Bounds bounds() const; ///< of triangles and spheres in the world; lights excluded
+    Bounds framed() const { return framing.value_or(bounds()); }
     glm::vec3 geometricNormal(const Triangle& t) const; ///< unit
 };
 

@@ -70,6 +70,20 @@ DensityGrid gridOf(const Parameters& p, const char* name, const glm::dmat4& worl
     return grid;
 }
 
+/// Of the extinction, by channel.
+glm::dvec3 meanShare(const ColorGrid& scattering, const ColorGrid& extinction) {
+    glm::dvec3 scattered(0.0), all(0.0);
+    for (const glm::vec3& value : scattering.values)
+        scattered += glm::dvec3(value);
+    for (const glm::vec3& value : extinction.values)
+        all += glm::dvec3(value);
+    const double scale = double(extinction.values.size()) / double(scattering.values.size());
+    glm::dvec3 share(0.0);
+    for (int c = 0; c < 3; ++c)
+        if (all[c] > 0) share[c] = std::min(scattered[c] * scale / all[c], 1.0);
+    return share;
+}
+
 void readColoredGrid(const Parameters& p, double scale, const glm::dmat4& worldFromMedium,
                      Medium& medium) {
     if (!p.has("sigma_a") && !p.has("sigma_s"))
@@ -84,8 +98,11 @@ void readColoredGrid(const Parameters& p, double scale, const glm::dmat4& worldF
         std::ranges::fill(scattering.values, glm::vec3(1));
     for (size_t i = 0; i < extinction.values.size(); ++i)
         extinction.values[i] += hasAbsorption ? scattering.values[i] : glm::vec3(1);
-    medium.absorption = glm::vec3(float(scale));
-    medium.scattering = glm::vec3(0);
+    // Their sum is the factor of both grids. What is told of the medium as a whole, as its albedo,
+    // is the mean share.
+    const glm::dvec3 share = meanShare(scattering, extinction);
+    medium.scattering = glm::vec3(scale * share);
+    medium.absorption = glm::vec3(float(scale)) - medium.scattering;
     medium.colors.extinction = std::move(extinction);
     medium.colors.scattering = std::move(scattering);
     medium.colors.scatteringIsFactor = true;

@@ -274,7 +274,7 @@ TEST(Options, SubmitTellsSharesAndMergeWhatIsTheirs) {
     EXPECT_EQ(o.merge, (Words{"--aov", "--notes off"}));
     EXPECT_EQ(o.noise, 0.02);
     EXPECT_EQ(o.rounds, 3u);
-    EXPECT_FALSE(o.picture.estimator.showsBackdrop);
+    EXPECT_TRUE(o.picture.transparent);
     EXPECT_FALSE(o.picture.budget.spreads());
 }
 

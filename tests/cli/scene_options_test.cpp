@@ -98,6 +98,13 @@ TEST(SceneOptions, PresetsSetWhatIsNotGiven) {
     EXPECT_EQ(
         render({"-o", "a.png", "--preset", "draft", "--time", "9"}).picture.budget.stop.seconds, 9);
     EXPECT_THROW(render({"-o", "a.png", "--preset", "best"}), UsageError);
+    // What does not go with an option that is given is not set.
+    EXPECT_EQ(render({"-o", "a.png", "--preset", "final", "--even"}).picture.budget.stop.noise, 0);
+    EXPECT_TRUE(render({"-o", "a.png", "--preset", "product", "--fog", "1"}).scene.fog.isGiven());
+    const RenderOptions share =
+        render({"-o", "a.film", "--preset", "product", "--share", "1/4", "-s", "512"});
+    EXPECT_EQ(share.picture.denoiser, Denoiser::Off);
+    EXPECT_EQ(share.scene.environment.file, "studio");
 }
 
 TEST(SceneOptions, ViewsAndLenses) {

@@ -158,6 +158,35 @@ TEST(SceneChange, RefusesWhatIsNotThereOrCannotBeAndChangesNothing) {
     EXPECT_TRUE(changing.scene()->movingInstances.empty());
 }
 
+/// A view that frames the scene, and fills the picture with it, stays where it is.
+TEST(SceneChange, CamerasStayWhereTheyAre) {
+    const auto scene = bundled("cornell_spheres");
+    scene->cameras.clear();
+    scene->cglDialect = false;
+    scene->framing.reset();
+    RenderSession session(kOnReference);
+    session.begin(scene, smallPicture(1));
+    const Camera before = session.picture().camera;
+    session.change(motionOf(meshOf(*scene), shifted(3, 0, 0)));
+    EXPECT_EQ(session.picture().camera.position, before.position);
+    EXPECT_EQ(session.picture().camera.halfWidth, before.halfWidth);
+}
+
+TEST(SceneChange, BordersOfGridsDoNotMove) {
+    const auto scene = bundled("cornell_spheres");
+    Medium smoke;
+    smoke.absorption = glm::vec3(1);
+    smoke.density.emplace();
+    scene->media = {Medium{}, smoke};
+    const uint32_t object = scene->spheres[0].instance;
+    Material& material = scene->materials[scene->spheres[0].material];
+    material.boundsMedia = true;
+    material.inside = 0;
+    EXPECT_NO_THROW(changed(scene, motionOf(object, shifted(1, 0, 0))));
+    material.inside = 1;
+    EXPECT_THROW(changed(scene, motionOf(object, shifted(1, 0, 0))), std::invalid_argument);
+}
+
 /// Trees of what stays are kept, and so are texels: what comes of it is what comes of packing all.
 TEST(SceneChange, WhatIsKeptIsWhatWouldBePackedAnew) {
     const auto scene = bundled("still_life");

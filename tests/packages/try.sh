@@ -46,6 +46,7 @@ inside() { chroot "$bare" env HOME=/root LC_ALL=C DEBIAN_FRONTEND=noninteractive
 install() { inside apt-get -qq -y install --no-install-recommends "$@" >>"$log" 2>&1; }
 remove() { inside apt-get -qq -y autoremove --purge stromboli >>"$log" 2>&1; }
 say() { echo "$suite: $*"; }
+inside apt-get -qq update >>"$log" 2>&1 || cannot "there is no mirror for $suite; see $log"
 # What a try that failed has left.
 [[ ! -e $bare/usr/bin/stromboli ]] || remove || cannot "the package of an earlier try cannot be removed; see $log"
 
@@ -65,8 +66,10 @@ if [[ ! -e $(echo "$build"/python/_stromboli.cpython-"${version/./}"-*.so) ]]; t
     if [[ ! -e $folder/headers ]]; then
         inside sh -c "cd /tmp && apt-get -qq download libpython$version-dev pybind11-dev" >>"$log" 2>&1 ||
             cannot "the headers of Python $version cannot be had; see $log"
-        mkdir "$folder/headers"
-        for part in "$bare"/tmp/*-dev_*.deb; do dpkg-deb -x "$part" "$folder/headers"; done
+        rm -rf "$folder/unpacked"
+        mkdir "$folder/unpacked"
+        for part in "$bare"/tmp/*-dev_*.deb; do dpkg-deb -x "$part" "$folder/unpacked"; done
+        mv "$folder/unpacked" "$folder/headers"
     fi
     made=0
     "${PYTHON:-python3}" "$root/python/make_wheel.py" "$build" "$folder/headers/usr/include" >>"$log" 2>&1 || made=$?
@@ -75,8 +78,8 @@ if [[ ! -e $(echo "$build"/python/_stromboli.cpython-"${version/./}"-*.so) ]]; t
 fi
 wheel=$(only "$build"/packages/stromboli-*-"$python"-manylinux*.whl)
 [[ -e $(echo "$folder"/wheels/numpy-*) ]] ||
-    "${PYTHON:-python3}" -m pip download -q --only-binary :all: --python-version "$version" --platform manylinux2014_x86_64 \
-        --platform manylinux_2_28_x86_64 -d "$folder/wheels" numpy >>"$log" 2>&1 || cannot "numpy cannot be had; see $log"
+    "${PYTHON:-python3}" -m pip download -q --only-binary :all: --python-version "$version" --platform "manylinux2014_$(uname -m)" \
+        --platform "manylinux_2_28_$(uname -m)" -d "$folder/wheels" numpy >>"$log" 2>&1 || cannot "numpy cannot be had; see $log"
 
 picture=(cornell_mirror_glass -r 96 72 -s 8 --notes off -q)
 "$build/bin/stromboli" render "${picture[@]}" -o "$folder/here.exr"
@@ -90,7 +93,7 @@ inside /env/bin/pip install -q --no-compile --no-index --find-links /wheels stro
     fail "pip does not install $(basename "$wheel")"
 }
 # Both pictures take less than a second; with lanes that a Mesa cannot do, minutes (docs/results.md, "Sixteen lanes").
-inside timeout 30 /env/bin/python -B - <<'PYTHON' || fail "the module of the wheel does not work, or takes more than 30 s"
+inside timeout 600 /env/bin/python -B - <<'PYTHON' || fail "the module of the wheel does not work, or takes more than 10 min"
 import numpy
 import stromboli
 
@@ -101,13 +104,14 @@ assert numpy.array_equal(picture.variance, expected.variance), "nor is its varia
 PYTHON
 say "$(basename "$wheel") installed by pip, and its picture has the numbers of the program here"
 
+install --download-only /stromboli.deb || cannot "the package's dependencies cannot be had; see $log"
 install /stromboli.deb || {
     tail -n 20 "$log" >&2
     fail "apt does not install $(basename "$package")"
 }
 inside stromboli --version || fail "the installed program does not start"
 inside stromboli devices || fail "the installed program finds no device"
-inside timeout 30 stromboli render "${picture[@]}" -o /there.exr || fail "the installed program does not render in 30 s"
+inside timeout 600 stromboli render "${picture[@]}" -o /there.exr || fail "the installed program does not render in 10 min"
 cmp "$bare/there.exr" "$folder/here.exr" || fail "the picture of the installed program has other bytes"
 say "$(basename "$package") installed by apt, and its picture has the same bytes as here"
 

@@ -214,7 +214,8 @@ def test_the_documents_have_all_names():
         settings, rest = file.read().split("## Settings")[1].split("## Reading a scene")
     reading, materials = rest.split("## Materials")
     for text, names in [(settings, stromboli.settings()), (reading, _stromboli.reading_settings())]:
-        assert dict(re.findall(r"^\| `(\w+)` \| (.*) \|$", text, re.M)) == names
+        rows = re.findall(r"^\| `(\w+)` \| (.*) \|$", text, re.M)
+        assert len(rows) == len(names) and dict(rows) == names
     for kind, parameters in re.findall(r"^\| `(\w+)` \|[^|]*\|(.*)\|$", materials, re.M):
         named = set(re.findall(r"`(\w+)`", parameters)) | {"emission", "emits_both_sides"}
         assert named == stromboli.material_parameters(kind).keys(), kind

@@ -1,4 +1,5 @@
 // A floor that a user asks for.
+#include "scene/add_fog.hpp"
 #include "scene/add_ground.hpp"
 
 #include <gtest/gtest.h>
@@ -31,9 +32,37 @@ TEST(AddGround, IsUnderAllThereIsAndFacesUp) {
     EXPECT_EQ(scene.framing->hi, glm::vec3(5, 7, 0));
 }
 
+/// A floor reaches much farther than the fog, whose ball light comes through.
+TEST(AddGround, DoesNotMakeFogLarger) {
+    const auto radius = [](bool hasGround) {
+        Scene scene;
+        scene.materials.resize(1);
+        scene.instances.emplace_back("ball");
+        scene.spheres.push_back({{0, 0, 0}, 2, 0, 0});
+        scene.environment.emplace();
+        if (hasGround) addGround(scene, {true, glm::vec3(0.5f), {}});
+        FogRequest fog;
+        fog.density = 0.1;
+        addFog(scene, fog);
+        return scene.spheres.back().radius;
+    };
+    EXPECT_EQ(radius(true), radius(false));
+}
+
+/// All frames of an animation have the same floor.
+TEST(AddGround, LiesUnderWhatItIsToldTo) {
+    Scene scene;
+    scene.spheres.push_back({{0, 50, 0}, 2, 0, 0});
+    scene.materials.resize(1);
+    scene.instances.emplace_back("ball");
+    addGround(scene, {true, glm::vec3(0.5f), Bounds{glm::vec3(-1), glm::vec3(1)}});
+    EXPECT_NEAR(scene.bounds().lo.y, -1, 0.01);
+    EXPECT_EQ(scene.framing->hi.y, 52);
+}
+
 TEST(AddGround, OfAnEmptySceneIsAtTheOrigin) {
     Scene scene;
-    addGround(scene, {true, glm::vec3(0.5f)});
+    addGround(scene, {true, glm::vec3(0.5f), {}});
     EXPECT_NEAR(scene.bounds().lo.y, 0, 0.01);
 }
 

@@ -282,8 +282,6 @@ TEST(FramingConventions, ScenesWithoutACameraFillThePicture) {
     double greatest = 0;
     for (int i = 0; i < 8; ++i) {
         turned.turn = i * 0.785;
-        // Turns are about the middle of all there is.
-        scene.triangles.resize(1);
         const auto [least, most] = extentIn(makeCamera(scene, turned, 800, 600), shown);
         EXPECT_GT(std::min(least.x, least.y), 0.03);
         EXPECT_LT(std::max(most.x, most.y), 0.97);
