@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace stromboli::reference {
@@ -68,7 +69,8 @@ typename Grid<Value>::Exact integrate(const Grid<Value>& grid, const Ray& ray, d
 MediumEvent trackGrid(const Medium& m, const Ray& ray, double from, double to,
                       const glm::dvec3& carried, RandomStream& random) {
     MediumEvent event;
-    const DensityGrid bound = m.bound();
+    std::optional<DensityGrid> made; // not of a grid of densities, which is as large as it is
+    const DensityGrid& bound = m.colors.extinction ? made.emplace(m.bound()) : *m.density;
     const Stretch s = withinCube(bound, ray, from, to);
     const double rate = double(bound.largest()) * largest(glm::dvec3(m.extinction()));
     if (!(rate > 0)) return event;
