@@ -36,14 +36,14 @@ vulkan::BufferUse rowUse(const DeviceTuning& tuning) {
 
 std::vector<BufferPlan> planSceneBuffers(const GpuScene& scene, const DeviceTuning& tuning) {
     const BufferUse rows = rowUse(tuning);
-    return {
-        {"BVH buffer", sizeOf(scene.bvh.records), rows},
-        {"primitive buffer", sizeOf(scene.primitives), rows},
-        {"material buffer", sizeOf(scene.materials), rows},
-        {"light buffer", sizeOf(scene.lights.lights), rows},
-        {"light table", sizeOf(scene.lights.table), rows},
-        {"environment", scene.lights.environmentRows().size_bytes(), rows},
-        {"texture buffer", sizeOf(scene.details.rows), rows, "--max-texture N makes textures smaller"}};
+    return {{"BVH buffer", sizeOf(scene.bvh.records), rows},
+            {"primitive buffer", sizeOf(scene.primitives), rows},
+            {"material buffer", sizeOf(scene.materials), rows},
+            {"light buffer", sizeOf(scene.lights.lights), rows},
+            {"light table", sizeOf(scene.lights.table), rows},
+            {"environment", scene.lights.environmentRows().size_bytes(), rows},
+            {"texture buffer", sizeOf(scene.details.rows), rows,
+             "--max-texture N makes textures smaller"}};
 }
 
 uint64_t largestSceneBuffer(const GpuScene& scene) {

@@ -1,7 +1,7 @@
 // The sky of Hosek and Wilkie, against numbers of Mitsuba 3.9.1 (scalar_rgb: eval of the emitter
 // and its parameter sun_direction).
-#include "scene/sky/sky_model.hpp"
 #include "scene/mitsuba/sun_position.hpp"
+#include "scene/sky/sky_model.hpp"
 #include "tests/scene/mitsuba/mitsuba_text.hpp"
 
 #include <glm/gtc/constants.hpp>
