@@ -92,8 +92,15 @@ bool isDirective(std::string_view word) {
 }
 
 std::vector<Statement> StatementReader::read(const std::filesystem::path& file) {
-    readText(file.string(), build::gunzipped(build::readFile(file), file.string()), 0);
+    readFile(file, 0);
     return std::move(statements_);
+}
+
+void StatementReader::readFile(const std::filesystem::path& file, size_t depth) {
+    const std::string text = build::gunzipped(build::readFile(file), file.string());
+    open_.push_back(file);
+    readText(file.string(), text, depth);
+    open_.pop_back();
 }
 
 void StatementReader::readText(const std::string& file, std::string_view text, size_t depth) {
@@ -204,7 +211,12 @@ void StatementReader::include(const Statement& statement, size_t depth) {
     if (++includes_ > kMostIncludes)
         statement.place.fail(fmt::format("is one of more than {} files", kMostIncludes));
     const std::filesystem::path file = files_.find(statement.place, statement.words.front());
-    readText(file.string(), build::gunzipped(build::readFile(file), file.string()), depth + 1);
+    // Two such statements in a file would double it at each level.
+    std::error_code failed;
+    for (const std::filesystem::path& open : open_)
+        if (std::filesystem::equivalent(open, file, failed))
+            statement.place.fail(fmt::format("'{}' would include itself", statement.words.front()));
+    readFile(file, depth + 1);
 }
 
 } // namespace stromboli::pbrt

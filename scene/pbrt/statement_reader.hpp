@@ -24,6 +24,7 @@ class StatementReader {
     std::vector<Statement> read(const std::filesystem::path& file);
 
   private:
+    void readFile(const std::filesystem::path& file, size_t depth);
     void readText(const std::string& file, std::string_view text, size_t depth);
     void readStatement(const std::string& file, Tokens& tokens, size_t depth);
     void readNumbers(Tokens& tokens, size_t count, Statement& statement);
@@ -34,6 +35,7 @@ class StatementReader {
     const Files& files_;
     build::Report& report_;
     std::vector<Statement> statements_;
+    std::vector<std::filesystem::path> open_; ///< each included by the one before
     size_t includes_ = 0;
 };
 
