@@ -182,6 +182,25 @@ TEST(DenoiseFilter, APixelThatItsSamplesAgreeOnIsNotLitByItsNeighbours) {
     EXPECT_NEAR(d.mean[20 * kWidth + 30].y, 0.01, 8 * 0.001);
 }
 
+/// A pixel whose samples have all missed the light that its neighbours have met now and then does
+/// not stay black; where the neighbours are sure of theirs, black is what it is.
+TEST(DenoiseFilter, APixelThatHasMetNoLightIsLitAsFarAsItsNeighboursAreUnsure) {
+    const auto middleUnder = [](float sigma) {
+        const TruthOf truth = [&](uint32_t, uint32_t) {
+            Truth t;
+            t.sigma = sigma;
+            return t;
+        };
+        NoisyPicture noisy = noisyPicture(kWidth, kHeight, truth, 5);
+        const size_t pixel = 20 * kWidth + 30;
+        noisy.mean[pixel] = noisy.deviation[pixel] = glm::vec3(0);
+        if (!noisy.variance.empty()) noisy.variance[pixel] = glm::vec3(0);
+        return denoise::denoisePicture(noisy, Denoiser::On, nullptr).mean[pixel].y;
+    };
+    EXPECT_GT(middleUnder(0.5f), 0.5f);
+    EXPECT_LT(middleUnder(0.01f), 0.1f);
+}
+
 TEST(DenoiseFilter, WithoutLayersAllIsOneSurface) {
     const TruthOf truth = [](uint32_t, uint32_t) {
         Truth t;
