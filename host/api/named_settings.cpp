@@ -121,6 +121,19 @@ Roulette roulette(std::string_view name, const Value& value) {
     return result;
 }
 
+Focus focus(std::string_view name, const Value& value) {
+    constexpr const char* kMeant = "metres, 'auto', or the column and the row of a pixel";
+    if (const auto* text = std::get_if<std::string>(&value)) {
+        if (*text == "auto") return Focus::onMiddle();
+        refuse(name, value, kMeant);
+    }
+    if (std::get<std::vector<double>>(value).size() == 2) {
+        const auto pixel = numbers(name, value, 2, 0, 65535, kMeant);
+        return Focus::onPixel({pixel[0], pixel[1]});
+    }
+    return number(name, value, std::numeric_limits<double>::min(), kFarthest);
+}
+
 // --- Tables --------------------------------------------------------------------------------------
 
 template <class Target>
@@ -177,10 +190,8 @@ constexpr Row<CameraRequest> kCameraRows[] = {
      }},
     {"aperture", "diameter of a thin lens, metres; 0: a pinhole",
      [](CameraRequest& c, Name n, const Value& v) { c.aperture = number(n, v, 0, kFarthest); }},
-    {"focus", "distance along the axis of what is sharp, metres",
-     [](CameraRequest& c, Name n, const Value& v) {
-         c.focus = number(n, v, std::numeric_limits<double>::min(), kFarthest);
-     }},
+    {"focus", "what is sharp: metres along the axis, auto (the middle), or a pixel's (column, row)",
+     [](CameraRequest& c, Name n, const Value& v) { c.focus = focus(n, v); }},
     {"turn", "degrees by which the camera is turned about the scene's middle, seen from above",
      [](CameraRequest& c, Name n, const Value& v) {
          c.turn = number(n, v, -1e6, 1e6) * glm::pi<double>() / 180;

@@ -116,13 +116,18 @@ Words joinedNumbers(const std::string& word) {
     return isWholeNumber(first) && isWholeNumber(second) ? Words{first, second} : Words{};
 }
 
+/// Whether a word names an option of which `is` holds.
+bool names(const OptionList& list, const std::string& word, bool CommandOption::*is) {
+    return std::ranges::any_of(list.all(), [&](const CommandOption& o) {
+        const Words dashed = o.dashedNames();
+        return o.*is && std::ranges::count(dashed, word) > 0;
+    });
+}
+
 /// "-r 640x360" is "-r 640 360", and so is "-r=640x360"; "-r 640x360 9" is left as it is.
 Words withoutJoinedNumbers(const OptionList& list, const Words& words) {
     const auto mayBeJoined = [&](const std::string& name) {
-        return std::ranges::any_of(list.all(), [&](const CommandOption& o) {
-            const Words dashed = o.dashedNames();
-            return o.mayBeJoined && std::ranges::count(dashed, name) > 0;
-        });
+        return names(list, name, &CommandOption::mayBeJoined);
     };
     Words apart;
     for (size_t i = 0; i < words.size(); ++i) {
@@ -143,6 +148,19 @@ Words withoutJoinedNumbers(const OptionList& list, const Words& words) {
         apart.insert(apart.end(), numbers.begin(), numbers.end());
     }
     return apart;
+}
+
+/// "--focus 320 180" is "--focus 320,180".
+Words withNumbersTogether(const OptionList& list, const Words& words) {
+    Words together;
+    for (size_t i = 0; i < words.size(); ++i) {
+        const bool areTwo = i > 0 && i + 1 < words.size() && isWholeNumber(words[i]) &&
+                            isWholeNumber(words[i + 1]) &&
+                            names(list, words[i - 1], &CommandOption::mayBeApart);
+        together.push_back(areTwo ? words[i] + "," + words[i + 1] : words[i]);
+        if (areTwo) ++i;
+    }
+    return together;
 }
 
 /// "help render" is "render --help", and "help" is "--help".
@@ -315,7 +333,10 @@ DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, const Words
                     examples, exitCodesInOneLine(), kHowNumbersAreWritten));
     checkCommandName(commands, asked);
     const auto named = std::ranges::find(commands, asked.front(), &DeclaredCommand::name);
-    const Words words = named == commands.end() ? asked : withoutJoinedNumbers(named->list, asked);
+    const Words words =
+        named == commands.end()
+            ? asked
+            : withNumbersTogether(named->list, withoutJoinedNumbers(named->list, asked));
     Given given;
     std::vector<CLI::App*> apps;
     for (const DeclaredCommand& c : commands) {

@@ -130,6 +130,11 @@ CommandOption& CommandOption::maybeJoined() {
     return *this;
 }
 
+CommandOption& CommandOption::maybeApart() {
+    mayBeApart = true;
+    return *this;
+}
+
 CommandOption& CommandOption::common() {
     isCommon = true;
     return *this;

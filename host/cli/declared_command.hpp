@@ -106,6 +106,8 @@ class CommandOption {
     CommandOption& hidden();
     /// Two numbers that may also be one word with an x between them: 640x360.
     CommandOption& maybeJoined();
+    /// A word, or two whole numbers, which are stored as one word with a comma: 320,180.
+    CommandOption& maybeApart();
     /// Is among the few that --help lists first.
     CommandOption& common();
     /// Words that completion proposes. Others may be understood too.
@@ -126,7 +128,7 @@ class CommandOption {
     uint32_t wordCount = 1;
     bool anyNumber = false, separatedByCommas = false, mayRepeat = false;
     bool isRequired = false, isHidden = false, isFirst = false, isBesidePicture = false;
-    bool isCommon = false, mayBeJoined = false;
+    bool isCommon = false, mayBeJoined = false, mayBeApart = false;
     std::vector<Conflict> conflicts;
     std::vector<std::string> needed, implied;
     Proposed proposed = Proposed::Nothing;

@@ -69,6 +69,21 @@ double readLength(const std::string& option, const std::string& word) {
            "a length greater than 0, in metres or with its unit: 5mm, 2.5cm, 3m, 1km");
 }
 
+/// A length, "auto", or the column and the row of a pixel with a comma between.
+Focus readFocus(const std::string& word) {
+    if (word == "auto") return Focus::onMiddle();
+    const size_t comma = word.find(',');
+    if (comma == std::string::npos) {
+        const std::optional<double> metres = quantityIn(word, kLengths);
+        if (metres && *metres > 0 && *metres <= kCoordinates.most) return *metres;
+        refuse("--focus", word,
+               "a length greater than 0 (2.5m), auto, or the column and the row of a pixel (320 "
+               "180)");
+    }
+    return Focus::onPixel({readNumber("--focus: column", word.substr(0, comma), kPlace),
+                           readNumber("--focus: row", word.substr(comma + 1), kPlace)});
+}
+
 std::vector<Layer> readLayers(const std::string& list) {
     std::vector<Layer> layers;
     for (const std::string& name : splitAtCommas(list)) {
@@ -102,12 +117,14 @@ void declareOptics(OptionList& list, CameraRequest& camera) {
     list.words(
             "--aperture", "LENGTH", "diameter of a thin lens (5mm): blurs what is out of focus", 1,
             [&camera](const Words& words) { camera.aperture = readLength("--aperture", words[0]); })
-        .needs("--focus")
         .usually("a pinhole");
-    list.words("--focus", "LENGTH",
-               "distance from the camera, along its axis, of what is sharp (2.5m)", 1,
-               [&camera](const Words& words) { camera.focus = readLength("--focus", words[0]); })
-        .needs("--aperture");
+    list.words("--focus", "WHERE",
+               "what a lens makes sharp: a distance from the camera, along its axis (2.5m); auto: "
+               "what is in the middle of the picture; or X Y: what this pixel shows",
+               1, [&camera](const Words& words) { camera.focus = readFocus(words[0]); })
+        .usually("--aperture: auto; else as the camera says")
+        .maybeApart()
+        .proposes(Words{"auto"});
 }
 
 } // namespace

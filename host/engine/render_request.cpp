@@ -43,6 +43,14 @@ void reportCamera(const Scene& scene, const Camera& camera, const RenderRequest&
                                   name));
 }
 
+/// How far away what is sharp is, where the scene decides it.
+void reportFocus(const Camera& camera, const RenderRequest& request, const Listener& listener) {
+    const std::optional<Focus>& focus = request.camera.focus;
+    const bool isFound = focus ? focus->on != Focus::On::Distance : request.camera.aperture > 0;
+    if (isFound)
+        listener.info(fmt::format("the lens is sharp at {:.4g} m (--focus)", camera.focusDistance));
+}
+
 PixelFilter filterOf(HintedFilter hinted) {
     switch (hinted) {
     case HintedFilter::Box:
@@ -190,6 +198,7 @@ ResolvedPicture resolvePicture(const Scene& scene, const RenderRequest& request,
     picture.camera = makeCamera(scene, request.camera, settings.area.width, settings.area.height,
                                 request.framing);
     reportHints(scene.hints, settings, request, listener);
+    reportFocus(picture.camera, request, listener);
     reportCamera(scene, picture.camera, request, listener);
     return picture;
 }

@@ -116,7 +116,7 @@ class Session:
         look_at: Optional[Point] = None,
         fov: Optional[float] = None,
         aperture: Optional[float] = None,
-        focus: Optional[float] = None,
+        focus: Union[None, str, float, Sequence[int]] = None,
         turn: Optional[float] = None,
     ) -> None:
         """Begins the picture again, seen from elsewhere; what is None stays as it is."""
@@ -260,7 +260,7 @@ def render(
     look_at: Optional[Point] = None,
     fov: Optional[float] = None,
     aperture: Optional[float] = None,
-    focus: Optional[float] = None,
+    focus: Union[None, str, float, Sequence[int]] = None,
     turn: Optional[float] = None,
     max_bounces: Optional[int] = None,
     min_bounce: Optional[int] = None,
@@ -297,7 +297,8 @@ def render(
     denoise -- True or "on", "oidn"; keep_noisy: with the noisy picture as a layer
     camera -- name or number (from 1) of one of the scene, "auto", "file" or "frame"
     look_from, look_at -- points in metres, in place of a camera of the scene
-    fov -- degrees over the height; aperture, focus -- of a thin lens, metres; turn -- degrees
+    fov -- degrees over the height; turn -- degrees; aperture -- of a thin lens, metres
+    focus -- metres, "auto" (what is in the middle), or the column and the row of a pixel
     max_bounces, min_bounce -- scatterings of light at most (8), and at least (0)
     light_samples, direct, light_choice, roulette, gap_proposal, guiding, branches, integrator, sampler,
     filter -- as the options of the command line

@@ -1,6 +1,7 @@
 #include "scene/camera/camera.hpp"
 
 #include "host/core/error.hpp"
+#include "scene/camera/focus.hpp"
 #include "scene/model/placements.hpp"
 
 #include <fmt/format.h>
@@ -225,10 +226,10 @@ Camera statedView(const Scene& scene, const CameraRequest& request) {
 
 void applyOptics(Camera& camera, const CameraRequest& request, double aspect,
                  const std::string& file) {
-    if (camera.orthographic && (request.fieldOfView || request.aperture > 0))
+    if (camera.orthographic && (request.fieldOfView || request.aperture > 0 || request.focus))
         throw SceneError(
             fmt::format("{}: an orthographic camera has neither an angle of view nor a lens "
-                        "(--fov, --aperture)",
+                        "(--fov, --aperture, --focus)",
                         file));
     if (request.fieldOfView) {
         const double halfHeight = std::tan(*request.fieldOfView / 2);
@@ -236,10 +237,7 @@ void applyOptics(Camera& camera, const CameraRequest& request, double aspect,
         camera.halfHeight = halfHeight;
         camera.halfWidth = camera.halfHeight * aspect;
     }
-    if (request.aperture > 0) {
-        camera.lensRadius = request.aperture / 2;
-        camera.focusDistance = request.focus;
-    }
+    if (request.aperture > 0) camera.lensRadius = request.aperture / 2;
 }
 
 void turnAbout(Camera& camera, const Scene& scene, double angle) {
@@ -326,6 +324,7 @@ Camera makeCamera(const Scene& scene, const CameraRequest& request, uint32_t wid
         camera.halfWidth = camera.halfHeight * aspect;
         applyOptics(camera, request, aspect, scene.file);
         turnAbout(camera, scene, request.turn);
+        focusLens(camera, scene, request, picture);
         camera.medium = mediumAt(scene, camera.position);
         return camera;
     }
@@ -351,6 +350,7 @@ Camera makeCamera(const Scene& scene, const CameraRequest& request, uint32_t wid
     }
     applyOptics(camera, request, aspect, scene.file);
     turnAbout(camera, scene, request.turn);
+    focusLens(camera, scene, request, picture);
     // What the file says holds for where the file puts its camera.
     const bool isStated = !framed && request.turn == 0 && scene.surrounding == kNoMedium;
     if (!isStated) camera.medium = mediumAt(scene, camera.position);

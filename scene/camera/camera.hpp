@@ -51,6 +51,21 @@ enum class CameraChoice {
     Frame,     ///< all of the scene (docs/guide/cs184.md)
 };
 
+/// What a lens makes sharp.
+struct Focus {
+    enum class On {
+        Distance, ///< a plane across the view axis
+        Middle,   ///< the plane of what is in the middle of the picture
+        Pixel     ///< the plane of what a pixel shows
+    } on = On::Distance;
+    double distance = 1;   ///< of the plane, along the view axis, metres; greater than 0
+    glm::dvec2 pixel{0.0}; ///< its column and row, from 0 at the left and at the top
+
+    Focus(double metres = 1) : distance(metres) {}
+    static Focus onMiddle();
+    static Focus onPixel(const glm::dvec2& pixel);
+};
+
 /// Whose view a picture shows.
 struct CameraRequest {
     CameraChoice choice = CameraChoice::Automatic;
@@ -63,7 +78,8 @@ struct CameraRequest {
     /// Radians, over the height of the picture: in place of the angle that the camera has.
     std::optional<double> fieldOfView;
     double aperture = 0; ///< diameter of the lens, metres; 0: a pinhole
-    double focus = 1;    ///< distance of the plane that is sharp, along the view axis, metres
+    /// Of this lens, or of the camera's own; empty: the middle, or what the camera says.
+    std::optional<Focus> focus;
     /// Radians, by which the camera is turned about the vertical axis through the scene's middle,
     /// counter-clockwise seen from above.
     double turn = 0;
@@ -120,8 +136,9 @@ PictureSize defaultPictureSize(const Scene& scene, const CameraRequest& request,
 /// File: the whole of the file's field of view is visible; where the picture's shape differs,
 /// it shows more on the longer side.
 /// Frame: as close as shows all of a scene without a camera; else docs/guide/cs184.md.
-/// Throws SceneError if the file's camera is wanted and there is none, or none of that name, and if
-/// an orthographic camera is to have an angle of view or a lens.
+/// Throws SceneError if the file's camera is wanted and there is none, or none of that name, if
+/// an orthographic camera is to have an angle of view or a lens, and if a focus is asked for where
+/// there is no lens or nothing to focus on.
 Camera makeCamera(const Scene& scene, const CameraRequest& request, uint32_t width, uint32_t height,
                   const FramingConventions& conventions = {});
 

@@ -1,6 +1,7 @@
 #include "scene/model/medium.hpp"
 
 #include "scene/model/scene.hpp"
+#include "scene/model/world_triangles.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -190,42 +191,8 @@ struct BorderSearch {
     }
 };
 
-/// Calls take(corners, facing, material) for each triangle of a border, wherever it is placed.
-template <class Take>
-void forBorderTriangles(const Scene& scene, const Take& take) {
-    const auto cornersOf = [&](const Triangle& t, const auto& toWorld) {
-        std::array<glm::dvec3, 3> corners;
-        for (size_t i = 0; i < 3; ++i)
-            corners[i] = toWorld(glm::dvec3(scene.positions[t.corner[i]]));
-        return corners;
-    };
-    const auto borderOf = [&](const Triangle& t) {
-        return scene.materials[t.material].boundsMedia;
-    };
-    for (size_t i = scene.firstInWorld(); i < scene.triangles.size(); ++i) {
-        const Triangle& t = scene.triangles[i];
-        if (borderOf(t))
-            take(cornersOf(t, [](const glm::dvec3& p) { return p; }), 1.0,
-                 scene.materials[t.material]);
-    }
-    for (const Placement& placement : scene.placements) {
-        const Prototype& prototype = scene.prototypes[placement.prototype];
-        const auto toWorld = [&](const glm::dvec3& p) {
-            glm::dvec3 world;
-            for (int i = 0; i < 3; ++i) {
-                const glm::dvec4 row(placement.toWorld[size_t(i)]);
-                world[i] = glm::dot(glm::dvec3(row), p) + row.w;
-            }
-            return world;
-        };
-        const glm::dmat3 turn(glm::dvec3(placement.toWorld[0]), glm::dvec3(placement.toWorld[1]),
-                              glm::dvec3(placement.toWorld[2]));
-        const double facing = glm::determinant(turn) < 0 ? -1 : 1;
-        for (uint32_t i = 0; i < prototype.triangles; ++i) {
-            const Triangle& t = scene.triangles[prototype.firstTriangle + i];
-            if (borderOf(t)) take(cornersOf(t, toWorld), facing, scene.materials[t.material]);
-        }
-    }
+bool isBorder(const Material& material) {
+    return material.boundsMedia;
 }
 
 } // namespace
@@ -233,14 +200,13 @@ void forBorderTriangles(const Scene& scene, const Take& take) {
 uint32_t mediumAt(const Scene& scene, const glm::dvec3& place) {
     if (scene.media.empty()) return kNoMedium;
     Bounds borders;
-    forBorderTriangles(scene,
-                       [&](const std::array<glm::dvec3, 3>& corners, double, const Material&) {
-                           for (const glm::dvec3& corner : corners)
-                               borders.extend(glm::vec3(corner));
-                       });
-    const auto isBorder = [&](const Sphere& s) { return scene.materials[s.material].boundsMedia; };
+    forTrianglesInWorld(scene, isBorder,
+                        [&](const std::array<glm::dvec3, 3>& corners, double, uint32_t) {
+                            for (const glm::dvec3& corner : corners)
+                                borders.extend(glm::vec3(corner));
+                        });
     for (const Sphere& s : scene.spheres)
-        if (isBorder(s)) {
+        if (isBorder(scene.materials[s.material])) {
             borders.extend(s.center - s.radius);
             borders.extend(s.center + s.radius);
         }
@@ -248,10 +214,13 @@ uint32_t mediumAt(const Scene& scene, const glm::dvec3& place) {
     BorderSearch search{place, 0.5 * (glm::dvec3(borders.lo) + glm::dvec3(borders.hi)) - place};
     if (search.direction == glm::dvec3(0)) search.direction = {0.36, 0.48, 0.8}; // any will do
     search.medium = scene.surrounding;
-    forBorderTriangles(scene, [&](const std::array<glm::dvec3, 3>& corners, double facing,
-                                  const Material& m) { search.triangle(corners, facing, m); });
+    forTrianglesInWorld(
+        scene, isBorder,
+        [&](const std::array<glm::dvec3, 3>& corners, double facing, uint32_t triangle) {
+            search.triangle(corners, facing, scene.materials[scene.triangles[triangle].material]);
+        });
     for (const Sphere& s : scene.spheres)
-        if (isBorder(s)) search.sphere(s, scene.materials[s.material]);
+        if (isBorder(scene.materials[s.material])) search.sphere(s, scene.materials[s.material]);
     return search.medium;
 }
 

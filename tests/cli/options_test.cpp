@@ -309,7 +309,8 @@ TEST(Options, QuantitiesHaveUnits) {
     EXPECT_DOUBLE_EQ(*with({"--fov", "90deg"}).picture.camera.fieldOfView, std::acos(0.0));
     EXPECT_DOUBLE_EQ(*with({"--fov", "90°"}).picture.camera.fieldOfView, std::acos(0.0));
     EXPECT_DOUBLE_EQ(*with({"--fov", "1rad"}).picture.camera.fieldOfView, 1);
-    EXPECT_DOUBLE_EQ(with({"--focus", "2m50cm", "--aperture", "5mm"}).picture.camera.focus, 2.5);
+    EXPECT_DOUBLE_EQ(
+        with({"--focus", "2m50cm", "--aperture", "5mm"}).picture.camera.focus->distance, 2.5);
 }
 
 TEST(Options, QuantitiesAreNoOthers) {

@@ -116,10 +116,29 @@ TEST(SceneOptions, ViewsAndLenses) {
     EXPECT_EQ(camera.at, glm::dvec3(0, 0.5, 0));
     EXPECT_DOUBLE_EQ(camera.fieldOfView.value(), std::acos(0.0));
     EXPECT_DOUBLE_EQ(camera.aperture, 0.005);
-    EXPECT_DOUBLE_EQ(camera.focus, 2.5);
+    EXPECT_DOUBLE_EQ(camera.focus->distance, 2.5);
     EXPECT_DOUBLE_EQ(parse<InfoOptions>({"info", "a.dae", "--aperture", "1cm", "--focus", "0.1km"})
-                         .picture.camera.focus,
+                         .picture.camera.focus->distance,
                      100);
+}
+
+TEST(SceneOptions, WhatALensMakesSharp) {
+    const auto focus = [](std::vector<std::string> words) {
+        words.insert(words.begin(), {"info", "--aperture", "5mm"});
+        const InfoOptions o = parse<InfoOptions>(words);
+        EXPECT_EQ(o.scene.source, "a.dae");
+        return o.picture.camera.focus;
+    };
+    EXPECT_FALSE(focus({"a.dae"}).has_value());
+    EXPECT_EQ(focus({"--focus", "auto", "a.dae"})->on, Focus::On::Middle);
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"--focus", "320", "180", "a.dae"},
+          {"a.dae", "--focus", "320,180"}}) {
+        const std::optional<Focus> pixel = focus(words);
+        EXPECT_EQ(pixel->on, Focus::On::Pixel);
+        EXPECT_EQ(pixel->pixel, glm::dvec2(320, 180));
+    }
+    EXPECT_EQ(focus({"--focus", "3", "a.dae"})->distance, 3) << "one number is a distance";
 }
 
 TEST(SceneOptions, HowFilesAreRead) {
