@@ -3,6 +3,7 @@
 #include "host/cli/sequence.hpp"
 #include "host/core/error.hpp"
 #include "host/core/text.hpp"
+#include "host/engine/shadow_catcher.hpp"
 #include "host/film/image_file.hpp"
 
 #include <fmt/format.h>
@@ -173,6 +174,22 @@ void declareSeen(OptionList& list, RenderRequest& o) {
               "the picture has alpha: what no surface covers is transparent, and the camera does "
               "not see the environment, which lights the scene all the same",
               o.transparent);
+    list.flag("--shadow-catcher",
+              "puts a floor under all there is (--ground) that is not in the picture, but whose "
+              "shadows, and the light that objects throw on it, are: in alpha, or on the "
+              "--background",
+              [&o] { o.shadowCatcher = kGroundName; })
+        .excludes("--share", "films have no place for it");
+    list.words("--shadows-on", "NAME",
+               "the same with this object of the scene, or all that has this material, in place "
+               "of a floor",
+               1,
+               [&o](const Words& words) {
+                   if (words[0].empty()) throw UsageError("--shadows-on is empty: expected text");
+                   o.shadowCatcher = words[0];
+               })
+        .excludes("--shadow-catcher", "both say what the shadows fall on")
+        .excludes("--share", "films have no place for it");
     list.words("--background", "COLOR",
                "what is seen where no surface is, in place of the environment, which lights the "
                "scene all the same: a radiance as a number or as R,G,B, or a picture's file, which "

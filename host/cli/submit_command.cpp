@@ -106,7 +106,13 @@ std::vector<std::string> withoutFrames(std::vector<std::string> parts) {
 /// A share is of one picture, and blocks and rounds are of shares.
 void checkWhatIsSubmitted(DeclaredCommand& c, const SubmitOptions& o) {
     checkFrames(o.sequence, o.scene);
-    if (o.shares > 0) return;
+    if (o.shares > 0) {
+        const std::string ofPictures =
+            c.givenOf({"--background", "--shadow-catcher", "--shadows-on"});
+        if (!ofPictures.empty())
+            throw UsageError(fmt::format("{}: films of shares have no place for it", ofPictures));
+        return;
+    }
     if (!o.sequence.isGiven())
         throw UsageError("--shares is required, or --frames or --turntable (see --help)");
     const std::string ofShares = c.givenOf({"--block", "--rounds"});

@@ -195,8 +195,9 @@ ResolvedPicture resolvePicture(const Scene& scene, const RenderRequest& request,
     settings.budget = inSamples(request.budget, branches);
     checkCrop(settings.area);
     checkPictureFits(settings.area, 3 + request.channels().size());
-    picture.camera = makeCamera(scene, request.camera, settings.area.width, settings.area.height,
-                                request.framing);
+    picture.camera = request.resolvedCamera ? *request.resolvedCamera
+                                            : makeCamera(scene, request.camera, settings.area.width,
+                                                         settings.area.height, request.framing);
     reportHints(scene.hints, settings, request, listener);
     reportFocus(picture.camera, request, listener);
     reportCamera(scene, picture.camera, request, listener);

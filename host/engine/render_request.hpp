@@ -63,6 +63,8 @@ struct RenderRequest {
     std::optional<PictureSize> size; ///< empty: defaultPictureSize()
     Crop crop;                       ///< width 0: all of it
     CameraRequest camera;
+    /// In place of what `camera` says.
+    std::optional<Camera> resolvedCamera;
     FramingConventions framing;
     Estimator estimator;              ///< its branches are chosen below
     std::optional<uint32_t> branches; ///< empty: what pays in the scene
@@ -72,6 +74,9 @@ struct RenderRequest {
     bool transparent = false; ///< alpha in place of the environment
     /// In place of the environment, or of nothing; not of a transparent picture.
     std::optional<Background> background;
+    /// The object or material that is not in the picture but for what the objects do to its light
+    /// (shadow_catcher.hpp). The picture is transparent, or has a background.
+    std::optional<std::string> shadowCatcher;
     std::vector<Layer> layers;
     Denoiser denoiser = Denoiser::Off;
     /// A denoised picture has the noisy one and the predicted error as channels too.

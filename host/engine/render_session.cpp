@@ -1,6 +1,5 @@
 #include "host/engine/render_session.hpp"
 
-#include "host/checkpoint/checkpoint_file.hpp"
 #include "host/core/error.hpp"
 #include "host/denoise/denoiser.hpp"
 #include "host/film/shown_film.hpp"
@@ -15,128 +14,8 @@
 
 namespace stromboli {
 
-// --- Checkpoints ---------------------------------------------------------------------------------
-
-// Checkpoints of renders: which file, and what it means to go on from it.
-
-namespace {
-
-namespace fs = std::filesystem;
-
-double meanSamples(const SessionState& state) {
-    double sum = 0;
-    for (const PixelSums& s : state.sums)
-        sum += s.count + s.rejected;
-    for (const ExactStatistics& s : state.blocks)
-        sum += s.taken();
-    return state.sums.empty() ? 0
-                              : sum * state.settings.estimator.branches / double(state.sums.size());
-}
-
-} // namespace
-
-Keeping takeUp(Keeping keeping, const Listener& listener) {
-    if (fs::exists(keeping.file)) {
-        keeping.begun = readCheckpoint(keeping.file);
-        return keeping;
-    }
-    keeping.bands = bandsKept(keeping.file);
-    if (keeping.bands == 0)
-        listener.warn(fmt::format("there is no {}: the render begins anew", keeping.file));
-    for (size_t band = 0; band < keeping.bands && !keeping.begun; ++band)
-        keeping.begun = keepingOfBand(keeping, band, keeping.bands).begun;
-    return keeping;
-}
-
-RenderRequest toGoOn(RenderRequest request, const Keeping& keeping) {
-    if (!keeping.begun) return request;
-    const Estimator& begun = keeping.begun->state.settings.estimator;
-    const uint32_t branches = begun.branches;
-    if (!request.branches) request.branches = branches;
-    if (request.guiding == Guiding::Automatic)
-        request.guiding = begun.guidesLight ? Guiding::On : Guiding::Off;
-    const uint32_t paths = request.budget.pathsPerPixel();
-    if (*request.branches == branches && paths != kMostSamples && paths % branches != 0)
-        throw UsageError(fmt::format("-s {} is not a multiple of the {} --branches of {}", paths,
-                                     branches, keeping.file));
-    return request;
-}
-
-std::vector<PictureArea> bandsToRender(const PictureArea& area, uint64_t mostPixels,
-                                       const Keeping& keeping, const Listener& listener) {
-    const std::vector<PictureArea> bands = bandsOf(area, mostPixels);
-    const auto refuse = [&](const std::string& what) {
-        throw UsageError(fmt::format("{}: {}", keeping.file, what));
-    };
-    if (keeping.bands == 0) {
-        if (keeping.begun && bands.size() > 1)
-            refuse("the checkpoint is of a picture in one piece, which does not fit the memory "
-                   "here: give it more --film-memory");
-        if (bands.size() > 1)
-            listener.info(fmt::format("the film does not fit the memory: rendering {} bands, one "
-                                      "after the other",
-                                      bands.size()));
-        return bands;
-    }
-    const Crop all = area.rendered();
-    if (keeping.bands > all.height)
-        refuse(fmt::format("the checkpoints are of {} bands, and the picture has {} rows: give the "
-                           "same -r and --crop",
-                           keeping.bands, all.height));
-    // A row is rendered whether it fits or not.
-    if (keeping.bands < bands.size() && bands.size() < all.height)
-        refuse(fmt::format("the checkpoints are of {} bands, which do not fit the memory here: "
-                           "give them more --film-memory",
-                           keeping.bands));
-    listener.info(fmt::format("rendering {} bands, one after the other, as before", keeping.bands));
-    return inBands(area, keeping.bands);
-}
-
-Keeping keepingOfBand(const Keeping& keeping, size_t band, size_t count) {
-    Keeping result = keeping;
-    if (count == 1 || keeping.file.empty()) {
-        result.bands = 0;
-        return result;
-    }
-    result.file = bandFile(keeping.file, band, count).string();
-    result.begun.reset();
-    result.keepsAtEnd = true; // until all are done
-    if (keeping.bands > 0 && fs::exists(result.file)) result.begun = readCheckpoint(result.file);
-    return result;
-}
-
-void forgetEarlier(const std::string& file, size_t bands) {
-    removeBandFiles(file);
-    std::error_code failed; // what cannot be removed does no harm
-    if (bands > 1) fs::remove(file, failed);
-}
-
-KeptRender keptRender(const RenderSettings& settings, const Keeping& keeping,
-                      std::function<RenderIdentity()> identity, const std::string& device,
-                      const Listener& listener) {
-    KeptRender render;
-    render.identity = std::move(identity);
-    render.settings = settings;
-    render.file = keeping.file;
-    render.everySeconds = keeping.everySeconds;
-    render.keepsAtEnd = keeping.keepsAtEnd;
-    if (!keeping.begun) return render;
-
-    const std::string name = keeping.file.empty() ? "the saved render" : keeping.file;
-    requireSameRender(name, *keeping.begun, render.identity(), settings);
-    if (keeping.begun->identity.device != device)
-        listener.warn(fmt::format("{} was begun on {}: pictures agree, their bytes need not", name,
-                                  keeping.begun->identity.device));
-    render.begun = withBudget(keeping.begun->state, settings.budget);
-    listener.info(fmt::format("goes on from {}, which has {:.1f} samples a pixel", name,
-                              meanSamples(*render.begun)));
-    return render;
-}
-
-// --- Sessions ------------------------------------------------------------------------------------
-
 RenderSession::RenderSession(const DeviceRequest& device, Listener listener)
-    : listener_(std::move(listener)), renderer_(device, listener_) {}
+    : listener_(std::move(listener)), device_(device), renderer_(device, listener_) {}
 
 void RenderSession::begin(std::shared_ptr<const Scene> scene, const RenderRequest& request,
                           const Keeping& keeping) {
@@ -146,6 +25,11 @@ void RenderSession::begin(std::shared_ptr<const Scene> scene, const RenderReques
     scene_ = std::move(scene);
     keeping_ = keeping;
     request_ = toGoOn(request, keeping);
+    if (request_.shadowCatcher) {
+        requireCatcher(*scene_, *request_.shadowCatcher);
+        hideCatcher(*request_.shadowCatcher);
+        request_.transparent = !request_.background;
+    }
     denoise::requireUsable(request_.denoiser);
     picture_ = resolvePicture(*scene_, request_, listener_);
     if (changing_ && changing_->scene() == scene_) keepCamera();
@@ -157,10 +41,20 @@ void RenderSession::begin(std::shared_ptr<const Scene> scene, const RenderReques
     noises_.clear();
     guide_.reset();
     covered_.clear();
+    caught_.reset();
+    lastTold_ = {};
     denoised_.reset();
     result_ = {};
     result_.samplesAtMost = mostPathsOf(picture_.settings);
     over_ = false;
+}
+
+/// Pictures of one scene share what is built of it.
+void RenderSession::hideCatcher(const std::string& catcher) {
+    if (hidden_.catcher != catcher || (scene_ != hidden_.from && scene_ != hidden_.objects))
+        hidden_ = {catcher, scene_,
+                   std::make_shared<const Scene>(withoutCatcher(*scene_, catcher))};
+    scene_ = hidden_.objects;
 }
 
 /// Objects that move take no camera with them: it is where it is in the scene as it was read, in
@@ -182,6 +76,8 @@ void RenderSession::moveCamera(const CameraRequest& camera) {
 
 void RenderSession::change(const SceneChange& change) {
     if (!scene_) throw std::logic_error("no picture has been begun");
+    if (request_.shadowCatcher)
+        throw UsageError("a scene with a shadow catcher cannot be changed: begin another picture");
     if (!changing_ || changing_->scene() != scene_) changing_.emplace(scene_);
     changing_->apply(change);
     sampling_.reset(); // refers to the renderer's last backend
@@ -251,6 +147,7 @@ Next RenderSession::tell(const SessionEvents& events, RenderProgress state) {
     state.counters.rays += result_.counters.rays;
     state.share =
         (double(pixelsDone_) + state.share * double(bands_[band_].pixelCount())) / double(all);
+    lastTold_ = state;
     const Next next = events.progress ? events.progress(state) : Next::GoOn;
     return cancelAsked_ ? Next::Cancel : next;
 }
@@ -270,11 +167,13 @@ bool RenderSession::takePass(const SessionEvents& events) {
     if (bandIsOver_) {
         sampling_.reset();
         covered_.clear();
+        caught_.reset();
         ++band_;
         bandIsOver_ = false;
     }
     if (bands_.empty()) prepare();
     if (!sampling_) beginBand();
+    if (request_.shadowCatcher && !caught_) catchLight(events);
     Next next = Next::GoOn;
     if (isDenoisedEnough()) sampling_->finish();
     const bool hasMore = sampling_->pass([&](const RenderProgress& state) {
@@ -302,7 +201,8 @@ void RenderSession::endBand(const SessionEvents& events) {
         endDenoised(events);
     } else if (events.bandDone) {
         const FloatImage seen = beside(sampling_->film());
-        if (result_.pixelsUnreached == unreachedBefore && !request_.background)
+        if (result_.pixelsUnreached == unreachedBefore && !request_.background &&
+            !request_.shadowCatcher)
             events.bandDone({sampling_->film(), kept.outcome.noise, seen});
         else
             events.bandDone({shownFilm(), kept.outcome.noise, seen});
@@ -347,16 +247,21 @@ const Film& RenderSession::film() const {
 }
 
 /// Alpha does not depend on the samples.
+const std::vector<float>& RenderSession::covered() {
+    if (!covered_.empty()) return covered_;
+    RenderRequest looks = request_;
+    looks.transparent = true;
+    looks.denoiser = Denoiser::Off;
+    looks.layers.clear();
+    return covered_ = std::move(see(film(), looks).channel(kAlphaChannel));
+}
+
 void RenderSession::putBackgroundBehind(Film& shown) {
+    if (caught_) putUnder(shown, covered(), *caught_);
     if (!request_.background) return;
-    if (covered_.empty()) {
-        RenderRequest looks = request_;
-        looks.transparent = true;
-        looks.denoiser = Denoiser::Off;
-        looks.layers.clear();
-        covered_ = std::move(see(film(), looks).channel(kAlphaChannel));
-    }
-    putBehind(shown, covered_, *request_.background);
+    std::vector<float> alpha = covered();
+    if (caught_) addShadow(alpha, *caught_);
+    putBehind(shown, alpha, *request_.background);
 }
 
 Film RenderSession::shownFilm() {
@@ -367,7 +272,9 @@ Film RenderSession::shownFilm() {
 }
 
 FloatImage RenderSession::beside(const Film& film) {
-    return see(film, request_);
+    FloatImage seen = see(film, request_);
+    if (caught_ && request_.transparent) addShadow(seen.channel(kAlphaChannel), *caught_);
+    return seen;
 }
 
 /// A device that is lost sees nothing.

@@ -1,12 +1,13 @@
 #pragma once
 
-#include "host/checkpoint/kept_render.hpp"
 #include "host/denoise/denoiser.hpp"
+#include "host/engine/keeping.hpp"
 #include "host/engine/load_scene.hpp"
 #include "host/engine/render_request.hpp"
 #include "host/engine/render_result.hpp"
 #include "host/engine/renderer.hpp"
 #include "host/engine/scene_change.hpp"
+#include "host/engine/shadow_catcher.hpp"
 #include "host/film/film.hpp"
 #include "host/film/image_file.hpp"
 
@@ -19,46 +20,6 @@
 #include <vector>
 
 namespace stromboli {
-
-// --- Checkpoints ---------------------------------------------------------------------------------
-
-/// Where a render keeps its state, and what it goes on from.
-struct Keeping {
-    std::string file;         ///< empty: nowhere
-    double everySeconds = 60; ///< from one checkpoint to the next
-    bool keepsAtEnd = false;  ///< also of a render that is finished
-    /// To go on from: the state of the whole picture, or of the first band that has one.
-    std::optional<Checkpoint> begun;
-    uint32_t bands = 0; ///< `begun` is one of so many bands, each in its bandFile(); 0: of no band
-};
-
-/// Adds what the file has to go on from. Says so, and begins anew, if there is nothing.
-/// Throws UsageError if it cannot be used.
-Keeping takeUp(Keeping keeping, const Listener& listener = {});
-
-/// The request with what has to be as it was when the render began and is not asked for otherwise.
-/// Throws UsageError if that does not go together.
-RenderRequest toGoOn(RenderRequest request, const Keeping& keeping);
-
-/// The bands to render, of at most so many pixels each; where checkpoints are of bands, the same
-/// ones. Throws UsageError if what was begun does not fit.
-std::vector<PictureArea> bandsToRender(const PictureArea& area, uint64_t mostPixels,
-                                       const Keeping& keeping, const Listener& listener);
-
-/// Where a band of so many is kept, and what it goes on from.
-Keeping keepingOfBand(const Keeping& keeping, size_t band, size_t count);
-
-/// Removes the checkpoints of an earlier render in the place of those of this one, of `bands`
-/// bands.
-void forgetEarlier(const std::string& file, size_t bands);
-
-/// The render of a picture or of a band of it by its settings. Throws UsageError if the checkpoint
-/// is of another one.
-KeptRender keptRender(const RenderSettings& settings, const Keeping& keeping,
-                      std::function<RenderIdentity()> identity, const std::string& device,
-                      const Listener& listener);
-
-// --- Sessions ------------------------------------------------------------------------------------
 
 /// What whoever is told how far a picture is wants next.
 enum class Next {
@@ -145,11 +106,11 @@ class RenderSession {
 
     /// Means, variances and numbers of samples.
     const Film& film() const;
-    /// The same as it is shown: pixels without samples show a neighbour, and the request's
-    /// background is behind it.
+    /// The same as it is shown: pixels without samples show a neighbour, and what the request wants
+    /// behind the objects is there.
     Film shownFilm();
-    /// Puts the background, if the request has one, behind means of the film's pixels that may be
-    /// other ones by now.
+    /// Puts the light of the request's shadow catcher and its background, if it has them, behind
+    /// means of the film's pixels that may be other ones by now.
     void putBackgroundBehind(Film& shown);
     /// In floats, linear: R, G, B, the channels that the request asks for, and with `statistics`
     /// the number of samples and the variance of the mean. Pixels without samples show a neighbour.
@@ -172,6 +133,7 @@ class RenderSession {
 
   private:
     void keepCamera();
+    void hideCatcher(const std::string& catcher);
     void prepare();
     void beginBand();
     bool takePass(const SessionEvents& events);
@@ -188,16 +150,28 @@ class RenderSession {
     };
     FloatImage beside(const Film& film);
     FloatImage see(const Film& film, const RenderRequest& request);
+    const std::vector<float>& covered();
+    void catchLight(const SessionEvents& events);
+    Film takeCaught(Scene scene, const SessionEvents& events, std::vector<float>& coverage);
     bool denoises() const { return request_.denoiser != Denoiser::Off && !result_.lost; }
     const Denoised& denoisedNow();
     bool isDenoisedEnough();
     void endDenoised(const SessionEvents& events);
 
+    /// The last scene with a shadow catcher, and what became of it.
+    struct HiddenCatcher {
+        std::string catcher;
+        std::shared_ptr<const Scene> from, objects;
+    };
+
     Listener listener_;
+    DeviceRequest device_;
     Renderer renderer_;
+    std::unique_ptr<RenderSession> catching_; ///< takes the pictures of the shadow catcher
     std::atomic<bool> cancelAsked_ = false;
     // What belongs to the picture:
     std::shared_ptr<const Scene> scene_;
+    HiddenCatcher hidden_;
     std::optional<ChangingScene> changing_; ///< has the same, if it has been changed
     RenderRequest request_;
     Keeping keeping_;
@@ -211,8 +185,10 @@ class RenderSession {
     double secondsBefore_ = 0; ///< of the bands that were done in earlier runs
     uint64_t pixelsDone_ = 0;  ///< of the bands before
     std::vector<PartNoise> noises_;
-    std::optional<FloatImage> guide_; ///< layers that the denoiser looks at
-    std::vector<float> covered_;      ///< alpha of the band, before a background
+    std::optional<FloatImage> guide_;   ///< layers that the denoiser looks at
+    std::vector<float> covered_;        ///< alpha of the band's objects, where something is behind
+    std::optional<CaughtLight> caught_; ///< of the band, where the request has a shadow catcher
+    RenderProgress lastTold_;
     std::optional<Denoised> denoised_;
     RenderResult result_;
 };

@@ -253,6 +253,7 @@ def render(
     layers: Union[None, str, Sequence[str]] = None,
     transparent: Optional[bool] = None,
     background: Union[None, str, float, Sequence[float]] = None,
+    shadow_catcher: Optional[str] = None,
     denoise: Union[None, bool, str] = None,
     keep_noisy: Optional[bool] = None,
     camera: Union[None, str, int] = None,
@@ -294,6 +295,7 @@ def render(
     layers -- of albedo, normal, depth, transmittance, position, uv, object, material
     transparent -- alpha in place of the environment
     background -- in its place: radiance, one or three numbers, or a picture's file
+    shadow_catcher -- "ground", or an object or material, of which only shadows are in the picture
     denoise -- True or "on", "oidn"; keep_noisy: with the noisy picture as a layer
     camera -- name or number (from 1) of one of the scene, "auto", "file" or "frame"
     look_from, look_at -- points in metres, in place of a camera of the scene
@@ -328,6 +330,7 @@ def render(
         layers=layers,
         transparent=transparent,
         background=background,
+        shadow_catcher=shadow_catcher,
         denoise=denoise,
         keep_noisy=keep_noisy,
         camera=camera,

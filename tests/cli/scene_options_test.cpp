@@ -107,6 +107,25 @@ TEST(SceneOptions, PresetsSetWhatIsNotGiven) {
     EXPECT_EQ(share.scene.environment.file, "studio");
 }
 
+TEST(SceneOptions, ShadowsAreInAlphaOrOnABackground) {
+    const auto catcher =
+        parse<RenderOptions>({"render", "a.glb", "--shadow-catcher", "-o", "a.png"});
+    EXPECT_TRUE(catcher.scene.ground.isGiven);
+    EXPECT_EQ(catcher.picture.shadowCatcher, "ground");
+    EXPECT_TRUE(catcher.picture.transparent);
+    const auto table = parse<RenderOptions>(
+        {"render", "a.glb", "--shadows-on", "table", "--background", "0.5", "-o", "a.jpg"});
+    EXPECT_FALSE(table.scene.ground.isGiven);
+    EXPECT_EQ(table.picture.shadowCatcher, "table");
+    EXPECT_FALSE(table.picture.transparent);
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"render", "a.glb", "--shadow-catcher", "-o", "a.jpg"},
+          {"render", "a.glb", "--shadow-catcher", "--share", "1/2", "-o", "a.film"},
+          {"submit", "slurm", "a.glb", "--shadow-catcher", "--shares", "4", "-o", "a.png"},
+          {"submit", "slurm", "a.glb", "--background", "1", "--shares", "4", "-o", "a.png"}})
+        EXPECT_THROW(parse<RenderOptions>(words), UsageError) << words[0] << ' ' << words[2];
+}
+
 TEST(SceneOptions, ViewsAndLenses) {
     const CameraRequest camera =
         parse<InfoOptions>({"info", "a.dae", "--look-from", "1", "-2", "3e1", "--look-at", "0",
