@@ -148,6 +148,31 @@ std::vector<Step> stepsOf(const RunPlan& plan) {
     return steps;
 }
 
+/// The picture by the backend. Empty: stopped.
+std::optional<MeasuredPicture> noisyPicture(PreparedRender& render,
+                                            const std::function<bool()>& progress) {
+    warmUp(render);
+    const uint64_t raysBefore = render.backend->counters().rays;
+    bool stopped = false;
+    const Stopwatch wall;
+    const bench::CpuClock cpu;
+    RenderOutcome outcome;
+    MeasuredPicture picture;
+    picture.film = stromboli::render(
+        *render.backend, render.settings,
+        [&](const RenderProgress&) {
+            stopped = !progress();
+            return !stopped;
+        },
+        &outcome);
+    if (stopped) return std::nullopt;
+    picture.wallSeconds = wall.seconds();
+    picture.cpuSeconds = cpu.seconds();
+    picture.noise = outcome.noise;
+    picture.rays = render.backend->counters().rays - raysBefore;
+    return picture;
+}
+
 /// A render of its own for each step.
 std::optional<Run> growRenders(const RunPlan& plan, const Prepare& prepare,
                                const KeepGoing& keepGoing, const TakeFilm& takeFilm) {
@@ -165,27 +190,19 @@ std::optional<Run> growRenders(const RunPlan& plan, const Prepare& prepare,
         }
         PreparedRender render = prepare(
             plan.scene, renderOptions(s, plan.configuration, step.effort, plan.seed, step.samples));
-        warmUp(render);
-        const uint64_t raysBefore = render.backend->counters().rays;
-        bool stopped = false;
         const Stopwatch wall;
-        const bench::CpuClock cpu;
-        RenderOutcome outcome;
-        const Film film = stromboli::render(
-            *render.backend, render.settings,
-            [&](const RenderProgress&) {
-                stopped = !keepGoing(secondsBefore + wall.seconds());
-                return !stopped;
-            },
-            &outcome);
-        if (stopped) return std::nullopt;
+        const auto progress = [&] { return keepGoing(secondsBefore + wall.seconds()); };
+        const std::optional<MeasuredPicture> picture =
+            render.denoised ? render.denoised(progress) : noisyPicture(render, progress);
+        if (!picture) return std::nullopt;
+        const Film& film = picture->film;
         Point point = pointOf(film, plan.reference);
-        point.wallSeconds = wall.seconds();
-        point.cpuSeconds = cpu.seconds();
+        point.wallSeconds = picture->wallSeconds;
+        point.cpuSeconds = picture->cpuSeconds;
         secondsBefore += point.wallSeconds;
-        point.noise = outcome.noise;
+        point.noise = picture->noise;
         point.effort = step.effort;
-        point.rays = render.backend->counters().rays - raysBefore;
+        point.rays = picture->rays;
         run.points.push_back(point);
         takeFilm(point, film);
     }
@@ -230,8 +247,8 @@ std::optional<Run> measureRun(const RunPlan& plan, const Prepare& prepare,
             plan.scene, renderOptions(s, plan.configuration, 0, plan.seed, s.sampleCounts.back()));
         const RenderSettings& r = render.settings;
         // How many branches a sample has depends on the count, too.
-        const bool grows =
-            !r.budget.spreads() && !r.budget.adaptive.enabled && r.estimator.branches == 1;
+        const bool grows = !render.denoised && !r.budget.spreads() && !r.budget.adaptive.enabled &&
+                           r.estimator.branches == 1;
         if (grows) return growSamples(plan, render, keepGoing, takeFilm);
     }
     return growRenders(plan, prepare, keepGoing, takeFilm);

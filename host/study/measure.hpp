@@ -45,11 +45,22 @@ class ExpectedTime {
     double done_ = 0;
 };
 
+/// A picture, and what it took from the first sample on.
+struct MeasuredPicture {
+    Film film;          ///< of a denoised picture, with its means
+    PictureNoise noise; ///< as the render states it
+    double wallSeconds = 0, cpuSeconds = 0;
+    uint64_t rays = 0;
+};
+
 /// A render that is ready to start: scene loaded, kernel built.
 struct PreparedRender {
     std::shared_ptr<void> scene; ///< whatever the backend needs as long as it lives
     RenderSettings settings;
     std::unique_ptr<Backend> backend;
+    /// In place of the backend, where a denoiser is asked for: takes all samples and denoises.
+    /// Empty: stopped, as progress() said by false.
+    std::function<std::optional<MeasuredPicture>(const std::function<bool()>& progress)> denoised;
 };
 
 /// Makes a render of a scene by the options of `stromboli render`. Throws Error.

@@ -62,6 +62,7 @@ const std::vector<Configuration>& knownConfigurations() {
         {"no-gap-proposal", "--gap-proposal off",
          "bounces go where the materials scatter, not into gaps too"},
         {"unguided", "--guiding off", "light samples go to an environment by its brightness alone"},
+        {"denoised", "--denoise on", "the picture without its noise, and the time that takes"},
         {"even", "--even", "the same number of samples for every pixel"},
         {"no-roulette", "--roulette none", "paths end at the last bounce only"},
         {"hemisphere", fmt::format("--direct {}", nameOf(DirectLight::Hemisphere)),

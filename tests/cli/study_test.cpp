@@ -30,7 +30,9 @@ std::vector<std::string> tinyStudy(const ScratchFolder& folder) {
             "-c",
             "default",
             "-c",
-            "few=-a 2 {0.5}"};
+            "few=-a 2 {0.5}",
+            "-c",
+            "denoised"};
 }
 
 TEST(StudyCommand, MeasuresAndGoesOn) {
@@ -39,15 +41,23 @@ TEST(StudyCommand, MeasuresAndGoesOn) {
     ASSERT_EQ(run.exitCode, 0) << run.err;
     EXPECT_THAT(run.out, HasSubstr("cornell_spheres, 16 x 12; reference of 64 samples"));
     const auto json = nlohmann::json::parse(std::ifstream(folder.file("s/study.json")));
-    EXPECT_EQ(json["scenes"][0]["runs"].size(), 4u);
+    EXPECT_EQ(json["scenes"][0]["runs"].size(), 6u);
     EXPECT_GT(json["scenes"][0]["runs"][0]["points"][1]["wallSeconds"].get<double>(), 0);
+    for (const auto& one : json["scenes"][0]["runs"]) {
+        if (one["configuration"] != "denoised") continue;
+        EXPECT_EQ(one["points"].size(), 2u);
+        for (const auto& point : one["points"]) {
+            EXPECT_GT(point["cpuSeconds"].get<double>(), 0);
+            EXPECT_GT(point["relMse"].get<double>(), 0);
+        }
+    }
     for (const char* name : {"s/study.csv", "s/report.html", "s/references/cornell_spheres.exr",
                              "s/pictures/cornell_spheres-few-0-samples.png"})
         EXPECT_TRUE(std::filesystem::exists(folder.file(name))) << name;
 
     const ProgramRun again = stromboli(tinyStudy(folder));
     EXPECT_EQ(again.exitCode, 0);
-    EXPECT_THAT(again.err, HasSubstr("4 runs are there already"));
+    EXPECT_THAT(again.err, HasSubstr("6 runs are there already"));
     const auto kept = nlohmann::json::parse(std::ifstream(folder.file("s/study.json")));
     EXPECT_EQ(kept["scenes"][0]["runs"], json["scenes"][0]["runs"]);
 }
