@@ -99,7 +99,7 @@ void main() {
     Stack stack;
     clear(stack);
     const Given given = findGiven();
-    const Dispatch dispatch = dispatchConstants;
+    const Dispatch dispatch = dispatches[firstPlace()];
     const uint lane = gl_GlobalInvocationID.x;
     if (lane >= dispatch.laneCount) return;
     const PathSlot slot = slotOf(lane);

@@ -22,7 +22,7 @@ const uint KEPT = ALWAYS;
 
 /// Puts this lane's path into a queue, if `wanted`. One atomic operation for a subgroup.
 void enqueue(uint queue, bool wanted, PathSlot slot) {
-    const uint laneCount = dispatchConstants.laneCount;
+    const uint laneCount = dispatches[firstPlace()].laneCount;
     const uvec4 those = subgroupBallot(wanted);
     const uint count = subgroupBallotBitCount(those);
     uint first = 0u;
@@ -178,7 +178,7 @@ void lightPath(const Given given, const Dispatch dispatch, bool isThere, PathSlo
 
 void main() {
     const Given given = findGiven();
-    const Dispatch dispatch = dispatchConstants;
+    const Dispatch dispatch = dispatches[firstPlace()];
     const uint lane = gl_GlobalInvocationID.x;
     const PathSlot own = slotOf(lane);
     if (STAGE == STAGE_BEGIN) {
