@@ -32,6 +32,13 @@ void Media::define(const std::string& name, const Parameters& p,
         p.replaceParameter("preset", build::Shortfall::Model, "is '" + *preset + "'");
     if (kind == "rgbgrid") {
         readColoredGrid(p, scale, worldFromMedium, medium);
+    } else if (kind == "nanovdb") {
+        const auto color = [&](const char* what) {
+            return scale * colorOf(context_, p, what, ColorOf::Number).value_or(glm::dvec3(1.0));
+        };
+        medium.absorption = color("sigma_a");
+        medium.scattering = color("sigma_s");
+        readNanoMedium(context_, p, worldFromMedium, medium);
     } else if (kind == "homogeneous" || kind == "uniformgrid" || kind == "heterogeneous") {
         const bool isGrid = kind != "homogeneous";
         const glm::dvec3 one(1.0);
@@ -47,8 +54,8 @@ void Media::define(const std::string& name, const Parameters& p,
         else
             readEmission(context_, p, medium);
     } else {
-        p.place().fail(fmt::format("is '{}', expected homogeneous, uniformgrid, rgbgrid or "
-                                   "heterogeneous",
+        p.place().fail(fmt::format("is '{}', expected homogeneous, uniformgrid, rgbgrid, nanovdb "
+                                   "or heterogeneous",
                                    kind));
     }
     p.skip({"type"});

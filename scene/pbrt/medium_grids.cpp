@@ -1,6 +1,9 @@
 #include "scene/pbrt/medium_grids.hpp"
 
+#include "host/core/error.hpp"
+#include "scene/build/read_file.hpp"
 #include "scene/pbrt/colors.hpp"
+#include "scene/pbrt/nanovdb.hpp"
 
 #include <fmt/format.h>
 #include <glm/ext/matrix_transform.hpp>
@@ -154,6 +157,84 @@ void readGridEmission(const Context& context, const Parameters& p, Medium& mediu
         medium.colors.glow = glowTable(std::min(hottest, 1e6));
     }
     medium.colors.source = std::move(source);
+}
+
+namespace {
+
+/// A box of more cells has cells of several voxels: half a gigabyte.
+constexpr uint64_t kMostCells = uint64_t(1) << 27;
+
+/// At the middles of the density's cells; both grids are in the file's own space.
+ColorGrid glowOf(const DensityGrid& density, const DensityGrid& temperature, float scale,
+                 double offset, double perKelvin) {
+    ColorGrid source;
+    source.size = density.size;
+    source.toUnit = density.toUnit;
+    glm::dmat4 toUnit(1.0);
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 4; ++column)
+            toUnit[column][row] = density.toUnit[size_t(row)][column];
+    const glm::dmat4 fromUnit = glm::inverse(toUnit);
+    for (uint32_t z = 0; z < density.size.z; ++z)
+        for (uint32_t y = 0; y < density.size.y; ++y)
+            for (uint32_t x = 0; x < density.size.x; ++x) {
+                const glm::dvec3 middle = (glm::dvec3(x, y, z) + 0.5) / glm::dvec3(density.size);
+                const glm::dvec3 inFile(fromUnit * glm::dvec4(middle, 1));
+                const double kelvins =
+                    (temperature.at(temperature.place(inFile)) - offset) * perKelvin;
+                source.values.emplace_back(scale, usable(kelvins), 0);
+            }
+    return source;
+}
+
+/// The grid of that name, or nothing.
+std::optional<DensityGrid> nanoGrid(const Context& context, const Parameters& p,
+                                    const std::string& bytes, const std::string& file,
+                                    const std::string& name) {
+    std::optional<NanoGrid> read = readNanoGrid(bytes, file, name, kMostCells);
+    if (!read) return std::nullopt;
+    if (read->voxelsOfCell > 1)
+        context.report().replace(p.place(), build::Shortfall::Model,
+                                 fmt::format("has more than {} voxels of {}: cells of {} on a side",
+                                             kMostCells, name, read->voxelsOfCell));
+    return std::move(read->grid);
+}
+
+} // namespace
+
+void readNanoMedium(const Context& context, const Parameters& p, const glm::dmat4& worldFromMedium,
+                    Medium& medium) {
+    const std::string file =
+        context.files.find(p.place(), p.text("filename").value_or("")).string();
+    const std::string bytes = build::readFile(file);
+    std::optional<DensityGrid> density = nanoGrid(context, p, bytes, file, "density");
+    if (!density) throw SceneError(file, 0, "", "has no grid 'density'");
+    const double scale = p.number("Lescale", p.number("LeScale", 1, 0, 1e30), 0, 1e30);
+    const double offset =
+        p.number("temperatureoffset", p.number("temperaturecutoff", 0, -1e9, 1e9), -1e9, 1e9);
+    const double perKelvin = p.number("temperaturescale", 1, 0, 1e9);
+    if (scale > 0)
+        if (const auto temperature = nanoGrid(context, p, bytes, file, "temperature")) {
+            ColorGrid source = glowOf(*density, *temperature, usable(scale), offset, perKelvin);
+            float hottest = 0;
+            for (const glm::vec3& value : source.values)
+                hottest = std::max(hottest, value.y);
+            if (hottest > 0) {
+                medium.colors.glow = glowTable(std::min(double(hottest), 1e6));
+                medium.colors.source = std::move(source);
+            }
+        }
+    const glm::dmat4 mediumFromWorld = glm::inverse(worldFromMedium);
+    const auto place = [&](std::array<glm::dvec4, 3>& toUnit) {
+        for (glm::dvec4& row : toUnit) {
+            const glm::dvec4 inFile = row;
+            for (int column = 0; column < 4; ++column)
+                row[column] = glm::dot(inFile, mediumFromWorld[column]);
+        }
+    };
+    place(density->toUnit);
+    if (medium.colors.source) place(medium.colors.source->toUnit);
+    medium.density = std::move(*density);
 }
 
 GlowTable glowTable(double hottest) {

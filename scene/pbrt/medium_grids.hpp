@@ -23,6 +23,10 @@ void readColoredGrid(const Parameters& parameters, double scale, const glm::dmat
 /// factors that may vary.
 void readGridEmission(const Context& context, const Parameters& parameters, Medium& medium);
 
+/// nanovdb: densities and maybe temperatures of a file. Reports what was left out of them.
+void readNanoMedium(const Context& context, const Parameters& parameters,
+                    const glm::dmat4& worldFromMedium, Medium& medium);
+
 /// Light of black bodies up to that temperature, each with the peak 1 of its spectrum.
 GlowTable glowTable(double hottest);
 
