@@ -2,7 +2,8 @@
 """measure.py PROGRAM FOLDER SCENE... [--samples 16,64,256] [--seeds N] [--reference N] [--size W H]
 
 What the denoiser gains: renders each scene with --denoise on, and compares both the noisy picture and the denoised one
-(channels of one file) with two references of other seeds, which are kept in FOLDER. The product of the differences to both
+(channels of one file) with two references of other seeds, which are kept in FOLDER and have the same number of samples for
+all pixels. The product of the differences to both
 has the expectation of the squared error: the references' own errors do not count. For each number of samples a line: the
 noise and the error of the denoised picture (square roots of relMSE), by how much relMSE is divided, what the program has
 stated of its error and whether its range held, and by how much the light of the whole picture changed.
@@ -114,7 +115,7 @@ def main():
         for seed in (4711, 4712):
             file = os.path.join(o.folder, f"{name}-{o.reference}-{seed}.exr")
             if not os.path.exists(file):
-                run(o.program, "render", scene, "-o", file, "-s", o.reference, "--seed", seed, *common)
+                run(o.program, "render", scene, "-o", file, "-s", o.reference, "--even", "--seed", seed, *common)
             references.append(read_exr(file))
         for samples in map(int, o.samples.split(",")):
             for seed in range(1, o.seeds + 1):

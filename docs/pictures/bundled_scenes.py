@@ -1,0 +1,95 @@
+#!/usr/bin/python3
+"""Makes the pictures of bundled scenes.
+
+    docs/pictures/bundled_scenes.py overview FOLDER PICTURE.png
+    docs/pictures/bundled_scenes.py contact FOLDER SHEET.webp
+
+overview: the picture of README.md, three scenes side by side. contact: the sheet of docs/guide/denoise.md, a row for each
+scene: 32 samples a pixel, the same picture denoised, the same through the agx curve, and 4,096 samples. Pictures that are
+in FOLDER already are not rendered again. Needs the package python3-pil. The sheet takes some half an hour on two cores."""
+
+import argparse
+import os
+import pathlib
+import subprocess
+
+from PIL import Image, ImageDraw
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = os.environ.get("STROMBOLI", ROOT / "stromboli")  # another build of it
+
+OVERVIEW = (400, 300)
+OVERVIEW_SCENES = {
+    "still_life": ["-s", 1024],
+    "island": ["-s", 512],
+    "lighthouse": ["-s", 512],
+}
+
+SHEET, LABEL, GAP = (240, 180), 16, 4
+SHEET_SCENES = {
+    "still_life": [],
+    "island": [],
+    "lighthouse": [],
+    "cornell_mirror_glass": [],
+    "cornell_metal": [],
+    "light_sphere": [],
+    "texture_chart": [],
+    "generate:forest:200": ["--sun", "135,35"],
+}
+FEW, MANY = 32, 4096
+
+
+def stromboli(*words):
+    subprocess.run([PROGRAM, *map(str, words), "-q"], check=True)
+
+
+def rendered(file, scene, size, *words):
+    if not file.exists():
+        stromboli("render", scene, "-o", file, "-r", *size, *words)
+    return file
+
+
+def shown(file, *words):
+    """A picture for a screen of one with radiance."""
+    png = file.with_name("shown.png")
+    stromboli("tonemap", file, "-o", png, *words)
+    return Image.open(png).convert("RGB")
+
+
+def overview(folder, output):
+    width, height = OVERVIEW
+    sheet = Image.new("RGB", (len(OVERVIEW_SCENES) * (width + GAP) - GAP, height), "white")
+    for column, (scene, words) in enumerate(OVERVIEW_SCENES.items()):
+        picture = rendered(folder / f"overview-{scene}.png", scene, OVERVIEW, "--denoise", "on", "--view", "agx", *words)
+        sheet.paste(Image.open(picture).convert("RGB"), (column * (width + GAP), 0))
+    sheet.save(output, optimize=True)
+
+
+def contact(folder, output):
+    width, height = SHEET
+    columns = [f"{FEW} samples", "denoised", "denoised, agx", f"{MANY:,} samples"]
+    sheet = Image.new("RGB", (len(columns) * (width + GAP) - GAP, LABEL + len(SHEET_SCENES) * (height + GAP)), "white")
+    draw = ImageDraw.Draw(sheet)
+    for column, title in enumerate(columns):
+        draw.text((column * (width + GAP) + 2, 2), title, fill="black")
+    for row, (scene, words) in enumerate(SHEET_SCENES.items()):
+        name = scene.replace(":", "_")
+        few = rendered(folder / f"{name}-{FEW}.exr", scene, SHEET, "-s", FEW, "--denoise", "on", *words)
+        many = rendered(folder / f"{name}-{MANY}.exr", scene, SHEET, "-s", MANY, *words)
+        for column, picture in enumerate([shown(few, "--layer", "noisy"), shown(few), shown(few, "--view", "agx"), shown(many)]):
+            sheet.paste(picture, (column * (width + GAP), LABEL + row * (height + GAP)))
+    sheet.save(output, quality=85)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", choices=["overview", "contact"])
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("output", type=pathlib.Path)
+    o = parser.parse_args()
+    o.folder.mkdir(parents=True, exist_ok=True)
+    (overview if o.what == "overview" else contact)(o.folder, o.output)
+
+
+if __name__ == "__main__":
+    main()
