@@ -54,7 +54,7 @@ void traceDirectSample(const Given given, inout PathState path, LightSample ligh
     if (!hemisphere) noteLightSample(given.frame, path, light, path.directValue);
     if (RECORDS) recordLightSample(path, light, weight, true);
     const bool transmitted = isBehind(path.surface, light.direction);
-    const vec3 origin = leave(path.surface, light.direction, transmitted);
+    const vec3 origin = leaveThroughMedia(path.surface, light.direction, transmitted);
     // What the ray of hemisphere sampling goes through is known when it has arrived.
     if (HAS_ABSORPTION && !hemisphere)
         path.directValue *=

@@ -7,6 +7,9 @@
 const bool HAS_MEDIA = MEDIA != 0u;
 const bool HAS_ABSORPTION = (CLOSURES & (VOLUME_ABSORBS)) != 0u && !HAS_MEDIA;
 
+/// Borders without a material are met like all that has an opacity.
+const bool PASSES_BORDERS = HAS_MEDIA && HAS_ALPHA;
+
 bool mediaDo(uint bits) { return (MEDIA & bits) != 0u; }
 
 MediumBorder fetchBorder(uint materialRow) {
@@ -19,6 +22,15 @@ MediumBorder fetchBorder(uint materialRow) {
 uint mediumBehind(uint materialRow, uint here, bool outside) {
     const MediumBorder border = fetchBorder(materialRow);
     return border.isBorder == 0u ? here : (outside ? border.inside : border.outside);
+}
+
+/// Where a ray starts that leaves s towards w. What passes a surface that is no border starts on the side that it comes
+/// from, so that it meets a border in the surface's plane, whichever of the two has been met first.
+vec3 leaveThroughMedia(SurfacePoint s, vec3 w, bool transmitted) {
+    vec3 origin = leave(s, w, transmitted);
+    if (PASSES_BORDERS && transmitted && s.skipPrimitive != NO_PRIMITIVE && fetchBorder(s.material).isBorder == 0u)
+        origin = s.position + offsetLength(s.error, s.geometric) * s.geometric;
+    return origin;
 }
 
 /// Where light comes from that leaves s: `here`, or what is beyond s.

@@ -79,6 +79,7 @@ void arrive(const Given given, inout PathState path) {
     }
     if (!inMedium) path.surface = surfaceAt(path.ray);
     if (inMedium) path.surface = pointInMedium(path.ray, path.medium);
+    else settleMedium(path);
     if (INTEGRATOR == INTEGRATOR_NORMALS) {
         path.radiance = 0.5 * shadingNormal(path.surface) + 0.5;
         return;
@@ -185,7 +186,7 @@ void scatter(const Given given, inout PathState path, vec3 u, float roulette) {
         path.departureNormal = transmitted ? -path.departureNormal : path.departureNormal;
     }
     path.medium = mediumBeyond(path.surface, path.material, path.medium, transmitted);
-    traceFrom(path, path.surface, PHASE_PATH, leave(path.surface, b.direction, transmitted), b.direction,
+    traceFrom(path, path.surface, PHASE_PATH, leaveThroughMedia(path.surface, b.direction, transmitted), b.direction,
               INFINITE_DISTANCE, transmitted);
 }
 

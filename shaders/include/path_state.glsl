@@ -24,6 +24,14 @@ struct SplitPoint {
     uint medium;
 };
 
+/// What of a ray decides in which media it is where borders and surfaces lie in one plane, so that rounding says which of
+/// them is met first (docs/theory/media.md, "Borders in the planes of surfaces").
+struct Crossing {
+    uint medium;   ///< the last one that the ray was in for longer than rounding can make up
+    float error;   ///< bound of the distance between what it has passed last and its plane; below 0: it has passed nothing
+    bool isUntold; ///< the border passed last says that the ray was in another medium before than it was
+};
+
 /// All that a lane knows of the path it follows and of the pixel that the path belongs to. Functions say in
 /// their signatures whether they read it (a copy) or change it (inout); the specialiser makes a variable of
 /// each member and drops those that a scene does not need (host/spirv).
@@ -43,6 +51,7 @@ struct PathState {
     vec3 radiance;
     uint medium;          ///< that the path ray goes through: the first row of a material, or NO_MEDIUM
     uint shadowMedium;    ///< likewise, of the light sample's ray under way; in scenes with media
+    Crossing crossing;    ///< of the ray under way, where rays pass borders
     bool countsEmission;  ///< light that the ray finds adds to the picture ...
     float bouncePdf;      ///< ... weighted (mis.glsl), by this density of the ray's direction; 0: not weighted
     vec3 departureNormal; ///< shading normal of the surface that the ray has left, for that weight
@@ -120,6 +129,7 @@ void trace(inout PathState path, uint newPhase, vec3 origin, vec3 direction, flo
     path.ray.skipPrimitive = skipPrimitive;
     path.ray.passed = NO_PRIMITIVE;
     path.rayEnd = tMax;
+    if (PASSES_BORDERS) path.crossing = Crossing(newPhase == PHASE_PATH ? path.medium : path.shadowMedium, -1.0, false);
     path.ray.skipPlacement = NO_PLACEMENT;
 }
 

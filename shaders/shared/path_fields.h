@@ -67,6 +67,9 @@
     F(vec3, path.radiance, true, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
     F(uint, path.medium, true, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
     F(uint, path.shadowMedium, MEDIA != 0u, BY_FOLLOW, BY_FOLLOW | BY_LIGHT) \
+    F(uint, path.crossing.medium, MEDIA != 0u && HAS_ALPHA, BY_FOLLOW, BY_SERVICE | BY_LIGHT) \
+    F(float, path.crossing.error, MEDIA != 0u && HAS_ALPHA, BY_FOLLOW, BY_SERVICE | BY_LIGHT) \
+    F(bool, path.crossing.isUntold, MEDIA != 0u && HAS_ALPHA, BY_FOLLOW, BY_SERVICE | BY_LIGHT) \
     F(bool, path.countsEmission, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(float, path.bouncePdf, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(vec3, path.departureNormal, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \

@@ -1,0 +1,63 @@
+#include "host/reference/crossing.hpp"
+
+#include <cmath>
+
+namespace stromboli::reference {
+namespace {
+
+const Medium* mediumNumbered(const Scene& scene, uint32_t number) {
+    return number == kNoMedium ? nullptr : &scene.media.at(number);
+}
+
+/// Bound of the distance between the surface at that point and one that is meant to lie in its
+/// plane: errorOnTriangle() has 16 roundings of doubles, and positions are rounded to floats once.
+double distanceOfCopy(const SurfacePoint& s) {
+    return s.error * (1 + 0x1p-24 / (16 * kRoundoff));
+}
+
+/// Bound of the distance, along the normal, of the plane that is meant from where the ray meets the
+/// surface.
+double planeError(const Ray& ray, const SurfacePoint& s) {
+    const glm::dvec3 o = glm::abs(ray.origin);
+    return distanceOfCopy(s) + 16 * kRoundoff * (o.x + o.y + o.z);
+}
+
+} // namespace
+
+Filling behind(const Scene& scene, const SurfacePoint& s, const Filling& here) {
+    const Material& m = *s.material;
+    if (!m.boundsMedia) return here;
+    return {nullptr, mediumNumbered(scene, s.outside ? m.inside : m.outside)};
+}
+
+bool Crossing::isInPassedPlane(const Ray& ray, const SurfacePoint& s, double from, double t) const {
+    const double beyond = (t - from) * std::abs(glm::dot(ray.direction, s.geometric));
+    return error_ >= 0 && beyond <= error_ + planeError(ray, s);
+}
+
+Filling Crossing::pass(const Scene& scene, const Ray& ray, const SurfacePoint& s, double from,
+                       double t, const Filling& here) {
+    const bool isSamePlane = isInPassedPlane(ray, s, from, t);
+    if (!isSamePlane) settled_ = here;
+    error_ = planeError(ray, s);
+    const Material& m = *s.material;
+    const Medium* before = mediumNumbered(scene, s.outside ? m.outside : m.inside);
+    // Of two borders in one plane, the one that says where the ray has come from is passed first.
+    const bool isEarlier = isSamePlane && isUntold_ && before == settled_.medium;
+    isUntold_ = m.boundsMedia && !isEarlier && before != here.medium;
+    return isEarlier ? here : behind(scene, s, here);
+}
+
+Filling Crossing::arrive(const Ray& ray, const SurfacePoint& s, double from, double t,
+                         const Filling& here) const {
+    return isInPassedPlane(ray, s, from, t) ? settled_ : here;
+}
+
+Ray rayThroughMedia(const Scene& scene, const SurfacePoint& s, const glm::dvec3& direction) {
+    const bool isPane =
+        !scene.media.empty() && !s.material->boundsMedia && s.triangle != kNoPrimitive;
+    return isPane ? Ray{s.position + 2 * distanceOfCopy(s) * s.geometric, direction}
+                  : transmittedRay(s, direction);
+}
+
+} // namespace stromboli::reference
