@@ -3,6 +3,7 @@
 #include "host/reference/bsdf.hpp"
 #include "host/reference/medium.hpp"
 #include "host/reference/sampling.hpp"
+#include "shaders/shared/medium_types.h"
 
 #include <cmath>
 #include <limits>
@@ -56,7 +57,8 @@ World::World(const Scene& s, const ShadingConventions& c)
                                        return m.alphaMode != AlphaMode::Opaque ||
                                               m.isHiddenFromCamera;
                                    })),
-      mediaShine(std::ranges::any_of(s.media, &Medium::emits)) {
+      mediaShine(std::ranges::any_of(s.media, &Medium::emits)),
+      hasWalks(std::ranges::any_of(s.media, &Medium::isUnderSurface)) {
     for (const Medium& m : s.media)
         mostExtinction.push_back(reference::mostExtinction(m));
 }
@@ -74,12 +76,13 @@ glm::dvec3 PathSample::radiance(const Ray& cameraRay, uint32_t medium) {
     radiance_ += light;
     noteArrival(cameraRay, hits, light);
     if (!hits) return radiance_;
-    follow(1, settings_.branches > 1);
+    follow(numberAfter(0), settings_.branches > 1);
     return radiance_;
 }
 
 void PathSample::follow(uint32_t bounce, bool splits) {
-    for (; bounce <= settings_.maxBounces; ++bounce) {
+    for (; bounce <= settings_.maxBounces; bounce = numberAfter(bounce)) {
+        if (isUnderSurface() && ++uncounted_ > gpu::MOST_UNDER_SURFACE) return;
         if (!surface_.medium) {
             if (surface_.material->isBlackBehind && isSeenFromBehind(surface_)) return;
             faceForward(surface_, world_.conventions);
@@ -105,7 +108,7 @@ void PathSample::followBranches(uint32_t bounce) {
         random_ = before.random_.branch(branch, settings_.branches);
         branch_ = branch + 1;
         if (branch > 0) noteReturn();
-        if (scatter(bounce)) follow(bounce + 1, false);
+        if (scatter(bounce)) follow(numberAfter(bounce), false);
     }
     radiance_ = before.radiance_ + radiance_ / double(settings_.branches);
 }
@@ -118,7 +121,9 @@ bool PathSample::scatter(uint32_t bounce) {
     if (!survives) return false;
 
     const glm::dvec3 found = shareFound(bounce, next);
-    if (bounce == settings_.maxBounces && !(largest(found) > 0) && !world_.mediaShine) return false;
+    if (bounce == settings_.maxBounces && !(largest(found) > 0) && !world_.mediaShine &&
+        !world_.hasWalks)
+        return false;
     filling_ = beyond(next.transmitted());
     scatterings_ = bounce;
     const Ray ray = next.transmitted() ? rayThroughMedia(world_.scene, surface_, next.direction)
@@ -242,8 +247,10 @@ bool PathSample::survivesFixed() {
 bool PathSample::survivesThroughput(uint32_t bounce) {
     goesOn_ = 1;
     if (settings_.roulette.mode != Roulette::Mode::Throughput) return true;
-    if (bounce < settings_.roulette.throughputStart) return true;
-    const double q = std::min(Roulette::kMaxContinue, Roulette::kBoldness * largest(throughput_));
+    if (bounce + uncounted_ < settings_.roulette.throughputStart) return true;
+    // A walk under a surface takes hundreds of scatterings that lose nothing.
+    const double most = isUnderSurface() ? 1 : Roulette::kMaxContinue;
+    const double q = std::min(most, Roulette::kBoldness * largest(throughput_));
     goesOn_ = q;
     throughput_ /= q;
     return random_.next() < q;

@@ -24,6 +24,7 @@ struct World {
     bool hasDetails; ///< materials have textures, or corners have attributes
     bool hasAlpha;   ///< some surface may be partly not there, or hidden from the camera
     bool mediaShine; ///< a medium emits light
+    bool hasWalks;   ///< a medium lies under a surface
     std::vector<double> mostExtinction; ///< by medium of the scene (medium.hpp)
 
     World(const Scene& s, const ShadingConventions& c);
@@ -104,6 +105,11 @@ class PathSample {
     glm::dvec3 shareThatPasses(const Ray& ray, Skip skip, Filling filling) const;
     /// The share of the light that the ray after this scattering finds that adds to the picture.
     glm::dvec3 shareFound(uint32_t bounce, const BsdfSample& next) const;
+    /// Whether the path has come to where it is under a surface, so that a scattering there does not
+    /// count.
+    bool isUnderSurface() const { return filling_.medium && filling_.medium->isUnderSurface; }
+    /// The number of a scattering that follows number `bounce`.
+    uint32_t numberAfter(uint32_t bounce) const { return isUnderSurface() ? bounce : bounce + 1; }
     bool survivesFixed();
     bool survivesThroughput(uint32_t bounce);
     void addDirectLight();
@@ -133,7 +139,8 @@ class PathSample {
     RandomStream passes_; ///< for surfaces that are partly not there
     SurfacePoint surface_;
     Filling filling_;
-    uint32_t scatterings_ = 0; ///< before the path ray under way
+    uint32_t scatterings_ = 0; ///< before the path ray under way, those that count
+    uint32_t uncounted_ = 0;   ///< under surfaces
     /// The surface as light samples see it: of the side that they go to.
     SurfacePoint lit_;
     glm::dvec3 throughput_{1.0}, radiance_{0.0};

@@ -75,6 +75,10 @@ struct Medium {
     float asymmetry = 0; ///< Henyey-Greenstein: the mean cosine g, within kMostAsymmetry of 0
     /// Beside that function, which has what their shares leave of 1: at most kMostPhases - 1.
     std::vector<PhaseLobe> otherPhases;
+    /// It lies under a surface that scatters light as its formats say that a surface does: what
+    /// happens in it, and on its boundary from inside, does not count as a bounce, and light
+    /// samples, in whose way the surface would be, are not taken in it.
+    bool isUnderSurface = false;
     std::optional<DensityGrid> density; ///< none: the same everywhere, but for `colors`
     MediumColors colors;
 

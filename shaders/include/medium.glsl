@@ -17,6 +17,13 @@ MediumBorder fetchBorder(uint materialRow) {
     return MediumBorder(r.x, r.y, r.z, r.w);
 }
 
+/// Whether a medium lies under a surface, so that what happens in it does not count.
+bool isUnderSurface(uint medium) {
+    if (!mediaDo(MEDIA_UNDER_SURFACE)) return false;
+    const uint closures = ROW(materialRows, medium == NO_MEDIUM ? 0u : medium).w;
+    return medium != NO_MEDIUM && (closures & LOBE_DELTA_REFLECTION) != 0u;
+}
+
 /// What is beyond the surface of a material, for what goes through it; outside: it comes from where the stored normal
 /// points to.
 uint mediumBehind(uint materialRow, uint here, bool outside) {

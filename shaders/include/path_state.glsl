@@ -21,6 +21,7 @@ struct SplitPoint {
     SurfacePoint surface;
     vec3 throughput; ///< before scattering
     uint bounce;     ///< 0: has not split
+    uint uncounted;
     uint medium;
 };
 
@@ -47,6 +48,7 @@ struct PathState {
     float filterWeight; ///< of the sample (pixel_filter.glsl)
 
     uint bounce; ///< scatterings so far
+    uint uncounted; ///< of these: under surfaces, which do not count for the most and the fewest there may be
     vec3 throughput;
     vec3 radiance;
     uint medium;          ///< that the path ray goes through: the first row of a material, or NO_MEDIUM
@@ -89,6 +91,11 @@ const uint BRANCH_BLOCKS = 0x80000000u;
 
 /// Direct light samples at a surface: directions of hemisphere sampling, then samples of lights.
 uint directSamples(const Frame frame) { return frame.hemisphereSamples + frame.lightSamples; }
+
+/// Scatterings that count so far.
+uint countedBounces(PathState path) {
+    return mediaDo(MEDIA_UNDER_SURFACE) ? path.bounce - path.uncounted : path.bounce;
+}
 
 /// The number of the sample under way, or the next one, of this pixel.
 uint sampleIndex(const Frame frame, PathState path) { return frame.firstSample + path.pixelState.count + path.pixelState.rejected; }

@@ -18,11 +18,15 @@ SHARED_BEGIN
     F(MEDIA_VARY_EXTINCTION, 5, "extinction of varying colours") \
     F(MEDIA_VARY_SCATTERING, 6, "scattering of varying colours") \
     F(MEDIA_VARY_SOURCE, 7, "emission of varying colours") \
-    F(MEDIA_GLOW, 8, "glow by temperature")
+    F(MEDIA_GLOW, 8, "glow by temperature") \
+    F(MEDIA_UNDER_SURFACE, 9, "walks under surfaces")
 
 #define NAME_MEDIA(name, bit, label) SHARED_CONST uint name = 1u << bit;
 MEDIA_LIST(NAME_MEDIA)
 #undef NAME_MEDIA
+
+/// Scatterings of a path under surfaces end with this one: it is in a white medium that it does not leave.
+SHARED_CONST uint MOST_UNDER_SURFACE = 65536u;
 
 /// No medium begins at that row.
 SHARED_CONST uint NO_MEDIUM = 0xFFFFFFFFu;

@@ -50,6 +50,7 @@
     F(uint, job.target, true, BY_ALL, BY_DEPART) \
     F(uint, path.phase, true, BY_ALL | AT_PAUSE, BY_SERVICE | BY_LIGHT | AT_PAUSE) \
     F(uint, path.bounce, true, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
+    F(uint, path.uncounted, mediaDo(MEDIA_UNDER_SURFACE), BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
     F(vec3, path.ray.origin, true, BY_ALL | AT_PAUSE, BY_SERVICE | BY_LIGHT | AT_PAUSE) \
     F(vec3, path.ray.direction, true, BY_ALL | AT_PAUSE, BY_SERVICE | BY_LIGHT | AT_PAUSE) \
     F(float, path.ray.tMin, true, BY_ALL, BY_SERVICE | BY_LIGHT) \
@@ -95,6 +96,7 @@
     F(uvec4, path.material.row8, HAS_IRIDESCENCE, BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
     F(vec3, path.splitPoint.throughput, SPLITS, AT_RETURN | AT_PAUSE, AT_SPLIT | AT_PAUSE) \
     F(uint, path.splitPoint.bounce, SPLITS, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
+    F(uint, path.splitPoint.uncounted, SPLITS && mediaDo(MEDIA_UNDER_SURFACE), AT_RETURN | AT_PAUSE, AT_SPLIT | AT_PAUSE) \
     F(uint, path.splitPoint.medium, SPLITS, AT_RETURN | AT_PAUSE, AT_SPLIT | AT_PAUSE) \
     SURFACE_FIELDS(F, path.splitPoint.surface, SPLITS, AT_RETURN | AT_PAUSE, AT_SPLIT | AT_PAUSE) \
     F(uint, path.branchesLeft, SPLITS, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
