@@ -131,7 +131,7 @@ bool goThroughMedium(const Given given, inout PathState path) {
         if (isPath && !varies && !SEES) r = flyFreely(m, carried, length_, mediumNumbers(words, 0u));
         if (varies) r = trackGrid(m, here, path.ray, carried, isPath && !SEES, words);
         if (SEES) path.seen.albedo.xyz += path.throughput * (1.0 - r.weight) * m.albedo;
-        if (mediaDo(MEDIA_SHINE) && isPath && countedBounces(path) >= given.frame.minBounce) path.radiance += path.throughput * r.shone;
+        if (mediaDo(MEDIA_SHINE) && isPath && countedBounces(path.bounce, path.uncounted) >= given.frame.minBounce) path.radiance += path.throughput * r.shone;
         if (isPath) path.throughput *= r.weight;
         else path.directValue *= r.weight;
         isUnderWay = r.isUnderWay;
@@ -195,7 +195,6 @@ void passIntoMedium(inout PathState path) {
 
 /// At path.surface: a border in its plane is not passed.
 void settleMedium(inout PathState path) {
-    if (!PASSES_BORDERS) return;
     const SurfacePoint s = path.surface;
     const float error = planeError(s.error, s.geometric, path.ray.origin);
     if (isInPassedPlane(path.ray, path.crossing, s.geometric, error)) path.medium = path.crossing.medium;

@@ -7,6 +7,8 @@
 const bool HAS_MEDIA = MEDIA != 0u;
 const bool HAS_ABSORPTION = (CLOSURES & (VOLUME_ABSORBS)) != 0u && !HAS_MEDIA;
 
+/// Paths walk under surfaces, where nothing counts.
+const bool WALKS = (MEDIA & MEDIA_UNDER_SURFACE) != 0u;
 /// Borders without a material are met like all that has an opacity.
 const bool PASSES_BORDERS = HAS_MEDIA && HAS_ALPHA;
 
@@ -19,7 +21,6 @@ MediumBorder fetchBorder(uint materialRow) {
 
 /// Whether a medium lies under a surface, so that what happens in it does not count.
 bool isUnderSurface(uint medium) {
-    if (!mediaDo(MEDIA_UNDER_SURFACE)) return false;
     const uint closures = ROW(materialRows, medium == NO_MEDIUM ? 0u : medium).w;
     return medium != NO_MEDIUM && (closures & LOBE_DELTA_REFLECTION) != 0u;
 }

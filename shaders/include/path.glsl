@@ -57,7 +57,7 @@ void finishHemisphereRay(inout PathState path) {
 
 /// Adds the light of the sky that the path ray has found. share: of it that is this ray's (foundShare()).
 void takeInSky(const Frame frame, inout PathState path, FoundSky sky, float share) {
-    const bool counts = path.countsEmission || AMBIENT_BY_BOUNCES && countedBounces(path) >= frame.minBounce;
+    const bool counts = path.countsEmission || AMBIENT_BY_BOUNCES && countedBounces(path.bounce, path.uncounted) >= frame.minBounce;
     const bool adds = counts && (path.bounce > 0u || HAS_BACKDROP) && BOUNCES_FIND_ALL_LIGHT;
     if (adds) path.radiance += path.throughput * sky.radiance * share;
     if (RECORDS) recordMiss(path, adds ? path.throughput * sky.radiance * share : vec3(0.0), share);
@@ -79,7 +79,7 @@ void arrive(const Given given, inout PathState path) {
     }
     if (!inMedium) path.surface = surfaceAt(path.ray);
     if (inMedium) path.surface = pointInMedium(path.ray, path.medium);
-    else settleMedium(path);
+    if (PASSES_BORDERS && !inMedium) settleMedium(path);
     if (INTEGRATOR == INTEGRATOR_NORMALS) {
         path.radiance = 0.5 * shadingNormal(path.surface) + 0.5;
         return;
@@ -112,15 +112,15 @@ void arrive(const Given given, inout PathState path) {
     }
     if (reliefRules(path.material) != 0u && dot(shadingNormal(path.surface), path.surface.wo) <= 0.0) return;
     ++path.bounce;
-    if (isUnderSurface(path.medium)) ++path.uncounted;
-    if (countedBounces(path) > given.frame.maxBounces) return;
-    if (mediaDo(MEDIA_UNDER_SURFACE) && path.uncounted >= MOST_UNDER_SURFACE) return;
+    if (WALKS && isUnderSurface(path.medium)) ++path.uncounted;
+    if (countedBounces(path.bounce, path.uncounted) > given.frame.maxBounces) return;
+    if (WALKS && path.uncounted >= MOST_UNDER_SURFACE) return;
     if (ROULETTE == ROULETTE_FIXED) {
         if (path.arrivalNumbers.z < given.frame.terminationProbability) return;
         path.throughput /= 1.0 - given.frame.terminationProbability;
     }
     const bool direct =
-        scattersIntoManyDirections(lobesOf(path.material)) && countedBounces(path) >= given.frame.minBounce;
+        scattersIntoManyDirections(lobesOf(path.material)) && countedBounces(path.bounce, path.uncounted) >= given.frame.minBounce;
     path.directIndex = direct ? 0u : directSamples(given.frame);
     path.phase = PHASE_DIRECT;
 }
@@ -131,7 +131,7 @@ void arrive(const Given given, inout PathState path) {
 
 /// Whether light found by the bounce from here, from one of these lobes, adds to the picture.
 bool emissionCounts(const Frame frame, PathState path, uint lobes) {
-    return countedBounces(path) >= frame.minBounce &&
+    return countedBounces(path.bounce, path.uncounted) >= frame.minBounce &&
            (isDelta(lobes) || combines(lobes) ||
             DIRECT_LIGHT == DIRECT_BSDF && BOUNCES_FIND_ALL_LIGHT);
 }
@@ -150,14 +150,14 @@ void nextBranch(inout PathState path, Material material) {
     path.material = inMixture(material, path.surface);
     path.throughput = path.splitPoint.throughput;
     path.bounce = path.splitPoint.bounce;
-    path.uncounted = path.splitPoint.uncounted;
+    if (WALKS) path.uncounted = path.splitPoint.uncounted;
     path.medium = path.splitPoint.medium;
     path.phase = PHASE_BOUNCE;
 }
 
 /// No bounce from here would be traced.
 bool endsHere(const Frame frame, PathState path) {
-    return path.bounce == frame.maxBounces && !AMBIENT_BY_BOUNCES && !mediaDo(MEDIA_SHINE | MEDIA_UNDER_SURFACE) && !emissionCounts(frame, path, lobesOf(path.material));
+    return path.bounce == frame.maxBounces && !AMBIENT_BY_BOUNCES && !mediaDo(MEDIA_SHINE) && !WALKS && !emissionCounts(frame, path, lobesOf(path.material));
 }
 
 /// u: as sampleBsdf() takes it; roulette: for the path's end.
@@ -175,7 +175,8 @@ void scatter(const Given given, inout PathState path, vec3 u, float roulette) {
     }
     if (ROULETTE == ROULETTE_THROUGHPUT && path.bounce >= ROULETTE_START) {
         // A walk under a surface takes hundreds of scatterings that lose nothing.
-        const float most = isUnderSurface(path.medium) ? 1.0 : ROULETTE_MAX_CONTINUE;
+        float most = ROULETTE_MAX_CONTINUE;
+        if (WALKS && isUnderSurface(path.medium)) most = 1.0;
         const float q = min(most, ROULETTE_BOLDNESS * largest);
         if (roulette >= q) return;
         path.throughput *= 1.0 / q;

@@ -93,9 +93,7 @@ const uint BRANCH_BLOCKS = 0x80000000u;
 uint directSamples(const Frame frame) { return frame.hemisphereSamples + frame.lightSamples; }
 
 /// Scatterings that count so far.
-uint countedBounces(PathState path) {
-    return mediaDo(MEDIA_UNDER_SURFACE) ? path.bounce - path.uncounted : path.bounce;
-}
+uint countedBounces(uint bounce, uint uncounted) { return WALKS ? bounce - uncounted : bounce; }
 
 /// The number of the sample under way, or the next one, of this pixel.
 uint sampleIndex(const Frame frame, PathState path) { return frame.firstSample + path.pixelState.count + path.pixelState.rejected; }
