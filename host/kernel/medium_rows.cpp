@@ -195,9 +195,15 @@ void nameBorders(std::vector<Row>& rows, std::span<const Material> materials,
     const auto rowOf = [&](uint32_t medium) {
         return medium == kNoMedium ? gpu::NO_MEDIUM : mediumRow[medium];
     };
+    const uint32_t rowsOfMedium = mediumRow.size() > 1 ? mediumRow[1] - mediumRow[0] : 0;
     for (size_t i = 0; i < materials.size(); ++i) {
         const Material& m = materials[i];
-        const gpu::MediumBorder border{rowOf(m.inside), rowOf(m.outside), m.boundsMedia, 0};
+        gpu::MediumBorder border{rowOf(m.inside), rowOf(m.outside), 0, 0};
+        if (m.boundsMedia) border.isBorder = gpu::BORDER_OF_MEDIA;
+        if (m.boundsMedia && m.outsideIsOpen) {
+            border.isBorder = gpu::BORDER_OF_VOLUME;
+            border.volume = (m.inside + 1) | rowsOfMedium << 8;
+        }
         rows[materialRow[i] - gpu::MEDIUM_BORDER_ROWS] = std::bit_cast<Row>(border);
     }
 }

@@ -63,6 +63,7 @@ struct FieldConditions {
         constexpr uint32_t uint_ = 1, float_ = 1, bool_ = 1, vec2_ = 2, vec3_ = 3, vec4_ = 4,
                            uvec4_ = 4;
         using gpu::LOBE_DIFFUSE_TRANSMISSION;
+        using gpu::MEDIA_OVERLAP;
         using gpu::MEDIA_UNDER_SURFACE;
         uint32_t sum = 0;
 #define ADD_WORDS(type, member, exists, readers, writers)                                          \

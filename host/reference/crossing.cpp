@@ -1,9 +1,14 @@
 #include "host/reference/crossing.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace stromboli::reference {
 namespace {
+
+/// As many as the kernel remembers.
+constexpr size_t kMostVolumesAtOnce = 4;
 
 const Medium* mediumNumbered(const Scene& scene, uint32_t number) {
     return number == kNoMedium ? nullptr : &scene.media.at(number);
@@ -24,10 +29,28 @@ double planeError(const Ray& ray, const SurfacePoint& s) {
 
 } // namespace
 
+Filling fillingOf(const Medium* medium) {
+    return {nullptr, medium, {}, medium};
+}
+
 Filling behind(const Scene& scene, const SurfacePoint& s, const Filling& here) {
     const Material& m = *s.material;
     if (!m.boundsMedia) return here;
-    return {nullptr, mediumNumbered(scene, s.outside ? m.inside : m.outside)};
+    Filling filling = here;
+    const Medium* stated = mediumNumbered(scene, s.outside ? m.inside : m.outside);
+    std::vector<uint32_t>& volumes = filling.volumes;
+    if (!m.outsideIsOpen) {
+        filling.around = stated;
+    } else if (s.outside) {
+        volumes.insert(std::ranges::upper_bound(volumes, m.inside, std::greater()), m.inside);
+        if (volumes.size() > kMostVolumesAtOnce) volumes.pop_back();
+    } else if (const auto left = std::ranges::find(volumes, m.inside); left != volumes.end()) {
+        volumes.erase(left);
+    } else { // the ray began in it
+        filling.around = stated;
+    }
+    filling.medium = volumes.empty() ? filling.around : mediumNumbered(scene, volumes.front());
+    return filling;
 }
 
 bool Crossing::isInPassedPlane(const Ray& ray, const SurfacePoint& s, double from, double t) const {
@@ -43,8 +66,10 @@ Filling Crossing::pass(const Scene& scene, const Ray& ray, const SurfacePoint& s
     const Material& m = *s.material;
     const Medium* before = mediumNumbered(scene, s.outside ? m.outside : m.inside);
     // Of two borders in one plane, the one that says where the ray has come from is passed first.
-    const bool isEarlier = isSamePlane && isUntold_ && before == settled_.medium;
-    isUntold_ = m.boundsMedia && !isEarlier && before != here.medium;
+    // Volumes are in no order.
+    const bool isOfMedia = m.boundsMedia && !m.outsideIsOpen;
+    const bool isEarlier = isOfMedia && isSamePlane && isUntold_ && before == settled_.medium;
+    isUntold_ = isOfMedia && !isEarlier && before != here.medium;
     return isEarlier ? here : behind(scene, s, here);
 }
 

@@ -4,6 +4,8 @@
 #include "host/reference/surface.hpp"
 #include "scene/model/medium.hpp"
 
+#include <vector>
+
 namespace stromboli::reference {
 
 /// What a path is in between two surfaces.
@@ -11,7 +13,14 @@ struct Filling {
     const Material* volume =
         nullptr;                    ///< whose inside it is, which absorbs; in scenes without media
     const Medium* medium = nullptr; ///< in scenes with media
+    /// Where volumes overlap: numbers of the media of those that it is in, the one that counts
+    /// first, and what is around them.
+    std::vector<uint32_t> volumes;
+    const Medium* around = nullptr;
 };
+
+/// In that medium, or none, and in no volume.
+Filling fillingOf(const Medium* medium);
 
 /// What is behind a surface that is passed from there, in a scene with media.
 Filling behind(const Scene& scene, const SurfacePoint& surface, const Filling& here);

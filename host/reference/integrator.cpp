@@ -67,7 +67,7 @@ PathSample::PathSample(const World& world, const Estimator& settings, const Rand
     : world_(world), settings_(settings), random_(random), passes_(random.apart()) {}
 
 glm::dvec3 PathSample::radiance(const Ray& cameraRay, uint32_t medium) {
-    if (medium != kNoMedium) filling_.medium = &world_.scene.media.at(medium);
+    if (medium != kNoMedium) filling_ = fillingOf(&world_.scene.media.at(medium));
     const bool hits = arriveFromCamera(cameraRay);
     glm::dvec3 light(0.0);
     if (settings_.minBounce == 0 && hits) light = throughput_ * emission(surface_);
@@ -289,7 +289,7 @@ Filling PathSample::beyond(bool transmitted) const {
     if (!transmitted) return filling_;
     if (m.boundsMedia) return behind(world_.scene, surface_, filling_);
     if (!boundsVolume(m) || !world_.scene.media.empty()) return filling_;
-    return {surface_.outside ? surface_.stated : nullptr, nullptr};
+    return {surface_.outside ? surface_.stated : nullptr, nullptr, {}, nullptr};
 }
 
 void PathSample::addDirectLightOfSide() {

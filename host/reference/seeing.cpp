@@ -103,7 +103,7 @@ namespace {
 class Haze {
   public:
     Haze(const World& world, uint32_t medium) : scene_(world.scene) {
-        if (medium != kNoMedium) here_.medium = &scene_.media.at(medium);
+        if (medium != kNoMedium) here_ = fillingOf(&scene_.media.at(medium));
     }
 
     /// To the hit, on a ray that begins at `from` or has passed something there.

@@ -117,7 +117,9 @@ void goOnFrom(inout Traversal t, float from, float end) {
 bool goThroughMedium(const Given given, inout PathState path) {
     if (!HAS_MEDIA) return false;
     const bool isPath = path.phase == PHASE_PATH;
-    const uint here = isPath ? path.medium : path.shadowMedium;
+    Filling filling = path.filling;
+    if (!isPath) filling = path.shadowFilling;
+    const uint here = filling.medium;
     const bool isBlocked = !isPath && path.phase == PHASE_SHADOW && !HAS_ALPHA && path.ray.hitPrimitive != NO_PRIMITIVE;
     bool isUnderWay = false;
     if (isTracing(path.phase) && here != NO_MEDIUM && !isBlocked) {
@@ -137,7 +139,7 @@ bool goThroughMedium(const Given given, inout PathState path) {
         isUnderWay = r.isUnderWay;
         if (isUnderWay) {
             goOnFrom(path.ray, path.ray.tMin + r.distance / perUnit, path.rayEnd);
-            if (PASSES_BORDERS) path.crossing = Crossing(here, -1.0, false);
+            if (PASSES_BORDERS) path.crossing = Crossing(filling, -1.0, false);
         } else if (isPath && r.scatters) {
             path.ray.tMax = path.ray.tMin + r.distance;
             path.ray.hitPrimitive = IN_MEDIUM;
@@ -179,23 +181,27 @@ bool isInPassedPlane(Traversal t, Crossing c, vec3 normal, float error) {
 void passIntoMedium(inout PathState path) {
     if (!HAS_MEDIA) return;
     const bool isPath = path.phase == PHASE_PATH;
-    const uint here = isPath ? path.medium : path.shadowMedium;
+    Filling here = path.filling;
+    if (!isPath) here = path.shadowFilling;
     const PassedPlace place = placePassed(path.ray);
     const MediumBorder border = fetchBorder(materialOf(fetchPrimitive(fetchPlace(path.ray.hitPrimitive).primitive)));
-    const uint before = place.outside ? border.outside : border.inside, behind = place.outside ? border.inside : border.outside;
+    const uint before = place.outside ? border.outside : border.inside;
     const float error = planeError(place.error, place.normal, path.ray.origin);
     const bool isSamePlane = isInPassedPlane(path.ray, path.crossing, place.normal, error);
-    const uint settled = isSamePlane ? path.crossing.medium : here;
-    const bool isEarlier = isSamePlane && path.crossing.isUntold && before == settled;
-    const bool stays = border.isBorder == 0u || isEarlier;
-    path.crossing = Crossing(settled, error, border.isBorder != 0u && !isEarlier && before != here);
-    if (isPath) path.medium = stays ? here : behind;
-    else path.shadowMedium = stays ? here : behind;
+    if (!isSamePlane) path.crossing.filling = here;
+    // Volumes are in no order.
+    const bool isOfMedia = border.isBorder == BORDER_OF_MEDIA;
+    const bool isEarlier = isOfMedia && isSamePlane && path.crossing.isUntold && before == path.crossing.filling.medium;
+    path.crossing.error = error;
+    path.crossing.isUntold = isOfMedia && !isEarlier && before != here.medium;
+    if (!isEarlier) here = fillingBehind(border, here, place.outside);
+    if (isPath) path.filling = here;
+    else path.shadowFilling = here;
 }
 
 /// At path.surface: a border in its plane is not passed.
 void settleMedium(inout PathState path) {
     const SurfacePoint s = path.surface;
     const float error = planeError(s.error, s.geometric, path.ray.origin);
-    if (isInPassedPlane(path.ray, path.crossing, s.geometric, error)) path.medium = path.crossing.medium;
+    if (isInPassedPlane(path.ray, path.crossing, s.geometric, error)) path.filling = path.crossing.filling;
 }

@@ -25,11 +25,57 @@ bool isUnderSurface(uint medium) {
     return medium != NO_MEDIUM && (closures & LOBE_DELTA_REFLECTION) != 0u;
 }
 
-/// What is beyond the surface of a material, for what goes through it; outside: it comes from where the stored normal
-/// points to.
-uint mediumBehind(uint materialRow, uint here, bool outside) {
-    const MediumBorder border = fetchBorder(materialRow);
-    return border.isBorder == 0u ? here : (outside ? border.inside : border.outside);
+/// What a ray goes through. In scenes whose volumes overlap (MEDIA_OVERLAP) also the volumes that it is in, which say
+/// what `medium` is, and what is around them.
+struct Filling {
+    uint medium;  ///< the first row of a material, or NO_MEDIUM
+    uint volumes; ///< up to four numbers of volumes, a byte each, the largest first; 0: in none
+    uint around;
+};
+
+Filling fillingOf(uint medium) { return Filling(medium, 0u, medium); }
+
+/// How many of four bytes, the largest first, are at least that.
+uint bytesFrom(uint bytes, uint least) {
+    return ((bytes >> 24u) >= least ? 1u : 0u) + ((bytes >> 16u & 255u) >= least ? 1u : 0u) +
+           ((bytes >> 8u & 255u) >= least ? 1u : 0u) + ((bytes & 255u) >= least ? 1u : 0u);
+}
+
+/// All bits of the bytes behind the first `count`, which are 4 at most.
+uint bytesBehind(uint count) { return count > 3u ? 0u : 0xFFFFFFFFu >> (8u * count); }
+
+/// Of five volumes the one of the smallest number is forgotten.
+uint withVolume(uint volumes, uint number) {
+    const uint before = bytesFrom(volumes, number), rest = bytesBehind(before);
+    return volumes & ~rest | (rest & ~(rest >> 8u)) & number * 0x01010101u | (volumes & rest) >> 8u;
+}
+
+/// Once less, if it is there.
+uint withoutVolume(uint volumes, uint number) {
+    const uint before = bytesFrom(volumes, number + 1u), rest = bytesBehind(before), after = bytesBehind(before + 1u);
+    const bool isThere = bytesFrom(volumes, number) > before;
+    return isThere ? volumes & ~rest | (volumes & after) << 8u : volumes;
+}
+
+/// What is beyond the border, for what goes through it; outside: it comes from where the stored normal points to. A volume
+/// that has not been entered is left for what surrounds the scene.
+Filling fillingBehind(MediumBorder border, Filling here, bool outside) {
+    const uint behind = outside ? border.inside : border.outside;
+    Filling filling = here;
+    if (mediaDo(MEDIA_OVERLAP)) {
+        const bool isVolume = border.isBorder == BORDER_OF_VOLUME;
+        const uint number = border.volume & 255u, rows = border.volume >> 8u;
+        const uint volumes = outside ? withVolume(here.volumes, number) : withoutVolume(here.volumes, number);
+        const bool isLost = !outside && volumes == here.volumes;
+        if (isVolume) filling.volumes = volumes;
+        if (border.isBorder == BORDER_OF_MEDIA || isVolume && isLost) filling.around = behind;
+        const uint top = filling.volumes >> 24u;
+        if (isVolume) filling.medium = top == 0u ? filling.around : border.inside + top * rows - number * rows;
+        else if (top == 0u) filling.medium = filling.around;
+    } else if (border.isBorder != 0u) {
+        filling.medium = behind;
+    }
+    return filling;
 }
 
 /// Where a ray starts that leaves s towards w. What passes a surface that is no border starts on the side that it comes
@@ -41,11 +87,18 @@ vec3 leaveThroughMedia(SurfacePoint s, vec3 w, bool transmitted) {
     return origin;
 }
 
-/// Where light comes from that leaves s: `here`, or what is beyond s.
-uint mediumBeyond(SurfacePoint s, Material m, uint here, bool transmitted) {
-    if (HAS_MEDIA) return transmitted ? mediumBehind(s.material, here, s.outside) : here;
-    if (!HAS_ABSORPTION || !transmitted || !boundsVolume(m)) return here;
+/// In scenes without media.
+uint volumeBeyond(SurfacePoint s, Material m, uint here, bool transmitted) {
+    if (!transmitted || !boundsVolume(m)) return here;
     return s.outside ? s.material : NO_MEDIUM;
+}
+
+/// Where light comes from that leaves s: `here`, or what is beyond s.
+Filling fillingBeyond(SurfacePoint s, Material m, Filling here, bool transmitted) {
+    Filling filling = here;
+    if (HAS_MEDIA && transmitted) filling = fillingBehind(fetchBorder(s.material), here, s.outside);
+    if (HAS_ABSORPTION) filling.medium = volumeBeyond(s, m, here.medium, transmitted);
+    return filling;
 }
 
 /// The share of light that is left after that distance in a volume that absorbs (Beer and Lambert). Media are another

@@ -23,7 +23,7 @@ float foundShare(const Given given, PathState path, FoundSky sky) {
 }
 
 MaterialPoint askedPoint(PathState path) {
-    if (scattersInMedium(path.ray)) return MaterialPoint(path.medium, NO_PRIMITIVE, vec2(0.0));
+    if (scattersInMedium(path.ray)) return MaterialPoint(path.filling.medium, NO_PRIMITIVE, vec2(0.0));
     if (path.ray.hitPrimitive != NO_PRIMITIVE) return materialPoint(path.ray.hitPrimitive, vec2(path.ray.b1, path.ray.b2));
     if (emissionHasFactors() && isToLight(path.phase)) return path.sampledEmitter;
     return MaterialPoint(0u, NO_PRIMITIVE, vec2(0.0));
@@ -48,7 +48,7 @@ void finishHemisphereRay(inout PathState path) {
         const SurfacePoint s = surfaceAt(path.ray);
         arriving = emissionAt(s, materialAt(s));
     }
-    arriving *= transmittance(mediumBeyond(path.surface, path.material, path.medium, isBehind(path.surface, path.ray.direction)),
+    arriving *= transmittance(fillingBeyond(path.surface, path.material, path.filling, isBehind(path.surface, path.ray.direction)).medium,
                            path.ray.tMax);
     path.radiance += path.throughput * path.directValue * arriving;
     if (RECORDS) recordArrivedLight(path, path.throughput * path.directValue * arriving);
@@ -71,14 +71,14 @@ void arrive(const Given given, inout PathState path) {
     if (!hit) sky = skyFrom(path.departureNormal, path.departureTable, path.ray.direction);
     float share = 1.0;
     if (!inMedium) share = foundShare(given, path, sky);
-    path.throughput *= transmittance(path.medium, hit ? path.ray.tMax : INFINITE_DISTANCE);
+    path.throughput *= transmittance(path.filling.medium, hit ? path.ray.tMax : INFINITE_DISTANCE);
     if (!hit) {
         if (SEES) seeNothing(path);
         else takeInSky(given.frame, path, sky, share);
         return;
     }
     if (!inMedium) path.surface = surfaceAt(path.ray);
-    if (inMedium) path.surface = pointInMedium(path.ray, path.medium);
+    if (inMedium) path.surface = pointInMedium(path.ray, path.filling.medium);
     if (PASSES_BORDERS && !inMedium) settleMedium(path);
     if (INTEGRATOR == INTEGRATOR_NORMALS) {
         path.radiance = 0.5 * shadingNormal(path.surface) + 0.5;
@@ -112,7 +112,7 @@ void arrive(const Given given, inout PathState path) {
     }
     if (reliefRules(path.material) != 0u && dot(shadingNormal(path.surface), path.surface.wo) <= 0.0) return;
     ++path.bounce;
-    if (WALKS && isUnderSurface(path.medium)) ++path.uncounted;
+    if (WALKS && isUnderSurface(path.filling.medium)) ++path.uncounted;
     if (countedBounces(path.bounce, path.uncounted) > given.frame.maxBounces) return;
     if (WALKS && path.uncounted >= MOST_UNDER_SURFACE) return;
     if (ROULETTE == ROULETTE_FIXED) {
@@ -138,7 +138,7 @@ bool emissionCounts(const Frame frame, PathState path, uint lobes) {
 
 /// All branches are of one weight. From here on `radiance` is their sum, until finishSample.
 void splitPath(const Frame frame, inout PathState path) {
-    path.splitPoint = SplitPoint(path.surface, path.throughput, path.bounce, path.uncounted, path.medium);
+    path.splitPoint = SplitPoint(path.surface, path.throughput, path.bounce, path.uncounted, path.filling);
     path.branchesLeft = frame.branches - 1u;
     path.radiance *= float(frame.branches);
 }
@@ -151,7 +151,7 @@ void nextBranch(inout PathState path, Material material) {
     path.throughput = path.splitPoint.throughput;
     path.bounce = path.splitPoint.bounce;
     if (WALKS) path.uncounted = path.splitPoint.uncounted;
-    path.medium = path.splitPoint.medium;
+    path.filling = path.splitPoint.filling;
     path.phase = PHASE_BOUNCE;
 }
 
@@ -176,7 +176,7 @@ void scatter(const Given given, inout PathState path, vec3 u, float roulette) {
     if (ROULETTE == ROULETTE_THROUGHPUT && path.bounce >= ROULETTE_START) {
         // A walk under a surface takes hundreds of scatterings that lose nothing.
         float most = ROULETTE_MAX_CONTINUE;
-        if (WALKS && isUnderSurface(path.medium)) most = 1.0;
+        if (WALKS && isUnderSurface(path.filling.medium)) most = 1.0;
         const float q = min(most, ROULETTE_BOLDNESS * largest);
         if (roulette >= q) return;
         path.throughput *= 1.0 / q;
@@ -191,7 +191,7 @@ void scatter(const Given given, inout PathState path, vec3 u, float roulette) {
         path.bouncePdf *= 2.0;
         path.departureNormal = transmitted ? -path.departureNormal : path.departureNormal;
     }
-    path.medium = mediumBeyond(path.surface, path.material, path.medium, transmitted);
+    path.filling = fillingBeyond(path.surface, path.material, path.filling, transmitted);
     traceFrom(path, path.surface, PHASE_PATH, leaveThroughMedia(path.surface, b.direction, transmitted), b.direction,
               INFINITE_DISTANCE, transmitted);
 }
@@ -204,7 +204,7 @@ void beginSample(const Frame frame, inout PathState path) {
     path.countsEmission = frame.minBounce == 0u;
     path.bouncePdf = 0.0;
     path.departureTable = GUIDES_LIGHT ? GUIDE_NODES : OWN_TABLE;
-    path.medium = HAS_MEDIA ? frame.cameraMedium : NO_MEDIUM;
+    path.filling = fillingOf(HAS_MEDIA ? frame.cameraMedium : NO_MEDIUM);
     path.splitPoint.bounce = 0u;
     path.branchesLeft = 0u;
     if (RECORDS) path.eventCount = 0u;
