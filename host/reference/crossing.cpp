@@ -65,7 +65,7 @@ Filling Crossing::pass(const Scene& scene, const Ray& ray, const SurfacePoint& s
     error_ = planeError(ray, s);
     const Material& m = *s.material;
     const Medium* before = mediumNumbered(scene, s.outside ? m.outside : m.inside);
-    // Of two borders in one plane, the one that says where the ray has come from is passed first.
+    // The border that says where the ray has come from is the first of two in one plane.
     // Volumes are in no order.
     const bool isOfMedia = m.boundsMedia && !m.outsideIsOpen;
     const bool isEarlier = isOfMedia && isSamePlane && isUntold_ && before == settled_.medium;

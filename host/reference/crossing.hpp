@@ -29,7 +29,7 @@ Filling behind(const Scene& scene, const SurfacePoint& surface, const Filling& h
 /// which of them is met first (docs/theory/media.md, "Borders in the planes of surfaces").
 class Crossing {
   public:
-    /// Of a ray that begins there.
+    /// For a ray that begins there.
     explicit Crossing(const Filling& start) : settled_(start) {}
 
     /// The ray passes a surface at the distance t, having passed another one, or begun, at `from`.

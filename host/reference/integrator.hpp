@@ -105,7 +105,7 @@ class PathSample {
     glm::dvec3 shareThatPasses(const Ray& ray, Skip skip, Filling filling) const;
     /// The share of the light that the ray after this scattering finds that adds to the picture.
     glm::dvec3 shareFound(uint32_t bounce, const BsdfSample& next) const;
-    /// Whether the path has come to where it is under a surface, so that a scattering there does not
+    /// Whether the path has come under a surface, so that a scattering there does not
     /// count.
     bool isUnderSurface() const { return filling_.medium && filling_.medium->isUnderSurface; }
     /// The number of a scattering that follows number `bounce`.

@@ -247,7 +247,7 @@ void searchBorders(const Scene& scene, BorderSearch& search) {
         if (scene.materials[s.material].boundsMedia) search.sphere(s, scene.materials[s.material]);
 }
 
-/// Of the volumes that may overlap and in which the place is, the one that counts.
+/// The volume that counts, of those that may overlap and in which the place is.
 std::optional<uint32_t> volumeAt(const Scene& scene, const glm::dvec3& place) {
     if (std::ranges::none_of(scene.materials, &Material::outsideIsOpen)) return std::nullopt;
     // A direction that no scene has: edges would count twice.

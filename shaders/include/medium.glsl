@@ -44,7 +44,7 @@ uint bytesFrom(uint bytes, uint least) {
 /// All bits of the bytes behind the first `count`, which are 4 at most.
 uint bytesBehind(uint count) { return count > 3u ? 0u : 0xFFFFFFFFu >> (8u * count); }
 
-/// Of five volumes the one of the smallest number is forgotten.
+/// A fifth volume takes the place of the smallest number.
 uint withVolume(uint volumes, uint number) {
     const uint before = bytesFrom(volumes, number), rest = bytesBehind(before);
     return volumes & ~rest | (rest & ~(rest >> 8u)) & number * 0x01010101u | (volumes & rest) >> 8u;

@@ -58,7 +58,7 @@ TEST(Subsurface, WalksDoNotCountAsBounces) {
     }
 }
 
-/// The same medium, where everything counts, is darker with few bounces and the same with many.
+/// A medium where everything counts is darker with few bounces, and the same with many.
 TEST(Subsurface, IsTheMediumWithEnoughBounces) {
     const Medium m = mediumOf(glm::vec3(0.1f, 0.3f, 1), glm::vec3(6), 0.3f);
     const Camera camera = pointCamera({0, 0.3, 3}, {0, 0.3, 0});
@@ -109,7 +109,7 @@ TEST(Subsurface, MediaHaveTheReflectanceThatIsAskedFor) {
     }
 }
 
-/// With an interface light is sent back inside, which is not as diffuse as the formula takes it.
+/// An interface sends light back inside, which is not as diffuse as the formula takes it.
 TEST(Subsurface, InterfacesAreCountedIn) {
     const glm::dvec3 asked(0.25, 0.5, 0.8);
     const double ior = 1.33;

@@ -67,7 +67,7 @@ TEST(Volumes, AreEnteredTwice) {
     boxes.expect(6.0 * glm::dvec3(kThin));
 }
 
-/// With faces in one plane, whatever the order in which they are met.
+/// Faces lie in one plane, whatever the order in which they are met.
 TEST(Volumes, ShareFaces) {
     Boxes boxes;
     const uint32_t thin = boxes.material(kThin);
