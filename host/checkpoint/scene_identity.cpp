@@ -127,12 +127,13 @@ void add(Sum& sum, const Grid<Value>& grid) {
 }
 
 void add(Sum& sum, const Medium& m) {
-    const auto& [name, absorption, scattering, emission, phase, asymmetry, otherPhases, density,
-                 colors] = m;
+    const auto& [name, absorption, scattering, emission, phase, asymmetry, otherPhases,
+                 isUnderSurface, density, colors] = m;
     sum.add(absorption), sum.add(scattering), sum.add(emission), sum.add(phase);
     sum.add(asymmetry);
     for (const PhaseLobe& lobe : otherPhases)
         sum.add(lobe.phase), sum.add(lobe.asymmetry), sum.add(lobe.share);
+    if (isUnderSurface) sum.add(uint32_t(5));
     if (density) add(sum, *density);
     const auto& [extinctionColors, scatteringColors, isFactor, source, glow] = colors;
     if (extinctionColors) sum.add(uint32_t(1)), add(sum, *extinctionColors);

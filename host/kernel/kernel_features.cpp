@@ -121,15 +121,17 @@ uint32_t directLightConstant(DirectLight mode) {
 }
 
 /// Roulette by throughput never acts on paths shorter than where it starts.
-uint32_t rouletteConstant(const Estimator& settings) {
+uint32_t rouletteConstant(const GpuScene& scene, const Estimator& settings) {
     switch (settings.roulette.mode) {
     case Roulette::Mode::None:
         return gpu::ROULETTE_NONE;
     case Roulette::Mode::Fixed:
         return gpu::ROULETTE_FIXED;
     case Roulette::Mode::Throughput:
-        return settings.maxBounces < settings.roulette.throughputStart ? gpu::ROULETTE_NONE
-                                                                       : gpu::ROULETTE_THROUGHPUT;
+        return settings.maxBounces < settings.roulette.throughputStart &&
+                       (scene.media & gpu::MEDIA_UNDER_SURFACE) == 0
+                   ? gpu::ROULETTE_NONE
+                   : gpu::ROULETTE_THROUGHPUT;
     }
     return gpu::ROULETTE_NONE;
 }

@@ -302,6 +302,8 @@ MaterialRows packMaterials(std::span<const Material> materials,
     }
     packed.media = appendMedia(packed.rows, media, !details.empty());
     if (!media.empty()) nameBorders(packed.rows, materials, packed.firstRow, packed.media.firstRow);
+    if (std::ranges::any_of(materials, &Material::outsideIsOpen))
+        packed.media.kinds |= gpu::MEDIA_OVERLAP;
     // The kernel reads as many rows from the first on, for materials without a table.
     packed.rows.resize(
         std::max(packed.rows.size() + kMostRows - 1, size_t(gpu::TRANSMITTANCE_PIECES)));

@@ -32,7 +32,8 @@ gpu::PhaseMixture mixtureOf(const Medium& m) {
 
 uint32_t closuresOf(const Medium& m) {
     if (!m.scatters()) return 0;
-    return gpu::PHASE_FUNCTION | gpu::LOBE_DIFFUSE_REFLECTION |
+    return gpu::PHASE_FUNCTION |
+           (m.isUnderSurface ? gpu::LOBE_DELTA_REFLECTION : gpu::LOBE_DIFFUSE_REFLECTION) |
            (std::ranges::any_of(m.phases(), isRayleigh) ? gpu::PHASE_IS_RAYLEIGH : 0);
 }
 
@@ -43,7 +44,8 @@ uint32_t kindsOf(const Medium& m) {
            (m.colors.extinction ? gpu::MEDIA_VARY_EXTINCTION : 0) |
            (m.colors.scattering && m.scatters() ? gpu::MEDIA_VARY_SCATTERING : 0) |
            (m.colors.source && m.emits() ? gpu::MEDIA_VARY_SOURCE : 0) |
-           (m.colors.glow && m.emits() ? gpu::MEDIA_GLOW : 0);
+           (m.colors.glow && m.emits() ? gpu::MEDIA_GLOW : 0) |
+           (m.scatters() && m.isUnderSurface ? gpu::MEDIA_UNDER_SURFACE : 0);
 }
 
 glm::vec3 albedoOf(const Medium& m) {
@@ -193,9 +195,15 @@ void nameBorders(std::vector<Row>& rows, std::span<const Material> materials,
     const auto rowOf = [&](uint32_t medium) {
         return medium == kNoMedium ? gpu::NO_MEDIUM : mediumRow[medium];
     };
+    const uint32_t rowsOfMedium = mediumRow.size() > 1 ? mediumRow[1] - mediumRow[0] : 0;
     for (size_t i = 0; i < materials.size(); ++i) {
         const Material& m = materials[i];
-        const gpu::MediumBorder border{rowOf(m.inside), rowOf(m.outside), m.boundsMedia, 0};
+        gpu::MediumBorder border{rowOf(m.inside), rowOf(m.outside), 0, 0};
+        if (m.boundsMedia) border.isBorder = gpu::BORDER_OF_MEDIA;
+        if (m.boundsMedia && m.outsideIsOpen) {
+            border.isBorder = gpu::BORDER_OF_VOLUME;
+            border.volume = (m.inside + 1) | rowsOfMedium << 8;
+        }
         rows[materialRow[i] - gpu::MEDIUM_BORDER_ROWS] = std::bit_cast<Row>(border);
     }
 }

@@ -49,9 +49,12 @@ struct FieldConditions {
         return sceneHas(gpu::CLOSURE_COAT) && sceneHas(gpu::RECIPE_PRINCIPLED) &&
                (sceneHasSlot(gpu::TEXTURE_NORMAL) || sceneHasSlot(gpu::TEXTURE_CLEARCOAT_NORMAL));
     }
+    bool mediaDo(uint32_t bits) const {
+        return (MEDIA & bits) != 0;
+    }
     bool materialsHaveRow(uint32_t row) const {
         return row <= 1 || sceneHas(gpu::closuresWithRow(row)) ||
-               (row == gpu::MEDIUM_PHASES_ROW && (MEDIA & gpu::MEDIA_MIX) != 0);
+               (row == gpu::MEDIUM_PHASES_ROW && mediaDo(gpu::MEDIA_MIX));
     }
 
     uint32_t words(PathScheduler scheduler) const {
@@ -60,6 +63,8 @@ struct FieldConditions {
         constexpr uint32_t uint_ = 1, float_ = 1, bool_ = 1, vec2_ = 2, vec3_ = 3, vec4_ = 4,
                            uvec4_ = 4;
         using gpu::LOBE_DIFFUSE_TRANSMISSION;
+        using gpu::MEDIA_OVERLAP;
+        using gpu::MEDIA_UNDER_SURFACE;
         uint32_t sum = 0;
 #define ADD_WORDS(type, member, exists, readers, writers)                                          \
     sum += (exists) && ((readers)&kept) != 0 ? type##_ : 0;

@@ -171,6 +171,12 @@ BsdfValue evaluateThose(const SurfacePoint& s, const glm::dvec3& wi,
     return sum;
 }
 
+/// Under surfaces, where no light samples are taken, light comes by bounces alone, as to delta
+/// lobes.
+uint32_t phaseLobe(const Medium& m) {
+    return m.isUnderSurface ? gpu::LOBE_DELTA_REFLECTION : gpu::LOBE_DIFFUSE_REFLECTION;
+}
+
 BsdfValue evaluatePhase(const SurfacePoint& s, const glm::dvec3& wi) {
     const double density = phaseDensity(*s.medium, -glm::dot(s.wo, wi));
     return {glm::dvec3(density), density};
@@ -287,7 +293,7 @@ uint32_t lobesOf(const Material& material) {
 }
 
 uint32_t lobesOf(const SurfacePoint& s) {
-    if (s.medium) return gpu::LOBE_DIFFUSE_REFLECTION;
+    if (s.medium) return phaseLobe(*s.medium);
     uint32_t lobes = lobesOf(*s.material);
     for (const SurfacePoint::Part& part : s.others)
         lobes |= lobesOf(*part.material);
@@ -321,7 +327,7 @@ BsdfSample sampleBsdf(const SurfacePoint& s, const glm::dvec3& u,
         const glm::dvec3 wi = samplePhase(*s.medium, -s.wo, u.x, u.y);
         const double density = evaluatePhase(s, wi).pdf;
         const double narrow = narrowPhaseDensity(*s.medium, -glm::dot(s.wo, wi));
-        return {wi, glm::dvec3(1.0), density, gpu::LOBE_DIFFUSE_REFLECTION,
+        return {wi, glm::dvec3(1.0), density, phaseLobe(*s.medium),
                 glm::dvec3(isNarrow(*s.medium) ? 1.0 : narrow / density)};
     }
     const Frame frame = surfaceFrame(s);

@@ -3,6 +3,7 @@
 #include "host/reference/bsdf.hpp"
 #include "host/reference/medium.hpp"
 #include "host/reference/sampling.hpp"
+#include "shaders/shared/medium_types.h"
 
 #include <cmath>
 #include <limits>
@@ -48,11 +49,25 @@ SurfacePoint pointInMedium(const Ray& ray, double t, const Medium& medium) {
 
 } // namespace
 
+World::World(const Scene& s, const ShadingConventions& c)
+    : scene(s), conventions(c), bvh(s), lights(s, c),
+      hasDetails(!s.textures.empty() || !s.attributes.empty()),
+      hasAlpha(std::ranges::any_of(s.materials,
+                                   [](const Material& m) {
+                                       return m.alphaMode != AlphaMode::Opaque ||
+                                              m.isHiddenFromCamera;
+                                   })),
+      mediaShine(std::ranges::any_of(s.media, &Medium::emits)),
+      hasWalks(std::ranges::any_of(s.media, &Medium::isUnderSurface)) {
+    for (const Medium& m : s.media)
+        mostExtinction.push_back(reference::mostExtinction(m));
+}
+
 PathSample::PathSample(const World& world, const Estimator& settings, const RandomStream& random)
     : world_(world), settings_(settings), random_(random), passes_(random.apart()) {}
 
 glm::dvec3 PathSample::radiance(const Ray& cameraRay, uint32_t medium) {
-    if (medium != kNoMedium) filling_.medium = &world_.scene.media.at(medium);
+    if (medium != kNoMedium) filling_ = fillingOf(&world_.scene.media.at(medium));
     const bool hits = arriveFromCamera(cameraRay);
     glm::dvec3 light(0.0);
     if (settings_.minBounce == 0 && hits) light = throughput_ * emission(surface_);
@@ -61,12 +76,13 @@ glm::dvec3 PathSample::radiance(const Ray& cameraRay, uint32_t medium) {
     radiance_ += light;
     noteArrival(cameraRay, hits, light);
     if (!hits) return radiance_;
-    follow(1, settings_.branches > 1);
+    follow(numberAfter(0), settings_.branches > 1);
     return radiance_;
 }
 
 void PathSample::follow(uint32_t bounce, bool splits) {
-    for (; bounce <= settings_.maxBounces; ++bounce) {
+    for (; bounce <= settings_.maxBounces; bounce = numberAfter(bounce)) {
+        if (isUnderSurface() && ++uncounted_ > gpu::MOST_UNDER_SURFACE) return;
         if (!surface_.medium) {
             if (surface_.material->isBlackBehind && isSeenFromBehind(surface_)) return;
             faceForward(surface_, world_.conventions);
@@ -92,7 +108,7 @@ void PathSample::followBranches(uint32_t bounce) {
         random_ = before.random_.branch(branch, settings_.branches);
         branch_ = branch + 1;
         if (branch > 0) noteReturn();
-        if (scatter(bounce)) follow(bounce + 1, false);
+        if (scatter(bounce)) follow(numberAfter(bounce), false);
     }
     radiance_ = before.radiance_ + radiance_ / double(settings_.branches);
 }
@@ -105,10 +121,12 @@ bool PathSample::scatter(uint32_t bounce) {
     if (!survives) return false;
 
     const glm::dvec3 found = shareFound(bounce, next);
-    if (bounce == settings_.maxBounces && !(largest(found) > 0) && !world_.mediaShine) return false;
+    if (bounce == settings_.maxBounces && !(largest(found) > 0) && !world_.mediaShine &&
+        !world_.hasWalks)
+        return false;
     filling_ = beyond(next.transmitted());
     scatterings_ = bounce;
-    const Ray ray = next.transmitted() ? transmittedRay(surface_, next.direction)
+    const Ray ray = next.transmitted() ? rayThroughMedia(world_.scene, surface_, next.direction)
                                        : reflectedRay(surface_, next.direction);
     const uint32_t start = next.transmitted() ? surface_.triangle : startOfReflected(surface_);
     const bool hit = arrive(ray, {start});
@@ -155,32 +173,32 @@ bool PathSample::arriveAt(const Ray& ray, const Hit& hit) {
 bool PathSample::travel(const Ray& ray, Skip skip, bool fromCamera) {
     Hit hit;
     double from = ray.tMin;
+    Crossing crossing(filling_);
     while (true) {
         hit = world_.bvh.closestBehind(ray, hit, skip);
         const bool misses = hit.primitive == kNoPrimitive;
         if (scattersInMedium(ray, from, misses ? kInfinite : hit.t)) return true;
         if (misses) return false;
         const bool isHidden = fromCamera && isHiddenFromCamera(world_.scene, hit);
-        if (!isHidden && passes_.next() < opacityAt(world_, hit)) return arriveAt(ray, hit);
-        filling_ = behind(ray, hit, filling_);
+        const SurfacePoint met = surfaceAt(world_.scene, ray, hit);
+        if (!isHidden && passes_.next() < opacityAt(world_, hit)) {
+            filling_ = crossing.arrive(ray, met, from, hit.t, filling_);
+            return arriveAt(ray, hit);
+        }
+        filling_ = crossing.pass(world_.scene, ray, met, from, hit.t, filling_);
         from = hit.t;
     }
 }
 
 bool PathSample::scattersInMedium(const Ray& ray, double from, double to) {
     if (!filling_.medium) return false;
-    const MediumEvent event = flyThrough(*filling_.medium, ray, from, to, throughput_, passes_);
+    const auto number = size_t(filling_.medium - world_.scene.media.data());
+    const MediumEvent event = flyThrough(*filling_.medium, world_.mostExtinction[number], ray, from,
+                                         to, throughput_, passes_);
     if (scatterings_ >= settings_.minBounce) radiance_ += throughput_ * event.shone;
     throughput_ *= event.weight;
     if (event.scatters) surface_ = pointInMedium(ray, event.distance, *filling_.medium);
     return event.scatters;
-}
-
-Filling PathSample::behind(const Ray& ray, const Hit& hit, Filling filling) const {
-    const SurfacePoint s = surfaceAt(world_.scene, ray, hit);
-    if (!s.material->boundsMedia) return filling;
-    const uint32_t number = s.outside ? s.material->inside : s.material->outside;
-    return {nullptr, number == kNoMedium ? nullptr : &world_.scene.media.at(number)};
 }
 
 Hit PathSample::closest(const Ray& ray, Skip skip) {
@@ -194,6 +212,7 @@ glm::dvec3 PathSample::shareThatPasses(const Ray& ray, Skip skip, Filling fillin
     glm::dvec3 left(1.0);
     Hit hit;
     double from = ray.tMin;
+    Crossing crossing(filling);
     while (largest(left) > 0) {
         hit = world_.bvh.closestBehind(ray, hit, skip);
         const bool misses = hit.primitive == kNoPrimitive;
@@ -201,7 +220,9 @@ glm::dvec3 PathSample::shareThatPasses(const Ray& ray, Skip skip, Filling fillin
             left *= transmittance(*filling.medium, ray, from, misses ? ray.tMax : hit.t);
         if (misses) break;
         left *= 1 - opacityAt(world_, hit);
-        if (hasMedia) filling = behind(ray, hit, filling);
+        if (hasMedia)
+            filling = crossing.pass(world_.scene, ray, surfaceAt(world_.scene, ray, hit), from,
+                                    hit.t, filling);
         from = hit.t;
     }
     return left;
@@ -226,8 +247,10 @@ bool PathSample::survivesFixed() {
 bool PathSample::survivesThroughput(uint32_t bounce) {
     goesOn_ = 1;
     if (settings_.roulette.mode != Roulette::Mode::Throughput) return true;
-    if (bounce < settings_.roulette.throughputStart) return true;
-    const double q = std::min(Roulette::kMaxContinue, Roulette::kBoldness * largest(throughput_));
+    if (bounce + uncounted_ < settings_.roulette.throughputStart) return true;
+    // A walk under a surface takes hundreds of scatterings that lose nothing.
+    const double most = isUnderSurface() ? 1 : Roulette::kMaxContinue;
+    const double q = std::min(most, Roulette::kBoldness * largest(throughput_));
     goesOn_ = q;
     throughput_ /= q;
     return random_.next() < q;
@@ -253,7 +276,8 @@ bool PathSample::isOfSide(const glm::dvec3& direction) const {
 }
 
 Ray PathSample::leaveTo(const glm::dvec3& direction) const {
-    return looksBehind() ? transmittedRay(surface_, direction) : reflectedRay(surface_, direction);
+    return looksBehind() ? rayThroughMedia(world_.scene, surface_, direction)
+                         : reflectedRay(surface_, direction);
 }
 
 uint32_t PathSample::startOfLightSample() const {
@@ -263,12 +287,9 @@ uint32_t PathSample::startOfLightSample() const {
 Filling PathSample::beyond(bool transmitted) const {
     const Material& m = *surface_.material;
     if (!transmitted) return filling_;
-    if (m.boundsMedia) {
-        const uint32_t number = surface_.outside ? m.inside : m.outside;
-        return {nullptr, number == kNoMedium ? nullptr : &world_.scene.media.at(number)};
-    }
+    if (m.boundsMedia) return behind(world_.scene, surface_, filling_);
     if (!boundsVolume(m) || !world_.scene.media.empty()) return filling_;
-    return {surface_.outside ? surface_.stated : nullptr, nullptr};
+    return {surface_.outside ? surface_.stated : nullptr, nullptr, {}, nullptr};
 }
 
 void PathSample::addDirectLightOfSide() {

@@ -2,12 +2,14 @@
 
 #include "host/reference/bsdf.hpp"
 #include "host/reference/bvh.hpp"
+#include "host/reference/crossing.hpp"
 #include "host/reference/lights.hpp"
 #include "host/render/estimator.hpp"
 #include "host/render/layers.hpp"
 #include "host/render/recorded_path.hpp"
 
 #include <algorithm>
+#include <vector>
 
 namespace stromboli::reference {
 
@@ -22,16 +24,10 @@ struct World {
     bool hasDetails; ///< materials have textures, or corners have attributes
     bool hasAlpha;   ///< some surface may be partly not there, or hidden from the camera
     bool mediaShine; ///< a medium emits light
+    bool hasWalks;   ///< a medium lies under a surface
+    std::vector<double> mostExtinction; ///< by medium of the scene (medium.hpp)
 
-    World(const Scene& s, const ShadingConventions& c)
-        : scene(s), conventions(c), bvh(s), lights(s, c),
-          hasDetails(!s.textures.empty() || !s.attributes.empty()),
-          hasAlpha(std::ranges::any_of(s.materials,
-                                       [](const Material& m) {
-                                           return m.alphaMode != AlphaMode::Opaque ||
-                                                  m.isHiddenFromCamera;
-                                       })),
-          mediaShine(std::ranges::any_of(s.media, &Medium::emits)) {}
+    World(const Scene& s, const ShadingConventions& c);
 };
 
 // --- What rays pass and what they see (seeing.cpp) -----------------------------------------------
@@ -52,13 +48,6 @@ void addSeen(SeenPixel& pixel, const World& world, const Ray& cameraRay, uint32_
              double weight, RandomStream random, Seeing what);
 
 // --- Paths ---------------------------------------------------------------------------------------
-
-/// What a path is in between two surfaces.
-struct Filling {
-    const Material* volume =
-        nullptr;                    ///< whose inside it is, which absorbs; in scenes without media
-    const Medium* medium = nullptr; ///< in scenes with media
-};
 
 /// Beer and Lambert's law in a volume, if there is one. The distance may be infinite.
 glm::dvec3 transmittance(const Material* volume, double distance);
@@ -114,10 +103,13 @@ class PathSample {
     Hit closest(const Ray& ray, Skip skip);
     /// The share of light that comes through to the end of the ray, which begins in that filling.
     glm::dvec3 shareThatPasses(const Ray& ray, Skip skip, Filling filling) const;
-    /// What is on the other side of a surface that is passed.
-    Filling behind(const Ray& ray, const Hit& hit, Filling filling) const;
     /// The share of the light that the ray after this scattering finds that adds to the picture.
     glm::dvec3 shareFound(uint32_t bounce, const BsdfSample& next) const;
+    /// Whether the path has come under a surface, so that a scattering there does not
+    /// count.
+    bool isUnderSurface() const { return filling_.medium && filling_.medium->isUnderSurface; }
+    /// The number of a scattering that follows number `bounce`.
+    uint32_t numberAfter(uint32_t bounce) const { return isUnderSurface() ? bounce : bounce + 1; }
     bool survivesFixed();
     bool survivesThroughput(uint32_t bounce);
     void addDirectLight();
@@ -147,7 +139,8 @@ class PathSample {
     RandomStream passes_; ///< for surfaces that are partly not there
     SurfacePoint surface_;
     Filling filling_;
-    uint32_t scatterings_ = 0; ///< before the path ray under way
+    uint32_t scatterings_ = 0; ///< before the path ray under way, those that count
+    uint32_t uncounted_ = 0;   ///< under surfaces
     /// The surface as light samples see it: of the side that they go to.
     SurfacePoint lit_;
     glm::dvec3 throughput_{1.0}, radiance_{0.0};

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 namespace stromboli::reference {
@@ -66,13 +65,11 @@ typename Grid<Value>::Exact integrate(const Grid<Value>& grid, const Ray& ray, d
 }
 
 /// Woodcock's tentative collisions at a rate that is nowhere exceeded, for three channels at once.
-MediumEvent trackGrid(const Medium& m, const Ray& ray, double from, double to,
+MediumEvent trackGrid(const Medium& m, double rate, const Ray& ray, double from, double to,
                       const glm::dvec3& carried, RandomStream& random) {
     MediumEvent event;
-    std::optional<DensityGrid> made; // not of a grid of densities, which is as large as it is
-    const DensityGrid& bound = m.colors.extinction ? made.emplace(m.bound()) : *m.density;
-    const Stretch s = withinCube(bound, ray, from, to);
-    const double rate = double(bound.largest()) * largest(glm::dvec3(m.extinction()));
+    const Stretch s = m.colors.extinction ? withinCube(*m.colors.extinction, ray, from, to)
+                                          : withinCube(*m.density, ray, from, to);
     if (!(rate > 0)) return event;
     for (double t = s.from;;) {
         t -= std::log(1 - random.next()) / rate;
@@ -96,9 +93,15 @@ MediumEvent trackGrid(const Medium& m, const Ray& ray, double from, double to,
 
 } // namespace
 
-MediumEvent flyThrough(const Medium& m, const Ray& ray, double from, double to,
+double mostExtinction(const Medium& m) {
+    const glm::dvec3 whole(m.extinction());
+    if (m.colors.extinction) return largest(whole * glm::dvec3(m.colors.extinction->largest()));
+    return m.density ? largest(whole) * double(m.density->largest()) : largest(whole);
+}
+
+MediumEvent flyThrough(const Medium& m, double most, const Ray& ray, double from, double to,
                        const glm::dvec3& carried, RandomStream& random) {
-    if (m.varies()) return trackGrid(m, ray, from, to, carried, random);
+    if (m.varies()) return trackGrid(m, most, ray, from, to, carried, random);
     MediumEvent event;
     const glm::dvec3 extinction(m.extinction()), scattering(m.scattering);
     const double length = to - from;

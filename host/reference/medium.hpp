@@ -16,8 +16,12 @@ struct MediumEvent {
     double distance = 0; ///< on the ray, where it scatters
 };
 
-/// carried: what the path's channels carry, by which one of them is drawn.
-MediumEvent flyThrough(const Medium& medium, const Ray& ray, double from, double to,
+/// A rate that the extinction of one that varies nowhere exceeds, per metre. Takes time in
+/// proportion to its cells.
+double mostExtinction(const Medium& medium);
+
+/// carried: what the path's channels carry, by which one of them is drawn. most: mostExtinction().
+MediumEvent flyThrough(const Medium& medium, double most, const Ray& ray, double from, double to,
                        const glm::dvec3& carried, RandomStream& random);
 
 /// The share of light that is left between two distances, the second of which may be infinite. No

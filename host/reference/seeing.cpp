@@ -102,12 +102,14 @@ namespace {
 /// What the media of a way leave of what is seen, and the share of their own colour in it.
 class Haze {
   public:
-    Haze(const World& world, uint32_t medium) : scene_(world.scene), medium_(medium) {}
+    Haze(const World& world, uint32_t medium) : scene_(world.scene) {
+        if (medium != kNoMedium) here_ = fillingOf(&scene_.media.at(medium));
+    }
 
     /// To the hit, on a ray that begins at `from` or has passed something there.
     void goTo(const Ray& ray, double from, const Hit& hit) {
-        if (medium_ == kNoMedium) return;
-        const Medium& m = scene_.media.at(medium_);
+        if (!here_.medium) return;
+        const Medium& m = *here_.medium;
         const double to = hit.primitive == kNoPrimitive ? ray.tMax : hit.t;
         const glm::dvec3 left = transmittance(m, ray, from, to);
         const glm::dvec3 extinction(m.extinction());
@@ -116,19 +118,21 @@ class Haze {
                 ownColor[c] += tint[c] * (1 - left[c]) * double(m.scattering[c]) / extinction[c];
         tint *= left;
     }
-    void pass(const Ray& ray, const Hit& hit) {
-        const SurfacePoint s = surfaceAt(scene_, ray, hit);
-        enter(s, s.outside);
+    void begin() { crossing_ = Crossing(here_); }
+    void pass(const Ray& ray, double from, const Hit& hit) {
+        here_ = crossing_.pass(scene_, ray, surfaceAt(scene_, ray, hit), from, hit.t, here_);
     }
-    void enter(const SurfacePoint& s, bool outside) {
-        if (s.material->boundsMedia) medium_ = outside ? s.material->inside : s.material->outside;
+    void arrive(const Ray& ray, double from, const Hit& hit) {
+        here_ = crossing_.arrive(ray, surfaceAt(scene_, ray, hit), from, hit.t, here_);
     }
+    void enter(const SurfacePoint& s) { here_ = behind(scene_, s, here_); }
 
     glm::dvec3 tint{1.0}, ownColor{0.0};
 
   private:
     const Scene& scene_;
-    uint32_t medium_;
+    Filling here_;
+    Crossing crossing_{Filling()};
 };
 
 } // namespace
@@ -140,13 +144,16 @@ void addSeen(SeenPixel& pixel, const World& world, const Ray& cameraRay, uint32_
     const bool hasMedia = !world.scene.media.empty() && what == Seeing::Surfaces;
     const auto follow = [&](const Ray& ray, Skip skip, bool fromCamera) {
         double from = ray.tMin;
+        haze.begin();
         const Hit end = firstNotPassed(world, ray, skip, [&](const Hit& hit) {
             const bool isHidden = fromCamera && isHiddenFromCamera(world.scene, hit);
             const bool passed = isHidden || passes.next() >= opacityAt(world, hit);
-            if (passed && hasMedia) haze.goTo(ray, from, hit), haze.pass(ray, hit), from = hit.t;
+            if (passed && hasMedia)
+                haze.goTo(ray, from, hit), haze.pass(ray, from, hit), from = hit.t;
             return passed;
         });
         if (hasMedia) haze.goTo(ray, from, end);
+        if (hasMedia && end.primitive != kNoPrimitive) haze.arrive(ray, from, end);
         return end;
     };
     ++pixel.samples;
@@ -174,8 +181,8 @@ void addSeen(SeenPixel& pixel, const World& world, const Ray& cameraRay, uint32_
         const BsdfSample next = sampleBsdf(s, random.threeNumbers(), world.conventions);
         haze.tint *= tintOf(*s.material, next);
         if (!(std::max({haze.tint.x, haze.tint.y, haze.tint.z}) > 0)) break;
-        if (next.transmitted()) haze.enter(s, s.outside);
-        ray = next.transmitted() ? transmittedRay(s, next.direction)
+        if (next.transmitted()) haze.enter(s);
+        ray = next.transmitted() ? rayThroughMedia(world.scene, s, next.direction)
                                  : reflectedRay(s, next.direction);
         hit = follow(ray, {next.transmitted() ? s.triangle : startOfReflected(s)}, false);
         if (hit.primitive == kNoPrimitive) break;

@@ -15,29 +15,6 @@ namespace {
 
 constexpr double kPermittedSigmas = 4.5;
 
-Medium medium(const glm::vec3& absorption, const glm::vec3& scattering = glm::vec3(0)) {
-    Medium m;
-    m.absorption = absorption;
-    m.scattering = scattering;
-    return m;
-}
-
-uint32_t add(SceneMaker& m, const Medium& medium) {
-    m.scene.media.push_back(medium);
-    return uint32_t(m.scene.media.size() - 1);
-}
-
-/// Nothing but the border of two media.
-Material border(uint32_t inside, uint32_t outside = kNoMedium) {
-    Material m = diffuse(0);
-    m.alphaMode = AlphaMode::Blend;
-    m.opacity = 0;
-    m.boundsMedia = true;
-    m.inside = inside;
-    m.outside = outside;
-    return m;
-}
-
 /// Looks at a place along a line of its own, with all rays alike.
 Camera along(const glm::dvec3& from, const glm::dvec3& to) {
     Camera camera = lookingAt(from, to, 1e-9);
@@ -70,7 +47,7 @@ Finding densities(Run& run) {
             // Where nothing is, a grid takes as many steps as its densest place nearby.
             if (varies && (density > 1e3 || (run.quick() && density != 1))) continue;
             const glm::vec3 half = float(density / 2) * glm::vec3(1, 0.5f, 0.25f);
-            Medium m = medium(half, half);
+            Medium m = mediumOf(half, half);
             m.emission = half;
             if (varies) {
                 DensityGrid& grid = m.density.emplace();
@@ -82,7 +59,7 @@ Finding densities(Run& run) {
             }
             SceneMaker b;
             b.box({-2, -2, -2}, {2, 2, 2}, b.add(emissive(1)), true);
-            b.sphere({0, 0, 0}, 1, b.add(border(add(b, m))));
+            b.sphere({0, 0, 0}, 1, b.add(border(b.add(m))));
             const Totals found(run.render(b.scene, lookingAt({0.3, 1.8, 0.2}, {0, 0, 0}, 0.6),
                                           picture(8, run.amount(64u, 2048u), 60))
                                    .film);
@@ -101,7 +78,7 @@ Finding borders(Run& run) {
     const glm::dvec3 outer(0.25, 0.5, 1), inner(2, 1, 0.5);
     SceneMaker b;
     b.box({-8, -8, -8}, {8, 8, 8}, b.add(emissive(1)), true);
-    const uint32_t a = add(b, medium(outer)), i = add(b, medium(inner));
+    const uint32_t a = b.add(mediumOf(outer)), i = b.add(mediumOf(inner));
     b.sphere({0, 0, 0}, 1, b.add(border(a)));
     b.sphere({0, 0, 0}, 0.5f, b.add(border(i, a)));
     // Boxes of half a metre on both sides of y = 4, whose common face is one surface.
@@ -155,6 +132,46 @@ Finding borders(Run& run) {
     return f;
 }
 
+/// Layers of two media on a mirror, each with faces of its own, in a room of radiance 1: what two
+/// ways through both leave, at several sizes, upright and turned. Faces in one plane are cut into
+/// triangles at other places. No randomness but in what rounding does.
+Finding interfaces(Run& run) {
+    Finding f;
+    f.bound = 1;
+    const glm::dvec3 below(0.25, 0.5, 1), above(2, 1, 0.5);
+    // As Scene turned() turns.
+    const glm::dmat3 turn(glm::dvec3(2, 3, 6) / 7.0, glm::dvec3(3, -6, 2) / 7.0,
+                          glm::dvec3(6, 2, -3) / 7.0);
+    for (const float size : sizes(run))
+        for (const bool isTurned : {false, true}) {
+            SceneMaker b;
+            b.box({-9, -9, -9}, {9, 9, 9}, b.add(emissive(1)), true);
+            b.quad({-5, 0.3f, -4}, {0, 0, 9}, {10, 0, 0}, b.add(mirror(1)));
+            const float perMetre = 1 / size;
+            b.box({-3, 0.3f, -3}, {3.2f, 0.9f, 2.8f},
+                  b.add(border(b.add(mediumOf(perMetre * glm::vec3(below))))));
+            b.box({-2.9f, 0.9f, -3.3f}, {3.4f, 1.3f, 2.7f},
+                  b.add(border(b.add(mediumOf(perMetre * glm::vec3(above))))));
+            const Scene scene = placed(isTurned ? turned(b.scene) : b.scene, size);
+            for (uint32_t i = 0; i < run.amount(4u, 32u); ++i) {
+                // Spread evenly over the layers, by the golden ratio and the root of 2.
+                const glm::dvec3 at(std::fmod(0.618034 * i, 1) - 0.5, 0.3,
+                                    std::fmod(0.414214 * i, 1) - 0.5);
+                const glm::dvec3 way(0.3 * std::cos(double(i)), 1, 0.3 * std::sin(double(i)));
+                const auto world = [&](const glm::dvec3& p) {
+                    return double(size) * (isTurned ? turn * p : p);
+                };
+                const glm::dvec3 depth = 2 * glm::length(way) * (0.6 * below + 0.4 * above);
+                note(f,
+                     Totals(run.render(scene, along(world(at + 2.0 * way), world(at)),
+                                       picture(1, 1, 2))
+                                .film),
+                     glm::exp(-depth), kRounding, fmt::format("size {}, ray {}", size, i));
+            }
+        }
+    return f;
+}
+
 /// Grids without anything, of a single cell, of many, with steps of 1e6 between cells: what is left
 /// is the exponential of their mean along the way.
 Finding grids(Run& run) {
@@ -168,7 +185,7 @@ Finding grids(Run& run) {
     };
     for (const Kind& kind : {Kind{"empty", 64, 0, 0}, Kind{"one cell", 1, 1, 1},
                              Kind{"many cells", many, 0, 2}, Kind{"steps", 50, 1e-6f, 2}}) {
-        Medium m = medium({0.5f, 1, 0.25f});
+        Medium m = mediumOf({0.5f, 1, 0.25f});
         DensityGrid& grid = m.density.emplace();
         grid.size = {kind.cells > 1 ? 2u : 1u, kind.cells > 1 ? kind.cells / 2 : 1, 1};
         if (grid.size.y > 1000) grid.size = {2, 1000, grid.size.y / 1000};
@@ -178,7 +195,7 @@ Finding grids(Run& run) {
         grid.setWorld(glm::dmat4({2, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, 2, 0}, {-1, -1, -1, 1}));
         SceneMaker b;
         b.box({-8, -8, -8}, {8, 8, 8}, b.add(emissive(1)), true);
-        b.box({-1, -1, -1}, {1, 1, 1}, b.add(border(add(b, m))));
+        b.box({-1, -1, -1}, {1, 1, 1}, b.add(border(b.add(m))));
         const Totals found(run.render(b.scene, along({0.1, 4, 0.2}, {0.1, 0, 0.2}),
                                       picture(16, run.amount(16u, 256u), 1))
                                .film);
@@ -196,9 +213,10 @@ Finding mediaInGlass(Run& run) {
     Finding f;
     f.bound = 1;
     SceneMaker b;
-    Medium milk = medium(glm::vec3(0), {2, 1, 0.5f}), fog = medium(glm::vec3(0), glm::vec3(0.5f));
+    Medium milk = mediumOf(glm::vec3(0), {2, 1, 0.5f}),
+           fog = mediumOf(glm::vec3(0), glm::vec3(0.5f));
     milk.asymmetry = 0.7f;
-    const uint32_t inner = add(b, milk), outer = add(b, fog);
+    const uint32_t inner = b.add(milk), outer = b.add(fog);
     Material shell = glass(1.5f);
     shell.boundsMedia = true;
     shell.inside = outer;
@@ -223,6 +241,8 @@ std::vector<Case> mediumCases() {
          "share of limit", "samples", densities},
         {"media-borders", "80", "grazing rays, common faces, cameras at borders: known ways",
          "share of limit", "rays", borders},
+        {"media-interfaces", "83", "layers of media on a mirror, faces in one plane: known ways",
+         "share of limit", "rays", interfaces},
         {"media-grids", "81", "empty and huge grids let through what their mean does",
          "share of limit", "samples", grids},
         {"media-in-glass", "82", "white media in glass in glass keep the light", "share of limit",

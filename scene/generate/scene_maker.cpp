@@ -9,6 +9,11 @@ uint32_t SceneMaker::add(const Material& material) {
     return uint32_t(scene.materials.size() - 1);
 }
 
+uint32_t SceneMaker::add(const Medium& medium) {
+    scene.media.push_back(medium);
+    return uint32_t(scene.media.size() - 1);
+}
+
 void SceneMaker::startInstance() {
     scene.instances.push_back("instance " + std::to_string(scene.instances.size()));
 }
@@ -103,6 +108,24 @@ Material metal(float alpha, float emission) {
 Material emissive(float radiance, bool bothSides) {
     Material m = diffuse(0, radiance);
     m.emitsBothSides = bothSides;
+    return m;
+}
+
+Medium mediumOf(const glm::vec3& absorption, const glm::vec3& scattering, float asymmetry) {
+    Medium m;
+    m.absorption = absorption;
+    m.scattering = scattering;
+    m.asymmetry = asymmetry;
+    return m;
+}
+
+Material border(uint32_t inside, uint32_t outside) {
+    Material m = diffuse(0);
+    m.alphaMode = AlphaMode::Blend;
+    m.opacity = 0;
+    m.boundsMedia = true;
+    m.inside = inside;
+    m.outside = outside;
     return m;
 }
 

@@ -15,6 +15,7 @@ class SceneMaker {
     Scene scene;
 
     uint32_t add(const Material& material);
+    uint32_t add(const Medium& medium);
     void add(const Light& light) { scene.lights.push_back(light); }
     /// What follows belongs to a new instance (quads, boxes and spheres start their own).
     void startInstance();
@@ -38,6 +39,12 @@ Material glass(float ior);
 /// A rough conductor that reflects between one half and nearly all, by angle.
 Material metal(float alpha, float emission = 0);
 Material emissive(float radiance, bool bothSides = true);
+
+/// Coefficients per metre.
+Medium mediumOf(const glm::vec3& absorption, const glm::vec3& scattering = glm::vec3(0),
+                float asymmetry = 0);
+/// Nothing but the border of two media: `inside` where the normals do not point to.
+Material border(uint32_t inside, uint32_t outside = kNoMedium);
 
 /// Constant radiance from everywhere, found by rays that leave the scene.
 Light ambient(float radiance);

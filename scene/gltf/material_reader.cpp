@@ -143,6 +143,7 @@ void MaterialReader::readScattering() {
         medium.absorption[c] = float(extinction[c] * (1 - albedo));
     }
     material_.boundsMedia = true;
+    material_.outsideIsOpen = true;
     material_.inside = context_.builder.addMedium(std::move(medium));
 }
 

@@ -62,6 +62,14 @@ Surface Materials::make(const Plugin& shape, const Plugin* bsdf, const Plugin* e
 }
 
 void Materials::surround(Surface& surface, const Sides& sides) {
+    const uint32_t under = sides.under ? media_.under(*sides.under, surface.material) : kNoMedium;
+    if (under != kNoMedium) {
+        surface = Surface{surface.material, {}, {}, {}};
+        surface.material.boundsMedia = true;
+        surface.material.inside = under;
+        surface.material.outside = media_.of(sides.outside);
+        return;
+    }
     if (!sides.areStated()) return;
     for (Surface* each = &surface; each; each = each->other.get()) {
         each->material.boundsMedia = true;

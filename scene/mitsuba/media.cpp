@@ -2,6 +2,7 @@
 
 #include "scene/build/tolerate.hpp"
 #include "scene/mitsuba/colors.hpp"
+#include "scene/mitsuba/media_tables.hpp"
 #include "scene/mitsuba/scattering_tables.hpp"
 #include "scene/mitsuba/volumes.hpp"
 #include "scene/mitsuba/words.hpp"
@@ -165,6 +166,7 @@ Sides sidesOf(const Plugin& shape) {
         (child.name == "exterior" ? sides.outside : sides.inside) = child.plugin;
     }
     (void)shape.childrenOf("medium");
+    sides.under = shape.onlyChildOf("subsurface");
     return sides;
 }
 
@@ -177,6 +179,51 @@ uint32_t Media::of(const Plugin* medium) {
             made_[medium] = number;
         });
     return made_[medium];
+}
+
+uint32_t Media::under(const Plugin& subsurface, Material& surface) {
+    const auto [found, isNew] = made_.try_emplace(&subsurface, kNoMedium);
+    if (isNew)
+        build::tolerate(context_.report(), build::Shortfall::Medium, [&] {
+            const uint32_t number = context_.builder.addMedium(makeUnder(subsurface));
+            made_[&subsurface] = number;
+        });
+    if (made_[&subsurface] == kNoMedium) return kNoMedium;
+    Material interface;
+    interface.name = surface.name;
+    interface.kind = MaterialKind::Dielectric;
+    interface.ior = float(refractiveIndex(subsurface, "int_ior", "bk7") /
+                          refractiveIndex(subsurface, "ext_ior", "air"));
+    const bool hasFacets =
+        surface.kind == MaterialKind::Plastic || surface.kind == MaterialKind::Dielectric;
+    if (hasFacets) interface.facets = surface.facets, interface.reflectance = surface.reflectance;
+    surface = interface;
+    return made_[&subsurface];
+}
+
+Medium Media::makeUnder(const Plugin& plugin) {
+    if (plugin.type != "dipole" && plugin.type != "adipole" && plugin.type != "mdipole" &&
+        plugin.type != "singlescatter")
+        plugin.fail(fmt::format("'{}' is no subsurface that is read, expected dipole, adipole, "
+                                "mdipole or singlescatter",
+                                plugin.type));
+    Medium medium;
+    medium.name = plugin.displayName();
+    medium.isUnderSurface = true;
+    const double scale = plugin.number("scale", 0).value_or(1);
+    const Scattering s = scatteringOf(plugin);
+    medium.scattering = scale * s.scattered;
+    medium.absorption = scale * s.absorbed;
+    medium.asymmetry =
+        float(plugin.number("g", -double(kMostAsymmetry), double(kMostAsymmetry)).value_or(0));
+    // How samples are taken, and not what of.
+    for (const char* unused :
+         {"irr_samples", "quality", "irr_indirect", "int_ior", "ext_ior", "fast_single_scatter",
+          "fast_single_scatter_samples", "single_scatter_shadow_rays", "single_scatter_depth",
+          "single_scatter_t_depth", "distance_correction", "multi_scatter_layers", "thickness"})
+        plugin.skip(unused);
+    plugin.requireAllRead();
+    return medium;
 }
 
 Medium Media::make(const Plugin& plugin) {

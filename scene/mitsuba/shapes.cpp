@@ -43,13 +43,6 @@ bool isFile(const Plugin& shape) {
     return shape.type == "obj" || shape.type == "ply" || shape.type == "serialized";
 }
 
-/// What scatters under a surface without being a medium in it is said, once for each.
-void saySubsurface(const Plugin& shape) {
-    for (const Plugin* inside : shape.childrenOf("subsurface"))
-        inside->replace(build::Shortfall::Medium,
-                        "scatters under a surface, which is not supported");
-}
-
 } // namespace
 
 void Shapes::place(const Plugin& shape) {
@@ -94,7 +87,6 @@ std::vector<Shapes::Part> Shapes::instance(const Plugin& shape) {
 }
 
 Shapes::Part Shapes::single(const Plugin& shape) {
-    saySubsurface(shape);
     if (usesOwnMaterials(shape)) return withOwnMaterials(shape);
     for (const char* unused : {"load_materials", "collapse", "srgb"})
         shape.skip(unused);

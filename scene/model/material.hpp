@@ -173,6 +173,9 @@ struct Material {
     /// Scene::media, or kNoMedium.
     bool boundsMedia = false;
     uint32_t inside = kNoMedium, outside = kNoMedium;
+    /// The border of a volume that may overlap others, whose media are the first of the scene:
+    /// outside of it is what else the place is in, of several the last one, and else `outside`.
+    bool outsideIsOpen = false;
     /// At most one for each slot, but of MetallicRoughness, Emission and SpecularColor, whose
     /// numbers multiply.
     std::vector<TextureUse> textures;
@@ -220,8 +223,8 @@ inline auto laterMembers(const Material& m) {
                                   principled, burley, alphaMode, opacity, alphaCutoff, other,
                                   otherShare, otherPlace, isHiddenFromCamera, isBlackBehind,
                                   reliefRule, reliefShadows, boundsMedia, inside, outside,
-                                  textures] = m;
-    return std::tie(m.boundsMedia, m.inside, m.outside);
+                                  outsideIsOpen, textures] = m;
+    return std::tie(m.boundsMedia, m.inside, m.outside, m.outsideIsOpen);
 }
 
 /// Below these, floats cannot tell microfacets from a plane (shaders/shared/bsdf_types.h has the

@@ -1,5 +1,6 @@
 #include "scene/model/medium.hpp"
 
+#include "scene/model/overlapping_volumes.hpp"
 #include "scene/model/scene.hpp"
 #include "scene/model/world_triangles.hpp"
 
@@ -7,6 +8,8 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
+#include <optional>
 
 namespace stromboli {
 
@@ -141,27 +144,36 @@ void resolveMedia(Scene& scene) {
     if (!usesMedia(scene)) {
         scene.media.clear();
         for (Material& m : scene.materials)
-            m.boundsMedia = false;
+            m.boundsMedia = m.outsideIsOpen = false;
     }
     if (scene.media.empty()) return;
     for (Material& m : scene.materials) {
         if (m.boundsMedia || m.isNull() || !m.entersVolume()) continue;
         m.inside = mediumInside(scene, m);
         m.outside = scene.surrounding;
-        m.boundsMedia = true;
+        m.boundsMedia = m.outsideIsOpen = true;
     }
+    orderVolumes(scene);
 }
 
 namespace {
 
-/// A ray, and the first border that it has met so far.
+/// A ray, and what it has met so far: the first border of those that state both of their sides, and
+/// how often it leaves each volume more than it enters it.
 struct BorderSearch {
     glm::dvec3 origin, direction;
+    bool seeksVolumes = false; ///< and no borders that state both sides
     double nearest = std::numeric_limits<double>::infinity();
     uint32_t medium = kNoMedium; ///< on this side of it
+    std::map<uint32_t, int> left;
 
     void meet(double t, bool fromOutside, const Material& border) {
-        if (!(t > 0 && t < nearest)) return;
+        if (border.outsideIsOpen != seeksVolumes || !(t > 0)) return;
+        if (seeksVolumes) {
+            left[border.inside] += fromOutside ? -1 : 1;
+            return;
+        }
+        if (!(t < nearest)) return;
         nearest = t;
         medium = fromOutside ? border.outside : border.inside;
     }
@@ -195,10 +207,33 @@ bool isBorder(const Material& material) {
     return material.boundsMedia;
 }
 
+void searchBorders(const Scene& scene, BorderSearch& search) {
+    forTrianglesInWorld(
+        scene, isBorder,
+        [&](const std::array<glm::dvec3, 3>& corners, double facing, uint32_t triangle) {
+            search.triangle(corners, facing, scene.materials[scene.triangles[triangle].material]);
+        });
+    for (const Sphere& s : scene.spheres)
+        if (isBorder(scene.materials[s.material])) search.sphere(s, scene.materials[s.material]);
+}
+
+/// The volume that counts, of those that may overlap and in which the place is.
+std::optional<uint32_t> volumeAt(const Scene& scene, const glm::dvec3& place) {
+    if (std::ranges::none_of(scene.materials, &Material::outsideIsOpen)) return std::nullopt;
+    // A direction that no scene has: edges would count twice.
+    BorderSearch search{place, {0.35713, 0.48291, 0.79953}, true};
+    searchBorders(scene, search);
+    std::optional<uint32_t> last;
+    for (const auto& [medium, count] : search.left)
+        if (count > 0) last = medium;
+    return last;
+}
+
 } // namespace
 
 uint32_t mediumAt(const Scene& scene, const glm::dvec3& place) {
     if (scene.media.empty()) return kNoMedium;
+    if (const std::optional<uint32_t> volume = volumeAt(scene, place)) return *volume;
     Bounds borders;
     forTrianglesInWorld(scene, isBorder,
                         [&](const std::array<glm::dvec3, 3>& corners, double, uint32_t) {
@@ -214,13 +249,7 @@ uint32_t mediumAt(const Scene& scene, const glm::dvec3& place) {
     BorderSearch search{place, 0.5 * (glm::dvec3(borders.lo) + glm::dvec3(borders.hi)) - place};
     if (search.direction == glm::dvec3(0)) search.direction = {0.36, 0.48, 0.8}; // any will do
     search.medium = scene.surrounding;
-    forTrianglesInWorld(
-        scene, isBorder,
-        [&](const std::array<glm::dvec3, 3>& corners, double facing, uint32_t triangle) {
-            search.triangle(corners, facing, scene.materials[scene.triangles[triangle].material]);
-        });
-    for (const Sphere& s : scene.spheres)
-        if (isBorder(scene.materials[s.material])) search.sphere(s, scene.materials[s.material]);
+    searchBorders(scene, search);
     return search.medium;
 }
 

@@ -75,6 +75,10 @@ struct Medium {
     float asymmetry = 0; ///< Henyey-Greenstein: the mean cosine g, within kMostAsymmetry of 0
     /// Beside that function, which has what their shares leave of 1: at most kMostPhases - 1.
     std::vector<PhaseLobe> otherPhases;
+    /// It lies under a surface that scatters light as its formats say that a surface does: what
+    /// happens in it, and on its boundary from inside, does not count as a bounce, and light
+    /// samples, in whose way the surface would be, are not taken in it.
+    bool isUnderSurface = false;
     std::optional<DensityGrid> density; ///< none: the same everywhere, but for `colors`
     MediumColors colors;
 
@@ -105,12 +109,14 @@ inline constexpr size_t kMostPhases = 3;
 /// Leaves out all media where no surface and no camera is in contact with one. Where a scene has
 /// media, gives every surface that light passes into a volume the media on both
 /// sides that are not stated: inside, one that absorbs as the material says, or none; outside,
-/// that of Scene::surrounding. A scene without media is left as it is.
+/// that of Scene::surrounding, or other volumes (orderVolumes()). A scene without media is left as
+/// it is.
 void resolveMedia(Scene& scene);
 
-/// The medium that a place is in, or kNoMedium: by the first border, of those that a ray from there
-/// towards the middle of all borders meets, and Scene::surrounding where it meets none. Surfaces
-/// that are no borders do not count. Takes time in proportion to the triangles.
+/// The medium that a place is in, or kNoMedium: that of the volume that counts (orderVolumes()), or
+/// by the first border, of those that a ray from there towards the middle of all borders meets, and
+/// Scene::surrounding where it meets none. Surfaces that are no borders do not count. Takes time in
+/// proportion to the triangles.
 uint32_t mediumAt(const Scene& scene, const glm::dvec3& place);
 
 } // namespace stromboli

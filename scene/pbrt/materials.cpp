@@ -46,6 +46,12 @@ BoundMaterial Materials::of(const std::shared_ptr<const MaterialStatement>& stat
             material.inside = media.inside;
             material.outside = media.outside;
         });
+    for (Surface* each = &surface; each; each = each->other.get()) {
+        if (!each->under) continue;
+        each->material.boundsMedia = true;
+        each->material.inside = context_.builder.addMedium(*each->under);
+        each->material.outside = media.isStated ? media.outside : kNoMedium;
+    }
     const BoundMaterial bound = bind(std::move(surface));
     if (isPlain) {
         made_.emplace(key, bound);

@@ -33,8 +33,9 @@ struct Names {
 /// What a material of the file makes of a surface.
 struct Surface {
     Material material;
-    std::shared_ptr<Surface> other; ///< Material::other of its material
-    std::optional<Mapping> mapping; ///< of its textures by the second coordinates
+    std::shared_ptr<Surface> other;      ///< Material::other of its material
+    std::optional<Mapping> mapping;      ///< of its textures by the second coordinates
+    std::shared_ptr<const Medium> under; ///< what scatters under it, where that is a medium
 
     /// Its materials, one after the other.
     template <typename Do>

@@ -8,10 +8,6 @@
 namespace stromboli::pbrt {
 namespace {
 
-/// What pbrt takes for a medium that states nothing, per millimetre: whole milk, after Jensen,
-/// Marschner, Levoy and Hanrahan, "A Practical Model for Subsurface Light Transport", 2001.
-constexpr glm::dvec3 kUsualAbsorption{0.0011, 0.0024, 0.014}, kUsualScattering{2.55, 3.21, 3.77};
-
 /// What shines, by one colour: in proportion to the absorption.
 void readEmission(const Context& context, const Parameters& p, Medium& medium) {
     const std::optional<glm::dvec3> color = colorOf(context, p, "Le", ColorOf::Light);
@@ -21,6 +17,19 @@ void readEmission(const Context& context, const Parameters& p, Medium& medium) {
 
 } // namespace
 
+build::Scattering wholeMilk() {
+    return build::measuredMedium("wholemilk").value();
+}
+
+build::Scattering measured(const Parameters& p, std::string_view parameter,
+                           const std::string& name) {
+    const std::optional<build::Scattering> found = build::measuredMedium(name);
+    if (!found)
+        p.replaceParameter(parameter, build::Shortfall::Model,
+                           "is '" + name + "', which is not known");
+    return found.value_or(wholeMilk());
+}
+
 void Media::define(const std::string& name, const Parameters& p,
                    const glm::dmat4& worldFromMedium) {
     const std::string kind = p.text("type").value_or("homogeneous");
@@ -28,8 +37,9 @@ void Media::define(const std::string& name, const Parameters& p,
     medium.name = name;
     const double scale = p.number("scale", 1, 0, 1e30);
     medium.asymmetry = float(p.number("g", 0, -double(kMostAsymmetry), double(kMostAsymmetry)));
-    if (const std::optional<std::string> preset = p.text("preset"))
-        p.replaceParameter("preset", build::Shortfall::Model, "is '" + *preset + "'");
+    build::Scattering usual = wholeMilk();
+    const std::optional<std::string> preset = p.text("preset");
+    if (preset) usual = measured(p, "preset", *preset);
     if (kind == "rgbgrid") {
         readColoredGrid(p, scale, worldFromMedium, medium);
     } else if (kind == "nanovdb") {
@@ -42,12 +52,12 @@ void Media::define(const std::string& name, const Parameters& p,
     } else if (kind == "homogeneous" || kind == "uniformgrid" || kind == "heterogeneous") {
         const bool isGrid = kind != "homogeneous";
         const glm::dvec3 one(1.0);
-        const auto color = [&](const char* what, const glm::dvec3& usual) {
+        const auto color = [&](const char* what, const glm::dvec3& otherwise) {
             return scale * colorOf(context_, p, what, ColorOf::Number)
-                               .value_or(isGrid && !context_.isV3() ? one : usual);
+                               .value_or(isGrid && !context_.isV3() && !preset ? one : otherwise);
         };
-        medium.absorption = color("sigma_a", kUsualAbsorption);
-        medium.scattering = color("sigma_s", kUsualScattering);
+        medium.absorption = color("sigma_a", usual.absorbed);
+        medium.scattering = color("sigma_s", usual.scattered);
         if (isGrid) medium.density = gridOf(p, "density", worldFromMedium);
         if (isGrid && !context_.isV3())
             readGridEmission(context_, p, medium);

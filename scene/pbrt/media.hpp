@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/build/subsurface.hpp"
 #include "scene/pbrt/context.hpp"
 #include "scene/pbrt/parameters.hpp"
 #include "scene/pbrt/statement.hpp"
@@ -10,6 +11,12 @@
 #include <string>
 
 namespace stromboli::pbrt {
+
+/// What pbrt takes for a medium that states nothing, per millimetre.
+build::Scattering wholeMilk();
+/// What a parameter names, or whole milk, which is said.
+build::Scattering measured(const Parameters& p, std::string_view parameter,
+                           const std::string& name);
 
 /// What is on the two sides of surfaces: numbers of media, or kNoMedium. The outside is where the
 /// normal points to.

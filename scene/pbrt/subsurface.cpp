@@ -1,47 +1,76 @@
 #include "scene/pbrt/subsurface.hpp"
 
+#include "scene/pbrt/media.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace stromboli::pbrt {
 namespace {
 
-/// The share that a deep medium sends back of diffuse light: H. C. van de Hulst's approximation
-/// (Multiple Light Scattering, 1980).
-double depthReflectance(double scattered, double absorbed, double g) {
-    const double extinction = scattered + absorbed;
-    if (!(extinction > 0)) return 0;
-    const double albedo = std::clamp(scattered / extinction, 0.0, 1.0);
-    const double s = std::sqrt((1 - albedo) / std::max(1 - albedo * g, 1e-9));
-    return std::clamp((1 - s) * (1 - 0.139 * s) / (1 + 1.17 * s), 0.0, 1.0);
+/// A diffuse base under the interface: for what varies over a surface.
+void takeBase(const SurfaceMaker& maker, Surface& surface, const Pattern& pattern,
+              const char* name) {
+    Material& m = surface.material;
+    m.kind = MaterialKind::Plastic;
+    m.isNonlinear = true;
+    maker.parameters.replace(build::Shortfall::Medium,
+                             "scatters light under the surface by a texture",
+                             "a diffuse base of the same colours is under it");
+    maker.color(surface, pattern, m.albedo, TextureSlot::BaseColor, name);
+}
+
+/// A medium is alike everywhere: of a texture the mean is taken, which is said.
+glm::dvec3 plainNumbers(const SurfaceMaker& maker, const char* name, const glm::dvec3& otherwise) {
+    const Pattern pattern = maker.pattern(name, otherwise, ColorOf::Number);
+    if (!pattern.isConstant)
+        maker.parameters.replace(build::Shortfall::Medium,
+                                 "'" + std::string(name) + "' is a texture, expected one colour",
+                                 "its mean");
+    return glm::max(pattern.mean(), 0.0);
 }
 
 } // namespace
 
 Surface subsurface(const SurfaceMaker& maker) {
-    Surface surface = maker.empty(MaterialKind::Plastic);
+    Surface surface = maker.empty(MaterialKind::Dielectric);
     const Parameters& p = maker.parameters;
     Material& m = surface.material;
-    m.isNonlinear = true;
     m.ior = float(indexOf(maker.context, p, 1.33));
-    p.replace(build::Shortfall::Medium, "scatters light under the surface",
-              "a diffuse base of the same colour is under it");
     maker.facets(surface, "", 0);
-    const char* color =
-        p.has("Kd") || maker.statement.kind == "kdsubsurface" ? "Kd" : "reflectance";
-    if (p.has(color) || maker.statement.kind == "kdsubsurface") {
-        maker.color(surface, maker.pattern(color, glm::dvec3(0.5)), m.albedo,
-                    TextureSlot::BaseColor, color);
-    } else {
-        const glm::dvec3 s = maker.pattern("sigma_s", {2.55, 3.21, 3.77}, ColorOf::Number).mean();
-        const glm::dvec3 a =
-            maker.pattern("sigma_a", {0.0011, 0.0024, 0.014}, ColorOf::Number).mean();
-        const double g = p.number("g", 0, -0.999, 0.999);
-        for (const int c : {0, 1, 2})
-            m.albedo[c] = float(depthReflectance(std::max(s[c], 0.0), std::max(a[c], 0.0), g));
+    if (maker.context.isV3()) {
+        m.reflectance = maker.plainColor("Kr", glm::dvec3(1));
+        m.transmittance = maker.plainColor("Kt", glm::dvec3(1));
     }
-    if (maker.context.isV3()) m.reflectance = maker.plainColor("Kr", glm::dvec3(1));
-    p.skip({"mfp", "scale", "g", "name", "sigma_a", "sigma_s", "Kr", "Kt", "reflectance"});
+    const bool isByColor = maker.statement.kind == "kdsubsurface";
+    const char* color = isByColor ? "Kd" : "reflectance";
+    const double scale = p.number("scale", 1, 0, 1e30);
+    const double g = p.number("g", 0, -double(kMostAsymmetry), double(kMostAsymmetry));
+    Medium medium;
+    medium.isUnderSurface = true;
+    build::Scattering s;
+    const bool isByPath = !p.has("name") && (isByColor || p.has(color));
+    if (const std::optional<std::string> name = p.text("name")) {
+        s = measured(p, "name", *name); // reduced, as if g were 0
+    } else if (isByPath) {
+        const Pattern pattern = maker.pattern(color, glm::dvec3(0.5));
+        const glm::dvec3 path = plainNumbers(maker, "mfp", glm::dvec3(1));
+        if (!pattern.isConstant) {
+            takeBase(maker, surface, pattern, color);
+            return surface;
+        }
+        s = build::scatteringUnder(pattern.color, glm::max(scale * path, 1e-9), g, double(m.ior));
+        medium.asymmetry = float(g);
+    } else {
+        s.scattered = plainNumbers(maker, "sigma_s", wholeMilk().scattered);
+        s.absorbed = plainNumbers(maker, "sigma_a", wholeMilk().absorbed);
+        medium.asymmetry = float(g);
+    }
+    if (!isByPath) s.scattered *= scale, s.absorbed *= scale;
+    medium.scattering = s.scattered;
+    medium.absorption = s.absorbed;
+    surface.under = std::make_shared<Medium>(medium);
+    p.skip({"mfp", "scale", "g", "name", "sigma_a", "sigma_s", "Kr", "Kt", "reflectance", "Kd"});
     return surface;
 }
 

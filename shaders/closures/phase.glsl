@@ -1,6 +1,7 @@
 // Phase functions: the closures of media. cos: between the directions in which light goes before and after; densities
 // by solid angle, whose integral is 1, so that samples in proportion to them have the weight 1. A point in a medium has no
-// normal: both of its normals are zero.
+// normal: both of its normals are zero. Under surfaces, where no light samples are taken, a phase function counts as a delta
+// lobe, as light comes there by bounces alone.
 
 const bool HAS_PHASES = (CLOSURES & (PHASE_FUNCTION)) != 0u;
 const bool MIXES_PHASES = (MEDIA & MEDIA_MIX) != 0u;
@@ -9,6 +10,9 @@ const bool MIXES_PHASES = (MEDIA & MEDIA_MIX) != 0u;
 bool isNowhere(vec3 normal) { return MEDIA != 0u && normal == vec3(0.0); }
 
 bool isPhase(Material m) { return hasClosure(m, PHASE_FUNCTION); }
+bool isUnderSurface(Material m) {
+    return (MEDIA & MEDIA_UNDER_SURFACE) != 0u && hasClosure(m, LOBE_DELTA_REFLECTION);
+}
 float asymmetryOf(Material m) { return uintBitsToFloat(m.row1.w); }
 PhaseMixture phasesOf(Material m) {
     const vec4 r = uintBitsToFloat(m.row4);
@@ -69,5 +73,6 @@ BsdfSample samplePhase(Material m, vec3 wo, vec2 u) {
     const float oneMinusCos = samplePhase(g, u.x);
     const vec3 local = vec3(sqrt(max(oneMinusCos * (2.0 - oneMinusCos), 0.0)) * cosSin(4.0 * u.y), 1.0 - oneMinusCos);
     const float density = phaseDensity(m, oneMinusCos);
-    return BsdfSample(toWorld(makeFrame(-wo), local), vec3(1.0), density, LOBE_DIFFUSE_REFLECTION);
+    return BsdfSample(toWorld(makeFrame(-wo), local), vec3(1.0), density,
+                      isUnderSurface(m) ? LOBE_DELTA_REFLECTION : LOBE_DIFFUSE_REFLECTION);
 }

@@ -54,13 +54,13 @@ void traceDirectSample(const Given given, inout PathState path, LightSample ligh
     if (!hemisphere) noteLightSample(given.frame, path, light, path.directValue);
     if (RECORDS) recordLightSample(path, light, weight, true);
     const bool transmitted = isBehind(path.surface, light.direction);
-    const vec3 origin = leave(path.surface, light.direction, transmitted);
+    const vec3 origin = leaveThroughMedia(path.surface, light.direction, transmitted);
     // What the ray of hemisphere sampling goes through is known when it has arrived.
     if (HAS_ABSORPTION && !hemisphere)
         path.directValue *=
-            transmittance(mediumBeyond(path.surface, path.material, path.medium, transmitted),
+            transmittance(fillingBeyond(path.surface, path.material, path.filling, transmitted).medium,
                           light.infinite ? INFINITE_DISTANCE : length(light.target - origin));
-    if (HAS_MEDIA) path.shadowMedium = mediumBeyond(path.surface, path.material, path.medium, transmitted);
+    if (HAS_MEDIA) path.shadowFilling = fillingBeyond(path.surface, path.material, path.filling, transmitted);
     traceFrom(path, path.surface, hemisphere ? PHASE_HEMISPHERE : PHASE_SHADOW, origin,
               light.infinite ? light.direction : light.target - origin,
               light.infinite ? INFINITE_DISTANCE : 1.0, transmitted);

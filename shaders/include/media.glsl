@@ -15,19 +15,31 @@ MediumBody fetchMedium(uint medium) {
                       uintBitsToFloat(r2.xyz), uintBitsToFloat(r2.w));
 }
 
-/// Whether a ray that has hit something meets it from where its normal, as stored, points to: as surfaceAt() says.
-bool meetsOutside(Traversal t) {
+/// A hit as surfaceAt() says.
+struct PassedPlace {
+    bool outside; ///< the ray comes from where the normal, as stored, points to
+    vec3 normal;  ///< unit
+    float error;  ///< as SurfacePoint::error
+};
+
+PassedPlace placePassed(Traversal t) {
     PlacedPrimitive place = fetchPlace(t.hitPrimitive);
     const Placing placing = placingOf(t.hitPlacement);
     if (HAS_PLACEMENTS) place = inWorld(placing, place);
     vec3 normal = vec3(0.0);
+    float error = 0.0;
     if (HAS_TRIANGLES && !place.isSphere) {
+        const float b0 = 1.0 - t.b1 - t.b2;
+        error = interpolationError(abs(b0 * place.v0) + abs(t.b1 * place.v1) + abs(t.b2 * place.v2));
         normal = triangleNormal(fetchPrimitive(place.primitive), place);
         if (HAS_PLACEMENTS && placing.isPlaced)
             normal = (placing.mirrors ? -1.0 : 1.0) * planeNormal(place.v1 - place.v0, place.v2 - place.v0);
     }
-    if (HAS_SPHERES && place.isSphere) normal = t.origin + t.tMax * t.direction - place.v0;
-    return dot(normal, t.direction) <= 0.0;
+    if (HAS_SPHERES && place.isSphere) {
+        normal = unit(t.origin + t.tMax * t.direction - place.v0);
+        error = sphereError(place.v0, place.radius);
+    }
+    return PassedPlace(dot(normal, t.direction) <= 0.0, normal, error);
 }
 
 // --- Random numbers ------------------------------------------------------------------------------
@@ -105,7 +117,9 @@ void goOnFrom(inout Traversal t, float from, float end) {
 bool goThroughMedium(const Given given, inout PathState path) {
     if (!HAS_MEDIA) return false;
     const bool isPath = path.phase == PHASE_PATH;
-    const uint here = isPath ? path.medium : path.shadowMedium;
+    Filling filling = path.filling;
+    if (!isPath) filling = path.shadowFilling;
+    const uint here = filling.medium;
     const bool isBlocked = !isPath && path.phase == PHASE_SHADOW && !HAS_ALPHA && path.ray.hitPrimitive != NO_PRIMITIVE;
     bool isUnderWay = false;
     if (isTracing(path.phase) && here != NO_MEDIUM && !isBlocked) {
@@ -119,12 +133,14 @@ bool goThroughMedium(const Given given, inout PathState path) {
         if (isPath && !varies && !SEES) r = flyFreely(m, carried, length_, mediumNumbers(words, 0u));
         if (varies) r = trackGrid(m, here, path.ray, carried, isPath && !SEES, words);
         if (SEES) path.seen.albedo.xyz += path.throughput * (1.0 - r.weight) * m.albedo;
-        if (mediaDo(MEDIA_SHINE) && isPath && path.bounce >= given.frame.minBounce) path.radiance += path.throughput * r.shone;
+        if (mediaDo(MEDIA_SHINE) && isPath && countedBounces(path.bounce, path.uncounted) >= given.frame.minBounce) path.radiance += path.throughput * r.shone;
         if (isPath) path.throughput *= r.weight;
         else path.directValue *= r.weight;
         isUnderWay = r.isUnderWay;
-        if (isUnderWay) goOnFrom(path.ray, path.ray.tMin + r.distance / perUnit, path.rayEnd);
-        else if (isPath && r.scatters) {
+        if (isUnderWay) {
+            goOnFrom(path.ray, path.ray.tMin + r.distance / perUnit, path.rayEnd);
+            if (PASSES_BORDERS) path.crossing = Crossing(filling, -1.0, false);
+        } else if (isPath && r.scatters) {
             path.ray.tMax = path.ray.tMin + r.distance;
             path.ray.hitPrimitive = IN_MEDIUM;
         }
@@ -149,11 +165,43 @@ SurfacePoint pointInMedium(Traversal t, uint medium) {
     return s;
 }
 
-/// The medium of a ray that passes the surface that it has hit.
+/// Bound of the distance, along the normal, of the plane of a hit from where a ray from `origin` meets it. error: as
+/// SurfacePoint::error (docs/theory/numerics.md, "Surfaces in one plane").
+float planeError(float error, vec3 normal, vec3 origin) {
+    return offsetLength(error + 32.0 * UNIT_ROUNDOFF * largestComponent(abs(origin)), normal);
+}
+
+/// Whether what the ray has hit lies in the plane of what it has passed last, as far as rounding tells.
+bool isInPassedPlane(Traversal t, Crossing c, vec3 normal, float error) {
+    return c.error >= 0.0 && (t.tMax - t.tMin) * abs(dot(t.direction, normal)) <= c.error + error;
+}
+
+/// The medium of a ray that passes the surface that it has hit. Of two borders in one plane, the one that says where the
+/// ray has come from is passed first.
 void passIntoMedium(inout PathState path) {
     if (!HAS_MEDIA) return;
-    const uint material = materialOf(fetchPrimitive(fetchPlace(path.ray.hitPrimitive).primitive));
-    const bool outside = meetsOutside(path.ray);
-    if (path.phase == PHASE_PATH) path.medium = mediumBehind(material, path.medium, outside);
-    else path.shadowMedium = mediumBehind(material, path.shadowMedium, outside);
+    const bool isPath = path.phase == PHASE_PATH;
+    Filling here = path.filling;
+    if (!isPath) here = path.shadowFilling;
+    const PassedPlace place = placePassed(path.ray);
+    const MediumBorder border = fetchBorder(materialOf(fetchPrimitive(fetchPlace(path.ray.hitPrimitive).primitive)));
+    const uint before = place.outside ? border.outside : border.inside;
+    const float error = planeError(place.error, place.normal, path.ray.origin);
+    const bool isSamePlane = isInPassedPlane(path.ray, path.crossing, place.normal, error);
+    if (!isSamePlane) path.crossing.filling = here;
+    // Volumes are in no order.
+    const bool isOfMedia = border.isBorder == BORDER_OF_MEDIA;
+    const bool isEarlier = isOfMedia && isSamePlane && path.crossing.isUntold && before == path.crossing.filling.medium;
+    path.crossing.error = error;
+    path.crossing.isUntold = isOfMedia && !isEarlier && before != here.medium;
+    if (!isEarlier) here = fillingBehind(border, here, place.outside);
+    if (isPath) path.filling = here;
+    else path.shadowFilling = here;
+}
+
+/// At path.surface: a border in its plane is not passed.
+void settleMedium(inout PathState path) {
+    const SurfacePoint s = path.surface;
+    const float error = planeError(s.error, s.geometric, path.ray.origin);
+    if (isInPassedPlane(path.ray, path.crossing, s.geometric, error)) path.filling = path.crossing.filling;
 }

@@ -23,7 +23,7 @@ float foundShare(const Given given, PathState path, FoundSky sky) {
 }
 
 MaterialPoint askedPoint(PathState path) {
-    if (scattersInMedium(path.ray)) return MaterialPoint(path.medium, NO_PRIMITIVE, vec2(0.0));
+    if (scattersInMedium(path.ray)) return MaterialPoint(path.filling.medium, NO_PRIMITIVE, vec2(0.0));
     if (path.ray.hitPrimitive != NO_PRIMITIVE) return materialPoint(path.ray.hitPrimitive, vec2(path.ray.b1, path.ray.b2));
     if (emissionHasFactors() && isToLight(path.phase)) return path.sampledEmitter;
     return MaterialPoint(0u, NO_PRIMITIVE, vec2(0.0));
@@ -48,7 +48,7 @@ void finishHemisphereRay(inout PathState path) {
         const SurfacePoint s = surfaceAt(path.ray);
         arriving = emissionAt(s, materialAt(s));
     }
-    arriving *= transmittance(mediumBeyond(path.surface, path.material, path.medium, isBehind(path.surface, path.ray.direction)),
+    arriving *= transmittance(fillingBeyond(path.surface, path.material, path.filling, isBehind(path.surface, path.ray.direction)).medium,
                            path.ray.tMax);
     path.radiance += path.throughput * path.directValue * arriving;
     if (RECORDS) recordArrivedLight(path, path.throughput * path.directValue * arriving);
@@ -57,7 +57,7 @@ void finishHemisphereRay(inout PathState path) {
 
 /// Adds the light of the sky that the path ray has found. share: of it that is this ray's (foundShare()).
 void takeInSky(const Frame frame, inout PathState path, FoundSky sky, float share) {
-    const bool counts = path.countsEmission || AMBIENT_BY_BOUNCES && path.bounce >= frame.minBounce;
+    const bool counts = path.countsEmission || AMBIENT_BY_BOUNCES && countedBounces(path.bounce, path.uncounted) >= frame.minBounce;
     const bool adds = counts && (path.bounce > 0u || HAS_BACKDROP) && BOUNCES_FIND_ALL_LIGHT;
     if (adds) path.radiance += path.throughput * sky.radiance * share;
     if (RECORDS) recordMiss(path, adds ? path.throughput * sky.radiance * share : vec3(0.0), share);
@@ -71,14 +71,15 @@ void arrive(const Given given, inout PathState path) {
     if (!hit) sky = skyFrom(path.departureNormal, path.departureTable, path.ray.direction);
     float share = 1.0;
     if (!inMedium) share = foundShare(given, path, sky);
-    path.throughput *= transmittance(path.medium, hit ? path.ray.tMax : INFINITE_DISTANCE);
+    path.throughput *= transmittance(path.filling.medium, hit ? path.ray.tMax : INFINITE_DISTANCE);
     if (!hit) {
         if (SEES) seeNothing(path);
         else takeInSky(given.frame, path, sky, share);
         return;
     }
     if (!inMedium) path.surface = surfaceAt(path.ray);
-    if (inMedium) path.surface = pointInMedium(path.ray, path.medium);
+    if (inMedium) path.surface = pointInMedium(path.ray, path.filling.medium);
+    if (PASSES_BORDERS && !inMedium) settleMedium(path);
     if (INTEGRATOR == INTEGRATOR_NORMALS) {
         path.radiance = 0.5 * shadingNormal(path.surface) + 0.5;
         return;
@@ -111,13 +112,15 @@ void arrive(const Given given, inout PathState path) {
     }
     if (reliefRules(path.material) != 0u && dot(shadingNormal(path.surface), path.surface.wo) <= 0.0) return;
     ++path.bounce;
-    if (path.bounce > given.frame.maxBounces) return;
+    if (WALKS && isUnderSurface(path.filling.medium)) ++path.uncounted;
+    if (countedBounces(path.bounce, path.uncounted) > given.frame.maxBounces) return;
+    if (WALKS && path.uncounted >= MOST_UNDER_SURFACE) return;
     if (ROULETTE == ROULETTE_FIXED) {
         if (path.arrivalNumbers.z < given.frame.terminationProbability) return;
         path.throughput /= 1.0 - given.frame.terminationProbability;
     }
     const bool direct =
-        scattersIntoManyDirections(lobesOf(path.material)) && path.bounce >= given.frame.minBounce;
+        scattersIntoManyDirections(lobesOf(path.material)) && countedBounces(path.bounce, path.uncounted) >= given.frame.minBounce;
     path.directIndex = direct ? 0u : directSamples(given.frame);
     path.phase = PHASE_DIRECT;
 }
@@ -128,14 +131,14 @@ void arrive(const Given given, inout PathState path) {
 
 /// Whether light found by the bounce from here, from one of these lobes, adds to the picture.
 bool emissionCounts(const Frame frame, PathState path, uint lobes) {
-    return path.bounce >= frame.minBounce &&
+    return countedBounces(path.bounce, path.uncounted) >= frame.minBounce &&
            (isDelta(lobes) || combines(lobes) ||
             DIRECT_LIGHT == DIRECT_BSDF && BOUNCES_FIND_ALL_LIGHT);
 }
 
 /// All branches are of one weight. From here on `radiance` is their sum, until finishSample.
 void splitPath(const Frame frame, inout PathState path) {
-    path.splitPoint = SplitPoint(path.surface, path.throughput, path.bounce, path.medium);
+    path.splitPoint = SplitPoint(path.surface, path.throughput, path.bounce, path.uncounted, path.filling);
     path.branchesLeft = frame.branches - 1u;
     path.radiance *= float(frame.branches);
 }
@@ -147,13 +150,14 @@ void nextBranch(inout PathState path, Material material) {
     path.material = inMixture(material, path.surface);
     path.throughput = path.splitPoint.throughput;
     path.bounce = path.splitPoint.bounce;
-    path.medium = path.splitPoint.medium;
+    if (WALKS) path.uncounted = path.splitPoint.uncounted;
+    path.filling = path.splitPoint.filling;
     path.phase = PHASE_BOUNCE;
 }
 
 /// No bounce from here would be traced.
 bool endsHere(const Frame frame, PathState path) {
-    return path.bounce == frame.maxBounces && !AMBIENT_BY_BOUNCES && !mediaDo(MEDIA_SHINE) && !emissionCounts(frame, path, lobesOf(path.material));
+    return path.bounce == frame.maxBounces && !AMBIENT_BY_BOUNCES && !mediaDo(MEDIA_SHINE) && !WALKS && !emissionCounts(frame, path, lobesOf(path.material));
 }
 
 /// u: as sampleBsdf() takes it; roulette: for the path's end.
@@ -170,7 +174,10 @@ void scatter(const Given given, inout PathState path, vec3 u, float roulette) {
         return;
     }
     if (ROULETTE == ROULETTE_THROUGHPUT && path.bounce >= ROULETTE_START) {
-        const float q = min(ROULETTE_MAX_CONTINUE, ROULETTE_BOLDNESS * largest);
+        // A walk under a surface takes hundreds of scatterings that lose nothing.
+        float most = ROULETTE_MAX_CONTINUE;
+        if (WALKS && isUnderSurface(path.filling.medium)) most = 1.0;
+        const float q = min(most, ROULETTE_BOLDNESS * largest);
         if (roulette >= q) return;
         path.throughput *= 1.0 / q;
     }
@@ -184,19 +191,20 @@ void scatter(const Given given, inout PathState path, vec3 u, float roulette) {
         path.bouncePdf *= 2.0;
         path.departureNormal = transmitted ? -path.departureNormal : path.departureNormal;
     }
-    path.medium = mediumBeyond(path.surface, path.material, path.medium, transmitted);
-    traceFrom(path, path.surface, PHASE_PATH, leave(path.surface, b.direction, transmitted), b.direction,
+    path.filling = fillingBeyond(path.surface, path.material, path.filling, transmitted);
+    traceFrom(path, path.surface, PHASE_PATH, leaveThroughMedia(path.surface, b.direction, transmitted), b.direction,
               INFINITE_DISTANCE, transmitted);
 }
 
 void beginSample(const Frame frame, inout PathState path) {
     path.bounce = 0u;
+    path.uncounted = 0u;
     path.throughput = vec3(1.0);
     path.radiance = vec3(0.0);
     path.countsEmission = frame.minBounce == 0u;
     path.bouncePdf = 0.0;
     path.departureTable = GUIDES_LIGHT ? GUIDE_NODES : OWN_TABLE;
-    path.medium = HAS_MEDIA ? frame.cameraMedium : NO_MEDIUM;
+    path.filling = fillingOf(HAS_MEDIA ? frame.cameraMedium : NO_MEDIUM);
     path.splitPoint.bounce = 0u;
     path.branchesLeft = 0u;
     if (RECORDS) path.eventCount = 0u;

@@ -21,7 +21,16 @@ struct SplitPoint {
     SurfacePoint surface;
     vec3 throughput; ///< before scattering
     uint bounce;     ///< 0: has not split
-    uint medium;
+    uint uncounted;
+    Filling filling;
+};
+
+/// What of a ray decides in which media it is where borders and surfaces lie in one plane, so that rounding says which of
+/// them is met first (docs/theory/media.md, "Borders in the planes of surfaces").
+struct Crossing {
+    Filling filling; ///< the last one that the ray was in for longer than rounding can make up
+    float error;   ///< bound of the distance between what it has passed last and its plane; below 0: it has passed nothing
+    bool isUntold; ///< the border passed last says that the ray was in another medium before than it was
 };
 
 /// All that a lane knows of the path it follows and of the pixel that the path belongs to. Functions say in
@@ -39,10 +48,12 @@ struct PathState {
     float filterWeight; ///< of the sample (pixel_filter.glsl)
 
     uint bounce; ///< scatterings so far
+    uint uncounted; ///< of these: under surfaces, which do not count for the most and the fewest there may be
     vec3 throughput;
     vec3 radiance;
-    uint medium;          ///< that the path ray goes through: the first row of a material, or NO_MEDIUM
-    uint shadowMedium;    ///< likewise, of the light sample's ray under way; in scenes with media
+    Filling filling;       ///< that the path ray goes through
+    Filling shadowFilling; ///< likewise, the light sample's ray under way; in scenes with media
+    Crossing crossing;    ///< of the ray under way, where rays pass borders
     bool countsEmission;  ///< light that the ray finds adds to the picture ...
     float bouncePdf;      ///< ... weighted (mis.glsl), by this density of the ray's direction; 0: not weighted
     vec3 departureNormal; ///< shading normal of the surface that the ray has left, for that weight
@@ -80,6 +91,9 @@ const uint BRANCH_BLOCKS = 0x80000000u;
 
 /// Direct light samples at a surface: directions of hemisphere sampling, then samples of lights.
 uint directSamples(const Frame frame) { return frame.hemisphereSamples + frame.lightSamples; }
+
+/// Scatterings that count so far.
+uint countedBounces(uint bounce, uint uncounted) { return WALKS ? bounce - uncounted : bounce; }
 
 /// The number of the sample under way, or the next one, of this pixel.
 uint sampleIndex(const Frame frame, PathState path) { return frame.firstSample + path.pixelState.count + path.pixelState.rejected; }
@@ -120,6 +134,10 @@ void trace(inout PathState path, uint newPhase, vec3 origin, vec3 direction, flo
     path.ray.skipPrimitive = skipPrimitive;
     path.ray.passed = NO_PRIMITIVE;
     path.rayEnd = tMax;
+    if (PASSES_BORDERS) {
+        path.crossing = Crossing(path.filling, -1.0, false);
+        if (newPhase != PHASE_PATH) path.crossing.filling = path.shadowFilling;
+    }
     path.ray.skipPlacement = NO_PLACEMENT;
 }
 

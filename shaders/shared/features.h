@@ -118,7 +118,7 @@
     F(18, uint, SAMPLER, SAMPLER_INDEPENDENT, settings.sampler == Sampler::Sobol ? gpu::SAMPLER_SOBOL : \
         gpu::SAMPLER_INDEPENDENT, own, \
       "sampler", oneOf({"independent", "sobol"}), "how the random numbers of a pixel's samples are drawn") \
-    F(11, uint, ROULETTE, ROULETTE_THROUGHPUT, rouletteConstant(settings), own, \
+    F(11, uint, ROULETTE, ROULETTE_THROUGHPUT, rouletteConstant(scene, settings), own, \
       "roulette", oneOf({"none", "by throughput", "fixed probability"}), "how paths are ended at random") \
     F(47, uint, ROULETTE_START, 3u, f[SPEC_ROULETTE] == gpu::ROULETTE_THROUGHPUT ? settings.roulette.throughputStart \
         : 0, own, \

@@ -18,11 +18,16 @@ SHARED_BEGIN
     F(MEDIA_VARY_EXTINCTION, 5, "extinction of varying colours") \
     F(MEDIA_VARY_SCATTERING, 6, "scattering of varying colours") \
     F(MEDIA_VARY_SOURCE, 7, "emission of varying colours") \
-    F(MEDIA_GLOW, 8, "glow by temperature")
+    F(MEDIA_GLOW, 8, "glow by temperature") \
+    F(MEDIA_UNDER_SURFACE, 9, "walks under surfaces") \
+    F(MEDIA_OVERLAP, 10, "volumes that overlap")
 
 #define NAME_MEDIA(name, bit, label) SHARED_CONST uint name = 1u << bit;
 MEDIA_LIST(NAME_MEDIA)
 #undef NAME_MEDIA
+
+/// Scatterings of a path under surfaces end with this one: it is in a white medium that it does not leave.
+SHARED_CONST uint MOST_UNDER_SURFACE = 65536u;
 
 /// No medium begins at that row.
 SHARED_CONST uint NO_MEDIUM = 0xFFFFFFFFu;
@@ -31,9 +36,15 @@ SHARED_CONST uint NO_MEDIUM = 0xFFFFFFFFu;
 struct MediumBorder {
     uint inside;  ///< the first row of the medium where the stored normal does not point to, or NO_MEDIUM
     uint outside; ///< likewise, on the other side
-    uint isBorder; ///< 0: light that passes the surface stays in its medium
-    uint unused;
+    uint isBorder; ///< 0: light that passes the surface stays in its medium; else BORDER_OF_MEDIA or BORDER_OF_VOLUME
+    uint volume; ///< of a border of a volume: its number, from 1 to MOST_VOLUMES, and from bit 8 on the rows of a medium
 };
+/// It says what is on both sides.
+SHARED_CONST uint BORDER_OF_MEDIA = 1u;
+/// It is of a volume that may overlap others (MEDIA_OVERLAP): of those in which a place is, the one of the largest number
+/// counts. Their media lie one after the other, in order.
+SHARED_CONST uint BORDER_OF_VOLUME = 2u;
+SHARED_CONST uint MOST_VOLUMES = 255u;
 SHARED_ROWS(MediumBorder, 1);
 SHARED_CONST uint MEDIUM_BORDER_ROWS = 1u;
 

@@ -43,6 +43,12 @@
     F(uint, point.mixture, exists && MOST_OTHERS != 0u, readers, writers) \
     F(uint, point.table, exists && GUIDES_LIGHT, readers, writers)
 
+/// What a ray goes through (medium.glsl).
+#define FILLING_FIELDS(F, filling, exists, readers, writers) \
+    F(uint, filling.medium, exists, readers, writers) \
+    F(uint, filling.volumes, exists && mediaDo(MEDIA_OVERLAP), readers, writers) \
+    F(uint, filling.around, exists && mediaDo(MEDIA_OVERLAP), readers, writers)
+
 /// F(type, member, exists, readers, writers): all of a path (path_state.glsl) and of its place in the work list that
 /// the next stage, or the next dispatch, has to find. exists: whether the scene's kernels have the field.
 #define PATH_FIELDS(F) \
@@ -50,6 +56,7 @@
     F(uint, job.target, true, BY_ALL, BY_DEPART) \
     F(uint, path.phase, true, BY_ALL | AT_PAUSE, BY_SERVICE | BY_LIGHT | AT_PAUSE) \
     F(uint, path.bounce, true, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
+    F(uint, path.uncounted, mediaDo(MEDIA_UNDER_SURFACE), BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
     F(vec3, path.ray.origin, true, BY_ALL | AT_PAUSE, BY_SERVICE | BY_LIGHT | AT_PAUSE) \
     F(vec3, path.ray.direction, true, BY_ALL | AT_PAUSE, BY_SERVICE | BY_LIGHT | AT_PAUSE) \
     F(float, path.ray.tMin, true, BY_ALL, BY_SERVICE | BY_LIGHT) \
@@ -65,8 +72,11 @@
     F(uint, path.ray.hitPlacement, HAS_PLACEMENTS, BY_ALL, BY_TRACE) \
     F(vec3, path.throughput, true, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
     F(vec3, path.radiance, true, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
-    F(uint, path.medium, true, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
-    F(uint, path.shadowMedium, MEDIA != 0u, BY_FOLLOW, BY_FOLLOW | BY_LIGHT) \
+    FILLING_FIELDS(F, path.filling, true, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
+    FILLING_FIELDS(F, path.shadowFilling, MEDIA != 0u, BY_FOLLOW, BY_FOLLOW | BY_LIGHT) \
+    FILLING_FIELDS(F, path.crossing.filling, MEDIA != 0u && HAS_ALPHA, BY_FOLLOW, BY_SERVICE | BY_LIGHT) \
+    F(float, path.crossing.error, MEDIA != 0u && HAS_ALPHA, BY_FOLLOW, BY_SERVICE | BY_LIGHT) \
+    F(bool, path.crossing.isUntold, MEDIA != 0u && HAS_ALPHA, BY_FOLLOW, BY_SERVICE | BY_LIGHT) \
     F(bool, path.countsEmission, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(float, path.bouncePdf, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
     F(vec3, path.departureNormal, true, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
@@ -92,7 +102,8 @@
     F(uvec4, path.material.row8, HAS_IRIDESCENCE, BY_DEPART | BY_LIGHT | AT_RESULT, AT_ARRIVAL) \
     F(vec3, path.splitPoint.throughput, SPLITS, AT_RETURN | AT_PAUSE, AT_SPLIT | AT_PAUSE) \
     F(uint, path.splitPoint.bounce, SPLITS, BY_ALL | AT_PAUSE, BY_DEPART | AT_PAUSE) \
-    F(uint, path.splitPoint.medium, SPLITS, AT_RETURN | AT_PAUSE, AT_SPLIT | AT_PAUSE) \
+    F(uint, path.splitPoint.uncounted, SPLITS && mediaDo(MEDIA_UNDER_SURFACE), AT_RETURN | AT_PAUSE, AT_SPLIT | AT_PAUSE) \
+    FILLING_FIELDS(F, path.splitPoint.filling, SPLITS, AT_RETURN | AT_PAUSE, AT_SPLIT | AT_PAUSE) \
     SURFACE_FIELDS(F, path.splitPoint.surface, SPLITS, AT_RETURN | AT_PAUSE, AT_SPLIT | AT_PAUSE) \
     F(uint, path.branchesLeft, SPLITS, BY_ALL | AT_PAUSE, BY_SERVICE | AT_PAUSE) \
     F(uint, path.eventCount, RECORDS, BY_ALL | AT_PAUSE, BY_SERVICE | BY_LIGHT | AT_PAUSE)

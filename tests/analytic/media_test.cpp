@@ -1,6 +1,6 @@
 // Media with known answers (docs/theory/media.md): what is left of light (Beer and Lambert), what
-// is scattered once, furnaces in which nothing is lost, what shines, and grids of densities.
-#include "tests/analytic/scenes.hpp"
+// is scattered once, furnaces in which nothing is lost, and what shines.
+#include "tests/analytic/media.hpp"
 #include "tests/support/test_names.hpp"
 
 #include <gtest/gtest.h>
@@ -12,55 +12,11 @@ namespace {
 
 using namespace test;
 
-Medium medium(const glm::vec3& absorption, const glm::vec3& scattering, float asymmetry = 0) {
-    Medium m;
-    m.absorption = absorption;
-    m.scattering = scattering;
-    m.asymmetry = asymmetry;
-    return m;
-}
-
-uint32_t add(SceneMaker& b, const Medium& m) {
-    b.scene.media.push_back(m);
-    return uint32_t(b.scene.media.size() - 1);
-}
-
-/// A surface between two media and nothing else.
-Material border(uint32_t inside, uint32_t outside = kNoMedium) {
-    Material m = diffuse(0);
-    m.alphaMode = AlphaMode::Blend;
-    m.opacity = 0;
-    m.boundsMedia = true;
-    m.inside = inside;
-    m.outside = outside;
-    return m;
-}
-
-glm::dvec3 exponential(const glm::dvec3& depth) {
-    return {std::exp(-depth.x), std::exp(-depth.y), std::exp(-depth.z)};
-}
-
-constexpr float kThickness = 0.75f;
-
-/// A slab of a medium, as wide as if it had no end, from z = 0.25 up to 1, over the floor z = 0,
-/// which shines with the radiance 1 and reflects nothing.
-SceneMaker slab(const Medium& m) {
-    SceneMaker b;
-    b.quad({-80, -80, 0}, {160, 0, 0}, {0, 160, 0}, b.add(emissive(1)));
-    b.box({-80, -80, 0.25f}, {80, 80, 0.25f + kThickness}, b.add(border(add(b, m))));
-    return b;
-}
-
-/// The length in the slab of the ray that kAbove sees.
-double lengthInSlab() {
-    return kThickness / std::abs(kAbove.back.z);
-}
-
 // --- What is left ------------------------------------------------------------------------------
 
 TEST(Media, AbsorbByBeerAndLambert) {
     const glm::vec3 absorption(0.3f, 1.5f, 0);
-    const SceneMaker b = slab(medium(absorption, glm::vec3(0)));
+    const SceneMaker b = slab(mediumOf(absorption, glm::vec3(0)));
     const Estimate found = estimate(b.scene, kAbove, smallPicture(4, 1));
     const glm::dvec3 expected = exponential(lengthInSlab() * glm::dvec3(absorption));
     for (int c = 0; c < 3; ++c)
@@ -73,7 +29,7 @@ TEST(Media, WhatHasNotScatteredIsLeftByTheExtinction) {
     for (const DirectLight mode : kDirectLightModes) {
         RenderSettings s = smallPicture(256, 0);
         s.estimator.directLight = mode;
-        const SceneMaker b = slab(medium(absorption, scattering, 0.5f));
+        const SceneMaker b = slab(mediumOf(absorption, scattering, 0.5f));
         expectMean(estimate(b.scene, kAbove, s),
                    exponential(lengthInSlab() * glm::dvec3(absorption + scattering)));
     }
@@ -85,7 +41,7 @@ TEST(Media, ShadowRaysKeepTheirShare) {
     SceneMaker b;
     b.quad({-80, -80, 0}, {160, 0, 0}, {0, 160, 0}, b.add(diffuse(0.5f)));
     b.box({-80, -80, 0.25f}, {80, 80, 0.25f + kThickness},
-          b.add(border(add(b, medium(extinction, glm::vec3(0))))));
+          b.add(border(b.add(mediumOf(extinction, glm::vec3(0))))));
     Light l;
     l.position = {0.1f, 0.2f, 16};
     b.add(l);
@@ -101,8 +57,8 @@ TEST(Media, ShadowRaysKeepTheirShare) {
 TEST(Media, LieWithinEachOther) {
     SceneMaker b;
     b.quad({-8, -8, 0}, {16, 0, 0}, {0, 16, 0}, b.add(emissive(1)));
-    const uint32_t thin = add(b, medium(glm::vec3(0.25f), glm::vec3(0)));
-    const uint32_t thick = add(b, medium(glm::vec3(0.5f, 1, 2), glm::vec3(0)));
+    const uint32_t thin = b.add(mediumOf(glm::vec3(0.25f), glm::vec3(0)));
+    const uint32_t thick = b.add(mediumOf(glm::vec3(0.5f, 1, 2), glm::vec3(0)));
     b.sphere({0, 0, 3}, 2, b.add(border(thin)));
     b.box({-1, -1, 2.5f}, {1, 1, 3.5f}, b.add(border(thick, thin)));
     b.sphere({0, 0, 3}, 0.25f, b.add(border(kNoMedium, thick)));
@@ -118,7 +74,7 @@ TEST(Media, SurroundCameras) {
     SceneMaker b;
     b.quad({-8, -8, 0}, {16, 0, 0}, {0, 16, 0}, b.add(emissive(1)));
     Camera camera = pointCamera({0, 0, 3}, {0, 0, 0});
-    camera.medium = add(b, medium(glm::vec3(0.5f), glm::vec3(0)));
+    camera.medium = b.add(mediumOf(glm::vec3(0.5f), glm::vec3(0)));
     b.sphere({0, 0, 0}, 1, b.add(border(kNoMedium, 0)));
     expectMean(estimate(b.scene, camera, smallPicture(4, 1)), std::exp(-0.5 * 2));
 }
@@ -130,7 +86,7 @@ TEST(Media, DimTheEnvironment) {
     b.scene.environment = Environment{};
     b.scene.environment->width = b.scene.environment->height = 1;
     b.scene.environment->radiance = {glm::vec3(1)};
-    b.sphere({0, 0, 0}, 1, b.add(border(add(b, medium(glm::vec3(0.5f, 1, 2), glm::vec3(0))))));
+    b.sphere({0, 0, 0}, 1, b.add(border(b.add(mediumOf(glm::vec3(0.5f, 1, 2), glm::vec3(0))))));
     const Camera camera = pointCamera({0, 0, 3}, {0, 0, 0});
     expectMean(estimate(b.scene, camera, smallPicture(4, 1)),
                exponential(2.0 * glm::dvec3(0.5, 1, 2)));
@@ -139,8 +95,7 @@ TEST(Media, DimTheEnvironment) {
     expectMean(estimate(b.scene, inFog, smallPicture(4, 1)), 0);
 }
 
-// --- What is scattered
-// -----------------------------------------------------------------------------
+// --- What is scattered ---------------------------------------------------------------------------
 
 /// A narrow, a wide and a backward one.
 const std::vector<PhaseLobe> kSumOfPhases = {{PhaseFunction::HenyeyGreenstein, 0.9f, 0.25f},
@@ -179,12 +134,12 @@ double scatteredOnce(const glm::dvec3& from, const glm::dvec3& along, const glm:
 
 TEST(Media, ScatterLightOfAPointOnce) {
     for (const float g : {0.0f, 0.7f, -0.5f, 2.0f}) {
-        Medium m = medium(glm::vec3(0.0625f), glm::vec3(0.25f), g);
+        Medium m = mediumOf(glm::vec3(0.0625f), glm::vec3(0.25f), g);
         if (g == 2) m.setPhases(kSumOfPhases);
         SceneMaker b;
         b.quad({-50, -50, -4}, {100, 0, 0}, {0, 100, 0}, b.add(diffuse(0)));
         Camera camera = pointCamera({0, 0, 4}, {0, 0, -4});
-        camera.medium = add(b, m);
+        camera.medium = b.add(m);
         Light l;
         l.position = {1, 0.5f, 0.25f};
         l.constantAttenuation = 0;
@@ -205,9 +160,9 @@ TEST(Media, WhiteOnesAreFurnaces) {
             for (const float density : {0.1f, 8.0f}) {
                 SceneMaker b;
                 b.add(ambient(1));
-                Medium m = medium(glm::vec3(0), density * glm::vec3(1, 0.5f, 0.125f), g);
+                Medium m = mediumOf(glm::vec3(0), density * glm::vec3(1, 0.5f, 0.125f), g);
                 if (g == 0 && density == 8) m.phase = PhaseFunction::Rayleigh;
-                b.sphere({0, 0, 0}, 1, b.add(border(add(b, m))));
+                b.sphere({0, 0, 0}, 1, b.add(border(b.add(m))));
                 b.sphere({0, 0, 0}, 0.25f, b.add(border(kNoMedium, 0)));
                 const Camera camera = pointCamera({0, 0.3, 3}, {0, 0.3, 0});
                 RenderSettings s = smallPicture(16, 10'000);
@@ -231,7 +186,7 @@ TEST(Media, RoomsOfWhiteFogAreFurnaces) {
             b.box({-1, -1, -1}, {1, 1, 1}, b.add(emissive(1)), true);
             b.sphere({0.3f, 0.2f, 0.1f}, 0.25f, b.add(emissive(1)));
             Camera camera = pointCamera({-0.5, 0.1, 0.3}, {1, 0.4, 0.2});
-            camera.medium = add(b, medium(glm::vec3(0), glm::vec3(2, 1, 0.5f), 0.6f));
+            camera.medium = b.add(mediumOf(glm::vec3(0), glm::vec3(2, 1, 0.5f), 0.6f));
             RenderSettings s = smallPicture(16, 10'000);
             s.estimator.branches = branches;
             if (hasRoulette) s.estimator.roulette.mode = Roulette::Mode::Throughput;
@@ -243,7 +198,7 @@ TEST(Media, RoomsOfWhiteFogAreFurnaces) {
 TEST(Media, KeepEnergyOverThousandsOfScatterings) {
     SceneMaker b;
     b.add(ambient(1));
-    b.sphere({0, 0, 0}, 1, b.add(border(add(b, medium(glm::vec3(0), glm::vec3(100))))));
+    b.sphere({0, 0, 0}, 1, b.add(border(b.add(mediumOf(glm::vec3(0), glm::vec3(100))))));
     RenderSettings s = smallPicture(1, 1'000'000);
     s.area.width = s.area.height = 8;
     expectMean(estimate(b.scene, pointCamera({0, 0.3, 3}, {0, 0.3, 0}), s), 1);
@@ -255,7 +210,7 @@ TEST(Media, ChannelsAreWhatTheyAreAlone) {
     const auto seen = [&](const glm::vec3& a, const glm::vec3& s) {
         SceneMaker b;
         b.add(ambient(1));
-        b.sphere({0, 0, 0}, 1, b.add(border(add(b, medium(a, s, 0.3f)))));
+        b.sphere({0, 0, 0}, 1, b.add(border(b.add(mediumOf(a, s, 0.3f)))));
         return estimate(b.scene, pointCamera({0, 0.3, 3}, {0, 0.3, 0}), smallPicture(64, 1000));
     };
     const Estimate together = seen(absorption, scattering);
@@ -273,9 +228,9 @@ TEST(Media, EstimatorsAgree) {
     for (const float g : {0.9f, -0.6f, 0.0f}) {
         SceneMaker b;
         b.quad({-1, -1, 3}, {0, 2, 0}, {2, 0, 0}, b.add(emissive(4, true)));
-        Medium m = medium(glm::vec3(0.125f), glm::vec3(1, 0.5f, 0.25f), g);
+        Medium m = mediumOf(glm::vec3(0.125f), glm::vec3(1, 0.5f, 0.25f), g);
         if (g == 0) m.setPhases(kSumOfPhases);
-        b.sphere({0, 0, 0}, 1, b.add(border(add(b, m))));
+        b.sphere({0, 0, 0}, 1, b.add(border(b.add(m))));
         const auto seen = [&](DirectLight mode, uint32_t samples) {
             RenderSettings s = smallPicture(samples, 20);
             s.estimator.directLight = mode;
@@ -289,19 +244,18 @@ TEST(Media, EstimatorsAgree) {
 
 /// A narrow phase function sends light on as if there were no medium.
 TEST(Media, NarrowPhasesPassLightOn) {
-    SceneMaker b = slab(medium(glm::vec3(0), glm::vec3(2), kMostAsymmetry));
+    SceneMaker b = slab(mediumOf(glm::vec3(0), glm::vec3(2), kMostAsymmetry));
     expectMean(estimate(b.scene, kAbove, smallPicture(64, 1000)), 1);
 }
 
-// --- What shines
-// -----------------------------------------------------------------------------------
+// --- What shines ---------------------------------------------------------------------------------
 
 /// A medium of extinction s that sends out e per metre: e / s (1 - exp(-s d)) of its own, and the
 /// floor behind it.
 TEST(Media, Shine) {
     for (const float extinction : {0.0f, 0.01f, 1.5f})
         for (const bool varies : {false, true}) {
-            Medium m = medium(glm::vec3(extinction), glm::vec3(0));
+            Medium m = mediumOf(glm::vec3(extinction), glm::vec3(0));
             m.emission = glm::vec3(0.5f, 1, 2);
             if (varies && extinction == 0) continue; // no collision would find it
             const SceneMaker whole = slab(m);
@@ -330,9 +284,9 @@ TEST(Media, Shine) {
 /// ray through its middle it is more; what is tested is that scattering loses none of it.
 TEST(Media, ShineThroughWhatScatters) {
     SceneMaker b;
-    Medium m = medium(glm::vec3(0), glm::vec3(3));
+    Medium m = mediumOf(glm::vec3(0), glm::vec3(3));
     m.emission = glm::vec3(1);
-    b.sphere({0, 0, 0}, 1, b.add(border(add(b, m))));
+    b.sphere({0, 0, 0}, 1, b.add(border(b.add(m))));
     // Rays from a far camera over the disk of the ball: its flux is the integral over the disk.
     Camera camera = lookingAt({0, 0, 5}, {0, 0, 0}, 1);
     camera.orthographic = true;
@@ -341,195 +295,6 @@ TEST(Media, ShineThroughWhatScatters) {
     // pi L times the sphere's area = 4 pi e V; the picture, of area 4, has the mean L pi / 4.
     const double radiance = 4.0 / 3;
     expectMean(found, radiance * kPi / 4);
-}
-
-// --- Grids
-// -----------------------------------------------------------------------------------------
-
-/// A grid of two layers of cells along z over the slab, of densities a below and b above: between
-/// their middles the density rises linearly, and the mean is that of both.
-SceneMaker slabOfLayers(const Medium& m, float a, float b) {
-    SceneMaker scene = slab(m);
-    DensityGrid grid;
-    grid.size = {2, 3, 2};
-    grid.values = {a, a, a, a, a, a, b, b, b, b, b, b};
-    grid.toUnit = {glm::dvec4(1 / 160.0, 0, 0, 0.5), glm::dvec4(0, 1 / 160.0, 0, 0.5),
-                   glm::dvec4(0, 0, 1 / double(kThickness), -0.25 / kThickness)};
-    scene.scene.media[0].density = grid;
-    return scene;
-}
-
-TEST(Media, GridsAbsorbByTheirMeanDensity) {
-    const glm::vec3 absorption(0.3f, 1.5f, 0.125f);
-    const SceneMaker b = slabOfLayers(medium(absorption, glm::vec3(0)), 0.25f, 2);
-    expectMean(estimate(b.scene, kAbove, smallPicture(256, 1)),
-               exponential(1.125 * lengthInSlab() * glm::dvec3(absorption)));
-}
-
-TEST(Media, ShadowRaysGoThroughGrids) {
-    const glm::vec3 extinction(0.3f, 1.5f, 0.125f);
-    SceneMaker b = slabOfLayers(medium(extinction, glm::vec3(0)), 0.25f, 2);
-    b.scene.materials[0] = diffuse(0.5f);
-    Light l;
-    l.position = {0.1f, 0.2f, 16};
-    b.add(l);
-    const Camera below = pointCamera({0.2, 0.1, 0.1}, {0.1, 0.2, 0});
-    expectMean(estimate(b.scene, below, smallPicture(256, 1)),
-               0.5 / kPi * exponential(1.125 * double(kThickness) * glm::dvec3(extinction)));
-}
-
-/// A grid that is the same everywhere is the medium without one; a white one is a furnace whatever
-/// is in it.
-TEST(Media, WhiteGridsAreFurnaces) {
-    DensityGrid grid;
-    grid.size = {20, 18, 3};
-    for (uint32_t i = 0; i < 20u * 18 * 3; ++i)
-        grid.values.push_back(i % 7 == 0 ? 0.0f : float(i % 5));
-    grid.toUnit = {glm::dvec4(0.5, 0, 0, 0.5), glm::dvec4(0, 0.5, 0, 0.5),
-                   glm::dvec4(0, 0, 0.5, 0.5)};
-    for (const float g : {0.0f, 0.8f}) {
-        SceneMaker b;
-        b.box({-2, -2, -2}, {2, 2, 2}, b.add(emissive(1)), true);
-        Medium m = medium(glm::vec3(0), glm::vec3(4, 2, 1), g);
-        m.density = grid;
-        Camera camera = pointCamera({-1.5, 0.1, 0.3}, {1, 0.4, 0.2});
-        camera.medium = add(b, m);
-        expectMean(estimate(b.scene, camera, smallPicture(64, 10'000)), 1);
-    }
-}
-
-// --- Grids of colours
-// -----------------------------------------------------------------------------
-
-/// The slab's cube, whatever is in it.
-constexpr double kPerLength = 1 / 160.0, kPerHeight = 1 / double(kThickness);
-const std::array<glm::dvec4, 3> kSlabToUnit = {glm::dvec4(kPerLength, 0, 0, 0.5),
-                                               glm::dvec4(0, kPerLength, 0, 0.5),
-                                               glm::dvec4(0, 0, kPerHeight, -0.25 * kPerHeight)};
-
-/// Two layers of the slab, of one cell each.
-ColorGrid twoLayers(const glm::vec3& below, const glm::vec3& above) {
-    ColorGrid grid;
-    grid.size = {1, 1, 2};
-    grid.values = {below, above};
-    grid.toUnit = kSlabToUnit;
-    return grid;
-}
-
-/// Each channel has the mean of its own densities, for camera rays and for rays to a light.
-TEST(Media, GridsOfColoursAbsorbByChannel) {
-    const glm::vec3 absorption(0.3f, 1.5f, 0.125f), below(0.25f, 0, 3), above(2, 0.5f, 0);
-    Medium m = medium(absorption, glm::vec3(0));
-    m.colors.extinction = twoLayers(below, above);
-    const glm::dvec3 depth = 0.5 * glm::dvec3(absorption) * glm::dvec3(below + above);
-    const SceneMaker seen = slab(m);
-    expectMean(estimate(seen.scene, kAbove, smallPicture(256, 1)),
-               exponential(lengthInSlab() * depth));
-    SceneMaker lit = slab(m);
-    lit.scene.materials[0] = diffuse(0.5f);
-    Light l;
-    l.position = {0.1f, 0.2f, 16};
-    lit.add(l);
-    expectMean(
-        estimate(lit.scene, pointCamera({0.2, 0.1, 0.1}, {0.1, 0.2, 0}), smallPicture(256, 1)),
-        0.5 / kPi * exponential(double(kThickness) * depth));
-}
-
-/// Colours from 0 to 4 in a box from -1 to 1.
-ColorGrid motley(const glm::uvec3& size, float scale) {
-    ColorGrid grid;
-    grid.size = size;
-    for (uint32_t i = 0; i < size.x * size.y * size.z; ++i)
-        grid.values.push_back(scale * glm::vec3(i % 5, i % 3, i % 7 == 0 ? 4 : 0));
-    grid.toUnit = {glm::dvec4(0.5, 0, 0, 0.5), glm::dvec4(0, 0.5, 0, 0.5),
-                   glm::dvec4(0, 0, 0.5, 0.5)};
-    return grid;
-}
-
-/// What scatters all is a furnace, by shares of 1 and by factors that are those of the extinction.
-TEST(Media, WhiteGridsOfColoursAreFurnaces) {
-    for (const bool isFactor : {false, true}) {
-        SceneMaker b;
-        b.box({-1, -1, -1}, {1, 1, 1}, b.add(emissive(1)), true);
-        Medium m = medium(glm::vec3(0.25f), glm::vec3(1, 0.5f, 0.25f), 0.4f);
-        m.colors.extinction = motley({5, 18, 3}, 1);
-        m.colors.scattering = m.colors.extinction;
-        m.colors.scatteringIsFactor = isFactor;
-        if (!isFactor) m.colors.scattering->values.assign(5 * 18 * 3, glm::vec3(1));
-        Camera camera = pointCamera({-0.5, 0.1, 0.3}, {1, 0.4, 0.2});
-        camera.medium = add(b, m);
-        expectMean(estimate(b.scene, camera, smallPicture(32, 10'000)), 1);
-    }
-}
-
-/// Each channel is what it is alone, where extinction and albedo vary in colour, on grids of their
-/// own.
-TEST(Media, ChannelsOfGridsAreWhatTheyAreAlone) {
-    Medium together = medium(glm::vec3(0.5f, 1, 0.25f), glm::vec3(0.5f), 0.3f);
-    together.colors.extinction = motley({3, 2, 5}, 0.5f);
-    together.colors.scattering = motley({2, 3, 1}, 0.25f);
-    const auto seen = [](const Medium& m) {
-        SceneMaker b;
-        b.add(ambient(1));
-        b.box({-1, -1, -1}, {1, 1, 1}, b.add(border(add(b, m))));
-        return estimate(b.scene, pointCamera({0.2, 0.3, 3}, {0.1, 0.2, 0}),
-                        smallPicture(128, 1000));
-    };
-    const Estimate all = seen(together);
-    for (int c = 0; c < 3; ++c) {
-        Medium alone = medium(glm::vec3(together.extinction()[c]), glm::vec3(0), 0.3f);
-        alone.density.emplace();
-        alone.density->size = together.colors.extinction->size;
-        alone.density->toUnit = together.colors.extinction->toUnit;
-        for (const glm::vec3& color : together.colors.extinction->values)
-            alone.density->values.push_back(color[c]);
-        alone.colors.scattering = together.colors.scattering;
-        for (glm::vec3& color : alone.colors.scattering->values)
-            color = glm::vec3(color[c]);
-        const Estimate found = seen(alone);
-        EXPECT_NEAR(all.mean[c], found.mean[c],
-                    4.5 * std::hypot(all.error[c], found.error[c]) + kRounding)
-            << c;
-    }
-}
-
-/// What a slab that absorbs sends up, and the floor behind it: the integral over the way of
-/// absorption times radiance times what is left.
-glm::dvec3 radianceOfSlab(const Medium& m) {
-    constexpr int kSteps = 4000;
-    glm::dvec3 left(1.0), sum(0.0);
-    const double step = lengthInSlab() / kSteps;
-    for (int i = 0; i < kSteps; ++i) {
-        const glm::dvec3 unit(0.5, 0.5, 1 - (i + 0.5) / kSteps);
-        const MediumPoint p = m.at({0, 0, 0.25 + double(kThickness) * unit.z}, unit);
-        const glm::dvec3 half = exponential(0.5 * step * p.extinction);
-        sum += left * half * p.emission * step;
-        left *= half * half;
-    }
-    return sum + left;
-}
-
-/// Radiance of varying colours, and glow by temperatures that vary.
-TEST(Media, ShineInColoursThatVary) {
-    Medium m = medium(glm::vec3(1.5f, 0.75f, 1), glm::vec3(0));
-    m.colors.extinction = twoLayers({1, 2, 0.5f}, {2, 0.25f, 1});
-    m.colors.source = twoLayers({4, 0, 1}, {0.5f, 3, 2});
-    const auto expectShine = [&] {
-        const SceneMaker b = slab(m);
-        const Estimate found = estimate(b.scene, kAbove, smallPicture(1024, 2));
-        const glm::dvec3 expected = radianceOfSlab(m);
-        for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(found.mean[c], expected[c], 4.5 * found.error[c] + 1e-5 * expected[c]) << c;
-    };
-    expectShine();
-    m.density.emplace();
-    m.density->size = {1, 1, 2};
-    m.density->values = {0.5f, 1.5f};
-    m.density->toUnit = kSlabToUnit;
-    m.colors.extinction.reset();
-    m.colors.source = twoLayers({1, 1200, 0}, {2, 300, 0}); // a factor, kelvins
-    m.colors.glow = GlowTable{500, 1500, {{0.5f, 1, 0, -3}, {1, 0.5f, 0.25f, 1}, {1, 1, 1, 2}}};
-    expectShine();
 }
 
 } // namespace

@@ -221,7 +221,7 @@ TEST(MitsubaForgives, PicturesAsNumbers) {
 TEST(MitsubaForgives, Media) {
     const Scene scene =
         forgiven(ballOf("<medium name=\"interior\" type=\"plasma\"/><subsurface "
-                        "type=\"dipole\"/>") +
+                        "type=\"octopole\"/>") +
                      "<sensor type=\"perspective\"><medium type=\"plasma\"/></sensor>",
                  "<medium>: 'plasma' is no medium that is read", "the scene is shown without it");
     EXPECT_TRUE(scene.media.empty());

@@ -224,5 +224,33 @@ TEST(MitsubaMedia, HaveGridsOfColours) {
     expectColors(plain, glm::vec3(0.5f), glm::vec3(0.5f));
 }
 
+/// A subsurface is a medium under an interface, which has the roughness of the surface.
+TEST(MitsubaMedia, LieUnderSurfaces) {
+    const auto under = [](const std::string& subsurface, const std::string& bsdf) {
+        return loadOld(ball(subsurface, bsdf));
+    };
+    const Scene scene =
+        under("<subsurface type=\"dipole\"><string name=\"material\" value=\"skin2\"/>"
+              "<float name=\"scale\" value=\"10\"/><float name=\"g\" value=\"0.5\"/>"
+              "<float name=\"intIOR\" value=\"1.4\"/><float name=\"extIOR\" "
+              "value=\"1\"/><integer name=\"irrSamples\" value=\"64\"/></subsurface>",
+              "<bsdf type=\"roughplastic\"><float name=\"alpha\" value=\"0.2\"/></bsdf>");
+    const Material& m = scene.materials.at(scene.spheres.at(0).material);
+    EXPECT_EQ(m.kind, MaterialKind::Dielectric);
+    EXPECT_EQ(m.ior, 1.4f);
+    EXPECT_EQ(m.facets.alpha.x, 0.2f);
+    EXPECT_TRUE(m.boundsMedia);
+    EXPECT_EQ(m.outside, kNoMedium);
+    const Medium& medium = scene.media.at(m.inside);
+    EXPECT_TRUE(medium.isUnderSurface);
+    EXPECT_EQ(medium.asymmetry, 0.5f);
+    expectColors(medium, {10.9f, 15.9f, 17.9f}, {0.13f, 0.7f, 1.45f});
+    const Scene colored =
+        under("<subsurface type=\"singlescatter\"><rgb name=\"sigmaS\" value=\"1 2 "
+              "3\"/><rgb name=\"sigmaA\" value=\"4 5 6\"/></subsurface>",
+              "");
+    expectColors(colored.media.at(0), {1, 2, 3}, {4, 5, 6});
+}
+
 } // namespace
 } // namespace stromboli::test

@@ -219,10 +219,5 @@ TEST(MitsubaShapes, NormalsAreWeighedByAngles) {
     EXPECT_EQ(mesh.parts[0][0][0].normal, mesh.parts[0][1][0].normal);
 }
 
-TEST(MitsubaShapes, SubsurfaceScatteringIsSaid) {
-    EXPECT_THAT(problemInside("<shape type=\"sphere\"><subsurface type=\"dipole\"/></shape>"),
-                HasSubstr("<subsurface>: scatters under a surface, which is not supported"));
-}
-
 } // namespace
 } // namespace stromboli::test

@@ -104,8 +104,6 @@ TEST(PbrtMaterials4, OthersAreReplacedAndSaid) {
     for (const char* kind : {"coatedconductor", "hair", "measured"})
         EXPECT_THAT(problemInV4(fmt::format("Material \"{}\" {}", kind, kTriangle)),
                     HasSubstr(fmt::format("'{}' is no material that exists here", kind)));
-    EXPECT_THAT(problemInV4("Material \"subsurface\"" + std::string(kTriangle)),
-                HasSubstr("scatters light under the surface"));
     EXPECT_THAT(problemInV4("Material \"velvet\"" + std::string(kTriangle)),
                 HasSubstr("<Material \"velvet\">: 'velvet' is no material that is read"));
     EXPECT_THAT(problemInV4("Material \"diffuse\" \"float shine\" 1" + std::string(kTriangle)),

@@ -179,5 +179,69 @@ TEST(PbrtMedia, ThatCannotBeReadAreSaid) {
                 HasSubstr("has 1 values of 'density', expected 2"));
 }
 
+/// All that is extinguished, as scattering.
+Medium mediumOfSum(const Medium& m) {
+    Medium sum;
+    sum.scattering = m.extinction();
+    return sum;
+}
+
+TEST(PbrtMedia, HaveNames) {
+    const std::string kind = "\"string type\" \"homogeneous\" ";
+    expectColors(loadV4(fog(kind + "\"string preset\" \"Skin1\" \"float scale\" 2")).media.at(0),
+                 {1.48f, 1.76f, 2.02f}, {0.064f, 0.34f, 0.96f});
+    const std::string unknown = fog(kind + "\"string preset\" \"Lava\"");
+    EXPECT_THAT(problemInV4(unknown), HasSubstr("is 'Lava', which is not known"));
+    expectColors(loadV4(unknown).media.at(0), {2.55f, 3.21f, 3.77f}, {0.0011f, 0.0024f, 0.014f});
+}
+
+/// Light scatters in a medium under an interface, whose scatterings do not count as bounces.
+TEST(PbrtMedia, LieUnderSurfaces) {
+    const auto under = [](const Scene& scene) {
+        const Material& m = scene.materials.at(scene.spheres.at(0).material);
+        EXPECT_EQ(m.kind, MaterialKind::Dielectric);
+        EXPECT_TRUE(m.boundsMedia);
+        EXPECT_EQ(m.outside, kNoMedium);
+        EXPECT_TRUE(scene.media.at(m.inside).isUnderSurface);
+        return scene.media.at(m.inside);
+    };
+    const auto v4 = [&](const std::string& parameters) {
+        return under(loadV4("Material \"subsurface\" " + parameters + " Shape \"sphere\""));
+    };
+    const auto v3 = [&](const std::string& kind, const std::string& parameters) {
+        return under(loadV3("Material \"" + kind + "\" " + parameters +
+                            " Shape \"sphere\" \"float radius\" 1"));
+    };
+    const glm::vec3 milkScatters(2.55f, 3.21f, 3.77f), milkAbsorbs(0.0011f, 0.0024f, 0.014f);
+    expectColors(v4(""), milkScatters, milkAbsorbs);
+    expectColors(v3("subsurface", ""), milkScatters, milkAbsorbs);
+    const Medium stated = v4("\"rgb sigma_a\" [1 2 3] \"rgb sigma_s\" [4 5 6] \"float scale\" .5 "
+                             "\"float g\" .25");
+    expectColors(stated, {2, 2.5f, 3}, {0.5f, 1, 1.5f});
+    EXPECT_EQ(stated.asymmetry, 0.25f);
+    expectColors(v4("\"string name\" \"Ketchup\" \"float scale\" 10 \"float g\" .25"),
+                 {1.8f, 0.7f, 0.3f}, {0.61f, 9.7f, 14.5f});
+    // A colour and the mean free path, whose product with the extinction is 1.
+    for (const Medium& m :
+         {v4("\"rgb reflectance\" [.2 .5 .9] \"rgb mfp\" [.5 .25 .125] \"float scale\" 2"),
+          v3("kdsubsurface",
+             "\"rgb Kd\" [.2 .5 .9] \"rgb mfp\" [.5 .25 .125] \"float scale\" 2")}) {
+        expectColors(mediumOfSum(m), {1, 2, 4}, glm::vec3(0));
+        EXPECT_LT(m.scattering.x, 0.85f);
+        EXPECT_GT(m.scattering.z / 4, 0.99f);
+    }
+    EXPECT_THAT(
+        problemInV4("Material \"subsurface\" \"string name\" \"Lava\"" + std::string(kTriangle)),
+        HasSubstr("is 'Lava', which is not known"));
+}
+
+/// What varies over a surface stays a colour of it.
+TEST(PbrtMedia, AreNotUnderTextures) {
+    const std::string texture =
+        "Texture \"t\" \"spectrum\" \"checkerboard\" Material \"subsurface\" \"texture "
+        "reflectance\" \"t\" ";
+    EXPECT_THAT(problemInV4(texture + kTriangle), HasSubstr("under the surface by a texture"));
+}
+
 } // namespace
 } // namespace stromboli::test
