@@ -145,6 +145,19 @@ Words withoutJoinedNumbers(const OptionList& list, const Words& words) {
     return apart;
 }
 
+/// "--watch room.xml" is "--watch 0 room.xml", since its number may be missing.
+Words withMissingNumbers(const OptionList& list, const Words& words) {
+    Words all;
+    for (size_t i = 0; i < words.size(); ++i) {
+        all.push_back(words[i]);
+        if (i + 1 < words.size() && isWholeNumber(words[i + 1])) continue;
+        for (const CommandOption& o : list.all())
+            if (!o.ifMissing.empty() && std::ranges::count(o.dashedNames(), words[i]) > 0)
+                all.push_back(o.ifMissing);
+    }
+    return all;
+}
+
 /// "help render" is "render --help", and "help" is "--help".
 Words withoutHelpCommand(const Words& words) {
     if (words.empty() || words.front() != "help") return words;
@@ -315,7 +328,10 @@ DeclaredCommand* parseCommand(std::deque<DeclaredCommand>& commands, const Words
                     examples, exitCodesInOneLine(), kHowNumbersAreWritten));
     checkCommandName(commands, asked);
     const auto named = std::ranges::find(commands, asked.front(), &DeclaredCommand::name);
-    const Words words = named == commands.end() ? asked : withoutJoinedNumbers(named->list, asked);
+    const Words words =
+        named == commands.end()
+            ? asked
+            : withMissingNumbers(named->list, withoutJoinedNumbers(named->list, asked));
     Given given;
     std::vector<CLI::App*> apps;
     for (const DeclaredCommand& c : commands) {

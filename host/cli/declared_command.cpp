@@ -130,6 +130,11 @@ CommandOption& CommandOption::maybeJoined() {
     return *this;
 }
 
+CommandOption& CommandOption::maybeWithoutNumber(std::string number) {
+    ifMissing = std::move(number);
+    return *this;
+}
+
 CommandOption& CommandOption::common() {
     isCommon = true;
     return *this;

@@ -106,6 +106,9 @@ class CommandOption {
     CommandOption& hidden();
     /// Two numbers that may also be one word with an x between them: 640x360.
     CommandOption& maybeJoined();
+    /// Its number may be missing, and is then this one: a word behind it that is no whole number
+    /// belongs to others.
+    CommandOption& maybeWithoutNumber(std::string number);
     /// Is among the few that --help lists first.
     CommandOption& common();
     /// Words that completion proposes. Others may be understood too.
@@ -122,7 +125,8 @@ class CommandOption {
     std::string names;      ///< "-l,--light-samples"; without dashes: by position
     std::string valueNames; ///< of its words, as "W H"; empty: a flag
     std::string help, group, usual;
-    std::string range; ///< of its numbers, in words; empty: it takes none
+    std::string range;     ///< of its numbers, in words; empty: it takes none
+    std::string ifMissing; ///< its word where it has none; empty: it must have one
     uint32_t wordCount = 1;
     bool anyNumber = false, separatedByCommas = false, mayRepeat = false;
     bool isRequired = false, isHidden = false, isFirst = false, isBesidePicture = false;

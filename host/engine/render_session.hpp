@@ -113,10 +113,10 @@ class RenderSession {
     /// Begins the picture again with another camera.
     void moveCamera(const CameraRequest& camera);
     /// Begins the picture again in a scene that has become another one: numbers of materials,
-    /// lights, places of objects. The scene that was handed over stays as it is. A change of
-    /// materials and lights uploads their rows and builds nothing, but where a texture begins or
-    /// ceases to count; what the first motion of an object leaves where it is gets a tree of its
-    /// own, which later ones keep. A kernel is compiled only where materials and lights want
+    /// lights, places of objects, what is around it. The scene that was handed over stays as it is.
+    /// A change of materials and lights uploads their rows and builds nothing, but where a texture
+    /// begins or ceases to count; what the first motion of an object leaves where it is gets a tree
+    /// of its own, which later ones keep. A kernel is compiled only where materials and lights want
     /// another one. Throws std::invalid_argument (ChangingScene::apply()).
     void change(const SceneChange& change);
 
@@ -125,6 +125,8 @@ class RenderSession {
     const RenderRequest& request() const { return request_; }
     /// The scene of that picture.
     const Scene& scene() const { return *scene_; }
+    /// To begin another picture of it.
+    const std::shared_ptr<const Scene>& sharedScene() const { return scene_; }
 
     /// Takes samples until a pass is done or progress() asks to pause; the next call goes on.
     /// False: the picture is finished, cancelled, or its device is lost for good (result()). Throws

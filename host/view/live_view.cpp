@@ -27,8 +27,9 @@ constexpr double kLook = 0.1; ///< seconds between two looks at what else there 
 
 LiveView::LiveView(RenderSession& session, Exchange& exchange, LiveRequest request)
     : session_(session), exchange_(exchange), request_(std::move(request)),
-      showing_(session, exchange) {
-    session_.begin(request_.scene.scene, request_.picture);
+      showing_(session, exchange), scene_(request_.scene.scene), loading_(request_.load),
+      asked_(request_.source) {
+    session_.begin(scene_, request_.picture);
     const RenderSettings& settings = session_.picture().settings;
     full_ = {settings.area.width, settings.area.height};
     // All pictures have the kernel of the first: size and branches are settled.
@@ -73,7 +74,7 @@ void LiveView::beginCoarse(uint32_t coarseness) {
     }
     request.budget = {};
     request.budget.mostPathsPerPixel = kCoarseSamples * request_.picture.branches.value_or(1);
-    session_.begin(request_.scene.scene, request);
+    session_.begin(scene_, request);
     isCoarse_ = true;
     isOver_ = false;
     level_ = coarseness;
@@ -82,29 +83,104 @@ void LiveView::beginCoarse(uint32_t coarseness) {
 }
 
 void LiveView::beginFull() {
-    session_.begin(request_.scene.scene, requestNow());
+    session_.begin(scene_, requestNow());
     isCoarse_ = false;
     isOver_ = false;
     samplesDone_ = 0;
     showing_.beginPicture();
 }
 
+// --- What is asked for ---------------------------------------------------------------------------
+
 void LiveView::steer(const Steering& steering) {
     if (steering.paused) isPaused_ = *steering.paused;
     if (steering.moving) isMoving_ = *steering.moving;
     sinceSteering_ = {};
     isStale_ = true;
-    if (steering.fileCamera && *steering.fileCamera >= request_.scene.scene->cameras.size()) return;
-    if (!steering.pose && !steering.fileCamera) return;
+    reload(steering);
+    EnvironmentRequest around = request_.source.environment;
+    if (steering.turn && !around.sun) around.rotationDegrees = *steering.turn;
+    if (steering.sun && around.sun) {
+        around.sun->azimuth = steering.sun->azimuth;
+        around.sun->elevation = steering.sun->elevation;
+    }
     const auto before = std::pair(pose_, fileCamera_);
-    pose_ = steering.pose;
-    fileCamera_ = steering.fileCamera;
+    const bool isRelit = relight(around), isElsewhere = look(steering);
+    if (!isRelit && !isElsewhere) return;
     try {
         beginFirst();
     } catch (const SceneError&) { // no camera can be there: the view stays where it was
         std::tie(pose_, fileCamera_) = before;
         beginFirst();
     }
+}
+
+bool LiveView::look(const Steering& steering) {
+    if (steering.fileCamera && *steering.fileCamera >= scene_->cameras.size()) return false;
+    if (!steering.pose && !steering.fileCamera) return false;
+    pose_ = steering.pose;
+    fileCamera_ = steering.fileCamera;
+    return true;
+}
+
+/// A turn leaves the environment's tables as they are; so does the azimuth of a sun.
+bool LiveView::relight(const EnvironmentRequest& wanted) {
+    EnvironmentRequest& now = request_.source.environment;
+    if (!scene_->environment || scene_->environment->isConstant()) return false;
+    SceneChange change;
+    change.rotation = rotationOf(wanted, request_.scene.rotationOfFile);
+    if (wanted.sun && wanted.sun->elevation != now.sun->elevation) {
+        auto sky = std::make_shared<Environment>(environmentOf(*wanted.sun));
+        sky->strength = scene_->environment->strength;
+        change.environment = std::move(sky);
+    }
+    now = asked_.environment = wanted;
+    if (!change.environment && *change.rotation == scene_->environment->rotation) return false;
+    session_.change(change);
+    scene_ = session_.sharedScene();
+    return true;
+}
+
+/// Another set of materials or another moment is read from the file.
+void LiveView::reload(const Steering& steering) {
+    FileSelection wanted = asked_.reading.selection;
+    const std::vector<std::string>& names = scene_->variants;
+    if (steering.variant && *steering.variant < int(names.size()))
+        wanted.variant = *steering.variant < 0 ? "" : names[size_t(*steering.variant)];
+    if (steering.seconds && scene_->animationSeconds > 0) {
+        wanted.seconds = steering.seconds;
+        if (*steering.seconds < 0) wanted.seconds.reset();
+    }
+    FileSelection& asked = asked_.reading.selection;
+    if (wanted.variant == asked.variant && wanted.seconds == asked.seconds) return;
+    asked = wanted;
+    problem_.clear();
+    loading_.ask(asked_);
+}
+
+void LiveView::takeLoaded() {
+    std::optional<SceneLoading::Loaded> loaded = loading_.take();
+    if (!loaded) return;
+    isStale_ = true;
+    if (!loaded->scene.scene) {
+        problem_ = loaded->problem;
+        asked_.reading.selection = request_.source.reading.selection;
+        return;
+    }
+    if (fileCamera_ && *fileCamera_ >= loaded->scene.scene->cameras.size()) fileCamera_.reset();
+    try {
+        session_.begin(loaded->scene.scene, requestNow());
+    } catch (const SceneError& error) { // no camera can be there
+        problem_ = error.what();
+        asked_.reading.selection = request_.source.reading.selection;
+        return beginFirst();
+    }
+    const EnvironmentRequest around = request_.source.environment;
+    request_.scene = std::move(loaded->scene);
+    request_.source = std::move(loaded->request);
+    scene_ = request_.scene.scene;
+    relight(around); // may have been steered meanwhile
+    beginFirst();
 }
 
 /// The first picture after a move is finished whatever happens, so that there is always one to be
@@ -123,7 +199,7 @@ void LiveView::pass(const std::function<bool()>& wantsToEnd) {
         samplesDone_ =
             progress.samplesDone / session_.picture().settings.estimator.branches; // of paths
         const bool isFit = samplesDone_ >= session_.picture().settings.area.pixelCount();
-        const bool isWanted = exchange_.isSteered() || exchange_.isAsked() ||
+        const bool isWanted = exchange_.isSteered() || exchange_.isAsked() || loading_.isReady() ||
                               (!isCoarse_ && isFit && showing_.isDue());
         return isWanted ? Next::Pause : Next::GoOn;
     };
@@ -170,6 +246,7 @@ void LiveView::attend() {
 
 void LiveView::run(const std::function<bool()>& wantsToEnd) {
     while (!wantsToEnd()) {
+        if (loading_.isReady()) takeLoaded();
         if (exchange_.isSteered()) steer(exchange_.takeSteering());
         if (!isOver_ && (isCoarse_ || !isPaused_)) {
             pass(wantsToEnd);
@@ -208,7 +285,19 @@ ShownState LiveView::state() const {
     const Crop& crop = request_.picture.crop;
     s.fullWidth = crop.width > 0 ? crop.width : full_.width;
     s.fullHeight = crop.width > 0 ? crop.height : full_.height;
-    s.state = isPaused_ ? "paused" : isOver_ && !isCoarse_ ? "done" : "rendering";
+    s.state = loading_.isUnderWay()   ? "loading"
+              : isPaused_             ? "paused"
+              : isOver_ && !isCoarse_ ? "done"
+                                      : "rendering";
+    s.problem = problem_;
+    const SceneRequest& source = asked_;
+    const bool isPicture = scene_->environment && !scene_->environment->isConstant();
+    if (source.environment.sun)
+        s.sun = {source.environment.sun->azimuth, source.environment.sun->elevation};
+    else if (isPicture)
+        s.turn = source.environment.rotationDegrees;
+    s.variant = source.reading.selection.variant;
+    s.seconds = source.reading.selection.seconds;
     s.share = isCoarse_ ? 0 : share_;
     s.raysPerSecond = raysPerSecond_;
     s.pose = pose_;
@@ -221,7 +310,7 @@ std::string LiveView::commandNow(const ToneWords& tone, bool denoised) const {
     static_cast<void>(toneOf(tone)); // throws
     ResolvedPicture picture = session_.picture();
     picture.settings.area = {full_.width, full_.height, request_.picture.crop};
-    return request_.command(pose_, fileCamera_, picture, tone, denoised);
+    return request_.command({pose_, fileCamera_, request_.source, picture, tone, denoised});
 }
 
 Reply LiveView::probe(uint32_t x, uint32_t y) {

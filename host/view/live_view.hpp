@@ -3,6 +3,7 @@
 #include "host/engine/load_scene.hpp"
 #include "host/engine/render_session.hpp"
 #include "host/view/exchange.hpp"
+#include "host/view/scene_loading.hpp"
 #include "host/view/showing.hpp"
 
 #include <cstdint>
@@ -13,14 +14,23 @@
 
 namespace stromboli::view {
 
-/// The command line that makes a picture of what is viewed: of the pose or, without one, of a
-/// camera of the file (its place) or, without either, of the view that was begun with.
-using CommandWriter = std::function<std::string(
-    const std::optional<Pose>& pose, const std::optional<size_t>& fileCamera,
-    const ResolvedPicture& picture, const ToneWords& tone, bool denoised)>;
+/// What is viewed: from the pose or, without one, from a camera of the file (its place) or, without
+/// either, from where it was begun.
+struct Viewed {
+    std::optional<Pose> pose;
+    std::optional<size_t> fileCamera;
+    const SceneRequest& scene;
+    ResolvedPicture picture;
+    ToneWords tone;
+    bool denoised = false;
+};
+/// The command line that makes a picture of it.
+using CommandWriter = std::function<std::string(const Viewed&)>;
 
 struct LiveRequest {
     LoadedScene scene;
+    SceneRequest source;   ///< that it was loaded by
+    SceneLoader load;      ///< for others of the same file
     std::string name;      ///< of the scene, for the page
     RenderRequest picture; ///< the one to begin with
     CommandWriter command;
@@ -45,6 +55,10 @@ class LiveView final : public Answers {
 
   private:
     void steer(const Steering& steering);
+    bool look(const Steering& steering);
+    bool relight(const EnvironmentRequest& wanted);
+    void reload(const Steering& steering);
+    void takeLoaded();
     void beginFirst();
     void beginCoarse(uint32_t coarseness);
     void beginFull();
@@ -61,6 +75,10 @@ class LiveView final : public Answers {
     LiveRequest request_;
     PictureSize full_;
     Showing showing_;
+    std::shared_ptr<const Scene> scene_; ///< what the request's has become
+    SceneLoading loading_;
+    SceneRequest asked_; ///< that is shown once it is loaded
+    std::string problem_;
     std::optional<Pose> pose_;
     std::optional<size_t> fileCamera_;
     bool isCoarse_ = false, isOver_ = false, isPaused_ = false, isMoving_ = false;

@@ -83,6 +83,13 @@ Steering steeringOf(const httplib::Request& request) {
     }
     if (const auto camera = numberIfGiven(request, "camera", 0, 1e6))
         steering.fileCamera = size_t(*camera);
+    steering.turn = numberIfGiven(request, "turn", -3600, 3600);
+    if (request.has_param("azimuth"))
+        steering.sun = {numberOf(request, "azimuth", -3600, 3600),
+                        numberOf(request, "elevation", 0, 90)};
+    if (const auto variant = numberIfGiven(request, "variant", -1, 1e6))
+        steering.variant = int(*variant);
+    steering.seconds = numberIfGiven(request, "seconds", -1, 1e9);
     steering.moving = flagOf(request, "moving");
     steering.paused = flagOf(request, "paused");
     return steering;

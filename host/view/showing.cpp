@@ -81,6 +81,9 @@ std::string Showing::textOf(Shown what, const ShownState& state, const Raster& r
     Json cameras = Json::array();
     for (const FileCamera& camera : scene.cameras)
         cameras.push_back(camera.name);
+    const auto orNull = [](const std::optional<double>& value) {
+        return value ? Json(*value) : Json(nullptr);
+    };
     const bool isRadiance = what == Shown::Picture || what == Shown::Denoised;
     const Json text = {
         {"number", number_},
@@ -107,6 +110,14 @@ std::string Showing::textOf(Shown what, const ShownState& state, const Raster& r
         {"device", result.backend},
         {"cameras", cameras},
         {"readOnly", state.readOnly},
+        {"problem", state.problem},
+        {"turn", orNull(state.turn)},
+        {"sun",
+         state.sun ? Json::array({state.sun->azimuth, state.sun->elevation}) : Json(nullptr)},
+        {"variants", scene.variants},
+        {"variant", state.variant},
+        {"animationSeconds", scene.animationSeconds},
+        {"atSeconds", orNull(state.seconds)},
         {"isStated", state.pose.has_value()},
         {"pose", poseJson(state.pose.value_or(poseOf(picture.camera, scene)))},
     };

@@ -36,11 +36,17 @@ struct ShownState {
     uint64_t epoch = 0;  ///< numbers the pictures that were begun
     bool coarse = false; ///< in place of a picture of full size
     uint32_t fullWidth = 0, fullHeight = 0;
-    std::string state; ///< "rendering", "paused", "done"
-    double share = 0;  ///< of the work that is done
+    std::string state;   ///< "rendering", "paused", "done", "loading"
+    std::string problem; ///< why what was asked for last is not there; may be empty
+    double share = 0;    ///< of the work that is done
     double raysPerSecond = 0;
     bool readOnly = false;
     std::optional<Pose> pose; ///< empty: the view of a camera of the file
+    // What can be steered beside it, where it is there:
+    std::optional<double> turn;
+    std::optional<SunPlace> sun;
+    std::string variant;
+    std::optional<double> seconds;
 };
 
 /// Makes frames of what a session renders, between its passes, for those who wait for them.

@@ -150,7 +150,7 @@ TEST(RefusedOptions, ContradictionsAreRefused) {
                                                {"--aperture", "5 mm", "--focus", "5m"},
                                                {"--aperture", "0", "--focus", "5m"},
                                                {"--fov", "180"},
-                                               {"--env-rotate", "90"},
+                                               {"--env-strength", "2"},
                                                {"--env", "sky.hdr", "--cs184"},
                                                {"--scene", "-1"},
                                                {"--at", "never"},

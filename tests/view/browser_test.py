@@ -4,9 +4,12 @@ browser_test.py PROGRAM        exit code 77: there is no Chromium
 """
 
 import math
+import os
 import shutil
 import sys
+import tempfile
 
+import small_gltf
 from browser import Browser
 from program import Served
 
@@ -123,6 +126,49 @@ def mouse(page):
     page.mouse("mouseReleased", *middle, button="left", clickCount=1)
 
 
+def light_and_scene(browser, program):
+    """Sliders of the sun and the environment; the scene's variants and time."""
+    small = ["-r", "48", "36", "-s", "4", "-m", "2", "--exposure", "0"]
+    with Served(program, "view", "cornell_boxes", *small, "--sun", "90,40") as view:
+        page = browser.open(view.address)
+        page.wait(DONE)
+        check(page.evaluate("!at('light-tools').hidden && at('turn').parentElement.hidden && at('scene-tools').hidden"),
+              "a sun has two sliders")
+        choose(page, "elevation", 12.34)
+        page.wait(f"{DONE} && stromboli.frame.sun[1] === 12.3 && stromboli.frame.sun[0] === 90")
+        choose(page, "azimuth", 270)
+        page.wait(f"{DONE} && stromboli.frame.sun[0] === 270 && stromboli.frame.sun[1] === 12.3")
+        page.evaluate("at('command').click(), 0")
+        page.wait("at('command-text').textContent.includes('--sun 270,12.3,3')")
+        page.close()
+    with tempfile.TemporaryDirectory() as folder:
+        file = os.path.join(folder, "small.gltf")
+        small_gltf.write(file)
+        with Served(program, "view", file, *small, "--env", "evening_sky") as view:
+            page = browser.open(view.address)
+            page.wait(DONE)
+            color = "[...context.getImageData(canvas.width / 2, canvas.height / 2, 1, 1).data]"
+            check(page.evaluate("[...at('camera').options].map((o) => o.text).join()") == "(choose),front",
+                  "cameras of the file have their names")
+            choose(page, "turn", 90)
+            page.wait(f"{DONE} && stromboli.frame.turn === 90")
+            check(page.evaluate("at('azimuth').parentElement.hidden && !at('scene-tools').hidden"), "the tools")
+            check(page.evaluate("[...at('variant').options].map((o) => o.text).join()") == "of the file,red one,blue",
+                  "the variants have their names")
+            choose(page, "variant", 1)
+            page.wait(f"{DONE} && stromboli.frame.variant === 'blue'")
+            r, _, b, _ = page.evaluate(color)
+            check(b > 2 * r, f"the square is blue: {r} {b}")
+            choose(page, "seconds", 2)
+            page.wait(f"{DONE} && stromboli.frame.atSeconds === 2")
+            away = page.evaluate(color)
+            check(away != [r, _, b, 255], "the square has moved away")
+            page.evaluate("at('at-rest').click(), 0")
+            page.wait(f"{DONE} && stromboli.frame.atSeconds === null")
+            check(page.evaluate("stromboli.frame.turn") == 90, "the light stays turned")
+            page.close()
+
+
 def two_browsers(browser, view, page):
     """Both see what one of them does."""
     other = browser.open(view.address, alone=True)
@@ -155,5 +201,6 @@ if __name__ == "__main__":
         page.wait(DONE)
         pixels(page)
         mouse(page)
+        light_and_scene(browser, sys.argv[1])
         two_browsers(browser, view, page)
         reconnects(sys.argv[1], view, page)

@@ -11,6 +11,7 @@ const page = {
   metered: settings.exposure === "auto",
   frame: null, // what the last frame says of itself
   halves: null,
+  sun: null, // azimuth and elevation, likewise
   pose: null, // what this page has steered to, or what the frame says
   drawn: 0, // frames
   reconnects: 0,
@@ -102,7 +103,7 @@ function draw() {
   else scale = developLayer(page.shown, page.halves, frame.exponent, image.data);
   context.putImageData(image, 0, 0);
   fit();
-  say(scale);
+  say(frame.state === "loading" ? "loading" : frame.problem || scale);
 }
 
 // As large as there is room, in the shape of the picture.
@@ -135,7 +136,34 @@ function describe() {
     at("camera").parentElement.hidden = f.cameras.length === 0;
   }
   at("pause").setAttribute("aria-pressed", String(f.state === "paused"));
+  describeScene();
   showTools();
+}
+
+// Light, variants and time, where the scene has them; what is being moved is not moved back.
+const degrees = (v) => `${Number(v.toFixed(1))}°`, seconds = (v) => `${Number(v.toFixed(2))} s`;
+const around = (v, least) => least + ((((v - least) % 360) + 360) % 360); // the same angle, from `least` on
+function describeScene() {
+  const f = page.frame, isAnimated = f.animationSeconds > 0;
+  const place = (id, value, inWords) => {
+    at(id).parentElement.hidden = value === null;
+    if (value === null || changing === id) return;
+    at(id).value = value, at(`${id}-value`).textContent = inWords(value);
+  };
+  if (changing === null) page.sun = f.sun;
+  place("turn", f.turn === null ? null : around(f.turn, -180), degrees);
+  place("azimuth", f.sun === null ? null : around(f.sun[0], 0), degrees);
+  place("elevation", f.sun === null ? null : f.sun[1], degrees);
+  at("light-tools").hidden = settings.readOnly || (f.turn === null && f.sun === null);
+  if (at("variant").options.length !== f.variants.length + 1)
+    at("variant").replaceChildren(new Option("of the file", -1), ...f.variants.map((name, i) => new Option(name, i)));
+  at("variant").value = f.variants.indexOf(f.variant);
+  at("variant").parentElement.hidden = f.variants.length === 0;
+  at("seconds").max = f.animationSeconds;
+  place("seconds", isAnimated ? f.atSeconds ?? 0 : null, seconds);
+  at("at-rest").hidden = !isAnimated;
+  at("at-rest").setAttribute("aria-pressed", String(f.atSeconds === null));
+  at("scene-tools").hidden = settings.readOnly || (f.variants.length === 0 && !isAnimated);
 }
 
 function showTools() {
@@ -302,6 +330,31 @@ at("camera").addEventListener("change", () => {
 at("fov").addEventListener("input", () => moveAndRest({ ...page.pose, fov: Number(at("fov").value) }));
 at("aperture").addEventListener("change", () => {
   if (page.pose) moveTo({ ...page.pose, aperture: lens() }, false);
+});
+// Sliders of what makes the picture: many steps, and the last one.
+let changing = null, changed = 0;
+function slides(id, digits, inWords, wanted) {
+  at(id).addEventListener("input", () => {
+    const value = Number(Number(at(id).value).toFixed(digits));
+    changing = id;
+    at(`${id}-value`).textContent = inWords(value);
+    steer({ ...wanted(value), moving: 1 });
+    clearTimeout(changed);
+    changed = setTimeout(() => { changing = null, steer({ moving: 0 }); }, 250);
+  });
+}
+function sunAt(azimuth, elevation) {
+  page.sun = [azimuth, elevation];
+  return { azimuth, elevation };
+}
+slides("turn", 1, degrees, (turn) => ({ turn }));
+slides("azimuth", 1, degrees, (azimuth) => sunAt(azimuth, page.sun[1]));
+slides("elevation", 1, degrees, (elevation) => sunAt(page.sun[0], elevation));
+slides("seconds", 3, seconds, (at) => ({ seconds: at }));
+at("variant").addEventListener("change", () => steer({ variant: at("variant").value }));
+at("at-rest").addEventListener("click", () => {
+  if (!(page.frame?.animationSeconds > 0)) return;
+  steer({ seconds: page.frame.atSeconds === null ? at("seconds").value : -1 });
 });
 const toggled = (id) => {
   const on = at(id).getAttribute("aria-pressed") !== "true";
