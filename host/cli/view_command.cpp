@@ -134,6 +134,12 @@ view::LiveRequest liveRequest(const ViewOptions& o, LoadedScene scene) {
     view::LiveRequest request;
     request.name = o.scene.source;
     request.picture = o.picture;
+    if (!o.reference.empty()) {
+        request.reference = view::readReference(o.reference);
+        const compare::Picture& reference = request.reference->picture;
+        if (!o.picture.size && o.picture.crop.width == 0)
+            request.picture.size = PictureSize{reference.width, reference.height};
+    }
     request.source = o.scene;
     Listener listener = sayingOnce(toTerminal());
     listener.activity = nullptr; // on another thread than what renders
@@ -173,6 +179,12 @@ void declareView(DeclaredCommand& c) {
                 o->viewTransform);
     list.text("--exposure", "EV", "radiance times 2^EV, to begin with; auto: metered", o->exposure);
     list.onOff("--denoise", "on: the page begins with the denoised picture", o->denoised);
+    list.text("--reference", "FILE",
+              "a picture (.exr, .hdr, .pfm, ...) that the page lays beside its own, with what "
+              "`compare` says of them; -r is its size",
+              o->reference)
+        .proposes(Proposed::Files)
+        .besidePicture();
     declarePicture(list, o->picture, *asked);
     declareEstimator(list, *o, *asked);
     declareSamples(list, o->picture, *asked,
@@ -212,7 +224,9 @@ int viewCommand(const ViewOptions& o) {
     RenderSession session(o.device, sayingOnce(toTerminal())); // opens devices meanwhile
     LoadedScene scene = loadScene(o.scene, toTerminal());
     warnOfBlackPicture(*scene.scene, o.scene.source, o.picture, toTerminal());
-    view::LiveView live(session, exchange, liveRequest(o, std::move(scene)));
+    view::LiveRequest request = liveRequest(o, std::move(scene));
+    if (request.reference) serving.reference = request.reference->frame;
+    view::LiveView live(session, exchange, std::move(request));
     const view::Server server(serving, exchange);
     fmt::print("{}\n", server.address());
     std::fflush(stdout);

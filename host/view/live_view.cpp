@@ -2,6 +2,7 @@
 
 #include "host/core/error.hpp"
 
+#include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
@@ -23,6 +24,13 @@ constexpr uint32_t kCoarseSamples = 2;
 constexpr double kRest = 0.4;
 constexpr double kLook = 0.1; ///< seconds between two looks at what else there is to do
 
+void requireSize(const compare::Picture& reference, const Crop& picture) {
+    if (reference.width == picture.width && reference.height == picture.height) return;
+    throw UsageError(fmt::format("the reference has {} x {} pixels, and the picture {} x {}: give "
+                                 "-r and --crop of the reference, or neither",
+                                 reference.width, reference.height, picture.width, picture.height));
+}
+
 } // namespace
 
 LiveView::LiveView(RenderSession& session, Exchange& exchange, LiveRequest request)
@@ -36,6 +44,10 @@ LiveView::LiveView(RenderSession& session, Exchange& exchange, LiveRequest reque
     request_.picture.size = full_;
     request_.picture.crop = settings.area.crop;
     request_.picture.branches = settings.estimator.branches;
+    if (request_.reference) {
+        requireSize(request_.reference->picture, settings.area.rendered());
+        showing_.compareWith(request_.reference);
+    }
     beginFirst();
 }
 

@@ -29,10 +29,11 @@ using CommandWriter = std::function<std::string(const Viewed&)>;
 
 struct LiveRequest {
     LoadedScene scene;
-    SceneRequest source;   ///< that it was loaded by
-    SceneLoader load;      ///< for others of the same file
-    std::string name;      ///< of the scene, for the page
-    RenderRequest picture; ///< the one to begin with
+    SceneRequest source;                               ///< that it was loaded by
+    SceneLoader load;                                  ///< for others of the same file
+    std::string name;                                  ///< of the scene, for the page
+    RenderRequest picture;                             ///< the one to begin with
+    std::shared_ptr<const ReferencePicture> reference; ///< null: none
     CommandWriter command;
     /// What saved files say of how they were made; may be empty.
     std::function<PictureNotes(const RenderResult& result, const std::string& command)> notes;
@@ -43,7 +44,8 @@ struct LiveRequest {
 /// show, and that one, with as many samples as are asked for.
 class LiveView final : public Answers {
   public:
-    /// The session and the exchange outlive it. Throws what resolvePicture() does.
+    /// The session and the exchange outlive it. Throws what resolvePicture() does, and UsageError
+    /// if the reference has another size than the picture.
     LiveView(RenderSession& session, Exchange& exchange, LiveRequest request);
 
     /// Until wantsToEnd() says so, which is asked several times a second. Throws DeviceError.

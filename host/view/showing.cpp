@@ -109,6 +109,8 @@ std::string Showing::textOf(Shown what, const ShownState& state, const Raster& r
         {"scene", state.scene},
         {"device", result.backend},
         {"cameras", cameras},
+        {"difference",
+         isRadiance && reference_ ? differenceJson(*reference_, raster) : Json(nullptr)},
         {"readOnly", state.readOnly},
         {"problem", state.problem},
         {"turn", orNull(state.turn)},

@@ -4,11 +4,14 @@
 #include "host/engine/render_session.hpp"
 #include "host/view/exchange.hpp"
 #include "host/view/picture_source.hpp"
+#include "host/view/reference_picture.hpp"
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace stromboli::view {
 
@@ -56,6 +59,10 @@ class Showing {
     Showing(RenderSession& session, Exchange& exchange)
         : session_(session), exchange_(exchange), source_(session) {}
 
+    /// Frames of radiance tell how it differs from this picture.
+    void compareWith(std::shared_ptr<const ReferencePicture> reference) {
+        reference_ = std::move(reference);
+    }
     void beginPicture();
     /// Whether a pass is to be paused, because a frame is due that somebody waits for.
     bool isDue() const { return exchange_.isAwaited() && cadence_.isDue(watch_.seconds()); }
@@ -71,6 +78,7 @@ class Showing {
     RenderSession& session_;
     Exchange& exchange_;
     PictureSource source_;
+    std::shared_ptr<const ReferencePicture> reference_;
     Cadence cadence_;
     Stopwatch watch_;
     uint64_t number_ = 0; ///< of the last frame

@@ -3,9 +3,11 @@
 browser_test.py PROGRAM        exit code 77: there is no Chromium
 """
 
+import json
 import math
 import os
 import shutil
+import subprocess
 import sys
 import tempfile
 
@@ -169,6 +171,57 @@ def light_and_scene(browser, program):
             page.close()
 
 
+def reference(browser, program):
+    """A picture to compare with: its place beside the other one, the difference, and what `compare` says of them."""
+    options = ["cornell_boxes", "-s", "4", "-m", "2"]
+    with tempfile.TemporaryDirectory() as folder:
+        def made(name, *more):
+            file = os.path.join(folder, name)
+            subprocess.run([program, "render", *options, "-r", "48", "36", *more, "-o", file], check=True,
+                           stderr=subprocess.DEVNULL)
+            return file
+        same, other = made("same.exr", "--guiding", "off"), made("other.exr", "--seed", "5")
+        both = "[canvas, at('other')].map((c) => [...c.getContext('2d').getImageData(0, 0, 48, 36).data].join())"
+        for file in (same, other):
+            with Served(program, "view", *options, "--exposure", "0", "--reference", file) as view:
+                page = browser.open(view.address)
+                page.wait(f"{DONE} && stromboli.reference && !at('other').hidden")
+                check(page.evaluate("canvas.width === 48 && canvas.height === 36"), "the size is the reference's")
+                difference = page.evaluate("stromboli.frame.difference")
+                saved = os.path.join(folder, "saved.exr")
+                with open(saved, "wb") as out:
+                    out.write(view.ask("save?format=exr"))
+                report = json.loads(subprocess.run([program, "compare", file, saved, "--json", "-"],
+                                                   stdout=subprocess.PIPE).stdout)
+                check(close(difference["relMse"], report["relMse"]) and close(difference["mse"], report["mse"])
+                      and close(difference["ssim"], report["ssim"]), f"{difference} {report}")
+                check((difference["relMse"] == 0) == (file == same), str(difference))
+                check(page.evaluate("at('difference').textContent.startsWith('relMSE ')"), "the metrics are shown")
+                for view_, exposure in (("standard", 1.5), ("agx", -1)):
+                    choose(page, "view", view_)
+                    choose(page, "exposure", exposure)
+                    pictures = page.evaluate(both)
+                    check((pictures[0] == pictures[1]) == (file == same), f"both at {exposure} EV by {view_}")
+                # The divider is dragged, and the camera stays.
+                epoch = page.evaluate("stromboli.frame.epoch")
+                left, top, width, height = page.evaluate(
+                    "(({ left, top, width, height }) => [left, top, width, height])(canvas.getBoundingClientRect())")
+                page.drag((left + width / 2, top + height / 2), (left + width / 4, top + height / 2))
+                check(close(page.evaluate("stromboli.divider"), 0.25, 0.01), "the divider was dragged")
+                check("75%" in page.evaluate("at('other').style.clipPath"), "the picture is right of it")
+                check(page.evaluate("stromboli.frame.epoch") == epoch, "the camera stays")
+                choose(page, "compared", "difference")
+                light = page.evaluate("context.getImageData(0, 0, 48, 36).data.reduce((s, v, i) => i % 4 < 3 ? s + v : s, 0)")
+                check((light == 0) == (file == same) and page.evaluate("at('other').hidden"), f"the difference: {light}")
+                choose(page, "compared", "none")
+                check(page.evaluate("at('other').hidden && at('divider').hidden"), "nothing is shown beside it")
+                # The metrics follow the picture: the camera is another one then.
+                page.evaluate("moveTo(dollied(stromboli.pose, 1.5), false), 0")
+                page.wait(f"{DONE} && stromboli.frame.epoch > {epoch}")
+                check(page.evaluate("stromboli.frame.difference.relMse") > 0, "the metrics follow the picture")
+                page.close()
+
+
 def two_browsers(browser, view, page):
     """Both see what one of them does."""
     other = browser.open(view.address, alone=True)
@@ -202,5 +255,6 @@ if __name__ == "__main__":
         pixels(page)
         mouse(page)
         light_and_scene(browser, sys.argv[1])
+        reference(browser, sys.argv[1])
         two_browsers(browser, view, page)
         reconnects(sys.argv[1], view, page)

@@ -10,6 +10,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import urllib.error
 
 import small_gltf
 from program import Served
@@ -146,6 +147,24 @@ def same_scenes(program, folder):
         check("small.gltf" in text["problem"] and text["variant"] == "blue", str(text))
 
 
+def references_of_another_size(program, folder):
+    """Are an error that says both sizes; no request names a file."""
+    file = os.path.join(folder, "reference.exr")
+    subprocess.run([program, "render", "cornell_boxes", "-r", "20", "10", "-s", "1", "-o", file], check=True,
+                   stderr=subprocess.DEVNULL)
+    for options, code, words in ((["-r", "32", "24", "--reference", file], 1, ("20 x 10", "32 x 24")),
+                                 (["--reference", file + ".not"], 1, ("reference.exr.not",))):
+        done = subprocess.run([program, "view", "cornell_boxes", *options], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True)
+        check(done.returncode == code and all(word in done.stderr for word in words), done.stderr)
+    with Served(program, "view", "cornell_boxes", "-r", "8", "6", "-s", "1") as view:
+        try:
+            view.ask("reference?file=" + file)
+            check(False, "a file was named by the page")
+        except urllib.error.HTTPError as error:
+            check(error.code == 404, str(error))
+
+
 def watched_render(program, folder):
     """A page shows a render that goes on, and the file has the bytes of one that nobody has watched."""
     options = ["render", "cornell_boxes", "-r", "64", "48", "-s", "1000", "--even"]
@@ -174,4 +193,5 @@ if __name__ == "__main__":
         same_pictures(sys.argv[1], place)
         same_light(sys.argv[1], place)
         same_scenes(sys.argv[1], place)
+        references_of_another_size(sys.argv[1], place)
         watched_render(sys.argv[1], place)

@@ -11,6 +11,9 @@ const page = {
   metered: settings.exposure === "auto",
   frame: null, // what the last frame says of itself
   halves: null,
+  reference: null, // a frame to compare with
+  compared: "split",
+  divider: 0.5, // its place, of the picture's width
   sun: null, // azimuth and elevation, likewise
   pose: null, // what this page has steered to, or what the frame says
   drawn: 0, // frames
@@ -99,9 +102,12 @@ function draw() {
     canvas.width = frame.width, canvas.height = frame.height;
   const image = context.createImageData(frame.width, frame.height);
   let scale = "";
-  if (isRadiance()) developRadiance(page.halves, frame.exponent, page.view, exposureNow(), image.data);
+  const other = page.reference;
+  if (isDifference()) developDifference(page.halves, frame.exponent, other.halves, other.text.exponent, exposureNow(), image.data);
+  else if (isRadiance()) developRadiance(page.halves, frame.exponent, page.view, exposureNow(), image.data);
   else scale = developLayer(page.shown, page.halves, frame.exponent, image.data);
   context.putImageData(image, 0, 0);
+  drawReference();
   fit();
   say(frame.state === "loading" ? "loading" : frame.problem || scale);
 }
@@ -114,8 +120,73 @@ function fit() {
   canvas.style.width = `${frame.fullWidth * size}px`;
   canvas.style.height = `${frame.fullHeight * size}px`;
   canvas.classList.toggle("sharp", !frame.coarse && size >= 2);
+  at("other").classList.toggle("sharp", size >= 2);
+  for (const over of [at("other"), at("divider")]) {
+    over.style.top = `${canvas.offsetTop}px`, over.style.height = canvas.style.height;
+    over.style.left = `${canvas.offsetLeft + (over.id === "divider" ? page.divider * frame.fullWidth * size : 0)}px`;
+  }
+  at("other").style.width = canvas.style.width;
 }
 window.addEventListener("resize", fit);
+
+// --- The reference -----------------------------------------------------------------------------------------------------
+
+const isSameSize = () => page.frame.width === page.reference?.text.width && page.frame.height === page.reference?.text.height;
+const isDifference = () => page.compared === "difference" && isRadiance() && isSameSize();
+
+// It lies over the picture, up to the divider, and is developed anew when the exposure or the view is another.
+let developed = "";
+function drawReference() {
+  const { reference, compared, divider } = page, other = at("other");
+  const isThere = reference && isRadiance() && (compared === "split" || compared === "all");
+  other.hidden = !isThere;
+  at("divider").hidden = !isThere || compared === "all";
+  at("divider").setAttribute("aria-valuenow", String(Math.round(100 * divider)));
+  if (!isThere) return;
+  other.style.clipPath = `inset(0 ${compared === "all" ? 0 : 100 * (1 - divider)}% 0 0)`;
+  const how = `${page.view} ${exposureNow()}`;
+  if (how === developed) return;
+  developed = how;
+  const { width, height, exponent } = reference.text;
+  other.width = width, other.height = height;
+  const to = other.getContext("2d"), image = to.createImageData(width, height);
+  developRadiance(reference.halves, exponent, page.view, exposureNow(), image.data);
+  to.putImageData(image, 0, 0);
+}
+
+async function fetchReference() {
+  const response = await ask("/reference", {});
+  if (!response.ok) return say(await response.text());
+  page.reference = decode(await response.arrayBuffer());
+  at("reference-tools").hidden = false;
+  draw();
+}
+
+function divideAt(share) {
+  page.divider = Math.min(Math.max(share, 0), 1);
+  drawReference(), fit();
+}
+at("divider").addEventListener("pointerdown", (event) => at("divider").setPointerCapture(event.pointerId));
+at("divider").addEventListener("pointermove", (event) => {
+  const box = canvas.getBoundingClientRect();
+  if (at("divider").hasPointerCapture(event.pointerId)) divideAt((event.clientX - box.left) / box.width);
+});
+at("divider").addEventListener("keydown", (event) => {
+  const by = { ArrowLeft: -0.02, ArrowRight: 0.02 }[event.key];
+  if (by) divideAt(page.divider + by), event.stopPropagation();
+});
+at("compared").addEventListener("change", () => { page.compared = at("compared").value, draw(); });
+
+const short = (v) => (v === null ? "none" : String(Number(v.toPrecision(4))));
+function describeDifference() {
+  const d = page.frame.difference;
+  if (!d) return at("difference").textContent = isRadiance() ? "the coarse picture is not compared" : "";
+  at("difference").textContent = [`relMSE ${short(d.relMse)}`, `MSE ${short(d.mse)}`,
+    `bias ${d.bias === null ? "unknown" : percent(d.bias)}`, `PSNR ${d.psnr === null ? "without end" : `${short(d.psnr)} dB`}`,
+    `SSIM ${short(d.ssim)}`].join("\n");
+}
+
+// --- What is said --------------------------------------------------------------------------------------------------------
 
 const percent = (share) => `${Number((100 * share).toPrecision(2))} %`;
 function describe() {
@@ -137,6 +208,7 @@ function describe() {
   }
   at("pause").setAttribute("aria-pressed", String(f.state === "paused"));
   describeScene();
+  if (page.reference) describeDifference();
   showTools();
 }
 
@@ -286,7 +358,6 @@ async function probe(event) {
 }
 
 function showProbe(p) {
-  const short = (v) => (v === null ? "none" : String(Number(v.toPrecision(4))));
   const list = (v) => v.map(short).join("  ");
   const rows = { pixel: `${p.x} ${p.y}`, radiance: list(p.radiance), "its error": list(p.standardError),
     noise: p.noise === null ? "unknown" : percent(p.noise), samples: short(p.samples), albedo: list(p.albedo),
@@ -389,5 +460,6 @@ at("command").addEventListener("click", async () => {
 
 if (settings.readOnly) at("camera-tools").hidden = at("keys").hidden = at("command").hidden = true;
 showTools();
+if (settings.reference) fetchReference().catch((error) => say(error.message));
 window.stromboli = page; // for who looks at it from the console
 follow();
