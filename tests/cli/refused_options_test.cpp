@@ -78,6 +78,10 @@ std::vector<std::string> lineWith(const DeclaredCommand& c, const CommandOption&
         line.insert(line.end(), values.begin(), values.end());
     };
     for (const CommandOption& o : c.list.all()) {
+        if (o.name() == option.name() && !o.ifMissing.empty()) { // else they belong to others
+            line.push_back(o.name() + "=" + words.front());
+            continue;
+        }
         const bool isNeeded =
             std::find(option.needed.begin(), option.needed.end(), o.name()) != option.needed.end();
         if (o.name() == option.name())
