@@ -165,6 +165,9 @@ class RenderSession {
     /// the program's own. Kept until there are more samples. Throws std::logic_error before the
     /// first sample, DeviceError where the device is lost.
     const denoise::DenoisedPicture& denoised();
+    /// The same, for whoever may find out meanwhile that it is not wanted: asked several times a
+    /// second, and null where that says so.
+    const denoise::DenoisedPicture* denoisedUnless(const std::function<bool()>& isUnwanted);
 
     /// All that another session needs to go on: Keeping::begun. Throws UsageError of a picture in
     /// several bands, whose states are in their files.
@@ -189,9 +192,11 @@ class RenderSession {
         denoise::DenoisedPicture picture;
     };
     FloatImage beside(const Film& film);
-    FloatImage see(const Film& film, const RenderRequest& request);
+    FloatImage see(const Film& film, const RenderRequest& request,
+                   const std::function<bool()>& isUnwanted = {});
     bool denoises() const { return request_.denoiser != Denoiser::Off && !result_.lost; }
-    const Denoised& denoisedNow();
+    const Denoised& denoisedNow() { return *denoisedNowUnless({}); }
+    const Denoised* denoisedNowUnless(const std::function<bool()>& isUnwanted);
     bool isDenoisedEnough();
     void endDenoised(const SessionEvents& events);
 

@@ -12,9 +12,8 @@
 namespace stromboli::view {
 namespace {
 
-/// The first picture after a move is to take at most so many seconds, so that there are two a
-/// second of a view that moves, with time to spare.
-constexpr double kSlowCoarse = 0.3;
+/// The first picture after a move is to take at most so many seconds, denoised if that is shown.
+constexpr double kSlowCoarse = 0.25;
 constexpr uint32_t kFinest = 2, kCoarsest = 16;
 /// One of full size that shows nothing for longer has finer ones before it.
 constexpr double kLongWait = 0.7;
@@ -222,12 +221,11 @@ void LiveView::pass(const std::function<bool()>& wantsToEnd) {
     raysPerSecond_ = seconds > 0 ? double(std::max(raysNow, rays())) / seconds : 0;
 }
 
-/// The first picture after the next move takes about as long as is pleasant.
-void LiveView::endCoarse() {
-    // Before the very first one a kernel was compiled.
-    coarseSeconds_ = epoch_ == 1 ? session_.result().renderSeconds : showing_.secondsOfPicture();
+/// The first picture after the next move takes about as long as is pleasant, until it is shown.
+void LiveView::chooseCoarseness() {
     if (!isFirst_) return;
-    double seconds = coarseSeconds_;
+    // Before the very first one a kernel was compiled, and the denoiser's were.
+    double seconds = epoch_ == 1 ? coarseSeconds_ : showing_.secondsOfPicture();
     for (; seconds > kSlowCoarse && coarseness_ < kCoarsest; seconds /= 4)
         coarseness_ *= 2;
     for (; seconds * 4 < 0.8 * kSlowCoarse && coarseness_ > kFinest; seconds *= 4)
@@ -250,7 +248,10 @@ void LiveView::attend() {
     const bool isFit = rests || samplesDone_ >= session_.picture().settings.area.pixelCount();
     if ((isStale_ && exchange_.isAwaited() && isFit && (rests || showing_.isDue())) ||
         (rests && exchange_.lacksAFrame())) {
-        showing_.show(state());
+        // A coarse picture is always shown; one of full size may take longer than a move can wait.
+        showing_.show(state(), false, [this] {
+            return !isCoarse_ && (exchange_.isSteered() || loading_.isReady());
+        });
         isStale_ = false;
     }
     exchange_.answer(*this);
@@ -263,14 +264,19 @@ void LiveView::run(const std::function<bool()>& wantsToEnd) {
         if (!isOver_ && (isCoarse_ || !isPaused_)) {
             pass(wantsToEnd);
             if (wantsToEnd()) break;
-            if (isOver_ && isCoarse_) endCoarse();
+            // Before the very first one a kernel was compiled.
+            if (isOver_ && isCoarse_)
+                coarseSeconds_ =
+                    epoch_ == 1 ? session_.result().renderSeconds : showing_.secondsOfPicture();
         }
         if (isCoarse_ && !isOver_) { // what there is of it is not worth showing yet
             exchange_.answer(*this);
             continue;
         }
+        const bool isNew = isStale_;
         attend();
         if (isCoarse_) {
+            if (isNew) chooseCoarseness();
             if (exchange_.isSteered()) continue;
             if (isPaused_) { // the coarse picture is what there is to be seen
                 exchange_.waitForWork(kLook);

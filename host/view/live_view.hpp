@@ -66,7 +66,7 @@ class LiveView final : public Answers {
     void beginFull();
     void refine();
     void pass(const std::function<bool()>& wantsToEnd);
-    void endCoarse();
+    void chooseCoarseness();
     void attend();
     ShownState state() const;
     RenderRequest requestNow() const;

@@ -126,7 +126,7 @@ std::string Showing::textOf(Shown what, const ShownState& state, const Raster& r
     return text.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-void Showing::show(const ShownState& state, bool isLast) {
+void Showing::show(const ShownState& state, bool isLast, const std::function<bool()>& isUnwanted) {
     const Stopwatch watch;
     auto awaited = exchange_.awaited();
     if (isLast) awaited[size_t(Shown::Picture)] = true;
@@ -135,7 +135,8 @@ void Showing::show(const ShownState& state, bool isLast) {
     for (size_t i = 0; i < awaited.size(); ++i) {
         if (!awaited[i]) continue;
         const Shown what = kNamedValues<Shown>[i].value;
-        const Raster raster = source_.raster(what);
+        const Raster raster = source_.raster(what, isUnwanted);
+        if (raster.values.empty()) continue;
         const int exponent = exponentFor(raster.values);
         exchange_.publish(what, number_,
                           std::make_shared<const std::string>(encodeFrame(

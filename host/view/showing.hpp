@@ -67,8 +67,10 @@ class Showing {
     /// Whether a pass is to be paused, because a frame is due that somebody waits for.
     bool isDue() const { return exchange_.isAwaited() && cadence_.isDue(watch_.seconds()); }
     /// Makes all frames that are awaited, whether they are due or not. isLast: and the one of the
-    /// picture, for whoever comes later.
-    void show(const ShownState& state, bool isLast = false);
+    /// picture, for whoever comes later. isUnwanted: of what takes long; what is given up for it
+    /// is missing.
+    void show(const ShownState& state, bool isLast = false,
+              const std::function<bool()>& isUnwanted = {});
     PictureSource& source() { return source_; }
     double secondsOfPicture() const { return watch_.seconds(); }
 
