@@ -307,6 +307,8 @@ void declareSampler(OptionList& list, Sampler& where);
 /// -s, --sampler, --seed.
 void declareSamples(OptionList& list, RenderRequest& picture, Asked& asked,
                     const std::string& samplesHelp);
+/// --clamp-indirect.
+void declareClamp(OptionList& list, RenderRequest& picture);
 /// usually: the default, in words.
 void declareBranches(OptionList& list, RenderRequest& picture, const std::string& usually);
 /// --block.

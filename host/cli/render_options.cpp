@@ -293,6 +293,7 @@ void declareRender(DeclaredCommand& c) {
                    "alike); with -a, --noise and --time the most a pixel gets");
     declareBranches(list, o->picture,
                     "4 where bounces make most of the noise, else 1 (docs/theory/estimator.md)");
+    declareClamp(list, o->picture);
     declareSpreading(list, o->picture, *asked);
     declarePixelAlone(list, *asked);
     declareShare(list, o->share);

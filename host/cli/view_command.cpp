@@ -189,6 +189,7 @@ void declareView(DeclaredCommand& c) {
     declareEstimator(list, *o, *asked);
     declareSamples(list, o->picture, *asked,
                    "samples per pixel, on the mean over the picture, after which it is finished");
+    declareClamp(list, o->picture);
     declareBranches(list, o->picture, "4 where bounces make most of the noise, else 1");
     list.group("Sampling");
     list.flag("--even", "the same number of samples for every pixel", asked->even);

@@ -191,7 +191,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Changes with every change of what is written.
-constexpr std::string_view kMagic = "stromboli film 2\n";
+constexpr std::string_view kMagic = "stromboli film 3\n";
 /// Not there in what is cut short.
 constexpr std::string_view kEnd = "end of film\n";
 

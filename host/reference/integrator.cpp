@@ -114,8 +114,10 @@ bool PathSample::scatter(uint32_t bounce) {
     const bool hit = arrive(ray, {start});
     glm::dvec3 light(0.0);
     if (largest(found) > 0)
-        light = throughput_ * found *
-                (hit ? emission(surface_) : world_.lights.ambientRadiance(next.direction));
+        light =
+            limited(throughput_ * found *
+                        (hit ? emission(surface_) : world_.lights.ambientRadiance(next.direction)),
+                    bounce);
     radiance_ += light;
     noteArrival(ray, hit, light);
     return hit;
@@ -170,7 +172,8 @@ bool PathSample::travel(const Ray& ray, Skip skip, bool fromCamera) {
 bool PathSample::scattersInMedium(const Ray& ray, double from, double to) {
     if (!filling_.medium) return false;
     const MediumEvent event = flyThrough(*filling_.medium, ray, from, to, throughput_, passes_);
-    if (scatterings_ >= settings_.minBounce) radiance_ += throughput_ * event.shone;
+    if (scatterings_ >= settings_.minBounce)
+        radiance_ += limited(throughput_ * event.shone, scatterings_);
     throughput_ *= event.weight;
     if (event.scatters) surface_ = pointInMedium(ray, event.distance, *filling_.medium);
     return event.scatters;
@@ -313,10 +316,16 @@ void PathSample::addLightSample(const LightSample& light, const glm::dvec3& f) {
     ++rays_;
     const glm::dvec3 passes =
         shareThatPasses(ray, {startOfLightSample(), light.primitive}, filling);
-    radiance_ += throughput_ * value * passes;
+    const glm::dvec3 brings = limited(throughput_ * value * passes, scatterings_ + 1);
+    radiance_ += brings;
     noteLight(light,
               largest(passes) > 0 ? RecordedLight::Fate::Arrives : RecordedLight::Fate::InShadow,
-              throughput_ * value * passes);
+              brings);
+}
+
+glm::dvec3 PathSample::limited(const glm::dvec3& light, uint32_t scatterings) const {
+    const double most = largest(light), limit = settings_.indirectLimit;
+    return limit > 0 && scatterings > 1 && most > limit ? light * (limit / most) : light;
 }
 
 void PathSample::addHemisphereSamples() {
@@ -345,7 +354,8 @@ void PathSample::addHemisphereSamples() {
         const Filling filling = beyond(looksBehind());
         if (filling.medium) found *= transmittance(*filling.medium, ray, 0, distance);
         const glm::dvec3 light =
-            throughput_ * weight * found * transmittance(filling.volume, distance);
+            limited(throughput_ * weight * found * transmittance(filling.volume, distance),
+                    scatterings_ + 1);
         radiance_ += light;
         LightSample looked;
         looked.direction = direction;

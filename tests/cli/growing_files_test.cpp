@@ -108,5 +108,27 @@ TEST_F(GrowingFiles, FilmsThatAreHalfThereAreLeftOut) {
     EXPECT_EQ(merge("now.exr", {first, second}).exitCode, 1);
 }
 
+/// A limit of light is part of what a render is of.
+TEST_F(GrowingFiles, AnotherLimitOfLightIsAnotherRender) {
+    const Strings kept = {"-q", "--checkpoint", folder.file("kept")};
+    run(render("a.exr", kept + Strings{"-s", "2", "--clamp-indirect", "1"}));
+    const ProgramRun other =
+        stromboli(render("a.exr", kept + Strings{"-s", "4", "--resume", "--clamp-indirect", "2"}));
+    EXPECT_EQ(other.exitCode, 1);
+    EXPECT_THAT(other.err, HasSubstr("other settings"));
+    run(render("b.exr", {"-q", "-s", "2", "--even"}));
+    const ProgramRun biased = stromboli(
+        render("c.exr", {"-s", "2", "--even", "--clamp-indirect", "1e-3", "--stats", "-"}));
+    EXPECT_THAT(biased.err, HasSubstr("the picture is biased"));
+    EXPECT_THAT(biased.out, HasSubstr("\"clampIndirect\": 0.001"));
+    const auto sumOf = [&](const char* name) {
+        double sum = 0;
+        for (const float v : readExr(folder.path() / name).channels.at("G"))
+            sum += double(v);
+        return sum;
+    };
+    EXPECT_LT(sumOf("c.exr"), 0.9 * sumOf("b.exr"));
+}
+
 } // namespace
 } // namespace stromboli::test

@@ -242,6 +242,18 @@ TEST(Options, SceneMayFollowAnOptionWithSeveralValues) {
               "a.dae");
 }
 
+TEST(Options, ClampedLightIsAskedFor) {
+    const std::vector<std::string> words = {"render", "a.dae", "-o", "a.png"};
+    EXPECT_EQ(parse(words).picture.estimator.indirectLimit, 0);
+    std::vector<std::string> clamped = words;
+    clamped.insert(clamped.end(), {"--clamp-indirect", "2.5"});
+    EXPECT_EQ(parse(clamped).picture.estimator.indirectLimit, 2.5);
+    for (const char* wrong : {"0", "-1", "nan", "inf"}) {
+        clamped.back() = wrong;
+        EXPECT_THROW(parse(clamped), UsageError) << wrong;
+    }
+}
+
 TEST(Options, WatchNeedsNoPort) {
     const auto portOf = [](std::vector<std::string> words) {
         words.insert(words.begin(), "render");

@@ -171,6 +171,24 @@ TEST(DeviceSession, MovedObjectsHaveTheBytesOfASessionOfTheirOwn) {
     }
 }
 
+/// Layers and denoiser are given up where they are not wanted, and can be asked for again.
+TEST(DeviceSession, ADenoisedPictureMayBeGivenUp) {
+    const auto scene = bundled("cornell_spheres");
+    RenderSession session, other;
+    for (RenderSession* s : {&session, &other}) {
+        s->begin(scene, smallPicture(8));
+        s->run();
+    }
+    for (const int last : {1, 2, 4}) { // while layers are traced, and while the filter is at work
+        int asked = 0;
+        EXPECT_EQ(session.denoisedUnless([&] { return ++asked >= last; }), nullptr) << last;
+        EXPECT_GE(asked, last);
+    }
+    const denoise::DenoisedPicture* const wanted = session.denoisedUnless([] { return false; });
+    ASSERT_NE(wanted, nullptr);
+    EXPECT_EQ(wanted->mean, other.denoised().mean);
+}
+
 /// An environment that turns, with its tables, and one in its place: of a sun that has sunk.
 TEST(DeviceSession, ATurnedOrOtherEnvironmentBuildsNothingAndHasTheBytesOfASessionOfItsOwn) {
     SceneRequest source{"still_life", {}, {}};
