@@ -202,11 +202,6 @@ constexpr Row<Asked> kPictureRows[] = {
      [](Asked& a, Name n, const Value& v) {
          a.request.budget.stop.seconds = number(n, v, 0.01, 1e9);
      }},
-    {"clamp_indirect",
-     "limits what light brings at a time that was scattered twice or more: the picture is biased",
-     [](Asked& a, Name n, const Value& v) {
-         a.request.estimator.indirectLimit = number(n, v, 1e-6, 1e30);
-     }},
     {"seed", "another seed, another noise",
      [](Asked& a, Name n, const Value& v) {
          a.request.estimator.seed = whole(n, v, 0, 0xFFFFFFFFu);

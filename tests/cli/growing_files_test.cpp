@@ -47,7 +47,8 @@ TEST_F(GrowingFiles, CheckpointsOfARunningRenderAreReadWhole) {
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         std::set<double> seen;
         double last = 0;
-        while (seen.size() < 4) { // the render has done more work three times
+        // Until the render has done more work three times.
+        for (int readings = 0; seen.size() < 4 && readings < 1000; ++readings) {
             const auto info = infoOf(kept);
             EXPECT_TRUE(info.at("isComplete"));
             EXPECT_EQ(info.at("width"), 24);
@@ -60,6 +61,7 @@ TEST_F(GrowingFiles, CheckpointsOfARunningRenderAreReadWhole) {
             EXPECT_THAT(merged.err, HasSubstr("a pixel of at most 1e+06"));
             EXPECT_EQ(readExr(folder.path() / "now.exr").width, 24u);
         }
+        EXPECT_EQ(seen.size(), 4u);
         program.send(SIGINT);
         EXPECT_EQ(program.finish(kSoon).exitCode, 128 + SIGINT);
         EXPECT_EQ(merge("now.exr", {kept}).exitCode, 0);
