@@ -124,8 +124,9 @@ TEST_F(GrowingFiles, AnotherLimitOfLightIsAnotherRender) {
     EXPECT_THAT(biased.err, HasSubstr("the picture is biased"));
     EXPECT_THAT(biased.out, HasSubstr("\"clampIndirect\": 0.001"));
     const auto sumOf = [&](const char* name) {
+        const FloatImage picture = readExr(folder.path() / name);
         double sum = 0;
-        for (const float v : readExr(folder.path() / name).channels.at("G"))
+        for (const float v : picture.channels.at("G"))
             sum += double(v);
         return sum;
     };
